@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/log.hpp"
+
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+namespace dust::base {
+namespace {
+
+spdlog::logger& logger() {
+  static const auto instance = [] {
+    auto terminal = std::make_shared<spdlog::sinks::stderr_sink_mt>();
+    terminal->set_level(spdlog::level::warn);
+    terminal->set_pattern("%l: %v");
+    auto made = std::make_shared<spdlog::logger>("dust", terminal);
+    made->set_level(spdlog::level::info);
+    return made;
+  }();
+  return *instance;
+}
+
+}  // namespace
+
+void log_to_file(const std::filesystem::path& file, bool append) {
+  auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), !append);
+  sink->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
+  logger().sinks().push_back(std::move(sink));
+}
+void log_to_terminal(bool is_verbose) {
+  logger().sinks().front()->set_level(is_verbose ? spdlog::level::info : spdlog::level::warn);
+}
+void log_info(std::string_view text) { logger().info(text); }
+void log_warning(std::string_view text) { logger().warn(text); }
+void log_error(std::string_view text) { logger().error(text); }
+void log_flush() { logger().flush(); }
+
+}  // namespace dust::base

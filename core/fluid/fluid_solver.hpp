@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bodies/body_set.hpp"
+#include "dust/sdk/archive.hpp"
+#include "dust/sdk/boundary_condition.hpp"
+#include "fluid/grid.hpp"
+#include "scenario/setup.hpp"
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <span>
+
+namespace dust::fluid {
+
+/// What the last call of `advance` did.
+struct FluidReport {
+  int sub_steps = 0;
+  int pressure_iterations = 0;       ///< sum over the sub-steps
+  double courant_number = 0.0;       ///< largest of a sub-step
+  double divergence = 0.0;           ///< largest |d(eps)/dt + div(eps u)| [1/s] after the step
+  double largest_speed = 0.0;        ///< [m/s]
+};
+
+/// Sides in the order of scenario::k_side_names; null where periodic.
+using Boundaries = std::array<const sdk::BoundaryCondition*, 6>;
+
+/// Volume-averaged Navier-Stokes on a staggered grid cut by bodies: incompressible, laminar,
+///   d(eps)/dt + div(eps u) = 0
+///   rho (du/dt + u . grad u) = -grad p + div tau - coefficient u + source  (Exchange).
+/// Owns velocity and pressure. Deterministic for any number of threads.
+class FluidSolver {
+ public:
+  FluidSolver(const Grid& grid, const scenario::FluidSpec& fluid, const bodies::BodySet& bodies,
+              const Boundaries& boundaries);
+  ~FluidSolver();
+  FluidSolver(const FluidSolver&) = delete;
+  FluidSolver& operator=(const FluidSolver&) = delete;
+
+  /// Advances from `time` by `step` [s]; the void fraction goes from `before` to `after` (padded
+  /// cell arrays, interior cells set, 1 in solid cells). Throws sdk::ModelError on divergence.
+  void advance(double time, double step, const CellField& before, const CellField& after,
+               const Exchange& exchange);
+
+  /// Interstitial velocity; faces inside bodies and halo faces hold the extension that makes linear
+  /// interpolation right at the surfaces.
+  [[nodiscard]] const FaceField& velocity() const;
+  [[nodiscard]] const CellField& pressure() const;
+  /// Acceleration-free part -grad p + div tau [N/m3] at faces, of the last step.
+  [[nodiscard]] const FaceField& stress_divergence() const;
+  /// Share of a cell's volume outside all bodies, 0..1 (padded; halo cells as their neighbours).
+  [[nodiscard]] const CellField& open_fraction() const;
+  [[nodiscard]] const FluidReport& report() const;
+
+  /// Sets the velocity from a function of place (initial conditions, tests) and makes it consistent.
+  void set_velocity(const std::function<sdk::Vec3(sdk::Vec3)>& velocity);
+
+  void save(sdk::ArchiveWriter& archive) const;
+  void load(sdk::ArchiveReader& archive);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace dust::fluid

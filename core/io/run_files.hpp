@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bodies/body_set.hpp"
+#include "dust/sdk/archive.hpp"
+#include "dust/sdk/sensor.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dust::io {
+
+/// One frame's data: copies, so that the writer may work while the run goes on. The spans of `world`
+/// point into columns kept alive by the caller for the duration of the call.
+struct Frame {
+  std::int64_t number = 0;
+  double time = 0.0;
+  sdk::WorldView world;
+  std::span<const float> momentum_exchange;  ///< [N/m3] 3 per cell; empty without fluid
+};
+
+/// results.h5 and the three XDMF files. Every frame is complete on disk when append() returns: the
+/// HDF5 file is closed and the XDMF files are renamed into place.
+class ResultsFile {
+ public:
+  /// `resume_frames` < 0 starts a new file; otherwise frames from that number on are dropped.
+  ResultsFile(std::filesystem::path folder, std::int64_t resume_frames,
+              const bodies::BodySet& bodies, const std::vector<std::string>& material_names,
+              sdk::Vec3 domain_min, sdk::Vec3 domain_max);
+  ~ResultsFile();
+  void append(const Frame& frame);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// series.csv: a header with `name [unit]`, one row per sample, flushed with every row.
+class SeriesFile {
+ public:
+  /// `resume_rows` < 0 starts a new file; otherwise it is cut back to that many rows.
+  SeriesFile(std::filesystem::path file, std::int64_t resume_rows);
+  ~SeriesFile();
+  void append(std::span<const std::string> names_with_units, std::span<const double> values);
+  [[nodiscard]] std::int64_t rows() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Writes a checkpoint to a temporary file, syncs it and renames it into place. `parts` are
+/// (group name, save function).
+void write_checkpoint(
+    const std::filesystem::path& file, const std::string& resolved_yaml,
+    const std::vector<std::pair<std::string, std::function<void(sdk::ArchiveWriter&)>>>& parts);
+
+/// Reads a checkpoint; throws base::UserError when it is missing, damaged or of another scenario
+/// (`resolved_yaml` differs in anything but time.end; the message shows the first difference).
+void read_checkpoint(
+    const std::filesystem::path& file, const std::string& resolved_yaml,
+    const std::vector<std::pair<std::string, std::function<void(sdk::ArchiveReader&)>>>& parts);
+
+/// SHA-256, streaming.
+class Sha256 {
+ public:
+  Sha256();
+  void update(const void* data, std::size_t bytes);
+  [[nodiscard]] std::string hex_digest();
+
+ private:
+  std::uint32_t state_[8];
+  std::uint8_t block_[64];
+  std::size_t used_ = 0;
+  std::uint64_t total_ = 0;
+  void compress(const std::uint8_t* block);
+};
+
+/// Replaces `file` with `text` atomically (temporary file, rename).
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace dust::io

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bodies/body_set.hpp"
+#include "dust/sdk/archive.hpp"
+#include "dust/sdk/contact_law.hpp"
+#include "dust/sdk/emitter.hpp"
+#include "particles/grain_rows.hpp"
+#include "scenario/setup.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dust::particles {
+
+/// The laws of one pair of materials; `rolling` may be null.
+struct PairLaws {
+  int material_i = 0;
+  int material_j = 0;
+  std::unique_ptr<sdk::ContactLaw> contact;
+  std::unique_ptr<sdk::RollingLaw> rolling;
+};
+
+/// A grain to insert; the DEM gives the id.
+struct NewGrain {
+  sdk::Vec3 position;
+  sdk::Vec3 velocity;
+  sdk::Vec3 rotation;
+  double diameter = 0.0;
+  double weight = 1.0;
+  std::int32_t material = 0;
+};
+
+/// Counts and masses; `real_*` and masses count each computed grain with its weight.
+struct Balance {
+  std::int64_t emitted = 0, in_domain = 0, left = 0, removed = 0, max = 0;
+  double real_emitted = 0, real_in_domain = 0, real_left = 0, real_removed = 0;
+  double mass_emitted = 0, mass_in_domain = 0, mass_left = 0, mass_removed = 0;  ///< [kg]
+};
+
+/// Time step of one size class, and what sets it.
+struct ClassStep {
+  double diameter = 0.0;       ///< [m]
+  double rayleigh_time = 0.0;  ///< [s]
+  double hertz_time = 0.0;     ///< [s] at the expected speed
+  double stable_step = 0.0;    ///< [s] min(0.3 Rayleigh, Hertz / 15)
+  int level = 0;               ///< steps are coarse_step / 2^level at the finest
+};
+
+/// Counters of the DEM, for the summary and health checks.
+struct DemReport {
+  std::int64_t steps = 0;           ///< coarse steps
+  std::int64_t particle_steps = 0;  ///< sum over coarse steps of grains integrated
+  std::int64_t fine_steps = 0;      ///< sub-steps of fine grains, summed over grains
+  std::int64_t rebuilds = 0;
+  double largest_overlap = 0.0;     ///< [-] overlap / smaller radius, since the last report
+  std::int64_t contacts = 0;        ///< in touch at the last step
+};
+
+/// Discrete elements: rows in Morton order in fixed chunks, Verlet lists from a hierarchical grid,
+/// contact laws in batches, several rates. Deterministic for any number of threads.
+///
+/// One coarse step is: neighbours() (does something only when a grain moved skin/2 or grains came
+/// or went), contact(), force(), integrate(). Each is parallel inside.
+class Dem {
+ public:
+  /// `class_diameters`: all diameters that may come, ascending. `fluid_density` > 0 reduces gravity
+  /// by the buoyancy of the hydrostatic pressure.
+  Dem(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vector<PairLaws> laws,
+      std::vector<double> class_diameters, double fluid_density);
+  ~Dem();
+  Dem(const Dem&) = delete;
+  Dem& operator=(const Dem&) = delete;
+
+  [[nodiscard]] double coarse_step() const;  ///< [s] divides the fluid step
+  [[nodiscard]] std::span<const ClassStep> class_steps() const;
+
+  void insert(std::span<const NewGrain> grains);
+  /// Books and drops grains beyond open sides. Call between coarse steps.
+  void remove_leavers();
+
+  void neighbours();
+  void contact(double time);
+  void force();
+  void integrate();
+
+  [[nodiscard]] GrainRows rows();
+  /// Force [N] (contact + fluid + weight) of the last step, 4 per grain in row order.
+  [[nodiscard]] std::span<const double> last_force() const;
+  [[nodiscard]] const Balance& balance() const;
+  [[nodiscard]] DemReport report() const;
+  /// Tells that fluid_action was rewritten (the DEM derives its decay factors from it).
+  void fluid_action_changed();
+
+  /// Pairs in the Verlet list as ids (i < j), sorted: for tests against brute force.
+  [[nodiscard]] std::vector<std::pair<std::int64_t, std::int64_t>> listed_pairs() const;
+
+  void save(sdk::ArchiveWriter& archive) const;
+  void load(sdk::ArchiveReader& archive);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace dust::particles

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace dust::particles {
+
+/// The grains as the DEM holds them: rows of four doubles in row order. Valid until the next
+/// insertion, removal or neighbour rebuild.
+struct GrainRows {
+  std::size_t count = 0;
+  const double* position = nullptr;  ///< x, y, z [m], radius [m]
+  const double* velocity = nullptr;  ///< [m/s] at the same instant, 1 / mass [1/kg]
+  const double* rotation = nullptr;  ///< angular velocity [rad/s], unused
+  const std::int64_t* id = nullptr;
+  const std::int32_t* material = nullptr;
+  const double* weight = nullptr;    ///< real grains per computed one
+
+  /// Written by the coupling at each refresh: the grain's velocity relaxes towards
+  /// (x, y, z) [m/s] at the rate in the fourth column [1/s]: dv/dt = rate (target - v) + contact + g'.
+  double* fluid_action = nullptr;
+  /// Impulse [N s] a computed grain has received through fluid_action since the coupling last set it
+  /// to zero: x, y, z, unused. Exactly what changed the grain's momentum.
+  double* fluid_impulse = nullptr;
+};
+
+}  // namespace dust::particles

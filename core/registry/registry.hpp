@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/model.hpp"
+#include "dust/sdk/plugin.hpp"
+#include "scenario/setup.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dust::registry {
+
+/// A model that a plugin library offers.
+struct Entry {
+  sdk::ModelInfo info;
+  sdk::ModelFactory factory;
+  std::filesystem::path file;  ///< empty: registered from code (tests)
+};
+
+/// All models found. Libraries stay loaded until the process ends.
+class Registry {
+ public:
+  Registry();
+  ~Registry();
+  Registry(const Registry&) = delete;
+  Registry& operator=(const Registry&) = delete;
+
+  /// Loads every library of every folder, in this order; throws base::PluginError naming the file.
+  void load(const std::vector<std::filesystem::path>& folders);
+  /// `--plugin-path`, `$DUST_PLUGIN_PATH`, then `lib/dust/plugins` relative to the program.
+  static std::vector<std::filesystem::path> search_path(
+      const std::vector<std::filesystem::path>& from_command_line);
+
+  void add(Entry entry);
+  [[nodiscard]] const Entry* find(std::string_view kind, std::string_view name) const;
+  /// Sorted by kind and name.
+  [[nodiscard]] const std::vector<Entry>& entries() const;
+  [[nodiscard]] std::vector<std::string> names(std::string_view kind) const;
+
+  /// Makes the chosen model; a ParameterError becomes a base::UserError at the model's place.
+  [[nodiscard]] std::unique_ptr<sdk::Model> create(const scenario::ModelChoice& choice) const;
+  template <class Kind>
+  [[nodiscard]] std::unique_ptr<Kind> create_as(const scenario::ModelChoice& choice) const {
+    return std::unique_ptr<Kind>(static_cast<Kind*>(create(choice).release()));
+  }
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace dust::registry

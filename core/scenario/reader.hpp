@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "registry/registry.hpp"
+#include "scenario/setup.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace dust::scenario {
+
+/// A `--set path=value`.
+struct Override {
+  std::string path;
+  std::string value;
+};
+
+/// A scenario read and checked.
+struct ReadResult {
+  Setup setup;
+  std::string resolved_yaml;          ///< includes merged, overrides applied, defaults written out
+  std::vector<std::string> warnings;
+};
+
+/// Reads `file`, merges includes, applies `overrides`, checks everything and throws one UserError
+/// with all problems. Nothing is written.
+ReadResult read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                         const registry::Registry& registry);
+
+/// JSON Schema (draft-07) of scenarios with the plugins found.
+std::string json_schema(const registry::Registry& registry);
+
+}  // namespace dust::scenario

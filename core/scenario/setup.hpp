@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/contact_law.hpp"
+#include "dust/sdk/parameter_schema.hpp"
+#include "dust/sdk/vec3.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dust::scenario {
+
+/// A place in a scenario file, counted from 1. `--set` values have file "--set" and line 0.
+struct Mark {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+/// A model chosen by name with its parsed parameters (in the order of the model's schema).
+struct ModelChoice {
+  std::string kind;
+  std::string name;
+  std::vector<sdk::Value> values;
+  std::string path;  ///< dotted path in the scenario, for messages
+  Mark where;
+};
+
+struct TimeSpec {
+  double end = 0.0;              ///< [s]
+  double fluid_step = 0.0;       ///< [s] also the interval of emission, sampling and interruption
+  double output_every = 0.0;     ///< [s] between frames
+  double checkpoint_every = 0.0; ///< [s] between checkpoints, 0 = with every frame
+  double dem_step = 0.0;         ///< [s] 0 = derived per size class
+  double expected_speed = 0.0;   ///< [m/s] largest approach speed of grains, 0 = from bodies and drops
+  bool rates_single = false;     ///< one rate for all grains
+};
+
+enum class GrainSide { open, wall, periodic };
+
+/// Sides in the order left, right (x), front, back (y), bottom, top (z).
+inline constexpr std::array<const char*, 6> k_side_names = {"left",  "right",  "front",
+                                                            "back", "bottom", "top"};
+
+struct SideSpec {
+  GrainSide grains = GrainSide::open;
+  int material = -1;               ///< of a wall, index into Setup::materials
+  std::optional<ModelChoice> air;  ///< nothing for grains-only scenarios and periodic sides
+  Mark where;
+};
+
+struct DomainSpec {
+  sdk::Vec3 min;
+  sdk::Vec3 max;
+  std::array<SideSpec, 6> sides;
+};
+
+struct MaterialSpec {
+  std::string name;
+  sdk::MaterialProperties properties;
+};
+
+struct InteractionSpec {
+  int material_i = 0;  ///< indices into Setup::materials
+  int material_j = 0;
+  ModelChoice contact;
+  std::optional<ModelChoice> rolling;
+  Mark where;
+};
+
+/// A turned frame for bodies and emitters: points are turned about `origin` by `angle` round `axis`.
+struct FrameSpec {
+  std::string name;
+  sdk::Vec3 origin;
+  sdk::Vec3 axis{0, 1, 0};
+  double angle = 0.0;  ///< [rad]
+};
+
+struct BodySpec {
+  std::string name;
+  ModelChoice shape;  ///< kind "shape": from bodies::shape_catalogue()
+  std::optional<ModelChoice> motion;
+  int material = 0;
+  int frame = -1;  ///< index into Setup::frames, -1 = the domain's
+  Mark where;
+};
+
+struct EmitterSpec {
+  std::string name;
+  ModelChoice model;
+  int material = 0;
+  int frame = -1;
+};
+
+struct SensorSpec {
+  std::string name;
+  ModelChoice model;
+};
+
+struct FluidSpec {
+  std::array<int, 3> cells{1, 1, 1};
+  double density = 0.0;    ///< [kg/m3]
+  double viscosity = 0.0;  ///< [Pa s] dynamic
+  std::string momentum_set = "I";
+  sdk::Vec3 initial_velocity;
+  double pressure_tolerance = 1e-4;  ///< residual of the pressure solve relative to its right side
+  double largest_cfl = 0.8;          ///< sub-steps keep the Courant number below
+  bool is_one_way = false;           ///< grains feel the fluid, the fluid does not feel the grains
+};
+
+/// A scenario with everything resolved: plain data, SI, names turned into indices. Disabled bodies,
+/// emitters and sensors are not in it.
+struct Setup {
+  std::string name;
+  std::uint64_t seed = 1;
+  TimeSpec time;
+  sdk::Vec3 gravity;
+  DomainSpec domain;
+  std::vector<MaterialSpec> materials;
+  std::vector<InteractionSpec> interactions;
+  std::vector<FrameSpec> frames;
+  std::vector<BodySpec> bodies;
+  std::vector<EmitterSpec> emitters;
+  std::vector<SensorSpec> sensors;
+  std::optional<FluidSpec> fluid;
+  std::optional<ModelChoice> drag;
+  std::optional<ModelChoice> voidage;
+};
+
+}  // namespace dust::scenario

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/model.hpp"
+
+#include <cstddef>
+
+namespace dust::sdk {
+
+/// Elastic constants of one side of a contact.
+struct MaterialProperties {
+  double density = 0.0;         ///< [kg/m3]
+  double young_modulus = 0.0;   ///< [Pa]
+  double poisson_ratio = 0.0;   ///< [-]
+};
+
+/// A batch of contacts between one pair of materials, as columns of `count` numbers. All contacts
+/// of a batch share the law's parameters and the time step.
+///
+/// Side i is the grain that receives the result, side j the other grain or a wall. The unit normal
+/// points from j to i. Velocities are those at the same instant as the positions. For a wall,
+/// effective_radius and effective_mass are the grain's own.
+///
+/// The core pads the columns: `count` is a multiple of 8 and rows beyond the true number hold a
+/// harmless contact. Inputs are read only; a law writes the output columns of its own stage and its
+/// own history columns, nothing else. Columns are 64-byte aligned and never overlap.
+struct ContactBatch {
+  std::size_t count = 0;
+  double time_step = 0.0;  ///< [s] the step this contact is integrated with
+
+  // Geometry and kinematics, written by the core.
+  const double* overlap = nullptr;           ///< [m] > 0 in touch; < 0 within a law's range
+  const double* normal_x = nullptr;          ///< [-]
+  const double* normal_y = nullptr;
+  const double* normal_z = nullptr;
+  const double* velocity_x = nullptr;        ///< [m/s] of i relative to j at the contact point
+  const double* velocity_y = nullptr;
+  const double* velocity_z = nullptr;
+  const double* rotation_x = nullptr;        ///< [rad/s] angular velocity of i relative to j
+  const double* rotation_y = nullptr;
+  const double* rotation_z = nullptr;
+  const double* effective_radius = nullptr;  ///< [m] R*
+  const double* effective_mass = nullptr;    ///< [kg] m*
+
+  // Written by the contact stage, read by the later stages.
+  double* normal_force = nullptr;            ///< [N] > 0 repulsive, may be negative (damping)
+  double* tangential_stiffness = nullptr;    ///< [N/m] k_t
+  double* force_x = nullptr;                 ///< [N] total force on i; j receives the opposite
+  double* force_y = nullptr;
+  double* force_z = nullptr;
+
+  // Written by the rolling stage: couple on i, j receives the opposite. Forces' own torque about
+  // the centres is added by the core.
+  double* torque_x = nullptr;                ///< [N m]
+  double* torque_y = nullptr;
+  double* torque_z = nullptr;
+
+  /// History columns of the stage being run, as many as it declared; zero when a contact begins.
+  /// Vectors kept here are in the domain's frame; the law turns them with the normal.
+  double* const* history = nullptr;
+};
+
+/// Contact stage: normal and tangential force.
+/// Owns: its coefficients. May: read inputs, write normal_force, tangential_stiffness, force,
+/// history. Must not: allocate, lock, look at particles, keep per-contact state elsewhere.
+/// Called: once per batch and step, from several threads at once (evaluate is const).
+class ContactLaw : public Model {
+ public:
+  static constexpr const char* k_kind = "contact";
+
+  /// Called once with the two materials before any batch.
+  virtual void prepare(const MaterialProperties& i, const MaterialProperties& j) = 0;
+  [[nodiscard]] virtual int history_size() const = 0;
+  virtual void evaluate(const ContactBatch& batch) const = 0;
+
+  /// Duration [s] of an elastic head-on collision at `speed` [m/s] of a pair with `effective_radius`
+  /// [m] and `effective_mass` [kg]; the core derives time steps from it.
+  [[nodiscard]] virtual double collision_time(double effective_radius, double effective_mass,
+                                              double speed) const = 0;
+  /// Shortest period scale [s] at a given `overlap` [m]: pi sqrt(m* / (dF_n/d overlap)).
+  [[nodiscard]] virtual double half_period(double effective_radius, double effective_mass,
+                                           double overlap) const = 0;
+  /// How far beyond touch [m] the law still acts.
+  [[nodiscard]] virtual double range() const { return 0.0; }
+};
+
+/// Rolling stage: couple against relative rotation, after the contact stage of the same batch.
+class RollingLaw : public Model {
+ public:
+  static constexpr const char* k_kind = "rolling";
+
+  virtual void prepare(const MaterialProperties& i, const MaterialProperties& j) = 0;
+  [[nodiscard]] virtual int history_size() const = 0;
+  virtual void evaluate(const ContactBatch& batch) const = 0;
+};
+
+}  // namespace dust::sdk

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/boundary_condition.hpp"
+#include "dust/sdk/contact_law.hpp"
+#include "dust/sdk/drag_law.hpp"
+#include "dust/sdk/emitter.hpp"
+#include "dust/sdk/error.hpp"
+#include "dust/sdk/motion.hpp"
+#include "dust/sdk/sensor.hpp"
+#include "dust/sdk/voidage_rule.hpp"
+
+#include <cstdint>
+
+namespace dust::sdk {
+
+/// Raised with every change of a struct or virtual function in this folder.
+inline constexpr std::uint32_t k_interface_version = 1;
+
+/// What both sides of the plugin boundary must agree on, compared before any virtual call.
+struct Handshake {
+  std::uint32_t interface_version;
+  std::uint32_t compiler_major;
+  std::uint32_t size_of[8];
+  std::uint32_t alignment_of[8];
+  std::uint32_t standard_library_abi;
+};
+
+/// The handshake of the translation unit that calls it.
+constexpr Handshake make_handshake() {
+  return {k_interface_version,
+          __GNUC__,
+          {sizeof(ContactBatch), sizeof(DragBatch), sizeof(VoidageBatch), sizeof(SideBatch),
+           sizeof(SurfaceBatch), sizeof(Seed), sizeof(WorldView), sizeof(Parameter)},
+          {alignof(ContactBatch), alignof(DragBatch), alignof(VoidageBatch), alignof(SideBatch),
+           alignof(SurfaceBatch), alignof(Seed), alignof(WorldView), alignof(Parameter)},
+#ifdef _GLIBCXX_USE_CXX11_ABI
+          _GLIBCXX_USE_CXX11_ABI
+#else
+          0
+#endif
+  };
+}
+
+}  // namespace dust::sdk
+
+/// The hot function of a kernel, compiled for several instruction sets, chosen when it is loaded.
+/// With -ffp-contract=off all give the same bits.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(DUST_NO_CLONES)
+#define DUST_KERNEL __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define DUST_KERNEL
+#endif
+
+/// Defines the two symbols a plugin library exports. Use once per library:
+/// `DUST_PLUGIN(registrar) { registrar.add<MyLaw>(); }`
+#define DUST_PLUGIN(registrar)                                                                  \
+  extern "C" __attribute__((visibility("default"))) const ::dust::sdk::Handshake               \
+      dust_handshake;                                                                           \
+  const ::dust::sdk::Handshake dust_handshake = ::dust::sdk::make_handshake();                  \
+  extern "C" __attribute__((visibility("default"))) void dust_register(                         \
+      ::dust::sdk::Registrar& registrar)

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/model.hpp"
+#include "dust/sdk/vec3.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dust::sdk {
+
+/// The grains at the end of a fluid step: columns of equal length, in the order of their ids.
+struct GrainColumns {
+  std::span<const std::int64_t> id;
+  std::span<const std::int32_t> material;
+  std::span<const double> x, y, z;                       ///< [m] now
+  std::span<const double> x_before, y_before, z_before;  ///< [m] at the last sample (birth place if new)
+  std::span<const double> velocity_x, velocity_y, velocity_z;  ///< [m/s]
+  std::span<const double> rotation_x, rotation_y, rotation_z;  ///< [rad/s]
+  std::span<const double> force_x, force_y, force_z;           ///< [N] contact + fluid + weight
+  std::span<const double> diameter;  ///< [m]
+  std::span<const double> mass;      ///< [kg] of one real grain
+  std::span<const double> weight;    ///< [-] real grains per computed one; mass counts weight * mass
+};
+
+/// Fluid cells, x fastest, count_x * count_y * count_z numbers each; empty for runs without fluid.
+struct FluidColumns {
+  Vec3 origin;               ///< [m]
+  Vec3 spacing;              ///< [m]
+  int count[3] = {0, 0, 0};
+  double density = 0.0;      ///< [kg/m3]
+  double viscosity = 0.0;    ///< [Pa s]
+  std::span<const float> velocity_x, velocity_y, velocity_z;  ///< [m/s] interstitial, at centres
+  std::span<const float> pressure;       ///< [Pa] without the hydrostatic part
+  std::span<const float> void_fraction;  ///< [-] 1 - solids over open volume
+  std::span<const float> open_fraction;  ///< [-] share of the cell not inside a body
+};
+
+/// What a sensor may look at; valid during the call only.
+struct WorldView {
+  double time = 0.0;       ///< [s] now
+  double interval = 0.0;   ///< [s] since the last sample
+  Vec3 domain_min, domain_max;  ///< [m]
+  Vec3 gravity;            ///< [m/s2]
+  GrainColumns grains;
+  FluidColumns fluid;
+  std::span<const double> class_diameters;  ///< [m] ascending size classes of the run
+  double emitted_mass = 0.0;                ///< [kg] so far, weighted
+};
+
+/// Takes the figures of a sensor. `uncertainty` is one standard error in the same unit; a negative
+/// number means "no estimate", and the sensor's README says why.
+class FigureSink {
+ public:
+  virtual ~FigureSink() = default;
+  /// One figure of summary.json. `name` is a path of snake_case words, e.g. "drop_140_mm/median".
+  virtual void figure(std::string_view name, double value, std::string_view unit,
+                      double uncertainty = -1.0) = 0;
+};
+
+/// Takes pictures' raw material for the report: named curves.
+class ReportSink {
+ public:
+  virtual ~ReportSink() = default;
+  virtual void curve(std::string_view title, std::string_view x_label, std::string_view y_label,
+                     std::string_view series, std::span<const double> x,
+                     std::span<const double> y) = 0;
+  /// A table row per call; the first call with a title fixes the columns.
+  virtual void row(std::string_view title, std::span<const std::string> columns,
+                   std::span<const double> values) = 0;
+};
+
+/// Observes the world once per fluid step (grains-only runs: once per sampling interval), on const
+/// data, possibly at the same time as other sensors. Everything between calls is state.
+class Sensor : public Model {
+ public:
+  static constexpr const char* k_kind = "sensor";
+  virtual void observe(const WorldView& world) = 0;
+  /// Columns for series.csv: the same names in the same order at every call.
+  virtual void series(FigureSink& sink) const = 0;
+  /// Figures for summary.json, with uncertainties.
+  virtual void summary(FigureSink& sink) const = 0;
+  virtual void report(ReportSink&) const {}
+};
+
+}  // namespace dust::sdk

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/model.hpp"
+#include "dust/sdk/vec3.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace dust::sdk {
+
+/// The fluid grid as a rule sees it: cells counted from 0 in x fastest; a cell's number is
+/// i + count_x (j + count_y k). Grains near a periodic side may name cells outside [0, count);
+/// the core wraps them.
+struct GridShape {
+  Vec3 origin;               ///< [m] lower corner
+  Vec3 spacing;              ///< [m]
+  int count[3] = {1, 1, 1};  ///< cells per direction
+};
+
+/// The cells a grain's volume is spread over, one grain after another.
+struct VoidageBatch {
+  std::size_t count = 0;
+  const double* x = nullptr;  ///< [m] centres
+  const double* y = nullptr;
+  const double* z = nullptr;
+  const double* radius = nullptr;  ///< [m]
+  int capacity = 0;                ///< rows per grain in the output
+  int* used = nullptr;             ///< out: cells of grain g, <= capacity
+  int* cell_i = nullptr;           ///< out: [g * capacity + n] cell indices, may lie outside the grid
+  int* cell_j = nullptr;
+  int* cell_k = nullptr;
+  double* weight = nullptr;        ///< out: share of the grain's volume, sums to 1 per grain
+};
+
+/// Spreads grain volumes over cells. Contract: the weights of a grain sum to 1 to rounding. Shares
+/// that fall outside the domain or into a body are given back to open cells by the core.
+class VoidageRule : public Model {
+ public:
+  static constexpr const char* k_kind = "voidage";
+  /// Largest number of cells a grain of `radius` [m] can touch on `grid`.
+  [[nodiscard]] virtual int capacity(const GridShape& grid, double radius) const = 0;
+  /// Largest D/dx the rule is valid for; beyond it the core refuses the scenario.
+  [[nodiscard]] virtual double largest_diameter_over_spacing() const = 0;
+  virtual void spread(const GridShape& grid, const VoidageBatch& batch) const = 0;
+};
+
+}  // namespace dust::sdk
