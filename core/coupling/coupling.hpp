@@ -4,13 +4,13 @@
 #include "dust/sdk/archive.hpp"
 #include "dust/sdk/drag_law.hpp"
 #include "dust/sdk/voidage_rule.hpp"
-#include "fluid/fluid_solver.hpp"
 #include "fluid/grid.hpp"
 #include "particles/grain_rows.hpp"
 #include "scenario/setup.hpp"
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace dust::coupling {
 
@@ -31,8 +31,10 @@ struct CouplingReport {
 ///              handed to the next fluid step, so that the sum over time is exact.
 class Coupling {
  public:
-  Coupling(const scenario::Setup& setup, const fluid::Grid& grid, const fluid::FluidSolver& fluid,
-           const sdk::VoidageRule& voidage, const sdk::DragLaw& drag);
+  /// `open_fraction`: share of each cell outside all bodies (FluidSolver::open_fraction).
+  Coupling(const scenario::Setup& setup, const fluid::Grid& grid,
+           const fluid::CellField& open_fraction, const sdk::VoidageRule& voidage,
+           const sdk::DragLaw& drag);
   ~Coupling();
   Coupling(const Coupling&) = delete;
   Coupling& operator=(const Coupling&) = delete;
@@ -42,7 +44,9 @@ class Coupling {
   [[nodiscard]] const fluid::CellField& void_fraction() const;
   [[nodiscard]] const fluid::Exchange& exchange() const;
 
-  void refresh(const particles::GrainRows& grains);
+  /// `velocity` and `stress_divergence` as FluidSolver gives them.
+  void refresh(const particles::GrainRows& grains, const fluid::FaceField& velocity,
+               const fluid::FaceField& stress_divergence);
   /// Interval [s] after which refresh() is due again; fluid_step divided by a whole number.
   [[nodiscard]] double refresh_interval() const;
   void collect(const particles::GrainRows& grains, double fluid_step);
