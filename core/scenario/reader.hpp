@@ -20,13 +20,14 @@ struct Override {
 struct ReadResult {
   Setup setup;
   std::string resolved_yaml;          ///< includes merged, overrides applied, defaults written out
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;  ///< "file:line:column: warning: ..."
 };
 
-/// Reads `file`, merges includes, applies `overrides`, checks everything and throws one UserError
-/// with all problems. Nothing is written.
+/// Reads `file`, merges includes, lays `set_files` over it and applies `overrides`, checks
+/// everything and throws one UserError with all problems. Nothing is written.
 ReadResult read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                         const registry::Registry& registry);
+                         const registry::Registry& registry,
+                         const std::vector<std::filesystem::path>& set_files = {});
 
 /// JSON Schema (draft-07) of scenarios with the plugins found.
 std::string json_schema(const registry::Registry& registry);

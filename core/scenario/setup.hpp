@@ -13,7 +13,8 @@
 
 namespace dust::scenario {
 
-/// A place in a scenario file, counted from 1. `--set` values have file "--set" and line 0.
+/// A place in a scenario file, counted from 1. A value of the command line has file "--set PATH" and
+/// line 0.
 struct Mark {
   std::string file;
   int line = 0;

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "registry/library.hpp"
+
+#include "base/error.hpp"
+
+#include <boost/dll/shared_library.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+
+namespace dust::registry {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& why) {
+  throw base::PluginError(file.string() + ": error: " + why);
+}
+
+/// Libraries opened so far. Never destroyed: code of a plugin may run until the very end (models,
+/// exceptions), so nothing is ever unloaded.
+std::vector<boost::dll::shared_library>& open_libraries() {
+  static auto* libraries = new std::vector<boost::dll::shared_library>;
+  return *libraries;
+}
+
+/// Keeps what the loader of the system said, without what Boost.DLL says around it.
+std::string loader_message(std::string text) {
+  const std::string begin = "dlerror system message: ";
+  const std::size_t at = text.find(begin);
+  if (at != std::string::npos) {
+    text.erase(0, at + begin.size());
+    const std::size_t end = text.rfind(')');
+    if (end != std::string::npos) text.erase(end);
+  }
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+boost::dll::shared_library open(const fs::path& file) {
+  try {
+    // All symbols now: a missing one is told here and not in the middle of a run.
+    return boost::dll::shared_library(file, boost::dll::load_mode::rtld_now);
+  } catch (const boost::dll::fs::system_error& problem) {
+    refuse(file, "cannot be loaded: " + loader_message(problem.what()));
+  } catch (const std::exception& problem) {
+    refuse(file, std::string("throws while it is loaded: ") + problem.what());
+  } catch (...) {
+    refuse(file, "throws while it is loaded");
+  }
+}
+
+/// Compares the handshakes; the interface version first, since all else may be laid out anew.
+void compare(const fs::path& file, const sdk::Handshake& theirs) {
+  const sdk::Handshake ours = sdk::make_handshake();
+  if (theirs.interface_version != ours.interface_version) {
+    const bool is_plugin_older = theirs.interface_version < ours.interface_version;
+    refuse(file, "built against interface version " + std::to_string(theirs.interface_version) +
+                     ", this engine has " + std::to_string(ours.interface_version) + ": the " +
+                     (is_plugin_older ? "plugin is older, rebuild it with this engine's headers"
+                                      : "engine is older, use the one the plugin was built for"));
+  }
+  if (theirs.compiler_major != ours.compiler_major) {
+    refuse(file, "built with g++ " + std::to_string(theirs.compiler_major) +
+                     ", this engine with g++ " + std::to_string(ours.compiler_major) +
+                     ": build both with the same compiler");
+  }
+  if (theirs.standard_library_abi != ours.standard_library_abi) {
+    refuse(file, "built with another ABI of the standard library (_GLIBCXX_USE_CXX11_ABI=" +
+                     std::to_string(theirs.standard_library_abi) + ", this engine has " +
+                     std::to_string(ours.standard_library_abi) + ")");
+  }
+  if (std::memcmp(theirs.size_of, ours.size_of, sizeof ours.size_of) != 0 ||
+      std::memcmp(theirs.alignment_of, ours.alignment_of, sizeof ours.alignment_of) != 0) {
+    refuse(file, "its structs have other sizes than this engine's: rebuild it with this engine's "
+                 "headers and flags");
+  }
+}
+
+/// Collects what one library registers; nothing reaches the registry unless all is well.
+class Collector final : public sdk::Registrar {
+ public:
+  explicit Collector(const fs::path& file) : file_(file) {}
+  using sdk::Registrar::add;
+  void add(sdk::ModelInfo info, sdk::ModelFactory factory) override {
+    entries_.push_back({std::move(info), std::move(factory), file_});
+  }
+  std::vector<Entry> take() { return std::move(entries_); }
+
+ private:
+  fs::path file_;
+  std::vector<Entry> entries_;
+};
+
+bool is_snake_case(const std::string& name) {
+  return !name.empty() && name.front() >= 'a' && name.front() <= 'z' &&
+         std::all_of(name.begin(), name.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+         });
+}
+
+/// Keys of a scenario that stand beside the parameters of a model of this kind.
+std::set<std::string> taken_keys(const std::string& kind) {
+  if (kind == "emitter") return {"model", "enabled", "frame", "material"};
+  if (kind == "motion") return {"shape", "motion", "enabled", "frame", "material"};
+  return {"model", "enabled"};
+}
+
+}  // namespace
+
+std::vector<std::string> description_problems(const sdk::ModelInfo& info) {
+  std::vector<std::string> problems;
+  const std::string model = info.kind + "/" + info.name;
+  if (!is_snake_case(info.kind)) problems.push_back("the kind '" + info.kind + "' is not snake_case");
+  if (!is_snake_case(info.name)) problems.push_back("the name '" + info.name + "' is not snake_case");
+  if (info.summary.empty()) problems.push_back(model + " has no summary");
+  std::set<std::string> seen = taken_keys(info.kind);
+  for (const sdk::Parameter& p : info.parameters) {
+    const std::string parameter = model + ": the parameter '" + p.name + "'";
+    if (!is_snake_case(p.name)) problems.push_back(parameter + " is not snake_case");
+    if (p.sentence.empty()) problems.push_back(parameter + " has no sentence that explains it");
+    if (!seen.insert(p.name).second) {
+      problems.push_back(parameter + " is declared twice or is a key of the engine");
+    }
+  }
+  return problems;
+}
+
+std::vector<Entry> load_library(const fs::path& file) {
+  boost::dll::shared_library library = open(file);
+  for (const char* symbol : {"dust_handshake", "dust_register"}) {
+    if (library.has(symbol)) continue;
+    refuse(file, std::string("not a plugin of this engine: it lacks '") + symbol +
+                     "' (DUST_PLUGIN defines it)");
+  }
+  open_libraries().push_back(library);
+  compare(file, library.get<const sdk::Handshake>("dust_handshake"));
+  Collector collector(file);
+  try {
+    library.get<void(sdk::Registrar&)>("dust_register")(collector);
+  } catch (const std::exception& problem) {
+    refuse(file, std::string("throws while it registers its models: ") + problem.what());
+  } catch (...) {
+    refuse(file, "throws while it registers its models");
+  }
+  std::vector<Entry> entries = collector.take();
+  if (entries.empty()) refuse(file, "registers no model");
+  std::vector<std::string> lines;
+  for (const Entry& entry : entries) {
+    for (const std::string& problem : description_problems(entry.info)) {
+      lines.push_back(file.string() + ": error: " + problem);
+    }
+  }
+  if (!lines.empty()) throw base::PluginError(lines);
+  return entries;
+}
+
+}  // namespace dust::registry

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "registry/registry.hpp"
+
+#include "base/error.hpp"
+#include "registry/library.hpp"
+#include "scenario/diagnostics.hpp"
+
+#include <boost/dll/runtime_symbol_info.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+#include <tuple>
+
+namespace dust::registry {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_before(const Entry& a, const Entry& b) {
+  return std::tie(a.info.kind, a.info.name) < std::tie(b.info.kind, b.info.name);
+}
+
+std::string file_text(const fs::path& file) {
+  return file.empty() ? "the program itself" : file.string();
+}
+
+/// Shared libraries of a folder, in the order of their names.
+std::vector<fs::path> libraries_in(const fs::path& folder) {
+  std::error_code code;
+  std::vector<fs::path> files;
+  fs::directory_iterator entries(folder, code);
+  if (code) {
+    throw base::PluginError(folder.string() + ": error: cannot look for plugins here: " +
+                            code.message());
+  }
+  for (const auto& entry : entries) {
+    if (entry.path().extension() == ".so") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+struct Registry::Impl {
+  std::vector<Entry> entries;
+  std::set<fs::path> files;
+};
+
+Registry::Registry() : impl_(std::make_unique<Impl>()) {}
+Registry::~Registry() = default;
+
+void Registry::load(const std::vector<fs::path>& folders) {
+  std::vector<std::string> problems;
+  for (const fs::path& folder : folders) {
+    std::vector<fs::path> files;
+    try {
+      files = libraries_in(folder);
+    } catch (const base::PluginError& problem) {
+      problems.insert(problems.end(), problem.lines().begin(), problem.lines().end());
+    }
+    for (const fs::path& file : files) {
+      // One library reached in two ways is one library.
+      std::error_code code;
+      const fs::path same = fs::weakly_canonical(file, code);
+      if (!impl_->files.insert(code ? file : same).second) continue;
+      try {
+        for (Entry& entry : load_library(file)) add(std::move(entry));
+      } catch (const base::PluginError& problem) {
+        problems.insert(problems.end(), problem.lines().begin(), problem.lines().end());
+      }
+    }
+  }
+  if (!problems.empty()) throw base::PluginError(problems);
+}
+
+std::vector<fs::path> Registry::search_path(const std::vector<fs::path>& from_command_line) {
+  std::vector<fs::path> folders = from_command_line;
+  if (const char* variable = std::getenv("DUST_PLUGIN_PATH")) {
+    const std::string text = variable;
+    for (std::size_t begin = 0; begin <= text.size();) {
+      const std::size_t end = std::min(text.find(':', begin), text.size());
+      if (end > begin) folders.emplace_back(text.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  }
+  std::error_code code;
+  const fs::path program = boost::dll::program_location(code);
+  if (!code) {
+    const fs::path own =
+        (program.parent_path().parent_path() / "lib" / "dust" / "plugins").lexically_normal();
+    if (fs::is_directory(own, code)) folders.push_back(own);
+  }
+  return folders;
+}
+
+void Registry::add(Entry entry) {
+  const auto at = std::lower_bound(impl_->entries.begin(), impl_->entries.end(), entry, is_before);
+  if (at != impl_->entries.end() && !is_before(entry, *at)) {
+    throw base::PluginError(file_text(entry.file) + ": error: offers " + entry.info.kind + "/" +
+                            entry.info.name + ", which " + file_text(at->file) +
+                            " offers already: remove or rename one");
+  }
+  impl_->entries.insert(at, std::move(entry));
+}
+
+const Entry* Registry::find(std::string_view kind, std::string_view name) const {
+  for (const Entry& entry : impl_->entries) {
+    if (entry.info.kind == kind && entry.info.name == name) return &entry;
+  }
+  return nullptr;
+}
+
+const std::vector<Entry>& Registry::entries() const { return impl_->entries; }
+
+std::vector<std::string> Registry::names(std::string_view kind) const {
+  std::vector<std::string> result;
+  for (const Entry& entry : impl_->entries) {
+    if (entry.info.kind == kind) result.push_back(entry.info.name);
+  }
+  return result;
+}
+
+std::unique_ptr<sdk::Model> Registry::create(const scenario::ModelChoice& choice) const {
+  const Entry* entry = find(choice.kind, choice.name);
+  const std::string place = scenario::place(choice.where);
+  const std::string prefix = (place.empty() ? "" : place + ": ") + "error: " +
+                             (choice.path.empty() ? choice.kind : choice.path) + ": ";
+  if (entry == nullptr) {
+    throw base::UserError(prefix + "unknown " + choice.kind + " model '" + choice.name + "'");
+  }
+  try {
+    return entry->factory(choice.values);
+  } catch (const std::exception& problem) {
+    throw base::UserError(prefix + problem.what());
+  }
+}
+
+}  // namespace dust::registry

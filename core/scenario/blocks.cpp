@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenario/blocks.hpp"
+
+namespace dust::scenario {
+
+namespace dimension = sdk::dimension;
+using sdk::ParameterSchema;
+using sdk::SchemaOf;
+
+const ParameterSchema& GeneralBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<GeneralBlock> s;
+    s.text(&GeneralBlock::name, "name",
+           "Name of the scenario and of its output folder; without it, the file's stem.")
+        .optional();
+    s.integer(&GeneralBlock::seed, "seed", "Seed of all random numbers.").at_least(0).optional();
+    s.vector(&GeneralBlock::gravity, "gravity", dimension::acceleration,
+             "Acceleration of gravity; [0, 0, 0] for none.");
+    return s.build();
+  }();
+  return made;
+}
+
+const ParameterSchema& TimeBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<TimeBlock> s;
+    s.number(&TimeBlock::end, "end", dimension::time, "Time at which the run ends.").above(0);
+    s.number(&TimeBlock::fluid_step, "fluid_step", dimension::time,
+             "Step of the fluid, of emission and of the sensors.")
+        .above(0);
+    s.number(&TimeBlock::output_every, "output_every", dimension::time,
+             "Time between frames, a multiple of fluid_step.")
+        .above(0);
+    s.number(&TimeBlock::checkpoint_every, "checkpoint_every", dimension::time,
+             "Time between checkpoints, a multiple of fluid_step; 0 writes one with every frame.")
+        .at_least(0)
+        .optional();
+    s.number(&TimeBlock::dem_step, "dem_step", dimension::time,
+             "Fixed step of the grains; 0 derives one per size class.")
+        .at_least(0)
+        .optional();
+    s.number(&TimeBlock::expected_speed, "expected_speed", dimension::velocity,
+             "Largest approach speed of grains, for their steps; 0 takes it from bodies and drops.")
+        .at_least(0)
+        .optional();
+    s.text(&TimeBlock::rates, "rates",
+           "Whether each size class has its own step or the finest one's holds for all.")
+        .one_of({"several", "single"})
+        .optional();
+    return s.build();
+  }();
+  return made;
+}
+
+const ParameterSchema& DomainBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<DomainBlock> s;
+    s.vector(&DomainBlock::min, "min", dimension::length, "Lower corner of the domain.");
+    s.vector(&DomainBlock::max, "max", dimension::length, "Upper corner of the domain.");
+    return s.build();
+  }();
+  return made;
+}
+
+const ParameterSchema& SideBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<SideBlock> s;
+    s.text(&SideBlock::grains, "grains",
+           "What grains meet: open (they leave), wall, or periodic.")
+        .one_of({"open", "wall", "periodic"});
+    s.text(&SideBlock::material, "material", "Material of a wall.")
+        .refers_to(sdk::Refers::material)
+        .optional();
+    return s.build();
+  }();
+  return made;
+}
+
+const ParameterSchema& MaterialBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<MaterialBlock> s;
+    s.number(&MaterialBlock::density, "density", dimension::density, "Density of the solid.")
+        .symbol("rho")
+        .above(0);
+    s.number(&MaterialBlock::young_modulus, "young_modulus", dimension::pressure,
+             "Modulus of elasticity.")
+        .symbol("E")
+        .above(0);
+    s.number(&MaterialBlock::poisson_ratio, "poisson_ratio", dimension::none, "Poisson's ratio.")
+        .symbol("nu")
+        .above(-1)
+        .at_most(0.5);
+    return s.build();
+  }();
+  return made;
+}
+
+const ParameterSchema& InteractionBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<InteractionBlock> s;
+    s.texts(&InteractionBlock::between, "between", "The two materials that meet.")
+        .refers_to(sdk::Refers::material);
+    return s.build();
+  }();
+  return made;
+}
+
+const ParameterSchema& FrameBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<FrameBlock> s;
+    s.vector(&FrameBlock::origin, "origin", dimension::length, "Point about which all turn.");
+    s.vector(&FrameBlock::axis, "axis", dimension::none, "Direction of the axis, right-handed.");
+    s.number(&FrameBlock::angle, "angle", dimension::angle, "Angle turned by.").optional();
+    return s.build();
+  }();
+  return made;
+}
+
+const ParameterSchema& PlacedBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<PlacedBlock> s;
+    s.boolean(&PlacedBlock::enabled, "enabled", "Whether it takes part; it is checked anyway.")
+        .optional();
+    s.text(&PlacedBlock::frame, "frame", "Frame it turns with; without it, the domain's.")
+        .optional();
+    s.text(&PlacedBlock::material, "material", "Its material.")
+        .refers_to(sdk::Refers::material);
+    return s.build();
+  }();
+  return made;
+}
+
+const ParameterSchema& SensorBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<SensorBlock> s;
+    s.boolean(&SensorBlock::enabled, "enabled", "Whether it takes part; it is checked anyway.")
+        .optional();
+    return s.build();
+  }();
+  return made;
+}
+
+const ParameterSchema& FluidBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<FluidBlock> s;
+    s.vector(&FluidBlock::cells, "cells", dimension::none, "Number of cells along x, y and z.")
+        .at_least(1)
+        .at_most(100000);
+    s.number(&FluidBlock::density, "density", dimension::density, "Density of the fluid.")
+        .symbol("rho")
+        .above(0);
+    s.number(&FluidBlock::viscosity, "viscosity", dimension::dynamic_viscosity,
+             "Dynamic viscosity of the fluid.")
+        .symbol("mu")
+        .above(0);
+    s.text(&FluidBlock::momentum_set, "momentum_set",
+           "Form of the momentum equation: set I, II or III.")
+        .one_of({"I", "II", "III"})
+        .optional();
+    s.vector(&FluidBlock::initial_velocity, "initial_velocity", dimension::velocity,
+             "Velocity of the fluid at the start.")
+        .optional();
+    s.number(&FluidBlock::pressure_tolerance, "pressure_tolerance", dimension::none,
+             "Residual of the pressure equation relative to its right side.")
+        .above(0)
+        .below(1)
+        .optional();
+    s.number(&FluidBlock::largest_cfl, "largest_cfl", dimension::none,
+             "Largest Courant number; the fluid sub-steps to stay below.")
+        .symbol("CFL")
+        .above(0)
+        .at_most(1)
+        .optional();
+    return s.build();
+  }();
+  return made;
+}
+
+const ParameterSchema& CouplingBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<CouplingBlock> s;
+    s.boolean(&CouplingBlock::one_way, "one_way",
+              "Whether the grains feel the fluid but the fluid does not feel the grains.")
+        .optional();
+    return s.build();
+  }();
+  return made;
+}
+
+}  // namespace dust::scenario

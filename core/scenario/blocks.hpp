@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/parameter_schema.hpp"
+#include "dust/sdk/vec3.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace dust::scenario {
+
+/// The keys of the engine's own blocks, declared as models declare theirs: messages, help, defaults
+/// and the JSON Schema derive from here.
+struct GeneralBlock {
+  std::string name;
+  std::int64_t seed = 1;
+  sdk::Vec3 gravity;
+  static const sdk::ParameterSchema& schema();
+};
+
+struct TimeBlock {
+  double end = 0.0;
+  double fluid_step = 0.0;
+  double output_every = 0.0;
+  double checkpoint_every = 0.0;
+  double dem_step = 0.0;
+  double expected_speed = 0.0;
+  std::string rates = "several";
+  static const sdk::ParameterSchema& schema();
+};
+
+struct DomainBlock {
+  sdk::Vec3 min;
+  sdk::Vec3 max;
+  static const sdk::ParameterSchema& schema();
+};
+
+struct SideBlock {
+  std::string grains;
+  std::string material;
+  static const sdk::ParameterSchema& schema();
+};
+
+struct MaterialBlock {
+  double density = 0.0;
+  double young_modulus = 0.0;
+  double poisson_ratio = 0.0;
+  static const sdk::ParameterSchema& schema();
+};
+
+struct InteractionBlock {
+  std::vector<std::string> between;
+  static const sdk::ParameterSchema& schema();
+};
+
+struct FrameBlock {
+  sdk::Vec3 origin;
+  sdk::Vec3 axis;
+  double angle = 0.0;
+  static const sdk::ParameterSchema& schema();
+};
+
+/// What bodies and emitters have in common.
+struct PlacedBlock {
+  bool enabled = true;
+  std::string frame;
+  std::string material;
+  static const sdk::ParameterSchema& schema();
+};
+
+struct SensorBlock {
+  bool enabled = true;
+  static const sdk::ParameterSchema& schema();
+};
+
+struct FluidBlock {
+  sdk::Vec3 cells;
+  double density = 0.0;
+  double viscosity = 0.0;
+  std::string momentum_set = "I";
+  sdk::Vec3 initial_velocity;
+  double pressure_tolerance = 1e-4;
+  double largest_cfl = 0.8;
+  static const sdk::ParameterSchema& schema();
+};
+
+struct CouplingBlock {
+  bool one_way = false;
+  static const sdk::ParameterSchema& schema();
+};
+
+}  // namespace dust::scenario

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenario/checks.hpp"
+
+#include "scenario/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace dust::scenario {
+namespace {
+
+/// Steps written in decimal divide each other to a few roundings.
+constexpr double k_rounding = 1e-9;
+
+bool is_multiple(double value, double step) {
+  const double ratio = value / step;
+  const double whole = std::round(ratio);
+  return whole >= 1.0 && std::abs(ratio - whole) <= k_rounding * whole;
+}
+
+std::string seconds(double value) { return number_text(value) + " s"; }
+
+}  // namespace
+
+void check_sides(const DomainSpec& domain, const std::array<bool, 6>& is_read,
+                 const std::array<bool, 6>& has_air, const std::array<bool, 6>& is_air_periodic,
+                 Diagnostics& diagnostics) {
+  for (std::size_t n = 0; n < 6; ++n) {
+    const std::size_t opposite = n ^ 1u;
+    const SideSpec& side = domain.sides[n];
+    const std::string path = std::string("domain.boundaries.") + k_side_names[n];
+    const bool is_periodic = side.grains == GrainSide::periodic;
+    if (is_read[n] && is_read[opposite] && is_periodic &&
+        domain.sides[opposite].grains != GrainSide::periodic) {
+      diagnostics.error(side.where, path + ": periodic sides come in pairs: make " +
+                                        k_side_names[opposite] + " periodic too");
+    }
+    if (!is_read[n]) continue;
+    if (is_air_periodic[n] && !is_periodic) {
+      diagnostics.error(side.where, path + ": air: periodic needs grains: periodic");
+    }
+    if (is_periodic && has_air[n] && !is_air_periodic[n]) {
+      diagnostics.error(side.where, path + ": grains: periodic needs air: periodic");
+    }
+  }
+}
+
+void check_time(const TimeSpec& time, const TimeMarks& where, Diagnostics& diagnostics) {
+  if (!(time.fluid_step > 0.0)) return;
+  const std::string step = seconds(time.fluid_step);
+  if (time.output_every > 0.0 && !is_multiple(time.output_every, time.fluid_step)) {
+    diagnostics.error(where.output_every, "time.output_every: " + seconds(time.output_every) +
+                                              " is not a multiple of fluid_step, " + step);
+  }
+  if (time.checkpoint_every > 0.0 && !is_multiple(time.checkpoint_every, time.fluid_step)) {
+    diagnostics.error(where.checkpoint_every, "time.checkpoint_every: " +
+                                                  seconds(time.checkpoint_every) +
+                                                  " is not a multiple of fluid_step, " + step);
+  }
+  if (time.dem_step > time.fluid_step * (1.0 + k_rounding)) {
+    diagnostics.error(where.dem_step, "time.dem_step: " + seconds(time.dem_step) +
+                                          " is longer than fluid_step, " + step);
+  }
+  if (time.end > 0.0 && time.end < time.fluid_step * (1.0 - k_rounding)) {
+    diagnostics.error(where.end, "time.end: " + seconds(time.end) +
+                                     " is shorter than one fluid_step, " + step);
+  } else if (time.end > 0.0 && !is_multiple(time.end, time.fluid_step)) {
+    diagnostics.warning(where.end, "time.end: " + seconds(time.end) +
+                                       " is not a multiple of fluid_step, " + step);
+  }
+}
+
+void check_pairs(const Setup& setup, const Mark& where, Diagnostics& diagnostics) {
+  const auto ordered = [](int a, int b) { return std::pair(std::min(a, b), std::max(a, b)); };
+  // Each pair with what it is that meets.
+  std::vector<std::pair<std::pair<int, int>, std::string>> needed;
+  const auto need = [&](int grain, int other, const std::string& what) {
+    needed.emplace_back(ordered(grain, other), what);
+  };
+  for (const EmitterSpec& emitter : setup.emitters) {
+    if (emitter.material < 0) continue;
+    const std::string grains = "grains of emitter '" + emitter.name + "' meet ";
+    for (const EmitterSpec& other : setup.emitters) {
+      if (other.material < 0) continue;
+      need(emitter.material, other.material,
+           grains + (&other == &emitter ? "each other" : "those of '" + other.name + "'"));
+    }
+    for (const BodySpec& body : setup.bodies) {
+      if (body.material >= 0) {
+        need(emitter.material, body.material, grains + "the body '" + body.name + "'");
+      }
+    }
+    for (std::size_t n = 0; n < 6; ++n) {
+      const SideSpec& side = setup.domain.sides[n];
+      if (side.grains == GrainSide::wall && side.material >= 0) {
+        need(emitter.material, side.material,
+             grains + "the wall '" + k_side_names[n] + "'");
+      }
+    }
+  }
+  std::map<std::pair<int, int>, bool> given;
+  for (const InteractionSpec& i : setup.interactions) {
+    given[ordered(i.material_i, i.material_j)] = true;
+  }
+  for (const auto& [pair, what] : needed) {
+    if (given[pair]) continue;
+    given[pair] = true;
+    const auto name = [&](int material) {
+      return setup.materials[static_cast<std::size_t>(material)].name;
+    };
+    diagnostics.error(where, "interactions: missing pair [" + name(pair.first) + ", " +
+                                 name(pair.second) + "]: " + what);
+  }
+}
+
+}  // namespace dust::scenario

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scenario/diagnostics.hpp"
+#include "scenario/setup.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace dust::scenario {
+
+/// A periodic side needs its opposite, for grains and air alike. `is_air_periodic`: as written.
+void check_sides(const DomainSpec& domain, const std::array<bool, 6>& is_read,
+                 const std::array<bool, 6>& has_air, const std::array<bool, 6>& is_air_periodic,
+                 Diagnostics& diagnostics);
+
+/// Steps that must divide each other. `where` are the places of fluid_step, output_every,
+/// checkpoint_every, dem_step and end.
+struct TimeMarks {
+  Mark fluid_step, output_every, checkpoint_every, dem_step, end;
+};
+void check_time(const TimeSpec& time, const TimeMarks& where, Diagnostics& diagnostics);
+
+/// Every pair of materials that can meet needs an interaction.
+void check_pairs(const Setup& setup, const Mark& where, Diagnostics& diagnostics);
+
+}  // namespace dust::scenario

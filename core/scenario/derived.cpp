@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenario/derived.hpp"
+
+#include "dust/sdk/emitter.hpp"
+#include "dust/sdk/motion.hpp"
+#include "dust/sdk/random.hpp"
+#include "dust/sdk/sphere.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace dust::scenario {
+namespace {
+
+// Shares of the Rayleigh and Hertz times that keep a collision accurate (a realised restitution
+// within 0.01 of the declared one).
+constexpr double k_rayleigh_share = 0.3;
+constexpr double k_steps_per_collision = 15.0;
+
+// For the rough estimates: bytes per grain and cell, grains per second and core, cells per second
+// and core. Orders of magnitude on a current desktop machine.
+constexpr double k_bytes_per_grain = 600.0;
+constexpr double k_bytes_per_cell = 500.0;
+constexpr double k_bytes_base = 5e7;
+constexpr double k_grain_steps_per_second = 8e6;
+constexpr double k_cell_steps_per_second = 1e6;
+
+using Emitters = std::vector<std::unique_ptr<sdk::Emitter>>;
+
+double extent_along(const DomainSpec& domain, sdk::Vec3 direction) {
+  const sdk::Vec3 size = domain.max - domain.min;
+  return std::abs(size.x * direction.x) + std::abs(size.y * direction.y) +
+         std::abs(size.z * direction.z);
+}
+
+/// Height [m] a grain can fall through.
+double fall_height(const Setup& setup) {
+  const double g = norm(setup.gravity);
+  return g > 0.0 ? extent_along(setup.domain, setup.gravity / g) : 0.0;
+}
+
+double largest_body_speed(const Setup& setup, const registry::Registry& registry) {
+  double speed = 0.0;
+  for (const BodySpec& body : setup.bodies) {
+    if (!body.motion) continue;
+    speed = std::max(speed, registry.create_as<sdk::Motion>(*body.motion)->largest_speed());
+  }
+  return speed;
+}
+
+double expected_speed(const Setup& setup, const Emitters& emitters, double body_speed) {
+  if (setup.time.expected_speed > 0.0) return setup.time.expected_speed;
+  double speed = body_speed;
+  for (const auto& emitter : emitters) speed = std::max(speed, emitter->largest_speed());
+  // v^2 = v_0^2 + 2 g h
+  return std::sqrt(speed * speed + 2.0 * norm(setup.gravity) * fall_height(setup));
+}
+
+/// The shortest collision of a grain with its like or with a wall of any material it may meet.
+void find_hertz_time(const Setup& setup, const registry::Registry& registry, double speed,
+                     SizeNumbers& size) {
+  const double radius = 0.5 * size.diameter;
+  const auto material = [&](int n) { return setup.materials[static_cast<std::size_t>(n)]; };
+  const double mass =
+      material(size.material).properties.density * sdk::sphere_volume(size.diameter);
+  size.hertz_time = std::numeric_limits<double>::infinity();
+  for (const InteractionSpec& pair : setup.interactions) {
+    if (pair.material_i != size.material && pair.material_j != size.material) continue;
+    const int other = pair.material_i == size.material ? pair.material_j : pair.material_i;
+    const auto law = registry.create_as<sdk::ContactLaw>(pair.contact);
+    law->prepare(material(pair.material_i).properties, material(pair.material_j).properties);
+    // Two equal grains: R* = R/2, m* = m/2; a wall: R* = R, m* = m.
+    const double share = other == size.material ? 0.5 : 1.0;
+    const double time = law->collision_time(share * radius, share * mass, speed);
+    if (time < size.hertz_time) {
+      size.hertz_time = time;
+      size.partner = material(other).name;
+    }
+  }
+}
+
+void derive_steps(const Setup& setup, const registry::Registry& registry,
+                  const Emitters& emitters, Derived& derived) {
+  for (std::size_t n = 0; n < emitters.size(); ++n) {
+    const int material = setup.emitters[n].material;
+    for (const double diameter : emitters[n]->diameters()) {
+      const bool is_known = std::any_of(
+          derived.sizes.begin(), derived.sizes.end(), [&](const SizeNumbers& s) {
+            return s.material == material && s.diameter == diameter;
+          });
+      if (is_known) continue;
+      SizeNumbers size;
+      size.material = material;
+      size.diameter = diameter;
+      size.rayleigh_time = rayleigh_time(
+          0.5 * diameter, setup.materials[static_cast<std::size_t>(material)].properties);
+      find_hertz_time(setup, registry, derived.expected_speed, size);
+      size.stable_step = std::min(k_rayleigh_share * size.rayleigh_time,
+                                  size.hertz_time / k_steps_per_collision);
+      derived.sizes.push_back(size);
+    }
+  }
+  std::stable_sort(derived.sizes.begin(), derived.sizes.end(),
+                   [](const SizeNumbers& a, const SizeNumbers& b) {
+                     return a.diameter < b.diameter;
+                   });
+  for (std::size_t n = 0; n < derived.sizes.size(); ++n) {
+    const double step = derived.sizes[n].stable_step;
+    if (derived.deciding_size < 0 || step < derived.smallest_step) {
+      derived.deciding_size = static_cast<int>(n);
+      derived.smallest_step = step;
+    }
+    derived.largest_step = std::max(derived.largest_step, step);
+  }
+  derived.smallest_step = std::min(derived.smallest_step, setup.time.fluid_step);
+  derived.largest_step = std::min(derived.largest_step, setup.time.fluid_step);
+  if (setup.time.dem_step > 0.0) {
+    derived.smallest_step = derived.largest_step = setup.time.dem_step;
+  } else if (setup.time.rates_single) {
+    derived.largest_step = derived.smallest_step;
+  }
+}
+
+/// Lets a fresh emitter propose the grains of a short time and counts them.
+EmissionNumbers count_grains(const Setup& setup, const EmitterSpec& spec, sdk::Emitter& emitter) {
+  EmissionNumbers numbers;
+  numbers.emitter = spec.name;
+  numbers.mass_flow = emitter.requested_mass_flow();
+  constexpr int k_most_steps = 50;
+  constexpr std::size_t k_enough = 20000;
+  std::vector<sdk::Seed> seeds;
+  double time = 0.0;
+  for (int n = 0; n < k_most_steps && time < setup.time.end && seeds.size() < k_enough; ++n) {
+    sdk::EmitterContext context;
+    context.begin = time;
+    context.end = time + setup.time.fluid_step;
+    context.grain_density =
+        setup.materials[static_cast<std::size_t>(spec.material)].properties.density;
+    context.gravity = setup.gravity;
+    context.random = sdk::Random(setup.seed, sdk::stream_of(spec.name.c_str()));
+    emitter.propose(context, seeds);
+    time = context.end;
+  }
+  if (!(time > 0.0)) return numbers;
+  for (const sdk::Seed& seed : seeds) numbers.real_per_second += seed.weight / time;
+  numbers.computed_per_second = static_cast<double>(seeds.size()) / time;
+  return numbers;
+}
+
+void derive_ratios(const Setup& setup, Derived& derived) {
+  const sdk::Vec3 size = setup.domain.max - setup.domain.min;
+  const double largest = derived.sizes.empty() ? 0.0 : derived.sizes.back().diameter;
+  if (largest > 0.0) derived.width_over_diameter = std::min({size.x, size.y, size.z}) / largest;
+  if (!setup.fluid) return;
+  derived.smallest_spacing = std::numeric_limits<double>::infinity();
+  for (int d = 0; d < 3; ++d) {
+    derived.smallest_spacing =
+        std::min(derived.smallest_spacing,
+                 size[d] / setup.fluid->cells[static_cast<std::size_t>(d)]);
+  }
+  derived.diameter_over_spacing = largest / derived.smallest_spacing;
+  derived.courant_number =
+      derived.expected_speed * setup.time.fluid_step / derived.smallest_spacing;
+}
+
+void estimate_cost(const Setup& setup, double body_speed, Derived& derived) {
+  const double g = norm(setup.gravity);
+  const sdk::Vec3 size = setup.domain.max - setup.domain.min;
+  const double speed = body_speed > 0.0 ? body_speed : derived.expected_speed;
+  if (g > 0.0) derived.residence_time += std::sqrt(2.0 * fall_height(setup) / g);
+  if (speed > 0.0) derived.residence_time += std::max({size.x, size.y, size.z}) / speed;
+  derived.residence_time = std::min(derived.residence_time, setup.time.end);
+  for (const EmissionNumbers& e : derived.emissions) {
+    derived.grains_in_domain += e.computed_per_second * derived.residence_time;
+  }
+  double cells = 0.0;
+  if (setup.fluid) {
+    const auto& n = setup.fluid->cells;
+    cells = static_cast<double>(n[0]) * n[1] * n[2];
+  }
+  derived.memory_bytes =
+      k_bytes_base + k_bytes_per_grain * derived.grains_in_domain + k_bytes_per_cell * cells;
+  const double fluid_steps =
+      setup.time.end / setup.time.fluid_step * std::max(1.0, std::ceil(derived.courant_number));
+  derived.wall_seconds = cells * fluid_steps / k_cell_steps_per_second;
+  if (derived.largest_step > 0.0) {
+    derived.wall_seconds += derived.grains_in_domain * setup.time.end / derived.largest_step /
+                            k_grain_steps_per_second;
+  }
+}
+
+}  // namespace
+
+double rayleigh_time(double radius, const sdk::MaterialProperties& m) {
+  const double shear_modulus = m.young_modulus / (2.0 * (1.0 + m.poisson_ratio));
+  return std::numbers::pi * radius * std::sqrt(m.density / shear_modulus) /
+         (0.1631 * m.poisson_ratio + 0.8766);
+}
+
+Derived derive(const Setup& setup, const registry::Registry& registry) {
+  Derived derived;
+  Emitters emitters;
+  for (const EmitterSpec& spec : setup.emitters) {
+    emitters.push_back(registry.create_as<sdk::Emitter>(spec.model));
+  }
+  const double body_speed = largest_body_speed(setup, registry);
+  derived.expected_speed = expected_speed(setup, emitters, body_speed);
+  derive_steps(setup, registry, emitters, derived);
+  for (std::size_t n = 0; n < emitters.size(); ++n) {
+    derived.emissions.push_back(count_grains(setup, setup.emitters[n], *emitters[n]));
+  }
+  derive_ratios(setup, derived);
+  estimate_cost(setup, body_speed, derived);
+  return derived;
+}
+
+}  // namespace dust::scenario

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenario/diagnostics.hpp"
+
+#include "base/error.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace dust::scenario {
+
+std::string place(const Mark& where) {
+  if (where.line <= 0) return where.file;
+  return where.file + ":" + std::to_string(where.line) + ":" + std::to_string(where.column);
+}
+
+void Diagnostics::add_file(const std::string& file) {
+  if (std::find(files_.begin(), files_.end(), file) == files_.end()) files_.push_back(file);
+}
+
+void Diagnostics::error(const Mark& where, std::string text) {
+  errors_.push_back({where, std::move(text)});
+}
+
+void Diagnostics::warning(const Mark& where, std::string text) {
+  warnings_.push_back({where, std::move(text)});
+}
+
+std::size_t Diagnostics::rank(const std::string& file) const {
+  return static_cast<std::size_t>(std::find(files_.begin(), files_.end(), file) - files_.begin());
+}
+
+std::vector<std::string> Diagnostics::lines(std::vector<Item> items, const char* word) const {
+  std::stable_sort(items.begin(), items.end(), [this](const Item& a, const Item& b) {
+    return std::tuple(rank(a.where.file), a.where.line, a.where.column) <
+           std::tuple(rank(b.where.file), b.where.line, b.where.column);
+  });
+  std::vector<std::string> result;
+  for (const Item& item : items) {
+    std::string line = place(item.where) + ": " + word + ": " + item.text;
+    // An alias or an include read twice tells the same problem twice.
+    if (std::find(result.begin(), result.end(), line) == result.end()) {
+      result.push_back(std::move(line));
+    }
+  }
+  return result;
+}
+
+void Diagnostics::throw_errors() const {
+  if (has_errors()) throw base::UserError(error_lines());
+}
+
+}  // namespace dust::scenario

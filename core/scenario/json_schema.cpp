@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bodies/shape.hpp"
+#include "scenario/blocks.hpp"
+#include "scenario/reader.hpp"
+#include "scenario/units.hpp"
+#include "scenario/values.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace dust::scenario {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using sdk::Parameter;
+using sdk::ParameterSchema;
+using sdk::ParameterType;
+
+/// A name of one of the scenario's things.
+constexpr const char* k_name_pattern = "^[A-Za-z_][A-Za-z0-9_-]*$";
+
+std::string description(const Parameter& p) {
+  std::string text = p.sentence;
+  const std::string unit = si_unit(p.dimension);
+  if (!unit.empty()) text += " [" + unit + "; " + example_units(p.dimension) + "]";
+  const std::string range = range_text(p);
+  if (!range.empty()) text += " " + range;
+  const std::string standard = default_text(p);
+  if (!p.is_required && !standard.empty()) text += " (default " + standard + ")";
+  return text;
+}
+
+void add_range(Json& number, const Parameter& p) {
+  if (std::isfinite(p.range.low)) {
+    number[p.range.low_is_open ? "exclusiveMinimum" : "minimum"] = p.range.low;
+  }
+  if (std::isfinite(p.range.high)) {
+    number[p.range.high_is_open ? "exclusiveMaximum" : "maximum"] = p.range.high;
+  }
+}
+
+/// A bare number, or a text that begins with one (its unit is checked by the engine).
+Json number_or_text(const Parameter& p) {
+  Json number = {{"type", "number"}};
+  add_range(number, p);
+  Json text = {{"type", "string"}, {"pattern", "^[-+]?(\\d+\\.?\\d*|\\.\\d+)([eE][-+]?\\d+)?"}};
+  return {{"anyOf", Json::array({number, text})}};
+}
+
+Json text_schema(const Parameter& p) {
+  Json text = {{"type", "string"}};
+  if (!p.options.empty()) text["enum"] = p.options;
+  return text;
+}
+
+Json value_schema(const Parameter& p) {
+  Json s;
+  switch (p.type) {
+    case ParameterType::number: s = number_or_text(p); break;
+    case ParameterType::integer:
+      s = {{"type", "integer"}};
+      add_range(s, p);
+      break;
+    case ParameterType::boolean: s = {{"type", "boolean"}}; break;
+    case ParameterType::text: s = text_schema(p); break;
+    case ParameterType::vector:
+      s = {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", number_or_text(p)}};
+      break;
+    case ParameterType::numbers: s = {{"type", "array"}, {"items", number_or_text(p)}}; break;
+    case ParameterType::texts: s = {{"type", "array"}, {"items", text_schema(p)}}; break;
+  }
+  s["description"] = description(p);
+  return s;
+}
+
+Json object() {
+  return {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
+}
+
+void add_parameters(Json& object, const ParameterSchema& schema) {
+  for (const Parameter& p : schema) {
+    object["properties"][p.name] = value_schema(p);
+    if (p.is_required) object["required"].push_back(p.name);
+  }
+}
+
+template <class Block>
+Json block() {
+  Json made = object();
+  add_parameters(made, Block::schema());
+  return made;
+}
+
+struct Choice {
+  std::string name;
+  std::string summary;
+  const ParameterSchema* parameters;
+};
+
+std::vector<Choice> choices(const registry::Registry& registry, const std::string& kind) {
+  std::vector<Choice> result;
+  for (const auto& entry : registry.entries()) {
+    if (entry.info.kind == kind) {
+      result.push_back({entry.info.name, entry.info.summary, &entry.info.parameters});
+    }
+  }
+  return result;
+}
+
+std::vector<Choice> shapes() {
+  std::vector<Choice> result;
+  for (const auto& shape : bodies::shape_catalogue()) {
+    result.push_back({shape.name, shape.summary, &shape.parameters});
+  }
+  return result;
+}
+
+/// One alternative per model: `base` with the model's name and its parameters.
+Json alternatives(const Json& base, const std::string& key, const std::vector<Choice>& all) {
+  if (all.empty()) return {{"type", "object"}};
+  Json list = Json::array();
+  for (const Choice& choice : all) {
+    Json one = base;
+    one["title"] = choice.name;
+    one["description"] = choice.summary;
+    one["properties"][key] = {{"const", choice.name}};
+    one["required"].push_back(key);
+    add_parameters(one, *choice.parameters);
+    list.push_back(one);
+  }
+  return {{"oneOf", list}};
+}
+
+/// Bodies: every shape, at rest or with every motion.
+Json body_schema(const registry::Registry& registry) {
+  Json list = Json::array();
+  std::vector<Choice> motions = choices(registry, "motion");
+  motions.insert(motions.begin(), Choice{});
+  for (const Choice& motion : motions) {
+    Json base = block<PlacedBlock>();
+    if (!motion.name.empty()) {
+      base["properties"]["motion"] = {{"const", motion.name}, {"description", motion.summary}};
+      base["required"].push_back("motion");
+      add_parameters(base, *motion.parameters);
+    }
+    const Json with_shapes = alternatives(base, "shape", shapes());
+    for (const Json& one : with_shapes["oneOf"]) list.push_back(one);
+  }
+  return {{"oneOf", list}};
+}
+
+Json named(const Json& one) {
+  return {{"type", "object"},
+          {"propertyNames", {{"pattern", k_name_pattern}}},
+          {"additionalProperties", one}};
+}
+
+Json model(const registry::Registry& registry, const std::string& kind) {
+  return alternatives(object(), "model", choices(registry, kind));
+}
+
+Json domain_schema() {
+  Json side = block<SideBlock>();
+  side["properties"]["air"] = {
+      {"anyOf", Json::array({{{"$ref", "#/definitions/boundary"}}, {{"const", "periodic"}}})},
+      {"description", "What the air meets; periodic sides need none."}};
+  Json sides = object();
+  for (const char* name : k_side_names) {
+    sides["properties"][name] = {{"$ref", "#/definitions/side"}};
+    sides["required"].push_back(name);
+  }
+  Json domain = block<DomainBlock>();
+  domain["properties"]["boundaries"] = sides;
+  domain["required"].push_back("boundaries");
+  return {{"side", side}, {"domain", domain}};
+}
+
+}  // namespace
+
+std::string json_schema(const registry::Registry& registry) {
+  const Json domain = domain_schema();
+  Json interaction = block<InteractionBlock>();
+  interaction["properties"]["between"]["minItems"] = 2;
+  interaction["properties"]["between"]["maxItems"] = 2;
+  interaction["properties"]["contact"] = {{"$ref", "#/definitions/contact"}};
+  interaction["properties"]["rolling"] = {{"$ref", "#/definitions/rolling"}};
+  interaction["required"].push_back("contact");
+  Json definitions = {{"side", domain["side"]}};
+  for (const char* kind : {"contact", "rolling", "boundary", "drag", "voidage"}) {
+    definitions[kind] = model(registry, kind);
+  }
+
+  Json root = block<GeneralBlock>();
+  Json& properties = root["properties"];
+  properties["include"] = {
+      {"description", "Files laid under this one, relative to it."},
+      {"anyOf", Json::array({{{"type", "string"}},
+                             {{"type", "array"}, {"items", {{"type", "string"}}}}})}};
+  properties["time"] = block<TimeBlock>();
+  properties["domain"] = domain["domain"];
+  properties["materials"] = named(block<MaterialBlock>());
+  properties["interactions"] = {{"type", "array"}, {"items", interaction}};
+  properties["frames"] = named(block<FrameBlock>());
+  properties["bodies"] = named(body_schema(registry));
+  properties["emitters"] =
+      named(alternatives(block<PlacedBlock>(), "model", choices(registry, "emitter")));
+  properties["fluid"] = {
+      {"anyOf", Json::array({block<FluidBlock>(), {{"const", "none"}}})},
+      {"description", "The fluid around the grains; none runs grains alone."}};
+  properties["coupling"] = block<CouplingBlock>();
+  properties["drag"] = {{"$ref", "#/definitions/drag"}};
+  properties["voidage"] = {{"$ref", "#/definitions/voidage"}};
+  properties["sensors"] =
+      named(alternatives(block<SensorBlock>(), "model", choices(registry, "sensor")));
+  // A file that includes others need not hold every key itself.
+  root.erase("required");
+  root["anyOf"] = Json::array({{{"required", {"include"}}},
+                               {{"required", {"time", "gravity", "domain", "fluid"}}}});
+
+  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                 {"title", "Scenario of the dust engine"}};
+  schema.update(root);
+  schema["definitions"] = definitions;
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace dust::scenario

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenario/model_reader.hpp"
+
+#include "bodies/shape.hpp"
+#include "scenario/suggest.hpp"
+
+#include <algorithm>
+
+namespace dust::scenario {
+namespace {
+
+/// A model or shape as the reader needs it.
+struct Offer {
+  const sdk::ParameterSchema* parameters = nullptr;
+  std::function<std::unique_ptr<sdk::Model>(const std::vector<sdk::Value>&)> make;
+};
+
+const bodies::ShapeKind* find_shape(const std::string& name) {
+  for (const auto& kind : bodies::shape_catalogue()) {
+    if (kind.name == name) return &kind;
+  }
+  return nullptr;
+}
+
+std::optional<Offer> find_offer(const registry::Registry& registry, const std::string& kind,
+                                const std::string& name) {
+  if (kind == "shape") {
+    const auto* shape = find_shape(name);
+    if (shape == nullptr) return std::nullopt;
+    return Offer{&shape->parameters, [shape](const std::vector<sdk::Value>& values) {
+                   shape->make(values);
+                   return std::unique_ptr<sdk::Model>();
+                 }};
+  }
+  const auto* entry = registry.find(kind, name);
+  if (entry == nullptr) return std::nullopt;
+  return Offer{&entry->info.parameters,
+               [entry](const std::vector<sdk::Value>& values) { return entry->factory(values); }};
+}
+
+std::vector<std::string> offered(const registry::Registry& registry, const std::string& kind) {
+  if (kind != "shape") return registry.names(kind);
+  std::vector<std::string> names;
+  for (const auto& shape : bodies::shape_catalogue()) names.push_back(shape.name);
+  return names;
+}
+
+/// "drag model", "shape", "motion".
+std::string noun(const std::string& kind) {
+  return kind == "shape" || kind == "motion" ? kind : kind + " model";
+}
+
+bool is_default(const sdk::Parameter& parameter, const sdk::Value& value) {
+  return !parameter.is_required && parameter.default_value == value;
+}
+
+}  // namespace
+
+int Names::index(const std::string& name) const {
+  const auto found = std::find(all.begin(), all.end(), name);
+  return found == all.end() ? -1 : static_cast<int>(found - all.begin());
+}
+
+bool Names::is_disabled(const std::string& name) const {
+  return std::find(disabled.begin(), disabled.end(), name) != disabled.end();
+}
+
+ScenarioNames ScenarioNames::of(const Node& root) {
+  const auto names = [&](const char* key) {
+    Names result;
+    const Entry* block = root.find(key);
+    if (block == nullptr || !block->value.is_map()) return result;
+    for (const Entry& entry : block->value.entries) {
+      result.all.push_back(entry.key);
+      const Entry* enabled = entry.value.find("enabled");
+      if (enabled != nullptr && enabled->value.is_word("false")) {
+        result.disabled.push_back(entry.key);
+      }
+    }
+    return result;
+  };
+  return {names("materials"), names("frames"), names("bodies"), names("emitters")};
+}
+
+bool ModelReader::check_name(const Node& node, const std::string& path, sdk::Refers what,
+                             const std::string& name, bool is_enabled) const {
+  Names sides;
+  sides.all.assign(k_side_names.begin(), k_side_names.end());
+  const Names* known = &sides;
+  std::string thing = "side";
+  switch (what) {
+    case sdk::Refers::nothing: return true;
+    case sdk::Refers::material: known = &names_.materials, thing = "material"; break;
+    case sdk::Refers::body: known = &names_.bodies, thing = "body"; break;
+    case sdk::Refers::emitter: known = &names_.emitters, thing = "emitter"; break;
+    case sdk::Refers::boundary: break;
+  }
+  if (known->index(name) < 0) {
+    diagnostics_.error(node.where, path + ": there is no " + thing + " '" + printable(name) + "'" +
+                                       suggestion(name, known->all, "there are"));
+    return false;
+  }
+  if (is_enabled && known->is_disabled(name)) {
+    diagnostics_.error(node.where, path + ": the " + thing + " '" + name +
+                                       "' is switched off (enabled: false)");
+    return false;
+  }
+  return true;
+}
+
+bool ModelReader::check_references(const MapReader& reader, const sdk::ParameterSchema& schema,
+                                   const std::vector<sdk::Value>& values, bool is_enabled) const {
+  bool is_good = true;
+  for (std::size_t n = 0; n < schema.size(); ++n) {
+    const sdk::Parameter& parameter = schema[n];
+    const Entry* entry = reader.node().find(parameter.name);
+    if (parameter.refers == sdk::Refers::nothing || entry == nullptr) continue;
+    if (is_default(parameter, values[n])) continue;
+    const std::string path = reader.path_of(parameter.name);
+    if (const auto* text = std::get_if<std::string>(&values[n])) {
+      is_good = check_name(entry->value, path, parameter.refers, *text, is_enabled) && is_good;
+    } else if (const auto* texts = std::get_if<std::vector<std::string>>(&values[n])) {
+      for (std::size_t i = 0; i < texts->size(); ++i) {
+        is_good = check_name(entry->value.items[i], path + "[" + std::to_string(i) + "]",
+                             parameter.refers, (*texts)[i], is_enabled) &&
+                  is_good;
+      }
+    }
+  }
+  return is_good;
+}
+
+ReadModel ModelReader::read(MapReader& reader, const std::string& key, const std::string& kind,
+                            bool is_enabled) const {
+  const auto names = offered(registry_, kind);
+  const std::string available =
+      names.empty() ? "no " + kind + " plugin was found; see 'engine plugins' and --plugin-path"
+                    : noun(kind) + "s: " + listed(names);
+  const Entry* entry = reader.required(key, available);
+  if (entry == nullptr) {
+    reader.keys_are_unknowable();
+    return {};
+  }
+  const std::string path = reader.path_of(key);
+  const Node& name = entry->value;
+  if (!name.is_text()) {
+    diagnostics_.error(name.where, path + ": the name of a " + noun(kind) + " is expected, not " +
+                                       kind_text(name) + " (" + available + ")");
+    reader.keys_are_unknowable();
+    return {};
+  }
+  const auto offer = find_offer(registry_, kind, name.text);
+  if (!offer) {
+    const std::string near = nearest(name.text, names);
+    diagnostics_.error(name.where, path + ": unknown " + noun(kind) + " '" + printable(name.text) +
+                                       "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                                       " (" + available + ")");
+    reader.keys_are_unknowable();
+    return {};
+  }
+  const std::size_t errors_before = diagnostics_.error_count();
+  ModelChoice choice{kind, name.text, reader.values(*offer->parameters), reader.path(), name.where};
+  check_references(reader, *offer->parameters, choice.values, is_enabled);
+  ReadModel result;
+  result.written.push_back({key, {}, Node::make_text(name.text)});
+  for (std::size_t n = 0; n < choice.values.size(); ++n) {
+    if (std::holds_alternative<std::monostate>(choice.values[n])) continue;
+    result.written.push_back(
+        {(*offer->parameters)[n].name, {}, written_value(choice.values[n])});
+  }
+  if (diagnostics_.error_count() == errors_before) {
+    try {
+      result.model = offer->make(choice.values);
+    } catch (const std::exception& problem) {
+      diagnostics_.error(name.where, reader.path() + ": " + std::string(problem.what()));
+    }
+  }
+  result.choice = std::move(choice);
+  return result;
+}
+
+ReadModel ModelReader::read_optional(MapReader& reader, const std::string& key,
+                                     const std::string& kind) const {
+  if (reader.optional(key) == nullptr) return {};
+  return read(reader, key, kind);
+}
+
+}  // namespace dust::scenario

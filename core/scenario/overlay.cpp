@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenario/overlay.hpp"
+
+#include "scenario/suggest.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+namespace dust::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// No scenario is larger; the limit keeps a wrong file (results, pictures) from being parsed.
+constexpr std::uintmax_t k_largest_file = 4u << 20;
+
+std::optional<std::string> file_text(const fs::path& file, std::string& why) {
+  std::error_code code;
+  if (fs::is_directory(file, code)) {
+    why = "is a folder, not a file";
+    return std::nullopt;
+  }
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    why = std::string("cannot be read: ") + std::strerror(errno);
+    return std::nullopt;
+  }
+  std::string text;
+  std::vector<char> buffer(1u << 16);
+  while (stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) ||
+         stream.gcount() > 0) {
+    text.append(buffer.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > k_largest_file) {
+      why = "is larger than 4 MB: not a scenario";
+      return std::nullopt;
+    }
+  }
+  return text;
+}
+
+/// Follows `include` and keeps the chain of open files, to see cycles.
+class IncludeReader {
+ public:
+  explicit IncludeReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  std::optional<Node> read(const fs::path& file, const Mark* from) {
+    const std::string shown = file.generic_string();
+    std::string why;
+    const auto text = file_text(file, why);
+    if (!text) {
+      diagnostics_.error(from ? *from : Mark{shown, 0, 0},
+                         from ? "include: " + shown + " " + why : why);
+      return std::nullopt;
+    }
+    if (++files_read_ > k_most_files) {
+      diagnostics_.error(from ? *from : Mark{shown, 0, 0}, "include: too many files");
+      return std::nullopt;
+    }
+    diagnostics_.add_file(shown);
+    auto root = parse_yaml(*text, shown, false, diagnostics_);
+    if (!root) return std::nullopt;
+    if (root->kind == Node::Kind::nothing) {
+      diagnostics_.error({shown, 1, 1}, "the file is empty: a scenario begins with keys like 'time:'");
+      return std::nullopt;
+    }
+    if (!root->is_map()) {
+      diagnostics_.error(root->where, "a scenario is a map of keys (time, domain, ...), not " +
+                                          kind_text(*root));
+      return std::nullopt;
+    }
+    const Entry* include = root->find("include");
+    if (include == nullptr) return root;
+    Entry taken = *include;
+    std::erase_if(root->entries, [](const Entry& e) { return e.key == "include"; });
+    open_.push_back(identity(file));
+    Node merged = included(taken, file);
+    open_.pop_back();
+    merge(merged, std::move(*root));
+    return merged;
+  }
+
+ private:
+  static constexpr int k_most_files = 200;
+
+  static fs::path identity(const fs::path& file) {
+    std::error_code code;
+    fs::path same = fs::weakly_canonical(file, code);
+    return code ? file : same;
+  }
+  Node included(const Entry& include, const fs::path& from) {
+    Node base = Node::make_map();
+    base.where = include.where;
+    std::vector<Node> names = include.value.is_list() ? include.value.items
+                                                      : std::vector<Node>{include.value};
+    for (const Node& name : names) {
+      if (!name.is_text() || name.text.empty()) {
+        diagnostics_.error(name.where, "include: a file name or a list of them is expected, not " +
+                                           kind_text(name));
+        continue;
+      }
+      const fs::path file = (from.parent_path() / name.text).lexically_normal();
+      if (std::find(open_.begin(), open_.end(), identity(file)) != open_.end()) {
+        diagnostics_.error(name.where,
+                           "include: " + file.generic_string() + " includes itself in a circle");
+        continue;
+      }
+      if (auto node = read(file, &name.where)) merge(base, std::move(*node));
+    }
+    return base;
+  }
+
+  Diagnostics& diagnostics_;
+  std::vector<fs::path> open_;
+  int files_read_ = 0;
+};
+
+/// One step of a dotted path: a key, or an index into a list.
+struct Step {
+  std::string key;
+  std::size_t index = 0;
+  bool is_index = false;
+};
+
+std::optional<std::vector<Step>> parse_path(const std::string& path) {
+  std::vector<Step> steps;
+  std::size_t at = 0;
+  const auto is_end_of_key = [](char c) { return c == '.' || c == '[' || c == ']'; };
+  while (at < path.size()) {
+    if (path[at] == '[') {
+      const std::size_t end = path.find(']', at);
+      const std::string digits = path.substr(at + 1, end == std::string::npos ? 0 : end - at - 1);
+      constexpr std::size_t k_most_digits = 6;
+      if (steps.empty() || digits.empty() || digits.size() > k_most_digits ||
+          digits.find_first_not_of("0123456789") != std::string::npos) {
+        return std::nullopt;
+      }
+      steps.push_back({.key = {}, .index = std::stoul(digits), .is_index = true});
+      at = end + 1;
+      if (at < path.size() && path[at] == '.' && at + 1 < path.size()) {
+        ++at;
+      } else if (at < path.size() && path[at] != '[') {
+        return std::nullopt;
+      }
+      continue;
+    }
+    std::size_t end = at;
+    while (end < path.size() && !is_end_of_key(path[end])) ++end;
+    if (end == at) return std::nullopt;
+    steps.push_back({.key = path.substr(at, end - at)});
+    at = end;
+    if (at < path.size() && path[at] == '.') {
+      if (++at == path.size()) return std::nullopt;
+    } else if (at < path.size() && path[at] == ']') {
+      return std::nullopt;
+    }
+  }
+  return steps.empty() ? std::nullopt : std::optional(steps);
+}
+
+/// Blocks whose keys are names the user gives: a new name is not a typing error of the engine's
+/// keys, but setting one value of an object that is not there is.
+const char* thing_in(const std::string& block) {
+  if (block == "materials") return "material";
+  if (block == "bodies") return "body";
+  if (block == "emitters") return "emitter";
+  if (block == "sensors") return "sensor";
+  if (block == "frames") return "frame";
+  return nullptr;
+}
+
+std::vector<std::string> keys_of(const Node& map) {
+  std::vector<std::string> keys;
+  for (const Entry& entry : map.entries) keys.push_back(entry.key);
+  return keys;
+}
+
+std::string joined(const std::vector<Step>& steps, std::size_t count) {
+  std::string path;
+  for (std::size_t n = 0; n < count; ++n) {
+    if (steps[n].is_index) {
+      path += "[" + std::to_string(steps[n].index) + "]";
+    } else {
+      path += (path.empty() ? "" : ".") + steps[n].key;
+    }
+  }
+  return path;
+}
+
+}  // namespace
+
+std::optional<Node> read_with_includes(const fs::path& file, Diagnostics& diagnostics) {
+  return IncludeReader(diagnostics).read(file, nullptr);
+}
+
+void merge(Node& base, Node over) {
+  if (!base.is_map() || !over.is_map()) {
+    base = std::move(over);
+    return;
+  }
+  for (Entry& entry : over.entries) {
+    if (Entry* same = base.find(entry.key)) {
+      if (!same->value.is_map() || !entry.value.is_map()) same->where = entry.where;
+      merge(same->value, std::move(entry.value));
+    } else {
+      base.entries.push_back(std::move(entry));
+    }
+  }
+  base.where = over.where;
+}
+
+void apply_override(Node& root, const Override& override, Diagnostics& diagnostics) {
+  const Mark here{"--set " + printable(override.path), 0, 0};
+  diagnostics.add_file(here.file);
+  const auto steps = parse_path(override.path);
+  if (!steps) {
+    diagnostics.error(here, "not the path of a key, like bodies.belt.speed or "
+                            "interactions[1].contact.friction");
+    return;
+  }
+  auto value = parse_yaml(override.value, here.file, true, diagnostics);
+  if (!value) return;
+  if (value->kind == Node::Kind::nothing) {
+    diagnostics.error(here, "the value is missing: write --set " + printable(override.path) +
+                                "=VALUE");
+    return;
+  }
+  Node* node = &root;
+  for (std::size_t n = 0; n < steps->size(); ++n) {
+    const Step& step = (*steps)[n];
+    const std::string so_far = joined(*steps, n);
+    if (step.is_index) {
+      if (!node->is_list() || step.index >= node->items.size()) {
+        diagnostics.error(here, !node->is_list()
+                                    ? so_far + " is not a list"
+                                    : so_far + " has " + std::to_string(node->items.size()) +
+                                          " elements, counted from 0");
+        return;
+      }
+      node = &node->items[step.index];
+      continue;
+    }
+    if (!node->is_map()) {
+      diagnostics.error(here, so_far + " is " + kind_text(*node) + " and has no key '" +
+                                  printable(step.key) + "'");
+      return;
+    }
+    Entry* entry = node->find(step.key);
+    const bool is_last = n + 1 == steps->size();
+    if (entry == nullptr) {
+      const char* thing = n == 1 ? thing_in(steps->front().key) : nullptr;
+      if (thing != nullptr && !(is_last && value->is_map())) {
+        diagnostics.error(here, std::string("there is no ") + thing + " '" + printable(step.key) +
+                                    "'" + suggestion(step.key, keys_of(*node), "there are"));
+        return;
+      }
+      Node made = Node::make_map();
+      made.where = here;
+      node->entries.push_back({step.key, here, std::move(made)});
+      entry = &node->entries.back();
+    }
+    if (is_last) entry->where = here;
+    node = &entry->value;
+  }
+  *node = std::move(*value);
+}
+
+}  // namespace dust::scenario

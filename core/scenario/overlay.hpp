@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scenario/reader.hpp"
+#include "scenario/tree.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace dust::scenario {
+
+/// Reads a file with everything it includes: the including file wins, key by key. Nothing where the
+/// file itself cannot be read.
+std::optional<Node> read_with_includes(const std::filesystem::path& file,
+                                       Diagnostics& diagnostics);
+
+/// Lays `over` over `base`: maps are merged key by key, everything else is replaced.
+void merge(Node& base, Node over);
+
+/// Sets one key of `root` from the command line.
+void apply_override(Node& root, const Override& override, Diagnostics& diagnostics);
+
+}  // namespace dust::scenario

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scenario/diagnostics.hpp"
+#include "scenario/setup.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dust::scenario {
+
+struct Entry;
+
+/// A piece of a scenario as written: text is not yet interpreted, every piece knows its place.
+struct Node {
+  enum class Kind { nothing, text, list, map };
+  Kind kind = Kind::nothing;
+  std::string text;
+  bool is_quoted = false;
+  std::vector<Node> items;
+  std::vector<Entry> entries;
+  Mark where;
+
+  [[nodiscard]] bool is_map() const { return kind == Kind::map; }
+  [[nodiscard]] bool is_list() const { return kind == Kind::list; }
+  [[nodiscard]] bool is_text() const { return kind == Kind::text; }
+  /// Text without quotes that is `word`.
+  [[nodiscard]] bool is_word(std::string_view word) const;
+  [[nodiscard]] const Entry* find(std::string_view key) const;
+  [[nodiscard]] Entry* find(std::string_view key);
+
+  static Node make_map();
+  static Node make_list();
+  static Node make_text(std::string text, bool is_quoted = false);
+  void add(std::string key, Node value);
+};
+
+struct Entry {
+  std::string key;
+  Mark where;
+  Node value;
+};
+
+/// "a map of keys", "a list", "text", "nothing": what a node is, for messages.
+std::string kind_text(const Node& node);
+
+/// Parses one YAML document. Problems (syntax, duplicate keys, tags, encoding) go to `diagnostics`;
+/// nothing is returned when the text cannot be used at all. Pieces of a command line have no lines:
+/// all their marks are {file, 0, 0}.
+std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
+                               bool is_command_line, Diagnostics& diagnostics);
+
+/// YAML text of a tree: blocks, with flow style for what fits into one line.
+std::string emit_yaml(const Node& root);
+
+}  // namespace dust::scenario

@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenario/values.hpp"
+
+#include "scenario/suggest.hpp"
+#include "scenario/units.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace dust::scenario {
+namespace {
+
+using sdk::Parameter;
+using sdk::ParameterType;
+using sdk::Value;
+
+/// Reads one parameter; every failure is told with the path in front.
+class ValueReader {
+ public:
+  ValueReader(const Parameter& parameter, const std::string& path, Diagnostics& diagnostics)
+      : parameter_(parameter), path_(path), diagnostics_(diagnostics) {}
+
+  std::optional<Value> read(const Node& node) {
+    switch (parameter_.type) {
+      case ParameterType::number: return number(node);
+      case ParameterType::integer: return integer(node);
+      case ParameterType::boolean: return boolean(node);
+      case ParameterType::text: return text(node);
+      case ParameterType::vector: return vector(node);
+      case ParameterType::numbers: return numbers(node);
+      case ParameterType::texts: return texts(node);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::nullopt_t fail(const Node& node, const std::string& text) {
+    diagnostics_.error(node.where, path_ + ": " + text);
+    return std::nullopt;
+  }
+  std::string expected() const {
+    if (parameter_.dimension == sdk::dimension::none) return "a number";
+    return dimension_name(parameter_.dimension) + " (" + example_units(parameter_.dimension) + ")";
+  }
+
+  /// Infinite values stand only for "no limit" and only where that is the default.
+  bool may_be_infinite() const {
+    const auto infinite = [](double v) { return std::isinf(v); };
+    if (const auto* v = std::get_if<double>(&parameter_.default_value)) return infinite(*v);
+    if (const auto* v = std::get_if<sdk::Vec3>(&parameter_.default_value)) {
+      return infinite(v->x) || infinite(v->y) || infinite(v->z);
+    }
+    return false;
+  }
+  std::optional<WrittenNumber> written(const Node& node) {
+    if (!node.is_text()) {
+      return fail(node, expected() + " is expected, not " + kind_text(node));
+    }
+    if (may_be_infinite() && (node.text == ".inf" || node.text == "-.inf")) {
+      const double infinity = std::numeric_limits<double>::infinity();
+      return WrittenNumber{node.text[0] == '-' ? -infinity : infinity, {}};
+    }
+    if (node.text == ".nan" || node.text == ".inf" || node.text == "-.inf" ||
+        node.text == "+.inf" || node.text == "nan" || node.text == "inf" || node.text == "-inf") {
+      return fail(node, printable(node.text) + " is not a finite number");
+    }
+    std::string error;
+    auto result = split_number(node.text, error);
+    if (!result) {
+      if (error.starts_with("a number is expected")) error.replace(0, 8, expected());
+      return fail(node, error);
+    }
+    return result;
+  }
+  std::optional<double> si(const Node& node, const WrittenNumber& number) {
+    std::string error;
+    const auto value = to_si(number, parameter_.dimension, error);
+    if (!value) return fail(node, error);
+    return value;
+  }
+  bool in_range(const Node& node, double value) {
+    if (parameter_.range.contains(value)) return true;
+    fail(node, printable(node.text) + " is outside " + range_text(parameter_));
+    return false;
+  }
+
+  std::optional<Value> number(const Node& node) {
+    const auto w = written(node);
+    if (!w) return std::nullopt;
+    const auto value = si(node, *w);
+    if (!value) return std::nullopt;
+    if (Value(*value) != parameter_.default_value && !in_range(node, *value)) return std::nullopt;
+    return *value;
+  }
+
+  std::optional<Value> integer(const Node& node) {
+    if (!node.is_text()) return fail(node, "a whole number is expected, not " + kind_text(node));
+    std::string error;
+    const auto w = split_number(node.text, error);
+    if (!w || !w->unit.empty()) {
+      return fail(node, w ? "a whole number without a unit is expected, not '" +
+                                printable(node.text) + "'"
+                          : error);
+    }
+    std::int64_t value = 0;
+    const char* begin = node.text.data() + (node.text.starts_with('+') ? 1 : 0);
+    const auto [end, code] = std::from_chars(begin, node.text.data() + node.text.size(), value);
+    if (code != std::errc{} || end != node.text.data() + node.text.size()) {
+      return fail(node, "a whole number is expected, not '" + printable(node.text) + "'");
+    }
+    if (Value(value) != parameter_.default_value && !in_range(node, static_cast<double>(value))) {
+      return std::nullopt;
+    }
+    return value;
+  }
+
+  std::optional<Value> boolean(const Node& node) {
+    if (node.is_word("true")) return true;
+    if (node.is_word("false")) return false;
+    std::string word = node.is_text() ? node.text : std::string();
+    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) {
+      return static_cast<char>(std::tolower(c));
+    });
+    for (const char* yes : {"yes", "on", "y", "true", "1"}) {
+      if (word == yes) return fail(node, "'" + printable(node.text) + "' is not true or false: write true");
+    }
+    for (const char* no : {"no", "off", "n", "false", "0"}) {
+      if (word == no) return fail(node, "'" + printable(node.text) + "' is not true or false: write false");
+    }
+    return fail(node, "true or false is expected, not " + kind_text(node));
+  }
+
+  bool check_option(const Node& node) {
+    const auto& options = parameter_.options;
+    if (options.empty() || std::find(options.begin(), options.end(), node.text) != options.end()) {
+      return true;
+    }
+    const std::string near = nearest(node.text, options);
+    fail(node, "'" + printable(node.text) + "' is none of " + listed(options) +
+                   (near.empty() ? "" : "; did you mean '" + near + "'?"));
+    return false;
+  }
+  std::optional<Value> text(const Node& node) {
+    if (!node.is_text()) {
+      return fail(node, (parameter_.options.empty()
+                             ? std::string("a text is expected")
+                             : "one of " + listed(parameter_.options) + " is expected") +
+                            ", not " + kind_text(node));
+    }
+    if (!check_option(node)) return std::nullopt;
+    return node.text;
+  }
+
+  /// Components of a list in SI. A unit on the last one alone holds for all.
+  std::optional<std::vector<double>> components(const Node& node) {
+    std::vector<WrittenNumber> all;
+    bool is_good = true;
+    for (const Node& item : node.items) {
+      const auto w = written(item);
+      is_good = is_good && w;
+      all.push_back(w.value_or(WrittenNumber{}));
+    }
+    if (!is_good) return std::nullopt;
+    const auto with_unit = static_cast<std::size_t>(std::count_if(
+        all.begin(), all.end(), [](const WrittenNumber& w) { return !w.unit.empty(); }));
+    if (with_unit == 1 && !all.back().unit.empty()) {
+      for (WrittenNumber& w : all) w.unit = all.back().unit;
+    } else if (with_unit > 0 && with_unit < all.size()) {
+      for (std::size_t n = 0; n < all.size(); ++n) {
+        if (!all[n].unit.empty() || all[n].number == 0.0) continue;
+        return fail(node.items[n], "'" + printable(node.items[n].text) +
+                                       "' has no unit but others have: give each one its unit, or "
+                                       "the last alone one for all");
+      }
+    }
+    std::vector<double> values;
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      const auto value = si(node.items[n], all[n]);
+      is_good = is_good && value;
+      // One wrong unit on the last component is one mistake, not three.
+      if (!value && with_unit == 1) return std::nullopt;
+      values.push_back(value.value_or(0.0));
+    }
+    return is_good ? std::optional(values) : std::nullopt;
+  }
+  bool all_in_range(const Node& node, const std::vector<double>& values) {
+    bool is_good = true;
+    for (std::size_t n = 0; n < values.size(); ++n) {
+      is_good = in_range(node.items[n], values[n]) && is_good;
+    }
+    return is_good;
+  }
+  std::optional<Value> vector(const Node& node) {
+    if (!node.is_list() || node.items.size() != 3) {
+      return fail(node, "a vector [x, y, z] is expected, not " +
+                            (node.is_list() ? "a list of " + std::to_string(node.items.size())
+                                            : kind_text(node)));
+    }
+    const auto values = components(node);
+    if (!values) return std::nullopt;
+    const sdk::Vec3 v{(*values)[0], (*values)[1], (*values)[2]};
+    if (Value(v) != parameter_.default_value && !all_in_range(node, *values)) return std::nullopt;
+    return v;
+  }
+  std::optional<Value> numbers(const Node& node) {
+    if (!node.is_list()) {
+      return fail(node, "a list like [1, 2, 3" +
+                            (parameter_.dimension == sdk::dimension::none
+                                 ? std::string()
+                                 : " " + si_unit(parameter_.dimension)) +
+                            "] is expected, not " + kind_text(node));
+    }
+    const auto values = components(node);
+    if (!values) return std::nullopt;
+    const bool is_default = Value(*values) == parameter_.default_value;
+    if (values->empty() && !is_default) return fail(node, "the list is empty");
+    if (!is_default && !all_in_range(node, *values)) return std::nullopt;
+    return *values;
+  }
+  std::optional<Value> texts(const Node& node) {
+    if (!node.is_list()) {
+      return fail(node, "a list like [a, b] is expected, not " + kind_text(node));
+    }
+    std::vector<std::string> values;
+    bool is_good = true;
+    for (const Node& item : node.items) {
+      if (!item.is_text()) {
+        fail(item, "a text is expected, not " + kind_text(item));
+        is_good = false;
+        continue;
+      }
+      is_good = check_option(item) && is_good;
+      values.push_back(item.text);
+    }
+    if (!is_good) return std::nullopt;
+    if (values.empty() && Value(values) != parameter_.default_value) {
+      return fail(node, "the list is empty");
+    }
+    return values;
+  }
+
+  const Parameter& parameter_;
+  const std::string& path_;
+  Diagnostics& diagnostics_;
+};
+
+bool is_plain(const std::string& text) {
+  if (text.empty() || text == "true" || text == "false" || text == "null") return false;
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  if (!is_letter(text.front())) return false;
+  return std::all_of(text.begin(), text.end(), [&](char c) {
+    return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '.';
+  });
+}
+
+Node number_node(double value) { return Node::make_text(number_text(value)); }
+Node text_node(const std::string& text) { return Node::make_text(text, !is_plain(text)); }
+
+}  // namespace
+
+std::optional<Value> read_value(const Node& node, const Parameter& parameter,
+                                const std::string& path, Diagnostics& diagnostics) {
+  return ValueReader(parameter, path, diagnostics).read(node);
+}
+
+Node written_value(const Value& value) {
+  if (const auto* v = std::get_if<double>(&value)) return number_node(*v);
+  if (const auto* v = std::get_if<std::int64_t>(&value)) return Node::make_text(std::to_string(*v));
+  if (const auto* v = std::get_if<bool>(&value)) return Node::make_text(*v ? "true" : "false");
+  if (const auto* v = std::get_if<std::string>(&value)) return text_node(*v);
+  if (const auto* v = std::get_if<sdk::Vec3>(&value)) {
+    Node list = Node::make_list();
+    list.items = {number_node(v->x), number_node(v->y), number_node(v->z)};
+    return list;
+  }
+  Node list = Node::make_list();
+  if (const auto* v = std::get_if<std::vector<double>>(&value)) {
+    for (const double x : *v) list.items.push_back(number_node(x));
+    return list;
+  }
+  if (const auto* v = std::get_if<std::vector<std::string>>(&value)) {
+    for (const std::string& x : *v) list.items.push_back(text_node(x));
+    return list;
+  }
+  return {};
+}
+
+std::string range_text(const Parameter& p) {
+  const bool has_low = std::isfinite(p.range.low);
+  const bool has_high = std::isfinite(p.range.high);
+  if (!has_low && !has_high) return {};
+  const std::string unit = si_unit(p.dimension);
+  const std::string tail = unit.empty() ? "" : " " + unit;
+  std::string text = p.symbol.empty() ? p.name : p.symbol;
+  if (has_low && has_high) {
+    text = number_text(p.range.low) + (p.range.low_is_open ? " < " : " <= ") + text +
+           (p.range.high_is_open ? " < " : " <= ") + number_text(p.range.high);
+  } else if (has_low) {
+    text += (p.range.low_is_open ? " > " : " >= ") + number_text(p.range.low);
+  } else {
+    text += (p.range.high_is_open ? " < " : " <= ") + number_text(p.range.high);
+  }
+  return text + tail;
+}
+
+std::string default_text(const Parameter& p) {
+  if (p.is_required) return {};
+  const Node node = written_value(p.default_value);
+  std::string text;
+  if (node.is_list()) {
+    for (const Node& item : node.items) text += (text.empty() ? "" : ", ") + item.text;
+    text = "[" + text + "]";
+  } else {
+    text = node.text;
+  }
+  const std::string unit = si_unit(p.dimension);
+  return unit.empty() || text == "[]" ? text : text + " " + unit;
+}
+
+std::string type_text(ParameterType type) {
+  switch (type) {
+    case ParameterType::number: return "number";
+    case ParameterType::integer: return "whole number";
+    case ParameterType::boolean: return "true or false";
+    case ParameterType::text: return "text";
+    case ParameterType::vector: return "vector [x, y, z]";
+    case ParameterType::numbers: return "list of numbers";
+    case ParameterType::texts: return "list of texts";
+  }
+  return {};
+}
+
+MapReader::MapReader(const Node& node, std::string path, Mark where, Diagnostics& diagnostics)
+    : node_(node), path_(std::move(path)), where_(std::move(where)), diagnostics_(diagnostics) {
+  if (node_.is_map()) return;
+  is_good_ = false;
+  diagnostics_.error(node_.where, path_ + ": a map of keys is expected, not " + kind_text(node_));
+}
+
+const Entry* MapReader::optional(const std::string& key) {
+  known_.push_back(key);
+  return node_.find(key);
+}
+
+const Entry* MapReader::required(const std::string& key, const std::string& what) {
+  const Entry* entry = optional(key);
+  if (entry == nullptr && node_.is_map()) {
+    diagnostics_.error(where_, (path_.empty() ? "" : path_ + ": ") + "missing key '" + key + "'" +
+                                   (what.empty() ? "" : " (" + what + ")"));
+  }
+  if (entry == nullptr) is_good_ = false;
+  return entry;
+}
+
+std::vector<Value> MapReader::values(const sdk::ParameterSchema& schema) {
+  std::vector<Value> result;
+  for (const Parameter& parameter : schema) {
+    const std::string unit = si_unit(parameter.dimension);
+    const Entry* entry =
+        parameter.is_required
+            ? required(parameter.name, type_text(parameter.type) +
+                                           (unit.empty() ? "" : " in " + unit) + ": " +
+                                           parameter.sentence)
+            : optional(parameter.name);
+    if (entry == nullptr) {
+      result.push_back(parameter.default_value);
+      continue;
+    }
+    auto value = read_value(entry->value, parameter, path_of(parameter.name), diagnostics_);
+    if (!value) is_good_ = false;
+    result.push_back(value.value_or(Value{}));
+  }
+  return result;
+}
+
+void MapReader::finish() {
+  for (const Entry& entry : node_.entries) {
+    if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
+    if (is_open_ && nearest(entry.key, known_).empty()) continue;
+    diagnostics_.error(entry.where, "unknown key '" + printable(entry.key) + "' in " +
+                                        (path_.empty() ? "the scenario" : path_) +
+                                        suggestion(entry.key, known_, "its keys are"));
+  }
+}
+
+}  // namespace dust::scenario

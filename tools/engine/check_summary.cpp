@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check_summary.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+namespace dust::engine {
+namespace {
+
+using scenario::Derived;
+using scenario::Setup;
+
+std::string digits(double value, int significant = 3) {
+  std::array<char, 40> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.*g", significant, value);
+  return buffer.data();
+}
+
+/// Number with a prefix that leaves one to three digits before the point: "1.2 us".
+std::string engineering(double value, const char* unit) {
+  if (value == 0.0 || !std::isfinite(value)) return digits(value) + " " + unit;
+  struct Prefix {
+    double factor;
+    const char* name;
+  };
+  constexpr std::array k_prefixes = {Prefix{1e9, "G"},  Prefix{1e6, "M"},  Prefix{1e3, "k"},
+                                     Prefix{1.0, ""},   Prefix{1e-3, "m"}, Prefix{1e-6, "u"},
+                                     Prefix{1e-9, "n"}, Prefix{1e-12, "p"}};
+  for (const Prefix& p : k_prefixes) {
+    if (std::abs(value) >= 0.9995 * p.factor) {
+      return digits(value / p.factor) + " " + p.name + unit;
+    }
+  }
+  return digits(value) + " " + unit;
+}
+
+std::string millimetres(sdk::Vec3 v) {
+  return digits(1e3 * v.x, 5) + " x " + digits(1e3 * v.y, 5) + " x " + digits(1e3 * v.z, 5) + " mm";
+}
+
+/// "12,345"
+std::string counted(double value) {
+  std::array<char, 40> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.0f", value);
+  std::string text = buffer.data();
+  for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) {
+    text.insert(static_cast<std::size_t>(at), ",");
+  }
+  return text;
+}
+
+std::string duration(double seconds) {
+  constexpr double k_minute = 60.0;
+  constexpr double k_hour = 3600.0;
+  if (seconds < 2.0 * k_minute) return digits(std::max(seconds, 1.0), 2) + " s";
+  if (seconds < 2.0 * k_hour) return digits(seconds / k_minute, 2) + " min";
+  return digits(seconds / k_hour, 2) + " h";
+}
+
+const std::string& material_name(const Setup& setup, int material) {
+  return setup.materials[static_cast<std::size_t>(material)].name;
+}
+
+void tell_domain(std::ostream& out, const Setup& setup) {
+  const auto& domain = setup.domain;
+  out << "  domain     " << millimetres(domain.max - domain.min) << ", gravity "
+      << digits(norm(setup.gravity)) << " m/s2\n";
+  for (std::size_t n = 0; n < 6; ++n) {
+    const auto& side = domain.sides[n];
+    out << (n == 0 ? "  sides      " : "             ") << scenario::k_side_names[n] << ": ";
+    switch (side.grains) {
+      case scenario::GrainSide::open: out << "open"; break;
+      case scenario::GrainSide::periodic: out << "periodic"; break;
+      case scenario::GrainSide::wall:
+        out << "wall of " << material_name(setup, side.material);
+        break;
+    }
+    if (side.air) out << ", air: " << side.air->name;
+    out << '\n';
+  }
+}
+
+void tell_things(std::ostream& out, const Setup& setup, const Derived& derived) {
+  const char* head = "  bodies     ";
+  for (const auto& body : setup.bodies) {
+    out << head << body.name << ": " << body.shape.name << " of "
+        << material_name(setup, body.material)
+        << (body.motion ? ", moved by " + body.motion->name : ", at rest") << '\n';
+    head = "             ";
+  }
+  head = "  emitters   ";
+  for (std::size_t n = 0; n < setup.emitters.size(); ++n) {
+    const auto& e = derived.emissions[n];
+    out << head << e.emitter << ": " << material_name(setup, setup.emitters[n].material);
+    if (e.mass_flow > 0.0) out << ", " << digits(1e3 * e.mass_flow) << " g/s";
+    out << ", about " << counted(e.computed_per_second) << " grains per second";
+    if (std::abs(e.real_per_second - e.computed_per_second) > 0.5) {
+      out << " (standing for " << counted(e.real_per_second) << ")";
+    }
+    out << '\n';
+    head = "             ";
+  }
+  head = "  sensors    ";
+  for (const auto& sensor : setup.sensors) {
+    out << head << sensor.name << ": " << sensor.model.name << '\n';
+    head = "             ";
+  }
+}
+
+void tell_fluid(std::ostream& out, const Setup& setup, const Derived& derived) {
+  if (!setup.fluid) {
+    out << "  fluid      none: grains alone\n";
+    return;
+  }
+  const auto& n = setup.fluid->cells;
+  out << "  fluid      " << n[0] << " x " << n[1] << " x " << n[2] << " = "
+      << counted(static_cast<double>(n[0]) * n[1] * n[2]) << " cells, the smallest edge "
+      << engineering(derived.smallest_spacing, "m") << "; momentum set "
+      << setup.fluid->momentum_set << (setup.fluid->is_one_way ? ", one-way coupling" : "") << '\n';
+  out << "             Courant number " << digits(derived.courant_number) << " at "
+      << digits(derived.expected_speed) << " m/s (sub-steps keep it below "
+      << digits(setup.fluid->largest_cfl) << ")";
+  if (setup.drag) out << "; drag " << setup.drag->name;
+  if (setup.voidage) out << "; voidage " << setup.voidage->name;
+  out << '\n';
+}
+
+void tell_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
+  if (derived.sizes.empty()) return;
+  out << "  grains     diameter   Rayleigh    Hertz at " << digits(derived.expected_speed)
+      << " m/s   stable step\n";
+  for (std::size_t n = 0; n < derived.sizes.size(); ++n) {
+    const auto& size = derived.sizes[n];
+    std::array<char, 160> row{};
+    std::snprintf(row.data(), row.size(), "             %-10s %-11s %-18s %-10s %s\n",
+                  engineering(size.diameter, "m").c_str(),
+                  engineering(size.rayleigh_time, "s").c_str(),
+                  (engineering(size.hertz_time, "s") + " (" + size.partner + ")").c_str(),
+                  engineering(size.stable_step, "s").c_str(),
+                  static_cast<int>(n) == derived.deciding_size ? "<- sets the smallest step" : "");
+    out << row.data();
+  }
+  if (setup.time.dem_step > 0.0) {
+    const auto& deciding = derived.sizes[static_cast<std::size_t>(derived.deciding_size)];
+    out << "             one fixed step of " << engineering(setup.time.dem_step, "s") << " = "
+        << digits(100.0 * setup.time.dem_step / deciding.rayleigh_time)
+        << " % of the smallest Rayleigh time, "
+        << digits(deciding.hertz_time / setup.time.dem_step) << " steps per collision";
+    if (setup.time.dem_step > deciding.stable_step) out << " (longer than the stable step)";
+    out << '\n';
+  } else if (setup.time.rates_single) {
+    out << "             one step for all: " << engineering(derived.smallest_step, "s") << '\n';
+  } else {
+    out << "             steps from " << engineering(derived.smallest_step, "s") << " to "
+        << engineering(derived.largest_step, "s") << ", each size class its own\n";
+  }
+  out << "             narrowest extent / largest grain W/D = "
+      << digits(derived.width_over_diameter);
+  if (derived.diameter_over_spacing > 0.0) {
+    out << ", largest grain / smallest cell edge D/dx = " << digits(derived.diameter_over_spacing);
+  }
+  out << '\n';
+}
+
+void tell_cost(std::ostream& out, const Derived& derived) {
+  constexpr double k_megabyte = 1e6;
+  out << "  cost       about " << counted(derived.grains_in_domain)
+      << " grains at a time (each stays about " << engineering(derived.residence_time, "s")
+      << "), " << counted(derived.memory_bytes / k_megabyte) << " MB, "
+      << duration(derived.wall_seconds) << " on one core (rough)\n";
+}
+
+}  // namespace
+
+std::string check_summary(const Setup& setup, const Derived& derived) {
+  std::ostringstream out;
+  const auto& time = setup.time;
+  out << setup.name << ": the scenario is valid\n";
+  out << "  time       " << engineering(time.end, "s") << " in "
+      << counted(std::ceil(time.end / time.fluid_step - 1e-9)) << " steps of "
+      << engineering(time.fluid_step, "s") << ", a frame every "
+      << engineering(time.output_every, "s") << '\n';
+  tell_domain(out, setup);
+  tell_things(out, setup, derived);
+  tell_fluid(out, setup, derived);
+  tell_steps(out, setup, derived);
+  tell_cost(out, derived);
+  return out.str();
+}
+
+}  // namespace dust::engine

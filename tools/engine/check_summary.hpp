@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scenario/derived.hpp"
+#include "scenario/setup.hpp"
+
+#include <string>
+
+namespace dust::engine {
+
+/// What a scenario will do, for a person to read before it is run.
+std::string check_summary(const scenario::Setup& setup, const scenario::Derived& derived);
+
+}  // namespace dust::engine

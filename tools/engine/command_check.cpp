@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check_summary.hpp"
+#include "commands.hpp"
+#include "drawing.hpp"
+#include "scenario/derived.hpp"
+
+#include <iostream>
+
+namespace dust::engine {
+
+void add_check(CLI::App& app, int&) {
+  struct Arguments {
+    ScenarioArguments scenario;
+    std::string drawing;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "check", "Check a scenario and tell what it will do; runs nothing, writes nothing but -o");
+  arguments->scenario.add_to(*command);
+  command->add_option("-o,--output", arguments->drawing, "Draw the set-up from the side")
+      ->type_name("SETUP.svg");
+  command->footer("Examples:\n"
+                  "  engine check scenarios/transfer_point.yaml\n"
+                  "  engine check scenarios/transfer_point.yaml -o setup.svg "
+                  "--set bodies.plate.enabled=true");
+  command->callback([arguments] {
+    const run::RunOptions options = arguments->scenario.options();
+    const auto registry = load_plugins(arguments->scenario.plugin_path);
+    const auto result = scenario::read_scenario(options.scenario, options.overrides, *registry,
+                                                options.set_files);
+    for (const std::string& warning : result.warnings) std::cerr << warning << '\n';
+    const auto derived = scenario::derive(result.setup, *registry);
+    std::cout << check_summary(result.setup, derived);
+    if (!arguments->drawing.empty()) {
+      write_file(arguments->drawing, draw_setup(result.setup, *registry));
+      std::cout << "drawn in " << arguments->drawing << '\n';
+    }
+  });
+}
+
+}  // namespace dust::engine

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/error.hpp"
+#include "bodies/shape.hpp"
+#include "commands.hpp"
+#include "scenario/suggest.hpp"
+#include "scenario/units.hpp"
+#include "scenario/values.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <iostream>
+
+namespace dust::engine {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What there is to tell, of a plugin or of a shape of the core.
+struct Subject {
+  sdk::ModelInfo info;
+  std::string file;
+};
+
+std::vector<Subject> subjects(const registry::Registry& registry) {
+  std::vector<Subject> all;
+  for (const auto& entry : registry.entries()) all.push_back({entry.info, entry.file.string()});
+  for (const auto& shape : bodies::shape_catalogue()) {
+    sdk::ModelInfo info;
+    info.kind = "shape";
+    info.name = shape.name;
+    info.summary = shape.summary;
+    info.parameters = shape.parameters;
+    all.push_back({info, ""});
+  }
+  return all;
+}
+
+Subject find_subject(const registry::Registry& registry, const std::string& wanted) {
+  std::vector<std::string> names;
+  for (Subject& subject : subjects(registry)) {
+    const std::string name = subject.info.kind + "/" + subject.info.name;
+    if (name == wanted) return std::move(subject);
+    names.push_back(name);
+  }
+  throw base::UserError("engine describe: error: there is no '" + scenario::printable(wanted) +
+                        "'" + scenario::suggestion(wanted, names, "there are"));
+}
+
+std::string unit_text(const sdk::Parameter& p) {
+  const std::string unit = scenario::si_unit(p.dimension);
+  return unit.empty() ? "-" : unit;
+}
+
+std::string default_or_required(const sdk::Parameter& p) {
+  if (p.is_required) return "required";
+  const std::string text = scenario::default_text(p);
+  return text.empty() ? "none" : text;
+}
+
+std::string allowed(const sdk::Parameter& p) {
+  return p.options.empty() ? scenario::range_text(p) : scenario::listed(p.options);
+}
+
+void print_text(const Subject& subject) {
+  const sdk::ModelInfo& info = subject.info;
+  std::cout << info.kind << '/' << info.name;
+  if (!info.version.empty()) std::cout << ' ' << info.version;
+  std::cout << "\n  " << info.summary << '\n';
+  if (!info.equation.empty()) std::cout << "  Equation: " << info.equation << '\n';
+  if (!info.source.empty()) std::cout << "  Source: " << info.source << '\n';
+  if (!subject.file.empty()) std::cout << "  File: " << subject.file << '\n';
+  if (info.parameters.empty()) std::cout << "  It has no parameters.\n";
+  for (const sdk::Parameter& p : info.parameters) {
+    std::cout << "\n  " << p.name;
+    if (!p.symbol.empty()) std::cout << " (" << p.symbol << ")";
+    std::cout << ": " << scenario::type_text(p.type);
+    if (!scenario::si_unit(p.dimension).empty()) {
+      std::cout << " in " << scenario::si_unit(p.dimension);
+    }
+    std::cout << (p.is_required ? ", required" : ", default " + default_or_required(p));
+    if (!allowed(p).empty()) std::cout << ", " << allowed(p);
+    std::cout << "\n      " << p.sentence << '\n';
+  }
+}
+
+void print_markdown(const Subject& subject) {
+  const sdk::ModelInfo& info = subject.info;
+  std::cout << "# " << info.kind << '/' << info.name << "\n\n" << info.summary << "\n\n";
+  if (!info.equation.empty()) std::cout << "$$ " << info.equation << " $$\n\n";
+  if (!info.source.empty()) std::cout << "Source: " << info.source << "\n\n";
+  if (info.parameters.empty()) {
+    std::cout << "It has no parameters.\n";
+    return;
+  }
+  std::cout << "| parameter | symbol | type | unit | default | allowed | meaning |\n"
+               "| --- | --- | --- | --- | --- | --- | --- |\n";
+  for (const sdk::Parameter& p : info.parameters) {
+    std::cout << "| `" << p.name << "` | " << p.symbol << " | " << scenario::type_text(p.type)
+              << " | " << unit_text(p) << " | " << default_or_required(p) << " | " << allowed(p)
+              << " | " << p.sentence << " |\n";
+  }
+}
+
+void print_json(const Subject& subject) {
+  const sdk::ModelInfo& info = subject.info;
+  Json json = {{"kind", info.kind},         {"name", info.name},         {"version", info.version},
+               {"summary", info.summary},   {"equation", info.equation}, {"source", info.source},
+               {"file", subject.file},      {"parameters", Json::array()}};
+  for (const sdk::Parameter& p : info.parameters) {
+    Json one = {{"name", p.name},
+                {"symbol", p.symbol},
+                {"type", scenario::type_text(p.type)},
+                {"unit", scenario::si_unit(p.dimension)},
+                {"required", p.is_required},
+                {"range", scenario::range_text(p)},
+                {"sentence", p.sentence}};
+    if (!p.is_required) one["default"] = scenario::default_text(p);
+    if (!p.options.empty()) one["options"] = p.options;
+    json["parameters"].push_back(one);
+  }
+  std::cout << json.dump(2) << '\n';
+}
+
+}  // namespace
+
+void add_describe(CLI::App& app, int&) {
+  struct Arguments {
+    std::string subject;
+    std::vector<std::string> folders;
+    bool as_markdown = false;
+    bool as_json = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "describe", "Tell a model's parameters: type, unit, default, range, equation, source");
+  command->add_option("KIND/NAME", arguments->subject, "A model, for example drag/gidaspow")
+      ->required();
+  auto* markdown = command->add_flag("--markdown", arguments->as_markdown, "Print as Markdown");
+  command->add_flag("--json", arguments->as_json, "Print as JSON")->excludes(markdown);
+  add_plugin_path(*command, arguments->folders);
+  command->footer("Examples:\n"
+                  "  engine describe contact/hertz_mindlin\n"
+                  "  engine describe shape/conveyor --markdown");
+  command->callback([arguments] {
+    const auto registry = load_plugins(arguments->folders);
+    const Subject subject = find_subject(*registry, arguments->subject);
+    if (arguments->as_json) {
+      print_json(subject);
+    } else if (arguments->as_markdown) {
+      print_markdown(subject);
+    } else {
+      print_text(subject);
+    }
+  });
+}
+
+}  // namespace dust::engine

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "registry/registry.hpp"
+#include "run/run_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dust::engine {
+
+/// Each adds its command to the program; the command sets `status` when it has run.
+void add_run(CLI::App& app, int& status);
+void add_check(CLI::App& app, int& status);
+void add_plugins(CLI::App& app, int& status);
+void add_describe(CLI::App& app, int& status);
+void add_schema(CLI::App& app, int& status);
+void add_graph(CLI::App& app, int& status);
+void add_report(CLI::App& app, int& status);
+
+/// Options that name a scenario and change it: SCENARIO, --set, --set-file, --plugin-path.
+struct ScenarioArguments {
+  std::string scenario;
+  std::vector<std::string> settings;
+  std::vector<std::string> set_files;
+  std::vector<std::string> plugin_path;
+
+  void add_to(CLI::App& command, bool is_scenario_required = true);
+  /// The same as options of a run; throws base::UserError for a `--set` without '='.
+  [[nodiscard]] run::RunOptions options() const;
+};
+
+void add_plugin_path(CLI::App& command, std::vector<std::string>& folders);
+
+/// All plugins of the search path, loaded.
+std::unique_ptr<registry::Registry> load_plugins(const std::vector<std::string>& plugin_path);
+
+/// Replaces `file` by `text`; throws base::UserError when that is not possible.
+void write_file(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace dust::engine

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/error.hpp"
+#include "commands.hpp"
+#include "scenario/suggest.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+namespace {
+
+using namespace dust;
+
+/// Exit status, fixed by the contract.
+constexpr int k_failed = 1;
+constexpr int k_wrong_input = 2;
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+/// `engine SCENARIO.yaml` means `engine run SCENARIO.yaml`. A first word that is neither a command
+/// nor looks like a file is a mistyped command.
+void complete_arguments(const CLI::App& app, std::vector<std::string>& arguments) {
+  if (arguments.empty()) return;
+  const std::string& first = arguments.front();
+  const auto commands = command_names(app);
+  const bool is_global = first == "--help" || first == "-h" || first == "--version";
+  if (is_global || std::find(commands.begin(), commands.end(), first) != commands.end()) return;
+  std::error_code code;
+  const bool is_file = first.starts_with("-") || first.find('.') != std::string::npos ||
+                       first.find('/') != std::string::npos ||
+                       std::filesystem::exists(first, code);
+  if (!is_file) {
+    throw base::UserError("engine: error: unknown command '" + scenario::printable(first) + "'" +
+                          scenario::suggestion(first, commands, "commands"));
+  }
+  arguments.insert(arguments.begin(), "run");
+}
+
+/// Prints what the command-line parser found: help on stdout, problems on stderr.
+int report(const CLI::App& app, const CLI::ParseError& problem) {
+  if (problem.get_exit_code() == 0) return app.exit(problem, std::cout, std::cerr);
+  std::string command = "engine";
+  for (const CLI::App* sub : app.get_subcommands()) command += " " + sub->get_name();
+  std::string text = problem.what();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::cerr << command << ": error: " << text << " (see " << command << " --help)\n";
+  return k_wrong_input;
+}
+
+int engine_main(int argc, char** argv) {
+  CLI::App app{"Bulk solids, the air around them and the dust that gets loose."};
+  app.name("engine");
+  app.set_version_flag("--version", std::string("engine ") + DUST_VERSION);
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  app.footer("Examples:\n"
+             "  engine scenarios/transfer_point.yaml\n"
+             "  engine check scenarios/transfer_point.yaml --set bodies.belt.speed='0.4 m/s'\n"
+             "  engine describe drag/gidaspow\n"
+             "'engine COMMAND --help' tells more.\n"
+             "Exit status: 0 finished, 1 failed while running, 2 wrong input, 130 and 143 "
+             "interrupted.");
+  int status = 0;
+#ifdef DUST_HAS_RUN
+  engine::add_run(app, status);
+#endif
+  engine::add_check(app, status);
+  engine::add_plugins(app, status);
+  engine::add_describe(app, status);
+  engine::add_schema(app, status);
+#ifdef DUST_HAS_RUN
+  engine::add_graph(app, status);
+#endif
+#ifdef DUST_HAS_REPORT
+  engine::add_report(app, status);
+#endif
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  complete_arguments(app, arguments);
+  std::reverse(arguments.begin(), arguments.end());
+  try {
+    app.parse(arguments);
+  } catch (const CLI::ParseError& problem) {
+    return report(app, problem);
+  }
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return engine_main(argc, argv);
+  } catch (const base::UserError& problem) {
+    for (const std::string& line : problem.lines()) std::cerr << line << '\n';
+    return k_wrong_input;
+  } catch (const std::exception& problem) {
+    std::cerr << "error: " << problem.what() << '\n';
+    return k_failed;
+  }
+}
