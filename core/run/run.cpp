@@ -251,7 +251,7 @@ class Run {
 int run_scenario(const RunOptions& options) {
   registry::Registry registry;
   registry.load(registry::Registry::search_path(options.plugin_path));
-  const auto read = scenario::read_scenario(options.scenario, options.overrides, registry);
+  const auto read = scenario::read_scenario(options.scenario, options.overrides, registry, options.set_files);
   base::log_to_terminal(options.verbose);
   for (const std::string& warning : read.warnings) base::log_warning(warning);
 
