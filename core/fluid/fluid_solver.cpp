@@ -389,7 +389,7 @@ struct FluidSolver::Impl {
       for_rows(n[0], n[1], n[2], [&](int j, int k) {
         const std::ptrdiff_t o = grid.index(0, j, k);
         for (int i = 0; i < n[0]; ++i) {
-          if (geometry.kind[d][o + i] == 0) continue;
+          if (!is_unknown(geometry.kind[d][o + i])) continue;
           stress.component[d][o + i] -= inverse_h * (p[o + i] - p[o + i - s]);
         }
       });

@@ -143,8 +143,7 @@ class Builder {
 
   void find_unknowns(int d) {
     auto& kind = g_.kind[d];
-    kind.assign(grid_.size, 0);
-    inside_[d].assign(grid_.size, 0);
+    kind.assign(grid_.size, FaceKind::given);
     const auto& e = g_.extent[d];
     for_rows(e[0] * 100, e[1], e[2], [&](int j, int k) {
       for (int i = 0; i < e[0]; ++i) {
@@ -152,13 +151,12 @@ class Builder {
         const std::array<int, 3> c = {i, j, k};
         const bool inside = !bodies_.empty() && (g_.open_area.component[d][o] == 0.0 ||
                                                  is_inside(grid_.face(d, i, j, k)));
-        inside_[d][o] = inside ? 1 : 0;
-        bool is_given = inside;
+        bool is_given = false;
         if (!sides_.is_periodic[d]) {
-          if (c[d] == 0 && !sides_.is_pressure_side(d, 0)) is_given = true;
-          if (c[d] == grid_.count[d] && !sides_.is_pressure_side(d, 1)) is_given = true;
+          is_given = (c[d] == 0 && !sides_.is_pressure_side(d, 0)) ||
+                     (c[d] == grid_.count[d] && !sides_.is_pressure_side(d, 1));
         }
-        kind[o] = is_given ? 0 : 1;
+        kind[o] = inside ? FaceKind::inside : is_given ? FaceKind::given : FaceKind::plain;
       }
     });
   }
@@ -188,7 +186,7 @@ class Builder {
       for (int j = 0; j < e[1]; ++j) {
         for (int i = 0; i < e[0]; ++i) {
           const std::ptrdiff_t o = grid_.index(i, j, k);
-          if (g_.kind[d][o] == 0) continue;
+          if (g_.kind[d][o] != FaceKind::plain) continue;
           const std::array<int, 3> c = {i, j, k};
           bool is_cut = false;
           CutFace face;
@@ -198,7 +196,7 @@ class Builder {
             is_cut = stencil(d, dir, c, o, face) || is_cut;
           }
           if (!is_cut) continue;
-          g_.kind[d][o] = 2;
+          g_.kind[d][o] = FaceKind::cut;
           g_.cut[d].push_back(face);
         }
         begin[static_cast<std::size_t>(k) * e[1] + j + 1] =
@@ -231,7 +229,7 @@ class Builder {
         continue;
       }
       const std::ptrdiff_t q = wrapped(o, dir, c[dir], side == 0 ? -1 : 1);
-      if (inside_[d][q] == 0) continue;
+      if (g_.kind[d][q] != FaceKind::inside) continue;
       Vec3 there = here;
       there[dir] += side == 0 ? -h : h;
       if (!is_inside(there)) continue;  // closed face whose point is still in the open
@@ -281,7 +279,7 @@ class Builder {
       for (int j = 0; j < e[1]; ++j) {
         for (int i = 0; i < e[0]; ++i) {
           const std::ptrdiff_t o = grid_.index(i, j, k);
-          if (inside_[d][o] == 0) continue;
+          if (g_.kind[d][o] != FaceKind::inside) continue;
           const Vec3 p = grid_.face(d, i, j, k);
           const Hit hit = nearest(p);
           GhostFace ghost;
@@ -331,7 +329,7 @@ class Builder {
       }
       const std::ptrdiff_t o =
           weight > 0.0 ? grid_.index(c[0], c[1], c[2]) : grid_.index(base[0], base[1], base[2]);
-      if (weight > 1e-12 && inside_[d][o] != 0) return false;
+      if (weight > 1e-12 && g_.kind[d][o] == FaceKind::inside) return false;
       ghost.node[corner] = static_cast<std::int32_t>(o);
       ghost.weight[corner] = weight;
     }
@@ -373,7 +371,6 @@ class Builder {
   double smallest_;
   double largest_;
   Geometry g_;
-  std::array<std::vector<std::uint8_t>, 3> inside_;
   std::vector<Point> points_;
 };
 

@@ -66,12 +66,17 @@ struct GhostFace {
   std::array<double, 8> weight{};
 };
 
+/// given: on a side with given velocity, or outside the domain; plain: unknown with the plain
+/// stencil; cut: unknown, stencil in the list `cut`; inside: in a body, in the list `ghost`.
+enum class FaceKind : std::uint8_t { given, plain, cut, inside };
+
+inline bool is_unknown(FaceKind k) { return k == FaceKind::plain || k == FaceKind::cut; }
+
 /// What the bodies and the sides make of the grid. Built once: bodies do not move.
 struct Geometry {
   CellField open_fraction;  ///< share of the cell outside bodies
   FaceField open_area;      ///< share of the face outside bodies
-  /// 1 = unknown with the plain stencil, 2 = unknown in `cut`, 0 = no unknown.
-  std::array<std::vector<std::uint8_t>, 3> kind;
+  std::array<std::vector<FaceKind>, 3> kind;
   std::array<std::array<int, 3>, 3> extent;            ///< faces per component and direction
   std::array<std::vector<CutFace>, 3> cut;             ///< in the order of rows
   std::array<std::vector<std::int32_t>, 3> cut_begin;  ///< per row (j + extent_y k), and the end

@@ -64,11 +64,11 @@ DUST_KERNEL void flux_row(int n, std::ptrdiff_t across, const double* eps, const
 }
 
 DUST_KERNEL void inverse_row(int n, double implicit, double sum, double inverse_density,
-                             const double* coefficient, const std::uint8_t* kind, double* inverse) {
+                             const double* coefficient, const FaceKind* kind, double* inverse) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const double d = 1.0 / (1.0 + implicit * (coefficient[i] * inverse_density + sum));
-    inverse[i] = kind[i] == 1 ? d : 0.0;
+    inverse[i] = kind[i] == FaceKind::plain ? d : 0.0;
   }
 }
 
@@ -88,13 +88,13 @@ DUST_KERNEL void sweep_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, int pari
 }
 
 DUST_KERNEL void laplace_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, double ax, double ay,
-                             double az, const double* u, const std::uint8_t* kind, double* out) {
+                             double az, const double* u, const FaceKind* kind, double* out) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const double l = ax * ((u[i - 1] - u[i]) + (u[i + 1] - u[i])) +
                      ay * ((u[i - sy] - u[i]) + (u[i + sy] - u[i])) +
                      az * ((u[i - sz] - u[i]) + (u[i + sz] - u[i]));
-    out[i] = kind[i] != 0 ? l : 0.0;
+    out[i] = is_unknown(kind[i]) ? l : 0.0;
   }
 }
 
@@ -104,23 +104,42 @@ struct RowRates {
   double bad = 0.0;
 };
 
+// Ghost faces carry mirrored values that nothing is carried with: left out. A number that is not
+// finite makes its product with 0 differ from 0 and stays in the sum.
 DUST_KERNEL void rate_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, double hx, double hy,
-                          double hz, const double* open, const double* u, const double* v,
-                          const double* w, RowRates* result) {
-  double courant = 0.0;
-  double speed = 0.0;
-  double bad = 0.0;
+                          double hz, const FaceKind* ku, const FaceKind* kv, const FaceKind* kw,
+                          const double* u, const double* v, const double* w, double* courant,
+                          double* speed, double* bad) {
+#pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
-    const double a = std::max(std::abs(u[i]), std::abs(u[i + 1]));
-    const double b = std::max(std::abs(v[i]), std::abs(v[i + sy]));
-    const double c = std::max(std::abs(w[i]), std::abs(w[i + sz]));
-    const double sum = open[i] > 0.0 ? a * hx + b * hy + c * hz : 0.0;
-    courant = std::max(courant, sum);
-    speed = std::max(speed, std::max(a, std::max(b, c)));
-    // A number that is not finite gives 0 * x != 0 and stays in the sum.
-    bad += 0.0 * (u[i] + v[i] + w[i]);
+    const double u0 = ku[i] == FaceKind::inside ? 0.0 : std::abs(u[i]);
+    const double u1 = ku[i + 1] == FaceKind::inside ? 0.0 : std::abs(u[i + 1]);
+    const double v0 = kv[i] == FaceKind::inside ? 0.0 : std::abs(v[i]);
+    const double v1 = kv[i + sy] == FaceKind::inside ? 0.0 : std::abs(v[i + sy]);
+    const double w0 = kw[i] == FaceKind::inside ? 0.0 : std::abs(w[i]);
+    const double w1 = kw[i + sz] == FaceKind::inside ? 0.0 : std::abs(w[i + sz]);
+    const double a = u0 > u1 ? u0 : u1;
+    const double b = v0 > v1 ? v0 : v1;
+    const double c = w0 > w1 ? w0 : w1;
+    courant[i] = a * hx + b * hy + c * hz;
+    const double ab = a > b ? a : b;
+    speed[i] = ab > c ? ab : c;
+    bad[i] = 0.0 * (u[i] + v[i] + w[i]);
   }
-  *result = {courant, speed, bad};
+}
+
+RowRates largest_of(int n, const double* courant, const double* speed, const double* bad) {
+  double c[4] = {};
+  double s[4] = {};
+  double b[4] = {};
+  for (int i = 0; i < n; ++i) {
+    const int l = i & 3;
+    c[l] = courant[i] > c[l] ? courant[i] : c[l];
+    s[l] = speed[i] > s[l] ? speed[i] : s[l];
+    b[l] += bad[i];
+  }
+  return {std::max(std::max(c[0], c[1]), std::max(c[2], c[3])),
+          std::max(std::max(s[0], s[1]), std::max(s[2], s[3])), b[0] + b[1] + b[2] + b[3]};
 }
 
 }  // namespace
@@ -372,10 +391,13 @@ Momentum::Rates Momentum::rates(const FaceField& u) {
   partial_speed_.assign(static_cast<std::size_t>(n[1]) * n[2], 0.0);
   const double courant = max_rows(n[0], n[1], n[2], partial_, [&](int j, int k) {
     const std::ptrdiff_t o = grid_.index(0, j, k);
-    RowRates r;
+    thread_local std::vector<double> row;
+    row.resize(3 * static_cast<std::size_t>(n[0]));
+    double* c = row.data();
     rate_row(n[0], grid_.stride[1], grid_.stride[2], inverse[0], inverse[1], inverse[2],
-             &geometry_.open_fraction[o], &u.component[0][o], &u.component[1][o],
-             &u.component[2][o], &r);
+             &geometry_.kind[0][o], &geometry_.kind[1][o], &geometry_.kind[2][o],
+             &u.component[0][o], &u.component[1][o], &u.component[2][o], c, c + n[0], c + 2 * n[0]);
+    const RowRates r = largest_of(n[0], c, c + n[0], c + 2 * n[0]);
     const double infinite = std::numeric_limits<double>::infinity();
     partial_speed_[static_cast<std::size_t>(k) * n[1] + j] = r.bad == 0.0 ? r.speed : infinite;
     return r.bad == 0.0 ? r.courant : infinite;
