@@ -210,6 +210,7 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t fir
                              std::size_t last, const fluid::FaceField& velocity,
                              const fluid::FaceField& stress_divergence) {
   Batch batch;
+  std::array<Triple, k_batch> slip;  // interstitial [m/s]
   std::array<Triple, k_batch> ratio;
   std::array<Triple, k_batch> stress;
   const fluid::CellField& eps = void_fraction.after();
@@ -220,26 +221,27 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t fir
     Remembered& r = memory[row];
     const Place p = lattice.place(position);
     const double own = eps[lattice.host_cell(p, position)];
-    double slip = 0.0;
     for (int d = 0; d < 3; ++d) {
       lattice.stencil(d, p, eps, s);
       const double* u = velocity.component[d].data();
-      double flux = 0.0;
+      double flux = 0.0;  // relative to the grain: it does not jump with eps in plug flow
       double open = 0.0;
       double fluid = 0.0;
       for (std::size_t n = 0; n < 8; ++n) {
-        flux += s.weight[n] * s.void_fraction[n] * u[s.face[n]];
+        flux += s.weight[n] * s.void_fraction[n] * (u[s.face[n]] - v[d]);
         open += s.weight[n] * s.open[n];
         fluid += s.weight[n] * s.open[n] * s.void_fraction[n];
       }
-      r.fluid_velocity[d] = flux / own;
+      slip[row - first][d] = flux / own;
+      r.fluid_velocity[d] = v[d] + flux / own;
       ratio[row - first][d] = open > 0.0 ? fluid / (open * own) : 1.0;
       stress[row - first][d] = lattice.cell_mean(d, p, stress_divergence.component[d]);
-      slip += (r.fluid_velocity[d] - v[d]) * (r.fluid_velocity[d] - v[d]);
     }
     r.has_velocity = true;
     batch.void_fraction[row - first] = own;
-    batch.reynolds[row - first] = reynolds(own, std::sqrt(slip), 2.0 * position[3]);
+    const Triple& w = slip[row - first];
+    const double speed = std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    batch.reynolds[row - first] = reynolds(own, speed, 2.0 * position[3]);
   }
   evaluate(batch, last - first);
   for (std::size_t row = first; row < last; ++row) {
@@ -252,7 +254,7 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t fir
     for (int d = 0; d < 3; ++d) {
       // The ratio differs from 1 only where the void fraction changes; it is applied to the slip of
       // this instant, because the grain has one rate for all directions.
-      const double relative = ratio[row - first][d] * (r.fluid_velocity[d] - v[d]);
+      const double relative = ratio[row - first][d] * slip[row - first][d];
       const double force = volume * stress[row - first][d];
       action[d] = v[d] + relative + force / drag_coefficient;
       r.stress_impulse[d] += force;

@@ -54,15 +54,16 @@ std::int64_t FaceExchange::spread_component(int d, const particles::GrainRows& g
   std::int64_t unpaired = 0;
   Stencil s;
 
-  const auto add = [&](double drag, double steady, double owed) {
+  const auto add = [&](double drag, double grain_velocity, double owed) {
     for (std::size_t n = 0; n < 8; ++n) {
       if (s.open[n] == 0.0 || s.weight[n] == 0.0) continue;
       const std::ptrdiff_t face = s.home[n];
       if (coefficient[face] == 0.0 && source[face] == 0.0) {
         touched_[d].push_back({face, s.void_fraction[n] * s.open[n] * volume, 0.0});
       }
-      coefficient[face] += s.weight[n] * drag * s.void_fraction[n];
-      source[face] += s.weight[n] * (steady + owed);
+      const double part = s.weight[n] * drag * s.void_fraction[n];
+      coefficient[face] += part;
+      source[face] += part * grain_velocity + s.weight[n] * owed;
     }
   };
 
@@ -77,8 +78,8 @@ std::int64_t FaceExchange::spread_component(int d, const particles::GrainRows& g
       continue;
     }
     const double own = eps[lattice_.host_cell(p, r.place.data())];
-    const double drag = grains.weight[row] * r.coefficient / (sums.open * own * volume);
-    add(drag / own, drag * r.velocity[d], r.owed[d] / (sums.fluid * volume * step));
+    const double drag = grains.weight[row] * r.coefficient / (sums.open * own * own * volume);
+    add(drag, r.velocity[d], r.owed[d] / (sums.fluid * volume * step));
     paid_[d] += r.owed[d];
     r.owed[d] = 0.0;
   }
@@ -123,13 +124,12 @@ double FaceExchange::settle(const particles::GrainRows& grains, GrainMemory& mem
         lattice_.stencil(d, p, eps, s);
         const FaceSums sums = sums_of(s);
         const std::vector<double>& u = velocity.component[d];
-        double flux =
-            0.0;  // sum(w open eps^2 u) / eps_c: eps u is the same on both sides of a jump
+        double slip = 0.0;  // eps (u - v) does not jump with eps in plug flow
         for (std::size_t n = 0; n < 8; ++n) {
-          flux += s.weight[n] * s.open[n] * s.void_fraction[n] * s.void_fraction[n] * u[s.home[n]];
+          slip += s.weight[n] * s.open[n] * s.void_fraction[n] * s.void_fraction[n] *
+                  (u[s.home[n]] - r.velocity[d]);
         }
-        r.given[d] =
-            step * r.coefficient / (sums.open * own) * (flux / own - sums.fluid * r.velocity[d]);
+        r.given[d] = step * r.coefficient / (sums.open * own * own) * slip;
       }
     }
   });

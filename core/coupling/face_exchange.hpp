@@ -13,7 +13,7 @@ namespace dust::coupling {
 /// Coefficient and source of each face from the grains around it. A grain with drag coefficient K,
 /// velocity v and weight W adds, at face f of component d with trilinear weight w_f,
 ///   coefficient += W w_f K eps_f / (a eps_c^2 V)
-///   source      += W w_f K v    / (a eps_c V) + w_f owed / (e V step)
+///   source      += W w_f K eps_f v / (a eps_c^2 V) + w_f owed / (e V step)
 /// a = sum(w open), e = sum(w open eps) over its eight faces, eps_c the void fraction of its cell,
 /// V the cell volume. Derivation and what this conserves: docs/theory/coupling.md.
 class FaceExchange {

@@ -16,6 +16,9 @@ namespace dust::coupling {
 /// the void fraction of a sliver does not jump with each grain.
 inline constexpr double k_least_open = 0.1;
 
+/// Distance from the sides, in cells, at which points on or beyond them are taken to be.
+inline constexpr double k_off_side = 1e-5;
+
 /// Where a point lies along one axis.
 struct AxisPlace {
   int cell = 0;          ///< cell, clamped into the grid
@@ -129,7 +132,8 @@ class Lattice {
     const int n = grid_.count[d];
     double s = (x - grid_.origin[d]) * inverse_spacing_[d];
     if (grid_.is_periodic[d]) s -= n * std::floor(s / n);
-    s = std::clamp(s, 0.0, static_cast<double>(n));
+    // A point on a side itself would have no open face along d.
+    s = std::clamp(s, k_off_side, n - k_off_side);
     AxisPlace p;
     p.cell = std::min(static_cast<int>(s), n - 1);
     p.face_part = s - p.cell;

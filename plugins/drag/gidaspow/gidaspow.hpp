@@ -16,7 +16,7 @@ constexpr double dense(double reynolds, double void_fraction) {
 /// Wen and Yu's drag of a suspension over Stokes drag [-].
 inline double dilute(double reynolds, double void_fraction) {
   const double single_sphere =
-      reynolds <= 1000.0 ? 1.0 + 0.15 * std::pow(reynolds, 0.687) : 0.44 / 24.0 * reynolds;
+      reynolds < 1000.0 ? 1.0 + 0.15 * std::pow(reynolds, 0.687) : 0.44 / 24.0 * reynolds;
   return single_sphere * std::pow(void_fraction, -2.65);
 }
 

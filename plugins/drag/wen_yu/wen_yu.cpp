@@ -17,7 +17,7 @@ class WenYu final : public sdk::DragLaw {
     info.summary =
         "Drag of a suspension; alone, that of a single sphere after Schiller and Naumann.";
     info.equation =
-        R"(F = (1 + 0.15 Re^{0.687}) \varepsilon^{-2.65},\ Re \le 1000;\ F = \frac{0.44}{24} Re\, \varepsilon^{-2.65},\ Re > 1000)";
+        R"(F = (1 + 0.15 Re^{0.687}) \varepsilon^{-2.65},\ Re < 1000;\ F = \frac{0.44}{24} Re\, \varepsilon^{-2.65},\ Re \ge 1000)";
     info.source = "Wen and Yu, Chem. Eng. Prog. Symp. Ser. 62 (1966) 100";
     return info;
   }
