@@ -104,8 +104,8 @@ std::string air_section(const json& air) {
       ", in m/s. The threads follow the air for a short while, longer where it is faster; their "
       "thick "
       "end leads. Highest speed of all frames: " +
-      quantity_html(air["top_speed"].get<double>(), -1.0, "m/s") + "; the scale ends at " +
-      quantity_html(air["speed"].get<double>(), -1.0, "m/s") +
+      number_html(air["top_speed"].get<double>(), 3) + "\u202fm/s" + "; the scale ends at " +
+      number_html(air["speed"].get<double>(), 3) + "\u202fm/s" +
       " (99.8\u202f% of the cells lie below)." + note +
       " <label class=\"screen\"><input type=\"checkbox\" id=\"air-dust\" checked> show the "
       "dust</label>"
@@ -118,8 +118,8 @@ std::string air_section(const json& air) {
       ", in Pa, without the hydrostatic part. The ring marks the lowest pressure of the frame. "
       "Range over "
       "all frames: " +
-      quantity_html(air["low"].get<double>(), -1.0, "Pa") + " to " +
-      quantity_html(air["high"].get<double>(), -1.0, "Pa") + ".</figcaption></figure>\n</div>\n";
+      number_html(air["low"].get<double>(), 3) + "\u202fPa" + " to " +
+      number_html(air["high"].get<double>(), 3) + "\u202fPa" + ".</figcaption></figure>\n</div>\n";
   return text;
 }
 

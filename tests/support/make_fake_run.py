@@ -70,9 +70,9 @@ def grains(frames, end, rng):
     y = rng.uniform(0.001, 0.010, n)
     height = rng.exponential(0.0014, n)
     height = np.minimum(height, 0.005) + d / 2
-    reach = 1.0 - 0.000045 / np.maximum(d, 60e-6) * 1.0 + rng.normal(0, 0.012, n)
+    reach = 1.0 - 0.000045 / np.maximum(d, 200e-6) + rng.normal(0, 0.012, n)
     loose = (kind == 0) & (rng.uniform(size=n) < 0.45)
-    place = np.stack([x0, 0.2 + height], axis=1)
+    place = np.stack([np.full(n, 0.081), 0.2 + height], axis=1)
     alive = np.ones(n, bool)
     out = []
     last = 0.0
@@ -88,19 +88,21 @@ def grains(frames, end, rng):
         x = np.where(off, A[0] + BELT * flight * reach * np.exp(-0.12 * flight), x)
         z = np.where(off, 0.2 + height - 0.5 * G * flight**2, z)
         # Loose dust follows the air from a little way down the stream.
-        free = loose & (flight > 0.06) & here
+        free = loose & (flight > 0.0) & here
         steps = max(1, int((t - last) / 0.002))
-        start = ~np.isfinite(place[:, 0])
         for _ in range(steps):
             u, w = air(place[:, 0], place[:, 1], t)
             move = np.stack([u, w - 0.008], axis=1) * (t - last) / steps
             target = place + np.where(free[:, None], move + rng.normal(0, 3e-4, (n, 2)), 0)
             ok = outside(target[:, 0], target[:, 1])
             place = np.where(ok[:, None], target, place)
-        place = np.where(free[:, None] & ~start[:, None], place, np.stack([x, z], axis=1))
-        alive &= ~(here & ((place[:, 1] < 0) | (place[:, 0] > 0.33) | (place[:, 0] < 0)))
+        place = np.where(free[:, None], place, np.stack([x, z], axis=1))
+        shown = place.copy()
+        place[~free] = [0.081, 0.2]
+        place[:, 1] = np.where(free, place[:, 1], 0.2 + height)
+        alive &= ~(here & ((shown[:, 1] < 0) | (shown[:, 0] > 0.33) | (shown[:, 0] < 0)))
         keep = here & alive
-        out.append((np.nonzero(keep)[0], place[keep], y[keep], d[keep]))
+        out.append((np.nonzero(keep)[0], shown[keep], y[keep], d[keep]))
         last = t
     return out, n
 

@@ -70,7 +70,7 @@ Dust.air = (() => {
     const [x0, z0, x1, z1] = picture.view;
     let seed = 1;
     const random = () => ((seed = (seed * 16807) % 2147483647) / 2147483647);
-    pen.strokeStyle = pen.fillStyle = Dust.colour('ink');
+    const inks = [Dust.colour('ink'), Dust.colour('paper')];
     pen.lineCap = 'round';
     for (let z = z0 + spacing / 2; z < z1; z += spacing) {
       for (let x = x0 + spacing / 2; x < x1; x += spacing) {
@@ -79,6 +79,7 @@ Dust.air = (() => {
           const v = velocity(px, pz);
           const size = v ? Math.hypot(v[0], v[1]) : 0;
           if (size < 0.012) break;  // below the resolution of the stored directions
+          if (k === 0) pen.strokeStyle = inks[+(size > 0.5)];  // stands out from slow and fast air
           // Length grows with the root of the speed: slow eddies stay visible.
           const step = longest / steps * Math.sqrt(Math.min(size, 1)) / size;
           const qx = px + v[0] * step, qz = pz + v[1] * step;
@@ -143,11 +144,9 @@ Dust.air = (() => {
   checkbox.addEventListener('change', () => speed.draw());
   if (!Dust.grains) checkbox.parentElement.hidden = true;
 
-  const marks = (low, high, count) => Array.from({length: count}, (_, k) => low + (high - low) * k / (count - 1));
-  Dust.legend_strip(document.getElementById('speed-legend'), Dust.speed_colour, 0,
-    marks(0, set.speed, 5).map((v, k) => Dust.number(v, 2) + (k === 4 ? ' m/s' : '')));
+  Dust.legend_strip(document.getElementById('speed-legend'), Dust.speed_colour, 0, 0, set.speed, 'm/s');
   Dust.legend_strip(document.getElementById('pressure-legend'), Dust.pressure_colour, -1,
-    marks(-set.pressure, set.pressure, 5).map((v, k) => Dust.number(v, 2) + (k === 4 ? ' Pa' : '')));
+    -set.pressure, set.pressure, 'Pa');
 
   const show = async (index) => {
     const frame = await load(index);

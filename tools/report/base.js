@@ -89,7 +89,8 @@ Dust.Picture = class {
     this.canvas = Dust.el('canvas', {role: 'img', 'aria-label': label});
     parent.append(this.canvas);
     this.parent = parent;
-    new ResizeObserver(() => this.draw()).observe(parent);
+    // Drawn in the next frame: a canvas that changes its own box must not do so inside the observer.
+    new ResizeObserver(() => requestAnimationFrame(() => this.draw())).observe(parent);
     Dust.redraw.push(() => this.draw());
   }
   draw() {
@@ -136,7 +137,7 @@ Dust.Picture = class {
     for (const x of Dust.ticks(x0 * 1e3, x1 * 1e3, inner / 70)) {
       const at = this.x(x / 1e3);
       pen.fillRect(at - 0.5, top + height, 1, 4);
-      if (at < left + inner - 34) pen.fillText(Dust.number(x), at, top + height + 7);
+      if (at < left + inner - 48) pen.fillText(Dust.number(x), at, top + height + 7);
     }
     pen.textAlign = 'right';
     pen.fillText('x, mm', left + inner, top + height + 7);

@@ -23,8 +23,8 @@ Dust.oklch = (lightness, chroma, hue) => {
 
 // 0 at the paper's tone, 1 at the far end.
 Dust.speed_colour = (t) => (Dust.theme() === 'dark'
-  ? Dust.oklch(0.21 + 0.72 * t, 0.015 + 0.13 * Math.sin(Math.PI * Math.min(1, 0.12 + 0.8 * t)), 285 - 190 * t)
-  : Dust.oklch(0.985 - 0.68 * t, 0.008 + 0.13 * Math.sin(Math.PI * Math.min(1, 0.03 + 0.8 * t)), 130 + 150 * t));
+  ? Dust.oklch(0.21 + 0.72 * t, 0.012 + 0.13 * Math.sin(Math.PI * Math.min(1, 0.85 * t)), 285 - 190 * t)
+  : Dust.oklch(0.985 - 0.68 * t, 0.004 + 0.13 * Math.sin(Math.PI * Math.min(1, 0.8 * t)), 130 + 150 * t));
 
 // t in [-1, 1]: low pressure blue, zero the paper's tone, high pressure red.
 Dust.pressure_colour = (t) => {
@@ -46,10 +46,11 @@ Dust.table = (colour_of, low) => {
   return bytes;
 };
 
-// A legend strip with ticks below.
-Dust.legend_strip = (parent, colour_of, low, labels) => {
+// A legend strip over [from, to] with round numbers below; the colours span [low, 1].
+Dust.legend_strip = (parent, colour_of, low, from, to, unit) => {
   const canvas = Dust.el('canvas', {width: 256, height: 1});
-  const ends = Dust.el('div', {class: 'ends'}, ...labels.map((text) => Dust.el('span', {}, text)));
+  const ends = Dust.el('div', {class: 'ends'}, ...Dust.ticks(from, to, 5).map((value) => Dust.el('span',
+    {style: `left:${100 * (value - from) / (to - from)}%`}, Dust.number(value))), Dust.el('span', {class: 'name'}, unit));
   parent.replaceChildren(Dust.el('div', {class: 'scale'}, canvas, ends));
   const draw = () => {
     const pen = canvas.getContext('2d');

@@ -61,9 +61,10 @@
     };
     plots.push(again);
     Dust.redraw.push(again);
-    new ResizeObserver(() => {
+    const fit = () => {
       if (holder.clientWidth && Math.abs(holder.clientWidth - drawn.width) > 1) drawn.setSize({width: holder.clientWidth, height: 230});
-    }).observe(holder);
+    };
+    new ResizeObserver(() => requestAnimationFrame(fit)).observe(holder);
   };
 
   const grid_of = (id) => {
