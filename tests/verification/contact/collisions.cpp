@@ -206,8 +206,8 @@ TEST_CASE("elastic oblique impacts shall follow the law's own equations and crea
       const double slip = i.out.velocity.y + spin;
       const Oblique expected = integrate_oblique(c);
       CAPTURE(v_t);
-      CHECK(std::abs(spin - expected.spin) < k_tolerance * std::max(std::abs(expected.spin), 0.1 * unit));
-      CHECK(std::abs(slip - expected.slip) < k_tolerance * std::max(std::abs(expected.slip), 0.1 * unit));
+      CHECK(std::abs(spin - expected.spin) < k_tolerance * std::max(std::abs(expected.spin), 0.3 * unit));
+      CHECK(std::abs(slip - expected.slip) < k_tolerance * std::max(std::abs(expected.slip), 0.3 * unit));
       const double energy = norm(i.out.velocity) * norm(i.out.velocity) + 0.4 * spin * spin;
       CHECK(energy < (25.0 + v_t * v_t) * (1.0 + 1e-4));
       // The soft sphere is 6 % flatter at its deepest, which shortens its lever.
