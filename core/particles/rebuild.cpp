@@ -163,6 +163,9 @@ void Dem::Impl::carry_over(ContactList& list, bool is_surface) {
 void Dem::Impl::rebuild() {
   ++counters.rebuilds;
   wrap_periodic();
+  for (const Chunk& c : chunks) {
+    counters.largest_overlap = std::max(counters.largest_overlap, c.largest_overlap);
+  }
   // The contacts in touch, by their first grain's old row.
   const std::size_t old_rows = store.size();
   std::vector<Chunk> old_chunks = std::move(chunks);

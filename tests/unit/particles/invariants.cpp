@@ -173,7 +173,7 @@ TEST_CASE("the bits shall not depend on the number of threads") {
     const int sand = rig.material(2650, 50e6, 0.3);
     rig.law(sand, sand, 0.5, 0.5, 0.3);
     rig.diameters = {10e-6, 400e-6, 600e-6};
-    rig.setup.gravity = {0, 0, -9.81};
+    rig.setup.gravity = {0, 0, -500};
     rig.setup.domain.min = {0, 0, 0};
     rig.setup.domain.max = {9e-3, 9e-3, 2e-2};
     for (int s = 0; s < 5; ++s) rig.wall(s, sand);

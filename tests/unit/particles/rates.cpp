@@ -29,7 +29,7 @@ Outcome hit(bool single, double weight, double offset) {
       {.position = {0, 0, 0}, .velocity = {0.2, 0, 0}, .rotation = {0, 0, 300}, .diameter = 600e-6},
       {.position = {3.3e-4, offset, 1e-6}, .velocity = {-0.4, 0.0, 0.1}, .diameter = 10e-6, .weight = weight}});
   Stepper stepper(*dem);
-  while (stepper.time() < 1e-4) stepper.step();
+  while (stepper.time() < 3e-4) stepper.step();
   REQUIRE(dem->report().largest_overlap > 1e-3);
   return {grain(*dem, 1), grain(*dem, 0), static_cast<double>(dem->report().fine_steps)};
 }
