@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/impl.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace dust::particles {
@@ -119,7 +120,9 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
                                 counters.rebuilds};
   archive.integers("state", state);
   archive.number("time", time);
-  archive.number("largest_overlap", counters.largest_overlap);
+  double largest = counters.largest_overlap;
+  for (const Chunk& c : chunks) largest = std::max(largest, c.largest_overlap);
+  archive.number("largest_overlap", largest);
   book.save(archive);
 }
 

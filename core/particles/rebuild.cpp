@@ -163,6 +163,9 @@ void Dem::Impl::carry_over(ContactList& list, bool is_surface) {
 void Dem::Impl::rebuild() {
   ++counters.rebuilds;
   wrap_periodic();
+  for (const Chunk& c : chunks) {
+    counters.largest_overlap = std::max(counters.largest_overlap, c.largest_overlap);
+  }
   // The contacts in touch, by their first grain's old row.
   const std::size_t old_rows = store.size();
   std::vector<Chunk> old_chunks = std::move(chunks);
@@ -214,7 +217,15 @@ void Dem::Impl::rebuild() {
     }
   }
 
-  horizon = next_horizon;
+  // The search looks as far as the fastest grain flies: no farther than a diameter.
+  double fastest2 = 0.0;
+  for (std::size_t n = 0; n < store.size(); ++n) {
+    const double* v = store.velocity.data() + 4 * n;
+    fastest2 = std::max(fastest2, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  }
+  const double longest = steps.classes.back().diameter / steps.coarse_step / std::sqrt(fastest2 + 1e-30);
+  horizon = std::min(next_horizon, std::max(k_shortest_horizon, static_cast<std::int64_t>(
+                                                                    std::min(longest, 1e6))));
   SearchInput in;
   in.count = store.size();
   in.position = store.position.data();

@@ -31,14 +31,12 @@ class HertzMindlin final : public sdk::ContactLaw {
   static sdk::ModelInfo describe() {
     return {.name = "hertz_mindlin",
             .version = "1.0",
-            .summary = "Hertz normal and incremental Mindlin tangential contact with viscous "
+            .summary = "Hertz normal and energy-conserving Mindlin tangential contact with viscous "
                        "damping and strict Coulomb friction.",
             .equation = "F_n = \\tfrac43 E^* \\sqrt{R^*} d^{3/2} - \\gamma_n v_n,\\quad "
                         "F_t = -k_t \\xi_t - \\gamma_t v_t,\\quad |F_t| \\le \\mu_s \\max(F_n, 0)",
             .source = "Tsuji, Tanaka, Ishida, Powder Technol. 71 (1992) 239, "
-                      "doi:10.1016/0032-5910(92)88030-L; incremental tangential spring: Thornton, "
-                      "Cummins, Cleary, Powder Technol. 233 (2013) 30, "
-                      "doi:10.1016/j.powtec.2012.08.012"};
+                      "doi:10.1016/0032-5910(92)88030-L; rescaled tangential spring: own derivation"};
   }
 
   explicit HertzMindlin(const Parameters& p) {

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bodies/body_set.hpp"
+#include "dust/sdk/plugin.hpp"
+#include "particles/dem.hpp"
+#include "scenario/setup.hpp"
+
+#include <dlfcn.h>
+
+#include <cstring>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dust::test {
+
+/// Models straight from the plugin libraries, without the registry.
+class ModelLoader : public sdk::Registrar {
+ public:
+  void add(sdk::ModelInfo info, sdk::ModelFactory factory) override {
+    const std::string key = info.kind + "/" + info.name;
+    models_[key] = {std::move(info), std::move(factory)};
+  }
+  /// `kind/name` with parameters by name; the others keep their defaults.
+  template <class Kind>
+  static std::unique_ptr<Kind> make(const std::string& kind, const std::string& name,
+                                    const std::map<std::string, sdk::Value>& values) {
+    const auto& [info, factory] = loaded(kind, name);
+    std::vector<sdk::Value> row;
+    for (const sdk::Parameter& p : info.parameters) {
+      const auto given = values.find(p.name);
+      row.push_back(given == values.end() ? sdk::Value{} : given->second);
+    }
+    return std::unique_ptr<Kind>(static_cast<Kind*>(factory(row).release()));
+  }
+
+ private:
+  using Made = std::pair<sdk::ModelInfo, sdk::ModelFactory>;
+  static const Made& loaded(const std::string& kind, const std::string& name) {
+    static ModelLoader loader;
+    const auto known = loader.models_.find(kind + "/" + name);
+    if (known != loader.models_.end()) return known->second;
+    const std::string file = std::string(DUST_TEST_PLUGINS) + "/" + kind + "_" + name + ".so";
+    void* library = dlopen(file.c_str(), RTLD_NOW);
+    if (library == nullptr) throw std::runtime_error(dlerror());
+    void (*entry)(sdk::Registrar&) = nullptr;
+    void* symbol = dlsym(library, "dust_register");
+    std::memcpy(&entry, &symbol, sizeof entry);
+    entry(loader);
+    return loader.models_.at(kind + "/" + name);
+  }
+  std::map<std::string, Made> models_;
+};
+
+/// What a DEM test needs: one or more materials, walls, bodies and laws.
+struct DemRig {
+  scenario::Setup setup;
+  bodies::BodySet bodies;
+  std::vector<particles::PairLaws> laws;
+  std::vector<double> diameters;
+  double fluid_density = 0.0;
+
+  DemRig() {
+    setup.domain.min = {-1, -1, -1};
+    setup.domain.max = {1, 1, 1};
+    setup.time.fluid_step = 0.0;
+  }
+  int material(double density, double young, double poisson) {
+    setup.materials.push_back({"m" + std::to_string(setup.materials.size()),
+                               {density, young, poisson}});
+    return static_cast<int>(setup.materials.size()) - 1;
+  }
+  void law(int i, int j, double restitution, double friction, double rolling = -1.0) {
+    particles::PairLaws p;
+    p.material_i = i;
+    p.material_j = j;
+    p.contact = ModelLoader::make<sdk::ContactLaw>(
+        "contact", "hertz_mindlin", {{"restitution", restitution}, {"friction", friction}});
+    const auto& mi = setup.materials[static_cast<std::size_t>(i)].properties;
+    const auto& mj = setup.materials[static_cast<std::size_t>(j)].properties;
+    p.contact->prepare(mi, mj);
+    if (rolling >= 0.0) {
+      p.rolling = ModelLoader::make<sdk::RollingLaw>("rolling", "epsd2", {{"friction", rolling}});
+      p.rolling->prepare(mi, mj);
+    }
+    laws.push_back(std::move(p));
+  }
+  void wall(int side, int material) {
+    setup.domain.sides[static_cast<std::size_t>(side)] = {.grains = scenario::GrainSide::wall,
+                                                          .material = material,
+                                                          .air = {},
+                                                          .where = {}};
+  }
+  void periodic(int axis) {
+    for (int side : {2 * axis, 2 * axis + 1}) {
+      setup.domain.sides[static_cast<std::size_t>(side)].grains = scenario::GrainSide::periodic;
+    }
+  }
+  /// Takes the laws.
+  std::unique_ptr<particles::Dem> make() {
+    return std::make_unique<particles::Dem>(setup, bodies, std::move(laws), diameters,
+                                            fluid_density);
+  }
+};
+
+/// One coarse step at a time.
+class Stepper {
+ public:
+  explicit Stepper(particles::Dem& dem) : dem_(dem) {}
+  void step(std::int64_t count = 1) {
+    for (std::int64_t n = 0; n < count; ++n) {
+      dem_.neighbours();
+      dem_.contact(time());
+      dem_.force();
+      dem_.integrate();
+      ++steps_;
+    }
+  }
+  [[nodiscard]] double time() const { return static_cast<double>(steps_) * dem_.coarse_step(); }
+
+ private:
+  particles::Dem& dem_;
+  std::int64_t steps_ = 0;
+};
+
+/// Row of a grain, by id.
+struct GrainState {
+  sdk::Vec3 position, velocity, rotation;
+  double radius = 0.0, mass = 0.0, weight = 1.0;
+};
+inline GrainState grain(particles::Dem& dem, std::int64_t id) {
+  const auto rows = dem.rows();
+  for (std::size_t n = 0; n < rows.count; ++n) {
+    if (rows.id[n] != id) continue;
+    const double* p = rows.position + 4 * n;
+    const double* v = rows.velocity + 4 * n;
+    const double* w = rows.rotation + 4 * n;
+    return {{p[0], p[1], p[2]}, {v[0], v[1], v[2]}, {w[0], w[1], w[2]},
+            p[3], 1.0 / v[3], rows.weight[n]};
+  }
+  throw std::runtime_error("no such grain");
+}
+
+/// Keeps what a model saves, in memory.
+class MemoryArchive : public sdk::ArchiveWriter, public sdk::ArchiveReader {
+ public:
+  void numbers(std::string_view name, std::span<const double> values) override {
+    numbers_[std::string(name)].assign(values.begin(), values.end());
+  }
+  void integers(std::string_view name, std::span<const std::int64_t> values) override {
+    integers_[std::string(name)].assign(values.begin(), values.end());
+  }
+  std::vector<double> numbers(std::string_view name) override {
+    return numbers_.at(std::string(name));
+  }
+  std::vector<std::int64_t> integers(std::string_view name) override {
+    return integers_.at(std::string(name));
+  }
+
+ private:
+  std::map<std::string, std::vector<double>> numbers_;
+  std::map<std::string, std::vector<std::int64_t>> integers_;
+};
+
+}  // namespace dust::test

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/dem_rig.hpp"
+
+#include "dust/sdk/error.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+using dust::sdk::Emitter;
+using dust::sdk::EmitterContext;
+using dust::sdk::Random;
+using dust::sdk::Seed;
+using dust::sdk::Value;
+using dust::sdk::Vec3;
+using namespace dust::test;
+
+namespace {
+
+constexpr double k_density = 2650.0;
+constexpr double k_flow = 6e-3;
+
+std::map<std::string, Value> transfer_point() {
+  return {{"mass_flow", k_flow},
+          {"min", Vec3{26e-3, 1.5e-3, 0.22}},
+          {"max", Vec3{34e-3, 9.5e-3, 0.22}},
+          {"velocity", Vec3{0, 0, -0.15}},
+          {"diameters", std::vector<double>{10e-6, 300e-6, 420e-6, 500e-6, 600e-6}},
+          {"number_fractions", std::vector<double>{0.0055, 0.2443, 0.2670, 0.2287, 0.2545}},
+          {"rare_below", 100e-6},
+          {"copies_of_rare", std::int64_t{20}}};
+}
+
+std::vector<Seed> run(Emitter& feed, int from, int to) {
+  std::vector<Seed> seeds;
+  for (int n = from; n < to; ++n) {
+    feed.propose({.begin = 1e-3 * n, .end = 1e-3 * (n + 1), .grain_density = k_density,
+                  .gravity = {0, 0, -9.81}, .random = Random(1, 42)}, seeds);
+  }
+  return seeds;
+}
+
+double mass(const Seed& s) {
+  return s.weight * k_density * std::numbers::pi / 6.0 * s.diameter * s.diameter * s.diameter;
+}
+
+}  // namespace
+
+TEST_CASE("the feed shall release its mass flow to within one grain at any time") {
+  auto feed = ModelLoader::make<Emitter>("emitter", "feed", transfer_point());
+  const auto seeds = run(*feed, 0, 700);
+  const double largest = k_density * std::numbers::pi / 6.0 * std::pow(600e-6, 3);
+  double released = 0.0;
+  double last = 0.0;
+  REQUIRE(seeds.size() > 20000);
+  for (const Seed& s : seeds) {
+    CHECK_MESSAGE(s.time >= last, "seeds in order of time");
+    REQUIRE(std::abs(released - k_flow * s.time) < largest);
+    released += mass(s);
+    last = s.time;
+  }
+  CHECK(last < 0.7);
+}
+
+TEST_CASE("the feed shall follow the size distribution, rare sizes with their weights") {
+  auto feed = ModelLoader::make<Emitter>("emitter", "feed", transfer_point());
+  std::map<double, double> real;
+  double sum = 0.0;
+  std::size_t copies = 0;
+  for (const Seed& s : run(*feed, 0, 700)) {
+    real[s.diameter] += s.weight;
+    sum += s.weight;
+    if (s.diameter < 100e-6) {
+      ++copies;
+      CHECK(s.weight == doctest::Approx(0.05));
+    }
+  }
+  const std::map<double, double> shares{{10e-6, 0.0055}, {300e-6, 0.2443}, {420e-6, 0.2670},
+                                        {500e-6, 0.2287}, {600e-6, 0.2545}};
+  for (const auto& [diameter, share] : shares) {
+    // No size strays by more than its share of 500 grains.
+    CHECK(std::abs(real[diameter] - share * sum) < share * 500 + 1);
+  }
+  CHECK(copies > 2500);
+}
+
+TEST_CASE("seeds shall not overlap when they move on with the stream") {
+  auto feed = ModelLoader::make<Emitter>("emitter", "feed", transfer_point());
+  const auto seeds = run(*feed, 0, 40);
+  const Vec3 velocity{0, 0, -0.15};
+  std::size_t near = 0;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    CHECK(seeds[i].position.x - 0.5 * seeds[i].diameter >= 26e-3);
+    CHECK(seeds[i].position.y + 0.5 * seeds[i].diameter <= 9.5e-3);
+    for (std::size_t j = i + 1; j < seeds.size(); ++j) {
+      const Vec3 d = seeds[j].position - seeds[i].position - (seeds[j].time - seeds[i].time) * velocity;
+      const double reach = 0.5 * (seeds[i].diameter + seeds[j].diameter);
+      REQUIRE(norm(d) >= reach);
+      near += norm(d) < 1.1 * reach ? 1 : 0;
+    }
+  }
+  CHECK(near > 20);
+}
+
+TEST_CASE("a resumed feed shall go on with the same seeds") {
+  auto whole = ModelLoader::make<Emitter>("emitter", "feed", transfer_point());
+  auto first = ModelLoader::make<Emitter>("emitter", "feed", transfer_point());
+  auto second = ModelLoader::make<Emitter>("emitter", "feed", transfer_point());
+  const auto expected = run(*whole, 0, 30);
+  auto seeds = run(*first, 0, 13);
+  MemoryArchive archive;
+  first->save(archive);
+  second->load(archive);
+  const auto rest = run(*second, 13, 30);
+  seeds.insert(seeds.end(), rest.begin(), rest.end());
+  REQUIRE(seeds.size() == expected.size());
+  for (std::size_t n = 0; n < seeds.size(); ++n) {
+    CHECK(seeds[n].time == expected[n].time);
+    CHECK(seeds[n].position == expected[n].position);
+    CHECK(seeds[n].diameter == expected[n].diameter);
+  }
+}
+
+TEST_CASE("an opening that cannot pass the flow shall be refused with the numbers") {
+  auto parameters = transfer_point();
+  parameters["velocity"] = Vec3{0, 0, -0.05};
+  auto feed = ModelLoader::make<Emitter>("emitter", "feed", parameters);
+  CHECK_THROWS_AS(run(*feed, 0, 1), dust::sdk::ParameterError);
+  parameters["velocity"] = Vec3{0.1, 0, 0};
+  CHECK_THROWS_AS(ModelLoader::make<Emitter>("emitter", "feed", parameters), dust::sdk::ParameterError);
+}
