@@ -169,7 +169,22 @@ struct FluidSolver::Impl {
     sides.fill_cells(eps);
   }
 
-  /// residual = d(eps)/dt + div(eps u), per volume of the whole cell.
+  /// Shift of the velocity from the middle of a cut face to that of its open part.
+  void find_open_parts(const FaceField& v) {
+    for (int d = 0; d < 3; ++d) {
+      const auto& parts = geometry.open_part[d];
+      open_part_shift[d].resize(parts.size());
+      for (std::size_t n = 0; n < parts.size(); ++n) {
+        const OpenPart& f = parts[n];
+        const auto& c = v.component[d];
+        open_part_shift[d][n] = f.weight[0] * (c[f.neighbour[0]] - c[f.at]) +
+                                f.weight[1] * (c[f.neighbour[1]] - c[f.at]);
+      }
+    }
+  }
+
+  /// residual = d(eps)/dt + div(eps u), per volume of the whole cell. The shift at cut faces is
+  /// that of the velocity before its last projection.
   void find_divergence(const FaceField& v) {
     for_rows(grid.count[0], grid.count[1], grid.count[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid.index(0, j, k);
@@ -181,6 +196,16 @@ struct FluidSolver::Impl {
                             &residual[o]);
       }
     });
+    for (int d = 0; d < 3; ++d) {
+      for (std::size_t n = 0; n < geometry.open_part[d].size(); ++n) {
+        const OpenPart& f = geometry.open_part[d][n];
+        const std::ptrdiff_t s = grid.stride[d];
+        const double flow = geometry.open_area.component[d][f.at] * 0.5 *
+                            (eps[f.at] + eps[f.at - s]) * open_part_shift[d][n] / grid.spacing[d];
+        residual[f.at] -= flow;
+        residual[f.below] += flow;
+      }
+    }
   }
 
   /// Coefficients of the pressure equation for the present void fraction.
@@ -233,6 +258,7 @@ struct FluidSolver::Impl {
 
   /// Makes `v` obey continuity over `step`; phi = pressure increment.
   void project(FaceField& v, double step, const FaceField& drag, double tolerance) {
+    find_open_parts(v);
     find_divergence(v);
     check_balance(v);
     const double scale = -fluid.density / step;
@@ -483,6 +509,7 @@ struct FluidSolver::Impl {
   CellField residual;
   CellField eps;
   CellField rate;
+  std::array<std::vector<double>, 3> open_part_shift;
   std::vector<double> partial;
   bool is_consistent = false;
   FluidReport report;
