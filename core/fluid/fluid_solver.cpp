@@ -129,7 +129,8 @@ struct FluidSolver::Impl {
         rate(grid.size, 0.0) {
     sides.fill_cells(geometry.open_fraction);
     geometry.wall.evaluate(bodies, 0.0);
-    sides.evaluate(0.0);
+    sides.evaluate_velocity(0.0);
+    sides.evaluate_pressure(0.0);
     for (int d = 0; d < 3; ++d) {
       std::fill(u.component[d].begin(), u.component[d].end(), f.initial_velocity[d]);
     }
@@ -343,6 +344,7 @@ struct FluidSolver::Impl {
   void convect(const FaceField& v, double smoothness, const FaceField* add_to, double step) {
     momentum.find_flux(v, eps);
     for (int d = 0; d < 3; ++d) {
+      if (!geometry.has_unknown[d]) continue;
       const auto& n = geometry.extent[d];
       for_rows(n[0], n[1], n[2], [&](int j, int k) {
         const std::ptrdiff_t o = grid.index(0, j, k);
@@ -371,7 +373,7 @@ struct FluidSolver::Impl {
     momentum.prepare(k_gamma * step, exchange.coefficient);
 
     convect(u, smoothness, nullptr, step);
-    sides.evaluate(time + step);
+    sides.evaluate_pressure(time + step);
     sides.fill_pressure(p, false);
     each_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
       first_stage_row(n, grid.stride[d], step, inverse_density, inverse_h, &u.component[d][o],
@@ -379,7 +381,7 @@ struct FluidSolver::Impl {
                       &right.component[d][o]);
       std::copy_n(&u.component[d][o], n, &next.component[d][o]);
     });
-    sides.evaluate(time + k_gamma * step);
+    sides.evaluate_velocity(time + k_gamma * step);
     solve_stage();
     each_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
       between_stages_row(n, grid.stride[d], step, inverse_density, inverse_h, &u.component[d][o],
@@ -387,7 +389,7 @@ struct FluidSolver::Impl {
                          &exchange.source.component[d][o], &sum.component[d][o]);
     });
     convect(next, smoothness, &sum, step);
-    sides.evaluate(time + step);
+    sides.evaluate_velocity(time + step);
     solve_stage();
     std::swap(u, next);
     project(u, step, exchange.coefficient, fluid.pressure_tolerance);
@@ -436,7 +438,7 @@ struct FluidSolver::Impl {
     });
     if (!is_consistent) {
       // The first field may not obey continuity: mend it before it makes pressure.
-      sides.evaluate(time);
+      sides.evaluate_velocity(time);
       momentum.extend(u, true);
       sides.fill_velocity(u);
       set_eps(before, after, 0.0);

@@ -49,6 +49,8 @@ class Builder {
     measure_openness();
     for (int d = 0; d < 3; ++d) find_unknowns(d);
     for (int d = 0; d < 3; ++d) {
+      const auto& kind = g_.kind[d];
+      g_.has_unknown[d] = std::find(kind.begin(), kind.end(), FaceKind::plain) != kind.end();
       find_cut(d);
       find_open_parts(d);
       find_ghosts(d);
