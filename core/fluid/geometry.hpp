@@ -87,7 +87,9 @@ struct Geometry {
   CellField open_fraction;  ///< share of the cell outside bodies
   FaceField open_area;      ///< share of the face outside bodies
   std::array<std::vector<FaceKind>, 3> kind;
-  std::array<std::array<int, 3>, 3> extent;            ///< faces per component and direction
+  std::array<std::array<int, 3>, 3> extent;  ///< faces per component and direction
+  /// Components without unknowns (across a thin domain between walls) cost nothing.
+  std::array<bool, 3> has_unknown{false, false, false};
   std::array<std::vector<CutFace>, 3> cut;             ///< in the order of rows
   std::array<std::vector<std::int32_t>, 3> cut_begin;  ///< per row (j + extent_y k), and the end
   std::array<std::vector<GhostFace>, 3> ghost;
