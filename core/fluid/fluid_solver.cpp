@@ -129,7 +129,8 @@ struct FluidSolver::Impl {
         rate(grid.size, 0.0) {
     sides.fill_cells(geometry.open_fraction);
     geometry.wall.evaluate(bodies, 0.0);
-    sides.evaluate(0.0);
+    sides.evaluate_velocity(0.0);
+    sides.evaluate_pressure(0.0);
     for (int d = 0; d < 3; ++d) {
       std::fill(u.component[d].begin(), u.component[d].end(), f.initial_velocity[d]);
     }
@@ -169,7 +170,22 @@ struct FluidSolver::Impl {
     sides.fill_cells(eps);
   }
 
-  /// residual = d(eps)/dt + div(eps u), per volume of the whole cell.
+  /// Shift of the velocity from the middle of a cut face to that of its open part.
+  void find_open_parts(const FaceField& v) {
+    for (int d = 0; d < 3; ++d) {
+      const auto& parts = geometry.open_part[d];
+      open_part_shift[d].resize(parts.size());
+      for (std::size_t n = 0; n < parts.size(); ++n) {
+        const OpenPart& f = parts[n];
+        const auto& c = v.component[d];
+        open_part_shift[d][n] = f.weight[0] * (c[f.neighbour[0]] - c[f.at]) +
+                                f.weight[1] * (c[f.neighbour[1]] - c[f.at]);
+      }
+    }
+  }
+
+  /// residual = d(eps)/dt + div(eps u), per volume of the whole cell. The shift at cut faces is
+  /// that of the velocity before its last projection.
   void find_divergence(const FaceField& v) {
     for_rows(grid.count[0], grid.count[1], grid.count[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid.index(0, j, k);
@@ -181,6 +197,16 @@ struct FluidSolver::Impl {
                             &residual[o]);
       }
     });
+    for (int d = 0; d < 3; ++d) {
+      for (std::size_t n = 0; n < geometry.open_part[d].size(); ++n) {
+        const OpenPart& f = geometry.open_part[d][n];
+        const std::ptrdiff_t s = grid.stride[d];
+        const double flow = geometry.open_area.component[d][f.at] * 0.5 *
+                            (eps[f.at] + eps[f.at - s]) * open_part_shift[d][n] / grid.spacing[d];
+        residual[f.at] -= flow;
+        residual[f.below] += flow;
+      }
+    }
   }
 
   /// Coefficients of the pressure equation for the present void fraction.
@@ -233,6 +259,7 @@ struct FluidSolver::Impl {
 
   /// Makes `v` obey continuity over `step`; phi = pressure increment.
   void project(FaceField& v, double step, const FaceField& drag, double tolerance) {
+    find_open_parts(v);
     find_divergence(v);
     check_balance(v);
     const double scale = -fluid.density / step;
@@ -317,6 +344,7 @@ struct FluidSolver::Impl {
   void convect(const FaceField& v, double smoothness, const FaceField* add_to, double step) {
     momentum.find_flux(v, eps);
     for (int d = 0; d < 3; ++d) {
+      if (!geometry.has_unknown[d]) continue;
       const auto& n = geometry.extent[d];
       for_rows(n[0], n[1], n[2], [&](int j, int k) {
         const std::ptrdiff_t o = grid.index(0, j, k);
@@ -345,7 +373,7 @@ struct FluidSolver::Impl {
     momentum.prepare(k_gamma * step, exchange.coefficient);
 
     convect(u, smoothness, nullptr, step);
-    sides.evaluate(time + step);
+    sides.evaluate_pressure(time + step);
     sides.fill_pressure(p, false);
     each_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
       first_stage_row(n, grid.stride[d], step, inverse_density, inverse_h, &u.component[d][o],
@@ -353,7 +381,7 @@ struct FluidSolver::Impl {
                       &right.component[d][o]);
       std::copy_n(&u.component[d][o], n, &next.component[d][o]);
     });
-    sides.evaluate(time + k_gamma * step);
+    sides.evaluate_velocity(time + k_gamma * step);
     solve_stage();
     each_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
       between_stages_row(n, grid.stride[d], step, inverse_density, inverse_h, &u.component[d][o],
@@ -361,7 +389,7 @@ struct FluidSolver::Impl {
                          &exchange.source.component[d][o], &sum.component[d][o]);
     });
     convect(next, smoothness, &sum, step);
-    sides.evaluate(time + step);
+    sides.evaluate_velocity(time + step);
     solve_stage();
     std::swap(u, next);
     project(u, step, exchange.coefficient, fluid.pressure_tolerance);
@@ -410,7 +438,7 @@ struct FluidSolver::Impl {
     });
     if (!is_consistent) {
       // The first field may not obey continuity: mend it before it makes pressure.
-      sides.evaluate(time);
+      sides.evaluate_velocity(time);
       momentum.extend(u, true);
       sides.fill_velocity(u);
       set_eps(before, after, 0.0);
@@ -483,6 +511,7 @@ struct FluidSolver::Impl {
   CellField residual;
   CellField eps;
   CellField rate;
+  std::array<std::vector<double>, 3> open_part_shift;
   std::vector<double> partial;
   bool is_consistent = false;
   FluidReport report;

@@ -37,22 +37,22 @@ class Builder {
  public:
   Builder(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides)
       : grid_(grid), bodies_(bodies), sides_(sides) {
-    smallest_ = largest_ = 0.0;
+    smallest_ = 0.0;
     for (int d = 0; d < 3; ++d) {
       const double h = grid.spacing[d];
-      if (grid.count[d] == 1) continue;
-      smallest_ = smallest_ == 0.0 ? h : std::min(smallest_, h);
-      largest_ = std::max(largest_, h);
+      if (grid.count[d] > 1 && (smallest_ == 0.0 || h < smallest_)) smallest_ = h;
     }
-    if (smallest_ == 0.0)
-      smallest_ = largest_ = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+    if (smallest_ == 0.0) smallest_ = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
   }
 
   Geometry build() {
     measure_openness();
     for (int d = 0; d < 3; ++d) find_unknowns(d);
     for (int d = 0; d < 3; ++d) {
+      const auto& kind = g_.kind[d];
+      g_.has_unknown[d] = std::find(kind.begin(), kind.end(), FaceKind::plain) != kind.end();
       find_cut(d);
+      find_open_parts(d);
       find_ghosts(d);
     }
     sort_wall_points();
@@ -74,7 +74,8 @@ class Builder {
 
   /// Share of the box (edges `size`, 0 = flat) outside all bodies. Within a sub-box the surface is
   /// taken as a plane that meets it in proportion to the distance: exact for planes along the grid.
-  [[nodiscard]] double open_share(Vec3 centre, Vec3 size) const {
+  /// `middle` receives the middle of the open part.
+  [[nodiscard]] double open_share(Vec3 centre, Vec3 size, Vec3* middle = nullptr) const {
     const double reach = 0.5 * norm(size);
     const double distance = nearest(centre).distance;
     if (distance >= reach) return 1.0;
@@ -82,6 +83,7 @@ class Builder {
     std::array<int, 3> n{};
     for (int d = 0; d < 3; ++d) n[d] = size[d] > 0.0 ? k_sub_boxes : 1;
     double sum = 0.0;
+    Vec3 moment;
     for (int c = 0; c < n[2]; ++c) {
       for (int b = 0; b < n[1]; ++b) {
         for (int a = 0; a < n[0]; ++a) {
@@ -91,14 +93,16 @@ class Builder {
           const Hit hit = nearest(p);
           double width = 0.0;
           for (int d = 0; d < 3; ++d) width += std::abs(hit.normal[d]) * size[d] / n[d];
+          double part = hit.distance > k_on_surface * smallest_ ? 1.0 : 0.0;
           if (width > k_on_surface * smallest_) {
-            sum += std::clamp(0.5 + hit.distance / width, 0.0, 1.0);
-          } else {
-            sum += hit.distance > k_on_surface * smallest_ ? 1.0 : 0.0;
+            part = std::clamp(0.5 + hit.distance / width, 0.0, 1.0);
           }
+          sum += part;
+          moment += part * (p - centre);
         }
       }
     }
+    if (middle != nullptr && sum > 0.0) *middle = centre + moment / sum;
     const double share = sum / (n[0] * n[1] * n[2]);
     if (share < k_least_opening) return 0.0;
     return share > 1.0 - k_least_opening ? 1.0 : share;
@@ -259,6 +263,41 @@ class Builder {
     return is_irregular;
   }
 
+  void find_open_parts(int d) {
+    const auto& e = g_.extent[d];
+    Vec3 size = grid_.spacing;
+    size[d] = 0.0;
+    for (int k = 0; k < e[2]; ++k) {
+      for (int j = 0; j < e[1]; ++j) {
+        for (int i = 0; i < e[0]; ++i) {
+          const std::ptrdiff_t o = grid_.index(i, j, k);
+          const double area = g_.open_area.component[d][o];
+          if (area == 0.0 || area == 1.0) continue;
+          const std::array<int, 3> c = {i, j, k};
+          const Vec3 centre = grid_.face(d, i, j, k);
+          Vec3 middle = centre;
+          static_cast<void>(open_share(centre, size, &middle));
+          OpenPart part;
+          part.at = static_cast<std::int32_t>(o);
+          part.below = static_cast<std::int32_t>(wrapped(o, d, c[d], -1));
+          int n = 0;
+          for (int dir = 0; dir < 3; ++dir) {
+            if (dir == d) continue;
+            const double shift = (middle[dir] - centre[dir]) / grid_.spacing[dir];
+            part.neighbour[n] = static_cast<std::int32_t>(o);
+            if (grid_.count[dir] > 1) {
+              part.neighbour[n] =
+                  static_cast<std::int32_t>(wrapped(o, dir, c[dir], shift > 0.0 ? 1 : -1));
+              part.weight[n] = std::abs(shift);
+            }
+            ++n;
+          }
+          g_.open_part[d].push_back(part);
+        }
+      }
+    }
+  }
+
   [[nodiscard]] bool has_fixed(int d, int dir) const {
     return sides_.beyond(d, dir, 0) == Beyond::fixed || sides_.beyond(d, dir, 1) == Beyond::fixed;
   }
@@ -288,17 +327,26 @@ class Builder {
           ghost.is_crossed = g_.open_area.component[d][o] > 0.0;
           points_.push_back({p - hit.distance * hit.normal, hit.normal, hit.body});
           const double depth = std::max(0.0, -hit.distance);
-          if (depth < k_ghost_depth * largest_) find_image(d, p, hit, depth, ghost);
+          const double scale = spacing_along(hit.normal);
+          if (depth < k_ghost_depth * scale) find_image(d, p, hit, depth, scale, ghost);
           g_.ghost[d].push_back(ghost);
         }
       }
     }
   }
 
+  /// Size of a cell along a direction.
+  [[nodiscard]] double spacing_along(Vec3 n) const {
+    double sum = 0.0;
+    for (int d = 0; d < 3; ++d) sum += std::pow(n[d] * grid_.spacing[d], 2);
+    return std::sqrt(sum);
+  }
+
   /// The image lies on the normal through the ghost, as far outside that it needs fluid faces only.
-  void find_image(int d, Vec3 p, const Hit& hit, double depth, GhostFace& ghost) const {
+  void find_image(int d, Vec3 p, const Hit& hit, double depth, double scale,
+                  GhostFace& ghost) const {
     for (int step = 0; step < 5; ++step) {
-      const double reach = std::max(depth, largest_) + 0.25 * step * largest_;
+      const double reach = std::max(depth, scale) + 0.25 * step * scale;
       const Vec3 image = p + (reach - hit.distance) * hit.normal;
       if (is_inside(image)) continue;
       if (!interpolation(d, image, ghost)) continue;
@@ -369,7 +417,6 @@ class Builder {
   const bodies::BodySet& bodies_;
   const SideKinds& sides_;
   double smallest_;
-  double largest_;
   Geometry g_;
   std::vector<Point> points_;
 };

@@ -66,6 +66,16 @@ struct GhostFace {
   std::array<double, 8> weight{};
 };
 
+/// A face that a surface cuts: the mean velocity through its open part is that at the middle of
+/// the open part, u + sum_s weight_s (u(neighbour_s) - u). With the number at the middle of the
+/// whole face instead, continuity would be wrong by a first-order term in every cut cell.
+struct OpenPart {
+  std::int32_t at = 0;
+  std::int32_t below = 0;  ///< the cell on the low side
+  std::array<std::int32_t, 2> neighbour{};
+  std::array<double, 2> weight{};
+};
+
 /// given: on a side with given velocity, or outside the domain; plain: unknown with the plain
 /// stencil; cut: unknown, stencil in the list `cut`; inside: in a body, in the list `ghost`.
 enum class FaceKind : std::uint8_t { given, plain, cut, inside };
@@ -77,10 +87,13 @@ struct Geometry {
   CellField open_fraction;  ///< share of the cell outside bodies
   FaceField open_area;      ///< share of the face outside bodies
   std::array<std::vector<FaceKind>, 3> kind;
-  std::array<std::array<int, 3>, 3> extent;            ///< faces per component and direction
+  std::array<std::array<int, 3>, 3> extent;  ///< faces per component and direction
+  /// Components without unknowns (across a thin domain between walls) cost nothing.
+  std::array<bool, 3> has_unknown{false, false, false};
   std::array<std::vector<CutFace>, 3> cut;             ///< in the order of rows
   std::array<std::vector<std::int32_t>, 3> cut_begin;  ///< per row (j + extent_y k), and the end
   std::array<std::vector<GhostFace>, 3> ghost;
+  std::array<std::vector<OpenPart>, 3> open_part;
   WallPoints wall;
   long close_distances = 0;  ///< wall distances that were raised to k_least_distance
 

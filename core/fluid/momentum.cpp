@@ -298,6 +298,7 @@ void Momentum::solve(const FaceField& right, FaceField& u) {
   const std::ptrdiff_t offset[6] = {
       -1, 1, -grid_.stride[1], grid_.stride[1], -grid_.stride[2], grid_.stride[2]};
   for (int d = 0; d < 3; ++d) {
+    if (!geometry_.has_unknown[d]) continue;
     auto& v = u.component[d];
     const auto& r = right.component[d];
     const auto& e = geometry_.extent[d];

@@ -68,6 +68,12 @@ Sides::Sides(const Grid& grid, const std::array<const sdk::BoundaryCondition*, 6
     }
     kinds_.rules[side] = conditions[side]->rules();
     check(kinds_.rules[side], side);
+    const auto& r = kinds_.rules[side];
+    for (int c = 0; c < 3; ++c) {
+      const auto rule = c == d ? r.normal_velocity : r.tangential_velocity;
+      if (rule == SideRule::fixed) set_places(side, c);
+    }
+    if (r.pressure != SideRule::gradient) set_places(side, k_pressure);
   }
 }
 
@@ -82,14 +88,17 @@ std::array<int, 2> Sides::plane_size(int side, int component) const {
   return {grid_.count[e] + (component == e ? 1 : 0), grid_.count[f] + (component == f ? 1 : 0)};
 }
 
-void Sides::evaluate_at(int side, int component, double time, std::vector<double>& out) const {
+void Sides::set_places(int side, int component) {
   const int d = side / 2;
   const int e = d == 0 ? 1 : 0;
   const int f = d == 2 ? 1 : 2;
   const auto size = plane_size(side, component);
   const std::size_t count = static_cast<std::size_t>(size[0]) * size[1];
-  std::array<std::vector<double>, 3> place;
+  Values& v = values_[side];
+  auto& place = v.place[component];
   for (auto& p : place) p.resize(count);
+  (component == k_pressure ? v.pressure : v.velocity[component]).assign(count, 0.0);
+  for (auto& u : v.unused) u.resize(std::max(u.size(), count));
   for (int b = 0; b < size[1]; ++b) {
     for (int a = 0; a < size[0]; ++a) {
       const std::size_t n = static_cast<std::size_t>(b) * size[0] + a;
@@ -98,36 +107,38 @@ void Sides::evaluate_at(int side, int component, double time, std::vector<double
       place[f][n] = grid_.origin[f] + (b + (component == f ? 0.0 : 0.5)) * grid_.spacing[f];
     }
   }
-  std::array<std::vector<double>, 4> result;
-  for (auto& r : result) r.assign(count, 0.0);
-  Vec3 normal;
-  normal[d] = side % 2 ? 1.0 : -1.0;
+}
+
+void Sides::evaluate_at(int side, int component, double time) {
+  Values& v = values_[side];
+  const auto& place = v.place[component];
+  if (place[0].empty()) return;
   sdk::SideBatch batch;
-  batch.count = count;
+  batch.count = place[0].size();
   batch.time = time;
-  batch.normal = normal;
+  batch.normal[side / 2] = side % 2 ? 1.0 : -1.0;
   batch.x = place[0].data();
   batch.y = place[1].data();
   batch.z = place[2].data();
-  batch.velocity_x = result[0].data();
-  batch.velocity_y = result[1].data();
-  batch.velocity_z = result[2].data();
-  batch.pressure = result[k_pressure].data();
-  values_[side].condition->evaluate(batch);
-  out = std::move(result[component]);
+  batch.velocity_x = v.unused[0].data();
+  batch.velocity_y = v.unused[1].data();
+  batch.velocity_z = v.unused[2].data();
+  batch.pressure = v.unused[0].data();
+  if (component == 0) batch.velocity_x = v.velocity[0].data();
+  if (component == 1) batch.velocity_y = v.velocity[1].data();
+  if (component == 2) batch.velocity_z = v.velocity[2].data();
+  if (component == k_pressure) batch.pressure = v.pressure.data();
+  v.condition->evaluate(batch);
 }
 
-void Sides::evaluate(double time) {
+void Sides::evaluate_velocity(double time) {
   for (int side = 0; side < 6; ++side) {
-    Values& v = values_[side];
-    if (v.condition == nullptr) continue;
-    const auto& r = kinds_.rules[side];
-    for (int c = 0; c < 3; ++c) {
-      const auto rule = c == side / 2 ? r.normal_velocity : r.tangential_velocity;
-      if (rule == SideRule::fixed) evaluate_at(side, c, time, v.velocity[c]);
-    }
-    if (r.pressure != SideRule::gradient) evaluate_at(side, k_pressure, time, v.pressure);
+    for (int c = 0; c < 3; ++c) evaluate_at(side, c, time);
   }
+}
+
+void Sides::evaluate_pressure(double time) {
+  for (int side = 0; side < 6; ++side) evaluate_at(side, k_pressure, time);
 }
 
 void Sides::fill_component(std::vector<double>& v, int d, int direction, bool for_sweeps) const {

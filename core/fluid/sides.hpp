@@ -18,8 +18,9 @@ class Sides {
   Sides(const Grid& grid, const std::array<const sdk::BoundaryCondition*, 6>& conditions);
 
   [[nodiscard]] const SideKinds& kinds() const { return kinds_; }
-  /// Asks the models for their values at `time`.
-  void evaluate(double time);
+  /// Asks the models for their velocities and pressures at `time`.
+  void evaluate_velocity(double time);
+  void evaluate_pressure(double time);
   /// Halo such that linear interpolation meets the side's rule: mirrored, copied or wrapped.
   void fill_velocity(FaceField& u) const;
   /// Halo for the implicit sweeps: the side's own velocity where it is given; wrapped copies.
@@ -42,9 +43,14 @@ class Sides {
     const sdk::BoundaryCondition* condition = nullptr;
     std::array<std::vector<double>, 3> velocity;
     std::vector<double> pressure;
+    /// Places per component (and of the pressure), as far as values are wanted there.
+    std::array<std::array<std::vector<double>, 3>, 4> place;
+    /// Where the model writes what is not wanted.
+    std::array<std::vector<double>, 3> unused;
   };
   [[nodiscard]] std::array<int, 2> plane_size(int side, int component) const;
-  void evaluate_at(int side, int component, double time, std::vector<double>& out) const;
+  void set_places(int side, int component);
+  void evaluate_at(int side, int component, double time);
   void fill_component(std::vector<double>& v, int d, int direction, bool for_sweeps) const;
 
   Grid grid_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Times of the pressure solve and of whole fluid steps at the size of the transfer point:
-//   fluid_bench [threads] [steps]
+//   fluid_bench [threads] [steps] [cells across]
 #include "dust/sdk/parameter_schema.hpp"
 #include "fluid/fluid_solver.hpp"
 #include "fluid/pressure_solver.hpp"
@@ -133,10 +133,10 @@ void pressure(std::array<int, 3> cells) {
       iterations);
 }
 
-void transfer_point(int steps) {
+void transfer_point(int across, int steps) {
   const auto bodies = belt();
   scenario::FluidSpec fluid;
-  fluid.cells = {264, 9, 280};
+  fluid.cells = {264, across, 280};
   fluid.density = 1.2139;
   fluid.viscosity = 1.8e-5;
   const auto grid = fluid::Grid::make({0, 0, 0}, {0.33, 0.011, 0.35}, fluid.cells, {});
@@ -151,7 +151,7 @@ void transfer_point(int steps) {
   fluid::Exchange exchange{fluid::FaceField(grid), fluid::FaceField(grid)};
   // A falling stream of sand: drag towards -2 m/s in a column right of the head pulley.
   for (int k = 0; k < 280; ++k) {
-    for (int j = 0; j < 9; ++j) {
+    for (int j = 0; j < across; ++j) {
       for (int i = 112; i < 120; ++i) {
         const auto o = grid.index(i, j, k);
         exchange.coefficient.component[2][o] = 20.0;
@@ -180,9 +180,10 @@ void transfer_point(int steps) {
 int main(int argc, char** argv) {
   const int threads = argc > 1 ? std::atoi(argv[1]) : 2;
   const int steps = argc > 2 ? std::atoi(argv[2]) : 10;
+  const int across = argc > 3 ? std::atoi(argv[3]) : 9;
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   std::printf("%d threads\n", threads);
   pressure({264, 1, 280});
   pressure({264, 9, 280});
-  transfer_point(steps);
+  transfer_point(across, steps);
 }

@@ -65,28 +65,39 @@ TEST_CASE("V-COUE: flow between a resting and a moving plate with pressure gradi
   }
 }
 
-TEST_CASE("V-RAYL: air over a wall started at 0.8 m/s shall follow the error function") {
+namespace {
+
+/// Largest error, as a share of the wall's speed, of air over a wall started at 0.8 m/s.
+double started_wall_error(double h, double t) {
+  const int cells = static_cast<int>(std::lround(0.08 / h));
   Case c;
-  const double h = 1.25e-3;
-  c.max = {h, h, 64 * h};
-  c.cells = {1, 1, 64};
+  c.max = {h, h, 0.08};
+  c.cells = {1, 1, cells};
   c.fluid.density = 1.2139;
   c.fluid.viscosity = 1.8e-5;
   c.sides[4] = wall({0.8, 0, 0});
   c.sides[5] = slip();
   c.start();
   const double nu = 1.8e-5 / 1.2139;
-  for (const double t : {0.1, 0.4}) {
-    c.advance_to(t, 1e-3);
-    double error = 0.0;
-    for (int k = 0; k < 64; ++k) {
-      const double z = c.grid.centre(0, 0, k).z;
-      error =
-          std::max(error, std::abs(c.u(0, 0, 0, k) - 0.8 * std::erfc(z / (2 * std::sqrt(nu * t)))));
-    }
-    MESSAGE("t = " << t << ": largest error " << error / 0.8 << " of the wall's speed");
-    CHECK(error < (t < 0.2 ? 0.02 : 0.01) * 0.8);
+  c.advance_to(t, 1e-3);
+  double error = 0.0;
+  for (int k = 0; k < cells; ++k) {
+    const double z = c.grid.centre(0, 0, k).z;
+    error =
+        std::max(error, std::abs(c.u(0, 0, 0, k) / 0.8 - std::erfc(z / (2 * std::sqrt(nu * t)))));
   }
+  return error;
+}
+
+}  // namespace
+
+TEST_CASE("V-RAYL: air over a wall started at 0.8 m/s shall follow the error function within 1 %") {
+  // The layer is 4.4 mm thick at 0.1 s: with 1.25 mm cells it needs some time to be resolved.
+  MESSAGE("1.25 mm cells: " << started_wall_error(1.25e-3, 0.1) << " at 0.1 s, "
+                            << started_wall_error(1.25e-3, 0.4) << " at 0.4 s; 0.5 mm cells: "
+                            << started_wall_error(0.5e-3, 0.1) << " at 0.1 s");
+  CHECK(started_wall_error(1.25e-3, 0.4) < 0.01);
+  CHECK(started_wall_error(0.5e-3, 0.1) < 0.01);
 }
 
 TEST_CASE("total pressure shall drive a frictionless channel to sqrt(2 X / rho), from both sides") {

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bodies/body_set.hpp"
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace dust::test {
+
+/// Cylinder along y, solid inside (disc) or outside (ring) of its radius.
+class Cylinder final : public bodies::Shape {
+ public:
+  Cylinder(sdk::Vec3 centre, double radius, bool is_ring)
+      : centre_(centre), radius_(radius), sign_(is_ring ? -1.0 : 1.0) {}
+  [[nodiscard]] bodies::SurfacePoint nearest(sdk::Vec3 p) const override {
+    const sdk::Vec3 d{p.x - centre_.x, 0, p.z - centre_.z};
+    const double r = norm(d);
+    return {sign_ * (r - radius_), r > 0 ? (sign_ / r) * d : sdk::Vec3{sign_, 0, 0}};
+  }
+  [[nodiscard]] bodies::Triangles triangles(sdk::Vec3, sdk::Vec3, double) const override {
+    return {};
+  }
+  [[nodiscard]] sdk::Vec3 lateral_axis() const override { return {0, 1, 0}; }
+
+ private:
+  sdk::Vec3 centre_;
+  double radius_;
+  double sign_;
+};
+
+/// Everything behind a plane through `point` with normal `normal`.
+class HalfSpace final : public bodies::Shape {
+ public:
+  HalfSpace(sdk::Vec3 point, sdk::Vec3 normal) : point_(point), normal_(normal / norm(normal)) {}
+  [[nodiscard]] bodies::SurfacePoint nearest(sdk::Vec3 p) const override {
+    return {dot(p - point_, normal_), normal_};
+  }
+  [[nodiscard]] bodies::Triangles triangles(sdk::Vec3, sdk::Vec3, double) const override {
+    return {};
+  }
+  [[nodiscard]] sdk::Vec3 lateral_axis() const override { return {0, 1, 0}; }
+
+ private:
+  sdk::Vec3 point_;
+  sdk::Vec3 normal_;
+};
+
+/// Surface moving along itself, round the y axis as the pulley of a belt: v = speed (y x normal).
+class Turning final : public sdk::Motion {
+ public:
+  explicit Turning(double speed) : speed_(speed) {}
+  void surface_velocity(const sdk::SurfaceBatch& b) const override {
+    for (std::size_t n = 0; n < b.count; ++n) {
+      const sdk::Vec3 v =
+          speed_ * sdk::cross({0, 1, 0}, {b.normal_x[n], b.normal_y[n], b.normal_z[n]});
+      b.velocity_x[n] = v.x;
+      b.velocity_y[n] = v.y;
+      b.velocity_z[n] = v.z;
+    }
+  }
+  [[nodiscard]] double largest_speed() const override { return std::abs(speed_); }
+
+ private:
+  double speed_;
+};
+
+inline bodies::Body body(std::unique_ptr<bodies::Shape> shape, double speed) {
+  bodies::Body b;
+  b.name = "test";
+  b.shape = std::move(shape);
+  if (speed != 0.0) b.motion = std::make_unique<Turning>(speed);
+  return b;
+}
+
+}  // namespace dust::test
