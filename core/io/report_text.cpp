@@ -138,6 +138,8 @@ std::string number_html(double value, int digits) {
     return with_minus(mantissa) + "\u202f\u00d7\u202f10<sup>" +
            with_minus(std::to_string(exponent)) + "</sup>";
   }
+  // More figures before the point than asked for: still the whole number, not a power of ten.
+  if (size >= std::pow(10.0, digits)) return count_html(value);
   return with_minus(print("%.*g", digits, value));
 }
 

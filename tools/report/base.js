@@ -50,6 +50,7 @@ Dust.number = (value, digits = 4) => {
   return String(+value.toPrecision(digits)).replace('-', '−');
 };
 Dust.words = (name) => String(name).replace(/_/g, ' ');
+Dust.sentence = (name) => Dust.words(name).replace(/^./, (c) => c.toUpperCase());
 
 // The unit that reads best for numbers up to `largest`: {factor, unit}.
 Dust.scale = (unit, largest) => {

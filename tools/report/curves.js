@@ -6,14 +6,15 @@
   const k_error = /[ _/.]*(uncertainty|standard_error|error|sigma)$/i;
 
   // lines: [{name, x, y, low, high}]; x ascending. Draws one figure into `grid`.
-  const plot = (grid, title, sensor, x_label, y_label, lines) => {
+  const plot = (grid, title, sensor, x_label, y_label, unit, lines) => {
     const holder = Dust.el('div', {class: 'plot'});
-    const bold = Dust.el('b', {}, Dust.words(title) + '.');
-    const caption = Dust.el('figcaption', {}, bold, ` ${y_label}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '');
+    const tag = Dust.el('div', {class: 'axis-unit'}, unit);
+    const bold = Dust.el('b', {}, Dust.sentence(title) + '.');
+    const caption = Dust.el('figcaption', {}, bold, ` ${Dust.sentence(y_label)}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '');
     const band_of = lines.some((line) => line.low);
     if (band_of) caption.append(' Band: one standard error to either side.');
     const key = Dust.el('div', {class: 'legend'});
-    grid.append(Dust.el('figure', {}, holder, lines.length > 1 ? key : '', caption));
+    grid.append(Dust.el('figure', {}, tag, holder, lines.length > 1 ? key : '', caption));
 
     const tables = [];
     for (const line of lines) {
@@ -131,7 +132,7 @@
         y: order.map((k) => (Number.isFinite(c.y[k]) ? c.y[k] / sy.factor : null))};
     }));
     in_chunks(lines, group[0].title || 'Curve', (part, title) =>
-      plot(grid_of('curves'), title, group[0].sensor, axis_label(x_label.name, sx.unit), axis_label(y_label.name, sy.unit), part));
+      plot(grid_of('curves'), title, group[0].sensor, axis_label(x_label.name, sx.unit), axis_label(y_label.name, sy.unit), sy.unit, part));
   }
 
   // Columns of series.csv: one plot per sensor and unit.
@@ -152,6 +153,6 @@
     const title = lines.length === 1 ? (sensor ? sensor + ', ' : '') + lines[0].name : sensor || {kg: 'Mass', J: 'Energy', '-': 'Counts', '1': 'Counts', '': 'Counts'}[unit] || 'Quantities';
     const bare = scale.unit === '-' || scale.unit === '1' || scale.unit === '';
     in_chunks(lines, title.charAt(0).toUpperCase() + title.slice(1), (part, name) => plot(grid_of(sensor ? 'curves' : 'series'), name, '', 'time, s',
-      bare ? 'Number' : 'In ' + scale.unit, part));
+      bare ? 'Number' : 'In ' + scale.unit, bare ? '' : scale.unit, part));
   }
 })();

@@ -63,7 +63,7 @@
       line(pad.left, y(v / 1e3), pad.left + inner, y(v / 1e3), 'stroke:var(--line)');
       svg.append(svg_el('text', {x: pad.left - 8, y: y(v / 1e3) + 4, 'text-anchor': 'end'}, Dust.number(v)));
     }
-    svg.append(svg_el('text', {x: 0, y: pad.top - 8}, 'drop, mm'));
+    svg.append(svg_el('text', {x: pad.left - 8, y: y(deepest) - 2, 'text-anchor': 'end'}, 'drop, mm'));
     const low = group.lines.find((l) => l.kind === 'low'), high = group.lines.find((l) => l.kind === 'high');
     if (low && high) {
       const ring = [...low.points, ...[...high.points].reverse()].map((p) => `${x(p[0])},${y(p[1])}`).join(' ');
@@ -86,7 +86,7 @@
   const curves = of_curves();
   const groups = curves.some((group) => group.lines.some((l) => l.kind)) ? curves : [...of_figures(), ...curves];
   for (const group of groups) {
-    const caption = Dust.el('figcaption', {}, Dust.el('b', {}, group.title ? Dust.words(group.title) + '.' : 'Quantiles of the stream.'),
+    const caption = Dust.el('figcaption', {}, Dust.el('b', {}, group.title ? Dust.sentence(group.title) + '.' : 'Quantiles of the stream.'),
       ' Horizontal position against the drop below the start of the stream, in mm',
       group.lines.some((l) => l.kind) ? '; the band holds the grains between the 5 and 95 % quantiles, the dark line is the median.' : '.');
     section.append(Dust.el('figure', {class: 'side'}, Dust.el('div', {}, draw(group)), caption));

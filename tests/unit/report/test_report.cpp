@@ -269,6 +269,8 @@ TEST_CASE("numbers shall be printed as on paper") {
   CHECK(value_html(-2.5, -1.0) == "\u22122.5");
   CHECK(has(quantity_html(3.1e-7, 4.2e-8, "kg/m3"), "310 \u00b1 42"));
   CHECK(has(quantity_html(3.1e-7, 4.2e-8, "kg/m3"), "\u00b5g/m\u00b3"));
+  CHECK(number_html(1104.2, 3) == "1\u202f104");
+
   CHECK(count_html(1234567) == "1\u202f234\u202f567");
   CHECK(duration_html(3725) == "1\u202fh 02\u202fmin");
   CHECK(escape_html("a\xff<") == "a\ufffd&lt;");
