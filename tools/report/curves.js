@@ -141,10 +141,12 @@
   if (!clock || clock.values.length < 2 || !ascending(clock.values)) return;
   const sensors = [...Dust.data.sensors].sort((a, b) => b.length - a.length);
   const sensor_of = (name) => sensors.find((s) => name.startsWith(s) && /^[ /._:]/.test(name.slice(s.length))) || '';
+  // A sensor's own curve against time already tells what its column of the same unit repeats.
+  const told_by_curve = new Set(shown.filter((c) => /^time/i.test(c.x_label || '')).map((c) => c.sensor + '\n' + split_label(c.y_label).unit));
   const told = columns.filter((c) => c !== clock).map((c) => {
     const sensor = sensor_of(c.name);
     return {...c, sensor, short: sensor ? c.name.slice(sensor.length + 1) : c.name};
-  }).filter((c) => c.values.some((v) => v !== null));
+  }).filter((c) => c.values.some((v) => v !== null) && !told_by_curve.has(c.sensor + '\n' + c.unit));
   for (const group of by(told, (c) => c.sensor + '\n' + c.unit)) {
     const {sensor, unit} = group[0];
     const scale = Dust.scale(unit, largest(group.map((c) => c.values)));

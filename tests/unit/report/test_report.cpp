@@ -66,9 +66,9 @@ TEST_CASE("the report shall show the numbers of the summary") {
   const RunFolder folder;
   fill(folder);
   const std::string page = page_of(folder);
-  CHECK(has(page, "0.0137 \u00b1 0.0021"));  // loose dust, with its error
-  CHECK(has(page, "128.40 \u00b1 0.30"));    // stream median in mm
-  CHECK(has(page, "0.01372 g/t"));           // the same in SI, unrounded
+  CHECK(has(page, "0.0137\u00a0\u00b1\u00a00.0021"));  // loose dust, with its error
+  CHECK(has(page, "128.40\u00a0\u00b1\u00a00.30"));    // stream median in mm
+  CHECK(has(page, "0.01372 g/t"));                     // the same in SI, unrounded
   CHECK(has(page, "0.128404 m"));
   CHECK(has(page, "0123456789abcdef"));
   CHECK(has(page, "4\u202f321"));
@@ -264,13 +264,14 @@ TEST_CASE("the air map shall hold the mean over the depth and mask bodies") {
 
 TEST_CASE("numbers shall be printed as on paper") {
   using namespace dust::io;
-  CHECK(value_html(0.128404, 0.00031) == "0.12840 \u00b1 0.00031");
-  CHECK(value_html(128.404, 31.0) == "128 \u00b1 31");
+  CHECK(value_html(0.128404, 0.00031) == "0.12840\u00a0\u00b1\u00a00.00031");
+  CHECK(value_html(128.404, 31.0) == "128\u00a0\u00b1\u00a031");
   CHECK(value_html(-2.5, -1.0) == "\u22122.5");
-  CHECK(has(quantity_html(3.1e-7, 4.2e-8, "kg/m3"), "310 \u00b1 42"));
+  CHECK(has(quantity_html(3.1e-7, 4.2e-8, "kg/m3"), "310\u00a0\u00b1\u00a042"));
   CHECK(has(quantity_html(3.1e-7, 4.2e-8, "kg/m3"), "\u00b5g/m\u00b3"));
   CHECK(number_html(1104.2, 3) == "1\u202f104");
 
+  CHECK(words("class_10_um/sum_of_lumps") == "class 10 \u00b5m / sum of lumps");
   CHECK(count_html(1234567) == "1\u202f234\u202f567");
   CHECK(duration_html(3725) == "1\u202fh 02\u202fmin");
   CHECK(escape_html("a\xff<") == "a\ufffd&lt;");
