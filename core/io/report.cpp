@@ -169,7 +169,7 @@ std::string page(const RunText& run, const json& data, const Highlights& highlig
   text += "</style>\n</head>\n<body>\n<main>\n";
   text += header_html(run, highlights) + result_html(highlights);
   text += pictures_html(data["grains"], data["air"], !data["places"].empty());
-  text += "<section id=\"stream\" hidden><h2>The path of the stream</h2></section>\n";
+  text += stream_html(highlights);
   text += "<section id=\"curves\" hidden><h2>Fluxes and concentrations</h2></section>\n";
   text += "<section id=\"series\" hidden><h2>The run over time</h2></section>\n";
   text += balance_html(run) + cost_html(run) + health_html(run) + figures_html(run) +
@@ -199,7 +199,7 @@ void write_report(const std::filesystem::path& folder) {
       run.notes.emplace_back("results.h5 cannot be read: the pictures are missing.");
     }
     const json bodies = bodies_of(run.report, source);
-    const View view = view_of(source, bodies);
+    const View view = view_of(source, bodies, run.scenario);
     data["view"] = {view.min_x, view.min_z, view.max_x, view.max_z};
     data["bodies"] = bodies;
     data["grains"] = grains_of(source, view, list_at(run.report, "classes"));
@@ -225,7 +225,11 @@ void write_report(const std::filesystem::path& folder) {
                             "; make room on the disk or give yourself the right to write there");
     }
   }
-  std::filesystem::rename(part, target);
+  std::error_code failed;
+  std::filesystem::rename(part, target, failed);
+  if (failed) {
+    throw base::UserError("error: cannot replace " + target.string() + ": " + failed.message());
+  }
 }
 
 }  // namespace dust::io

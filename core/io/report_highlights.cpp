@@ -245,4 +245,26 @@ std::string result_html(const Highlights& highlights) {
   return text + "</tbody></table></div></section>\n";
 }
 
+std::string stream_html(const Highlights& highlights) {
+  // Curves alone may fill the section: the page's script shows it then.
+  std::string text = std::string("<section id=\"stream\"") +
+                     (highlights.stream.empty() ? " hidden" : "") +
+                     "><h2>The path of the stream</h2>\n<div id=\"stream-picture\"></div>\n";
+  if (highlights.stream.empty()) return text + "</section>\n";
+  text +=
+      "<div class=\"scroll\"><table><thead><tr><th class=\"n\">Drop</th><th class=\"n\">5\u202f% "
+      "</th><th class=\"n\">Median</th><th class=\"n\">95\u202f%</th></tr></thead>\n<tbody>\n";
+  const auto cell = [](const Figure& figure) {
+    return "<td class=\"n\">" +
+           (figure.name.empty() ? std::string("\u2013")
+                                : quantity_html(figure.value, figure.uncertainty, figure.unit)) +
+           "</td>";
+  };
+  for (const StreamDrop& drop : highlights.stream) {
+    text += "<tr><td class=\"n\">" + quantity_html(drop.drop, -1.0, "m") + "</td>" +
+            cell(drop.low) + cell(drop.median) + cell(drop.high) + "</tr>\n";
+  }
+  return text + "</tbody></table></div></section>\n";
+}
+
 }  // namespace dust::io

@@ -98,7 +98,7 @@
     const caption = Dust.el('figcaption', {}, Dust.el('b', {}, group.title ? Dust.sentence(group.title) + '.' : 'Path of the stream.'),
       ' Horizontal position against the drop below the start of the stream, in mm',
       group.lines.some((l) => l.kind) ? '; the band holds the grains between the 5 and 95 % quantiles, the heavy line is the median; bars are standard errors.' : '.');
-    section.append(Dust.el('figure', {class: 'side'}, Dust.el('div', {}, draw(group)), caption));
+    document.getElementById('stream-picture').append(Dust.el('figure', {class: 'side'}, Dust.el('div', {}, draw(group)), caption));
     section.hidden = false;
   }
   Dust.is_stream_curve = (curve) => Array.isArray(curve.y) && drop_axis(curve) !== null;

@@ -138,6 +138,46 @@ TEST_CASE("a run without fluid shall have a report without maps of the air") {
   CHECK(has(page, "id=\"grains-picture\""));
 }
 
+TEST_CASE("a run without fluid shall be shown over the domain of its scenario") {
+  const RunFolder folder;
+  fill(folder);
+  folder.write_h5({.has_fluid = false});
+  folder.write("scenario.yaml", "domain: {min: [-10, 0, 0 mm], max: [2, 0.011, 3]}\n");
+  const json view = page_data(page_of(folder))["view"];
+  CHECK(view[0].get<double>() == doctest::Approx(-0.01));
+  CHECK(view[2].get<double>() == doctest::Approx(2.0));
+  CHECK(view[3].get<double>() == doctest::Approx(3.0));
+  // Without a readable scenario: grains at x 0.25 and 0.5, the belt's outline, a margin of 4 %.
+  folder.write("scenario.yaml", "domain: [[[");
+  const json found = page_data(page_of(folder))["view"];
+  CHECK(found[0].get<double>() == doctest::Approx(-0.04 * 0.75));
+  CHECK(found[2].get<double>() == doctest::Approx(0.5 + 0.04 * 0.75));
+}
+
+TEST_CASE("a figure without a value shall be shown as a dash") {
+  const RunFolder folder;
+  json summary = fake_summary();
+  summary["sensors"]["loose_dust"]["liberated"]["value"] = nullptr;
+  folder.write("summary.json", summary.dump());
+  const std::string page = page_of(folder);
+  CHECK(has(page, "<td>liberated</td><td class=\"n\">\u2013"));
+  CHECK_FALSE(has(page, ">nan"));
+}
+
+TEST_CASE("coarse grains carried along shall not be called dust") {
+  const RunFolder folder;
+  json summary = fake_summary();
+  const auto figure = [](double value) { return json{{"value", value}, {"unit", "g/t"}}; };
+  summary["sensors"] = {{"carry_back",
+                         {{"grams_per_tonne", figure(310.0)},
+                          {"class_10_um/grams_per_tonne", figure(0.25)},
+                          {"class_300_um/grams_per_tonne", figure(309.75)}}}};
+  folder.write("summary.json", summary.dump());
+  const std::string page = page_of(folder);
+  CHECK(has(page, "0.25\u202fg of dust per tonne"));
+  CHECK_FALSE(has(page, "310\u202fg of dust per tonne"));
+}
+
 TEST_CASE("frames without grains shall be shown empty") {
   const RunFolder folder;
   fill(folder);
