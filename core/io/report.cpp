@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <map>
 
 namespace dust::io {
 
@@ -57,6 +58,25 @@ json stream_json(const Highlights& highlights) {
   return list;
 }
 
+/// Places of low pressure found by sensors ("place_1/x", "place_1/z", "place_1/depth"), for the
+/// map.
+json places_json(const std::vector<Figure>& figures) {
+  std::map<std::string, std::map<std::string, double>> places;
+  for (const Figure& figure : figures) {
+    const auto at = figure.name.rfind('/');
+    if (at == std::string::npos || figure.name.rfind("place_", 0) != 0) continue;
+    places[figure.sensor + "/" + figure.name.substr(0, at)][figure.name.substr(at + 1)] =
+        figure.value;
+  }
+  json list = json::array();
+  for (auto& [name, place] : places) {
+    if (!place.count("x") || !place.count("z") || !(place["depth"] > 0.0)) continue;
+    list.push_back(
+        {{"name", name.substr(name.rfind('_') + 1)}, {"x", place["x"]}, {"z", place["z"]}});
+  }
+  return list;
+}
+
 std::string grains_section(const json& grains) {
   if (grains.is_null()) return {};
   std::string note;
@@ -87,7 +107,7 @@ std::string grains_section(const json& grains) {
          "id=\"grains-whole\">Whole view</button></span></figcaption></figure>\n";
 }
 
-std::string air_section(const json& air) {
+std::string air_section(const json& air, bool has_places) {
   if (air.is_null()) return {};
   const char* depth =
       air["middle"].get<bool>() ? "in the middle plane" : "averaged over the depth <i>y</i>";
@@ -114,20 +134,20 @@ std::string air_section(const json& air) {
       "<figure id=\"pressure\"><div class=\"picture\" id=\"pressure-picture\"></div><div "
       "id=\"pressure-legend\" class=\"key\"></div><figcaption><b>Pressure of the air</b> ";
   text += depth;
-  text +=
-      ", in Pa, without the hydrostatic part. The ring marks the lowest pressure of the frame. "
-      "Range over "
-      "all frames: " +
-      number_html(air["low"].get<double>(), 3) + "\u202fPa" + " to " +
-      number_html(air["high"].get<double>(), 3) + "\u202fPa" + ".</figcaption></figure>\n</div>\n";
+  text += ", in Pa, without the hydrostatic part. ";
+  text += has_places ? "Numbered rings: the places of low mean pressure found by a sensor. "
+                     : "The ring marks the lowest pressure of the frame. ";
+  text += "Range over all frames: " + number_html(air["low"].get<double>(), 3) + "\u202fPa" +
+          " to " + number_html(air["high"].get<double>(), 3) + "\u202fPa" +
+          ".</figcaption></figure>\n</div>\n";
   return text;
 }
 
-std::string pictures_html(const json& grains, const json& air) {
+std::string pictures_html(const json& grains, const json& air, bool has_places) {
   if (grains.is_null() && air.is_null()) return {};
   return "<section id=\"pictures\"><h2>The run in pictures</h2>\n<div id=\"clock\" class=\"clock "
          "screen\"></div>\n" +
-         grains_section(grains) + air_section(air) +
+         grains_section(grains) + air_section(air, has_places) +
          "<noscript><p class=\"note\">The pictures are drawn by the page's own script, which is "
          "switched "
          "off here.</p></noscript></section>\n";
@@ -148,8 +168,8 @@ std::string page(const RunText& run, const json& data, const Highlights& highlig
   text += report_asset("report.css");
   text += "</style>\n</head>\n<body>\n<main>\n";
   text += header_html(run, highlights) + result_html(highlights);
-  text += pictures_html(data["grains"], data["air"]);
-  text += "<section id=\"stream\" hidden><h2>The path of the stream</h2></section>\n";
+  text += pictures_html(data["grains"], data["air"], !data["places"].empty());
+  text += stream_html(highlights);
   text += "<section id=\"curves\" hidden><h2>Fluxes and concentrations</h2></section>\n";
   text += "<section id=\"series\" hidden><h2>The run over time</h2></section>\n";
   text += balance_html(run) + cost_html(run) + health_html(run) + figures_html(run) +
@@ -159,7 +179,7 @@ std::string page(const RunText& run, const json& data, const Highlights& highlig
           "anything.</footer>\n</main>\n";
   text += "<script type=\"application/json\" id=\"run-data\">" + script_json(data) + "</script>\n";
   for (const char* name : {"uPlot.iife.min.js", "base.js", "colour.js", "grains.js", "air.js",
-                           "stream.js", "curves.js", "main.js"}) {
+                           "stream.js", "curves.js", "graph.js", "main.js"}) {
     text += "<script>";
     text += report_asset(name);
     text += "</script>\n";
@@ -179,7 +199,7 @@ void write_report(const std::filesystem::path& folder) {
       run.notes.emplace_back("results.h5 cannot be read: the pictures are missing.");
     }
     const json bodies = bodies_of(run.report, source);
-    const View view = view_of(source, bodies);
+    const View view = view_of(source, bodies, run.scenario);
     data["view"] = {view.min_x, view.min_z, view.max_x, view.max_z};
     data["bodies"] = bodies;
     data["grains"] = grains_of(source, view, list_at(run.report, "classes"));
@@ -188,6 +208,7 @@ void write_report(const std::filesystem::path& folder) {
   data["curves"] = list_at(run.report, "curves");
   data["series"] = series_json(run.series);
   data["stream"] = stream_json(highlights);
+  data["places"] = places_json(run.figures);
   data["sensors"] = json::array();
   for (const auto& entry : object_at(run.summary, "sensors").items())
     data["sensors"].push_back(entry.key());
@@ -204,7 +225,11 @@ void write_report(const std::filesystem::path& folder) {
                             "; make room on the disk or give yourself the right to write there");
     }
   }
-  std::filesystem::rename(part, target);
+  std::error_code failed;
+  std::filesystem::rename(part, target, failed);
+  if (failed) {
+    throw base::UserError("error: cannot replace " + target.string() + ": " + failed.message());
+  }
 }
 
 }  // namespace dust::io

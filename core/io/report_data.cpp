@@ -2,8 +2,11 @@
 #include "io/report_pictures.hpp"
 #include "io/report_run.hpp"
 
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace dust::io {
 
@@ -51,6 +54,49 @@ json segments_of(const json& value) {
   return segments;
 }
 
+/// A length as scenarios write it, in m: "0.35" or "350 mm"; NaN when it is neither.
+double length_of(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  std::string unit(end);
+  unit.erase(0, unit.find_first_not_of(' '));
+  for (const auto& [name, factor] :
+       {std::pair{"", 1.0}, {"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}}) {
+    if (end != text.c_str() && unit == name) return value * factor;
+  }
+  return std::nan("");
+}
+
+/// [x, y, z] in m; a unit on the last component alone holds for all. Empty when it is anything
+/// else.
+std::vector<double> corner_of(const YAML::Node& node) {
+  if (!node.IsSequence() || node.size() != 3) return {};
+  std::vector<std::string> texts;
+  for (const YAML::Node& part : node) {
+    if (!part.IsScalar()) return {};
+    texts.push_back(part.Scalar());
+  }
+  const auto at = texts[2].find_first_of("mcu");
+  for (std::size_t k = 0; k < 2 && at != std::string::npos; ++k) {
+    if (texts[k].find_first_of("mcu") == std::string::npos) texts[k] += " " + texts[2].substr(at);
+  }
+  std::vector<double> corner;
+  for (const std::string& text : texts) corner.push_back(length_of(text));
+  return corner;
+}
+
+/// The domain of scenario.yaml; empty when it cannot be read.
+View domain_of(const std::string& scenario) {
+  try {
+    const YAML::Node domain = YAML::Load(scenario)["domain"];
+    const auto low = corner_of(domain["min"]), high = corner_of(domain["max"]);
+    if (low.size() == 3 && high.size() == 3) return {low[0], low[2], high[0], high[2]};
+  } catch (const YAML::Exception&) {
+    // A report of a damaged scenario file shows what the grains span.
+  }
+  return {};
+}
+
 /// The newest wall surfaces seen along y: their triangles, projected, cover the silhouette.
 json walls_of(const H5Source& source) {
   const auto names = source.frames("/walls");
@@ -88,7 +134,7 @@ void View::add(double x, double z) {
   max_z = std::max(max_z, z);
 }
 
-View view_of(const H5Source& source, const json& bodies) {
+View view_of(const H5Source& source, const json& bodies, const std::string& scenario) {
   const auto origin = source.attribute("/fluid", "origin");
   const auto spacing = source.attribute("/fluid", "spacing");
   const auto count = source.attribute("/fluid", "count");
@@ -97,6 +143,7 @@ View view_of(const H5Source& source, const json& bodies) {
                     origin[2] + spacing[2] * count[2]};
     if (!view.is_empty()) return view;
   }
+  if (const View domain = domain_of(scenario); !domain.is_empty()) return domain;
   View view;
   for (const auto& name : source.frames("/particles")) {
     const auto position = source.floats("/particles/" + name + "/position");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "io/report_pictures.hpp"
 #include "io/report_sections.hpp"
 #include "io/report_text.hpp"
 
@@ -6,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <set>
 
 namespace dust::io {
 
@@ -43,6 +45,40 @@ double drop_of(const std::string& path) {
   return value;
 }
 
+/// The diameter in "class_10_um/grams_per_tonne" [m]; negative when the path names no size class.
+double class_of(const std::string& path) {
+  const auto at = path.find("class_");
+  if (at == std::string::npos) return -1.0;
+  const char* begin = path.c_str() + at + 6;
+  char* end = nullptr;
+  const double value = std::strtod(begin, &end);
+  if (end == begin) return -1.0;
+  return value * (std::string(end).rfind("_mm", 0) == 0 ? 1e-3 : 1e-6);
+}
+
+/// Keeps what is dust: of a sensor that tells size classes apart only its fine classes; a sensor
+/// that does not is taken at its word.
+void keep_dust(std::vector<Figure>& figures) {
+  std::set<std::string> with_classes;
+  for (const Figure& figure : figures) {
+    if (class_of(figure.name) >= 0.0) with_classes.insert(figure.sensor);
+  }
+  std::erase_if(figures, [&](const Figure& figure) {
+    const double diameter = class_of(figure.name);
+    return diameter >= 0.0 ? diameter >= k_dust_diameter : with_classes.count(figure.sensor) > 0;
+  });
+}
+
+/// "carry back, grains of 10 um"; the quantity's own name when it says more than the unit does.
+std::string place_html(const Figure& figure) {
+  std::string text = "<em>" + escape_html(words(figure.sensor)) + "</em>";
+  const double diameter = class_of(figure.name);
+  if (diameter >= 0.0) text += " (grains of " + quantity_html(diameter, -1.0, "m") + ")";
+  const std::string leaf = leaf_of(figure.name);
+  if (leaf != "grams_per_tonne") text += " (" + escape_html(words(leaf)) + ")";
+  return text;
+}
+
 int rank_of(const Figure& figure) {
   const std::string text = figure.sensor + "/" + figure.name;
   if (has(text, "loose") || has(text, "liberated")) return 0;
@@ -72,13 +108,12 @@ std::string where_it_went(const Highlights& highlights) {
   std::string text;
   for (std::size_t k = 1; k < highlights.dust.size() && k < 4; ++k) {
     const Figure& figure = highlights.dust[k];
-    text += k == 1 ? " Elsewhere: " : "; ";
+    text += ", ";
     text +=
         quantity_html(figure.value, figure.uncertainty, figure.unit.empty() ? "g/t" : figure.unit);
-    text += " (<em>" + escape_html(words(figure.sensor)) + "</em>, " +
-            escape_html(words(leaf_of(figure.name))) + ")";
+    text += " at " + place_html(figure);
   }
-  return text.empty() ? text : text + ".";
+  return text;
 }
 
 std::string lede_html(const RunText& run, const Highlights& highlights) {
@@ -86,10 +121,8 @@ std::string lede_html(const RunText& run, const Highlights& highlights) {
   if (!highlights.dust.empty()) {
     const Figure& figure = highlights.dust.front();
     text += "<strong>" + value_html(figure.value, figure.uncertainty) +
-            "\u202fg of dust per tonne</strong> of load got loose (<em>" +
-            escape_html(words(figure.sensor)) + "</em>, " +
-            escape_html(words(leaf_of(figure.name))) + ").";
-    text += where_it_went(highlights);
+            "\u202fg of dust per tonne</strong> of load is found at " + place_html(figure) +
+            where_it_went(highlights) + ".";
   }
   if (!highlights.stream.empty()) {
     const StreamDrop& last = highlights.stream.back();
@@ -160,6 +193,7 @@ Highlights highlights_of(const std::vector<Figure>& figures) {
     entry.drop = drop;
     (quantile == 5 ? entry.low : quantile == 50 ? entry.median : entry.high) = figure;
   }
+  keep_dust(highlights.dust);
   std::stable_sort(highlights.dust.begin(), highlights.dust.end(),
                    [](const Figure& a, const Figure& b) { return rank_of(a) < rank_of(b); });
   for (const auto& [key, entry] : drops) {
@@ -207,6 +241,28 @@ std::string result_html(const Highlights& highlights) {
             quantity_html(figure.value, figure.uncertainty, figure.unit) +
             "</td><td class=\"bar\"><i class=\"dustbar\" style=\"width:" + width +
             "%\"></i></td></tr>\n";
+  }
+  return text + "</tbody></table></div></section>\n";
+}
+
+std::string stream_html(const Highlights& highlights) {
+  // Curves alone may fill the section: the page's script shows it then.
+  std::string text = std::string("<section id=\"stream\"") +
+                     (highlights.stream.empty() ? " hidden" : "") +
+                     "><h2>The path of the stream</h2>\n<div id=\"stream-picture\"></div>\n";
+  if (highlights.stream.empty()) return text + "</section>\n";
+  text +=
+      "<div class=\"scroll\"><table><thead><tr><th class=\"n\">Drop</th><th class=\"n\">5\u202f% "
+      "</th><th class=\"n\">Median</th><th class=\"n\">95\u202f%</th></tr></thead>\n<tbody>\n";
+  const auto cell = [](const Figure& figure) {
+    return "<td class=\"n\">" +
+           (figure.name.empty() ? std::string("\u2013")
+                                : quantity_html(figure.value, figure.uncertainty, figure.unit)) +
+           "</td>";
+  };
+  for (const StreamDrop& drop : highlights.stream) {
+    text += "<tr><td class=\"n\">" + quantity_html(drop.drop, -1.0, "m") + "</td>" +
+            cell(drop.low) + cell(drop.median) + cell(drop.high) + "</tr>\n";
   }
   return text + "</tbody></table></div></section>\n";
 }

@@ -17,8 +17,9 @@ struct View {
   void add(double x, double z);
 };
 
-/// The view of a run: the fluid's grid, or what grains and body outlines span.
-[[nodiscard]] View view_of(const H5Source& source, const nlohmann::json& bodies);
+/// The view of a run: the fluid's grid, the domain of the scenario, or what grains and bodies span.
+[[nodiscard]] View view_of(const H5Source& source, const nlohmann::json& bodies,
+                           const std::string& scenario);
 
 /// Body outlines for the pictures, [{"name", "polygons": [[[x, z], ..]], "segments": [[x, z, x,
 /// z]], "triangles": [x, z, ..]}]: those of report.json, or else the newest wall surfaces seen

@@ -147,6 +147,7 @@ std::string cost_html(const RunText& run) {
   const auto steps = number_at(run.summary, "particle_steps");
   std::vector<Cost> costs;
   collect_costs("", object_at(run.summary, "timers_s"), costs);
+  if (costs.empty()) collect_costs("", object_at(run.report, "timers_s"), costs);
   if (!wall && costs.empty()) return {};
   std::stable_sort(costs.begin(), costs.end(),
                    [](const Cost& a, const Cost& b) { return a.seconds > b.seconds; });
@@ -234,7 +235,7 @@ std::string figures_html(const RunText& run) {
     std::string last;
     for (const Figure& figure : run.figures) {
       char plain[64];
-      std::snprintf(plain, sizeof plain, "%.9g", figure.value);
+      std::snprintf(plain, sizeof plain, std::isfinite(figure.value) ? "%.9g" : "", figure.value);
       text += std::string(figure.sensor != last ? "<tr class=\"first\">" : "<tr>") + "<td>" +
               (figure.sensor != last ? escape_html(words(figure.sensor)) : "") + "</td><td>" +
               escape_html(words(figure.name)) + "</td><td class=\"n\">" +

@@ -26,6 +26,7 @@ struct Highlights {
 /// when the run has nothing to say.
 [[nodiscard]] std::string header_html(const RunText& run, const Highlights& highlights);
 [[nodiscard]] std::string result_html(const Highlights& highlights);
+[[nodiscard]] std::string stream_html(const Highlights& highlights);
 [[nodiscard]] std::string balance_html(const RunText& run);
 [[nodiscard]] std::string cost_html(const RunText& run);
 [[nodiscard]] std::string health_html(const RunText& run);

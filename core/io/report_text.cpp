@@ -119,6 +119,13 @@ std::string script_json(const nlohmann::json& value) {
 std::string words(std::string_view name) {
   std::string text(name);
   std::replace(text.begin(), text.end(), '_', ' ');
+  for (auto at = text.find(" um"); at != std::string::npos; at = text.find(" um", at + 1)) {
+    const bool is_unit = at + 3 == text.size() || text[at + 3] == '/' || text[at + 3] == ' ';
+    if (is_unit) text.replace(at + 1, 1, "\u00b5");
+  }
+  for (auto at = text.find('/'); at != std::string::npos; at = text.find('/', at + 3)) {
+    text.replace(at, 1, " / ");
+  }
   return text;
 }
 
@@ -138,6 +145,8 @@ std::string number_html(double value, int digits) {
     return with_minus(mantissa) + "\u202f\u00d7\u202f10<sup>" +
            with_minus(std::to_string(exponent)) + "</sup>";
   }
+  // More figures before the point than asked for: still the whole number, not a power of ten.
+  if (size >= std::pow(10.0, digits)) return count_html(value);
   return with_minus(print("%.*g", digits, value));
 }
 
@@ -161,12 +170,13 @@ std::string value_html(double value, double error) {
     const int exponent = static_cast<int>(std::floor(std::log10(size)));
     const int decimals = std::clamp(exponent - place, 0, 8);
     const double unit = std::pow(10.0, exponent);
-    return "(" + with_minus(print("%.*f", decimals, value / unit)) + " \u00b1 " +
+    return "(" + with_minus(print("%.*f", decimals, value / unit)) + "\u00a0\u00b1\u00a0" +
            print("%.*f", decimals, error / unit) + ")\u202f\u00d7\u202f10<sup>" +
            with_minus(std::to_string(exponent)) + "</sup>";
   }
   const int decimals = std::clamp(-place, 0, 8);
-  return with_minus(print("%.*f", decimals, value)) + " \u00b1 " + print("%.*f", decimals, error);
+  return with_minus(print("%.*f", decimals, value)) + "\u00a0\u00b1\u00a0" +
+         print("%.*f", decimals, error);
 }
 
 std::string quantity_html(double value, double error, std::string_view unit) {

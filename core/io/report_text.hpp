@@ -15,7 +15,7 @@ namespace dust::io {
 /// JSON that may stand inside a script element: no '<', no line separators of JavaScript.
 [[nodiscard]] std::string script_json(const nlohmann::json& value);
 
-/// "uPa_max" and "drop_140_mm" as words: underscores become spaces.
+/// A path of snake_case words to be read: "drop_140_mm/median" becomes "drop 140 mm / median".
 [[nodiscard]] std::string words(std::string_view name);
 
 /// A number with `digits` significant digits, a true minus and powers of ten in HTML.

@@ -156,10 +156,10 @@ def figure(value, unit, error=None):
 def write_text(folder, status, end, released, inside, with_fluid, rng):
     drops = [0.02, 0.05, 0.1, 0.14]
     stream = {}
-    quant = {"q05": [], "median": [], "q95": []}
+    quant = {"quantile_5": [], "median": [], "quantile_95": []}
     for h in drops:
         middle = BELT * math.sqrt(2 * h / G) * 0.95
-        for name, value in (("q05", middle - 0.004 - 0.08 * h), ("median", middle), ("q95", middle + 0.003 + 0.05 * h)):
+        for name, value in (("quantile_5", middle - 0.004 - 0.08 * h), ("median", middle), ("quantile_95", middle + 0.003 + 0.05 * h)):
             stream[f"drop_{round(h * 1000)}_mm/{name}"] = figure(value, "m", 0.0003)
             quant[name].append(value)
     mass = released * 1.18e-7
@@ -177,11 +177,14 @@ def write_text(folder, status, end, released, inside, with_fluid, rng):
         "limits": {"void_fraction_floor": 1834, "cfl_substeps": 212, "overlap_above_5_percent": 0, "lost_grains": 0},
         "sensors": {
             "stream": stream,
-            "loose_dust": {"liberated": figure(0.0137, "g/t", 0.0021), "concentration": figure(3.1e-7, "kg/m3", 4.2e-8),
-                           "grains": figure(57, "-", 6.1)},
-            "carry_back": {"carried_back": figure(0.0042, "g/t", 0.0011), "grains": 12},
-            "suction": {"lowest/pressure": figure(-0.392, "Pa", 0.014), "lowest/x": figure(0.0551, "m", 0.0012)},
-            "lip": {"mass_flow": figure(0.00598, "kg/s", 2e-5)},
+            "loose_dust": {"grams_per_tonne": figure(0.0137, "g/t", 0.0021), "mass_concentration": figure(3.1e-7, "kg/m3", 4.2e-8),
+                           "number_concentration": figure(2.3e5, "1/m3", 3.1e4)},
+            "carry_back": {"grams_per_tonne": figure(310.0, "g/t", 25.0), "class_10_um/grams_per_tonne": figure(0.0042, "g/t", 0.0011),
+                           "class_300_um/grams_per_tonne": figure(309.9, "g/t", 25.0)},
+            "suction": {"found": figure(2, "1"), "place_1/x": figure(0.0551, "m"), "place_1/z": figure(0.075, "m"),
+                        "place_1/depth": figure(0.392, "Pa", 0.014), "place_2/x": figure(0.215, "m"),
+                        "place_2/z": figure(0.12, "m"), "place_2/depth": figure(0.218, "Pa", 0.02)},
+            "lip": {"forward/mass_rate": figure(0.00598, "kg/s", 2e-5)},
         },
     }
     (folder / "summary.json").write_text(json.dumps(summary, indent=1))
@@ -192,16 +195,15 @@ def write_text(folder, status, end, released, inside, with_fluid, rng):
         "mass_emitted [kg]": 0.006 * t, "mass_in_domain [kg]": 0.006 * np.minimum(t, 0.33),
         "mass_left [kg]": 0.006 * np.clip(t - 0.33, 0, None),
         "lip/mass_flow [kg/s]": 0.006 * np.clip((t - 0.12) / 0.04, 0, 1) + rng.normal(0, 1.2e-4, len(t)) * (t > 0.12),
-        "loose_dust/concentration [kg/m3]": 3.1e-7 * ramp**3 + rng.normal(0, 1e-8, len(t)) * ramp,
-        "loose_dust/concentration_error [kg/m3]": 4e-8 * ramp,
+        "loose_dust/mass_concentration [kg/m3]": 3.1e-7 * ramp**3 + rng.normal(0, 1e-8, len(t)) * ramp,
+        "loose_dust/mass_concentration_error [kg/m3]": 4e-8 * ramp,
         "carry_back/flux [kg/s]": 2.5e-11 * ramp**4 * (1 + 0.1 * rng.normal(0, 1, len(t))),
         "suction/lowest_pressure [Pa]": -0.39 * ramp + 0.01 * np.sin(40 * t),
     }
     rows = [",".join(columns)] + [",".join(f"{v:.9g}" for v in row) for row in zip(*columns.values())]
     (folder / "series.csv").write_text("\n".join(rows) + "\n")
-    names = {"q05": "5 %", "median": "50 %", "q95": "95 %"}
-    curves = [{"sensor": "stream", "title": "stream quantiles", "x_label": "x [m]", "y_label": "drop [m]", "series": names[k],
-               "x": v, "y": drops} for k, v in quant.items()]
+    curves = [{"sensor": "stream", "title": "Trajectory of the stream", "x_label": "distance from A [m]",
+               "y_label": "height above A [m]", "series": k, "x": v, "y": [-h for h in drops]} for k, v in quant.items()]
     size = np.linspace(-0.01, 0.02, 40)
     curves.append({"sensor": "lip", "title": "mass flux across the stream", "x_label": "height above the belt [m]",
                    "y_label": "flux [kg/(m2 s)]", "series": "steady mean", "x": list(size),

@@ -97,7 +97,21 @@ Dust.air = (() => {
     pen.globalAlpha = 1;
   };
 
+  const ring = (pen, x, z, text) => {
+    pen.strokeStyle = pen.fillStyle = Dust.colour('ink');
+    pen.lineWidth = 1.4;
+    pen.beginPath();
+    pen.arc(x, z, 7, 0, 6.2832);
+    pen.stroke();
+    pen.font = '11px ' + Dust.colour('sans');
+    pen.textAlign = 'left';
+    pen.textBaseline = 'middle';
+    pen.fillText(text, x + 10, z);
+  };
+  // The places a sensor found, or else the lowest cell of the frame.
   const paint_lowest = (pen, picture) => {
+    for (const place of Dust.data.places) ring(pen, picture.x(place.x), picture.z(place.z), place.name);
+    if (Dust.data.places.length) return;
     let place = -1, lowest = 127;
     for (let k = 0; k < cells; ++k) {
       if (current.pressure[k] < lowest) {
@@ -108,11 +122,7 @@ Dust.air = (() => {
     if (place < 0) return;
     const x = picture.x(set.x0 + (place % set.nx + 0.5) * set.dx);
     const z = picture.z(set.z0 + (Math.floor(place / set.nx) + 0.5) * set.dz);
-    pen.strokeStyle = Dust.colour('ink');
-    pen.lineWidth = 1.4;
-    pen.beginPath();
-    pen.arc(x, z, 7, 0, 6.2832);
-    pen.stroke();
+    ring(pen, x, z, '');
   };
 
   const checkbox = document.getElementById('air-dust');

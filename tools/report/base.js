@@ -49,7 +49,8 @@ Dust.number = (value, digits = 4) => {
   }
   return String(+value.toPrecision(digits)).replace('-', '−');
 };
-Dust.words = (name) => String(name).replace(/_/g, ' ');
+Dust.words = (name) => String(name).replace(/_/g, ' ').replace(/ um(?=$|\W)/g, ' µm').replace(/(\w)\/(\w)/g, '$1 / $2');
+Dust.sentence = (name) => Dust.words(name).replace(/^./, (c) => c.toUpperCase());
 
 // The unit that reads best for numbers up to `largest`: {factor, unit}.
 Dust.scale = (unit, largest) => {
@@ -108,7 +109,7 @@ Dust.Picture = class {
     const ratio = Math.min(window.devicePixelRatio || 1, 3);
     this.canvas.width = Math.round(width * ratio);
     this.canvas.height = Math.round((height + top + bottom) * ratio);
-    this.canvas.style.height = height + top + bottom + 'px';
+    this.canvas.style.aspectRatio = `${width} / ${height + top + bottom}`;  // keeps its shape on paper
     const pen = this.canvas.getContext('2d');
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, width, height + top + bottom);

@@ -6,14 +6,15 @@
   const k_error = /[ _/.]*(uncertainty|standard_error|error|sigma)$/i;
 
   // lines: [{name, x, y, low, high}]; x ascending. Draws one figure into `grid`.
-  const plot = (grid, title, sensor, x_label, y_label, lines) => {
+  const plot = (grid, title, sensor, x_label, y_label, unit, lines) => {
     const holder = Dust.el('div', {class: 'plot'});
-    const bold = Dust.el('b', {}, Dust.words(title) + '.');
-    const caption = Dust.el('figcaption', {}, bold, ` ${y_label}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '');
+    const tag = Dust.el('div', {class: 'axis-unit'}, unit);
+    const bold = Dust.el('b', {}, Dust.sentence(title) + '.');
+    const caption = Dust.el('figcaption', {}, bold, ` ${Dust.sentence(y_label)}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '');
     const band_of = lines.some((line) => line.low);
     if (band_of) caption.append(' Band: one standard error to either side.');
     const key = Dust.el('div', {class: 'legend'});
-    grid.append(Dust.el('figure', {}, holder, lines.length > 1 ? key : '', caption));
+    grid.append(Dust.el('figure', {}, tag, holder, lines.length > 1 ? key : '', caption));
 
     const tables = [];
     for (const line of lines) {
@@ -131,7 +132,7 @@
         y: order.map((k) => (Number.isFinite(c.y[k]) ? c.y[k] / sy.factor : null))};
     }));
     in_chunks(lines, group[0].title || 'Curve', (part, title) =>
-      plot(grid_of('curves'), title, group[0].sensor, axis_label(x_label.name, sx.unit), axis_label(y_label.name, sy.unit), part));
+      plot(grid_of('curves'), title, group[0].sensor, axis_label(x_label.name, sx.unit), axis_label(y_label.name, sy.unit), sy.unit, part));
   }
 
   // Columns of series.csv: one plot per sensor and unit.
@@ -140,10 +141,12 @@
   if (!clock || clock.values.length < 2 || !ascending(clock.values)) return;
   const sensors = [...Dust.data.sensors].sort((a, b) => b.length - a.length);
   const sensor_of = (name) => sensors.find((s) => name.startsWith(s) && /^[ /._:]/.test(name.slice(s.length))) || '';
+  // A sensor's own curve against time already tells what its column of the same unit repeats.
+  const told_by_curve = new Set(shown.filter((c) => /^time/i.test(c.x_label || '')).map((c) => c.sensor + '\n' + split_label(c.y_label).unit));
   const told = columns.filter((c) => c !== clock).map((c) => {
     const sensor = sensor_of(c.name);
     return {...c, sensor, short: sensor ? c.name.slice(sensor.length + 1) : c.name};
-  }).filter((c) => c.values.some((v) => v !== null));
+  }).filter((c) => c.values.some((v) => v !== null) && !told_by_curve.has(c.sensor + '\n' + c.unit));
   for (const group of by(told, (c) => c.sensor + '\n' + c.unit)) {
     const {sensor, unit} = group[0];
     const scale = Dust.scale(unit, largest(group.map((c) => c.values)));
@@ -152,6 +155,6 @@
     const title = lines.length === 1 ? (sensor ? sensor + ', ' : '') + lines[0].name : sensor || {kg: 'Mass', J: 'Energy', '-': 'Counts', '1': 'Counts', '': 'Counts'}[unit] || 'Quantities';
     const bare = scale.unit === '-' || scale.unit === '1' || scale.unit === '';
     in_chunks(lines, title.charAt(0).toUpperCase() + title.slice(1), (part, name) => plot(grid_of(sensor ? 'curves' : 'series'), name, '', 'time, s',
-      bare ? 'Number' : 'In ' + scale.unit, part));
+      bare ? 'Number' : 'In ' + scale.unit, bare ? '' : scale.unit, part));
   }
 })();

@@ -9,6 +9,13 @@
     return node;
   };
   const is_drop = (label) => /drop|below/i.test(label || '');
+  // Heights that are negative throughout are drops as well.
+  const drop_axis = (curve) => {
+    if (is_drop(curve.y_label)) return 'y';
+    if (is_drop(curve.x_label)) return 'x';
+    const sinks = /height/i.test(curve.y_label || '') && curve.y.length > 0 && curve.y.every((v) => v <= 0);
+    return sinks ? 'y' : null;
+  };
   const quantile = (name) => {
     if (/median|(^|\D)50(\D|$)/i.test(name)) return 'median';
     if (/(^|\D)95(\D|$)/.test(name)) return 'high';
@@ -20,8 +27,9 @@
   const of_curves = () => {
     const groups = new Map();
     for (const curve of Dust.data.curves) {
-      const down = is_drop(curve.y_label) ? 'y' : is_drop(curve.x_label) ? 'x' : null;
-      if (!down || !Array.isArray(curve.x) || !Array.isArray(curve.y)) continue;
+      if (!Array.isArray(curve.x) || !Array.isArray(curve.y)) continue;
+      const down = drop_axis(curve);
+      if (!down) continue;
       const key = curve.sensor + '\n' + curve.title;
       if (!groups.has(key)) groups.set(key, {title: curve.title, sensor: curve.sensor, lines: []});
       const drops = down === 'y' ? curve.y : curve.x, across = down === 'y' ? curve.x : curve.y;
@@ -45,8 +53,8 @@
     const all = group.lines.flatMap((line) => line.points);
     const drops = all.map((p) => p[1]), places = all.map((p) => p[0]);
     const deepest = Math.max(...drops) * 1.06, left = Math.min(0, ...places), right = Math.max(...places, 1e-6) * 1.08;
-    const pad = {left: 62, right: 60, top: 34, bottom: 16};
-    const inner = 520, scale = inner / (right - left);
+    const pad = {left: 70, right: 60, top: 34, bottom: 16};
+    const inner = document.documentElement.clientWidth < 600 ? 270 : 520, scale = inner / (right - left);
     const height = Math.min(deepest * scale, 620);
     const down = height / deepest;
     const x = (v) => pad.left + (v - left) * scale, y = (v) => pad.top + v * down;
@@ -63,7 +71,7 @@
       line(pad.left, y(v / 1e3), pad.left + inner, y(v / 1e3), 'stroke:var(--line)');
       svg.append(svg_el('text', {x: pad.left - 8, y: y(v / 1e3) + 4, 'text-anchor': 'end'}, Dust.number(v)));
     }
-    svg.append(svg_el('text', {x: 0, y: pad.top - 8}, 'drop, mm'));
+    svg.append(svg_el('text', {x: pad.left - 8, y: y(deepest) - 2, 'text-anchor': 'end'}, 'drop, mm'));
     const low = group.lines.find((l) => l.kind === 'low'), high = group.lines.find((l) => l.kind === 'high');
     if (low && high) {
       const ring = [...low.points, ...[...high.points].reverse()].map((p) => `${x(p[0])},${y(p[1])}`).join(' ');
@@ -78,19 +86,20 @@
         if (entry.points.length <= 12) svg.append(svg_el('circle', {cx: x(p[0]), cy: y(p[1]), r: 3.2, style: `fill:${colour}`}));
       }
       const last = entry.points.at(-1);
-      svg.append(svg_el('text', {x: x(last[0]), y: y(last[1]) + 17, 'text-anchor': 'middle', style: `fill:${colour}`}, Dust.words(entry.name)));
+      svg.append(svg_el('text', {x: x(last[0]), y: y(last[1]) + 17, 'text-anchor': 'middle', style: `fill:${colour}`}, ({low: '5 %', median: '50 %', high: '95 %'})[entry.kind] || Dust.words(entry.name)));
     });
     return svg;
   };
 
-  const curves = of_curves();
-  const groups = curves.some((group) => group.lines.some((l) => l.kind)) ? curves : [...of_figures(), ...curves];
+  // The figures carry errors; curves of the same quantiles would only repeat them.
+  const figures = of_figures();
+  const groups = [...figures, ...of_curves().filter((group) => !figures.length || !group.lines.every((l) => l.kind))];
   for (const group of groups) {
-    const caption = Dust.el('figcaption', {}, Dust.el('b', {}, group.title ? Dust.words(group.title) + '.' : 'Quantiles of the stream.'),
+    const caption = Dust.el('figcaption', {}, Dust.el('b', {}, group.title ? Dust.sentence(group.title) + '.' : 'Path of the stream.'),
       ' Horizontal position against the drop below the start of the stream, in mm',
-      group.lines.some((l) => l.kind) ? '; the band holds the grains between the 5 and 95 % quantiles, the dark line is the median.' : '.');
-    section.append(Dust.el('figure', {class: 'side'}, Dust.el('div', {}, draw(group)), caption));
+      group.lines.some((l) => l.kind) ? '; the band holds the grains between the 5 and 95 % quantiles, the heavy line is the median; bars are standard errors.' : '.');
+    document.getElementById('stream-picture').append(Dust.el('figure', {class: 'side'}, Dust.el('div', {}, draw(group)), caption));
     section.hidden = false;
   }
-  Dust.is_stream_curve = (curve) => is_drop(curve.x_label) || is_drop(curve.y_label);
+  Dust.is_stream_curve = (curve) => Array.isArray(curve.y) && drop_axis(curve) !== null;
 })();

@@ -66,9 +66,9 @@ TEST_CASE("the report shall show the numbers of the summary") {
   const RunFolder folder;
   fill(folder);
   const std::string page = page_of(folder);
-  CHECK(has(page, "0.0137 \u00b1 0.0021"));  // loose dust, with its error
-  CHECK(has(page, "128.40 \u00b1 0.30"));    // stream median in mm
-  CHECK(has(page, "0.01372 g/t"));           // the same in SI, unrounded
+  CHECK(has(page, "0.0137\u00a0\u00b1\u00a00.0021"));  // loose dust, with its error
+  CHECK(has(page, "128.40\u00a0\u00b1\u00a00.30"));    // stream median in mm
+  CHECK(has(page, "0.01372 g/t"));                     // the same in SI, unrounded
   CHECK(has(page, "0.128404 m"));
   CHECK(has(page, "0123456789abcdef"));
   CHECK(has(page, "4\u202f321"));
@@ -136,6 +136,46 @@ TEST_CASE("a run without fluid shall have a report without maps of the air") {
   CHECK(page_data(page)["grains"]["frames"].size() == 3);
   CHECK_FALSE(has(page, "id=\"speed-picture\""));
   CHECK(has(page, "id=\"grains-picture\""));
+}
+
+TEST_CASE("a run without fluid shall be shown over the domain of its scenario") {
+  const RunFolder folder;
+  fill(folder);
+  folder.write_h5({.has_fluid = false});
+  folder.write("scenario.yaml", "domain: {min: [-10, 0, 0 mm], max: [2, 0.011, 3]}\n");
+  const json view = page_data(page_of(folder))["view"];
+  CHECK(view[0].get<double>() == doctest::Approx(-0.01));
+  CHECK(view[2].get<double>() == doctest::Approx(2.0));
+  CHECK(view[3].get<double>() == doctest::Approx(3.0));
+  // Without a readable scenario: grains at x 0.25 and 0.5, the belt's outline, a margin of 4 %.
+  folder.write("scenario.yaml", "domain: [[[");
+  const json found = page_data(page_of(folder))["view"];
+  CHECK(found[0].get<double>() == doctest::Approx(-0.04 * 0.75));
+  CHECK(found[2].get<double>() == doctest::Approx(0.5 + 0.04 * 0.75));
+}
+
+TEST_CASE("a figure without a value shall be shown as a dash") {
+  const RunFolder folder;
+  json summary = fake_summary();
+  summary["sensors"]["loose_dust"]["liberated"]["value"] = nullptr;
+  folder.write("summary.json", summary.dump());
+  const std::string page = page_of(folder);
+  CHECK(has(page, "<td>liberated</td><td class=\"n\">\u2013"));
+  CHECK_FALSE(has(page, ">nan"));
+}
+
+TEST_CASE("coarse grains carried along shall not be called dust") {
+  const RunFolder folder;
+  json summary = fake_summary();
+  const auto figure = [](double value) { return json{{"value", value}, {"unit", "g/t"}}; };
+  summary["sensors"] = {{"carry_back",
+                         {{"grams_per_tonne", figure(310.0)},
+                          {"class_10_um/grams_per_tonne", figure(0.25)},
+                          {"class_300_um/grams_per_tonne", figure(309.75)}}}};
+  folder.write("summary.json", summary.dump());
+  const std::string page = page_of(folder);
+  CHECK(has(page, "0.25\u202fg of dust per tonne"));
+  CHECK_FALSE(has(page, "310\u202fg of dust per tonne"));
 }
 
 TEST_CASE("frames without grains shall be shown empty") {
@@ -264,11 +304,14 @@ TEST_CASE("the air map shall hold the mean over the depth and mask bodies") {
 
 TEST_CASE("numbers shall be printed as on paper") {
   using namespace dust::io;
-  CHECK(value_html(0.128404, 0.00031) == "0.12840 \u00b1 0.00031");
-  CHECK(value_html(128.404, 31.0) == "128 \u00b1 31");
+  CHECK(value_html(0.128404, 0.00031) == "0.12840\u00a0\u00b1\u00a00.00031");
+  CHECK(value_html(128.404, 31.0) == "128\u00a0\u00b1\u00a031");
   CHECK(value_html(-2.5, -1.0) == "\u22122.5");
-  CHECK(has(quantity_html(3.1e-7, 4.2e-8, "kg/m3"), "310 \u00b1 42"));
+  CHECK(has(quantity_html(3.1e-7, 4.2e-8, "kg/m3"), "310\u00a0\u00b1\u00a042"));
   CHECK(has(quantity_html(3.1e-7, 4.2e-8, "kg/m3"), "\u00b5g/m\u00b3"));
+  CHECK(number_html(1104.2, 3) == "1\u202f104");
+
+  CHECK(words("class_10_um/sum_of_lumps") == "class 10 \u00b5m / sum of lumps");
   CHECK(count_html(1234567) == "1\u202f234\u202f567");
   CHECK(duration_html(3725) == "1\u202fh 02\u202fmin");
   CHECK(escape_html("a\xff<") == "a\ufffd&lt;");
