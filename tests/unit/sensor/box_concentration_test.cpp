@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "unit/sensor/coverage.hpp"
+
+#include "dust/sdk/error.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace dust;
+using namespace dust::test;
+using sdk::Vec3;
+
+namespace {
+
+const SensorKind& kind() {
+  static const SensorKind loaded = load_sensor("box_concentration");
+  return loaded;
+}
+
+const std::map<std::string, sdk::Value> k_box = {{"min", Vec3{0.01, 0, 0.01}},
+                                                 {"max", Vec3{0.02, 0.01, 0.03}}};
+constexpr double k_volume = 0.01 * 0.01 * 0.02;
+
+Grain at(Vec3 place, double diameter, double mass, double weight) {
+  Grain g;
+  g.before = g.now = place;
+  g.diameter = diameter;
+  g.mass = mass;
+  g.weight = weight;
+  return g;
+}
+
+}  // namespace
+
+TEST_CASE("the concentration in a box shall be the weighted mass inside per volume") {
+  const auto sensor = kind().make(k_box);
+  World world;
+  world.emitted_mass = 5e-6;
+  // A lattice of 4 x 4 x 4 over twice the box in x: half of it lies inside.
+  for (int i = 0; i < 64; ++i) {
+    const Vec3 place{0.01 + 0.02 * (i % 4 + 0.5) / 4, 0.01 * (i / 4 % 4 + 0.5) / 4,
+                     0.01 + 0.02 * (i / 16 + 0.5) / 4};
+    const bool is_fine = i / 16 % 2 == 0;
+    world.grains.push_back(
+        at(place, is_fine ? 10e-6 : 600e-6, is_fine ? 1e-12 : 3e-9, is_fine ? 0.05 : 1.0));
+  }
+  step(*sensor, world);
+  const Figures figures = summary_of(*sensor);
+  const double mass = 16 * 0.05e-12 + 16 * 3e-9;
+  CHECK(figures["mass_concentration"] == doctest::Approx(mass / k_volume).epsilon(1e-12));
+  CHECK(figures["class_10_um/mass_concentration"] ==
+        doctest::Approx(16 * 0.05e-12 / k_volume).epsilon(1e-12));
+  CHECK(figures["class_600_um/number_concentration"] ==
+        doctest::Approx(16 / k_volume).epsilon(1e-12));
+  CHECK(figures["class_300_um/mass_concentration"] == 0.0);
+  CHECK(figures["grams_per_tonne"] == doctest::Approx(1e6 * mass / 5e-6).epsilon(1e-12));
+  CHECK(series_of(*sensor)["number"] == doctest::Approx(16.8).epsilon(1e-12));
+}
+
+TEST_CASE("the diameters shall restrict what counts in a box") {
+  auto parameters = k_box;
+  parameters["finer_than"] = 100e-6;
+  const auto sensor = kind().make(parameters);
+  World world;
+  world.grains = {at({0.015, 0.005, 0.02}, 10e-6, 1.0, 1.0),
+                  at({0.015, 0.005, 0.02}, 300e-6, 10.0, 1.0)};
+  step(*sensor, world);
+  CHECK(series_of(*sensor)["mass"] == 1.0);
+}
+
+TEST_CASE("the error of a concentration shall cover the truth at its rate, with any weight") {
+  // Every sample is a fresh population, so that all of the scatter is that of counting.
+  for (const int copies : {1, 20}) {
+    Coverage coverage;
+    double error = 0.0;
+    for (int run = 0; run < k_runs; ++run) {
+      Dice dice(run);
+      const auto sensor = kind().make(k_box);
+      World world;
+      for (int sample = 0; sample < 160; ++sample) {
+        world.grains.clear();
+        const int n = dice.poisson(0.5 * copies);
+        for (int i = 0; i < n; ++i) {
+          world.grains.push_back(at({0.015, 0.005, 0.02}, 10e-6, 1e-12, 1.0 / copies));
+        }
+        step(*sensor, world);
+      }
+      const Figure figure = summary_of(*sensor).at("mass_concentration");
+      coverage.add(figure, 0.5e-12 / k_volume);
+      error += figure.uncertainty / k_runs;
+    }
+    CHECK(coverage.one() > k_one_low);
+    CHECK(coverage.one() < k_one_high);
+    CHECK(coverage.two() > k_two_low);
+    // 80 real grains seen, 20 times as many computed ones with copies: the error falls by the root.
+    const double expected = 0.5e-12 / k_volume / std::sqrt(80.0 * copies);
+    CHECK(error == doctest::Approx(expected).epsilon(0.05));
+  }
+}
+
+TEST_CASE("a box without volume shall be refused") {
+  auto parameters = k_box;
+  parameters["max"] = Vec3{0.01, 0.01, 0.03};
+  CHECK_THROWS_AS((void)kind().make(parameters), sdk::ParameterError);
+}

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "unit/sensor/coverage.hpp"
+
+#include "dust/sdk/error.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace dust;
+using namespace dust::test;
+using sdk::Vec3;
+
+namespace {
+
+const SensorKind& kind() {
+  static const SensorKind loaded = load_sensor("plane_flux");
+  return loaded;
+}
+
+const std::map<std::string, sdk::Value> k_lip = {{"point", Vec3{0.08, 0, 0.2}},
+                                                 {"normal", Vec3{1, 0, 0}},
+                                                 {"min", Vec3{0.08, 0, 0.2}},
+                                                 {"max", Vec3{0.08, 0.011, 0.21}}};
+
+Grain moving(Vec3 before, Vec3 now, double interval) {
+  Grain g;
+  g.before = before;
+  g.now = now;
+  g.velocity = (now - before) / interval;
+  return g;
+}
+
+/// Moves every grain on by its velocity.
+void advance(World& world) {
+  for (Grain& g : world.grains) {
+    g.before = g.now;
+    g.now += world.interval * g.velocity;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a uniform stream shall give its exact flux through any plane") {
+  // Grains 0.5 mm apart at 1 m/s: 2 pass per millisecond, for an upright and an oblique plane.
+  for (const Vec3 normal : {Vec3{1, 0, 0}, Vec3{1, 0, 1}, Vec3{3, 1, 2}}) {
+    auto parameters = k_lip;
+    parameters["point"] = Vec3{0.08, 0.005, 0.205};
+    parameters["normal"] = normal;
+    parameters["min"] = Vec3{0.05, 0, 0.2};
+    parameters["max"] = Vec3{0.11, 0.011, 0.21};
+    const auto sensor = kind().make(parameters);
+    World world;
+    world.domain_max = {10, 1, 1};
+    for (int i = 0; i < 300; ++i) {
+      Grain g;
+      // A quarter of the spacing off: no grain meets the plane at the end of a step.
+      g.now = {0.08 - 0.5e-3 * (i + 0.25), 0.005, 0.205};
+      g.velocity = {1, 0, 0};
+      g.mass = 2e-9;
+      g.diameter = i % 2 == 0 ? 300e-6 : 600e-6;
+      world.grains.push_back(g);
+    }
+    for (int s = 0; s < 100; ++s) {
+      advance(world);
+      step(*sensor, world);
+    }
+    const Figures figures = summary_of(*sensor);
+    CHECK(figures["forward/number_rate"] == doctest::Approx(2000.0).epsilon(1e-9));
+    CHECK(figures["net/mass_rate"] == doctest::Approx(4e-6).epsilon(1e-9));
+    CHECK(figures["class_300_um/forward/number_rate"] == doctest::Approx(1000.0).epsilon(1e-9));
+    CHECK(figures["backward/mass_rate"] == 0.0);
+    CHECK(figures.at("backward/mass_rate").uncertainty < 0.0);
+    CHECK(figures["forward/mass"] == doctest::Approx(200 * 2e-9).epsilon(1e-9));
+    // Perfectly even: far below the 7 % of counting 200 independent grains.
+    CHECK(figures.at("forward/number_rate").uncertainty < 1e-6 * 2000.0);
+  }
+}
+
+TEST_CASE("only passages through the rectangle shall count, each in its direction") {
+  const auto sensor = kind().make(k_lip);
+  World world;
+  const double h = world.interval;
+  world.grains = {moving({0.0795, 0.005, 0.205}, {0.0805, 0.005, 0.205}, h),   // forward
+                  moving({0.0805, 0.005, 0.205}, {0.0795, 0.005, 0.205}, h),   // backward
+                  moving({0.0795, 0.005, 0.205}, {0.0805, 0.005, 0.2049}, h),  // forward
+                  moving({0.0795, 0.005, 0.215}, {0.0805, 0.005, 0.215}, h),   // above
+                  moving({0.0795, 0.005, 0.2005}, {0.0805, 0.005, 0.199}, h),  // meets it below
+                  moving({0.0795, 0.005, 0.1995}, {0.0805, 0.005, 0.201}, h),  // meets it inside
+                  moving({0.0780, 0.005, 0.205}, {0.0790, 0.005, 0.205}, h)};  // not yet there
+  step(*sensor, world);
+  const Figures figures = summary_of(*sensor);
+  CHECK(figures["forward/number_rate"] * h == doctest::Approx(3.0).epsilon(1e-12));
+  CHECK(figures["backward/number_rate"] * h == doctest::Approx(1.0).epsilon(1e-12));
+  CHECK(figures["net/number_rate"] * h == doctest::Approx(2.0).epsilon(1e-12));
+}
+
+TEST_CASE("a return through a periodic side shall not be taken for a passage") {
+  auto parameters = k_lip;
+  parameters["point"] = Vec3{0.165, 0, 0};
+  parameters["min"] = Vec3{0.165, 0, 0};
+  parameters["max"] = Vec3{0.165, 1, 1};
+  const auto sensor = kind().make(parameters);
+  World world;
+  Grain g = moving({0.3295, 0.005, 0.1}, {0.3305, 0.005, 0.1}, world.interval);
+  g.now.x -= 0.33;
+  world.grains = {g};
+  step(*sensor, world);
+  CHECK(summary_of(*sensor)["backward/number_rate"] == 0.0);
+  CHECK(summary_of(*sensor)["forward/number_rate"] == 0.0);
+}
+
+TEST_CASE("rates before the steady part shall not count, masses shall") {
+  auto parameters = k_lip;
+  parameters["steady_after"] = 0.01;
+  const auto sensor = kind().make(parameters);
+  World world;
+  for (int s = 0; s < 20; ++s) {
+    world.grains.clear();
+    if (s < 10) {
+      world.grains = {moving({0.0795, 0.005, 0.205}, {0.0805, 0.005, 0.205}, world.interval)};
+    }
+    step(*sensor, world);
+  }
+  CHECK(summary_of(*sensor)["forward/number_rate"] == 0.0);
+  CHECK(summary_of(*sensor)["forward/mass"] == doctest::Approx(10 * 1e-9).epsilon(1e-12));
+}
+
+TEST_CASE("the error of a rate shall cover the truth at its rate, for weighted grains too") {
+  struct Case {
+    double per_sample;  ///< real grains
+    int copies;
+  };
+  // Many grains, few grains, and few grains released 20-fold with weight 1/20.
+  for (const Case c : {Case{2.0, 1}, Case{0.05, 1}, Case{0.05, 20}}) {
+    Coverage coverage;
+    double error = 0.0;
+    constexpr int k_samples = 320;
+    for (int run = 0; run < k_runs; ++run) {
+      Dice dice(run);
+      const auto sensor = kind().make(k_lip);
+      World world;
+      for (int s = 0; s < k_samples; ++s) {
+        world.grains.clear();
+        for (int n = dice.poisson(c.per_sample * c.copies); n > 0; --n) {
+          Grain g = moving({0.0795, 0.005, 0.205}, {0.0805, 0.005, 0.205}, world.interval);
+          g.weight = 1.0 / c.copies;
+          world.grains.push_back(g);
+        }
+        step(*sensor, world);
+      }
+      const Figure figure = summary_of(*sensor).at("forward/number_rate");
+      coverage.add(figure, c.per_sample / world.interval);
+      error += figure.uncertainty / k_runs;
+    }
+    CHECK(coverage.without_error == 0);
+    CHECK(coverage.one() > k_one_low);
+    // Few grains: the larger of two errors is taken, which may cover more.
+    CHECK(coverage.one() < k_one_high + 0.06);
+    CHECK(coverage.two() > k_two_low);
+    const double expected =
+        std::sqrt(c.per_sample / (k_samples * static_cast<double>(c.copies))) / 0.001;
+    CHECK(error > 0.93 * expected);
+    CHECK(error < 1.15 * expected);
+  }
+}
+
+TEST_CASE("a plane without a normal shall be refused") {
+  auto parameters = k_lip;
+  parameters["normal"] = Vec3{0, 0, 0};
+  CHECK_THROWS_AS((void)kind().make(parameters), sdk::ParameterError);
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dust/sdk/sampling.hpp"
+
+#include "unit/sensor/coverage.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace dust;
+using test::Coverage;
+using test::Dice;
+
+TEST_CASE("a diameter shall belong to the nearest size class") {
+  const std::vector<double> classes = {10e-6, 300e-6, 600e-6};
+  CHECK(sdk::nearest_class(1e-6, classes) == 0);
+  CHECK(sdk::nearest_class(10e-6, classes) == 0);
+  CHECK(sdk::nearest_class(301e-6, classes) == 1);
+  CHECK(sdk::nearest_class(449e-6, classes) == 1);
+  CHECK(sdk::nearest_class(451e-6, classes) == 2);
+  CHECK(sdk::nearest_class(1.0, classes) == 2);
+  CHECK(sdk::nearest_class(1.0, {}) == 0);
+  CHECK(sdk::class_name(300e-6) == "class_300_um");
+  CHECK(sdk::class_name(12.5e-6) == "class_12_5_um");
+}
+
+TEST_CASE("a passage shall be counted once, wherever a grain rests between two samples") {
+  CHECK(sdk::passage(-1, 0).direction == 1);
+  CHECK(sdk::passage(0, 1).direction == 0);
+  CHECK(sdk::passage(1, 0).direction == 0);
+  CHECK(sdk::passage(0, -1).direction == -1);
+  CHECK(sdk::passage(-1, 3).fraction == 0.25);
+}
+
+TEST_CASE("batch means shall give the exact mean and the error of the scatter") {
+  // Errors of independent samples: the deviation over the root of their number.
+  Coverage coverage;
+  double mean_error = 0.0;
+  constexpr int k_samples = 1000;
+  for (int run = 0; run < test::k_runs; ++run) {
+    Dice dice(run);
+    sdk::BatchMeans means(2);
+    double sum = 0.0;
+    for (int i = 0; i < k_samples; ++i) {
+      const double values[] = {dice.normal(), 7.0};
+      sum += values[0];
+      means.add(values, 0.001);
+    }
+    CHECK(means.mean(0) == doctest::Approx(sum / k_samples).epsilon(1e-12));
+    CHECK(means.mean(1) == doctest::Approx(7.0).epsilon(1e-12));
+    CHECK(means.duration() == doctest::Approx(1.0).epsilon(1e-12));
+    coverage.add({means.mean(0), "", means.error(0)}, 0.0);
+    mean_error += means.error(0) / test::k_runs;
+  }
+  CHECK(coverage.one() > test::k_one_low);
+  CHECK(coverage.one() < test::k_one_high);
+  CHECK(coverage.two() > test::k_two_low);
+  CHECK(mean_error == doctest::Approx(1.0 / std::sqrt(k_samples)).epsilon(0.05));
+}
+
+TEST_CASE("batch means shall see that neighbouring samples remember each other") {
+  // First-order autoregression with memory of 10 samples: the error of the mean is
+  // sqrt((1+a)/(1-a)) times that of independent samples, 4.5 for a = 0.905.
+  const double a = std::exp(-0.1);
+  Coverage coverage;
+  for (int run = 0; run < test::k_runs; ++run) {
+    Dice dice(run);
+    sdk::BatchMeans means(1);
+    double state = dice.normal();
+    for (int i = 0; i < 8000; ++i) {
+      state = a * state + std::sqrt(1.0 - a * a) * dice.normal();
+      means.add({&state, 1}, 0.001);
+    }
+    coverage.add({means.mean(0), "", means.error(0)}, 0.0);
+  }
+  CHECK(coverage.one() > test::k_one_low - 0.02);  // batches of 256 samples keep a trace of memory
+  CHECK(coverage.two() > test::k_two_low);
+}
+
+TEST_CASE("few samples shall give no error rather than a wrong one") {
+  sdk::BatchMeans means(1);
+  const double one = 1.0;
+  CHECK(means.error(0) < 0.0);
+  CHECK(means.mean(0) == 0.0);
+  for (int i = 0; i < 7; ++i) means.add({&one, 1}, 1.0);
+  CHECK(means.error(0) < 0.0);
+  means.add({&one, 1}, 1.0);
+  CHECK(means.error(0) == 0.0);
+}
+
+TEST_CASE("a thinned curve shall stay short and keep its mean") {
+  sdk::ThinnedCurve curve;
+  constexpr int k_points = 1 << 14;
+  for (int i = 0; i < k_points; ++i) curve.add(i, 2.0 * i);
+  CHECK(curve.x().size() <= 2048);
+  CHECK(curve.x().size() >= 1024);
+  double mean = 0.0;
+  for (const double y : curve.y()) mean += y / static_cast<double>(curve.y().size());
+  CHECK(mean == doctest::Approx(k_points - 1.0).epsilon(1e-9));
+}
