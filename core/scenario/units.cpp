@@ -345,8 +345,14 @@ std::optional<double> to_si(const WrittenNumber& written, Dimension dimension,
 std::string number_text(double value) {
   if (std::isnan(value)) return ".nan";
   if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
+  // Plain digits where a person would write them.
+  const double size = std::abs(value);
+  const bool is_plain = value == 0.0 || (size >= 1e-4 && size < 1e7);
   std::array<char, 40> buffer{};
-  const auto [end, code] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  const auto [end, code] =
+      is_plain ? std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                               std::chars_format::fixed)
+               : std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return code == std::errc{} ? std::string(buffer.data(), end) : std::string("0");
 }
 
