@@ -28,7 +28,7 @@ TEST_CASE("the small scenario shall be well") {
 
 TEST_CASE("a value out of range shall be told as the contract writes it") {
   check("restitution: 0.9, friction: 0.5", "restitution: 1.4, friction: 0.5",
-        "s.yaml:19:49: error: interactions[0].contact.restitution: 1.4 is outside 0 < e <= 1");
+        "s.yaml:19:50: error: interactions[0].contact.restitution: 1.4 is outside 0 < e <= 1");
   check("length: 5 mm", "length: -5 mm",
         "s.yaml:24:89: error: bodies.plate.length: -5 mm is outside length > 0 m");
   check("poisson_ratio: 0.3}\n  glass", "poisson_ratio: 0.6}\n  glass",
