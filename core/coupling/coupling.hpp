@@ -10,15 +10,21 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace dust::coupling {
 
 /// Limiters and checks, counted since the start; none of them is silent.
 struct CouplingReport {
-  std::int64_t moved_shares = 0;      ///< shares of grain volume given to a neighbour (body, side, full cell)
+  std::int64_t moved_shares = 0;    ///< shares of grain volume given to a neighbour (body, side)
+  std::int64_t relieved_cells = 0;  ///< times a cell gave volume away at the smallest void fraction
+  std::int64_t unplaced_grains =
+      0;  ///< grains with no open cell in reach: their volume is not mapped
+  std::int64_t unpaired_forces = 0;   ///< force components with no open face around the grain: the
+                                      ///< bodies and sides carry them, not the fluid
   double smallest_void_fraction = 1;  ///< after mapping, since the start
-  double largest_imbalance = 0.0;     ///< |impulse on grains + impulse on fluid| / scale, per exchange
+  double largest_imbalance = 0.0;  ///< |impulse on grains + impulse on fluid| / scale, per exchange
   double largest_diameter_over_spacing = 0.0;
 };
 
@@ -29,9 +35,16 @@ struct CouplingReport {
 ///              fluid at its place; grains integrate drag exactly in between
 ///   collect()  what the grains really received; the difference to what the fluid was given is
 ///              handed to the next fluid step, so that the sum over time is exact.
+/// The equations and their derivation: docs/theory/coupling.md.
+///
+/// Grains are recognised by their id: rows may be reordered at any time. Insert and remove grains
+/// between collect() and map(); one removed earlier takes along what it received in that fluid
+/// step.
 class Coupling {
  public:
-  /// `open_fraction`: share of each cell outside all bodies (FluidSolver::open_fraction).
+  /// `open_fraction`: share of each cell outside all bodies (FluidSolver::open_fraction), kept by
+  /// reference to read at construction only. Throws sdk::ModelError for momentum set III and
+  /// for a fluid without viscosity.
   Coupling(const scenario::Setup& setup, const fluid::Grid& grid,
            const fluid::CellField& open_fraction, const sdk::VoidageRule& voidage,
            const sdk::DragLaw& drag);
@@ -39,22 +52,38 @@ class Coupling {
   Coupling(const Coupling&) = delete;
   Coupling& operator=(const Coupling&) = delete;
 
+  /// Optional, before the run: throws base::UserError if a grain of one of the `diameters` [m] is
+  /// too large for the grid. map() finds the same later, as sdk::ModelError.
+  void check_diameters(std::span<const double> diameters) const;
+
+  /// Throws sdk::ModelError if a grain is too large for the grid.
   void map(const particles::GrainRows& grains, double fluid_step);
   [[nodiscard]] const fluid::CellField& void_fraction_before() const;
   [[nodiscard]] const fluid::CellField& void_fraction() const;
   [[nodiscard]] const fluid::Exchange& exchange() const;
 
-  /// `velocity` and `stress_divergence` as FluidSolver gives them.
+  /// Tells the velocity that Exchange::coefficient was multiplied by during the fluid step (the
+  /// mean over the sub-steps). Without this call the first refresh() after map() takes its own
+  /// velocity, which is exact for a fluid step in one sub-step.
+  void settle(const particles::GrainRows& grains, const fluid::FaceField& velocity);
+  /// `velocity` and `stress_divergence` as FluidSolver gives them. Halo faces next to the domain
+  /// are read.
   void refresh(const particles::GrainRows& grains, const fluid::FaceField& velocity,
                const fluid::FaceField& stress_divergence);
-  /// Interval [s] after which refresh() is due again; fluid_step divided by a whole number.
+  /// Interval [s] after which refresh() is due again: the fluid step divided by a whole number, 1
+  /// to
+  /// 64. A quarter of the shortest relaxation time of the grains at the last map(), and at most the
+  /// time in which a grain crosses 1/8 of a cell at 2 m/s. Ask after each map().
   [[nodiscard]] double refresh_interval() const;
+  /// Reads fluid_impulse and sets it to zero. Throws std::logic_error without a refresh() after
+  /// map().
   void collect(const particles::GrainRows& grains, double fluid_step);
 
-  /// Momentum exchange with the grains per cell [N/m3], 3 per interior cell (x fastest), for output.
+  /// Momentum exchange per cell [N/m3], the force on the fluid, 3 per interior cell (x fastest).
   void momentum_exchange(std::vector<float>& per_cell) const;
   [[nodiscard]] const CouplingReport& report() const;
 
+  /// Between collect() and map().
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
 

@@ -17,10 +17,10 @@ namespace dust::fluid {
 /// What the last call of `advance` did.
 struct FluidReport {
   int sub_steps = 0;
-  int pressure_iterations = 0;       ///< sum over the sub-steps
-  double courant_number = 0.0;       ///< largest of a sub-step
-  double divergence = 0.0;           ///< largest |d(eps)/dt + div(eps u)| [1/s] after the step
-  double largest_speed = 0.0;        ///< [m/s]
+  int pressure_iterations = 0;  ///< sum over the sub-steps
+  double courant_number = 0.0;  ///< largest of a sub-step
+  double divergence = 0.0;      ///< largest |d(eps)/dt + div(eps u)| [1/s] after the step
+  double largest_speed = 0.0;   ///< [m/s]
 };
 
 /// Sides in the order of scenario::k_side_names; null where periodic.
@@ -53,7 +53,8 @@ class FluidSolver {
   [[nodiscard]] const CellField& open_fraction() const;
   [[nodiscard]] const FluidReport& report() const;
 
-  /// Sets the velocity from a function of place (initial conditions, tests) and makes it consistent.
+  /// Sets the velocity from a function of place (initial conditions, tests) and makes it
+  /// consistent.
   void set_velocity(const std::function<sdk::Vec3(sdk::Vec3)>& velocity);
 
   void save(sdk::ArchiveWriter& archive) const;

@@ -101,8 +101,9 @@ class Dem {
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
 
- private:
   struct Impl;
+
+ private:
   std::unique_ptr<Impl> impl_;
 };
 

@@ -9,25 +9,25 @@
 
 namespace dust::run {
 
-/// What a run is asked to do; the command line fills it.
+/// What the command line of `engine run` says.
 struct RunOptions {
   std::filesystem::path scenario;
-  std::vector<scenario::Override> overrides;     ///< --set, applied last
-  std::vector<std::filesystem::path> set_files;  ///< --set-file, laid over the scenario in order
-  std::optional<std::filesystem::path> output;   ///< -o; nothing = results/<name>, -2, -3 ...
-  bool force = false;                            ///< write into a folder that holds a result
-  bool resume = false;                           ///< go on from the checkpoint of `output`
+  std::vector<scenario::Override> overrides;
+  std::vector<std::filesystem::path> set_files;
+  std::optional<std::filesystem::path> output;
+  bool force = false;
+  bool resume = false;
   bool quiet = false;
   bool verbose = false;
-  int threads = 0;                               ///< 0 = all cores
-  std::vector<std::filesystem::path> plugin_path;  ///< --plugin-path
+  int threads = 0;  ///< 0 = all cores
+  std::vector<std::filesystem::path> plugin_path;
 };
 
-/// Runs a scenario; returns the exit status (0, 130 or 143). Throws base::UserError for what is
-/// found before anything is written and base::RunError for a failure while running.
+/// Runs a scenario from reading to report; returns the exit status (CONTRACT: 0, 1, 130, 143).
+/// Throws base::UserError for everything found before the first file is written.
 int run_scenario(const RunOptions& options);
 
-/// Prints the task graph as DOT; with `run_folder`, with the timings of that run.
+/// Writes the task graph as DOT to stdout: of a scenario, or with the timings of a finished run.
 int print_graph(const RunOptions& options, const std::optional<std::filesystem::path>& run_folder);
 
 }  // namespace dust::run

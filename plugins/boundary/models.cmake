@@ -1,0 +1,6 @@
+dust_plugin(boundary fixed_velocity)
+dust_plugin(boundary moving_wall)
+dust_plugin(boundary no_slip)
+dust_plugin(boundary slip)
+dust_plugin(boundary total_pressure)
+dust_plugin(boundary zero_gradient)

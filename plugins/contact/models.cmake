@@ -1,0 +1,1 @@
+dust_plugin(contact hertz_mindlin)

@@ -1,0 +1,1 @@
+dust_plugin(rolling epsd2)

@@ -1,0 +1,5 @@
+dust_plugin(sensor box_concentration)
+dust_plugin(sensor carry_back)
+dust_plugin(sensor low_pressure)
+dust_plugin(sensor plane_flux)
+dust_plugin(sensor trajectory)

@@ -1,0 +1,2 @@
+dust_plugin(voidage centre)
+dust_plugin(voidage divided)

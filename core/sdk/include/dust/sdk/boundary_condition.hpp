@@ -16,7 +16,9 @@ enum class SideRule {
   periodic,   ///< joined to the opposite side
 };
 
-/// What a boundary asks of the solver, once, at the start.
+/// What a boundary asks of the solver, once, at the start. Two combinations make sense: normal
+/// velocity `fixed` with pressure `gradient` (walls, inlets), and normal velocity `gradient` with
+/// pressure `fixed` or `pressure` (open sides); the solver refuses others.
 struct SideRules {
   SideRule normal_velocity = SideRule::fixed;
   SideRule tangential_velocity = SideRule::fixed;
@@ -27,6 +29,7 @@ struct SideRules {
 struct SideBatch {
   std::size_t count = 0;
   double time = 0.0;               ///< [s]
+  Vec3 normal;                     ///< unit vector out of the domain
   const double* x = nullptr;       ///< [m]
   const double* y = nullptr;
   const double* z = nullptr;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "contact/aligned.hpp"
+#include "dust/sdk/contact_law.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace dust::contact {
+
+/// Contacts per call of a law: the columns stay in the first two cache levels.
+inline constexpr std::size_t k_batch = 128;
+/// Column stride; not a power of two, which would alias the columns in the first-level cache.
+inline constexpr std::size_t k_stride = k_batch + 8;
+/// Largest history of a contact (contact stage + rolling stage) in columns.
+inline constexpr int k_max_history = 16;
+
+/// Number of rows a law sees for `count` contacts: the next multiple of eight.
+constexpr std::size_t padded(std::size_t count) { return (count + 7) / 8 * 8; }
+
+/// Columns of one batch, private to a thread.
+class BatchColumns {
+ public:
+  enum Name {
+    separation_x,  ///< [m] centre of i minus centre of j
+    separation_y,
+    separation_z,
+    radius_i,  ///< [m]
+    radius_j,  ///< [m] 0 for a surface
+    velocity_x,  ///< [m/s] of the centres, later of the contact point
+    velocity_y,
+    velocity_z,
+    inverse_mass,  ///< [1/kg] sum of both sides
+    rotation_i_x,
+    rotation_i_y,
+    rotation_i_z,
+    rotation_j_x,
+    rotation_j_y,
+    rotation_j_z,
+    overlap,
+    normal_x,
+    normal_y,
+    normal_z,
+    rotation_x,
+    rotation_y,
+    rotation_z,
+    effective_radius,
+    effective_mass,
+    lever_i,  ///< [m] centre of i to the contact point
+    lever_j,
+    normal_force,
+    tangential_stiffness,
+    force_x,
+    force_y,
+    force_z,
+    torque_x,
+    torque_y,
+    torque_z,
+    torque_i_x,  ///< [N m] on i about its centre
+    torque_i_y,
+    torque_i_z,
+    torque_j_x,
+    torque_j_y,
+    torque_j_z,
+    scale_i,  ///< [-] share of the force side i feels (statistical weights)
+    scale_j,
+    first_history,
+    k_columns = first_history + k_max_history
+  };
+
+  BatchColumns() : data_(static_cast<std::size_t>(k_columns) * k_stride, 0.0) {
+    for (int n = 0; n < k_max_history; ++n) history_[static_cast<std::size_t>(n)] = column(first_history + n);
+  }
+  [[nodiscard]] double* column(int name) {
+    return data_.data() + static_cast<std::size_t>(name) * k_stride;
+  }
+  [[nodiscard]] double* const* history() const { return history_.data(); }
+
+  /// The batch a law sees. `first` skips the columns of earlier stages.
+  [[nodiscard]] sdk::ContactBatch view(std::size_t count, double time_step, int first_history_column);
+
+ private:
+  AlignedVector<double> data_;
+  std::array<double*, k_max_history> history_{};
+};
+
+}  // namespace dust::contact

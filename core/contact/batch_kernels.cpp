@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contact/batch_kernels.hpp"
+
+#include "contact/lanes.hpp"
+#include "dust/sdk/plugin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace dust::contact {
+namespace {
+
+/// Contacts ahead whose rows are fetched; measured flat between 32 and 128.
+constexpr std::size_t k_ahead = 48;
+
+__attribute__((always_inline)) inline const Lanes& row(const double* rows, std::int32_t n) {
+  return *reinterpret_cast<const Lanes*>(rows + 4 * static_cast<std::ptrdiff_t>(n));
+}
+__attribute__((always_inline)) inline void store(double* column, const Lanes& v) {
+  std::memcpy(column, &v, sizeof v);
+}
+__attribute__((always_inline)) inline void fold(Lanes& d, double length, double half) {
+  const LaneMask above = d > half;
+  const LaneMask below = d < -half;
+  d = above ? d - length : (below ? d + length : d);
+}
+
+}  // namespace
+
+sdk::ContactBatch BatchColumns::view(std::size_t count, double time_step,
+                                     int first_history_column) {
+  sdk::ContactBatch b;
+  b.count = padded(count);
+  b.time_step = time_step;
+  b.overlap = column(overlap);
+  b.normal_x = column(normal_x);
+  b.normal_y = column(normal_y);
+  b.normal_z = column(normal_z);
+  b.velocity_x = column(velocity_x);
+  b.velocity_y = column(velocity_y);
+  b.velocity_z = column(velocity_z);
+  b.rotation_x = column(rotation_x);
+  b.rotation_y = column(rotation_y);
+  b.rotation_z = column(rotation_z);
+  b.effective_radius = column(effective_radius);
+  b.effective_mass = column(effective_mass);
+  b.normal_force = column(normal_force);
+  b.tangential_stiffness = column(tangential_stiffness);
+  b.force_x = column(force_x);
+  b.force_y = column(force_y);
+  b.force_z = column(force_z);
+  b.torque_x = column(torque_x);
+  b.torque_y = column(torque_y);
+  b.torque_z = column(torque_z);
+  b.history = history_.data() + first_history_column;
+  return b;
+}
+
+DUST_KERNEL std::size_t find_touching(const RowView& rows, const Images& images,
+                                      const PairView& pairs, std::size_t begin, std::size_t end,
+                                      double range, std::int32_t* touching) {
+  const double* position = rows.position;
+  const std::int32_t* pa = pairs.a;
+  const std::int32_t* pb = pairs.b;
+  // x, y, z become differences, the fourth column the sum of the radii.
+  const Lanes sign{-1.0, -1.0, -1.0, 1.0};
+  const Lanes length{images.length[0], images.length[1], images.length[2], 0.0};
+  const Lanes half{images.half[0], images.half[1], images.half[2], HUGE_VAL};
+  std::size_t found = 0;
+  for (std::size_t p = begin; p < end; p += 4) {
+    const std::size_t last = end - 1;
+    Lanes d[4];
+    for (std::size_t l = 0; l < 4; ++l) {
+      const std::size_t q = std::min(p + l, last);
+      d[l] = row(position, pa[q]) + sign * row(position, pb[q]);
+      __builtin_prefetch(position + 4 * static_cast<std::ptrdiff_t>(pb[std::min(q + k_ahead, last)]));
+      const LaneMask above = d[l] > half;
+      const LaneMask below = d[l] < -half;
+      d[l] = above ? d[l] - length : (below ? d[l] + length : d[l]);
+    }
+    transpose(d[0], d[1], d[2], d[3]);
+    const Lanes reach = d[3] + range;
+    const LaneMask near = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < reach * reach;
+    const std::size_t lanes = std::min<std::size_t>(4, end - p);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const std::uint8_t now = static_cast<std::uint8_t>(near[static_cast<int>(l)] & 1);
+      touching[found] = static_cast<std::int32_t>(p + l);
+      found += now;
+      if (pairs.is_touching[p + l] > now) {
+        std::memset(pairs.history + (p + l) * pairs.history_stride, 0,
+                    pairs.history_stride * sizeof(double));
+      }
+      pairs.is_touching[p + l] = now;
+    }
+  }
+  return found;
+}
+
+DUST_KERNEL void load_pairs(const RowView& rows, const Images& images, const PairView& pairs,
+                            const std::int32_t* contacts, std::size_t count, std::size_t ahead,
+                            BatchColumns& columns) {
+  const double* position = rows.position;
+  const double* velocity = rows.velocity;
+  const double* rotation = rows.rotation;
+  const Lanes sign{-1.0, -1.0, -1.0, 1.0};
+  double* c = columns.column(0);
+  const auto at = [&](int name, std::size_t q) __attribute__((always_inline)) {
+    return c + static_cast<std::size_t>(name) * k_stride + q;
+  };
+  const std::size_t rounded = padded(count);
+  for (std::size_t q = 0; q < rounded; q += 4) {
+    std::int32_t a[4];
+    std::int32_t b[4];
+    for (std::size_t l = 0; l < 4; ++l) {
+      const std::int32_t p = contacts[std::min(q + l, count - 1)];
+      a[l] = pairs.a[p];
+      b[l] = pairs.b[p];
+      const std::int32_t next = contacts[std::min(q + l + k_ahead, count + ahead - 1)];
+      const std::ptrdiff_t nb = 4 * static_cast<std::ptrdiff_t>(pairs.b[next]);
+      __builtin_prefetch(velocity + nb);
+      __builtin_prefetch(rotation + nb);
+      __builtin_prefetch(pairs.history + static_cast<std::size_t>(next) * pairs.history_stride, 1);
+    }
+    Lanes x[4];
+    Lanes v[4];
+    Lanes wi[4];
+    Lanes wj[4];
+    Lanes ri;
+    Lanes rj;
+    for (int l = 0; l < 4; ++l) {
+      const Lanes& ra = row(position, a[l]);
+      const Lanes& rb = row(position, b[l]);
+      x[l] = ra + sign * rb;
+      ri[l] = ra[3];
+      rj[l] = rb[3];
+      v[l] = row(velocity, a[l]) + sign * row(velocity, b[l]);
+      wi[l] = row(rotation, a[l]);
+      wj[l] = row(rotation, b[l]);
+    }
+    transpose(x[0], x[1], x[2], x[3]);
+    transpose(v[0], v[1], v[2], v[3]);
+    transpose(wi[0], wi[1], wi[2], wi[3]);
+    transpose(wj[0], wj[1], wj[2], wj[3]);
+    for (int d = 0; d < 3; ++d) {
+      fold(x[d], images.length[d], images.half[d]);
+      store(at(BatchColumns::separation_x + d, q), x[d]);
+      store(at(BatchColumns::velocity_x + d, q), v[d]);
+      store(at(BatchColumns::rotation_i_x + d, q), wi[d]);
+      store(at(BatchColumns::rotation_j_x + d, q), wj[d]);
+    }
+    store(at(BatchColumns::radius_i, q), ri);
+    store(at(BatchColumns::radius_j, q), rj);
+    store(at(BatchColumns::inverse_mass, q), v[3]);
+  }
+}
+
+DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count) {
+  using B = BatchColumns;
+  const double* sx = columns.column(B::separation_x);
+  const double* sy = columns.column(B::separation_y);
+  const double* sz = columns.column(B::separation_z);
+  const double* ri = columns.column(B::radius_i);
+  const double* rj = columns.column(B::radius_j);
+  const double* im = columns.column(B::inverse_mass);
+  const double* aix = columns.column(B::rotation_i_x);
+  const double* aiy = columns.column(B::rotation_i_y);
+  const double* aiz = columns.column(B::rotation_i_z);
+  const double* ajx = columns.column(B::rotation_j_x);
+  const double* ajy = columns.column(B::rotation_j_y);
+  const double* ajz = columns.column(B::rotation_j_z);
+  double* vx = columns.column(B::velocity_x);
+  double* vy = columns.column(B::velocity_y);
+  double* vz = columns.column(B::velocity_z);
+  double* overlap = columns.column(B::overlap);
+  double* nx = columns.column(B::normal_x);
+  double* ny = columns.column(B::normal_y);
+  double* nz = columns.column(B::normal_z);
+  double* wx = columns.column(B::rotation_x);
+  double* wy = columns.column(B::rotation_y);
+  double* wz = columns.column(B::rotation_z);
+  double* radius = columns.column(B::effective_radius);
+  double* mass = columns.column(B::effective_mass);
+  double* li = columns.column(B::lever_i);
+  double* lj = columns.column(B::lever_j);
+  double largest = 0.0;
+  const std::size_t n = padded(count);
+#pragma omp simd reduction(max : largest)
+  for (std::size_t q = 0; q < n; ++q) {
+    // Coincident centres would give no direction; the tiny floor makes the normal zero instead.
+    const double distance =
+        std::sqrt(std::max(sx[q] * sx[q] + sy[q] * sy[q] + sz[q] * sz[q], 1e-300));
+    const double inverse = 1.0 / distance;
+    const double d = ri[q] + rj[q] - distance;
+    const double x = sx[q] * inverse;
+    const double y = sy[q] * inverse;
+    const double z = sz[q] * inverse;
+    // The contact point halves the overlap, so that the two levers add up to the distance.
+    const double arm_i = ri[q] - 0.5 * d;
+    const double arm_j = rj[q] - 0.5 * d;
+    const double ox = arm_i * aix[q] + arm_j * ajx[q];
+    const double oy = arm_i * aiy[q] + arm_j * ajy[q];
+    const double oz = arm_i * aiz[q] + arm_j * ajz[q];
+    vx[q] -= oy * z - oz * y;
+    vy[q] -= oz * x - ox * z;
+    vz[q] -= ox * y - oy * x;
+    wx[q] = aix[q] - ajx[q];
+    wy[q] = aiy[q] - ajy[q];
+    wz[q] = aiz[q] - ajz[q];
+    overlap[q] = d;
+    nx[q] = x;
+    ny[q] = y;
+    nz[q] = z;
+    li[q] = arm_i;
+    lj[q] = arm_j;
+    radius[q] = ri[q] * rj[q] / (ri[q] + rj[q]);
+    mass[q] = 1.0 / im[q];
+    largest = std::max(largest, d / std::min(ri[q], rj[q]));
+  }
+  return largest;
+}
+
+DUST_KERNEL void derive_torques(BatchColumns& columns, std::size_t count, bool has_couple) {
+  using B = BatchColumns;
+  const double* nx = columns.column(B::normal_x);
+  const double* ny = columns.column(B::normal_y);
+  const double* nz = columns.column(B::normal_z);
+  const double* fx = columns.column(B::force_x);
+  const double* fy = columns.column(B::force_y);
+  const double* fz = columns.column(B::force_z);
+  const double* li = columns.column(B::lever_i);
+  const double* lj = columns.column(B::lever_j);
+  const double* mx = columns.column(B::torque_x);
+  const double* my = columns.column(B::torque_y);
+  const double* mz = columns.column(B::torque_z);
+  double* ix = columns.column(B::torque_i_x);
+  double* iy = columns.column(B::torque_i_y);
+  double* iz = columns.column(B::torque_i_z);
+  double* jx = columns.column(B::torque_j_x);
+  double* jy = columns.column(B::torque_j_y);
+  double* jz = columns.column(B::torque_j_z);
+  const std::size_t n = padded(count);
+  const double couple = has_couple ? 1.0 : 0.0;
+#pragma omp simd
+  for (std::size_t q = 0; q < n; ++q) {
+    // Force F at -lever_i n on i and -F at +lever_j n on j: both torques are -lever n x F.
+    const double tx = ny[q] * fz[q] - nz[q] * fy[q];
+    const double ty = nz[q] * fx[q] - nx[q] * fz[q];
+    const double tz = nx[q] * fy[q] - ny[q] * fx[q];
+    ix[q] = couple * mx[q] - li[q] * tx;
+    iy[q] = couple * my[q] - li[q] * ty;
+    iz[q] = couple * mz[q] - li[q] * tz;
+    jx[q] = -couple * mx[q] - lj[q] * tx;
+    jy[q] = -couple * my[q] - lj[q] * ty;
+    jz[q] = -couple * mz[q] - lj[q] * tz;
+  }
+}
+
+DUST_KERNEL void load_history(const PairView& pairs, const std::int32_t* contacts,
+                              std::size_t count, int groups, BatchColumns& columns) {
+  const std::size_t rounded = padded(count);
+  for (int g = 0; g < groups; ++g) {
+    double* c = columns.column(BatchColumns::first_history + 4 * g);
+    for (std::size_t q = 0; q < rounded; q += 4) {
+      Lanes h[4];
+      for (std::size_t l = 0; l < 4; ++l) {
+        const auto p = static_cast<std::size_t>(contacts[std::min(q + l, count - 1)]);
+        std::memcpy(&h[l], pairs.history + p * pairs.history_stride + 4 * static_cast<std::size_t>(g),
+                    sizeof(Lanes));
+      }
+      transpose(h[0], h[1], h[2], h[3]);
+      for (std::size_t l = 0; l < 4; ++l) store(c + l * k_stride + q, h[l]);
+    }
+  }
+}
+
+DUST_KERNEL void store_history(const PairView& pairs, const std::int32_t* contacts,
+                               std::size_t count, int groups, BatchColumns& columns) {
+  for (int g = 0; g < groups; ++g) {
+    const double* c = columns.column(BatchColumns::first_history + 4 * g);
+    for (std::size_t q = 0; q < count; q += 4) {
+      Lanes h[4];
+      for (std::size_t l = 0; l < 4; ++l) std::memcpy(&h[l], c + l * k_stride + q, sizeof(Lanes));
+      transpose(h[0], h[1], h[2], h[3]);
+      const std::size_t lanes = std::min<std::size_t>(4, count - q);
+      for (std::size_t l = 0; l < lanes; ++l) {
+        const auto p = static_cast<std::size_t>(contacts[q + l]);
+        std::memcpy(pairs.history + p * pairs.history_stride + 4 * static_cast<std::size_t>(g), &h[l],
+                    sizeof(Lanes));
+      }
+    }
+  }
+}
+
+DUST_KERNEL void scatter_pairs(const PairView& pairs, const std::int32_t* contacts,
+                               std::size_t count, std::int32_t first, std::int32_t size,
+                               bool has_scales, BatchColumns& columns, double* force) {
+  using B = BatchColumns;
+  const auto load = [&](int name, std::size_t q, Lanes& v) __attribute__((always_inline)) {
+    std::memcpy(&v, columns.column(name) + q, sizeof v);
+  };
+  const double* scale_i = columns.column(B::scale_i);
+  const double* scale_j = columns.column(B::scale_j);
+  for (std::size_t q = 0; q < count; q += 4) {
+    Lanes f[4] = {};
+    Lanes ti[4] = {};
+    Lanes tj[4] = {};
+    for (int d = 0; d < 3; ++d) {
+      load(B::force_x + d, q, f[d]);
+      load(B::torque_i_x + d, q, ti[d]);
+      load(B::torque_j_x + d, q, tj[d]);
+    }
+    transpose(f[0], f[1], f[2], f[3]);
+    transpose(ti[0], ti[1], ti[2], ti[3]);
+    transpose(tj[0], tj[1], tj[2], tj[3]);
+    const std::size_t lanes = std::min<std::size_t>(4, count - q);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const std::int32_t p = contacts[q + l];
+      const std::uint32_t la = static_cast<std::uint32_t>(pairs.a[p] - first);
+      const std::uint32_t lb = static_cast<std::uint32_t>(pairs.b[p] - first);
+      const auto limit = static_cast<std::uint32_t>(size);
+      auto* fa = reinterpret_cast<Lanes*>(force + 8 * static_cast<std::size_t>(std::min(la, limit)));
+      auto* fb = reinterpret_cast<Lanes*>(force + 8 * static_cast<std::size_t>(std::min(lb, limit)));
+      if (has_scales) {
+        fa[0] += scale_i[q + l] * f[l];
+        fa[1] += scale_i[q + l] * ti[l];
+        fb[0] -= scale_j[q + l] * f[l];
+        fb[1] += scale_j[q + l] * tj[l];
+      } else {
+        fa[0] += f[l];
+        fa[1] += ti[l];
+        fb[0] -= f[l];
+        fb[1] += tj[l];
+      }
+    }
+  }
+}
+
+void scatter_single(const std::int32_t* local_rows, std::size_t count, BatchColumns& columns,
+                    double* force) {
+  using B = BatchColumns;
+  for (std::size_t q = 0; q < count; ++q) {
+    double* f = force + 8 * static_cast<std::size_t>(local_rows[q]);
+    for (int d = 0; d < 3; ++d) {
+      f[d] += columns.column(B::force_x + d)[q];
+      f[4 + d] += columns.column(B::torque_i_x + d)[q];
+    }
+  }
+}
+
+}  // namespace dust::contact

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "contact/batch.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace dust::contact {
+
+/// Rows of four doubles of all grains.
+struct RowView {
+  const double* position = nullptr;  ///< x, y, z, radius
+  const double* velocity = nullptr;  ///< synchronised; fourth 1 / mass
+  const double* rotation = nullptr;
+};
+
+/// Minimum image along periodic directions; elsewhere half is infinite, so that nothing is shifted.
+struct Images {
+  double length[3] = {0, 0, 0};
+  double half[3] = {0, 0, 0};
+};
+
+/// Pairs of grains with what belongs to a pair, row by row.
+struct PairView {
+  const std::int32_t* a = nullptr;  ///< rows of side i
+  const std::int32_t* b = nullptr;  ///< rows of side j
+  std::uint8_t* is_touching = nullptr;
+  double* history = nullptr;
+  std::size_t history_stride = 0;  ///< a multiple of 4
+};
+
+/// Finds the pairs of [begin, end) closer than touch + `range` [m], writes their numbers to
+/// `touching` and returns how many. A pair that parts loses its history.
+std::size_t find_touching(const RowView& rows, const Images& images, const PairView& pairs,
+                          std::size_t begin, std::size_t end, double range,
+                          std::int32_t* touching);
+
+/// Loads `count` contacts (numbers of pairs) into the first columns; rows up to the padded count
+/// repeat the last one. `ahead` more numbers may be read for prefetching.
+void load_pairs(const RowView& rows, const Images& images, const PairView& pairs,
+                const std::int32_t* contacts, std::size_t count, std::size_t ahead,
+                BatchColumns& columns);
+
+/// Overlap, normal, effective radius and mass, lever arms and the relative velocity of the contact
+/// point from what load_pairs wrote. Returns the largest overlap / smaller radius [-].
+double derive_pair_columns(BatchColumns& columns, std::size_t count);
+
+/// Torques about the centres: force at the lever arms plus the rolling couple.
+void derive_torques(BatchColumns& columns, std::size_t count, bool has_couple);
+
+/// History rows <-> columns; `groups` of four columns.
+void load_history(const PairView& pairs, const std::int32_t* contacts, std::size_t count,
+                  int groups, BatchColumns& columns);
+void store_history(const PairView& pairs, const std::int32_t* contacts, std::size_t count,
+                   int groups, BatchColumns& columns);
+
+/// Adds forces and torques to the rows of eight doubles of a chunk's own grains: rows
+/// [first, first + size); what belongs to others goes to the spare row `size`.
+void scatter_pairs(const PairView& pairs, const std::int32_t* contacts, std::size_t count,
+                   std::int32_t first, std::int32_t size, bool has_scales, BatchColumns& columns,
+                   double* force);
+/// The same for surfaces: only side i receives.
+void scatter_single(const std::int32_t* local_rows, std::size_t count, BatchColumns& columns,
+                    double* force);
+
+}  // namespace dust::contact

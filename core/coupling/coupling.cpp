@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/coupling.hpp"
+
+#include "base/error.hpp"
+#include "coupling/face_exchange.hpp"
+#include "coupling/grain_memory.hpp"
+#include "coupling/lattice.hpp"
+#include "coupling/void_fraction.hpp"
+#include "dust/sdk/error.hpp"
+#include "dust/sdk/sphere.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace dust::coupling {
+namespace {
+
+constexpr std::size_t k_batch = 256;  ///< grains per call of the law and per task
+constexpr double k_steps_per_relaxation = 4.0;
+constexpr double k_crossing_speed = 2.0;  ///< [m/s]
+constexpr double k_refreshes_per_cell = 8.0;
+constexpr double k_most_refreshes = 64.0;
+/// Rounding allowed in D / dx at the rule's limit (cells of exactly two diameters).
+constexpr double k_ratio_rounding = 1e-9;
+/// Least part of the true drag coefficient given to the fluid. The mean drag of a free grain falls
+/// short of it when the grain follows the fluid within the step; a grain held by its neighbours
+/// feels it in full, and what the fluid was not given comes one step late. That is stable only if
+/// the late part is the smaller one: the share must exceed 1/2.
+constexpr double k_least_implicit = 0.6;
+
+/// Columns of a batch of grains.
+struct Batch {
+  std::array<double, k_batch> reynolds, void_fraction, factor;
+};
+
+double relaxation_time(double mass, double viscosity, double diameter) {
+  return mass / (3.0 * std::numbers::pi * viscosity * diameter);
+}
+
+/// The parts written one after another, numbers to six digits.
+template <class... Part>
+std::string text(const Part&... parts) {
+  std::ostringstream stream;
+  (stream << ... << parts);
+  return stream.str();
+}
+
+}  // namespace
+
+struct Coupling::Impl {
+  Impl(const scenario::FluidSpec& fluid, const scenario::TimeSpec& time, const fluid::Grid& grid,
+       const fluid::CellField& open_fraction, const sdk::VoidageRule& rule, const sdk::DragLaw& law)
+      : lattice(grid, open_fraction),
+        drag(law),
+        voidage(rule),
+        void_fraction(lattice, rule),
+        faces(lattice),
+        density(fluid.density),
+        viscosity(fluid.viscosity),
+        initial_velocity{fluid.initial_velocity.x, fluid.initial_velocity.y,
+                         fluid.initial_velocity.z},
+        is_one_way(fluid.is_one_way),
+        step(time.fluid_step) {
+    least_spacing = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+    refreshes = refreshes_for(step, std::numeric_limits<double>::infinity());
+  }
+
+  [[nodiscard]] double refreshes_for(double fluid_step, double shortest_relaxation) const {
+    const double relaxing = k_steps_per_relaxation * fluid_step / shortest_relaxation;
+    const double crossing = k_refreshes_per_cell * k_crossing_speed * fluid_step / least_spacing;
+    // The allowance keeps rounding of a whole number from costing one more refresh.
+    constexpr double k_allowance = 1e-9;
+    const double wanted = std::ceil(std::max(relaxing, crossing) * (1.0 - k_allowance));
+    return std::clamp(wanted, 1.0, k_most_refreshes);
+  }
+
+  /// Runs `work(first, last)` over fixed batches of rows.
+  template <class Work>
+  static void for_batches(std::size_t count, const Work& work) {
+    const std::size_t batches = (count + k_batch - 1) / k_batch;
+    tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t b) {
+      work(b * k_batch, std::min(count, (b + 1) * k_batch));
+    });
+  }
+
+  /// F of the rows first..last; the batch's Reynolds numbers and void fractions are set.
+  void evaluate(Batch& batch, std::size_t count) const {
+    drag.evaluate({count, batch.reynolds.data(), batch.void_fraction.data(), batch.factor.data()});
+  }
+  [[nodiscard]] double reynolds(double eps, double slip, double diameter) const {
+    return eps * density * slip * diameter / viscosity;
+  }
+  /// K = 3 pi mu D F [kg/s].
+  [[nodiscard]] double coefficient(double diameter, double factor) const {
+    return 3.0 * std::numbers::pi * viscosity * diameter * factor;
+  }
+
+  void map(const particles::GrainRows& grains, double fluid_step);
+  void remember(const particles::GrainRows& grains, std::size_t first, std::size_t last);
+  void settle(const particles::GrainRows& grains, const fluid::FaceField& velocity);
+  void refresh(const particles::GrainRows& grains, std::size_t first, std::size_t last,
+               const fluid::FaceField& velocity, const fluid::FaceField& stress_divergence);
+  void collect(const particles::GrainRows& grains, double fluid_step);
+
+  Lattice lattice;
+  const sdk::DragLaw& drag;
+  const sdk::VoidageRule& voidage;
+  VoidFraction void_fraction;
+  GrainMemory memory;
+  FaceExchange faces;
+  CouplingReport report;
+  double density;
+  double viscosity;
+  Triple initial_velocity;
+  bool is_one_way;
+  double step;
+  double least_spacing = 0.0;
+  double refreshes = 1.0;           ///< per fluid step
+  std::int64_t done_refreshes = 0;  ///< since map()
+  bool is_settled = true;           ///< Remembered::given belongs to the last map()
+};
+
+/// Place, velocity and the implicit drag coefficient of each grain. The slip is that with the fluid
+/// last seen at the grain (the initial velocity for a new one); collect() makes up for the lag.
+void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t first,
+                              std::size_t last) {
+  Batch batch;
+  for (std::size_t row = first; row < last; ++row) {
+    const double* position = grains.position + 4 * row;
+    const double* velocity = grains.velocity + 4 * row;
+    Remembered& r = memory[row];
+    r.place = {position[0], position[1], position[2]};
+    r.velocity = {velocity[0], velocity[1], velocity[2]};
+    if (!r.has_velocity) r.fluid_velocity = initial_velocity;
+    const double slip =
+        std::hypot(r.fluid_velocity[0] - velocity[0], r.fluid_velocity[1] - velocity[1],
+                   r.fluid_velocity[2] - velocity[2]);
+    const double eps = void_fraction.after()[lattice.host_cell(lattice.place(position), position)];
+    batch.void_fraction[row - first] = eps;
+    batch.reynolds[row - first] = reynolds(eps, slip, 2.0 * position[3]);
+  }
+  evaluate(batch, last - first);
+  for (std::size_t row = first; row < last; ++row) {
+    const double diameter = 2.0 * grains.position[4 * row + 3];
+    const double inverse_mass = grains.velocity[4 * row + 3];
+    const double drag_coefficient = coefficient(diameter, batch.factor[row - first]);
+    // A free grain relaxes within the step: mean drag = (m / step) (1 - exp(-K step / m)) (u - v).
+    const double relaxations = drag_coefficient * inverse_mass * step;
+    const double mean = -std::expm1(-relaxations) / relaxations;
+    memory[row].coefficient = drag_coefficient * std::max(mean, k_least_implicit);
+    memory[row].stress_impulse = {};
+    memory[row].given = {};
+  }
+}
+
+void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) {
+  step = fluid_step;
+  memory.align(grains);
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t row = 0; row < grains.count; ++row) {
+    shortest = std::min(shortest, relaxation_time(1.0 / grains.velocity[4 * row + 3], viscosity,
+                                                  2.0 * grains.position[4 * row + 3]));
+  }
+  refreshes = refreshes_for(step, shortest);
+  done_refreshes = 0;
+  if (is_one_way) return;
+
+  const VoidFraction::Counts counts = void_fraction.map(grains);
+  const double limit = voidage.largest_diameter_over_spacing();
+  if (counts.largest_ratio > limit * (1.0 + k_ratio_rounding)) {
+    const std::size_t row = counts.largest_row;
+    throw sdk::ModelError(text("grain ", grains.id[row], " of diameter ",
+                               2.0 * grains.position[4 * row + 3], " m is too large for cells of ",
+                               least_spacing, " m: the voidage rule is valid for D/dx up to ",
+                               limit, "; use fewer cells"));
+  }
+  report.moved_shares += counts.moved_shares;
+  report.relieved_cells += counts.relieved_cells;
+  report.unplaced_grains += counts.unplaced_grains;
+  report.smallest_void_fraction = std::min(report.smallest_void_fraction, counts.smallest);
+  report.largest_diameter_over_spacing =
+      std::max(report.largest_diameter_over_spacing, counts.largest_ratio);
+  if (counts.smallest <= 0.0) {
+    throw sdk::ModelError(
+        text("the grains in one cell fill ", 1.0 - counts.smallest,
+             " of its open volume and no cell around has room; use fewer cells, or look for grains "
+             "that overlap or lie inside bodies"));
+  }
+  for_batches(grains.count,
+              [&](std::size_t first, std::size_t last) { remember(grains, first, last); });
+  report.unpaired_forces += faces.spread(grains, memory, void_fraction.after(), step);
+  is_settled = false;
+}
+
+void Coupling::Impl::settle(const particles::GrainRows& grains, const fluid::FaceField& velocity) {
+  const double imbalance = faces.settle(grains, memory, void_fraction.after(), velocity, step);
+  report.largest_imbalance = std::max(report.largest_imbalance, imbalance);
+  is_settled = true;
+}
+
+void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t first,
+                             std::size_t last, const fluid::FaceField& velocity,
+                             const fluid::FaceField& stress_divergence) {
+  Batch batch;
+  std::array<Triple, k_batch> slip;  // interstitial [m/s]
+  std::array<Triple, k_batch> ratio;
+  std::array<Triple, k_batch> stress;
+  const fluid::CellField& eps = void_fraction.after();
+  Stencil s;
+  for (std::size_t row = first; row < last; ++row) {
+    const double* position = grains.position + 4 * row;
+    const double* v = grains.velocity + 4 * row;
+    Remembered& r = memory[row];
+    const Place p = lattice.place(position);
+    const double own = eps[lattice.host_cell(p, position)];
+    for (int d = 0; d < 3; ++d) {
+      lattice.stencil(d, p, eps, s);
+      const double* u = velocity.component[d].data();
+      double flux = 0.0;  // relative to the grain: it does not jump with eps in plug flow
+      double open = 0.0;
+      double fluid = 0.0;
+      for (std::size_t n = 0; n < 8; ++n) {
+        flux += s.weight[n] * s.void_fraction[n] * (u[s.face[n]] - v[d]);
+        open += s.weight[n] * s.open[n];
+        fluid += s.weight[n] * s.open[n] * s.void_fraction[n];
+      }
+      slip[row - first][d] = flux / own;
+      r.fluid_velocity[d] = v[d] + flux / own;
+      ratio[row - first][d] = open > 0.0 ? fluid / (open * own) : 1.0;
+      stress[row - first][d] = lattice.cell_mean(d, p, stress_divergence.component[d]);
+    }
+    r.has_velocity = true;
+    batch.void_fraction[row - first] = own;
+    const Triple& w = slip[row - first];
+    const double speed = std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    batch.reynolds[row - first] = reynolds(own, speed, 2.0 * position[3]);
+  }
+  evaluate(batch, last - first);
+  for (std::size_t row = first; row < last; ++row) {
+    const double diameter = 2.0 * grains.position[4 * row + 3];
+    const double* v = grains.velocity + 4 * row;
+    double* action = grains.fluid_action + 4 * row;
+    Remembered& r = memory[row];
+    const double drag_coefficient = coefficient(diameter, batch.factor[row - first]);
+    const double volume = sdk::sphere_volume(diameter);
+    for (int d = 0; d < 3; ++d) {
+      // The ratio differs from 1 only where the void fraction changes; it is applied to the slip of
+      // this instant, because the grain has one rate for all directions.
+      const double relative = ratio[row - first][d] * slip[row - first][d];
+      const double force = volume * stress[row - first][d];
+      action[d] = v[d] + relative + force / drag_coefficient;
+      r.stress_impulse[d] += force;
+    }
+    action[3] = drag_coefficient * v[3];
+  }
+}
+
+void Coupling::Impl::collect(const particles::GrainRows& grains, double fluid_step) {
+  if (done_refreshes == 0) {
+    throw std::logic_error("Coupling::collect() without a refresh() since map()");
+  }
+  memory.align(grains);
+  const double interval = fluid_step / static_cast<double>(done_refreshes);
+  for_batches(grains.count, [&](std::size_t first, std::size_t last) {
+    for (std::size_t row = first; row < last; ++row) {
+      double* received = grains.fluid_impulse + 4 * row;
+      Remembered& r = memory[row];
+      for (int d = 0; d < 3; ++d) {
+        const double drag_impulse = received[d] - interval * r.stress_impulse[d];
+        if (!is_one_way && r.is_paired[d]) {
+          r.owed[d] += grains.weight[row] * (r.given[d] - drag_impulse);
+        }
+        r.place[d] = grains.position[4 * row + d];
+        received[d] = 0.0;
+      }
+    }
+  });
+}
+
+Coupling::Coupling(const scenario::Setup& setup, const fluid::Grid& grid,
+                   const fluid::CellField& open_fraction, const sdk::VoidageRule& voidage,
+                   const sdk::DragLaw& drag) {
+  if (!setup.fluid) throw std::logic_error("Coupling needs a scenario with a fluid");
+  const scenario::FluidSpec& fluid = *setup.fluid;
+  if (fluid.momentum_set != "I" && fluid.momentum_set != "II") {
+    throw sdk::ModelError("momentum set " + fluid.momentum_set +
+                          " is not offered: it holds for steady uniform suspensions only; choose I "
+                          "or II, which are the same here");
+  }
+  if (!(fluid.viscosity > 0.0)) {
+    throw sdk::ModelError("drag on grains needs a fluid with a viscosity above zero");
+  }
+  impl_ = std::make_unique<Impl>(fluid, setup.time, grid, open_fraction, voidage, drag);
+}
+Coupling::~Coupling() = default;
+
+void Coupling::check_diameters(std::span<const double> diameters) const {
+  const double limit = impl_->voidage.largest_diameter_over_spacing();
+  for (const double diameter : diameters) {
+    if (impl_->is_one_way || diameter <= limit * (1.0 + k_ratio_rounding) * impl_->least_spacing) {
+      continue;
+    }
+    throw base::UserError(text(
+        "error: grains of ", diameter, " m are too large for fluid cells of ", impl_->least_spacing,
+        " m: the voidage rule is valid for D/dx up to ", limit, "; use fewer fluid cells"));
+  }
+}
+
+void Coupling::map(const particles::GrainRows& grains, double fluid_step) {
+  impl_->map(grains, fluid_step);
+}
+const fluid::CellField& Coupling::void_fraction_before() const {
+  return impl_->void_fraction.before();
+}
+const fluid::CellField& Coupling::void_fraction() const { return impl_->void_fraction.after(); }
+const fluid::Exchange& Coupling::exchange() const { return impl_->faces.exchange(); }
+
+void Coupling::settle(const particles::GrainRows& grains, const fluid::FaceField& velocity) {
+  impl_->memory.align(grains);
+  impl_->settle(grains, velocity);
+}
+
+void Coupling::refresh(const particles::GrainRows& grains, const fluid::FaceField& velocity,
+                       const fluid::FaceField& stress_divergence) {
+  impl_->memory.align(grains);
+  if (!impl_->is_settled) impl_->settle(grains, velocity);
+  Impl::for_batches(grains.count, [&](std::size_t first, std::size_t last) {
+    impl_->refresh(grains, first, last, velocity, stress_divergence);
+  });
+  ++impl_->done_refreshes;
+}
+
+double Coupling::refresh_interval() const { return impl_->step / impl_->refreshes; }
+
+void Coupling::collect(const particles::GrainRows& grains, double fluid_step) {
+  impl_->collect(grains, fluid_step);
+}
+
+void Coupling::momentum_exchange(std::vector<float>& per_cell) const {
+  impl_->faces.per_cell(per_cell);
+}
+const CouplingReport& Coupling::report() const { return impl_->report; }
+
+void Coupling::save(sdk::ArchiveWriter& archive) const {
+  const CouplingReport& r = impl_->report;
+  impl_->void_fraction.save(archive);
+  impl_->memory.save(archive);
+  archive.number("refreshes", impl_->refreshes);
+  archive.number("step", impl_->step);
+  archive.integers(
+      "counts", std::array{r.moved_shares, r.relieved_cells, r.unplaced_grains, r.unpaired_forces});
+  archive.numbers("extremes", std::array{r.smallest_void_fraction, r.largest_imbalance,
+                                         r.largest_diameter_over_spacing});
+}
+
+void Coupling::load(sdk::ArchiveReader& archive) {
+  CouplingReport& r = impl_->report;
+  impl_->void_fraction.load(archive);
+  impl_->memory.load(archive);
+  impl_->refreshes = archive.number("refreshes");
+  impl_->step = archive.number("step");
+  const std::vector<std::int64_t> counts = archive.integers("counts");
+  const std::vector<double> extremes = archive.numbers("extremes");
+  r.moved_shares = counts.at(0);
+  r.relieved_cells = counts.at(1);
+  r.unplaced_grains = counts.at(2);
+  r.unpaired_forces = counts.at(3);
+  r.smallest_void_fraction = extremes.at(0);
+  r.largest_imbalance = extremes.at(1);
+  r.largest_diameter_over_spacing = extremes.at(2);
+}
+
+}  // namespace dust::coupling

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/grain_memory.hpp"
+
+#include <algorithm>
+
+namespace dust::coupling {
+namespace {
+
+/// Numbers of a Remembered that outlive a fluid step: velocity of the fluid, place, debt.
+constexpr std::size_t k_saved = 10;
+
+}  // namespace
+
+void GrainMemory::align(const particles::GrainRows& grains) {
+  if (grains.count == ids_.size() && std::equal(ids_.begin(), ids_.end(), grains.id)) return;
+
+  std::vector<std::pair<std::int64_t, std::size_t>> known(ids_.size());
+  for (std::size_t row = 0; row < ids_.size(); ++row) known[row] = {ids_[row], row};
+  std::sort(known.begin(), known.end());
+  std::vector<char> is_here(ids_.size(), 0);
+  std::vector<Remembered> rows(grains.count);
+  for (std::size_t row = 0; row < grains.count; ++row) {
+    const auto found =
+        std::lower_bound(known.begin(), known.end(), std::pair{grains.id[row], std::size_t{0}});
+    if (found == known.end() || found->first != grains.id[row]) continue;
+    rows[row] = rows_[found->second];
+    is_here[found->second] = 1;
+  }
+  for (const auto& [id, row] : known) {
+    if (is_here[row] == 0 && rows_[row].owed != Triple{}) {
+      leavers_.push_back({rows_[row].place, rows_[row].owed});
+    }
+  }
+  rows_ = std::move(rows);
+  ids_.assign(grains.id, grains.id + grains.count);
+}
+
+void GrainMemory::save(sdk::ArchiveWriter& archive) const {
+  std::vector<double> numbers;
+  numbers.reserve(k_saved * rows_.size());
+  for (const Remembered& r : rows_) {
+    numbers.insert(numbers.end(), r.fluid_velocity.begin(), r.fluid_velocity.end());
+    numbers.insert(numbers.end(), r.place.begin(), r.place.end());
+    numbers.insert(numbers.end(), r.owed.begin(), r.owed.end());
+    numbers.push_back(r.has_velocity ? 1.0 : 0.0);
+  }
+  std::vector<double> gone;
+  for (const Leaver& l : leavers_) {
+    gone.insert(gone.end(), l.place.begin(), l.place.end());
+    gone.insert(gone.end(), l.owed.begin(), l.owed.end());
+  }
+  archive.integers("grain_ids", ids_);
+  archive.numbers("grains", numbers);
+  archive.numbers("leavers", gone);
+}
+
+void GrainMemory::load(sdk::ArchiveReader& archive) {
+  ids_ = archive.integers("grain_ids");
+  const std::vector<double> numbers = archive.numbers("grains");
+  const std::vector<double> gone = archive.numbers("leavers");
+  rows_.assign(ids_.size(), {});
+  const double* n = numbers.data();
+  for (Remembered& r : rows_) {
+    std::copy_n(n, 3, r.fluid_velocity.begin());
+    std::copy_n(n + 3, 3, r.place.begin());
+    std::copy_n(n + 6, 3, r.owed.begin());
+    r.has_velocity = n[9] != 0.0;
+    n += k_saved;
+  }
+  leavers_.assign(gone.size() / 6, {});
+  for (std::size_t l = 0; l < leavers_.size(); ++l) {
+    std::copy_n(gone.data() + 6 * l, 3, leavers_[l].place.begin());
+    std::copy_n(gone.data() + 6 * l + 3, 3, leavers_[l].owed.begin());
+  }
+}
+
+}  // namespace dust::coupling

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/void_fraction.hpp"
+
+#include "dust/sdk/sphere.hpp"
+
+#include <tbb/parallel_for.h>
+
+namespace dust::coupling {
+namespace {
+
+constexpr std::size_t k_chunk = 2048;  ///< grains per task; never a function of the threads
+constexpr int k_relief_sweeps = 32;    ///< cells over which an overfull cell's volume may travel
+
+/// Columns of one chunk in the form the rule reads and writes.
+struct Columns {
+  std::vector<double> x, y, z, radius, weight;
+  std::vector<int> used, i, j, k;
+
+  sdk::VoidageBatch batch(std::size_t count, int capacity) {
+    const std::size_t rows = count * static_cast<std::size_t>(capacity);
+    for (auto* c : {&x, &y, &z, &radius}) c->resize(count);
+    for (auto* c : {&i, &j, &k}) c->resize(rows);
+    used.resize(count);
+    weight.resize(rows);
+    return {count,       x.data(), y.data(), z.data(), radius.data(), capacity,
+            used.data(), i.data(), j.data(), k.data(), weight.data()};
+  }
+};
+
+}  // namespace
+
+VoidFraction::VoidFraction(const Lattice& lattice, const sdk::VoidageRule& rule)
+    : lattice_(lattice), rule_(rule) {
+  before_.eps.assign(lattice.grid().size, 1.0);
+  after_.eps = before_.eps;
+  volume_.assign(lattice.grid().size, 0.0);
+}
+
+void VoidFraction::spread(const particles::GrainRows& grains, std::size_t first, std::size_t last,
+                          std::vector<Share>& shares, Counts& counts) const {
+  static thread_local Columns columns;
+  const fluid::Grid& grid = lattice_.grid();
+  const double least_spacing = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+  double largest_radius = 0.0;
+  for (std::size_t row = first; row < last; ++row) {
+    const double radius = grains.position[4 * row + 3];
+    if (radius > largest_radius) {
+      largest_radius = radius;
+      counts.largest_row = row;
+    }
+  }
+  counts.largest_ratio = 2.0 * largest_radius / least_spacing;
+  const int capacity = rule_.capacity(grid.shape(), largest_radius);
+  const sdk::VoidageBatch batch = columns.batch(last - first, capacity);
+  for (std::size_t row = first; row < last; ++row) {
+    const double* p = grains.position + 4 * row;
+    columns.x[row - first] = p[0];
+    columns.y[row - first] = p[1];
+    columns.z[row - first] = p[2];
+    columns.radius[row - first] = p[3];
+  }
+  rule_.spread(grid.shape(), batch);
+
+  shares.clear();
+  for (std::size_t g = 0; g < batch.count; ++g) {
+    const std::size_t row = first + g;
+    const double volume =
+        grains.weight[row] * sdk::sphere_volume(2.0 * grains.position[4 * row + 3]);
+    const std::size_t begin = g * static_cast<std::size_t>(capacity);
+    const std::size_t own = shares.size();
+    double open_weight = 0.0;
+    int closed = 0;
+    for (std::size_t n = begin; n < begin + static_cast<std::size_t>(batch.used[g]); ++n) {
+      const std::ptrdiff_t cell =
+          lattice_.open_cell(batch.cell_i[n], batch.cell_j[n], batch.cell_k[n]);
+      if (cell < 0) {
+        ++closed;
+        continue;
+      }
+      open_weight += batch.weight[n];
+      shares.push_back({cell, volume * batch.weight[n]});
+    }
+    if (closed == 0) continue;
+    counts.moved_shares += closed;
+    if (open_weight > 0.0) {
+      // The grain's open cells take the rest in the ratio of their own shares.
+      for (std::size_t n = own; n < shares.size(); ++n) shares[n].volume /= open_weight;
+      continue;
+    }
+    shares.resize(own);
+    const std::ptrdiff_t cell = lattice_.nearest_open_cell(grains.position + 4 * row);
+    if (cell >= 0) {
+      shares.push_back({cell, volume});
+    } else {
+      ++counts.unplaced_grains;
+    }
+  }
+}
+
+void VoidFraction::add(std::ptrdiff_t cell, double volume) {
+  if (volume_[cell] == 0.0) after_.touched.push_back(cell);
+  volume_[cell] += volume;
+}
+
+/// Overfull cells give their excess to open neighbours in the ratio of the room these have. What
+/// finds no room within k_relief_sweeps cells stays, and shows in the smallest void fraction.
+std::int64_t VoidFraction::relieve() {
+  const double allowed = (1.0 - k_smallest_void_fraction) * lattice_.cell_volume();
+  const auto room = [&](std::ptrdiff_t cell) {
+    return cell < 0 ? 0.0 : std::max(0.0, allowed * lattice_.open_fraction(cell) - volume_[cell]);
+  };
+  // A cell filled to the limit by a neighbour must not count as overfull for its rounding.
+  constexpr double k_rounding = 1e-12;
+  std::int64_t relieved = 0;
+  for (int sweep = 0; sweep < k_relief_sweeps; ++sweep) {
+    bool is_done = true;
+    for (std::size_t n = 0; n < after_.touched.size(); ++n) {
+      const std::ptrdiff_t cell = after_.touched[n];
+      const double excess = volume_[cell] - allowed * lattice_.open_fraction(cell);
+      if (excess <= k_rounding * allowed) continue;
+      const auto neighbours = lattice_.open_neighbours(cell);
+      double total = 0.0;
+      for (const std::ptrdiff_t other : neighbours) total += room(other);
+      is_done = false;
+      if (total <= 0.0) continue;
+      const double moved = std::min(1.0, excess / total);
+      double given = 0.0;
+      for (const std::ptrdiff_t other : neighbours) {
+        const double part = moved * room(other);
+        if (part <= 0.0) continue;
+        add(other, part);
+        given += part;
+      }
+      volume_[cell] -= given;
+      ++relieved;
+    }
+    if (is_done) break;
+  }
+  return relieved;
+}
+
+VoidFraction::Counts VoidFraction::map(const particles::GrainRows& grains) {
+  std::swap(before_, after_);
+  for (const std::ptrdiff_t cell : after_.touched) after_.eps[cell] = 1.0;
+  after_.touched.clear();
+
+  const std::size_t chunks = (grains.count + k_chunk - 1) / k_chunk;
+  if (shares_.size() < chunks) shares_.resize(chunks);
+  std::vector<Counts> counts(chunks);
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+    spread(grains, c * k_chunk, std::min(grains.count, (c + 1) * k_chunk), shares_[c], counts[c]);
+  });
+
+  Counts total;
+  for (std::size_t c = 0; c < chunks; ++c) {
+    for (const Share& share : shares_[c]) add(share.cell, share.volume);
+    total.moved_shares += counts[c].moved_shares;
+    total.unplaced_grains += counts[c].unplaced_grains;
+    if (counts[c].largest_ratio > total.largest_ratio) {
+      total.largest_ratio = counts[c].largest_ratio;
+      total.largest_row = counts[c].largest_row;
+    }
+  }
+  total.relieved_cells = relieve();
+  for (const std::ptrdiff_t cell : after_.touched) {
+    const double eps =
+        1.0 - volume_[cell] / (lattice_.open_fraction(cell) * lattice_.cell_volume());
+    after_.eps[cell] = eps;
+    volume_[cell] = 0.0;
+    total.smallest = std::min(total.smallest, eps);
+  }
+  return total;
+}
+
+void VoidFraction::save(sdk::ArchiveWriter& archive) const {
+  const auto save_state = [&](const char* cells, const char* values, const State& state) {
+    std::vector<std::int64_t> indices(state.touched.begin(), state.touched.end());
+    std::vector<double> eps;
+    eps.reserve(indices.size());
+    for (const std::ptrdiff_t cell : state.touched) eps.push_back(state.eps[cell]);
+    archive.integers(cells, indices);
+    archive.numbers(values, eps);
+  };
+  save_state("cells_before", "void_fraction_before", before_);
+  save_state("cells_after", "void_fraction_after", after_);
+}
+
+void VoidFraction::load(sdk::ArchiveReader& archive) {
+  const auto load_state = [&](const char* cells, const char* values, State& state) {
+    state.eps.assign(lattice_.grid().size, 1.0);
+    const std::vector<std::int64_t> indices = archive.integers(cells);
+    const std::vector<double> eps = archive.numbers(values);
+    state.touched.assign(indices.begin(), indices.end());
+    for (std::size_t n = 0; n < indices.size(); ++n) state.eps[state.touched[n]] = eps[n];
+  };
+  load_state("cells_before", "void_fraction_before", before_);
+  load_state("cells_after", "void_fraction_after", after_);
+}
+
+}  // namespace dust::coupling

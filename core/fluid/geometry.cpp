@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fluid/geometry.hpp"
+
+#include "fluid/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dust::fluid {
+namespace {
+
+using sdk::Vec3;
+
+/// A point this close to a surface (in cells) counts as being on it, so inside the body.
+constexpr double k_on_surface = 1e-6;
+/// Openings smaller than this are closed, larger than one minus this are whole.
+constexpr double k_least_opening = 1e-4;
+/// Sub-boxes per direction in which an open share is measured.
+constexpr int k_sub_boxes = 8;
+/// Faces deeper inside a body (in cells) take the surface velocity itself.
+constexpr double k_ghost_depth = 2.6;
+
+struct Hit {
+  double distance = std::numeric_limits<double>::max();
+  Vec3 normal;
+  int body = -1;
+};
+
+struct Point {
+  Vec3 place;
+  Vec3 normal;
+  int body = 0;
+};
+
+class Builder {
+ public:
+  Builder(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides)
+      : grid_(grid), bodies_(bodies), sides_(sides) {
+    smallest_ = largest_ = 0.0;
+    for (int d = 0; d < 3; ++d) {
+      const double h = grid.spacing[d];
+      if (grid.count[d] == 1) continue;
+      smallest_ = smallest_ == 0.0 ? h : std::min(smallest_, h);
+      largest_ = std::max(largest_, h);
+    }
+    if (smallest_ == 0.0)
+      smallest_ = largest_ = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+  }
+
+  Geometry build() {
+    measure_openness();
+    for (int d = 0; d < 3; ++d) find_unknowns(d);
+    for (int d = 0; d < 3; ++d) {
+      find_cut(d);
+      find_ghosts(d);
+    }
+    sort_wall_points();
+    return std::move(g_);
+  }
+
+ private:
+  [[nodiscard]] Hit nearest(Vec3 p) const {
+    Hit hit;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const auto s = bodies_[b].nearest(p);
+      if (s.distance < hit.distance) hit = {s.distance, s.normal, static_cast<int>(b)};
+    }
+    return hit;
+  }
+  [[nodiscard]] bool is_inside(Vec3 p) const {
+    return nearest(p).distance <= k_on_surface * smallest_;
+  }
+
+  /// Share of the box (edges `size`, 0 = flat) outside all bodies. Within a sub-box the surface is
+  /// taken as a plane that meets it in proportion to the distance: exact for planes along the grid.
+  [[nodiscard]] double open_share(Vec3 centre, Vec3 size) const {
+    const double reach = 0.5 * norm(size);
+    const double distance = nearest(centre).distance;
+    if (distance >= reach) return 1.0;
+    if (distance <= -reach) return 0.0;
+    std::array<int, 3> n{};
+    for (int d = 0; d < 3; ++d) n[d] = size[d] > 0.0 ? k_sub_boxes : 1;
+    double sum = 0.0;
+    for (int c = 0; c < n[2]; ++c) {
+      for (int b = 0; b < n[1]; ++b) {
+        for (int a = 0; a < n[0]; ++a) {
+          const Vec3 p{centre.x + ((a + 0.5) / n[0] - 0.5) * size.x,
+                       centre.y + ((b + 0.5) / n[1] - 0.5) * size.y,
+                       centre.z + ((c + 0.5) / n[2] - 0.5) * size.z};
+          const Hit hit = nearest(p);
+          double width = 0.0;
+          for (int d = 0; d < 3; ++d) width += std::abs(hit.normal[d]) * size[d] / n[d];
+          if (width > k_on_surface * smallest_) {
+            sum += std::clamp(0.5 + hit.distance / width, 0.0, 1.0);
+          } else {
+            sum += hit.distance > k_on_surface * smallest_ ? 1.0 : 0.0;
+          }
+        }
+      }
+    }
+    const double share = sum / (n[0] * n[1] * n[2]);
+    if (share < k_least_opening) return 0.0;
+    return share > 1.0 - k_least_opening ? 1.0 : share;
+  }
+
+  void measure_openness() {
+    const auto& n = grid_.count;
+    g_.open_fraction.assign(grid_.size, 1.0);
+    g_.open_area = FaceField(grid_);
+    for_rows(n[0] * 100, n[1], n[2], [&](int j, int k) {
+      for (int i = 0; i < n[0]; ++i) {
+        g_.open_fraction[grid_.index(i, j, k)] =
+            bodies_.empty() ? 1.0 : open_share(grid_.centre(i, j, k), grid_.spacing);
+      }
+    });
+    for (int d = 0; d < 3; ++d) {
+      auto& e = g_.extent[d];
+      e = n;
+      if (!sides_.is_periodic[d]) e[d] += 1;
+      Vec3 size = grid_.spacing;
+      size[d] = 0.0;
+      for_rows(e[0] * 100, e[1], e[2], [&](int j, int k) {
+        for (int i = 0; i < e[0]; ++i) {
+          g_.open_area.component[d][grid_.index(i, j, k)] =
+              bodies_.empty() ? 1.0 : open_share(grid_.face(d, i, j, k), size);
+        }
+      });
+    }
+    for (int d = 0; d < 3; ++d) {
+      if (!sides_.is_periodic[d]) continue;
+      auto& a = g_.open_area.component[d];
+      const int e = (d + 1) % 3;
+      const int f = (d + 2) % 3;
+      for (int p = 0; p < n[e]; ++p) {
+        for (int q = 0; q < n[f]; ++q) {
+          const std::ptrdiff_t o = grid_.index(0, 0, 0) + p * grid_.stride[e] + q * grid_.stride[f];
+          a[o + n[d] * grid_.stride[d]] = a[o];
+        }
+      }
+    }
+  }
+
+  void find_unknowns(int d) {
+    auto& kind = g_.kind[d];
+    kind.assign(grid_.size, FaceKind::given);
+    const auto& e = g_.extent[d];
+    for_rows(e[0] * 100, e[1], e[2], [&](int j, int k) {
+      for (int i = 0; i < e[0]; ++i) {
+        const std::ptrdiff_t o = grid_.index(i, j, k);
+        const std::array<int, 3> c = {i, j, k};
+        const bool inside = !bodies_.empty() && (g_.open_area.component[d][o] == 0.0 ||
+                                                 is_inside(grid_.face(d, i, j, k)));
+        bool is_given = false;
+        if (!sides_.is_periodic[d]) {
+          is_given = (c[d] == 0 && !sides_.is_pressure_side(d, 0)) ||
+                     (c[d] == grid_.count[d] && !sides_.is_pressure_side(d, 1));
+        }
+        kind[o] = inside ? FaceKind::inside : is_given ? FaceKind::given : FaceKind::plain;
+      }
+    });
+  }
+
+  /// Distance from `from` (outside) to the surface on the way to `to` (inside).
+  double wall_distance(Vec3 from, Vec3 to) const {
+    double low = 0.0;
+    double high = 1.0;
+    for (int step = 0; step < 50; ++step) {
+      const double mid = 0.5 * (low + high);
+      (nearest(from + mid * (to - from)).distance > 0.0 ? low : high) = mid;
+    }
+    return high * norm(to - from);
+  }
+
+  std::int32_t add_wall_point(Vec3 near) {
+    const Hit hit = nearest(near);
+    points_.push_back({near - hit.distance * hit.normal, hit.normal, hit.body});
+    return static_cast<std::int32_t>(points_.size() - 1);
+  }
+
+  void find_cut(int d) {
+    const auto& e = g_.extent[d];
+    auto& begin = g_.cut_begin[d];
+    begin.assign(static_cast<std::size_t>(e[1]) * e[2] + 1, 0);
+    for (int k = 0; k < e[2]; ++k) {
+      for (int j = 0; j < e[1]; ++j) {
+        for (int i = 0; i < e[0]; ++i) {
+          const std::ptrdiff_t o = grid_.index(i, j, k);
+          if (g_.kind[d][o] != FaceKind::plain) continue;
+          const std::array<int, 3> c = {i, j, k};
+          bool is_cut = false;
+          CutFace face;
+          face.at = static_cast<std::int32_t>(o);
+          face.i = static_cast<std::int16_t>(i);
+          for (int dir = 0; dir < 3; ++dir) {
+            is_cut = stencil(d, dir, c, o, face) || is_cut;
+          }
+          if (!is_cut) continue;
+          g_.kind[d][o] = FaceKind::cut;
+          g_.cut[d].push_back(face);
+        }
+        begin[static_cast<std::size_t>(k) * e[1] + j + 1] =
+            static_cast<std::int32_t>(g_.cut[d].size());
+      }
+    }
+  }
+
+  /// Fills the two weights of one direction; true if they differ from the plain stencil's.
+  bool stencil(int d, int dir, const std::array<int, 3>& c, std::ptrdiff_t o, CutFace& face) {
+    const double h = grid_.spacing[dir];
+    if (grid_.count[dir] == 1 && dir != d && !has_fixed(d, dir)) return false;
+    if (grid_.count[dir] == 1 && sides_.is_periodic[dir]) return false;
+    double distance[2] = {h, h};
+    bool is_wall[2] = {false, false};
+    bool is_free[2] = {false, false};
+    bool is_irregular = false;
+    const Vec3 here = grid_.face(d, c[0], c[1], c[2]);
+    for (int side = 0; side < 2; ++side) {
+      const int edge = side == 0 ? 0 : g_.extent[d][dir] - 1;
+      if (c[dir] == edge && !sides_.is_periodic[dir]) {
+        // The weights of y and z are kept per row, those of x in this list.
+        if (dir == 0) is_irregular = true;
+        if (dir != d && sides_.beyond(d, dir, side) == Beyond::fixed) {
+          distance[side] = 0.5 * h;
+          face.wall_point[2 * dir + side] = CutFace::k_side;
+        } else {
+          is_free[side] = true;
+        }
+        continue;
+      }
+      const std::ptrdiff_t q = wrapped(o, dir, c[dir], side == 0 ? -1 : 1);
+      if (g_.kind[d][q] != FaceKind::inside) continue;
+      Vec3 there = here;
+      there[dir] += side == 0 ? -h : h;
+      if (!is_inside(there)) continue;  // closed face whose point is still in the open
+      double s = wall_distance(here, there);
+      if (s < k_least_distance * h) {
+        s = k_least_distance * h;
+        ++g_.close_distances;
+      }
+      distance[side] = s;
+      is_wall[side] = true;
+      is_irregular = true;
+      there = here;
+      there[dir] += side == 0 ? -s : s;
+      face.wall_point[2 * dir + side] = add_wall_point(there);
+    }
+    const bool has_wall = is_wall[0] || is_wall[1];
+    for (int side = 0; side < 2; ++side) {
+      double weight = 0.0;
+      if (!is_free[side]) {
+        // Three points at unequal distances: exact for parabolas.
+        weight = has_wall && !is_free[1 - side]
+                     ? 2.0 / (distance[side] * (distance[0] + distance[1]))
+                     : 1.0 / (distance[side] * h);
+      }
+      face.weight[2 * dir + side] = weight;
+    }
+    return is_irregular;
+  }
+
+  [[nodiscard]] bool has_fixed(int d, int dir) const {
+    return sides_.beyond(d, dir, 0) == Beyond::fixed || sides_.beyond(d, dir, 1) == Beyond::fixed;
+  }
+
+  [[nodiscard]] std::ptrdiff_t wrapped(std::ptrdiff_t o, int dir, int c, int step) const {
+    const std::ptrdiff_t s = grid_.stride[dir];
+    if (sides_.is_periodic[dir]) {
+      if (c + step < 0) return o + (grid_.count[dir] - 1) * s;
+      if (c + step >= grid_.count[dir]) return o - (grid_.count[dir] - 1) * s;
+    }
+    return o + step * s;
+  }
+
+  void find_ghosts(int d) {
+    if (bodies_.empty()) return;
+    const auto& e = g_.extent[d];
+    for (int k = 0; k < e[2]; ++k) {
+      for (int j = 0; j < e[1]; ++j) {
+        for (int i = 0; i < e[0]; ++i) {
+          const std::ptrdiff_t o = grid_.index(i, j, k);
+          if (g_.kind[d][o] != FaceKind::inside) continue;
+          const Vec3 p = grid_.face(d, i, j, k);
+          const Hit hit = nearest(p);
+          GhostFace ghost;
+          ghost.at = static_cast<std::int32_t>(o);
+          ghost.wall_point = static_cast<std::int32_t>(points_.size());
+          ghost.is_crossed = g_.open_area.component[d][o] > 0.0;
+          points_.push_back({p - hit.distance * hit.normal, hit.normal, hit.body});
+          const double depth = std::max(0.0, -hit.distance);
+          if (depth < k_ghost_depth * largest_) find_image(d, p, hit, depth, ghost);
+          g_.ghost[d].push_back(ghost);
+        }
+      }
+    }
+  }
+
+  /// The image lies on the normal through the ghost, as far outside that it needs fluid faces only.
+  void find_image(int d, Vec3 p, const Hit& hit, double depth, GhostFace& ghost) const {
+    for (int step = 0; step < 5; ++step) {
+      const double reach = std::max(depth, largest_) + 0.25 * step * largest_;
+      const Vec3 image = p + (reach - hit.distance) * hit.normal;
+      if (is_inside(image)) continue;
+      if (!interpolation(d, image, ghost)) continue;
+      ghost.factor = depth / reach;
+      return;
+    }
+  }
+
+  /// Trilinear weights of component `d` at `p`; false if a face inside a body carries weight.
+  bool interpolation(int d, Vec3 p, GhostFace& ghost) const {
+    std::array<int, 3> base{};
+    std::array<double, 3> share{};
+    for (int dir = 0; dir < 3; ++dir) {
+      if (grid_.count[dir] == 1 && dir != d) continue;
+      const double x = (p[dir] - grid_.origin[dir]) / grid_.spacing[dir] - (dir == d ? 0.0 : 0.5);
+      const int last = g_.extent[d][dir] - 1;
+      const double clamped = std::clamp(x, 0.0, static_cast<double>(last));
+      base[dir] = std::min(static_cast<int>(clamped), std::max(0, last - 1));
+      share[dir] = last > 0 ? clamped - base[dir] : 0.0;
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+      double weight = 1.0;
+      std::array<int, 3> c = base;
+      for (int dir = 0; dir < 3; ++dir) {
+        const int high = corner >> dir & 1;
+        weight *= high ? share[dir] : 1.0 - share[dir];
+        c[dir] += high;
+      }
+      const std::ptrdiff_t o =
+          weight > 0.0 ? grid_.index(c[0], c[1], c[2]) : grid_.index(base[0], base[1], base[2]);
+      if (weight > 1e-12 && g_.kind[d][o] == FaceKind::inside) return false;
+      ghost.node[corner] = static_cast<std::int32_t>(o);
+      ghost.weight[corner] = weight;
+    }
+    return true;
+  }
+
+  void sort_wall_points() {
+    std::vector<std::int32_t> new_place(points_.size());
+    WallPoints& w = g_.wall;
+    w.body_begin.assign(1, 0);
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      for (std::size_t n = 0; n < points_.size(); ++n) {
+        const Point& p = points_[n];
+        if (p.body != static_cast<int>(b)) continue;
+        new_place[n] = static_cast<std::int32_t>(w.x.size());
+        w.x.push_back(p.place.x);
+        w.y.push_back(p.place.y);
+        w.z.push_back(p.place.z);
+        w.normal_x.push_back(p.normal.x);
+        w.normal_y.push_back(p.normal.y);
+        w.normal_z.push_back(p.normal.z);
+      }
+      w.body_begin.push_back(w.x.size());
+    }
+    for (auto& v : w.velocity) v.assign(w.x.size(), 0.0);
+    for (int d = 0; d < 3; ++d) {
+      for (auto& ghost : g_.ghost[d]) ghost.wall_point = new_place[ghost.wall_point];
+      for (auto& face : g_.cut[d]) {
+        for (auto& point : face.wall_point) {
+          if (point >= 0) point = new_place[point];
+        }
+      }
+    }
+  }
+
+  const Grid& grid_;
+  const bodies::BodySet& bodies_;
+  const SideKinds& sides_;
+  double smallest_;
+  double largest_;
+  Geometry g_;
+  std::vector<Point> points_;
+};
+
+}  // namespace
+
+void WallPoints::evaluate(const bodies::BodySet& bodies, double time) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const std::size_t first = body_begin[b];
+    const std::size_t count = body_begin[b + 1] - first;
+    if (count == 0 || !bodies[b].motion) continue;
+    bodies[b].motion->surface_velocity({.count = count,
+                                        .time = time,
+                                        .axis = bodies[b].lateral_axis(),
+                                        .x = &x[first],
+                                        .y = &y[first],
+                                        .z = &z[first],
+                                        .normal_x = &normal_x[first],
+                                        .normal_y = &normal_y[first],
+                                        .normal_z = &normal_z[first],
+                                        .velocity_x = &velocity[0][first],
+                                        .velocity_y = &velocity[1][first],
+                                        .velocity_z = &velocity[2][first]});
+  }
+}
+
+Geometry Geometry::build(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides) {
+  return Builder(grid, bodies, sides).build();
+}
+
+}  // namespace dust::fluid

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fluid/sides.hpp"
+
+#include "dust/sdk/error.hpp"
+#include "fluid/parallel.hpp"
+#include "scenario/setup.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace dust::fluid {
+namespace {
+
+using sdk::SideRule;
+using sdk::Vec3;
+
+constexpr int k_pressure = 3;  ///< "component" of the pressure in evaluate_at
+
+/// Calls body(a, b, offset) for a padded plane across `direction`: offset is the index of the
+/// plane's cell with 0 along `direction`; a, b count the other two directions, halos included.
+/// The inner loop runs along x where it can.
+template <class Body>
+void for_plane(const Grid& g, int direction, const Body& body) {
+  const int e = direction == 0 ? 1 : 0;
+  const int f = direction == 2 ? 1 : 2;
+  const int low = -Grid::k_halo;
+  const int n_e = g.count[e] + 2 * Grid::k_halo;
+  const int n_f = g.count[f] + 2 * Grid::k_halo;
+  for_rows(n_e * 4, n_f, 1, [&](int q, int) {
+    const int b = q + low;
+    const std::ptrdiff_t o = g.index(0, 0, 0) + b * g.stride[f];
+    for (int a = low; a < low + n_e; ++a) body(a, b, o + a * g.stride[e]);
+  });
+}
+
+void check(const sdk::SideRules& r, int side) {
+  const bool is_given = r.normal_velocity == SideRule::fixed && r.pressure == SideRule::gradient;
+  const bool is_open = r.normal_velocity == SideRule::gradient &&
+                       (r.pressure == SideRule::fixed || r.pressure == SideRule::pressure);
+  const bool tangential_is_known =
+      r.tangential_velocity == SideRule::fixed || r.tangential_velocity == SideRule::gradient;
+  if ((is_given || is_open) && tangential_is_known) return;
+  throw sdk::ParameterError(
+      std::string("the boundary model of side ") + scenario::k_side_names[side] +
+      " asks for a combination that cannot be solved: a given normal velocity goes with a zero "
+      "pressure gradient, a given pressure with a zero velocity gradient");
+}
+
+}  // namespace
+
+Sides::Sides(const Grid& grid, const std::array<const sdk::BoundaryCondition*, 6>& conditions)
+    : grid_(grid) {
+  for (int side = 0; side < 6; ++side) {
+    const int d = side / 2;
+    values_[side].condition = conditions[side];
+    if (conditions[side] == nullptr) {
+      if (!grid.is_periodic[d]) {
+        throw sdk::ParameterError(std::string("side ") + scenario::k_side_names[side] +
+                                  " has no boundary model and is not periodic");
+      }
+      kinds_.is_periodic[d] = true;
+      kinds_.rules[side] = {SideRule::periodic, SideRule::periodic, SideRule::periodic};
+      continue;
+    }
+    if (grid.is_periodic[d]) {
+      throw sdk::ParameterError(std::string("side ") + scenario::k_side_names[side] +
+                                " is periodic and has a boundary model; it can have only one");
+    }
+    kinds_.rules[side] = conditions[side]->rules();
+    check(kinds_.rules[side], side);
+  }
+}
+
+bool Sides::is_any_periodic() const {
+  return kinds_.is_periodic[0] || kinds_.is_periodic[1] || kinds_.is_periodic[2];
+}
+
+std::array<int, 2> Sides::plane_size(int side, int component) const {
+  const int d = side / 2;
+  const int e = d == 0 ? 1 : 0;
+  const int f = d == 2 ? 1 : 2;
+  return {grid_.count[e] + (component == e ? 1 : 0), grid_.count[f] + (component == f ? 1 : 0)};
+}
+
+void Sides::evaluate_at(int side, int component, double time, std::vector<double>& out) const {
+  const int d = side / 2;
+  const int e = d == 0 ? 1 : 0;
+  const int f = d == 2 ? 1 : 2;
+  const auto size = plane_size(side, component);
+  const std::size_t count = static_cast<std::size_t>(size[0]) * size[1];
+  std::array<std::vector<double>, 3> place;
+  for (auto& p : place) p.resize(count);
+  for (int b = 0; b < size[1]; ++b) {
+    for (int a = 0; a < size[0]; ++a) {
+      const std::size_t n = static_cast<std::size_t>(b) * size[0] + a;
+      place[d][n] = grid_.origin[d] + (side % 2 ? grid_.count[d] * grid_.spacing[d] : 0.0);
+      place[e][n] = grid_.origin[e] + (a + (component == e ? 0.0 : 0.5)) * grid_.spacing[e];
+      place[f][n] = grid_.origin[f] + (b + (component == f ? 0.0 : 0.5)) * grid_.spacing[f];
+    }
+  }
+  std::array<std::vector<double>, 4> result;
+  for (auto& r : result) r.assign(count, 0.0);
+  Vec3 normal;
+  normal[d] = side % 2 ? 1.0 : -1.0;
+  sdk::SideBatch batch;
+  batch.count = count;
+  batch.time = time;
+  batch.normal = normal;
+  batch.x = place[0].data();
+  batch.y = place[1].data();
+  batch.z = place[2].data();
+  batch.velocity_x = result[0].data();
+  batch.velocity_y = result[1].data();
+  batch.velocity_z = result[2].data();
+  batch.pressure = result[k_pressure].data();
+  values_[side].condition->evaluate(batch);
+  out = std::move(result[component]);
+}
+
+void Sides::evaluate(double time) {
+  for (int side = 0; side < 6; ++side) {
+    Values& v = values_[side];
+    if (v.condition == nullptr) continue;
+    const auto& r = kinds_.rules[side];
+    for (int c = 0; c < 3; ++c) {
+      const auto rule = c == side / 2 ? r.normal_velocity : r.tangential_velocity;
+      if (rule == SideRule::fixed) evaluate_at(side, c, time, v.velocity[c]);
+    }
+    if (r.pressure != SideRule::gradient) evaluate_at(side, k_pressure, time, v.pressure);
+  }
+}
+
+void Sides::fill_component(std::vector<double>& v, int d, int direction, bool for_sweeps) const {
+  const std::ptrdiff_t s = grid_.stride[direction];
+  const int n = grid_.count[direction];
+  if (kinds_.is_periodic[direction]) {
+    const int second = n > 1 ? n - 2 : 0;
+    for_plane(grid_, direction, [&](int, int, std::ptrdiff_t o) {
+      v[o - s] = v[o + (n - 1) * s];
+      v[o - 2 * s] = v[o + second * s];
+      v[o + n * s] = v[o];
+      v[o + (n + 1) * s] = v[o + (n > 1 ? s : 0)];
+    });
+    return;
+  }
+  for (int high = 0; high < 2; ++high) {
+    const int side = 2 * direction + high;
+    const auto size = plane_size(side, d);
+    const Beyond beyond = kinds_.beyond(d, direction, high);
+    const std::ptrdiff_t out = high ? s : -s;
+    // First number outside for tangential components, the side's own face for the normal one.
+    const std::ptrdiff_t edge = d == direction ? (high ? n * s : 0) : (high ? (n - 1) * s : 0);
+    const std::ptrdiff_t second = n > 1 || d == direction ? edge - out : edge;
+    const std::ptrdiff_t third = n > 1 ? edge - 2 * out : second;
+    // In y and z the halo has no room for a second face beyond the last one.
+    const std::ptrdiff_t further = d == direction && high && d != 0 ? edge + out : edge + 2 * out;
+    const auto& given = values_[side].velocity[d];
+    for_plane(grid_, direction, [&](int a, int b, std::ptrdiff_t o) {
+      double* at = &v[o];
+      if (beyond == Beyond::gradient) {
+        at[further] = d == direction ? at[edge] : at[second];
+        at[edge + out] = at[edge];
+        return;
+      }
+      const int p = std::clamp(a, 0, size[0] - 1);
+      const int q = std::clamp(b, 0, size[1] - 1);
+      const double wall = given[static_cast<std::size_t>(q) * size[0] + p];
+      if (d == direction) {
+        at[edge] = wall;
+        at[further] = 2.0 * wall - at[third];
+        at[edge + out] = 2.0 * wall - at[second];
+      } else if (for_sweeps) {
+        at[edge + out] = wall;
+      } else {
+        at[edge + out] = 2.0 * wall - at[edge];
+        at[edge + 2 * out] = 2.0 * wall - at[second];
+      }
+    });
+  }
+}
+
+void Sides::fill_velocity(FaceField& u) const {
+  for (int direction = 0; direction < 3; ++direction) {
+    for (int d = 0; d < 3; ++d) fill_component(u.component[d], d, direction, false);
+  }
+}
+
+void Sides::fill_for_sweeps(FaceField& u) const {
+  for (int direction = 0; direction < 3; ++direction) {
+    for (int d = 0; d < 3; ++d) fill_component(u.component[d], d, direction, true);
+  }
+}
+
+void Sides::wrap(std::vector<double>& component, int d) const {
+  for (int direction = 0; direction < 3; ++direction) {
+    if (kinds_.is_periodic[direction]) fill_component(component, d, direction, true);
+  }
+}
+
+void Sides::fill_cells(CellField& values) const {
+  for (int direction = 0; direction < 3; ++direction) {
+    const std::ptrdiff_t s = grid_.stride[direction];
+    const int n = grid_.count[direction];
+    const bool is_periodic = kinds_.is_periodic[direction];
+    for_plane(grid_, direction, [&](int, int, std::ptrdiff_t o) {
+      for (int layer = 1; layer <= 2; ++layer) {
+        const int inner = std::min(layer, n) - 1;
+        values[o - layer * s] = is_periodic ? values[o + (n - 1 - inner) * s] : values[o];
+        values[o + (n - 1 + layer) * s] =
+            is_periodic ? values[o + inner * s] : values[o + (n - 1) * s];
+      }
+    });
+  }
+}
+
+void Sides::fill_pressure(CellField& p, bool is_increment) const {
+  fill_cells(p);
+  for (int side = 0; side < 6; ++side) {
+    const int d = side / 2;
+    if (!kinds_.is_pressure_side(d, side % 2)) continue;
+    const auto size = plane_size(side, k_pressure);
+    const std::ptrdiff_t edge = side % 2 ? (grid_.count[d] - 1) * grid_.stride[d] : 0;
+    const std::ptrdiff_t out = side % 2 ? grid_.stride[d] : -grid_.stride[d];
+    for_plane(grid_, d, [&](int a, int b, std::ptrdiff_t o) {
+      const int m = std::clamp(a, 0, size[0] - 1);
+      const int q = std::clamp(b, 0, size[1] - 1);
+      const double given =
+          is_increment ? 0.0 : values_[side].pressure[static_cast<std::size_t>(q) * size[0] + m];
+      p[o + edge + out] = 2.0 * given - p[o + edge];
+    });
+  }
+}
+
+}  // namespace dust::fluid

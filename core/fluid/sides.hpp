@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/boundary_condition.hpp"
+#include "fluid/geometry.hpp"
+#include "fluid/grid.hpp"
+
+#include <array>
+#include <vector>
+
+namespace dust::fluid {
+
+/// The six sides of the domain: values from the boundary models and the filling of halos.
+class Sides {
+ public:
+  /// Sides in the order of scenario::k_side_names; null where periodic. Throws
+  /// sdk::ParameterError on combinations that cannot be solved.
+  Sides(const Grid& grid, const std::array<const sdk::BoundaryCondition*, 6>& conditions);
+
+  [[nodiscard]] const SideKinds& kinds() const { return kinds_; }
+  /// Asks the models for their values at `time`.
+  void evaluate(double time);
+  /// Halo such that linear interpolation meets the side's rule: mirrored, copied or wrapped.
+  void fill_velocity(FaceField& u) const;
+  /// Halo for the implicit sweeps: the side's own velocity where it is given; wrapped copies.
+  void fill_for_sweeps(FaceField& u) const;
+  void wrap(std::vector<double>& component, int d) const;
+  /// Copies of the edge cells, or wrapped.
+  void fill_cells(CellField& values) const;
+  /// Pressure halo such that (p[0] - p[-1]) / h is the gradient over half a cell where the
+  /// pressure on the side is given.
+  void fill_pressure(CellField& p, bool is_increment) const;
+  [[nodiscard]] bool is_any_periodic() const;
+  /// Is the kinetic energy of entering fluid paid by the pressure (total pressure)?
+  [[nodiscard]] bool is_total_pressure(int side) const {
+    return kinds_.rules[side].pressure == sdk::SideRule::pressure;
+  }
+
+ private:
+  /// Values on one side: velocity components at their own points, pressure at face centres.
+  struct Values {
+    const sdk::BoundaryCondition* condition = nullptr;
+    std::array<std::vector<double>, 3> velocity;
+    std::vector<double> pressure;
+  };
+  [[nodiscard]] std::array<int, 2> plane_size(int side, int component) const;
+  void evaluate_at(int side, int component, double time, std::vector<double>& out) const;
+  void fill_component(std::vector<double>& v, int d, int direction, bool for_sweeps) const;
+
+  Grid grid_;
+  SideKinds kinds_;
+  std::array<Values, 6> values_;
+};
+
+}  // namespace dust::fluid

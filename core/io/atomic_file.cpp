@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/atomic_file.hpp"
+
+#include "base/error.hpp"
+#include "io/run_files.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+namespace dust::io {
+namespace {
+
+void sync_to_disk(const std::filesystem::path& path, int flags) {
+  const int descriptor = ::open(path.c_str(), flags);
+  const bool is_synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const int reason = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!is_synced) {
+    throw base::RunError("cannot write " + path.string() + " to disk: " + std::strerror(reason));
+  }
+}
+
+}  // namespace
+
+std::filesystem::path temporary_name(const std::filesystem::path& file) {
+  std::filesystem::path temporary = file;
+  temporary += ".part";
+  return temporary;
+}
+
+void move_into_place(const std::filesystem::path& file, bool is_synced) {
+  const std::filesystem::path temporary = temporary_name(file);
+  if (is_synced) sync_to_disk(temporary, O_RDWR);
+  if (std::rename(temporary.c_str(), file.c_str()) != 0) {
+    throw base::RunError("cannot rename " + temporary.string() + " to " + file.string() + ": " +
+                         std::strerror(errno));
+  }
+  if (is_synced) {
+    const std::filesystem::path folder = file.parent_path();
+    sync_to_disk(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
+  }
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  const std::filesystem::path temporary = temporary_name(file);
+  std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  out.close();
+  if (!out) {
+    throw base::RunError("cannot write " + temporary.string() + ": " + std::strerror(errno));
+  }
+  move_into_place(file, false);
+}
+
+}  // namespace dust::io

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+namespace dust::io {
+
+/// The name under which `file` is written before it is renamed into place: in the same folder, so
+/// that the rename is atomic, and always the same, so that leftovers of a killed run are
+/// overwritten.
+std::filesystem::path temporary_name(const std::filesystem::path& file);
+
+/// Renames `temporary_name(file)` to `file`. With `is_synced` the data and the folder's entry are
+/// on the disk, not in its cache, when this returns: they survive a power cut. A killed process
+/// never leaves half a file either way.
+void move_into_place(const std::filesystem::path& file, bool is_synced);
+
+}  // namespace dust::io

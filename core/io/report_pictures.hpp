@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "io/report_h5.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace dust::io {
+
+/// Grains finer than this are called dust and drawn on top, larger than they are [m].
+constexpr double k_dust_diameter = 100e-6;
+
+/// The part of the x-z plane a picture shows [m].
+struct View {
+  double min_x = 0.0, min_z = 0.0, max_x = 0.0, max_z = 0.0;
+  [[nodiscard]] bool is_empty() const { return !(max_x > min_x && max_z > min_z); }
+  void add(double x, double z);
+};
+
+/// The view of a run: the fluid's grid, or what grains and body outlines span.
+[[nodiscard]] View view_of(const H5Source& source, const nlohmann::json& bodies);
+
+/// Body outlines for the pictures, [{"name", "polygons": [[[x, z], ..]], "segments": [[x, z, x,
+/// z]], "triangles": [x, z, ..]}]: those of report.json, or else the newest wall surfaces seen
+/// along y.
+[[nodiscard]] nlohmann::json bodies_of(const nlohmann::json& report, const H5Source& source);
+
+/// The grains of every frame seen along y, quantised to 16 bits per coordinate and packed; null
+/// without frames. Thinned by a hash of the id when a frame or the whole would become too large, so
+/// that the grains shown stay the same from frame to frame; dust is thinned only on its own
+/// account.
+[[nodiscard]] nlohmann::json grains_of(const H5Source& source, const View& view,
+                                       const nlohmann::json& classes);
+
+/// Air speed, pressure and direction of at most 40 frames, averaged over the depth y, quantised to
+/// 8 bits and packed; null for runs without fluid.
+[[nodiscard]] nlohmann::json air_of(const H5Source& source);
+
+}  // namespace dust::io

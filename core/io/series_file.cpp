@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/error.hpp"
+#include "io/run_files.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+namespace dust::io {
+namespace {
+
+/// Shortest decimal that reads back as the same double.
+void append_number(std::string& text, double value) {
+  if (!std::isfinite(value)) {
+    text += std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+    return;
+  }
+  char digits[32];
+  const auto end = std::to_chars(std::begin(digits), std::end(digits), value).ptr;
+  text.append(digits, end);
+}
+
+/// RFC 4180: a field with a comma, quote or line break is quoted.
+void append_field(std::string& text, const std::string& field) {
+  if (field.find_first_of(",\"\n\r") == std::string::npos) {
+    text += field;
+    return;
+  }
+  text += '"';
+  for (const char c : field) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  text += '"';
+}
+
+std::string header_of(std::span<const std::string> names) {
+  std::string line;
+  for (const std::string& name : names) {
+    if (!line.empty()) line += ',';
+    append_field(line, name);
+  }
+  return line + '\n';
+}
+
+}  // namespace
+
+struct SeriesFile::Impl {
+  std::filesystem::path file;
+  std::string header;  ///< with its line end; empty before the first row
+  std::int64_t rows = 0;
+  int descriptor = -1;
+
+  ~Impl() {
+    if (descriptor >= 0) ::close(descriptor);
+  }
+
+  /// Keeps the header and the first `wanted` rows. A row cut short by a kill has no line end and
+  /// is not counted.
+  void cut_back(std::int64_t wanted) {
+    std::ifstream in(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    std::size_t end = text.find('\n');
+    if (end != std::string::npos) header = text.substr(0, end + 1);
+    std::size_t kept = header.size();
+    while (rows < wanted && kept < text.size() &&
+           (end = text.find('\n', kept)) != std::string::npos) {
+      kept = end + 1;
+      ++rows;
+    }
+    if (rows < wanted) {
+      throw base::UserError("error: " + file.string() + " holds " + std::to_string(rows) +
+                            " rows, the checkpoint needs " + std::to_string(wanted) +
+                            "; start again with --force");
+    }
+    write_text(file, text.substr(0, kept));
+  }
+
+  /// One write per row: what a kill leaves is whole rows and at most one cut short.
+  void write_line(const std::string& line) {
+    std::size_t done = 0;
+    while (done < line.size()) {
+      const ssize_t part = ::write(descriptor, line.data() + done, line.size() - done);
+      if (part < 0 && errno != EINTR) {
+        throw base::RunError("cannot write " + file.string() + ": " + std::strerror(errno));
+      }
+      done += static_cast<std::size_t>(std::max<ssize_t>(part, 0));
+    }
+  }
+};
+
+SeriesFile::SeriesFile(std::filesystem::path file, std::int64_t resume_rows)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->file = std::move(file);
+  if (resume_rows < 0) {
+    write_text(impl_->file, "");
+  } else {
+    impl_->cut_back(resume_rows);
+  }
+  impl_->descriptor = ::open(impl_->file.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (impl_->descriptor < 0) {
+    throw base::RunError("cannot open " + impl_->file.string() + ": " + std::strerror(errno));
+  }
+}
+
+SeriesFile::~SeriesFile() = default;
+
+void SeriesFile::append(std::span<const std::string> names_with_units,
+                        std::span<const double> values) {
+  const std::string header = header_of(names_with_units);
+  if (impl_->header.empty()) {
+    impl_->write_line(header);
+    impl_->header = header;
+  }
+  if (header != impl_->header || names_with_units.size() != values.size()) {
+    throw base::RunError("the columns of " + impl_->file.string() +
+                         " changed during the run; a sensor gives other names than before");
+  }
+  std::string line;
+  for (const double value : values) {
+    if (!line.empty()) line += ',';
+    append_number(line, value);
+  }
+  impl_->write_line(line + '\n');
+  ++impl_->rows;
+}
+
+std::int64_t SeriesFile::rows() const { return impl_->rows; }
+
+}  // namespace dust::io

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "particles/balance_book.hpp"
+
+#include <algorithm>
+
+namespace dust::particles {
+
+std::int32_t BalanceBook::population(double diameter, double weight, std::int32_t material,
+                                     double mass) {
+  for (std::size_t n = 0; n < populations_.size(); ++n) {
+    const Population& p = populations_[n];
+    if (p.diameter == diameter && p.weight == weight && p.material == material) {
+      return static_cast<std::int32_t>(n);
+    }
+  }
+  populations_.push_back({.diameter = diameter, .weight = weight, .material = material, .mass = mass});
+  return static_cast<std::int32_t>(populations_.size() - 1);
+}
+
+void BalanceBook::enter(std::int32_t population) {
+  Population& p = populations_[static_cast<std::size_t>(population)];
+  ++p.emitted;
+  ++p.in_domain;
+}
+
+void BalanceBook::leave(std::int32_t population) {
+  Population& p = populations_[static_cast<std::size_t>(population)];
+  --p.in_domain;
+  ++p.left;
+}
+
+void BalanceBook::close() {
+  const std::int64_t largest = balance_.max;
+  balance_ = {};
+  for (const Population& p : populations_) {
+    const auto book = [&](std::int64_t count, std::int64_t& sum, double& real, double& mass) {
+      sum += count;
+      real += static_cast<double>(count) * p.weight;
+      mass += static_cast<double>(count) * p.weight * p.mass;
+    };
+    book(p.emitted, balance_.emitted, balance_.real_emitted, balance_.mass_emitted);
+    book(p.in_domain, balance_.in_domain, balance_.real_in_domain, balance_.mass_in_domain);
+    book(p.left, balance_.left, balance_.real_left, balance_.mass_left);
+    book(p.removed, balance_.removed, balance_.real_removed, balance_.mass_removed);
+  }
+  balance_.max = std::max(largest, balance_.in_domain);
+}
+
+void BalanceBook::save(sdk::ArchiveWriter& archive) const {
+  std::vector<double> numbers;
+  std::vector<std::int64_t> integers{balance_.max};
+  for (const Population& p : populations_) {
+    numbers.insert(numbers.end(), {p.diameter, p.weight, p.mass});
+    integers.insert(integers.end(), {p.material, p.emitted, p.in_domain, p.left, p.removed});
+  }
+  archive.numbers("population_numbers", numbers);
+  archive.integers("population_counts", integers);
+}
+
+void BalanceBook::load(sdk::ArchiveReader& archive) {
+  const auto numbers = archive.numbers("population_numbers");
+  const auto integers = archive.integers("population_counts");
+  populations_.clear();
+  for (std::size_t n = 0; n < numbers.size() / 3; ++n) {
+    const std::int64_t* c = integers.data() + 1 + 5 * n;
+    populations_.push_back({.diameter = numbers[3 * n],
+                            .weight = numbers[3 * n + 1],
+                            .material = static_cast<std::int32_t>(c[0]),
+                            .mass = numbers[3 * n + 2],
+                            .emitted = c[1],
+                            .in_domain = c[2],
+                            .left = c[3],
+                            .removed = c[4]});
+  }
+  balance_.max = integers.at(0);
+  close();
+}
+
+}  // namespace dust::particles

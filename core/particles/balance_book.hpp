@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "particles/dem.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace dust::particles {
+
+/// Whole-number books per population (diameter, weight, material): masses and real counts are
+/// products of whole numbers, so that emitted = in the domain + left + removed to rounding.
+class BalanceBook {
+ public:
+  struct Population {
+    double diameter = 0.0;
+    double weight = 1.0;
+    std::int32_t material = 0;
+    double mass = 0.0;  ///< [kg] of one real grain
+    std::int64_t emitted = 0, in_domain = 0, left = 0, removed = 0;
+  };
+
+  /// The population of such grains, made where it is new.
+  std::int32_t population(double diameter, double weight, std::int32_t material, double mass);
+  void enter(std::int32_t population);
+  void leave(std::int32_t population);
+  [[nodiscard]] const Balance& balance() const { return balance_; }
+  [[nodiscard]] const Population& operator[](std::int32_t n) const {
+    return populations_[static_cast<std::size_t>(n)];
+  }
+  /// Brings balance() up to date with the books.
+  void close();
+
+  void save(sdk::ArchiveWriter& archive) const;
+  void load(sdk::ArchiveReader& archive);
+
+ private:
+  std::vector<Population> populations_;
+  Balance balance_;
+};
+
+}  // namespace dust::particles

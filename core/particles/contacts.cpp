@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "particles/impl.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dust::particles {
+namespace {
+
+using contact::BatchColumns;
+using contact::k_batch;
+
+/// Numbers of the contacts in touch, of the calling thread.
+std::vector<std::int32_t>& thread_contacts() {
+  thread_local std::vector<std::int32_t> contacts;
+  return contacts;
+}
+
+void repeat_last(BatchColumns& columns, std::size_t count, int first, int last) {
+  for (int c = first; c <= last; ++c) {
+    double* column = columns.column(c);
+    for (std::size_t q = count; q < contact::padded(count); ++q) column[q] = column[count - 1];
+  }
+}
+
+}  // namespace
+
+contact::BatchColumns& thread_columns() {
+  thread_local contact::BatchColumns columns;
+  return columns;
+}
+
+void Dem::Impl::contact(double now) {
+  time = now;
+  oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+    Chunk& chunk = chunks[c];
+    std::fill(chunk.force.begin(), chunk.force.end(), 0.0);
+    chunk.contacts = 0;
+    chunk_pairs(chunk);
+    chunk_surfaces(chunk);
+  });
+}
+
+void Dem::Impl::chunk_pairs(Chunk& chunk) {
+  auto& touching = thread_contacts();
+  if (touching.size() < chunk.pairs.size() + 8) touching.resize(chunk.pairs.size() + 8);
+  auto& columns = thread_columns();
+  const contact::PairView pairs = chunk.pairs.view(history_stride);
+  const contact::RowView rows = row_view();
+  const int groups = static_cast<int>(history_stride / 4);
+  for (const Segment& segment : chunk.pairs.segments) {
+    const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
+    const std::size_t found = contact::find_touching(
+        rows, images, pairs, static_cast<std::size_t>(segment.begin),
+        static_cast<std::size_t>(segment.end), law.contact->range(), touching.data());
+    chunk.contacts += static_cast<std::int64_t>(found);
+    for (std::size_t first = 0; first < found; first += k_batch) {
+      const std::size_t count = std::min(k_batch, found - first);
+      const std::int32_t* contacts = touching.data() + first;
+      contact::load_pairs(rows, images, pairs, contacts, count, found - first - count, columns);
+      contact::load_history(pairs, contacts, count, groups, columns);
+      const double overlap = contact::derive_pair_columns(columns, count);
+      chunk.largest_overlap = std::max(chunk.largest_overlap, overlap);
+      law.contact->evaluate(columns.view(count, steps.coarse_step, 0));
+      if (law.rolling) {
+        law.rolling->evaluate(
+            columns.view(count, steps.coarse_step, law.contact->history_size()));
+      }
+      contact::derive_torques(columns, count, law.rolling != nullptr);
+      bool has_scales = false;
+      double* scale_i = columns.column(BatchColumns::scale_i);
+      double* scale_j = columns.column(BatchColumns::scale_j);
+      for (std::size_t q = 0; q < count; ++q) {
+        const double wi = store.weight[static_cast<std::size_t>(pairs.a[contacts[q]])];
+        const double wj = store.weight[static_cast<std::size_t>(pairs.b[contacts[q]])];
+        // Sum of w m v is kept: side i feels min(1, w_j / w_i) of the force.
+        scale_i[q] = wj < wi ? wj / wi : 1.0;
+        scale_j[q] = wi < wj ? wi / wj : 1.0;
+        has_scales = has_scales || wi != wj;
+      }
+      contact::store_history(pairs, contacts, count, groups, columns);
+      contact::scatter_pairs(pairs, contacts, count, chunk.begin, chunk.end - chunk.begin,
+                             has_scales, columns, chunk.force.data());
+    }
+  }
+}
+
+void Dem::Impl::chunk_surfaces(Chunk& chunk) {
+  using B = BatchColumns;
+  ContactList& list = chunk.surfaces;
+  auto& columns = thread_columns();
+  const contact::PairView pairs = list.view(history_stride);
+  const int groups = static_cast<int>(history_stride / 4);
+  std::int32_t contacts[k_batch];
+  std::int32_t local[k_batch];
+  const double* point[3];
+  const double* normal[3];
+  double* velocity[3];
+  for (int d = 0; d < 3; ++d) {
+    point[d] = columns.column(B::rotation_j_x + d);
+    normal[d] = columns.column(B::normal_x + d);
+    velocity[d] = columns.column(B::separation_x + d);
+  }
+  for (const Segment& segment : list.segments) {
+    const Surface& surface = surfaces[static_cast<std::size_t>(segment.surface)];
+    const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
+    const double range = law.contact->range();
+    std::size_t count = 0;
+    const auto flush = [&] {
+      if (count == 0) return;
+      surface_velocities(surface, time, count, point, normal, velocity);
+      for (std::size_t q = 0; q < count; ++q) {
+        const double lever = columns.column(B::lever_i)[q];
+        const double n[3] = {normal[0][q], normal[1][q], normal[2][q]};
+        const double w[3] = {columns.column(B::rotation_x)[q], columns.column(B::rotation_y)[q],
+                             columns.column(B::rotation_z)[q]};
+        // v + w x (-lever n) - surface velocity
+        columns.column(B::velocity_x)[q] -= velocity[0][q] + lever * (w[1] * n[2] - w[2] * n[1]);
+        columns.column(B::velocity_y)[q] -= velocity[1][q] + lever * (w[2] * n[0] - w[0] * n[2]);
+        columns.column(B::velocity_z)[q] -= velocity[2][q] + lever * (w[0] * n[1] - w[1] * n[0]);
+      }
+      repeat_last(columns, count, B::velocity_x, B::velocity_z);
+      repeat_last(columns, count, B::overlap, B::lever_j);
+      contact::load_history(pairs, contacts, count, groups, columns);
+      law.contact->evaluate(columns.view(count, steps.coarse_step, 0));
+      if (law.rolling) {
+        law.rolling->evaluate(
+            columns.view(count, steps.coarse_step, law.contact->history_size()));
+      }
+      contact::derive_torques(columns, count, law.rolling != nullptr);
+      contact::store_history(pairs, contacts, count, groups, columns);
+      contact::scatter_single(local, count, columns, chunk.force.data());
+      chunk.contacts += static_cast<std::int64_t>(count);
+      count = 0;
+    };
+    for (std::int32_t q = segment.begin; q < segment.end; ++q) {
+      const auto u = static_cast<std::size_t>(q);
+      const std::int32_t i = list.a[u];
+      const double* p = store.position.data() + 4 * static_cast<std::ptrdiff_t>(i);
+      const double* v = store.velocity.data() + 4 * static_cast<std::ptrdiff_t>(i);
+      const double* w = store.rotation.data() + 4 * static_cast<std::ptrdiff_t>(i);
+      const bodies::SurfacePoint s = surface.nearest({p[0], p[1], p[2]});
+      const double overlap = p[3] - s.distance;
+      if (!(overlap > -range)) {
+        if (list.is_touching[u] != 0) {
+          list.is_touching[u] = 0;
+          std::fill_n(list.history.data() + u * history_stride, history_stride, 0.0);
+        }
+        continue;
+      }
+      list.is_touching[u] = 1;
+      contacts[count] = q;
+      local[count] = i - chunk.begin;
+      columns.column(B::overlap)[count] = overlap;
+      // The contact point halves the overlap, as between two grains.
+      columns.column(B::lever_i)[count] = p[3] - 0.5 * overlap;
+      columns.column(B::lever_j)[count] = 0.0;
+      columns.column(B::effective_radius)[count] = p[3];
+      columns.column(B::effective_mass)[count] = 1.0 / v[3];
+      for (int d = 0; d < 3; ++d) {
+        columns.column(B::normal_x + d)[count] = s.normal[d];
+        columns.column(B::rotation_j_x + d)[count] = p[d] - s.distance * s.normal[d];
+        columns.column(B::velocity_x + d)[count] = v[d];
+        columns.column(B::rotation_x + d)[count] = w[d];
+      }
+      chunk.largest_overlap = std::max(chunk.largest_overlap, overlap / p[3]);
+      if (++count == k_batch) flush();
+    }
+    flush();
+  }
+}
+
+/// What fine grains gave back during the last coarse step acts now, spread over this one. The lag of
+/// one coarse step is harmless: the mass ratio is at least 512.
+void Dem::Impl::force() {
+  const double inverse = 1.0 / steps.coarse_step;
+  for (const Reaction& r : pending) {
+    Chunk& chunk = chunks[static_cast<std::size_t>(r.row) / k_chunk];
+    double* f = chunk.force.data() + 8 * static_cast<std::ptrdiff_t>(r.row - chunk.begin);
+    for (int d = 0; d < 3; ++d) {
+      f[d] += inverse * r.impulse[d];
+      f[4 + d] += inverse * r.impulse[3 + d];
+    }
+  }
+  pending.clear();
+}
+
+}  // namespace dust::particles

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "particles/dem.hpp"
+
+#include "dust/sdk/error.hpp"
+#include "dust/sdk/sphere.hpp"
+#include "particles/impl.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dust::particles {
+
+Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
+                std::vector<PairLaws> pair_laws, std::vector<double> diameters,
+                double fluid_density)
+    : laws(std::move(pair_laws)),
+      surfaces(surfaces_of(setup, bodies)),
+      domain_min(setup.domain.min),
+      domain_max(setup.domain.max),
+      steps(time_steps(setup, bodies, laws, diameters)) {
+  for (const auto& m : setup.materials) {
+    materials.push_back(m.properties);
+    material_names.push_back(m.name);
+    // Buoyancy of the hydrostatic pressure: the fluid's own pressure does not hold it.
+    const double share = 1.0 - fluid_density / m.properties.density;
+    gravity.insert(gravity.end(), {share * setup.gravity.x, share * setup.gravity.y,
+                                   share * setup.gravity.z, 0.0});
+  }
+  law_table.assign(materials.size() * materials.size(), -1);
+  int columns = 0;
+  for (std::size_t n = 0; n < laws.size(); ++n) {
+    const auto i = static_cast<std::size_t>(laws[n].material_i);
+    const auto j = static_cast<std::size_t>(laws[n].material_j);
+    law_table[i * materials.size() + j] = law_table[j * materials.size() + i] =
+        static_cast<std::int32_t>(n);
+    columns = std::max(columns, laws[n].contact->history_size() +
+                                    (laws[n].rolling ? laws[n].rolling->history_size() : 0));
+    largest_range = std::max(largest_range, laws[n].contact->range());
+  }
+  if (columns > contact::k_max_history) {
+    throw sdk::ParameterError("contact and rolling law together keep " + std::to_string(columns) +
+                              " numbers per contact; at most " +
+                              std::to_string(contact::k_max_history) + " are possible");
+  }
+  history_stride = static_cast<std::size_t>(std::max(4, (columns + 3) / 4 * 4));
+  for (int d = 0; d < 3; ++d) {
+    const auto low = setup.domain.sides[static_cast<std::size_t>(2 * d)].grains;
+    const auto high = setup.domain.sides[static_cast<std::size_t>(2 * d + 1)].grains;
+    sides[static_cast<std::size_t>(2 * d)] = low;
+    sides[static_cast<std::size_t>(2 * d + 1)] = high;
+    images.half[d] = std::numeric_limits<double>::infinity();
+    if (low == scenario::GrainSide::periodic) {
+      is_periodic = true;
+      images.length[d] = domain_max[d] - domain_min[d];
+      images.half[d] = 0.5 * images.length[d];
+    }
+  }
+}
+
+std::int32_t Dem::Impl::law_of(int i, int j) const {
+  const std::int32_t law = law_table[static_cast<std::size_t>(i) * materials.size() +
+                                     static_cast<std::size_t>(j)];
+  if (law < 0) {
+    throw sdk::ModelError("no interaction between the materials " +
+                          material_names[static_cast<std::size_t>(i)] + " and " +
+                          material_names[static_cast<std::size_t>(j)] +
+                          ": declare one under `interactions`");
+  }
+  return law;
+}
+
+void Dem::Impl::insert(std::span<const NewGrain> grains) {
+  if (grains.empty()) return;
+  std::size_t n = store.size();
+  store.resize(n + grains.size());
+  for (const NewGrain& g : grains) {
+    const double mass = materials[static_cast<std::size_t>(g.material)].density *
+                        sdk::sphere_volume(g.diameter);
+    const double row[3][4] = {{g.position.x, g.position.y, g.position.z, 0.5 * g.diameter},
+                              {g.velocity.x, g.velocity.y, g.velocity.z, 1.0 / mass},
+                              {g.rotation.x, g.rotation.y, g.rotation.z, 0.0}};
+    for (std::size_t d = 0; d < 4; ++d) {
+      store.position[4 * n + d] = row[0][d];
+      store.velocity[4 * n + d] = row[1][d];
+      store.rotation[4 * n + d] = row[2][d];
+      // Lag 0: the first kick lasts half a step, as if positions and velocities had come together.
+      store.half_velocity[4 * n + d] = d < 3 ? row[1][d] : 0.0;
+      store.half_rotation[4 * n + d] = row[2][d];
+      store.action[4 * n + d] = 0.0;
+      store.impulse[4 * n + d] = 0.0;
+    }
+    store.decay[2 * n] = store.decay[2 * n + 1] = 1.0;
+    store.id[n] = next_id++;
+    store.material[n] = g.material;
+    store.weight[n] = g.weight;
+    store.population[n] = book.population(g.diameter, g.weight, g.material, mass);
+    book.enter(store.population[n]);
+    ++n;
+  }
+  book.close();
+  must_rebuild = must_sort = true;
+}
+
+void Dem::Impl::remove_leavers() {
+  std::vector<std::int32_t> keep;
+  keep.reserve(store.size());
+  for (std::size_t n = 0; n < store.size(); ++n) {
+    const double* p = store.position.data() + 4 * n;
+    bool leaves = false;
+    for (int d = 0; d < 3; ++d) {
+      const bool below = p[d] < domain_min[d];
+      const bool above = p[d] > domain_max[d];
+      if (!below && !above && std::isfinite(p[d])) continue;
+      const auto side = static_cast<std::size_t>(2 * d + (above ? 1 : 0));
+      if (sides[side] == scenario::GrainSide::wall) {
+        fail(n, "left the domain through the wall '" + std::string(scenario::k_side_names[side]) + "'",
+             "the time step is too long for the speed of the impact: give time.expected_speed or a "
+             "smaller time.dem_step");
+      }
+      leaves = leaves || sides[side] == scenario::GrainSide::open;
+    }
+    if (leaves) {
+      book.leave(store.population[n]);
+    } else {
+      keep.push_back(static_cast<std::int32_t>(n));
+    }
+  }
+  if (keep.size() == store.size()) return;
+  // History and pending impulses of the others survive: the lists still name the rows as they
+  // are, so the rows are dropped at the next rebuild's sort through this order.
+  std::vector<std::int32_t> new_row(store.size(), -1);
+  for (std::size_t n = 0; n < keep.size(); ++n) new_row[static_cast<std::size_t>(keep[n])] = static_cast<std::int32_t>(n);
+  const auto drop = [&](ContactList& list, bool is_surface, bool is_fine) {
+    for (std::size_t q = 0; q < list.size(); ++q) {
+      list.a[q] = new_row[static_cast<std::size_t>(list.a[q])];
+      const bool b_is_row = !is_surface && (!is_fine || list.b[q] >= 0);
+      const std::int32_t b = b_is_row ? new_row[static_cast<std::size_t>(list.b[q])] : 0;
+      if (list.a[q] < 0 || b < 0) {
+        list.is_touching[q] = 0;
+        list.a[q] = list.b[q] = 0;
+      } else if (b_is_row) {
+        list.b[q] = b;
+      }
+    }
+  };
+  for (Chunk& c : chunks) {
+    drop(c.pairs, false, false);
+    drop(c.surfaces, true, false);
+  }
+  drop(fine, false, true);
+  std::erase_if(pending, [&](const Reaction& r) { return new_row[static_cast<std::size_t>(r.row)] < 0; });
+  for (Reaction& r : pending) r.row = new_row[static_cast<std::size_t>(r.row)];
+  store.reorder(keep);
+  book.close();
+  must_rebuild = must_sort = true;
+}
+
+void Dem::Impl::refresh_decay() {
+  has_fluid = false;
+  const double step = steps.coarse_step;
+  for (std::size_t n = 0; n < store.size(); ++n) {
+    const double x = store.action[4 * n + 3] * step;
+    has_fluid = has_fluid || x > 0.0;
+    store.decay[2 * n] = std::exp(-x);
+    store.decay[2 * n + 1] = x > 0.0 ? -std::expm1(-x) / x : 1.0;
+  }
+}
+
+void Dem::Impl::fill_last_force() const {
+  last_force.assign(4 * store.size(), 0.0);
+  for (std::size_t n = 0; n < store.size(); ++n) {
+    const double mass = 1.0 / store.velocity[4 * n + 3];
+    const double rate = store.action[4 * n + 3];
+    const double* g = gravity.data() + 4 * static_cast<std::ptrdiff_t>(store.material[n]);
+    for (std::size_t d = 0; d < 3; ++d) {
+      last_force[4 * n + d] =
+          mass * (g[d] + rate * (store.action[4 * n + d] - store.velocity[4 * n + d]));
+    }
+  }
+  if (must_sort) return;  // rows have changed since the forces were computed
+  for (const Chunk& c : chunks) {
+    for (std::int32_t i = c.begin; i < c.end && !c.force.empty(); ++i) {
+      for (int d = 0; d < 3; ++d) {
+        last_force[4 * static_cast<std::size_t>(i) + static_cast<std::size_t>(d)] +=
+            c.force[8 * static_cast<std::size_t>(i - c.begin) + static_cast<std::size_t>(d)];
+      }
+    }
+  }
+  for (std::size_t q = 0; q < fine_force.size(); ++q) last_force[4 * coarse_count + q] += fine_force[q];
+}
+
+Dem::Dem(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vector<PairLaws> laws,
+         std::vector<double> class_diameters, double fluid_density)
+    : impl_(std::make_unique<Impl>(setup, bodies, std::move(laws), std::move(class_diameters),
+                                   fluid_density)) {}
+Dem::~Dem() = default;
+
+double Dem::coarse_step() const { return impl_->steps.coarse_step; }
+std::span<const ClassStep> Dem::class_steps() const { return impl_->steps.classes; }
+void Dem::insert(std::span<const NewGrain> grains) { impl_->insert(grains); }
+void Dem::remove_leavers() { impl_->remove_leavers(); }
+void Dem::neighbours() { impl_->neighbours(); }
+void Dem::contact(double time) { impl_->contact(time); }
+void Dem::force() { impl_->force(); }
+void Dem::integrate() { impl_->integrate(); }
+void Dem::fluid_action_changed() { impl_->refresh_decay(); }
+
+GrainRows Dem::rows() {
+  GrainStore& s = impl_->store;
+  return {.count = s.size(),
+          .position = s.position.data(),
+          .velocity = s.velocity.data(),
+          .rotation = s.rotation.data(),
+          .id = s.id.data(),
+          .material = s.material.data(),
+          .weight = s.weight.data(),
+          .fluid_action = s.action.data(),
+          .fluid_impulse = s.impulse.data()};
+}
+
+std::span<const double> Dem::last_force() const {
+  impl_->fill_last_force();
+  return impl_->last_force;
+}
+
+const Balance& Dem::balance() const { return impl_->book.balance(); }
+
+DemReport Dem::report() const {
+  DemReport out = impl_->counters;
+  out.contacts = 0;
+  for (const Chunk& c : impl_->chunks) {
+    out.contacts += c.contacts;
+    out.largest_overlap = std::max(out.largest_overlap, c.largest_overlap);
+  }
+  for (Chunk& c : impl_->chunks) c.largest_overlap = 0.0;
+  impl_->counters.largest_overlap = 0.0;
+  return out;
+}
+
+std::vector<std::pair<std::int64_t, std::int64_t>> Dem::listed_pairs() const {
+  std::vector<std::pair<std::int64_t, std::int64_t>> out;
+  const auto& id = impl_->store.id;
+  const auto add = [&](std::int32_t a, std::int32_t b) {
+    const std::int64_t i = id[static_cast<std::size_t>(a)];
+    const std::int64_t j = id[static_cast<std::size_t>(b)];
+    out.emplace_back(std::min(i, j), std::max(i, j));
+  };
+  for (const Chunk& c : impl_->chunks) {
+    for (std::size_t q = 0; q < c.pairs.size(); ++q) add(c.pairs.a[q], c.pairs.b[q]);
+  }
+  for (std::size_t q = 0; q < impl_->fine.size(); ++q) {
+    if (impl_->fine.b[q] >= 0) add(impl_->fine.a[q], impl_->fine.b[q]);
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+void Dem::save(sdk::ArchiveWriter& archive) const { impl_->save(archive); }
+void Dem::load(sdk::ArchiveReader& archive) { impl_->load(archive); }
+
+}  // namespace dust::particles

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "particles/impl.hpp"
+
+#include <cstring>
+
+namespace dust::particles {
+namespace {
+
+template <class T>
+std::vector<std::int64_t> widened(const std::vector<T>& v) {
+  return {v.begin(), v.end()};
+}
+
+/// Lists of one kind, one after another, with their sizes.
+struct FlatLists {
+  std::vector<std::int64_t> sizes, a, b, touching, segments;
+  std::vector<double> history;
+
+  void add(const ContactList& list) {
+    sizes.insert(sizes.end(), {static_cast<std::int64_t>(list.size()),
+                               static_cast<std::int64_t>(list.segments.size())});
+    a.insert(a.end(), list.a.begin(), list.a.end());
+    b.insert(b.end(), list.b.begin(), list.b.end());
+    touching.insert(touching.end(), list.is_touching.begin(), list.is_touching.end());
+    history.insert(history.end(), list.history.begin(), list.history.end());
+    for (const Segment& s : list.segments) {
+      segments.insert(segments.end(), {s.law, s.surface, s.begin, s.end});
+    }
+  }
+  void save(sdk::ArchiveWriter& archive, const std::string& name) const {
+    archive.integers(name + "_sizes", sizes);
+    archive.integers(name + "_a", a);
+    archive.integers(name + "_b", b);
+    archive.integers(name + "_touching", touching);
+    archive.integers(name + "_segments", segments);
+    archive.numbers(name + "_history", history);
+  }
+  void load(sdk::ArchiveReader& archive, const std::string& name) {
+    sizes = archive.integers(name + "_sizes");
+    a = archive.integers(name + "_a");
+    b = archive.integers(name + "_b");
+    touching = archive.integers(name + "_touching");
+    segments = archive.integers(name + "_segments");
+    history = archive.numbers(name + "_history");
+  }
+  void take(ContactList& list, std::size_t stride) {
+    const auto n = static_cast<std::size_t>(sizes.at(next_++));
+    const auto m = static_cast<std::size_t>(sizes.at(next_++));
+    list.clear();
+    for (std::size_t q = at_; q < at_ + n; ++q) {
+      list.push(static_cast<std::int32_t>(a.at(q)), static_cast<std::int32_t>(b.at(q)));
+      list.is_touching.push_back(static_cast<std::uint8_t>(touching.at(q)));
+    }
+    list.history.assign(history.begin() + static_cast<std::ptrdiff_t>(at_ * stride),
+                        history.begin() + static_cast<std::ptrdiff_t>((at_ + n) * stride));
+    for (std::size_t s = segment_; s < segment_ + m; ++s) {
+      const auto get = [&](std::size_t k) { return static_cast<std::int32_t>(segments.at(4 * s + k)); };
+      list.segments.push_back({get(0), get(1), get(2), get(3)});
+    }
+    at_ += n;
+    segment_ += m;
+  }
+
+ private:
+  std::size_t next_ = 0, at_ = 0, segment_ = 0;
+};
+
+}  // namespace
+
+void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
+  const auto rows = [&](const char* name, const contact::AlignedVector<double>& v) {
+    archive.numbers(name, {v.data(), v.size()});
+  };
+  rows("position", store.position);
+  rows("velocity", store.velocity);
+  rows("rotation", store.rotation);
+  rows("half_velocity", store.half_velocity);
+  rows("half_rotation", store.half_rotation);
+  rows("action", store.action);
+  rows("impulse", store.impulse);
+  rows("start", store.start);
+  rows("start_velocity", store.start_velocity);
+  rows("decay", store.decay);
+  rows("fine_force", fine_force);
+  archive.integers("id", store.id);
+  archive.integers("material", widened(store.material));
+  archive.integers("population", widened(store.population));
+  archive.numbers("weight", store.weight);
+
+  FlatLists pairs;
+  FlatLists walls;
+  std::vector<double> forces;
+  for (const Chunk& c : chunks) {
+    pairs.add(c.pairs);
+    walls.add(c.surfaces);
+    forces.insert(forces.end(), c.force.begin(), c.force.end());
+  }
+  FlatLists fines;
+  fines.add(fine);
+  pairs.save(archive, "pairs");
+  walls.save(archive, "surfaces");
+  fines.save(archive, "fine");
+  archive.numbers("force", forces);
+
+  std::vector<std::int64_t> bounds;
+  for (const Chunk& c : chunks) bounds.insert(bounds.end(), {c.begin, c.end, c.contacts});
+  archive.integers("chunks", bounds);
+  std::vector<std::int64_t> pending_rows;
+  std::vector<double> pending_values;
+  for (const Reaction& r : pending) {
+    pending_rows.push_back(r.row);
+    pending_values.insert(pending_values.end(), r.impulse, r.impulse + 6);
+  }
+  archive.integers("pending_rows", pending_rows);
+  archive.numbers("pending_values", pending_values);
+  const std::int64_t state[] = {static_cast<std::int64_t>(coarse_count), next_id, since_rebuild,
+                                horizon, next_horizon, must_rebuild, must_sort, has_fluid,
+                                counters.steps, counters.particle_steps, counters.fine_steps,
+                                counters.rebuilds};
+  archive.integers("state", state);
+  archive.number("time", time);
+  archive.number("largest_overlap", counters.largest_overlap);
+  book.save(archive);
+}
+
+void Dem::Impl::load(sdk::ArchiveReader& archive) {
+  const auto rows = [&](const char* name, contact::AlignedVector<double>& v) {
+    const auto values = archive.numbers(name);
+    v.assign(values.begin(), values.end());
+  };
+  rows("position", store.position);
+  rows("velocity", store.velocity);
+  rows("rotation", store.rotation);
+  rows("half_velocity", store.half_velocity);
+  rows("half_rotation", store.half_rotation);
+  rows("action", store.action);
+  rows("impulse", store.impulse);
+  rows("start", store.start);
+  rows("start_velocity", store.start_velocity);
+  rows("decay", store.decay);
+  rows("fine_force", fine_force);
+  store.id = archive.integers("id");
+  const auto material = archive.integers("material");
+  const auto population = archive.integers("population");
+  store.material.assign(material.begin(), material.end());
+  store.population.assign(population.begin(), population.end());
+  store.weight = archive.numbers("weight");
+
+  FlatLists pairs;
+  FlatLists walls;
+  FlatLists fines;
+  pairs.load(archive, "pairs");
+  walls.load(archive, "surfaces");
+  fines.load(archive, "fine");
+  const auto forces = archive.numbers("force");
+  const auto bounds = archive.integers("chunks");
+  chunks.clear();
+  chunks.resize(bounds.size() / 3);
+  std::size_t at = 0;
+  for (std::size_t c = 0; c < chunks.size(); ++c) {
+    chunks[c].begin = static_cast<std::int32_t>(bounds[3 * c]);
+    chunks[c].end = static_cast<std::int32_t>(bounds[3 * c + 1]);
+    chunks[c].contacts = bounds[3 * c + 2];
+    pairs.take(chunks[c].pairs, history_stride);
+    walls.take(chunks[c].surfaces, history_stride);
+    const std::size_t n = 8 * (static_cast<std::size_t>(chunks[c].end - chunks[c].begin) + 1);
+    chunks[c].force.assign(forces.begin() + static_cast<std::ptrdiff_t>(at),
+                           forces.begin() + static_cast<std::ptrdiff_t>(at + n));
+    at += n;
+  }
+  fines.take(fine, history_stride);
+  pending.clear();
+  const auto pending_rows = archive.integers("pending_rows");
+  const auto pending_values = archive.numbers("pending_values");
+  for (std::size_t n = 0; n < pending_rows.size(); ++n) {
+    Reaction r{.row = static_cast<std::int32_t>(pending_rows[n])};
+    std::memcpy(r.impulse, pending_values.data() + 6 * n, sizeof r.impulse);
+    pending.push_back(r);
+  }
+  const auto state = archive.integers("state");
+  coarse_count = static_cast<std::size_t>(state.at(0));
+  next_id = state.at(1);
+  since_rebuild = state.at(2);
+  horizon = state.at(3);
+  next_horizon = state.at(4);
+  must_rebuild = state.at(5) != 0;
+  must_sort = state.at(6) != 0;
+  has_fluid = state.at(7) != 0;
+  counters.steps = state.at(8);
+  counters.particle_steps = state.at(9);
+  counters.fine_steps = state.at(10);
+  counters.rebuilds = state.at(11);
+  time = archive.number("time");
+  counters.largest_overlap = archive.number("largest_overlap");
+  book.load(archive);
+}
+
+}  // namespace dust::particles

@@ -1,0 +1,503 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "particles/impl.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace dust::particles {
+namespace {
+
+using contact::BatchColumns;
+using contact::k_batch;
+using sdk::Vec3;
+
+/// Members of one lockstep block, if clusters allow.
+constexpr std::size_t k_block_members = 64;
+/// Gap, in radii of the fine grain, below which a partner always counts as in reach.
+constexpr double k_reach_margin = 0.05;
+/// Steps per contact.
+constexpr double k_steps_per_contact = 15.0;
+
+Vec3 vec(const double* p) { return {p[0], p[1], p[2]}; }
+
+/// A fine grain while it is sub-cycled.
+struct Member {
+  std::int32_t row = 0;
+  double radius = 0.0, inverse_mass = 0.0, weight = 1.0, rate = 0.0;
+  Vec3 position, velocity, rotation, half_velocity, half_rotation, target, gravity, received;
+  double lag = 0.0;
+  Vec3 impulse, twist;  ///< of the contacts in this sub-step
+  double kick = -1.0, decay = 1.0, phi = 1.0;
+  Vec3 force;
+};
+
+/// A contact candidate of a block.
+struct Candidate {
+  std::int32_t entry = 0;    ///< in the fine list
+  std::int32_t member = 0;
+  std::int32_t partner = -1; ///< member, or -1
+  std::int32_t row = -1;     ///< coarse row, or -1
+  std::int32_t surface = -1;
+  std::int32_t law = 0;
+  double reaction[6] = {0, 0, 0, 0, 0, 0};
+};
+
+struct Block {
+  std::vector<Member> members;
+  std::vector<Candidate> candidates;
+  int level = 0;
+  double largest_overlap = 0.0;
+};
+
+/// What the look-out found about one entry of the fine list.
+struct Outlook {
+  bool is_near = false;
+  double stable_step = 0.0;
+  double speed = 0.0;
+};
+
+/// Drag integrated exactly over `kick`, as for coarse grains; then the drift.
+void advance(Member& m, double step) {
+  const double kick = m.lag + 0.5 * step;
+  if (kick != m.kick) {
+    const double x = m.rate * kick;
+    m.kick = kick;
+    m.decay = std::exp(-x);
+    m.phi = x > 0.0 ? -std::expm1(-x) / x : 1.0;
+  }
+  const Vec3 old = m.half_velocity;
+  const Vec3 push = kick * m.gravity + m.inverse_mass * m.impulse;
+  const Vec3 half = old + (1.0 - m.decay) * (m.target - old) + m.phi * push;
+  m.received += (half - old - push) / m.inverse_mass;
+  m.velocity = half + (0.5 * step / kick * m.decay) * (half - old);
+  m.half_velocity = half;
+  m.position += step * half;
+  const Vec3 spin = (2.5 * m.inverse_mass / (m.radius * m.radius)) * m.twist;
+  m.half_rotation += spin;
+  m.rotation = m.half_rotation + (0.5 * step / kick) * spin;
+  m.force = m.impulse / kick;
+  m.lag = 0.5 * step;
+  m.impulse = m.twist = {};
+}
+
+Member load_member(const GrainStore& s, const std::vector<double>& gravity, std::size_t row) {
+  Member m;
+  m.row = static_cast<std::int32_t>(row);
+  m.radius = s.position[4 * row + 3];
+  m.inverse_mass = s.velocity[4 * row + 3];
+  m.weight = s.weight[row];
+  m.rate = s.action[4 * row + 3];
+  m.position = vec(s.position.data() + 4 * row);
+  m.velocity = vec(s.velocity.data() + 4 * row);
+  m.rotation = vec(s.rotation.data() + 4 * row);
+  m.half_velocity = vec(s.half_velocity.data() + 4 * row);
+  m.half_rotation = vec(s.half_rotation.data() + 4 * row);
+  m.lag = s.half_velocity[4 * row + 3];
+  m.target = vec(s.action.data() + 4 * row);
+  m.gravity = vec(gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material[row]));
+  return m;
+}
+
+void store_member(GrainStore& s, const Member& m, double* force) {
+  const auto row = static_cast<std::size_t>(m.row);
+  for (int d = 0; d < 3; ++d) {
+    const auto k = 4 * row + static_cast<std::size_t>(d);
+    s.position[k] = m.position[d];
+    s.velocity[k] = m.velocity[d];
+    s.rotation[k] = m.rotation[d];
+    s.half_velocity[k] = m.half_velocity[d];
+    s.half_rotation[k] = m.half_rotation[d];
+    s.impulse[k] += m.received[d];
+    force[d] = m.force[d];
+  }
+  s.half_velocity[4 * row + 3] = m.lag;
+}
+
+/// Root of a grain's cluster, with path halving.
+std::int32_t root(std::vector<FineState>& states, std::int32_t n) {
+  auto at = [&](std::int32_t m) -> std::int32_t& { return states[static_cast<std::size_t>(m)].cluster; };
+  while (at(n) != n) {
+    at(n) = at(at(n));
+    n = at(n);
+  }
+  return n;
+}
+
+/// Fills the columns of one batch and applies what the laws say.
+class BlockPass {
+ public:
+  BlockPass(Dem::Impl& dem, Block& block, double now) : dem_(dem), block_(block), now_(now) {}
+
+  void run() {
+    const double step = dem_.steps.coarse_step;
+    const int count = 1 << block_.level;
+    const double sub_step = step / count;
+    for (int m = 0; m < count; ++m) {
+      time_ = now_ + m * sub_step;
+      before_end_ = step - m * sub_step;
+      evaluate(sub_step);
+      for (Member& member : block_.members) advance(member, sub_step);
+    }
+  }
+
+ private:
+  void evaluate(double sub_step) {
+    count_ = 0;
+    const Candidate* open = nullptr;
+    for (Candidate& c : block_.candidates) {
+      if (open != nullptr && (open->law != c.law || open->surface != c.surface || count_ == k_batch)) {
+        flush(*open, sub_step);
+      }
+      open = &c;
+      const bool is_touching = c.surface >= 0 ? load_surface(c) : load_pair(c);
+      const auto e = static_cast<std::size_t>(c.entry);
+      if (is_touching) {
+        in_batch_[count_++] = &c;
+      } else if (dem_.fine.is_touching[e] != 0) {
+        std::fill_n(dem_.fine.history.data() + e * dem_.history_stride, dem_.history_stride, 0.0);
+      }
+      dem_.fine.is_touching[e] = is_touching ? 1 : 0;
+    }
+    if (open != nullptr) flush(*open, sub_step);
+  }
+
+  void set(int column, const Vec3& v) {
+    for (int d = 0; d < 3; ++d) columns_.column(column + d)[count_] = v[d];
+  }
+
+  bool load_pair(const Candidate& c) {
+    using B = BatchColumns;
+    const Member& i = block_.members[static_cast<std::size_t>(c.member)];
+    Vec3 position;
+    Vec3 velocity;
+    Vec3 rotation;
+    double radius = 0.0;
+    double inverse_mass = 0.0;
+    if (c.partner >= 0) {
+      const Member& j = block_.members[static_cast<std::size_t>(c.partner)];
+      position = j.position, velocity = j.velocity, rotation = j.rotation;
+      radius = j.radius, inverse_mass = j.inverse_mass;
+    } else {
+      // The coarse grain has made its step: its course is the straight line between both ends.
+      const auto row = 4 * static_cast<std::size_t>(c.row);
+      velocity = vec(dem_.store.half_velocity.data() + row);
+      position = vec(dem_.store.position.data() + row) - before_end_ * velocity;
+      rotation = vec(dem_.store.half_rotation.data() + row);
+      radius = dem_.store.position[row + 3];
+      inverse_mass = dem_.store.velocity[row + 3];
+    }
+    const Vec3 d = dem_.separation(&position.x, &i.position.x);
+    const double reach = i.radius + radius + dem_.laws[static_cast<std::size_t>(c.law)].contact->range();
+    if (!(dot(d, d) < reach * reach)) return false;
+    set(B::separation_x, d);
+    set(B::velocity_x, i.velocity - velocity);
+    set(B::rotation_i_x, i.rotation);
+    set(B::rotation_j_x, rotation);
+    columns_.column(B::radius_i)[count_] = i.radius;
+    columns_.column(B::radius_j)[count_] = radius;
+    columns_.column(B::inverse_mass)[count_] = i.inverse_mass + inverse_mass;
+    return true;
+  }
+
+  bool load_surface(const Candidate& c) {
+    using B = BatchColumns;
+    const Member& i = block_.members[static_cast<std::size_t>(c.member)];
+    const Surface& surface = dem_.surfaces[static_cast<std::size_t>(c.surface)];
+    const bodies::SurfacePoint s = surface.nearest(i.position);
+    const double overlap = i.radius - s.distance;
+    if (!(overlap > -dem_.laws[static_cast<std::size_t>(c.law)].contact->range())) return false;
+    const double lever = i.radius - 0.5 * overlap;
+    const Vec3 point = i.position - s.distance * s.normal;
+    Vec3 wall;
+    const double* p[3] = {&point.x, &point.y, &point.z};
+    const double* n[3] = {&s.normal.x, &s.normal.y, &s.normal.z};
+    double* v[3] = {&wall.x, &wall.y, &wall.z};
+    surface_velocities(surface, time_, 1, p, n, v);
+    set(B::velocity_x, i.velocity - lever * cross(i.rotation, s.normal) - wall);
+    set(B::rotation_x, i.rotation);
+    set(B::normal_x, s.normal);
+    columns_.column(B::overlap)[count_] = overlap;
+    columns_.column(B::effective_radius)[count_] = i.radius;
+    columns_.column(B::effective_mass)[count_] = 1.0 / i.inverse_mass;
+    columns_.column(B::lever_i)[count_] = lever;
+    columns_.column(B::lever_j)[count_] = 0.0;
+    block_.largest_overlap = std::max(block_.largest_overlap, overlap / i.radius);
+    return true;
+  }
+
+  void flush(const Candidate& open, double sub_step) {
+    using B = BatchColumns;
+    if (count_ == 0) return;
+    const std::size_t stride = dem_.history_stride;
+    for (std::size_t q = 0; q < contact::padded(count_); ++q) {
+      const Candidate& c = *in_batch_[std::min(q, count_ - 1)];
+      const double* h = dem_.fine.history.data() + static_cast<std::size_t>(c.entry) * stride;
+      for (std::size_t k = 0; k < stride; ++k) columns_.history()[k][q] = h[k];
+    }
+    for (int c = 0; c < B::normal_force; ++c) {
+      double* column = columns_.column(c);
+      for (std::size_t q = count_; q < contact::padded(count_); ++q) column[q] = column[count_ - 1];
+    }
+    if (open.surface < 0) {
+      block_.largest_overlap =
+          std::max(block_.largest_overlap, contact::derive_pair_columns(columns_, count_));
+    }
+    const PairLaws& law = dem_.laws[static_cast<std::size_t>(open.law)];
+    law.contact->evaluate(columns_.view(count_, sub_step, 0));
+    if (law.rolling) {
+      law.rolling->evaluate(columns_.view(count_, sub_step, law.contact->history_size()));
+    }
+    contact::derive_torques(columns_, count_, law.rolling != nullptr);
+    for (std::size_t q = 0; q < count_; ++q) apply(*in_batch_[q], q, sub_step);
+    count_ = 0;
+  }
+
+  void apply(Candidate& c, std::size_t q, double sub_step) {
+    using B = BatchColumns;
+    double* h = dem_.fine.history.data() + static_cast<std::size_t>(c.entry) * dem_.history_stride;
+    for (std::size_t k = 0; k < dem_.history_stride; ++k) h[k] = columns_.history()[k][q];
+    const auto get = [&](int column) {
+      return Vec3{columns_.column(column)[q], columns_.column(column + 1)[q],
+                  columns_.column(column + 2)[q]};
+    };
+    const Vec3 force = get(B::force_x);
+    const Vec3 torque_i = get(B::torque_i_x);
+    Member& i = block_.members[static_cast<std::size_t>(c.member)];
+    double duration = i.lag + 0.5 * sub_step;
+    if (c.surface >= 0) {
+      i.impulse += duration * force;
+      i.twist += duration * torque_i;
+      return;
+    }
+    const Vec3 torque_j = get(B::torque_j_x);
+    if (c.partner >= 0) {
+      Member& j = block_.members[static_cast<std::size_t>(c.partner)];
+      // Two grains that come together with different lags share one duration, so that their
+      // impulses are opposite.
+      duration = 0.5 * (duration + j.lag + 0.5 * sub_step);
+      const double share_i = j.weight < i.weight ? j.weight / i.weight : 1.0;
+      const double share_j = i.weight < j.weight ? i.weight / j.weight : 1.0;
+      i.impulse += (share_i * duration) * force;
+      i.twist += (share_i * duration) * torque_i;
+      j.impulse -= (share_j * duration) * force;
+      j.twist += (share_j * duration) * torque_j;
+      return;
+    }
+    const double weight = dem_.store.weight[static_cast<std::size_t>(c.row)];
+    const double share_i = weight < i.weight ? weight / i.weight : 1.0;
+    const double share_j = i.weight < weight ? i.weight / weight : 1.0;
+    i.impulse += (share_i * duration) * force;
+    i.twist += (share_i * duration) * torque_i;
+    for (int d = 0; d < 3; ++d) {
+      c.reaction[d] -= share_j * duration * force[d];
+      c.reaction[3 + d] += share_j * duration * torque_j[d];
+    }
+  }
+
+  Dem::Impl& dem_;
+  Block& block_;
+  double now_;
+  double time_ = 0.0;
+  double before_end_ = 0.0;
+  std::size_t count_ = 0;
+  Candidate* in_batch_[k_batch] = {};
+  BatchColumns& columns_ = thread_columns();
+};
+
+}  // namespace
+
+/// Looks how near the partner of an entry is, and what step the contact would need.
+static Outlook look_out(const Dem::Impl& dem, std::size_t entry, double extra_speed) {
+  const GrainStore& s = dem.store;
+  const double step = dem.steps.coarse_step;
+  const auto i = static_cast<std::size_t>(dem.fine.a[entry]);
+  const std::int32_t b = dem.fine.b[entry];
+  const Vec3 position = vec(s.position.data() + 4 * i);
+  const Vec3 velocity = vec(s.velocity.data() + 4 * i);
+  const double radius = s.position[4 * i + 3];
+  double gap = 0.0;
+  double reduced_radius = radius;
+  double mass = 1.0 / s.velocity[4 * i + 3];
+  Vec3 normal;
+  Vec3 relative = velocity;
+  std::int32_t law = 0;
+  if (b < 0) {
+    const Surface& surface = dem.surfaces[static_cast<std::size_t>(-1 - b)];
+    const auto point = surface.nearest(position);
+    gap = point.distance - radius;
+    normal = point.normal;
+    law = dem.law_of(s.material[i], surface.material);
+  } else {
+    const auto j = static_cast<std::size_t>(b);
+    const bool is_fine = j >= dem.coarse_count;
+    const Vec3 other = vec((is_fine ? s.velocity : s.half_velocity).data() + 4 * j);
+    Vec3 place = vec(s.position.data() + 4 * j);
+    if (!is_fine) place -= step * other;
+    const Vec3 d = dem.separation(&place.x, &position.x);
+    const double distance = std::max(norm(d), 1e-300);
+    const double partner = s.position[4 * j + 3];
+    gap = distance - radius - partner;
+    normal = d / distance;
+    relative = velocity - other;
+    reduced_radius = radius * partner / (radius + partner);
+    mass = 1.0 / (s.velocity[4 * i + 3] + s.velocity[4 * j + 3]);
+    law = dem.law_of(s.material[i], s.material[j]);
+  }
+  const double* g = dem.gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material[i]);
+  const Vec3 free = vec(g) + s.action[4 * i + 3] * (vec(s.action.data() + 4 * i) - velocity);
+  const double gain = norm(free) * step;
+  Outlook out;
+  out.speed = norm(relative) + gain;
+  const PairLaws& laws = dem.laws[static_cast<std::size_t>(law)];
+  const double margin = k_reach_margin * radius + laws.contact->range();
+  out.is_near = dem.fine.is_touching[entry] != 0 || gap < (out.speed + extra_speed) * step + margin;
+  if (!out.is_near) return out;
+  const double approach = std::max(0.0, -dot(relative, normal)) + gain + extra_speed;
+  out.stable_step = std::min(
+      laws.contact->collision_time(reduced_radius, mass, std::max(approach, 1e-12)),
+      laws.contact->half_period(reduced_radius, mass, std::max(-gap, 0.0))) / k_steps_per_contact;
+  return out;
+}
+
+void Dem::Impl::fine_pass() {
+  const double step = steps.coarse_step;
+  const std::size_t fine_count = store.size() - coarse_count;
+  fine_state.assign(fine_count, {});
+  const std::size_t entries = fine.size();
+  std::vector<Outlook> outlook(entries);
+  const auto is_pair = [&](std::size_t e) {
+    return fine.b[e] >= static_cast<std::int32_t>(coarse_count);
+  };
+  oneapi::tbb::parallel_for(std::size_t{0}, (entries + k_fine_block - 1) / k_fine_block, [&](std::size_t b) {
+    const std::size_t end = std::min(entries, (b + 1) * k_fine_block);
+    for (std::size_t e = b * k_fine_block; e < end; ++e) {
+      if (!is_pair(e)) outlook[e] = look_out(*this, e, 0.0);
+    }
+  });
+
+  const auto state = [&](std::int32_t row) -> FineState& {
+    return fine_state[static_cast<std::size_t>(row) - coarse_count];
+  };
+  const auto join = [&](std::int32_t row, const Outlook& o) {
+    FineState& s = state(row);
+    if (s.cluster < 0) {
+      s.cluster = row - static_cast<std::int32_t>(coarse_count);
+      s.stable_step = o.stable_step;
+    }
+    s.stable_step = std::min(s.stable_step, o.stable_step);
+  };
+  for (std::size_t e = 0; e < entries; ++e) {
+    if (is_pair(e) || !outlook[e].is_near) continue;
+    join(fine.a[e], outlook[e]);
+    state(fine.a[e]).speed = std::max(state(fine.a[e]).speed, outlook[e].speed);
+  }
+  for (std::size_t e = 0; e < entries; ++e) {
+    if (!is_pair(e)) continue;
+    // A grain that bounces within this step may turn its relative velocity round.
+    outlook[e] = look_out(*this, e, 2.0 * (state(fine.a[e]).speed + state(fine.b[e]).speed));
+    if (!outlook[e].is_near) continue;
+    join(fine.a[e], outlook[e]);
+    join(fine.b[e], outlook[e]);
+    const std::int32_t i = root(fine_state, state(fine.a[e]).cluster);
+    const std::int32_t j = root(fine_state, state(fine.b[e]).cluster);
+    fine_state[static_cast<std::size_t>(std::max(i, j))].cluster = std::min(i, j);
+  }
+
+  // Clusters at the level of their most demanding member, no finer than that member's class needs.
+  std::vector<std::int32_t> level_of(fine_count, 0);
+  std::vector<std::int32_t> active;
+  for (std::size_t n = 0; n < fine_count; ++n) {
+    FineState& s = fine_state[n];
+    if (s.cluster < 0) continue;
+    s.cluster = root(fine_state, static_cast<std::int32_t>(n));
+    const double diameter = 2.0 * store.position[4 * (coarse_count + n) + 3];
+    const auto size = std::lower_bound(
+        steps.classes.begin(), steps.classes.end(), diameter * (1.0 - 1e-9),
+        [](const ClassStep& c, double d) { return c.diameter < d; });
+    const int finest = size == steps.classes.end() ? 0 : size->level;
+    const int wanted = static_cast<int>(std::ceil(std::log2(step / std::max(s.stable_step, 1e-30))));
+    auto& level = level_of[static_cast<std::size_t>(s.cluster)];
+    level = std::max(level, std::clamp(wanted, 0, finest));
+    active.push_back(static_cast<std::int32_t>(n));
+  }
+  std::sort(active.begin(), active.end(), [&](std::int32_t a, std::int32_t b) {
+    const std::int32_t ca = fine_state[static_cast<std::size_t>(a)].cluster;
+    const std::int32_t cb = fine_state[static_cast<std::size_t>(b)].cluster;
+    const std::int32_t la = level_of[static_cast<std::size_t>(ca)];
+    const std::int32_t lb = level_of[static_cast<std::size_t>(cb)];
+    return std::tie(lb, ca, a) < std::tie(la, cb, b);
+  });
+  std::vector<Block> blocks;
+  std::vector<std::pair<std::int32_t, std::int32_t>> seat(fine_count, {-1, -1});
+  std::int32_t last_cluster = -1;
+  for (const std::int32_t n : active) {
+    const std::int32_t cluster = fine_state[static_cast<std::size_t>(n)].cluster;
+    const int level = level_of[static_cast<std::size_t>(cluster)];
+    if (blocks.empty() || blocks.back().level != level ||
+        (cluster != last_cluster && blocks.back().members.size() >= k_block_members)) {
+      blocks.emplace_back();
+      blocks.back().level = level;
+    }
+    last_cluster = cluster;
+    Block& block = blocks.back();
+    seat[static_cast<std::size_t>(n)] = {static_cast<std::int32_t>(blocks.size() - 1),
+                                         static_cast<std::int32_t>(block.members.size())};
+    block.members.push_back(load_member(store, gravity, coarse_count + static_cast<std::size_t>(n)));
+  }
+  for (std::size_t e = 0; e < entries; ++e) {
+    if (!outlook[e].is_near) continue;
+    const auto [b, m] = seat[static_cast<std::size_t>(fine.a[e]) - coarse_count];
+    Candidate c{.entry = static_cast<std::int32_t>(e), .member = m};
+    const int material = store.material[static_cast<std::size_t>(fine.a[e])];
+    if (fine.b[e] < 0) {
+      c.surface = -1 - fine.b[e];
+      c.law = law_of(material, surfaces[static_cast<std::size_t>(c.surface)].material);
+    } else {
+      c.law = law_of(material, store.material[static_cast<std::size_t>(fine.b[e])]);
+      if (is_pair(e)) {
+        c.partner = seat[static_cast<std::size_t>(fine.b[e]) - coarse_count].second;
+      } else {
+        c.row = fine.b[e];
+      }
+    }
+    blocks[static_cast<std::size_t>(b)].candidates.push_back(c);
+  }
+  oneapi::tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+    Block& block = blocks[b];
+    std::stable_sort(block.candidates.begin(), block.candidates.end(),
+                     [](const Candidate& x, const Candidate& y) {
+                       return std::tie(x.law, x.surface) < std::tie(y.law, y.surface);
+                     });
+    BlockPass(*this, block, time).run();
+    for (const Member& m : block.members) {
+      store_member(store, m, fine_force.data() + 4 * (static_cast<std::size_t>(m.row) - coarse_count));
+    }
+  });
+  oneapi::tbb::parallel_for(
+      std::size_t{0}, (fine_count + k_fine_block - 1) / k_fine_block, [&](std::size_t b) {
+        const std::size_t end = std::min(fine_count, (b + 1) * k_fine_block);
+        for (std::size_t n = b * k_fine_block; n < end; ++n) {
+          if (fine_state[n].cluster >= 0) continue;
+          Member m = load_member(store, gravity, coarse_count + n);
+          advance(m, step);
+          store_member(store, m, fine_force.data() + 4 * n);
+        }
+      });
+  counters.fine_steps += static_cast<std::int64_t>(fine_count - active.size());
+  for (const Block& block : blocks) {
+    counters.fine_steps += static_cast<std::int64_t>(block.members.size()) << block.level;
+    counters.largest_overlap = std::max(counters.largest_overlap, block.largest_overlap);
+    for (const Candidate& c : block.candidates) {
+      if (c.row < 0 || std::all_of(c.reaction, c.reaction + 6, [](double x) { return x == 0.0; })) continue;
+      Reaction r{.row = c.row};
+      std::copy_n(c.reaction, 6, r.impulse);
+      pending.push_back(r);
+    }
+  }
+}
+
+}  // namespace dust::particles

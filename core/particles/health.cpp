@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dust/sdk/error.hpp"
+#include "particles/impl.hpp"
+
+#include <cmath>
+#include <sstream>
+
+namespace dust::particles {
+
+void Dem::Impl::fail(std::size_t row, const std::string& what, const std::string& cause) const {
+  const double* p = store.position.data() + 4 * row;
+  const double* v = store.velocity.data() + 4 * row;
+  std::ostringstream text;
+  text.precision(6);
+  text << "grain " << store.id[row] << " (diameter " << 2.0 * p[3] << " m, "
+       << material_names[static_cast<std::size_t>(store.material[row])] << ") " << what
+       << " at time " << time << " s, position (" << p[0] << ", " << p[1] << ", " << p[2]
+       << ") m, velocity (" << v[0] << ", " << v[1] << ", " << v[2] << ") m/s; last known contact: ";
+  std::string partner = "none";
+  const auto look = [&](const ContactList& list, bool is_surface) {
+    for (std::size_t q = 0; q < list.size(); ++q) {
+      if (list.is_touching[q] == 0) continue;
+      const auto self = static_cast<std::int32_t>(row);
+      if (list.a[q] != self && (is_surface || list.b[q] != self)) continue;
+      const std::int32_t other = list.a[q] == self ? list.b[q] : list.a[q];
+      if (is_surface || other < 0) {
+        partner = "surface " + surfaces[static_cast<std::size_t>(is_surface ? other : -1 - other)].name;
+      } else {
+        partner = "grain " + std::to_string(store.id[static_cast<std::size_t>(other)]);
+      }
+    }
+  };
+  for (const Chunk& c : chunks) {
+    look(c.pairs, false);
+    look(c.surfaces, true);
+  }
+  look(fine, false);
+  throw sdk::ModelError(text.str() + partner + "; likely cause: " + cause);
+}
+
+/// The lists hold as long as no grain has left the straight course it had at the rebuild by more
+/// than its allowance. A rebuild is asked for early enough for the steps to the next check.
+void Dem::Impl::check_course(std::size_t begin, std::size_t end, bool& wants_rebuild) const {
+  constexpr double k_trigger = 0.7;  // of the allowance
+  const double t = static_cast<double>(since_rebuild) * steps.coarse_step;
+  const double ahead = static_cast<double>(k_check_every) * steps.coarse_step;
+  bool wants = false;
+  for (std::size_t n = begin; n < end; ++n) {
+    const double* p = store.position.data() + 4 * n;
+    const double* v = store.velocity.data() + 4 * n;
+    const double* p0 = store.start.data() + 4 * n;
+    const double* v0 = store.start_velocity.data() + 4 * n;
+    double off2 = 0.0;
+    double next2 = 0.0;
+    for (int d = 0; d < 3; ++d) {
+      const double off = p[d] - p0[d] - t * v0[d];
+      const double next = off + ahead * (v[d] - v0[d]);
+      off2 += off * off;
+      next2 += next * next;
+    }
+    const double limit = p0[3];
+    wants = wants || std::max(off2, next2) > k_trigger * k_trigger * limit * limit;
+    if (!(off2 <= limit * limit)) {
+      if (!std::isfinite(off2)) {
+        fail(n, "has a position or velocity that is not a number",
+             "a contact that began with a deep overlap, or a time step too long for the speeds "
+             "met: give time.expected_speed or a smaller time.dem_step");
+      }
+      fail(n, "moved farther off its course than its skin allows between two checks",
+           "speeds far above the expected one: give time.expected_speed or a smaller "
+           "time.dem_step");
+    }
+  }
+  if (wants) wants_rebuild = true;
+  if (is_periodic) {
+    for (std::size_t n = begin; n < end; ++n) {
+      for (int d = 0; d < 3; ++d) {
+        const double x = store.position[4 * n + static_cast<std::size_t>(d)];
+        const double slack = store.position[4 * n + 3];
+        if (images.length[d] > 0.0 && (x < domain_min[d] - slack || x > domain_max[d] + slack)) {
+          wants_rebuild = true;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace dust::particles

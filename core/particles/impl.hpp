@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "contact/batch_kernels.hpp"
+#include "particles/balance_book.hpp"
+#include "particles/dem.hpp"
+#include "particles/grain_store.hpp"
+#include "particles/search.hpp"
+#include "particles/surfaces.hpp"
+#include "particles/time_steps.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dust::particles {
+
+/// Coarse grains per chunk. A constant: it fixes the order of sums.
+inline constexpr std::size_t k_chunk = 512;
+/// Fine grains per block of the search.
+inline constexpr std::size_t k_fine_block = 256;
+/// Coarse steps between two checks of the deviation from the course of the last rebuild.
+inline constexpr std::int64_t k_check_every = 4;
+
+/// Contacts of one law, [begin, end) of a list.
+struct Segment {
+  std::int32_t law = 0;
+  std::int32_t surface = -1;
+  std::int32_t begin = 0;
+  std::int32_t end = 0;
+};
+
+/// Pairs with their history. For surface lists `b` is the number of the surface.
+struct ContactList {
+  std::vector<std::int32_t> a;
+  std::vector<std::int32_t> b;
+  std::vector<std::uint8_t> is_touching;
+  contact::AlignedVector<double> history;
+  std::vector<Segment> segments;
+
+  void clear() { a.clear(), b.clear(), is_touching.clear(), history.clear(), segments.clear(); }
+  void push(std::int32_t i, std::int32_t j) { a.push_back(i), b.push_back(j); }
+  [[nodiscard]] std::size_t size() const { return a.size(); }
+  [[nodiscard]] contact::PairView view(std::size_t stride) {
+    return {a.data(), b.data(), is_touching.data(), history.data(), stride};
+  }
+};
+
+/// Coarse grains [begin, end) with everything only their owner writes.
+struct Chunk {
+  std::int32_t begin = 0;
+  std::int32_t end = 0;
+  ContactList pairs;
+  ContactList surfaces;
+  contact::AlignedVector<double> force;  ///< eight per grain: force, torque; one spare row
+  double largest_overlap = 0.0;
+  std::int64_t contacts = 0;
+  bool wants_rebuild = false;
+};
+
+/// What fine grains give back to a coarse one: impulse and angular impulse, due in the next step.
+struct Reaction {
+  std::int32_t row = 0;
+  double impulse[6] = {0, 0, 0, 0, 0, 0};
+};
+
+/// Fine grain's state of the current coarse step.
+struct FineState {
+  std::int32_t cluster = -1;  ///< -1: no partner in reach
+  std::int32_t level = 0;
+  double stable_step = 0.0;   ///< [s]
+  double speed = 0.0;         ///< [m/s] largest relative speed to a near partner
+};
+
+struct Dem::Impl {
+  Impl(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vector<PairLaws> laws,
+       std::vector<double> diameters, double fluid_density);
+
+  // dem.cpp
+  void insert(std::span<const NewGrain> grains);
+  void remove_leavers();
+  void refresh_decay();
+  [[nodiscard]] std::int32_t law_of(int material_i, int material_j) const;
+
+  // rebuild.cpp
+  void neighbours();
+  void rebuild();
+  void sort_rows();
+  void wrap_periodic();
+  void choose_allowances();
+  void carry_over(ContactList& list, bool is_surface);
+  void group_by_law(ContactList& list, bool is_surface);
+
+  // contacts.cpp
+  void contact(double time);
+  void chunk_pairs(Chunk& chunk);
+  void chunk_surfaces(Chunk& chunk);
+  void force();
+
+  // integrate.cpp
+  void integrate();
+  void integrate_chunk(Chunk& chunk);
+  void advance_free(std::size_t row, double step);
+
+  // fine.cpp
+  void fine_pass();
+
+  // health.cpp
+  [[noreturn]] void fail(std::size_t row, const std::string& what, const std::string& cause) const;
+  void check_course(std::size_t begin, std::size_t end, bool& wants_rebuild) const;
+
+  void fill_last_force() const;
+  void save(sdk::ArchiveWriter& archive) const;
+  void load(sdk::ArchiveReader& archive);
+
+  [[nodiscard]] contact::RowView row_view() const {
+    return {store.position.data(), store.velocity.data(), store.rotation.data()};
+  }
+  [[nodiscard]] sdk::Vec3 separation(const double* from, const double* to) const {
+    double d[3];
+    for (int k = 0; k < 3; ++k) {
+      d[k] = to[k] - from[k];
+      if (d[k] > images.half[k]) d[k] -= images.length[k];
+      if (d[k] < -images.half[k]) d[k] += images.length[k];
+    }
+    return {d[0], d[1], d[2]};
+  }
+
+  // Fixed after construction.
+  std::vector<PairLaws> laws;
+  std::vector<std::int32_t> law_table;
+  std::vector<sdk::MaterialProperties> materials;
+  std::vector<std::string> material_names;
+  std::vector<Surface> surfaces;
+  std::array<scenario::GrainSide, 6> sides{};
+  sdk::Vec3 domain_min, domain_max;
+  contact::Images images;
+  TimeSteps steps;
+  std::vector<double> gravity;  ///< four per material, reduced by buoyancy
+  std::size_t history_stride = 4;
+  double largest_range = 0.0;
+  bool is_periodic = false;
+  bool has_fluid = false;
+
+  // State.
+  GrainStore store;
+  BalanceBook book;
+  std::size_t coarse_count = 0;
+  std::vector<Chunk> chunks;
+  ContactList fine;          ///< partner >= 0: row; < 0: surface -1 - b
+  std::vector<Reaction> pending;
+  contact::AlignedVector<double> fine_force;  ///< four per fine grain, of the last sub-step
+  std::int64_t next_id = 0;
+  double time = 0.0;
+  std::int64_t since_rebuild = 0;  ///< coarse steps
+  std::int64_t horizon = 0;        ///< coarse steps the present lists are made for
+  std::int64_t next_horizon = 32;  ///< and the next ones
+  bool must_rebuild = true;
+  bool must_sort = true;
+  mutable DemReport counters;
+  mutable contact::AlignedVector<double> last_force;
+
+  // Working space of a rebuild: old rows by new row, old lists.
+  std::vector<std::int32_t> old_row;
+  std::vector<std::int32_t> old_begin;
+  std::vector<std::int32_t> old_partner;
+  std::vector<const double*> old_history;
+  // Working space of the fine pass.
+  std::vector<FineState> fine_state;
+};
+
+/// Batch scratch of the calling thread.
+contact::BatchColumns& thread_columns();
+
+}  // namespace dust::particles

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dust/sdk/error.hpp"
+#include "particles/impl.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <unordered_map>
+
+namespace dust::particles {
+namespace {
+
+/// Rebuilds between two sorts of the rows where no grain came or went.
+constexpr std::int64_t k_sort_every = 4;
+/// Allowed deviation from the straight course, in diameters (coarse grains).
+constexpr double k_allowance = 0.1;
+/// The same for a fine grain that stands alone, in diameters of the largest grain; in a crowd it is
+/// half the mean distance, so that a pocket of dust does not list its far neighbours.
+constexpr double k_fine_allowance = 0.1;
+constexpr double k_crowd_allowance = 0.15;
+constexpr std::int64_t k_shortest_horizon = 16;
+constexpr std::int64_t k_longest_horizon = 4096;
+
+std::uint64_t spread_bits(std::uint64_t v) {
+  v &= 0x1fffff;
+  v = (v | v << 32) & 0x1f00000000ffffull;
+  v = (v | v << 16) & 0x1f0000ff0000ffull;
+  v = (v | v << 8) & 0x100f00f00f00f00full;
+  v = (v | v << 4) & 0x10c30c30c30c30c3ull;
+  v = (v | v << 2) & 0x1249249249249249ull;
+  return v;
+}
+
+}  // namespace
+
+void Dem::Impl::neighbours() {
+  if (must_rebuild || since_rebuild >= horizon) rebuild();
+}
+
+void Dem::Impl::wrap_periodic() {
+  if (!is_periodic) return;
+  for (std::size_t n = 0; n < store.size(); ++n) {
+    for (int d = 0; d < 3; ++d) {
+      double& x = store.position[4 * n + static_cast<std::size_t>(d)];
+      if (images.length[d] > 0.0) {
+        if (x < domain_min[d]) x += images.length[d];
+        if (x >= domain_max[d]) x -= images.length[d];
+      }
+    }
+  }
+}
+
+/// Coarse grains first, then fine ones, each in Morton order of cells of the largest grain.
+void Dem::Impl::sort_rows() {
+  const double edge = steps.classes.back().diameter;
+  std::vector<std::pair<std::uint64_t, std::int32_t>> keys(store.size());
+  coarse_count = 0;
+  for (std::size_t n = 0; n < store.size(); ++n) {
+    const double* p = store.position.data() + 4 * n;
+    std::uint64_t key = 0;
+    for (int d = 0; d < 3; ++d) {
+      const double cell = std::clamp((p[d] - domain_min[d]) / edge, 0.0, 2097151.0);
+      key |= spread_bits(static_cast<std::uint64_t>(cell)) << d;
+    }
+    const bool is_coarse = 2.0 * p[3] >= steps.coarse_limit;
+    coarse_count += is_coarse ? 1 : 0;
+    keys[n] = {(is_coarse ? 0 : std::uint64_t{1} << 63) | key, static_cast<std::int32_t>(n)};
+  }
+  std::sort(keys.begin(), keys.end());
+  old_row.resize(store.size());
+  for (std::size_t n = 0; n < keys.size(); ++n) old_row[n] = keys[n].second;
+  store.reorder(old_row);
+}
+
+void Dem::Impl::choose_allowances() {
+  for (std::size_t n = 0; n < coarse_count; ++n) {
+    store.start[4 * n + 3] = k_allowance * 2.0 * store.position[4 * n + 3];
+  }
+  if (coarse_count == store.size()) return;
+  const double lone = k_fine_allowance * steps.classes.back().diameter;
+  const double edge = 2.0 * lone;
+  std::unordered_map<std::uint64_t, std::int32_t> crowd;
+  std::vector<std::uint64_t> key_of(store.size() - coarse_count);
+  for (std::size_t n = coarse_count; n < store.size(); ++n) {
+    const double* p = store.position.data() + 4 * n;
+    std::uint64_t key = 0;
+    for (int d = 0; d < 3; ++d) {
+      key = key << 21 | (static_cast<std::uint64_t>(static_cast<std::int64_t>(
+                             std::floor((p[d] - domain_min[d]) / edge) + 1024.0)) &
+                         0x1fffff);
+    }
+    key_of[n - coarse_count] = key;
+    ++crowd[key];
+  }
+  for (std::size_t n = coarse_count; n < store.size(); ++n) {
+    const double diameter = 2.0 * store.position[4 * n + 3];
+    const double spacing = edge / std::cbrt(static_cast<double>(crowd[key_of[n - coarse_count]]));
+    store.start[4 * n + 3] = std::max(k_crowd_allowance * diameter, std::min(lone, 0.5 * spacing));
+  }
+}
+
+void Dem::Impl::group_by_law(ContactList& list, bool is_surface) {
+  const std::size_t n = list.size();
+  const auto& material = store.material;
+  std::vector<std::int32_t> group(n);
+  std::int32_t groups = 0;
+  const auto kinds = static_cast<std::int32_t>(laws.size());
+  for (std::size_t q = 0; q < n; ++q) {
+    const int mi = material[static_cast<std::size_t>(list.a[q])];
+    if (is_surface) {
+      const Surface& s = surfaces[static_cast<std::size_t>(list.b[q])];
+      group[q] = list.b[q] * kinds + law_of(mi, s.material);
+    } else {
+      group[q] = law_of(mi, material[static_cast<std::size_t>(list.b[q])]);
+    }
+    groups = std::max(groups, group[q] + 1);
+  }
+  std::vector<std::int32_t> begin(static_cast<std::size_t>(groups) + 1, 0);
+  for (const std::int32_t g : group) ++begin[static_cast<std::size_t>(g) + 1];
+  list.segments.clear();
+  for (std::int32_t g = 0; g < groups; ++g) {
+    const auto u = static_cast<std::size_t>(g);
+    if (begin[u + 1] > 0) {
+      list.segments.push_back({is_surface ? g % kinds : g, is_surface ? g / kinds : -1, begin[u],
+                               begin[u] + begin[u + 1]});
+    }
+    begin[u + 1] += begin[u];
+  }
+  std::vector<std::int32_t> a(n);
+  std::vector<std::int32_t> b(n);
+  for (std::size_t q = 0; q < n; ++q) {
+    const auto to = static_cast<std::size_t>(begin[static_cast<std::size_t>(group[q])]++);
+    a[to] = list.a[q];
+    b[to] = list.b[q];
+  }
+  list.a.swap(a);
+  list.b.swap(b);
+}
+
+void Dem::Impl::carry_over(ContactList& list, bool is_surface) {
+  const std::size_t n = list.size();
+  list.is_touching.assign(n, 0);
+  list.history.assign(n * history_stride, 0.0);
+  if (old_begin.size() < 2) return;
+  const auto old_rows = static_cast<std::int32_t>(old_begin.size()) - 1;
+  for (std::size_t q = 0; q < n; ++q) {
+    const std::int32_t a = old_row[static_cast<std::size_t>(list.a[q])];
+    std::int32_t b = is_surface ? -1 - list.b[q] : list.b[q];
+    if (b >= 0) b = old_row[static_cast<std::size_t>(b)];
+    if (a >= old_rows) continue;
+    for (std::int32_t m = old_begin[static_cast<std::size_t>(a)];
+         m < old_begin[static_cast<std::size_t>(a) + 1]; ++m) {
+      if (old_partner[static_cast<std::size_t>(m)] != b) continue;
+      list.is_touching[q] = 1;
+      std::memcpy(list.history.data() + q * history_stride, old_history[static_cast<std::size_t>(m)],
+                  history_stride * sizeof(double));
+    }
+  }
+}
+
+void Dem::Impl::rebuild() {
+  ++counters.rebuilds;
+  wrap_periodic();
+  // The contacts in touch, by their first grain's old row.
+  const std::size_t old_rows = store.size();
+  std::vector<Chunk> old_chunks = std::move(chunks);
+  ContactList old_fine = std::move(fine);
+  old_begin.assign(old_rows + 1, 0);
+  const auto each = [&](auto&& visit) {
+    const auto walk = [&](const ContactList& list, bool is_surface, std::int32_t low, std::int32_t high) {
+      for (std::size_t q = 0; q < list.size(); ++q) {
+        // A pair across chunks stands in both: the first grain's owner speaks.
+        if (list.is_touching[q] == 0 || list.a[q] < low || list.a[q] >= high) continue;
+        visit(list.a[q], is_surface ? -1 - list.b[q] : list.b[q],
+              list.history.data() + q * history_stride);
+      }
+    };
+    const auto all = static_cast<std::int32_t>(old_rows);
+    for (const Chunk& c : old_chunks) {
+      walk(c.pairs, false, must_sort ? 0 : c.begin, must_sort ? all : c.end);
+      walk(c.surfaces, true, 0, all);
+    }
+    walk(old_fine, false, 0, all);
+  };
+  each([&](std::int32_t a, std::int32_t, const double*) { ++old_begin[static_cast<std::size_t>(a) + 1]; });
+  for (std::size_t n = 0; n < old_rows; ++n) old_begin[n + 1] += old_begin[n];
+  old_partner.resize(static_cast<std::size_t>(old_begin.back()));
+  old_history.resize(old_partner.size());
+  std::vector<std::int32_t> fill(old_begin.begin(), old_begin.end() - 1);
+  each([&](std::int32_t a, std::int32_t b, const double* history) {
+    const auto to = static_cast<std::size_t>(fill[static_cast<std::size_t>(a)]++);
+    old_partner[to] = b;
+    old_history[to] = history;
+  });
+
+  if (must_sort || counters.rebuilds % k_sort_every == 0) {
+    sort_rows();
+    if (!pending.empty()) {
+      std::vector<std::int32_t> new_row(old_row.size());
+      for (std::size_t n = 0; n < old_row.size(); ++n) new_row[static_cast<std::size_t>(old_row[n])] = static_cast<std::int32_t>(n);
+      for (Reaction& r : pending) r.row = new_row[static_cast<std::size_t>(r.row)];
+    }
+  } else {
+    old_row.resize(store.size());
+    for (std::size_t n = 0; n < store.size(); ++n) old_row[n] = static_cast<std::int32_t>(n);
+  }
+  choose_allowances();
+  for (std::size_t n = 0; n < store.size(); ++n) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      store.start[4 * n + d] = store.position[4 * n + d];
+      store.start_velocity[4 * n + d] = store.velocity[4 * n + d];
+    }
+  }
+
+  horizon = next_horizon;
+  SearchInput in;
+  in.count = store.size();
+  in.position = store.position.data();
+  in.velocity = store.velocity.data();
+  in.allowance = store.start.data();
+  in.horizon = static_cast<double>(horizon) * steps.coarse_step;
+  in.range = largest_range;
+  for (int d = 0; d < 3; ++d) {
+    in.origin[d] = domain_min[d];
+    in.period[d] = images.length[d];
+  }
+  const auto found = search_pairs(in, k_chunk);
+
+  // Shares: coarse pairs to the chunk of each grain, everything with a fine grain to the fine list.
+  const std::size_t count = (coarse_count + k_chunk - 1) / k_chunk;
+  chunks.resize(count);
+  std::vector<std::vector<RowPair>> shares(count);
+  std::int64_t listed = 0;
+  std::int64_t close = 0;
+  const auto coarse = static_cast<std::int32_t>(coarse_count);
+  for (const auto& block : found) {
+    for (const auto& [i, j] : block) {
+      ++listed;
+      const sdk::Vec3 d = separation(store.position.data() + 4 * static_cast<std::ptrdiff_t>(j),
+                                     store.position.data() + 4 * static_cast<std::ptrdiff_t>(i));
+      const double reach = store.position[4 * static_cast<std::size_t>(i) + 3] +
+                           store.position[4 * static_cast<std::size_t>(j) + 3] +
+                           store.start[4 * static_cast<std::size_t>(i) + 3] +
+                           store.start[4 * static_cast<std::size_t>(j) + 3];
+      close += dot(d, d) < reach * reach ? 1 : 0;
+      // Side i is the lower id in every list, so that a history keeps its sign through all sorts.
+      const bool in_order = store.id[static_cast<std::size_t>(i)] < store.id[static_cast<std::size_t>(j)];
+      std::int32_t a = in_order ? i : j;
+      std::int32_t b = in_order ? j : i;
+      if (i >= coarse || j >= coarse) {
+        if (a < coarse) std::swap(a, b);  // side i of a fine pair is a fine grain
+        fine.push(a, b);
+        continue;
+      }
+      const std::size_t ci = static_cast<std::size_t>(i) / k_chunk;
+      const std::size_t cj = static_cast<std::size_t>(j) / k_chunk;
+      shares[ci].emplace_back(a, b);
+      if (ci != cj) shares[cj].emplace_back(a, b);
+    }
+  }
+  // Lists are made for so long that the horizon adds little to what the allowances list anyhow.
+  const std::int64_t base = close + static_cast<std::int64_t>(store.size()) / 2;
+  if (10 * (listed - close) < base) {
+    next_horizon = std::min(2 * horizon, k_longest_horizon);
+  } else if (10 * (listed - close) > 4 * base) {
+    next_horizon = std::max(horizon / 2, k_shortest_horizon);
+  }
+  const double made_for = in.horizon;
+
+  const auto near_surface = [&](std::size_t n, const Surface& s) {
+    const double* p = store.position.data() + 4 * n;
+    const double* v = store.velocity.data() + 4 * n;
+    const double reach = p[3] + store.start[4 * n + 3] + largest_range +
+                         made_for * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    return s.nearest({p[0], p[1], p[2]}).distance < reach;
+  };
+  const auto build = [&](std::size_t c) {
+    Chunk& chunk = chunks[c];
+    chunk.begin = static_cast<std::int32_t>(c * k_chunk);
+    chunk.end = static_cast<std::int32_t>(std::min(coarse_count, (c + 1) * k_chunk));
+    chunk.force.assign(8 * (static_cast<std::size_t>(chunk.end - chunk.begin) + 1), 0.0);
+    auto& share = shares[c];
+    std::sort(share.begin(), share.end());
+    for (const auto& [a, b] : share) chunk.pairs.push(a, b);
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+      for (std::int32_t i = chunk.begin; i < chunk.end; ++i) {
+        if (near_surface(static_cast<std::size_t>(i), surfaces[s])) {
+          chunk.surfaces.push(i, static_cast<std::int32_t>(s));
+        }
+      }
+    }
+    group_by_law(chunk.pairs, false);
+    group_by_law(chunk.surfaces, true);
+    carry_over(chunk.pairs, false);
+    carry_over(chunk.surfaces, true);
+  };
+  oneapi::tbb::parallel_for(std::size_t{0}, count, build);
+
+  for (std::size_t n = coarse_count; n < store.size(); ++n) {
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+      if (near_surface(n, surfaces[s])) {
+        fine.push(static_cast<std::int32_t>(n), -1 - static_cast<std::int32_t>(s));
+      }
+    }
+  }
+  carry_over(fine, false);
+  fine_force.assign(4 * (store.size() - coarse_count), 0.0);
+
+  old_begin.clear();
+  since_rebuild = 0;
+  must_rebuild = must_sort = false;
+}
+
+}  // namespace dust::particles

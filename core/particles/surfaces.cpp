@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "particles/surfaces.hpp"
+
+#include <algorithm>
+
+namespace dust::particles {
+
+std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::BodySet& bodies) {
+  std::vector<Surface> out;
+  for (int side = 0; side < 6; ++side) {
+    const auto& spec = setup.domain.sides[static_cast<std::size_t>(side)];
+    if (spec.grains != scenario::GrainSide::wall) continue;
+    Surface s;
+    s.name = scenario::k_side_names[static_cast<std::size_t>(side)];
+    s.material = spec.material;
+    const double sign = side % 2 == 0 ? 1.0 : -1.0;
+    s.normal[side / 2] = sign;
+    s.offset = sign * (side % 2 == 0 ? setup.domain.min : setup.domain.max)[side / 2];
+    out.push_back(s);
+  }
+  for (const auto& body : bodies) {
+    Surface s;
+    s.name = body.name;
+    s.material = body.material;
+    s.body = &body;
+    out.push_back(s);
+  }
+  return out;
+}
+
+void surface_velocities(const Surface& surface, double time, std::size_t count,
+                        const double* const* point, const double* const* normal,
+                        double* const* velocity) {
+  if (surface.body == nullptr || !surface.body->motion) {
+    for (int d = 0; d < 3; ++d) std::fill_n(velocity[d], count, 0.0);
+    return;
+  }
+  surface.body->motion->surface_velocity({.count = count,
+                                          .time = time,
+                                          .axis = surface.body->lateral_axis(),
+                                          .x = point[0],
+                                          .y = point[1],
+                                          .z = point[2],
+                                          .normal_x = normal[0],
+                                          .normal_y = normal[1],
+                                          .normal_z = normal[2],
+                                          .velocity_x = velocity[0],
+                                          .velocity_y = velocity[1],
+                                          .velocity_z = velocity[2]});
+}
+
+}  // namespace dust::particles

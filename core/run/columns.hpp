@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/archive.hpp"
+#include "dust/sdk/sensor.hpp"
+#include "fluid/fluid_solver.hpp"
+#include "particles/grain_rows.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace dust::run {
+
+/// The grains as columns in the order of their ids, copied once per fluid step for sensors and
+/// files, with the places of the sample before.
+class GrainTable {
+ public:
+  /// Notes where grains came in: every row with an id not seen at the last sample.
+  void note_births(const particles::GrainRows& rows);
+  void publish(const particles::GrainRows& rows, std::span<const double> force);
+  [[nodiscard]] sdk::GrainColumns columns() const;
+
+  void save(sdk::ArchiveWriter& archive) const;
+  void load(sdk::ArchiveReader& archive);
+
+ private:
+  struct Place {
+    std::int64_t id;
+    double x, y, z;
+  };
+  void take_places_before();
+
+  std::vector<std::int64_t> id_;
+  std::vector<std::int32_t> material_;
+  std::vector<double> number_[20];
+  std::vector<Place> before_;  ///< of the last sample, by id
+  std::vector<Place> births_;  ///< since the last sample, by id
+  std::vector<std::size_t> order_;
+};
+
+/// The fluid at cell centres in single precision, x fastest, without halo.
+class FluidTable {
+ public:
+  FluidTable(const fluid::Grid& grid, const scenario::FluidSpec& fluid,
+             const fluid::CellField& open_fraction);
+  void publish(const fluid::FluidSolver& solver, const fluid::CellField& void_fraction);
+  [[nodiscard]] sdk::FluidColumns columns() const;
+
+ private:
+  fluid::Grid grid_;
+  double density_;
+  double viscosity_;
+  std::vector<float> velocity_[3];
+  std::vector<float> pressure_;
+  std::vector<float> void_fraction_;
+  std::vector<float> open_fraction_;
+};
+
+}  // namespace dust::run

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bodies/body_set.hpp"
+#include "dust/sdk/boundary_condition.hpp"
+#include "dust/sdk/drag_law.hpp"
+#include "dust/sdk/emitter.hpp"
+#include "dust/sdk/sensor.hpp"
+#include "dust/sdk/voidage_rule.hpp"
+#include "particles/dem.hpp"
+#include "registry/registry.hpp"
+#include "scenario/setup.hpp"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace dust::run {
+
+/// Every model of a scenario, made once.
+struct Models {
+  bodies::BodySet bodies;
+  std::vector<particles::PairLaws> laws;
+  std::vector<std::unique_ptr<sdk::Emitter>> emitters;
+  std::vector<std::unique_ptr<sdk::Sensor>> sensors;
+  std::array<std::unique_ptr<sdk::BoundaryCondition>, 6> boundaries;
+  std::unique_ptr<sdk::DragLaw> drag;
+  std::unique_ptr<sdk::VoidageRule> voidage;
+  std::vector<double> class_diameters;  ///< [m] all sizes the emitters may give, ascending
+};
+
+Models make_models(const scenario::Setup& setup, const registry::Registry& registry);
+
+}  // namespace dust::run

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "dust/sdk/error.hpp"
+#include "io/report.hpp"
+#include "io/run_files.hpp"
+#include "run/progress.hpp"
+#include "run/run_options.hpp"
+#include "run/simulation.hpp"
+#include "run/summary.hpp"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+
+#include <sys/resource.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+
+namespace dust::run {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+volatile std::sig_atomic_t g_signal = 0;
+void on_signal(int signal) { g_signal = signal; }
+
+/// Everything a run writes; --force clears these and nothing else.
+constexpr std::array k_run_files = {"scenario.yaml", "summary.json",   "series.csv",
+                                    "results.h5",    "particles.xdmf", "fluid.xdmf",
+                                    "walls.xdmf",    "checkpoint.h5",  "run.log",
+                                    "report.html",   "report.json",    "frames"};
+
+fs::path choose_folder(const RunOptions& options, const std::string& name) {
+  if (options.output) {
+    const fs::path& folder = *options.output;
+    const bool is_used = fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder));
+    if (options.resume) {
+      if (!fs::exists(folder / "checkpoint.h5")) {
+        throw base::UserError("error: " + folder.string() +
+                              " holds no checkpoint.h5 to resume from; start the run without --resume");
+      }
+    } else if (is_used && !options.force) {
+      throw base::UserError("error: the folder " + folder.string() +
+                            " is not empty; give --resume to go on with the run in it, --force to "
+                            "replace it, or another -o");
+    }
+    return folder;
+  }
+  const auto numbered = [&](int n) {
+    return fs::path("results") / (n == 1 ? name : name + "-" + std::to_string(n));
+  };
+  int free = 1;
+  while (fs::exists(numbered(free))) ++free;
+  if (!options.resume && !(options.force && free > 1)) return numbered(free);
+  const fs::path newest = numbered(std::max(1, free - 1));
+  if (options.resume && !fs::exists(newest / "checkpoint.h5")) {
+    throw base::UserError("error: " + newest.string() +
+                          " holds no checkpoint.h5 to resume from; name the run's folder with -o");
+  }
+  return newest;
+}
+
+double cpu_seconds() {
+  rusage u{};
+  getrusage(RUSAGE_SELF, &u);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(u.ru_utime) + seconds(u.ru_stime);
+}
+
+/// The files of one run and the loop over fluid steps.
+class Run {
+ public:
+  Run(Simulation& simulation, fs::path folder, std::string resolved, const RunOptions& options)
+      : simulation_(simulation), folder_(std::move(folder)), resolved_(std::move(resolved)) {
+    const auto& time = simulation_.setup().time;
+    steps_per_frame_ = std::max<std::int64_t>(1, std::llround(time.output_every / time.fluid_step));
+    steps_per_checkpoint_ =
+        time.checkpoint_every > 0.0
+            ? std::max<std::int64_t>(1, std::llround(time.checkpoint_every / time.fluid_step))
+            : steps_per_frame_;
+    steps_per_row_ = std::max<std::int64_t>(1, steps_per_frame_ / 20);
+    is_quiet_ = options.quiet;
+  }
+
+  void resume() {
+    auto parts = simulation_.load_parts();
+    parts.emplace_back("files", [this](sdk::ArchiveReader& a) {
+      frames_ = a.integer("frames");
+      rows_ = a.integer("rows");
+      wall_before_ = a.number("wall_s");
+      cpu_before_ = a.number("cpu_s");
+    });
+    io::read_checkpoint(folder_ / "checkpoint.h5", resolved_, parts);
+    is_resumed_ = true;
+  }
+
+  int execute(RunFacts facts) {
+    start_ = Clock::now();
+    cpu_start_ = cpu_seconds();
+    open_files();
+    facts_ = std::move(facts);
+    Progress progress(is_quiet_, simulation_.setup().time.end, simulation_.time());
+    facts_.status = "finished";
+    try {
+      loop(progress);
+    } catch (const std::exception& e) {
+      facts_.status = "failed";
+      facts_.reason = e.what();
+    }
+    progress.finish();
+    return close();
+  }
+
+ private:
+  void open_files() {
+    fs::create_directories(folder_);
+    base::log_to_file(folder_ / "run.log", is_resumed_);
+    io::write_text(folder_ / "scenario.yaml", resolved_);
+    std::vector<std::string> materials;
+    for (const auto& m : simulation_.setup().materials) materials.push_back(m.name);
+    const auto& domain = simulation_.setup().domain;
+    results_ = std::make_unique<io::ResultsFile>(folder_, is_resumed_ ? frames_ : -1,
+                                                 simulation_.models().bodies, materials, domain.min,
+                                                 domain.max);
+    series_ = std::make_unique<io::SeriesFile>(folder_ / "series.csv", is_resumed_ ? rows_ : -1);
+    if (is_resumed_) {
+      base::log_info("resumed at " + std::to_string(simulation_.time()) + " s");
+    } else {
+      write_frame();
+      write_row();
+      checkpoint();
+    }
+  }
+
+  void loop(Progress& progress) {
+    while (!simulation_.is_finished() && g_signal == 0) {
+      simulation_.step();
+      const std::int64_t done = simulation_.steps_done();
+      if (done % steps_per_row_ == 0) write_row();
+      if (done % steps_per_frame_ == 0) {
+        write_frame();
+        const auto& b = simulation_.dem().balance();
+        char text[160];
+        std::snprintf(text, sizeof text, "t = %.4f s: %lld grains, %lld emitted, %lld left, %lld removed",
+                      simulation_.time(), static_cast<long long>(b.in_domain),
+                      static_cast<long long>(b.emitted), static_cast<long long>(b.left),
+                      static_cast<long long>(b.removed));
+        base::log_info(text);
+      }
+      if (done % steps_per_checkpoint_ == 0 && !simulation_.is_finished()) checkpoint();
+      progress.update(simulation_.time(), simulation_.dem().balance().in_domain);
+    }
+    if (!simulation_.is_finished()) facts_.status = "interrupted";
+  }
+
+  int close() {
+    const bool has_failed = facts_.status == "failed";
+    if (!has_failed) checkpoint();
+    take_times();
+    write_summary(folder_, simulation_, facts_);
+    if (has_failed) {
+      base::log_error("the run failed at t = " + std::to_string(simulation_.time()) + " s: " +
+                      facts_.reason);
+      base::log_error("the last good checkpoint is " + (folder_ / "checkpoint.h5").string() +
+                      "; after mending the cause start again, or resume from it with --resume");
+    } else {
+      base::log_info("status: " + facts_.status);
+    }
+    base::log_flush();
+    results_.reset();
+    io::write_report(folder_);
+    if (has_failed) return 1;
+    if (facts_.status == "interrupted") {
+      std::fprintf(stderr, "interrupted at t = %.4g s; go on with --resume -o %s\n",
+                   simulation_.time(), folder_.c_str());
+      return 128 + static_cast<int>(g_signal);
+    }
+    return 0;
+  }
+
+  void write_frame() {
+    const auto begin = Clock::now();
+    io::Frame frame;
+    frame.number = frames_;
+    frame.time = simulation_.time();
+    frame.world = simulation_.world();
+    frame.momentum_exchange = simulation_.momentum_exchange();
+    results_->append(frame);
+    ++frames_;
+    output_s_ += std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+
+  void write_row() {
+    const auto row = series_row(simulation_);
+    series_->append(row.names, row.values);
+  }
+
+  void checkpoint() {
+    const auto begin = Clock::now();
+    auto parts = simulation_.save_parts();
+    parts.emplace_back("files", [this](sdk::ArchiveWriter& a) {
+      a.integer("frames", frames_);
+      a.integer("rows", series_->rows());
+      a.number("wall_s", wall_before_ + wall_here());
+      a.number("cpu_s", cpu_before_ + cpu_seconds() - cpu_start_);
+    });
+    io::write_checkpoint(folder_ / "checkpoint.h5", resolved_, parts);
+    output_s_ += std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+
+  [[nodiscard]] double wall_here() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+
+  void take_times() {
+    facts_.wall_s = wall_before_ + wall_here();
+    facts_.cpu_s = cpu_before_ + cpu_seconds() - cpu_start_;
+    facts_.output_s = output_s_;
+    facts_.frames = frames_;
+  }
+
+  Simulation& simulation_;
+  fs::path folder_;
+  std::string resolved_;
+  bool is_quiet_ = false;
+  bool is_resumed_ = false;
+  std::int64_t steps_per_frame_ = 1;
+  std::int64_t steps_per_checkpoint_ = 1;
+  std::int64_t steps_per_row_ = 1;
+  std::int64_t frames_ = 0;
+  std::int64_t rows_ = 0;
+  double wall_before_ = 0.0;
+  double cpu_before_ = 0.0;
+  double cpu_start_ = 0.0;
+  double output_s_ = 0.0;
+  Clock::time_point start_;
+  std::unique_ptr<io::ResultsFile> results_;
+  std::unique_ptr<io::SeriesFile> series_;
+  RunFacts facts_;
+};
+
+}  // namespace
+
+int run_scenario(const RunOptions& options) {
+  registry::Registry registry;
+  registry.load(registry::Registry::search_path(options.plugin_path));
+  const auto read = scenario::read_scenario(options.scenario, options.overrides, registry, options.set_files);
+  base::log_to_terminal(options.verbose);
+  for (const std::string& warning : read.warnings) base::log_warning(warning);
+
+  const int threads =
+      options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+
+  const fs::path folder = choose_folder(options, read.setup.name);
+  std::unique_ptr<Simulation> simulation;
+  try {
+    simulation = std::make_unique<Simulation>(read.setup, make_models(read.setup, registry));
+  } catch (const sdk::ModelError& e) {
+    throw base::UserError(options.scenario.string() + ": error: " + e.what());
+  }
+  Run run(*simulation, folder, read.resolved_yaml, options);
+  if (options.resume) run.resume();
+  if (options.force && !options.resume) {
+    for (const char* file : k_run_files) fs::remove_all(folder / file);
+  }
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+
+  RunFacts facts;
+  facts.threads = threads;
+  facts.warnings = read.warnings;
+  const int status = run.execute(std::move(facts));
+  if (!options.quiet) std::printf("results: %s\n", folder.c_str());
+  return status;
+}
+
+}  // namespace dust::run

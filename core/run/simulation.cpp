@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/simulation.hpp"
+
+#include "base/error.hpp"
+#include "dust/sdk/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dust::run {
+namespace {
+
+fluid::Grid grid_of(const scenario::Setup& setup) {
+  std::array<bool, 3> periodic{};
+  for (std::size_t d = 0; d < 3; ++d) {
+    periodic[d] = setup.domain.sides[2 * d].grains == scenario::GrainSide::periodic;
+  }
+  return fluid::Grid::make(setup.domain.min, setup.domain.max, setup.fluid->cells, periodic);
+}
+
+}  // namespace
+
+Simulation::Simulation(const scenario::Setup& setup, Models models)
+    : setup_(setup), models_(std::move(models)) {
+  const double step = setup_.time.fluid_step;
+  steps_wanted_ = static_cast<std::int64_t>(std::ceil(setup_.time.end / step - 1e-9));
+
+  if (setup_.fluid) {
+    grid_ = grid_of(setup_);
+    fluid::Boundaries boundaries{};
+    for (std::size_t s = 0; s < 6; ++s) boundaries[s] = models_.boundaries[s].get();
+    fluid_ = std::make_unique<fluid::FluidSolver>(grid_, *setup_.fluid, models_.bodies, boundaries);
+    const sdk::Vec3 initial = setup_.fluid->initial_velocity;
+    fluid_->set_velocity([initial](sdk::Vec3) { return initial; });
+    fluid_table_ = std::make_unique<FluidTable>(grid_, *setup_.fluid, fluid_->open_fraction());
+    coupling_ = std::make_unique<coupling::Coupling>(setup_, grid_, fluid_->open_fraction(),
+                                                     *models_.voidage, *models_.drag);
+  }
+  dem_ = std::make_unique<particles::Dem>(setup_, models_.bodies, std::move(models_.laws),
+                                          models_.class_diameters,
+                                          setup_.fluid ? setup_.fluid->density : 0.0);
+  dem_steps_per_fluid_step_ =
+      std::max(1, static_cast<int>(std::lround(step / dem_->coarse_step())));
+  build_graphs();
+  publish_grains();
+  if (fluid_) fluid_table_->publish(*fluid_, coupling_->void_fraction());
+}
+
+Simulation::~Simulation() = default;
+
+double Simulation::time() const { return static_cast<double>(steps_done_) * setup_.time.fluid_step; }
+
+void Simulation::build_graphs() {
+  dem_graph_.given({"grain.position", "grain.velocity", "contact.list", "contact.history",
+                    "grain.fluid_action", "fluid.velocity", "fluid.void_fraction", "body.motion"});
+  if (fluid_) {
+    dem_graph_.add({"drag",
+                    {"grain.position", "grain.velocity", "fluid.velocity", "fluid.void_fraction"},
+                    {"grain.fluid_action"},
+                    [this] {
+                      if (dem_step_ % dem_steps_per_refresh_ != 0) return;
+                      coupling_->refresh(dem_->rows(), fluid_->velocity(),
+                                         fluid_->stress_divergence());
+                      dem_->fluid_action_changed();
+                    }});
+  }
+  dem_graph_.add({"neighbour",
+                  {"grain.position", "grain.velocity", "grain.fluid_action"},
+                  {"contact.list", "contact.history", "grain.position", "grain.velocity",
+                   "grain.fluid_action"},
+                  [this] { dem_->neighbours(); }});
+  dem_graph_.add({"contact",
+                  {"grain.position", "grain.velocity", "contact.list", "body.motion"},
+                  {"contact.history", "contact.force"},
+                  [this] { dem_->contact(time() + dem_step_ * dem_->coarse_step()); }});
+  dem_graph_.add({"force",
+                  {"contact.force", "grain.position", "grain.velocity", "grain.fluid_action"},
+                  {"grain.force"},
+                  [this] { dem_->force(); }});
+  dem_graph_.add({"integration",
+                  {"grain.force", "grain.fluid_action", "grain.position"},
+                  {"grain.position", "grain.velocity", "grain.fluid_impulse"},
+                  [this] { dem_->integrate(); }});
+  dem_graph_.build();
+
+  step_graph_.given({"emitter.state", "grain.state", "fluid.velocity", "fluid.exchange"});
+  step_graph_.add(
+      {"emit", {"emitter.state", "grain.state"}, {"emitter.state", "grain.state"}, [this] { emit(); }});
+  if (fluid_) add_fluid_nodes();
+  step_graph_.add({"dem_cycle",
+                   fluid_ ? std::vector<std::string>{"grain.state", "fluid.velocity",
+                                                     "fluid.void_fraction"}
+                          : std::vector<std::string>{"grain.state"},
+                   {"grain.state", "grain.fluid_impulse"},
+                   [this] { run_dem_cycle(); }});
+  if (fluid_) {
+    step_graph_.add({"collect",
+                     {"grain.state", "grain.fluid_impulse", "fluid.void_fraction"},
+                     {"fluid.exchange"},
+                     [this] { coupling_->collect(dem_->rows(), setup_.time.fluid_step); }});
+    step_graph_.add({"publish_fluid",
+                     {"fluid.velocity", "fluid.void_fraction"},
+                     {"fluid.columns"},
+                     [this] { fluid_table_->publish(*fluid_, coupling_->void_fraction()); }});
+  }
+  step_graph_.add({"publish_grains", {"grain.state"}, {"grain.columns"}, [this] {
+                     publish_grains();
+                   }});
+  step_graph_.add({"health", {"grain.columns"}, {"health"}, [this] { check_health(); }});
+  add_sensor_nodes();
+  step_graph_.build();
+}
+
+void Simulation::add_fluid_nodes() {
+  step_graph_.add({"voidage",
+                   {"grain.state", "fluid.exchange"},
+                   {"fluid.void_fraction", "fluid.exchange"},
+                   [this] { coupling_->map(dem_->rows(), setup_.time.fluid_step); }});
+  step_graph_.add({"fluid",
+                   {"fluid.void_fraction", "fluid.exchange", "fluid.velocity"},
+                   {"fluid.velocity"},
+                   [this] {
+                     fluid_->advance(time(), setup_.time.fluid_step,
+                                     coupling_->void_fraction_before(), coupling_->void_fraction(),
+                                     coupling_->exchange());
+                     fluid_sub_steps_ += fluid_->report().sub_steps;
+                     pressure_iterations_ += fluid_->report().pressure_iterations;
+                   }});
+}
+
+void Simulation::add_sensor_nodes() {
+  std::vector<std::string> reads{"grain.columns"};
+  if (fluid_) reads.push_back("fluid.columns");
+  for (std::size_t n = 0; n < models_.sensors.size(); ++n) {
+    const std::string& name = setup_.sensors[n].name;
+    step_graph_.add({"sensor " + name, reads, {"sensor." + name}, [this, n] {
+                       sdk::WorldView view = world();
+                       // The clock moves on after the graph: sensors see the end of this step.
+                       view.time += setup_.time.fluid_step;
+                       models_.sensors[n]->observe(view);
+                     }});
+  }
+}
+
+void Simulation::emit() {
+  const double now = time();
+  const double step = setup_.time.fluid_step;
+  new_grains_.clear();
+  if (steps_done_ > 0) {
+    for (std::size_t n = 0; n < models_.emitters.size(); ++n) {
+      const auto& spec = setup_.emitters[n];
+      sdk::EmitterContext context;
+      context.begin = static_cast<double>(steps_done_ - 1) * step;
+      context.end = now;
+      context.grain_density =
+          setup_.materials[static_cast<std::size_t>(spec.material)].properties.density;
+      context.gravity = setup_.gravity;
+      context.random = sdk::Random(setup_.seed, sdk::stream_of(spec.name.c_str()));
+      seeds_.clear();
+      models_.emitters[n]->propose(context, seeds_);
+      for (sdk::Seed& seed : seeds_) {
+        if (spec.frame >= 0) {
+          const auto& frame = setup_.frames[static_cast<std::size_t>(spec.frame)];
+          const sdk::Vec3 axis = frame.axis / norm(frame.axis);
+          seed.position =
+              frame.origin + rotate(seed.position - frame.origin, axis, frame.angle);
+          seed.velocity = rotate(seed.velocity, axis, frame.angle);
+        }
+        // The seed passed its opening at seed.time; it has fallen freely since.
+        const double since = now - seed.time;
+        particles::NewGrain grain;
+        grain.position = seed.position + since * seed.velocity + 0.5 * since * since * setup_.gravity;
+        grain.velocity = seed.velocity + since * setup_.gravity;
+        grain.diameter = seed.diameter;
+        grain.weight = seed.weight;
+        grain.material = spec.material;
+        new_grains_.push_back(grain);
+      }
+    }
+  }
+  dem_->remove_leavers();
+  if (!new_grains_.empty()) dem_->insert(new_grains_);
+  grain_table_.note_births(dem_->rows());
+}
+
+void Simulation::run_dem_cycle() {
+  if (coupling_) {
+    const double interval = coupling_->refresh_interval();
+    dem_steps_per_refresh_ =
+        std::max(1, static_cast<int>(std::floor(interval / dem_->coarse_step() + 1e-6)));
+  }
+  for (dem_step_ = 0; dem_step_ < dem_steps_per_fluid_step_; ++dem_step_) dem_graph_.run();
+}
+
+void Simulation::publish_grains() {
+  grain_table_.publish(dem_->rows(), dem_->last_force());
+}
+
+void Simulation::check_health() const {
+  const auto c = grain_table_.columns();
+  for (std::size_t n = 0; n < c.id.size(); ++n) {
+    const double sum = c.x[n] + c.y[n] + c.z[n] + c.velocity_x[n] + c.velocity_y[n] +
+                       c.velocity_z[n] + c.rotation_x[n] + c.rotation_y[n] + c.rotation_z[n];
+    if (!std::isfinite(sum)) {
+      throw sdk::ModelError("grain " + std::to_string(c.id[n]) +
+                            " has a position or velocity that is not a number; likely causes: a "
+                            "time step too long for the stiffness, or an overlap at entry");
+    }
+  }
+}
+
+void Simulation::step() {
+  step_graph_.run();
+  ++steps_done_;
+}
+
+sdk::WorldView Simulation::world() const {
+  sdk::WorldView view;
+  view.time = time();
+  view.interval = setup_.time.fluid_step;
+  view.domain_min = setup_.domain.min;
+  view.domain_max = setup_.domain.max;
+  view.gravity = setup_.gravity;
+  view.grains = grain_table_.columns();
+  if (fluid_table_) view.fluid = fluid_table_->columns();
+  view.class_diameters = models_.class_diameters;
+  view.emitted_mass = dem_->balance().mass_emitted;
+  return view;
+}
+
+const std::vector<float>& Simulation::momentum_exchange() {
+  if (coupling_) coupling_->momentum_exchange(momentum_exchange_);
+  return momentum_exchange_;
+}
+
+std::string Simulation::state_digest() const {
+  io::Sha256 sha;
+  const auto update = [&sha](const auto& span) { sha.update(span.data(), span.size_bytes()); };
+  const auto c = grain_table_.columns();
+  update(c.id);
+  for (const auto& column : {c.x, c.y, c.z, c.velocity_x, c.velocity_y, c.velocity_z, c.rotation_x,
+                             c.rotation_y, c.rotation_z}) {
+    update(column);
+  }
+  if (fluid_) {
+    for (int k = 0; k < grid_.count[2]; ++k) {
+      for (int j = 0; j < grid_.count[1]; ++j) {
+        const auto from = static_cast<std::size_t>(grid_.index(0, j, k));
+        const auto count = static_cast<std::size_t>(grid_.count[0]);
+        for (const auto& component : fluid_->velocity().component) {
+          update(std::span(component).subspan(from, count));
+        }
+        update(std::span(fluid_->pressure()).subspan(from, count));
+      }
+    }
+  }
+  return sha.hex_digest();
+}
+
+Simulation::SaveParts Simulation::save_parts() const {
+  SaveParts parts;
+  parts.emplace_back("clock", [this](sdk::ArchiveWriter& a) {
+    a.integer("steps_done", steps_done_);
+    a.integer("fluid_sub_steps", fluid_sub_steps_);
+    a.integer("pressure_iterations", pressure_iterations_);
+  });
+  parts.emplace_back("grains", [this](sdk::ArchiveWriter& a) { dem_->save(a); });
+  parts.emplace_back("columns", [this](sdk::ArchiveWriter& a) { grain_table_.save(a); });
+  if (fluid_) {
+    parts.emplace_back("fluid", [this](sdk::ArchiveWriter& a) { fluid_->save(a); });
+    parts.emplace_back("coupling", [this](sdk::ArchiveWriter& a) { coupling_->save(a); });
+  }
+  for (std::size_t n = 0; n < models_.emitters.size(); ++n) {
+    parts.emplace_back("emitter." + setup_.emitters[n].name,
+                       [this, n](sdk::ArchiveWriter& a) { models_.emitters[n]->save(a); });
+  }
+  for (std::size_t n = 0; n < models_.sensors.size(); ++n) {
+    parts.emplace_back("sensor." + setup_.sensors[n].name,
+                       [this, n](sdk::ArchiveWriter& a) { models_.sensors[n]->save(a); });
+  }
+  return parts;
+}
+
+Simulation::LoadParts Simulation::load_parts() {
+  LoadParts parts;
+  parts.emplace_back("clock", [this](sdk::ArchiveReader& a) {
+    steps_done_ = a.integer("steps_done");
+    fluid_sub_steps_ = a.integer("fluid_sub_steps");
+    pressure_iterations_ = a.integer("pressure_iterations");
+  });
+  parts.emplace_back("grains", [this](sdk::ArchiveReader& a) { dem_->load(a); });
+  if (fluid_) {
+    parts.emplace_back("fluid", [this](sdk::ArchiveReader& a) { fluid_->load(a); });
+    parts.emplace_back("coupling", [this](sdk::ArchiveReader& a) {
+      coupling_->load(a);
+      fluid_table_->publish(*fluid_, coupling_->void_fraction());
+    });
+  }
+  // Last, so that the places of the last sample are those saved, not those just published.
+  parts.emplace_back("columns", [this](sdk::ArchiveReader& a) {
+    publish_grains();
+    grain_table_.load(a);
+  });
+  for (std::size_t n = 0; n < models_.emitters.size(); ++n) {
+    parts.emplace_back("emitter." + setup_.emitters[n].name,
+                       [this, n](sdk::ArchiveReader& a) { models_.emitters[n]->load(a); });
+  }
+  for (std::size_t n = 0; n < models_.sensors.size(); ++n) {
+    parts.emplace_back("sensor." + setup_.sensors[n].name,
+                       [this, n](sdk::ArchiveReader& a) { models_.sensors[n]->load(a); });
+  }
+  return parts;
+}
+
+}  // namespace dust::run

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coupling/coupling.hpp"
+#include "fluid/fluid_solver.hpp"
+#include "graph/task_graph.hpp"
+#include "io/run_files.hpp"
+#include "particles/dem.hpp"
+#include "run/columns.hpp"
+#include "run/models.hpp"
+#include "scenario/setup.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dust::run {
+
+/// Everything a run holds: models, grains, fluid, the two task graphs and the clock.
+class Simulation {
+ public:
+  Simulation(const scenario::Setup& setup, Models models);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// One fluid step: one pass of the outer graph.
+  void step();
+
+  [[nodiscard]] double time() const;  ///< [s]
+  [[nodiscard]] std::int64_t steps_done() const { return steps_done_; }
+  [[nodiscard]] std::int64_t steps_wanted() const { return steps_wanted_; }
+  [[nodiscard]] bool is_finished() const { return steps_done_ >= steps_wanted_; }
+
+  [[nodiscard]] const scenario::Setup& setup() const { return setup_; }
+  [[nodiscard]] const Models& models() const { return models_; }
+  [[nodiscard]] const particles::Dem& dem() const { return *dem_; }
+  [[nodiscard]] const fluid::FluidSolver* fluid() const { return fluid_.get(); }
+  [[nodiscard]] const coupling::Coupling* coupling() const { return coupling_.get(); }
+  [[nodiscard]] std::int64_t fluid_sub_steps() const { return fluid_sub_steps_; }
+  [[nodiscard]] std::int64_t pressure_iterations() const { return pressure_iterations_; }
+
+  /// The world as of the last step; spans stay valid until the next.
+  [[nodiscard]] sdk::WorldView world() const;
+  /// Momentum exchange per cell for a frame.
+  [[nodiscard]] const std::vector<float>& momentum_exchange();
+
+  /// SHA-256 of ids, positions, velocities, angular velocities (by id) and the fluid fields.
+  [[nodiscard]] std::string state_digest() const;
+
+  [[nodiscard]] const graph::TaskGraph& step_graph() const { return step_graph_; }
+  [[nodiscard]] const graph::TaskGraph& dem_graph() const { return dem_graph_; }
+
+  using SaveParts =
+      std::vector<std::pair<std::string, std::function<void(sdk::ArchiveWriter&)>>>;
+  using LoadParts =
+      std::vector<std::pair<std::string, std::function<void(sdk::ArchiveReader&)>>>;
+  [[nodiscard]] SaveParts save_parts() const;
+  [[nodiscard]] LoadParts load_parts();
+
+ private:
+  void build_graphs();
+  void add_fluid_nodes();
+  void add_sensor_nodes();
+  void emit();
+  void run_dem_cycle();
+  void check_health() const;
+  void publish_grains();
+
+  scenario::Setup setup_;
+  Models models_;
+  std::unique_ptr<fluid::FluidSolver> fluid_;
+  std::unique_ptr<coupling::Coupling> coupling_;
+  std::unique_ptr<particles::Dem> dem_;
+  fluid::Grid grid_;
+  GrainTable grain_table_;
+  std::unique_ptr<FluidTable> fluid_table_;
+  graph::TaskGraph step_graph_{"fluid_step"};
+  graph::TaskGraph dem_graph_{"dem_step"};
+
+  std::int64_t steps_done_ = 0;
+  std::int64_t steps_wanted_ = 0;
+  int dem_steps_per_fluid_step_ = 1;
+  int dem_steps_per_refresh_ = 1;
+  int dem_step_ = 0;  ///< within the cycle
+  std::int64_t fluid_sub_steps_ = 0;
+  std::int64_t pressure_iterations_ = 0;
+  std::vector<float> momentum_exchange_;
+  std::vector<sdk::Seed> seeds_;
+  std::vector<particles::NewGrain> new_grains_;
+};
+
+}  // namespace dust::run

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/summary.hpp"
+
+#include "io/run_files.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <map>
+
+namespace dust::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// Figures of a sensor as JSON: {"path": {"value", "unit", "uncertainty"}}.
+class JsonFigures final : public sdk::FigureSink {
+ public:
+  void figure(std::string_view name, double value, std::string_view unit,
+              double uncertainty) override {
+    json[std::string(name)] = {{"value", number(value)},
+                               {"unit", unit},
+                               {"uncertainty", uncertainty < 0.0 ? Json(nullptr) : number(uncertainty)}};
+  }
+  Json json = Json::object();
+};
+
+class RowFigures final : public sdk::FigureSink {
+ public:
+  RowFigures(SeriesRow& row, std::string prefix) : row_(row), prefix_(std::move(prefix)) {}
+  void figure(std::string_view name, double value, std::string_view unit, double) override {
+    row_.names.push_back(prefix_ + std::string(name) + " [" + std::string(unit) + "]");
+    row_.values.push_back(value);
+  }
+
+ private:
+  SeriesRow& row_;
+  std::string prefix_;
+};
+
+class JsonReport final : public sdk::ReportSink {
+ public:
+  void curve(std::string_view title, std::string_view x_label, std::string_view y_label,
+             std::string_view series, std::span<const double> x,
+             std::span<const double> y) override {
+    Json xs = Json::array();
+    Json ys = Json::array();
+    for (const double v : x) xs.push_back(number(v));
+    for (const double v : y) ys.push_back(number(v));
+    curves.push_back({{"sensor", sensor}, {"title", title}, {"x_label", x_label},
+                      {"y_label", y_label}, {"series", series}, {"x", xs}, {"y", ys}});
+  }
+  void row(std::string_view title, std::span<const std::string> columns,
+           std::span<const double> values) override {
+    const std::string key(title);
+    if (!place_.contains(sensor + key)) {
+      place_[sensor + key] = tables.size();
+      tables.push_back({{"sensor", sensor}, {"title", key}, {"columns", columns},
+                        {"rows", Json::array()}});
+    }
+    Json cells = Json::array();
+    for (const double v : values) cells.push_back(number(v));
+    tables[place_[sensor + key]]["rows"].push_back(cells);
+  }
+  std::string sensor;
+  Json curves = Json::array();
+  Json tables = Json::array();
+
+ private:
+  std::map<std::string, std::size_t> place_;
+};
+
+Json counts(const particles::Balance& b) {
+  return {{"emitted", b.emitted}, {"in_domain", b.in_domain}, {"left", b.left},
+          {"removed", b.removed}, {"max", b.max}};
+}
+
+Json node_times(const Simulation& s, const RunFacts& facts) {
+  Json times = Json::object();
+  for (const auto& t : s.dem_graph().timings()) times[t.name] = t.seconds;
+  for (const auto& t : s.step_graph().timings()) times[t.name] = t.seconds;
+  times["output"] = facts.output_s;
+  return times;
+}
+
+Json class_steps(const particles::Dem& dem) {
+  Json rows = Json::array();
+  for (const auto& c : dem.class_steps()) {
+    rows.push_back({{"diameter_m", c.diameter}, {"rayleigh_time_s", c.rayleigh_time},
+                    {"hertz_time_s", c.hertz_time}, {"stable_step_s", c.stable_step},
+                    {"level", c.level}});
+  }
+  return rows;
+}
+
+Json health(const Simulation& s) {
+  Json h = Json::object();
+  h["largest_overlap_over_radius"] = s.dem().report().largest_overlap;
+  if (s.coupling() != nullptr) {
+    const auto& c = s.coupling()->report();
+    h["voidage_shares_moved_to_open_cells"] = c.moved_shares;
+    h["smallest_void_fraction"] = c.smallest_void_fraction;
+    h["largest_diameter_over_spacing"] = c.largest_diameter_over_spacing;
+    h["largest_momentum_imbalance"] = c.largest_imbalance;
+  }
+  if (s.fluid() != nullptr) {
+    h["last_divergence_per_s"] = s.fluid()->report().divergence;
+    h["last_courant_number"] = s.fluid()->report().courant_number;
+    h["fluid_sub_steps"] = s.fluid_sub_steps();
+    h["pressure_iterations"] = s.pressure_iterations();
+  }
+  return h;
+}
+
+Json outlines(const Simulation& s) {
+  Json all = Json::array();
+  const auto& domain = s.setup().domain;
+  for (const auto& body : s.models().bodies) {
+    const auto t = body.triangles(domain.min, domain.max, 2e-3);
+    Json segments = Json::array();
+    for (std::size_t n = 0; n + 2 < t.size(); n += 3) {
+      for (std::size_t e = 0; e < 3; ++e) {
+        const sdk::Vec3 a = t[n + e];
+        const sdk::Vec3 b = t[n + (e + 1) % 3];
+        // Edges in the front plane draw the side view; the others run across or cut faces.
+        if (std::abs(a.y - domain.min.y) < 1e-12 && std::abs(b.y - domain.min.y) < 1e-12) {
+          segments.push_back({{a.x, a.z}, {b.x, b.z}});
+        }
+      }
+    }
+    all.push_back({{"body", body.name}, {"segments", segments}});
+  }
+  return all;
+}
+
+}  // namespace
+
+SeriesRow series_row(const Simulation& s) {
+  SeriesRow row;
+  const auto add = [&row](const char* name, double value) {
+    row.names.emplace_back(name);
+    row.values.push_back(value);
+  };
+  const auto c = s.world().grains;
+  double translation = 0.0;
+  double rotation = 0.0;
+  for (std::size_t n = 0; n < c.id.size(); ++n) {
+    const double m = c.weight[n] * c.mass[n];
+    const double r = 0.5 * c.diameter[n];
+    translation += 0.5 * m * (c.velocity_x[n] * c.velocity_x[n] + c.velocity_y[n] * c.velocity_y[n] +
+                              c.velocity_z[n] * c.velocity_z[n]);
+    rotation += 0.2 * m * r * r * (c.rotation_x[n] * c.rotation_x[n] +
+                                   c.rotation_y[n] * c.rotation_y[n] +
+                                   c.rotation_z[n] * c.rotation_z[n]);
+  }
+  const auto& b = s.dem().balance();
+  add("time [s]", s.time());
+  add("kinetic_energy [J]", translation + rotation);
+  add("particles [1]", static_cast<double>(b.in_domain));
+  add("real_particles [1]", b.real_in_domain);
+  add("mass_emitted [kg]", b.mass_emitted);
+  add("mass_in_domain [kg]", b.mass_in_domain);
+  add("mass_left [kg]", b.mass_left);
+  add("mass_removed [kg]", b.mass_removed);
+  for (std::size_t n = 0; n < s.models().sensors.size(); ++n) {
+    RowFigures sink(row, s.setup().sensors[n].name + "/");
+    s.models().sensors[n]->series(sink);
+  }
+  return row;
+}
+
+void write_summary(const std::filesystem::path& folder, const Simulation& s, const RunFacts& facts) {
+  const auto& b = s.dem().balance();
+  const auto dem = s.dem().report();
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+
+  Json j;
+  j["scenario"] = s.setup().name;
+  j["version"] = DUST_VERSION;
+  j["status"] = facts.status;
+  if (!facts.reason.empty()) j["reason"] = facts.reason;
+  j["threads"] = facts.threads;
+  j["wall_s"] = facts.wall_s;
+  j["cpu_s"] = facts.cpu_s;
+  j["peak_rss_bytes"] = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+  j["simulated_s"] = s.time();
+  j["dem_step_s"] = s.dem().coarse_step();
+  j["dem_steps"] = dem.steps;
+  j["fluid_steps"] = s.fluid() != nullptr ? s.steps_done() : 0;
+  j["particle_steps"] = dem.particle_steps;
+  j["fine_particle_steps"] = dem.fine_steps;
+  j["neighbour_rebuilds"] = dem.rebuilds;
+  j["contacts"] = dem.contacts;
+  j["size_classes"] = class_steps(s.dem());
+  j["particles"] = counts(b);
+  j["real_particles"] = {{"emitted", b.real_emitted}, {"in_domain", b.real_in_domain},
+                         {"left", b.real_left}, {"removed", b.real_removed}};
+  j["mass_kg"] = {{"emitted", b.mass_emitted}, {"in_domain", b.mass_in_domain},
+                  {"left", b.mass_left}, {"removed", b.mass_removed}};
+  j["timers_s"] = node_times(s, facts);
+  j["health"] = health(s);
+  j["warnings"] = facts.warnings;
+  j["frames"] = facts.frames;
+  j["state_sha256"] = s.state_digest();
+  Json sensors = Json::object();
+  JsonReport report;
+  for (std::size_t n = 0; n < s.models().sensors.size(); ++n) {
+    const std::string& name = s.setup().sensors[n].name;
+    JsonFigures figures;
+    s.models().sensors[n]->summary(figures);
+    sensors[name] = figures.json;
+    report.sensor = name;
+    s.models().sensors[n]->report(report);
+  }
+  j["sensors"] = sensors;
+  io::write_text(folder / "summary.json", j.dump(2) + "\n");
+
+  Json r;
+  r["title"] = s.setup().name;
+  r["curves"] = report.curves;
+  r["tables"] = report.tables;
+  r["outline"] = outlines(s);
+  r["classes"] = s.models().class_diameters;
+  r["graph_dot"] = graph_dot(s);
+  io::write_text(folder / "report.json", r.dump() + "\n");
+}
+
+std::string graph_dot(const Simulation& s) {
+  std::string dot = "digraph dust {\n  rankdir=LR;\n  node [shape=box, fontname=\"sans-serif\"];\n";
+  dot += s.step_graph().dot_cluster(2);
+  dot += s.dem_graph().dot_cluster(2);
+  dot += "  \"fluid_step.dem_cycle\" -> \"dem_step." + s.dem_graph().timings().front().name +
+         "\" [style=dashed, label=\"every DEM step\"];\n}\n";
+  return dot;
+}
+
+}  // namespace dust::run

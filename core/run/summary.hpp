@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "run/simulation.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace dust::run {
+
+/// What the run loop knows beside the simulation. Times include those before a resume.
+struct RunFacts {
+  std::string status;          ///< finished | interrupted | failed
+  std::string reason;          ///< of a failure
+  int threads = 1;
+  double wall_s = 0.0;
+  double cpu_s = 0.0;
+  double output_s = 0.0;
+  std::int64_t frames = 0;
+  std::vector<std::string> warnings;
+};
+
+/// A row of series.csv.
+struct SeriesRow {
+  std::vector<std::string> names;  ///< "name [unit]"
+  std::vector<double> values;
+};
+SeriesRow series_row(const Simulation& simulation);
+
+/// Writes summary.json and report.json (what the report needs beyond the other files).
+void write_summary(const std::filesystem::path& folder, const Simulation& simulation,
+                   const RunFacts& facts);
+
+/// The two graphs as one DOT text, with timings once they have run.
+std::string graph_dot(const Simulation& simulation);
+
+}  // namespace dust::run

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/archive.hpp"
+#include "dust/sdk/error.hpp"
+#include "dust/sdk/sensor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <span>
+#include <string>
+#include <vector>
+
+/// What most sensors need: size classes, paths of grains between two samples, and means over time
+/// with an honest error.
+namespace dust::sdk {
+
+/// Index of the class nearest to `diameter` [m]; `classes` ascending [m]; 0 for an empty list.
+inline std::size_t nearest_class(double diameter, std::span<const double> classes) {
+  const auto above = std::lower_bound(classes.begin(), classes.end(), diameter);
+  if (above == classes.begin()) return 0;
+  const auto index = static_cast<std::size_t>(above - classes.begin());
+  if (above == classes.end()) return index - 1;
+  return diameter - classes[index - 1] <= *above - diameter ? index - 1 : index;
+}
+
+/// A number as part of a figure's name: 12.5 becomes "12_5".
+inline std::string name_of(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", value);
+  for (char& c : text) {
+    if (c == '.' || c == '+' || c == '-') c = '_';
+  }
+  return text;
+}
+
+/// "class_300_um" for a diameter in m.
+inline std::string class_name(double diameter) {
+  return "class_" + name_of(diameter * 1e6) + "_um";
+}
+
+/// Whether the interval that a view covers lies after `start` [s], judged by its middle.
+inline bool is_after(const WorldView& world, double start) {
+  return world.interval > 0.0 && world.time - 0.5 * world.interval >= start;
+}
+
+/// The straight path of grain `i` between two samples.
+struct Path {
+  Vec3 before;  ///< [m]
+  Vec3 now;     ///< [m]
+  [[nodiscard]] Vec3 at(double fraction) const { return before + fraction * (now - before); }
+};
+
+/// The path of grain `i`. A grain that left through a periodic side came back on the other: a jump
+/// of more than half the domain against the grain's own velocity is such a return, and the place
+/// before is moved by the domain's extent, so that the path ends where the grain is.
+inline Path path_of(const WorldView& world, std::size_t i) {
+  const GrainColumns& g = world.grains;
+  Path path{{g.x_before[i], g.y_before[i], g.z_before[i]}, {g.x[i], g.y[i], g.z[i]}};
+  const Vec3 velocity{g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]};
+  for (int d = 0; d < 3; ++d) {
+    const double extent = world.domain_max[d] - world.domain_min[d];
+    const double jump = path.now[d] - path.before[d];
+    if (std::abs(jump) > 0.5 * extent && jump * velocity[d] < 0.0) {
+      path.before[d] += jump > 0.0 ? extent : -extent;
+    }
+  }
+  return path;
+}
+
+/// Passage through a level between two samples of a signed height: +1 upward, -1 downward, 0 none.
+/// A height on the level counts as above it, so that no passage is counted twice.
+struct Passage {
+  int direction = 0;
+  double fraction = 0.0;  ///< of the path, where the level is met
+};
+inline Passage passage(double height_before, double height_now) {
+  const bool was_above = height_before >= 0.0;
+  const bool is_above = height_now >= 0.0;
+  if (was_above == is_above) return {};
+  return {is_above ? 1 : -1, height_before / (height_before - height_now)};
+}
+
+/// Time means of several columns with standard errors from batch means: the series is cut into 16
+/// to 31 batches of equal length, whose means are nearly independent when a batch is longer than
+/// the memory of the flow; the error is their standard deviation over the root of their number
+/// (Alexopoulos and Seila, in Banks, Handbook of Simulation, 1998, ch. 7,
+/// doi:10.1002/9780470172445.ch7). Memory does not grow: full storage merges neighbouring batches.
+/// Limits: slower drifts than a batch are not seen; below 8 samples there is no error.
+class BatchMeans {
+ public:
+  explicit BatchMeans(std::size_t columns = 0) : columns_(columns), open_(columns, 0.0) {}
+  [[nodiscard]] std::size_t columns() const { return columns_; }
+
+  /// One sample: `values` held for `duration` [s].
+  void add(std::span<const double> values, double duration) {
+    for (std::size_t c = 0; c < columns_; ++c) open_[c] += values[c] * duration;
+    open_duration_ += duration;
+    if (++open_samples_ < samples_per_batch_) return;
+    closed_.insert(closed_.end(), open_.begin(), open_.end());
+    durations_.push_back(open_duration_);
+    clear_open();
+    if (durations_.size() == k_most_batches) merge();
+  }
+
+  /// [s] observed.
+  [[nodiscard]] double duration() const {
+    double sum = open_duration_;
+    for (const double d : durations_) sum += d;
+    return sum;
+  }
+  /// Time mean of a column; 0 without samples.
+  [[nodiscard]] double mean(std::size_t column) const {
+    double sum = open_[column];
+    for (std::size_t b = 0; b < durations_.size(); ++b) sum += closed_[b * columns_ + column];
+    const double time = duration();
+    return time > 0.0 ? sum / time : 0.0;
+  }
+  /// Standard error of the mean; -1 below 8 batches.
+  [[nodiscard]] double error(std::size_t column) const {
+    const std::size_t n = durations_.size();
+    if (n < k_fewest_batches) return -1.0;
+    double mean_of_batches = 0.0;
+    for (std::size_t b = 0; b < n; ++b) mean_of_batches += batch_mean(b, column) / n;
+    double squares = 0.0;
+    for (std::size_t b = 0; b < n; ++b) {
+      const double deviation = batch_mean(b, column) - mean_of_batches;
+      squares += deviation * deviation;
+    }
+    return std::sqrt(squares / static_cast<double>(n * (n - 1)));
+  }
+
+  void save(ArchiveWriter& archive, const std::string& name) const {
+    const double numbers[] = {open_duration_};
+    const std::int64_t integers[] = {static_cast<std::int64_t>(columns_), samples_per_batch_,
+                                     open_samples_};
+    archive.numbers(name + "_closed", closed_);
+    archive.numbers(name + "_durations", durations_);
+    archive.numbers(name + "_open", open_);
+    archive.numbers(name + "_open_duration", numbers);
+    archive.integers(name + "_counts", integers);
+  }
+  void load(ArchiveReader& archive, const std::string& name) {
+    closed_ = archive.numbers(name + "_closed");
+    durations_ = archive.numbers(name + "_durations");
+    open_ = archive.numbers(name + "_open");
+    open_duration_ = archive.number(name + "_open_duration");
+    const std::vector<std::int64_t> counts = archive.integers(name + "_counts");
+    columns_ = static_cast<std::size_t>(counts.at(0));
+    samples_per_batch_ = counts.at(1);
+    open_samples_ = counts.at(2);
+    if (open_.size() != columns_ || closed_.size() != columns_ * durations_.size()) {
+      throw ModelError("the saved means '" + name + "' do not fit together");
+    }
+  }
+
+ private:
+  static constexpr std::size_t k_most_batches = 32;
+  static constexpr std::size_t k_fewest_batches = 8;
+
+  [[nodiscard]] double batch_mean(std::size_t batch, std::size_t column) const {
+    return closed_[batch * columns_ + column] / durations_[batch];
+  }
+  void clear_open() {
+    std::fill(open_.begin(), open_.end(), 0.0);
+    open_duration_ = 0.0;
+    open_samples_ = 0;
+  }
+  void merge() {
+    for (std::size_t b = 0; b < k_most_batches / 2; ++b) {
+      for (std::size_t c = 0; c < columns_; ++c) {
+        closed_[b * columns_ + c] =
+            closed_[2 * b * columns_ + c] + closed_[(2 * b + 1) * columns_ + c];
+      }
+      durations_[b] = durations_[2 * b] + durations_[2 * b + 1];
+    }
+    closed_.resize(k_most_batches / 2 * columns_);
+    durations_.resize(k_most_batches / 2);
+    samples_per_batch_ *= 2;
+  }
+
+  std::size_t columns_;
+  std::vector<double> closed_;     ///< batch-major integrals over time
+  std::vector<double> durations_;  ///< [s]
+  std::vector<double> open_;
+  double open_duration_ = 0.0;
+  std::int64_t samples_per_batch_ = 1;
+  std::int64_t open_samples_ = 0;
+};
+
+/// A curve over time for the report with at most 2048 points: when it is full, neighbours are
+/// averaged in pairs and every later point is the mean of twice as many samples.
+class ThinnedCurve {
+ public:
+  void add(double x, double y) {
+    sum_x_ += x;
+    sum_y_ += y;
+    if (++samples_ < samples_per_point_) return;
+    x_.push_back(sum_x_ / static_cast<double>(samples_));
+    y_.push_back(sum_y_ / static_cast<double>(samples_));
+    sum_x_ = sum_y_ = 0.0;
+    samples_ = 0;
+    if (x_.size() < k_most_points) return;
+    for (std::size_t i = 0; i < k_most_points / 2; ++i) {
+      x_[i] = 0.5 * (x_[2 * i] + x_[2 * i + 1]);
+      y_[i] = 0.5 * (y_[2 * i] + y_[2 * i + 1]);
+    }
+    x_.resize(k_most_points / 2);
+    y_.resize(k_most_points / 2);
+    samples_per_point_ *= 2;
+  }
+  [[nodiscard]] std::span<const double> x() const { return x_; }
+  [[nodiscard]] std::span<const double> y() const { return y_; }
+
+  void save(ArchiveWriter& archive, const std::string& name) const {
+    const double sums[] = {sum_x_, sum_y_};
+    const std::int64_t counts[] = {samples_per_point_, samples_};
+    archive.numbers(name + "_x", x_);
+    archive.numbers(name + "_y", y_);
+    archive.numbers(name + "_sums", sums);
+    archive.integers(name + "_counts", counts);
+  }
+  void load(ArchiveReader& archive, const std::string& name) {
+    x_ = archive.numbers(name + "_x");
+    y_ = archive.numbers(name + "_y");
+    const std::vector<double> sums = archive.numbers(name + "_sums");
+    const std::vector<std::int64_t> counts = archive.integers(name + "_counts");
+    sum_x_ = sums.at(0);
+    sum_y_ = sums.at(1);
+    samples_per_point_ = counts.at(0);
+    samples_ = counts.at(1);
+  }
+
+ private:
+  static constexpr std::size_t k_most_points = 2048;
+  std::vector<double> x_;
+  std::vector<double> y_;
+  double sum_x_ = 0.0;
+  double sum_y_ = 0.0;
+  std::int64_t samples_per_point_ = 1;
+  std::int64_t samples_ = 0;
+};
+
+/// The restriction `coarser_than` / `finer_than` [m]; 0 = no limit.
+inline bool is_chosen(double diameter, double coarser_than, double finer_than) {
+  return diameter > coarser_than && (finer_than <= 0.0 || diameter < finer_than);
+}
+
+}  // namespace dust::sdk

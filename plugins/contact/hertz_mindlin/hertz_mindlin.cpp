@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hertz_mindlin.hpp"
+
+#include <dust/sdk/plugin.hpp>
+
+namespace {
+
+namespace formula = dust::model::hertz_mindlin;
+namespace sdk = dust::sdk;
+
+class HertzMindlin final : public sdk::ContactLaw {
+ public:
+  struct Parameters {
+    double restitution = 0.0;
+    double friction = 0.0;
+  };
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.number(&Parameters::restitution, "restitution", sdk::dimension::none,
+             "Ratio of the speeds after and before a head-on collision; realised exactly, because "
+             "the normal force may attract while the contact opens.")
+        .symbol("e")
+        .above(0)
+        .at_most(1);
+    s.number(&Parameters::friction, "friction", sdk::dimension::none,
+             "Coefficient of sliding friction; limits spring and damper together.")
+        .symbol("\\mu_s")
+        .at_least(0);
+    return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    return {.name = "hertz_mindlin",
+            .version = "1.0",
+            .summary = "Hertz normal and incremental Mindlin tangential contact with viscous "
+                       "damping and strict Coulomb friction.",
+            .equation = "F_n = \\tfrac43 E^* \\sqrt{R^*} d^{3/2} - \\gamma_n v_n,\\quad "
+                        "F_t = -k_t \\xi_t - \\gamma_t v_t,\\quad |F_t| \\le \\mu_s \\max(F_n, 0)",
+            .source = "Tsuji, Tanaka, Ishida, Powder Technol. 71 (1992) 239, "
+                      "doi:10.1016/0032-5910(92)88030-L; incremental tangential spring: Thornton, "
+                      "Cummins, Cleary, Powder Technol. 233 (2013) 30, "
+                      "doi:10.1016/j.powtec.2012.08.012"};
+  }
+
+  explicit HertzMindlin(const Parameters& p) {
+    constants_.damping = formula::damping(p.restitution);
+    constants_.friction = p.friction;
+  }
+
+  void prepare(const sdk::MaterialProperties& i, const sdk::MaterialProperties& j) override {
+    const auto young = [](const sdk::MaterialProperties& m) {
+      return (1.0 - m.poisson_ratio * m.poisson_ratio) / m.young_modulus;
+    };
+    const auto shear = [](const sdk::MaterialProperties& m) {
+      return 2.0 * (2.0 - m.poisson_ratio) * (1.0 + m.poisson_ratio) / m.young_modulus;
+    };
+    constants_.young = 1.0 / (young(i) + young(j));
+    constants_.shear = 1.0 / (shear(i) + shear(j));
+  }
+  [[nodiscard]] int history_size() const override { return 4; }
+
+  void evaluate(const sdk::ContactBatch& batch) const override { run(constants_, batch); }
+
+  [[nodiscard]] double collision_time(double radius, double mass, double speed) const override {
+    return formula::collision_time(constants_.young, radius, mass, speed);
+  }
+  [[nodiscard]] double half_period(double radius, double mass, double overlap) const override {
+    return formula::half_period(constants_.young, radius, mass, overlap);
+  }
+
+ private:
+  static void run(const formula::Constants& constants, const sdk::ContactBatch& b);
+  formula::Constants constants_;
+};
+
+DUST_KERNEL void evaluate_batch(const formula::Constants& constants, const sdk::ContactBatch& b) {
+  const formula::Constants k = constants;
+  const double time_step = b.time_step;
+  const double *overlap = b.overlap, *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
+  const double *vx = b.velocity_x, *vy = b.velocity_y, *vz = b.velocity_z;
+  const double *radius = b.effective_radius, *mass = b.effective_mass;
+  double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2], *stiffness = b.history[3];
+  double *fn = b.normal_force, *kt = b.tangential_stiffness;
+  double *fx = b.force_x, *fy = b.force_y, *fz = b.force_z;
+#pragma omp simd
+  for (std::size_t q = 0; q < b.count; ++q) {
+    formula::Contact c{overlap[q], nx[q], ny[q], nz[q], vx[q], vy[q],         vz[q], radius[q],
+                       mass[q],    sx[q], sy[q], sz[q], stiffness[q], 0.0, 0.0, 0.0, 0.0};
+    formula::evaluate(k, time_step, c);
+    sx[q] = c.sx;
+    sy[q] = c.sy;
+    sz[q] = c.sz;
+    stiffness[q] = c.stiffness;
+    kt[q] = c.stiffness;
+    fn[q] = c.normal_force;
+    fx[q] = c.fx;
+    fy[q] = c.fy;
+    fz[q] = c.fz;
+  }
+}
+
+void HertzMindlin::run(const formula::Constants& constants, const sdk::ContactBatch& b) {
+  evaluate_batch(constants, b);
+}
+
+}  // namespace
+
+DUST_PLUGIN(registrar) { registrar.add<HertzMindlin>(); }

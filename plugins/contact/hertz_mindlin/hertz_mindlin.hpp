@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dust::model::hertz_mindlin {
+
+/// Constants of a pair of materials.
+struct Constants {
+  double young = 0.0;     ///< [Pa] E*, 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2
+  double shear = 0.0;     ///< [Pa] G*, 1/G* = 2(2 - nu1)(1 + nu1)/E1 + 2(2 - nu2)(1 + nu2)/E2
+  double damping = 0.0;   ///< [-] -2 beta sqrt(5/6) >= 0
+  double friction = 0.0;  ///< [-] mu_s
+};
+
+/// Damping number: \f$ -2 \beta \sqrt{5/6} \f$ with \f$ \beta = \ln e / \sqrt{\ln^2 e + \pi^2} \f$,
+/// 0 < e <= 1. Exact as long as the normal force may attract while the contact opens.
+/// Source: Tsuji, Tanaka, Ishida, Powder Technol. 71 (1992) 239, doi:10.1016/0032-5910(92)88030-L.
+inline double damping(double restitution) {
+  const double l = std::log(restitution);
+  return -2.0 * std::sqrt(5.0 / 6.0) * l / std::sqrt(l * l + std::numbers::pi * std::numbers::pi);
+}
+
+/// Duration [s] of an elastic impact at `speed` [m/s]:
+/// \f$ T_H = 2.87 (m^{*2} / (R^* E^{*2} v))^{1/5} \f$. Source: Hertz 1882; Johnson, Contact
+/// Mechanics (1985), eq. 11.24.
+inline double collision_time(double young, double radius, double mass, double speed) {
+  return 2.87 * std::pow(mass * mass / (radius * young * young * speed), 0.2);
+}
+
+/// Shortest half period [s] of the loaded contact: \f$ \pi \sqrt{m^* / (dF_n/d\delta)} \f$,
+/// \f$ dF_n/d\delta = 2 E^* \sqrt{R^* \delta} \f$.
+inline double half_period(double young, double radius, double mass, double overlap) {
+  return std::numbers::pi *
+         std::sqrt(mass / std::max(2.0 * young * std::sqrt(radius * std::max(overlap, 0.0)), 1e-300));
+}
+
+/// One contact: geometry and kinematics in, force out. n points from j to i, v is the velocity of i
+/// relative to j at the contact point. SI.
+struct Contact {
+  double overlap, nx, ny, nz, vx, vy, vz, radius, mass;
+  double sx, sy, sz;   ///< [m] tangential displacement, in and out
+  double stiffness;    ///< [N/m] k_t of the last step in, of this one out
+  double normal_force; ///< [N] out
+  double fx, fy, fz;   ///< [N] out, on i
+};
+
+/// Normal force \f$ F_n = \tfrac43 E^* \sqrt{R^*}\, d^{3/2} - \gamma_n v_n \f$ and tangential force
+/// \f$ F_t = -k_t \xi_t - \gamma_t v_t \f$, \f$ |F_t| \le \mu_s \max(F_n, 0) \f$ for spring and
+/// damper together.
+///
+/// The spring is the incremental form: \f$ \Delta F_t = k_t \Delta\xi \f$ while the overlap grows
+/// and F_t scaled by k_t / k_t,old while it shrinks (Thornton, Cummins, Cleary, Powder Technol. 233
+/// (2013) 30, doi:10.1016/j.powtec.2012.08.012): unlike the total form it creates no energy.
+/// The displacement turns with the normal and keeps its length.
+inline void evaluate(const Constants& k, double time_step, Contact& c) {
+  constexpr double k_tiny = 1e-290;
+  const double d = std::max(c.overlap, 0.0);
+  const double root = std::sqrt(c.radius * d);
+  const double kn = 4.0 / 3.0 * k.young * root;
+  const double kt = 8.0 * k.shear * root;
+  const double gn = k.damping * std::sqrt(2.0 * k.young * root * c.mass);
+  const double gt = k.damping * std::sqrt(kt * c.mass);
+
+  const double vn = c.vx * c.nx + c.vy * c.ny + c.vz * c.nz;
+  const double fn = kn * d - gn * vn;
+  const double tx = c.vx - vn * c.nx;
+  const double ty = c.vy - vn * c.ny;
+  const double tz = c.vz - vn * c.nz;
+
+  // Into the new tangent plane, at the old length; then the growth of k_t under constant force.
+  const double sn = c.sx * c.nx + c.sy * c.ny + c.sz * c.nz;
+  const double px = c.sx - sn * c.nx;
+  const double py = c.sy - sn * c.ny;
+  const double pz = c.sz - sn * c.nz;
+  const double old2 = c.sx * c.sx + c.sy * c.sy + c.sz * c.sz;
+  const double new2 = px * px + py * py + pz * pz;
+  const double keep = std::sqrt(old2 / std::max(new2, k_tiny)) *
+                      std::min(1.0, c.stiffness / std::max(kt, k_tiny));
+  double sx = keep * px + tx * time_step;
+  double sy = keep * py + ty * time_step;
+  double sz = keep * pz + tz * time_step;
+
+  // Coulomb: the damper shares the limit with the spring, which is cut back on its own as well.
+  const double limit = k.friction * std::max(fn, 0.0);
+  const double spring = kt * std::sqrt(sx * sx + sy * sy + sz * sz);
+  const double cut = std::min(1.0, limit / std::max(spring, k_tiny));
+  sx *= cut;
+  sy *= cut;
+  sz *= cut;
+  const double ux = -kt * sx - gt * tx;
+  const double uy = -kt * sy - gt * ty;
+  const double uz = -kt * sz - gt * tz;
+  const double total = std::sqrt(ux * ux + uy * uy + uz * uz);
+  const double cap = std::min(1.0, limit / std::max(total, k_tiny));
+
+  c.sx = sx;
+  c.sy = sy;
+  c.sz = sz;
+  c.stiffness = kt;
+  c.normal_force = fn;
+  c.fx = fn * c.nx + cap * ux;
+  c.fy = fn * c.ny + cap * uy;
+  c.fz = fn * c.nz + cap * uz;
+}
+
+}  // namespace dust::model::hertz_mindlin

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "feed.hpp"
+
+#include <dust/sdk/plugin.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+namespace {
+
+namespace formula = dust::model::feed;
+namespace sdk = dust::sdk;
+using sdk::Vec3;
+
+/// Random sequential placing finds no more room soon above this.
+constexpr double k_largest_solids = 0.35;
+/// Draws over which the size distribution may stray.
+constexpr double k_window = 500.0;
+constexpr std::uint32_t k_tries = 100000;
+/// Free gap between placed grains relative to the sum of their radii.
+constexpr double k_gap = 1e-6;
+
+class Feed final : public sdk::Emitter {
+ public:
+  struct Parameters {
+    double mass_flow = 0.0;
+    Vec3 min;
+    Vec3 max;
+    Vec3 velocity;
+    std::vector<double> diameters;
+    std::vector<double> number_fractions;
+    std::vector<double> mass_fractions;
+    double rare_below = 0.0;
+    std::int64_t copies_of_rare = 20;
+    double begin = 0.0;
+    double end = std::numeric_limits<double>::infinity();
+  };
+  static sdk::ParameterSchema schema() {
+    namespace dim = sdk::dimension;
+    sdk::SchemaOf<Parameters> s;
+    s.number(&Parameters::mass_flow, "mass_flow", dim::mass_flow, "Mass released per time.")
+        .symbol("\\dot m")
+        .above(0);
+    s.vector(&Parameters::min, "min", dim::length,
+             "Lower corner of the opening; flat along one axis, where it equals max.");
+    s.vector(&Parameters::max, "max", dim::length, "Upper corner of the opening.");
+    s.vector(&Parameters::velocity, "velocity", dim::velocity,
+             "Velocity of the grains as their centres pass the opening.");
+    s.numbers(&Parameters::diameters, "diameters", dim::length, "Grain diameters.").above(0);
+    s.numbers(&Parameters::number_fractions, "number_fractions", dim::none,
+              "Share of each diameter by number; need not add up to 1.")
+        .at_least(0)
+        .optional();
+    s.numbers(&Parameters::mass_fractions, "mass_fractions", dim::none,
+              "Share of each diameter by mass, in place of number_fractions.")
+        .at_least(0)
+        .optional();
+    s.number(&Parameters::rare_below, "rare_below", dim::length,
+             "Smaller grains are released as copies_of_rare copies of weight 1 / copies_of_rare.")
+        .at_least(0)
+        .optional();
+    s.integer(&Parameters::copies_of_rare, "copies_of_rare", "Copies of each rare grain.")
+        .symbol("k")
+        .at_least(1)
+        .optional();
+    s.number(&Parameters::begin, "begin", dim::time, "When the feed opens.").at_least(0).optional();
+    s.number(&Parameters::end, "end", dim::time, "When the feed closes.").at_least(0).optional();
+    return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    return {.name = "feed",
+            .version = "1.0",
+            .summary = "A steady stream of grains without overlaps through a rectangular opening.",
+            .equation = "\\sum_{n: t_n < t} m_n = \\dot m\\, t \\pm m_n / 2",
+            .source = "random sequential placing; own derivation"};
+  }
+
+  explicit Feed(const Parameters& p) : p_(p) {
+    check_opening();
+    check_sizes();
+  }
+
+  void propose(const sdk::EmitterContext& context, std::vector<sdk::Seed>& seeds) override {
+    check_flow(context.grain_density);
+    const double end = std::min(context.end, p_.end);
+    for (;;) {
+      Event next = next_common(context);
+      for (std::size_t i = 0; i < p_.diameters.size(); ++i) {
+        const Event rare = next_rare(i, context);
+        if (rare.time < next.time) next = rare;
+      }
+      if (!(next.time < end)) return;
+      seeds.push_back(place(next, context));
+      ++released_[next.size];
+    }
+  }
+  [[nodiscard]] double requested_mass_flow() const override { return p_.mass_flow; }
+  [[nodiscard]] std::vector<double> diameters() const override {
+    std::vector<double> d = p_.diameters;
+    std::sort(d.begin(), d.end());
+    return d;
+  }
+  [[nodiscard]] double largest_speed() const override { return norm(p_.velocity); }
+
+  void save(sdk::ArchiveWriter& archive) const override {
+    archive.integers("released", std::vector<std::int64_t>(released_.begin(), released_.end()));
+    std::vector<double> rows;
+    for (const Placed& g : recent_) {
+      rows.insert(rows.end(), {g.time, g.position.x, g.position.y, g.position.z, g.radius});
+    }
+    archive.numbers("recent", rows);
+  }
+  void load(sdk::ArchiveReader& archive) override {
+    const auto released = archive.integers("released");
+    released_.assign(released.begin(), released.end());
+    const auto rows = archive.numbers("recent");
+    recent_.clear();
+    for (std::size_t n = 0; n + 4 < rows.size(); n += 5) {
+      recent_.push_back({rows[n], {rows[n + 1], rows[n + 2], rows[n + 3]}, rows[n + 4]});
+    }
+  }
+
+ private:
+  struct Placed {
+    double time;
+    Vec3 position;  ///< at that time
+    double radius;
+  };
+  struct Event {
+    double time = std::numeric_limits<double>::infinity();
+    std::size_t size = 0;
+    std::uint64_t number = 0;  ///< key of its random draws
+  };
+
+  void check_opening() {
+    int flat = 0;
+    for (int d = 0; d < 3; ++d) {
+      const double extent = p_.max[d] - p_.min[d];
+      if (extent == 0.0) {
+        axis_ = d;
+        ++flat;
+      } else if (extent < 0.0) {
+        throw sdk::ParameterError("min lies beyond max: give the lower corner of the opening first");
+      } else {
+        area_ *= extent;
+      }
+    }
+    if (flat != 1) {
+      throw sdk::ParameterError("the opening must be flat: min and max have to agree along exactly "
+                                "one axis");
+    }
+    speed_ = std::abs(p_.velocity[axis_]);
+    if (!(speed_ > 0.0)) {
+      throw sdk::ParameterError("velocity has no part across the opening: nothing would pass it");
+    }
+  }
+
+  void check_sizes() {
+    const std::size_t n = p_.diameters.size();
+    if (n == 0) throw sdk::ParameterError("diameters is empty: give at least one");
+    for (std::size_t i = 0; i < n; ++i) {
+      if (std::count(p_.diameters.begin(), p_.diameters.end(), p_.diameters[i]) > 1) {
+        throw sdk::ParameterError("a diameter is given twice");
+      }
+    }
+    fractions_ = p_.number_fractions;
+    if (fractions_.empty() && p_.mass_fractions.empty() && n == 1) fractions_ = {1.0};
+    if (fractions_.empty() == p_.mass_fractions.empty() && fractions_.size() != 1) {
+      throw sdk::ParameterError("give either number_fractions or mass_fractions");
+    }
+    if (!p_.mass_fractions.empty()) {
+      if (p_.mass_fractions.size() != n) wrong_length("mass_fractions", p_.mass_fractions.size());
+      fractions_ = formula::numbers_from_masses(p_.mass_fractions, p_.diameters);
+    }
+    if (fractions_.size() != n) wrong_length("number_fractions", fractions_.size());
+    const double sum = std::accumulate(fractions_.begin(), fractions_.end(), 0.0);
+    if (!(sum > 0.0)) throw sdk::ParameterError("the fractions add up to nothing");
+    common_.assign(n, 0.0);
+    double common = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      fractions_[i] /= sum;
+      if (p_.diameters[i] >= p_.rare_below) common += fractions_[i];
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (p_.diameters[i] >= p_.rare_below) common_[i] = fractions_[i] / common;
+    }
+    has_common_ = common > 0.0;
+    released_.assign(n, 0);
+    for (int d = 0; d < 3; ++d) {
+      const double largest = *std::max_element(p_.diameters.begin(), p_.diameters.end());
+      if (d != axis_ && p_.max[d] - p_.min[d] < largest) {
+        throw sdk::ParameterError("the opening is narrower than the largest grain");
+      }
+    }
+  }
+  void wrong_length(const char* name, std::size_t length) const {
+    throw sdk::ParameterError(std::string(name) + " has " + std::to_string(length) +
+                              " entries for " + std::to_string(p_.diameters.size()) + " diameters");
+  }
+
+  void check_flow(double density) const {
+    const double solids = formula::solids(p_.mass_flow, density, area_, speed_);
+    if (solids <= k_largest_solids) return;
+    std::ostringstream text;
+    text << "the opening cannot pass the flow: " << p_.mass_flow << " kg/s through " << area_
+         << " m2 at " << speed_ << " m/s is a solids fraction of " << solids << "; at most "
+         << k_largest_solids << " can be placed without overlaps. Widen the opening or raise the "
+         << "speed to " << speed_ * solids / k_largest_solids << " m/s";
+    throw sdk::ParameterError(text.str());
+  }
+
+  [[nodiscard]] bool is_rare(std::size_t i) const { return p_.diameters[i] < p_.rare_below; }
+
+  /// Real grains of size i per second.
+  [[nodiscard]] double rate(std::size_t i, double density) const {
+    double mean = 0.0;
+    for (std::size_t n = 0; n < fractions_.size(); ++n) {
+      mean += fractions_[n] * formula::mass(density, p_.diameters[n]);
+    }
+    return p_.mass_flow * fractions_[i] / mean;
+  }
+
+  /// The next grain that is not rare: its time is when the stream has brought half of its mass.
+  [[nodiscard]] Event next_common(const sdk::EmitterContext& context) const {
+    if (!has_common_) return {};
+    std::vector<long long> counts(released_.size(), 0);
+    double mass = 0.0;
+    double flow = 0.0;
+    std::uint64_t number = 0;
+    for (std::size_t i = 0; i < released_.size(); ++i) {
+      if (is_rare(i)) continue;
+      counts[i] = released_[i];
+      number += static_cast<std::uint64_t>(released_[i]);
+      const double m = formula::mass(context.grain_density, p_.diameters[i]);
+      mass += static_cast<double>(released_[i]) * m;
+      flow += rate(i, context.grain_density) * m;
+    }
+    Event e;
+    e.number = number;
+    e.size = formula::draw_class(common_, counts, k_window, context.random.uniform(number, 0, 1));
+    e.time = p_.begin +
+             (mass + 0.5 * formula::mass(context.grain_density, p_.diameters[e.size])) / flow;
+    return e;
+  }
+
+  /// The next copy of a rare size: one at a random instant of each interval 1 / (k rate).
+  [[nodiscard]] Event next_rare(std::size_t i, const sdk::EmitterContext& context) const {
+    if (!is_rare(i) || fractions_[i] == 0.0) return {};
+    const double copies = rate(i, context.grain_density) * static_cast<double>(p_.copies_of_rare);
+    const auto n = static_cast<std::uint64_t>(released_[i]);
+    Event e;
+    e.size = i;
+    e.number = n | (std::uint64_t{i} + 1) << 48;
+    e.time = p_.begin + (static_cast<double>(n) + context.random.uniform(e.number, 0, 1)) / copies;
+    return e;
+  }
+
+  /// A random place in the opening clear of the grains that passed shortly before.
+  sdk::Seed place(const Event& e, const sdk::EmitterContext& context) {
+    const double radius = 0.5 * p_.diameters[e.size];
+    const double largest = *std::max_element(p_.diameters.begin(), p_.diameters.end());
+    std::erase_if(recent_, [&](const Placed& g) { return speed_ * (e.time - g.time) > largest; });
+    for (std::uint32_t trial = 0; trial < k_tries; ++trial) {
+      Vec3 x = p_.min;
+      for (int d = 0; d < 3; ++d) {
+        if (d == axis_) continue;
+        const double room = p_.max[d] - p_.min[d] - 2.0 * radius;
+        x[d] = p_.min[d] + radius +
+               room * context.random.uniform(e.number, trial, static_cast<std::uint32_t>(d) + 2);
+      }
+      const bool is_free = std::none_of(recent_.begin(), recent_.end(), [&](const Placed& g) {
+        const Vec3 apart = x - g.position - (e.time - g.time) * p_.velocity;
+        const double reach = (radius + g.radius) * (1.0 + k_gap);
+        return dot(apart, apart) < reach * reach;
+      });
+      if (!is_free) continue;
+      recent_.push_back({e.time, x, radius});
+      return {.time = e.time,
+              .position = x,
+              .velocity = p_.velocity,
+              .diameter = p_.diameters[e.size],
+              .weight = is_rare(e.size) ? 1.0 / static_cast<double>(p_.copies_of_rare) : 1.0};
+    }
+    std::ostringstream text;
+    text << "no free place for a grain of " << 2.0 * radius << " m in the opening at " << e.time
+         << " s (solids fraction "
+         << formula::solids(p_.mass_flow, context.grain_density, area_, speed_)
+         << "): widen the opening or raise the speed";
+    throw sdk::ParameterError(text.str());
+  }
+
+  Parameters p_;
+  int axis_ = 2;
+  double area_ = 1.0;
+  double speed_ = 0.0;
+  std::vector<double> fractions_;  ///< by number, all sizes
+  std::vector<double> common_;     ///< by number among the sizes that are not rare
+  bool has_common_ = false;
+  std::vector<long long> released_;  ///< computed grains per size
+  std::vector<Placed> recent_;
+};
+
+}  // namespace
+
+DUST_PLUGIN(registrar) { registrar.add<Feed>(); }

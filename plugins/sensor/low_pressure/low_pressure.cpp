@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "low_pressure.hpp"
+
+#include "dust/sdk/plugin.hpp"
+#include "dust/sdk/sampling.hpp"
+
+#include <cfloat>
+
+namespace {
+
+using namespace dust::sdk;
+namespace formula = dust::model::low_pressure;
+
+/// Cells with less room than this are taken for solid.
+constexpr float k_least_open = 0.5f;
+
+/// Adds pressure * duration to `sum` and returns the lowest pressure of the open cells.
+DUST_KERNEL float accumulate(std::size_t n, const float* __restrict pressure,
+                             const float* __restrict open_fraction, double duration,
+                             double* __restrict sum) {
+  float lowest = FLT_MAX;
+#pragma omp simd reduction(min : lowest)
+  for (std::size_t i = 0; i < n; ++i) {
+    sum[i] += duration * static_cast<double>(pressure[i]);
+    const float p = open_fraction[i] >= k_least_open ? pressure[i] : FLT_MAX;
+    lowest = p < lowest ? p : lowest;
+  }
+  return lowest;
+}
+
+/// Adds the mean of a finished block and its square to the totals and clears the block.
+DUST_KERNEL void close_block(std::size_t n, double duration, double* __restrict block,
+                             double* __restrict total, double* __restrict squares) {
+  const double per_time = 1.0 / duration;
+#pragma omp simd
+  for (std::size_t i = 0; i < n; ++i) {
+    const double mean = block[i] * per_time;
+    total[i] += mean;
+    squares[i] += mean * mean;
+    block[i] = 0.0;
+  }
+}
+
+class LowPressure final : public Sensor {
+ public:
+  struct Parameters {
+    std::int64_t count = 5;
+    double averaging_after = 0.0;
+    double separation = 0.01;
+    double block = 0.02;
+  };
+
+  static ParameterSchema schema() {
+    SchemaOf<Parameters> s;
+    s.integer(&Parameters::count, "count", "How many places are reported.")
+        .at_least(1)
+        .at_most(100)
+        .optional();
+    s.number(&Parameters::averaging_after, "averaging_after", dimension::time,
+             "Time from which the pressure is averaged.")
+        .at_least(0)
+        .optional();
+    s.number(&Parameters::separation, "separation", dimension::length,
+             "Least distance between two places.")
+        .at_least(0)
+        .optional();
+    s.number(&Parameters::block, "block", dimension::time,
+             "Length of the time blocks from whose means the error is taken.")
+        .above(0)
+        .optional();
+    return s.build();
+  }
+
+  static ModelInfo describe() {
+    return {"",
+            "low_pressure",
+            "1.0",
+            "The places of lowest mean pressure: where dust gathers and may be extracted.",
+            R"(\bar p(\mathbf{x}) = \frac{1}{T}\int p\,dt,\quad \mathrm{local\ minima} < 0)",
+            "own definition",
+            {}};
+  }
+
+  explicit LowPressure(const Parameters& p) : p_(p) {}
+
+  void observe(const WorldView& world) override {
+    const FluidColumns& f = world.fluid;
+    if (f.pressure.empty()) return;
+    if (block_.size() != f.pressure.size()) start(f);
+    const bool is_averaging = is_after(world, p_.averaging_after);
+    const float lowest = accumulate(f.pressure.size(), f.pressure.data(), f.open_fraction.data(),
+                                    is_averaging ? world.interval : 0.0, block_.data());
+    lowest_ = lowest == FLT_MAX ? 0.0 : static_cast<double>(lowest);
+    curve_.add(world.time, lowest_);
+    if (!is_averaging) return;
+    block_duration_ += world.interval;
+    // Half a sample of slack: sums of intervals must not decide by their rounding.
+    if (block_duration_ + 0.5 * world.interval < p_.block) return;
+    close_block(block_.size(), block_duration_, block_.data(), total_.data(), squares_.data());
+    ++blocks_;
+    block_duration_ = 0.0;
+  }
+
+  void series(FigureSink& sink) const override { sink.figure("lowest_pressure", lowest_, "Pa"); }
+
+  void summary(FigureSink& sink) const override {
+    const std::vector<Place> places = find_places();
+    sink.figure("found", static_cast<double>(places.size()), "1");
+    for (std::size_t n = 0; n < static_cast<std::size_t>(p_.count); ++n) {
+      const Place place = n < places.size() ? places[n] : Place{};
+      const std::string name = "place_" + std::to_string(n + 1) + "/";
+      sink.figure(name + "x", place.position.x, "m");
+      sink.figure(name + "y", place.position.y, "m");
+      sink.figure(name + "z", place.position.z, "m");
+      sink.figure(name + "depth", -place.pressure, "Pa", place.error);
+      sink.figure(name + "pressure_over_density", density_ > 0.0 ? place.pressure / density_ : 0.0,
+                  "m2/s2", place.error < 0.0 || density_ <= 0.0 ? -1.0 : place.error / density_);
+    }
+  }
+
+  void report(ReportSink& sink) const override {
+    sink.curve("Lowest pressure", "time [s]", "pressure [Pa]", "open cells", curve_.x(),
+               curve_.y());
+    const std::vector<std::string> columns = {"x [m]", "y [m]", "z [m]", "depth [Pa]",
+                                              "standard error [Pa]"};
+    for (const Place& place : find_places()) {
+      const double values[] = {place.position.x, place.position.y, place.position.z,
+                               -place.pressure, place.error};
+      sink.row("Places of low pressure", columns, values);
+    }
+  }
+
+  void save(ArchiveWriter& a) const override {
+    const double numbers[] = {origin_.x,  origin_.y, origin_.z,       spacing_.x, spacing_.y,
+                              spacing_.z, density_,  block_duration_, lowest_};
+    const std::int64_t integers[] = {cells_.count[0], cells_.count[1], cells_.count[2], blocks_};
+    a.numbers("numbers", numbers);
+    a.integers("integers", integers);
+    a.numbers("block", block_);
+    a.numbers("total", total_);
+    a.numbers("squares", squares_);
+    const std::vector<std::int64_t> open(is_open_.begin(), is_open_.end());
+    a.integers("is_open", open);
+    curve_.save(a, "curve");
+  }
+  void load(ArchiveReader& a) override {
+    const std::vector<double> numbers = a.numbers("numbers");
+    const std::vector<std::int64_t> integers = a.integers("integers");
+    origin_ = {numbers.at(0), numbers.at(1), numbers.at(2)};
+    spacing_ = {numbers.at(3), numbers.at(4), numbers.at(5)};
+    density_ = numbers.at(6);
+    block_duration_ = numbers.at(7);
+    lowest_ = numbers.at(8);
+    for (int d = 0; d < 3; ++d) cells_.count[d] = static_cast<int>(integers.at(d));
+    blocks_ = integers.at(3);
+    block_ = a.numbers("block");
+    total_ = a.numbers("total");
+    squares_ = a.numbers("squares");
+    const std::vector<std::int64_t> open = a.integers("is_open");
+    is_open_.assign(open.begin(), open.end());
+    curve_.load(a, "curve");
+  }
+
+ private:
+  struct Place {
+    Vec3 position;          ///< [m]
+    double pressure = 0.0;  ///< [Pa]
+    double error = -1.0;    ///< [Pa]
+  };
+
+  static constexpr std::int64_t k_fewest_blocks = 4;
+
+  void start(const FluidColumns& f) {
+    for (int d = 0; d < 3; ++d) cells_.count[d] = f.count[d];
+    origin_ = f.origin;
+    spacing_ = f.spacing;
+    density_ = f.density;
+    block_.assign(f.pressure.size(), 0.0);
+    total_ = block_;
+    squares_ = block_;
+    is_open_.resize(block_.size());
+    for (std::size_t i = 0; i < block_.size(); ++i)
+      is_open_[i] = f.open_fraction[i] >= k_least_open;
+    blocks_ = 0;
+    block_duration_ = 0.0;
+  }
+
+  /// Mean pressure per cell over the finished blocks; before the first one ends, over what there
+  /// is.
+  [[nodiscard]] std::vector<double> mean_pressure() const {
+    std::vector<double> mean(block_.size(), 0.0);
+    const double per_block = blocks_ > 0 ? 1.0 / static_cast<double>(blocks_) : 0.0;
+    const double per_time = blocks_ == 0 && block_duration_ > 0.0 ? 1.0 / block_duration_ : 0.0;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+      mean[i] = per_block * total_[i] + per_time * block_[i];
+    }
+    return mean;
+  }
+
+  [[nodiscard]] double cell_error(std::size_t i) const {
+    const auto n = static_cast<double>(blocks_);
+    const double mean = total_[i] / n;
+    return std::sqrt(std::max(squares_[i] / n - mean * mean, 0.0) / (n - 1.0));
+  }
+
+  [[nodiscard]] std::vector<Place> find_places() const {
+    if (block_.empty()) return {};
+    const std::vector<double> field = formula::smoothed(cells_, mean_pressure(), is_open_);
+    std::vector<Place> places;
+    for (const formula::Minimum& m :
+         formula::deepest_minima(cells_, field, is_open_, {spacing_.x, spacing_.y, spacing_.z},
+                                 p_.separation, static_cast<std::size_t>(p_.count))) {
+      Place place;
+      for (int d = 0; d < 3; ++d) {
+        place.position[d] = origin_[d] + (m.cell[d] + 0.5) * spacing_[d];
+      }
+      place.pressure = m.value;
+      if (blocks_ >= k_fewest_blocks) {
+        // Neighbours fluctuate together: the error of their mean is the mean of their errors.
+        double sum = 0.0;
+        int open = 0;
+        cells_.for_neighbourhood(m.cell[0], m.cell[1], m.cell[2], [&](std::size_t n) {
+          if (is_open_[n] == 0) return;
+          sum += cell_error(n);
+          ++open;
+        });
+        place.error = sum / open;
+      }
+      places.push_back(place);
+    }
+    return places;
+  }
+
+  Parameters p_;
+  formula::Cells cells_;
+  Vec3 origin_;
+  Vec3 spacing_;
+  double density_ = 0.0;
+  std::vector<double> block_;    ///< [Pa s] integral over the open block
+  std::vector<double> total_;    ///< [Pa] sum of the block means
+  std::vector<double> squares_;  ///< [Pa2] sum of their squares
+  std::vector<char> is_open_;
+  std::int64_t blocks_ = 0;
+  double block_duration_ = 0.0;  ///< [s]
+  double lowest_ = 0.0;          ///< [Pa] at the last sample
+  ThinnedCurve curve_;
+};
+
+}  // namespace
+
+DUST_PLUGIN(registrar) { registrar.add<LowPressure>(); }

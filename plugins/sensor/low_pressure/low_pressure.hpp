@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace dust::model::low_pressure {
+
+/// Cells of a box-shaped grid, x fastest.
+struct Cells {
+  std::array<int, 3> count{0, 0, 0};
+  [[nodiscard]] std::size_t size() const {
+    return static_cast<std::size_t>(count[0]) * count[1] * count[2];
+  }
+  [[nodiscard]] std::size_t index(int i, int j, int k) const {
+    return static_cast<std::size_t>(i) +
+           static_cast<std::size_t>(count[0]) * (j + static_cast<std::size_t>(count[1]) * k);
+  }
+  /// Calls visit(index) for the cell and its up to 26 neighbours inside the grid.
+  template <class Visit>
+  void for_neighbourhood(int i, int j, int k, Visit visit) const {
+    for (int c = std::max(k - 1, 0); c <= std::min(k + 1, count[2] - 1); ++c) {
+      for (int b = std::max(j - 1, 0); b <= std::min(j + 1, count[1] - 1); ++b) {
+        for (int a = std::max(i - 1, 0); a <= std::min(i + 1, count[0] - 1); ++a) {
+          visit(index(a, b, c));
+        }
+      }
+    }
+  }
+};
+
+/// Mean over the open cells among each open cell and its 26 neighbours; 0 in closed ones. Takes out
+/// what a single cell's noise adds to a minimum.
+/// @param field    one number per cell, any unit
+/// @param is_open  1 where fluid is
+inline std::vector<double> smoothed(const Cells& cells, const std::vector<double>& field,
+                                    const std::vector<char>& is_open) {
+  std::vector<double> result(cells.size(), 0.0);
+  for (int k = 0; k < cells.count[2]; ++k) {
+    for (int j = 0; j < cells.count[1]; ++j) {
+      for (int i = 0; i < cells.count[0]; ++i) {
+        const std::size_t c = cells.index(i, j, k);
+        if (is_open[c] == 0) continue;
+        double sum = 0.0;
+        int open = 0;
+        cells.for_neighbourhood(i, j, k, [&](std::size_t n) {
+          if (is_open[n] == 0) return;
+          sum += field[n];
+          ++open;
+        });
+        result[c] = sum / open;
+      }
+    }
+  }
+  return result;
+}
+
+struct Minimum {
+  std::array<int, 3> cell{0, 0, 0};
+  double value = 0.0;
+};
+
+/// The deepest local minima below zero of a field, at most `count`, at least `separation` apart.
+///
+/// A cell is a local minimum when no open neighbour of its 26 is lower (of equals, the first one
+/// counts). They are taken from the deepest up; one nearer than `separation` [m] to a deeper one
+/// belongs to the same place.
+/// @param spacing  [m] of the cells per direction
+inline std::vector<Minimum> deepest_minima(const Cells& cells, const std::vector<double>& field,
+                                           const std::vector<char>& is_open,
+                                           std::array<double, 3> spacing, double separation,
+                                           std::size_t count) {
+  std::vector<Minimum> found;
+  for (int k = 0; k < cells.count[2]; ++k) {
+    for (int j = 0; j < cells.count[1]; ++j) {
+      for (int i = 0; i < cells.count[0]; ++i) {
+        const std::size_t c = cells.index(i, j, k);
+        if (is_open[c] == 0 || !(field[c] < 0.0)) continue;
+        bool is_lowest = true;
+        cells.for_neighbourhood(i, j, k, [&](std::size_t n) {
+          if (is_open[n] == 0 || n == c) return;
+          if (field[n] < field[c] || (field[n] == field[c] && n < c)) is_lowest = false;
+        });
+        if (is_lowest) found.push_back({{i, j, k}, field[c]});
+      }
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Minimum& a, const Minimum& b) { return a.value < b.value; });
+  std::vector<Minimum> chosen;
+  for (const Minimum& candidate : found) {
+    if (chosen.size() == count) break;
+    const bool is_apart = std::all_of(chosen.begin(), chosen.end(), [&](const Minimum& deeper) {
+      double squares = 0.0;
+      for (int d = 0; d < 3; ++d) {
+        const double step = (candidate.cell[d] - deeper.cell[d]) * spacing[d];
+        squares += step * step;
+      }
+      return squares >= separation * separation;
+    });
+    if (is_apart) chosen.push_back(candidate);
+  }
+  return chosen;
+}
+
+}  // namespace dust::model::low_pressure

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plane_flux.hpp"
+
+#include "dust/sdk/plugin.hpp"
+#include "dust/sdk/sampling.hpp"
+
+namespace {
+
+using namespace dust::sdk;
+namespace formula = dust::model::plane_flux;
+
+class PlaneFlux final : public Sensor {
+ public:
+  struct Parameters {
+    Vec3 point;
+    Vec3 normal;
+    Vec3 min;
+    Vec3 max;
+    double steady_after = 0.0;
+    double coarser_than = 0.0;
+    double finer_than = 0.0;
+  };
+
+  static ParameterSchema schema() {
+    SchemaOf<Parameters> s;
+    s.vector(&Parameters::point, "point", dimension::length, "A point of the plane.");
+    s.vector(&Parameters::normal, "normal", dimension::none,
+             "Normal of the plane; passages along it count as forward.")
+        .symbol("n");
+    s.vector(&Parameters::min, "min", dimension::length,
+             "Lower corner of the box that cuts the rectangle out of the plane.");
+    s.vector(&Parameters::max, "max", dimension::length,
+             "Upper corner of that box; may equal 'min' along the normal.");
+    s.number(&Parameters::steady_after, "steady_after", dimension::time,
+             "Time from which the rates are taken.")
+        .at_least(0)
+        .optional();
+    s.number(&Parameters::coarser_than, "coarser_than", dimension::length,
+             "Only grains of a larger diameter count; 0 = all.")
+        .at_least(0)
+        .optional();
+    s.number(&Parameters::finer_than, "finer_than", dimension::length,
+             "Only grains of a smaller diameter count; 0 = all.")
+        .at_least(0)
+        .optional();
+    return s.build();
+  }
+
+  static ModelInfo describe() {
+    return {"",
+            "plane_flux",
+            "1.0",
+            "Number and mass that pass a rectangle, by size class and direction.",
+            R"(\dot m = \frac{1}{T} \sum_{\mathrm{passages}} \pm w_i m_i)",
+            "own definition",
+            {}};
+  }
+
+  explicit PlaneFlux(const Parameters& p) : p_(p) {
+    const double length = norm(p.normal);
+    if (!(length > 0.0)) throw ParameterError("'normal' must not be zero");
+    p_.normal = p.normal / length;
+    const Vec3 extent = p.max - p.min;
+    if (!(extent.x >= 0.0 && extent.y >= 0.0 && extent.z >= 0.0)) {
+      throw ParameterError("'max' must not lie below 'min'");
+    }
+    // Rounding of the interpolated point must not throw a grain out of a box without thickness.
+    tolerance_ = k_rounding * (norm(p.min) + norm(p.max) + norm(p.point));
+  }
+
+  void observe(const WorldView& world) override {
+    if (classes_.empty() && !world.class_diameters.empty()) {
+      classes_.assign(world.class_diameters.begin(), world.class_diameters.end());
+      resize(1 + classes_.size());
+    }
+    std::vector<double>& passed = values_;
+    passed.assign(means_.columns(), 0.0);
+    const bool is_steady = is_after(world, p_.steady_after);
+    const GrainColumns& g = world.grains;
+    for (std::size_t i = 0; i < g.id.size(); ++i) {
+      if (!is_chosen(g.diameter[i], p_.coarser_than, p_.finer_than)) continue;
+      const int direction = passage_of(path_of(world, i));
+      if (direction == 0) continue;
+      count(0, direction, g.weight[i], g.mass[i], is_steady);
+      if (!classes_.empty()) {
+        count(1 + nearest_class(g.diameter[i], classes_), direction, g.weight[i], g.mass[i],
+              is_steady);
+      }
+    }
+    for (int way = 0; way < 2; ++way) mass_so_far_[way] += passed[k_ways * k_mass + way];
+    last_rate_ = 0.0;
+    if (world.interval > 0.0) {
+      for (double& v : passed) v /= world.interval;
+      last_rate_ = passed[k_ways * k_mass + k_net];
+      curve_.add(world.time, last_rate_);
+    }
+    if (is_steady) means_.add(passed, world.interval);
+  }
+
+  void series(FigureSink& sink) const override {
+    sink.figure("net/mass_rate", last_rate_, "kg/s");
+    sink.figure("forward/mass", mass_so_far_[0], "kg");
+    sink.figure("backward/mass", mass_so_far_[1], "kg");
+  }
+
+  void summary(FigureSink& sink) const override {
+    sink.figure("forward/mass", mass_so_far_[0], "kg");
+    sink.figure("backward/mass", mass_so_far_[1], "kg");
+    rates_of("", 0, sink);
+    for (std::size_t c = 0; c < classes_.size(); ++c) {
+      rates_of(class_name(classes_[c]) + "/", c + 1, sink);
+    }
+  }
+
+  void report(ReportSink& sink) const override {
+    sink.curve("Flux through the plane", "time [s]", "net mass rate [kg/s]", "all grains",
+               curve_.x(), curve_.y());
+  }
+
+  void save(ArchiveWriter& a) const override {
+    a.numbers("classes", classes_);
+    a.numbers("squares", squares_);
+    a.numbers("mass_so_far", mass_so_far_);
+    a.number("last_rate", last_rate_);
+    means_.save(a, "means");
+    curve_.save(a, "curve");
+  }
+  void load(ArchiveReader& a) override {
+    classes_ = a.numbers("classes");
+    squares_ = a.numbers("squares");
+    mass_so_far_ = a.numbers("mass_so_far");
+    last_rate_ = a.number("last_rate");
+    means_.load(a, "means");
+    curve_.load(a, "curve");
+  }
+
+ private:
+  static constexpr double k_rounding = 1e-12;
+  // Columns of a group: number forward, backward, net; mass forward, backward, net.
+  static constexpr std::size_t k_ways = 3;
+  static constexpr std::size_t k_net = 2;
+  static constexpr std::size_t k_mass = 1;
+  static constexpr std::size_t k_columns = 2 * k_ways;
+
+  void resize(std::size_t groups) {
+    means_ = BatchMeans(k_columns * groups);
+    squares_.assign(k_columns * groups, 0.0);
+  }
+
+  /// +1 along the normal, -1 against it, 0: not through the rectangle.
+  [[nodiscard]] int passage_of(const Path& path) const {
+    const Passage p =
+        passage(dot(path.before - p_.point, p_.normal), dot(path.now - p_.point, p_.normal));
+    if (p.direction == 0) return 0;
+    const Vec3 x = path.at(p.fraction);
+    for (int d = 0; d < 3; ++d) {
+      if (x[d] < p_.min[d] - tolerance_ || x[d] > p_.max[d] + tolerance_) return 0;
+    }
+    return p.direction;
+  }
+
+  void count(std::size_t group, int direction, double weight, double mass, bool is_steady) {
+    const double amounts[2] = {weight, weight * mass};
+    for (std::size_t q = 0; q < 2; ++q) {
+      const std::size_t column = k_columns * group + k_ways * q;
+      const std::size_t way = direction > 0 ? 0 : 1;
+      values_[column + way] += amounts[q];
+      values_[column + k_net] += direction * amounts[q];
+      if (!is_steady) continue;
+      squares_[column + way] += amounts[q] * amounts[q];
+      squares_[column + k_net] += amounts[q] * amounts[q];
+    }
+  }
+
+  void rates_of(const std::string& prefix, std::size_t group, FigureSink& sink) const {
+    static constexpr const char* k_way_names[k_ways] = {"forward/", "backward/", "net/"};
+    static constexpr const char* k_quantities[2] = {"number_rate", "mass_rate"};
+    static constexpr const char* k_units[2] = {"1/s", "kg/s"};
+    const double duration = means_.duration();
+    for (std::size_t way = 0; way < k_ways; ++way) {
+      for (std::size_t q = 0; q < 2; ++q) {
+        const std::size_t first = k_columns * group + k_ways * q;
+        // Both directions together tell how many grains a net rate rests on.
+        const double counted =
+            way == k_net ? means_.mean(first) + means_.mean(first + 1) : means_.mean(first + way);
+        sink.figure(prefix + k_way_names[way] + k_quantities[q], means_.mean(first + way),
+                    k_units[q],
+                    formula::rate_error(means_.error(first + way), counted * duration,
+                                        squares_[first + way], duration));
+      }
+    }
+  }
+
+  Parameters p_;
+  double tolerance_ = 0.0;
+  std::vector<double> classes_;
+  std::vector<double> values_;  ///< what passed during one sample; no state between calls
+  std::vector<double> squares_ = std::vector<double>(k_columns, 0.0);
+  std::vector<double> mass_so_far_ = {0.0, 0.0};  ///< [kg] forward, backward, since the start
+  double last_rate_ = 0.0;                        ///< [kg/s] net, during the last sample
+  BatchMeans means_{k_columns};
+  ThinnedCurve curve_;
+};
+
+}  // namespace
+
+DUST_PLUGIN(registrar) { registrar.add<PlaneFlux>(); }

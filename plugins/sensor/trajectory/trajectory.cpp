@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trajectory.hpp"
+
+#include "dust/sdk/plugin.hpp"
+#include "dust/sdk/sampling.hpp"
+
+namespace {
+
+using namespace dust::sdk;
+namespace formula = dust::model::trajectory;
+
+/// Everything that crossed one level, in order of time.
+struct Crossings {
+  std::vector<double> place;   ///< [m] along the belt, from A
+  std::vector<double> speed;   ///< [m/s] along gravity
+  std::vector<double> weight;  ///< real grains per computed one
+  std::vector<std::int64_t> size_class;
+  std::vector<std::int64_t> until;  ///< number of crossings after each sample taken
+  double weight_sum = 0.0;
+  double moment = 0.0;  ///< [m] sum of weight * place
+
+  void add(double x, double v, double w, std::size_t c) {
+    place.push_back(x);
+    speed.push_back(v);
+    weight.push_back(w);
+    size_class.push_back(static_cast<std::int64_t>(c));
+    weight_sum += w;
+    moment += w * x;
+  }
+  void end_sample() { until.push_back(static_cast<std::int64_t>(place.size())); }
+
+  void save(ArchiveWriter& a, const std::string& name) const {
+    const double sums[] = {weight_sum, moment};
+    a.numbers(name + "_place", place);
+    a.numbers(name + "_speed", speed);
+    a.numbers(name + "_weight", weight);
+    a.numbers(name + "_sums", sums);
+    a.integers(name + "_class", size_class);
+    a.integers(name + "_until", until);
+  }
+  void load(ArchiveReader& a, const std::string& name) {
+    place = a.numbers(name + "_place");
+    speed = a.numbers(name + "_speed");
+    weight = a.numbers(name + "_weight");
+    const std::vector<double> sums = a.numbers(name + "_sums");
+    weight_sum = sums.at(0);
+    moment = sums.at(1);
+    size_class = a.integers(name + "_class");
+    until = a.integers(name + "_until");
+  }
+};
+
+class Trajectory final : public Sensor {
+ public:
+  struct Parameters {
+    Vec3 from;
+    std::vector<double> drops;
+    Vec3 along{1.0, 0.0, 0.0};
+    double steady_after = 0.0;
+    double coarser_than = 0.0;
+    double finer_than = 0.0;
+  };
+
+  static ParameterSchema schema() {
+    SchemaOf<Parameters> s;
+    s.vector(&Parameters::from, "from", dimension::length,
+             "Point A where the belt meets the head pulley; places and drops count from it.")
+        .symbol("A");
+    s.numbers(&Parameters::drops, "drops", dimension::length,
+              "Distances below A, along gravity, at which the stream is measured.")
+        .symbol("h")
+        .above(0);
+    s.vector(&Parameters::along, "along", dimension::none,
+             "Direction of the belt; its part across gravity is used.")
+        .optional();
+    s.number(&Parameters::steady_after, "steady_after", dimension::time,
+             "Time from which crossings count.")
+        .at_least(0)
+        .optional();
+    s.number(&Parameters::coarser_than, "coarser_than", dimension::length,
+             "Only grains of a larger diameter count; 0 = all.")
+        .at_least(0)
+        .optional();
+    s.number(&Parameters::finer_than, "finer_than", dimension::length,
+             "Only grains of a smaller diameter count; 0 = all.")
+        .at_least(0)
+        .optional();
+    return s.build();
+  }
+
+  static ModelInfo describe() {
+    return {"",
+            "trajectory",
+            "1.0",
+            "Edges and middle of a falling stream at given drops: quantiles of where grains cross.",
+            R"(Q(p) = \inf\{x : \sum_{x_i \le x} w_i \ge p \sum w_i\})",
+            "quantiles: Hyndman and Fan 1996, definition 5, doi:10.1080/00031305.1996.10473566; "
+            "errors: Woodruff 1952, doi:10.1080/01621459.1952.10483443",
+            {}};
+  }
+
+  explicit Trajectory(const Parameters& p) : p_(p), levels_(p.drops.size()) {
+    if (p.drops.empty()) throw ParameterError("'drops' needs at least one length");
+    for (std::size_t d = 1; d < p.drops.size(); ++d) {
+      if (p.drops[d] <= p.drops[d - 1]) throw ParameterError("'drops' must ascend");
+    }
+    if (!(norm(p.along) > 0.0)) throw ParameterError("'along' must not be zero");
+  }
+
+  void observe(const WorldView& world) override {
+    if (classes_.empty()) {
+      classes_.assign(world.class_diameters.begin(), world.class_diameters.end());
+    }
+    if (!is_after(world, p_.steady_after)) return;
+    const double gravity = norm(world.gravity);
+    if (!(gravity > 0.0)) {
+      throw ModelError("the trajectory sensor needs gravity to know which way is down");
+    }
+    const Vec3 down = world.gravity / gravity;
+    const Vec3 across = p_.along - dot(p_.along, down) * down;
+    if (!(norm(across) > 0.0)) throw ModelError("'along' of the trajectory lies along gravity");
+    const Vec3 along = across / norm(across);
+
+    const GrainColumns& g = world.grains;
+    for (std::size_t i = 0; i < g.id.size(); ++i) {
+      if (!is_chosen(g.diameter[i], p_.coarser_than, p_.finer_than)) continue;
+      const Path path = path_of(world, i);
+      const double depth_before = dot(path.before - p_.from, down);
+      const double depth_now = dot(path.now - p_.from, down);
+      const double place_before = dot(path.before - p_.from, along);
+      const double place_now = dot(path.now - p_.from, along);
+      const std::size_t c = nearest_class(g.diameter[i], classes_);
+      const Vec3 velocity{g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]};
+      if (depth_now <= 0.0 && passage(place_before, place_now).direction > 0) {
+        at_a_.add(depth_now, dot(velocity, down), g.weight[i], c);
+      }
+      for (std::size_t d = 0; d < levels_.size(); ++d) {
+        const Passage p = passage(depth_before - p_.drops[d], depth_now - p_.drops[d]);
+        if (p.direction <= 0) continue;
+        // Speed where the level is met: back along the acceleration at the end of the interval.
+        const Vec3 force{g.force_x[i], g.force_y[i], g.force_z[i]};
+        const double since = (1.0 - p.fraction) * world.interval;
+        const double speed = dot(velocity - (since / g.mass[i]) * force, down);
+        levels_[d].add(place_before + p.fraction * (place_now - place_before), speed, g.weight[i],
+                       c);
+      }
+    }
+    at_a_.end_sample();
+    for (Crossings& level : levels_) level.end_sample();
+  }
+
+  void series(FigureSink& sink) const override {
+    for (std::size_t d = 0; d < levels_.size(); ++d) {
+      const Crossings& level = levels_[d];
+      const double mean = level.weight_sum > 0.0 ? level.moment / level.weight_sum : 0.0;
+      sink.figure(drop_name(d) + "/mean", mean, "m");
+      sink.figure(drop_name(d) + "/number", level.weight_sum, "1");
+    }
+  }
+
+  void summary(FigureSink& sink) const override {
+    for (std::size_t d = 0; d < levels_.size(); ++d) {
+      const Crossings& level = levels_[d];
+      const std::string name = drop_name(d) + "/";
+      sink.figure(name + "crossings", static_cast<double>(level.place.size()), "1");
+      sink.figure(name + "number", level.weight_sum, "1");
+      for (const auto& [p, quantile] : k_quantiles) {
+        figure(sink, name + quantile, level, level.place, p, "m", -1);
+      }
+      figure(sink, name + "median_vertical_speed", level, level.speed, 0.5, "m/s", -1);
+      for (std::size_t c = 0; c < classes_.size(); ++c) {
+        if (!is_chosen(classes_[c], p_.coarser_than, p_.finer_than)) continue;
+        figure(sink, name + class_name(classes_[c]) + "/median", level, level.place, 0.5, "m",
+               static_cast<std::int64_t>(c));
+      }
+    }
+    std::vector<double> upright(at_a_.speed);
+    for (double& v : upright) v = std::abs(v);
+    sink.figure("at_a/crossings", static_cast<double>(at_a_.place.size()), "1");
+    figure(sink, "at_a/median_vertical_speed", at_a_, upright, 0.5, "m/s", -1);
+  }
+
+  void report(ReportSink& sink) const override {
+    std::vector<double> depth;
+    for (const double drop : p_.drops) depth.push_back(-drop);
+    for (const auto& [p, quantile] : k_quantiles) {
+      std::vector<double> places;
+      for (const Crossings& level : levels_) {
+        places.push_back(formula::quantile(sample_of(level, level.place, -1), p));
+      }
+      sink.curve("Trajectory of the stream", "distance from A [m]", "height above A [m]", quantile,
+                 places, depth);
+    }
+    const std::vector<std::string> columns = {"drop [m]", "5 % [m]", "median [m]", "95 % [m]",
+                                              "crossings"};
+    for (std::size_t d = 0; d < levels_.size(); ++d) {
+      const formula::SortedSample sample = sample_of(levels_[d], levels_[d].place, -1);
+      const double values[] = {p_.drops[d], formula::quantile(sample, 0.05),
+                               formula::quantile(sample, 0.5), formula::quantile(sample, 0.95),
+                               static_cast<double>(sample.value.size())};
+      sink.row("Stream below A", columns, values);
+    }
+  }
+
+  void save(ArchiveWriter& a) const override {
+    a.numbers("classes", classes_);
+    at_a_.save(a, "at_a");
+    for (std::size_t d = 0; d < levels_.size(); ++d) levels_[d].save(a, level_name(d));
+  }
+  void load(ArchiveReader& a) override {
+    classes_ = a.numbers("classes");
+    at_a_.load(a, "at_a");
+    for (std::size_t d = 0; d < levels_.size(); ++d) levels_[d].load(a, level_name(d));
+  }
+
+ private:
+  static constexpr std::size_t k_blocks = 20;
+  static constexpr std::pair<double, const char*> k_quantiles[] = {
+      {0.05, "quantile_5"}, {0.5, "median"}, {0.95, "quantile_95"}};
+
+  [[nodiscard]] std::string drop_name(std::size_t d) const {
+    return "drop_" + name_of(p_.drops[d] * 1e3) + "_mm";
+  }
+  static std::string level_name(std::size_t d) { return "level_" + std::to_string(d); }
+
+  /// Blocks of equal numbers of samples taken, hence of equal time.
+  static std::size_t blocks_of(const Crossings& level) {
+    return std::min(k_blocks, level.until.size());
+  }
+
+  /// `values` of one size class, or of all for `size_class` -1.
+  static formula::SortedSample sample_of(const Crossings& level, std::span<const double> values,
+                                         std::int64_t size_class) {
+    std::vector<double> chosen;
+    std::vector<double> weights;
+    std::vector<std::size_t> blocks;
+    const std::size_t samples = level.until.size();
+    std::size_t i = 0;
+    for (std::size_t s = 0; s < samples; ++s) {
+      const std::size_t block = s * blocks_of(level) / samples;
+      for (; i < static_cast<std::size_t>(level.until[s]); ++i) {
+        if (size_class >= 0 && level.size_class[i] != size_class) continue;
+        chosen.push_back(values[i]);
+        weights.push_back(level.weight[i]);
+        blocks.push_back(block);
+      }
+    }
+    return formula::sorted(chosen, weights, blocks);
+  }
+
+  static void figure(FigureSink& sink, const std::string& name, const Crossings& level,
+                     std::span<const double> values, double p, const char* unit,
+                     std::int64_t size_class) {
+    const formula::SortedSample sample = sample_of(level, values, size_class);
+    sink.figure(name, formula::quantile(sample, p), unit,
+                formula::quantile_error(sample, p, blocks_of(level)));
+  }
+
+  Parameters p_;
+  std::vector<double> classes_;
+  std::vector<Crossings> levels_;
+  Crossings at_a_;
+};
+
+}  // namespace
+
+DUST_PLUGIN(registrar) { registrar.add<Trajectory>(); }

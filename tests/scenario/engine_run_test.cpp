@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/engine.hpp"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+
+using dust::test::engine;
+using dust::test::json_text;
+using dust::test::read_file;
+using dust::test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string k_scenario = DUST_SOURCE "/tests/scenario/small_transfer.yaml";
+const std::string k_short = "time.end=0.012 s";
+
+}  // namespace
+
+TEST_CASE("a run shall leave every file of the contract and balance its grains") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  const auto run = engine({"run", k_scenario, "-o", out, "--set", k_short, "--quiet"});
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  for (const char* file : {"scenario.yaml", "summary.json", "series.csv", "results.h5",
+                           "particles.xdmf", "fluid.xdmf", "walls.xdmf", "checkpoint.h5",
+                           "run.log", "report.html"}) {
+    CAPTURE(file);
+    REQUIRE(fs::exists(out / file));
+    CHECK(fs::file_size(out / file) > 0);
+  }
+  const fs::path summary = out / "summary.json";
+  CHECK(json_text(summary, "status") == "finished");
+  CHECK(json_text(summary, "removed") == "0");
+  CHECK(std::stoll(json_text(summary, "emitted")) > 300);  // 12 ms of 39,000 grains per second
+  CHECK(std::stoll(json_text(summary, "emitted")) ==
+        std::stoll(json_text(summary, "in_domain")) + std::stoll(json_text(summary, "left")));
+}
+
+TEST_CASE("the written scenario shall give the same bits on one and on two threads") {
+  const TemporaryFolder folder;
+  const fs::path first = folder / "first";
+  REQUIRE(engine({"run", k_scenario, "-o", first, "--set", k_short, "--threads", "1", "--quiet"})
+              .status == 0);
+  const auto hash = json_text(first / "summary.json", "state_sha256");
+  CHECK(hash.size() == 64);
+  const fs::path second = folder / "second";
+  REQUIRE(engine({"run", (first / "scenario.yaml"), "-o", second, "--threads", "2", "--quiet"})
+              .status == 0);
+  CHECK(json_text(second / "summary.json", "state_sha256") == hash);
+  // Another seed is another stream: the comparison above can fail.
+  const fs::path other = folder / "other";
+  REQUIRE(engine({"run", k_scenario, "-o", other, "--set", k_short, "--set", "seed=2", "--quiet"})
+              .status == 0);
+  CHECK(json_text(other / "summary.json", "state_sha256") != hash);
+}
+
+TEST_CASE("grains alone shall run from the same scenario") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  const auto run =
+      engine({"run", k_scenario, "-o", out, "--set", k_short, "--set", "fluid=none", "--quiet"});
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  CHECK(json_text(out / "summary.json", "fluid_steps") == "0");
+}
+
+TEST_CASE("a used folder shall not be overwritten unless forced") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  fs::create_directories(out);
+  { std::ofstream(out / "precious") << "data"; }
+  const auto refused = engine({"run", k_scenario, "-o", out, "--set", k_short, "--quiet"});
+  CHECK(refused.status == 2);
+  CHECK(refused.err.find("--force") != std::string::npos);
+  CHECK(refused.err.find("--resume") != std::string::npos);
+  CHECK(read_file(out / "precious") == "data");
+}
+
+TEST_CASE("a broken scenario shall exit with 2, say where, and leave no folder") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  const auto run = engine({"run", k_scenario, "-o", out, "--set", "fluid.viscocity=1"});
+  CHECK(run.status == 2);
+  CHECK(run.err.find("viscosity") != std::string::npos);
+  CHECK_FALSE(fs::exists(out));
+}
+
+TEST_CASE("the graph shall be printed as DOT with the nodes of the cycle") {
+  const auto run = engine({"graph", k_scenario});
+  REQUIRE(run.status == 0);
+  for (const char* name : {"voidage", "fluid", "dem_cycle", "contact", "force", "integration"}) {
+    CHECK(run.out.find(name) != std::string::npos);
+  }
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/engine.hpp"
+
+#include <doctest/doctest.h>
+
+#include <csignal>
+#include <filesystem>
+
+using dust::test::engine;
+using dust::test::engine_interrupted;
+using dust::test::json_text;
+using dust::test::read_file;
+using dust::test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string k_scenario = DUST_SOURCE "/tests/scenario/small_transfer.yaml";
+const std::string k_short = "time.end=0.024 s";
+
+}  // namespace
+
+TEST_CASE("an interrupted run shall go on to the same bits and the same series") {
+  const TemporaryFolder folder;
+  const fs::path whole = folder / "whole";
+  REQUIRE(engine({"run", k_scenario, "-o", whole, "--set", k_short, "--quiet"}).status == 0);
+  const auto hash = json_text(whole / "summary.json", "state_sha256");
+
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    CAPTURE(signal);
+    const fs::path cut = folder / ("cut" + std::to_string(signal));
+    // Past the frame at 10 ms, so that a kill finds a checkpoint in mid-run.
+    const auto stopped = engine_interrupted(
+        {"run", k_scenario, "-o", cut, "--set", k_short, "--threads", "1", "--quiet"}, signal,
+        cut / "series.csv", 15);
+    CHECK(stopped.status == 128 + signal);
+    if (signal != SIGKILL) CHECK(json_text(cut / "summary.json", "status") == "interrupted");
+    const auto resumed = engine({"run", k_scenario, "-o", cut, "--set", k_short, "--resume",
+                                 "--threads", "2", "--quiet"});
+    INFO(resumed.err);
+    REQUIRE(resumed.status == 0);
+    CHECK(json_text(cut / "summary.json", "state_sha256") == hash);
+    CHECK(read_file(cut / "series.csv") == read_file(whole / "series.csv"));
+  }
+}
+
+TEST_CASE("a finished run shall be continued to a later end with the bits of the whole") {
+  const TemporaryFolder folder;
+  const fs::path parts = folder / "parts";
+  const fs::path whole = folder / "whole";
+  REQUIRE(engine({"run", k_scenario, "-o", parts, "--set", "time.end=8 ms", "--quiet"}).status == 0);
+  REQUIRE(engine({"run", k_scenario, "-o", parts, "--set", "time.end=14 ms", "--resume", "--quiet"})
+              .status == 0);
+  REQUIRE(engine({"run", k_scenario, "-o", whole, "--set", "time.end=14 ms", "--quiet"}).status == 0);
+  CHECK(json_text(parts / "summary.json", "state_sha256") ==
+        json_text(whole / "summary.json", "state_sha256"));
+}
+
+TEST_CASE("resuming with another scenario shall be refused with the difference") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  REQUIRE(engine({"run", k_scenario, "-o", out, "--set", "time.end=4 ms", "--quiet"}).status == 0);
+  const auto run = engine({"run", k_scenario, "-o", out, "--set", "time.end=8 ms", "--set",
+                           "bodies.belt.speed=0.4 m/s", "--resume", "--quiet"});
+  CHECK(run.status == 2);
+  CHECK(run.err.find("speed") != std::string::npos);
+}
+
+TEST_CASE("resuming without a checkpoint shall be refused with a remedy") {
+  const TemporaryFolder folder;
+  const auto run = engine({"run", k_scenario, "-o", folder / "none", "--resume"});
+  CHECK(run.status == 2);
+  CHECK(run.err.find("checkpoint") != std::string::npos);
+}

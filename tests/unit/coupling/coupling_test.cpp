@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dust/sdk/error.hpp"
+#include "unit/coupling/world.hpp"
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <numbers>
+
+namespace {
+
+using namespace dust;
+using test::Archive;
+using test::Numbers;
+using test::World;
+
+// Rounding of sums over a thousand grains and their faces.
+constexpr double k_sum = 1e-12;
+constexpr double k_step = 1e-3;
+
+/// A smooth velocity in a box of 20 mm, with dust and sand scattered over part of it.
+World::Choice box(bool with_body) {
+  World::Choice choice;
+  choice.max = {0.02, 0.02, 0.02};
+  choice.cells = {14, 12, 13};
+  if (with_body) {
+    choice.open = [](int i, int, int k) {
+      return k < 4 && i > 6 ? 0.0 : k == 4 && i > 6 ? 0.6 : 1.0;
+    };
+  }
+  return choice;
+}
+sdk::Vec3 swirl(sdk::Vec3 p) {
+  return {0.8 + std::sin(300 * p.z), 0.3 * std::cos(200 * p.x), -0.5 + std::sin(150 * p.y)};
+}
+void scatter(World& world, int count) {
+  Numbers random;
+  for (int g = 0; g < count; ++g) {
+    const bool is_dust = g % 3 == 0;
+    world.grains.add(
+        {random.between(0.002, 0.018), random.between(0.002, 0.018), random.between(0.008, 0.018)},
+        {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)},
+        is_dust ? 1e-5 : random.between(3e-4, 6e-4), test::k_sand, is_dust ? 0.05 : 1.0);
+  }
+}
+
+/// One fluid step with the grains in free flight, refreshed as often as asked for.
+void advance(World& world, sdk::Vec3 gravity = {0, 0, -9.81}) {
+  const int refreshes = static_cast<int>(std::lround(k_step / world.coupling->refresh_interval()));
+  for (int n = 0; n < refreshes; ++n) {
+    world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
+    world.grains.move(k_step / refreshes, gravity);
+  }
+}
+
+TEST_CASE("the force on the fluid shall be opposite to that on the grains in each exchange") {
+  for (const bool with_body : {false, true}) {
+    World world(box(with_body));
+    world.set(world.velocity, swirl);
+    scatter(world, 900);
+    world.coupling->map(world.grains.rows(), k_step);
+    world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
+    CHECK(world.coupling->report().largest_imbalance > 0.0);
+    CHECK(world.coupling->report().largest_imbalance < k_sum);
+    CHECK(world.coupling->report().unpaired_forces == 0);
+  }
+}
+
+TEST_CASE("the sums over time of what grains received and the fluid got shall be opposite") {
+  for (const bool with_body : {false, true}) {
+    World world(box(with_body));
+    world.set(world.velocity, swirl);
+    // A pressure gradient acts on the grains too; its part is not drag and must not be exchanged.
+    const sdk::Vec3 gradient{300, 0, 900};
+    world.set(world.stress, [&](sdk::Vec3) { return gradient; });
+    scatter(world, 900);
+    sdk::Vec3 on_grains;
+    sdk::Vec3 on_fluid;
+    double scale = 0.0;
+    const auto give = [&] {
+      const sdk::Vec3 force = world.force_on_fluid();
+      on_fluid += k_step * force;
+      scale += k_step * norm(force);
+    };
+    for (int step = 0; step < 4; ++step) {
+      world.coupling->map(world.grains.rows(), k_step);
+      give();
+      advance(world);
+      for (std::size_t g = 0; g < world.grains.count(); ++g) {
+        const double volume = sdk::sphere_volume(2 * world.grains.position[4 * g + 3]);
+        for (int d = 0; d < 3; ++d) {
+          on_grains[d] += world.grains.weight[g] *
+                          (world.grains.impulse[4 * g + d] - volume * gradient[d] * k_step);
+        }
+      }
+      world.coupling->collect(world.grains.rows(), k_step);
+      // Rows may be in any order, and grains leave.
+      world.grains.swap(3, 500);
+      world.grains.swap(20, 21);
+      world.grains.remove_last();
+    }
+    // What the exchange of a step leaves over is paid in the next: with the last grain gone, all.
+    world.coupling->map({}, k_step);
+    give();
+    REQUIRE(scale > 0.0);
+    CHECK(norm(on_grains + on_fluid) < k_sum * scale);
+    CHECK(norm(on_grains) > 1e-3 * scale);
+  }
+}
+
+TEST_CASE("a stream that moves with the grains shall neither drag them nor feel them") {
+  World world(box(false));
+  const sdk::Vec3 speed{0.8, -0.1, 0.4};
+  world.set(world.velocity, [&](sdk::Vec3) { return speed; });
+  scatter(world, 600);
+  for (std::size_t g = 0; g < world.grains.count(); ++g) {
+    for (int d = 0; d < 3; ++d) world.grains.velocity[4 * g + d] = speed[d];
+  }
+  world.coupling->map(world.grains.rows(), k_step);
+  CHECK(world.coupling->report().smallest_void_fraction < 0.95);
+  world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
+  for (std::size_t g = 0; g < world.grains.count(); ++g) {
+    for (int d = 0; d < 3; ++d) {
+      REQUIRE(world.grains.action[4 * g + d] == doctest::Approx(speed[d]).epsilon(1e-14));
+    }
+  }
+  for (int d = 0; d < 3; ++d) {
+    double largest = 0.0;
+    double scale = 0.0;
+    for (std::size_t f = 0; f < world.grid.size; ++f) {
+      const double source = world.coupling->exchange().source.component[d][f];
+      largest = std::max(
+          largest,
+          std::abs(source - world.coupling->exchange().coefficient.component[d][f] * speed[d]));
+      scale = std::max(scale, std::abs(source));
+    }
+    CHECK(scale > 0.0);
+    CHECK(largest < 1e-13 * scale);
+  }
+}
+
+TEST_CASE("k grains of weight 1/k at one place shall act as one grain") {
+  constexpr int k_copies = 20;
+  World one(box(true));
+  World many(box(true));
+  for (World* world : {&one, &many}) {
+    world->set(world->velocity, swirl);
+    const int copies = world == &one ? 1 : k_copies;
+    Numbers random;
+    for (int g = 0; g < 50; ++g) {
+      const sdk::Vec3 place{random.between(0, 0.02), random.between(0, 0.02),
+                            random.between(0.008, 0.02)};
+      for (int n = 0; n < copies; ++n) {
+        world->grains.add(place, {0.1, 0.2, -0.5}, 2e-4, test::k_sand, 1.0 / copies);
+      }
+    }
+    for (int step = 0; step < 2; ++step) {
+      world->coupling->map(world->grains.rows(), k_step);
+      advance(*world);
+      world->coupling->collect(world->grains.rows(), k_step);
+    }
+    world->coupling->map(world->grains.rows(), k_step);
+  }
+  for (int d = 0; d < 3; ++d) {
+    double scale = 0.0;
+    double largest = 0.0;
+    for (std::size_t f = 0; f < one.grid.size; ++f) {
+      const double a = one.coupling->exchange().source.component[d][f];
+      const double b = many.coupling->exchange().source.component[d][f];
+      scale = std::max(scale, std::abs(a));
+      largest = std::max(largest, std::abs(a - b));
+    }
+    CHECK(scale > 0.0);
+    CHECK(largest < 1e-11 * scale);  // sums of 20 terms in another order, twice fed back
+  }
+  for (int d = 0; d < 3; ++d) {
+    CHECK(one.grains.velocity[d] == doctest::Approx(many.grains.velocity[d]).epsilon(k_sum));
+  }
+}
+
+struct Bits {
+  fluid::CellField eps;
+  std::array<std::vector<double>, 6> fields;
+  std::vector<double> position, velocity;
+  bool operator==(const Bits&) const = default;
+};
+Bits bits_of(const World& world) {
+  Bits b;
+  b.eps = world.coupling->void_fraction();
+  for (std::size_t d = 0; d < 3; ++d) {
+    b.fields[d] = world.coupling->exchange().coefficient.component[d];
+    b.fields[d + 3] = world.coupling->exchange().source.component[d];
+  }
+  b.position = world.grains.position;
+  b.velocity = world.grains.velocity;
+  return b;
+}
+
+TEST_CASE("one and two threads shall give the same bits") {
+  std::array<Bits, 2> results;
+  for (const std::size_t threads : {1, 2}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    World world(box(true));
+    world.set(world.velocity, swirl);
+    scatter(world, 5000);
+    for (int step = 0; step < 2; ++step) {
+      world.coupling->map(world.grains.rows(), k_step);
+      advance(world);
+      world.coupling->collect(world.grains.rows(), k_step);
+    }
+    world.coupling->map(world.grains.rows(), k_step);
+    results[threads - 1] = bits_of(world);
+  }
+  CHECK(results[0] == results[1]);
+}
+
+TEST_CASE("a coupling resumed from an archive shall give the same bits") {
+  World world(box(true));
+  world.set(world.velocity, swirl);
+  scatter(world, 600);
+  for (int step = 0; step < 2; ++step) {
+    world.coupling->map(world.grains.rows(), k_step);
+    advance(world);
+    world.coupling->collect(world.grains.rows(), k_step);
+  }
+  world.grains.remove_last();
+  Archive archive;
+  world.coupling->save(archive);
+  World resumed(box(true));
+  resumed.velocity = world.velocity;
+  resumed.grains = world.grains;
+  resumed.coupling->load(archive);
+  CHECK(resumed.coupling->void_fraction() == world.coupling->void_fraction());
+  CHECK(resumed.coupling->report().moved_shares == world.coupling->report().moved_shares);
+  for (World* w : {&world, &resumed}) {
+    w->coupling->map(w->grains.rows(), k_step);
+    advance(*w);
+    w->coupling->collect(w->grains.rows(), k_step);
+    w->coupling->map(w->grains.rows(), k_step);
+  }
+  CHECK(bits_of(world) == bits_of(resumed));
+}
+
+TEST_CASE("grains shall feel the pressure gradient on their volume") {
+  for (const char* set : {"I", "II"}) {
+    World::Choice choice = box(false);
+    choice.momentum_set = set;
+    World world(choice);
+    // Fluid at rest with the full hydrostatic pressure: grad p = rho g, force = buoyancy.
+    const double gradient = test::k_air * 9.81;
+    world.set(world.stress, [&](sdk::Vec3) { return sdk::Vec3{0, 0, gradient}; });
+    world.grains.add({0.011, 0.0093, 0.0081}, {}, 5e-4);
+    world.coupling->map(world.grains.rows(), k_step);
+    world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
+    const double* action = world.grains.action.data();
+    const double force = action[3] * action[2] / world.grains.velocity[3];
+    CHECK(force == doctest::Approx(gradient * sdk::sphere_volume(5e-4)).epsilon(1e-10));
+    CHECK(action[0] == 0.0);
+  }
+}
+
+TEST_CASE("without feedback the fluid shall feel nothing and see no grains") {
+  World::Choice choice = box(false);
+  choice.is_one_way = true;
+  World world(choice);
+  world.set(world.velocity, swirl);
+  scatter(world, 100);
+  world.coupling->map(world.grains.rows(), k_step);
+  advance(world);
+  world.coupling->collect(world.grains.rows(), k_step);
+  world.coupling->map(world.grains.rows(), k_step);
+  const Bits bits = bits_of(world);
+  CHECK(*std::min_element(bits.eps.begin(), bits.eps.end()) == 1.0);
+  for (const auto& field : bits.fields) {
+    CHECK(std::all_of(field.begin(), field.end(), [](double v) { return v == 0.0; }));
+  }
+  CHECK(world.grains.action[3] > 0.0);
+  CHECK(world.grains.impulse[0] == 0.0);
+}
+
+TEST_CASE("refreshes shall follow the shortest relaxation time, at most 64 per fluid step") {
+  World::Choice choice;
+  choice.max = {0.1, 0.1, 0.1};  // cells of 25 mm: crossing asks for one refresh
+  World world(choice);
+  world.grains.add({0.05, 0.05, 0.05}, {}, 6e-4);
+  world.coupling->map(world.grains.rows(), k_step);
+  CHECK(world.coupling->refresh_interval() == k_step);
+  world.grains.add({0.05, 0.05, 0.05}, {}, 1e-5);  // 0.818 ms: 4 x 1 / 0.818 = 4.9
+  world.coupling->map(world.grains.rows(), k_step);
+  CHECK(world.coupling->refresh_interval() == k_step / 5);
+  world.grains.add({0.05, 0.05, 0.05}, {}, 1e-6);
+  world.coupling->map(world.grains.rows(), k_step);
+  CHECK(world.coupling->refresh_interval() == k_step / 64);
+  choice.max = {5e-3, 5e-3, 5e-3};  // cells of 1.25 mm: 8 x 2 m/s x 1 ms / 1.25 mm = 12.8
+  World fine(choice);
+  fine.grains.add({2e-3, 2e-3, 2e-3}, {}, 6e-4);
+  fine.coupling->map(fine.grains.rows(), k_step);
+  CHECK(fine.coupling->refresh_interval() == k_step / 13);
+}
+
+TEST_CASE("the momentum exchange of the cells shall be the force on the fluid") {
+  World world(box(true));
+  world.set(world.velocity, swirl);
+  scatter(world, 900);
+  world.coupling->map(world.grains.rows(), k_step);
+  world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
+  std::vector<float> cells;
+  world.coupling->momentum_exchange(cells);
+  REQUIRE(cells.size() == 3 * 14 * 12 * 13);
+  sdk::Vec3 sum;
+  for (std::size_t n = 0; n < cells.size(); ++n) {
+    sum[static_cast<int>(n % 3)] += cells[n] * world.grid.cell_volume();
+  }
+  const sdk::Vec3 force = world.force_on_fluid();
+  CHECK(norm(sum - force) < 1e-5 * norm(force));  // single precision
+  CHECK(norm(force) > 0.0);
+}
+
+TEST_CASE("momentum set III shall be refused with the choices") {
+  World::Choice choice;
+  choice.momentum_set = "III";
+  CHECK_THROWS_WITH_AS(World{choice}, doctest::Contains("choose I or II"), sdk::ModelError);
+}
+
+}  // namespace

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/error.hpp"
+#include "dust/sdk/error.hpp"
+#include "unit/coupling/world.hpp"
+
+#include <doctest/doctest.h>
+
+namespace {
+
+using namespace dust;
+using test::Numbers;
+using test::World;
+
+// Rounding of sums of a few thousand shares.
+constexpr double k_sum = 1e-12;
+
+double mapped_volume(const World& world) {
+  double sum = 0.0;
+  world.for_cells([&](int i, int j, int k) {
+    const std::ptrdiff_t c = world.grid.index(i, j, k);
+    sum += (1.0 - world.coupling->void_fraction()[c]) * world.open[c] * world.grid.cell_volume();
+  });
+  return sum;
+}
+
+TEST_CASE("the mapped volume shall be that of the grains, at walls, corners and periodic sides") {
+  for (const char* rule : {"centre", "divided"}) {
+    for (const bool periodic : {false, true}) {
+      World::Choice choice;
+      choice.max = {0.01, 0.012, 0.014};
+      choice.cells = {10, 10, 10};
+      choice.periodic = {periodic, periodic, false};
+      choice.voidage = rule;
+      World world(choice);
+      Numbers random;
+      for (int g = 0; g < 2000; ++g) {
+        world.grains.add(
+            {random.between(0, 0.01), random.between(0, 0.012), random.between(0, 0.014)}, {},
+            random.between(1e-5, 5e-4), 2650, random.between(0.05, 1));
+      }
+      world.grains.add({0, 0, 0}, {}, 5e-4);
+      world.grains.add({0.01, 0.012, 0.014}, {}, 5e-4);
+      world.coupling->map(world.grains.rows(), 1e-3);
+      CHECK(mapped_volume(world) == doctest::Approx(world.grains.solid_volume()).epsilon(k_sum));
+      CHECK(world.coupling->report().moved_shares > 0);
+      CHECK(world.coupling->report().unplaced_grains == 0);
+    }
+  }
+}
+
+TEST_CASE("a grain across a periodic side shall be mapped as the same grain inside") {
+  World::Choice choice;
+  choice.cells = {8, 8, 8};
+  choice.periodic = {true, true, true};
+  World inside(choice);
+  World across(choice);
+  inside.grains.add({0.26, 0.51, 0.49}, {}, 0.06);
+  across.grains.add({0.01, 0.01, 0.99}, {}, 0.06);
+  inside.coupling->map(inside.grains.rows(), 1e-3);
+  across.coupling->map(across.grains.rows(), 1e-3);
+  int cells = 0;
+  inside.for_cells([&](int i, int j, int k) {
+    const double a = inside.coupling->void_fraction()[inside.grid.index(i, j, k)];
+    const double b =
+        across.coupling->void_fraction()[across.grid.index((i + 6) % 8, (j + 4) % 8, (k + 4) % 8)];
+    CHECK(a == doctest::Approx(b).epsilon(k_sum));
+    cells += a < 1.0;
+  });
+  CHECK(cells == 8);
+}
+
+TEST_CASE("closed cells shall hold no grain volume and cut cells only beside their open part") {
+  for (const char* rule : {"centre", "divided"}) {
+    World::Choice choice;
+    choice.max = {0.01, 0.01, 0.01};
+    choice.cells = {10, 10, 10};
+    choice.voidage = rule;
+    // A body fills the lower cells; its surface cuts layer 3 (open part 0.05) and, on the right
+    // half, layer 4.
+    choice.open = [](int i, int, int k) {
+      if (k < 3) return 0.0;
+      if (k == 3) return 0.05;
+      return k == 4 && i >= 5 ? 0.4 : 1.0;
+    };
+    World world(choice);
+    Numbers random;
+    for (int g = 0; g < 500; ++g) {
+      world.grains.add(
+          {random.between(0, 0.01), random.between(0, 0.01), random.between(0.00395, 0.0045)}, {},
+          3e-4);
+    }
+    world.coupling->map(world.grains.rows(), 1e-3);
+    CHECK(mapped_volume(world) == doctest::Approx(world.grains.solid_volume()).epsilon(k_sum));
+    CHECK(world.coupling->report().moved_shares > 0);
+    double smallest = 1.0;
+    world.for_cells([&](int i, int j, int k) {
+      const double eps = world.coupling->void_fraction()[world.grid.index(i, j, k)];
+      if (k <= 3) CHECK(eps == 1.0);
+      smallest = std::min(smallest, eps);
+    });
+    CHECK(smallest == world.coupling->report().smallest_void_fraction);
+  }
+}
+
+TEST_CASE("an overfull cell shall give its excess to the cells around it, and count it") {
+  World::Choice choice;
+  choice.max = {0.01, 0.01, 0.01};
+  choice.cells = {10, 10, 10};
+  World world(choice);
+  // 12 grains of 0.0654 of a cell each in one cell: 0.785 of it.
+  for (int g = 0; g < 12; ++g) world.grains.add({0.0055, 0.0055, 0.0055}, {}, 5e-4);
+  world.coupling->map(world.grains.rows(), 1e-3);
+  const double eps = world.coupling->void_fraction()[world.grid.index(5, 5, 5)];
+  CHECK(eps == doctest::Approx(0.30).epsilon(1e-9));
+  CHECK(world.coupling->report().relieved_cells == 1);
+  CHECK(mapped_volume(world) == doctest::Approx(world.grains.solid_volume()).epsilon(k_sum));
+}
+
+TEST_CASE("the void fraction of the last step shall be kept") {
+  World world({});
+  world.grains.add({0.4, 0.4, 0.4}, {}, 0.1);
+  world.coupling->map(world.grains.rows(), 1e-3);
+  CHECK(*std::min_element(world.coupling->void_fraction_before().begin(),
+                          world.coupling->void_fraction_before().end()) == 1.0);
+  const fluid::CellField first = world.coupling->void_fraction();
+  world.grains.position[0] = 0.9;
+  world.coupling->map(world.grains.rows(), 1e-3);
+  CHECK(world.coupling->void_fraction_before() == first);
+  CHECK(world.coupling->void_fraction() != first);
+}
+
+TEST_CASE("grains too large for the cells shall be refused with a number") {
+  World::Choice choice;
+  choice.cells = {10, 10, 10};
+  World world(choice);
+  world.grains.add({0.5, 0.5, 0.5}, {}, 0.051);
+  CHECK_THROWS_WITH_AS(world.coupling->map(world.grains.rows(), 1e-3),
+                       doctest::Contains("D/dx up to 0.5"), sdk::ModelError);
+  const std::array<double, 2> sizes{0.05, 0.051};
+  CHECK_NOTHROW(world.coupling->check_diameters({sizes.data(), 1}));
+  CHECK_THROWS_WITH_AS(world.coupling->check_diameters(sizes), doctest::Contains("use fewer"),
+                       base::UserError);
+}
+
+}  // namespace

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace dust::test {
+
+/// What an invented run folder holds.
+struct FakeRun {
+  int frames = 3;
+  int coarse_grains = 40;  ///< per frame
+  int dust_grains = 5;     ///< per frame
+  bool has_fluid = true;
+  bool has_h5 = true;
+};
+
+/// The summary of a finished run with two sensors.
+[[nodiscard]] nlohmann::json fake_summary();
+
+/// A folder of its own, removed with the object.
+class RunFolder {
+ public:
+  RunFolder();
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  void write(const std::string& name, const std::string& text) const;
+  void write_h5(const FakeRun& run) const;
+  [[nodiscard]] std::string read(const std::string& name) const;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The data the page carries for its script, parsed.
+[[nodiscard]] nlohmann::json page_data(const std::string& page);
+
+/// The bytes of a blob of the page.
+[[nodiscard]] std::string unpacked(const std::string& base64);
+
+}  // namespace dust::test

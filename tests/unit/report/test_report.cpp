@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/error.hpp"
+#include "fake_run.hpp"
+#include "io/report.hpp"
+#include "io/report_text.hpp"
+
+#include <doctest/doctest.h>
+
+#include <regex>
+
+using dust::io::write_report;
+using dust::test::fake_summary;
+using dust::test::FakeRun;
+using dust::test::page_data;
+using dust::test::RunFolder;
+using dust::test::unpacked;
+using nlohmann::json;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string page_of(const RunFolder& folder) {
+  write_report(folder.path());
+  return folder.read("report.html");
+}
+
+/// A whole run: every file there is.
+void fill(const RunFolder& folder) {
+  folder.write("summary.json", fake_summary().dump());
+  folder.write("scenario.yaml", "name: transfer_point\n");
+  folder.write("series.csv", "time [s],lip/mass_flow [kg/s]\n0,0\n0.1,0.006\n");
+  folder.write("report.json",
+               json{{"title", "A run"},
+                    {"outline",
+                     {{{"body", "belt"}, {"polygons", {{{0.0, 0.0}, {0.25, 0.0}, {0.25, 0.3}}}}}}},
+                    {"classes", {10e-6, 500e-6}},
+                    {"graph_dot", "digraph run { a -> b; }"}}
+                   .dump());
+  folder.write_h5({});
+}
+
+unsigned byte_at(const std::string& bytes, std::size_t at) {
+  return static_cast<unsigned char>(bytes.at(at));
+}
+
+}  // namespace
+
+TEST_CASE("the report shall ask no other machine for anything") {
+  const RunFolder folder;
+  fill(folder);
+  const std::string page = page_of(folder);
+  CHECK(has(page, "default-src 'none'"));
+  CHECK_FALSE(std::regex_search(page, std::regex("(src|href)\\s*=\\s*[\"']?(https?:)?//")));
+  CHECK_FALSE(has(page, "@import"));
+  CHECK_FALSE(has(page, "<link"));
+  CHECK_FALSE(std::regex_search(page, std::regex("url\\(\\s*[\"']?https?:")));
+  CHECK(has(page, "uPlot=function"));        // the plotting library is inside
+  CHECK(has(page, "Dust.Picture = class"));  // and so are the page's own scripts
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "report.html.part"));
+}
+
+TEST_CASE("the report shall show the numbers of the summary") {
+  const RunFolder folder;
+  fill(folder);
+  const std::string page = page_of(folder);
+  CHECK(has(page, "0.0137 \u00b1 0.0021"));  // loose dust, with its error
+  CHECK(has(page, "128.40 \u00b1 0.30"));    // stream median in mm
+  CHECK(has(page, "0.01372 g/t"));           // the same in SI, unrounded
+  CHECK(has(page, "0.128404 m"));
+  CHECK(has(page, "0123456789abcdef"));
+  CHECK(has(page, "4\u202f321"));
+  CHECK(has(page, "987\u202f654"));
+  CHECK(has(page, "The balance closes."));
+  CHECK(has(page, "name: transfer_point"));
+  CHECK_FALSE(has(page, "class=\"banner\""));
+}
+
+TEST_CASE("an open balance shall be called open") {
+  const RunFolder folder;
+  json summary = fake_summary();
+  summary["particles"]["left"] = 49;
+  folder.write("summary.json", summary.dump());
+  const std::string page = page_of(folder);
+  CHECK(has(page, "The balance does not close."));
+  CHECK_FALSE(has(page, "The balance closes."));
+}
+
+TEST_CASE("names from files shall not become markup or script") {
+  const RunFolder folder;
+  const std::string hostile =
+      "</script><script>document.title='taken'</script><img src=x onerror=y>\"'";
+  json summary = fake_summary();
+  summary["scenario"] = hostile;
+  summary["version"] = hostile;
+  summary["status"] = hostile;
+  summary["timers_s"][hostile] = 1.0;
+  summary["sensors"][hostile] = {{hostile, {{"value", 1.0}, {"unit", hostile}}}};
+  summary[hostile] = {{hostile, hostile}};
+  folder.write("summary.json", summary.dump());
+  folder.write("scenario.yaml", "name: '" + hostile + "'\n");
+  folder.write("series.csv", "time [s]," + hostile + " [" + hostile + "]\n0,1\n1,2\n");
+  folder.write("report.json",
+               json{{"title", hostile},
+                    {"graph_dot", hostile},
+                    {"outline", {{{"body", hostile}, {"segments", {{0.0, 0.0, 1.0, 1.0}}}}}},
+                    {"tables",
+                     {{{"sensor", hostile},
+                       {"title", hostile},
+                       {"columns", {hostile}},
+                       {"rows", {{hostile}}}}}},
+                    {"curves",
+                     {{{"sensor", hostile},
+                       {"title", hostile},
+                       {"x_label", hostile},
+                       {"y_label", hostile},
+                       {"series", hostile},
+                       {"x", {0, 1}},
+                       {"y", {0, 1}}}}}}
+                   .dump());
+  const std::string page = page_of(folder);
+  CHECK_FALSE(has(page, "<script>document"));
+  CHECK_FALSE(has(page, "<img"));
+  CHECK(has(page, "&lt;script&gt;document"));
+  CHECK(page_data(page)["curves"][0]["title"] == hostile);
+}
+
+TEST_CASE("a run without fluid shall have a report without maps of the air") {
+  const RunFolder folder;
+  fill(folder);
+  folder.write_h5({.has_fluid = false});
+  const std::string page = page_of(folder);
+  CHECK(page_data(page)["air"].is_null());
+  CHECK(page_data(page)["grains"]["frames"].size() == 3);
+  CHECK_FALSE(has(page, "id=\"speed-picture\""));
+  CHECK(has(page, "id=\"grains-picture\""));
+}
+
+TEST_CASE("frames without grains shall be shown empty") {
+  const RunFolder folder;
+  fill(folder);
+  folder.write_h5({.coarse_grains = 0, .dust_grains = 0});
+  const json grains = page_data(page_of(folder))["grains"];
+  REQUIRE(grains["frames"].size() == 3);
+  CHECK(grains["frames"][2]["n"] == 0);
+  CHECK(unpacked(grains["frames"][2]["data"]).empty());
+}
+
+TEST_CASE("an interrupted run shall say so and name the way on") {
+  const RunFolder folder;
+  json summary = fake_summary();
+  summary["status"] = "interrupted";
+  summary["simulated_s"] = 0.42;
+  summary.erase("sensors");
+  summary.erase("mass_kg");
+  summary.erase("timers_s");
+  folder.write("summary.json", summary.dump());
+  const std::string page = page_of(folder);
+  CHECK(has(page, "class=\"banner\""));
+  CHECK(has(page, "at 0.42"));
+  CHECK(has(page, "--resume"));
+}
+
+TEST_CASE("a report shall be made of the summary alone") {
+  const RunFolder folder;
+  folder.write("summary.json", "{}");
+  CHECK(has(page_of(folder), "</html>"));
+}
+
+TEST_CASE("damaged side files shall be named in the report, not end it") {
+  const RunFolder folder;
+  fill(folder);
+  folder.write("report.json", "{ \"curves\": [");
+  folder.write("results.h5", "not an HDF5 file");
+  const std::string page = page_of(folder);
+  CHECK(has(page, "report.json is damaged"));
+  CHECK(has(page, "results.h5 cannot be read"));
+}
+
+TEST_CASE("a folder that is no run shall be refused with a remedy") {
+  const RunFolder folder;
+  const auto message = [](const std::filesystem::path& path) -> std::string {
+    try {
+      write_report(path);
+    } catch (const dust::base::UserError& error) {
+      return error.lines().at(0);
+    }
+    return "";
+  };
+  const std::string missing = message(folder.path());
+  CHECK(has(missing, folder.path().string()));
+  CHECK(has(missing, "summary.json"));
+  CHECK(has(missing, "engine run"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "report.html"));
+  CHECK(has(message(folder.path() / "nothing"), "not a folder"));
+  folder.write("summary.json", "[1, 2");
+  CHECK(has(message(folder.path()), "damaged"));
+}
+
+TEST_CASE("grains shall come back from the page where they were") {
+  const RunFolder folder;
+  fill(folder);
+  const json grains = page_data(page_of(folder))["grains"];
+  const json& frame = grains["frames"][1];
+  CHECK(frame["t"].get<double>() == doctest::Approx(0.1));
+  REQUIRE(frame["n"] == 45);
+  REQUIRE(frame["dust"] == 5);
+  const std::string bytes = unpacked(frame["data"]);
+  REQUIRE(bytes.size() == 5 * 4 + 45 * 5);
+  const auto word = [&](std::size_t at) {
+    return byte_at(bytes, at) + 256 * byte_at(bytes, at + 1);
+  };
+  // Half a step of 16 bits over a view of 1 m; dust stands last, at (0.25, 0.75).
+  CHECK(word(20) == doctest::Approx(0.5 * 65535).epsilon(1e-4));
+  CHECK(word(20 + 2 * 44) == doctest::Approx(0.25 * 65535).epsilon(1e-4));
+  CHECK(word(20 + 90 + 2 * 44) == doctest::Approx(0.75 * 65535).epsilon(1e-4));
+  CHECK(byte_at(bytes, 20 + 180) == 1);       // 500 um
+  CHECK(byte_at(bytes, 20 + 180 + 44) == 0);  // 10 um
+}
+
+TEST_CASE("crowded frames shall be thinned, the dust kept and the reader told") {
+  const RunFolder folder;
+  fill(folder);
+  folder.write_h5({.frames = 1, .coarse_grains = 50000, .dust_grains = 30, .has_fluid = false});
+  const std::string page = page_of(folder);
+  const json grains = page_data(page)["grains"];
+  const int shown = grains["frames"][0]["n"];
+  CHECK(grains["frames"][0]["dust"] == 30);
+  CHECK(grains["frames"][0]["all"] == 50030);
+  // 20,000 expected; five standard deviations of the draw are 550.
+  CHECK(shown - 30 > 19450);
+  CHECK(shown - 30 < 20550);
+  CHECK(has(page, "One coarse grain in 2.5 is shown"));
+}
+
+TEST_CASE("the air map shall hold the mean over the depth and mask bodies") {
+  const RunFolder folder;
+  fill(folder);
+  const json air = page_data(page_of(folder))["air"];
+  REQUIRE(air["nx"] == 4);
+  REQUIRE(air["nz"] == 3);
+  CHECK(air["speed"].get<double>() == doctest::Approx(2.0));
+  CHECK(air["low"].get<double>() == doctest::Approx(-1.0));
+  CHECK(air["high"].get<double>() == doctest::Approx(1.0));
+  std::string codes = unpacked(air["frames"][0]["data"]);
+  REQUIRE(codes.size() == 4 * 12);  // speed, pressure, and the direction on the same cells
+  std::array<std::array<unsigned, 12>, 4> fields{};
+  for (std::size_t f = 0; f < 4; ++f) {
+    unsigned sum = 0;
+    for (std::size_t k = 0; k < 12; ++k)
+      fields[f][k] = sum = (sum + byte_at(codes, 12 * f + k)) & 255;
+  }
+  CHECK(fields[0][0] == 255);
+  CHECK(fields[0][1] == 254);  // 2 m/s is the end of the scale
+  CHECK(fields[1][0] == 255);
+  CHECK(fields[1][1] == 0);    // -1 Pa; z = 0 and the first row of z = 1 lie in the low half
+  CHECK(fields[1][5] == 127);  // the middle layer: -1 Pa in one row of the depth, +1 in the other
+  CHECK(fields[1][11] == 254);
+  CHECK(fields[2][1] == 254);
+  CHECK(fields[3][1] == 127);
+}
+
+TEST_CASE("numbers shall be printed as on paper") {
+  using namespace dust::io;
+  CHECK(value_html(0.128404, 0.00031) == "0.12840 \u00b1 0.00031");
+  CHECK(value_html(128.404, 31.0) == "128 \u00b1 31");
+  CHECK(value_html(-2.5, -1.0) == "\u22122.5");
+  CHECK(has(quantity_html(3.1e-7, 4.2e-8, "kg/m3"), "310 \u00b1 42"));
+  CHECK(has(quantity_html(3.1e-7, 4.2e-8, "kg/m3"), "\u00b5g/m\u00b3"));
+  CHECK(count_html(1234567) == "1\u202f234\u202f567");
+  CHECK(duration_html(3725) == "1\u202fh 02\u202fmin");
+  CHECK(escape_html("a\xff<") == "a\ufffd&lt;");
+}

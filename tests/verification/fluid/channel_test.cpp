@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fluid_case.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace dust;
+using namespace dust::test;
+
+namespace {
+
+constexpr double k_order = 1.9;  ///< least observed order that still counts as second
+
+/// Flow along x between plates at z = 0 and z = H, driven by a pressure gradient (as a source in
+/// the periodic direction) and by the upper plate. Returns the largest error against `exact`.
+double plates_error(int cells, double gap, double density, double viscosity, double gradient,
+                    double lid, const std::function<double(double)>& exact) {
+  Case c;
+  c.max = {gap, gap, gap};
+  c.cells = {1, 1, cells};
+  c.fluid.density = density;
+  c.fluid.viscosity = viscosity;
+  c.sides[4] = wall();
+  c.sides[5] = wall({lid, 0, 0});
+  c.start();
+  c.set_source({gradient, 0, 0});
+  const double viscous_time = gap * gap * density / viscosity;
+  c.advance_to(4 * viscous_time, 0.1 * viscous_time);
+  double error = 0.0;
+  for (int k = 0; k < cells; ++k) {
+    error = std::max(error, std::abs(c.u(0, 0, 0, k) - exact(c.grid.centre(0, 0, k).z)));
+  }
+  return error;
+}
+
+}  // namespace
+
+TEST_CASE("V-POIS: flow between plates shall reach the parabola, second order") {
+  const double gap = 0.01;
+  const double mu = 1e-3;
+  const double gradient = 240 / 0.2;
+  const auto exact = [&](double z) { return gradient * z * (gap - z) / (2 * mu); };
+  double last = 0.0;
+  for (const int n : {8, 16, 32}) {
+    const double e = plates_error(n, gap, 1, mu, gradient, 0, exact);
+    MESSAGE("cells " << n << " largest error " << e << " of 15 m/s, order "
+                     << (last > 0 ? order(last, e) : 0.0));
+    if (last > 0) CHECK(order(last, e) > k_order);
+    last = e;
+  }
+}
+
+TEST_CASE("V-COUE: flow between a resting and a moving plate with pressure gradient") {
+  const double gap = 0.01;
+  const double mu = 5e-6;
+  for (const double gradient : {-3.0, 0.0, 3.0}) {
+    const auto exact = [&](double z) { return 10 * z / gap + gradient * z * (gap - z) / (2 * mu); };
+    const double coarse = plates_error(16, gap, 1, mu, gradient, 10, exact);
+    const double fine = plates_error(32, gap, 1, mu, gradient, 10, exact);
+    MESSAGE("gradient " << gradient << ": errors " << coarse << " " << fine);
+    if (gradient == 0.0) {
+      CHECK(fine < 1e-4);  // a straight line is exact; the rest is what is left of the start
+    } else {
+      CHECK(order(coarse, fine) > k_order);
+    }
+  }
+}
+
+TEST_CASE("V-RAYL: air over a wall started at 0.8 m/s shall follow the error function") {
+  Case c;
+  const double h = 1.25e-3;
+  c.max = {h, h, 64 * h};
+  c.cells = {1, 1, 64};
+  c.fluid.density = 1.2139;
+  c.fluid.viscosity = 1.8e-5;
+  c.sides[4] = wall({0.8, 0, 0});
+  c.sides[5] = slip();
+  c.start();
+  const double nu = 1.8e-5 / 1.2139;
+  for (const double t : {0.1, 0.4}) {
+    c.advance_to(t, 1e-3);
+    double error = 0.0;
+    for (int k = 0; k < 64; ++k) {
+      const double z = c.grid.centre(0, 0, k).z;
+      error =
+          std::max(error, std::abs(c.u(0, 0, 0, k) - 0.8 * std::erfc(z / (2 * std::sqrt(nu * t)))));
+    }
+    MESSAGE("t = " << t << ": largest error " << error / 0.8 << " of the wall's speed");
+    CHECK(error < (t < 0.2 ? 0.02 : 0.01) * 0.8);
+  }
+}
+
+TEST_CASE("total pressure shall drive a frictionless channel to sqrt(2 X / rho), from both sides") {
+  for (const double start : {0.0, -0.5}) {
+    Case c;
+    c.max = {0.1, 0.01, 0.01};
+    c.cells = {20, 1, 4};
+    c.fluid.density = 1.2;
+    c.fluid.viscosity = 1.8e-5;
+    c.fluid.pressure_tolerance = 1e-8;
+    c.sides[0] = open_side(0.6, true);
+    c.sides[1] = open_side(0.0, true);
+    for (int s = 2; s < 6; ++s) c.sides[s] = slip();
+    c.start();
+    c.solver->set_velocity([&](Vec3) { return Vec3{start, 0, 0}; });
+    c.advance_to(3.0, 5e-3);
+    MESSAGE("u = " << c.u(0, 10, 0, 2));
+    CHECK(c.u(0, 10, 0, 2) == doctest::Approx(1.0).epsilon(1e-6));
+    CHECK(c.p(10, 0, 2) == doctest::Approx(0.0).epsilon(1e-6));
+  }
+}

@@ -1,0 +1,20 @@
+# Turns files into one C++ source, so that an installed engine needs no data files:
+#   cmake -DOUTPUT=x.cpp -DFILES=a.js|b.css -P embed.cmake
+# The names seen by the program are the bare file names.
+string(REPLACE "|" ";" files "${FILES}")
+set(source "// Written by tools/report/embed.cmake; do not edit.\n#include \"io/report_assets.hpp\"\n\n")
+set(cases "")
+set(number 0)
+foreach(file IN LISTS files)
+  get_filename_component(name "${file}" NAME)
+  file(READ "${file}" text)
+  string(FIND "${text}" ")dust_asset\"" clash)
+  if(NOT clash EQUAL -1)
+    message(FATAL_ERROR "${file} contains the end mark of the raw string it is put into")
+  endif()
+  string(APPEND source "static const char k_file_${number}[] = R\"dust_asset(${text})dust_asset\";\n")
+  string(APPEND cases "  if (name == \"${name}\") return {k_file_${number}, sizeof k_file_${number} - 1};\n")
+  math(EXPR number "${number} + 1")
+endforeach()
+string(APPEND source "\nnamespace dust::io {\n\nstd::string_view report_asset(std::string_view name) {\n${cases}  return {};\n}\n\n}  // namespace dust::io\n")
+file(WRITE "${OUTPUT}" "${source}")

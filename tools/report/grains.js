@@ -1,0 +1,125 @@
+'use strict';
+// The side view of the grains.
+Dust.grains = (() => {
+  const set = Dust.data.grains;
+  if (!set) return null;
+  const [x0, z0, x1, z1] = Dust.data.view;
+  const is_dust = (k) => set.classes[k] < set.dust_below;
+  const coarse = set.classes.filter((d) => d >= set.dust_below);
+  const span = coarse.length > 1 ? Math.log(coarse.at(-1) / coarse[0]) : 1;
+  const tone = (d) => (coarse.length > 1 ? Math.log(d / coarse[0]) / span : 0.4);
+  const cache = new Map();
+  const trail = 6;  // frames of a dust grain's path
+
+  const load = (index) => {
+    if (!cache.has(index)) {
+      const frame = set.frames[index];
+      cache.set(index, Dust.unpack(frame.data).then((bytes) => {
+        const n = frame.n, dust = frame.dust, buffer = bytes.buffer;
+        return {n, dust, t: frame.t, all: frame.all,
+          number: new Uint32Array(buffer, 0, dust),
+          x: new Uint16Array(buffer, 4 * dust, n),
+          z: new Uint16Array(buffer, 4 * dust + 2 * n, n),
+          size: new Uint8Array(buffer, 4 * dust + 4 * n, n)};
+      }));
+    }
+    return cache.get(index);
+  };
+
+  let current = null, before = [];
+  const x_of = (frame, k) => x0 + frame.x[k] / 65535 * (x1 - x0);
+  const z_of = (frame, k) => z0 + frame.z[k] / 65535 * (z1 - z0);
+
+  const paint_dust = (pen, picture, with_trails, radius) => {
+    if (!current) return;
+    const colour = Dust.colour('dust');
+    if (with_trails && before.length) {
+      const last = new Map();
+      for (let k = current.n - current.dust; k < current.n; ++k) {
+        last.set(current.number[k - current.n + current.dust], [x_of(current, k), z_of(current, k)]);
+      }
+      pen.strokeStyle = colour;
+      pen.lineWidth = 0.9;
+      before.forEach((frame, age) => {
+        pen.globalAlpha = 0.5 * (1 - age / trail);
+        pen.beginPath();
+        for (let k = frame.n - frame.dust; k < frame.n; ++k) {
+          const name = frame.number[k - frame.n + frame.dust], to = last.get(name);
+          if (!to) continue;
+          const from = [x_of(frame, k), z_of(frame, k)];
+          pen.moveTo(picture.x(from[0]), picture.z(from[1]));
+          pen.lineTo(picture.x(to[0]), picture.z(to[1]));
+          last.set(name, from);
+        }
+        pen.stroke();
+      });
+      pen.globalAlpha = 1;
+    }
+    pen.fillStyle = colour;
+    pen.beginPath();
+    for (let k = current.n - current.dust; k < current.n; ++k) {
+      const x = picture.x(x_of(current, k)), z = picture.z(z_of(current, k));
+      pen.moveTo(x + radius, z);
+      pen.arc(x, z, radius, 0, 6.2832);
+    }
+    pen.fill();
+  };
+
+  const paint = (pen, picture) => {
+    pen.fillStyle = Dust.colour('raised');
+    pen.fillRect(picture.place.left, picture.place.top, picture.place.inner, picture.place.height);
+    picture.bodies(pen);
+    if (!current) return;
+    for (let c = 0; c < set.classes.length; ++c) {
+      if (is_dust(c)) continue;
+      const radius = Math.max(set.classes[c] / 2 * picture.place.scale, 0.45);
+      pen.fillStyle = Dust.css(Dust.sand_colour(tone(set.classes[c])));
+      pen.beginPath();
+      for (let k = 0; k < current.n - current.dust; ++k) {
+        if (current.size[k] !== c) continue;
+        const x = picture.x(x_of(current, k)), z = picture.z(z_of(current, k));
+        if (radius < 1) {
+          pen.rect(x - radius, z - radius, 2 * radius, 2 * radius);
+        } else {
+          pen.moveTo(x + radius, z);
+          pen.arc(x, z, radius, 0, 6.2832);
+        }
+      }
+      pen.fill();
+    }
+    paint_dust(pen, picture, true, 1.5);
+  };
+
+  const picture = new Dust.Picture(document.getElementById('grains-picture'),
+    'Side view of the grains, coloured by diameter', paint);
+  picture.make_zoomable();
+  document.getElementById('grains-whole').addEventListener('click', () => picture.whole_view());
+
+  const legend = document.getElementById('grains-legend');
+  const draw_legend = () => {
+    const length = (d) => (d < 1e-3 ? Dust.number(d * 1e6, 3) + ' µm' : Dust.number(d * 1e3, 3) + ' mm');
+    const few = set.classes.length <= 10 ? set.classes
+      : set.classes.filter((d, k) => k % Math.ceil(set.classes.length / 8) === 0 || k === set.classes.length - 1);
+    legend.replaceChildren(...[...few].reverse().map((d) => {
+      const dust = d < set.dust_below;
+      const dot = Dust.el('i', {class: dust ? 'small' : ''});
+      dot.style.background = dust ? Dust.colour('dust') : Dust.css(Dust.sand_colour(tone(d)));
+      return Dust.el('span', {class: 'entry'}, dot, length(d) + (dust ? ', dust' : ''));
+    }));
+  };
+  Dust.redraw.push(draw_legend);
+  draw_legend();
+
+  const count = document.getElementById('grains-count');
+  const show = async (index) => {
+    const frames = await Promise.all([index, ...Array.from({length: trail}, (_, k) => index - 1 - k)
+      .filter((k) => k >= 0)].map(load));
+    return () => {
+      current = frames[0];
+      before = frames.slice(1);
+      count.textContent = `${current.all} computed grains at ${Dust.number(current.t)} s, ${current.dust} dust grains shown.`;
+      picture.draw();
+    };
+  };
+  return {times: set.frames.map((frame) => frame.t), show, paint_dust};
+})();

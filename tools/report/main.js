@@ -1,0 +1,68 @@
+'use strict';
+// The clock that moves all pictures, the theme and the printer.
+(() => {
+  const times = (Dust.grains || Dust.air || {times: []}).times;
+  const nearest = (list, t) => list.reduce((best, value, k) => (Math.abs(value - t) < Math.abs(list[best] - t) ? k : best), 0);
+  let wanted = 0, playing = null;
+  const show = async (index) => {
+    wanted = index;
+    const t = times[index];
+    const shows = [];
+    if (Dust.grains) shows.push(Dust.grains.show(index));
+    if (Dust.air) shows.push(Dust.air.show(nearest(Dust.air.times, t)));
+    const draws = await Promise.all(shows);
+    if (wanted === index) for (const draw of draws) draw();
+  };
+
+  if (times.length) {
+    const button = Dust.el('button', {type: 'button'}, 'Play');
+    const slider = Dust.el('input', {type: 'range', min: 0, max: times.length - 1, step: 1, 'aria-label': 'Time'});
+    slider.value = times.length - 1;
+    const reading = Dust.el('output', {});
+    const go = (index) => {
+      slider.value = index;
+      reading.textContent = 't = ' + times[index].toFixed(3) + ' s';
+      return show(+index);
+    };
+    const stop = () => {
+      clearTimeout(playing);
+      playing = null;
+      button.textContent = 'Play';
+    };
+    const tick = async (index) => {
+      await go(index);
+      if (playing === null) return;
+      if (index + 1 < times.length) playing = setTimeout(() => tick(index + 1), 90);
+      else stop();
+    };
+    button.addEventListener('click', () => {
+      if (playing !== null) return stop();
+      button.textContent = 'Pause';
+      playing = 0;
+      tick(+slider.value >= times.length - 1 ? 0 : +slider.value);
+    });
+    slider.addEventListener('input', () => {
+      if (playing !== null) stop();
+      go(+slider.value);
+    });
+    document.getElementById('clock').append(button, slider, reading);
+    if (times.length < 2) button.disabled = slider.disabled = true;
+    const asked = /^#frame=(\d+)$/.exec(location.hash);
+    go(asked ? Math.min(+asked[1], times.length - 1) : times.length - 1)
+      .then(() => { document.documentElement.dataset.drawn = 'yes'; });
+  } else {
+    document.documentElement.dataset.drawn = 'yes';
+  }
+
+  const system = window.matchMedia('(prefers-color-scheme: dark)');
+  const of_system = () => (system.matches ? 'dark' : 'light');
+  let chosen = null;
+  Dust.set_theme(of_system());
+  system.addEventListener('change', () => { if (!chosen) Dust.set_theme(of_system()); });
+  document.getElementById('theme').addEventListener('click', () => {
+    chosen = Dust.theme() === 'dark' ? 'light' : 'dark';
+    Dust.set_theme(chosen);
+  });
+  window.addEventListener('beforeprint', () => Dust.set_theme('light'));
+  window.addEventListener('afterprint', () => Dust.set_theme(chosen || of_system()));
+})();

@@ -1,0 +1,96 @@
+'use strict';
+// The path of the stream: position against drop, true to scale, drawn as SVG.
+(() => {
+  const section = document.getElementById('stream');
+  const svg_el = (tag, attributes, text) => {
+    const node = document.createElementNS('http://www.w3.org/2000/svg', tag);
+    for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
+    if (text !== undefined) node.textContent = text;
+    return node;
+  };
+  const is_drop = (label) => /drop|below/i.test(label || '');
+  const quantile = (name) => {
+    if (/median|(^|\D)50(\D|$)/i.test(name)) return 'median';
+    if (/(^|\D)95(\D|$)/.test(name)) return 'high';
+    if (/(^|\D)0?5(\D|$)/.test(name)) return 'low';
+    return null;
+  };
+
+  // Curves of a sensor with a drop on one axis: {title, sensor, lines: [{name, kind, points: [[x, drop]]}]}.
+  const of_curves = () => {
+    const groups = new Map();
+    for (const curve of Dust.data.curves) {
+      const down = is_drop(curve.y_label) ? 'y' : is_drop(curve.x_label) ? 'x' : null;
+      if (!down || !Array.isArray(curve.x) || !Array.isArray(curve.y)) continue;
+      const key = curve.sensor + '\n' + curve.title;
+      if (!groups.has(key)) groups.set(key, {title: curve.title, sensor: curve.sensor, lines: []});
+      const drops = down === 'y' ? curve.y : curve.x, across = down === 'y' ? curve.x : curve.y;
+      const unit = (label) => (/\[?\bmm\b/.test(label) ? 1e-3 : 1);
+      const drop_unit = unit(down === 'y' ? curve.y_label : curve.x_label);
+      const across_unit = unit(down === 'y' ? curve.x_label : curve.y_label);
+      const points = drops.map((d, k) => [across[k] * across_unit, Math.abs(d) * drop_unit])
+        .filter((p) => Number.isFinite(p[0]) && Number.isFinite(p[1])).sort((a, b) => a[1] - b[1]);
+      if (points.length) groups.get(key).lines.push({name: String(curve.series), kind: quantile(String(curve.series)), points});
+    }
+    return [...groups.values()].filter((group) => group.lines.length);
+  };
+  const of_figures = () => {
+    const lines = [['low', '5 %'], ['median', '50 %'], ['high', '95 %']].map(([kind, name]) => ({name, kind,
+      points: Dust.data.stream.filter((d) => d[kind]).map((d) => [d[kind].value, d.drop, d[kind].error])}));
+    const given = lines.filter((line) => line.points.length);
+    return given.length ? [{title: '', sensor: '', lines: given}] : [];
+  };
+
+  const draw = (group) => {
+    const all = group.lines.flatMap((line) => line.points);
+    const drops = all.map((p) => p[1]), places = all.map((p) => p[0]);
+    const deepest = Math.max(...drops) * 1.06, left = Math.min(0, ...places), right = Math.max(...places, 1e-6) * 1.08;
+    const pad = {left: 62, right: 60, top: 34, bottom: 16};
+    const inner = 520, scale = inner / (right - left);
+    const height = Math.min(deepest * scale, 620);
+    const down = height / deepest;
+    const x = (v) => pad.left + (v - left) * scale, y = (v) => pad.top + v * down;
+    const total = [inner + pad.left + pad.right, height + pad.top + pad.bottom];
+    const svg = svg_el('svg', {viewBox: `0 0 ${total[0]} ${total[1]}`, role: 'img', 'aria-label': 'Path of the stream',
+      style: `width:100%;max-width:${total[0]}px;height:auto;display:block`});
+    const line = (a, b, c, d, style) => svg.append(svg_el('line', {x1: a, y1: b, x2: c, y2: d, style}));
+    for (const v of Dust.ticks(left * 1e3, right * 1e3, 8)) {
+      line(x(v / 1e3), pad.top, x(v / 1e3), pad.top + height, 'stroke:var(--line)');
+      svg.append(svg_el('text', {x: x(v / 1e3), y: pad.top - 8, 'text-anchor': 'middle'}, Dust.number(v)));
+    }
+    svg.append(svg_el('text', {x: total[0], y: pad.top - 8, 'text-anchor': 'end'}, 'x, mm'));
+    for (const v of Dust.ticks(0, deepest * 1e3, 6)) {
+      line(pad.left, y(v / 1e3), pad.left + inner, y(v / 1e3), 'stroke:var(--line)');
+      svg.append(svg_el('text', {x: pad.left - 8, y: y(v / 1e3) + 4, 'text-anchor': 'end'}, Dust.number(v)));
+    }
+    svg.append(svg_el('text', {x: 0, y: pad.top - 8}, 'drop, mm'));
+    const low = group.lines.find((l) => l.kind === 'low'), high = group.lines.find((l) => l.kind === 'high');
+    if (low && high) {
+      const ring = [...low.points, ...[...high.points].reverse()].map((p) => `${x(p[0])},${y(p[1])}`).join(' ');
+      svg.append(svg_el('polygon', {points: ring, style: 'fill:var(--tone1);fill-opacity:.28'}));
+    }
+    group.lines.forEach((entry, k) => {
+      const colour = entry.kind === 'median' ? 'var(--ink)' : entry.kind ? 'var(--tone2)' : `var(--plot${k % 6 + 1})`;
+      const path = entry.points.map((p) => `${x(p[0])},${y(p[1])}`).join(' ');
+      svg.append(svg_el('polyline', {points: path, style: `fill:none;stroke:${colour};stroke-width:${entry.kind === 'median' ? 2.2 : 1.4}`}));
+      for (const p of entry.points) {
+        if (p[2] > 0) line(x(p[0] - p[2]), y(p[1]), x(p[0] + p[2]), y(p[1]), `stroke:${colour};stroke-width:3;opacity:.6`);
+        if (entry.points.length <= 12) svg.append(svg_el('circle', {cx: x(p[0]), cy: y(p[1]), r: 3.2, style: `fill:${colour}`}));
+      }
+      const last = entry.points.at(-1);
+      svg.append(svg_el('text', {x: x(last[0]), y: y(last[1]) + 17, 'text-anchor': 'middle', style: `fill:${colour}`}, Dust.words(entry.name)));
+    });
+    return svg;
+  };
+
+  const curves = of_curves();
+  const groups = curves.some((group) => group.lines.some((l) => l.kind)) ? curves : [...of_figures(), ...curves];
+  for (const group of groups) {
+    const caption = Dust.el('figcaption', {}, Dust.el('b', {}, group.title ? Dust.words(group.title) + '.' : 'Quantiles of the stream.'),
+      ' Horizontal position against the drop below the start of the stream, in mm',
+      group.lines.some((l) => l.kind) ? '; the band holds the grains between the 5 and 95 % quantiles, the dark line is the median.' : '.');
+    section.append(Dust.el('figure', {class: 'side'}, Dust.el('div', {}, draw(group)), caption));
+    section.hidden = false;
+  }
+  Dust.is_stream_curve = (curve) => is_drop(curve.x_label) || is_drop(curve.y_label);
+})();
