@@ -181,9 +181,9 @@ std::string joined(const std::vector<Step>& steps, std::size_t count) {
   std::string path;
   for (std::size_t n = 0; n < count; ++n) {
     if (steps[n].is_index) {
-      path += "[" + std::to_string(steps[n].index) + "]";
+      path.append("[").append(std::to_string(steps[n].index)).append("]");
     } else {
-      path += (path.empty() ? "" : ".") + steps[n].key;
+      path.append(path.empty() ? "" : ".").append(steps[n].key);
     }
   }
   return path;

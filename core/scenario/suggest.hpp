@@ -21,4 +21,7 @@ std::string listed(const std::vector<std::string>& words);
 /// `text` on one line, cut to a readable length, with control characters replaced.
 std::string printable(std::string_view text);
 
+/// `text` as printable() gives it, between single quotes.
+std::string quoted(std::string_view text);
+
 }  // namespace dust::scenario

@@ -242,7 +242,7 @@ Entry* Node::find(std::string_view key) {
 
 std::string kind_text(const Node& node) {
   switch (node.kind) {
-    case Node::Kind::text: return "'" + printable(node.text) + "'";
+    case Node::Kind::text: return quoted(node.text);
     case Node::Kind::list: return "a list";
     case Node::Kind::map: return "a map of keys";
     case Node::Kind::nothing: break;

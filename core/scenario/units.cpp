@@ -245,17 +245,20 @@ std::string si_unit(Dimension d) {
     std::string& side = exponent > 0 ? above : below;
     if (exponent == 0) return;
     if (!side.empty()) side += ' ';
-    side += symbol;
-    if (std::abs(exponent) > 1) side += std::to_string(std::abs(exponent));
+    side.append(symbol);
+    if (std::abs(exponent) > 1) side.append(std::to_string(std::abs(exponent)));
   };
   factor("kg", d.mass);
   factor("m", d.length);
   factor("s", d.time);
   factor("K", d.temperature);
   factor("rad", d.angle);
-  if (above.empty()) above = "1";
+  if (above.empty()) above.push_back('1');
   if (below.empty()) return above;
-  return above + "/" + (below.find(' ') == std::string::npos ? below : "(" + below + ")");
+  const bool is_product = below.find(' ') != std::string::npos;
+  std::string unit = above;
+  unit.append(is_product ? "/(" : "/").append(below).append(is_product ? ")" : "");
+  return unit;
 }
 
 std::string dimension_name(Dimension d) {
@@ -277,38 +280,37 @@ std::optional<WrittenNumber> split_number(std::string_view raw, std::string& err
   };
   if (text.empty()) return fail("a number is expected, not an empty text");
   const std::size_t n = number_length(text);
-  if (n == 0) return fail("a number is expected, not '" + printable(text) + "'");
+  if (n == 0) return fail("a number is expected, not " + quoted(text));
   const std::string digits = text.substr(text[0] == '+' ? 1 : 0, n - (text[0] == '+' ? 1 : 0));
   const std::size_t lead = digits[0] == '-' ? 1 : 0;
   if (digits.size() > lead + 1 && digits[lead] == '0' && is_digit(digits[lead + 1])) {
     const std::size_t significant = digits.find_first_not_of('0', lead);
-    const std::string plain =
-        significant == std::string::npos || !is_digit(digits[significant])
-            ? "0" + (significant == std::string::npos ? "" : digits.substr(significant))
-            : digits.substr(significant);
-    return fail("'" + printable(text) +
-                "' could be read as an octal number: leave out the leading zero and write " +
-                (lead == 1 ? "-" : "") + plain);
+    // What is left without the zeros that lead, one of them kept before a point.
+    std::string plain = significant == std::string::npos ? "" : digits.substr(significant);
+    if (plain.empty() || !is_digit(plain.front())) plain.insert(0, 1, '0');
+    if (lead == 1) plain.insert(0, 1, '-');
+    return fail(quoted(text) + " could be read as an octal number: leave out the leading zero and " +
+                "write " + plain);
   }
   WrittenNumber result;
   const auto [end, code] =
       std::from_chars(digits.data(), digits.data() + digits.size(), result.number);
   if (code == std::errc::result_out_of_range) {
-    return fail("'" + printable(text) + "' is too large or too small for a double");
+    return fail(quoted(text) + " is too large or too small for a double");
   }
   if (code != std::errc{} || end != digits.data() + digits.size()) {
-    return fail("a number is expected, not '" + printable(text) + "'");
+    return fail("a number is expected, not " + quoted(text));
   }
   result.unit = trimmed(std::string_view(text).substr(n));
   if (result.unit.empty()) return result;
   const char next = result.unit.front();
   if (next == ',' || next == '_' || next == ':' || next == '.') {
-    return fail("'" + printable(text) + "' is not a number: write it like 1234.5 (decimal point, " +
+    return fail(quoted(text) + " is not a number: write it like 1234.5 (decimal point, " +
                 "no separators)");
   }
   if (digits == "0" && (next == 'x' || next == 'o' || next == 'b') && result.unit.size() > 1 &&
       std::isxdigit(static_cast<unsigned char>(result.unit[1])) != 0) {
-    return fail("'" + printable(text) + "' is not a decimal number");
+    return fail(quoted(text) + " is not a decimal number");
   }
   return result;
 }
@@ -345,8 +347,14 @@ std::optional<double> to_si(const WrittenNumber& written, Dimension dimension,
 std::string number_text(double value) {
   if (std::isnan(value)) return ".nan";
   if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
+  // Plain digits where a person would write them.
+  const double size = std::abs(value);
+  const bool is_plain = value == 0.0 || (size >= 1e-4 && size < 1e7);
   std::array<char, 40> buffer{};
-  const auto [end, code] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  const auto [end, code] =
+      is_plain ? std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                               std::chars_format::fixed)
+               : std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return code == std::errc{} ? std::string(buffer.data(), end) : std::string("0");
 }
 

@@ -97,7 +97,7 @@ class Drawing {
     for (const auto& sensor : setup_.sensors) {
       const auto min = point(registry_, sensor.model, "min");
       const auto max = point(registry_, sensor.model, "max");
-      if (min && max) box(*min, *max, "#1769aa", "4 3", sensor.name, row++);
+      if (min && max && !(*min == *max)) box(*min, *max, "#1769aa", "4 3", sensor.name, row++);
     }
     scale_bar();
     out_ << "</svg>\n";
@@ -125,7 +125,10 @@ class Drawing {
     const Vec3 size = setup_.domain.max - setup_.domain.min;
     constexpr double k_pieces = 200.0;
     const double edge = std::max({size.x, size.y, size.z}) / k_pieces;
-    const auto corners = body.triangles(setup_.domain.min, setup_.domain.max, edge);
+    // A turned body is cut in its own frame: a larger box, the picture clips.
+    const Vec3 more = spec.frame >= 0 ? size : Vec3{};
+    const auto corners =
+        body.triangles(setup_.domain.min - more, setup_.domain.max + more, edge);
     out_ << "<path fill=\"#bbb\" stroke=\"#333\" stroke-width=\"1.5\" stroke-linejoin=\"round\" d=\"";
     double right = 0.0;
     double top = 1e9;
@@ -134,7 +137,7 @@ class Drawing {
         const double x = view_.x(corners[n + c]);
         const double y = view_.y(corners[n + c]);
         out_ << (c == 0 ? "M" : "L") << number(x) << ' ' << number(y);
-        if (y < top) {
+        if (y < top && x >= SideView::k_margin && x <= SideView::k_margin + view_.width()) {
           top = y;
           right = x;
         }

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drag.hpp"
+
+namespace {
+
+struct Parameters {
+  double wrong = 0.0;
+  double silent = 0.0;
+};
+
+}  // namespace
+
+DUST_PLUGIN(registrar) {
+  dust::sdk::SchemaOf<Parameters> schema;
+  schema.number(&Parameters::wrong, "WrongName", dust::sdk::dimension::none, "A sentence.");
+  schema.number(&Parameters::silent, "silent", dust::sdk::dimension::none, "");
+  dust::sdk::ModelInfo info = Drag::describe();
+  info.kind = "drag";
+  info.name = "Camel";
+  info.summary = "";
+  info.parameters = schema.build();
+  registrar.add(std::move(info), [](std::span<const dust::sdk::Value>) {
+    return std::make_unique<Drag>(Drag::Parameters{});
+  });
+}

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// Runs the engine of the test's own prefix with `arguments` (as in a shell).
+Outcome engine(const std::string& arguments) {
+  const fs::path stem =
+      fs::temp_directory_path() / ("dust_command_line_" + std::to_string(::getpid()));
+  const std::string out = stem.string() + ".out";
+  const std::string err = stem.string() + ".err";
+  const std::string command = "env -u DUST_PLUGIN_PATH " PREFIX "/bin/engine " + arguments + " > " +
+                              out + " 2> " + err;
+  const int status = std::system(command.c_str());
+  Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
+  fs::remove(out);
+  fs::remove(err);
+  return outcome;
+}
+
+void check_refused(const std::string& arguments, const std::string& expected) {
+  const Outcome o = engine(arguments);
+  CHECK_MESSAGE(o.status == 2, o.err);
+  CHECK(o.out.empty());
+  CHECK_MESSAGE(o.err == expected + "\n", o.err);
+}
+
+const std::string k_scenario = DUST_SOURCE "/scenarios/transfer_point.yaml";
+
+}  // namespace
+
+TEST_CASE("a bad command line shall exit with 2 and a hint") {
+  check_refused("chekc x", "engine: error: unknown command 'chekc'; did you mean 'check'?");
+  check_refused("check", "engine check: error: SCENARIO is required (see engine check --help)");
+  check_refused("check a.yaml --treads 2",
+                "engine check: error: The following arguments were not expected: 2 --treads (see "
+                "engine check --help)");
+  check_refused("check " + k_scenario + " --set time.end",
+                "--set time.end: error: write --set path=value");
+  check_refused("describe drag/gidaspov",
+                "engine describe: error: there is no 'drag/gidaspov'; did you mean "
+                "'drag/gidaspow'?");
+  CHECK(engine("").status == 2);
+}
+
+TEST_CASE("help and version shall exit with 0, for every command with examples") {
+  CHECK(engine("--version").out.starts_with("engine "));
+  const Outcome help = engine("--help");
+  CHECK(help.status == 0);
+  for (const std::string command : {"check", "plugins", "describe", "schema"}) {
+    CHECK(help.out.find("  " + command) != std::string::npos);
+    const Outcome one = engine(command + " --help");
+    CHECK(one.status == 0);
+    CHECK(one.out.find("Example") != std::string::npos);
+  }
+}
+
+TEST_CASE("check shall accept a scenario that is well, with the plugins beside the program") {
+  const Outcome o = engine("check " + k_scenario);
+  CHECK_MESSAGE(o.status == 0, o.err);
+  CHECK(o.err.empty());
+  CHECK(o.out.find("the scenario is valid") != std::string::npos);
+  CHECK(o.out.find("sets the smallest step") != std::string::npos);
+}
+
+TEST_CASE("check shall tell a wrong scenario on stderr, one line per problem, path as given") {
+  const fs::path file = fs::temp_directory_path() / "dust_wrong.yaml";
+  std::ofstream(file) << "name: wrong\ntime: {end: 1 s, fluid_step: 1 m, outputevery: 1 s}\n";
+  const Outcome o = engine("check " + file.string());
+  fs::remove(file);
+  CHECK(o.status == 2);
+  CHECK(o.out.empty());
+  std::istringstream lines(o.err);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    CHECK_MESSAGE(line.starts_with(file.string() + ":"), line);
+    CHECK(line.find(": error: ") != std::string::npos);
+  }
+  CHECK(count >= 5);
+  CHECK(o.err.find("unknown key 'outputevery' in time; did you mean 'output_every'?") !=
+        std::string::npos);
+}
+
+TEST_CASE("check shall draw the set-up") {
+  const fs::path file = fs::temp_directory_path() / "dust_setup.svg";
+  fs::remove(file);
+  CHECK(engine("check " + k_scenario + " -o " + file.string()).status == 0);
+  const std::string svg = text_of(file);
+  fs::remove(file);
+  CHECK(svg.starts_with("<svg "));
+  CHECK(svg.find(">belt</text>") != std::string::npos);
+  CHECK(svg.find(">feed</text>") != std::string::npos);
+  CHECK(svg.find(">50 mm (") != std::string::npos);
+  CHECK(engine("check " + k_scenario + " -o /not/there.svg").status == 2);
+}
+
+TEST_CASE("plugins shall list kind, name, version and file") {
+  const Outcome o = engine("plugins");
+  CHECK(o.status == 0);
+  CHECK(o.out.find("contact   hertz_mindlin      1.0  " PREFIX "/lib/dust/plugins") !=
+        std::string::npos);
+}
+
+TEST_CASE("a plugin folder that is not there shall be refused") {
+  const Outcome o = engine("plugins --plugin-path /not/there");
+  CHECK(o.status == 2);
+  CHECK(o.err.starts_with("/not/there: error: "));
+}
+
+TEST_CASE("describe shall tell parameters with unit, default and range") {
+  const Outcome o = engine("describe contact/hertz_mindlin");
+  CHECK(o.out.find("restitution (e): number, required, 0 < e <= 1") != std::string::npos);
+  CHECK(engine("describe shape/plate --markdown").out.find("| `length` |") != std::string::npos);
+  CHECK(engine("describe shape/conveyor --json").out.starts_with("{"));
+  CHECK(engine("schema").out.starts_with("{"));
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenario/derived.hpp"
+#include "unit/scenario/support.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace dust;
+
+namespace {
+// Closed forms, evaluated in another order: a few roundings.
+constexpr double k_roundings = 1e-12;
+}  // namespace
+
+TEST_CASE("the Rayleigh time shall be that of its formula with the nu term outside the root") {
+  // R = 0.3 mm, rho = 2650, E = 50 MPa, nu = 0.3: G = 19.2307692 MPa, root(rho/G) = 0.011738824,
+  // pi R root / (0.04893 + 0.8766) = 1.195378e-5 s.
+  const sdk::MaterialProperties sand{2650, 5e7, 0.3};
+  CHECK(scenario::rayleigh_time(3e-4, sand) == doctest::Approx(1.195378e-5).epsilon(1e-6));
+  CHECK(scenario::rayleigh_time(6e-4, sand) ==
+        doctest::Approx(2 * scenario::rayleigh_time(3e-4, sand)).epsilon(k_roundings));
+}
+
+TEST_CASE("the smallest grain shall set the step and each step shall keep both shares") {
+  const auto setup = read(transfer_point()).setup;
+  const auto derived = scenario::derive(setup, fakes());
+  REQUIRE(derived.sizes.size() == 5);
+  CHECK(derived.deciding_size == 0);
+  for (const auto& size : derived.sizes) {
+    CHECK(size.stable_step == doctest::Approx(std::min(0.3 * size.rayleigh_time, size.hertz_time / 15)).epsilon(k_roundings));
+  }
+  CHECK(derived.smallest_step == derived.sizes[0].stable_step);
+  CHECK(derived.largest_step == derived.sizes[4].stable_step);
+}
+
+TEST_CASE("a fixed step shall replace the derived ones") {
+  const auto setup = read(transfer_point(), {{"time.dem_step", "1e-7"}}).setup;
+  const auto derived = scenario::derive(setup, fakes());
+  CHECK(derived.smallest_step == 1e-7);
+  CHECK(derived.largest_step == 1e-7);
+}
+
+TEST_CASE("the expected speed shall be that of bodies and the fall through the domain") {
+  auto setup = read(transfer_point()).setup;
+  // belt 0.8 m/s, fall 0.35 m: root(0.64 + 2 * 9.81 * 0.35)
+  CHECK(scenario::derive(setup, fakes()).expected_speed ==
+        doctest::Approx(std::sqrt(0.64 + 2 * 9.81 * 0.35)).epsilon(k_roundings));
+  setup.time.expected_speed = 1.5;
+  CHECK(scenario::derive(setup, fakes()).expected_speed == 1.5);
+}
+
+TEST_CASE("ratios and the rate of grains shall follow from the scenario") {
+  const auto setup = read(transfer_point()).setup;
+  const auto derived = scenario::derive(setup, fakes());
+  CHECK(derived.smallest_spacing == doctest::Approx(0.011 / 9).epsilon(k_roundings));
+  CHECK(derived.diameter_over_spacing == doctest::Approx(6e-4 * 9 / 0.011).epsilon(k_roundings));
+  CHECK(derived.width_over_diameter == doctest::Approx(0.011 / 6e-4).epsilon(k_roundings));
+  // The fake feed sends ten grains per millisecond.
+  REQUIRE(derived.emissions.size() == 1);
+  CHECK(derived.emissions[0].computed_per_second == doctest::Approx(1e4).epsilon(k_roundings));
+}

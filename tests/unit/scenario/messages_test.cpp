@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "unit/scenario/support.hpp"
+
+#include <doctest/doctest.h>
+
+namespace {
+
+/// One mistake in the small scenario and the one line it shall give.
+void check(const std::string& from, const std::string& to, const std::string& expected) {
+  const Folder folder;
+  const auto lines = problems(folder.write("s.yaml", changed(k_small, from, to)));
+  CHECK_MESSAGE(lines == std::vector<std::string>{expected}, joined(lines));
+}
+
+/// As above, where more may follow from the mistake.
+void check_among(const std::string& from, const std::string& to, const std::string& expected) {
+  const Folder folder;
+  const std::string all = joined(problems(folder.write("s.yaml", changed(k_small, from, to))));
+  CHECK_MESSAGE(all.find(expected) != std::string::npos, all);
+}
+
+}  // namespace
+
+TEST_CASE("the small scenario shall be well") {
+  const Folder folder;
+  CHECK(joined(problems(folder.write("s.yaml", k_small))).empty());
+}
+
+TEST_CASE("a value out of range shall be told as the contract writes it") {
+  check("restitution: 0.9, friction: 0.5", "restitution: 1.4, friction: 0.5",
+        "s.yaml:19:50: error: interactions[0].contact.restitution: 1.4 is outside 0 < e <= 1");
+  check("length: 5 mm", "length: -5 mm",
+        "s.yaml:24:89: error: bodies.plate.length: -5 mm is outside length > 0 m");
+  check("poisson_ratio: 0.3}\n  glass", "poisson_ratio: 0.6}\n  glass",
+        "s.yaml:15:63: error: materials.sand.poisson_ratio: 0.6 is outside -1 < nu <= 0.5");
+}
+
+TEST_CASE("an unknown key shall be told as the contract writes it, with the nearest one") {
+  check_among("viscosity", "viscocity",
+              "s.yaml:37:3: error: unknown key 'viscocity' in fluid; did you mean 'viscosity'?");
+  check("sensors:", "sensor:",
+        "s.yaml:40:1: error: unknown key 'sensor' in the scenario; did you mean 'sensors'?");
+  check("length: 5 mm", "length: 5 mm, colour: red",
+        "s.yaml:24:95: error: unknown key 'colour' in bodies.plate; its keys are: enabled, frame, "
+        "material, shape, hinge, length, thickness, angle, motion");
+}
+
+TEST_CASE("a key given twice shall be told with the first line") {
+  check("  density: 1.2 kg/m3\n", "  density: 1.2 kg/m3\n  density: 1.3\n",
+        "s.yaml:37:3: error: duplicate key 'density': already given in line 36");
+}
+
+TEST_CASE("a missing key shall be told with what it is for") {
+  check("  density: 1.2 kg/m3\n", "",
+        "s.yaml:34:1: error: fluid: missing key 'density' (number in kg/m3: Density of the fluid.)");
+  check("gravity: [0, 0, -9.81]\n", "",
+        "s.yaml:1:1: error: missing key 'gravity' (vector [x, y, z] in m/s2: Acceleration of "
+        "gravity; [0, 0, 0] for none.)");
+  check("drag: {model: gidaspow}\n", "", "s.yaml:1:1: error: missing key 'drag' ({model: ...})");
+  check("front: {grains: wall, material: glass, air: {model: slip}}",
+        "front: {grains: wall, material: glass}",
+        "s.yaml:10:5: error: domain.boundaries.front: missing key 'air' (condition of the air: "
+        "{model: ...})");
+}
+
+TEST_CASE("a value of another kind shall be told with the kind expected") {
+  check("cells: [20, 2, 10]", "cells: 20",
+        "s.yaml:35:10: error: fluid.cells: a vector [x, y, z] is expected, not '20'");
+  check("cells: [20, 2, 10]", "cells: [20, 2]",
+        "s.yaml:35:10: error: fluid.cells: a vector [x, y, z] is expected, not a list of 2");
+  check("cells: [20, 2, 10]", "cells: [20, 2, 0]",
+        "s.yaml:35:18: error: fluid.cells: 0 is outside 1 <= cells <= 100000");
+  check("cells: [20, 2, 10]", "cells: [20, 2, 10.5]",
+        "s.yaml:35:10: error: fluid.cells: 10.5 is not a whole number of cells");
+  check("time: {end: 1 s, fluid_step: 1 ms, output_every: 20 ms}", "time: 1 s",
+        "s.yaml:2:7: error: time: a map of keys is expected, not '1 s'");
+  check("drag: {model: gidaspow}", "drag: gidaspow",
+        "s.yaml:38:7: error: drag: a map of keys is expected, not 'gidaspow'");
+  check("enabled: false", "enabled: no",
+        "s.yaml:24:20: error: bodies.plate.enabled: 'no' is not true or false: write false");
+  check("end: 1 s", "end: .inf", "s.yaml:2:13: error: time.end: .inf is not a finite number");
+  check("end: 1 s", "end: soon",
+        "s.yaml:2:13: error: time.end: a time (s, ms, min) is expected, not 'soon'");
+  check("end: 1 s", "end: 010",
+        "s.yaml:2:13: error: time.end: '010' could be read as an octal number: leave out the "
+        "leading zero and write 10");
+  check("end: 1 s", "end:",
+        "s.yaml:2:8: error: time.end: a time (s, ms, min) is expected, not nothing");
+  check("density: 1.2 kg/m3", "density: 1.2 kg",
+        "s.yaml:36:12: error: fluid.density: 'kg' is the unit of a mass: a density is expected "
+        "(kg/m3, g/cm3, t/m3)");
+  check("friction: 0.1", "friction: 0.1 m",
+        "s.yaml:20:39: error: interactions[0].rolling.friction: 'm' does not belong here: a bare "
+        "number is expected, without a unit");
+}
+
+TEST_CASE("an unknown model shall be told with the nearest and all there are") {
+  check("gidaspow", "gidaspov",
+        "s.yaml:38:15: error: drag.model: unknown drag model 'gidaspov'; did you mean 'gidaspow'? "
+        "(drag models: gidaspow)");
+  check("shape: plate", "shape: ball",
+        "s.yaml:24:34: error: bodies.plate.shape: unknown shape 'ball' (shapes: conveyor, plate)");
+  check("model: trajectory", "model: [1]",
+        "s.yaml:41:19: error: sensors.stream.model: the name of a sensor model is expected, not a "
+        "list (sensor models: box_concentration, carry_back, low_pressure, plane_flux, trajectory)");
+}
+
+TEST_CASE("a name of something that is not there shall be told with the nearest") {
+  check("    material: sand", "    material: snad",
+        "s.yaml:28:15: error: emitters.feed.material: there is no material 'snad'; did you mean "
+        "'sand'?");
+  check("shape: plate", "frame: tilted, shape: plate",
+        "s.yaml:24:34: error: bodies.plate.frame: there is no frame 'tilted'");
+  check("drops: [5, 10 mm]", "drops: [5, 10 mm], body: plat",
+        "s.yaml:41:77: error: sensors.stream.body: there is no body 'plat'; did you mean 'plate'?");
+  check("drops: [5, 10 mm]", "drops: [5, 10 mm], body: plate",
+        "s.yaml:41:77: error: sensors.stream.body: the body 'plate' is switched off "
+        "(enabled: false)");
+}
+
+TEST_CASE("a pair of materials that can meet without a law shall be told") {
+  check("[glass, sand]", "[glass, glass]",
+        "s.yaml:17:1: error: interactions: missing pair [sand, glass]: grains of emitter 'feed' "
+        "meet the wall 'front'");
+  check_among("[glass, sand]", "[sand, sand]",
+              "s.yaml:21:5: error: interactions[1]: the pair [sand, sand] is already given in line "
+              "18\n");
+}
+
+TEST_CASE("contradictory sides shall be told") {
+  check("right: {grains: periodic, air: periodic}", "right: {grains: open, air: {model: slip}}",
+        "s.yaml:8:5: error: domain.boundaries.left: periodic sides come in pairs: make right "
+        "periodic too");
+  check("left: {grains: periodic}", "left: {grains: periodic, air: {model: slip}}",
+        "s.yaml:8:5: error: domain.boundaries.left: grains: periodic needs air: periodic");
+  check("top: {grains: open, air: {model: total_pressure}}", "top: {grains: open, air: periodic}",
+        "s.yaml:13:5: error: domain.boundaries.top: air: periodic needs grains: periodic");
+  check("top: {grains: open,", "top: {grains: open, material: glass,",
+        "s.yaml:13:25: error: domain.boundaries.top.material: only grains: wall has a material");
+  check("bottom: {grains: wall, material: glass,", "bottom: {grains: wall,",
+        "s.yaml:12:5: error: domain.boundaries.bottom: missing key 'material' (of the wall)");
+}
+
+TEST_CASE("a domain or steps that contradict each other shall be told") {
+  check("max: [100, 10, 50 mm]", "max: [100, 0, 50 mm]",
+        "s.yaml:6:8: error: domain.max: y = 0 m is not above that of domain.min, 0 m");
+  check("output_every: 20 ms", "output_every: 2.5 ms",
+        "s.yaml:2:50: error: time.output_every: 0.0025 s is not a multiple of fluid_step, 0.001 s");
+  check("output_every: 20 ms", "output_every: 20 ms, dem_step: 2 ms",
+        "s.yaml:2:67: error: time.dem_step: 0.002 s is longer than fluid_step, 0.001 s");
+  check("end: 1 s", "end: 0.1 ms",
+        "s.yaml:2:13: error: time.end: 0.0001 s is shorter than one fluid_step, 0.001 s");
+  check("cells: [20, 2, 10]", "cells: [500, 2, 10]",
+        "s.yaml:39:18: error: voidage: the largest grain is 2.5 of the smallest cell's edges wide; "
+        "'divided' is valid up to 1: take fewer cells or another rule");
+}
+
+TEST_CASE("parameters that a model refuses together shall be told at the model") {
+  check("number_fractions: [0.5, 0.5]", "number_fractions: [0.5]",
+        "s.yaml:27:12: error: emitters.feed: diameters and number_fractions differ in length");
+}
+
+TEST_CASE("a unit on some components only shall be told") {
+  check("min: [1, 1, 40 mm]", "min: [1, 1 mm, 40 mm]",
+        "s.yaml:30:11: error: emitters.feed.min: '1' has no unit but others have: give each one "
+        "its unit, or the last alone one for all");
+}
+
+TEST_CASE("all problems shall be told at once, in the order of the file") {
+  const Folder folder;
+  auto text = changed(k_small, "end: 1 s", "end: 1 m");
+  text = changed(text, "viscosity: 18 uPa s", "viscosity: -1");
+  text = changed(text, "density: 2650", "density: zero");
+  text = changed(text, "gidaspow", "gidaspov");
+  const auto lines = problems(folder.write("s.yaml", text));
+  REQUIRE(lines.size() == 4);
+  CHECK(lines[0].starts_with("s.yaml:2:"));
+  CHECK(lines[1].starts_with("s.yaml:15:"));
+  CHECK(lines[2].starts_with("s.yaml:37:"));
+  CHECK(lines[3].starts_with("s.yaml:38:"));
+}

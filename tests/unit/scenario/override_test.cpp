@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "unit/scenario/support.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace dust;
+
+TEST_CASE("settings shall reach values, lists, list elements and absent optional keys") {
+  const auto setup = read(transfer_point(), {{"bodies.belt.speed", "0.4 m/s"},
+                                             {"interactions[1].contact.friction", "0.1"},
+                                             {"fluid.cells", "[132, 5, 140]"},
+                                             {"fluid.cells[1]", "6"},
+                                             {"bodies.plate.enabled", "true"},
+                                             {"time.dem_step", "2e-6"},
+                                             {"time.rates", "single"},
+                                             {"coupling.one_way", "true"},
+                                             {"seed", "7"},
+                                             {"fluid.largest_cfl", "0.5"}})
+                         .setup;
+  CHECK(std::get<double>(setup.bodies[0].motion->values[0]) == 0.4);
+  CHECK(std::get<double>(setup.interactions[1].contact.values[1]) == 0.1);
+  CHECK(setup.fluid->cells == std::array<int, 3>{132, 6, 140});
+  CHECK(setup.bodies.size() == 2);
+  CHECK(setup.time.dem_step == 2e-6);
+  CHECK(setup.time.rates_single);
+  CHECK(setup.fluid->is_one_way);
+  CHECK(setup.seed == 7);
+  CHECK(setup.fluid->largest_cfl == 0.5);
+}
+
+TEST_CASE("a setting may add a whole thing") {
+  const auto setup =
+      read(transfer_point(),
+           {{"bodies.lid", "{shape: plate, material: plate, hinge: [1, 0, 1 mm], length: 1 mm, "
+                           "thickness: 1 mm}"}})
+          .setup;
+  REQUIRE(setup.bodies.size() == 2);
+  CHECK(setup.bodies[1].name == "lid");
+}
+
+TEST_CASE("a setting of an unknown path shall be refused with the nearest one") {
+  const auto one = [](const std::string& path, const std::string& value) {
+    const auto lines = problems(transfer_point(), {{path, value}});
+    REQUIRE(lines.size() == 1);
+    CHECK(lines[0].starts_with("--set " + path + ": error: "));
+    return lines[0];
+  };
+  CHECK(one("bodies.bellt.speed", "1").find("did you mean 'belt'?") != std::string::npos);
+  CHECK(one("bodies.belt.sped", "1").find("did you mean 'speed'?") != std::string::npos);
+  CHECK(one("fluid.viscocity", "1").find("did you mean 'viscosity'?") != std::string::npos);
+  CHECK(one("tim.end", "1").find("did you mean 'time'?") != std::string::npos);
+  CHECK(one("interactions[9].contact.friction", "1").find("has 4 elements") != std::string::npos);
+  CHECK(one("gravity.x", "1").find("has no key 'x'") != std::string::npos);
+  CHECK(one("time[0]", "1").find("is not a list") != std::string::npos);
+  CHECK(one("time..end", "1").find("not the path of a key") != std::string::npos);
+  CHECK(one("time.end", "").find("the value is missing") != std::string::npos);
+  CHECK(one("time.end", "5 mm").find("a time is expected") != std::string::npos);
+  CHECK(one("time.end", "[1").find("not valid YAML") != std::string::npos);
+}
+
+TEST_CASE("files of settings shall lie over the scenario, single settings over them") {
+  const Folder folder;
+  const auto over = folder.write("over.yaml", "time: {end: 3 s}\nfluid: {density: 1.3}\n");
+  const auto file = folder.write("s.yaml", k_small);
+  const auto setup = read(file, {{"time.end", "4 s"}}, {over}).setup;
+  CHECK(setup.time.end == 4);
+  CHECK(setup.fluid->density == 1.3);
+  const auto wrong = folder.write("wrong.yaml", "time:\n  ende: 3 s\n");
+  const auto lines = problems(file, {}, {wrong});
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0] == "wrong.yaml:2:3: error: unknown key 'ende' in time; did you mean 'end'?");
+}
+
+TEST_CASE("everything written in full shall differ only where it was set") {
+  const auto plain = read(transfer_point()).resolved_yaml;
+  CHECK(read(transfer_point(), {{"time.end", "0.7 s"}}).resolved_yaml == plain);
+  CHECK(read(transfer_point(), {{"time.end", "0.6 s"}}).resolved_yaml != plain);
+}

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "unit/scenario/support.hpp"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+TEST_CASE("the JSON Schema shall hold every model with its parameters") {
+  const auto schema = nlohmann::json::parse(dust::scenario::json_schema(fakes()));
+  CHECK(schema["$schema"] == "http://json-schema.org/draft-07/schema#");
+  const auto& contact = schema["definitions"]["contact"]["oneOf"];
+  REQUIRE(contact.size() == 1);
+  CHECK(contact[0]["properties"]["model"]["const"] == "hertz_mindlin");
+  const auto& restitution = contact[0]["properties"]["restitution"]["anyOf"][0];
+  CHECK(restitution["exclusiveMinimum"] == 0);
+  CHECK(restitution["maximum"] == 1);
+  CHECK(contact[0]["required"].size() == 3);
+  CHECK(schema["properties"]["sensors"]["additionalProperties"]["oneOf"].size() == 5);
+  // Two shapes, each at rest or on the belt.
+  CHECK(schema["properties"]["bodies"]["additionalProperties"]["oneOf"].size() == 4);
+  CHECK(schema["properties"]["time"]["required"] ==
+        nlohmann::json({"end", "fluid_step", "output_every"}));
+}
