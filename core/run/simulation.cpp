@@ -142,44 +142,43 @@ void Simulation::add_sensor_nodes() {
   }
 }
 
-void Simulation::emit() {
-  const double now = time();
-  const double step = setup_.time.fluid_step;
-  new_grains_.clear();
-  if (steps_done_ > 0) {
-    for (std::size_t n = 0; n < models_.emitters.size(); ++n) {
-      const auto& spec = setup_.emitters[n];
-      sdk::EmitterContext context;
-      context.begin = static_cast<double>(steps_done_ - 1) * step;
-      context.end = now;
-      context.grain_density =
-          setup_.materials[static_cast<std::size_t>(spec.material)].properties.density;
-      context.gravity = setup_.gravity;
-      context.random = sdk::Random(setup_.seed, sdk::stream_of(spec.name.c_str()));
-      seeds_.clear();
-      models_.emitters[n]->propose(context, seeds_);
-      for (sdk::Seed& seed : seeds_) {
-        if (spec.frame >= 0) {
-          const auto& frame = setup_.frames[static_cast<std::size_t>(spec.frame)];
-          const sdk::Vec3 axis = frame.axis / norm(frame.axis);
-          seed.position =
-              frame.origin + rotate(seed.position - frame.origin, axis, frame.angle);
-          seed.velocity = rotate(seed.velocity, axis, frame.angle);
-        }
-        // The seed passed its opening at seed.time; it has fallen freely since.
-        const double since = now - seed.time;
-        particles::NewGrain grain;
-        grain.position = seed.position + since * seed.velocity + 0.5 * since * since * setup_.gravity;
-        grain.velocity = seed.velocity + since * setup_.gravity;
-        grain.diameter = seed.diameter;
-        grain.weight = seed.weight;
-        grain.material = spec.material;
-        new_grains_.push_back(grain);
+void Simulation::propose_seeds(double begin, double end) {
+  for (std::size_t n = 0; n < models_.emitters.size(); ++n) {
+    const auto& spec = setup_.emitters[n];
+    sdk::EmitterContext context;
+    context.begin = begin;
+    context.end = end;
+    context.grain_density =
+        setup_.materials[static_cast<std::size_t>(spec.material)].properties.density;
+    context.gravity = setup_.gravity;
+    context.random = sdk::Random(setup_.seed, sdk::stream_of(spec.name.c_str()));
+    seeds_.clear();
+    models_.emitters[n]->propose(context, seeds_);
+    for (const sdk::Seed& seed : seeds_) {
+      // Carried back to the beginning of the interval; inside the feed nothing but the feed acts.
+      particles::NewGrain grain;
+      grain.position = seed.position - (seed.time - begin) * seed.velocity;
+      grain.velocity = seed.velocity;
+      if (spec.frame >= 0) {
+        const auto& frame = setup_.frames[static_cast<std::size_t>(spec.frame)];
+        const sdk::Vec3 axis = frame.axis / norm(frame.axis);
+        grain.position = frame.origin + rotate(grain.position - frame.origin, axis, frame.angle);
+        grain.velocity = rotate(grain.velocity, axis, frame.angle);
       }
+      grain.diameter = seed.diameter;
+      grain.weight = seed.weight;
+      grain.material = spec.material;
+      waiting_.push_back(grain);
     }
   }
+}
+
+void Simulation::emit() {
+  propose_seeds(time(), time() + setup_.time.fluid_step);
   dem_->remove_leavers();
-  if (!new_grains_.empty()) dem_->insert(new_grains_);
+  const auto entering = take_free_places(waiting_, dem_->rows());
+  delayed_entries_ += static_cast<std::int64_t>(waiting_.size());
+  if (!entering.empty()) dem_->insert(entering);
   grain_table_.note_births(dem_->rows());
 }
 
@@ -263,6 +262,8 @@ Simulation::SaveParts Simulation::save_parts() const {
     a.integer("steps_done", steps_done_);
     a.integer("fluid_sub_steps", fluid_sub_steps_);
     a.integer("pressure_iterations", pressure_iterations_);
+    a.integer("delayed_entries", delayed_entries_);
+    save_waiting(waiting_, a);
   });
   parts.emplace_back("grains", [this](sdk::ArchiveWriter& a) { dem_->save(a); });
   parts.emplace_back("columns", [this](sdk::ArchiveWriter& a) { grain_table_.save(a); });
@@ -287,6 +288,8 @@ Simulation::LoadParts Simulation::load_parts() {
     steps_done_ = a.integer("steps_done");
     fluid_sub_steps_ = a.integer("fluid_sub_steps");
     pressure_iterations_ = a.integer("pressure_iterations");
+    delayed_entries_ = a.integer("delayed_entries");
+    load_waiting(waiting_, a);
   });
   parts.emplace_back("grains", [this](sdk::ArchiveReader& a) { dem_->load(a); });
   if (fluid_) {

@@ -7,6 +7,7 @@
 #include "io/run_files.hpp"
 #include "particles/dem.hpp"
 #include "run/columns.hpp"
+#include "run/entry.hpp"
 #include "run/models.hpp"
 #include "scenario/setup.hpp"
 
@@ -42,6 +43,9 @@ class Simulation {
   [[nodiscard]] const coupling::Coupling* coupling() const { return coupling_.get(); }
   [[nodiscard]] std::int64_t fluid_sub_steps() const { return fluid_sub_steps_; }
   [[nodiscard]] std::int64_t pressure_iterations() const { return pressure_iterations_; }
+  /// Grains that had to wait a fluid step or more because their place was taken, and those waiting.
+  [[nodiscard]] std::int64_t delayed_entries() const { return delayed_entries_; }
+  [[nodiscard]] std::size_t waiting_entries() const { return waiting_.size(); }
 
   /// The world as of the last step; spans stay valid until the next.
   [[nodiscard]] sdk::WorldView world() const;
@@ -66,6 +70,7 @@ class Simulation {
   void add_fluid_nodes();
   void add_sensor_nodes();
   void emit();
+  void propose_seeds(double begin, double end);
   void run_dem_cycle();
   void check_health() const;
   void publish_grains();
@@ -89,8 +94,9 @@ class Simulation {
   std::int64_t fluid_sub_steps_ = 0;
   std::int64_t pressure_iterations_ = 0;
   std::vector<float> momentum_exchange_;
+  std::int64_t delayed_entries_ = 0;
   std::vector<sdk::Seed> seeds_;
-  std::vector<particles::NewGrain> new_grains_;
+  std::vector<particles::NewGrain> waiting_;  ///< proposed, not yet in the domain
 };
 
 }  // namespace dust::run

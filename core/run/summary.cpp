@@ -99,6 +99,8 @@ Json class_steps(const particles::Dem& dem) {
 
 Json health(const Simulation& s) {
   Json h = Json::object();
+  h["entries_delayed"] = s.delayed_entries();
+  h["entries_waiting"] = s.waiting_entries();
   h["largest_overlap_over_radius"] = s.dem().report().largest_overlap;
   if (s.coupling() != nullptr) {
     const auto& c = s.coupling()->report();

@@ -47,7 +47,7 @@ class Feed final : public sdk::Emitter {
              "Lower corner of the opening; flat along one axis, where it equals max.");
     s.vector(&Parameters::max, "max", dim::length, "Upper corner of the opening.");
     s.vector(&Parameters::velocity, "velocity", dim::velocity,
-             "Velocity of the grains as their centres pass the opening.");
+             "Velocity of the grains as they pass the opening.");
     s.numbers(&Parameters::diameters, "diameters", dim::length, "Grain diameters.").above(0);
     s.numbers(&Parameters::number_fractions, "number_fractions", dim::none,
               "Share of each diameter by number; need not add up to 1.")
@@ -257,11 +257,19 @@ class Feed final : public sdk::Emitter {
     return e;
   }
 
-  /// A random place in the opening clear of the grains that passed shortly before.
+  /// A random place in the opening clear of the grains that passed shortly before. All grains move
+  /// as one block inside the feed; common grains are let go while they are still wholly behind the
+  /// opening, so that they meet what hovers in front of it as in life. Rare grains, which the air
+  /// stops within a millisecond, are let go one interval in front of it: behind it they would hover
+  /// where the next common grains appear.
   sdk::Seed place(const Event& e, const sdk::EmitterContext& context) {
     const double radius = 0.5 * p_.diameters[e.size];
     const double largest = *std::max_element(p_.diameters.begin(), p_.diameters.end());
-    std::erase_if(recent_, [&](const Placed& g) { return speed_ * (e.time - g.time) > largest; });
+    const double behind = 0.5 * largest / speed_;  // [s] of travel behind the opening
+    const double in_front = context.end - context.begin;
+    const double block_time = is_rare(e.size) ? e.time - behind - in_front : e.time;
+    const double kept = 2.0 * largest / speed_ + in_front;
+    std::erase_if(recent_, [&](const Placed& g) { return e.time - g.time > kept; });
     for (std::uint32_t trial = 0; trial < k_tries; ++trial) {
       Vec3 x = p_.min;
       for (int d = 0; d < 3; ++d) {
@@ -271,14 +279,14 @@ class Feed final : public sdk::Emitter {
                room * context.random.uniform(e.number, trial, static_cast<std::uint32_t>(d) + 2);
       }
       const bool is_free = std::none_of(recent_.begin(), recent_.end(), [&](const Placed& g) {
-        const Vec3 apart = x - g.position - (e.time - g.time) * p_.velocity;
+        const Vec3 apart = x - g.position - (block_time - g.time) * p_.velocity;
         const double reach = (radius + g.radius) * (1.0 + k_gap);
         return dot(apart, apart) < reach * reach;
       });
       if (!is_free) continue;
-      recent_.push_back({e.time, x, radius});
+      recent_.push_back({block_time, x, radius});
       return {.time = e.time,
-              .position = x,
+              .position = x + (is_rare(e.size) ? in_front : -behind) * p_.velocity,
               .velocity = p_.velocity,
               .diameter = p_.diameters[e.size],
               .weight = is_rare(e.size) ? 1.0 / static_cast<double>(p_.copies_of_rare) : 1.0};

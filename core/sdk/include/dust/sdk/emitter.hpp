@@ -13,7 +13,7 @@ namespace dust::sdk {
 
 /// A grain about to enter.
 struct Seed {
-  double time = 0.0;      ///< [s] when its centre is at `position` with `velocity`
+  double time = 0.0;      ///< [s] when its centre would be at `position`, moving with `velocity`
   Vec3 position;          ///< [m] domain frame
   Vec3 velocity;          ///< [m/s]
   double diameter = 0.0;  ///< [m]
@@ -29,7 +29,8 @@ struct EmitterContext {
   Random random{0, 0};         ///< keyed by (scenario seed, emitter name)
 };
 
-/// Proposes grains; the core inserts them, gives ids and books mass. Calls come with consecutive
+/// Proposes grains; the core inserts them at the beginning of the interval, carried back along their
+/// velocity, gives ids and books mass. A seed that would touch a grain waits. Calls come with consecutive
 /// intervals from one thread; what a later call needs is state, saved by save/load.
 /// Positions and directions given as parameters are in the emitter's own frame = the domain's frame
 /// unless the scenario puts the emitter into a named frame; the core turns the seeds.
