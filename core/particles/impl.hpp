@@ -70,8 +70,8 @@ struct Reaction {
 struct FineState {
   std::int32_t cluster = -1;  ///< -1: no partner in reach
   std::int32_t level = 0;
-  double stable_step = 0.0;   ///< [s]
-  double speed = 0.0;         ///< [m/s] largest relative speed to a near partner
+  double stable_step = 0.0;  ///< [s]
+  double speed = 0.0;        ///< [m/s] largest relative speed to a near partner
 };
 
 struct Dem::Impl {
@@ -149,7 +149,7 @@ struct Dem::Impl {
   BalanceBook book;
   std::size_t coarse_count = 0;
   std::vector<Chunk> chunks;
-  ContactList fine;          ///< partner >= 0: row; < 0: surface -1 - b
+  ContactList fine;  ///< partner >= 0: row; < 0: surface -1 - b
   std::vector<Reaction> pending;
   contact::AlignedVector<double> fine_force;  ///< four per fine grain, of the last sub-step
   std::int64_t next_id = 0;
