@@ -71,7 +71,7 @@ void Dem::Impl::chunk_pairs(Chunk& chunk) {
       bool has_scales = false;
       double* scale_i = columns.column(BatchColumns::scale_i);
       double* scale_j = columns.column(BatchColumns::scale_j);
-      for (std::size_t q = 0; q < count; ++q) {
+      for (std::size_t q = 0; has_weights && q < count; ++q) {
         const double wi = store.weight[static_cast<std::size_t>(pairs.a[contacts[q]])];
         const double wj = store.weight[static_cast<std::size_t>(pairs.b[contacts[q]])];
         // Sum of w m v is kept: side i feels min(1, w_j / w_i) of the force.

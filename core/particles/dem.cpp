@@ -170,6 +170,13 @@ void Dem::Impl::refresh_decay() {
   }
 }
 
+void Dem::Impl::look_at_weights() {
+  has_weights = false;
+  for (std::size_t n = 1; n < coarse_count; ++n) {
+    has_weights = has_weights || store.weight[n] != store.weight[0];
+  }
+}
+
 void Dem::Impl::fill_last_force() const {
   last_force.assign(4 * store.size(), 0.0);
   for (std::size_t n = 0; n < store.size(); ++n) {

@@ -206,6 +206,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   time = archive.number("time");
   counters.largest_overlap = archive.number("largest_overlap");
   book.load(archive);
+  look_at_weights();
 }
 
 }  // namespace dust::particles

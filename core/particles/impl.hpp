@@ -82,6 +82,7 @@ struct Dem::Impl {
   void insert(std::span<const NewGrain> grains);
   void remove_leavers();
   void refresh_decay();
+  void look_at_weights();
   [[nodiscard]] std::int32_t law_of(int material_i, int material_j) const;
 
   // rebuild.cpp
@@ -143,6 +144,7 @@ struct Dem::Impl {
   double largest_range = 0.0;
   bool is_periodic = false;
   bool has_fluid = false;
+  bool has_weights = false;  ///< coarse grains of different weights
 
   // State.
   GrainStore store;

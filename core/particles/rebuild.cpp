@@ -214,6 +214,7 @@ void Dem::Impl::rebuild() {
     for (std::size_t n = 0; n < store.size(); ++n) old_row[n] = static_cast<std::int32_t>(n);
   }
   choose_allowances();
+  look_at_weights();
   for (std::size_t n = 0; n < store.size(); ++n) {
     for (std::size_t d = 0; d < 3; ++d) {
       store.start[4 * n + d] = store.position[4 * n + d];
