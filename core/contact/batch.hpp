@@ -26,8 +26,8 @@ class BatchColumns {
     separation_x,  ///< [m] centre of i minus centre of j
     separation_y,
     separation_z,
-    radius_i,  ///< [m]
-    radius_j,  ///< [m] 0 for a surface
+    radius_i,    ///< [m]
+    radius_j,    ///< [m] 0 for a surface
     velocity_x,  ///< [m/s] of the centres, later of the contact point
     velocity_y,
     velocity_z,
@@ -70,7 +70,8 @@ class BatchColumns {
   };
 
   BatchColumns() : data_(static_cast<std::size_t>(k_columns) * k_stride, 0.0) {
-    for (int n = 0; n < k_max_history; ++n) history_[static_cast<std::size_t>(n)] = column(first_history + n);
+    for (int n = 0; n < k_max_history; ++n)
+      history_[static_cast<std::size_t>(n)] = column(first_history + n);
   }
   [[nodiscard]] double* column(int name) {
     return data_.data() + static_cast<std::size_t>(name) * k_stride;
@@ -78,7 +79,8 @@ class BatchColumns {
   [[nodiscard]] double* const* history() const { return history_.data(); }
 
   /// The batch a law sees. `first` skips the columns of earlier stages.
-  [[nodiscard]] sdk::ContactBatch view(std::size_t count, double time_step, int first_history_column);
+  [[nodiscard]] sdk::ContactBatch view(std::size_t count, double time_step,
+                                       int first_history_column);
 
  private:
   AlignedVector<double> data_;

@@ -74,7 +74,8 @@ DUST_KERNEL std::size_t find_touching(const RowView& rows, const Images& images,
     for (std::size_t l = 0; l < 4; ++l) {
       const std::size_t q = std::min(p + l, last);
       d[l] = row(position, pa[q]) + sign * row(position, pb[q]);
-      __builtin_prefetch(position + 4 * static_cast<std::ptrdiff_t>(pb[std::min(q + k_ahead, last)]));
+      __builtin_prefetch(position +
+                         4 * static_cast<std::ptrdiff_t>(pb[std::min(q + k_ahead, last)]));
       const LaneMask above = d[l] > half;
       const LaneMask below = d[l] < -half;
       d[l] = above ? d[l] - length : (below ? d[l] + length : d[l]);
@@ -265,7 +266,8 @@ DUST_KERNEL void load_history(const PairView& pairs, const std::int32_t* contact
       Lanes h[4];
       for (std::size_t l = 0; l < 4; ++l) {
         const auto p = static_cast<std::size_t>(contacts[std::min(q + l, count - 1)]);
-        std::memcpy(&h[l], pairs.history + p * pairs.history_stride + 4 * static_cast<std::size_t>(g),
+        std::memcpy(&h[l],
+                    pairs.history + p * pairs.history_stride + 4 * static_cast<std::size_t>(g),
                     sizeof(Lanes));
       }
       transpose(h[0], h[1], h[2], h[3]);
@@ -285,8 +287,8 @@ DUST_KERNEL void store_history(const PairView& pairs, const std::int32_t* contac
       const std::size_t lanes = std::min<std::size_t>(4, count - q);
       for (std::size_t l = 0; l < lanes; ++l) {
         const auto p = static_cast<std::size_t>(contacts[q + l]);
-        std::memcpy(pairs.history + p * pairs.history_stride + 4 * static_cast<std::size_t>(g), &h[l],
-                    sizeof(Lanes));
+        std::memcpy(pairs.history + p * pairs.history_stride + 4 * static_cast<std::size_t>(g),
+                    &h[l], sizeof(Lanes));
       }
     }
   }
@@ -319,8 +321,10 @@ DUST_KERNEL void scatter_pairs(const PairView& pairs, const std::int32_t* contac
       const std::uint32_t la = static_cast<std::uint32_t>(pairs.a[p] - first);
       const std::uint32_t lb = static_cast<std::uint32_t>(pairs.b[p] - first);
       const auto limit = static_cast<std::uint32_t>(size);
-      auto* fa = reinterpret_cast<Lanes*>(force + 8 * static_cast<std::size_t>(std::min(la, limit)));
-      auto* fb = reinterpret_cast<Lanes*>(force + 8 * static_cast<std::size_t>(std::min(lb, limit)));
+      auto* fa =
+          reinterpret_cast<Lanes*>(force + 8 * static_cast<std::size_t>(std::min(la, limit)));
+      auto* fb =
+          reinterpret_cast<Lanes*>(force + 8 * static_cast<std::size_t>(std::min(lb, limit)));
       if (has_scales) {
         fa[0] += scale_i[q + l] * f[l];
         fa[1] += scale_i[q + l] * ti[l];

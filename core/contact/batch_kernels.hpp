@@ -33,8 +33,7 @@ struct PairView {
 /// Finds the pairs of [begin, end) closer than touch + `range` [m], writes their numbers to
 /// `touching` and returns how many. A pair that parts loses its history.
 std::size_t find_touching(const RowView& rows, const Images& images, const PairView& pairs,
-                          std::size_t begin, std::size_t end, double range,
-                          std::int32_t* touching);
+                          std::size_t begin, std::size_t end, double range, std::int32_t* touching);
 
 /// Loads `count` contacts (numbers of pairs) into the first columns; rows up to the padded count
 /// repeat the last one. `ahead` more numbers may be read for prefetching.

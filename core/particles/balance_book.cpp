@@ -13,7 +13,8 @@ std::int32_t BalanceBook::population(double diameter, double weight, std::int32_
       return static_cast<std::int32_t>(n);
     }
   }
-  populations_.push_back({.diameter = diameter, .weight = weight, .material = material, .mass = mass});
+  populations_.push_back(
+      {.diameter = diameter, .weight = weight, .material = material, .mass = mass});
   return static_cast<std::int32_t>(populations_.size() - 1);
 }
 

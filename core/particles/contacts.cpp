@@ -65,14 +65,13 @@ void Dem::Impl::chunk_pairs(Chunk& chunk) {
       chunk.largest_overlap = std::max(chunk.largest_overlap, overlap);
       law.contact->evaluate(columns.view(count, steps.coarse_step, 0));
       if (law.rolling) {
-        law.rolling->evaluate(
-            columns.view(count, steps.coarse_step, law.contact->history_size()));
+        law.rolling->evaluate(columns.view(count, steps.coarse_step, law.contact->history_size()));
       }
       contact::derive_torques(columns, count, law.rolling != nullptr);
       bool has_scales = false;
       double* scale_i = columns.column(BatchColumns::scale_i);
       double* scale_j = columns.column(BatchColumns::scale_j);
-      for (std::size_t q = 0; q < count; ++q) {
+      for (std::size_t q = 0; has_weights && q < count; ++q) {
         const double wi = store.weight[static_cast<std::size_t>(pairs.a[contacts[q]])];
         const double wj = store.weight[static_cast<std::size_t>(pairs.b[contacts[q]])];
         // Sum of w m v is kept: side i feels min(1, w_j / w_i) of the force.
@@ -126,8 +125,7 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk) {
       contact::load_history(pairs, contacts, count, groups, columns);
       law.contact->evaluate(columns.view(count, steps.coarse_step, 0));
       if (law.rolling) {
-        law.rolling->evaluate(
-            columns.view(count, steps.coarse_step, law.contact->history_size()));
+        law.rolling->evaluate(columns.view(count, steps.coarse_step, law.contact->history_size()));
       }
       contact::derive_torques(columns, count, law.rolling != nullptr);
       contact::store_history(pairs, contacts, count, groups, columns);
@@ -172,8 +170,8 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk) {
   }
 }
 
-/// What fine grains gave back during the last coarse step acts now, spread over this one. The lag of
-/// one coarse step is harmless: the mass ratio is at least 512.
+/// What fine grains gave back during the last coarse step acts now, spread over this one. The lag
+/// of one coarse step is harmless: the mass ratio is at least 512.
 void Dem::Impl::force() {
   const double inverse = 1.0 / steps.coarse_step;
   for (const Reaction& r : pending) {

@@ -59,8 +59,8 @@ Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
 }
 
 std::int32_t Dem::Impl::law_of(int i, int j) const {
-  const std::int32_t law = law_table[static_cast<std::size_t>(i) * materials.size() +
-                                     static_cast<std::size_t>(j)];
+  const std::int32_t law =
+      law_table[static_cast<std::size_t>(i) * materials.size() + static_cast<std::size_t>(j)];
   if (law < 0) {
     throw sdk::ModelError("no interaction between the materials " +
                           material_names[static_cast<std::size_t>(i)] + " and " +
@@ -75,8 +75,8 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
   std::size_t n = store.size();
   store.resize(n + grains.size());
   for (const NewGrain& g : grains) {
-    const double mass = materials[static_cast<std::size_t>(g.material)].density *
-                        sdk::sphere_volume(g.diameter);
+    const double mass =
+        materials[static_cast<std::size_t>(g.material)].density * sdk::sphere_volume(g.diameter);
     const double row[3][4] = {{g.position.x, g.position.y, g.position.z, 0.5 * g.diameter},
                               {g.velocity.x, g.velocity.y, g.velocity.z, 1.0 / mass},
                               {g.rotation.x, g.rotation.y, g.rotation.z, 0.0}};
@@ -114,7 +114,8 @@ void Dem::Impl::remove_leavers() {
       if (!below && !above && std::isfinite(p[d])) continue;
       const auto side = static_cast<std::size_t>(2 * d + (above ? 1 : 0));
       if (sides[side] == scenario::GrainSide::wall) {
-        fail(n, "left the domain through the wall '" + std::string(scenario::k_side_names[side]) + "'",
+        fail(n,
+             "left the domain through the wall '" + std::string(scenario::k_side_names[side]) + "'",
              "the time step is too long for the speed of the impact: give time.expected_speed or a "
              "smaller time.dem_step");
       }
@@ -130,7 +131,8 @@ void Dem::Impl::remove_leavers() {
   // History and pending impulses of the others survive: the lists still name the rows as they
   // are, so the rows are dropped at the next rebuild's sort through this order.
   std::vector<std::int32_t> new_row(store.size(), -1);
-  for (std::size_t n = 0; n < keep.size(); ++n) new_row[static_cast<std::size_t>(keep[n])] = static_cast<std::int32_t>(n);
+  for (std::size_t n = 0; n < keep.size(); ++n)
+    new_row[static_cast<std::size_t>(keep[n])] = static_cast<std::int32_t>(n);
   const auto drop = [&](ContactList& list, bool is_surface, bool is_fine) {
     for (std::size_t q = 0; q < list.size(); ++q) {
       list.a[q] = new_row[static_cast<std::size_t>(list.a[q])];
@@ -149,7 +151,8 @@ void Dem::Impl::remove_leavers() {
     drop(c.surfaces, true, false);
   }
   drop(fine, false, true);
-  std::erase_if(pending, [&](const Reaction& r) { return new_row[static_cast<std::size_t>(r.row)] < 0; });
+  std::erase_if(pending,
+                [&](const Reaction& r) { return new_row[static_cast<std::size_t>(r.row)] < 0; });
   for (Reaction& r : pending) r.row = new_row[static_cast<std::size_t>(r.row)];
   store.reorder(keep);
   book.close();
@@ -164,6 +167,13 @@ void Dem::Impl::refresh_decay() {
     has_fluid = has_fluid || x > 0.0;
     store.decay[2 * n] = std::exp(-x);
     store.decay[2 * n + 1] = x > 0.0 ? -std::expm1(-x) / x : 1.0;
+  }
+}
+
+void Dem::Impl::look_at_weights() {
+  has_weights = false;
+  for (std::size_t n = 1; n < coarse_count; ++n) {
+    has_weights = has_weights || store.weight[n] != store.weight[0];
   }
 }
 
@@ -187,7 +197,8 @@ void Dem::Impl::fill_last_force() const {
       }
     }
   }
-  for (std::size_t q = 0; q < fine_force.size(); ++q) last_force[4 * coarse_count + q] += fine_force[q];
+  for (std::size_t q = 0; q < fine_force.size(); ++q)
+    last_force[4 * coarse_count + q] += fine_force[q];
 }
 
 Dem::Dem(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vector<PairLaws> laws,

@@ -55,7 +55,9 @@ struct FlatLists {
     list.history.assign(history.begin() + static_cast<std::ptrdiff_t>(at_ * stride),
                         history.begin() + static_cast<std::ptrdiff_t>((at_ + n) * stride));
     for (std::size_t s = segment_; s < segment_ + m; ++s) {
-      const auto get = [&](std::size_t k) { return static_cast<std::int32_t>(segments.at(4 * s + k)); };
+      const auto get = [&](std::size_t k) {
+        return static_cast<std::int32_t>(segments.at(4 * s + k));
+      };
       list.segments.push_back({get(0), get(1), get(2), get(3)});
     }
     at_ += n;
@@ -114,9 +116,17 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   }
   archive.integers("pending_rows", pending_rows);
   archive.numbers("pending_values", pending_values);
-  const std::int64_t state[] = {static_cast<std::int64_t>(coarse_count), next_id, since_rebuild,
-                                horizon, next_horizon, must_rebuild, must_sort, has_fluid,
-                                counters.steps, counters.particle_steps, counters.fine_steps,
+  const std::int64_t state[] = {static_cast<std::int64_t>(coarse_count),
+                                next_id,
+                                since_rebuild,
+                                horizon,
+                                next_horizon,
+                                must_rebuild,
+                                must_sort,
+                                has_fluid,
+                                counters.steps,
+                                counters.particle_steps,
+                                counters.fine_steps,
                                 counters.rebuilds};
   archive.integers("state", state);
   archive.number("time", time);
@@ -196,6 +206,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   time = archive.number("time");
   counters.largest_overlap = archive.number("largest_overlap");
   book.load(archive);
+  look_at_weights();
 }
 
 }  // namespace dust::particles

@@ -37,10 +37,10 @@ struct Member {
 
 /// A contact candidate of a block.
 struct Candidate {
-  std::int32_t entry = 0;    ///< in the fine list
+  std::int32_t entry = 0;  ///< in the fine list
   std::int32_t member = 0;
-  std::int32_t partner = -1; ///< member, or -1
-  std::int32_t row = -1;     ///< coarse row, or -1
+  std::int32_t partner = -1;  ///< member, or -1
+  std::int32_t row = -1;      ///< coarse row, or -1
   std::int32_t surface = -1;
   std::int32_t law = 0;
   double reaction[6] = {0, 0, 0, 0, 0, 0};
@@ -119,7 +119,9 @@ void store_member(GrainStore& s, const Member& m, double* force) {
 
 /// Root of a grain's cluster, with path halving.
 std::int32_t root(std::vector<FineState>& states, std::int32_t n) {
-  auto at = [&](std::int32_t m) -> std::int32_t& { return states[static_cast<std::size_t>(m)].cluster; };
+  auto at = [&](std::int32_t m) -> std::int32_t& {
+    return states[static_cast<std::size_t>(m)].cluster;
+  };
   while (at(n) != n) {
     at(n) = at(at(n));
     n = at(n);
@@ -149,7 +151,8 @@ class BlockPass {
     count_ = 0;
     const Candidate* open = nullptr;
     for (Candidate& c : block_.candidates) {
-      if (open != nullptr && (open->law != c.law || open->surface != c.surface || count_ == k_batch)) {
+      if (open != nullptr &&
+          (open->law != c.law || open->surface != c.surface || count_ == k_batch)) {
         flush(*open, sub_step);
       }
       open = &c;
@@ -191,7 +194,8 @@ class BlockPass {
       inverse_mass = dem_.store.velocity[row + 3];
     }
     const Vec3 d = dem_.separation(&position.x, &i.position.x);
-    const double reach = i.radius + radius + dem_.laws[static_cast<std::size_t>(c.law)].contact->range();
+    const double reach =
+        i.radius + radius + dem_.laws[static_cast<std::size_t>(c.law)].contact->range();
     if (!(dot(d, d) < reach * reach)) return false;
     set(B::separation_x, d);
     set(B::velocity_x, i.velocity - velocity);
@@ -357,9 +361,10 @@ static Outlook look_out(const Dem::Impl& dem, std::size_t entry, double extra_sp
   out.is_near = dem.fine.is_touching[entry] != 0 || gap < (out.speed + extra_speed) * step + margin;
   if (!out.is_near) return out;
   const double approach = std::max(0.0, -dot(relative, normal)) + gain + extra_speed;
-  out.stable_step = std::min(
-      laws.contact->collision_time(reduced_radius, mass, std::max(approach, 1e-12)),
-      laws.contact->half_period(reduced_radius, mass, std::max(-gap, 0.0))) / k_steps_per_contact;
+  out.stable_step =
+      std::min(laws.contact->collision_time(reduced_radius, mass, std::max(approach, 1e-12)),
+               laws.contact->half_period(reduced_radius, mass, std::max(-gap, 0.0))) /
+      k_steps_per_contact;
   return out;
 }
 
@@ -372,12 +377,13 @@ void Dem::Impl::fine_pass() {
   const auto is_pair = [&](std::size_t e) {
     return fine.b[e] >= static_cast<std::int32_t>(coarse_count);
   };
-  oneapi::tbb::parallel_for(std::size_t{0}, (entries + k_fine_block - 1) / k_fine_block, [&](std::size_t b) {
-    const std::size_t end = std::min(entries, (b + 1) * k_fine_block);
-    for (std::size_t e = b * k_fine_block; e < end; ++e) {
-      if (!is_pair(e)) outlook[e] = look_out(*this, e, 0.0);
-    }
-  });
+  oneapi::tbb::parallel_for(std::size_t{0}, (entries + k_fine_block - 1) / k_fine_block,
+                            [&](std::size_t b) {
+                              const std::size_t end = std::min(entries, (b + 1) * k_fine_block);
+                              for (std::size_t e = b * k_fine_block; e < end; ++e) {
+                                if (!is_pair(e)) outlook[e] = look_out(*this, e, 0.0);
+                              }
+                            });
 
   const auto state = [&](std::int32_t row) -> FineState& {
     return fine_state[static_cast<std::size_t>(row) - coarse_count];
@@ -415,11 +421,12 @@ void Dem::Impl::fine_pass() {
     if (s.cluster < 0) continue;
     s.cluster = root(fine_state, static_cast<std::int32_t>(n));
     const double diameter = 2.0 * store.position[4 * (coarse_count + n) + 3];
-    const auto size = std::lower_bound(
-        steps.classes.begin(), steps.classes.end(), diameter * (1.0 - 1e-9),
-        [](const ClassStep& c, double d) { return c.diameter < d; });
+    const auto size =
+        std::lower_bound(steps.classes.begin(), steps.classes.end(), diameter * (1.0 - 1e-9),
+                         [](const ClassStep& c, double d) { return c.diameter < d; });
     const int finest = size == steps.classes.end() ? 0 : size->level;
-    const int wanted = static_cast<int>(std::ceil(std::log2(step / std::max(s.stable_step, 1e-30))));
+    const int wanted =
+        static_cast<int>(std::ceil(std::log2(step / std::max(s.stable_step, 1e-30))));
     auto& level = level_of[static_cast<std::size_t>(s.cluster)];
     level = std::max(level, std::clamp(wanted, 0, finest));
     active.push_back(static_cast<std::int32_t>(n));
@@ -446,7 +453,8 @@ void Dem::Impl::fine_pass() {
     Block& block = blocks.back();
     seat[static_cast<std::size_t>(n)] = {static_cast<std::int32_t>(blocks.size() - 1),
                                          static_cast<std::int32_t>(block.members.size())};
-    block.members.push_back(load_member(store, gravity, coarse_count + static_cast<std::size_t>(n)));
+    block.members.push_back(
+        load_member(store, gravity, coarse_count + static_cast<std::size_t>(n)));
   }
   for (std::size_t e = 0; e < entries; ++e) {
     if (!outlook[e].is_near) continue;
@@ -474,25 +482,27 @@ void Dem::Impl::fine_pass() {
                      });
     BlockPass(*this, block, time).run();
     for (const Member& m : block.members) {
-      store_member(store, m, fine_force.data() + 4 * (static_cast<std::size_t>(m.row) - coarse_count));
+      store_member(store, m,
+                   fine_force.data() + 4 * (static_cast<std::size_t>(m.row) - coarse_count));
     }
   });
-  oneapi::tbb::parallel_for(
-      std::size_t{0}, (fine_count + k_fine_block - 1) / k_fine_block, [&](std::size_t b) {
-        const std::size_t end = std::min(fine_count, (b + 1) * k_fine_block);
-        for (std::size_t n = b * k_fine_block; n < end; ++n) {
-          if (fine_state[n].cluster >= 0) continue;
-          Member m = load_member(store, gravity, coarse_count + n);
-          advance(m, step);
-          store_member(store, m, fine_force.data() + 4 * n);
-        }
-      });
+  oneapi::tbb::parallel_for(std::size_t{0}, (fine_count + k_fine_block - 1) / k_fine_block,
+                            [&](std::size_t b) {
+                              const std::size_t end = std::min(fine_count, (b + 1) * k_fine_block);
+                              for (std::size_t n = b * k_fine_block; n < end; ++n) {
+                                if (fine_state[n].cluster >= 0) continue;
+                                Member m = load_member(store, gravity, coarse_count + n);
+                                advance(m, step);
+                                store_member(store, m, fine_force.data() + 4 * n);
+                              }
+                            });
   counters.fine_steps += static_cast<std::int64_t>(fine_count - active.size());
   for (const Block& block : blocks) {
     counters.fine_steps += static_cast<std::int64_t>(block.members.size()) << block.level;
     counters.largest_overlap = std::max(counters.largest_overlap, block.largest_overlap);
     for (const Candidate& c : block.candidates) {
-      if (c.row < 0 || std::all_of(c.reaction, c.reaction + 6, [](double x) { return x == 0.0; })) continue;
+      if (c.row < 0 || std::all_of(c.reaction, c.reaction + 6, [](double x) { return x == 0.0; }))
+        continue;
       Reaction r{.row = c.row};
       std::copy_n(c.reaction, 6, r.impulse);
       pending.push_back(r);

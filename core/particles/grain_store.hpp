@@ -15,16 +15,16 @@ namespace dust::particles {
 /// Positions stand at the time x^n; half_velocity at x^n minus the lag in its fourth column (half a
 /// step, zero for a grain that has just come); velocity is the one predicted for x^n.
 struct GrainStore {
-  contact::AlignedVector<double> position;        ///< x, y, z, radius
-  contact::AlignedVector<double> velocity;        ///< fourth 1 / mass
+  contact::AlignedVector<double> position;  ///< x, y, z, radius
+  contact::AlignedVector<double> velocity;  ///< fourth 1 / mass
   contact::AlignedVector<double> rotation;
-  contact::AlignedVector<double> half_velocity;   ///< fourth lag [s]
+  contact::AlignedVector<double> half_velocity;  ///< fourth lag [s]
   contact::AlignedVector<double> half_rotation;
-  contact::AlignedVector<double> action;          ///< target velocity, rate [1/s]
+  contact::AlignedVector<double> action;  ///< target velocity, rate [1/s]
   contact::AlignedVector<double> impulse;
-  contact::AlignedVector<double> start;           ///< position at the last rebuild, allowed deviation [m]
+  contact::AlignedVector<double> start;  ///< position at the last rebuild, allowed deviation [m]
   contact::AlignedVector<double> start_velocity;  ///< velocity at the last rebuild
-  contact::AlignedVector<double> decay;           ///< two per grain: exp(-k dt), (1 - exp(-k dt)) / (k dt)
+  contact::AlignedVector<double> decay;  ///< two per grain: exp(-k dt), (1 - exp(-k dt)) / (k dt)
   std::vector<std::int64_t> id;
   std::vector<std::int32_t> material;
   std::vector<std::int32_t> population;  ///< index into the balance book

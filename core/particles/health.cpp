@@ -15,7 +15,8 @@ void Dem::Impl::fail(std::size_t row, const std::string& what, const std::string
   text << "grain " << store.id[row] << " (diameter " << 2.0 * p[3] << " m, "
        << material_names[static_cast<std::size_t>(store.material[row])] << ") " << what
        << " at time " << time << " s, position (" << p[0] << ", " << p[1] << ", " << p[2]
-       << ") m, velocity (" << v[0] << ", " << v[1] << ", " << v[2] << ") m/s; last known contact: ";
+       << ") m, velocity (" << v[0] << ", " << v[1] << ", " << v[2]
+       << ") m/s; last known contact: ";
   std::string partner = "none";
   const auto look = [&](const ContactList& list, bool is_surface) {
     for (std::size_t q = 0; q < list.size(); ++q) {
@@ -24,7 +25,8 @@ void Dem::Impl::fail(std::size_t row, const std::string& what, const std::string
       if (list.a[q] != self && (is_surface || list.b[q] != self)) continue;
       const std::int32_t other = list.a[q] == self ? list.b[q] : list.a[q];
       if (is_surface || other < 0) {
-        partner = "surface " + surfaces[static_cast<std::size_t>(is_surface ? other : -1 - other)].name;
+        partner =
+            "surface " + surfaces[static_cast<std::size_t>(is_surface ? other : -1 - other)].name;
       } else {
         partner = "grain " + std::to_string(store.id[static_cast<std::size_t>(other)]);
       }

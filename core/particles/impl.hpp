@@ -70,8 +70,8 @@ struct Reaction {
 struct FineState {
   std::int32_t cluster = -1;  ///< -1: no partner in reach
   std::int32_t level = 0;
-  double stable_step = 0.0;   ///< [s]
-  double speed = 0.0;         ///< [m/s] largest relative speed to a near partner
+  double stable_step = 0.0;  ///< [s]
+  double speed = 0.0;        ///< [m/s] largest relative speed to a near partner
 };
 
 struct Dem::Impl {
@@ -82,6 +82,7 @@ struct Dem::Impl {
   void insert(std::span<const NewGrain> grains);
   void remove_leavers();
   void refresh_decay();
+  void look_at_weights();
   [[nodiscard]] std::int32_t law_of(int material_i, int material_j) const;
 
   // rebuild.cpp
@@ -143,13 +144,14 @@ struct Dem::Impl {
   double largest_range = 0.0;
   bool is_periodic = false;
   bool has_fluid = false;
+  bool has_weights = false;  ///< coarse grains of different weights
 
   // State.
   GrainStore store;
   BalanceBook book;
   std::size_t coarse_count = 0;
   std::vector<Chunk> chunks;
-  ContactList fine;          ///< partner >= 0: row; < 0: surface -1 - b
+  ContactList fine;  ///< partner >= 0: row; < 0: surface -1 - b
   std::vector<Reaction> pending;
   contact::AlignedVector<double> fine_force;  ///< four per fine grain, of the last sub-step
   std::int64_t next_id = 0;

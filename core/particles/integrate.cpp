@@ -26,16 +26,19 @@ struct ChunkRows {
 };
 
 /// Leapfrog with drag integrated exactly between the kicks:
-/// \f$ v' = v E + u (1 - E) + a \phi \tau \f$, E = exp(-k tau), phi = (1 - E) / (k tau), tau the lag
-/// of v plus half the step. The velocity for the next forces is predicted to the instant of the new
-/// positions (Vyas et al., Comput. Phys. Commun. 310 (2025) 109524, doi:10.1016/j.cpc.2025.109524).
+/// \f$ v' = v E + u (1 - E) + a \phi \tau \f$, E = exp(-k tau), phi = (1 - E) / (k tau), tau the
+/// lag of v plus half the step. The velocity for the next forces is predicted to the instant of the
+/// new positions (Vyas et al., Comput. Phys. Commun. 310 (2025) 109524,
+/// doi:10.1016/j.cpc.2025.109524).
 DUST_KERNEL void integrate_rows(const ChunkRows& r, double step, bool has_fluid) {
   using contact::Lanes;
-  const auto lanes = [](double* p, std::size_t n) __attribute__((always_inline)) -> Lanes& {
+  const auto lanes = [](double* p, std::size_t n) __attribute__((always_inline))->Lanes& {
     return *reinterpret_cast<Lanes*>(p + 4 * n);
   };
-  const auto fixed = [](const double* p, std::size_t n) __attribute__((always_inline))
-      -> const Lanes& { return *reinterpret_cast<const Lanes*>(p + 4 * n); };
+  const auto fixed =
+      [](const double* p, std::size_t n) __attribute__((always_inline))->const Lanes& {
+    return *reinterpret_cast<const Lanes*>(p + 4 * n);
+  };
   const double half_step = 0.5 * step;
   const Lanes three{1.0, 1.0, 1.0, 0.0};
   const Lanes fourth{0.0, 0.0, 0.0, 1.0};

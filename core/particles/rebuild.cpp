@@ -154,8 +154,8 @@ void Dem::Impl::carry_over(ContactList& list, bool is_surface) {
          m < old_begin[static_cast<std::size_t>(a) + 1]; ++m) {
       if (old_partner[static_cast<std::size_t>(m)] != b) continue;
       list.is_touching[q] = 1;
-      std::memcpy(list.history.data() + q * history_stride, old_history[static_cast<std::size_t>(m)],
-                  history_stride * sizeof(double));
+      std::memcpy(list.history.data() + q * history_stride,
+                  old_history[static_cast<std::size_t>(m)], history_stride * sizeof(double));
     }
   }
 }
@@ -172,7 +172,8 @@ void Dem::Impl::rebuild() {
   ContactList old_fine = std::move(fine);
   old_begin.assign(old_rows + 1, 0);
   const auto each = [&](auto&& visit) {
-    const auto walk = [&](const ContactList& list, bool is_surface, std::int32_t low, std::int32_t high) {
+    const auto walk = [&](const ContactList& list, bool is_surface, std::int32_t low,
+                          std::int32_t high) {
       for (std::size_t q = 0; q < list.size(); ++q) {
         // A pair across chunks stands in both: the first grain's owner speaks.
         if (list.is_touching[q] == 0 || list.a[q] < low || list.a[q] >= high) continue;
@@ -187,7 +188,9 @@ void Dem::Impl::rebuild() {
     }
     walk(old_fine, false, 0, all);
   };
-  each([&](std::int32_t a, std::int32_t, const double*) { ++old_begin[static_cast<std::size_t>(a) + 1]; });
+  each([&](std::int32_t a, std::int32_t, const double*) {
+    ++old_begin[static_cast<std::size_t>(a) + 1];
+  });
   for (std::size_t n = 0; n < old_rows; ++n) old_begin[n + 1] += old_begin[n];
   old_partner.resize(static_cast<std::size_t>(old_begin.back()));
   old_history.resize(old_partner.size());
@@ -202,7 +205,8 @@ void Dem::Impl::rebuild() {
     sort_rows();
     if (!pending.empty()) {
       std::vector<std::int32_t> new_row(old_row.size());
-      for (std::size_t n = 0; n < old_row.size(); ++n) new_row[static_cast<std::size_t>(old_row[n])] = static_cast<std::int32_t>(n);
+      for (std::size_t n = 0; n < old_row.size(); ++n)
+        new_row[static_cast<std::size_t>(old_row[n])] = static_cast<std::int32_t>(n);
       for (Reaction& r : pending) r.row = new_row[static_cast<std::size_t>(r.row)];
     }
   } else {
@@ -210,6 +214,7 @@ void Dem::Impl::rebuild() {
     for (std::size_t n = 0; n < store.size(); ++n) old_row[n] = static_cast<std::int32_t>(n);
   }
   choose_allowances();
+  look_at_weights();
   for (std::size_t n = 0; n < store.size(); ++n) {
     for (std::size_t d = 0; d < 3; ++d) {
       store.start[4 * n + d] = store.position[4 * n + d];
@@ -223,9 +228,10 @@ void Dem::Impl::rebuild() {
     const double* v = store.velocity.data() + 4 * n;
     fastest2 = std::max(fastest2, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   }
-  const double longest = steps.classes.back().diameter / steps.coarse_step / std::sqrt(fastest2 + 1e-30);
-  horizon = std::min(next_horizon, std::max(k_shortest_horizon, static_cast<std::int64_t>(
-                                                                    std::min(longest, 1e6))));
+  const double longest =
+      steps.classes.back().diameter / steps.coarse_step / std::sqrt(fastest2 + 1e-30);
+  horizon = std::min(next_horizon, std::max(k_shortest_horizon,
+                                            static_cast<std::int64_t>(std::min(longest, 1e6))));
   SearchInput in;
   in.count = store.size();
   in.position = store.position.data();
@@ -257,7 +263,8 @@ void Dem::Impl::rebuild() {
                            store.start[4 * static_cast<std::size_t>(j) + 3];
       close += dot(d, d) < reach * reach ? 1 : 0;
       // Side i is the lower id in every list, so that a history keeps its sign through all sorts.
-      const bool in_order = store.id[static_cast<std::size_t>(i)] < store.id[static_cast<std::size_t>(j)];
+      const bool in_order =
+          store.id[static_cast<std::size_t>(i)] < store.id[static_cast<std::size_t>(j)];
       std::int32_t a = in_order ? i : j;
       std::int32_t b = in_order ? j : i;
       if (i >= coarse || j >= coarse) {

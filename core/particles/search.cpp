@@ -112,7 +112,8 @@ class Level {
   static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) {
     constexpr std::int64_t mask = (std::int64_t{1} << k_bits) - 1;
     return static_cast<std::uint64_t>((((z + k_offset) & mask) << (2 * k_bits)) |
-                                      (((y + k_offset) & mask) << k_bits) | ((x + k_offset) & mask));
+                                      (((y + k_offset) & mask) << k_bits) |
+                                      ((x + k_offset) & mask));
   }
   [[nodiscard]] std::size_t hash(std::uint64_t k) const {
     return static_cast<std::size_t>((k * 0x9E3779B97F4A7C15ull) >> shift_);
@@ -167,7 +168,8 @@ std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_
   for (std::size_t n = 0; n < in.count; ++n) {
     const double ratio = largest / in.position[4 * n + 3];
     const int level = std::max(0, static_cast<int>(std::ceil(std::log2(ratio) - 1e-9)) - 1);
-    if (members.size() <= static_cast<std::size_t>(level)) members.resize(static_cast<std::size_t>(level) + 1);
+    if (members.size() <= static_cast<std::size_t>(level))
+      members.resize(static_cast<std::size_t>(level) + 1);
     members[static_cast<std::size_t>(level)].push_back(static_cast<std::int32_t>(n));
     level_of[n] = level;
   }

@@ -12,21 +12,22 @@ namespace dust::particles {
 /// What the search looks at: rows of four doubles.
 struct SearchInput {
   std::size_t count = 0;
-  const double* position = nullptr;   ///< x, y, z, radius
+  const double* position = nullptr;  ///< x, y, z, radius
   const double* velocity = nullptr;
   const double* allowance = nullptr;  ///< fourth column of rows: allowed deviation [m]
   double horizon = 0.0;               ///< [s] for how long the list is to hold
   double range = 0.0;                 ///< [m] beyond touch
   double origin[3] = {0, 0, 0};
-  double period[3] = {0, 0, 0};       ///< [m] 0 = not periodic
-  double smallest_edge = 0.0;         ///< [m] of a cell, against a cell per grain far apart
+  double period[3] = {0, 0, 0};  ///< [m] 0 = not periodic
+  double smallest_edge = 0.0;    ///< [m] of a cell, against a cell per grain far apart
 };
 
 using RowPair = std::pair<std::int32_t, std::int32_t>;
 
 /// All pairs that may touch within the horizon: if both went straight on, they would come closer
 /// than their radii plus their allowances. Each pair once, in the block (of `block` rows) of its
-/// first grain; the first grain is the finer one (higher grid level) or, at one level, the lower row.
+/// first grain; the first grain is the finer one (higher grid level) or, at one level, the lower
+/// row.
 ///
 /// A hash grid per size level (factor 2): a grain looks into the cells of its own level and of the
 /// coarser ones, so that dust among sand costs in proportion to the number of grains.

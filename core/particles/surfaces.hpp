@@ -28,7 +28,8 @@ struct Surface {
 std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::BodySet& bodies);
 
 /// Surface velocities of `count` columns of points and normals at `time` [s].
-void surface_velocities(const Surface& surface, double time, std::size_t count, const double* const* point,
-                        const double* const* normal, double* const* velocity);
+void surface_velocities(const Surface& surface, double time, std::size_t count,
+                        const double* const* point, const double* const* normal,
+                        double* const* velocity);
 
 }  // namespace dust::particles

@@ -92,9 +92,10 @@ TimeSteps time_steps(const scenario::Setup& setup, const bodies::BodySet& bodies
       interval > 0.0 ? interval / std::max(1.0, std::ceil(interval / step - k_whole_slack)) : step;
   for (ClassStep& c : out.classes) {
     const bool is_coarse = c.diameter >= out.coarse_limit;
-    c.level = is_coarse
-                  ? 0
-                  : std::max(0, static_cast<int>(std::ceil(std::log2(out.coarse_step / c.stable_step))));
+    c.level =
+        is_coarse
+            ? 0
+            : std::max(0, static_cast<int>(std::ceil(std::log2(out.coarse_step / c.stable_step))));
   }
   return out;
 }

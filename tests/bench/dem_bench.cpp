@@ -61,13 +61,15 @@ void measure(const char* name, Dem& dem, int warm_up, int steps, int repeats) {
   }
   const auto after = dem.report();
   const auto count = static_cast<double>(dem.rows().count);
-  std::printf("%-12s %8.0f grains  dt %.2e s  %6.1f M grain-steps/s  (neighbours %4.1f %%, contact %4.1f %%, "
-              "integrate %4.1f %%)  rebuilds %.4f/step  contacts %lld  fine sub-steps/step %.0f\n",
-              name, count, dem.coarse_step(), 1e-6 * count * steps / best[0],
-              100 * best[1] / best[0], 100 * best[2] / best[0], 100 * best[3] / best[0],
-              static_cast<double>(after.rebuilds - before.rebuilds) / (steps * repeats),
-              static_cast<long long>(after.contacts),
-              static_cast<double>(after.fine_steps - before.fine_steps) / (steps * repeats));
+  std::printf(
+      "%-12s %8.0f grains  dt %.2e s  %6.1f M grain-steps/s  (neighbours %4.1f %%, contact %4.1f "
+      "%%, "
+      "integrate %4.1f %%)  rebuilds %.4f/step  contacts %lld  fine sub-steps/step %.0f\n",
+      name, count, dem.coarse_step(), 1e-6 * count * steps / best[0], 100 * best[1] / best[0],
+      100 * best[2] / best[0], 100 * best[3] / best[0],
+      static_cast<double>(after.rebuilds - before.rebuilds) / (steps * repeats),
+      static_cast<long long>(after.contacts),
+      static_cast<double>(after.fine_steps - before.fine_steps) / (steps * repeats));
 }
 
 void dilute(bool with_dust) {
@@ -83,8 +85,11 @@ void dilute(bool with_dust) {
   rig.wall(3, sand);
   dust::scenario::BodySpec spec;
   spec.material = sand;
-  spec.shape = {.kind = "shape", .name = "conveyor",
-                .values = {Vec3{0.08, 0, -0.042}, Vec3{-0.5, 0, -0.042}, 0.042, 0.0}, .path = {}, .where = {}};
+  spec.shape = {.kind = "shape",
+                .name = "conveyor",
+                .values = {Vec3{0.08, 0, -0.042}, Vec3{-0.5, 0, -0.042}, 0.042, 0.0},
+                .path = {},
+                .where = {}};
   rig.bodies.push_back(dust::bodies::make_body(
       rig.setup, spec, ModelLoader::make<dust::sdk::Motion>("motion", "belt", {{"speed", 0.8}})));
   auto dem = rig.make();
@@ -98,8 +103,9 @@ void dilute(bool with_dust) {
       const bool on_belt = i % 3 == 0;
       const Vec3 jitter{random.uniform(n, 0), random.uniform(n, 1), random.uniform(n, 2)};
       NewGrain g{.diameter = sizes[n % 4]};
-      g.position = on_belt ? Vec3{0.01 + 7e-4 * (i / 3 % 100), 7e-4 * (j + 0.6), 3.1e-4 + 7e-4 * (i / 300)}
-                           : Vec3{0.13 + 8e-4 * (i % 20), 7e-4 * (j + 0.6), -0.1 + 1e-3 * (i / 20)};
+      g.position =
+          on_belt ? Vec3{0.01 + 7e-4 * (i / 3 % 100), 7e-4 * (j + 0.6), 3.1e-4 + 7e-4 * (i / 300)}
+                  : Vec3{0.13 + 8e-4 * (i % 20), 7e-4 * (j + 0.6), -0.1 + 1e-3 * (i / 20)};
       g.position += 5e-5 * jitter;
       g.velocity = on_belt ? Vec3{0.8, 0, 0} : Vec3{0.8, 0, -1.2} + 0.1 * jitter;
       grains.push_back(g);
@@ -109,8 +115,10 @@ void dilute(bool with_dust) {
     for (int i = 0; i < 2700; ++i, ++n) {
       NewGrain g{.diameter = 10e-6, .weight = 0.05};
       const Vec3 u{random.uniform(n, 0), random.uniform(n, 1), random.uniform(n, 2)};
-      g.position = i % 10 == 0 ? Vec3{0.0035 * (i / 140 + 0.5 * u.x) + 1e-4, 7e-4 * (i / 10 % 14 + 0.6) + 3.75e-4, 0}
-                               : Vec3{0.13 + 0.016 * u.x, 7e-4 * (i % 14 + 0.6) + 3.75e-4, -0.1 + 0.045 * u.z};
+      g.position =
+          i % 10 == 0
+              ? Vec3{0.0035 * (i / 140 + 0.5 * u.x) + 1e-4, 7e-4 * (i / 10 % 14 + 0.6) + 3.75e-4, 0}
+              : Vec3{0.13 + 0.016 * u.x, 7e-4 * (i % 14 + 0.6) + 3.75e-4, -0.1 + 0.045 * u.z};
       if (i % 10 == 0) g.position.z = 5.2e-6;
       g.velocity = i % 10 == 0 ? Vec3{0.8, 0, 0} : Vec3{0.8, 0, -1.0};
       grains.push_back(g);
@@ -159,7 +167,8 @@ void bed(const char* file) {
 
 int main(int argc, char** argv) {
   const std::size_t threads = argc > 1 ? static_cast<std::size_t>(std::atoi(argv[1])) : 1;
-  oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+  oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
+                                      threads);
   std::printf("%zu thread(s)\n", threads);
   dilute(false);
   dilute(true);

@@ -70,8 +70,8 @@ struct DemRig {
     setup.time.fluid_step = 0.0;
   }
   int material(double density, double young, double poisson) {
-    setup.materials.push_back({"m" + std::to_string(setup.materials.size()),
-                               {density, young, poisson}});
+    setup.materials.push_back(
+        {"m" + std::to_string(setup.materials.size()), {density, young, poisson}});
     return static_cast<int>(setup.materials.size()) - 1;
   }
   void law(int i, int j, double restitution, double friction, double rolling = -1.0) {
@@ -90,10 +90,8 @@ struct DemRig {
     laws.push_back(std::move(p));
   }
   void wall(int side, int material) {
-    setup.domain.sides[static_cast<std::size_t>(side)] = {.grains = scenario::GrainSide::wall,
-                                                          .material = material,
-                                                          .air = {},
-                                                          .where = {}};
+    setup.domain.sides[static_cast<std::size_t>(side)] = {
+        .grains = scenario::GrainSide::wall, .material = material, .air = {}, .where = {}};
   }
   void periodic(int axis) {
     for (int side : {2 * axis, 2 * axis + 1}) {
@@ -139,8 +137,8 @@ inline GrainState grain(particles::Dem& dem, std::int64_t id) {
     const double* p = rows.position + 4 * n;
     const double* v = rows.velocity + 4 * n;
     const double* w = rows.rotation + 4 * n;
-    return {{p[0], p[1], p[2]}, {v[0], v[1], v[2]}, {w[0], w[1], w[2]},
-            p[3], 1.0 / v[3], rows.weight[n]};
+    return {{p[0], p[1], p[2]}, {v[0], v[1], v[2]}, {w[0], w[1], w[2]}, p[3],
+            1.0 / v[3],         rows.weight[n]};
   }
   throw std::runtime_error("no such grain");
 }

@@ -31,12 +31,15 @@ class HertzMindlin final : public sdk::ContactLaw {
   static sdk::ModelInfo describe() {
     return {.name = "hertz_mindlin",
             .version = "1.0",
-            .summary = "Hertz normal and energy-conserving Mindlin tangential contact with viscous "
-                       "damping and strict Coulomb friction.",
-            .equation = "F_n = \\tfrac43 E^* \\sqrt{R^*} d^{3/2} - \\gamma_n v_n,\\quad "
-                        "F_t = -k_t \\xi_t - \\gamma_t v_t,\\quad |F_t| \\le \\mu_s \\max(F_n, 0)",
-            .source = "Tsuji, Tanaka, Ishida, Powder Technol. 71 (1992) 239, "
-                      "doi:10.1016/0032-5910(92)88030-L; rescaled tangential spring: own derivation"};
+            .summary =
+                "Hertz normal and energy-conserving Mindlin tangential contact with viscous "
+                "damping and strict Coulomb friction.",
+            .equation =
+                "F_n = \\tfrac43 E^* \\sqrt{R^*} d^{3/2} - \\gamma_n v_n,\\quad "
+                "F_t = -k_t \\xi_t - \\gamma_t v_t,\\quad |F_t| \\le \\mu_s \\max(F_n, 0)",
+            .source =
+                "Tsuji, Tanaka, Ishida, Powder Technol. 71 (1992) 239, "
+                "doi:10.1016/0032-5910(92)88030-L; rescaled tangential spring: own derivation"};
   }
 
   explicit HertzMindlin(const Parameters& p) {
@@ -81,8 +84,9 @@ DUST_KERNEL void evaluate_batch(const formula::Constants& constants, const sdk::
   double *fx = b.force_x, *fy = b.force_y, *fz = b.force_z;
 #pragma omp simd
   for (std::size_t q = 0; q < b.count; ++q) {
-    formula::Contact c{overlap[q], nx[q], ny[q], nz[q], vx[q], vy[q],         vz[q], radius[q],
-                       mass[q],    sx[q], sy[q], sz[q], stiffness[q], 0.0, 0.0, 0.0, 0.0};
+    formula::Contact c{overlap[q],   nx[q],     ny[q],   nz[q], vx[q], vy[q],
+                       vz[q],        radius[q], mass[q], sx[q], sy[q], sz[q],
+                       stiffness[q], 0.0,       0.0,     0.0,   0.0};
     formula::evaluate(k, time_step, c);
     sx[q] = c.sx;
     sy[q] = c.sy;

@@ -34,17 +34,18 @@ inline double collision_time(double young, double radius, double mass, double sp
 /// \f$ dF_n/d\delta = 2 E^* \sqrt{R^* \delta} \f$.
 inline double half_period(double young, double radius, double mass, double overlap) {
   return std::numbers::pi *
-         std::sqrt(mass / std::max(2.0 * young * std::sqrt(radius * std::max(overlap, 0.0)), 1e-300));
+         std::sqrt(mass /
+                   std::max(2.0 * young * std::sqrt(radius * std::max(overlap, 0.0)), 1e-300));
 }
 
 /// One contact: geometry and kinematics in, force out. n points from j to i, v is the velocity of i
 /// relative to j at the contact point. SI.
 struct Contact {
   double overlap, nx, ny, nz, vx, vy, vz, radius, mass;
-  double sx, sy, sz;   ///< [m] tangential displacement, in and out
-  double stiffness;    ///< [N/m] k_t of the last step in, of this one out
-  double normal_force; ///< [N] out
-  double fx, fy, fz;   ///< [N] out, on i
+  double sx, sy, sz;    ///< [m] tangential displacement, in and out
+  double stiffness;     ///< [N/m] k_t of the last step in, of this one out
+  double normal_force;  ///< [N] out
+  double fx, fy, fz;    ///< [N] out, on i
 };
 
 /// Normal force \f$ F_n = \tfrac43 E^* \sqrt{R^*}\, d^{3/2} - \gamma_n v_n \f$ and tangential force
@@ -52,15 +53,14 @@ struct Contact {
 /// damper together.
 ///
 /// The displacement is rescaled as the stiffness changes, \f$ \xi_t \sqrt{k_t} \f$ = const, so that
-/// a growing or shrinking overlap neither feeds nor drains the energy \f$ k_t \xi_t^2 / 2 \f$ of the
-/// spring (own derivation). Constant displacement (the "total" form) would create energy while the
-/// contact is loaded, constant force while it is unloaded; forces that shrink with k_t on unloading
-/// (Thornton, Cummins, Cleary, Powder Technol. 233 (2013) 30, doi:10.1016/j.powtec.2012.08.012)
-/// create none but lose a fifth of the tangential energy of an elastic impact without slip, this
-/// form a twentieth.
-/// While sliding the spring is set to what the limit leaves beside the damper. The displacement
-/// turns with the normal and keeps its length.
-inline void evaluate(const Constants& k, double time_step, Contact& c) {
+/// a growing or shrinking overlap neither feeds nor drains the energy \f$ k_t \xi_t^2 / 2 \f$ of
+/// the spring (own derivation). Constant displacement (the "total" form) would create energy while
+/// the contact is loaded, constant force while it is unloaded; forces that shrink with k_t on
+/// unloading (Thornton, Cummins, Cleary, Powder Technol. 233 (2013) 30,
+/// doi:10.1016/j.powtec.2012.08.012) create none but lose a fifth of the tangential energy of an
+/// elastic impact without slip, this form a twentieth. While sliding the spring is set to what the
+/// limit leaves beside the damper. The displacement turns with the normal and keeps its length.
+[[gnu::always_inline]] inline void evaluate(const Constants& k, double time_step, Contact& c) {
   constexpr double k_tiny = 1e-290;
   const double d = std::max(c.overlap, 0.0);
   const double root = std::sqrt(c.radius * d);
@@ -96,8 +96,8 @@ inline void evaluate(const Constants& k, double time_step, Contact& c) {
   const double limit = k.friction * std::max(fn, 0.0);
   const double total = std::sqrt(ux * ux + uy * uy + uz * uz);
   const double cap = std::min(1.0, limit / std::max(total, k_tiny));
-  const double back = cap < 1.0 ? -1.0 / floor : 0.0;
   const double hold = cap < 1.0 ? 0.0 : 1.0;
+  const double back = (hold - 1.0) / floor;
 
   c.sx = hold * sx + back * (cap * ux + gt * tx);
   c.sy = hold * sy + back * (cap * uy + gt * ty);

@@ -142,14 +142,16 @@ class Feed final : public sdk::Emitter {
         axis_ = d;
         ++flat;
       } else if (extent < 0.0) {
-        throw sdk::ParameterError("min lies beyond max: give the lower corner of the opening first");
+        throw sdk::ParameterError(
+            "min lies beyond max: give the lower corner of the opening first");
       } else {
         area_ *= extent;
       }
     }
     if (flat != 1) {
-      throw sdk::ParameterError("the opening must be flat: min and max have to agree along exactly "
-                                "one axis");
+      throw sdk::ParameterError(
+          "the opening must be flat: min and max have to agree along exactly "
+          "one axis");
     }
     speed_ = std::abs(p_.velocity[axis_]);
     if (!(speed_ > 0.0)) {
@@ -240,8 +242,8 @@ class Feed final : public sdk::Emitter {
     Event e;
     e.number = number;
     e.size = formula::draw_class(common_, counts, k_window, context.random.uniform(number, 0, 1));
-    e.time = p_.begin +
-             (mass + 0.5 * formula::mass(context.grain_density, p_.diameters[e.size])) / flow;
+    e.time =
+        p_.begin + (mass + 0.5 * formula::mass(context.grain_density, p_.diameters[e.size])) / flow;
     return e;
   }
 

@@ -32,8 +32,8 @@ class Belt final : public sdk::Motion {
   explicit Belt(const Parameters& p) : speed_(p.speed) {}
   void surface_velocity(const sdk::SurfaceBatch& b) const override {
     for (std::size_t q = 0; q < b.count; ++q) {
-      const auto v = dust::model::belt::velocity(speed_, b.axis.x, b.axis.y, b.axis.z, b.normal_x[q],
-                                                 b.normal_y[q], b.normal_z[q]);
+      const auto v = dust::model::belt::velocity(speed_, b.axis.x, b.axis.y, b.axis.z,
+                                                 b.normal_x[q], b.normal_y[q], b.normal_z[q]);
       b.velocity_x[q] = v.x;
       b.velocity_y[q] = v.y;
       b.velocity_z[q] = v.z;

@@ -3,8 +3,8 @@
 
 namespace dust::model::belt {
 
-/// Surface velocity of a belt: \f$ v = U\, a \times n \f$, a the pulley's axis, n the outward normal.
-/// With a = +y and n = +z this is +x; it turns round the pulleys with the normal.
+/// Surface velocity of a belt: \f$ v = U\, a \times n \f$, a the pulley's axis, n the outward
+/// normal. With a = +y and n = +z this is +x; it turns round the pulleys with the normal.
 struct Velocity {
   double x, y, z;
 };

@@ -8,7 +8,7 @@ namespace {
 namespace formula = dust::model::epsd2;
 namespace sdk = dust::sdk;
 
-DUST_KERNEL void evaluate_batch(double friction, const sdk::ContactBatch& b) {
+DUST_KERNEL void evaluate_batch(double friction, const sdk::ContactBatch &b) {
   const double time_step = b.time_step;
   const double *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
   const double *wx = b.rotation_x, *wy = b.rotation_y, *wz = b.rotation_z;
@@ -47,19 +47,19 @@ class Epsd2 final : public sdk::RollingLaw {
     return {.name = "epsd2",
             .version = "1.0",
             .summary = "Elastic-plastic rolling spring without dashpot.",
-            .equation = "\\Delta M = -k_t R^{*2} \\Delta\\theta_r,\\quad "
-                        "|M| \\le \\mu_r R^* |F_n|",
-            .source = "Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269 (model C), "
-                      "doi:10.1016/j.powtec.2010.09.030; Wensrich and Katterfeld, Powder Technol. "
-                      "217 (2012) 409, doi:10.1016/j.powtec.2011.10.057"};
+            .equation =
+                "\\Delta M = -k_t R^{*2} \\Delta\\theta_r,\\quad "
+                "|M| \\le \\mu_r R^* |F_n|",
+            .source =
+                "Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269 (model C), "
+                "doi:10.1016/j.powtec.2010.09.030; Wensrich and Katterfeld, Powder Technol. "
+                "217 (2012) 409, doi:10.1016/j.powtec.2011.10.057"};
   }
 
-  explicit Epsd2(const Parameters& p) : friction_(p.friction) {}
-  void prepare(const sdk::MaterialProperties&, const sdk::MaterialProperties&) override {}
+  explicit Epsd2(const Parameters &p) : friction_(p.friction) {}
+  void prepare(const sdk::MaterialProperties &, const sdk::MaterialProperties &) override {}
   [[nodiscard]] int history_size() const override { return 3; }
-  void evaluate(const sdk::ContactBatch& batch) const override {
-    evaluate_batch(friction_, batch);
-  }
+  void evaluate(const sdk::ContactBatch &batch) const override { evaluate_batch(friction_, batch); }
 
  private:
   double friction_;

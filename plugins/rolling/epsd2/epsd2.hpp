@@ -6,8 +6,8 @@
 
 namespace dust::model::epsd2 {
 
-/// One contact. n: unit normal, w: angular velocity of i relative to j [rad/s], m: couple on i [N m],
-/// in and out.
+/// One contact. n: unit normal, w: angular velocity of i relative to j [rad/s], m: couple on i [N
+/// m], in and out.
 struct Rolling {
   double nx, ny, nz, wx, wy, wz;
   double radius;        ///< [m] R*
@@ -22,7 +22,7 @@ struct Rolling {
 /// the contact and keeps its length.
 /// Source: model C of Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269,
 /// doi:10.1016/j.powtec.2010.09.030, with k_r of Iwashita and Oda, J. Eng. Mech. 124 (1998) 285.
-inline void evaluate(double friction, double time_step, Rolling& c) {
+[[gnu::always_inline]] inline void evaluate(double friction, double time_step, Rolling& c) {
   constexpr double k_tiny = 1e-290;
   const double wn = c.wx * c.nx + c.wy * c.ny + c.wz * c.nz;
   const double mn = c.mx * c.nx + c.my * c.ny + c.mz * c.nz;

@@ -36,8 +36,12 @@ std::map<std::string, Value> transfer_point() {
 std::vector<Seed> run(Emitter& feed, int from, int to) {
   std::vector<Seed> seeds;
   for (int n = from; n < to; ++n) {
-    feed.propose({.begin = 1e-3 * n, .end = 1e-3 * (n + 1), .grain_density = k_density,
-                  .gravity = {0, 0, -9.81}, .random = Random(1, 42)}, seeds);
+    feed.propose({.begin = 1e-3 * n,
+                  .end = 1e-3 * (n + 1),
+                  .grain_density = k_density,
+                  .gravity = {0, 0, -9.81},
+                  .random = Random(1, 42)},
+                 seeds);
   }
   return seeds;
 }
@@ -77,8 +81,8 @@ TEST_CASE("the feed shall follow the size distribution, rare sizes with their we
       CHECK(s.weight == doctest::Approx(0.05));
     }
   }
-  const std::map<double, double> shares{{10e-6, 0.0055}, {300e-6, 0.2443}, {420e-6, 0.2670},
-                                        {500e-6, 0.2287}, {600e-6, 0.2545}};
+  const std::map<double, double> shares{
+      {10e-6, 0.0055}, {300e-6, 0.2443}, {420e-6, 0.2670}, {500e-6, 0.2287}, {600e-6, 0.2545}};
   for (const auto& [diameter, share] : shares) {
     // No size strays by more than its share of 500 grains.
     CHECK(std::abs(real[diameter] - share * sum) < share * 500 + 1);
@@ -95,7 +99,8 @@ TEST_CASE("seeds shall not overlap when they move on with the stream") {
     CHECK(seeds[i].position.x - 0.5 * seeds[i].diameter >= 26e-3);
     CHECK(seeds[i].position.y + 0.5 * seeds[i].diameter <= 9.5e-3);
     for (std::size_t j = i + 1; j < seeds.size(); ++j) {
-      const Vec3 d = seeds[j].position - seeds[i].position - (seeds[j].time - seeds[i].time) * velocity;
+      const Vec3 d =
+          seeds[j].position - seeds[i].position - (seeds[j].time - seeds[i].time) * velocity;
       const double reach = 0.5 * (seeds[i].diameter + seeds[j].diameter);
       REQUIRE(norm(d) >= reach);
       near += norm(d) < 1.1 * reach ? 1 : 0;
@@ -129,5 +134,6 @@ TEST_CASE("an opening that cannot pass the flow shall be refused with the number
   auto feed = ModelLoader::make<Emitter>("emitter", "feed", parameters);
   CHECK_THROWS_AS(run(*feed, 0, 1), dust::sdk::ParameterError);
   parameters["velocity"] = Vec3{0.1, 0, 0};
-  CHECK_THROWS_AS(ModelLoader::make<Emitter>("emitter", "feed", parameters), dust::sdk::ParameterError);
+  CHECK_THROWS_AS(ModelLoader::make<Emitter>("emitter", "feed", parameters),
+                  dust::sdk::ParameterError);
 }

@@ -18,7 +18,8 @@ namespace {
 constexpr double k_rounding = 1e-12;
 
 /// Two grains that meet, after the collision.
-std::vector<GrainState> collide(std::vector<NewGrain> grains, Vec3 shift = {}, bool across = false) {
+std::vector<GrainState> collide(std::vector<NewGrain> grains, Vec3 shift = {},
+                                bool across = false) {
   DemRig rig;
   const int sand = rig.material(2650, 50e6, 0.3);
   rig.law(sand, sand, 0.7, 0.4, 0.2);
@@ -41,14 +42,19 @@ std::vector<GrainState> collide(std::vector<NewGrain> grains, Vec3 shift = {}, b
   REQUIRE(dem->report().largest_overlap > 1e-4);
   REQUIRE(dem->report().contacts == 0);
   std::vector<GrainState> out;
-  for (std::size_t n = 0; n < grains.size(); ++n) out.push_back(grain(*dem, static_cast<std::int64_t>(n)));
+  for (std::size_t n = 0; n < grains.size(); ++n)
+    out.push_back(grain(*dem, static_cast<std::int64_t>(n)));
   return out;
 }
 
 std::vector<NewGrain> pair() {
-  return {{.position = {-2.1e-4, 3e-5, 1e-5}, .velocity = {0.5, 0.1, -0.2}, .rotation = {30, -400, 90},
+  return {{.position = {-2.1e-4, 3e-5, 1e-5},
+           .velocity = {0.5, 0.1, -0.2},
+           .rotation = {30, -400, 90},
            .diameter = 400e-6},
-          {.position = {3.1e-4, -9e-5, 2e-5}, .velocity = {-0.6, 0.0, 0.1}, .rotation = {-50, 10, 700},
+          {.position = {3.1e-4, -9e-5, 2e-5},
+           .velocity = {-0.6, 0.0, 0.1},
+           .rotation = {-50, 10, 700},
            .diameter = 600e-6}};
 }
 
@@ -68,7 +74,8 @@ TEST_CASE("an oblique collision shall keep linear and angular momentum") {
     l0 += m * cross(in[n].position, in[n].velocity) + inertia(out[n]) * in[n].rotation;
     l1 += m * cross(out[n].position, out[n].velocity) + inertia(out[n]) * out[n].rotation;
     scale_p += m * norm(in[n].velocity);
-    scale_l += m * norm(in[n].position) * norm(in[n].velocity) + inertia(out[n]) * norm(in[n].rotation);
+    scale_l +=
+        m * norm(in[n].position) * norm(in[n].velocity) + inertia(out[n]) * norm(in[n].rotation);
   }
   CHECK(norm(out[0].velocity - in[0].velocity) > 0.1);
   CHECK(norm(p1 - p0) < k_rounding * scale_p);
@@ -168,7 +175,8 @@ TEST_CASE("an elastic frictionless gas shall keep its energy") {
 
 TEST_CASE("the bits shall not depend on the number of threads") {
   const auto run = [](std::size_t threads) {
-    oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
+                                        threads);
     DemRig rig;
     const int sand = rig.material(2650, 50e6, 0.3);
     rig.law(sand, sand, 0.5, 0.5, 0.3);
@@ -181,12 +189,15 @@ TEST_CASE("the bits shall not depend on the number of threads") {
     const dust::sdk::Random random(11, 1);
     for (std::uint64_t n = 0; n < 1500; ++n) {
       const bool is_dust = n % 5 == 4;
-      grains.push_back({.position = {7e-4 * (static_cast<double>(n % 12) + 0.7 + 0.1 * random.uniform(n, 0)),
-                                     7e-4 * (static_cast<double>(n / 12 % 12) + 0.7),
-                                     7e-4 * (static_cast<double>(n / 144) + 0.6)},
-                        .velocity = {0, 0.1 * random.uniform(n, 1), -0.3},
-                        .diameter = is_dust ? 10e-6 : n % 2 == 0 ? 400e-6 : 600e-6,
-                        .weight = is_dust ? 0.05 : 1.0});
+      grains.push_back(
+          {.position = {7e-4 * (static_cast<double>(n % 12) + 0.7 + 0.1 * random.uniform(n, 0)),
+                        7e-4 * (static_cast<double>(n / 12 % 12) + 0.7),
+                        7e-4 * (static_cast<double>(n / 144) + 0.6)},
+           .velocity = {0, 0.1 * random.uniform(n, 1), -0.3},
+           .diameter = is_dust      ? 10e-6
+                       : n % 2 == 0 ? 400e-6
+                                    : 600e-6,
+           .weight = is_dust ? 0.05 : 1.0});
     }
     auto dem = rig.make();
     dem->insert(grains);
@@ -237,7 +248,8 @@ TEST_CASE("buoyancy shall reduce the weight and drag shall be integrated exactly
   rig.setup.gravity = {0, 0, -9.81};
   rig.fluid_density = 1000.0;
   auto dem = rig.make();
-  for (const double d : {10e-6, 600e-6}) dem->insert(std::vector<NewGrain>{{.position = {d, 0, 0}, .diameter = d}});
+  for (const double d : {10e-6, 600e-6})
+    dem->insert(std::vector<NewGrain>{{.position = {d, 0, 0}, .diameter = d}});
   dem->neighbours();
   auto rows = dem->rows();
   const double rate = 1.0 / 0.82e-3;
@@ -272,7 +284,8 @@ TEST_CASE("a grain that goes astray shall be named") {
   rig.diameters = {600e-6};
   rig.setup.time.dem_step = 1e-4;  // far too long
   auto dem = rig.make();
-  dem->insert(std::vector<NewGrain>{{.diameter = 600e-6}, {.position = {3e-4, 0, 0}, .diameter = 600e-6}});
+  dem->insert(
+      std::vector<NewGrain>{{.diameter = 600e-6}, {.position = {3e-4, 0, 0}, .diameter = 600e-6}});
   Stepper stepper(*dem);
   try {
     stepper.step(100);
@@ -306,7 +319,8 @@ TEST_CASE("a small sphere resting on a large one shall stay at rest under static
     stepper.step(20000);
     const GrainState s = grain(*dem, 1);
     const GrainState l = grain(*dem, 0);
-    const double slip = s.velocity.x - s.radius * s.rotation.y - (l.velocity.x + l.radius * l.rotation.y);
+    const double slip =
+        s.velocity.x - s.radius * s.rotation.y - (l.velocity.x + l.radius * l.rotation.y);
     CAPTURE(ratio);
     CHECK(std::abs(slip) < 2e-6);
     CHECK(std::abs(s.velocity.y) < 1e-9);

@@ -76,7 +76,8 @@ TEST_CASE("the neighbour lists shall hold what brute force finds among sand and 
     std::vector<NewGrain> grains;
     for (std::uint64_t n = 0; n < 900; ++n) {
       const Vec3 u{random.uniform(n, 0), random.uniform(n, 1), random.uniform(n, 2)};
-      NewGrain g{.position = {4e-3 * u.x, 3e-3 * u.y, 3e-3 * u.z}, .diameter = n < 300 ? 600e-6 : 300e-6};
+      NewGrain g{.position = {4e-3 * u.x, 3e-3 * u.y, 3e-3 * u.z},
+                 .diameter = n < 300 ? 600e-6 : 300e-6};
       if (n >= 500) g.diameter = 80e-6;
       if (n >= 600) {
         // A dense pocket of dust in a corner, across the periodic sides.
@@ -120,7 +121,8 @@ TEST_CASE("no contact shall be missed between rebuilds in a fast dilute flow") {
   const dust::sdk::Random random(3, 1);
   std::vector<NewGrain> grains;
   for (std::uint64_t n = 0; n < 343; ++n) {
-    const Vec3 cell{static_cast<double>(n % 7), static_cast<double>(n / 7 % 7), static_cast<double>(n / 49)};
+    const Vec3 cell{static_cast<double>(n % 7), static_cast<double>(n / 7 % 7),
+                    static_cast<double>(n / 49)};
     grains.push_back({.position = 1.1e-3 * cell + Vec3{4e-4, 4e-4, 4e-4},
                       .velocity = Vec3{random.uniform(n, 0) - 0.5, random.uniform(n, 1) - 0.5,
                                        random.uniform(n, 2) - 0.5},

@@ -27,7 +27,10 @@ Outcome hit(bool single, double weight, double offset) {
   auto dem = rig.make();
   dem->insert(std::vector<NewGrain>{
       {.position = {0, 0, 0}, .velocity = {0.2, 0, 0}, .rotation = {0, 0, 300}, .diameter = 600e-6},
-      {.position = {3.3e-4, offset, 1e-6}, .velocity = {-0.4, 0.0, 0.1}, .diameter = 10e-6, .weight = weight}});
+      {.position = {3.3e-4, offset, 1e-6},
+       .velocity = {-0.4, 0.0, 0.1},
+       .diameter = 10e-6,
+       .weight = weight}});
   Stepper stepper(*dem);
   while (stepper.time() < 3e-4) stepper.step();
   REQUIRE(dem->report().largest_overlap > 1e-3);
@@ -106,14 +109,19 @@ TEST_CASE("dust shall come to rest on a moving belt and ride with it") {
   rig.setup.gravity = {0, 0, -9.81};
   dust::scenario::BodySpec spec;
   spec.material = sand;
-  spec.shape = {.kind = "shape", .name = "conveyor",
-                .values = {Vec3{0.5, 0, -0.04}, Vec3{-0.5, 0, -0.04}, 0.04, 0.0}, .path = {}, .where = {}};
+  spec.shape = {.kind = "shape",
+                .name = "conveyor",
+                .values = {Vec3{0.5, 0, -0.04}, Vec3{-0.5, 0, -0.04}, 0.04, 0.0},
+                .path = {},
+                .where = {}};
   rig.bodies.push_back(dust::bodies::make_body(
       rig.setup, spec, ModelLoader::make<dust::sdk::Motion>("motion", "belt", {{"speed", 0.8}})));
   auto dem = rig.make();
   std::vector<NewGrain> grains{{.position = {0, 0, 0.5}, .diameter = 600e-6}};
   for (int n = 0; n < 20; ++n) {
-    grains.push_back({.position = {1e-4 * n, 0, 6e-6 + 1e-6 * n}, .velocity = {0.7, 0, -0.02}, .diameter = 10e-6});
+    grains.push_back({.position = {1e-4 * n, 0, 6e-6 + 1e-6 * n},
+                      .velocity = {0.7, 0, -0.02},
+                      .diameter = 10e-6});
   }
   dem->insert(grains);
   Stepper stepper(*dem);

@@ -27,12 +27,15 @@ std::vector<NewGrain> load(double height) {
   const dust::sdk::Random random(11, 1);
   for (std::uint64_t n = 0; n < 640; ++n) {
     const bool is_dust = n % 5 == 4;
-    grains.push_back({.position = {7e-4 * (static_cast<double>(n % 8) + 0.7 + 0.1 * random.uniform(n, 0)),
-                                   7e-4 * (static_cast<double>(n / 8 % 8) + 0.7),
-                                   height + 7e-4 * (static_cast<double>(n / 64) + 0.6)},
-                      .velocity = {0.2, 0.1 * random.uniform(n, 1), -0.3},
-                      .diameter = is_dust ? 10e-6 : n % 2 == 0 ? 400e-6 : 600e-6,
-                      .weight = is_dust ? 0.05 : 1.0});
+    grains.push_back(
+        {.position = {7e-4 * (static_cast<double>(n % 8) + 0.7 + 0.1 * random.uniform(n, 0)),
+                      7e-4 * (static_cast<double>(n / 8 % 8) + 0.7),
+                      height + 7e-4 * (static_cast<double>(n / 64) + 0.6)},
+         .velocity = {0.2, 0.1 * random.uniform(n, 1), -0.3},
+         .diameter = is_dust      ? 10e-6
+                     : n % 2 == 0 ? 400e-6
+                                  : 600e-6,
+         .weight = is_dust ? 0.05 : 1.0});
   }
   return grains;
 }

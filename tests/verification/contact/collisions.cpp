@@ -39,8 +39,9 @@ Impact run(const ImpactCase& c) {
   rig.diameters = {2.0 * c.radius};
   const double relative = c.on_plane ? c.speed : 2.0 * c.speed;
   const double mass = c.density * 4.0 / 3.0 * std::numbers::pi * std::pow(c.radius, 3);
-  const double hertz = c.on_plane ? rig.laws[1].contact->collision_time(c.radius, mass, relative)
-                                  : rig.laws[0].contact->collision_time(c.radius / 2, mass / 2, relative);
+  const double hertz = c.on_plane
+                           ? rig.laws[1].contact->collision_time(c.radius, mass, relative)
+                           : rig.laws[0].contact->collision_time(c.radius / 2, mass / 2, relative);
   rig.setup.time.dem_step = hertz / c.steps_per_contact;
   rig.setup.time.expected_speed = relative;
   if (c.on_plane) {
@@ -76,7 +77,8 @@ Impact run(const ImpactCase& c) {
       touch = stepper.time() - rig.setup.time.dem_step * overlap / (overlap - before);
     }
     if (overlap < 0.0 && touch >= 0.0) {
-      out.duration = stepper.time() - rig.setup.time.dem_step * overlap / (overlap - before) - touch;
+      out.duration =
+          stepper.time() - rig.setup.time.dem_step * overlap / (overlap - before) - touch;
       break;
     }
     stepper.step();
@@ -119,7 +121,8 @@ TEST_CASE("the declared restitution shall be the realised one") {
   constexpr double k_realised = 0.005;
   for (const double e : {0.2, 0.4, 0.6, 0.8, 0.9, 1.0}) {
     for (const bool iron : {false, true}) {
-      ImpactCase c{iron ? 100e9 : 380e9, iron ? 0.25 : 0.23, 0.0025, iron ? 7000.0 : 4000.0, 3.9, true};
+      ImpactCase c{
+          iron ? 100e9 : 380e9, iron ? 0.25 : 0.23, 0.0025, iron ? 7000.0 : 4000.0, 3.9, true};
       c.restitution = e;
       const Impact i = run(c);
       CHECK(std::abs(i.out.velocity.x / 3.9 - e) < k_realised);
@@ -166,7 +169,8 @@ Oblique integrate_oblique(const ImpactCase& c) {
   const double e_star = c.young / (1 - c.poisson * c.poisson) / 2;
   const double g_star = shear / (2 - c.poisson) / 2;
   const double mass = c.density * 4.0 / 3.0 * std::numbers::pi * std::pow(c.radius, 3);
-  const double dt = 2.87 * std::pow(mass * mass / (c.radius * e_star * e_star * c.speed), 0.2) / 40000;
+  const double dt =
+      2.87 * std::pow(mass * mass / (c.radius * e_star * e_star * c.speed), 0.2) / 40000;
   double d = 0, vn = c.speed, vt = c.tangential, rw = 0, potential = 0;  // potential = xi sqrt(kt)
   for (;;) {
     d += vn * dt;
@@ -206,8 +210,10 @@ TEST_CASE("elastic oblique impacts shall follow the law's own equations and crea
       const double slip = i.out.velocity.y + spin;
       const Oblique expected = integrate_oblique(c);
       CAPTURE(v_t);
-      CHECK(std::abs(spin - expected.spin) < k_tolerance * std::max(std::abs(expected.spin), 0.3 * unit));
-      CHECK(std::abs(slip - expected.slip) < k_tolerance * std::max(std::abs(expected.slip), 0.3 * unit));
+      CHECK(std::abs(spin - expected.spin) <
+            k_tolerance * std::max(std::abs(expected.spin), 0.3 * unit));
+      CHECK(std::abs(slip - expected.slip) <
+            k_tolerance * std::max(std::abs(expected.slip), 0.3 * unit));
       const double energy = norm(i.out.velocity) * norm(i.out.velocity) + 0.4 * spin * spin;
       CHECK(energy < (25.0 + v_t * v_t) * (1.0 + 1e-4));
       // The soft sphere is 6 % flatter at its deepest, which shortens its lever.

@@ -36,8 +36,11 @@ struct Plane {
       dust::scenario::BodySpec spec;
       spec.name = "belt";
       spec.material = sand;
-      spec.shape = {.kind = "shape", .name = "conveyor",
-                    .values = {Vec3{1, 0, -0.1}, Vec3{-1, 0, -0.1}, 0.1, 0.0}, .path = {}, .where = {}};
+      spec.shape = {.kind = "shape",
+                    .name = "conveyor",
+                    .values = {Vec3{1, 0, -0.1}, Vec3{-1, 0, -0.1}, 0.1, 0.0},
+                    .path = {},
+                    .where = {}};
       rig.bodies.push_back(dust::bodies::make_body(
           rig.setup, spec,
           ModelLoader::make<dust::sdk::Motion>("motion", "belt", {{"speed", belt_speed}})));
@@ -141,8 +144,10 @@ TEST_CASE("a belt shall pick up a resting grain as the table says") {
     double belt, mu_r, end, speed, distance;
   };
   // belt_pickup: end of slip, speed and place then; mu_s 0.55. R 0.3 mm.
-  const Row rows[] = {{0.2, 0.0, 0.01059, 0.0571, 0.00030}, {0.4, 0.3, 0.03470, 0.1872, 0.00325},
-                      {0.8, 0.0, 0.04236, 0.2286, 0.00484}, {0.8, 0.3, 0.06940, 0.3745, 0.01299}};
+  const Row rows[] = {{0.2, 0.0, 0.01059, 0.0571, 0.00030},
+                      {0.4, 0.3, 0.03470, 0.1872, 0.00325},
+                      {0.8, 0.0, 0.04236, 0.2286, 0.00484},
+                      {0.8, 0.3, 0.06940, 0.3745, 0.01299}};
   for (const Row& r : rows) {
     Plane p(0.55, r.mu_r, 0.0, {}, {}, k_radius, r.belt);
     p.until(r.end);
@@ -169,8 +174,11 @@ TEST_CASE("a grain glued by friction shall leave the head pulley where u^2 / (g 
     rig.setup.gravity = {0, 0, -k_g};
     dust::scenario::BodySpec spec;
     spec.material = sand;
-    spec.shape = {.kind = "shape", .name = "conveyor",
-                  .values = {Vec3{0, 0, -pulley}, Vec3{-0.5, 0, -pulley}, pulley, 0.0}, .path = {}, .where = {}};
+    spec.shape = {.kind = "shape",
+                  .name = "conveyor",
+                  .values = {Vec3{0, 0, -pulley}, Vec3{-0.5, 0, -pulley}, pulley, 0.0},
+                  .path = {},
+                  .where = {}};
     rig.bodies.push_back(dust::bodies::make_body(
         rig.setup, spec,
         ModelLoader::make<dust::sdk::Motion>("motion", "belt", {{"speed", speed}})));
@@ -192,7 +200,8 @@ TEST_CASE("a grain glued by friction shall leave the head pulley where u^2 / (g 
       }
     }
     // The grain's centre runs at R + r.
-    const double expected = std::acos(speed * speed / (k_g * (pulley + k_radius))) * 180.0 / std::numbers::pi;
+    const double expected =
+        std::acos(speed * speed / (k_g * (pulley + k_radius))) * 180.0 / std::numbers::pi;
     CAPTURE(speed);
     CHECK(std::abs(angle - expected) < k_degrees);
   }

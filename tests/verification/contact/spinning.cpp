@@ -49,12 +49,16 @@ std::vector<GrainState> collide(const Material& m, std::vector<NewGrain> grains,
   REQUIRE(has_touched);
   stepper.step(3);
   std::vector<GrainState> out;
-  for (std::size_t n = 0; n < grains.size(); ++n) out.push_back(grain(*dem, static_cast<std::int64_t>(n)));
+  for (std::size_t n = 0; n < grains.size(); ++n)
+    out.push_back(grain(*dem, static_cast<std::int64_t>(n)));
   return out;
 }
 
 NewGrain sphere(double x, double vx, double spin, double radius = k_radius) {
-  return {.position = {x, 0, 0}, .velocity = {vx, 0, 0}, .rotation = {0, 0, spin}, .diameter = 2 * radius};
+  return {.position = {x, 0, 0},
+          .velocity = {vx, 0, 0},
+          .rotation = {0, 0, spin},
+          .diameter = 2 * radius};
 }
 
 }  // namespace
@@ -92,9 +96,9 @@ TEST_CASE("a spinning sphere shall rebound from a plane as strict Coulomb fricti
 TEST_CASE("two equal spheres spinning alike shall each repeat the impact on a rigid plane") {
   // Equal spheres spinning the same way: the contact point stands still by symmetry.
   const auto plane = collide(k_aluminium, {sphere(k_radius + 1e-7, -k_speed, 5.0)}, true);
-  const auto pair = collide(k_aluminium,
-                            {sphere(k_radius + 1e-7, -k_speed, 5.0),
-                             sphere(-k_radius - 1e-7, k_speed, 5.0)}, false);
+  const auto pair = collide(
+      k_aluminium, {sphere(k_radius + 1e-7, -k_speed, 5.0), sphere(-k_radius - 1e-7, k_speed, 5.0)},
+      false);
   for (const GrainState& g : pair) {
     // The pair is twice as soft (two elastic bodies): same impulses, another duration.
     CHECK(std::abs(g.velocity.y) == doctest::Approx(std::abs(plane[0].velocity.y)).epsilon(0.002));
@@ -103,9 +107,9 @@ TEST_CASE("two equal spheres spinning alike shall each repeat the impact on a ri
 }
 
 TEST_CASE("two equal spheres spinning against each other shall keep their spins") {
-  const auto pair = collide(k_aluminium,
-                            {sphere(k_radius + 1e-7, -k_speed, 5.0),
-                             sphere(-k_radius - 1e-7, k_speed, -5.0)}, false);
+  const auto pair = collide(
+      k_aluminium,
+      {sphere(k_radius + 1e-7, -k_speed, 5.0), sphere(-k_radius - 1e-7, k_speed, -5.0)}, false);
   CHECK(pair[0].rotation.z == doctest::Approx(5.0).epsilon(1e-10));
   CHECK(pair[1].rotation.z == doctest::Approx(-5.0).epsilon(1e-10));
 }
