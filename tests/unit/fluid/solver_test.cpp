@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "boundary/moving_wall/moving_wall.hpp"
 #include "dust/sdk/error.hpp"
 #include "fluid_case.hpp"
 #include "test_bodies.hpp"
@@ -171,4 +172,14 @@ TEST_CASE("open fractions of a body shall add up to its volume, planes along the
   CHECK(box.solver->open_fraction()[box.grid.index(4, 0, 2)] == 0.0);
   CHECK(box.solver->open_fraction()[box.grid.index(4, 0, 3)] == doctest::Approx(0.7).epsilon(1e-9));
   CHECK(box.solver->open_fraction()[box.grid.index(4, 0, 4)] == 1.0);
+}
+
+TEST_CASE("a moving wall shall drag along itself only and let nothing through") {
+  const Vec3 given{0.3, -0.2, 0.8};
+  const Vec3 n = Vec3{1, 2, 2} / 3;
+  const double through = dot(given, n);
+  Vec3 w;
+  for (int d = 0; d < 3; ++d) w[d] = model::moving_wall::along(given[d], n[d], through);
+  CHECK(std::abs(dot(w, n)) < 1e-15);
+  CHECK(norm(sdk::cross(w - given, n)) < 1e-15);
 }
