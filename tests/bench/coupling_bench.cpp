@@ -20,9 +20,9 @@ void fill(World& world, double diameter) {
   test::Numbers random;
   for (int n = 0; n < 20000; ++n) {
     const auto place = [&](int i, double pitch) { return (i + random.between(0.3, 0.7)) * pitch; };
-    world.grains.add({place(n % 27, 0.02 / 27), place(n / 27 % 27, 0.02 / 27),
-                      place(n / 729, 0.02 / 27)},
-                     {0.1, 0.2, -0.3}, diameter);
+    world.grains.add(
+        {place(n % 27, 0.02 / 27), place(n / 27 % 27, 0.02 / 27), place(n / 729, 0.02 / 27)},
+        {0.1, 0.2, -0.3}, diameter);
   }
   world.set(world.velocity, [](sdk::Vec3 p) { return sdk::Vec3{0.1, 50 * p.x, 0.5}; });
 }
