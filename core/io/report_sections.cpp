@@ -240,7 +240,9 @@ std::string figures_html(const RunText& run) {
               (figure.sensor != last ? escape_html(words(figure.sensor)) : "") + "</td><td>" +
               escape_html(words(figure.name)) + "</td><td class=\"n\">" +
               quantity_html(figure.value, figure.uncertainty, figure.unit) +
-              "</td><td class=\"n raw\">" + plain + " " + escape_html(figure.unit) + "</td></tr>\n";
+              "</td><td class=\"n raw\">" + plain +
+              (figure.unit == "1" || figure.unit == "-" ? "" : " " + escape_html(figure.unit)) +
+              "</td></tr>\n";
       last = figure.sensor;
     }
     text += "</tbody></table></div>\n";
