@@ -109,10 +109,11 @@ ResultsFile::ResultsFile(fs::path folder, std::int64_t resume_frames, const bodi
   fs::create_directories(impl_->folder / k_frame_folder);
   const std::int64_t kept = resume_frames < 0 ? 0 : resume_frames;
   impl_->read_frames(kept);
-  impl_->drop_frames(kept);
   if (kept == 0) impl_->fluid = {};
   impl_->walls = write_walls(impl_->folder, bodies, domain_min, domain_max);
+  // The index first: it never names a frame that is gone.
   impl_->write_index();
+  impl_->drop_frames(kept);
 }
 
 ResultsFile::~ResultsFile() = default;
