@@ -5,8 +5,9 @@
 #include "io/hdf5_file.hpp"
 #include "io/run_files.hpp"
 
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 namespace dust::io {
@@ -82,59 +83,43 @@ class GroupReader final : public sdk::ArchiveReader {
   std::string group_;
 };
 
-struct Line {
-  std::string path;  ///< dotted keys down to this line
-  std::string text;
-};
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+/// The leaves of a scenario as "path: value" in the order of the document, without `time.end`.
+/// Leaves and not lines of text: the same settings may be broken into lines in another way.
+void collect(const YAML::Node& node, const std::string& path, std::vector<std::string>& leaves) {
+  if (path == "time.end") return;
+  if (node.IsMap() && node.size() > 0) {
+    for (const auto& entry : node) {
+      collect(entry.second, (path.empty() ? "" : path + ".") + entry.first.Scalar(), leaves);
+    }
+  } else if (node.IsSequence() && node.size() > 0) {
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      collect(node[i], path + "[" + std::to_string(i) + "]", leaves);
+    }
+  } else {
+    leaves.push_back(path + ": " + (node.IsScalar() ? node.Scalar() : "nothing"));
+  }
 }
 
-/// The lines of a resolved scenario without `time.end`, each with the keys it stands under. The
-/// text is our own YAML: block style with one key per line, or the time block as one flow mapping.
-std::vector<Line> lines_of(const std::string& yaml) {
-  std::vector<Line> lines;
-  std::vector<std::pair<std::size_t, std::string>> stack;
-  std::istringstream in(yaml);
-  for (std::string text; std::getline(in, text);) {
-    const std::string body = trimmed(text);
-    if (body.empty()) continue;
-    const std::size_t indent = text.find_first_not_of(' ');
-    while (!stack.empty() && stack.back().first >= indent) stack.pop_back();
-    std::string path;
-    for (const auto& [depth, key] : stack) path += key + ".";
-    const std::size_t colon = body.find(':');
-    const std::string key = body.substr(0, colon);
-    if (colon != std::string::npos) stack.emplace_back(indent, key);
-    if (path == "time." && key == "end") continue;
-    if (path.empty() && key == "time") {
-      const std::size_t begin = text.find("end:");
-      const std::size_t stop = begin == std::string::npos ? begin : text.find_first_of(",}", begin);
-      if (stop != std::string::npos) text.erase(begin, stop - begin);
-    }
-    lines.push_back({path, text});
+std::vector<std::string> leaves_of(const std::string& yaml) {
+  std::vector<std::string> leaves;
+  try {
+    collect(YAML::Load(yaml), "", leaves);
+  } catch (const YAML::Exception& e) {
+    throw base::RunError(std::string("its scenario cannot be read: ") + e.what());
   }
-  return lines;
+  return leaves;
 }
 
 /// Empty when both describe the same run; otherwise the first difference.
 std::string first_difference(const std::string& stored, const std::string& given) {
-  const std::vector<Line> a = lines_of(stored);
-  const std::vector<Line> b = lines_of(given);
-  const std::size_t common = std::min(a.size(), b.size());
-  for (std::size_t i = 0; i <= common; ++i) {
-    if (i == common && a.size() == b.size()) return "";
-    if (i < common && a[i].text == b[i].text) continue;
-    const auto show = [i](const std::vector<Line>& lines) {
-      return i < lines.size() ? "'" + lines[i].path + trimmed(lines[i].text) + "'"
-                              : std::string("the end of the scenario");
-    };
-    return show(a) + " in the checkpoint, " + show(b) + " now";
-  }
-  return "";
+  const std::vector<std::string> a = leaves_of(stored);
+  const std::vector<std::string> b = leaves_of(given);
+  const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  if (in_a == a.end() && in_b == b.end()) return "";
+  const auto show = [](auto leaf, auto end) {
+    return leaf == end ? std::string("nothing more") : "'" + *leaf + "'";
+  };
+  return show(in_a, a.end()) + " in the checkpoint, " + show(in_b, b.end()) + " now";
 }
 
 std::string read_string(hid_t file, const std::string& name) {

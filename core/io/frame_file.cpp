@@ -90,10 +90,6 @@ void write_fluid(hid_t file, const sdk::FluidColumns& f, std::span<const float> 
   }
 }
 
-std::array<std::int64_t, 3> counts_of(const FluidLayout& layout) {
-  return {layout.count[0], layout.count[1], layout.count[2]};
-}
-
 }  // namespace
 
 const std::vector<FieldInfo>& particle_fields() {
@@ -152,22 +148,28 @@ FluidLayout layout_of(const sdk::FluidColumns& f) {
   return {f.origin, f.spacing, {f.count[0], f.count[1], f.count[2]}, f.density, f.viscosity};
 }
 
+void write_layout(std::int64_t group, const FluidLayout& layout) {
+  const std::array<double, 3> origin = {layout.origin.x, layout.origin.y, layout.origin.z};
+  const std::array<double, 3> spacing = {layout.spacing.x, layout.spacing.y, layout.spacing.z};
+  const std::array<std::int64_t, 3> count = {layout.count[0], layout.count[1], layout.count[2]};
+  write_attribute(group, "origin", std::span<const double>(origin));
+  write_attribute(group, "spacing", std::span<const double>(spacing));
+  write_attribute(group, "count", std::span<const std::int64_t>(count));
+  write_attribute(group, "density", layout.density);
+  write_attribute(group, "viscosity", layout.viscosity);
+}
+
 void write_open_fraction(const fs::path& folder, const sdk::FluidColumns& f) {
   const fs::path file = folder / k_open_fraction_path;
   const FluidLayout layout = layout_of(f);
   Handle out = create_file(temporary_name(file));
-  const Handle group = create_group(out.get(), "fluid");
-  const std::array<double, 3> origin = {layout.origin.x, layout.origin.y, layout.origin.z};
-  const std::array<double, 3> spacing = {layout.spacing.x, layout.spacing.y, layout.spacing.z};
-  write_attribute(group.get(), "origin", std::span<const double>(origin));
-  write_attribute(group.get(), "spacing", std::span<const double>(spacing));
-  write_attribute(group.get(), "count", std::span<const std::int64_t>(counts_of(layout)));
-  write_attribute(group.get(), "density", layout.density);
-  write_attribute(group.get(), "viscosity", layout.viscosity);
+  Handle group = create_group(out.get(), "fluid");
+  write_layout(group.get(), layout);
   write_array(group.get(), "open_fraction", H5T_NATIVE_FLOAT, f.open_fraction.data(),
               {static_cast<hsize_t>(layout.count[2]), static_cast<hsize_t>(layout.count[1]),
                static_cast<hsize_t>(layout.count[0])},
               Storage::compressed, {"1", "share of the cell not inside a body"});
+  group.close("cannot write " + file.string());
   out.close("cannot write " + file.string());
   move_into_place(file, false);
 }
@@ -210,13 +212,14 @@ WallLayout write_walls(const fs::path& folder, const bodies::BodySet& bodies, sd
   }
   const fs::path file = folder / k_walls_path;
   Handle out = create_file(temporary_name(file));
-  const Handle group = create_group(out.get(), "walls");
+  Handle group = create_group(out.get(), "walls");
   write_array(group.get(), "points", H5T_NATIVE_FLOAT, points.data(), {points.size() / 3, 3},
               Storage::plain, {"m", "corners of the triangles"});
   write_array(group.get(), "triangles", H5T_NATIVE_INT32, triangles.data(), {body_of.size(), 3},
               Storage::plain, {"1", "three indices into points"});
   write_array(group.get(), "body", H5T_NATIVE_INT32, body_of.data(), {body_of.size()},
               Storage::plain, {"1", "index into the attribute names of /walls"});
+  group.close("cannot write " + file.string());
   out.close("cannot write " + file.string());
   move_into_place(file, false);
   return {static_cast<std::int64_t>(points.size() / 3), static_cast<std::int64_t>(body_of.size())};

@@ -37,6 +37,8 @@ FrameEntry read_frame_entry(const std::filesystem::path& folder, std::int64_t nu
 
 /// The fluid's layout and the open fraction, which do not change during a run.
 void write_open_fraction(const std::filesystem::path& folder, const sdk::FluidColumns& fluid);
+/// The layout as attributes of an open HDF5 group.
+void write_layout(std::int64_t group, const FluidLayout& layout);
 FluidLayout layout_of(const sdk::FluidColumns& fluid);
 FluidLayout read_fluid_layout(const std::filesystem::path& folder);
 

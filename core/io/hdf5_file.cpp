@@ -85,6 +85,9 @@ QuietHdf5::~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
 Handle create_file(const std::filesystem::path& file, bool with_checked_metadata) {
   const std::string what = "cannot create " + file.string();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
+  // By default a file with open groups stays open behind H5Fclose, unwritten, and would be renamed
+  // too early; this way H5Fclose refuses.
+  H5Pset_fclose_degree(access.get(), H5F_CLOSE_SEMI);
   // Object headers and trees carry checksums from format 1.10 on.
   if (with_checked_metadata) {
     H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110);

@@ -6,8 +6,6 @@
 #include "io/run_files.hpp"
 #include "io/xdmf.hpp"
 
-#include <array>
-
 namespace dust::io {
 namespace {
 
@@ -64,26 +62,21 @@ struct ResultsFile::Impl {
     fluid = read_fluid_layout(folder);
   }
 
+  void write_fluid_attributes(hid_t file) const {
+    const Handle group = create_group(file, "fluid");
+    if (fluid.is_empty()) return;
+    write_layout(group.get(), fluid);
+    link(file, "fluid/open_fraction", k_open_fraction_path, "/fluid/open_fraction");
+  }
+
   void write_links() const {
     const fs::path file = folder / "results.h5";
     Handle out = create_file(temporary_name(file));
     write_attribute(out.get(), "format", std::int64_t{1});
     write_attribute(out.get(), "material_names", material_names);
-    const Handle particles_group = create_group(out.get(), "particles");
-    const Handle fluid_group = create_group(out.get(), "fluid");
-    const Handle walls_group = create_group(out.get(), "walls");
-    write_attribute(walls_group.get(), "names", body_names);
-    if (!fluid.is_empty()) {
-      const std::array<double, 3> origin = {fluid.origin.x, fluid.origin.y, fluid.origin.z};
-      const std::array<double, 3> spacing = {fluid.spacing.x, fluid.spacing.y, fluid.spacing.z};
-      const std::array<std::int64_t, 3> count = {fluid.count[0], fluid.count[1], fluid.count[2]};
-      write_attribute(fluid_group.get(), "origin", std::span<const double>(origin));
-      write_attribute(fluid_group.get(), "spacing", std::span<const double>(spacing));
-      write_attribute(fluid_group.get(), "count", std::span<const std::int64_t>(count));
-      write_attribute(fluid_group.get(), "density", fluid.density);
-      write_attribute(fluid_group.get(), "viscosity", fluid.viscosity);
-      link(out.get(), "fluid/open_fraction", k_open_fraction_path, "/fluid/open_fraction");
-    }
+    create_group(out.get(), "particles");
+    write_fluid_attributes(out.get());
+    write_attribute(create_group(out.get(), "walls").get(), "names", body_names);
     for (const FrameEntry& frame : frames) {
       const std::string number = six_digits(frame.number);
       link(out.get(), "particles/" + number, frame_path(frame.number), "/particles");
@@ -116,10 +109,11 @@ ResultsFile::ResultsFile(fs::path folder, std::int64_t resume_frames, const bodi
   fs::create_directories(impl_->folder / k_frame_folder);
   const std::int64_t kept = resume_frames < 0 ? 0 : resume_frames;
   impl_->read_frames(kept);
-  impl_->drop_frames(kept);
   if (kept == 0) impl_->fluid = {};
   impl_->walls = write_walls(impl_->folder, bodies, domain_min, domain_max);
+  // The index first: it never names a frame that is gone.
   impl_->write_index();
+  impl_->drop_frames(kept);
 }
 
 ResultsFile::~ResultsFile() = default;

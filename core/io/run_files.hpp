@@ -15,8 +15,8 @@
 
 namespace dust::io {
 
-/// One frame's data: copies, so that the writer may work while the run goes on. The spans of `world`
-/// point into columns kept alive by the caller for the duration of the call.
+/// One frame's data: copies, so that the writer may work while the run goes on. The spans of
+/// `world` point into columns kept alive by the caller for the duration of the call.
 struct Frame {
   std::int64_t number = 0;
   double time = 0.0;
@@ -26,6 +26,23 @@ struct Frame {
 
 /// results.h5 and the three XDMF files. Every frame is complete on disk when append() returns: the
 /// HDF5 file is closed and the XDMF files are renamed into place.
+///
+/// Layout, as seen through results.h5; n grains, cells (nz, ny, nx), m points, t triangles; every
+/// dataset has the attributes `units` and `long_name`; <frame> has six digits:
+///
+///   /                    attributes format (1), material_names
+///   /particles/<frame>   attribute time [s]; position, velocity, angular_velocity, force (n, 3)
+///   f32,
+///                        diameter, weight, mass (n) f32, material (n) i32, id (n) i64
+///   /fluid               attributes origin, spacing, count (x, y, z), density, viscosity;
+///                        open_fraction (nz, ny, nx) f32; none of them in runs without fluid
+///   /fluid/<frame>       attribute time [s]; velocity, momentum_exchange (nz, ny, nx, 3) f32,
+///                        pressure, void_fraction (nz, ny, nx) f32
+///   /walls               attribute names, of the bodies
+///   /walls/<frame>       points (m, 3) f32, triangles (t, 3) i32, body (t) i32
+///
+/// results.h5 holds links into the folder `frames` beside it (one file per frame, one for the
+/// walls, one for the open fraction): copy or move both together.
 class ResultsFile {
  public:
   /// `resume_frames` < 0 starts a new file; otherwise frames from that number on are dropped.

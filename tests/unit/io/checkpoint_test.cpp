@@ -82,13 +82,16 @@ TEST_CASE("a checkpoint shall be read with another end of time and nothing else 
   CHECK(message_of(file, replaced(k_scenario, "name: belt\n", "")) != "");
 }
 
-TEST_CASE("the end of time shall also be found in a time block on one line") {
+TEST_CASE("the layout of the scenario's text shall not matter, its values shall") {
   const TemporaryFolder folder;
   const auto file = folder.path() / "checkpoint.h5";
-  const std::string scenario = "name: a\ntime: {end: 0.7, fluid_step: 0.001}\n";
-  write(file, scenario, {1});
-  CHECK(read(file, replaced(scenario, "0.7", "0.9")).size() == 1);
-  CHECK(message_of(file, replaced(scenario, "0.001", "0.002")) != "");
+  const std::string block = "name: a\ntime:\n  end: 0.75 s\n  fluid_step: 0.001\nlist: [1, 2]\n";
+  const std::string flow = "name: 'a'\ntime: {end: 1, fluid_step: 0.001}\nlist:\n  - 1\n  - 2\n";
+  write(file, block, {1});
+  CHECK(read(file, flow).size() == 1);
+  CHECK(message_of(file, replaced(flow, "0.001", "0.002")).find("time.fluid_step: 0.002") !=
+        std::string::npos);
+  CHECK(message_of(file, replaced(flow, "  - 2", "  - 3")).find("list[1]: 3") != std::string::npos);
 }
 
 TEST_CASE("an `end` elsewhere than in the time block shall count") {
