@@ -48,7 +48,7 @@ inline const dust::registry::Registry& fakes() {
 }
 
 inline std::filesystem::path transfer_point() {
-  return std::filesystem::path(DUST_SOURCE) / "scenarios" / "transfer_point.yaml";
+  return std::filesystem::path(DUST_SOURCE) / "tests" / "unit" / "scenario" / "transfer_point.yaml";
 }
 
 inline dust::scenario::ReadResult read(const std::filesystem::path& file,
