@@ -32,8 +32,8 @@ Outcome engine(const std::string& arguments) {
       fs::temp_directory_path() / ("dust_command_line_" + std::to_string(::getpid()));
   const std::string out = stem.string() + ".out";
   const std::string err = stem.string() + ".err";
-  const std::string command = "env -u DUST_PLUGIN_PATH " PREFIX "/bin/engine " + arguments + " > " +
-                              out + " 2> " + err;
+  const std::string command =
+      "env -u DUST_PLUGIN_PATH " PREFIX "/bin/engine " + arguments + " > " + out + " 2> " + err;
   const int status = std::system(command.c_str());
   Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
   fs::remove(out);
