@@ -73,8 +73,9 @@ void compare(const fs::path& file, const sdk::Handshake& theirs) {
   }
   if (std::memcmp(theirs.size_of, ours.size_of, sizeof ours.size_of) != 0 ||
       std::memcmp(theirs.alignment_of, ours.alignment_of, sizeof ours.alignment_of) != 0) {
-    refuse(file, "its structs have other sizes than this engine's: rebuild it with this engine's "
-                 "headers and flags");
+    refuse(file,
+           "its structs have other sizes than this engine's: rebuild it with this engine's "
+           "headers and flags");
   }
 }
 
@@ -112,8 +113,10 @@ std::set<std::string> taken_keys(const std::string& kind) {
 std::vector<std::string> description_problems(const sdk::ModelInfo& info) {
   std::vector<std::string> problems;
   const std::string model = info.kind + "/" + info.name;
-  if (!is_snake_case(info.kind)) problems.push_back("the kind '" + info.kind + "' is not snake_case");
-  if (!is_snake_case(info.name)) problems.push_back("the name '" + info.name + "' is not snake_case");
+  if (!is_snake_case(info.kind))
+    problems.push_back("the kind '" + info.kind + "' is not snake_case");
+  if (!is_snake_case(info.name))
+    problems.push_back("the name '" + info.name + "' is not snake_case");
   if (info.summary.empty()) problems.push_back(model + " has no summary");
   std::set<std::string> seen = taken_keys(info.kind);
   for (const sdk::Parameter& p : info.parameters) {

@@ -31,8 +31,8 @@ std::vector<fs::path> libraries_in(const fs::path& folder) {
   std::vector<fs::path> files;
   fs::directory_iterator entries(folder, code);
   if (code) {
-    throw base::PluginError(folder.string() + ": error: cannot look for plugins here: " +
-                            code.message());
+    throw base::PluginError(folder.string() +
+                            ": error: cannot look for plugins here: " + code.message());
   }
   for (const auto& entry : entries) {
     if (entry.path().extension() == ".so") files.push_back(entry.path());
@@ -125,8 +125,8 @@ std::vector<std::string> Registry::names(std::string_view kind) const {
 std::unique_ptr<sdk::Model> Registry::create(const scenario::ModelChoice& choice) const {
   const Entry* entry = find(choice.kind, choice.name);
   const std::string place = scenario::place(choice.where);
-  const std::string prefix = (place.empty() ? "" : place + ": ") + "error: " +
-                             (choice.path.empty() ? choice.kind : choice.path) + ": ";
+  const std::string prefix = (place.empty() ? "" : place + ": ") +
+                             "error: " + (choice.path.empty() ? choice.kind : choice.path) + ": ";
   if (entry == nullptr) {
     throw base::UserError(prefix + "unknown " + choice.kind + " model '" + choice.name + "'");
   }

@@ -65,8 +65,7 @@ const ParameterSchema& DomainBlock::schema() {
 const ParameterSchema& SideBlock::schema() {
   static const ParameterSchema made = [] {
     SchemaOf<SideBlock> s;
-    s.text(&SideBlock::grains, "grains",
-           "What grains meet: open (they leave), wall, or periodic.")
+    s.text(&SideBlock::grains, "grains", "What grains meet: open (they leave), wall, or periodic.")
         .one_of({"open", "wall", "periodic"});
     s.text(&SideBlock::material, "material", "Material of a wall.")
         .refers_to(sdk::Refers::material)
@@ -123,8 +122,7 @@ const ParameterSchema& PlacedBlock::schema() {
         .optional();
     s.text(&PlacedBlock::frame, "frame", "Frame it turns with; without it, the domain's.")
         .optional();
-    s.text(&PlacedBlock::material, "material", "Its material.")
-        .refers_to(sdk::Refers::material);
+    s.text(&PlacedBlock::material, "material", "Its material.").refers_to(sdk::Refers::material);
     return s.build();
   }();
   return made;

@@ -55,20 +55,20 @@ void check_time(const TimeSpec& time, const TimeMarks& where, Diagnostics& diagn
                                               " is not a multiple of fluid_step, " + step);
   }
   if (time.checkpoint_every > 0.0 && !is_multiple(time.checkpoint_every, time.fluid_step)) {
-    diagnostics.error(where.checkpoint_every, "time.checkpoint_every: " +
-                                                  seconds(time.checkpoint_every) +
-                                                  " is not a multiple of fluid_step, " + step);
+    diagnostics.error(where.checkpoint_every,
+                      "time.checkpoint_every: " + seconds(time.checkpoint_every) +
+                          " is not a multiple of fluid_step, " + step);
   }
   if (time.dem_step > time.fluid_step * (1.0 + k_rounding)) {
     diagnostics.error(where.dem_step, "time.dem_step: " + seconds(time.dem_step) +
                                           " is longer than fluid_step, " + step);
   }
   if (time.end > 0.0 && time.end < time.fluid_step * (1.0 - k_rounding)) {
-    diagnostics.error(where.end, "time.end: " + seconds(time.end) +
-                                     " is shorter than one fluid_step, " + step);
+    diagnostics.error(
+        where.end, "time.end: " + seconds(time.end) + " is shorter than one fluid_step, " + step);
   } else if (time.end > 0.0 && !is_multiple(time.end, time.fluid_step)) {
-    diagnostics.warning(where.end, "time.end: " + seconds(time.end) +
-                                       " is not a multiple of fluid_step, " + step);
+    diagnostics.warning(
+        where.end, "time.end: " + seconds(time.end) + " is not a multiple of fluid_step, " + step);
   }
 }
 
@@ -95,8 +95,7 @@ void check_pairs(const Setup& setup, const Mark& where, Diagnostics& diagnostics
     for (std::size_t n = 0; n < 6; ++n) {
       const SideSpec& side = setup.domain.sides[n];
       if (side.grains == GrainSide::wall && side.material >= 0) {
-        need(emitter.material, side.material,
-             grains + "the wall '" + k_side_names[n] + "'");
+        need(emitter.material, side.material, grains + "the wall '" + k_side_names[n] + "'");
       }
     }
   }

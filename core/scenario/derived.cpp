@@ -81,15 +81,14 @@ void find_hertz_time(const Setup& setup, const registry::Registry& registry, dou
   }
 }
 
-void derive_steps(const Setup& setup, const registry::Registry& registry,
-                  const Emitters& emitters, Derived& derived) {
+void derive_steps(const Setup& setup, const registry::Registry& registry, const Emitters& emitters,
+                  Derived& derived) {
   for (std::size_t n = 0; n < emitters.size(); ++n) {
     const int material = setup.emitters[n].material;
     for (const double diameter : emitters[n]->diameters()) {
       const bool is_known = std::any_of(
-          derived.sizes.begin(), derived.sizes.end(), [&](const SizeNumbers& s) {
-            return s.material == material && s.diameter == diameter;
-          });
+          derived.sizes.begin(), derived.sizes.end(),
+          [&](const SizeNumbers& s) { return s.material == material && s.diameter == diameter; });
       if (is_known) continue;
       SizeNumbers size;
       size.material = material;
@@ -97,15 +96,14 @@ void derive_steps(const Setup& setup, const registry::Registry& registry,
       size.rayleigh_time = rayleigh_time(
           0.5 * diameter, setup.materials[static_cast<std::size_t>(material)].properties);
       find_hertz_time(setup, registry, derived.expected_speed, size);
-      size.stable_step = std::min(k_rayleigh_share * size.rayleigh_time,
-                                  size.hertz_time / k_steps_per_collision);
+      size.stable_step =
+          std::min(k_rayleigh_share * size.rayleigh_time, size.hertz_time / k_steps_per_collision);
       derived.sizes.push_back(size);
     }
   }
-  std::stable_sort(derived.sizes.begin(), derived.sizes.end(),
-                   [](const SizeNumbers& a, const SizeNumbers& b) {
-                     return a.diameter < b.diameter;
-                   });
+  std::stable_sort(
+      derived.sizes.begin(), derived.sizes.end(),
+      [](const SizeNumbers& a, const SizeNumbers& b) { return a.diameter < b.diameter; });
   for (std::size_t n = 0; n < derived.sizes.size(); ++n) {
     const double step = derived.sizes[n].stable_step;
     if (derived.deciding_size < 0 || step < derived.smallest_step) {
@@ -156,9 +154,8 @@ void derive_ratios(const Setup& setup, Derived& derived) {
   if (!setup.fluid) return;
   derived.smallest_spacing = std::numeric_limits<double>::infinity();
   for (int d = 0; d < 3; ++d) {
-    derived.smallest_spacing =
-        std::min(derived.smallest_spacing,
-                 size[d] / setup.fluid->cells[static_cast<std::size_t>(d)]);
+    derived.smallest_spacing = std::min(derived.smallest_spacing,
+                                        size[d] / setup.fluid->cells[static_cast<std::size_t>(d)]);
   }
   derived.diameter_over_spacing = largest / derived.smallest_spacing;
   derived.courant_number =
@@ -186,8 +183,8 @@ void estimate_cost(const Setup& setup, double body_speed, Derived& derived) {
       setup.time.end / setup.time.fluid_step * std::max(1.0, std::ceil(derived.courant_number));
   derived.wall_seconds = cells * fluid_steps / k_cell_steps_per_second;
   if (derived.largest_step > 0.0) {
-    derived.wall_seconds += derived.grains_in_domain * setup.time.end / derived.largest_step /
-                            k_grain_steps_per_second;
+    derived.wall_seconds +=
+        derived.grains_in_domain * setup.time.end / derived.largest_step / k_grain_steps_per_second;
   }
 }
 

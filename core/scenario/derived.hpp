@@ -22,27 +22,27 @@ struct SizeNumbers {
 /// What an emitter sends.
 struct EmissionNumbers {
   std::string emitter;
-  double mass_flow = 0.0;           ///< [kg/s] as asked for
-  double computed_per_second = 0.0; ///< grains the engine follows
-  double real_per_second = 0.0;     ///< the same, counted with their weights
+  double mass_flow = 0.0;            ///< [kg/s] as asked for
+  double computed_per_second = 0.0;  ///< grains the engine follows
+  double real_per_second = 0.0;      ///< the same, counted with their weights
 };
 
 /// Numbers that follow from a scenario and tell whether it is sensible, before it is run.
 struct Derived {
   double expected_speed = 0.0;  ///< [m/s] of approach: given, or bodies, emitters and drops
   std::vector<SizeNumbers> sizes;
-  int deciding_size = -1;       ///< which of `sizes` sets the smallest step
-  double smallest_step = 0.0;   ///< [s]
-  double largest_step = 0.0;    ///< [s] of the coarsest class, at most the fluid's step
+  int deciding_size = -1;      ///< which of `sizes` sets the smallest step
+  double smallest_step = 0.0;  ///< [s]
+  double largest_step = 0.0;   ///< [s] of the coarsest class, at most the fluid's step
   std::vector<EmissionNumbers> emissions;
-  double smallest_spacing = 0.0;           ///< [m] 0 without fluid
-  double diameter_over_spacing = 0.0;      ///< largest grain over smallest cell edge
-  double width_over_diameter = 0.0;        ///< narrowest extent over largest grain
-  double courant_number = 0.0;             ///< at the expected speed with the fluid's step
-  double residence_time = 0.0;             ///< [s] rough: fall plus transport through the domain
-  double grains_in_domain = 0.0;           ///< rough
-  double memory_bytes = 0.0;               ///< rough
-  double wall_seconds = 0.0;               ///< rough
+  double smallest_spacing = 0.0;       ///< [m] 0 without fluid
+  double diameter_over_spacing = 0.0;  ///< largest grain over smallest cell edge
+  double width_over_diameter = 0.0;    ///< narrowest extent over largest grain
+  double courant_number = 0.0;         ///< at the expected speed with the fluid's step
+  double residence_time = 0.0;         ///< [s] rough: fall plus transport through the domain
+  double grains_in_domain = 0.0;       ///< rough
+  double memory_bytes = 0.0;           ///< rough
+  double wall_seconds = 0.0;           ///< rough
 };
 
 /// Rayleigh time [s] of a sphere: \f$ T_R = \pi R \sqrt{\rho / G} / (0.1631 \nu + 0.8766) \f$,

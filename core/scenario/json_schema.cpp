@@ -57,18 +57,28 @@ Json text_schema(const Parameter& p) {
 Json value_schema(const Parameter& p) {
   Json s;
   switch (p.type) {
-    case ParameterType::number: s = number_or_text(p); break;
+    case ParameterType::number:
+      s = number_or_text(p);
+      break;
     case ParameterType::integer:
       s = {{"type", "integer"}};
       add_range(s, p);
       break;
-    case ParameterType::boolean: s = {{"type", "boolean"}}; break;
-    case ParameterType::text: s = text_schema(p); break;
+    case ParameterType::boolean:
+      s = {{"type", "boolean"}};
+      break;
+    case ParameterType::text:
+      s = text_schema(p);
+      break;
     case ParameterType::vector:
       s = {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", number_or_text(p)}};
       break;
-    case ParameterType::numbers: s = {{"type", "array"}, {"items", number_or_text(p)}}; break;
-    case ParameterType::texts: s = {{"type", "array"}, {"items", text_schema(p)}}; break;
+    case ParameterType::numbers:
+      s = {{"type", "array"}, {"items", number_or_text(p)}};
+      break;
+    case ParameterType::texts:
+      s = {{"type", "array"}, {"items", text_schema(p)}};
+      break;
   }
   s["description"] = description(p);
   return s;
@@ -195,8 +205,8 @@ std::string json_schema(const registry::Registry& registry) {
   Json& properties = root["properties"];
   properties["include"] = {
       {"description", "Files laid under this one, relative to it."},
-      {"anyOf", Json::array({{{"type", "string"}},
-                             {{"type", "array"}, {"items", {{"type", "string"}}}}})}};
+      {"anyOf",
+       Json::array({{{"type", "string"}}, {{"type", "array"}, {"items", {{"type", "string"}}}}})}};
   properties["time"] = block<TimeBlock>();
   properties["domain"] = domain["domain"];
   properties["materials"] = named(block<MaterialBlock>());
@@ -205,9 +215,8 @@ std::string json_schema(const registry::Registry& registry) {
   properties["bodies"] = named(body_schema(registry));
   properties["emitters"] =
       named(alternatives(block<PlacedBlock>(), "model", choices(registry, "emitter")));
-  properties["fluid"] = {
-      {"anyOf", Json::array({block<FluidBlock>(), {{"const", "none"}}})},
-      {"description", "The fluid around the grains; none runs grains alone."}};
+  properties["fluid"] = {{"anyOf", Json::array({block<FluidBlock>(), {{"const", "none"}}})},
+                         {"description", "The fluid around the grains; none runs grains alone."}};
   properties["coupling"] = block<CouplingBlock>();
   properties["drag"] = {{"$ref", "#/definitions/drag"}};
   properties["voidage"] = {{"$ref", "#/definitions/voidage"}};
@@ -215,8 +224,8 @@ std::string json_schema(const registry::Registry& registry) {
       named(alternatives(block<SensorBlock>(), "model", choices(registry, "sensor")));
   // A file that includes others need not hold every key itself.
   root.erase("required");
-  root["anyOf"] = Json::array({{{"required", {"include"}}},
-                               {{"required", {"time", "gravity", "domain", "fluid"}}}});
+  root["anyOf"] = Json::array(
+      {{{"required", {"include"}}}, {{"required", {"time", "gravity", "domain", "fluid"}}}});
 
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", "Scenario of the dust engine"}};

@@ -89,11 +89,19 @@ bool ModelReader::check_name(const Node& node, const std::string& path, sdk::Ref
   const Names* known = &sides;
   std::string thing = "side";
   switch (what) {
-    case sdk::Refers::nothing: return true;
-    case sdk::Refers::material: known = &names_.materials, thing = "material"; break;
-    case sdk::Refers::body: known = &names_.bodies, thing = "body"; break;
-    case sdk::Refers::emitter: known = &names_.emitters, thing = "emitter"; break;
-    case sdk::Refers::boundary: break;
+    case sdk::Refers::nothing:
+      return true;
+    case sdk::Refers::material:
+      known = &names_.materials, thing = "material";
+      break;
+    case sdk::Refers::body:
+      known = &names_.bodies, thing = "body";
+      break;
+    case sdk::Refers::emitter:
+      known = &names_.emitters, thing = "emitter";
+      break;
+    case sdk::Refers::boundary:
+      break;
   }
   if (known->index(name) < 0) {
     diagnostics_.error(node.where, path + ": there is no " + thing + " '" + printable(name) + "'" +
@@ -101,8 +109,8 @@ bool ModelReader::check_name(const Node& node, const std::string& path, sdk::Ref
     return false;
   }
   if (is_enabled && known->is_disabled(name)) {
-    diagnostics_.error(node.where, path + ": the " + thing + " '" + name +
-                                       "' is switched off (enabled: false)");
+    diagnostics_.error(
+        node.where, path + ": the " + thing + " '" + name + "' is switched off (enabled: false)");
     return false;
   }
   return true;
@@ -153,7 +161,8 @@ ReadModel ModelReader::read(MapReader& reader, const std::string& key, const std
   if (!offer) {
     const std::string near = nearest(name.text, names);
     diagnostics_.error(name.where, path + ": unknown " + noun(kind) + " '" + printable(name.text) +
-                                       "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                                       "'" +
+                                       (near.empty() ? "" : "; did you mean '" + near + "'?") +
                                        " (" + available + ")");
     reader.keys_are_unknowable();
     return {};
@@ -165,8 +174,7 @@ ReadModel ModelReader::read(MapReader& reader, const std::string& key, const std
   result.written.push_back({key, {}, Node::make_text(name.text)});
   for (std::size_t n = 0; n < choice.values.size(); ++n) {
     if (std::holds_alternative<std::monostate>(choice.values[n])) continue;
-    result.written.push_back(
-        {(*offer->parameters)[n].name, {}, written_value(choice.values[n])});
+    result.written.push_back({(*offer->parameters)[n].name, {}, written_value(choice.values[n])});
   }
   if (diagnostics_.error_count() == errors_before) {
     try {

@@ -63,12 +63,13 @@ class IncludeReader {
     auto root = parse_yaml(*text, shown, false, diagnostics_);
     if (!root) return std::nullopt;
     if (root->kind == Node::Kind::nothing) {
-      diagnostics_.error({shown, 1, 1}, "the file is empty: a scenario begins with keys like 'time:'");
+      diagnostics_.error({shown, 1, 1},
+                         "the file is empty: a scenario begins with keys like 'time:'");
       return std::nullopt;
     }
     if (!root->is_map()) {
-      diagnostics_.error(root->where, "a scenario is a map of keys (time, domain, ...), not " +
-                                          kind_text(*root));
+      diagnostics_.error(
+          root->where, "a scenario is a map of keys (time, domain, ...), not " + kind_text(*root));
       return std::nullopt;
     }
     const Entry* include = root->find("include");
@@ -93,8 +94,8 @@ class IncludeReader {
   Node included(const Entry& include, const fs::path& from) {
     Node base = Node::make_map();
     base.where = include.where;
-    std::vector<Node> names = include.value.is_list() ? include.value.items
-                                                      : std::vector<Node>{include.value};
+    std::vector<Node> names =
+        include.value.is_list() ? include.value.items : std::vector<Node>{include.value};
     for (const Node& name : names) {
       if (!name.is_text() || name.text.empty()) {
         diagnostics_.error(name.where, "include: a file name or a list of them is expected, not " +
@@ -216,15 +217,16 @@ void apply_override(Node& root, const Override& override, Diagnostics& diagnosti
   diagnostics.add_file(here.file);
   const auto steps = parse_path(override.path);
   if (!steps) {
-    diagnostics.error(here, "not the path of a key, like bodies.belt.speed or "
-                            "interactions[1].contact.friction");
+    diagnostics.error(here,
+                      "not the path of a key, like bodies.belt.speed or "
+                      "interactions[1].contact.friction");
     return;
   }
   auto value = parse_yaml(override.value, here.file, true, diagnostics);
   if (!value) return;
   if (value->kind == Node::Kind::nothing) {
-    diagnostics.error(here, "the value is missing: write --set " + printable(override.path) +
-                                "=VALUE");
+    diagnostics.error(here,
+                      "the value is missing: write --set " + printable(override.path) + "=VALUE");
     return;
   }
   Node* node = &root;

@@ -12,8 +12,7 @@ namespace dust::scenario {
 
 /// Reads a file with everything it includes: the including file wins, key by key. Nothing where the
 /// file itself cannot be read.
-std::optional<Node> read_with_includes(const std::filesystem::path& file,
-                                       Diagnostics& diagnostics);
+std::optional<Node> read_with_includes(const std::filesystem::path& file, Diagnostics& diagnostics);
 
 /// Lays `over` over `base`: maps are merged key by key, everything else is replaced.
 void merge(Node& base, Node over);

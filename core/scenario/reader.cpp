@@ -178,7 +178,8 @@ class SetupReader {
             std::string("domain.max: ") + "xyz"[d] + " = " + number_text(domain.max[d]) +
                 " m is not above that of domain.min, " + number_text(domain.min[d]) + " m");
     }
-    if (const Entry* sides = reader.required("boundaries", "left, right, front, back, bottom, top")) {
+    if (const Entry* sides =
+            reader.required("boundaries", "left, right, front, back, bottom, top")) {
       written.add("boundaries", read_sides(*sides));
     }
     reader.finish();
@@ -195,8 +196,7 @@ class SetupReader {
       const Entry* side = reader.required(
           k_side_names[n], "a side: {grains: open, wall or periodic, air: {model: ...}}");
       if (side == nullptr) continue;
-      written.add(k_side_names[n],
-                  read_side(*side, n, is_read[n], has_air[n], is_air_periodic[n]));
+      written.add(k_side_names[n], read_side(*side, n, is_read[n], has_air[n], is_air_periodic[n]));
     }
     reader.finish();
     check_sides(setup_.domain, is_read, has_air, is_air_periodic, diagnostics_);
@@ -275,15 +275,14 @@ class SetupReader {
     if (entry == nullptr) return;
     if (!entry->value.is_list()) {
       pairs_are_read_ = false;
-      error(entry->value.where,
-            "interactions: a list of '- between: [a, b]' is expected, not " +
-                kind_text(entry->value));
+      error(entry->value.where, "interactions: a list of '- between: [a, b]' is expected, not " +
+                                    kind_text(entry->value));
       return;
     }
     Node written = Node::make_list();
     for (std::size_t n = 0; n < entry->value.items.size(); ++n) {
-      written.items.push_back(read_interaction(
-          entry->value.items[n], "interactions[" + std::to_string(n) + "]"));
+      written.items.push_back(
+          read_interaction(entry->value.items[n], "interactions[" + std::to_string(n) + "]"));
     }
     out_.add("interactions", std::move(written));
   }
@@ -312,9 +311,8 @@ class SetupReader {
     spec.material_i = names_.materials.index(read.between[0]);
     spec.material_j = names_.materials.index(read.between[1]);
     for (const InteractionSpec& other : setup_.interactions) {
-      const bool is_same =
-          std::minmax(other.material_i, other.material_j) ==
-          std::minmax(spec.material_i, spec.material_j);
+      const bool is_same = std::minmax(other.material_i, other.material_j) ==
+                           std::minmax(spec.material_i, spec.material_j);
       if (is_same) {
         error(node.where, path + ": the pair [" + read.between[0] + ", " + read.between[1] +
                               "] is already given in line " + std::to_string(other.where.line));
@@ -443,8 +441,8 @@ class SetupReader {
       return;
     }
     if (entry->value.is_text()) {
-      error(entry->value.where, "fluid: a map of keys or none is expected, not " +
-                                    kind_text(entry->value));
+      error(entry->value.where,
+            "fluid: a map of keys or none is expected, not " + kind_text(entry->value));
       return;
     }
     MapReader reader(entry->value, "fluid", entry->where, diagnostics_);
@@ -525,10 +523,11 @@ class SetupReader {
     const double limit =
         static_cast<const sdk::VoidageRule&>(*voidage_).largest_diameter_over_spacing();
     if (!(spacing > 0.0) || largest <= limit * spacing) return;
-    error(setup_.voidage->where,
-          "voidage: the largest grain is " + number_text(std::round(100 * largest / spacing) / 100) +
-              " of the smallest cell's edges wide; '" + setup_.voidage->name + "' is valid up to " +
-              number_text(limit) + ": take fewer cells or another rule");
+    error(setup_.voidage->where, "voidage: the largest grain is " +
+                                     number_text(std::round(100 * largest / spacing) / 100) +
+                                     " of the smallest cell's edges wide; '" +
+                                     setup_.voidage->name + "' is valid up to " +
+                                     number_text(limit) + ": take fewer cells or another rule");
   }
 
   const Node& root_;

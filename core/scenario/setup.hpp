@@ -13,8 +13,8 @@
 
 namespace dust::scenario {
 
-/// A place in a scenario file, counted from 1. A value of the command line has file "--set PATH" and
-/// line 0.
+/// A place in a scenario file, counted from 1. A value of the command line has file "--set PATH"
+/// and line 0.
 struct Mark {
   std::string file;
   int line = 0;
@@ -31,19 +31,20 @@ struct ModelChoice {
 };
 
 struct TimeSpec {
-  double end = 0.0;              ///< [s]
-  double fluid_step = 0.0;       ///< [s] also the interval of emission, sampling and interruption
-  double output_every = 0.0;     ///< [s] between frames
-  double checkpoint_every = 0.0; ///< [s] between checkpoints, 0 = with every frame
-  double dem_step = 0.0;         ///< [s] 0 = derived per size class
-  double expected_speed = 0.0;   ///< [m/s] largest approach speed of grains, 0 = from bodies and drops
-  bool rates_single = false;     ///< one rate for all grains
+  double end = 0.0;               ///< [s]
+  double fluid_step = 0.0;        ///< [s] also the interval of emission, sampling and interruption
+  double output_every = 0.0;      ///< [s] between frames
+  double checkpoint_every = 0.0;  ///< [s] between checkpoints, 0 = with every frame
+  double dem_step = 0.0;          ///< [s] 0 = derived per size class
+  double expected_speed =
+      0.0;                    ///< [m/s] largest approach speed of grains, 0 = from bodies and drops
+  bool rates_single = false;  ///< one rate for all grains
 };
 
 enum class GrainSide { open, wall, periodic };
 
 /// Sides in the order left, right (x), front, back (y), bottom, top (z).
-inline constexpr std::array<const char*, 6> k_side_names = {"left",  "right",  "front",
+inline constexpr std::array<const char*, 6> k_side_names = {"left", "right",  "front",
                                                             "back", "bottom", "top"};
 
 struct SideSpec {
@@ -72,7 +73,8 @@ struct InteractionSpec {
   Mark where;
 };
 
-/// A turned frame for bodies and emitters: points are turned about `origin` by `angle` round `axis`.
+/// A turned frame for bodies and emitters: points are turned about `origin` by `angle` round
+/// `axis`.
 struct FrameSpec {
   std::string name;
   sdk::Vec3 origin;

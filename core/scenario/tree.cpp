@@ -3,8 +3,8 @@
 
 #include "scenario/suggest.hpp"
 
-#include <yaml-cpp/yaml.h>
 #include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
 
 #include <map>
 #include <sstream>
@@ -90,7 +90,8 @@ class TreeBuilder final : public YAML::EventHandler {
   }
   void check_tag(const YAML::Mark& mark, const std::string& tag) {
     if (tag.empty() || tag == "?" || tag == "!") return;
-    diagnostics_.error(mark_of(mark), "tags like '" + printable(tag) + "' are not used in scenarios");
+    diagnostics_.error(mark_of(mark),
+                       "tags like '" + printable(tag) + "' are not used in scenarios");
     throw Stop{};
   }
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -147,7 +148,8 @@ class TreeBuilder final : public YAML::EventHandler {
     if (const Entry* first = std::as_const(parent.node).find(parent.key)) {
       parent.is_key_usable = false;
       std::string text = "duplicate key '" + printable(parent.key) + "'";
-      if (first->where.line > 0) text += ": already given in line " + std::to_string(first->where.line);
+      if (first->where.line > 0)
+        text += ": already given in line " + std::to_string(first->where.line);
       diagnostics_.error(parent.key_mark, std::move(text));
     }
   }
@@ -242,10 +244,14 @@ Entry* Node::find(std::string_view key) {
 
 std::string kind_text(const Node& node) {
   switch (node.kind) {
-    case Node::Kind::text: return quoted(node.text);
-    case Node::Kind::list: return "a list";
-    case Node::Kind::map: return "a map of keys";
-    case Node::Kind::nothing: break;
+    case Node::Kind::text:
+      return quoted(node.text);
+    case Node::Kind::list:
+      return "a list";
+    case Node::Kind::map:
+      return "a map of keys";
+    case Node::Kind::nothing:
+      break;
   }
   return "nothing";
 }

@@ -56,10 +56,9 @@ struct Prefix {
   double denominator;
 };
 constexpr std::array k_prefixes = {
-    Prefix{"n", 1, 1e9},      Prefix{"u", 1, 1e6},  Prefix{"\u00b5", 1, 1e6},
-    Prefix{"\u03bc", 1, 1e6}, Prefix{"m", 1, 1e3},  Prefix{"c", 1, 1e2},
-    Prefix{"d", 1, 10},       Prefix{"h", 1e2, 1},  Prefix{"k", 1e3, 1},
-    Prefix{"M", 1e6, 1},      Prefix{"G", 1e9, 1},
+    Prefix{"n", 1, 1e9}, Prefix{"u", 1, 1e6}, Prefix{"\u00b5", 1, 1e6}, Prefix{"\u03bc", 1, 1e6},
+    Prefix{"m", 1, 1e3}, Prefix{"c", 1, 1e2}, Prefix{"d", 1, 10},       Prefix{"h", 1e2, 1},
+    Prefix{"k", 1e3, 1}, Prefix{"M", 1e6, 1}, Prefix{"G", 1e9, 1},
 };
 
 /// Names of dimensions and units to offer, SI first.
@@ -289,8 +288,9 @@ std::optional<WrittenNumber> split_number(std::string_view raw, std::string& err
     std::string plain = significant == std::string::npos ? "" : digits.substr(significant);
     if (plain.empty() || !is_digit(plain.front())) plain.insert(0, 1, '0');
     if (lead == 1) plain.insert(0, 1, '-');
-    return fail(quoted(text) + " could be read as an octal number: leave out the leading zero and " +
-                "write " + plain);
+    return fail(quoted(text) +
+                " could be read as an octal number: leave out the leading zero and " + "write " +
+                plain);
   }
   WrittenNumber result;
   const auto [end, code] =
@@ -315,8 +315,7 @@ std::optional<WrittenNumber> split_number(std::string_view raw, std::string& err
   return result;
 }
 
-std::optional<double> to_si(const WrittenNumber& written, Dimension dimension,
-                            std::string& error) {
+std::optional<double> to_si(const WrittenNumber& written, Dimension dimension, std::string& error) {
   if (written.unit.empty()) return written.number;
   const auto unit = parse_unit(written.unit);
   const std::string shown = printable(written.unit);
@@ -351,10 +350,10 @@ std::string number_text(double value) {
   const double size = std::abs(value);
   const bool is_plain = value == 0.0 || (size >= 1e-4 && size < 1e7);
   std::array<char, 40> buffer{};
-  const auto [end, code] =
-      is_plain ? std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                               std::chars_format::fixed)
-               : std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  const auto [end, code] = is_plain
+                               ? std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                               std::chars_format::fixed)
+                               : std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return code == std::errc{} ? std::string(buffer.data(), end) : std::string("0");
 }
 

@@ -24,13 +24,20 @@ class ValueReader {
 
   std::optional<Value> read(const Node& node) {
     switch (parameter_.type) {
-      case ParameterType::number: return number(node);
-      case ParameterType::integer: return integer(node);
-      case ParameterType::boolean: return boolean(node);
-      case ParameterType::text: return text(node);
-      case ParameterType::vector: return vector(node);
-      case ParameterType::numbers: return numbers(node);
-      case ParameterType::texts: return texts(node);
+      case ParameterType::number:
+        return number(node);
+      case ParameterType::integer:
+        return integer(node);
+      case ParameterType::boolean:
+        return boolean(node);
+      case ParameterType::text:
+        return text(node);
+      case ParameterType::vector:
+        return vector(node);
+      case ParameterType::numbers:
+        return numbers(node);
+      case ParameterType::texts:
+        return texts(node);
     }
     return std::nullopt;
   }
@@ -100,9 +107,9 @@ class ValueReader {
     std::string error;
     const auto w = split_number(node.text, error);
     if (!w || !w->unit.empty()) {
-      return fail(node, w ? "a whole number without a unit is expected, not '" +
-                                printable(node.text) + "'"
-                          : error);
+      return fail(
+          node, w ? "a whole number without a unit is expected, not '" + printable(node.text) + "'"
+                  : error);
     }
     std::int64_t value = 0;
     const char* begin = node.text.data() + (node.text.starts_with('+') ? 1 : 0);
@@ -120,14 +127,15 @@ class ValueReader {
     if (node.is_word("true")) return true;
     if (node.is_word("false")) return false;
     std::string word = node.is_text() ? node.text : std::string();
-    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) {
-      return static_cast<char>(std::tolower(c));
-    });
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     for (const char* yes : {"yes", "on", "y", "true", "1"}) {
-      if (word == yes) return fail(node, "'" + printable(node.text) + "' is not true or false: write true");
+      if (word == yes)
+        return fail(node, "'" + printable(node.text) + "' is not true or false: write true");
     }
     for (const char* no : {"no", "off", "n", "false", "0"}) {
-      if (word == no) return fail(node, "'" + printable(node.text) + "' is not true or false: write false");
+      if (word == no)
+        return fail(node, "'" + printable(node.text) + "' is not true or false: write false");
     }
     return fail(node, "true or false is expected, not " + kind_text(node));
   }
@@ -248,7 +256,9 @@ class ValueReader {
 
 bool is_plain(const std::string& text) {
   if (text.empty() || text == "true" || text == "false" || text == "null") return false;
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  const auto is_letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+  };
   if (!is_letter(text.front())) return false;
   return std::all_of(text.begin(), text.end(), [&](char c) {
     return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '.';
@@ -321,13 +331,20 @@ std::string default_text(const Parameter& p) {
 
 std::string type_text(ParameterType type) {
   switch (type) {
-    case ParameterType::number: return "number";
-    case ParameterType::integer: return "whole number";
-    case ParameterType::boolean: return "true or false";
-    case ParameterType::text: return "text";
-    case ParameterType::vector: return "vector [x, y, z]";
-    case ParameterType::numbers: return "list of numbers";
-    case ParameterType::texts: return "list of texts";
+    case ParameterType::number:
+      return "number";
+    case ParameterType::integer:
+      return "whole number";
+    case ParameterType::boolean:
+      return "true or false";
+    case ParameterType::text:
+      return "text";
+    case ParameterType::vector:
+      return "vector [x, y, z]";
+    case ParameterType::numbers:
+      return "list of numbers";
+    case ParameterType::texts:
+      return "list of texts";
   }
   return {};
 }
@@ -358,12 +375,11 @@ std::vector<Value> MapReader::values(const sdk::ParameterSchema& schema) {
   std::vector<Value> result;
   for (const Parameter& parameter : schema) {
     const std::string unit = si_unit(parameter.dimension);
-    const Entry* entry =
-        parameter.is_required
-            ? required(parameter.name, type_text(parameter.type) +
-                                           (unit.empty() ? "" : " in " + unit) + ": " +
-                                           parameter.sentence)
-            : optional(parameter.name);
+    const Entry* entry = parameter.is_required
+                             ? required(parameter.name, type_text(parameter.type) +
+                                                            (unit.empty() ? "" : " in " + unit) +
+                                                            ": " + parameter.sentence)
+                             : optional(parameter.name);
     if (entry == nullptr) {
       result.push_back(parameter.default_value);
       continue;

@@ -46,7 +46,8 @@ TEST_CASE("a plugin library that is well shall be loaded") {
   REQUIRE(entry != nullptr);
   CHECK(entry->file == k_folder / "good" / "good.so");
   CHECK(registry.names("drag") == std::vector<std::string>{"constant"});
-  CHECK(registry.create({.kind = "drag", .name = "constant", .values = {}, .path = {}, .where = {}}));
+  CHECK(
+      registry.create({.kind = "drag", .name = "constant", .values = {}, .path = {}, .where = {}}));
 }
 
 TEST_CASE("a plugin of an older interface version shall be refused as older") {

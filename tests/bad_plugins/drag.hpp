@@ -24,14 +24,14 @@ struct Drag final : dust::sdk::DragLaw {
 
 /// Exports a handshake changed by `CHANGE` (statements on `h`) and an entry point that aborts the
 /// test program when it is called nevertheless.
-#define REFUSED_PLUGIN(CHANGE)                                                                   \
-  constexpr dust::sdk::Handshake changed() {                                                     \
-    dust::sdk::Handshake h = dust::sdk::make_handshake();                                        \
-    CHANGE;                                                                                      \
-    return h;                                                                                    \
-  }                                                                                              \
-  extern "C" __attribute__((visibility("default"))) const dust::sdk::Handshake dust_handshake;   \
-  constinit const dust::sdk::Handshake dust_handshake = changed();                               \
-  extern "C" __attribute__((visibility("default"))) void dust_register(dust::sdk::Registrar&) {  \
-    __builtin_trap();                                                                            \
+#define REFUSED_PLUGIN(CHANGE)                                                                  \
+  constexpr dust::sdk::Handshake changed() {                                                    \
+    dust::sdk::Handshake h = dust::sdk::make_handshake();                                       \
+    CHANGE;                                                                                     \
+    return h;                                                                                   \
+  }                                                                                             \
+  extern "C" __attribute__((visibility("default"))) const dust::sdk::Handshake dust_handshake;  \
+  constinit const dust::sdk::Handshake dust_handshake = changed();                              \
+  extern "C" __attribute__((visibility("default"))) void dust_register(dust::sdk::Registrar&) { \
+    __builtin_trap();                                                                           \
   }

@@ -32,8 +32,8 @@ Outcome engine(const std::string& arguments) {
       fs::temp_directory_path() / ("dust_command_line_" + std::to_string(::getpid()));
   const std::string out = stem.string() + ".out";
   const std::string err = stem.string() + ".err";
-  const std::string command = "env -u DUST_PLUGIN_PATH " PREFIX "/bin/engine " + arguments + " > " +
-                              out + " 2> " + err;
+  const std::string command =
+      "env -u DUST_PLUGIN_PATH " PREFIX "/bin/engine " + arguments + " > " + out + " 2> " + err;
   const int status = std::system(command.c_str());
   Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
   fs::remove(out);
@@ -48,7 +48,7 @@ void check_refused(const std::string& arguments, const std::string& expected) {
   CHECK_MESSAGE(o.err == expected + "\n", o.err);
 }
 
-const std::string k_scenario = DUST_SOURCE "/scenarios/transfer_point.yaml";
+const std::string k_scenario = DUST_SOURCE "/tests/unit/scenario/transfer_point.yaml";
 
 }  // namespace
 
@@ -84,6 +84,12 @@ TEST_CASE("check shall accept a scenario that is well, with the plugins beside t
   CHECK(o.err.empty());
   CHECK(o.out.find("the scenario is valid") != std::string::npos);
   CHECK(o.out.find("sets the smallest step") != std::string::npos);
+}
+
+TEST_CASE("the shipped transfer point shall be valid with the shipped plugins") {
+  const int status = std::system("env -u DUST_PLUGIN_PATH " DUST_ENGINE " check " DUST_SOURCE
+                                 "/scenarios/transfer_point.yaml > /dev/null");
+  CHECK(WEXITSTATUS(status) == 0);
 }
 
 TEST_CASE("check shall tell a wrong scenario on stderr, one line per problem, path as given") {

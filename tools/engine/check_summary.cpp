@@ -72,8 +72,12 @@ void tell_domain(std::ostream& out, const Setup& setup) {
     const auto& side = domain.sides[n];
     out << (n == 0 ? "  sides      " : "             ") << scenario::k_side_names[n] << ": ";
     switch (side.grains) {
-      case scenario::GrainSide::open: out << "open"; break;
-      case scenario::GrainSide::periodic: out << "periodic"; break;
+      case scenario::GrainSide::open:
+        out << "open";
+        break;
+      case scenario::GrainSide::periodic:
+        out << "periodic";
+        break;
       case scenario::GrainSide::wall:
         out << "wall of " << material_name(setup, side.material);
         break;
@@ -147,8 +151,8 @@ void tell_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
     const auto& deciding = derived.sizes[static_cast<std::size_t>(derived.deciding_size)];
     out << "             one fixed step of " << engineering(setup.time.dem_step, "s") << " = "
         << digits(100.0 * setup.time.dem_step / deciding.rayleigh_time)
-        << " % of the smallest Rayleigh time, "
-        << digits(deciding.hertz_time / setup.time.dem_step) << " steps per collision";
+        << " % of the smallest Rayleigh time, " << digits(deciding.hertz_time / setup.time.dem_step)
+        << " steps per collision";
     if (setup.time.dem_step > deciding.stable_step) out << " (longer than the stable step)";
     out << '\n';
   } else if (setup.time.rates_single) {
@@ -168,9 +172,9 @@ void tell_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
 void tell_cost(std::ostream& out, const Derived& derived) {
   constexpr double k_megabyte = 1e6;
   out << "  cost       about " << counted(derived.grains_in_domain)
-      << " grains at a time (each stays about " << engineering(derived.residence_time, "s")
-      << "), " << counted(derived.memory_bytes / k_megabyte) << " MB, "
-      << duration(derived.wall_seconds) << " on one core (rough)\n";
+      << " grains at a time (each stays about " << engineering(derived.residence_time, "s") << "), "
+      << counted(derived.memory_bytes / k_megabyte) << " MB, " << duration(derived.wall_seconds)
+      << " on one core (rough)\n";
 }
 
 }  // namespace

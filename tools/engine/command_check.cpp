@@ -19,15 +19,16 @@ void add_check(CLI::App& app, int&) {
   arguments->scenario.add_to(*command);
   command->add_option("-o,--output", arguments->drawing, "Draw the set-up from the side")
       ->type_name("SETUP.svg");
-  command->footer("Examples:\n"
-                  "  engine check scenarios/transfer_point.yaml\n"
-                  "  engine check scenarios/transfer_point.yaml -o setup.svg "
-                  "--set bodies.plate.enabled=true");
+  command->footer(
+      "Examples:\n"
+      "  engine check scenarios/transfer_point.yaml\n"
+      "  engine check scenarios/transfer_point.yaml -o setup.svg "
+      "--set bodies.plate.enabled=true");
   command->callback([arguments] {
     const run::RunOptions options = arguments->scenario.options();
     const auto registry = load_plugins(arguments->scenario.plugin_path);
-    const auto result = scenario::read_scenario(options.scenario, options.overrides, *registry,
-                                                options.set_files);
+    const auto result =
+        scenario::read_scenario(options.scenario, options.overrides, *registry, options.set_files);
     for (const std::string& warning : result.warnings) std::cerr << warning << '\n';
     const auto derived = scenario::derive(result.setup, *registry);
     std::cout << check_summary(result.setup, derived);

@@ -103,9 +103,9 @@ void print_markdown(const Subject& subject) {
 
 void print_json(const Subject& subject) {
   const sdk::ModelInfo& info = subject.info;
-  Json json = {{"kind", info.kind},         {"name", info.name},         {"version", info.version},
-               {"summary", info.summary},   {"equation", info.equation}, {"source", info.source},
-               {"file", subject.file},      {"parameters", Json::array()}};
+  Json json = {{"kind", info.kind},       {"name", info.name},          {"version", info.version},
+               {"summary", info.summary}, {"equation", info.equation},  {"source", info.source},
+               {"file", subject.file},    {"parameters", Json::array()}};
   for (const sdk::Parameter& p : info.parameters) {
     Json one = {{"name", p.name},
                 {"symbol", p.symbol},
@@ -138,9 +138,10 @@ void add_describe(CLI::App& app, int&) {
   auto* markdown = command->add_flag("--markdown", arguments->as_markdown, "Print as Markdown");
   command->add_flag("--json", arguments->as_json, "Print as JSON")->excludes(markdown);
   add_plugin_path(*command, arguments->folders);
-  command->footer("Examples:\n"
-                  "  engine describe contact/hertz_mindlin\n"
-                  "  engine describe shape/conveyor --markdown");
+  command->footer(
+      "Examples:\n"
+      "  engine describe contact/hertz_mindlin\n"
+      "  engine describe shape/conveyor --markdown");
   command->callback([arguments] {
     const auto registry = load_plugins(arguments->folders);
     const Subject subject = find_subject(*registry, arguments->subject);

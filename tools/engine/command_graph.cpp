@@ -12,12 +12,14 @@ void add_graph(CLI::App& app, int& status) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("graph", "Print the task graph of a scenario as DOT");
   arguments->scenario.add_to(*command, false);
-  command->add_option("--run", arguments->run_folder,
-                      "A run's folder: its own scenario, with the timings of that run")
+  command
+      ->add_option("--run", arguments->run_folder,
+                   "A run's folder: its own scenario, with the timings of that run")
       ->type_name("DIR");
-  command->footer("Examples:\n"
-                  "  engine graph scenarios/transfer_point.yaml | dot -Tsvg > graph.svg\n"
-                  "  engine graph --run results/transfer_point | dot -Tsvg > graph.svg");
+  command->footer(
+      "Examples:\n"
+      "  engine graph scenarios/transfer_point.yaml | dot -Tsvg > graph.svg\n"
+      "  engine graph --run results/transfer_point | dot -Tsvg > graph.svg");
   command->callback([arguments, &status] {
     run::RunOptions options = arguments->scenario.options();
     std::optional<std::filesystem::path> run_folder;

@@ -12,9 +12,10 @@ void add_plugins(CLI::App& app, int&) {
   CLI::App* command =
       app.add_subcommand("plugins", "List every plugin found: kind, name, version, file");
   add_plugin_path(*command, *folders);
-  command->footer("Plugins are looked for in --plugin-path, $DUST_PLUGIN_PATH and "
-                  "<prefix>/lib/dust/plugins.\n"
-                  "Example:\n  engine plugins --plugin-path my_plugins");
+  command->footer(
+      "Plugins are looked for in --plugin-path, $DUST_PLUGIN_PATH and "
+      "<prefix>/lib/dust/plugins.\n"
+      "Example:\n  engine plugins --plugin-path my_plugins");
   command->callback([folders] {
     const auto registry = load_plugins(*folders);
     std::size_t kind = 0;

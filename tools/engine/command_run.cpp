@@ -14,25 +14,29 @@ void add_run(CLI::App& app, int& status) {
     int threads = 0;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("run", "Run a scenario (the command's name may be left out)");
+  CLI::App* command =
+      app.add_subcommand("run", "Run a scenario (the command's name may be left out)");
   arguments->scenario.add_to(*command);
-  command->add_option("-o,--output", arguments->output,
-                      "Folder of the results (default: results/NAME, or NAME-2, -3, ...)")
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Folder of the results (default: results/NAME, or NAME-2, -3, ...)")
       ->type_name("DIR");
   auto* force = command->add_flag("--force", arguments->force,
                                   "Replace the results in a folder that holds some");
   command->add_flag("--resume", arguments->resume, "Go on from the checkpoint in the folder")
       ->excludes(force);
-  command->add_option("--threads", arguments->threads,
-                      "Number of threads (default: all cores); the results do not depend on it")
+  command
+      ->add_option("--threads", arguments->threads,
+                   "Number of threads (default: all cores); the results do not depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
   auto* quiet = command->add_flag("--quiet", arguments->quiet, "Print problems only");
   command->add_flag("--verbose", arguments->verbose, "Print what is logged")->excludes(quiet);
-  command->footer("Examples:\n"
-                  "  engine run scenarios/transfer_point.yaml -o results/slow "
-                  "--set bodies.belt.speed='0.4 m/s'\n"
-                  "  engine run scenarios/transfer_point.yaml -o results/slow --resume");
+  command->footer(
+      "Examples:\n"
+      "  engine run scenarios/transfer_point.yaml -o results/slow "
+      "--set bodies.belt.speed='0.4 m/s'\n"
+      "  engine run scenarios/transfer_point.yaml -o results/slow --resume");
   command->callback([arguments, &status] {
     run::RunOptions options = arguments->scenario.options();
     if (!arguments->output.empty()) options.output = arguments->output;

@@ -11,10 +11,11 @@ void add_schema(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand(
       "schema", "Print the JSON Schema of scenarios with the plugins found, for editors");
   add_plugin_path(*command, *folders);
-  command->footer("Example:\n"
-                  "  engine schema > scenario.schema.json\n"
-                  "and as the first line of a scenario:\n"
-                  "  # yaml-language-server: $schema=scenario.schema.json");
+  command->footer(
+      "Example:\n"
+      "  engine schema > scenario.schema.json\n"
+      "and as the first line of a scenario:\n"
+      "  # yaml-language-server: $schema=scenario.schema.json");
   command->callback([folders] { std::cout << scenario::json_schema(*load_plugins(*folders)); });
 }
 

@@ -127,9 +127,9 @@ class Drawing {
     const double edge = std::max({size.x, size.y, size.z}) / k_pieces;
     // A turned body is cut in its own frame: a larger box, the picture clips.
     const Vec3 more = spec.frame >= 0 ? size : Vec3{};
-    const auto corners =
-        body.triangles(setup_.domain.min - more, setup_.domain.max + more, edge);
-    out_ << "<path fill=\"#bbb\" stroke=\"#333\" stroke-width=\"1.5\" stroke-linejoin=\"round\" d=\"";
+    const auto corners = body.triangles(setup_.domain.min - more, setup_.domain.max + more, edge);
+    out_ << "<path fill=\"#bbb\" stroke=\"#333\" stroke-width=\"1.5\" stroke-linejoin=\"round\" "
+            "d=\"";
     double right = 0.0;
     double top = 1e9;
     for (std::size_t n = 0; n + 2 < corners.size(); n += 3) {

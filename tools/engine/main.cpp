@@ -33,8 +33,7 @@ void complete_arguments(const CLI::App& app, std::vector<std::string>& arguments
   if (is_global || std::find(commands.begin(), commands.end(), first) != commands.end()) return;
   std::error_code code;
   const bool is_file = first.starts_with("-") || first.find('.') != std::string::npos ||
-                       first.find('/') != std::string::npos ||
-                       std::filesystem::exists(first, code);
+                       first.find('/') != std::string::npos || std::filesystem::exists(first, code);
   if (!is_file) {
     throw base::UserError("engine: error: unknown command '" + scenario::printable(first) + "'" +
                           scenario::suggestion(first, commands, "commands"));
@@ -59,13 +58,14 @@ int engine_main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("engine ") + DUST_VERSION);
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
-  app.footer("Examples:\n"
-             "  engine scenarios/transfer_point.yaml\n"
-             "  engine check scenarios/transfer_point.yaml --set bodies.belt.speed='0.4 m/s'\n"
-             "  engine describe drag/gidaspow\n"
-             "'engine COMMAND --help' tells more.\n"
-             "Exit status: 0 finished, 1 failed while running, 2 wrong input, 130 and 143 "
-             "interrupted.");
+  app.footer(
+      "Examples:\n"
+      "  engine scenarios/transfer_point.yaml\n"
+      "  engine check scenarios/transfer_point.yaml --set bodies.belt.speed='0.4 m/s'\n"
+      "  engine describe drag/gidaspow\n"
+      "'engine COMMAND --help' tells more.\n"
+      "Exit status: 0 finished, 1 failed while running, 2 wrong input, 130 and 143 "
+      "interrupted.");
   int status = 0;
 #ifdef DUST_HAS_RUN
   engine::add_run(app, status);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/error.hpp"
 #include "registry/registry.hpp"
+#include "base/error.hpp"
 #include "unit/scenario/fake_models.hpp"
 
 #include <doctest/doctest.h>

@@ -28,7 +28,9 @@ TEST_CASE("the smallest grain shall set the step and each step shall keep both s
   REQUIRE(derived.sizes.size() == 5);
   CHECK(derived.deciding_size == 0);
   for (const auto& size : derived.sizes) {
-    CHECK(size.stable_step == doctest::Approx(std::min(0.3 * size.rayleigh_time, size.hertz_time / 15)).epsilon(k_roundings));
+    CHECK(size.stable_step ==
+          doctest::Approx(std::min(0.3 * size.rayleigh_time, size.hertz_time / 15))
+              .epsilon(k_roundings));
   }
   CHECK(derived.smallest_step == derived.sizes[0].stable_step);
   CHECK(derived.largest_step == derived.sizes[4].stable_step);

@@ -46,7 +46,8 @@ struct HertzMindlin final : ContactLaw {
   [[nodiscard]] int history_size() const override { return 0; }
   void evaluate(const ContactBatch&) const override {}
   [[nodiscard]] double collision_time(double r, double m, double v) const override {
-    const double e = material.young_modulus / (2 * (1 - material.poisson_ratio * material.poisson_ratio));
+    const double e =
+        material.young_modulus / (2 * (1 - material.poisson_ratio * material.poisson_ratio));
     return 2.87 * std::pow(m * m / (r * e * e * v), 0.2);
   }
   [[nodiscard]] double half_period(double, double, double) const override { return 1e-5; }

@@ -51,8 +51,9 @@ TEST_CASE("a key given twice shall be told with the first line") {
 }
 
 TEST_CASE("a missing key shall be told with what it is for") {
-  check("  density: 1.2 kg/m3\n", "",
-        "s.yaml:34:1: error: fluid: missing key 'density' (number in kg/m3: Density of the fluid.)");
+  check(
+      "  density: 1.2 kg/m3\n", "",
+      "s.yaml:34:1: error: fluid: missing key 'density' (number in kg/m3: Density of the fluid.)");
   check("gravity: [0, 0, -9.81]\n", "",
         "s.yaml:1:1: error: missing key 'gravity' (vector [x, y, z] in m/s2: Acceleration of "
         "gravity; [0, 0, 0] for none.)");
@@ -84,8 +85,8 @@ TEST_CASE("a value of another kind shall be told with the kind expected") {
   check("end: 1 s", "end: 010",
         "s.yaml:2:13: error: time.end: '010' could be read as an octal number: leave out the "
         "leading zero and write 10");
-  check("end: 1 s", "end:",
-        "s.yaml:2:8: error: time.end: a time (s, ms, min) is expected, not nothing");
+  check("end: 1 s",
+        "end:", "s.yaml:2:8: error: time.end: a time (s, ms, min) is expected, not nothing");
   check("density: 1.2 kg/m3", "density: 1.2 kg",
         "s.yaml:36:12: error: fluid.density: 'kg' is the unit of a mass: a density is expected "
         "(kg/m3, g/cm3, t/m3)");
@@ -100,9 +101,10 @@ TEST_CASE("an unknown model shall be told with the nearest and all there are") {
         "(drag models: gidaspow)");
   check("shape: plate", "shape: ball",
         "s.yaml:24:34: error: bodies.plate.shape: unknown shape 'ball' (shapes: conveyor, plate)");
-  check("model: trajectory", "model: [1]",
-        "s.yaml:41:19: error: sensors.stream.model: the name of a sensor model is expected, not a "
-        "list (sensor models: box_concentration, carry_back, low_pressure, plane_flux, trajectory)");
+  check(
+      "model: trajectory", "model: [1]",
+      "s.yaml:41:19: error: sensors.stream.model: the name of a sensor model is expected, not a "
+      "list (sensor models: box_concentration, carry_back, low_pressure, plane_flux, trajectory)");
 }
 
 TEST_CASE("a name of something that is not there shall be told with the nearest") {

@@ -30,9 +30,9 @@ TEST_CASE("settings shall reach values, lists, list elements and absent optional
 
 TEST_CASE("a setting may add a whole thing") {
   const auto setup =
-      read(transfer_point(),
-           {{"bodies.lid", "{shape: plate, material: plate, hinge: [1, 0, 1 mm], length: 1 mm, "
-                           "thickness: 1 mm}"}})
+      read(transfer_point(), {{"bodies.lid",
+                               "{shape: plate, material: plate, hinge: [1, 0, 1 mm], length: 1 mm, "
+                               "thickness: 1 mm}"}})
           .setup;
   REQUIRE(setup.bodies.size() == 2);
   CHECK(setup.bodies[1].name == "lid");

@@ -56,9 +56,11 @@ TEST_CASE("a unit on the last component alone shall hold for all, and each may h
 TEST_CASE("what is disabled shall be checked but left out") {
   const Folder folder;
   CHECK(read(folder.write("s.yaml", k_small)).setup.bodies.empty());
-  const auto enabled = read(folder.write("s.yaml", changed(k_small, "enabled: false", "enabled: true"))).setup;
+  const auto enabled =
+      read(folder.write("s.yaml", changed(k_small, "enabled: false", "enabled: true"))).setup;
   REQUIRE(enabled.bodies.size() == 1);
-  const auto lines = problems(folder.write("s.yaml", changed(k_small, "length: 5 mm", "length: 5 deg")));
+  const auto lines =
+      problems(folder.write("s.yaml", changed(k_small, "length: 5 mm", "length: 5 deg")));
   REQUIRE(lines.size() == 1);
   CHECK(lines[0].find("bodies.plate.length") != std::string::npos);
 }
@@ -73,7 +75,8 @@ TEST_CASE("periodic sides shall have no air condition") {
 
 TEST_CASE("without a name, the scenario shall be named after its file") {
   const Folder folder;
-  CHECK(read(folder.write("my belt.yaml", changed(k_small, "name: small\n", ""))).setup.name == "my_belt");
+  CHECK(read(folder.write("my belt.yaml", changed(k_small, "name: small\n", ""))).setup.name ==
+        "my_belt");
 }
 
 TEST_CASE("fluid: none shall leave grains alone, with the air conditions still checked") {
@@ -84,8 +87,9 @@ TEST_CASE("fluid: none shall leave grains alone, with the air conditions still c
   CHECK_FALSE(setup.drag);
   CHECK_FALSE(setup.voidage);
   for (const auto& side : setup.domain.sides) CHECK_FALSE(side.air);
-  const auto lines = problems(folder.write("s.yaml", changed(k_small, "model: gidaspow", "model: gidaspov")),
-                              {{"fluid", "none"}});
+  const auto lines =
+      problems(folder.write("s.yaml", changed(k_small, "model: gidaspow", "model: gidaspov")),
+               {{"fluid", "none"}});
   REQUIRE(lines.size() == 1);
   CHECK(lines[0].find("gidaspow") != std::string::npos);
 }
@@ -94,7 +98,8 @@ TEST_CASE("an included file shall lie under the including one, key by key") {
   const Folder folder;
   folder.write("base.yaml", k_small);
   const auto file = folder.write(
-      "top.yaml", "include: base.yaml\nname: top\ntime: {end: 2 s}\nmaterials: {sand: {density: 3000}}\n");
+      "top.yaml",
+      "include: base.yaml\nname: top\ntime: {end: 2 s}\nmaterials: {sand: {density: 3000}}\n");
   const auto setup = read(file).setup;
   CHECK(setup.name == "top");
   CHECK(setup.time.end == 2);

@@ -5,18 +5,19 @@
 #include "scenario/reader.hpp"
 #include "unit/scenario/fake_models.hpp"
 
+#include <unistd.h>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 /// Files of one test, removed at its end.
 class Folder {
  public:
-  Folder() : path_(std::filesystem::temp_directory_path() /
-                   ("dust_scenario_" + std::to_string(::getpid()))) {
+  Folder()
+      : path_(std::filesystem::temp_directory_path() /
+              ("dust_scenario_" + std::to_string(::getpid()))) {
     std::filesystem::create_directories(path_);
   }
   ~Folder() {
@@ -48,7 +49,7 @@ inline const dust::registry::Registry& fakes() {
 }
 
 inline std::filesystem::path transfer_point() {
-  return std::filesystem::path(DUST_SOURCE) / "scenarios" / "transfer_point.yaml";
+  return std::filesystem::path(DUST_SOURCE) / "tests" / "unit" / "scenario" / "transfer_point.yaml";
 }
 
 inline dust::scenario::ReadResult read(const std::filesystem::path& file,

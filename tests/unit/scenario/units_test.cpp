@@ -35,7 +35,8 @@ std::string refusal(const std::string& text, Dimension d) {
 TEST_CASE("the units of the contract shall give SI values") {
   CHECK(value("1.25 mm", dim::length) == 1.25e-3);
   CHECK(value("350 mm", dim::length) == 0.35);
-  CHECK(value("80 l/min", dim::volume_flow) == doctest::Approx(80e-3 / 60).epsilon(k_two_roundings));
+  CHECK(value("80 l/min", dim::volume_flow) ==
+        doctest::Approx(80e-3 / 60).epsilon(k_two_roundings));
   CHECK(value("16 deg", dim::angle) ==
         doctest::Approx(16 * std::numbers::pi / 180).epsilon(k_two_roundings));
   CHECK(value("6 g/s", dim::mass_flow) == 0.006);
@@ -49,7 +50,8 @@ TEST_CASE("the units of the contract shall give SI values") {
 TEST_CASE("compound units, exponents and brackets shall be understood") {
   CHECK(value("2 Pa s", dim::dynamic_viscosity) == 2);
   CHECK(value("2 Pa*s", dim::dynamic_viscosity) == 2);
-  CHECK(value("18 uPa s", dim::dynamic_viscosity) == doctest::Approx(18e-6).epsilon(k_two_roundings));
+  CHECK(value("18 uPa s", dim::dynamic_viscosity) ==
+        doctest::Approx(18e-6).epsilon(k_two_roundings));
   CHECK(value("2 kg/(m s)", dim::dynamic_viscosity) == 2);
   CHECK(value("2 kg/m/s", dim::dynamic_viscosity) == 2);
   CHECK(value("2 kg m-1 s-1", dim::dynamic_viscosity) == 2);
@@ -75,7 +77,8 @@ TEST_CASE("a unit of another dimension shall be refused with the expected one") 
   CHECK(refusal("1 mm", dim::none).find("a bare number is expected") != std::string::npos);
   CHECK(refusal("5 %", dim::length).find("a length is expected") != std::string::npos);
   CHECK(refusal("1 furlong", dim::length).find("unknown unit 'furlong'") != std::string::npos);
-  for (const char* unit : {"m^", "m/", "/m", "m//s", "(m", "m)", "m-", "()", "m(", "((((((((((m))))))))))"}) {
+  for (const char* unit :
+       {"m^", "m/", "/m", "m//s", "(m", "m)", "m-", "()", "m(", "((((((((((m))))))))))"}) {
     CHECK_MESSAGE(!parse_unit(unit), unit);
   }
 }
@@ -99,11 +102,27 @@ TEST_CASE("numbers that other readers take differently shall be refused with wha
 }
 
 TEST_CASE("the written SI unit of every named dimension shall read back as that dimension") {
-  for (const Dimension d :
-       {dim::length, dim::mass, dim::time, dim::temperature, dim::angle, dim::area, dim::volume,
-        dim::frequency, dim::velocity, dim::acceleration, dim::angular_velocity, dim::density,
-        dim::force, dim::pressure, dim::dynamic_viscosity, dim::mass_flow, dim::volume_flow,
-        dim::energy, dim::surface_energy, dim::stiffness, dim::mass * dim::area / dim::temperature}) {
+  for (const Dimension d : {dim::length,
+                            dim::mass,
+                            dim::time,
+                            dim::temperature,
+                            dim::angle,
+                            dim::area,
+                            dim::volume,
+                            dim::frequency,
+                            dim::velocity,
+                            dim::acceleration,
+                            dim::angular_velocity,
+                            dim::density,
+                            dim::force,
+                            dim::pressure,
+                            dim::dynamic_viscosity,
+                            dim::mass_flow,
+                            dim::volume_flow,
+                            dim::energy,
+                            dim::surface_energy,
+                            dim::stiffness,
+                            dim::mass * dim::area / dim::temperature}) {
     const auto unit = parse_unit(si_unit(d));
     REQUIRE_MESSAGE(unit, si_unit(d));
     CHECK(unit->dimension == d);
