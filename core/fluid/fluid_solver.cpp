@@ -82,6 +82,21 @@ DUST_KERNEL void coefficient_row(int n, std::ptrdiff_t s, double step_over_densi
   }
 }
 
+// Velocity [m/s] that drag acted on, in excess of the stages', while the pressure `phi` acted over
+// `step`: of its force the share 1 - response(z) went into the drag.
+DUST_KERNEL void pressure_drag_row(int n, std::ptrdiff_t s, double step_over_density,
+                                   double inverse_h, double share, const double* k,
+                                   const double* drag, const double* phi, double* mean) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double z = step_over_density * drag[i];
+    const double d = 1.0 + k_gamma * z;
+    const double rest = k_gamma * (2.0 - k_gamma + k_gamma * z) / (d * d);  // (1 - response) / z
+    const double change = step_over_density * rest * inverse_h * (phi[i] - phi[i - s]);
+    mean[i] -= k[i] > 0.0 ? share * change : 0.0;
+  }
+}
+
 DUST_KERNEL void flux_difference_row(int n, std::ptrdiff_t s, double inverse_h, const double* area,
                                      const double* eps, const double* u, double* sum) {
 #pragma GCC ivdep
@@ -126,6 +141,7 @@ struct FluidSolver::Impl {
         right(grid),
         sum(grid),
         stress(grid),
+        drag_velocity(grid),
         p(grid.size, 0.0),
         phi(grid.size, 0.0),
         residual(grid.size, 0.0),
@@ -364,7 +380,33 @@ struct FluidSolver::Impl {
     }
   }
 
-  void sub_step(double time, double step, double speed, const Exchange& exchange) {
+  /// Adds what drag acted on in a stage of weight `share` of the whole fluid step.
+  void add_drag_velocity(const FaceField& stage, double share) {
+    for (int d = 0; d < 3; ++d) {
+      const auto& n = geometry.extent[d];
+      for_rows(n[0], n[1], n[2], [&](int j, int k) {
+        const std::ptrdiff_t o = grid.index(0, j, k);
+        const double* from = &stage.component[d][o];
+        double* to = &drag_velocity.component[d][o];
+        for (int i = 0; i < n[0]; ++i) to[i] += share * from[i];
+      });
+    }
+  }
+  void add_pressure_drag(double step, const FaceField& drag, double share) {
+    const FaceField& k_field = pressure_solver.coefficients();
+    for (int d = 0; d < 3; ++d) {
+      const auto& n = geometry.extent[d];
+      for_rows(n[0], n[1], n[2], [&](int j, int k) {
+        const std::ptrdiff_t o = grid.index(0, j, k);
+        pressure_drag_row(n[0], grid.stride[d], step / fluid.density, 1.0 / grid.spacing[d], share,
+                          &k_field.component[d][o], &drag.component[d][o], &phi[o],
+                          &drag_velocity.component[d][o]);
+      });
+    }
+  }
+
+  /// `share`: of this sub-step in the whole fluid step.
+  void sub_step(double time, double step, double share, double speed, const Exchange& exchange) {
     const double inverse_density = 1.0 / fluid.density;
     const double smoothness = std::pow(k_smooth_share * speed, 2) + 1e-30;
     const auto each_row = [&](const auto& body) {
@@ -387,6 +429,7 @@ struct FluidSolver::Impl {
     });
     sides.evaluate_velocity(time + k_gamma * step);
     solve_stage();
+    add_drag_velocity(next, (1.0 - k_gamma) * share);
     each_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
       between_stages_row(n, grid.stride[d], step, inverse_density, inverse_h, &u.component[d][o],
                          &next.component[d][o], &right.component[d][o], &p[o],
@@ -395,8 +438,10 @@ struct FluidSolver::Impl {
     convect(next, smoothness, &sum, step);
     sides.evaluate_velocity(time + step);
     solve_stage();
+    add_drag_velocity(next, k_gamma * share);
     std::swap(u, next);
     project(u, step, exchange.coefficient, fluid.pressure_tolerance);
+    add_pressure_drag(step, exchange.coefficient, share);
     for_rows(grid.count[0], grid.count[1], grid.count[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid.index(0, j, k);
       for (int i = 0; i < grid.count[0]; ++i) p[o + i] += phi[o + i];
@@ -451,6 +496,9 @@ struct FluidSolver::Impl {
     } else {
       momentum.extend(u, false);
     }
+    for (auto& component : drag_velocity.component) {
+      std::fill(component.begin(), component.end(), 0.0);
+    }
     double done = 0.0;
     while (done < step) {
       const auto rates = momentum.rates(u);
@@ -468,7 +516,7 @@ struct FluidSolver::Impl {
       }
       const double dt = parts == 1 ? left : left / parts;
       set_eps(before, after, parts == 1 ? 1.0 : (done + dt) / step);
-      sub_step(time + done, dt, rates.speed, exchange);
+      sub_step(time + done, dt, dt / step, rates.speed, exchange);
       report.courant_number = std::max(report.courant_number, dt * rates.courant);
       ++report.sub_steps;
       done = parts == 1 ? step : done + dt;
@@ -488,6 +536,7 @@ struct FluidSolver::Impl {
           }
           return largest;
         });
+    sides.fill_velocity(drag_velocity);
     find_stress();
   }
 
@@ -509,6 +558,7 @@ struct FluidSolver::Impl {
   FaceField right;
   FaceField sum;
   FaceField stress;
+  FaceField drag_velocity;
   FaceField zero;
   CellField p;
   CellField phi;
@@ -533,6 +583,7 @@ void FluidSolver::advance(double time, double step, const CellField& before, con
 }
 
 const FaceField& FluidSolver::velocity() const { return impl_->u; }
+const FaceField& FluidSolver::drag_velocity() const { return impl_->drag_velocity; }
 const CellField& FluidSolver::pressure() const { return impl_->p; }
 const FaceField& FluidSolver::stress_divergence() const { return impl_->stress; }
 const CellField& FluidSolver::open_fraction() const { return impl_->geometry.open_fraction; }

@@ -46,6 +46,10 @@ class FluidSolver {
   /// Interstitial velocity; faces inside bodies and halo faces hold the extension that makes linear
   /// interpolation right at the surfaces.
   [[nodiscard]] const FaceField& velocity() const;
+  /// What Exchange::coefficient was multiplied by in the last step: drag took the momentum
+  /// coefficient * drag_velocity * step from the fluid, per volume and divided by the void fraction.
+  /// Meaningful at faces that carry exchange. Not state: valid until the next step only.
+  [[nodiscard]] const FaceField& drag_velocity() const;
   [[nodiscard]] const CellField& pressure() const;
   /// Acceleration-free part -grad p + div tau [N/m3] at faces, of the last step.
   [[nodiscard]] const FaceField& stress_divergence() const;

@@ -117,12 +117,13 @@ void Simulation::add_fluid_nodes() {
                    {"fluid.void_fraction", "fluid.exchange"},
                    [this] { coupling_->map(dem_->rows(), setup_.time.fluid_step); }});
   step_graph_.add({"fluid",
-                   {"fluid.void_fraction", "fluid.exchange", "fluid.velocity"},
-                   {"fluid.velocity"},
+                   {"fluid.void_fraction", "fluid.exchange", "fluid.velocity", "grain.state"},
+                   {"fluid.velocity", "fluid.exchange"},
                    [this] {
                      fluid_->advance(time(), setup_.time.fluid_step,
                                      coupling_->void_fraction_before(), coupling_->void_fraction(),
                                      coupling_->exchange());
+                     coupling_->settle(dem_->rows(), fluid_->drag_velocity());
                      fluid_sub_steps_ += fluid_->report().sub_steps;
                      pressure_iterations_ += fluid_->report().pressure_iterations;
                    }});
