@@ -72,6 +72,7 @@ class SetupReader {
       check_pairs(setup_, interactions ? interactions->where : root_.where, diagnostics_);
     }
     check_voidage();
+    check_emitters();
     if (setup_.emitters.empty() && !setup_.fluid) {
       diagnostics_.warning(root_.where, "nothing moves: no emitter takes part and fluid is none");
     }
@@ -528,6 +529,24 @@ class SetupReader {
                                      " of the smallest cell's edges wide; '" +
                                      setup_.voidage->name + "' is valid up to " +
                                      number_text(limit) + ": take fewer cells or another rule");
+  }
+
+  /// Some contradictions need the density of the grains: an empty interval makes emitters look.
+  void check_emitters() {
+    if (diagnostics_.has_errors()) return;
+    for (std::size_t n = 0; n < emitters_.size(); ++n) {
+      const EmitterSpec& spec = setup_.emitters[n];
+      sdk::EmitterContext context;
+      context.grain_density =
+          setup_.materials[static_cast<std::size_t>(spec.material)].properties.density;
+      context.gravity = setup_.gravity;
+      std::vector<sdk::Seed> seeds;
+      try {
+        static_cast<sdk::Emitter&>(*emitters_[n]).propose(context, seeds);
+      } catch (const std::exception& problem) {
+        error(spec.model.where, spec.model.path + ": " + problem.what());
+      }
+    }
   }
 
   const Node& root_;

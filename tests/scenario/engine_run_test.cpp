@@ -92,6 +92,19 @@ TEST_CASE("a broken scenario shall exit with 2, say where, and leave no folder")
   CHECK_FALSE(fs::exists(out));
 }
 
+TEST_CASE("a flow that its opening cannot pass shall be refused before anything is written") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  for (const char* command : {"run", "check"}) {
+    const auto run = engine({command, k_scenario, "-o", out, "--set", "emitters.feed.mass_flow=1"});
+    CAPTURE(run.err);
+    CHECK(run.status == 2);
+    CHECK(run.err.find("transfer_point.yaml:") != std::string::npos);
+    CHECK(run.err.find("emitters.feed: the opening cannot pass the flow") != std::string::npos);
+    CHECK_FALSE(fs::exists(out));
+  }
+}
+
 TEST_CASE("the graph shall be printed as DOT with the nodes of the cycle") {
   const auto run = engine({"graph", k_scenario});
   REQUIRE(run.status == 0);
