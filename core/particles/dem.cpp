@@ -244,8 +244,6 @@ DemReport Dem::report() const {
     out.contacts += c.contacts;
     out.largest_overlap = std::max(out.largest_overlap, c.largest_overlap);
   }
-  for (Chunk& c : impl_->chunks) c.largest_overlap = 0.0;
-  impl_->counters.largest_overlap = 0.0;
   return out;
 }
 

@@ -101,6 +101,7 @@ Json health(const Simulation& s) {
   Json h = Json::object();
   h["entries_delayed"] = s.delayed_entries();
   h["entries_waiting"] = s.waiting_entries();
+  h["late_neighbour_lists"] = s.dem().report().late_lists;
   h["largest_overlap_over_radius"] = s.dem().report().largest_overlap;
   if (s.coupling() != nullptr) {
     const auto& c = s.coupling()->report();
