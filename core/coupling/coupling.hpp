@@ -62,9 +62,10 @@ class Coupling {
   [[nodiscard]] const fluid::CellField& void_fraction() const;
   [[nodiscard]] const fluid::Exchange& exchange() const;
 
-  /// Tells the velocity that Exchange::coefficient was multiplied by during the fluid step (the
-  /// mean over the sub-steps). Without this call the first refresh() after map() takes its own
-  /// velocity, which is exact for a fluid step in one sub-step.
+  /// Tells the velocity that Exchange::coefficient was multiplied by during the fluid step
+  /// (FluidSolver::drag_velocity: the mean over sub-steps and stages). Without this call the first
+  /// refresh() after map() takes its own velocity, which is exact only for a fluid that takes drag
+  /// fully implicitly in one step.
   void settle(const particles::GrainRows& grains, const fluid::FaceField& velocity);
   /// `velocity` and `stress_divergence` as FluidSolver gives them. Halo faces next to the domain
   /// are read.

@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::string k_scenario = DUST_SOURCE "/tests/scenario/small_transfer.yaml";
+// Long enough for the first grains to lie on the belt.
 const std::string k_short = "time.end=0.012 s";
 
 }  // namespace
@@ -38,6 +39,8 @@ TEST_CASE("a run shall leave every file of the contract and balance its grains")
   CHECK(std::stoll(json_text(summary, "emitted")) > 300);  // 12 ms of 39,000 grains per second
   CHECK(std::stoll(json_text(summary, "emitted")) ==
         std::stoll(json_text(summary, "in_domain")) + std::stoll(json_text(summary, "left")));
+  CHECK(std::stod(json_text(summary, "largest_overlap_over_radius")) > 0.0);
+  CHECK(std::stod(json_text(summary, "largest_momentum_imbalance")) < 1e-12);
 }
 
 TEST_CASE("the written scenario shall give the same bits on one and on two threads") {

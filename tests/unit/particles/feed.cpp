@@ -109,6 +109,19 @@ TEST_CASE("seeds shall not overlap when they move on with the stream") {
   CHECK(near > 20);
 }
 
+TEST_CASE("seeds shall start wholly behind the opening, rare ones one interval in front of it") {
+  auto feed = ModelLoader::make<Emitter>("emitter", "feed", transfer_point());
+  std::size_t rare = 0;
+  for (const Seed& s : run(*feed, 0, 100)) {
+    // The largest grain has a radius of 0.3 mm; an interval of 1 ms at 0.15 m/s is 0.15 mm.
+    const bool is_rare = s.diameter < 100e-6;
+    CHECK(s.position.z == doctest::Approx(0.22 + (is_rare ? -0.15e-3 : 0.3e-3)).epsilon(1e-12));
+    CHECK(s.velocity == Vec3{0, 0, -0.15});
+    rare += is_rare ? 1 : 0;
+  }
+  CHECK(rare > 0);
+}
+
 TEST_CASE("a resumed feed shall go on with the same seeds") {
   auto whole = ModelLoader::make<Emitter>("emitter", "feed", transfer_point());
   auto first = ModelLoader::make<Emitter>("emitter", "feed", transfer_point());
