@@ -16,6 +16,8 @@
 
 namespace dust::particles {
 
+class BalanceBook;
+
 /// The laws of one pair of materials; `rolling` may be null.
 struct PairLaws {
   int material_i = 0;
@@ -93,6 +95,7 @@ class Dem {
   /// Force [N] (contact + fluid + weight) of the last step, 4 per grain in row order.
   [[nodiscard]] std::span<const double> last_force() const;
   [[nodiscard]] const Balance& balance() const;
+  [[nodiscard]] const BalanceBook& book() const;
   [[nodiscard]] DemReport report() const;
   /// Tells that fluid_action was rewritten (the DEM derives its decay factors from it).
   void fluid_action_changed();

@@ -2,6 +2,7 @@
 #include "run/summary.hpp"
 
 #include "io/run_files.hpp"
+#include "particles/balance_book.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -90,9 +91,12 @@ Json node_times(const Simulation& s, const RunFacts& facts) {
 Json class_steps(const particles::Dem& dem) {
   Json rows = Json::array();
   for (const auto& c : dem.class_steps()) {
+    const auto m = dem.book().masses_of(c.diameter);
     rows.push_back({{"diameter_m", c.diameter}, {"rayleigh_time_s", c.rayleigh_time},
                     {"hertz_time_s", c.hertz_time}, {"stable_step_s", c.stable_step},
-                    {"level", c.level}});
+                    {"level", c.level},
+                    {"mass_kg", {{"emitted", m.emitted}, {"in_domain", m.in_domain},
+                                 {"left", m.left}, {"removed", m.removed}}}});
   }
   return rows;
 }
