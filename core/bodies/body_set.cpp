@@ -16,9 +16,7 @@ SurfacePoint Body::nearest(Vec3 point) const {
   return s;
 }
 
-Vec3 Body::lateral_axis() const {
-  return rotate(shape->lateral_axis(), frame_axis, frame_angle);
-}
+Vec3 Body::lateral_axis() const { return rotate(shape->lateral_axis(), frame_axis, frame_angle); }
 
 Vec3 Body::surface_velocity(Vec3 point, Vec3 normal, double time) const {
   Vec3 v;

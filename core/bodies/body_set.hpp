@@ -24,7 +24,8 @@ struct Body {
   /// Nearest surface point in the domain's frame.
   [[nodiscard]] SurfacePoint nearest(sdk::Vec3 point) const;
   [[nodiscard]] sdk::Vec3 lateral_axis() const;
-  /// Velocity [m/s] of the surface at one point (for set-up and tests; loops use the motion's batch).
+  /// Velocity [m/s] of the surface at one point (for set-up and tests; loops use the motion's
+  /// batch).
   [[nodiscard]] sdk::Vec3 surface_velocity(sdk::Vec3 point, sdk::Vec3 normal, double time) const;
   [[nodiscard]] Triangles triangles(sdk::Vec3 min, sdk::Vec3 max, double edge) const;
 };

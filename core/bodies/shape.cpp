@@ -122,7 +122,8 @@ class Plate final : public Shape {
              "Upper end of the struck face (the face towards smaller x).");
     s.number(&Parameters::length, "length", dimension::length, "Length down from the hinge.")
         .above(0);
-    s.number(&Parameters::thickness, "thickness", dimension::length, "Thickness, away from the face.")
+    s.number(&Parameters::thickness, "thickness", dimension::length,
+             "Thickness, away from the face.")
         .above(0);
     s.number(&Parameters::angle, "angle", dimension::angle,
              "Inclination from the vertical; positive swings the lower end towards smaller x.")
@@ -184,19 +185,19 @@ class Plate final : public Shape {
 template <class S>
 ShapeKind kind(std::string name, std::string summary) {
   auto schema = S::schema();
-  return {std::move(name), std::move(summary), schema,
-          [schema](std::span<const sdk::Value> values) {
-            return std::make_unique<S>(
-                sdk::parameters_from<typename S::Parameters>(schema, values));
-          }};
+  return {
+      std::move(name), std::move(summary), schema, [schema](std::span<const sdk::Value> values) {
+        return std::make_unique<S>(sdk::parameters_from<typename S::Parameters>(schema, values));
+      }};
 }
 
 }  // namespace
 
 const std::vector<ShapeKind>& shape_catalogue() {
   static const std::vector<ShapeKind> catalogue = {
-      kind<Conveyor>("conveyor", "Belt round a head and a tail pulley of the same size, axis along y, "
-                                 "as wide as the domain."),
+      kind<Conveyor>("conveyor",
+                     "Belt round a head and a tail pulley of the same size, axis along y, "
+                     "as wide as the domain."),
       kind<Plate>("plate", "Flat plate hanging from a hinge, as wide as the domain."),
   };
   return catalogue;

@@ -47,8 +47,8 @@ class FluidSolver {
   /// interpolation right at the surfaces.
   [[nodiscard]] const FaceField& velocity() const;
   /// What Exchange::coefficient was multiplied by in the last step: drag took the momentum
-  /// coefficient * drag_velocity * step from the fluid, per volume and divided by the void fraction.
-  /// Meaningful at faces that carry exchange. Not state: valid until the next step only.
+  /// coefficient * drag_velocity * step from the fluid, per volume and divided by the void
+  /// fraction. Meaningful at faces that carry exchange. Not state: valid until the next step only.
   [[nodiscard]] const FaceField& drag_velocity() const;
   [[nodiscard]] const CellField& pressure() const;
   /// Acceleration-free part -grad p + div tau [N/m3] at faces, of the last step.

@@ -12,6 +12,8 @@ namespace dust::fluid {
 namespace {
 
 constexpr int k_most_iterations = 200;
+/// Rounding of a mean over a million cells and more.
+constexpr double k_rounding = 1e-12;
 
 DUST_KERNEL void to_float_row(int n, double scale, const double* from, float* to) {
 #pragma GCC ivdep
@@ -202,16 +204,27 @@ PressureSolver::Result PressureSolver::solve(CellField& b, double tolerance, Cel
   MultigridLevel& f = multigrid_->finest();
   std::fill(x.begin(), x.end(), 0.0);
   std::fill(p.begin(), p.end(), 0.0);
-  if (is_singular()) take_mean_out(r);
   const auto sum = [&](const auto& body) { return sum_rows(n[0], n[1], n[2], partial_, body); };
   const auto at = [&](int j, int k) { return grid_.index(0, j, k); };
+  const auto squares = [&] {
+    return sum([&](int j, int k) { return square_row(n[0], &r[at(j, k)]); });
+  };
 
-  const double bb = sum([&](int j, int k) { return square_row(n[0], &r[at(j, k)]); });
+  double nothing = 0.0;
+  if (is_singular()) {
+    nothing = k_rounding * k_rounding * squares();
+    // The second time the rounding of the first: it has no solution either, and is not small when
+    // the mean was large.
+    take_mean_out(r);
+    take_mean_out(r);
+  }
+  const double bb = squares();
   Result result;
   if (!std::isfinite(bb)) {
     throw sdk::ModelError("the pressure equation has a right side that is not finite");
   }
-  if (bb == 0.0) return result;
+  // What is left of a uniform right side is rounding, which no pressure can balance.
+  if (bb <= nothing) return result;
   // Single precision has a small range: the right side is brought to a norm of about 1.
   const double scale = 1.0 / std::sqrt(bb);
   double rz = 0.0;

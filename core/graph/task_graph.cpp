@@ -61,7 +61,8 @@ struct TaskGraph::Impl {
     // reach[a][b]: a must finish before b starts, through any chain.
     std::vector<std::vector<bool>> reach(entries.size(), std::vector<bool>(entries.size(), false));
     for (int to = 0; to < count; ++to) {
-      // Nearest predecessors first: a farther one already reached through a nearer one adds no edge.
+      // Nearest predecessors first: a farther one already reached through a nearer one adds no
+      // edge.
       for (int from = to - 1; from >= 0; --from) {
         if (!conflict(entries[from].node, entries[to].node) || reach[from][to]) continue;
         edges.emplace_back(from, to);
@@ -158,8 +159,8 @@ void TaskGraph::run() {
   for (const auto& entry : g.entries) {
     if (entry.runs != g.passes) {
       throw std::logic_error("graph '" + g.name + "': node '" + entry.node.name + "' ran " +
-                             std::to_string(entry.runs) + " times in " +
-                             std::to_string(g.passes) + " passes");
+                             std::to_string(entry.runs) + " times in " + std::to_string(g.passes) +
+                             " passes");
     }
   }
 }
@@ -178,8 +179,8 @@ std::string TaskGraph::dot_cluster(int indent) const {
   const Impl& g = *impl_;
   const std::string pad(static_cast<std::size_t>(indent), ' ');
   std::ostringstream out;
-  out << pad << "subgraph \"cluster_" << g.name << "\" {\n" << pad << "  label=\"" << g.name
-      << "\";\n";
+  out << pad << "subgraph \"cluster_" << g.name << "\" {\n"
+      << pad << "  label=\"" << g.name << "\";\n";
   for (const auto& e : g.entries) {
     out << pad << "  \"" << g.name << '.' << e.node.name << "\" [label=\"" << e.node.name;
     if (e.runs > 0) {

@@ -15,13 +15,14 @@ struct GrainRows {
   const double* rotation = nullptr;  ///< angular velocity [rad/s], unused
   const std::int64_t* id = nullptr;
   const std::int32_t* material = nullptr;
-  const double* weight = nullptr;    ///< real grains per computed one
+  const double* weight = nullptr;  ///< real grains per computed one
 
   /// Written by the coupling at each refresh: the grain's velocity relaxes towards
-  /// (x, y, z) [m/s] at the rate in the fourth column [1/s]: dv/dt = rate (target - v) + contact + g'.
+  /// (x, y, z) [m/s] at the rate in the fourth column [1/s]: dv/dt = rate (target - v) + contact +
+  /// g'.
   double* fluid_action = nullptr;
-  /// Impulse [N s] a computed grain has received through fluid_action since the coupling last set it
-  /// to zero: x, y, z, unused. Exactly what changed the grain's momentum.
+  /// Impulse [N s] a computed grain has received through fluid_action since the coupling last set
+  /// it to zero: x, y, z, unused. Exactly what changed the grain's momentum.
   double* fluid_impulse = nullptr;
 };
 

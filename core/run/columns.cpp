@@ -10,9 +10,24 @@ namespace dust::run {
 namespace {
 
 enum Column {
-  k_x, k_y, k_z, k_x_before, k_y_before, k_z_before,
-  k_velocity_x, k_velocity_y, k_velocity_z, k_rotation_x, k_rotation_y, k_rotation_z,
-  k_force_x, k_force_y, k_force_z, k_diameter, k_mass, k_weight
+  k_x,
+  k_y,
+  k_z,
+  k_x_before,
+  k_y_before,
+  k_z_before,
+  k_velocity_x,
+  k_velocity_y,
+  k_velocity_z,
+  k_rotation_x,
+  k_rotation_y,
+  k_rotation_z,
+  k_force_x,
+  k_force_y,
+  k_force_z,
+  k_diameter,
+  k_mass,
+  k_weight
 };
 
 }  // namespace
@@ -23,8 +38,8 @@ void GrainTable::note_births(const particles::GrainRows& rows) {
   for (std::size_t n = 0; n < rows.count; ++n) {
     // Ids grow with time of entry, so an id beyond the newest of the last sample came in since.
     if (rows.id[n] > newest) {
-      births_.push_back({rows.id[n], rows.position[4 * n], rows.position[4 * n + 1],
-                         rows.position[4 * n + 2]});
+      births_.push_back(
+          {rows.id[n], rows.position[4 * n], rows.position[4 * n + 1], rows.position[4 * n + 2]});
     }
   }
   const auto by_id = [](const Place& a, const Place& b) { return a.id < b.id; };
@@ -130,8 +145,7 @@ void GrainTable::load(sdk::ArchiveReader& archive) {
 FluidTable::FluidTable(const fluid::Grid& grid, const scenario::FluidSpec& fluid,
                        const fluid::CellField& open_fraction)
     : grid_(grid), density_(fluid.density), viscosity_(fluid.viscosity) {
-  const std::size_t cells =
-      static_cast<std::size_t>(grid.count[0]) * grid.count[1] * grid.count[2];
+  const std::size_t cells = static_cast<std::size_t>(grid.count[0]) * grid.count[1] * grid.count[2];
   for (auto& v : velocity_) v.resize(cells);
   pressure_.resize(cells);
   void_fraction_.resize(cells);

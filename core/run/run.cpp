@@ -30,10 +30,9 @@ volatile std::sig_atomic_t g_signal = 0;
 void on_signal(int signal) { g_signal = signal; }
 
 /// Everything a run writes; --force clears these and nothing else.
-constexpr std::array k_run_files = {"scenario.yaml", "summary.json",   "series.csv",
-                                    "results.h5",    "particles.xdmf", "fluid.xdmf",
-                                    "walls.xdmf",    "checkpoint.h5",  "run.log",
-                                    "report.html",   "report.json",    "frames"};
+constexpr std::array k_run_files = {
+    "scenario.yaml", "summary.json",  "series.csv", "results.h5",  "particles.xdmf", "fluid.xdmf",
+    "walls.xdmf",    "checkpoint.h5", "run.log",    "report.html", "report.json",    "frames"};
 
 fs::path choose_folder(const RunOptions& options, const std::string& name) {
   if (options.output) {
@@ -41,8 +40,9 @@ fs::path choose_folder(const RunOptions& options, const std::string& name) {
     const bool is_used = fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder));
     if (options.resume) {
       if (!fs::exists(folder / "checkpoint.h5")) {
-        throw base::UserError("error: " + folder.string() +
-                              " holds no checkpoint.h5 to resume from; start the run without --resume");
+        throw base::UserError(
+            "error: " + folder.string() +
+            " holds no checkpoint.h5 to resume from; start the run without --resume");
       }
     } else if (is_used && !options.force) {
       throw base::UserError("error: the folder " + folder.string() +
@@ -148,7 +148,8 @@ class Run {
         write_frame();
         const auto& b = simulation_.dem().balance();
         char text[160];
-        std::snprintf(text, sizeof text, "t = %.4f s: %lld grains, %lld emitted, %lld left, %lld removed",
+        std::snprintf(text, sizeof text,
+                      "t = %.4f s: %lld grains, %lld emitted, %lld left, %lld removed",
                       simulation_.time(), static_cast<long long>(b.in_domain),
                       static_cast<long long>(b.emitted), static_cast<long long>(b.left),
                       static_cast<long long>(b.removed));
@@ -166,8 +167,8 @@ class Run {
     take_times();
     write_summary(folder_, simulation_, facts_);
     if (has_failed) {
-      base::log_error("the run failed at t = " + std::to_string(simulation_.time()) + " s: " +
-                      facts_.reason);
+      base::log_error("the run failed at t = " + std::to_string(simulation_.time()) +
+                      " s: " + facts_.reason);
       base::log_error("the last good checkpoint is " + (folder_ / "checkpoint.h5").string() +
                       "; after mending the cause start again, or resume from it with --resume");
     } else {
@@ -251,12 +252,12 @@ class Run {
 int run_scenario(const RunOptions& options) {
   registry::Registry registry;
   registry.load(registry::Registry::search_path(options.plugin_path));
-  const auto read = scenario::read_scenario(options.scenario, options.overrides, registry, options.set_files);
+  const auto read =
+      scenario::read_scenario(options.scenario, options.overrides, registry, options.set_files);
   base::log_to_terminal(options.verbose);
   for (const std::string& warning : read.warnings) base::log_warning(warning);
 
-  const int threads =
-      options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
 

@@ -48,7 +48,9 @@ Simulation::Simulation(const scenario::Setup& setup, Models models)
 
 Simulation::~Simulation() = default;
 
-double Simulation::time() const { return static_cast<double>(steps_done_) * setup_.time.fluid_step; }
+double Simulation::time() const {
+  return static_cast<double>(steps_done_) * setup_.time.fluid_step;
+}
 
 void Simulation::build_graphs() {
   dem_graph_.given({"grain.position", "grain.velocity", "contact.list", "contact.history",
@@ -85,27 +87,28 @@ void Simulation::build_graphs() {
 
   step_graph_.given({"emitter.state", "grain.state", "fluid.velocity", "fluid.exchange"});
   step_graph_.add(
-      {"emit", {"emitter.state", "grain.state"}, {"emitter.state", "grain.state"}, [this] { emit(); }});
+      {"emit", {"emitter.state", "grain.state"}, {"emitter.state", "grain.state"}, [this] {
+         emit();
+       }});
   if (fluid_) add_fluid_nodes();
-  step_graph_.add({"dem_cycle",
-                   fluid_ ? std::vector<std::string>{"grain.state", "fluid.velocity",
-                                                     "fluid.void_fraction"}
-                          : std::vector<std::string>{"grain.state"},
-                   {"grain.state", "grain.fluid_impulse"},
-                   [this] { run_dem_cycle(); }});
+  step_graph_.add(
+      {"dem_cycle",
+       fluid_ ? std::vector<std::string>{"grain.state", "fluid.velocity", "fluid.void_fraction"}
+              : std::vector<std::string>{"grain.state"},
+       {"grain.state", "grain.fluid_impulse"},
+       [this] { run_dem_cycle(); }});
   if (fluid_) {
     step_graph_.add({"collect",
                      {"grain.state", "grain.fluid_impulse", "fluid.void_fraction"},
                      {"fluid.exchange"},
                      [this] { coupling_->collect(dem_->rows(), setup_.time.fluid_step); }});
-    step_graph_.add({"publish_fluid",
-                     {"fluid.velocity", "fluid.void_fraction"},
-                     {"fluid.columns"},
-                     [this] { fluid_table_->publish(*fluid_, coupling_->void_fraction()); }});
+    step_graph_.add(
+        {"publish_fluid", {"fluid.velocity", "fluid.void_fraction"}, {"fluid.columns"}, [this] {
+           fluid_table_->publish(*fluid_, coupling_->void_fraction());
+         }});
   }
-  step_graph_.add({"publish_grains", {"grain.state"}, {"grain.columns"}, [this] {
-                     publish_grains();
-                   }});
+  step_graph_.add(
+      {"publish_grains", {"grain.state"}, {"grain.columns"}, [this] { publish_grains(); }});
   step_graph_.add({"health", {"grain.columns"}, {"health"}, [this] { check_health(); }});
   add_sensor_nodes();
   step_graph_.build();
@@ -192,9 +195,7 @@ void Simulation::run_dem_cycle() {
   for (dem_step_ = 0; dem_step_ < dem_steps_per_fluid_step_; ++dem_step_) dem_graph_.run();
 }
 
-void Simulation::publish_grains() {
-  grain_table_.publish(dem_->rows(), dem_->last_force());
-}
+void Simulation::publish_grains() { grain_table_.publish(dem_->rows(), dem_->last_force()); }
 
 void Simulation::check_health() const {
   const auto c = grain_table_.columns();

@@ -58,10 +58,8 @@ class Simulation {
   [[nodiscard]] const graph::TaskGraph& step_graph() const { return step_graph_; }
   [[nodiscard]] const graph::TaskGraph& dem_graph() const { return dem_graph_; }
 
-  using SaveParts =
-      std::vector<std::pair<std::string, std::function<void(sdk::ArchiveWriter&)>>>;
-  using LoadParts =
-      std::vector<std::pair<std::string, std::function<void(sdk::ArchiveReader&)>>>;
+  using SaveParts = std::vector<std::pair<std::string, std::function<void(sdk::ArchiveWriter&)>>>;
+  using LoadParts = std::vector<std::pair<std::string, std::function<void(sdk::ArchiveReader&)>>>;
   [[nodiscard]] SaveParts save_parts() const;
   [[nodiscard]] LoadParts load_parts();
 

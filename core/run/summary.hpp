@@ -11,8 +11,8 @@ namespace dust::run {
 
 /// What the run loop knows beside the simulation. Times include those before a resume.
 struct RunFacts {
-  std::string status;          ///< finished | interrupted | failed
-  std::string reason;          ///< of a failure
+  std::string status;  ///< finished | interrupted | failed
+  std::string reason;  ///< of a failure
   int threads = 1;
   double wall_s = 0.0;
   double cpu_s = 0.0;

@@ -26,9 +26,9 @@ TEST_CASE("a run shall leave every file of the contract and balance its grains")
   const auto run = engine({"run", k_scenario, "-o", out, "--set", k_short, "--quiet"});
   INFO(run.err);
   REQUIRE(run.status == 0);
-  for (const char* file : {"scenario.yaml", "summary.json", "series.csv", "results.h5",
-                           "particles.xdmf", "fluid.xdmf", "walls.xdmf", "checkpoint.h5",
-                           "run.log", "report.html"}) {
+  for (const char* file :
+       {"scenario.yaml", "summary.json", "series.csv", "results.h5", "particles.xdmf", "fluid.xdmf",
+        "walls.xdmf", "checkpoint.h5", "run.log", "report.html"}) {
     CAPTURE(file);
     REQUIRE(fs::exists(out / file));
     CHECK(fs::file_size(out / file) > 0);

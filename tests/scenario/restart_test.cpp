@@ -35,8 +35,8 @@ TEST_CASE("an interrupted run shall go on to the same bits and the same series")
         cut / "series.csv", 15);
     CHECK(stopped.status == 128 + signal);
     if (signal != SIGKILL) CHECK(json_text(cut / "summary.json", "status") == "interrupted");
-    const auto resumed = engine({"run", k_scenario, "-o", cut, "--set", k_short, "--resume",
-                                 "--threads", "2", "--quiet"});
+    const auto resumed = engine(
+        {"run", k_scenario, "-o", cut, "--set", k_short, "--resume", "--threads", "2", "--quiet"});
     INFO(resumed.err);
     REQUIRE(resumed.status == 0);
     CHECK(json_text(cut / "summary.json", "state_sha256") == hash);
@@ -48,10 +48,12 @@ TEST_CASE("a finished run shall be continued to a later end with the bits of the
   const TemporaryFolder folder;
   const fs::path parts = folder / "parts";
   const fs::path whole = folder / "whole";
-  REQUIRE(engine({"run", k_scenario, "-o", parts, "--set", "time.end=8 ms", "--quiet"}).status == 0);
+  REQUIRE(engine({"run", k_scenario, "-o", parts, "--set", "time.end=8 ms", "--quiet"}).status ==
+          0);
   REQUIRE(engine({"run", k_scenario, "-o", parts, "--set", "time.end=14 ms", "--resume", "--quiet"})
               .status == 0);
-  REQUIRE(engine({"run", k_scenario, "-o", whole, "--set", "time.end=14 ms", "--quiet"}).status == 0);
+  REQUIRE(engine({"run", k_scenario, "-o", whole, "--set", "time.end=14 ms", "--quiet"}).status ==
+          0);
   CHECK(json_text(parts / "summary.json", "state_sha256") ==
         json_text(whole / "summary.json", "state_sha256"));
 }

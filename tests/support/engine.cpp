@@ -19,7 +19,8 @@ namespace {
 pid_t start(const std::vector<std::string>& arguments, const fs::path& out, const fs::path& err) {
   const pid_t pid = fork();
   if (pid != 0) return pid;
-  if (freopen(out.c_str(), "w", stdout) == nullptr || freopen(err.c_str(), "w", stderr) == nullptr) {
+  if (freopen(out.c_str(), "w", stdout) == nullptr ||
+      freopen(err.c_str(), "w", stderr) == nullptr) {
     _exit(127);
   }
   std::vector<char*> argv;

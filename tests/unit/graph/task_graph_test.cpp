@@ -58,10 +58,11 @@ TEST_CASE("conflicting nodes shall run in program order, every node once a pass"
 TEST_CASE("reading what nobody wrote shall be refused when the graph is built") {
   TaskGraph g("broken");
   g.add({"fluid", {"void_fraction"}, {"velocity"}, [] {}});
-  CHECK_THROWS_WITH_AS(g.build(),
-                       "graph 'broken': node 'fluid' reads 'void_fraction', which no node before it "
-                       "writes",
-                       std::logic_error);
+  CHECK_THROWS_WITH_AS(
+      g.build(),
+      "graph 'broken': node 'fluid' reads 'void_fraction', which no node before it "
+      "writes",
+      std::logic_error);
 }
 
 TEST_CASE("an exception in a node shall reach the caller with its type") {

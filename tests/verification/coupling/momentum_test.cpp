@@ -9,17 +9,18 @@ namespace {
 using namespace dust;
 using test::World;
 
-constexpr double k_side = 4e-3;       // of the periodic box [m]
-constexpr double k_air_speed = 0.5;   // at the start [m/s]
+constexpr double k_side = 4e-3;      // of the periodic box [m]
+constexpr double k_air_speed = 0.5;  // at the start [m/s]
 constexpr double k_fluid_step = 1e-3;
-constexpr int k_steps = 40;
+constexpr int k_steps = 20;
+constexpr double k_pressure_tolerance = 1e-10;
 constexpr double k_smallest_cfl = 0.1;  // a Courant number of 0.5 makes 5 sub-steps
 
 /// Air and grains in a periodic box, coupled as a run couples them.
 struct Cloud {
-  explicit Cloud(double pressure_tolerance) : world(periodic_box()) {
+  Cloud() : world(periodic_box()) {
     world.setup.fluid->largest_cfl = k_smallest_cfl;
-    world.setup.fluid->pressure_tolerance = pressure_tolerance;
+    world.setup.fluid->pressure_tolerance = k_pressure_tolerance;
     air = std::make_unique<fluid::FluidSolver>(world.grid, *world.setup.fluid, bodies,
                                                fluid::Boundaries{});
     air->set_velocity([](sdk::Vec3) { return sdk::Vec3{k_air_speed, 0, 0}; });
@@ -94,18 +95,16 @@ struct Drift {
   double given_to_grains = 0.0;  ///< share of the momentum, to see that something was exchanged
 };
 Drift drift_of(Cloud& cloud, bool is_settled) {
-  // The void fraction is known after the first map(): a step with grains that do nothing yet would
-  // change it, so the air's momentum at the start is that of the box with the grains' volume out.
+  // The grains are there from the first step on: the air fills what they leave of the box.
   const double air = k_side * k_side * k_side - cloud.world.grains.solid_volume();
   const sdk::Vec3 start{test::k_air * air * k_air_speed, 0, 0};
   Drift drift;
   for (int step = 0; step < k_steps; ++step) {
     cloud.step(is_settled);
-    REQUIRE(cloud.air->report().sub_steps > 1);
+    // Heavily loaded air comes to rest, which takes fewer.
+    if (step == 0) REQUIRE(cloud.air->report().sub_steps > 1);
     const sdk::Vec3 now = cloud.air_momentum() + cloud.grain_momentum() + cloud.on_the_way();
     drift.largest = std::max(drift.largest, norm(now - start) / norm(start));
-    MESSAGE(step << " " << cloud.air->report().sub_steps << " air " << cloud.air_momentum().x / start.x << " grains " << cloud.grain_momentum().x / start.x
-      << " way " << cloud.on_the_way().x / start.x << " drift " << norm(now - start) / norm(start));
   }
   drift.given_to_grains = cloud.grain_momentum().x / start.x;
   return drift;
@@ -133,24 +132,46 @@ void fill_at_random(World& world, double diameter, double solids) {
   }
 }
 
-TEST_CASE("momentum of air in sub-steps and dust shall be conserved") {
-  for (const double diameter : {5e-6, 3e-5}) {
-    for (const double solids : {1e-4, 1e-2}) {
-      CAPTURE(diameter);
-      CAPTURE(solids);
-      for (bool settled : {true, false}) {
-        Cloud cloud(1e-10);
-        fill_regularly(cloud.world, diameter, solids);
-        const Drift drift = drift_of(cloud, settled);
-        MESSAGE("uniform " << diameter << " " << solids << " settled " << settled << ": " << drift.largest << " given " << drift.given_to_grains);
-      }
-      for (bool settled : {true, false}) {
-        Cloud cloud(1e-10);
-        fill_at_random(cloud.world, diameter, solids);
-        const Drift drift = drift_of(cloud, settled);
-        MESSAGE("random " << diameter << " " << solids << " settled " << settled << ": " << drift.largest << " given " << drift.given_to_grains);
-      }
-    }
+struct Load {
+  double diameter;  // [m]
+  double solids;    // share of the volume
+};
+// 0.2 and 22 kg of dust per kg of air, relaxation times of 0.2 and 7.4 fluid steps.
+constexpr Load k_loads[] = {{5e-6, 1e-4}, {5e-6, 1e-2}, {3e-5, 1e-4}, {3e-5, 1e-2}};
+
+TEST_CASE("momentum of air in sub-steps and uniform dust shall be conserved") {
+  // The volumes of the divided grains add up to a uniform void fraction to 1e-9 only.
+  constexpr double k_conserved = 1e-9;
+  for (const Load& load : k_loads) {
+    CAPTURE(load.diameter);
+    CAPTURE(load.solids);
+    Cloud settled;
+    fill_regularly(settled.world, load.diameter, load.solids);
+    const Drift drift = drift_of(settled, true);
+    CHECK(drift.largest < k_conserved);
+    const double grains = test::k_sand * load.solids;
+    const double air = test::k_air * (1.0 - load.solids);
+    CHECK(drift.given_to_grains == doctest::Approx(grains / (grains + air)).epsilon(0.05));
+    // With the velocity at the end of the fluid step for what drag acted on, momentum is made or
+    // lost: 0.14, 0.15, 0.0027 and 0.88 of all there is.
+    Cloud unsettled;
+    fill_regularly(unsettled.world, load.diameter, load.solids);
+    CHECK(drift_of(unsettled, false).largest > 1e-3);
+  }
+}
+
+TEST_CASE("momentum of air in sub-steps and scattered dust shall be conserved") {
+  // Pressure and friction act on grains as they are at the end of the fluid step, on the air as
+  // they are in it: not the same in a flow that is not steady. Of the order of the solids' share.
+  constexpr double k_conserved = 0.02;  // per share of solids
+  for (const Load& load : k_loads) {
+    CAPTURE(load.diameter);
+    CAPTURE(load.solids);
+    Cloud cloud;
+    fill_at_random(cloud.world, load.diameter, load.solids);
+    const Drift drift = drift_of(cloud, true);
+    CHECK(drift.largest < k_conserved * load.solids + 1e-6);
+    CHECK(drift.given_to_grains > 0.1);
   }
 }
 

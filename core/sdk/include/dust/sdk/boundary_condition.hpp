@@ -10,10 +10,11 @@ namespace dust::sdk {
 
 /// How the fluid solver treats one component of the velocity, or the pressure, on a side.
 enum class SideRule {
-  fixed,      ///< the value is given on the side itself
-  gradient,   ///< zero normal gradient
-  pressure,   ///< (pressure only) total pressure: p + rho u_n^2 / 2 = value on inflow, p = value on outflow
-  periodic,   ///< joined to the opposite side
+  fixed,     ///< the value is given on the side itself
+  gradient,  ///< zero normal gradient
+  pressure,  ///< (pressure only) total pressure: p + rho u_n^2 / 2 = value on inflow, p = value on
+             ///< outflow
+  periodic,  ///< joined to the opposite side
 };
 
 /// What a boundary asks of the solver, once, at the start. Two combinations make sense: normal
@@ -28,15 +29,15 @@ struct SideRules {
 /// Points on the side at which values are wanted.
 struct SideBatch {
   std::size_t count = 0;
-  double time = 0.0;               ///< [s]
-  Vec3 normal;                     ///< unit vector out of the domain
-  const double* x = nullptr;       ///< [m]
+  double time = 0.0;          ///< [s]
+  Vec3 normal;                ///< unit vector out of the domain
+  const double* x = nullptr;  ///< [m]
   const double* y = nullptr;
   const double* z = nullptr;
-  double* velocity_x = nullptr;    ///< [m/s] out, where a component is `fixed`; interstitial
+  double* velocity_x = nullptr;  ///< [m/s] out, where a component is `fixed`; interstitial
   double* velocity_y = nullptr;
   double* velocity_z = nullptr;
-  double* pressure = nullptr;      ///< [Pa] out, where pressure is `fixed` or `pressure`
+  double* pressure = nullptr;  ///< [Pa] out, where pressure is `fixed` or `pressure`
 };
 
 /// Air condition on one side of the domain. A pure function of time and place.

@@ -9,9 +9,9 @@ namespace dust::sdk {
 
 /// Elastic constants of one side of a contact.
 struct MaterialProperties {
-  double density = 0.0;         ///< [kg/m3]
-  double young_modulus = 0.0;   ///< [Pa]
-  double poisson_ratio = 0.0;   ///< [-]
+  double density = 0.0;        ///< [kg/m3]
+  double young_modulus = 0.0;  ///< [Pa]
+  double poisson_ratio = 0.0;  ///< [-]
 };
 
 /// A batch of contacts between one pair of materials, as columns of `count` numbers. All contacts
@@ -29,29 +29,29 @@ struct ContactBatch {
   double time_step = 0.0;  ///< [s] the step this contact is integrated with
 
   // Geometry and kinematics, written by the core.
-  const double* overlap = nullptr;           ///< [m] > 0 in touch; < 0 within a law's range
-  const double* normal_x = nullptr;          ///< [-]
+  const double* overlap = nullptr;   ///< [m] > 0 in touch; < 0 within a law's range
+  const double* normal_x = nullptr;  ///< [-]
   const double* normal_y = nullptr;
   const double* normal_z = nullptr;
-  const double* velocity_x = nullptr;        ///< [m/s] of i relative to j at the contact point
+  const double* velocity_x = nullptr;  ///< [m/s] of i relative to j at the contact point
   const double* velocity_y = nullptr;
   const double* velocity_z = nullptr;
-  const double* rotation_x = nullptr;        ///< [rad/s] angular velocity of i relative to j
+  const double* rotation_x = nullptr;  ///< [rad/s] angular velocity of i relative to j
   const double* rotation_y = nullptr;
   const double* rotation_z = nullptr;
   const double* effective_radius = nullptr;  ///< [m] R*
   const double* effective_mass = nullptr;    ///< [kg] m*
 
   // Written by the contact stage, read by the later stages.
-  double* normal_force = nullptr;            ///< [N] > 0 repulsive, may be negative (damping)
-  double* tangential_stiffness = nullptr;    ///< [N/m] k_t
-  double* force_x = nullptr;                 ///< [N] total force on i; j receives the opposite
+  double* normal_force = nullptr;          ///< [N] > 0 repulsive, may be negative (damping)
+  double* tangential_stiffness = nullptr;  ///< [N/m] k_t
+  double* force_x = nullptr;               ///< [N] total force on i; j receives the opposite
   double* force_y = nullptr;
   double* force_z = nullptr;
 
   // Written by the rolling stage: couple on i, j receives the opposite. Forces' own torque about
   // the centres is added by the core.
-  double* torque_x = nullptr;                ///< [N m]
+  double* torque_x = nullptr;  ///< [N m]
   double* torque_y = nullptr;
   double* torque_z = nullptr;
 
@@ -73,8 +73,8 @@ class ContactLaw : public Model {
   [[nodiscard]] virtual int history_size() const = 0;
   virtual void evaluate(const ContactBatch& batch) const = 0;
 
-  /// Duration [s] of an elastic head-on collision at `speed` [m/s] of a pair with `effective_radius`
-  /// [m] and `effective_mass` [kg]; the core derives time steps from it.
+  /// Duration [s] of an elastic head-on collision at `speed` [m/s] of a pair with
+  /// `effective_radius` [m] and `effective_mass` [kg]; the core derives time steps from it.
   [[nodiscard]] virtual double collision_time(double effective_radius, double effective_mass,
                                               double speed) const = 0;
   /// Shortest period scale [s] at a given `overlap` [m]: pi sqrt(m* / (dF_n/d overlap)).

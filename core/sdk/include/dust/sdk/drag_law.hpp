@@ -10,14 +10,14 @@ namespace dust::sdk {
 /// Columns of `count` grains.
 struct DragBatch {
   std::size_t count = 0;
-  const double* reynolds = nullptr;       ///< [-] Re = eps rho_f |w| D / mu, w the interstitial slip
+  const double* reynolds = nullptr;  ///< [-] Re = eps rho_f |w| D / mu, w the interstitial slip
   const double* void_fraction = nullptr;  ///< [-] eps at the grain, in (0, 1]
   double* factor = nullptr;               ///< [-] out: F(Re, eps)
 };
 
-/// Drag closure. The one convention: \f$ f_d = 3 \pi \mu D F(Re, \varepsilon) w \f$ [N] on one grain,
-/// w = u_f - u_p the interstitial slip [m/s], Re with the superficial slip.
-/// Must not: clamp, scale, log, know the grid, keep state. Called from several threads at once.
+/// Drag closure. The one convention: \f$ f_d = 3 \pi \mu D F(Re, \varepsilon) w \f$ [N] on one
+/// grain, w = u_f - u_p the interstitial slip [m/s], Re with the superficial slip. Must not: clamp,
+/// scale, log, know the grid, keep state. Called from several threads at once.
 class DragLaw : public Model {
  public:
   static constexpr const char* k_kind = "drag";

@@ -22,16 +22,16 @@ struct Seed {
 
 /// What an emitter is given to work with.
 struct EmitterContext {
-  double begin = 0.0;          ///< [s] seeds wanted for begin <= time < end
+  double begin = 0.0;  ///< [s] seeds wanted for begin <= time < end
   double end = 0.0;
   double grain_density = 0.0;  ///< [kg/m3] of the emitter's material
   Vec3 gravity;                ///< [m/s2]
   Random random{0, 0};         ///< keyed by (scenario seed, emitter name)
 };
 
-/// Proposes grains; the core inserts them at the beginning of the interval, carried back along their
-/// velocity, gives ids and books mass. A seed that would touch a grain waits. Calls come with consecutive
-/// intervals from one thread; what a later call needs is state, saved by save/load.
+/// Proposes grains; the core inserts them at the beginning of the interval, carried back along
+/// their velocity, gives ids and books mass. A seed that would touch a grain waits. Calls come with
+/// consecutive intervals from one thread; what a later call needs is state, saved by save/load.
 /// Positions and directions given as parameters are in the emitter's own frame = the domain's frame
 /// unless the scenario puts the emitter into a named frame; the core turns the seeds.
 class Emitter : public Model {

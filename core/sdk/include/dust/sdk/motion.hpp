@@ -11,15 +11,15 @@ namespace dust::sdk {
 /// Points of a body's surface.
 struct SurfaceBatch {
   std::size_t count = 0;
-  double time = 0.0;              ///< [s]
-  Vec3 axis;                      ///< unit vector: the body's lateral axis (belt: the pulley's axis)
-  const double* x = nullptr;      ///< [m]
+  double time = 0.0;          ///< [s]
+  Vec3 axis;                  ///< unit vector: the body's lateral axis (belt: the pulley's axis)
+  const double* x = nullptr;  ///< [m]
   const double* y = nullptr;
   const double* z = nullptr;
   const double* normal_x = nullptr;  ///< [-] outward
   const double* normal_y = nullptr;
   const double* normal_z = nullptr;
-  double* velocity_x = nullptr;   ///< [m/s] out: velocity of the surface
+  double* velocity_x = nullptr;  ///< [m/s] out: velocity of the surface
   double* velocity_y = nullptr;
   double* velocity_z = nullptr;
 };

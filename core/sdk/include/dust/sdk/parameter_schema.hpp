@@ -66,26 +66,26 @@ using ParameterSchema = std::vector<Parameter>;
 template <class P>
 class SchemaOf {
  public:
-  SchemaOf& number(double P::* member, std::string name, Dimension d, std::string sentence) {
+  SchemaOf& number(double P::*member, std::string name, Dimension d, std::string sentence) {
     return add(member, std::move(name), ParameterType::number, d, std::move(sentence));
   }
-  SchemaOf& integer(std::int64_t P::* member, std::string name, std::string sentence) {
+  SchemaOf& integer(std::int64_t P::*member, std::string name, std::string sentence) {
     return add(member, std::move(name), ParameterType::integer, {}, std::move(sentence));
   }
-  SchemaOf& boolean(bool P::* member, std::string name, std::string sentence) {
+  SchemaOf& boolean(bool P::*member, std::string name, std::string sentence) {
     return add(member, std::move(name), ParameterType::boolean, {}, std::move(sentence));
   }
-  SchemaOf& text(std::string P::* member, std::string name, std::string sentence) {
+  SchemaOf& text(std::string P::*member, std::string name, std::string sentence) {
     return add(member, std::move(name), ParameterType::text, {}, std::move(sentence));
   }
-  SchemaOf& vector(Vec3 P::* member, std::string name, Dimension d, std::string sentence) {
+  SchemaOf& vector(Vec3 P::*member, std::string name, Dimension d, std::string sentence) {
     return add(member, std::move(name), ParameterType::vector, d, std::move(sentence));
   }
-  SchemaOf& numbers(std::vector<double> P::* member, std::string name, Dimension d,
+  SchemaOf& numbers(std::vector<double> P::*member, std::string name, Dimension d,
                     std::string sentence) {
     return add(member, std::move(name), ParameterType::numbers, d, std::move(sentence));
   }
-  SchemaOf& texts(std::vector<std::string> P::* member, std::string name, std::string sentence) {
+  SchemaOf& texts(std::vector<std::string> P::*member, std::string name, std::string sentence) {
     return add(member, std::move(name), ParameterType::texts, {}, std::move(sentence));
   }
 
@@ -110,7 +110,7 @@ class SchemaOf {
   Parameter& last() { return parameters_.back(); }
 
   template <class T>
-  SchemaOf& add(T P::* member, std::string name, ParameterType type, Dimension dimension,
+  SchemaOf& add(T P::*member, std::string name, ParameterType type, Dimension dimension,
                 std::string sentence) {
     Parameter p;
     p.name = std::move(name);

@@ -54,9 +54,8 @@ constexpr Handshake make_handshake() {
 
 /// Defines the two symbols a plugin library exports. Use once per library:
 /// `DUST_PLUGIN(registrar) { registrar.add<MyLaw>(); }`
-#define DUST_PLUGIN(registrar)                                                                  \
-  extern "C" __attribute__((visibility("default"))) const ::dust::sdk::Handshake               \
-      dust_handshake;                                                                           \
-  const ::dust::sdk::Handshake dust_handshake = ::dust::sdk::make_handshake();                  \
-  extern "C" __attribute__((visibility("default"))) void dust_register(                         \
+#define DUST_PLUGIN(registrar)                                                                   \
+  extern "C" __attribute__((visibility("default"))) const ::dust::sdk::Handshake dust_handshake; \
+  const ::dust::sdk::Handshake dust_handshake = ::dust::sdk::make_handshake();                   \
+  extern "C" __attribute__((visibility("default"))) void dust_register(                          \
       ::dust::sdk::Registrar& registrar)

@@ -15,8 +15,8 @@ class Random {
 
   /// A number uniform in (0, 1), 53 bits; `slot` tells several draws of one (id, step) apart.
   [[nodiscard]] double uniform(std::uint64_t id, std::uint32_t step, std::uint32_t slot = 0) const {
-    const auto words = philox({static_cast<std::uint32_t>(id), static_cast<std::uint32_t>(id >> 32),
-                               step, slot});
+    const auto words =
+        philox({static_cast<std::uint32_t>(id), static_cast<std::uint32_t>(id >> 32), step, slot});
     const std::uint64_t bits =
         (static_cast<std::uint64_t>(words[0]) << 32 | words[1]) >> 11;  // 53 of 64 bits
     return (static_cast<double>(bits) + 0.5) * 0x1.0p-53;
@@ -31,10 +31,9 @@ class Random {
     for (int round = 0; round < 10; ++round) {
       const std::uint64_t p0 = 0xD2511F53ull * counter[0];
       const std::uint64_t p1 = 0xCD9E8D57ull * counter[2];
-      counter = {static_cast<std::uint32_t>(p1 >> 32) ^ counter[1] ^ key0,
-                 static_cast<std::uint32_t>(p1),
-                 static_cast<std::uint32_t>(p0 >> 32) ^ counter[3] ^ key1,
-                 static_cast<std::uint32_t>(p0)};
+      counter = {
+          static_cast<std::uint32_t>(p1 >> 32) ^ counter[1] ^ key0, static_cast<std::uint32_t>(p1),
+          static_cast<std::uint32_t>(p0 >> 32) ^ counter[3] ^ key1, static_cast<std::uint32_t>(p0)};
       key0 += 0x9E3779B9u;
       key1 += 0xBB67AE85u;
     }

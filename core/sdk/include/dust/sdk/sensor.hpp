@@ -16,35 +16,36 @@ namespace dust::sdk {
 struct GrainColumns {
   std::span<const std::int64_t> id;
   std::span<const std::int32_t> material;
-  std::span<const double> x, y, z;                       ///< [m] now
-  std::span<const double> x_before, y_before, z_before;  ///< [m] at the last sample (birth place if new)
+  std::span<const double> x, y, z;  ///< [m] now
+  std::span<const double> x_before, y_before,
+      z_before;  ///< [m] at the last sample (birth place if new)
   std::span<const double> velocity_x, velocity_y, velocity_z;  ///< [m/s]
   std::span<const double> rotation_x, rotation_y, rotation_z;  ///< [rad/s]
   std::span<const double> force_x, force_y, force_z;           ///< [N] contact + fluid + weight
-  std::span<const double> diameter;  ///< [m]
-  std::span<const double> mass;      ///< [kg] of one real grain
-  std::span<const double> weight;    ///< [-] real grains per computed one; mass counts weight * mass
+  std::span<const double> diameter;                            ///< [m]
+  std::span<const double> mass;                                ///< [kg] of one real grain
+  std::span<const double> weight;  ///< [-] real grains per computed one; mass counts weight * mass
 };
 
 /// Fluid cells, x fastest, count_x * count_y * count_z numbers each; empty for runs without fluid.
 struct FluidColumns {
-  Vec3 origin;               ///< [m]
-  Vec3 spacing;              ///< [m]
+  Vec3 origin;   ///< [m]
+  Vec3 spacing;  ///< [m]
   int count[3] = {0, 0, 0};
-  double density = 0.0;      ///< [kg/m3]
-  double viscosity = 0.0;    ///< [Pa s]
+  double density = 0.0;                                       ///< [kg/m3]
+  double viscosity = 0.0;                                     ///< [Pa s]
   std::span<const float> velocity_x, velocity_y, velocity_z;  ///< [m/s] interstitial, at centres
-  std::span<const float> pressure;       ///< [Pa] without the hydrostatic part
-  std::span<const float> void_fraction;  ///< [-] 1 - solids over open volume
+  std::span<const float> pressure;                            ///< [Pa] without the hydrostatic part
+  std::span<const float> void_fraction;                       ///< [-] 1 - solids over open volume
   std::span<const float> open_fraction;  ///< [-] share of the cell not inside a body
 };
 
 /// What a sensor may look at; valid during the call only.
 struct WorldView {
-  double time = 0.0;       ///< [s] now
-  double interval = 0.0;   ///< [s] since the last sample
+  double time = 0.0;            ///< [s] now
+  double interval = 0.0;        ///< [s] since the last sample
   Vec3 domain_min, domain_max;  ///< [m]
-  Vec3 gravity;            ///< [m/s2]
+  Vec3 gravity;                 ///< [m/s2]
   GrainColumns grains;
   FluidColumns fluid;
   std::span<const double> class_diameters;  ///< [m] ascending size classes of the run

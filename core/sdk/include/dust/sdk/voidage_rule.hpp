@@ -27,10 +27,10 @@ struct VoidageBatch {
   const double* radius = nullptr;  ///< [m]
   int capacity = 0;                ///< rows per grain in the output
   int* used = nullptr;             ///< out: cells of grain g, <= capacity
-  int* cell_i = nullptr;           ///< out: [g * capacity + n] cell indices, may lie outside the grid
+  int* cell_i = nullptr;  ///< out: [g * capacity + n] cell indices, may lie outside the grid
   int* cell_j = nullptr;
   int* cell_k = nullptr;
-  double* weight = nullptr;        ///< out: share of the grain's volume, sums to 1 per grain
+  double* weight = nullptr;  ///< out: share of the grain's volume, sums to 1 per grain
 };
 
 /// Spreads grain volumes over cells. Contract: the weights of a grain sum to 1 to rounding. Shares
