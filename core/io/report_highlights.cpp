@@ -87,9 +87,19 @@ void drop_only_class(Highlights& highlights) {
   }
 }
 
+/// By convention a sensor with "out" among the words of its name watches an opening.
+bool is_opening(const std::string& sensor) {
+  return has("_" + sensor + "_", "_out_") || has(sensor, "escape");
+}
+
 /// "carry back, grains of 10 um"; the quantity's own name when it says more than the unit does.
 std::string place_html(const Figure& figure) {
-  std::string text = "<em>" + escape_html(words(figure.sensor)) + "</em>";
+  // Of "dust_out_below_belt" the place is what tells it from the other openings.
+  const auto out = figure.sensor.find("_out_");
+  std::string text =
+      "<em>" +
+      escape_html(words(out == std::string::npos ? figure.sensor : figure.sensor.substr(out + 5))) +
+      "</em>";
   const double diameter = class_of(figure.name);
   if (diameter >= 0.0) text += " (grains of " + quantity_html(diameter, -1.0, "m") + ")";
   const std::string leaf = leaf_of(figure.name);
@@ -101,11 +111,6 @@ int rank_of(const Figure& figure) {
   const std::string text = figure.sensor + "/" + figure.name;
   if (has(text, "loose") || has(text, "liberated")) return 0;
   return has(text, "dust") ? 1 : 2;
-}
-
-/// By convention a sensor with "out" among the words of its name watches an opening.
-bool is_opening(const std::string& sensor) {
-  return has("_" + sensor + "_", "_out_") || has(sensor, "escape");
 }
 
 /// Dust in the load [g/t] by the books of the size classes; negative without them.
@@ -180,7 +185,7 @@ std::string list_html(const std::vector<Figure>& figures, std::size_t first, std
     text += figure.value == 0.0 ? std::string("none")
                                 : quantity_html(figure.value, figure.uncertainty,
                                                 figure.unit.empty() ? "g/t" : figure.unit);
-    text += " at " + place_html(figure);
+    text += (is_opening(figure.sensor) ? " " : " at ") + place_html(figure);
   }
   return text;
 }
@@ -196,8 +201,12 @@ std::string dust_sentence(const Highlights& highlights) {
            (has_openings ? " at the openings" : "") + ".</strong>";
   }
   const Figure first = has_openings ? sum_of(list) : list.front();
-  std::string text = "<strong>" + value_html(first.value, first.uncertainty) +
-                     "\u202fg of dust per tonne</strong> of load ";
+  const bool is_small = first.value < 0.1;  // g/t
+  const double factor = is_small ? 1e3 : 1.0;
+  std::string text = "<strong>" +
+                     value_html(first.value * factor,
+                                first.uncertainty > 0.0 ? first.uncertainty * factor : -1.0) +
+                     "\u202f" + (is_small ? "mg" : "g") + " of dust per tonne</strong> of load ";
   text += has_openings ? "get out" : "is found at " + place_html(first);
   if (highlights.fed > 0.0) {
     text += ", " + share_html(first.value, highlights.fed) + " of the dust fed";

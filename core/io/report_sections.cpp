@@ -104,6 +104,18 @@ void collect_costs(const std::string& path, const json& value, std::vector<Cost>
   }
 }
 
+constexpr double k_small_cost = 0.005;  ///< nodes below this share of the time are one line
+
+void gather_small(std::vector<Cost>& costs, double limit) {
+  const auto first = std::find_if(costs.begin(), costs.end(),
+                                  [&](const Cost& cost) { return cost.seconds < limit; });
+  if (costs.end() - first < 2) return;
+  Cost others{std::to_string(costs.end() - first) + " other nodes", 0.0};
+  for (auto cost = first; cost != costs.end(); ++cost) others.seconds += cost->seconds;
+  costs.erase(first, costs.end());
+  costs.push_back(others);
+}
+
 /// Scalars of a JSON tree as table rows with paths for names.
 void leaves(const std::string& path, const json& value, std::string& rows, bool& has_nonzero) {
   if (value.is_object()) {
@@ -214,6 +226,7 @@ std::string cost_html(const RunText& run) {
     const double longest = std::max(costs.front().seconds, 1e-300);
     double whole = wall.value_or(0.0);
     for (const Cost& cost : costs) whole = std::max(whole, cost.seconds);
+    gather_small(costs, k_small_cost * whole);
     text +=
         "<div class=\"scroll\"><table class=\"bars\"><thead><tr><th>Node</th><th "
         "class=\"n\">Time</th>"

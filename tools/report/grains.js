@@ -41,7 +41,7 @@ Dust.grains = (() => {
       pen.strokeStyle = colour;
       pen.lineWidth = 0.7;
       before.forEach((frame, age) => {
-        pen.globalAlpha = 0.35 * (1 - age / trail);
+        pen.globalAlpha = Math.min(0.35, Math.max(0.06, 150 / current.dust)) * (1 - age / trail);
         pen.beginPath();
         for (let k = frame.n - frame.dust; k < frame.n; ++k) {
           const name = frame.number[k - frame.n + frame.dust], to = last.get(name);
@@ -56,7 +56,7 @@ Dust.grains = (() => {
       pen.globalAlpha = 1;
     }
     pen.fillStyle = colour;
-    pen.globalAlpha = 0.75;
+    pen.globalAlpha = current.dust > 500 ? 0.55 : 0.8;
     pen.beginPath();
     for (let k = current.n - current.dust; k < current.n; ++k) {
       const x = picture.x(x_of(current, k)), z = picture.z(z_of(current, k));
