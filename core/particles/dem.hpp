@@ -58,10 +58,10 @@ struct DemReport {
   std::int64_t particle_steps = 0;  ///< sum over coarse steps of grains integrated
   std::int64_t fine_steps = 0;      ///< sub-steps of fine grains, summed over grains
   std::int64_t rebuilds = 0;
-  double largest_overlap = 0.0;     ///< [-] overlap / smaller radius, since the start
-  std::int64_t contacts = 0;        ///< in touch at the last step
-  std::int64_t late_lists = 0;      ///< times a fine grain left its allowance within one step: a new
-                                    ///< partner may have been seen one step late
+  double largest_overlap = 0.0;  ///< [-] overlap / smaller radius, since the start
+  std::int64_t contacts = 0;     ///< in touch at the last step
+  std::int64_t late_lists = 0;   ///< times a fine grain left its allowance within one step: a new
+                                 ///< partner may have been seen one step late
 };
 
 /// Discrete elements: rows in Morton order in fixed chunks, Verlet lists from a hierarchical grid,

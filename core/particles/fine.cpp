@@ -333,8 +333,8 @@ static bool is_far(const Dem::Impl& dem, std::size_t i, std::int32_t b, double e
   const double* g = dem.gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material[i]);
   const Vec3 free = vec(g) + s.action[4 * i + 3] * (vec(s.action.data() + 4 * i) - velocity);
   const double speed = sum_of_parts(velocity - other) + sum_of_parts(free) * step + extra_speed;
-  const double reach = (1.0 + k_reach_margin) * radius + s.position[4 * j + 3] +
-                       dem.largest_range + speed * step;
+  const double reach =
+      (1.0 + k_reach_margin) * radius + s.position[4 * j + 3] + dem.largest_range + speed * step;
   return dot(d, d) > reach * reach;
 }
 

@@ -47,9 +47,9 @@ void Dem::Impl::fail(std::size_t row, const std::string& what, const std::string
 }
 
 /// Fine grains, at every step. A grain of 10 um pressed between two of 600 um (soft as grains are
-/// made to be) comes off with up to the speed at which its elastic energy sets it free, some 10 m/s:
-/// more than its allowance in one step. The lists are made new then, at the cost of a partner that
-/// may be seen one step late; such events are counted. Only nonsense is an error.
+/// made to be) comes off with up to the speed at which its elastic energy sets it free, some 10
+/// m/s: more than its allowance in one step. The lists are made new then, at the cost of a partner
+/// that may be seen one step late; such events are counted. Only nonsense is an error.
 void Dem::Impl::check_fine_course(bool& wants_rebuild) const {
   const double t = static_cast<double>(since_rebuild) * steps.coarse_step;
   for (std::size_t n = coarse_count; n < store.size(); ++n) {

@@ -23,9 +23,10 @@ class JsonFigures final : public sdk::FigureSink {
  public:
   void figure(std::string_view name, double value, std::string_view unit,
               double uncertainty) override {
-    json[std::string(name)] = {{"value", number(value)},
-                               {"unit", unit},
-                               {"uncertainty", uncertainty < 0.0 ? Json(nullptr) : number(uncertainty)}};
+    json[std::string(name)] = {
+        {"value", number(value)},
+        {"unit", unit},
+        {"uncertainty", uncertainty < 0.0 ? Json(nullptr) : number(uncertainty)}};
   }
   Json json = Json::object();
 };
@@ -52,16 +53,21 @@ class JsonReport final : public sdk::ReportSink {
     Json ys = Json::array();
     for (const double v : x) xs.push_back(number(v));
     for (const double v : y) ys.push_back(number(v));
-    curves.push_back({{"sensor", sensor}, {"title", title}, {"x_label", x_label},
-                      {"y_label", y_label}, {"series", series}, {"x", xs}, {"y", ys}});
+    curves.push_back({{"sensor", sensor},
+                      {"title", title},
+                      {"x_label", x_label},
+                      {"y_label", y_label},
+                      {"series", series},
+                      {"x", xs},
+                      {"y", ys}});
   }
   void row(std::string_view title, std::span<const std::string> columns,
            std::span<const double> values) override {
     const std::string key(title);
     if (!place_.contains(sensor + key)) {
       place_[sensor + key] = tables.size();
-      tables.push_back({{"sensor", sensor}, {"title", key}, {"columns", columns},
-                        {"rows", Json::array()}});
+      tables.push_back(
+          {{"sensor", sensor}, {"title", key}, {"columns", columns}, {"rows", Json::array()}});
     }
     Json cells = Json::array();
     for (const double v : values) cells.push_back(number(v));
@@ -76,8 +82,11 @@ class JsonReport final : public sdk::ReportSink {
 };
 
 Json counts(const particles::Balance& b) {
-  return {{"emitted", b.emitted}, {"in_domain", b.in_domain}, {"left", b.left},
-          {"removed", b.removed}, {"max", b.max}};
+  return {{"emitted", b.emitted},
+          {"in_domain", b.in_domain},
+          {"left", b.left},
+          {"removed", b.removed},
+          {"max", b.max}};
 }
 
 Json node_times(const Simulation& s, const RunFacts& facts) {
@@ -92,11 +101,16 @@ Json class_steps(const particles::Dem& dem) {
   Json rows = Json::array();
   for (const auto& c : dem.class_steps()) {
     const auto m = dem.book().masses_of(c.diameter);
-    rows.push_back({{"diameter_m", c.diameter}, {"rayleigh_time_s", c.rayleigh_time},
-                    {"hertz_time_s", c.hertz_time}, {"stable_step_s", c.stable_step},
+    rows.push_back({{"diameter_m", c.diameter},
+                    {"rayleigh_time_s", c.rayleigh_time},
+                    {"hertz_time_s", c.hertz_time},
+                    {"stable_step_s", c.stable_step},
                     {"level", c.level},
-                    {"mass_kg", {{"emitted", m.emitted}, {"in_domain", m.in_domain},
-                                 {"left", m.left}, {"removed", m.removed}}}});
+                    {"mass_kg",
+                     {{"emitted", m.emitted},
+                      {"in_domain", m.in_domain},
+                      {"left", m.left},
+                      {"removed", m.removed}}}});
   }
   return rows;
 }
@@ -158,11 +172,12 @@ SeriesRow series_row(const Simulation& s) {
   for (std::size_t n = 0; n < c.id.size(); ++n) {
     const double m = c.weight[n] * c.mass[n];
     const double r = 0.5 * c.diameter[n];
-    translation += 0.5 * m * (c.velocity_x[n] * c.velocity_x[n] + c.velocity_y[n] * c.velocity_y[n] +
-                              c.velocity_z[n] * c.velocity_z[n]);
-    rotation += 0.2 * m * r * r * (c.rotation_x[n] * c.rotation_x[n] +
-                                   c.rotation_y[n] * c.rotation_y[n] +
-                                   c.rotation_z[n] * c.rotation_z[n]);
+    translation += 0.5 * m *
+                   (c.velocity_x[n] * c.velocity_x[n] + c.velocity_y[n] * c.velocity_y[n] +
+                    c.velocity_z[n] * c.velocity_z[n]);
+    rotation += 0.2 * m * r * r *
+                (c.rotation_x[n] * c.rotation_x[n] + c.rotation_y[n] * c.rotation_y[n] +
+                 c.rotation_z[n] * c.rotation_z[n]);
   }
   const auto& b = s.dem().balance();
   add("time [s]", s.time());
@@ -180,7 +195,8 @@ SeriesRow series_row(const Simulation& s) {
   return row;
 }
 
-void write_summary(const std::filesystem::path& folder, const Simulation& s, const RunFacts& facts) {
+void write_summary(const std::filesystem::path& folder, const Simulation& s,
+                   const RunFacts& facts) {
   const auto& b = s.dem().balance();
   const auto dem = s.dem().report();
   rusage usage{};
@@ -205,10 +221,14 @@ void write_summary(const std::filesystem::path& folder, const Simulation& s, con
   j["contacts"] = dem.contacts;
   j["size_classes"] = class_steps(s.dem());
   j["particles"] = counts(b);
-  j["real_particles"] = {{"emitted", b.real_emitted}, {"in_domain", b.real_in_domain},
-                         {"left", b.real_left}, {"removed", b.real_removed}};
-  j["mass_kg"] = {{"emitted", b.mass_emitted}, {"in_domain", b.mass_in_domain},
-                  {"left", b.mass_left}, {"removed", b.mass_removed}};
+  j["real_particles"] = {{"emitted", b.real_emitted},
+                         {"in_domain", b.real_in_domain},
+                         {"left", b.real_left},
+                         {"removed", b.real_removed}};
+  j["mass_kg"] = {{"emitted", b.mass_emitted},
+                  {"in_domain", b.mass_in_domain},
+                  {"left", b.mass_left},
+                  {"removed", b.mass_removed}};
   j["timers_s"] = node_times(s, facts);
   j["health"] = health(s);
   j["warnings"] = facts.warnings;
