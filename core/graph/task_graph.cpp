@@ -14,6 +14,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using FlowNode = tbb::flow::continue_node<tbb::flow::continue_msg>;
+// Runs its body on the thread of its predecessor, without a task of its own.
+using LightNode = tbb::flow::continue_node<tbb::flow::continue_msg, tbb::flow::lightweight>;
+using Receiver = tbb::flow::receiver<tbb::flow::continue_msg>;
+using Sender = tbb::flow::sender<tbb::flow::continue_msg>;
 
 bool share_a_name(const std::vector<std::string>& a, const std::vector<std::string>& b) {
   return std::any_of(a.begin(), a.end(), [&](const std::string& name) {
@@ -39,7 +43,9 @@ struct TaskGraph::Impl {
     Node node;
     double seconds = 0.0;
     std::int64_t runs = 0;
-    std::unique_ptr<FlowNode> flow;
+    std::unique_ptr<tbb::flow::graph_node> flow;
+    Receiver* in = nullptr;
+    Sender* out = nullptr;
   };
 
   std::string name;
@@ -67,6 +73,28 @@ struct TaskGraph::Impl {
       }
     }
     std::sort(edges.begin(), edges.end());
+  }
+
+  /// Every node waits for the one before it: nothing could overlap.
+  [[nodiscard]] bool is_chain() const {
+    for (std::size_t n = 0; n < edges.size(); ++n) {
+      const int from = static_cast<int>(n);
+      if (edges[n] != std::pair{from, from + 1}) return false;
+    }
+    return edges.size() + 1 == entries.size();
+  }
+
+  template <class FlowKind>
+  void make_node(Entry& entry) {
+    auto node = std::make_unique<FlowKind>(flow, [&entry](const tbb::flow::continue_msg&) {
+      const auto begin = Clock::now();
+      entry.node.work();
+      entry.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
+      ++entry.runs;
+    });
+    entry.in = node.get();
+    entry.out = node.get();
+    entry.flow = std::move(node);
   }
 };
 
@@ -99,23 +127,26 @@ void TaskGraph::build() {
   g.derive_edges();
 
   g.start = std::make_unique<tbb::flow::broadcast_node<tbb::flow::continue_msg>>(g.flow);
+  // In a chain run inside another graph's node, a task per node moves the work from thread to thread
+  // and leaves the parallel loops in it without helpers: measured, two threads were no faster than
+  // one (docs/performance.md). The light kind keeps a chain on one thread.
+  const bool is_chain = g.is_chain();
   for (auto& entry : g.entries) {
-    entry.flow = std::make_unique<FlowNode>(g.flow, [&entry](const tbb::flow::continue_msg&) {
-      const auto begin = Clock::now();
-      entry.node.work();
-      entry.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
-      ++entry.runs;
-    });
+    if (is_chain) {
+      g.make_node<LightNode>(entry);
+    } else {
+      g.make_node<FlowNode>(entry);
+    }
   }
   for (std::size_t n = 0; n < g.entries.size(); ++n) {
     const bool is_first = std::none_of(g.edges.begin(), g.edges.end(), [&](const auto& edge) {
       return edge.second == static_cast<int>(n);
     });
-    if (is_first) tbb::flow::make_edge(*g.start, *g.entries[n].flow);
+    if (is_first) tbb::flow::make_edge(*g.start, *g.entries[n].in);
   }
   for (const auto& [from, to] : g.edges) {
-    tbb::flow::make_edge(*g.entries[static_cast<std::size_t>(from)].flow,
-                         *g.entries[static_cast<std::size_t>(to)].flow);
+    tbb::flow::make_edge(*g.entries[static_cast<std::size_t>(from)].out,
+                         *g.entries[static_cast<std::size_t>(to)].in);
   }
 }
 

@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <map>
 
 namespace dust::io {
 
@@ -58,21 +57,11 @@ json stream_json(const Highlights& highlights) {
   return list;
 }
 
-/// Places of low pressure found by sensors ("place_1/x", "place_1/z", "place_1/depth"), for the
-/// map.
-json places_json(const std::vector<Figure>& figures) {
-  std::map<std::string, std::map<std::string, double>> places;
-  for (const Figure& figure : figures) {
-    const auto at = figure.name.rfind('/');
-    if (at == std::string::npos || figure.name.rfind("place_", 0) != 0) continue;
-    places[figure.sensor + "/" + figure.name.substr(0, at)][figure.name.substr(at + 1)] =
-        figure.value;
-  }
+/// Places of low pressure, for the map.
+json places_json(const Highlights& highlights) {
   json list = json::array();
-  for (auto& [name, place] : places) {
-    if (!place.count("x") || !place.count("z") || !(place["depth"] > 0.0)) continue;
-    list.push_back(
-        {{"name", name.substr(name.rfind('_') + 1)}, {"x", place["x"]}, {"z", place["z"]}});
+  for (const LowPlace& place : highlights.places) {
+    list.push_back({{"name", place.name}, {"x", place.x.value}, {"z", place.z.value}});
   }
   return list;
 }
@@ -124,18 +113,20 @@ std::string air_section(const json& air, bool has_places) {
       ", in m/s. The threads follow the air for a short while, longer where it is faster; their "
       "thick "
       "end leads. Highest speed of all frames: " +
-      number_html(air["top_speed"].get<double>(), 3) + "\u202fm/s" + "; the scale ends at " +
+      number_html(air["top_speed"].get<double>(), 3) + "\u202fm/s" +
+      "; the colours follow the root of the speed, so that slow air shows, and end at " +
       number_html(air["speed"].get<double>(), 3) + "\u202fm/s" +
-      " (99.8\u202f% of the cells lie below)." + note +
+      " (99.8\u202f% of the cells of the fullest frame lie below)." + note +
       " <label class=\"screen\"><input type=\"checkbox\" id=\"air-dust\" checked> show the "
-      "dust</label>"
+      "dust</label> <label class=\"screen\"><input type=\"checkbox\" id=\"air-mean\"> mean over "
+      "the second half of the run instead of one moment</label>"
       "</figcaption></figure>\n";
   text +=
       "<figure id=\"pressure\"><div class=\"picture\" id=\"pressure-picture\"></div><div "
       "id=\"pressure-legend\" class=\"key\"></div><figcaption><b>Pressure of the air</b> ";
   text += depth;
   text += ", in Pa, without the hydrostatic part. ";
-  text += has_places ? "Numbered rings: the places of low mean pressure found by a sensor. "
+  text += has_places ? "Numbered rings: the places of low mean pressure listed below. "
                      : "The ring marks the lowest pressure of the frame. ";
   text += "Range over all frames: " + number_html(air["low"].get<double>(), 3) + "\u202fPa" +
           " to " + number_html(air["high"].get<double>(), 3) + "\u202fPa" +
@@ -143,11 +134,12 @@ std::string air_section(const json& air, bool has_places) {
   return text;
 }
 
-std::string pictures_html(const json& grains, const json& air, bool has_places) {
+std::string pictures_html(const json& grains, const json& air, const Highlights& highlights) {
   if (grains.is_null() && air.is_null()) return {};
   return "<section id=\"pictures\"><h2>The run in pictures</h2>\n<div id=\"clock\" class=\"clock "
          "screen\"></div>\n" +
-         grains_section(grains) + air_section(air, has_places) +
+         grains_section(grains) + air_section(air, !highlights.places.empty()) +
+         places_html(highlights) +
          "<noscript><p class=\"note\">The pictures are drawn by the page's own script, which is "
          "switched "
          "off here.</p></noscript></section>\n";
@@ -168,7 +160,7 @@ std::string page(const RunText& run, const json& data, const Highlights& highlig
   text += report_asset("report.css");
   text += "</style>\n</head>\n<body>\n<main>\n";
   text += header_html(run, highlights) + result_html(highlights);
-  text += pictures_html(data["grains"], data["air"], !data["places"].empty());
+  text += pictures_html(data["grains"], data["air"], highlights);
   text += stream_html(highlights);
   text += "<section id=\"curves\" hidden><h2>Fluxes and concentrations</h2></section>\n";
   text += "<section id=\"series\" hidden><h2>The run over time</h2></section>\n";
@@ -191,7 +183,7 @@ std::string page(const RunText& run, const json& data, const Highlights& highlig
 
 void write_report(const std::filesystem::path& folder) {
   RunText run = read_run_text(folder);
-  const Highlights highlights = highlights_of(run.figures);
+  const Highlights highlights = highlights_of(run);
   json data;
   {
     const H5Source source(folder / "results.h5");
@@ -208,7 +200,7 @@ void write_report(const std::filesystem::path& folder) {
   data["curves"] = list_at(run.report, "curves");
   data["series"] = series_json(run.series);
   data["stream"] = stream_json(highlights);
-  data["places"] = places_json(run.figures);
+  data["places"] = places_json(highlights);
   data["sensors"] = json::array();
   for (const auto& entry : object_at(run.summary, "sensors").items())
     data["sensors"].push_back(entry.key());

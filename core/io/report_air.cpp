@@ -108,7 +108,7 @@ Plane coarsened(const Plane& fine, std::size_t fx, std::size_t fz) {
   return coarse;
 }
 
-/// The value below which 99.8 % of the open cells of all frames lie: a few extreme cells shall not
+/// The value below which 99.8 % of the open cells of a frame lie: a few extreme cells shall not
 /// wash out the picture; the caption names the true extreme.
 double robust_maximum(std::vector<float> values) {
   if (values.empty()) return 0.0;
@@ -121,6 +121,10 @@ double robust_maximum(std::vector<float> values) {
 std::uint8_t code(double share) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0, 1.0) * k_codes));
 }
+
+/// Velocities are stored by their root: 8 bits then tell slow air apart as well, which carries
+/// dust.
+double root(double share) { return std::copysign(std::sqrt(std::abs(share)), share); }
 
 /// Differences to the left neighbour compress to about half; the reader sums them up again.
 void put_differences(std::vector<std::uint8_t>& bytes, const std::vector<std::uint8_t>& codes) {
@@ -136,10 +140,12 @@ struct Range {
   double top_speed = 0.0, low = 0.0, high = 0.0;  ///< met
 };
 
+/// The scales end where the fullest frame has 99.8 % of its cells below: frames before the air
+/// moves shall not count.
 Range range_of(const std::vector<Plane>& planes) {
   Range range;
-  std::vector<float> speeds, pressures;
   for (const Plane& plane : planes) {
+    std::vector<float> speeds, pressures;
     for (std::size_t k = 0; k < plane.weight.size(); ++k) {
       if (plane.weight[k] < 0.5F) continue;
       speeds.push_back(std::hypot(plane.u[k], plane.w[k]));
@@ -148,9 +154,9 @@ Range range_of(const std::vector<Plane>& planes) {
       range.low = std::min<double>(range.low, plane.pressure[k]);
       range.high = std::max<double>(range.high, plane.pressure[k]);
     }
+    range.speed = std::max(range.speed, robust_maximum(std::move(speeds)));
+    range.pressure = std::max(range.pressure, robust_maximum(std::move(pressures)));
   }
-  range.speed = robust_maximum(std::move(speeds));
-  range.pressure = robust_maximum(std::move(pressures));
   if (!(range.speed > 0.0)) range.speed = range.top_speed > 0.0 ? range.top_speed : 1.0;
   if (!(range.pressure > 0.0)) range.pressure = std::max({-range.low, range.high, 1e-12});
   return range;
@@ -160,16 +166,36 @@ json encoded(const Plane& map, const Plane& arrows, const Range& range, double t
   std::vector<std::uint8_t> speed, pressure, u, w, bytes;
   for (std::size_t k = 0; k < map.weight.size(); ++k) {
     const bool is_open = map.weight[k] >= 0.5F;
-    speed.push_back(is_open ? code(std::hypot(map.u[k], map.w[k]) / range.speed) : k_masked);
+    speed.push_back(is_open ? code(std::sqrt(std::hypot(map.u[k], map.w[k]) / range.speed))
+                            : k_masked);
     pressure.push_back(is_open ? code(0.5 + 0.5 * map.pressure[k] / range.pressure) : k_masked);
   }
   for (std::size_t k = 0; k < arrows.weight.size(); ++k) {
     const bool is_open = arrows.weight[k] >= 0.5F;
-    u.push_back(is_open ? code(0.5 + 0.5 * arrows.u[k] / range.speed) : k_masked);
-    w.push_back(is_open ? code(0.5 + 0.5 * arrows.w[k] / range.speed) : k_masked);
+    u.push_back(is_open ? code(0.5 + 0.5 * root(arrows.u[k] / range.speed)) : k_masked);
+    w.push_back(is_open ? code(0.5 + 0.5 * root(arrows.w[k] / range.speed)) : k_masked);
   }
   for (const auto* part : {&speed, &pressure, &u, &w}) put_differences(bytes, *part);
   return {{"t", time}, {"data", packed(bytes)}};
+}
+
+/// Mean over the frames of the second half of the run.
+Plane mean_of(const std::vector<Plane>& maps, const std::vector<double>& times, double from) {
+  Plane mean = maps.back();
+  double frames = 1.0;
+  for (std::size_t k = 0; k + 1 < maps.size(); ++k) {
+    if (times[k] < from) continue;
+    frames += 1.0;
+    for (std::size_t i = 0; i < mean.weight.size(); ++i) {
+      mean.u[i] += maps[k].u[i];
+      mean.w[i] += maps[k].w[i];
+      mean.pressure[i] += maps[k].pressure[i];
+    }
+  }
+  for (auto* part : {&mean.u, &mean.w, &mean.pressure}) {
+    for (float& value : *part) value /= static_cast<float>(frames);
+  }
+  return mean;
 }
 
 }  // namespace
@@ -217,6 +243,8 @@ json air_of(const H5Source& source) {
     az = arrows.nz;
     frames.push_back(encoded(maps[k], arrows, range, times[k]));
   }
+  const double half = 0.5 * times.back();
+  const Plane mean = mean_of(maps, times, half);
   const double width = static_cast<double>(fx) * spacing[0],
                height = static_cast<double>(fz) * spacing[2];
   return {{"nx", maps[0].nx},
@@ -236,6 +264,7 @@ json air_of(const H5Source& source) {
           {"high", range.high},
           {"written", names.size()},
           {"middle", grid.is_middle_plane},
+          {"mean", encoded(mean, coarsened(mean, block, block), range, half)},
           {"frames", frames}};
 }
 

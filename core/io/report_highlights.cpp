@@ -69,9 +69,37 @@ void keep_dust(std::vector<Figure>& figures) {
   });
 }
 
+/// Where there is but one class of dust, naming it everywhere tells nothing.
+void drop_only_class(Highlights& highlights) {
+  std::set<double> diameters;
+  for (const auto* list : {&highlights.dust, &highlights.held}) {
+    for (const Figure& figure : *list) {
+      if (class_of(figure.name) >= 0.0) diameters.insert(class_of(figure.name));
+    }
+  }
+  if (diameters.size() > 1) return;
+  for (auto* list : {&highlights.dust, &highlights.held}) {
+    for (Figure& figure : *list) {
+      if (figure.name.rfind("class_", 0) == 0) {
+        figure.name = figure.name.substr(figure.name.find('/') + 1);
+      }
+    }
+  }
+}
+
+/// By convention a sensor with "out" among the words of its name watches an opening.
+bool is_opening(const std::string& sensor) {
+  return has("_" + sensor + "_", "_out_") || has(sensor, "escape");
+}
+
 /// "carry back, grains of 10 um"; the quantity's own name when it says more than the unit does.
 std::string place_html(const Figure& figure) {
-  std::string text = "<em>" + escape_html(words(figure.sensor)) + "</em>";
+  // Of "dust_out_below_belt" the place is what tells it from the other openings.
+  const auto out = figure.sensor.find("_out_");
+  std::string text =
+      "<em>" +
+      escape_html(words(out == std::string::npos ? figure.sensor : figure.sensor.substr(out + 5))) +
+      "</em>";
   const double diameter = class_of(figure.name);
   if (diameter >= 0.0) text += " (grains of " + quantity_html(diameter, -1.0, "m") + ")";
   const std::string leaf = leaf_of(figure.name);
@@ -83,6 +111,32 @@ int rank_of(const Figure& figure) {
   const std::string text = figure.sensor + "/" + figure.name;
   if (has(text, "loose") || has(text, "liberated")) return 0;
   return has(text, "dust") ? 1 : 2;
+}
+
+/// Dust in the load [g/t] by the books of the size classes; negative without them.
+double dust_fed(const nlohmann::json& summary) {
+  double dust = 0.0, all = 0.0;
+  for (const auto& entry : list_at(summary, "size_classes")) {
+    const auto mass = number_at(object_at(entry, "mass_kg"), "emitted");
+    const auto diameter = number_at(entry, "diameter_m");
+    if (!mass || !diameter) return -1.0;
+    all += *mass;
+    if (*diameter < k_dust_diameter) dust += *mass;
+  }
+  constexpr double k_grams_per_tonne = 1e6;
+  return all > 0.0 ? k_grams_per_tonne * dust / all : -1.0;
+}
+
+/// Gathers "place_1/x", "place_1/z" and "place_1/depth" of a sensor.
+void collect_place(const Figure& figure, std::map<std::string, LowPlace>& places) {
+  const auto at = figure.name.rfind('/');
+  if (at == std::string::npos || figure.name.rfind("place_", 0) != 0) return;
+  const std::string leaf = leaf_of(figure.name), name = figure.name.substr(0, at);
+  LowPlace& place = places[figure.sensor + "/" + name];
+  place.name = name.substr(name.rfind('_') + 1);
+  if (leaf == "x") place.x = figure;
+  if (leaf == "z") place.z = figure;
+  if (leaf == "depth") place.depth = figure;
 }
 
 std::string status_html(const RunText& run) {
@@ -104,32 +158,72 @@ std::string status_html(const RunText& run) {
   return text + "</p>\n";
 }
 
-std::string where_it_went(const Highlights& highlights) {
+/// Sums of what independent sensors count; errors add in squares. A figure that counted nothing has
+/// no error and adds none.
+Figure sum_of(const std::vector<Figure>& figures) {
+  Figure sum;
+  double squares = 0.0;
+  for (const Figure& figure : figures) {
+    sum.value += figure.value;
+    if (figure.uncertainty > 0.0) squares += figure.uncertainty * figure.uncertainty;
+  }
+  sum.unit = figures.empty() ? "" : figures.front().unit;
+  sum.uncertainty = squares > 0.0 ? std::sqrt(squares) : -1.0;
+  return sum;
+}
+
+std::string share_html(double value, double whole) {
+  return whole > 0.0 ? number_html(100.0 * value / whole, 2) + "\u202f%" : std::string("\u2013");
+}
+
+/// "0.012 +- 0.003 g/t at <em>carry back</em>, ..." for up to `most` figures from `first` on.
+std::string list_html(const std::vector<Figure>& figures, std::size_t first, std::size_t most) {
   std::string text;
-  for (std::size_t k = 1; k < highlights.dust.size() && k < 4; ++k) {
-    const Figure& figure = highlights.dust[k];
-    text += ", ";
-    text +=
-        quantity_html(figure.value, figure.uncertainty, figure.unit.empty() ? "g/t" : figure.unit);
-    text += " at " + place_html(figure);
+  for (std::size_t k = first; k < figures.size() && k < first + most; ++k) {
+    const Figure& figure = figures[k];
+    if (!text.empty()) text += ", ";
+    text += figure.value == 0.0 ? std::string("none")
+                                : quantity_html(figure.value, figure.uncertainty,
+                                                figure.unit.empty() ? "g/t" : figure.unit);
+    text += (is_opening(figure.sensor) ? " " : " at ") + place_html(figure);
   }
   return text;
 }
 
-std::string lede_html(const RunText& run, const Highlights& highlights) {
-  std::string text;
-  if (!highlights.dust.empty()) {
-    const Figure& figure = highlights.dust.front();
-    text += "<strong>" + value_html(figure.value, figure.uncertainty) +
-            "\u202fg of dust per tonne</strong> of load is found at " + place_html(figure) +
-            where_it_went(highlights) + ".";
+std::string dust_sentence(const Highlights& highlights) {
+  const bool has_openings = !highlights.openings.empty();
+  const auto& list = has_openings              ? highlights.openings
+                     : highlights.dust.empty() ? highlights.held
+                                               : highlights.dust;
+  if (list.empty()) return {};
+  if (std::all_of(list.begin(), list.end(), [](const Figure& f) { return f.value == 0.0; })) {
+    return std::string("<strong>No dust has been counted") +
+           (has_openings ? " at the openings" : "") + ".</strong>";
   }
+  const Figure first = has_openings ? sum_of(list) : list.front();
+  const bool is_small = first.value < 0.1;  // g/t
+  const double factor = is_small ? 1e3 : 1.0;
+  std::string text = "<strong>" +
+                     value_html(first.value * factor,
+                                first.uncertainty > 0.0 ? first.uncertainty * factor : -1.0) +
+                     "\u202f" + (is_small ? "mg" : "g") + " of dust per tonne</strong> of load ";
+  text += has_openings ? "get out" : "is found at " + place_html(first);
+  if (highlights.fed > 0.0) {
+    text += ", " + share_html(first.value, highlights.fed) + " of the dust fed";
+  }
+  const std::string rest = list_html(list, has_openings ? 0 : 1, 3);
+  if (!rest.empty()) text += (has_openings ? ": " : ", ") + rest;
+  return text + ".";
+}
+
+std::string lede_html(const RunText& run, const Highlights& highlights) {
+  std::string text = dust_sentence(highlights);
   if (!highlights.stream.empty()) {
     const StreamDrop& last = highlights.stream.back();
-    text += text.empty() ? "The" : " The";
-    text += " middle of the stream lies <strong>" +
+    text += std::string(text.empty() ? "" : " ") + "After a drop of " +
+            quantity_html(last.drop, -1.0, "m") + " the middle of the stream has come <strong>" +
             quantity_html(last.median.value, last.median.uncertainty, last.median.unit) +
-            "</strong> out at a drop of " + quantity_html(last.drop, -1.0, "m") + ".";
+            "</strong> forward.";
   }
   if (text.empty()) {
     const auto emitted = number_at(object_at(run.summary, "particles"), "emitted");
@@ -142,6 +236,14 @@ std::string lede_html(const RunText& run, const Highlights& highlights) {
   return text.empty() ? text : "<p class=\"lede\">" + text + "</p>\n";
 }
 
+/// The mean pressure of a place; three digits where no error tells how many count.
+std::string depth_html(const LowPlace& place) {
+  if (place.depth.uncertainty > 0.0) {
+    return quantity_html(-place.depth.value, place.depth.uncertainty, place.depth.unit);
+  }
+  return number_html(-place.depth.value, 3) + "\u202f" + escape_html(place.depth.unit);
+}
+
 std::string tile(const std::string& name, const std::string& value, const std::string& note) {
   return "<div class=\"tile\"><dt>" + name + "</dt><dd><b>" + value + "</b>" +
          (note.empty() ? "" : "<span>" + note + "</span>") + "</dd></div>\n";
@@ -149,10 +251,23 @@ std::string tile(const std::string& name, const std::string& value, const std::s
 
 std::string tiles_html(const RunText& run, const Highlights& highlights) {
   std::string text;
-  if (!highlights.dust.empty()) {
+  const std::string of_fed =
+      highlights.fed > 0.0 ? "of " + quantity_html(highlights.fed, -1.0, "g/t") + " in the load"
+                           : std::string();
+  if (!highlights.openings.empty()) {
+    const Figure sum = sum_of(highlights.openings);
+    text += tile("Dust that gets out", quantity_html(sum.value, sum.uncertainty, sum.unit), of_fed);
+  } else if (!highlights.dust.empty()) {
     const Figure& figure = highlights.dust.front();
-    text += tile("Dust", quantity_html(figure.value, figure.uncertainty, figure.unit),
-                 escape_html(words(figure.sensor)));
+    text += tile("Dust, " + escape_html(words(figure.sensor)),
+                 quantity_html(figure.value, figure.uncertainty, figure.unit), of_fed);
+  }
+  if (!highlights.places.empty()) {
+    const LowPlace& place = highlights.places.front();
+    text += tile("Lowest pressure, at x and z",
+                 number_html(place.x.value * 1e3, 3) + ", " + number_html(place.z.value * 1e3, 3) +
+                     "\u202f<span class=\"unit\">mm</span>",
+                 depth_html(place));
   }
   if (!highlights.stream.empty()) {
     const StreamDrop& last = highlights.stream.back();
@@ -178,12 +293,22 @@ std::string tiles_html(const RunText& run, const Highlights& highlights) {
 
 }  // namespace
 
-Highlights highlights_of(const std::vector<Figure>& figures) {
+Highlights highlights_of(const RunText& run) {
   Highlights highlights;
   std::map<std::pair<std::string, double>, StreamDrop> drops;
-  for (const Figure& figure : figures) {
+  std::map<std::string, LowPlace> places;
+  std::set<std::string> stocks;  // sensors that say what is there, not what passes
+  for (const Figure& figure : run.figures) {
+    if (leaf_of(figure.name) == "mass_at_end") stocks.insert(figure.sensor);
+  }
+  for (const Figure& figure : run.figures) {
     if (!std::isfinite(figure.value)) continue;
-    if (is_per_tonne(figure)) highlights.dust.push_back(figure);
+    // Of passages to and fro what remains counts.
+    const bool is_one_way = has(figure.name, "forward/") || has(figure.name, "backward/");
+    if (is_per_tonne(figure) && !is_one_way) {
+      (stocks.count(figure.sensor) > 0 ? highlights.held : highlights.dust).push_back(figure);
+    }
+    collect_place(figure, places);
     const double drop = drop_of(figure.name);
     const int quantile = quantile_of(figure.name);
     if (drop < 0.0 || quantile == 0 || figure.unit != "m") continue;
@@ -193,7 +318,17 @@ Highlights highlights_of(const std::vector<Figure>& figures) {
     entry.drop = drop;
     (quantile == 5 ? entry.low : quantile == 50 ? entry.median : entry.high) = figure;
   }
+  highlights.fed = dust_fed(run.summary);
   keep_dust(highlights.dust);
+  keep_dust(highlights.held);
+  drop_only_class(highlights);
+  for (const Figure& figure : highlights.dust) {
+    if (is_opening(figure.sensor)) highlights.openings.push_back(figure);
+  }
+  std::erase_if(highlights.dust, [](const Figure& figure) { return is_opening(figure.sensor); });
+  const auto is_larger = [](const Figure& a, const Figure& b) { return a.value > b.value; };
+  std::stable_sort(highlights.openings.begin(), highlights.openings.end(), is_larger);
+  std::stable_sort(highlights.held.begin(), highlights.held.end(), is_larger);
   std::stable_sort(highlights.dust.begin(), highlights.dust.end(),
                    [](const Figure& a, const Figure& b) { return rank_of(a) < rank_of(b); });
   for (const auto& [key, entry] : drops) {
@@ -202,6 +337,14 @@ Highlights highlights_of(const std::vector<Figure>& figures) {
       highlights.stream.push_back(entry);
     }
   }
+  for (auto& [key, place] : places) {
+    if (place.depth.value > 0.0 && !place.x.name.empty() && !place.z.name.empty()) {
+      highlights.places.push_back(place);
+    }
+  }
+  std::stable_sort(
+      highlights.places.begin(), highlights.places.end(),
+      [](const LowPlace& a, const LowPlace& b) { return a.depth.value > b.depth.value; });
   return highlights;
 }
 
@@ -224,25 +367,69 @@ std::string header_html(const RunText& run, const Highlights& highlights) {
 }
 
 std::string result_html(const Highlights& highlights) {
-  if (highlights.dust.size() < 2) return {};
-  double largest = 0.0;
-  for (const Figure& figure : highlights.dust) largest = std::max(largest, std::abs(figure.value));
-  std::string text =
-      "<section id=\"dust\"><h2>Where the dust went</h2>\n<div class=\"scroll\"><table "
-      "class=\"bars\">\n"
-      "<thead><tr><th>Sensor</th><th>Quantity</th><th class=\"n\">Value \u00b1 standard error</th>"
-      "<th aria-hidden=\"true\"></th></tr></thead>\n<tbody>\n";
-  for (const Figure& figure : highlights.dust) {
-    const double share = largest > 0.0 ? std::abs(figure.value) / largest * 100.0 : 0.0;
-    char width[32];
-    std::snprintf(width, sizeof width, "%.1f", share);
-    text += "<tr><td>" + escape_html(words(figure.sensor)) + "</td><td>" +
-            escape_html(words(figure.name)) + "</td><td class=\"n\">" +
-            quantity_html(figure.value, figure.uncertainty, figure.unit) +
-            "</td><td class=\"bar\"><i class=\"dustbar\" style=\"width:" + width +
-            "%\"></i></td></tr>\n";
+  if (!highlights.has_dust()) return {};
+  double largest = highlights.fed;
+  for (const auto* list : {&highlights.openings, &highlights.dust, &highlights.held}) {
+    for (const Figure& figure : *list) largest = std::max(largest, std::abs(figure.value));
   }
-  return text + "</tbody></table></div></section>\n";
+  const auto line = [&](const std::string& what, double value, const std::string& shown,
+                        const char* bar) {
+    char width[32];
+    std::snprintf(width, sizeof width, "%.1f",
+                  largest > 0.0 ? std::abs(value) / largest * 100.0 : 0.0);
+    return "<tr><td>" + what + "</td><td class=\"n\">" + shown + "</td><td class=\"n\">" +
+           share_html(value, highlights.fed) + "</td><td class=\"bar\">" +
+           (value == 0.0
+                ? std::string()
+                : std::string("<i class=\"") + bar + "\" style=\"width:" + width + "%\"></i>") +
+           "</td></tr>\n";
+  };
+  const auto group = [&](const char* title, const std::vector<Figure>& list) {
+    if (list.empty()) return std::string();
+    std::string text = std::string("<tr class=\"group\"><th colspan=\"4\" scope=\"rowgroup\">") +
+                       title + "</th></tr>\n";
+    for (const Figure& figure : list) {
+      text +=
+          line(place_html(figure), figure.value,
+               figure.value == 0.0 ? std::string("none counted")
+                                   : quantity_html(figure.value, figure.uncertainty, figure.unit),
+               "dustbar");
+    }
+    return text;
+  };
+  std::string text =
+      "<section id=\"dust\"><h2>Where the dust goes</h2>\n<div class=\"scroll\"><table "
+      "class=\"bars\">\n<thead><tr><th>Grains finer than 100\u202f\u00b5m</th><th "
+      "class=\"n\">Per tonne of load \u00b1 standard error</th><th class=\"n\">Share of the dust "
+      "fed</th><th aria-hidden=\"true\"></th></tr></thead>\n<tbody>\n";
+  if (highlights.fed > 0.0) {
+    text += line("In the load", highlights.fed, quantity_html(highlights.fed, -1.0, "g/t"), "fed");
+  }
+  text += group("Gets out", highlights.openings) + group("Passes", highlights.dust) +
+          group("Is there at the end", highlights.held);
+  return text +
+         "</tbody></table></div>\n<p class=\"note\">What passes is counted per tonne released in "
+         "the "
+         "same time, after the sensor's start-up; what is there at the end, per tonne released "
+         "until "
+         "then. The same dust may pass several sensors: shares need not add up to the whole.</p>"
+         "</section>\n";
+}
+
+std::string places_html(const Highlights& highlights) {
+  if (highlights.places.empty()) return {};
+  std::string text =
+      "<h3>Where suction would find low pressure</h3>\n<div class=\"scroll\"><table "
+      "class=\"narrow\"><thead><tr><th>Ring</th><th class=\"n\">x</th><th class=\"n\">z</th><th "
+      "class=\"n\">Mean pressure</th></tr></thead>\n<tbody>\n";
+  for (const LowPlace& place : highlights.places) {
+    const auto cell = [](const std::string& shown) { return "<td class=\"n\">" + shown + "</td>"; };
+    text += "<tr><td>" + escape_html(place.name) + "</td>" +
+            cell(number_html(place.x.value * 1e3, 3) + "\u202fmm") +
+            cell(number_html(place.z.value * 1e3, 3) + "\u202fmm") + cell(depth_html(place)) +
+            "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
 }
 
 std::string stream_html(const Highlights& highlights) {

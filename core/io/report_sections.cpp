@@ -47,6 +47,28 @@ std::string balance_row(const char* name, const json& parts, bool is_exact, cons
          (is_closed ? "" : " wrong") + "\">" + number_html(difference, 2) + "</td></tr>\n";
 }
 
+/// What became of each size class; empty for runs without these books.
+std::string classes_html(const RunText& run) {
+  std::string rows;
+  for (const json& entry : list_at(run.summary, "size_classes")) {
+    const json& mass = object_at(entry, "mass_kg");
+    const auto emitted = number_at(mass, "emitted");
+    const auto diameter = number_at(entry, "diameter_m");
+    if (!emitted || !diameter) continue;
+    rows += "<tr><th scope=\"row\">" + quantity_html(*diameter, -1.0, "m") + "</th>";
+    for (const char* part : {"emitted", "in_domain", "left", "removed"}) {
+      rows += "<td class=\"n\">" + quantity_html(number_at(mass, part).value_or(0.0), -1.0, "kg") +
+              "</td>";
+    }
+    rows += "</tr>\n";
+  }
+  if (rows.empty()) return rows;
+  return "<div class=\"scroll\"><table><thead><tr><th>Mass by diameter</th><th "
+         "class=\"n\">Released</th><th class=\"n\">In domain</th><th class=\"n\">Left</th><th "
+         "class=\"n\">Removed</th></tr></thead>\n<tbody>" +
+         rows + "</tbody></table></div>\n";
+}
+
 std::string mass_bar(const json& mass) {
   const double emitted = number_at(mass, "emitted").value_or(0.0);
   if (!(emitted > 0.0)) return {};
@@ -76,8 +98,22 @@ void collect_costs(const std::string& path, const json& value, std::vector<Cost>
   if (value.is_number()) costs.push_back({path, value.get<double>()});
   if (!value.is_object()) return;
   for (const auto& [key, part] : value.items()) {
+    // The whole of the DEM nodes, which are listed one by one.
+    if (key == "dem_cycle") continue;
     collect_costs(path.empty() ? key : path + "/" + key, part, costs);
   }
+}
+
+constexpr double k_small_cost = 0.005;  ///< nodes below this share of the time are one line
+
+void gather_small(std::vector<Cost>& costs, double limit) {
+  const auto first = std::find_if(costs.begin(), costs.end(),
+                                  [&](const Cost& cost) { return cost.seconds < limit; });
+  if (costs.end() - first < 2) return;
+  Cost others{std::to_string(costs.end() - first) + " other nodes", 0.0};
+  for (auto cost = first; cost != costs.end(); ++cost) others.seconds += cost->seconds;
+  costs.erase(first, costs.end());
+  costs.push_back(others);
 }
 
 /// Scalars of a JSON tree as table rows with paths for names.
@@ -132,6 +168,7 @@ std::string balance_html(const RunText& run) {
       "domain</th><th class=\"n\">Left</th><th class=\"n\">Removed</th><th "
       "class=\"n\">Difference</th></tr></thead>\n<tbody>" +
       rows + "</tbody></table></div>\n";
+  text += classes_html(run);
   if (const auto most = number_at(object_at(run.summary, "particles"), "max")) {
     text +=
         "<p class=\"note\">At most " + count_html(*most) +
@@ -156,14 +193,31 @@ std::string cost_html(const RunText& run) {
     text += std::string("<div class=\"tile\"><dt>") + name + "</dt><dd><b>" + value +
             "</b></dd></div>\n";
   };
-  if (wall && steps && *wall > 0.0) {
-    tile("Grain-steps per second", number_html(*steps / *wall, 3));
+  const json& timers = object_at(run.summary, "timers_s");
+  double dem_time = 0.0;
+  for (const char* node : {"contact", "force", "integration", "neighbour"}) {
+    dem_time += number_at(timers, node).value_or(0.0);
   }
   if (wall && simulated && *simulated > 0.0) {
     tile("Computing time per simulated second", duration_html(*wall / *simulated));
   }
+  if (steps && dem_time > 0.0) {
+    tile("Grain-steps per second of DEM time",
+         number_html(*steps / dem_time / 1e6, 3) + "\u202f<span class=\"unit\">million</span>");
+  } else if (wall && steps && *wall > 0.0) {
+    tile("Grain-steps per second", number_html(*steps / *wall, 3));
+  }
+  const auto fluid_time = number_at(timers, "fluid");
+  const auto fluid_steps = number_at(run.summary, "fluid_steps");
+  if (fluid_time && fluid_steps && *fluid_steps > 0.0) {
+    tile("Air, time per step", quantity_html(*fluid_time / *fluid_steps, -1.0, "s"));
+  }
   const auto cpu = number_at(run.summary, "cpu_s");
-  if (wall && cpu && *wall > 0.0) tile("Processors busy", number_html(*cpu / *wall, 3));
+  if (wall && cpu && *wall > 0.0) {
+    const auto threads = number_at(run.summary, "threads");
+    tile("Processors busy, on average",
+         number_html(*cpu / *wall, 3) + (threads ? " of " + count_html(*threads) : std::string()));
+  }
   if (const auto memory = number_at(run.summary, "peak_rss_bytes")) {
     tile("Memory at most", number_html(*memory / 1e6, 4) + "\u202f<span class=\"unit\">MB</span>");
   }
@@ -172,6 +226,7 @@ std::string cost_html(const RunText& run) {
     const double longest = std::max(costs.front().seconds, 1e-300);
     double whole = wall.value_or(0.0);
     for (const Cost& cost : costs) whole = std::max(whole, cost.seconds);
+    gather_small(costs, k_small_cost * whole);
     text +=
         "<div class=\"scroll\"><table class=\"bars\"><thead><tr><th>Node</th><th "
         "class=\"n\">Time</th>"
@@ -187,7 +242,8 @@ std::string cost_html(const RunText& run) {
     text +=
         "</tbody></table></div>\n<p class=\"note\">Wall-clock time of each kind of node; nodes "
         "that "
-        "run side by side may add up to more than the whole.</p>\n";
+        "run side by side may add up to more than the whole. DEM time is that of contact, force, "
+        "integration and neighbour; a grain-step is one grain moved on by one step.</p>\n";
   }
   return text + "</section>\n";
 }
@@ -227,31 +283,32 @@ std::string health_html(const RunText& run) {
 
 std::string figures_html(const RunText& run) {
   std::string text;
-  if (!run.figures.empty()) {
-    text +=
-        "<div class=\"scroll\"><table><thead><tr><th>Sensor</th><th>Quantity</th><th "
-        "class=\"n\">Value \u00b1 standard error</th><th class=\"n\">SI "
-        "value</th></tr></thead>\n<tbody>\n";
-    std::string last;
-    for (const Figure& figure : run.figures) {
+  for (std::size_t k = 0; k < run.figures.size();) {
+    const std::string& sensor = run.figures[k].sensor;
+    std::string rows;
+    std::size_t count = 0;
+    for (; k < run.figures.size() && run.figures[k].sensor == sensor; ++k, ++count) {
+      const Figure& figure = run.figures[k];
       char plain[64];
       std::snprintf(plain, sizeof plain, std::isfinite(figure.value) ? "%.9g" : "", figure.value);
-      text += std::string(figure.sensor != last ? "<tr class=\"first\">" : "<tr>") + "<td>" +
-              (figure.sensor != last ? escape_html(words(figure.sensor)) : "") + "</td><td>" +
-              escape_html(words(figure.name)) + "</td><td class=\"n\">" +
+      rows += "<tr><td>" + escape_html(words(figure.name)) + "</td><td class=\"n\">" +
               quantity_html(figure.value, figure.uncertainty, figure.unit) +
               "</td><td class=\"n raw\">" + plain +
               (figure.unit == "1" || figure.unit == "-" ? "" : " " + escape_html(figure.unit)) +
               "</td></tr>\n";
-      last = figure.sensor;
     }
-    text += "</tbody></table></div>\n";
+    text += "<details><summary>" + escape_html(words(sensor)) + " <small>" + std::to_string(count) +
+            (count == 1 ? " figure" : " figures") +
+            "</small></summary><div class=\"scroll\"><table><thead><tr><th>Quantity</th><th "
+            "class=\"n\">Value \u00b1 standard error</th><th class=\"n\">SI "
+            "value</th></tr></thead>\n<tbody>\n" +
+            rows + "</tbody></table></div></details>\n";
   }
   for (const json& table : list_at(run.report, "tables")) {
     if (list_at(table, "rows").empty()) continue;
-    text += "<h3>" + escape_html(text_at(table, "title")) + " <small>" +
+    text += "<details><summary>" + escape_html(text_at(table, "title")) + " <small>table of " +
             escape_html(words(text_at(table, "sensor"))) +
-            "</small></h3>\n<div class=\"scroll\"><table><thead><tr>";
+            "</small></summary><div class=\"scroll\"><table><thead><tr>";
     for (const json& name : list_at(table, "columns")) {
       text += "<th class=\"n\">" + escape_html(name.is_string() ? name.get<std::string>() : "") +
               "</th>";
@@ -268,7 +325,7 @@ std::string figures_html(const RunText& run) {
       }
       text += "</tr>\n";
     }
-    text += "</tbody></table></div>\n";
+    text += "</tbody></table></div></details>\n";
   }
   if (text.empty()) return text;
   return "<section id=\"figures\"><h2>All figures</h2>\n<p>Every sensor's figures of this run. The "

@@ -58,12 +58,15 @@ std::span<const Scale> scales_of(std::string_view unit) {
                                         Scale{"mg/m\u00b3", 1e-6}, Scale{"\u00b5g/m\u00b3", 1e-9}};
   static constexpr std::array k_flux{Scale{"kg/(m\u00b2 s)", 1.0}, Scale{"g/(m\u00b2 s)", 1e-3},
                                      Scale{"mg/(m\u00b2 s)", 1e-6}};
+  // Two steps only: the rows of a table shall compare.
+  static constexpr std::array k_share{Scale{"g/t", 1.0}, Scale{"mg/t", 1e-3}};
   static constexpr std::array k_time{Scale{"s", 1.0}, Scale{"ms", 1e-3}, Scale{"\u00b5s", 1e-6}};
   if (unit == "m") return k_length;
   if (unit == "kg") return k_mass;
   if (unit == "kg/s") return k_rate;
   if (unit == "kg/m3") return k_density;
   if (unit == "kg/(m2 s)" || unit == "kg/m2/s") return k_flux;
+  if (unit == "g/t") return k_share;
   if (unit == "s") return k_time;
   return {};
 }

@@ -47,6 +47,19 @@ void BalanceBook::close() {
   balance_.max = std::max(largest, balance_.in_domain);
 }
 
+BalanceBook::Masses BalanceBook::masses_of(double diameter) const {
+  Masses masses;
+  for (const Population& p : populations_) {
+    if (p.diameter != diameter) continue;
+    const double unit = p.weight * p.mass;
+    masses.emitted += static_cast<double>(p.emitted) * unit;
+    masses.in_domain += static_cast<double>(p.in_domain) * unit;
+    masses.left += static_cast<double>(p.left) * unit;
+    masses.removed += static_cast<double>(p.removed) * unit;
+  }
+  return masses;
+}
+
 void BalanceBook::save(sdk::ArchiveWriter& archive) const {
   std::vector<double> numbers;
   std::vector<std::int64_t> integers{balance_.max};

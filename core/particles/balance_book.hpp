@@ -31,6 +31,12 @@ class BalanceBook {
   /// Brings balance() up to date with the books.
   void close();
 
+  /// What was released of one diameter, in all materials and weights, and what became of it [kg].
+  struct Masses {
+    double emitted = 0.0, in_domain = 0.0, left = 0.0, removed = 0.0;
+  };
+  [[nodiscard]] Masses masses_of(double diameter) const;
+
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
 

@@ -235,6 +235,7 @@ std::span<const double> Dem::last_force() const {
   return impl_->last_force;
 }
 
+const BalanceBook& Dem::book() const { return impl_->book; }
 const Balance& Dem::balance() const { return impl_->book.balance(); }
 
 DemReport Dem::report() const {

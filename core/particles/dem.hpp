@@ -16,6 +16,8 @@
 
 namespace dust::particles {
 
+class BalanceBook;
+
 /// The laws of one pair of materials; `rolling` may be null.
 struct PairLaws {
   int material_i = 0;
@@ -58,6 +60,8 @@ struct DemReport {
   std::int64_t rebuilds = 0;
   double largest_overlap = 0.0;  ///< [-] overlap / smaller radius, since the start
   std::int64_t contacts = 0;     ///< in touch at the last step
+  std::int64_t late_lists = 0;   ///< times a fine grain left its allowance within one step: a new
+                                 ///< partner may have been seen one step late
 };
 
 /// Discrete elements: rows in Morton order in fixed chunks, Verlet lists from a hierarchical grid,
@@ -91,6 +95,7 @@ class Dem {
   /// Force [N] (contact + fluid + weight) of the last step, 4 per grain in row order.
   [[nodiscard]] std::span<const double> last_force() const;
   [[nodiscard]] const Balance& balance() const;
+  [[nodiscard]] const BalanceBook& book() const;
   [[nodiscard]] DemReport report() const;
   /// Tells that fluid_action was rewritten (the DEM derives its decay factors from it).
   void fluid_action_changed();

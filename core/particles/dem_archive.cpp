@@ -127,7 +127,8 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
                                 counters.steps,
                                 counters.particle_steps,
                                 counters.fine_steps,
-                                counters.rebuilds};
+                                counters.rebuilds,
+                                counters.late_lists};
   archive.integers("state", state);
   archive.number("time", time);
   double largest = counters.largest_overlap;
@@ -203,6 +204,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   counters.particle_steps = state.at(9);
   counters.fine_steps = state.at(10);
   counters.rebuilds = state.at(11);
+  counters.late_lists = state.at(12);
   time = archive.number("time");
   counters.largest_overlap = archive.number("largest_overlap");
   book.load(archive);

@@ -111,6 +111,8 @@ struct Dem::Impl {
   // health.cpp
   [[noreturn]] void fail(std::size_t row, const std::string& what, const std::string& cause) const;
   void check_course(std::size_t begin, std::size_t end, bool& wants_rebuild) const;
+  void check_fine_course(bool& wants_rebuild) const;
+  void look_for_wraps(std::size_t begin, std::size_t end, bool& wants_rebuild) const;
 
   void fill_last_force() const;
   void save(sdk::ArchiveWriter& archive) const;

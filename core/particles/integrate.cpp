@@ -106,7 +106,13 @@ void Dem::Impl::integrate() {
   ++since_rebuild;
   ++counters.steps;
   counters.particle_steps += static_cast<std::int64_t>(store.size());
-  if (coarse_count < store.size()) fine_pass();
+  if (coarse_count < store.size()) {
+    fine_pass();
+    // Dust squeezed out between coarse grains goes off at several m/s: looked after at every step.
+    bool wants = false;
+    check_fine_course(wants);
+    must_rebuild = must_rebuild || wants;
+  }
   if (!is_check) return;
   for (Chunk& c : chunks) c.wants_rebuild = false;
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
@@ -115,7 +121,6 @@ void Dem::Impl::integrate() {
   });
   bool wants = false;
   for (const Chunk& c : chunks) wants = wants || c.wants_rebuild;
-  check_course(coarse_count, store.size(), wants);
   if (wants) must_rebuild = true;
 }
 

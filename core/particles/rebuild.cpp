@@ -15,10 +15,10 @@ namespace {
 /// Rebuilds between two sorts of the rows where no grain came or went.
 constexpr std::int64_t k_sort_every = 4;
 /// Allowed deviation from the straight course, in diameters (coarse grains).
-constexpr double k_allowance = 0.1;
+constexpr double k_allowance = 0.3;
 /// The same for a fine grain that stands alone, in diameters of the largest grain; in a crowd it is
 /// half the mean distance, so that a pocket of dust does not list its far neighbours.
-constexpr double k_fine_allowance = 0.1;
+constexpr double k_fine_allowance = 0.3;
 constexpr double k_crowd_allowance = 0.15;
 constexpr std::int64_t k_shortest_horizon = 16;
 constexpr std::int64_t k_longest_horizon = 4096;

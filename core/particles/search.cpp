@@ -23,8 +23,12 @@ struct Slot {
 /// Grains of one size level in cells of one edge, in a table of open addresses.
 class Level {
  public:
-  Level(const SearchInput& in, const std::vector<std::int32_t>& rows) {
-    for (const std::int32_t row : rows) reach_ = std::max(reach_, reach_of(in, row));
+  /// `reach`: per row, how far from its present centre a grain's pairs may be found.
+  Level(const SearchInput& in, const std::vector<std::int32_t>& rows,
+        const std::vector<double>& reach) {
+    for (const std::int32_t row : rows) {
+      reach_ = std::max(reach_, reach[static_cast<std::size_t>(row)]);
+    }
     const double edge = std::max({2.0 * reach_, in.smallest_edge, 1e-12});
     for (int d = 0; d < 3; ++d) {
       origin_[d] = in.origin[d];
@@ -54,10 +58,16 @@ class Level {
       s.count = 0;
     }
     rows_.resize(rows.size());
+    balls_.resize(4 * rows.size());
     for (std::size_t n = 0; n < rows.size(); ++n) {
       Slot& s = slots_[static_cast<std::size_t>(slot_of[n])];
-      rows_[static_cast<std::size_t>(s.begin + s.count++)] = rows[n];
+      const auto to = static_cast<std::size_t>(s.begin + s.count++);
+      rows_[to] = rows[n];
+      std::copy_n(in.position + 4 * static_cast<std::ptrdiff_t>(rows[n]), 3, &balls_[4 * to]);
+      balls_[4 * to + 3] = reach[static_cast<std::size_t>(rows[n])];
     }
+    for (int d = 0; d < 3; ++d) period_[d] = in.period[d];
+    is_periodic_ = period_[0] + period_[1] + period_[2] > 0.0;
   }
 
   static double reach_of(const SearchInput& in, std::int32_t row) {
@@ -67,7 +77,7 @@ class Level {
            in.horizon * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   }
 
-  /// Calls visit(row) for every grain in the cells within `reach` plus the level's own of `p`.
+  /// Calls visit(row) for every grain whose ball of reach overlaps that of `p`.
   template <class Visit>
   void near(const double* p, double reach, Visit&& visit) const {
     const double half = reach + reach_;
@@ -83,7 +93,7 @@ class Level {
                          static_cast<double>(high[1] - low[1] + 1) *
                          static_cast<double>(high[2] - low[2] + 1);
     if (boxes > static_cast<double>(slots_.size())) {
-      for (const std::int32_t row : rows_) visit(row);
+      visit_close(p, reach, 0, rows_.size(), visit);
       return;
     }
     for (std::int64_t z = low[2]; z <= high[2]; ++z) {
@@ -93,14 +103,32 @@ class Level {
           std::size_t s = hash(k);
           while (slots_[s].key != k_empty && slots_[s].key != k) s = (s + 1) & (slots_.size() - 1);
           if (slots_[s].key == k_empty) continue;
-          const std::int32_t* row = rows_.data() + slots_[s].begin;
-          for (std::int32_t n = 0; n < slots_[s].count; ++n) visit(row[n]);
+          const auto begin = static_cast<std::size_t>(slots_[s].begin);
+          visit_close(p, reach, begin, begin + static_cast<std::size_t>(slots_[s].count), visit);
         }
       }
     }
   }
 
  private:
+  template <class Visit>
+  void visit_close(const double* p, double reach, std::size_t begin, std::size_t end,
+                   Visit&& visit) const {
+    for (std::size_t n = begin; n < end; ++n) {
+      const double* ball = &balls_[4 * n];
+      double apart[3] = {ball[0] - p[0], ball[1] - p[1], ball[2] - p[2]};
+      if (is_periodic_) {
+        for (int d = 0; d < 3; ++d) {
+          if (apart[d] > 0.5 * period_[d]) apart[d] -= period_[d];
+          if (apart[d] < -0.5 * period_[d]) apart[d] += period_[d];
+        }
+      }
+      const double limit = reach + ball[3];
+      if (apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2] < limit * limit) {
+        visit(rows_[n]);
+      }
+    }
+  }
   [[nodiscard]] std::int64_t cell(double x, int d) const {
     return static_cast<std::int64_t>(std::floor((x - origin_[d]) * inverse_[d]));
   }
@@ -126,6 +154,9 @@ class Level {
   int shift_ = 0;
   std::vector<Slot> slots_;
   std::vector<std::int32_t> rows_;
+  std::vector<double> balls_;  ///< by place in rows_: centre and reach, side by side
+  double period_[3] = {0, 0, 0};
+  bool is_periodic_ = false;
 };
 
 /// Square of the closest distance two grains come to within the horizon, going straight on.
@@ -173,8 +204,12 @@ std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_
     members[static_cast<std::size_t>(level)].push_back(static_cast<std::int32_t>(n));
     level_of[n] = level;
   }
+  std::vector<double> reach_of(in.count);
+  for (std::size_t n = 0; n < in.count; ++n) {
+    reach_of[n] = Level::reach_of(in, static_cast<std::int32_t>(n));
+  }
   std::vector<Level> levels;
-  for (const auto& rows : members) levels.emplace_back(in, rows);
+  for (const auto& rows : members) levels.emplace_back(in, rows, reach_of);
 
   const std::size_t blocks = (in.count + block - 1) / block;
   std::vector<std::vector<RowPair>> found(blocks);
@@ -185,7 +220,7 @@ std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_
       const auto i = static_cast<std::int32_t>(n);
       const double* p = in.position + 4 * n;
       const double own = p[3] + in.allowance[4 * n + 3] + in.range;
-      const double reach = Level::reach_of(in, i);
+      const double reach = reach_of[n];
       const std::int32_t own_level = level_of[n];
       for (std::int32_t l = 0; l <= own_level; ++l) {
         if (members[static_cast<std::size_t>(l)].empty()) continue;

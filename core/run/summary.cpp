@@ -2,6 +2,7 @@
 #include "run/summary.hpp"
 
 #include "io/run_files.hpp"
+#include "particles/balance_book.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -99,11 +100,17 @@ Json node_times(const Simulation& s, const RunFacts& facts) {
 Json class_steps(const particles::Dem& dem) {
   Json rows = Json::array();
   for (const auto& c : dem.class_steps()) {
+    const auto m = dem.book().masses_of(c.diameter);
     rows.push_back({{"diameter_m", c.diameter},
                     {"rayleigh_time_s", c.rayleigh_time},
                     {"hertz_time_s", c.hertz_time},
                     {"stable_step_s", c.stable_step},
-                    {"level", c.level}});
+                    {"level", c.level},
+                    {"mass_kg",
+                     {{"emitted", m.emitted},
+                      {"in_domain", m.in_domain},
+                      {"left", m.left},
+                      {"removed", m.removed}}}});
   }
   return rows;
 }
@@ -112,6 +119,7 @@ Json health(const Simulation& s) {
   Json h = Json::object();
   h["entries_delayed"] = s.delayed_entries();
   h["entries_waiting"] = s.waiting_entries();
+  h["late_neighbour_lists"] = s.dem().report().late_lists;
   h["largest_overlap_over_radius"] = s.dem().report().largest_overlap;
   if (s.coupling() != nullptr) {
     const auto& c = s.coupling()->report();

@@ -81,7 +81,7 @@ struct FluidBlock {
   std::string momentum_set = "I";
   sdk::Vec3 initial_velocity;
   double pressure_tolerance = 1e-4;
-  double largest_cfl = 0.8;
+  double largest_cfl = 1.0;
   static const sdk::ParameterSchema& schema();
 };
 

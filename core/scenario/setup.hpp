@@ -110,7 +110,7 @@ struct FluidSpec {
   std::string momentum_set = "I";
   sdk::Vec3 initial_velocity;
   double pressure_tolerance = 1e-4;  ///< residual of the pressure solve relative to its right side
-  double largest_cfl = 0.8;          ///< sub-steps keep the Courant number below
+  double largest_cfl = 1.0;          ///< sub-steps keep the Courant number below
   bool is_one_way = false;           ///< grains feel the fluid, the fluid does not feel the grains
 };
 

@@ -8,7 +8,7 @@ Dust.air = (() => {
 
   const load = (index) => {
     if (!cache.has(index)) {
-      cache.set(index, Dust.unpack(set.frames[index].data).then((bytes) => {
+      cache.set(index, Dust.unpack((index === 'mean' ? set.mean : set.frames[index]).data).then((bytes) => {
         const part = (from, length) => {
           const codes = bytes.subarray(from, from + length);
           for (let k = 1; k < length; ++k) codes[k] += codes[k - 1];  // stored as differences
@@ -45,6 +45,7 @@ Dust.air = (() => {
       set.nx * set.dx * picture.place.scale, set.nz * set.dz * picture.place.scale);
   };
 
+  const square = (t) => t * Math.abs(t);
   // Velocity at a point, as a share of the scale's end; null inside a body or outside the grid.
   const velocity = (x, z) => {
     const i = (x - set.x0) / set.adx - 0.5, j = (z - set.z0) / set.adz - 0.5;
@@ -58,8 +59,8 @@ Dust.air = (() => {
         if (weight > 0.5) return null;
         continue;
       }
-      u += weight * (current.u[k] / 127 - 1);
-      w += weight * (current.w[k] / 127 - 1);
+      u += weight * square(current.u[k] / 127 - 1);  // stored by the root
+      w += weight * square(current.w[k] / 127 - 1);
     }
     return [u, w];
   };
@@ -78,8 +79,8 @@ Dust.air = (() => {
         for (let k = 0; k < steps; ++k) {
           const v = velocity(px, pz);
           const size = v ? Math.hypot(v[0], v[1]) : 0;
-          if (size < 0.012) break;  // below the resolution of the stored directions
-          if (k === 0) pen.strokeStyle = inks[+(size > 0.5)];  // stands out from slow and fast air
+          if (size < 0.0015) break;  // below the resolution of the stored directions
+          if (k === 0) pen.strokeStyle = inks[+(size > 0.25)];  // stands out from slow and fast air
           // Length grows with the root of the speed: slow eddies stay visible.
           const step = longest / steps * Math.sqrt(Math.min(size, 1)) / size;
           const qx = px + v[0] * step, qz = pz + v[1] * step;
@@ -152,14 +153,18 @@ Dust.air = (() => {
     paint_lowest(pen, picture);
   });
   checkbox.addEventListener('change', () => speed.draw());
+  const mean_box = document.getElementById('air-mean');
+  let last = 0;
+  mean_box.addEventListener('change', async () => (await show(last))());
   if (!Dust.grains) checkbox.parentElement.hidden = true;
 
-  Dust.legend_strip(document.getElementById('speed-legend'), Dust.speed_colour, 0, 0, set.speed, 'm/s');
+  Dust.legend_strip(document.getElementById('speed-legend'), Dust.speed_colour, 0, 0, set.speed, 'm/s', Math.sqrt);
   Dust.legend_strip(document.getElementById('pressure-legend'), Dust.pressure_colour, -1,
     -set.pressure, set.pressure, 'Pa');
 
   const show = async (index) => {
-    const frame = await load(index);
+    last = index;
+    const frame = await load(mean_box.checked ? 'mean' : index);
     return () => {
       current = frame;
       speed.draw();

@@ -46,11 +46,12 @@ Dust.table = (colour_of, low) => {
   return bytes;
 };
 
-// A legend strip over [from, to] with round numbers below; the colours span [low, 1].
-Dust.legend_strip = (parent, colour_of, low, from, to, unit) => {
+// A legend strip over [from, to] with round numbers below; the colours span [low, 1]. `place_of` maps a
+// share of the range to its place on the strip.
+Dust.legend_strip = (parent, colour_of, low, from, to, unit, place_of = (share) => share) => {
   const canvas = Dust.el('canvas', {width: 256, height: 1});
-  const ends = Dust.el('div', {class: 'ends'}, ...Dust.ticks(from, to, 5).map((value) => Dust.el('span',
-    {style: `left:${100 * (value - from) / (to - from)}%`}, Dust.number(value))), Dust.el('span', {class: 'name'}, unit));
+  const ends = Dust.el('div', {class: 'ends'}, ...Dust.ticks(from, to, 5).concat(place_of(0.25) > 0.4 ? Dust.ticks(from, to / 20, 1).slice(1, 2) : []).map((value) => Dust.el('span',
+    {style: `left:${100 * place_of((value - from) / (to - from))}%`}, Dust.number(value))), Dust.el('span', {class: 'name'}, unit));
   parent.replaceChildren(Dust.el('div', {class: 'scale'}, canvas, ends));
   const draw = () => {
     const pen = canvas.getContext('2d');

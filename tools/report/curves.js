@@ -6,11 +6,12 @@
   const k_error = /[ _/.]*(uncertainty|standard_error|error|sigma)$/i;
 
   // lines: [{name, x, y, low, high}]; x ascending. Draws one figure into `grid`.
-  const plot = (grid, title, sensor, x_label, y_label, unit, lines) => {
+  const plot = (grid, title, sensor, x_label, y_label, unit, lines, note = '') => {
     const holder = Dust.el('div', {class: 'plot'});
     const tag = Dust.el('div', {class: 'axis-unit'}, unit);
     const bold = Dust.el('b', {}, Dust.sentence(title) + '.');
-    const caption = Dust.el('figcaption', {}, bold, ` ${Dust.sentence(y_label)}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '');
+    const capital = (text) => text.replace(/^./, (c) => c.toUpperCase());
+    const caption = Dust.el('figcaption', {}, bold, ` ${capital(y_label)}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '', note);
     const band_of = lines.some((line) => line.low);
     if (band_of) caption.append(' Band: one standard error to either side.');
     const key = Dust.el('div', {class: 'legend'});
@@ -119,26 +120,66 @@
   };
   const ascending = (list) => list.every((v, k) => Number.isFinite(v) && (k === 0 || v > list[k - 1]));
 
+  // Rates sampled at every step are mostly noise of single grains: means of blocks of samples, with the
+  // standard error that the scatter inside a block gives.
+  const k_points = 60;
+  const in_blocks = (line) => {
+    const size = Math.ceil(line.x.length / k_points);
+    const blocks = {name: line.name, x: [], y: [], low: [], high: []};
+    for (let from = 0; from + size <= line.x.length; from += size) {
+      const values = line.y.slice(from, from + size);
+      if (values.some((v) => v === null)) continue;
+      const mean = values.reduce((a, b) => a + b, 0) / size;
+      const error = Math.sqrt(values.reduce((a, v) => a + (v - mean) ** 2, 0) / Math.max(size - 1, 1) / size);
+      blocks.x.push((line.x[from] + line.x[from + size - 1]) / 2);
+      blocks.y.push(mean);
+      blocks.low.push(mean - error);
+      blocks.high.push(mean + error);
+    }
+    return blocks;
+  };
+  const is_zero = (list) => list.every((v) => !v);
+  const zeros = new Set();
+  // Sensors of dust share a plot: their amounts compare.
+  const is_dust = (sensor) => /dust/.test(sensor);
+  const say_zeros = () => {
+    if (!zeros.size) return;
+    const section = document.getElementById('curves');
+    section.hidden = false;
+    section.append(Dust.el('p', {class: 'note'}, 'Zero throughout, not drawn: ' + [...zeros].join(', ') + '.'));
+  };
+
   // Curves of the sensors.
   const shown = Dust.data.curves.filter((c) => !Dust.is_stream_curve(c) && Array.isArray(c.x) && Array.isArray(c.y) && c.x.length > 1);
-  for (const group of by(shown, (c) => [c.sensor, c.title, c.x_label, c.y_label].join('\n'))) {
+  for (const whole of by(shown, (c) => [is_dust(c.sensor) ? 'dust' : c.sensor, c.title, c.x_label, c.y_label].join('\n'))) {
+    const group = whole.filter((c) => !is_zero(c.y));
+    for (const c of whole) if (is_zero(c.y)) zeros.add(Dust.words(c.sensor) + ' (' + String(c.title).toLowerCase() + ')');
+    if (!group.length) continue;
     const x_label = split_label(group[0].x_label), y_label = split_label(group[0].y_label);
-    const sx = Dust.scale(x_label.unit, largest(group.map((c) => c.x))), sy = Dust.scale(y_label.unit, largest(group.map((c) => c.y)));
-    const lines = with_bands(group.map((c) => {
+    const is_time = /^time/i.test(x_label.name), has_many = new Set(group.map((c) => c.sensor)).size > 1;
+    const sx = is_time ? {factor: 1, unit: x_label.unit} : Dust.scale(x_label.unit, largest(group.map((c) => c.x))), sy = Dust.scale(y_label.unit, largest(group.map((c) => c.y)));
+    let lines = with_bands(group.map((c) => {
       const n = Math.min(c.x.length, c.y.length);
       const order = Array.from({length: n}, (_, k) => k).filter((k) => Number.isFinite(c.x[k]));
       if (!ascending(c.x)) order.sort((a, b) => c.x[a] - c.x[b]);
-      return {name: String(c.series || ''), x: order.map((k) => c.x[k] / sx.factor),
+      return {name: has_many ? c.sensor : String(c.series || ''), x: order.map((k) => c.x[k] / sx.factor),
         y: order.map((k) => (Number.isFinite(c.y[k]) ? c.y[k] / sy.factor : null))};
     }));
+    let note = '';
+    if (is_time && sy.unit.endsWith('/s') && !lines.some((l) => l.low) && lines[0].x.length > 3 * k_points) {
+      const before = lines[0].x;
+      const width = (before.at(-1) - before[0]) / (before.length - 1) * Math.ceil(before.length / k_points);
+      lines = lines.map(in_blocks);
+      note = ` Means over ${Dust.number(width * 1e3, 2)} ms.`;
+    }
     in_chunks(lines, group[0].title || 'Curve', (part, title) =>
-      plot(grid_of('curves'), title, group[0].sensor, axis_label(x_label.name, sx.unit), axis_label(y_label.name, sy.unit), sy.unit, part));
+      plot(grid_of('curves'), has_many ? title + ', dust' : title, has_many ? '' : group[0].sensor, axis_label(x_label.name, sx.unit), axis_label(y_label.name, sy.unit), sy.unit, part, note));
   }
 
   // Columns of series.csv: one plot per sensor and unit.
   const columns = Dust.data.series;
   const clock = columns.find((c) => /^(t|time)$/i.test(c.name)) || columns[0];
-  if (!clock || clock.values.length < 2 || !ascending(clock.values)) return;
+  if (!clock || clock.values.length < 2 || !ascending(clock.values)) return say_zeros();
   const sensors = [...Dust.data.sensors].sort((a, b) => b.length - a.length);
   const sensor_of = (name) => sensors.find((s) => name.startsWith(s) && /^[ /._:]/.test(name.slice(s.length))) || '';
   // A sensor's own curve against time already tells what its column of the same unit repeats.
@@ -146,15 +187,25 @@
   const told = columns.filter((c) => c !== clock).map((c) => {
     const sensor = sensor_of(c.name);
     return {...c, sensor, short: sensor ? c.name.slice(sensor.length + 1) : c.name};
+  }).filter((c) => {
+    // What the path of the stream already shows, as running means.
+    if (c.sensor && /^drop_/.test(c.short)) return false;
+    if (c.sensor && is_zero(c.values)) {
+      if (!/^backward/.test(c.short)) zeros.add(Dust.words(c.sensor) + ' (' + Dust.words(c.short) + ')');
+      return false;
+    }
+    return true;
   }).filter((c) => c.values.some((v) => v !== null) && !told_by_curve.has(c.sensor + '\n' + c.unit));
-  for (const group of by(told, (c) => c.sensor + '\n' + c.unit)) {
-    const {sensor, unit} = group[0];
+  for (const group of by(told, (c) => (is_dust(c.sensor) ? 'dust' : c.sensor) + '\n' + c.unit)) {
+    const has_many = new Set(group.map((c) => c.sensor)).size > 1;
+    const {unit} = group[0], sensor = has_many ? 'dust' : group[0].sensor;
     const scale = Dust.scale(unit, largest(group.map((c) => c.values)));
-    const lines = with_bands(group.map((c) => ({name: c.short, x: clock.values,
+    const lines = with_bands(group.map((c) => ({name: has_many ? c.sensor + ', ' + c.short : c.short, x: clock.values,
       y: c.values.map((v) => (v === null ? null : v / scale.factor))})));
     const title = lines.length === 1 ? (sensor ? sensor + ', ' : '') + lines[0].name : sensor || {kg: 'Mass', J: 'Energy', '-': 'Counts', '1': 'Counts', '': 'Counts'}[unit] || 'Quantities';
     const bare = scale.unit === '-' || scale.unit === '1' || scale.unit === '';
     in_chunks(lines, title.charAt(0).toUpperCase() + title.slice(1), (part, name) => plot(grid_of(sensor ? 'curves' : 'series'), name, '', 'time, s',
       bare ? 'Number' : 'In ' + scale.unit, bare ? '' : scale.unit, part));
   }
+  say_zeros();
 })();

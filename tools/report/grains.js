@@ -39,9 +39,9 @@ Dust.grains = (() => {
         last.set(current.number[k - current.n + current.dust], [x_of(current, k), z_of(current, k)]);
       }
       pen.strokeStyle = colour;
-      pen.lineWidth = 0.9;
+      pen.lineWidth = 0.7;
       before.forEach((frame, age) => {
-        pen.globalAlpha = 0.5 * (1 - age / trail);
+        pen.globalAlpha = Math.min(0.35, Math.max(0.06, 150 / current.dust)) * (1 - age / trail);
         pen.beginPath();
         for (let k = frame.n - frame.dust; k < frame.n; ++k) {
           const name = frame.number[k - frame.n + frame.dust], to = last.get(name);
@@ -56,6 +56,7 @@ Dust.grains = (() => {
       pen.globalAlpha = 1;
     }
     pen.fillStyle = colour;
+    pen.globalAlpha = current.dust > 500 ? 0.55 : 0.8;
     pen.beginPath();
     for (let k = current.n - current.dust; k < current.n; ++k) {
       const x = picture.x(x_of(current, k)), z = picture.z(z_of(current, k));
@@ -63,6 +64,7 @@ Dust.grains = (() => {
       pen.arc(x, z, radius, 0, 6.2832);
     }
     pen.fill();
+    pen.globalAlpha = 1;
   };
 
   const paint = (pen, picture) => {
@@ -87,7 +89,7 @@ Dust.grains = (() => {
       }
       pen.fill();
     }
-    paint_dust(pen, picture, true, 1.5);
+    paint_dust(pen, picture, true, 1.3);
   };
 
   const picture = new Dust.Picture(document.getElementById('grains-picture'),
@@ -117,7 +119,7 @@ Dust.grains = (() => {
     return () => {
       current = frames[0];
       before = frames.slice(1);
-      count.textContent = `${current.all} computed grains at ${Dust.number(current.t)} s, ${current.dust} dust grains shown.`;
+      count.textContent = `At ${Dust.number(current.t)} s: ${Dust.count(current.all)} computed grains, of them ${Dust.count(current.dust)} dust grains shown.`;
       picture.draw();
     };
   };

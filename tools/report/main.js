@@ -1,6 +1,12 @@
 'use strict';
 // The clock that moves all pictures, the theme and the printer.
 (() => {
+  // report.html#picture: grains and air speed side by side and nothing else, for documents.
+  if (/^#picture/.test(location.hash)) {
+    document.documentElement.dataset.view = 'picture';
+    const legend = document.getElementById('grains-legend');
+    if (legend) document.getElementById('grains-picture').after(legend);
+  }
   const times = (Dust.grains || Dust.air || {times: []}).times;
   const nearest = (list, t) => list.reduce((best, value, k) => (Math.abs(value - t) < Math.abs(list[best] - t) ? k : best), 0);
   let wanted = 0, playing = null;
@@ -47,7 +53,7 @@
     });
     document.getElementById('clock').append(button, slider, reading);
     if (times.length < 2) button.disabled = slider.disabled = true;
-    const asked = /^#frame=(\d+)$/.exec(location.hash);
+    const asked = /^#(?:picture,)?frame=(\d+)$/.exec(location.hash);
     go(asked ? Math.min(+asked[1], times.length - 1) : times.length - 1)
       .then(() => { document.documentElement.dataset.drawn = 'yes'; });
   } else {

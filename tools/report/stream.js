@@ -52,9 +52,9 @@
   const draw = (group) => {
     const all = group.lines.flatMap((line) => line.points);
     const drops = all.map((p) => p[1]), places = all.map((p) => p[0]);
-    const deepest = Math.max(...drops) * 1.06, left = Math.min(0, ...places), right = Math.max(...places, 1e-6) * 1.08;
-    const pad = {left: 70, right: 60, top: 34, bottom: 16};
-    const inner = document.documentElement.clientWidth < 600 ? 270 : 520, scale = inner / (right - left);
+    const deepest = Math.max(...drops) * 1.1, left = Math.min(0, ...places), right = Math.max(...places, 1e-6) * 1.08;
+    const pad = {left: 70, right: 80, top: 34, bottom: 16};
+    const inner = document.documentElement.clientWidth < 600 ? 250 : 420, scale = inner / (right - left);
     const height = Math.min(deepest * scale, 620);
     const down = height / deepest;
     const x = (v) => pad.left + (v - left) * scale, y = (v) => pad.top + v * down;
@@ -64,14 +64,14 @@
     const line = (a, b, c, d, style) => svg.append(svg_el('line', {x1: a, y1: b, x2: c, y2: d, style}));
     for (const v of Dust.ticks(left * 1e3, right * 1e3, 8)) {
       line(x(v / 1e3), pad.top, x(v / 1e3), pad.top + height, 'stroke:var(--line)');
-      svg.append(svg_el('text', {x: x(v / 1e3), y: pad.top - 8, 'text-anchor': 'middle'}, Dust.number(v)));
+      if (v !== 0) svg.append(svg_el('text', {x: x(v / 1e3), y: pad.top - 8, 'text-anchor': 'middle'}, Dust.number(v)));
     }
-    svg.append(svg_el('text', {x: total[0], y: pad.top - 8, 'text-anchor': 'end'}, 'x, mm'));
+    svg.append(svg_el('text', {x: total[0], y: pad.top - 8, 'text-anchor': 'end'}, 'forward, mm'));
     for (const v of Dust.ticks(0, deepest * 1e3, 6)) {
       line(pad.left, y(v / 1e3), pad.left + inner, y(v / 1e3), 'stroke:var(--line)');
       svg.append(svg_el('text', {x: pad.left - 8, y: y(v / 1e3) + 4, 'text-anchor': 'end'}, Dust.number(v)));
     }
-    svg.append(svg_el('text', {x: pad.left - 8, y: y(deepest) - 2, 'text-anchor': 'end'}, 'drop, mm'));
+    svg.append(svg_el('text', {x: pad.left - 8, y: pad.top - 8, 'text-anchor': 'end'}, 'drop, mm'));
     const low = group.lines.find((l) => l.kind === 'low'), high = group.lines.find((l) => l.kind === 'high');
     if (low && high) {
       const ring = [...low.points, ...[...high.points].reverse()].map((p) => `${x(p[0])},${y(p[1])}`).join(' ');
@@ -86,7 +86,8 @@
         if (entry.points.length <= 12) svg.append(svg_el('circle', {cx: x(p[0]), cy: y(p[1]), r: 3.2, style: `fill:${colour}`}));
       }
       const last = entry.points.at(-1);
-      svg.append(svg_el('text', {x: x(last[0]), y: y(last[1]) + 17, 'text-anchor': 'middle', style: `fill:${colour}`}, ({low: '5 %', median: '50 %', high: '95 %'})[entry.kind] || Dust.words(entry.name)));
+      const [dx, dy, anchor] = {low: [-7, 4, 'end'], high: [7, 4, 'start']}[entry.kind] || [0, 17, 'middle'];
+      svg.append(svg_el('text', {x: x(last[0]) + dx, y: y(last[1]) + dy, 'text-anchor': anchor, style: `fill:${colour}`}, ({low: '5 %', median: '50 %', high: '95 %'})[entry.kind] || Dust.words(entry.name)));
     });
     return svg;
   };
@@ -95,10 +96,12 @@
   const figures = of_figures();
   const groups = [...figures, ...of_curves().filter((group) => !figures.length || !group.lines.every((l) => l.kind))];
   for (const group of groups) {
+    // The table stands beside the first picture.
+    const tables = group === groups[0] ? [...section.querySelectorAll('.scroll')] : [];
     const caption = Dust.el('figcaption', {}, Dust.el('b', {}, group.title ? Dust.sentence(group.title) + '.' : 'Path of the stream.'),
-      ' Horizontal position against the drop below the start of the stream, in mm',
+      ' Distance forward against the drop, both from the start of the stream, in mm',
       group.lines.some((l) => l.kind) ? '; the band holds the grains between the 5 and 95 % quantiles, the heavy line is the median; bars are standard errors.' : '.');
-    document.getElementById('stream-picture').append(Dust.el('figure', {class: 'side'}, Dust.el('div', {}, draw(group)), caption));
+    document.getElementById('stream-picture').append(Dust.el('figure', {class: 'side'}, Dust.el('div', {}, draw(group)), Dust.el('div', {}, caption, ...tables)));
     section.hidden = false;
   }
   Dust.is_stream_curve = (curve) => Array.isArray(curve.y) && drop_axis(curve) !== null;

@@ -94,6 +94,7 @@ class BoxConcentration final : public Sensor {
     sink.figure("grams_per_tonne", formula::grams_per_tonne(values_[0], emitted_mass_), "g/t",
                 scatter < 0.0 ? -1.0 : formula::grams_per_tonne(scatter, emitted_mass_));
     for (std::size_t c = 0; c < classes_.size(); ++c) {
+      if (!is_chosen(classes_[c], p_.coarser_than, p_.finer_than)) continue;
       figures_of(class_name(classes_[c]) + "/", k_totals + k_per_class * c, sink);
     }
   }

@@ -46,6 +46,7 @@ class LowPressure final : public Sensor {
   struct Parameters {
     std::int64_t count = 5;
     double averaging_after = 0.0;
+    Vec3 average_along;
     double separation = 0.01;
     double block = 0.02;
   };
@@ -59,6 +60,10 @@ class LowPressure final : public Sensor {
     s.number(&Parameters::averaging_after, "averaging_after", dimension::time,
              "Time from which the pressure is averaged.")
         .at_least(0)
+        .optional();
+    s.vector(&Parameters::average_along, "average_along", dimension::none,
+             "An axis along which the mean pressure is averaged as well, for flows that are level "
+             "in it; [0, 0, 0] = none.")
         .optional();
     s.number(&Parameters::separation, "separation", dimension::length,
              "Least distance between two places.")
@@ -81,7 +86,15 @@ class LowPressure final : public Sensor {
             {}};
   }
 
-  explicit LowPressure(const Parameters& p) : p_(p) {}
+  explicit LowPressure(const Parameters& p) : p_(p) {
+    int axes = 0;
+    for (int d = 0; d < 3; ++d) {
+      if (p.average_along[d] == 0.0) continue;
+      ++axes;
+      direction_ = d;
+    }
+    if (axes > 1) throw ParameterError("'average_along' must lie along one axis, e.g. [0, 1, 0]");
+  }
 
   void observe(const WorldView& world) override {
     const FluidColumns& f = world.fluid;
@@ -203,25 +216,54 @@ class LowPressure final : public Sensor {
     return std::sqrt(std::max(squares_[i] / n - mean * mean, 0.0) / (n - 1.0));
   }
 
+  /// What the minima are looked for in: the mean pressure and its error, by cell or by row.
+  struct Field {
+    formula::Cells cells;
+    Vec3 spacing;
+    std::vector<double> pressure;
+    std::vector<double> error;  ///< empty below `k_fewest_blocks`
+    std::vector<char> is_open;
+  };
+  [[nodiscard]] Field mean_field() const {
+    Field field{cells_, spacing_, mean_pressure(), {}, is_open_};
+    if (blocks_ >= k_fewest_blocks) {
+      field.error.resize(block_.size());
+      for (std::size_t i = 0; i < block_.size(); ++i) field.error[i] = cell_error(i);
+    }
+    if (direction_ < 0) return field;
+    // Cells of a row fluctuate together: the error of their mean is the mean of their errors.
+    if (!field.error.empty()) {
+      field.error = formula::averaged_along(cells_, direction_, field.error, is_open_).mean;
+    }
+    auto rows = formula::averaged_along(cells_, direction_, field.pressure, is_open_);
+    field.pressure = std::move(rows.mean);
+    field.is_open = std::move(rows.is_open);
+    field.cells = formula::collapsed(cells_, direction_);
+    field.spacing[direction_] *= cells_.count[direction_];
+    return field;
+  }
+
   [[nodiscard]] std::vector<Place> find_places() const {
     if (block_.empty()) return {};
-    const std::vector<double> field = formula::smoothed(cells_, mean_pressure(), is_open_);
+    const Field field = mean_field();
+    const auto smooth = formula::smoothed(field.cells, field.pressure, field.is_open);
     std::vector<Place> places;
     for (const formula::Minimum& m :
-         formula::deepest_minima(cells_, field, is_open_, {spacing_.x, spacing_.y, spacing_.z},
-                                 p_.separation, static_cast<std::size_t>(p_.count))) {
+         formula::deepest_minima(field.cells, smooth, field.is_open,
+                                 {field.spacing.x, field.spacing.y, field.spacing.z}, p_.separation,
+                                 static_cast<std::size_t>(p_.count))) {
       Place place;
       for (int d = 0; d < 3; ++d) {
-        place.position[d] = origin_[d] + (m.cell[d] + 0.5) * spacing_[d];
+        place.position[d] = origin_[d] + (m.cell[d] + 0.5) * field.spacing[d];
       }
       place.pressure = m.value;
-      if (blocks_ >= k_fewest_blocks) {
-        // Neighbours fluctuate together: the error of their mean is the mean of their errors.
+      if (!field.error.empty()) {
+        // Neighbours fluctuate together as well.
         double sum = 0.0;
         int open = 0;
-        cells_.for_neighbourhood(m.cell[0], m.cell[1], m.cell[2], [&](std::size_t n) {
-          if (is_open_[n] == 0) return;
-          sum += cell_error(n);
+        field.cells.for_neighbourhood(m.cell[0], m.cell[1], m.cell[2], [&](std::size_t n) {
+          if (field.is_open[n] == 0) return;
+          sum += field.error[n];
           ++open;
         });
         place.error = sum / open;
@@ -232,6 +274,7 @@ class LowPressure final : public Sensor {
   }
 
   Parameters p_;
+  int direction_ = -1;  ///< averaged along, 0 to 2; -1: none
   formula::Cells cells_;
   Vec3 origin_;
   Vec3 spacing_;

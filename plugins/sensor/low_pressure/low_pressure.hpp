@@ -58,6 +58,44 @@ inline std::vector<double> smoothed(const Cells& cells, const std::vector<double
   return result;
 }
 
+/// The grid that is left when a direction (0, 1, 2) is averaged out: one cell deep along it.
+inline Cells collapsed(Cells cells, int direction) {
+  cells.count[direction] = 1;
+  return cells;
+}
+
+/// Mean over the open cells of each row along a direction, by `collapsed` cell; 0 in rows without
+/// one, which are closed.
+struct RowMeans {
+  std::vector<double> mean;
+  std::vector<char> is_open;
+};
+inline RowMeans averaged_along(const Cells& cells, int direction, const std::vector<double>& field,
+                               const std::vector<char>& is_open) {
+  const Cells rows = collapsed(cells, direction);
+  RowMeans result{std::vector<double>(rows.size(), 0.0), std::vector<char>(rows.size(), 0)};
+  std::vector<int> open(rows.size(), 0);
+  for (int k = 0; k < cells.count[2]; ++k) {
+    for (int j = 0; j < cells.count[1]; ++j) {
+      for (int i = 0; i < cells.count[0]; ++i) {
+        const std::size_t c = cells.index(i, j, k);
+        if (is_open[c] == 0) continue;
+        std::array<int, 3> cell{i, j, k};
+        cell[static_cast<std::size_t>(direction)] = 0;
+        const std::size_t row = rows.index(cell[0], cell[1], cell[2]);
+        result.mean[row] += field[c];
+        ++open[row];
+      }
+    }
+  }
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (open[row] == 0) continue;
+    result.mean[row] /= open[row];
+    result.is_open[row] = 1;
+  }
+  return result;
+}
+
 struct Minimum {
   std::array<int, 3> cell{0, 0, 0};
   double value = 0.0;

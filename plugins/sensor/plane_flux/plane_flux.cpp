@@ -94,7 +94,11 @@ class PlaneFlux final : public Sensor {
       last_rate_ = passed[k_ways * k_mass + k_net];
       curve_.add(world.time, last_rate_);
     }
-    if (is_steady) means_.add(passed, world.interval);
+    if (is_steady) {
+      if (emitted_before_ < 0.0) emitted_before_ = emitted_mass_;
+      means_.add(passed, world.interval);
+    }
+    emitted_mass_ = world.emitted_mass;
   }
 
   void series(FigureSink& sink) const override {
@@ -108,6 +112,7 @@ class PlaneFlux final : public Sensor {
     sink.figure("backward/mass", mass_so_far_[1], "kg");
     rates_of("", 0, sink);
     for (std::size_t c = 0; c < classes_.size(); ++c) {
+      if (!is_chosen(classes_[c], p_.coarser_than, p_.finer_than)) continue;
       rates_of(class_name(classes_[c]) + "/", c + 1, sink);
     }
   }
@@ -122,6 +127,8 @@ class PlaneFlux final : public Sensor {
     a.numbers("squares", squares_);
     a.numbers("mass_so_far", mass_so_far_);
     a.number("last_rate", last_rate_);
+    const double emitted[] = {emitted_mass_, emitted_before_};
+    a.numbers("emitted", emitted);
     means_.save(a, "means");
     curve_.save(a, "curve");
   }
@@ -130,6 +137,9 @@ class PlaneFlux final : public Sensor {
     squares_ = a.numbers("squares");
     mass_so_far_ = a.numbers("mass_so_far");
     last_rate_ = a.number("last_rate");
+    const std::vector<double> emitted = a.numbers("emitted");
+    emitted_mass_ = emitted.at(0);
+    emitted_before_ = emitted.at(1);
     means_.load(a, "means");
     curve_.load(a, "curve");
   }
@@ -183,10 +193,17 @@ class PlaneFlux final : public Sensor {
         // Both directions together tell how many grains a net rate rests on.
         const double counted =
             way == k_net ? means_.mean(first) + means_.mean(first + 1) : means_.mean(first + way);
+        const double error = formula::rate_error(means_.error(first + way), counted * duration,
+                                                 squares_[first + way], duration);
         sink.figure(prefix + k_way_names[way] + k_quantities[q], means_.mean(first + way),
-                    k_units[q],
-                    formula::rate_error(means_.error(first + way), counted * duration,
-                                        squares_[first + way], duration));
+                    k_units[q], error);
+        if (q != k_mass) continue;
+        const double emitted = emitted_before_ < 0.0 ? 0.0 : emitted_mass_ - emitted_before_;
+        const double rate = formula::grams_per_tonne(means_.mean(first + way), duration, emitted);
+        sink.figure(prefix + k_way_names[way] + "grams_per_tonne", rate, "g/t",
+                    error < 0.0 || emitted <= 0.0
+                        ? -1.0
+                        : formula::grams_per_tonne(error, duration, emitted));
       }
     }
   }
@@ -198,6 +215,8 @@ class PlaneFlux final : public Sensor {
   std::vector<double> squares_ = std::vector<double>(k_columns, 0.0);
   std::vector<double> mass_so_far_ = {0.0, 0.0};  ///< [kg] forward, backward, since the start
   double last_rate_ = 0.0;                        ///< [kg/s] net, during the last sample
+  double emitted_mass_ = 0.0;                     ///< [kg] until the last sample
+  double emitted_before_ = -1.0;  ///< [kg] until the first steady sample; -1 before it
   BatchMeans means_{k_columns};
   ThinnedCurve curve_;
 };

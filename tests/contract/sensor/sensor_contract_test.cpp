@@ -44,6 +44,7 @@ const std::vector<Subject>& subjects() {
        {},
        {{"count", std::int64_t{1}},
         {"averaging_after", 0.04},
+        {"average_along", Vec3{0, 1, 0}},
         {"separation", 0.05},
         {"block", 0.01}}},
       {"plane_flux",

@@ -66,9 +66,10 @@ TEST_CASE("the report shall show the numbers of the summary") {
   const RunFolder folder;
   fill(folder);
   const std::string page = page_of(folder);
-  CHECK(has(page, "0.0137\u00a0\u00b1\u00a00.0021"));  // loose dust, with its error
-  CHECK(has(page, "128.40\u00a0\u00b1\u00a00.30"));    // stream median in mm
-  CHECK(has(page, "0.01372 g/t"));                     // the same in SI, unrounded
+  CHECK(has(page,
+            "13.7\u00a0\u00b1\u00a02.1\u202fmg of dust per tonne"));  // loose dust, with its error
+  CHECK(has(page, "128.40\u00a0\u00b1\u00a00.30"));                   // stream median in mm
+  CHECK(has(page, "0.01372 g/t"));                                    // the same in SI, unrounded
   CHECK(has(page, "0.128404 m"));
   CHECK(has(page, "0123456789abcdef"));
   CHECK(has(page, "4\u202f321"));
@@ -176,6 +177,46 @@ TEST_CASE("coarse grains carried along shall not be called dust") {
   const std::string page = page_of(folder);
   CHECK(has(page, "0.25\u202fg of dust per tonne"));
   CHECK_FALSE(has(page, "310\u202fg of dust per tonne"));
+}
+
+TEST_CASE("dust shall be summed over the openings and set against the dust in the load") {
+  const RunFolder folder;
+  json summary = fake_summary();
+  const auto figure = [](double value, double error) {
+    return json{{"value", value}, {"unit", "g/t"}, {"uncertainty", error}};
+  };
+  const auto passage = [&](double value, double error) {
+    return json{{"forward/grams_per_tonne", figure(9.0, 1.0)},
+                {"net/grams_per_tonne", figure(9.0, 1.0)},
+                {"class_10_um/forward/grams_per_tonne", figure(9.0, 1.0)},
+                {"class_10_um/net/grams_per_tonne", figure(value, error)}};
+  };
+  summary["sensors"] = {{"dust_out_left", passage(0.3, 0.03)},
+                        {"dust_out_right", passage(0.1, 0.04)},
+                        {"dust_kept", passage(0.25, 0.01)},
+                        {"cloud",
+                         {{"grams_per_tonne", figure(0.125, 0.01)},
+                          {"mass_at_end", {{"value", 1e-9}, {"unit", "kg"}}}}}};
+  summary["size_classes"] = {{{"diameter_m", 10e-6}, {"mass_kg", {{"emitted", 1e-9}}}},
+                             {{"diameter_m", 500e-6}, {"mass_kg", {{"emitted", 1e-3 - 1e-9}}}}};
+  folder.write("summary.json", summary.dump());
+  const std::string page = page_of(folder);
+  // Errors add in squares: 0.05. One part in a million is 1 g/t.
+  CHECK(has(page, "0.400\u00a0\u00b1\u00a00.050\u202fg of dust per tonne"));
+  CHECK(has(page, "40\u202f% of the dust fed"));
+  CHECK(has(page, "Is there at the end"));
+  CHECK_FALSE(has(page, "9.0\u00a0\u00b1\u00a01.0\u202fg of dust"));
+}
+
+TEST_CASE("a run that counted no dust shall say so") {
+  const RunFolder folder;
+  json summary = fake_summary();
+  summary["sensors"] = {
+      {"dust_out_left", {{"net/grams_per_tonne", {{"value", 0.0}, {"unit", "g/t"}}}}}};
+  folder.write("summary.json", summary.dump());
+  const std::string page = page_of(folder);
+  CHECK(has(page, "No dust has been counted at the openings"));
+  CHECK(has(page, "none counted"));
 }
 
 TEST_CASE("frames without grains shall be shown empty") {

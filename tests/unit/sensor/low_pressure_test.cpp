@@ -5,6 +5,7 @@
 
 using namespace dust;
 using namespace dust::test;
+using sdk::Vec3;
 
 namespace {
 
@@ -116,4 +117,52 @@ TEST_CASE("the error of a depth shall cover the truth at its rate") {
   CHECK(coverage.one() > k_one_low);
   CHECK(coverage.one() < k_one_high);
   CHECK(coverage.two() > k_two_low);
+}
+
+TEST_CASE("a level flow shall have one place per eddy, at half its depth, however noisy the rows") {
+  World world;
+  world.set_cells(60, 8, 40);
+  // Two wells level along y, each with its own deepest row; noise of a tenth makes more minima.
+  const auto dig_rows = [&world] {
+    Dice dice(7);
+    for (int k = 0; k < 40; ++k) {
+      for (int j = 0; j < 8; ++j) {
+        for (int i = 0; i < 60; ++i) {
+          const double a = std::hypot(i - 12.0, k - 20.0), b = std::hypot(i - 45.0, k - 10.0);
+          world.pressure_at(i, j, k) =
+              static_cast<float>(-0.3 * std::exp(-a * a / 32.0) - 0.5 * std::exp(-b * b / 32.0) -
+                                 0.05 * (j % 2 == 0 ? 1.0 : -1.0) *
+                                     (0.5 + std::abs(dice.normal())) * (i % 5 == 0 ? 1.0 : 0.0));
+        }
+      }
+    }
+  };
+  dig_rows();
+  const auto level = kind().make({{"average_along", Vec3{0, 1, 0}}, {"count", std::int64_t{2}}});
+  step(*level, world);
+  const Figures figures = summary_of(*level);
+  CHECK(figures["place_1/y"] == doctest::Approx(0.5 * 8e-3).epsilon(1e-12));
+  CHECK(figures["place_2/y"] == doctest::Approx(0.5 * 8e-3).epsilon(1e-12));
+  // One cell of 1 mm to either side for what noise is left.
+  CHECK(std::abs(figures["place_1/x"] - 45.5e-3) < 1.1e-3);
+  CHECK(std::abs(figures["place_2/x"] - 12.5e-3) < 1.1e-3);
+  CHECK(figures["place_1/z"] == doctest::Approx(10.5e-3).epsilon(0.11));
+
+  // Without noise the depth is that of the well, smoothed over 3 x 3 rows.
+  for (int k = 0; k < 40; ++k) {
+    for (int j = 0; j < 8; ++j) {
+      for (int i = 0; i < 60; ++i) {
+        const double a = std::hypot(i - 12.0, k - 20.0);
+        world.pressure_at(i, j, k) = static_cast<float>(-0.3 * std::exp(-a * a / 32.0));
+      }
+    }
+  }
+  const auto even = kind().make({{"average_along", Vec3{0, 1, 0}}, {"count", std::int64_t{1}}});
+  step(*even, world);
+  CHECK(summary_of(*even)["place_1/depth"] ==
+        doctest::Approx(0.3 * std::pow(smoothed_share(), 2.0 / 3.0)).epsilon(1e-6));
+}
+
+TEST_CASE("averaging along more than one axis shall be refused") {
+  CHECK_THROWS(kind().make({{"average_along", Vec3{1, 1, 0}}}));
 }

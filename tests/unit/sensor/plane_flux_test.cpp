@@ -168,3 +168,32 @@ TEST_CASE("a plane without a normal shall be refused") {
   parameters["normal"] = Vec3{0, 0, 0};
   CHECK_THROWS_AS((void)kind().make(parameters), sdk::ParameterError);
 }
+
+TEST_CASE("dust through an opening shall count per tonne emitted in the same time") {
+  auto parameters = k_lip;
+  parameters["steady_after"] = 0.01;
+  parameters["finer_than"] = 100e-6;
+  const auto sensor = kind().make(parameters);
+  World world;
+  for (int s = 0; s < 40; ++s) {
+    // Two grains of 1 ug and one coarse grain pass per sample, 5 g are emitted; before the steady
+    // part ten times as much is emitted.
+    world.grains.clear();
+    for (int n = 0; n < 3; ++n) {
+      world.grains.push_back(
+          moving({0.0795, 0.005, 0.205}, {0.0805, 0.005, 0.205}, world.interval));
+      world.grains.back().diameter = n < 2 ? 10e-6 : 300e-6;
+      world.grains.back().mass = 1e-9;
+    }
+    world.emitted_mass += s < 10 ? 50e-3 : 5e-3;
+    step(*sensor, world);
+  }
+  const Figures figures = summary_of(*sensor);
+  // 2 ug per 5 g are 0.4 g per tonne.
+  CHECK(figures["net/grams_per_tonne"] == doctest::Approx(0.4).epsilon(1e-9));
+  CHECK(figures["class_10_um/net/grams_per_tonne"] == doctest::Approx(0.4).epsilon(1e-9));
+  CHECK(figures.at("net/grams_per_tonne").unit == "g/t");
+  for (const auto& [name, figure] : figures.all()) {
+    CHECK(name.find("class_300") == std::string::npos);
+  }
+}
