@@ -143,7 +143,7 @@ def render(folder, picture):
         simple.ColorBy(shown, ("CELLS", "air_speed"))
         table, scale = bar("air speed, m/s", "air_speed", shown)
         table.ApplyPreset("Blues", True)
-        scale.WindowLocation = "AnyLocation"
+        scale.WindowLocation = "Any Location"
         scale.Position, scale.ScalarBarLength = [0.88, 0.12], 0.3
     grains, time, info = read("particles")
     grain_bounds = info.GetBounds()
@@ -158,7 +158,7 @@ def render(folder, picture):
         simple.ColorBy(shown, ("POINTS", "diameter"))
         table, scale = bar("diameter, m", "diameter", shown)
         table.ApplyPreset("Viridis (matplotlib)", True)
-        scale.WindowLocation = "AnyLocation"
+        scale.WindowLocation = "Any Location"
         scale.Position, scale.ScalarBarLength = [0.88, 0.55], 0.3
         # Dust would be a tenth of a pixel: dots of fixed size in red.
         dust = simple.Threshold(Input=grains, Scalars=["POINTS", "diameter"])
