@@ -10,7 +10,7 @@ opened in a process of its own, because this reader ends the process on some bro
 --picture renders the last frame: grains as spheres coloured by diameter, air speed in the middle
 plane, the walls. --record adds the result to docs/validation/paraview.md.
 
-Needs Debian's paraview, python3-paraview, xvfb and xauth.
+Needs Debian's paraview, python3-paraview, xvfb, xauth and, for pictures, libgl1-mesa-dri.
 """
 import argparse
 import datetime
@@ -123,6 +123,13 @@ def render(folder, picture):
         display.SetScalarBarVisibility(view, True)
         return table, scale
 
+    def rescale(table, source, where, array, at):
+        # Filters shown before the view has a time still know the first frame only.
+        source.UpdatePipeline(at)
+        data = source.PointData if where == "POINTS" else source.CellData
+        low, high = data[array].GetRange(0)
+        table.RescaleTransferFunction(min(low, 0.0), high if high > low else low + 1e-12)
+
     fluid, time, info = read("fluid")
     bounds = info.GetBounds()
     if info.GetNumberOfCells() > 0:
@@ -143,8 +150,10 @@ def render(folder, picture):
         simple.ColorBy(shown, ("CELLS", "air_speed"))
         table, scale = bar("air speed, m/s", "air_speed", shown)
         table.ApplyPreset("Blues", True)
+        table.InvertTransferFunction()  # fast air dark
+        rescale(table, moved, "CELLS", "air_speed", time)
         scale.WindowLocation = "Any Location"
-        scale.Position, scale.ScalarBarLength = [0.88, 0.12], 0.3
+        scale.Position, scale.ScalarBarLength = [0.89, 0.12], 0.3
     grains, time, info = read("particles")
     grain_bounds = info.GetBounds()
     if info.GetNumberOfPoints() > 0 and info.GetNumberOfCells() > 0:
@@ -158,8 +167,9 @@ def render(folder, picture):
         simple.ColorBy(shown, ("POINTS", "diameter"))
         table, scale = bar("diameter, m", "diameter", shown)
         table.ApplyPreset("Viridis (matplotlib)", True)
+        rescale(table, grains, "POINTS", "diameter", time)
         scale.WindowLocation = "Any Location"
-        scale.Position, scale.ScalarBarLength = [0.88, 0.55], 0.3
+        scale.Position, scale.ScalarBarLength = [0.89, 0.55], 0.3
         # Dust would be a tenth of a pixel: dots of fixed size in red.
         dust = simple.Threshold(Input=grains, Scalars=["POINTS", "diameter"])
         try:
@@ -167,16 +177,19 @@ def render(folder, picture):
         except AttributeError:
             dust.ThresholdRange = [0.0, DUST_DIAMETER]
         dots = simple.Show(dust, view)
-        simple.ColorBy(dots, None)
+        dots.ColorArrayName = ["POINTS", ""]
         dots.SetRepresentationType("Points")
         dots.PointSize = 3.0
         dots.DiffuseColor = dots.AmbientColor = [0.8, 0.1, 0.3]
     walls, _, info = read("walls")
     if info.GetNumberOfCells() > 0:
         shown = simple.Show(walls, view)
-        simple.ColorBy(shown, None)
+        shown.ColorArrayName = ["POINTS", ""]
         shown.DiffuseColor = shown.AmbientColor = [0.6, 0.6, 0.6]
-        shown.Opacity = 0.35
+        # Seen along y the surfaces stand on edge: their edges draw the bodies.
+        shown.SetRepresentationType("Surface With Edges")
+        shown.EdgeColor = [0.25, 0.25, 0.25]
+        shown.LineWidth = 2.0
     note = simple.Text(Text=f"t = {time:.3f} s")
     text = simple.Show(note, view)
     text.Color = [0.0, 0.0, 0.0]
@@ -184,14 +197,16 @@ def render(folder, picture):
     box = bounds if bounds[1] > bounds[0] else grain_bounds
     middle = [0.5 * (box[0] + box[1]), 0.5 * (box[2] + box[3]), 0.5 * (box[4] + box[5])]
     view.CameraParallelProjection = 1
+    middle[0] += 0.06 * (box[1] - box[0])  # room for the scales
     view.CameraFocalPoint = middle
     view.CameraPosition = [middle[0], middle[1] - 10.0, middle[2]]
     view.CameraViewUp = [0.0, 0.0, 1.0]
     simple.Render(view)
-    view.CameraParallelScale = 0.54 * max(box[1] - box[0], box[5] - box[4])
+    view.CameraParallelScale = 0.58 * max(box[1] - box[0], box[5] - box[4])
     simple.SaveScreenshot(os.path.abspath(picture), view, ImageResolution=[1400, 1400])
-    print(f"picture: {picture}")
-    return 0
+    print(f"picture: {picture}", flush=True)
+    # ParaView 5.11 may crash while it takes its windows apart; the picture is on disk.
+    os._exit(0)
 
 
 def record(folder, results):
@@ -225,7 +240,7 @@ def main():
     arguments = parser.parse_args()
     folder = os.path.abspath(arguments.folder)
     if arguments.only == "picture":
-        sys.exit(render(folder, arguments.picture))
+        render(folder, arguments.picture)
     if arguments.only:
         sys.exit(check_file(os.path.join(folder, arguments.only + ".xdmf"), arguments.frames))
     failed = []
