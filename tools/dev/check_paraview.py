@@ -183,12 +183,11 @@ def render(folder, picture):
         dots.DiffuseColor = dots.AmbientColor = [0.8, 0.1, 0.3]
     walls, _, info = read("walls")
     if info.GetNumberOfCells() > 0:
-        shown = simple.Show(walls, view)
+        # Seen along y the surfaces stand on edge: lines draw the bodies.
+        edges = simple.ExtractEdges(Input=walls)
+        shown = simple.Show(edges, view)
         shown.ColorArrayName = ["POINTS", ""]
-        shown.DiffuseColor = shown.AmbientColor = [0.6, 0.6, 0.6]
-        # Seen along y the surfaces stand on edge: their edges draw the bodies.
-        shown.SetRepresentationType("Surface With Edges")
-        shown.EdgeColor = [0.25, 0.25, 0.25]
+        shown.DiffuseColor = shown.AmbientColor = [0.25, 0.25, 0.25]
         shown.LineWidth = 2.0
     note = simple.Text(Text=f"t = {time:.3f} s")
     text = simple.Show(note, view)
