@@ -126,7 +126,8 @@ std::string air_section(const json& air, bool has_places) {
       "id=\"pressure-legend\" class=\"key\"></div><figcaption><b>Pressure of the air</b> ";
   text += depth;
   text += ", in Pa, without the hydrostatic part. ";
-  text += has_places ? "Numbered rings: the places of low mean pressure listed below. "
+  text += has_places ? "Numbered rings: the places of low mean pressure listed below; eddies "
+                       "wander, so look at them in the mean (switch in the figure before). "
                      : "The ring marks the lowest pressure of the frame. ";
   text += "Range over all frames: " + number_html(air["low"].get<double>(), 3) + "\u202fPa" +
           " to " + number_html(air["high"].get<double>(), 3) + "\u202fPa" +

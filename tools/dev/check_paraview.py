@@ -1,13 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 """Opens the three XDMF files of a run folder in ParaView as a user would and says what is in them.
 
-usage: xvfb-run -a pvpython tools/dev/check_paraview.py DIR [--frames N]
+usage: xvfb-run -a pvpython tools/dev/check_paraview.py DIR [--frames N] [--picture OUT.png] [--record]
 
 Prints times, array names, counts and ranges of every frame. Exit status 1 when a file is missing,
 ParaView reports an error, a frame lacks an array or holds a number that is not finite. Each file is
 opened in a process of its own, because this reader ends the process on some broken files.
+
+--picture renders the last frame: grains as spheres coloured by diameter, air speed in the middle
+plane, the walls. --record adds the result to docs/validation/paraview.md.
+
+Needs Debian's paraview, python3-paraview, xvfb, xauth and, for pictures, libgl1-mesa-dri.
 """
 import argparse
+import datetime
+import json
 import math
 import os
 import subprocess
@@ -20,6 +27,18 @@ EXPECTED = {
                        "open_fraction": 1}),
     "walls": ("cell", {"body": 1}),
 }
+DUST_DIAMETER = 100e-6
+RECORD = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "validation",
+                      "paraview.md")
+RECORD_HEAD = """# What ParaView reads
+
+Written by `tools/dev/check_paraview.py DIR --record`, newest entry last: the three XDMF files of a
+run, opened with Debian's ParaView (reader "XDMF Reader"), every frame loaded, every array present,
+with its components, and finite. A run without fluid has empty frames in `fluid.xdmf`.
+
+| date | ParaView | run | state (SHA-256) | file | frames | in the last frame | result |
+| --- | --- | --- | --- | --- | --- | --- | --- |
+"""
 
 
 def arrays_of(attributes):
@@ -46,6 +65,7 @@ def check_file(path, frames_wanted):
         problems.append("times do not ascend")
     if frames_wanted is not None and len(times) != frames_wanted:
         problems.append(f"{len(times)} frames, not {frames_wanted}")
+    cells = 0
     for time in times:
         reader.UpdatePipeline(time)
         info = reader.GetDataInformation()
@@ -72,7 +92,139 @@ def check_file(path, frames_wanted):
             problems.append(f"t = {time:g} s: {cells} grains at {data.GetNumberOfPoints()} points")
     for problem in problems:
         print(f"FAIL {kind}: {problem}", file=sys.stderr)
+    print(f"result {kind} | {len(times)} | {cells:,} "
+          + ("grains" if where == "point" else "cells" if kind == "fluid" else "triangles"))
     return 1 if problems else 0
+
+
+def render(folder, picture):
+    """The last frame from the side, along y."""
+    from paraview import simple
+
+    view = simple.CreateRenderView()
+    view.ViewSize = [1400, 1400]
+    view.UseColorPaletteForBackground = 0
+    view.Background = [1.0, 1.0, 1.0]
+    view.OrientationAxesVisibility = 0
+
+    def read(kind):
+        reader = simple.XDMFReader(FileNames=[os.path.join(folder, kind + ".xdmf")])
+        reader.UpdatePipelineInformation()
+        time = (list(reader.TimestepValues) or [0.0])[-1]
+        reader.UpdatePipeline(time)
+        return reader, time, reader.GetDataInformation()
+
+    def bar(title, array, display):
+        table = simple.GetColorTransferFunction(array)
+        scale = simple.GetScalarBar(table, view)
+        scale.Title, scale.ComponentTitle = title, ""
+        scale.TitleColor = scale.LabelColor = [0.0, 0.0, 0.0]
+        scale.TitleFontSize = scale.LabelFontSize = 14
+        display.SetScalarBarVisibility(view, True)
+        return table, scale
+
+    def rescale(table, source, where, array, at):
+        # Filters shown before the view has a time still know the first frame only.
+        source.UpdatePipeline(at)
+        data = source.PointData if where == "POINTS" else source.CellData
+        low, high = data[array].GetRange(0)
+        table.RescaleTransferFunction(min(low, 0.0), high if high > low else low + 1e-12)
+
+    fluid, time, info = read("fluid")
+    bounds = info.GetBounds()
+    if info.GetNumberOfCells() > 0:
+        # Behind the grains, so that it does not hide half of them.
+        plane = simple.Slice(Input=fluid, SliceType="Plane")
+        plane.SliceType.Origin = [0.0, 0.5 * (bounds[2] + bounds[3]), 0.0]
+        plane.SliceType.Normal = [0.0, 1.0, 0.0]
+        speed = simple.Calculator(Input=plane, AttributeType="Cell Data",
+                                  ResultArrayName="air_speed", Function="mag(velocity)")
+        air = simple.Threshold(Input=speed, Scalars=["CELLS", "open_fraction"])
+        try:
+            air.LowerThreshold, air.UpperThreshold = 0.5, 1.0
+        except AttributeError:
+            air.ThresholdRange = [0.5, 1.0]
+        moved = simple.Transform(Input=air)
+        moved.Transform.Translate = [0.0, bounds[3] - bounds[2], 0.0]
+        shown = simple.Show(moved, view)
+        simple.ColorBy(shown, ("CELLS", "air_speed"))
+        table, scale = bar("air speed, m/s", "air_speed", shown)
+        table.ApplyPreset("Blues", True)
+        table.InvertTransferFunction()  # fast air dark
+        rescale(table, moved, "CELLS", "air_speed", time)
+        scale.WindowLocation = "Any Location"
+        scale.Position, scale.ScalarBarLength = [0.89, 0.12], 0.3
+    grains, time, info = read("particles")
+    grain_bounds = info.GetBounds()
+    if info.GetNumberOfPoints() > 0 and info.GetNumberOfCells() > 0:
+        # Gaussian points are cheaper than glyphs but hide the size; spheres to scale.
+        glyph = simple.Glyph(Input=grains, GlyphType="Sphere")
+        glyph.ScaleArray = ["POINTS", "diameter"]
+        glyph.ScaleFactor = 1.0
+        glyph.GlyphMode = "All Points"
+        glyph.GlyphType.ThetaResolution = glyph.GlyphType.PhiResolution = 8
+        shown = simple.Show(glyph, view)
+        simple.ColorBy(shown, ("POINTS", "diameter"))
+        table, scale = bar("diameter, m", "diameter", shown)
+        table.ApplyPreset("Viridis (matplotlib)", True)
+        rescale(table, grains, "POINTS", "diameter", time)
+        scale.WindowLocation = "Any Location"
+        scale.Position, scale.ScalarBarLength = [0.89, 0.55], 0.3
+        # Dust would be a tenth of a pixel: dots of fixed size in red.
+        dust = simple.Threshold(Input=grains, Scalars=["POINTS", "diameter"])
+        try:
+            dust.LowerThreshold, dust.UpperThreshold = 0.0, DUST_DIAMETER
+        except AttributeError:
+            dust.ThresholdRange = [0.0, DUST_DIAMETER]
+        dots = simple.Show(dust, view)
+        dots.ColorArrayName = ["POINTS", ""]
+        dots.SetRepresentationType("Points")
+        dots.PointSize = 3.0
+        dots.DiffuseColor = dots.AmbientColor = [0.8, 0.1, 0.3]
+    walls, _, info = read("walls")
+    if info.GetNumberOfCells() > 0:
+        # Seen along y the surfaces stand on edge: lines draw the bodies.
+        edges = simple.ExtractEdges(Input=walls)
+        shown = simple.Show(edges, view)
+        shown.ColorArrayName = ["POINTS", ""]
+        shown.DiffuseColor = shown.AmbientColor = [0.25, 0.25, 0.25]
+        shown.LineWidth = 2.0
+    note = simple.Text(Text=f"t = {time:.3f} s")
+    text = simple.Show(note, view)
+    text.Color = [0.0, 0.0, 0.0]
+    view.ViewTime = time
+    box = bounds if bounds[1] > bounds[0] else grain_bounds
+    middle = [0.5 * (box[0] + box[1]), 0.5 * (box[2] + box[3]), 0.5 * (box[4] + box[5])]
+    view.CameraParallelProjection = 1
+    middle[0] += 0.06 * (box[1] - box[0])  # room for the scales
+    view.CameraFocalPoint = middle
+    view.CameraPosition = [middle[0], middle[1] - 10.0, middle[2]]
+    view.CameraViewUp = [0.0, 0.0, 1.0]
+    simple.Render(view)
+    view.CameraParallelScale = 0.58 * max(box[1] - box[0], box[5] - box[4])
+    simple.SaveScreenshot(os.path.abspath(picture), view, ImageResolution=[1400, 1400])
+    print(f"picture: {picture}", flush=True)
+    # ParaView 5.11 may crash while it takes its windows apart; the picture is on disk.
+    os._exit(0)
+
+
+def record(folder, results):
+    """One row per file at the end of the table."""
+    from paraview import __version__ as version
+
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+        summary = json.load(file)
+    run = f"{summary['scenario']}, {summary['status']} at {summary['simulated_s']:.4g} s"
+    if not summary.get("fluid_steps"):
+        run += ", without fluid"
+    os.makedirs(os.path.dirname(RECORD), exist_ok=True)
+    is_new = not os.path.exists(RECORD)
+    with open(RECORD, "a", encoding="utf-8") as file:
+        if is_new:
+            file.write(RECORD_HEAD)
+        for kind, (facts, verdict) in results.items():
+            file.write(f"| {datetime.date.today()} | {version} | {run} | "
+                       f"`{summary['state_sha256'][:12]}` | {kind}.xdmf | {facts} | {verdict} |\n")
 
 
 def main():
@@ -80,28 +232,49 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
     parser.add_argument("--frames", type=int, help="how many frames there must be")
-    parser.add_argument("--only", choices=sorted(EXPECTED), help=argparse.SUPPRESS)
+    parser.add_argument("--picture", help="render the last frame into this PNG")
+    parser.add_argument("--record", action="store_true",
+                        help="add the result to docs/validation/paraview.md")
+    parser.add_argument("--only", choices=sorted(EXPECTED) + ["picture"], help=argparse.SUPPRESS)
     arguments = parser.parse_args()
+    folder = os.path.abspath(arguments.folder)
+    if arguments.only == "picture":
+        render(folder, arguments.picture)
     if arguments.only:
-        sys.exit(check_file(os.path.join(arguments.folder, arguments.only + ".xdmf"),
-                            arguments.frames))
+        sys.exit(check_file(os.path.join(folder, arguments.only + ".xdmf"), arguments.frames))
     failed = []
+    results = {}
+
+    def run_part(part, options):
+        command = ["pvpython", os.path.abspath(__file__), folder, "--only", part] + options
+        result = subprocess.run(command, capture_output=True, text=True)
+        lines = result.stdout.splitlines()
+        facts = [line[len("result "):] for line in lines if line.startswith("result ")]
+        sys.stdout.write("".join(line + "\n" for line in lines if not line.startswith("result ")))
+        sys.stderr.write(result.stderr)
+        is_bad = (result.returncode != 0 or "ERR|" in result.stderr
+                  or "XDMF Error" in result.stderr)
+        if is_bad:
+            print(f"FAIL {part}", file=sys.stderr)
+            failed.append(part)
+        known = facts[0].split(" | ", 1)[1] if facts else "– | –"
+        results[part] = (known, "fails" if is_bad else "ok")
+
     for kind in EXPECTED:
-        path = os.path.join(arguments.folder, kind + ".xdmf")
+        path = os.path.join(folder, kind + ".xdmf")
         if not os.path.exists(path):
             print(f"FAIL {kind}: no {path}", file=sys.stderr)
             failed.append(kind)
+            results[kind] = ("0 | no file", "fails")
             continue
-        command = ["pvpython", os.path.abspath(__file__), os.path.abspath(arguments.folder),
-                   "--only", kind]
-        if arguments.frames is not None:
-            command += ["--frames", str(arguments.frames)]
-        result = subprocess.run(command, capture_output=True, text=True)
-        sys.stdout.write(result.stdout)
-        sys.stderr.write(result.stderr)
-        if result.returncode != 0 or "ERR|" in result.stderr or "XDMF Error" in result.stderr:
-            print(f"FAIL {kind}", file=sys.stderr)
-            failed.append(kind)
+        run_part(kind, [] if arguments.frames is None else ["--frames", str(arguments.frames)])
+    if arguments.record:
+        record(folder, results)
+    if arguments.picture:
+        run_part("picture", ["--picture", arguments.picture])
+        if not os.path.exists(arguments.picture):
+            print("FAIL picture: not written", file=sys.stderr)
+            failed.append("picture")
     print("failed: " + ", ".join(failed) if failed else "ok: ParaView reads all three files")
     sys.exit(1 if failed else 0)
 

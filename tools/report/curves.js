@@ -139,21 +139,22 @@
     return blocks;
   };
   const is_zero = (list) => list.every((v) => !v);
-  const zeros = new Set();
+  const zeros = new Set(), drawn = new Set();
   // Sensors of dust share a plot: their amounts compare.
   const is_dust = (sensor) => /dust/.test(sensor);
   const say_zeros = () => {
-    if (!zeros.size) return;
+    const still = [...zeros].filter((sensor) => !drawn.has(sensor));
+    if (!still.length) return;
     const section = document.getElementById('curves');
     section.hidden = false;
-    section.append(Dust.el('p', {class: 'note'}, 'Zero throughout, not drawn: ' + [...zeros].join(', ') + '.'));
+    section.append(Dust.el('p', {class: 'note'}, 'Nothing counted in the whole run, not drawn: ' + still.map(Dust.words).join(', ') + '.'));
   };
 
   // Curves of the sensors.
   const shown = Dust.data.curves.filter((c) => !Dust.is_stream_curve(c) && Array.isArray(c.x) && Array.isArray(c.y) && c.x.length > 1);
   for (const whole of by(shown, (c) => [is_dust(c.sensor) ? 'dust' : c.sensor, c.title, c.x_label, c.y_label].join('\n'))) {
     const group = whole.filter((c) => !is_zero(c.y));
-    for (const c of whole) if (is_zero(c.y)) zeros.add(Dust.words(c.sensor) + ' (' + String(c.title).toLowerCase() + ')');
+    for (const c of whole) (is_zero(c.y) ? zeros : drawn).add(c.sensor);
     if (!group.length) continue;
     const x_label = split_label(group[0].x_label), y_label = split_label(group[0].y_label);
     const is_time = /^time/i.test(x_label.name), has_many = new Set(group.map((c) => c.sensor)).size > 1;
@@ -191,10 +192,11 @@
     // What the path of the stream already shows, as running means.
     if (c.sensor && /^drop_/.test(c.short)) return false;
     if (c.sensor && is_zero(c.values)) {
-      if (!/^backward/.test(c.short)) zeros.add(Dust.words(c.sensor) + ' (' + Dust.words(c.short) + ')');
+      zeros.add(c.sensor);
       return false;
     }
-    return true;
+    if (c.sensor) drawn.add(c.sensor);
+    return !(is_dust(c.sensor) && c.short === 'number');  // its mass tells
   }).filter((c) => c.values.some((v) => v !== null) && !told_by_curve.has(c.sensor + '\n' + c.unit));
   for (const group of by(told, (c) => (is_dust(c.sensor) ? 'dust' : c.sensor) + '\n' + c.unit)) {
     const has_many = new Set(group.map((c) => c.sensor)).size > 1;

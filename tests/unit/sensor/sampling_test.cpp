@@ -75,6 +75,26 @@ TEST_CASE("batch means shall see that neighbouring samples remember each other")
   CHECK(coverage.two() > test::k_two_low);
 }
 
+TEST_CASE("memory longer than a batch shall widen the error of the mean") {
+  // The same process with a memory of 100 samples seen for 2000: batches of 64 to 125 samples. The
+  // scatter of the batches alone would cover the truth in less than half of the runs.
+  const double a = std::exp(-0.01);
+  Coverage coverage;
+  for (int run = 0; run < test::k_runs; ++run) {
+    Dice dice(run);
+    sdk::BatchMeans means(1);
+    double state = dice.normal();
+    for (int i = 0; i < 2000; ++i) {
+      state = a * state + std::sqrt(1.0 - a * a) * dice.normal();
+      means.add({&state, 1}, 0.001);
+    }
+    coverage.add({means.mean(0), "", means.error(0)}, 0.0);
+  }
+  MESSAGE("within one standard error: " << coverage.one() << ", two: " << coverage.two());
+  CHECK(coverage.one() > 0.5);
+  CHECK(coverage.two() > 0.8);
+}
+
 TEST_CASE("few samples shall give no error rather than a wrong one") {
   sdk::BatchMeans means(1);
   const double one = 1.0;
