@@ -20,6 +20,9 @@ constexpr double k_allowance = 0.3;
 /// half the mean distance, so that a pocket of dust does not list its far neighbours.
 constexpr double k_fine_allowance = 0.3;
 constexpr double k_crowd_allowance = 0.15;
+/// Edge of the cells in which a crowd is counted, in diameters of the largest grain: small, so that
+/// the empty space round a pocket does not thin it out.
+constexpr double k_crowd_edge = 0.2;
 constexpr std::int64_t k_shortest_horizon = 16;
 constexpr std::int64_t k_longest_horizon = 4096;
 
@@ -80,7 +83,7 @@ void Dem::Impl::choose_allowances() {
   }
   if (coarse_count == store.size()) return;
   const double lone = k_fine_allowance * steps.classes.back().diameter;
-  const double edge = 2.0 * lone;
+  const double edge = k_crowd_edge * steps.classes.back().diameter;
   std::unordered_map<std::uint64_t, std::int32_t> crowd;
   std::vector<std::uint64_t> key_of(store.size() - coarse_count);
   for (std::size_t n = coarse_count; n < store.size(); ++n) {
@@ -96,8 +99,10 @@ void Dem::Impl::choose_allowances() {
   }
   for (std::size_t n = coarse_count; n < store.size(); ++n) {
     const double diameter = 2.0 * store.position[4 * n + 3];
-    const double spacing = edge / std::cbrt(static_cast<double>(crowd[key_of[n - coarse_count]]));
-    store.start[4 * n + 3] = std::max(k_crowd_allowance * diameter, std::min(lone, 0.5 * spacing));
+    const std::int32_t here = crowd[key_of[n - coarse_count]];
+    const double spacing = edge / std::cbrt(static_cast<double>(here));
+    store.start[4 * n + 3] =
+        here == 1 ? lone : std::max(k_crowd_allowance * diameter, std::min(lone, 0.5 * spacing));
   }
 }
 

@@ -219,7 +219,6 @@ void write_summary(const std::filesystem::path& folder, const Simulation& s,
   j["fine_particle_steps"] = dem.fine_steps;
   j["neighbour_rebuilds"] = dem.rebuilds;
   j["contacts"] = dem.contacts;
-  j["size_classes"] = class_steps(s.dem());
   j["particles"] = counts(b);
   j["real_particles"] = {{"emitted", b.real_emitted},
                          {"in_domain", b.real_in_domain},
@@ -229,6 +228,7 @@ void write_summary(const std::filesystem::path& folder, const Simulation& s,
                   {"in_domain", b.mass_in_domain},
                   {"left", b.mass_left},
                   {"removed", b.mass_removed}};
+  j["size_classes"] = class_steps(s.dem());
   j["timers_s"] = node_times(s, facts);
   j["health"] = health(s);
   j["warnings"] = facts.warnings;

@@ -132,7 +132,7 @@ TEST_CASE("a resolved scenario with periodic sides shall give the same setup whe
 TEST_CASE("the resolved scenario shall write defaults out") {
   const auto text = read(transfer_point()).resolved_yaml;
   for (const char* key : {"seed: 1", "rates: several", "pressure_tolerance: 0.0001",
-                          "one_way: false", "largest_cfl: 0.8", "finer_than: .inf"}) {
+                          "one_way: false", "largest_cfl: 1", "finer_than: .inf"}) {
     CHECK_MESSAGE(text.find(key) != std::string::npos, key);
   }
 }
