@@ -49,8 +49,8 @@ void check_lists(DemRig& rig, const std::vector<NewGrain>& grains, Vec3 period,
   const Pairs touching = brute_force(*dem, period, 0.0);
   REQUIRE(touching.size() > 50);
   CHECK(std::includes(set.begin(), set.end(), touching.begin(), touching.end()));
-  // Nothing far away is listed: resting grains reach their allowances of three tenths of the largest
-  // diameter each, no more.
+  // Nothing far away is listed: resting grains reach their allowances of three tenths of the
+  // largest diameter each, no more.
   const Pairs reach = brute_force(*dem, period, 0.6 * rig.diameters.back() * (1 + 1e-9));
   CHECK(std::includes(reach.begin(), reach.end(), set.begin(), set.end()));
   CHECK(static_cast<double>(set.size()) < largest_factor * static_cast<double>(touching.size()));
