@@ -129,7 +129,8 @@ void TaskGraph::build() {
   g.start = std::make_unique<tbb::flow::broadcast_node<tbb::flow::continue_msg>>(g.flow);
   // In a chain run inside another graph's node, a task per node moves the work from thread to
   // thread and leaves the parallel loops in it without helpers: measured, two threads were no
-  // faster than one (docs/performance.md). The light kind keeps a chain on one thread.
+  // faster than one (docs/decisions/0005_light_nodes_for_chains.md). The light kind keeps a chain
+  // on one thread.
   const bool is_chain = g.is_chain();
   for (auto& entry : g.entries) {
     if (is_chain) {

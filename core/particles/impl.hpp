@@ -103,7 +103,6 @@ struct Dem::Impl {
   // integrate.cpp
   void integrate();
   void integrate_chunk(Chunk& chunk);
-  void advance_free(std::size_t row, double step);
 
   // fine.cpp
   void fine_pass();

@@ -33,7 +33,6 @@ class Simulation {
 
   [[nodiscard]] double time() const;  ///< [s]
   [[nodiscard]] std::int64_t steps_done() const { return steps_done_; }
-  [[nodiscard]] std::int64_t steps_wanted() const { return steps_wanted_; }
   [[nodiscard]] bool is_finished() const { return steps_done_ >= steps_wanted_; }
 
   [[nodiscard]] const scenario::Setup& setup() const { return setup_; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "scenario/setup.hpp"
+
 #include "dust/sdk/parameter_schema.hpp"
 #include "dust/sdk/vec3.hpp"
 
@@ -80,8 +82,8 @@ struct FluidBlock {
   double viscosity = 0.0;
   std::string momentum_set = "I";
   sdk::Vec3 initial_velocity;
-  double pressure_tolerance = 1e-4;
-  double largest_cfl = 1.0;
+  double pressure_tolerance = FluidSpec{}.pressure_tolerance;
+  double largest_cfl = FluidSpec{}.largest_cfl;
   static const sdk::ParameterSchema& schema();
 };
 

@@ -67,19 +67,13 @@ int engine_main(int argc, char** argv) {
       "Exit status: 0 finished, 1 failed while running, 2 wrong input, 130 and 143 "
       "interrupted.");
   int status = 0;
-#ifdef DUST_HAS_RUN
   engine::add_run(app, status);
-#endif
   engine::add_check(app, status);
   engine::add_plugins(app, status);
   engine::add_describe(app, status);
   engine::add_schema(app, status);
-#ifdef DUST_HAS_RUN
   engine::add_graph(app, status);
-#endif
-#ifdef DUST_HAS_REPORT
   engine::add_report(app, status);
-#endif
   std::vector<std::string> arguments(argv + 1, argv + argc);
   complete_arguments(app, arguments);
   std::reverse(arguments.begin(), arguments.end());
