@@ -58,6 +58,8 @@ struct DemReport {
   std::int64_t particle_steps = 0;  ///< sum over coarse steps of grains integrated
   std::int64_t fine_steps = 0;      ///< sub-steps of fine grains, summed over grains
   std::int64_t rebuilds = 0;
+  std::int64_t flown_steps =
+      0;  ///< of particle_steps, those made in one go with others (watch.cpp)
   double largest_overlap = 0.0;  ///< [-] overlap / smaller radius, since the start
   std::int64_t contacts = 0;     ///< in touch at the last step
   std::int64_t late_lists = 0;   ///< times a fine grain left its allowance within one step: a new
@@ -91,6 +93,10 @@ class Dem {
   void force();
   void integrate();
 
+  /// Brings all grains to the present time: those without partners nearby make many steps at once
+  /// (watch.cpp). Whatever looks at the grains below does it first; end a run of steps with it, so
+  /// that several may look at the same time.
+  void land();
   [[nodiscard]] GrainRows rows();
   /// Force [N] (contact + fluid + weight) of the last step, 4 per grain in row order.
   [[nodiscard]] std::span<const double> last_force() const;

@@ -128,7 +128,8 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
                                 counters.particle_steps,
                                 counters.fine_steps,
                                 counters.rebuilds,
-                                counters.late_lists};
+                                counters.late_lists,
+                                counters.flown_steps};
   archive.integers("state", state);
   archive.number("time", time);
   double largest = counters.largest_overlap;
@@ -205,6 +206,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   counters.fine_steps = state.at(10);
   counters.rebuilds = state.at(11);
   counters.late_lists = state.at(12);
+  counters.flown_steps = state.at(13);
   time = archive.number("time");
   counters.largest_overlap = archive.number("largest_overlap");
   book.load(archive);

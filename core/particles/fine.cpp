@@ -24,42 +24,6 @@ constexpr double k_steps_per_contact = 15.0;
 
 Vec3 vec(const double* p) { return {p[0], p[1], p[2]}; }
 
-/// A fine grain while it is sub-cycled.
-struct Member {
-  std::int32_t row = 0;
-  double radius = 0.0, inverse_mass = 0.0, weight = 1.0, rate = 0.0;
-  Vec3 position, velocity, rotation, half_velocity, half_rotation, target, gravity, received;
-  double lag = 0.0;
-  Vec3 impulse, twist;  ///< of the contacts in this sub-step
-  double kick = -1.0, decay = 1.0, phi = 1.0;
-  Vec3 force;
-};
-
-/// A contact candidate of a block.
-struct Candidate {
-  std::int32_t entry = 0;  ///< in the fine list
-  std::int32_t member = 0;
-  std::int32_t partner = -1;  ///< member, or -1
-  std::int32_t row = -1;      ///< coarse row, or -1
-  std::int32_t surface = -1;
-  std::int32_t law = 0;
-  double reaction[6] = {0, 0, 0, 0, 0, 0};
-};
-
-struct Block {
-  std::vector<Member> members;
-  std::vector<Candidate> candidates;
-  int level = 0;
-  double largest_overlap = 0.0;
-};
-
-/// What the look-out found about one entry of the fine list.
-struct Outlook {
-  bool is_near = false;
-  double stable_step = 0.0;
-  double speed = 0.0;
-};
-
 /// Drag integrated exactly over `kick`, as for coarse grains; then the drift.
 void advance(Member& m, double step) {
   const double kick = m.lag + 0.5 * step;
@@ -99,6 +63,7 @@ Member load_member(const GrainStore& s, const std::vector<double>& gravity, std:
   m.lag = s.half_velocity[4 * row + 3];
   m.target = vec(s.action.data() + 4 * row);
   m.gravity = vec(gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material[row]));
+  m.received = vec(s.impulse.data() + 4 * row);
   return m;
 }
 
@@ -111,7 +76,7 @@ void store_member(GrainStore& s, const Member& m, double* force) {
     s.rotation[k] = m.rotation[d];
     s.half_velocity[k] = m.half_velocity[d];
     s.half_rotation[k] = m.half_rotation[d];
-    s.impulse[k] += m.received[d];
+    s.impulse[k] = m.received[d];
     force[d] = m.force[d];
   }
   s.half_velocity[4 * row + 3] = m.lag;
@@ -394,25 +359,30 @@ static Outlook look_out(const Dem::Impl& dem, std::size_t entry, double extra_sp
 }
 
 void Dem::Impl::fine_pass() {
-  const double step = steps.coarse_step;
-  const std::size_t fine_count = store.size() - coarse_count;
-  fine_state.assign(fine_count, {});
-  const std::size_t entries = fine.size();
-  std::vector<Outlook> outlook(entries);
+  FineSpace& w = fine_space;
+  w.state.resize(store.size() - coarse_count);
+  const auto state = [&](std::int32_t row) -> FineState& {
+    return w.state[static_cast<std::size_t>(row) - coarse_count];
+  };
+  for (const std::int32_t row : fine_awake.rows) {
+    state(row) = {};
+    std::fill_n(fine_force.begin() + 4 * (row - static_cast<std::ptrdiff_t>(coarse_count)), 4, 0.0);
+  }
+  const std::size_t entries = fine.watched.size();
+  w.outlook.assign(entries, {});
+  const auto entry = [&](std::size_t k) { return static_cast<std::size_t>(fine.watched[k]); };
   const auto is_pair = [&](std::size_t e) {
     return fine.b[e] >= static_cast<std::int32_t>(coarse_count);
   };
   oneapi::tbb::parallel_for(std::size_t{0}, (entries + k_fine_block - 1) / k_fine_block,
                             [&](std::size_t b) {
                               const std::size_t end = std::min(entries, (b + 1) * k_fine_block);
-                              for (std::size_t e = b * k_fine_block; e < end; ++e) {
-                                if (!is_pair(e)) outlook[e] = look_out(*this, e, 0.0);
+                              for (std::size_t k = b * k_fine_block; k < end; ++k) {
+                                if (!is_pair(entry(k)))
+                                  w.outlook[k] = look_out(*this, entry(k), 0.0);
                               }
                             });
 
-  const auto state = [&](std::int32_t row) -> FineState& {
-    return fine_state[static_cast<std::size_t>(row) - coarse_count];
-  };
   const auto join = [&](std::int32_t row, const Outlook& o) {
     FineState& s = state(row);
     if (s.cluster < 0) {
@@ -421,86 +391,36 @@ void Dem::Impl::fine_pass() {
     }
     s.stable_step = std::min(s.stable_step, o.stable_step);
   };
-  for (std::size_t e = 0; e < entries; ++e) {
-    if (is_pair(e) || !outlook[e].is_near) continue;
-    join(fine.a[e], outlook[e]);
-    state(fine.a[e]).speed = std::max(state(fine.a[e]).speed, outlook[e].speed);
+  for (std::size_t k = 0; k < entries; ++k) {
+    const std::size_t e = entry(k);
+    if (is_pair(e) || !w.outlook[k].is_near) continue;
+    join(fine.a[e], w.outlook[k]);
+    state(fine.a[e]).speed = std::max(state(fine.a[e]).speed, w.outlook[k].speed);
   }
-  for (std::size_t e = 0; e < entries; ++e) {
+  for (std::size_t k = 0; k < entries; ++k) {
+    const std::size_t e = entry(k);
     if (!is_pair(e)) continue;
     // A grain that bounces within this step may turn its relative velocity round.
-    outlook[e] = look_out(*this, e, 2.0 * (state(fine.a[e]).speed + state(fine.b[e]).speed));
-    if (!outlook[e].is_near) continue;
-    join(fine.a[e], outlook[e]);
-    join(fine.b[e], outlook[e]);
-    const std::int32_t i = root(fine_state, state(fine.a[e]).cluster);
-    const std::int32_t j = root(fine_state, state(fine.b[e]).cluster);
-    fine_state[static_cast<std::size_t>(std::max(i, j))].cluster = std::min(i, j);
+    w.outlook[k] = look_out(*this, e, 2.0 * (state(fine.a[e]).speed + state(fine.b[e]).speed));
+    if (!w.outlook[k].is_near) continue;
+    join(fine.a[e], w.outlook[k]);
+    join(fine.b[e], w.outlook[k]);
+    const std::int32_t i = root(w.state, state(fine.a[e]).cluster);
+    const std::int32_t j = root(w.state, state(fine.b[e]).cluster);
+    w.state[static_cast<std::size_t>(std::max(i, j))].cluster = std::min(i, j);
   }
+  make_blocks();
 
-  // Clusters at the level of their most demanding member, no finer than that member's class needs.
-  std::vector<std::int32_t> level_of(fine_count, 0);
-  std::vector<std::int32_t> active;
-  for (std::size_t n = 0; n < fine_count; ++n) {
-    FineState& s = fine_state[n];
-    if (s.cluster < 0) continue;
-    s.cluster = root(fine_state, static_cast<std::int32_t>(n));
-    const double diameter = 2.0 * store.position[4 * (coarse_count + n) + 3];
-    const auto size =
-        std::lower_bound(steps.classes.begin(), steps.classes.end(), diameter * (1.0 - 1e-9),
-                         [](const ClassStep& c, double d) { return c.diameter < d; });
-    const int finest = size == steps.classes.end() ? 0 : size->level;
-    const int wanted =
-        static_cast<int>(std::ceil(std::log2(step / std::max(s.stable_step, 1e-30))));
-    auto& level = level_of[static_cast<std::size_t>(s.cluster)];
-    level = std::max(level, std::clamp(wanted, 0, finest));
-    active.push_back(static_cast<std::int32_t>(n));
-  }
-  std::sort(active.begin(), active.end(), [&](std::int32_t a, std::int32_t b) {
-    const std::int32_t ca = fine_state[static_cast<std::size_t>(a)].cluster;
-    const std::int32_t cb = fine_state[static_cast<std::size_t>(b)].cluster;
-    const std::int32_t la = level_of[static_cast<std::size_t>(ca)];
-    const std::int32_t lb = level_of[static_cast<std::size_t>(cb)];
-    return std::tie(lb, ca, a) < std::tie(la, cb, b);
-  });
-  std::vector<Block> blocks;
-  std::vector<std::pair<std::int32_t, std::int32_t>> seat(fine_count, {-1, -1});
-  std::int32_t last_cluster = -1;
-  for (const std::int32_t n : active) {
-    const std::int32_t cluster = fine_state[static_cast<std::size_t>(n)].cluster;
-    const int level = level_of[static_cast<std::size_t>(cluster)];
-    if (blocks.empty() || blocks.back().level != level ||
-        (cluster != last_cluster && blocks.back().members.size() >= k_block_members)) {
-      blocks.emplace_back();
-      blocks.back().level = level;
-    }
-    last_cluster = cluster;
-    Block& block = blocks.back();
-    seat[static_cast<std::size_t>(n)] = {static_cast<std::int32_t>(blocks.size() - 1),
-                                         static_cast<std::int32_t>(block.members.size())};
-    block.members.push_back(
-        load_member(store, gravity, coarse_count + static_cast<std::size_t>(n)));
-  }
-  for (std::size_t e = 0; e < entries; ++e) {
-    if (!outlook[e].is_near) continue;
-    const auto [b, m] = seat[static_cast<std::size_t>(fine.a[e]) - coarse_count];
-    Candidate c{.entry = static_cast<std::int32_t>(e), .member = m};
-    const int material = store.material[static_cast<std::size_t>(fine.a[e])];
-    if (fine.b[e] < 0) {
-      c.surface = -1 - fine.b[e];
-      c.law = law_of(material, surfaces[static_cast<std::size_t>(c.surface)].material);
-    } else {
-      c.law = law_of(material, store.material[static_cast<std::size_t>(fine.b[e])]);
-      if (is_pair(e)) {
-        c.partner = seat[static_cast<std::size_t>(fine.b[e]) - coarse_count].second;
-      } else {
-        c.row = fine.b[e];
-      }
-    }
-    blocks[static_cast<std::size_t>(b)].candidates.push_back(c);
-  }
-  oneapi::tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
-    Block& block = blocks[b];
+  // Everyone awake moves as if alone; members of blocks, loaded above, then overwrite their rows.
+  const auto& rows = fine_awake.rows;
+  oneapi::tbb::parallel_for(
+      std::size_t{0}, (rows.size() + k_fine_block - 1) / k_fine_block, [&](std::size_t b) {
+        const std::size_t first = b * k_fine_block;
+        integrate_awake({rows.data() + first, std::min(k_fine_block, rows.size() - first)}, 0,
+                        nullptr);
+      });
+  oneapi::tbb::parallel_for(std::size_t{0}, w.block_count, [&](std::size_t b) {
+    Block& block = w.blocks[b];
     std::stable_sort(block.candidates.begin(), block.candidates.end(),
                      [](const Candidate& x, const Candidate& y) {
                        return std::tie(x.law, x.surface) < std::tie(y.law, y.surface);
@@ -511,18 +431,9 @@ void Dem::Impl::fine_pass() {
                    fine_force.data() + 4 * (static_cast<std::size_t>(m.row) - coarse_count));
     }
   });
-  oneapi::tbb::parallel_for(std::size_t{0}, (fine_count + k_fine_block - 1) / k_fine_block,
-                            [&](std::size_t b) {
-                              const std::size_t end = std::min(fine_count, (b + 1) * k_fine_block);
-                              for (std::size_t n = b * k_fine_block; n < end; ++n) {
-                                if (fine_state[n].cluster >= 0) continue;
-                                Member m = load_member(store, gravity, coarse_count + n);
-                                advance(m, step);
-                                store_member(store, m, fine_force.data() + 4 * n);
-                              }
-                            });
-  counters.fine_steps += static_cast<std::int64_t>(fine_count - active.size());
-  for (const Block& block : blocks) {
+  counters.fine_steps += static_cast<std::int64_t>(w.state.size() - w.active.size());
+  for (std::size_t b = 0; b < w.block_count; ++b) {
+    const Block& block = w.blocks[b];
     counters.fine_steps += static_cast<std::int64_t>(block.members.size()) << block.level;
     counters.largest_overlap = std::max(counters.largest_overlap, block.largest_overlap);
     for (const Candidate& c : block.candidates) {
@@ -532,6 +443,82 @@ void Dem::Impl::fine_pass() {
       std::copy_n(c.reaction, 6, r.impulse);
       pending.push_back(r);
     }
+  }
+}
+
+/// Clusters at the level of their most demanding member, no finer than that member's class needs,
+/// then blocks of clusters of one level.
+void Dem::Impl::make_blocks() {
+  const double step = steps.coarse_step;
+  FineSpace& w = fine_space;
+  const auto fine_state = [&](std::int32_t n) -> FineState& {
+    return w.state[static_cast<std::size_t>(n)];
+  };
+  w.active.clear();
+  for (const std::int32_t row : fine_awake.rows) {
+    const std::int32_t n = row - static_cast<std::int32_t>(coarse_count);
+    FineState& s = fine_state(n);
+    if (s.cluster < 0) continue;
+    s.cluster = root(w.state, n);
+    const double diameter = 2.0 * store.position[4 * static_cast<std::size_t>(row) + 3];
+    const auto size =
+        std::lower_bound(steps.classes.begin(), steps.classes.end(), diameter * (1.0 - 1e-9),
+                         [](const ClassStep& c, double d) { return c.diameter < d; });
+    const int finest = size == steps.classes.end() ? 0 : size->level;
+    const int wanted =
+        static_cast<int>(std::ceil(std::log2(step / std::max(s.stable_step, 1e-30))));
+    auto& level = fine_state(s.cluster).level;
+    level = std::max(level, std::clamp(wanted, 0, finest));
+    w.active.push_back(n);
+  }
+  std::sort(w.active.begin(), w.active.end(), [&](std::int32_t a, std::int32_t b) {
+    const std::int32_t ca = fine_state(a).cluster;
+    const std::int32_t cb = fine_state(b).cluster;
+    const std::int32_t la = fine_state(ca).level;
+    const std::int32_t lb = fine_state(cb).level;
+    return std::tie(lb, ca, a) < std::tie(la, cb, b);
+  });
+  w.block_count = 0;
+  std::int32_t last_cluster = -1;
+  for (const std::int32_t n : w.active) {
+    const std::int32_t cluster = fine_state(n).cluster;
+    const int level = fine_state(cluster).level;
+    if (w.block_count == 0 || w.blocks[w.block_count - 1].level != level ||
+        (cluster != last_cluster &&
+         w.blocks[w.block_count - 1].members.size() >= k_block_members)) {
+      if (w.block_count++ == w.blocks.size()) w.blocks.emplace_back();
+      Block& next = w.blocks[w.block_count - 1];
+      next.members.clear();
+      next.candidates.clear();
+      next.level = level;
+      next.largest_overlap = 0.0;
+    }
+    last_cluster = cluster;
+    Block& block = w.blocks[w.block_count - 1];
+    fine_state(n).block = static_cast<std::int32_t>(w.block_count - 1);
+    fine_state(n).seat = static_cast<std::int32_t>(block.members.size());
+    block.members.push_back(
+        load_member(store, gravity, coarse_count + static_cast<std::size_t>(n)));
+  }
+  const auto coarse = static_cast<std::int32_t>(coarse_count);
+  for (std::size_t k = 0; k < fine.watched.size(); ++k) {
+    if (!w.outlook[k].is_near) continue;
+    const auto e = static_cast<std::size_t>(fine.watched[k]);
+    const FineState& s = fine_state(fine.a[e] - coarse);
+    Candidate c{.entry = static_cast<std::int32_t>(e), .member = s.seat};
+    const int material = store.material[static_cast<std::size_t>(fine.a[e])];
+    if (fine.b[e] < 0) {
+      c.surface = -1 - fine.b[e];
+      c.law = law_of(material, surfaces[static_cast<std::size_t>(c.surface)].material);
+    } else {
+      c.law = law_of(material, store.material[static_cast<std::size_t>(fine.b[e])]);
+      if (fine.b[e] >= coarse) {
+        c.partner = fine_state(fine.b[e] - coarse).seat;
+      } else {
+        c.row = fine.b[e];
+      }
+    }
+    w.blocks[static_cast<std::size_t>(s.block)].candidates.push_back(c);
   }
 }
 

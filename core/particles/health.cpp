@@ -8,7 +8,7 @@
 namespace dust::particles {
 namespace {
 
-/// Share of the allowance at which a new list is asked for.
+/// Share of the allowance at which a new list, or a new watch, is asked for.
 constexpr double k_trigger = 0.7;
 
 }  // namespace
@@ -46,43 +46,18 @@ void Dem::Impl::fail(std::size_t row, const std::string& what, const std::string
   throw sdk::ModelError(text.str() + partner + "; likely cause: " + cause);
 }
 
-/// Fine grains, at every step. A grain of 10 um pressed between two of 600 um (soft as grains are
-/// made to be) comes off with up to the speed at which its elastic energy sets it free, some 10
-/// m/s: more than its allowance in one step. The lists are made new then, at the cost of a partner
-/// that may be seen one step late; such events are counted. Only nonsense is an error.
-void Dem::Impl::check_fine_course(bool& wants_rebuild) const {
-  const double t = static_cast<double>(since_rebuild) * steps.coarse_step;
-  for (std::size_t n = coarse_count; n < store.size(); ++n) {
-    const double* p = store.position.data() + 4 * n;
-    const double* v = store.velocity.data() + 4 * n;
-    const double* p0 = store.start.data() + 4 * n;
-    const double* v0 = store.start_velocity.data() + 4 * n;
-    double off2 = 0.0;
-    double next2 = 0.0;
-    for (int d = 0; d < 3; ++d) {
-      const double off = p[d] - p0[d] - t * v0[d];
-      const double next = off + steps.coarse_step * (v[d] - v0[d]);
-      off2 += off * off;
-      next2 += next * next;
-    }
-    if (!std::isfinite(off2)) {
-      fail(n, "has a position or velocity that is not a number",
-           "a contact that began with a deep overlap, or a time step too long for the speeds met: "
-           "give time.expected_speed or a smaller time.dem_step");
-    }
-    const double limit2 = p0[3] * p0[3];
-    wants_rebuild = wants_rebuild || next2 > k_trigger * k_trigger * limit2;
-    counters.late_lists += off2 > limit2 ? 1 : 0;
-  }
-  if (is_periodic) look_for_wraps(coarse_count, store.size(), wants_rebuild);
-}
-
 /// The lists hold as long as no grain has left the straight course it had at the rebuild by more
-/// than its allowance. A rebuild is asked for early enough for the steps to the next check.
-void Dem::Impl::check_course(std::size_t begin, std::size_t end, bool& wants_rebuild) const {
+/// than its allowance. Looked after when a watch ends; a rebuild is asked for early enough for the
+/// next one. A fine grain of 10 um pressed between two of 600 um (soft as grains are made to be)
+/// comes off with up to the speed at which its elastic energy sets it free, some 10 m/s: more than
+/// its allowance in one step. The lists are made new then, at the cost of a partner that may be
+/// seen late; such events are counted and returned. A coarse grain that does this is an error.
+std::int64_t Dem::Impl::check_course(std::size_t begin, std::size_t end,
+                                     bool& wants_rebuild) const {
   const double t = static_cast<double>(since_rebuild) * steps.coarse_step;
-  const double ahead = static_cast<double>(k_check_every) * steps.coarse_step;
-  bool wants = false;
+  const double ahead = static_cast<double>(longest_watch()) * steps.coarse_step;
+  std::int64_t late_grains = 0;
+  bool asks = false;
   for (std::size_t n = begin; n < end; ++n) {
     const double* p = store.position.data() + 4 * n;
     const double* v = store.velocity.data() + 4 * n;
@@ -96,21 +71,57 @@ void Dem::Impl::check_course(std::size_t begin, std::size_t end, bool& wants_reb
       off2 += off * off;
       next2 += next * next;
     }
-    const double limit = p0[3];
-    wants = wants || std::max(off2, next2) > k_trigger * k_trigger * limit * limit;
-    if (!(off2 <= limit * limit)) {
-      if (!std::isfinite(off2)) {
-        fail(n, "has a position or velocity that is not a number",
-             "a contact that began with a deep overlap, or a time step too long for the speeds "
-             "met: give time.expected_speed or a smaller time.dem_step");
-      }
+    const double limit2 = p0[3] * p0[3];
+    asks = asks || std::max(off2, next2) > k_trigger * k_trigger * limit2;
+    if (off2 <= limit2) continue;
+    if (!std::isfinite(off2)) fail_as_not_a_number(n);
+    if (n < coarse_count) {
       fail(n, "moved farther off its course than its skin allows between two checks",
            "speeds far above the expected one: give time.expected_speed or a smaller "
            "time.dem_step");
     }
+    ++late_grains;
   }
-  if (wants) wants_rebuild = true;
+  wants_rebuild = wants_rebuild || asks;
   if (is_periodic) look_for_wraps(begin, end, wants_rebuild);
+  return late_grains;
+}
+
+/// The same for the choice of a watch and the grains it keeps awake; the next look comes after
+/// `ahead` coarse steps. Returns how many were off by more than their allowance already.
+std::int64_t Dem::Impl::check_awake(const Awake& awake, std::int64_t ahead,
+                                    bool& wants_watch) const {
+  const double t = static_cast<double>(since_watch) * steps.coarse_step;
+  const double time_ahead = static_cast<double>(ahead) * steps.coarse_step;
+  std::int64_t late_grains = 0;
+  bool asks = false;
+  for (std::size_t k = 0; k < awake.rows.size(); ++k) {
+    const auto n = static_cast<std::size_t>(awake.rows[k]);
+    const double* p = store.position.data() + 4 * n;
+    const double* v = store.velocity.data() + 4 * n;
+    const double* start = awake.start.data() + 8 * k;
+    double off2 = 0.0;
+    double next2 = 0.0;
+    for (int d = 0; d < 3; ++d) {
+      const double off = p[d] - start[d] - t * start[4 + d];
+      const double next = off + time_ahead * (v[d] - start[4 + d]);
+      off2 += off * off;
+      next2 += next * next;
+    }
+    const double limit2 = start[3] * start[3];
+    asks = asks || std::max(off2, next2) > k_trigger * k_trigger * limit2;
+    if (off2 <= limit2) continue;
+    if (!std::isfinite(off2)) fail_as_not_a_number(n);
+    ++late_grains;
+  }
+  wants_watch = wants_watch || asks;
+  return late_grains;
+}
+
+void Dem::Impl::fail_as_not_a_number(std::size_t row) const {
+  fail(row, "has a position or velocity that is not a number",
+       "a contact that began with a deep overlap, or a time step too long for the speeds met: "
+       "give time.expected_speed or a smaller time.dem_step");
 }
 
 /// Positions are wrapped at rebuilds only: one is due when a grain is far out.

@@ -4,6 +4,7 @@
 #include "contact/batch_kernels.hpp"
 #include "particles/balance_book.hpp"
 #include "particles/dem.hpp"
+#include "particles/fine.hpp"
 #include "particles/grain_store.hpp"
 #include "particles/search.hpp"
 #include "particles/surfaces.hpp"
@@ -21,7 +22,7 @@ namespace dust::particles {
 inline constexpr std::size_t k_chunk = 512;
 /// Fine grains per block of the search.
 inline constexpr std::size_t k_fine_block = 256;
-/// Coarse steps between two checks of the deviation from the course of the last rebuild.
+/// Coarse steps between two checks of how far coarse grains are off the course a watch supposes.
 inline constexpr std::int64_t k_check_every = 4;
 
 /// Contacts of one law, [begin, end) of a list.
@@ -39,13 +40,35 @@ struct ContactList {
   std::vector<std::uint8_t> is_touching;
   contact::AlignedVector<double> history;
   std::vector<Segment> segments;
+  std::vector<std::int32_t> watched;      ///< numbers of the entries that may touch soon
+  std::vector<Segment> watched_segments;  ///< [begin, end) of `watched`
 
   void clear() { a.clear(), b.clear(), is_touching.clear(), history.clear(), segments.clear(); }
+  /// Watches the entries for which `keep(number)` is true.
+  template <class Keep>
+  void watch(Keep&& keep) {
+    watched.clear();
+    watched_segments.clear();
+    for (const Segment& s : segments) {
+      Segment w{s.law, s.surface, static_cast<std::int32_t>(watched.size()), 0};
+      for (std::int32_t q = s.begin; q < s.end; ++q) {
+        if (keep(static_cast<std::size_t>(q))) watched.push_back(q);
+      }
+      w.end = static_cast<std::int32_t>(watched.size());
+      if (w.end > w.begin) watched_segments.push_back(w);
+    }
+  }
   void push(std::int32_t i, std::int32_t j) { a.push_back(i), b.push_back(j); }
   [[nodiscard]] std::size_t size() const { return a.size(); }
   [[nodiscard]] contact::PairView view(std::size_t stride) {
     return {a.data(), b.data(), is_touching.data(), history.data(), stride};
   }
+};
+
+/// Grains that make every step of a watch.
+struct Awake {
+  std::vector<std::int32_t> rows;
+  std::vector<double> start;  ///< eight per row: position, allowed deviation, velocity, unused
 };
 
 /// Coarse grains [begin, end) with everything only their owner writes.
@@ -55,23 +78,17 @@ struct Chunk {
   ContactList pairs;
   ContactList surfaces;
   contact::AlignedVector<double> force;  ///< eight per grain: force, torque; one spare row
+  Awake awake;
   double largest_overlap = 0.0;
   std::int64_t contacts = 0;
-  bool wants_rebuild = false;
+  std::int64_t late = 0;  ///< of the last check
+  bool wants_watch = false;
 };
 
 /// What fine grains give back to a coarse one: impulse and angular impulse, due in the next step.
 struct Reaction {
   std::int32_t row = 0;
   double impulse[6] = {0, 0, 0, 0, 0, 0};
-};
-
-/// Fine grain's state of the current coarse step.
-struct FineState {
-  std::int32_t cluster = -1;  ///< -1: no partner in reach
-  std::int32_t level = 0;
-  double stable_step = 0.0;  ///< [s]
-  double speed = 0.0;        ///< [m/s] largest relative speed to a near partner
 };
 
 struct Dem::Impl {
@@ -94,6 +111,15 @@ struct Dem::Impl {
   void carry_over(ContactList& list, bool is_surface);
   void group_by_law(ContactList& list, bool is_surface);
 
+  // watch.cpp
+  static std::int64_t longest_watch();
+  [[nodiscard]] double watch_allowance(std::size_t row) const;
+  [[nodiscard]] bool may_meet(std::size_t i, std::size_t j) const;
+  [[nodiscard]] bool may_meet_surface(std::size_t i, const Surface& surface) const;
+  [[nodiscard]] bool flies_straight(std::size_t row) const;
+  void begin_watch();
+  void land();
+
   // contacts.cpp
   void contact(double time);
   void chunk_pairs(Chunk& chunk);
@@ -102,15 +128,19 @@ struct Dem::Impl {
 
   // integrate.cpp
   void integrate();
-  void integrate_chunk(Chunk& chunk);
+  void integrate_awake(std::span<const std::int32_t> rows, std::size_t first, const double* force);
 
   // fine.cpp
   void fine_pass();
+  void make_blocks();
 
   // health.cpp
+  [[noreturn]] void fail_as_not_a_number(std::size_t row) const;
   [[noreturn]] void fail(std::size_t row, const std::string& what, const std::string& cause) const;
-  void check_course(std::size_t begin, std::size_t end, bool& wants_rebuild) const;
-  void check_fine_course(bool& wants_rebuild) const;
+  [[nodiscard]] std::int64_t check_course(std::size_t begin, std::size_t end,
+                                          bool& wants_rebuild) const;
+  [[nodiscard]] std::int64_t check_awake(const Awake& awake, std::int64_t ahead,
+                                         bool& wants_watch) const;
   void look_for_wraps(std::size_t begin, std::size_t end, bool& wants_rebuild) const;
 
   void fill_last_force() const;
@@ -160,6 +190,10 @@ struct Dem::Impl {
   std::int64_t since_rebuild = 0;  ///< coarse steps
   std::int64_t horizon = 0;        ///< coarse steps the present lists are made for
   std::int64_t next_horizon = 32;  ///< and the next ones
+  std::int64_t since_watch = 0;    ///< coarse steps
+  std::int64_t flying = 0;         ///< grains asleep in the present watch
+  bool is_watching = false;
+  bool must_watch = false;
   bool must_rebuild = true;
   bool must_sort = true;
   mutable DemReport counters;
@@ -170,8 +204,13 @@ struct Dem::Impl {
   std::vector<std::int32_t> old_begin;
   std::vector<std::int32_t> old_partner;
   std::vector<const double*> old_history;
+  // Working space of a watch.
+  std::vector<std::uint8_t> is_awake;
+  Awake fine_awake;
+  std::vector<std::int64_t> late;
+  std::vector<std::uint8_t> wants;
   // Working space of the fine pass.
-  std::vector<FineState> fine_state;
+  FineSpace fine_space;
 };
 
 /// Batch scratch of the calling thread.

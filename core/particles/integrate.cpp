@@ -5,19 +5,23 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dust::particles {
 
-/// Rows of one chunk as the kernel sees them, all at the chunk's first grain.
-struct ChunkRows {
+/// Rows as the kernel sees them.
+struct AwakeRows {
+  const std::int32_t* rows = nullptr;
   std::size_t count = 0;
   double* position = nullptr;
   double* velocity = nullptr;
   double* rotation = nullptr;
   double* half_velocity = nullptr;
   double* half_rotation = nullptr;
-  const double* force = nullptr;
+  const double* force = nullptr;  ///< of row n at 8 * force_stride * (n - first)
+  std::size_t force_stride = 1;
+  std::size_t first = 0;
   const double* action = nullptr;
   double* impulse = nullptr;
   const double* decay = nullptr;
@@ -30,7 +34,7 @@ struct ChunkRows {
 /// lag of v plus half the step. The velocity for the next forces is predicted to the instant of the
 /// new positions (Vyas et al., Comput. Phys. Commun. 310 (2025) 109524,
 /// doi:10.1016/j.cpc.2025.109524).
-DUST_KERNEL void integrate_rows(const ChunkRows& r, double step, bool has_fluid) {
+DUST_KERNEL void integrate_rows(const AwakeRows& r, double step, bool has_fluid) {
   using contact::Lanes;
   const auto lanes = [](double* p, std::size_t n) __attribute__((always_inline))->Lanes& {
     return *reinterpret_cast<Lanes*>(p + 4 * n);
@@ -42,7 +46,9 @@ DUST_KERNEL void integrate_rows(const ChunkRows& r, double step, bool has_fluid)
   const double half_step = 0.5 * step;
   const Lanes three{1.0, 1.0, 1.0, 0.0};
   const Lanes fourth{0.0, 0.0, 0.0, 1.0};
-  for (std::size_t n = 0; n < r.count; ++n) {
+  for (std::size_t k = 0; k < r.count; ++k) {
+    const auto n = static_cast<std::size_t>(r.rows[k]);
+    const std::size_t f = 2 * r.force_stride * (n - r.first);
     const double inverse_mass = r.velocity[4 * n + 3];
     const double radius = r.position[4 * n + 3];
     const double lag = r.half_velocity[4 * n + 3];
@@ -52,7 +58,7 @@ DUST_KERNEL void integrate_rows(const ChunkRows& r, double step, bool has_fluid)
       kick = lag + half_step;
       ahead = half_step / kick;
     }
-    const Lanes acceleration = fixed(r.force, 2 * n) * inverse_mass +
+    const Lanes acceleration = fixed(r.force, f) * inverse_mass +
                                fixed(r.gravity, static_cast<std::size_t>(r.material[n]));
     const Lanes old = lanes(r.half_velocity, n) * three;
     const Lanes push = acceleration * kick * three;
@@ -75,53 +81,60 @@ DUST_KERNEL void integrate_rows(const ChunkRows& r, double step, bool has_fluid)
     lanes(r.velocity, n) = now + fourth * inverse_mass;
     lanes(r.half_velocity, n) = half + fourth * half_step;
     // I = 2/5 m R^2
-    const Lanes spin = fixed(r.force, 2 * n + 1) * (2.5 * inverse_mass / (radius * radius));
+    const Lanes spin = fixed(r.force, f + 1) * (2.5 * inverse_mass / (radius * radius));
     const Lanes turn = lanes(r.half_rotation, n) + spin * kick;
     lanes(r.half_rotation, n) = turn;
     lanes(r.rotation, n) = turn + spin * half_step;
   }
 }
 
-void Dem::Impl::integrate_chunk(Chunk& chunk) {
-  const auto first = static_cast<std::size_t>(chunk.begin);
-  const ChunkRows rows{.count = static_cast<std::size_t>(chunk.end - chunk.begin),
-                       .position = store.position.data() + 4 * first,
-                       .velocity = store.velocity.data() + 4 * first,
-                       .rotation = store.rotation.data() + 4 * first,
-                       .half_velocity = store.half_velocity.data() + 4 * first,
-                       .half_rotation = store.half_rotation.data() + 4 * first,
-                       .force = chunk.force.data(),
-                       .action = store.action.data() + 4 * first,
-                       .impulse = store.impulse.data() + 4 * first,
-                       .decay = store.decay.data() + 2 * first,
-                       .material = store.material.data() + first,
-                       .gravity = gravity.data()};
-  integrate_rows(rows, steps.coarse_step, has_fluid);
+/// The named rows; `force` holds eight numbers per row from row `first` on, or is null: no force.
+void Dem::Impl::integrate_awake(std::span<const std::int32_t> rows, std::size_t first,
+                                const double* force) {
+  alignas(32) static constexpr double k_no_force[8] = {};
+  const bool has_force = force != nullptr;
+  integrate_rows({.rows = rows.data(),
+                  .count = rows.size(),
+                  .position = store.position.data(),
+                  .velocity = store.velocity.data(),
+                  .rotation = store.rotation.data(),
+                  .half_velocity = store.half_velocity.data(),
+                  .half_rotation = store.half_rotation.data(),
+                  .force = has_force ? force : k_no_force,
+                  .force_stride = has_force ? std::size_t{1} : std::size_t{0},
+                  .first = first,
+                  .action = store.action.data(),
+                  .impulse = store.impulse.data(),
+                  .decay = store.decay.data(),
+                  .material = store.material.data(),
+                  .gravity = gravity.data()},
+                 steps.coarse_step, has_fluid);
 }
 
 void Dem::Impl::integrate() {
-  const bool is_check = (since_rebuild + 1) % k_check_every == 0;
-  oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(),
-                            [&](std::size_t c) { integrate_chunk(chunks[c]); });
+  const bool is_check = (since_watch + 1) % k_check_every == 0;
+  ++since_watch;
   ++since_rebuild;
   ++counters.steps;
   counters.particle_steps += static_cast<std::int64_t>(store.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+    Chunk& chunk = chunks[c];
+    integrate_awake(chunk.awake.rows, static_cast<std::size_t>(chunk.begin), chunk.force.data());
+    if (!is_check) return;
+    chunk.wants_watch = false;
+    chunk.late = check_awake(chunk.awake, k_check_every, chunk.wants_watch);
+  });
+  if (is_check) {
+    for (const Chunk& c : chunks) {
+      must_watch = must_watch || c.wants_watch;
+      counters.late_lists += c.late;
+    }
+  }
   if (coarse_count < store.size()) {
     fine_pass();
     // Dust squeezed out between coarse grains goes off at several m/s: looked after at every step.
-    bool wants = false;
-    check_fine_course(wants);
-    must_rebuild = must_rebuild || wants;
+    counters.late_lists += check_awake(fine_awake, 1, must_watch);
   }
-  if (!is_check) return;
-  for (Chunk& c : chunks) c.wants_rebuild = false;
-  oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
-    check_course(static_cast<std::size_t>(chunks[c].begin), static_cast<std::size_t>(chunks[c].end),
-                 chunks[c].wants_rebuild);
-  });
-  bool wants = false;
-  for (const Chunk& c : chunks) wants = wants || c.wants_rebuild;
-  if (wants) must_rebuild = true;
 }
 
 }  // namespace dust::particles

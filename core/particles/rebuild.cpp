@@ -39,7 +39,11 @@ std::uint64_t spread_bits(std::uint64_t v) {
 }  // namespace
 
 void Dem::Impl::neighbours() {
+  if (must_watch || since_watch >= longest_watch() || must_rebuild || since_rebuild >= horizon) {
+    land();
+  }
   if (must_rebuild || since_rebuild >= horizon) rebuild();
+  if (!is_watching) begin_watch();
 }
 
 void Dem::Impl::wrap_periodic() {

@@ -193,6 +193,7 @@ void Simulation::run_dem_cycle() {
         std::max(1, static_cast<int>(std::floor(interval / dem_->coarse_step() + 1e-6)));
   }
   for (dem_step_ = 0; dem_step_ < dem_steps_per_fluid_step_; ++dem_step_) dem_graph_.run();
+  dem_->land();
 }
 
 void Simulation::publish_grains() { grain_table_.publish(dem_->rows(), dem_->last_force()); }

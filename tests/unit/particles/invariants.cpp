@@ -277,6 +277,31 @@ TEST_CASE("buoyancy shall reduce the weight and drag shall be integrated exactly
   }
 }
 
+TEST_CASE("dust pressed into a wall shall come back out, and be lost only when wholly beyond") {
+  for (const double depth : {0.3e-6, 5.1e-6}) {
+    DemRig rig;
+    const int sand = rig.material(2650, 50e6, 0.3);
+    rig.law(sand, sand, 0.9, 0.0);
+    rig.diameters = {10e-6, 600e-6};
+    rig.wall(2, sand);
+    auto dem = rig.make();
+    dem->insert(std::vector<NewGrain>{{.position = {0, -1.0 - depth, 0}, .diameter = 10e-6}});
+    CAPTURE(depth);
+    if (depth > 5e-6) {
+      CHECK_THROWS_WITH_AS(dem->remove_leavers(), doctest::Contains("through the wall 'front'"),
+                           dust::sdk::ModelError);
+      continue;
+    }
+    dem->remove_leavers();
+    Stepper stepper(*dem);
+    stepper.step(200);
+    dem->remove_leavers();
+    CHECK(grain(*dem, 0).position.y > -1.0 + 5e-6);
+    CHECK(dem->report().largest_overlap > 1.0);
+    CHECK(dem->balance().in_domain == 1);
+  }
+}
+
 TEST_CASE("a grain that goes astray shall be named") {
   DemRig rig;
   const int sand = rig.material(2650, 50e6, 0.3);

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contact/lanes.hpp"
+#include "dust/sdk/plugin.hpp"
+#include "particles/impl.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dust::particles {
+namespace {
+
+/// Most coarse steps of a watch.
+constexpr std::int64_t k_longest_watch = 32;
+/// Allowed deviation during a watch, as a share of that of the list: the list's check, made only
+/// when a watch ends, triggers at 0.7 of its allowance, so that 0.7 + k_watch_share stays below 1.
+constexpr double k_watch_share = 1.0 / 6.0;
+
+}  // namespace
+
+std::int64_t Dem::Impl::longest_watch() { return k_longest_watch; }
+double Dem::Impl::watch_allowance(std::size_t row) const {
+  return k_watch_share * store.start[4 * row + 3];
+}
+
+/// Whether two grains may touch before the watch ends, both within their allowances of a straight
+/// course.
+bool Dem::Impl::may_meet(std::size_t i, std::size_t j) const {
+  const double* vi = store.velocity.data() + 4 * i;
+  const double* vj = store.velocity.data() + 4 * j;
+  const sdk::Vec3 x = separation(store.position.data() + 4 * j, store.position.data() + 4 * i);
+  const sdk::Vec3 v{vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]};
+  const double reach = store.position[4 * i + 3] + store.position[4 * j + 3] + largest_range +
+                       watch_allowance(i) + watch_allowance(j);
+  const double horizon_time = static_cast<double>(k_longest_watch) * steps.coarse_step;
+  const double xv = dot(x, v);
+  const double vv = dot(v, v);
+  // Squares of the closest approach, times vv where it lies inside the horizon: no division.
+  if (xv >= 0.0) return dot(x, x) < reach * reach;
+  if (-xv >= vv * horizon_time) {
+    const sdk::Vec3 end = x + horizon_time * v;
+    return dot(end, end) < reach * reach;
+  }
+  return dot(x, x) * vv - xv * xv < reach * reach * vv;
+}
+
+bool Dem::Impl::may_meet_surface(std::size_t i, const Surface& surface) const {
+  const double* p = store.position.data() + 4 * i;
+  const double* v = store.velocity.data() + 4 * i;
+  const double horizon_time = static_cast<double>(k_longest_watch) * steps.coarse_step;
+  const double reach = p[3] + largest_range + watch_allowance(i) +
+                       horizon_time * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  return surface.nearest({p[0], p[1], p[2]}).distance < reach;
+}
+
+/// Whether a grain without contacts leaves its straight course by little enough.
+bool Dem::Impl::flies_straight(std::size_t n) const {
+  const double step = steps.coarse_step;
+  if (store.half_velocity[4 * n + 3] != 0.5 * step) return false;  // has just come
+  const double* g = gravity.data() + 4 * static_cast<std::ptrdiff_t>(store.material[n]);
+  const double rate = store.action[4 * n + 3];
+  double sum = 0.0;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const double a = g[d] + rate * (store.action[4 * n + d] - store.velocity[4 * n + d]);
+    sum += a * a;
+  }
+  const double horizon_time = static_cast<double>(k_longest_watch) * step;
+  const double bend = (0.5 * horizon_time + step) * horizon_time;
+  const double limit = 0.5 * watch_allowance(n);
+  return sum * bend * bend < limit * limit;
+}
+
+/// Chooses, for the next steps, the entries of the lists that may come to touch and the grains that
+/// stand in one of them. Nobody else feels a contact: the others fly, and make all their steps at
+/// once when the watch ends.
+void Dem::Impl::begin_watch() {
+  is_awake.assign(store.size(), 0);
+  for (const Reaction& r : pending) is_awake[static_cast<std::size_t>(r.row)] = 1;
+  const auto choose = [&](std::size_t c) {
+    Chunk& chunk = chunks[c];
+    std::fill(chunk.force.begin(), chunk.force.end(), 0.0);
+    const auto wake = [&](std::int32_t row) {
+      if (row >= chunk.begin && row < chunk.end) is_awake[static_cast<std::size_t>(row)] = 1;
+    };
+    chunk.pairs.watch([&](std::size_t q) {
+      const std::int32_t a = chunk.pairs.a[q];
+      const std::int32_t b = chunk.pairs.b[q];
+      if (chunk.pairs.is_touching[q] == 0 &&
+          !may_meet(static_cast<std::size_t>(a), static_cast<std::size_t>(b))) {
+        return false;
+      }
+      wake(a);
+      wake(b);
+      return true;
+    });
+    chunk.surfaces.watch([&](std::size_t q) {
+      const auto row = static_cast<std::size_t>(chunk.surfaces.a[q]);
+      const Surface& surface = surfaces[static_cast<std::size_t>(chunk.surfaces.b[q])];
+      if (chunk.surfaces.is_touching[q] == 0 && !may_meet_surface(row, surface)) return false;
+      is_awake[row] = 1;
+      return true;
+    });
+  };
+  oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), choose);
+
+  fine.watched.clear();
+  std::fill(fine_force.begin(), fine_force.end(), 0.0);
+  for (std::size_t e = 0; e < fine.size(); ++e) {
+    const auto a = static_cast<std::size_t>(fine.a[e]);
+    const std::int32_t b = fine.b[e];
+    if (fine.is_touching[e] == 0 &&
+        !(b < 0 ? may_meet_surface(a, surfaces[static_cast<std::size_t>(-1 - b)])
+                : may_meet(a, static_cast<std::size_t>(b)))) {
+      continue;
+    }
+    fine.watched.push_back(static_cast<std::int32_t>(e));
+    is_awake[a] = 1;
+    if (b >= 0) is_awake[static_cast<std::size_t>(b)] = 1;
+  }
+
+  const auto gather = [&](Awake& awake, std::size_t begin, std::size_t end) {
+    awake.rows.clear();
+    awake.start.clear();
+    for (std::size_t n = begin; n < end; ++n) {
+      if (is_awake[n] == 0 && flies_straight(n)) continue;
+      is_awake[n] = 1;
+      awake.rows.push_back(static_cast<std::int32_t>(n));
+      const double* p = store.position.data() + 4 * n;
+      const double* v = store.velocity.data() + 4 * n;
+      awake.start.insert(awake.start.end(),
+                         {p[0], p[1], p[2], watch_allowance(n), v[0], v[1], v[2], 0.0});
+    }
+  };
+  oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+    Chunk& chunk = chunks[c];
+    gather(chunk.awake, static_cast<std::size_t>(chunk.begin), static_cast<std::size_t>(chunk.end));
+  });
+  gather(fine_awake, coarse_count, store.size());
+  flying = static_cast<std::int64_t>(store.size() - fine_awake.rows.size());
+  for (const Chunk& c : chunks) flying -= static_cast<std::int64_t>(c.awake.rows.size());
+  since_watch = 0;
+  is_watching = true;
+  must_watch = false;
+}
+
+namespace {
+
+/// Rows as the kernel sees them.
+struct FlyingRows {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  const std::uint8_t* is_awake = nullptr;
+  double* position = nullptr;
+  double* velocity = nullptr;
+  double* half_velocity = nullptr;
+  double* impulse = nullptr;
+  const double* action = nullptr;
+  const double* decay = nullptr;
+  const std::int32_t* material = nullptr;
+  const double* gravity = nullptr;
+};
+
+/// `count` leapfrog steps with drag at once. One step is v' = v + d with
+/// d = (u - v) (1 - E) + a phi tau, and d' = E d. So, with G = 1 + E + ... + E^(count - 1) and H
+/// the sum of the first `count` G,
+/// v_count = v + d G, x_count = x + tau (count v + d H).
+/// G, H and E^count come from doubling, bit by bit of `count`: no root, exponential or difference
+/// of near numbers.
+DUST_KERNEL void fly_rows(const FlyingRows& r, double step, std::int64_t count, bool has_fluid) {
+  using contact::Lanes;
+  const auto lanes = [](double* p, std::size_t n) __attribute__((always_inline))->Lanes& {
+    return *reinterpret_cast<Lanes*>(p + 4 * n);
+  };
+  const auto fixed =
+      [](const double* p, std::size_t n) __attribute__((always_inline))->const Lanes& {
+    return *reinterpret_cast<const Lanes*>(p + 4 * n);
+  };
+  const Lanes three{1.0, 1.0, 1.0, 0.0};
+  const Lanes fourth{0.0, 0.0, 0.0, 1.0};
+  const auto total = static_cast<double>(count);
+  int highest = 0;
+  while ((count >> (highest + 1)) != 0) ++highest;
+  for (std::size_t n = r.begin; n < r.end; ++n) {
+    if (r.is_awake[n] != 0) continue;
+    const Lanes push = fixed(r.gravity, static_cast<std::size_t>(r.material[n])) * step * three;
+    const Lanes old = lanes(r.half_velocity, n) * three;
+    double decay = 1.0;
+    Lanes first = push;
+    if (has_fluid) {
+      decay = r.decay[2 * n];
+      first = (fixed(r.action, n) * three - old) * (1.0 - decay) + push * r.decay[2 * n + 1];
+    }
+    double power = decay;
+    double g = 1.0;
+    double h = 1.0;
+    for (int bit = highest - 1; bit >= 0; --bit) {
+      const auto m = static_cast<double>(count >> (bit + 1));
+      h = h + m * g + power * h;
+      g = g + power * g;
+      power *= power;
+      if (((count >> bit) & 1) != 0) {
+        g = 1.0 + decay * g;
+        h += g;
+        power *= decay;
+      }
+    }
+    const Lanes half = old + first * g;
+    lanes(r.position, n) += (old * total + first * h) * step;
+    lanes(r.velocity, n) = (half + first * (0.5 * power)) + fourth * lanes(r.velocity, n);
+    lanes(r.half_velocity, n) = half + fourth * lanes(r.half_velocity, n);
+    if (has_fluid) {
+      lanes(r.impulse, n) += (half - old - push * total) / lanes(r.velocity, n)[3];
+    }
+  }
+}
+
+}  // namespace
+
+/// Ends the watch: who flew makes the steps of the watch, and the lists are looked after.
+void Dem::Impl::land() {
+  if (!is_watching) return;
+  is_watching = false;
+  if (since_watch == 0) return;
+  counters.flown_steps += flying * since_watch;
+  const std::size_t blocks = (store.size() + k_chunk - 1) / k_chunk;
+  late.assign(blocks, 0);
+  wants.assign(blocks, 0);
+  oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    const std::size_t begin = b * k_chunk;
+    const std::size_t end = std::min(store.size(), begin + k_chunk);
+    fly_rows({.begin = begin,
+              .end = end,
+              .is_awake = is_awake.data(),
+              .position = store.position.data(),
+              .velocity = store.velocity.data(),
+              .half_velocity = store.half_velocity.data(),
+              .impulse = store.impulse.data(),
+              .action = store.action.data(),
+              .decay = store.decay.data(),
+              .material = store.material.data(),
+              .gravity = gravity.data()},
+             steps.coarse_step, since_watch, has_fluid);
+    bool asks = false;
+    late[b] = check_course(begin, end, asks);
+    wants[b] = asks ? 1 : 0;
+  });
+  for (std::size_t b = 0; b < blocks; ++b) {
+    counters.late_lists += late[b];
+    must_rebuild = must_rebuild || wants[b] != 0;
+  }
+}
+
+}  // namespace dust::particles
