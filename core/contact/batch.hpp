@@ -10,7 +10,7 @@
 namespace dust::contact {
 
 /// Contacts per call of a law: the columns stay in the first two cache levels.
-inline constexpr std::size_t k_batch = 128;
+inline constexpr std::size_t k_batch = 64;
 /// Column stride; not a power of two, which would alias the columns in the first-level cache.
 inline constexpr std::size_t k_stride = k_batch + 8;
 /// Largest history of a contact (contact stage + rolling stage) in columns.

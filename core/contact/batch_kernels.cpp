@@ -58,8 +58,8 @@ sdk::ContactBatch BatchColumns::view(std::size_t count, double time_step,
 }
 
 DUST_KERNEL std::size_t find_touching(const RowView& rows, const Images& images,
-                                      const PairView& pairs, const std::int32_t* numbers,
-                                      std::size_t count, double range, std::int32_t* touching) {
+                                      const PairView& pairs, std::size_t begin, std::size_t end,
+                                      double range, std::int32_t* touching) {
   const double* position = rows.position;
   const std::int32_t* pa = pairs.a;
   const std::int32_t* pb = pairs.b;
@@ -68,14 +68,14 @@ DUST_KERNEL std::size_t find_touching(const RowView& rows, const Images& images,
   const Lanes length{images.length[0], images.length[1], images.length[2], 0.0};
   const Lanes half{images.half[0], images.half[1], images.half[2], HUGE_VAL};
   std::size_t found = 0;
-  for (std::size_t p = 0; p < count; p += 4) {
-    const std::size_t last = count - 1;
+  for (std::size_t p = begin; p < end; p += 4) {
+    const std::size_t last = end - 1;
     Lanes d[4];
     for (std::size_t l = 0; l < 4; ++l) {
-      const std::int32_t q = numbers[std::min(p + l, last)];
+      const std::size_t q = std::min(p + l, last);
       d[l] = row(position, pa[q]) + sign * row(position, pb[q]);
-      __builtin_prefetch(
-          position + 4 * static_cast<std::ptrdiff_t>(pb[numbers[std::min(p + l + k_ahead, last)]]));
+      __builtin_prefetch(position +
+                         4 * static_cast<std::ptrdiff_t>(pb[std::min(q + k_ahead, last)]));
       const LaneMask above = d[l] > half;
       const LaneMask below = d[l] < -half;
       d[l] = above ? d[l] - length : (below ? d[l] + length : d[l]);
@@ -83,17 +83,16 @@ DUST_KERNEL std::size_t find_touching(const RowView& rows, const Images& images,
     transpose(d[0], d[1], d[2], d[3]);
     const Lanes reach = d[3] + range;
     const LaneMask near = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < reach * reach;
-    const std::size_t lanes = std::min<std::size_t>(4, count - p);
+    const std::size_t lanes = std::min<std::size_t>(4, end - p);
     for (std::size_t l = 0; l < lanes; ++l) {
-      const auto q = static_cast<std::size_t>(numbers[p + l]);
       const std::uint8_t now = static_cast<std::uint8_t>(near[static_cast<int>(l)] & 1);
-      touching[found] = static_cast<std::int32_t>(q);
+      touching[found] = static_cast<std::int32_t>(p + l);
       found += now;
-      if (pairs.is_touching[q] > now) {
-        std::memset(pairs.history + q * pairs.history_stride, 0,
+      if (pairs.is_touching[p + l] > now) {
+        std::memset(pairs.history + (p + l) * pairs.history_stride, 0,
                     pairs.history_stride * sizeof(double));
       }
-      pairs.is_touching[q] = now;
+      pairs.is_touching[p + l] = now;
     }
   }
   return found;

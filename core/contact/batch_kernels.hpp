@@ -30,11 +30,10 @@ struct PairView {
   std::size_t history_stride = 0;  ///< a multiple of 4
 };
 
-/// Finds, of the `count` pairs with the given numbers, those closer than touch + `range` [m],
-/// writes their numbers to `touching` and returns how many. A pair that parts loses its history.
+/// Finds the pairs of [begin, end) closer than touch + `range` [m], writes their numbers to
+/// `touching` and returns how many. A pair that parts loses its history.
 std::size_t find_touching(const RowView& rows, const Images& images, const PairView& pairs,
-                          const std::int32_t* numbers, std::size_t count, double range,
-                          std::int32_t* touching);
+                          std::size_t begin, std::size_t end, double range, std::int32_t* touching);
 
 /// Loads `count` contacts (numbers of pairs) into the first columns; rows up to the padded count
 /// repeat the last one. `ahead` more numbers may be read for prefetching.

@@ -47,18 +47,16 @@ void Dem::Impl::contact(double now) {
 
 void Dem::Impl::chunk_pairs(Chunk& chunk) {
   auto& touching = thread_contacts();
-  const auto& watched = chunk.pairs.watched;
-  if (touching.size() < watched.size() + 8) touching.resize(watched.size() + 8);
+  if (touching.size() < chunk.pairs.size() + 8) touching.resize(chunk.pairs.size() + 8);
   auto& columns = thread_columns();
   const contact::PairView pairs = chunk.pairs.view(history_stride);
   const contact::RowView rows = row_view();
   const int groups = static_cast<int>(history_stride / 4);
-  for (const Segment& segment : chunk.pairs.watched_segments) {
+  for (const Segment& segment : chunk.pairs.segments) {
     const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
-    const std::size_t found =
-        contact::find_touching(rows, images, pairs, watched.data() + segment.begin,
-                               static_cast<std::size_t>(segment.end - segment.begin),
-                               law.contact->range(), touching.data());
+    const std::size_t found = contact::find_touching(
+        rows, images, pairs, static_cast<std::size_t>(segment.begin),
+        static_cast<std::size_t>(segment.end), law.contact->range(), touching.data());
     chunk.contacts += static_cast<std::int64_t>(found);
     for (std::size_t first = 0; first < found; first += k_batch) {
       const std::size_t count = std::min(k_batch, found - first);
@@ -106,7 +104,7 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk) {
     normal[d] = columns.column(B::normal_x + d);
     velocity[d] = columns.column(B::separation_x + d);
   }
-  for (const Segment& segment : list.watched_segments) {
+  for (const Segment& segment : list.segments) {
     const Surface& surface = surfaces[static_cast<std::size_t>(segment.surface)];
     const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
     const double range = law.contact->range();
@@ -137,8 +135,7 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk) {
       chunk.contacts += static_cast<std::int64_t>(count);
       count = 0;
     };
-    for (std::int32_t k = segment.begin; k < segment.end; ++k) {
-      const std::int32_t q = list.watched[static_cast<std::size_t>(k)];
+    for (std::int32_t q = segment.begin; q < segment.end; ++q) {
       const auto u = static_cast<std::size_t>(q);
       const std::int32_t i = list.a[u];
       const double* p = store.position.data() + 4 * static_cast<std::ptrdiff_t>(i);
@@ -180,7 +177,7 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk) {
 void Dem::Impl::force() {
   const double inverse = 1.0 / steps.coarse_step;
   for (const Reaction& r : pending) {
-    Chunk& chunk = chunks[static_cast<std::size_t>(r.row) / k_chunk];
+    Chunk& chunk = chunks[static_cast<std::size_t>(r.row / chunks.front().end)];
     double* f = chunk.force.data() + 8 * static_cast<std::ptrdiff_t>(r.row - chunk.begin);
     for (int d = 0; d < 3; ++d) {
       f[d] += inverse * r.impulse[d];

@@ -270,10 +270,10 @@ std::vector<std::pair<std::int64_t, std::int64_t>> Dem::listed_pairs() const {
     out.emplace_back(std::min(i, j), std::max(i, j));
   };
   for (const Chunk& c : impl_->chunks) {
-    for (std::size_t q = 0; q < c.pairs.size(); ++q) add(c.pairs.a[q], c.pairs.b[q]);
+    for (std::size_t q = 0; q < c.near_pairs.size(); ++q) add(c.near_pairs.a[q], c.near_pairs.b[q]);
   }
-  for (std::size_t q = 0; q < impl_->fine.size(); ++q) {
-    if (impl_->fine.b[q] >= 0) add(impl_->fine.a[q], impl_->fine.b[q]);
+  for (std::size_t q = 0; q < impl_->near_fine.size(); ++q) {
+    if (impl_->near_fine.b[q] >= 0) add(impl_->near_fine.a[q], impl_->near_fine.b[q]);
   }
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace dust::particles {
 namespace {
@@ -14,7 +15,9 @@ std::vector<std::int64_t> widened(const std::vector<T>& v) {
 
 /// Lists of one kind, one after another, with their sizes.
 struct FlatLists {
-  std::vector<std::int64_t> sizes, a, b, touching, segments;
+  std::vector<std::int64_t> sizes, a, b;
+  std::vector<std::int64_t> touching;  ///< of a Verlet list: number in the contact list
+  std::vector<std::int64_t> segments;
   std::vector<double> history;
 
   void add(const ContactList& list) {
@@ -24,6 +27,16 @@ struct FlatLists {
     b.insert(b.end(), list.b.begin(), list.b.end());
     touching.insert(touching.end(), list.is_touching.begin(), list.is_touching.end());
     history.insert(history.end(), list.history.begin(), list.history.end());
+    for (const Segment& s : list.segments) {
+      segments.insert(segments.end(), {s.law, s.surface, s.begin, s.end});
+    }
+  }
+  void add(const VerletList& list) {
+    sizes.insert(sizes.end(), {static_cast<std::int64_t>(list.size()),
+                               static_cast<std::int64_t>(list.segments.size())});
+    a.insert(a.end(), list.a.begin(), list.a.end());
+    b.insert(b.end(), list.b.begin(), list.b.end());
+    touching.insert(touching.end(), list.contact.begin(), list.contact.end());
     for (const Segment& s : list.segments) {
       segments.insert(segments.end(), {s.law, s.surface, s.begin, s.end});
     }
@@ -45,26 +58,42 @@ struct FlatLists {
     history = archive.numbers(name + "_history");
   }
   void take(ContactList& list, std::size_t stride) {
-    const auto n = static_cast<std::size_t>(sizes.at(next_++));
-    const auto m = static_cast<std::size_t>(sizes.at(next_++));
+    const auto [n, m] = next_sizes();
+    list.clear();
+    for (std::size_t q = at_; q < at_ + n; ++q) {
+      const bool is_touching = touching.at(q) != 0;
+      list.push(static_cast<std::int32_t>(a.at(q)), static_cast<std::int32_t>(b.at(q)),
+                is_touching ? history.data() + q * stride : nullptr, stride);
+    }
+    take_segments(list.segments, m);
+    at_ += n;
+  }
+  void take(VerletList& list) {
+    const auto [n, m] = next_sizes();
     list.clear();
     for (std::size_t q = at_; q < at_ + n; ++q) {
       list.push(static_cast<std::int32_t>(a.at(q)), static_cast<std::int32_t>(b.at(q)));
-      list.is_touching.push_back(static_cast<std::uint8_t>(touching.at(q)));
+      list.contact.push_back(static_cast<std::int32_t>(touching.at(q)));
     }
-    list.history.assign(history.begin() + static_cast<std::ptrdiff_t>(at_ * stride),
-                        history.begin() + static_cast<std::ptrdiff_t>((at_ + n) * stride));
-    for (std::size_t s = segment_; s < segment_ + m; ++s) {
-      const auto get = [&](std::size_t k) {
-        return static_cast<std::int32_t>(segments.at(4 * s + k));
-      };
-      list.segments.push_back({get(0), get(1), get(2), get(3)});
-    }
+    take_segments(list.segments, m);
     at_ += n;
-    segment_ += m;
   }
 
  private:
+  std::pair<std::size_t, std::size_t> next_sizes() {
+    const auto n = static_cast<std::size_t>(sizes.at(next_++));
+    const auto m = static_cast<std::size_t>(sizes.at(next_++));
+    return {n, m};
+  }
+  void take_segments(std::vector<Segment>& into, std::size_t count) {
+    for (std::size_t s = segment_; s < segment_ + count; ++s) {
+      const auto get = [&](std::size_t k) {
+        return static_cast<std::int32_t>(segments.at(4 * s + k));
+      };
+      into.push_back({get(0), get(1), get(2), get(3)});
+    }
+    segment_ += count;
+  }
   std::size_t next_ = 0, at_ = 0, segment_ = 0;
 };
 
@@ -92,14 +121,23 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
 
   FlatLists pairs;
   FlatLists walls;
+  FlatLists near_pairs;
+  FlatLists near_walls;
   std::vector<double> forces;
   for (const Chunk& c : chunks) {
+    near_pairs.add(c.near_pairs);
+    near_walls.add(c.near_surfaces);
     pairs.add(c.pairs);
     walls.add(c.surfaces);
     forces.insert(forces.end(), c.force.begin(), c.force.end());
   }
   FlatLists fines;
+  FlatLists near_fines;
   fines.add(fine);
+  near_fines.add(near_fine);
+  near_pairs.save(archive, "near_pairs");
+  near_walls.save(archive, "near_surfaces");
+  near_fines.save(archive, "near_fine");
   pairs.save(archive, "pairs");
   walls.save(archive, "surfaces");
   fines.save(archive, "fine");
@@ -164,6 +202,12 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   FlatLists pairs;
   FlatLists walls;
   FlatLists fines;
+  FlatLists near_pairs;
+  FlatLists near_walls;
+  FlatLists near_fines;
+  near_pairs.load(archive, "near_pairs");
+  near_walls.load(archive, "near_surfaces");
+  near_fines.load(archive, "near_fine");
   pairs.load(archive, "pairs");
   walls.load(archive, "surfaces");
   fines.load(archive, "fine");
@@ -176,6 +220,8 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
     chunks[c].begin = static_cast<std::int32_t>(bounds[3 * c]);
     chunks[c].end = static_cast<std::int32_t>(bounds[3 * c + 1]);
     chunks[c].contacts = bounds[3 * c + 2];
+    near_pairs.take(chunks[c].near_pairs);
+    near_walls.take(chunks[c].near_surfaces);
     pairs.take(chunks[c].pairs, history_stride);
     walls.take(chunks[c].surfaces, history_stride);
     const std::size_t n = 8 * (static_cast<std::size_t>(chunks[c].end - chunks[c].begin) + 1);
@@ -183,6 +229,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
                            forces.begin() + static_cast<std::ptrdiff_t>(at + n));
     at += n;
   }
+  near_fines.take(near_fine);
   fines.take(fine, history_stride);
   pending.clear();
   const auto pending_rows = archive.integers("pending_rows");

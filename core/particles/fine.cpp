@@ -368,18 +368,16 @@ void Dem::Impl::fine_pass() {
     state(row) = {};
     std::fill_n(fine_force.begin() + 4 * (row - static_cast<std::ptrdiff_t>(coarse_count)), 4, 0.0);
   }
-  const std::size_t entries = fine.watched.size();
+  const std::size_t entries = fine.size();
   w.outlook.assign(entries, {});
-  const auto entry = [&](std::size_t k) { return static_cast<std::size_t>(fine.watched[k]); };
   const auto is_pair = [&](std::size_t e) {
     return fine.b[e] >= static_cast<std::int32_t>(coarse_count);
   };
   oneapi::tbb::parallel_for(std::size_t{0}, (entries + k_fine_block - 1) / k_fine_block,
                             [&](std::size_t b) {
                               const std::size_t end = std::min(entries, (b + 1) * k_fine_block);
-                              for (std::size_t k = b * k_fine_block; k < end; ++k) {
-                                if (!is_pair(entry(k)))
-                                  w.outlook[k] = look_out(*this, entry(k), 0.0);
+                              for (std::size_t e = b * k_fine_block; e < end; ++e) {
+                                if (!is_pair(e)) w.outlook[e] = look_out(*this, e, 0.0);
                               }
                             });
 
@@ -391,20 +389,18 @@ void Dem::Impl::fine_pass() {
     }
     s.stable_step = std::min(s.stable_step, o.stable_step);
   };
-  for (std::size_t k = 0; k < entries; ++k) {
-    const std::size_t e = entry(k);
-    if (is_pair(e) || !w.outlook[k].is_near) continue;
-    join(fine.a[e], w.outlook[k]);
-    state(fine.a[e]).speed = std::max(state(fine.a[e]).speed, w.outlook[k].speed);
+  for (std::size_t e = 0; e < entries; ++e) {
+    if (is_pair(e) || !w.outlook[e].is_near) continue;
+    join(fine.a[e], w.outlook[e]);
+    state(fine.a[e]).speed = std::max(state(fine.a[e]).speed, w.outlook[e].speed);
   }
-  for (std::size_t k = 0; k < entries; ++k) {
-    const std::size_t e = entry(k);
+  for (std::size_t e = 0; e < entries; ++e) {
     if (!is_pair(e)) continue;
     // A grain that bounces within this step may turn its relative velocity round.
-    w.outlook[k] = look_out(*this, e, 2.0 * (state(fine.a[e]).speed + state(fine.b[e]).speed));
-    if (!w.outlook[k].is_near) continue;
-    join(fine.a[e], w.outlook[k]);
-    join(fine.b[e], w.outlook[k]);
+    w.outlook[e] = look_out(*this, e, 2.0 * (state(fine.a[e]).speed + state(fine.b[e]).speed));
+    if (!w.outlook[e].is_near) continue;
+    join(fine.a[e], w.outlook[e]);
+    join(fine.b[e], w.outlook[e]);
     const std::int32_t i = root(w.state, state(fine.a[e]).cluster);
     const std::int32_t j = root(w.state, state(fine.b[e]).cluster);
     w.state[static_cast<std::size_t>(std::max(i, j))].cluster = std::min(i, j);
@@ -501,9 +497,8 @@ void Dem::Impl::make_blocks() {
         load_member(store, gravity, coarse_count + static_cast<std::size_t>(n)));
   }
   const auto coarse = static_cast<std::int32_t>(coarse_count);
-  for (std::size_t k = 0; k < fine.watched.size(); ++k) {
-    if (!w.outlook[k].is_near) continue;
-    const auto e = static_cast<std::size_t>(fine.watched[k]);
+  for (std::size_t e = 0; e < fine.size(); ++e) {
+    if (!w.outlook[e].is_near) continue;
     const FineState& s = fine_state(fine.a[e] - coarse);
     Candidate c{.entry = static_cast<std::int32_t>(e), .member = s.seat};
     const int material = store.material[static_cast<std::size_t>(fine.a[e])];

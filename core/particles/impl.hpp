@@ -10,7 +10,9 @@
 #include "particles/surfaces.hpp"
 #include "particles/time_steps.hpp"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -18,8 +20,14 @@
 
 namespace dust::particles {
 
-/// Coarse grains per chunk. A constant: it fixes the order of sums.
-inline constexpr std::size_t k_chunk = 512;
+/// Grains per task where nothing but their rows is touched.
+inline constexpr std::size_t k_block = 512;
+/// Coarse grains per chunk: enough to keep a chunk's data in the second-level cache and most pairs
+/// inside one chunk, and some 16 chunks for the threads to share. A function of the number of
+/// grains alone, for it fixes the order of sums.
+inline std::size_t chunk_rows(std::size_t coarse_grains) {
+  return std::clamp(std::bit_ceil(coarse_grains / 16 + 1), std::size_t{512}, std::size_t{2048});
+}
 /// Fine grains per block of the search.
 inline constexpr std::size_t k_fine_block = 256;
 /// Coarse steps between two checks of how far coarse grains are off the course a watch supposes.
@@ -33,32 +41,36 @@ struct Segment {
   std::int32_t end = 0;
 };
 
-/// Pairs with their history. For surface lists `b` is the number of the surface.
+/// Verlet list: who may meet whom until the next rebuild. For surfaces `b` is the surface's number.
+struct VerletList {
+  std::vector<std::int32_t> a;
+  std::vector<std::int32_t> b;
+  std::vector<std::int32_t> contact;  ///< number in the contact list, or -1
+  std::vector<Segment> segments;
+
+  void clear() { a.clear(), b.clear(), contact.clear(), segments.clear(); }
+  void push(std::int32_t i, std::int32_t j) { a.push_back(i), b.push_back(j); }
+  [[nodiscard]] std::size_t size() const { return a.size(); }
+};
+
+/// The entries of a Verlet list that may touch during a watch, with the history of contacts.
 struct ContactList {
   std::vector<std::int32_t> a;
   std::vector<std::int32_t> b;
   std::vector<std::uint8_t> is_touching;
   contact::AlignedVector<double> history;
   std::vector<Segment> segments;
-  std::vector<std::int32_t> watched;      ///< numbers of the entries that may touch soon
-  std::vector<Segment> watched_segments;  ///< [begin, end) of `watched`
 
   void clear() { a.clear(), b.clear(), is_touching.clear(), history.clear(), segments.clear(); }
-  /// Watches the entries for which `keep(number)` is true.
-  template <class Keep>
-  void watch(Keep&& keep) {
-    watched.clear();
-    watched_segments.clear();
-    for (const Segment& s : segments) {
-      Segment w{s.law, s.surface, static_cast<std::int32_t>(watched.size()), 0};
-      for (std::int32_t q = s.begin; q < s.end; ++q) {
-        if (keep(static_cast<std::size_t>(q))) watched.push_back(q);
-      }
-      w.end = static_cast<std::int32_t>(watched.size());
-      if (w.end > w.begin) watched_segments.push_back(w);
+  /// `from`: the history of a pair in touch, or null.
+  void push(std::int32_t i, std::int32_t j, const double* from, std::size_t stride) {
+    a.push_back(i), b.push_back(j), is_touching.push_back(from == nullptr ? 0 : 1);
+    if (from == nullptr) {
+      history.insert(history.end(), stride, 0.0);
+    } else {
+      history.insert(history.end(), from, from + stride);
     }
   }
-  void push(std::int32_t i, std::int32_t j) { a.push_back(i), b.push_back(j); }
   [[nodiscard]] std::size_t size() const { return a.size(); }
   [[nodiscard]] contact::PairView view(std::size_t stride) {
     return {a.data(), b.data(), is_touching.data(), history.data(), stride};
@@ -75,6 +87,8 @@ struct Awake {
 struct Chunk {
   std::int32_t begin = 0;
   std::int32_t end = 0;
+  VerletList near_pairs;
+  VerletList near_surfaces;
   ContactList pairs;
   ContactList surfaces;
   contact::AlignedVector<double> force;  ///< eight per grain: force, torque; one spare row
@@ -108,8 +122,8 @@ struct Dem::Impl {
   void sort_rows();
   void wrap_periodic();
   void choose_allowances();
-  void carry_over(ContactList& list, bool is_surface);
-  void group_by_law(ContactList& list, bool is_surface);
+  void carry_over(VerletList& list, ContactList& contacts, bool is_surface);
+  void group_by_law(VerletList& list, bool is_surface);
 
   // watch.cpp
   static std::int64_t longest_watch();
@@ -117,6 +131,8 @@ struct Dem::Impl {
   [[nodiscard]] bool may_meet(std::size_t i, std::size_t j) const;
   [[nodiscard]] bool may_meet_surface(std::size_t i, const Surface& surface) const;
   [[nodiscard]] bool flies_straight(std::size_t row) const;
+  template <class MayMeet>
+  void choose_contacts(VerletList& list, ContactList& contacts, MayMeet&& meets);
   void begin_watch();
   void land();
 
@@ -182,6 +198,7 @@ struct Dem::Impl {
   BalanceBook book;
   std::size_t coarse_count = 0;
   std::vector<Chunk> chunks;
+  VerletList near_fine;
   ContactList fine;  ///< partner >= 0: row; < 0: surface -1 - b
   std::vector<Reaction> pending;
   contact::AlignedVector<double> fine_force;  ///< four per fine grain, of the last sub-step

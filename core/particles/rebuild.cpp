@@ -110,7 +110,7 @@ void Dem::Impl::choose_allowances() {
   }
 }
 
-void Dem::Impl::group_by_law(ContactList& list, bool is_surface) {
+void Dem::Impl::group_by_law(VerletList& list, bool is_surface) {
   const std::size_t n = list.size();
   const auto& material = store.material;
   std::vector<std::int32_t> group(n);
@@ -148,10 +148,11 @@ void Dem::Impl::group_by_law(ContactList& list, bool is_surface) {
   list.b.swap(b);
 }
 
-void Dem::Impl::carry_over(ContactList& list, bool is_surface) {
+/// The contacts in touch, found again in the new list.
+void Dem::Impl::carry_over(VerletList& list, ContactList& contacts, bool is_surface) {
   const std::size_t n = list.size();
-  list.is_touching.assign(n, 0);
-  list.history.assign(n * history_stride, 0.0);
+  list.contact.assign(n, -1);
+  contacts.clear();
   if (old_begin.size() < 2) return;
   const auto old_rows = static_cast<std::int32_t>(old_begin.size()) - 1;
   for (std::size_t q = 0; q < n; ++q) {
@@ -162,9 +163,9 @@ void Dem::Impl::carry_over(ContactList& list, bool is_surface) {
     for (std::int32_t m = old_begin[static_cast<std::size_t>(a)];
          m < old_begin[static_cast<std::size_t>(a) + 1]; ++m) {
       if (old_partner[static_cast<std::size_t>(m)] != b) continue;
-      list.is_touching[q] = 1;
-      std::memcpy(list.history.data() + q * history_stride,
-                  old_history[static_cast<std::size_t>(m)], history_stride * sizeof(double));
+      list.contact[q] = static_cast<std::int32_t>(contacts.size());
+      contacts.push(list.a[q], list.b[q], old_history[static_cast<std::size_t>(m)], history_stride);
+      break;
     }
   }
 }
@@ -179,6 +180,7 @@ void Dem::Impl::rebuild() {
   const std::size_t old_rows = store.size();
   std::vector<Chunk> old_chunks = std::move(chunks);
   ContactList old_fine = std::move(fine);
+  near_fine.clear();
   old_begin.assign(old_rows + 1, 0);
   const auto each = [&](auto&& visit) {
     const auto walk = [&](const ContactList& list, bool is_surface, std::int32_t low,
@@ -252,10 +254,11 @@ void Dem::Impl::rebuild() {
     in.origin[d] = domain_min[d];
     in.period[d] = images.length[d];
   }
-  const auto found = search_pairs(in, k_chunk);
+  const auto found = search_pairs(in, k_block);
 
   // Shares: coarse pairs to the chunk of each grain, everything with a fine grain to the fine list.
-  const std::size_t count = (coarse_count + k_chunk - 1) / k_chunk;
+  const std::size_t size = chunk_rows(coarse_count);
+  const std::size_t count = (coarse_count + size - 1) / size;
   chunks.resize(count);
   std::vector<std::vector<RowPair>> shares(count);
   std::int64_t listed = 0;
@@ -278,11 +281,11 @@ void Dem::Impl::rebuild() {
       std::int32_t b = in_order ? j : i;
       if (i >= coarse || j >= coarse) {
         if (a < coarse) std::swap(a, b);  // side i of a fine pair is a fine grain
-        fine.push(a, b);
+        near_fine.push(a, b);
         continue;
       }
-      const std::size_t ci = static_cast<std::size_t>(i) / k_chunk;
-      const std::size_t cj = static_cast<std::size_t>(j) / k_chunk;
+      const std::size_t ci = static_cast<std::size_t>(i) / size;
+      const std::size_t cj = static_cast<std::size_t>(j) / size;
       shares[ci].emplace_back(a, b);
       if (ci != cj) shares[cj].emplace_back(a, b);
     }
@@ -305,34 +308,35 @@ void Dem::Impl::rebuild() {
   };
   const auto build = [&](std::size_t c) {
     Chunk& chunk = chunks[c];
-    chunk.begin = static_cast<std::int32_t>(c * k_chunk);
-    chunk.end = static_cast<std::int32_t>(std::min(coarse_count, (c + 1) * k_chunk));
+    chunk.begin = static_cast<std::int32_t>(c * size);
+    chunk.end = static_cast<std::int32_t>(std::min(coarse_count, (c + 1) * size));
     chunk.force.assign(8 * (static_cast<std::size_t>(chunk.end - chunk.begin) + 1), 0.0);
     auto& share = shares[c];
     std::sort(share.begin(), share.end());
-    for (const auto& [a, b] : share) chunk.pairs.push(a, b);
+    for (const auto& [a, b] : share) chunk.near_pairs.push(a, b);
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
       for (std::int32_t i = chunk.begin; i < chunk.end; ++i) {
         if (near_surface(static_cast<std::size_t>(i), surfaces[s])) {
-          chunk.surfaces.push(i, static_cast<std::int32_t>(s));
+          chunk.near_surfaces.push(i, static_cast<std::int32_t>(s));
         }
       }
     }
-    group_by_law(chunk.pairs, false);
-    group_by_law(chunk.surfaces, true);
-    carry_over(chunk.pairs, false);
-    carry_over(chunk.surfaces, true);
+    group_by_law(chunk.near_pairs, false);
+    group_by_law(chunk.near_surfaces, true);
+    carry_over(chunk.near_pairs, chunk.pairs, false);
+    carry_over(chunk.near_surfaces, chunk.surfaces, true);
   };
   oneapi::tbb::parallel_for(std::size_t{0}, count, build);
 
   for (std::size_t n = coarse_count; n < store.size(); ++n) {
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
       if (near_surface(n, surfaces[s])) {
-        fine.push(static_cast<std::int32_t>(n), -1 - static_cast<std::int32_t>(s));
+        near_fine.push(static_cast<std::int32_t>(n), -1 - static_cast<std::int32_t>(s));
       }
     }
   }
-  carry_over(fine, false);
+  near_fine.segments.push_back({0, -1, 0, static_cast<std::int32_t>(near_fine.size())});
+  carry_over(near_fine, fine, false);
   fine_force.assign(4 * (store.size() - coarse_count), 0.0);
 
   old_begin.clear();

@@ -71,52 +71,64 @@ bool Dem::Impl::flies_straight(std::size_t n) const {
   return sum * bend * bend < limit * limit;
 }
 
+/// The contact list made new: who touches, with the history, and who may come to touch.
+template <class MayMeet>
+void Dem::Impl::choose_contacts(VerletList& list, ContactList& contacts, MayMeet&& meets) {
+  thread_local ContactList next;
+  next.clear();
+  for (const Segment& s : list.segments) {
+    Segment chosen{s.law, s.surface, static_cast<std::int32_t>(next.size()), 0};
+    for (auto q = static_cast<std::size_t>(s.begin); q < static_cast<std::size_t>(s.end); ++q) {
+      const std::int32_t old = list.contact[q];
+      const auto u = static_cast<std::size_t>(old);
+      const bool is_touching = old >= 0 && contacts.is_touching[u] != 0;
+      if (!is_touching && !meets(list.a[q], list.b[q])) {
+        list.contact[q] = -1;
+        continue;
+      }
+      list.contact[q] = static_cast<std::int32_t>(next.size());
+      next.push(list.a[q], list.b[q],
+                is_touching ? contacts.history.data() + u * history_stride : nullptr,
+                history_stride);
+    }
+    chosen.end = static_cast<std::int32_t>(next.size());
+    if (chosen.end > chosen.begin) next.segments.push_back(chosen);
+  }
+  std::swap(next, contacts);
+}
+
 /// Chooses, for the next steps, the entries of the lists that may come to touch and the grains that
 /// stand in one of them. Nobody else feels a contact: the others fly, and make all their steps at
 /// once when the watch ends.
 void Dem::Impl::begin_watch() {
   is_awake.assign(store.size(), 0);
   for (const Reaction& r : pending) is_awake[static_cast<std::size_t>(r.row)] = 1;
-  const auto choose = [&](std::size_t c) {
+  const auto pairs_meet = [&](std::int32_t a, std::int32_t b) {
+    return may_meet(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+  };
+  const auto surface_meets = [&](std::int32_t a, std::int32_t s) {
+    return may_meet_surface(static_cast<std::size_t>(a), surfaces[static_cast<std::size_t>(s)]);
+  };
+  oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     Chunk& chunk = chunks[c];
     std::fill(chunk.force.begin(), chunk.force.end(), 0.0);
+    choose_contacts(chunk.near_pairs, chunk.pairs, pairs_meet);
+    choose_contacts(chunk.near_surfaces, chunk.surfaces, surface_meets);
     const auto wake = [&](std::int32_t row) {
       if (row >= chunk.begin && row < chunk.end) is_awake[static_cast<std::size_t>(row)] = 1;
     };
-    chunk.pairs.watch([&](std::size_t q) {
-      const std::int32_t a = chunk.pairs.a[q];
-      const std::int32_t b = chunk.pairs.b[q];
-      if (chunk.pairs.is_touching[q] == 0 &&
-          !may_meet(static_cast<std::size_t>(a), static_cast<std::size_t>(b))) {
-        return false;
-      }
-      wake(a);
-      wake(b);
-      return true;
-    });
-    chunk.surfaces.watch([&](std::size_t q) {
-      const auto row = static_cast<std::size_t>(chunk.surfaces.a[q]);
-      const Surface& surface = surfaces[static_cast<std::size_t>(chunk.surfaces.b[q])];
-      if (chunk.surfaces.is_touching[q] == 0 && !may_meet_surface(row, surface)) return false;
-      is_awake[row] = 1;
-      return true;
-    });
-  };
-  oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), choose);
+    std::for_each(chunk.pairs.a.begin(), chunk.pairs.a.end(), wake);
+    std::for_each(chunk.pairs.b.begin(), chunk.pairs.b.end(), wake);
+    std::for_each(chunk.surfaces.a.begin(), chunk.surfaces.a.end(), wake);
+  });
 
-  fine.watched.clear();
   std::fill(fine_force.begin(), fine_force.end(), 0.0);
+  choose_contacts(near_fine, fine, [&](std::int32_t a, std::int32_t b) {
+    return b < 0 ? surface_meets(a, -1 - b) : pairs_meet(a, b);
+  });
   for (std::size_t e = 0; e < fine.size(); ++e) {
-    const auto a = static_cast<std::size_t>(fine.a[e]);
-    const std::int32_t b = fine.b[e];
-    if (fine.is_touching[e] == 0 &&
-        !(b < 0 ? may_meet_surface(a, surfaces[static_cast<std::size_t>(-1 - b)])
-                : may_meet(a, static_cast<std::size_t>(b)))) {
-      continue;
-    }
-    fine.watched.push_back(static_cast<std::int32_t>(e));
-    is_awake[a] = 1;
-    if (b >= 0) is_awake[static_cast<std::size_t>(b)] = 1;
+    is_awake[static_cast<std::size_t>(fine.a[e])] = 1;
+    if (fine.b[e] >= 0) is_awake[static_cast<std::size_t>(fine.b[e])] = 1;
   }
 
   const auto gather = [&](Awake& awake, std::size_t begin, std::size_t end) {
@@ -223,12 +235,12 @@ void Dem::Impl::land() {
   is_watching = false;
   if (since_watch == 0) return;
   counters.flown_steps += flying * since_watch;
-  const std::size_t blocks = (store.size() + k_chunk - 1) / k_chunk;
+  const std::size_t blocks = (store.size() + k_block - 1) / k_block;
   late.assign(blocks, 0);
   wants.assign(blocks, 0);
   oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
-    const std::size_t begin = b * k_chunk;
-    const std::size_t end = std::min(store.size(), begin + k_chunk);
+    const std::size_t begin = b * k_block;
+    const std::size_t end = std::min(store.size(), begin + k_block);
     fly_rows({.begin = begin,
               .end = end,
               .is_awake = is_awake.data(),
