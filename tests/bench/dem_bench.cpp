@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rates of the DEM in million grain-steps per second, rebuilds included:
-//   dem_bench [threads] [settled bed as csv: diameter,x,y,z]
+//   dem_bench [threads] [settled bed as csv: diameter,x,y,z] [bed: nothing but it]
 // A dilute flow (sand falling through air space with dust between), and the bed where one is given.
 #include "support/dem_rig.hpp"
 
@@ -170,8 +170,10 @@ int main(int argc, char** argv) {
   oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
                                       threads);
   std::printf("%zu thread(s)\n", threads);
-  if (std::getenv("ONLY_BED") == nullptr) dilute(false);
-  if (std::getenv("ONLY_BED") == nullptr) dilute(true);
+  if (argc <= 3) {
+    dilute(false);
+    dilute(true);
+  }
   if (argc > 2) bed(argv[2]);
   return 0;
 }
