@@ -304,6 +304,7 @@ class SetupReader {
     Node written = written_block<InteractionBlock>(values);
     ReadModel contact = read_part(reader, "contact", true, written);
     ReadModel rolling = read_part(reader, "rolling", false, written);
+    ReadModel cohesion = read_part(reader, "cohesion", false, written);
     reader.finish();
     if (!has_pair) {
       pairs_are_read_ = false;
@@ -320,9 +321,34 @@ class SetupReader {
       }
     }
     spec.contact = contact.choice.value_or(ModelChoice{});
+    check_laws(spec, contact, cohesion);
     spec.rolling = std::move(rolling.choice);
+    spec.cohesion = std::move(cohesion.choice);
     setup_.interactions.push_back(std::move(spec));
     return written;
+  }
+
+  /// Does the cohesive law fit the materials and the contact law?
+  void check_laws(const InteractionSpec& spec, const ReadModel& contact,
+                  const ReadModel& cohesion) {
+    if (!contact.model || !cohesion.model) return;
+    const auto& i = setup_.materials[static_cast<std::size_t>(spec.material_i)].properties;
+    const auto& j = setup_.materials[static_cast<std::size_t>(spec.material_j)].properties;
+    if (!(i.young_modulus > 0.0 && j.young_modulus > 0.0)) return;  // told where it stands
+    auto& law = static_cast<sdk::CohesionLaw&>(*cohesion.model);
+    const ModelChoice& choice = *cohesion.choice;
+    if (law.needs_hertz_force() &&
+        !static_cast<sdk::ContactLaw&>(*contact.model).has_hertz_force()) {
+      error(choice.where, choice.path + ": '" + choice.name +
+                              "' replaces the Hertz force, which the contact law '" +
+                              contact.choice->name +
+                              "' does not have: choose another contact law or another cohesion");
+    }
+    try {
+      law.prepare(i, j);
+    } catch (const sdk::ParameterError& problem) {
+      error(choice.where, choice.path + ": " + problem.what());
+    }
   }
 
   /// A part of a block that is a model of the kind of the part's name: `drag: {model: ...}`.
