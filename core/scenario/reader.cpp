@@ -5,6 +5,7 @@
 #include "dust/sdk/voidage_rule.hpp"
 #include "scenario/blocks.hpp"
 #include "scenario/checks.hpp"
+#include "scenario/derived.hpp"
 #include "scenario/model_reader.hpp"
 #include "scenario/overlay.hpp"
 #include "scenario/suggest.hpp"
@@ -43,6 +44,7 @@ class SetupReader {
               Diagnostics& diagnostics)
       : root_(root),
         file_(file),
+        registry_(registry),
         diagnostics_(diagnostics),
         names_(ScenarioNames::of(root)),
         models_(registry, names_, diagnostics) {
@@ -73,6 +75,9 @@ class SetupReader {
     }
     check_voidage();
     check_emitters();
+    if (diagnostics_.error_count() == 0) {
+      check_fixed_step(setup_, registry_, dem_step_where_, diagnostics_);
+    }
     if (setup_.emitters.empty() && !setup_.fluid) {
       diagnostics_.warning(root_.where, "nothing moves: no emitter takes part and fluid is none");
     }
@@ -156,6 +161,7 @@ class SetupReader {
                    .expected_speed = time.expected_speed,
                    .rates_single = time.rates == "single"};
     const Node& map = entry->value;
+    dem_step_where_ = mark_of(map, "dem_step");
     check_time(setup_.time,
                {mark_of(map, "fluid_step"), mark_of(map, "output_every"),
                 mark_of(map, "checkpoint_every"), mark_of(map, "dem_step"), mark_of(map, "end")},
@@ -577,9 +583,11 @@ class SetupReader {
 
   const Node& root_;
   const fs::path& file_;
+  const registry::Registry& registry_;
   Diagnostics& diagnostics_;
   ScenarioNames names_;
   ModelReader models_;
+  Mark dem_step_where_;
   bool has_fluid_ = false;
   bool pairs_are_read_ = true;
   std::vector<std::unique_ptr<sdk::Model>> emitters_;
