@@ -90,6 +90,19 @@ Told told(const std::string& from = "", const std::string& to = "") {
   return out;
 }
 
+/// What is read back from the resolved scenario.
+scenario::Setup read_again() {
+  const fs::path folder = fs::temp_directory_path() / ("dust_again_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "s.yaml", std::ios::binary) << k_scenario;
+  const std::string resolved =
+      scenario::read_scenario(folder / "s.yaml", {}, shipped(), {}).resolved_yaml;
+  std::ofstream(folder / "r.yaml", std::ios::binary) << resolved;
+  auto again = scenario::read_scenario(folder / "r.yaml", {}, shipped(), {}).setup;
+  fs::remove_all(folder);
+  return again;
+}
+
 void check(const std::string& from, const std::string& to, const std::string& expected) {
   const Told t = told(from, to);
   REQUIRE(t.errors.size() == 1);
@@ -102,6 +115,19 @@ TEST_CASE("a scenario with every kind of law shall be well") {
   const Told t = told();
   CHECK(t.errors.empty());
   CHECK(t.warnings.empty());
+}
+
+TEST_CASE("the resolved scenario shall hold every law with its parameters") {
+  const scenario::Setup setup = read_again();
+  REQUIRE(setup.interactions.size() == 2);
+  REQUIRE(setup.interactions[0].cohesion.has_value());
+  CHECK(setup.interactions[0].cohesion->name == "jkr");
+  CHECK(std::get<double>(setup.interactions[0].cohesion->values.at(0)) == 0.02);
+  REQUIRE(setup.interactions[1].cohesion.has_value());
+  CHECK(setup.interactions[1].cohesion->name == "liquid_bridge");
+  CHECK(std::get<double>(setup.interactions[1].cohesion->values.at(2)) == 1e-13);
+  CHECK(setup.interactions[1].contact.name == "hooke");
+  CHECK(setup.interactions[1].rolling->name == "cdt");
 }
 
 TEST_CASE("a negative parameter of a law shall be told with its range") {

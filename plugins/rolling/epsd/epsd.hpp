@@ -32,7 +32,7 @@ struct Rolling {
 /// \f$ I_r = \tfrac75 m^* R^{*2} \f$: the inertia of a sphere about its contact with a wall. M_s
 /// turns with the contact and keeps its length.
 /// Source: model C of Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269,
-/// doi:10.1016/j.powtec.2010.09.030, eqs. 10 to 15; I_r of a pair: own choice.
+/// doi:10.1016/j.powtec.2010.09.030; I_r of a pair: own choice.
 [[gnu::always_inline]] inline void evaluate(const Constants& k, double time_step, Rolling& c) {
   constexpr double k_tiny = 1e-290;
   const double wn = c.wx * c.nx + c.wy * c.ny + c.wz * c.nz;
