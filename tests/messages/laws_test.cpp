@@ -48,8 +48,9 @@ emitters:
     model: feed
     material: sand
     mass_flow: 6 g/s
-    min: [1, 1, 40 mm]
+    min: [1, 1, 45 mm]
     max: [9, 9, 45 mm]
+    velocity: [0, 0, -0.5]
     diameters: [300, 500 um]
     number_fractions: [0.5, 0.5]
 fluid: none
@@ -132,18 +133,18 @@ TEST_CASE("the resolved scenario shall hold every law with its parameters") {
 
 TEST_CASE("a negative parameter of a law shall be told with its range") {
   check("surface_energy: 20 mJ/m2", "surface_energy: -20 mJ/m2",
-        "s.yaml:21:43: error: interactions[0].cohesion.surface_energy: -20 mJ/m2 is outside "
+        "s.yaml:21:44: error: interactions[0].cohesion.surface_energy: -20 mJ/m2 is outside "
         "gamma > 0 N/m");
   check("normal_stiffness: 1 kN/m", "normal_stiffness: -1 kN/m",
-        "s.yaml:23:46: error: interactions[1].contact.normal_stiffness: -1 kN/m is outside "
+        "s.yaml:23:47: error: interactions[1].contact.normal_stiffness: -1 kN/m is outside "
         "k_n > 0 N/m");
   check("damping_ratio: 0.2", "damping_ratio: -0.2",
-        "s.yaml:20:57: error: interactions[0].rolling.damping_ratio: -0.2 is outside "
+        "s.yaml:20:58: error: interactions[0].rolling.damping_ratio: -0.2 is outside "
         "0 <= eta_r <= 1");
   check("{model: cdt, friction: 0.1}", "{model: cdt, friction: -0.1}",
-        "s.yaml:24:38: error: interactions[1].rolling.friction: -0.1 is outside mu_r >= 0");
+        "s.yaml:24:37: error: interactions[1].rolling.friction: -0.1 is outside mu_r >= 0");
   check("volume: 1e-13", "volume: -1e-13",
-        "s.yaml:25:100: error: interactions[1].cohesion.volume: -1e-13 is outside V >= 0 m3");
+        "s.yaml:25:95: error: interactions[1].cohesion.volume: -1e-13 is outside V >= 0 m3");
 }
 
 TEST_CASE("a missing pair of materials shall be told with who meets") {
@@ -161,7 +162,7 @@ TEST_CASE("a cohesion that does not fit its contact law or materials shall be to
       "contact law 'hooke' does not have: choose another contact law or another cohesion");
   check("{model: jkr, surface_energy: 20 mJ/m2}", "{model: sjkr, energy_density: 10 MPa}",
         "s.yaml:21:23: error: interactions[0].cohesion: energy_density: 1e+07 Pa would pull the "
-        "grains more than a tenth of R* into each other: at most 1.84368e+06 Pa goes with these "
+        "grains more than a tenth of R* into each other: at most 1.84356e+06 Pa goes with these "
         "materials (0.067 of their effective Young's modulus)");
   check("volume: 1e-13", "volume: 0",
         "s.yaml:25:23: error: interactions[1].cohesion: a bridge needs its liquid: give volume or "
@@ -180,14 +181,14 @@ TEST_CASE("a fixed step above the stable one shall be told: warned of, or refuse
   CHECK(longer.errors.empty());
   REQUIRE(longer.warnings.size() == 1);
   CHECK(longer.warnings[0].starts_with(
-      "s.yaml:2:65: warning: time.dem_step: 2.5e-06 s is longer than the stable step of grains of "
+      "s.yaml:2:68: warning: time.dem_step: 2.5e-06 s is longer than the stable step of grains of "
       "0.0003 m, "));
   CHECK(longer.warnings[0].ends_with(
       "collisions lose their accuracy; leave dem_step out or give at most that"));
   const Told hopeless = told("output_every: 1 ms", "output_every: 1 ms, dem_step: 20 us");
   REQUIRE(hopeless.errors.size() == 1);
   CHECK(hopeless.errors[0].starts_with(
-      "s.yaml:2:65: error: time.dem_step: 2e-05 s is longer than the stable step of grains of "
+      "s.yaml:2:68: error: time.dem_step: 2e-05 s is longer than the stable step of grains of "
       "0.0003 m, "));
   CHECK(hopeless.errors[0].ends_with(
       "the grains would fly apart; leave dem_step out or give at most that"));
