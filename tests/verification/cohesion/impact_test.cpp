@@ -157,3 +157,28 @@ TEST_CASE("a clump of sticky grains shall keep momentum and its bits on any numb
     CHECK(norm(momentum - before) < 1e-6 * scale);
   }
 }
+
+TEST_CASE("dust shall stick to sand and rest on it, with several rates as with one") {
+  // 10 um on 600 um, below the speed at which an elastic impact would free it (66 mm/s).
+  constexpr double gamma = 0.01;
+  constexpr double dust = 5e-6;
+  const double reduced = dust * k_r / (dust + k_r);
+  const double length = std::cbrt(2.0 * k_pi * gamma * reduced * reduced / k_e);
+  const double b = std::cbrt(1.5);
+  const double resting = (b * b * b * b - b) * length * length / reduced;
+  for (const bool single : {true, false}) {
+    Sticky s({"jkr", {{"surface_energy", gamma}}}, 0.5, 0.5);
+    s.rig.diameters = {2 * dust, 2 * k_r};
+    s.rig.setup.time.rates_single = single;
+    auto dem = s.rig.make();
+    dem->insert(std::vector<NewGrain>{
+        {.position = {0, 0, 0}, .diameter = 2 * k_r},
+        {.position = {0, 0, k_r + 1.1 * dust}, .velocity = {0, 0, -0.03}, .diameter = 2 * dust}});
+    Stepper stepper(*dem);
+    while (stepper.time() < 2e-3) stepper.step();
+    const Vec3 apart = grain(*dem, 1).position - grain(*dem, 0).position;
+    CAPTURE(single);
+    CHECK(k_r + dust - norm(apart) == doctest::Approx(resting).epsilon(0.02));
+    CHECK(norm(grain(*dem, 1).velocity - grain(*dem, 0).velocity) < 1e-4);
+  }
+}
