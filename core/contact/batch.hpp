@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/aligned.hpp"
-#include "dust/sdk/contact_law.hpp"
+#include "dust/sdk/cohesion_law.hpp"
 
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace dust::contact {
 inline constexpr std::size_t k_batch = 64;
 /// Column stride; not a power of two, which would alias the columns in the first-level cache.
 inline constexpr std::size_t k_stride = k_batch + 8;
-/// Largest history of a contact (contact stage + rolling stage) in columns.
+/// Largest history of a contact (contact, rolling and cohesion stage) in columns.
 inline constexpr int k_max_history = 16;
 
 /// Number of rows a law sees for `count` contacts: the next multiple of eight.
@@ -50,6 +50,7 @@ class BatchColumns {
     lever_i,  ///< [m] centre of i to the contact point
     lever_j,
     normal_force,
+    normal_stiffness,
     tangential_stiffness,
     force_x,
     force_y,
@@ -65,6 +66,8 @@ class BatchColumns {
     torque_j_z,
     scale_i,  ///< [-] share of the force side i feels (statistical weights)
     scale_j,
+    contact_overlap,  ///< [m] what the contact law sees under cohesion
+    attraction,       ///< [N]
     first_history,
     k_columns = first_history + k_max_history
   };
@@ -78,9 +81,10 @@ class BatchColumns {
   }
   [[nodiscard]] double* const* history() const { return history_.data(); }
 
-  /// The batch a law sees. `first` skips the columns of earlier stages.
+  /// The batch a law sees. `first_history_column` skips the columns of other stages.
   [[nodiscard]] sdk::ContactBatch view(std::size_t count, double time_step,
                                        int first_history_column);
+  [[nodiscard]] sdk::CohesionBatch cohesion_view(std::size_t count, int first_history_column);
 
  private:
   AlignedVector<double> data_;

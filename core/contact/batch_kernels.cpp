@@ -46,6 +46,7 @@ sdk::ContactBatch BatchColumns::view(std::size_t count, double time_step,
   b.effective_radius = column(effective_radius);
   b.effective_mass = column(effective_mass);
   b.normal_force = column(normal_force);
+  b.normal_stiffness = column(normal_stiffness);
   b.tangential_stiffness = column(tangential_stiffness);
   b.force_x = column(force_x);
   b.force_y = column(force_y);
@@ -53,6 +54,17 @@ sdk::ContactBatch BatchColumns::view(std::size_t count, double time_step,
   b.torque_x = column(torque_x);
   b.torque_y = column(torque_y);
   b.torque_z = column(torque_z);
+  b.history = history_.data() + first_history_column;
+  return b;
+}
+
+sdk::CohesionBatch BatchColumns::cohesion_view(std::size_t count, int first_history_column) {
+  sdk::CohesionBatch b;
+  b.count = padded(count);
+  b.overlap = column(overlap);
+  b.effective_radius = column(effective_radius);
+  b.contact_overlap = column(contact_overlap);
+  b.attraction = column(attraction);
   b.history = history_.data() + first_history_column;
   return b;
 }
@@ -219,6 +231,24 @@ DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count)
     largest = std::max(largest, d / std::min(ri[q], rj[q]));
   }
   return largest;
+}
+
+DUST_KERNEL void subtract_attraction(BatchColumns& columns, std::size_t count) {
+  using B = BatchColumns;
+  const double* nx = columns.column(B::normal_x);
+  const double* ny = columns.column(B::normal_y);
+  const double* nz = columns.column(B::normal_z);
+  const double* attraction = columns.column(B::attraction);
+  double* fx = columns.column(B::force_x);
+  double* fy = columns.column(B::force_y);
+  double* fz = columns.column(B::force_z);
+  const std::size_t n = padded(count);
+#pragma omp simd
+  for (std::size_t q = 0; q < n; ++q) {
+    fx[q] -= attraction[q] * nx[q];
+    fy[q] -= attraction[q] * ny[q];
+    fz[q] -= attraction[q] * nz[q];
+  }
 }
 
 DUST_KERNEL void derive_torques(BatchColumns& columns, std::size_t count, bool has_couple) {

@@ -45,6 +45,9 @@ void load_pairs(const RowView& rows, const Images& images, const PairView& pairs
 /// point from what load_pairs wrote. Returns the largest overlap / smaller radius [-].
 double derive_pair_columns(BatchColumns& columns, std::size_t count);
 
+/// Takes the attraction of the cohesion stage from the forces, along the normals.
+void subtract_attraction(BatchColumns& columns, std::size_t count);
+
 /// Torques about the centres: force at the lever arms plus the rolling couple.
 void derive_torques(BatchColumns& columns, std::size_t count, bool has_couple);
 

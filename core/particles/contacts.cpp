@@ -25,11 +25,32 @@ void repeat_last(BatchColumns& columns, std::size_t count, int first, int last) 
   }
 }
 
+/// Pairs of a batch that touch; the others are within the range of cohesion.
+std::int64_t in_touch(BatchColumns& columns, std::size_t count) {
+  const double* overlap = columns.column(BatchColumns::overlap);
+  return std::count_if(overlap, overlap + count, [](double d) { return d > 0.0; });
+}
+
 }  // namespace
 
 contact::BatchColumns& thread_columns() {
   thread_local contact::BatchColumns columns;
   return columns;
+}
+
+void evaluate_laws(const PairLaws& law, BatchColumns& columns, std::size_t count,
+                   double time_step) {
+  sdk::ContactBatch batch = columns.view(count, time_step, 0);
+  const int first_rolling = law.contact->history_size();
+  if (law.cohesion) {
+    const int first = first_rolling + (law.rolling ? law.rolling->history_size() : 0);
+    law.cohesion->evaluate(columns.cohesion_view(count, first));
+    batch.overlap = columns.column(BatchColumns::contact_overlap);
+  }
+  law.contact->evaluate(batch);
+  if (law.cohesion) contact::subtract_attraction(columns, count);
+  if (law.rolling) law.rolling->evaluate(columns.view(count, time_step, first_rolling));
+  contact::derive_torques(columns, count, law.rolling != nullptr);
 }
 
 void Dem::Impl::contact(double now) {
@@ -54,10 +75,10 @@ void Dem::Impl::chunk_pairs(Chunk& chunk) {
   const int groups = static_cast<int>(history_stride / 4);
   for (const Segment& segment : chunk.pairs.segments) {
     const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
-    const std::size_t found = contact::find_touching(
-        rows, images, pairs, static_cast<std::size_t>(segment.begin),
-        static_cast<std::size_t>(segment.end), law.contact->range(), touching.data());
-    chunk.contacts += static_cast<std::int64_t>(found);
+    const std::size_t found =
+        contact::find_touching(rows, images, pairs, static_cast<std::size_t>(segment.begin),
+                               static_cast<std::size_t>(segment.end), law.range, touching.data());
+    if (!law.cohesion) chunk.contacts += static_cast<std::int64_t>(found);
     for (std::size_t first = 0; first < found; first += k_batch) {
       const std::size_t count = std::min(k_batch, found - first);
       const std::int32_t* contacts = touching.data() + first;
@@ -65,11 +86,8 @@ void Dem::Impl::chunk_pairs(Chunk& chunk) {
       contact::load_history(pairs, contacts, count, groups, columns);
       const double overlap = contact::derive_pair_columns(columns, count);
       chunk.largest_overlap = std::max(chunk.largest_overlap, overlap);
-      law.contact->evaluate(columns.view(count, steps.coarse_step, 0));
-      if (law.rolling) {
-        law.rolling->evaluate(columns.view(count, steps.coarse_step, law.contact->history_size()));
-      }
-      contact::derive_torques(columns, count, law.rolling != nullptr);
+      evaluate_laws(law, columns, count, steps.coarse_step);
+      if (law.cohesion) chunk.contacts += in_touch(columns, count);
       bool has_scales = false;
       double* scale_i = columns.column(BatchColumns::scale_i);
       double* scale_j = columns.column(BatchColumns::scale_j);
@@ -107,7 +125,7 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk) {
   for (const Segment& segment : list.segments) {
     const Surface& surface = surfaces[static_cast<std::size_t>(segment.surface)];
     const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
-    const double range = law.contact->range();
+    const double range = law.range;
     std::size_t count = 0;
     const auto flush = [&] {
       if (count == 0) return;
@@ -125,14 +143,10 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk) {
       repeat_last(columns, count, B::velocity_x, B::velocity_z);
       repeat_last(columns, count, B::overlap, B::lever_j);
       contact::load_history(pairs, contacts, count, groups, columns);
-      law.contact->evaluate(columns.view(count, steps.coarse_step, 0));
-      if (law.rolling) {
-        law.rolling->evaluate(columns.view(count, steps.coarse_step, law.contact->history_size()));
-      }
-      contact::derive_torques(columns, count, law.rolling != nullptr);
+      evaluate_laws(law, columns, count, steps.coarse_step);
       contact::store_history(pairs, contacts, count, groups, columns);
       contact::scatter_single(local, count, columns, chunk.force.data());
-      chunk.contacts += static_cast<std::int64_t>(count);
+      chunk.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(count);
       count = 0;
     };
     for (std::int32_t q = segment.begin; q < segment.end; ++q) {

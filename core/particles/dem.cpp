@@ -29,18 +29,25 @@ Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
   }
   law_table.assign(materials.size() * materials.size(), -1);
   int columns = 0;
+  const double largest = *std::max_element(diameters.begin(), diameters.end());
   for (std::size_t n = 0; n < laws.size(); ++n) {
     const auto i = static_cast<std::size_t>(laws[n].material_i);
     const auto j = static_cast<std::size_t>(laws[n].material_j);
     law_table[i * materials.size() + j] = law_table[j * materials.size() + i] =
         static_cast<std::int32_t>(n);
     columns = std::max(columns, laws[n].contact->history_size() +
-                                    (laws[n].rolling ? laws[n].rolling->history_size() : 0));
-    largest_range = std::max(largest_range, laws[n].contact->range());
+                                    (laws[n].rolling ? laws[n].rolling->history_size() : 0) +
+                                    (laws[n].cohesion ? laws[n].cohesion->history_size() : 0));
+    // R* is largest where the largest grain meets a wall.
+    laws[n].range = laws[n].contact->range();
+    if (laws[n].cohesion) {
+      laws[n].range = std::max(laws[n].range, laws[n].cohesion->range(0.5 * largest));
+    }
+    largest_range = std::max(largest_range, laws[n].range);
   }
   if (columns > contact::k_max_history) {
-    throw sdk::ParameterError("contact and rolling law together keep " + std::to_string(columns) +
-                              " numbers per contact; at most " +
+    throw sdk::ParameterError("contact, rolling and cohesion law together keep " +
+                              std::to_string(columns) + " numbers per contact; at most " +
                               std::to_string(contact::k_max_history) + " are possible");
   }
   history_stride = static_cast<std::size_t>(std::max(4, (columns + 3) / 4 * 4));

@@ -3,7 +3,7 @@
 
 #include "bodies/body_set.hpp"
 #include "dust/sdk/archive.hpp"
-#include "dust/sdk/contact_law.hpp"
+#include "dust/sdk/cohesion_law.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "particles/grain_rows.hpp"
 #include "scenario/setup.hpp"
@@ -18,12 +18,14 @@ namespace dust::particles {
 
 class BalanceBook;
 
-/// The laws of one pair of materials; `rolling` may be null.
+/// The laws of one pair of materials; `rolling` and `cohesion` may be null.
 struct PairLaws {
   int material_i = 0;
   int material_j = 0;
   std::unique_ptr<sdk::ContactLaw> contact;
   std::unique_ptr<sdk::RollingLaw> rolling;
+  std::unique_ptr<sdk::CohesionLaw> cohesion;
+  double range = 0.0;  ///< [m] beyond touch, of contact and cohesion; set by the DEM
 };
 
 /// A grain to insert; the DEM gives the id.

@@ -159,8 +159,7 @@ class BlockPass {
       inverse_mass = dem_.store.velocity[row + 3];
     }
     const Vec3 d = dem_.separation(&position.x, &i.position.x);
-    const double reach =
-        i.radius + radius + dem_.laws[static_cast<std::size_t>(c.law)].contact->range();
+    const double reach = i.radius + radius + dem_.laws[static_cast<std::size_t>(c.law)].range;
     if (!(dot(d, d) < reach * reach)) return false;
     set(B::separation_x, d);
     set(B::velocity_x, i.velocity - velocity);
@@ -178,7 +177,7 @@ class BlockPass {
     const Surface& surface = dem_.surfaces[static_cast<std::size_t>(c.surface)];
     const bodies::SurfacePoint s = surface.nearest(i.position);
     const double overlap = i.radius - s.distance;
-    if (!(overlap > -dem_.laws[static_cast<std::size_t>(c.law)].contact->range())) return false;
+    if (!(overlap > -dem_.laws[static_cast<std::size_t>(c.law)].range)) return false;
     const double lever = i.radius - 0.5 * overlap;
     const Vec3 point = i.position - s.distance * s.normal;
     Vec3 wall;
@@ -216,11 +215,7 @@ class BlockPass {
           std::max(block_.largest_overlap, contact::derive_pair_columns(columns_, count_));
     }
     const PairLaws& law = dem_.laws[static_cast<std::size_t>(open.law)];
-    law.contact->evaluate(columns_.view(count_, sub_step, 0));
-    if (law.rolling) {
-      law.rolling->evaluate(columns_.view(count_, sub_step, law.contact->history_size()));
-    }
-    contact::derive_torques(columns_, count_, law.rolling != nullptr);
+    evaluate_laws(law, columns_, count_, sub_step);
     for (std::size_t q = 0; q < count_; ++q) apply(*in_batch_[q], q, sub_step);
     count_ = 0;
   }
@@ -347,13 +342,15 @@ static Outlook look_out(const Dem::Impl& dem, std::size_t entry, double extra_sp
   Outlook out;
   out.speed = norm(relative) + gain;
   const PairLaws& laws = dem.laws[static_cast<std::size_t>(law)];
-  const double margin = k_reach_margin * radius + laws.contact->range();
+  const double margin = k_reach_margin * radius + laws.range;
   out.is_near = dem.fine.is_touching[entry] != 0 || gap < (out.speed + extra_speed) * step + margin;
   if (!out.is_near) return out;
   const double approach = std::max(0.0, -dot(relative, normal)) + gain + extra_speed;
+  double overlap = std::max(-gap, 0.0);
+  if (laws.cohesion) overlap = std::max(overlap, laws.cohesion->resting_overlap(reduced_radius));
   out.stable_step =
       std::min(laws.contact->collision_time(reduced_radius, mass, std::max(approach, 1e-12)),
-               laws.contact->half_period(reduced_radius, mass, std::max(-gap, 0.0))) /
+               laws.contact->half_period(reduced_radius, mass, overlap)) /
       k_steps_per_contact;
   return out;
 }

@@ -230,6 +230,11 @@ struct Dem::Impl {
   FineSpace fine_space;
 };
 
+/// All stages of a pair's laws on one batch, from the overlaps to the torques. The columns of
+/// history stand in the order contact, rolling, cohesion.
+void evaluate_laws(const PairLaws& law, contact::BatchColumns& columns, std::size_t count,
+                   double time_step);
+
 /// Batch scratch of the calling thread.
 contact::BatchColumns& thread_columns();
 

@@ -65,6 +65,10 @@ TimeSteps time_steps(const scenario::Setup& setup, const bodies::BodySet& bodies
         const auto shortest = [&](double r, double mm) {
           c.hertz_time =
               std::min(c.hertz_time, law.contact->collision_time(r, mm, out.expected_speed));
+          if (law.cohesion) {
+            const double overlap = law.cohesion->resting_overlap(r);
+            c.hertz_time = std::min(c.hertz_time, law.contact->half_period(r, mm, overlap));
+          }
         };
         const int other = law.material_i == m ? law.material_j : law.material_i;
         if (materials.count(other) > 0) {

@@ -23,6 +23,10 @@ Models make_models(const scenario::Setup& setup, const registry::Registry& regis
       laws.rolling = registry.create_as<sdk::RollingLaw>(*spec.rolling);
       laws.rolling->prepare(i, j);
     }
+    if (spec.cohesion) {
+      laws.cohesion = registry.create_as<sdk::CohesionLaw>(*spec.cohesion);
+      laws.cohesion->prepare(i, j);
+    }
     m.laws.push_back(std::move(laws));
   }
   for (const auto& spec : setup.emitters) {

@@ -5,9 +5,12 @@
 #include "dust/sdk/motion.hpp"
 #include "dust/sdk/random.hpp"
 #include "dust/sdk/sphere.hpp"
+#include "scenario/units.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -18,6 +21,10 @@ namespace {
 // within 0.01 of the declared one).
 constexpr double k_rayleigh_share = 0.3;
 constexpr double k_steps_per_collision = 15.0;
+// Below this many steps a collision is missed or throws the grains apart.
+constexpr double k_fewest_steps_per_collision = 3.0;
+// Grains below this share of the largest diameter are sub-cycled.
+constexpr double k_coarse_share = 1.0 / 8.0;
 
 // For the rough estimates: bytes per grain and cell, grains per second and core, cells per second
 // and core. Orders of magnitude on a current desktop machine.
@@ -28,6 +35,21 @@ constexpr double k_grain_steps_per_second = 8e6;
 constexpr double k_cell_steps_per_second = 1e6;
 
 using Emitters = std::vector<std::unique_ptr<sdk::Emitter>>;
+
+Emitters make_emitters(const Setup& setup, const registry::Registry& registry) {
+  Emitters emitters;
+  for (const EmitterSpec& spec : setup.emitters) {
+    emitters.push_back(registry.create_as<sdk::Emitter>(spec.model));
+  }
+  return emitters;
+}
+
+/// Three digits, for messages.
+std::string short_number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
+}
 
 double extent_along(const DomainSpec& domain, sdk::Vec3 direction) {
   const sdk::Vec3 size = domain.max - domain.min;
@@ -73,7 +95,14 @@ void find_hertz_time(const Setup& setup, const registry::Registry& registry, dou
     law->prepare(material(pair.material_i).properties, material(pair.material_j).properties);
     // Two equal grains: R* = R/2, m* = m/2; a wall: R* = R, m* = m.
     const double share = other == size.material ? 0.5 : 1.0;
-    const double time = law->collision_time(share * radius, share * mass, speed);
+    double time = law->collision_time(share * radius, share * mass, speed);
+    if (pair.cohesion) {
+      // Grains that stick swing about their overlap at rest.
+      const auto cohesion = registry.create_as<sdk::CohesionLaw>(*pair.cohesion);
+      cohesion->prepare(material(pair.material_i).properties, material(pair.material_j).properties);
+      time = std::min(time, law->half_period(share * radius, share * mass,
+                                             cohesion->resting_overlap(share * radius)));
+    }
     if (time < size.hertz_time) {
       size.hertz_time = time;
       size.partner = material(other).name;
@@ -196,12 +225,44 @@ double rayleigh_time(double radius, const sdk::MaterialProperties& m) {
          (0.1631 * m.poisson_ratio + 0.8766);
 }
 
+void check_fixed_step(const Setup& setup, const registry::Registry& registry, const Mark& where,
+                      Diagnostics& diagnostics) {
+  const double step = setup.time.dem_step;
+  if (!(step > 0.0)) return;
+  const Emitters emitters = make_emitters(setup, registry);
+  Derived derived;
+  derived.expected_speed = expected_speed(setup, emitters, largest_body_speed(setup, registry));
+  derive_steps(setup, registry, emitters, derived);
+  const double largest = derived.sizes.empty() ? 0.0 : derived.sizes.back().diameter;
+  const SizeNumbers* deciding = nullptr;
+  for (const SizeNumbers& size : derived.sizes) {
+    const bool has_the_step =
+        setup.time.rates_single || size.diameter >= k_coarse_share * largest * (1.0 - 1e-12);
+    if (has_the_step && (deciding == nullptr || size.stable_step < deciding->stable_step)) {
+      deciding = &size;
+    }
+  }
+  if (deciding == nullptr || step <= deciding->stable_step) return;
+  const bool is_hopeless =
+      step > deciding->rayleigh_time || k_fewest_steps_per_collision * step > deciding->hertz_time;
+  const std::string text =
+      "time.dem_step: " + number_text(step) + " s is longer than the stable step of grains of " +
+      short_number(deciding->diameter) + " m, " + short_number(deciding->stable_step) +
+      " s (Rayleigh time " + short_number(deciding->rayleigh_time) + " s, shortest collision " +
+      short_number(deciding->hertz_time) + " s at " + short_number(derived.expected_speed) +
+      " m/s): " +
+      (is_hopeless ? "the grains would fly apart; leave dem_step out or give at most that"
+                   : "collisions lose their accuracy; leave dem_step out or give at most that");
+  if (is_hopeless) {
+    diagnostics.error(where, text);
+  } else {
+    diagnostics.warning(where, text);
+  }
+}
+
 Derived derive(const Setup& setup, const registry::Registry& registry) {
   Derived derived;
-  Emitters emitters;
-  for (const EmitterSpec& spec : setup.emitters) {
-    emitters.push_back(registry.create_as<sdk::Emitter>(spec.model));
-  }
+  const Emitters emitters = make_emitters(setup, registry);
   const double body_speed = largest_body_speed(setup, registry);
   derived.expected_speed = expected_speed(setup, emitters, body_speed);
   derive_steps(setup, registry, emitters, derived);

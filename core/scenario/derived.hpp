@@ -2,6 +2,7 @@
 #pragma once
 
 #include "registry/registry.hpp"
+#include "scenario/diagnostics.hpp"
 #include "scenario/setup.hpp"
 
 #include <string>
@@ -48,6 +49,11 @@ struct Derived {
 /// Rayleigh time [s] of a sphere: \f$ T_R = \pi R \sqrt{\rho / G} / (0.1631 \nu + 0.8766) \f$,
 /// R radius [m], \f$ G = E / (2 (1 + \nu)) \f$. The nu term stands outside the root (Johnson 1985).
 double rayleigh_time(double radius, const sdk::MaterialProperties& material);
+
+/// Is a fixed `time.dem_step` too long for the grains that take it? A warning above the stable
+/// step, an error where a collision would not be seen or the grains would fly apart.
+void check_fixed_step(const Setup& setup, const registry::Registry& registry, const Mark& where,
+                      Diagnostics& diagnostics);
 
 /// Derives all numbers; makes the models it needs.
 Derived derive(const Setup& setup, const registry::Registry& registry);

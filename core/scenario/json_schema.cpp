@@ -195,9 +195,10 @@ std::string json_schema(const registry::Registry& registry) {
   interaction["properties"]["between"]["maxItems"] = 2;
   interaction["properties"]["contact"] = {{"$ref", "#/definitions/contact"}};
   interaction["properties"]["rolling"] = {{"$ref", "#/definitions/rolling"}};
+  interaction["properties"]["cohesion"] = {{"$ref", "#/definitions/cohesion"}};
   interaction["required"].push_back("contact");
   Json definitions = {{"side", domain["side"]}};
-  for (const char* kind : {"contact", "rolling", "boundary", "drag", "voidage"}) {
+  for (const char* kind : {"contact", "rolling", "cohesion", "boundary", "drag", "voidage"}) {
     definitions[kind] = model(registry, kind);
   }
 

@@ -5,6 +5,7 @@
 #include "dust/sdk/voidage_rule.hpp"
 #include "scenario/blocks.hpp"
 #include "scenario/checks.hpp"
+#include "scenario/derived.hpp"
 #include "scenario/model_reader.hpp"
 #include "scenario/overlay.hpp"
 #include "scenario/suggest.hpp"
@@ -43,6 +44,7 @@ class SetupReader {
               Diagnostics& diagnostics)
       : root_(root),
         file_(file),
+        registry_(registry),
         diagnostics_(diagnostics),
         names_(ScenarioNames::of(root)),
         models_(registry, names_, diagnostics) {
@@ -73,6 +75,9 @@ class SetupReader {
     }
     check_voidage();
     check_emitters();
+    if (diagnostics_.error_count() == 0) {
+      check_fixed_step(setup_, registry_, dem_step_where_, diagnostics_);
+    }
     if (setup_.emitters.empty() && !setup_.fluid) {
       diagnostics_.warning(root_.where, "nothing moves: no emitter takes part and fluid is none");
     }
@@ -156,6 +161,7 @@ class SetupReader {
                    .expected_speed = time.expected_speed,
                    .rates_single = time.rates == "single"};
     const Node& map = entry->value;
+    dem_step_where_ = mark_of(map, "dem_step");
     check_time(setup_.time,
                {mark_of(map, "fluid_step"), mark_of(map, "output_every"),
                 mark_of(map, "checkpoint_every"), mark_of(map, "dem_step"), mark_of(map, "end")},
@@ -304,6 +310,7 @@ class SetupReader {
     Node written = written_block<InteractionBlock>(values);
     ReadModel contact = read_part(reader, "contact", true, written);
     ReadModel rolling = read_part(reader, "rolling", false, written);
+    ReadModel cohesion = read_part(reader, "cohesion", false, written);
     reader.finish();
     if (!has_pair) {
       pairs_are_read_ = false;
@@ -320,9 +327,34 @@ class SetupReader {
       }
     }
     spec.contact = contact.choice.value_or(ModelChoice{});
+    check_laws(spec, contact, cohesion);
     spec.rolling = std::move(rolling.choice);
+    spec.cohesion = std::move(cohesion.choice);
     setup_.interactions.push_back(std::move(spec));
     return written;
+  }
+
+  /// Does the cohesive law fit the materials and the contact law?
+  void check_laws(const InteractionSpec& spec, const ReadModel& contact,
+                  const ReadModel& cohesion) {
+    if (!contact.model || !cohesion.model) return;
+    const auto& i = setup_.materials[static_cast<std::size_t>(spec.material_i)].properties;
+    const auto& j = setup_.materials[static_cast<std::size_t>(spec.material_j)].properties;
+    if (!(i.young_modulus > 0.0 && j.young_modulus > 0.0)) return;  // told where it stands
+    auto& law = static_cast<sdk::CohesionLaw&>(*cohesion.model);
+    const ModelChoice& choice = *cohesion.choice;
+    if (law.needs_hertz_force() &&
+        !static_cast<sdk::ContactLaw&>(*contact.model).has_hertz_force()) {
+      error(choice.where, choice.path + ": '" + choice.name +
+                              "' replaces the Hertz force, which the contact law '" +
+                              contact.choice->name +
+                              "' does not have: choose another contact law or another cohesion");
+    }
+    try {
+      law.prepare(i, j);
+    } catch (const sdk::ParameterError& problem) {
+      error(choice.where, choice.path + ": " + problem.what());
+    }
   }
 
   /// A part of a block that is a model of the kind of the part's name: `drag: {model: ...}`.
@@ -551,9 +583,11 @@ class SetupReader {
 
   const Node& root_;
   const fs::path& file_;
+  const registry::Registry& registry_;
   Diagnostics& diagnostics_;
   ScenarioNames names_;
   ModelReader models_;
+  Mark dem_step_where_;
   bool has_fluid_ = false;
   bool pairs_are_read_ = true;
   std::vector<std::unique_ptr<sdk::Model>> emitters_;

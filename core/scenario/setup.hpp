@@ -70,6 +70,7 @@ struct InteractionSpec {
   int material_j = 0;
   ModelChoice contact;
   std::optional<ModelChoice> rolling;
+  std::optional<ModelChoice> cohesion;
   Mark where;
 };
 

@@ -304,6 +304,7 @@ std::string range_text(const Parameter& p) {
   const std::string unit = si_unit(p.dimension);
   const std::string tail = unit.empty() ? "" : " " + unit;
   std::string text = p.symbol.empty() ? p.name : p.symbol;
+  std::erase(text, '\\');  // symbols are TeX, messages are not
   if (has_low && has_high) {
     text = number_text(p.range.low) + (p.range.low_is_open ? " < " : " <= ") + text +
            (p.range.high_is_open ? " < " : " <= ") + number_text(p.range.high);

@@ -1,1 +1,2 @@
 dust_plugin(contact hertz_mindlin)
+dust_plugin(contact hooke)

@@ -74,18 +74,32 @@ struct DemRig {
         {"m" + std::to_string(setup.materials.size()), {density, young, poisson}});
     return static_cast<int>(setup.materials.size()) - 1;
   }
+  /// A model by name with its parameters; without a name: none.
+  struct Choice {
+    std::string name;
+    std::map<std::string, sdk::Value> values;
+  };
   void law(int i, int j, double restitution, double friction, double rolling = -1.0) {
+    laws_of(i, j, {"hertz_mindlin", {{"restitution", restitution}, {"friction", friction}}},
+            rolling >= 0.0 ? Choice{"epsd2", {{"friction", rolling}}} : Choice{});
+  }
+  /// Any laws for the pair of materials i, j.
+  void laws_of(int i, int j, const Choice& contact, const Choice& rolling = {},
+               const Choice& cohesion = {}) {
     particles::PairLaws p;
     p.material_i = i;
     p.material_j = j;
-    p.contact = ModelLoader::make<sdk::ContactLaw>(
-        "contact", "hertz_mindlin", {{"restitution", restitution}, {"friction", friction}});
     const auto& mi = setup.materials[static_cast<std::size_t>(i)].properties;
     const auto& mj = setup.materials[static_cast<std::size_t>(j)].properties;
+    p.contact = ModelLoader::make<sdk::ContactLaw>("contact", contact.name, contact.values);
     p.contact->prepare(mi, mj);
-    if (rolling >= 0.0) {
-      p.rolling = ModelLoader::make<sdk::RollingLaw>("rolling", "epsd2", {{"friction", rolling}});
+    if (!rolling.name.empty()) {
+      p.rolling = ModelLoader::make<sdk::RollingLaw>("rolling", rolling.name, rolling.values);
       p.rolling->prepare(mi, mj);
+    }
+    if (!cohesion.name.empty()) {
+      p.cohesion = ModelLoader::make<sdk::CohesionLaw>("cohesion", cohesion.name, cohesion.values);
+      p.cohesion->prepare(mi, mj);
     }
     laws.push_back(std::move(p));
   }

@@ -48,16 +48,14 @@ class HertzMindlin final : public sdk::ContactLaw {
   }
 
   void prepare(const sdk::MaterialProperties& i, const sdk::MaterialProperties& j) override {
-    const auto young = [](const sdk::MaterialProperties& m) {
-      return (1.0 - m.poisson_ratio * m.poisson_ratio) / m.young_modulus;
-    };
     const auto shear = [](const sdk::MaterialProperties& m) {
       return 2.0 * (2.0 - m.poisson_ratio) * (1.0 + m.poisson_ratio) / m.young_modulus;
     };
-    constants_.young = 1.0 / (young(i) + young(j));
+    constants_.young = sdk::effective_young_modulus(i, j);
     constants_.shear = 1.0 / (shear(i) + shear(j));
   }
   [[nodiscard]] int history_size() const override { return 4; }
+  [[nodiscard]] bool has_hertz_force() const override { return true; }
 
   void evaluate(const sdk::ContactBatch& batch) const override { run(constants_, batch); }
 
@@ -80,13 +78,13 @@ DUST_KERNEL void evaluate_batch(const formula::Constants& constants, const sdk::
   const double *vx = b.velocity_x, *vy = b.velocity_y, *vz = b.velocity_z;
   const double *radius = b.effective_radius, *mass = b.effective_mass;
   double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2], *stiffness = b.history[3];
-  double *fn = b.normal_force, *kt = b.tangential_stiffness;
+  double *fn = b.normal_force, *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
   double *fx = b.force_x, *fy = b.force_y, *fz = b.force_z;
 #pragma omp simd
   for (std::size_t q = 0; q < b.count; ++q) {
     formula::Contact c{overlap[q],   nx[q],     ny[q],   nz[q], vx[q], vy[q],
                        vz[q],        radius[q], mass[q], sx[q], sy[q], sz[q],
-                       stiffness[q], 0.0,       0.0,     0.0,   0.0};
+                       stiffness[q], 0.0,       0.0,     0.0,   0.0,   0.0};
     formula::evaluate(k, time_step, c);
     sx[q] = c.sx;
     sy[q] = c.sy;
@@ -94,6 +92,7 @@ DUST_KERNEL void evaluate_batch(const formula::Constants& constants, const sdk::
     stiffness[q] = c.stiffness;
     kt[q] = c.stiffness;
     fn[q] = c.normal_force;
+    kn[q] = c.normal_stiffness;
     fx[q] = c.fx;
     fy[q] = c.fy;
     fz[q] = c.fz;

@@ -42,10 +42,11 @@ inline double half_period(double young, double radius, double mass, double overl
 /// relative to j at the contact point. SI.
 struct Contact {
   double overlap, nx, ny, nz, vx, vy, vz, radius, mass;
-  double sx, sy, sz;    ///< [m] tangential displacement, in and out
-  double stiffness;     ///< [N/m] k_t of the last step in, of this one out
-  double normal_force;  ///< [N] out
-  double fx, fy, fz;    ///< [N] out, on i
+  double sx, sy, sz;        ///< [m] tangential displacement, in and out
+  double stiffness;         ///< [N/m] k_t of the last step in, of this one out
+  double normal_force;      ///< [N] out
+  double normal_stiffness;  ///< [N/m] k_n, secant, out
+  double fx, fy, fz;        ///< [N] out, on i
 };
 
 /// Normal force \f$ F_n = \tfrac43 E^* \sqrt{R^*}\, d^{3/2} - \gamma_n v_n \f$ and tangential force
@@ -104,6 +105,7 @@ struct Contact {
   c.sz = hold * sz + back * (cap * uz + gt * tz);
   c.stiffness = kt;
   c.normal_force = fn;
+  c.normal_stiffness = kn;
   c.fx = fn * c.nx + cap * ux;
   c.fy = fn * c.ny + cap * uy;
   c.fz = fn * c.nz + cap * uz;

@@ -120,59 +120,6 @@ TEST_CASE("a collision shall not depend on mirror, rotation, uniform velocity or
   }
 }
 
-namespace {
-
-/// Energy error of an elastic frictionless gas after `time`.
-double gas_error(double step, double time) {
-  DemRig rig;
-  const int sand = rig.material(2650, 50e6, 0.3);
-  rig.law(sand, sand, 1.0, 0.0);
-  rig.diameters = {600e-6};
-  rig.setup.domain.min = {0, 0, 0};
-  rig.setup.domain.max = {1e-2, 1e-2, 1e-2};
-  rig.setup.time.dem_step = step;
-  for (int d = 0; d < 3; ++d) rig.periodic(d);
-  const dust::sdk::Random random(5, 2);
-  std::vector<NewGrain> grains;
-  for (std::uint64_t n = 0; n < 1000; ++n) {
-    grains.push_back({.position = {1e-3 * (static_cast<double>(n % 10) + 0.5),
-                                   1e-3 * (static_cast<double>(n / 10 % 10) + 0.5),
-                                   1e-3 * (static_cast<double>(n / 100) + 0.5)},
-                      .velocity = {random.uniform(n, 0) - 0.5, random.uniform(n, 1) - 0.5,
-                                   random.uniform(n, 2) - 0.5},
-                      .diameter = 600e-6});
-  }
-  auto dem = rig.make();
-  dem->insert(grains);
-  Stepper stepper(*dem);
-  // Kinetic energy alone: wait for a count of contacts small enough to compare peaks of it.
-  const auto kinetic = [&] {
-    const auto rows = dem->rows();
-    double e = 0.0;
-    for (std::size_t n = 0; n < rows.count; ++n) {
-      const double* v = rows.velocity + 4 * n;
-      e += 0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / v[3];
-    }
-    return e;
-  };
-  const double before = kinetic();
-  double most = 0.0;
-  stepper.step(static_cast<std::int64_t>(0.9 * time / step));
-  while (stepper.time() < time) {
-    stepper.step();
-    most = std::max(most, kinetic());
-  }
-  REQUIRE(dem->report().largest_overlap > 1e-3);
-  return std::abs(most / before - 1.0);
-}
-
-}  // namespace
-
-TEST_CASE("an elastic frictionless gas shall keep its energy") {
-  // Within the energy of the few contacts under way at the fullest moment.
-  CHECK(gas_error(1e-6, 0.01) < 2e-3);
-}
-
 TEST_CASE("the bits shall not depend on the number of threads") {
   const auto run = [](std::size_t threads) {
     oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,

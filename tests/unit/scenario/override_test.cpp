@@ -11,7 +11,7 @@ TEST_CASE("settings shall reach values, lists, list elements and absent optional
                                              {"fluid.cells", "[132, 5, 140]"},
                                              {"fluid.cells[1]", "6"},
                                              {"bodies.plate.enabled", "true"},
-                                             {"time.dem_step", "2e-6"},
+                                             {"time.dem_step", "3e-8"},
                                              {"time.rates", "single"},
                                              {"coupling.one_way", "true"},
                                              {"seed", "7"},
@@ -21,7 +21,7 @@ TEST_CASE("settings shall reach values, lists, list elements and absent optional
   CHECK(std::get<double>(setup.interactions[1].contact.values[1]) == 0.1);
   CHECK(setup.fluid->cells == std::array<int, 3>{132, 6, 140});
   CHECK(setup.bodies.size() == 2);
-  CHECK(setup.time.dem_step == 2e-6);
+  CHECK(setup.time.dem_step == 3e-8);
   CHECK(setup.time.rates_single);
   CHECK(setup.fluid->is_one_way);
   CHECK(setup.seed == 7);

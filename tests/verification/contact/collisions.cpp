@@ -2,11 +2,13 @@
 // Single contacts against closed forms: Chung and Ooi, Granular Matter 13 (2011) 643,
 // doi:10.1007/s10035-011-0277-0, tests 1 to 5.
 #include "support/dem_rig.hpp"
+#include "verification/contact/scalar_model.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 using dust::sdk::Vec3;
 using namespace dust::test;
@@ -158,69 +160,107 @@ TEST_CASE("a sliding oblique impact shall lose mu (1 + e) of the normal momentum
 
 namespace {
 
-struct Oblique {
-  double slip, spin, energy;
+// CO5: R 10 um, 5 m/s, mu 0.3, on a plane of the same material, elastic.
+constexpr double k_fifth_friction = 0.3;
+constexpr double k_fifth_speed = 5.0;
+constexpr double k_unit = k_fifth_friction * k_fifth_speed;
+struct FifthRow {
+  double v_t, slip, surface;  ///< slip and R omega over mu v_n, of the catalogue
 };
+struct Fifth {
+  double young, poisson, density;
+  std::vector<FifthRow> rows;
+};
+const Fifth k_steel{208e9,
+                    0.3,
+                    7850,
+                    {{0.1, 0.06365, -0.00215},
+                     {0.5, 0.31783, -0.01107},
+                     {1.0, 0.62550, -0.02941},
+                     {1.5, 0.66684, -0.23797},
+                     {2.0, 0.36655, -0.69056},
+                     {3.0, -0.27626, -1.62590},
+                     {5.0, -1.17047, -3.21700},
+                     {8.0, -1.35135, -4.77477},
+                     {10.0, -0.33333, -5.0},
+                     {12.0, 1.0, -5.0},
+                     {20.0, 6.33333, -5.0}}};
+const Fifth k_polyethylene{1e9,
+                           0.4,
+                           1400,
+                           {{0.1, 0.05361, -0.00932},
+                            {0.5, 0.26266, -0.05048},
+                            {1.0, 0.47338, -0.13806},
+                            {1.5, 0.47665, -0.37382},
+                            {2.0, 0.17510, -0.82731},
+                            {3.0, -0.46492, -1.76066},
+                            {5.0, -1.32916, -3.33035},
+                            {8.0, -1.41334, -4.81905},
+                            {10.0, -0.33333, -5.0},
+                            {12.0, 1.0, -5.0},
+                            {20.0, 6.33333, -5.0}}};
 
-/// The model written once more as scalars, at a hundredth of the time step: elastic, one tangential
-/// direction, energy-conserving spring, total force cut at mu F_n.
-Oblique integrate_oblique(const ImpactCase& c) {
-  const double shear = c.young / (2 * (1 + c.poisson));
-  const double e_star = c.young / (1 - c.poisson * c.poisson) / 2;
-  const double g_star = shear / (2 - c.poisson) / 2;
-  const double mass = c.density * 4.0 / 3.0 * std::numbers::pi * std::pow(c.radius, 3);
-  const double dt =
-      2.87 * std::pow(mass * mass / (c.radius * e_star * e_star * c.speed), 0.2) / 40000;
-  double d = 0, vn = c.speed, vt = c.tangential, rw = 0, potential = 0;  // potential = xi sqrt(kt)
-  for (;;) {
-    d += vn * dt;
-    if (d < 0) break;
-    const double kt = 8 * g_star * std::sqrt(c.radius * d);
-    const double fn = 4.0 / 3.0 * e_star * std::sqrt(c.radius) * std::pow(d, 1.5);
-    const double lever = 1.0 - 0.5 * d / c.radius;  // the contact point halves the overlap
-    potential += (vt + lever * rw) * dt * std::sqrt(kt);
-    const double f = std::clamp(potential * std::sqrt(kt), -c.friction * fn, c.friction * fn);
-    potential = f / std::sqrt(kt);
-    vn -= fn / mass * dt;
-    vt -= f / mass * dt;
-    rw -= 2.5 * lever * f / mass * dt;
-  }
-  return {vt + rw, rw, vt * vt + 0.4 * rw * rw + vn * vn};
+ScalarCase scalar(const Fifth& m, double v_t) {
+  return {.effective_young = m.young / (1 - m.poisson * m.poisson) / 2,
+          .effective_shear = m.young / (2 * (1 + m.poisson)) / (2 - m.poisson) / 2,
+          .density = m.density,
+          .radius = 1e-5,
+          .speed = k_fifth_speed,
+          .tangential = v_t,
+          .friction = k_fifth_friction};
 }
 
 }  // namespace
 
 TEST_CASE("elastic oblique impacts shall follow the law's own equations and create no energy") {
-  // CO5: R 10 um, 5 m/s, mu 0.3. In the sliding range psi2 = psi1 - 7 and R omega = -5 mu v_n.
-  constexpr double k_tolerance = 0.02;
-  constexpr double unit = 0.3 * 5.0;
-  struct Solid {
-    double young, poisson, density;
-  };
-  for (const Solid& m : {Solid{208e9, 0.3, 7850}, Solid{1e9, 0.4, 1400}}) {
-    for (const double v_t : {0.1, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 20.0}) {
-      ImpactCase c{m.young, m.poisson, 1e-5, m.density, 5.0, true};
+  // The law keeps xi sqrt(k_t), so no published table of the micro-slip range fits it: the
+  // reference is the law once more as scalars, in steps fifty times finer.
+  constexpr double k_tolerance =
+      0.01;  // some 1000 steps per contact; first order where slip begins
+  for (const Fifth& m : {k_steel, k_polyethylene}) {
+    for (const FifthRow& r : m.rows) {
+      ImpactCase c{m.young, m.poisson, 1e-5, m.density, k_fifth_speed, true};
       c.wall_young = m.young;
-      c.friction = 0.3;
-      c.tangential = v_t;
+      c.friction = k_fifth_friction;
+      c.tangential = r.v_t;
       c.steps_per_contact = 1000;
       const Impact i = run(c);
       // Sphere above a plane with normal +x: the contact point moves with v_y - R omega_z.
       const double spin = -c.radius * i.out.rotation.z;
       const double slip = i.out.velocity.y + spin;
-      const Oblique expected = integrate_oblique(c);
-      CAPTURE(v_t);
-      CHECK(std::abs(spin - expected.spin) <
-            k_tolerance * std::max(std::abs(expected.spin), 0.3 * unit));
-      CHECK(std::abs(slip - expected.slip) <
-            k_tolerance * std::max(std::abs(expected.slip), 0.3 * unit));
+      const ScalarResult expected = impact(scalar(m, r.v_t), SpringForm::rescaled);
+      CAPTURE(r.v_t);
+      CHECK(std::abs(spin - expected.surface) < k_tolerance * k_unit);
+      CHECK(std::abs(slip - expected.slip()) < k_tolerance * k_unit);
       const double energy = norm(i.out.velocity) * norm(i.out.velocity) + 0.4 * spin * spin;
-      CHECK(energy < (25.0 + v_t * v_t) * (1.0 + 1e-4));
-      // The soft sphere is 6 % flatter at its deepest, which shortens its lever.
-      if (v_t >= 12.0 && m.young > 1e10) {
-        CHECK(std::abs(slip / unit - (v_t / unit - 7.0)) < k_tolerance * 5.0);
-        CHECK(spin / unit == doctest::Approx(-5.0).epsilon(0.01));
+      CHECK(energy < (25.0 + r.v_t * r.v_t) * (1.0 + 1e-4));
+      // Sliding throughout, all forms agree with psi2 = psi1 - 7 and R omega = -5 mu v_n. The soft
+      // sphere is 6 % flatter at its deepest, which shortens the lever of its friction: hard one.
+      if (r.v_t >= 10.0 && m.young > 1e10) {
+        CHECK(slip / k_unit == doctest::Approx(r.slip).epsilon(0.02));
+        CHECK(spin / k_unit == doctest::Approx(r.surface).epsilon(0.01));
       }
     }
   }
+}
+
+TEST_CASE("the catalogue's micro-slip table shall be that of the total spring") {
+  // Why the engine cannot meet it within 2 %: with the total spring F = k_t(d) xi and the contact
+  // point at the full radius the scalar model gives the whole table to its digits. The engine's
+  // spring keeps its energy as the stiffness changes; while a contact sticks the two differ, by up
+  // to a fortieth of full sliding, which is 5 mu v_n.
+  constexpr double k_table = 0.002;  // the table's own steps and digits
+  constexpr double k_apart = 0.125;
+  double farthest = 0.0;
+  for (const Fifth& m : {k_steel, k_polyethylene}) {
+    for (const FifthRow& r : m.rows) {
+      const ScalarResult total = impact(scalar(m, r.v_t), SpringForm::total);
+      const ScalarResult rescaled = impact(scalar(m, r.v_t), SpringForm::rescaled);
+      CAPTURE(r.v_t);
+      CHECK(std::abs(total.slip() / k_unit - r.slip) < k_table);
+      CHECK(std::abs(total.surface / k_unit - r.surface) < k_table);
+      farthest = std::max(farthest, std::abs(rescaled.surface / k_unit - r.surface));
+    }
+  }
+  CHECK(farthest < k_apart);
 }

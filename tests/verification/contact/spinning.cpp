@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spinning impacts: Chung and Ooi, Granular Matter 13 (2011) 643, tests 6 to 8, strict Coulomb.
 #include "support/dem_rig.hpp"
+#include "verification/contact/scalar_model.hpp"
 
 #include <doctest/doctest.h>
 
@@ -64,10 +65,15 @@ NewGrain sphere(double x, double vx, double spin, double radius = k_radius) {
 }  // namespace
 
 TEST_CASE("a spinning sphere shall rebound from a plane as strict Coulomb friction says") {
-  // From 4 rad/s on the contact slides throughout; below it the forms of the spring differ by up to
-  // 5 % of the sliding value.
+  // From 4 rad/s on the contact slides throughout and the answer is one: 2 % of the catalogue.
+  // Below, it sticks while the damper takes its share of the limit, and the outcome depends on how
+  // a law sets its spring back when the limit bites: at 2 rad/s total and rescaled springs, set
+  // back to what the damper leaves, to the limit, or held, give -0.0626 to -0.0698 m/s, all within
+  // strict Coulomb. So the catalogue is met there within 2.5 % of the full sliding impulse, and the
+  // law's own equations, as scalars in finer steps, within 0.5 %.
   constexpr double k_sliding = 0.02;
-  constexpr double k_sticking = 0.05;
+  constexpr double k_sticking = 0.025;
+  constexpr double k_own = 0.005;
   struct Row {
     Material m;
     double spin, v_t, spin_out;
@@ -82,6 +88,18 @@ TEST_CASE("a spinning sphere shall rebound from a plane as strict Coulomb fricti
   for (const Row& r : rows) {
     const auto out = collide(r.m, {sphere(k_radius + 1e-7, -k_speed, r.spin)}, true);
     CAPTURE(r.spin);
+    const double shear = r.m.young / (2.0 * (1.0 + r.m.poisson));
+    const ScalarResult own = impact({.effective_young = r.m.young / (1 - r.m.poisson * r.m.poisson),
+                                     .effective_shear = shear / (2.0 - r.m.poisson),
+                                     .density = r.m.density,
+                                     .radius = k_radius,
+                                     .speed = k_speed,
+                                     .spin = r.spin,
+                                     .restitution = 0.5,
+                                     .friction = 0.4},
+                                    SpringForm::rescaled);
+    CHECK(std::abs(std::abs(out[0].velocity.y) - std::abs(own.tangential)) < k_own * 0.124);
+    CHECK(std::abs(out[0].rotation.z - own.surface / k_radius) < k_own * 3.1006);
     if (r.spin >= 4.0) {
       CHECK(-std::abs(out[0].velocity.y) == doctest::Approx(r.v_t).epsilon(k_sliding));
       CHECK(std::abs(r.spin - out[0].rotation.z - 3.1006) < k_sliding * 3.1006);

@@ -14,6 +14,14 @@ struct MaterialProperties {
   double poisson_ratio = 0.0;  ///< [-]
 };
 
+/// E* [Pa] of a pair: \f$ 1/E^* = (1 - \nu_i^2)/E_i + (1 - \nu_j^2)/E_j \f$.
+inline double effective_young_modulus(const MaterialProperties& i, const MaterialProperties& j) {
+  const auto compliance = [](const MaterialProperties& m) {
+    return (1.0 - m.poisson_ratio * m.poisson_ratio) / m.young_modulus;
+  };
+  return 1.0 / (compliance(i) + compliance(j));
+}
+
 /// A batch of contacts between one pair of materials, as columns of `count` numbers. All contacts
 /// of a batch share the law's parameters and the time step.
 ///
@@ -44,6 +52,7 @@ struct ContactBatch {
 
   // Written by the contact stage, read by the later stages.
   double* normal_force = nullptr;          ///< [N] > 0 repulsive, may be negative (damping)
+  double* normal_stiffness = nullptr;      ///< [N/m] k_n, secant: elastic force / overlap
   double* tangential_stiffness = nullptr;  ///< [N/m] k_t
   double* force_x = nullptr;               ///< [N] total force on i; j receives the opposite
   double* force_y = nullptr;
@@ -61,8 +70,9 @@ struct ContactBatch {
 };
 
 /// Contact stage: normal and tangential force.
-/// Owns: its coefficients. May: read inputs, write normal_force, tangential_stiffness, force,
-/// history. Must not: allocate, lock, look at particles, keep per-contact state elsewhere.
+/// Owns: its coefficients. May: read inputs, write normal_force, normal_stiffness,
+/// tangential_stiffness, force, history. Must not: allocate, lock, look at particles, keep
+/// per-contact state elsewhere. Without touch (overlap <= 0) every output is zero.
 /// Called: once per batch and step, from several threads at once (evaluate is const).
 class ContactLaw : public Model {
  public:
@@ -82,6 +92,8 @@ class ContactLaw : public Model {
                                            double overlap) const = 0;
   /// How far beyond touch [m] the law still acts.
   [[nodiscard]] virtual double range() const { return 0.0; }
+  /// True if the elastic normal force is that of Hertz, 4/3 E* sqrt(R*) overlap^(3/2).
+  [[nodiscard]] virtual bool has_hertz_force() const { return false; }
 };
 
 /// Rolling stage: couple against relative rotation, after the contact stage of the same batch.

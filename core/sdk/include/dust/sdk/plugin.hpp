@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dust/sdk/boundary_condition.hpp"
+#include "dust/sdk/cohesion_law.hpp"
 #include "dust/sdk/contact_law.hpp"
 #include "dust/sdk/drag_law.hpp"
 #include "dust/sdk/emitter.hpp"
@@ -15,14 +16,14 @@
 namespace dust::sdk {
 
 /// Raised with every change of a struct or virtual function in this folder.
-inline constexpr std::uint32_t k_interface_version = 1;
+inline constexpr std::uint32_t k_interface_version = 2;
 
 /// What both sides of the plugin boundary must agree on, compared before any virtual call.
 struct Handshake {
   std::uint32_t interface_version;
   std::uint32_t compiler_major;
-  std::uint32_t size_of[8];
-  std::uint32_t alignment_of[8];
+  std::uint32_t size_of[9];
+  std::uint32_t alignment_of[9];
   std::uint32_t standard_library_abi;
 };
 
@@ -31,9 +32,11 @@ constexpr Handshake make_handshake() {
   return {k_interface_version,
           __GNUC__,
           {sizeof(ContactBatch), sizeof(DragBatch), sizeof(VoidageBatch), sizeof(SideBatch),
-           sizeof(SurfaceBatch), sizeof(Seed), sizeof(WorldView), sizeof(Parameter)},
+           sizeof(SurfaceBatch), sizeof(Seed), sizeof(WorldView), sizeof(Parameter),
+           sizeof(CohesionBatch)},
           {alignof(ContactBatch), alignof(DragBatch), alignof(VoidageBatch), alignof(SideBatch),
-           alignof(SurfaceBatch), alignof(Seed), alignof(WorldView), alignof(Parameter)},
+           alignof(SurfaceBatch), alignof(Seed), alignof(WorldView), alignof(Parameter),
+           alignof(CohesionBatch)},
 #ifdef _GLIBCXX_USE_CXX11_ABI
           _GLIBCXX_USE_CXX11_ABI
 #else

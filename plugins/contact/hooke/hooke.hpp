@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dust::model::hooke {
+
+/// Constants of a pair of materials.
+struct Constants {
+  double stiffness = 0.0;             ///< [N/m] k_n
+  double tangential_stiffness = 0.0;  ///< [N/m] k_t
+  double damping = 0.0;               ///< [-] -2 beta >= 0
+  double friction = 0.0;              ///< [-] mu_s
+};
+
+/// Damping number: \f$ -2 \beta \f$ with \f$ \beta = \ln e / \sqrt{\ln^2 e + \pi^2} \f$,
+/// 0 < e <= 1. Exact as long as the normal force may attract while the contact opens.
+/// Source: solution of the damped oscillator from touch to touch.
+inline double damping(double restitution) {
+  const double l = std::log(restitution);
+  return -2.0 * l / std::sqrt(l * l + std::numbers::pi * std::numbers::pi);
+}
+
+/// Duration [s] of an elastic impact, whatever its speed: \f$ \pi \sqrt{m^* / k_n} \f$. A damped
+/// one takes \f$ \sqrt{1 + (\ln e / \pi)^2} \f$ times as long.
+inline double collision_time(double stiffness, double mass) {
+  return std::numbers::pi * std::sqrt(mass / stiffness);
+}
+
+/// One contact: geometry and kinematics in, force out. n points from j to i, v is the velocity of i
+/// relative to j at the contact point. SI.
+struct Contact {
+  double overlap, nx, ny, nz, vx, vy, vz, mass;
+  double sx, sy, sz;            ///< [m] tangential displacement, in and out
+  double normal_force;          ///< [N] out
+  double normal_stiffness;      ///< [N/m] out
+  double tangential_stiffness;  ///< [N/m] out
+  double fx, fy, fz;            ///< [N] out, on i
+};
+
+/// Normal force \f$ F_n = k_n d - \gamma_n v_n \f$, \f$ \gamma_n = -2 \beta \sqrt{k_n m^*} \f$, and
+/// tangential force \f$ F_t = -k_t \xi_t - \gamma_t v_t \f$,
+/// \f$ \gamma_t = -2 \beta \sqrt{k_t \tfrac27 m^*} \f$, with \f$ |F_t| \le \mu_s \max(F_n, 0) \f$
+/// for spring and damper together. 2/7 m* is the mass that the contact point of two solid spheres
+/// shows in the tangent plane, for any pair of radii and masses: the damping of a contact that does
+/// not slide is that of the normal direction. While sliding the spring is set to what the limit
+/// leaves beside the damper. The displacement turns with the normal and keeps its length. Without
+/// touch (d <= 0) force and displacement are zero.
+/// Source: Cundall and Strack, Geotechnique 29 (1979) 47, doi:10.1680/geot.1979.29.1.47; the
+/// damping numbers follow from the oscillator.
+[[gnu::always_inline]] inline void evaluate(const Constants& k, double time_step, Contact& c) {
+  constexpr double k_tiny = 1e-290;
+  const double touch = c.overlap > 0.0 ? 1.0 : 0.0;
+  const double kn = touch * k.stiffness;
+  const double kt = touch * k.tangential_stiffness;
+  const double gn = k.damping * std::sqrt(kn * c.mass);
+  const double gt = k.damping * std::sqrt(kt * (2.0 / 7.0) * c.mass);
+
+  const double vn = c.vx * c.nx + c.vy * c.ny + c.vz * c.nz;
+  const double fn = kn * c.overlap - gn * vn;
+  const double tx = c.vx - vn * c.nx;
+  const double ty = c.vy - vn * c.ny;
+  const double tz = c.vz - vn * c.nz;
+
+  // Into the new tangent plane, at the old length.
+  const double sn = c.sx * c.nx + c.sy * c.ny + c.sz * c.nz;
+  const double px = c.sx - sn * c.nx;
+  const double py = c.sy - sn * c.ny;
+  const double pz = c.sz - sn * c.nz;
+  const double old2 = c.sx * c.sx + c.sy * c.sy + c.sz * c.sz;
+  const double new2 = px * px + py * py + pz * pz;
+  const double keep = std::sqrt(old2 / std::max(new2, k_tiny));
+  const double sx = touch * (keep * px + tx * time_step);
+  const double sy = touch * (keep * py + ty * time_step);
+  const double sz = touch * (keep * pz + tz * time_step);
+
+  // Coulomb: spring and damper share the limit.
+  const double ux = -kt * sx - gt * tx;
+  const double uy = -kt * sy - gt * ty;
+  const double uz = -kt * sz - gt * tz;
+  const double limit = k.friction * std::max(fn, 0.0);
+  const double total = std::sqrt(ux * ux + uy * uy + uz * uz);
+  const double cap = std::min(1.0, limit / std::max(total, k_tiny));
+  const double hold = cap < 1.0 ? 0.0 : 1.0;
+  const double back = touch * (hold - 1.0) / k.tangential_stiffness;
+
+  c.sx = hold * sx + back * (cap * ux + gt * tx);
+  c.sy = hold * sy + back * (cap * uy + gt * ty);
+  c.sz = hold * sz + back * (cap * uz + gt * tz);
+  c.normal_force = fn;
+  c.normal_stiffness = kn;
+  c.tangential_stiffness = kt;
+  c.fx = fn * c.nx + cap * ux;
+  c.fy = fn * c.ny + cap * uy;
+  c.fz = fn * c.nz + cap * uz;
+}
+
+}  // namespace dust::model::hooke

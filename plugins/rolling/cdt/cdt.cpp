@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cdt.hpp"
+
+#include <dust/sdk/plugin.hpp>
+
+namespace {
+
+namespace formula = dust::model::cdt;
+namespace sdk = dust::sdk;
+
+DUST_KERNEL void evaluate_batch(double friction, const sdk::ContactBatch &b) {
+  const double time_step = b.time_step;
+  const double *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
+  const double *wx = b.rotation_x, *wy = b.rotation_y, *wz = b.rotation_z;
+  const double *radius = b.effective_radius, *mass = b.effective_mass, *fn = b.normal_force;
+  double *tx = b.torque_x, *ty = b.torque_y, *tz = b.torque_z;
+#pragma omp simd
+  for (std::size_t q = 0; q < b.count; ++q) {
+    formula::Rolling c{nx[q],     ny[q],   nz[q], wx[q], wy[q], wz[q],
+                       radius[q], mass[q], fn[q], 0.0,   0.0,   0.0};
+    formula::evaluate(friction, time_step, c);
+    tx[q] = c.mx;
+    ty[q] = c.my;
+    tz[q] = c.mz;
+  }
+}
+
+class Cdt final : public sdk::RollingLaw {
+ public:
+  struct Parameters {
+    double friction = 0.0;
+  };
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.number(&Parameters::friction, "friction", sdk::dimension::none,
+             "Coefficient of rolling friction: the couple is it times R* times the normal force.")
+        .symbol("\\mu_r")
+        .at_least(0);
+    return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    return {.name = "cdt",
+            .version = "1.0",
+            .summary = "Constant couple against the relative rolling velocity.",
+            .equation = "M = -\\mu_r R^* |F_n|\\,\\omega_r / |\\omega_r|",
+            .source =
+                "Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269 (model A), "
+                "doi:10.1016/j.powtec.2010.09.030; Zhou, Wright, Yang, Xu, Yu, Physica A 269 "
+                "(1999) 536, doi:10.1016/S0378-4371(99)00183-1"};
+  }
+
+  explicit Cdt(const Parameters &p) : friction_(p.friction) {}
+  void prepare(const sdk::MaterialProperties &, const sdk::MaterialProperties &) override {}
+  [[nodiscard]] int history_size() const override { return 0; }
+  void evaluate(const sdk::ContactBatch &batch) const override { evaluate_batch(friction_, batch); }
+
+ private:
+  double friction_;
+};
+
+}  // namespace
+
+DUST_PLUGIN(registrar) { registrar.add<Cdt>(); }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "epsd.hpp"
+
+#include <dust/sdk/plugin.hpp>
+
+namespace {
+
+namespace formula = dust::model::epsd;
+namespace sdk = dust::sdk;
+
+DUST_KERNEL void evaluate_batch(const formula::Constants &constants, const sdk::ContactBatch &b) {
+  const formula::Constants k = constants;
+  const double time_step = b.time_step;
+  const double *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
+  const double *wx = b.rotation_x, *wy = b.rotation_y, *wz = b.rotation_z;
+  const double *radius = b.effective_radius, *mass = b.effective_mass;
+  const double *fn = b.normal_force, *kn = b.normal_stiffness;
+  double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2];
+  double *tx = b.torque_x, *ty = b.torque_y, *tz = b.torque_z;
+#pragma omp simd
+  for (std::size_t q = 0; q < b.count; ++q) {
+    formula::Rolling c{nx[q], ny[q], nz[q], wx[q], wy[q], wz[q], radius[q], mass[q],
+                       fn[q], kn[q], sx[q], sy[q], sz[q], 0.0,   0.0,       0.0};
+    formula::evaluate(k, time_step, c);
+    sx[q] = c.sx;
+    sy[q] = c.sy;
+    sz[q] = c.sz;
+    tx[q] = c.mx;
+    ty[q] = c.my;
+    tz[q] = c.mz;
+  }
+}
+
+class Epsd final : public sdk::RollingLaw {
+ public:
+  struct Parameters {
+    double friction = 0.0;
+    double damping_ratio = 0.3;
+  };
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.number(&Parameters::friction, "friction", sdk::dimension::none,
+             "Coefficient of rolling friction: the couple never exceeds it times R* times the "
+             "normal force.")
+        .symbol("\\mu_r")
+        .at_least(0);
+    s.number(&Parameters::damping_ratio, "damping_ratio", sdk::dimension::none,
+             "Damping of the rocking about a resting place, as a share of the critical one.")
+        .symbol("\\eta_r")
+        .at_least(0)
+        .at_most(1)
+        .optional();
+    return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    return {.name = "epsd",
+            .version = "1.0",
+            .summary = "Elastic-plastic rolling spring with a dashpot below full mobilisation.",
+            .equation =
+                "\\Delta M_s = -2.25 k_n \\mu_r^2 R^{*2} \\Delta\\theta_r,\\quad "
+                "M = M_s - 2 \\eta_r \\sqrt{I_r k_r}\\,\\omega_r,\\quad "
+                "|M| \\le \\mu_r R^* |F_n|",
+            .source =
+                "Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269 (model C), "
+                "doi:10.1016/j.powtec.2010.09.030"};
+  }
+
+  explicit Epsd(const Parameters &p) : constants_{p.friction, p.damping_ratio} {}
+  void prepare(const sdk::MaterialProperties &, const sdk::MaterialProperties &) override {}
+  [[nodiscard]] int history_size() const override { return 3; }
+  void evaluate(const sdk::ContactBatch &batch) const override {
+    evaluate_batch(constants_, batch);
+  }
+
+ private:
+  formula::Constants constants_;
+};
+
+}  // namespace
+
+DUST_PLUGIN(registrar) { registrar.add<Epsd>(); }

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace dust::model::epsd {
+
+/// Constants of a pair of materials.
+struct Constants {
+  double friction = 0.0;       ///< [-] mu_r
+  double damping_ratio = 0.0;  ///< [-] eta_r
+};
+
+/// One contact. n: unit normal, w: angular velocity of i relative to j [rad/s], s: couple of the
+/// spring on i [N m], in and out, m: couple on i [N m], out.
+struct Rolling {
+  double nx, ny, nz, wx, wy, wz;
+  double radius;        ///< [m] R*
+  double mass;          ///< [kg] m*
+  double normal_force;  ///< [N]
+  double stiffness;     ///< [N/m] k_n
+  double sx, sy, sz;
+  double mx, my, mz;
+};
+
+/// Couple of an elastic-plastic spring with a dashpot below full mobilisation:
+/// \f$ \Delta M_s = -k_r \Delta\theta_r,\; k_r = 2.25 k_n \mu_r^2 R^{*2},\;
+/// |M_s| \le \mu_r R^* |F_n| \f$; \f$ M_d = -2 \eta_r \sqrt{I_r k_r}\, \omega_r \f$ while
+/// \f$ |M_s| \f$ is below its limit, else 0; the limit holds for the sum, too.
+/// \f$ \omega_r \f$ is the relative angular velocity without its part about the normal,
+/// \f$ I_r = \tfrac75 m^* R^{*2} \f$: the inertia of a sphere about its contact with a wall. M_s
+/// turns with the contact and keeps its length.
+/// Source: model C of Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269,
+/// doi:10.1016/j.powtec.2010.09.030; I_r of a pair: own choice.
+[[gnu::always_inline]] inline void evaluate(const Constants& k, double time_step, Rolling& c) {
+  constexpr double k_tiny = 1e-290;
+  const double wn = c.wx * c.nx + c.wy * c.ny + c.wz * c.nz;
+  const double rx = c.wx - wn * c.nx;
+  const double ry = c.wy - wn * c.ny;
+  const double rz = c.wz - wn * c.nz;
+  const double sn = c.sx * c.nx + c.sy * c.ny + c.sz * c.nz;
+  const double px = c.sx - sn * c.nx;
+  const double py = c.sy - sn * c.ny;
+  const double pz = c.sz - sn * c.nz;
+  const double old2 = c.sx * c.sx + c.sy * c.sy + c.sz * c.sz;
+  const double new2 = px * px + py * py + pz * pz;
+  const double keep = std::sqrt(old2 / std::max(new2, k_tiny));
+  const double reach = k.friction * c.radius;
+  const double kr = 2.25 * c.stiffness * reach * reach;
+  const double step = kr * time_step;
+  const double sx = keep * px - step * rx;
+  const double sy = keep * py - step * ry;
+  const double sz = keep * pz - step * rz;
+  const double size = std::sqrt(sx * sx + sy * sy + sz * sz);
+  const double limit = reach * std::abs(c.normal_force);
+  const double cut = std::min(1.0, limit / std::max(size, k_tiny));
+  c.sx = cut * sx;
+  c.sy = cut * sy;
+  c.sz = cut * sz;
+  const double inertia = 1.4 * c.mass * c.radius * c.radius;
+  const double damping = cut < 1.0 ? 0.0 : 2.0 * k.damping_ratio * std::sqrt(inertia * kr);
+  const double mx = c.sx - damping * rx;
+  const double my = c.sy - damping * ry;
+  const double mz = c.sz - damping * rz;
+  const double total = std::sqrt(mx * mx + my * my + mz * mz);
+  const double cap = std::min(1.0, limit / std::max(total, k_tiny));
+  c.mx = cap * mx;
+  c.my = cap * my;
+  c.mz = cap * mz;
+}
+
+}  // namespace dust::model::epsd

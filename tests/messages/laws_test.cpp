@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scenario is told about the shipped laws of contact, rolling and cohesion.
+#include "base/error.hpp"
+#include "registry/registry.hpp"
+#include "scenario/reader.hpp"
+
+#include <unistd.h>
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace dust;
+
+const std::string k_scenario = R"(name: wet
+time: {end: 10 ms, fluid_step: 1 ms, output_every: 1 ms}
+gravity: [0, 0, -9.81]
+domain:
+  min: [0, 0, 0]
+  max: [10, 10, 50 mm]
+  boundaries:
+    left: {grains: periodic}
+    right: {grains: periodic}
+    front: {grains: periodic}
+    back: {grains: periodic}
+    bottom: {grains: wall, material: glass}
+    top: {grains: open}
+materials:
+  sand: {density: 2650, young_modulus: 50 MPa, poisson_ratio: 0.3}
+  glass: {density: 2500, young_modulus: 50 MPa, poisson_ratio: 0.3}
+interactions:
+  - between: [sand, sand]
+    contact: {model: hertz_mindlin, restitution: 0.9, friction: 0.5}
+    rolling: {model: epsd, friction: 0.1, damping_ratio: 0.2}
+    cohesion: {model: jkr, surface_energy: 20 mJ/m2}
+  - between: [sand, glass]
+    contact: {model: hooke, normal_stiffness: 1 kN/m, restitution: 0.9, friction: 0.3}
+    rolling: {model: cdt, friction: 0.1}
+    cohesion: {model: liquid_bridge, surface_tension: 72 mN/m, contact_angle: 10 deg, volume: 1e-13}
+emitters:
+  feed:
+    model: feed
+    material: sand
+    mass_flow: 6 g/s
+    min: [1, 1, 45 mm]
+    max: [9, 9, 45 mm]
+    velocity: [0, 0, -0.5]
+    diameters: [300, 500 um]
+    number_fractions: [0.5, 0.5]
+fluid: none
+)";
+
+const registry::Registry& shipped() {
+  static registry::Registry registry;
+  static const bool is_loaded = (registry.load({DUST_TEST_PLUGINS}), true);
+  (void)is_loaded;
+  return registry;
+}
+
+struct Told {
+  std::vector<std::string> errors, warnings;
+};
+Told told(const std::string& from = "", const std::string& to = "") {
+  std::string text = k_scenario;
+  if (!from.empty()) {
+    const auto at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, from.size(), to);
+  }
+  const fs::path folder = fs::temp_directory_path() / ("dust_laws_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "s.yaml", std::ios::binary) << text;
+  Told out;
+  try {
+    out.warnings = scenario::read_scenario(folder / "s.yaml", {}, shipped(), {}).warnings;
+  } catch (const base::UserError& problem) {
+    out.errors = problem.lines();
+  }
+  fs::remove_all(folder);
+  for (auto* lines : {&out.errors, &out.warnings}) {
+    for (std::string& line : *lines) {
+      if (line.starts_with(folder.string())) line.erase(0, folder.string().size() + 1);
+    }
+  }
+  return out;
+}
+
+/// What is read back from the resolved scenario.
+scenario::Setup read_again() {
+  const fs::path folder = fs::temp_directory_path() / ("dust_again_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "s.yaml", std::ios::binary) << k_scenario;
+  const std::string resolved =
+      scenario::read_scenario(folder / "s.yaml", {}, shipped(), {}).resolved_yaml;
+  std::ofstream(folder / "r.yaml", std::ios::binary) << resolved;
+  auto again = scenario::read_scenario(folder / "r.yaml", {}, shipped(), {}).setup;
+  fs::remove_all(folder);
+  return again;
+}
+
+void check(const std::string& from, const std::string& to, const std::string& expected) {
+  const Told t = told(from, to);
+  REQUIRE(t.errors.size() == 1);
+  CHECK(t.errors[0] == expected);
+}
+
+}  // namespace
+
+TEST_CASE("a scenario with every kind of law shall be well") {
+  const Told t = told();
+  CHECK(t.errors.empty());
+  CHECK(t.warnings.empty());
+}
+
+TEST_CASE("the resolved scenario shall hold every law with its parameters") {
+  const scenario::Setup setup = read_again();
+  REQUIRE(setup.interactions.size() == 2);
+  REQUIRE(setup.interactions[0].cohesion.has_value());
+  CHECK(setup.interactions[0].cohesion->name == "jkr");
+  CHECK(std::get<double>(setup.interactions[0].cohesion->values.at(0)) == 0.02);
+  REQUIRE(setup.interactions[1].cohesion.has_value());
+  CHECK(setup.interactions[1].cohesion->name == "liquid_bridge");
+  CHECK(std::get<double>(setup.interactions[1].cohesion->values.at(2)) == 1e-13);
+  CHECK(setup.interactions[1].contact.name == "hooke");
+  CHECK(setup.interactions[1].rolling->name == "cdt");
+}
+
+TEST_CASE("a negative parameter of a law shall be told with its range") {
+  check("surface_energy: 20 mJ/m2", "surface_energy: -20 mJ/m2",
+        "s.yaml:21:44: error: interactions[0].cohesion.surface_energy: -20 mJ/m2 is outside "
+        "gamma > 0 N/m");
+  check("normal_stiffness: 1 kN/m", "normal_stiffness: -1 kN/m",
+        "s.yaml:23:47: error: interactions[1].contact.normal_stiffness: -1 kN/m is outside "
+        "k_n > 0 N/m");
+  check("damping_ratio: 0.2", "damping_ratio: -0.2",
+        "s.yaml:20:58: error: interactions[0].rolling.damping_ratio: -0.2 is outside "
+        "0 <= eta_r <= 1");
+  check("{model: cdt, friction: 0.1}", "{model: cdt, friction: -0.1}",
+        "s.yaml:24:37: error: interactions[1].rolling.friction: -0.1 is outside mu_r >= 0");
+  check("volume: 1e-13", "volume: -1e-13",
+        "s.yaml:25:95: error: interactions[1].cohesion.volume: -1e-13 is outside V >= 0 m3");
+}
+
+TEST_CASE("a missing pair of materials shall be told with who meets") {
+  check("[sand, glass]", "[glass, glass]",
+        "s.yaml:17:1: error: interactions: missing pair [sand, glass]: grains of emitter 'feed' "
+        "meet the wall 'bottom'");
+}
+
+TEST_CASE("a cohesion that does not fit its contact law or materials shall be told at its place") {
+  check(
+      "cohesion: {model: liquid_bridge, surface_tension: 72 mN/m, contact_angle: 10 deg, volume: "
+      "1e-13}",
+      "cohesion: {model: jkr, surface_energy: 0.05}",
+      "s.yaml:25:23: error: interactions[1].cohesion: 'jkr' replaces the Hertz force, which the "
+      "contact law 'hooke' does not have: choose another contact law or another cohesion");
+  check("{model: jkr, surface_energy: 20 mJ/m2}", "{model: sjkr, energy_density: 10 MPa}",
+        "s.yaml:21:23: error: interactions[0].cohesion: energy_density: 1e+07 Pa would pull the "
+        "grains more than a tenth of R* into each other: at most 1.84356e+06 Pa goes with these "
+        "materials (0.067 of their effective Young's modulus)");
+  check("volume: 1e-13", "volume: 0",
+        "s.yaml:25:23: error: interactions[1].cohesion: a bridge needs its liquid: give volume or "
+        "relative_volume, one of both");
+}
+
+TEST_CASE("an unknown cohesion shall be told with all there are") {
+  check("model: jkr", "model: jkrs",
+        "s.yaml:21:23: error: interactions[0].cohesion.model: unknown cohesion model 'jkrs'; did "
+        "you mean 'jkr'? (cohesion models: dmt, jkr, liquid_bridge, sjkr)");
+}
+
+TEST_CASE("a fixed step above the stable one shall be told: warned of, or refused") {
+  CHECK(told("output_every: 1 ms", "output_every: 1 ms, dem_step: 0.5 us").warnings.empty());
+  const Told longer = told("output_every: 1 ms", "output_every: 1 ms, dem_step: 2.5 us");
+  CHECK(longer.errors.empty());
+  REQUIRE(longer.warnings.size() == 1);
+  CHECK(longer.warnings[0].starts_with(
+      "s.yaml:2:68: warning: time.dem_step: 2.5e-06 s is longer than the stable step of grains of "
+      "0.0003 m, "));
+  CHECK(longer.warnings[0].ends_with(
+      "collisions lose their accuracy; leave dem_step out or give at most that"));
+  const Told hopeless = told("output_every: 1 ms", "output_every: 1 ms, dem_step: 20 us");
+  REQUIRE(hopeless.errors.size() == 1);
+  CHECK(hopeless.errors[0].starts_with(
+      "s.yaml:2:68: error: time.dem_step: 2e-05 s is longer than the stable step of grains of "
+      "0.0003 m, "));
+  CHECK(hopeless.errors[0].ends_with(
+      "the grains would fly apart; leave dem_step out or give at most that"));
+}
