@@ -57,6 +57,8 @@ Simulation::Simulation(const scenario::Setup& setup, Models models)
   dem_ = std::make_unique<particles::Dem>(setup_, models_.bodies, std::move(models_.laws),
                                           models_.class_diameters,
                                           setup_.fluid ? setup_.fluid->density : 0.0);
+  wants_contacts_ = std::any_of(models_.sensors.begin(), models_.sensors.end(),
+                                [](const auto& s) { return s->wants_contacts(); });
   entry_scene_ = entry_scene_of(setup_, models_);
   emissions_ = EmissionBook(models_.emitters.size());
   dem_steps_per_fluid_step_ =
@@ -255,6 +257,7 @@ void Simulation::run_dem_cycle() {
 
 void Simulation::publish_grains() {
   grain_table_.publish(dem_->rows(), dem_->last_force());
+  if (wants_contacts_) contact_table_.publish(dem_->contacts(), grain_table_.order());
 }
 
 void Simulation::check_health() const {
@@ -283,6 +286,7 @@ sdk::WorldView Simulation::world() const {
   view.domain_max = setup_.domain.max;
   view.gravity = setup_.gravity;
   view.grains = grain_table_.columns();
+  if (wants_contacts_) view.contacts = contact_table_.columns();
   if (fluid_table_) view.fluid = fluid_table_->columns();
   view.class_diameters = models_.class_diameters;
   view.emitted_mass = dem_->balance().mass_emitted;

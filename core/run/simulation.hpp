@@ -7,6 +7,7 @@
 #include "io/run_files.hpp"
 #include "particles/dem.hpp"
 #include "run/columns.hpp"
+#include "run/contact_table.hpp"
 #include "run/emission_book.hpp"
 #include "run/entry.hpp"
 #include "run/models.hpp"
@@ -86,6 +87,8 @@ class Simulation {
   std::unique_ptr<particles::Dem> dem_;
   fluid::Grid grid_;
   GrainTable grain_table_;
+  ContactTable contact_table_;
+  bool wants_contacts_ = false;
   std::unique_ptr<FluidTable> fluid_table_;
   graph::TaskGraph step_graph_{"fluid_step"};
   graph::TaskGraph dem_graph_{"dem_step"};
