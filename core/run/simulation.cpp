@@ -219,6 +219,10 @@ void Simulation::propose_seeds_of(std::size_t n, double begin, double end) {
 void Simulation::start() {
   emit();
   is_started_ = true;
+  const bool is_filled = std::any_of(entry_scene_.rules.begin(), entry_scene_.rules.end(),
+                                     [](const sdk::EntryRule& rule) { return !rule.waits; });
+  // A bed that is there at the start does not push its volume out of the air in the first step.
+  if (coupling_ && is_filled) coupling_->map(dem_->rows(), setup_.time.fluid_step);
   publish_grains();
 }
 

@@ -205,7 +205,7 @@ TEST_CASE("places shall be found as by brute force, with any sizes and periodic 
   }
   const auto entering = run::take_free_places(waiting, {}, s);
   REQUIRE(entering.size() == expected.size());
-  CHECK(entering.size() < 1200);
+  CHECK(entering.size() < 1400);  // some were in the way of others
   for (std::size_t n = 0; n < entering.size(); ++n) {
     CHECK(entering[n].grain.position == expected[n].grain.position);
   }
