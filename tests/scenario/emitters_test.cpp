@@ -4,8 +4,11 @@
 
 #include <doctest/doctest.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 using dust::test::engine;
 using dust::test::json_text;
@@ -104,21 +107,35 @@ TEST_CASE("a resumed run shall not let in again what was there at the start") {
   bed: {model: fill, material: glass, min: [0, 0, 0], max: [10, 10, 8 mm], count: 200, diameters: [1 mm]}
 )";
   const auto scenario = write(folder, "s.yaml", k_head + bed);
+  const std::vector<std::string> longer{"--quiet", "--set", "time.end=60 ms"};
+  const auto command = [&](const fs::path& out, std::vector<std::string> more = {}) {
+    std::vector<std::string> all{"run", scenario, "-o", out};
+    all.insert(all.end(), longer.begin(), longer.end());
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
   const fs::path whole = folder / "whole";
-  REQUIRE(engine({"run", scenario, "-o", whole, "--quiet"}).status == 0);
+  REQUIRE(engine(command(whole)).status == 0);
   const fs::path part = folder / "part";
-  REQUIRE(engine({"run", scenario, "-o", part, "--quiet", "--set", "time.end=2 ms"}).status == 0);
-  CHECK(json_text(whole / "summary.json", "emitted") == "200");
+  REQUIRE(dust::test::engine_interrupted(command(part), SIGINT, part / "series.csv", 4).status ==
+          130);
+  CHECK(json_text(part / "summary.json", "status") == "interrupted");
+  const auto resumed = engine(command(part, {"--resume"}));
+  INFO(resumed.err);
+  REQUIRE(resumed.status == 0);
   CHECK(json_text(part / "summary.json", "emitted") == "200");
+  CHECK(json_text(part / "summary.json", "computed") == "200");
+  CHECK(json_text(part / "summary.json", "state_sha256") ==
+        json_text(whole / "summary.json", "state_sha256"));
 }
 
 TEST_CASE("overlapping starts shall be refused with both grains, lines and places") {
   const TemporaryFolder folder;
   write(folder, "bed.csv", "diameter,x,y,z\n1e-3,5e-3,5e-3,5e-3\n1e-3,5e-3,5e-3,5.9e-3\n");
   const auto text = refusal(folder, "  bed: {model: file, material: glass, file: bed.csv}\n");
-  CHECK(text.find("bad.yaml:26:16: error: emitters.bed: a grain of 0.001 m at (0.005, 0.005, "
+  CHECK(text.find("bad.yaml:23:16: error: emitters.bed: a grain of 0.001 m at (0.005, 0.005, "
                   "0.0059) m (line 3) and a grain of 0.001 m at (0.005, 0.005, 0.005) m (line 2) "
-                  "overlap by 0.0001 m, 0.2 of the smaller radius; 0.002 is allowed") !=
+                  "overlap by 0.0001 m, 0.2 of the smaller radius; 0.005 is allowed") !=
         std::string::npos);
   const auto across = refusal(folder,
                               "  bed: {model: single, material: glass, positions: [[0.2, 5, "
@@ -139,7 +156,7 @@ TEST_CASE("a filling that does not fit shall be refused, when read or before the
   const auto dense = refusal(folder,
                              "  bed: {model: fill, material: glass, min: [0, 0, 0], max: "
                              "[10, 10, 2 mm], mass: 1 g, diameters: [1 mm]}\n");
-  CHECK(dense.find("bad.yaml:26:16: error: emitters.bed: the region cannot hold the grains") !=
+  CHECK(dense.find("bad.yaml:23:16: error: emitters.bed: the region cannot hold the grains") !=
         std::string::npos);
   // What another emitter has put there first takes the room.
   const auto taken = refusal(folder, R"(
@@ -152,7 +169,7 @@ TEST_CASE("a filling that does not fit shall be refused, when read or before the
 TEST_CASE("wrong lists, files and periodic widths shall be told with their places") {
   const TemporaryFolder folder;
   CHECK(refusal(folder, "  bed: {model: file, material: glass, file: nowhere.csv}\n")
-            .find("bad.yaml:26:45: error: emitters.bed.file: there is no file " +
+            .find("bad.yaml:23:45: error: emitters.bed.file: there is no file " +
                   (folder / "nowhere.csv").string()) != std::string::npos);
   write(folder, "rows.csv", "diameter,x,y,z\n1e-3,1,2\n");
   CHECK(refusal(folder, "  bed: {model: file, material: glass, file: rows.csv}\n")

@@ -31,7 +31,7 @@ class File final : public sdk::PlacedEmitter {
     Vec3 offset;
     bool with_velocities = true;
     std::vector<std::string> materials;
-    double allowed_overlap = 0.002;
+    double allowed_overlap = 0.005;
     double time = 0.0;
   };
   static sdk::ParameterSchema schema() {

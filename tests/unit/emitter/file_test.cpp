@@ -130,7 +130,7 @@ TEST_CASE("the emitter shall give the grains of a file with their lines, shifted
   CHECK(seeds[1].position.z == doctest::Approx(12e-3).epsilon(1e-14));
   CHECK(seeds[1].line == 3);
   CHECK(e->diameters() == std::vector<double>{3e-4, 4e-4});
-  CHECK(e->entry_rule().allowed_overlap == 0.002);
+  CHECK(e->entry_rule().allowed_overlap == 0.005);
 }
 
 TEST_CASE("many different sizes shall be gathered in classes that hold both ends") {
