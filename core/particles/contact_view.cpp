@@ -6,7 +6,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace dust::particles {
 namespace {
@@ -38,17 +37,14 @@ class Viewer {
     history_.assign(list.history.begin() + static_cast<std::ptrdiff_t>(stride * begin),
                     list.history.begin() + static_cast<std::ptrdiff_t>(stride * end));
     touching_.resize(a_.size() + 8);
-    numbers_.resize(a_.size());
-    std::iota(numbers_.begin(), numbers_.end(), 0);
     const contact::PairView view{a_.data(), b_.data(), is_touching_.data(), history_.data(),
                                  stride};
     const contact::RowView rows = dem_.row_view();
     const PairLaws& law = dem_.laws[static_cast<std::size_t>(law_number)];
     const int groups = static_cast<int>(stride / 4);
     BatchColumns& columns = thread_columns();
-    const std::size_t found =
-        contact::find_touching(rows, dem_.images, view, numbers_.data(), a_.size(),
-                               law.contact->range(), touching_.data());
+    const std::size_t found = contact::find_touching(rows, dem_.images, view, 0, a_.size(),
+                                                     law.contact->range(), touching_.data());
     for (std::size_t first = 0; first < found; first += k_batch) {
       const std::size_t count = std::min(k_batch, found - first);
       const std::int32_t* contacts = touching_.data() + first;
@@ -134,7 +130,6 @@ class Viewer {
   std::vector<std::uint8_t> is_touching_;
   contact::AlignedVector<double> history_;
   std::vector<std::int32_t> touching_;
-  std::vector<std::int32_t> numbers_;
 };
 
 /// A list without order of laws, sorted into one list per law.
@@ -146,10 +141,8 @@ std::vector<ContactList> by_law(const Dem::Impl& dem, const ContactList& list) {
     const auto law = dem.law_of(dem.store.material[static_cast<std::size_t>(list.a[q])],
                                 dem.store.material[static_cast<std::size_t>(list.b[q])]);
     ContactList& to = lists[static_cast<std::size_t>(law)];
-    to.push(list.a[q], list.b[q]);
-    to.is_touching.push_back(list.is_touching[q]);
     const double* h = list.history.data() + q * stride;
-    to.history.insert(to.history.end(), h, h + stride);
+    to.push(list.a[q], list.b[q], list.is_touching[q] != 0 ? h : nullptr, stride);
   }
   return lists;
 }
