@@ -3,6 +3,7 @@
 
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/sphere.hpp"
+#include "particles/contact_view.hpp"
 #include "particles/impl.hpp"
 
 #include <algorithm>
@@ -253,6 +254,11 @@ std::span<const double> Dem::last_force() const {
   impl_->land();
   impl_->fill_last_force();
   return impl_->last_force;
+}
+
+std::vector<ContactRecord> Dem::contacts() const {
+  impl_->land();
+  return contact_records(*impl_);
 }
 
 const BalanceBook& Dem::book() const { return impl_->book; }

@@ -68,6 +68,15 @@ struct DemReport {
                                  ///< partner may have been seen one step late
 };
 
+/// A contact as sensors see it.
+struct ContactRecord {
+  std::int32_t row_i = 0;
+  std::int32_t row_j = 0;  ///< < 0: surface -1 - row_j
+  sdk::Vec3 force;         ///< [N] on i, contact stage
+  sdk::Vec3 branch;        ///< [m] from the centre of i to that of j, or to the contact point
+  double overlap = 0.0;    ///< [m] < 0 within a law's range
+};
+
 /// Discrete elements: rows in Morton order in fixed chunks, Verlet lists from a hierarchical grid,
 /// contact laws in batches, several rates. Deterministic for any number of threads.
 ///
@@ -102,6 +111,8 @@ class Dem {
   [[nodiscard]] GrainRows rows();
   /// Force [N] (contact + fluid + weight) of the last step, 4 per grain in row order.
   [[nodiscard]] std::span<const double> last_force() const;
+  /// The contacts of this moment; costs a pass over all of them, so only for those who ask.
+  [[nodiscard]] std::vector<ContactRecord> contacts() const;
   [[nodiscard]] const Balance& balance() const;
   [[nodiscard]] const BalanceBook& book() const;
   [[nodiscard]] DemReport report() const;

@@ -18,7 +18,10 @@ constexpr double k_whole_slack = 1e-9;
 
 std::set<int> grain_materials(const scenario::Setup& setup) {
   std::set<int> materials;
-  for (const auto& e : setup.emitters) materials.insert(e.material);
+  for (const auto& e : setup.emitters) {
+    materials.insert(e.material);
+    materials.insert(e.more_materials.begin(), e.more_materials.end());
+  }
   if (materials.empty()) {
     for (std::size_t m = 0; m < setup.materials.size(); ++m) materials.insert(static_cast<int>(m));
   }

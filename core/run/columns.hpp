@@ -20,6 +20,8 @@ class GrainTable {
   void note_births(const particles::GrainRows& rows);
   void publish(const particles::GrainRows& rows, std::span<const double> force);
   [[nodiscard]] sdk::GrainColumns columns() const;
+  /// The row of each published grain.
+  [[nodiscard]] std::span<const std::size_t> order() const { return order_; }
 
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);

@@ -8,6 +8,7 @@
 #include "run/run_options.hpp"
 #include "run/simulation.hpp"
 #include "run/summary.hpp"
+#include "run/summary_emitters.hpp"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
@@ -165,6 +166,10 @@ class Run {
     const bool has_failed = facts_.status == "failed";
     if (!has_failed) checkpoint();
     take_times();
+    for (const std::string& text : shortfalls(simulation_)) {
+      base::log_warning(text);
+      facts_.warnings.push_back(text);
+    }
     write_summary(folder_, simulation_, facts_);
     if (has_failed) {
       base::log_error("the run failed at t = " + std::to_string(simulation_.time()) +
@@ -269,7 +274,15 @@ int run_scenario(const RunOptions& options) {
     throw base::UserError(options.scenario.string() + ": error: " + e.what());
   }
   Run run(*simulation, folder, read.resolved_yaml, options);
-  if (options.resume) run.resume();
+  if (options.resume) {
+    run.resume();
+  } else {
+    try {
+      simulation->start();
+    } catch (const sdk::ModelError& e) {
+      throw base::UserError(e.what());
+    }
+  }
   if (options.force && !options.resume) {
     for (const char* file : k_run_files) fs::remove_all(folder / file);
   }

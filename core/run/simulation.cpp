@@ -3,6 +3,8 @@
 
 #include "base/error.hpp"
 #include "dust/sdk/error.hpp"
+#include "dust/sdk/sphere.hpp"
+#include "scenario/diagnostics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +18,22 @@ fluid::Grid grid_of(const scenario::Setup& setup) {
     periodic[d] = setup.domain.sides[2 * d].grains == scenario::GrainSide::periodic;
   }
   return fluid::Grid::make(setup.domain.min, setup.domain.max, setup.fluid->cells, periodic);
+}
+
+EntryScene entry_scene_of(const scenario::Setup& setup, const Models& models) {
+  EntryScene scene;
+  scene.min = setup.domain.min;
+  scene.max = setup.domain.max;
+  for (std::size_t d = 0; d < 3; ++d) {
+    scene.is_periodic[d] = setup.domain.sides[2 * d].grains == scenario::GrainSide::periodic;
+  }
+  scene.surfaces = particles::surfaces_of(setup, models.bodies);
+  for (std::size_t n = 0; n < models.emitters.size(); ++n) {
+    const auto& choice = setup.emitters[n].model;
+    scene.rules.push_back(models.emitters[n]->entry_rule());
+    scene.names.push_back(scenario::place(choice.where) + ": error: " + choice.path);
+  }
+  return scene;
 }
 
 }  // namespace
@@ -39,6 +57,10 @@ Simulation::Simulation(const scenario::Setup& setup, Models models)
   dem_ = std::make_unique<particles::Dem>(setup_, models_.bodies, std::move(models_.laws),
                                           models_.class_diameters,
                                           setup_.fluid ? setup_.fluid->density : 0.0);
+  wants_contacts_ = std::any_of(models_.sensors.begin(), models_.sensors.end(),
+                                [](const auto& s) { return s->wants_contacts(); });
+  entry_scene_ = entry_scene_of(setup_, models_);
+  emissions_ = EmissionBook(models_.emitters.size());
   dem_steps_per_fluid_step_ =
       std::max(1, static_cast<int>(std::lround(step / dem_->coarse_step())));
   build_graphs();
@@ -147,42 +169,83 @@ void Simulation::add_sensor_nodes() {
 }
 
 void Simulation::propose_seeds(double begin, double end) {
-  for (std::size_t n = 0; n < models_.emitters.size(); ++n) {
-    const auto& spec = setup_.emitters[n];
-    sdk::EmitterContext context;
-    context.begin = begin;
-    context.end = end;
-    context.grain_density =
-        setup_.materials[static_cast<std::size_t>(spec.material)].properties.density;
-    context.gravity = setup_.gravity;
-    context.random = sdk::Random(setup_.seed, sdk::stream_of(spec.name.c_str()));
-    seeds_.clear();
+  for (std::size_t n = 0; n < models_.emitters.size(); ++n) propose_seeds_of(n, begin, end);
+}
+
+void Simulation::propose_seeds_of(std::size_t n, double begin, double end) {
+  const auto& spec = setup_.emitters[n];
+  const scenario::FrameSpec* frame =
+      spec.frame >= 0 ? &setup_.frames[static_cast<std::size_t>(spec.frame)] : nullptr;
+  sdk::EmitterContext context;
+  context.begin = begin;
+  context.end = end;
+  context.grain_density =
+      setup_.materials[static_cast<std::size_t>(spec.material)].properties.density;
+  context.gravity = setup_.gravity;
+  context.random = sdk::Random(setup_.seed, sdk::stream_of(spec.name.c_str()));
+  const LazySurroundings surroundings(entry_scene_, dem_->rows(), waiting_,
+                                      models_.class_diameters.back(), frame);
+  context.surroundings = &surroundings;
+  seeds_.clear();
+  try {
     models_.emitters[n]->propose(context, seeds_);
-    for (const sdk::Seed& seed : seeds_) {
-      // Carried back to the beginning of the interval; inside the feed nothing but the feed acts.
-      particles::NewGrain grain;
-      grain.position = seed.position - (seed.time - begin) * seed.velocity;
-      grain.velocity = seed.velocity;
-      if (spec.frame >= 0) {
-        const auto& frame = setup_.frames[static_cast<std::size_t>(spec.frame)];
-        const sdk::Vec3 axis = frame.axis / norm(frame.axis);
-        grain.position = frame.origin + rotate(grain.position - frame.origin, axis, frame.angle);
-        grain.velocity = rotate(grain.velocity, axis, frame.angle);
-      }
-      grain.diameter = seed.diameter;
-      grain.weight = seed.weight;
-      grain.material = spec.material;
-      waiting_.push_back(grain);
+  } catch (const std::exception& problem) {
+    throw sdk::ModelError(entry_scene_.names[n] + ": " + problem.what());
+  }
+  for (const sdk::Seed& seed : seeds_) {
+    // Carried back to the beginning of the interval; inside the feed nothing but the feed acts.
+    Entrant e;
+    e.emitter = static_cast<std::int32_t>(n);
+    e.line = seed.line;
+    particles::NewGrain& grain = e.grain;
+    grain.position = seed.position - (seed.time - begin) * seed.velocity;
+    grain.velocity = seed.velocity;
+    grain.rotation = seed.rotation;
+    if (frame != nullptr) {
+      const sdk::Vec3 axis = frame->axis / norm(frame->axis);
+      grain.position = turned(grain.position, *frame);
+      grain.velocity = rotate(grain.velocity, axis, frame->angle);
+      grain.rotation = rotate(grain.rotation, axis, frame->angle);
     }
+    grain.diameter = seed.diameter;
+    grain.weight = seed.weight;
+    grain.material = seed.material < 0
+                         ? spec.material
+                         : spec.more_materials.at(static_cast<std::size_t>(seed.material));
+    waiting_.push_back(e);
   }
 }
 
+void Simulation::start() {
+  emit();
+  is_started_ = true;
+  const bool is_filled = std::any_of(entry_scene_.rules.begin(), entry_scene_.rules.end(),
+                                     [](const sdk::EntryRule& rule) { return !rule.waits; });
+  // A bed that is there at the start does not push its volume out of the air in the first step.
+  if (coupling_ && is_filled) coupling_->map(dem_->rows(), setup_.time.fluid_step);
+  publish_grains();
+}
+
 void Simulation::emit() {
+  if (is_started_) {
+    is_started_ = false;
+    return;
+  }
   propose_seeds(time(), time() + setup_.time.fluid_step);
   dem_->remove_leavers();
-  const auto entering = take_free_places(waiting_, dem_->rows());
+  const auto entering = take_free_places(waiting_, dem_->rows(), entry_scene_);
   delayed_entries_ += static_cast<std::int64_t>(waiting_.size());
-  if (!entering.empty()) dem_->insert(entering);
+  if (!entering.empty()) {
+    std::vector<particles::NewGrain> grains;
+    grains.reserve(entering.size());
+    for (const Entrant& e : entering) {
+      grains.push_back(e.grain);
+      const auto& material = setup_.materials[static_cast<std::size_t>(e.grain.material)];
+      emissions_.enter(static_cast<std::size_t>(e.emitter), e.grain.diameter, e.grain.weight,
+                       material.properties.density * sdk::sphere_volume(e.grain.diameter));
+    }
+    dem_->insert(grains);
+  }
   grain_table_.note_births(dem_->rows());
 }
 
@@ -196,7 +259,10 @@ void Simulation::run_dem_cycle() {
   dem_->land();
 }
 
-void Simulation::publish_grains() { grain_table_.publish(dem_->rows(), dem_->last_force()); }
+void Simulation::publish_grains() {
+  grain_table_.publish(dem_->rows(), dem_->last_force());
+  if (wants_contacts_) contact_table_.publish(dem_->contacts(), grain_table_.order());
+}
 
 void Simulation::check_health() const {
   const auto c = grain_table_.columns();
@@ -224,6 +290,7 @@ sdk::WorldView Simulation::world() const {
   view.domain_max = setup_.domain.max;
   view.gravity = setup_.gravity;
   view.grains = grain_table_.columns();
+  if (wants_contacts_) view.contacts = contact_table_.columns();
   if (fluid_table_) view.fluid = fluid_table_->columns();
   view.class_diameters = models_.class_diameters;
   view.emitted_mass = dem_->balance().mass_emitted;
@@ -266,7 +333,9 @@ Simulation::SaveParts Simulation::save_parts() const {
     a.integer("fluid_sub_steps", fluid_sub_steps_);
     a.integer("pressure_iterations", pressure_iterations_);
     a.integer("delayed_entries", delayed_entries_);
+    a.integer("is_started", is_started_ ? 1 : 0);
     save_waiting(waiting_, a);
+    emissions_.save(a);
   });
   parts.emplace_back("grains", [this](sdk::ArchiveWriter& a) { dem_->save(a); });
   parts.emplace_back("columns", [this](sdk::ArchiveWriter& a) { grain_table_.save(a); });
@@ -292,7 +361,9 @@ Simulation::LoadParts Simulation::load_parts() {
     fluid_sub_steps_ = a.integer("fluid_sub_steps");
     pressure_iterations_ = a.integer("pressure_iterations");
     delayed_entries_ = a.integer("delayed_entries");
+    is_started_ = a.integer("is_started") != 0;
     load_waiting(waiting_, a);
+    emissions_.load(a);
   });
   parts.emplace_back("grains", [this](sdk::ArchiveReader& a) { dem_->load(a); });
   if (fluid_) {

@@ -7,6 +7,8 @@
 #include "io/run_files.hpp"
 #include "particles/dem.hpp"
 #include "run/columns.hpp"
+#include "run/contact_table.hpp"
+#include "run/emission_book.hpp"
 #include "run/entry.hpp"
 #include "run/models.hpp"
 #include "scenario/setup.hpp"
@@ -28,6 +30,9 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
+  /// Lets in what is there before the first step. Not for a run that is resumed. Throws ModelError
+  /// where that is impossible.
+  void start();
   /// One fluid step: one pass of the outer graph.
   void step();
 
@@ -45,6 +50,8 @@ class Simulation {
   /// Grains that had to wait a fluid step or more because their place was taken, and those waiting.
   [[nodiscard]] std::int64_t delayed_entries() const { return delayed_entries_; }
   [[nodiscard]] std::size_t waiting_entries() const { return waiting_.size(); }
+  [[nodiscard]] const std::vector<Entrant>& waiting() const { return waiting_; }
+  [[nodiscard]] const EmissionBook& emissions() const { return emissions_; }
 
   /// The world as of the last step; spans stay valid until the next.
   [[nodiscard]] sdk::WorldView world() const;
@@ -68,6 +75,7 @@ class Simulation {
   void add_sensor_nodes();
   void emit();
   void propose_seeds(double begin, double end);
+  void propose_seeds_of(std::size_t emitter, double begin, double end);
   void run_dem_cycle();
   void check_health() const;
   void publish_grains();
@@ -79,6 +87,8 @@ class Simulation {
   std::unique_ptr<particles::Dem> dem_;
   fluid::Grid grid_;
   GrainTable grain_table_;
+  ContactTable contact_table_;
+  bool wants_contacts_ = false;
   std::unique_ptr<FluidTable> fluid_table_;
   graph::TaskGraph step_graph_{"fluid_step"};
   graph::TaskGraph dem_graph_{"dem_step"};
@@ -93,7 +103,10 @@ class Simulation {
   std::vector<float> momentum_exchange_;
   std::int64_t delayed_entries_ = 0;
   std::vector<sdk::Seed> seeds_;
-  std::vector<particles::NewGrain> waiting_;  ///< proposed, not yet in the domain
+  EntryScene entry_scene_;
+  EmissionBook emissions_;
+  bool is_started_ = false;       ///< the first step's grains are in already
+  std::vector<Entrant> waiting_;  ///< proposed, not yet in the domain
 };
 
 }  // namespace dust::run

@@ -3,6 +3,7 @@
 
 #include "io/run_files.hpp"
 #include "particles/balance_book.hpp"
+#include "run/summary_emitters.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -228,6 +229,7 @@ void write_summary(const std::filesystem::path& folder, const Simulation& s,
                   {"in_domain", b.mass_in_domain},
                   {"left", b.mass_left},
                   {"removed", b.mass_removed}};
+  j["emitters"] = emitters_json(s);
   j["size_classes"] = class_steps(s.dem());
   j["timers_s"] = node_times(s, facts);
   j["health"] = health(s);
@@ -247,6 +249,7 @@ void write_summary(const std::filesystem::path& folder, const Simulation& s,
   j["sensors"] = sensors;
   io::write_text(folder / "summary.json", j.dump(2) + "\n");
 
+  add_emitter_tables(s, report.tables);
   Json r;
   r["title"] = s.setup().name;
   r["curves"] = report.curves;

@@ -79,23 +79,31 @@ void check_pairs(const Setup& setup, const Mark& where, Diagnostics& diagnostics
   const auto need = [&](int grain, int other, const std::string& what) {
     needed.emplace_back(ordered(grain, other), what);
   };
+  const auto materials_of = [](const EmitterSpec& emitter) {
+    std::vector<int> all{emitter.material};
+    all.insert(all.end(), emitter.more_materials.begin(), emitter.more_materials.end());
+    std::erase_if(all, [](int m) { return m < 0; });
+    return all;
+  };
   for (const EmitterSpec& emitter : setup.emitters) {
-    if (emitter.material < 0) continue;
     const std::string grains = "grains of emitter '" + emitter.name + "' meet ";
-    for (const EmitterSpec& other : setup.emitters) {
-      if (other.material < 0) continue;
-      need(emitter.material, other.material,
-           grains + (&other == &emitter ? "each other" : "those of '" + other.name + "'"));
-    }
-    for (const BodySpec& body : setup.bodies) {
-      if (body.material >= 0) {
-        need(emitter.material, body.material, grains + "the body '" + body.name + "'");
+    for (const int material : materials_of(emitter)) {
+      for (const EmitterSpec& other : setup.emitters) {
+        for (const int met : materials_of(other)) {
+          need(material, met,
+               grains + (&other == &emitter ? "each other" : "those of '" + other.name + "'"));
+        }
       }
-    }
-    for (std::size_t n = 0; n < 6; ++n) {
-      const SideSpec& side = setup.domain.sides[n];
-      if (side.grains == GrainSide::wall && side.material >= 0) {
-        need(emitter.material, side.material, grains + "the wall '" + k_side_names[n] + "'");
+      for (const BodySpec& body : setup.bodies) {
+        if (body.material >= 0) {
+          need(material, body.material, grains + "the body '" + body.name + "'");
+        }
+      }
+      for (std::size_t n = 0; n < 6; ++n) {
+        const SideSpec& side = setup.domain.sides[n];
+        if (side.grains == GrainSide::wall && side.material >= 0) {
+          need(material, side.material, grains + "the wall '" + k_side_names[n] + "'");
+        }
       }
     }
   }

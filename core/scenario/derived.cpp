@@ -155,6 +155,11 @@ EmissionNumbers count_grains(const Setup& setup, const EmitterSpec& spec, sdk::E
   EmissionNumbers numbers;
   numbers.emitter = spec.name;
   numbers.mass_flow = emitter.requested_mass_flow();
+  const auto request = emitter.request();
+  if (!emitter.entry_rule().waits && request.count > 0) {
+    numbers.at_once = static_cast<double>(request.count);
+    return numbers;
+  }
   constexpr int k_most_steps = 50;
   constexpr std::size_t k_enough = 20000;
   std::vector<sdk::Seed> seeds;
@@ -171,6 +176,10 @@ EmissionNumbers count_grains(const Setup& setup, const EmitterSpec& spec, sdk::E
     time = context.end;
   }
   if (!(time > 0.0)) return numbers;
+  if (!emitter.entry_rule().waits) {
+    numbers.at_once = static_cast<double>(seeds.size());
+    return numbers;
+  }
   for (const sdk::Seed& seed : seeds) numbers.real_per_second += seed.weight / time;
   numbers.computed_per_second = static_cast<double>(seeds.size()) / time;
   return numbers;
@@ -199,7 +208,7 @@ void estimate_cost(const Setup& setup, double body_speed, Derived& derived) {
   if (speed > 0.0) derived.residence_time += std::max({size.x, size.y, size.z}) / speed;
   derived.residence_time = std::min(derived.residence_time, setup.time.end);
   for (const EmissionNumbers& e : derived.emissions) {
-    derived.grains_in_domain += e.computed_per_second * derived.residence_time;
+    derived.grains_in_domain += e.at_once + e.computed_per_second * derived.residence_time;
   }
   double cells = 0.0;
   if (setup.fluid) {

@@ -26,6 +26,7 @@ struct EmissionNumbers {
   double mass_flow = 0.0;            ///< [kg/s] as asked for
   double computed_per_second = 0.0;  ///< grains the engine follows
   double real_per_second = 0.0;      ///< the same, counted with their weights
+  double at_once = 0.0;              ///< computed grains that come at one moment
 };
 
 /// Numbers that follow from a scenario and tell whether it is sensible, before it is run.

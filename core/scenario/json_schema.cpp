@@ -79,6 +79,11 @@ Json value_schema(const Parameter& p) {
     case ParameterType::texts:
       s = {{"type", "array"}, {"items", text_schema(p)}};
       break;
+    case ParameterType::vectors:
+      s = {{"type", "array"},
+           {"items",
+            {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", number_or_text(p)}}}};
+      break;
   }
   s["description"] = description(p);
   return s;

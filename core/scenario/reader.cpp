@@ -20,6 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Least distance of periodic sides in diameters of the largest grain: above 2, a pair of grains
+/// can touch through one side only; the rest is what neighbour lists look ahead.
+constexpr double k_least_period = 3.0;
+
 bool is_name(const std::string& text) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   return !text.empty() && (is_letter(text.front()) || text.front() == '_') &&
@@ -75,6 +79,7 @@ class SetupReader {
     }
     check_voidage();
     check_emitters();
+    check_periods();
     if (diagnostics_.error_count() == 0) {
       check_fixed_step(setup_, registry_, dem_step_where_, diagnostics_);
     }
@@ -457,11 +462,18 @@ class SetupReader {
       append(placed.written, std::move(model.written));
       written.add(entry.key, std::move(placed.written));
       if (!placed.is_enabled) return;
-      if (model.model) emitters_.push_back(std::move(model.model));
+      std::vector<int> more;
+      if (model.model) {
+        for (const auto& name : static_cast<const sdk::Emitter&>(*model.model).materials()) {
+          more.push_back(names_.materials.index(name));
+        }
+        emitters_.push_back(std::move(model.model));
+      }
       setup_.emitters.push_back({.name = entry.key,
                                  .model = model.choice.value_or(ModelChoice{}),
                                  .material = placed.material,
-                                 .frame = placed.frame});
+                                 .frame = placed.frame,
+                                 .more_materials = std::move(more)});
     });
     if (!written.entries.empty()) out_.add("emitters", std::move(written));
   }
@@ -561,6 +573,27 @@ class SetupReader {
                                      " of the smallest cell's edges wide; '" +
                                      setup_.voidage->name + "' is valid up to " +
                                      number_text(limit) + ": take fewer cells or another rule");
+  }
+
+  /// Two grains must not touch through both sides at once: a pair of grains has one contact.
+  void check_periods() {
+    double largest = 0.0;
+    for (const auto& emitter : emitters_) {
+      for (const double d : static_cast<const sdk::Emitter&>(*emitter).diameters()) {
+        largest = std::max(largest, d);
+      }
+    }
+    for (int d = 0; d < 3; ++d) {
+      const SideSpec& side = setup_.domain.sides[static_cast<std::size_t>(2 * d)];
+      const double extent = setup_.domain.max[d] - setup_.domain.min[d];
+      if (side.grains != GrainSide::periodic || extent > k_least_period * largest) continue;
+      error(side.where, "domain: " + number_text(extent) + " m between the periodic sides " +
+                            k_side_names[static_cast<std::size_t>(2 * d)] + " and " +
+                            k_side_names[static_cast<std::size_t>(2 * d + 1)] + " are less than " +
+                            number_text(k_least_period) + " diameters of the largest grain, " +
+                            number_text(largest) +
+                            " m: grains would touch each other on both sides; widen the domain");
+    }
   }
 
   /// Some contradictions need the density of the grains: an empty interval makes emitters look.

@@ -1,1 +1,6 @@
 dust_plugin(emitter feed)
+dust_plugin(emitter file)
+target_link_libraries(emitter_file PRIVATE hdf5::hdf5)
+dust_plugin(emitter fill)
+dust_plugin(emitter lattice)
+dust_plugin(emitter single)

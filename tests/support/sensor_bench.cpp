@@ -103,10 +103,10 @@ const sdk::WorldView& World::view() {
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const Grain& g = grains[i];
     id_.push_back(static_cast<std::int64_t>(i));
-    const double values[18] = {g.now.x,    g.now.y,      g.now.z,      g.before.x,   g.before.y,
-                               g.before.z, g.velocity.x, g.velocity.y, g.velocity.z, 0.0,
-                               0.0,        0.0,          g.force.x,    g.force.y,    g.force.z,
-                               g.diameter, g.mass,       g.weight};
+    const double values[18] = {g.now.x,      g.now.y,      g.now.z,      g.before.x,   g.before.y,
+                               g.before.z,   g.velocity.x, g.velocity.y, g.velocity.z, g.rotation.x,
+                               g.rotation.y, g.rotation.z, g.force.x,    g.force.y,    g.force.z,
+                               g.diameter,   g.mass,       g.weight};
     for (int c = 0; c < 18; ++c) columns_[c].push_back(values[c]);
   }
   material_.assign(grains.size(), 0);
@@ -126,6 +126,21 @@ const sdk::WorldView& World::view() {
       &g.velocity_x, &g.velocity_y, &g.velocity_z, &g.rotation_x, &g.rotation_y, &g.rotation_z,
       &g.force_x,    &g.force_y,    &g.force_z,    &g.diameter,   &g.mass,       &g.weight};
   for (int c = 0; c < 18; ++c) *targets[c] = columns_[c];
+  for (auto& column : partners_) column.clear();
+  for (auto& column : contact_columns_) column.clear();
+  for (const Contact& c : contacts) {
+    partners_[0].push_back(c.i);
+    partners_[1].push_back(c.j);
+    const double values[7] = {c.force.x,  c.force.y,  c.force.z, c.branch.x,
+                              c.branch.y, c.branch.z, c.overlap};
+    for (int n = 0; n < 7; ++n) contact_columns_[n].push_back(values[n]);
+  }
+  sdk::ContactColumns& c = view_.contacts;
+  c.grain_i = partners_[0];
+  c.grain_j = partners_[1];
+  std::span<const double>* contact_targets[7] = {&c.force_x,  &c.force_y,  &c.force_z, &c.branch_x,
+                                                 &c.branch_y, &c.branch_z, &c.overlap};
+  for (int n = 0; n < 7; ++n) *contact_targets[n] = contact_columns_[n];
   sdk::FluidColumns& f = view_.fluid;
   f.spacing = spacing;
   for (int d = 0; d < 3; ++d) f.count[d] = count[d];

@@ -68,6 +68,16 @@ struct Grain {
   double mass = 1e-9;
   double weight = 1.0;
   sdk::Vec3 force;
+  sdk::Vec3 rotation = {};
+};
+
+/// A contact of grain `i` with grain `j`, or with a wall (-1).
+struct Contact {
+  std::int32_t i = 0;
+  std::int32_t j = -1;
+  sdk::Vec3 force;   ///< on i
+  sdk::Vec3 branch;  ///< from i to j, or to the wall
+  double overlap = 1e-9;
 };
 
 /// A world that owns its columns.
@@ -81,6 +91,7 @@ class World {
   std::vector<double> class_diameters = {10e-6, 300e-6, 600e-6};
   double emitted_mass = 0.0;
   std::vector<Grain> grains;
+  std::vector<Contact> contacts;
   int count[3] = {0, 0, 0};
   sdk::Vec3 spacing{0.001, 0.001, 0.001};
   double density = 1.2;
@@ -97,6 +108,8 @@ class World {
   std::vector<std::int64_t> id_;
   std::vector<std::int32_t> material_;
   std::vector<double> columns_[18];
+  std::vector<std::int32_t> partners_[2];
+  std::vector<double> contact_columns_[7];
   std::vector<float> still_air_;
   std::vector<float> no_solids_;
   sdk::WorldView view_;

@@ -100,7 +100,11 @@ void tell_things(std::ostream& out, const Setup& setup, const Derived& derived) 
     const auto& e = derived.emissions[n];
     out << head << e.emitter << ": " << material_name(setup, setup.emitters[n].material);
     if (e.mass_flow > 0.0) out << ", " << digits(1e3 * e.mass_flow) << " g/s";
-    out << ", about " << counted(e.computed_per_second) << " grains per second";
+    if (e.at_once > 0.0) {
+      out << ", " << counted(e.at_once) << " grains at once";
+    } else {
+      out << ", about " << counted(e.computed_per_second) << " grains per second";
+    }
     if (std::abs(e.real_per_second - e.computed_per_second) > 0.5) {
       out << " (standing for " << counted(e.real_per_second) << ")";
     }

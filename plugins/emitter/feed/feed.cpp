@@ -2,10 +2,10 @@
 #include "feed.hpp"
 
 #include <dust/sdk/plugin.hpp>
+#include <dust/sdk/size_distribution.hpp>
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <sstream>
 
 namespace {
@@ -24,14 +24,11 @@ constexpr double k_gap = 1e-6;
 
 class Feed final : public sdk::Emitter {
  public:
-  struct Parameters {
+  struct Parameters : sdk::SizeParameters {
     double mass_flow = 0.0;
     Vec3 min;
     Vec3 max;
     Vec3 velocity;
-    std::vector<double> diameters;
-    std::vector<double> number_fractions;
-    std::vector<double> mass_fractions;
     double rare_below = 0.0;
     std::int64_t copies_of_rare = 20;
     double begin = 0.0;
@@ -48,15 +45,7 @@ class Feed final : public sdk::Emitter {
     s.vector(&Parameters::max, "max", dim::length, "Upper corner of the opening.");
     s.vector(&Parameters::velocity, "velocity", dim::velocity,
              "Velocity of the grains as they pass the opening.");
-    s.numbers(&Parameters::diameters, "diameters", dim::length, "Grain diameters.").above(0);
-    s.numbers(&Parameters::number_fractions, "number_fractions", dim::none,
-              "Share of each diameter by number; need not add up to 1.")
-        .at_least(0)
-        .optional();
-    s.numbers(&Parameters::mass_fractions, "mass_fractions", dim::none,
-              "Share of each diameter by mass, in place of number_fractions.")
-        .at_least(0)
-        .optional();
+    sdk::declare_sizes(s);
     s.number(&Parameters::rare_below, "rare_below", dim::length,
              "Smaller grains are released as copies_of_rare copies of weight 1 / copies_of_rare.")
         .at_least(0)
@@ -77,7 +66,7 @@ class Feed final : public sdk::Emitter {
             .source = "random sequential placing; own derivation"};
   }
 
-  explicit Feed(const Parameters& p) : p_(p) {
+  explicit Feed(const Parameters& p) : p_(p), sizes_(p) {
     check_opening();
     check_sizes();
   }
@@ -87,7 +76,7 @@ class Feed final : public sdk::Emitter {
     const double end = std::min(context.end, p_.end);
     for (;;) {
       Event next = next_common(context);
-      for (std::size_t i = 0; i < p_.diameters.size(); ++i) {
+      for (std::size_t i = 0; i < sizes_.size(); ++i) {
         const Event rare = next_rare(i, context);
         if (rare.time < next.time) next = rare;
       }
@@ -97,10 +86,14 @@ class Feed final : public sdk::Emitter {
     }
   }
   [[nodiscard]] double requested_mass_flow() const override { return p_.mass_flow; }
-  [[nodiscard]] std::vector<double> diameters() const override {
-    std::vector<double> d = p_.diameters;
-    std::sort(d.begin(), d.end());
-    return d;
+  [[nodiscard]] std::vector<double> diameters() const override { return sizes_.ascending(); }
+  [[nodiscard]] sdk::EmitterRequest request() const override {
+    sdk::EmitterRequest r;
+    r.mass_flow = p_.mass_flow;
+    r.begin = p_.begin;
+    r.end = p_.end;
+    r.shares = sdk::shares_of(sizes_);
+    return r;
   }
   [[nodiscard]] double largest_speed() const override { return norm(p_.velocity); }
 
@@ -160,46 +153,23 @@ class Feed final : public sdk::Emitter {
   }
 
   void check_sizes() {
-    const std::size_t n = p_.diameters.size();
-    if (n == 0) throw sdk::ParameterError("diameters is empty: give at least one");
-    for (std::size_t i = 0; i < n; ++i) {
-      if (std::count(p_.diameters.begin(), p_.diameters.end(), p_.diameters[i]) > 1) {
-        throw sdk::ParameterError("a diameter is given twice");
-      }
-    }
-    fractions_ = p_.number_fractions;
-    if (fractions_.empty() && p_.mass_fractions.empty() && n == 1) fractions_ = {1.0};
-    if (fractions_.empty() == p_.mass_fractions.empty() && fractions_.size() != 1) {
-      throw sdk::ParameterError("give either number_fractions or mass_fractions");
-    }
-    if (!p_.mass_fractions.empty()) {
-      if (p_.mass_fractions.size() != n) wrong_length("mass_fractions", p_.mass_fractions.size());
-      fractions_ = formula::numbers_from_masses(p_.mass_fractions, p_.diameters);
-    }
-    if (fractions_.size() != n) wrong_length("number_fractions", fractions_.size());
-    const double sum = std::accumulate(fractions_.begin(), fractions_.end(), 0.0);
-    if (!(sum > 0.0)) throw sdk::ParameterError("the fractions add up to nothing");
+    const auto fractions = sizes_.fractions();
+    const std::size_t n = sizes_.size();
     common_.assign(n, 0.0);
     double common = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-      fractions_[i] /= sum;
-      if (p_.diameters[i] >= p_.rare_below) common += fractions_[i];
+      if (!is_rare(i)) common += fractions[i];
     }
     for (std::size_t i = 0; i < n; ++i) {
-      if (p_.diameters[i] >= p_.rare_below) common_[i] = fractions_[i] / common;
+      if (!is_rare(i)) common_[i] = fractions[i] / common;
     }
     has_common_ = common > 0.0;
     released_.assign(n, 0);
     for (int d = 0; d < 3; ++d) {
-      const double largest = *std::max_element(p_.diameters.begin(), p_.diameters.end());
-      if (d != axis_ && p_.max[d] - p_.min[d] < largest) {
+      if (d != axis_ && p_.max[d] - p_.min[d] < sizes_.largest()) {
         throw sdk::ParameterError("the opening is narrower than the largest grain");
       }
     }
-  }
-  void wrong_length(const char* name, std::size_t length) const {
-    throw sdk::ParameterError(std::string(name) + " has " + std::to_string(length) +
-                              " entries for " + std::to_string(p_.diameters.size()) + " diameters");
   }
 
   void check_flow(double density) const {
@@ -213,15 +183,15 @@ class Feed final : public sdk::Emitter {
     throw sdk::ParameterError(text.str());
   }
 
-  [[nodiscard]] bool is_rare(std::size_t i) const { return p_.diameters[i] < p_.rare_below; }
+  [[nodiscard]] bool is_rare(std::size_t i) const { return sizes_.diameters()[i] < p_.rare_below; }
 
   /// Real grains of size i per second.
   [[nodiscard]] double rate(std::size_t i, double density) const {
     double mean = 0.0;
-    for (std::size_t n = 0; n < fractions_.size(); ++n) {
-      mean += fractions_[n] * formula::mass(density, p_.diameters[n]);
+    for (std::size_t n = 0; n < sizes_.size(); ++n) {
+      mean += sizes_.fractions()[n] * formula::mass(density, sizes_.diameters()[n]);
     }
-    return p_.mass_flow * fractions_[i] / mean;
+    return p_.mass_flow * sizes_.fractions()[i] / mean;
   }
 
   /// The next grain that is not rare: its time is when the stream has brought half of its mass.
@@ -235,21 +205,21 @@ class Feed final : public sdk::Emitter {
       if (is_rare(i)) continue;
       counts[i] = released_[i];
       number += static_cast<std::uint64_t>(released_[i]);
-      const double m = formula::mass(context.grain_density, p_.diameters[i]);
+      const double m = formula::mass(context.grain_density, sizes_.diameters()[i]);
       mass += static_cast<double>(released_[i]) * m;
       flow += rate(i, context.grain_density) * m;
     }
     Event e;
     e.number = number;
-    e.size = formula::draw_class(common_, counts, k_window, context.random.uniform(number, 0, 1));
-    e.time =
-        p_.begin + (mass + 0.5 * formula::mass(context.grain_density, p_.diameters[e.size])) / flow;
+    e.size = sdk::draw_size(common_, counts, k_window, context.random.uniform(number, 0, 1));
+    e.time = p_.begin +
+             (mass + 0.5 * formula::mass(context.grain_density, sizes_.diameters()[e.size])) / flow;
     return e;
   }
 
   /// The next copy of a rare size: one at a random instant of each interval 1 / (k rate).
   [[nodiscard]] Event next_rare(std::size_t i, const sdk::EmitterContext& context) const {
-    if (!is_rare(i) || fractions_[i] == 0.0) return {};
+    if (!is_rare(i) || sizes_.fractions()[i] == 0.0) return {};
     const double copies = rate(i, context.grain_density) * static_cast<double>(p_.copies_of_rare);
     const auto n = static_cast<std::uint64_t>(released_[i]);
     Event e;
@@ -265,8 +235,8 @@ class Feed final : public sdk::Emitter {
   /// stops within a millisecond, are let go one interval in front of it: behind it they would hover
   /// where the next common grains appear.
   sdk::Seed place(const Event& e, const sdk::EmitterContext& context) {
-    const double radius = 0.5 * p_.diameters[e.size];
-    const double largest = *std::max_element(p_.diameters.begin(), p_.diameters.end());
+    const double radius = 0.5 * sizes_.diameters()[e.size];
+    const double largest = sizes_.largest();
     const double behind = 0.5 * largest / speed_;  // [s] of travel behind the opening
     const double in_front = context.end - context.begin;
     const double block_time = is_rare(e.size) ? e.time - behind - in_front : e.time;
@@ -290,7 +260,7 @@ class Feed final : public sdk::Emitter {
       return {.time = e.time,
               .position = x + (is_rare(e.size) ? in_front : -behind) * p_.velocity,
               .velocity = p_.velocity,
-              .diameter = p_.diameters[e.size],
+              .diameter = sizes_.diameters()[e.size],
               .weight = is_rare(e.size) ? 1.0 / static_cast<double>(p_.copies_of_rare) : 1.0};
     }
     std::ostringstream text;
@@ -302,11 +272,11 @@ class Feed final : public sdk::Emitter {
   }
 
   Parameters p_;
+  sdk::SizeDistribution sizes_;
   int axis_ = 2;
   double area_ = 1.0;
   double speed_ = 0.0;
-  std::vector<double> fractions_;  ///< by number, all sizes
-  std::vector<double> common_;     ///< by number among the sizes that are not rare
+  std::vector<double> common_;  ///< by number among the sizes that are not rare
   bool has_common_ = false;
   std::vector<long long> released_;  ///< computed grains per size
   std::vector<Placed> recent_;

@@ -11,30 +11,16 @@ namespace formula = dust::model::box_concentration;
 
 class BoxConcentration final : public Sensor {
  public:
-  struct Parameters {
+  struct Parameters : SelectionParameters {
     Vec3 min;
     Vec3 max;
-    double steady_after = 0.0;
-    double coarser_than = 0.0;
-    double finer_than = 0.0;
   };
 
   static ParameterSchema schema() {
     SchemaOf<Parameters> s;
     s.vector(&Parameters::min, "min", dimension::length, "Lower corner of the box.");
     s.vector(&Parameters::max, "max", dimension::length, "Upper corner of the box.");
-    s.number(&Parameters::steady_after, "steady_after", dimension::time,
-             "Time from which the means are taken.")
-        .at_least(0)
-        .optional();
-    s.number(&Parameters::coarser_than, "coarser_than", dimension::length,
-             "Only grains of a larger diameter count; 0 = all.")
-        .at_least(0)
-        .optional();
-    s.number(&Parameters::finer_than, "finer_than", dimension::length,
-             "Only grains of a smaller diameter count; 0 = all.")
-        .at_least(0)
-        .optional();
+    declare_selection(s);
     return s.build();
   }
 
@@ -65,7 +51,7 @@ class BoxConcentration final : public Sensor {
     squares_ = 0.0;
     const GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
-      if (!is_inside(g, i) || !is_chosen(g.diameter[i], p_.coarser_than, p_.finer_than)) continue;
+      if (!is_inside(g, i) || !p_.takes(g.diameter[i])) continue;
       const double mass = g.weight[i] * g.mass[i];
       values_[0] += mass;
       values_[1] += g.weight[i];
@@ -94,7 +80,7 @@ class BoxConcentration final : public Sensor {
     sink.figure("grams_per_tonne", formula::grams_per_tonne(values_[0], emitted_mass_), "g/t",
                 scatter < 0.0 ? -1.0 : formula::grams_per_tonne(scatter, emitted_mass_));
     for (std::size_t c = 0; c < classes_.size(); ++c) {
-      if (!is_chosen(classes_[c], p_.coarser_than, p_.finer_than)) continue;
+      if (!p_.takes(classes_[c])) continue;
       figures_of(class_name(classes_[c]) + "/", k_totals + k_per_class * c, sink);
     }
   }

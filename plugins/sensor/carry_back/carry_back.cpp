@@ -11,12 +11,11 @@ namespace formula = dust::model::carry_back;
 
 class CarryBack final : public Sensor {
  public:
-  struct Parameters {
+  struct Parameters : SteadyParameters {
     Vec3 min;
     Vec3 max;
     Vec3 direction{-1.0, 0.0, 0.0};
     double faster_than = 0.0;
-    double steady_after = 0.0;
   };
 
   static ParameterSchema schema() {
@@ -32,10 +31,7 @@ class CarryBack final : public Sensor {
              "Only grains that move faster than this along the direction ride on the belt.")
         .at_least(0)
         .optional();
-    s.number(&Parameters::steady_after, "steady_after", dimension::time,
-             "Time from which the means are taken.")
-        .at_least(0)
-        .optional();
+    declare_steady(s);
     return s.build();
   }
 

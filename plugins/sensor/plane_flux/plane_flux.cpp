@@ -11,14 +11,11 @@ namespace formula = dust::model::plane_flux;
 
 class PlaneFlux final : public Sensor {
  public:
-  struct Parameters {
+  struct Parameters : SelectionParameters {
     Vec3 point;
     Vec3 normal;
     Vec3 min;
     Vec3 max;
-    double steady_after = 0.0;
-    double coarser_than = 0.0;
-    double finer_than = 0.0;
   };
 
   static ParameterSchema schema() {
@@ -31,18 +28,7 @@ class PlaneFlux final : public Sensor {
              "Lower corner of the box that cuts the rectangle out of the plane.");
     s.vector(&Parameters::max, "max", dimension::length,
              "Upper corner of that box; may equal 'min' along the normal.");
-    s.number(&Parameters::steady_after, "steady_after", dimension::time,
-             "Time from which the rates are taken.")
-        .at_least(0)
-        .optional();
-    s.number(&Parameters::coarser_than, "coarser_than", dimension::length,
-             "Only grains of a larger diameter count; 0 = all.")
-        .at_least(0)
-        .optional();
-    s.number(&Parameters::finer_than, "finer_than", dimension::length,
-             "Only grains of a smaller diameter count; 0 = all.")
-        .at_least(0)
-        .optional();
+    declare_selection(s);
     return s.build();
   }
 
@@ -78,7 +64,7 @@ class PlaneFlux final : public Sensor {
     const bool is_steady = is_after(world, p_.steady_after);
     const GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
-      if (!is_chosen(g.diameter[i], p_.coarser_than, p_.finer_than)) continue;
+      if (!p_.takes(g.diameter[i])) continue;
       const int direction = passage_of(path_of(world, i));
       if (direction == 0) continue;
       count(0, direction, g.weight[i], g.mass[i], is_steady);
@@ -112,7 +98,7 @@ class PlaneFlux final : public Sensor {
     sink.figure("backward/mass", mass_so_far_[1], "kg");
     rates_of("", 0, sink);
     for (std::size_t c = 0; c < classes_.size(); ++c) {
-      if (!is_chosen(classes_[c], p_.coarser_than, p_.finer_than)) continue;
+      if (!p_.takes(classes_[c])) continue;
       rates_of(class_name(classes_[c]) + "/", c + 1, sink);
     }
   }

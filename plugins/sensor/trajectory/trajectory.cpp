@@ -52,13 +52,10 @@ struct Crossings {
 
 class Trajectory final : public Sensor {
  public:
-  struct Parameters {
+  struct Parameters : SelectionParameters {
     Vec3 from;
     std::vector<double> drops;
     Vec3 along{1.0, 0.0, 0.0};
-    double steady_after = 0.0;
-    double coarser_than = 0.0;
-    double finer_than = 0.0;
   };
 
   static ParameterSchema schema() {
@@ -73,18 +70,7 @@ class Trajectory final : public Sensor {
     s.vector(&Parameters::along, "along", dimension::none,
              "Direction of the belt; its part across gravity is used.")
         .optional();
-    s.number(&Parameters::steady_after, "steady_after", dimension::time,
-             "Time from which crossings count.")
-        .at_least(0)
-        .optional();
-    s.number(&Parameters::coarser_than, "coarser_than", dimension::length,
-             "Only grains of a larger diameter count; 0 = all.")
-        .at_least(0)
-        .optional();
-    s.number(&Parameters::finer_than, "finer_than", dimension::length,
-             "Only grains of a smaller diameter count; 0 = all.")
-        .at_least(0)
-        .optional();
+    declare_selection(s);
     return s.build();
   }
 
@@ -123,7 +109,7 @@ class Trajectory final : public Sensor {
 
     const GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
-      if (!is_chosen(g.diameter[i], p_.coarser_than, p_.finer_than)) continue;
+      if (!p_.takes(g.diameter[i])) continue;
       const Path path = path_of(world, i);
       const double depth_before = dot(path.before - p_.from, down);
       const double depth_now = dot(path.now - p_.from, down);
@@ -169,7 +155,7 @@ class Trajectory final : public Sensor {
       }
       figure(sink, name + "median_vertical_speed", level, level.speed, 0.5, "m/s", -1);
       for (std::size_t c = 0; c < classes_.size(); ++c) {
-        if (!is_chosen(classes_[c], p_.coarser_than, p_.finer_than)) continue;
+        if (!p_.takes(classes_[c])) continue;
         figure(sink, name + class_name(classes_[c]) + "/median", level, level.place, 0.5, "m",
                static_cast<std::int64_t>(c));
       }

@@ -40,6 +40,67 @@ const std::vector<Subject>& subjects() {
         {"direction", Vec3{1, 0, 0}},
         {"faster_than", 0.5},
         {"steady_after", 0.03}}},
+      {"angle_of_repose",
+       {{"form", std::string("planar")}, {"coarser_than", 250e-6}},
+       {{"form", std::string("crater")},
+        {"centre", Vec3{0.2, 0, 0.1}},
+        {"direction", Vec3{0, 1, 0}},
+        {"min", Vec3{0.12, 0, 0}},
+        {"max", Vec3{0.17, 0.011, 0.35}},
+        {"from_share", 0.5},
+        {"to_share", 0.5},
+        {"cell", 0.01},
+        {"steady_after", 0.03},
+        {"coarser_than", 400e-6},
+        {"finer_than", 500e-6}}},
+      {"coordination",
+       {},
+       {{"steady_after", 0.03},
+        {"coarser_than", 100e-6},
+        {"finer_than", 500e-6},
+        {"with_walls", false}}},
+      {"discharge",
+       {{"centre", Vec3{0.14, 0.005, 0.16}}, {"hole", 0.04}},
+       {{"centre", Vec3{0.14, 0.005, 0.14}},
+        {"hole", 0.05},
+        {"direction", Vec3{1, 0, 0}},
+        {"reach", 0.004},
+        {"opened_at", 0.01},
+        {"from_share", 0.5},
+        {"to_share", 0.6},
+        {"bulk_density", 1500.0},
+        {"grain_diameter", 1e-3},
+        {"beverloo_c", 0.7},
+        {"beverloo_k", 2.0}}},
+      {"kinetic_energy",
+       {},
+       {{"steady_after", 0.03},
+        {"coarser_than", 100e-6},
+        {"finer_than", 500e-6},
+        {"settled_below", 1.0}}},
+      {"segregation",
+       {{"split", 100e-6}, {"min", Vec3{0, 0, 0}}, {"max", Vec3{0.33, 0.011, 0.35}}},
+       {{"split", 400e-6},
+        {"min", Vec3{0.1, 0, 0}},
+        {"max", Vec3{0.2, 0.011, 0.35}},
+        {"cells", Vec3{8, 1, 2}},
+        {"direction", Vec3{1, 0, 0}},
+        {"steady_after", 0.03},
+        {"coarser_than", 20e-6},
+        {"finer_than", 500e-6}}},
+      {"size_distribution",
+       {},
+       {{"min", Vec3{0.12, 0, 0}},
+        {"max", Vec3{0.17, 0.011, 0.35}},
+        {"steady_after", 0.03},
+        {"coarser_than", 100e-6},
+        {"finer_than", 500e-6}}},
+      {"stress",
+       {{"min", Vec3{0, 0, 0}}, {"max", Vec3{0.33, 0.011, 0.35}}},
+       {{"min", Vec3{0.05, 0, 0}},
+        {"max", Vec3{0.2, 0.011, 0.35}},
+        {"cells", Vec3{3, 1, 2}},
+        {"steady_after", 0.03}}},
       {"low_pressure",
        {},
        {{"count", std::int64_t{1}},
@@ -103,6 +164,7 @@ class Scene {
       add(n, since, 0.7 + 0.2 * random_.uniform(static_cast<std::uint64_t>(n), 1));
     }
     for (int n = 0; n < 60; ++n) ride(n, time);
+    touch(time);
     for (int k = 0; k < 35; ++k) {
       for (int j = 0; j < 5; ++j) {
         for (int i = 0; i < 33; ++i) {
@@ -114,6 +176,20 @@ class Scene {
               (-std::exp(-a * a) - 0.6 * std::exp(-b * b) - 0.9 * std::exp(-c * c)));
         }
       }
+    }
+  }
+
+  /// Riders press each other and the belt, more and more of them as time swings.
+  void touch(double time) {
+    world.contacts.clear();
+    const auto last = static_cast<std::int32_t>(world.grains.size());
+    const int pairs = 20 + static_cast<int>(15 * std::sin(200 * time));
+    for (std::int32_t i = last - 60; i < last - 60 + pairs; ++i) {
+      const double force = mass_scale * 1e-6 * (1 + i % 7);
+      const Vec3 branch{1e-4 * (1 + i % 3), 0, 2e-4};
+      world.contacts.push_back({i, i + 1, (-force / norm(branch)) * branch, branch, 1e-9});
+      world.contacts.push_back({i, -1, {0, 0, force}, {0, 0, -2e-4}, 1e-9});
+      world.contacts.push_back({i + 1, i + 3, {0, 0, 0}, {0, 0, 2e-4}, -1e-9});
     }
   }
 
@@ -247,7 +323,10 @@ TEST_CASE("a sensor shall be linear in mass") {
     REQUIRE(light.names() == heavy.names());
     for (const auto& [name, figure] : light.all()) {
       CAPTURE(name);
-      const bool is_mass = figure.unit.rfind("kg", 0) == 0;
+      // Forces and energies of the scene grow with the masses.
+      const bool is_mass =
+          figure.unit.rfind("kg", 0) == 0 || figure.unit == "J" ||
+          (figure.unit == "Pa" && subject.name == "stress");  // other pressures are the air's
       const Figure& other = heavy.at(name);
       CHECK(other.value == doctest::Approx((is_mass ? k_scale : 1.0) * figure.value).epsilon(1e-9));
       if (figure.uncertainty >= 0.0) {

@@ -3,6 +3,7 @@
 
 #include "dust/sdk/archive.hpp"
 #include "dust/sdk/error.hpp"
+#include "dust/sdk/parameter_schema.hpp"
 #include "dust/sdk/sensor.hpp"
 
 #include <algorithm>
@@ -17,6 +18,46 @@
 /// What most sensors need: size classes, paths of grains between two samples, and means over time
 /// with an honest error.
 namespace dust::sdk {
+
+/// When the means of a sensor begin: its `Parameters` derive from this, its schema calls
+/// declare_steady.
+struct SteadyParameters {
+  double steady_after = 0.0;  ///< [s]
+};
+template <class P>
+void declare_steady(SchemaOf<P>& s) {
+  s.number(&P::steady_after, "steady_after", dimension::time,
+           "Time from which the means are taken.")
+      .at_least(0)
+      .optional();
+}
+
+/// As above, for sensors that may look at some sizes of grains only.
+struct SelectionParameters : SteadyParameters {
+  double coarser_than = 0.0;  ///< [m]
+  double finer_than = 0.0;    ///< [m] 0 = no limit
+
+  [[nodiscard]] bool takes(double diameter) const {
+    return diameter > coarser_than && (finer_than <= 0.0 || diameter < finer_than);
+  }
+};
+template <class P>
+void declare_selection(SchemaOf<P>& s) {
+  declare_steady(s);
+  s.number(&P::coarser_than, "coarser_than", dimension::length,
+           "Only grains of a larger diameter count; 0 = all.")
+      .at_least(0)
+      .optional();
+  s.number(&P::finer_than, "finer_than", dimension::length,
+           "Only grains of a smaller diameter count; 0 = all.")
+      .at_least(0)
+      .optional();
+}
+
+/// Whether a point lies in a box; lower faces included, upper ones not.
+inline bool is_in_box(Vec3 x, Vec3 min, Vec3 max) {
+  return x.x >= min.x && x.x < max.x && x.y >= min.y && x.y < max.y && x.z >= min.z && x.z < max.z;
+}
 
 /// Index of the class nearest to `diameter` [m]; `classes` ascending [m]; 0 for an empty list.
 inline std::size_t nearest_class(double diameter, std::span<const double> classes) {
@@ -256,10 +297,4 @@ class ThinnedCurve {
   std::int64_t samples_per_point_ = 1;
   std::int64_t samples_ = 0;
 };
-
-/// The restriction `coarser_than` / `finer_than` [m]; 0 = no limit.
-inline bool is_chosen(double diameter, double coarser_than, double finer_than) {
-  return diameter > coarser_than && (finer_than <= 0.0 || diameter < finer_than);
-}
-
 }  // namespace dust::sdk

@@ -27,6 +27,17 @@ struct GrainColumns {
   std::span<const double> weight;  ///< [-] real grains per computed one; mass counts weight * mass
 };
 
+/// The contacts at the end of a fluid step, as columns of equal length; only for sensors that want
+/// them. Forces are those of the contact stage (normal and tangential).
+struct ContactColumns {
+  std::span<const std::int32_t> grain_i;                 ///< index into GrainColumns
+  std::span<const std::int32_t> grain_j;                 ///< the same; -1 = a body or wall
+  std::span<const double> force_x, force_y, force_z;     ///< [N] on i; j receives the opposite
+  std::span<const double> branch_x, branch_y, branch_z;  ///< [m] from the centre of i to that of j,
+                                                         ///< or to the contact point at a wall
+  std::span<const double> overlap;  ///< [m] < 0: apart, but within the reach of a law
+};
+
 /// Fluid cells, x fastest, count_x * count_y * count_z numbers each; empty for runs without fluid.
 struct FluidColumns {
   Vec3 origin;   ///< [m]
@@ -47,6 +58,7 @@ struct WorldView {
   Vec3 domain_min, domain_max;  ///< [m]
   Vec3 gravity;                 ///< [m/s2]
   GrainColumns grains;
+  ContactColumns contacts;  ///< empty unless a sensor of the run wants contacts
   FluidColumns fluid;
   std::span<const double> class_diameters;  ///< [m] ascending size classes of the run
   double emitted_mass = 0.0;                ///< [kg] so far, weighted
@@ -80,6 +92,8 @@ class Sensor : public Model {
  public:
   static constexpr const char* k_kind = "sensor";
   virtual void observe(const WorldView& world) = 0;
+  /// Whether the view needs contacts, which cost a pass over all of them.
+  [[nodiscard]] virtual bool wants_contacts() const { return false; }
   /// Columns for series.csv: the same names in the same order at every call.
   virtual void series(FigureSink& sink) const = 0;
   /// Figures for summary.json, with uncertainties.

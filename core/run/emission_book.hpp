@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/archive.hpp"
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace dust::run {
+
+/// What each emitter has brought into the domain, size by size, in whole numbers.
+class EmissionBook {
+ public:
+  struct Line {
+    double diameter = 0.0;  ///< [m]
+    double weight = 1.0;    ///< real grains per computed one
+    std::int64_t count = 0;
+    double grain_mass = 0.0;  ///< [kg] of one real grain
+  };
+  struct Totals {
+    std::int64_t computed = 0;
+    double real = 0.0;
+    double mass = 0.0;  ///< [kg]
+  };
+  explicit EmissionBook(std::size_t emitters = 0) : lines_(emitters) {}
+
+  void enter(std::size_t emitter, double diameter, double weight, double grain_mass);
+  /// Ascending by diameter.
+  [[nodiscard]] std::vector<Line> lines_of(std::size_t emitter) const;
+  [[nodiscard]] Totals totals_of(std::size_t emitter) const;
+
+  void save(sdk::ArchiveWriter& archive) const;
+  void load(sdk::ArchiveReader& archive);
+
+ private:
+  struct Key {
+    double diameter, weight, grain_mass;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::vector<std::map<Key, std::int64_t>> lines_;
+};
+
+}  // namespace dust::run

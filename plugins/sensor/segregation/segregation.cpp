@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "segregation.hpp"
+
+#include "dust/sdk/plugin.hpp"
+#include "dust/sdk/sampling.hpp"
+
+#include <array>
+
+namespace {
+
+using namespace dust::sdk;
+namespace formula = dust::model::segregation;
+
+class Segregation final : public Sensor {
+ public:
+  struct Parameters : SelectionParameters {
+    double split = 0.0;
+    Vec3 min;
+    Vec3 max;
+    Vec3 cells{4.0, 4.0, 4.0};
+    Vec3 direction{0.0, 0.0, 1.0};
+  };
+
+  static ParameterSchema schema() {
+    SchemaOf<Parameters> s;
+    s.number(&Parameters::split, "split", dimension::length,
+             "Grains of a smaller diameter are the fine ones.")
+        .above(0);
+    s.vector(&Parameters::min, "min", dimension::length, "Lower corner of the box looked at.");
+    s.vector(&Parameters::max, "max", dimension::length, "Upper corner of the box.");
+    s.vector(&Parameters::cells, "cells", dimension::none,
+             "Number of cells along x, y and z in which shares are compared.")
+        .at_least(1)
+        .at_most(1000)
+        .optional();
+    s.vector(&Parameters::direction, "direction", dimension::none,
+             "Direction along which the centres of fine and coarse grains are compared.")
+        .optional();
+    declare_selection(s);
+    return s.build();
+  }
+
+  static ModelInfo describe() {
+    return {"",
+            "segregation",
+            "1.0",
+            "How well fine and coarse grains are mixed, and how far apart their centres are.",
+            R"(M = \frac{\sigma_0^2 - \sigma^2}{\sigma_0^2 - \sigma_r^2})",
+            "Lacey, J. Appl. Chem. 4 (1954) 257, doi:10.1002/jctb.5010040504",
+            {}};
+  }
+
+  explicit Segregation(const Parameters& p) : p_(p) {
+    for (int d = 0; d < 3; ++d) {
+      if (!(p.max[d] > p.min[d])) throw ParameterError("'max' must lie above 'min' in x, y and z");
+      if (p.cells[d] != std::floor(p.cells[d]))
+        throw ParameterError("'cells' must be whole numbers");
+      count_[static_cast<std::size_t>(d)] = static_cast<std::size_t>(p.cells[d]);
+    }
+    const double length = norm(p.direction);
+    if (!(length > 0.0)) throw ParameterError("'direction' must not be zero");
+    p_.direction = p.direction / length;
+  }
+
+  void observe(const WorldView& world) override {
+    std::vector<formula::Cell> cells(count_[0] * count_[1] * count_[2]);
+    double number[2] = {0.0, 0.0};  // coarse, fine
+    double place[2] = {0.0, 0.0};
+    const GrainColumns& g = world.grains;
+    for (std::size_t i = 0; i < g.id.size(); ++i) {
+      const Vec3 x{g.x[i], g.y[i], g.z[i]};
+      if (!p_.takes(g.diameter[i]) || !is_in_box(x, p_.min, p_.max)) continue;
+      const bool is_fine = g.diameter[i] < p_.split;
+      formula::Cell& c = cells[index_of(x)];
+      c.all += 1.0;
+      c.fine += is_fine ? 1.0 : 0.0;
+      number[is_fine] += g.weight[i];
+      place[is_fine] += g.weight[i] * dot(x - p_.min, p_.direction);
+    }
+    const bool has_both = number[0] > 0.0 && number[1] > 0.0;
+    values_ = {formula::lacey(cells), has_both ? place[1] / number[1] - place[0] / number[0] : 0.0,
+               has_both ? number[1] / (number[0] + number[1]) : 0.0};
+    if (is_after(world, p_.steady_after)) means_.add(values_, world.interval);
+    curve_.add(world.time, values_[0]);
+  }
+
+  void series(FigureSink& sink) const override {
+    for (std::size_t n = 0; n < k_columns; ++n) sink.figure(k_names[n], values_[n], k_units[n]);
+  }
+  void summary(FigureSink& sink) const override {
+    for (std::size_t n = 0; n < k_columns; ++n) {
+      const double mean = means_.mean(n);
+      sink.figure(k_names[n], mean, k_units[n], mean != 0.0 ? means_.error(n) : -1.0);
+      sink.figure(std::string(k_names[n]) + "_at_end", values_[n], k_units[n]);
+    }
+  }
+  void report(ReportSink& sink) const override {
+    sink.curve("Mixing of fine and coarse grains", "time [s]", "mixing index [1]", "all grains",
+               curve_.x(), curve_.y());
+  }
+
+  void save(ArchiveWriter& a) const override {
+    a.numbers("values", values_);
+    means_.save(a, "means");
+    curve_.save(a, "curve");
+  }
+  void load(ArchiveReader& a) override {
+    values_ = a.numbers("values");
+    means_.load(a, "means");
+    curve_.load(a, "curve");
+  }
+
+ private:
+  static constexpr std::size_t k_columns = 3;
+  static constexpr const char* k_names[k_columns] = {"mixing_index", "centre_shift",
+                                                     "fine_number_fraction"};
+  static constexpr const char* k_units[k_columns] = {"1", "m", "1"};
+
+  [[nodiscard]] std::size_t index_of(Vec3 x) const {
+    std::size_t c[3];
+    for (int d = 0; d < 3; ++d) {
+      const auto n = count_[static_cast<std::size_t>(d)];
+      const double share = (x[d] - p_.min[d]) / (p_.max[d] - p_.min[d]);
+      c[d] = std::min(n - 1, static_cast<std::size_t>(share * static_cast<double>(n)));
+    }
+    return c[0] + count_[0] * (c[1] + count_[1] * c[2]);
+  }
+
+  Parameters p_;
+  std::array<std::size_t, 3> count_{1, 1, 1};
+  std::vector<double> values_ = std::vector<double>(k_columns, 0.0);  ///< at the last sample
+  BatchMeans means_{k_columns};
+  ThinnedCurve curve_;
+};
+
+}  // namespace
+
+DUST_PLUGIN(registrar) { registrar.add<Segregation>(); }

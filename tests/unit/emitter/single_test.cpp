@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "unit/emitter/emitter_bench.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace dust;
+using namespace dust::test;
+using sdk::Vec3;
+
+TEST_CASE("single grains shall come as they are written, one entry standing for all") {
+  const std::vector<Vec3> places{{0, 0, 1e-2}, {0, 0, 2e-2}};
+  const auto single = emitter("single", {{"positions", places},
+                                         {"diameters", std::vector<double>{1e-3}},
+                                         {"velocities", std::vector<Vec3>{{0, 0, 1}, {0, 0, -2}}},
+                                         {"rotations", std::vector<Vec3>{{5, 0, 0}}}});
+  const auto seeds = seeds_of(*single);
+  REQUIRE(seeds.size() == 2);
+  for (std::size_t n = 0; n < 2; ++n) {
+    CHECK(seeds[n].position == places[n]);
+    CHECK(seeds[n].diameter == 1e-3);
+    CHECK(seeds[n].rotation == Vec3{5, 0, 0});
+  }
+  CHECK(seeds[1].velocity == Vec3{0, 0, -2});
+  CHECK(single->largest_speed() == 2.0);
+  CHECK(single->diameters() == std::vector<double>{1e-3});
+  CHECK_FALSE(single->entry_rule().waits);
+}
+
+TEST_CASE("lists that do not fit the number of grains shall be refused") {
+  CHECK(refusal([] {
+          emitter("single", {{"positions", std::vector<Vec3>(3)},
+                             {"diameters", std::vector<double>{1e-3, 2e-3}}});
+        }) == "diameters has 2 entries for 3 positions: give one for all, or one each");
+}
