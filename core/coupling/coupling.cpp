@@ -38,7 +38,7 @@ constexpr double k_least_implicit = 0.6;
 
 /// Columns of a batch of grains.
 struct Batch {
-  std::array<double, k_batch> reynolds, void_fraction, factor;
+  std::array<double, k_batch> reynolds, void_fraction, factor, size_ratio;
 };
 
 double relaxation_time(double mass, double viscosity, double diameter) {
@@ -68,6 +68,7 @@ struct Coupling::Impl {
         initial_velocity{fluid.initial_velocity.x, fluid.initial_velocity.y,
                          fluid.initial_velocity.z},
         is_one_way(fluid.is_one_way),
+        needs_size_ratio(law.needs_size_ratio()),
         step(time.fluid_step) {
     least_spacing = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
     refreshes = refreshes_for(step, std::numeric_limits<double>::infinity());
@@ -93,7 +94,8 @@ struct Coupling::Impl {
 
   /// F of the rows first..last; the batch's Reynolds numbers and void fractions are set.
   void evaluate(Batch& batch, std::size_t count) const {
-    drag.evaluate({count, batch.reynolds.data(), batch.void_fraction.data(), batch.factor.data()});
+    drag.evaluate({count, batch.reynolds.data(), batch.void_fraction.data(), batch.factor.data(),
+                   needs_size_ratio ? batch.size_ratio.data() : nullptr});
   }
   [[nodiscard]] double reynolds(double eps, double slip, double diameter) const {
     return eps * density * slip * diameter / viscosity;
@@ -109,6 +111,7 @@ struct Coupling::Impl {
   void refresh(const particles::GrainRows& grains, std::size_t first, std::size_t last,
                const fluid::FaceField& velocity, const fluid::FaceField& stress_divergence);
   void collect(const particles::GrainRows& grains, double fluid_step);
+  void find_size_ratios(const particles::GrainRows& grains);
 
   Lattice lattice;
   const sdk::DragLaw& drag;
@@ -121,6 +124,8 @@ struct Coupling::Impl {
   double viscosity;
   Triple initial_velocity;
   bool is_one_way;
+  bool needs_size_ratio;
+  std::vector<std::array<double, 2>> size_sums;  ///< per cell W D^3 and W D^2, if needed
   double step;
   double least_spacing = 0.0;
   double refreshes = 1.0;           ///< per fluid step
@@ -146,6 +151,7 @@ void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t fi
     const double eps = void_fraction.after()[lattice.host_cell(lattice.place(position), position)];
     batch.void_fraction[row - first] = eps;
     batch.reynolds[row - first] = reynolds(eps, slip, 2.0 * position[3]);
+    batch.size_ratio[row - first] = r.size_ratio;
   }
   evaluate(batch, last - first);
   for (std::size_t row = first; row < last; ++row) {
@@ -171,6 +177,7 @@ void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) 
   }
   refreshes = refreshes_for(step, shortest);
   done_refreshes = 0;
+  if (needs_size_ratio) find_size_ratios(grains);
   if (is_one_way) return;
 
   const VoidFraction::Counts counts = void_fraction.map(grains);
@@ -198,6 +205,25 @@ void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) 
               [&](std::size_t first, std::size_t last) { remember(grains, first, last); });
   report.unpaired_forces += faces.spread(grains, memory, void_fraction.after(), step);
   is_settled = false;
+}
+
+/// Diameter of each grain over the Sauter mean of those in its cell, summed in row order.
+void Coupling::Impl::find_size_ratios(const particles::GrainRows& grains) {
+  size_sums.assign(lattice.grid().size, {0.0, 0.0});
+  const auto cell_of = [&](std::size_t row) {
+    const double* position = grains.position + 4 * row;
+    return static_cast<std::size_t>(lattice.host_cell(lattice.place(position), position));
+  };
+  for (std::size_t row = 0; row < grains.count; ++row) {
+    const double diameter = 2.0 * grains.position[4 * row + 3];
+    std::array<double, 2>& sums = size_sums[cell_of(row)];
+    sums[0] += grains.weight[row] * diameter * diameter * diameter;
+    sums[1] += grains.weight[row] * diameter * diameter;
+  }
+  for (std::size_t row = 0; row < grains.count; ++row) {
+    const std::array<double, 2>& sums = size_sums[cell_of(row)];
+    memory[row].size_ratio = 2.0 * grains.position[4 * row + 3] * sums[1] / sums[0];
+  }
 }
 
 void Coupling::Impl::settle(const particles::GrainRows& grains, const fluid::FaceField& velocity) {
@@ -242,6 +268,7 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t fir
     const Triple& w = slip[row - first];
     const double speed = std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
     batch.reynolds[row - first] = reynolds(own, speed, 2.0 * position[3]);
+    batch.size_ratio[row - first] = r.size_ratio;
   }
   evaluate(batch, last - first);
   for (std::size_t row = first; row < last; ++row) {
