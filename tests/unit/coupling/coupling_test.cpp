@@ -351,10 +351,4 @@ TEST_CASE("a law shall get each grain's size over the Sauter mean of its cell") 
   }
 }
 
-TEST_CASE("momentum set III shall be refused with the choices") {
-  World::Choice choice;
-  choice.momentum_set = "III";
-  CHECK_THROWS_WITH_AS(World{choice}, doctest::Contains("choose I or II"), sdk::ModelError);
-}
-
 }  // namespace
