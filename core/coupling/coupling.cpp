@@ -8,6 +8,7 @@
 #include "coupling/void_fraction.hpp"
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/sphere.hpp"
+#include "fluid/properties.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -38,7 +39,7 @@ constexpr double k_least_implicit = 0.6;
 
 /// Columns of a batch of grains.
 struct Batch {
-  std::array<double, k_batch> reynolds, void_fraction, factor;
+  std::array<double, k_batch> reynolds, void_fraction, factor, size_ratio;
 };
 
 double relaxation_time(double mass, double viscosity, double diameter) {
@@ -56,18 +57,21 @@ std::string text(const Part&... parts) {
 }  // namespace
 
 struct Coupling::Impl {
-  Impl(const scenario::FluidSpec& fluid, const scenario::TimeSpec& time, const fluid::Grid& grid,
-       const fluid::CellField& open_fraction, const sdk::VoidageRule& rule, const sdk::DragLaw& law)
+  Impl(const scenario::FluidSpec& fluid, const scenario::TimeSpec& time, sdk::Vec3 gravity_vector,
+       const fluid::Grid& grid, const fluid::CellField& open_fraction, const sdk::VoidageRule& rule,
+       const sdk::DragLaw& law)
       : lattice(grid, open_fraction),
         drag(law),
         voidage(rule),
         void_fraction(lattice, rule),
-        faces(lattice),
-        density(fluid.density),
-        viscosity(fluid.viscosity),
+        faces(lattice, fluid.momentum_set == "III"),
+        properties(fluid),
+        gravity(gravity_vector),
+        is_set_three(fluid.momentum_set == "III"),
         initial_velocity{fluid.initial_velocity.x, fluid.initial_velocity.y,
                          fluid.initial_velocity.z},
         is_one_way(fluid.is_one_way),
+        needs_size_ratio(law.needs_size_ratio()),
         step(time.fluid_step) {
     least_spacing = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
     refreshes = refreshes_for(step, std::numeric_limits<double>::infinity());
@@ -93,15 +97,23 @@ struct Coupling::Impl {
 
   /// F of the rows first..last; the batch's Reynolds numbers and void fractions are set.
   void evaluate(Batch& batch, std::size_t count) const {
-    drag.evaluate({count, batch.reynolds.data(), batch.void_fraction.data(), batch.factor.data()});
+    drag.evaluate({count, batch.reynolds.data(), batch.void_fraction.data(), batch.factor.data(),
+                   needs_size_ratio ? batch.size_ratio.data() : nullptr});
   }
-  [[nodiscard]] double reynolds(double eps, double slip, double diameter) const {
-    return eps * density * slip * diameter / viscosity;
+  using Fluid = fluid::Properties::Values;
+  [[nodiscard]] Fluid fluid_at(const double* position) const {
+    if (properties.is_uniform()) return properties.own();
+    return properties.at({position[0], position[1], position[2]});
+  }
+  static double reynolds(const Fluid& fluid, double eps, double slip, double diameter) {
+    return eps * fluid.density * slip * diameter / fluid.viscosity;
   }
   /// K = 3 pi mu D F [kg/s].
-  [[nodiscard]] double coefficient(double diameter, double factor) const {
-    return 3.0 * std::numbers::pi * viscosity * diameter * factor;
+  static double coefficient(const Fluid& fluid, double diameter, double factor) {
+    return 3.0 * std::numbers::pi * fluid.viscosity * diameter * factor;
   }
+  /// What the drag on a grain is made of K by: set III puts the pressure's part into it.
+  [[nodiscard]] double share_of_set(double eps) const { return is_set_three ? 1.0 / eps : 1.0; }
 
   void map(const particles::GrainRows& grains, double fluid_step);
   void remember(const particles::GrainRows& grains, std::size_t first, std::size_t last);
@@ -109,6 +121,7 @@ struct Coupling::Impl {
   void refresh(const particles::GrainRows& grains, std::size_t first, std::size_t last,
                const fluid::FaceField& velocity, const fluid::FaceField& stress_divergence);
   void collect(const particles::GrainRows& grains, double fluid_step);
+  void find_size_ratios(const particles::GrainRows& grains);
 
   Lattice lattice;
   const sdk::DragLaw& drag;
@@ -117,10 +130,13 @@ struct Coupling::Impl {
   GrainMemory memory;
   FaceExchange faces;
   CouplingReport report;
-  double density;
-  double viscosity;
+  fluid::Properties properties;
+  sdk::Vec3 gravity;
+  bool is_set_three;
   Triple initial_velocity;
   bool is_one_way;
+  bool needs_size_ratio;
+  std::vector<std::array<double, 2>> size_sums;  ///< per cell W D^3 and W D^2, if needed
   double step;
   double least_spacing = 0.0;
   double refreshes = 1.0;           ///< per fluid step
@@ -145,17 +161,22 @@ void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t fi
                    r.fluid_velocity[2] - velocity[2]);
     const double eps = void_fraction.after()[lattice.host_cell(lattice.place(position), position)];
     batch.void_fraction[row - first] = eps;
-    batch.reynolds[row - first] = reynolds(eps, slip, 2.0 * position[3]);
+    batch.reynolds[row - first] = reynolds(fluid_at(position), eps, slip, 2.0 * position[3]);
+    batch.size_ratio[row - first] = r.size_ratio;
   }
   evaluate(batch, last - first);
   for (std::size_t row = first; row < last; ++row) {
     const double diameter = 2.0 * grains.position[4 * row + 3];
     const double inverse_mass = grains.velocity[4 * row + 3];
-    const double drag_coefficient = coefficient(diameter, batch.factor[row - first]);
+    const Fluid fluid = fluid_at(grains.position + 4 * row);
+    const double drag_coefficient = coefficient(fluid, diameter, batch.factor[row - first]) *
+                                    share_of_set(batch.void_fraction[row - first]);
     // A free grain relaxes within the step: mean drag = (m / step) (1 - exp(-K step / m)) (u - v).
     const double relaxations = drag_coefficient * inverse_mass * step;
     const double mean = -std::expm1(-relaxations) / relaxations;
-    memory[row].coefficient = drag_coefficient * std::max(mean, k_least_implicit);
+    // The faces' coefficients hold the set's share already.
+    memory[row].coefficient = drag_coefficient * std::max(mean, k_least_implicit) /
+                              share_of_set(batch.void_fraction[row - first]);
     memory[row].stress_impulse = {};
     memory[row].given = {};
   }
@@ -166,11 +187,13 @@ void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) 
   memory.align(grains);
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t row = 0; row < grains.count; ++row) {
-    shortest = std::min(shortest, relaxation_time(1.0 / grains.velocity[4 * row + 3], viscosity,
+    shortest = std::min(shortest, relaxation_time(1.0 / grains.velocity[4 * row + 3],
+                                                  fluid_at(grains.position + 4 * row).viscosity,
                                                   2.0 * grains.position[4 * row + 3]));
   }
   refreshes = refreshes_for(step, shortest);
   done_refreshes = 0;
+  if (needs_size_ratio) find_size_ratios(grains);
   if (is_one_way) return;
 
   const VoidFraction::Counts counts = void_fraction.map(grains);
@@ -198,6 +221,25 @@ void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) 
               [&](std::size_t first, std::size_t last) { remember(grains, first, last); });
   report.unpaired_forces += faces.spread(grains, memory, void_fraction.after(), step);
   is_settled = false;
+}
+
+/// Diameter of each grain over the Sauter mean of those in its cell, summed in row order.
+void Coupling::Impl::find_size_ratios(const particles::GrainRows& grains) {
+  size_sums.assign(lattice.grid().size, {0.0, 0.0});
+  const auto cell_of = [&](std::size_t row) {
+    const double* position = grains.position + 4 * row;
+    return static_cast<std::size_t>(lattice.host_cell(lattice.place(position), position));
+  };
+  for (std::size_t row = 0; row < grains.count; ++row) {
+    const double diameter = 2.0 * grains.position[4 * row + 3];
+    std::array<double, 2>& sums = size_sums[cell_of(row)];
+    sums[0] += grains.weight[row] * diameter * diameter * diameter;
+    sums[1] += grains.weight[row] * diameter * diameter;
+  }
+  for (std::size_t row = 0; row < grains.count; ++row) {
+    const std::array<double, 2>& sums = size_sums[cell_of(row)];
+    memory[row].size_ratio = 2.0 * grains.position[4 * row + 3] * sums[1] / sums[0];
+  }
 }
 
 void Coupling::Impl::settle(const particles::GrainRows& grains, const fluid::FaceField& velocity) {
@@ -234,14 +276,16 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t fir
       }
       slip[row - first][d] = flux / own;
       r.fluid_velocity[d] = v[d] + flux / own;
-      ratio[row - first][d] = open > 0.0 ? fluid / (open * own) : 1.0;
-      stress[row - first][d] = lattice.cell_mean(d, p, stress_divergence.component[d]);
+      ratio[row - first][d] = open > 0.0 && !is_set_three ? fluid / (open * own) : 1.0;
+      stress[row - first][d] =
+          is_set_three ? 0.0 : lattice.cell_mean(d, p, stress_divergence.component[d]);
     }
     r.has_velocity = true;
     batch.void_fraction[row - first] = own;
     const Triple& w = slip[row - first];
     const double speed = std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
-    batch.reynolds[row - first] = reynolds(own, speed, 2.0 * position[3]);
+    batch.reynolds[row - first] = reynolds(fluid_at(position), own, speed, 2.0 * position[3]);
+    batch.size_ratio[row - first] = r.size_ratio;
   }
   evaluate(batch, last - first);
   for (std::size_t row = first; row < last; ++row) {
@@ -249,13 +293,18 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t fir
     const double* v = grains.velocity + 4 * row;
     double* action = grains.fluid_action + 4 * row;
     Remembered& r = memory[row];
-    const double drag_coefficient = coefficient(diameter, batch.factor[row - first]);
+    const Fluid fluid = fluid_at(grains.position + 4 * row);
+    const double drag_coefficient = coefficient(fluid, diameter, batch.factor[row - first]) *
+                                    share_of_set(batch.void_fraction[row - first]);
     const double volume = sdk::sphere_volume(diameter);
+    // The grains' reduced gravity is that of the fluid's own density.
+    const double lift = volume * (properties.own().density - fluid.density);
     for (int d = 0; d < 3; ++d) {
       // The ratio differs from 1 only where the void fraction changes; it is applied to the slip of
       // this instant, because the grain has one rate for all directions.
       const double relative = ratio[row - first][d] * slip[row - first][d];
-      const double force = volume * stress[row - first][d];
+      const double force =
+          volume * stress[row - first][d] + (lift == 0.0 ? 0.0 : lift * gravity[d]);
       action[d] = v[d] + relative + force / drag_coefficient;
       r.stress_impulse[d] += force;
     }
@@ -290,15 +339,11 @@ Coupling::Coupling(const scenario::Setup& setup, const fluid::Grid& grid,
                    const sdk::DragLaw& drag) {
   if (!setup.fluid) throw std::logic_error("Coupling needs a scenario with a fluid");
   const scenario::FluidSpec& fluid = *setup.fluid;
-  if (fluid.momentum_set != "I" && fluid.momentum_set != "II") {
-    throw sdk::ModelError("momentum set " + fluid.momentum_set +
-                          " is not offered: it holds for steady uniform suspensions only; choose I "
-                          "or II, which are the same here");
-  }
   if (!(fluid.viscosity > 0.0)) {
     throw sdk::ModelError("drag on grains needs a fluid with a viscosity above zero");
   }
-  impl_ = std::make_unique<Impl>(fluid, setup.time, grid, open_fraction, voidage, drag);
+  impl_ =
+      std::make_unique<Impl>(fluid, setup.time, setup.gravity, grid, open_fraction, voidage, drag);
 }
 Coupling::~Coupling() = default;
 

@@ -43,8 +43,8 @@ struct CouplingReport {
 class Coupling {
  public:
   /// `open_fraction`: share of each cell outside all bodies (FluidSolver::open_fraction), kept by
-  /// reference to read at construction only. Throws sdk::ModelError for momentum set III and
-  /// for a fluid without viscosity.
+  /// reference to read at construction only. Throws sdk::ModelError for a fluid without
+  /// viscosity.
   Coupling(const scenario::Setup& setup, const fluid::Grid& grid,
            const fluid::CellField& open_fraction, const sdk::VoidageRule& voidage,
            const sdk::DragLaw& drag);

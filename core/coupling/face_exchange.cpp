@@ -30,8 +30,9 @@ FaceSums sums_of(const Stencil& s) {
 
 }  // namespace
 
-FaceExchange::FaceExchange(const Lattice& lattice)
+FaceExchange::FaceExchange(const Lattice& lattice, bool is_set_three)
     : lattice_(lattice),
+      is_set_three_(is_set_three),
       exchange_{fluid::FaceField(lattice.grid()), fluid::FaceField(lattice.grid())} {}
 
 void FaceExchange::clear(int d) {
@@ -59,7 +60,8 @@ std::int64_t FaceExchange::spread_component(int d, const particles::GrainRows& g
       if (s.open[n] == 0.0 || s.weight[n] == 0.0) continue;
       const std::ptrdiff_t face = s.home[n];
       if (coefficient[face] == 0.0 && source[face] == 0.0) {
-        touched_[d].push_back({face, s.void_fraction[n] * s.open[n] * volume, 0.0});
+        const double fluid = is_set_three_ ? 1.0 : s.void_fraction[n];
+        touched_[d].push_back({face, fluid * s.open[n] * volume, 0.0});
       }
       const double part = s.weight[n] * drag * s.void_fraction[n];
       coefficient[face] += part;
@@ -79,7 +81,8 @@ std::int64_t FaceExchange::spread_component(int d, const particles::GrainRows& g
     }
     const double own = eps[lattice_.host_cell(p, r.place.data())];
     const double drag = grains.weight[row] * r.coefficient / (sums.open * own * own * volume);
-    add(drag, r.velocity[d], r.owed[d] / (sums.fluid * volume * step));
+    const double taken = is_set_three_ ? sums.open : sums.fluid;
+    add(drag, r.velocity[d], r.owed[d] / (taken * volume * step));
     paid_[d] += r.owed[d];
     r.owed[d] = 0.0;
   }
@@ -91,7 +94,8 @@ std::int64_t FaceExchange::spread_component(int d, const particles::GrainRows& g
       ++unpaired;
       continue;
     }
-    add(0.0, 0.0, l.owed[d] / (sums.fluid * volume * step));
+    const double taken = is_set_three_ ? sums.open : sums.fluid;
+    add(0.0, 0.0, l.owed[d] / (taken * volume * step));
     paid_[d] += l.owed[d];
   }
   lattice_.close_periodic(d, coefficient);
@@ -126,8 +130,9 @@ double FaceExchange::settle(const particles::GrainRows& grains, GrainMemory& mem
         const std::vector<double>& u = velocity.component[d];
         double slip = 0.0;  // eps (u - v) does not jump with eps in plug flow
         for (std::size_t n = 0; n < 8; ++n) {
-          slip += s.weight[n] * s.open[n] * s.void_fraction[n] * s.void_fraction[n] *
-                  (u[s.home[n]] - r.velocity[d]);
+          const double fluid = is_set_three_ ? 1.0 : s.void_fraction[n];
+          slip +=
+              s.weight[n] * s.open[n] * s.void_fraction[n] * fluid * (u[s.home[n]] - r.velocity[d]);
         }
         r.given[d] = step * r.coefficient / (sums.open * own * own) * slip;
       }

@@ -18,7 +18,9 @@ namespace dust::coupling {
 /// V the cell volume. Derivation and what this conserves: docs/theory/coupling.md.
 class FaceExchange {
  public:
-  explicit FaceExchange(const Lattice& lattice);
+  /// `is_set_three`: the momentum equation is that of set III, whose fluid receives a density of
+  /// force on the whole control volume, a_f V, in place of eps_f a_f V.
+  FaceExchange(const Lattice& lattice, bool is_set_three);
 
   /// Spreads all grains (places, velocities and coefficients as remembered at map()) and the debts,
   /// which are thereby paid. Returns the number of force components without an open face.
@@ -36,7 +38,7 @@ class FaceExchange {
  private:
   struct Touched {
     std::ptrdiff_t face;
-    double volume;  ///< [m3] of fluid in the face's control volume
+    double volume;  ///< [m3] of the face's control volume that the force's density acts on
     double force;   ///< [N] on the fluid, once settled
   };
   std::int64_t spread_component(int d, const particles::GrainRows& grains, GrainMemory& memory,
@@ -44,6 +46,7 @@ class FaceExchange {
   void clear(int d);
 
   const Lattice& lattice_;
+  bool is_set_three_;
   fluid::Exchange exchange_;
   std::array<std::vector<Touched>, 3> touched_;
   Triple paid_{};  ///< [N s] debts in the source

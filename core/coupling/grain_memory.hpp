@@ -23,6 +23,7 @@ struct Remembered {
   Triple owed{};            ///< [N s] impulse the fluid has still to receive, weight included
   std::array<bool, 3> is_paired{};  ///< the component's force found open faces at map()
   bool has_velocity = false;
+  double size_ratio = 1.0;  ///< diameter over the Sauter mean in its cell, at map()
 };
 
 /// Impulse owed to the fluid [N s] for a grain that is gone, at the place where it was last [m].

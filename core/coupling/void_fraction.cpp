@@ -9,7 +9,10 @@ namespace dust::coupling {
 namespace {
 
 constexpr std::size_t k_chunk = 2048;  ///< grains per task; never a function of the threads
-constexpr int k_relief_sweeps = 32;    ///< cells over which an overfull cell's volume may travel
+/// Most rows of one call of the rule, so that wide rules do not ask for gigabytes; whole chunks of
+/// rules with up to 8 cells per grain.
+constexpr std::size_t k_most_rows = 8 * k_chunk;
+constexpr int k_relief_sweeps = 32;  ///< cells over which an overfull cell's volume may travel
 
 /// Columns of one chunk in the form the rule reads and writes.
 struct Columns {
@@ -50,23 +53,33 @@ void VoidFraction::spread(const particles::GrainRows& grains, std::size_t first,
     }
   }
   counts.largest_ratio = 2.0 * largest_radius / least_spacing;
-  const int capacity = rule_.capacity(grid.shape(), largest_radius);
-  const sdk::VoidageBatch batch = columns.batch(last - first, capacity);
-  for (std::size_t row = first; row < last; ++row) {
-    const double* p = grains.position + 4 * row;
-    columns.x[row - first] = p[0];
-    columns.y[row - first] = p[1];
-    columns.z[row - first] = p[2];
-    columns.radius[row - first] = p[3];
-  }
-  rule_.spread(grid.shape(), batch);
-
   shares.clear();
+  const int capacity = rule_.capacity(grid.shape(), largest_radius);
+  const std::size_t rows_per_call =
+      std::max(std::size_t{1}, k_most_rows / static_cast<std::size_t>(capacity));
+  for (std::size_t row = first; row < last; row += rows_per_call) {
+    const sdk::VoidageBatch batch = columns.batch(std::min(rows_per_call, last - row), capacity);
+    for (std::size_t g = 0; g < batch.count; ++g) {
+      const double* p = grains.position + 4 * (row + g);
+      columns.x[g] = p[0];
+      columns.y[g] = p[1];
+      columns.z[g] = p[2];
+      columns.radius[g] = p[3];
+    }
+    rule_.spread(grid.shape(), batch);
+    take_shares(grains, row, batch, shares, counts);
+  }
+}
+
+/// Moves the rule's shares of the rows from `first` on to open cells.
+void VoidFraction::take_shares(const particles::GrainRows& grains, std::size_t first,
+                               const sdk::VoidageBatch& batch, std::vector<Share>& shares,
+                               Counts& counts) const {
   for (std::size_t g = 0; g < batch.count; ++g) {
     const std::size_t row = first + g;
     const double volume =
         grains.weight[row] * sdk::sphere_volume(2.0 * grains.position[4 * row + 3]);
-    const std::size_t begin = g * static_cast<std::size_t>(capacity);
+    const std::size_t begin = g * static_cast<std::size_t>(batch.capacity);
     const std::size_t own = shares.size();
     double open_weight = 0.0;
     int closed = 0;

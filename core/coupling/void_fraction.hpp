@@ -50,6 +50,9 @@ class VoidFraction {
 
   void spread(const particles::GrainRows& grains, std::size_t first, std::size_t last,
               std::vector<Share>& shares, Counts& counts) const;
+  void take_shares(const particles::GrainRows& grains, std::size_t first,
+                   const sdk::VoidageBatch& batch, std::vector<Share>& shares,
+                   Counts& counts) const;
   void add(std::ptrdiff_t cell, double volume);
   std::int64_t relieve();
 

@@ -8,6 +8,7 @@
 #include "fluid/parallel.hpp"
 #include "fluid/pressure_solver.hpp"
 #include "fluid/sides.hpp"
+#include "fluid/step_rows.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -19,104 +20,12 @@ namespace {
 
 using sdk::Vec3;
 
-// Two-stage Runge-Kutta pair of Ascher, Ruuth and Spiteri (1997), ARS(2,2,2),
-// 10.1016/S0168-9274(97)00056-1: second order, the implicit part L-stable and stiffly accurate.
-constexpr double k_gamma = 1.0 - 0.5 * std::numbers::sqrt2;
-constexpr double k_delta = 1.0 - 0.5 / k_gamma;
-
-/// [m/s] Far ahead of a starting flow speeds fall off to numbers that processors handle 100 times
-/// slower; below this they are zero, far under the round-off of anything that is measured.
-constexpr double k_nothing = 1e-60;
 constexpr double k_largest_speed = 1e4;  ///< [m/s] beyond this the flow has blown up
 constexpr int k_most_sub_steps = 200;
 /// Steps of velocity below this share of the largest speed are smooth for the limiter.
 constexpr double k_smooth_share = 0.05;
 /// Net given inflow over the sum of the given flows that counts as zero in a closed domain.
 constexpr double k_flux_balance = 1e-6;
-
-/// How much of a pressure force over `step` arrives as velocity when drag of rate z / step acts:
-/// (1 - R(-z)) / z with R the stability function of the implicit pair.
-inline __attribute__((always_inline)) double response(double z) {
-  const double d = 1.0 + k_gamma * z;
-  return (1.0 + k_gamma * k_gamma * z) / (d * d);
-}
-
-DUST_KERNEL void first_stage_row(int n, std::ptrdiff_t s, double step, double inverse_density,
-                                 double inverse_h, const double* u, const double* convection,
-                                 const double* p, const double* source, double* right) {
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const double force = inverse_density * (source[i] - inverse_h * (p[i] - p[i - s]));
-    right[i] = u[i] + k_gamma * step * (force - convection[i]);
-  }
-}
-
-// In: `convection` of the first stage; out: everything of the second right side but its own
-// convection.
-DUST_KERNEL void between_stages_row(int n, std::ptrdiff_t s, double step, double inverse_density,
-                                    double inverse_h, const double* u, const double* first,
-                                    const double* right, const double* p, const double* source,
-                                    double* convection) {
-  constexpr double k_rest = (1.0 - k_gamma) / k_gamma;
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const double force = inverse_density * (source[i] - inverse_h * (p[i] - p[i - s]));
-    convection[i] =
-        u[i] - step * k_delta * convection[i] + k_rest * (first[i] - right[i]) + step * force;
-  }
-}
-
-DUST_KERNEL void second_stage_row(int n, double step, const double* sum, const double* convection,
-                                  double* right) {
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) right[i] = sum[i] - step * (1.0 - k_delta) * convection[i];
-}
-
-DUST_KERNEL void coefficient_row(int n, std::ptrdiff_t s, double step_over_density,
-                                 double inverse_h2, const double* area, const double* eps,
-                                 const double* drag, double* k) {
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const double face = area[i] * 0.5 * (eps[i] + eps[i - s]);
-    k[i] = face * inverse_h2 * response(step_over_density * drag[i]);
-  }
-}
-
-// Velocity [m/s] that drag acted on, in excess of the stages', while the pressure `phi` acted over
-// `step`: of its force the share 1 - response(z) went into the drag.
-DUST_KERNEL void pressure_drag_row(int n, std::ptrdiff_t s, double step_over_density,
-                                   double inverse_h, double share, const double* k,
-                                   const double* drag, const double* phi, double* mean) {
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const double z = step_over_density * drag[i];
-    const double d = 1.0 + k_gamma * z;
-    const double rest = k_gamma * (2.0 - k_gamma + k_gamma * z) / (d * d);  // (1 - response) / z
-    const double change = step_over_density * rest * inverse_h * (phi[i] - phi[i - s]);
-    mean[i] -= k[i] > 0.0 ? share * change : 0.0;
-  }
-}
-
-DUST_KERNEL void flux_difference_row(int n, std::ptrdiff_t s, double inverse_h, const double* area,
-                                     const double* eps, const double* u, double* sum) {
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const double low = area[i] * 0.5 * (eps[i] + eps[i - s]) * u[i];
-    const double high = area[i + s] * 0.5 * (eps[i] + eps[i + s]) * u[i + s];
-    sum[i] += inverse_h * (high - low);
-  }
-}
-
-DUST_KERNEL void correct_row(int n, std::ptrdiff_t s, double step_over_density, double inverse_h,
-                             const double* k, const double* drag, const double* phi, double* u) {
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const double change = step_over_density * response(step_over_density * drag[i]) * inverse_h *
-                          (phi[i] - phi[i - s]);
-    const double next = u[i] - (k[i] > 0.0 ? change : 0.0);
-    u[i] = std::abs(next) < k_nothing ? 0.0 : next;
-  }
-}
 
 std::string place_text(Vec3 p, double time) {
   char text[160];
@@ -133,8 +42,9 @@ struct FluidSolver::Impl {
         fluid(f),
         bodies(b),
         sides(grid, boundaries),
-        geometry(Geometry::build(grid, bodies, sides.kinds())),
-        momentum(grid, geometry, sides, f.viscosity, f.density),
+        properties(grid, fluid),
+        geometry(Geometry::build(grid, bodies, sides.kinds(), properties)),
+        momentum(grid, geometry, sides, properties),
         pressure_solver(grid, open_pattern),
         u(grid),
         next(grid),
@@ -149,7 +59,8 @@ struct FluidSolver::Impl {
         rate(grid.size, 0.0) {
     sides.fill_cells(geometry.open_fraction);
     geometry.wall.evaluate(bodies, 0.0);
-    sides.evaluate_velocity(0.0);
+    sides.set_flow_data(geometry.open_area, properties.by_place());
+    sides.evaluate_velocity(0.0, eps);
     sides.evaluate_pressure(0.0);
     for (int d = 0; d < 3; ++d) {
       std::fill(u.component[d].begin(), u.component[d].end(), f.initial_velocity[d]);
@@ -188,6 +99,7 @@ struct FluidSolver::Impl {
       }
     });
     sides.fill_cells(eps);
+    if (properties.is_set_three()) properties.set_void_fraction(eps);
   }
 
   /// Shift of the velocity from the middle of a cut face to that of its open part.
@@ -239,8 +151,9 @@ struct FluidSolver::Impl {
       const double h2 = 1.0 / (grid.spacing[d] * grid.spacing[d]);
       for_rows(n[0], n[1], n[2], [&](int j, int k) {
         const std::ptrdiff_t o = grid.index(0, j, k);
-        coefficient_row(n[0], grid.stride[d], step / fluid.density, h2, &open.component[d][o],
-                        &eps[o], &drag.component[d][o], &k_field.component[d][o]);
+        coefficient_row(n[0], grid.stride[d], step, properties.inertia(d, o), h2,
+                        &open.component[d][o], &eps[o], &drag.component[d][o],
+                        &k_field.component[d][o]);
       });
       if (sides.kinds().is_periodic[d]) {
         wrap_last_face(k_field.component[d], d);
@@ -297,7 +210,7 @@ struct FluidSolver::Impl {
       const auto& n = geometry.extent[d];
       for_rows(n[0], n[1], n[2], [&](int j, int k) {
         const std::ptrdiff_t o = grid.index(0, j, k);
-        correct_row(n[0], grid.stride[d], step / fluid.density, 1.0 / grid.spacing[d],
+        correct_row(n[0], grid.stride[d], step, properties.inertia(d, o), 1.0 / grid.spacing[d],
                     &k_field.component[d][o], &drag.component[d][o], &phi[o], &v.component[d][o]);
       });
     }
@@ -398,16 +311,15 @@ struct FluidSolver::Impl {
       const auto& n = geometry.extent[d];
       for_rows(n[0], n[1], n[2], [&](int j, int k) {
         const std::ptrdiff_t o = grid.index(0, j, k);
-        pressure_drag_row(n[0], grid.stride[d], step / fluid.density, 1.0 / grid.spacing[d], share,
-                          &k_field.component[d][o], &drag.component[d][o], &phi[o],
-                          &drag_velocity.component[d][o]);
+        pressure_drag_row(n[0], grid.stride[d], step, properties.inertia(d, o),
+                          1.0 / grid.spacing[d], share, &k_field.component[d][o],
+                          &drag.component[d][o], &phi[o], &drag_velocity.component[d][o]);
       });
     }
   }
 
   /// `share`: of this sub-step in the whole fluid step.
   void sub_step(double time, double step, double share, double speed, const Exchange& exchange) {
-    const double inverse_density = 1.0 / fluid.density;
     const double smoothness = std::pow(k_smooth_share * speed, 2) + 1e-30;
     const auto each_row = [&](const auto& body) {
       for (int d = 0; d < 3; ++d) {
@@ -422,21 +334,21 @@ struct FluidSolver::Impl {
     sides.evaluate_pressure(time + step);
     sides.fill_pressure(p, false);
     each_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
-      first_stage_row(n, grid.stride[d], step, inverse_density, inverse_h, &u.component[d][o],
-                      &sum.component[d][o], &p[o], &exchange.source.component[d][o],
-                      &right.component[d][o]);
+      first_stage_row(n, grid.stride[d], step, properties.inertia(d, o), inverse_h,
+                      &u.component[d][o], &sum.component[d][o], &p[o],
+                      &exchange.source.component[d][o], &right.component[d][o]);
       std::copy_n(&u.component[d][o], n, &next.component[d][o]);
     });
-    sides.evaluate_velocity(time + k_gamma * step);
+    sides.evaluate_velocity(time + k_gamma * step, eps);
     solve_stage();
     add_drag_velocity(next, (1.0 - k_gamma) * share);
     each_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
-      between_stages_row(n, grid.stride[d], step, inverse_density, inverse_h, &u.component[d][o],
-                         &next.component[d][o], &right.component[d][o], &p[o],
+      between_stages_row(n, grid.stride[d], step, properties.inertia(d, o), inverse_h,
+                         &u.component[d][o], &next.component[d][o], &right.component[d][o], &p[o],
                          &exchange.source.component[d][o], &sum.component[d][o]);
     });
     convect(next, smoothness, &sum, step);
-    sides.evaluate_velocity(time + step);
+    sides.evaluate_velocity(time + step, eps);
     solve_stage();
     add_drag_velocity(next, k_gamma * share);
     std::swap(u, next);
@@ -487,10 +399,10 @@ struct FluidSolver::Impl {
     });
     if (!is_consistent) {
       // The first field may not obey continuity: mend it before it makes pressure.
-      sides.evaluate_velocity(time);
+      set_eps(before, after, 0.0);
+      sides.evaluate_velocity(time, eps);
       momentum.extend(u, true);
       sides.fill_velocity(u);
-      set_eps(before, after, 0.0);
       project(u, step, no_drag(), fluid.pressure_tolerance);
       is_consistent = true;
     } else {
@@ -549,6 +461,7 @@ struct FluidSolver::Impl {
   scenario::FluidSpec fluid;
   const bodies::BodySet& bodies;
   Sides sides;
+  FaceProperties properties;
   Geometry geometry;
   Momentum momentum;
   FaceField open_pattern = pattern();

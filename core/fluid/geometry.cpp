@@ -35,8 +35,9 @@ struct Point {
 
 class Builder {
  public:
-  Builder(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides)
-      : grid_(grid), bodies_(bodies), sides_(sides) {
+  Builder(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
+          const FaceProperties& properties)
+      : grid_(grid), bodies_(bodies), sides_(sides), properties_(properties) {
     smallest_ = 0.0;
     for (int d = 0; d < 3; ++d) {
       const double h = grid.spacing[d];
@@ -217,6 +218,7 @@ class Builder {
     double distance[2] = {h, h};
     bool is_wall[2] = {false, false};
     bool is_free[2] = {false, false};
+    double share[2] = {1.0, 1.0};  // of the stress, where the viscosity jumps
     bool is_irregular = false;
     const Vec3 here = grid_.face(d, c[0], c[1], c[2]);
     for (int side = 0; side < 2; ++side) {
@@ -233,7 +235,16 @@ class Builder {
         continue;
       }
       const std::ptrdiff_t q = wrapped(o, dir, c[dir], side == 0 ? -1 : 1);
-      if (g_.kind[d][q] != FaceKind::inside) continue;
+      if (g_.kind[d][q] != FaceKind::inside) {
+        // The shear stress between two layers is that of both in a row: harmonic mean.
+        const double own = properties_.viscosity_at(d, o);
+        const double other = properties_.viscosity_at(d, q);
+        if (own != other) {
+          share[side] = 2.0 * other / (own + other);
+          is_irregular = true;
+        }
+        continue;
+      }
       Vec3 there = here;
       there[dir] += side == 0 ? -h : h;
       if (!is_inside(there)) continue;  // closed face whose point is still in the open
@@ -258,7 +269,7 @@ class Builder {
                      ? 2.0 / (distance[side] * (distance[0] + distance[1]))
                      : 1.0 / (distance[side] * h);
       }
-      face.weight[2 * dir + side] = weight;
+      face.weight[2 * dir + side] = share[side] * weight;
     }
     return is_irregular;
   }
@@ -416,6 +427,7 @@ class Builder {
   const Grid& grid_;
   const bodies::BodySet& bodies_;
   const SideKinds& sides_;
+  const FaceProperties& properties_;
   double smallest_;
   Geometry g_;
   std::vector<Point> points_;
@@ -443,8 +455,9 @@ void WallPoints::evaluate(const bodies::BodySet& bodies, double time) {
   }
 }
 
-Geometry Geometry::build(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides) {
-  return Builder(grid, bodies, sides).build();
+Geometry Geometry::build(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
+                         const FaceProperties& properties) {
+  return Builder(grid, bodies, sides, properties).build();
 }
 
 }  // namespace dust::fluid

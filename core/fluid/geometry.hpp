@@ -3,6 +3,7 @@
 
 #include "bodies/body_set.hpp"
 #include "dust/sdk/boundary_condition.hpp"
+#include "fluid/face_properties.hpp"
 #include "fluid/grid.hpp"
 
 #include <array>
@@ -41,9 +42,10 @@ struct WallPoints {
   void evaluate(const bodies::BodySet& bodies, double time);
 };
 
-/// A face whose viscous stencil is not the plain one: next to a surface or to a side in x.
-/// div(grad u) = sum_s weight_s (value_s - u), s = low/high of x, y, z; value_s is the wall's
-/// velocity where wall_point >= 0, else the neighbouring number of the array.
+/// A face whose viscous stencil is not the plain one: next to a surface, to a side in x or to a
+/// border of fluids of different viscosity. div(grad u) = sum_s weight_s (value_s - u), s =
+/// low/high of x, y, z; value_s is the wall's velocity where wall_point >= 0, else the neighbouring
+/// number of the array.
 struct CutFace {
   static constexpr std::int32_t k_neighbour = -1;
   static constexpr std::int32_t k_side = -2;  ///< the side's own value, kept in the halo for sweeps
@@ -97,7 +99,8 @@ struct Geometry {
   WallPoints wall;
   long close_distances = 0;  ///< wall distances that were raised to k_least_distance
 
-  static Geometry build(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides);
+  static Geometry build(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
+                        const FaceProperties& properties);
 };
 
 /// Least distance of a face's point from a surface along the grid, in cells: bounds the viscous

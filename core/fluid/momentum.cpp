@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluid/momentum.hpp"
 
-#include "dust/sdk/plugin.hpp"
+#include "fluid/momentum_rows.hpp"
 #include "fluid/parallel.hpp"
 
 #include <cmath>
@@ -14,143 +14,14 @@ namespace {
 constexpr double k_sweep_tolerance = 1e-6;
 constexpr int k_most_sweeps = 400;
 
-/// Value between cells with upstream neighbours: `up`, `at`, and `down` behind the face. Two slopes
-/// are blended (weights 1/3 upwind, 2/3 central in smooth flow: third order; the smoother one next
-/// to a jump), after Jiang and Shu (1996) 10.1006/jcph.1996.0130 with the global smoothness
-/// indicator of Yamaleev and Carpenter (2009) 10.1016/j.jcp.2009.01.011.
-inline __attribute__((always_inline)) double face_value(double up, double at, double down,
-                                                        double smoothness) {
-  const double behind = at - up;
-  const double ahead = down - at;
-  const double b0 = ahead * ahead + smoothness;
-  const double b1 = behind * behind + smoothness;
-  const double bend = (ahead - behind) * (ahead - behind);
-  const double w0 = 2.0 * (b0 + bend) * b1;
-  const double w1 = (b1 + bend) * b0;
-  return at + 0.5 * (behind + (w0 / (w0 + w1)) * (ahead - behind));
-}
-
-DUST_KERNEL void convect_row(int n, std::ptrdiff_t s, std::ptrdiff_t across, double inverse_h,
-                             double smoothness, const double* flux, const double* u, double* out) {
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const double high = 0.5 * (flux[i + s] + flux[i + s - across]);
-    const double low = 0.5 * (flux[i] + flux[i - across]);
-    const double m2 = u[i - 2 * s];
-    const double m1 = u[i - s];
-    const double c = u[i];
-    const double p1 = u[i + s];
-    const double p2 = u[i + 2 * s];
-    const bool high_out = high > 0.0;
-    const bool low_in = low > 0.0;
-    const double at_high =
-        face_value(high_out ? m1 : p2, high_out ? c : p1, high_out ? p1 : c, smoothness);
-    const double at_low =
-        face_value(low_in ? m2 : p1, low_in ? m1 : c, low_in ? c : m1, smoothness);
-    out[i] += inverse_h * (high * (at_high - c) - low * (at_low - c));
-  }
-}
-
-DUST_KERNEL void divide_by_face_eps_row(int n, std::ptrdiff_t across, const double* eps,
-                                        double* out) {
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) out[i] /= 0.5 * (eps[i] + eps[i - across]);
-}
-
-DUST_KERNEL void flux_row(int n, std::ptrdiff_t across, const double* eps, const double* u,
-                          double* flux) {
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) flux[i] = 0.5 * (eps[i] + eps[i - across]) * u[i];
-}
-
-DUST_KERNEL void inverse_row(int n, double implicit, double sum, double inverse_density,
-                             const double* coefficient, const FaceKind* kind, double* inverse) {
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const double d = 1.0 / (1.0 + implicit * (coefficient[i] * inverse_density + sum));
-    inverse[i] = kind[i] == FaceKind::plain ? d : 0.0;
-  }
-}
-
-DUST_KERNEL void sweep_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, int parity, double omega,
-                           double ax, double y_low, double y_high, double z_low, double z_high,
-                           const double* right, const double* inverse, double* u) {
-  const double* old = u;
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const double t = (right[i] + ax * (old[i - 1] + old[i + 1]) + y_low * old[i - sy] +
-                      y_high * old[i + sy] + z_low * old[i - sz] + z_high * old[i + sz]) *
-                     inverse[i];
-    const bool takes = inverse[i] > 0.0 && ((i + parity) & 1) == 0;
-    const double next = old[i] + omega * (t - old[i]);
-    u[i] = takes ? next : old[i];
-  }
-}
-
-DUST_KERNEL void laplace_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, double ax, double ay,
-                             double az, const double* u, const FaceKind* kind, double* out) {
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const double l = ax * ((u[i - 1] - u[i]) + (u[i + 1] - u[i])) +
-                     ay * ((u[i - sy] - u[i]) + (u[i + sy] - u[i])) +
-                     az * ((u[i - sz] - u[i]) + (u[i + sz] - u[i]));
-    out[i] = is_unknown(kind[i]) ? l : 0.0;
-  }
-}
-
-struct RowRates {
-  double courant = 0.0;
-  double speed = 0.0;
-  double bad = 0.0;
-};
-
-// Ghost faces carry mirrored values that nothing is carried with: left out. A number that is not
-// finite makes its product with 0 differ from 0 and stays in the sum.
-DUST_KERNEL void rate_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, double hx, double hy,
-                          double hz, const FaceKind* ku, const FaceKind* kv, const FaceKind* kw,
-                          const double* u, const double* v, const double* w, double* courant,
-                          double* speed, double* bad) {
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const double u0 = ku[i] == FaceKind::inside ? 0.0 : std::abs(u[i]);
-    const double u1 = ku[i + 1] == FaceKind::inside ? 0.0 : std::abs(u[i + 1]);
-    const double v0 = kv[i] == FaceKind::inside ? 0.0 : std::abs(v[i]);
-    const double v1 = kv[i + sy] == FaceKind::inside ? 0.0 : std::abs(v[i + sy]);
-    const double w0 = kw[i] == FaceKind::inside ? 0.0 : std::abs(w[i]);
-    const double w1 = kw[i + sz] == FaceKind::inside ? 0.0 : std::abs(w[i + sz]);
-    const double a = u0 > u1 ? u0 : u1;
-    const double b = v0 > v1 ? v0 : v1;
-    const double c = w0 > w1 ? w0 : w1;
-    courant[i] = a * hx + b * hy + c * hz;
-    const double ab = a > b ? a : b;
-    speed[i] = ab > c ? ab : c;
-    bad[i] = 0.0 * (u[i] + v[i] + w[i]);
-  }
-}
-
-RowRates largest_of(int n, const double* courant, const double* speed, const double* bad) {
-  double c[4] = {};
-  double s[4] = {};
-  double b[4] = {};
-  for (int i = 0; i < n; ++i) {
-    const int l = i & 3;
-    c[l] = courant[i] > c[l] ? courant[i] : c[l];
-    s[l] = speed[i] > s[l] ? speed[i] : s[l];
-    b[l] += bad[i];
-  }
-  return {std::max(std::max(c[0], c[1]), std::max(c[2], c[3])),
-          std::max(std::max(s[0], s[1]), std::max(s[2], s[3])), b[0] + b[1] + b[2] + b[3]};
-}
-
 }  // namespace
 
-Momentum::Momentum(const Grid& grid, const Geometry& geometry, const Sides& sides, double viscosity,
-                   double density)
+Momentum::Momentum(const Grid& grid, const Geometry& geometry, const Sides& sides,
+                   const FaceProperties& properties)
     : grid_(grid),
       geometry_(geometry),
       sides_(sides),
-      viscosity_(viscosity),
-      density_(density),
+      properties_(properties),
       flux_(grid),
       inverse_(grid) {
   for (int d = 0; d < 3; ++d) cut_inverse_[d].resize(geometry.cut[d].size());
@@ -250,7 +121,7 @@ Momentum::RowWeights Momentum::row_weights(int d, int j, int k) const {
 
 void Momentum::prepare(double implicit, const FaceField& coefficient) {
   implicit_ = implicit;
-  const double nu = viscosity_ / density_;
+  const double nu = properties_.largest_kinematic_viscosity();
   double sum = 0.0;
   for (int e = 0; e < 3; ++e) {
     if (grid_.count[e] > 1) sum += 2.0 * nu * implicit / (grid_.spacing[e] * grid_.spacing[e]);
@@ -276,22 +147,40 @@ void Momentum::prepare(double implicit, const FaceField& coefficient) {
     for_rows(e[0], e[1], e[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid_.index(0, j, k);
       const RowWeights w = row_weights(d, j, k);
-      inverse_row(e[0], implicit, nu * (2.0 * ax + w.y_low + w.y_high + w.z_low + w.z_high),
-                  1.0 / density_, &coefficient.component[d][o], &geometry_.kind[d][o],
-                  &inverse_.component[d][o]);
+      const double weights = 2.0 * ax + w.y_low + w.y_high + w.z_low + w.z_high;
+      const RowProperty inertia = properties_.inertia(d, o);
+      if (inertia.each == nullptr) {
+        inverse_row(e[0], implicit, nu * weights, 1.0 / inertia.one, &coefficient.component[d][o],
+                    &geometry_.kind[d][o], &inverse_.component[d][o]);
+      } else {
+        inverse_row_each(e[0], implicit, weights, inertia.each, properties_.viscosity(d, o).each,
+                         &coefficient.component[d][o], &geometry_.kind[d][o],
+                         &inverse_.component[d][o]);
+      }
     });
     for (std::size_t n = 0; n < geometry_.cut[d].size(); ++n) {
       const CutFace& face = geometry_.cut[d][n];
       double weights = 0.0;
       for (const double weight : face.weight) weights += weight;
+      if (!properties_.is_varying()) {
+        cut_inverse_[d][n] =
+            1.0 / (1.0 + implicit * (coefficient.component[d][face.at] / properties_.density() +
+                                     nu * weights));
+        continue;
+      }
+      const double decay =
+          coefficient.component[d][face.at] + properties_.viscosity_at(d, face.at) * weights;
       cut_inverse_[d][n] =
-          1.0 / (1.0 + implicit * (coefficient.component[d][face.at] / density_ + nu * weights));
+          1.0 / (1.0 + implicit * properties_.inverse_inertia_at(d, face.at) * decay);
     }
   }
 }
 
 void Momentum::solve(const FaceField& right, FaceField& u) {
-  const double a = implicit_ * viscosity_ / density_;
+  const bool is_varying = properties_.is_varying();
+  // Per viscosity over inertia where these vary.
+  const double a =
+      is_varying ? implicit_ : implicit_ * properties_.viscosity() / properties_.density();
   const double ax = grid_.count[0] == 1 && sides_.kinds().is_periodic[0]
                         ? 0.0
                         : a / (grid_.spacing[0] * grid_.spacing[0]);
@@ -307,18 +196,29 @@ void Momentum::solve(const FaceField& right, FaceField& u) {
         const std::ptrdiff_t o = grid_.index(0, j, k);
         const int parity = (j + k + half) & 1;
         const RowWeights w = row_weights(d, j, k);
-        sweep_row(e[0], grid_.stride[1], grid_.stride[2], parity, relaxation_, ax, a * w.y_low,
-                  a * w.y_high, a * w.z_low, a * w.z_high, &r[o], &inverse_.component[d][o], &v[o]);
+        if (is_varying) {
+          sweep_row_each(e[0], grid_.stride[1], grid_.stride[2], parity, relaxation_, ax,
+                         a * w.y_low, a * w.y_high, a * w.z_low, a * w.z_high,
+                         properties_.inertia(d, o).each, properties_.viscosity(d, o).each, &r[o],
+                         &inverse_.component[d][o], &v[o]);
+        } else {
+          sweep_row(e[0], grid_.stride[1], grid_.stride[2], parity, relaxation_, ax, a * w.y_low,
+                    a * w.y_high, a * w.z_low, a * w.z_high, &r[o], &inverse_.component[d][o],
+                    &v[o]);
+        }
         const std::size_t row = static_cast<std::size_t>(k) * e[1] + j;
         for (int n = geometry_.cut_begin[d][row]; n < geometry_.cut_begin[d][row + 1]; ++n) {
           const CutFace& face = geometry_.cut[d][n];
           if ((face.i + parity) & 1) continue;
           double t = r[face.at];
+          const double b = is_varying ? a * properties_.viscosity_at(d, face.at) *
+                                            properties_.inverse_inertia_at(d, face.at)
+                                      : a;
           for (int s = 0; s < 6; ++s) {
             const double value = face.wall_point[s] >= 0
                                      ? geometry_.wall.velocity[d][face.wall_point[s]]
                                      : v[face.at + offset[s]];
-            t += a * face.weight[s] * value;
+            t += b * face.weight[s] * value;
           }
           v[face.at] += relaxation_ * (t * cut_inverse_[d][n] - v[face.at]);
         }
@@ -333,7 +233,8 @@ void Momentum::viscous_force(const FaceField& u, FaceField& out) const {
   for (int e = 0; e < 3; ++e) {
     a[e] = grid_.count[e] == 1 && sides_.kinds().is_periodic[e]
                ? 0.0
-               : viscosity_ / (grid_.spacing[e] * grid_.spacing[e]);
+               : (properties_.is_varying() ? 1.0 : properties_.viscosity()) /
+                     (grid_.spacing[e] * grid_.spacing[e]);
   }
   const std::ptrdiff_t offset[6] = {
       -1, 1, -grid_.stride[1], grid_.stride[1], -grid_.stride[2], grid_.stride[2]};
@@ -344,6 +245,9 @@ void Momentum::viscous_force(const FaceField& u, FaceField& out) const {
       const std::ptrdiff_t o = grid_.index(0, j, k);
       laplace_row(e[0], grid_.stride[1], grid_.stride[2], a[0], a[1], a[2], &v[o],
                   &geometry_.kind[d][o], &out.component[d][o]);
+      if (properties_.is_varying()) {
+        scale_row(e[0], properties_.viscosity(d, o).each, &out.component[d][o]);
+      }
       const std::size_t row = static_cast<std::size_t>(k) * e[1] + j;
       for (int n = geometry_.cut_begin[d][row]; n < geometry_.cut_begin[d][row + 1]; ++n) {
         const CutFace& face = geometry_.cut[d][n];
@@ -357,7 +261,7 @@ void Momentum::viscous_force(const FaceField& u, FaceField& out) const {
           }
           sum += face.weight[s] * (value - v[face.at]);
         }
-        out.component[d][face.at] = viscosity_ * sum;
+        out.component[d][face.at] = properties_.viscosity_at(d, face.at) * sum;
       }
     });
   }

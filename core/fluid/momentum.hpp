@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "fluid/face_properties.hpp"
 #include "fluid/geometry.hpp"
 #include "fluid/grid.hpp"
 #include "fluid/sides.hpp"
@@ -13,8 +14,8 @@ namespace dust::fluid {
 /// Convection, viscous stencils and the implicit solve of the momentum equation.
 class Momentum {
  public:
-  Momentum(const Grid& grid, const Geometry& geometry, const Sides& sides, double viscosity,
-           double density);
+  Momentum(const Grid& grid, const Geometry& geometry, const Sides& sides,
+           const FaceProperties& properties);
 
   /// flux = mean void fraction of the two cells x velocity, everywhere including halos.
   void find_flux(const FaceField& u, const CellField& eps);
@@ -23,7 +24,7 @@ class Momentum {
   void convection_row(const FaceField& u, const CellField& eps, double smoothness, int d, int j,
                       int k, double* out) const;
 
-  /// Prepares (1 + implicit (coefficient / density - nu laplace)) for `solve`; implicit [s].
+  /// Prepares (1 + implicit (coefficient - viscosity laplace) / inertia) for `solve`; implicit [s].
   void prepare(double implicit, const FaceField& coefficient);
   /// Solves the prepared system for `u` (start values in, halos filled for sweeps).
   void solve(const FaceField& right, FaceField& u);
@@ -52,8 +53,7 @@ class Momentum {
   const Grid& grid_;
   const Geometry& geometry_;
   const Sides& sides_;
-  double viscosity_;
-  double density_;
+  const FaceProperties& properties_;
   double implicit_ = 0.0;
   double relaxation_ = 1.0;
   int sweeps_ = 1;

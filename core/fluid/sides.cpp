@@ -67,6 +67,7 @@ Sides::Sides(const Grid& grid, const std::array<const sdk::BoundaryCondition*, 6
                                 " is periodic and has a boundary model; it can have only one");
     }
     kinds_.rules[side] = conditions[side]->rules();
+    values_[side].needs_flow = conditions[side]->needs_flow();
     check(kinds_.rules[side], side);
     const auto& r = kinds_.rules[side];
     for (int c = 0; c < 3; ++c) {
@@ -109,7 +110,49 @@ void Sides::set_places(int side, int component) {
   }
 }
 
-void Sides::evaluate_at(int side, int component, double time) {
+void Sides::set_flow_data(const FaceField& open_area, const Properties& properties) {
+  for (int side = 0; side < 6; ++side) {
+    Values& v = values_[side];
+    if (!v.needs_flow) continue;
+    const int d = side / 2;
+    const int e = d == 0 ? 1 : 0;
+    const int f = d == 2 ? 1 : 2;
+    const auto size = plane_size(side, d);
+    const std::ptrdiff_t first =
+        grid_.index(0, 0, 0) + (side % 2 ? grid_.count[d] * grid_.stride[d] : 0);
+    for (int b = 0; b < size[1]; ++b) {
+      for (int a = 0; a < size[0]; ++a) {
+        v.area.push_back(grid_.spacing[e] * grid_.spacing[f] *
+                         open_area.component[d][first + a * grid_.stride[e] + b * grid_.stride[f]]);
+        std::array<int, 3> cell{};
+        cell[d] = side % 2 ? grid_.count[d] - 1 : 0;
+        cell[e] = a;
+        cell[f] = b;
+        v.density.push_back(properties.at(grid_.centre(cell[0], cell[1], cell[2])).density);
+      }
+    }
+  }
+}
+
+/// Void fractions in the cells inside the side; points between two cells take the upper one's.
+void Sides::read_void_fraction(int side, int component, const CellField& eps) {
+  const int d = side / 2;
+  const int e = d == 0 ? 1 : 0;
+  const int f = d == 2 ? 1 : 2;
+  const auto size = plane_size(side, component);
+  const std::ptrdiff_t first =
+      grid_.index(0, 0, 0) + (side % 2 ? (grid_.count[d] - 1) * grid_.stride[d] : 0);
+  auto& out = values_[side].void_fraction;
+  out.clear();
+  for (int b = 0; b < size[1]; ++b) {
+    for (int a = 0; a < size[0]; ++a) {
+      out.push_back(eps[first + std::min(a, grid_.count[e] - 1) * grid_.stride[e] +
+                        std::min(b, grid_.count[f] - 1) * grid_.stride[f]]);
+    }
+  }
+}
+
+void Sides::evaluate_at(int side, int component, double time, const CellField* eps) {
   Values& v = values_[side];
   const auto& place = v.place[component];
   if (place[0].empty()) return;
@@ -128,17 +171,30 @@ void Sides::evaluate_at(int side, int component, double time) {
   if (component == 1) batch.velocity_y = v.velocity[1].data();
   if (component == 2) batch.velocity_z = v.velocity[2].data();
   if (component == k_pressure) batch.pressure = v.pressure.data();
+  const int d = side / 2;
+  batch.low = grid_.origin;
+  batch.spacing = grid_.spacing;
+  for (int e = 0; e < 3; ++e) batch.high[e] = grid_.origin[e] + grid_.count[e] * grid_.spacing[e];
+  (side % 2 ? batch.low : batch.high)[d] = side % 2 ? batch.high[d] : batch.low[d];
+  if (v.needs_flow && eps != nullptr) {
+    read_void_fraction(side, component, *eps);
+    batch.void_fraction = v.void_fraction.data();
+    if (component == d) {
+      batch.density = v.density.data();
+      batch.area = v.area.data();
+    }
+  }
   v.condition->evaluate(batch);
 }
 
-void Sides::evaluate_velocity(double time) {
+void Sides::evaluate_velocity(double time, const CellField& eps) {
   for (int side = 0; side < 6; ++side) {
-    for (int c = 0; c < 3; ++c) evaluate_at(side, c, time);
+    for (int c = 0; c < 3; ++c) evaluate_at(side, c, time, &eps);
   }
 }
 
 void Sides::evaluate_pressure(double time) {
-  for (int side = 0; side < 6; ++side) evaluate_at(side, k_pressure, time);
+  for (int side = 0; side < 6; ++side) evaluate_at(side, k_pressure, time, nullptr);
 }
 
 void Sides::fill_component(std::vector<double>& v, int d, int direction, bool for_sweeps) const {

@@ -4,6 +4,7 @@
 #include "dust/sdk/boundary_condition.hpp"
 #include "fluid/geometry.hpp"
 #include "fluid/grid.hpp"
+#include "fluid/properties.hpp"
 
 #include <array>
 #include <vector>
@@ -18,8 +19,10 @@ class Sides {
   Sides(const Grid& grid, const std::array<const sdk::BoundaryCondition*, 6>& conditions);
 
   [[nodiscard]] const SideKinds& kinds() const { return kinds_; }
-  /// Asks the models for their velocities and pressures at `time`.
-  void evaluate_velocity(double time);
+  /// What models that prescribe flows need to know; once, before the first evaluation.
+  void set_flow_data(const FaceField& open_area, const Properties& properties);
+  /// Asks the models for their velocities and pressures at `time`; `eps` with filled halo.
+  void evaluate_velocity(double time, const CellField& eps);
   void evaluate_pressure(double time);
   /// Halo such that linear interpolation meets the side's rule: mirrored, copied or wrapped.
   void fill_velocity(FaceField& u) const;
@@ -47,10 +50,15 @@ class Sides {
     std::array<std::array<std::vector<double>, 3>, 4> place;
     /// Where the model writes what is not wanted.
     std::array<std::vector<double>, 3> unused;
+    bool needs_flow = false;
+    std::vector<double> area;           ///< [m2] of the faces' open parts
+    std::vector<double> density;        ///< [kg/m3]
+    std::vector<double> void_fraction;  ///< in the edge cells
   };
   [[nodiscard]] std::array<int, 2> plane_size(int side, int component) const;
   void set_places(int side, int component);
-  void evaluate_at(int side, int component, double time);
+  void evaluate_at(int side, int component, double time, const CellField* eps);
+  void read_void_fraction(int side, int component, const CellField& eps);
   void fill_component(std::vector<double>& v, int d, int direction, bool for_sweeps) const;
 
   Grid grid_;

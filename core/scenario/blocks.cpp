@@ -174,6 +174,23 @@ const ParameterSchema& FluidBlock::schema() {
   return made;
 }
 
+const ParameterSchema& RegionBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<RegionBlock> s;
+    s.vector(&RegionBlock::min, "min", dimension::length, "Lower corner of the region.");
+    s.vector(&RegionBlock::max, "max", dimension::length, "Upper corner of the region.");
+    s.number(&RegionBlock::density, "density", dimension::density, "Density of the fluid there.")
+        .symbol("rho")
+        .above(0);
+    s.number(&RegionBlock::viscosity, "viscosity", dimension::dynamic_viscosity,
+             "Dynamic viscosity of the fluid there.")
+        .symbol("mu")
+        .above(0);
+    return s.build();
+  }();
+  return made;
+}
+
 const ParameterSchema& CouplingBlock::schema() {
   static const ParameterSchema made = [] {
     SchemaOf<CouplingBlock> s;

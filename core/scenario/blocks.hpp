@@ -87,6 +87,14 @@ struct FluidBlock {
   static const sdk::ParameterSchema& schema();
 };
 
+struct RegionBlock {
+  sdk::Vec3 min;
+  sdk::Vec3 max;
+  double density = 0.0;
+  double viscosity = 0.0;
+  static const sdk::ParameterSchema& schema();
+};
+
 struct CouplingBlock {
   bool one_way = false;
   static const sdk::ParameterSchema& schema();

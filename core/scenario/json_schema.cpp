@@ -221,7 +221,9 @@ std::string json_schema(const registry::Registry& registry) {
   properties["bodies"] = named(body_schema(registry));
   properties["emitters"] =
       named(alternatives(block<PlacedBlock>(), "model", choices(registry, "emitter")));
-  properties["fluid"] = {{"anyOf", Json::array({block<FluidBlock>(), {{"const", "none"}}})},
+  Json fluid = block<FluidBlock>();
+  fluid["properties"]["regions"] = named(block<RegionBlock>());
+  properties["fluid"] = {{"anyOf", Json::array({fluid, {{"const", "none"}}})},
                          {"description", "The fluid around the grains; none runs grains alone."}};
   properties["coupling"] = block<CouplingBlock>();
   properties["drag"] = {{"$ref", "#/definitions/drag"}};

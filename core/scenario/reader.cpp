@@ -6,6 +6,7 @@
 #include "scenario/blocks.hpp"
 #include "scenario/checks.hpp"
 #include "scenario/derived.hpp"
+#include "scenario/flow_check.hpp"
 #include "scenario/model_reader.hpp"
 #include "scenario/overlay.hpp"
 #include "scenario/suggest.hpp"
@@ -83,6 +84,11 @@ class SetupReader {
     if (diagnostics_.error_count() == 0) {
       check_fixed_step(setup_, registry_, dem_step_where_, diagnostics_);
     }
+    SideModels sides{};
+    for (std::size_t n = 0; n < 6; ++n) {
+      sides[n] = static_cast<const sdk::BoundaryCondition*>(air_[n].get());
+    }
+    check_flow(setup_, sides, diagnostics_);
     if (setup_.emitters.empty() && !setup_.fluid) {
       diagnostics_.warning(root_.where, "nothing moves: no emitter takes part and fluid is none");
     }
@@ -262,7 +268,10 @@ class SetupReader {
       Node map = Node::make_map();
       append(map, std::move(model.written));
       written.add("air", std::move(map));
-      if (has_fluid_) side.air = std::move(model.choice);
+      if (has_fluid_) {
+        side.air = std::move(model.choice);
+        air_[n] = std::move(model.model);
+      }
     }
     reader.finish();
     return written;
@@ -493,8 +502,12 @@ class SetupReader {
     MapReader reader(entry->value, "fluid", entry->where, diagnostics_);
     std::vector<sdk::Value> values;
     const auto fluid = block<FluidBlock>(reader, &values);
-    reader.finish();
     FluidSpec spec;
+    Node regions = Node::make_map();
+    for_each_named(reader, "regions", [&](const Entry& region, const std::string& path) {
+      regions.add(region.key, read_region(region, "fluid." + path, spec));
+    });
+    reader.finish();
     for (int d = 0; d < 3; ++d) {
       spec.cells[static_cast<std::size_t>(d)] = static_cast<int>(fluid.cells[d]);
       if (fluid.cells[d] == std::floor(fluid.cells[d])) continue;
@@ -507,8 +520,36 @@ class SetupReader {
     spec.initial_velocity = fluid.initial_velocity;
     spec.pressure_tolerance = fluid.pressure_tolerance;
     spec.largest_cfl = fluid.largest_cfl;
+    spec.where = entry->where;
+    if (fluid.momentum_set == "III") {
+      diagnostics_.warning(mark_of(entry->value, "momentum_set"),
+                           "fluid.momentum_set: III holds for steady uniform suspensions only; I "
+                           "and II, which are one here, hold everywhere");
+    }
     setup_.fluid = spec;
-    out_.add("fluid", written_block<FluidBlock>(values));
+    Node written = written_block<FluidBlock>(values);
+    if (!regions.entries.empty()) written.add("regions", std::move(regions));
+    out_.add("fluid", std::move(written));
+  }
+
+  Node read_region(const Entry& entry, const std::string& path, FluidSpec& spec) {
+    MapReader reader(entry.value, path, entry.where, diagnostics_);
+    std::vector<sdk::Value> values;
+    const auto read = block<RegionBlock>(reader, &values);
+    if (reader.is_good()) check_region(entry, path, read);
+    reader.finish();
+    spec.regions.push_back({entry.key, read.min, read.max, read.density, read.viscosity});
+    return written_block<RegionBlock>(values);
+  }
+  void check_region(const Entry& entry, const std::string& path, const RegionBlock& region) {
+    for (int d = 0; d < 3; ++d) {
+      const std::string axis(1, "xyz"[d]);
+      if (!(region.max[d] > region.min[d])) {
+        error(mark_of(entry.value, "max"), path + ".max: " + axis + " is not above that of min");
+      } else if (region.max[d] <= setup_.domain.min[d] || region.min[d] >= setup_.domain.max[d]) {
+        error(entry.where, path + ": the region lies outside the domain along " + axis);
+      }
+    }
   }
 
   void read_coupling(MapReader& top) {
@@ -622,6 +663,7 @@ class SetupReader {
   ModelReader models_;
   Mark dem_step_where_;
   bool has_fluid_ = false;
+  std::array<std::unique_ptr<sdk::Model>, 6> air_;
   bool pairs_are_read_ = true;
   std::vector<std::unique_ptr<sdk::Model>> emitters_;
   std::unique_ptr<sdk::Model> voidage_;

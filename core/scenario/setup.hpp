@@ -105,6 +105,15 @@ struct SensorSpec {
   ModelChoice model;
 };
 
+/// A box with a fluid of its own: water under air, a layer of warm air.
+struct FluidRegion {
+  std::string name;
+  sdk::Vec3 min;
+  sdk::Vec3 max;
+  double density = 0.0;    ///< [kg/m3]
+  double viscosity = 0.0;  ///< [Pa s] dynamic
+};
+
 struct FluidSpec {
   std::array<int, 3> cells{1, 1, 1};
   double density = 0.0;    ///< [kg/m3]
@@ -114,6 +123,8 @@ struct FluidSpec {
   double pressure_tolerance = 1e-4;  ///< residual of the pressure solve relative to its right side
   double largest_cfl = 1.0;          ///< sub-steps keep the Courant number below
   bool is_one_way = false;           ///< grains feel the fluid, the fluid does not feel the grains
+  std::vector<FluidRegion> regions;  ///< the last one that holds a place counts
+  Mark where;
 };
 
 /// A scenario with everything resolved: plain data, SI, names turned into indices. Disabled bodies,

@@ -110,6 +110,106 @@ TEST_CASE("check shall tell a wrong scenario on stderr, one line per problem, pa
         std::string::npos);
 }
 
+namespace {
+
+/// A box of air alone with these conditions at left, right and top; walls elsewhere.
+std::string box_of_air(const std::string& left, const std::string& right, const std::string& top,
+                       const std::string& fluid = "cells: [10, 2, 10]") {
+  return "name: box\n"
+         "time: {end: 1 s, fluid_step: 1 ms, output_every: 100 ms}\n"
+         "gravity: [0, 0, -9.81]\n"
+         "domain:\n"
+         "  min: [0, 0, 0]\n"
+         "  max: [100, 20, 100 mm]\n"
+         "  boundaries:\n"
+         "    left: {grains: open, air: {model: " +
+         left +
+         "}}\n"
+         "    right: {grains: open, air: {model: " +
+         right +
+         "}}\n"
+         "    front: {grains: open, air: {model: slip}}\n"
+         "    back: {grains: open, air: {model: slip}}\n"
+         "    bottom: {grains: open, air: {model: no_slip}}\n"
+         "    top: {grains: open, air: {model: " +
+         top +
+         "}}\n"
+         "fluid: {" +
+         fluid + ", density: 1.2, viscosity: 18 uPa s}\n";
+}
+
+/// What check with the shipped plugins says to stderr, without the file's name.
+std::string checked(const std::string& scenario, int expected_status) {
+  const fs::path file =
+      fs::temp_directory_path() / ("dust_air_" + std::to_string(::getpid()) + ".yaml");
+  const fs::path err = file.string() + ".err";
+  std::ofstream(file) << scenario;
+  const int status = std::system(("env -u DUST_PLUGIN_PATH " DUST_ENGINE " check " + file.string() +
+                                  " > /dev/null 2> " + err.string())
+                                     .c_str());
+  std::string text = text_of(err);
+  fs::remove(file);
+  fs::remove(err);
+  CHECK_MESSAGE(WEXITSTATUS(status) == expected_status, text);
+  return text.starts_with(file.string()) ? text.substr(file.string().size()) : text;
+}
+
+}  // namespace
+
+TEST_CASE("check shall accept flows that something gives way to, or that cancel") {
+  CHECK(checked(
+            box_of_air("volume_flow, flow: 60 l/min", "static_pressure, pressure: 0 Pa", "no_slip"),
+            0) == "");
+  CHECK(
+      checked(box_of_air("volume_flow, flow: 60 l/min", "volume_flow, flow: -60 l/min", "no_slip"),
+              0) == "");
+  CHECK(checked(box_of_air("velocity_inlet, speed: 1 m/s, measure: superficial, profile: "
+                           "parabolic, across: [z]",
+                           "no_slip",
+                           "hood, flow: 120 l/min, min: [20, 0, 100 mm], max: [60, 20, 100 mm]"),
+                0) == "");
+}
+
+TEST_CASE("check shall refuse sides that contradict each other, with the reason and the place") {
+  CHECK(checked(box_of_air("volume_flow, flow: 60 l/min", "no_slip", "no_slip"), 2) ==
+        ":8:5: error: domain.boundaries: at t = 0 s the sides let 0.001 m3/s more fluid in than "
+        "out (left 0.001 m3/s) and none of them gives way; make one a total_pressure, "
+        "static_pressure or zero_gradient side\n");
+  // Balanced at the start only.
+  const std::string ramp =
+      checked(box_of_air("volume_flow, flow: 60 l/min, times: [0, 1 s], factors: [1, 0]",
+                         "volume_flow, flow: -60 l/min", "no_slip"),
+              2);
+  CHECK_MESSAGE(ramp.find("at t = 0.0625 s the sides let") != std::string::npos, ramp);
+  CHECK_MESSAGE(ramp.find("more fluid out than in (left") != std::string::npos, ramp);
+}
+
+TEST_CASE("check shall tell what an air condition refuses, at its place") {
+  const auto told = [](const std::string& left, const std::string& expected) {
+    const std::string text =
+        checked(box_of_air(left, "static_pressure, pressure: 0 Pa", "no_slip"), 2);
+    CHECK_MESSAGE(text.starts_with(":8:"), text);
+    CHECK_MESSAGE(text.find(expected) != std::string::npos, text);
+  };
+  told("velocity_inlet, speed: 1 m/s", "missing key 'measure'");
+  told("velocity_inlet, speed: 1 m/s, measure: total", "measure");
+  told("velocity_inlet, speed: 1 m/s, measure: interstitial, profile: parabolic", "needs across");
+  told("velocity_inlet, speed: 1 m/s, measure: interstitial, profile: parabolic, across: [x]",
+       "across names x, the normal of the side");
+  told("hood, flow: 1 l/min, min: [0, 0, 0], max: [0, 30, 10 mm]",
+       "the opening reaches beyond the side along y");
+  told("volume_flow, flow: 1 l/min, times: [0, 1 s], factors: [1]", "differ in length");
+}
+
+TEST_CASE("check shall warn of cells far from cubic and of momentum set III") {
+  const std::string text = checked(box_of_air("static_pressure, pressure: 0 Pa", "no_slip",
+                                              "no_slip", "cells: [50, 2, 10], momentum_set: III"),
+                                   0);
+  CHECK_MESSAGE(text.find("far from cubic, 5 times as long") != std::string::npos, text);
+  CHECK_MESSAGE(text.find("III holds for steady uniform suspensions only") != std::string::npos,
+                text);
+}
+
 TEST_CASE("check shall draw the set-up") {
   const fs::path file = fs::temp_directory_path() / "dust_setup.svg";
   fs::remove(file);

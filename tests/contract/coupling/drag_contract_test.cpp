@@ -11,7 +11,7 @@ namespace {
 using namespace dust;
 
 struct Columns {
-  std::vector<double> reynolds, void_fraction;
+  std::vector<double> reynolds, void_fraction, size_ratio;
 };
 Columns sample() {
   Columns c;
@@ -19,6 +19,7 @@ Columns sample() {
     for (const double reynolds : {0.0, 1e-6, 1e-2, 1.0, 33.0, 999.0, 1001.0, 1e5}) {
       c.reynolds.push_back(reynolds);
       c.void_fraction.push_back(eps);
+      c.size_ratio.push_back(1.0);
     }
   }
   return c;
@@ -27,15 +28,16 @@ std::vector<double> factors(const sdk::DragLaw& law, const Columns& c, std::size
   std::vector<double> result(c.reynolds.size(), -1.0);
   for (std::size_t first = 0; first < result.size(); first += batch) {
     const std::size_t count = std::min(batch, result.size() - first);
-    law.evaluate(
-        {count, c.reynolds.data() + first, c.void_fraction.data() + first, result.data() + first});
+    law.evaluate({count, c.reynolds.data() + first, c.void_fraction.data() + first,
+                  result.data() + first,
+                  law.needs_size_ratio() ? c.size_ratio.data() + first : nullptr});
   }
   return result;
 }
 
 TEST_CASE("every drag law shall be described, with an example that names it") {
   const auto laws = test::all_models<sdk::DragLaw>();
-  CHECK(laws.size() >= 3);
+  CHECK(laws.size() >= 9);
   for (const auto& law : laws) {
     CAPTURE(law.info.name);
     CHECK_FALSE(law.info.summary.empty());
@@ -57,7 +59,8 @@ TEST_CASE("a drag law shall give the same bits however its batch is split") {
   }
 }
 
-TEST_CASE("a drag law shall give finite factors, never negative and growing with the slip") {
+TEST_CASE(
+    "a drag law shall give finite factors, never negative, and a force that grows with the slip") {
   const Columns c = sample();
   for (const auto& law : test::all_models<sdk::DragLaw>()) {
     CAPTURE(law.info.name);
@@ -66,7 +69,11 @@ TEST_CASE("a drag law shall give finite factors, never negative and growing with
       CHECK(std::isfinite(f[n]));
       CHECK(f[n] >= 0.0);
       const bool is_same_eps = n > 0 && c.void_fraction[n] == c.void_fraction[n - 1];
-      if (is_same_eps) CHECK(f[n] >= f[n - 1]);
+      // The factor itself may dip (Di Felice's exponent does); the force, F Re, may only where a
+      // law of one sphere goes over to a constant coefficient at Re 1000: Abraham's by 9 %.
+      const bool is_step = is_same_eps && c.reynolds[n - 1] == 999.0;
+      if (!is_same_eps) continue;
+      CHECK(f[n] * c.reynolds[n] >= (is_step ? 0.9 : 1.0) * f[n - 1] * c.reynolds[n - 1]);
     }
   }
 }

@@ -319,10 +319,36 @@ TEST_CASE("the momentum exchange of the cells shall be the force on the fluid") 
   CHECK(norm(force) > 0.0);
 }
 
-TEST_CASE("momentum set III shall be refused with the choices") {
-  World::Choice choice;
-  choice.momentum_set = "III";
-  CHECK_THROWS_WITH_AS(World{choice}, doctest::Contains("choose I or II"), sdk::ModelError);
+/// Keeps the size ratios it was last asked with.
+class SizeLaw final : public sdk::DragLaw {
+ public:
+  [[nodiscard]] bool needs_size_ratio() const override { return true; }
+  void evaluate(const sdk::DragBatch& batch) const override {
+    seen.assign(batch.size_ratio, batch.size_ratio + batch.count);
+    for (std::size_t g = 0; g < batch.count; ++g) batch.factor[g] = 1.0;
+  }
+  mutable std::vector<double> seen;
+};
+
+TEST_CASE("a law shall get each grain's size over the Sauter mean of its cell") {
+  World world({});
+  // Cells of 0.25 m. One cell with 3 small grains and one large of half weight, one cell alone.
+  for (int n = 0; n < 3; ++n) world.grains.add({0.1 + 0.02 * n, 0.1, 0.1}, {}, 1e-3);
+  world.grains.add({0.1, 0.15, 0.1}, {}, 2e-3, test::k_sand, 0.5);
+  world.grains.add({0.6, 0.6, 0.6}, {}, 5e-3);
+  const SizeLaw law;
+  for (const bool is_one_way : {false, true}) {
+    world.setup.fluid->is_one_way = is_one_way;
+    coupling::Coupling coupling(world.setup, world.grid, world.open, *world.voidage, law);
+    coupling.map(world.grains.rows(), 1e-3);
+    coupling.refresh(world.grains.rows(), world.velocity, world.stress);
+    const double mean = 1e-3 * (3 * 1 + 0.5 * 8) / (3 * 1 + 0.5 * 4);
+    const double expected[] = {1e-3 / mean, 1e-3 / mean, 1e-3 / mean, 2e-3 / mean, 1.0};
+    REQUIRE(law.seen.size() == 5);
+    for (std::size_t g = 0; g < 5; ++g) {
+      CHECK(law.seen[g] == doctest::Approx(expected[g]).epsilon(1e-14));
+    }
+  }
 }
 
 }  // namespace

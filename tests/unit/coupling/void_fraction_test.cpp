@@ -24,7 +24,7 @@ double mapped_volume(const World& world) {
 }
 
 TEST_CASE("the mapped volume shall be that of the grains, at walls, corners and periodic sides") {
-  for (const char* rule : {"centre", "divided"}) {
+  for (const char* rule : {"centre", "divided", "big_particle", "gaussian"}) {
     for (const bool periodic : {false, true}) {
       World::Choice choice;
       choice.max = {0.01, 0.012, 0.014};
@@ -45,6 +45,23 @@ TEST_CASE("the mapped volume shall be that of the grains, at walls, corners and 
       CHECK(world.coupling->report().moved_shares > 0);
       CHECK(world.coupling->report().unplaced_grains == 0);
     }
+  }
+}
+
+TEST_CASE("wide grains shall keep their volume in a domain thinner than themselves") {
+  for (const char* rule : {"big_particle", "gaussian"}) {
+    World::Choice choice;
+    choice.max = {0.02, 0.002, 0.02};
+    choice.cells = {20, 2, 20};
+    choice.periodic = {false, true, false};
+    choice.voidage = rule;
+    World world(choice);
+    world.grains.add({0.010, 0.0003, 0.012}, {}, 4e-3, 2650, 0.2);
+    world.grains.add({0.0005, 0.0013, 0.019}, {}, 3e-3, 2650, 0.2);
+    world.coupling->map(world.grains.rows(), 1e-3);
+    CHECK(mapped_volume(world) == doctest::Approx(world.grains.solid_volume()).epsilon(k_sum));
+    CHECK(world.coupling->report().unplaced_grains == 0);
+    CHECK(world.coupling->report().largest_diameter_over_spacing == doctest::Approx(4.0));
   }
 }
 
@@ -70,7 +87,7 @@ TEST_CASE("a grain across a periodic side shall be mapped as the same grain insi
 }
 
 TEST_CASE("closed cells shall hold no grain volume and cut cells only beside their open part") {
-  for (const char* rule : {"centre", "divided"}) {
+  for (const char* rule : {"centre", "divided", "big_particle", "gaussian"}) {
     World::Choice choice;
     choice.max = {0.01, 0.01, 0.01};
     choice.cells = {10, 10, 10};

@@ -157,6 +157,22 @@ TEST_CASE("a domain or steps that contradict each other shall be told") {
         "'divided' is valid up to 1: take fewer cells or another rule");
 }
 
+TEST_CASE("regions of the fluid that cannot be shall be told") {
+  const std::string line = "  density: 1.2 kg/m3\n";
+  check(line,
+        line +
+            "  regions: {water: {min: [0, 0, 0], max: [1, 1, 0 m], density: 998, "
+            "viscosity: 1 mPa s}}\n",
+        "s.yaml:37:42: error: fluid.regions.water.max: z is not above that of min");
+  check(line,
+        line +
+            "  regions: {water: {min: [0, 0, 1], max: [1, 1, 2 m], density: 998, "
+            "viscosity: 1 mPa s}}\n",
+        "s.yaml:37:13: error: fluid.regions.water: the region lies outside the domain along z");
+  check_among(line, line + "  regions: {water: {min: [0, 0, 0], density: 998}}\n",
+              "fluid.regions.water: missing key 'max'");
+}
+
 TEST_CASE("parameters that a model refuses together shall be told at the model") {
   check("number_fractions: [0.5, 0.5]", "number_fractions: [0.5]",
         "s.yaml:27:12: error: emitters.feed: diameters and number_fractions differ in length");

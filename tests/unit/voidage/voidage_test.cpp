@@ -155,6 +155,76 @@ TEST_CASE("shares of a grain shall sum to 1 and none shall be negative") {
   }
 }
 
+TEST_CASE("parts of a sphere beyond planes on either side of its centre shall be exact") {
+  using sdk::sphere_parts::any_corner;
+  constexpr double k_quadrature = 2e-6;
+  const sdk::Random random(11, sdk::stream_of("planes"));
+  for (std::uint32_t n = 0; n < 20; ++n) {
+    double p[3];
+    for (std::uint32_t d = 0; d < 3; ++d) p[d] = 2.2 * random.uniform(n, 0, d) - 1.1;
+    // sphere_part is the part before the planes: mirrored.
+    CHECK(std::abs(any_corner(p[0], p[1], p[2]) - sphere_part(-p[0], -p[1], -p[2])) < k_quadrature);
+  }
+}
+
+TEST_CASE("a big particle shall fill the cells inside it to the inner void fraction") {
+  const sdk::GridShape grid{{0, 0, 0}, {1e-3, 1e-3, 1e-3}, {20, 20, 20}};
+  const Rule big{test::make_model<sdk::VoidageRule>("voidage", "big_particle"), grid};
+  constexpr double k_inner = 0.5;  // the default
+  const double radius = 2e-3;      // D/dx = 4
+  const double volume = 4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3);
+  const double reach = radius / std::cbrt(1.0 - k_inner);
+  const sdk::Vec3 p{10.2e-3, 9.9e-3, 10.4e-3};
+  int inside = 0;
+  for (const auto& [cell, weight] : big.shares(p, radius)) {
+    const auto [i, j, k] = cell;
+    double farthest = 0.0;
+    double nearest = 0.0;
+    const int index[3] = {i, j, k};
+    for (int d = 0; d < 3; ++d) {
+      const double low = index[d] * 1e-3 - p[d];
+      farthest += std::pow(std::max(std::abs(low), std::abs(low + 1e-3)), 2);
+      nearest += std::pow(std::max({0.0, low, -low - 1e-3}), 2);
+    }
+    CHECK(std::sqrt(nearest) < reach);
+    const double eps = 1.0 - weight * volume / 1e-9;
+    CHECK(eps >= k_inner - 1e-12);
+    if (std::sqrt(farthest) > reach) continue;
+    CHECK(eps == doctest::Approx(k_inner).epsilon(1e-11));
+    ++inside;
+  }
+  CHECK(inside > 20);
+}
+
+TEST_CASE("a Gaussian grain shall have its centre and width, and move without a jump") {
+  const sdk::GridShape grid{{0, 0, 0}, {1e-3, 1e-3, 1e-3}, {40, 40, 40}};
+  const Rule gaussian{test::make_model<sdk::VoidageRule>("voidage", "gaussian"), grid};
+  const double diameter = 1e-3;
+  const double sigma = 1.5 * diameter;
+  double first = 0.0;
+  double second = 0.0;
+  const sdk::Vec3 p{20.3e-3, 20.0e-3, 19.8e-3};
+  for (const auto& [cell, weight] : gaussian.shares(p, 0.5 * diameter)) {
+    const double x = (std::get<0>(cell) + 0.5) * 1e-3 - p.x;
+    first += weight * x;
+    second += weight * x * x;
+  }
+  // Cells see the kernel through a box of their width, h^2 / 12, and without its ends beyond three
+  // deviations, which take 2.7 % of the second moment.
+  CHECK(std::abs(first) < 0.01e-3);
+  const double cut = 1.0 - 2.0 * 3.0 * std::exp(-4.5) /
+                               (std::sqrt(2.0 * std::numbers::pi) * std::erf(3.0 / std::sqrt(2.0)));
+  CHECK(second == doctest::Approx(cut * sigma * sigma + 1e-6 / 12.0).epsilon(0.01));
+  // Across a border of cells no share changes by more than the way times its steepest slope.
+  const double step = 1e-7;
+  const auto before = gaussian.shares({20e-3 - step, 20.5e-3, 20.5e-3}, 0.5 * diameter);
+  const auto after = gaussian.shares({20e-3 + step, 20.5e-3, 20.5e-3}, 0.5 * diameter);
+  for (const auto& [cell, weight] : after) {
+    const auto old = before.find(cell);
+    CHECK(std::abs(weight - (old == before.end() ? 0.0 : old->second)) < 2.0 * step / sigma);
+  }
+}
+
 TEST_CASE("a grain inside one cell shall lie in that cell alone") {
   const Rule rule{test::make_model<sdk::VoidageRule>("voidage", "divided"), k_grid};
   const auto shares = rule.shares({-1.0 + 0.1 * 3.5, 0.5 + 0.13 * 2.5, 2.0 + 0.17 * 0.5}, 1e-3);

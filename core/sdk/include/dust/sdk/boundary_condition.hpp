@@ -38,6 +38,15 @@ struct SideBatch {
   double* velocity_y = nullptr;
   double* velocity_z = nullptr;
   double* pressure = nullptr;  ///< [Pa] out, where pressure is `fixed` or `pressure`
+  Vec3 low;                    ///< [m] corners of the side
+  Vec3 high;
+  Vec3 spacing;  ///< [m] of the fluid's cells; a point of the normal velocity is a face's centre
+  /// The rest only for models with BoundaryCondition::needs_flow, null elsewhere.
+  const double* void_fraction = nullptr;  ///< [-] in the cells next to the points
+  /// Density of the fluid in these cells [kg/m3] and open area of the faces round the points [m2];
+  /// null in calls for tangential components and pressure.
+  const double* density = nullptr;
+  const double* area = nullptr;
 };
 
 /// Air condition on one side of the domain. A pure function of time and place.
@@ -46,6 +55,8 @@ class BoundaryCondition : public Model {
   static constexpr const char* k_kind = "boundary";
   [[nodiscard]] virtual SideRules rules() const = 0;
   virtual void evaluate(const SideBatch& batch) const = 0;
+  /// Does `evaluate` read void fraction, density and area? Asked once, at the start.
+  [[nodiscard]] virtual bool needs_flow() const { return false; }
 };
 
 }  // namespace dust::sdk

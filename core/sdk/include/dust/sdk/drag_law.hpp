@@ -13,6 +13,9 @@ struct DragBatch {
   const double* reynolds = nullptr;  ///< [-] Re = eps rho_f |w| D / mu, w the interstitial slip
   const double* void_fraction = nullptr;  ///< [-] eps at the grain, in (0, 1]
   double* factor = nullptr;               ///< [-] out: F(Re, eps)
+  /// [-] D over the Sauter mean diameter of the grains in the same cell; null unless
+  /// DragLaw::needs_size_ratio.
+  const double* size_ratio = nullptr;
 };
 
 /// Drag closure. The one convention: \f$ f_d = 3 \pi \mu D F(Re, \varepsilon) w \f$ [N] on one
@@ -22,6 +25,8 @@ class DragLaw : public Model {
  public:
   static constexpr const char* k_kind = "drag";
   virtual void evaluate(const DragBatch& batch) const = 0;
+  /// Does `evaluate` read DragBatch::size_ratio? Asked once, at the start.
+  [[nodiscard]] virtual bool needs_size_ratio() const { return false; }
 };
 
 }  // namespace dust::sdk

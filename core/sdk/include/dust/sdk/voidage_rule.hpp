@@ -43,6 +43,11 @@ class VoidageRule : public Model {
   /// Largest D/dx the rule is valid for; beyond it the core refuses the scenario.
   [[nodiscard]] virtual double largest_diameter_over_spacing() const = 0;
   virtual void spread(const GridShape& grid, const VoidageBatch& batch) const = 0;
+  /// Distance from the centre [m], along an axis, beyond which a grain of `radius` [m] gives
+  /// nothing. Cells that reach nearer may get a share.
+  [[nodiscard]] virtual Vec3 reach(const GridShape& /*grid*/, double radius) const {
+    return {radius, radius, radius};
+  }
 };
 
 }  // namespace dust::sdk

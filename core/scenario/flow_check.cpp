@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenario/flow_check.hpp"
+
+#include "dust/sdk/error.hpp"
+#include "scenario/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace dust::scenario {
+namespace {
+
+using sdk::SideRule;
+
+/// Net flow over the sum of the flows that counts as none.
+constexpr double k_balance = 1e-6;
+/// Times of the run at which flows are looked at, the end included.
+constexpr int k_times = 16;
+/// Ratio of the edges of a cell from which it is called far from cubic.
+constexpr double k_far_from_cubic = 4.0;
+
+std::string path_of(std::size_t side) {
+  return std::string("domain.boundaries.") + k_side_names[side];
+}
+
+/// Three digits, as in "0.0012 m3/s".
+std::string flow_text(double flow) {
+  std::array<char, 40> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.3g m3/s", flow);
+  return buffer.data();
+}
+
+/// The faces of one side as the fluid has them, without bodies and grains.
+struct Faces {
+  sdk::SideBatch batch;
+  std::vector<double> x, y, z, velocity[3], pressure, one, density, area;
+
+  Faces(const Setup& setup, std::size_t side) {
+    const int d = static_cast<int>(side / 2);
+    const int e = d == 0 ? 1 : 0;
+    const int f = d == 2 ? 1 : 2;
+    const auto& cells = setup.fluid->cells;
+    batch.low = setup.domain.min;
+    batch.high = setup.domain.max;
+    for (int a = 0; a < 3; ++a) {
+      batch.spacing[a] =
+          (setup.domain.max[a] - setup.domain.min[a]) / cells[static_cast<std::size_t>(a)];
+    }
+    (side % 2 ? batch.low : batch.high)[d] = (side % 2 ? batch.high : batch.low)[d];
+    batch.normal[d] = side % 2 ? 1.0 : -1.0;
+    for (int b = 0; b < cells[static_cast<std::size_t>(f)]; ++b) {
+      for (int a = 0; a < cells[static_cast<std::size_t>(e)]; ++a) {
+        sdk::Vec3 p = batch.low;
+        p[e] += (a + 0.5) * batch.spacing[e];
+        p[f] += (b + 0.5) * batch.spacing[f];
+        x.push_back(p.x);
+        y.push_back(p.y);
+        z.push_back(p.z);
+      }
+    }
+    batch.count = x.size();
+    for (auto& v : velocity) v.assign(batch.count, 0.0);
+    pressure.assign(batch.count, 0.0);
+    one.assign(batch.count, 1.0);
+    density.assign(batch.count, setup.fluid->density);
+    area.assign(batch.count, batch.spacing[e] * batch.spacing[f]);
+    batch.x = x.data();
+    batch.y = y.data();
+    batch.z = z.data();
+    batch.velocity_x = velocity[0].data();
+    batch.velocity_y = velocity[1].data();
+    batch.velocity_z = velocity[2].data();
+    batch.pressure = pressure.data();
+    batch.void_fraction = one.data();
+    batch.density = density.data();
+    batch.area = area.data();
+  }
+  /// [m3/s] into the domain.
+  [[nodiscard]] double inflow() const {
+    const int d = batch.normal.x != 0.0 ? 0 : batch.normal.y != 0.0 ? 1 : 2;
+    double sum = 0.0;
+    for (std::size_t n = 0; n < batch.count; ++n) {
+      sum -= batch.normal[d] * velocity[d][n] * area[n];
+    }
+    return sum;
+  }
+};
+
+bool can_be_solved(const sdk::SideRules& r) {
+  const bool is_given = r.normal_velocity == SideRule::fixed && r.pressure == SideRule::gradient;
+  const bool is_open = r.normal_velocity == SideRule::gradient &&
+                       (r.pressure == SideRule::fixed || r.pressure == SideRule::pressure);
+  const bool tangential_is_known =
+      r.tangential_velocity == SideRule::fixed || r.tangential_velocity == SideRule::gradient;
+  return (is_given || is_open) && tangential_is_known;
+}
+
+void check_cells(const Setup& setup, Diagnostics& diagnostics) {
+  double least = 0.0;
+  double largest = 0.0;
+  for (int d = 0; d < 3; ++d) {
+    const int n = setup.fluid->cells[static_cast<std::size_t>(d)];
+    if (n == 1) continue;  // nothing varies along it
+    const double h = (setup.domain.max[d] - setup.domain.min[d]) / n;
+    least = least == 0.0 ? h : std::min(least, h);
+    largest = std::max(largest, h);
+  }
+  if (least == 0.0 || largest < k_far_from_cubic * least) return;
+  diagnostics.warning(setup.fluid->where,
+                      "fluid.cells: the cells are far from cubic, " +
+                          number_text(std::round(10.0 * largest / least) / 10.0) +
+                          " times as long one way as another: the long way sets what is resolved, "
+                          "the short one the time step");
+}
+
+/// Inflow of each side at `time`; false after a model's refusal, which is told.
+bool find_flows(const Setup& setup, const SideModels& sides, double time,
+                std::array<double, 6>& flows, Diagnostics& diagnostics) {
+  bool is_good = true;
+  for (std::size_t n = 0; n < 6; ++n) {
+    flows[n] = 0.0;
+    if (sides[n] == nullptr) continue;
+    Faces faces(setup, n);
+    faces.batch.time = time;
+    try {
+      sides[n]->evaluate(faces.batch);
+    } catch (const std::exception& e) {
+      const SideSpec& side = setup.domain.sides[n];
+      diagnostics.error(side.air ? side.air->where : side.where, path_of(n) + ".air: " + e.what());
+      is_good = false;
+      continue;
+    }
+    if (sides[n]->rules().normal_velocity == SideRule::fixed) flows[n] = faces.inflow();
+  }
+  return is_good;
+}
+
+}  // namespace
+
+void check_flow(const Setup& setup, const SideModels& sides, Diagnostics& diagnostics) {
+  if (!setup.fluid || diagnostics.has_errors()) return;
+  check_cells(setup, diagnostics);
+  bool gives_way = false;
+  for (std::size_t n = 0; n < 6; ++n) {
+    if (sides[n] == nullptr) continue;
+    const sdk::SideRules rules = sides[n]->rules();
+    if (!can_be_solved(rules)) {
+      diagnostics.error(setup.domain.sides[n].where,
+                        path_of(n) +
+                            ".air: a given normal velocity goes with a zero pressure "
+                            "gradient, a given pressure with a zero velocity gradient; "
+                            "this model asks for another combination");
+      return;
+    }
+    gives_way |= rules.normal_velocity != SideRule::fixed;
+  }
+  std::array<double, 6> flows{};
+  for (int step = 0; step <= k_times; ++step) {
+    const double time = setup.time.end * step / k_times;
+    if (!find_flows(setup, sides, time, flows, diagnostics)) return;
+    if (gives_way) continue;
+    double net = 0.0;
+    double gross = 0.0;
+    for (const double flow : flows) {
+      net += flow;
+      gross += std::abs(flow);
+    }
+    const bool is_certain = setup.bodies.empty() || std::abs(net) >= gross * (1.0 - k_balance);
+    if (!is_certain || std::abs(net) <= k_balance * gross) continue;
+    std::string which;
+    std::size_t first = 6;
+    for (std::size_t n = 0; n < 6; ++n) {
+      if (flows[n] == 0.0) continue;
+      first = std::min(first, n);
+      which +=
+          (which.empty() ? "" : ", ") + std::string(k_side_names[n]) + " " + flow_text(flows[n]);
+    }
+    diagnostics.error(setup.domain.sides[first].where,
+                      "domain.boundaries: at t = " + number_text(time) + " s the sides let " +
+                          flow_text(std::abs(net)) + " more fluid " +
+                          (net > 0 ? "in than out" : "out than in") + " (" + which +
+                          ") and none of them gives way; make one "
+                          "a total_pressure, static_pressure or zero_gradient side");
+    return;
+  }
+}
+
+}  // namespace dust::scenario

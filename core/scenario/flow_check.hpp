@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/boundary_condition.hpp"
+#include "scenario/diagnostics.hpp"
+#include "scenario/setup.hpp"
+
+#include <array>
+
+namespace dust::scenario {
+
+/// The air's models of the six sides, in the order of k_side_names; null where periodic or wrong.
+using SideModels = std::array<const sdk::BoundaryCondition*, 6>;
+
+/// Tells sides that cannot be solved together, with the reason: what a model refuses on its side,
+/// rules that do not go together, flows that no side gives way to. Flows are added up over whole
+/// sides at some times of the run; where bodies may cover part of a side, only flows that are all
+/// of one sign are refused. Warns of cells far from cubic.
+void check_flow(const Setup& setup, const SideModels& sides, Diagnostics& diagnostics);
+
+}  // namespace dust::scenario

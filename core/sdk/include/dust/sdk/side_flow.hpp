@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/boundary_condition.hpp"
+#include "dust/sdk/error.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace dust::sdk {
+
+/// Number of the axis that a side's normal points along.
+inline int axis_of(Vec3 normal) { return normal.x != 0.0 ? 0 : normal.y != 0.0 ? 1 : 2; }
+
+/// Sets the velocity of all points to zero.
+inline void set_at_rest(const SideBatch& batch) {
+  for (std::size_t n = 0; n < batch.count; ++n) {
+    batch.velocity_x[n] = 0.0;
+    batch.velocity_y[n] = 0.0;
+    batch.velocity_z[n] = 0.0;
+  }
+}
+
+/// Sets the interstitial velocity along the inward normal to what `superficial(n)` [m/s] makes of
+/// point n, over the void fraction there.
+template <class Speed>
+void set_superficial(const SideBatch& batch, const Speed& superficial) {
+  const std::array<double*, 3> velocity{batch.velocity_x, batch.velocity_y, batch.velocity_z};
+  const int d = axis_of(batch.normal);
+  double* const out = velocity[static_cast<std::size_t>(d)];
+  const double inward = -batch.normal[d];
+  for (std::size_t n = 0; n < batch.count; ++n) {
+    out[n] = inward * superficial(n) / batch.void_fraction[n];
+  }
+}
+
+/// Lets the volume flow `flow` [m3/s] in (out, if negative): superficial velocities in the ratio of
+/// `shape(n)` >= 0 over the open areas, scaled so that their sum over the side is the flow.
+template <class Shape>
+void set_volume_flow(const SideBatch& batch, double flow, const Shape& shape) {
+  if (batch.area == nullptr) return;  // tangential components: at rest
+  double sum = 0.0;
+  for (std::size_t n = 0; n < batch.count; ++n) sum += shape(n) * batch.area[n];
+  if (!(sum > 0.0)) {
+    if (flow == 0.0) return;
+    throw ModelError("a volume flow is given on a side that has no open area for it");
+  }
+  set_superficial(batch, [&](std::size_t n) { return flow / sum * shape(n); });
+}
+
+}  // namespace dust::sdk

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "big_particle.hpp"
+
+#include "dust/sdk/plugin.hpp"
+
+#include <array>
+
+namespace dust::model::big_particle {
+namespace {
+
+/// Shares below this are the rounding of differences between volumes of order 1.
+constexpr double k_nothing = 1e-14;
+
+class BigParticle final : public sdk::VoidageRule {
+ public:
+  struct Parameters {
+    double inner_void_fraction = 0.5;
+  };
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.number(&Parameters::inner_void_fraction, "inner_void_fraction", sdk::dimension::none,
+             "Void fraction inside the sphere that a lone grain's volume is spread over.")
+        .symbol("\\varepsilon_i")
+        .at_least(0.3)
+        .at_most(0.95)
+        .optional();
+    return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    sdk::ModelInfo info;
+    info.name = "big_particle";
+    info.version = "1.0";
+    info.summary =
+        "Grains larger than a cell: volume spread evenly over an enlarged sphere, by exact overlap "
+        "with the cells.";
+    info.equation =
+        R"(\varepsilon = 1 - (1 - \varepsilon_i) \frac{1}{V_c} \sum_g |S_g' \cap C|,\quad R' = R\,(1 - \varepsilon_i)^{-1/3})";
+    info.source = "own derivation, plugins/voidage/big_particle/README.md";
+    return info;
+  }
+  explicit BigParticle(const Parameters& p) : scale_(enlargement(p.inner_void_fraction)) {}
+
+  [[nodiscard]] int capacity(const sdk::GridShape& grid, double radius) const override {
+    int cells = 1;
+    for (int d = 0; d < 3; ++d) {
+      cells *= static_cast<int>(2.0 * scale_ * radius / grid.spacing[d]) + 2;
+    }
+    return cells;
+  }
+  [[nodiscard]] double largest_diameter_over_spacing() const override { return 8.0; }
+  [[nodiscard]] sdk::Vec3 reach(const sdk::GridShape&, double radius) const override {
+    return {scale_ * radius, scale_ * radius, scale_ * radius};
+  }
+
+  void spread(const sdk::GridShape& grid, const sdk::VoidageBatch& batch) const override {
+    thread_local std::array<Planes, 3> planes;
+    thread_local std::vector<double> beyond;  // share beyond three planes, x fastest
+    for (std::size_t g = 0; g < batch.count; ++g) {
+      const double radius = scale_ * batch.radius[g];
+      planes[0].set(batch.x[g], grid.origin.x, grid.spacing.x, radius);
+      planes[1].set(batch.y[g], grid.origin.y, grid.spacing.y, radius);
+      planes[2].set(batch.z[g], grid.origin.z, grid.spacing.z, radius);
+      beyond.clear();
+      for (const double c : planes[2].place) {
+        for (const double b : planes[1].place) {
+          for (const double a : planes[0].place) {
+            beyond.push_back(sdk::sphere_parts::any_corner(a, b, c));
+          }
+        }
+      }
+      spread_one(batch, g, planes, beyond);
+    }
+  }
+
+ private:
+  /// Each cell is the alternating sum over its eight corners. The largest share is what the others
+  /// leave, so that the sum is 1 to rounding.
+  static void spread_one(const sdk::VoidageBatch& batch, std::size_t g,
+                         const std::array<Planes, 3>& planes, const std::vector<double>& beyond) {
+    const std::size_t first = g * static_cast<std::size_t>(batch.capacity);
+    const std::size_t row = planes[0].place.size();
+    const std::size_t layer = row * planes[1].place.size();
+    std::size_t used = 0;
+    std::size_t largest = 0;
+    for (std::size_t k = 0; k < planes[2].cells(); ++k) {
+      for (std::size_t j = 0; j < planes[1].cells(); ++j) {
+        for (std::size_t i = 0; i < planes[0].cells(); ++i) {
+          const double* at = &beyond[i + row * j + layer * k];
+          const double low = (at[0] - at[1]) - (at[row] - at[row + 1]);
+          const double high = (at[layer] - at[layer + 1]) - (at[layer + row] - at[layer + row + 1]);
+          const double weight = low - high;
+          if (weight <= k_nothing) continue;
+          batch.cell_i[first + used] = planes[0].first + static_cast<int>(i);
+          batch.cell_j[first + used] = planes[1].first + static_cast<int>(j);
+          batch.cell_k[first + used] = planes[2].first + static_cast<int>(k);
+          batch.weight[first + used] = weight;
+          if (weight > batch.weight[first + largest]) largest = used;
+          ++used;
+        }
+      }
+    }
+    batch.weight[first + largest] = 0.0;
+    double others = 0.0;
+    for (std::size_t n = 0; n < used; ++n) others += batch.weight[first + n];
+    batch.weight[first + largest] = 1.0 - others;
+    batch.used[g] = static_cast<int>(used);
+  }
+
+  double scale_;
+};
+
+}  // namespace
+}  // namespace dust::model::big_particle
+
+DUST_PLUGIN(registrar) { registrar.add<dust::model::big_particle::BigParticle>(); }

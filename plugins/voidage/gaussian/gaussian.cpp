@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gaussian.hpp"
+
+#include "dust/sdk/plugin.hpp"
+
+#include <array>
+
+namespace dust::model::gaussian {
+namespace {
+
+class Gaussian final : public sdk::VoidageRule {
+ public:
+  struct Parameters {
+    double width_over_diameter = 1.5;
+  };
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.number(&Parameters::width_over_diameter, "width_over_diameter", sdk::dimension::none,
+             "Standard deviation of the kernel over the grain's diameter; at least half a cell.")
+        .symbol("b")
+        .above(0)
+        .at_most(3)
+        .optional();
+    return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    sdk::ModelInfo info;
+    info.name = "gaussian";
+    info.version = "1.0";
+    info.summary = "A grain's volume is spread as a Gaussian, cut at three standard deviations.";
+    info.equation =
+        R"(w = \prod_d \frac{\mathrm{erf}(x_d^+ / \sqrt2 \sigma_d) - \mathrm{erf}(x_d^- / \sqrt2 \sigma_d)}{2\,\mathrm{erf}(3 / \sqrt2)},\quad \sigma_d = \max(b D, \Delta x_d / 2))";
+    info.source =
+        "kernel averaging: Anderson and Jackson, Ind. Eng. Chem. Fundam. 6 (1967) 527, "
+        "doi:10.1021/i160024a007";
+    return info;
+  }
+  explicit Gaussian(const Parameters& p) : width_(p.width_over_diameter) {}
+
+  [[nodiscard]] int capacity(const sdk::GridShape& grid, double radius) const override {
+    int cells = 1;
+    for (int d = 0; d < 3; ++d) {
+      const double sigma = deviation(width_, 2.0 * radius, grid.spacing[d]);
+      cells *= static_cast<int>(2.0 * k_reach * sigma / grid.spacing[d]) + 2;
+    }
+    return cells;
+  }
+  [[nodiscard]] double largest_diameter_over_spacing() const override { return 4.0; }
+  [[nodiscard]] sdk::Vec3 reach(const sdk::GridShape& grid, double radius) const override {
+    sdk::Vec3 r;
+    for (int d = 0; d < 3; ++d) {
+      r[d] = k_reach * deviation(width_, 2.0 * radius, grid.spacing[d]);
+    }
+    return r;
+  }
+
+  void spread(const sdk::GridShape& grid, const sdk::VoidageBatch& batch) const override {
+    thread_local std::array<Shares, 3> shares;
+    for (std::size_t g = 0; g < batch.count; ++g) {
+      const double place[3] = {batch.x[g], batch.y[g], batch.z[g]};
+      for (int d = 0; d < 3; ++d) {
+        shares[static_cast<std::size_t>(d)].set(
+            place[d], grid.origin[d], grid.spacing[d],
+            deviation(width_, 2.0 * batch.radius[g], grid.spacing[d]));
+      }
+      spread_one(batch, g, shares);
+    }
+  }
+
+ private:
+  /// The largest share is what the others leave, so that the sum is 1 to rounding.
+  static void spread_one(const sdk::VoidageBatch& batch, std::size_t g,
+                         const std::array<Shares, 3>& shares) {
+    const std::size_t first = g * static_cast<std::size_t>(batch.capacity);
+    std::size_t used = 0;
+    std::size_t largest = 0;
+    for (std::size_t k = 0; k < shares[2].weight.size(); ++k) {
+      for (std::size_t j = 0; j < shares[1].weight.size(); ++j) {
+        for (std::size_t i = 0; i < shares[0].weight.size(); ++i) {
+          const double weight = shares[0].weight[i] * shares[1].weight[j] * shares[2].weight[k];
+          if (weight <= 0.0) continue;
+          batch.cell_i[first + used] = shares[0].first + static_cast<int>(i);
+          batch.cell_j[first + used] = shares[1].first + static_cast<int>(j);
+          batch.cell_k[first + used] = shares[2].first + static_cast<int>(k);
+          batch.weight[first + used] = weight;
+          if (weight > batch.weight[first + largest]) largest = used;
+          ++used;
+        }
+      }
+    }
+    batch.weight[first + largest] = 0.0;
+    double others = 0.0;
+    for (std::size_t n = 0; n < used; ++n) others += batch.weight[first + n];
+    batch.weight[first + largest] = 1.0 - others;
+    batch.used[g] = static_cast<int>(used);
+  }
+
+  double width_;
+};
+
+}  // namespace
+}  // namespace dust::model::gaussian
+
+DUST_PLUGIN(registrar) { registrar.add<dust::model::gaussian::Gaussian>(); }

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace dust::model::gaussian {
+
+/// Standard deviations at which the kernel ends along each axis [-].
+inline constexpr double k_reach = 3.0;
+/// Least standard deviation in cells: below it the kernel is narrower than the grid can show.
+inline constexpr double k_least_cells = 0.5;
+
+/// Standard deviation [m] along one axis: `width` over the diameter, at least half a cell.
+inline double deviation(double width, double diameter, double spacing) {
+  return std::max(width * diameter, k_least_cells * spacing);
+}
+
+/// Shares of the cells along one axis of a truncated Gaussian; they sum to 1.
+struct Shares {
+  int first = 0;
+  std::vector<double> weight;
+
+  void set(double centre, double origin, double spacing, double sigma) {
+    const double end = k_reach * sigma;
+    first = static_cast<int>(std::floor((centre - end - origin) / spacing));
+    const int last = static_cast<int>(std::floor((centre + end - origin) / spacing));
+    const double scale = 1.0 / (std::numbers::sqrt2 * sigma);
+    const double whole = 2.0 * std::erf(k_reach / std::numbers::sqrt2);
+    weight.clear();
+    double below = -std::erf(k_reach / std::numbers::sqrt2);
+    for (int i = first; i <= last; ++i) {
+      const double edge = std::min(origin + (i + 1) * spacing - centre, end);
+      const double above = std::erf(edge * scale);
+      weight.push_back((above - below) / whole);
+      below = above;
+    }
+  }
+};
+
+}  // namespace dust::model::gaussian
