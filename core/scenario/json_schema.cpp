@@ -79,6 +79,11 @@ Json value_schema(const Parameter& p) {
     case ParameterType::texts:
       s = {{"type", "array"}, {"items", text_schema(p)}};
       break;
+    case ParameterType::vectors:
+      s = {{"type", "array"},
+           {"items",
+            {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", number_or_text(p)}}}};
+      break;
   }
   s["description"] = description(p);
   return s;
@@ -149,6 +154,13 @@ Json body_schema(const registry::Registry& registry) {
   motions.insert(motions.begin(), Choice{});
   for (const Choice& motion : motions) {
     Json base = block<PlacedBlock>();
+    add_parameters(base, BodyBlock::schema());
+    base["properties"]["remove"] = block<RemovalBlock>();
+    if (motion.name.empty()) {
+      base["properties"]["motions"] = {{"type", "array"},
+                                       {"items", {{"$ref", "#/definitions/motion"}}},
+                                       {"description", "Motions that act one after the other."}};
+    }
     if (!motion.name.empty()) {
       base["properties"]["motion"] = {{"const", motion.name}, {"description", motion.summary}};
       base["required"].push_back("motion");
@@ -197,7 +209,7 @@ std::string json_schema(const registry::Registry& registry) {
   interaction["properties"]["rolling"] = {{"$ref", "#/definitions/rolling"}};
   interaction["required"].push_back("contact");
   Json definitions = {{"side", domain["side"]}};
-  for (const char* kind : {"contact", "rolling", "boundary", "drag", "voidage"}) {
+  for (const char* kind : {"contact", "rolling", "boundary", "drag", "voidage", "motion"}) {
     definitions[kind] = model(registry, kind);
   }
 

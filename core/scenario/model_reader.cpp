@@ -5,6 +5,7 @@
 #include "scenario/suggest.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 namespace dust::scenario {
 namespace {
@@ -79,7 +80,15 @@ ScenarioNames ScenarioNames::of(const Node& root) {
     }
     return result;
   };
-  return {names("materials"), names("frames"), names("bodies"), names("emitters")};
+  std::vector<std::string> groups;
+  const Entry* bodies = root.find("bodies");
+  if (bodies != nullptr && bodies->value.is_map()) {
+    for (const Entry& entry : bodies->value.entries) {
+      const Entry* group = entry.value.find("group");
+      if (group != nullptr && group->value.is_text()) groups.push_back(group->value.text);
+    }
+  }
+  return {names("materials"), names("frames"), names("bodies"), names("emitters"), groups};
 }
 
 bool ModelReader::check_name(const Node& node, const std::string& path, sdk::Refers what,
@@ -102,6 +111,14 @@ bool ModelReader::check_name(const Node& node, const std::string& path, sdk::Ref
       break;
     case sdk::Refers::boundary:
       break;
+    case sdk::Refers::file:
+      return true;
+    case sdk::Refers::wall:
+      sides.all.insert(sides.all.end(), names_.bodies.all.begin(), names_.bodies.all.end());
+      sides.all.insert(sides.all.end(), names_.groups.begin(), names_.groups.end());
+      sides.disabled = names_.bodies.disabled;
+      thing = "wall, body or group";
+      break;
   }
   if (known->index(name) < 0) {
     diagnostics_.error(node.where, path + ": there is no " + thing + " '" + printable(name) + "'" +
@@ -114,6 +131,27 @@ bool ModelReader::check_name(const Node& node, const std::string& path, sdk::Ref
     return false;
   }
   return true;
+}
+
+void ModelReader::find_files(const MapReader& reader, const sdk::ParameterSchema& schema,
+                             std::vector<sdk::Value>& values) const {
+  namespace fs = std::filesystem;
+  for (std::size_t n = 0; n < schema.size(); ++n) {
+    const Entry* entry = reader.node().find(schema[n].name);
+    auto* text = std::get_if<std::string>(&values[n]);
+    if (schema[n].refers != sdk::Refers::file || entry == nullptr || text == nullptr) continue;
+    if (is_default(schema[n], values[n])) continue;
+    // A value of the command line is seen from the working directory.
+    const Mark& where = entry->value.where;
+    const fs::path folder = where.line > 0 ? fs::path(where.file).parent_path() : fs::path();
+    const fs::path file = fs::absolute(folder / *text).lexically_normal();
+    if (!fs::is_regular_file(file)) {
+      diagnostics_.error(where,
+                         reader.path_of(schema[n].name) + ": there is no file " + file.string());
+      continue;
+    }
+    *text = file.string();
+  }
 }
 
 bool ModelReader::check_references(const MapReader& reader, const sdk::ParameterSchema& schema,
@@ -169,6 +207,7 @@ ReadModel ModelReader::read(MapReader& reader, const std::string& key, const std
   }
   const std::size_t errors_before = diagnostics_.error_count();
   ModelChoice choice{kind, name.text, reader.values(*offer->parameters), reader.path(), name.where};
+  find_files(reader, *offer->parameters, choice.values);
   check_references(reader, *offer->parameters, choice.values, is_enabled);
   ReadModel result;
   result.written.push_back({key, {}, Node::make_text(name.text)});

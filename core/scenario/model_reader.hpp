@@ -23,6 +23,7 @@ struct Names {
 /// All names of a scenario that its parts may refer to.
 struct ScenarioNames {
   Names materials, frames, bodies, emitters;
+  std::vector<std::string> groups;  ///< of bodies, one entry per body that has one
   static ScenarioNames of(const Node& root);
 };
 
@@ -49,6 +50,9 @@ class ModelReader {
   /// Checks the names in `values`; false when one is unknown.
   bool check_references(const MapReader& reader, const sdk::ParameterSchema& schema,
                         const std::vector<sdk::Value>& values, bool is_enabled) const;
+  /// Gives parameters that name files their full paths; tells those that are not there.
+  void find_files(const MapReader& reader, const sdk::ParameterSchema& schema,
+                  std::vector<sdk::Value>& values) const;
   [[nodiscard]] const ScenarioNames& names() const { return names_; }
 
  private:

@@ -38,6 +38,8 @@ class ValueReader {
         return numbers(node);
       case ParameterType::texts:
         return texts(node);
+      case ParameterType::vectors:
+        return vectors(node);
     }
     return std::nullopt;
   }
@@ -249,6 +251,24 @@ class ValueReader {
     return values;
   }
 
+  std::optional<Value> vectors(const Node& node) {
+    if (!node.is_list()) {
+      return fail(node, "a list of vectors [[x, y, z], ...] is expected, not " + kind_text(node));
+    }
+    std::vector<sdk::Vec3> values;
+    bool is_good = true;
+    for (const Node& item : node.items) {
+      const auto value = vector(item);
+      is_good = is_good && value;
+      values.push_back(value ? std::get<sdk::Vec3>(*value) : sdk::Vec3{});
+    }
+    if (!is_good) return std::nullopt;
+    if (values.empty() && Value(values) != parameter_.default_value) {
+      return fail(node, "the list is empty");
+    }
+    return values;
+  }
+
   const Parameter& parameter_;
   const std::string& path_;
   Diagnostics& diagnostics_;
@@ -280,12 +300,17 @@ Node written_value(const Value& value) {
   if (const auto* v = std::get_if<std::int64_t>(&value)) return Node::make_text(std::to_string(*v));
   if (const auto* v = std::get_if<bool>(&value)) return Node::make_text(*v ? "true" : "false");
   if (const auto* v = std::get_if<std::string>(&value)) return text_node(*v);
-  if (const auto* v = std::get_if<sdk::Vec3>(&value)) {
+  const auto vector_node = [](const sdk::Vec3& v) {
     Node list = Node::make_list();
-    list.items = {number_node(v->x), number_node(v->y), number_node(v->z)};
+    list.items = {number_node(v.x), number_node(v.y), number_node(v.z)};
+    return list;
+  };
+  if (const auto* v = std::get_if<sdk::Vec3>(&value)) return vector_node(*v);
+  Node list = Node::make_list();
+  if (const auto* v = std::get_if<std::vector<sdk::Vec3>>(&value)) {
+    for (const sdk::Vec3& x : *v) list.items.push_back(vector_node(x));
     return list;
   }
-  Node list = Node::make_list();
   if (const auto* v = std::get_if<std::vector<double>>(&value)) {
     for (const double x : *v) list.items.push_back(number_node(x));
     return list;
@@ -345,6 +370,8 @@ std::string type_text(ParameterType type) {
       return "list of numbers";
     case ParameterType::texts:
       return "list of texts";
+    case ParameterType::vectors:
+      return "list of vectors [[x, y, z], ...]";
   }
   return {};
 }

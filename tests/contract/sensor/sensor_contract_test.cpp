@@ -66,7 +66,15 @@ const std::vector<Subject>& subjects() {
         {"along", Vec3{-1, 0, 0}},
         {"steady_after", 0.03},
         {"coarser_than", 100e-6},
-        {"finer_than", 500e-6}}}};
+        {"finer_than", 500e-6}}},
+      {"wall_load",
+       {{"walls", std::vector<std::string>{"belt"}}},
+       {{"walls", std::vector<std::string>{"chute"}},
+        {"about", Vec3{0.1, 0, 0.2}},
+        {"averaging_after", 0.03},
+        {"least_energy", 1e-9},
+        {"largest_energy", 1e-8},
+        {"bins", std::int64_t{3}}}}};
   return list;
 }
 
@@ -103,6 +111,7 @@ class Scene {
       add(n, since, 0.7 + 0.2 * random_.uniform(static_cast<std::uint64_t>(n), 1));
     }
     for (int n = 0; n < 60; ++n) ride(n, time);
+    load_walls(time);
     for (int k = 0; k < 35; ++k) {
       for (int j = 0; j < 5; ++j) {
         for (int i = 0; i < 33; ++i) {
@@ -114,6 +123,26 @@ class Scene {
               (-std::exp(-a * a) - 0.6 * std::exp(-b * b) - 0.9 * std::exp(-c * c)));
         }
       }
+    }
+  }
+
+  /// A belt that carries and is hit, and a plate of the group "chute".
+  void load_walls(double time) {
+    const double swing = std::sin(300 * time);
+    world.walls = {
+        {"belt",
+         "",
+         {0.01, 0, -0.1 - 0.02 * swing},
+         {0, 1e-3, 0},
+         0.02 + 0.004 * swing,
+         mass_scale * (0.01 + 0.001 * swing),
+         40},
+        {"plate", "chute", {0.2, 0, -0.3 * swing}, {0, 2e-3, 1e-4}, 0, mass_scale * 2e-3, 7}};
+    world.impacts.clear();
+    for (int n = 0; n < 20; ++n) {
+      const double u = random_.uniform(static_cast<std::uint64_t>(n), 3);
+      world.impacts.push_back(
+          {n % 2, std::pow(10.0, -11 + 4 * u), 1e-10 * u, n % 3 == 0 ? 0.05 : 1.0});
     }
   }
 

@@ -17,9 +17,9 @@ namespace dust::sdk {
 
 /// A parameter's value in SI, or nothing where it was neither given nor has a default.
 using Value = std::variant<std::monostate, double, std::int64_t, bool, std::string, Vec3,
-                           std::vector<double>, std::vector<std::string>>;
+                           std::vector<double>, std::vector<std::string>, std::vector<Vec3>>;
 
-enum class ParameterType { number, integer, boolean, text, vector, numbers, texts };
+enum class ParameterType { number, integer, boolean, text, vector, numbers, texts, vectors };
 
 /// The values a number may have. Vectors and lists: each component.
 struct Range {
@@ -33,8 +33,10 @@ struct Range {
   }
 };
 
-/// What a `text` names, so that the reader can check it against the scenario.
-enum class Refers { nothing, material, body, emitter, boundary };
+/// What a `text` names, so that the reader can check it against the scenario. A `file` is seen from
+/// the folder of the scenario file that names it; the model gets its full path. A `wall` is a body,
+/// a group of bodies or a side of the domain.
+enum class Refers { nothing, material, body, emitter, boundary, file, wall };
 
 /// One declared parameter: the single place where its name, unit, range, default and meaning stand.
 struct Parameter {
@@ -87,6 +89,11 @@ class SchemaOf {
   }
   SchemaOf& texts(std::vector<std::string> P::*member, std::string name, std::string sentence) {
     return add(member, std::move(name), ParameterType::texts, {}, std::move(sentence));
+  }
+
+  SchemaOf& vectors(std::vector<Vec3> P::*member, std::string name, Dimension d,
+                    std::string sentence) {
+    return add(member, std::move(name), ParameterType::vectors, d, std::move(sentence));
   }
 
   SchemaOf& symbol(std::string s) { return last().symbol = std::move(s), *this; }
