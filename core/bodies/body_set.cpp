@@ -8,48 +8,142 @@ namespace dust::bodies {
 
 using sdk::Vec3;
 
+namespace {
+
+/// Points at which motions are asked for surface velocities at once.
+constexpr std::size_t k_block = 128;
+
+}  // namespace
+
+bool Body::displaces() const {
+  for (const auto& motion : motions) {
+    if (!motion->moves_body()) continue;
+    const sdk::RigidPose pose = motion->pose(0.0);
+    const bool only_turns = motion->largest_angular_velocity() > 0.0 &&
+                            motion->largest_speed() == 0.0 && motions.size() == 1;
+    if (!(only_turns && shape->is_unchanged_by_turning(pose.pivot, pose.axis))) return true;
+  }
+  return false;
+}
+
+Placement Body::placement(double time) const {
+  Placement at;
+  for (const auto& motion : motions) {
+    if (motion->moves_body()) at = Placement::of(motion->pose(time)).after(at);
+  }
+  return Placement::turned(frame_origin, frame_axis, frame_angle).after(at);
+}
+
 SurfacePoint Body::nearest(Vec3 point) const {
-  if (frame_angle == 0.0) return shape->nearest(point);
-  const Vec3 local = frame_origin + rotate(point - frame_origin, frame_axis, -frame_angle);
-  SurfacePoint s = shape->nearest(local);
-  s.normal = rotate(s.normal, frame_axis, frame_angle);
+  return nearest(point, Placement::turned(frame_origin, frame_axis, frame_angle));
+}
+
+SurfacePoint Body::nearest(Vec3 point, const Placement& at) const {
+  SurfacePoint s = shape->nearest(at.to_body(point));
+  s.normal = at.turn(s.normal);
   return s;
 }
 
-Vec3 Body::lateral_axis() const { return rotate(shape->lateral_axis(), frame_axis, frame_angle); }
+SurfacePoint Body::contact(int part, Vec3 point, double reach, const Placement& at) const {
+  SurfacePoint s = shape->contact(part, at.to_body(point), reach);
+  s.normal = at.turn(s.normal);
+  return s;
+}
+
+void Body::surface_velocities(const sdk::SurfaceBatch& all) const {
+  std::fill_n(all.velocity_x, all.count, 0.0);
+  std::fill_n(all.velocity_y, all.count, 0.0);
+  std::fill_n(all.velocity_z, all.count, 0.0);
+  if (motions.empty()) return;
+  const Placement at = placement(all.time);
+  const Vec3 axis = at.turn(shape->lateral_axis());
+  double run[3][k_block];
+  for (std::size_t first = 0; first < all.count; first += k_block) {
+    sdk::SurfaceBatch b{.count = std::min(k_block, all.count - first),
+                        .time = all.time,
+                        .axis = axis,
+                        .x = all.x + first,
+                        .y = all.y + first,
+                        .z = all.z + first,
+                        .normal_x = all.normal_x + first,
+                        .normal_y = all.normal_y + first,
+                        .normal_z = all.normal_z + first,
+                        .velocity_x = run[0],
+                        .velocity_y = run[1],
+                        .velocity_z = run[2]};
+    for (const auto& motion : motions) {
+      if (motion->moves_body()) continue;
+      motion->surface_velocity(b);
+      for (std::size_t q = 0; q < b.count; ++q) {
+        all.velocity_x[first + q] += run[0][q];
+        all.velocity_y[first + q] += run[1][q];
+        all.velocity_z[first + q] += run[2][q];
+      }
+    }
+    for (std::size_t q = first; q < first + b.count; ++q) {
+      const Vec3 v = at.velocity_at({all.x[q], all.y[q], all.z[q]});
+      all.velocity_x[q] += v.x;
+      all.velocity_y[q] += v.y;
+      all.velocity_z[q] += v.z;
+    }
+  }
+}
 
 Vec3 Body::surface_velocity(Vec3 point, Vec3 normal, double time) const {
   Vec3 v;
-  if (!motion) return v;
-  sdk::SurfaceBatch batch{.count = 1,
-                          .time = time,
-                          .axis = lateral_axis(),
-                          .x = &point.x,
-                          .y = &point.y,
-                          .z = &point.z,
-                          .normal_x = &normal.x,
-                          .normal_y = &normal.y,
-                          .normal_z = &normal.z,
-                          .velocity_x = &v.x,
-                          .velocity_y = &v.y,
-                          .velocity_z = &v.z};
-  motion->surface_velocity(batch);
+  surface_velocities({.count = 1,
+                      .time = time,
+                      .axis = {},
+                      .x = &point.x,
+                      .y = &point.y,
+                      .z = &point.z,
+                      .normal_x = &normal.x,
+                      .normal_y = &normal.y,
+                      .normal_z = &normal.z,
+                      .velocity_x = &v.x,
+                      .velocity_y = &v.y,
+                      .velocity_z = &v.z});
   return v;
 }
 
+double Body::largest_speed() const {
+  double speed = 0.0;
+  for (std::size_t n = 0; n < motions.size(); ++n) {
+    speed += motions[n]->largest_speed();
+    if (n < arms.size()) speed += arms[n] * motions[n]->largest_angular_velocity();
+  }
+  return speed;
+}
+
+double Body::largest_displacing_speed() const {
+  if (!displaces()) return 0.0;
+  double speed = 0.0;
+  for (std::size_t n = 0; n < motions.size(); ++n) {
+    if (!motions[n]->moves_body()) continue;
+    speed += motions[n]->largest_speed();
+    if (n < arms.size()) speed += arms[n] * motions[n]->largest_angular_velocity();
+  }
+  return speed;
+}
+
 Triangles Body::triangles(Vec3 min, Vec3 max, double edge) const {
+  return triangles(min, max, edge, Placement::turned(frame_origin, frame_axis, frame_angle));
+}
+
+Triangles Body::triangles(Vec3 min, Vec3 max, double edge, const Placement& at) const {
   // The shape clips in its own frame: give it a box that holds the domain in any orientation.
   Triangles t = shape->triangles(min, max, edge);
-  for (Vec3& p : t) p = frame_origin + rotate(p - frame_origin, frame_axis, frame_angle);
+  for (Vec3& p : t) p = at.to_domain(p);
   return t;
 }
 
 Body make_body(const scenario::Setup& setup, const scenario::BodySpec& spec,
-               std::unique_ptr<sdk::Motion> motion) {
+               std::vector<std::unique_ptr<sdk::Motion>> motions) {
   Body body;
   body.name = spec.name;
+  body.group = spec.group;
   body.material = spec.material;
-  body.motion = std::move(motion);
+  body.motions = std::move(motions);
   const auto& catalogue = shape_catalogue();
   const auto kind = std::find_if(catalogue.begin(), catalogue.end(),
                                  [&](const ShapeKind& k) { return k.name == spec.shape.name; });
@@ -61,7 +155,29 @@ Body make_body(const scenario::Setup& setup, const scenario::BodySpec& spec,
     body.frame_axis = frame.axis / norm(frame.axis);
     body.frame_angle = frame.angle;
   }
+  // Earlier motions carry the body away from later axes: all of it counts, as far as the domain.
+  const Vec3 size = setup.domain.max - setup.domain.min;
+  for (const auto& motion : body.motions) {
+    double arm = 0.0;
+    if (motion->largest_angular_velocity() > 0.0) {
+      const sdk::RigidPose pose = motion->pose(0.0);
+      const double edge = 0.05 * norm(size);
+      for (const Vec3& p : body.shape->triangles(setup.domain.min, setup.domain.max, edge)) {
+        const Vec3 off = p - pose.pivot;
+        arm = std::max(arm, norm(off - dot(off, pose.axis) * pose.axis));
+      }
+      if (body.motions.size() > 1) arm += norm(size);
+    }
+    body.arms.push_back(arm);
+  }
   return body;
+}
+
+Body make_body(const scenario::Setup& setup, const scenario::BodySpec& spec,
+               std::unique_ptr<sdk::Motion> motion) {
+  std::vector<std::unique_ptr<sdk::Motion>> motions;
+  if (motion) motions.push_back(std::move(motion));
+  return make_body(setup, spec, std::move(motions));
 }
 
 }  // namespace dust::bodies

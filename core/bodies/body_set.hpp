@@ -1,38 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "bodies/placement.hpp"
 #include "bodies/shape.hpp"
 #include "dust/sdk/motion.hpp"
 #include "scenario/setup.hpp"
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace dust::bodies {
 
-/// A solid in the domain: shape, place, material and the velocity of its surface.
+/// A solid in the domain: shape, place, material and motion.
 struct Body {
   std::string name;
+  std::string group;
   int material = 0;
   std::unique_ptr<Shape> shape;
-  std::unique_ptr<sdk::Motion> motion;  ///< null = at rest
+  /// Act one after the other on the body as the scenario puts it; none = at rest.
+  std::vector<std::unique_ptr<sdk::Motion>> motions;
   sdk::Vec3 frame_origin;
   sdk::Vec3 frame_axis{0, 1, 0};
   double frame_angle = 0.0;
+  /// [m] Farthest point of the surface from the axis of each motion that turns the body.
+  std::vector<double> arms;
+  /// [s] When it was taken away.
+  double removed_at = std::numeric_limits<double>::infinity();
 
-  /// Nearest surface point in the domain's frame.
+  [[nodiscard]] bool is_removed() const {
+    return removed_at < std::numeric_limits<double>::infinity();
+  }
+  /// Whether the surface goes to other places with time. A drum that turns about its own axis does
+  /// not: only its surface velocity counts.
+  [[nodiscard]] bool displaces() const;
+  [[nodiscard]] Placement placement(double time) const;
+
+  /// Nearest surface point in the domain's frame, as the scenario puts the body or at a placement.
   [[nodiscard]] SurfacePoint nearest(sdk::Vec3 point) const;
-  [[nodiscard]] sdk::Vec3 lateral_axis() const;
-  /// Velocity [m/s] of the surface at one point (for set-up and tests; loops use the motion's
-  /// batch).
+  [[nodiscard]] SurfacePoint nearest(sdk::Vec3 point, const Placement& at) const;
+  /// The same for a part, see Shape::contact and Shape::is_within.
+  [[nodiscard]] SurfacePoint contact(int part, sdk::Vec3 point, double reach,
+                                     const Placement& at) const;
+  [[nodiscard]] bool is_within(int part, sdk::Vec3 point, double reach, const Placement& at) const {
+    return shape->is_within(part, at.to_body(point), reach);
+  }
+  /// Velocities [m/s] of surface points at batch.time; batch.axis is not read.
+  void surface_velocities(const sdk::SurfaceBatch& batch) const;
+  /// The same at one point (for set-up and tests).
   [[nodiscard]] sdk::Vec3 surface_velocity(sdk::Vec3 point, sdk::Vec3 normal, double time) const;
+  /// Upper bound [m/s] of the speed of any point of the surface at any time.
+  [[nodiscard]] double largest_speed() const;
+  /// Upper bound [m/s] of the speed at which the body's surface shifts to other places; 0 for
+  /// bodies that stand, whatever their surface does.
+  [[nodiscard]] double largest_displacing_speed() const;
+  /// The surface where the scenario puts the body, or at a placement.
   [[nodiscard]] Triangles triangles(sdk::Vec3 min, sdk::Vec3 max, double edge) const;
+  [[nodiscard]] Triangles triangles(sdk::Vec3 min, sdk::Vec3 max, double edge,
+                                    const Placement& at) const;
 };
 
 using BodySet = std::vector<Body>;
 
-/// Makes the body of a specification; the caller supplies the motion.
+/// Makes the body of a specification; the caller supplies the motions.
+Body make_body(const scenario::Setup& setup, const scenario::BodySpec& spec,
+               std::vector<std::unique_ptr<sdk::Motion>> motions);
 Body make_body(const scenario::Setup& setup, const scenario::BodySpec& spec,
                std::unique_ptr<sdk::Motion> motion);
 

@@ -22,16 +22,40 @@ struct SurfacePoint {
 /// for the written surfaces. Triangles, three corners each.
 using Triangles = std::vector<sdk::Vec3>;
 
-/// A solid with an exact surface, in its own frame. Convex, so that a sphere touches it once.
+/// A solid with an exact surface, in its own frame. A sphere touches each of its parts once, where
+/// it is nearest. Most shapes are one part: convex ones, and round hollow ones (tube, funnel,
+/// orifice) for spheres smaller than the hole; those with corners towards the grains have several.
 class Shape {
  public:
   virtual ~Shape() = default;
   /// Nearest surface point; exact, also at edges and corners.
   [[nodiscard]] virtual SurfacePoint nearest(sdk::Vec3 point) const = 0;
+  [[nodiscard]] virtual int parts() const { return 1; }
+  /// Where a sphere round `point` touches a part: as `nearest`, or infinitely far where it cannot
+  /// touch this part (another one is nearer at an edge they share) or has no point nearer than
+  /// `reach` [m].
+  [[nodiscard]] virtual SurfacePoint contact(int /*part*/, sdk::Vec3 point,
+                                             double /*reach*/) const {
+    return nearest(point);
+  }
+  /// Whether the part is nearer than `reach` [m], so that a sphere may come to touch it: for lists.
+  [[nodiscard]] virtual bool is_within(int /*part*/, sdk::Vec3 point, double reach) const {
+    return nearest(point).distance < reach;
+  }
+  /// Whether it has an inside, so that the air can be cut by it.
+  [[nodiscard]] virtual bool is_solid() const { return true; }
+  /// What to tell of it in the log, and what the user should look at.
+  [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
+  [[nodiscard]] virtual std::vector<std::string> warnings() const { return {}; }
+  /// [m] Shortest edge of a mesh, 0 for exact surfaces.
+  [[nodiscard]] virtual double shortest_edge() const { return 0.0; }
   /// The surface as triangles inside the box [min, max], curved parts with at most `edge` [m].
   [[nodiscard]] virtual Triangles triangles(sdk::Vec3 min, sdk::Vec3 max, double edge) const = 0;
   /// Lateral axis (unit): the pulley's axis of a conveyor, the width of a plate.
   [[nodiscard]] virtual sdk::Vec3 lateral_axis() const = 0;
+  /// Whether the shape stays where it is when it turns about the line through `point` along the
+  /// unit vector `axis`: a drum about its own axis.
+  [[nodiscard]] virtual bool is_unchanged_by_turning(sdk::Vec3, sdk::Vec3) const { return false; }
 };
 
 /// A kind of shape: how a scenario names it and what it needs.
@@ -42,7 +66,7 @@ struct ShapeKind {
   std::function<std::unique_ptr<Shape>(std::span<const sdk::Value>)> make;
 };
 
-/// All shapes the core knows: conveyor, plate.
+/// All shapes the core knows.
 const std::vector<ShapeKind>& shape_catalogue();
 
 }  // namespace dust::bodies

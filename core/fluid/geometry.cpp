@@ -439,19 +439,19 @@ void WallPoints::evaluate(const bodies::BodySet& bodies, double time) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const std::size_t first = body_begin[b];
     const std::size_t count = body_begin[b + 1] - first;
-    if (count == 0 || !bodies[b].motion) continue;
-    bodies[b].motion->surface_velocity({.count = count,
-                                        .time = time,
-                                        .axis = bodies[b].lateral_axis(),
-                                        .x = &x[first],
-                                        .y = &y[first],
-                                        .z = &z[first],
-                                        .normal_x = &normal_x[first],
-                                        .normal_y = &normal_y[first],
-                                        .normal_z = &normal_z[first],
-                                        .velocity_x = &velocity[0][first],
-                                        .velocity_y = &velocity[1][first],
-                                        .velocity_z = &velocity[2][first]});
+    if (count == 0 || bodies[b].motions.empty()) continue;
+    bodies[b].surface_velocities({.count = count,
+                                  .time = time,
+                                  .axis = {},
+                                  .x = &x[first],
+                                  .y = &y[first],
+                                  .z = &z[first],
+                                  .normal_x = &normal_x[first],
+                                  .normal_y = &normal_y[first],
+                                  .normal_z = &normal_z[first],
+                                  .velocity_x = &velocity[0][first],
+                                  .velocity_y = &velocity[1][first],
+                                  .velocity_z = &velocity[2][first]});
   }
 }
 

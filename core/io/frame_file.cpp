@@ -90,6 +90,38 @@ void write_fluid(hid_t file, const sdk::FluidColumns& f, std::span<const float> 
   }
 }
 
+/// The surfaces of the bodies that are there, where they are at `time`.
+WallLayout write_wall_group(hid_t file, const bodies::BodySet& bodies, sdk::Vec3 min, sdk::Vec3 max,
+                            double time) {
+  std::vector<float> points;
+  std::vector<std::int32_t> triangles;
+  std::vector<std::int32_t> body_of;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b].is_removed()) continue;
+    std::map<std::array<float, 3>, std::int32_t> known;
+    const double edge = k_edge_share * norm(max - min);
+    const bodies::Placement at = bodies[b].placement(bodies[b].displaces() ? time : 0.0);
+    for (const sdk::Vec3& corner : bodies[b].triangles(min, max, edge, at)) {
+      const std::array<float, 3> p = {static_cast<float>(corner.x), static_cast<float>(corner.y),
+                                      static_cast<float>(corner.z)};
+      const auto next = static_cast<std::int32_t>(points.size() / 3);
+      const auto [place, is_new] = known.emplace(p, next);
+      if (is_new) points.insert(points.end(), p.begin(), p.end());
+      triangles.push_back(place->second);
+    }
+    body_of.resize(triangles.size() / 3, static_cast<std::int32_t>(b));
+  }
+  Handle group = create_group(file, "walls");
+  write_array(group.get(), "points", H5T_NATIVE_FLOAT, points.data(), {points.size() / 3, 3},
+              Storage::plain, {"m", "corners of the triangles"});
+  write_array(group.get(), "triangles", H5T_NATIVE_INT32, triangles.data(), {body_of.size(), 3},
+              Storage::plain, {"1", "three indices into points"});
+  write_array(group.get(), "body", H5T_NATIVE_INT32, body_of.data(), {body_of.size()},
+              Storage::plain, {"1", "index into the attribute names of /walls"});
+  group.close("cannot write the walls");
+  return {static_cast<std::int64_t>(points.size() / 3), static_cast<std::int64_t>(body_of.size())};
+}
+
 }  // namespace
 
 const std::vector<FieldInfo>& particle_fields() {
@@ -125,7 +157,7 @@ std::string frame_path(std::int64_t number) {
   return std::string(k_frame_folder) + "/" + six_digits(number) + ".h5";
 }
 
-void write_frame(const fs::path& folder, const Frame& frame) {
+FrameEntry write_frame(const fs::path& folder, const Frame& frame) {
   const fs::path file = folder / frame_path(frame.number);
   Handle out = create_file(temporary_name(file));
   write_attribute(out.get(), "format", std::int64_t{1});
@@ -133,15 +165,29 @@ void write_frame(const fs::path& folder, const Frame& frame) {
   if (!layout_of(frame.world.fluid).is_empty()) {
     write_fluid(out.get(), frame.world.fluid, frame.momentum_exchange, frame.time);
   }
+  FrameEntry entry{frame.number, frame.time,
+                   static_cast<std::int64_t>(frame.world.grains.id.size())};
+  if (frame.bodies != nullptr) {
+    entry.has_walls = true;
+    entry.walls = write_wall_group(out.get(), *frame.bodies, frame.world.domain_min,
+                                   frame.world.domain_max, frame.time);
+  }
   out.close("cannot write " + file.string());
   move_into_place(file, false);
+  return entry;
 }
 
 FrameEntry read_frame_entry(const fs::path& folder, std::int64_t number) {
   const Handle in = open_file(folder / frame_path(number));
   const Handle group = open_group(in.get(), "particles");
-  return {number, read_attribute(group.get(), "time").at(0),
-          static_cast<std::int64_t>(extents_of(group.get(), "id").at(0))};
+  FrameEntry entry{number, read_attribute(group.get(), "time").at(0),
+                   static_cast<std::int64_t>(extents_of(group.get(), "id").at(0))};
+  entry.has_walls = H5Lexists(in.get(), "walls", H5P_DEFAULT) > 0;
+  if (entry.has_walls) {
+    entry.walls.points = static_cast<std::int64_t>(extents_of(in.get(), "walls/points").at(0));
+    entry.walls.triangles = static_cast<std::int64_t>(extents_of(in.get(), "walls/body").at(0));
+  }
+  return entry;
 }
 
 FluidLayout layout_of(const sdk::FluidColumns& f) {
@@ -194,35 +240,12 @@ FluidLayout read_fluid_layout(const fs::path& folder) {
 
 WallLayout write_walls(const fs::path& folder, const bodies::BodySet& bodies, sdk::Vec3 min,
                        sdk::Vec3 max) {
-  std::vector<float> points;
-  std::vector<std::int32_t> triangles;
-  std::vector<std::int32_t> body_of;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    std::map<std::array<float, 3>, std::int32_t> known;
-    const double edge = k_edge_share * norm(max - min);
-    for (const sdk::Vec3& corner : bodies[b].triangles(min, max, edge)) {
-      const std::array<float, 3> p = {static_cast<float>(corner.x), static_cast<float>(corner.y),
-                                      static_cast<float>(corner.z)};
-      const auto next = static_cast<std::int32_t>(points.size() / 3);
-      const auto [place, is_new] = known.emplace(p, next);
-      if (is_new) points.insert(points.end(), p.begin(), p.end());
-      triangles.push_back(place->second);
-    }
-    body_of.resize(triangles.size() / 3, static_cast<std::int32_t>(b));
-  }
   const fs::path file = folder / k_walls_path;
   Handle out = create_file(temporary_name(file));
-  Handle group = create_group(out.get(), "walls");
-  write_array(group.get(), "points", H5T_NATIVE_FLOAT, points.data(), {points.size() / 3, 3},
-              Storage::plain, {"m", "corners of the triangles"});
-  write_array(group.get(), "triangles", H5T_NATIVE_INT32, triangles.data(), {body_of.size(), 3},
-              Storage::plain, {"1", "three indices into points"});
-  write_array(group.get(), "body", H5T_NATIVE_INT32, body_of.data(), {body_of.size()},
-              Storage::plain, {"1", "index into the attribute names of /walls"});
-  group.close("cannot write " + file.string());
+  const WallLayout layout = write_wall_group(out.get(), bodies, min, max, 0.0);
   out.close("cannot write " + file.string());
   move_into_place(file, false);
-  return {static_cast<std::int64_t>(points.size() / 3), static_cast<std::int64_t>(body_of.size())};
+  return layout;
 }
 
 }  // namespace dust::io

@@ -29,9 +29,9 @@ std::string six_digits(std::int64_t number);
 inline constexpr const char* k_walls_path = "frames/walls.h5";
 inline constexpr const char* k_open_fraction_path = "frames/open_fraction.h5";
 
-/// Writes one frame to its own file, complete or not at all: `/particles` and, with fluid,
-/// `/fluid`.
-void write_frame(const std::filesystem::path& folder, const Frame& frame);
+/// Writes one frame to its own file, complete or not at all: `/particles`, with fluid `/fluid`, and
+/// `/walls` if they change.
+FrameEntry write_frame(const std::filesystem::path& folder, const Frame& frame);
 /// What is known of a frame from its file; throws base::RunError when it cannot be read.
 FrameEntry read_frame_entry(const std::filesystem::path& folder, std::int64_t number);
 
@@ -42,8 +42,7 @@ void write_layout(std::int64_t group, const FluidLayout& layout);
 FluidLayout layout_of(const sdk::FluidColumns& fluid);
 FluidLayout read_fluid_layout(const std::filesystem::path& folder);
 
-/// The bodies' surfaces inside the domain, welded at equal corners; they do not change during a
-/// run.
+/// The bodies' surfaces inside the domain as the scenario puts them, welded at equal corners.
 WallLayout write_walls(const std::filesystem::path& folder, const bodies::BodySet& bodies,
                        sdk::Vec3 min, sdk::Vec3 max);
 

@@ -83,7 +83,8 @@ struct ResultsFile::Impl {
       if (!fluid.is_empty()) {
         link(out.get(), "fluid/" + number, frame_path(frame.number), "/fluid");
       }
-      link(out.get(), "walls/" + number, k_walls_path, "/walls");
+      link(out.get(), "walls/" + number,
+           frame.has_walls ? frame_path(frame.number) : std::string(k_walls_path), "/walls");
     }
     out.close("cannot write " + file.string());
     move_into_place(file, false);
@@ -128,9 +129,7 @@ void ResultsFile::append(const Frame& frame) {
     write_open_fraction(impl_->folder, frame.world.fluid);
     impl_->fluid = layout;
   }
-  write_frame(impl_->folder, frame);
-  impl_->frames.push_back(
-      {frame.number, frame.time, static_cast<std::int64_t>(frame.world.grains.id.size())});
+  impl_->frames.push_back(write_frame(impl_->folder, frame));
   impl_->write_index();
 }
 

@@ -22,6 +22,8 @@ struct Frame {
   double time = 0.0;
   sdk::WorldView world;
   std::span<const float> momentum_exchange;  ///< [N/m3] 3 per cell; empty without fluid
+  /// Bodies that are not always where they were, to be written with the frame; null: they are.
+  const bodies::BodySet* bodies = nullptr;
 };
 
 /// results.h5 and the three XDMF files. Every frame is complete on disk when append() returns: the
@@ -40,6 +42,8 @@ struct Frame {
 ///                        pressure, void_fraction (nz, ny, nx) f32
 ///   /walls               attribute names, of the bodies
 ///   /walls/<frame>       points (m, 3) f32, triangles (t, 3) i32, body (t) i32
+///
+/// Walls that move or go are written with each frame, others once.
 ///
 /// results.h5 holds links into the folder `frames` beside it (one file per frame, one for the
 /// walls, one for the open fraction): copy or move both together.

@@ -131,16 +131,18 @@ std::string fluid_xdmf(const std::vector<FrameEntry>& frames, const FluidLayout&
 std::string walls_xdmf(const std::vector<FrameEntry>& frames, const WallLayout& layout,
                        sdk::Vec3 corner) {
   const auto empty = [&](double time) { return empty_grid("walls", "Triangle", {}, corner, time); };
-  const std::string group = std::string(k_walls_path) + ":/walls/";
-  const std::string n = number(layout.triangles);
   return document("walls", frames, empty(0.0), [&](const FrameEntry& frame) {
-    if (layout.triangles == 0) return empty(frame.time);
+    const WallLayout& walls = frame.has_walls ? frame.walls : layout;
+    if (walls.triangles == 0) return empty(frame.time);
+    const std::string group =
+        (frame.has_walls ? frame_path(frame.number) : std::string(k_walls_path)) + ":/walls/";
+    const std::string n = number(walls.triangles);
     const FieldInfo body = {"body", 1, "Int", 4, "1", ""};
     return grid_start("walls", frame.time) +
            "<Topology TopologyType=\"Triangle\" NumberOfElements=\"" + n + "\">" +
            data_item(n + " 3", "Int", 4, "HDF", group + "triangles") +
            "</Topology>\n<Geometry GeometryType=\"XYZ\">" +
-           data_item(number(layout.points) + " 3", "Float", 4, "HDF", group + "points") +
+           data_item(number(walls.points) + " 3", "Float", 4, "HDF", group + "points") +
            "</Geometry>\n" +
            attribute(body, "Cell", data_item(n, "Int", 4, "HDF", group + "body")) + "</Grid>\n";
   });

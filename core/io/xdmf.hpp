@@ -9,11 +9,18 @@
 
 namespace dust::io {
 
+struct WallLayout {
+  std::int64_t points = 0;
+  std::int64_t triangles = 0;
+};
+
 /// What the XDMF files need to know of a frame on disk.
 struct FrameEntry {
   std::int64_t number = 0;
   double time = 0.0;
   std::int64_t grains = 0;
+  bool has_walls = false;  ///< of its own
+  WallLayout walls;
 };
 
 /// Extents of the fluid fields; no cells without fluid.
@@ -24,11 +31,6 @@ struct FluidLayout {
   double density = 0.0;
   double viscosity = 0.0;
   [[nodiscard]] bool is_empty() const { return count[0] * count[1] * count[2] == 0; }
-};
-
-struct WallLayout {
-  std::int64_t points = 0;
-  std::int64_t triangles = 0;
 };
 
 /// The text of the three XDMF files (version 2) for ParaView's "XDMF Reader" (Xdmf2 inside ParaView

@@ -44,14 +44,14 @@ class Viewer {
     const int groups = static_cast<int>(stride / 4);
     BatchColumns& columns = thread_columns();
     const std::size_t found = contact::find_touching(rows, dem_.images, view, 0, a_.size(),
-                                                     law.contact->range(), touching_.data());
+                                                     law.range, touching_.data());
     for (std::size_t first = 0; first < found; first += k_batch) {
       const std::size_t count = std::min(k_batch, found - first);
       const std::int32_t* contacts = touching_.data() + first;
       contact::load_pairs(rows, dem_.images, view, contacts, count, found - first - count, columns);
       contact::load_history(view, contacts, count, groups, columns);
       contact::derive_pair_columns(columns, count);
-      law.contact->evaluate(columns.view(count, time_step, 0));
+      evaluate_laws(law, columns, count, time_step);
       for (std::size_t q = 0; q < count; ++q) {
         const std::int32_t a = a_[static_cast<std::size_t>(contacts[q])];
         if (!takes(a)) continue;
@@ -82,9 +82,9 @@ class Viewer {
     const auto law_number =
         dem_.law_of(dem_.store.material[static_cast<std::size_t>(row)], s.material);
     const PairLaws& law = dem_.laws[static_cast<std::size_t>(law_number)];
-    const bodies::SurfacePoint near = s.nearest({p[0], p[1], p[2]});
+    const bodies::SurfacePoint near = s.contact({p[0], p[1], p[2]}, p[3] + law.range);
     const double overlap = p[3] - near.distance;
-    if (!(overlap > -law.contact->range())) return;
+    if (!(overlap > -law.range)) return;
     BatchColumns& columns = thread_columns();
     const double lever = p[3] - 0.5 * overlap;
     const sdk::Vec3 n = near.normal;
@@ -113,7 +113,7 @@ class Viewer {
         columns.column(B::first_history + static_cast<int>(h))[q] = history[h];
       }
     }
-    law.contact->evaluate(columns.view(1, time_step, 0));
+    evaluate_laws(law, columns, 1, time_step);
     ContactRecord r;
     r.row_i = row;
     r.row_j = -1 - number;

@@ -55,6 +55,7 @@ void evaluate_laws(const PairLaws& law, BatchColumns& columns, std::size_t count
 
 void Dem::Impl::contact(double now) {
   time = now;
+  for (Surface& s : surfaces) s.move_to(now);
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     Chunk& chunk = chunks[c];
     for (const std::int32_t row : chunk.awake.rows) {
@@ -114,6 +115,7 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk) {
   const int groups = static_cast<int>(history_stride / 4);
   std::int32_t contacts[k_batch];
   std::int32_t local[k_batch];
+  bool is_new[k_batch];
   const double* point[3];
   const double* normal[3];
   double* velocity[3];
@@ -145,6 +147,7 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk) {
       contact::load_history(pairs, contacts, count, groups, columns);
       evaluate_laws(law, columns, count, steps.coarse_step);
       contact::store_history(pairs, contacts, count, groups, columns);
+      if (wall_loads.is_on()) note_wall_loads(chunk, surface, contacts, is_new, count, columns);
       contact::scatter_single(local, count, columns, chunk.force.data());
       chunk.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(count);
       count = 0;
@@ -155,7 +158,7 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk) {
       const double* p = store.position.data() + 4 * static_cast<std::ptrdiff_t>(i);
       const double* v = store.velocity.data() + 4 * static_cast<std::ptrdiff_t>(i);
       const double* w = store.rotation.data() + 4 * static_cast<std::ptrdiff_t>(i);
-      const bodies::SurfacePoint s = surface.nearest({p[0], p[1], p[2]});
+      const bodies::SurfacePoint s = surface.contact({p[0], p[1], p[2]}, p[3] + range);
       const double overlap = p[3] - s.distance;
       if (!(overlap > -range)) {
         if (list.is_touching[u] != 0) {
@@ -164,6 +167,7 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk) {
         }
         continue;
       }
+      is_new[count] = list.is_touching[u] == 0;
       list.is_touching[u] = 1;
       contacts[count] = q;
       local[count] = i - chunk.begin;
@@ -183,6 +187,30 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk) {
       if (++count == k_batch) flush();
     }
     flush();
+  }
+}
+
+/// Books what a batch did to a wall. The velocity columns hold the relative velocity of the contact
+/// points, the separation columns that of the surface.
+void Dem::Impl::note_wall_loads(Chunk& chunk, const Surface& surface, const std::int32_t* contacts,
+                                const bool* is_new, std::size_t count, BatchColumns& columns) {
+  using B = BatchColumns;
+  double* sums =
+      chunk.wall_sums.data() + WallLoads::k_sums * static_cast<std::size_t>(surface.wall);
+  for (std::size_t q = 0; q < count; ++q) {
+    const auto get = [&](int column) {
+      return sdk::Vec3{columns.column(column)[q], columns.column(column + 1)[q],
+                       columns.column(column + 2)[q]};
+    };
+    const auto row =
+        static_cast<std::size_t>(chunk.surfaces.a[static_cast<std::size_t>(contacts[q])]);
+    const double* p = store.position.data() + 4 * row;
+    const double weight = store.weight[row];
+    add_load(sums, {p[0], p[1], p[2]}, get(B::force_x), get(B::torque_i_x), get(B::separation_x),
+             weight * steps.coarse_step);
+    if (!is_new[q]) continue;
+    chunk.wall_impacts.push_back(impact_of(surface.wall, 1.0 / store.velocity[4 * row + 3], weight,
+                                           get(B::velocity_x), get(B::normal_x)));
   }
 }
 

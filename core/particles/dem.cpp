@@ -234,6 +234,7 @@ void Dem::contact(double time) { impl_->contact(time); }
 void Dem::force() { impl_->force(); }
 void Dem::integrate() { impl_->integrate(); }
 void Dem::fluid_action_changed() { impl_->refresh_decay(); }
+void Dem::bodies_changed() { impl_->must_rebuild = true; }
 
 void Dem::land() { impl_->land(); }
 GrainRows Dem::rows() {

@@ -5,6 +5,7 @@
 #include "dust/sdk/archive.hpp"
 #include "dust/sdk/cohesion_law.hpp"
 #include "dust/sdk/emitter.hpp"
+#include "dust/sdk/sensor.hpp"
 #include "particles/grain_rows.hpp"
 #include "scenario/setup.hpp"
 
@@ -118,6 +119,15 @@ class Dem {
   [[nodiscard]] DemReport report() const;
   /// Tells that fluid_action was rewritten (the DEM derives its decay factors from it).
   void fluid_action_changed();
+  /// Keeps what grains do to walls from now on.
+  void watch_walls();
+  /// Ends the interval [s] of the wall loads; nothing unless they are watched. Call between coarse
+  /// steps.
+  sdk::WallColumns close_wall_loads(double interval);
+  /// As of the last close.
+  [[nodiscard]] sdk::WallColumns wall_loads() const;
+  /// Tells that a body was taken away.
+  void bodies_changed();
 
   /// Pairs in the Verlet list as ids (i < j), sorted: for tests against brute force.
   [[nodiscard]] std::vector<std::pair<std::int64_t, std::int64_t>> listed_pairs() const;

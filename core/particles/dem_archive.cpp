@@ -222,6 +222,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
     chunks[c].contacts = bounds[3 * c + 2];
     near_pairs.take(chunks[c].near_pairs);
     near_walls.take(chunks[c].near_surfaces);
+    chunks[c].wall_sums.assign(WallLoads::k_sums * wall_loads.walls(), 0.0);
     pairs.take(chunks[c].pairs, history_stride);
     walls.take(chunks[c].surfaces, history_stride);
     const std::size_t n = 8 * (static_cast<std::size_t>(chunks[c].end - chunks[c].begin) + 1);
@@ -256,6 +257,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   counters.flown_steps = state.at(13);
   time = archive.number("time");
   counters.largest_overlap = archive.number("largest_overlap");
+  for (Surface& s : surfaces) s.move_to(time);
   book.load(archive);
   look_at_weights();
 }

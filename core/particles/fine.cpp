@@ -124,6 +124,9 @@ class BlockPass {
       const bool is_touching = c.surface >= 0 ? load_surface(c) : load_pair(c);
       const auto e = static_cast<std::size_t>(c.entry);
       if (is_touching) {
+        if (c.surface >= 0 && dem_.wall_loads.is_on() && dem_.fine.is_touching[e] == 0) {
+          note_impact(c);
+        }
         in_batch_[count_++] = &c;
       } else if (dem_.fine.is_touching[e] != 0) {
         std::fill_n(dem_.fine.history.data() + e * dem_.history_stride, dem_.history_stride, 0.0);
@@ -171,11 +174,24 @@ class BlockPass {
     return true;
   }
 
-  bool load_surface(const Candidate& c) {
+  /// Books the impact that begins with what load_surface() has just loaded.
+  void note_impact(const Candidate& c) {
+    using B = BatchColumns;
+    const auto get = [&](int column) {
+      return Vec3{columns_.column(column)[count_], columns_.column(column + 1)[count_],
+                  columns_.column(column + 2)[count_]};
+    };
+    const Member& i = block_.members[static_cast<std::size_t>(c.member)];
+    block_.wall_impacts.push_back(impact_of(dem_.surfaces[static_cast<std::size_t>(c.surface)].wall,
+                                            1.0 / i.inverse_mass, i.weight, get(B::velocity_x),
+                                            get(B::normal_x)));
+  }
+
+  bool load_surface(Candidate& c) {
     using B = BatchColumns;
     const Member& i = block_.members[static_cast<std::size_t>(c.member)];
     const Surface& surface = dem_.surfaces[static_cast<std::size_t>(c.surface)];
-    const bodies::SurfacePoint s = surface.nearest(i.position);
+    const bodies::SurfacePoint s = surface.contact_at(time_, i.position);
     const double overlap = i.radius - s.distance;
     if (!(overlap > -dem_.laws[static_cast<std::size_t>(c.law)].range)) return false;
     const double lever = i.radius - 0.5 * overlap;
@@ -185,6 +201,7 @@ class BlockPass {
     const double* n[3] = {&s.normal.x, &s.normal.y, &s.normal.z};
     double* v[3] = {&wall.x, &wall.y, &wall.z};
     surface_velocities(surface, time_, 1, p, n, v);
+    c.wall_velocity = wall;
     set(B::velocity_x, i.velocity - lever * cross(i.rotation, s.normal) - wall);
     set(B::rotation_x, i.rotation);
     set(B::normal_x, s.normal);
@@ -235,6 +252,12 @@ class BlockPass {
     if (c.surface >= 0) {
       i.impulse += duration * force;
       i.twist += duration * torque_i;
+      if (!block_.wall_sums.empty()) {
+        const auto wall =
+            static_cast<std::size_t>(dem_.surfaces[static_cast<std::size_t>(c.surface)].wall);
+        add_load(block_.wall_sums.data() + WallLoads::k_sums * wall, i.position, force, torque_i,
+                 c.wall_velocity, i.weight * duration);
+      }
       return;
     }
     const Vec3 torque_j = get(B::torque_j_x);
@@ -316,7 +339,7 @@ static Outlook look_out(const Dem::Impl& dem, std::size_t entry, double extra_sp
   std::int32_t law = 0;
   if (b < 0) {
     const Surface& surface = dem.surfaces[static_cast<std::size_t>(-1 - b)];
-    const auto point = surface.nearest(position);
+    const auto point = surface.contact(position);
     gap = point.distance - radius;
     normal = point.normal;
     law = dem.law_of(s.material[i], surface.material);
@@ -338,7 +361,8 @@ static Outlook look_out(const Dem::Impl& dem, std::size_t entry, double extra_sp
   }
   const double* g = dem.gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material[i]);
   const Vec3 free = vec(g) + s.action[4 * i + 3] * (vec(s.action.data() + 4 * i) - velocity);
-  const double gain = norm(free) * step;
+  double gain = norm(free) * step;
+  if (b < 0) gain += dem.surfaces[static_cast<std::size_t>(-1 - b)].displacing_speed;
   Outlook out;
   out.speed = norm(relative) + gain;
   const PairLaws& laws = dem.laws[static_cast<std::size_t>(law)];
@@ -418,6 +442,7 @@ void Dem::Impl::fine_pass() {
                      [](const Candidate& x, const Candidate& y) {
                        return std::tie(x.law, x.surface) < std::tie(y.law, y.surface);
                      });
+    block.wall_sums.assign(WallLoads::k_sums * wall_loads.walls(), 0.0);
     BlockPass(*this, block, time).run();
     for (const Member& m : block.members) {
       store_member(store, m,
@@ -426,7 +451,8 @@ void Dem::Impl::fine_pass() {
   });
   counters.fine_steps += static_cast<std::int64_t>(w.state.size() - w.active.size());
   for (std::size_t b = 0; b < w.block_count; ++b) {
-    const Block& block = w.blocks[b];
+    Block& block = w.blocks[b];
+    if (wall_loads.is_on()) wall_loads.take(block.wall_sums, block.wall_impacts);
     counters.fine_steps += static_cast<std::int64_t>(block.members.size()) << block.level;
     counters.largest_overlap = std::max(counters.largest_overlap, block.largest_overlap);
     for (const Candidate& c : block.candidates) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/sensor.hpp"
 #include "dust/sdk/vec3.hpp"
 
 #include <cstdint>
@@ -29,6 +30,7 @@ struct Candidate {
   std::int32_t surface = -1;
   std::int32_t law = 0;
   double reaction[6] = {0, 0, 0, 0, 0, 0};
+  sdk::Vec3 wall_velocity;  ///< [m/s] of the surface, at the last look
 };
 
 /// Clusters of one level that step together.
@@ -37,6 +39,8 @@ struct Block {
   std::vector<Candidate> candidates;
   int level = 0;
   double largest_overlap = 0.0;
+  std::vector<double> wall_sums;  ///< as of a chunk
+  std::vector<sdk::WallImpact> wall_impacts;
 };
 
 /// What the look-out found about one entry of the fine list.

@@ -9,6 +9,7 @@
 #include "particles/search.hpp"
 #include "particles/surfaces.hpp"
 #include "particles/time_steps.hpp"
+#include "particles/wall_loads.hpp"
 
 #include <algorithm>
 #include <array>
@@ -95,7 +96,9 @@ struct Chunk {
   Awake awake;
   double largest_overlap = 0.0;
   std::int64_t contacts = 0;
-  std::int64_t late = 0;  ///< of the last check
+  std::int64_t late = 0;                      ///< of the last check
+  std::vector<double> wall_sums;              ///< WallLoads::k_sums per wall, if watched
+  std::vector<sdk::WallImpact> wall_impacts;  ///< in the order of the contacts
   bool wants_watch = false;
 };
 
@@ -140,7 +143,12 @@ struct Dem::Impl {
   void contact(double time);
   void chunk_pairs(Chunk& chunk);
   void chunk_surfaces(Chunk& chunk);
+  void note_wall_loads(Chunk& chunk, const Surface& surface, const std::int32_t* contacts,
+                       const bool* is_new, std::size_t count, contact::BatchColumns& columns);
   void force();
+
+  // wall_loads.cpp
+  void gather_wall_loads();
 
   // integrate.cpp
   void integrate();
@@ -203,6 +211,7 @@ struct Dem::Impl {
   std::vector<Reaction> pending;
   contact::AlignedVector<double> fine_force;  ///< four per fine grain, of the last sub-step
   std::int64_t next_id = 0;
+  WallLoads wall_loads;  ///< empty between fluid steps, so that nothing of it is saved
   double time = 0.0;
   std::int64_t since_rebuild = 0;  ///< coarse steps
   std::int64_t horizon = 0;        ///< coarse steps the present lists are made for

@@ -172,6 +172,7 @@ void Dem::Impl::carry_over(VerletList& list, ContactList& contacts, bool is_surf
 
 void Dem::Impl::rebuild() {
   ++counters.rebuilds;
+  gather_wall_loads();
   wrap_periodic();
   for (const Chunk& c : chunks) {
     counters.largest_overlap = std::max(counters.largest_overlap, c.largest_overlap);
@@ -239,6 +240,11 @@ void Dem::Impl::rebuild() {
     const double* v = store.velocity.data() + 4 * n;
     fastest2 = std::max(fastest2, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   }
+  for (const Surface& s : surfaces) {
+    if (!s.is_removed()) {
+      fastest2 = std::max(fastest2, s.displacing_speed * s.displacing_speed);
+    }
+  }
   const double longest =
       steps.classes.back().diameter / steps.coarse_step / std::sqrt(fastest2 + 1e-30);
   horizon = std::min(next_horizon, std::max(k_shortest_horizon,
@@ -304,12 +310,14 @@ void Dem::Impl::rebuild() {
     const double* v = store.velocity.data() + 4 * n;
     const double reach = p[3] + store.start[4 * n + 3] + largest_range +
                          made_for * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    return s.nearest({p[0], p[1], p[2]}).distance < reach;
+    // The surfaces stand where the step before saw them.
+    return s.may_touch({p[0], p[1], p[2]}, reach, made_for + steps.coarse_step);
   };
   const auto build = [&](std::size_t c) {
     Chunk& chunk = chunks[c];
     chunk.begin = static_cast<std::int32_t>(c * size);
     chunk.end = static_cast<std::int32_t>(std::min(coarse_count, (c + 1) * size));
+    chunk.wall_sums.assign(WallLoads::k_sums * wall_loads.walls(), 0.0);
     chunk.force.assign(8 * (static_cast<std::size_t>(chunk.end - chunk.begin) + 1), 0.0);
     auto& share = shares[c];
     std::sort(share.begin(), share.end());

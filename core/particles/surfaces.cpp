@@ -7,6 +7,7 @@ namespace dust::particles {
 
 std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::BodySet& bodies) {
   std::vector<Surface> out;
+  int walls = 0;
   for (int side = 0; side < 6; ++side) {
     const auto& spec = setup.domain.sides[static_cast<std::size_t>(side)];
     if (spec.grains != scenario::GrainSide::wall) continue;
@@ -16,6 +17,7 @@ std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::Bod
     const double sign = side % 2 == 0 ? 1.0 : -1.0;
     s.normal[side / 2] = sign;
     s.offset = sign * (side % 2 == 0 ? setup.domain.min : setup.domain.max)[side / 2];
+    s.wall = walls++;
     out.push_back(s);
   }
   for (const auto& body : bodies) {
@@ -23,7 +25,10 @@ std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::Bod
     s.name = body.name;
     s.material = body.material;
     s.body = &body;
-    out.push_back(s);
+    s.displacing_speed = body.largest_displacing_speed();
+    s.place = body.placement(0.0);
+    s.wall = walls++;
+    for (s.part = 0; s.part < body.shape->parts(); ++s.part) out.push_back(s);
   }
   return out;
 }
@@ -31,22 +36,22 @@ std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::Bod
 void surface_velocities(const Surface& surface, double time, std::size_t count,
                         const double* const* point, const double* const* normal,
                         double* const* velocity) {
-  if (surface.body == nullptr || !surface.body->motion) {
+  if (surface.body == nullptr) {
     for (int d = 0; d < 3; ++d) std::fill_n(velocity[d], count, 0.0);
     return;
   }
-  surface.body->motion->surface_velocity({.count = count,
-                                          .time = time,
-                                          .axis = surface.body->lateral_axis(),
-                                          .x = point[0],
-                                          .y = point[1],
-                                          .z = point[2],
-                                          .normal_x = normal[0],
-                                          .normal_y = normal[1],
-                                          .normal_z = normal[2],
-                                          .velocity_x = velocity[0],
-                                          .velocity_y = velocity[1],
-                                          .velocity_z = velocity[2]});
+  surface.body->surface_velocities({.count = count,
+                                    .time = time,
+                                    .axis = {},
+                                    .x = point[0],
+                                    .y = point[1],
+                                    .z = point[2],
+                                    .normal_x = normal[0],
+                                    .normal_y = normal[1],
+                                    .normal_z = normal[2],
+                                    .velocity_x = velocity[0],
+                                    .velocity_y = velocity[1],
+                                    .velocity_z = velocity[2]});
 }
 
 }  // namespace dust::particles

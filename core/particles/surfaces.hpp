@@ -6,22 +6,50 @@
 #include "scenario/setup.hpp"
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace dust::particles {
 
-/// A side of the domain that is a wall, or a body. Grains touch it once.
+/// A side of the domain that is a wall, or a part of a body. Grains touch it once.
 struct Surface {
   std::string name;
   int material = 0;
+  int wall = 0;                        ///< number of the side or body among all that are surfaces
   const bodies::Body* body = nullptr;  ///< null: the plane below
+  int part = 0;                        ///< of the body's shape
   sdk::Vec3 normal;                    ///< into the domain
   double offset = 0.0;                 ///< [m] dot(normal, point of the plane)
+  bodies::Placement place;             ///< of the body, at the time of the last move_to
+  double displacing_speed = 0.0;       ///< [m/s] upper bound; 0 = stands
 
-  [[nodiscard]] bodies::SurfacePoint nearest(sdk::Vec3 point) const {
-    if (body != nullptr) return body->nearest(point);
+  /// Puts a body that moves to its place at `time` [s].
+  void move_to(double time) {
+    if (displacing_speed > 0.0) place = body->placement(time);
+  }
+  [[nodiscard]] bool is_removed() const { return body != nullptr && body->is_removed(); }
+
+  /// Where a sphere touches it: infinitely far where it cannot, or where nothing is nearer than
+  /// `reach` [m] to its centre.
+  [[nodiscard]] bodies::SurfacePoint contact(
+      sdk::Vec3 point, double reach = std::numeric_limits<double>::infinity()) const {
+    if (body != nullptr) return body->contact(part, point, reach, place);
     return {dot(normal, point) - offset, normal};
+  }
+  /// The same at another time [s] than that of the last move_to.
+  [[nodiscard]] bodies::SurfacePoint contact_at(
+      double time, sdk::Vec3 point, double reach = std::numeric_limits<double>::infinity()) const {
+    if (displacing_speed > 0.0) return body->contact(part, point, reach, body->placement(time));
+    return contact(point, reach);
+  }
+  /// Whether a sphere that moves by at most `reach` [m], its radius included, may touch the surface
+  /// within `duration` [s] after the last move_to, however the surface moves.
+  [[nodiscard]] bool may_touch(sdk::Vec3 point, double reach, double duration) const {
+    if (is_removed()) return false;
+    reach += displacing_speed * duration;
+    if (body != nullptr) return body->is_within(part, point, reach, place);
+    return dot(normal, point) - offset < reach;
   }
 };
 

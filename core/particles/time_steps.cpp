@@ -44,9 +44,7 @@ TimeSteps time_steps(const scenario::Setup& setup, const bodies::BodySet& bodies
   if (!(out.expected_speed > 0.0)) {
     out.expected_speed = k_default_speed;
     for (const auto& body : bodies) {
-      if (body.motion) {
-        out.expected_speed = std::max(out.expected_speed, body.motion->largest_speed());
-      }
+      out.expected_speed = std::max(out.expected_speed, body.largest_speed());
     }
   }
   const double largest = diameters.back();

@@ -51,7 +51,8 @@ bool Dem::Impl::may_meet_surface(std::size_t i, const Surface& surface) const {
   const double horizon_time = static_cast<double>(k_longest_watch) * steps.coarse_step;
   const double reach = p[3] + largest_range + watch_allowance(i) +
                        horizon_time * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  return surface.nearest({p[0], p[1], p[2]}).distance < reach;
+  // The surfaces stand where the step before saw them.
+  return surface.may_touch({p[0], p[1], p[2]}, reach, horizon_time + steps.coarse_step);
 }
 
 /// Whether a grain without contacts leaves its straight course by little enough.

@@ -59,7 +59,8 @@ void check_place(const EntryScene& scene, const Entrant& e, double allowed) {
     }
   }
   for (const particles::Surface& s : scene.surfaces) {
-    const double overlap = radius - s.nearest(x).distance;
+    if (s.is_removed()) continue;
+    const double overlap = radius - s.contact_at(scene.time, x).distance;
     if (overlap <= allowed * radius) continue;
     std::ostringstream text;
     text << "overlaps '" << s.name << "' by " << overlap << " m; move it clear";
@@ -203,7 +204,7 @@ bool LazySurroundings::is_free(Vec3 centre, double radius) const {
     if (!(x[d] >= scene_.min[d] && x[d] <= scene_.max[d])) return false;
   }
   for (const particles::Surface& s : scene_.surfaces) {
-    if (s.nearest(x).distance < radius) return false;
+    if (!s.is_removed() && s.contact_at(scene_.time, x).distance < radius) return false;
   }
   return grid_->overlapping(x, radius, 0.0) == nullptr;
 }

@@ -26,6 +26,7 @@ struct Entrant {
 struct EntryScene {
   sdk::Vec3 min, max;  ///< [m] of the domain
   std::array<bool, 3> is_periodic{};
+  double time = 0.0;  ///< [s] at which bodies that move are looked at
   std::vector<particles::Surface> surfaces;
   std::vector<sdk::EntryRule> rules;  ///< by emitter
   std::vector<std::string> names;     ///< by emitter, "file:line:column: error: emitters.bed"

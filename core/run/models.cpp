@@ -8,8 +8,11 @@ namespace dust::run {
 Models make_models(const scenario::Setup& setup, const registry::Registry& registry) {
   Models m;
   for (const auto& spec : setup.bodies) {
-    m.bodies.push_back(bodies::make_body(
-        setup, spec, spec.motion ? registry.create_as<sdk::Motion>(*spec.motion) : nullptr));
+    std::vector<std::unique_ptr<sdk::Motion>> motions;
+    for (const auto& motion : spec.motions) {
+      motions.push_back(registry.create_as<sdk::Motion>(motion));
+    }
+    m.bodies.push_back(bodies::make_body(setup, spec, std::move(motions)));
   }
   for (const auto& spec : setup.interactions) {
     particles::PairLaws laws;

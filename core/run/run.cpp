@@ -134,9 +134,27 @@ class Run {
     if (is_resumed_) {
       base::log_info("resumed at " + std::to_string(simulation_.time()) + " s");
     } else {
+      tell_bodies();
       write_frame();
       write_row();
       checkpoint();
+    }
+  }
+
+  /// What meshes say of themselves, and how fine they are beside the grains.
+  void tell_bodies() const {
+    const auto& diameters = simulation_.models().class_diameters;
+    for (const auto& body : simulation_.models().bodies) {
+      for (const std::string& remark : body.shape->remarks()) {
+        base::log_info("body " + body.name + ": " + remark);
+      }
+      const double edge = body.shape->shortest_edge();
+      if (!(edge > 0.0) || diameters.empty()) continue;
+      char text[120];
+      std::snprintf(text, sizeof text,
+                    ": the shortest edge is %.3g of the largest grain's diameter",
+                    edge / diameters.back());
+      base::log_info("body " + body.name + text);
     }
   }
 
@@ -198,6 +216,7 @@ class Run {
     frame.time = simulation_.time();
     frame.world = simulation_.world();
     frame.momentum_exchange = simulation_.momentum_exchange();
+    if (simulation_.has_changing_walls()) frame.bodies = &simulation_.models().bodies;
     results_->append(frame);
     ++frames_;
     output_s_ += std::chrono::duration<double>(Clock::now() - begin).count();

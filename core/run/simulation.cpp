@@ -2,12 +2,15 @@
 #include "run/simulation.hpp"
 
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/sphere.hpp"
 #include "scenario/diagnostics.hpp"
+#include "scenario/units.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dust::run {
 namespace {
@@ -36,6 +39,21 @@ EntryScene entry_scene_of(const scenario::Setup& setup, const Models& models) {
   return scene;
 }
 
+/// [J] Translation and rotation, mean over the computed grains; infinite without grains.
+double kinetic_energy_per_grain(const particles::GrainRows& rows) {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < rows.count; ++n) {
+    const double* v = rows.velocity + 4 * n;
+    const double* w = rows.rotation + 4 * n;
+    const double r = rows.position[4 * n + 3];
+    const double inertia = 0.4 * r * r / v[3];
+    sum += 0.5 / v[3] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) +
+           0.5 * inertia * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+  }
+  return rows.count > 0 ? sum / static_cast<double>(rows.count)
+                        : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 Simulation::Simulation(const scenario::Setup& setup, Models models)
@@ -61,6 +79,8 @@ Simulation::Simulation(const scenario::Setup& setup, Models models)
                                 [](const auto& s) { return s->wants_contacts(); });
   entry_scene_ = entry_scene_of(setup_, models_);
   emissions_ = EmissionBook(models_.emitters.size());
+  for (const auto& sensor : models_.sensors) looks_at_walls_ |= sensor->looks_at_walls();
+  if (looks_at_walls_) dem_->watch_walls();
   dem_steps_per_fluid_step_ =
       std::max(1, static_cast<int>(std::lround(step / dem_->coarse_step())));
   build_graphs();
@@ -108,6 +128,11 @@ void Simulation::build_graphs() {
   dem_graph_.build();
 
   step_graph_.given({"emitter.state", "grain.state", "fluid.velocity", "fluid.exchange"});
+  bool has_removals = false;
+  for (const auto& body : setup_.bodies) has_removals |= body.removal.has_value();
+  if (has_removals) {
+    step_graph_.add({"bodies", {"grain.state"}, {"grain.state"}, [this] { remove_bodies(); }});
+  }
   step_graph_.add(
       {"emit", {"emitter.state", "grain.state"}, {"emitter.state", "grain.state"}, [this] {
          emit();
@@ -129,8 +154,10 @@ void Simulation::build_graphs() {
            fluid_table_->publish(*fluid_, coupling_->void_fraction());
          }});
   }
-  step_graph_.add(
-      {"publish_grains", {"grain.state"}, {"grain.columns"}, [this] { publish_grains(); }});
+  step_graph_.add({"publish_grains", {"grain.state"}, {"grain.columns"}, [this] {
+                     publish_grains();
+                     if (looks_at_walls_) dem_->close_wall_loads(setup_.time.fluid_step);
+                   }});
   step_graph_.add({"health", {"grain.columns"}, {"health"}, [this] { check_health(); }});
   add_sensor_nodes();
   step_graph_.build();
@@ -231,6 +258,7 @@ void Simulation::emit() {
     is_started_ = false;
     return;
   }
+  entry_scene_.time = time();
   propose_seeds(time(), time() + setup_.time.fluid_step);
   dem_->remove_leavers();
   const auto entering = take_free_places(waiting_, dem_->rows(), entry_scene_);
@@ -247,6 +275,42 @@ void Simulation::emit() {
     dem_->insert(grains);
   }
   grain_table_.note_births(dem_->rows());
+}
+
+/// Takes away the bodies whose time has come or whose grains have come to rest, at the beginning of
+/// a fluid step.
+void Simulation::remove_bodies() {
+  // Times in decimal meet the steps to a few roundings.
+  const double now = time() + 1e-9 * setup_.time.fluid_step;
+  bool has_changed = false;
+  for (std::size_t b = 0; b < setup_.bodies.size(); ++b) {
+    const auto& removal = setup_.bodies[b].removal;
+    bodies::Body& body = models_.bodies[b];
+    if (!removal || body.is_removed()) continue;
+    std::string cause;
+    if (now >= removal->at) {
+      cause = "its time has come";
+    } else if (removal->kinetic_energy_per_grain > 0.0 && now >= removal->after) {
+      const double energy = kinetic_energy_per_grain(dem_->rows());
+      if (energy < removal->kinetic_energy_per_grain) {
+        cause = "the mean kinetic energy per grain is " + scenario::number_text(energy) + " J";
+      }
+    }
+    if (cause.empty()) continue;
+    body.removed_at = time();
+    has_changed = true;
+    base::log_info("the body " + body.name + " is taken away at " + scenario::number_text(time()) +
+                   " s: " + cause);
+  }
+  if (has_changed) dem_->bodies_changed();
+}
+
+bool Simulation::has_changing_walls() const {
+  bool is_changing = false;
+  for (std::size_t b = 0; b < setup_.bodies.size(); ++b) {
+    is_changing |= setup_.bodies[b].removal.has_value() || models_.bodies[b].displaces();
+  }
+  return is_changing;
 }
 
 void Simulation::run_dem_cycle() {
@@ -292,6 +356,7 @@ sdk::WorldView Simulation::world() const {
   view.grains = grain_table_.columns();
   if (wants_contacts_) view.contacts = contact_table_.columns();
   if (fluid_table_) view.fluid = fluid_table_->columns();
+  view.walls = dem_->wall_loads();
   view.class_diameters = models_.class_diameters;
   view.emitted_mass = dem_->balance().mass_emitted;
   return view;
@@ -337,6 +402,11 @@ Simulation::SaveParts Simulation::save_parts() const {
     save_waiting(waiting_, a);
     emissions_.save(a);
   });
+  parts.emplace_back("bodies", [this](sdk::ArchiveWriter& a) {
+    std::vector<double> removed_at;
+    for (const auto& body : models_.bodies) removed_at.push_back(body.removed_at);
+    a.numbers("removed_at", removed_at);
+  });
   parts.emplace_back("grains", [this](sdk::ArchiveWriter& a) { dem_->save(a); });
   parts.emplace_back("columns", [this](sdk::ArchiveWriter& a) { grain_table_.save(a); });
   if (fluid_) {
@@ -364,6 +434,12 @@ Simulation::LoadParts Simulation::load_parts() {
     is_started_ = a.integer("is_started") != 0;
     load_waiting(waiting_, a);
     emissions_.load(a);
+  });
+  parts.emplace_back("bodies", [this](sdk::ArchiveReader& a) {
+    const auto removed_at = a.numbers("removed_at");
+    for (std::size_t b = 0; b < models_.bodies.size(); ++b) {
+      models_.bodies[b].removed_at = removed_at.at(b);
+    }
   });
   parts.emplace_back("grains", [this](sdk::ArchiveReader& a) { dem_->load(a); });
   if (fluid_) {

@@ -58,6 +58,9 @@ class Simulation {
   /// Momentum exchange per cell for a frame.
   [[nodiscard]] const std::vector<float>& momentum_exchange();
 
+  /// Whether bodies move or are taken away.
+  [[nodiscard]] bool has_changing_walls() const;
+
   /// SHA-256 of ids, positions, velocities, angular velocities (by id) and the fluid fields.
   [[nodiscard]] std::string state_digest() const;
 
@@ -76,6 +79,7 @@ class Simulation {
   void emit();
   void propose_seeds(double begin, double end);
   void propose_seeds_of(std::size_t emitter, double begin, double end);
+  void remove_bodies();
   void run_dem_cycle();
   void check_health() const;
   void publish_grains();
@@ -93,6 +97,7 @@ class Simulation {
   graph::TaskGraph step_graph_{"fluid_step"};
   graph::TaskGraph dem_graph_{"dem_step"};
 
+  bool looks_at_walls_ = false;
   std::int64_t steps_done_ = 0;
   std::int64_t steps_wanted_ = 0;
   int dem_steps_per_fluid_step_ = 1;

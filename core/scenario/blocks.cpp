@@ -128,6 +128,36 @@ const ParameterSchema& PlacedBlock::schema() {
   return made;
 }
 
+const ParameterSchema& BodyBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<BodyBlock> s;
+    s.text(&BodyBlock::group, "group", "Group it belongs to: sensors add up the bodies of a group.")
+        .optional();
+    return s.build();
+  }();
+  return made;
+}
+
+const ParameterSchema& RemovalBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<RemovalBlock> s;
+    s.number(&RemovalBlock::at, "at", dimension::time, "Time at which it is taken away.")
+        .at_least(0)
+        .optional();
+    s.number(&RemovalBlock::kinetic_energy_per_grain, "when_kinetic_energy_per_grain_below",
+             dimension::energy,
+             "It is taken away once the mean kinetic energy of all grains is below this.")
+        .above(0)
+        .optional();
+    s.number(&RemovalBlock::after, "after", dimension::time,
+             "The energy is not looked at before this time.")
+        .at_least(0)
+        .optional();
+    return s.build();
+  }();
+  return made;
+}
+
 const ParameterSchema& SensorBlock::schema() {
   static const ParameterSchema made = [] {
     SchemaOf<SensorBlock> s;

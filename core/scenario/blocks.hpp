@@ -7,6 +7,7 @@
 #include "dust/sdk/vec3.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,20 @@ struct PlacedBlock {
   bool enabled = true;
   std::string frame;
   std::string material;
+  static const sdk::ParameterSchema& schema();
+};
+
+/// What bodies have besides: placed, shape and motions.
+struct BodyBlock {
+  std::string group;
+  static const sdk::ParameterSchema& schema();
+};
+
+/// When a body is taken away.
+struct RemovalBlock {
+  double at = std::numeric_limits<double>::infinity();
+  double kinetic_energy_per_grain = 0.0;
+  double after = 0.0;
   static const sdk::ParameterSchema& schema();
 };
 

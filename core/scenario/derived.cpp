@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario/derived.hpp"
 
+#include "bodies/body_set.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/motion.hpp"
 #include "dust/sdk/random.hpp"
@@ -66,8 +67,12 @@ double fall_height(const Setup& setup) {
 double largest_body_speed(const Setup& setup, const registry::Registry& registry) {
   double speed = 0.0;
   for (const BodySpec& body : setup.bodies) {
-    if (!body.motion) continue;
-    speed = std::max(speed, registry.create_as<sdk::Motion>(*body.motion)->largest_speed());
+    std::vector<std::unique_ptr<sdk::Motion>> motions;
+    for (const ModelChoice& motion : body.motions) {
+      motions.push_back(registry.create_as<sdk::Motion>(motion));
+    }
+    if (motions.empty()) continue;
+    speed = std::max(speed, bodies::make_body(setup, body, std::move(motions)).largest_speed());
   }
   return speed;
 }

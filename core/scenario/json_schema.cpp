@@ -154,6 +154,13 @@ Json body_schema(const registry::Registry& registry) {
   motions.insert(motions.begin(), Choice{});
   for (const Choice& motion : motions) {
     Json base = block<PlacedBlock>();
+    add_parameters(base, BodyBlock::schema());
+    base["properties"]["remove"] = block<RemovalBlock>();
+    if (motion.name.empty()) {
+      base["properties"]["motions"] = {{"type", "array"},
+                                       {"items", {{"$ref", "#/definitions/motion"}}},
+                                       {"description", "Motions that act one after the other."}};
+    }
     if (!motion.name.empty()) {
       base["properties"]["motion"] = {{"const", motion.name}, {"description", motion.summary}};
       base["required"].push_back("motion");
@@ -203,7 +210,8 @@ std::string json_schema(const registry::Registry& registry) {
   interaction["properties"]["cohesion"] = {{"$ref", "#/definitions/cohesion"}};
   interaction["required"].push_back("contact");
   Json definitions = {{"side", domain["side"]}};
-  for (const char* kind : {"contact", "rolling", "cohesion", "boundary", "drag", "voidage"}) {
+  for (const char* kind :
+       {"contact", "rolling", "cohesion", "boundary", "drag", "voidage", "motion"}) {
     definitions[kind] = model(registry, kind);
   }
 

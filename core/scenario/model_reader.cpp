@@ -80,7 +80,15 @@ ScenarioNames ScenarioNames::of(const Node& root) {
     }
     return result;
   };
-  return {names("materials"), names("frames"), names("bodies"), names("emitters")};
+  std::vector<std::string> groups;
+  const Entry* bodies = root.find("bodies");
+  if (bodies != nullptr && bodies->value.is_map()) {
+    for (const Entry& entry : bodies->value.entries) {
+      const Entry* group = entry.value.find("group");
+      if (group != nullptr && group->value.is_text()) groups.push_back(group->value.text);
+    }
+  }
+  return {names("materials"), names("frames"), names("bodies"), names("emitters"), groups};
 }
 
 bool ModelReader::check_name(const Node& node, const std::string& path, sdk::Refers what,
@@ -105,6 +113,12 @@ bool ModelReader::check_name(const Node& node, const std::string& path, sdk::Ref
       break;
     case sdk::Refers::file:
       return true;
+    case sdk::Refers::wall:
+      sides.all.insert(sides.all.end(), names_.bodies.all.begin(), names_.bodies.all.end());
+      sides.all.insert(sides.all.end(), names_.groups.begin(), names_.groups.end());
+      sides.disabled = names_.bodies.disabled;
+      thing = "wall, body or group";
+      break;
   }
   if (known->index(name) < 0) {
     diagnostics_.error(node.where, path + ": there is no " + thing + " '" + printable(name) + "'" +

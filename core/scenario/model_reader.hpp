@@ -23,6 +23,7 @@ struct Names {
 /// All names of a scenario that its parts may refer to.
 struct ScenarioNames {
   Names materials, frames, bodies, emitters;
+  std::vector<std::string> groups;  ///< of bodies, one entry per body that has one
   static ScenarioNames of(const Node& root);
 };
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -83,12 +84,21 @@ struct FrameSpec {
   double angle = 0.0;  ///< [rad]
 };
 
+/// When a body is taken away: at a time, or when the grains have come to rest.
+struct RemovalSpec {
+  double at = std::numeric_limits<double>::infinity();  ///< [s]
+  double kinetic_energy_per_grain = 0.0;                ///< [J] below this mean, 0 = not by energy
+  double after = 0.0;                                   ///< [s] by energy, but not before
+};
+
 struct BodySpec {
   std::string name;
   ModelChoice shape;  ///< kind "shape": from bodies::shape_catalogue()
-  std::optional<ModelChoice> motion;
+  std::vector<ModelChoice> motions;
   int material = 0;
-  int frame = -1;  ///< index into Setup::frames, -1 = the domain's
+  int frame = -1;     ///< index into Setup::frames, -1 = the domain's
+  std::string group;  ///< "" = none
+  std::optional<RemovalSpec> removal;
   Mark where;
 };
 

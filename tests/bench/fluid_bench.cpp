@@ -62,7 +62,7 @@ bodies::BodySet belt() {
     const std::vector<sdk::Value> values = {Vec3{0.08, 0, 0.158}, Vec3{-1.02, 0, 0.158}, 0.039,
                                             0.003};
     body.shape = kind.make(values);
-    body.motion = std::make_unique<Belt>();
+    body.motions.push_back(std::make_unique<Belt>());
     set.push_back(std::move(body));
   }
   return set;

@@ -141,6 +141,19 @@ const sdk::WorldView& World::view() {
   std::span<const double>* contact_targets[7] = {&c.force_x,  &c.force_y,  &c.force_z, &c.branch_x,
                                                  &c.branch_y, &c.branch_z, &c.overlap};
   for (int n = 0; n < 7; ++n) *contact_targets[n] = contact_columns_[n];
+  wall_name_.clear(), wall_group_.clear(), wall_force_.clear(), wall_torque_.clear();
+  wall_power_.clear(), wall_mass_.clear(), wall_contacts_.clear();
+  for (const Wall& w : walls) {
+    wall_name_.push_back(w.name);
+    wall_group_.push_back(w.group);
+    wall_force_.push_back(w.force);
+    wall_torque_.push_back(w.torque);
+    wall_power_.push_back(w.power);
+    wall_mass_.push_back(w.mass);
+    wall_contacts_.push_back(w.contacts);
+  }
+  view_.walls = {wall_name_,  wall_group_, wall_force_,    wall_torque_,
+                 wall_power_, wall_mass_,  wall_contacts_, impacts};
   sdk::FluidColumns& f = view_.fluid;
   f.spacing = spacing;
   for (int d = 0; d < 3; ++d) f.count[d] = count[d];

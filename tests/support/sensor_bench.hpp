@@ -80,6 +80,16 @@ struct Contact {
   double overlap = 1e-9;
 };
 
+struct Wall {
+  std::string name;
+  std::string group;
+  sdk::Vec3 force;
+  sdk::Vec3 torque;
+  double power = 0.0;
+  double mass = 0.0;
+  std::int64_t contacts = 0;
+};
+
 /// A world that owns its columns.
 class World {
  public:
@@ -92,6 +102,8 @@ class World {
   double emitted_mass = 0.0;
   std::vector<Grain> grains;
   std::vector<Contact> contacts;
+  std::vector<Wall> walls;
+  std::vector<sdk::WallImpact> impacts;
   int count[3] = {0, 0, 0};
   sdk::Vec3 spacing{0.001, 0.001, 0.001};
   double density = 1.2;
@@ -110,6 +122,10 @@ class World {
   std::vector<double> columns_[18];
   std::vector<std::int32_t> partners_[2];
   std::vector<double> contact_columns_[7];
+  std::vector<std::string> wall_name_, wall_group_;
+  std::vector<sdk::Vec3> wall_force_, wall_torque_;
+  std::vector<double> wall_power_, wall_mass_;
+  std::vector<std::int64_t> wall_contacts_;
   std::vector<float> still_air_;
   std::vector<float> no_solids_;
   sdk::WorldView view_;

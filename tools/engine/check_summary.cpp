@@ -87,12 +87,20 @@ void tell_domain(std::ostream& out, const Setup& setup) {
   }
 }
 
+std::string moved_by(const scenario::BodySpec& body) {
+  std::string text;
+  for (const auto& motion : body.motions)
+    text += (text.empty() ? ", moved by " : ", ") + motion.name;
+  if (text.empty()) text = ", at rest";
+  if (body.removal) text += ", taken away later";
+  return text;
+}
+
 void tell_things(std::ostream& out, const Setup& setup, const Derived& derived) {
   const char* head = "  bodies     ";
   for (const auto& body : setup.bodies) {
     out << head << body.name << ": " << body.shape.name << " of "
-        << material_name(setup, body.material)
-        << (body.motion ? ", moved by " + body.motion->name : ", at rest") << '\n';
+        << material_name(setup, body.material) << moved_by(body) << '\n';
     head = "             ";
   }
   head = "  emitters   ";

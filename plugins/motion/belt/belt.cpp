@@ -13,36 +13,48 @@ class Belt final : public sdk::Motion {
  public:
   struct Parameters {
     double speed = 0.0;
+    double start = 0.0;
+    double ramp = 0.0;
   };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
     s.number(&Parameters::speed, "speed", sdk::dimension::velocity,
              "Speed of the belt; positive carries towards +x on top for a pulley axis along +y.")
         .symbol("U");
+    s.number(&Parameters::start, "start", sdk::dimension::time, "Time at which it sets off.")
+        .symbol("t_0")
+        .at_least(0)
+        .optional();
+    s.number(&Parameters::ramp, "ramp", sdk::dimension::time,
+             "Time in which it gathers speed, evenly.")
+        .symbol("r")
+        .at_least(0)
+        .optional();
     return s.build();
   }
   static sdk::ModelInfo describe() {
     return {.name = "belt",
-            .version = "1.0",
+            .version = "1.1",
             .summary = "A surface that runs along itself round the body's lateral axis.",
-            .equation = "v = U\\, a \\times n",
+            .equation = "v = U\\, \\min(1, (t - t_0)/r)\\, a \\times n",
             .source = "kinematics of an inextensible belt; own derivation"};
   }
 
-  explicit Belt(const Parameters& p) : speed_(p.speed) {}
+  explicit Belt(const Parameters& p) : p_(p) {}
   void surface_velocity(const sdk::SurfaceBatch& b) const override {
+    const double speed = dust::model::belt::speed_at(p_.speed, p_.start, p_.ramp, b.time);
     for (std::size_t q = 0; q < b.count; ++q) {
-      const auto v = dust::model::belt::velocity(speed_, b.axis.x, b.axis.y, b.axis.z,
-                                                 b.normal_x[q], b.normal_y[q], b.normal_z[q]);
+      const auto v = dust::model::belt::velocity(speed, b.axis.x, b.axis.y, b.axis.z, b.normal_x[q],
+                                                 b.normal_y[q], b.normal_z[q]);
       b.velocity_x[q] = v.x;
       b.velocity_y[q] = v.y;
       b.velocity_z[q] = v.z;
     }
   }
-  [[nodiscard]] double largest_speed() const override { return std::abs(speed_); }
+  [[nodiscard]] double largest_speed() const override { return std::abs(p_.speed); }
 
  private:
-  double speed_;
+  Parameters p_;
 };
 
 }  // namespace

@@ -13,4 +13,11 @@ constexpr Velocity velocity(double speed, double ax, double ay, double az, doubl
   return {speed * (ay * nz - az * ny), speed * (az * nx - ax * nz), speed * (ax * ny - ay * nx)};
 }
 
+/// Speed at `time` [s] of a belt that sets off at `start` [s] and gathers speed evenly for `ramp`
+/// [s].
+constexpr double speed_at(double speed, double start, double ramp, double time) {
+  if (time < start) return 0.0;
+  return time - start < ramp ? speed * (time - start) / ramp : speed;
+}
+
 }  // namespace dust::model::belt

@@ -127,7 +127,15 @@ const std::vector<Subject>& subjects() {
         {"along", Vec3{-1, 0, 0}},
         {"steady_after", 0.03},
         {"coarser_than", 100e-6},
-        {"finer_than", 500e-6}}}};
+        {"finer_than", 500e-6}}},
+      {"wall_load",
+       {{"walls", std::vector<std::string>{"belt"}}},
+       {{"walls", std::vector<std::string>{"chute"}},
+        {"about", Vec3{0.1, 0, 0.2}},
+        {"averaging_after", 0.03},
+        {"least_energy", 1e-9},
+        {"largest_energy", 1e-8},
+        {"bins", std::int64_t{3}}}}};
   return list;
 }
 
@@ -165,6 +173,7 @@ class Scene {
     }
     for (int n = 0; n < 60; ++n) ride(n, time);
     touch(time);
+    load_walls(time);
     for (int k = 0; k < 35; ++k) {
       for (int j = 0; j < 5; ++j) {
         for (int i = 0; i < 33; ++i) {
@@ -190,6 +199,26 @@ class Scene {
       world.contacts.push_back({i, i + 1, (-force / norm(branch)) * branch, branch, 1e-9});
       world.contacts.push_back({i, -1, {0, 0, force}, {0, 0, -2e-4}, 1e-9});
       world.contacts.push_back({i + 1, i + 3, {0, 0, 0}, {0, 0, 2e-4}, -1e-9});
+    }
+  }
+
+  /// A belt that carries and is hit, and a plate of the group "chute".
+  void load_walls(double time) {
+    const double swing = std::sin(300 * time);
+    world.walls = {
+        {"belt",
+         "",
+         {0.01, 0, -0.1 - 0.02 * swing},
+         {0, 1e-3, 0},
+         0.02 + 0.004 * swing,
+         mass_scale * (0.01 + 0.001 * swing),
+         40},
+        {"plate", "chute", {0.2, 0, -0.3 * swing}, {0, 2e-3, 1e-4}, 0, mass_scale * 2e-3, 7}};
+    world.impacts.clear();
+    for (int n = 0; n < 20; ++n) {
+      const double u = random_.uniform(static_cast<std::uint64_t>(n), 3);
+      world.impacts.push_back(
+          {n % 2, std::pow(10.0, -11 + 4 * u), 1e-10 * u, n % 3 == 0 ? 0.05 : 1.0});
     }
   }
 
@@ -323,9 +352,9 @@ TEST_CASE("a sensor shall be linear in mass") {
     REQUIRE(light.names() == heavy.names());
     for (const auto& [name, figure] : light.all()) {
       CAPTURE(name);
-      // Forces and energies of the scene grow with the masses.
+      // Forces and energies of the scene grow with the masses, but for those of the impacts.
       const bool is_mass =
-          figure.unit.rfind("kg", 0) == 0 || figure.unit == "J" ||
+          figure.unit.rfind("kg", 0) == 0 || (figure.unit == "J" && subject.name != "wall_load") ||
           (figure.unit == "Pa" && subject.name == "stress");  // other pressures are the air's
       const Figure& other = heavy.at(name);
       CHECK(other.value == doctest::Approx((is_mass ? k_scale : 1.0) * figure.value).epsilon(1e-9));

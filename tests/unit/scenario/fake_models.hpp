@@ -145,6 +145,31 @@ struct Belt final : Motion {
   double speed;
 };
 
+/// A motion that takes the body along.
+struct Lift final : Motion {
+  struct Parameters {
+    Vec3 velocity;
+    double radius = 0.0;  ///< a name that a shape has too
+  };
+  static ModelInfo describe() { return info<Lift>("lift"); }
+  static ParameterSchema schema() {
+    SchemaOf<Parameters> s;
+    s.vector(&Parameters::velocity, "velocity", dimension::velocity, "Velocity.");
+    s.number(&Parameters::radius, "radius", dimension::length, "Nothing.").optional();
+    return s.build();
+  }
+  explicit Lift(const Parameters& p) : velocity(p.velocity) {}
+  [[nodiscard]] double largest_speed() const override { return norm(velocity); }
+  [[nodiscard]] bool moves_body() const override { return true; }
+  [[nodiscard]] RigidPose pose(double time) const override {
+    RigidPose pose;
+    pose.shift = time * velocity;
+    pose.velocity = velocity;
+    return pose;
+  }
+  Vec3 velocity;
+};
+
 struct Feed final : Emitter {
   struct Parameters {
     double mass_flow = 0.0;
@@ -231,6 +256,7 @@ inline void add_all(Registrar& registrar) {
   registrar.add<Slip>();
   registrar.add<NoSlip>();
   registrar.add<Belt>();
+  registrar.add<Lift>();
   registrar.add<Feed>();
   registrar.add<AnySensor<0>>();
   registrar.add<AnySensor<1>>();

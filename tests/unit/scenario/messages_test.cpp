@@ -19,6 +19,29 @@ void check_among(const std::string& from, const std::string& to, const std::stri
   CHECK_MESSAGE(all.find(expected) != std::string::npos, all);
 }
 
+const std::string k_plate =
+    "  plate: {enabled: false, shape: plate, material: glass, hinge: [10, 0, 40 mm], length: 5 mm, "
+    "thickness: 1 mm, angle: 16 deg}\n";
+
+/// Another body instead of the plate, in line 24, and what shall be told among the rest.
+void check_body(const std::string& body, const std::string& expected, bool has_air = true) {
+  const Folder folder;
+  // One triangle: open on three sides.
+  folder.write("open.stl", "solid a\n vertex 0 0 0\n vertex 1 0 0\n vertex 0 1 0\nendsolid\n");
+  folder.write("not.stl", "hello");
+  std::string text = changed(k_small, k_plate, "  " + body + "\n");
+  if (!has_air) {
+    const std::size_t fluid = text.find("fluid:");
+    text = text.substr(0, fluid) + "fluid: none\n" + text.substr(text.find("sensors:"));
+  }
+  std::string all = joined(problems(folder.write("s.yaml", text)));
+  for (std::size_t at = 0;
+       (at = all.find(folder.path().string() + "/", at)) != std::string::npos;) {
+    all.erase(at, folder.path().string().size() + 1);
+  }
+  CHECK_MESSAGE((expected.empty() ? all.empty() : all.find(expected) != std::string::npos), all);
+}
+
 }  // namespace
 
 TEST_CASE("the small scenario shall be well") {
@@ -42,7 +65,7 @@ TEST_CASE("an unknown key shall be told as the contract writes it, with the near
         "s.yaml:40:1: error: unknown key 'sensor' in the scenario; did you mean 'sensors'?");
   check("length: 5 mm", "length: 5 mm, colour: red",
         "s.yaml:24:95: error: unknown key 'colour' in bodies.plate; its keys are: enabled, frame, "
-        "material, shape, hinge, length, thickness, angle, motion");
+        "material, group, shape, hinge, length, thickness, angle, motions, motion, remove");
 }
 
 TEST_CASE("a key given twice shall be told with the first line") {
@@ -100,7 +123,9 @@ TEST_CASE("an unknown model shall be told with the nearest and all there are") {
         "s.yaml:38:15: error: drag.model: unknown drag model 'gidaspov'; did you mean 'gidaspow'? "
         "(drag models: gidaspow)");
   check("shape: plate", "shape: ball",
-        "s.yaml:24:34: error: bodies.plate.shape: unknown shape 'ball' (shapes: conveyor, plate)");
+        "s.yaml:24:34: error: bodies.plate.shape: unknown shape 'ball' (shapes: conveyor, plate, "
+        "plane, box, cylinder, frustum, cone, disc, "
+        "container, mesh)");
   check(
       "model: trajectory", "model: [1]",
       "s.yaml:41:19: error: sensors.stream.model: the name of a sensor model is expected, not a "
@@ -118,6 +143,75 @@ TEST_CASE("a name of something that is not there shall be told with the nearest"
   check("drops: [5, 10 mm]", "drops: [5, 10 mm], body: plate",
         "s.yaml:41:77: error: sensors.stream.body: the body 'plate' is switched off "
         "(enabled: false)");
+}
+
+TEST_CASE("a body that contradicts itself shall be told with a remedy") {
+  check_body("lid: {shape: mesh, material: glass, unit: 1 mm, file: none.stl}",
+             "s.yaml:24:57: error: bodies.lid.file: there is no file none.stl");
+  check_body(
+      "lid: {shape: mesh, material: glass, unit: 1 mm, file: open.stl}",
+      "s.yaml:24:16: error: bodies.lid: the mesh open.stl is open: 3 edges have one triangle "
+      "only, the first at (0.5 mm, 0 mm, 0 mm); close it where it was drawn, or give open: "
+      "allowed if it is a thin sheet");
+  check_body(
+      "lid: {shape: mesh, material: glass, unit: 1 mm, file: not.stl}",
+      "s.yaml:24:16: error: bodies.lid: not.stl is not an STL file (neither binary nor text)");
+  check_body("lid: {shape: mesh, material: glass, unit: 1 mm, file: open.stl, open: allowed}",
+             "s.yaml:24:16: error: bodies.lid: the air cannot be cut by a sheet without thickness: "
+             "give thickness, or run grains alone (fluid: none)");
+  check_body("lid: {shape: mesh, material: glass, unit: 1 mm, file: open.stl, open: allowed}", "",
+             false);
+  check_body("lid: {shape: box, material: glass, min: [0, 0, 0], max: [1, 0, 1 mm]}",
+             "s.yaml:24:16: error: bodies.lid: max is not above min in each direction");
+  check_body(
+      "lid: {shape: cylinder, material: glass, base: [0, 0, 0], axis: [0, 0, 1], length: 1 mm, "
+      "radius: -1 mm}",
+      "bodies.lid.radius: -1 mm is outside R > 0 m");
+}
+
+TEST_CASE("a body that moves or goes shall be refused where the air is cut by it") {
+  const std::string plane =
+      "lid: {shape: plane, material: glass, point: [0, 0, 0], normal: [0, 0, 1]";
+  check_body(plane + ", motion: lift, velocity: [0, 0, 1 mm/s]}",
+             "s.yaml:24:85: error: bodies.lid: the body moves through the air, which is cut by the "
+             "bodies only once: run grains alone (fluid: none), or let only its surface move "
+             "(motion: belt)");
+  check_body(plane + ", motion: lift, velocity: [0, 0, 1 mm/s]}", "", false);
+  check_body(plane + ", motion: belt, speed: 1 m/s}", "");
+  check_body(plane + ", motions: [{model: belt, speed: 1 m/s}]}", "");
+  check_body(plane + ", remove: {at: 1 s}}",
+             "s.yaml:24:3: error: bodies.lid.remove: the air is cut by the bodies only once: run "
+             "grains alone (fluid: none)");
+  check_body(plane + ", remove: {at: 1 s}}", "", false);
+  check_body(plane + ", remove: {when_kinetic_energy_per_grain_below: 1e-9 J, after: 0.1 s}}", "",
+             false);
+}
+
+TEST_CASE("motions and removals that contradict themselves shall be told") {
+  const std::string plane =
+      "lid: {shape: plane, material: glass, point: [0, 0, 0], normal: [0, 0, 1]";
+  check_body(plane + ", remove: {at: 1 s, when_kinetic_energy_per_grain_below: 1 uJ}}",
+             "bodies.lid.remove: give at or when_kinetic_energy_per_grain_below, not both", false);
+  check_body(plane + ", remove: {}}",
+             "bodies.lid.remove: give at or when_kinetic_energy_per_grain_below", false);
+  check_body(plane + ", remove: {at: 1 s, after: 1 s}}",
+             "bodies.lid.remove: after belongs to when_kinetic_energy_per_grain_below, not to at",
+             false);
+  check_body(plane + ", remove: {at: -1 s}}", "bodies.lid.remove.at: -1 s is outside at >= 0 s",
+             false);
+  check_body(plane + ", remove: {when_kinetic_energy_per_grain_below: 1 s}}",
+             "'s' is the unit of a time: an energy is expected", false);
+  check_body(plane + ", motion: belt, speed: 1, motions: [{model: belt, speed: 1}]}",
+             "bodies.lid: give motion or motions, not both", false);
+  check_body(plane + ", motions: {model: belt, speed: 1}}",
+             "bodies.lid.motions: a list of '- model: ...' is expected, not a map", false);
+  check_body(plane + ", motions: [{model: belt, sped: 1}]}", "did you mean 'speed'?", false);
+  check_body(
+      "lid: {shape: cylinder, material: glass, base: [0, 0, 0], axis: [0, 0, 1], length: 1 mm, "
+      "radius: 1 mm, motion: lift, velocity: [0, 0, 1]}",
+      "the key 'radius' belongs to the shape and to the motion: give the motion as motions: "
+      "[{model: ...}]",
+      false);
 }
 
 TEST_CASE("a pair of materials that can meet without a law shall be told") {

@@ -17,7 +17,7 @@ TEST_CASE("settings shall reach values, lists, list elements and absent optional
                                              {"seed", "7"},
                                              {"fluid.largest_cfl", "0.5"}})
                          .setup;
-  CHECK(std::get<double>(setup.bodies[0].motion->values[0]) == 0.4);
+  CHECK(std::get<double>(setup.bodies[0].motions[0].values[0]) == 0.4);
   CHECK(std::get<double>(setup.interactions[1].contact.values[1]) == 0.1);
   CHECK(setup.fluid->cells == std::array<int, 3>{132, 6, 140});
   CHECK(setup.bodies.size() == 2);

@@ -28,8 +28,8 @@ TEST_CASE("the transfer point shall be read as it is written") {
   REQUIRE(setup.bodies.size() == 1);
   CHECK(setup.bodies[0].name == "belt");
   CHECK(setup.bodies[0].frame == 0);
-  REQUIRE(setup.bodies[0].motion);
-  CHECK(std::get<double>(setup.bodies[0].motion->values[0]) == 0.8);
+  REQUIRE(setup.bodies[0].motions.size() == 1);
+  CHECK(std::get<double>(setup.bodies[0].motions[0].values[0]) == 0.8);
   REQUIRE(setup.emitters.size() == 1);
   REQUIRE(setup.fluid);
   CHECK(setup.fluid->cells == std::array<int, 3>{264, 9, 280});

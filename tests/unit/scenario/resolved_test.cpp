@@ -66,7 +66,17 @@ void check_same(const Setup& a, const Setup& b) {
     CHECK(a.bodies[n].material == b.bodies[n].material);
     CHECK(a.bodies[n].frame == b.bodies[n].frame);
     check_same(a.bodies[n].shape, b.bodies[n].shape);
-    check_same(a.bodies[n].motion, b.bodies[n].motion);
+    CHECK(a.bodies[n].group == b.bodies[n].group);
+    REQUIRE(a.bodies[n].motions.size() == b.bodies[n].motions.size());
+    for (std::size_t m = 0; m < a.bodies[n].motions.size(); ++m) {
+      check_same(a.bodies[n].motions[m], b.bodies[n].motions[m]);
+    }
+    REQUIRE(a.bodies[n].removal.has_value() == b.bodies[n].removal.has_value());
+    if (const auto& removal = a.bodies[n].removal) {
+      CHECK(removal->at == b.bodies[n].removal->at);
+      CHECK(removal->after == b.bodies[n].removal->after);
+      CHECK(removal->kinetic_energy_per_grain == b.bodies[n].removal->kinetic_energy_per_grain);
+    }
   }
   REQUIRE(a.emitters.size() == b.emitters.size());
   for (std::size_t n = 0; n < a.emitters.size(); ++n) {

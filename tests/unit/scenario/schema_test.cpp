@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "bodies/shape.hpp"
 #include "unit/scenario/support.hpp"
 
 #include <doctest/doctest.h>
@@ -15,8 +16,9 @@ TEST_CASE("the JSON Schema shall hold every model with its parameters") {
   CHECK(restitution["maximum"] == 1);
   CHECK(contact[0]["required"].size() == 3);
   CHECK(schema["properties"]["sensors"]["additionalProperties"]["oneOf"].size() == 5);
-  // Two shapes, each at rest or on the belt.
-  CHECK(schema["properties"]["bodies"]["additionalProperties"]["oneOf"].size() == 4);
+  // All shapes, each at rest or with one of two motions.
+  CHECK(schema["properties"]["bodies"]["additionalProperties"]["oneOf"].size() ==
+        3 * dust::bodies::shape_catalogue().size());
   CHECK(schema["properties"]["time"]["required"] ==
         nlohmann::json({"end", "fluid_step", "output_every"}));
 }

@@ -70,7 +70,7 @@ inline bodies::Body body(std::unique_ptr<bodies::Shape> shape, double speed) {
   bodies::Body b;
   b.name = "test";
   b.shape = std::move(shape);
-  if (speed != 0.0) b.motion = std::make_unique<Turning>(speed);
+  if (speed != 0.0) b.motions.push_back(std::make_unique<Turning>(speed));
   return b;
 }
 

@@ -34,8 +34,9 @@ struct Range {
 };
 
 /// What a `text` names, so that the reader can check it against the scenario. A `file` is seen from
-/// the folder of the scenario file that names it; the model gets its full path.
-enum class Refers { nothing, material, body, emitter, boundary, file };
+/// the folder of the scenario file that names it; the model gets its full path. A `wall` is a body,
+/// a group of bodies or a side of the domain.
+enum class Refers { nothing, material, body, emitter, boundary, file, wall };
 
 /// One declared parameter: the single place where its name, unit, range, default and meaning stand.
 struct Parameter {

@@ -51,6 +51,27 @@ struct FluidColumns {
   std::span<const float> open_fraction;  ///< [-] share of the cell not inside a body
 };
 
+/// A grain that has begun to touch a wall.
+struct WallImpact {
+  std::int32_t wall = 0;           ///< index into the columns
+  double normal_energy = 0.0;      ///< [J] m v_n^2 / 2 of one real grain, towards the wall
+  double tangential_energy = 0.0;  ///< [J] m v_t^2 / 2, v_t of the grain's surface along the wall
+  double weight = 1.0;             ///< [-] real grains
+};
+
+/// Walls: sides of the domain, then bodies. Means are over the interval since the last sample.
+/// Empty unless a sensor of the run asks for them (Sensor::looks_at_walls).
+struct WallColumns {
+  std::span<const std::string> name;
+  std::span<const std::string> group;      ///< "" = none
+  std::span<const Vec3> force;             ///< [N] mean of the contacts on the wall
+  std::span<const Vec3> torque;            ///< [N m] mean about the domain's origin
+  std::span<const double> power;           ///< [W] mean of what the wall's motion gives to grains
+  std::span<const double> mass;            ///< [kg] of the grains in touch now, weighted
+  std::span<const std::int64_t> contacts;  ///< computed grains in touch now
+  std::span<const WallImpact> impacts;     ///< since the last sample
+};
+
 /// What a sensor may look at; valid during the call only.
 struct WorldView {
   double time = 0.0;            ///< [s] now
@@ -60,6 +81,7 @@ struct WorldView {
   GrainColumns grains;
   ContactColumns contacts;  ///< empty unless a sensor of the run wants contacts
   FluidColumns fluid;
+  WallColumns walls;
   std::span<const double> class_diameters;  ///< [m] ascending size classes of the run
   double emitted_mass = 0.0;                ///< [kg] so far, weighted
 };
@@ -99,6 +121,8 @@ class Sensor : public Model {
   /// Figures for summary.json, with uncertainties.
   virtual void summary(FigureSink& sink) const = 0;
   virtual void report(ReportSink&) const {}
+  /// Whether it reads WorldView::walls; these are kept only when a sensor does.
+  [[nodiscard]] virtual bool looks_at_walls() const { return false; }
 };
 
 }  // namespace dust::sdk

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dust::model {
+
+/// A speed that is reached in a straight ramp, held, and lost at once at a time or after a way:
+/// with \f$ \tau = t - t_0 \f$ the way is \f$ u \tau^2 / (2 r) \f$ while \f$ \tau < r \f$ and
+/// \f$ u (\tau - r/2) \f$ afterwards. `speed` > 0; way and speed in any consistent unit.
+struct Course {
+  double speed = 0.0;
+  double start = 0.0;                                      ///< [s]
+  double ramp = 0.0;                                       ///< [s]
+  double stop = std::numeric_limits<double>::infinity();   ///< [s]
+  double limit = std::numeric_limits<double>::infinity();  ///< of the way
+
+  /// Time [s] at which the motion ends.
+  [[nodiscard]] double end() const {
+    const double on_ramp = 0.5 * speed * ramp;
+    const double lasts =
+        limit < on_ramp ? std::sqrt(2.0 * limit * ramp / speed) : limit / speed + 0.5 * ramp;
+    return std::min(stop, start + lasts);
+  }
+  [[nodiscard]] double way(double time) const {
+    const double tau = std::max(0.0, std::min(time, end()) - start);
+    const double way = tau < ramp ? 0.5 * speed * tau * tau / ramp : speed * (tau - 0.5 * ramp);
+    // The end of the way is met to the last bit.
+    return time >= end() && end() < stop ? limit : way;
+  }
+  [[nodiscard]] double speed_at(double time) const {
+    if (time < start || time >= end()) return 0.0;
+    const double tau = time - start;
+    return tau < ramp ? speed * tau / ramp : speed;
+  }
+};
+
+}  // namespace dust::model

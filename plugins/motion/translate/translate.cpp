@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../course.hpp"
+
+#include <dust/sdk/plugin.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+namespace sdk = dust::sdk;
+
+class Translate final : public sdk::Motion {
+ public:
+  struct Parameters {
+    sdk::Vec3 velocity;
+    double start = 0.0;
+    double stop = std::numeric_limits<double>::infinity();
+    double travel = std::numeric_limits<double>::infinity();
+    double ramp = 0.0;
+  };
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.vector(&Parameters::velocity, "velocity", sdk::dimension::velocity,
+             "Velocity of the body; it turns with the body's frame.")
+        .symbol("u");
+    s.number(&Parameters::start, "start", sdk::dimension::time, "Time at which it sets off.")
+        .symbol("t_0")
+        .at_least(0)
+        .optional();
+    s.number(&Parameters::stop, "stop", sdk::dimension::time, "Time at which it stops.")
+        .at_least(0)
+        .optional();
+    s.number(&Parameters::travel, "travel", sdk::dimension::length,
+             "Distance after which it stops.")
+        .above(0)
+        .optional();
+    s.number(&Parameters::ramp, "ramp", sdk::dimension::time,
+             "Time in which it gathers speed, evenly.")
+        .symbol("r")
+        .at_least(0)
+        .optional();
+    return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    return {.name = "translate",
+            .version = "1.0",
+            .summary = "A body that moves in a straight line, until a time or a distance.",
+            .equation = "x = x_0 + u (t - t_0)",
+            .source = "kinematics; own derivation"};
+  }
+
+  explicit Translate(const Parameters& p)
+      : course_{.speed = norm(p.velocity),
+                .start = p.start,
+                .ramp = p.ramp,
+                .stop = p.stop,
+                .limit = p.travel} {
+    if (!(course_.speed > 0.0)) throw sdk::ParameterError("velocity is zero: nothing would move");
+    if (p.stop <= p.start) throw sdk::ParameterError("stop is not after start");
+    direction_ = p.velocity / course_.speed;
+  }
+  [[nodiscard]] double largest_speed() const override { return course_.speed; }
+  [[nodiscard]] bool moves_body() const override { return true; }
+  [[nodiscard]] sdk::RigidPose pose(double time) const override {
+    sdk::RigidPose pose;
+    pose.shift = course_.way(time) * direction_;
+    pose.velocity = course_.speed_at(time) * direction_;
+    return pose;
+  }
+
+ private:
+  dust::model::Course course_;
+  sdk::Vec3 direction_;
+};
+
+}  // namespace
+
+DUST_PLUGIN(registrar) { registrar.add<Translate>(); }

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wall_load.hpp"
+
+#include "dust/sdk/plugin.hpp"
+#include "dust/sdk/sampling.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace dust::sdk;
+namespace formula = dust::model::wall_load;
+
+class WallLoad final : public Sensor {
+ public:
+  struct Parameters {
+    std::vector<std::string> walls;
+    Vec3 about;
+    double averaging_after = 0.0;
+    double least_energy = 1e-12;
+    double largest_energy = 1e-3;
+    std::int64_t bins = 36;
+  };
+
+  static ParameterSchema schema() {
+    SchemaOf<Parameters> s;
+    s.texts(&Parameters::walls, "walls",
+            "Bodies, groups of bodies and sides of the domain whose loads are added up.")
+        .refers_to(Refers::wall);
+    s.vector(&Parameters::about, "about", dimension::length, "Point the torque is taken about.")
+        .symbol("p")
+        .optional();
+    s.number(&Parameters::averaging_after, "averaging_after", dimension::time,
+             "Time from which means are taken and impacts are counted.")
+        .at_least(0)
+        .optional();
+    s.number(&Parameters::least_energy, "least_energy", dimension::energy,
+             "Lower end of the spectrum of impact energies; softer touches do not count.")
+        .above(0)
+        .optional();
+    s.number(&Parameters::largest_energy, "largest_energy", dimension::energy,
+             "Upper end of the spectrum; harder impacts count in its last bin.")
+        .above(0)
+        .optional();
+    s.integer(&Parameters::bins, "bins", "Bins of the spectrum, even in the logarithm.")
+        .at_least(1)
+        .at_most(10000)
+        .optional();
+    return s.build();
+  }
+
+  static ModelInfo describe() {
+    return {"",
+            "wall_load",
+            "1.0",
+            "Force, torque, power, mass in contact and impact energies of walls.",
+            R"(F = -\sum_c w_c f_c,\quad T_p = -\sum_c w_c [(x_c - p) \times f_c + M_c],\quad )"
+            R"(P = \sum_c w_c f_c \cdot v_w,\quad E = \tfrac{1}{2} m v_n^2)",
+            "own definition",
+            {}};
+  }
+
+  explicit WallLoad(const Parameters& p)
+      : p_(p), bins_{p.least_energy, p.largest_energy, static_cast<std::size_t>(p.bins)} {
+    if (!(p.largest_energy > p.least_energy)) {
+      throw ParameterError("largest_energy is not above least_energy");
+    }
+    normal_.assign(bins_.count, 0.0);
+    tangential_.assign(bins_.count, 0.0);
+  }
+
+  [[nodiscard]] bool looks_at_walls() const override { return true; }
+
+  void observe(const WorldView& world) override {
+    const WallColumns& w = world.walls;
+    values_.fill(0.0);
+    Vec3 force;
+    Vec3 torque;
+    std::vector<bool> is_chosen(w.name.size());
+    for (std::size_t n = 0; n < w.name.size(); ++n) {
+      const auto asked = [&](const std::string& name) {
+        return !name.empty() && std::find(p_.walls.begin(), p_.walls.end(), name) != p_.walls.end();
+      };
+      is_chosen[n] = asked(w.name[n]) || asked(w.group[n]);
+      if (!is_chosen[n]) continue;
+      force += w.force[n];
+      torque += w.torque[n];
+      values_[k_power] += w.power[n];
+      values_[k_mass] += w.mass[n];
+      values_[k_contacts] += static_cast<double>(w.contacts[n]);
+    }
+    torque = formula::torque_about(p_.about, torque, force);
+    for (int d = 0; d < 3; ++d) {
+      values_[static_cast<std::size_t>(d)] = force[d];
+      values_[3 + static_cast<std::size_t>(d)] = torque[d];
+    }
+    curve_.add(world.time, norm(force));
+    if (!is_after(world, p_.averaging_after)) return;
+    means_.add(values_, world.interval);
+    for (const WallImpact& i : w.impacts) {
+      const double energy = i.normal_energy + i.tangential_energy;
+      if (!is_chosen[static_cast<std::size_t>(i.wall)] || energy < p_.least_energy) continue;
+      impacts_ += i.weight;
+      impact_energy_[0] += i.weight * i.normal_energy;
+      impact_energy_[1] += i.weight * i.tangential_energy;
+      largest_ = std::max(largest_, energy);
+      normal_[bins_.index(i.normal_energy)] += i.weight;
+      tangential_[bins_.index(i.tangential_energy)] += i.weight;
+    }
+  }
+
+  void series(FigureSink& sink) const override {
+    for (std::size_t c = 0; c < k_columns; ++c) sink.figure(k_names[c], values_[c], k_units[c]);
+  }
+
+  void summary(FigureSink& sink) const override {
+    for (std::size_t c = 0; c < k_columns; ++c) {
+      sink.figure(k_names[c], means_.mean(c), k_units[c], means_.error(c));
+    }
+    // Impacts come one by one: their number scatters like a Poisson count.
+    sink.figure("impacts", impacts_, "1", impacts_ > 0.0 ? std::sqrt(impacts_) : -1.0);
+    sink.figure("impact_energy_normal", impact_energy_[0], "J");
+    sink.figure("impact_energy_tangential", impact_energy_[1], "J");
+    sink.figure("impact_energy_largest", largest_, "J");
+    sink.figure("impact_energy_normal_median", bins_.median(normal_), "J");
+    const double time = means_.duration();
+    sink.figure("impact_rate", time > 0.0 ? impacts_ / time : 0.0, "1/s",
+                time > 0.0 && impacts_ > 0.0 ? std::sqrt(impacts_) / time : -1.0);
+  }
+
+  void report(ReportSink& sink) const override {
+    sink.curve("Force on the wall", "time [s]", "force [N]", "all", curve_.x(), curve_.y());
+    std::vector<double> energy;
+    for (std::size_t b = 0; b < bins_.count; ++b) energy.push_back(bins_.middle(b));
+    sink.curve("Impact energies", "energy of an impact [J]", "impacts", "normal", energy, normal_);
+    sink.curve("Impact energies", "energy of an impact [J]", "impacts", "tangential", energy,
+               tangential_);
+  }
+
+  void save(ArchiveWriter& a) const override {
+    a.numbers("values", values_);
+    const double sums[] = {impacts_, impact_energy_[0], impact_energy_[1], largest_};
+    a.numbers("sums", sums);
+    a.numbers("normal", normal_);
+    a.numbers("tangential", tangential_);
+    means_.save(a, "means");
+    curve_.save(a, "curve");
+  }
+  void load(ArchiveReader& a) override {
+    const auto values = a.numbers("values");
+    std::copy_n(values.begin(), std::min(values.size(), values_.size()), values_.begin());
+    const auto sums = a.numbers("sums");
+    impacts_ = sums.at(0);
+    impact_energy_ = {sums.at(1), sums.at(2)};
+    largest_ = sums.at(3);
+    normal_ = a.numbers("normal");
+    tangential_ = a.numbers("tangential");
+    means_.load(a, "means");
+    curve_.load(a, "curve");
+  }
+
+ private:
+  static constexpr std::size_t k_power = 6;
+  static constexpr std::size_t k_mass = 7;
+  static constexpr std::size_t k_contacts = 8;
+  static constexpr std::size_t k_columns = 9;
+  static constexpr const char* k_names[k_columns] = {"force_x",  "force_y",         "force_z",
+                                                     "torque_x", "torque_y",        "torque_z",
+                                                     "power",    "mass_in_contact", "contacts"};
+  static constexpr const char* k_units[k_columns] = {"N",   "N", "N",  "N m", "N m",
+                                                     "N m", "W", "kg", "1"};
+
+  Parameters p_;
+  formula::Bins bins_;
+  std::array<double, k_columns> values_{};   ///< at the last sample
+  double impacts_ = 0.0;                     ///< [-] real grains
+  std::array<double, 2> impact_energy_{};    ///< [J] normal, tangential
+  double largest_ = 0.0;                     ///< [J]
+  std::vector<double> normal_, tangential_;  ///< spectra
+  BatchMeans means_{k_columns};
+  ThinnedCurve curve_;
+};
+
+}  // namespace
+
+DUST_PLUGIN(registrar) { registrar.add<WallLoad>(); }

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bodies/body_set.hpp"
+#include "dust/sdk/error.hpp"
+#include "motion/belt/belt.hpp"
+#include "support/dem_rig.hpp"
+#include "unit/bodies/shapes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using dust::bodies::Body;
+using dust::sdk::Motion;
+using dust::sdk::RigidPose;
+using dust::sdk::Value;
+using dust::sdk::Vec3;
+using dust::test::make_shape;
+using dust::test::ModelLoader;
+
+std::unique_ptr<Motion> motion(const std::string& name,
+                               const std::map<std::string, Value>& values) {
+  return ModelLoader::make<Motion>("motion", name, values);
+}
+
+/// Where a point fixed to the body is.
+Vec3 carried(const Body& body, Vec3 point, double time) {
+  return body.placement(time).to_domain(point);
+}
+
+Body box_with(std::vector<std::unique_ptr<Motion>> motions) {
+  Body body;
+  body.shape = make_shape("box", {{"min", Vec3{-1, -1, -1}}, {"max", Vec3{1, 1, 1}}});
+  body.motions = std::move(motions);
+  return body;
+}
+
+template <class... M>
+std::vector<std::unique_ptr<Motion>> list(M... m) {
+  std::vector<std::unique_ptr<Motion>> all;
+  (all.push_back(std::move(m)), ...);
+  return all;
+}
+
+std::string problem(const std::string& name, const std::map<std::string, Value>& values) {
+  try {
+    motion(name, values);
+  } catch (const dust::sdk::ParameterError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a lifted body shall go as far as it is told and no farther") {
+  const auto lift =
+      motion("translate", {{"velocity", Vec3{0, 0, 0.01}}, {"start", 0.5}, {"travel", 0.01}});
+  CHECK(lift->pose(0.3).shift == Vec3{});
+  CHECK(lift->pose(0.3).velocity == Vec3{});
+  CHECK(lift->pose(1.0).shift.z == doctest::Approx(0.005).epsilon(1e-14));
+  CHECK(lift->pose(1.0).velocity.z == doctest::Approx(0.01).epsilon(1e-14));
+  CHECK(lift->pose(2.0).shift.z == 0.01);  // to the last bit
+  CHECK(lift->pose(2.0).velocity == Vec3{});
+  CHECK(lift->largest_speed() == doctest::Approx(0.01).epsilon(1e-14));
+  const auto stopped =
+      motion("translate", {{"velocity", Vec3{2, 0, 0}}, {"stop", 0.25}, {"ramp", 0.1}});
+  CHECK(stopped->pose(0.05).shift.x == doctest::Approx(0.5 * 2 * 0.05 * 0.05 / 0.1).epsilon(1e-14));
+  CHECK(stopped->pose(0.05).velocity.x == doctest::Approx(1.0).epsilon(1e-14));
+  CHECK(stopped->pose(9.0).shift.x == doctest::Approx(2 * (0.25 - 0.05)).epsilon(1e-14));
+  // An end on the ramp.
+  const auto short_way =
+      motion("translate", {{"velocity", Vec3{2, 0, 0}}, {"travel", 0.025}, {"ramp", 0.1}});
+  CHECK(short_way->pose(0.049).velocity.x > 0.9);
+  CHECK(short_way->pose(0.051).velocity.x == 0.0);
+  CHECK(short_way->pose(0.051).shift.x == 0.025);
+}
+
+TEST_CASE("velocities shall be the rates at which places change, alone and combined") {
+  std::vector<Body> bodies;
+  bodies.push_back(
+      box_with(list(motion("translate", {{"velocity", Vec3{0.1, 0.2, -0.3}}, {"ramp", 3.0}}))));
+  bodies.push_back(box_with(list(motion(
+      "rotate", {{"pivot", Vec3{0.5, 0, 0.2}}, {"spin_axis", Vec3{1, 2, 2}}, {"spin", -3.0}}))));
+  const std::map<std::string, Value> swing = {{"amplitude", std::vector<double>{0.01, 0.002}},
+                                              {"frequency", std::vector<double>{3.0, 11.0}},
+                                              {"phase", std::vector<double>{0.3, 1.0}},
+                                              {"along", std::vector<Vec3>{{0, 0, 1}, {1, 1, 0}}}};
+  bodies.push_back(box_with(list(motion("oscillate", swing))));
+  bodies.push_back(box_with(list(
+      motion("rotate", {{"pivot", Vec3{0.5, 0, 0}}, {"spin_axis", Vec3{0, 0, 1}}, {"spin", 2.0}}),
+      motion("oscillate", swing),
+      motion("rotate", {{"pivot", Vec3{0, 1, 0}}, {"spin_axis", Vec3{1, 0, 0}}, {"spin", 0.7}}))));
+  for (Body& body : bodies) {
+    body.frame_origin = {0.1, 0.2, 0.3};
+    body.frame_axis = {0, 0.6, 0.8};
+    body.frame_angle = 0.4;
+    for (const double time : {0.1, 0.37, 1.2}) {
+      for (const Vec3 point : {Vec3{1, 0.3, -0.2}, Vec3{-1, 1, 1}}) {
+        constexpr double h = 1e-5;
+        const Vec3 rate =
+            (carried(body, point, time + h) - carried(body, point, time - h)) / (2 * h);
+        const Vec3 now = carried(body, point, time);
+        const Vec3 v = body.surface_velocity(now, {0, 0, 1}, time);
+        // Central difference: third derivative times h^2 / 6, below 1e-6 here.
+        CHECK(norm(v - rate) < 1e-6);
+        // The surface has gone with the body.
+        CHECK(std::abs(body.nearest(now, body.placement(time)).distance) < 1e-12);
+      }
+    }
+  }
+}
+
+TEST_CASE("an oscillation shall start where the body stands and stop where it is") {
+  const auto swing = motion("oscillate", {{"amplitude", std::vector<double>{0.01}},
+                                          {"frequency", std::vector<double>{2.0}},
+                                          {"phase", std::vector<double>{std::numbers::pi / 2}},
+                                          {"along", std::vector<Vec3>{{0, 0, 3}}},
+                                          {"start", 1.0},
+                                          {"stop", 1.25}});
+  CHECK(swing->pose(0.9).shift == Vec3{});
+  CHECK(norm(swing->pose(1.0).shift) < 1e-15);
+  CHECK(swing->pose(1.2499999).shift.z == doctest::Approx(-0.02).epsilon(1e-6));
+  CHECK(swing->pose(5.0).shift.z == doctest::Approx(-0.02).epsilon(1e-12));
+  CHECK(swing->pose(5.0).velocity == Vec3{});
+  CHECK(swing->largest_speed() == doctest::Approx(2 * std::numbers::pi * 2 * 0.01).epsilon(1e-12));
+}
+
+TEST_CASE("a belt shall gather speed evenly, and shake when it is told to") {
+  using dust::model::belt::speed_at;
+  CHECK(speed_at(0.8, 0.1, 0.5, 0.05) == 0.0);
+  CHECK(speed_at(0.8, 0.1, 0.5, 0.35) == doctest::Approx(0.4).epsilon(1e-14));
+  CHECK(speed_at(0.8, 0.1, 0.5, 0.7) == 0.8);
+  Body body;
+  body.shape =
+      make_shape("conveyor", {{"head", Vec3{1, 0, 0}}, {"tail", Vec3{-1, 0, 0}}, {"radius", 0.1}});
+  body.motions = list(motion("belt", {{"speed", 0.8}, {"ramp", 1.0}}),
+                      motion("oscillate", {{"amplitude", std::vector<double>{0.001}},
+                                           {"frequency", std::vector<double>{10.0}},
+                                           {"along", std::vector<Vec3>{{0, 0, 1}}}}));
+  CHECK(body.displaces());
+  const Vec3 v = body.surface_velocity({0, 0, 0.1}, {0, 0, 1}, 0.5);
+  CHECK(v.x == doctest::Approx(0.4).epsilon(1e-12));
+  CHECK(v.z == doctest::Approx(0.001 * 2 * std::numbers::pi * 10 * std::cos(10 * std::numbers::pi))
+                   .epsilon(1e-9));
+}
+
+TEST_CASE("a drum about its own axis shall stand while its surface turns") {
+  Body drum;
+  drum.shape = make_shape("cylinder", {{"base", Vec3{}},
+                                       {"axis", Vec3{0, 1, 0}},
+                                       {"length", 1.0},
+                                       {"radius", 0.5},
+                                       {"thickness", 0.1}});
+  drum.motions = list(
+      motion("rotate", {{"pivot", Vec3{0, 9, 0}}, {"spin_axis", Vec3{0, 1, 0}}, {"spin", 2.0}}));
+  CHECK_FALSE(drum.displaces());
+  CHECK(drum.largest_displacing_speed() == 0.0);
+  const Vec3 v = drum.surface_velocity({0, 0.5, -0.5}, {0, 0, 1}, 3.0);
+  CHECK(norm(v - Vec3{-1, 0, 0}) < 1e-12);
+  drum.motions = list(
+      motion("rotate", {{"pivot", Vec3{0.1, 0, 0}}, {"spin_axis", Vec3{0, 1, 0}}, {"spin", 2.0}}));
+  CHECK(drum.displaces());
+}
+
+TEST_CASE("motions that contradict themselves shall be refused") {
+  CHECK(problem("translate", {{"velocity", Vec3{}}}) == "velocity is zero: nothing would move");
+  CHECK(problem("translate", {{"velocity", Vec3{1, 0, 0}}, {"start", 2.0}, {"stop", 1.0}}) ==
+        "stop is not after start");
+  CHECK(problem("rotate", {{"pivot", Vec3{}}, {"spin_axis", Vec3{}}, {"spin", 1.0}}) ==
+        "spin_axis has no direction");
+  CHECK(problem("rotate", {{"pivot", Vec3{}}, {"spin_axis", Vec3{1, 0, 0}}, {"spin", 0.0}}) ==
+        "spin is zero: nothing would move");
+  CHECK(problem("oscillate", {{"amplitude", std::vector<double>{0.01}},
+                              {"frequency", std::vector<double>{2.0, 3.0}},
+                              {"along", std::vector<Vec3>{{0, 0, 3}}}}) ==
+        "amplitude and frequency differ in length");
+}

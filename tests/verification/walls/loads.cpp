@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "unit/bodies/meshes.hpp"
+#include "verification/walls/wall_rig.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace dust::test;
+using dust::particles::NewGrain;
+using dust::sdk::Vec3;
+
+namespace {
+
+constexpr double k_diameter = 1e-3;
+
+}  // namespace
+
+TEST_CASE("a wall shall carry the weight of what rests on it, at its place") {
+  WallRig rig(0.3, 0.4, k_diameter);
+  rig.setup.gravity = {0, 0, -k_g};
+  rig.body("plane", {{"point", Vec3{}}, {"normal", Vec3{0, 0, 1}}}).group = "floor";
+  auto dem = rig.make();
+  dem->watch_walls();
+  const double rest = 0.5 * k_diameter - rig.resting_overlap();
+  // Of weight 0.5 the second: half a real grain.
+  dem->insert(std::vector<NewGrain>{
+      {.position = {0.01, 0, rest}, .diameter = k_diameter},
+      {.position = {0.03, 0.02, rest}, .diameter = k_diameter, .weight = 0.5}});
+  Stepper stepper(*dem);
+  while (stepper.time() < 0.02) stepper.step();
+  dem->close_wall_loads(stepper.time());
+  const double before = stepper.time();
+  while (stepper.time() < before + 0.01) stepper.step();
+  const auto walls = dem->close_wall_loads(stepper.time() - before);
+  REQUIRE(walls.name.size() == 1);
+  CHECK(walls.name[0] == "plane");
+  CHECK(walls.group[0] == "floor");
+  const double weight = 1.5 * rig.mass() * k_g;
+  CHECK(norm(walls.force[0] - Vec3{0, 0, -weight}) < 1e-6 * weight);
+  // x cross F about the origin, the second with half the weight.
+  const double mg = rig.mass() * k_g;
+  CHECK(norm(walls.torque[0] - Vec3{-0.5 * 0.02 * mg, (0.01 + 0.5 * 0.03) * mg, 0}) <
+        1e-6 * 0.04 * mg);
+  CHECK(walls.mass[0] == doctest::Approx(1.5 * rig.mass()).epsilon(1e-12));
+  CHECK(walls.contacts[0] == 2);
+  CHECK(walls.power[0] == 0.0);
+  CHECK(walls.impacts.empty());
+}
+
+TEST_CASE("an impact shall give a wall the momentum it takes from the grain, and be seen once") {
+  WallRig rig(0.5, 0.3, k_diameter);
+  rig.body("box", {{"min", Vec3{-0.05, -0.05, -0.05}}, {"max", Vec3{0.05, 0.05, 0}}});
+  auto dem = rig.make();
+  dem->watch_walls();
+  const Vec3 before{0.8, 0, -1.0};
+  dem->insert(std::vector<NewGrain>{{.position = {0.002, 0.001, 5.1e-4},
+                                     .velocity = before,
+                                     .rotation = {0, 100, 0},
+                                     .diameter = k_diameter}});
+  const GrainState start = grain(*dem, 0);
+  Stepper stepper(*dem);
+  while (stepper.time() < 2e-3) stepper.step();
+  const double time = stepper.time();
+  const auto walls = dem->close_wall_loads(time);
+  const GrainState g = grain(*dem, 0);
+  CHECK(g.velocity.z > 0.3);
+  const double m = rig.mass();
+  const Vec3 momentum = m * (start.velocity - g.velocity);
+  CHECK(norm(time * walls.force[0] - momentum) < 1e-9 * m);
+  // Angular momentum about the origin: m x cross v + I omega. The wall acts at the grain's place of
+  // each step; the integrator keeps it to second order in the step.
+  const double inertia = 0.4 * m * g.radius * g.radius;
+  const auto angular = [&](const GrainState& s) {
+    return m * cross(s.position, s.velocity) + inertia * s.rotation;
+  };
+  CHECK(norm(time * walls.torque[0] - (angular(start) - angular(g))) < 2e-3 * norm(angular(start)));
+  REQUIRE(walls.impacts.size() == 1);
+  CHECK(walls.impacts[0].normal_energy == doctest::Approx(0.5 * m).epsilon(1e-9));
+  // The grain's surface: v_x - omega_y r = 0.8 - 100 * 0.5e-3, the lever shorter by half the first
+  // overlap.
+  CHECK(walls.impacts[0].tangential_energy ==
+        doctest::Approx(0.5 * m * std::pow(0.8 - 100 * 5e-4, 2)).epsilon(1e-3));
+  CHECK(walls.mass[0] == 0.0);
+  const auto after = dem->close_wall_loads(1.0);
+  CHECK(after.impacts.empty());
+  CHECK(after.force[0] == Vec3{});
+}
+
+TEST_CASE("a floor that lifts a grain shall spend its weight times the speed") {
+  WallRig rig(0.3, 0.4, k_diameter);
+  rig.setup.gravity = {0, 0, -k_g};
+  rig.body("plane", {{"point", Vec3{}}, {"normal", Vec3{0, 0, 1}}},
+           rig.motion("translate", {{"velocity", Vec3{0, 0, 0.2}}}));
+  auto dem = rig.make();
+  dem->watch_walls();
+  dem->insert(std::vector<NewGrain>{{.position = {0, 0, 0.5 * k_diameter - rig.resting_overlap()},
+                                     .velocity = {0, 0, 0.2},
+                                     .diameter = k_diameter}});
+  Stepper stepper(*dem);
+  while (stepper.time() < 0.05) stepper.step();
+  const auto walls = dem->close_wall_loads(stepper.time());
+  // The time mean over the small oscillation of the start.
+  CHECK(walls.power[0] == doctest::Approx(rig.mass() * k_g * 0.2).epsilon(1e-3));
+}
+
+TEST_CASE("a belt that takes a grain along shall spend what the grain gains and friction eats") {
+  // Sliding all the time: power = mu m g U, half of it lost while the speeds differ.
+  constexpr double mu = 0.3;
+  constexpr double speed = 1.0;
+  WallRig rig(0.3, mu, k_diameter);
+  rig.setup.gravity = {0, 0, -k_g};
+  rig.body("conveyor",
+           {{"head", Vec3{0.2, 0, -0.01}}, {"tail", Vec3{-0.2, 0, -0.01}}, {"radius", 0.01}},
+           rig.motion("belt", {{"speed", speed}}));
+  auto dem = rig.make();
+  dem->watch_walls();
+  dem->insert(std::vector<NewGrain>{
+      {.position = {0, 0, 0.5 * k_diameter - rig.resting_overlap()}, .diameter = k_diameter}});
+  Stepper stepper(*dem);
+  // Slip ends at t = 2 U / (7 mu g) = 97 ms.
+  while (stepper.time() < 0.06) stepper.step();
+  const auto walls = dem->close_wall_loads(stepper.time());
+  CHECK(walls.power[0] == doctest::Approx(mu * rig.mass() * k_g * speed).epsilon(2e-3));
+  CHECK(walls.force[0].x == doctest::Approx(-mu * rig.mass() * k_g).epsilon(2e-3));
+}
+
+TEST_CASE("a grain in a corner of a vessel shall count once for the vessel") {
+  WallRig rig(0.3, 0.4, k_diameter);
+  rig.setup.gravity = {-4, -3, -8};
+  rig.body("container", {{"min", Vec3{}}, {"max", Vec3{0.02, 0.02, 0.02}}, {"thickness", 1e-3}});
+  auto dem = rig.make();
+  dem->watch_walls();
+  dem->insert(
+      std::vector<NewGrain>{{.position = {5.1e-4, 5.1e-4, 5.1e-4}, .diameter = k_diameter}});
+  Stepper stepper(*dem);
+  while (stepper.time() < 0.1) stepper.step();
+  dem->close_wall_loads(1.0);
+  const double before = stepper.time();
+  while (stepper.time() < before + 0.01) stepper.step();
+  const auto walls = dem->close_wall_loads(stepper.time() - before);
+  REQUIRE(walls.name.size() == 1);
+  CHECK(walls.contacts[0] == 1);
+  CHECK(walls.mass[0] == doctest::Approx(rig.mass()).epsilon(1e-12));
+  CHECK(norm(walls.force[0] - rig.mass() * Vec3{-4, -3, -8}) < 1e-4 * rig.mass() * k_g);
+}

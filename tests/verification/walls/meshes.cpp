@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "unit/bodies/meshes.hpp"
+#include "verification/walls/wall_rig.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace dust::test;
+using dust::particles::NewGrain;
+using dust::sdk::Value;
+using dust::sdk::Vec3;
+
+namespace {
+
+constexpr double k_diameter = 2e-3;
+
+/// A grain over a floor whose top is z = 0: the exact plane, or a mesh of many triangles.
+struct Floor {
+  WallRig rig;
+  std::unique_ptr<dust::particles::Dem> dem;
+  std::unique_ptr<Stepper> stepper;
+
+  Floor(const std::string& mesh, double restitution, double friction, NewGrain grain,
+        double gravity, double rolling = -1.0)
+      : rig(restitution, friction, k_diameter, rolling) {
+    rig.setup.domain.min = {-0.1, -0.1, -0.1};
+    rig.setup.domain.max = {0.1, 0.1, 0.1};
+    rig.setup.gravity = {0, 0, -gravity};
+    if (mesh.empty()) {
+      rig.body("plane", {{"point", Vec3{}}, {"normal", Vec3{0, 0, 1}}});
+    } else {
+      rig.body("mesh", {{"file", mesh}, {"unit", 1e-3}});
+    }
+    dem = rig.make();
+    grain.diameter = k_diameter;
+    dem->insert(std::vector<NewGrain>{grain});
+    stepper = std::make_unique<Stepper>(*dem);
+  }
+  void until(double time) {
+    while (stepper->time() < time) stepper->step();
+  }
+  GrainState now() { return grain(*dem, 0); }
+};
+
+/// Squares of 1.6 mm, half a grain's size and not commensurate with its path, as a text file: the
+/// binary one rounds corners to floats, the plane z = 0 it keeps.
+std::string floor_mesh(const TemporaryFolder& folder) {
+  return write_text_stl(folder.path / "floor.stl", box_mesh({-40, -40, -10}, {40, 40, 0}, 50));
+}
+
+}  // namespace
+
+TEST_CASE("a sphere shall roll over a mesh of a plane as over the plane, without a bump") {
+  const TemporaryFolder folder;
+  const std::string mesh = floor_mesh(folder);
+  const WallRig rest(0.9, 0.5, k_diameter);
+  const double height = 0.5 * k_diameter - rest.resting_overlap();
+  // Rolling from the start: v = omega R. Askew to the triangles.
+  const Vec3 v{0.3, 0.113, 0};
+  const NewGrain grain{.position = {-0.02, -0.011, height},
+                       .velocity = v,
+                       .rotation = {-v.y / height, v.x / height, 0},
+                       .diameter = k_diameter};
+  Floor plane("", 0.9, 0.5, grain, k_g);
+  Floor tiles(mesh, 0.9, 0.5, grain, k_g);
+  const auto energy = [&](const GrainState& g) {
+    return 0.5 * dot(g.velocity, g.velocity) +
+           0.2 * g.radius * g.radius * dot(g.rotation, g.rotation);
+  };
+  const double start = energy(tiles.now());
+  double lowest = 1.0;
+  double highest = 0.0;
+  for (int n = 1; n <= 20; ++n) {
+    // 0.1 s: 32 mm, some 20 squares and their diagonals.
+    plane.until(0.005 * n);
+    tiles.until(0.005 * n);
+    const GrainState a = plane.now();
+    const GrainState b = tiles.now();
+    CHECK(norm(a.position - b.position) < 1e-10);
+    CHECK(norm(a.velocity - b.velocity) < 1e-10);
+    CHECK(norm(a.rotation - b.rotation) < 1e-7);  // rad/s of 320
+    lowest = std::min(lowest, b.position.z);
+    highest = std::max(highest, b.position.z);
+  }
+  CHECK(energy(tiles.now()) == doctest::Approx(start).epsilon(1e-4));
+  CHECK(highest - lowest < 1e-10);  // no bump
+}
+
+TEST_CASE("an impact on a face, an edge or a point of a flat mesh shall be that on the plane") {
+  // V-MESH-1 with the impacts of V-CO2 and V-CO4: head-on and oblique.
+  const TemporaryFolder folder;
+  const std::string mesh = floor_mesh(folder);
+  const Vec3 faces{0.0003, 0.0011, 0};
+  const Vec3 edge{0, 0.0007, 0};
+  const Vec3 diagonal{0.0008, 0.0008, 0};
+  const Vec3 point{0, 0, 0};
+  for (const Vec3 place : {faces, edge, diagonal, point}) {
+    for (const Vec3 velocity : {Vec3{0, 0, -1}, Vec3{1.2, 0.4, -0.8}}) {
+      const double gap = 1e-5;
+      const Vec3 start{place.x - velocity.x * gap / -velocity.z,
+                       place.y - velocity.y * gap / -velocity.z, 0.5 * k_diameter + gap};
+      const NewGrain grain{.position = start, .velocity = velocity, .diameter = k_diameter};
+      Floor plane("", 0.5, 0.3, grain, 0.0);
+      Floor tiles(mesh, 0.5, 0.3, grain, 0.0);
+      plane.until(2e-3);
+      tiles.until(2e-3);
+      const GrainState a = plane.now();
+      const GrainState b = tiles.now();
+      CHECK(a.velocity.z > 0.3);
+      CHECK(norm(a.velocity - b.velocity) < 1e-10);
+      CHECK(norm(a.position - b.position) < 1e-10);
+      CHECK(norm(a.rotation - b.rotation) < 1e-7);
+    }
+  }
+}
+
+TEST_CASE("a grain in the corner of a vessel shall rest as between three walls of the domain") {
+  const auto settle = [](bool is_vessel) {
+    WallRig rig(0.3, 0.4, k_diameter);
+    rig.setup.domain.min = is_vessel ? Vec3{-0.01, -0.01, -0.01} : Vec3{};
+    rig.setup.domain.max = {0.02, 0.02, 0.02};
+    rig.setup.gravity = {-4, -3, -8};
+    if (is_vessel) {
+      rig.body("container",
+               {{"min", Vec3{}}, {"max", Vec3{0.02, 0.02, 0.02}}, {"thickness", 1e-3}});
+    } else {
+      for (const int side : {0, 2, 4}) rig.wall(side, rig.sand);
+    }
+    auto dem = rig.make();
+    dem->insert(std::vector<NewGrain>{
+        {.position = {1.4e-3, 1.6e-3, 1.2e-3}, .rotation = {5, 3, 1}, .diameter = k_diameter}});
+    Stepper stepper(*dem);
+    while (stepper.time() < 0.2) stepper.step();
+    CHECK(dem->report().contacts == 3);
+    return grain(*dem, 0);
+  };
+  const GrainState walls = settle(false);
+  const GrainState vessel = settle(true);
+  CHECK(norm(walls.position - vessel.position) < 1e-10);
+  CHECK(norm(vessel.velocity) < 1e-5);
+  CHECK(vessel.position.x < 0.5 * k_diameter);
+  CHECK(vessel.position.y < 0.5 * k_diameter);
+  CHECK(vessel.position.z < 0.5 * k_diameter);
+}
+
+TEST_CASE("a sphere shall slide down a funnel of triangles as down the exact one") {
+  // A frustum of 72 sides: its faces lie inside the round one by 1 - cos(2.5 deg) = 0.1 % of the
+  // radius at most, so that paths differ by little.
+  const TemporaryFolder folder;
+  Corners c;
+  constexpr int k_round = 72;
+  const auto ring = [](double r, double z, int n) {
+    const double a = 2 * std::numbers::pi * (n % k_round) / k_round;
+    return Vec3{r * std::cos(a), r * std::sin(a), z};
+  };
+  const double profile[4][2] = {{5, 0}, {6, 0}, {21, 20}, {20, 20}};
+  for (int n = 0; n < k_round; ++n) {
+    for (int e = 0; e < 4; ++e) {
+      const auto& p = profile[e];
+      const auto& q = profile[(e + 1) % 4];
+      dust::test::add_quad(c, ring(p[0], p[1], n), ring(p[0], p[1], n + 1), ring(q[0], q[1], n + 1),
+                           ring(q[0], q[1], n));
+    }
+  }
+  const auto slide = [&](bool is_mesh) {
+    WallRig rig(0.2, 0.0, k_diameter);
+    rig.setup.domain.min = {-0.05, -0.05, -0.05};
+    rig.setup.domain.max = {0.05, 0.05, 0.05};
+    rig.setup.gravity = {0, 0, -k_g};
+    if (is_mesh) {
+      rig.body("mesh", {{"file", write_text_stl(folder.path / "f.stl", c)}, {"unit", 1e-3}});
+    } else {
+      // The inner face of the mesh; thickness across the wall: 1 mm wide along the end.
+      rig.body("frustum", {{"base", Vec3{}},
+                           {"axis", Vec3{0, 0, 1}},
+                           {"length", 0.02},
+                           {"radius", 0.005},
+                           {"end_radius", 0.02},
+                           {"thickness", 1e-3 * 20 / 25.0}});
+    }
+    auto dem = rig.make();
+    // Touching the wall at z = 15 mm, on its way down the slope.
+    dem->insert(
+        std::vector<NewGrain>{{.position = {0.0145, 0.0005, 0.0151}, .diameter = k_diameter}});
+    Stepper stepper(*dem);
+    while (stepper.time() < 0.05) stepper.step();
+    return grain(*dem, 0);
+  };
+  const GrainState exact = slide(false);
+  const GrainState mesh = slide(true);
+  CHECK(exact.velocity.z < -0.2);
+  CHECK(norm(exact.position - mesh.position) < 1e-4);
+  CHECK(norm(exact.velocity - mesh.velocity) < 0.05 * norm(exact.velocity));
+}
