@@ -39,7 +39,7 @@ with Prefix(arguments()) as prefix:
             ((made / "nothing.so",), 2, "no such file"),
             ((prefix.engine,), 2, "error: "),
             ((build / "my_drag.so", "--set", "exponent=x"), 2, "exponent"),
-            ((build / "my_drag.so", "--set", "expo=1"), 2, "did you mean 'exponent'?"),
+            ((build / "my_drag.so", "--set", "exponnt=1"), 2, "did you mean 'exponent'?"),
             ((build / "my_drag.so", "--set", "exponent=3"), 0, "all rules are kept"),
             ((build / "my_drag.so", "--json"), 0, '"verdict": "pass"')):
         said = prefix.run(prefix.engine, "test-plugin", *command, status=status)

@@ -70,7 +70,8 @@ TEST_CASE("help and version shall exit with 0, for every command with examples")
   CHECK(engine("--version").out.starts_with("engine "));
   const Outcome help = engine("--help");
   CHECK(help.status == 0);
-  for (const std::string command : {"check", "plugins", "describe", "schema", "new-plugin", "test-plugin"}) {
+  for (const std::string command :
+       {"check", "plugins", "describe", "schema", "new-plugin", "test-plugin"}) {
     CHECK(help.out.find("  " + command) != std::string::npos);
     const Outcome one = engine(command + " --help");
     CHECK(one.status == 0);
