@@ -44,7 +44,8 @@ struct Derived {
   double residence_time = 0.0;         ///< [s] rough: fall plus transport through the domain
   double grains_in_domain = 0.0;       ///< rough
   double memory_bytes = 0.0;           ///< rough
-  double wall_seconds = 0.0;           ///< rough
+  double disk_bytes = 0.0;             ///< rough: frames and checkpoint
+  double core_seconds = 0.0;           ///< [s] rough: wall time on one core
 };
 
 /// Rayleigh time [s] of a sphere: \f$ T_R = \pi R \sqrt{\rho / G} / (0.1631 \nu + 0.8766) \f$,

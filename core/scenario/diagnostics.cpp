@@ -37,6 +37,10 @@ std::vector<std::string> Diagnostics::lines(std::vector<Item> items, const char*
   std::vector<std::string> result;
   for (const Item& item : items) {
     std::string line = place(item.where) + ": " + word + ": " + item.text;
+    // Names of the user's own may hold anything; a problem is one line.
+    std::replace_if(
+        line.begin(), line.end(),
+        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
     // An alias or an include read twice tells the same problem twice.
     if (std::find(result.begin(), result.end(), line) == result.end()) {
       result.push_back(std::move(line));

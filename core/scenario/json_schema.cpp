@@ -198,6 +198,31 @@ Json domain_schema() {
   return {{"side", side}, {"domain", domain}};
 }
 
+/// A file that is laid over what it includes: every key may be missing, a model's name too. Lists
+/// are replaced as a whole and stay as they are.
+Json addition(const Json& full, const Json& definitions) {
+  if (full.contains("$ref")) {
+    const std::string ref = full["$ref"];
+    return addition(definitions[ref.substr(ref.rfind('/') + 1)], definitions);
+  }
+  if (full.contains("oneOf")) return {{"type", "object"}};
+  Json part = full;
+  part.erase("required");
+  if (full.contains("properties")) {
+    for (const auto& [key, value] : full["properties"].items()) {
+      part["properties"][key] = addition(value, definitions);
+    }
+  }
+  if (full.contains("additionalProperties") && full["additionalProperties"].is_object()) {
+    part["additionalProperties"] = addition(full["additionalProperties"], definitions);
+  }
+  if (full.contains("anyOf")) {
+    part["anyOf"] = Json::array();
+    for (const Json& one : full["anyOf"]) part["anyOf"].push_back(addition(one, definitions));
+  }
+  return part;
+}
+
 }  // namespace
 
 std::string json_schema(const registry::Registry& registry) {
@@ -238,14 +263,16 @@ std::string json_schema(const registry::Registry& registry) {
   properties["voidage"] = {{"$ref", "#/definitions/voidage"}};
   properties["sensors"] =
       named(alternatives(block<SensorBlock>(), "model", choices(registry, "sensor")));
-  // A file that includes others need not hold every key itself.
-  root.erase("required");
-  root["anyOf"] = Json::array(
-      {{{"required", {"include"}}}, {{"required", {"time", "gravity", "domain", "fluid"}}}});
+  root["required"] = {"time", "gravity", "domain", "fluid"};
+  definitions["scenario"] = root;
+  definitions["addition"] = addition(root, definitions);
 
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
-                 {"title", "Scenario of the dust engine"}};
-  schema.update(root);
+                 {"title", "Scenario of the dust engine"},
+                 {"type", "object"},
+                 {"if", {{"required", {"include"}}}},
+                 {"then", {{"$ref", "#/definitions/addition"}}},
+                 {"else", {{"$ref", "#/definitions/scenario"}}}};
   schema["definitions"] = definitions;
   return schema.dump(2) + "\n";
 }

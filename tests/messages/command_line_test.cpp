@@ -70,7 +70,8 @@ TEST_CASE("help and version shall exit with 0, for every command with examples")
   CHECK(engine("--version").out.starts_with("engine "));
   const Outcome help = engine("--help");
   CHECK(help.status == 0);
-  for (const std::string command : {"check", "plugins", "describe", "schema"}) {
+  for (const std::string command :
+       {"check", "plugins", "describe", "schema", "new-plugin", "test-plugin"}) {
     CHECK(help.out.find("  " + command) != std::string::npos);
     const Outcome one = engine(command + " --help");
     CHECK(one.status == 0);
@@ -219,6 +220,7 @@ TEST_CASE("check shall draw the set-up") {
   CHECK(svg.starts_with("<svg "));
   CHECK(svg.find(">belt</text>") != std::string::npos);
   CHECK(svg.find(">feed</text>") != std::string::npos);
+  CHECK(svg.find(">stream</text>") != std::string::npos);  // a sensor that is a point
   CHECK(svg.find(">50 mm (") != std::string::npos);
   CHECK(engine("check " + k_scenario + " -o /not/there.svg").status == 2);
 }

@@ -21,6 +21,8 @@ void add_describe(CLI::App& app, int& status);
 void add_schema(CLI::App& app, int& status);
 void add_graph(CLI::App& app, int& status);
 void add_report(CLI::App& app, int& status);
+void add_new_plugin(CLI::App& app, int& status);
+void add_test_plugin(CLI::App& app, int& status);
 
 /// Options that name a scenario and change it: SCENARIO, --set, --set-file, --plugin-path.
 struct ScenarioArguments {

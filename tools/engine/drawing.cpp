@@ -97,7 +97,11 @@ class Drawing {
     for (const auto& sensor : setup_.sensors) {
       const auto min = point(registry_, sensor.model, "min");
       const auto max = point(registry_, sensor.model, "max");
-      if (min && max && !(*min == *max)) box(*min, *max, "#1769aa", "4 3", sensor.name, row++);
+      if (min && max && !(*min == *max)) {
+        box(*min, *max, "#1769aa", "4 3", sensor.name, row++);
+      } else if (const auto at = place(sensor.model)) {
+        cross(*at, "#1769aa", sensor.name);
+      }
     }
     scale_bar();
     out_ << "</svg>\n";
@@ -105,6 +109,28 @@ class Drawing {
   }
 
  private:
+  /// Where a model without a box is, if one of its parameters tells.
+  std::optional<Vec3> place(const ModelChoice& choice) const {
+    for (const char* name : {"from", "point", "position", "origin"}) {
+      if (const auto at = point(registry_, choice, name)) return at;
+    }
+    return std::nullopt;
+  }
+  void cross(Vec3 at, const char* colour, const std::string& name) {
+    constexpr double k_arm = 6.0;
+    const double x = view_.x(at);
+    const double y = view_.y(at);
+    out_ << "<path fill=\"none\" stroke=\"" << colour << "\" stroke-width=\"1.5\" d=\"M"
+         << number(x - k_arm) << ' ' << number(y) << "H" << number(x + k_arm) << "M" << number(x)
+         << ' ' << number(y - k_arm) << "V" << number(y + k_arm) << "\"/>\n";
+    label(x + k_arm, y - k_arm, colour, name);
+  }
+  /// A point of the emitter's frame in the domain's.
+  Vec3 in_domain(Vec3 at, int frame_index) const {
+    if (frame_index < 0) return at;
+    const auto& frame = setup_.frames[static_cast<std::size_t>(frame_index)];
+    return frame.origin + rotate(at - frame.origin, frame.axis / norm(frame.axis), frame.angle);
+  }
   void label(double x, double y, const char* colour, const std::string& text) {
     out_ << "<text x=\"" << number(x) << "\" y=\"" << number(y) << "\" fill=\"" << colour << "\">"
          << text << "</text>\n";
@@ -154,13 +180,13 @@ class Drawing {
   void draw_emitter(const scenario::EmitterSpec& spec) {
     auto min = point(registry_, spec.model, "min");
     auto max = point(registry_, spec.model, "max");
-    if (!min || !max) return;
-    if (spec.frame >= 0) {
-      const auto& frame = setup_.frames[static_cast<std::size_t>(spec.frame)];
-      const Vec3 axis = frame.axis / norm(frame.axis);
-      min = frame.origin + rotate(*min - frame.origin, axis, frame.angle);
-      max = frame.origin + rotate(*max - frame.origin, axis, frame.angle);
+    if (!min || !max) {
+      const auto at = place(spec.model);
+      if (at) cross(in_domain(*at, spec.frame), "#b03000", spec.name);
+      return;
     }
+    min = in_domain(*min, spec.frame);
+    max = in_domain(*max, spec.frame);
     box(*min, *max, "#b03000", "none", "", 0.0);
     label(view_.x(*max) + 4, view_.y(*max), "#b03000", spec.name);
   }

@@ -74,6 +74,8 @@ int engine_main(int argc, char** argv) {
   engine::add_schema(app, status);
   engine::add_graph(app, status);
   engine::add_report(app, status);
+  engine::add_new_plugin(app, status);
+  engine::add_test_plugin(app, status);
   std::vector<std::string> arguments(argv + 1, argv + argc);
   complete_arguments(app, arguments);
   std::reverse(arguments.begin(), arguments.end());

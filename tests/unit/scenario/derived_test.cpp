@@ -62,3 +62,27 @@ TEST_CASE("ratios and the rate of grains shall follow from the scenario") {
   REQUIRE(derived.emissions.size() == 1);
   CHECK(derived.emissions[0].computed_per_second == doctest::Approx(1e4).epsilon(k_roundings));
 }
+
+TEST_CASE("the estimates shall be within a factor of two of what the transfer point took") {
+  registry::Registry shipped;
+  shipped.load({DUST_TEST_PLUGINS});
+  const auto estimate = [&](const std::vector<scenario::Override>& set) {
+    const auto file = std::string(DUST_SOURCE) + "/scenarios/transfer_point.yaml";
+    return scenario::derive(scenario::read_scenario(file, set, shipped).setup, shipped);
+  };
+  const auto is_near = [](double told, double measured) {
+    return told > 0.5 * measured && told < 2.0 * measured;
+  };
+  // Measured on 2 cores of 2026: processor time, peak memory, size of the folder, grains at the
+  // end.
+  const auto part = estimate({{"time.end", "0.45"}, {"time.output_every", "0.02"}});
+  CHECK(is_near(part.core_seconds, 431));
+  CHECK(is_near(part.memory_bytes, 670e6));
+  CHECK(is_near(part.disk_bytes, 259e6));
+  CHECK(is_near(part.grains_in_domain, 15664));
+  // docs/performance.md: whole, and without air.
+  CHECK(is_near(estimate({}).core_seconds, 2 * 480));
+  const auto airless = estimate({{"fluid", "none"}});
+  CHECK(is_near(airless.core_seconds, 2 * 203));
+  CHECK(is_near(airless.memory_bytes, 63e6));
+}

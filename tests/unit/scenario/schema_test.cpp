@@ -15,10 +15,12 @@ TEST_CASE("the JSON Schema shall hold every model with its parameters") {
   CHECK(restitution["exclusiveMinimum"] == 0);
   CHECK(restitution["maximum"] == 1);
   CHECK(contact[0]["required"].size() == 3);
-  CHECK(schema["properties"]["sensors"]["additionalProperties"]["oneOf"].size() == 5);
+  const auto& keys = schema["definitions"]["scenario"]["properties"];
+  CHECK(keys["sensors"]["additionalProperties"]["oneOf"].size() == 5);
   // All shapes, each at rest or with one of two motions.
-  CHECK(schema["properties"]["bodies"]["additionalProperties"]["oneOf"].size() ==
+  CHECK(keys["bodies"]["additionalProperties"]["oneOf"].size() ==
         3 * dust::bodies::shape_catalogue().size());
-  CHECK(schema["properties"]["time"]["required"] ==
-        nlohmann::json({"end", "fluid_step", "output_every"}));
+  CHECK(keys["time"]["required"] == nlohmann::json({"end", "fluid_step", "output_every"}));
+  // What is laid over an included file need not repeat it.
+  CHECK_FALSE(schema["definitions"]["addition"]["properties"]["time"].contains("required"));
 }

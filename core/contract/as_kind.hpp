@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "contract/judge.hpp"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+namespace dust::contract {
+
+/// The model behind a maker as its kind.
+template <class T>
+std::unique_ptr<T> make_as(const Maker& make, const Units& units = {}) {
+  return std::unique_ptr<T>(static_cast<T*>(make(units).release()));
+}
+
+inline void require(bool is_kept, const std::string& why) {
+  if (!is_kept) throw Violation(why);
+}
+
+/// A number for messages.
+inline std::string shown(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+/// Runs the hot call of a trial; a Violation when it allocates and the trial watches.
+template <class Call>
+void call_hot(const Trial& trial, const Call& call) {
+  if (trial.judge == nullptr) return call();
+  const std::uint64_t count = trial.judge->allocations(call);
+  require(count == 0, "it allocates " + std::to_string(count) + " times in one call");
+}
+
+}  // namespace dust::contract

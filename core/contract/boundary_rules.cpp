@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rules of boundaries: a combination the solver can use, values where it wants them.
+#include "contract/as_kind.hpp"
+#include "contract/judge.hpp"
+#include "dust/sdk/boundary_condition.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace dust::contract {
+namespace {
+
+using sdk::SideRule;
+using sdk::Vec3;
+
+/// Points on a side, its normal and the time, in SI.
+constexpr std::size_t k_points = 24;
+const double k_times[] = {0.0, 0.013, 0.5};
+
+Readings observe(const Maker& make, const Trial& trial) {
+  const auto condition = make_as<sdk::BoundaryCondition>(make, trial.units);
+  const sdk::SideRules asked = condition->rules();
+  constexpr double k_unset = std::numeric_limits<double>::quiet_NaN();
+  Readings readings;
+  readings.push_back({"rule normal_velocity", static_cast<double>(asked.normal_velocity), {}});
+  readings.push_back({"rule pressure", static_cast<double>(asked.pressure), {}});
+  readings.push_back({"rule tangential", static_cast<double>(asked.tangential_velocity), {}});
+  for (int side = 0; side < 6; ++side) {
+    for (const double time : k_times) {
+      const int axis = side / 2;
+      std::vector<double> at[3];
+      for (int d = 0; d < 3; ++d) {
+        for (std::size_t n = 0; n < k_points; ++n) {
+          const double along = d == axis ? (side % 2 == 0 ? 0.0 : 0.3)
+                                         : 0.3 * (static_cast<double>(n) + 0.5) / k_points;
+          at[d].push_back(along * trial.units.length);
+        }
+      }
+      std::vector<double> out[4];
+      for (auto& column : out) column.assign(k_points + 1, k_unset);
+      const std::size_t size = trial.batch == 0 ? k_points : trial.batch;
+      for (std::size_t first = 0; first < k_points; first += size) {
+        sdk::SideBatch b;
+        b.count = std::min(size, k_points - first);
+        b.time = time * trial.units.time;
+        b.normal[axis] = side % 2 == 0 ? -1.0 : 1.0;
+        b.x = at[0].data() + first;
+        b.y = at[1].data() + first;
+        b.z = at[2].data() + first;
+        b.velocity_x = out[0].data() + first;
+        b.velocity_y = out[1].data() + first;
+        b.velocity_z = out[2].data() + first;
+        b.pressure = out[3].data() + first;
+        call_hot(trial, [&] { condition->evaluate(b); });
+      }
+      const std::string where = " on side " + std::to_string(side) + " at " + shown(time) + " s";
+      for (int c = 0; c < 4; ++c) {
+        require(!(out[c].back() == out[c].back()), "it writes beyond the end of the batch");
+        const bool is_wanted =
+            c == 3 ? asked.pressure == SideRule::fixed || asked.pressure == SideRule::pressure
+                   : (c == axis ? asked.normal_velocity : asked.tangential_velocity) ==
+                         SideRule::fixed;
+        if (!is_wanted) continue;
+        for (std::size_t n = 0; n < k_points; ++n) {
+          const std::string name = c == 3 ? "pressure" : std::string("velocity_") + "xyz"[c];
+          readings.push_back({name + where, out[c][n],
+                              c == 3 ? sdk::dimension::pressure : sdk::dimension::velocity});
+        }
+      }
+    }
+  }
+  return readings;
+}
+
+void rules(const Maker& make, const Subject&, Judge& judge) {
+  judge.rule("asks for a combination that determines the flow", [&] {
+    const sdk::SideRules r = make_as<sdk::BoundaryCondition>(make)->rules();
+    const bool is_wall = r.normal_velocity == SideRule::fixed && r.pressure == SideRule::gradient;
+    const bool is_open = r.normal_velocity == SideRule::gradient &&
+                         (r.pressure == SideRule::fixed || r.pressure == SideRule::pressure);
+    require(is_wall || is_open,
+            "normal velocity and pressure must be fixed and gradient (walls, inlets), or gradient "
+            "and fixed or total pressure (open sides)");
+    require(r.tangential_velocity == SideRule::fixed || r.tangential_velocity == SideRule::gradient,
+            "the tangential velocity must be fixed or have zero gradient");
+  });
+}
+
+}  // namespace
+
+Kind boundary_kind() {
+  return {.observe = observe,
+          .batches = {1, 5},
+          .other_units = {4.0, 2.0, 0.5},
+          .is_hot = true,
+          .rules = rules};
+}
+
+}  // namespace dust::contract

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contract/contact_bench.hpp"
+
+#include "dust/sdk/random.hpp"
+#include "dust/sdk/sphere.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace dust::contract {
+namespace {
+
+using sdk::Vec3;
+
+constexpr std::uint32_t k_touches = 64;
+constexpr double k_guard_value = -7.25e77;
+const Vec3 k_axis = Vec3{1.0, 2.0, -0.5} / norm(Vec3{1.0, 2.0, -0.5});
+constexpr double k_angle = 0.7;
+
+/// Sets a column of the batch that not every version of the interface has.
+template <class Batch>
+void set_normal_stiffness(Batch& batch, double* column) {
+  if constexpr (requires { batch.normal_stiffness; }) batch.normal_stiffness = column;
+}
+
+constexpr const char* k_names[] = {
+    "overlap",    "normal_x",   "normal_y",   "normal_z",   "velocity_x",       "velocity_y",
+    "velocity_z", "rotation_x", "rotation_y", "rotation_z", "effective_radius", "effective_mass"};
+
+}  // namespace
+
+std::vector<Touch> standard_touches(double range, int look) {
+  std::vector<Touch> touches;
+  const sdk::Random random(5, sdk::stream_of("touches"));
+  for (std::uint32_t n = 0; n < k_touches; ++n) {
+    const auto draw = [&](std::uint32_t slot) { return random.uniform(n, 0, slot); };
+    const auto direction = [&](std::uint32_t slot) {
+      const double z = 2.0 * draw(slot) - 1.0;
+      const double angle = 6.283185307179586 * draw(slot + 1);
+      const double flat = std::sqrt(1.0 - z * z);
+      return Vec3{flat * std::cos(angle), flat * std::sin(angle), z};
+    };
+    Touch t;
+    t.radius = 1e-4 + 9e-4 * draw(0);
+    t.mass = 2500.0 * sdk::sphere_volume(2.0 * t.radius);
+    t.overlap = (0.001 + 0.029 * draw(1)) * t.radius * (1.0 + 0.01 * look);
+    if (range > 0.0 && n % 8 == 0) t.overlap = -range * draw(2);
+    t.normal = direction(3);
+    if (look > 0) t.normal = rotate(t.normal, direction(5), 1e-3 * look);
+    t.velocity = 0.5 * direction(7);
+    t.rotation = 100.0 * direction(9);
+    t.normal_force = (n % 8 == 1 ? -1.0 : 1.0) * 1e-3 * draw(11);
+    t.stiffness = 1000.0 * draw(12);
+    touches.push_back(t);
+  }
+  return touches;
+}
+
+std::vector<Touch> swapped(std::vector<Touch> touches) {
+  for (Touch& t : touches) {
+    t.normal = -t.normal;
+    t.velocity = -t.velocity;
+    t.rotation = -t.rotation;
+  }
+  return touches;
+}
+
+Vec3 turned(Vec3 v) { return rotate(v, k_axis, k_angle); }
+
+std::vector<Touch> turned(std::vector<Touch> touches) {
+  for (Touch& t : touches) {
+    t.normal = turned(t.normal);
+    t.velocity = turned(t.velocity);
+    t.rotation = turned(t.rotation);
+  }
+  return touches;
+}
+
+ContactBench::ContactBench(std::size_t count, int history)
+    : count_((count + 7) / 8 * 8), stride_(count_ + k_guard), history_(history) {
+  const auto columns = static_cast<std::size_t>(k_inputs + k_outputs + history);
+  data_.assign(columns * stride_ + k_guard, k_guard_value);
+  const auto address = reinterpret_cast<std::uintptr_t>(data_.data());
+  constexpr std::uintptr_t k_line = 64;
+  offset_ = (k_line - address % k_line) % k_line / sizeof(double);
+  for (int h = 0; h < history; ++h) {
+    std::fill_n(column(k_inputs + k_outputs + h), count_, 0.0);
+  }
+}
+
+void ContactBench::show(const std::vector<Touch>& touches, double time_step, const Units& units,
+                        bool is_rolling) {
+  const double length = units.length;
+  const double speed = units.of(sdk::dimension::velocity);
+  const double turning = units.of(sdk::dimension::angular_velocity);
+  time_step_ = time_step * units.time;
+  is_rolling_ = is_rolling;
+  for (std::size_t n = 0; n < count_; ++n) {
+    const Touch& t = touches[n % touches.size()];
+    const double row[k_inputs] = {t.overlap * length,
+                                  t.normal.x,
+                                  t.normal.y,
+                                  t.normal.z,
+                                  t.velocity.x * speed,
+                                  t.velocity.y * speed,
+                                  t.velocity.z * speed,
+                                  t.rotation.x * turning,
+                                  t.rotation.y * turning,
+                                  t.rotation.z * turning,
+                                  t.radius * length,
+                                  t.mass * units.mass};
+    for (int c = 0; c < k_inputs; ++c) column(c)[n] = row[c];
+    for (int c = 0; c < k_outputs; ++c) {
+      column(k_inputs + c)[n] = std::numeric_limits<double>::quiet_NaN();
+    }
+    if (!is_rolling) continue;
+    const double stiffness = t.stiffness * units.of(sdk::dimension::stiffness);
+    column(k_inputs + normal_force)[n] = t.normal_force * units.of(sdk::dimension::force);
+    column(k_inputs + normal_stiffness)[n] = stiffness;
+    column(k_inputs + tangential_stiffness)[n] = stiffness;
+  }
+  before_ = data_;
+}
+
+void ContactBench::evaluate(const std::function<void(const sdk::ContactBatch&)>& evaluate,
+                            std::size_t size) {
+  if (size == 0) size = count_;
+  std::vector<double*> history(static_cast<std::size_t>(history_));
+  for (std::size_t first = 0; first < count_; first += size) {
+    sdk::ContactBatch b;
+    b.count = std::min(size, count_ - first);
+    b.time_step = time_step_;
+    const double** inputs[k_inputs] = {&b.overlap,    &b.normal_x,         &b.normal_y,
+                                       &b.normal_z,   &b.velocity_x,       &b.velocity_y,
+                                       &b.velocity_z, &b.rotation_x,       &b.rotation_y,
+                                       &b.rotation_z, &b.effective_radius, &b.effective_mass};
+    for (int c = 0; c < k_inputs; ++c) *inputs[c] = column(c) + first;
+    double* outputs[k_outputs];
+    for (int c = 0; c < k_outputs; ++c) outputs[c] = column(k_inputs + c) + first;
+    b.normal_force = outputs[normal_force];
+    set_normal_stiffness(b, outputs[normal_stiffness]);
+    b.tangential_stiffness = outputs[tangential_stiffness];
+    b.force_x = outputs[force];
+    b.force_y = outputs[force + 1];
+    b.force_z = outputs[force + 2];
+    b.torque_x = outputs[torque];
+    b.torque_y = outputs[torque + 1];
+    b.torque_z = outputs[torque + 2];
+    for (int h = 0; h < history_; ++h) {
+      history[static_cast<std::size_t>(h)] = column(k_inputs + k_outputs + h) + first;
+    }
+    b.history = history.data();
+    evaluate(b);
+  }
+  check_untouched();
+}
+
+void ContactBench::check_untouched() const {
+  const int columns = k_inputs + k_outputs + history_;
+  for (int c = 0; c < columns; ++c) {
+    for (std::size_t n = count_; n < stride_; ++n) {
+      require(at(c, n) == k_guard_value, "it writes beyond the end of a column");
+    }
+  }
+  const auto is_same = [&](int c) {
+    for (std::size_t n = 0; n < count_; ++n) {
+      const std::size_t place = offset_ + static_cast<std::size_t>(c) * stride_ + n;
+      const bool both_nan = std::isnan(before_[place]) && std::isnan(data_[place]);
+      if (before_[place] != data_[place] && !both_nan) return false;
+    }
+    return true;
+  };
+  for (int c = 0; c < k_inputs; ++c) {
+    require(is_same(c), std::string("it overwrites the input ") + k_names[c]);
+  }
+  if (is_rolling_) {
+    require(is_same(k_inputs + normal_force) && is_same(k_inputs + tangential_stiffness),
+            "it overwrites what the contact stage wrote");
+  } else {
+    require(is_same(k_inputs + torque), "it writes the torque, which belongs to the rolling stage");
+  }
+}
+
+}  // namespace dust::contract

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contract/contract.hpp"
+
+#include "base/error.hpp"
+#include "contract/as_kind.hpp"
+#include "contract/guess.hpp"
+#include "contract/judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace dust::contract {
+namespace {
+
+using sdk::Value;
+
+bool is_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+/// Name of the first reading that differs, "" if none does.
+std::string first_difference(const Readings& a, const Readings& b) {
+  if (a.size() != b.size()) return "the number of results";
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    if (a[n].name != b[n].name || !is_same(a[n].value, b[n].value)) return a[n].name;
+  }
+  return {};
+}
+
+void check_description(const sdk::ModelInfo& info) {
+  require(!info.equation.empty(), "it has no equation");
+  require(!info.source.empty(), "it has no source: author, year, or \"own definition\"");
+  require(!info.version.empty(), "it has no version");
+  for (const sdk::Parameter& p : info.parameters) {
+    require(!p.sentence.empty() && p.sentence.back() == '.',
+            "the sentence of '" + p.name + "' does not end with a full stop");
+  }
+}
+
+/// The most any number of a group is: components of one result are judged by the largest of them.
+std::map<std::string, double> sizes(const Readings& readings) {
+  std::map<std::string, double> largest;
+  for (const Reading& r : readings) {
+    double& size = largest[r.name.substr(0, r.name.find(' '))];
+    size = std::max(size, std::abs(r.value));
+  }
+  return largest;
+}
+
+void check_units(const Kind& kind, const Maker& make) {
+  // Roots and powers of other numbers round differently; a wrong exponent is off by a factor of 2.
+  constexpr double k_rounding = 1e-6;
+  const Readings here = kind.observe(make, {});
+  const Readings there = kind.observe(make, {.units = kind.other_units});
+  require(here.size() == there.size(), "the number of results depends on the units");
+  const auto largest = sizes(here);
+  for (std::size_t n = 0; n < here.size(); ++n) {
+    if (!here[n].has_dimension) continue;
+    const double back = there[n].value / kind.other_units.of(here[n].dimension);
+    const double size = largest.at(here[n].name.substr(0, here[n].name.find(' ')));
+    require(std::abs(back - here[n].value) <= k_rounding * size,
+            here[n].name + " is " + std::to_string(back / here[n].value) +
+                " times as large when everything is given in other units: a number with a hidden "
+                "unit, or a parameter declared with the wrong dimension");
+  }
+}
+
+/// Tries other values of the parameters of one model.
+class Variation {
+ public:
+  Variation(const Kind& kind, const registry::Entry& entry, std::vector<Value> values,
+            const Options& options)
+      : kind_(kind), entry_(entry), values_(std::move(values)) {
+    for (std::size_t n = 0; n < values_.size(); ++n) {
+      const sdk::Parameter& p = entry.info.parameters[n];
+      const auto given = options.others.find(p.name);
+      others_.push_back(given != options.others.end() ? std::vector<Value>{given->second}
+                                                      : other_values(p, values_[n]));
+    }
+  }
+  [[nodiscard]] bool is_open(std::size_t n) const { return !others_[n].empty(); }
+
+  /// Whether another value of parameter n changes what the model gives, by itself or beside another
+  /// value of one other parameter (a limit that is switched off, one list in place of another).
+  [[nodiscard]] bool matters(std::size_t n) const {
+    const auto base = observe(values_);
+    for (const Value& other : others_[n]) {
+      if (differs(base, with(values_, n, other))) return true;
+    }
+    constexpr std::size_t k_few = 4;
+    for (std::size_t m = 0; m < values_.size(); ++m) {
+      for (std::size_t b = 0; m != n && b < std::min(k_few, others_[m].size()); ++b) {
+        const auto beside = with(values_, m, others_[m][b]);
+        const auto without = observe(beside);
+        for (std::size_t a = 0; a < std::min(k_few, others_[n].size()); ++a) {
+          if (differs(without, with(beside, n, others_[n][a]))) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+ private:
+  /// Nothing where the values contradict each other.
+  [[nodiscard]] std::optional<Readings> observe(const std::vector<Value>& values) const {
+    try {
+      return kind_.observe(
+          [&](const Units& units) {
+            return entry_.factory(in_units(units, entry_.info.parameters, values));
+          },
+          {});
+    } catch (const std::exception&) {
+      return std::nullopt;
+    }
+  }
+  [[nodiscard]] bool differs(const std::optional<Readings>& base,
+                             const std::vector<Value>& values) const {
+    const auto readings = observe(values);
+    return readings && (!base || !first_difference(*base, *readings).empty());
+  }
+  static std::vector<Value> with(std::vector<Value> values, std::size_t n, const Value& value) {
+    values[n] = value;
+    return values;
+  }
+
+  const Kind& kind_;
+  const registry::Entry& entry_;
+  std::vector<Value> values_;
+  std::vector<std::vector<Value>> others_;
+};
+
+void check_parameters(const Kind& kind, const registry::Entry& entry,
+                      const std::vector<Value>& values, const Maker& make, const Options& options) {
+  const Variation variation(kind, entry, values, options);
+  std::string idle;
+  std::string unknown;
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const std::string name = " '" + entry.info.parameters[n].name + "'";
+    if (!variation.is_open(n)) {
+      unknown += name;
+    } else if (!variation.matters(n)) {
+      idle += name;
+    }
+  }
+  if (!idle.empty()) {
+    const Readings base = kind.observe(make, {});
+    const bool is_nothing =
+        std::none_of(base.begin(), base.end(), [](const Reading& r) { return r.value > 0.0; });
+    if (is_nothing) {
+      throw Remark("the model gives nothing here to tell by; place it with --set PARAMETER=VALUE");
+    }
+  }
+  require(idle.empty(), "no other value changes anything:" + idle);
+  if (!unknown.empty()) throw Remark("no other value could be guessed:" + unknown);
+}
+
+void check_common(const registry::Entry& entry, const Kind& kind, const Maker& make,
+                  const std::vector<Value>& values, const Options& options, Judge& judge) {
+  judge.rule("gives finite numbers, all of them", [&] {
+    for (const Reading& r : kind.observe(make, {})) {
+      require(std::isfinite(r.value), r.name + " is not finite, or is not written");
+    }
+  });
+  judge.rule("gives the same bits when asked again", [&] {
+    const std::string what = first_difference(kind.observe(make, {}), kind.observe(make, {}));
+    require(what.empty(), what + " differs between two models of the same parameters");
+  });
+  if (!kind.batches.empty()) {
+    judge.rule("gives the same bits however its batch is split", [&] {
+      const Readings whole = kind.observe(make, {});
+      for (const std::size_t batch : kind.batches) {
+        const std::string what = first_difference(whole, kind.observe(make, {.batch = batch}));
+        require(what.empty(), what + " differs in batches of " + std::to_string(batch));
+      }
+    });
+  }
+  judge.rule("every parameter matters",
+             [&] { check_parameters(kind, entry, values, make, options); });
+  judge.rule("is homogeneous in its dimensions", [&] { check_units(kind, make); });
+  if (kind.is_hot) {
+    judge.rule("does not allocate in the hot call", [&] {
+      if (!judge.watches_allocations()) throw Remark("allocations are not watched in this program");
+      (void)kind.observe(make, {.judge = &judge});
+    });
+  }
+}
+
+}  // namespace
+
+std::vector<Finding> check_model(const registry::Entry& entry, const Options& options) {
+  for (const auto* values : {&options.given, &options.others}) {
+    for (const auto& [name, value] : *values) {
+      const auto& all = entry.info.parameters;
+      if (std::any_of(all.begin(), all.end(), [&](const auto& p) { return p.name == name; })) {
+        continue;
+      }
+      throw base::UserError("error: " + entry.info.kind + "/" + entry.info.name +
+                            ": there is no parameter '" + name + "'");
+    }
+  }
+  const Subject subject{entry.info, guess_values(entry.info, entry.factory, options.given)};
+  const Maker make = [&](const Units& units) {
+    return entry.factory(in_units(units, entry.info.parameters, subject.values));
+  };
+  Judge judge(options.allocations);
+  judge.rule("says what it is: equation, source, parameters",
+             [&] { check_description(entry.info); });
+  const Kind* kind = find_kind(entry.info.kind);
+  if (kind == nullptr) {
+    judge.rule("keeps the rules of its kind", [&] {
+      throw Remark("this engine has no rules for the kind '" + entry.info.kind + "'");
+    });
+    return judge.findings;
+  }
+  check_common(entry, *kind, make, subject.values, options, judge);
+  kind->rules(make, subject, judge);
+  return judge.findings;
+}
+
+}  // namespace dust::contract

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rules of drag laws.
+#include "contract/as_kind.hpp"
+#include "contract/judge.hpp"
+#include "dust/sdk/drag_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dust::contract {
+namespace {
+
+const double k_void_fractions[] = {0.3, 0.36, 0.5, 0.8, 0.81, 0.95, 1.0};
+const double k_reynolds[] = {0.0, 1e-6, 1e-2, 1.0, 33.0, 999.0, 1001.0, 1e5};
+constexpr std::size_t k_per_void_fraction = std::size(k_reynolds);
+
+struct Columns {
+  std::vector<double> reynolds, void_fraction, factor;
+  Columns() {
+    for (const double eps : k_void_fractions) {
+      for (const double re : k_reynolds) {
+        reynolds.push_back(re);
+        void_fraction.push_back(eps);
+      }
+    }
+  }
+};
+
+Columns evaluate(const Maker& make, const Trial& trial) {
+  const auto law = make_as<sdk::DragLaw>(make, trial.units);
+  Columns c;
+  constexpr double k_guard = -7.25e77;
+  const std::size_t rows = c.reynolds.size();
+  const std::vector<double> reynolds = c.reynolds;
+  const std::vector<double> void_fraction = c.void_fraction;
+  c.factor.assign(rows, std::numeric_limits<double>::quiet_NaN());
+  c.factor.push_back(k_guard);
+  const std::size_t size = trial.batch == 0 ? rows : trial.batch;
+  const std::vector<double> mean_size(size, 1.0);
+  for (std::size_t first = 0; first < rows; first += size) {
+    sdk::DragBatch batch{std::min(size, rows - first), c.reynolds.data() + first,
+                         c.void_fraction.data() + first, c.factor.data() + first};
+    // A law for several sizes sees a grain of the mean size.
+    if (law->needs_size_ratio()) batch.size_ratio = mean_size.data();
+    call_hot(trial, [&] { law->evaluate(batch); });
+  }
+  require(c.factor.back() == k_guard, "it writes beyond the end of the batch");
+  require(c.reynolds == reynolds && c.void_fraction == void_fraction, "it overwrites its input");
+  c.factor.pop_back();
+  return c;
+}
+
+Readings observe(const Maker& make, const Trial& trial) {
+  const Columns c = evaluate(make, trial);
+  Readings readings;
+  for (std::size_t n = 0; n < c.factor.size(); ++n) {
+    readings.push_back(
+        {"factor at Re " + shown(c.reynolds[n]) + ", void fraction " + shown(c.void_fraction[n]),
+         c.factor[n], sdk::dimension::none});
+  }
+  return readings;
+}
+
+void rules(const Maker& make, const Subject&, Judge& judge) {
+  judge.rule("is never negative and grows with the slip", [&] {
+    const Columns c = evaluate(make, {});
+    for (std::size_t n = 0; n < c.factor.size(); ++n) {
+      require(c.factor[n] >= 0.0, "F = " + shown(c.factor[n]) + " at Re " + shown(c.reynolds[n]));
+      if (n % k_per_void_fraction == 0) continue;
+      require(c.factor[n] >= c.factor[n - 1], "F falls between Re " + shown(c.reynolds[n - 1]) +
+                                                  " and " + shown(c.reynolds[n]) +
+                                                  " at void fraction " + shown(c.void_fraction[n]));
+    }
+  });
+  judge.rule("is Stokes's law for a lone slow grain: F(0, 1) = 1", [&] {
+    const Columns c = evaluate(make, {});
+    const double lone = c.factor[c.factor.size() - k_per_void_fraction + 1];
+    // At Re = 1e-6 the usual inertial corrections are below 1e-4.
+    if (std::abs(lone - 1.0) > 1e-3) {
+      throw Remark("F = " + shown(lone) + ": meant for crowds only? Its limits should say so");
+    }
+  });
+}
+
+}  // namespace
+
+Kind drag_kind() {
+  return {.observe = observe,
+          .batches = {1, 3, 8},
+          .other_units = {4.0, 2.0, 0.5},
+          .is_hot = true,
+          .rules = rules};
+}
+
+}  // namespace dust::contract

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contract/guess.hpp"
+
+#include "base/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace dust::contract {
+namespace {
+
+using sdk::Parameter;
+using sdk::ParameterType;
+using sdk::Value;
+using sdk::Vec3;
+
+/// Sizes of things in the standard scenes, the most usual first.
+std::vector<double> typical(sdk::Dimension d) {
+  namespace dim = sdk::dimension;
+  if (d == dim::none) return {0.5, 0.25, 0.9, 0.1, 2.0, 1.0, 0.01, 10.0};
+  if (d == dim::length) return {1e-3, 5e-4, 1e-4, 0.01, 0.05, 0.1, 1e-5, 1.0};
+  if (d == dim::time) return {0.03, 0.05, 1e-3, 1e-6};
+  if (d == dim::velocity) return {0.5, 0.05, 2.0};
+  if (d == dim::frequency) return {50.0, 5.0};
+  if (d == dim::mass_flow) return {1e-3, 2e-3, 1e-4};
+  if (d == dim::mass) return {1e-4, 1e-5};
+  if (d == dim::stiffness) return {1e3, 1e4, 1e2};
+  if (d == dim::angle) return {0.2, 1.0};
+  if (d == dim::angular_velocity) return {10.0, 100.0, 1000.0};
+  if (d == dim::density) return {2000.0, 1.2};
+  if (d == dim::pressure) return {100.0, 1e5, 1e7};
+  if (d == dim::surface_energy) return {0.05, 0.5};
+  if (d == dim::force) return {1e-5, 1e-3};
+  return {1.0, 0.1, 10.0, 1e-3, 1e-6};
+}
+
+std::vector<double> allowed_numbers(const Parameter& p) {
+  std::vector<double> numbers;
+  for (const double v : typical(p.dimension)) {
+    if (p.range.contains(v)) numbers.push_back(v);
+  }
+  if (numbers.empty()) {
+    const bool has_both = std::isfinite(p.range.low) && std::isfinite(p.range.high);
+    if (has_both) numbers = {0.5 * (p.range.low + p.range.high)};
+    if (!has_both && std::isfinite(p.range.low)) numbers = {p.range.low + 1.0, p.range.low * 2.0};
+    if (!has_both && std::isfinite(p.range.high)) numbers = {p.range.high - 1.0};
+  }
+  return numbers;
+}
+
+/// Corners of a box in the standard scene, flat along `flat` (3 = full).
+Vec3 corner(bool is_upper, int flat) {
+  Vec3 at = is_upper ? Vec3{0.2, 0.011, 0.2} : Vec3{0.1, 0.0, 0.02};
+  if (flat < 3) at[flat] = Vec3{0.15, 0.005, 0.1}[flat];
+  return at;
+}
+
+/// Lists that are filled one at a time; 0 = none of them.
+constexpr int k_lists = 4;
+constexpr int k_attempts = 3 * 4 * k_lists;
+
+/// One guess; attempts differ in the shape of boxes, in which of the lists that may be left out is
+/// there (`list` counts them from 1), in sizes.
+std::optional<Value> guess(const Parameter& p, int attempt, int list) {
+  const int flat = (attempt + 3) % 4;
+  const bool fills_list = attempt / 4 % k_lists == list;
+  const auto size = static_cast<std::size_t>(attempt / (4 * k_lists));
+  const std::vector<double> numbers = allowed_numbers(p);
+  if (!p.is_required) {
+    if (!(p.type == ParameterType::numbers && fills_list) || numbers.empty()) {
+      return p.default_value;
+    }
+  }
+  switch (p.type) {
+    case ParameterType::number:
+      if (numbers.empty()) return std::nullopt;
+      return numbers[size % numbers.size()];
+    case ParameterType::integer: {
+      const double low = std::isfinite(p.range.low) ? p.range.low : 1.0;
+      return static_cast<std::int64_t>(std::min(std::max(low, 2.0), p.range.high));
+    }
+    case ParameterType::boolean:
+      return false;
+    case ParameterType::text:
+      if (!p.options.empty()) return p.options.front();
+      return p.refers == sdk::Refers::nothing ? std::nullopt : std::optional<Value>("sand");
+    case ParameterType::texts:
+      if (!p.options.empty()) return std::vector<std::string>{p.options.front()};
+      return std::vector<std::string>{};
+    case ParameterType::vector:
+      if (p.dimension == sdk::dimension::length) {
+        if (p.name == "min" || p.name == "max") return corner(p.name == "max", flat);
+        return Vec3{0.15, 0.005, 0.1};
+      }
+      if (p.dimension == sdk::dimension::none) return Vec3{1.0, 0.0, 0.0};
+      return Vec3{0.0, 0.0, -typical(p.dimension).front()};
+    case ParameterType::numbers:
+      if (numbers.empty()) return std::nullopt;
+      if (p.dimension == sdk::dimension::length) return std::vector<double>{3e-4, 6e-4};
+      return std::vector<double>{numbers.front(), numbers.back()};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Value> guess_values(const sdk::ModelInfo& info, const sdk::ModelFactory& factory,
+                                const std::map<std::string, Value>& given) {
+  std::string refusal;
+  std::string missing;
+  for (int attempt = 0; attempt < k_attempts; ++attempt) {
+    std::vector<Value> values;
+    missing.clear();
+    int list = 0;
+    for (const Parameter& p : info.parameters) {
+      if (p.type == ParameterType::numbers && !p.is_required) ++list;
+      const auto one = given.find(p.name);
+      const auto value =
+          one != given.end() ? std::optional<Value>(one->second) : guess(p, attempt, list);
+      if (!value) missing += (missing.empty() ? "" : ", ") + p.name;
+      values.push_back(value.value_or(Value{}));
+    }
+    if (!missing.empty()) break;
+    try {
+      if (factory(values)) return values;
+      refusal = "the factory gives nothing";
+    } catch (const std::exception& problem) {
+      if (refusal.empty()) refusal = problem.what();
+    }
+  }
+  const std::string model = info.kind + "/" + info.name;
+  if (!missing.empty()) {
+    throw base::UserError("error: " + model + ": no value can be guessed for " + missing +
+                          "; give it: --set PARAMETER=VALUE");
+  }
+  throw base::UserError("error: " + model + ": accepts no values that were tried (" + refusal +
+                        "); give some: --set PARAMETER=VALUE");
+}
+
+std::vector<Value> other_values(const Parameter& p, const Value& value) {
+  std::vector<Value> others;
+  if (!p.is_required && value != p.default_value &&
+      !std::holds_alternative<std::monostate>(p.default_value)) {
+    others.push_back(p.default_value);
+  }
+  if (const auto* number = std::get_if<double>(&value)) {
+    for (const double v : {2.0 * *number, 0.5 * *number, 10.0 * *number, 0.1 * *number}) {
+      if (v != *number && p.range.contains(v) && std::isfinite(v)) others.emplace_back(v);
+    }
+    for (const double v : allowed_numbers(p)) {
+      if (v != *number) others.emplace_back(v);
+    }
+  } else if (const auto* integer = std::get_if<std::int64_t>(&value)) {
+    for (const std::int64_t v : {*integer + 1, *integer - 1, *integer + 5, std::int64_t{1}}) {
+      if (v != *integer && p.range.contains(static_cast<double>(v))) others.emplace_back(v);
+    }
+  } else if (const auto* flag = std::get_if<bool>(&value)) {
+    others.emplace_back(!*flag);
+  } else if (const auto* text = std::get_if<std::string>(&value)) {
+    for (const std::string& option : p.options) {
+      if (option != *text) others.emplace_back(option);
+    }
+  } else if (const auto* vector = std::get_if<Vec3>(&value)) {
+    others.emplace_back(-*vector);
+    const bool is_direction = p.dimension == sdk::dimension::none;
+    for (const double step : is_direction ? std::vector<double>{1.0} : typical(p.dimension)) {
+      for (int d = 0; d < 3; ++d) {
+        for (const double sign : {1.0, -1.0}) {
+          Vec3 moved = *vector;
+          moved[d] += sign * step;
+          others.emplace_back(moved);
+        }
+      }
+    }
+  } else if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
+    if (!numbers->empty()) {
+      std::vector<double> changed = *numbers;
+      changed.front() *= 0.5;
+      others.emplace_back(changed);
+      others.emplace_back(std::vector<double>(numbers->begin(), numbers->end() - 1));
+    }
+    const std::vector<double> allowed = allowed_numbers(p);
+    for (std::size_t count = 1; count <= 3 && !allowed.empty(); ++count) {
+      std::vector<double> list;
+      for (std::size_t n = 0; n < count; ++n) list.push_back(allowed[n % allowed.size()]);
+      others.emplace_back(list);
+    }
+  }
+  return others;
+}
+
+}  // namespace dust::contract

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/model.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dust::contract {
+
+/// Values with which the factory makes a model: those given, the defaults, and for the others
+/// typical values of their dimension within their range. Throws base::UserError that names the
+/// parameters to give when none of the attempts is accepted.
+std::vector<sdk::Value> guess_values(const sdk::ModelInfo& info, const sdk::ModelFactory& factory,
+                                     const std::map<std::string, sdk::Value>& given);
+
+/// Other values a parameter might have, each within its range, the most different first; empty
+/// where nothing can be guessed (names of the scenario's things, free text).
+std::vector<sdk::Value> other_values(const sdk::Parameter& parameter, const sdk::Value& value);
+
+}  // namespace dust::contract

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contract/judge.hpp"
+
+#include <map>
+
+namespace dust::contract {
+
+void Judge::rule(const std::string& rule, const std::function<void()>& check) {
+  Finding finding{rule, Verdict::pass, {}};
+  try {
+    check();
+  } catch (const Remark& remark) {
+    finding = {rule, Verdict::remark, remark.what()};
+  } catch (const Violation& violation) {
+    finding = {rule, Verdict::fail, violation.what()};
+  } catch (const std::exception& problem) {
+    finding = {rule, Verdict::fail, std::string("it throws: ") + problem.what()};
+  } catch (...) {
+    finding = {rule, Verdict::fail, "it throws something that is no std::exception"};
+  }
+  findings.push_back(std::move(finding));
+}
+
+std::uint64_t Judge::allocations(const std::function<void()>& call) const {
+  if (allocations_ == nullptr) return call(), 0;
+  const std::uint64_t before = allocations_();
+  call();
+  return allocations_() - before;
+}
+
+const Kind* find_kind(const std::string& name) {
+  static const std::map<std::string, Kind> kinds = {
+      {"contact", contact_kind()}, {"rolling", rolling_kind()},   {"drag", drag_kind()},
+      {"voidage", voidage_kind()}, {"boundary", boundary_kind()}, {"emitter", emitter_kind()},
+      {"motion", motion_kind()},   {"sensor", sensor_kind()}};
+  const auto found = kinds.find(name);
+  return found == kinds.end() ? nullptr : &found->second;
+}
+
+}  // namespace dust::contract

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rules of motions: a bounded velocity of the surface.
+#include "contract/as_kind.hpp"
+#include "contract/judge.hpp"
+#include "dust/sdk/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dust::contract {
+namespace {
+
+using sdk::Vec3;
+
+constexpr std::size_t k_points = 40;
+const double k_times[] = {0.0, 0.0037, 0.013, 0.5};
+
+/// Velocities at points round a roll about y, at one time.
+std::vector<Vec3> velocities(const sdk::Motion& motion, const Trial& trial, double time) {
+  std::vector<double> in[6];
+  for (std::size_t n = 0; n < k_points; ++n) {
+    const double angle = 6.283185307179586 * static_cast<double>(n) / k_points;
+    const Vec3 normal{std::sin(angle), 0.0, std::cos(angle)};
+    const Vec3 at = Vec3{0.08, 0.001 * static_cast<double>(n % 11), 0.16} + 0.04 * normal;
+    for (int d = 0; d < 3; ++d) {
+      in[d].push_back(at[d] * trial.units.length);
+      in[3 + d].push_back(normal[d]);
+    }
+  }
+  std::vector<double> out[3];
+  for (auto& column : out) {
+    column.assign(k_points + 1, std::numeric_limits<double>::quiet_NaN());
+  }
+  const std::size_t size = trial.batch == 0 ? k_points : trial.batch;
+  for (std::size_t first = 0; first < k_points; first += size) {
+    sdk::SurfaceBatch b;
+    b.count = std::min(size, k_points - first);
+    b.time = time * trial.units.time;
+    b.axis = {0.0, 1.0, 0.0};
+    b.x = in[0].data() + first;
+    b.y = in[1].data() + first;
+    b.z = in[2].data() + first;
+    b.normal_x = in[3].data() + first;
+    b.normal_y = in[4].data() + first;
+    b.normal_z = in[5].data() + first;
+    b.velocity_x = out[0].data() + first;
+    b.velocity_y = out[1].data() + first;
+    b.velocity_z = out[2].data() + first;
+    call_hot(trial, [&] { motion.surface_velocity(b); });
+  }
+  std::vector<Vec3> result;
+  for (std::size_t n = 0; n < k_points; ++n) result.push_back({out[0][n], out[1][n], out[2][n]});
+  for (const auto& column : out) {
+    require(std::isnan(column.back()), "it writes beyond the end of the batch");
+  }
+  return result;
+}
+
+Readings observe(const Maker& make, const Trial& trial) {
+  const auto motion = make_as<sdk::Motion>(make, trial.units);
+  Readings readings;
+  for (const double time : k_times) {
+    const auto v = velocities(*motion, trial, time);
+    for (std::size_t n = 0; n < v.size(); ++n) {
+      const std::string point = " of point " + std::to_string(n) + " at " + shown(time) + " s";
+      for (int d = 0; d < 3; ++d) {
+        readings.push_back(
+            {std::string("velocity_") + "xyz"[d] + point, v[n][d], sdk::dimension::velocity});
+      }
+    }
+  }
+  readings.push_back({"largest_speed", motion->largest_speed(), sdk::dimension::velocity});
+  return readings;
+}
+
+void rules(const Maker& make, const Subject&, Judge& judge) {
+  judge.rule("is never faster than the largest speed it tells", [&] {
+    const auto motion = make_as<sdk::Motion>(make);
+    const double bound = motion->largest_speed() * (1.0 + 1e-12);
+    for (int n = 0; n <= 1000; ++n) {
+      const double time = 1e-3 * n;
+      for (const Vec3& v : velocities(*motion, {}, time)) {
+        require(norm(v) <= bound, shown(norm(v)) + " m/s at " + shown(time) + " s, told are " +
+                                      shown(motion->largest_speed()) + " m/s");
+      }
+    }
+  });
+}
+
+}  // namespace
+
+Kind motion_kind() {
+  return {.observe = observe,
+          .batches = {1, 7},
+          .other_units = {4.0, 2.0, 0.5},
+          .is_hot = true,
+          .rules = rules};
+}
+
+}  // namespace dust::contract

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rules of sensors: figures with names, units and errors, nothing from nothing, and the same
+// figures through an interruption.
+#include "contract/as_kind.hpp"
+#include "contract/judge.hpp"
+#include "contract/sensor_world.hpp"
+#include "scenario/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace dust::contract {
+namespace {
+
+constexpr int k_samples = 90;
+
+/// Figures that are ratios of the same quantity, or counts.
+bool is_bare(const std::string& unit) { return unit == "1" || unit == "-" || unit == "g/t"; }
+
+void add(Readings& readings, const std::string& from, const Figures& figures) {
+  for (const auto& [name, figure] : figures.all()) {
+    Reading r{from + name, figure.value, sdk::dimension::none};
+    if (!is_bare(figure.unit)) {
+      const auto unit = scenario::parse_unit(figure.unit);
+      r.has_dimension = unit.has_value();
+      if (unit) r.dimension = unit->dimension;
+    }
+    readings.push_back(r);
+    // A negative error means "none" and has no unit.
+    r.name += " (error)";
+    if (figure.uncertainty < 0.0) r.dimension = sdk::dimension::none;
+    r.value = figure.uncertainty;
+    readings.push_back(r);
+  }
+}
+
+class NoReport final : public sdk::ReportSink {
+ public:
+  void curve(std::string_view title, std::string_view, std::string_view, std::string_view series,
+             std::span<const double> x, std::span<const double> y) override {
+    require(x.size() == y.size(), "the curve '" + std::string(title) + "' (" + std::string(series) +
+                                      ") has columns of different length");
+  }
+  void row(std::string_view title, std::span<const std::string> columns,
+           std::span<const double> values) override {
+    require(columns.size() == values.size(),
+            "the table '" + std::string(title) + "' has rows of another length than its head");
+  }
+};
+
+std::unique_ptr<sdk::Sensor> run(const Maker& make, const Units& units, bool is_empty) {
+  auto sensor = make_as<sdk::Sensor>(make, units);
+  Scene scene(is_empty);
+  scene.world.units = units;
+  for (int s = 0; s < k_samples; ++s) scene.show(*sensor);
+  return sensor;
+}
+
+Readings observe(const Maker& make, const Trial& trial) {
+  const auto sensor = run(make, trial.units, false);
+  Readings readings;
+  add(readings, "summary: ", summary_of(*sensor));
+  add(readings, "series: ", series_of(*sensor));
+  NoReport report;
+  sensor->report(report);
+  return readings;
+}
+
+bool is_name(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '/';
+  });
+}
+
+void check_names(const Maker& make) {
+  const auto sensor = run(make, {}, false);
+  std::string unknown;
+  for (const bool is_series : {false, true}) {
+    const Figures figures = is_series ? series_of(*sensor) : summary_of(*sensor);
+    std::set<std::string> seen;
+    for (const auto& [name, figure] : figures.all()) {
+      require(is_name(name), "'" + name + "' is not a path of snake_case words");
+      require(seen.insert(name).second, "'" + name + "' is given twice");
+      require(!figure.unit.empty(), "'" + name + "' has no unit; a bare number has \"1\"");
+      if (!is_bare(figure.unit) && !scenario::parse_unit(figure.unit)) {
+        unknown += " " + name + " [" + figure.unit + "]";
+      }
+    }
+  }
+  if (!unknown.empty()) throw Remark("units the engine does not know:" + unknown);
+}
+
+void check_sees(const Maker& make) {
+  const auto sensor = run(make, {}, false);
+  const Figures figures = summary_of(*sensor);
+  int seen = 0;
+  int with_error = 0;
+  for (const auto& [name, figure] : figures.all()) {
+    seen += figure.value != 0.0;
+    with_error += figure.uncertainty > 0.0;
+  }
+  require(!figures.all().empty(), "its summary is empty");
+  if (seen == 0) {
+    throw Remark(
+        "the standard stream does not meet it: place it with --set, for example "
+        "--set min='[0.1, 0, 0.02]'");
+  }
+  if (with_error == 0) throw Remark("no figure has an error; the README should say why");
+}
+
+void check_nothing(const Maker& make) {
+  const std::vector<std::string> full = summary_of(*run(make, {}, false)).names();
+  const auto sensor = make_as<sdk::Sensor>(make);
+  const std::vector<std::string> series = series_of(*sensor).names();
+  Scene scene(true);
+  for (int s = 0; s < k_samples; ++s) {
+    scene.show(*sensor);
+    require(series_of(*sensor).names() == series, "the columns of its series change");
+    require(summary_of(*sensor).names() == full, "the names of its summary change");
+  }
+  const Figures nothing = summary_of(*sensor);
+  for (const auto& [name, figure] : nothing.all()) {
+    require(figure.value == 0.0 && figure.uncertainty <= 0.0,
+            "'" + name + "' is " + shown(figure.value) + " in an empty domain");
+  }
+}
+
+void compare(const Figures& a, const Figures& b, const std::string& when) {
+  require(a.names() == b.names(), when + "its figures have other names");
+  for (std::size_t n = 0; n < a.all().size(); ++n) {
+    const auto& [name, figure] = a.all()[n];
+    require(figure.value == b.all()[n].second.value &&
+                figure.uncertainty == b.all()[n].second.uncertainty,
+            when + "'" + name + "' differs");
+  }
+}
+
+void check_restart(const Maker& make) {
+  for (const int pause : {0, 1, 37, k_samples - 1}) {
+    const auto whole = make_as<sdk::Sensor>(make);
+    auto part = make_as<sdk::Sensor>(make);
+    Scene scene;
+    Scene same;
+    for (int s = 0; s < k_samples; ++s) {
+      if (s == pause) {
+        MemoryArchive archive;
+        part->save(archive);
+        part = make_as<sdk::Sensor>(make);
+        part->load(archive);
+        const std::string when = "saved and loaded after " + std::to_string(s) + " samples ";
+        compare(summary_of(*whole), summary_of(*part), when);
+        compare(series_of(*whole), series_of(*part), when);
+      }
+      scene.show(*whole);
+      same.show(*part);
+    }
+    const std::string when = "going on after " + std::to_string(pause) + " samples ";
+    compare(summary_of(*whole), summary_of(*part), when);
+    compare(series_of(*whole), series_of(*part), when);
+  }
+}
+
+void rules(const Maker& make, const Subject&, Judge& judge) {
+  judge.rule("names its figures and their units", [&] { check_names(make); });
+  judge.rule("sees something in a stream, with errors", [&] { check_sees(make); });
+  judge.rule("gives zeros of the same names where there is nothing", [&] { check_nothing(make); });
+  judge.rule("goes on with the same bits when saved and loaded", [&] { check_restart(make); });
+}
+
+}  // namespace
+
+Kind sensor_kind() {
+  // Lengths stay: names of figures may hold them.
+  return {.observe = observe,
+          .batches = {},
+          .other_units = {1.0, 4.0, 0.5},
+          .is_hot = false,
+          .rules = rules};
+}
+
+}  // namespace dust::contract

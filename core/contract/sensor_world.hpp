@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "contract/archive.hpp"
+#include "contract/units.hpp"
+#include "dust/sdk/random.hpp"
+#include "dust/sdk/sensor.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// A world made by hand for sensors to look at, and their figures as a table.
+namespace dust::contract {
+
+struct Figure {
+  double value = 0.0;
+  std::string unit;
+  double uncertainty = -1.0;
+};
+
+/// Figures in the order given; `at` throws for an unknown name.
+class Figures final : public sdk::FigureSink {
+ public:
+  void figure(std::string_view name, double value, std::string_view unit,
+              double uncertainty) override;
+  [[nodiscard]] const Figure& at(const std::string& name) const;
+  [[nodiscard]] double operator[](const std::string& name) const { return at(name).value; }
+  [[nodiscard]] const std::vector<std::pair<std::string, Figure>>& all() const { return figures_; }
+  [[nodiscard]] std::vector<std::string> names() const;
+
+ private:
+  std::vector<std::pair<std::string, Figure>> figures_;
+};
+Figures summary_of(const sdk::Sensor& sensor);
+Figures series_of(const sdk::Sensor& sensor);
+
+struct Grain {
+  sdk::Vec3 before;
+  sdk::Vec3 now;
+  sdk::Vec3 velocity;
+  double diameter = 300e-6;
+  double mass = 1e-9;
+  double weight = 1.0;
+  sdk::Vec3 force;
+};
+
+/// A world that owns its columns.
+class World {
+ public:
+  double time = 0.0;
+  double interval = 0.001;
+  sdk::Vec3 domain_min{0, 0, 0};
+  sdk::Vec3 domain_max{0.33, 0.011, 0.35};
+  sdk::Vec3 gravity{0, 0, -9.81};
+  std::vector<double> class_diameters = {10e-6, 300e-6, 600e-6};
+  double emitted_mass = 0.0;
+  std::vector<Grain> grains;
+  int count[3] = {0, 0, 0};
+  sdk::Vec3 spacing{0.001, 0.001, 0.001};
+  double density = 1.2;
+  std::vector<float> pressure;
+  std::vector<float> open_fraction;
+  Units units;  ///< in which the world is shown; everything above is SI
+
+  /// Sets the number of cells; pressure 0, all open.
+  void set_cells(int nx, int ny, int nz);
+  float& pressure_at(int i, int j, int k) {
+    return pressure[static_cast<std::size_t>(i + count[0] * (j + count[1] * k))];
+  }
+  /// Valid until the world changes.
+  const sdk::WorldView& view();
+
+ private:
+  void show_columns();
+
+  std::vector<std::int64_t> id_;
+  std::vector<std::int32_t> material_;
+  std::vector<double> columns_[18];
+  std::vector<float> still_air_;
+  std::vector<float> no_solids_;
+  std::vector<float> pressure_shown_;
+  std::vector<double> classes_shown_;
+  sdk::WorldView view_;
+};
+
+/// Shows `world` to `sensor` as the next sample.
+void step(sdk::Sensor& sensor, World& world);
+
+/// A stream in free flight from a belt's end, dust that rides back, air with wells of pressure.
+class Scene {
+ public:
+  World world;
+
+  explicit Scene(bool is_empty = false);
+  void show(sdk::Sensor& sensor);
+
+ private:
+  void fill(double time);
+  void finish(Grain& grain, int n);
+  void add(int n, double since, double speed);
+  void ride(int n, double time);
+
+  bool is_empty_;
+  sdk::Random random_{7, sdk::stream_of("scene")};
+};
+
+}  // namespace dust::contract

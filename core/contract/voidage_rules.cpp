@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rules of voidage rules: what spreads a volume keeps it.
+#include "contract/as_kind.hpp"
+#include "contract/judge.hpp"
+#include "dust/sdk/random.hpp"
+#include "dust/sdk/voidage_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dust::contract {
+namespace {
+
+sdk::GridShape grid_in(const Units& u) {
+  return {
+      u.length * sdk::Vec3{-0.5, 0.1, 0.0}, u.length * sdk::Vec3{0.01, 0.012, 0.015}, {20, 10, 10}};
+}
+
+/// Grains over the whole grid and a little beyond, up to the size the rule allows.
+struct Columns {
+  std::vector<double> x, y, z, radius;
+};
+Columns sample(const sdk::VoidageRule& rule, const Units& units) {
+  const sdk::GridShape grid = grid_in(units);
+  Columns c;
+  const sdk::Random random(7, sdk::stream_of("contract"));
+  for (std::uint32_t g = 0; g < 3000; ++g) {
+    const auto place = [&](int d) {
+      return grid.origin[d] + grid.spacing[d] * (grid.count[d] + 1.0) *
+                                  (random.uniform(g, 0, static_cast<std::uint32_t>(d)) - 0.02);
+    };
+    c.x.push_back(place(0));
+    c.y.push_back(place(1));
+    c.z.push_back(place(2));
+    c.radius.push_back(0.5 * grid.spacing.x * rule.largest_diameter_over_spacing() *
+                       (g % 5 == 0 ? 1.0 : random.uniform(g, 0, 3)));
+  }
+  return c;
+}
+
+struct Shares {
+  Columns grains;
+  int capacity = 0;
+  std::vector<int> used, i, j, k;
+  std::vector<double> weight;
+};
+Shares spread(const Maker& make, const Trial& trial) {
+  const auto rule = make_as<sdk::VoidageRule>(make, trial.units);
+  require(rule->largest_diameter_over_spacing() > 0.0, "it is valid for no grain at all");
+  const sdk::GridShape grid = grid_in(trial.units);
+  Shares s;
+  s.grains = sample(*rule, trial.units);
+  s.capacity =
+      rule->capacity(grid, *std::max_element(s.grains.radius.begin(), s.grains.radius.end()));
+  require(s.capacity >= 1, "its capacity is " + std::to_string(s.capacity));
+  const std::size_t count = s.grains.x.size();
+  const std::size_t rows = count * static_cast<std::size_t>(s.capacity);
+  // A row more than there are, to see who writes there.
+  s.used.assign(count + 1, -1);
+  s.i.assign(rows + 1, 0);
+  s.j = s.k = s.i;
+  s.weight.assign(rows + 1, 0.0);
+  const std::size_t size = trial.batch == 0 ? count : trial.batch;
+  for (std::size_t first = 0; first < count; first += size) {
+    const std::size_t row = first * static_cast<std::size_t>(s.capacity);
+    const sdk::VoidageBatch batch{std::min(size, count - first),
+                                  s.grains.x.data() + first,
+                                  s.grains.y.data() + first,
+                                  s.grains.z.data() + first,
+                                  s.grains.radius.data() + first,
+                                  s.capacity,
+                                  s.used.data() + first,
+                                  s.i.data() + row,
+                                  s.j.data() + row,
+                                  s.k.data() + row,
+                                  s.weight.data() + row};
+    call_hot(trial, [&] { rule->spread(grid, batch); });
+  }
+  require(s.used.back() == -1 && s.weight.back() == 0.0, "it writes beyond the end of the batch");
+  for (std::size_t g = 0; g < count; ++g) {
+    require(s.used[g] >= 1 && s.used[g] <= s.capacity, "grain " + std::to_string(g) + " uses " +
+                                                           std::to_string(s.used[g]) + " of " +
+                                                           std::to_string(s.capacity) + " rows");
+  }
+  return s;
+}
+
+Readings observe(const Maker& make, const Trial& trial) {
+  const Shares s = spread(make, trial);
+  Readings readings;
+  for (std::size_t g = 0; g < s.grains.x.size(); ++g) {
+    const std::string grain = " of grain " + std::to_string(g);
+    readings.push_back({"used" + grain, static_cast<double>(s.used[g]), {}, false});
+    for (int n = 0; n < s.used[g]; ++n) {
+      const std::size_t row =
+          g * static_cast<std::size_t>(s.capacity) + static_cast<std::size_t>(n);
+      readings.push_back({"weight" + grain, s.weight[row], sdk::dimension::none});
+      readings.push_back({"cell_i" + grain, static_cast<double>(s.i[row]), sdk::dimension::none});
+      readings.push_back({"cell_j" + grain, static_cast<double>(s.j[row]), sdk::dimension::none});
+      readings.push_back({"cell_k" + grain, static_cast<double>(s.k[row]), sdk::dimension::none});
+    }
+  }
+  return readings;
+}
+
+void check_shares(const Maker& make) {
+  // Eight shares, each rounded to half an ulp of 1.
+  constexpr double k_rounding = 1e-15;
+  const Shares s = spread(make, {});
+  const sdk::GridShape grid = grid_in({});
+  for (std::size_t g = 0; g < s.grains.x.size(); ++g) {
+    double sum = 0.0;
+    for (int n = 0; n < s.used[g]; ++n) {
+      const std::size_t row =
+          g * static_cast<std::size_t>(s.capacity) + static_cast<std::size_t>(n);
+      sum += s.weight[row];
+      require(s.weight[row] >= 0.0, "a share is negative: " + shown(s.weight[row]));
+      const auto touches = [&](double at, int d, int cell) {
+        const double low = grid.origin[d] + cell * grid.spacing[d];
+        const double rounding = 1e-12;
+        return at + s.grains.radius[g] >= low - rounding &&
+               at - s.grains.radius[g] <= low + grid.spacing[d] + rounding;
+      };
+      require(touches(s.grains.x[g], 0, s.i[row]) && touches(s.grains.y[g], 1, s.j[row]) &&
+                  touches(s.grains.z[g], 2, s.k[row]),
+              "grain " + std::to_string(g) + " has a share in a cell it does not touch");
+    }
+    require(std::abs(sum - 1.0) <= k_rounding, "the shares of a grain sum to 1 " +
+                                                   std::string(sum > 1.0 ? "+ " : "- ") +
+                                                   shown(std::abs(sum - 1.0)));
+  }
+}
+
+void rules(const Maker& make, const Subject&, Judge& judge) {
+  judge.rule("conserves volume: the shares of a grain sum to 1, in cells it touches",
+             [&] { check_shares(make); });
+}
+
+}  // namespace
+
+Kind voidage_kind() {
+  return {.observe = observe,
+          .batches = {1, 3, 64},
+          .other_units = {4.0, 2.0, 0.5},
+          .is_hot = true,
+          .rules = rules};
+}
+
+}  // namespace dust::contract

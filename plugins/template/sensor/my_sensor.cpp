@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "my_sensor.hpp"
+
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
+
+namespace {
+
+namespace sdk = dust::sdk;
+
+class MySensor final : public sdk::Sensor {
+ public:
+  // 1. What a scenario may say, each parameter once.
+  struct Parameters {
+    double steady_after = 0.0;
+    double finer_than = 0.0;
+  };
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.number(&Parameters::steady_after, "steady_after", sdk::dimension::time,
+             "Time from which the means are taken.")
+        .at_least(0)
+        .optional();
+    s.number(&Parameters::finer_than, "finer_than", sdk::dimension::length,
+             "Only grains of a smaller diameter count; 0 = all.")
+        .at_least(0)
+        .optional();
+    return s.build();
+  }
+  // 2. What the model says of itself.
+  static sdk::ModelInfo describe() {
+    return {.kind = {},
+            .name = "my_sensor",
+            .version = "1.0",
+            .summary = "Mass and kinetic energy of the grains, now and on average.",
+            .equation = "E = \\sum_i w_i m_i v_i^2 / 2",
+            .source = "own definition",
+            .parameters = {}};
+  }
+
+  explicit MySensor(const Parameters& p) : p_(p) {}
+
+  // 3. One look at the world per fluid step.
+  void observe(const sdk::WorldView& world) override {
+    now_[0] = now_[1] = 0.0;
+    const sdk::GrainColumns& g = world.grains;
+    for (std::size_t i = 0; i < g.id.size(); ++i) {
+      if (p_.finer_than > 0.0 && g.diameter[i] >= p_.finer_than) continue;
+      const double mass = g.weight[i] * g.mass[i];
+      now_[0] += mass;
+      now_[1] += my_sensor::kinetic_energy(mass, g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]);
+    }
+    if (sdk::is_after(world, p_.steady_after)) means_.add(now_, world.interval);
+    curve_.add(world.time, now_[1]);
+  }
+
+  // 4. What it tells: a row of series.csv, figures with their errors, curves of the report.
+  void series(sdk::FigureSink& sink) const override {
+    sink.figure("mass", now_[0], "kg");
+    sink.figure("kinetic_energy", now_[1], "J");
+  }
+  void summary(sdk::FigureSink& sink) const override {
+    const char* names[] = {"mass", "kinetic_energy"};
+    const char* units[] = {"kg", "J"};
+    for (std::size_t n = 0; n < 2; ++n) {
+      const double mean = means_.mean(n);
+      sink.figure(names[n], mean, units[n], mean > 0.0 ? means_.error(n) : -1.0);
+    }
+  }
+  void report(sdk::ReportSink& sink) const override {
+    sink.curve("Kinetic energy", "time [s]", "kinetic energy [J]", "all grains", curve_.x(),
+               curve_.y());
+  }
+
+  // 5. What a resumed run needs: everything that lives between two looks.
+  void save(sdk::ArchiveWriter& archive) const override {
+    archive.numbers("now", now_);
+    means_.save(archive, "means");
+    curve_.save(archive, "curve");
+  }
+  void load(sdk::ArchiveReader& archive) override {
+    now_ = archive.numbers("now");
+    means_.load(archive, "means");
+    curve_.load(archive, "curve");
+  }
+
+ private:
+  Parameters p_;
+  std::vector<double> now_ = {0.0, 0.0};  ///< mass [kg], kinetic energy [J]
+  sdk::BatchMeans means_{2};
+  sdk::ThinnedCurve curve_;
+};
+
+}  // namespace
+
+DUST_PLUGIN(registrar) { registrar.add<MySensor>(); }

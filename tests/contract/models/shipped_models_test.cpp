@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every shipped model against the rules of its kind, the same as `engine test-plugin` applies.
+#include "contract/contract.hpp"
+#include "engine/counting_new.hpp"
+
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+using namespace dust;
+using contract::Verdict;
+
+namespace {
+
+const registry::Registry& shipped() {
+  static const registry::Registry* registry = [] {
+    auto* all = new registry::Registry;
+    all->load({DUST_TEST_PLUGINS});
+    return all;
+  }();
+  return *registry;
+}
+
+std::string full_name(const sdk::ModelInfo& info) { return info.kind + "/" + info.name; }
+
+/// Models that one of the general rules does not fit, why, and where they are tested instead.
+const std::map<std::string, std::string>& judged_elsewhere() {
+  static const std::map<std::string, std::string> list = {
+      {"boundary/hood", "its opening must lie on a side of a domain: verification/fluid"},
+      {"boundary/mass_flow", "the solver scales it to the open faces: verification/fluid"},
+      {"boundary/volume_flow", "the solver scales it to the open faces: verification/fluid"},
+      {"boundary/velocity_inlet", "its profiles need each other's values: verification/fluid"},
+      {"drag/abraham", "its printed form steps down at Re 1000: unit/drag"},
+      {"drag/di_felice", "its exponent lets F fall below Re 1 in dense beds: unit/drag"},
+      {"emitter/feed", "needs a size distribution: unit/emitter"},
+      {"emitter/fill", "needs a size distribution and a region: unit/emitter"},
+      {"emitter/lattice", "needs a size distribution and a region: unit/emitter"},
+      {"emitter/file", "needs a file: unit/emitter"},
+      {"emitter/single", "needs lists of one length: unit/emitter"},
+      {"motion/translate", "start, stop and travel bound each other: verification/walls"},
+      {"motion/oscillate", "needs lists of one length: verification/walls"},
+      {"voidage/big_particle", "spreads a grain beyond its sphere on purpose: contract/coupling"},
+      {"voidage/gaussian", "the same, as far as its width says: contract/coupling"}};
+  return list;
+}
+
+std::vector<contract::Finding> findings_of(const registry::Entry& entry) {
+  contract::Options options;
+  options.allocations = engine::allocations_so_far;
+  return contract::check_model(entry, options);
+}
+
+Verdict verdict(const std::string& kind, const std::string& name, const std::string& rule) {
+  for (const auto& finding : findings_of(*shipped().find(kind, name))) {
+    if (finding.rule.find(rule) != std::string::npos) return finding.verdict;
+  }
+  FAIL("no such rule: " << rule);
+  return Verdict::fail;
+}
+
+std::string readme_of(const sdk::ModelInfo& info) {
+  std::ifstream file(std::string(DUST_SOURCE) + "/plugins/" + info.kind + "/" + info.name +
+                     "/README.md");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+TEST_CASE("every shipped model shall keep the rules of its kind") {
+  std::size_t judged = 0;
+  for (const registry::Entry& entry : shipped().entries()) {
+    CAPTURE(entry.info.kind);
+    CAPTURE(entry.info.name);
+    // Sensors are placed in contract/sensor, cohesive laws have rules of their own in
+    // contract/contact.
+    const bool is_general = entry.info.kind != "sensor" && entry.info.kind != "cohesion";
+    if (!is_general || judged_elsewhere().contains(full_name(entry.info))) continue;
+    ++judged;
+    const auto findings = findings_of(entry);
+    CHECK(findings.size() >= 5);
+    for (const auto& finding : findings) {
+      CAPTURE(finding.rule);
+      CHECK_MESSAGE(finding.verdict != Verdict::fail, finding.why);
+    }
+  }
+  CHECK(judged >= 20);
+}
+
+TEST_CASE("rules that can be judged shall be judged, not passed over") {
+  CHECK(verdict("drag", "wen_yu", "Stokes") == Verdict::pass);
+  CHECK(verdict("drag", "ergun", "Stokes") == Verdict::remark);  // for packed beds
+  CHECK(verdict("contact", "hertz_mindlin", "restitution") == Verdict::pass);
+  CHECK(verdict("contact", "hertz_mindlin", "allocate") == Verdict::pass);
+  CHECK(verdict("contact", "hertz_mindlin", "times") == Verdict::pass);
+}
+
+TEST_CASE("every shipped model shall have a page with its limits and an example that names it") {
+  for (const registry::Entry& entry : shipped().entries()) {
+    const std::string& kind = entry.info.kind;
+    if (kind != "drag" && kind != "voidage") continue;
+    CAPTURE(entry.info.name);
+    const std::string readme = readme_of(entry.info);
+    CHECK(readme.find(kind + ": {model: " + entry.info.name) != std::string::npos);
+    if (kind == "drag") CHECK(readme.find("Source:") != std::string::npos);
+    CHECK(readme.find("Limits:") != std::string::npos);
+  }
+}

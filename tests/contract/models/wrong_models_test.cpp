@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// A rule that no model can break is none: one wrong model per rule, and what is said of it.
+#include "contract/contract.hpp"
+#include "dust/sdk/plugin.hpp"
+#include "dust/sdk/sphere.hpp"
+#include "engine/counting_new.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+using namespace dust;
+using contract::Verdict;
+
+namespace {
+
+sdk::ModelInfo described(const char* kind, sdk::ParameterSchema schema = {}) {
+  return {.kind = kind,
+          .name = "wrong",
+          .version = "1.0",
+          .summary = "Wrong.",
+          .equation = "0",
+          .source = "nobody",
+          .parameters = std::move(schema)};
+}
+
+/// The findings on a model made by `make` from its values.
+std::vector<contract::Finding> findings_of(sdk::ModelInfo info, sdk::ModelFactory make) {
+  contract::Options options;
+  options.allocations = engine::allocations_so_far;
+  return contract::check_model({std::move(info), std::move(make), {}}, options);
+}
+
+/// What the rule whose sentence holds `rule` says; "" if it is kept.
+std::string broken(const std::vector<contract::Finding>& findings, const std::string& rule) {
+  for (const auto& finding : findings) {
+    if (finding.rule.find(rule) == std::string::npos) continue;
+    return finding.verdict == Verdict::fail ? finding.why : "";
+  }
+  FAIL("no such rule: " << rule);
+  return "";
+}
+
+using Evaluate = std::function<void(const sdk::DragBatch&, double)>;
+
+struct Drag final : sdk::DragLaw {
+  Drag(Evaluate e, double p) : evaluate_(std::move(e)), parameter(p) {}
+  void evaluate(const sdk::DragBatch& batch) const override { evaluate_(batch, parameter); }
+  Evaluate evaluate_;
+  double parameter;
+};
+
+/// A drag law with one parameter, a length.
+std::vector<contract::Finding> drag(const Evaluate& evaluate) {
+  struct P {
+    double size = 0.0;
+  };
+  sdk::SchemaOf<P> s;
+  s.number(&P::size, "size", sdk::dimension::length, "A size.").above(0);
+  return findings_of(described("drag", s.build()), [evaluate](std::span<const sdk::Value> values) {
+    return std::make_unique<Drag>(evaluate, std::get<double>(values[0]));
+  });
+}
+
+void each(const sdk::DragBatch& b, const std::function<double(std::size_t)>& factor) {
+  for (std::size_t n = 0; n < b.count; ++n) b.factor[n] = factor(n);
+}
+
+}  // namespace
+
+TEST_CASE("a drag law that is wrong shall be told by the rule it breaks") {
+  CHECK(broken(drag([](auto& b, double) { each(b, [](auto) { return 1.0; }); }),
+               "parameter matters") == "no other value changes anything: 'size'");
+  CHECK(broken(drag([](auto& b, double p) { each(b, [&](auto) { return p; }); }), "homogeneous")
+            .find("4.0") != std::string::npos);
+  CHECK(broken(drag([](auto& b, double) {
+                 each(b, [&](auto n) { return n == 2 ? std::nan("") : 1.0; });
+               }),
+               "finite") ==
+        "factor at Re 0.01, void fraction 0.3 is not finite, or is not written");
+  CHECK(
+      broken(drag([](auto& b, double) { each(b, [&](auto n) { return static_cast<double>(n); }); }),
+             "split")
+          .find("in batches of 1") != std::string::npos);
+  CHECK(broken(drag([](auto& b, double) { b.factor[b.count] = 1.0; }), "finite") ==
+        "it writes beyond the end of the batch");
+  CHECK(broken(drag([](auto& b, double) { const_cast<double*>(b.reynolds)[0] = 1.0; }), "finite") ==
+        "it overwrites its input");
+  CHECK(broken(drag([](auto& b, double) { each(b, [](auto) { return -1.0; }); }), "negative") ==
+        "F = -1 at Re 0");
+  CHECK(broken(drag([](auto& b, double) { each(b, [&](auto n) { return 1e9 - b.reynolds[n]; }); }),
+               "negative")
+            .find("F falls between Re 0 and 1e-06") != std::string::npos);
+  CHECK(broken(drag([](auto& b, double) {
+                 const std::vector<double> copy(b.count, 1.0);
+                 each(b, [&](auto n) { return copy[n]; });
+               }),
+               "allocate") == "it allocates 1 times in one call");
+  CHECK(broken(drag([](auto&, double) { throw sdk::ModelError("too dense"); }), "finite") ==
+        "it throws: too dense");
+  static double memory = 1.0;
+  CHECK(broken(drag([](auto& b, double) { each(b, [](auto) { return memory *= 1.1; }); }),
+               "asked again")
+            .find("differs between two models") != std::string::npos);
+}
+
+namespace {
+
+/// A linear spring with one fault.
+struct Spring final : sdk::ContactLaw {
+  struct P {
+    double stiffness = 0.0;
+    double restitution = 0.0;
+  };
+  enum Fault { none, one_sided, along_x, bouncy, slow_times, sticky_sliding };
+  Spring(P parameters, Fault f) : p(parameters), fault(f) {}
+  void prepare(const sdk::MaterialProperties& i, const sdk::MaterialProperties& j) override {
+    lead = i.density / j.density;
+  }
+  [[nodiscard]] int history_size() const override { return 0; }
+  void evaluate(const sdk::ContactBatch& b) const override {
+    for (std::size_t q = 0; q < b.count; ++q) {
+      const double vn = b.velocity_x[q] * b.normal_x[q] + b.velocity_y[q] * b.normal_y[q] +
+                        b.velocity_z[q] * b.normal_z[q];
+      const double log_e = std::log(p.restitution);
+      const double zeta = -log_e / std::sqrt(9.869604401089358 + log_e * log_e);
+      double f = p.stiffness * b.overlap[q] -
+                 2.0 * zeta * std::sqrt(b.effective_mass[q] * p.stiffness) * vn;
+      if (fault == one_sided) f *= lead;
+      if (fault == bouncy && vn > 0.0) f *= 1.5;
+      b.normal_force[q] = f;
+      b.tangential_stiffness[q] = p.stiffness;
+      b.force_x[q] = f * b.normal_x[q] + (fault == along_x ? 0.01 * f : 0.0);
+      b.force_y[q] = f * b.normal_y[q];
+      b.force_z[q] = f * b.normal_z[q];
+      if (fault == sticky_sliding) b.force_y[q] += 5.0 * f * (b.velocity_y[q] > 0.0 ? 1.0 : -1.0);
+    }
+  }
+  [[nodiscard]] double collision_time(double, double mass, double) const override {
+    return 3.141592653589793 * std::sqrt(mass / p.stiffness) * (fault == slow_times ? 3.0 : 1.0);
+  }
+  [[nodiscard]] double half_period(double radius, double mass, double) const override {
+    return collision_time(radius, mass, 1.0);
+  }
+  P p;
+  Fault fault;
+  double lead = 1.0;
+};
+
+std::vector<contract::Finding> spring(Spring::Fault fault) {
+  sdk::SchemaOf<Spring::P> s;
+  s.number(&Spring::P::stiffness, "stiffness", sdk::dimension::stiffness, "Stiffness.").above(0);
+  s.number(&Spring::P::restitution, "restitution", sdk::dimension::none, "Restitution.")
+      .above(0)
+      .at_most(1);
+  return findings_of(
+      described("contact", s.build()), [fault, schema = s.build()](std::span<const sdk::Value> v) {
+        return std::make_unique<Spring>(sdk::parameters_from<Spring::P>(schema, v), fault);
+      });
+}
+
+}  // namespace
+
+TEST_CASE("a contact law that is wrong shall be told by the rule it breaks") {
+  for (const auto& finding : spring(Spring::none)) {
+    // History is out of reach of a law that has none; its spring is told as it is.
+    INFO(finding.rule);
+    CHECK_MESSAGE(finding.verdict != Verdict::fail, finding.why);
+  }
+  CHECK(broken(spring(Spring::one_sided), "both sides").find("seen from the other side") == 0);
+  CHECK(broken(spring(Spring::along_x), "direction").find("in a turned world") == 0);
+  CHECK(broken(spring(Spring::bouncy), "restitution").find("realised") != std::string::npos);
+  CHECK(broken(spring(Spring::slow_times), "times").find("collision_time says") !=
+        std::string::npos);
+  CHECK(broken(spring(Spring::sticky_sliding), "energy").find("of its energy") !=
+        std::string::npos);
+}
+
+namespace {
+
+/// Says 1 g/s and gives `share` of it; forgets where it was when it is resumed.
+struct Drip final : sdk::Emitter {
+  explicit Drip(double s) : share(s) {}
+  void propose(const sdk::EmitterContext& context, std::vector<sdk::Seed>& seeds) override {
+    const double mass = context.grain_density * sdk::sphere_volume(k_diameter);
+    for (; (released + 1.0) * mass / (share * k_flow) < context.end; ++released) {
+      sdk::Seed seed;
+      seed.time = (released + 1.0) * mass / (share * k_flow);
+      if (seed.time < context.begin) continue;
+      seed.velocity = {0.0, 0.0, -1.0};
+      seed.diameter = k_diameter;
+      seeds.push_back(seed);
+    }
+  }
+  [[nodiscard]] double requested_mass_flow() const override { return k_flow; }
+  [[nodiscard]] std::vector<double> diameters() const override { return {k_diameter}; }
+  [[nodiscard]] double largest_speed() const override { return 0.5; }
+  static constexpr double k_diameter = 1e-3;
+  static constexpr double k_flow = 1e-3;
+  double share;
+  double released = 0.0;
+};
+
+}  // namespace
+
+TEST_CASE("an emitter that is wrong shall be told by the rule it breaks") {
+  const auto findings = findings_of(described("emitter"), [](std::span<const sdk::Value>) {
+    return std::make_unique<Drip>(0.8);
+  });
+  CHECK(broken(findings, "mass").find("kg came in") != std::string::npos);
+  CHECK(broken(findings, "speeds").find("told are 0.5") != std::string::npos);
+  CHECK(broken(findings, "homogeneous").find("the number of results") != std::string::npos);
+}
+
+namespace {
+
+/// Counts looks, also those at nothing, and forgets them.
+struct Counter final : sdk::Sensor {
+  void observe(const sdk::WorldView&) override { ++looks; }
+  void series(sdk::FigureSink& sink) const override { sink.figure("Looks", looks, "1"); }
+  void summary(sdk::FigureSink& sink) const override { sink.figure("looks", looks, "1"); }
+  double looks = 0.0;
+};
+
+}  // namespace
+
+TEST_CASE("a sensor that is wrong shall be told by the rule it breaks") {
+  const auto findings = findings_of(
+      described("sensor"), [](std::span<const sdk::Value>) { return std::make_unique<Counter>(); });
+  CHECK(broken(findings, "names") == "'Looks' is not a path of snake_case words");
+  CHECK(broken(findings, "zeros") == "'looks' is 90 in an empty domain");
+  CHECK(broken(findings, "saved and loaded").find("after 1 samples 'looks' differs") !=
+        std::string::npos);
+}
+
+TEST_CASE("parameters that cannot be guessed shall be asked for, unknown ones refused") {
+  struct P {
+    std::string file;
+  };
+  sdk::SchemaOf<P> s;
+  s.text(&P::file, "file", "A table.");
+  const registry::Entry entry{
+      described("drag", s.build()), [](std::span<const sdk::Value>) { return nullptr; }, {}};
+  CHECK_THROWS_WITH(contract::check_model(entry),
+                    "error: drag/wrong: no value can be guessed for file; give it: --set "
+                    "PARAMETER=VALUE");
+  contract::Options options;
+  options.given["fiel"] = std::string("x");
+  CHECK_THROWS_WITH(contract::check_model(entry, options),
+                    "error: drag/wrong: there is no parameter 'fiel'");
+}

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/error.hpp"
+#include "commands.hpp"
+#include "contract/contract.hpp"
+#include "counting_new.hpp"
+#include "registry/library.hpp"
+#include "scenario/suggest.hpp"
+#include "scenario/tree.hpp"
+#include "scenario/values.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+
+namespace dust::engine {
+namespace {
+
+using contract::Finding;
+using contract::Verdict;
+
+/// Reads PARAMETER=VALUE for the models that have such a parameter.
+void read_setting(const std::string& setting, const std::vector<registry::Entry>& entries,
+                  std::vector<contract::Options>& options) {
+  const std::size_t sign = setting.find('=');
+  const std::string place = "--set " + setting.substr(0, sign);
+  if (sign == std::string::npos || sign == 0) {
+    throw base::UserError(place + ": error: write --set PARAMETER=VALUE");
+  }
+  scenario::Diagnostics diagnostics;
+  const auto node = scenario::parse_yaml(setting.substr(sign + 1), place, true, diagnostics);
+  diagnostics.throw_errors();
+  const std::string wanted = setting.substr(0, sign);
+  std::vector<std::string> names;
+  bool is_found = false;
+  for (std::size_t n = 0; n < entries.size(); ++n) {
+    for (const sdk::Parameter& p : entries[n].info.parameters) {
+      names.push_back(p.name);
+      if (p.name != wanted || !node) continue;
+      is_found = true;
+      const auto value = scenario::read_value(*node, p, p.name, diagnostics);
+      if (value) options[n].given[p.name] = *value;
+    }
+  }
+  diagnostics.throw_errors();
+  if (!is_found) {
+    throw base::UserError(place + ": error: no model of this library has this parameter" +
+                          scenario::suggestion(wanted, names, "there are"));
+  }
+}
+
+const char* word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::pass:
+      return "pass";
+    case Verdict::remark:
+      return "note";
+    case Verdict::fail:
+      return "FAIL";
+  }
+  return "";
+}
+
+void print_table(const registry::Entry& entry, const std::vector<Finding>& findings) {
+  std::size_t width = 0;
+  for (const Finding& f : findings) width = std::max(width, f.rule.size());
+  std::cout << entry.info.kind << '/' << entry.info.name << ' ' << entry.info.version << " ("
+            << entry.file.string() << ")\n";
+  for (const Finding& f : findings) {
+    std::cout << "  " << word(f.verdict) << "  " << std::left
+              << std::setw(f.why.empty() ? 0 : static_cast<int>(width) + 2) << f.rule << f.why
+              << '\n';
+  }
+}
+
+nlohmann::ordered_json as_json(const registry::Entry& entry, const std::vector<Finding>& findings) {
+  nlohmann::ordered_json json = {{"kind", entry.info.kind},
+                                 {"name", entry.info.name},
+                                 {"version", entry.info.version},
+                                 {"file", entry.file.string()},
+                                 {"rules", nlohmann::ordered_json::array()}};
+  for (const Finding& f : findings) {
+    const char* verdict = f.verdict == Verdict::fail ? "fail" : word(f.verdict);
+    json["rules"].push_back({{"rule", f.rule}, {"verdict", verdict}, {"why", f.why}});
+  }
+  return json;
+}
+
+}  // namespace
+
+void add_test_plugin(CLI::App& app, int& status) {
+  struct Arguments {
+    std::string file;
+    std::vector<std::string> settings;
+    bool as_json = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "test-plugin", "Check every model of a plugin library against the rules of its kind");
+  command->add_option("FILE.so", arguments->file, "The plugin library")->required();
+  command
+      ->add_option("--set", arguments->settings,
+                   "Give a parameter; the others are guessed from their dimension and range")
+      ->type_name("PARAMETER=VALUE")
+      ->allow_extra_args(false);
+  command->add_flag("--json", arguments->as_json, "Print as JSON");
+  command->footer(
+      "Each rule is passed, noted (could not be judged, or worth knowing) or failed, with the "
+      "reason.\n"
+      "Exit status: 0 no rule failed, 1 a rule failed, 2 the library or a value cannot be used.\n"
+      "Examples:\n"
+      "  engine test-plugin build/my_drag.so\n"
+      "  engine test-plugin build/my_contact.so --set stiffness='1000 N/m' --set restitution=0.5");
+  command->callback([arguments, &status] {
+    if (!std::filesystem::is_regular_file(arguments->file)) {
+      throw base::UserError(arguments->file + ": error: no such file");
+    }
+    const auto entries = registry::load_library(std::filesystem::absolute(arguments->file));
+    std::vector<contract::Options> options(entries.size());
+    for (contract::Options& o : options) o.allocations = allocations_so_far;
+    for (const std::string& setting : arguments->settings) {
+      read_setting(setting, entries, options);
+    }
+    std::size_t failed = 0;
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (std::size_t n = 0; n < entries.size(); ++n) {
+      const auto findings = contract::check_model(entries[n], options[n]);
+      failed += static_cast<std::size_t>(
+          std::count_if(findings.begin(), findings.end(),
+                        [](const Finding& f) { return f.verdict == Verdict::fail; }));
+      if (arguments->as_json) {
+        json.push_back(as_json(entries[n], findings));
+      } else {
+        print_table(entries[n], findings);
+      }
+    }
+    if (arguments->as_json) {
+      std::cout << json.dump(2) << '\n';
+    } else {
+      std::cout << (failed == 0 ? "all rules are kept"
+                                : std::to_string(failed) +
+                                      (failed == 1 ? " rule is" : " rules are") + " broken")
+                << '\n';
+    }
+    status = failed == 0 ? 0 : 1;
+  });
+}
+
+}  // namespace dust::engine

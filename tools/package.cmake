@@ -1,0 +1,26 @@
+# `cpack -G DEB` in the build folder: two packages, `dust` to run and `dust-dev` to write plugins.
+set(CPACK_PACKAGE_NAME dust)
+set(CPACK_PACKAGE_VENDOR dust)
+set(CPACK_PACKAGE_CONTACT "the dust developers <dust@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGE_DESCRIPTION
+  "Discrete elements coupled to a volume-averaged Navier-Stokes solver, for transfer points of belt conveyors.")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL dust dust-dev)
+set(CPACK_GENERATOR DEB)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_DUST_PACKAGE_NAME dust)
+set(CPACK_DEBIAN_DUST_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_DUST-DEV_PACKAGE_NAME dust-dev)
+set(CPACK_DEBIAN_DUST-DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DUST-DEV_PACKAGE_DEPENDS
+  "dust (= ${PROJECT_VERSION}), cmake (>= 3.25), g++-${DUST_COMPILER_MAJOR}, g++, make | ninja-build")
+set(CPACK_COMPONENT_DUST_DESCRIPTION "The engine with its models and scenarios.")
+set(CPACK_COMPONENT_DUST-DEV_DESCRIPTION
+  "Headers, CMake package and templates for models of your own: engine new-plugin KIND NAME.")
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/dust RENAME copyright)
+include(CPack)
