@@ -99,6 +99,8 @@ std::optional<Value> guess(const Parameter& p, int attempt, int list) {
       if (numbers.empty()) return std::nullopt;
       if (p.dimension == sdk::dimension::length) return std::vector<double>{3e-4, 6e-4};
       return std::vector<double>{numbers.front(), numbers.back()};
+    case ParameterType::vectors:  // places or directions that belong together: only the user knows
+      return std::nullopt;
   }
   return std::nullopt;
 }
