@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dust/sdk/emitter.hpp"
+#include "dust/sdk/voidage_rule.hpp"
+#include "scenario/setup_reader.hpp"
+#include "scenario/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dust::scenario {
+
+void SetupReader::read_fluid(MapReader& top) {
+  const Entry* entry = top.required("fluid", "cells, density, viscosity; or fluid: none");
+  if (entry == nullptr) return;
+  if (!has_fluid_) {
+    out_.add("fluid", Node::make_text("none"));
+    return;
+  }
+  if (entry->value.is_text()) {
+    error(entry->value.where,
+          "fluid: a map of keys or none is expected, not " + kind_text(entry->value));
+    return;
+  }
+  MapReader reader(entry->value, "fluid", entry->where, diagnostics_);
+  std::vector<sdk::Value> values;
+  const auto fluid = block<FluidBlock>(reader, &values);
+  FluidSpec spec;
+  Node regions = Node::make_map();
+  for_each_named(reader, "regions", [&](const Entry& region, const std::string& path) {
+    regions.add(region.key, read_region(region, "fluid." + path, spec));
+  });
+  reader.finish();
+  for (int d = 0; d < 3; ++d) {
+    spec.cells[static_cast<std::size_t>(d)] = static_cast<int>(fluid.cells[d]);
+    if (fluid.cells[d] == std::floor(fluid.cells[d])) continue;
+    error(mark_of(entry->value, "cells"),
+          "fluid.cells: " + number_text(fluid.cells[d]) + " is not a whole number of cells");
+  }
+  spec.density = fluid.density;
+  spec.viscosity = fluid.viscosity;
+  spec.momentum_set = fluid.momentum_set;
+  spec.initial_velocity = fluid.initial_velocity;
+  spec.pressure_tolerance = fluid.pressure_tolerance;
+  spec.largest_cfl = fluid.largest_cfl;
+  spec.where = entry->where;
+  if (fluid.momentum_set == "III") {
+    diagnostics_.warning(mark_of(entry->value, "momentum_set"),
+                         "fluid.momentum_set: III holds for steady uniform suspensions only; I "
+                         "and II, which are one here, hold everywhere");
+  }
+  setup_.fluid = spec;
+  Node written = written_block<FluidBlock>(values);
+  if (!regions.entries.empty()) written.add("regions", std::move(regions));
+  out_.add("fluid", std::move(written));
+}
+
+Node SetupReader::read_region(const Entry& entry, const std::string& path, FluidSpec& spec) {
+  MapReader reader(entry.value, path, entry.where, diagnostics_);
+  std::vector<sdk::Value> values;
+  const auto read = block<RegionBlock>(reader, &values);
+  if (reader.is_good()) check_region(entry, path, read);
+  reader.finish();
+  spec.regions.push_back({entry.key, read.min, read.max, read.density, read.viscosity});
+  return written_block<RegionBlock>(values);
+}
+
+void SetupReader::check_region(const Entry& entry, const std::string& path,
+                               const RegionBlock& region) {
+  for (int d = 0; d < 3; ++d) {
+    const std::string axis(1, "xyz"[d]);
+    if (!(region.max[d] > region.min[d])) {
+      error(mark_of(entry.value, "max"), path + ".max: " + axis + " is not above that of min");
+    } else if (region.max[d] <= setup_.domain.min[d] || region.min[d] >= setup_.domain.max[d]) {
+      error(entry.where, path + ": the region lies outside the domain along " + axis);
+    }
+  }
+}
+
+void SetupReader::read_coupling(MapReader& top) {
+  const Entry* entry = top.optional("coupling");
+  const Node empty = Node::make_map();
+  MapReader reader(entry ? entry->value : empty, "coupling", entry ? entry->where : root_.where,
+                   diagnostics_);
+  std::vector<sdk::Value> values;
+  const auto coupling = block<CouplingBlock>(reader, &values);
+  reader.finish();
+  if (setup_.fluid) setup_.fluid->is_one_way = coupling.one_way;
+  out_.add("coupling", written_block<CouplingBlock>(values));
+}
+
+void SetupReader::read_drag_and_voidage(MapReader& top) {
+  const bool is_needed = has_fluid_ && !names_.emitters.all.empty() &&
+                         names_.emitters.disabled.size() < names_.emitters.all.size();
+  ReadModel drag = read_part(top, "drag", is_needed, out_);
+  ReadModel voidage = read_part(top, "voidage", is_needed, out_);
+  if (!has_fluid_) return;
+  setup_.drag = std::move(drag.choice);
+  setup_.voidage = std::move(voidage.choice);
+  voidage_ = std::move(voidage.model);
+}
+
+void SetupReader::check_voidage() {
+  if (!voidage_ || !setup_.fluid) return;
+  double spacing = std::numeric_limits<double>::infinity();
+  for (int d = 0; d < 3; ++d) {
+    const double width = setup_.domain.max[d] - setup_.domain.min[d];
+    spacing = std::min(spacing, width / setup_.fluid->cells[static_cast<std::size_t>(d)]);
+  }
+  double largest = 0.0;
+  for (const auto& emitter : emitters_) {
+    const auto diameters = static_cast<const sdk::Emitter&>(*emitter).diameters();
+    for (const double d : diameters) largest = std::max(largest, d);
+  }
+  const double limit =
+      static_cast<const sdk::VoidageRule&>(*voidage_).largest_diameter_over_spacing();
+  if (!(spacing > 0.0) || largest <= limit * spacing) return;
+  error(setup_.voidage->where,
+        "voidage: the largest grain is " + number_text(std::round(100 * largest / spacing) / 100) +
+            " of the smallest cell's edges wide; '" + setup_.voidage->name + "' is valid up to " +
+            number_text(limit) + ": take fewer cells or another rule");
+}
+
+}  // namespace dust::scenario

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bodies/body_set.hpp"
+#include "dust/sdk/motion.hpp"
+#include "scenario/setup_reader.hpp"
+#include "scenario/suggest.hpp"
+
+#include <utility>
+
+namespace dust::scenario {
+
+void SetupReader::read_frames(MapReader& top) {
+  Node written = Node::make_map();
+  for_each_named(top, "frames", [&](const Entry& entry, const std::string& path) {
+    MapReader reader(entry.value, path, entry.where, diagnostics_);
+    std::vector<sdk::Value> values;
+    const auto frame = block<FrameBlock>(reader, &values);
+    if (reader.is_good() && !(norm(frame.axis) > 0.0)) {
+      error(mark_of(entry.value, "axis"), path + ".axis: the axis has no direction");
+    }
+    reader.finish();
+    setup_.frames.push_back({entry.key, frame.origin, frame.axis, frame.angle});
+    written.add(entry.key, written_block<FrameBlock>(values));
+  });
+  if (!written.entries.empty()) out_.add("frames", std::move(written));
+}
+
+SetupReader::Placed SetupReader::read_placed(MapReader& reader) {
+  std::vector<sdk::Value> values;
+  const auto read = block<PlacedBlock>(reader, &values);
+  Placed placed;
+  placed.is_enabled = read.enabled;
+  placed.written.add("enabled", written_value(read.enabled));
+  if (!read.frame.empty()) {
+    placed.frame = names_.frames.index(read.frame);
+    if (placed.frame < 0) {
+      error(mark_of(reader.node(), "frame"),
+            reader.path_of("frame") + ": there is no frame '" + printable(read.frame) + "'" +
+                suggestion(read.frame, names_.frames.all, "there are"));
+    }
+    placed.written.add("frame", written_value(read.frame));
+  }
+  models_.check_references(reader, PlacedBlock::schema(), values, true);
+  placed.material = names_.materials.index(read.material);
+  if (placed.material < 0) pairs_are_read_ = false;
+  placed.written.add("material", written_value(read.material));
+  return placed;
+}
+
+std::vector<ReadModel> SetupReader::read_motions(MapReader& reader, Node& written) {
+  std::vector<ReadModel> all;
+  const Entry* list = reader.optional("motions");
+  if (reader.node().find("motion") != nullptr || list == nullptr) {
+    ReadModel motion = models_.read_optional(reader, "motion", "motion");
+    if (motion.choice) all.push_back(std::move(motion));
+    if (list != nullptr) {
+      error(list->where, reader.path() + ": give motion or motions, not both");
+    }
+    return all;
+  }
+  if (!list->value.is_list()) {
+    error(list->value.where, reader.path_of("motions") + ": a list of '- model: ...' is " +
+                                 "expected, not " + kind_text(list->value));
+    return all;
+  }
+  Node items = Node::make_list();
+  for (std::size_t n = 0; n < list->value.items.size(); ++n) {
+    const Node& item = list->value.items[n];
+    MapReader inner(item, reader.path_of("motions") + "[" + std::to_string(n) + "]", item.where,
+                    diagnostics_);
+    if (!item.is_map()) continue;
+    all.push_back(models_.read(inner, "model", "motion"));
+    inner.finish();
+    Node map = Node::make_map();
+    append(map, std::exchange(all.back().written, {}));
+    items.items.push_back(std::move(map));
+  }
+  written.add("motions", std::move(items));
+  return all;
+}
+
+std::optional<RemovalSpec> SetupReader::read_removal(MapReader& reader, Node& written) {
+  const Entry* entry = reader.optional("remove");
+  if (entry == nullptr) return std::nullopt;
+  MapReader inner(entry->value, reader.path_of("remove"), entry->where, diagnostics_);
+  if (!entry->value.is_map()) return std::nullopt;
+  std::vector<sdk::Value> values;
+  const auto read = block<RemovalBlock>(inner, &values);
+  inner.finish();
+  const bool has_time = entry->value.find("at") != nullptr;
+  const bool has_energy = entry->value.find("when_kinetic_energy_per_grain_below") != nullptr;
+  if (inner.is_good() && has_time == has_energy) {
+    error(entry->where, reader.path_of("remove") + ": give at or " +
+                            "when_kinetic_energy_per_grain_below" + (has_time ? ", not both" : ""));
+  } else if (has_time && entry->value.find("after") != nullptr) {
+    error(entry->where, reader.path_of("remove") + ": after belongs to " +
+                            "when_kinetic_energy_per_grain_below, not to at");
+  }
+  Node map = Node::make_map();
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const std::string& name = RemovalBlock::schema()[n].name;
+    if (entry->value.find(name) != nullptr) map.add(name, written_value(values[n]));
+  }
+  written.add("remove", std::move(map));
+  return RemovalSpec{read.at, read.kinetic_energy_per_grain, read.after};
+}
+
+void SetupReader::check_body(const BodySpec& spec, std::vector<ReadModel> motions) {
+  std::vector<std::unique_ptr<sdk::Motion>> made;
+  for (ReadModel& motion : motions) {
+    made.emplace_back(static_cast<sdk::Motion*>(motion.model.release()));
+  }
+  const bodies::Body body = bodies::make_body(setup_, spec, std::move(made));
+  const std::string path = "bodies." + spec.name;
+  if (has_fluid_ && body.displaces()) {
+    error(spec.motions.front().where,
+          path + ": the body moves through the air, which is cut by the bodies only once: run " +
+              "grains alone (fluid: none), or let only its surface move (motion: belt)");
+  }
+  for (const std::string& warning : body.shape->warnings()) {
+    diagnostics_.warning(spec.shape.where, path + ": " + warning);
+  }
+  if (has_fluid_ && !body.shape->is_solid()) {
+    error(spec.shape.where, path + ": the air cannot be cut by a sheet without thickness: give " +
+                                "thickness, or run grains alone (fluid: none)");
+  }
+  if (has_fluid_ && spec.removal) {
+    error(spec.where, path + ".remove: the air is cut by the bodies only once: run grains alone " +
+                          "(fluid: none)");
+  }
+}
+
+void SetupReader::read_bodies(MapReader& top) {
+  Node written = Node::make_map();
+  for_each_named(top, "bodies", [&](const Entry& entry, const std::string& path) {
+    MapReader reader(entry.value, path, entry.where, diagnostics_);
+    if (!entry.value.is_map()) return;
+    const std::size_t errors_before = diagnostics_.error_count();
+    Placed placed = read_placed(reader);
+    const auto own = block<BodyBlock>(reader);
+    if (!own.group.empty()) placed.written.add("group", written_value(own.group));
+    ReadModel shape = models_.read(reader, "shape", "shape");
+    append(placed.written, shape.written);
+    std::vector<ReadModel> motions = read_motions(reader, placed.written);
+    const auto removal = read_removal(reader, placed.written);
+    reader.finish();
+    BodySpec spec{.name = entry.key,
+                  .shape = shape.choice.value_or(ModelChoice{}),
+                  .motions = {},
+                  .material = placed.material,
+                  .frame = placed.frame,
+                  .group = own.group,
+                  .removal = removal,
+                  .where = entry.where};
+    for (ReadModel& motion : motions) {
+      for (const Entry& a : shape.written) {
+        for (const Entry& b : motion.written) {
+          if (a.key != b.key) continue;
+          error(entry.where, path + ": the key '" + a.key + "' belongs to the shape and to the " +
+                                 "motion: give the motion as motions: [{model: ...}]");
+        }
+      }
+      append(placed.written, std::move(motion.written));
+      if (motion.choice) spec.motions.push_back(*motion.choice);
+    }
+    written.add(entry.key, std::move(placed.written));
+    if (!placed.is_enabled) return;
+    if (diagnostics_.error_count() == errors_before) check_body(spec, std::move(motions));
+    setup_.bodies.push_back(std::move(spec));
+  });
+  if (!written.entries.empty()) out_.add("bodies", std::move(written));
+}
+
+}  // namespace dust::scenario

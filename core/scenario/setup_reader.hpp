@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scenario/blocks.hpp"
+#include "scenario/model_reader.hpp"
+#include "scenario/setup.hpp"
+#include "scenario/suggest.hpp"
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dust::scenario {
+
+/// Letters, digits, '_' and '-', beginning with a letter or '_'.
+bool is_name(const std::string& text);
+
+/// Reads a merged tree into a Setup and, side by side, into the resolved tree. Each file
+/// read_*.cpp holds the blocks of one subject.
+class SetupReader {
+ public:
+  SetupReader(const Node& root, const std::filesystem::path& file,
+              const registry::Registry& registry, Diagnostics& diagnostics)
+      : root_(root),
+        file_(file),
+        registry_(registry),
+        diagnostics_(diagnostics),
+        names_(ScenarioNames::of(root)),
+        models_(registry, names_, diagnostics) {
+    const Entry* fluid = root.find("fluid");
+    has_fluid_ = fluid != nullptr && !fluid->value.is_word("none");
+  }
+
+  void read();
+  Setup take_setup() { return std::move(setup_); }
+  [[nodiscard]] const Node& resolved() const { return out_; }
+
+ private:
+  // Values of a block as its struct; wrong ones keep their initial value, the problem is told.
+  template <class Block>
+  Block block(MapReader& reader, std::vector<sdk::Value>* values_out = nullptr) {
+    auto values = reader.values(Block::schema());
+    Block result = sdk::parameters_from<Block>(Block::schema(), values);
+    if (values_out != nullptr) *values_out = std::move(values);
+    return result;
+  }
+  template <class Block>
+  static Node written_block(const std::vector<sdk::Value>& values) {
+    Node map = Node::make_map();
+    for (std::size_t n = 0; n < values.size(); ++n) {
+      map.add(Block::schema()[n].name, written_value(values[n]));
+    }
+    return map;
+  }
+  static void append(Node& map, std::vector<Entry> entries) {
+    for (Entry& e : entries) map.entries.push_back(std::move(e));
+  }
+  void error(const Mark& where, const std::string& text) { diagnostics_.error(where, text); }
+  Mark mark_of(const Node& map, const char* key) const {
+    const Entry* entry = map.find(key);
+    return entry == nullptr ? map.where : entry->value.where;
+  }
+  /// Calls `each(entry, path)` for all things of a block of names.
+  template <class Each>
+  void for_each_named(MapReader& top, const std::string& key, Each each) {
+    const Entry* entry = top.optional(key);
+    if (entry == nullptr) return;
+    if (!entry->value.is_map()) {
+      error(entry->value.where,
+            key + ": a map of names is expected, not " + kind_text(entry->value));
+      return;
+    }
+    for (const Entry& thing : entry->value.entries) {
+      const std::string path = key + "." + printable(thing.key);
+      if (!is_name(thing.key)) {
+        error(thing.where, path + ": a name consists of letters, digits, '_' and '-' and begins " +
+                               "with a letter");
+      }
+      each(thing, path);
+    }
+  }
+
+  void read_general(MapReader& top);
+  void read_time(MapReader& top);
+  void read_domain(MapReader& top);
+  Node read_sides(const Entry& entry);
+  Node read_side(const Entry& entry, std::size_t n, bool& is_read, bool& has_air,
+                 bool& is_air_periodic);
+
+  void read_materials(MapReader& top);
+  void read_interactions(MapReader& top);
+  Node read_interaction(const Node& node, const std::string& path);
+  /// Does the cohesive law fit the materials and the contact law?
+  void check_laws(const InteractionSpec& spec, const ReadModel& contact, const ReadModel& cohesion);
+  void read_emitters(MapReader& top);
+
+  void read_frames(MapReader& top);
+  /// Material and frame of a body or emitter.
+  struct Placed {
+    bool is_enabled = true;
+    int material = -1;
+    int frame = -1;
+    Node written = Node::make_map();
+  };
+  Placed read_placed(MapReader& reader);
+  /// `motion: NAME` with its parameters beside it, or `motions:` with a list of models.
+  std::vector<ReadModel> read_motions(MapReader& reader, Node& written);
+  std::optional<RemovalSpec> read_removal(MapReader& reader, Node& written);
+  /// What only the made body knows. The air is cut by the bodies once, where they are at the start.
+  void check_body(const BodySpec& spec, std::vector<ReadModel> motions);
+  void read_bodies(MapReader& top);
+
+  void read_fluid(MapReader& top);
+  Node read_region(const Entry& entry, const std::string& path, FluidSpec& spec);
+  void check_region(const Entry& entry, const std::string& path, const RegionBlock& region);
+  void read_coupling(MapReader& top);
+  void read_drag_and_voidage(MapReader& top);
+  /// A rule of the void fraction is valid up to a size of grains relative to the cells.
+  void check_voidage();
+
+  void read_sensors(MapReader& top);
+  /// A part of a block that is a model of the kind of the part's name: `drag: {model: ...}`.
+  ReadModel read_part(MapReader& reader, const std::string& key, bool is_required, Node& written);
+  /// Some contradictions need the density of the grains: an empty interval makes emitters look.
+  void check_emitters();
+  /// Two grains must not touch through both sides at once: a pair of grains has one contact.
+  void check_periods();
+
+  const Node& root_;
+  const std::filesystem::path& file_;
+  const registry::Registry& registry_;
+  Diagnostics& diagnostics_;
+  ScenarioNames names_;
+  ModelReader models_;
+  Mark dem_step_where_;
+  bool has_fluid_ = false;
+  std::array<std::unique_ptr<sdk::Model>, 6> air_;
+  bool pairs_are_read_ = true;
+  std::vector<std::unique_ptr<sdk::Model>> emitters_;
+  std::unique_ptr<sdk::Model> voidage_;
+  Setup setup_;
+  Node out_ = Node::make_map();
+};
+
+}  // namespace dust::scenario
