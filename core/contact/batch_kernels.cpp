@@ -11,7 +11,7 @@
 namespace dust::contact {
 namespace {
 
-/// Contacts ahead whose rows are fetched; measured flat between 32 and 128.
+/// Entries ahead whose rows are fetched; measured flat between 32 and 128.
 constexpr std::size_t k_ahead = 48;
 
 __attribute__((always_inline)) inline const Lanes& row(const double* rows, std::int32_t n) {
@@ -86,8 +86,12 @@ DUST_KERNEL std::size_t find_touching(const RowView& rows, const Images& images,
     for (std::size_t l = 0; l < 4; ++l) {
       const std::size_t q = std::min(p + l, last);
       d[l] = row(position, pa[q]) + sign * row(position, pb[q]);
-      __builtin_prefetch(position +
-                         4 * static_cast<std::ptrdiff_t>(pb[std::min(q + k_ahead, last)]));
+      const std::size_t next = std::min(q + k_ahead, pairs.count - 1);
+      const std::ptrdiff_t nb = 4 * static_cast<std::ptrdiff_t>(pb[next]);
+      __builtin_prefetch(position + nb);
+      __builtin_prefetch(rows.velocity + nb);
+      __builtin_prefetch(rows.rotation + nb);
+      __builtin_prefetch(pairs.history + next * pairs.history_stride, 1);
       const LaneMask above = d[l] > half;
       const LaneMask below = d[l] < -half;
       d[l] = above ? d[l] - length : (below ? d[l] + length : d[l]);
@@ -111,7 +115,7 @@ DUST_KERNEL std::size_t find_touching(const RowView& rows, const Images& images,
 }
 
 DUST_KERNEL void load_pairs(const RowView& rows, const Images& images, const PairView& pairs,
-                            const std::int32_t* contacts, std::size_t count, std::size_t ahead,
+                            const std::int32_t* contacts, std::size_t count,
                             BatchColumns& columns) {
   const double* position = rows.position;
   const double* velocity = rows.velocity;
@@ -129,11 +133,6 @@ DUST_KERNEL void load_pairs(const RowView& rows, const Images& images, const Pai
       const std::int32_t p = contacts[std::min(q + l, count - 1)];
       a[l] = pairs.a[p];
       b[l] = pairs.b[p];
-      const std::int32_t next = contacts[std::min(q + l + k_ahead, count + ahead - 1)];
-      const std::ptrdiff_t nb = 4 * static_cast<std::ptrdiff_t>(pairs.b[next]);
-      __builtin_prefetch(velocity + nb);
-      __builtin_prefetch(rotation + nb);
-      __builtin_prefetch(pairs.history + static_cast<std::size_t>(next) * pairs.history_stride, 1);
     }
     Lanes x[4];
     Lanes v[4];

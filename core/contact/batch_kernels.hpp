@@ -28,18 +28,19 @@ struct PairView {
   std::uint8_t* is_touching = nullptr;
   double* history = nullptr;
   std::size_t history_stride = 0;  ///< a multiple of 4
+  std::size_t count = 0;
 };
 
 /// Finds the pairs of [begin, end) closer than touch + `range` [m], writes their numbers to
-/// `touching` and returns how many. A pair that parts loses its history.
+/// `touching` and returns how many. A pair that parts loses its history. Brings near, too, what
+/// load_pairs and load_history will want: most entries of a watch's list touch.
 std::size_t find_touching(const RowView& rows, const Images& images, const PairView& pairs,
                           std::size_t begin, std::size_t end, double range, std::int32_t* touching);
 
 /// Loads `count` contacts (numbers of pairs) into the first columns; rows up to the padded count
-/// repeat the last one. `ahead` more numbers may be read for prefetching.
+/// repeat the last one.
 void load_pairs(const RowView& rows, const Images& images, const PairView& pairs,
-                const std::int32_t* contacts, std::size_t count, std::size_t ahead,
-                BatchColumns& columns);
+                const std::int32_t* contacts, std::size_t count, BatchColumns& columns);
 
 /// Overlap, normal, effective radius and mass, lever arms and the relative velocity of the contact
 /// point from what load_pairs wrote. Returns the largest overlap / smaller radius [-].

@@ -12,6 +12,10 @@ namespace {
 using contact::BatchColumns;
 using contact::k_batch;
 
+/// Entries of a list searched at a time: what they bring near must still be near when the batches
+/// load it (0.3 kB each, so a third of a second-level cache of 1 MB).
+constexpr std::size_t k_stretch = 1024;
+
 /// Numbers of the contacts in touch, of the calling thread.
 std::vector<std::int32_t>& thread_contacts() {
   thread_local std::vector<std::int32_t> contacts;
@@ -58,8 +62,12 @@ void Dem::Impl::contact(double now) {
   for (Surface& s : surfaces) s.move_to(now);
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     Chunk& chunk = chunks[c];
-    for (const std::int32_t row : chunk.awake.rows) {
-      std::fill_n(chunk.force.begin() + 8 * (row - chunk.begin), 8, 0.0);
+    if (2 * chunk.awake.rows.size() > static_cast<std::size_t>(chunk.end - chunk.begin)) {
+      std::fill(chunk.force.begin(), chunk.force.end(), 0.0);
+    } else {
+      for (const std::int32_t row : chunk.awake.rows) {
+        std::fill_n(chunk.force.begin() + 8 * (row - chunk.begin), 8, 0.0);
+      }
     }
     chunk.contacts = 0;
     chunk_pairs(chunk);
@@ -76,34 +84,44 @@ void Dem::Impl::chunk_pairs(Chunk& chunk) {
   const int groups = static_cast<int>(history_stride / 4);
   for (const Segment& segment : chunk.pairs.segments) {
     const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
-    const std::size_t found =
-        contact::find_touching(rows, images, pairs, static_cast<std::size_t>(segment.begin),
-                               static_cast<std::size_t>(segment.end), law.range, touching.data());
-    if (!law.cohesion) chunk.contacts += static_cast<std::int64_t>(found);
-    for (std::size_t first = 0; first < found; first += k_batch) {
-      const std::size_t count = std::min(k_batch, found - first);
-      const std::int32_t* contacts = touching.data() + first;
-      contact::load_pairs(rows, images, pairs, contacts, count, found - first - count, columns);
-      contact::load_history(pairs, contacts, count, groups, columns);
-      const double overlap = contact::derive_pair_columns(columns, count);
-      chunk.largest_overlap = std::max(chunk.largest_overlap, overlap);
-      evaluate_laws(law, columns, count, steps.coarse_step);
-      if (law.cohesion) chunk.contacts += in_touch(columns, count);
-      bool has_scales = false;
-      double* scale_i = columns.column(BatchColumns::scale_i);
-      double* scale_j = columns.column(BatchColumns::scale_j);
-      for (std::size_t q = 0; has_weights && q < count; ++q) {
-        const double wi = store.weight[static_cast<std::size_t>(pairs.a[contacts[q]])];
-        const double wj = store.weight[static_cast<std::size_t>(pairs.b[contacts[q]])];
-        // Sum of w m v is kept: side i feels min(1, w_j / w_i) of the force.
-        scale_i[q] = wj < wi ? wj / wi : 1.0;
-        scale_j[q] = wi < wj ? wi / wj : 1.0;
-        has_scales = has_scales || wi != wj;
+    // A stretch of the list at a time, so that the rows its search brought near are still there
+    // when the batches load them.
+    std::size_t found = 0;
+    std::size_t done = 0;
+    for (auto begin = static_cast<std::size_t>(segment.begin);
+         begin < static_cast<std::size_t>(segment.end); begin += k_stretch) {
+      const std::size_t end = std::min(begin + k_stretch, static_cast<std::size_t>(segment.end));
+      const bool is_last = end == static_cast<std::size_t>(segment.end);
+      found += contact::find_touching(rows, images, pairs, begin, end, law.range,
+                                      touching.data() + found);
+      while (found - done >= k_batch || (is_last && found > done)) {
+        const std::size_t count = std::min(k_batch, found - done);
+        const std::size_t first = done;
+        done += count;
+        const std::int32_t* contacts = touching.data() + first;
+        contact::load_pairs(rows, images, pairs, contacts, count, columns);
+        contact::load_history(pairs, contacts, count, groups, columns);
+        const double overlap = contact::derive_pair_columns(columns, count);
+        chunk.largest_overlap = std::max(chunk.largest_overlap, overlap);
+        evaluate_laws(law, columns, count, steps.coarse_step);
+        if (law.cohesion) chunk.contacts += in_touch(columns, count);
+        bool has_scales = false;
+        double* scale_i = columns.column(BatchColumns::scale_i);
+        double* scale_j = columns.column(BatchColumns::scale_j);
+        for (std::size_t q = 0; has_weights && q < count; ++q) {
+          const double wi = store.weight[static_cast<std::size_t>(pairs.a[contacts[q]])];
+          const double wj = store.weight[static_cast<std::size_t>(pairs.b[contacts[q]])];
+          // Sum of w m v is kept: side i feels min(1, w_j / w_i) of the force.
+          scale_i[q] = wj < wi ? wj / wi : 1.0;
+          scale_j[q] = wi < wj ? wi / wj : 1.0;
+          has_scales = has_scales || wi != wj;
+        }
+        contact::store_history(pairs, contacts, count, groups, columns);
+        contact::scatter_pairs(pairs, contacts, count, chunk.begin, chunk.end - chunk.begin,
+                               has_scales, columns, chunk.force.data());
       }
-      contact::store_history(pairs, contacts, count, groups, columns);
-      contact::scatter_pairs(pairs, contacts, count, chunk.begin, chunk.end - chunk.begin,
-                             has_scales, columns, chunk.force.data());
     }
+    if (!law.cohesion) chunk.contacts += static_cast<std::int64_t>(found);
   }
 }
 

@@ -74,7 +74,7 @@ struct ContactList {
   }
   [[nodiscard]] std::size_t size() const { return a.size(); }
   [[nodiscard]] contact::PairView view(std::size_t stride) {
-    return {a.data(), b.data(), is_touching.data(), history.data(), stride};
+    return {a.data(), b.data(), is_touching.data(), history.data(), stride, size()};
   }
 };
 
