@@ -311,6 +311,10 @@ int run_scenario(const RunOptions& options) {
   RunFacts facts;
   facts.threads = threads;
   facts.warnings = read.warnings;
+  facts.registry = &registry;
+  io::Sha256 digest;
+  digest.update(read.resolved_yaml.data(), read.resolved_yaml.size());
+  facts.scenario_sha256 = digest.hex_digest();
   const int status = run.execute(std::move(facts));
   if (!options.quiet) std::printf("results: %s\n", folder.c_str());
   return status;

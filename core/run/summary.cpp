@@ -2,8 +2,10 @@
 #include "run/summary.hpp"
 
 #include "io/run_files.hpp"
+#include "dust/sdk/plugin.hpp"
 #include "particles/balance_book.hpp"
 #include "run/summary_emitters.hpp"
+#include "run/summary_models.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -16,6 +18,23 @@ namespace dust::run {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* k_compiler =
+#if defined(__clang__)
+    "clang " __clang_version__;
+#elif defined(__GNUC__)
+    "g++ " __VERSION__;
+#else
+    "unknown";
+#endif
+constexpr const char* k_processor =
+#if defined(__x86_64__)
+    "x86-64";
+#elif defined(__aarch64__)
+    "aarch64";
+#else
+    "unknown";
+#endif
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -235,7 +254,12 @@ void write_summary(const std::filesystem::path& folder, const Simulation& s,
   j["health"] = health(s);
   j["warnings"] = facts.warnings;
   j["frames"] = facts.frames;
+  j["scenario_sha256"] = facts.scenario_sha256;
   j["state_sha256"] = s.state_digest();
+  j["build"] = {{"compiler", k_compiler},
+                {"processor", k_processor},
+                {"plugin_interface", sdk::k_interface_version}};
+  if (facts.registry != nullptr) j["plugins"] = plugins_json(s.setup(), *facts.registry);
   Json sensors = Json::object();
   JsonReport report;
   for (std::size_t n = 0; n < s.models().sensors.size(); ++n) {
@@ -256,6 +280,7 @@ void write_summary(const std::filesystem::path& folder, const Simulation& s,
   r["tables"] = report.tables;
   r["outline"] = outlines(s);
   r["classes"] = s.models().class_diameters;
+  if (facts.registry != nullptr) r["setting"] = setting_json(s.setup(), *facts.registry);
   r["graph_dot"] = graph_dot(s);
   io::write_text(folder / "report.json", r.dump() + "\n");
 }

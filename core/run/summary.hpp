@@ -19,6 +19,8 @@ struct RunFacts {
   double output_s = 0.0;
   std::int64_t frames = 0;
   std::vector<std::string> warnings;
+  const registry::Registry* registry = nullptr;  ///< where the models came from; null in tests
+  std::string scenario_sha256;                   ///< of scenario.yaml as run
 };
 
 /// A row of series.csv.

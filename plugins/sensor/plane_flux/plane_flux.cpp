@@ -96,6 +96,7 @@ class PlaneFlux final : public Sensor {
   void summary(FigureSink& sink) const override {
     sink.figure("forward/mass", mass_so_far_[0], "kg");
     sink.figure("backward/mass", mass_so_far_[1], "kg");
+    sink.figure("observed_time", means_.duration(), "s");
     rates_of("", 0, sink);
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (!p_.takes(classes_[c])) continue;

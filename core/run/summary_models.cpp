@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/summary_models.hpp"
+
+#include <cmath>
+#include <optional>
+#include <set>
+#include <tuple>
+
+namespace dust::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using scenario::ModelChoice;
+using sdk::Vec3;
+
+/// A parameter of a model that is a point, if it has one of that name.
+std::optional<Vec3> point_of(const registry::Entry& entry, const ModelChoice& choice,
+                             const char* name) {
+  for (std::size_t n = 0; n < choice.values.size() && n < entry.info.parameters.size(); ++n) {
+    const auto& p = entry.info.parameters[n];
+    if (p.name != name || !(p.dimension == sdk::dimension::length)) continue;
+    const auto* v = std::get_if<Vec3>(&choice.values[n]);
+    if (v != nullptr && std::isfinite(v->x + v->y + v->z)) return *v;
+  }
+  return std::nullopt;
+}
+
+/// A point of a turned frame in the domain's.
+Vec3 in_domain(const scenario::Setup& setup, Vec3 at, int frame_index) {
+  if (frame_index < 0) return at;
+  const auto& frame = setup.frames[static_cast<std::size_t>(frame_index)];
+  return frame.origin + rotate(at - frame.origin, frame.axis / norm(frame.axis), frame.angle);
+}
+
+Json vector_json(Vec3 v) { return {v.x, v.y, v.z}; }
+
+/// Name, model and place of an emitter or a sensor.
+Json thing_json(const scenario::Setup& setup, const registry::Registry& registry,
+                const std::string& name, const ModelChoice& choice, int frame) {
+  Json j = {{"name", name}, {"model", choice.name}};
+  const registry::Entry* entry = registry.find(choice.kind, choice.name);
+  if (entry == nullptr) return j;
+  j["what"] = entry->info.summary;
+  const auto min = point_of(*entry, choice, "min");
+  const auto max = point_of(*entry, choice, "max");
+  if (min && max) {
+    j["min"] = vector_json(in_domain(setup, *min, frame));
+    j["max"] = vector_json(in_domain(setup, *max, frame));
+    return j;
+  }
+  for (const char* key : {"from", "point", "position", "origin", "center"}) {
+    if (const auto at = point_of(*entry, choice, key)) {
+      j["at"] = vector_json(in_domain(setup, *at, frame));
+      break;
+    }
+  }
+  return j;
+}
+
+const char* word_of(scenario::GrainSide side) {
+  switch (side) {
+    case scenario::GrainSide::open:
+      return "open";
+    case scenario::GrainSide::wall:
+      return "wall";
+    case scenario::GrainSide::periodic:
+      return "periodic";
+  }
+  return "";
+}
+
+}  // namespace
+
+nlohmann::ordered_json plugins_json(const scenario::Setup& setup,
+                                    const registry::Registry& registry) {
+  std::set<std::tuple<std::string, std::string, std::string>> used;
+  const auto add = [&](const ModelChoice& choice) {
+    // Shapes are the core's own and have no entry.
+    if (const auto* entry = registry.find(choice.kind, choice.name)) {
+      used.emplace(choice.kind, choice.name, entry->info.version);
+    }
+  };
+  const auto add_if = [&](const std::optional<ModelChoice>& choice) {
+    if (choice) add(*choice);
+  };
+  for (const auto& pair : setup.interactions) {
+    add(pair.contact);
+    add_if(pair.rolling);
+    add_if(pair.cohesion);
+  }
+  for (const auto& body : setup.bodies) {
+    for (const auto& motion : body.motions) add(motion);
+  }
+  for (const auto& emitter : setup.emitters) add(emitter.model);
+  for (const auto& sensor : setup.sensors) add(sensor.model);
+  for (const auto& side : setup.domain.sides) add_if(side.air);
+  add_if(setup.drag);
+  add_if(setup.voidage);
+  Json list = Json::array();
+  for (const auto& [kind, name, version] : used) {
+    list.push_back({{"kind", kind}, {"name", name}, {"version", version}});
+  }
+  return list;
+}
+
+nlohmann::ordered_json setting_json(const scenario::Setup& setup,
+                                    const registry::Registry& registry) {
+  Json j;
+  j["domain"] = {{"min", vector_json(setup.domain.min)}, {"max", vector_json(setup.domain.max)}};
+  j["gravity"] = vector_json(setup.gravity);
+  j["sides"] = Json::array();
+  for (std::size_t n = 0; n < setup.domain.sides.size(); ++n) {
+    const auto& side = setup.domain.sides[n];
+    j["sides"].push_back({{"name", scenario::k_side_names[n]},
+                          {"grains", word_of(side.grains)},
+                          {"air", side.air ? side.air->name : ""}});
+  }
+  j["emitters"] = Json::array();
+  for (const auto& e : setup.emitters) {
+    j["emitters"].push_back(thing_json(setup, registry, e.name, e.model, e.frame));
+  }
+  j["sensors"] = Json::array();
+  for (const auto& s : setup.sensors) {
+    j["sensors"].push_back(thing_json(setup, registry, s.name, s.model, -1));
+  }
+  return j;
+}
+
+}  // namespace dust::run

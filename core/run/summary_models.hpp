@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "registry/registry.hpp"
+#include "scenario/setup.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace dust::run {
+
+/// The models a scenario uses, each once, with the version it gives itself: [{"kind", "name",
+/// "version"}], sorted.
+nlohmann::ordered_json plugins_json(const scenario::Setup& setup,
+                                    const registry::Registry& registry);
+
+/// Where things are, for pictures: {"domain": {"min", "max"}, "sides": [{"name", "grains", "air"}],
+/// "emitters" and "sensors": [{"name", "model", "what", "min", "max" | "at"}]}, in m and in the
+/// domain's frame. A model without a place has neither.
+nlohmann::ordered_json setting_json(const scenario::Setup& setup,
+                                    const registry::Registry& registry);
+
+}  // namespace dust::run
