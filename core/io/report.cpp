@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/report.hpp"
 
-#include "base/error.hpp"
-#include "io/report_assets.hpp"
+#include "io/report_page.hpp"
 #include "io/report_pictures.hpp"
 #include "io/report_run.hpp"
 #include "io/report_sections.hpp"
 #include "io/report_text.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <fstream>
 
 namespace dust::io {
 
@@ -66,7 +64,26 @@ json places_json(const Highlights& highlights) {
   return list;
 }
 
-std::string grains_section(const json& grains) {
+/// Free flight without air from a level belt, x = v sqrt(2 h / g): the reference of the stream.
+json flights_json(const json& report) {
+  const json& setting = object_at(report, "setting");
+  const json& gravity = list_at(setting, "gravity");
+  json list = json::array();
+  const bool is_down = gravity.size() == 3 && gravity[0] == 0.0 && gravity[1] == 0.0 &&
+                       gravity[2].is_number() && gravity[2] < 0.0;
+  if (!is_down) return list;
+  for (const json& belt : list_at(setting, "belts")) {
+    const auto speed = number_at(belt, "speed");
+    if (speed && *speed > 0.0) {
+      list.push_back({{"name", text_at(belt, "name")},
+                      {"speed", *speed},
+                      {"gravity", -gravity[2].get<double>()}});
+    }
+  }
+  return list;
+}
+
+std::string grains_section(const json& grains, bool has_air) {
   if (grains.is_null()) return {};
   std::string note;
   const double share = grains["share"].get<double>(),
@@ -82,18 +99,28 @@ std::string grains_section(const json& grains) {
     note += " " + std::to_string(grains["frames"].size()) + " of " +
             count_html(grains["written"].get<double>()) + " frames are shown.";
   }
-  return "<figure id=\"grains\" class=\"side\"><div class=\"picture\" id=\"grains-picture\"></div>"
-         "<figcaption><b>The stream from the side.</b> Grains seen along <i>y</i>, true to scale, "
-         "coloured "
-         "by diameter. Dust (finer than 100\u202f\u00b5m) is drawn larger than it is, on top, with "
-         "its "
-         "path over the last frames." +
-         note +
-         "<span id=\"grains-legend\" class=\"key\"></span><span id=\"grains-count\" "
-         "class=\"note\"></span>"
-         "<span class=\"note screen\">Double-click to look closer, drag to move. <button "
-         "type=\"button\" "
-         "id=\"grains-whole\">Whole view</button></span></figcaption></figure>\n";
+  std::string text =
+      "<figure id=\"grains\" class=\"side\"><div class=\"picture\" id=\"grains-picture\"></div>"
+      "<figcaption><b>The stream from the side</b>, grains and air. Seen along <i>y</i>, true to "
+      "scale. Dust (finer than 100\u202f\u00b5m) is drawn larger than it is, on top, with its path "
+      "over the last frames." +
+      note +
+      "<span class=\"choices screen\"><label>Colour of the grains <select id=\"grains-colour\">"
+      "<option value=\"size\">diameter</option>";
+  if (grains["speed"].get<double>() > 0.0) text += "<option value=\"speed\">speed</option>";
+  text += "</select></label>";
+  if (has_air) {
+    text +=
+        "<label><input type=\"checkbox\" id=\"grains-air\" checked> speed of the air behind "
+        "them</label>";
+  }
+  return text +
+         "</span><span id=\"grains-legend\" class=\"key\"></span><span id=\"grains-scale\" "
+         "class=\"key\"></span><span id=\"grains-air-scale\" class=\"key\"></span>"
+         "<span id=\"grains-count\" class=\"note\"></span>"
+         "<span class=\"note screen\">Double-click or <kbd>+</kbd> to look closer, drag or arrow "
+         "keys to move. <button type=\"button\" id=\"grains-whole\">Whole view</button></span>"
+         "</figcaption></figure>\n";
 }
 
 std::string air_section(const json& air, bool has_places) {
@@ -126,7 +153,7 @@ std::string air_section(const json& air, bool has_places) {
       "id=\"pressure-legend\" class=\"key\"></div><figcaption><b>Pressure of the air</b> ";
   text += depth;
   text += ", in Pa, without the hydrostatic part. ";
-  text += has_places ? "Numbered rings: the places of low mean pressure listed below; eddies "
+  text += has_places ? "Numbered rings: the places of low mean pressure listed above; eddies "
                        "wander, so look at them in the mean (switch in the figure before). "
                      : "The ring marks the lowest pressure of the frame. ";
   text += "Range over all frames: " + number_html(air["low"].get<double>(), 3) + "\u202fPa" +
@@ -139,52 +166,45 @@ std::string pictures_html(const json& grains, const json& air, const Highlights&
   if (grains.is_null() && air.is_null()) return {};
   return "<section id=\"pictures\"><h2>The run in pictures</h2>\n<div id=\"clock\" class=\"clock "
          "screen\"></div>\n" +
-         grains_section(grains) + air_section(air, !highlights.places.empty()) +
-         places_html(highlights) +
+         grains_section(grains, !air.is_null()) + air_section(air, !highlights.places.empty()) +
          "<noscript><p class=\"note\">The pictures are drawn by the page's own script, which is "
          "switched "
          "off here.</p></noscript></section>\n";
 }
 
-std::string page(const RunText& run, const json& data, const Highlights& highlights) {
-  std::string title = text_at(run.report, "title");
-  if (title.empty()) title = words(text_at(run.summary, "scenario"));
-  std::string text =
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      // The page may ask nobody for anything, whatever stands in the files it was made of.
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
-      "'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"generator\" content=\"dust " DUST_VERSION "\">\n<title>" +
-      escape_html(title.empty() ? "Run" : title) + " \u2013 run report</title>\n<style>";
-  text += report_asset("uPlot.min.css");
-  text += report_asset("report.css");
-  text += "</style>\n</head>\n<body>\n<main>\n";
-  text += header_html(run, highlights) + result_html(highlights);
+std::string body_html(const RunText& run, const json& data, const Highlights& highlights) {
+  std::string text = header_html(run, highlights) + result_html(highlights);
+  text += extraction_html(highlights, !data["air"].is_null(), !data["dust_map"].is_null());
   text += pictures_html(data["grains"], data["air"], highlights);
-  text += stream_html(highlights);
+  text += setting_html(run, data["bodies"]);
+  text += stream_html(highlights) + references_html(run);
   text += "<section id=\"curves\" hidden><h2>Fluxes and concentrations</h2></section>\n";
   text += "<section id=\"series\" hidden><h2>The run over time</h2></section>\n";
-  text += balance_html(run) + cost_html(run) + health_html(run) + figures_html(run) +
+  text += balance_html(run) + health_html(run) + cost_html(run) + figures_html(run) +
           provenance_html(run);
-  text += "<footer>Written by dust " + escape_html(text_at(run.summary, "version")) +
-          ". This page is complete in itself and asks no other machine for "
-          "anything.</footer>\n</main>\n";
-  text += "<script type=\"application/json\" id=\"run-data\">" + script_json(data) + "</script>\n";
-  for (const char* name : {"uPlot.iife.min.js", "base.js", "colour.js", "grains.js", "air.js",
-                           "stream.js", "curves.js", "graph.js", "main.js"}) {
-    text += "<script>";
-    text += report_asset(name);
-    text += "</script>\n";
+  return text + footer_html(text_at(run.summary, "version"));
+}
+
+/// Asks the frames how much dust lies near each place, and where dust is at all.
+json look_for_dust(const H5Source& source, const View& view, Highlights& highlights) {
+  std::vector<DustPlace> places;
+  for (const LowPlace& place : highlights.places) {
+    places.push_back({place.x.value, place.z.value, k_reach, 0.0});
   }
-  return text + "</body>\n</html>\n";
+  const DustMap map = dust_map_of(source, view, places);
+  if (!map.share.empty()) {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      highlights.places[k].dust_share = places[k].share;
+    }
+  }
+  return dust_map_json(map, view);
 }
 
 }  // namespace
 
 void write_report(const std::filesystem::path& folder) {
   RunText run = read_run_text(folder);
-  const Highlights highlights = highlights_of(run);
+  Highlights highlights = highlights_of(run);
   json data;
   {
     const H5Source source(folder / "results.h5");
@@ -197,6 +217,7 @@ void write_report(const std::filesystem::path& folder) {
     data["bodies"] = bodies;
     data["grains"] = grains_of(source, view, list_at(run.report, "classes"));
     data["air"] = air_of(source);
+    data["dust_map"] = look_for_dust(source, view, highlights);
   }
   data["curves"] = list_at(run.report, "curves");
   data["series"] = series_json(run.series);
@@ -205,24 +226,17 @@ void write_report(const std::filesystem::path& folder) {
   data["sensors"] = json::array();
   for (const auto& entry : object_at(run.summary, "sensors").items())
     data["sensors"].push_back(entry.key());
+  data["flights"] = flights_json(run.report);
   data["graph"] = text_at(run.report, "graph_dot");
 
-  const auto target = folder / "report.html";
-  const auto part = folder / "report.html.part";
-  {
-    std::ofstream stream(part, std::ios::binary);
-    stream << page(run, data, highlights);
-    stream.close();
-    if (!stream) {
-      throw base::UserError("error: cannot write " + target.string() +
-                            "; make room on the disk or give yourself the right to write there");
-    }
-  }
-  std::error_code failed;
-  std::filesystem::rename(part, target, failed);
-  if (failed) {
-    throw base::UserError("error: cannot replace " + target.string() + ": " + failed.message());
-  }
+  Page page;
+  page.title = run_title(run);
+  page.kind = "run report";
+  page.body = body_html(run, data, highlights);
+  page.data = std::move(data);
+  page.scripts = {"grains.js", "air.js",   "extraction.js", "stream.js",
+                  "curves.js", "graph.js", "clock.js"};
+  write_page(folder / "report.html", page_html(page));
 }
 
 }  // namespace dust::io

@@ -37,4 +37,24 @@ struct View {
 /// 8 bits and packed; null for runs without fluid.
 [[nodiscard]] nlohmann::json air_of(const H5Source& source);
 
+/// A place that asks for the dust within `reach` of it in the x-z plane.
+struct DustPlace {
+  double x = 0.0, z = 0.0, reach = 0.0;  ///< [m]
+  double share = 0.0;                    ///< answer: of the mass of all dust in the view
+};
+
+/// The share of the dust in each square cell of the view, z rows of x, mean over the frames of the
+/// second half of the run; empty without dust.
+struct DustMap {
+  std::size_t nx = 0, nz = 0;
+  double cell = 0.0;  ///< [m]
+  std::vector<double> share;
+};
+
+[[nodiscard]] DustMap dust_map_of(const H5Source& source, const View& view,
+                                  std::vector<DustPlace>& places);
+
+/// A map for the page, logarithmic in 8 bits; null without dust.
+[[nodiscard]] nlohmann::json dust_map_json(const DustMap& map, const View& view);
+
 }  // namespace dust::io

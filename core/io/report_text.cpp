@@ -150,7 +150,10 @@ std::string number_html(double value, int digits) {
   }
   // More figures before the point than asked for: still the whole number, not a power of ten.
   if (size >= std::pow(10.0, digits)) return count_html(value);
-  return with_minus(print("%.*g", digits, value));
+  const std::string text = print("%.*g", digits, value);
+  // 99.97 with two figures rounds to a number with three before the point.
+  if (text.find('e') != std::string::npos) return count_html(value);
+  return with_minus(text);
 }
 
 std::string count_html(double value) {

@@ -57,6 +57,27 @@ Json thing_json(const scenario::Setup& setup, const registry::Registry& registry
   return j;
 }
 
+/// Level bodies whose surface moves at one speed: the start of a free flight.
+Json belts_json(const scenario::Setup& setup, const registry::Registry& registry) {
+  Json list = Json::array();
+  for (const auto& body : setup.bodies) {
+    const bool is_level =
+        body.frame < 0 || setup.frames[static_cast<std::size_t>(body.frame)].angle == 0.0;
+    for (const auto& motion : body.motions) {
+      const registry::Entry* entry = registry.find(motion.kind, motion.name);
+      if (entry == nullptr || !is_level) continue;
+      for (std::size_t n = 0; n < motion.values.size(); ++n) {
+        const auto& p = entry->info.parameters[n];
+        const auto* speed = std::get_if<double>(&motion.values[n]);
+        if (p.name == "speed" && p.dimension == sdk::dimension::velocity && speed != nullptr) {
+          list.push_back({{"name", body.name}, {"speed", *speed}});
+        }
+      }
+    }
+  }
+  return list;
+}
+
 const char* word_of(scenario::GrainSide side) {
   switch (side) {
     case scenario::GrainSide::open:
@@ -115,6 +136,7 @@ nlohmann::ordered_json setting_json(const scenario::Setup& setup,
                           {"grains", word_of(side.grains)},
                           {"air", side.air ? side.air->name : ""}});
   }
+  j["belts"] = belts_json(setup, registry);
   j["emitters"] = Json::array();
   for (const auto& e : setup.emitters) {
     j["emitters"].push_back(thing_json(setup, registry, e.name, e.model, e.frame));

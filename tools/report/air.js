@@ -98,20 +98,9 @@ Dust.air = (() => {
     pen.globalAlpha = 1;
   };
 
-  const ring = (pen, x, z, text) => {
-    pen.strokeStyle = pen.fillStyle = Dust.colour('ink');
-    pen.lineWidth = 1.4;
-    pen.beginPath();
-    pen.arc(x, z, 7, 0, 6.2832);
-    pen.stroke();
-    pen.font = '11px ' + Dust.colour('sans');
-    pen.textAlign = 'left';
-    pen.textBaseline = 'middle';
-    pen.fillText(text, x + 10, z);
-  };
   // The places a sensor found, or else the lowest cell of the frame.
   const paint_lowest = (pen, picture) => {
-    for (const place of Dust.data.places) ring(pen, picture.x(place.x), picture.z(place.z), place.name);
+    for (const place of Dust.data.places) Dust.ring(pen, picture.x(place.x), picture.z(place.z), place.name);
     if (Dust.data.places.length) return;
     let place = -1, lowest = 127;
     for (let k = 0; k < cells; ++k) {
@@ -123,7 +112,7 @@ Dust.air = (() => {
     if (place < 0) return;
     const x = picture.x(set.x0 + (place % set.nx + 0.5) * set.dx);
     const z = picture.z(set.z0 + (Math.floor(place / set.nx) + 0.5) * set.dz);
-    ring(pen, x, z, '');
+    Dust.ring(pen, x, z, '');
   };
 
   const checkbox = document.getElementById('air-dust');
@@ -155,7 +144,12 @@ Dust.air = (() => {
   checkbox.addEventListener('change', () => speed.draw());
   const mean_box = document.getElementById('air-mean');
   let last = 0;
-  mean_box.addEventListener('change', async () => (await show(last))());
+  mean_box.addEventListener('change', async () => {
+    const shown = await show(last);
+    shown.take();
+    shown.draw();
+    if (Dust.grains) Dust.grains.draw();
+  });
   if (!Dust.grains) checkbox.parentElement.hidden = true;
 
   Dust.legend_strip(document.getElementById('speed-legend'), Dust.speed_colour, 0, 0, set.speed, 'm/s', Math.sqrt);
@@ -165,11 +159,18 @@ Dust.air = (() => {
   const show = async (index) => {
     last = index;
     const frame = await load(mean_box.checked ? 'mean' : index);
-    return () => {
-      current = frame;
-      speed.draw();
-      pressure.draw();
+    return {
+      take: () => { current = frame; },
+      draw: () => {
+        speed.draw();
+        pressure.draw();
+      },
     };
   };
-  return {times: set.frames.map((frame) => frame.t), show};
+  // For other pictures: the speed of the frame shown, the pressure of any frame.
+  const paint_speed = (pen, picture) => {
+    if (current) paint_map(pen, picture, current.speed, tables.speed);
+  };
+  const paint_pressure = (pen, picture, frame) => paint_map(pen, picture, frame.pressure, tables.pressure);
+  return {times: set.frames.map((frame) => frame.t), show, load, paint_speed, paint_pressure};
 })();

@@ -37,6 +37,10 @@ Dust.pressure_colour = (t) => {
 Dust.sand_colour = (t) => (Dust.theme() === 'dark' ? Dust.oklch(0.9 - 0.36 * t, 0.07 + 0.05 * t, 88 - 38 * t)
   : Dust.oklch(0.84 - 0.44 * t, 0.075 + 0.04 * t, 86 - 42 * t));
 
+// Speed of grains: from violet to yellow, apart from the greens and blues of the air behind them.
+Dust.grain_speed_colour = (t) => (Dust.theme() === 'dark' ? Dust.oklch(0.5 + 0.42 * t, 0.17, 300 + 150 * t)
+  : Dust.oklch(0.36 + 0.42 * t, 0.17, 300 + 130 * t));
+
 Dust.css = (rgb) => `rgb(${rgb[0]},${rgb[1]},${rgb[2]})`;
 
 // The 256 colours of a map as RGBA bytes; 255 is a masked cell and stays clear.
@@ -48,7 +52,7 @@ Dust.table = (colour_of, low) => {
 
 // A legend strip over [from, to] with round numbers below; the colours span [low, 1]. `place_of` maps a
 // share of the range to its place on the strip.
-Dust.legend_strip = (parent, colour_of, low, from, to, unit, place_of = (share) => share) => {
+Dust.legend_strip = (parent, colour_of, low, from, to, unit, place_of = (share) => share, is_lasting = true) => {
   const canvas = Dust.el('canvas', {width: 256, height: 1});
   const ends = Dust.el('div', {class: 'ends'}, ...Dust.ticks(from, to, 5).concat(place_of(0.25) > 0.4 ? Dust.ticks(from, to / 20, 1).slice(1, 2) : []).map((value) => Dust.el('span',
     {style: `left:${100 * place_of((value - from) / (to - from))}%`}, Dust.number(value))), Dust.el('span', {class: 'name'}, unit));
@@ -60,6 +64,6 @@ Dust.legend_strip = (parent, colour_of, low, from, to, unit, place_of = (share) 
       pen.fillRect(k, 0, 1, 1);
     }
   };
-  Dust.redraw.push(draw);
+  if (is_lasting) Dust.redraw.push(draw);  // others are made anew with each drawing
   draw();
 };

@@ -1,73 +1,7 @@
 'use strict';
-// Plots against time and other curves, with uPlot.
+// Which plots a run gets: curves of the sensors, then the columns of series.csv.
 (() => {
-  const plots = [];
-  const hex = (k) => Dust.colour('plot' + (k % 6 + 1));
   const k_error = /[ _/.]*(uncertainty|standard_error|error|sigma)$/i;
-
-  // lines: [{name, x, y, low, high}]; x ascending. Draws one figure into `grid`.
-  const plot = (grid, title, sensor, x_label, y_label, unit, lines, note = '') => {
-    const holder = Dust.el('div', {class: 'plot'});
-    const tag = Dust.el('div', {class: 'axis-unit'}, unit);
-    const bold = Dust.el('b', {}, Dust.sentence(title) + '.');
-    const capital = (text) => text.replace(/^./, (c) => c.toUpperCase());
-    const caption = Dust.el('figcaption', {}, bold, ` ${capital(y_label)}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '', note);
-    const band_of = lines.some((line) => line.low);
-    if (band_of) caption.append(' Band: one standard error to either side.');
-    const key = Dust.el('div', {class: 'legend'});
-    grid.append(Dust.el('figure', {}, tag, holder, lines.length > 1 ? key : '', caption));
-
-    const tables = [];
-    for (const line of lines) {
-      tables.push([line.x, line.y, ...(line.low ? [line.low, line.high] : [])]);
-    }
-    const data = uPlot.join(tables);
-    const make = () => {
-      const axis = {stroke: Dust.colour('soft'), grid: {stroke: Dust.colour('faint'), width: 1},
-        ticks: {stroke: Dust.colour('line'), width: 1, size: 5}, font: '11px ' + Dust.colour('sans'),
-        values: (u, splits) => splits.map((v) => (v === null ? '' : Dust.number(v)))};
-      const series = [{}], bands = [], keys = [];
-      lines.forEach((line, k) => {
-        const colour = hex(k);
-        const few = line.x.length < 40;
-        series.push({label: line.name, stroke: colour, width: 1.6, spanGaps: false, points: {show: few, size: 5, fill: colour}});
-        if (line.low) {
-          const at = series.length;
-          series.push({stroke: 'transparent', width: 0, points: {show: false}}, {stroke: 'transparent', width: 0, points: {show: false}});
-          bands.push({series: [at + 1, at], fill: colour + '33'});
-        }
-        const swatch = Dust.el('i', {class: 'line'});
-        swatch.style.background = colour;
-        keys.push(Dust.el('span', {}, swatch, Dust.words(line.name)));
-      });
-      key.replaceChildren(...keys);
-      holder.replaceChildren();
-      return new uPlot({width: Math.max(holder.clientWidth, 200), height: 230, series, bands, padding: [10, 10, 0, 0],
-        legend: {show: false}, cursor: {points: {show: false}, drag: {x: true, y: false}}, scales: {x: {time: false}},
-        axes: [{...axis, size: 30}, {...axis, size: 58}],
-        hooks: {setCursor: [(u) => {
-          const k = u.cursor.idx;
-          if (k === null || k === undefined) return;
-          let at = 1;
-          lines.forEach((line, n) => {
-            const value = u.data[at][k];
-            at += line.low ? 3 : 1;
-            keys[n].lastChild.textContent = Dust.words(line.name) + (value === null || value === undefined ? '' : ': ' + Dust.number(value));
-          });
-        }]}}, data, holder);
-    };
-    let drawn = make();
-    const again = () => {
-      drawn.destroy();
-      drawn = make();
-    };
-    plots.push(again);
-    Dust.redraw.push(again);
-    const fit = () => {
-      if (holder.clientWidth && Math.abs(holder.clientWidth - drawn.width) > 1) drawn.setSize({width: holder.clientWidth, height: 230});
-    };
-    new ResizeObserver(() => requestAnimationFrame(fit)).observe(holder);
-  };
 
   const grid_of = (id) => {
     const section = document.getElementById(id);
@@ -174,7 +108,8 @@
       note = ` Means over ${Dust.number(width * 1e3, 2)} ms.`;
     }
     in_chunks(lines, group[0].title || 'Curve', (part, title) =>
-      plot(grid_of('curves'), has_many ? title + ', dust' : title, has_many ? '' : group[0].sensor, axis_label(x_label.name, sx.unit), axis_label(y_label.name, sy.unit), sy.unit, part, note));
+      Dust.plot(grid_of('curves'), {title: has_many ? title + ', dust' : title, sensor: has_many ? '' : group[0].sensor,
+        x_label: axis_label(x_label.name, sx.unit), y_label: axis_label(y_label.name, sy.unit), unit: sy.unit, lines: part, note}));
   }
 
   // Columns of series.csv: one plot per sensor and unit.
@@ -206,8 +141,8 @@
       y: c.values.map((v) => (v === null ? null : v / scale.factor))})));
     const title = lines.length === 1 ? (sensor ? sensor + ', ' : '') + lines[0].name : sensor || {kg: 'Mass', J: 'Energy', '-': 'Counts', '1': 'Counts', '': 'Counts'}[unit] || 'Quantities';
     const bare = scale.unit === '-' || scale.unit === '1' || scale.unit === '';
-    in_chunks(lines, title.charAt(0).toUpperCase() + title.slice(1), (part, name) => plot(grid_of(sensor ? 'curves' : 'series'), name, '', 'time, s',
-      bare ? 'Number' : 'In ' + scale.unit, bare ? '' : scale.unit, part));
+    in_chunks(lines, title.charAt(0).toUpperCase() + title.slice(1), (part, name) => Dust.plot(grid_of(sensor ? 'curves' : 'series'), {title: name, x_label: 'time, s',
+      y_label: bare ? 'Number' : 'In ' + scale.unit, unit: bare ? '' : scale.unit, lines: part}));
   }
   say_zeros();
 })();

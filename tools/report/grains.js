@@ -20,7 +20,8 @@ Dust.grains = (() => {
           number: new Uint32Array(buffer, 0, dust),
           x: new Uint16Array(buffer, 4 * dust, n),
           z: new Uint16Array(buffer, 4 * dust + 2 * n, n),
-          size: new Uint8Array(buffer, 4 * dust + 4 * n, n)};
+          size: new Uint8Array(buffer, 4 * dust + 4 * n, n),
+          speed: new Uint8Array(buffer, 4 * dust + 5 * n, n)};
       }));
     }
     return cache.get(index);
@@ -67,41 +68,69 @@ Dust.grains = (() => {
     pen.globalAlpha = 1;
   };
 
+  const choice = document.getElementById('grains-colour'), air_box = document.getElementById('grains-air');
+  const by_speed = () => choice.value === 'speed';
+  // Coarse grains of one colour: `pick(k)` says which, `radius_of(k)` how large.
+  const paint_some = (pen, picture, colour, pick) => {
+    pen.fillStyle = colour;
+    pen.beginPath();
+    for (let k = 0; k < current.n - current.dust; ++k) {
+      if (!pick(k)) continue;
+      const radius = Math.max(set.classes[current.size[k]] / 2 * picture.place.scale, 0.45);
+      const x = picture.x(x_of(current, k)), z = picture.z(z_of(current, k));
+      if (radius < 1) {
+        pen.rect(x - radius, z - radius, 2 * radius, 2 * radius);
+      } else {
+        pen.moveTo(x + radius, z);
+        pen.arc(x, z, radius, 0, 6.2832);
+      }
+    }
+    pen.fill();
+  };
+  const k_speed_steps = 24;
   const paint = (pen, picture) => {
-    pen.fillStyle = Dust.colour('raised');
-    pen.fillRect(picture.place.left, picture.place.top, picture.place.inner, picture.place.height);
+    const {left, top, inner, height} = picture.place;
+    const has_air = air_box && air_box.checked && Dust.air;
+    pen.fillStyle = Dust.colour(has_air ? 'body' : 'raised');
+    pen.fillRect(left, top, inner, height);
+    if (has_air) {
+      Dust.air.paint_speed(pen, picture);
+      // A veil, so that the grains stand out.
+      pen.globalAlpha = 0.4;
+      pen.fillStyle = Dust.colour('raised');
+      pen.fillRect(left, top, inner, height);
+      pen.globalAlpha = 1;
+    }
     picture.bodies(pen);
     if (!current) return;
-    for (let c = 0; c < set.classes.length; ++c) {
-      if (is_dust(c)) continue;
-      const radius = Math.max(set.classes[c] / 2 * picture.place.scale, 0.45);
-      pen.fillStyle = Dust.css(Dust.sand_colour(tone(set.classes[c])));
-      pen.beginPath();
-      for (let k = 0; k < current.n - current.dust; ++k) {
-        if (current.size[k] !== c) continue;
-        const x = picture.x(x_of(current, k)), z = picture.z(z_of(current, k));
-        if (radius < 1) {
-          pen.rect(x - radius, z - radius, 2 * radius, 2 * radius);
-        } else {
-          pen.moveTo(x + radius, z);
-          pen.arc(x, z, radius, 0, 6.2832);
-        }
+    if (by_speed()) {
+      for (let c = 0; c < k_speed_steps; ++c) {
+        // Speeds are stored by their root.
+        paint_some(pen, picture, Dust.css(Dust.grain_speed_colour((c + 0.5) / k_speed_steps)),
+          (k) => Math.min(Math.floor(current.speed[k] / 256 * k_speed_steps), k_speed_steps - 1) === c);
       }
-      pen.fill();
+    } else {
+      for (let c = 0; c < set.classes.length; ++c) {
+        if (!is_dust(c)) paint_some(pen, picture, Dust.css(Dust.sand_colour(tone(set.classes[c]))), (k) => current.size[k] === c);
+      }
     }
     paint_dust(pen, picture, true, 1.3);
   };
 
   const picture = new Dust.Picture(document.getElementById('grains-picture'),
-    'Side view of the grains, coloured by diameter', paint);
+    'Side view of the grains and the air', paint);
   picture.make_zoomable();
   document.getElementById('grains-whole').addEventListener('click', () => picture.whole_view());
 
   const legend = document.getElementById('grains-legend');
+  const scale = document.getElementById('grains-scale');
   const draw_legend = () => {
+    scale.replaceChildren();
+    if (by_speed()) Dust.legend_strip(scale, Dust.grain_speed_colour, 0, 0, set.speed, 'm/s', Math.sqrt, false);
     const length = (d) => (d < 1e-3 ? Dust.number(d * 1e6, 3) + ' µm' : Dust.number(d * 1e3, 3) + ' mm');
-    const few = set.classes.length <= 10 ? set.classes
-      : set.classes.filter((d, k) => k % Math.ceil(set.classes.length / 8) === 0 || k === set.classes.length - 1);
+    const classes = by_speed() ? set.classes.filter((d) => d < set.dust_below) : set.classes;
+    const few = classes.length <= 10 ? classes
+      : classes.filter((d, k) => k % Math.ceil(classes.length / 8) === 0 || k === classes.length - 1);
     legend.replaceChildren(...[...few].reverse().map((d) => {
       const dust = d < set.dust_below;
       const dot = Dust.el('i', {class: dust ? 'small' : ''});
@@ -111,17 +140,34 @@ Dust.grains = (() => {
   };
   Dust.redraw.push(draw_legend);
   draw_legend();
+  choice.addEventListener('change', () => {
+    draw_legend();
+    picture.draw();
+  });
+  if (air_box && /^#picture/.test(location.hash)) air_box.checked = false;  // the air stands beside them there
+  if (air_box) {
+    const strip = document.getElementById('grains-air-scale');
+    const air_colour = (t) => Dust.speed_colour(t);
+    Dust.legend_strip(strip, air_colour, 0, 0, Dust.data.air.speed, 'm/s', Math.sqrt);
+    strip.prepend('Speed of the air');
+    air_box.addEventListener('change', () => {
+      strip.hidden = !air_box.checked;
+      picture.draw();
+    });
+  }
 
   const count = document.getElementById('grains-count');
   const show = async (index) => {
     const frames = await Promise.all([index, ...Array.from({length: trail}, (_, k) => index - 1 - k)
       .filter((k) => k >= 0)].map(load));
-    return () => {
-      current = frames[0];
-      before = frames.slice(1);
-      count.textContent = `At ${Dust.number(current.t)} s: ${Dust.count(current.all)} computed grains, of them ${Dust.count(current.dust)} dust grains shown.`;
-      picture.draw();
+    return {
+      take: () => {
+        current = frames[0];
+        before = frames.slice(1);
+        count.textContent = `At ${Dust.number(current.t)} s: ${Dust.count(current.all)} computed grains, of them ${Dust.count(current.dust)} dust grains shown.`;
+      },
+      draw: () => picture.draw(),
     };
   };
-  return {times: set.frames.map((frame) => frame.t), show, paint_dust};
+  return {times: set.frames.map((frame) => frame.t), show, paint_dust, draw: () => picture.draw()};
 })();

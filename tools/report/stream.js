@@ -77,6 +77,14 @@
       const ring = [...low.points, ...[...high.points].reverse()].map((p) => `${x(p[0])},${y(p[1])}`).join(' ');
       svg.append(svg_el('polygon', {points: ring, style: 'fill:var(--tone1);fill-opacity:.28'}));
     }
+    // Free flight without air from the belt's speed, dashed.
+    for (const flight of Dust.data.flights) {
+      const points = Array.from({length: 41}, (_, k) => deepest * (k / 40) ** 2).map((h) => [flight.speed * Math.sqrt(2 * h / flight.gravity), h])
+        .filter((p) => p[0] <= right);
+      svg.append(svg_el('polyline', {points: points.map((p) => `${x(p[0])},${y(p[1])}`).join(' '), style: 'fill:none;stroke:var(--soft);stroke-width:1.4;stroke-dasharray:6 4'}));
+      const at = points[Math.floor(points.length * 0.62)];
+      svg.append(svg_el('text', {x: x(at[0]) + 10, y: y(at[1]) - 4, 'text-anchor': 'start'}, 'free flight'));
+    }
     group.lines.forEach((entry, k) => {
       const colour = entry.kind === 'median' ? 'var(--ink)' : entry.kind ? 'var(--tone2)' : `var(--plot${k % 6 + 1})`;
       const path = entry.points.map((p) => `${x(p[0])},${y(p[1])}`).join(' ');
@@ -100,7 +108,8 @@
     const tables = group === groups[0] ? [...section.querySelectorAll('.scroll')] : [];
     const caption = Dust.el('figcaption', {}, Dust.el('b', {}, group.title ? Dust.sentence(group.title) + '.' : 'Path of the stream.'),
       ' Distance forward against the drop, both from the start of the stream, in mm',
-      group.lines.some((l) => l.kind) ? '; the band holds the grains between the 5 and 95 % quantiles, the heavy line is the median; bars are standard errors.' : '.');
+      group.lines.some((l) => l.kind) ? '; the band holds the grains between the 5 and 95 % quantiles, the heavy line is the median; bars are standard errors.' : '.',
+      Dust.data.flights.length ? ` Dashed: free flight without air at the speed of the belt, ${Dust.number(Dust.data.flights[0].speed)} m/s.` : '');
     document.getElementById('stream-picture').append(Dust.el('figure', {class: 'side'}, Dust.el('div', {}, draw(group)), Dust.el('div', {}, caption, ...tables)));
     section.hidden = false;
   }

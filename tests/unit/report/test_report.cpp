@@ -289,7 +289,7 @@ TEST_CASE("grains shall come back from the page where they were") {
   REQUIRE(frame["n"] == 45);
   REQUIRE(frame["dust"] == 5);
   const std::string bytes = unpacked(frame["data"]);
-  REQUIRE(bytes.size() == 5 * 4 + 45 * 5);
+  REQUIRE(bytes.size() == 5 * 4 + 45 * 6);
   const auto word = [&](std::size_t at) {
     return byte_at(bytes, at) + 256 * byte_at(bytes, at + 1);
   };

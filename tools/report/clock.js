@@ -1,5 +1,5 @@
 'use strict';
-// The clock that moves all pictures, the theme and the printer.
+// The clock that moves all pictures. Space plays and stops, the arrow keys step while the slider has the focus.
 (() => {
   // report.html#picture: grains and air speed side by side and nothing else, for documents.
   if (/^#picture/.test(location.hash)) {
@@ -16,8 +16,11 @@
     const shows = [];
     if (Dust.grains) shows.push(Dust.grains.show(index));
     if (Dust.air) shows.push(Dust.air.show(nearest(Dust.air.times, t)));
-    const draws = await Promise.all(shows);
-    if (wanted === index) for (const draw of draws) draw();
+    const ready = await Promise.all(shows);
+    if (wanted !== index) return;
+    // Pictures show grains and air together: all take the new frame before any is drawn.
+    for (const shown of ready) shown.take();
+    for (const shown of ready) shown.draw();
   };
 
   if (times.length) {
@@ -27,6 +30,7 @@
     const reading = Dust.el('output', {});
     const go = (index) => {
       slider.value = index;
+      slider.setAttribute('aria-valuetext', times[index].toFixed(3) + ' s');
       reading.textContent = 't = ' + times[index].toFixed(3) + ' s';
       return show(+index);
     };
@@ -52,6 +56,12 @@
       go(+slider.value);
     });
     document.getElementById('clock').append(button, slider, reading);
+    document.addEventListener('keydown', (event) => {
+      const busy = event.target.closest && event.target.closest('button, a, select, summary, input:not([type="range"])');
+      if (event.key !== ' ' || busy || button.disabled) return;
+      event.preventDefault();
+      button.click();
+    });
     if (times.length < 2) button.disabled = slider.disabled = true;
     const asked = /^#(?:picture,)?frame=(\d+)$/.exec(location.hash);
     go(asked ? Math.min(+asked[1], times.length - 1) : times.length - 1)
@@ -59,16 +69,4 @@
   } else {
     document.documentElement.dataset.drawn = 'yes';
   }
-
-  const system = window.matchMedia('(prefers-color-scheme: dark)');
-  const of_system = () => (system.matches ? 'dark' : 'light');
-  let chosen = null;
-  Dust.set_theme(of_system());
-  system.addEventListener('change', () => { if (!chosen) Dust.set_theme(of_system()); });
-  document.getElementById('theme').addEventListener('click', () => {
-    chosen = Dust.theme() === 'dark' ? 'light' : 'dark';
-    Dust.set_theme(chosen);
-  });
-  window.addEventListener('beforeprint', () => Dust.set_theme('light'));
-  window.addEventListener('afterprint', () => Dust.set_theme(chosen || of_system()));
 })();

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/report_sections.hpp"
+#include "io/report_table.hpp"
+#include "io/report_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace dust::io {
+
+using nlohmann::json;
+
+std::string figures_html(const RunText& run) {
+  std::string text;
+  for (std::size_t k = 0; k < run.figures.size();) {
+    const std::string& sensor = run.figures[k].sensor;
+    std::string rows;
+    std::size_t count = 0;
+    for (; k < run.figures.size() && run.figures[k].sensor == sensor; ++k, ++count) {
+      const Figure& figure = run.figures[k];
+      char plain[64];
+      std::snprintf(plain, sizeof plain, std::isfinite(figure.value) ? "%.9g" : "", figure.value);
+      rows += "<tr><td>" + escape_html(words(figure.name)) + "</td><td class=\"n\">" +
+              quantity_html(figure.value, figure.uncertainty, figure.unit) +
+              "</td><td class=\"n raw\">" + plain +
+              (figure.unit == "1" || figure.unit == "-" ? "" : " " + escape_html(figure.unit)) +
+              "</td></tr>\n";
+    }
+    text += "<details><summary>" + escape_html(words(sensor)) + " <small>" + std::to_string(count) +
+            (count == 1 ? " figure" : " figures") +
+            "</small></summary><div class=\"scroll\"><table><thead><tr><th>Quantity</th><th "
+            "class=\"n\">Value \u00b1 standard error</th><th class=\"n\">SI "
+            "value</th></tr></thead>\n<tbody>\n" +
+            rows + "</tbody></table></div></details>\n";
+  }
+  for (const json& table : list_at(run.report, "tables")) {
+    if (list_at(table, "rows").empty()) continue;
+    text += "<details><summary>" + escape_html(text_at(table, "title")) + " <small>table of " +
+            escape_html(words(text_at(table, "sensor"))) +
+            "</small></summary><div class=\"scroll\"><table><thead><tr>";
+    for (const json& name : list_at(table, "columns")) {
+      text += "<th class=\"n\">" + escape_html(name.is_string() ? name.get<std::string>() : "") +
+              "</th>";
+    }
+    text += "</tr></thead>\n<tbody>\n";
+    for (const json& cells : list_at(table, "rows")) {
+      text += "<tr>";
+      for (const json& cell : cells) {
+        text += "<td class=\"n\">" +
+                (cell.is_number()   ? number_html(cell.get<double>(), 5)
+                 : cell.is_string() ? escape_html(cell.get<std::string>())
+                                    : std::string("\u2013")) +
+                "</td>";
+      }
+      text += "</tr>\n";
+    }
+    text += "</tbody></table></div></details>\n";
+  }
+  if (text.empty()) return text;
+  return "<section id=\"figures\"><h2>All figures</h2>\n<p>Every sensor's figures of this run. The "
+         "error is "
+         "one standard error; where none stands, the sensor makes no estimate.</p>\n" +
+         text + "</section>\n";
+}
+
+}  // namespace dust::io

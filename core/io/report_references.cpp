@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/report_sections.hpp"
+#include "io/report_table.hpp"
+#include "io/report_text.hpp"
+
+#include <cmath>
+
+namespace dust::io {
+
+namespace {
+
+using nlohmann::json;
+
+std::string number_of(const json& entry, const char* key, const char* error_key) {
+  const auto value = number_at(entry, key);
+  if (!value) return "\u2013";
+  return quantity_html(*value, number_at(entry, error_key).value_or(-1.0), text_at(entry, "unit"));
+}
+
+}  // namespace
+
+/// summary.json "references": [{"name" or "quantity", "unit", "ours", "ours_uncertainty",
+/// "reference", "reference_uncertainty", "source"}].
+std::string references_html(const RunText& run) {
+  HtmlTable table({{"Quantity", false},
+                   {"This run"},
+                   {"Published"},
+                   {"Difference"},
+                   {"In standard errors"},
+                   {"Source", false}});
+  for (const json& entry : list_at(run.summary, "references")) {
+    const auto ours = number_at(entry, "ours");
+    const auto theirs = number_at(entry, "reference");
+    std::string difference = "\u2013", sigmas = "\u2013";
+    if (ours && theirs && *theirs != 0.0) {
+      difference = number_html(100.0 * (*ours - *theirs) / std::abs(*theirs), 2) + "\u202f%";
+    }
+    const double error = std::hypot(number_at(entry, "ours_uncertainty").value_or(0.0),
+                                    number_at(entry, "reference_uncertainty").value_or(0.0));
+    if (ours && theirs && error > 0.0) sigmas = number_html((*ours - *theirs) / error, 2);
+    std::string name = text_at(entry, "name");
+    if (name.empty()) name = text_at(entry, "quantity");
+    table.row({escape_html(words(name)), number_of(entry, "ours", "ours_uncertainty"),
+               number_of(entry, "reference", "reference_uncertainty"), difference, sigmas,
+               escape_html(text_at(entry, "source"))});
+  }
+  if (table.is_empty()) return {};
+  return "<section id=\"references\"><h2>Beside published numbers</h2>\n" + table.html() +
+         "</section>\n";
+}
+
+}  // namespace dust::io

@@ -1,0 +1,75 @@
+'use strict';
+// Mean pressure with the places of low pressure, and where the dust is.
+(() => {
+  const rings = (pen, picture) => {
+    for (const place of Dust.data.places) Dust.ring(pen, picture.x(place.x), picture.z(place.z), place.name);
+  };
+  const below = (pen, picture, colour) => {
+    pen.fillStyle = Dust.colour(colour);
+    pen.fillRect(picture.place.left, picture.place.top, picture.place.inner, picture.place.height);
+  };
+
+  const pressure = document.getElementById('mean-pressure-picture');
+  if (pressure && Dust.air) {
+    const set = Dust.data.air;
+    let frame = null;
+    const picture = new Dust.Picture(pressure, 'Map of the mean air pressure with ranked places', (pen, self) => {
+      below(pen, self, 'body');
+      if (frame) Dust.air.paint_pressure(pen, self, frame);
+      self.bodies(pen);
+      rings(pen, self);
+    });
+    Dust.legend_strip(document.getElementById('mean-pressure-legend'), Dust.pressure_colour, -1, -set.pressure, set.pressure, 'Pa');
+    Dust.air.load('mean').then((mean) => {
+      frame = mean;
+      picture.draw();
+    });
+  }
+
+  const dust = document.getElementById('dust-map-picture');
+  const set = Dust.data.dust_map;
+  if (!dust || !set) return;
+  const colour_of = (t) => (Dust.theme() === 'dark' ? Dust.oklch(0.24 + 0.6 * t, 0.03 + 0.17 * t, 350 - 20 * t)
+    : Dust.oklch(0.97 - 0.55 * t, 0.015 + 0.2 * t, 350 + 10 * t));
+  const buffer = document.createElement('canvas');
+  buffer.width = set.nx;
+  buffer.height = set.nz;
+  let codes = null;
+  const picture = new Dust.Picture(dust, 'Map of the mean amount of dust with ranked places', (pen, self) => {
+    below(pen, self, 'raised');
+    if (codes) {
+      const inner = buffer.getContext('2d'), image = inner.createImageData(set.nx, set.nz);
+      for (let z = 0; z < set.nz; ++z) {
+        for (let x = 0; x < set.nx; ++x) {
+          const code = codes[(set.nz - 1 - z) * set.nx + x];
+          if (code) image.data.set([...colour_of((code - 1) / 253), 255], 4 * (z * set.nx + x));
+        }
+      }
+      inner.putImageData(image, 0, 0);
+      pen.imageSmoothingEnabled = false;
+      pen.drawImage(buffer, self.x(set.x0), self.z(set.z0 + set.nz * set.cell),
+        set.nx * set.cell * self.place.scale, set.nz * set.cell * self.place.scale);
+    }
+    self.bodies(pen);
+    rings(pen, self);
+  });
+  Dust.unpack(set.data).then((bytes) => {
+    codes = bytes;
+    picture.draw();
+  });
+  // A logarithmic strip: decades down from the largest share.
+  const strip = Dust.el('canvas', {width: 256, height: 1});
+  const labels = Array.from({length: set.decades + 1}, (_, k) => Dust.el('span', {style: `left:${100 * k / set.decades}%`},
+    Dust.number(100 * set.most * 10 ** (k - set.decades), 2)));
+  document.getElementById('dust-map-legend').append(Dust.el('div', {class: 'scale'}, strip,
+    Dust.el('div', {class: 'ends'}, ...labels, Dust.el('span', {class: 'name'}, '%/cm²'))));
+  const draw = () => {
+    const pen = strip.getContext('2d');
+    for (let k = 0; k < 256; ++k) {
+      pen.fillStyle = Dust.css(colour_of(k / 255));
+      pen.fillRect(k, 0, 1, 1);
+    }
+  };
+  Dust.redraw.push(draw);
+  draw();
+})();

@@ -1,0 +1,90 @@
+'use strict';
+// Plots with uPlot, for any page. `Dust.plot(parent, {title, sensor, x_label, y_label, unit, note, lines})` adds one
+// figure; lines: [{name, x, y, low, high, kind}] with x ascending, null for a gap. `low` and `high` are a band, or
+// bars where the kind is 'points'; a 'reference' is dashed and stands behind. Everything under Dust.data.plots is
+// drawn into the elements that name it by data-plots.
+(() => {
+  const ink_of = (k) => Dust.colour('plot' + (k % 6 + 1));
+  const capital = (text) => text.replace(/^./, (c) => c.toUpperCase());
+  const height = 230;
+
+  const bars_hook = (bars) => (u) => {
+    const pen = u.ctx;
+    for (const {at, colour} of bars) {
+      pen.strokeStyle = colour;
+      pen.lineWidth = 1.4 * devicePixelRatio;
+      pen.beginPath();
+      for (let k = 0; k < u.data[0].length; ++k) {
+        const low = u.data[at + 1][k], high = u.data[at + 2][k];
+        if (low === null || low === undefined || high === null || high === undefined) continue;
+        const x = u.valToPos(u.data[0][k], 'x', true);
+        pen.moveTo(x, u.valToPos(low, 'y', true));
+        pen.lineTo(x, u.valToPos(high, 'y', true));
+      }
+      pen.stroke();
+    }
+  };
+
+  Dust.plot = (parent, {title = '', sensor = '', x_label = '', y_label = '', unit = '', note = '', lines}) => {
+    const holder = Dust.el('div', {class: 'plot', role: 'img', 'aria-label': `${Dust.sentence(title)}: ${y_label} against ${x_label}`});
+    const caption = Dust.el('figcaption', {}, Dust.el('b', {}, Dust.sentence(title) + '.'),
+      ` ${capital(y_label)}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '', note ? ' ' + note.trim() : '');
+    if (lines.some((line) => line.low && line.kind !== 'points')) caption.append(' Band: one standard error to either side.');
+    if (lines.some((line) => line.low && line.kind === 'points')) caption.append(' Bars: one standard error to either side.');
+    const key = Dust.el('div', {class: 'legend'});
+    parent.append(Dust.el('figure', {}, Dust.el('div', {class: 'axis-unit'}, unit), holder, lines.length > 1 ? key : '', caption));
+
+    const data = uPlot.join(lines.map((line) => [line.x, line.y, ...(line.low ? [line.low, line.high] : [])]));
+    const make = () => {
+      const axis = {stroke: Dust.colour('soft'), grid: {stroke: Dust.colour('faint'), width: 1},
+        ticks: {stroke: Dust.colour('line'), width: 1, size: 5}, font: '11px ' + Dust.colour('sans'),
+        values: (u, splits) => splits.map((v) => (v === null ? '' : Dust.number(v)))};
+      const series = [{}], bands = [], bars = [], keys = [];
+      let inks = 0;
+      for (const line of lines) {
+        const is_reference = line.kind === 'reference', is_points = line.kind === 'points';
+        const colour = is_reference ? Dust.colour('soft') : ink_of(inks++);
+        const few = line.x.length < 40;
+        const at = series.length;
+        series.push({label: line.name, stroke: colour, width: is_points ? 0 : 1.6, spanGaps: false,
+          dash: is_reference ? [6, 4] : undefined, points: {show: is_points || (few && !is_reference), size: is_points ? 7 : 5, fill: colour}});
+        if (line.low) {
+          series.push({stroke: 'transparent', width: 0, points: {show: false}}, {stroke: 'transparent', width: 0, points: {show: false}});
+          if (is_points) bars.push({at, colour});
+          else bands.push({series: [at + 2, at + 1], fill: colour + '33'});
+        }
+        const swatch = Dust.el('i', {class: 'line' + (is_reference ? ' dashed' : '')});
+        swatch.style.background = is_reference ? `repeating-linear-gradient(90deg, ${colour} 0 5px, transparent 5px 8px)` : colour;
+        keys.push(Dust.el('span', {}, swatch, Dust.words(line.name)));
+      }
+      key.replaceChildren(...keys);
+      holder.replaceChildren();
+      return new uPlot({width: Math.max(holder.clientWidth, 200), height, series, bands, padding: [10, 10, 0, 0],
+        legend: {show: false}, cursor: {points: {show: false}, drag: {x: true, y: false}}, scales: {x: {time: false}},
+        axes: [{...axis, size: 30}, {...axis, size: 58}],
+        hooks: {draw: [bars_hook(bars)], setCursor: [(u) => {
+          const k = u.cursor.idx;
+          if (k === null || k === undefined) return;
+          let at = 1;
+          lines.forEach((line, n) => {
+            const value = u.data[at][k];
+            at += line.low ? 3 : 1;
+            keys[n].lastChild.textContent = Dust.words(line.name) + (value === null || value === undefined ? '' : ': ' + Dust.number(value));
+          });
+        }]}}, data, holder);
+    };
+    let drawn = make();
+    Dust.redraw.push(() => {
+      drawn.destroy();
+      drawn = make();
+    });
+    const fit = () => {
+      if (holder.clientWidth && Math.abs(holder.clientWidth - drawn.width) > 1) drawn.setSize({width: holder.clientWidth, height});
+    };
+    new ResizeObserver(() => requestAnimationFrame(fit)).observe(holder);
+  };
+
+  for (const grid of document.querySelectorAll('[data-plots]')) {
+    for (const plot of (Dust.data.plots || {})[grid.dataset.plots] || []) Dust.plot(grid, plot);
+  }
+})();

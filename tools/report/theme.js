@@ -1,0 +1,17 @@
+'use strict';
+// Light or dark: the reader's system decides until the button does; paper is always light.
+(() => {
+  const system = window.matchMedia('(prefers-color-scheme: dark)');
+  const of_system = () => (system.matches ? 'dark' : 'light');
+  let chosen = null;
+  Dust.set_theme(of_system());
+  system.addEventListener('change', () => { if (!chosen) Dust.set_theme(of_system()); });
+  document.getElementById('theme').addEventListener('click', () => {
+    chosen = Dust.theme() === 'dark' ? 'light' : 'dark';
+    Dust.set_theme(chosen);
+  });
+  window.addEventListener('beforeprint', () => Dust.set_theme('light'));
+  window.addEventListener('afterprint', () => Dust.set_theme(chosen || of_system()));
+  // Pages without a clock have nothing else to wait for.
+  if (!document.getElementById('clock')) document.documentElement.dataset.drawn = 'yes';
+})();
