@@ -383,6 +383,7 @@ TEST_CASE("a sensor shall give zeros of the same names where there is nothing") 
     const Figures nothing = summary_of(*sensor);
     for (const auto& [name, figure] : nothing.all()) {
       CAPTURE(name);
+      if (name == "observed_time") continue;  // how long it looked is no find
       CHECK(figure.value == 0.0);
       CHECK(figure.uncertainty <= 0.0);
     }
