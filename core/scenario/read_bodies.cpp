@@ -30,6 +30,9 @@ SetupReader::Placed SetupReader::read_placed(MapReader& reader) {
   Placed placed;
   placed.is_enabled = read.enabled;
   placed.written.add("enabled", written_value(read.enabled));
+  if (read.frame.empty() && reader.node().find("frame") != nullptr && reader.is_good()) {
+    error(mark_of(reader.node(), "frame"), reader.path_of("frame") + ": is empty");
+  }
   if (!read.frame.empty()) {
     placed.frame = names_.frames.index(read.frame);
     if (placed.frame < 0) {

@@ -112,8 +112,11 @@ Node SetupReader::read_side(const Entry& entry, std::size_t n, bool& is_read, bo
   if (read.grains == "wall") {
     side.grains = GrainSide::wall;
     if (read.material.empty()) {
-      if (entry.value.find("material") == nullptr) {
+      const Entry* material = entry.value.find("material");
+      if (material == nullptr) {
         error(entry.where, reader.path() + ": missing key 'material' (of the wall)");
+      } else if (reader.is_good()) {
+        error(material->value.where, reader.path_of("material") + ": is empty");
       }
       pairs_are_read_ = false;
     }
