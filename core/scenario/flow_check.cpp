@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ using sdk::SideRule;
 constexpr double k_balance = 1e-6;
 /// Times of the run at which flows are looked at, the end included.
 constexpr int k_times = 16;
+/// Sides with more faces than this are left to the run: a check shall not need its memory.
+constexpr std::size_t k_most_faces = 4'000'000;
 /// Ratio of the edges of a cell from which it is called far from cubic.
 constexpr double k_far_from_cubic = 4.0;
 
@@ -52,6 +55,7 @@ struct Faces {
     }
     (side % 2 ? batch.low : batch.high)[d] = (side % 2 ? batch.high : batch.low)[d];
     batch.normal[d] = side % 2 ? 1.0 : -1.0;
+    for (std::vector<double>* column : {&x, &y, &z}) column->reserve(count_of(setup, side));
     for (int b = 0; b < cells[static_cast<std::size_t>(f)]; ++b) {
       for (int a = 0; a < cells[static_cast<std::size_t>(e)]; ++a) {
         sdk::Vec3 p = batch.low;
@@ -63,8 +67,7 @@ struct Faces {
       }
     }
     batch.count = x.size();
-    for (auto& v : velocity) v.assign(batch.count, 0.0);
-    pressure.assign(batch.count, 0.0);
+    clear();
     one.assign(batch.count, 1.0);
     density.assign(batch.count, setup.fluid->density);
     area.assign(batch.count, batch.spacing[e] * batch.spacing[f]);
@@ -78,6 +81,22 @@ struct Faces {
     batch.void_fraction = one.data();
     batch.density = density.data();
     batch.area = area.data();
+  }
+  // The batch points into the columns.
+  Faces(const Faces&) = delete;
+  Faces& operator=(const Faces&) = delete;
+
+  static std::size_t count_of(const Setup& setup, std::size_t side) {
+    std::size_t count = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (a != side / 2) count *= static_cast<std::size_t>(setup.fluid->cells[a]);
+    }
+    return count;
+  }
+  /// Forgets what a model wrote.
+  void clear() {
+    for (auto& v : velocity) v.assign(batch.count, 0.0);
+    pressure.assign(batch.count, 0.0);
   }
   /// [m3/s] into the domain.
   [[nodiscard]] double inflow() const {
@@ -117,14 +136,18 @@ void check_cells(const Setup& setup, Diagnostics& diagnostics) {
                           "the short one the time step");
 }
 
+using AllFaces = std::array<std::unique_ptr<Faces>, 6>;
+
 /// Inflow of each side at `time`; false after a model's refusal, which is told.
-bool find_flows(const Setup& setup, const SideModels& sides, double time,
+bool find_flows(const Setup& setup, const SideModels& sides, AllFaces& all, double time,
                 std::array<double, 6>& flows, Diagnostics& diagnostics) {
   bool is_good = true;
   for (std::size_t n = 0; n < 6; ++n) {
     flows[n] = 0.0;
     if (sides[n] == nullptr) continue;
-    Faces faces(setup, n);
+    if (!all[n]) all[n] = std::make_unique<Faces>(setup, n);
+    Faces& faces = *all[n];
+    faces.clear();
     faces.batch.time = time;
     try {
       sides[n]->evaluate(faces.batch);
@@ -158,10 +181,14 @@ void check_flow(const Setup& setup, const SideModels& sides, Diagnostics& diagno
     }
     gives_way |= rules.normal_velocity != SideRule::fixed;
   }
+  for (std::size_t n = 0; n < 6; ++n) {
+    if (sides[n] != nullptr && Faces::count_of(setup, n) > k_most_faces) return;
+  }
+  AllFaces all;
   std::array<double, 6> flows{};
   for (int step = 0; step <= k_times; ++step) {
     const double time = setup.time.end * step / k_times;
-    if (!find_flows(setup, sides, time, flows, diagnostics)) return;
+    if (!find_flows(setup, sides, all, time, flows, diagnostics)) return;
     if (gives_way) continue;
     double net = 0.0;
     double gross = 0.0;

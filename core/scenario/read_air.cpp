@@ -9,6 +9,12 @@
 #include <limits>
 
 namespace dust::scenario {
+namespace {
+
+/// Cells and faces are counted in 32 bits, several per cell.
+constexpr double k_most_cells = 2e8;
+
+}  // namespace
 
 void SetupReader::read_fluid(MapReader& top) {
   const Entry* entry = top.required("fluid", "cells, density, viscosity; or fluid: none");
@@ -36,6 +42,11 @@ void SetupReader::read_fluid(MapReader& top) {
     if (fluid.cells[d] == std::floor(fluid.cells[d])) continue;
     error(mark_of(entry->value, "cells"),
           "fluid.cells: " + number_text(fluid.cells[d]) + " is not a whole number of cells");
+  }
+  if (const double count = fluid.cells.x * fluid.cells.y * fluid.cells.z; count > k_most_cells) {
+    error(mark_of(entry->value, "cells"), "fluid.cells: " + number_text(count) +
+                                              " cells; at most " + number_text(k_most_cells) +
+                                              " can be counted");
   }
   spec.density = fluid.density;
   spec.viscosity = fluid.viscosity;

@@ -49,6 +49,14 @@ TEST_CASE("the small scenario shall be well") {
   CHECK(joined(problems(folder.write("s.yaml", k_small))).empty());
 }
 
+TEST_CASE("an empty name shall be told where it stands") {
+  check("grains: wall, material: glass, air: {model: no_slip}",
+        "grains: wall, material: '', air: {model: no_slip}",
+        "s.yaml:12:38: error: domain.boundaries.bottom.material: is empty");
+  check("material: glass, hinge", "material: glass, frame: '', hinge",
+        "s.yaml:24:65: error: bodies.plate.frame: is empty");
+}
+
 TEST_CASE("a value out of range shall be told as the contract writes it") {
   check("restitution: 0.9, friction: 0.5", "restitution: 1.4, friction: 0.5",
         "s.yaml:19:50: error: interactions[0].contact.restitution: 1.4 is outside 0 < e <= 1");
@@ -96,6 +104,8 @@ TEST_CASE("a value of another kind shall be told with the kind expected") {
         "s.yaml:35:18: error: fluid.cells: 0 is outside 1 <= cells <= 100000");
   check("cells: [20, 2, 10]", "cells: [20, 2, 10.5]",
         "s.yaml:35:10: error: fluid.cells: 10.5 is not a whole number of cells");
+  check_among("cells: [20, 2, 10]", "cells: [20000, 20000, 10]",
+              "s.yaml:35:10: error: fluid.cells: 4e+09 cells; at most 2e+08 can be counted");
   check("time: {end: 1 s, fluid_step: 1 ms, output_every: 20 ms}", "time: 1 s",
         "s.yaml:2:7: error: time: a map of keys is expected, not '1 s'");
   check("drag: {model: gidaspow}", "drag: gidaspow",
