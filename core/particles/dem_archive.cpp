@@ -167,7 +167,8 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
                                 counters.fine_steps,
                                 counters.rebuilds,
                                 counters.late_lists,
-                                counters.flown_steps};
+                                counters.flown_steps,
+                                allowance_level};
   archive.integers("state", state);
   archive.number("time", time);
   double largest = counters.largest_overlap;
@@ -255,6 +256,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   counters.rebuilds = state.at(11);
   counters.late_lists = state.at(12);
   counters.flown_steps = state.at(13);
+  allowance_level = state.at(14);
   time = archive.number("time");
   counters.largest_overlap = archive.number("largest_overlap");
   for (Surface& s : surfaces) s.move_to(time);

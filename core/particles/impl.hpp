@@ -213,11 +213,12 @@ struct Dem::Impl {
   std::int64_t next_id = 0;
   WallLoads wall_loads;  ///< empty between fluid steps, so that nothing of it is saved
   double time = 0.0;
-  std::int64_t since_rebuild = 0;  ///< coarse steps
-  std::int64_t horizon = 0;        ///< coarse steps the present lists are made for
-  std::int64_t next_horizon = 32;  ///< and the next ones
-  std::int64_t since_watch = 0;    ///< coarse steps
-  std::int64_t flying = 0;         ///< grains asleep in the present watch
+  std::int64_t since_rebuild = 0;    ///< coarse steps
+  std::int64_t horizon = 0;          ///< coarse steps the present lists are made for
+  std::int64_t next_horizon = 32;    ///< and the next ones
+  std::int64_t allowance_level = 0;  ///< of the next lists; wider in dilute flow
+  std::int64_t since_watch = 0;      ///< coarse steps
+  std::int64_t flying = 0;           ///< grains asleep in the present watch
   bool is_watching = false;
   bool must_watch = false;
   bool must_rebuild = true;

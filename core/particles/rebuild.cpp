@@ -14,8 +14,16 @@ namespace {
 
 /// Rebuilds between two sorts of the rows where no grain came or went.
 constexpr std::int64_t k_sort_every = 4;
-/// Allowed deviation from the straight course, in diameters (coarse grains).
+/// Allowed deviation from the straight course, in diameters (coarse grains): the least, for beds,
+/// and what one level more adds. In dilute flow, where pairs are few and every collision throws a
+/// grain off its course, lists with wider allowances last longer and cost little.
 constexpr double k_allowance = 0.3;
+constexpr double k_allowance_level = 0.15;
+constexpr std::int64_t k_widest_level = 6;
+/// Pairs in the list per grain below which the allowance is widened after a rebuild that came
+/// early, and above which it is narrowed.
+constexpr double k_few_pairs = 3.0;
+constexpr double k_many_pairs = 6.0;
 /// The same for a fine grain that stands alone, in diameters of the largest grain; in a crowd it is
 /// half the mean distance, so that a pocket of dust does not list its far neighbours.
 constexpr double k_fine_allowance = 0.3;
@@ -82,8 +90,9 @@ void Dem::Impl::sort_rows() {
 }
 
 void Dem::Impl::choose_allowances() {
+  const double share = k_allowance + k_allowance_level * static_cast<double>(allowance_level);
   for (std::size_t n = 0; n < coarse_count; ++n) {
-    store.start[4 * n + 3] = k_allowance * 2.0 * store.position[4 * n + 3];
+    store.start[4 * n + 3] = share * 2.0 * store.position[4 * n + 3];
   }
   if (coarse_count == store.size()) return;
   const double lone = k_fine_allowance * steps.classes.back().diameter;
@@ -172,6 +181,7 @@ void Dem::Impl::carry_over(VerletList& list, ContactList& contacts, bool is_surf
 
 void Dem::Impl::rebuild() {
   ++counters.rebuilds;
+  const bool is_early = !must_sort && since_rebuild < horizon;
   gather_wall_loads();
   wrap_periodic();
   for (const Chunk& c : chunks) {
@@ -304,6 +314,13 @@ void Dem::Impl::rebuild() {
     next_horizon = std::max(horizon / 2, k_shortest_horizon);
   }
   const double made_for = in.horizon;
+  const auto pairs = static_cast<double>(listed);
+  const auto grains = static_cast<double>(store.size());
+  if (is_early && pairs < k_few_pairs * grains) {
+    allowance_level = std::min(allowance_level + 1, k_widest_level);
+  } else if (pairs > k_many_pairs * grains) {
+    allowance_level = std::max<std::int64_t>(allowance_level - 1, 0);
+  }
 
   const auto near_surface = [&](std::size_t n, const Surface& s) {
     const double* p = store.position.data() + 4 * n;

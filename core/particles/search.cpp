@@ -20,12 +20,13 @@ struct Slot {
   std::int32_t count = 0;
 };
 
-/// Grains of one size level in cells of one edge, in a table of open addresses.
+/// Grains of one size level in cells of one edge, in a table of open addresses. A grain's ball
+/// holds all places it may be at until the horizon: its centre is the middle of the straight path.
 class Level {
  public:
-  /// `reach`: per row, how far from its present centre a grain's pairs may be found.
+  /// Per row the centre of the ball and its radius.
   Level(const SearchInput& in, const std::vector<std::int32_t>& rows,
-        const std::vector<double>& reach) {
+        const std::vector<double>& centre, const std::vector<double>& reach) {
     for (const std::int32_t row : rows) {
       reach_ = std::max(reach_, reach[static_cast<std::size_t>(row)]);
     }
@@ -42,7 +43,7 @@ class Level {
     slots_.resize(size);
     std::vector<std::int32_t> slot_of(rows.size());
     for (std::size_t n = 0; n < rows.size(); ++n) {
-      const double* p = in.position + 4 * static_cast<std::ptrdiff_t>(rows[n]);
+      const double* p = centre.data() + 3 * static_cast<std::ptrdiff_t>(rows[n]);
       const std::uint64_t k =
           key(wrap(cell(p[0], 0), 0), wrap(cell(p[1], 1), 1), wrap(cell(p[2], 2), 2));
       std::size_t s = hash(k);
@@ -63,7 +64,7 @@ class Level {
       Slot& s = slots_[static_cast<std::size_t>(slot_of[n])];
       const auto to = static_cast<std::size_t>(s.begin + s.count++);
       rows_[to] = rows[n];
-      std::copy_n(in.position + 4 * static_cast<std::ptrdiff_t>(rows[n]), 3, &balls_[4 * to]);
+      std::copy_n(centre.data() + 3 * static_cast<std::ptrdiff_t>(rows[n]), 3, &balls_[4 * to]);
       balls_[4 * to + 3] = reach[static_cast<std::size_t>(rows[n])];
     }
     for (int d = 0; d < 3; ++d) period_[d] = in.period[d];
@@ -74,7 +75,7 @@ class Level {
     const double* p = in.position + 4 * static_cast<std::ptrdiff_t>(row);
     const double* v = in.velocity + 4 * static_cast<std::ptrdiff_t>(row);
     return p[3] + in.allowance[4 * static_cast<std::ptrdiff_t>(row) + 3] + 0.5 * in.range +
-           in.horizon * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+           0.5 * in.horizon * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   }
 
   /// Calls visit(row) for every grain whose ball of reach overlaps that of `p`.
@@ -205,11 +206,15 @@ std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_
     level_of[n] = level;
   }
   std::vector<double> reach_of(in.count);
+  std::vector<double> centre_of(3 * in.count);
   for (std::size_t n = 0; n < in.count; ++n) {
     reach_of[n] = Level::reach_of(in, static_cast<std::int32_t>(n));
+    for (std::size_t d = 0; d < 3; ++d) {
+      centre_of[3 * n + d] = in.position[4 * n + d] + 0.5 * in.horizon * in.velocity[4 * n + d];
+    }
   }
   std::vector<Level> levels;
-  for (const auto& rows : members) levels.emplace_back(in, rows, reach_of);
+  for (const auto& rows : members) levels.emplace_back(in, rows, centre_of, reach_of);
 
   const std::size_t blocks = (in.count + block - 1) / block;
   std::vector<std::vector<RowPair>> found(blocks);
@@ -218,8 +223,8 @@ std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_
     const std::size_t end = std::min(in.count, (b + 1) * block);
     for (std::size_t n = b * block; n < end; ++n) {
       const auto i = static_cast<std::int32_t>(n);
-      const double* p = in.position + 4 * n;
-      const double own = p[3] + in.allowance[4 * n + 3] + in.range;
+      const double* p = centre_of.data() + 3 * n;
+      const double own = in.position[4 * n + 3] + in.allowance[4 * n + 3] + in.range;
       const double reach = reach_of[n];
       const std::int32_t own_level = level_of[n];
       for (std::int32_t l = 0; l <= own_level; ++l) {

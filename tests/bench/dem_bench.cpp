@@ -2,6 +2,7 @@
 // Rates of the DEM in million grain-steps per second, rebuilds included:
 //   dem_bench [threads] [settled bed as csv: diameter,x,y,z] [bed: nothing but it]
 // A dilute flow (sand falling through air space with dust between), and the bed where one is given.
+#include "bench/read_bed.hpp"
 #include "support/dem_rig.hpp"
 
 #include "dust/sdk/random.hpp"
@@ -14,8 +15,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
-#include <sstream>
 
 using dust::particles::Dem;
 using dust::particles::NewGrain;
@@ -128,38 +127,18 @@ void dilute(bool with_dust) {
   measure(with_dust ? "with dust" : "dilute", *dem, 500, 1000, 3);
 }
 
-void bed(const char* file) {
+void settled_bed(const char* file) {
   DemRig rig;
   const int sand = rig.material(2650, 50e6, 0.3);
   rig.law(sand, sand, 0.9, 0.52, 0.3);
   rig.setup.gravity = {0, 0, -9.81};
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
-  std::vector<NewGrain> grains;
-  Vec3 low{1e9, 1e9, 1e9};
-  Vec3 high{-1e9, -1e9, -1e9};
-  while (std::getline(in, line)) {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream text(line);
-    NewGrain g;
-    text >> g.diameter >> g.position.x >> g.position.y >> g.position.z;
-    for (int d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], g.position[d] - 0.5 * g.diameter);
-      high[d] = std::max(high[d], g.position[d] + 0.5 * g.diameter);
-    }
-    if (std::find(rig.diameters.begin(), rig.diameters.end(), g.diameter) == rig.diameters.end()) {
-      rig.diameters.push_back(g.diameter);
-    }
-    grains.push_back(g);
-  }
-  std::sort(rig.diameters.begin(), rig.diameters.end());
-  rig.setup.domain.min = low;
-  rig.setup.domain.max = high + Vec3{0, 0, 0.01};
-  rig.setup.domain.min.z = 0.0;
+  const Bed bed = read_bed(file);
+  rig.diameters = bed.diameters;
+  rig.setup.domain.min = bed.low;
+  rig.setup.domain.max = bed.high + Vec3{0, 0, 0.01};
   for (int s = 0; s < 5; ++s) rig.wall(s, sand);
   auto dem = rig.make();
-  dem->insert(grains);
+  dem->insert(bed.grains);
   measure("settled bed", *dem, 200, 100, 12);
 }
 
@@ -174,6 +153,6 @@ int main(int argc, char** argv) {
     dilute(false);
     dilute(true);
   }
-  if (argc > 2) bed(argv[2]);
+  if (argc > 2) settled_bed(argv[2]);
   return 0;
 }
