@@ -20,6 +20,7 @@ Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
       domain_min(setup.domain.min),
       domain_max(setup.domain.max),
       steps(time_steps(setup, bodies, laws, diameters)) {
+  store.has_fluid = setup.fluid.has_value();
   for (const auto& m : setup.materials) {
     materials.push_back(m.properties);
     material_names.push_back(m.name);
@@ -95,10 +96,12 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
       // Lag 0: the first kick lasts half a step, as if positions and velocities had come together.
       store.half_velocity[4 * n + d] = d < 3 ? row[1][d] : 0.0;
       store.half_rotation[4 * n + d] = row[2][d];
-      store.action[4 * n + d] = 0.0;
-      store.impulse[4 * n + d] = 0.0;
     }
-    store.decay[2 * n] = store.decay[2 * n + 1] = 1.0;
+    if (store.has_fluid) {
+      std::fill_n(store.action.begin() + 4 * static_cast<std::ptrdiff_t>(n), 4, 0.0);
+      std::fill_n(store.impulse.begin() + 4 * static_cast<std::ptrdiff_t>(n), 4, 0.0);
+      store.decay[2 * n] = store.decay[2 * n + 1] = 1.0;
+    }
     store.id[n] = next_id++;
     store.material[n] = g.material;
     store.weight[n] = g.weight;
@@ -173,6 +176,7 @@ void Dem::Impl::remove_leavers() {
 
 void Dem::Impl::refresh_decay() {
   has_fluid = false;
+  if (!store.has_fluid) return;
   const double step = steps.coarse_step;
   for (std::size_t n = 0; n < store.size(); ++n) {
     const double x = store.action[4 * n + 3] * step;
@@ -193,11 +197,10 @@ void Dem::Impl::fill_last_force() const {
   last_force.assign(4 * store.size(), 0.0);
   for (std::size_t n = 0; n < store.size(); ++n) {
     const double mass = 1.0 / store.velocity[4 * n + 3];
-    const double rate = store.action[4 * n + 3];
+    const double* action = store.action_of(n);
     const double* g = gravity.data() + 4 * static_cast<std::ptrdiff_t>(store.material[n]);
     for (std::size_t d = 0; d < 3; ++d) {
-      last_force[4 * n + d] =
-          mass * (g[d] + rate * (store.action[4 * n + d] - store.velocity[4 * n + d]));
+      last_force[4 * n + d] = mass * (g[d] + action[3] * (action[d] - store.velocity[4 * n + d]));
     }
   }
   if (must_sort) return;  // rows have changed since the forces were computed

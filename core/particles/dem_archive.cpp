@@ -108,12 +108,15 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   rows("rotation", store.rotation);
   rows("half_velocity", store.half_velocity);
   rows("half_rotation", store.half_rotation);
-  rows("action", store.action);
-  rows("impulse", store.impulse);
   rows("start", store.start);
-  rows("start_velocity", store.start_velocity);
-  rows("decay", store.decay);
   rows("fine_force", fine_force);
+  const std::vector<double> course(store.start_velocity.begin(), store.start_velocity.end());
+  archive.numbers("start_velocity", course);
+  if (store.has_fluid) {
+    rows("action", store.action);
+    rows("impulse", store.impulse);
+    rows("decay", store.decay);
+  }
   archive.integers("id", store.id);
   archive.integers("material", widened(store.material));
   archive.integers("population", widened(store.population));
@@ -187,12 +190,15 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   rows("rotation", store.rotation);
   rows("half_velocity", store.half_velocity);
   rows("half_rotation", store.half_rotation);
-  rows("action", store.action);
-  rows("impulse", store.impulse);
   rows("start", store.start);
-  rows("start_velocity", store.start_velocity);
-  rows("decay", store.decay);
   rows("fine_force", fine_force);
+  const auto course = archive.numbers("start_velocity");
+  store.start_velocity.assign(course.begin(), course.end());
+  if (store.has_fluid) {
+    rows("action", store.action);
+    rows("impulse", store.impulse);
+    rows("decay", store.decay);
+  }
   store.id = archive.integers("id");
   const auto material = archive.integers("material");
   const auto population = archive.integers("population");

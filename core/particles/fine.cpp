@@ -54,16 +54,17 @@ Member load_member(const GrainStore& s, const std::vector<double>& gravity, std:
   m.radius = s.position[4 * row + 3];
   m.inverse_mass = s.velocity[4 * row + 3];
   m.weight = s.weight[row];
-  m.rate = s.action[4 * row + 3];
+  const double* action = s.action_of(row);
+  m.rate = action[3];
   m.position = vec(s.position.data() + 4 * row);
   m.velocity = vec(s.velocity.data() + 4 * row);
   m.rotation = vec(s.rotation.data() + 4 * row);
   m.half_velocity = vec(s.half_velocity.data() + 4 * row);
   m.half_rotation = vec(s.half_rotation.data() + 4 * row);
   m.lag = s.half_velocity[4 * row + 3];
-  m.target = vec(s.action.data() + 4 * row);
+  m.target = vec(action);
   m.gravity = vec(gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material[row]));
-  m.received = vec(s.impulse.data() + 4 * row);
+  if (s.has_fluid) m.received = vec(s.impulse.data() + 4 * row);
   return m;
 }
 
@@ -76,7 +77,7 @@ void store_member(GrainStore& s, const Member& m, double* force) {
     s.rotation[k] = m.rotation[d];
     s.half_velocity[k] = m.half_velocity[d];
     s.half_rotation[k] = m.half_rotation[d];
-    s.impulse[k] = m.received[d];
+    if (s.has_fluid) s.impulse[k] = m.received[d];
     force[d] = m.force[d];
   }
   s.half_velocity[4 * row + 3] = m.lag;
@@ -314,7 +315,8 @@ static bool is_far(const Dem::Impl& dem, std::size_t i, std::int32_t b, double e
   const Vec3 d = dem.separation(&place.x, &position.x);
   const double radius = s.position[4 * i + 3];
   const double* g = dem.gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material[i]);
-  const Vec3 free = vec(g) + s.action[4 * i + 3] * (vec(s.action.data() + 4 * i) - velocity);
+  const double* action = s.action_of(i);
+  const Vec3 free = vec(g) + action[3] * (vec(action) - velocity);
   const double speed = sum_of_parts(velocity - other) + sum_of_parts(free) * step + extra_speed;
   const double reach =
       (1.0 + k_reach_margin) * radius + s.position[4 * j + 3] + dem.largest_range + speed * step;
@@ -360,7 +362,8 @@ static Outlook look_out(const Dem::Impl& dem, std::size_t entry, double extra_sp
     law = dem.law_of(s.material[i], s.material[j]);
   }
   const double* g = dem.gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material[i]);
-  const Vec3 free = vec(g) + s.action[4 * i + 3] * (vec(s.action.data() + 4 * i) - velocity);
+  const double* action = s.action_of(i);
+  const Vec3 free = vec(g) + action[3] * (vec(action) - velocity);
   double gain = norm(free) * step;
   if (b < 0) gain += dem.surfaces[static_cast<std::size_t>(-1 - b)].displacing_speed;
   Outlook out;

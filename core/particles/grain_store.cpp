@@ -19,11 +19,15 @@ void reorder_rows(Vector& rows, std::span<const std::int32_t> order, std::size_t
 }  // namespace
 
 void GrainStore::resize(std::size_t count) {
-  for (auto* rows : {&position, &velocity, &rotation, &half_velocity, &half_rotation, &action,
-                     &impulse, &start, &start_velocity}) {
+  for (auto* rows : {&position, &velocity, &rotation, &half_velocity, &half_rotation, &start}) {
     rows->resize(4 * count, 0.0);
   }
-  decay.resize(2 * count, 1.0);
+  start_velocity.resize(4 * count, 0.0F);
+  if (has_fluid) {
+    action.resize(4 * count, 0.0);
+    impulse.resize(4 * count, 0.0);
+    decay.resize(2 * count, 1.0);
+  }
   id.resize(count);
   material.resize(count);
   population.resize(count);
@@ -31,11 +35,15 @@ void GrainStore::resize(std::size_t count) {
 }
 
 void GrainStore::reorder(std::span<const std::int32_t> order) {
-  for (auto* rows : {&position, &velocity, &rotation, &half_velocity, &half_rotation, &action,
-                     &impulse, &start, &start_velocity}) {
+  for (auto* rows : {&position, &velocity, &rotation, &half_velocity, &half_rotation, &start}) {
     reorder_rows(*rows, order, 4);
   }
-  reorder_rows(decay, order, 2);
+  reorder_rows(start_velocity, order, 4);
+  if (has_fluid) {
+    reorder_rows(action, order, 4);
+    reorder_rows(impulse, order, 4);
+    reorder_rows(decay, order, 2);
+  }
   reorder_rows(id, order, 1);
   reorder_rows(material, order, 1);
   reorder_rows(population, order, 1);

@@ -20,17 +20,26 @@ struct GrainStore {
   contact::AlignedVector<double> rotation;
   contact::AlignedVector<double> half_velocity;  ///< fourth lag [s]
   contact::AlignedVector<double> half_rotation;
-  contact::AlignedVector<double> action;  ///< target velocity, rate [1/s]
-  contact::AlignedVector<double> impulse;
-  contact::AlignedVector<double> start;  ///< position at the last rebuild, allowed deviation [m]
-  contact::AlignedVector<double> start_velocity;  ///< velocity at the last rebuild
-  contact::AlignedVector<double> decay;  ///< two per grain: exp(-k dt), (1 - exp(-k dt)) / (k dt)
+  contact::AlignedVector<double> action;   ///< target velocity, rate [1/s]; empty without a fluid
+  contact::AlignedVector<double> impulse;  ///< empty without a fluid
+  contact::AlignedVector<double> start;    ///< position at the last rebuild, allowed deviation [m]
+  /// Velocity at the last rebuild; single precision is fine enough for the check of the course.
+  contact::AlignedVector<float> start_velocity;
+  /// Two per grain: exp(-k dt), (1 - exp(-k dt)) / (k dt); empty without a fluid.
+  contact::AlignedVector<double> decay;
   std::vector<std::int64_t> id;
   std::vector<std::int32_t> material;
   std::vector<std::int32_t> population;  ///< index into the balance book
   std::vector<double> weight;
 
+  bool has_fluid = false;  ///< a fluid is declared: the columns for it are there
+
   [[nodiscard]] std::size_t size() const { return id.size(); }
+  /// Target velocity and rate of a grain; zeros without a fluid.
+  [[nodiscard]] const double* action_of(std::size_t row) const {
+    static constexpr double k_none[4] = {};
+    return has_fluid ? action.data() + 4 * row : k_none;
+  }
   void resize(std::size_t count);
   /// Row n becomes what row order[n] was; rows not named are dropped.
   void reorder(std::span<const std::int32_t> order);

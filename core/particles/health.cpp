@@ -62,7 +62,7 @@ std::int64_t Dem::Impl::check_course(std::size_t begin, std::size_t end,
     const double* p = store.position.data() + 4 * n;
     const double* v = store.velocity.data() + 4 * n;
     const double* p0 = store.start.data() + 4 * n;
-    const double* v0 = store.start_velocity.data() + 4 * n;
+    const float* v0 = store.start_velocity.data() + 4 * n;
     double off2 = 0.0;
     double next2 = 0.0;
     for (int d = 0; d < 3; ++d) {
@@ -99,16 +99,16 @@ std::int64_t Dem::Impl::check_awake(const Awake& awake, std::int64_t ahead,
     const auto n = static_cast<std::size_t>(awake.rows[k]);
     const double* p = store.position.data() + 4 * n;
     const double* v = store.velocity.data() + 4 * n;
-    const double* start = awake.start.data() + 8 * k;
+    const Awake::Start& start = awake.start[k];
     double off2 = 0.0;
     double next2 = 0.0;
     for (int d = 0; d < 3; ++d) {
-      const double off = p[d] - start[d] - t * start[4 + d];
-      const double next = off + time_ahead * (v[d] - start[4 + d]);
+      const double off = p[d] - start.position[d] - t * start.velocity[d];
+      const double next = off + time_ahead * (v[d] - start.velocity[d]);
       off2 += off * off;
       next2 += next * next;
     }
-    const double limit2 = start[3] * start[3];
+    const double limit2 = static_cast<double>(start.allowance) * start.allowance;
     asks = asks || std::max(off2, next2) > k_trigger * k_trigger * limit2;
     if (off2 <= limit2) continue;
     if (!std::isfinite(off2)) fail_as_not_a_number(n);

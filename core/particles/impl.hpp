@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace dust::particles {
@@ -72,6 +73,19 @@ struct ContactList {
       history.insert(history.end(), from, from + stride);
     }
   }
+  /// The content of `other` in blocks of just its size: lists are most of the memory.
+  void take_exactly(const ContactList& other) {
+    const auto take = [](auto& to, const auto& from) {
+      if (to.capacity() < from.size() || 4 * to.capacity() > 5 * from.size() + 64) {
+        std::remove_reference_t<decltype(to)>(from.begin(), from.end()).swap(to);
+      } else {
+        to.assign(from.begin(), from.end());
+      }
+    };
+    take(a, other.a), take(b, other.b), take(is_touching, other.is_touching);
+    take(history, other.history);
+    segments = other.segments;
+  }
   [[nodiscard]] std::size_t size() const { return a.size(); }
   [[nodiscard]] contact::PairView view(std::size_t stride) {
     return {a.data(), b.data(), is_touching.data(), history.data(), stride, size()};
@@ -81,7 +95,13 @@ struct ContactList {
 /// Grains that make every step of a watch.
 struct Awake {
   std::vector<std::int32_t> rows;
-  std::vector<double> start;  ///< eight per row: position, allowed deviation, velocity, unused
+  /// The course a watch supposes. Single precision does for what is checked against it.
+  struct Start {
+    double position[3];
+    float velocity[3];
+    float allowance;
+  };
+  std::vector<Start> start;
 };
 
 /// Coarse grains [begin, end) with everything only their owner writes.

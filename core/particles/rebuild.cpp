@@ -240,7 +240,7 @@ void Dem::Impl::rebuild() {
   for (std::size_t n = 0; n < store.size(); ++n) {
     for (std::size_t d = 0; d < 3; ++d) {
       store.start[4 * n + d] = store.position[4 * n + d];
-      store.start_velocity[4 * n + d] = store.velocity[4 * n + d];
+      store.start_velocity[4 * n + d] = static_cast<float>(store.velocity[4 * n + d]);
     }
   }
 
@@ -338,7 +338,10 @@ void Dem::Impl::rebuild() {
     chunk.force.assign(8 * (static_cast<std::size_t>(chunk.end - chunk.begin) + 1), 0.0);
     auto& share = shares[c];
     std::sort(share.begin(), share.end());
+    chunk.near_pairs.a.reserve(share.size());
+    chunk.near_pairs.b.reserve(share.size());
     for (const auto& [a, b] : share) chunk.near_pairs.push(a, b);
+    std::vector<RowPair>().swap(share);
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
       for (std::int32_t i = chunk.begin; i < chunk.end; ++i) {
         if (near_surface(static_cast<std::size_t>(i), surfaces[s])) {

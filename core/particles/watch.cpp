@@ -60,10 +60,10 @@ bool Dem::Impl::flies_straight(std::size_t n) const {
   const double step = steps.coarse_step;
   if (store.half_velocity[4 * n + 3] != 0.5 * step) return false;  // has just come
   const double* g = gravity.data() + 4 * static_cast<std::ptrdiff_t>(store.material[n]);
-  const double rate = store.action[4 * n + 3];
+  const double* action = store.action_of(n);
   double sum = 0.0;
   for (std::size_t d = 0; d < 3; ++d) {
-    const double a = g[d] + rate * (store.action[4 * n + d] - store.velocity[4 * n + d]);
+    const double a = g[d] + action[3] * (action[d] - store.velocity[4 * n + d]);
     sum += a * a;
   }
   const double horizon_time = static_cast<double>(k_longest_watch) * step;
@@ -95,7 +95,7 @@ void Dem::Impl::choose_contacts(VerletList& list, ContactList& contacts, MayMeet
     chosen.end = static_cast<std::int32_t>(next.size());
     if (chosen.end > chosen.begin) next.segments.push_back(chosen);
   }
-  std::swap(next, contacts);
+  contacts.take_exactly(next);
 }
 
 /// Chooses, for the next steps, the entries of the lists that may come to touch and the grains that
@@ -141,8 +141,10 @@ void Dem::Impl::begin_watch() {
       awake.rows.push_back(static_cast<std::int32_t>(n));
       const double* p = store.position.data() + 4 * n;
       const double* v = store.velocity.data() + 4 * n;
-      awake.start.insert(awake.start.end(),
-                         {p[0], p[1], p[2], watch_allowance(n), v[0], v[1], v[2], 0.0});
+      awake.start.push_back(
+          {{p[0], p[1], p[2]},
+           {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])},
+           static_cast<float>(watch_allowance(n))});
     }
   };
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {

@@ -63,6 +63,7 @@ struct DemRig {
   std::vector<particles::PairLaws> laws;
   std::vector<double> diameters;
   double fluid_density = 0.0;
+  bool has_fluid = false;  ///< room for what a fluid does to the grains
 
   DemRig() {
     setup.domain.min = {-1, -1, -1};
@@ -114,6 +115,7 @@ struct DemRig {
   }
   /// Takes the laws.
   std::unique_ptr<particles::Dem> make() {
+    if (has_fluid) setup.fluid.emplace();
     return std::make_unique<particles::Dem>(setup, bodies, std::move(laws), diameters,
                                             fluid_density);
   }

@@ -19,6 +19,7 @@ std::unique_ptr<dust::particles::Dem> box(DemRig& rig) {
   rig.setup.domain.max = {6e-3, 6e-3, 2e-2};
   for (int s = 2; s < 5; ++s) rig.wall(s, sand);
   rig.periodic(0);
+  rig.has_fluid = true;
   return rig.make();
 }
 

@@ -25,6 +25,7 @@ std::unique_ptr<dust::particles::Dem> cloud(std::size_t count, double dust_share
   rig.setup.domain.min = {0, 0, 0};
   rig.setup.domain.max = {k_box, k_box, k_box};
   for (int d = 0; d < 3; ++d) rig.periodic(d);
+  rig.has_fluid = true;
   auto dem = rig.make();
   const dust::sdk::Random random(11, 3);
   std::vector<NewGrain> grains;
