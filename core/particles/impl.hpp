@@ -236,7 +236,7 @@ struct Dem::Impl {
   std::int64_t since_rebuild = 0;    ///< coarse steps
   std::int64_t horizon = 0;          ///< coarse steps the present lists are made for
   std::int64_t next_horizon = 32;    ///< and the next ones
-  std::int64_t allowance_level = 0;  ///< of the next lists; wider in dilute flow
+  std::int64_t allowance_level = 1;  ///< of the next lists; wider in dilute flow
   std::int64_t since_watch = 0;      ///< coarse steps
   std::int64_t flying = 0;           ///< grains asleep in the present watch
   bool is_watching = false;

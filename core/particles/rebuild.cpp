@@ -17,9 +17,9 @@ constexpr std::int64_t k_sort_every = 4;
 /// Allowed deviation from the straight course, in diameters (coarse grains): the least, for beds,
 /// and what one level more adds. In dilute flow, where pairs are few and every collision throws a
 /// grain off its course, lists with wider allowances last longer and cost little.
-constexpr double k_allowance = 0.3;
+constexpr double k_allowance = 0.15;
 constexpr double k_allowance_level = 0.15;
-constexpr std::int64_t k_widest_level = 6;
+constexpr std::int64_t k_widest_level = 7;
 /// Pairs in the list per grain below which the allowance is widened after a rebuild that came
 /// early, and above which it is narrowed.
 constexpr double k_few_pairs = 3.0;
@@ -367,7 +367,10 @@ void Dem::Impl::rebuild() {
   carry_over(near_fine, fine, false);
   fine_force.assign(4 * (store.size() - coarse_count), 0.0);
 
-  old_begin.clear();
+  // Lists are most of the memory: what only a rebuild needs is given back.
+  std::vector<std::int32_t>().swap(old_begin);
+  std::vector<std::int32_t>().swap(old_partner);
+  std::vector<const double*>().swap(old_history);
   since_rebuild = 0;
   must_rebuild = must_sort = false;
 }

@@ -32,6 +32,12 @@ double memory(const std::string& name) {
   return 0.0;
 }
 
+/// Bytes in use on the heap.
+double allocated() {
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -57,6 +63,7 @@ int main(int argc, char** argv) {
   for (int side = 0; side < 5; ++side) rig.wall(side, sand);
   auto dem = rig.make();
   const double before = memory("VmRSS");
+  const double allocated_before = allocated();
   {
     std::vector<NewGrain> grains;
     for (int n = 0; n < copies; ++n) {
@@ -70,17 +77,19 @@ int main(int argc, char** argv) {
   Stepper stepper(*dem);
   stepper.step(40);
   malloc_trim(0);
-  const double live = memory("VmRSS") - before;
+  const double resident = memory("VmRSS") - before;
+  const double live = allocated() - allocated_before;
   const auto start = std::chrono::steady_clock::now();
   stepper.step(100);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   const auto count = static_cast<double>(dem->rows().count);
   const auto report = dem->report();
   std::printf(
-      "%.0f grains, %.2f contacts each: %.2f kB per grain live, %.2f at most; "
+      "%.0f grains, %.2f contacts each: %.2f kB per grain live, %.2f resident, %.2f at "
+      "most; "
       "%.1f M grain-steps/s on %zu thread(s), %lld rebuilds\n",
       count, static_cast<double>(report.contacts) / count, 1e-3 * live / count,
-      1e-3 * (memory("VmHWM") - before) / count, 1e-6 * count * 100 / spent.count(), threads,
-      static_cast<long long>(report.rebuilds));
+      1e-3 * resident / count, 1e-3 * (memory("VmHWM") - before) / count,
+      1e-6 * count * 100 / spent.count(), threads, static_cast<long long>(report.rebuilds));
   return 0;
 }
