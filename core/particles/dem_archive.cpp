@@ -36,7 +36,6 @@ struct FlatLists {
                                static_cast<std::int64_t>(list.segments.size())});
     a.insert(a.end(), list.a.begin(), list.a.end());
     b.insert(b.end(), list.b.begin(), list.b.end());
-    touching.insert(touching.end(), list.contact.begin(), list.contact.end());
     for (const Segment& s : list.segments) {
       segments.insert(segments.end(), {s.law, s.surface, s.begin, s.end});
     }
@@ -73,7 +72,6 @@ struct FlatLists {
     list.clear();
     for (std::size_t q = at_; q < at_ + n; ++q) {
       list.push(static_cast<std::int32_t>(a.at(q)), static_cast<std::int32_t>(b.at(q)));
-      list.contact.push_back(static_cast<std::int32_t>(touching.at(q)));
     }
     take_segments(list.segments, m);
     at_ += n;

@@ -47,15 +47,15 @@ struct Segment {
 struct VerletList {
   std::vector<std::int32_t> a;
   std::vector<std::int32_t> b;
-  std::vector<std::int32_t> contact;  ///< number in the contact list, or -1
   std::vector<Segment> segments;
 
-  void clear() { a.clear(), b.clear(), contact.clear(), segments.clear(); }
+  void clear() { a.clear(), b.clear(), segments.clear(); }
   void push(std::int32_t i, std::int32_t j) { a.push_back(i), b.push_back(j); }
   [[nodiscard]] std::size_t size() const { return a.size(); }
 };
 
-/// The entries of a Verlet list that may touch during a watch, with the history of contacts.
+/// The entries of a Verlet list that may touch during a watch, in its order, with the history of
+/// contacts.
 struct ContactList {
   std::vector<std::int32_t> a;
   std::vector<std::int32_t> b;

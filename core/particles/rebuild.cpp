@@ -160,7 +160,6 @@ void Dem::Impl::group_by_law(VerletList& list, bool is_surface) {
 /// The contacts in touch, found again in the new list.
 void Dem::Impl::carry_over(VerletList& list, ContactList& contacts, bool is_surface) {
   const std::size_t n = list.size();
-  list.contact.assign(n, -1);
   contacts.clear();
   if (old_begin.size() < 2) return;
   const auto old_rows = static_cast<std::int32_t>(old_begin.size()) - 1;
@@ -172,7 +171,6 @@ void Dem::Impl::carry_over(VerletList& list, ContactList& contacts, bool is_surf
     for (std::int32_t m = old_begin[static_cast<std::size_t>(a)];
          m < old_begin[static_cast<std::size_t>(a) + 1]; ++m) {
       if (old_partner[static_cast<std::size_t>(m)] != b) continue;
-      list.contact[q] = static_cast<std::int32_t>(contacts.size());
       contacts.push(list.a[q], list.b[q], old_history[static_cast<std::size_t>(m)], history_stride);
       break;
     }
@@ -368,6 +366,7 @@ void Dem::Impl::rebuild() {
   fine_force.assign(4 * (store.size() - coarse_count), 0.0);
 
   // Lists are most of the memory: what only a rebuild needs is given back.
+  std::vector<std::int32_t>().swap(old_row);
   std::vector<std::int32_t>().swap(old_begin);
   std::vector<std::int32_t>().swap(old_partner);
   std::vector<const double*>().swap(old_history);

@@ -77,17 +77,16 @@ template <class MayMeet>
 void Dem::Impl::choose_contacts(VerletList& list, ContactList& contacts, MayMeet&& meets) {
   thread_local ContactList next;
   next.clear();
+  std::size_t old = 0;  // of the present contacts, which stand in the order of the list
   for (const Segment& s : list.segments) {
     Segment chosen{s.law, s.surface, static_cast<std::int32_t>(next.size()), 0};
     for (auto q = static_cast<std::size_t>(s.begin); q < static_cast<std::size_t>(s.end); ++q) {
-      const std::int32_t old = list.contact[q];
-      const auto u = static_cast<std::size_t>(old);
-      const bool is_touching = old >= 0 && contacts.is_touching[u] != 0;
-      if (!is_touching && !meets(list.a[q], list.b[q])) {
-        list.contact[q] = -1;
-        continue;
-      }
-      list.contact[q] = static_cast<std::int32_t>(next.size());
+      const std::size_t u = old;
+      const bool is_known =
+          u < contacts.size() && contacts.a[u] == list.a[q] && contacts.b[u] == list.b[q];
+      old += is_known ? 1 : 0;
+      const bool is_touching = is_known && contacts.is_touching[u] != 0;
+      if (!is_touching && !meets(list.a[q], list.b[q])) continue;
       next.push(list.a[q], list.b[q],
                 is_touching ? contacts.history.data() + u * history_stride : nullptr,
                 history_stride);
