@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the plugin boundary costs: a settled bed with the contact law from its library and the same
+// law compiled into this program, blocks of steps in turn. plugin_bench BED.csv (one thread)
+#include "bench/read_bed.hpp"
+#include "contact/hertz_mindlin/hertz_mindlin.cpp"
+#include "support/dem_rig.hpp"
+
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+using dust::particles::Dem;
+using namespace dust::test;
+
+namespace {
+
+/// The law as this program's own code made it.
+class OwnLaws : public dust::sdk::Registrar {
+ public:
+  void add(dust::sdk::ModelInfo info, dust::sdk::ModelFactory factory) override {
+    info_ = std::move(info), factory_ = std::move(factory);
+  }
+  std::unique_ptr<dust::sdk::ContactLaw> make(
+      const std::map<std::string, dust::sdk::Value>& values) {
+    std::vector<dust::sdk::Value> row;
+    for (const dust::sdk::Parameter& p : info_.parameters) {
+      const auto given = values.find(p.name);
+      row.push_back(given == values.end() ? dust::sdk::Value{} : given->second);
+    }
+    return std::unique_ptr<dust::sdk::ContactLaw>(
+        static_cast<dust::sdk::ContactLaw*>(factory_(row).release()));
+  }
+
+ private:
+  dust::sdk::ModelInfo info_;
+  dust::sdk::ModelFactory factory_;
+};
+
+std::unique_ptr<Dem> make_bed(const Bed& bed, bool is_compiled_in) {
+  DemRig rig;
+  const int sand = rig.material(2650, 50e6, 0.3);
+  rig.law(sand, sand, 0.9, 0.52, 0.3);
+  if (is_compiled_in) {
+    OwnLaws own;
+    dust_register(own);
+    const auto& sand_properties = rig.setup.materials.front().properties;
+    rig.laws.front().contact = own.make({{"restitution", 0.9}, {"friction", 0.52}});
+    rig.laws.front().contact->prepare(sand_properties, sand_properties);
+  }
+  rig.diameters = bed.diameters;
+  rig.setup.gravity = {0, 0, -9.81};
+  rig.setup.domain.min = bed.low;
+  rig.setup.domain.max = bed.high + dust::sdk::Vec3{0, 0, 0.01};
+  for (int side = 0; side < 5; ++side) rig.wall(side, sand);
+  auto dem = rig.make();
+  dem->insert(bed.grains);
+  return dem;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: plugin_bench BED.csv\n");
+    return 2;
+  }
+  oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  const Bed bed = read_bed(argv[1]);
+  const std::unique_ptr<Dem> dems[2] = {make_bed(bed, false), make_bed(bed, true)};
+  double best[2] = {1e30, 1e30};
+  constexpr int k_steps = 50;
+  for (int block = 0; block < 25; ++block) {
+    for (int n = 0; n < 2; ++n) {
+      Stepper stepper(*dems[n]);
+      const auto start = std::chrono::steady_clock::now();
+      stepper.step(k_steps);
+      const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+      if (block > 0) best[n] = std::min(best[n], spent.count());
+    }
+  }
+  const double count = 1e-6 * k_steps * static_cast<double>(bed.grains.size());
+  std::printf("contact law as a plugin %.2f, compiled in %.2f M grain-steps/s: %+.1f %%\n",
+              count / best[0], count / best[1], 100.0 * (best[0] / best[1] - 1.0));
+  return 0;
+}
