@@ -95,6 +95,8 @@ class Run {
     parts.emplace_back("files", [this](sdk::ArchiveReader& a) {
       frames_ = a.integer("frames");
       rows_ = a.integer("rows");
+      nodes_before_ = a.numbers("node_seconds");
+      output_s_ = a.number("output_s");
       wall_before_ = a.number("wall_s");
       cpu_before_ = a.number("cpu_s");
     });
@@ -233,6 +235,8 @@ class Run {
     parts.emplace_back("files", [this](sdk::ArchiveWriter& a) {
       a.integer("frames", frames_);
       a.integer("rows", series_->rows());
+      a.numbers("node_seconds", node_seconds(simulation_, nodes_before_));
+      a.number("output_s", output_s_);
       a.number("wall_s", wall_before_ + wall_here());
       a.number("cpu_s", cpu_before_ + cpu_seconds() - cpu_start_);
     });
@@ -247,6 +251,7 @@ class Run {
   void take_times() {
     facts_.wall_s = wall_before_ + wall_here();
     facts_.cpu_s = cpu_before_ + cpu_seconds() - cpu_start_;
+    facts_.node_s = node_seconds(simulation_, nodes_before_);
     facts_.output_s = output_s_;
     facts_.frames = frames_;
   }
@@ -262,6 +267,7 @@ class Run {
   std::int64_t frames_ = 0;
   std::int64_t rows_ = 0;
   double wall_before_ = 0.0;
+  std::vector<double> nodes_before_;  ///< node_seconds of the run up to its last checkpoint
   double cpu_before_ = 0.0;
   double cpu_start_ = 0.0;
   double output_s_ = 0.0;

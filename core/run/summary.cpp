@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/summary.hpp"
 
-#include "io/run_files.hpp"
 #include "dust/sdk/plugin.hpp"
+#include "io/run_files.hpp"
 #include "particles/balance_book.hpp"
 #include "run/summary_emitters.hpp"
 #include "run/summary_models.hpp"
@@ -11,6 +11,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -109,10 +110,18 @@ Json counts(const particles::Balance& b) {
           {"max", b.max}};
 }
 
+std::vector<graph::NodeTiming> node_timings(const Simulation& s) {
+  auto nodes = s.dem_graph().timings();
+  const auto more = s.step_graph().timings();
+  nodes.insert(nodes.end(), more.begin(), more.end());
+  return nodes;
+}
+
 Json node_times(const Simulation& s, const RunFacts& facts) {
   Json times = Json::object();
-  for (const auto& t : s.dem_graph().timings()) times[t.name] = t.seconds;
-  for (const auto& t : s.step_graph().timings()) times[t.name] = t.seconds;
+  const auto nodes = node_timings(s);
+  const auto seconds = facts.node_s.empty() ? node_seconds(s, {}) : facts.node_s;
+  for (std::size_t n = 0; n < nodes.size(); ++n) times[nodes[n].name] = seconds.at(n);
   times["output"] = facts.output_s;
   return times;
 }
@@ -213,6 +222,13 @@ SeriesRow series_row(const Simulation& s) {
     s.models().sensors[n]->series(sink);
   }
   return row;
+}
+
+std::vector<double> node_seconds(const Simulation& simulation, const std::vector<double>& before) {
+  std::vector<double> seconds;
+  for (const auto& node : node_timings(simulation)) seconds.push_back(node.seconds);
+  for (std::size_t n = 0; n < std::min(before.size(), seconds.size()); ++n) seconds[n] += before[n];
+  return seconds;
 }
 
 void write_summary(const std::filesystem::path& folder, const Simulation& s,

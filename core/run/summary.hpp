@@ -17,11 +17,16 @@ struct RunFacts {
   double wall_s = 0.0;
   double cpu_s = 0.0;
   double output_s = 0.0;
+  std::vector<double> node_s;  ///< node_seconds, from the very start of the run
   std::int64_t frames = 0;
   std::vector<std::string> warnings;
   const registry::Registry* registry = nullptr;  ///< where the models came from; null in tests
   std::string scenario_sha256;                   ///< of scenario.yaml as run
 };
+
+/// Seconds in each node of the two graphs, in a fixed order; `before` holds those of the run up to
+/// the checkpoint it resumed from, or nothing.
+std::vector<double> node_seconds(const Simulation& simulation, const std::vector<double>& before);
 
 /// A row of series.csv.
 struct SeriesRow {

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <string>
 
 using dust::test::engine;
 using dust::test::engine_interrupted;
@@ -50,6 +51,11 @@ TEST_CASE("a finished run shall be continued to a later end with the bits of the
   const fs::path whole = folder / "whole";
   REQUIRE(engine({"run", k_scenario, "-o", parts, "--set", "time.end=8 ms", "--quiet"}).status ==
           0);
+  // Steps and times tell of the same stretch: the whole run.
+  const double spent = std::stod(json_text(parts / "summary.json", "neighbour"));
+  REQUIRE(engine({"run", k_scenario, "-o", parts, "--set", "time.end=9 ms", "--resume", "--quiet"})
+              .status == 0);
+  CHECK(std::stod(json_text(parts / "summary.json", "neighbour")) > spent);
   REQUIRE(engine({"run", k_scenario, "-o", parts, "--set", "time.end=14 ms", "--resume", "--quiet"})
               .status == 0);
   REQUIRE(engine({"run", k_scenario, "-o", whole, "--set", "time.end=14 ms", "--quiet"}).status ==
