@@ -29,13 +29,13 @@ std::size_t Diagnostics::rank(const std::string& file) const {
   return static_cast<std::size_t>(std::find(files_.begin(), files_.end(), file) - files_.begin());
 }
 
-std::vector<std::string> Diagnostics::lines(std::vector<Item> items, const char* word) const {
-  std::stable_sort(items.begin(), items.end(), [this](const Item& a, const Item& b) {
+std::vector<std::string> Diagnostics::lines(std::vector<Problem> items, const char* word) const {
+  std::stable_sort(items.begin(), items.end(), [this](const Problem& a, const Problem& b) {
     return std::tuple(rank(a.where.file), a.where.line, a.where.column) <
            std::tuple(rank(b.where.file), b.where.line, b.where.column);
   });
   std::vector<std::string> result;
-  for (const Item& item : items) {
+  for (const Problem& item : items) {
     std::string line = place(item.where) + ": " + word + ": " + item.text;
     // Names of the user's own may hold anything; a problem is one line.
     std::replace_if(

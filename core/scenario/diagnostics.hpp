@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/dimension.hpp"
 #include "scenario/setup.hpp"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,10 @@ namespace dust::scenario {
 /// Collects every problem of a scenario, so that all are told at once in the order of the files.
 class Diagnostics {
  public:
+  struct Problem {
+    Mark where;
+    std::string text;
+  };
   /// Files in the order in which their problems are told.
   void add_file(const std::string& file);
   void error(const Mark& where, std::string text);
@@ -18,6 +24,8 @@ class Diagnostics {
 
   [[nodiscard]] bool has_errors() const { return !errors_.empty(); }
   [[nodiscard]] std::size_t error_count() const { return errors_.size(); }
+  /// In the order in which they were found.
+  [[nodiscard]] const std::vector<Problem>& errors() const { return errors_; }
   [[nodiscard]] std::vector<std::string> error_lines() const { return lines(errors_, "error"); }
   [[nodiscard]] std::vector<std::string> warning_lines() const {
     return lines(warnings_, "warning");
@@ -25,17 +33,23 @@ class Diagnostics {
   /// Throws a UserError with all errors, if there are any.
   void throw_errors() const;
 
+  /// Notes what a key measures when it is read; studies name the units of what they vary.
+  void note_dimension(const std::string& path, sdk::Dimension dimension) {
+    dimensions_[path] = dimension;
+  }
+  /// By dotted path, of the keys that were given.
+  [[nodiscard]] const std::map<std::string, sdk::Dimension>& dimensions() const {
+    return dimensions_;
+  }
+
  private:
-  struct Item {
-    Mark where;
-    std::string text;
-  };
-  [[nodiscard]] std::vector<std::string> lines(std::vector<Item> items, const char* word) const;
+  [[nodiscard]] std::vector<std::string> lines(std::vector<Problem> items, const char* word) const;
   [[nodiscard]] std::size_t rank(const std::string& file) const;
 
   std::vector<std::string> files_;
-  std::vector<Item> errors_;
-  std::vector<Item> warnings_;
+  std::vector<Problem> errors_;
+  std::vector<Problem> warnings_;
+  std::map<std::string, sdk::Dimension> dimensions_;
 };
 
 /// "file:line:column", or "file" alone for places without lines (the command line).

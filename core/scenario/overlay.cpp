@@ -212,21 +212,13 @@ void merge(Node& base, Node over) {
   base.where = over.where;
 }
 
-void apply_override(Node& root, const Override& override, Diagnostics& diagnostics) {
-  const Mark here{"--set " + printable(override.path), 0, 0};
-  diagnostics.add_file(here.file);
-  const auto steps = parse_path(override.path);
+void set_path(Node& root, const std::string& path, Node value, const Mark& here,
+              Diagnostics& diagnostics) {
+  const auto steps = parse_path(path);
   if (!steps) {
     diagnostics.error(here,
                       "not the path of a key, like bodies.belt.speed or "
                       "interactions[1].contact.friction");
-    return;
-  }
-  auto value = parse_yaml(override.value, here.file, true, diagnostics);
-  if (!value) return;
-  if (value->kind == Node::Kind::nothing) {
-    diagnostics.error(here,
-                      "the value is missing: write --set " + printable(override.path) + "=VALUE");
     return;
   }
   Node* node = &root;
@@ -253,7 +245,7 @@ void apply_override(Node& root, const Override& override, Diagnostics& diagnosti
     const bool is_last = n + 1 == steps->size();
     if (entry == nullptr) {
       const char* thing = n == 1 ? thing_in(steps->front().key) : nullptr;
-      if (thing != nullptr && !(is_last && value->is_map())) {
+      if (thing != nullptr && !(is_last && value.is_map())) {
         diagnostics.error(here, std::string("there is no ") + thing + " '" + printable(step.key) +
                                     "'" + suggestion(step.key, keys_of(*node), "there are"));
         return;
@@ -266,7 +258,21 @@ void apply_override(Node& root, const Override& override, Diagnostics& diagnosti
     if (is_last) entry->where = here;
     node = &entry->value;
   }
-  *node = std::move(*value);
+  *node = std::move(value);
+}
+
+void apply_override(Node& root, const Override& override, Diagnostics& diagnostics) {
+  const Mark here{"--set " + printable(override.path), 0, 0};
+  diagnostics.add_file(here.file);
+  auto value = parse_path(override.path) ? parse_yaml(override.value, here.file, true, diagnostics)
+                                         : std::optional(Node{});
+  if (!value) return;
+  if (parse_path(override.path) && value->kind == Node::Kind::nothing) {
+    diagnostics.error(here,
+                      "the value is missing: write --set " + printable(override.path) + "=VALUE");
+    return;
+  }
+  set_path(root, override.path, std::move(*value), here, diagnostics);
 }
 
 }  // namespace dust::scenario

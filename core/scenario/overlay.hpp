@@ -17,6 +17,10 @@ std::optional<Node> read_with_includes(const std::filesystem::path& file, Diagno
 /// Lays `over` over `base`: maps are merged key by key, everything else is replaced.
 void merge(Node& base, Node over);
 
+/// Sets the key at a dotted `path` of `root`; problems are told at `here`.
+void set_path(Node& root, const std::string& path, Node value, const Mark& here,
+              Diagnostics& diagnostics);
+
 /// Sets one key of `root` from the command line.
 void apply_override(Node& root, const Override& override, Diagnostics& diagnostics);
 

@@ -150,9 +150,16 @@ ReadResult read_scenario(const fs::path& file, const std::vector<Override>& over
   if (!root) throw std::logic_error("a file that cannot be read gave no error");
   if (root->where.line == 0) root->where = {file.generic_string(), 1, 1};
   for (const Override& override : overrides) apply_override(*root, override, diagnostics);
-  SetupReader reader(*root, file, registry, diagnostics);
-  reader.read();
+  auto result = read_tree(*root, file, registry, diagnostics);
   diagnostics.throw_errors();
+  return std::move(*result);
+}
+
+std::optional<ReadResult> read_tree(const Node& root, const fs::path& file,
+                                    const registry::Registry& registry, Diagnostics& diagnostics) {
+  SetupReader reader(root, file, registry, diagnostics);
+  reader.read();
+  if (diagnostics.has_errors()) return std::nullopt;
   ReadResult result;
   result.setup = reader.take_setup();
   result.resolved_yaml =

@@ -5,6 +5,7 @@
 #include "scenario/setup.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,14 @@ struct ReadResult {
 ReadResult read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
                          const registry::Registry& registry,
                          const std::vector<std::filesystem::path>& set_files = {});
+
+struct Node;
+class Diagnostics;
+
+/// As read_scenario for a tree at hand: its problems go to `diagnostics`, and nothing comes back
+/// where there are errors. `file` names the scenario that has no name of its own.
+std::optional<ReadResult> read_tree(const Node& root, const std::filesystem::path& file,
+                                    const registry::Registry& registry, Diagnostics& diagnostics);
 
 /// JSON Schema (draft-07) of scenarios with the plugins found.
 std::string json_schema(const registry::Registry& registry);

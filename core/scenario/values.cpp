@@ -377,8 +377,13 @@ std::string type_text(ParameterType type) {
   return {};
 }
 
-MapReader::MapReader(const Node& node, std::string path, Mark where, Diagnostics& diagnostics)
-    : node_(node), path_(std::move(path)), where_(std::move(where)), diagnostics_(diagnostics) {
+MapReader::MapReader(const Node& node, std::string path, Mark where, Diagnostics& diagnostics,
+                     std::string whole)
+    : node_(node),
+      path_(std::move(path)),
+      where_(std::move(where)),
+      diagnostics_(diagnostics),
+      whole_(std::move(whole)) {
   if (node_.is_map()) return;
   is_good_ = false;
   diagnostics_.error(node_.where, path_ + ": a map of keys is expected, not " + kind_text(node_));
@@ -412,6 +417,7 @@ std::vector<Value> MapReader::values(const sdk::ParameterSchema& schema) {
       result.push_back(parameter.default_value);
       continue;
     }
+    diagnostics_.note_dimension(path_of(parameter.name), parameter.dimension);
     auto value = read_value(entry->value, parameter, path_of(parameter.name), diagnostics_);
     if (!value) is_good_ = false;
     result.push_back(value.value_or(Value{}));
@@ -424,7 +430,7 @@ void MapReader::finish() {
     if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
     if (is_open_ && nearest(entry.key, known_).empty()) continue;
     diagnostics_.error(entry.where, "unknown key '" + printable(entry.key) + "' in " +
-                                        (path_.empty() ? "the scenario" : path_) +
+                                        (path_.empty() ? whole_ : path_) +
                                         suggestion(entry.key, known_, "its keys are"));
   }
 }

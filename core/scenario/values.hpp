@@ -29,8 +29,10 @@ std::string type_text(sdk::ParameterType type);
 /// Reads the keys of one map and remembers which ones there may be, so that all others are errors.
 class MapReader {
  public:
-  /// `where` is the place to name when a key is missing; `path` is dotted, "" for the whole file.
-  MapReader(const Node& node, std::string path, Mark where, Diagnostics& diagnostics);
+  /// `where` is the place to name when a key is missing; `path` is dotted, "" for the whole file,
+  /// which messages call `whole`.
+  MapReader(const Node& node, std::string path, Mark where, Diagnostics& diagnostics,
+            std::string whole = "the scenario");
 
   /// The entry of a key that may be there.
   const Entry* optional(const std::string& key);
@@ -57,6 +59,7 @@ class MapReader {
   std::string path_;
   Mark where_;
   Diagnostics& diagnostics_;
+  std::string whole_;
   std::vector<std::string> known_;
   bool is_open_ = false;
   bool is_good_ = true;

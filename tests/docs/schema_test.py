@@ -15,14 +15,19 @@ text = subprocess.run([sys.argv[2], "schema"], check=True, text=True, capture_ou
                       env=environment).stdout
 schema = json.loads(text)
 
+def is_study(file):
+    return re.search(r"^base:", file.read_text(), re.M) is not None
+
+
 failed = []
 scenarios = sorted((root / "scenarios").rglob("*.yaml"))
 for scenario in scenarios:
     first = scenario.read_text().split("\n", 1)[0]
     mark = "# yaml-language-server: $schema="
     named = (scenario.parent / first[len(mark):]).resolve()
-    if not first.startswith(mark) or named != (root / "scenarios/scenario.schema.json").resolve():
-        failed.append(f"{scenario}: the first line does not name scenarios/scenario.schema.json")
+    wanted = "study" if is_study(scenario) else "scenario"
+    if not first.startswith(mark) or named != (root / f"scenarios/{wanted}.schema.json").resolve():
+        failed.append(f"{scenario}: the first line does not name scenarios/{wanted}.schema.json")
 if not scenarios:
     failed.append("no scenarios found")
 

@@ -47,14 +47,12 @@ Outcome engine(const std::vector<std::string>& arguments) {
   return wait_for(start(arguments, folder / "out", folder / "err"), folder / "out", folder / "err");
 }
 
-Outcome engine_interrupted(const std::vector<std::string>& arguments, int signal,
-                           const fs::path& file, int lines) {
+Outcome engine_interrupted_when(const std::vector<std::string>& arguments, int signal,
+                                const std::function<bool()>& is_time) {
   using namespace std::chrono_literals;
   const TemporaryFolder folder;
   const pid_t pid = start(arguments, folder / "out", folder / "err");
-  for (int n = 0; n < 60000; ++n) {
-    const std::string text = read_file(file);
-    if (std::count(text.begin(), text.end(), '\n') >= lines) break;
+  for (int n = 0; n < 60000 && !is_time(); ++n) {
     if (waitpid(pid, nullptr, WNOHANG) == pid) {
       throw std::runtime_error("the engine ended before the signal: " + read_file(folder / "err"));
     }
@@ -62,6 +60,14 @@ Outcome engine_interrupted(const std::vector<std::string>& arguments, int signal
   }
   kill(pid, signal);
   return wait_for(pid, folder / "out", folder / "err");
+}
+
+Outcome engine_interrupted(const std::vector<std::string>& arguments, int signal,
+                           const fs::path& file, int lines) {
+  return engine_interrupted_when(arguments, signal, [&] {
+    const std::string text = read_file(file);
+    return std::count(text.begin(), text.end(), '\n') >= lines;
+  });
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ Outcome engine(const std::vector<std::string>& arguments);
 /// waits for the end.
 Outcome engine_interrupted(const std::vector<std::string>& arguments, int signal,
                            const std::filesystem::path& file, int lines);
+
+/// The same, as soon as `is_time` says so; it is asked every millisecond.
+Outcome engine_interrupted_when(const std::vector<std::string>& arguments, int signal,
+                                const std::function<bool()>& is_time);
 
 /// A folder of its own, removed at the end of the test.
 class TemporaryFolder {

@@ -73,6 +73,7 @@ int engine_main(int argc, char** argv) {
   engine::add_describe(app, status);
   engine::add_schema(app, status);
   engine::add_graph(app, status);
+  engine::add_study(app, status);
   engine::add_report(app, status);
   engine::add_new_plugin(app, status);
   engine::add_test_plugin(app, status);

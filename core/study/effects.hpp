@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "study/spec.hpp"
+#include "study/table.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dust::study {
+
+/// Mean of one output over all finished points of one level of an input.
+struct LevelMean {
+  std::string label;
+  double input = 0.0;  ///< of numbers, in the unit of the column
+  double mean = 0.0;
+  double error = -1.0;  ///< standard error of the mean by noise, negative: not known
+  std::size_t points = 0;
+};
+
+/// What one input does to one output, whatever the others are.
+struct MainEffect {
+  std::size_t input = 0;          ///< column
+  std::size_t output = 0;         ///< column
+  bool is_scattered = false;      ///< an input of a sample: too many levels for means
+  std::vector<LevelMean> levels;  ///< ascending for numbers, as written for names
+  double change = 0.0;            ///< from the first to the last level (of a line, if scattered)
+  double error = -1.0;            ///< standard error of the change, negative: not known
+};
+
+/// Noise of one run's output [unit of the output]: scatter of the replicates of a point, pooled
+/// over all points; without replicates the standard errors the sensors tell; nothing without both.
+std::optional<double> noise_of(const Results& results, std::size_t output);
+
+/// Every input's effect on every output; inputs with fewer than two levels that finished are left
+/// out.
+std::vector<MainEffect> main_effects(const Spec& spec, const Results& results);
+
+/// What came of an expectation.
+struct Verdict {
+  enum class Kind { as_expected, against, unresolved, unknown } kind = Kind::unknown;
+  double change = 0.0;
+  double error = -1.0;
+  std::string text;  ///< one sentence
+};
+
+/// An effect is told from noise when it exceeds twice its standard error.
+Verdict judge(const Expectation& expectation, const Spec& spec, const Results& results);
+
+}  // namespace dust::study

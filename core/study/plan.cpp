@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/plan.hpp"
+
+#include "base/error.hpp"
+#include "io/run_files.hpp"
+#include "scenario/derived.hpp"
+#include "scenario/overlay.hpp"
+#include "scenario/reader.hpp"
+#include "scenario/suggest.hpp"
+#include "scenario/units.hpp"
+#include "scenario/values.hpp"
+#include "study/quantities.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace dust::study {
+namespace {
+
+using scenario::Diagnostics;
+using scenario::Mark;
+using scenario::Node;
+
+constexpr std::size_t k_most_points = 10000;
+constexpr std::size_t k_hash_digits = 16;
+
+/// A value on one line, as it is written.
+std::string text_of(const Node& node) {
+  if (node.is_text()) return node.text;
+  Node map = Node::make_map();
+  map.add("v", node);
+  std::string text = scenario::emit_yaml(map);
+  text = text.substr(2);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  text.erase(0, text.find_first_not_of(' '));
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text;
+}
+
+/// Interactions[0].contact.friction of a vector's component is noted under the vector.
+std::string without_index(const std::string& path) {
+  return path.ends_with(']') ? path.substr(0, path.rfind('[')) : path;
+}
+
+void collect_marks(const Node& node, std::set<std::pair<int, int>>& marks) {
+  marks.insert({node.where.line, node.where.column});
+  for (const Node& item : node.items) collect_marks(item, marks);
+  for (const auto& entry : node.entries) {
+    marks.insert({entry.where.line, entry.where.column});
+    collect_marks(entry.value, marks);
+  }
+}
+
+/// The columns of an axis: common written unit, or SI where units differ.
+struct Column {
+  InputColumn head;
+  std::vector<InputValue> values;  ///< per level
+};
+
+Column column_of(const Axis& axis, std::size_t axis_number, std::size_t setting,
+                 const std::map<std::string, sdk::Dimension>& dimensions) {
+  Column column;
+  const std::string& path = axis.paths[setting];
+  column.head = {path, "", false, axis_number};
+  std::vector<scenario::WrittenNumber> written;
+  bool has_common_unit = true;
+  for (const Level& level : axis.levels) {
+    const Node& value = level.settings[setting].value;
+    std::string ignored;
+    const auto number = value.is_text() && !value.is_quoted
+                            ? scenario::split_number(value.text, ignored)
+                            : std::optional<scenario::WrittenNumber>{};
+    column.values.push_back({0.0, text_of(value)});
+    if (!number) {
+      column.head.is_text = true;
+      continue;
+    }
+    written.push_back(*number);
+    has_common_unit = has_common_unit && number->unit == written.front().unit;
+  }
+  if (column.head.is_text) return column;
+  const auto found = dimensions.find(without_index(path));
+  const sdk::Dimension dimension = found == dimensions.end() ? sdk::Dimension{} : found->second;
+  const bool is_si = !has_common_unit || written.front().unit.empty();
+  column.head.unit = is_si ? scenario::si_unit(dimension) : written.front().unit;
+  for (std::size_t n = 0; n < written.size(); ++n) {
+    double number = written[n].number;
+    std::string ignored;
+    if (!has_common_unit) {
+      number = scenario::to_si(written[n], dimension, ignored).value_or(number);
+    }
+    column.values[n] = {number, scenario::number_text(number)};
+  }
+  return column;
+}
+
+}  // namespace
+
+struct Planner::Impl {
+  const Spec& spec;
+  const registry::Registry& registry;
+  Diagnostics& diagnostics;
+  std::optional<Node> base;
+  std::uint64_t base_seed = 1;
+  std::vector<Quantity> base_quantities;
+  std::set<std::string> told;  ///< error lines
+  std::vector<std::set<std::pair<int, int>>> axis_marks;
+  std::set<std::size_t> told_axes;
+  std::set<std::string> missing_measures;
+  std::map<std::string, sdk::Dimension> dimensions;
+
+  void read_base() {
+    base = scenario::read_with_includes(spec.base, diagnostics);
+    if (!base) return;
+    if (base->where.line == 0) base->where = {spec.base.generic_string(), 1, 1};
+    set_all(*base, spec.settings, diagnostics);
+    const auto read = scenario::read_tree(*base, spec.base, registry, diagnostics);
+    if (!read) return;
+    base_seed = read->setup.seed;
+    base_quantities = quantities_of(read->setup, registry);
+    for (const Axis& axis : spec.axes) {
+      axis_marks.emplace_back();
+      for (const Level& level : axis.levels) {
+        for (const Setting& s : level.settings) {
+          axis_marks.back().insert({s.where.line, s.where.column});
+          collect_marks(s.value, axis_marks.back());
+        }
+      }
+    }
+  }
+
+  static void set_all(Node& root, const std::vector<Setting>& settings, Diagnostics& to) {
+    for (const Setting& s : settings) {
+      if (s.value.kind == Node::Kind::nothing) {
+        to.error(s.where, scenario::printable(s.path) + ": the value is missing");
+        continue;
+      }
+      scenario::set_path(root, s.path, s.value, s.where, to);
+    }
+  }
+
+  /// Problems of one point, without those that are only the same thing said for another level.
+  void tell(const Diagnostics& own) {
+    for (const Diagnostics::Problem& problem : own.errors()) {
+      const std::size_t axis = axis_of(problem.where);
+      if (axis < axis_marks.size() && !told_axes.insert(axis).second) continue;
+      if (!told.insert(scenario::place(problem.where) + problem.text).second) continue;
+      diagnostics.error(problem.where, problem.text);
+    }
+  }
+  [[nodiscard]] std::size_t axis_of(const Mark& mark) const {
+    if (mark.file != spec.file.generic_string()) return axis_marks.size();
+    for (std::size_t n = 0; n < axis_marks.size(); ++n) {
+      if (axis_marks[n].contains({mark.line, mark.column})) return n;
+    }
+    return axis_marks.size();
+  }
+
+  std::optional<Point> resolve(Node root, std::uint64_t seed) {
+    Diagnostics own;
+    own.add_file(spec.file.generic_string());
+    Node number = Node::make_text(std::to_string(seed));
+    number.where = spec.where;
+    scenario::set_path(root, "seed", number, spec.where, own);
+    const auto read = scenario::read_tree(root, spec.base, registry, own);
+    for (const auto& [path, dimension] : own.dimensions()) dimensions[path] = dimension;
+    if (!read) {
+      tell(own);
+      return std::nullopt;
+    }
+    Point point;
+    point.seed = seed;
+    point.resolved_yaml = read->resolved_yaml;
+    io::Sha256 digest;
+    digest.update(read->resolved_yaml.data(), read->resolved_yaml.size());
+    point.hash = digest.hex_digest().substr(0, k_hash_digits);
+    const auto derived = scenario::derive(read->setup, registry);
+    point.core_seconds = derived.core_seconds;
+    point.memory_bytes = derived.memory_bytes;
+    check_measures(quantities_of(read->setup, registry));
+    return point;
+  }
+
+  void check_measures(const std::vector<Quantity>& known) {
+    for (const Measure& m : spec.measures) {
+      if (find_quantity(known, m.quantity) != nullptr) continue;
+      if (!missing_measures.insert(m.name).second) continue;
+      const bool is_in_base = find_quantity(base_quantities, m.quantity) != nullptr;
+      diagnostics.error(
+          m.where,
+          scenario::printable(m.name) + ": '" + scenario::printable(m.quantity) +
+              (is_in_base ? "' is no quantity of every point" : "' is no quantity of a run") +
+              quantity_hint(known, m.quantity));
+    }
+  }
+
+  std::vector<OutputColumn> output_columns() {
+    std::vector<OutputColumn> columns;
+    for (const Measure& m : spec.measures) {
+      const Quantity* q = find_quantity(base_quantities, m.quantity);
+      if (q == nullptr) continue;
+      const auto factor = unit_factor(q->unit, m.unit);
+      if (!factor) {
+        diagnostics.error(m.where, scenario::printable(m.name) + ": '" +
+                                       scenario::printable(m.unit) + "' is no unit of " + q->path +
+                                       ", which is told in " + q->unit);
+        continue;
+      }
+      columns.push_back(
+          {m.name, q->path, m.unit.empty() ? q->unit : m.unit, *factor, q->is_sensor});
+    }
+    return columns;
+  }
+
+  [[nodiscard]] std::uint64_t seed_of(std::int64_t replicate) const {
+    const std::uint64_t first = spec.seed >= 0 ? static_cast<std::uint64_t>(spec.seed) : base_seed;
+    return first + static_cast<std::uint64_t>(replicate - 1);
+  }
+
+  void refuse_twin(const Point& first, const Point& second) {
+    Mark where = spec.where;
+    for (std::size_t a = 0; a < spec.axes.size(); ++a) {
+      if (second.levels[a] == first.levels[a]) continue;
+      const Level& level = spec.axes[a].levels[second.levels[a]];
+      where = level.where;
+      const std::string line = scenario::place(where) + "twin";
+      if (!told.insert(line).second) return;
+      const Level& other = spec.axes[a].levels[first.levels[a]];
+      const auto name = [](const Level& l) {
+        return l.label.empty() ? text_of(l.settings.front().value) : l.label;
+      };
+      diagnostics.error(where, "two points are the same run: " + scenario::quoted(name(level)) +
+                                   " makes the scenario of " + scenario::quoted(name(other)) +
+                                   " in line " + std::to_string(other.where.line) +
+                                   "; take one of them out");
+      return;
+    }
+  }
+};
+
+Planner::Planner(const Spec& spec, const registry::Registry& registry, Diagnostics& diagnostics)
+    : impl_(new Impl{.spec = spec,
+                     .registry = registry,
+                     .diagnostics = diagnostics,
+                     .base = {},
+                     .base_quantities = {},
+                     .told = {},
+                     .axis_marks = {},
+                     .told_axes = {},
+                     .missing_measures = {},
+                     .dimensions = {}}) {
+  impl_->read_base();
+}
+Planner::~Planner() = default;
+
+Plan Planner::plan() {
+  Plan plan;
+  if (impl_->diagnostics.has_errors()) return plan;
+  const auto& axes = impl_->spec.axes;
+  std::size_t combinations = 1;
+  for (const Axis& axis : axes) {
+    combinations *= axis.levels.size();
+    if (combinations > k_most_points) break;
+  }
+  const auto replicates = static_cast<std::size_t>(impl_->spec.replicates);
+  if (combinations * replicates > k_most_points) {
+    impl_->diagnostics.error(axes.empty() ? impl_->spec.where : axes.front().where,
+                             "the study has more than " + std::to_string(k_most_points) +
+                                 " points: take fewer levels, or sample");
+    return plan;
+  }
+  std::map<std::string, std::size_t> by_hash;
+  for (std::size_t n = 0; n < combinations; ++n) {
+    std::vector<std::size_t> levels(axes.size());
+    std::size_t rest = n;
+    for (std::size_t a = axes.size(); a-- > 0;) {  // the last axis turns fastest
+      levels[a] = rest % axes[a].levels.size();
+      rest /= axes[a].levels.size();
+    }
+    Node root = *impl_->base;
+    Diagnostics own;
+    own.add_file(impl_->spec.file.generic_string());
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+      Impl::set_all(root, axes[a].levels[levels[a]].settings, own);
+    }
+    if (own.has_errors()) {
+      impl_->tell(own);
+      continue;
+    }
+    for (std::size_t r = 1; r <= replicates; ++r) {
+      auto point = impl_->resolve(root, impl_->seed_of(static_cast<std::int64_t>(r)));
+      if (!point) break;
+      point->levels = levels;
+      point->replicate = static_cast<std::int64_t>(r);
+      const auto [at, is_new] = by_hash.try_emplace(point->hash, plan.points.size());
+      if (!is_new) impl_->refuse_twin(plan.points[at->second], *point);
+      plan.points.push_back(std::move(*point));
+    }
+  }
+  plan.outputs = impl_->output_columns();
+  if (impl_->diagnostics.has_errors()) return plan;
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    std::vector<Column> columns;
+    for (std::size_t s = 0; s < axes[a].paths.size(); ++s) {
+      columns.push_back(column_of(axes[a], a, s, impl_->dimensions));
+    }
+    if (axes[a].kind == AxisKind::cases) {
+      Column column{{"case", "", true, a}, {}};
+      for (const Level& level : axes[a].levels) column.values.push_back({0.0, level.label});
+      columns.push_back(std::move(column));
+    }
+    for (const Column& column : columns) {
+      plan.inputs.push_back(column.head);
+      for (Point& point : plan.points) point.inputs.push_back(column.values[point.levels[a]]);
+    }
+  }
+  return plan;
+}
+
+Plan Planner::calibration_columns() {
+  Plan plan;
+  if (impl_->diagnostics.has_errors()) return plan;
+  plan.outputs = impl_->output_columns();
+  impl_->check_measures(impl_->base_quantities);
+  // Both ends are tried, so that a wrong path, unit or range is told before anything is run.
+  const auto& calibration = *impl_->spec.calibration;
+  for (const bool is_high : {false, true}) {
+    Node root = *impl_->base;
+    Diagnostics own;
+    own.add_file(impl_->spec.file.generic_string());
+    for (const FreeParameter& p : calibration.parameters) {
+      Node value = Node::make_text(scenario::number_text(is_high ? p.high : p.low) +
+                                   (p.unit.empty() ? "" : " " + p.unit));
+      value.where = p.where;
+      for (const std::string& path : p.paths) scenario::set_path(root, path, value, p.where, own);
+    }
+    if (own.has_errors()) {
+      impl_->tell(own);
+      return plan;
+    }
+    if (!impl_->resolve(root, impl_->seed_of(1))) return plan;
+  }
+  for (const FreeParameter& p : calibration.parameters) {
+    const auto found = impl_->dimensions.find(without_index(p.paths.front()));
+    const std::string si =
+        found == impl_->dimensions.end() ? std::string() : scenario::si_unit(found->second);
+    plan.inputs.push_back({p.name, p.unit.empty() ? si : p.unit, false, plan.inputs.size()});
+  }
+  return plan;
+}
+
+std::vector<Point> Planner::calibration_points(const std::vector<double>& values) {
+  const auto& calibration = *impl_->spec.calibration;
+  Node root = *impl_->base;
+  std::vector<InputValue> inputs;
+  for (std::size_t k = 0; k < calibration.parameters.size(); ++k) {
+    const FreeParameter& p = calibration.parameters[k];
+    const std::string number = scenario::number_text(values[k]);
+    Node value = Node::make_text(number + (p.unit.empty() ? "" : " " + p.unit));
+    value.where = p.where;
+    for (const std::string& path : p.paths) {
+      scenario::set_path(root, path, value, p.where, impl_->diagnostics);
+    }
+    inputs.push_back({values[k], number});
+  }
+  std::vector<Point> points;
+  for (std::int64_t r = 1; r <= impl_->spec.replicates; ++r) {
+    auto point = impl_->resolve(root, impl_->seed_of(r));
+    impl_->diagnostics.throw_errors();
+    point->inputs = inputs;
+    point->replicate = r;
+    points.push_back(std::move(*point));
+  }
+  return points;
+}
+
+}  // namespace dust::study

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/point_store.hpp"
+
+#include "base/error.hpp"
+#include "io/run_files.hpp"
+#include "scenario/suggest.hpp"
+#include "study/quantities.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace dust::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+nlohmann::json json_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return nullptr;
+  auto json = nlohmann::json::parse(stream, nullptr, false);
+  return json.is_object() ? json : nlohmann::json(nullptr);
+}
+
+/// One line without control characters.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  return text;
+}
+
+}  // namespace
+
+std::string last_problem(const fs::path& log) {
+  std::ifstream stream(log, std::ios::binary);
+  std::string line;
+  std::string last;
+  std::string last_error;
+  while (std::getline(stream, line)) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    last = line;
+    if (line.find("error") != std::string::npos) last_error = line;
+  }
+  return one_line(last_error.empty() ? last : last_error);
+}
+
+fs::path PointStore::scenario_of(const Point& point) const {
+  return folder_ / "points" / (point.hash + ".yaml");
+}
+fs::path PointStore::results_of(const Point& point) const {
+  return folder_ / "points" / point.hash;
+}
+fs::path PointStore::log_of(const Point& point) const {
+  return folder_ / "points" / (point.hash + ".log");
+}
+fs::path PointStore::failure_of(const Point& point) const {
+  return folder_ / "points" / (point.hash + ".failed");
+}
+
+void PointStore::prepare(const Point& point) const {
+  fs::create_directories(folder_ / "points");
+  if (!fs::exists(scenario_of(point))) io::write_text(scenario_of(point), point.resolved_yaml);
+}
+
+bool PointStore::has_checkpoint(const Point& point) const {
+  return fs::exists(results_of(point) / "checkpoint.h5");
+}
+
+Outcome PointStore::read(const Point& point, const std::vector<OutputColumn>& columns) const {
+  Outcome outcome;
+  const fs::path summary = results_of(point) / "summary.json";
+  const nlohmann::json json = json_of(summary);
+  if (json.is_object() && json.value("status", "") == "finished") {
+    outcome.status = Status::finished;
+    const auto figures = read_figures(summary);
+    if (const auto wall = figures.find("wall_s"); wall != figures.end()) {
+      outcome.wall_s = wall->second.value;
+    }
+    for (const OutputColumn& column : columns) {
+      OutputValue output;
+      if (const auto at = figures.find(column.quantity); at != figures.end()) {
+        output.value = column.factor * at->second.value;
+        if (at->second.error >= 0.0) output.error = column.factor * at->second.error;
+      }
+      outcome.outputs.push_back(output);
+    }
+    return outcome;
+  }
+  const nlohmann::json failure = json_of(failure_of(point));
+  if (failure.is_object()) {
+    outcome.status = Status::failed;
+    outcome.reason = failure.value("reason", "");
+    outcome.wall_s = failure.value("wall_s", 0.0);
+  }
+  return outcome;
+}
+
+void PointStore::note_failure(const Point& point, const std::string& fallback) const {
+  const nlohmann::json summary = json_of(results_of(point) / "summary.json");
+  nlohmann::json failure = {{"reason", fallback}, {"wall_s", 0.0}};
+  if (summary.is_object()) {
+    if (summary.value("status", "") == "failed" && summary.contains("reason")) {
+      failure["reason"] = one_line(summary.value("reason", fallback));
+    }
+    failure["wall_s"] = summary.value("wall_s", 0.0);
+  }
+  io::write_text(failure_of(point), failure.dump() + "\n");
+}
+
+void PointStore::forget_failure(const Point& point) const {
+  std::error_code ignored;
+  fs::remove(failure_of(point), ignored);
+}
+
+}  // namespace dust::study

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/quantities.hpp"
+
+#include "base/error.hpp"
+#include "dust/sdk/emitter.hpp"
+#include "dust/sdk/sensor.hpp"
+#include "scenario/suggest.hpp"
+#include "scenario/units.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+namespace dust::study {
+namespace {
+
+/// Figures of summary.json that every run has, those of runs with a fluid, and those with a fluid
+/// and grains.
+struct Named {
+  const char* path;
+  const char* unit;
+};
+constexpr Named k_always[] = {
+    {"threads", "1"},
+    {"wall_s", "s"},
+    {"cpu_s", "s"},
+    {"peak_rss_bytes", "B"},
+    {"simulated_s", "s"},
+    {"dem_step_s", "s"},
+    {"dem_steps", "1"},
+    {"fluid_steps", "1"},
+    {"particle_steps", "1"},
+    {"fine_particle_steps", "1"},
+    {"neighbour_rebuilds", "1"},
+    {"contacts", "1"},
+    {"particles.emitted", "1"},
+    {"particles.in_domain", "1"},
+    {"particles.left", "1"},
+    {"particles.removed", "1"},
+    {"particles.max", "1"},
+    {"real_particles.emitted", "1"},
+    {"real_particles.in_domain", "1"},
+    {"real_particles.left", "1"},
+    {"real_particles.removed", "1"},
+    {"mass_kg.emitted", "kg"},
+    {"mass_kg.in_domain", "kg"},
+    {"mass_kg.left", "kg"},
+    {"mass_kg.removed", "kg"},
+    {"health.entries_delayed", "1"},
+    {"health.entries_waiting", "1"},
+    {"health.late_neighbour_lists", "1"},
+    {"health.largest_overlap_over_radius", "1"},
+    {"frames", "1"},
+};
+constexpr Named k_with_fluid[] = {
+    {"health.last_divergence_per_s", "1/s"},
+    {"health.last_courant_number", "1"},
+    {"health.fluid_sub_steps", "1"},
+    {"health.pressure_iterations", "1"},
+};
+constexpr Named k_with_coupling[] = {
+    {"health.voidage_shares_moved_to_open_cells", "1"},
+    {"health.smallest_void_fraction", "1"},
+    {"health.largest_diameter_over_spacing", "1"},
+    {"health.largest_momentum_imbalance", "1"},
+};
+constexpr Named k_of_emitter[] = {
+    {"achieved.mass_kg", "kg"}, {"achieved.computed", "1"}, {"achieved.real", "1"},
+    {"waiting", "1"},           {"number_of_sizes", "1"},
+};
+
+std::string dotted(std::string path) {
+  std::replace(path.begin(), path.end(), '/', '.');
+  return path;
+}
+
+class NamesOnly final : public sdk::FigureSink {
+ public:
+  NamesOnly(std::vector<Quantity>& all, std::string prefix)
+      : all_(all), prefix_(std::move(prefix)) {}
+  void figure(std::string_view name, double, std::string_view unit, double) override {
+    all_.push_back({prefix_ + dotted(std::string(name)), std::string(unit), true});
+  }
+
+ private:
+  std::vector<Quantity>& all_;
+  std::string prefix_;
+};
+
+std::vector<double> diameters_of(const scenario::Setup& setup, const registry::Registry& registry) {
+  std::vector<double> all;
+  for (const auto& spec : setup.emitters) {
+    const auto emitter = registry.create_as<sdk::Emitter>(spec.model);
+    const auto some = emitter->diameters();
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+void collect(const nlohmann::json& node, const std::string& path,
+             std::map<std::string, Figure>& figures) {
+  if (node.is_number()) {
+    figures[path] = {node.get<double>(), -1.0, {}};
+  } else if (node.is_object()) {
+    for (const auto& item : node.items()) {
+      collect(item.value(), path.empty() ? item.key() : path + "." + item.key(), figures);
+    }
+  }
+}
+
+std::optional<scenario::Unit> unit_of(const std::string& text) {
+  if (text.empty() || text == "1" || text == "-") return scenario::Unit{};
+  return scenario::parse_unit(text);
+}
+
+}  // namespace
+
+std::vector<Quantity> quantities_of(const scenario::Setup& setup,
+                                    const registry::Registry& registry) {
+  std::vector<Quantity> all;
+  const auto add = [&](const auto& names, const std::string& prefix = {}) {
+    for (const Named& n : names) all.push_back({prefix + n.path, n.unit, false});
+  };
+  add(k_always);
+  if (setup.fluid) add(k_with_fluid);
+  if (setup.drag && setup.voidage) add(k_with_coupling);
+  for (const auto& emitter : setup.emitters) add(k_of_emitter, "emitters." + emitter.name + ".");
+
+  const std::vector<double> classes = diameters_of(setup, registry);
+  sdk::WorldView world;
+  world.interval = setup.time.fluid_step;
+  world.domain_min = setup.domain.min;
+  world.domain_max = setup.domain.max;
+  world.gravity = setup.gravity;
+  world.class_diameters = classes;
+  for (const auto& spec : setup.sensors) {
+    const auto sensor = registry.create_as<sdk::Sensor>(spec.model);
+    sensor->observe(world);
+    NamesOnly names(all, "sensors." + spec.name + ".");
+    sensor->summary(names);
+  }
+  return all;
+}
+
+const Quantity* find_quantity(const std::vector<Quantity>& all, const std::string& path) {
+  const std::string wanted = dotted(path);
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Quantity& q) { return q.path == wanted; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::string quantity_hint(const std::vector<Quantity>& all, const std::string& path) {
+  const std::string wanted = dotted(path);
+  std::vector<std::string> names;
+  for (const Quantity& q : all) names.push_back(q.path);
+  const std::string near = scenario::nearest(wanted, names);
+  if (!near.empty()) return "; did you mean '" + near + "'?";
+  // The longest part of the path that exists, and what comes behind it.
+  for (std::size_t end = wanted.rfind('.'); end != std::string::npos && end > 0;
+       end = wanted.rfind('.', end - 1)) {
+    const std::string prefix = wanted.substr(0, end + 1);
+    std::vector<std::string> next;
+    for (const std::string& name : names) {
+      if (!name.starts_with(prefix)) continue;
+      std::string part = name.substr(prefix.size());
+      part = part.substr(0, part.find('.'));
+      if (std::find(next.begin(), next.end(), part) == next.end()) next.push_back(part);
+    }
+    if (!next.empty()) {
+      const std::string rest = wanted.substr(prefix.size());
+      return scenario::suggestion(rest.substr(0, rest.find('.')), next,
+                                  wanted.substr(0, end) + " has");
+    }
+  }
+  return "; quantities begin with sensors, particles, mass_kg, health, emitters, ...";
+}
+
+std::optional<double> unit_factor(const std::string& from, const std::string& to) {
+  if (from == to || to.empty()) return 1.0;
+  const auto a = unit_of(from);
+  const auto b = unit_of(to);
+  if (!a || !b || !(a->dimension == b->dimension)) return std::nullopt;
+  return a->numerator / a->denominator * b->denominator / b->numerator;
+}
+
+std::map<std::string, Figure> read_figures(const std::filesystem::path& summary) {
+  std::ifstream stream(summary, std::ios::binary);
+  nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  if (json.is_discarded() || !json.is_object()) {
+    throw base::RunError(summary.string() + " cannot be read");
+  }
+  std::map<std::string, Figure> figures;
+  if (json.contains("sensors") && json["sensors"].is_object()) {
+    for (const auto& sensor : json["sensors"].items()) {
+      for (const auto& one : sensor.value().items()) {
+        const nlohmann::json& f = one.value();
+        if (!f.is_object() || !f.contains("value") || !f["value"].is_number()) continue;
+        Figure figure{f["value"].get<double>(), -1.0, f.value("unit", "")};
+        if (f.contains("uncertainty") && f["uncertainty"].is_number()) {
+          figure.error = f["uncertainty"].get<double>();
+        }
+        figures["sensors." + sensor.key() + "." + dotted(one.key())] = figure;
+      }
+    }
+    json.erase("sensors");
+  }
+  collect(json, {}, figures);
+  return figures;
+}
+
+}  // namespace dust::study

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "registry/registry.hpp"
+#include "scenario/setup.hpp"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dust::study {
+
+/// Something that a finished run tells in its summary.json.
+struct Quantity {
+  std::string path;  ///< dotted: sensors.stream.drop_140_mm.median, particles.max
+  std::string unit;  ///< "1" for bare numbers
+  bool is_sensor = false;
+};
+
+/// Every quantity a run of `setup` will tell, known before it is run: those of summary.json, and
+/// the figures its sensors name when they look at a domain without grains.
+std::vector<Quantity> quantities_of(const scenario::Setup& setup,
+                                    const registry::Registry& registry);
+
+/// The quantity at `path`, where '/' stands for '.' as well; null where there is none.
+const Quantity* find_quantity(const std::vector<Quantity>& all, const std::string& path);
+
+/// "; did you mean ...?" or what there is under the part of the path that is right.
+std::string quantity_hint(const std::vector<Quantity>& all, const std::string& path);
+
+/// Factor from numbers in unit `from` to those in `to`; nothing where they do not measure the same.
+std::optional<double> unit_factor(const std::string& from, const std::string& to);
+
+/// A figure of a finished run.
+struct Figure {
+  double value = 0.0;
+  double error = -1.0;  ///< one standard error, negative: none
+  std::string unit;     ///< of sensors
+};
+
+/// All figures of a summary.json by dotted path. Throws base::RunError where it cannot be read.
+std::map<std::string, Figure> read_figures(const std::filesystem::path& summary);
+
+}  // namespace dust::study

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/study_folder.hpp"
+
+#include "base/error.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+namespace dust::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_study_files[] = {"study.yaml", "study.csv", "study.h5", "report.html",
+                                         "points"};
+/// A run ends within one fluid step of a signal; coarse scenarios take seconds for one.
+constexpr auto k_longest_wait = std::chrono::seconds(30);
+
+bool is_used(const fs::path& folder) {
+  return fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder));
+}
+
+}  // namespace
+
+fs::path choose_study_folder(const StudyOptions& options, const std::string& name) {
+  if (options.output) {
+    const fs::path& folder = *options.output;
+    if (is_used(folder) && !options.resume && !options.force) {
+      throw base::UserError("error: the folder " + folder.string() +
+                            " is not empty; give --resume to go on with the study in it, --force "
+                            "to replace it, or another -o");
+    }
+    return folder;
+  }
+  const auto numbered = [&](int n) {
+    return fs::path("results") / (n == 1 ? name : name + "-" + std::to_string(n));
+  };
+  int free = 1;
+  while (fs::exists(numbered(free))) ++free;
+  return numbered(options.resume || options.force ? std::max(1, free - 1) : free);
+}
+
+void clear_study_folder(const fs::path& folder) {
+  for (const char* name : k_study_files) fs::remove_all(folder / name);
+}
+
+FolderLock::FolderLock(const fs::path& folder) {
+  const std::string file = (folder / "study.lock").string();
+  descriptor_ = open(file.c_str(), O_RDWR | O_CREAT, 0666);
+  if (descriptor_ < 0) {
+    throw base::UserError("error: cannot write " + file + ": " + std::strerror(errno));
+  }
+  const auto end = std::chrono::steady_clock::now() + k_longest_wait;
+  while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    if (std::chrono::steady_clock::now() > end) {
+      close(descriptor_);
+      throw base::UserError("error: another study is running in " + folder.string() +
+                            "; wait for it, or give another -o");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
+FolderLock::~FolderLock() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+double free_memory() {
+  std::ifstream stream("/proc/meminfo");
+  std::string line;
+  while (std::getline(stream, line)) {
+    std::istringstream words(line);
+    std::string name;
+    double kilobytes = 0.0;
+    if (words >> name >> kilobytes && name == "MemAvailable:") return 1024.0 * kilobytes;
+  }
+  return 1e9;
+}
+
+}  // namespace dust::study

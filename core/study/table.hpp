@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "study/plan.hpp"
+#include "study/point_store.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace dust::study {
+
+/// The points of a study and what came of them, side by side.
+struct Results {
+  const Plan& plan;
+  std::vector<Outcome> outcomes;  ///< one per point
+};
+
+/// "finished", "failed" or "waiting".
+const char* status_word(Status status);
+
+/// study.csv: a row per point with inputs, replicate, outputs (sensors with their standard error),
+/// status, seed, hash, wall_s and the reason of a failure; replaced atomically.
+void write_csv(const std::filesystem::path& file, const Results& results);
+
+/// study.h5: the same as columns: /inputs, /outputs, /outputs_error and /points, one dataset per
+/// column with its unit as attribute; replaced atomically.
+void write_h5(const std::filesystem::path& file, const Results& results);
+
+}  // namespace dust::study

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/engine.hpp"
+
+#include <doctest/doctest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+using dust::test::engine;
+using dust::test::engine_interrupted_when;
+using dust::test::read_file;
+using dust::test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path k_here = DUST_SOURCE "/tests/study";
+
+/// Fields of a line of study.csv; quoted ones hold commas.
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> all(1);
+  bool is_quoted = false;
+  for (const char c : line) {
+    if (c == '"') {
+      is_quoted = !is_quoted;
+    } else if (c == ',' && !is_quoted) {
+      all.emplace_back();
+    } else {
+      all.back() += c;
+    }
+  }
+  return all;
+}
+
+/// study.csv as rows of name -> field; times differ from run to run and are left out.
+std::vector<std::map<std::string, std::string>> table_of(const fs::path& folder) {
+  std::istringstream stream(read_file(folder / "study.csv"));
+  std::string line;
+  std::getline(stream, line);
+  const auto names = fields(line);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(stream, line)) {
+    const auto values = fields(line);
+    REQUIRE(values.size() == names.size());
+    rows.emplace_back();
+    for (std::size_t n = 0; n < names.size(); ++n) {
+      if (names[n] != "wall_s [s]") rows.back()[names[n]] = values[n];
+    }
+  }
+  return rows;
+}
+
+std::size_t count_of(const fs::path& folder, const std::string& status) {
+  std::size_t count = 0;
+  const std::string text = read_file(folder / "study.csv");
+  for (std::size_t at = text.find("," + status + ","); at != std::string::npos;
+       at = text.find("," + status + ",", at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+/// The study `text` beside a copy of drop.yaml.
+fs::path write_study(const TemporaryFolder& folder, const std::string& text) {
+  fs::copy_file(k_here / "drop.yaml", folder / "drop.yaml", fs::copy_options::overwrite_existing);
+  std::ofstream(folder / "study.yaml") << text;
+  return folder / "study.yaml";
+}
+
+}  // namespace
+
+TEST_CASE("a study shall run every point and tell what was set and what came of it") {
+  const TemporaryFolder folder;
+  const auto run = engine({"study", k_here / "drop_study.yaml", "-o", folder / "out"});
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const auto rows = table_of(folder / "out");
+  REQUIRE(rows.size() == 8);
+  CHECK(rows[0].at("emitters.feed.velocity") == "[0, 0, -0.5 m/s]");
+  CHECK(rows[2].at("emitters.feed.mass_flow [g/s]") == "2");
+  CHECK(rows[0].at("seed") == "1");
+  CHECK(rows[1].at("seed") == "2");
+  // Twice the flow, twice the grains.
+  const double once = std::stod(rows[0].at("emitted [1]"));
+  const double twice = std::stod(rows[2].at("emitted [1]"));
+  CHECK(twice == doctest::Approx(2.0 * once).epsilon(0.01));
+  // What passed in mg is what the run itself says in kg.
+  const fs::path point = folder / "out" / "points" / rows[0].at("hash");
+  const std::string summary = read_file(point / "summary.json");
+  const auto at = summary.find("\"forward/mass\"");
+  const double kilograms = std::stod(summary.substr(summary.find("\"value\": ", at) + 9));
+  CHECK(std::stod(rows[0].at("passed [mg]")) == doctest::Approx(1e6 * kilograms));
+  CHECK(fs::file_size(folder / "out" / "study.h5") > 0);
+  // One line per point, with its turn.
+  CHECK(run.out.find("[8/8]") != std::string::npos);
+}
+
+TEST_CASE("a study killed half way and resumed shall equal an uninterrupted one row for row") {
+  const TemporaryFolder folder;
+  const fs::path study = k_here / "drop_study.yaml";
+  REQUIRE(engine({"study", study, "-o", folder / "whole", "--quiet"}).status == 0);
+  const auto whole = table_of(folder / "whole");
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    CAPTURE(signal);
+    const fs::path cut = folder / ("cut" + std::to_string(signal));
+    const auto stopped =
+        engine_interrupted_when({"study", study, "-o", cut, "--jobs", "2", "--quiet"}, signal,
+                                [&] { return count_of(cut, "finished") >= 3; });
+    CHECK(stopped.status == 128 + signal);
+    const std::size_t before = count_of(cut, "finished");
+    CHECK(before < whole.size());
+    const auto resumed = engine({"study", study, "-o", cut, "--resume"});
+    INFO(resumed.err);
+    REQUIRE(resumed.status == 0);
+    CHECK(table_of(cut) == whole);
+    // What had finished was not run again: one line for each of the others.
+    const auto lines = std::count(resumed.out.begin(), resumed.out.end(), '\n');
+    CHECK(static_cast<std::size_t>(lines) <= whole.size() - before + 1);
+  }
+}
+
+TEST_CASE("a widened study shall run only what is missing") {
+  const TemporaryFolder folder;
+  const std::string text =
+      "base: drop.yaml\nmeasure: {emitted: particles.emitted}\n"
+      "vary:\n  emitters.feed.mass_flow: ";
+  const fs::path study = write_study(folder, text + "[1, 2 g/s]\n");
+  REQUIRE(engine({"study", study, "-o", folder / "out"}).status == 0);
+  write_study(folder, text + "[0.5, 1, 2 g/s]\n");
+  const auto wider = engine({"study", study, "-o", folder / "out", "--resume"});
+  REQUIRE(wider.status == 0);
+  CHECK(std::count(wider.out.begin(), wider.out.end(), '[') == 1);
+  CHECK(table_of(folder / "out").size() == 3);
+  CHECK(count_of(folder / "out", "finished") == 3);
+}
+
+TEST_CASE("a failing point shall be recorded with its reason and stop the others only if asked") {
+  const TemporaryFolder folder;
+  // The grain lies inside the obstacle: that is seen only when it is let in.
+  const fs::path study = write_study(folder,
+                                     "base: drop.yaml\nset: {emitters.seed.enabled: true}\n"
+                                     "vary: {bodies.obstacle.enabled: [true, false]}\n"
+                                     "measure: {emitted: particles.emitted}\n");
+  const auto run = engine({"study", study, "-o", folder / "out", "--jobs", "1"});
+  CHECK(run.status == 1);
+  const auto rows = table_of(folder / "out");
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0].at("status") == "failed");
+  CHECK(rows[0].at("reason").find("overlaps 'obstacle'") != std::string::npos);
+  CHECK(rows[0].at("emitted [1]").empty());
+  CHECK(rows[1].at("status") == "finished");
+
+  const auto fast = engine({"study", study, "-o", folder / "fast", "--jobs", "1", "--fail-fast"});
+  CHECK(fast.status == 1);
+  CHECK(table_of(folder / "fast")[1].at("status") == "waiting");
+}
+
+TEST_CASE("a dry run shall list the points and write nothing") {
+  const TemporaryFolder folder;
+  const auto run = engine({"study", k_here / "drop_study.yaml", "-o", folder / "out", "--dry-run"});
+  CHECK(run.status == 0);
+  CHECK(run.out.find("8 points, 0 finished") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_CASE("a folder that holds a study shall be kept unless told otherwise") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "out");
+  std::ofstream(folder / "out" / "mine.txt") << "mine";
+  const auto refused = engine({"study", k_here / "drop_study.yaml", "-o", folder / "out"});
+  CHECK(refused.status == 2);
+  CHECK(refused.err.find("--resume") != std::string::npos);
+  CHECK(refused.err.find("--force") != std::string::npos);
+}
