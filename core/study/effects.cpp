@@ -121,6 +121,7 @@ std::optional<double> noise_of(const Results& results, std::size_t output) {
 
 std::vector<MainEffect> main_effects(const Spec& spec, const Results& results) {
   std::vector<MainEffect> effects;
+  if (spec.axes.empty()) return effects;
   for (std::size_t o = 0; o < results.plan.outputs.size(); ++o) {
     for (std::size_t i = 0; i < results.plan.inputs.size(); ++i) {
       MainEffect effect;

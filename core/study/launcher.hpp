@@ -47,6 +47,9 @@ std::unique_ptr<Launcher> make_local_launcher(const PointStore& store, const Res
 std::unique_ptr<Launcher> make_slurm_launcher(const PointStore& store, const Resources& resources,
                                               const SlurmSpec& slurm, const std::string& name);
 
+/// Throws base::UserError where the cluster's commands are missing.
+void check_slurm();
+
 /// What the engine is called with to run a point.
 std::vector<std::string> run_arguments(const PointStore& store, const Resources& resources,
                                        const Point& point);

@@ -106,7 +106,9 @@ class LocalLauncher final : public Launcher {
       children_.erase(children_.begin() + static_cast<std::ptrdiff_t>(n));
       has_ended = true;
       const bool is_good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-      if (stops && !is_good) continue;  // stopped, not failed: it goes on from its checkpoint
+      // Stopped, not failed: it goes on from its checkpoint. A terminal sends its signal to study
+      // and runs alike, so a run may have ended before the loop has looked.
+      if ((stops || SignalWatch::caught() != 0) && !is_good) continue;
       goes_on = on_ending({child.job, is_good, reason_of(points[child.job], status)}) && goes_on;
     }
     return has_ended;

@@ -9,9 +9,11 @@
 #include "scenario/suggest.hpp"
 #include "scenario/units.hpp"
 #include "scenario/values.hpp"
+#include "study/measures.hpp"
 #include "study/quantities.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <set>
 
 namespace dust::study {
@@ -102,11 +104,10 @@ struct Planner::Impl {
   Diagnostics& diagnostics;
   std::optional<Node> base;
   std::uint64_t base_seed = 1;
-  std::vector<Quantity> base_quantities;
+  MeasureCheck measures;
   std::set<std::string> told;  ///< error lines
   std::vector<std::set<std::pair<int, int>>> axis_marks;
   std::set<std::size_t> told_axes;
-  std::set<std::string> missing_measures;
   std::map<std::string, sdk::Dimension> dimensions;
 
   void read_base() {
@@ -114,10 +115,12 @@ struct Planner::Impl {
     if (!base) return;
     if (base->where.line == 0) base->where = {spec.base.generic_string(), 1, 1};
     set_all(*base, spec.settings, diagnostics);
-    const auto read = scenario::read_tree(*base, spec.base, registry, diagnostics);
-    if (!read) return;
-    base_seed = read->setup.seed;
-    base_quantities = quantities_of(read->setup, registry);
+    // Not checked by itself: what is varied may be what makes it whole.
+    const scenario::Entry* seed = base->find("seed");
+    if (seed != nullptr && seed->value.is_text()) {
+      std::from_chars(seed->value.text.data(), seed->value.text.data() + seed->value.text.size(),
+                      base_seed);
+    }
     for (const Axis& axis : spec.axes) {
       axis_marks.emplace_back();
       for (const Level& level : axis.levels) {
@@ -177,39 +180,8 @@ struct Planner::Impl {
     const auto derived = scenario::derive(read->setup, registry);
     point.core_seconds = derived.core_seconds;
     point.memory_bytes = derived.memory_bytes;
-    check_measures(quantities_of(read->setup, registry));
+    measures.see(quantities_of(read->setup, registry));
     return point;
-  }
-
-  void check_measures(const std::vector<Quantity>& known) {
-    for (const Measure& m : spec.measures) {
-      if (find_quantity(known, m.quantity) != nullptr) continue;
-      if (!missing_measures.insert(m.name).second) continue;
-      const bool is_in_base = find_quantity(base_quantities, m.quantity) != nullptr;
-      diagnostics.error(
-          m.where,
-          scenario::printable(m.name) + ": '" + scenario::printable(m.quantity) +
-              (is_in_base ? "' is no quantity of every point" : "' is no quantity of a run") +
-              quantity_hint(known, m.quantity));
-    }
-  }
-
-  std::vector<OutputColumn> output_columns() {
-    std::vector<OutputColumn> columns;
-    for (const Measure& m : spec.measures) {
-      const Quantity* q = find_quantity(base_quantities, m.quantity);
-      if (q == nullptr) continue;
-      const auto factor = unit_factor(q->unit, m.unit);
-      if (!factor) {
-        diagnostics.error(m.where, scenario::printable(m.name) + ": '" +
-                                       scenario::printable(m.unit) + "' is no unit of " + q->path +
-                                       ", which is told in " + q->unit);
-        continue;
-      }
-      columns.push_back(
-          {m.name, q->path, m.unit.empty() ? q->unit : m.unit, *factor, q->is_sensor});
-    }
-    return columns;
   }
 
   [[nodiscard]] std::uint64_t seed_of(std::int64_t replicate) const {
@@ -243,11 +215,10 @@ Planner::Planner(const Spec& spec, const registry::Registry& registry, Diagnosti
                      .registry = registry,
                      .diagnostics = diagnostics,
                      .base = {},
-                     .base_quantities = {},
+                     .measures = MeasureCheck(spec, diagnostics),
                      .told = {},
                      .axis_marks = {},
                      .told_axes = {},
-                     .missing_measures = {},
                      .dimensions = {}}) {
   impl_->read_base();
 }
@@ -297,7 +268,7 @@ Plan Planner::plan() {
       plan.points.push_back(std::move(*point));
     }
   }
-  plan.outputs = impl_->output_columns();
+  plan.outputs = impl_->measures.columns();
   if (impl_->diagnostics.has_errors()) return plan;
   for (std::size_t a = 0; a < axes.size(); ++a) {
     std::vector<Column> columns;
@@ -320,8 +291,6 @@ Plan Planner::plan() {
 Plan Planner::calibration_columns() {
   Plan plan;
   if (impl_->diagnostics.has_errors()) return plan;
-  plan.outputs = impl_->output_columns();
-  impl_->check_measures(impl_->base_quantities);
   // Both ends are tried, so that a wrong path, unit or range is told before anything is run.
   const auto& calibration = *impl_->spec.calibration;
   for (const bool is_high : {false, true}) {
@@ -340,6 +309,8 @@ Plan Planner::calibration_columns() {
     }
     if (!impl_->resolve(root, impl_->seed_of(1))) return plan;
   }
+  plan.outputs = impl_->measures.columns();
+  if (impl_->diagnostics.has_errors()) return plan;
   for (const FreeParameter& p : calibration.parameters) {
     const auto found = impl_->dimensions.find(without_index(p.paths.front()));
     const std::string si =

@@ -42,6 +42,7 @@ struct Point {
 struct OutputColumn {
   std::string name;
   std::string quantity;  ///< dotted path in summary.json
+  std::string minus;     ///< another one that is taken off; "" = none
   std::string unit;
   double factor = 1.0;     ///< from the run's unit
   bool has_error = false;  ///< sensors tell one

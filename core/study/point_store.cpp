@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -29,6 +30,18 @@ std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
   return text;
+}
+
+void take_off(const std::map<std::string, Figure>& figures, const OutputColumn& column,
+              OutputValue& output) {
+  const auto at = figures.find(column.minus);
+  if (at == figures.end()) output.value.reset();
+  if (!output.value) return;
+  *output.value -= column.factor * at->second.value;
+  // As if independent: quantiles of one stream are not quite.
+  output.error = output.error >= 0.0 && at->second.error >= 0.0
+                     ? std::hypot(output.error, column.factor * at->second.error)
+                     : -1.0;
 }
 
 }  // namespace
@@ -84,6 +97,7 @@ Outcome PointStore::read(const Point& point, const std::vector<OutputColumn>& co
         output.value = column.factor * at->second.value;
         if (at->second.error >= 0.0) output.error = column.factor * at->second.error;
       }
+      if (!column.minus.empty()) take_off(figures, column, output);
       outcome.outputs.push_back(output);
     }
     return outcome;

@@ -39,6 +39,7 @@ struct Axis {
 struct Measure {
   std::string name;      ///< column of the table
   std::string quantity;  ///< dotted path: sensors.NAME.FIGURE or a figure of summary.json
+  std::string minus;     ///< a second quantity that is taken off; "" = none
   std::string unit;      ///< "" = that of the quantity
   scenario::Mark where;
 };

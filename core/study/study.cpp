@@ -4,6 +4,8 @@
 #include "base/error.hpp"
 #include "io/run_files.hpp"
 #include "registry/registry.hpp"
+#include "study/calibrate_runs.hpp"
+#include "study/effects.hpp"
 #include "study/runner.hpp"
 #include "study/study_folder.hpp"
 
@@ -82,6 +84,135 @@ void copy_study(const fs::path& from, const fs::path& folder) {
   io::write_text(folder / "study.yaml", text);
 }
 
+/// What a calibration will do, before it knows where its points lie.
+void tell_calibration(const Spec& spec, const Plan& plan, const std::vector<Point>& samples,
+                      const Resources& resources) {
+  const CalibrationSpec& c = *spec.calibration;
+  double seconds = 0.0;
+  for (const Point& p : samples) {
+    seconds = std::max(seconds, p.core_seconds / static_cast<double>(spec.replicates));
+  }
+  for (std::size_t k = 0; k < c.parameters.size(); ++k) {
+    const FreeParameter& p = c.parameters[k];
+    std::printf("%s: %s to %s %s\n", p.name.c_str(), short_number(p.low).c_str(),
+                short_number(p.high).c_str(), plan.inputs[k].unit.c_str());
+  }
+  for (const Target& t : c.targets) {
+    std::printf("%s: %s +- %s %s\n", t.measure.name.c_str(), short_number(t.value).c_str(),
+                short_number(t.error).c_str(), t.measure.unit.c_str());
+  }
+  const double runs = static_cast<double>(c.runs * spec.replicates);
+  std::printf("at most %.0f runs of about %s on one core each; %d at a time with %d threads each\n",
+              runs, duration_text(seconds).c_str(), resources.jobs, resources.threads);
+}
+
+void tell_expectations(const Spec& spec, const Results& results) {
+  for (const Expectation& e : spec.expectations) {
+    const std::string what = e.from.empty() ? "with " + e.input : "from " + e.from + " to " + e.to;
+    std::printf("%s %s %s: %s\n", e.output.c_str(), e.then.c_str(), what.c_str(),
+                judge(e, spec, results).text.c_str());
+  }
+}
+
+/// One study from its checked plan to its files.
+class Study {
+ public:
+  Study(const StudyOptions& options, const Spec& spec, Planner& planner, Plan plan)
+      : options_(options), spec_(spec), planner_(planner), plan_(std::move(plan)) {}
+
+  int run(const fs::path& folder) {
+    const PointStore store(folder);
+    const bool is_calibration = spec_.calibration.has_value();
+    const std::size_t expected =
+        is_calibration ? static_cast<std::size_t>(spec_.calibration->runs * spec_.replicates)
+                       : plan_.points.size();
+    const std::size_t at_once =
+        is_calibration ? static_cast<std::size_t>(spec_.calibration->batch * spec_.replicates)
+                       : expected;
+    const Resources resources = resources_of(options_, spec_.execution, at_once);
+    if (options_.dry_run) {
+      if (is_calibration) {
+        tell_calibration(spec_, plan_, ends(), resources);
+      } else {
+        tell_plan(plan_, store, resources);
+      }
+      return 0;
+    }
+    fs::create_directories(folder);
+    const FolderLock lock(folder);
+    if (options_.force) clear_study_folder(folder);
+    copy_study(options_.file, folder);
+    const SignalWatch watch;
+    const auto launcher = make_launcher(options_, spec_, store, resources);
+    Runner runner(
+        plan_, store, *launcher,
+        {.fail_fast = options_.fail_fast, .quiet = options_.quiet, .expected_points = expected});
+    int signal = 0;
+    std::optional<CalibrationAnswer> answer;
+    if (is_calibration) {
+      answer = calibrate_with(runner, signal);
+      write_calibration(folder / "calibration.json", *answer);
+    } else {
+      signal = runner.run();
+    }
+    write_h5(folder / "study.h5", runner.results());
+    write_study_report(folder / "report.html", spec_, runner.results(),
+                       answer ? &*answer : nullptr);
+    return conclude(folder, runner, answer, signal);
+  }
+
+ private:
+  /// Points at the lower ends, for what they cost.
+  std::vector<Point> ends() {
+    std::vector<double> low;
+    for (const FreeParameter& p : spec_.calibration->parameters) low.push_back(p.low);
+    return planner_.calibration_points(low);
+  }
+
+  CalibrationAnswer calibrate_with(Runner& runner, int& signal) {
+    CalibrationAnswer answer{settings_of(spec_, plan_), {}};
+    RunEvaluator evaluator(spec_, planner_, plan_, runner);
+    answer.calibration = calibrate(answer.settings, evaluator, [&](const Calibration& c) {
+      if (options_.quiet) return;
+      std::string text = std::to_string(c.places.size()) + " places:";
+      for (std::size_t d = 0; d < c.estimates.size(); ++d) {
+        text += (d == 0 ? " " : ", ") + answer.settings.parameters[d].name + " " +
+                short_number(c.estimates[d].low) + " to " + short_number(c.estimates[d].high);
+      }
+      std::printf("%s\n", text.c_str());
+      std::fflush(stdout);
+    });
+    signal = evaluator.signal();
+    return answer;
+  }
+
+  [[nodiscard]] int conclude(const fs::path& folder, const Runner& runner,
+                             const std::optional<CalibrationAnswer>& answer, int signal) const {
+    if (signal != 0) {
+      std::fprintf(stderr, "interrupted; go on with --resume -o %s\n", folder.c_str());
+      return 128 + signal;
+    }
+    if (!options_.quiet) {
+      tell_expectations(spec_, runner.results());
+      if (answer) {
+        for (const std::string& line : answer->calibration.statements) {
+          std::printf("%s\n", line.c_str());
+        }
+      }
+      std::printf("results: %s\n", folder.c_str());
+    }
+    if (runner.failures() == 0) return 0;
+    std::fprintf(stderr, "error: %zu of %zu points failed; study.csv says why\n", runner.failures(),
+                 plan_.points.size());
+    return 1;
+  }
+
+  const StudyOptions& options_;
+  const Spec& spec_;
+  Planner& planner_;
+  Plan plan_;
+};
+
 }  // namespace
 
 int run_study(const StudyOptions& options) {
@@ -93,41 +224,14 @@ int run_study(const StudyOptions& options) {
   diagnostics.throw_errors();
   Planner planner(*spec, registry, diagnostics);
   diagnostics.throw_errors();
-  Plan plan = planner.plan();
+  Plan plan = spec->calibration ? planner.calibration_columns() : planner.plan();
   diagnostics.throw_errors();
   for (const std::string& warning : diagnostics.warning_lines()) {
     std::fprintf(stderr, "%s\n", warning.c_str());
   }
-
+  if (options.launcher == "slurm" && !options.dry_run) check_slurm();
   const fs::path folder = choose_study_folder(options, spec->name);
-  const PointStore store(folder);
-  const Resources resources = resources_of(options, spec->execution, plan.points.size());
-  if (options.dry_run) {
-    tell_plan(plan, store, resources);
-    return 0;
-  }
-  fs::create_directories(folder);
-  const FolderLock lock(folder);
-  if (options.force) clear_study_folder(folder);
-  copy_study(options.file, folder);
-  const SignalWatch watch;
-  const auto launcher = make_launcher(options, *spec, store, resources);
-  Runner runner(plan, store, *launcher,
-                {.fail_fast = options.fail_fast,
-                 .quiet = options.quiet,
-                 .expected_points = plan.points.size()});
-  const int signal = runner.run();
-  write_h5(folder / "study.h5", runner.results());
-  if (signal != 0) {
-    std::fprintf(stderr, "interrupted; go on with --resume -o %s\n", folder.c_str());
-    return 128 + signal;
-  }
-  if (!options.quiet) std::printf("results: %s\n", folder.c_str());
-  if (runner.failures() > 0) {
-    std::fprintf(stderr, "error: %zu of %zu points failed; study.csv says why\n", runner.failures(),
-                 plan.points.size());
-  }
-  return runner.failures() > 0 ? 1 : 0;
+  return Study(options, *spec, planner, std::move(plan)).run(folder);
 }
 
 }  // namespace dust::study

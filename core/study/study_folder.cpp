@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* k_study_files[] = {"study.yaml", "study.csv", "study.h5", "report.html",
-                                         "points"};
+constexpr const char* k_study_files[] = {"study.yaml",  "study.csv", "study.h5", "calibration.json",
+                                         "report.html", "points",    "slurm"};
 /// A run ends within one fluid step of a signal; coarse scenarios take seconds for one.
 constexpr auto k_longest_wait = std::chrono::seconds(30);
 

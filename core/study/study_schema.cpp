@@ -90,9 +90,8 @@ Json calibration() {
                {{"path", {{"type", {"string", "array"}}}}, {"from", k_number}, {"to", k_number}},
                {"path", "from", "to"})),
            "What is to be found, where it stands in the scenario, and its interval.")}};
-  for (const auto& [key, value] : properties_of(CalibrationSpec::schema()).items()) {
-    properties[key] = value;
-  }
+  const Json declared = properties_of(CalibrationSpec::schema());
+  for (const auto& [key, value] : declared.items()) properties[key] = value;
   return object(properties, {"targets", "parameters"});
 }
 
@@ -102,7 +101,8 @@ std::string study_schema() {
   const Json one_case = map_of(Json::object());
   const Json measure = {
       {"anyOf",
-       Json::array({k_text, object({{"quantity", k_text}, {"unit", k_text}}, {"quantity"})})}};
+       Json::array({k_text, object({{"quantity", k_text}, {"minus", k_text}, {"unit", k_text}},
+                                   {"quantity"})})}};
   const Json expectation = object({{"output", k_text},
                                    {"input", k_text},
                                    {"then", {{"enum", {"rises", "falls"}}}},
@@ -132,12 +132,11 @@ std::string study_schema() {
                         "Paths whose levels go together, first with first; combined with the "
                         "rest.")},
       {"cases",
-       described(
-           {{"anyOf",
-             Json::array({map_of({{"type", {"object", "null"}}}),
-                          {{"type", "array"},
-                           {"items", object({{"name", k_text}, {"set", one_case}}, {"name"})}}})}},
-           "Named points, each with the paths it sets; combined with the rest.")},
+       described({{"anyOf", Json::array({map_of({{"type", {"object", "null"}}}),
+                                         {{"type", "array"},
+                                          {"items", object({{"name", k_text}, {"set", one_case}},
+                                                           Json::array({"name"}))}}})}},
+                 "Named points, each with the paths it sets; combined with the rest.")},
       {"sample", described(sample, "Points spread over intervals; combined with the rest.")},
       {"replicates", described({{"type", "integer"}, {"minimum", 1}, {"maximum", 1000}},
                                "Runs of every point, each with a seed of its own (default 1).")},
@@ -156,7 +155,8 @@ std::string study_schema() {
       {"calibrate", described(calibration(), "Finds parameters that meet targets.")}};
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", "Study of the dust engine"}};
-  for (const auto& [key, value] : object(properties, {"base"}).items()) schema[key] = value;
+  const Json whole = object(properties, Json::array({"base"}));
+  for (const auto& [key, value] : whole.items()) schema[key] = value;
   return schema.dump(2) + "\n";
 }
 

@@ -11,9 +11,15 @@ import sys
 
 root = pathlib.Path(sys.argv[1])
 environment = {k: v for k, v in os.environ.items() if k != "DUST_PLUGIN_PATH"}
-text = subprocess.run([sys.argv[2], "schema"], check=True, text=True, capture_output=True,
-                      env=environment).stdout
-schema = json.loads(text)
+
+
+def schema_of(*options):
+    return json.loads(subprocess.run([sys.argv[2], "schema", *options], check=True, text=True,
+                                     capture_output=True, env=environment).stdout)
+
+
+schema = schema_of()
+study_schema = schema_of("--study")
 
 def is_study(file):
     return re.search(r"^base:", file.read_text(), re.M) is not None
@@ -39,7 +45,9 @@ except ImportError as problem:
     sys.exit(1 if failed else 77)
 
 jsonschema.Draft7Validator.check_schema(schema)
+jsonschema.Draft7Validator.check_schema(study_schema)
 validator = jsonschema.Draft7Validator(schema)
+study_validator = jsonschema.Draft7Validator(study_schema)
 
 
 class Loader(yaml.SafeLoader):
@@ -57,14 +65,15 @@ Loader.add_implicit_resolver(
     re.compile(r"^[-+]?(\.\d+|\d+(\.\d*)?)([eE][-+]?\d+)?$"), list("-+.0123456789"))
 
 
-def problems(document):
+def problems(document, of=validator):
     return [f"{'.'.join(map(str, e.absolute_path))}: {e.message[:200]}"
-            for e in validator.iter_errors(document)]
+            for e in of.iter_errors(document)]
 
 
 for scenario in scenarios:
     document = yaml.load(scenario.read_text(), Loader)
-    failed += [f"{scenario}: {p}" for p in problems(document)]
+    judge = study_validator if is_study(scenario) else validator
+    failed += [f"{scenario}: {p}" for p in problems(document, judge)]
 
 # It refuses what the engine refuses: a schema that allows everything is none.
 whole = yaml.load((root / "scenarios/transfer_point.yaml").read_text(), Loader)

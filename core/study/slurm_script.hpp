@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "study/launcher.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace dust::study {
+
+/// What goes into a job array.
+struct SlurmJob {
+  std::string name;
+  std::filesystem::path store;  ///< folder of the study, seen by all nodes
+  Resources resources;
+  SlurmSpec slurm;
+  std::size_t tasks = 1;
+  double memory_bytes = 0.0;  ///< of the largest point, by its estimate
+};
+
+/// The script for sbatch: task k runs the point in line k + 1 of `slurm/points`, goes on from its
+/// checkpoint where there is one, hands a signal of the cluster on, and leaves its exit status in
+/// `slurm/HASH.exit`.
+std::string slurm_script(const SlurmJob& job);
+
+/// `text` as one word of a shell.
+std::string shell_quoted(const std::string& text);
+
+}  // namespace dust::study

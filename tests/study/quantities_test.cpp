@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/quantities.hpp"
+#include "registry/registry.hpp"
+#include "scenario/reader.hpp"
+#include "support/engine.hpp"
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+using namespace dust;
+using dust::test::TemporaryFolder;
+
+namespace {
+
+/// Times of single nodes and rows of lists are no quantities.
+bool is_named(const std::string& path) {
+  return !path.starts_with("timers_s.") && path.find(".requested.") == std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("the quantities known before a run shall be those it tells") {
+  registry::Registry registry;
+  registry.load({DUST_TEST_PLUGINS});
+  const TemporaryFolder folder;
+  struct Case {
+    std::string file;
+    std::vector<std::string> settings;
+  };
+  const std::vector<Case> cases = {
+      {DUST_SOURCE "/tests/study/drop.yaml", {}},
+      {DUST_SOURCE "/tests/scenario/small_transfer.yaml", {"time.end=4 ms"}},
+      {DUST_SOURCE "/tests/scenario/small_hourglass.yaml", {"time.end=10 ms"}}};
+  for (const Case& one : cases) {
+    CAPTURE(one.file);
+    std::vector<scenario::Override> overrides;
+    std::vector<std::string> arguments = {"run",          one.file,  "-o",
+                                          folder / "out", "--force", "--quiet"};
+    for (const std::string& setting : one.settings) {
+      const auto sign = setting.find('=');
+      overrides.push_back({setting.substr(0, sign), setting.substr(sign + 1)});
+      arguments.insert(arguments.end(), {"--set", setting});
+    }
+    const auto read = scenario::read_scenario(one.file, overrides, registry);
+    std::set<std::string> known;
+    for (const auto& q : study::quantities_of(read.setup, registry)) known.insert(q.path);
+    const auto run = test::engine(arguments);
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    std::set<std::string> told;
+    for (const auto& [path, figure] : study::read_figures(folder / "out" / "summary.json")) {
+      if (is_named(path)) told.insert(path);
+    }
+    for (const std::string& path : told) CHECK_MESSAGE(known.contains(path), path);
+    for (const std::string& path : known) CHECK_MESSAGE(told.contains(path), path);
+  }
+}
+
+TEST_CASE("units of quantities shall be converted where they measure the same") {
+  CHECK(study::unit_factor("m", "mm").value() == doctest::Approx(1000.0));
+  CHECK(study::unit_factor("deg", "deg").value() == 1.0);
+  CHECK(study::unit_factor("kg/s", "g/s").value() == doctest::Approx(1000.0));
+  CHECK_FALSE(study::unit_factor("m", "s").has_value());
+}

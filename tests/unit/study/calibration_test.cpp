@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/calibration.hpp"
+#include "study/landscape.hpp"
+
+#include "dust/sdk/random.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+using namespace dust::study;
+
+namespace {
+
+/// Closed forms with a scatter of single runs, counted.
+class Formula final : public Evaluator {
+ public:
+  using Answer = std::function<std::vector<double>(const std::vector<double>&)>;
+  Formula(Answer answer, std::vector<double> scatter, std::uint64_t seed)
+      : answer_(std::move(answer)), scatter_(std::move(scatter)), random_(seed, 7) {}
+  std::optional<std::vector<Evaluation>> evaluate(
+      const std::vector<std::vector<double>>& places) override {
+    std::vector<Evaluation> all;
+    for (const auto& place : places) {
+      Evaluation one;
+      const auto values = answer_(place);
+      for (std::size_t g = 0; g < values.size(); ++g) {
+        one.emplace_back(values[g] + scatter_[g] * normal(static_cast<std::uint32_t>(g)));
+      }
+      ++runs;
+      all.push_back(std::move(one));
+    }
+    return all;
+  }
+  std::size_t runs = 0;
+
+ private:
+  double normal(std::uint32_t goal) const {
+    const double a = random_.uniform(runs, goal, 0);
+    const double b = random_.uniform(runs, goal, 1);
+    return std::sqrt(-2.0 * std::log(a)) * std::cos(2.0 * std::numbers::pi * b);
+  }
+  Answer answer_;
+  std::vector<double> scatter_;
+  dust::sdk::Random random_;
+};
+
+/// Shaped like the hourglass: both frictions raise the angle, rolling friction shortens the time
+/// because more sand stays behind, sliding friction makes it longer.
+std::vector<double> hourglass(const std::vector<double>& x) {
+  const double angle =
+      22.0 + 26.0 * (1.0 - std::exp(-2.5 * x[0])) + 22.0 * x[1] - 9.0 * x[1] * x[1];
+  const double time = 5.6 + 2.4 * x[0] - 2.0 * x[1] + 0.8 * x[0] * x[1];
+  return {angle, time};
+}
+
+CalibrationSettings settings_at(const std::vector<double>& truth) {
+  const auto values = hourglass(truth);
+  CalibrationSettings s;
+  s.goals = {{"angle", "deg", values[0], 1.1}, {"time", "s", values[1], 0.1}};
+  s.parameters = {{"mu_s", "", 0.2, 0.7}, {"mu_r", "", 0.0, 0.5}};
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("a calibration shall recover a synthetic truth within its region in at most 30 runs") {
+  for (const std::string surrogate : {"gaussian_process", "quadratic"}) {
+    for (const auto& truth : {std::vector{0.49, 0.30}, std::vector{0.35, 0.15}}) {
+      CAPTURE(surrogate);
+      CAPTURE(truth[0]);
+      CalibrationSettings settings = settings_at(truth);
+      settings.surrogate = surrogate;
+      Formula formula(hourglass, {0.4, 0.03}, 11);
+      const Calibration c = calibrate(settings, formula);
+      CHECK(formula.runs <= 30);
+      CHECK(formula.runs == c.places.size());
+      CHECK(c.is_met);
+      CHECK(is_in_region(c, settings, truth));
+      CHECK(c.estimates[0].low <= truth[0]);
+      CHECK(c.estimates[0].high >= truth[0]);
+      // The targets' own errors allow about +-0.05 in either friction here.
+      CHECK(std::abs(c.estimates[0].best - truth[0]) < 0.1);
+      CHECK(std::abs(c.estimates[1].best - truth[1]) < 0.1);
+    }
+  }
+}
+
+TEST_CASE("the region shall hold the truth about as often as it says") {
+  // Targets with errors of their own, drawn anew: 40 calibrations at 80 %.
+  const std::vector<double> truth = {0.45, 0.25};
+  const dust::sdk::Random random(5, 1);
+  std::size_t held = 0;
+  constexpr std::uint64_t k_trials = 40;
+  for (std::uint64_t trial = 0; trial < k_trials; ++trial) {
+    CalibrationSettings settings = settings_at(truth);
+    settings.first_runs = 10;
+    settings.runs = 13;
+    settings.confidence = 0.8;
+    for (std::size_t g = 0; g < 2; ++g) {
+      const double a = random.uniform(trial, static_cast<std::uint32_t>(g), 0);
+      const double b = random.uniform(trial, static_cast<std::uint32_t>(g), 1);
+      settings.goals[g].value += settings.goals[g].error * std::sqrt(-2.0 * std::log(a)) *
+                                 std::cos(2.0 * std::numbers::pi * b);
+    }
+    Formula formula(hourglass, {0.2, 0.02}, trial);
+    const Calibration c = calibrate(settings, formula);
+    if (is_in_region(c, settings, truth)) ++held;
+  }
+  // Binomial(40, 0.8): 26 to 38 within three standard deviations of 32.
+  CHECK(held >= 25);
+  CHECK(held <= 39);
+}
+
+TEST_CASE("targets that do not pin the parameters down shall be told plainly") {
+  CalibrationSettings settings = settings_at({0.49, 0.30});
+  settings.goals.pop_back();  // the angle alone: a line of pairs fits
+  Formula formula([](const std::vector<double>& x) { return std::vector{hourglass(x)[0]}; }, {0.3},
+                  3);
+  const Calibration c = calibrate(settings, formula);
+  CHECK(c.is_met);
+  CHECK_FALSE(c.is_pinned);
+  CHECK(c.statements.front().find("do not pin down mu_s") != std::string::npos);
+}
+
+TEST_CASE("parameters that only count together shall be told as tied") {
+  CalibrationSettings settings;
+  settings.goals = {{"sum", "", 1.0, 0.01}};
+  settings.parameters = {{"a", "", 0.0, 1.0}, {"b", "", 0.0, 1.0}};
+  Formula formula([](const std::vector<double>& x) { return std::vector{x[0] + x[1]}; }, {0.0}, 1);
+  const Calibration c = calibrate(settings, formula);
+  CHECK(c.correlation[0][1] < -0.95);
+  bool is_told = false;
+  for (const auto& s : c.statements) is_told = is_told || s.find("tied") != std::string::npos;
+  CHECK(is_told);
+}
+
+TEST_CASE("targets that no values meet shall be told with what comes nearest") {
+  CalibrationSettings settings = settings_at({0.49, 0.30});
+  settings.goals[0].value = 70.0;
+  Formula formula(hourglass, {0.3, 0.02}, 3);
+  const Calibration c = calibrate(settings, formula);
+  CHECK_FALSE(c.is_met);
+  CHECK(c.statements.front().find("No values in the given ranges") == 0);
+}
+
+TEST_CASE("two separate answers shall be told") {
+  CalibrationSettings settings;
+  settings.goals = {{"height", "m", 0.5, 0.02}};
+  settings.parameters = {{"x", "", 0.0, 1.0}};
+  settings.runs = 20;
+  Formula formula(
+      [](const std::vector<double>& x) { return std::vector{4.0 * x[0] * (1.0 - x[0])}; }, {0.0},
+      1);
+  const Calibration c = calibrate(settings, formula);
+  CHECK(pieces_of_region(c.landscape, 1) == 2);
+  CHECK(is_in_region(c, settings, {0.5 - std::sqrt(0.125)}));
+  CHECK(is_in_region(c, settings, {0.5 + std::sqrt(0.125)}));
+  CHECK_FALSE(is_in_region(c, settings, {0.5}));
+}
+
+TEST_CASE("chi-square quantiles shall be those of the tables") {
+  CHECK(chi_square_quantile(0.95, 1.0) == doctest::Approx(3.841).epsilon(0.03));
+  CHECK(chi_square_quantile(0.95, 2.0) == doctest::Approx(5.991).epsilon(0.01));
+  CHECK(chi_square_quantile(0.99, 4.0) == doctest::Approx(13.277).epsilon(0.01));
+}
+
+TEST_CASE("runs that fail shall be left out, and an interruption end the search") {
+  class Moody final : public Evaluator {
+   public:
+    std::optional<std::vector<Evaluation>> evaluate(
+        const std::vector<std::vector<double>>& places) override {
+      if (runs >= 8) return std::nullopt;
+      std::vector<Evaluation> all;
+      for (const auto& place : places) {
+        Evaluation one(1);
+        if (++runs % 4 != 0) one[0] = place[0] * place[0];
+        all.push_back(one);
+      }
+      return all;
+    }
+    std::size_t runs = 0;
+  } moody;
+  CalibrationSettings settings;
+  settings.goals = {{"square", "", 0.25, 1e-4}};
+  settings.parameters = {{"x", "", 0.0, 1.0}};
+  settings.first_runs = 8;
+  const Calibration c = calibrate(settings, moody);
+  CHECK(c.was_interrupted);
+  CHECK(c.places.size() >= 8);
+  CHECK(c.estimates.at(0).best == doctest::Approx(0.5).epsilon(0.02));
+}

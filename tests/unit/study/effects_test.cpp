@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/effects.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace dust::study;
+
+namespace {
+
+/// A study of two axes made by hand: speeds 1, 2, 4 and cases a, b, with replicates.
+struct Made {
+  Spec spec;
+  Plan plan;
+  std::vector<Outcome> outcomes;
+
+  explicit Made(int replicates) {
+    Axis speed{AxisKind::values, {"belt.speed"}, std::vector<Level>(3), {}};
+    Axis cases{AxisKind::cases, {}, std::vector<Level>(2), {}};
+    cases.levels[0].label = "a";
+    cases.levels[1].label = "b";
+    spec.axes = {speed, cases};
+    plan.inputs = {{"belt.speed", "m/s", false, 0}, {"case", "", true, 1}};
+    plan.outputs = {{"x", "sensors.s.x", "", "mm", 1.0, true}};
+    const double speeds[] = {1.0, 2.0, 4.0};
+    for (std::size_t s = 0; s < 3; ++s) {
+      for (std::size_t c = 0; c < 2; ++c) {
+        for (int r = 1; r <= replicates; ++r) {
+          Point point;
+          point.levels = {s, c};
+          point.replicate = r;
+          point.inputs = {{speeds[s], std::to_string(speeds[s])}, {0.0, c == 0 ? "a" : "b"}};
+          plan.points.push_back(point);
+          // x = 10 speed + 3 in case b; replicates lie 0.2 apart.
+          Outcome outcome;
+          outcome.status = Status::finished;
+          const double scatter = replicates > 1 ? (r == 1 ? -0.1 : 0.1) : 0.0;
+          outcome.outputs = {{10.0 * speeds[s] + (c == 0 ? 0.0 : 3.0) + scatter, 0.5}};
+          outcomes.push_back(outcome);
+        }
+      }
+    }
+  }
+  [[nodiscard]] Results results() const { return {plan, outcomes}; }
+};
+
+}  // namespace
+
+TEST_CASE("main effects shall be means over the other inputs") {
+  const Made made(1);
+  const auto effects = main_effects(made.spec, made.results());
+  REQUIRE(effects.size() == 2);
+  CHECK(effects[0].levels[0].mean == doctest::Approx(11.5));
+  CHECK(effects[0].levels[2].mean == doctest::Approx(41.5));
+  CHECK(effects[0].change == doctest::Approx(30.0));
+  CHECK(effects[1].change == doctest::Approx(3.0));
+  // Without replicates the noise is what the sensor tells, 0.5; a level has two or three runs.
+  CHECK(effects[0].levels[0].error == doctest::Approx(0.5 / std::sqrt(2.0)));
+  CHECK(effects[1].error == doctest::Approx(0.5 * std::sqrt(2.0 / 3.0)));
+}
+
+TEST_CASE("noise shall be the scatter of replicates where there are any") {
+  const Made made(2);
+  // Two values 0.2 apart have a standard deviation of 0.2 / sqrt 2.
+  CHECK(noise_of(made.results(), 0).value() == doctest::Approx(0.2 / std::sqrt(2.0)));
+}
+
+TEST_CASE("points that failed shall be left out of the means") {
+  Made made(1);
+  made.outcomes[0] = {.status = Status::failed, .reason = "broken", .wall_s = 0.0, .outputs = {}};
+  const auto effects = main_effects(made.spec, made.results());
+  CHECK(effects[0].levels[0].mean == doctest::Approx(13.0));
+  CHECK(effects[0].levels[0].points == 1);
+}
+
+TEST_CASE("expectations shall be judged by sign and noise") {
+  Made made(1);
+  Expectation e;
+  e.output = "x";
+  e.input = "belt.speed";
+  e.then = "rises";
+  CHECK(judge(e, made.spec, made.results()).kind == Verdict::Kind::as_expected);
+  e.then = "falls";
+  CHECK(judge(e, made.spec, made.results()).kind == Verdict::Kind::against);
+  e.input = "case";
+  e.from = "b";
+  e.to = "a";
+  CHECK(judge(e, made.spec, made.results()).kind == Verdict::Kind::as_expected);
+  CHECK(judge(e, made.spec, made.results()).change == doctest::Approx(-3.0));
+  // Errors so large that 3 mm could be chance.
+  for (Outcome& o : made.outcomes) o.outputs[0].error = 5.0;
+  CHECK(judge(e, made.spec, made.results()).kind == Verdict::Kind::unresolved);
+  for (Outcome& o : made.outcomes) o = {};
+  CHECK(judge(e, made.spec, made.results()).kind == Verdict::Kind::unknown);
+}
+
+TEST_CASE("a scattered input shall be judged by a fitted line") {
+  Spec spec;
+  Axis sample{AxisKind::samples, {"p"}, std::vector<Level>(20), {}};
+  spec.axes = {sample};
+  Plan plan;
+  plan.inputs = {{"p", "", false, 0}};
+  plan.outputs = {{"y", "y", "", "1", 1.0, false}};
+  std::vector<Outcome> outcomes;
+  for (std::size_t n = 0; n < 20; ++n) {
+    Point point;
+    point.levels = {n};
+    point.inputs = {{0.05 * static_cast<double>(n), ""}};
+    plan.points.push_back(point);
+    Outcome outcome;
+    outcome.status = Status::finished;
+    outcome.outputs = {{2.0 * point.inputs[0].number + (n % 2 == 0 ? 0.01 : -0.01), -1.0}};
+    outcomes.push_back(outcome);
+  }
+  const auto effects = main_effects(spec, {plan, outcomes});
+  CHECK(effects.at(0).is_scattered);
+  CHECK(effects[0].change == doctest::Approx(1.9).epsilon(0.02));
+  CHECK(effects[0].error > 0.0);
+  CHECK(effects[0].error < 0.05);
+}

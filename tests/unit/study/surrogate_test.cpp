@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/surrogate.hpp"
+#include "base/error.hpp"
+#include "study/sampling.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace dust::study;
+
+namespace {
+
+double bend(const std::vector<double>& x) {
+  return 3.0 + 2.0 * x[0] - x[1] + std::sin(4.0 * x[0]) * x[1];
+}
+
+std::vector<double> values_of(const Sample& places) {
+  std::vector<double> values;
+  for (const auto& place : places) values.push_back(bend(place));
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("a Gaussian process shall pass through runs without scatter and follow between them") {
+  const Sample places = sobol(24, 2, 1);
+  const auto process = make_gaussian_process();
+  process->fit(places, values_of(places));
+  for (const auto& place : places) {
+    CHECK(process->at(place).mean == doctest::Approx(bend(place)).epsilon(1e-3));
+  }
+  double worst = 0.0;
+  std::size_t covered = 0;
+  const Sample others = latin_hypercube(200, 2, 9);
+  for (const auto& place : others) {
+    const Prediction p = process->at(place);
+    worst = std::max(worst, std::abs(p.mean - bend(place)));
+    if (std::abs(p.mean - bend(place)) <= 2.0 * std::sqrt(p.variance) + 1e-6) ++covered;
+  }
+  // The function spans 4 units; 24 runs of a smooth function leave a few hundredths.
+  CHECK(worst < 0.15);
+  // Two standard errors should cover 95 %; a factor of two of the misses is allowed.
+  CHECK(covered >= 180);
+}
+
+TEST_CASE("a Gaussian process shall tell scatter of runs from the function") {
+  Sample places = sobol(40, 1, 2);
+  std::vector<double> values;
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    // A known scatter of 0.1: alternating signs, without memory along x.
+    values.push_back(5.0 * places[n][0] + (n % 2 == 0 ? 0.1 : -0.1));
+  }
+  const auto process = make_gaussian_process();
+  process->fit(places, values);
+  CHECK(process->scatter() == doctest::Approx(0.1).epsilon(0.25));
+  CHECK(process->at({0.5}).mean == doctest::Approx(2.5).epsilon(0.03));
+  // The error of the mean is far below the scatter of one run.
+  CHECK(std::sqrt(process->at({0.5}).variance) < 0.06);
+}
+
+TEST_CASE("what is taken for granted shall narrow the variance and leave the mean") {
+  const Sample places = sobol(12, 2, 1);
+  const auto process = make_gaussian_process();
+  process->fit(places, values_of(places));
+  const std::vector<double> there = {0.93, 0.07};
+  const Prediction before = process->at(there);
+  process->believe(there);
+  const Prediction after = process->at(there);
+  CHECK(after.mean == doctest::Approx(before.mean).epsilon(1e-6));
+  CHECK(after.variance < 0.2 * before.variance);
+}
+
+TEST_CASE("a quadratic surface shall reproduce a quadratic exactly") {
+  const Sample places = sobol(16, 2, 1);
+  std::vector<double> values;
+  const auto surface = [](const std::vector<double>& x) {
+    return 1.0 - 2.0 * x[0] + 0.5 * x[1] + 3.0 * x[0] * x[1] - x[1] * x[1];
+  };
+  for (const auto& place : places) values.push_back(surface(place));
+  const auto quadratic = make_quadratic();
+  quadratic->fit(places, values);
+  for (const auto& place : latin_hypercube(20, 2, 4)) {
+    CHECK(quadratic->at(place).mean == doctest::Approx(surface(place)).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("too few runs shall be refused") {
+  const auto process = make_gaussian_process();
+  CHECK_THROWS_AS(process->fit({{0.1, 0.2}, {0.3, 0.4}}, {1.0, 2.0}), dust::base::RunError);
+  const auto quadratic = make_quadratic();
+  const Sample places = sobol(7, 2, 1);
+  CHECK_THROWS_AS(quadratic->fit(places, values_of(places)), dust::base::RunError);
+}
