@@ -19,8 +19,8 @@ std::string number_of(const json& entry, const char* key, const char* error_key)
 
 }  // namespace
 
-/// summary.json "references": [{"name" or "quantity", "unit", "ours", "ours_uncertainty",
-/// "reference", "reference_uncertainty", "source"}].
+/// summary.json "references": [{"quantity", "unit", "ours", "our_uncertainty", "value",
+/// "uncertainty", "source"}].
 std::string references_html(const RunText& run) {
   HtmlTable table({{"Quantity", false},
                    {"This run"},
@@ -30,18 +30,19 @@ std::string references_html(const RunText& run) {
                    {"Source", false}});
   for (const json& entry : list_at(run.summary, "references")) {
     const auto ours = number_at(entry, "ours");
-    const auto theirs = number_at(entry, "reference");
+    const auto theirs = number_at(entry, "value");
     std::string difference = "\u2013", sigmas = "\u2013";
     if (ours && theirs && *theirs != 0.0) {
       difference = number_html(100.0 * (*ours - *theirs) / std::abs(*theirs), 2) + "\u202f%";
     }
-    const double error = std::hypot(number_at(entry, "ours_uncertainty").value_or(0.0),
-                                    number_at(entry, "reference_uncertainty").value_or(0.0));
+    const double error = std::hypot(number_at(entry, "our_uncertainty").value_or(0.0),
+                                    number_at(entry, "uncertainty").value_or(0.0));
     if (ours && theirs && error > 0.0) sigmas = number_html((*ours - *theirs) / error, 2);
-    std::string name = text_at(entry, "name");
-    if (name.empty()) name = text_at(entry, "quantity");
-    table.row({escape_html(words(name)), number_of(entry, "ours", "ours_uncertainty"),
-               number_of(entry, "reference", "reference_uncertainty"), difference, sigmas,
+    std::string name = text_at(entry, "quantity");
+    if (name.starts_with("sensors.")) name.erase(0, 8);
+    if (const auto dot = name.find('.'); dot != std::string::npos) name[dot] = '/';
+    table.row({escape_html(words(name)), number_of(entry, "ours", "our_uncertainty"),
+               number_of(entry, "value", "uncertainty"), difference, sigmas,
                escape_html(text_at(entry, "source"))});
   }
   if (table.is_empty()) return {};

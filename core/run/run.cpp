@@ -317,6 +317,7 @@ int run_scenario(const RunOptions& options) {
   RunFacts facts;
   facts.threads = threads;
   facts.warnings = read.warnings;
+  facts.references = read.references;
   facts.registry = &registry;
   io::Sha256 digest;
   digest.update(read.resolved_yaml.data(), read.resolved_yaml.size());

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/summary.hpp"
 
+#include "base/log.hpp"
 #include "dust/sdk/plugin.hpp"
 #include "io/run_files.hpp"
 #include "particles/balance_book.hpp"
+#include "run/references.hpp"
 #include "run/summary_emitters.hpp"
 #include "run/summary_models.hpp"
 
@@ -287,6 +289,8 @@ void write_summary(const std::filesystem::path& folder, const Simulation& s,
     s.models().sensors[n]->report(report);
   }
   j["sensors"] = sensors;
+  j["references"] = references_json(facts.references, sensors);
+  for (const std::string& line : reference_lines(j["references"])) base::log_info(line);
   io::write_text(folder / "summary.json", j.dump(2) + "\n");
 
   add_emitter_tables(s, report.tables);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "run/simulation.hpp"
+#include "scenario/reference_spec.hpp"
 
 #include <filesystem>
 #include <string>
@@ -20,6 +21,7 @@ struct RunFacts {
   std::vector<double> node_s;  ///< node_seconds, from the very start of the run
   std::int64_t frames = 0;
   std::vector<std::string> warnings;
+  std::vector<scenario::ReferenceSpec> references;
   const registry::Registry* registry = nullptr;  ///< where the models came from; null in tests
   std::string scenario_sha256;                   ///< of scenario.yaml as run
 };

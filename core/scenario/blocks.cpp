@@ -168,6 +168,17 @@ const ParameterSchema& SensorBlock::schema() {
   return made;
 }
 
+const ParameterSchema& ReferenceBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<ReferenceBlock> s;
+    s.text(&ReferenceBlock::quantity, "quantity",
+           "Figure of a sensor that is held against the number: sensors.NAME.FIGURE.");
+    s.text(&ReferenceBlock::source, "source", "Where the number comes from.");
+    return s.build();
+  }();
+  return made;
+}
+
 const ParameterSchema& FluidBlock::schema() {
   static const ParameterSchema made = [] {
     SchemaOf<FluidBlock> s;

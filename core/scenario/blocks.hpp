@@ -91,6 +91,14 @@ struct SensorBlock {
   static const sdk::ParameterSchema& schema();
 };
 
+/// A number from elsewhere beside a figure of ours; value and uncertainty bring their units along
+/// and are read apart.
+struct ReferenceBlock {
+  std::string quantity;
+  std::string source;
+  static const sdk::ParameterSchema& schema();
+};
+
 struct FluidBlock {
   sdk::Vec3 cells;
   double density = 0.0;

@@ -172,6 +172,21 @@ Json body_schema(const registry::Registry& registry) {
   return {{"oneOf", list}};
 }
 
+/// A number with the unit of the figure; which one that is, only the engine knows.
+Json reference_schema() {
+  Json one = block<ReferenceBlock>();
+  const auto number = [](const char* sentence) {
+    Parameter p;
+    Json made = number_or_text(p);
+    made["description"] = sentence;
+    return made;
+  };
+  one["properties"]["value"] = number("The number, with a unit of the figure's dimension.");
+  one["properties"]["uncertainty"] = number("Its uncertainty, with a unit; without it, not known.");
+  one["required"].push_back("value");
+  return one;
+}
+
 Json named(const Json& one) {
   return {{"type", "object"},
           {"propertyNames", {{"pattern", k_name_pattern}}},
@@ -263,6 +278,10 @@ std::string json_schema(const registry::Registry& registry) {
   properties["voidage"] = {{"$ref", "#/definitions/voidage"}};
   properties["sensors"] =
       named(alternatives(block<SensorBlock>(), "model", choices(registry, "sensor")));
+  properties["references"] = {
+      {"type", "array"},
+      {"items", reference_schema()},
+      {"description", "Numbers from elsewhere that stand beside ours in the summary and report."}};
   root["required"] = {"time", "gravity", "domain", "fluid"};
   definitions["scenario"] = root;
   definitions["addition"] = addition(root, definitions);

@@ -45,6 +45,7 @@ void SetupReader::read() {
   read_coupling(top);
   read_drag_and_voidage(top);
   read_sensors(top);
+  references_ = read_references(top, figures_, out_, diagnostics_);
   top.optional("include");
   top.finish();
   if (pairs_are_read_) {
@@ -93,6 +94,7 @@ void SetupReader::read_sensors(MapReader& top) {
     Node map = written_block<SensorBlock>(values);
     append(map, std::move(model.written));
     written.add(entry.key, std::move(map));
+    figures_.push_back(figures_of(entry.key, sensor.enabled, model.model.get()));
     if (!sensor.enabled) return;
     setup_.sensors.push_back({entry.key, model.choice.value_or(ModelChoice{})});
   });
@@ -162,6 +164,7 @@ std::optional<ReadResult> read_tree(const Node& root, const fs::path& file,
   if (diagnostics.has_errors()) return std::nullopt;
   ReadResult result;
   result.setup = reader.take_setup();
+  result.references = reader.take_references();
   result.resolved_yaml =
       "# Resolved scenario: includes merged, settings applied, defaults written out, all in SI.\n" +
       emit_yaml(reader.resolved());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "registry/registry.hpp"
+#include "scenario/reference_spec.hpp"
 #include "scenario/setup.hpp"
 
 #include <filesystem>
@@ -20,6 +21,7 @@ struct Override {
 /// A scenario read and checked.
 struct ReadResult {
   Setup setup;
+  std::vector<ReferenceSpec> references;  ///< of enabled sensors
   std::string resolved_yaml;          ///< includes merged, overrides applied, defaults written out
   std::vector<std::string> warnings;  ///< "file:line:column: warning: ..."
 };

@@ -3,6 +3,7 @@
 
 #include "scenario/blocks.hpp"
 #include "scenario/model_reader.hpp"
+#include "scenario/references.hpp"
 #include "scenario/setup.hpp"
 #include "scenario/suggest.hpp"
 
@@ -37,6 +38,7 @@ class SetupReader {
 
   void read();
   Setup take_setup() { return std::move(setup_); }
+  std::vector<ReferenceSpec> take_references() { return std::move(references_); }
   [[nodiscard]] const Node& resolved() const { return out_; }
 
  private:
@@ -142,6 +144,8 @@ class SetupReader {
   bool pairs_are_read_ = true;
   std::vector<std::unique_ptr<sdk::Model>> emitters_;
   std::unique_ptr<sdk::Model> voidage_;
+  std::vector<SensorFigures> figures_;
+  std::vector<ReferenceSpec> references_;
   Setup setup_;
   Node out_ = Node::make_map();
 };

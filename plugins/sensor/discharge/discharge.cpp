@@ -114,6 +114,7 @@ class Discharge final : public Sensor {
       sums_[k_volume] += way.direction * g.weight[i] * std::numbers::pi / 6.0 * g.diameter[i] *
                          g.diameter[i] * g.diameter[i];
       sums_[k_last] = world.time - (1.0 - way.fraction) * world.interval;
+      if (sums_[k_first] < 0.0) sums_[k_first] = sums_[k_last];
     }
     gravity_ = norm(world.gravity);
     time_.push_back(world.time);
@@ -132,6 +133,7 @@ class Discharge final : public Sensor {
     sink.figure("mass", sums_[k_mass], "kg");
     sink.figure("number", sums_[k_number], "1");
     sink.figure("time", has_passed() ? sums_[k_last] - p_.opened_at : 0.0, "s");
+    sink.figure("duration", has_passed() ? sums_[k_last] - sums_[k_first] : 0.0, "s");
     sink.figure("rate", rate.value, "kg/s", rate.error);
     sink.figure("number_rate", numbers.value, "1/s", numbers.error);
     sink.figure("beverloo_rate", expected, "kg/s");
@@ -161,8 +163,9 @@ class Discharge final : public Sensor {
   }
 
  private:
-  /// Net of what came back: mass [kg], number, mass times diameter, solid volume, last passage [s].
-  enum Sum { k_mass, k_number, k_moment, k_volume, k_last, k_sums };
+  /// Net of what came back: mass [kg], number, mass times diameter, solid volume, last and first
+  /// passage [s], the first below 0 while there is none.
+  enum Sum { k_mass, k_number, k_moment, k_volume, k_last, k_first, k_sums };
 
   [[nodiscard]] bool has_passed() const { return sums_[k_number] > 0.0; }
   [[nodiscard]] double expected_rate() const {
@@ -175,7 +178,7 @@ class Discharge final : public Sensor {
   }
 
   Parameters p_;
-  std::vector<double> sums_ = std::vector<double>(k_sums, 0.0);
+  std::vector<double> sums_ = {0.0, 0.0, 0.0, 0.0, 0.0, -1.0};
   double gravity_ = 0.0;        ///< [m/s2]
   std::vector<double> time_;    ///< [s] of each sample
   std::vector<double> mass_;    ///< [kg] passed until then

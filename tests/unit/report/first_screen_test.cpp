@@ -133,17 +133,18 @@ TEST_CASE("a run without dust shall have no questions about it") {
 TEST_CASE("published numbers shall stand beside those of the run") {
   const RunFolder folder;
   json summary = fake_summary();
-  summary["references"] = {{{"name", "angle_of_repose"},
+  summary["references"] = {{{"quantity", "sensors.slope.mean_angle"},
                             {"unit", "deg"},
                             {"ours", 41.0},
-                            {"ours_uncertainty", 0.3},
-                            {"reference", 40.0},
-                            {"reference_uncertainty", 0.4},
+                            {"our_uncertainty", 0.3},
+                            {"value", 40.0},
+                            {"uncertainty", 0.4},
                             {"source", "a <table>"}}};
   folder.write("summary.json", summary.dump());
   dust::io::write_report(folder.path());
   const std::string page = folder.read("report.html");
   CHECK(has(page, "Beside published numbers"));
+  CHECK(has(page, "slope / mean angle"));
   CHECK(has(page, "2.5\u202f%"));
   CHECK(has(page, "<td class=\"n\">2</td>"));  // 1 deg over 0.5 deg
   CHECK(has(page, "a &lt;table&gt;"));

@@ -243,7 +243,12 @@ struct AnySensor final : Sensor {
   explicit AnySensor(const Parameters&) {}
   void observe(const WorldView&) override {}
   void series(FigureSink&) const override {}
-  void summary(FigureSink&) const override {}
+  void summary(FigureSink& sink) const override {
+    sink.figure("angle", 0.0, "deg");
+    sink.figure("rate", 0.0, "kg/s");
+    sink.figure("drop_5_mm/median", 0.0, "m");
+    sink.figure("count", 0.0, "1");
+  }
 };
 
 inline void add_all(Registrar& registrar) {

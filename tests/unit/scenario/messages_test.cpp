@@ -155,6 +155,40 @@ TEST_CASE("a name of something that is not there shall be told with the nearest"
         "(enabled: false)");
 }
 
+TEST_CASE("a reference to a figure that is not there shall be told with the nearest") {
+  const auto check_reference = [](const std::string& reference, const std::string& expected) {
+    const Folder folder;
+    std::string text = k_small;
+    text += "references:\n  - " + reference + "\n";
+    const std::string all = joined(problems(folder.write("s.yaml", text)));
+    const auto line = std::to_string(std::count(text.begin(), text.end(), '\n'));
+    CHECK_MESSAGE(all == "s.yaml:" + line + ":" + expected, all);
+  };
+  check_reference("{quantity: sensors.strem.angle, value: 1 deg, source: a}",
+                  "16: error: references[0].quantity: there is no sensor 'strem'; did you mean "
+                  "'stream'?");
+  check_reference("{quantity: sensors.stream.angel, value: 1 deg, source: a}",
+                  "16: error: references[0].quantity: the sensor 'stream' has no figure 'angel'; "
+                  "did you mean 'angle'?");
+  check_reference("{quantity: stream.angle, value: 1 deg, source: a}",
+                  "16: error: references[0].quantity: 'stream.angle' is not of the form "
+                  "sensors.NAME.FIGURE");
+  check_reference("{quantity: sensors.stream.angle, value: 1 mm, source: a}",
+                  "46: error: references[0].value: 'mm' is the unit of a length: the figure is in "
+                  "deg");
+  check_reference("{quantity: sensors.stream.count, value: 1 mm, source: a}",
+                  "46: error: references[0].value: 'mm' is the unit of a length: the figure is in "
+                  "bare numbers");
+  check_reference("{quantity: sensors.stream.angle, value: 1 dog, source: a}",
+                  "46: error: references[0].value: unknown unit 'dog': the figure is in deg");
+  check_reference("{quantity: sensors.stream.angle, value: 1 deg, uncertainty: -1 deg, source: a}",
+                  "66: error: references[0].uncertainty: -1 is below 0");
+  check_reference("{quantity: sensors.stream.angle, source: a}",
+                  "5: error: references[0]: missing key 'value' (the number, with its unit)");
+  check_reference("{quantity: sensors.stream.angle, value: 1 deg, source: a, sauce: b}",
+                  "64: error: unknown key 'sauce' in references[0]; did you mean 'source'?");
+}
+
 TEST_CASE("a body that contradicts itself shall be told with a remedy") {
   check_body("lid: {shape: mesh, material: glass, unit: 1 mm, file: none.stl}",
              "s.yaml:24:57: error: bodies.lid.file: there is no file none.stl");

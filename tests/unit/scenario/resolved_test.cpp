@@ -105,12 +105,26 @@ void check_same(const Setup& a, const Setup& b) {
   check_same(a.voidage, b.voidage);
 }
 
+void check_same(const std::vector<scenario::ReferenceSpec>& a,
+                const std::vector<scenario::ReferenceSpec>& b) {
+  REQUIRE(a.size() == b.size());
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    CHECK(a[n].sensor == b[n].sensor);
+    CHECK(a[n].figure == b[n].figure);
+    CHECK(a[n].value == b[n].value);
+    CHECK(a[n].unit == b[n].unit);
+    CHECK(a[n].uncertainty == b[n].uncertainty);
+    CHECK(a[n].source == b[n].source);
+  }
+}
+
 void check_round_trip(const std::filesystem::path& file,
                       const std::vector<scenario::Override>& set) {
   const Folder folder;
   const auto first = read(file, set);
   const auto second = read(folder.write("scenario.yaml", first.resolved_yaml));
   check_same(first.setup, second.setup);
+  check_same(first.references, second.references);
   CHECK(second.resolved_yaml == first.resolved_yaml);
   CHECK(first.resolved_yaml.starts_with("# "));
 }
@@ -145,4 +159,18 @@ TEST_CASE("the resolved scenario shall write defaults out") {
                           "one_way: false", "largest_cfl: 1", "finer_than: .inf"}) {
     CHECK_MESSAGE(text.find(key) != std::string::npos, key);
   }
+}
+
+TEST_CASE("a resolved scenario with references shall give the same setup when read again") {
+  const Folder folder;
+  const std::string references =
+      "references:\n"
+      "  - {quantity: sensors.stream.angle, value: 41.6 deg, uncertainty: 1.1 deg, source: a: b}\n"
+      "  - {quantity: sensors.stream.rate, value: 3 g/s, source: 'c, d'}\n"
+      "  - {quantity: sensors.stream.drop_5_mm/class_10_um/median, value: 1.1 mm, source: e}\n"
+      "  - {quantity: sensors.stream.count, value: 7, source: f}\n";
+  const std::string colon = "source: a: b";
+  std::string text = k_small + references;
+  text.replace(text.find(colon), colon.size(), "source: 'a: b'");
+  check_round_trip(folder.write("small.yaml", text), {});
 }

@@ -51,6 +51,7 @@ TEST_CASE("a steady discharge shall have its rate, its time, and Beverloo's besi
   CHECK(f["number"] == 160.0);
   CHECK(f["mass"] == doctest::Approx(160 * mass).epsilon(1e-12));
   // The last one crosses at 0.1 + 159.5 * 1.25 ms.
+  CHECK(f["duration"] == doctest::Approx(159 * 1.25e-3).epsilon(1e-9));
   CHECK(f["time"] == doctest::Approx(0.05 + 159.5 * 1.25e-3).epsilon(1e-9));
   // From 20 to 80 %: 96 grains, one sample of 1 ms is 0.8 grains.
   CHECK(f["number_rate"] == doctest::Approx(800.0).epsilon(0.02));

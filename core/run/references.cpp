@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/references.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace dust::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A number with its uncertainty, "-" for none.
+std::string shown(const Json& value, const Json& uncertainty) {
+  if (!value.is_number()) return "-";
+  char text[64];
+  std::snprintf(text, sizeof text, "%.4g", value.get<double>());
+  std::string out = text;
+  if (uncertainty.is_number()) {
+    std::snprintf(text, sizeof text, " +- %.2g", uncertainty.get<double>());
+    out += text;
+  }
+  return out;
+}
+
+}  // namespace
+
+Json references_json(std::span<const scenario::ReferenceSpec> references, const Json& sensors) {
+  Json list = Json::array();
+  for (const scenario::ReferenceSpec& r : references) {
+    Json one = {{"quantity", "sensors." + r.sensor + "." + r.figure},
+                {"unit", r.unit},
+                {"value", r.value},
+                {"uncertainty", r.uncertainty < 0.0 ? Json(nullptr) : Json(r.uncertainty)},
+                {"ours", nullptr},
+                {"our_uncertainty", nullptr},
+                {"error_percent", nullptr},
+                {"source", r.source}};
+    if (sensors.contains(r.sensor) && sensors[r.sensor].contains(r.figure)) {
+      const Json& figure = sensors[r.sensor][r.figure];
+      one["unit"] = figure["unit"];
+      one["ours"] = figure["value"];
+      one["our_uncertainty"] = figure["uncertainty"];
+      if (figure["value"].is_number() && r.value != 0.0) {
+        const double error = std::abs((r.value - figure["value"].get<double>()) / r.value);
+        one["error_percent"] = 100.0 * error;
+      }
+    }
+    list.push_back(one);
+  }
+  return list;
+}
+
+std::vector<std::string> reference_lines(const Json& references) {
+  std::vector<std::string> lines;
+  for (const Json& r : references) {
+    const std::string unit = r["unit"] == "1" ? "" : " " + r["unit"].get<std::string>();
+    std::string line = r["quantity"].get<std::string>() + ": ours " +
+                       shown(r["ours"], r["our_uncertainty"]) + unit + ", reference " +
+                       shown(r["value"], r["uncertainty"]) + unit;
+    if (r["error_percent"].is_number()) {
+      char text[32];
+      std::snprintf(text, sizeof text, ", %.1f %% off", r["error_percent"].get<double>());
+      line += text;
+    }
+    lines.push_back(line + " (" + r["source"].get<std::string>() + ")");
+  }
+  return lines;
+}
+
+}  // namespace dust::run

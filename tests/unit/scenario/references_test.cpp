@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/references.hpp"
+
+#include "unit/scenario/support.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace scenario = dust::scenario;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+std::vector<scenario::ReferenceSpec> read_list(const std::string& list) {
+  const Folder folder;
+  return read(folder.write("s.yaml", k_small + "references:\n" + list)).references;
+}
+
+}  // namespace
+
+TEST_CASE("a reference shall be kept in the unit of its figure") {
+  const auto list = read_list(
+      "  - {quantity: sensors.stream.angle, value: 41.6 deg, uncertainty: 0.01 rad, source: t}\n"
+      "  - {quantity: sensors.stream.angle, value: 0.5, source: bare is SI}\n"
+      "  - {quantity: sensors.stream.rate, value: 6 g/s, source: t}\n"
+      "  - {quantity: sensors.stream.drop_5_mm/median, value: 12 mm, source: t}\n"
+      "  - {quantity: sensors.stream.count, value: 12, source: t}\n");
+  REQUIRE(list.size() == 5);
+  CHECK(list[0].sensor == "stream");
+  CHECK(list[0].figure == "angle");
+  CHECK(list[0].value == 41.6);  // as written
+  CHECK(list[0].unit == "deg");
+  CHECK(list[0].uncertainty == doctest::Approx(1.8 / std::numbers::pi).epsilon(1e-14));
+  CHECK(list[1].value == doctest::Approx(90.0 / std::numbers::pi).epsilon(1e-14));
+  CHECK(list[1].uncertainty < 0.0);
+  CHECK(list[2].value == doctest::Approx(6e-3).epsilon(1e-14));
+  CHECK(list[3].figure == "drop_5_mm/median");
+  CHECK(list[3].value == doctest::Approx(12e-3).epsilon(1e-14));
+  CHECK(list[4].value == 12.0);
+}
+
+TEST_CASE("a figure of a size class shall be taken on trust") {
+  const auto list =
+      read_list("  - {quantity: sensors.stream.class_10_um/rate, value: 0.05 g/t, source: t}\n");
+  REQUIRE(list.size() == 1);
+  CHECK(list[0].unit == "g/t");
+  CHECK(list[0].value == 0.05);
+}
+
+TEST_CASE("a reference to a sensor that is switched off shall be left out") {
+  const Folder folder;
+  const auto file = folder.write(
+      "s.yaml",
+      k_small + "references:\n  - {quantity: sensors.stream.count, value: 1, source: t}\n");
+  CHECK(read(file).references.size() == 1);
+  CHECK(read(file, {{"sensors.stream.enabled", "false"}}).references.empty());
+}
+
+TEST_CASE("ours shall stand beside the reference with the difference in per cent") {
+  const std::vector<scenario::ReferenceSpec> references{
+      {"slope", "angle", 41.6, "deg", 1.1, "thesis"},
+      {"slope", "count", 0.0, "1", -1.0, "zero"},
+      {"slope", "class_10_um/rate", 2.0, "g/t", -1.0, "never seen"}};
+  const Json sensors = {{"slope",
+                         {{"angle", {{"value", 39.52}, {"unit", "deg"}, {"uncertainty", 0.4}}},
+                          {"count", {{"value", 3.0}, {"unit", "1"}, {"uncertainty", nullptr}}}}}};
+  const Json list = dust::run::references_json(references, sensors);
+  REQUIRE(list.size() == 3);
+  CHECK(list[0]["quantity"] == "sensors.slope.angle");
+  CHECK(list[0]["ours"] == 39.52);
+  CHECK(list[0]["our_uncertainty"] == 0.4);
+  CHECK(list[0]["value"] == 41.6);
+  CHECK(list[0]["uncertainty"] == 1.1);
+  CHECK(list[0]["error_percent"].get<double>() == doctest::Approx(5.0).epsilon(1e-9));
+  CHECK(list[1]["error_percent"].is_null());  // per cent of nothing
+  CHECK(list[1]["uncertainty"].is_null());
+  CHECK(list[2]["ours"].is_null());
+  const auto lines = dust::run::reference_lines(list);
+  REQUIRE(lines.size() == 3);
+  CHECK(
+      lines[0] ==
+      "sensors.slope.angle: ours 39.52 +- 0.4 deg, reference 41.6 +- 1.1 deg, 5.0 % off (thesis)");
+  CHECK(lines[1] == "sensors.slope.count: ours 3, reference 0 (zero)");
+  CHECK(lines[2] == "sensors.slope.class_10_um/rate: ours - g/t, reference 2 g/t (never seen)");
+}
