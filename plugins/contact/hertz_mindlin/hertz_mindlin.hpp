@@ -18,7 +18,7 @@ struct Constants {
 /// Largest tangential damper [m*/dt]. Its spin damps a grain at the rate 2.5 sum(gamma_t) / m, and
 /// a velocity that is predicted over half a step (Adams-Bashforth) is stable below 1/dt: enough for
 /// ten equal neighbours. Beyond it a bed of low restitution would keep on shivering.
-inline constexpr double k_most_tangential_damping = 0.08;
+inline constexpr double k_most_tangential_damping = 0.05;
 
 /// Damping number: \f$ -2 \beta \sqrt{5/6} \f$ with \f$ \beta = \ln e / \sqrt{\ln^2 e + \pi^2} \f$,
 /// 0 < e <= 1. Exact as long as the normal force may attract while the contact opens.
