@@ -162,7 +162,7 @@ TEST_CASE("a reference to a figure that is not there shall be told with the near
     text += "references:\n  - " + reference + "\n";
     const std::string all = joined(problems(folder.write("s.yaml", text)));
     const auto line = std::to_string(std::count(text.begin(), text.end(), '\n'));
-    CHECK_MESSAGE(all == "s.yaml:" + line + ":" + expected, all);
+    CHECK_MESSAGE(all == "s.yaml:" + line + ":" + expected + "\n", all);
   };
   check_reference("{quantity: sensors.strem.angle, value: 1 deg, source: a}",
                   "16: error: references[0].quantity: there is no sensor 'strem'; did you mean "
@@ -174,19 +174,19 @@ TEST_CASE("a reference to a figure that is not there shall be told with the near
                   "16: error: references[0].quantity: 'stream.angle' is not of the form "
                   "sensors.NAME.FIGURE");
   check_reference("{quantity: sensors.stream.angle, value: 1 mm, source: a}",
-                  "46: error: references[0].value: 'mm' is the unit of a length: the figure is in "
+                  "45: error: references[0].value: 'mm' is the unit of a length: the figure is in "
                   "deg");
   check_reference("{quantity: sensors.stream.count, value: 1 mm, source: a}",
-                  "46: error: references[0].value: 'mm' is the unit of a length: the figure is in "
+                  "45: error: references[0].value: 'mm' is the unit of a length: the figure is in "
                   "bare numbers");
   check_reference("{quantity: sensors.stream.angle, value: 1 dog, source: a}",
-                  "46: error: references[0].value: unknown unit 'dog': the figure is in deg");
+                  "45: error: references[0].value: unknown unit 'dog': the figure is in deg");
   check_reference("{quantity: sensors.stream.angle, value: 1 deg, uncertainty: -1 deg, source: a}",
-                  "66: error: references[0].uncertainty: -1 is below 0");
+                  "65: error: references[0].uncertainty: -1 is below 0");
   check_reference("{quantity: sensors.stream.angle, source: a}",
                   "5: error: references[0]: missing key 'value' (the number, with its unit)");
-  check_reference("{quantity: sensors.stream.angle, value: 1 deg, source: a, sauce: b}",
-                  "64: error: unknown key 'sauce' in references[0]; did you mean 'source'?");
+  check_reference("{quantity: sensors.stream.angle, value: 1 deg, source: a, sorce: b}",
+                  "63: error: unknown key 'sorce' in references[0]; did you mean 'source'?");
 }
 
 TEST_CASE("a body that contradicts itself shall be told with a remedy") {
