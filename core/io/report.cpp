@@ -235,7 +235,7 @@ void write_report(const std::filesystem::path& folder) {
   page.body = body_html(run, data, highlights);
   page.data = std::move(data);
   page.scripts = {"grains.js", "air.js",   "extraction.js", "stream.js",
-                  "curves.js", "graph.js", "clock.js"};
+                  "curves.js", "graph.js", "run.js"};
   write_page(folder / "report.html", page_html(page));
 }
 

@@ -31,7 +31,8 @@ std::string page_html(const Page& page) {
   text += "</style>\n</head>\n<body>\n<main>\n" + page.body + "</main>\n";
   text +=
       "<script type=\"application/json\" id=\"run-data\">" + script_json(page.data) + "</script>\n";
-  for (const char* name : {"uPlot.iife.min.js", "base.js", "colour.js", "picture.js", "plots.js"}) {
+  for (const char* name :
+       {"uPlot.iife.min.js", "base.js", "colour.js", "picture.js", "plots.js", "clock.js"}) {
     text += script_html(name);
   }
   for (const std::string& name : page.scripts) text += script_html(name);

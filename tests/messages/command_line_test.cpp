@@ -66,12 +66,19 @@ TEST_CASE("a bad command line shall exit with 2 and a hint") {
   CHECK(engine("").status == 2);
 }
 
+TEST_CASE("folders that are no runs shall be refused with a remedy") {
+  check_refused("compare nowhere elsewhere",
+                "error: nowhere is not a folder; give the output folder of a run, for example "
+                "results/transfer_point");
+  check_refused("report nowhere", "nowhere: error: no such folder");
+}
+
 TEST_CASE("help and version shall exit with 0, for every command with examples") {
   CHECK(engine("--version").out.starts_with("engine "));
   const Outcome help = engine("--help");
   CHECK(help.status == 0);
-  for (const std::string command :
-       {"check", "plugins", "describe", "schema", "new-plugin", "test-plugin"}) {
+  for (const std::string command : {"check", "plugins", "describe", "schema", "report", "compare",
+                                    "new-plugin", "test-plugin"}) {
     CHECK(help.out.find("  " + command) != std::string::npos);
     const Outcome one = engine(command + " --help");
     CHECK(one.status == 0);

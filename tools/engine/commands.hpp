@@ -22,6 +22,7 @@ void add_schema(CLI::App& app, int& status);
 void add_graph(CLI::App& app, int& status);
 void add_study(CLI::App& app, int& status);
 void add_report(CLI::App& app, int& status);
+void add_compare(CLI::App& app, int& status);
 void add_new_plugin(CLI::App& app, int& status);
 void add_test_plugin(CLI::App& app, int& status);
 

@@ -75,6 +75,7 @@ int engine_main(int argc, char** argv) {
   engine::add_graph(app, status);
   engine::add_study(app, status);
   engine::add_report(app, status);
+  engine::add_compare(app, status);
   engine::add_new_plugin(app, status);
   engine::add_test_plugin(app, status);
   std::vector<std::string> arguments(argv + 1, argv + argc);

@@ -1,9 +1,10 @@
 'use strict';
 // A canvas true to scale over a part of the x-z plane, with axes in mm. `paint(pen)` draws inside.
 Dust.Picture = class {
-  constructor(parent, label, paint) {
+  constructor(parent, label, paint, scene = Dust.data) {
     this.paint = paint;
-    this.whole = Dust.data.view;
+    this.scene = scene;
+    this.whole = scene.view;
     this.view = [...this.whole];
     this.canvas = Dust.el('canvas', {role: 'img', 'aria-label': label});
     parent.append(this.canvas);
@@ -74,7 +75,7 @@ Dust.Picture = class {
     pen.strokeStyle = Dust.colour('body-line');
     pen.lineWidth = 1.2;
     pen.lineJoin = 'round';
-    for (const body of Dust.data.bodies) {
+    for (const body of this.scene.bodies) {
       for (const ring of body.polygons) {
         pen.beginPath();
         ring.forEach(([x, z], k) => (k ? pen.lineTo(this.x(x), this.z(z)) : pen.moveTo(this.x(x), this.z(z))));

@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Reports in a real headless browser: the page draws without a script error, asks nobody for anything,
+shows the numbers of summary.json, and stays within its size.
+
+    report_test.py ENGINE SOURCE
+
+Exit status 77 (skipped) where there is no chromium: it is no dependency of the project."""
+import html.parser
+import json
+import math
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+SKIPPED = 77
+MOST_BYTES = 15e6  # of a page: what a mail still takes
+
+
+def browser():
+    for name in ("chromium", "chromium-browser", "google-chrome"):
+        if shutil.which(name):
+            return name
+    print("skipped: no chromium on this machine (apt-get install chromium)")
+    sys.exit(SKIPPED)
+
+
+def run(*command):
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}\nended with {done.returncode}:\n{done.stderr}")
+    return done.stdout
+
+
+def drawn(chromium, page, profile):
+    """The page's document after its scripts have run. Every name resolves to nothing: no request can
+    succeed, and the log would tell of one that was tried."""
+    log = profile / "log"
+    command = [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+               "--disable-background-networking", "--disable-component-update", "--disable-sync",
+               "--host-resolver-rules=MAP * ~NOTFOUND", f"--user-data-dir={profile}", "--enable-logging=stderr",
+               "--virtual-time-budget=20000", "--window-size=1280,4000", "--dump-dom", page.as_uri()]
+    with open(log, "w") as err:
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=err, text=True, timeout=240)
+    console = [line for line in log.read_text(errors="replace").splitlines() if "CONSOLE" in line]
+    return done.stdout, console
+
+
+class Document(html.parser.HTMLParser):
+    """Ids, text by element, the attributes of the root, and what would be fetched."""
+
+    def __init__(self):
+        super().__init__()
+        self.root, self.ids, self.fetched, self.rows = {}, set(), [], []
+        self.cells, self.in_cell = None, False
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        if tag == "html":
+            self.root = attributes
+        if "id" in attributes:
+            self.ids.add(attributes["id"])
+        for key in ("src", "href", "data", "poster", "srcset"):
+            value = attributes.get(key)
+            if value and not value.startswith(("#", "data:")):
+                self.fetched.append(f"<{tag} {key}={value}>")
+        if tag == "tr":
+            self.cells = []
+        if tag in ("td", "th") and self.cells is not None:
+            self.cells.append("")
+            self.in_cell = True
+
+    def handle_endtag(self, tag):
+        if tag in ("td", "th"):
+            self.in_cell = False
+        if tag == "tr" and self.cells is not None:
+            self.rows.append(self.cells)
+            self.cells = None
+
+    def handle_data(self, data):
+        if self.in_cell and self.cells:
+            self.cells[-1] += data
+
+
+def check(condition, text):
+    if not condition:
+        sys.exit("FAILED: " + text)
+
+
+def check_page(chromium, page):
+    with tempfile.TemporaryDirectory() as profile:
+        text, console = drawn(chromium, page, pathlib.Path(profile))
+    document = Document()
+    document.feed(text)
+    name = page.parent.name + "/" + page.name
+    check("data-errors" not in document.root, f"{name}: {document.root.get('data-errors')}")
+    check(document.root.get("data-drawn") == "yes", f"{name}: the scripts did not come to their end")
+    check(not console, f"{name}: the console says {console}")
+    check(not document.fetched, f"{name} would fetch {document.fetched}")
+    check(page.stat().st_size < MOST_BYTES, f"{name} has {page.stat().st_size} bytes")
+    return text, document
+
+
+def check_figures(folder, document):
+    """Every figure of every sensor stands on the page, unrounded to nine digits."""
+    summary = json.loads((folder / "summary.json").read_text())
+    words = lambda s: re.sub(r" um(?=$|/| )", " \u00b5m", s.replace("_", " ")).replace("/", " / ")
+    shown = {}
+    for row in document.rows:
+        if len(row) == 3:
+            shown.setdefault(row[0].strip(), []).append(row[2])
+    for sensor, figures in summary["sensors"].items():
+        for name, figure in figures.items():
+            value = figure["value"]
+            if value is None or not math.isfinite(value):
+                continue
+            check(words(name) in shown, f"{folder.name}: {sensor} {name} is not on the page")
+            texts = [float(t.split()[0]) for t in shown[words(name)] if t.strip()]
+            check(any(t == float(f"{value:.9g}") for t in texts), f"{folder.name}: {sensor} {name}: {value} is not among {texts}")
+
+
+def main():
+    engine, source = sys.argv[1], pathlib.Path(sys.argv[2])
+    chromium = browser()
+    scenarios = source / "tests" / "scenario"
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        transfer = scenarios / "small_transfer.yaml"
+        runs = {
+            "transfer": [transfer, "--set", "time.end=0.02 s"],
+            "grains": [scenarios / "small_hourglass.yaml", "--set", "time.end=0.03 s"],
+            # Air alone: frames without a grain.
+            "air": [transfer, "--set", "time.end=0.02 s", "--set", "emitters.feed.enabled=false"],
+        }
+        for name, arguments in runs.items():
+            run(engine, "run", *arguments, "-o", folder / name, "--quiet", "--threads", "1")
+            text, document = check_page(chromium, folder / name / "report.html")
+            check_figures(folder / name, document)
+            check(("speed-picture" in document.ids) == (name != "grains"), f"{name}: the map of the air")
+            check("<canvas" in text, f"{name}: no picture was drawn")
+            print(f"{name}: {(folder / name / 'report.html').stat().st_size} bytes, {len(document.rows)} rows")
+        both = folder / "both" / "compare.html"
+        both.parent.mkdir()
+        table = run(engine, "compare", folder / "transfer", folder / "air", "-o", both)
+        check("emitters.feed" in table, f"the comparison does not tell the difference:\n{table}")
+        text, document = check_page(chromium, both)
+        check(text.count("<canvas") >= 3, "the comparison shows no pictures")
+
+
+main()

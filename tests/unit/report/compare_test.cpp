@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/compare.hpp"
+#include "base/error.hpp"
+#include "fake_run.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <regex>
+
+using dust::io::compare_runs;
+using dust::io::comparison_text;
+using dust::io::QuantityPair;
+using dust::io::scenario_differences;
+using dust::test::fake_summary;
+using dust::test::page_data;
+using dust::test::RunFolder;
+using nlohmann::json;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+void fill(const RunFolder& folder, double dust, const std::string& speed) {
+  json summary = fake_summary();
+  summary["sensors"]["loose_dust"]["liberated"]["value"] = dust;
+  folder.write("summary.json", summary.dump());
+  folder.write("scenario.yaml", "bodies:\n  belt: {speed: " + speed + ", radius: 0.039}\n");
+  folder.write("series.csv", "time [s],kinetic_energy [J]\n0,0\n0.1," + speed + "\n");
+  folder.write("report.json", json{{"curves",
+                                    {{{"sensor", "lip"},
+                                      {"title", "Flux"},
+                                      {"x_label", "time [s]"},
+                                      {"y_label", "rate [kg/s]"},
+                                      {"series", "all"},
+                                      {"x", {0, 1}},
+                                      {"y", {0, dust}}}}}}
+                                  .dump());
+  folder.write_h5({});
+}
+
+std::string page_of(const RunFolder& first, const RunFolder& second) {
+  const auto target = first.path() / "compare.html";
+  write_comparison(compare_runs(first.path(), second.path()), first.path(), second.path(), target);
+  return first.read("compare.html");
+}
+
+}  // namespace
+
+TEST_CASE("scenarios shall differ by path, lists of plain values as one") {
+  const auto list = scenario_differences("a: 1\nb: {c: [1, 2, 3], d: x}\ne: [{f: 1}, {f: 2}]\n",
+                                         "a: 1\nb: {c: [1, 2, 4], g: y}\ne: [{f: 1}, {f: 3}]\n");
+  REQUIRE(list.size() == 4);
+  CHECK(list[0].path == "b.c");
+  CHECK(list[0].second == "[1, 2, 4]");
+  CHECK(list[1].path == "b.d");
+  CHECK(list[1].second.empty());
+  CHECK(list[2].path == "b.g");
+  CHECK(list[2].first.empty());
+  CHECK(list[3].path == "e[1].f");
+  CHECK(scenario_differences("a: [", "a: 1").empty());
+}
+
+TEST_CASE("a difference shall be told in the errors of both runs") {
+  const QuantityPair pair{"s", "q", "m", 1.0, 0.3, 2.0, 0.4};
+  CHECK(pair.difference() == 1.0);
+  CHECK(pair.in_errors() == doctest::Approx(2.0));
+  CHECK(std::isnan(QuantityPair{"s", "q", "m", 1.0, -1.0, 2.0, -1.0}.in_errors()));
+  CHECK(QuantityPair{"s", "q", "m", 1.0, -1.0, 2.0, 0.5}.in_errors() == doctest::Approx(2.0));
+}
+
+TEST_CASE("two runs shall stand side by side in text and on a page") {
+  const RunFolder first, second;
+  fill(first, 0.0137, "0.8");
+  fill(second, 0.0237, "0.4");
+  const auto comparison = compare_runs(first.path(), second.path());
+  const std::string text = comparison_text(comparison);
+  CHECK(has(text, "bodies.belt.speed: 0.8 | 0.4"));
+  CHECK_FALSE(has(text, "radius"));
+  CHECK(has(text, "+0.01"));
+  CHECK(has(text, "+3.4"));  // 0.01 over sqrt(2) 0.0021
+  CHECK(has(text, "bit for bit"));
+
+  const std::string page = page_of(first, second);
+  CHECK(has(page, "bodies.belt.speed"));
+  const json data = page_data(page);
+  CHECK(data["runs"][0]["grains"]["frames"].size() == 3);
+  CHECK(data["runs"][1]["air"]["frames"].size() == 3);
+  REQUIRE(data["plots"]["curves"].size() == 1);
+  CHECK(data["plots"]["curves"][0]["unit"] == "kg/s");
+  CHECK(data["plots"]["curves"][0]["lines"][1]["y"][1] == 0.0237);
+  CHECK(data["plots"]["series"][0]["title"] == "kinetic_energy");
+  CHECK_FALSE(std::regex_search(page, std::regex("(src|href)\\s*=\\s*[\"']?(https?:)?//")));
+  CHECK(has(page, "default-src 'none'"));
+}
+
+TEST_CASE("runs that share nothing shall be compared all the same") {
+  const RunFolder first, second;
+  first.write("summary.json", "{}");
+  json summary = fake_summary();
+  summary["state_sha256"] = "other";
+  second.write("summary.json", summary.dump());
+  const auto comparison = compare_runs(first.path(), second.path());
+  CHECK_FALSE(comparison.is_same_state);
+  CHECK(has(comparison_text(comparison), "-"));
+  CHECK(has(page_of(first, second), "</html>"));
+}
+
+TEST_CASE("names of compared runs shall not become markup") {
+  const RunFolder first, second;
+  json summary = fake_summary();
+  summary["sensors"]["<img src=x>"] = {{"<b>", {{"value", 1.0}, {"unit", "<i>"}}}};
+  first.write("summary.json", summary.dump());
+  second.write("summary.json", summary.dump());
+  first.write("scenario.yaml", "'<script>': 1\n");
+  second.write("scenario.yaml", "'<script>': '</script>'\n");
+  const std::string page = page_of(first, second);
+  CHECK_FALSE(has(page, "<img"));
+  CHECK(has(page, "&lt;script&gt;"));
+}
+
+TEST_CASE("a folder that is no run shall be refused by name") {
+  const RunFolder first, second;
+  first.write("summary.json", "{}");
+  std::string message;
+  try {
+    (void)compare_runs(first.path(), second.path());
+  } catch (const dust::base::UserError& error) {
+    message = error.lines().at(0);
+  }
+  CHECK(has(message, second.path().string()));
+  CHECK(has(message, "summary.json"));
+}

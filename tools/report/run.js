@@ -1,0 +1,30 @@
+'use strict';
+// The pictures of a run under one clock.
+(() => {
+  // report.html#picture: grains and air speed side by side and nothing else, for documents.
+  if (/^#picture/.test(location.hash)) {
+    document.documentElement.dataset.view = 'picture';
+    const legend = document.getElementById('grains-legend');
+    if (legend) document.getElementById('grains-picture').after(legend);
+  }
+  const times = (Dust.grains || Dust.air || {times: []}).times;
+  if (!times.length) {
+    document.documentElement.dataset.drawn = 'yes';
+    return;
+  }
+  const nearest = (list, t) => list.reduce((best, value, k) => (Math.abs(value - t) < Math.abs(list[best] - t) ? k : best), 0);
+  let wanted = 0;
+  const show = async (index) => {
+    wanted = index;
+    const shows = [];
+    if (Dust.grains) shows.push(Dust.grains.show(index));
+    if (Dust.air) shows.push(Dust.air.show(nearest(Dust.air.times, times[index])));
+    const ready = await Promise.all(shows);
+    if (wanted !== index) return;
+    // Pictures show grains and air together: all take the new frame before any is drawn.
+    for (const shown of ready) shown.take();
+    for (const shown of ready) shown.draw();
+  };
+  const asked = /^#(?:picture,)?frame=(\d+)$/.exec(location.hash);
+  Dust.clock(times, show, asked ? Math.min(+asked[1], times.length - 1) : times.length - 1);
+})();
