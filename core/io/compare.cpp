@@ -119,7 +119,8 @@ std::string plain(double value, double error) {
   char text[64];
   if (!std::isfinite(value)) return "-";
   if (!(error > 0.0) || !std::isfinite(error)) {
-    std::snprintf(text, sizeof text, "%.5g", value);
+    // Counts stay whole.
+    std::snprintf(text, sizeof text, value == std::round(value) ? "%.12g" : "%.5g", value);
     return text;
   }
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12);
@@ -196,7 +197,9 @@ std::string comparison_text(const Comparison& c) {
   for (const QuantityPair& pair : c.headline) {
     char difference[32] = "-", sigmas[32] = "-";
     if (std::isfinite(pair.difference())) {
-      std::snprintf(difference, sizeof difference, "%+.4g", pair.difference());
+      const bool is_count = pair.difference() == std::round(pair.difference());
+      std::snprintf(difference, sizeof difference, is_count ? "%+.12g" : "%+.4g",
+                    pair.difference());
     }
     if (std::isfinite(pair.in_errors())) {
       std::snprintf(sigmas, sizeof sigmas, "%+.1f", pair.in_errors());

@@ -133,7 +133,7 @@ def main():
             "transfer": [transfer, "--set", "time.end=0.02 s"],
             "grains": [scenarios / "small_hourglass.yaml", "--set", "time.end=0.03 s"],
             # Air alone: frames without a grain.
-            "air": [transfer, "--set", "time.end=0.02 s", "--set", "emitters.feed.enabled=false"],
+            "air": [transfer, "--set", "time.end=0.02 s", "--set", "emitters.feed.begin=1 s"],
         }
         for name, arguments in runs.items():
             run(engine, "run", *arguments, "-o", folder / name, "--quiet", "--threads", "1")
@@ -145,7 +145,7 @@ def main():
         both = folder / "both" / "compare.html"
         both.parent.mkdir()
         table = run(engine, "compare", folder / "transfer", folder / "air", "-o", both)
-        check("emitters.feed" in table, f"the comparison does not tell the difference:\n{table}")
+        check("emitters.feed.begin" in table, f"the comparison does not tell the difference:\n{table}")
         text, document = check_page(chromium, both)
         check(text.count("<canvas") >= 3, "the comparison shows no pictures")
 
