@@ -107,17 +107,30 @@ std::string headline_html(const Comparison& c) {
          "runs; beyond three in bold.</p>\n";
 }
 
-json values_of(const json& list, std::size_t stride) {
-  json values = json::array();
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    if ((list.size() - 1 - k) % stride == 0) values.push_back(list[k]);
+/// Means of blocks of `stride` values; a block with a gap is a gap.
+json block_means(const json& list, std::size_t stride) {
+  json means = json::array();
+  for (std::size_t from = 0; from < list.size(); from += stride) {
+    const std::size_t to = std::min(from + stride, list.size());
+    double sum = 0.0;
+    bool is_whole = true;
+    for (std::size_t k = from; k < to; ++k) {
+      is_whole = is_whole && list[k].is_number();
+      if (is_whole) sum += list[k].get<double>();
+    }
+    if (is_whole) {
+      means.push_back(sum / static_cast<double>(to - from));
+    } else {
+      means.push_back(nullptr);
+    }
   }
-  return values;
+  return means;
 }
 
 /// Curves of the sensors that both runs have, over each other.
 json curve_plots(const Comparison& c) {
-  constexpr std::size_t k_points = 800;
+  // Rates sampled at every step are mostly noise of single grains.
+  constexpr std::size_t k_points = 100;
   json plots = json::array();
   const auto label = [](const std::string& text) { return text.substr(0, text.find(" [")); };
   for (const json& a : list_at(c.first.report, "curves")) {
@@ -144,19 +157,18 @@ json curve_plots(const Comparison& c) {
         }
         for (const json& v : y) is_zero = is_zero && (!v.is_number() || v == 0.0);
         const std::size_t stride = (x.size() + k_points - 1) / k_points;
-        lines.push_back({{"name", name}, {"x", values_of(x, stride)}, {"y", values_of(y, stride)}});
+        lines.push_back(
+            {{"name", name}, {"x", block_means(x, stride)}, {"y", block_means(y, stride)}});
       }
       if (lines.empty() || is_zero) continue;
-      const std::string y_label = text_at(a, "y_label");
+      const std::string y_label = text_at(a, "y_label"), series = text_at(a, "series");
       const auto open = y_label.rfind('['), close = y_label.rfind(']');
       const bool has_unit = open != std::string::npos && close != std::string::npos && close > open;
-      plots.push_back(
-          {{"title", text_at(a, "sensor") + ", " + text_at(a, "title")},
-           {"x_label", text_at(a, "x_label")},
-           {"y_label",
-            label(y_label) + (text_at(a, "series").empty() ? "" : ", " + text_at(a, "series"))},
-           {"unit", has_unit ? y_label.substr(open + 1, close - open - 1) : ""},
-           {"lines", lines}});
+      plots.push_back({{"title", text_at(a, "sensor") + ", " + text_at(a, "title")},
+                       {"x_label", text_at(a, "x_label")},
+                       {"y_label", words(label(y_label) + (series.empty() ? "" : ", " + series))},
+                       {"unit", has_unit ? y_label.substr(open + 1, close - open - 1) : ""},
+                       {"lines", lines}});
     }
   }
   return plots;
