@@ -40,6 +40,7 @@ std::vector<const ParameterSchema*> blocks_of(const std::vector<std::string>& ke
   if (top == "fluid" && keys.size() > 1) return {&RegionBlock::schema()};
   if (top == "fluid") return {&FluidBlock::schema()};
   if (top == "coupling") return {&CouplingBlock::schema()};
+  if (top == "references") return {&ReferenceBlock::schema()};
   return {};
 }
 
@@ -202,8 +203,8 @@ std::vector<Mistake> mistakes_at(const Place& place) {
     return all;
   }
   // Names: of models, of things, of files. Free texts may hold anything that is no list or map.
-  const bool is_free =
-      p != nullptr && p->options.empty() && p->refers == sdk::Refers::nothing && p->name != "frame";
+  const bool is_free = p != nullptr && p->options.empty() && p->refers == sdk::Refers::nothing &&
+                       p->name != "frame" && p->name != "quantity";
   all.push_back({"a name that nothing bears", "nothing_bears_this", !is_free});
   all.push_back({"a name with a dot too many", place.text + "..", !is_free});
   // A model's own parameter may be empty where that is its default.

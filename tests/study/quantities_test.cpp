@@ -13,9 +13,10 @@ using dust::test::TemporaryFolder;
 
 namespace {
 
-/// Times of single nodes and rows of lists are no quantities.
+/// Times of single nodes, facts of the build and rows of lists are no quantities.
 bool is_named(const std::string& path) {
-  return !path.starts_with("timers_s.") && path.find(".requested.") == std::string::npos;
+  return !path.starts_with("timers_s.") && !path.starts_with("build.") &&
+         path.find(".requested.") == std::string::npos;
 }
 
 }  // namespace
