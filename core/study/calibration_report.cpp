@@ -55,8 +55,8 @@ std::string crossing(const CalibrationAnswer& a) {
   for (const auto& place : a.calibration.places) plot.points.push_back({place[0], place[1]});
   plot.best = {a.calibration.estimates[0].best, a.calibration.estimates[1].best};
   return "<figure style=\"max-width:640px\">" + svg_contours(plot) +
-         "<figcaption><b>Where the contours cross.</b> Solid: where the surrogate meets a target; "
-         "dashed: one standard error to either side. Shaded: the confidence region of " +
+         "<figcaption><b>Where the contours cross.</b> Thick: where the surrogate meets a target; "
+         "thin: one standard error to either side. Shaded: the confidence region of " +
          number_html(100.0 * a.settings.confidence) +
          "\u202f%. Dots: runs; cross: the likeliest values.</figcaption></figure>\n";
 }

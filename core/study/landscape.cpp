@@ -218,7 +218,7 @@ void tell_parameters(const CalibrationSettings& settings, Calibration& c) {
     const std::string interval =
         short_number(e.low) + " to " + with_unit(e.high, p.unit) + " (" + percent + ")";
     if (e.is_pinned) {
-      c.statements.push_back(p.name + " = " + with_unit(e.best, p.unit) + ", between " + interval +
+      c.statements.push_back(p.name + " = " + with_unit(e.best, p.unit) + ", from " + interval +
                              ".");
       continue;
     }
