@@ -50,6 +50,13 @@ SurfacePoint Body::contact(int part, Vec3 point, double reach, const Placement& 
   return s;
 }
 
+SurfacePoint Body::contact_again(int part, Vec3 point, double reach, const Placement& at,
+                                 std::int32_t& hint) const {
+  SurfacePoint s = shape->contact_again(part, at.to_body(point), reach, hint);
+  s.normal = at.turn(s.normal);
+  return s;
+}
+
 void Body::surface_velocities(const sdk::SurfaceBatch& all) const {
   std::fill_n(all.velocity_x, all.count, 0.0);
   std::fill_n(all.velocity_y, all.count, 0.0);

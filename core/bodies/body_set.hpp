@@ -6,6 +6,7 @@
 #include "dust/sdk/motion.hpp"
 #include "scenario/setup.hpp"
 
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <string>
@@ -43,6 +44,8 @@ struct Body {
   /// The same for a part, see Shape::contact and Shape::is_within.
   [[nodiscard]] SurfacePoint contact(int part, sdk::Vec3 point, double reach,
                                      const Placement& at) const;
+  [[nodiscard]] SurfacePoint contact_again(int part, sdk::Vec3 point, double reach,
+                                           const Placement& at, std::int32_t& hint) const;
   [[nodiscard]] bool is_within(int part, sdk::Vec3 point, double reach, const Placement& at) const {
     return shape->is_within(part, at.to_body(point), reach);
   }

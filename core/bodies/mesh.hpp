@@ -52,8 +52,10 @@ class Mesh {
   [[nodiscard]] SurfacePoint nearest(sdk::Vec3 point) const;
   /// The contact of a part with a sphere round `point`: infinitely far when the part has no point
   /// nearer than `reach`, when the point lies behind it, or when an edge it shares with another
-  /// part is that part's to touch.
-  [[nodiscard]] SurfacePoint contact(int part, sdk::Vec3 point, double reach) const;
+  /// part is that part's to touch. `hint`: the triangle found last time, or -1; looked at first, so
+  /// that all that is farther is left out, and set to the one found.
+  [[nodiscard]] SurfacePoint contact(int part, sdk::Vec3 point, double reach,
+                                     std::int32_t* hint = nullptr) const;
   /// Whether the part has a point nearer than `reach`, on whichever side.
   [[nodiscard]] bool is_within(int part, sdk::Vec3 point, double reach) const;
   [[nodiscard]] Triangles triangles() const;

@@ -254,12 +254,17 @@ bool Mesh::belongs_to_other(const Foot& foot, int part, Vec3 point) const {
   return !is_first;
 }
 
-SurfacePoint Mesh::contact(int part, Vec3 point, double reach) const {
+SurfacePoint Mesh::contact(int part, Vec3 point, double reach, std::int32_t* hint) const {
   const SurfacePoint none{k_infinity, {0, 0, 1}};
   Foot best;
   best.distance2 = reach * reach;
+  if (hint != nullptr && *hint >= 0) {
+    const Foot last = foot_on(*hint, point);
+    if (last.distance2 < best.distance2) best = last;
+  }
   descend(trees_[static_cast<std::size_t>(part)], point, best);
   if (best.triangle < 0) return none;
+  if (hint != nullptr) *hint = best.triangle;
   const SurfacePoint s = surface_point(best, point);
   if (belongs_to_other(best, part, point)) return none;
   if (s.distance >= 0.0) return s;

@@ -37,6 +37,10 @@ class MeshShape : public Shape {
   [[nodiscard]] SurfacePoint contact(int part, Vec3 point, double reach) const override {
     return thickened(mesh_.contact(part, point, reach + half_));
   }
+  [[nodiscard]] SurfacePoint contact_again(int part, Vec3 point, double reach,
+                                           std::int32_t& hint) const override {
+    return thickened(mesh_.contact(part, point, reach + half_, &hint));
+  }
   [[nodiscard]] bool is_within(int part, Vec3 point, double reach) const override {
     return mesh_.is_within(part, point, reach + half_);
   }

@@ -4,6 +4,7 @@
 #include "dust/sdk/parameter_schema.hpp"
 #include "dust/sdk/vec3.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -37,6 +38,12 @@ class Shape {
   [[nodiscard]] virtual SurfacePoint contact(int /*part*/, sdk::Vec3 point,
                                              double /*reach*/) const {
     return nearest(point);
+  }
+  /// The same for one sphere after the other place it comes to: `hint` is -1 at first, then what
+  /// the shape remembers of the last place (a triangle) so as to find the next faster.
+  [[nodiscard]] virtual SurfacePoint contact_again(int part, sdk::Vec3 point, double reach,
+                                                   std::int32_t& /*hint*/) const {
+    return contact(part, point, reach);
   }
   /// Whether the part is nearer than `reach` [m], so that a sphere may come to touch it: for lists.
   [[nodiscard]] virtual bool is_within(int /*part*/, sdk::Vec3 point, double reach) const {

@@ -176,7 +176,8 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk) {
       const double* p = store.position.data() + 4 * static_cast<std::ptrdiff_t>(i);
       const double* v = store.velocity.data() + 4 * static_cast<std::ptrdiff_t>(i);
       const double* w = store.rotation.data() + 4 * static_cast<std::ptrdiff_t>(i);
-      const bodies::SurfacePoint s = surface.contact({p[0], p[1], p[2]}, p[3] + range);
+      const bodies::SurfacePoint s =
+          surface.contact_again({p[0], p[1], p[2]}, p[3] + range, chunk.hints[u]);
       const double overlap = p[3] - s.distance;
       if (!(overlap > -range)) {
         if (list.is_touching[u] != 0) {

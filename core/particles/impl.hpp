@@ -112,6 +112,9 @@ struct Chunk {
   VerletList near_surfaces;
   ContactList pairs;
   ContactList surfaces;
+  /// Per entry of `surfaces`, see Shape::contact_again: forgotten when a watch begins, so that a
+  /// run that goes on from a checkpoint finds what an unbroken one finds.
+  std::vector<std::int32_t> hints;
   contact::AlignedVector<double> force;  ///< eight per grain: force, torque; one spare row
   Awake awake;
   double largest_overlap = 0.0;

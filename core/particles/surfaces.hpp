@@ -6,6 +6,7 @@
 #include "scenario/setup.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -35,6 +36,12 @@ struct Surface {
   [[nodiscard]] bodies::SurfacePoint contact(
       sdk::Vec3 point, double reach = std::numeric_limits<double>::infinity()) const {
     if (body != nullptr) return body->contact(part, point, reach, place);
+    return {dot(normal, point) - offset, normal};
+  }
+  /// The same with the shape's memory of where this sphere touched last.
+  [[nodiscard]] bodies::SurfacePoint contact_again(sdk::Vec3 point, double reach,
+                                                   std::int32_t& hint) const {
+    if (body != nullptr) return body->contact_again(part, point, reach, place, hint);
     return {dot(normal, point) - offset, normal};
   }
   /// The same at another time [s] than that of the last move_to.

@@ -114,6 +114,7 @@ void Dem::Impl::begin_watch() {
     std::fill(chunk.force.begin(), chunk.force.end(), 0.0);
     choose_contacts(chunk.near_pairs, chunk.pairs, pairs_meet);
     choose_contacts(chunk.near_surfaces, chunk.surfaces, surface_meets);
+    chunk.hints.assign(chunk.surfaces.size(), -1);
     const auto wake = [&](std::int32_t row) {
       if (row >= chunk.begin && row < chunk.end) is_awake[static_cast<std::size_t>(row)] = 1;
     };
