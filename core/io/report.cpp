@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace dust::io {
 
@@ -185,6 +186,49 @@ std::string body_html(const RunText& run, const json& data, const Highlights& hi
   return text + footer_html(text_at(run.summary, "version"));
 }
 
+/// The places where dust parted from the load, from squares in volumes to shares and to grams per
+/// tonne where the densities are known. Errors are those of counting independent grains.
+std::vector<Parting> partings_of(const std::vector<DustOrigin>& origins,
+                                 const Highlights& highlights, double load) {
+  double all = 0.0;
+  for (const DustOrigin& origin : origins) {
+    for (const auto& [diameter, volume] : origin.volume) all += volume;
+  }
+  const auto density_of = [&](double diameter) {
+    for (const DustClass& entry : highlights.classes) {
+      if (std::abs(entry.diameter - diameter) <= 1e-5 * diameter) return entry.density;
+    }
+    return -1.0;
+  };
+  std::vector<Parting> list;
+  for (const DustOrigin& origin : origins) {
+    Parting parting{origin.x, origin.z, {}, 0.0, 0.0};
+    double mass = 0.0, mass_squares = 0.0, squares = 0.0;
+    bool has_density = load > 0.0;
+    for (const auto& [diameter, volume] : origin.volume) {
+      const double to_mass = std::numbers::pi / 6.0 * density_of(diameter);
+      has_density = has_density && to_mass > 0.0;
+      const double square = origin.squares.at(diameter);
+      parting.share += volume / all;
+      squares += square / all / all;
+      mass += to_mass * volume;
+      mass_squares += to_mass * to_mass * square;
+    }
+    // Binomial: a share of one has no error.
+    parting.share_error = std::sqrt(squares * std::max(0.0, 1.0 - parting.share));
+    if (has_density) {
+      constexpr double k_grams_per_tonne = 1e6;
+      parting.amount.value = k_grams_per_tonne * mass / load;
+      parting.amount.uncertainty = k_grams_per_tonne * std::sqrt(mass_squares) / load;
+      parting.amount.unit = "g/t";
+    }
+    list.push_back(parting);
+  }
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Parting& a, const Parting& b) { return a.share > b.share; });
+  return list;
+}
+
 /// Asks the frames how much dust lies near each place, and where dust is at all.
 json look_for_dust(const H5Source& source, const View& view, Highlights& highlights) {
   std::vector<DustPlace> places;
@@ -218,6 +262,11 @@ void write_report(const std::filesystem::path& folder) {
     data["grains"] = grains_of(source, view, list_at(run.report, "classes"));
     data["air"] = air_of(source);
     data["dust_map"] = look_for_dust(source, view, highlights);
+    const double load = number_at(object_at(run.summary, "mass_kg"), "emitted").value_or(0.0);
+    if (!view.is_empty()) {
+      highlights.partings =
+          partings_of(dust_origins(source, view, k_parting_side), highlights, load);
+    }
   }
   data["curves"] = list_at(run.report, "curves");
   data["series"] = series_json(run.series);

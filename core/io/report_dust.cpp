@@ -98,6 +98,45 @@ std::string by_class(const Highlights& highlights) {
          "on one side of it.</p>\n";
 }
 
+/// By the place where dust parted from the coarse grains.
+std::string by_origin(const Highlights& highlights) {
+  constexpr std::size_t k_most = 8;
+  HtmlTable table({{"By where it came from", false},
+                   {"Per tonne of load \u00b1 standard error"},
+                   {"Share of the loose dust"},
+                   {"", false}},
+                  "bars");
+  const auto range = [](double middle) {
+    const double low = (middle - 0.5 * k_parting_side) * 1e3;
+    const double high = (middle + 0.5 * k_parting_side) * 1e3;
+    return number_html(low, 4) + " to " + number_html(high, 4);
+  };
+  double rest = 0.0;
+  for (std::size_t k = 0; k < highlights.partings.size(); ++k) {
+    const Parting& parting = highlights.partings[k];
+    if (k >= k_most) {
+      rest += parting.share;
+      continue;
+    }
+    table.row({"x\u202f" + range(parting.x) + ", z\u202f" + range(parting.z) + "\u202fmm",
+               parting.amount.unit.empty()
+                   ? std::string("\u2013")
+                   : quantity_html(parting.amount.value, parting.amount.uncertainty, "g/t"),
+               value_html(100.0 * parting.share, 100.0 * parting.share_error) + "\u202f%",
+               bar_html(parting.share, "dustbar")});
+  }
+  if (rest > 0.0) {
+    table.row({std::to_string(highlights.partings.size() - k_most) + " other places", "\u2013",
+               number_html(100.0 * rest, 2) + "\u202f%", bar_html(rest, "dustbar")});
+  }
+  if (table.is_empty()) return {};
+  return table.html() +
+         "<p class=\"note\">Where dust that is away from the coarse grains when last seen was last "
+         "within two diameters of one, in squares of the side view; all of it, whether it got out, "
+         "rides on a surface or hangs in the air. As fine as the frames of the run. Errors are "
+         "those of counting.</p>\n";
+}
+
 }  // namespace
 
 std::string share_html(double value, double whole) {
@@ -130,7 +169,7 @@ std::string fractions_html(const Highlights& highlights) {
 std::string result_html(const Highlights& highlights) {
   if (!highlights.has_dust()) return {};
   return "<section id=\"dust\"><h2>Where the dust goes</h2>\n" + by_place(highlights) +
-         by_class(highlights) + "</section>\n";
+         by_origin(highlights) + by_class(highlights) + "</section>\n";
 }
 
 }  // namespace dust::io

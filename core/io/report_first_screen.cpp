@@ -133,6 +133,13 @@ std::string from_where(const Highlights& highlights) {
             place_html(highlights, figure) + "</p>\n";
     break;
   }
+  if (!highlights.partings.empty()) {
+    const Parting& first = highlights.partings.front();
+    text += "<p><a href=\"#dust\">Parted from the load</a> most near x\u202f" +
+            number_html(first.x * 1e3, 3) + ", z\u202f" + number_html(first.z * 1e3, 3) +
+            "\u202fmm: " + value_html(100.0 * first.share, 100.0 * first.share_error) +
+            "\u202f%</p>\n";
+  }
   return answer("From where?", value, text);
 }
 

@@ -21,6 +21,13 @@ struct LowPlace {
   double dust_share = -1.0;  ///< of the dust in the domain, within k_reach; negative: not known
 };
 
+/// A place where dust parted from the load.
+struct Parting {
+  double x = 0.0, z = 0.0;  ///< [m] middle of a square
+  Figure amount;            ///< [g/t] of the load released until the end; empty unit: not known
+  double share = 0.0, share_error = 0.0;  ///< of all dust that parted
+};
+
 /// A size class of dust.
 struct DustClass {
   double diameter = 0.0;  ///< [m]
@@ -39,6 +46,7 @@ struct Highlights {
   double counted = -1.0;         ///< real grains of dust seen to get out in that time
   double later_over_earlier = -1.0;  ///< flux out, second half of that time over the first
   std::vector<DustClass> classes;    ///< ascending diameters below k_dust_diameter
+  std::vector<Parting> partings;     ///< the largest first
   std::vector<StreamDrop> stream;    ///< ascending drops
   std::vector<LowPlace> places;      ///< the deepest first
 

@@ -5,6 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <map>
+#include <string>
+#include <vector>
+
 namespace dust::io {
 
 /// Grains finer than this are called dust and drawn on top, larger than they are [m].
@@ -53,6 +57,24 @@ struct DustMap {
 
 [[nodiscard]] DustMap dust_map_of(const H5Source& source, const View& view,
                                   std::vector<DustPlace>& places);
+
+/// Dust within this many diameters of a coarse grain's centre is with the load: about the distance
+/// of neighbours in a falling stream of 3 % solids.
+constexpr double k_near_diameters = 2.0;
+
+/// A square of the side view where dust parted from the load.
+struct DustOrigin {
+  double x = 0.0, z = 0.0;           ///< [m] middle
+  std::map<double, double> volume;   ///< by diameter: sum of weight d^3 [m3]
+  std::map<double, double> squares;  ///< by diameter: sum of (weight d^3)^2
+  int grains = 0;                    ///< computed ones
+};
+
+/// Where dust that has parted from the coarse grains was last seen with them, in squares of `side`:
+/// of all dust not near a coarse grain when last seen. As fine as the frames: what happens between
+/// two of them is not seen. Dust that was never seen near a coarse grain is not counted.
+[[nodiscard]] std::vector<DustOrigin> dust_origins(const H5Source& source, const View& view,
+                                                   double side);
 
 /// A map for the page, logarithmic in 8 bits; null without dust.
 [[nodiscard]] nlohmann::json dust_map_json(const DustMap& map, const View& view);

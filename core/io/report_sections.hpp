@@ -11,6 +11,9 @@ namespace dust::io {
 /// Dust within this distance of a place counts as being there [m].
 constexpr double k_reach = 0.02;
 
+/// Side of the squares that tell where dust parted from the load [m].
+constexpr double k_parting_side = 0.02;
+
 /// The sections of the page that are text and tables; each is a complete HTML element, or empty
 /// when the run has nothing to say.
 [[nodiscard]] std::string header_html(const RunText& run, const Highlights& highlights);

@@ -148,6 +148,28 @@ void RunFolder::write_h5(const FakeRun& run) const {
   H5Fclose(file);
 }
 
+void RunFolder::write_tracks(const std::vector<std::vector<FakeGrain>>& frames) const {
+  const hid_t file =
+      H5Fcreate((path_ / "results.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+    std::vector<float> position, diameter;
+    std::vector<std::int64_t> id;
+    for (const FakeGrain& grain : frames[frame]) {
+      position.insert(position.end(),
+                      {static_cast<float>(grain.x), 0.0F, static_cast<float>(grain.z)});
+      diameter.push_back(static_cast<float>(grain.diameter));
+      id.push_back(grain.id);
+    }
+    const std::string path = frame_name("/particles", static_cast<int>(frame));
+    const auto n = static_cast<hsize_t>(id.size());
+    put(file, path + "/position", H5T_NATIVE_FLOAT, {n, 3}, position);
+    put(file, path + "/diameter", H5T_NATIVE_FLOAT, {n}, diameter);
+    put(file, path + "/id", H5T_NATIVE_INT64, {n}, id);
+    put_attribute(file, path, "time", {0.1 * static_cast<double>(frame)});
+  }
+  H5Fclose(file);
+}
+
 std::string RunFolder::read(const std::string& name) const {
   std::ifstream stream(path_ / name, std::ios::binary);
   std::ostringstream text;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace dust::test {
 
@@ -14,6 +15,12 @@ struct FakeRun {
   int dust_grains = 5;     ///< per frame
   bool has_fluid = true;
   bool has_h5 = true;
+};
+
+/// A grain of a frame, at y = 0.
+struct FakeGrain {
+  std::int64_t id = 0;
+  double diameter = 0.0, x = 0.0, z = 0.0;  ///< [m]
 };
 
 /// The summary of a finished run with two sensors.
@@ -29,6 +36,8 @@ class RunFolder {
 
   void write(const std::string& name, const std::string& text) const;
   void write_h5(const FakeRun& run) const;
+  /// Frames of these grains, 0.1 s apart.
+  void write_tracks(const std::vector<std::vector<FakeGrain>>& frames) const;
   [[nodiscard]] std::string read(const std::string& name) const;
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 

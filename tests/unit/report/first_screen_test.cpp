@@ -77,6 +77,32 @@ TEST_CASE("the first screen shall tell how much, from where, how sure and where 
   CHECK(has(screen, "100\u202f% of the dust"));
 }
 
+TEST_CASE("dust shall be told by where it parted from the coarse grains") {
+  const RunFolder folder;
+  folder.write("summary.json", run_with_openings().dump());
+  // Three frames: dust beside a coarse grain at (0.1, 0.2), at (0.3, 0.2), then away from all.
+  // A second one stays with its coarse grain, a third was never near one.
+  folder.write_tracks(
+      {{{1, 500e-6, 0.1, 0.2},
+        {2, 10e-6, 0.1005, 0.2},
+        {3, 500e-6, 0.6, 0.6},
+        {4, 10e-6, 0.6, 0.6005},
+        {5, 10e-6, 0.9, 0.9}},
+       {{1, 500e-6, 0.3, 0.2},
+        {2, 10e-6, 0.3, 0.2009},
+        {4, 10e-6, 0.6, 0.6},
+        {3, 500e-6, 0.6, 0.6}},
+       {{1, 500e-6, 0.5, 0.1}, {2, 10e-6, 0.2, 0.4}, {3, 500e-6, 0.6, 0.6}, {4, 10e-6, 0.6, 0.6}}});
+  folder.write("scenario.yaml", "domain: {min: [0, 0, 0], max: [1, 1, 1]}\n");
+  const std::string screen = first_screen(folder);
+  CHECK(has(screen, "near x\u202f310, z\u202f210\u202fmm: 100"));
+  // One grain of quartz in 1 g of load.
+  const std::string page = folder.read("report.html");
+  CHECK(has(page, "x\u202f300 to 320, z\u202f200 to 220\u202fmm"));
+  CHECK_FALSE(has(page, "x\u202f600 to 620"));
+  CHECK_FALSE(has(page, "x\u202f900 to 920"));
+}
+
 TEST_CASE("a flux that is still changing shall be called so") {
   const RunFolder folder;
   folder.write("summary.json", run_with_openings().dump());
