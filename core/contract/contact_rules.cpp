@@ -53,6 +53,8 @@ Readings observe(const Maker& make, const Trial& trial) {
     for (std::size_t n = 0; n < bench.count(); ++n) {
       const std::string row = " of contact " + std::to_string(n);
       add("normal_force" + row, bench.output(ContactBench::normal_force, n), sdk::dimension::force);
+      add("normal_stiffness" + row, bench.output(ContactBench::normal_stiffness, n),
+          sdk::dimension::stiffness);
       add("tangential_stiffness" + row, bench.output(ContactBench::tangential_stiffness, n),
           sdk::dimension::stiffness);
       for (int d = 0; d < 3; ++d) {
@@ -179,6 +181,37 @@ void check_restitution(const Maker& make, const Subject& subject) {
   if (declared == nullptr) throw Remark("it has no parameter 'restitution' to compare with");
 }
 
+/// What a fresh contact at rest gives.
+struct Rest {
+  double force = 0.0;             ///< [N] along the normal
+  double normal_stiffness = 0.0;  ///< [N/m]
+};
+Rest at_rest(const sdk::ContactLaw& law, double radius, double mass, double overlap) {
+  ContactBench bench(1, law.history_size());
+  Touch t;
+  t.overlap = overlap;
+  t.normal = {1.0, 0.0, 0.0};
+  t.radius = radius;
+  t.mass = mass;
+  bench.show({t}, 1e-12, {}, false);
+  bench.evaluate([&](const sdk::ContactBatch& batch) { law.evaluate(batch); }, 0);
+  return {bench.output(ContactBench::force, 0), bench.output(ContactBench::normal_stiffness, 0)};
+}
+
+/// Rolling laws and the core read the secant stiffness.
+void check_stiffness(const Maker& make) {
+  const auto law = make_law(make);
+  for (const Touch& t : standard_touches(0.0, 0)) {
+    const Rest rest = at_rest(*law, t.radius, t.mass, t.overlap);
+    // An elastic force at rest over its overlap; nothing is integrated.
+    constexpr double k_rounding = 1e-6;
+    const double secant = rest.force / t.overlap;
+    require(std::abs(rest.normal_stiffness - secant) <= k_rounding * std::abs(secant),
+            "normal_stiffness is " + shown(rest.normal_stiffness) + " N/m where the force is " +
+                shown(secant) + " N/m times the overlap");
+  }
+}
+
 void check_times(const Maker& make, const Subject& subject) {
   const auto law = make_law(make);
   constexpr double k_radius = 5e-4;
@@ -194,15 +227,7 @@ void check_times(const Maker& make, const Subject& subject) {
   // Stiffness from two fresh contacts at rest, 1 % of the radius deep.
   const double depth = 0.01 * k_radius;
   const auto force_at = [&](double overlap) {
-    ContactBench bench(1, law->history_size());
-    Touch t;
-    t.overlap = overlap;
-    t.normal = {1.0, 0.0, 0.0};
-    t.radius = k_radius;
-    t.mass = mass;
-    bench.show({t}, 1e-12, {}, false);
-    bench.evaluate([&](const sdk::ContactBatch& batch) { law->evaluate(batch); }, 0);
-    return bench.output(ContactBench::force, 0);
+    return at_rest(*law, k_radius, mass, overlap).force;
   };
   const double slope = (force_at(1.001 * depth) - force_at(0.999 * depth)) / (0.002 * depth);
   if (!(slope > 0.0)) throw Remark("a fresh contact has no stiffness to measure half_period by");
@@ -247,6 +272,7 @@ void rules(const Maker& make, const Subject& subject, Judge& judge) {
   judge.rule("declared restitution = realised restitution",
              [&] { check_restitution(make, subject); });
   judge.rule("tells its times as they are", [&] { check_times(make, subject); });
+  judge.rule("tells its normal stiffness as it is", [&] { check_stiffness(make); });
   judge.rule("creates no energy in oblique collisions, keeps Coulomb's limit",
              [&] { check_energy(make, subject); });
 }

@@ -131,14 +131,19 @@ class Variation {
 
 void check_parameters(const Kind& kind, const registry::Entry& entry,
                       const std::vector<Value>& values, const Maker& make, const Options& options) {
-  const Variation variation(kind, entry, values, options);
+  std::vector<Variation> variations{{kind, entry, values, options}};
+  for (const auto& given : options.also_given) {
+    variations.emplace_back(kind, entry, guess_values(entry.info, entry.factory, given), options);
+  }
   std::string idle;
   std::string unknown;
   for (std::size_t n = 0; n < values.size(); ++n) {
+    const auto is_open = [&](const Variation& v) { return v.is_open(n); };
+    const auto matters = [&](const Variation& v) { return v.matters(n); };
     const std::string name = " '" + entry.info.parameters[n].name + "'";
-    if (!variation.is_open(n)) {
+    if (std::none_of(variations.begin(), variations.end(), is_open)) {
       unknown += name;
-    } else if (!variation.matters(n)) {
+    } else if (std::none_of(variations.begin(), variations.end(), matters)) {
       idle += name;
     }
   }
@@ -188,7 +193,9 @@ void check_common(const registry::Entry& entry, const Kind& kind, const Maker& m
 }  // namespace
 
 std::vector<Finding> check_model(const registry::Entry& entry, const Options& options) {
-  for (const auto* values : {&options.given, &options.others}) {
+  std::vector<const std::map<std::string, Value>*> named{&options.given, &options.others};
+  for (const auto& given : options.also_given) named.push_back(&given);
+  for (const auto* values : named) {
     for (const auto& [name, value] : *values) {
       const auto& all = entry.info.parameters;
       if (std::any_of(all.begin(), all.end(), [&](const auto& p) { return p.name == name; })) {

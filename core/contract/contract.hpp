@@ -28,6 +28,9 @@ struct Finding {
 /// Values for the parameters of a model; those not given are guessed from the schema.
 struct Options {
   std::map<std::string, sdk::Value> given;
+  /// More sets of values, each as complete as `given`, for parameters that matter only beside
+  /// others (the median of a distribution, where another takes a table).
+  std::vector<std::map<std::string, sdk::Value>> also_given;
   /// Another value per parameter that must change what the model gives.
   std::map<std::string, sdk::Value> others;
   /// Number of allocations of this thread so far; null = allocation is not watched.

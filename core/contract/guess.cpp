@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 namespace dust::contract {
@@ -30,14 +31,17 @@ std::vector<double> typical(sdk::Dimension d) {
   if (d == dim::angular_velocity) return {10.0, 100.0, 1000.0};
   if (d == dim::density) return {2000.0, 1.2};
   if (d == dim::pressure) return {100.0, 1e5, 1e7};
-  if (d == dim::surface_energy) return {0.05, 0.5};
   if (d == dim::force) return {1e-5, 1e-3};
   return {1.0, 0.1, 10.0, 1e-3, 1e-6};
 }
 
 std::vector<double> allowed_numbers(const Parameter& p) {
   std::vector<double> numbers;
-  for (const double v : typical(p.dimension)) {
+  // J/m2 and N/m are one dimension: the stiffness of a spring and what surfaces hold each other
+  // with are told apart by name.
+  const bool is_stiffness = p.name.find("stiffness") != std::string::npos;
+  const bool is_surface = p.dimension == sdk::dimension::surface_energy && !is_stiffness;
+  for (const double v : is_surface ? std::vector<double>{0.05, 0.5} : typical(p.dimension)) {
     if (p.range.contains(v)) numbers.push_back(v);
   }
   if (numbers.empty()) {
@@ -56,19 +60,29 @@ Vec3 corner(bool is_upper, int flat) {
   return at;
 }
 
-/// Lists that are filled one at a time; 0 = none of them.
-constexpr int k_lists = 4;
-constexpr int k_attempts = 3 * 4 * k_lists;
+/// Which of the lists that may be left out are there, as bits: none, one, two that belong together
+/// (times and factors, diameters and fractions), all. Lists are guessed with one length.
+constexpr unsigned k_lists[] = {0b0000, 0b0001, 0b0010, 0b0100, 0b1000, 0b0011,
+                                0b0101, 0b0110, 0b1001, 0b1010, 0b1100, 0b1111};
+constexpr int k_list_choices = static_cast<int>(std::size(k_lists));
+constexpr int k_boxes = 4;
+constexpr int k_sizes = 3;
+constexpr int k_attempts = k_sizes * k_list_choices * k_boxes;
 
-/// One guess; attempts differ in the shape of boxes, in which of the lists that may be left out is
+bool is_list(const Parameter& p) {
+  return p.type == ParameterType::numbers || p.type == ParameterType::vectors;
+}
+
+/// One guess; attempts differ in the shape of boxes, in which of the lists that may be left out are
 /// there (`list` counts them from 1), in sizes.
 std::optional<Value> guess(const Parameter& p, int attempt, int list) {
-  const int flat = (attempt + 3) % 4;
-  const bool fills_list = attempt / 4 % k_lists == list;
-  const auto size = static_cast<std::size_t>(attempt / (4 * k_lists));
+  const int flat = (attempt + 3) % k_boxes;
+  const bool fills_list =
+      list > 0 && (k_lists[attempt / k_boxes % k_list_choices] >> (list - 1)) & 1u;
+  const auto size = static_cast<std::size_t>(attempt / (k_boxes * k_list_choices));
   const std::vector<double> numbers = allowed_numbers(p);
   if (!p.is_required) {
-    if (!(p.type == ParameterType::numbers && fills_list) || numbers.empty()) {
+    if (!(is_list(p) && fills_list) || numbers.empty()) {
       return p.default_value;
     }
   }
@@ -98,9 +112,15 @@ std::optional<Value> guess(const Parameter& p, int attempt, int list) {
     case ParameterType::numbers:
       if (numbers.empty()) return std::nullopt;
       if (p.dimension == sdk::dimension::length) return std::vector<double>{3e-4, 6e-4};
-      return std::vector<double>{numbers.front(), numbers.back()};
-    case ParameterType::vectors:  // places or directions that belong together: only the user knows
-      return std::nullopt;
+      // Ascending: times, edges and sizes are.
+      return std::vector<double>{std::min(numbers.front(), numbers.back()),
+                                 std::max(numbers.front(), numbers.back())};
+    case ParameterType::vectors:
+      if (p.dimension == sdk::dimension::length) {
+        return std::vector<Vec3>{{0.15, 0.005, 0.1}, {0.12, 0.005, 0.1}};
+      }
+      if (numbers.empty()) return std::nullopt;
+      return std::vector<Vec3>{{0.0, 0.0, -numbers.front()}, {numbers.front(), 0.0, 0.0}};
   }
   return std::nullopt;
 }
@@ -116,10 +136,11 @@ std::vector<Value> guess_values(const sdk::ModelInfo& info, const sdk::ModelFact
     missing.clear();
     int list = 0;
     for (const Parameter& p : info.parameters) {
-      if (p.type == ParameterType::numbers && !p.is_required) ++list;
+      const bool may_be_empty = is_list(p) && !p.is_required;
+      if (may_be_empty) ++list;
       const auto one = given.find(p.name);
-      const auto value =
-          one != given.end() ? std::optional<Value>(one->second) : guess(p, attempt, list);
+      const auto value = one != given.end() ? std::optional<Value>(one->second)
+                                            : guess(p, attempt, may_be_empty ? list : 0);
       if (!value) missing += (missing.empty() ? "" : ", ") + p.name;
       values.push_back(value.value_or(Value{}));
     }
@@ -173,6 +194,14 @@ std::vector<Value> other_values(const Parameter& p, const Value& value) {
           moved[d] += sign * step;
           others.emplace_back(moved);
         }
+      }
+    }
+  } else if (const auto* vectors = std::get_if<std::vector<Vec3>>(&value)) {
+    if (!vectors->empty()) {
+      std::vector<Vec3> changed = *vectors;
+      for (const double factor : {0.5, -1.0}) {
+        changed.front() = factor * vectors->front();
+        others.emplace_back(changed);
       }
     }
   } else if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {

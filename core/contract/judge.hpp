@@ -78,6 +78,7 @@ const Kind* find_kind(const std::string& name);
 
 Kind contact_kind();
 Kind rolling_kind();
+Kind cohesion_kind();
 Kind drag_kind();
 Kind voidage_kind();
 Kind boundary_kind();

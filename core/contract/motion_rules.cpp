@@ -14,7 +14,7 @@ namespace {
 using sdk::Vec3;
 
 constexpr std::size_t k_points = 40;
-const double k_times[] = {0.0, 0.0037, 0.013, 0.5};
+const double k_times[] = {0.0, 0.0037, 0.013, 0.05, 0.5};
 
 /// Velocities at points round a roll about y, at one time.
 std::vector<Vec3> velocities(const sdk::Motion& motion, const Trial& trial, double time) {
@@ -70,16 +70,66 @@ Readings observe(const Maker& make, const Trial& trial) {
       }
     }
   }
+  for (const double time : k_times) {
+    const sdk::RigidPose pose = motion->pose(time * trial.units.time);
+    const std::string when = " at " + shown(time) + " s";
+    for (int d = 0; d < 3; ++d) {
+      const std::string axis = std::string("_") + "xyz"[d] + when;
+      readings.push_back({"shift" + axis, pose.shift[d], sdk::dimension::length});
+      readings.push_back({"pivot" + axis, pose.pivot[d], sdk::dimension::length});
+      readings.push_back({"axis" + axis, pose.axis[d], sdk::dimension::none});
+      readings.push_back({"shift_velocity" + axis, pose.velocity[d], sdk::dimension::velocity});
+    }
+    readings.push_back({"angle" + when, pose.angle, sdk::dimension::none});
+    readings.push_back(
+        {"angular_velocity" + when, pose.angular_velocity, sdk::dimension::angular_velocity});
+  }
+  readings.push_back({"moves_body", motion->moves_body() ? 1.0 : 0.0, {}, false});
+  readings.push_back({"largest_angular_velocity", motion->largest_angular_velocity(),
+                      sdk::dimension::angular_velocity});
   readings.push_back({"largest_speed", motion->largest_speed(), sdk::dimension::velocity});
   return readings;
 }
 
+/// Where a body is follows from how fast it moves: the mean of the velocity at both ends of a short
+/// time is what it went in it.
+void check_pose(const Maker& make) {
+  const auto motion = make_as<sdk::Motion>(make);
+  if (!motion->moves_body()) throw Remark("the body itself stands");
+  constexpr double k_step = 1e-6;
+  int jumps = 0;
+  for (int n = 0; n < 1000; ++n) {
+    const double time = 5e-4 * n;
+    const sdk::RigidPose a = motion->pose(time);
+    const sdk::RigidPose b = motion->pose(time + k_step);
+    const Vec3 went = (b.shift - a.shift) / k_step;
+    const double turned = (b.angle - a.angle) / k_step;
+    const Vec3 told = 0.5 * (a.velocity + b.velocity);
+    const double spun = 0.5 * (a.angular_velocity + b.angular_velocity);
+    // Differences of numbers of about 1 lose ten digits.
+    const double size = motion->largest_speed() + 1e-6;
+    const double rate = motion->largest_angular_velocity() + 1e-6;
+    // A motion may set off or stop at once, within one of the steps.
+    if (norm(went - told) > 1e-3 * size || std::abs(turned - spun) > 1e-3 * rate) ++jumps;
+  }
+  constexpr int k_stops = 4;
+  require(jumps <= k_stops, "in " + std::to_string(jumps) +
+                                " of 1000 short times the body goes elsewhere than its " +
+                                "velocity says");
+}
+
 void rules(const Maker& make, const Subject&, Judge& judge) {
+  judge.rule("is where its velocity takes it", [&] { check_pose(make); });
   judge.rule("is never faster than the largest speed it tells", [&] {
     const auto motion = make_as<sdk::Motion>(make);
     const double bound = motion->largest_speed() * (1.0 + 1e-12);
     for (int n = 0; n <= 1000; ++n) {
       const double time = 1e-3 * n;
+      const sdk::RigidPose pose = motion->pose(time);
+      require(
+          norm(pose.velocity) <= bound &&
+              std::abs(pose.angular_velocity) <= motion->largest_angular_velocity() * (1.0 + 1e-12),
+          "the body is faster at " + shown(time) + " s than the largest speed told");
       for (const Vec3& v : velocities(*motion, {}, time)) {
         require(norm(v) <= bound, shown(norm(v)) + " m/s at " + shown(time) + " s, told are " +
                                       shown(motion->largest_speed()) + " m/s");

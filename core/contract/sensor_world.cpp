@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contract/sensor_world.hpp"
 
-#include <cmath>
 #include <stdexcept>
 
 namespace dust::contract {
@@ -45,39 +44,8 @@ void World::set_cells(int nx, int ny, int nz) {
 
 const sdk::WorldView& World::view() {
   const double l = units.length;
-  const double v = units.of(sdk::dimension::velocity);
-  const double f = units.of(sdk::dimension::force);
-  id_.clear();
-  for (auto& column : columns_) column.clear();
-  for (std::size_t i = 0; i < grains.size(); ++i) {
-    const Grain& g = grains[i];
-    id_.push_back(static_cast<std::int64_t>(i));
-    const double values[18] = {l * g.now.x,
-                               l * g.now.y,
-                               l * g.now.z,
-                               l * g.before.x,
-                               l * g.before.y,
-                               l * g.before.z,
-                               v * g.velocity.x,
-                               v * g.velocity.y,
-                               v * g.velocity.z,
-                               0.0,
-                               0.0,
-                               0.0,
-                               f * g.force.x,
-                               f * g.force.y,
-                               f * g.force.z,
-                               l * g.diameter,
-                               units.mass * g.mass,
-                               g.weight};
-    for (int c = 0; c < 18; ++c) columns_[c].push_back(values[c]);
-  }
-  material_.assign(grains.size(), 0);
   classes_shown_ = class_diameters;
   for (double& d : classes_shown_) d *= l;
-  pressure_shown_ = pressure;
-  const auto p = static_cast<float>(units.of(sdk::dimension::pressure));
-  for (float& value : pressure_shown_) value *= p;
   view_ = {};
   view_.time = units.time * time;
   view_.interval = units.time * interval;
@@ -86,11 +54,31 @@ const sdk::WorldView& World::view() {
   view_.gravity = units.of(sdk::dimension::acceleration) * gravity;
   view_.class_diameters = classes_shown_;
   view_.emitted_mass = units.mass * emitted_mass;
-  show_columns();
+  show_grains();
+  show_contacts();
+  show_walls();
+  show_fluid();
   return view_;
 }
 
-void World::show_columns() {
+void World::show_grains() {
+  const double l = units.length;
+  const double v = units.of(sdk::dimension::velocity);
+  const double w = units.of(sdk::dimension::angular_velocity);
+  const double f = units.of(sdk::dimension::force);
+  id_.clear();
+  for (auto& column : columns_) column.clear();
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const Grain& g = grains[i];
+    id_.push_back(static_cast<std::int64_t>(i));
+    const double values[18] = {
+        l * g.now.x,      l * g.now.y,         l * g.now.z,      l * g.before.x,   l * g.before.y,
+        l * g.before.z,   v * g.velocity.x,    v * g.velocity.y, v * g.velocity.z, w * g.rotation.x,
+        w * g.rotation.y, w * g.rotation.z,    f * g.force.x,    f * g.force.y,    f * g.force.z,
+        l * g.diameter,   units.mass * g.mass, g.weight};
+    for (int c = 0; c < 18; ++c) columns_[c].push_back(values[c]);
+  }
+  material_.assign(grains.size(), 0);
   sdk::GrainColumns& g = view_.grains;
   g.id = id_;
   g.material = material_;
@@ -99,6 +87,54 @@ void World::show_columns() {
       &g.velocity_x, &g.velocity_y, &g.velocity_z, &g.rotation_x, &g.rotation_y, &g.rotation_z,
       &g.force_x,    &g.force_y,    &g.force_z,    &g.diameter,   &g.mass,       &g.weight};
   for (int c = 0; c < 18; ++c) *targets[c] = columns_[c];
+}
+
+void World::show_contacts() {
+  const double l = units.length;
+  const double f = units.of(sdk::dimension::force);
+  for (auto& column : partners_) column.clear();
+  for (auto& column : contact_columns_) column.clear();
+  for (const Contact& c : contacts) {
+    partners_[0].push_back(c.i);
+    partners_[1].push_back(c.j);
+    const double values[7] = {f * c.force.x,  f * c.force.y,  f * c.force.z, l * c.branch.x,
+                              l * c.branch.y, l * c.branch.z, l * c.overlap};
+    for (int n = 0; n < 7; ++n) contact_columns_[n].push_back(values[n]);
+  }
+  sdk::ContactColumns& c = view_.contacts;
+  c.grain_i = partners_[0];
+  c.grain_j = partners_[1];
+  std::span<const double>* targets[7] = {&c.force_x,  &c.force_y,  &c.force_z, &c.branch_x,
+                                         &c.branch_y, &c.branch_z, &c.overlap};
+  for (int n = 0; n < 7; ++n) *targets[n] = contact_columns_[n];
+}
+
+void World::show_walls() {
+  const double energy = units.of(sdk::dimension::energy);
+  wall_name_.clear(), wall_group_.clear(), wall_force_.clear(), wall_torque_.clear();
+  wall_power_.clear(), wall_mass_.clear(), wall_contacts_.clear();
+  for (const Wall& w : walls) {
+    wall_name_.push_back(w.name);
+    wall_group_.push_back(w.group);
+    wall_force_.push_back(units.of(sdk::dimension::force) * w.force);
+    wall_torque_.push_back(energy * w.torque);
+    wall_power_.push_back(energy / units.time * w.power);
+    wall_mass_.push_back(units.mass * w.mass);
+    wall_contacts_.push_back(w.contacts);
+  }
+  impacts_shown_ = impacts;
+  for (sdk::WallImpact& impact : impacts_shown_) {
+    impact.normal_energy *= energy;
+    impact.tangential_energy *= energy;
+  }
+  view_.walls = {wall_name_,  wall_group_, wall_force_,    wall_torque_,
+                 wall_power_, wall_mass_,  wall_contacts_, impacts_shown_};
+}
+
+void World::show_fluid() {
+  pressure_shown_ = pressure;
+  const auto p = static_cast<float>(units.of(sdk::dimension::pressure));
+  for (float& value : pressure_shown_) value *= p;
   sdk::FluidColumns& f = view_.fluid;
   f.spacing = units.length * spacing;
   for (int d = 0; d < 3; ++d) f.count[d] = count[d];
@@ -113,74 +149,6 @@ void World::show_columns() {
 void step(sdk::Sensor& sensor, World& world) {
   world.time += world.interval;
   sensor.observe(world.view());
-}
-
-Scene::Scene(bool is_empty) : is_empty_(is_empty) {
-  if (is_empty_) return;
-  world.set_cells(33, 5, 35);
-  world.spacing = {0.01, 0.0022, 0.01};
-}
-
-void Scene::show(sdk::Sensor& sensor) {
-  if (!is_empty_) {
-    fill(world.time + world.interval);
-    world.emitted_mass += 6e-6;
-  }
-  step(sensor, world);
-}
-
-void Scene::fill(double time) {
-  world.grains.clear();
-  for (int n = 0; n < 400; ++n) {
-    // Grain n starts at its own moment and height again and again.
-    const double phase = random_.uniform(static_cast<std::uint64_t>(n), 0);
-    const double since = std::fmod(time + 0.2 * phase, 0.2);
-    if (since < world.interval) continue;
-    add(n, since, 0.7 + 0.2 * random_.uniform(static_cast<std::uint64_t>(n), 1));
-  }
-  for (int n = 0; n < 60; ++n) ride(n, time);
-  for (int k = 0; k < 35; ++k) {
-    for (int j = 0; j < 5; ++j) {
-      for (int i = 0; i < 33; ++i) {
-        const double a = std::hypot(i - 8.0, k - 20.0);
-        const double b = std::hypot(i - 20.5, k - 9.5);
-        const double c = std::hypot(i - 12.0, k - 20.0);  // 4 cells from the first
-        world.pressure_at(i, j, k) = static_cast<float>(
-            (1 + 0.3 * std::sin(300 * time)) *
-            (-std::exp(-a * a) - 0.6 * std::exp(-b * b) - 0.9 * std::exp(-c * c)));
-      }
-    }
-  }
-}
-
-void Scene::finish(Grain& g, int n) {
-  g.diameter = n % 3 == 0 ? 10e-6 : n % 3 == 1 ? 300e-6 : 600e-6;
-  g.mass = 1388.0 * g.diameter * g.diameter * g.diameter;
-  g.weight = n % 3 == 0 ? 0.05 : 1.0;
-  g.force = {0, 0, -9.81 * g.mass};
-  world.grains.push_back(g);
-}
-
-void Scene::add(int n, double since, double speed) {
-  Grain g;
-  const double y = 0.011 * random_.uniform(static_cast<std::uint64_t>(n), 2);
-  const auto place = [&](double t) {
-    return sdk::Vec3{0.07 + speed * t, y, 0.205 - 0.5 * 9.81 * t * t};
-  };
-  g.before = place(since - world.interval);
-  g.now = place(since);
-  g.velocity = {speed, 0, -9.81 * since};
-  finish(g, n);
-}
-
-void Scene::ride(int n, double time) {
-  const double speed = n % 2 == 0 ? 0.8 : 0.3;
-  const double place = std::fmod(0.08 * n / 60 + 10.0 - speed * time, 0.08);
-  Grain g;
-  g.now = {place, 0.005, 0.115};
-  g.before = g.now + sdk::Vec3{speed * world.interval, 0, 0};
-  g.velocity = {-speed, 0, 0};
-  finish(g, n);
 }
 
 }  // namespace dust::contract

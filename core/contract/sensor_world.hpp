@@ -3,7 +3,6 @@
 
 #include "contract/archive.hpp"
 #include "contract/units.hpp"
-#include "dust/sdk/random.hpp"
 #include "dust/sdk/sensor.hpp"
 
 #include <memory>
@@ -44,6 +43,26 @@ struct Grain {
   double mass = 1e-9;
   double weight = 1.0;
   sdk::Vec3 force;
+  sdk::Vec3 rotation = {};
+};
+
+/// A contact of grain `i` with grain `j`, or with a wall (-1).
+struct Contact {
+  std::int32_t i = 0;
+  std::int32_t j = -1;
+  sdk::Vec3 force;   ///< on i
+  sdk::Vec3 branch;  ///< from i to j, or to the wall
+  double overlap = 1e-9;
+};
+
+struct Wall {
+  std::string name;
+  std::string group;
+  sdk::Vec3 force;
+  sdk::Vec3 torque;
+  double power = 0.0;
+  double mass = 0.0;
+  std::int64_t contacts = 0;
 };
 
 /// A world that owns its columns.
@@ -57,6 +76,9 @@ class World {
   std::vector<double> class_diameters = {10e-6, 300e-6, 600e-6};
   double emitted_mass = 0.0;
   std::vector<Grain> grains;
+  std::vector<Contact> contacts;
+  std::vector<Wall> walls;
+  std::vector<sdk::WallImpact> impacts;
   int count[3] = {0, 0, 0};
   sdk::Vec3 spacing{0.001, 0.001, 0.001};
   double density = 1.2;
@@ -73,11 +95,21 @@ class World {
   const sdk::WorldView& view();
 
  private:
-  void show_columns();
+  void show_grains();
+  void show_contacts();
+  void show_walls();
+  void show_fluid();
 
   std::vector<std::int64_t> id_;
   std::vector<std::int32_t> material_;
   std::vector<double> columns_[18];
+  std::vector<std::int32_t> partners_[2];
+  std::vector<double> contact_columns_[7];
+  std::vector<std::string> wall_name_, wall_group_;
+  std::vector<sdk::Vec3> wall_force_, wall_torque_;
+  std::vector<double> wall_power_, wall_mass_;
+  std::vector<std::int64_t> wall_contacts_;
+  std::vector<sdk::WallImpact> impacts_shown_;
   std::vector<float> still_air_;
   std::vector<float> no_solids_;
   std::vector<float> pressure_shown_;
@@ -87,23 +119,5 @@ class World {
 
 /// Shows `world` to `sensor` as the next sample.
 void step(sdk::Sensor& sensor, World& world);
-
-/// A stream in free flight from a belt's end, dust that rides back, air with wells of pressure.
-class Scene {
- public:
-  World world;
-
-  explicit Scene(bool is_empty = false);
-  void show(sdk::Sensor& sensor);
-
- private:
-  void fill(double time);
-  void finish(Grain& grain, int n);
-  void add(int n, double since, double speed);
-  void ride(int n, double time);
-
-  bool is_empty_;
-  sdk::Random random_{7, sdk::stream_of("scene")};
-};
 
 }  // namespace dust::contract

@@ -19,6 +19,9 @@ std::vector<sdk::Value> in_units(const Units& units, const sdk::ParameterSchema&
     if (auto* numbers = std::get_if<std::vector<double>>(&result[n])) {
       for (double& number : *numbers) number *= factor;
     }
+    if (auto* vectors = std::get_if<std::vector<sdk::Vec3>>(&result[n])) {
+      for (sdk::Vec3& vector : *vectors) vector = factor * vector;
+    }
   }
   return result;
 }

@@ -53,6 +53,11 @@ Shares spread(const Maker& make, const Trial& trial) {
   s.capacity =
       rule->capacity(grid, *std::max_element(s.grains.radius.begin(), s.grains.radius.end()));
   require(s.capacity >= 1, "its capacity is " + std::to_string(s.capacity));
+  // Shares are of different cells; a width far beyond the grid would ask for all memory.
+  const int cells = grid.count[0] * grid.count[1] * grid.count[2];
+  require(s.capacity <= cells, "its capacity is " + std::to_string(s.capacity) +
+                                   " shares per grain, more than the " + std::to_string(cells) +
+                                   " cells of the grid");
   const std::size_t count = s.grains.x.size();
   const std::size_t rows = count * static_cast<std::size_t>(s.capacity);
   // A row more than there are, to see who writes there.

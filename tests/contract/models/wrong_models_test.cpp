@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A rule that no model can break is none: one wrong model per rule, and what is said of it.
 #include "contract/contract.hpp"
+#include "dust/sdk/cohesion_law.hpp"
 #include "dust/sdk/plugin.hpp"
 #include "dust/sdk/sphere.hpp"
 #include "engine/counting_new.hpp"
@@ -115,7 +116,15 @@ struct Spring final : sdk::ContactLaw {
     double stiffness = 0.0;
     double restitution = 0.0;
   };
-  enum Fault { none, one_sided, along_x, bouncy, slow_times, sticky_sliding };
+  enum Fault {
+    none,
+    one_sided,
+    along_x,
+    bouncy,
+    slow_times,
+    sticky_sliding,
+    tells_stiffness_wrong
+  };
   Spring(P parameters, Fault f) : p(parameters), fault(f) {}
   void prepare(const sdk::MaterialProperties& i, const sdk::MaterialProperties& j) override {
     lead = i.density / j.density;
@@ -132,6 +141,7 @@ struct Spring final : sdk::ContactLaw {
       if (fault == one_sided) f *= lead;
       if (fault == bouncy && vn > 0.0) f *= 1.5;
       b.normal_force[q] = f;
+      b.normal_stiffness[q] = (fault == tells_stiffness_wrong ? 2.0 : 1.0) * p.stiffness;
       b.tangential_stiffness[q] = p.stiffness;
       b.force_x[q] = f * b.normal_x[q] + (fault == along_x ? 0.01 * f : 0.0);
       b.force_y[q] = f * b.normal_y[q];
@@ -176,6 +186,64 @@ TEST_CASE("a contact law that is wrong shall be told by the rule it breaks") {
   CHECK(broken(spring(Spring::slow_times), "times").find("collision_time says") !=
         std::string::npos);
   CHECK(broken(spring(Spring::sticky_sliding), "energy").find("of its energy") !=
+        std::string::npos);
+  CHECK(broken(spring(Spring::tells_stiffness_wrong), "stiffness").find("normal_stiffness is") ==
+        0);
+}
+
+namespace {
+
+/// Attraction 2 pi gamma R* in touch, or something that is none.
+struct Sticky final : sdk::CohesionLaw {
+  enum Fault { none, pushes, reaches_far, rests_elsewhere, winds_up };
+  Fault fault;
+  double young = 1.0;
+  explicit Sticky(Fault f) : fault(f) {}
+  void prepare(const sdk::MaterialProperties& i, const sdk::MaterialProperties& j) override {
+    young = sdk::effective_young_modulus(i, j);
+  }
+  [[nodiscard]] int history_size() const override { return 1; }
+  [[nodiscard]] static double strength(double radius) { return 0.3 * radius; }
+  void evaluate(const sdk::CohesionBatch& b) const override {
+    for (std::size_t q = 0; q < b.count; ++q) {
+      b.contact_overlap[q] = b.overlap[q];
+      double f = b.overlap[q] > 0.0 ? strength(b.effective_radius[q]) : 0.0;
+      if (fault == pushes) f = -f;
+      if (fault == reaches_far) f = strength(b.effective_radius[q]);
+      // Pulls hard while the grains come closer, and hardly while they part.
+      if (fault == winds_up && b.overlap[q] < b.history[0][q]) f *= 0.5;
+      b.history[0][q] = b.overlap[q];
+      b.attraction[q] = f;
+    }
+  }
+  [[nodiscard]] double range(double) const override { return 0.0; }
+  [[nodiscard]] double resting_overlap(double radius) const override {
+    const double d =
+        std::cbrt(std::pow(0.75 * strength(radius) / (young * std::sqrt(radius)), 2.0));
+    return fault == rests_elsewhere ? 10.0 * d : d;
+  }
+};
+
+std::vector<contract::Finding> sticky(Sticky::Fault fault) {
+  return findings_of(described("cohesion", {}), [fault](std::span<const sdk::Value>) {
+    return std::make_unique<Sticky>(fault);
+  });
+}
+
+}  // namespace
+
+TEST_CASE("a cohesive law that is wrong shall be told by the rule it breaks") {
+  for (const auto& finding : sticky(Sticky::none)) {
+    INFO(finding.rule);
+    // Its strength per radius, 0.3 N/m, is a hidden unit.
+    if (finding.rule.find("homogeneous") != std::string::npos) continue;
+    CHECK_MESSAGE(finding.verdict != Verdict::fail, finding.why);
+  }
+  CHECK(broken(sticky(Sticky::pushes), "attracts").find("it pushes") == 0);
+  CHECK(broken(sticky(Sticky::reaches_far), "attracts").find("beyond range()") !=
+        std::string::npos);
+  CHECK(broken(sticky(Sticky::rests_elsewhere), "rests").find("resting_overlap() says") == 0);
+  CHECK(broken(sticky(Sticky::winds_up), "energy").find("more than there were") !=
         std::string::npos);
 }
 

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rules of cohesive laws: pairs that touch, part beyond the law's range and come back.
+#include "contract/contact_bench.hpp"
+#include "contract/judge.hpp"
+#include "dust/sdk/cohesion_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace dust::contract {
+namespace {
+
+std::unique_ptr<sdk::CohesionLaw> make_law(const Maker& make, const Units& units = {}) {
+  auto law = make_as<sdk::CohesionLaw>(make, units);
+  law->prepare(material(false, units), material(true, units));
+  require(law->history_size() >= 0 && law->history_size() <= 16,
+          "it asks for " + std::to_string(law->history_size()) +
+              " history columns; the core keeps at most 16");
+  return law;
+}
+
+/// Columns of pairs with guards behind every one of them, history included.
+class CohesionBench {
+ public:
+  enum Column { overlap, radius, contact_overlap, attraction, k_columns };
+
+  CohesionBench(std::size_t count, int history) : count_((count + 7) / 8 * 8), history_(history) {
+    columns_.assign(static_cast<std::size_t>(k_columns + history),
+                    std::vector<double>(count_ + k_guard, k_guard_value));
+    for (std::size_t h = k_columns; h < columns_.size(); ++h) {
+      std::fill_n(columns_[h].begin(), count_, 0.0);
+    }
+  }
+  /// Overlaps of the pairs now; outputs are forgotten, the history is not.
+  void show(const std::vector<double>& radii, const std::vector<double>& overlaps) {
+    for (std::size_t n = 0; n < count_; ++n) {
+      columns_[overlap][n] = overlaps[n % overlaps.size()];
+      columns_[radius][n] = radii[n % radii.size()];
+      columns_[contact_overlap][n] = columns_[attraction][n] =
+          std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  void evaluate(const sdk::CohesionLaw& law, std::size_t size, const Trial* trial = nullptr) {
+    if (size == 0) size = count_;
+    const auto before_overlap = columns_[overlap];
+    const auto before_radius = columns_[radius];
+    std::vector<double*> history(static_cast<std::size_t>(history_));
+    for (std::size_t first = 0; first < count_; first += size) {
+      sdk::CohesionBatch b;
+      b.count = std::min(size, count_ - first);
+      b.overlap = columns_[overlap].data() + first;
+      b.effective_radius = columns_[radius].data() + first;
+      b.contact_overlap = columns_[contact_overlap].data() + first;
+      b.attraction = columns_[attraction].data() + first;
+      for (std::size_t h = 0; h < history.size(); ++h) {
+        history[h] = columns_[k_columns + h].data() + first;
+      }
+      b.history = history.data();
+      if (trial != nullptr) {
+        call_hot(*trial, [&] { law.evaluate(b); });
+      } else {
+        law.evaluate(b);
+      }
+    }
+    require(columns_[overlap] == before_overlap && columns_[radius] == before_radius,
+            "it overwrites its inputs");
+    for (const auto& column : columns_) {
+      require(std::all_of(column.begin() + static_cast<std::ptrdiff_t>(count_), column.end(),
+                          [](double v) { return v == k_guard_value; }),
+              "it writes beyond the end of a column");
+    }
+  }
+  [[nodiscard]] double at(std::size_t column, std::size_t row) const {
+    return columns_[column][row];
+  }
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+ private:
+  static constexpr std::size_t k_guard = 8;
+  static constexpr double k_guard_value = -7.25e77;
+  std::size_t count_;
+  int history_;
+  std::vector<std::vector<double>> columns_;
+};
+
+/// Radii and overlaps of the standard contacts.
+struct Pairs {
+  std::vector<double> radii, overlaps;
+  double largest = 0.0;
+  explicit Pairs(const Units& units) {
+    for (const Touch& t : standard_touches(0.0, 0)) {
+      radii.push_back(t.radius * units.length);
+      overlaps.push_back(t.overlap * units.length);
+      largest = std::max(largest, radii.back());
+    }
+  }
+};
+
+constexpr int k_looks = 25;
+constexpr int k_parting = 12;  ///< looks until all are parted; the rest they come back
+constexpr int k_beyond = 10;   ///< looks from which on a pair is beyond its range
+
+/// Overlaps at a look: in touch at first, then apart to beyond `range`, then back short of touch.
+std::vector<double> overlaps_at(int look, const std::vector<double>& touch, double range) {
+  const double share = look <= k_parting ? look / 10.0 : (k_looks - 1 - look + 0.01) / 10.0;
+  std::vector<double> overlaps;
+  for (const double d : touch) {
+    double now = (1.0 - share) * d - share * 1.001 * range;
+    if (look > k_parting) now = std::min(now, -0.01 * range);
+    overlaps.push_back(now);
+  }
+  return overlaps;
+}
+
+/// How far pairs are pulled apart: the law's range, or a little where it has none.
+double pull(const sdk::CohesionLaw& law, double largest) {
+  return std::max(law.range(largest), 1e-3 * largest);
+}
+
+Readings observe(const Maker& make, const Trial& trial) {
+  const auto law = make_law(make, trial.units);
+  const Pairs pairs(trial.units);
+  CohesionBench bench(pairs.radii.size(), law->history_size());
+  Readings readings;
+  for (int look = 0; look < k_looks; ++look) {
+    bench.show(pairs.radii, overlaps_at(look, pairs.overlaps, pull(*law, pairs.largest)));
+    bench.evaluate(*law, trial.batch, &trial);
+    for (std::size_t n = 0; n < bench.count(); ++n) {
+      const std::string row = " of pair " + std::to_string(n);
+      readings.push_back(
+          {"attraction" + row, bench.at(CohesionBench::attraction, n), sdk::dimension::force});
+      readings.push_back({"contact_overlap" + row, bench.at(CohesionBench::contact_overlap, n),
+                          sdk::dimension::length});
+      for (int h = 0; h < law->history_size(); ++h) {
+        const auto column = static_cast<std::size_t>(CohesionBench::k_columns + h);
+        readings.push_back({"history_" + std::to_string(h) + row, bench.at(column, n), {}, false});
+      }
+    }
+  }
+  for (const double r : pairs.radii) {
+    readings.push_back({"range", law->range(r), sdk::dimension::length});
+    readings.push_back({"resting_overlap", law->resting_overlap(r), sdk::dimension::length});
+  }
+  return readings;
+}
+
+void check_attracts(const Maker& make) {
+  const auto law = make_law(make);
+  const Pairs pairs({});
+  CohesionBench bench(pairs.radii.size(), law->history_size());
+  for (int look = 0; look < k_looks; ++look) {
+    bench.show(pairs.radii, overlaps_at(look, pairs.overlaps, pull(*law, pairs.largest)));
+    bench.evaluate(*law, 0);
+    for (std::size_t n = 0; n < bench.count(); ++n) {
+      const double force = bench.at(CohesionBench::attraction, n);
+      require(force >= 0.0, "it pushes: the attraction is " + shown(force) + " N");
+      require(look > 0 || force > 0.0, "a pair in touch is not attracted");
+      if (look < k_beyond || look > k_looks - k_beyond) continue;
+      const bool is_beyond = overlaps_at(look, pairs.overlaps, pull(*law, pairs.largest))[n] <
+                             -law->range(pairs.largest);
+      require(!is_beyond || (force == 0.0 && bench.at(CohesionBench::contact_overlap, n) <= 0.0),
+              "a pair beyond range() still feels " + shown(force) + " N");
+    }
+  }
+}
+
+void check_range(const Maker& make) {
+  const auto law = make_law(make);
+  for (double radius = 1e-6; radius < 0.1; radius *= 2.0) {
+    const double range = law->range(radius);
+    require(std::isfinite(range) && range >= 0.0, "range() is " + shown(range) + " m");
+    require(law->range(2.0 * radius) >= range,
+            "range() falls as grains grow: the core asks for the largest pair alone");
+    require(law->resting_overlap(radius) > 0.0, "resting_overlap() is not above 0");
+  }
+}
+
+/// Force on a pair [N], repulsion above 0, with Hertz' contact behind the law.
+class Pair {
+ public:
+  Pair(const sdk::CohesionLaw& law, double radius)
+      : law_(law),
+        radius_(radius),
+        young_(sdk::effective_young_modulus(material(false, {}), material(true, {}))),
+        bench_(1, law.history_size()) {}
+  double force(double overlap) {
+    bench_.show({radius_}, {overlap});
+    bench_.evaluate(law_, 0);
+    seen_ = bench_.at(CohesionBench::contact_overlap, 0);
+    const double pressed = std::max(seen_, 0.0);
+    return 4.0 / 3.0 * young_ * std::sqrt(radius_) * pressed * std::sqrt(pressed) -
+           bench_.at(CohesionBench::attraction, 0);
+  }
+  /// Overlap that the contact law saw at the last call.
+  [[nodiscard]] double seen() const { return seen_; }
+
+ private:
+  const sdk::CohesionLaw& law_;
+  double radius_;
+  double young_;
+  double seen_ = 0.0;
+  CohesionBench bench_;
+};
+
+constexpr double k_radius = 5e-4;
+
+void check_rest(const Maker& make) {
+  const auto law = make_law(make);
+  Pair pair(*law, k_radius);
+  double low = 1e-9 * k_radius;
+  double high = 0.3 * k_radius;
+  if (!(pair.force(low) < 0.0)) throw Remark("a pair that just touches is not pulled together");
+  if (!(pair.force(high) > 0.0)) {
+    throw Remark(
+        "attraction outweighs the contact up to an overlap of 0.3 R*: choose a weaker one");
+  }
+  for (int n = 0; n < 60; ++n) {
+    const double middle = 0.5 * (low + high);
+    (pair.force(middle) < 0.0 ? low : high) = middle;
+  }
+  const double told = law->resting_overlap(k_radius);
+  // The stiffness there, which sets the time step, goes with the root of the overlap.
+  constexpr double k_close = 0.2;
+  require(std::abs(told - pair.seen()) <= k_close * pair.seen(),
+          "resting_overlap() says " + shown(told) + " m; with Hertz contacts a pair rests at " +
+              shown(pair.seen()) + " m");
+}
+
+void check_energy(const Maker& make) {
+  const auto law = make_law(make);
+  Pair pair(*law, k_radius);
+  // From beyond the range into touch and out again, slowly: what the pair gains on the way in it
+  // must at least give back.
+  const double far = 1.5 * std::max(law->range(k_radius), 1e-4 * k_radius);
+  const double deep = std::max(2.0 * law->resting_overlap(k_radius), 1e-3 * k_radius);
+  constexpr int k_steps = 4000;
+  const double step = (far + deep) / k_steps;
+  double gained = 0.0;
+  double largest = 0.0;
+  double before = pair.force(-far);
+  for (int n = 1; n <= 2 * k_steps; ++n) {
+    const bool goes_in = n <= k_steps;
+    const double overlap = goes_in ? n * step - far : deep - (n - k_steps) * step;
+    const double now = pair.force(overlap);
+    gained += (goes_in ? -1.0 : 1.0) * 0.5 * (before + now) * step;
+    largest = std::max(largest, std::abs(now));
+    before = now;
+  }
+  // A force that jumps is known to one step of the way, on each way once.
+  require(gained <= 4.0 * largest * step,
+          "touch and parting leave " + shown(gained) + " J more than there were");
+}
+
+void rules(const Maker& make, const Subject&, Judge& judge) {
+  judge.rule("attracts in touch, never pushes, ends within its range",
+             [&] { check_attracts(make); });
+  judge.rule("has a range that grows with the grains", [&] { check_range(make); });
+  judge.rule("tells where a pair rests as it is", [&] { check_rest(make); });
+  judge.rule("creates no energy in touch and parting", [&] { check_energy(make); });
+}
+
+}  // namespace
+
+Kind cohesion_kind() {
+  return {.observe = observe,
+          .batches = {8, 24},
+          .other_units = {4.0, 2.0, 0.5},
+          .is_hot = true,
+          .rules = rules};
+}
+
+}  // namespace dust::contract
