@@ -80,10 +80,12 @@ Kind contact_kind();
 Kind rolling_kind();
 Kind cohesion_kind();
 Kind drag_kind();
+Kind fluid_force_kind();
 Kind voidage_kind();
 Kind boundary_kind();
 Kind emitter_kind();
 Kind motion_kind();
 Kind sensor_kind();
+Kind turbulence_kind();
 
 }  // namespace dust::contract

@@ -17,6 +17,7 @@ class Scene {
 
  private:
   void fill(double time);
+  void blow(double time);
   void touch(double time);
   void load_walls(double time);
   void finish(Grain& grain, int n);

@@ -38,8 +38,8 @@ void World::set_cells(int nx, int ny, int nz) {
   const auto cells = static_cast<std::size_t>(nx) * ny * nz;
   pressure.assign(cells, 0.0f);
   open_fraction.assign(cells, 1.0f);
-  still_air_.assign(cells, 0.0f);
-  no_solids_.assign(cells, 1.0f);
+  for (auto& component : velocity) component.assign(cells, 0.0f);
+  void_fraction.assign(cells, 1.0f);
 }
 
 const sdk::WorldView& World::view() {
@@ -135,15 +135,23 @@ void World::show_fluid() {
   pressure_shown_ = pressure;
   const auto p = static_cast<float>(units.of(sdk::dimension::pressure));
   for (float& value : pressure_shown_) value *= p;
+  const auto v = static_cast<float>(units.length / units.time);
+  for (int d = 0; d < 3; ++d) {
+    velocity_shown_[d] = velocity[d];
+    for (float& value : velocity_shown_[d]) value *= v;
+  }
   sdk::FluidColumns& f = view_.fluid;
   f.spacing = units.length * spacing;
   for (int d = 0; d < 3; ++d) f.count[d] = count[d];
   f.density = units.of(sdk::dimension::density) * density;
-  f.viscosity = units.of(sdk::dimension::dynamic_viscosity) * 1.8e-5;
+  f.viscosity = units.of(sdk::dimension::dynamic_viscosity) * viscosity;
+  f.origin = units.length * domain_min;
   f.pressure = pressure_shown_;
   f.open_fraction = open_fraction;
-  f.velocity_x = f.velocity_y = f.velocity_z = still_air_;
-  f.void_fraction = no_solids_;
+  f.velocity_x = velocity_shown_[0];
+  f.velocity_y = velocity_shown_[1];
+  f.velocity_z = velocity_shown_[2];
+  f.void_fraction = void_fraction;
 }
 
 void step(sdk::Sensor& sensor, World& world) {

@@ -82,14 +82,30 @@ class World {
   int count[3] = {0, 0, 0};
   sdk::Vec3 spacing{0.001, 0.001, 0.001};
   double density = 1.2;
+  double viscosity = 1.8e-5;
   std::vector<float> pressure;
   std::vector<float> open_fraction;
+  std::vector<float> velocity[3];
+  std::vector<float> void_fraction;
   Units units;  ///< in which the world is shown; everything above is SI
 
-  /// Sets the number of cells; pressure 0, all open.
+  /// Sets the number of cells; still air, pressure 0, all open, no solids.
   void set_cells(int nx, int ny, int nz);
   float& pressure_at(int i, int j, int k) {
     return pressure[static_cast<std::size_t>(i + count[0] * (j + count[1] * k))];
+  }
+  /// Calls set(cell, centre [m]) for all cells.
+  template <class Set>
+  void for_cells(const Set& set) const {
+    for (int k = 0; k < count[2]; ++k) {
+      for (int j = 0; j < count[1]; ++j) {
+        for (int i = 0; i < count[0]; ++i) {
+          set(static_cast<std::size_t>(i + count[0] * (j + count[1] * k)),
+              domain_min +
+                  sdk::Vec3{(i + 0.5) * spacing.x, (j + 0.5) * spacing.y, (k + 0.5) * spacing.z});
+        }
+      }
+    }
   }
   /// Valid until the world changes.
   const sdk::WorldView& view();
@@ -110,9 +126,8 @@ class World {
   std::vector<double> wall_power_, wall_mass_;
   std::vector<std::int64_t> wall_contacts_;
   std::vector<sdk::WallImpact> impacts_shown_;
-  std::vector<float> still_air_;
-  std::vector<float> no_solids_;
   std::vector<float> pressure_shown_;
+  std::vector<float> velocity_shown_[3];
   std::vector<double> classes_shown_;
   sdk::WorldView view_;
 };

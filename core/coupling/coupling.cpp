@@ -24,7 +24,7 @@
 namespace dust::coupling {
 namespace {
 
-constexpr std::size_t k_batch = 256;  ///< grains per call of the law and per task
+constexpr std::size_t k_batch = ForceTerms::k_batch;  ///< grains per call of the law and per task
 constexpr double k_steps_per_relaxation = 4.0;
 constexpr double k_crossing_speed = 2.0;  ///< [m/s]
 constexpr double k_refreshes_per_cell = 8.0;
@@ -119,7 +119,13 @@ struct Coupling::Impl {
   void remember(const particles::GrainRows& grains, std::size_t first, std::size_t last);
   void settle(const particles::GrainRows& grains, const fluid::FaceField& velocity);
   void refresh(const particles::GrainRows& grains, std::size_t first, std::size_t last,
-               const fluid::FaceField& velocity, const fluid::FaceField& stress_divergence);
+               const FluidState& fluid);
+  void act(const particles::GrainRows& grains, std::size_t row, std::size_t n,
+           double drag_coefficient, const Triple& relative, double held,
+           const ForceTerms::Sums& sums);
+  [[nodiscard]] double held(const FluidState& fluid) const {
+    return fluid.held > 0.0 ? fluid.held : step / refreshes;
+  }
   void collect(const particles::GrainRows& grains, double fluid_step);
   void find_size_ratios(const particles::GrainRows& grains);
 
@@ -129,6 +135,7 @@ struct Coupling::Impl {
   VoidFraction void_fraction;
   GrainMemory memory;
   FaceExchange faces;
+  std::unique_ptr<ForceTerms> forces;  ///< null without forces besides drag
   CouplingReport report;
   fluid::Properties properties;
   sdk::Vec3 gravity;
@@ -249,8 +256,7 @@ void Coupling::Impl::settle(const particles::GrainRows& grains, const fluid::Fac
 }
 
 void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t first,
-                             std::size_t last, const fluid::FaceField& velocity,
-                             const fluid::FaceField& stress_divergence) {
+                             std::size_t last, const FluidState& state) {
   Batch batch;
   std::array<Triple, k_batch> slip;  // interstitial [m/s]
   std::array<Triple, k_batch> ratio;
@@ -265,7 +271,7 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t fir
     const double own = eps[lattice.host_cell(p, position)];
     for (int d = 0; d < 3; ++d) {
       lattice.stencil(d, p, eps, s);
-      const double* u = velocity.component[d].data();
+      const double* u = state.velocity.component[d].data();
       double flux = 0.0;  // relative to the grain: it does not jump with eps in plug flow
       double open = 0.0;
       double fluid = 0.0;
@@ -277,8 +283,9 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t fir
       slip[row - first][d] = flux / own;
       r.fluid_velocity[d] = v[d] + flux / own;
       ratio[row - first][d] = open > 0.0 && !is_set_three ? fluid / (open * own) : 1.0;
-      stress[row - first][d] =
-          is_set_three ? 0.0 : lattice.cell_mean(d, p, stress_divergence.component[d]);
+      stress[row - first][d] = is_set_three && !forces
+                                   ? 0.0
+                                   : lattice.cell_mean(d, p, state.stress_divergence.component[d]);
     }
     r.has_velocity = true;
     batch.void_fraction[row - first] = own;
@@ -288,6 +295,23 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t fir
     batch.size_ratio[row - first] = r.size_ratio;
   }
   evaluate(batch, last - first);
+  if (forces) {
+    ForceTerms::Sums sums;
+    const ForceTerms::Batch seen{first, last - first, batch.void_fraction.data(), slip.data(),
+                                 stress.data()};
+    forces->evaluate(grains, seen, state, held(state), eps, memory, sums);
+    for (std::size_t row = first; row < last; ++row) {
+      const std::size_t n = row - first;
+      const double drag_coefficient =
+          coefficient(fluid_at(grains.position + 4 * row), 2.0 * grains.position[4 * row + 3],
+                      batch.factor[n]) *
+          share_of_set(batch.void_fraction[n]);
+      Triple relative;
+      for (std::size_t d = 0; d < 3; ++d) relative[d] = ratio[n][d] * slip[n][d];
+      act(grains, row, n, drag_coefficient, relative, held(state), sums);
+    }
+    return;
+  }
   for (std::size_t row = first; row < last; ++row) {
     const double diameter = 2.0 * grains.position[4 * row + 3];
     const double* v = grains.velocity + 4 * row;
@@ -312,6 +336,56 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t fir
   }
 }
 
+/// The action on a grain with forces besides drag. The grain obeys
+///   (m + m_a) dv/dt = K (relative slip) + sum of forces + m g' + contacts ,
+/// while the DEM integrates dv/dt = rate (target - v) + g' + contacts / m: the target makes up for
+/// the difference, for the contacts with those of the last interval.
+void Coupling::Impl::act(const particles::GrainRows& grains, std::size_t row, std::size_t n,
+                         double drag_coefficient, const Triple& relative, double held,
+                         const ForceTerms::Sums& sums) {
+  const double* v = grains.velocity + 4 * row;
+  double* action = grains.fluid_action + 4 * row;
+  Remembered& r = memory[row];
+  const double mass = 1.0 / v[3];
+  const double moved = mass + sums.added_mass[n];
+  const double volume = sdk::sphere_volume(2.0 * grains.position[4 * row + 3]);
+  const double share = forces->weight_share(mass, volume);
+  const bool is_buoyancy_taken = forces->taken().buoyancy;
+  const double lift =
+      is_buoyancy_taken
+          ? 0.0
+          : volume * (properties.own().density - fluid_at(grains.position + 4 * row).density);
+  Triple pull;       // [N] all but m g' and contacts
+  Triple contained;  // [N] of it, what the fluid does not receive
+  for (std::size_t d = 0; d < 3; ++d) {
+    const double g = gravity[static_cast<int>(d)];
+    contained[d] = volume * sums.kept[n][d] + lift * g + sums.contained[n][d];
+    pull[d] = drag_coefficient * relative[d] + contained[d] + sums.returned[n][d] -
+              sums.added_mass[n] * (share * g + sums.contact[n][d]);
+  }
+  if (sums.resistance[n] > 0.0) {
+    // Implicit along the wall's normal: it may be far stiffer than the interval.
+    double approach = -sums.wall_speed[n];
+    double change = 0.0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double towards = sums.normal[n][d];
+      approach += towards * v[d];
+      change += towards * (pull[d] / moved + share * gravity[static_cast<int>(d)]) * held;
+    }
+    const double stiffness = sums.resistance[n] * held / moved;
+    const double force = -sums.resistance[n] * (approach + change) / (1.0 + stiffness);
+    for (std::size_t d = 0; d < 3; ++d) {
+      pull[d] += force * sums.normal[n][d];
+      contained[d] += force * sums.normal[n][d];
+    }
+  }
+  for (std::size_t d = 0; d < 3; ++d) {
+    action[d] = v[d] + pull[d] / drag_coefficient;
+    r.stress_impulse[d] += contained[d];
+  }
+  action[3] = drag_coefficient / moved;
+}
+
 void Coupling::Impl::collect(const particles::GrainRows& grains, double fluid_step) {
   if (done_refreshes == 0) {
     throw std::logic_error("Coupling::collect() without a refresh() since map()");
@@ -322,6 +396,7 @@ void Coupling::Impl::collect(const particles::GrainRows& grains, double fluid_st
     for (std::size_t row = first; row < last; ++row) {
       double* received = grains.fluid_impulse + 4 * row;
       Remembered& r = memory[row];
+      if (forces) forces->impulse_was_read(memory, row, received);
       for (int d = 0; d < 3; ++d) {
         const double drag_impulse = received[d] - interval * r.stress_impulse[d];
         if (!is_one_way && r.is_paired[d]) {
@@ -375,12 +450,33 @@ void Coupling::settle(const particles::GrainRows& grains, const fluid::FaceField
 
 void Coupling::refresh(const particles::GrainRows& grains, const fluid::FaceField& velocity,
                        const fluid::FaceField& stress_divergence) {
+  refresh(grains, FluidState{velocity, stress_divergence});
+}
+
+void Coupling::refresh(const particles::GrainRows& grains, const FluidState& fluid) {
   impl_->memory.align(grains);
-  if (!impl_->is_settled) impl_->settle(grains, velocity);
+  if (!impl_->is_settled) impl_->settle(grains, fluid.velocity);
+  ForceTerms* forces = impl_->forces.get();
+  if (forces != nullptr) forces->begin(fluid, impl_->step, impl_->done_refreshes == 0);
   Impl::for_batches(grains.count, [&](std::size_t first, std::size_t last) {
-    impl_->refresh(grains, first, last, velocity, stress_divergence);
+    impl_->refresh(grains, first, last, fluid);
   });
+  if (forces != nullptr) forces->end(fluid);
   ++impl_->done_refreshes;
+}
+
+void Coupling::use(std::span<const std::unique_ptr<sdk::FluidForce>> forces,
+                   std::vector<particles::Surface> surfaces) {
+  if (forces.empty()) return;
+  Impl& s = *impl_;
+  s.forces = std::make_unique<ForceTerms>(forces, std::move(surfaces), s.lattice, s.properties,
+                                          s.gravity, s.is_set_three);
+  s.memory.keep(s.forces->kept_numbers());
+}
+
+bool takes_over_buoyancy(std::span<const std::unique_ptr<sdk::FluidForce>> forces) {
+  return std::any_of(forces.begin(), forces.end(),
+                     [](const auto& force) { return force->takes_over().buoyancy; });
 }
 
 double Coupling::refresh_interval() const { return impl_->step / impl_->refreshes; }
@@ -398,6 +494,7 @@ void Coupling::save(sdk::ArchiveWriter& archive) const {
   const CouplingReport& r = impl_->report;
   impl_->void_fraction.save(archive);
   impl_->memory.save(archive);
+  if (impl_->forces) impl_->forces->save(archive);
   archive.number("refreshes", impl_->refreshes);
   archive.number("step", impl_->step);
   archive.integers(
@@ -410,6 +507,7 @@ void Coupling::load(sdk::ArchiveReader& archive) {
   CouplingReport& r = impl_->report;
   impl_->void_fraction.load(archive);
   impl_->memory.load(archive);
+  if (impl_->forces) impl_->forces->load(archive);
   impl_->refreshes = archive.number("refreshes");
   impl_->step = archive.number("step");
   const std::vector<std::int64_t> counts = archive.integers("counts");

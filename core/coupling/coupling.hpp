@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "coupling/force_terms.hpp"
 #include "dust/sdk/archive.hpp"
 #include "dust/sdk/drag_law.hpp"
+#include "dust/sdk/fluid_force.hpp"
 #include "dust/sdk/voidage_rule.hpp"
 #include "fluid/grid.hpp"
 #include "particles/grain_rows.hpp"
@@ -52,6 +54,12 @@ class Coupling {
   Coupling(const Coupling&) = delete;
   Coupling& operator=(const Coupling&) = delete;
 
+  /// Optional, before the first map(): forces besides drag, and the walls that some of them act at.
+  /// The models are kept by reference. With buoyancy among what they take over, the DEM must not
+  /// reduce gravity (takes_over_buoyancy).
+  void use(std::span<const std::unique_ptr<sdk::FluidForce>> forces,
+           std::vector<particles::Surface> surfaces);
+
   /// Optional, before the run: throws base::UserError if a grain of one of the `diameters` [m] is
   /// too large for the grid. map() finds the same later, as sdk::ModelError.
   void check_diameters(std::span<const double> diameters) const;
@@ -71,6 +79,8 @@ class Coupling {
   /// are read.
   void refresh(const particles::GrainRows& grains, const fluid::FaceField& velocity,
                const fluid::FaceField& stress_divergence);
+  /// The same with what forces besides drag look at.
+  void refresh(const particles::GrainRows& grains, const FluidState& fluid);
   /// Interval [s] after which refresh() is due again: the fluid step divided by a whole number, 1
   /// to
   /// 64. A quarter of the shortest relaxation time of the grains at the last map(), and at most the
@@ -92,5 +102,8 @@ class Coupling {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Whether one of the models gives the hydrostatic buoyancy, so that grains keep their full weight.
+bool takes_over_buoyancy(std::span<const std::unique_ptr<sdk::FluidForce>> forces);
 
 }  // namespace dust::coupling

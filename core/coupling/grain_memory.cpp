@@ -19,11 +19,13 @@ void GrainMemory::align(const particles::GrainRows& grains) {
   std::sort(known.begin(), known.end());
   std::vector<char> is_here(ids_.size(), 0);
   std::vector<Remembered> rows(grains.count);
+  std::vector<double> kept(width_ * grains.count, 0.0);
   for (std::size_t row = 0; row < grains.count; ++row) {
     const auto found =
         std::lower_bound(known.begin(), known.end(), std::pair{grains.id[row], std::size_t{0}});
     if (found == known.end() || found->first != grains.id[row]) continue;
     rows[row] = rows_[found->second];
+    std::copy_n(kept_.data() + width_ * found->second, width_, kept.data() + width_ * row);
     is_here[found->second] = 1;
   }
   for (const auto& [id, row] : known) {
@@ -32,6 +34,7 @@ void GrainMemory::align(const particles::GrainRows& grains) {
     }
   }
   rows_ = std::move(rows);
+  kept_ = std::move(kept);
   ids_.assign(grains.id, grains.id + grains.count);
 }
 
@@ -52,6 +55,7 @@ void GrainMemory::save(sdk::ArchiveWriter& archive) const {
   archive.integers("grain_ids", ids_);
   archive.numbers("grains", numbers);
   archive.numbers("leavers", gone);
+  if (width_ > 0) archive.numbers("kept", kept_);
 }
 
 void GrainMemory::load(sdk::ArchiveReader& archive) {
@@ -59,6 +63,7 @@ void GrainMemory::load(sdk::ArchiveReader& archive) {
   const std::vector<double> numbers = archive.numbers("grains");
   const std::vector<double> gone = archive.numbers("leavers");
   rows_.assign(ids_.size(), {});
+  if (width_ > 0) kept_ = archive.numbers("kept");
   const double* n = numbers.data();
   for (Remembered& r : rows_) {
     std::copy_n(n, 3, r.fluid_velocity.begin());

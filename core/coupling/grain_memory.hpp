@@ -38,6 +38,11 @@ class GrainMemory {
   /// Brings the memory into the order of `grains`; new grains start empty.
   void align(const particles::GrainRows& grains);
 
+  /// Keeps `width` further numbers per grain, zero for new grains; before the first align().
+  void keep(std::size_t width) { width_ = width; }
+  /// Those of a row.
+  double* kept(std::size_t row) { return kept_.data() + width_ * row; }
+
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   Remembered& operator[](std::size_t row) { return rows_[row]; }
   const Remembered& operator[](std::size_t row) const { return rows_[row]; }
@@ -50,6 +55,8 @@ class GrainMemory {
   std::vector<std::int64_t> ids_;
   std::vector<Remembered> rows_;
   std::vector<Leaver> leavers_;
+  std::size_t width_ = 0;
+  std::vector<double> kept_;  ///< width_ per row
 };
 
 }  // namespace dust::coupling

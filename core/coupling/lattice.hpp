@@ -120,6 +120,22 @@ class Lattice {
     return sum > 0.0 ? (share_low * field[low] + share_high * field[high]) / sum : 0.0;
   }
 
+  /// Slope [1/m] of a cell field along d at `p`, between the same two faces with the same weights.
+  [[nodiscard]] double cell_slope(int d, const Place& p, const fluid::CellField& field) const {
+    const int e = (d + 1) % 3;
+    const int f = (d + 2) % 3;
+    const std::ptrdiff_t column = offset(cells_[e], p[e].cell) + offset(cells_[f], p[f].cell);
+    const std::ptrdiff_t home = offset(homes_[e], p[e].cell) + offset(homes_[f], p[f].cell);
+    const double share_low = open_face_[d][offset(homes_[d], p[d].cell) + home];
+    const double share_high = open_face_[d][offset(homes_[d], p[d].cell + 1) + home];
+    const double sum = share_low + share_high;
+    if (!(sum > 0.0)) return 0.0;
+    const double below = field[offset(cells_[d], p[d].cell - 1) + column];
+    const double own = field[offset(cells_[d], p[d].cell) + column];
+    const double above = field[offset(cells_[d], p[d].cell + 1) + column];
+    return (share_low * (own - below) + share_high * (above - own)) * inverse_spacing_[d] / sum;
+  }
+
   /// Copies face 0 to the last face along each periodic direction.
   void close_periodic(int d, std::vector<double>& field) const;
 

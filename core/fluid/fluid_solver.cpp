@@ -3,6 +3,7 @@
 
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/plugin.hpp"
+#include "fluid/eddy_stress.hpp"
 #include "fluid/geometry.hpp"
 #include "fluid/momentum.hpp"
 #include "fluid/parallel.hpp"
@@ -329,14 +330,15 @@ struct FluidSolver::Impl {
       }
     };
     momentum.prepare(k_gamma * step, exchange.coefficient);
+    const FaceField& source = with_eddies(exchange.source);
 
     convect(u, smoothness, nullptr, step);
     sides.evaluate_pressure(time + step);
     sides.fill_pressure(p, false);
     each_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
       first_stage_row(n, grid.stride[d], step, properties.inertia(d, o), inverse_h,
-                      &u.component[d][o], &sum.component[d][o], &p[o],
-                      &exchange.source.component[d][o], &right.component[d][o]);
+                      &u.component[d][o], &sum.component[d][o], &p[o], &source.component[d][o],
+                      &right.component[d][o]);
       std::copy_n(&u.component[d][o], n, &next.component[d][o]);
     });
     sides.evaluate_velocity(time + k_gamma * step, eps);
@@ -345,7 +347,7 @@ struct FluidSolver::Impl {
     each_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
       between_stages_row(n, grid.stride[d], step, properties.inertia(d, o), inverse_h,
                          &u.component[d][o], &next.component[d][o], &right.component[d][o], &p[o],
-                         &exchange.source.component[d][o], &sum.component[d][o]);
+                         &source.component[d][o], &sum.component[d][o]);
     });
     convect(next, smoothness, &sum, step);
     sides.evaluate_velocity(time + step, eps);
@@ -360,6 +362,23 @@ struct FluidSolver::Impl {
     });
   }
 
+  /// The source with the stress of the eddies of the present velocity.
+  const FaceField& with_eddies(const FaceField& source) {
+    if (!eddies) return source;
+    eddies->update(u);
+    for (int d = 0; d < 3; ++d) {
+      const auto& n = geometry.extent[d];
+      for_rows(n[0], n[1], n[2], [&](int j, int k) {
+        const std::ptrdiff_t o = grid.index(0, j, k);
+        for (int i = 0; i < n[0]; ++i) {
+          all_sources.component[d][o + i] =
+              source.component[d][o + i] + eddies->force().component[d][o + i];
+        }
+      });
+    }
+    return all_sources;
+  }
+
   /// Solves for `next` with the sides' present values and completes it.
   void solve_stage() {
     sides.fill_for_sweeps(next);
@@ -371,6 +390,7 @@ struct FluidSolver::Impl {
   void find_stress() {
     sides.fill_pressure(p, false);
     momentum.viscous_force(u, stress);
+    if (eddies) eddies->update(u);
     for (int d = 0; d < 3; ++d) {
       const auto& n = geometry.extent[d];
       const double inverse_h = 1.0 / grid.spacing[d];
@@ -380,6 +400,7 @@ struct FluidSolver::Impl {
         for (int i = 0; i < n[0]; ++i) {
           if (!is_unknown(geometry.kind[d][o + i])) continue;
           stress.component[d][o + i] -= inverse_h * (p[o + i] - p[o + i - s]);
+          if (eddies) stress.component[d][o + i] += eddies->force().component[d][o + i];
         }
       });
       if (sides.kinds().is_periodic[d]) wrap_last_face(stress.component[d], d);
@@ -478,6 +499,8 @@ struct FluidSolver::Impl {
   CellField residual;
   CellField eps;
   CellField rate;
+  std::unique_ptr<EddyStress> eddies;  ///< null: laminar
+  FaceField all_sources;
   std::array<std::vector<double>, 3> open_part_shift;
   std::vector<double> partial;
   bool is_consistent = false;
@@ -489,6 +512,16 @@ FluidSolver::FluidSolver(const Grid& grid, const scenario::FluidSpec& fluid,
     : impl_(std::make_unique<Impl>(grid, fluid, bodies, boundaries)) {}
 
 FluidSolver::~FluidSolver() = default;
+
+void FluidSolver::use(const sdk::TurbulenceModel& turbulence) {
+  Impl& s = *impl_;
+  s.all_sources = FaceField(s.grid);
+  s.eddies = std::make_unique<EddyStress>(s.grid, s.geometry, s.sides, s.properties, s.bodies,
+                                          turbulence, s.u);
+}
+const CellField* FluidSolver::eddy_viscosity() const {
+  return impl_->eddies ? &impl_->eddies->eddy_viscosity() : nullptr;
+}
 
 void FluidSolver::advance(double time, double step, const CellField& before, const CellField& after,
                           const Exchange& exchange) {

@@ -4,6 +4,7 @@
 #include "bodies/body_set.hpp"
 #include "dust/sdk/archive.hpp"
 #include "dust/sdk/boundary_condition.hpp"
+#include "dust/sdk/turbulence_model.hpp"
 #include "fluid/grid.hpp"
 #include "scenario/setup.hpp"
 
@@ -26,7 +27,8 @@ struct FluidReport {
 /// Sides in the order of scenario::k_side_names; null where periodic.
 using Boundaries = std::array<const sdk::BoundaryCondition*, 6>;
 
-/// Volume-averaged Navier-Stokes on a staggered grid cut by bodies: incompressible, laminar,
+/// Volume-averaged Navier-Stokes on a staggered grid cut by bodies: incompressible, laminar or with
+/// an eddy viscosity,
 ///   d(eps)/dt + div(eps u) = 0
 ///   rho (du/dt + u . grad u) = -grad p + div tau - coefficient u + source  (Exchange).
 /// Owns velocity and pressure. Deterministic for any number of threads.
@@ -37,6 +39,11 @@ class FluidSolver {
   ~FluidSolver();
   FluidSolver(const FluidSolver&) = delete;
   FluidSolver& operator=(const FluidSolver&) = delete;
+
+  /// Optional, before the first step: closure of the motion smaller than a cell; kept by reference.
+  void use(const sdk::TurbulenceModel& turbulence);
+  /// [Pa s] per cell, of the last sub-step; null for a laminar fluid.
+  [[nodiscard]] const CellField* eddy_viscosity() const;
 
   /// Advances from `time` by `step` [s]; the void fraction goes from `before` to `after` (padded
   /// cell arrays, interior cells set, 1 in solid cells). Throws sdk::ModelError on divergence.

@@ -50,6 +50,12 @@ Models make_models(const scenario::Setup& setup, const registry::Registry& regis
       }
     }
     if (setup.drag) m.drag = registry.create_as<sdk::DragLaw>(*setup.drag);
+    for (const auto& force : setup.fluid_forces) {
+      m.fluid_forces.push_back(registry.create_as<sdk::FluidForce>(force));
+    }
+    if (setup.turbulence) {
+      m.turbulence = registry.create_as<sdk::TurbulenceModel>(*setup.turbulence);
+    }
     if (setup.voidage) m.voidage = registry.create_as<sdk::VoidageRule>(*setup.voidage);
   }
   return m;

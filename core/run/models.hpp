@@ -5,7 +5,9 @@
 #include "dust/sdk/boundary_condition.hpp"
 #include "dust/sdk/drag_law.hpp"
 #include "dust/sdk/emitter.hpp"
+#include "dust/sdk/fluid_force.hpp"
 #include "dust/sdk/sensor.hpp"
+#include "dust/sdk/turbulence_model.hpp"
 #include "dust/sdk/voidage_rule.hpp"
 #include "particles/dem.hpp"
 #include "registry/registry.hpp"
@@ -25,7 +27,9 @@ struct Models {
   std::vector<std::unique_ptr<sdk::Sensor>> sensors;
   std::array<std::unique_ptr<sdk::BoundaryCondition>, 6> boundaries;
   std::unique_ptr<sdk::DragLaw> drag;
+  std::vector<std::unique_ptr<sdk::FluidForce>> fluid_forces;
   std::unique_ptr<sdk::VoidageRule> voidage;
+  std::unique_ptr<sdk::TurbulenceModel> turbulence;  ///< null: laminar
   std::vector<double> class_diameters;  ///< [m] all sizes the emitters may give, ascending
 };
 

@@ -69,12 +69,18 @@ Simulation::Simulation(const scenario::Setup& setup, Models models)
     const sdk::Vec3 initial = setup_.fluid->initial_velocity;
     fluid_->set_velocity([initial](sdk::Vec3) { return initial; });
     fluid_table_ = std::make_unique<FluidTable>(grid_, *setup_.fluid, fluid_->open_fraction());
-    coupling_ = std::make_unique<coupling::Coupling>(setup_, grid_, fluid_->open_fraction(),
-                                                     *models_.voidage, *models_.drag);
+    if (models_.turbulence) fluid_->use(*models_.turbulence);
+    if (has_grains()) {
+      coupling_ = std::make_unique<coupling::Coupling>(setup_, grid_, fluid_->open_fraction(),
+                                                       *models_.voidage, *models_.drag);
+      coupling_->use(models_.fluid_forces, particles::surfaces_of(setup_, models_.bodies));
+    } else {
+      no_grains_ = std::make_unique<NoGrains>(grid_);
+      momentum_exchange_.assign(
+          3 * static_cast<std::size_t>(grid_.count[0]) * grid_.count[1] * grid_.count[2], 0.0F);
+    }
   }
-  dem_ = std::make_unique<particles::Dem>(setup_, models_.bodies, std::move(models_.laws),
-                                          models_.class_diameters,
-                                          setup_.fluid ? setup_.fluid->density : 0.0);
+  make_grains();
   wants_contacts_ = std::any_of(models_.sensors.begin(), models_.sensors.end(),
                                 [](const auto& s) { return s->wants_contacts(); });
   entry_scene_ = entry_scene_of(setup_, models_);
@@ -85,7 +91,28 @@ Simulation::Simulation(const scenario::Setup& setup, Models models)
       std::max(1, static_cast<int>(std::lround(step / dem_->coarse_step())));
   build_graphs();
   publish_grains();
-  if (fluid_) fluid_table_->publish(*fluid_, coupling_->void_fraction());
+  if (fluid_) fluid_table_->publish(*fluid_, void_fraction());
+}
+
+void Simulation::make_grains() {
+  // Buoyancy is part of the weight, unless a model gives it.
+  const bool has_buoyancy = setup_.fluid && !coupling::takes_over_buoyancy(models_.fluid_forces);
+  const double density = has_buoyancy ? setup_.fluid->density : 0.0;
+  if (has_grains()) {
+    dem_ = std::make_unique<particles::Dem>(setup_, models_.bodies, std::move(models_.laws),
+                                            models_.class_diameters, density);
+    return;
+  }
+  // Nobody asks how large grains are that never come, and nothing shortens the step.
+  constexpr double k_any_diameter = 1e-3;
+  scenario::Setup empty = setup_;
+  empty.time.dem_step = empty.time.fluid_step;
+  dem_ = std::make_unique<particles::Dem>(empty, models_.bodies, std::move(models_.laws),
+                                          std::vector<double>{k_any_diameter}, density);
+}
+
+const fluid::CellField& Simulation::void_fraction() const {
+  return coupling_ ? coupling_->void_fraction() : no_grains_->void_fraction;
 }
 
 Simulation::~Simulation() = default;
@@ -97,16 +124,20 @@ double Simulation::time() const {
 void Simulation::build_graphs() {
   dem_graph_.given({"grain.position", "grain.velocity", "contact.list", "contact.history",
                     "grain.fluid_action", "fluid.velocity", "fluid.void_fraction", "body.motion"});
-  if (fluid_) {
-    dem_graph_.add({"drag",
-                    {"grain.position", "grain.velocity", "fluid.velocity", "fluid.void_fraction"},
-                    {"grain.fluid_action"},
-                    [this] {
-                      if (dem_step_ % dem_steps_per_refresh_ != 0) return;
-                      coupling_->refresh(dem_->rows(), fluid_->velocity(),
-                                         fluid_->stress_divergence());
-                      dem_->fluid_action_changed();
-                    }});
+  if (coupling_) {
+    dem_graph_.add(
+        {"drag",
+         {"grain.position", "grain.velocity", "fluid.velocity", "fluid.void_fraction"},
+         {"grain.fluid_action"},
+         [this] {
+           if (dem_step_ % dem_steps_per_refresh_ != 0) return;
+           const int held = std::min(dem_steps_per_refresh_, dem_steps_per_fluid_step_ - dem_step_);
+           const double step = dem_->coarse_step();
+           coupling_->refresh(dem_->rows(),
+                              {fluid_->velocity(), fluid_->stress_divergence(), &fluid_->pressure(),
+                               time() + dem_step_ * step, held * step});
+           dem_->fluid_action_changed();
+         }});
   }
   dem_graph_.add({"neighbour",
                   {"grain.position", "grain.velocity", "grain.fluid_action"},
@@ -140,18 +171,20 @@ void Simulation::build_graphs() {
   if (fluid_) add_fluid_nodes();
   step_graph_.add(
       {"dem_cycle",
-       fluid_ ? std::vector<std::string>{"grain.state", "fluid.velocity", "fluid.void_fraction"}
-              : std::vector<std::string>{"grain.state"},
+       coupling_ ? std::vector<std::string>{"grain.state", "fluid.velocity", "fluid.void_fraction"}
+                 : std::vector<std::string>{"grain.state"},
        {"grain.state", "grain.fluid_impulse"},
        [this] { run_dem_cycle(); }});
-  if (fluid_) {
+  if (coupling_) {
     step_graph_.add({"collect",
                      {"grain.state", "grain.fluid_impulse", "fluid.void_fraction"},
                      {"fluid.exchange"},
                      [this] { coupling_->collect(dem_->rows(), setup_.time.fluid_step); }});
+  }
+  if (fluid_) {
     step_graph_.add(
         {"publish_fluid", {"fluid.velocity", "fluid.void_fraction"}, {"fluid.columns"}, [this] {
-           fluid_table_->publish(*fluid_, coupling_->void_fraction());
+           fluid_table_->publish(*fluid_, void_fraction());
          }});
   }
   step_graph_.add({"publish_grains", {"grain.state"}, {"grain.columns"}, [this] {
@@ -164,6 +197,16 @@ void Simulation::build_graphs() {
 }
 
 void Simulation::add_fluid_nodes() {
+  if (!coupling_) {
+    step_graph_.add(
+        {"fluid", {"fluid.velocity"}, {"fluid.velocity", "fluid.void_fraction"}, [this] {
+           fluid_->advance(time(), setup_.time.fluid_step, no_grains_->void_fraction,
+                           no_grains_->void_fraction, no_grains_->exchange);
+           fluid_sub_steps_ += fluid_->report().sub_steps;
+           pressure_iterations_ += fluid_->report().pressure_iterations;
+         }});
+    return;
+  }
   step_graph_.add({"voidage",
                    {"grain.state", "fluid.exchange"},
                    {"fluid.void_fraction", "fluid.exchange"},
@@ -314,6 +357,7 @@ bool Simulation::has_changing_walls() const {
 }
 
 void Simulation::run_dem_cycle() {
+  if (!has_grains()) return;
   if (coupling_) {
     const double interval = coupling_->refresh_interval();
     dem_steps_per_refresh_ =
@@ -411,6 +455,8 @@ Simulation::SaveParts Simulation::save_parts() const {
   parts.emplace_back("columns", [this](sdk::ArchiveWriter& a) { grain_table_.save(a); });
   if (fluid_) {
     parts.emplace_back("fluid", [this](sdk::ArchiveWriter& a) { fluid_->save(a); });
+  }
+  if (coupling_) {
     parts.emplace_back("coupling", [this](sdk::ArchiveWriter& a) { coupling_->save(a); });
   }
   for (std::size_t n = 0; n < models_.emitters.size(); ++n) {
@@ -443,10 +489,15 @@ Simulation::LoadParts Simulation::load_parts() {
   });
   parts.emplace_back("grains", [this](sdk::ArchiveReader& a) { dem_->load(a); });
   if (fluid_) {
-    parts.emplace_back("fluid", [this](sdk::ArchiveReader& a) { fluid_->load(a); });
+    parts.emplace_back("fluid", [this](sdk::ArchiveReader& a) {
+      fluid_->load(a);
+      if (!coupling_) fluid_table_->publish(*fluid_, void_fraction());
+    });
+  }
+  if (coupling_) {
     parts.emplace_back("coupling", [this](sdk::ArchiveReader& a) {
       coupling_->load(a);
-      fluid_table_->publish(*fluid_, coupling_->void_fraction());
+      fluid_table_->publish(*fluid_, void_fraction());
     });
   }
   // Last, so that the places of the last sample are those saved, not those just published.

@@ -81,6 +81,10 @@ class Simulation {
   void propose_seeds_of(std::size_t emitter, double begin, double end);
   void remove_bodies();
   void run_dem_cycle();
+  void make_grains();
+  /// Whether any grain may ever come in; without, the run is one of the fluid alone.
+  [[nodiscard]] bool has_grains() const { return !models_.class_diameters.empty(); }
+  [[nodiscard]] const fluid::CellField& void_fraction() const;
   void check_health() const;
   void publish_grains();
 
@@ -90,6 +94,14 @@ class Simulation {
   std::unique_ptr<coupling::Coupling> coupling_;
   std::unique_ptr<particles::Dem> dem_;
   fluid::Grid grid_;
+  /// What a fluid alone meets: no solids and no forces of grains.
+  struct NoGrains {
+    explicit NoGrains(const fluid::Grid& grid)
+        : void_fraction(grid.size, 1.0), exchange{fluid::FaceField(grid), fluid::FaceField(grid)} {}
+    fluid::CellField void_fraction;
+    fluid::Exchange exchange;
+  };
+  std::unique_ptr<NoGrains> no_grains_;  ///< only for a fluid alone
   GrainTable grain_table_;
   ContactTable contact_table_;
   bool wants_contacts_ = false;

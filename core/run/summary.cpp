@@ -267,7 +267,7 @@ void write_summary(const std::filesystem::path& folder, const Simulation& s,
                   {"left", b.mass_left},
                   {"removed", b.mass_removed}};
   j["emitters"] = emitters_json(s);
-  j["size_classes"] = class_steps(s.dem());
+  j["size_classes"] = s.models().class_diameters.empty() ? Json::array() : class_steps(s.dem());
   j["timers_s"] = node_times(s, facts);
   j["health"] = health(s);
   j["warnings"] = facts.warnings;

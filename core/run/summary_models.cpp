@@ -116,7 +116,9 @@ nlohmann::ordered_json plugins_json(const scenario::Setup& setup,
   for (const auto& sensor : setup.sensors) add(sensor.model);
   for (const auto& side : setup.domain.sides) add_if(side.air);
   add_if(setup.drag);
+  for (const auto& force : setup.fluid_forces) add(force);
   add_if(setup.voidage);
+  add_if(setup.turbulence);
   Json list = Json::array();
   for (const auto& [kind, name, version] : used) {
     list.push_back({{"kind", kind}, {"name", name}, {"version", version}});

@@ -250,8 +250,8 @@ std::string json_schema(const registry::Registry& registry) {
   interaction["properties"]["cohesion"] = {{"$ref", "#/definitions/cohesion"}};
   interaction["required"].push_back("contact");
   Json definitions = {{"side", domain["side"]}};
-  for (const char* kind :
-       {"contact", "rolling", "cohesion", "boundary", "drag", "voidage", "motion"}) {
+  for (const char* kind : {"contact", "rolling", "cohesion", "boundary", "drag", "fluid_force",
+                           "voidage", "turbulence", "motion"}) {
     definitions[kind] = model(registry, kind);
   }
 
@@ -271,10 +271,14 @@ std::string json_schema(const registry::Registry& registry) {
       named(alternatives(block<PlacedBlock>(), "model", choices(registry, "emitter")));
   Json fluid = block<FluidBlock>();
   fluid["properties"]["regions"] = named(block<RegionBlock>());
+  fluid["properties"]["turbulence"] = {{"$ref", "#/definitions/turbulence"}};
   properties["fluid"] = {{"anyOf", Json::array({fluid, {{"const", "none"}}})},
                          {"description", "The fluid around the grains; none runs grains alone."}};
   properties["coupling"] = block<CouplingBlock>();
   properties["drag"] = {{"$ref", "#/definitions/drag"}};
+  properties["fluid_forces"] = {{"type", "array"},
+                                {"items", {{"$ref", "#/definitions/fluid_force"}}},
+                                {"description", "Forces of the fluid on grains besides drag."}};
   properties["voidage"] = {{"$ref", "#/definitions/voidage"}};
   properties["sensors"] =
       named(alternatives(block<SensorBlock>(), "model", choices(registry, "sensor")));

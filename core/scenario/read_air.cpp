@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/voidage_rule.hpp"
+#include "scenario/force_check.hpp"
 #include "scenario/setup_reader.hpp"
 #include "scenario/units.hpp"
 
@@ -32,6 +33,8 @@ void SetupReader::read_fluid(MapReader& top) {
   std::vector<sdk::Value> values;
   const auto fluid = block<FluidBlock>(reader, &values);
   FluidSpec spec;
+  Node turbulence = Node::make_map();
+  setup_.turbulence = read_part(reader, "turbulence", false, turbulence).choice;
   Node regions = Node::make_map();
   for_each_named(reader, "regions", [&](const Entry& region, const std::string& path) {
     regions.add(region.key, read_region(region, "fluid." + path, spec));
@@ -62,6 +65,7 @@ void SetupReader::read_fluid(MapReader& top) {
   }
   setup_.fluid = spec;
   Node written = written_block<FluidBlock>(values);
+  append(written, std::move(turbulence.entries));
   if (!regions.entries.empty()) written.add("regions", std::move(regions));
   out_.add("fluid", std::move(written));
 }
@@ -109,6 +113,36 @@ void SetupReader::read_drag_and_voidage(MapReader& top) {
   setup_.drag = std::move(drag.choice);
   setup_.voidage = std::move(voidage.choice);
   voidage_ = std::move(voidage.model);
+}
+
+void SetupReader::read_fluid_forces(MapReader& top) {
+  const Entry* list = top.optional("fluid_forces");
+  if (list == nullptr) return;
+  if (!list->value.is_list()) {
+    error(list->value.where,
+          "fluid_forces: a list of '- model: ...' is expected, not " + kind_text(list->value));
+    return;
+  }
+  Node written = Node::make_list();
+  std::vector<std::unique_ptr<sdk::Model>> made;
+  std::vector<const sdk::FluidForce*> models;
+  for (std::size_t n = 0; n < list->value.items.size(); ++n) {
+    const Node& item = list->value.items[n];
+    MapReader reader(item, "fluid_forces[" + std::to_string(n) + "]", item.where, diagnostics_);
+    if (!item.is_map()) continue;
+    ReadModel force = models_.read(reader, "model", "fluid_force");
+    reader.finish();
+    Node map = Node::make_map();
+    append(map, std::move(force.written));
+    written.items.push_back(std::move(map));
+    if (!force.choice) continue;
+    setup_.fluid_forces.push_back(*force.choice);
+    models.push_back(static_cast<const sdk::FluidForce*>(force.model.get()));
+    made.push_back(std::move(force.model));
+  }
+  check_forces(setup_, models, diagnostics_);
+  if (!has_fluid_) setup_.fluid_forces.clear();
+  if (!written.items.empty()) out_.add("fluid_forces", std::move(written));
 }
 
 void SetupReader::check_voidage() {

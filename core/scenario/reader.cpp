@@ -44,6 +44,7 @@ void SetupReader::read() {
   read_fluid(top);
   read_coupling(top);
   read_drag_and_voidage(top);
+  read_fluid_forces(top);
   read_sensors(top);
   references_ = read_references(top, figures_, out_, diagnostics_);
   top.optional("include");

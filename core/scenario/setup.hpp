@@ -153,7 +153,9 @@ struct Setup {
   std::vector<SensorSpec> sensors;
   std::optional<FluidSpec> fluid;
   std::optional<ModelChoice> drag;
+  std::vector<ModelChoice> fluid_forces;  ///< besides drag
   std::optional<ModelChoice> voidage;
+  std::optional<ModelChoice> turbulence;  ///< nothing: laminar
 };
 
 }  // namespace dust::scenario

@@ -136,11 +136,13 @@ void tell_fluid(std::ostream& out, const Setup& setup, const Derived& derived) {
   out << "  fluid      " << n[0] << " x " << n[1] << " x " << n[2] << " = "
       << counted(static_cast<double>(n[0]) * n[1] * n[2]) << " cells, the smallest edge "
       << engineering(derived.smallest_spacing, "m") << "; momentum set "
-      << setup.fluid->momentum_set << (setup.fluid->is_one_way ? ", one-way coupling" : "") << '\n';
+      << setup.fluid->momentum_set << (setup.fluid->is_one_way ? ", one-way coupling" : "")
+      << (setup.turbulence ? ", turbulence " + setup.turbulence->name : "") << '\n';
   out << "             Courant number " << digits(derived.courant_number) << " at "
       << digits(derived.expected_speed) << " m/s (sub-steps keep it below "
       << digits(setup.fluid->largest_cfl) << ")";
   if (setup.drag) out << "; drag " << setup.drag->name;
+  for (const auto& force : setup.fluid_forces) out << ", " << force.name;
   if (setup.voidage) out << "; voidage " << setup.voidage->name;
   out << '\n';
 }

@@ -7,8 +7,10 @@
 #include "dust/sdk/drag_law.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/error.hpp"
+#include "dust/sdk/fluid_force.hpp"
 #include "dust/sdk/motion.hpp"
 #include "dust/sdk/sensor.hpp"
+#include "dust/sdk/turbulence_model.hpp"
 #include "dust/sdk/voidage_rule.hpp"
 
 #include <cstdint>
@@ -16,14 +18,14 @@
 namespace dust::sdk {
 
 /// Raised with every change of a struct or virtual function in this folder.
-inline constexpr std::uint32_t k_interface_version = 2;
+inline constexpr std::uint32_t k_interface_version = 3;
 
 /// What both sides of the plugin boundary must agree on, compared before any virtual call.
 struct Handshake {
   std::uint32_t interface_version;
   std::uint32_t compiler_major;
-  std::uint32_t size_of[9];
-  std::uint32_t alignment_of[9];
+  std::uint32_t size_of[11];
+  std::uint32_t alignment_of[11];
   std::uint32_t standard_library_abi;
 };
 
@@ -33,10 +35,10 @@ constexpr Handshake make_handshake() {
           __GNUC__,
           {sizeof(ContactBatch), sizeof(DragBatch), sizeof(VoidageBatch), sizeof(SideBatch),
            sizeof(SurfaceBatch), sizeof(Seed), sizeof(WorldView), sizeof(Parameter),
-           sizeof(CohesionBatch)},
+           sizeof(CohesionBatch), sizeof(FluidForceBatch), sizeof(TurbulenceBatch)},
           {alignof(ContactBatch), alignof(DragBatch), alignof(VoidageBatch), alignof(SideBatch),
            alignof(SurfaceBatch), alignof(Seed), alignof(WorldView), alignof(Parameter),
-           alignof(CohesionBatch)},
+           alignof(CohesionBatch), alignof(FluidForceBatch), alignof(TurbulenceBatch)},
 #ifdef _GLIBCXX_USE_CXX11_ABI
           _GLIBCXX_USE_CXX11_ABI
 #else

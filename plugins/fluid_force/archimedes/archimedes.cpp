@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "archimedes.hpp"
+
+#include "dust/sdk/plugin.hpp"
+
+namespace dust::model::archimedes {
+namespace {
+
+class Archimedes final : public sdk::FluidForce {
+ public:
+  struct Parameters {};
+  static sdk::ParameterSchema schema() { return sdk::SchemaOf<Parameters>{}.build(); }
+  static sdk::ModelInfo describe() {
+    sdk::ModelInfo info;
+    info.name = "archimedes";
+    info.version = "1.0";
+    info.summary = "Buoyancy by the hydrostatic pressure of the fluid at the grain.";
+    info.equation = R"(f = -\rho_f V_p g)";
+    info.source = "Archimedes, On floating bodies, proposition 6";
+    return info;
+  }
+  explicit Archimedes(const Parameters&) {}
+
+  void evaluate(const sdk::FluidForceBatch& batch) const override {
+    for (std::size_t g = 0; g < batch.count; ++g) {
+      batch.force.set(g, force(batch.density[g], batch.diameter[g], batch.gravity));
+    }
+  }
+  [[nodiscard]] sdk::FluidForceParts takes_over() const override { return {.buoyancy = true}; }
+  [[nodiscard]] sdk::FluidForceReaction reaction() const override {
+    return sdk::FluidForceReaction::momentum_set;
+  }
+};
+
+}  // namespace
+}  // namespace dust::model::archimedes
+
+DUST_PLUGIN(registrar) { registrar.add<dust::model::archimedes::Archimedes>(); }

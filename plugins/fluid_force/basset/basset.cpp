@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basset.hpp"
+
+#include "dust/sdk/plugin.hpp"
+
+namespace dust::model::basset {
+namespace {
+
+class Basset final : public sdk::FluidForce {
+ public:
+  struct Parameters {
+    double window = 1.0;
+    bool sudden_start = true;
+  };
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.number(&Parameters::window, "window", sdk::dimension::time,
+             "How far back the history is looked at; what is older is forgotten.")
+        .symbol("T")
+        .above(0)
+        .optional();
+    s.boolean(&Parameters::sudden_start, "sudden_start",
+              "Whether a new grain came into its slip at that instant; else it had it for long.")
+        .optional();
+    return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    sdk::ModelInfo info;
+    info.name = "basset";
+    info.version = "1.0";
+    info.summary = "Memory of the viscous layer round an accelerating grain.";
+    info.equation =
+        R"(f = \frac32 D^2 \sqrt{\pi \rho_f \mu} \int_{t - T}^{t} \frac{dw / dt'}{\sqrt{t - t'}}\, dt')";
+    info.source =
+        "Basset, A treatise on hydrodynamics, vol. 2 (1888), chapter 22; in this form Maxey, "
+        "Riley, "
+        "Phys. Fluids 26 (1983) 883-889, doi:10.1063/1.864230";
+    return info;
+  }
+  explicit Basset(const Parameters& p) : p_(p) {}
+
+  void evaluate(const sdk::FluidForceBatch& batch) const override {
+    // Mean over the interval of the part that the interval itself makes, per acceleration.
+    const double present = 4.0 / 3.0 * std::sqrt(batch.interval);
+    for (std::size_t g = 0; g < batch.count; ++g) {
+      History history(batch.history + g * History::k_numbers);
+      const double c = factor(batch.diameter[g], batch.density[g], batch.viscosity[g]);
+      history.note(batch.slip[g], p_.sudden_start);
+      const sdk::Vec3 past = history.past(batch.interval, p_.window);
+      batch.added_mass[g] = c * present;
+      batch.force.set(g, c * (past + present * batch.acceleration[g]));
+    }
+  }
+  [[nodiscard]] sdk::FluidForceNeeds needs() const override { return {.acceleration = true}; }
+  [[nodiscard]] int history_size() const override { return History::k_numbers; }
+
+ private:
+  Parameters p_;
+};
+
+}  // namespace
+}  // namespace dust::model::basset
+
+DUST_PLUGIN(registrar) { registrar.add<dust::model::basset::Basset>(); }

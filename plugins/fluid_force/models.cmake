@@ -1,0 +1,8 @@
+dust_plugin(fluid_force archimedes)
+dust_plugin(fluid_force basset)
+dust_plugin(fluid_force lubrication)
+dust_plugin(fluid_force magnus)
+dust_plugin(fluid_force pressure_gradient)
+dust_plugin(fluid_force saffman)
+dust_plugin(fluid_force virtual_mass)
+dust_plugin(fluid_force viscous)

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wall_shear.hpp"
+
+#include "dust/sdk/fluid_cells.hpp"
+#include "dust/sdk/plugin.hpp"
+#include "dust/sdk/sampling.hpp"
+
+#include <array>
+
+namespace {
+
+using namespace dust::sdk;
+namespace formula = dust::model::wall_shear;
+
+constexpr std::array<const char*, 6> k_sides = {"left", "right", "front", "back", "bottom", "top"};
+
+class WallShear final : public Sensor {
+ public:
+  struct Parameters : SteadyParameters {
+    std::string side;
+    Vec3 wall_velocity;
+  };
+
+  static ParameterSchema schema() {
+    SchemaOf<Parameters> s;
+    s.text(&Parameters::side, "side", "The side of the domain that is looked at.")
+        .one_of({k_sides.begin(), k_sides.end()});
+    s.vector(&Parameters::wall_velocity, "wall_velocity", dimension::velocity,
+             "Velocity of the wall itself; its part along the wall counts.")
+        .optional();
+    declare_steady(s);
+    return s.build();
+  }
+
+  static ModelInfo describe() {
+    return {"",
+            "wall_shear",
+            "1.0",
+            "Shear stress and friction force of the air on a side of the domain.",
+            R"(\tau = \mu \frac{u_t - u_w}{h / 2}, \quad F = \int \tau\, dA)",
+            "own definition",
+            {}};
+  }
+
+  explicit WallShear(const Parameters& p) : p_(p) {
+    for (int n = 0; n < 6; ++n) {
+      if (p.side == k_sides[static_cast<std::size_t>(n)]) side_ = n;
+    }
+  }
+
+  void observe(const WorldView& world) override {
+    const FluidColumns& f = world.fluid;
+    const FluidCells cells(f);
+    if (cells.is_empty()) return;
+    const int d = side_ / 2;
+    const int e = (d + 1) % 3;
+    const int g = (d + 2) % 3;
+    const std::span<const float> u[3] = {f.velocity_x, f.velocity_y, f.velocity_z};
+    double largest = 0.0;
+    const auto layer = side_ % 2 == 0 ? 0 : cells.count(d) - 1;
+    const auto stress = [&](int along, std::size_t c) {
+      return formula::stress(
+          f.viscosity, static_cast<double>(u[along][c]) - p_.wall_velocity[along], f.spacing[d]);
+    };
+    const auto size = [&](std::size_t c) {
+      const double s = std::hypot(stress(e, c), stress(g, c));
+      largest = std::max(largest, s);
+      return s;
+    };
+    const FluidCells::LayerSum mean = cells.layer(d, layer, size);
+    const double area = f.spacing[e] * f.spacing[g];
+    Vec3 force;
+    force[e] = area * cells.layer(d, layer, [&](std::size_t c) { return stress(e, c); }).sum;
+    force[g] = area * cells.layer(d, layer, [&](std::size_t c) { return stress(g, c); }).sum;
+    values_ = {mean.open > 0.0 ? mean.sum / mean.open : 0.0, largest, force.x, force.y, force.z};
+    if (is_after(world, p_.steady_after)) means_.add(values_, world.interval);
+    curve_.add(world.time, values_[0]);
+  }
+
+  void series(FigureSink& sink) const override {
+    for (std::size_t n = 0; n < k_columns; ++n) sink.figure(k_names[n], values_[n], k_units[n]);
+  }
+  void summary(FigureSink& sink) const override {
+    for (std::size_t n = 0; n < k_columns; ++n) {
+      const double mean = means_.mean(n);
+      sink.figure(k_names[n], mean, k_units[n], mean != 0.0 ? means_.error(n) : -1.0);
+      sink.figure(std::string(k_names[n]) + "_at_end", values_[n], k_units[n]);
+    }
+  }
+  void report(ReportSink& sink) const override {
+    sink.curve("Wall shear stress", "time [s]", "stress [Pa]", p_.side, curve_.x(), curve_.y());
+  }
+
+  void save(ArchiveWriter& a) const override {
+    a.numbers("values", values_);
+    means_.save(a, "means");
+    curve_.save(a, "curve");
+  }
+  void load(ArchiveReader& a) override {
+    values_ = a.numbers("values");
+    means_.load(a, "means");
+    curve_.load(a, "curve");
+  }
+
+ private:
+  static constexpr std::size_t k_columns = 5;
+  static constexpr const char* k_names[k_columns] = {"mean", "largest", "force_x", "force_y",
+                                                     "force_z"};
+  static constexpr const char* k_units[k_columns] = {"Pa", "Pa", "N", "N", "N"};
+
+  Parameters p_;
+  int side_ = 0;
+  std::vector<double> values_ = std::vector<double>(k_columns, 0.0);  ///< at the last sample
+  BatchMeans means_{k_columns};
+  ThinnedCurve curve_;
+};
+
+}  // namespace
+
+DUST_PLUGIN(registrar) { registrar.add<WallShear>(); }

@@ -1,0 +1,1 @@
+dust_plugin(turbulence smagorinsky)
