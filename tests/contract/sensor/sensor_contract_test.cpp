@@ -120,7 +120,7 @@ const std::vector<Subject>& subjects() {
        {{"from", Vec3{0, 0, 0.01}}, {"to", Vec3{0, 0, 0.3}}},
        {{"from", Vec3{0, 0, 0.1}},
         {"to", Vec3{0, 0, 0.2}},
-        {"after", 0.03},
+        {"after", 0.06},
         {"fixed_share", 0.3},
         {"fluid_factor", 2.0}}},
       {"pressure_drop",
