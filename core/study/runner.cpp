@@ -40,18 +40,18 @@ void Runner::recall() {
 
 int Runner::run() {
   recall();
-  std::vector<Point> todo;
+  std::vector<Point> left_over;
   std::vector<std::size_t> place;
   for (std::size_t n = 0; n < plan_.points.size(); ++n) {
     if (results_.outcomes[n].status == Status::finished || has_run_[n]) continue;
     store_.forget_failure(plan_.points[n]);
     results_.outcomes[n] = {};
-    todo.push_back(plan_.points[n]);
+    left_over.push_back(plan_.points[n]);
     place.push_back(n);
   }
   write_table();
-  if (todo.empty()) return 0;
-  return launcher_.run(todo, [&](const Ending& ending) {
+  if (left_over.empty()) return 0;
+  return launcher_.run(left_over, [&](const Ending& ending) {
     const std::size_t n = place[ending.job];
     const Point& point = plan_.points[n];
     Outcome outcome = store_.read(point, plan_.outputs);

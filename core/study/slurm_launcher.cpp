@@ -59,19 +59,19 @@ class SlurmLauncher final : public Launcher {
     fs::create_directories(folder_);
     for (const Point& point : points) store_.prepare(point);
     wait_for_old_array();
-    std::vector<std::size_t> todo(points.size());
-    for (std::size_t n = 0; n < todo.size(); ++n) todo[n] = n;
+    std::vector<std::size_t> left_over(points.size());
+    for (std::size_t n = 0; n < left_over.size(); ++n) left_over[n] = n;
     std::vector<int> attempts(points.size(), 0);
     bool goes_on = true;
-    while (!todo.empty() && goes_on && SignalWatch::caught() == 0) {
-      const std::size_t count = std::min(todo.size(), k_most_tasks);
-      const std::vector<std::size_t> some(todo.begin(),
-                                          todo.begin() + static_cast<std::ptrdiff_t>(count));
-      todo.erase(todo.begin(), todo.begin() + static_cast<std::ptrdiff_t>(count));
+    while (!left_over.empty() && goes_on && SignalWatch::caught() == 0) {
+      const std::size_t count = std::min(left_over.size(), k_most_tasks);
+      const std::vector<std::size_t> some(left_over.begin(),
+                                          left_over.begin() + static_cast<std::ptrdiff_t>(count));
+      left_over.erase(left_over.begin(), left_over.begin() + static_cast<std::ptrdiff_t>(count));
       const std::string job = submit(points, some);
       for (const std::size_t n : some) ++attempts[n];
       for (const std::size_t n : gather(points, some, job, attempts, on_ending, goes_on)) {
-        todo.push_back(n);
+        left_over.push_back(n);
       }
       if (!goes_on || SignalWatch::caught() != 0) cancel(job);
     }
