@@ -25,6 +25,22 @@ __attribute__((always_inline)) inline void fold(Lanes& d, double length, double 
   const LaneMask below = d < -half;
   d = above ? d - length : (below ? d + length : d);
 }
+__attribute__((always_inline)) inline void fold(Lanes& d, const Lanes& length, const Lanes& half) {
+  const LaneMask above = d > half;
+  const LaneMask below = d < -half;
+  d = above ? d - length : (below ? d + length : d);
+}
+
+constexpr LaneMask k_bits{1, 2, 4, 8};
+/// For every choice of four lanes, a byte of one for each lane chosen.
+constexpr std::uint32_t k_bytes[16] = {
+    0x0,       0x1,       0x100,     0x101,     0x10000,   0x10001,   0x10100,   0x10101,
+    0x1000000, 0x1000001, 0x1000100, 0x1000101, 0x1010000, 0x1010001, 0x1010100, 0x1010101};
+/// For every choice of four lanes, the chosen ones in order, then anything.
+constexpr LaneMask k_pack[16] = {{0, 1, 2, 3}, {0, 1, 2, 3}, {1, 0, 2, 3}, {0, 1, 2, 3},
+                                 {2, 0, 1, 3}, {0, 2, 1, 3}, {1, 2, 0, 3}, {0, 1, 2, 3},
+                                 {3, 0, 1, 2}, {0, 3, 1, 2}, {1, 3, 0, 2}, {0, 1, 3, 2},
+                                 {2, 3, 0, 1}, {0, 2, 3, 1}, {1, 2, 3, 0}, {0, 1, 2, 3}};
 
 }  // namespace
 
@@ -69,102 +85,118 @@ sdk::CohesionBatch BatchColumns::cohesion_view(std::size_t count, int first_hist
   return b;
 }
 
-DUST_KERNEL std::size_t find_touching(const RowView& rows, const Images& images,
-                                      const PairView& pairs, std::size_t begin, std::size_t end,
-                                      double range, std::int32_t* touching) {
-  const double* position = rows.position;
-  const std::int32_t* pa = pairs.a;
-  const std::int32_t* pb = pairs.b;
-  // x, y, z become differences, the fourth column the sum of the radii.
+DUST_KERNEL std::size_t gather_touching(const RowView& rows, const Images& images,
+                                        const PairView& pairs, std::size_t& next, std::size_t end,
+                                        double range, std::int32_t* contacts,
+                                        BatchColumns& columns) {
+  using B = BatchColumns;
+  // Copies: the bytes of is_touching may alias whatever stands in memory.
+  const double* const position = rows.position;
+  const double* const velocity = rows.velocity;
+  const double* const rotation = rows.rotation;
+  const std::int32_t* const pa = pairs.a;
+  const std::int32_t* const pb = pairs.b;
+  std::uint8_t* const is_touching = pairs.is_touching;
+  double* const history = pairs.history;
+  const std::size_t history_stride = pairs.history_stride;
+  const std::size_t last_entry = pairs.count - 1;
+  double* const c = columns.column(0);
+  // x, y, z become differences, the fourth column the sum of the radii or inverse masses.
   const Lanes sign{-1.0, -1.0, -1.0, 1.0};
   const Lanes length{images.length[0], images.length[1], images.length[2], 0.0};
   const Lanes half{images.half[0], images.half[1], images.half[2], HUGE_VAL};
   std::size_t found = 0;
-  for (std::size_t p = begin; p < end; p += 4) {
-    const std::size_t last = end - 1;
-    Lanes d[4];
-    for (std::size_t l = 0; l < 4; ++l) {
-      const std::size_t q = std::min(p + l, last);
-      d[l] = row(position, pa[q]) + sign * row(position, pb[q]);
-      const std::size_t next = std::min(q + k_ahead, pairs.count - 1);
-      const std::ptrdiff_t nb = 4 * static_cast<std::ptrdiff_t>(pb[next]);
-      __builtin_prefetch(position + nb);
-      __builtin_prefetch(rows.velocity + nb);
-      __builtin_prefetch(rows.rotation + nb);
-      __builtin_prefetch(pairs.history + next * pairs.history_stride, 1);
-      const LaneMask above = d[l] > half;
-      const LaneMask below = d[l] < -half;
-      d[l] = above ? d[l] - length : (below ? d[l] + length : d[l]);
-    }
-    transpose(d[0], d[1], d[2], d[3]);
-    const Lanes reach = d[3] + range;
-    const LaneMask near = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < reach * reach;
+  std::size_t p = next;
+  for (; p < end && found + 4 <= k_batch; p += 4) {
     const std::size_t lanes = std::min<std::size_t>(4, end - p);
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const std::uint8_t now = static_cast<std::uint8_t>(near[static_cast<int>(l)] & 1);
-      touching[found] = static_cast<std::int32_t>(p + l);
-      found += now;
-      if (pairs.is_touching[p + l] > now) {
-        std::memset(pairs.history + (p + l) * pairs.history_stride, 0,
-                    pairs.history_stride * sizeof(double));
-      }
-      pairs.is_touching[p + l] = now;
-    }
-  }
-  return found;
-}
-
-DUST_KERNEL void load_pairs(const RowView& rows, const Images& images, const PairView& pairs,
-                            const std::int32_t* contacts, std::size_t count,
-                            BatchColumns& columns) {
-  const double* position = rows.position;
-  const double* velocity = rows.velocity;
-  const double* rotation = rows.rotation;
-  const Lanes sign{-1.0, -1.0, -1.0, 1.0};
-  double* c = columns.column(0);
-  const auto at = [&](int name, std::size_t q) __attribute__((always_inline)) {
-    return c + static_cast<std::size_t>(name) * k_stride + q;
-  };
-  const std::size_t rounded = padded(count);
-  for (std::size_t q = 0; q < rounded; q += 4) {
     std::int32_t a[4];
     std::int32_t b[4];
-    for (std::size_t l = 0; l < 4; ++l) {
-      const std::int32_t p = contacts[std::min(q + l, count - 1)];
-      a[l] = pairs.a[p];
-      b[l] = pairs.b[p];
+    if (lanes == 4) [[likely]] {
+      std::memcpy(a, pa + p, sizeof a);
+      std::memcpy(b, pb + p, sizeof b);
+    } else {
+      for (std::size_t l = 0; l < 4; ++l) {
+        a[l] = pa[std::min(p + l, end - 1)];
+        b[l] = pb[std::min(p + l, end - 1)];
+      }
     }
     Lanes x[4];
-    Lanes v[4];
-    Lanes wi[4];
-    Lanes wj[4];
     Lanes ri;
     Lanes rj;
-    for (int l = 0; l < 4; ++l) {
+    for (std::size_t l = 0; l < 4; ++l) {
       const Lanes& ra = row(position, a[l]);
       const Lanes& rb = row(position, b[l]);
       x[l] = ra + sign * rb;
-      ri[l] = ra[3];
-      rj[l] = rb[3];
+      ri[static_cast<int>(l)] = ra[3];
+      rj[static_cast<int>(l)] = rb[3];
+      fold(x[l], length, half);
+      const std::size_t entry = std::min(p + l + k_ahead, last_entry);
+      const std::ptrdiff_t ahead = 4 * static_cast<std::ptrdiff_t>(pb[entry]);
+      __builtin_prefetch(position + ahead);
+      __builtin_prefetch(velocity + ahead);
+      __builtin_prefetch(rotation + ahead);
+      __builtin_prefetch(history + entry * history_stride, 1);
+    }
+    transpose(x[0], x[1], x[2], x[3]);
+    const Lanes reach = x[3] + range;
+    const LaneMask near = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < reach * reach) & k_bits;
+    const auto touch =
+        static_cast<unsigned>(near[0] | near[1] | near[2] | near[3]) & ((1u << lanes) - 1u);
+    std::uint32_t before = 0;
+    const std::uint32_t now = k_bytes[touch];
+    if (lanes == 4) [[likely]] {
+      std::memcpy(&before, is_touching + p, 4);
+      std::memcpy(is_touching + p, &now, 4);
+    } else {
+      std::memcpy(&before, is_touching + p, lanes);
+      std::memcpy(is_touching + p, &now, lanes);
+    }
+    if ((before & ~now) != 0) [[unlikely]] {
+      for (std::size_t l = 0; l < lanes; ++l) {
+        if ((touch >> l & 1u) != 0) continue;
+        std::memset(history + (p + l) * history_stride, 0, history_stride * sizeof(double));
+      }
+    }
+    if (touch == 0) continue;
+    Lanes v[4];
+    Lanes wi[4];
+    Lanes wj[4];
+    for (std::size_t l = 0; l < 4; ++l) {
       v[l] = row(velocity, a[l]) + sign * row(velocity, b[l]);
       wi[l] = row(rotation, a[l]);
       wj[l] = row(rotation, b[l]);
     }
-    transpose(x[0], x[1], x[2], x[3]);
     transpose(v[0], v[1], v[2], v[3]);
     transpose(wi[0], wi[1], wi[2], wi[3]);
     transpose(wj[0], wj[1], wj[2], wj[3]);
+    // Those in touch to the front; what is written beyond them is overwritten by the next.
+    const LaneMask pack = k_pack[touch];
+    const auto put = [&](int name, const Lanes& value) __attribute__((always_inline)) {
+      store(c + static_cast<std::size_t>(name) * k_stride + found, __builtin_shuffle(value, pack));
+    };
     for (int d = 0; d < 3; ++d) {
-      fold(x[d], images.length[d], images.half[d]);
-      store(at(BatchColumns::separation_x + d, q), x[d]);
-      store(at(BatchColumns::velocity_x + d, q), v[d]);
-      store(at(BatchColumns::rotation_i_x + d, q), wi[d]);
-      store(at(BatchColumns::rotation_j_x + d, q), wj[d]);
+      put(B::separation_x + d, x[d]);
+      put(B::velocity_x + d, v[d]);
+      put(B::rotation_i_x + d, wi[d]);
+      put(B::rotation_j_x + d, wj[d]);
     }
-    store(at(BatchColumns::radius_i, q), ri);
-    store(at(BatchColumns::radius_j, q), rj);
-    store(at(BatchColumns::inverse_mass, q), v[3]);
+    put(B::radius_i, ri);
+    put(B::radius_j, rj);
+    put(B::inverse_mass, v[3]);
+    for (int l = 0; l < 4; ++l) {
+      contacts[found + static_cast<std::size_t>(l)] =
+          static_cast<std::int32_t>(p) + static_cast<std::int32_t>(pack[l]);
+    }
+    found += static_cast<std::size_t>(__builtin_popcount(touch));
   }
+  next = std::min(p, end);
+  if (found > 0) {
+    for (int name = 0; name <= B::rotation_j_z; ++name) {
+      double* column = c + static_cast<std::size_t>(name) * k_stride;
+      for (std::size_t q = found; q < padded(found); ++q) column[q] = column[found - 1];
+    }
+  }
+  return found;
 }
 
 DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count) {

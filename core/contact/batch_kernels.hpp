@@ -31,16 +31,14 @@ struct PairView {
   std::size_t count = 0;
 };
 
-/// Finds the pairs of [begin, end) closer than touch + `range` [m], writes their numbers to
-/// `touching` and returns how many. A pair that parts loses its history. Brings near, too, what
-/// load_pairs and load_history will want: most entries of a watch's list touch.
-std::size_t find_touching(const RowView& rows, const Images& images, const PairView& pairs,
-                          std::size_t begin, std::size_t end, double range, std::int32_t* touching);
-
-/// Loads `count` contacts (numbers of pairs) into the first columns; rows up to the padded count
-/// repeat the last one.
-void load_pairs(const RowView& rows, const Images& images, const PairView& pairs,
-                const std::int32_t* contacts, std::size_t count, BatchColumns& columns);
+/// Finds pairs from entry `next` up to `end` that are closer than touch + `range` [m] until a batch
+/// is full, loads them into the first columns and writes their numbers to `contacts` (k_batch of
+/// them); rows up to the padded count repeat the last one. Moves `next` on and returns how many. A
+/// pair that parts loses its history. Brings near, too, what load_history and the next batch want:
+/// most entries of a watch's list touch.
+std::size_t gather_touching(const RowView& rows, const Images& images, const PairView& pairs,
+                            std::size_t& next, std::size_t end, double range,
+                            std::int32_t* contacts, BatchColumns& columns);
 
 /// Overlap, normal, effective radius and mass, lever arms and the relative velocity of the contact
 /// point from what load_pairs wrote. Returns the largest overlap / smaller radius [-].

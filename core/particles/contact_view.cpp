@@ -36,19 +36,18 @@ class Viewer {
     is_touching_ = cut(list.is_touching, 1);
     history_.assign(list.history.begin() + static_cast<std::ptrdiff_t>(stride * begin),
                     list.history.begin() + static_cast<std::ptrdiff_t>(stride * end));
-    touching_.resize(a_.size() + 8);
     const contact::PairView view{a_.data(),       b_.data(), is_touching_.data(),
                                  history_.data(), stride,    a_.size()};
     const contact::RowView rows = dem_.row_view();
     const PairLaws& law = dem_.laws[static_cast<std::size_t>(law_number)];
     const int groups = static_cast<int>(stride / 4);
     BatchColumns& columns = thread_columns();
-    const std::size_t found =
-        contact::find_touching(rows, dem_.images, view, 0, a_.size(), law.range, touching_.data());
-    for (std::size_t first = 0; first < found; first += k_batch) {
-      const std::size_t count = std::min(k_batch, found - first);
-      const std::int32_t* contacts = touching_.data() + first;
-      contact::load_pairs(rows, dem_.images, view, contacts, count, columns);
+    std::int32_t contacts[k_batch];
+    std::size_t next = 0;
+    while (next < a_.size()) {
+      const std::size_t count = contact::gather_touching(rows, dem_.images, view, next, a_.size(),
+                                                         law.range, contacts, columns);
+      if (count == 0) continue;
       contact::load_history(view, contacts, count, groups, columns);
       contact::derive_pair_columns(columns, count);
       evaluate_laws(law, columns, count, time_step);
@@ -129,7 +128,6 @@ class Viewer {
   std::vector<std::int32_t> b_;
   std::vector<std::uint8_t> is_touching_;
   contact::AlignedVector<double> history_;
-  std::vector<std::int32_t> touching_;
 };
 
 /// A list without order of laws, sorted into one list per law.

@@ -12,14 +12,29 @@ namespace {
 using contact::BatchColumns;
 using contact::k_batch;
 
-/// Entries of a list searched at a time: what they bring near must still be near when the batches
-/// load it (0.3 kB each, so a third of a second-level cache of 1 MB).
-constexpr std::size_t k_stretch = 1024;
+/// Forces and torques of a chunk's grains, eight numbers each, and a spare row: of the calling
+/// thread, so that they stay in its cache. Zero for those awake.
+double* cleared_force(const Chunk& chunk) {
+  thread_local contact::AlignedVector<double> force;
+  const auto rows = static_cast<std::size_t>(chunk.end - chunk.begin);
+  if (force.size() < 8 * (rows + 1)) force.resize(8 * (rows + 1));
+  if (2 * chunk.awake.rows.size() > rows) {
+    std::fill_n(force.begin(), 8 * rows, 0.0);
+  } else {
+    for (const std::int32_t row : chunk.awake.rows) {
+      std::fill_n(force.begin() + 8 * (row - chunk.begin), 8, 0.0);
+    }
+  }
+  std::fill_n(force.begin() + static_cast<std::ptrdiff_t>(8 * rows), 8, 0.0);
+  return force.data();
+}
 
-/// Numbers of the contacts in touch, of the calling thread.
-std::vector<std::int32_t>& thread_contacts() {
-  thread_local std::vector<std::int32_t> contacts;
-  return contacts;
+/// Where a row stands among those awake: two ascending runs.
+std::ptrdiff_t place_of(const Awake& awake, std::int32_t row) {
+  const auto middle = awake.rows.begin() + static_cast<std::ptrdiff_t>(awake.own);
+  auto place = std::lower_bound(awake.rows.begin(), middle, row);
+  if (place == middle || *place != row) place = std::lower_bound(middle, awake.rows.end(), row);
+  return place - awake.rows.begin();
 }
 
 void repeat_last(BatchColumns& columns, std::size_t count, int first, int last) {
@@ -57,75 +72,89 @@ void evaluate_laws(const PairLaws& law, BatchColumns& columns, std::size_t count
   contact::derive_torques(columns, count, law.rolling != nullptr);
 }
 
-void Dem::Impl::contact(double now) {
+void Dem::Impl::contact(double now, bool keeps_force) {
   time = now;
+  if (keeps_force) {
+    contact_force.assign(4 * coarse_count, 0.0);
+  } else {
+    contact_force.clear();
+  }
+  // What fine grains gave back comes after the contacts: then everybody waits for it.
+  const bool all_wait = !pending.empty();
   for (Surface& s : surfaces) s.move_to(now);
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     Chunk& chunk = chunks[c];
-    if (2 * chunk.awake.rows.size() > static_cast<std::size_t>(chunk.end - chunk.begin)) {
-      std::fill(chunk.force.begin(), chunk.force.end(), 0.0);
-    } else {
-      for (const std::int32_t row : chunk.awake.rows) {
-        std::fill_n(chunk.force.begin() + 8 * (row - chunk.begin), 8, 0.0);
-      }
-    }
+    double* force = cleared_force(chunk);
     chunk.contacts = 0;
-    chunk_pairs(chunk);
-    chunk_surfaces(chunk);
+    chunk_pairs(chunk, force);
+    chunk_surfaces(chunk, force);
+    if (keeps_force) keep_force(chunk, force);
+    move_own(chunk, force, all_wait ? 0 : chunk.awake.own);
   });
 }
 
-void Dem::Impl::chunk_pairs(Chunk& chunk) {
-  auto& touching = thread_contacts();
-  if (touching.size() < chunk.pairs.size() + 8) touching.resize(chunk.pairs.size() + 8);
+/// Grains nobody else looks at move at once, while their rows and forces are in the cache; the
+/// others' forces are put aside.
+void Dem::Impl::move_own(Chunk& chunk, const double* force, std::size_t count) {
+  const std::span<const std::int32_t> rows = chunk.awake.rows;
+  const auto first = static_cast<std::size_t>(chunk.begin);
+  chunk.moved = count;
+  integrate_awake(rows.first(count), first, force, ForceOrder::by_row);
+  chunk.force.resize(8 * (rows.size() - count));
+  for (std::size_t k = count; k < rows.size(); ++k) {
+    std::copy_n(force + 8 * (static_cast<std::size_t>(rows[k]) - first), 8,
+                chunk.force.data() + 8 * (k - count));
+  }
+}
+
+void Dem::Impl::keep_force(const Chunk& chunk, const double* force) {
+  for (const std::int32_t row : chunk.awake.rows) {
+    std::copy_n(force + 8 * (row - chunk.begin), 3,
+                contact_force.data() + 4 * static_cast<std::ptrdiff_t>(row));
+  }
+}
+
+void Dem::Impl::chunk_pairs(Chunk& chunk, double* force) {
+  std::int32_t contacts[k_batch];
   auto& columns = thread_columns();
   const contact::PairView pairs = chunk.pairs.view(history_stride);
   const contact::RowView rows = row_view();
   const int groups = static_cast<int>(history_stride / 4);
   for (const Segment& segment : chunk.pairs.segments) {
     const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
-    // A stretch of the list at a time, so that the rows its search brought near are still there
-    // when the batches load them.
+    auto next = static_cast<std::size_t>(segment.begin);
+    const auto end = static_cast<std::size_t>(segment.end);
     std::size_t found = 0;
-    std::size_t done = 0;
-    for (auto begin = static_cast<std::size_t>(segment.begin);
-         begin < static_cast<std::size_t>(segment.end); begin += k_stretch) {
-      const std::size_t end = std::min(begin + k_stretch, static_cast<std::size_t>(segment.end));
-      const bool is_last = end == static_cast<std::size_t>(segment.end);
-      found += contact::find_touching(rows, images, pairs, begin, end, law.range,
-                                      touching.data() + found);
-      while (found - done >= k_batch || (is_last && found > done)) {
-        const std::size_t count = std::min(k_batch, found - done);
-        const std::size_t first = done;
-        done += count;
-        const std::int32_t* contacts = touching.data() + first;
-        contact::load_pairs(rows, images, pairs, contacts, count, columns);
-        contact::load_history(pairs, contacts, count, groups, columns);
-        const double overlap = contact::derive_pair_columns(columns, count);
-        chunk.largest_overlap = std::max(chunk.largest_overlap, overlap);
-        evaluate_laws(law, columns, count, steps.coarse_step);
-        if (law.cohesion) chunk.contacts += in_touch(columns, count);
-        bool has_scales = false;
-        double* scale_i = columns.column(BatchColumns::scale_i);
-        double* scale_j = columns.column(BatchColumns::scale_j);
-        for (std::size_t q = 0; has_weights && q < count; ++q) {
-          const double wi = store.weight[static_cast<std::size_t>(pairs.a[contacts[q]])];
-          const double wj = store.weight[static_cast<std::size_t>(pairs.b[contacts[q]])];
-          // Sum of w m v is kept: side i feels min(1, w_j / w_i) of the force.
-          scale_i[q] = wj < wi ? wj / wi : 1.0;
-          scale_j[q] = wi < wj ? wi / wj : 1.0;
-          has_scales = has_scales || wi != wj;
-        }
-        contact::store_history(pairs, contacts, count, groups, columns);
-        contact::scatter_pairs(pairs, contacts, count, chunk.begin, chunk.end - chunk.begin,
-                               has_scales, columns, chunk.force.data());
+    while (next < end) {
+      const std::size_t count =
+          contact::gather_touching(rows, images, pairs, next, end, law.range, contacts, columns);
+      if (count == 0) continue;
+      found += count;
+      contact::load_history(pairs, contacts, count, groups, columns);
+      const double overlap = contact::derive_pair_columns(columns, count);
+      chunk.largest_overlap = std::max(chunk.largest_overlap, overlap);
+      evaluate_laws(law, columns, count, steps.coarse_step);
+      if (law.cohesion) chunk.contacts += in_touch(columns, count);
+      bool has_scales = false;
+      double* scale_i = columns.column(BatchColumns::scale_i);
+      double* scale_j = columns.column(BatchColumns::scale_j);
+      for (std::size_t q = 0; has_weights && q < count; ++q) {
+        const double wi = store.weight[static_cast<std::size_t>(pairs.a[contacts[q]])];
+        const double wj = store.weight[static_cast<std::size_t>(pairs.b[contacts[q]])];
+        // Sum of w m v is kept: side i feels min(1, w_j / w_i) of the force.
+        scale_i[q] = wj < wi ? wj / wi : 1.0;
+        scale_j[q] = wi < wj ? wi / wj : 1.0;
+        has_scales = has_scales || wi != wj;
       }
+      contact::store_history(pairs, contacts, count, groups, columns);
+      contact::scatter_pairs(pairs, contacts, count, chunk.begin, chunk.end - chunk.begin,
+                             has_scales, columns, force);
     }
     if (!law.cohesion) chunk.contacts += static_cast<std::int64_t>(found);
   }
 }
 
-void Dem::Impl::chunk_surfaces(Chunk& chunk) {
+void Dem::Impl::chunk_surfaces(Chunk& chunk, double* force) {
   using B = BatchColumns;
   ContactList& list = chunk.surfaces;
   auto& columns = thread_columns();
@@ -166,7 +195,7 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk) {
       evaluate_laws(law, columns, count, steps.coarse_step);
       contact::store_history(pairs, contacts, count, groups, columns);
       if (wall_loads.is_on()) note_wall_loads(chunk, surface, contacts, is_new, count, columns);
-      contact::scatter_single(local, count, columns, chunk.force.data());
+      contact::scatter_single(local, count, columns, force);
       chunk.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(count);
       count = 0;
     };
@@ -239,10 +268,14 @@ void Dem::Impl::force() {
   const double inverse = 1.0 / steps.coarse_step;
   for (const Reaction& r : pending) {
     Chunk& chunk = chunks[static_cast<std::size_t>(r.row / chunks.front().end)];
-    double* f = chunk.force.data() + 8 * static_cast<std::ptrdiff_t>(r.row - chunk.begin);
+    double* f = chunk.force.data() + 8 * place_of(chunk.awake, r.row);
     for (int d = 0; d < 3; ++d) {
       f[d] += inverse * r.impulse[d];
       f[4 + d] += inverse * r.impulse[3 + d];
+      if (!contact_force.empty()) {
+        contact_force[4 * static_cast<std::size_t>(r.row) + static_cast<std::size_t>(d)] +=
+            inverse * r.impulse[d];
+      }
     }
   }
   pending.clear();

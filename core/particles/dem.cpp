@@ -204,14 +204,7 @@ void Dem::Impl::fill_last_force() const {
     }
   }
   if (must_sort) return;  // rows have changed since the forces were computed
-  for (const Chunk& c : chunks) {
-    for (std::int32_t i = c.begin; i < c.end && !c.force.empty(); ++i) {
-      for (int d = 0; d < 3; ++d) {
-        last_force[4 * static_cast<std::size_t>(i) + static_cast<std::size_t>(d)] +=
-            c.force[8 * static_cast<std::size_t>(i - c.begin) + static_cast<std::size_t>(d)];
-      }
-    }
-  }
+  for (std::size_t q = 0; q < contact_force.size(); ++q) last_force[q] += contact_force[q];
   for (std::size_t q = 0; q < fine_force.size(); ++q)
     last_force[4 * coarse_count + q] += fine_force[q];
 }
@@ -233,7 +226,7 @@ void Dem::remove_leavers() {
   impl_->remove_leavers();
 }
 void Dem::neighbours() { impl_->neighbours(); }
-void Dem::contact(double time) { impl_->contact(time); }
+void Dem::contact(double time, bool keeps_force) { impl_->contact(time, keeps_force); }
 void Dem::force() { impl_->force(); }
 void Dem::integrate() { impl_->integrate(); }
 void Dem::fluid_action_changed() { impl_->refresh_decay(); }

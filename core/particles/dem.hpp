@@ -101,7 +101,8 @@ class Dem {
   void remove_leavers();
 
   void neighbours();
-  void contact(double time);
+  /// `keeps_force`: last_force() is asked for after this step.
+  void contact(double time, bool keeps_force = true);
   void force();
   void integrate();
 
@@ -110,7 +111,8 @@ class Dem {
   /// that several may look at the same time.
   void land();
   [[nodiscard]] GrainRows rows();
-  /// Force [N] (contact + fluid + weight) of the last step, 4 per grain in row order.
+  /// Force [N] (contact + fluid + weight) of the last step, 4 per grain in row order; without the
+  /// contacts of coarse grains where contact() did not keep them.
   [[nodiscard]] std::span<const double> last_force() const;
   /// The contacts of this moment; costs a pass over all of them, so only for those who ask.
   [[nodiscard]] std::vector<ContactRecord> contacts() const;

@@ -124,13 +124,11 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   FlatLists walls;
   FlatLists near_pairs;
   FlatLists near_walls;
-  std::vector<double> forces;
   for (const Chunk& c : chunks) {
     near_pairs.add(c.near_pairs);
     near_walls.add(c.near_surfaces);
     pairs.add(c.pairs);
     walls.add(c.surfaces);
-    forces.insert(forces.end(), c.force.begin(), c.force.end());
   }
   FlatLists fines;
   FlatLists near_fines;
@@ -142,7 +140,7 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   pairs.save(archive, "pairs");
   walls.save(archive, "surfaces");
   fines.save(archive, "fine");
-  archive.numbers("force", forces);
+  archive.numbers("contact_force", contact_force);
 
   std::vector<std::int64_t> bounds;
   for (const Chunk& c : chunks) bounds.insert(bounds.end(), {c.begin, c.end, c.contacts});
@@ -216,11 +214,11 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   pairs.load(archive, "pairs");
   walls.load(archive, "surfaces");
   fines.load(archive, "fine");
-  const auto forces = archive.numbers("force");
+  const auto forces = archive.numbers("contact_force");
+  contact_force.assign(forces.begin(), forces.end());
   const auto bounds = archive.integers("chunks");
   chunks.clear();
   chunks.resize(bounds.size() / 3);
-  std::size_t at = 0;
   for (std::size_t c = 0; c < chunks.size(); ++c) {
     chunks[c].begin = static_cast<std::int32_t>(bounds[3 * c]);
     chunks[c].end = static_cast<std::int32_t>(bounds[3 * c + 1]);
@@ -230,10 +228,6 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
     chunks[c].wall_sums.assign(WallLoads::k_sums * wall_loads.walls(), 0.0);
     pairs.take(chunks[c].pairs, history_stride);
     walls.take(chunks[c].surfaces, history_stride);
-    const std::size_t n = 8 * (static_cast<std::size_t>(chunks[c].end - chunks[c].begin) + 1);
-    chunks[c].force.assign(forces.begin() + static_cast<std::ptrdiff_t>(at),
-                           forces.begin() + static_cast<std::ptrdiff_t>(at + n));
-    at += n;
   }
   near_fines.take(near_fine);
   fines.take(fine, history_stride);

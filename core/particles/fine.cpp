@@ -437,7 +437,7 @@ void Dem::Impl::fine_pass() {
       std::size_t{0}, (rows.size() + k_fine_block - 1) / k_fine_block, [&](std::size_t b) {
         const std::size_t first = b * k_fine_block;
         integrate_awake({rows.data() + first, std::min(k_fine_block, rows.size() - first)}, 0,
-                        nullptr);
+                        nullptr, ForceOrder::by_row);
       });
   oneapi::tbb::parallel_for(std::size_t{0}, w.block_count, [&](std::size_t b) {
     Block& block = w.blocks[b];

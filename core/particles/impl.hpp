@@ -95,6 +95,8 @@ struct ContactList {
 /// Grains that make every step of a watch.
 struct Awake {
   std::vector<std::int32_t> rows;
+  /// So many at the front stand in no list of another chunk: nobody else looks at them.
+  std::size_t own = 0;
   /// The course a watch supposes. Single precision does for what is checked against it.
   struct Start {
     double position[3];
@@ -115,8 +117,11 @@ struct Chunk {
   /// Per entry of `surfaces`, see Shape::contact_again: forgotten when a watch begins, so that a
   /// run that goes on from a checkpoint finds what an unbroken one finds.
   std::vector<std::int32_t> hints;
-  contact::AlignedVector<double> force;  ///< eight per grain: force, torque; one spare row
   Awake awake;
+  /// So many grains at the front of `awake` have made this step already. The others' forces, eight
+  /// numbers each, wait in `force` for integrate().
+  std::size_t moved = 0;
+  contact::AlignedVector<double> force;
   double largest_overlap = 0.0;
   std::int64_t contacts = 0;
   std::int64_t late = 0;                      ///< of the last check
@@ -154,6 +159,7 @@ struct Dem::Impl {
   // watch.cpp
   static std::int64_t longest_watch();
   [[nodiscard]] double watch_allowance(std::size_t row) const;
+  [[nodiscard]] double fastest() const;
   [[nodiscard]] bool may_meet(std::size_t i, std::size_t j) const;
   [[nodiscard]] bool may_meet_surface(std::size_t i, const Surface& surface) const;
   [[nodiscard]] bool flies_straight(std::size_t row) const;
@@ -163,9 +169,11 @@ struct Dem::Impl {
   void land();
 
   // contacts.cpp
-  void contact(double time);
-  void chunk_pairs(Chunk& chunk);
-  void chunk_surfaces(Chunk& chunk);
+  void contact(double time, bool keeps_force);
+  void chunk_pairs(Chunk& chunk, double* force);
+  void chunk_surfaces(Chunk& chunk, double* force);
+  void move_own(Chunk& chunk, const double* force, std::size_t count);
+  void keep_force(const Chunk& chunk, const double* force);
   void note_wall_loads(Chunk& chunk, const Surface& surface, const std::int32_t* contacts,
                        const bool* is_new, std::size_t count, contact::BatchColumns& columns);
   void force();
@@ -175,7 +183,9 @@ struct Dem::Impl {
 
   // integrate.cpp
   void integrate();
-  void integrate_awake(std::span<const std::int32_t> rows, std::size_t first, const double* force);
+  enum class ForceOrder { by_row, by_place };
+  void integrate_awake(std::span<const std::int32_t> rows, std::size_t first, const double* force,
+                       ForceOrder order);
 
   // fine.cpp
   void fine_pass();
@@ -242,12 +252,15 @@ struct Dem::Impl {
   std::int64_t allowance_level = 1;  ///< of the next lists; wider in dilute flow
   std::int64_t since_watch = 0;      ///< coarse steps
   std::int64_t flying = 0;           ///< grains asleep in the present watch
+  double watch_reach = 0.0;          ///< [m] most a grain may be off its course during this watch
   bool is_watching = false;
   bool must_watch = false;
   bool must_rebuild = true;
   bool must_sort = true;
   mutable DemReport counters;
   mutable contact::AlignedVector<double> last_force;
+  /// Of the contacts of coarse grains at the last step that kept it, four per grain; else empty.
+  contact::AlignedVector<double> contact_force;
 
   // Working space of a rebuild: old rows by new row, old lists.
   std::vector<std::int32_t> old_row;
@@ -255,7 +268,7 @@ struct Dem::Impl {
   std::vector<std::int32_t> old_partner;
   std::vector<const double*> old_history;
   // Working space of a watch.
-  std::vector<std::uint8_t> is_awake;
+  std::vector<std::uint8_t> is_awake;  ///< 2: awake, and in a list of another chunk
   Awake fine_awake;
   std::vector<std::int64_t> late;
   std::vector<std::uint8_t> wants;

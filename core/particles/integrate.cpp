@@ -10,6 +10,9 @@
 
 namespace dust::particles {
 
+/// Rows ahead that are fetched: those that waited lie apart.
+constexpr std::size_t k_ahead = 8;
+
 /// Rows as the kernel sees them.
 struct AwakeRows {
   const std::int32_t* rows = nullptr;
@@ -19,8 +22,9 @@ struct AwakeRows {
   double* rotation = nullptr;
   double* half_velocity = nullptr;
   double* half_rotation = nullptr;
-  const double* force = nullptr;  ///< of row n at 8 * force_stride * (n - first)
-  std::size_t force_stride = 1;
+  const double* force = nullptr;  ///< of the k-th row n, at 8 (by_row (n - first) + by_place k)
+  std::size_t by_row = 0;
+  std::size_t by_place = 0;
   std::size_t first = 0;
   const double* action = nullptr;
   double* impulse = nullptr;
@@ -48,7 +52,13 @@ DUST_KERNEL void integrate_rows(const AwakeRows& r, double step, bool has_fluid)
   const Lanes fourth{0.0, 0.0, 0.0, 1.0};
   for (std::size_t k = 0; k < r.count; ++k) {
     const auto n = static_cast<std::size_t>(r.rows[k]);
-    const std::size_t f = 2 * r.force_stride * (n - r.first);
+    const auto next = 4 * static_cast<std::size_t>(r.rows[std::min(k + k_ahead, r.count - 1)]);
+    __builtin_prefetch(r.half_velocity + next, 1);
+    __builtin_prefetch(r.half_rotation + next, 1);
+    __builtin_prefetch(r.position + next, 1);
+    __builtin_prefetch(r.velocity + next, 1);
+    __builtin_prefetch(r.rotation + next, 1);
+    const std::size_t f = 2 * (r.by_row * (n - r.first) + r.by_place * k);
     const double inverse_mass = r.velocity[4 * n + 3];
     const double radius = r.position[4 * n + 3];
     const double lag = r.half_velocity[4 * n + 3];
@@ -88,9 +98,10 @@ DUST_KERNEL void integrate_rows(const AwakeRows& r, double step, bool has_fluid)
   }
 }
 
-/// The named rows; `force` holds eight numbers per row from row `first` on, or is null: no force.
+/// The named rows; `force` holds eight numbers per row, from row `first` on or in the order of
+/// `rows`, or is null: no force.
 void Dem::Impl::integrate_awake(std::span<const std::int32_t> rows, std::size_t first,
-                                const double* force) {
+                                const double* force, ForceOrder order) {
   alignas(32) static constexpr double k_no_force[8] = {};
   const bool has_force = force != nullptr;
   integrate_rows({.rows = rows.data(),
@@ -101,7 +112,8 @@ void Dem::Impl::integrate_awake(std::span<const std::int32_t> rows, std::size_t 
                   .half_velocity = store.half_velocity.data(),
                   .half_rotation = store.half_rotation.data(),
                   .force = has_force ? force : k_no_force,
-                  .force_stride = has_force ? std::size_t{1} : std::size_t{0},
+                  .by_row = has_force && order == ForceOrder::by_row ? std::size_t{1} : 0,
+                  .by_place = has_force && order == ForceOrder::by_place ? std::size_t{1} : 0,
                   .first = first,
                   .action = store.action.data(),
                   .impulse = store.impulse.data(),
@@ -119,7 +131,9 @@ void Dem::Impl::integrate() {
   counters.particle_steps += static_cast<std::int64_t>(store.size());
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     Chunk& chunk = chunks[c];
-    integrate_awake(chunk.awake.rows, static_cast<std::size_t>(chunk.begin), chunk.force.data());
+    integrate_awake(std::span(chunk.awake.rows).subspan(chunk.moved),
+                    static_cast<std::size_t>(chunk.begin), chunk.force.data(),
+                    ForceOrder::by_place);
     if (!is_check) return;
     chunk.wants_watch = false;
     chunk.late = check_awake(chunk.awake, k_check_every, chunk.wants_watch);

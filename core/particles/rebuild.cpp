@@ -243,18 +243,8 @@ void Dem::Impl::rebuild() {
   }
 
   // The search looks as far as the fastest grain flies: no farther than a diameter.
-  double fastest2 = 0.0;
-  for (std::size_t n = 0; n < store.size(); ++n) {
-    const double* v = store.velocity.data() + 4 * n;
-    fastest2 = std::max(fastest2, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  }
-  for (const Surface& s : surfaces) {
-    if (!s.is_removed()) {
-      fastest2 = std::max(fastest2, s.displacing_speed * s.displacing_speed);
-    }
-  }
   const double longest =
-      steps.classes.back().diameter / steps.coarse_step / std::sqrt(fastest2 + 1e-30);
+      steps.classes.back().diameter / steps.coarse_step / std::max(fastest(), 1e-15);
   horizon = std::min(next_horizon, std::max(k_shortest_horizon,
                                             static_cast<std::int64_t>(std::min(longest, 1e6))));
   SearchInput in;
@@ -333,7 +323,6 @@ void Dem::Impl::rebuild() {
     chunk.begin = static_cast<std::int32_t>(c * size);
     chunk.end = static_cast<std::int32_t>(std::min(coarse_count, (c + 1) * size));
     chunk.wall_sums.assign(WallLoads::k_sums * wall_loads.walls(), 0.0);
-    chunk.force.assign(8 * (static_cast<std::size_t>(chunk.end - chunk.begin) + 1), 0.0);
     auto& share = shares[c];
     std::sort(share.begin(), share.end());
     chunk.near_pairs.a.reserve(share.size());
@@ -370,6 +359,7 @@ void Dem::Impl::rebuild() {
   std::vector<std::int32_t>().swap(old_begin);
   std::vector<std::int32_t>().swap(old_partner);
   std::vector<const double*>().swap(old_history);
+  contact_force.clear();  // in the order of rows that were
   since_rebuild = 0;
   must_rebuild = must_sort = false;
 }

@@ -3,7 +3,9 @@
 #include "dust/sdk/plugin.hpp"
 #include "particles/impl.hpp"
 
+#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,12 +18,17 @@ constexpr std::int64_t k_longest_watch = 32;
 /// Allowed deviation during a watch, as a share of that of the list: the list's check, made only
 /// when a watch ends, triggers at 0.7 of its allowance, so that 0.7 + k_watch_share stays below 1.
 constexpr double k_watch_share = 1.0 / 6.0;
+/// No more than this share of the way the fastest grain flies during a watch: what rests side by
+/// side in a bed need not be looked at.
+constexpr double k_watch_reach = 0.5;
+/// [-] and no less than this share of a diameter.
+constexpr double k_least_reach = 0.002;
 
 }  // namespace
 
 std::int64_t Dem::Impl::longest_watch() { return k_longest_watch; }
 double Dem::Impl::watch_allowance(std::size_t row) const {
-  return k_watch_share * store.start[4 * row + 3];
+  return std::min(k_watch_share * store.start[4 * row + 3], watch_reach);
 }
 
 /// Whether two grains may touch before the watch ends, both within their allowances of a straight
@@ -97,11 +104,35 @@ void Dem::Impl::choose_contacts(VerletList& list, ContactList& contacts, MayMeet
   contacts.take_exactly(next);
 }
 
+/// [m/s] of all grains, and of surfaces that come nearer.
+double Dem::Impl::fastest() const {
+  const std::size_t blocks = (store.size() + k_block - 1) / k_block;
+  double walls = 0.0;
+  for (const Surface& s : surfaces) {
+    if (!s.is_removed()) walls = std::max(walls, s.displacing_speed);
+  }
+  const double square = oneapi::tbb::parallel_reduce(
+      oneapi::tbb::blocked_range<std::size_t>(0, blocks), walls * walls,
+      [&](const oneapi::tbb::blocked_range<std::size_t>& range, double most) {
+        const std::size_t end = std::min(store.size(), range.end() * k_block);
+        for (std::size_t n = range.begin() * k_block; n < end; ++n) {
+          const double* v = store.velocity.data() + 4 * n;
+          most = std::max(most, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        }
+        return most;
+      },
+      [](double a, double b) { return std::max(a, b); });
+  return std::sqrt(square);
+}
+
 /// Chooses, for the next steps, the entries of the lists that may come to touch and the grains that
 /// stand in one of them. Nobody else feels a contact: the others fly, and make all their steps at
 /// once when the watch ends.
 void Dem::Impl::begin_watch() {
   is_awake.assign(store.size(), 0);
+  watch_reach =
+      std::max(k_watch_reach * fastest() * static_cast<double>(k_longest_watch) * steps.coarse_step,
+               k_least_reach * steps.classes.back().diameter);
   for (const Reaction& r : pending) is_awake[static_cast<std::size_t>(r.row)] = 1;
   const auto pairs_meet = [&](std::int32_t a, std::int32_t b) {
     return may_meet(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
@@ -111,16 +142,22 @@ void Dem::Impl::begin_watch() {
   };
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     Chunk& chunk = chunks[c];
-    std::fill(chunk.force.begin(), chunk.force.end(), 0.0);
     choose_contacts(chunk.near_pairs, chunk.pairs, pairs_meet);
     choose_contacts(chunk.near_surfaces, chunk.surfaces, surface_meets);
     chunk.hints.assign(chunk.surfaces.size(), -1);
-    const auto wake = [&](std::int32_t row) {
-      if (row >= chunk.begin && row < chunk.end) is_awake[static_cast<std::size_t>(row)] = 1;
+    const auto is_own = [&](std::int32_t row) { return row >= chunk.begin && row < chunk.end; };
+    const auto wake = [&](std::int32_t row, std::uint8_t how) {
+      std::uint8_t& state = is_awake[static_cast<std::size_t>(row)];
+      state = std::max(state, how);
     };
-    std::for_each(chunk.pairs.a.begin(), chunk.pairs.a.end(), wake);
-    std::for_each(chunk.pairs.b.begin(), chunk.pairs.b.end(), wake);
-    std::for_each(chunk.surfaces.a.begin(), chunk.surfaces.a.end(), wake);
+    for (std::size_t q = 0; q < chunk.pairs.size(); ++q) {
+      const std::int32_t a = chunk.pairs.a[q];
+      const std::int32_t b = chunk.pairs.b[q];
+      // A pair of two chunks stands in the lists of both.
+      if (is_own(a)) wake(a, is_own(b) ? 1 : 2);
+      if (is_own(b)) wake(b, is_own(a) ? 1 : 2);
+    }
+    for (const std::int32_t row : chunk.surfaces.a) wake(row, 1);
   });
 
   std::fill(fine_force.begin(), fine_force.end(), 0.0);
@@ -129,15 +166,16 @@ void Dem::Impl::begin_watch() {
   });
   for (std::size_t e = 0; e < fine.size(); ++e) {
     is_awake[static_cast<std::size_t>(fine.a[e])] = 1;
-    if (fine.b[e] >= 0) is_awake[static_cast<std::size_t>(fine.b[e])] = 1;
+    if (fine.b[e] >= 0) {
+      std::uint8_t& state = is_awake[static_cast<std::size_t>(fine.b[e])];
+      state = std::max(state, std::uint8_t{1});
+    }
   }
 
   const auto gather = [&](Awake& awake, std::size_t begin, std::size_t end) {
     awake.rows.clear();
     awake.start.clear();
-    for (std::size_t n = begin; n < end; ++n) {
-      if (is_awake[n] == 0 && flies_straight(n)) continue;
-      is_awake[n] = 1;
+    const auto take = [&](std::size_t n) {
       awake.rows.push_back(static_cast<std::int32_t>(n));
       const double* p = store.position.data() + 4 * n;
       const double* v = store.velocity.data() + 4 * n;
@@ -145,6 +183,14 @@ void Dem::Impl::begin_watch() {
           {{p[0], p[1], p[2]},
            {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])},
            static_cast<float>(watch_allowance(n))});
+    };
+    for (std::size_t n = begin; n < end; ++n) {
+      if (is_awake[n] == 0 && !flies_straight(n)) is_awake[n] = 1;
+      if (is_awake[n] == 1) take(n);
+    }
+    awake.own = awake.rows.size();
+    for (std::size_t n = begin; n < end; ++n) {
+      if (is_awake[n] == 2) take(n);
     }
   };
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {

@@ -147,7 +147,11 @@ void Simulation::build_graphs() {
   dem_graph_.add({"contact",
                   {"grain.position", "grain.velocity", "contact.list", "body.motion"},
                   {"contact.history", "contact.force"},
-                  [this] { dem_->contact(time() + dem_step_ * dem_->coarse_step()); }});
+                  [this] {
+                    // The published forces are those of a fluid step's last grain step.
+                    dem_->contact(time() + dem_step_ * dem_->coarse_step(),
+                                  dem_step_ + 1 == dem_steps_per_fluid_step_);
+                  }});
   dem_graph_.add({"force",
                   {"contact.force", "grain.position", "grain.velocity", "grain.fluid_action"},
                   {"grain.force"},

@@ -37,7 +37,7 @@ void measure(const char* name, Dem& dem, int warm_up, int steps, int repeats) {
     const double t0 = seconds();
     dem.neighbours();
     const double t1 = seconds();
-    dem.contact(time);
+    dem.contact(time, false);
     const double t2 = seconds();
     dem.force();
     dem.integrate();
