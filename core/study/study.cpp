@@ -155,7 +155,7 @@ class Study {
     } else {
       signal = runner.run();
     }
-    write_h5(folder / "study.h5", runner.results());
+    write_h5(folder / "study.h5", runner.results(), answer ? &*answer : nullptr);
     write_study_report(folder / "report.html", spec_, runner.results(),
                        answer ? &*answer : nullptr);
     return conclude(folder, runner, answer, signal);

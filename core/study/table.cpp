@@ -5,6 +5,7 @@
 #include "io/hdf5_file.hpp"
 #include "io/run_files.hpp"
 #include "scenario/units.hpp"
+#include "study/calibration_h5.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -164,11 +165,13 @@ void write_points(hid_t root, const Results& results) {
 
 }  // namespace
 
-void write_h5(const std::filesystem::path& file, const Results& results) {
+void write_h5(const std::filesystem::path& file, const Results& results,
+              const CalibrationAnswer* answer) {
   io::Handle root = io::create_file(io::temporary_name(file));
   write_inputs(root.get(), results.plan);
   write_outputs(root.get(), results);
   write_points(root.get(), results);
+  if (answer != nullptr) write_landscape(root.get(), *answer);
   root.close("study.h5");
   io::move_into_place(file, false);
 }

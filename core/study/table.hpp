@@ -9,6 +9,8 @@
 
 namespace dust::study {
 
+struct CalibrationAnswer;
+
 /// The points of a study and what came of them, side by side.
 struct Results {
   const Plan& plan;
@@ -23,7 +25,9 @@ const char* status_word(Status status);
 void write_csv(const std::filesystem::path& file, const Results& results);
 
 /// study.h5: the same as columns: /inputs, /outputs, /outputs_error and /points, one dataset per
-/// column with its unit as attribute; replaced atomically.
-void write_h5(const std::filesystem::path& file, const Results& results);
+/// column with its unit as attribute; /calibration where there is an answer (may be null). Replaced
+/// atomically.
+void write_h5(const std::filesystem::path& file, const Results& results,
+              const CalibrationAnswer* answer);
 
 }  // namespace dust::study
