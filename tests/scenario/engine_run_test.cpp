@@ -71,6 +71,47 @@ TEST_CASE("grains alone shall run from the same scenario") {
   CHECK(json_text(out / "summary.json", "fluid_steps") == "0");
 }
 
+TEST_CASE("a fluid that diverges shall stop the run with place, time, cause and remedy") {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "blast.yaml";
+  const auto write = [&](const std::string& speed, const std::string& viscosity) {
+    std::ofstream(file) << "time: {end: 0.2 s, fluid_step: 1 ms, output_every: 50 ms}\n"
+                           "gravity: [0, 0, -9.81]\n"
+                           "domain:\n"
+                           "  min: [0, 0, 0]\n"
+                           "  max: [80, 10, 80 mm]\n"
+                           "  boundaries:\n"
+                           "    left: {grains: open, air: {model: velocity_inlet, measure: "
+                           "superficial, speed: "
+                        << speed
+                        << "}}\n"
+                           "    right: {grains: open, air: {model: static_pressure, pressure: 0}}\n"
+                           "    front: {grains: open, air: {model: slip}}\n"
+                           "    back: {grains: open, air: {model: slip}}\n"
+                           "    bottom: {grains: open, air: {model: no_slip}}\n"
+                           "    top: {grains: open, air: {model: no_slip}}\n"
+                           "fluid: {cells: [16, 1, 16], density: 1.2, viscosity: "
+                        << viscosity << "}\n";
+  };
+  write("2e4 m/s", "18 uPa s");
+  const fs::path out = folder / "out";
+  const auto run = engine({"run", file, "-o", out, "--quiet"});
+  INFO(run.err);
+  CHECK(run.status == 1);
+  CHECK(run.err.find("the fluid diverged: velocity component x beyond 1e4 m/s at [") !=
+        std::string::npos);
+  CHECK(run.err.find("] m, t = 0 s") != std::string::npos);
+  CHECK(run.err.find("shorten time.fluid_step") != std::string::npos);
+  CHECK(json_text(out / "summary.json", "status") == "failed");
+  // A step that no number of sub-steps makes up for.
+  write("5000 m/s", "18 uPa s");
+  const auto fast = engine({"run", file, "-o", folder / "fast", "--quiet"});
+  INFO(fast.err);
+  CHECK(fast.status == 1);
+  CHECK(fast.err.find("more than 200 sub-steps") != std::string::npos);
+  CHECK(fast.err.find("time.fluid_step is far too long") != std::string::npos);
+}
+
 TEST_CASE("a used folder shall not be overwritten unless forced") {
   const TemporaryFolder folder;
   const fs::path out = folder / "out";
