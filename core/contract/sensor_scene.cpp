@@ -47,8 +47,8 @@ void Scene::fill(double time) {
   blow(time);
 }
 
-/// Air that turns, and rises through solids below, faster and then slower again; beside the wells a
-/// bed that costs pressure until it is carried.
+/// Air that turns, and rises through solids below, faster and then slower again, with a bubble in
+/// them that grows; beside the wells a bed that costs pressure until it is carried.
 void Scene::blow(double time) {
   const double rise = 0.56 - 8.0 * std::abs(time - 0.045);
   const double drop = 1000.0 * std::min(rise, 0.35);
@@ -57,7 +57,8 @@ void Scene::blow(double time) {
     world.velocity[0][c] = static_cast<float>(swing * 3.0 * (x.z - 0.15));
     world.velocity[1][c] = static_cast<float>(0.1 * swing * x.x);
     world.velocity[2][c] = static_cast<float>(rise - 2.0 * (x.x - 0.15) * (x.x - 0.15));
-    world.void_fraction[c] = x.z < 0.1 ? 0.6f : 0.95f;
+    const bool is_bubble = std::hypot(x.x - 0.05, x.z - 0.02 - 0.4 * time) < 0.012 + 0.2 * time;
+    world.void_fraction[c] = x.z < 0.1 && !is_bubble ? 0.6f : 0.95f;
     if (x.x > 0.28) world.pressure[c] += static_cast<float>(drop * (0.35 - x.z) / 0.35);
   });
 }

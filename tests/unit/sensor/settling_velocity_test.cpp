@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// A fall whose answer is known.
+#include "support/sensor_bench.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace dust;
+using namespace dust::test;
+using sdk::Vec3;
+
+namespace {
+
+/// Two grains that fall from 50 mm side by side with 2 m/s2, until they hold a speed of 0.2 m/s.
+void fall(World& world, sdk::Sensor& sensor, double end, Vec3 down = {0, 0, -1}) {
+  while (world.time < end - 1e-9) {
+    const double t = world.time + world.interval;
+    const double speed = std::min(2.0 * t, 0.2);
+    const double way = t < 0.1 ? t * t : 0.01 + 0.2 * (t - 0.1);
+    world.grains.clear();
+    for (const double x : {0.01, 0.03}) {
+      Grain g;
+      g.now = Vec3{x, 0.005, 0.05} + way * down;
+      g.before = g.now;
+      g.velocity = speed * down;
+      g.weight = x < 0.02 ? 3.0 : 1.0;
+      world.grains.push_back(g);
+    }
+    step(sensor, world);
+  }
+}
+// Places between samples are linear: curvature times interval squared.
+constexpr double k_linear = 1e-4;
+
+}  // namespace
+
+TEST_CASE("settling_velocity shall time levels and take means above the floor only") {
+  World world;
+  const auto sensor = load_sensor("settling_velocity")
+                          .make({{"levels", std::vector<double>{0.045, 0.03, 0.001}},
+                                 {"steady_after", 0.1},
+                                 {"until", 0.02}});
+  fall(world, *sensor, 0.25);
+  const Figures figures = summary_of(*sensor);
+  CHECK(figures["velocity"] == doctest::Approx(0.2).epsilon(1e-9));
+  CHECK(figures["largest/velocity"] == doctest::Approx(0.2).epsilon(1e-9));
+  CHECK(figures["largest/time"] == doctest::Approx(0.1).epsilon(0.011));  // a sample
+  CHECK(figures["level_45_mm/time"] == doctest::Approx(std::sqrt(0.005)).epsilon(k_linear));
+  CHECK(figures["level_45_mm/velocity"] ==
+        doctest::Approx(2 * std::sqrt(0.005)).epsilon(10 * k_linear));
+  CHECK(figures["level_30_mm/time"] == doctest::Approx(0.15).epsilon(k_linear));
+  CHECK(figures["level_1_mm/time"] == 0.0);  // not passed
+  CHECK(figures["height_at_end"] == doctest::Approx(0.01).epsilon(k_linear));
+}
+
+TEST_CASE("settling_velocity shall not take a bounce for settling") {
+  World world;
+  const auto sensor = load_sensor("settling_velocity").make({{"until", 0.01}});
+  for (const double height : {0.03, 0.02, 0.005, 0.015}) {  // down, and up again
+    world.grains.assign(1, {});
+    world.grains[0].now = world.grains[0].before = {0, 0, height};
+    world.grains[0].velocity = {0, 0, height > 0.012 && height < 0.018 ? 0.5 : -0.2};
+    step(*sensor, world);
+  }
+  CHECK(summary_of(*sensor)["velocity"] == doctest::Approx(0.2));
+}
+
+TEST_CASE("settling_velocity shall follow its direction and begin anew with the grains") {
+  World world;
+  world.gravity = {0, 0, 0};
+  const auto sensor = load_sensor("settling_velocity")
+                          .make({{"direction", Vec3{2, 0, 0}},
+                                 {"base", Vec3{0.1, 0, 0}},
+                                 {"levels", std::vector<double>{0.075}}});
+  step(*sensor, world);  // nobody there
+  CHECK(series_of(*sensor)["velocity"] == 0.0);
+  fall(world, *sensor, 0.1, {1, 0, 0});
+  // Centre of mass at x = 0.015 first: 0.085 m before the base.
+  CHECK(series_of(*sensor)["height"] == doctest::Approx(0.085 - 0.01).epsilon(1e-6));
+  CHECK(series_of(*sensor)["velocity"] == doctest::Approx(0.2).epsilon(1e-9));
+  const auto lost = load_sensor("settling_velocity").make({});
+  world.grains.resize(1);
+  CHECK_THROWS(step(*lost, world));  // no gravity, no direction
+}
