@@ -5,7 +5,9 @@
 #include "coupling/face_exchange.hpp"
 #include "coupling/grain_memory.hpp"
 #include "coupling/lattice.hpp"
+#include "coupling/own_disturbance.hpp"
 #include "coupling/void_fraction.hpp"
+#include "coupling/wide_kernel.hpp"
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/sphere.hpp"
 #include "fluid/properties.hpp"
@@ -64,7 +66,8 @@ struct Coupling::Impl {
         drag(law),
         voidage(rule),
         void_fraction(lattice, rule),
-        faces(lattice, fluid.momentum_set == "III"),
+        faces(lattice, rule, fluid.momentum_set == "III"),
+        is_own_taken_off(fluid.corrects_own_disturbance && !fluid.is_one_way),
         properties(fluid),
         gravity(gravity_vector),
         is_set_three(fluid.momentum_set == "III"),
@@ -117,6 +120,10 @@ struct Coupling::Impl {
 
   void map(const particles::GrainRows& grains, double fluid_step);
   void remember(const particles::GrainRows& grains, std::size_t first, std::size_t last);
+  /// Void fraction that a grain has around it; sets `wide` for a grain larger than a cell.
+  [[nodiscard]] double void_fraction_at(const double* position, WideKernel& wide) const;
+  void find_own_solids(const particles::GrainRows& grains, std::size_t first, std::size_t last);
+  void find_own_flow(const particles::GrainRows& grains, std::size_t row, double eps, double slip);
   void settle(const particles::GrainRows& grains, const fluid::FaceField& velocity);
   void refresh(const particles::GrainRows& grains, std::size_t first, std::size_t last,
                const FluidState& fluid);
@@ -135,6 +142,7 @@ struct Coupling::Impl {
   VoidFraction void_fraction;
   GrainMemory memory;
   FaceExchange faces;
+  bool is_own_taken_off;               ///< what a grain does to the fluid by itself
   std::unique_ptr<ForceTerms> forces;  ///< null without forces besides drag
   CouplingReport report;
   fluid::Properties properties;
@@ -156,6 +164,8 @@ struct Coupling::Impl {
 void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t first,
                               std::size_t last) {
   Batch batch;
+  WideKernel wide(lattice, voidage);
+  if (is_own_taken_off) find_own_solids(grains, first, last);
   for (std::size_t row = first; row < last; ++row) {
     const double* position = grains.position + 4 * row;
     const double* velocity = grains.velocity + 4 * row;
@@ -166,7 +176,8 @@ void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t fi
     const double slip =
         std::hypot(r.fluid_velocity[0] - velocity[0], r.fluid_velocity[1] - velocity[1],
                    r.fluid_velocity[2] - velocity[2]);
-    const double eps = void_fraction.after()[lattice.host_cell(lattice.place(position), position)];
+    const double eps = void_fraction_at(position, wide) + r.own_solids;
+    if (is_own_taken_off) find_own_flow(grains, row, eps, slip);
     batch.void_fraction[row - first] = eps;
     batch.reynolds[row - first] = reynolds(fluid_at(position), eps, slip, 2.0 * position[3]);
     batch.size_ratio[row - first] = r.size_ratio;
@@ -177,7 +188,8 @@ void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t fi
     const double inverse_mass = grains.velocity[4 * row + 3];
     const Fluid fluid = fluid_at(grains.position + 4 * row);
     const double drag_coefficient = coefficient(fluid, diameter, batch.factor[row - first]) *
-                                    share_of_set(batch.void_fraction[row - first]);
+                                    share_of_set(batch.void_fraction[row - first]) /
+                                    (1.0 + memory[row].self_stress);
     // A free grain relaxes within the step: mean drag = (m / step) (1 - exp(-K step / m)) (u - v).
     const double relaxations = drag_coefficient * inverse_mass * step;
     const double mean = -std::expm1(-relaxations) / relaxations;
@@ -187,6 +199,90 @@ void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t fi
     memory[row].stress_impulse = {};
     memory[row].given = {};
   }
+}
+
+double Coupling::Impl::void_fraction_at(const double* position, WideKernel& wide) const {
+  const fluid::CellField& eps = void_fraction.after();
+  if (!wide.takes(position[3])) return eps[lattice.host_cell(lattice.place(position), position)];
+  wide.set(position, position[3]);
+  return wide.mean(eps);
+}
+
+/// Solids that a grain brings to its own cell and faces, less those that would be there without it.
+void Coupling::Impl::find_own_solids(const particles::GrainRows& grains, std::size_t first,
+                                     std::size_t last) {
+  // Solids of one grain as a field; zero between grains.
+  static thread_local fluid::CellField own;
+  own.resize(lattice.grid().size, 0.0);
+  WideKernel kernel(lattice, voidage);
+  Stencil s;
+  WideStencil many;
+  const auto face_mean = [](const auto& faces) {
+    double sum = 0.0;
+    double open = 0.0;
+    for (std::size_t n = 0; n < faces.size(); ++n) {
+      const double part = faces.weight[n] * faces.open[n];
+      sum += part * faces.void_fraction[n];
+      open += part;
+    }
+    return open > 0.0 ? sum / open : 0.0;
+  };
+  for (std::size_t row = first; row < last; ++row) {
+    const double* position = grains.position + 4 * row;
+    Remembered& r = memory[row];
+    kernel.set(position, position[3]);
+    const double volume = grains.weight[row] * sdk::sphere_volume(2.0 * position[3]);
+    for (const WideKernel::Share& share : kernel.shares()) {
+      own[share.cell] +=
+          volume * share.weight / (lattice.open_fraction(share.cell) * lattice.cell_volume());
+    }
+    const bool is_wide = kernel.takes(position[3]);
+    const Place p = lattice.place(position);
+    const std::ptrdiff_t host = lattice.host_cell(p, position);
+    const double here = is_wide ? kernel.mean(own) : own[host];
+    const double eps = is_wide ? kernel.mean(void_fraction.after()) : void_fraction.after()[host];
+    const double excess = own_disturbance::excess_of_one(1.0 - eps - here);
+    r.own_solids = std::min(excess * here, 1.0 - eps);
+    for (int d = 0; d < 3; ++d) {
+      if (is_wide) {
+        kernel.stencil(d, own, many);
+        r.own_face_solids[d] = excess * face_mean(many);
+      } else {
+        lattice.stencil(d, p, own, s);
+        r.own_face_solids[d] = excess * face_mean(s);
+      }
+    }
+    for (const WideKernel::Share& share : kernel.shares()) own[share.cell] = 0.0;
+  }
+}
+
+/// Flow around a grain by its own drag: how far it goes, and how much of it pushes the grain. `eps`
+/// of the others around, `slip` [m/s] through it.
+void Coupling::Impl::find_own_flow(const particles::GrainRows& grains, std::size_t row, double eps,
+                                   double slip) {
+  namespace own = own_disturbance;
+  const double* position = grains.position + 4 * row;
+  Remembered& r = memory[row];
+  WideKernel kernel(lattice, voidage);
+  const bool is_wide = kernel.takes(position[3]);
+  const double edge = std::cbrt(lattice.cell_volume());
+  double radius = own::k_trilinear_radius * edge;
+  double density = own::k_trilinear_density / lattice.cell_volume();
+  if (is_wide) {
+    kernel.set(position, position[3]);
+    radius = kernel.ball_radius();
+    density = 1.0 / sdk::sphere_volume(2.0 * radius);
+  }
+  const Fluid fluid = fluid_at(position);
+  const double reynolds = fluid.density * slip * radius / fluid.viscosity;
+  const double mobility = own::mobility(radius, fluid.viscosity, reynolds);
+  const double weighted = own::excess_of_one(1.0 - eps) * grains.weight[row];
+  const double local = std::max(eps - r.own_solids, k_smallest_void_fraction);
+  r.mobility = weighted * mobility;
+  r.growth = -std::expm1(-step / own::build_up_time(radius, fluid.density, mobility));
+  r.self_stress = is_set_three ? 0.0
+                               : weighted * own::stress_share(reynolds) * density *
+                                     sdk::sphere_volume(2.0 * position[3]) / local;
 }
 
 void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) {
@@ -263,29 +359,45 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t fir
   std::array<Triple, k_batch> stress;
   const fluid::CellField& eps = void_fraction.after();
   Stencil s;
+  WideKernel wide(lattice, voidage);
+  WideStencil many;
   for (std::size_t row = first; row < last; ++row) {
     const double* position = grains.position + 4 * row;
     const double* v = grains.velocity + 4 * row;
     Remembered& r = memory[row];
     const Place p = lattice.place(position);
-    const double own = eps[lattice.host_cell(p, position)];
+    const bool is_wide = wide.takes(position[3]);
+    const double own = std::min(1.0, void_fraction_at(position, wide) + r.own_solids);
     for (int d = 0; d < 3; ++d) {
-      lattice.stencil(d, p, eps, s);
       const double* u = state.velocity.component[d].data();
-      double flux = 0.0;  // relative to the grain: it does not jump with eps in plug flow
-      double open = 0.0;
-      double fluid = 0.0;
-      for (std::size_t n = 0; n < 8; ++n) {
-        flux += s.weight[n] * s.void_fraction[n] * (u[s.face[n]] - v[d]);
-        open += s.weight[n] * s.open[n];
-        fluid += s.weight[n] * s.open[n] * s.void_fraction[n];
+      const double* push = state.stress_divergence.component[d].data();
+      const auto look = [&](const auto& faces) {
+        double flux = 0.0;  // relative to the grain: it does not jump with eps in plug flow
+        double open = 0.0;
+        double fluid = 0.0;
+        double pushed = 0.0;
+        for (std::size_t n = 0; n < faces.size(); ++n) {
+          flux += faces.weight[n] * faces.void_fraction[n] * (u[faces.face[n]] - v[d]);
+          const double part = faces.weight[n] * faces.open[n];
+          open += part;
+          fluid += part * faces.void_fraction[n];
+          if (is_wide) pushed += part * push[faces.home[n]];
+        }
+        slip[row - first][d] = flux / own + r.disturbance[d];
+        r.fluid_velocity[d] = v[d] + slip[row - first][d];
+        ratio[row - first][d] =
+            open > 0.0 && !is_set_three ? (fluid / open + r.own_face_solids[d]) / own : 1.0;
+        stress[row - first][d] = open > 0.0 ? pushed / open : 0.0;
+      };
+      if (is_wide) {
+        wide.stencil(d, eps, many);
+        look(many);
+      } else {
+        lattice.stencil(d, p, eps, s);
+        look(s);
+        stress[row - first][d] = lattice.cell_mean(d, p, state.stress_divergence.component[d]);
       }
-      slip[row - first][d] = flux / own;
-      r.fluid_velocity[d] = v[d] + flux / own;
-      ratio[row - first][d] = open > 0.0 && !is_set_three ? fluid / (open * own) : 1.0;
-      stress[row - first][d] = is_set_three && !forces
-                                   ? 0.0
-                                   : lattice.cell_mean(d, p, state.stress_divergence.component[d]);
+      if (is_set_three && !forces) stress[row - first][d] = 0.0;
     }
     r.has_velocity = true;
     batch.void_fraction[row - first] = own;
@@ -305,7 +417,7 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t fir
       const double drag_coefficient =
           coefficient(fluid_at(grains.position + 4 * row), 2.0 * grains.position[4 * row + 3],
                       batch.factor[n]) *
-          share_of_set(batch.void_fraction[n]);
+          share_of_set(batch.void_fraction[n]) / (1.0 + memory[row].self_stress);
       Triple relative;
       for (std::size_t d = 0; d < 3; ++d) relative[d] = ratio[n][d] * slip[n][d];
       act(grains, row, n, drag_coefficient, relative, held(state), sums);
@@ -319,7 +431,8 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t fir
     Remembered& r = memory[row];
     const Fluid fluid = fluid_at(grains.position + 4 * row);
     const double drag_coefficient = coefficient(fluid, diameter, batch.factor[row - first]) *
-                                    share_of_set(batch.void_fraction[row - first]);
+                                    share_of_set(batch.void_fraction[row - first]) /
+                                    (1.0 + r.self_stress);
     const double volume = sdk::sphere_volume(diameter);
     // The grains' reduced gravity is that of the fluid's own density.
     const double lift = volume * (properties.own().density - fluid.density);
@@ -401,6 +514,11 @@ void Coupling::Impl::collect(const particles::GrainRows& grains, double fluid_st
         const double drag_impulse = received[d] - interval * r.stress_impulse[d];
         if (!is_one_way && r.is_paired[d]) {
           r.owed[d] += grains.weight[row] * (r.given[d] - drag_impulse);
+        }
+        if (is_own_taken_off) {
+          // Per real grain; the mobility counts the weight.
+          const double steady = r.mobility * drag_impulse / fluid_step;
+          r.disturbance[d] += r.growth * (steady - r.disturbance[d]);
         }
         r.place[d] = grains.position[4 * row + d];
         received[d] = 0.0;

@@ -18,9 +18,10 @@ struct FaceSums {
   double fluid = 0.0;  ///< e = sum(w open eps)
 };
 
-FaceSums sums_of(const Stencil& s) {
+template <class Faces>
+FaceSums sums_of(const Faces& s) {
   FaceSums sums;
-  for (std::size_t n = 0; n < 8; ++n) {
+  for (std::size_t n = 0; n < s.size(); ++n) {
     const double part = s.weight[n] * s.open[n];
     sums.open += part;
     sums.fluid += part * s.void_fraction[n];
@@ -30,8 +31,9 @@ FaceSums sums_of(const Stencil& s) {
 
 }  // namespace
 
-FaceExchange::FaceExchange(const Lattice& lattice, bool is_set_three)
+FaceExchange::FaceExchange(const Lattice& lattice, const sdk::VoidageRule& rule, bool is_set_three)
     : lattice_(lattice),
+      rule_(rule),
       is_set_three_(is_set_three),
       exchange_{fluid::FaceField(lattice.grid()), fluid::FaceField(lattice.grid())} {}
 
@@ -54,37 +56,56 @@ std::int64_t FaceExchange::spread_component(int d, const particles::GrainRows& g
   const double volume = lattice_.cell_volume();
   std::int64_t unpaired = 0;
   Stencil s;
+  WideKernel wide(lattice_, rule_);
+  WideStencil many;
 
-  const auto add = [&](double drag, double grain_velocity, double owed) {
-    for (std::size_t n = 0; n < 8; ++n) {
-      if (s.open[n] == 0.0 || s.weight[n] == 0.0) continue;
-      const std::ptrdiff_t face = s.home[n];
+  const auto add = [&](const auto& faces, double drag, double grain_velocity, double disturbance,
+                       double owed) {
+    for (std::size_t n = 0; n < faces.size(); ++n) {
+      if (faces.open[n] == 0.0 || faces.weight[n] == 0.0) continue;
+      const std::ptrdiff_t face = faces.home[n];
       if (coefficient[face] == 0.0 && source[face] == 0.0) {
-        const double fluid = is_set_three_ ? 1.0 : s.void_fraction[n];
-        touched_[d].push_back({face, fluid * s.open[n] * volume, 0.0});
+        const double fluid = is_set_three_ ? 1.0 : faces.void_fraction[n];
+        touched_[d].push_back({face, fluid * faces.open[n] * volume, 0.0});
       }
-      const double part = s.weight[n] * drag * s.void_fraction[n];
+      const double part = faces.weight[n] * drag * faces.void_fraction[n];
       coefficient[face] += part;
-      source[face] += part * grain_velocity + s.weight[n] * owed;
+      source[face] += part * grain_velocity + faces.weight[n] * (owed - drag * disturbance);
     }
+  };
+  const auto spread_one = [&](std::size_t row, const auto& faces, double own) {
+    Remembered& r = memory[row];
+    const FaceSums sums = sums_of(faces);
+    r.is_paired[d] = sums.open > k_least_weight;
+    r.taken[d] = 0.0;
+    if (!r.is_paired[d]) {
+      ++unpaired;
+      return;
+    }
+    // What the grain's own solids add to the void fractions has no part in its drag.
+    const double lone = own + r.own_solids;
+    const double excess = is_set_three_ ? 1.0 : 1.0 + r.own_face_solids[d] * sums.open / sums.fluid;
+    r.taken[d] = r.coefficient * excess / (sums.open * lone * lone);
+    const double received = is_set_three_ ? sums.open : sums.fluid;
+    r.lone_eps = lone;
+    add(faces, grains.weight[row] * r.taken[d] / volume, r.velocity[d], lone * r.disturbance[d],
+        r.owed[d] / (received * volume * step));
+    paid_[d] += r.owed[d];
+    r.owed[d] = 0.0;
   };
 
   for (std::size_t row = 0; row < grains.count; ++row) {
-    Remembered& r = memory[row];
-    const Place p = lattice_.place(r.place.data());
-    lattice_.stencil(d, p, eps, s);
-    const FaceSums sums = sums_of(s);
-    r.is_paired[d] = sums.open > k_least_weight;
-    if (!r.is_paired[d]) {
-      ++unpaired;
+    const double* place = memory[row].place.data();
+    const double radius = grains.position[4 * row + 3];
+    if (wide.takes(radius)) {
+      wide.set(place, radius);
+      wide.stencil(d, eps, many);
+      spread_one(row, many, wide.mean(eps));
       continue;
     }
-    const double own = eps[lattice_.host_cell(p, r.place.data())];
-    const double drag = grains.weight[row] * r.coefficient / (sums.open * own * own * volume);
-    const double taken = is_set_three_ ? sums.open : sums.fluid;
-    add(drag, r.velocity[d], r.owed[d] / (taken * volume * step));
-    paid_[d] += r.owed[d];
-    r.owed[d] = 0.0;
+    const Place p = lattice_.place(place);
+    lattice_.stencil(d, p, eps, s);
+    spread_one(row, s, eps[lattice_.host_cell(p, place)]);
   }
   for (Leaver& l : memory.leavers()) {
     if (l.owed[d] == 0.0) continue;
@@ -95,7 +116,7 @@ std::int64_t FaceExchange::spread_component(int d, const particles::GrainRows& g
       continue;
     }
     const double taken = is_set_three_ ? sums.open : sums.fluid;
-    add(0.0, 0.0, l.owed[d] / (taken * volume * step));
+    add(s, 0.0, 0.0, 0.0, l.owed[d] / (taken * volume * step));
     paid_[d] += l.owed[d];
   }
   lattice_.close_periodic(d, coefficient);
@@ -118,23 +139,36 @@ double FaceExchange::settle(const particles::GrainRows& grains, GrainMemory& mem
   const std::size_t chunks = (grains.count + k_chunk - 1) / k_chunk;
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
     Stencil s;
+    WideKernel wide(lattice_, rule_);
+    WideStencil many;
     for (std::size_t row = c * k_chunk; row < std::min(grains.count, (c + 1) * k_chunk); ++row) {
       Remembered& r = memory[row];
+      const double radius = grains.position[4 * row + 3];
+      const bool is_wide = wide.takes(radius);
+      if (is_wide) wide.set(r.place.data(), radius);
       const Place p = lattice_.place(r.place.data());
-      const double own = eps[lattice_.host_cell(p, r.place.data())];
       for (int d = 0; d < 3; ++d) {
+        const double* u = velocity.component[d].data();
+        const double v = r.velocity[d];
+        const double disturbance = r.lone_eps * r.disturbance[d];
+        const auto slip = [&](const auto& faces) {
+          double sum = 0.0;  // eps (u - v) does not jump with eps in plug flow
+          for (std::size_t n = 0; n < faces.size(); ++n) {
+            const double fluid = is_set_three_ ? 1.0 : faces.void_fraction[n];
+            sum += faces.weight[n] * faces.open[n] * fluid *
+                   (faces.void_fraction[n] * (u[faces.home[n]] - v) + disturbance);
+          }
+          return sum;
+        };
         r.given[d] = 0.0;
         if (!r.is_paired[d]) continue;
-        lattice_.stencil(d, p, eps, s);
-        const FaceSums sums = sums_of(s);
-        const std::vector<double>& u = velocity.component[d];
-        double slip = 0.0;  // eps (u - v) does not jump with eps in plug flow
-        for (std::size_t n = 0; n < 8; ++n) {
-          const double fluid = is_set_three_ ? 1.0 : s.void_fraction[n];
-          slip +=
-              s.weight[n] * s.open[n] * s.void_fraction[n] * fluid * (u[s.home[n]] - r.velocity[d]);
+        if (is_wide) {
+          wide.stencil(d, eps, many);
+          r.given[d] = step * r.taken[d] * slip(many);
+        } else {
+          lattice_.stencil(d, p, eps, s);
+          r.given[d] = step * r.taken[d] * slip(s);
         }
-        r.given[d] = step * r.coefficient / (sums.open * own * own) * slip;
       }
     }
   });

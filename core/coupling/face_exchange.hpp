@@ -3,6 +3,7 @@
 
 #include "coupling/grain_memory.hpp"
 #include "coupling/lattice.hpp"
+#include "coupling/wide_kernel.hpp"
 
 #include <array>
 #include <cstdint>
@@ -15,12 +16,13 @@ namespace dust::coupling {
 ///   coefficient += W w_f K eps_f / (a eps_c^2 V)
 ///   source      += W w_f K eps_f v / (a eps_c^2 V) + w_f owed / (e V step)
 /// a = sum(w open), e = sum(w open eps) over its eight faces, eps_c the void fraction of its cell,
-/// V the cell volume. Derivation and what this conserves: docs/theory/coupling.md.
+/// V the cell volume. Grains larger than a cell act through all faces of the cells they are spread
+/// over. Derivation and what this conserves: docs/theory/coupling.md.
 class FaceExchange {
  public:
   /// `is_set_three`: the momentum equation is that of set III, whose fluid receives a density of
   /// force on the whole control volume, a_f V, in place of eps_f a_f V.
-  FaceExchange(const Lattice& lattice, bool is_set_three);
+  FaceExchange(const Lattice& lattice, const sdk::VoidageRule& rule, bool is_set_three);
 
   /// Spreads all grains (places, velocities and coefficients as remembered at map()) and the debts,
   /// which are thereby paid. Returns the number of force components without an open face.
@@ -46,6 +48,7 @@ class FaceExchange {
   void clear(int d);
 
   const Lattice& lattice_;
+  const sdk::VoidageRule& rule_;
   bool is_set_three_;
   fluid::Exchange exchange_;
   std::array<std::vector<Touched>, 3> touched_;

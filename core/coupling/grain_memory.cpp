@@ -6,8 +6,9 @@
 namespace dust::coupling {
 namespace {
 
-/// Numbers of a Remembered that outlive a fluid step: velocity of the fluid, place, debt.
-constexpr std::size_t k_saved = 10;
+/// Numbers of a Remembered that outlive a fluid step: velocity of the fluid, place, debt,
+/// disturbance.
+constexpr std::size_t k_saved = 13;
 
 }  // namespace
 
@@ -46,6 +47,7 @@ void GrainMemory::save(sdk::ArchiveWriter& archive) const {
     numbers.insert(numbers.end(), r.place.begin(), r.place.end());
     numbers.insert(numbers.end(), r.owed.begin(), r.owed.end());
     numbers.push_back(r.has_velocity ? 1.0 : 0.0);
+    numbers.insert(numbers.end(), r.disturbance.begin(), r.disturbance.end());
   }
   std::vector<double> gone;
   for (const Leaver& l : leavers_) {
@@ -70,6 +72,7 @@ void GrainMemory::load(sdk::ArchiveReader& archive) {
     std::copy_n(n + 3, 3, r.place.begin());
     std::copy_n(n + 6, 3, r.owed.begin());
     r.has_velocity = n[9] != 0.0;
+    std::copy_n(n + 10, 3, r.disturbance.begin());
     n += k_saved;
   }
   leavers_.assign(gone.size() / 6, {});

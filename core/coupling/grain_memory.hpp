@@ -24,6 +24,18 @@ struct Remembered {
   std::array<bool, 3> is_paired{};  ///< the component's force found open faces at map()
   bool has_velocity = false;
   double size_ratio = 1.0;  ///< diameter over the Sauter mean in its cell, at map()
+  /// [kg/s] per component: drag on the grain = sum over faces of taken * weight * open * eps (u -
+  /// v).
+  Triple taken{};
+
+  // What the grain does to the fluid by itself, if that is to be taken off; else nothing.
+  Triple disturbance{};      ///< [m/s] of the fluid around it, by the force it has received
+  double lone_eps = 1.0;     ///< [-] void fraction in its cell, own_solids taken off, at map()
+  double own_solids = 0.0;   ///< [-] in its cell, beyond what would be there without it
+  Triple own_face_solids{};  ///< [-] the same at its faces
+  double self_stress = 0.0;  ///< [-] force by the stress of its own drag, over that drag
+  double mobility = 0.0;     ///< [s/kg] steady disturbance per force on the grain
+  double growth = 0.0;       ///< [-] share of the way to the steady disturbance per fluid step
 };
 
 /// Impulse owed to the fluid [N s] for a grain that is gone, at the place where it was last [m].

@@ -35,6 +35,8 @@ struct Stencil {
   std::array<double, 8> weight;         ///< trilinear, sum 1
   std::array<double, 8> void_fraction;  ///< at the face: mean of its two cells
   std::array<double, 8> open;  ///< open share of the face's control volume, 0 = takes nothing
+
+  static constexpr std::size_t size() { return 8; }
 };
 
 /// Indices of the grid with its sides: where a cell or a face outside the grid is accounted.
@@ -106,6 +108,22 @@ class Lattice {
       s.open[a + 1] = open_face_[d][s.home[a + 1]];
     }
   }
+  /// The face below (side 0) or above (1) a cell of the domain along d.
+  struct Face {
+    std::ptrdiff_t place;  ///< where a field is read
+    std::ptrdiff_t home;   ///< where it is accounted
+    std::ptrdiff_t below;  ///< padded indices of its cells
+    std::ptrdiff_t above;
+  };
+  [[nodiscard]] Face face(int d, int i, int j, int k, int side) const {
+    std::array<int, 3> at{i, j, k};
+    at[static_cast<std::size_t>(d)] += side;
+    const std::ptrdiff_t above = cell(at[0], at[1], at[2]);
+    return {offset(places_[0], at[0]) + offset(places_[1], at[1]) + offset(places_[2], at[2]),
+            offset(homes_[0], at[0]) + offset(homes_[1], at[1]) + offset(homes_[2], at[2]),
+            cell(at[0] - (d == 0), at[1] - (d == 1), at[2] - (d == 2)), above};
+  }
+
   /// Value of component d in the cell at `p` from its two faces, weighted by their open shares:
   /// the transpose of giving each face half of a cell. 0 if both are closed.
   [[nodiscard]] double cell_mean(int d, const Place& p, const std::vector<double>& field) const {

@@ -238,6 +238,10 @@ const ParameterSchema& CouplingBlock::schema() {
     s.boolean(&CouplingBlock::one_way, "one_way",
               "Whether the grains feel the fluid but the fluid does not feel the grains.")
         .optional();
+    s.boolean(&CouplingBlock::correct_own_disturbance, "correct_own_disturbance",
+              "Whether what a grain does to the fluid by itself, its own void fraction, wake and "
+              "pressure, is taken off before its drag is found.")
+        .optional();
     return s.build();
   }();
   return made;

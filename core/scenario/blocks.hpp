@@ -120,6 +120,7 @@ struct RegionBlock {
 
 struct CouplingBlock {
   bool one_way = false;
+  bool correct_own_disturbance = false;
   static const sdk::ParameterSchema& schema();
 };
 

@@ -100,8 +100,24 @@ void SetupReader::read_coupling(MapReader& top) {
   std::vector<sdk::Value> values;
   const auto coupling = block<CouplingBlock>(reader, &values);
   reader.finish();
-  if (setup_.fluid) setup_.fluid->is_one_way = coupling.one_way;
+  if (setup_.fluid) {
+    setup_.fluid->is_one_way = coupling.one_way;
+    setup_.fluid->corrects_own_disturbance = coupling.correct_own_disturbance;
+    if (coupling.correct_own_disturbance) check_own_disturbance(entry->where);
+  }
   out_.add("coupling", written_block<CouplingBlock>(values));
+}
+
+/// The closed forms are those of an open flow in three directions.
+void SetupReader::check_own_disturbance(Mark where) {
+  constexpr int k_fewest = 4;
+  for (int d = 0; d < 3; ++d) {
+    if (setup_.fluid->cells[static_cast<std::size_t>(d)] >= k_fewest) continue;
+    error(where,
+          "coupling.correct_own_disturbance: the flow around a grain is only known in three "
+          "directions, and fluid.cells has fewer than 4 along " +
+              std::string(1, "xyz"[d]) + ": use more cells, or leave the correction out");
+  }
 }
 
 void SetupReader::read_drag_and_voidage(MapReader& top) {

@@ -133,6 +133,8 @@ struct FluidSpec {
   double pressure_tolerance = 1e-4;  ///< residual of the pressure solve relative to its right side
   double largest_cfl = 1.0;          ///< sub-steps keep the Courant number below
   bool is_one_way = false;           ///< grains feel the fluid, the fluid does not feel the grains
+  bool corrects_own_disturbance =
+      false;                         ///< grains do not feel what they do to the fluid by themselves
   std::vector<FluidRegion> regions;  ///< the last one that holds a place counts
   Mark where;
 };

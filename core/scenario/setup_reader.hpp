@@ -120,6 +120,7 @@ class SetupReader {
   Node read_region(const Entry& entry, const std::string& path, FluidSpec& spec);
   void check_region(const Entry& entry, const std::string& path, const RegionBlock& region);
   void read_coupling(MapReader& top);
+  void check_own_disturbance(Mark where);
   void read_drag_and_voidage(MapReader& top);
   void read_fluid_forces(MapReader& top);
   /// A rule of the void fraction is valid up to a size of grains relative to the cells.

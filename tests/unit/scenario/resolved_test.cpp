@@ -100,6 +100,7 @@ void check_same(const Setup& a, const Setup& b) {
     CHECK(a.fluid->pressure_tolerance == b.fluid->pressure_tolerance);
     CHECK(a.fluid->largest_cfl == b.fluid->largest_cfl);
     CHECK(a.fluid->is_one_way == b.fluid->is_one_way);
+    CHECK(a.fluid->corrects_own_disturbance == b.fluid->corrects_own_disturbance);
   }
   check_same(a.drag, b.drag);
   check_same(a.voidage, b.voidage);
@@ -141,6 +142,7 @@ TEST_CASE("a resolved scenario with settings shall give the same setup when read
                                       {"time.end", "0.1234567890123 s"},
                                       {"time.dem_step", "1.7 us"},
                                       {"coupling.one_way", "true"},
+                                      {"coupling.correct_own_disturbance", "true"},
                                       {"gravity", "[0.1, 0.2, -9.7]"}});
 }
 
