@@ -6,6 +6,7 @@
 #include "dust/sdk/motion.hpp"
 #include "dust/sdk/random.hpp"
 #include "dust/sdk/sphere.hpp"
+#include "scenario/cost.hpp"
 #include "scenario/units.hpp"
 
 #include <algorithm>
@@ -27,18 +28,6 @@ constexpr double k_fewest_steps_per_collision = 3.0;
 // Grains below this share of the largest diameter are sub-cycled.
 constexpr double k_coarse_share = 1.0 / 8.0;
 
-// For the rough estimates, measured on the transfer point (0.45 s: 431 s of one core, 670 MB of
-// memory, 23 frames and a checkpoint of 260 MB): within a factor of two there and without air.
-constexpr double k_bytes_base = 5e7;
-constexpr double k_bytes_per_grain = 600.0;
-constexpr double k_bytes_per_cell = 900.0;
-constexpr double k_grain_steps_per_second = 1.6e7;  // of one core
-constexpr double k_cell_steps_per_second = 4e6;
-constexpr double k_frame_bytes_per_grain = 75.0;  // packed
-constexpr double k_frame_bytes_per_cell = 11.0;
-constexpr double k_checkpoint_bytes_per_grain = 800.0;
-constexpr double k_checkpoint_bytes_per_cell = 120.0;
-
 using Emitters = std::vector<std::unique_ptr<sdk::Emitter>>;
 
 Emitters make_emitters(const Setup& setup, const registry::Registry& registry) {
@@ -54,18 +43,6 @@ std::string short_number(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.3g", value);
   return text.data();
-}
-
-double extent_along(const DomainSpec& domain, sdk::Vec3 direction) {
-  const sdk::Vec3 size = domain.max - domain.min;
-  return std::abs(size.x * direction.x) + std::abs(size.y * direction.y) +
-         std::abs(size.z * direction.z);
-}
-
-/// Height [m] a grain can fall through.
-double fall_height(const Setup& setup) {
-  const double g = norm(setup.gravity);
-  return g > 0.0 ? extent_along(setup.domain, setup.gravity / g) : 0.0;
 }
 
 double largest_body_speed(const Setup& setup, const registry::Registry& registry) {
@@ -207,43 +184,6 @@ void derive_ratios(const Setup& setup, Derived& derived) {
   derived.diameter_over_spacing = largest / derived.smallest_spacing;
   derived.courant_number =
       derived.expected_speed * setup.time.fluid_step / derived.smallest_spacing;
-}
-
-void estimate_cost(const Setup& setup, double body_speed, Derived& derived) {
-  const double g = norm(setup.gravity);
-  const sdk::Vec3 size = setup.domain.max - setup.domain.min;
-  const double speed = body_speed > 0.0 ? body_speed : derived.expected_speed;
-  if (g > 0.0) derived.residence_time += std::sqrt(2.0 * fall_height(setup) / g);
-  if (speed > 0.0) derived.residence_time += std::max({size.x, size.y, size.z}) / speed;
-  derived.residence_time = std::min(derived.residence_time, setup.time.end);
-  double at_once = 0.0;
-  double flowing = 0.0;
-  for (const EmissionNumbers& e : derived.emissions) {
-    at_once += e.at_once;
-    flowing += e.computed_per_second * derived.residence_time;
-  }
-  derived.grains_in_domain = at_once + flowing;
-  // The domain fills during one residence time.
-  const double mean_grains =
-      at_once + flowing * (1.0 - 0.5 * derived.residence_time / setup.time.end);
-  double cells = 0.0;
-  if (setup.fluid) {
-    const auto& n = setup.fluid->cells;
-    cells = static_cast<double>(n[0]) * n[1] * n[2];
-  }
-  derived.memory_bytes =
-      k_bytes_base + k_bytes_per_grain * derived.grains_in_domain + k_bytes_per_cell * cells;
-  const double frames = std::floor(setup.time.end / setup.time.output_every + 1e-9) + 1.0;
-  derived.disk_bytes =
-      frames * (k_frame_bytes_per_grain * mean_grains + k_frame_bytes_per_cell * cells) +
-      k_checkpoint_bytes_per_grain * derived.grains_in_domain + k_checkpoint_bytes_per_cell * cells;
-  const double fluid_steps =
-      setup.time.end / setup.time.fluid_step * std::max(1.0, std::ceil(derived.courant_number));
-  derived.core_seconds = cells * fluid_steps / k_cell_steps_per_second;
-  if (derived.largest_step > 0.0) {
-    derived.core_seconds +=
-        mean_grains * setup.time.end / derived.largest_step / k_grain_steps_per_second;
-  }
 }
 
 }  // namespace

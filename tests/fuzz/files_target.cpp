@@ -5,6 +5,7 @@
 #include "bodies/mesh.hpp"
 #include "dust/sdk/error.hpp"
 #include "emitter/file/grain_table.hpp"
+#include "fuzz/patience.hpp"
 
 #include <unistd.h>
 
@@ -96,6 +97,7 @@ void read_grains(const std::string& bytes) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const dust::fuzz::Patience patience;
   const std::string bytes(reinterpret_cast<const char*>(data), size);
   read_mesh(bytes);
   if (size >= 50) read_mesh(as_binary(bytes));

@@ -2,6 +2,7 @@
 // Any bytes as a scenario: it is read, or refused with one line per problem; never a crash, a hang
 // or a leak. Linked with libFuzzer (tools/dev/fuzz) or with generate.cpp (the tests).
 #include "base/error.hpp"
+#include "fuzz/patience.hpp"
 #include "scenario/derived.hpp"
 #include "scenario/reader.hpp"
 #include "unit/scenario/fake_models.hpp"
@@ -49,6 +50,7 @@ void check_lines(const std::vector<std::string>& lines) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const auto registry = fake::registry();
+  const dust::fuzz::Patience patience;
   {
     std::ofstream stream(input_file(), std::ios::binary | std::ios::trunc);
     stream.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));

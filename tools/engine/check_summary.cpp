@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check_summary.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -57,8 +59,9 @@ std::string duration(double seconds) {
   constexpr double k_minute = 60.0;
   constexpr double k_hour = 3600.0;
   if (seconds < 2.0 * k_minute) return digits(std::max(seconds, 1.0), 2) + " s";
-  if (seconds < 2.0 * k_hour) return digits(seconds / k_minute, 2) + " min";
-  return digits(seconds / k_hour, 2) + " h";
+  // Two digits are what is known; 98 min, but 1.7 h rather than "1e+02 min".
+  if (seconds < 99.0 * k_minute) return digits(seconds / k_minute, 2) + " min";
+  return digits(seconds / k_hour, seconds < 99.0 * k_hour ? 2 : 3) + " h";
 }
 
 const std::string& material_name(const Setup& setup, int material) {
@@ -198,10 +201,27 @@ void tell_cost(std::ostream& out, const Derived& derived) {
     out << ", " << duration(derived.core_seconds / (k_shared * cores)) << " on the " << cores
         << " of this machine";
   }
-  out << " (rough: within a factor of two for streams like the transfer point)\n";
+  out << " (rough: within a factor of two for most)\n";
 }
 
 }  // namespace
+
+std::string check_json(const Setup& setup, const Derived& derived) {
+  nlohmann::ordered_json j;
+  j["name"] = setup.name;
+  j["end_s"] = setup.time.end;
+  j["fluid_step_s"] = setup.time.fluid_step;
+  j["smallest_step_s"] = derived.smallest_step;
+  j["largest_step_s"] = derived.largest_step;
+  j["diameter_over_spacing"] = derived.diameter_over_spacing;
+  j["width_over_diameter"] = derived.width_over_diameter;
+  j["courant_number"] = derived.courant_number;
+  j["grains"] = derived.grains_in_domain;
+  j["memory_bytes"] = derived.memory_bytes;
+  j["disk_bytes"] = derived.disk_bytes;
+  j["core_s"] = derived.core_seconds;
+  return j.dump(2) + "\n";
+}
 
 std::string check_summary(const Setup& setup, const Derived& derived) {
   std::ostringstream out;

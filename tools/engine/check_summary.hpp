@@ -11,4 +11,7 @@ namespace dust::engine {
 /// What a scenario will do, for a person to read before it is run.
 std::string check_summary(const scenario::Setup& setup, const scenario::Derived& derived);
 
+/// The numbers of it, for programs; times on one core.
+std::string check_json(const scenario::Setup& setup, const scenario::Derived& derived);
+
 }  // namespace dust::engine

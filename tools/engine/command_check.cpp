@@ -12,6 +12,7 @@ void add_check(CLI::App& app, int&) {
   struct Arguments {
     ScenarioArguments scenario;
     std::string drawing;
+    bool as_json = false;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
@@ -19,6 +20,7 @@ void add_check(CLI::App& app, int&) {
   arguments->scenario.add_to(*command);
   command->add_option("-o,--output", arguments->drawing, "Draw the set-up from the side")
       ->type_name("SETUP.svg");
+  command->add_flag("--json", arguments->as_json, "Steps, sizes and cost as JSON");
   command->footer(
       "Examples:\n"
       "  engine check scenarios/transfer_point.yaml\n"
@@ -31,10 +33,10 @@ void add_check(CLI::App& app, int&) {
         scenario::read_scenario(options.scenario, options.overrides, *registry, options.set_files);
     for (const std::string& warning : result.warnings) std::cerr << warning << '\n';
     const auto derived = scenario::derive(result.setup, *registry);
-    std::cout << check_summary(result.setup, derived);
+    std::cout << (arguments->as_json ? check_json : check_summary)(result.setup, derived);
     if (!arguments->drawing.empty()) {
       write_file(arguments->drawing, draw_setup(result.setup, *registry));
-      std::cout << "drawn in " << arguments->drawing << '\n';
+      if (!arguments->as_json) std::cout << "drawn in " << arguments->drawing << '\n';
     }
   });
 }

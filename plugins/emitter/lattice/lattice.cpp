@@ -19,6 +19,9 @@ constexpr std::uint32_t k_shuffle = 0;
 constexpr std::uint32_t k_jitter = 1;
 constexpr std::uint32_t k_speed = 2;
 
+/// More grains than any machine runs: a slip of the unit, told before the memory is full.
+constexpr double k_most_sites = 5e7;
+
 class Lattice final : public sdk::PlacedEmitter {
  public:
   struct Parameters : sdk::SizeParameters {
@@ -76,8 +79,17 @@ class Lattice final : public sdk::PlacedEmitter {
            << sizes_.largest() << " m: neighbours would overlap";
       throw sdk::ParameterError(text.str());
     }
-    sites_ = formula::sites({p.min.x, p.min.y, p.min.z}, {p.max.x, p.max.y, p.max.z}, p.spacing,
-                            p.arrangement == "face_centred");
+    const formula::Point low{p.min.x, p.min.y, p.min.z};
+    const formula::Point high{p.max.x, p.max.y, p.max.z};
+    const bool is_face_centred = p.arrangement == "face_centred";
+    const double sites = formula::count_sites(low, high, p.spacing, is_face_centred);
+    if (sites > k_most_sites) {
+      std::ostringstream text;
+      text << "the box from min to max has " << sites << " sites, and at most " << k_most_sites
+           << " are placed: make it smaller or spacing wider";
+      throw sdk::ParameterError(text.str());
+    }
+    sites_ = formula::sites(low, high, p.spacing, is_face_centred);
     const auto all = static_cast<std::int64_t>(sites_.size());
     if (all == 0) throw sdk::ParameterError("the box from min to max holds no whole cell");
     count_ = p.count > 0 ? p.count : all;

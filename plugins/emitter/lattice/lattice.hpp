@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -9,6 +10,25 @@
 namespace dust::model::lattice {
 
 using Point = std::array<double, 3>;
+
+/// Whole cells of a lattice in the box [low, high) [m], along x, y and z; none where high lies
+/// below.
+inline Point cells_in(const Point& low, const Point& high, double spacing, bool is_face_centred) {
+  const double edge = is_face_centred ? std::numbers::sqrt2 * spacing : spacing;
+  Point cells{};
+  // Extents that are whole multiples of the edge, written in decimal, miss it by rounding.
+  for (std::size_t d = 0; d < 3; ++d) {
+    cells[d] = std::max(0.0, std::floor((high[d] - low[d]) / edge + 1e-9));
+  }
+  return cells;
+}
+
+/// How many sites they have: a number beyond what any memory holds is one all the same.
+inline double count_sites(const Point& low, const Point& high, double spacing,
+                          bool is_face_centred) {
+  const Point cells = cells_in(low, high, spacing, is_face_centred);
+  return (is_face_centred ? 4.0 : 1.0) * cells[0] * cells[1] * cells[2];
+}
 
 /// Sites of a lattice in the box [low, high) [m], whole cells only, the box's lower corner a
 /// cell's corner. `spacing` [m] is the distance of nearest neighbours.
@@ -23,10 +43,9 @@ inline std::vector<Point> sites(const Point& low, const Point& high, double spac
   static constexpr Point k_simple[] = {{0.5, 0.5, 0.5}};
   static constexpr Point k_face_centred[] = {
       {0.25, 0.25, 0.25}, {0.75, 0.75, 0.25}, {0.75, 0.25, 0.75}, {0.25, 0.75, 0.75}};
+  const Point whole = cells_in(low, high, spacing, is_face_centred);
   std::array<long, 3> cells{};
-  // Extents that are whole multiples of the edge, written in decimal, miss it by rounding.
-  for (std::size_t d = 0; d < 3; ++d)
-    cells[d] = std::lround(std::floor((high[d] - low[d]) / edge + 1e-9));
+  for (std::size_t d = 0; d < 3; ++d) cells[d] = std::lround(whole[d]);
   std::vector<Point> out;
   for (long k = 0; k < cells[2]; ++k) {
     for (long j = 0; j < cells[1]; ++j) {

@@ -116,3 +116,11 @@ TEST_CASE("fewer grains than sites shall be spread, more shall be refused, sizes
   CHECK(refusal([&] { emitter("lattice", p); }).find("neighbours would overlap") !=
         std::string::npos);
 }
+
+TEST_CASE("a box with more sites than any machine holds shall be refused before they are made") {
+  Parameters p = box("simple", 6e-3, 1e-3);
+  p["max"] = Vec3{1e12, 6e-3, 6e-3};
+  CHECK(refusal([&] { emitter("lattice", p); }) ==
+        "the box from min to max has 3.6e+16 sites, and at most 5e+07 are placed: make it smaller "
+        "or spacing wider");
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenario/cost.hpp"
+
+#include "dust/sdk/sphere.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dust::scenario {
+namespace {
+
+// What things cost, measured by `tools/dev/record_estimates` and by long runs on one core of a
+// virtual machine, which is up to twice as slow when its neighbour works: the constants lie between
+// both.
+constexpr double k_bytes_base = 4e7;
+constexpr double k_bytes_per_grain = 600.0;
+constexpr double k_bytes_per_cell = 900.0;
+constexpr double k_frame_bytes_per_grain = 75.0;  // packed
+constexpr double k_frame_bytes_per_cell = 11.0;
+constexpr double k_checkpoint_bytes_per_grain = 800.0;
+constexpr double k_checkpoint_bytes_per_cell = 120.0;
+// Steps of grains per second: those at rest in a bed have six contacts each, those of a stream meet
+// now and then, those of a gas fly from one collision to the next.
+constexpr double k_bed_steps_per_second = 8e6;
+constexpr double k_stream_steps_per_second = 1.8e7;
+constexpr double k_gas_steps_per_second = 7e7;
+constexpr double k_cell_steps_per_second = 3e6;
+constexpr double k_start_seconds = 0.3;
+// Solid share above which grains without gravity press on each other.
+constexpr double k_dense = 0.2;
+
+double extent_along(const DomainSpec& domain, sdk::Vec3 direction) {
+  const sdk::Vec3 size = domain.max - domain.min;
+  return std::abs(size.x * direction.x) + std::abs(size.y * direction.y) +
+         std::abs(size.z * direction.z);
+}
+
+/// Steps per second of grains that are there at once: with gravity they come to rest.
+double rate_at_once(const Setup& setup, double grains, const Derived& derived) {
+  if (norm(setup.gravity) > 0.0 || derived.sizes.empty()) return k_bed_steps_per_second;
+  const sdk::Vec3 size = setup.domain.max - setup.domain.min;
+  const double solids = grains * sdk::sphere_volume(derived.sizes.back().diameter);
+  return solids > k_dense * size.x * size.y * size.z ? k_bed_steps_per_second
+                                                     : k_gas_steps_per_second;
+}
+
+}  // namespace
+
+double fall_height(const Setup& setup) {
+  const double g = norm(setup.gravity);
+  return g > 0.0 ? extent_along(setup.domain, setup.gravity / g) : 0.0;
+}
+
+void estimate_cost(const Setup& setup, double body_speed, Derived& derived) {
+  const double g = norm(setup.gravity);
+  const sdk::Vec3 size = setup.domain.max - setup.domain.min;
+  const double speed = body_speed > 0.0 ? body_speed : derived.expected_speed;
+  if (g > 0.0) derived.residence_time += std::sqrt(2.0 * fall_height(setup) / g);
+  if (speed > 0.0) derived.residence_time += std::max({size.x, size.y, size.z}) / speed;
+  derived.residence_time = std::min(derived.residence_time, setup.time.end);
+  double at_once = 0.0;
+  double flowing = 0.0;
+  for (const EmissionNumbers& e : derived.emissions) {
+    at_once += e.at_once;
+    flowing += e.computed_per_second * derived.residence_time;
+  }
+  derived.grains_in_domain = at_once + flowing;
+  // The domain fills during one residence time.
+  const double mean_flowing = flowing * (1.0 - 0.5 * derived.residence_time / setup.time.end);
+  double cells = 0.0;
+  if (setup.fluid) {
+    const auto& n = setup.fluid->cells;
+    cells = static_cast<double>(n[0]) * n[1] * n[2];
+  }
+  derived.memory_bytes =
+      k_bytes_base + k_bytes_per_grain * derived.grains_in_domain + k_bytes_per_cell * cells;
+  const double frames = std::floor(setup.time.end / setup.time.output_every + 1e-9) + 1.0;
+  derived.disk_bytes =
+      frames *
+          (k_frame_bytes_per_grain * (at_once + mean_flowing) + k_frame_bytes_per_cell * cells) +
+      k_checkpoint_bytes_per_grain * derived.grains_in_domain + k_checkpoint_bytes_per_cell * cells;
+  const double fluid_steps =
+      setup.time.end / setup.time.fluid_step * std::max(1.0, std::ceil(derived.courant_number));
+  derived.core_seconds = k_start_seconds + cells * fluid_steps / k_cell_steps_per_second;
+  if (derived.largest_step > 0.0) {
+    derived.core_seconds += setup.time.end / derived.largest_step *
+                            (at_once / rate_at_once(setup, at_once, derived) +
+                             mean_flowing / k_stream_steps_per_second);
+  }
+}
+
+}  // namespace dust::scenario
