@@ -198,6 +198,11 @@ json series_plots(const Comparison& c) {
     for (const SeriesColumn& b : c.second.series) {
       if (b.name != a.name || b.unit != a.unit || a.values.size() < 2 || b.values.size() < 2)
         continue;
+      const auto is_nothing = [](double v) { return !(std::abs(v) > 0.0); };
+      if (std::all_of(a.values.begin(), a.values.end(), is_nothing) &&
+          std::all_of(b.values.begin(), b.values.end(), is_nothing)) {
+        continue;
+      }
       plots.push_back(
           {{"title", a.name},
            {"x_label", "time, s"},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/report.hpp"
 
+#include "io/report_fast_dust.hpp"
+#include "io/report_limits.hpp"
 #include "io/report_page.hpp"
 #include "io/report_pictures.hpp"
 #include "io/report_run.hpp"
@@ -66,6 +68,8 @@ json places_json(const Highlights& highlights) {
 }
 
 /// Free flight without air from a level belt, x = v sqrt(2 h / g): the reference of the stream.
+/// Only for belts so fast that grains leave at the top of the pulley, v^2 >= g R: from slower ones
+/// they slide off farther round, and no closed form without friction tells where.
 json flights_json(const json& report) {
   const json& setting = object_at(report, "setting");
   const json& gravity = list_at(setting, "gravity");
@@ -75,10 +79,10 @@ json flights_json(const json& report) {
   if (!is_down) return list;
   for (const json& belt : list_at(setting, "belts")) {
     const auto speed = number_at(belt, "speed");
-    if (speed && *speed > 0.0) {
-      list.push_back({{"name", text_at(belt, "name")},
-                      {"speed", *speed},
-                      {"gravity", -gravity[2].get<double>()}});
+    const double fall = -gravity[2].get<double>();
+    const double radius = number_at(belt, "radius").value_or(0.0);
+    if (speed && *speed > 0.0 && *speed * *speed >= fall * radius) {
+      list.push_back({{"name", text_at(belt, "name")}, {"speed", *speed}, {"gravity", fall}});
     }
   }
   return list;
@@ -100,11 +104,19 @@ std::string grains_section(const json& grains, bool has_air) {
     note += " " + std::to_string(grains["frames"].size()) + " of " +
             count_html(grains["written"].get<double>()) + " frames are shown.";
   }
+  const bool has_dust =
+      std::any_of(grains["classes"].begin(), grains["classes"].end(), [&](const json& diameter) {
+        return diameter.is_number() && diameter < grains["dust_below"];
+      });
   std::string text =
       "<figure id=\"grains\" class=\"side\"><div class=\"picture\" id=\"grains-picture\"></div>"
-      "<figcaption><b>The stream from the side</b>, grains and air. Seen along <i>y</i>, true to "
-      "scale. Dust (finer than 100\u202f\u00b5m) is drawn larger than it is, on top, with its path "
-      "over the last frames." +
+      "<figcaption><b>From the side</b>, " +
+      std::string(has_air ? "grains and air" : "the grains") +
+      ". Seen along <i>y</i>, true to scale." +
+      (has_dust
+           ? " Dust (finer than 100\u202f\u00b5m) is drawn larger than it is, on top, with its "
+             "path over the last frames."
+           : "") +
       note +
       "<span class=\"choices screen\"><label>Colour of the grains <select id=\"grains-colour\">"
       "<option value=\"size\">diameter</option>";
@@ -173,15 +185,16 @@ std::string pictures_html(const json& grains, const json& air, const Highlights&
          "off here.</p></noscript></section>\n";
 }
 
-std::string body_html(const RunText& run, const json& data, const Highlights& highlights) {
+std::string body_html(const RunText& run, const json& data, const Highlights& highlights,
+                      const std::string& explanation) {
   std::string text = header_html(run, highlights) + result_html(highlights);
   text += extraction_html(highlights, !data["air"].is_null(), !data["dust_map"].is_null());
   text += pictures_html(data["grains"], data["air"], highlights);
   text += setting_html(run, data["bodies"]);
   text += stream_html(highlights) + references_html(run);
-  text += "<section id=\"curves\" hidden><h2>Fluxes and concentrations</h2></section>\n";
+  text += "<section id=\"curves\" hidden><h2>Curves of the sensors</h2></section>\n";
   text += "<section id=\"series\" hidden><h2>The run over time</h2></section>\n";
-  text += balance_html(run) + health_html(run) + cost_html(run) + figures_html(run) +
+  text += balance_html(run) + health_html(run, explanation) + cost_html(run) + figures_html(run) +
           provenance_html(run);
   return text + footer_html(text_at(run.summary, "version"));
 }
@@ -244,11 +257,26 @@ json look_for_dust(const H5Source& source, const View& view, Highlights& highlig
   return dust_map_json(map, view);
 }
 
+/// Why fine grains overlap beyond their radius, with what the frames tell of it.
+std::string explain_crushed(const H5Source& source, const json& air, const Highlights& highlights,
+                            double overlap) {
+  const double air_speed = air.is_null() ? 0.0 : air["top_speed"].get<double>();
+  const auto viscosity = source.attribute("/fluid", "viscosity");
+  const auto finest = std::min_element(
+      highlights.classes.begin(), highlights.classes.end(),
+      [](const DustClass& a, const DustClass& b) { return a.diameter < b.diameter; });
+  const bool is_known = finest != highlights.classes.end();
+  return crushed_dust_html(overlap, fast_dust_of(source, air_speed),
+                           is_known ? finest->diameter : 0.0, is_known ? finest->density : 0.0,
+                           viscosity.empty() ? 0.0 : viscosity.front());
+}
+
 }  // namespace
 
 void write_report(const std::filesystem::path& folder) {
   RunText run = read_run_text(folder);
   Highlights highlights = highlights_of(run);
+  std::string explanation;
   json data;
   {
     const H5Source source(folder / "results.h5");
@@ -267,6 +295,9 @@ void write_report(const std::filesystem::path& folder) {
       highlights.partings =
           partings_of(dust_origins(source, view, k_parting_side), highlights, load);
     }
+    if (const double overlap = crushed_overlap(run); overlap > 0.0) {
+      explanation = explain_crushed(source, data["air"], highlights, overlap);
+    }
   }
   data["curves"] = list_at(run.report, "curves");
   data["series"] = series_json(run.series);
@@ -281,7 +312,7 @@ void write_report(const std::filesystem::path& folder) {
   Page page;
   page.title = run_title(run);
   page.kind = "run report";
-  page.body = body_html(run, data, highlights);
+  page.body = body_html(run, data, highlights, explanation);
   page.data = std::move(data);
   page.scripts = {"grains.js", "air.js",   "extraction.js", "stream.js",
                   "curves.js", "graph.js", "run.js"};

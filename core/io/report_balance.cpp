@@ -33,14 +33,18 @@ std::string balance_row(const char* name, const json& parts, bool is_exact, cons
   const bool is_closed = is_exact ? difference == 0.0 : std::abs(difference) <= k_closure * scale;
   closes = closes && is_closed;
   const auto cell = [&](double value) {
-    const std::string shown = *unit != '\0'                ? quantity_html(value, -1.0, unit)
-                              : value == std::round(value) ? count_html(value)
-                                                           : number_html(value, 7);
+    const std::string shown = *unit != '\0' ? quantity_html(value, -1.0, unit)
+                              // Weights of rare grains leave fractions; nobody counts those.
+                              : value == std::round(value) || std::abs(value) > 1e3
+                                  ? count_html(std::round(value))
+                                  : number_html(value, 4);
     return "<td class=\"n\">" + shown + "</td>";
   };
   return std::string("<tr><th scope=\"row\">") + name + "</th>" + cell(*emitted) +
          cell(part("in_domain")) + cell(part("left")) + cell(part("removed")) + "<td class=\"n" +
-         (is_closed ? "" : " wrong") + "\">" + number_html(difference, 2) + "</td></tr>\n";
+         (is_closed ? "" : " wrong") + "\">" +
+         (*unit != '\0' ? quantity_html(difference, -1.0, unit) : number_html(difference, 2)) +
+         "</td></tr>\n";
 }
 
 /// What became of each size class; empty for runs without these books.

@@ -66,7 +66,11 @@ std::string lede_html(const RunText& run, const Highlights& highlights) {
                 ? "is found at " + place_html(highlights, dust_told(highlights).front())
                 : std::string("get out");
     if (highlights.fed > 0.0) {
-      text += ", " + share_html(first.value, highlights.fed) + " of the dust fed";
+      const double share = 100.0 * first.value / highlights.fed;
+      text += ", " +
+              value_html(share,
+                         first.uncertainty > 0.0 ? share * first.uncertainty / first.value : -1.0) +
+              "\u202f% of the dust fed";
     }
     text += ".";
   }
@@ -198,8 +202,37 @@ std::string where_to_extract(const Highlights& highlights) {
   return answer("Where to extract?", value, text + "</ul>\n");
 }
 
-std::string tiles_html(const RunText& run, const Highlights& highlights) {
+/// Figures that stand beside a published number: what such a run was made for. The same figure
+/// once, with the first of its numbers.
+std::string reference_tiles(const RunText& run) {
+  constexpr std::size_t k_most = 4;
   std::string text;
+  std::vector<std::string> told;
+  for (const nlohmann::json& entry : list_at(run.summary, "references")) {
+    const auto ours = number_at(entry, "ours");
+    const auto theirs = number_at(entry, "value");
+    std::string name = text_at(entry, "quantity");
+    if (!ours || !theirs || told.size() == k_most) continue;
+    if (std::find(told.begin(), told.end(), name) != told.end()) continue;
+    told.push_back(name);
+    if (name.starts_with("sensors.")) name.erase(0, 8);
+    std::replace(name.begin(), name.end(), '.', ' ');
+    name = words(name);
+    if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') {
+      name[0] = static_cast<char>(name[0] - 'a' + 'A');
+    }
+    const std::string unit = text_at(entry, "unit");
+    text +=
+        tile_html(escape_html(name).c_str(),
+                  quantity_html(*ours, number_at(entry, "our_uncertainty").value_or(-1.0), unit),
+                  "published " +
+                      quantity_html(*theirs, number_at(entry, "uncertainty").value_or(-1.0), unit));
+  }
+  return text;
+}
+
+std::string tiles_html(const RunText& run, const Highlights& highlights) {
+  std::string text = reference_tiles(run);
   if (!highlights.stream.empty()) {
     const StreamDrop& last = highlights.stream.back();
     text += tile_html("Stream, median",

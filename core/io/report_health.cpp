@@ -67,7 +67,7 @@ int limits_touched(const RunText& run) {
       std::count_if(limits.begin(), limits.end(), [](const Limit& l) { return l.is_touched; }));
 }
 
-std::string health_html(const RunText& run) {
+std::string health_html(const RunText& run, const std::string& explanation) {
   std::string counters, others;
   bool has_touched = false, has_counters = false, ignored = false;
   for (const auto& [key, value] : run.summary.items()) {
@@ -103,6 +103,7 @@ std::string health_html(const RunText& run) {
                 : std::string("<p><strong class=\"good\">No limit was touched.</strong></p>\n");
   }
   text += limits_html(limits);
+  if (!explanation.empty()) text += "<p class=\"caution\">" + explanation + "</p>\n";
   for (const json& warning : warnings) {
     if (!warning.is_string()) continue;
     text += "<p class=\"caution\">" + escape_html(warning.get<std::string>()) + "</p>\n";

@@ -27,6 +27,10 @@ struct Rule {
 // Rounding of a ratio computed from lengths in mm shall not cross a limit.
 constexpr double k_rounding = 1e-9;
 
+constexpr const char* k_any_overlap = "largest_overlap_over_radius";
+constexpr const char* k_coarse_overlap = "largest_overlap_over_radius_coarse";
+constexpr const char* k_fine_overlap = "largest_overlap_over_radius_fine";
+
 constexpr std::array k_rules{
     Rule{
         "largest_diameter_over_spacing", "Largest diameter over cell spacing, D/dx", Bound::at_most,
@@ -35,11 +39,16 @@ constexpr std::array k_rules{
         "is noise. Use larger cells or a voidage rule for large grains."},
     Rule{"smallest_void_fraction", "Smallest void fraction of a cell", Bound::at_least, 0.35,
          "Drag laws are fitted down to a random packing (about 0.36); below, they extrapolate."},
-    Rule{"largest_overlap_over_radius", "Largest overlap over the smaller radius", Bound::at_most,
-         0.05,
+    Rule{k_any_overlap, "Largest overlap over the smaller radius", Bound::at_most, 0.05,
          "Contact laws hold for small overlaps: grains are softer here than real ones, and a small "
          "grain pressed by a large one sinks in. Raise the Young's modulus, or check what the "
          "smallest class does in contact."},
+    Rule{k_coarse_overlap, "Largest overlap over the smaller radius, coarse grains", Bound::at_most,
+         0.05,
+         "Contact laws hold for small overlaps, and grains are softer here than real ones: raise "
+         "the Young's modulus, or see that the speeds met are those expected."},
+    Rule{k_fine_overlap, "Largest overlap over the smaller radius, fine grains", Bound::at_most,
+         0.05, "Fine grains are crushed between coarse ones: see below what that does."},
     Rule{"late_neighbour_lists", "Neighbour lists renewed too late", Bound::at_most, 0.0,
          "A contact may have begun unseen. Shorten the DEM step or widen the skin."},
     Rule{"entries_waiting", "Grains that never found room to enter", Bound::at_most, 0.0,
@@ -90,10 +99,24 @@ bool is_limit_key(const std::string& key) {
                      [&](const Rule& rule) { return key == rule.key; });
 }
 
+double crushed_overlap(const RunText& run) {
+  const auto reached = number_at(object_at(run.summary, "health"), k_fine_overlap);
+  for (const Rule& rule : k_rules) {
+    if (std::string(rule.key) == k_fine_overlap && reached && *reached > rule.value)
+      return *reached;
+  }
+  return 0.0;
+}
+
 std::vector<Limit> limits_of(const RunText& run) {
   std::vector<Limit> limits;
   const json& health = object_at(run.summary, "health");
+  const bool tells_apart = number_at(health, k_fine_overlap).has_value();
   for (const Rule& rule : k_rules) {
+    const std::string key = rule.key;
+    // The larger of both repeats one of them; runs without fine grains have none to tell of.
+    if (key == k_any_overlap && tells_apart) continue;
+    if (key == k_fine_overlap && !(number_at(health, k_fine_overlap).value_or(0.0) > 0.0)) continue;
     if (const auto reached = number_at(health, rule.key)) {
       limits.push_back(limit_of(rule, *reached));
     }

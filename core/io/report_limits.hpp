@@ -21,6 +21,10 @@ struct Limit {
 /// number is missing are left out.
 [[nodiscard]] std::vector<Limit> limits_of(const RunText& run);
 
+/// The largest overlap of fine grains over the smaller radius where that is beyond what contact
+/// laws hold for; otherwise 0.
+[[nodiscard]] double crushed_overlap(const RunText& run);
+
 /// Whether an entry of "health" in summary.json is told as a limit.
 [[nodiscard]] bool is_limit_key(const std::string& key);
 

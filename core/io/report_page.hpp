@@ -14,10 +14,10 @@ namespace dust::io {
 /// the plots under `data["plots"]`:
 ///   {"NAME": [{"title", "x_label", "y_label", "unit", "note",
 ///              "lines": [{"name", "x": [..], "y": [..], "low": [..], "high": [..],
-///                         "kind": "line" | "points" | "reference"}]}]}
-/// into the element `<div class="grid" data-plots="NAME"></div>`; numbers are in the unit shown,
-/// `low` and `high` (a band or error bars), `note`, `unit` and `kind` may be missing, null is a
-/// gap.
+///                         "kind": "line" | "points" | "reference", "width": px}]}]}
+/// into the element `<div class="grid" data-plots="NAME"></div>`; numbers are in `unit` and shown
+/// in the multiple of it that reads best (kg as mg), `low` and `high` (a band or error bars),
+/// `note`, `unit`, `kind` and `width` may be missing, null is a gap.
 struct Page {
   std::string title;  ///< plain text
   std::string kind;   ///< "run report": stands behind the title in the browser's tab

@@ -25,7 +25,7 @@ constexpr double k_parting_side = 0.02;
 [[nodiscard]] std::string references_html(const RunText& run);
 [[nodiscard]] std::string balance_html(const RunText& run);
 [[nodiscard]] std::string cost_html(const RunText& run);
-[[nodiscard]] std::string health_html(const RunText& run);
+[[nodiscard]] std::string health_html(const RunText& run, const std::string& explanation);
 [[nodiscard]] std::string figures_html(const RunText& run);
 [[nodiscard]] std::string provenance_html(const RunText& run);
 

@@ -266,8 +266,9 @@ DemReport Dem::report() const {
   out.contacts = 0;
   for (const Chunk& c : impl_->chunks) {
     out.contacts += c.contacts;
-    out.largest_overlap = std::max(out.largest_overlap, c.largest_overlap);
+    out.largest_coarse_overlap = std::max(out.largest_coarse_overlap, c.largest_overlap);
   }
+  out.largest_overlap = std::max(out.largest_coarse_overlap, out.largest_fine_overlap);
   return out;
 }
 

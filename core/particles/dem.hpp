@@ -63,10 +63,12 @@ struct DemReport {
   std::int64_t rebuilds = 0;
   std::int64_t flown_steps =
       0;  ///< of particle_steps, those made in one go with others (watch.cpp)
-  double largest_overlap = 0.0;  ///< [-] overlap / smaller radius, since the start
-  std::int64_t contacts = 0;     ///< in touch at the last step
-  std::int64_t late_lists = 0;   ///< times a fine grain left its allowance within one step: a new
-                                 ///< partner may have been seen one step late
+  double largest_overlap = 0.0;         ///< [-] overlap / smaller radius, since the start
+  double largest_coarse_overlap = 0.0;  ///< [-] of that, between grains on coarse steps and walls
+  double largest_fine_overlap = 0.0;    ///< [-] of that, where a sub-stepped grain takes part
+  std::int64_t contacts = 0;            ///< in touch at the last step
+  std::int64_t late_lists = 0;  ///< times a fine grain left its allowance within one step: a new
+                                ///< partner may have been seen one step late
 };
 
 /// A contact as sensors see it.

@@ -170,9 +170,10 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
                                 allowance_level};
   archive.integers("state", state);
   archive.number("time", time);
-  double largest = counters.largest_overlap;
+  double largest = counters.largest_coarse_overlap;
   for (const Chunk& c : chunks) largest = std::max(largest, c.largest_overlap);
-  archive.number("largest_overlap", largest);
+  archive.number("largest_coarse_overlap", largest);
+  archive.number("largest_fine_overlap", counters.largest_fine_overlap);
   book.save(archive);
 }
 
@@ -256,7 +257,8 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   counters.flown_steps = state.at(13);
   allowance_level = state.at(14);
   time = archive.number("time");
-  counters.largest_overlap = archive.number("largest_overlap");
+  counters.largest_coarse_overlap = archive.number("largest_coarse_overlap");
+  counters.largest_fine_overlap = archive.number("largest_fine_overlap");
   for (Surface& s : surfaces) s.move_to(time);
   book.load(archive);
   look_at_weights();

@@ -457,7 +457,7 @@ void Dem::Impl::fine_pass() {
     Block& block = w.blocks[b];
     if (wall_loads.is_on()) wall_loads.take(block.wall_sums, block.wall_impacts);
     counters.fine_steps += static_cast<std::int64_t>(block.members.size()) << block.level;
-    counters.largest_overlap = std::max(counters.largest_overlap, block.largest_overlap);
+    counters.largest_fine_overlap = std::max(counters.largest_fine_overlap, block.largest_overlap);
     for (const Candidate& c : block.candidates) {
       if (c.row < 0 || std::all_of(c.reaction, c.reaction + 6, [](double x) { return x == 0.0; }))
         continue;

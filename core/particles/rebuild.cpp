@@ -183,7 +183,7 @@ void Dem::Impl::rebuild() {
   gather_wall_loads();
   wrap_periodic();
   for (const Chunk& c : chunks) {
-    counters.largest_overlap = std::max(counters.largest_overlap, c.largest_overlap);
+    counters.largest_coarse_overlap = std::max(counters.largest_coarse_overlap, c.largest_overlap);
   }
   // The contacts in touch, by their first grain's old row.
   const std::size_t old_rows = store.size();

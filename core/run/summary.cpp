@@ -151,7 +151,10 @@ Json health(const Simulation& s) {
   h["entries_delayed"] = s.delayed_entries();
   h["entries_waiting"] = s.waiting_entries();
   h["late_neighbour_lists"] = s.dem().report().late_lists;
-  h["largest_overlap_over_radius"] = s.dem().report().largest_overlap;
+  const auto overlaps = s.dem().report();
+  h["largest_overlap_over_radius"] = overlaps.largest_overlap;
+  h["largest_overlap_over_radius_coarse"] = overlaps.largest_coarse_overlap;
+  h["largest_overlap_over_radius_fine"] = overlaps.largest_fine_overlap;
   if (s.coupling() != nullptr) {
     const auto& c = s.coupling()->report();
     h["voidage_shares_moved_to_open_cells"] = c.moved_shares;

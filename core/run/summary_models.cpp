@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/summary_models.hpp"
 
+#include "bodies/shape.hpp"
+
 #include <cmath>
 #include <optional>
 #include <set>
@@ -57,6 +59,20 @@ Json thing_json(const scenario::Setup& setup, const registry::Registry& registry
   return j;
 }
 
+/// Outer radius of the pulley that a belt goes round [m]; 0 where the shape has none.
+double pulley_radius(const ModelChoice& shape) {
+  double radius = 0.0;
+  for (const auto& kind : bodies::shape_catalogue()) {
+    if (kind.name != shape.name || kind.name != "conveyor") continue;
+    for (std::size_t n = 0; n < shape.values.size() && n < kind.parameters.size(); ++n) {
+      const std::string& name = kind.parameters[n].name;
+      const auto* value = std::get_if<double>(&shape.values[n]);
+      if (value != nullptr && (name == "radius" || name == "thickness")) radius += *value;
+    }
+  }
+  return radius;
+}
+
 /// Level bodies whose surface moves at one speed: the start of a free flight.
 Json belts_json(const scenario::Setup& setup, const registry::Registry& registry) {
   Json list = Json::array();
@@ -70,7 +86,10 @@ Json belts_json(const scenario::Setup& setup, const registry::Registry& registry
         const auto& p = entry->info.parameters[n];
         const auto* speed = std::get_if<double>(&motion.values[n]);
         if (p.name == "speed" && p.dimension == sdk::dimension::velocity && speed != nullptr) {
-          list.push_back({{"name", body.name}, {"speed", *speed}});
+          Json belt = {{"name", body.name}, {"speed", *speed}};
+          if (const double radius = pulley_radius(body.shape); radius > 0.0)
+            belt["radius"] = radius;
+          list.push_back(std::move(belt));
         }
       }
     }

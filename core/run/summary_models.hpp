@@ -14,7 +14,7 @@ nlohmann::ordered_json plugins_json(const scenario::Setup& setup,
                                     const registry::Registry& registry);
 
 /// Where things are, for pictures: {"domain": {"min", "max"}, "sides": [{"name", "grains", "air"}],
-/// "belts": level bodies with a surface speed [{"name", "speed"}],
+/// "belts": level bodies with a surface speed [{"name", "speed", "radius" of a pulley}],
 /// "emitters" and "sensors": [{"name", "model", "what", "min", "max" | "at"}]}, in m and in the
 /// domain's frame. A model without a place has neither.
 nlohmann::ordered_json setting_json(const scenario::Setup& setup,

@@ -54,7 +54,7 @@ std::string crossing(const CalibrationAnswer& a) {
   plot.region_level = l.region_level;
   for (const auto& place : a.calibration.places) plot.points.push_back({place[0], place[1]});
   plot.best = {a.calibration.estimates[0].best, a.calibration.estimates[1].best};
-  return "<figure style=\"max-width:640px\">" + svg_contours(plot) +
+  return "<figure style=\"max-width:640px;margin-top:28px\">" + svg_contours(plot) +
          "<figcaption><b>Where the contours cross.</b> Thick: where the surrogate meets a target; "
          "thin: one standard error to either side. Shaded: the confidence region of " +
          number_html(100.0 * a.settings.confidence) +
@@ -135,10 +135,11 @@ std::string calibration_html(const CalibrationAnswer& a) {
     return text + "<p class=\"banner\">Not enough runs finished for an answer.</p></section>\n";
   }
   const bool is_good = a.calibration.is_met && a.calibration.is_pinned;
+  text += is_good ? "<div>" : "<div class=\"banner\">";
   for (const std::string& statement : a.calibration.statements) {
-    text += std::string("<p") + (is_good ? "" : " class=\"banner\"") + ">" +
-            escape_html(statement) + "</p>\n";
+    text += "<p>" + escape_html(with_true_signs(statement)) + "</p>\n";
   }
+  text += "</div>\n";
   text += estimates_table(a) + targets_table(a);
   if (a.settings.parameters.size() == 1) text += curves(a);
   if (a.settings.parameters.size() == 2) text += crossing(a);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 
 namespace dust::study {
@@ -93,6 +94,20 @@ void fit_line(const std::vector<LevelMean>& levels, MainEffect& effect) {
 
 }  // namespace
 
+std::string amount_text(double value, double error, const std::string& unit) {
+  std::string text;
+  if (error > 0.0 && std::isfinite(error)) {
+    // Two digits of the error, and the value cut at the same place.
+    const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(error))));
+    char both[80];
+    std::snprintf(both, sizeof both, "%.*f +- %.*f", decimals, value, decimals, error);
+    text = both;
+  } else {
+    text = short_number(value);
+  }
+  return unit.empty() || unit == "1" ? text : text + " " + unit;
+}
+
 std::optional<double> noise_of(const Results& results, std::size_t output) {
   std::map<std::vector<std::size_t>, std::vector<double>> groups;
   double squares = 0.0;
@@ -166,9 +181,7 @@ Verdict judge(const Expectation& e, const Spec& spec, const Results& results) {
   }
   const double wanted = e.then == "rises" ? 1.0 : -1.0;
   const std::string unit = results.plan.outputs[found->output].unit;
-  std::string size = short_number(verdict.change);
-  if (verdict.error >= 0.0) size += " +- " + short_number(verdict.error);
-  if (unit != "1") size += " " + unit;
+  const std::string size = amount_text(verdict.change, verdict.error, unit);
   if (verdict.error >= 0.0 && std::abs(verdict.change) <= k_clear * verdict.error) {
     verdict.kind = Verdict::Kind::unresolved;
     verdict.text = "not told from noise: " + size;

@@ -261,13 +261,18 @@ void conclude(const CalibrationSettings& settings, Calibration& c) {
     c.statements.push_back("The region has " + std::to_string(pieces) +
                            " separate pieces: different sets of values fit.");
   }
+  std::string text = "At the likeliest values";
+  for (std::size_t d = 0; d < dimensions; ++d) {
+    const Freedom& p = settings.parameters[d];
+    text += (d == 0 ? " (" : ", ") + p.name + " = " + with_unit(c.estimates[d].best, p.unit);
+  }
   for (std::size_t g = 0; g < settings.goals.size(); ++g) {
     const Goal& goal = settings.goals[g];
-    c.statements.push_back("There, " + goal.name + " is expected at " +
-                           with_unit(c.at_best[g].mean, goal.unit) + " (target " +
-                           with_unit(goal.value, goal.unit) + " +- " +
-                           with_unit(goal.error, goal.unit) + ").");
+    text += (g == 0 ? ") " : ", ") + goal.name + " is expected at " +
+            with_unit(c.at_best[g].mean, goal.unit) + " (target " +
+            with_unit(goal.value, goal.unit) + " +- " + with_unit(goal.error, goal.unit) + ")";
   }
+  c.statements.push_back(text + ".");
 }
 
 }  // namespace dust::study

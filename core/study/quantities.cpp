@@ -52,6 +52,8 @@ constexpr Named k_always[] = {
     {"health.entries_waiting", "1"},
     {"health.late_neighbour_lists", "1"},
     {"health.largest_overlap_over_radius", "1"},
+    {"health.largest_overlap_over_radius_coarse", "1"},
+    {"health.largest_overlap_over_radius_fine", "1"},
     {"frames", "1"},
 };
 constexpr Named k_with_fluid[] = {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/study_report.hpp"
 
-#include "io/report_assets.hpp"
+#include "io/report_page.hpp"
 #include "io/report_text.hpp"
 #include "io/run_files.hpp"
 #include "study/effects.hpp"
@@ -11,12 +11,14 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 namespace dust::study {
 namespace {
 
 using io::escape_html;
 using io::number_html;
+using Json = nlohmann::json;
 
 std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() || unit == "1" ? name : name + ", " + unit;
@@ -26,6 +28,15 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 std::string short_name(const std::string& path) {
   const std::size_t dot = path.rfind('.');
   return dot == std::string::npos ? path : path.substr(dot + 1);
+}
+
+/// The name as a heading.
+std::string title_of(const Spec& spec) {
+  std::string title = io::words(spec.name);
+  if (!title.empty() && title[0] >= 'a' && title[0] <= 'z') {
+    title[0] = static_cast<char>(title[0] - 'a' + 'A');
+  }
+  return title;
 }
 
 std::size_t count_of(const Results& results, Status status) {
@@ -40,15 +51,14 @@ std::string header_html(const Spec& spec, const Results& results) {
   const std::size_t all = results.outcomes.size();
   double wall = 0.0;
   for (const Outcome& o : results.outcomes) wall += o.wall_s;
-  const char* look = finished == all ? "good" : "bad";
-  std::string text = "<header>\n<p class=\"eyebrow\"><span>Study</span><span class=\"status ";
-  text += std::string(look) + "\">" + std::to_string(finished) + " of " + std::to_string(all) +
-          " runs finished</span><span>dust " DUST_VERSION
-          "</span><button type=\"button\" id=\"theme\" class=\"screen\" hidden>Dark</button></p>\n";
-  text += "<h1>" + escape_html(io::words(spec.name)) + "</h1>\n<p class=\"lede\">" +
-          escape_html(spec.title.empty() ? "Variations of " + spec.base.filename().string() + "."
-                                         : spec.title) +
-          "</p>\n<dl class=\"tiles\">\n";
+  std::string text =
+      "<header>\n" +
+      io::heading_html("Study", spec.name, finished == all ? "finished" : "not finished",
+                       title_of(spec)) +
+      "<p class=\"lede\">" +
+      escape_html(spec.title.empty() ? "Variations of " + spec.base.filename().string() + "."
+                                     : spec.title) +
+      "</p>\n<dl class=\"tiles\">\n";
   const auto tile = [&](const char* name, const std::string& value, const std::string& below) {
     text += std::string("<div class=\"tile\"><dt>") + name + "</dt><dd><b>" + value + "</b><span>" +
             below + "</span></dd></div>\n";
@@ -56,10 +66,11 @@ std::string header_html(const Spec& spec, const Results& results) {
   tile("Runs", std::to_string(all),
        std::to_string(results.plan.inputs.size()) + " inputs, " +
            std::to_string(results.plan.outputs.size()) + " outputs");
-  tile("Finished", std::to_string(finished),
+  tile("Finished", std::to_string(finished) + " of " + std::to_string(all),
        failed == 0 ? "none failed" : std::to_string(failed) + " failed");
   tile("Time of all runs", io::duration_html(wall), "one after the other");
-  tile("Base", escape_html(spec.base.stem().string()), escape_html(spec.base.generic_string()));
+  tile("Base", escape_html(spec.base.stem().string()),
+       escape_html(spec.base.lexically_proximate(spec.file.parent_path()).generic_string()));
   return text + "</dl>\n</header>\n";
 }
 
@@ -74,15 +85,15 @@ std::string expectations_html(const Spec& spec, const Results& results) {
     const bool is_bad = verdict.kind == Verdict::Kind::against;
     as_expected += is_good ? 1 : 0;
     against += is_bad ? 1 : 0;
-    rows += "<tr><td>" + escape_html(io::words(e.output)) + " " + escape_html(e.then) +
-            "</td><td>" +
-            escape_html(e.from.empty() ? "with " + e.input : "from " + e.from + " to " + e.to) +
-            "</td><td>" +
-            (is_good  ? "<strong class=\"good\">"
-             : is_bad ? "<strong class=\"wrong\">"
-                      : "<span>") +
-            escape_html(verdict.text) + (is_good || is_bad ? "</strong>" : "</span>") +
-            "</td><td>" + escape_html(e.why) + "</td></tr>\n";
+    rows +=
+        "<tr><td>" + escape_html(io::words(e.output)) + " " + escape_html(e.then) + "</td><td>" +
+        escape_html(e.from.empty() ? "with " + e.input : "from " + e.from + " to " + e.to) +
+        "</td><td>" +
+        (is_good  ? "<strong class=\"good\">"
+         : is_bad ? "<strong class=\"wrong\">"
+                  : "<span>") +
+        escape_html(with_true_signs(verdict.text)) + (is_good || is_bad ? "</strong>" : "</span>") +
+        "</td><td>" + escape_html(e.why) + "</td></tr>\n";
   }
   return "<section id=\"expectations\"><h2>Expected signs</h2>\n<p>" + std::to_string(as_expected) +
          " of " + std::to_string(spec.expectations.size()) + " are as expected, " +
@@ -93,66 +104,138 @@ std::string expectations_html(const Spec& spec, const Results& results) {
          rows + "</tbody></table></div></section>\n";
 }
 
-std::string effect_figure(const MainEffect& effect, const Results& results) {
-  const InputColumn& input = results.plan.inputs[effect.input];
+/// "Change over the levels: 60.33 \u00b1 0.10 mm"
+std::string change_text(const MainEffect& effect, const OutputColumn& output) {
+  const std::string over = effect.is_scattered ? "the range (fitted line): " : "the levels: ";
+  return "Change over " + over + amount_text(effect.change, effect.error, output.unit) + ".";
+}
+
+/// Names beside means with their errors.
+std::string rows_figure(const MainEffect& effect, const Results& results) {
   const OutputColumn& output = results.plan.outputs[effect.output];
-  std::string picture;
-  if (input.is_text) {
-    RowPlot plot{with_unit(output.name, output.unit), {}, {}, {}};
-    for (const LevelMean& l : effect.levels) {
-      plot.names.push_back(l.label);
-      plot.values.push_back(l.mean);
-      plot.errors.push_back(l.error);
-    }
-    picture = svg_rows(plot);
-  } else {
-    Marks single;
-    single.colour = "--tone3";
-    single.radius = 2.2;
-    Marks means;
-    means.has_line = !effect.is_scattered;
-    for (const LevelMean& l : effect.levels) {
-      means.x.push_back(l.input);
-      means.y.push_back(l.mean);
-      means.error.push_back(effect.is_scattered ? -1.0 : l.error);
-    }
-    for (std::size_t n = 0; n < results.outcomes.size() && !effect.is_scattered; ++n) {
-      const Outcome& o = results.outcomes[n];
-      if (effect.output >= o.outputs.size() || !o.outputs[effect.output].value) continue;
-      single.x.push_back(results.plan.points[n].inputs[effect.input].number);
-      single.y.push_back(*o.outputs[effect.output].value);
-    }
-    picture = svg_xy(
-        {with_unit(input.name, input.unit), with_unit(output.name, output.unit), {single, means}});
+  RowPlot plot{with_unit(output.name, output.unit), {}, {}, {}};
+  for (const LevelMean& l : effect.levels) {
+    plot.names.push_back(l.label);
+    plot.values.push_back(l.mean);
+    plot.errors.push_back(l.error);
   }
-  std::string change = number_html(effect.change);
-  if (effect.error >= 0.0) change += " \u00b1 " + number_html(effect.error, 2);
-  return "<figure>" + picture + "<figcaption><b>" + escape_html(io::words(output.name)) +
-         "</b> against " + escape_html(io::words(short_name(input.name))) + ". Change over the " +
-         (effect.is_scattered ? "range (fitted line): " : "levels: ") + change +
-         (output.unit == "1" ? "" : "\u202f" + escape_html(output.unit)) +
+  return "<figure>" + svg_rows(plot) + "<figcaption><b>" + escape_html(io::words(output.name)) +
+         "</b> against " +
+         escape_html(io::words(short_name(results.plan.inputs[effect.input].name))) +
          ".</figcaption></figure>\n";
 }
 
-std::string effects_html(const Spec& spec, const Results& results) {
+/// What the other inputs were, for the legend.
+std::string others_of(const Results& results, const Point& point, std::size_t axis) {
+  std::string text;
+  for (std::size_t k = 0; k < results.plan.inputs.size(); ++k) {
+    const InputColumn& c = results.plan.inputs[k];
+    if (c.axis == axis) continue;
+    text += (text.empty() ? "" : ", ") + short_name(c.name) + " " + point.inputs[k].text +
+            (c.unit.empty() || c.unit == "1" ? "" : " " + c.unit);
+  }
+  return text;
+}
+
+/// One line per combination of the other inputs, means of replicates: shows whether they matter.
+/// Empty where there is one combination only, or more than a reader tells apart.
+Json lines_of_others(const MainEffect& effect, const Results& results) {
+  constexpr std::size_t k_most = 5;
+  const std::size_t axis = results.plan.inputs[effect.input].axis;
+  struct Sum {
+    double sum = 0.0, count = 0.0;
+  };
+  std::map<std::vector<std::size_t>, std::pair<std::string, std::map<double, Sum>>> groups;
+  for (std::size_t n = 0; n < results.outcomes.size(); ++n) {
+    const Outcome& o = results.outcomes[n];
+    if (effect.output >= o.outputs.size() || !o.outputs[effect.output].value) continue;
+    const Point& point = results.plan.points[n];
+    std::vector<std::size_t> key = point.levels;
+    if (axis < key.size()) key[axis] = 0;
+    auto& [name, line] = groups[key];
+    name = others_of(results, point, axis);
+    Sum& at = line[point.inputs[effect.input].number];
+    at.sum += *o.outputs[effect.output].value;
+    at.count += 1.0;
+  }
+  Json lines = Json::array();
+  if (groups.size() < 2 || groups.size() > k_most) return lines;
+  for (const auto& [key, group] : groups) {
+    Json line = {{"name", group.first}, {"x", Json::array()}, {"y", Json::array()}};
+    for (const auto& [x, sum] : group.second) {
+      line["x"].push_back(x);
+      line["y"].push_back(sum.sum / sum.count);
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+/// A plot for Page: the means with one standard error to either side, and the lines behind them.
+Json effect_plot(const MainEffect& effect, const Results& results) {
+  const InputColumn& input = results.plan.inputs[effect.input];
+  const OutputColumn& output = results.plan.outputs[effect.output];
+  Json mean = {{"name", effect.is_scattered ? "runs" : "mean"},
+               {"x", Json::array()},
+               {"y", Json::array()},
+               {"low", Json::array()},
+               {"high", Json::array()}};
+  if (effect.is_scattered) mean["kind"] = "points";
+  mean["width"] = 3.0;
+  bool has_errors = true;
+  double last = 0.0;
+  for (const LevelMean& l : effect.levels) {
+    // A plot needs one value per place.
+    if (!mean["x"].empty() && l.input <= last) continue;
+    last = l.input;
+    has_errors = has_errors && l.error >= 0.0;
+    mean["x"].push_back(l.input);
+    mean["y"].push_back(l.mean);
+    mean["low"].push_back(l.mean - l.error);
+    mean["high"].push_back(l.mean + l.error);
+  }
+  if (!has_errors || effect.is_scattered) {
+    mean.erase("low");
+    mean.erase("high");
+  }
+  Json lines = Json::array({mean});
+  if (!effect.is_scattered) {
+    for (Json& line : lines_of_others(effect, results)) lines.push_back(std::move(line));
+  }
+  return {{"title", output.name},
+          {"x_label", with_unit(io::words(short_name(input.name)), input.unit)},
+          {"y_label", lines.size() > 1 ? "mean, and each combination of the other inputs" : "mean"},
+          {"unit", output.unit == "1" ? "" : output.unit},
+          {"note", with_true_signs(change_text(effect, output))},
+          {"lines", lines}};
+}
+
+std::string effects_html(const Spec& spec, const Results& results, Json& plots) {
+  plots = Json::object();
   const auto effects = main_effects(spec, results);
   if (effects.empty()) return {};
   std::string text =
       "<section id=\"effects\"><h2>Main effects</h2>\n<p>Each mark is the mean over all finished "
-      "runs with that level, whatever the other inputs were; faint marks are single runs. Bars: "
-      "one "
-      "standard error, from replicates where there are any, otherwise from what the sensors tell "
-      "of "
-      "themselves.</p>\n";
+      "runs with that level, whatever the other inputs were. Errors: from replicates where there "
+      "are any, otherwise from what the sensors tell of themselves.</p>\n";
   for (std::size_t o = 0; o < results.plan.outputs.size(); ++o) {
-    std::string figures;
+    std::string rows;
+    Json drawn = Json::array();
     for (const MainEffect& e : effects) {
-      if (e.output == o) figures += effect_figure(e, results);
+      if (e.output != o) continue;
+      if (results.plan.inputs[e.input].is_text) {
+        rows += rows_figure(e, results);
+      } else {
+        drawn.push_back(effect_plot(e, results));
+      }
     }
-    if (figures.empty()) continue;
+    if (rows.empty() && drawn.empty()) continue;
     const OutputColumn& c = results.plan.outputs[o];
+    const std::string name = "output-" + std::to_string(o);
     text += "<h3>" + escape_html(io::words(c.name)) + " <small>" + escape_html(c.quantity) +
-            "</small></h3>\n<div class=\"grid\">\n" + figures + "</div>\n";
+            (c.minus.empty() ? "" : " \u2212 " + escape_html(c.minus)) +
+            "</small></h3>\n<div class=\"grid\" data-plots=\"" + name + "\">\n" + rows + "</div>\n";
+    plots[name] = std::move(drawn);
   }
   return text + "</section>\n";
 }
@@ -211,50 +294,31 @@ std::string provenance_html(const Spec& spec) {
          escape_html(text) + "</pre></details></section>\n";
 }
 
-/// The theme follows the reader's system until the button is pressed; paper is light.
-constexpr const char* k_script =
-    "(() => {\n"
-    "  const root = document.documentElement, button = document.getElementById('theme');\n"
-    "  const system = window.matchMedia('(prefers-color-scheme: dark)');\n"
-    "  let chosen = null;\n"
-    "  const show = (theme) => {\n"
-    "    root.dataset.theme = theme;\n"
-    "    button.textContent = theme === 'dark' ? 'Light' : 'Dark';\n"
-    "  };\n"
-    "  const now = () => chosen || (system.matches ? 'dark' : 'light');\n"
-    "  button.hidden = false;\n"
-    "  show(now());\n"
-    "  system.addEventListener('change', () => show(now()));\n"
-    "  button.addEventListener('click', () => {\n"
-    "    chosen = now() === 'dark' ? 'light' : 'dark';\n"
-    "    show(chosen);\n"
-    "  });\n"
-    "  window.addEventListener('beforeprint', () => show('light'));\n"
-    "  window.addEventListener('afterprint', () => show(now()));\n"
-    "  root.dataset.drawn = 'yes';\n"
-    "})();\n";
-
 }  // namespace
+
+std::string with_true_signs(std::string text) {
+  for (std::size_t at = 0; at + 1 < text.size(); ++at) {
+    const bool is_first = at == 0 || text[at - 1] == ' ';
+    if (is_first && text[at] == '-' && text[at + 1] >= '0' && text[at + 1] <= '9') {
+      text.replace(at, 1, "\u2212");
+    }
+  }
+  for (auto at = text.find("+-"); at != std::string::npos; at = text.find("+-", at)) {
+    text.replace(at, 2, "\u00b1");
+  }
+  return text;
+}
 
 void write_study_report(const std::filesystem::path& file, const Spec& spec, const Results& results,
                         const CalibrationAnswer* answer) {
-  std::string text =
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
-      "'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"generator\" content=\"dust " DUST_VERSION "\">\n<title>" +
-      escape_html(io::words(spec.name)) + " \u2013 study report</title>\n<style>";
-  text += io::report_asset("report.css");
-  text += "</style>\n</head>\n<body>\n<main>\n" + header_html(spec, results);
-  if (answer != nullptr) text += calibration_html(*answer);
-  text += expectations_html(spec, results) + effects_html(spec, results) + points_html(results) +
-          provenance_html(spec);
-  text += "<footer>Written by dust " DUST_VERSION
-          ". This page is complete in itself and asks no other machine for anything.</footer>\n"
-          "</main>\n<script>" +
-          std::string(k_script) + "</script>\n</body>\n</html>\n";
-  io::write_text(file, text);
+  io::Page page;
+  page.title = title_of(spec);
+  page.kind = "study report";
+  page.body = header_html(spec, results);
+  if (answer != nullptr) page.body += calibration_html(*answer);
+  page.body += expectations_html(spec, results) + effects_html(spec, results, page.data["plots"]) +
+               points_html(results) + provenance_html(spec) + io::footer_html(DUST_VERSION);
+  io::write_text(file, io::page_html(page));
 }
 
 }  // namespace dust::study

@@ -20,6 +20,9 @@ struct CalibrationAnswer {
 void write_study_report(const std::filesystem::path& file, const Spec& spec, const Results& results,
                         const CalibrationAnswer* answer);
 
+/// A sentence for a terminal as it is printed: "+-" becomes a sign.
+std::string with_true_signs(std::string text);
+
 /// The section of a calibration.
 std::string calibration_html(const CalibrationAnswer& answer);
 

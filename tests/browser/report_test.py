@@ -50,22 +50,34 @@ def drawn(chromium, page, profile):
 
 
 class Document(html.parser.HTMLParser):
-    """Ids, text by element, the attributes of the root, and what would be fetched."""
+    """Ids, text by element, the attributes of the root, what would be fetched, and sections with
+    nothing but their heading."""
 
     def __init__(self):
         super().__init__()
         self.root, self.ids, self.fetched, self.rows = {}, set(), [], []
         self.cells, self.in_cell = None, False
+        self.text, self.empty, self.silent = "", [], None
+        self.section, self.in_heading = None, False  # section: [name, has content]
 
     def handle_starttag(self, tag, attributes):
         attributes = dict(attributes)
         if tag == "html":
             self.root = attributes
+        if tag in ("script", "style"):
+            self.silent = tag
+        if tag == "section" and "hidden" not in attributes:
+            self.section = [attributes.get("id", "?"), False]
+        if tag == "h2":
+            self.in_heading = True
+        if tag in ("canvas", "path", "rect", "circle") and self.section:
+            self.section[1] = True
         if "id" in attributes:
             self.ids.add(attributes["id"])
         for key in ("src", "href", "data", "poster", "srcset"):
             value = attributes.get(key)
-            if value and not value.startswith(("#", "data:")):
+            # A link is followed by the reader, not fetched by the page.
+            if value and tag != "a" and not value.startswith(("#", "data:")):
                 self.fetched.append(f"<{tag} {key}={value}>")
         if tag == "tr":
             self.cells = []
@@ -74,6 +86,14 @@ class Document(html.parser.HTMLParser):
             self.in_cell = True
 
     def handle_endtag(self, tag):
+        if tag == self.silent:
+            self.silent = None
+        if tag == "h2":
+            self.in_heading = False
+        if tag == "section" and self.section:
+            if not self.section[1]:
+                self.empty.append(self.section[0])
+            self.section = None
         if tag in ("td", "th"):
             self.in_cell = False
         if tag == "tr" and self.cells is not None:
@@ -81,6 +101,10 @@ class Document(html.parser.HTMLParser):
             self.cells = None
 
     def handle_data(self, data):
+        if not self.silent:
+            self.text += data
+            if self.section and not self.in_heading and data.strip():
+                self.section[1] = True
         if self.in_cell and self.cells:
             self.cells[-1] += data
 
@@ -100,6 +124,9 @@ def check_page(chromium, page):
     check(document.root.get("data-drawn") == "yes", f"{name}: the scripts did not come to their end")
     check(not console, f"{name}: the console says {console}")
     check(not document.fetched, f"{name} would fetch {document.fetched}")
+    check(not document.empty, f"{name}: nothing in the sections {document.empty}")
+    odd = re.search(r".{0,40}\b(nan|NaN|undefined|null|Infinity)\b.{0,40}", document.text)
+    check(not odd, f"{name} says '{odd.group(0) if odd else ''}'")
     check(page.stat().st_size < MOST_BYTES, f"{name} has {page.stat().st_size} bytes")
     return text, document
 
@@ -148,6 +175,10 @@ def main():
         check("emitters.feed.begin" in table, f"the comparison does not tell the difference:\n{table}")
         text, document = check_page(chromium, both)
         check(text.count("<canvas") >= 3, "the comparison shows no pictures")
+        run(engine, "study", source / "tests/study/drop_study.yaml", "-o", folder / "study", "--quiet")
+        text, document = check_page(chromium, folder / "study" / "report.html")
+        check(text.count("<canvas") >= 3, "the study shows no effects")
+        check(document.text.count("finished") >= 8, "the study does not list its points")
 
 
 main()

@@ -50,7 +50,7 @@ Dust.number = (value, digits = 4) => {
   return String(+value.toPrecision(digits)).replace('-', '−');
 };
 Dust.count = (value) => String(value).replace(/\B(?=(\d{3})+$)/g, '\u202f');
-Dust.words = (name) => String(name).replace(/_/g, ' ').replace(/ um(?=$|\W)/g, ' µm').replace(/(\w)\/(\w)/g, '$1 / $2');
+Dust.words = (name) => String(name).replace(/_/g, ' ').replace(/ um(?=$|\W)/g, ' µm').replace(/(\w)\/([a-z]{3,})/g, '$1 / $2');  // m/s stays
 Dust.sentence = (name) => Dust.words(name).replace(/^./, (c) => c.toUpperCase());
 
 // The unit that reads best for numbers up to `largest`: {factor, unit}.

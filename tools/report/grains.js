@@ -164,7 +164,8 @@ Dust.grains = (() => {
       take: () => {
         current = frames[0];
         before = frames.slice(1);
-        count.textContent = `At ${Dust.number(current.t)} s: ${Dust.count(current.all)} computed grains, of them ${Dust.count(current.dust)} dust grains shown.`;
+        count.textContent = `At ${Dust.number(current.t)} s: ${Dust.count(current.all)} computed grains` +
+          (set.classes.some((d) => d < set.dust_below) ? `, of them ${Dust.count(current.dust)} dust grains shown.` : '.');
       },
       draw: () => picture.draw(),
     };

@@ -46,7 +46,7 @@
         const colour = is_reference ? Dust.colour('soft') : ink_of(inks++);
         const few = line.x.length < 40;
         const at = series.length;
-        series.push({label: line.name, stroke: colour, width: is_points ? 0 : 1.6, spanGaps: false,
+        series.push({label: line.name, stroke: colour, width: is_points ? 0 : line.width || 1.6, spanGaps: false,
           dash: is_reference ? [6, 4] : undefined, points: {show: is_points || (few && !is_reference), size: is_points ? 7 : 5, fill: colour}});
         if (line.low) {
           series.push({stroke: 'transparent', width: 0, points: {show: false}}, {stroke: 'transparent', width: 0, points: {show: false}});
@@ -84,7 +84,14 @@
     new ResizeObserver(() => requestAnimationFrame(fit)).observe(holder);
   };
 
+  // Numbers in SI units, in the unit that reads best.
+  const readable = (plot) => {
+    const sizes = plot.lines.flatMap((line) => line.y).filter(Number.isFinite).map(Math.abs);
+    const scale = Dust.scale(plot.unit || '', sizes.reduce((a, b) => Math.max(a, b), 0));
+    const shown = (list) => list && list.map((v) => (v === null ? null : v / scale.factor));
+    return {...plot, unit: scale.unit, lines: plot.lines.map((line) => ({...line, y: shown(line.y), low: shown(line.low), high: shown(line.high)}))};
+  };
   for (const grid of document.querySelectorAll('[data-plots]')) {
-    for (const plot of (Dust.data.plots || {})[grid.dataset.plots] || []) Dust.plot(grid, plot);
+    for (const plot of (Dust.data.plots || {})[grid.dataset.plots] || []) Dust.plot(grid, readable(plot));
   }
 })();

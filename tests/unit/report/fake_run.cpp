@@ -152,17 +152,19 @@ void RunFolder::write_tracks(const std::vector<std::vector<FakeGrain>>& frames) 
   const hid_t file =
       H5Fcreate((path_ / "results.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   for (std::size_t frame = 0; frame < frames.size(); ++frame) {
-    std::vector<float> position, diameter;
+    std::vector<float> position, velocity, diameter;
     std::vector<std::int64_t> id;
     for (const FakeGrain& grain : frames[frame]) {
       position.insert(position.end(),
                       {static_cast<float>(grain.x), 0.0F, static_cast<float>(grain.z)});
+      velocity.insert(velocity.end(), {static_cast<float>(grain.speed), 0.0F, 0.0F});
       diameter.push_back(static_cast<float>(grain.diameter));
       id.push_back(grain.id);
     }
     const std::string path = frame_name("/particles", static_cast<int>(frame));
     const auto n = static_cast<hsize_t>(id.size());
     put(file, path + "/position", H5T_NATIVE_FLOAT, {n, 3}, position);
+    put(file, path + "/velocity", H5T_NATIVE_FLOAT, {n, 3}, velocity);
     put(file, path + "/diameter", H5T_NATIVE_FLOAT, {n}, diameter);
     put(file, path + "/id", H5T_NATIVE_INT64, {n}, id);
     put_attribute(file, path, "time", {0.1 * static_cast<double>(frame)});

@@ -21,6 +21,7 @@ struct FakeRun {
 struct FakeGrain {
   std::int64_t id = 0;
   double diameter = 0.0, x = 0.0, z = 0.0;  ///< [m]
+  double speed = 0.0;                       ///< [m/s] along x
 };
 
 /// The summary of a finished run with two sensors.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fake_run.hpp"
 #include "io/report.hpp"
+#include "io/report_fast_dust.hpp"
 
 #include <doctest/doctest.h>
 
@@ -145,6 +146,43 @@ TEST_CASE("limits of validity that a run went beyond shall be counted") {
   CHECK(has(first_screen(folder), "No limit of validity touched"));
 }
 
+TEST_CASE("overlaps of coarse and of fine grains shall be told apart") {
+  const RunFolder folder;
+  json summary = run_with_openings();
+  summary["health"] = {{"largest_overlap_over_radius", 0.02},
+                       {"largest_overlap_over_radius_coarse", 0.02},
+                       {"largest_overlap_over_radius_fine", 0.0}};
+  folder.write("summary.json", summary.dump());
+  CHECK(has(first_screen(folder), "No limit of validity touched"));
+  CHECK_FALSE(has(folder.read("report.html"), "smaller radius, fine grains"));
+  summary["health"]["largest_overlap_over_radius_fine"] = 1.4;
+  folder.write("summary.json", summary.dump());
+  CHECK(has(first_screen(folder), "1 limit of validity touched"));
+  const std::string page = folder.read("report.html");
+  CHECK(has(page, "smaller radius, fine grains"));
+  CHECK(has(page, "What an overlap of 1.4 radii means."));
+  CHECK(has(page, "What it does to the dust figures:"));
+}
+
+TEST_CASE("dust that was thrown shall be counted by what is faster than its carriers") {
+  const RunFolder folder;
+  folder.write("summary.json", run_with_openings().dump());
+  folder.write_tracks(
+      {{{1, 500e-6, 0.1, 0.2, 2.0}, {2, 10e-6, 0.1, 0.2, 2.3}},
+       {{1, 500e-6, 0.3, 0.2, 1.0}, {2, 10e-6, 0.3, 0.2, 9.0}, {3, 10e-6, 0.9, 0.9, 0.0}}});
+  const dust::io::H5Source source(folder.path() / "results.h5");
+  // 1.2 times the fastest coarse grain, 2 m/s; with faster air 1.2 times that.
+  const auto without_air = dust::io::fast_dust_of(source, 0.0);
+  CHECK(without_air.limit == doctest::Approx(2.4));
+  CHECK(without_air.fast == 1);
+  CHECK(without_air.all == 3);
+  CHECK(dust::io::fast_dust_of(source, 8.0).fast == 0);
+  // Stokes: 10 m/s for 2650 (10 um)^2 / (18 x 1.8e-5) s are 8.18 mm.
+  const std::string text = dust::io::crushed_dust_html(1.4, without_air, 10e-6, 2650.0, 1.8e-5);
+  CHECK(has(text, "within 8.179\u202f"));
+  CHECK(has(text, "1 of 3 dust grains"));
+}
+
 TEST_CASE("a run without dust shall have no questions about it") {
   const RunFolder folder;
   json summary = fake_summary();
@@ -174,4 +212,8 @@ TEST_CASE("published numbers shall stand beside those of the run") {
   CHECK(has(page, "2.5\u202f%"));
   CHECK(has(page, "<td class=\"n\">2</td>"));  // 1 deg over 0.5 deg
   CHECK(has(page, "a &lt;table&gt;"));
+  // And first of all.
+  const std::string screen = first_screen(folder);
+  CHECK(has(screen, "Slope mean angle"));
+  CHECK(has(screen, "published 40.00\u00a0\u00b1\u00a00.40"));
 }

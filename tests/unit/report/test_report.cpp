@@ -203,7 +203,7 @@ TEST_CASE("dust shall be summed over the openings and set against the dust in th
   const std::string page = page_of(folder);
   // Errors add in squares: 0.05. One part in a million is 1 g/t.
   CHECK(has(page, "0.400\u00a0\u00b1\u00a00.050\u202fg of dust per tonne"));
-  CHECK(has(page, "40\u202f% of the dust fed"));
+  CHECK(has(page, "40.0\u00a0\u00b1\u00a05.0\u202f% of the dust fed"));
   CHECK(has(page, "Is there at the end"));
   CHECK_FALSE(has(page, "9.0\u00a0\u00b1\u00a01.0\u202fg of dust"));
 }

@@ -95,6 +95,13 @@ TEST_CASE("expectations shall be judged by sign and noise") {
   CHECK(judge(e, made.spec, made.results()).kind == Verdict::Kind::unknown);
 }
 
+TEST_CASE("amounts shall be cut where their error allows") {
+  CHECK(amount_text(60.3345, 0.09865, "mm") == "60.334 +- 0.099 mm");
+  CHECK(amount_text(-3.5, 12.4, "1") == "-4 +- 12");
+  CHECK(amount_text(628.0, -1.0, "1") == "628");
+  CHECK(amount_text(0.123456, 0.0, "m") == "0.1235 m");
+}
+
 TEST_CASE("a scattered input shall be judged by a fitted line") {
   Spec spec;
   Axis sample{AxisKind::samples, {"p"}, std::vector<Level>(20), {}};

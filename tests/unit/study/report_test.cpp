@@ -68,3 +68,39 @@ TEST_CASE("the report of a calibration shall draw the crossing and ask no other 
   CHECK(text.find("nan ") == std::string::npos);
   CHECK(text.find("Mnan") == std::string::npos);
 }
+
+TEST_CASE("the report of a study shall draw every effect with the lines it is made of") {
+  Spec spec;
+  spec.name = "made";
+  spec.axes = {{AxisKind::values, {"belt.speed"}, std::vector<Level>(2), {}},
+               {AxisKind::values, {"belt.angle"}, std::vector<Level>(2), {}}};
+  Plan plan;
+  plan.inputs = {{"belt.speed", "m/s", false, 0}, {"belt.angle", "deg", false, 1}};
+  plan.outputs = {{"x", "sensors.s.x", "", "mm", 1.0, true}};
+  std::vector<Outcome> outcomes;
+  for (std::size_t s = 0; s < 2; ++s) {
+    for (std::size_t a = 0; a < 2; ++a) {
+      Point point;
+      point.levels = {s, a};
+      point.inputs = {{1.0 + static_cast<double>(s), std::to_string(s + 1)},
+                      {static_cast<double>(a), std::to_string(a)}};
+      plan.points.push_back(point);
+      Outcome outcome;
+      outcome.status = Status::finished;
+      outcome.outputs = {{10.0 * static_cast<double>(s) + static_cast<double>(a), 0.5}};
+      outcomes.push_back(outcome);
+    }
+  }
+  const fs::path file =
+      fs::temp_directory_path() / ("dust_study_effects_" + std::to_string(::getpid()) + ".html");
+  write_study_report(file, spec, {plan, outcomes}, nullptr);
+  const std::string text = text_of(file);
+  fs::remove(file);
+  CHECK(text.find("<h1>Made</h1>") != std::string::npos);
+  CHECK(text.find("data-plots=\"output-0\"") != std::string::npos);
+  // The mean over the angles, and a line per angle.
+  CHECK(text.find("\"angle 0 deg\"") != std::string::npos);
+  CHECK(text.find("\"angle 1 deg\"") != std::string::npos);
+  CHECK(text.find("\"y\":[0.5,10.5]") != std::string::npos);
+  CHECK(text.find("Change over the levels: 10.00 \\u00b1 0.50 mm.") != std::string::npos);
+}
