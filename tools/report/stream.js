@@ -40,7 +40,8 @@
         .filter((p) => Number.isFinite(p[0]) && Number.isFinite(p[1])).sort((a, b) => a[1] - b[1]);
       if (points.length) groups.get(key).lines.push({name: String(curve.series), kind: quantile(String(curve.series)), points});
     }
-    return [...groups.values()].filter((group) => group.lines.length);
+    // Zeros throughout: nothing had crossed when the run ended.
+    return [...groups.values()].filter((group) => group.lines.some((line) => line.points.some((p) => p[0] !== 0)));
   };
   const of_figures = () => {
     const lines = [['low', '5 %'], ['median', '50 %'], ['high', '95 %']].map(([kind, name]) => ({name, kind,
