@@ -37,8 +37,8 @@ std::optional<double> noise_of(const Results& results, std::size_t output);
 /// out.
 std::vector<MainEffect> main_effects(const Spec& spec, const Results& results);
 
-/// "60.334 +- 0.099 mm": the error with two digits, the value cut at the same place; without an error
-/// (0 or negative) four digits.
+/// "60.334 +- 0.099 mm": the error with two digits, the value cut at the same place; without an
+/// error (0 or negative) four digits.
 std::string amount_text(double value, double error, const std::string& unit);
 
 /// What came of an expectation.
