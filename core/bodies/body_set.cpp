@@ -150,6 +150,7 @@ Body make_body(const scenario::Setup& setup, const scenario::BodySpec& spec,
   body.name = spec.name;
   body.group = spec.group;
   body.material = spec.material;
+  body.suction = spec.suction;
   body.motions = std::move(motions);
   const auto& catalogue = shape_catalogue();
   const auto kind = std::find_if(catalogue.begin(), catalogue.end(),

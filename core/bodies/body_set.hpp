@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct Body {
   double frame_angle = 0.0;
   /// [m] Farthest point of the surface from the axis of each motion that turns the body.
   std::vector<double> arms;
+  std::optional<scenario::SuctionSpec> suction;
   /// [s] When it was taken away.
   double removed_at = std::numeric_limits<double>::infinity();
 

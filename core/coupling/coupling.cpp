@@ -552,6 +552,10 @@ void Coupling::check_diameters(std::span<const double> diameters) const {
   }
 }
 
+void Coupling::set_open_fraction(const fluid::CellField& open_fraction) {
+  impl_->lattice.set_open_fraction(open_fraction);
+}
+
 void Coupling::map(const particles::GrainRows& grains, double fluid_step) {
   impl_->map(grains, fluid_step);
 }

@@ -64,6 +64,9 @@ class Coupling {
   /// too large for the grid. map() finds the same later, as sdk::ModelError.
   void check_diameters(std::span<const double> diameters) const;
 
+  /// After bodies have moved, before map(): share of each cell outside them.
+  void set_open_fraction(const fluid::CellField& open_fraction);
+
   /// Throws sdk::ModelError if a grain is too large for the grid.
   void map(const particles::GrainRows& grains, double fluid_step);
   [[nodiscard]] const fluid::CellField& void_fraction_before() const;

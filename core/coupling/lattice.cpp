@@ -15,7 +15,7 @@ int wrap(int i, int n) { return ((i % n) + n) % n; }
 }  // namespace
 
 Lattice::Lattice(const fluid::Grid& grid, const fluid::CellField& open_fraction)
-    : grid_(grid), cell_volume_(grid.cell_volume()), open_cell_(open_fraction) {
+    : grid_(grid), cell_volume_(grid.cell_volume()) {
   for (int d = 0; d < 3; ++d) {
     inverse_spacing_[d] = 1.0 / grid.spacing[d];
     const int n = grid.count[d];
@@ -27,19 +27,24 @@ Lattice::Lattice(const fluid::Grid& grid, const fluid::CellField& open_fraction)
       homes_[d].push_back(((grid.is_periodic[d] ? wrap(i, n) : i) + pad) * grid.stride[d]);
     }
   }
+  set_open_fraction(open_fraction);
+}
+
+void Lattice::set_open_fraction(const fluid::CellField& open_fraction) {
+  open_cell_ = open_fraction;
   for (int d = 0; d < 3; ++d) {
-    open_face_[d].assign(grid.size, 0.0F);
-    for (int k = 0; k < grid.count[2]; ++k) {
-      for (int j = 0; j < grid.count[1]; ++j) {
-        for (int i = 0; i < grid.count[0]; ++i) {
+    open_face_[d].assign(grid_.size, 0.0F);
+    for (int k = 0; k < grid_.count[2]; ++k) {
+      for (int j = 0; j < grid_.count[1]; ++j) {
+        for (int i = 0; i < grid_.count[0]; ++i) {
           const std::array<int, 3> at{i, j, k};
           // A face on a side belongs to the boundary; the next one inside takes its part.
-          if (at[d] == 0 && !grid.is_periodic[d]) continue;
-          const double upper = open_cell_[grid.index(i, j, k)];
+          if (at[d] == 0 && !grid_.is_periodic[d]) continue;
+          const double upper = open_cell_[grid_.index(i, j, k)];
           const double lower = open_cell_[cell(i - (d == 0), j - (d == 1), k - (d == 2))];
           const double share = 0.5 * (lower + upper);
           if (share > k_closed_face) {
-            open_face_[d][grid.index(i, j, k)] = static_cast<float>(share);
+            open_face_[d][grid_.index(i, j, k)] = static_cast<float>(share);
           }
         }
       }
@@ -83,9 +88,21 @@ std::ptrdiff_t Lattice::nearest_open_cell(const double* position) const {
 }
 
 std::array<int, 3> Lattice::indices(std::ptrdiff_t cell) const {
-  const auto k = cell / grid_.stride[2];
-  const auto j = (cell - k * grid_.stride[2]) / grid_.stride[1];
-  const auto i = cell - k * grid_.stride[2] - j * grid_.stride[1];
+  // The longer stride first: which one it is depends on the grid.
+  std::ptrdiff_t j = 0;
+  std::ptrdiff_t k = 0;
+  std::ptrdiff_t i = cell;
+  if (grid_.stride[2] > grid_.stride[1]) {
+    k = i / grid_.stride[2];
+    i -= k * grid_.stride[2];
+    j = i / grid_.stride[1];
+    i -= j * grid_.stride[1];
+  } else {
+    j = i / grid_.stride[1];
+    i -= j * grid_.stride[1];
+    k = i / grid_.stride[2];
+    i -= k * grid_.stride[2];
+  }
   return {static_cast<int>(i) - fluid::Grid::k_margin, static_cast<int>(j) - fluid::Grid::k_halo,
           static_cast<int>(k) - fluid::Grid::k_halo};
 }

@@ -44,6 +44,9 @@ class Lattice {
  public:
   Lattice(const fluid::Grid& grid, const fluid::CellField& open_fraction);
 
+  /// After bodies have moved.
+  void set_open_fraction(const fluid::CellField& open_fraction);
+
   [[nodiscard]] const fluid::Grid& grid() const { return grid_; }
   [[nodiscard]] double cell_volume() const { return cell_volume_; }
   [[nodiscard]] double open_fraction(std::ptrdiff_t cell) const { return open_cell_[cell]; }

@@ -46,38 +46,46 @@ EddyStress::EddyStress(const Grid& grid, const Geometry& geometry, const Sides& 
       }
     });
   }
-  find_distances(bodies, start);
+  find_walls(start);
+  find_distances(bodies, 0.0);
 }
 
-void EddyStress::find_distances(const bodies::BodySet& bodies, const FaceField& start) {
-  const double reach = k_far * filter_width_;
-  std::array<bool, 6> is_wall{};
+void EddyStress::bodies_moved(const bodies::BodySet& bodies, double time) {
+  find_distances(bodies, time);
+}
+
+void EddyStress::find_walls(const FaceField& start) {
   for (int side = 0; side < 6; ++side) {
     const int d = side / 2;
     const int high = side % 2;
     const int e = (d + 1) % 3;
     const int f = (d + 2) % 3;
-    is_wall[side] = sides_.kinds().beyond(e, d, high) == Beyond::fixed;
-    for (int a = 0; a < grid_.count[e] && is_wall[side]; ++a) {
+    is_wall_[side] = sides_.kinds().beyond(e, d, high) == Beyond::fixed;
+    for (int a = 0; a < grid_.count[e] && is_wall_[side]; ++a) {
       for (int b = 0; b < grid_.count[f]; ++b) {
         const std::ptrdiff_t o = grid_.index(0, 0, 0) + a * grid_.stride[e] + b * grid_.stride[f] +
                                  high * grid_.count[d] * grid_.stride[d];
-        if (start.component[d][o] != 0.0) is_wall[side] = false;
+        if (start.component[d][o] != 0.0) is_wall_[side] = false;
       }
     }
   }
+}
+
+void EddyStress::find_distances(const bodies::BodySet& bodies, double time) {
+  const double reach = k_far * filter_width_;
   for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
     for (int i = 0; i < grid_.count[0]; ++i) {
       const sdk::Vec3 centre = grid_.centre(i, j, k);
       double least = std::numeric_limits<double>::infinity();
       for (int side = 0; side < 6; ++side) {
-        if (!is_wall[side]) continue;
+        if (!is_wall_[side]) continue;
         const int d = side / 2;
         const double end = grid_.origin[d] + (side % 2) * grid_.count[d] * grid_.spacing[d];
         least = std::min(least, std::abs(centre[d] - end));
       }
       for (const bodies::Body& body : bodies) {
-        const bodies::Placement at = body.placement(0.0);
+        if (body.is_removed()) continue;
+        const bodies::Placement at = body.placement(time);
         for (int part = 0; part < body.shape->parts(); ++part) {
           if (!body.is_within(part, centre, reach, at)) continue;
           least = std::min(least, std::max(0.0, body.nearest(centre, at).distance));

@@ -7,6 +7,8 @@
 #include "fluid/geometry.hpp"
 #include "fluid/sides.hpp"
 
+#include <array>
+
 namespace dust::fluid {
 
 /// Stress of the motion smaller than a cell, by the eddy viscosity of a model:
@@ -16,12 +18,14 @@ namespace dust::fluid {
 /// (0.2 h)^2 rho |S| the diffusion number is below 0.25 times the Courant number.
 class EddyStress {
  public:
-  /// Walls (bodies, sides at which the fluid sticks and through which none is blown at the start)
-  /// are those of the beginning. `start`: velocities with filled halos.
+  /// Walls among the sides (where the fluid sticks and none is blown through at the start) are
+  /// those of the beginning. `start`: velocities with filled halos.
   EddyStress(const Grid& grid, const Geometry& geometry, const Sides& sides,
              const FaceProperties& properties, const bodies::BodySet& bodies,
              const sdk::TurbulenceModel& model, const FaceField& start);
 
+  /// Distances from the bodies where they are at `time` [s].
+  void bodies_moved(const bodies::BodySet& bodies, double time);
   /// Eddy viscosity and force for a velocity with filled halos.
   void update(const FaceField& u);
   /// [Pa s] per cell; 0 in bodies.
@@ -30,7 +34,8 @@ class EddyStress {
   [[nodiscard]] const FaceField& force() const { return force_; }
 
  private:
-  void find_distances(const bodies::BodySet& bodies, const FaceField& start);
+  void find_walls(const FaceField& start);
+  void find_distances(const bodies::BodySet& bodies, double time);
   void find_viscosity(const FaceField& u);
   void force_row(const FaceField& u, int d, int j, int k);
 
@@ -40,7 +45,8 @@ class EddyStress {
   const FaceProperties& properties_;
   const sdk::TurbulenceModel& model_;
   double filter_width_ = 0.0;
-  CellField distance_;  ///< [m]
+  std::array<bool, 6> is_wall_{};  ///< sides
+  CellField distance_;             ///< [m]
   CellField density_;
   CellField molecular_;
   CellField rate_;  ///< [1/s]

@@ -31,7 +31,9 @@ using Boundaries = std::array<const sdk::BoundaryCondition*, 6>;
 /// an eddy viscosity,
 ///   d(eps)/dt + div(eps u) = 0
 ///   rho (du/dt + u . grad u) = -grad p + div tau - coefficient u + source  (Exchange).
-/// Owns velocity and pressure. Deterministic for any number of threads.
+/// Bodies that move shove it away; bodies with an opening suck it in. Owns velocity and pressure.
+/// Deterministic for any number of
+/// threads.
 class FluidSolver {
  public:
   FluidSolver(const Grid& grid, const scenario::FluidSpec& fluid, const bodies::BodySet& bodies,
@@ -58,18 +60,28 @@ class FluidSolver {
   /// fraction. Meaningful at faces that carry exchange. Not state: valid until the next step only.
   [[nodiscard]] const FaceField& drag_velocity() const;
   [[nodiscard]] const CellField& pressure() const;
-  /// Acceleration-free part -grad p + div tau [N/m3] at faces, of the last step.
+  /// Acceleration-free part -grad p + div tau [N/m3] at faces, of the last step. Found when first
+  /// asked for after a step: not from several threads at once.
   [[nodiscard]] const FaceField& stress_divergence() const;
   /// Share of a cell's volume outside all bodies, 0..1 (padded; halo cells as their neighbours).
   [[nodiscard]] const CellField& open_fraction() const;
   [[nodiscard]] const FluidReport& report() const;
+
+  /// Do bodies move through the grid, which is then cut anew in each step?
+  [[nodiscard]] bool has_moving_bodies() const;
+  /// Lets open_fraction() tell of `time` [s], the end of the coming step, so that void fractions
+  /// can be made for it. Nothing without moving bodies.
+  void look_ahead(double time);
+  /// After bodies were taken away: what they filled is fluid at once, without a rush into it.
+  void bodies_changed(double time);
 
   /// Sets the velocity from a function of place (initial conditions, tests) and makes it
   /// consistent.
   void set_velocity(const std::function<sdk::Vec3(sdk::Vec3)>& velocity);
 
   void save(sdk::ArchiveWriter& archive) const;
-  void load(sdk::ArchiveReader& archive);
+  /// `time` [s] of the checkpoint: where the bodies are.
+  void load(sdk::ArchiveReader& archive, double time);
 
  private:
   struct Impl;

@@ -1,31 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluid/geometry.hpp"
 
+#include "fluid/body_field.hpp"
 #include "fluid/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace dust::fluid {
 namespace {
 
 using sdk::Vec3;
 
-/// A point this close to a surface (in cells) counts as being on it, so inside the body.
-constexpr double k_on_surface = 1e-6;
-/// Openings smaller than this are closed, larger than one minus this are whole.
-constexpr double k_least_opening = 1e-4;
-/// Sub-boxes per direction in which an open share is measured.
-constexpr int k_sub_boxes = 8;
 /// Faces deeper inside a body (in cells) take the surface velocity itself.
 constexpr double k_ghost_depth = 2.6;
 
-struct Hit {
-  double distance = std::numeric_limits<double>::max();
-  Vec3 normal;
-  int body = -1;
-};
+/// Instants at which the shares of faces next to bodies that move are measured, per interval.
+constexpr int k_instants = 8;
+/// Distance from the surfaces (in cells) beyond which no thin body can come between two neighbours.
+constexpr double k_near = 1.8;
+
+using Hit = BodyField::Hit;
 
 struct Point {
   Vec3 place;
@@ -36,18 +33,29 @@ struct Point {
 class Builder {
  public:
   Builder(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
-          const FaceProperties& properties)
-      : grid_(grid), bodies_(bodies), sides_(sides), properties_(properties) {
-    smallest_ = 0.0;
-    for (int d = 0; d < 3; ++d) {
-      const double h = grid.spacing[d];
-      if (grid.count[d] > 1 && (smallest_ == 0.0 || h < smallest_)) smallest_ = h;
+          const FaceProperties& properties, Geometry::Interval interval, const Geometry* standing,
+          BodyField::Which which)
+      : grid_(grid),
+        bodies_(bodies),
+        sides_(sides),
+        properties_(properties),
+        standing_(standing),
+        field_(grid, bodies, interval.end, which) {
+    if (field_.has_movers()) {
+      smear_ = (interval.end - interval.begin) / k_instants;
+      for (int n = 0; n < k_instants; ++n) {
+        instants_.emplace_back(grid, bodies, interval.begin + (n + 0.5) * smear_, which);
+      }
     }
-    if (smallest_ == 0.0) smallest_ = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+    for (int d = 0; d < 3; ++d) {
+      if (grid.count[d] > 1) near_ = std::max(near_, k_near * grid.spacing[d]);
+    }
   }
 
   Geometry build() {
-    measure_openness();
+    measure_cells();
+    for (int d = 0; d < 3; ++d) measure_faces(d);
+    for (int d = 0; d < 3; ++d) find_parted(d);
     for (int d = 0; d < 3; ++d) find_unknowns(d);
     for (int d = 0; d < 3; ++d) {
       const auto& kind = g_.kind[d];
@@ -60,87 +68,117 @@ class Builder {
     return std::move(g_);
   }
 
- private:
-  [[nodiscard]] Hit nearest(Vec3 p) const {
-    Hit hit;
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      const auto s = bodies_[b].nearest(p);
-      if (s.distance < hit.distance) hit = {s.distance, s.normal, static_cast<int>(b)};
-    }
-    return hit;
-  }
-  [[nodiscard]] bool is_inside(Vec3 p) const {
-    return nearest(p).distance <= k_on_surface * smallest_;
-  }
-
-  /// Share of the box (edges `size`, 0 = flat) outside all bodies. Within a sub-box the surface is
-  /// taken as a plane that meets it in proportion to the distance: exact for planes along the grid.
-  /// `middle` receives the middle of the open part.
-  [[nodiscard]] double open_share(Vec3 centre, Vec3 size, Vec3* middle = nullptr) const {
-    const double reach = 0.5 * norm(size);
-    const double distance = nearest(centre).distance;
-    if (distance >= reach) return 1.0;
-    if (distance <= -reach) return 0.0;
-    std::array<int, 3> n{};
-    for (int d = 0; d < 3; ++d) n[d] = size[d] > 0.0 ? k_sub_boxes : 1;
-    double sum = 0.0;
-    Vec3 moment;
-    for (int c = 0; c < n[2]; ++c) {
-      for (int b = 0; b < n[1]; ++b) {
-        for (int a = 0; a < n[0]; ++a) {
-          const Vec3 p{centre.x + ((a + 0.5) / n[0] - 0.5) * size.x,
-                       centre.y + ((b + 0.5) / n[1] - 0.5) * size.y,
-                       centre.z + ((c + 0.5) / n[2] - 0.5) * size.z};
-          const Hit hit = nearest(p);
-          double width = 0.0;
-          for (int d = 0; d < 3; ++d) width += std::abs(hit.normal[d]) * size[d] / n[d];
-          double part = hit.distance > k_on_surface * smallest_ ? 1.0 : 0.0;
-          if (width > k_on_surface * smallest_) {
-            part = std::clamp(0.5 + hit.distance / width, 0.0, 1.0);
-          }
-          sum += part;
-          moment += part * (p - centre);
-        }
-      }
-    }
-    if (middle != nullptr && sum > 0.0) *middle = centre + moment / sum;
-    const double share = sum / (n[0] * n[1] * n[2]);
-    if (share < k_least_opening) return 0.0;
-    return share > 1.0 - k_least_opening ? 1.0 : share;
-  }
-
-  void measure_openness() {
+  void measure_cells() {
     const auto& n = grid_.count;
     g_.open_fraction.assign(grid_.size, 1.0);
-    g_.open_area = FaceField(grid_);
+    if (field_.is_empty()) return;
+    distance_.assign(grid_.size, 0.0);
+    const double reach = norm(grid_.spacing);
     for_rows(n[0] * 100, n[1], n[2], [&](int j, int k) {
       for (int i = 0; i < n[0]; ++i) {
-        g_.open_fraction[grid_.index(i, j, k)] =
-            bodies_.empty() ? 1.0 : open_share(grid_.centre(i, j, k), grid_.spacing);
+        const std::ptrdiff_t o = grid_.index(i, j, k);
+        const Vec3 centre = grid_.centre(i, j, k);
+        distance_[o] = field_.nearest(centre).distance;
+        g_.open_fraction[o] = is_as_standing(field_, centre, reach)
+                                  ? standing_->open_fraction[o]
+                                  : field_.open_share(centre, grid_.spacing);
       }
     });
-    for (int d = 0; d < 3; ++d) {
-      auto& e = g_.extent[d];
-      e = n;
-      if (!sides_.is_periodic[d]) e[d] += 1;
-      Vec3 size = grid_.spacing;
-      size[d] = 0.0;
-      for_rows(e[0] * 100, e[1], e[2], [&](int j, int k) {
-        for (int i = 0; i < e[0]; ++i) {
-          g_.open_area.component[d][grid_.index(i, j, k)] =
-              bodies_.empty() ? 1.0 : open_share(grid_.face(d, i, j, k), size);
+  }
+  CellField take_open_fraction() { return std::move(g_.open_fraction); }
+
+ private:
+  [[nodiscard]] Hit nearest(Vec3 p) const { return field_.nearest(p); }
+  [[nodiscard]] bool is_inside(Vec3 p) const { return field_.is_inside(p); }
+  [[nodiscard]] double wall_distance(Vec3 from, Vec3 to) const {
+    return field_.wall_distance(from, to);
+  }
+  /// Are the movers so far that what lies within `reach` of the point is as without them?
+  [[nodiscard]] bool is_as_standing(const BodyField& field, Vec3 p, double reach) const {
+    return standing_ != nullptr && field.distance_to_movers(p) > reach;
+  }
+
+  void measure_faces(int d) {
+    const auto& n = grid_.count;
+    auto& e = g_.extent[d];
+    e = n;
+    if (!sides_.is_periodic[d]) e[d] += 1;
+    auto& area = g_.open_area.component[d];
+    area.assign(grid_.size, 0.0);
+    closed_[d].assign(grid_.size, 0);
+    Vec3 size = grid_.spacing;
+    size[d] = 0.0;
+    const double reach = norm(grid_.spacing);
+    for_rows(e[0] * 100, e[1], e[2], [&](int j, int k) {
+      for (int i = 0; i < e[0]; ++i) {
+        const std::ptrdiff_t o = grid_.index(i, j, k);
+        const Vec3 centre = grid_.face(d, i, j, k);
+        bool is_still = true;
+        for (const BodyField& instant : instants_) {
+          is_still = is_still && is_as_standing(instant, centre, reach);
         }
-      });
+        is_still = is_still && (instants_.empty() || is_as_standing(field_, centre, reach));
+        double now = 1.0;
+        if (is_still && standing_ != nullptr) {
+          now = area[o] = standing_->open_area.component[d][o];
+        } else if (!field_.is_empty()) {
+          now = area[o] = field_.open_share(centre, size);
+          if (!instants_.empty() && smear_ > 0.0) {
+            double sum = 0.0;
+            for (const BodyField& instant : instants_) {
+              sum += instant.open_share(centre, size, nullptr, smear_);
+            }
+            area[o] = sum / k_instants;
+          }
+        } else {
+          area[o] = 1.0;
+        }
+        closed_[d][o] = now == 0.0 ? 1 : 0;
+      }
+    });
+    if (!sides_.is_periodic[d]) return;
+    const int b = (d + 1) % 3;
+    const int c = (d + 2) % 3;
+    for (int p = 0; p < n[b]; ++p) {
+      for (int q = 0; q < n[c]; ++q) {
+        const std::ptrdiff_t o = grid_.index(0, 0, 0) + p * grid_.stride[b] + q * grid_.stride[c];
+        area[o + n[d] * grid_.stride[d]] = area[o];
+      }
     }
-    for (int d = 0; d < 3; ++d) {
-      if (!sides_.is_periodic[d]) continue;
-      auto& a = g_.open_area.component[d];
-      const int e = (d + 1) % 3;
-      const int f = (d + 2) % 3;
-      for (int p = 0; p < n[e]; ++p) {
-        for (int q = 0; q < n[f]; ++q) {
-          const std::ptrdiff_t o = grid_.index(0, 0, 0) + p * grid_.stride[e] + q * grid_.stride[f];
-          a[o + n[d] * grid_.stride[d]] = a[o];
+  }
+
+  /// Is a surface so near to the face's cells that something may lie between them?
+  [[nodiscard]] bool is_near(int d, const std::array<int, 3>& c, std::ptrdiff_t o) const {
+    if (distance_.empty()) return false;
+    const bool has_upper = c[d] < grid_.count[d];
+    const std::ptrdiff_t lower =
+        c[d] > 0 || sides_.is_periodic[d] ? wrapped(o, d, c[d], -1) : (has_upper ? o : -1);
+    const double a = has_upper ? distance_[o] : distance_[lower];
+    const double b = lower >= 0 ? distance_[lower] : a;
+    return std::min(a, b) < near_;
+  }
+
+  /// Cells whose points in the fluid have a thin body between them have nothing to do with each
+  /// other. A way through the grid from one side of the body to the other crosses it somewhere, and
+  /// there it meets such a face: nothing leaks.
+  void find_parted(int d) {
+    if (field_.is_empty() || grid_.count[d] == 1) return;
+    const auto& n = grid_.count;
+    for (int k = 0; k < n[2]; ++k) {
+      for (int j = 0; j < n[1]; ++j) {
+        for (int i = 0; i < n[0]; ++i) {
+          const std::array<int, 3> c = {i, j, k};
+          const std::ptrdiff_t o = grid_.index(i, j, k);
+          if (c[d] == 0 && !sides_.is_periodic[d]) continue;
+          if (!(g_.open_area.component[d][o] > 0.0) || !is_near(d, c, o)) continue;
+          const Vec3 upper = grid_.centre(i, j, k);
+          Vec3 lower = upper;
+          lower[d] -= grid_.spacing[d];
+          const auto from = field_.outside(lower);
+          const auto to = field_.outside(upper);
+          if (!from || !to || !field_.passes_through(*from, *to)) continue;
+          g_.parted[d].push_back(static_cast<std::int32_t>(o));
+          closed_[d][o] = 2;
         }
       }
     }
@@ -154,8 +192,7 @@ class Builder {
       for (int i = 0; i < e[0]; ++i) {
         const std::ptrdiff_t o = grid_.index(i, j, k);
         const std::array<int, 3> c = {i, j, k};
-        const bool inside = !bodies_.empty() && (g_.open_area.component[d][o] == 0.0 ||
-                                                 is_inside(grid_.face(d, i, j, k)));
+        const bool inside = closed_[d][o] != 0 || is_inside(grid_.face(d, i, j, k));
         bool is_given = false;
         if (!sides_.is_periodic[d]) {
           is_given = (c[d] == 0 && !sides_.is_pressure_side(d, 0)) ||
@@ -164,17 +201,6 @@ class Builder {
         kind[o] = inside ? FaceKind::inside : is_given ? FaceKind::given : FaceKind::plain;
       }
     });
-  }
-
-  /// Distance from `from` (outside) to the surface on the way to `to` (inside).
-  double wall_distance(Vec3 from, Vec3 to) const {
-    double low = 0.0;
-    double high = 1.0;
-    for (int step = 0; step < 50; ++step) {
-      const double mid = 0.5 * (low + high);
-      (nearest(from + mid * (to - from)).distance > 0.0 ? low : high) = mid;
-    }
-    return high * norm(to - from);
   }
 
   std::int32_t add_wall_point(Vec3 near) {
@@ -221,6 +247,7 @@ class Builder {
     double share[2] = {1.0, 1.0};  // of the stress, where the viscosity jumps
     bool is_irregular = false;
     const Vec3 here = grid_.face(d, c[0], c[1], c[2]);
+    const bool may_be_parted = is_near(d, c, o);
     for (int side = 0; side < 2; ++side) {
       const int edge = side == 0 ? 0 : g_.extent[d][dir] - 1;
       if (c[dir] == edge && !sides_.is_periodic[dir]) {
@@ -235,7 +262,14 @@ class Builder {
         continue;
       }
       const std::ptrdiff_t q = wrapped(o, dir, c[dir], side == 0 ? -1 : 1);
-      if (g_.kind[d][q] != FaceKind::inside) {
+      Vec3 there = here;
+      there[dir] += side == 0 ? -h : h;
+      const bool is_closed = g_.kind[d][q] == FaceKind::inside;
+      const bool is_solid = is_closed && is_inside(there);
+      std::optional<double> thin;
+      if (!is_solid && may_be_parted) thin = field_.passes_through(here, there);
+      if (!is_solid && !thin) {
+        if (is_closed) continue;  // its point is still in the open
         // The shear stress between two layers is that of both in a row: harmonic mean.
         const double own = properties_.viscosity_at(d, o);
         const double other = properties_.viscosity_at(d, q);
@@ -245,10 +279,7 @@ class Builder {
         }
         continue;
       }
-      Vec3 there = here;
-      there[dir] += side == 0 ? -h : h;
-      if (!is_inside(there)) continue;  // closed face whose point is still in the open
-      double s = wall_distance(here, there);
+      double s = thin ? *thin : wall_distance(here, there);
       if (s < k_least_distance * h) {
         s = k_least_distance * h;
         ++g_.close_distances;
@@ -283,11 +314,11 @@ class Builder {
         for (int i = 0; i < e[0]; ++i) {
           const std::ptrdiff_t o = grid_.index(i, j, k);
           const double area = g_.open_area.component[d][o];
-          if (area == 0.0 || area == 1.0) continue;
+          if (area == 0.0 || area == 1.0 || closed_[d][o] != 0) continue;
           const std::array<int, 3> c = {i, j, k};
           const Vec3 centre = grid_.face(d, i, j, k);
           Vec3 middle = centre;
-          static_cast<void>(open_share(centre, size, &middle));
+          static_cast<void>(field_.open_share(centre, size, &middle));
           OpenPart part;
           part.at = static_cast<std::int32_t>(o);
           part.below = static_cast<std::int32_t>(wrapped(o, d, c[d], -1));
@@ -323,7 +354,7 @@ class Builder {
   }
 
   void find_ghosts(int d) {
-    if (bodies_.empty()) return;
+    if (field_.is_empty()) return;
     const auto& e = g_.extent[d];
     for (int k = 0; k < e[2]; ++k) {
       for (int j = 0; j < e[1]; ++j) {
@@ -335,7 +366,8 @@ class Builder {
           GhostFace ghost;
           ghost.at = static_cast<std::int32_t>(o);
           ghost.wall_point = static_cast<std::int32_t>(points_.size());
-          ghost.is_crossed = g_.open_area.component[d][o] > 0.0;
+          ghost.is_parted = closed_[d][o] == 2;
+          ghost.is_crossed = g_.open_area.component[d][o] > 0.0 && !ghost.is_parted;
           points_.push_back({p - hit.distance * hit.normal, hit.normal, hit.body});
           const double depth = std::max(0.0, -hit.distance);
           const double scale = spacing_along(hit.normal);
@@ -344,6 +376,10 @@ class Builder {
         }
       }
     }
+    const auto deep = std::stable_partition(
+        g_.ghost[d].begin(), g_.ghost[d].end(),
+        [](const GhostFace& g) { return g.factor > 0.0 || g.is_crossed || g.is_parted; });
+    g_.deep_ghosts_begin[d] = static_cast<std::size_t>(deep - g_.ghost[d].begin());
   }
 
   /// Size of a cell along a direction.
@@ -428,7 +464,13 @@ class Builder {
   const bodies::BodySet& bodies_;
   const SideKinds& sides_;
   const FaceProperties& properties_;
-  double smallest_;
+  const Geometry* standing_;
+  BodyField field_;                                  ///< at the end of the interval
+  std::vector<BodyField> instants_;                  ///< if bodies move
+  double smear_ = 0.0;                               ///< [s]
+  double near_ = 0.0;                                ///< [m]
+  CellField distance_;                               ///< [m] of cell centres; empty without bodies
+  std::array<std::vector<std::uint8_t>, 3> closed_;  ///< 1 in a body at the end, 2 parted
   Geometry g_;
   std::vector<Point> points_;
 };
@@ -456,8 +498,23 @@ void WallPoints::evaluate(const bodies::BodySet& bodies, double time) {
 }
 
 Geometry Geometry::build(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
-                         const FaceProperties& properties) {
-  return Builder(grid, bodies, sides, properties).build();
+                         const FaceProperties& properties, Interval interval,
+                         const Geometry* standing) {
+  return Builder(grid, bodies, sides, properties, interval, standing, BodyField::Which::all)
+      .build();
+}
+
+Geometry Geometry::build_standing(const Grid& grid, const bodies::BodySet& bodies,
+                                  const SideKinds& sides, const FaceProperties& properties) {
+  return Builder(grid, bodies, sides, properties, {}, nullptr, BodyField::Which::standing).build();
+}
+
+CellField Geometry::open_fractions(const Grid& grid, const bodies::BodySet& bodies,
+                                   const SideKinds& sides, const FaceProperties& properties,
+                                   double time, const Geometry& standing) {
+  Builder builder(grid, bodies, sides, properties, {time, time}, &standing, BodyField::Which::all);
+  builder.measure_cells();
+  return builder.take_open_fraction();
 }
 
 }  // namespace dust::fluid

@@ -40,6 +40,13 @@ struct WallPoints {
   std::vector<std::size_t> body_begin;  ///< first point of each body, and the end
 
   void evaluate(const bodies::BodySet& bodies, double time);
+  /// Component d of the velocity with which the surface itself shifts along its normal at point n:
+  /// what a surface does to the fluid behind it, whatever it does along itself.
+  [[nodiscard]] double normal_part(int d, std::size_t n) const {
+    const double across =
+        velocity[0][n] * normal_x[n] + velocity[1][n] * normal_y[n] + velocity[2][n] * normal_z[n];
+    return across * (d == 0 ? normal_x[n] : d == 1 ? normal_y[n] : normal_z[n]);
+  }
 };
 
 /// A face whose viscous stencil is not the plain one: next to a surface, to a side in x or to a
@@ -57,13 +64,14 @@ struct CutFace {
 };
 
 /// A face inside a body: u = wall - factor (u(image) - wall), image = its mirror point in the
-/// fluid.
+/// fluid. Or a face between cells that a thin body keeps apart: u = what the body shoves through.
 struct GhostFace {
   std::int32_t at = 0;
   std::int32_t wall_point = 0;
   double factor = 0.0;  ///< 0 deep inside
   bool is_crossed =
       false;  ///< part of the face is open: fluid passes, continuity has the last word
+  bool is_parted = false;
   std::array<std::int32_t, 8> node{};
   std::array<double, 8> weight{};
 };
@@ -84,10 +92,11 @@ enum class FaceKind : std::uint8_t { given, plain, cut, inside };
 
 inline bool is_unknown(FaceKind k) { return k == FaceKind::plain || k == FaceKind::cut; }
 
-/// What the bodies and the sides make of the grid. Built once: bodies do not move.
+/// What the bodies and the sides make of the grid: once where all bodies stand, else for each
+/// interval of time in which they move.
 struct Geometry {
-  CellField open_fraction;  ///< share of the cell outside bodies
-  FaceField open_area;      ///< share of the face outside bodies
+  CellField open_fraction;  ///< share of the cell outside bodies at the end of the interval
+  FaceField open_area;      ///< share of the face outside bodies, mean over the interval
   std::array<std::vector<FaceKind>, 3> kind;
   std::array<std::array<int, 3>, 3> extent;  ///< faces per component and direction
   /// Components without unknowns (across a thin domain between walls) cost nothing.
@@ -95,12 +104,30 @@ struct Geometry {
   std::array<std::vector<CutFace>, 3> cut;             ///< in the order of rows
   std::array<std::vector<std::int32_t>, 3> cut_begin;  ///< per row (j + extent_y k), and the end
   std::array<std::vector<GhostFace>, 3> ghost;
+  std::array<std::size_t, 3> deep_ghosts_begin{};  ///< from here on they mirror nothing
   std::array<std::vector<OpenPart>, 3> open_part;
+  /// Faces between cells that a body thinner than their distance keeps apart: no fluid passes, but
+  /// a body that moves shoves fluid through.
+  std::array<std::vector<std::int32_t>, 3> parted;
   WallPoints wall;
   long close_distances = 0;  ///< wall distances that were raised to k_least_distance
 
+  struct Interval {
+    double begin = 0.0;
+    double end = 0.0;
+  };
+  /// `standing`: the geometry of the bodies that stand, if others move; cells far from the movers
+  /// take theirs from it.
   static Geometry build(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
-                        const FaceProperties& properties);
+                        const FaceProperties& properties, Interval interval,
+                        const Geometry* standing);
+  /// The geometry without the bodies that move.
+  static Geometry build_standing(const Grid& grid, const bodies::BodySet& bodies,
+                                 const SideKinds& sides, const FaceProperties& properties);
+  /// Only the open fractions at `time`.
+  static CellField open_fractions(const Grid& grid, const bodies::BodySet& bodies,
+                                  const SideKinds& sides, const FaceProperties& properties,
+                                  double time, const Geometry& standing);
 };
 
 /// Least distance of a face's point from a surface along the grid, in cells: bounds the viscous

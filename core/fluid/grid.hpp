@@ -31,9 +31,14 @@ struct Grid {
     g.count = cells;
     g.is_periodic = periodic;
     for (int d = 0; d < 3; ++d) g.spacing[d] = (max[d] - min[d]) / cells[d];
-    g.stride[1] = (cells[0] + 2 * k_margin + 7) / 8 * 8;
-    g.stride[2] = g.stride[1] * (cells[1] + 2 * k_halo);
-    g.size = static_cast<std::size_t>(g.stride[2]) * (cells[2] + 2 * k_halo);
+    const std::ptrdiff_t row = (cells[0] + 2 * k_margin + 7) / 8 * 8;
+    const int ny = cells[1] + 2 * k_halo;
+    const int nz = cells[2] + 2 * k_halo;
+    // The rows of a flat grid lie one after the other, not apart by the halo's.
+    const bool is_flat = cells[1] == 1;
+    g.stride[1] = is_flat ? row * nz : row;
+    g.stride[2] = is_flat ? row : row * ny;
+    g.size = static_cast<std::size_t>(row) * ny * nz;
     return g;
   }
 

@@ -13,6 +13,8 @@ namespace {
 /// The error of the implicit solve, relative to the change over the step.
 constexpr double k_sweep_tolerance = 1e-6;
 constexpr int k_most_sweeps = 400;
+/// Errors that fall by more than this per sweep do so at once.
+constexpr double k_fast_rate = 1e-3;
 
 }  // namespace
 
@@ -24,17 +26,25 @@ Momentum::Momentum(const Grid& grid, const Geometry& geometry, const Sides& side
       properties_(properties),
       flux_(grid),
       inverse_(grid) {
-  for (int d = 0; d < 3; ++d) cut_inverse_[d].resize(geometry.cut[d].size());
+  geometry_changed();
+}
+
+void Momentum::geometry_changed() {
+  for (int d = 0; d < 3; ++d) cut_inverse_[d].resize(geometry_.cut[d].size());
+  is_plain_ = false;
 }
 
 void Momentum::find_flux(const FaceField& u, const CellField& eps) {
   // Rows of the padded block, but for the first plane, which has no lower neighbour.
-  const int row = static_cast<int>(grid_.stride[1]);
-  const int ny = grid_.count[1] + 2 * Grid::k_halo;
+  const int row = static_cast<int>(std::min(grid_.stride[1], grid_.stride[2]));
+  const bool is_flat = sides_.is_idle(1);
+  const int first = is_flat ? Grid::k_halo : 0;
+  const int ny = is_flat ? 1 : grid_.count[1] + 2 * Grid::k_halo;
   const int nz = grid_.count[2] + 2 * Grid::k_halo;
   for_rows(row, ny, nz - 1, [&](int j, int k) {
-    const std::ptrdiff_t o = j * grid_.stride[1] + (k + 1) * grid_.stride[2];
+    const std::ptrdiff_t o = (j + first) * grid_.stride[1] + (k + 1) * grid_.stride[2];
     for (int d = 0; d < 3; ++d) {
+      if (d == 1 && (is_flat || j == 0)) continue;  // has no lower neighbour, or does not count
       flux_row(row, grid_.stride[d], &eps[o], &u.component[d][o], &flux_.component[d][o]);
     }
   });
@@ -119,7 +129,10 @@ Momentum::RowWeights Momentum::row_weights(int d, int j, int k) const {
   return w;
 }
 
-void Momentum::prepare(double implicit, const FaceField& coefficient) {
+void Momentum::prepare(double implicit, const FaceField& coefficient, bool has_drag) {
+  const bool is_plain = !has_drag && !properties_.is_varying();
+  if (is_plain && is_plain_ && implicit == implicit_) return;
+  is_plain_ = is_plain;
   implicit_ = implicit;
   const double nu = properties_.largest_kinematic_viscosity();
   double sum = 0.0;
@@ -132,10 +145,12 @@ void Momentum::prepare(double implicit, const FaceField& coefficient) {
   const double root = std::sqrt(1.0 - jacobi * jacobi);
   relaxation_ = 2.0 / (1.0 + root);
   const double rate = std::max(relaxation_ - 1.0, jacobi * jacobi);
-  sweeps_ = 1;
+  // Where the rate is not reached from the first sweep on, one more.
+  sweeps_ = rate > k_fast_rate ? 1 : 0;
   if (rate > 1e-12) {
     sweeps_ += static_cast<int>(std::ceil(std::log(k_sweep_tolerance) / std::log(rate)));
   }
+  sweeps_ = std::max(1, sweeps_);
   // Where a step is many viscous times long the rest of the error decays over the next steps.
   sweeps_ = std::min(sweeps_, k_most_sweeps);
 
@@ -201,6 +216,9 @@ void Momentum::solve(const FaceField& right, FaceField& u) {
                          a * w.y_low, a * w.y_high, a * w.z_low, a * w.z_high,
                          properties_.inertia(d, o).each, properties_.viscosity(d, o).each, &r[o],
                          &inverse_.component[d][o], &v[o]);
+        } else if (w.y_low == 0.0 && w.y_high == 0.0) {
+          flat_sweep_row(e[0], grid_.stride[2], parity, relaxation_, ax, a * w.z_low, a * w.z_high,
+                         &r[o], &inverse_.component[d][o], &v[o]);
         } else {
           sweep_row(e[0], grid_.stride[1], grid_.stride[2], parity, relaxation_, ax, a * w.y_low,
                     a * w.y_high, a * w.z_low, a * w.z_high, &r[o], &inverse_.component[d][o],
@@ -267,17 +285,23 @@ void Momentum::viscous_force(const FaceField& u, FaceField& out) const {
   }
 }
 
-void Momentum::extend(FaceField& u, bool all) const {
+void Momentum::extend(FaceField& u, Ghosts which) const {
+  const bool all = which != Ghosts::uncrossed;
   for (int d = 0; d < 3; ++d) {
     auto& v = u.component[d];
     const auto& ghosts = geometry_.ghost[d];
     const auto& wall = geometry_.wall.velocity[d];
-    const int count = static_cast<int>(ghosts.size());
+    const int count =
+        static_cast<int>(which == Ghosts::all ? ghosts.size() : geometry_.deep_ghosts_begin[d]);
     // Images touch no other ghost, so the order does not matter.
     for_rows(64, (count + 63) / 64, 1, [&](int block, int) {
       for (int n = block * 64; n < std::min(count, (block + 1) * 64); ++n) {
         const GhostFace& g = ghosts[n];
         if (!all && g.is_crossed) continue;
+        if (g.is_parted) {
+          v[g.at] = geometry_.wall.normal_part(d, static_cast<std::size_t>(g.wall_point));
+          continue;
+        }
         const double w = wall[g.wall_point];
         double image = 0.0;
         if (g.factor > 0.0) {

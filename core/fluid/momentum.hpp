@@ -17,6 +17,8 @@ class Momentum {
   Momentum(const Grid& grid, const Geometry& geometry, const Sides& sides,
            const FaceProperties& properties);
 
+  /// After the geometry was built anew.
+  void geometry_changed();
   /// flux = mean void fraction of the two cells x velocity, everywhere including halos.
   void find_flux(const FaceField& u, const CellField& eps);
   /// out = u . grad u of component `d` at row (j, k) (extent_x numbers), from the last find_flux.
@@ -25,7 +27,8 @@ class Momentum {
                       int k, double* out) const;
 
   /// Prepares (1 + implicit (coefficient - viscosity laplace) / inertia) for `solve`; implicit [s].
-  void prepare(double implicit, const FaceField& coefficient);
+  /// `has_drag` = false: the coefficient is 0 everywhere.
+  void prepare(double implicit, const FaceField& coefficient, bool has_drag);
   /// Solves the prepared system for `u` (start values in, halos filled for sweeps).
   void solve(const FaceField& right, FaceField& u);
   /// Sweeps of the last prepared system.
@@ -33,8 +36,10 @@ class Momentum {
 
   /// out = viscosity laplace(u) [N/m3] at unknown faces, 0 elsewhere; halos filled for velocity.
   void viscous_force(const FaceField& u, FaceField& out) const;
-  /// Velocity inside the bodies. `all` = false leaves faces alone through which fluid passes.
-  void extend(FaceField& u, bool all) const;
+  /// Velocity inside the bodies. Deep ghosts hold the surface's velocity and change with it alone;
+  /// uncrossed ones are those through whose faces no fluid passes.
+  enum class Ghosts { all, but_deep, uncrossed };
+  void extend(FaceField& u, Ghosts which) const;
   /// Largest sum over the directions of |u| / h [1/s] and largest |component| [m/s]; infinite
   /// where a number is not finite.
   struct Rates {
@@ -55,6 +60,7 @@ class Momentum {
   const Sides& sides_;
   const FaceProperties& properties_;
   double implicit_ = 0.0;
+  bool is_plain_ = false;  ///< prepared for a uniform fluid without drag
   double relaxation_ = 1.0;
   int sweeps_ = 1;
   FaceField flux_;

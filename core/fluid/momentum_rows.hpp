@@ -97,6 +97,22 @@ DUST_KERNEL void sweep_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, int pari
   }
 }
 
+/// The same where nothing varies along y.
+DUST_KERNEL void flat_sweep_row(int n, std::ptrdiff_t sz, int parity, double omega, double ax,
+                                double z_low, double z_high, const double* right,
+                                const double* inverse, double* u) {
+  const double* old = u;
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double t =
+        (right[i] + ax * (old[i - 1] + old[i + 1]) + z_low * old[i - sz] + z_high * old[i + sz]) *
+        inverse[i];
+    const bool takes = inverse[i] > 0.0 && ((i + parity) & 1) == 0;
+    const double next = old[i] + omega * (t - old[i]);
+    u[i] = takes ? next : old[i];
+  }
+}
+
 /// The same with viscosity and 1 / inertia per face; weights in s/m2.
 DUST_KERNEL void sweep_row_each(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, int parity,
                                 double omega, double ax, double y_low, double y_high, double z_low,

@@ -44,6 +44,15 @@ DUST_KERNEL void smooth_zero_row(int n, int parity, const float* inverse, const 
   for (int i = 0; i < n; ++i) x[i] = ((i + parity) & 1) ? 0.0F : b[i] * inverse[i];
 }
 
+DUST_KERNEL void flat_residual_row(int n, std::ptrdiff_t sz, const float* ax, const float* az,
+                                   const float* mask, const float* b, const float* x, float* r) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    r[i] = mask[i] * (b[i] + ax[i] * (x[i - 1] - x[i]) + ax[i + 1] * (x[i + 1] - x[i]) +
+                      az[i] * (x[i - sz] - x[i]) + az[i + sz] * (x[i + sz] - x[i]));
+  }
+}
+
 DUST_KERNEL void residual_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, const float* ax,
                               const float* ay, const float* az, const float* mask, const float* b,
                               const float* x, float* r) {
@@ -98,10 +107,14 @@ std::unique_ptr<MultigridLevel> coarse_level(MultigridLevel& fine) {
     coarse->is_periodic[d] = fine.is_periodic[d];
   }
   constexpr int k_pad = 8;
-  coarse->stride[1] = (coarse->count[0] + 2 * k_pad + 7) / 8 * 8;
-  coarse->stride[2] = coarse->stride[1] * (coarse->count[1] + 2);
+  // As in Grid: the rows of a flat grid lie one after the other.
+  const std::ptrdiff_t row = (coarse->count[0] + 2 * k_pad + 7) / 8 * 8;
+  coarse->is_flat = fine.is_flat;
+  const bool is_flat = coarse->count[1] == 1;
+  coarse->stride[1] = is_flat ? row * (coarse->count[2] + 2) : row;
+  coarse->stride[2] = is_flat ? row : row * (coarse->count[1] + 2);
   coarse->start = k_pad + coarse->stride[1] + coarse->stride[2];
-  const auto size = static_cast<std::size_t>(coarse->stride[2]) * (coarse->count[2] + 2);
+  const auto size = static_cast<std::size_t>(row) * (coarse->count[1] + 2) * (coarse->count[2] + 2);
   for (auto* a : {&coarse->face[0], &coarse->face[1], &coarse->face[2], &coarse->inverse_diagonal,
                   &coarse->x, &coarse->b}) {
     a->assign(size, 0.0F);
@@ -267,8 +280,13 @@ void Multigrid::restrict_residual(std::size_t level) {
     for (int z = k * f.factor[2]; z < std::min((k + 1) * f.factor[2], f.count[2]); ++z) {
       for (int y = j * f.factor[1]; y < std::min((j + 1) * f.factor[1], f.count[1]); ++y) {
         const std::ptrdiff_t o = f.index(0, y, z);
-        residual_row(f.count[0], f.stride[1], f.stride[2], &f.face[0][o], &f.face[1][o],
-                     &f.face[2][o], &f.mask[o], &f.b[o], &f.x[o], row.data());
+        if (f.is_flat) {
+          flat_residual_row(f.count[0], f.stride[2], &f.face[0][o], &f.face[2][o], &f.mask[o],
+                            &f.b[o], &f.x[o], row.data());
+        } else {
+          residual_row(f.count[0], f.stride[1], f.stride[2], &f.face[0][o], &f.face[1][o],
+                       &f.face[2][o], &f.mask[o], &f.b[o], &f.x[o], row.data());
+        }
         if (f.factor[0] == 2) {
           add_pairs_row(c.count[0], row.data(), b);
         } else {

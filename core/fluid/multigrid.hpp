@@ -14,6 +14,7 @@ struct MultigridLevel {
   std::array<double, 3> spacing{1, 1, 1};
   std::array<bool, 3> is_periodic{false, false, false};
   std::array<int, 3> factor{1, 1, 1};  ///< cells joined per direction for the next level
+  bool is_flat = false;                ///< one cell in y and no fluid through its faces there
   std::ptrdiff_t start = 0;            ///< index of cell (0, 0, 0)
   std::array<std::ptrdiff_t, 3> stride{1, 1, 1};
   std::vector<float> face[3];  ///< coefficient of the lower face; the last one in the halo

@@ -5,6 +5,7 @@
 #include "dust/sdk/plugin.hpp"
 #include "fluid/parallel.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -56,6 +57,16 @@ DUST_KERNEL double apply_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, const 
   return lane_sum(n, [=](int i) { return x[i] * y[i]; });
 }
 
+DUST_KERNEL double flat_apply_row(int n, std::ptrdiff_t sz, const double* ax, const double* az,
+                                  const double* x, double* y) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    y[i] = ax[i] * (x[i] - x[i - 1]) + ax[i + 1] * (x[i] - x[i + 1]) + az[i] * (x[i] - x[i - sz]) +
+           az[i + sz] * (x[i] - x[i + sz]);
+  }
+  return lane_sum(n, [=](int i) { return x[i] * y[i]; });
+}
+
 DUST_KERNEL double update_row(int n, double alpha, const double* p, const double* q, double* x,
                               double* r) {
 #pragma GCC ivdep
@@ -83,6 +94,10 @@ PressureSolver::PressureSolver(const Grid& grid, const FaceField& pattern)
       finest.face[d][o] = pattern.component[d][o] > 0.0 ? 1.0F : 0.0F;
     }
   }
+  const auto& across = finest.face[1];
+  finest.is_flat = grid.count[1] == 1 &&
+                   std::all_of(across.begin(), across.end(), [](float a) { return a == 0.0F; });
+  is_flat_ = finest.is_flat;
   finest.inverse_diagonal.assign(grid.size, 0.0F);
   finest.x.assign(grid.size, 0.0F);
   finest.b.assign(grid.size, 0.0F);
@@ -250,6 +265,10 @@ PressureSolver::Result PressureSolver::solve(CellField& b, double tolerance, Cel
     wrap(p);
     const double pq = sum([&](int j, int k) {
       const std::ptrdiff_t o = at(j, k);
+      if (is_flat_) {
+        return flat_apply_row(n[0], sz, &k_.component[0][o], &k_.component[2][o], &p[o],
+                              &image_[o]);
+      }
       return apply_row(n[0], sy, sz, &k_.component[0][o], &k_.component[1][o], &k_.component[2][o],
                        &p[o], &image_[o]);
     });

@@ -40,6 +40,7 @@ class PressureSolver {
   void wrap(CellField& values) const;
 
   Grid grid_;
+  bool is_flat_ = false;  ///< nothing passes along y
   FaceField k_;
   std::vector<std::int32_t> region_;  ///< per cell, -1 = closed
   std::vector<std::int32_t> singular_regions_;

@@ -76,6 +76,7 @@ Sides::Sides(const Grid& grid, const std::array<const sdk::BoundaryCondition*, 6
     }
     if (r.pressure != SideRule::gradient) set_places(side, k_pressure);
   }
+  for (int d = 0; d < 3; ++d) is_idle_[d] = find_idle(d);
 }
 
 bool Sides::is_any_periodic() const {
@@ -191,6 +192,14 @@ void Sides::evaluate_velocity(double time, const CellField& eps) {
   for (int side = 0; side < 6; ++side) {
     for (int c = 0; c < 3; ++c) evaluate_at(side, c, time, &eps);
   }
+  blew_ = blows_;
+  for (int d = 0; d < 3; ++d) {
+    if (!is_idle_[d]) continue;
+    blows_[d] = false;
+    for (int side = 2 * d; side < 2 * d + 2; ++side) {
+      for (const double v : values_[side].velocity[d]) blows_[d] = blows_[d] || v != 0.0;
+    }
+  }
 }
 
 void Sides::evaluate_pressure(double time) {
@@ -252,9 +261,32 @@ void Sides::fill_velocity(FaceField& u) const {
   }
 }
 
+bool Sides::find_idle(int direction) const {
+  if (grid_.count[direction] > 1 || kinds_.is_periodic[direction]) return false;
+  for (int high = 0; high < 2; ++high) {
+    if (kinds_.is_pressure_side(direction, high)) return false;
+    if (kinds_.beyond((direction + 1) % 3, direction, high) != Beyond::gradient) return false;
+  }
+  return true;
+}
+
+void Sides::fill_varying(FaceField& u) const {
+  for (int direction = 0; direction < 3; ++direction) {
+    for (int d = 0; d < 3; ++d) {
+      if (d == direction ? !is_still(direction) : !is_idle(direction)) {
+        fill_component(u.component[d], d, direction, false);
+      }
+    }
+  }
+}
+
 void Sides::fill_for_sweeps(FaceField& u) const {
   for (int direction = 0; direction < 3; ++direction) {
-    for (int d = 0; d < 3; ++d) fill_component(u.component[d], d, direction, true);
+    for (int d = 0; d < 3; ++d) {
+      if (d == direction ? !is_still(direction) : !is_idle(direction)) {
+        fill_component(u.component[d], d, direction, true);
+      }
+    }
   }
 }
 

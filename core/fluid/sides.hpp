@@ -26,6 +26,8 @@ class Sides {
   void evaluate_pressure(double time);
   /// Halo such that linear interpolation meets the side's rule: mirrored, copied or wrapped.
   void fill_velocity(FaceField& u) const;
+  /// The same, but for the halos along idle directions.
+  void fill_varying(FaceField& u) const;
   /// Halo for the implicit sweeps: the side's own velocity where it is given; wrapped copies.
   void fill_for_sweeps(FaceField& u) const;
   void wrap(std::vector<double>& component, int d) const;
@@ -35,6 +37,13 @@ class Sides {
   /// pressure on the side is given.
   void fill_pressure(CellField& p, bool is_increment) const;
   [[nodiscard]] bool is_any_periodic() const;
+  /// Is there one cell along the direction and does nothing vary along it? Then the halo there
+  /// counts only for who reads the finished field.
+  [[nodiscard]] bool is_idle(int direction) const { return is_idle_[direction]; }
+  /// Is the velocity along an idle direction 0, now and at the last evaluation?
+  [[nodiscard]] bool is_still(int direction) const {
+    return is_idle_[direction] && !blows_[direction] && !blew_[direction];
+  }
   /// Is the kinetic energy of entering fluid paid by the pressure (total pressure)?
   [[nodiscard]] bool is_total_pressure(int side) const {
     return kinds_.rules[side].pressure == sdk::SideRule::pressure;
@@ -61,9 +70,14 @@ class Sides {
   void read_void_fraction(int side, int component, const CellField& eps);
   void fill_component(std::vector<double>& v, int d, int direction, bool for_sweeps) const;
 
+  [[nodiscard]] bool find_idle(int direction) const;
+
   Grid grid_;
   SideKinds kinds_;
   std::array<Values, 6> values_;
+  std::array<bool, 3> is_idle_{};
+  std::array<bool, 3> blows_{true, true, true};
+  std::array<bool, 3> blew_{true, true, true};
 };
 
 }  // namespace dust::fluid

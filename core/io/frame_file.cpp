@@ -63,8 +63,9 @@ void write_particles(hid_t file, const sdk::GrainColumns& g, double time) {
   scalars("id", H5T_NATIVE_INT64, g.id.data());
 }
 
+/// `has_open_fraction`: bodies move or go, so that each frame has its own.
 void write_fluid(hid_t file, const sdk::FluidColumns& f, std::span<const float> exchange,
-                 double time) {
+                 double time, bool has_open_fraction) {
   const Handle group = create_group(file, "fluid");
   write_attribute(group.get(), "time", time);
   const hsize_t nx = f.count[0];
@@ -88,6 +89,9 @@ void write_fluid(hid_t file, const sdk::FluidColumns& f, std::span<const float> 
   } else {
     write("momentum_exchange", exchange.data(), true);
   }
+  if (!has_open_fraction) return;
+  write_array(group.get(), "open_fraction", H5T_NATIVE_FLOAT, f.open_fraction.data(), {nz, ny, nx},
+              Storage::compressed, {"1", "share of the cell not inside a body"});
 }
 
 /// The surfaces of the bodies that are there, where they are at `time`.
@@ -163,7 +167,8 @@ FrameEntry write_frame(const fs::path& folder, const Frame& frame) {
   write_attribute(out.get(), "format", std::int64_t{1});
   write_particles(out.get(), frame.world.grains, frame.time);
   if (!layout_of(frame.world.fluid).is_empty()) {
-    write_fluid(out.get(), frame.world.fluid, frame.momentum_exchange, frame.time);
+    write_fluid(out.get(), frame.world.fluid, frame.momentum_exchange, frame.time,
+                frame.bodies != nullptr);
   }
   FrameEntry entry{frame.number, frame.time,
                    static_cast<std::int64_t>(frame.world.grains.id.size())};

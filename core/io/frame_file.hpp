@@ -35,7 +35,8 @@ FrameEntry write_frame(const std::filesystem::path& folder, const Frame& frame);
 /// What is known of a frame from its file; throws base::RunError when it cannot be read.
 FrameEntry read_frame_entry(const std::filesystem::path& folder, std::int64_t number);
 
-/// The fluid's layout and the open fraction, which do not change during a run.
+/// The fluid's layout, which does not change during a run, and the open fraction; where bodies move
+/// or go, each frame has its own as well.
 void write_open_fraction(const std::filesystem::path& folder, const sdk::FluidColumns& fluid);
 /// The layout as attributes of an open HDF5 group.
 void write_layout(std::int64_t group, const FluidLayout& layout);

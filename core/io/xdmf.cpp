@@ -121,9 +121,11 @@ std::string fluid_xdmf(const std::vector<FrameEntry>& frames, const FluidLayout&
                                   group + field.name));
     }
     const FieldInfo open = {"open_fraction", 1, "Float", 4, "1", ""};
-    text += attribute(open, "Cell",
-                      data_item(cells, "Float", 4, "HDF",
-                                std::string(k_open_fraction_path) + ":/fluid/open_fraction"));
+    text += attribute(
+        open, "Cell",
+        data_item(cells, "Float", 4, "HDF",
+                  (frame.has_walls ? frame_path(frame.number) : std::string(k_open_fraction_path)) +
+                      ":/fluid/open_fraction"));
     return text + "</Grid>\n";
   });
 }

@@ -150,12 +150,16 @@ FluidTable::FluidTable(const fluid::Grid& grid, const scenario::FluidSpec& fluid
   pressure_.resize(cells);
   void_fraction_.resize(cells);
   open_fraction_.resize(cells);
+  set_open_fraction(open_fraction);
+}
+
+void FluidTable::set_open_fraction(const fluid::CellField& open_fraction) {
   std::size_t n = 0;
-  for (int k = 0; k < grid.count[2]; ++k) {
-    for (int j = 0; j < grid.count[1]; ++j) {
-      for (int i = 0; i < grid.count[0]; ++i) {
+  for (int k = 0; k < grid_.count[2]; ++k) {
+    for (int j = 0; j < grid_.count[1]; ++j) {
+      for (int i = 0; i < grid_.count[0]; ++i) {
         open_fraction_[n++] =
-            static_cast<float>(open_fraction[static_cast<std::size_t>(grid.index(i, j, k))]);
+            static_cast<float>(open_fraction[static_cast<std::size_t>(grid_.index(i, j, k))]);
       }
     }
   }

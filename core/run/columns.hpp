@@ -47,6 +47,8 @@ class FluidTable {
   FluidTable(const fluid::Grid& grid, const scenario::FluidSpec& fluid,
              const fluid::CellField& open_fraction);
   void publish(const fluid::FluidSolver& solver, const fluid::CellField& void_fraction);
+  /// After bodies have moved.
+  void set_open_fraction(const fluid::CellField& open_fraction);
   [[nodiscard]] sdk::FluidColumns columns() const;
 
  private:

@@ -166,7 +166,9 @@ void Simulation::build_graphs() {
   bool has_removals = false;
   for (const auto& body : setup_.bodies) has_removals |= body.removal.has_value();
   if (has_removals) {
-    step_graph_.add({"bodies", {"grain.state"}, {"grain.state"}, [this] { remove_bodies(); }});
+    std::vector<std::string> looks_at{"grain.state"};
+    if (fluid_) looks_at.emplace_back("fluid.velocity");
+    step_graph_.add({"bodies", looks_at, looks_at, [this] { remove_bodies(); }});
   }
   step_graph_.add(
       {"emit", {"emitter.state", "grain.state"}, {"emitter.state", "grain.state"}, [this] {
@@ -188,6 +190,9 @@ void Simulation::build_graphs() {
   if (fluid_) {
     step_graph_.add(
         {"publish_fluid", {"fluid.velocity", "fluid.void_fraction"}, {"fluid.columns"}, [this] {
+           if (fluid_->has_moving_bodies()) {
+             fluid_table_->set_open_fraction(fluid_->open_fraction());
+           }
            fluid_table_->publish(*fluid_, void_fraction());
          }});
   }
@@ -214,7 +219,13 @@ void Simulation::add_fluid_nodes() {
   step_graph_.add({"voidage",
                    {"grain.state", "fluid.exchange"},
                    {"fluid.void_fraction", "fluid.exchange"},
-                   [this] { coupling_->map(dem_->rows(), setup_.time.fluid_step); }});
+                   [this] {
+                     if (fluid_->has_moving_bodies()) {
+                       fluid_->look_ahead(time() + setup_.time.fluid_step);
+                       coupling_->set_open_fraction(fluid_->open_fraction());
+                     }
+                     coupling_->map(dem_->rows(), setup_.time.fluid_step);
+                   }});
   step_graph_.add({"fluid",
                    {"fluid.void_fraction", "fluid.exchange", "fluid.velocity", "grain.state"},
                    {"fluid.velocity", "fluid.exchange"},
@@ -349,7 +360,20 @@ void Simulation::remove_bodies() {
     base::log_info("the body " + body.name + " is taken away at " + scenario::number_text(time()) +
                    " s: " + cause);
   }
-  if (has_changed) dem_->bodies_changed();
+  if (!has_changed) return;
+  dem_->bodies_changed();
+  if (fluid_) air_bodies_changed();
+}
+
+/// Tells the air that bodies are elsewhere than it knows.
+void Simulation::air_bodies_changed() {
+  fluid_->bodies_changed(time());
+  take_open_fraction();
+}
+
+void Simulation::take_open_fraction() {
+  if (coupling_) coupling_->set_open_fraction(fluid_->open_fraction());
+  fluid_table_->set_open_fraction(fluid_->open_fraction());
 }
 
 bool Simulation::has_changing_walls() const {
@@ -494,7 +518,8 @@ Simulation::LoadParts Simulation::load_parts() {
   parts.emplace_back("grains", [this](sdk::ArchiveReader& a) { dem_->load(a); });
   if (fluid_) {
     parts.emplace_back("fluid", [this](sdk::ArchiveReader& a) {
-      fluid_->load(a);
+      fluid_->load(a, time());
+      take_open_fraction();
       if (!coupling_) fluid_table_->publish(*fluid_, void_fraction());
     });
   }

@@ -75,6 +75,8 @@ class Simulation {
  private:
   void build_graphs();
   void add_fluid_nodes();
+  void air_bodies_changed();
+  void take_open_fraction();
   void add_sensor_nodes();
   void emit();
   void propose_seeds(double begin, double end);

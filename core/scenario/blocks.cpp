@@ -158,6 +158,27 @@ const ParameterSchema& RemovalBlock::schema() {
   return made;
 }
 
+const ParameterSchema& SuctionBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<SuctionBlock> s;
+    s.number(&SuctionBlock::flow, "flow", dimension::volume_flow,
+             "Volume flow of the fluid into the body; negative: it blows.")
+        .symbol("Q");
+    s.vector(&SuctionBlock::min, "min", dimension::length,
+             "Lower corner of a box: the part of the body's surface in it is the opening.");
+    s.vector(
+        &SuctionBlock::max, "max", dimension::length,
+        "Upper corner of the box. Both in the body's frame; a flat box on a flat face is fine.");
+    s.numbers(&SuctionBlock::times, "times", dimension::time, "Times of the factors.").optional();
+    s.numbers(&SuctionBlock::factors, "factors", dimension::none,
+              "What flow is multiplied by at each of times; straight lines between.")
+        .symbol("g")
+        .optional();
+    return s.build();
+  }();
+  return made;
+}
+
 const ParameterSchema& SensorBlock::schema() {
   static const ParameterSchema made = [] {
     SchemaOf<SensorBlock> s;

@@ -86,6 +86,16 @@ struct RemovalBlock {
   static const sdk::ParameterSchema& schema();
 };
 
+/// An opening in a body that sucks fluid in.
+struct SuctionBlock {
+  double flow = 0.0;
+  sdk::Vec3 min;
+  sdk::Vec3 max;
+  std::vector<double> times;
+  std::vector<double> factors;
+  static const sdk::ParameterSchema& schema();
+};
+
 struct SensorBlock {
   bool enabled = true;
   static const sdk::ParameterSchema& schema();

@@ -2,6 +2,7 @@
 #include "scenario/flow_check.hpp"
 
 #include "dust/sdk/error.hpp"
+#include "dust/sdk/table.hpp"
 #include "scenario/units.hpp"
 
 #include <algorithm>
@@ -136,6 +137,11 @@ void check_cells(const Setup& setup, Diagnostics& diagnostics) {
                           "the short one the time step");
 }
 
+/// [m3/s]
+double flow_into(const SuctionSpec& s, double time) {
+  return s.flow * sdk::Table(s.times, s.factors, "times", "factors")(time);
+}
+
 using AllFaces = std::array<std::unique_ptr<Faces>, 6>;
 
 /// Inflow of each side at `time`; false after a model's refusal, which is told.
@@ -196,6 +202,12 @@ void check_flow(const Setup& setup, const SideModels& sides, Diagnostics& diagno
       net += flow;
       gross += std::abs(flow);
     }
+    for (const BodySpec& body : setup.bodies) {
+      if (!body.suction) continue;
+      const double flow = flow_into(*body.suction, time);
+      net -= flow;
+      gross += std::abs(flow);
+    }
     const bool is_certain = setup.bodies.empty() || std::abs(net) >= gross * (1.0 - k_balance);
     if (!is_certain || std::abs(net) <= k_balance * gross) continue;
     std::string which;
@@ -206,12 +218,18 @@ void check_flow(const Setup& setup, const SideModels& sides, Diagnostics& diagno
       which +=
           (which.empty() ? "" : ", ") + std::string(k_side_names[n]) + " " + flow_text(flows[n]);
     }
-    diagnostics.error(setup.domain.sides[first].where,
-                      "domain.boundaries: at t = " + number_text(time) + " s the sides let " +
-                          flow_text(std::abs(net)) + " more fluid " +
-                          (net > 0 ? "in than out" : "out than in") + " (" + which +
-                          ") and none of them gives way; make one "
-                          "a total_pressure, static_pressure or zero_gradient side");
+    Mark where = first < 6 ? setup.domain.sides[first].where : setup.domain.sides[0].where;
+    for (const BodySpec& body : setup.bodies) {
+      if (!body.suction) continue;
+      if (which.empty()) where = body.where;
+      which += (which.empty() ? "" : ", ") + body.name + " " +
+               flow_text(-flow_into(*body.suction, time));
+    }
+    diagnostics.error(where, "domain.boundaries: at t = " + number_text(time) +
+                                 " s the sides let " + flow_text(std::abs(net)) + " more fluid " +
+                                 (net > 0 ? "in than out" : "out than in") + " (" + which +
+                                 ") and none of them gives way; make one "
+                                 "a total_pressure, static_pressure or zero_gradient side");
     return;
   }
 }

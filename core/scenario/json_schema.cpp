@@ -156,6 +156,7 @@ Json body_schema(const registry::Registry& registry) {
     Json base = block<PlacedBlock>();
     add_parameters(base, BodyBlock::schema());
     base["properties"]["remove"] = block<RemovalBlock>();
+    base["properties"]["suction"] = block<SuctionBlock>();
     if (motion.name.empty()) {
       base["properties"]["motions"] = {{"type", "array"},
                                        {"items", {{"$ref", "#/definitions/motion"}}},

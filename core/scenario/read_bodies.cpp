@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies/body_set.hpp"
+#include "dust/sdk/error.hpp"
 #include "dust/sdk/motion.hpp"
+#include "dust/sdk/table.hpp"
 #include "scenario/setup_reader.hpp"
 #include "scenario/suggest.hpp"
 
@@ -107,6 +109,30 @@ std::optional<RemovalSpec> SetupReader::read_removal(MapReader& reader, Node& wr
   return RemovalSpec{read.at, read.kinetic_energy_per_grain, read.after};
 }
 
+std::optional<SuctionSpec> SetupReader::read_suction(MapReader& reader, Node& written) {
+  const Entry* entry = reader.optional("suction");
+  if (entry == nullptr) return std::nullopt;
+  MapReader inner(entry->value, reader.path_of("suction"), entry->where, diagnostics_);
+  if (!entry->value.is_map()) return std::nullopt;
+  std::vector<sdk::Value> values;
+  const auto read = block<SuctionBlock>(inner, &values);
+  inner.finish();
+  if (inner.is_good()) {
+    for (int d = 0; d < 3; ++d) {
+      if (read.max[d] >= read.min[d]) continue;
+      error(mark_of(entry->value, "max"),
+            reader.path_of("suction") + ".max: " + "xyz"[d] + " is below that of min");
+    }
+    try {
+      static_cast<void>(sdk::Table(read.times, read.factors, "times", "factors"));
+    } catch (const sdk::ParameterError& e) {
+      error(entry->where, reader.path_of("suction") + ": " + e.what());
+    }
+  }
+  written.add("suction", written_block<SuctionBlock>(values));
+  return SuctionSpec{read.flow, read.min, read.max, read.times, read.factors};
+}
+
 void SetupReader::check_body(const BodySpec& spec, std::vector<ReadModel> motions) {
   std::vector<std::unique_ptr<sdk::Motion>> made;
   for (ReadModel& motion : motions) {
@@ -114,21 +140,8 @@ void SetupReader::check_body(const BodySpec& spec, std::vector<ReadModel> motion
   }
   const bodies::Body body = bodies::make_body(setup_, spec, std::move(made));
   const std::string path = "bodies." + spec.name;
-  if (has_fluid_ && body.displaces()) {
-    error(spec.motions.front().where,
-          path + ": the body moves through the air, which is cut by the bodies only once: run " +
-              "grains alone (fluid: none), or let only its surface move (motion: belt)");
-  }
   for (const std::string& warning : body.shape->warnings()) {
     diagnostics_.warning(spec.shape.where, path + ": " + warning);
-  }
-  if (has_fluid_ && !body.shape->is_solid()) {
-    error(spec.shape.where, path + ": the air cannot be cut by a sheet without thickness: give " +
-                                "thickness, or run grains alone (fluid: none)");
-  }
-  if (has_fluid_ && spec.removal) {
-    error(spec.where, path + ".remove: the air is cut by the bodies only once: run grains alone " +
-                          "(fluid: none)");
   }
 }
 
@@ -145,6 +158,7 @@ void SetupReader::read_bodies(MapReader& top) {
     append(placed.written, shape.written);
     std::vector<ReadModel> motions = read_motions(reader, placed.written);
     const auto removal = read_removal(reader, placed.written);
+    const auto suction = read_suction(reader, placed.written);
     reader.finish();
     BodySpec spec{.name = entry.key,
                   .shape = shape.choice.value_or(ModelChoice{}),
@@ -153,6 +167,7 @@ void SetupReader::read_bodies(MapReader& top) {
                   .frame = placed.frame,
                   .group = own.group,
                   .removal = removal,
+                  .suction = suction,
                   .where = entry.where};
     for (ReadModel& motion : motions) {
       for (const Entry& a : shape.written) {

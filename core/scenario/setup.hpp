@@ -91,6 +91,15 @@ struct RemovalSpec {
   double after = 0.0;                                   ///< [s] by energy, but not before
 };
 
+/// An opening in a body's surface that sucks fluid in.
+struct SuctionSpec {
+  double flow = 0.0;  ///< [m3/s] out of the domain
+  sdk::Vec3 min;      ///< [m] box round the opening, in the body's frame
+  sdk::Vec3 max;
+  std::vector<double> times;    ///< [s]
+  std::vector<double> factors;  ///< of the flow at `times`
+};
+
 struct BodySpec {
   std::string name;
   ModelChoice shape;  ///< kind "shape": from bodies::shape_catalogue()
@@ -99,6 +108,7 @@ struct BodySpec {
   int frame = -1;     ///< index into Setup::frames, -1 = the domain's
   std::string group;  ///< "" = none
   std::optional<RemovalSpec> removal;
+  std::optional<SuctionSpec> suction;
   Mark where;
 };
 

@@ -111,8 +111,9 @@ class SetupReader {
   Placed read_placed(MapReader& reader);
   /// `motion: NAME` with its parameters beside it, or `motions:` with a list of models.
   std::vector<ReadModel> read_motions(MapReader& reader, Node& written);
+  std::optional<SuctionSpec> read_suction(MapReader& reader, Node& written);
   std::optional<RemovalSpec> read_removal(MapReader& reader, Node& written);
-  /// What only the made body knows. The air is cut by the bodies once, where they are at the start.
+  /// What only the made body knows.
   void check_body(const BodySpec& spec, std::vector<ReadModel> motions);
   void read_bodies(MapReader& top);
 

@@ -99,7 +99,7 @@ void pressure(std::array<int, 3> cells) {
   fluid::PressureSolver solver(grid, pattern);
   const double built = wall_time();
   for (int d = 0; d < 3; ++d) {
-    for (std::size_t o = static_cast<std::size_t>(grid.stride[2]); o < grid.size; ++o) {
+    for (std::size_t o = static_cast<std::size_t>(grid.stride[d]); o < grid.size; ++o) {
       const double h = grid.spacing[d];
       solver.coefficients().component[d][o] =
           pattern.component[d][o] * 0.5 * (eps[o] + eps[o - grid.stride[d]]) / (h * h);

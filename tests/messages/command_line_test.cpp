@@ -192,6 +192,20 @@ TEST_CASE("check shall refuse sides that contradict each other, with the reason 
   CHECK_MESSAGE(ramp.find("more fluid out than in (left") != std::string::npos, ramp);
 }
 
+TEST_CASE("check shall refuse a body that sucks what no side gives") {
+  const std::string hood =
+      "materials: {steel: {density: 7850, young_modulus: 50 MPa, poisson_ratio: 0.3}}\n"
+      "bodies: {hood: {shape: box, material: steel, min: [40, 0, 40 mm], max: [60, 20, 60 mm], "
+      "suction: {flow: 60 l/min, min: [40, 0, 40 mm], max: [60, 20, 40 mm]}}}\n";
+  const std::string closed = checked(box_of_air("no_slip", "no_slip", "no_slip") + hood, 2);
+  CHECK_MESSAGE(closed.find("the sides let 0.001 m3/s more fluid out than in (hood -0.001 m3/s) "
+                            "and none of them gives way") != std::string::npos,
+                closed);
+  CHECK(checked(box_of_air("static_pressure, pressure: 0 Pa", "no_slip", "no_slip") + hood, 0) ==
+        "");
+  CHECK(checked(box_of_air("volume_flow, flow: 60 l/min", "no_slip", "no_slip") + hood, 0) == "");
+}
+
 TEST_CASE("check shall tell what an air condition refuses, at its place") {
   const auto told = [](const std::string& left, const std::string& expected) {
     const std::string text =

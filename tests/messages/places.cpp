@@ -34,6 +34,7 @@ std::vector<const ParameterSchema*> blocks_of(const std::vector<std::string>& ke
   if (top == "interactions") return {&InteractionBlock::schema()};
   if (top == "frames") return {&FrameBlock::schema()};
   if (keys.back() == "remove") return {&RemovalBlock::schema()};
+  if (keys.back() == "suction") return {&SuctionBlock::schema()};
   if (top == "bodies") return {&PlacedBlock::schema(), &BodyBlock::schema()};
   if (top == "emitters") return {&PlacedBlock::schema()};
   if (top == "sensors") return {&SensorBlock::schema()};

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 using dust::test::engine;
 using dust::test::engine_interrupted;
@@ -59,6 +60,28 @@ TEST_CASE("a finished run shall be continued to a later end with the bits of the
   REQUIRE(engine({"run", k_scenario, "-o", parts, "--set", "time.end=14 ms", "--resume", "--quiet"})
               .status == 0);
   REQUIRE(engine({"run", k_scenario, "-o", whole, "--set", "time.end=14 ms", "--quiet"}).status ==
+          0);
+  CHECK(json_text(parts / "summary.json", "state_sha256") ==
+        json_text(whole / "summary.json", "state_sha256"));
+}
+
+TEST_CASE("bodies that move, go and suck in the air shall give the same bits after a resume") {
+  const TemporaryFolder folder;
+  const fs::path parts = folder / "parts";
+  const fs::path whole = folder / "whole";
+  const std::string paddle = DUST_SOURCE "/tests/scenario/paddle.yaml";
+  const auto run = engine({"run", paddle, "-o", whole, "--threads", "1", "--quiet"});
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  // Before the gate goes and after it.
+  for (const std::string end : {"5 ms", "11 ms"}) {
+    const bool is_first = end == "5 ms";
+    std::vector<std::string> arguments{
+        "run", paddle, "-o", parts, "--set", "time.end=" + end, "--threads", "2", "--quiet"};
+    if (!is_first) arguments.emplace_back("--resume");
+    REQUIRE(engine(arguments).status == 0);
+  }
+  REQUIRE(engine({"run", paddle, "-o", parts, "--resume", "--threads", "2", "--quiet"}).status ==
           0);
   CHECK(json_text(parts / "summary.json", "state_sha256") ==
         json_text(whole / "summary.json", "state_sha256"));

@@ -97,6 +97,7 @@ std::string moved_by(const scenario::BodySpec& body) {
     text += (text.empty() ? ", moved by " : ", ") + motion.name;
   if (text.empty()) text = ", at rest";
   if (body.removal) text += ", taken away later";
+  if (body.suction) text += ", sucks " + digits(6e4 * body.suction->flow, 3) + " l/min";
   return text;
 }
 

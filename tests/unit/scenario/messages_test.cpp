@@ -200,11 +200,7 @@ TEST_CASE("a body that contradicts itself shall be told with a remedy") {
   check_body(
       "lid: {shape: mesh, material: glass, unit: 1 mm, file: not.stl}",
       "s.yaml:24:16: error: bodies.lid: not.stl is not an STL file (neither binary nor text)");
-  check_body("lid: {shape: mesh, material: glass, unit: 1 mm, file: open.stl, open: allowed}",
-             "s.yaml:24:16: error: bodies.lid: the air cannot be cut by a sheet without thickness: "
-             "give thickness, or run grains alone (fluid: none)");
-  check_body("lid: {shape: mesh, material: glass, unit: 1 mm, file: open.stl, open: allowed}", "",
-             false);
+  check_body("lid: {shape: mesh, material: glass, unit: 1 mm, file: open.stl, open: allowed}", "");
   check_body("lid: {shape: box, material: glass, min: [0, 0, 0], max: [1, 0, 1 mm]}",
              "s.yaml:24:16: error: bodies.lid: max is not above min in each direction");
   check_body(
@@ -213,22 +209,30 @@ TEST_CASE("a body that contradicts itself shall be told with a remedy") {
       "bodies.lid.radius: -1 mm is outside R > 0 m");
 }
 
-TEST_CASE("a body that moves or goes shall be refused where the air is cut by it") {
+TEST_CASE("bodies that move, go or suck shall be taken in air and without, where they make sense") {
   const std::string plane =
       "lid: {shape: plane, material: glass, point: [0, 0, 0], normal: [0, 0, 1]";
-  check_body(plane + ", motion: lift, velocity: [0, 0, 1 mm/s]}",
-             "s.yaml:24:85: error: bodies.lid: the body moves through the air, which is cut by the "
-             "bodies only once: run grains alone (fluid: none), or let only its surface move "
-             "(motion: belt)");
-  check_body(plane + ", motion: lift, velocity: [0, 0, 1 mm/s]}", "", false);
-  check_body(plane + ", motion: belt, speed: 1 m/s}", "");
-  check_body(plane + ", motions: [{model: belt, speed: 1 m/s}]}", "");
-  check_body(plane + ", remove: {at: 1 s}}",
-             "s.yaml:24:3: error: bodies.lid.remove: the air is cut by the bodies only once: run "
-             "grains alone (fluid: none)");
-  check_body(plane + ", remove: {at: 1 s}}", "", false);
-  check_body(plane + ", remove: {when_kinetic_energy_per_grain_below: 1e-9 J, after: 0.1 s}}", "",
-             false);
+  for (const bool has_air : {true, false}) {
+    check_body(plane + ", motion: lift, velocity: [0, 0, 1 mm/s]}", "", has_air);
+    check_body(plane + ", motions: [{model: belt, speed: 1 m/s}]}", "", has_air);
+    check_body(plane + ", remove: {at: 1 s}}", "", has_air);
+    check_body(plane + ", remove: {when_kinetic_energy_per_grain_below: 1e-9 J, after: 0.1 s}}", "",
+               has_air);
+    check_body(plane + ", suction: {flow: 1 l/min, min: [0, 0, 0], max: [10, 10, 0 mm]}}", "",
+               has_air);
+  }
+  check_body(plane + ", suction: {flow: 1 l/min, min: [0, 0, 0], max: [10, -10, 0 mm]}}",
+             "bodies.lid.suction.max: y is below that of min");
+  check_body(plane + ", suction: {flow: 1 l, min: [0, 0, 0], max: [10, 10, 0 mm]}}",
+             "'l' is the unit of");
+  check_body(plane + ", suction: {flow: 1 l/min, max: [10, 10, 0 mm]}}",
+             "bodies.lid.suction: missing key 'min'");
+  check_body(plane + ", suction: {flow: 1 l/min, min: [0, 0, 0], max: [10, 10, 0 mm], flo: 1}}",
+             "did you mean 'flow'?");
+  check_body(plane +
+                 ", suction: {flow: 1 l/min, min: [0, 0, 0], max: [10, 10, 0 mm], times: [0, 1 s], "
+                 "factors: [1]}}",
+             "bodies.lid.suction: times and factors differ in length");
 }
 
 TEST_CASE("motions and removals that contradict themselves shall be told") {

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bodies/body_set.hpp"
+#include "dust/sdk/vec3.hpp"
+#include "fluid/grid.hpp"
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace dust::fluid {
+
+/// The bodies at one instant as the grid sees them: distances, shares, what lies between points.
+class BodyField {
+ public:
+  struct Hit {
+    double distance = std::numeric_limits<double>::max();  ///< [m] negative inside
+    sdk::Vec3 normal;
+    int body = -1;
+  };
+  enum class Which { all, standing };  ///< standing: those that never change their place
+
+  BodyField(const Grid& grid, const bodies::BodySet& bodies, double time, Which which);
+
+  [[nodiscard]] bool is_empty() const { return standing_.empty() && movers_.empty(); }
+  [[nodiscard]] bool has_movers() const { return !movers_.empty(); }
+  [[nodiscard]] Hit nearest(sdk::Vec3 p) const;
+  [[nodiscard]] double distance_to_movers(sdk::Vec3 p) const;
+  [[nodiscard]] bool is_inside(sdk::Vec3 p) const;
+
+  /// Share of the box (edges `size`, 0 = flat) outside all bodies. Within a sub-box the surface is
+  /// taken as a plane that meets it in proportion to the distance: exact for planes along the grid.
+  /// `middle` receives the middle of the open part. `smear` [s] widens the plane by its way in that
+  /// time: the mean over it.
+  [[nodiscard]] double open_share(sdk::Vec3 centre, sdk::Vec3 size, sdk::Vec3* middle = nullptr,
+                                  double smear = 0.0) const;
+  /// Distance from `from` (outside) to the surface on the way to `to` (inside).
+  [[nodiscard]] double wall_distance(sdk::Vec3 from, sdk::Vec3 to) const;
+
+  /// A point of the fluid that stands for the box round `centre`: the centre, or the point beside
+  /// the nearest surface if the centre is in a body; nothing if that is in another one.
+  [[nodiscard]] std::optional<sdk::Vec3> outside(sdk::Vec3 centre) const;
+  /// Where the way from `from` to `to`, both in the fluid, meets a body that it passes through: one
+  /// thinner than the way. Nothing where it is free or only grazes a body, as a chord of a round
+  /// one does.
+  [[nodiscard]] std::optional<double> passes_through(sdk::Vec3 from, sdk::Vec3 to) const;
+
+ private:
+  struct Placed {
+    const bodies::Body* body;
+    int number;
+    bodies::Placement at;
+  };
+  [[nodiscard]] bool meets(sdk::Vec3 from, sdk::Vec3 along, double length, double& way,
+                           Hit& hit) const;
+
+  std::vector<Placed> standing_;
+  std::vector<Placed> movers_;
+  double smallest_ = 0.0;  ///< [m] spacing that lengths are compared with
+};
+
+}  // namespace dust::fluid

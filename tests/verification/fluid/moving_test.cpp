@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bodies that move through the grid: what they shove is known.
+#include "dust/sdk/error.hpp"
+#include "fluid_case.hpp"
+#include "test_bodies.hpp"
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+#include <numbers>
+
+using namespace dust;
+using namespace dust::test;
+
+namespace {
+
+constexpr double k_pi = std::numbers::pi;
+/// The pressure is solved to 1e-10 of its right side.
+constexpr double k_exact = 1e-6;
+
+/// A body that goes to and fro, or ever on.
+class Shift final : public sdk::Motion {
+ public:
+  Shift(std::function<Vec3(double)> place, std::function<Vec3(double)> velocity, double fastest)
+      : place_(std::move(place)), velocity_(std::move(velocity)), fastest_(fastest) {}
+  static std::unique_ptr<Shift> steady(Vec3 velocity) {
+    return std::make_unique<Shift>([=](double t) { return t * velocity; },
+                                   [=](double) { return velocity; }, norm(velocity));
+  }
+  [[nodiscard]] double largest_speed() const override { return fastest_; }
+  [[nodiscard]] bool moves_body() const override { return true; }
+  [[nodiscard]] sdk::RigidPose pose(double time) const override {
+    sdk::RigidPose pose;
+    pose.shift = place_(time);
+    pose.velocity = velocity_(time);
+    return pose;
+  }
+
+ private:
+  std::function<Vec3(double)> place_;
+  std::function<Vec3(double)> velocity_;
+  double fastest_;
+};
+
+/// Everything between two parallel planes.
+class Slab final : public bodies::Shape {
+ public:
+  Slab(Vec3 middle, Vec3 normal, double thickness)
+      : middle_(middle), normal_(normal / norm(normal)), half_(0.5 * thickness) {}
+  [[nodiscard]] bodies::SurfacePoint nearest(Vec3 p) const override {
+    const double s = dot(p - middle_, normal_);
+    return {std::abs(s) - half_, s < 0 ? -normal_ : normal_};
+  }
+  [[nodiscard]] bodies::Triangles triangles(Vec3, Vec3, double) const override { return {}; }
+  [[nodiscard]] Vec3 lateral_axis() const override { return {0, 1, 0}; }
+
+ private:
+  Vec3 middle_;
+  Vec3 normal_;
+  double half_;
+};
+
+bodies::Body moving(std::unique_ptr<bodies::Shape> shape, std::unique_ptr<sdk::Motion> motion) {
+  bodies::Body b = body(std::move(shape), 0.0);
+  b.motions.push_back(std::move(motion));
+  return b;
+}
+
+/// A duct along z, open at both ends, slippery.
+Case duct(int cells) {
+  Case c;
+  c.max = {0.02, 0.01, 0.04};
+  c.cells = {4, 1, cells};
+  c.fluid.density = 1.2;
+  c.fluid.viscosity = 1.8e-5;
+  c.fluid.pressure_tolerance = 1e-10;
+  for (int s = 0; s < 4; ++s) c.sides[s] = slip();
+  c.sides[4] = open_side(0.0, false);
+  c.sides[5] = open_side(0.0, false);
+  return c;
+}
+
+/// Volume flow [m3/s] through the faces k of direction z.
+double flow_z(const Case& c, int k) {
+  double sum = 0.0;
+  for (int j = 0; j < c.cells[1]; ++j) {
+    for (int i = 0; i < c.cells[0]; ++i) sum += c.u(2, i, j, k);
+  }
+  return sum * c.grid.spacing.x * c.grid.spacing.y;
+}
+
+/// Open volume [m3] of the grid.
+double open_volume(const Case& c) {
+  double sum = 0.0;
+  for (int k = 0; k < c.cells[2]; ++k) {
+    for (int j = 0; j < c.cells[1]; ++j) {
+      for (int i = 0; i < c.cells[0]; ++i) {
+        sum += c.solver->open_fraction()[c.grid.index(i, j, k)];
+      }
+    }
+  }
+  return sum * c.grid.cell_volume();
+}
+
+}  // namespace
+
+TEST_CASE("a piston shall shove the fluid of its duct with its own speed, wherever it stands") {
+  // Thick pistons and a plate thinner than a cell, steps short and longer than a cell's crossing.
+  for (const double thickness : {0.013, 0.0007}) {
+    for (const double step : {2e-4, 1.7e-3}) {
+      Case c = duct(40);
+      const double speed = 0.7;
+      c.bodies.push_back(
+          moving(std::make_unique<Slab>(Vec3{0, 0, 0.0102}, Vec3{0, 0, 1}, thickness),
+                 Shift::steady({0, 0, speed})));
+      c.start();
+      const int steps = static_cast<int>(0.012 / (speed * step));
+      double worst = 0.0;
+      for (int n = 0; n < steps; ++n) {
+        c.advance(step);
+        for (const int k : {0, 40}) {
+          for (int i = 0; i < 4; ++i)
+            worst = std::max(worst, std::abs(c.u(2, i, 0, k) / speed - 1));
+        }
+      }
+      CAPTURE(thickness);
+      CAPTURE(step);
+      MESSAGE("piston " << thickness << " m, " << speed * step / c.grid.spacing.z
+                        << " cells per step: largest error of the ends " << worst);
+      CHECK(worst < k_exact);
+    }
+  }
+}
+
+TEST_CASE("a piston that is speeded up shall feel the mass of the fluid before it") {
+  Case c = duct(40);
+  const double a = 2.0;
+  c.bodies.push_back(moving(std::make_unique<Slab>(Vec3{0, 0, 0.0}, Vec3{0, 0, 1}, 0.0204),
+                            std::make_unique<Shift>(
+                                [=](double t) {
+                                  return Vec3{0, 0, 0.5 * a * t * t};
+                                },
+                                [=](double t) {
+                                  return Vec3{0, 0, a * t};
+                                },
+                                a * 0.03)));
+  c.start();
+  c.advance_to(0.02, 1e-3);
+  // dp/dz = -rho a between the piston and the open end, where the pressure is 0.
+  const double at = c.grid.centre(0, 0, 25).z;
+  CHECK(c.p(1, 0, 25) == doctest::Approx(1.2 * a * (0.04 - at)).epsilon(1e-3));
+}
+
+TEST_CASE("what moving bodies take from the fluid shall leave through the sides, to rounding") {
+  Case c;
+  c.max = {0.05, 0.01, 0.05};
+  c.cells = {24, 1, 24};
+  c.fluid.density = 1.2;
+  c.fluid.viscosity = 1.8e-5;
+  c.fluid.pressure_tolerance = 1e-10;
+  for (int s = 0; s < 6; ++s) c.sides[s] = wall();
+  c.sides[2] = slip();
+  c.sides[3] = slip();
+  c.sides[5] = open_side(0.0, false);
+  // Comes in from outside the domain.
+  c.bodies.push_back(moving(std::make_unique<Cylinder>(Vec3{-0.011, 0, 0.021}, 0.0093, false),
+                            Shift::steady({0.4, 0, 0.13})));
+  c.start();
+  double volume = open_volume(c);
+  const double step = 1e-3;
+  for (int n = 0; n < 60; ++n) {
+    c.advance(step);
+    const double now = open_volume(c);
+    CHECK(flow_z(c, 24) * step == doctest::Approx(volume - now).epsilon(1e-6).scale(1e-9));
+    CHECK(c.solver->report().divergence < 1e-4);  // of about 400 1/s that the body makes
+    volume = now;
+  }
+}
+
+namespace {
+
+/// A cylinder carried along by the stream: the stream does not notice. Returns the largest and the
+/// mean deviation over the stream's speed.
+std::array<double, 2> carried(int n) {
+  Case c;
+  c.max = {1, 1, 1};
+  c.cells = {n, 1, n};
+  c.fluid.density = 1;
+  c.fluid.viscosity = 1e-3;
+  c.fluid.pressure_tolerance = 1e-8;
+  for (int s = 2; s < 6; ++s) c.sides[s] = slip();
+  const Vec3 stream{1, 0, 0};
+  c.bodies.push_back(moving(std::make_unique<Cylinder>(Vec3{0.31, 0, 0.507}, 0.152, false),
+                            Shift::steady(stream)));
+  c.start();
+  c.solver->set_velocity([&](Vec3) { return stream; });
+  double largest = 0.0;
+  double sum = 0.0;
+  int count = 0;
+  const double step = 0.4 / n;
+  while (c.time < 0.35) {
+    c.advance(step);
+    for (const int d : {0, 2}) {
+      c.each_face(d, [&](int, int, int, Vec3 x, double v) {
+        const Vec3 q = x - Vec3{0.31 + c.time, 0, 0.507};
+        if (std::hypot(q.x, q.z) <= 0.152) return;
+        largest = std::max(largest, std::abs(v - stream[d]));
+        sum += std::pow(v - stream[d], 2);
+        ++count;
+      });
+    }
+  }
+  return {largest, std::sqrt(sum / count)};
+}
+
+}  // namespace
+
+TEST_CASE("a body carried along by a stream shall leave the stream as it is") {
+  std::array<double, 2> last{};
+  for (const int n : {20, 40}) {
+    const auto e = carried(n);
+    MESSAGE("cells " << n << ": largest " << e[0] << ", rms " << e[1] << ", order of the rms "
+                     << (last[1] > 0 ? order(last[1], e[1]) : 0.0));
+    last = e;
+  }
+  // The shares of faces and cells that a round body cuts are measured with some 1 % of error.
+  CHECK(last[1] < 2.5e-3);
+  CHECK(last[0] < 0.1);
+}
+
+TEST_CASE("a plate that swings in its plane shall drag the layer that Stokes found") {
+  // u = U exp(-k z) cos(w t - k z), k = sqrt(w / 2 nu); the plate's own place never changes, but
+  // the grid is cut anew in each step all the same.
+  const double nu = 1.8e-5 / 1.2139;
+  const double w = 2 * k_pi * 5.0;
+  const double k = std::sqrt(w / (2 * nu));  // layer 1 / k = 0.97 mm
+  const double foot = 0.00312;
+  Case c;
+  c.max = {0.5e-3, 0.5e-3, 0.02};
+  c.cells = {1, 1, 80};
+  c.fluid.density = 1.2139;
+  c.fluid.viscosity = 1.8e-5;
+  c.sides[4] = wall();
+  c.sides[5] = slip();
+  c.bodies.push_back(moving(std::make_unique<HalfSpace>(Vec3{0, 0, foot}, Vec3{0, 0, 1}),
+                            std::make_unique<Shift>(
+                                [=](double t) {
+                                  return Vec3{std::sin(w * t) / w, 0, 0};
+                                },
+                                [=](double t) {
+                                  return Vec3{std::cos(w * t), 0, 0};
+                                },
+                                1.0)));
+  c.start();
+  c.advance_to(0.4, 1e-3);  // two periods: the start is forgotten
+  double worst = 0.0;
+  for (int n = 0; n < 80; ++n) {
+    const double z = c.grid.centre(0, 0, n).z - foot;
+    if (z <= 0) continue;
+    const double exact = std::exp(-k * z) * std::cos(w * c.time - k * z);
+    worst = std::max(worst, std::abs(c.u(0, 0, 0, n) - exact));
+  }
+  MESSAGE("largest error " << worst << " of the plate's speed");
+  CHECK(worst < 0.02);  // four cells in the layer
+}
+
+TEST_CASE("a run with moving bodies shall go on from saved fields, on any number of threads") {
+  const auto make = [] {
+    auto c = std::make_unique<Case>();
+    c->max = {0.06, 0.01, 0.06};
+    c->cells = {48, 8, 48};
+    c->fluid.density = 1.2;
+    c->fluid.viscosity = 1.8e-5;
+    for (auto& s : c->sides) s = wall();
+    c->sides[5] = open_side(0.0, true);
+    c->bodies.push_back(moving(std::make_unique<Cylinder>(Vec3{0.02, 0, 0.021}, 0.0093, false),
+                               Shift::steady({0.4, 0, 0.23})));
+    c->start();
+    return c;
+  };
+  const auto whole = make();
+  {
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    whole->advance_to(0.02, 1e-3);
+  }
+  const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
+  const auto first = make();
+  first->advance_to(0.011, 1e-3);
+  MemoryArchive archive;
+  first->solver->save(archive);
+  const auto second = make();
+  second->solver->load(archive, first->time);
+  second->time = first->time;
+  second->advance_to(0.02, 1e-3);
+  for (int d = 0; d < 3; ++d) {
+    CHECK(second->solver->velocity().component[d] == whole->solver->velocity().component[d]);
+  }
+  CHECK(second->solver->pressure() == whole->solver->pressure());
+}
+
+TEST_CASE("a body that shrinks a closed room shall be refused with the reason") {
+  Case c = duct(40);
+  c.sides[4] = wall();
+  c.sides[5] = wall();
+  c.bodies.push_back(moving(std::make_unique<HalfSpace>(Vec3{0, 0, 0.0102}, Vec3{0, 0, 1}),
+                            Shift::steady({0, 0, 0.5})));
+  c.start();
+  CHECK_THROWS_WITH_AS(c.advance(1e-3), doctest::Contains("and bodies let"), sdk::ModelError);
+}
