@@ -217,12 +217,12 @@ void Coupling::Impl::find_own_solids(const particles::GrainRows& grains, std::si
   WideKernel kernel(lattice, voidage);
   Stencil s;
   WideStencil many;
-  const auto face_mean = [](const auto& faces) {
+  const auto face_mean = [](const auto& near) {
     double sum = 0.0;
     double open = 0.0;
-    for (std::size_t n = 0; n < faces.size(); ++n) {
-      const double part = faces.weight[n] * faces.open[n];
-      sum += part * faces.void_fraction[n];
+    for (std::size_t n = 0; n < near.size(); ++n) {
+      const double part = near.weight[n] * near.open[n];
+      sum += part * near.void_fraction[n];
       open += part;
     }
     return open > 0.0 ? sum / open : 0.0;
@@ -371,17 +371,17 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t fir
     for (int d = 0; d < 3; ++d) {
       const double* u = state.velocity.component[d].data();
       const double* push = state.stress_divergence.component[d].data();
-      const auto look = [&](const auto& faces) {
+      const auto look = [&](const auto& near) {
         double flux = 0.0;  // relative to the grain: it does not jump with eps in plug flow
         double open = 0.0;
         double fluid = 0.0;
         double pushed = 0.0;
-        for (std::size_t n = 0; n < faces.size(); ++n) {
-          flux += faces.weight[n] * faces.void_fraction[n] * (u[faces.face[n]] - v[d]);
-          const double part = faces.weight[n] * faces.open[n];
+        for (std::size_t n = 0; n < near.size(); ++n) {
+          flux += near.weight[n] * near.void_fraction[n] * (u[near.face[n]] - v[d]);
+          const double part = near.weight[n] * near.open[n];
           open += part;
-          fluid += part * faces.void_fraction[n];
-          if (is_wide) pushed += part * push[faces.home[n]];
+          fluid += part * near.void_fraction[n];
+          if (is_wide) pushed += part * push[near.home[n]];
         }
         slip[row - first][d] = flux / own + r.disturbance[d];
         r.fluid_velocity[d] = v[d] + slip[row - first][d];

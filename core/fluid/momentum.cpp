@@ -13,8 +13,6 @@ namespace {
 /// The error of the implicit solve, relative to the change over the step.
 constexpr double k_sweep_tolerance = 1e-6;
 constexpr int k_most_sweeps = 400;
-/// Errors that fall by more than this per sweep do so at once.
-constexpr double k_fast_rate = 1e-3;
 
 }  // namespace
 
@@ -145,12 +143,11 @@ void Momentum::prepare(double implicit, const FaceField& coefficient, bool has_d
   const double root = std::sqrt(1.0 - jacobi * jacobi);
   relaxation_ = 2.0 / (1.0 + root);
   const double rate = std::max(relaxation_ - 1.0, jacobi * jacobi);
-  // Where the rate is not reached from the first sweep on, one more.
-  sweeps_ = rate > k_fast_rate ? 1 : 0;
+  // One more, for the rate is not reached from the first sweep on: without it momentum is lost.
+  sweeps_ = 1;
   if (rate > 1e-12) {
     sweeps_ += static_cast<int>(std::ceil(std::log(k_sweep_tolerance) / std::log(rate)));
   }
-  sweeps_ = std::max(1, sweeps_);
   // Where a step is many viscous times long the rest of the error decays over the next steps.
   sweeps_ = std::min(sweeps_, k_most_sweeps);
 
