@@ -20,11 +20,6 @@ __attribute__((always_inline)) inline const Lanes& row(const double* rows, std::
 __attribute__((always_inline)) inline void store(double* column, const Lanes& v) {
   std::memcpy(column, &v, sizeof v);
 }
-__attribute__((always_inline)) inline void fold(Lanes& d, double length, double half) {
-  const LaneMask above = d > half;
-  const LaneMask below = d < -half;
-  d = above ? d - length : (below ? d + length : d);
-}
 __attribute__((always_inline)) inline void fold(Lanes& d, const Lanes& length, const Lanes& half) {
   const LaneMask above = d > half;
   const LaneMask below = d < -half;

@@ -4,6 +4,7 @@
 // 330 x 11 x 350 mm of air with a belt in its lower left corner (80 mm long, its top at 200 mm,
 // 0.8 m/s), open to the left and right, steps of 1 ms. Prints one line: seconds per step of the
 // second half of the run, processor time and wall time, and what the steps did.
+#include "bench/still_side.hpp"
 #include "fluid/fluid_solver.hpp"
 
 #include <tbb/global_control.h>
@@ -22,20 +23,6 @@ namespace {
 
 constexpr double k_step = 1e-3;
 constexpr Vec3 k_size{0.33, 0.011, 0.35};
-
-class Side final : public sdk::BoundaryCondition {
- public:
-  explicit Side(sdk::SideRules r) : rules_(r) {}
-  [[nodiscard]] sdk::SideRules rules() const override { return rules_; }
-  void evaluate(const sdk::SideBatch& b) const override {
-    for (std::size_t n = 0; n < b.count; ++n) {
-      b.velocity_x[n] = b.velocity_y[n] = b.velocity_z[n] = b.pressure[n] = 0.0;
-    }
-  }
-
- private:
-  sdk::SideRules rules_;
-};
 
 /// Everything below the top and left of the front of the belt.
 class Block final : public bodies::Shape {
@@ -111,9 +98,9 @@ int main(int argc, char** argv) {
   if (argc > 4) fluid.pressure_tolerance = std::atof(argv[4]);
   const auto grid = fluid::Grid::make({0, 0, 0}, k_size, fluid.cells, {});
   using sdk::SideRule;
-  const Side open({SideRule::gradient, SideRule::gradient, SideRule::pressure});
-  const Side slip({SideRule::fixed, SideRule::gradient, SideRule::gradient});
-  const Side wall({SideRule::fixed, SideRule::fixed, SideRule::gradient});
+  const test::StillSide open({SideRule::gradient, SideRule::gradient, SideRule::pressure});
+  const test::StillSide slip({SideRule::fixed, SideRule::gradient, SideRule::gradient});
+  const test::StillSide wall({SideRule::fixed, SideRule::fixed, SideRule::gradient});
   fluid::FluidSolver solver(grid, fluid, bodies, {&open, &open, &slip, &slip, &wall, &wall});
   const fluid::CellField eps(grid.size, 1.0);
   const fluid::Exchange exchange{fluid::FaceField(grid), fluid::FaceField(grid)};

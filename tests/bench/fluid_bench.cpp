@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Times of the pressure solve and of whole fluid steps at the size of the transfer point:
 //   fluid_bench [threads] [steps] [cells across]
+#include "bench/still_side.hpp"
 #include "dust/sdk/parameter_schema.hpp"
 #include "fluid/fluid_solver.hpp"
 #include "fluid/pressure_solver.hpp"
@@ -25,20 +26,6 @@ double wall_time() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 double cpu_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-class Side final : public sdk::BoundaryCondition {
- public:
-  explicit Side(sdk::SideRules r) : rules_(r) {}
-  [[nodiscard]] sdk::SideRules rules() const override { return rules_; }
-  void evaluate(const sdk::SideBatch& b) const override {
-    for (std::size_t n = 0; n < b.count; ++n) {
-      b.velocity_x[n] = b.velocity_y[n] = b.velocity_z[n] = b.pressure[n] = 0.0;
-    }
-  }
-
- private:
-  sdk::SideRules rules_;
-};
 
 class Belt final : public sdk::Motion {
  public:
@@ -141,9 +128,9 @@ void transfer_point(int across, int steps) {
   fluid.viscosity = 1.8e-5;
   const auto grid = fluid::Grid::make({0, 0, 0}, {0.33, 0.011, 0.35}, fluid.cells, {});
   using sdk::SideRule;
-  const Side open({SideRule::gradient, SideRule::gradient, SideRule::pressure});
-  const Side slip({SideRule::fixed, SideRule::gradient, SideRule::gradient});
-  const Side wall({SideRule::fixed, SideRule::fixed, SideRule::gradient});
+  const test::StillSide open({SideRule::gradient, SideRule::gradient, SideRule::pressure});
+  const test::StillSide slip({SideRule::fixed, SideRule::gradient, SideRule::gradient});
+  const test::StillSide wall({SideRule::fixed, SideRule::fixed, SideRule::gradient});
   const double begin = wall_time();
   fluid::FluidSolver solver(grid, fluid, bodies, {&open, &open, &slip, &slip, &wall, &wall});
   std::printf("built in %.2f s\n", wall_time() - begin);
