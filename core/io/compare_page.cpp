@@ -164,8 +164,19 @@ json curve_plots(const Comparison& c) {
       const std::string y_label = text_at(a, "y_label"), series = text_at(a, "series");
       const auto open = y_label.rfind('['), close = y_label.rfind(']');
       const bool has_unit = open != std::string::npos && close != std::string::npos && close > open;
+      std::string x_label = text_at(a, "x_label");
+      if (const auto at = x_label.find(" [m]"); at != std::string::npos) {
+        x_label.replace(at, 4, ", mm");
+        for (json& line : lines) {
+          for (json& x : line["x"]) {
+            if (x.is_number()) x = 1e3 * x.get<double>();
+          }
+        }
+      } else if (x_label.ends_with(" [s]")) {
+        x_label.replace(x_label.size() - 4, 4, ", s");
+      }
       plots.push_back({{"title", text_at(a, "sensor") + ", " + text_at(a, "title")},
-                       {"x_label", text_at(a, "x_label")},
+                       {"x_label", x_label},
                        {"y_label", words(label(y_label) + (series.empty() ? "" : ", " + series))},
                        {"unit", has_unit ? y_label.substr(open + 1, close - open - 1) : ""},
                        {"lines", lines}});

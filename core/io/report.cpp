@@ -2,6 +2,7 @@
 #include "io/report.hpp"
 
 #include "io/report_fast_dust.hpp"
+#include "io/report_flight.hpp"
 #include "io/report_limits.hpp"
 #include "io/report_page.hpp"
 #include "io/report_pictures.hpp"
@@ -67,10 +68,55 @@ json places_json(const Highlights& highlights) {
   return list;
 }
 
+/// Where dust parted from the load, for the map: the squares that matter.
+json partings_json(const Highlights& highlights) {
+  constexpr double k_least = 0.02;  // share
+  json list = json::array();
+  for (const Parting& parting : highlights.partings) {
+    if (parting.share < k_least) continue;
+    list.push_back(
+        {{"x", parting.x}, {"z", parting.z}, {"side", k_parting_side}, {"share", parting.share}});
+  }
+  return list;
+}
+
+/// Paths of single grains in still air, of the finest and the coarsest coarse class.
+json lone_json(const json& report, double speed, double gravity, double deepest) {
+  const json& setting = object_at(report, "setting");
+  const auto air_density = number_at(object_at(setting, "fluid"), "density");
+  const auto viscosity = number_at(object_at(setting, "fluid"), "viscosity");
+  double density = 0.0;
+  for (const json& emitter : list_at(setting, "emitters")) {
+    const double own = number_at(emitter, "density").value_or(0.0);
+    if (density != 0.0 && own != density)
+      return json::array();  // which grains are whose is not told
+    density = own;
+  }
+  std::vector<double> sizes;
+  for (const json& diameter : list_at(report, "classes")) {
+    if (diameter.is_number() && diameter >= k_dust_diameter) sizes.push_back(diameter);
+  }
+  json list = json::array();
+  if (!air_density || !viscosity || !(density > 0.0) || sizes.empty()) return list;
+  std::sort(sizes.begin(), sizes.end());
+  if (sizes.size() > 2) sizes = {sizes.front(), sizes.back()};
+  constexpr int k_points = 40;
+  std::vector<double> drops;
+  // Closer together at the start, where the path is level.
+  for (int k = 0; k <= k_points; ++k) drops.push_back(deepest * (k * k) / (k_points * k_points));
+  for (const double size : sizes) {
+    const auto places =
+        lone_flight({size, density, speed}, {*air_density, *viscosity}, gravity, drops);
+    if (places.empty()) continue;
+    list.push_back({{"diameter", size}, {"x", places}, {"drop", drops}});
+  }
+  return list;
+}
+
 /// Free flight without air from a level belt, x = v sqrt(2 h / g): the reference of the stream.
 /// Only for belts so fast that grains leave at the top of the pulley, v^2 >= g R: from slower ones
 /// they slide off farther round, and no closed form without friction tells where.
-json flights_json(const json& report) {
+json flights_json(const json& report, double deepest) {
   const json& setting = object_at(report, "setting");
   const json& gravity = list_at(setting, "gravity");
   json list = json::array();
@@ -82,7 +128,10 @@ json flights_json(const json& report) {
     const double fall = -gravity[2].get<double>();
     const double radius = number_at(belt, "radius").value_or(0.0);
     if (speed && *speed > 0.0 && *speed * *speed >= fall * radius) {
-      list.push_back({{"name", text_at(belt, "name")}, {"speed", *speed}, {"gravity", fall}});
+      list.push_back({{"name", text_at(belt, "name")},
+                      {"speed", *speed},
+                      {"gravity", fall},
+                      {"lone", lone_json(report, *speed, fall, deepest)}});
     }
   }
   return list;
@@ -303,10 +352,12 @@ void write_report(const std::filesystem::path& folder) {
   data["series"] = series_json(run.series);
   data["stream"] = stream_json(highlights);
   data["places"] = places_json(highlights);
+  data["partings"] = partings_json(highlights);
   data["sensors"] = json::array();
   for (const auto& entry : object_at(run.summary, "sensors").items())
     data["sensors"].push_back(entry.key());
-  data["flights"] = flights_json(run.report);
+  const double deepest = highlights.stream.empty() ? 0.0 : highlights.stream.back().drop;
+  data["flights"] = flights_json(run.report, deepest);
   data["graph"] = text_at(run.report, "graph_dot");
 
   Page page;

@@ -43,7 +43,9 @@ std::string balance_row(const char* name, const json& parts, bool is_exact, cons
   return std::string("<tr><th scope=\"row\">") + name + "</th>" + cell(*emitted) +
          cell(part("in_domain")) + cell(part("left")) + cell(part("removed")) + "<td class=\"n" +
          (is_closed ? "" : " wrong") + "\">" +
-         (*unit != '\0' ? quantity_html(difference, -1.0, unit) : number_html(difference, 2)) +
+         (*unit != '\0' && difference != 0.0
+              ? number_html(difference / scale, 2) + "\u202fof it"  // round-off says little in kg
+              : number_html(difference, 2)) +
          "</td></tr>\n";
 }
 
@@ -116,10 +118,10 @@ std::string balance_html(const RunText& run) {
       rows + "</tbody></table></div>\n";
   text += classes_html(run);
   if (const auto most = number_at(object_at(run.summary, "particles"), "max")) {
-    text +=
-        "<p class=\"note\">At most " + count_html(*most) +
-        " computed grains were in the domain at one time. A real grain counts with the statistical "
-        "weight of the computed grains that stand for it.</p>\n";
+    text += "<p class=\"note\">At most " + count_html(*most) +
+            (*most == 1.0 ? " computed grain was" : " computed grains were") +
+            " in the domain at one time. A real grain counts with the statistical "
+            "weight of the computed grains that stand for it.</p>\n";
   }
   return text + "</section>\n";
 }

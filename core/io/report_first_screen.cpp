@@ -77,7 +77,10 @@ std::string lede_html(const RunText& run, const Highlights& highlights) {
   if (text.empty()) {
     const auto emitted = number_at(object_at(run.summary, "particles"), "emitted");
     const auto simulated = number_at(run.summary, "simulated_s");
-    if (emitted) text += count_html(*emitted) + " grains were released";
+    if (emitted) {
+      text += *emitted == 1.0 ? std::string("One grain was released")
+                              : count_html(*emitted) + " grains were released";
+    }
     if (emitted && simulated)
       text += " in " + number_html(*simulated) + "\u202fs of simulated time";
     if (emitted) text += ".";

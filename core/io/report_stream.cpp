@@ -49,7 +49,12 @@ std::string extraction_html(const Highlights& highlights, bool has_air, bool has
         "<figure><div class=\"picture\" id=\"dust-map-picture\"></div><div "
         "id=\"dust-map-legend\" class=\"key\"></div><figcaption><b>Where the dust is</b>, mean "
         "over the frames of the second half of the run: share of the dust in the domain per "
-        "cm\u00b2 of the side view, logarithmic.</figcaption></figure>\n";
+        "cm\u00b2 of the side view, logarithmic." +
+        std::string(
+            highlights.partings.empty()
+                ? ""
+                : " Squares: where it parted from the load, in per cent of the loose dust.") +
+        "</figcaption></figure>\n";
   }
   if (!maps.empty()) maps = "<div class=\"pair\">\n" + maps + "</div>\n";
   return "<section id=\"extraction\"><h2>Where to extract</h2>\n<p>Suction works with the flow "

@@ -186,9 +186,12 @@ std::string value_html(double value, double error) {
 }
 
 std::string quantity_html(double value, double error, std::string_view unit) {
+  if (std::isnan(value)) return "\u2013";
+  const auto scales = scales_of(unit);
+  // In what unit a plain zero is, nobody asks where the others choose their own.
+  if (value == 0.0 && !(error > 0.0) && !scales.empty()) return "0";
   double factor = 1.0;
   std::string name(unit);
-  const auto scales = scales_of(unit);
   if (!scales.empty() && std::isfinite(value)) {
     const double size = std::max(std::abs(value), std::max(error, 0.0));
     const Scale* best = &scales.front();

@@ -22,6 +22,9 @@ std::optional<Vec3> point_of(const registry::Entry& entry, const ModelChoice& ch
     const auto& p = entry.info.parameters[n];
     if (p.name != name || !(p.dimension == sdk::dimension::length)) continue;
     const auto* v = std::get_if<Vec3>(&choice.values[n]);
+    // Of a list of places the first.
+    const auto* list = std::get_if<std::vector<Vec3>>(&choice.values[n]);
+    if (list != nullptr && !list->empty()) v = &list->front();
     if (v != nullptr && std::isfinite(v->x + v->y + v->z)) return *v;
   }
   return std::nullopt;
@@ -50,7 +53,7 @@ Json thing_json(const scenario::Setup& setup, const registry::Registry& registry
     j["max"] = vector_json(in_domain(setup, *max, frame));
     return j;
   }
-  for (const char* key : {"from", "point", "position", "origin", "center"}) {
+  for (const char* key : {"from", "point", "position", "positions", "origin", "center", "centre"}) {
     if (const auto at = point_of(*entry, choice, key)) {
       j["at"] = vector_json(in_domain(setup, *at, frame));
       break;
@@ -160,7 +163,12 @@ nlohmann::ordered_json setting_json(const scenario::Setup& setup,
   j["belts"] = belts_json(setup, registry);
   j["emitters"] = Json::array();
   for (const auto& e : setup.emitters) {
-    j["emitters"].push_back(thing_json(setup, registry, e.name, e.model, e.frame));
+    Json emitter = thing_json(setup, registry, e.name, e.model, e.frame);
+    emitter["density"] = setup.materials[static_cast<std::size_t>(e.material)].properties.density;
+    j["emitters"].push_back(std::move(emitter));
+  }
+  if (setup.fluid && setup.fluid->regions.empty()) {
+    j["fluid"] = {{"density", setup.fluid->density}, {"viscosity", setup.fluid->viscosity}};
   }
   j["sensors"] = Json::array();
   for (const auto& s : setup.sensors) {

@@ -233,7 +233,7 @@ std::string svg_contours(const ContourPlot& plot) {
     const GridField& f = *plot.region;
     const double dx = (x.to - x.from) / static_cast<double>(f.nx - 1);
     const double dy = (y.from - y.to) / static_cast<double>(f.ny - 1);
-    out += "<g style=\"fill:var(--plot1);opacity:.22\">";
+    out += "<g style=\"fill:var(--plot1);opacity:.22\" shape-rendering=\"crispEdges\">";
     for (std::size_t j = 0; j < f.ny; ++j) {
       for (std::size_t i = 0; i < f.nx; ++i) {
         if (f.values[j * f.nx + i] > plot.region_level) continue;

@@ -150,7 +150,7 @@ Dust.air = (() => {
     shown.draw();
     if (Dust.grains) Dust.grains.draw();
   });
-  if (!Dust.grains) checkbox.parentElement.hidden = true;
+  if (!Dust.grains || !Dust.grains.has_dust) checkbox.parentElement.hidden = true;
 
   Dust.legend_strip(document.getElementById('speed-legend'), Dust.speed_colour, 0, 0, set.speed, 'm/s', Math.sqrt);
   Dust.legend_strip(document.getElementById('pressure-legend'), Dust.pressure_colour, -1,

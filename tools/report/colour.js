@@ -54,8 +54,18 @@ Dust.table = (colour_of, low) => {
 // share of the range to its place on the strip.
 Dust.legend_strip = (parent, colour_of, low, from, to, unit, place_of = (share) => share, is_lasting = true) => {
   const canvas = Dust.el('canvas', {width: 256, height: 1});
-  const ends = Dust.el('div', {class: 'ends'}, ...Dust.ticks(from, to, 5).concat(place_of(0.25) > 0.4 ? Dust.ticks(from, to / 20, 1).slice(1, 2) : []).map((value) => Dust.el('span',
-    {style: `left:${100 * place_of((value - from) / (to - from))}%`}, Dust.number(value))), Dust.el('span', {class: 'name'}, unit));
+  if (unit === 'm/s' && to < 0.02) [from, to, unit] = [from * 1e3, to * 1e3, 'mm/s'];
+  const ticks = Dust.ticks(from, to, 5).concat(place_of(0.25) > 0.4 ? Dust.ticks(from, to / 20, 1).slice(1, 2) : []).sort((a, b) => a - b);
+  // A tick that would run into the one before is left out.
+  const width = (parent.clientWidth || 220) - 80;
+  let free = -Infinity;
+  const labels = ticks.flatMap((value) => {
+    const place = place_of((value - from) / (to - from)), text = Dust.number(value), half = (3.4 * text.length + 3) / width;
+    if (place - half < free) return [];
+    free = place + half;
+    return [Dust.el('span', {style: `left:${100 * place}%`}, text)];
+  });
+  const ends = Dust.el('div', {class: 'ends'}, ...labels, Dust.el('span', {class: 'name'}, unit));
   parent.replaceChildren(Dust.el('div', {class: 'scale'}, canvas, ends));
   const draw = () => {
     const pen = canvas.getContext('2d');

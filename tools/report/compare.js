@@ -67,7 +67,7 @@
       if (grains) {
         const k = nearest(grains.frames, t), frame = grains.frames[k];
         next.grains = {n: frame.n, dust: frame.dust, bytes: await unpacked('g' + k, frame.data)};
-        note.textContent = `${Dust.count(frame.all)} grains at ${Dust.number(frame.t)} s.`;
+        note.textContent = `${Dust.count(frame.all)} ${frame.all === 1 ? 'grain' : 'grains'} at ${Dust.number(frame.t)} s.`;
       }
       if (air) {
         const k = nearest(air.frames, t);

@@ -4,6 +4,21 @@
   const rings = (pen, picture) => {
     for (const place of Dust.data.places) Dust.ring(pen, picture.x(place.x), picture.z(place.z), place.name);
   };
+  // Where dust parted from the load, with its share.
+  const squares = (pen, picture) => {
+    pen.strokeStyle = pen.fillStyle = Dust.colour('ink');
+    pen.lineWidth = 1;
+    pen.font = '11px ' + Dust.colour('sans');
+    for (const {x, z, side, share} of Dust.data.partings || []) {
+      const size = side * picture.place.scale, left = picture.x(x) - size / 2, top = picture.z(z) - size / 2;
+      pen.setLineDash([2, 2]);
+      pen.strokeRect(left, top, size, size);
+      pen.setLineDash([]);
+      pen.textAlign = 'left';
+      pen.textBaseline = 'top';
+      pen.fillText(Dust.number(100 * share, 2) + ' %', left + 2, top + 2);
+    }
+  };
   const below = (pen, picture, colour) => {
     pen.fillStyle = Dust.colour(colour);
     pen.fillRect(picture.place.left, picture.place.top, picture.place.inner, picture.place.height);
@@ -51,6 +66,7 @@
         set.nx * set.cell * self.place.scale, set.nz * set.cell * self.place.scale);
     }
     self.bodies(pen);
+    squares(pen, self);
     rings(pen, self);
   });
   Dust.unpack(set.data).then((bytes) => {

@@ -164,11 +164,11 @@ Dust.grains = (() => {
       take: () => {
         current = frames[0];
         before = frames.slice(1);
-        count.textContent = `At ${Dust.number(current.t)} s: ${Dust.count(current.all)} computed grains` +
+        count.textContent = `At ${Dust.number(current.t)} s: ${Dust.count(current.all)} computed ${current.all === 1 ? 'grain' : 'grains'}` +
           (set.classes.some((d) => d < set.dust_below) ? `, of them ${Dust.count(current.dust)} dust grains shown.` : '.');
       },
       draw: () => picture.draw(),
     };
   };
-  return {times: set.frames.map((frame) => frame.t), show, paint_dust, draw: () => picture.draw()};
+  return {times: set.frames.map((frame) => frame.t), show, paint_dust, has_dust: set.classes.some((d) => d < set.dust_below), draw: () => picture.draw()};
 })();

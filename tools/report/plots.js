@@ -6,7 +6,7 @@
 (() => {
   const ink_of = (k) => Dust.colour('plot' + (k % 6 + 1));
   const capital = (text) => text.replace(/^./, (c) => c.toUpperCase());
-  const height = 230;
+  const height = 246;
 
   const bars_hook = (bars) => (u) => {
     const pen = u.ctx;
@@ -61,7 +61,7 @@
       holder.replaceChildren();
       return new uPlot({width: Math.max(holder.clientWidth, 200), height, series, bands, padding: [10, 10, 0, 0],
         legend: {show: false}, cursor: {points: {show: false}, drag: {x: true, y: false}}, scales: {x: {time: false}},
-        axes: [{...axis, size: 30}, {...axis, size: 58}],
+        axes: [{...axis, size: 28, label: x_label, labelSize: 18, labelGap: 0, labelFont: axis.font}, {...axis, size: 58}],
         hooks: {draw: [bars_hook(bars)], setCursor: [(u) => {
           const k = u.cursor.idx;
           if (k === null || k === undefined) return;

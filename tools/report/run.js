@@ -1,5 +1,13 @@
 'use strict';
-// The pictures of a run under one clock.
+// A line of contents below the first screen, and the pictures of a run under one clock.
+(() => {
+  const header = document.querySelector('main > header');
+  const links = [...document.querySelectorAll('main > section[id]:not([hidden])')].flatMap((section) => {
+    const title = section.querySelector('h2');
+    return title ? [Dust.el('a', {href: '#' + section.id}, title.textContent)] : [];
+  });
+  if (links.length > 3) header.append(Dust.el('nav', {class: 'contents screen', 'aria-label': 'Contents'}, ...links));
+})();
 (() => {
   // report.html#picture: grains and air speed side by side and nothing else, for documents.
   if (/^#picture/.test(location.hash)) {

@@ -8,7 +8,8 @@
     if (text !== undefined) node.textContent = text;
     return node;
   };
-  const is_drop = (label) => /drop|below/i.test(label || '');
+  // A length, that is: a drop of pressure is none.
+  const is_drop = (label) => /(drop|below).*\[m{1,2}\]/i.test(label || '');
   // Heights that are negative throughout are drops as well.
   const drop_axis = (curve) => {
     if (is_drop(curve.y_label)) return 'y';
@@ -51,7 +52,8 @@
   };
 
   const draw = (group) => {
-    const all = group.lines.flatMap((line) => line.points);
+    const lone = Dust.data.flights.flatMap((flight) => (flight.lone || []).map((one) => [one.x.at(-1), one.drop.at(-1)]));
+    const all = group.lines.flatMap((line) => line.points).concat(lone);
     const drops = all.map((p) => p[1]), places = all.map((p) => p[0]);
     const deepest = Math.max(...drops) * 1.1, left = Math.min(0, ...places), right = Math.max(...places, 1e-6) * 1.08;
     const pad = {left: 70, right: 80, top: 34, bottom: 16};
@@ -85,6 +87,13 @@
       svg.append(svg_el('polyline', {points: points.map((p) => `${x(p[0])},${y(p[1])}`).join(' '), style: 'fill:none;stroke:var(--soft);stroke-width:1.4;stroke-dasharray:6 4'}));
       const at = points[Math.floor(points.length * 0.62)];
       svg.append(svg_el('text', {x: x(at[0]) + 10, y: y(at[1]) - 4, 'text-anchor': 'start'}, 'free flight'));
+      for (const lone of flight.lone || []) {
+        const path = lone.x.map((v, k) => `${x(v)},${y(lone.drop[k])}`).join(' ');
+        svg.append(svg_el('polyline', {points: path, style: 'fill:none;stroke:var(--plot1);stroke-width:1.4;stroke-dasharray:2 3'}));
+        const k = Math.floor(lone.x.length * 0.8);
+        svg.append(svg_el('text', {x: x(lone.x[k]) - 8, y: y(lone.drop[k]) + 4, 'text-anchor': 'end', style: 'fill:var(--plot1)'},
+          Dust.number(lone.diameter * 1e6, 3) + ' µm alone'));
+      }
     }
     group.lines.forEach((entry, k) => {
       const colour = entry.kind === 'median' ? 'var(--ink)' : entry.kind ? 'var(--tone2)' : `var(--plot${k % 6 + 1})`;
@@ -110,7 +119,8 @@
     const caption = Dust.el('figcaption', {}, Dust.el('b', {}, group.title ? Dust.sentence(group.title) + '.' : 'Path of the stream.'),
       ' Distance forward against the drop, both from the start of the stream, in mm',
       group.lines.some((l) => l.kind) ? '; the band holds the grains between the 5 and 95 % quantiles, the heavy line is the median; bars are standard errors.' : '.',
-      Dust.data.flights.length ? ` Dashed: free flight without air at the speed of the belt, ${Dust.number(Dust.data.flights[0].speed)} m/s.` : '');
+      Dust.data.flights.length ? ` Dashed: free flight without air at the speed of the belt, ${Dust.number(Dust.data.flights[0].speed)} m/s.` : '',
+      Dust.data.flights.some((flight) => (flight.lone || []).length) ? ' Dotted: single grains thrown level into still air at that speed (drag of Schiller and Naumann); a stream takes the air along and outruns them.' : '');
     document.getElementById('stream-picture').append(Dust.el('figure', {class: 'side'}, Dust.el('div', {}, draw(group)), Dust.el('div', {}, caption, ...tables)));
     section.hidden = false;
   }
