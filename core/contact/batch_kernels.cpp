@@ -130,7 +130,8 @@ DUST_KERNEL std::size_t gather_touching(const RowView& rows, const Images& image
       __builtin_prefetch(position + ahead);
       __builtin_prefetch(velocity + ahead);
       __builtin_prefetch(rotation + ahead);
-      __builtin_prefetch(history + entry * history_stride, 1);
+      // Most that touch have touched before; of the others the history is not wanted.
+      __builtin_prefetch(history + (is_touching[entry] != 0 ? entry : p) * history_stride, 1);
     }
     transpose(x[0], x[1], x[2], x[3]);
     const Lanes reach = x[3] + range;
@@ -352,8 +353,11 @@ DUST_KERNEL void store_history(const PairView& pairs, const std::int32_t* contac
 
 DUST_KERNEL void scatter_pairs(const PairView& pairs, const std::int32_t* contacts,
                                std::size_t count, std::int32_t first, std::int32_t size,
-                               bool has_scales, BatchColumns& columns, double* force) {
+                               bool has_scales, BatchColumns& columns, const Guest*& guest,
+                               double* force) {
   using B = BatchColumns;
+  const Guest* next = guest;
+  const auto limit = static_cast<std::uint32_t>(size);
   const auto load = [&](int name, std::size_t q, Lanes& v) __attribute__((always_inline)) {
     std::memcpy(&v, columns.column(name) + q, sizeof v);
   };
@@ -374,13 +378,14 @@ DUST_KERNEL void scatter_pairs(const PairView& pairs, const std::int32_t* contac
     const std::size_t lanes = std::min<std::size_t>(4, count - q);
     for (std::size_t l = 0; l < lanes; ++l) {
       const std::int32_t p = contacts[q + l];
-      const std::uint32_t la = static_cast<std::uint32_t>(pairs.a[p] - first);
-      const std::uint32_t lb = static_cast<std::uint32_t>(pairs.b[p] - first);
-      const auto limit = static_cast<std::uint32_t>(size);
-      auto* fa =
-          reinterpret_cast<Lanes*>(force + 8 * static_cast<std::size_t>(std::min(la, limit)));
-      auto* fb =
-          reinterpret_cast<Lanes*>(force + 8 * static_cast<std::size_t>(std::min(lb, limit)));
+      auto la = static_cast<std::uint32_t>(pairs.a[p] - first);
+      auto lb = static_cast<std::uint32_t>(pairs.b[p] - first);
+      if (std::max(la, lb) >= limit) [[unlikely]] {
+        while (next->entry < p) ++next;
+        (la < limit ? lb : la) = static_cast<std::uint32_t>(next->place);
+      }
+      auto* fa = reinterpret_cast<Lanes*>(force + 8 * static_cast<std::size_t>(la));
+      auto* fb = reinterpret_cast<Lanes*>(force + 8 * static_cast<std::size_t>(lb));
       if (has_scales) {
         fa[0] += scale_i[q + l] * f[l];
         fa[1] += scale_i[q + l] * ti[l];
@@ -394,6 +399,7 @@ DUST_KERNEL void scatter_pairs(const PairView& pairs, const std::int32_t* contac
       }
     }
   }
+  guest = next;
 }
 
 void scatter_single(const std::int32_t* local_rows, std::size_t count, BatchColumns& columns,

@@ -31,6 +31,13 @@ struct PairView {
   std::size_t count = 0;
 };
 
+/// A pair of which one side belongs to another chunk, and where that grain's share of the force is
+/// gathered.
+struct Guest {
+  std::int32_t entry = 0;  ///< of the list
+  std::int32_t place = 0;  ///< row of the force buffer, behind the chunk's own
+};
+
 /// Finds pairs from entry `next` up to `end` that are closer than touch + `range` [m] until a batch
 /// is full, loads them into the first columns and writes their numbers to `contacts` (k_batch of
 /// them); rows up to the padded count repeat the last one. Moves `next` on and returns how many. A
@@ -56,11 +63,12 @@ void load_history(const PairView& pairs, const std::int32_t* contacts, std::size
 void store_history(const PairView& pairs, const std::int32_t* contacts, std::size_t count,
                    int groups, BatchColumns& columns);
 
-/// Adds forces and torques to the rows of eight doubles of a chunk's own grains: rows
-/// [first, first + size); what belongs to others goes to the spare row `size`.
+/// Adds forces and torques to rows of eight doubles: those of a chunk's own grains
+/// [first, first + size), and behind them those of its guests. `guest` moves on with the entries: all
+/// guests up to this batch's last entry are behind it afterwards.
 void scatter_pairs(const PairView& pairs, const std::int32_t* contacts, std::size_t count,
                    std::int32_t first, std::int32_t size, bool has_scales, BatchColumns& columns,
-                   double* force);
+                   const Guest*& guest, double* force);
 /// The same for surfaces: only side i receives.
 void scatter_single(const std::int32_t* local_rows, std::size_t count, BatchColumns& columns,
                     double* force);

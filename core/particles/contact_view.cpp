@@ -21,10 +21,9 @@ class Viewer {
  public:
   explicit Viewer(const Dem::Impl& dem) : dem_(dem) {}
 
-  /// Pairs [begin, end) of a list of one law; `takes` says which first rows this list speaks for.
-  template <class Takes>
+  /// Pairs [begin, end) of a list of one law.
   void pairs(const ContactList& list, std::size_t begin, std::size_t end, std::int32_t law_number,
-             double time_step, Takes takes, std::vector<ContactRecord>& out) {
+             double time_step, std::vector<ContactRecord>& out) {
     using B = BatchColumns;
     const std::size_t stride = dem_.history_stride;
     const auto cut = [&](const auto& column, std::size_t width) {
@@ -52,10 +51,8 @@ class Viewer {
       contact::derive_pair_columns(columns, count);
       evaluate_laws(law, columns, count, time_step);
       for (std::size_t q = 0; q < count; ++q) {
-        const std::int32_t a = a_[static_cast<std::size_t>(contacts[q])];
-        if (!takes(a)) continue;
         ContactRecord r;
-        r.row_i = a;
+        r.row_i = a_[static_cast<std::size_t>(contacts[q])];
         r.row_j = b_[static_cast<std::size_t>(contacts[q])];
         // Read again from the rows: the law's columns need not keep the separation.
         const sdk::Vec3 apart =
@@ -157,10 +154,8 @@ std::vector<ContactRecord> contact_records(const Dem::Impl& dem) {
     Viewer viewer(dem);
     const double step = dem.steps.coarse_step;
     for (const Segment& s : chunk.pairs.segments) {
-      // A pair across chunks stands in both: the first grain's owner speaks.
-      viewer.pairs(
-          chunk.pairs, static_cast<std::size_t>(s.begin), static_cast<std::size_t>(s.end), s.law,
-          step, [&](std::int32_t a) { return a >= chunk.begin && a < chunk.end; }, found[c]);
+      viewer.pairs(chunk.pairs, static_cast<std::size_t>(s.begin), static_cast<std::size_t>(s.end),
+                   s.law, step, found[c]);
     }
     for (std::size_t q = 0; q < chunk.surfaces.size(); ++q) {
       viewer.surface(chunk.surfaces.a[q], chunk.surfaces.b[q],
@@ -174,9 +169,7 @@ std::vector<ContactRecord> contact_records(const Dem::Impl& dem) {
   const auto lists = by_law(dem, dem.fine);
   for (std::size_t law = 0; law < lists.size(); ++law) {
     if (lists[law].size() == 0) continue;
-    viewer.pairs(
-        lists[law], 0, lists[law].size(), static_cast<std::int32_t>(law), instant,
-        [](std::int32_t) { return true; }, all);
+    viewer.pairs(lists[law], 0, lists[law].size(), static_cast<std::int32_t>(law), instant, all);
   }
   for (std::size_t q = 0; q < dem.fine.size(); ++q) {
     if (dem.fine.b[q] >= 0) continue;

@@ -12,12 +12,13 @@ namespace {
 using contact::BatchColumns;
 using contact::k_batch;
 
-/// Forces and torques of a chunk's grains, eight numbers each, and a spare row: of the calling
-/// thread, so that they stay in its cache. Zero for those awake.
+/// Forces and torques of a chunk's grains and, behind them, of its guests, eight numbers each: of
+/// the calling thread, so that they stay in its cache. Zero for those awake.
 double* cleared_force(const Chunk& chunk) {
   thread_local contact::AlignedVector<double> force;
   const auto rows = static_cast<std::size_t>(chunk.end - chunk.begin);
-  if (force.size() < 8 * (rows + 1)) force.resize(8 * (rows + 1));
+  const std::size_t guests = chunk.guest_rows.size();
+  if (force.size() < 8 * (rows + guests)) force.resize(8 * (rows + guests));
   if (2 * chunk.awake.rows.size() > rows) {
     std::fill_n(force.begin(), 8 * rows, 0.0);
   } else {
@@ -25,7 +26,7 @@ double* cleared_force(const Chunk& chunk) {
       std::fill_n(force.begin() + 8 * (row - chunk.begin), 8, 0.0);
     }
   }
-  std::fill_n(force.begin() + static_cast<std::ptrdiff_t>(8 * rows), 8, 0.0);
+  std::fill_n(force.begin() + static_cast<std::ptrdiff_t>(8 * rows), 8 * guests, 0.0);
   return force.data();
 }
 
@@ -88,6 +89,9 @@ void Dem::Impl::contact(double now, bool keeps_force) {
     chunk.contacts = 0;
     chunk_pairs(chunk, force);
     chunk_surfaces(chunk, force);
+    chunk.guest_force.assign(force + 8 * (chunk.end - chunk.begin),
+                             force + 8 * (chunk.end - chunk.begin) +
+                                 8 * static_cast<std::ptrdiff_t>(chunk.guest_rows.size()));
     if (keeps_force) keep_force(chunk, force);
     move_own(chunk, force, all_wait ? 0 : chunk.awake.own);
   });
@@ -114,12 +118,27 @@ void Dem::Impl::keep_force(const Chunk& chunk, const double* force) {
   }
 }
 
+/// Adds what other chunks' contacts do to the grains that waited.
+void Dem::Impl::take_gifts(Chunk& chunk) {
+  for (const Gift& gift : chunk.gifts) {
+    const double* given = chunks[static_cast<std::size_t>(gift.chunk)].guest_force.data() +
+                          8 * static_cast<std::ptrdiff_t>(gift.guest);
+    const auto place = static_cast<std::size_t>(gift.place);
+    double* f = chunk.force.data() + 8 * (place - chunk.moved);
+    for (int d = 0; d < 8; ++d) f[d] += given[d];
+    if (contact_force.empty()) continue;
+    double* kept = contact_force.data() + 4 * static_cast<std::ptrdiff_t>(chunk.awake.rows[place]);
+    for (int d = 0; d < 3; ++d) kept[d] += given[d];
+  }
+}
+
 void Dem::Impl::chunk_pairs(Chunk& chunk, double* force) {
   std::int32_t contacts[k_batch];
   auto& columns = thread_columns();
   const contact::PairView pairs = chunk.pairs.view(history_stride);
   const contact::RowView rows = row_view();
   const int groups = static_cast<int>(history_stride / 4);
+  const contact::Guest* guest = chunk.guests.data();
   for (const Segment& segment : chunk.pairs.segments) {
     const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
     auto next = static_cast<std::size_t>(segment.begin);
@@ -148,7 +167,7 @@ void Dem::Impl::chunk_pairs(Chunk& chunk, double* force) {
       }
       contact::store_history(pairs, contacts, count, groups, columns);
       contact::scatter_pairs(pairs, contacts, count, chunk.begin, chunk.end - chunk.begin,
-                             has_scales, columns, force);
+                             has_scales, columns, guest, force);
     }
     if (!law.cohesion) chunk.contacts += static_cast<std::int64_t>(found);
   }

@@ -106,6 +106,13 @@ struct Awake {
   std::vector<Start> start;
 };
 
+/// What another chunk's contacts do to a grain that waits.
+struct Gift {
+  std::int32_t place = 0;  ///< among those awake
+  std::int32_t chunk = 0;  ///< the giver
+  std::int32_t guest = 0;  ///< number among the giver's guests
+};
+
 /// Coarse grains [begin, end) with everything only their owner writes.
 struct Chunk {
   std::int32_t begin = 0;
@@ -118,6 +125,12 @@ struct Chunk {
   /// run that goes on from a checkpoint finds what an unbroken one finds.
   std::vector<std::int32_t> hints;
   Awake awake;
+  /// Pairs with grains of other chunks, which are in no other list; chunks that stand later in the
+  /// order own those grains.
+  std::vector<contact::Guest> guests;
+  std::vector<std::int32_t> guest_rows;             ///< each once, ascending
+  contact::AlignedVector<double> guest_force;       ///< eight numbers for each of them
+  std::vector<Gift> gifts;                          ///< to this chunk's grains, by place
   /// So many grains at the front of `awake` have made this step already. The others' forces, eight
   /// numbers each, wait in `force` for integrate().
   std::size_t moved = 0;
@@ -166,6 +179,9 @@ struct Dem::Impl {
   template <class MayMeet>
   void choose_contacts(VerletList& list, ContactList& contacts, MayMeet&& meets);
   void begin_watch();
+  void invite_guests(Chunk& chunk);
+  void wake_guests();
+  void promise_gifts();
   void land();
 
   // contacts.cpp
@@ -174,6 +190,7 @@ struct Dem::Impl {
   void chunk_surfaces(Chunk& chunk, double* force);
   void move_own(Chunk& chunk, const double* force, std::size_t count);
   void keep_force(const Chunk& chunk, const double* force);
+  void take_gifts(Chunk& chunk);
   void note_wall_loads(Chunk& chunk, const Surface& surface, const std::int32_t* contacts,
                        const bool* is_new, std::size_t count, contact::BatchColumns& columns);
   void force();

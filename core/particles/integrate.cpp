@@ -131,6 +131,7 @@ void Dem::Impl::integrate() {
   counters.particle_steps += static_cast<std::int64_t>(store.size());
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     Chunk& chunk = chunks[c];
+    take_gifts(chunk);
     integrate_awake(std::span(chunk.awake.rows).subspan(chunk.moved),
                     static_cast<std::size_t>(chunk.begin), chunk.force.data(),
                     ForceOrder::by_place);

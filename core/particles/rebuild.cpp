@@ -192,21 +192,18 @@ void Dem::Impl::rebuild() {
   near_fine.clear();
   old_begin.assign(old_rows + 1, 0);
   const auto each = [&](auto&& visit) {
-    const auto walk = [&](const ContactList& list, bool is_surface, std::int32_t low,
-                          std::int32_t high) {
+    const auto walk = [&](const ContactList& list, bool is_surface) {
       for (std::size_t q = 0; q < list.size(); ++q) {
-        // A pair across chunks stands in both: the first grain's owner speaks.
-        if (list.is_touching[q] == 0 || list.a[q] < low || list.a[q] >= high) continue;
+        if (list.is_touching[q] == 0) continue;
         visit(list.a[q], is_surface ? -1 - list.b[q] : list.b[q],
               list.history.data() + q * history_stride);
       }
     };
-    const auto all = static_cast<std::int32_t>(old_rows);
     for (const Chunk& c : old_chunks) {
-      walk(c.pairs, false, must_sort ? 0 : c.begin, must_sort ? all : c.end);
-      walk(c.surfaces, true, 0, all);
+      walk(c.pairs, false);
+      walk(c.surfaces, true);
     }
-    walk(old_fine, false, 0, all);
+    walk(old_fine, false);
   };
   each([&](std::int32_t a, std::int32_t, const double*) {
     ++old_begin[static_cast<std::size_t>(a) + 1];
@@ -260,7 +257,8 @@ void Dem::Impl::rebuild() {
   }
   const auto found = search_pairs(in, k_block);
 
-  // Shares: coarse pairs to the chunk of each grain, everything with a fine grain to the fine list.
+  // Shares: coarse pairs to the chunk of the earlier row, everything with a fine grain to the fine
+  // list.
   const std::size_t size = chunk_rows(coarse_count);
   const std::size_t count = (coarse_count + size - 1) / size;
   chunks.resize(count);
@@ -288,10 +286,7 @@ void Dem::Impl::rebuild() {
         near_fine.push(a, b);
         continue;
       }
-      const std::size_t ci = static_cast<std::size_t>(i) / size;
-      const std::size_t cj = static_cast<std::size_t>(j) / size;
-      shares[ci].emplace_back(a, b);
-      if (ci != cj) shares[cj].emplace_back(a, b);
+      shares[static_cast<std::size_t>(std::min(i, j)) / size].emplace_back(a, b);
     }
   }
   // Lists are made for so long that the horizon adds little to what the allowances list anyhow.

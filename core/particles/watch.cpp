@@ -14,13 +14,13 @@ namespace dust::particles {
 namespace {
 
 /// Most coarse steps of a watch.
-constexpr std::int64_t k_longest_watch = 32;
+constexpr std::int64_t k_longest_watch = 64;
 /// Allowed deviation during a watch, as a share of that of the list: the list's check, made only
 /// when a watch ends, triggers at 0.7 of its allowance, so that 0.7 + k_watch_share stays below 1.
 constexpr double k_watch_share = 1.0 / 6.0;
 /// No more than this share of the way the fastest grain flies during a watch: what rests side by
 /// side in a bed need not be looked at.
-constexpr double k_watch_reach = 0.5;
+constexpr double k_watch_reach = 0.25;
 /// [-] and no less than this share of a diameter.
 constexpr double k_least_reach = 0.002;
 
@@ -125,6 +125,56 @@ double Dem::Impl::fastest() const {
   return std::sqrt(square);
 }
 
+/// Whom of later chunks this chunk's pairs name.
+void Dem::Impl::invite_guests(Chunk& chunk) {
+  chunk.guests.clear();
+  chunk.guest_rows.clear();
+  for (std::size_t q = 0; q < chunk.pairs.size(); ++q) {
+    const std::int32_t row = std::max(chunk.pairs.a[q], chunk.pairs.b[q]);
+    if (row < chunk.end) continue;
+    chunk.guests.push_back({static_cast<std::int32_t>(q), row});
+    chunk.guest_rows.push_back(row);
+  }
+  std::sort(chunk.guest_rows.begin(), chunk.guest_rows.end());
+  chunk.guest_rows.erase(std::unique(chunk.guest_rows.begin(), chunk.guest_rows.end()),
+                         chunk.guest_rows.end());
+  const auto& rows = chunk.guest_rows;
+  for (contact::Guest& guest : chunk.guests) {
+    const auto number = std::lower_bound(rows.begin(), rows.end(), guest.place) - rows.begin();
+    guest.place = chunk.end - chunk.begin + static_cast<std::int32_t>(number);
+  }
+}
+
+/// Guests are looked at by other chunks: they may not move before all contacts are done.
+void Dem::Impl::wake_guests() {
+  for (const Chunk& chunk : chunks) {
+    for (const std::int32_t row : chunk.guest_rows) is_awake[static_cast<std::size_t>(row)] = 2;
+  }
+}
+
+/// Tells every chunk where its grains' forces are gathered elsewhere, in an order that depends on
+/// the lists alone.
+void Dem::Impl::promise_gifts() {
+  for (Chunk& chunk : chunks) chunk.gifts.clear();
+  for (std::size_t c = 0; c < chunks.size(); ++c) {
+    const auto& rows = chunks[c].guest_rows;
+    for (std::size_t g = 0; g < rows.size(); ++g) {
+      Chunk& owner = chunks[static_cast<std::size_t>(rows[g] / chunks.front().end)];
+      owner.gifts.push_back({rows[g], static_cast<std::int32_t>(c), static_cast<std::int32_t>(g)});
+    }
+  }
+  oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+    Chunk& chunk = chunks[c];
+    std::stable_sort(chunk.gifts.begin(), chunk.gifts.end(),
+                     [](const Gift& a, const Gift& b) { return a.place < b.place; });
+    auto place = static_cast<std::int32_t>(chunk.awake.own);
+    for (Gift& gift : chunk.gifts) {
+      while (chunk.awake.rows[static_cast<std::size_t>(place)] != gift.place) ++place;
+      gift.place = place;
+    }
+  });
+}
+
 /// Chooses, for the next steps, the entries of the lists that may come to touch and the grains that
 /// stand in one of them. Nobody else feels a contact: the others fly, and make all their steps at
 /// once when the watch ends.
@@ -145,20 +195,15 @@ void Dem::Impl::begin_watch() {
     choose_contacts(chunk.near_pairs, chunk.pairs, pairs_meet);
     choose_contacts(chunk.near_surfaces, chunk.surfaces, surface_meets);
     chunk.hints.assign(chunk.surfaces.size(), -1);
-    const auto is_own = [&](std::int32_t row) { return row >= chunk.begin && row < chunk.end; };
-    const auto wake = [&](std::int32_t row, std::uint8_t how) {
-      std::uint8_t& state = is_awake[static_cast<std::size_t>(row)];
-      state = std::max(state, how);
+    invite_guests(chunk);
+    const auto wake = [&](std::int32_t row) {
+      if (row < chunk.end) is_awake[static_cast<std::size_t>(row)] = 1;
     };
-    for (std::size_t q = 0; q < chunk.pairs.size(); ++q) {
-      const std::int32_t a = chunk.pairs.a[q];
-      const std::int32_t b = chunk.pairs.b[q];
-      // A pair of two chunks stands in the lists of both.
-      if (is_own(a)) wake(a, is_own(b) ? 1 : 2);
-      if (is_own(b)) wake(b, is_own(a) ? 1 : 2);
-    }
-    for (const std::int32_t row : chunk.surfaces.a) wake(row, 1);
+    for (const std::int32_t row : chunk.pairs.a) wake(row);
+    for (const std::int32_t row : chunk.pairs.b) wake(row);
+    for (const std::int32_t row : chunk.surfaces.a) wake(row);
   });
+  wake_guests();
 
   std::fill(fine_force.begin(), fine_force.end(), 0.0);
   choose_contacts(near_fine, fine, [&](std::int32_t a, std::int32_t b) {
@@ -198,6 +243,7 @@ void Dem::Impl::begin_watch() {
     gather(chunk.awake, static_cast<std::size_t>(chunk.begin), static_cast<std::size_t>(chunk.end));
   });
   gather(fine_awake, coarse_count, store.size());
+  promise_gifts();
   flying = static_cast<std::int64_t>(store.size() - fine_awake.rows.size());
   for (const Chunk& c : chunks) flying -= static_cast<std::int64_t>(c.awake.rows.size());
   since_watch = 0;
