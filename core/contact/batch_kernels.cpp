@@ -80,10 +80,14 @@ sdk::CohesionBatch BatchColumns::cohesion_view(std::size_t count, int first_hist
   return b;
 }
 
-DUST_KERNEL std::size_t gather_touching(const RowView& rows, const Images& images,
-                                        const PairView& pairs, std::size_t& next, std::size_t end,
-                                        double range, std::int32_t* contacts,
-                                        BatchColumns& columns) {
+namespace {
+
+template <bool is_periodic>
+__attribute__((always_inline)) inline std::size_t gather(const RowView& rows, const Images& images,
+                                                         const PairView& pairs, std::size_t& next,
+                                                         std::size_t end, double range,
+                                                         std::int32_t* contacts,
+                                                         BatchColumns& columns) {
   using B = BatchColumns;
   // Copies: the bytes of is_touching may alias whatever stands in memory.
   const double* const position = rows.position;
@@ -124,7 +128,7 @@ DUST_KERNEL std::size_t gather_touching(const RowView& rows, const Images& image
       x[l] = ra + sign * rb;
       ri[static_cast<int>(l)] = ra[3];
       rj[static_cast<int>(l)] = rb[3];
-      fold(x[l], length, half);
+      if constexpr (is_periodic) fold(x[l], length, half);
       const std::size_t entry = std::min(p + l + k_ahead, last_entry);
       const std::ptrdiff_t ahead = 4 * static_cast<std::ptrdiff_t>(pb[entry]);
       __builtin_prefetch(position + ahead);
@@ -193,6 +197,29 @@ DUST_KERNEL std::size_t gather_touching(const RowView& rows, const Images& image
     }
   }
   return found;
+}
+
+// A box without periodic sides need not look for images.
+DUST_KERNEL std::size_t gather_open(const RowView& rows, const Images& images,
+                                    const PairView& pairs, std::size_t& next, std::size_t end,
+                                    double range, std::int32_t* contacts, BatchColumns& columns) {
+  return gather<false>(rows, images, pairs, next, end, range, contacts, columns);
+}
+DUST_KERNEL std::size_t gather_periodic(const RowView& rows, const Images& images,
+                                        const PairView& pairs, std::size_t& next, std::size_t end,
+                                        double range, std::int32_t* contacts,
+                                        BatchColumns& columns) {
+  return gather<true>(rows, images, pairs, next, end, range, contacts, columns);
+}
+
+}  // namespace
+
+std::size_t gather_touching(const RowView& rows, const Images& images, const PairView& pairs,
+                            std::size_t& next, std::size_t end, double range,
+                            std::int32_t* contacts, BatchColumns& columns) {
+  const bool is_periodic = images.length[0] + images.length[1] + images.length[2] > 0.0;
+  return (is_periodic ? gather_periodic : gather_open)(rows, images, pairs, next, end, range,
+                                                       contacts, columns);
 }
 
 DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count) {

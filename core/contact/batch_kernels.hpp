@@ -64,8 +64,8 @@ void store_history(const PairView& pairs, const std::int32_t* contacts, std::siz
                    int groups, BatchColumns& columns);
 
 /// Adds forces and torques to rows of eight doubles: those of a chunk's own grains
-/// [first, first + size), and behind them those of its guests. `guest` moves on with the entries: all
-/// guests up to this batch's last entry are behind it afterwards.
+/// [first, first + size), and behind them those of its guests. `guest` moves on with the entries:
+/// all guests up to this batch's last entry are behind it afterwards.
 void scatter_pairs(const PairView& pairs, const std::int32_t* contacts, std::size_t count,
                    std::int32_t first, std::int32_t size, bool has_scales, BatchColumns& columns,
                    const Guest*& guest, double* force);

@@ -128,9 +128,9 @@ struct Chunk {
   /// Pairs with grains of other chunks, which are in no other list; chunks that stand later in the
   /// order own those grains.
   std::vector<contact::Guest> guests;
-  std::vector<std::int32_t> guest_rows;             ///< each once, ascending
-  contact::AlignedVector<double> guest_force;       ///< eight numbers for each of them
-  std::vector<Gift> gifts;                          ///< to this chunk's grains, by place
+  std::vector<std::int32_t> guest_rows;        ///< each once, ascending
+  contact::AlignedVector<double> guest_force;  ///< eight numbers for each of them
+  std::vector<Gift> gifts;                     ///< to this chunk's grains, by place
   /// So many grains at the front of `awake` have made this step already. The others' forces, eight
   /// numbers each, wait in `force` for integrate().
   std::size_t moved = 0;

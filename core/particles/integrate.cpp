@@ -11,7 +11,7 @@
 namespace dust::particles {
 
 /// Rows ahead that are fetched: those that waited lie apart.
-constexpr std::size_t k_ahead = 8;
+constexpr std::size_t k_ahead = 24;
 
 /// Rows as the kernel sees them.
 struct AwakeRows {
