@@ -21,7 +21,9 @@ std::string amount_html(const Figure& figure) {
 std::string by_place(const Highlights& highlights) {
   double largest = highlights.fed;
   for (const auto* list : {&highlights.openings, &highlights.dust, &highlights.held}) {
-    for (const Figure& figure : *list) largest = std::max(largest, std::abs(figure.value));
+    for (const Figure& figure : *list) {
+      largest = std::max(largest, std::abs(figure.value) + std::max(figure.uncertainty, 0.0));
+    }
   }
   HtmlTable table({{"By place", false},
                    {"Per tonne of load \u00b1 standard error"},
@@ -29,7 +31,7 @@ std::string by_place(const Highlights& highlights) {
                    {"", false}},
                   "bars");
   const auto share_of_bar = [&](double value) {
-    return largest > 0.0 ? std::abs(value) / largest : 0.0;
+    return largest > 0.0 ? std::max(value, 0.0) / largest : 0.0;
   };
   if (highlights.fed > 0.0) {
     table.row({"In the load", quantity_html(highlights.fed, -1.0, "g/t"),
@@ -42,7 +44,8 @@ std::string by_place(const Highlights& highlights) {
     for (const Figure& figure : list) {
       table.row({place_html(highlights, figure), amount_html(figure),
                  share_html(figure.value, highlights.fed),
-                 bar_html(share_of_bar(figure.value), "dustbar")});
+                 error_bar_html(share_of_bar(figure.value), share_of_bar(figure.uncertainty),
+                                "dustbar")});
     }
   };
   group("Gets out", highlights.openings);
@@ -70,7 +73,14 @@ std::string by_class(const Highlights& highlights) {
                    {"Inhalable"},
                    {"Thoracic"},
                    {"Respirable"},
-                   {"PM10"}});
+                   {"PM10"},
+                   {"Gets out", false}},
+                  "bars");
+  double largest = 0.0;
+  for (const DustClass& entry : highlights.classes) {
+    largest =
+        std::max({largest, entry.fed, entry.out.value + std::max(entry.out.uncertainty, 0.0)});
+  }
   const std::string none = "\u2013";
   for (const DustClass& entry : highlights.classes) {
     std::vector<std::string> cells{quantity_html(entry.diameter, -1.0, "m"),
@@ -87,6 +97,9 @@ std::string by_class(const Highlights& highlights) {
     } else {
       cells.insert(cells.end(), 5, none);
     }
+    const double scale = largest > 0.0 ? 1.0 / largest : 0.0;
+    cells.push_back(
+        error_bar_html(scale * entry.out.value, scale * entry.out.uncertainty, "dustbar"));
     table.row(cells);
   }
   return table.html() +
@@ -95,7 +108,7 @@ std::string by_class(const Highlights& highlights) {
          "1000\u202fkg/m\u00b3 settling as fast, here <i>d</i>\u202f(\u03c1/1000)<sup>1/2</sup>); "
          "PM10: all grains up to 10\u202f\u00b5m aerodynamic diameter. The shares belong to the "
          "size classes of the run: a class stands for one size, so a class astride a limit falls "
-         "on one side of it.</p>\n";
+         "on one side of it. The whole width of the bar is the largest amount in the load.</p>\n";
 }
 
 /// By the place where dust parted from the coarse grains.
@@ -123,7 +136,7 @@ std::string by_origin(const Highlights& highlights) {
                    ? std::string("\u2013")
                    : quantity_html(parting.amount.value, parting.amount.uncertainty, "g/t"),
                value_html(100.0 * parting.share, 100.0 * parting.share_error) + "\u202f%",
-               bar_html(parting.share, "dustbar")});
+               error_bar_html(parting.share, parting.share_error, "dustbar")});
   }
   if (rest > 0.0) {
     table.row({std::to_string(highlights.partings.size() - k_most) + " other places", "\u2013",

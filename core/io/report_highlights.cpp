@@ -172,7 +172,9 @@ void watch_openings(const RunText& run, Highlights& highlights) {
   Halves all;
   for (const json& curve : list_at(run.report, "curves")) {
     const bool is_rate = has_part(text_at(curve, "y_label"), "rate");
-    if (!is_rate || sensors.count(text_at(curve, "sensor")) == 0) continue;
+    if (!is_rate || text_at(curve, "kind") == "reference" ||
+        sensors.count(text_at(curve, "sensor")) == 0)
+      continue;
     const Halves part = halves_of(curve, highlights.observed_time);
     all.earlier += part.earlier;
     all.later += part.later;

@@ -35,9 +35,12 @@ std::string references_html(const RunText& run) {
     if (ours && theirs && *theirs != 0.0) {
       difference = number_html(100.0 * (*ours - *theirs) / std::abs(*theirs), 2) + "\u202f%";
     }
-    const double error = std::hypot(number_at(entry, "our_uncertainty").value_or(0.0),
-                                    number_at(entry, "uncertainty").value_or(0.0));
-    if (ours && theirs && error > 0.0) sigmas = number_html((*ours - *theirs) / error, 2);
+    // Without theirs the errors of the difference are not known: ours alone would make much of it.
+    const auto their_error = number_at(entry, "uncertainty");
+    const double error =
+        std::hypot(number_at(entry, "our_uncertainty").value_or(0.0), their_error.value_or(0.0));
+    if (ours && theirs && their_error && error > 0.0)
+      sigmas = number_html((*ours - *theirs) / error, 2);
     std::string name = text_at(entry, "quantity");
     if (name.starts_with("sensors.")) name.erase(0, 8);
     if (const auto dot = name.find('.'); dot != std::string::npos) name[dot] = '/';

@@ -17,6 +17,7 @@ using nlohmann::json;
 
 constexpr double k_longer_side = 560.0;  ///< of the picture [px]
 constexpr double k_margin = 34.0;        ///< [px]
+constexpr double k_least_width = 240.0;  ///< [px]
 
 struct Point {
   double x = 0.0, y = 0.0, z = 0.0;
@@ -142,7 +143,8 @@ std::string setting_html(const RunText& run, const json& bodies) {
   const auto max = point_at(object_at(setting, "domain"), "max");
   if (!min || !max || !(max->x > min->x && max->z > min->z)) return {};
   const Side side(*min, *max);
-  const std::string width = px(side.width() + 2 * k_margin);
+  // Narrow domains leave room for the scale beside them.
+  const std::string width = px(std::max(side.width() + 2 * k_margin, k_least_width));
   std::string marks, key;
   int number = 0;
   const auto add = [&](const char* list, const char* css_class) {

@@ -7,6 +7,10 @@
 
 namespace dust::io {
 
+namespace {
+constexpr const char* k_error_bar = "<span class=\"errorbar\">";
+}
+
 HtmlTable::HtmlTable(std::vector<TableColumn> columns, std::string css_class)
     : columns_(std::move(columns)), css_class_(std::move(css_class)) {}
 
@@ -17,7 +21,7 @@ void HtmlTable::row(const std::vector<std::string>& cells, const std::string& cs
     const char* place = columns_[k].is_number ? " class=\"n\"" : "";
     if (k == 0) {
       rows_ += std::string("<th scope=\"row\"") + place + ">" + text + "</th>";
-    } else if (text.rfind("<i class=\"bar", 0) == 0) {
+    } else if (text.starts_with("<i class=\"bar") || text.starts_with(k_error_bar)) {
       rows_ += "<td class=\"bar\">" + text + "</td>";
     } else {
       rows_ += std::string("<td") + place + ">" + text + "</td>";
@@ -48,6 +52,15 @@ std::string bar_html(double share, const char* css_class) {
   char width[32];
   std::snprintf(width, sizeof width, "%.1f", 100.0 * std::min(share, 1.0));
   return std::string("<i class=\"bar ") + css_class + "\" style=\"width:" + width + "%\"></i>";
+}
+
+std::string error_bar_html(double share, double error, const char* css_class) {
+  const std::string bar = bar_html(share, css_class);
+  if (bar.empty() || !(error > 0.0)) return bar;
+  const double low = std::max(share - error, 0.0), high = std::min(share + error, 1.0);
+  char place[64];
+  std::snprintf(place, sizeof place, "left:%.1f%%;width:%.1f%%", 100.0 * low, 100.0 * (high - low));
+  return k_error_bar + bar + "<s style=\"" + place + "\"></s></span>";
 }
 
 std::string tile_html(const std::string& name, const std::string& value, const std::string& note) {

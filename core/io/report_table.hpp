@@ -35,6 +35,10 @@ class HtmlTable {
 /// A bar for a cell of css class "bar", `share` of the width from 0 to 1; empty for 0.
 [[nodiscard]] std::string bar_html(double share, const char* css_class = "");
 
+/// The same with an error bar of `error` to either side, in shares; no error bar where that is not
+/// above 0.
+[[nodiscard]] std::string error_bar_html(double share, double error, const char* css_class = "");
+
 /// A figure of the first screen: name, value and a note below; all HTML.
 [[nodiscard]] std::string tile_html(const std::string& name, const std::string& value,
                                     const std::string& note = {});

@@ -318,6 +318,7 @@ int run_scenario(const RunOptions& options) {
   facts.threads = threads;
   facts.warnings = read.warnings;
   facts.references = read.references;
+  facts.reference_curves = read.reference_curves;
   facts.registry = &registry;
   io::Sha256 digest;
   digest.update(read.resolved_yaml.data(), read.resolved_yaml.size());

@@ -299,6 +299,17 @@ void write_summary(const std::filesystem::path& folder, const Simulation& s,
   add_emitter_tables(s, report.tables);
   Json r;
   r["title"] = s.setup().name;
+  // Curves from elsewhere stand among those of their sensors, marked as such.
+  for (const scenario::ReferenceCurve& c : facts.reference_curves) {
+    report.curves.push_back({{"sensor", c.sensor},
+                             {"title", c.axes.title},
+                             {"x_label", c.axes.x_label},
+                             {"y_label", c.axes.y_label},
+                             {"series", c.source},
+                             {"kind", "reference"},
+                             {"x", c.x},
+                             {"y", c.y}});
+  }
   r["curves"] = report.curves;
   r["tables"] = report.tables;
   r["outline"] = outlines(s);

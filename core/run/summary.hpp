@@ -2,6 +2,7 @@
 #pragma once
 
 #include "run/simulation.hpp"
+#include "scenario/reference_curve.hpp"
 #include "scenario/reference_spec.hpp"
 
 #include <filesystem>
@@ -22,6 +23,7 @@ struct RunFacts {
   std::int64_t frames = 0;
   std::vector<std::string> warnings;
   std::vector<scenario::ReferenceSpec> references;
+  std::vector<scenario::ReferenceCurve> reference_curves;
   const registry::Registry* registry = nullptr;  ///< where the models came from; null in tests
   std::string scenario_sha256;                   ///< of scenario.yaml as run
 };

@@ -200,6 +200,16 @@ const ParameterSchema& ReferenceBlock::schema() {
   return made;
 }
 
+const ParameterSchema& ReferenceCurveBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<ReferenceCurveBlock> s;
+    s.text(&ReferenceCurveBlock::sensor, "sensor", "Sensor whose curve it is drawn behind.");
+    s.text(&ReferenceCurveBlock::source, "source", "Where the curve comes from.");
+    return s.build();
+  }();
+  return made;
+}
+
 const ParameterSchema& FluidBlock::schema() {
   static const ParameterSchema made = [] {
     SchemaOf<FluidBlock> s;

@@ -109,6 +109,13 @@ struct ReferenceBlock {
   static const sdk::ParameterSchema& schema();
 };
 
+/// A curve from elsewhere behind one of ours; x and y bring their units along and are read apart.
+struct ReferenceCurveBlock {
+  std::string sensor;
+  std::string source;
+  static const sdk::ParameterSchema& schema();
+};
+
 struct FluidBlock {
   sdk::Vec3 cells;
   double density = 0.0;

@@ -188,6 +188,23 @@ Json reference_schema() {
   return one;
 }
 
+/// A list of numbers, the last of them with the unit of all.
+Json reference_curve_schema() {
+  Json one = block<ReferenceCurveBlock>();
+  const auto numbers = [](const char* sentence) {
+    Parameter p;
+    return Json{{"type", "array"},
+                {"items", number_or_text(p)},
+                {"minItems", 2},
+                {"description", sentence}};
+  };
+  one["properties"]["x"] = numbers("The places, ascending, the last with the unit of all.");
+  one["properties"]["y"] = numbers("The numbers, one for each place, the last with its unit.");
+  one["required"].push_back("x");
+  one["required"].push_back("y");
+  return one;
+}
+
 Json named(const Json& one) {
   return {{"type", "object"},
           {"propertyNames", {{"pattern", k_name_pattern}}},
@@ -287,6 +304,10 @@ std::string json_schema(const registry::Registry& registry) {
       {"type", "array"},
       {"items", reference_schema()},
       {"description", "Numbers from elsewhere that stand beside ours in the summary and report."}};
+  properties["reference_curves"] = {
+      {"type", "array"},
+      {"items", reference_curve_schema()},
+      {"description", "Curves from elsewhere that are drawn behind ours in the report."}};
   root["required"] = {"time", "gravity", "domain", "fluid"};
   definitions["scenario"] = root;
   definitions["addition"] = addition(root, definitions);

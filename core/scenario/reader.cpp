@@ -47,6 +47,7 @@ void SetupReader::read() {
   read_fluid_forces(top);
   read_sensors(top);
   references_ = read_references(top, figures_, out_, diagnostics_);
+  reference_curves_ = read_reference_curves(top, figures_, out_, diagnostics_);
   top.optional("include");
   top.finish();
   if (pairs_are_read_) {
@@ -166,6 +167,7 @@ std::optional<ReadResult> read_tree(const Node& root, const fs::path& file,
   ReadResult result;
   result.setup = reader.take_setup();
   result.references = reader.take_references();
+  result.reference_curves = reader.take_reference_curves();
   result.resolved_yaml =
       "# Resolved scenario: includes merged, settings applied, defaults written out, all in SI.\n" +
       emit_yaml(reader.resolved());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "registry/registry.hpp"
+#include "scenario/reference_curve.hpp"
 #include "scenario/reference_spec.hpp"
 #include "scenario/setup.hpp"
 
@@ -21,7 +22,8 @@ struct Override {
 /// A scenario read and checked.
 struct ReadResult {
   Setup setup;
-  std::vector<ReferenceSpec> references;  ///< of enabled sensors
+  std::vector<ReferenceSpec> references;         ///< of enabled sensors
+  std::vector<ReferenceCurve> reference_curves;  ///< of enabled sensors
   std::string resolved_yaml;          ///< includes merged, overrides applied, defaults written out
   std::vector<std::string> warnings;  ///< "file:line:column: warning: ..."
 };

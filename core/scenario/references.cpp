@@ -23,6 +23,19 @@ class NamedFigures final : public sdk::FigureSink {
   SensorFigures& out_;
 };
 
+class NamedCurves final : public sdk::ReportSink {
+ public:
+  explicit NamedCurves(SensorFigures& out) : out_(out) {}
+  void curve(std::string_view title, std::string_view x_label, std::string_view y_label,
+             std::string_view, std::span<const double>, std::span<const double>) override {
+    out_.curves.push_back({std::string(title), std::string(x_label), std::string(y_label)});
+  }
+  void row(std::string_view, std::span<const std::string>, std::span<const double>) override {}
+
+ private:
+  SensorFigures& out_;
+};
+
 /// A figure of one size class: such figures come with the first grains.
 bool is_of_class(const std::string& figure) {
   return figure.starts_with("class_") || figure.find("/class_") != std::string::npos;
@@ -162,10 +175,13 @@ class ReferenceReader {
 }  // namespace
 
 SensorFigures figures_of(const std::string& name, bool is_enabled, const sdk::Model* model) {
-  SensorFigures out{name, is_enabled, {}};
+  SensorFigures out{name, is_enabled, {}, {}};
   if (model == nullptr) return out;
-  NamedFigures sink(out);
-  static_cast<const sdk::Sensor&>(*model).summary(sink);
+  const auto& sensor = static_cast<const sdk::Sensor&>(*model);
+  NamedFigures figures(out);
+  sensor.summary(figures);
+  NamedCurves curves(out);
+  sensor.report(curves);
   return out;
 }
 

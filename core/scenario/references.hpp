@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dust/sdk/model.hpp"
+#include "scenario/reference_curve.hpp"
 #include "scenario/reference_spec.hpp"
 #include "scenario/values.hpp"
 
@@ -11,12 +12,13 @@
 
 namespace dust::scenario {
 
-/// The figures that a sensor will report, with their units, as far as it knows before it has seen a
-/// grain: those of size classes are missing.
+/// The figures and curves that a sensor will report, with their units, as far as it knows before it
+/// has seen a grain: those of size classes are missing.
 struct SensorFigures {
   std::string sensor;
   bool is_enabled = true;
   std::vector<std::pair<std::string, std::string>> figures;  ///< path, unit
+  std::vector<CurveAxes> curves;
 };
 
 /// What `model` says of itself; a sensor that could not be made (null) has no figures.

@@ -3,6 +3,7 @@
 
 #include "scenario/blocks.hpp"
 #include "scenario/model_reader.hpp"
+#include "scenario/reference_curves.hpp"
 #include "scenario/references.hpp"
 #include "scenario/setup.hpp"
 #include "scenario/suggest.hpp"
@@ -39,6 +40,7 @@ class SetupReader {
   void read();
   Setup take_setup() { return std::move(setup_); }
   std::vector<ReferenceSpec> take_references() { return std::move(references_); }
+  std::vector<ReferenceCurve> take_reference_curves() { return std::move(reference_curves_); }
   [[nodiscard]] const Node& resolved() const { return out_; }
 
  private:
@@ -149,6 +151,7 @@ class SetupReader {
   std::unique_ptr<sdk::Model> voidage_;
   std::vector<SensorFigures> figures_;
   std::vector<ReferenceSpec> references_;
+  std::vector<ReferenceCurve> reference_curves_;
   Setup setup_;
   Node out_ = Node::make_map();
 };

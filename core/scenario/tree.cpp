@@ -7,6 +7,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <map>
+#include <regex>
 #include <sstream>
 
 namespace dust::scenario {
@@ -256,6 +257,23 @@ std::string kind_text(const Node& node) {
   return "nothing";
 }
 
+namespace {
+
+/// A path with an index, "interactions[0].contact", ends a {...} at its bracket: the commonest
+/// slip.
+std::string bracket_hint(const std::string& text, const YAML::Mark& mark) {
+  if (mark.is_null()) return {};
+  std::istringstream lines(text);
+  std::string line;
+  for (int n = 0; n <= mark.line; ++n) std::getline(lines, line);
+  static const std::regex path(R"([A-Za-z_]+\[[0-9]+\][A-Za-z0-9_.\[\]]*)");
+  std::smatch found;
+  if (line.find('{') == std::string::npos || !std::regex_search(line, found, path)) return {};
+  return "; a key with brackets stands in quotes: '" + found.str() + "'";
+}
+
+}  // namespace
+
 std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
                                bool is_command_line, Diagnostics& diagnostics) {
   if (!check_encoding(text, file, is_command_line, diagnostics)) return std::nullopt;
@@ -275,7 +293,7 @@ std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
     const Mark where = is_command_line || problem.mark.is_null()
                            ? Mark{file, is_command_line ? 0 : 1, is_command_line ? 0 : 1}
                            : Mark{file, problem.mark.line + 1, problem.mark.column + 1};
-    diagnostics.error(where, "not valid YAML: " + problem.msg);
+    diagnostics.error(where, "not valid YAML: " + problem.msg + bracket_hint(text, problem.mark));
     return std::nullopt;
   } catch (const std::exception&) {
     diagnostics.error({file, is_command_line ? 0 : 1, is_command_line ? 0 : 1}, "not valid YAML");

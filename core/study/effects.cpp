@@ -182,6 +182,12 @@ Verdict judge(const Expectation& e, const Spec& spec, const Results& results) {
   const double wanted = e.then == "rises" ? 1.0 : -1.0;
   const std::string unit = results.plan.outputs[found->output].unit;
   const std::string size = amount_text(verdict.change, verdict.error, unit);
+  if (verdict.change == 0.0) {
+    // Both say the same to the last digit: as a rule both say nothing, no grain has come so far.
+    verdict.kind = Verdict::Kind::unresolved;
+    verdict.text = "no change: " + size;
+    return verdict;
+  }
   if (verdict.error >= 0.0 && std::abs(verdict.change) <= k_clear * verdict.error) {
     verdict.kind = Verdict::Kind::unresolved;
     verdict.text = "not told from noise: " + size;

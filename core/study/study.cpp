@@ -10,6 +10,7 @@
 #include "study/study_folder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -46,6 +47,19 @@ std::unique_ptr<Launcher> make_launcher(const StudyOptions& options, const Spec&
   return make_local_launcher(store, resources);
 }
 
+/// Says so where memory, not cores, bounds how many points run at a time.
+void tell_memory(double largest, const Resources& resources) {
+  constexpr double k_megabyte = 1e6;
+  const double budget = resources.memory_bytes;
+  if (largest * resources.jobs <= budget || resources.jobs < 2) return;
+  const double together = std::max(1.0, std::floor(budget / largest));
+  std::printf(
+      "memory: %.0f MB of the largest points, %.0f MB for the study (run.memory_share): %.0f of "
+      "them "
+      "at a time, the others wait\n",
+      largest / k_megabyte, budget / k_megabyte, together);
+}
+
 void tell_plan(const Plan& plan, const PointStore& store, const Resources& resources) {
   double core_seconds = 0.0;
   double largest = 0.0;
@@ -75,6 +89,7 @@ void tell_plan(const Plan& plan, const PointStore& store, const Resources& resou
       "this machine (rough)\n",
       plan.points.size(), done, resources.jobs, resources.threads, largest / k_megabyte,
       duration_text(core_seconds / (resources.jobs * resources.threads)).c_str());
+  tell_memory(largest, resources);
 }
 
 void copy_study(const fs::path& from, const fs::path& folder) {
@@ -202,8 +217,19 @@ class Study {
       std::printf("results: %s\n", folder.c_str());
     }
     if (runner.failures() == 0) return 0;
+    const auto& outcomes = runner.results().outcomes;
+    const auto waiting = std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) {
+      return o.status == Status::waiting;
+    });
     std::fprintf(stderr, "error: %zu of %zu points failed; study.csv says why\n", runner.failures(),
-                 plan_.points.size());
+                 outcomes.size());
+    if (waiting > 0) {
+      std::fprintf(
+          stderr,
+          "stopped at the first failure (--fail-fast): %td left waiting; --resume -o %s goes "
+          "on with them\n",
+          waiting, folder.c_str());
+    }
     return 1;
   }
 

@@ -9,6 +9,7 @@
 #include "study/svg_plot.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -28,6 +29,18 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 std::string short_name(const std::string& path) {
   const std::size_t dot = path.rfind('.');
   return dot == std::string::npos ? path : path.substr(dot + 1);
+}
+
+/// A name zipped with a number, which tells the levels better: an opening with its mass flow.
+bool is_told_by_number(const Plan& plan, std::size_t input) {
+  const auto is_twin = [&](const InputColumn& c) {
+    return c.axis == plan.inputs[input].axis && !c.is_text;
+  };
+  return plan.inputs[input].is_text && std::any_of(plan.inputs.begin(), plan.inputs.end(), is_twin);
+}
+
+std::string counted(std::size_t count, const char* thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
 /// The name as a heading.
@@ -64,8 +77,8 @@ std::string header_html(const Spec& spec, const Results& results) {
             below + "</span></dd></div>\n";
   };
   tile("Runs", std::to_string(all),
-       std::to_string(results.plan.inputs.size()) + " inputs, " +
-           std::to_string(results.plan.outputs.size()) + " outputs");
+       counted(results.plan.inputs.size(), "input") + ", " +
+           counted(results.plan.outputs.size(), "output"));
   tile("Finished", std::to_string(finished) + " of " + std::to_string(all),
        failed == 0 ? "none failed" : std::to_string(failed) + " failed");
   tile("Time of all runs", io::duration_html(wall), "one after the other");
@@ -130,7 +143,7 @@ std::string others_of(const Results& results, const Point& point, std::size_t ax
   std::string text;
   for (std::size_t k = 0; k < results.plan.inputs.size(); ++k) {
     const InputColumn& c = results.plan.inputs[k];
-    if (c.axis == axis) continue;
+    if (c.axis == axis || is_told_by_number(results.plan, k)) continue;
     text += (text.empty() ? "" : ", ") + short_name(c.name) + " " + point.inputs[k].text +
             (c.unit.empty() || c.unit == "1" ? "" : " " + c.unit);
   }
@@ -210,6 +223,51 @@ Json effect_plot(const MainEffect& effect, const Results& results) {
           {"lines", lines}};
 }
 
+/// All effects of numbers at a glance: a row per output, a column per input. What stands out of
+/// twice its error is bold.
+std::string effects_table(const std::vector<MainEffect>& effects, const Results& results) {
+  std::vector<std::size_t> columns;
+  for (std::size_t k = 0; k < results.plan.inputs.size(); ++k) {
+    const bool is_told = std::any_of(effects.begin(), effects.end(),
+                                     [&](const MainEffect& e) { return e.input == k; });
+    if (is_told && !results.plan.inputs[k].is_text) columns.push_back(k);
+  }
+  if (columns.empty()) return {};
+  std::string head = "<th>change of</th>";
+  for (const std::size_t k : columns) {
+    const MainEffect& any = *std::find_if(effects.begin(), effects.end(),
+                                          [&](const MainEffect& e) { return e.input == k; });
+    const InputColumn& input = results.plan.inputs[k];
+    const std::string unit = input.unit.empty() || input.unit == "1" ? "" : " " + input.unit;
+    head += "<th class=\"n\">over " + escape_html(io::words(short_name(input.name))) + " " +
+            number_html(any.levels.front().input) + " to " + number_html(any.levels.back().input) +
+            escape_html(unit) + "</th>";
+  }
+  std::string rows;
+  for (std::size_t o = 0; o < results.plan.outputs.size(); ++o) {
+    const OutputColumn& output = results.plan.outputs[o];
+    std::string cells;
+    for (const std::size_t k : columns) {
+      const auto effect = std::find_if(effects.begin(), effects.end(), [&](const MainEffect& e) {
+        return e.input == k && e.output == o;
+      });
+      if (effect == effects.end()) {
+        cells += "<td class=\"n\">\u2013</td>";
+        continue;
+      }
+      const bool is_clear = effect->error >= 0.0 && std::abs(effect->change) > 2.0 * effect->error;
+      const std::string text =
+          escape_html(with_true_signs(amount_text(effect->change, effect->error, output.unit)));
+      cells += "<td class=\"n\">" + (is_clear ? "<strong>" + text + "</strong>" : text) + "</td>";
+    }
+    rows += "<tr><th scope=\"row\">" + escape_html(io::words(output.name)) + "</th>" + cells +
+            "</tr>\n";
+  }
+  return "<div class=\"scroll\"><table><thead><tr>" + head + "</tr></thead><tbody>\n" + rows +
+         "</tbody></table></div>\n<p class=\"note\">From the first level to the last, with one "
+         "standard error; bold: more than twice that.</p>\n";
+}
+
 std::string effects_html(const Spec& spec, const Results& results, Json& plots) {
   plots = Json::object();
   const auto effects = main_effects(spec, results);
@@ -217,12 +275,13 @@ std::string effects_html(const Spec& spec, const Results& results, Json& plots) 
   std::string text =
       "<section id=\"effects\"><h2>Main effects</h2>\n<p>Each mark is the mean over all finished "
       "runs with that level, whatever the other inputs were. Errors: from replicates where there "
-      "are any, otherwise from what the sensors tell of themselves.</p>\n";
+      "are any, otherwise from what the sensors tell of themselves.</p>\n" +
+      effects_table(effects, results);
   for (std::size_t o = 0; o < results.plan.outputs.size(); ++o) {
     std::string rows;
     Json drawn = Json::array();
     for (const MainEffect& e : effects) {
-      if (e.output != o) continue;
+      if (e.output != o || is_told_by_number(results.plan, e.input)) continue;
       if (results.plan.inputs[e.input].is_text) {
         rows += rows_figure(e, results);
       } else {

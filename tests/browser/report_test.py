@@ -161,6 +161,8 @@ def main():
             "grains": [scenarios / "small_hourglass.yaml", "--set", "time.end=0.03 s"],
             # Air alone: frames without a grain.
             "air": [transfer, "--set", "time.end=0.02 s", "--set", "emitters.feed.begin=1 s"],
+            # Numbers and a curve from elsewhere.
+            "settling": [source / "scenarios/thesis/settling_air_to_water.yaml", "--set", "time.end=0.02 s"],
         }
         for name, arguments in runs.items():
             run(engine, "run", *arguments, "-o", folder / name, "--quiet", "--threads", "1")
@@ -168,6 +170,7 @@ def main():
             check_figures(folder / name, document)
             check(("speed-picture" in document.ids) == (name != "grains"), f"{name}: the map of the air")
             check("<canvas" in text, f"{name}: no picture was drawn")
+            check(("line dashed" in text) == (name == "settling"), f"{name}: curves from elsewhere")
             print(f"{name}: {(folder / name / 'report.html').stat().st_size} bytes, {len(document.rows)} rows")
         both = folder / "both" / "compare.html"
         both.parent.mkdir()

@@ -42,6 +42,7 @@ std::vector<const ParameterSchema*> blocks_of(const std::vector<std::string>& ke
   if (top == "fluid") return {&FluidBlock::schema()};
   if (top == "coupling") return {&CouplingBlock::schema()};
   if (top == "references") return {&ReferenceBlock::schema()};
+  if (top == "reference_curves") return {&ReferenceCurveBlock::schema()};
   return {};
 }
 

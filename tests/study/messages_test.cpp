@@ -66,6 +66,13 @@ TEST_CASE("a study with a wrong unit shall be told once, where it stands") {
       "told in J");
 }
 
+TEST_CASE("a path with an index that lacks its quotes shall be told how it is written") {
+  check_message(
+      k_head + "vary: {interactions[0].contact.friction: [0.1, 0.2]}\n",
+      "s.yaml:3:20: error: not valid YAML: end of map flow not found; a key with brackets "
+      "stands in quotes: 'interactions[0].contact.friction'");
+}
+
 TEST_CASE("an empty grid shall be told") {
   check_message(k_head + "vary: {emitters.feed.mass_flow: []}\n",
                 "s.yaml:3:33: error: vary.emitters.feed.mass_flow: the list is empty: give at "

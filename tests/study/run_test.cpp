@@ -156,6 +156,8 @@ TEST_CASE("a failing point shall be recorded with its reason and stop the others
   const auto fast = engine({"study", study, "-o", folder / "fast", "--jobs", "1", "--fail-fast"});
   CHECK(fast.status == 1);
   CHECK(table_of(folder / "fast")[1].at("status") == "waiting");
+  CHECK(fast.err.find("1 left waiting; --resume") != std::string::npos);
+  CHECK(run.err.find("wait") == std::string::npos);
 }
 
 TEST_CASE("a dry run shall list the points and write nothing") {

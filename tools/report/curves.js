@@ -92,20 +92,28 @@
     if (!group.length) continue;
     const x_label = split_label(group[0].x_label), y_label = split_label(group[0].y_label);
     const is_time = /^time/i.test(x_label.name), has_many = new Set(group.map((c) => c.sensor)).size > 1;
+    // Our own first: of them the mean over blocks is told.
+    group.sort((a, b) => (a.kind === 'reference') - (b.kind === 'reference'));
     const sx = is_time ? {factor: 1, unit: x_label.unit} : Dust.scale(x_label.unit, largest(group.map((c) => c.x))), sy = Dust.scale(y_label.unit, largest(group.map((c) => c.y)));
     let lines = with_bands(group.map((c) => {
       const n = Math.min(c.x.length, c.y.length);
       const order = Array.from({length: n}, (_, k) => k).filter((k) => Number.isFinite(c.x[k]));
       if (!ascending(c.x)) order.sort((a, b) => c.x[a] - c.x[b]);
-      return {name: has_many ? c.sensor : String(c.series || ''), x: order.map((k) => c.x[k] / sx.factor),
+      const is_reference = c.kind === 'reference';
+      return {name: has_many && !is_reference ? c.sensor : String(c.series || ''), kind: is_reference ? 'reference' : undefined, x: order.map((k) => c.x[k] / sx.factor),
         y: order.map((k) => (Number.isFinite(c.y[k]) ? c.y[k] / sy.factor : null))};
     }));
     let note = '';
     if (is_time && sy.unit.endsWith('/s') && !lines.some((l) => l.low) && lines[0].x.length > 3 * k_points) {
       const before = lines[0].x;
       const width = (before.at(-1) - before[0]) / (before.length - 1) * Math.ceil(before.length / k_points);
-      lines = lines.map(in_blocks);
+      lines = lines.map((line) => (line.kind === 'reference' ? line : in_blocks(line)));
       note = ` Means over ${Dust.number(width * 1e3, 2)} ms.`;
+    }
+    // What goes to and fro along x: means over neighbours.
+    if (group.some((c) => c.kind !== 'reference' && !ascending(c.x)) && lines.every((l) => !l.low) && lines[0].x.length > 3 * k_points) {
+      lines = lines.map((line) => (line.kind === 'reference' ? line : in_blocks(line)));
+      note = ` Means over ${k_points} parts of the samples, in the order of x.`;
     }
     in_chunks(lines, group[0].title || 'Curve', (part, title) =>
       Dust.plot(grid_of('curves'), {title: has_many ? title + ', dust' : title, sensor: has_many ? '' : group[0].sensor,

@@ -6,17 +6,22 @@
   };
   // Where dust parted from the load, with its share.
   const squares = (pen, picture) => {
-    pen.strokeStyle = pen.fillStyle = Dust.colour('ink');
-    pen.lineWidth = 1;
+    pen.textAlign = 'center';
+    pen.textBaseline = 'middle';
     pen.font = '11px ' + Dust.colour('sans');
     for (const {x, z, side, share} of Dust.data.partings || []) {
       const size = side * picture.place.scale, left = picture.x(x) - size / 2, top = picture.z(z) - size / 2;
+      pen.strokeStyle = pen.fillStyle = Dust.colour('ink');
+      pen.lineWidth = 1;
       pen.setLineDash([2, 2]);
       pen.strokeRect(left, top, size, size);
       pen.setLineDash([]);
-      pen.textAlign = 'left';
-      pen.textBaseline = 'top';
-      pen.fillText(Dust.number(100 * share, 2) + ' %', left + 2, top + 2);
+      if (share < 0.05) continue;  // neighbours have no room for all
+      const text = Dust.number(100 * share, 2) + ' %';
+      pen.strokeStyle = Dust.colour('raised');
+      pen.lineWidth = 3;
+      pen.strokeText(text, left + size / 2, top + size / 2);
+      pen.fillText(text, left + size / 2, top + size / 2);
     }
   };
   const below = (pen, picture, colour) => {

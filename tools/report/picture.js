@@ -21,7 +21,7 @@ Dust.Picture = class {
     if (width < 80) return;
     let inner = width - left - right;
     let height = inner * (whole[3] - whole[1]) / (whole[2] - whole[0]);
-    const tallest = Math.max(300, Math.min(window.innerHeight * 0.95, 820));
+    const tallest = Dust.on_paper ? 820 : Math.max(300, Math.min(window.innerHeight * 0.95, 820));
     const shrink = Math.min(1, tallest / height);
     inner *= shrink;
     height *= shrink;

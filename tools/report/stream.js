@@ -39,7 +39,7 @@
       const across_unit = unit(down === 'y' ? curve.x_label : curve.y_label);
       const points = drops.map((d, k) => [across[k] * across_unit, Math.abs(d) * drop_unit])
         .filter((p) => Number.isFinite(p[0]) && Number.isFinite(p[1])).sort((a, b) => a[1] - b[1]);
-      if (points.length) groups.get(key).lines.push({name: String(curve.series), kind: quantile(String(curve.series)), points});
+      if (points.length) groups.get(key).lines.push({name: String(curve.series), kind: curve.kind === 'reference' ? 'reference' : quantile(String(curve.series)), points});
     }
     // Zeros throughout: nothing had crossed when the run ended.
     return [...groups.values()].filter((group) => group.lines.some((line) => line.points.some((p) => p[0] !== 0)));
@@ -96,9 +96,10 @@
       }
     }
     group.lines.forEach((entry, k) => {
-      const colour = entry.kind === 'median' ? 'var(--ink)' : entry.kind ? 'var(--tone2)' : `var(--plot${k % 6 + 1})`;
+      const is_reference = entry.kind === 'reference';
+      const colour = is_reference ? 'var(--soft)' : entry.kind === 'median' ? 'var(--ink)' : entry.kind ? 'var(--tone2)' : `var(--plot${k % 6 + 1})`;
       const path = entry.points.map((p) => `${x(p[0])},${y(p[1])}`).join(' ');
-      svg.append(svg_el('polyline', {points: path, style: `fill:none;stroke:${colour};stroke-width:${entry.kind === 'median' ? 2.2 : 1.4}`}));
+      svg.append(svg_el('polyline', {points: path, style: `fill:none;stroke:${colour};stroke-width:${entry.kind === 'median' ? 2.2 : 1.4}${is_reference ? ';stroke-dasharray:6 4' : ''}`}));
       for (const p of entry.points) {
         if (p[2] > 0) line(x(p[0] - p[2]), y(p[1]), x(p[0] + p[2]), y(p[1]), `stroke:${colour};stroke-width:3;opacity:.6`);
         if (entry.points.length <= 12) svg.append(svg_el('circle', {cx: x(p[0]), cy: y(p[1]), r: 3.2, style: `fill:${colour}`}));
@@ -112,7 +113,10 @@
 
   // The figures carry errors; curves of the same quantiles would only repeat them.
   const figures = of_figures();
-  const groups = [...figures, ...of_curves().filter((group) => !figures.length || !group.lines.every((l) => l.kind))];
+  const drawn = of_curves();
+  // What is known from elsewhere of the path stands beside the figures.
+  if (figures.length) figures[0].lines.push(...drawn.flatMap((group) => group.lines.filter((l) => l.kind === 'reference')));
+  const groups = [...figures, ...drawn.filter((group) => !figures.length || !group.lines.every((l) => l.kind))];
   for (const group of groups) {
     // The table stands beside the first picture.
     const tables = group === groups[0] ? [...section.querySelectorAll('.scroll')] : [];

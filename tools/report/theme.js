@@ -10,8 +10,14 @@
     chosen = Dust.theme() === 'dark' ? 'light' : 'dark';
     Dust.set_theme(chosen);
   });
-  window.addEventListener('beforeprint', () => Dust.set_theme('light'));
-  window.addEventListener('afterprint', () => Dust.set_theme(chosen || of_system()));
+  window.addEventListener('beforeprint', () => {
+    Dust.on_paper = true;  // a page has no window that a picture shall fit into
+    Dust.set_theme('light');
+  });
+  window.addEventListener('afterprint', () => {
+    Dust.on_paper = false;
+    Dust.set_theme(chosen || of_system());
+  });
   // Pages without a clock have nothing else to wait for.
   if (!document.getElementById('clock')) document.documentElement.dataset.drawn = 'yes';
 })();

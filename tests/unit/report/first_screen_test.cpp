@@ -76,6 +76,12 @@ TEST_CASE("the first screen shall tell how much, from where, how sure and where 
   // The dust of the frames lies at (0.25, 0.75): ring 2, not the deepest.
   CHECK(has(screen, "x\u202f250, z\u202f750"));
   CHECK(has(screen, "100\u202f% of the dust"));
+  // Bars in shares of the 1 g/t that the load holds: 0.5 with 0.03, 0.1 with 0.04 to either side.
+  const std::string page = folder.read("report.html");
+  CHECK(has(page, "style=\"width:50.0%\"></i><s style=\"left:47.0%;width:6.0%\"></s>"));
+  CHECK(has(page, "style=\"width:10.0%\"></i><s style=\"left:6.0%;width:8.0%\"></s>"));
+  // The only size class gets out with 0.6, 0.05.
+  CHECK(has(page, "style=\"width:60.0%\"></i><s style=\"left:55.0%;width:10.0%\"></s>"));
 }
 
 TEST_CASE("dust shall be told by where it parted from the coarse grains") {

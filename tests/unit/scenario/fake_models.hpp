@@ -249,6 +249,11 @@ struct AnySensor final : Sensor {
     sink.figure("drop_5_mm/median", 0.0, "m");
     sink.figure("count", 0.0, "1");
   }
+  void report(ReportSink& sink) const override {
+    sink.curve("Angle", "time [s]", "angle [deg]", "fit", {}, {});
+    sink.curve("Path", "distance [m]", "height [m]", "median", {}, {});
+    sink.curve("Share", "time [s]", "share [1]", "all", {}, {});
+  }
 };
 
 inline void add_all(Registrar& registrar) {

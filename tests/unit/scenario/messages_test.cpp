@@ -190,6 +190,38 @@ TEST_CASE("a reference to a figure that is not there shall be told with the near
                   "63: error: unknown key 'sorce' in references[0]; did you mean 'source'?");
 }
 
+TEST_CASE("a reference curve that fits nothing shall be told with what there is") {
+  const auto check_curve = [](const std::string& curve, const std::string& expected) {
+    const Folder folder;
+    std::string text = k_small;
+    text += "reference_curves:\n  - " + curve + "\n";
+    const std::string all = joined(problems(folder.write("s.yaml", text)));
+    const auto line = std::to_string(std::count(text.begin(), text.end(), '\n'));
+    CHECK_MESSAGE(all == "s.yaml:" + line + ":" + expected + "\n", all);
+  };
+  check_curve("{sensor: strem, x: [0, 1 s], y: [0, 1 deg], source: a}",
+              "14: error: reference_curves[0].sensor: there is no sensor 'strem'; did you mean "
+              "'stream'?");
+  check_curve(
+      "{sensor: stream, x: [0, 1 s], y: [0, 1 kg], source: a}",
+      "38: error: reference_curves[0].y: the sensor 'stream' draws no curve of [kg] against "
+      "[s]; it draws angle [deg] against time [s]; height [m] against distance [m]; share "
+      "[1] against time [s]");
+  check_curve("{sensor: stream, x: [0, 1, 2 s], y: [0, 1 deg], source: a}",
+              "41: error: reference_curves[0].y: 2 numbers for 3 places; one for each is expected");
+  check_curve("{sensor: stream, x: [0, 0, 2 s], y: [0, 1, 2 deg], source: a}",
+              "25: error: reference_curves[0].x: the places shall rise from each to the next");
+  check_curve("{sensor: stream, x: [0, 1 sec], y: [0, 1 deg], source: a}",
+              "25: error: reference_curves[0].x: unknown unit 'sec'");
+  check_curve("{sensor: stream, x: [0 ms, 1 s], y: [0, 1 deg], source: a}",
+              "26: error: reference_curves[0].x: one unit for the whole list, 's' or 'ms'");
+  check_curve("{sensor: stream, x: 1 s, y: [0, 1 deg], source: a}",
+              "25: error: reference_curves[0].x: a list of at least two numbers is expected, the "
+              "last with the unit of all");
+  check_curve("{sensor: stream, x: [0, 1 s], source: a}",
+              "5: error: reference_curves[0]: missing key 'y' (the numbers, with their unit)");
+}
+
 TEST_CASE("a body that contradicts itself shall be told with a remedy") {
   check_body("lid: {shape: mesh, material: glass, unit: 1 mm, file: none.stl}",
              "s.yaml:24:57: error: bodies.lid.file: there is no file none.stl");

@@ -42,6 +42,41 @@ TEST_CASE("a reference shall be kept in the unit of its figure") {
   CHECK(list[4].value == 12.0);
 }
 
+TEST_CASE("a reference curve shall take the axes of the sensor's curve that it fits") {
+  const Folder folder;
+  const auto curves =
+      read(folder.write(
+               "s.yaml",
+               k_small +
+                   "reference_curves:\n"
+                   "  - {sensor: stream, x: [0, 20, 40 ms], y: [0, 0.1, 0.2 rad], source: t}\n"
+                   "  - {sensor: stream, x: [1, 2], y: [3 cm, 4 cm], source: bare is SI}\n"
+                   "  - {sensor: stream, x: [0, 1 s], y: [0.5, 1], source: t}\n"))
+          .reference_curves;
+  REQUIRE(curves.size() == 3);
+  CHECK(curves[0].sensor == "stream");
+  CHECK(curves[0].axes.title == "Angle");
+  CHECK(curves[0].axes.y_label == "angle [deg]");
+  CHECK(curves[0].x[1] == doctest::Approx(0.02).epsilon(1e-14));
+  CHECK(curves[0].y[2] == doctest::Approx(36.0 / std::numbers::pi).epsilon(1e-14));
+  CHECK(curves[0].source == "t");
+  CHECK(curves[1].axes.title == "Path");
+  CHECK(curves[1].x[1] == 2.0);
+  CHECK(curves[1].y[1] == doctest::Approx(0.04).epsilon(1e-14));
+  CHECK(curves[2].axes.title == "Share");
+  CHECK(curves[2].y[0] == 0.5);
+}
+
+TEST_CASE("a reference curve of a sensor that is switched off shall be left out") {
+  const Folder folder;
+  const auto file =
+      folder.write("s.yaml", k_small +
+                                 "reference_curves:\n"
+                                 "  - {sensor: stream, x: [0, 1 s], y: [0, 1 deg], source: t}\n");
+  CHECK(read(file).reference_curves.size() == 1);
+  CHECK(read(file, {{"sensors.stream.enabled", "false"}}).reference_curves.empty());
+}
+
 TEST_CASE("a figure of a size class shall be taken on trust") {
   const auto list =
       read_list("  - {quantity: sensors.stream.class_10_um/rate, value: 0.05 g/t, source: t}\n");

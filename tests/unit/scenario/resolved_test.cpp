@@ -119,6 +119,18 @@ void check_same(const std::vector<scenario::ReferenceSpec>& a,
   }
 }
 
+void check_same(const std::vector<scenario::ReferenceCurve>& a,
+                const std::vector<scenario::ReferenceCurve>& b) {
+  REQUIRE(a.size() == b.size());
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    CHECK(a[n].sensor == b[n].sensor);
+    CHECK(a[n].axes.title == b[n].axes.title);
+    CHECK(a[n].x == b[n].x);
+    CHECK(a[n].y == b[n].y);
+    CHECK(a[n].source == b[n].source);
+  }
+}
+
 void check_round_trip(const std::filesystem::path& file,
                       const std::vector<scenario::Override>& set) {
   const Folder folder;
@@ -126,6 +138,7 @@ void check_round_trip(const std::filesystem::path& file,
   const auto second = read(folder.write("scenario.yaml", first.resolved_yaml));
   check_same(first.setup, second.setup);
   check_same(first.references, second.references);
+  check_same(first.reference_curves, second.reference_curves);
   CHECK(second.resolved_yaml == first.resolved_yaml);
   CHECK(first.resolved_yaml.starts_with("# "));
 }
@@ -170,7 +183,9 @@ TEST_CASE("a resolved scenario with references shall give the same setup when re
       "  - {quantity: sensors.stream.angle, value: 41.6 deg, uncertainty: 1.1 deg, source: a: b}\n"
       "  - {quantity: sensors.stream.rate, value: 3 g/s, source: 'c, d'}\n"
       "  - {quantity: sensors.stream.drop_5_mm/class_10_um/median, value: 1.1 mm, source: e}\n"
-      "  - {quantity: sensors.stream.count, value: 7, source: f}\n";
+      "  - {quantity: sensors.stream.count, value: 7, source: f}\n"
+      "reference_curves:\n"
+      "  - {sensor: stream, x: [0, 10, 25 ms], y: [0, 1.1, 7 deg], source: 'g, h'}\n";
   const std::string colon = "source: a: b";
   std::string text = k_small + references;
   text.replace(text.find(colon), colon.size(), "source: 'a: b'");

@@ -91,6 +91,10 @@ TEST_CASE("expectations shall be judged by sign and noise") {
   // Errors so large that 3 mm could be chance.
   for (Outcome& o : made.outcomes) o.outputs[0].error = 5.0;
   CHECK(judge(e, made.spec, made.results()).kind == Verdict::Kind::unresolved);
+  // Sensors that have seen nothing yet say 0: that is no verdict against anything.
+  for (Outcome& o : made.outcomes) o.outputs[0] = {0.0, -1.0};
+  CHECK(judge(e, made.spec, made.results()).kind == Verdict::Kind::unresolved);
+  CHECK(judge(e, made.spec, made.results()).text.starts_with("no change"));
   for (Outcome& o : made.outcomes) o = {};
   CHECK(judge(e, made.spec, made.results()).kind == Verdict::Kind::unknown);
 }
