@@ -121,11 +121,11 @@ class CurveReader {
   /// Takes the axes of the first curve of that sensor that fits, and the numbers in their units.
   bool match(const SensorFigures& sensor, const WrittenList& xs, const WrittenList& ys,
              ReferenceCurve& curve) {
-    const auto into = [](const WrittenList& list, const std::string& label) {
+    const auto into = [](const WrittenList& list, const std::string& label, bool bare_is_si) {
       const auto from = parsed(list.unit), to = parsed(unit_of(label));
       std::optional<std::vector<double>> numbers;
-      // A bare number is SI, as everywhere.
-      if (!to || !(list.unit.empty() || from->dimension == to->dimension)) return numbers;
+      const bool is_same = to && from->dimension == to->dimension;
+      if (!to || !(is_same || (bare_is_si && list.unit.empty()))) return numbers;
       numbers.emplace();
       for (const double v : list.numbers) {
         numbers->push_back(v * (from->numerator * to->denominator) /
@@ -133,15 +133,20 @@ class CurveReader {
       }
       return numbers;
     };
+    // Curves of bare numbers come before those for which a bare number is SI, as everywhere.
+    for (const bool bare_is_si : {false, true}) {
+      for (const CurveAxes& axes : sensor.curves) {
+        const auto x = into(xs, axes.x_label, bare_is_si), y = into(ys, axes.y_label, bare_is_si);
+        if (!x || !y) continue;
+        curve.axes = axes;
+        curve.x = *x;
+        curve.y = *y;
+        return true;
+      }
+    }
     std::string there;
     for (const CurveAxes& axes : sensor.curves) {
       there += (there.empty() ? "" : "; ") + axes.y_label + " against " + axes.x_label;
-      const auto x = into(xs, axes.x_label), y = into(ys, axes.y_label);
-      if (!x || !y) continue;
-      curve.axes = axes;
-      curve.x = *x;
-      curve.y = *y;
-      return true;
     }
     const Entry* entry = reader_.node().find("y");
     // A sensor that could not be made has told its own problem.

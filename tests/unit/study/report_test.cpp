@@ -87,7 +87,7 @@ TEST_CASE("the report of a study shall draw every effect with the lines it is ma
       plan.points.push_back(point);
       Outcome outcome;
       outcome.status = Status::finished;
-      outcome.outputs = {{10.0 * static_cast<double>(s) + static_cast<double>(a), 0.5}};
+      outcome.outputs = {{10.0 * static_cast<double>(s) + static_cast<double>(a), 0.6}};
       outcomes.push_back(outcome);
     }
   }
@@ -102,9 +102,9 @@ TEST_CASE("the report of a study shall draw every effect with the lines it is ma
   CHECK(text.find("\"angle 0 deg\"") != std::string::npos);
   CHECK(text.find("\"angle 1 deg\"") != std::string::npos);
   CHECK(text.find("\"y\":[0.5,10.5]") != std::string::npos);
-  CHECK(text.find("Change over the levels: 10.00 \\u00b1 0.50 mm.") != std::string::npos);
-  // At a glance: the speed's effect stands out of its error, the angle's (1.00 of 0.50) does not.
+  CHECK(text.find("Change over the levels: 10.00 \\u00b1 0.60 mm.") != std::string::npos);
+  // At a glance: the speed's effect stands out of its error, the angle's (1.00 of 0.60) does not.
   CHECK(text.find("over speed 1 to 2 m/s") != std::string::npos);
-  CHECK(text.find("<strong>10.00 \u00b1 0.50 mm</strong>") != std::string::npos);
-  CHECK(text.find(">1.00 \u00b1 0.50 mm</td>") != std::string::npos);
+  CHECK(text.find("<strong>10.00 \u00b1 0.60 mm</strong>") != std::string::npos);
+  CHECK(text.find(">1.00 \u00b1 0.60 mm</td>") != std::string::npos);
 }
