@@ -3,12 +3,12 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dust::coupling {
 namespace {
 
-constexpr std::size_t k_chunk = 512;  ///< grains per task; never a function of the threads
 /// Weight of open faces below which a force component finds no fluid to act on.
 constexpr double k_least_weight = 1e-6;
 
@@ -31,10 +31,13 @@ FaceSums sums_of(const Faces& s) {
 
 }  // namespace
 
-FaceExchange::FaceExchange(const Lattice& lattice, const sdk::VoidageRule& rule, bool is_set_three)
+FaceExchange::FaceExchange(const Lattice& lattice, const FaceVoid& face_void,
+                           const sdk::VoidageRule& rule, bool is_set_three, bool is_own_taken_off)
     : lattice_(lattice),
+      face_void_(face_void),
       rule_(rule),
       is_set_three_(is_set_three),
+      is_own_taken_off_(is_own_taken_off),
       exchange_{fluid::FaceField(lattice.grid()), fluid::FaceField(lattice.grid())} {}
 
 void FaceExchange::clear(int d) {
@@ -45,130 +48,191 @@ void FaceExchange::clear(int d) {
   touched_[d].clear();
 }
 
+/// What each grain of a batch gives, from the sums over its faces.
+void FaceExchange::charge(const particles::GrainRows& grains, const Spots& spots, std::size_t batch,
+                          GrainMemory& memory, const fluid::CellField& eps, double step) {
+  const std::size_t first = batch * SpotBatch::k_size;
+  const std::size_t last = std::min(grains.count, first + SpotBatch::k_size);
+  const double volume = lattice_.cell_volume();
+  SpotBatch::Reals open;
+  SpotBatch::Reals fluid;
+  WideKernel wide(lattice_, rule_);
+  WideStencil many;
+  BatchSums& batch_sums = sums_[batch];
+  batch_sums = {};
+  for (int d = 0; d < 3; ++d) {
+    sum_faces(spots.batches[batch], d, last - first, face_void_.columns(d),
+              {open.data(), fluid.data()});
+    for (std::size_t row = first; row < last; ++row) {
+      Remembered& r = memory[row];
+      FaceSums sums{open[row - first], fluid[row - first]};
+      if (wide.takes(grains.position[4 * row + 3])) {
+        wide.set(r.place.data(), grains.position[4 * row + 3]);
+        wide.stencil(d, eps, many);
+        sums = sums_of(many);
+      }
+      Charge& charge = charges_[d][row];
+      charge = {};
+      r.taken[d] = 0.0;
+      r.is_paired[d] = sums.open > k_least_weight;
+      if (!r.is_paired[d]) {
+        ++batch_sums.unpaired;
+        continue;
+      }
+      // What the grain's own solids add to the void fractions has no part in its drag.
+      double lone = spots.eps[row];
+      double excess = 1.0;
+      double disturbance = 0.0;
+      if (is_own_taken_off_) {
+        lone += r.own_solids;
+        if (!is_set_three_) excess += r.own_face_solids[d] * sums.open / sums.fluid;
+        r.lone_eps = lone;
+        disturbance = lone * r.disturbance[d];
+      }
+      r.taken[d] = r.coefficient * excess / (sums.open * lone * lone);
+      const double received = is_set_three_ ? sums.open : sums.fluid;
+      charge.drag = grains.weight[row] * r.taken[d] / volume;
+      charge.push = charge.drag * r.velocity[d];
+      charge.extra = r.owed[d] / (received * volume * step) - charge.drag * disturbance;
+      batch_sums.paid[d] += r.owed[d];
+      r.owed[d] = 0.0;
+    }
+  }
+}
+
+inline void FaceExchange::add(int d, std::ptrdiff_t face, double weight, double open, double eps,
+                              const Charge& charge) {
+  double& coefficient = exchange_.coefficient.component[d][face];
+  double& source = exchange_.source.component[d][face];
+  if (coefficient == 0.0 && source == 0.0) {
+    const double fluid = is_set_three_ ? 1.0 : eps;
+    touched_[d].push_back({face, fluid * open * lattice_.cell_volume(), 0.0});
+  }
+  coefficient += weight * eps * charge.drag;
+  source += weight * (eps * charge.push + charge.extra);
+}
+
+template <class Faces>
+void FaceExchange::give_one(int d, const Faces& faces, const Charge& charge) {
+  for (std::size_t n = 0; n < faces.size(); ++n) {
+    if (faces.open[n] == 0.0 || faces.weight[n] == 0.0) continue;
+    add(d, faces.home[n], faces.weight[n], faces.open[n], faces.void_fraction[n], charge);
+  }
+}
+
 // One component is one task and sums in row order: the same bits on any number of threads.
-std::int64_t FaceExchange::spread_component(int d, const particles::GrainRows& grains,
-                                            GrainMemory& memory, const fluid::CellField& eps,
-                                            double step) {
-  clear(d);
-  paid_[d] = 0.0;
-  std::vector<double>& coefficient = exchange_.coefficient.component[d];
-  std::vector<double>& source = exchange_.source.component[d];
+void FaceExchange::give(int d, const particles::GrainRows& grains, const Spots& spots,
+                        const GrainMemory& memory, const fluid::CellField& eps) {
+  const FaceColumns columns = face_void_.columns(d);
+  const std::vector<Charge>& charges = charges_[d];
+  WideKernel wide(lattice_, rule_);
+  WideStencil many;
+  for (std::size_t row = 0; row < grains.count; ++row) {
+    const Charge& charge = charges[row];
+    if (charge.drag == 0.0 && charge.extra == 0.0) continue;
+    if (wide.takes(grains.position[4 * row + 3])) {
+      wide.set(memory[row].place.data(), grains.position[4 * row + 3]);
+      wide.stencil(d, eps, many);
+      give_one(d, many, charge);
+      continue;
+    }
+    const SpotBatch& batch = spots.batches[row / SpotBatch::k_size];
+    for_corners(corners(batch, d, (d + 1) % 3, (d + 2) % 3, row % SpotBatch::k_size),
+                [&](std::int32_t face, double weight) {
+                  const double open = columns.open[face];
+                  if (open == 0.0 || weight == 0.0) return;
+                  add(d, face, weight, open, columns.void_fraction[face], charge);
+                });
+  }
+}
+
+/// The debts of grains that are gone; returns how many find no open face.
+std::int64_t FaceExchange::pay_leavers(int d, GrainMemory& memory, double step) {
   const double volume = lattice_.cell_volume();
   std::int64_t unpaired = 0;
   Stencil s;
-  WideKernel wide(lattice_, rule_);
-  WideStencil many;
-
-  const auto add = [&](const auto& faces, double drag, double grain_velocity, double disturbance,
-                       double owed) {
-    for (std::size_t n = 0; n < faces.size(); ++n) {
-      if (faces.open[n] == 0.0 || faces.weight[n] == 0.0) continue;
-      const std::ptrdiff_t face = faces.home[n];
-      if (coefficient[face] == 0.0 && source[face] == 0.0) {
-        const double fluid = is_set_three_ ? 1.0 : faces.void_fraction[n];
-        touched_[d].push_back({face, fluid * faces.open[n] * volume, 0.0});
-      }
-      const double part = faces.weight[n] * drag * faces.void_fraction[n];
-      coefficient[face] += part;
-      source[face] += part * grain_velocity + faces.weight[n] * (owed - drag * disturbance);
-    }
-  };
-  const auto spread_one = [&](std::size_t row, const auto& faces, double own) {
-    Remembered& r = memory[row];
-    const FaceSums sums = sums_of(faces);
-    r.is_paired[d] = sums.open > k_least_weight;
-    r.taken[d] = 0.0;
-    if (!r.is_paired[d]) {
-      ++unpaired;
-      return;
-    }
-    // What the grain's own solids add to the void fractions has no part in its drag.
-    const double lone = own + r.own_solids;
-    const double excess = is_set_three_ ? 1.0 : 1.0 + r.own_face_solids[d] * sums.open / sums.fluid;
-    r.taken[d] = r.coefficient * excess / (sums.open * lone * lone);
-    const double received = is_set_three_ ? sums.open : sums.fluid;
-    r.lone_eps = lone;
-    add(faces, grains.weight[row] * r.taken[d] / volume, r.velocity[d], lone * r.disturbance[d],
-        r.owed[d] / (received * volume * step));
-    paid_[d] += r.owed[d];
-    r.owed[d] = 0.0;
-  };
-
-  for (std::size_t row = 0; row < grains.count; ++row) {
-    const double* place = memory[row].place.data();
-    const double radius = grains.position[4 * row + 3];
-    if (wide.takes(radius)) {
-      wide.set(place, radius);
-      wide.stencil(d, eps, many);
-      spread_one(row, many, wide.mean(eps));
-      continue;
-    }
-    const Place p = lattice_.place(place);
-    lattice_.stencil(d, p, eps, s);
-    spread_one(row, s, eps[lattice_.host_cell(p, place)]);
-  }
-  for (Leaver& l : memory.leavers()) {
+  for (const Leaver& l : memory.leavers()) {
     if (l.owed[d] == 0.0) continue;
-    lattice_.stencil(d, lattice_.place(l.place.data()), eps, s);
+    face_void_.stencil(d, lattice_.place(l.place.data()), s);
     const FaceSums sums = sums_of(s);
     if (sums.open <= k_least_weight) {
       ++unpaired;
       continue;
     }
-    const double taken = is_set_three_ ? sums.open : sums.fluid;
-    add(s, 0.0, 0.0, 0.0, l.owed[d] / (taken * volume * step));
+    const double received = is_set_three_ ? sums.open : sums.fluid;
+    give_one(d, s, {0.0, 0.0, l.owed[d] / (received * volume * step)});
     paid_[d] += l.owed[d];
   }
-  lattice_.close_periodic(d, coefficient);
-  lattice_.close_periodic(d, source);
   return unpaired;
 }
 
-std::int64_t FaceExchange::spread(const particles::GrainRows& grains, GrainMemory& memory,
-                                  const fluid::CellField& eps, double step) {
+std::int64_t FaceExchange::spread(const particles::GrainRows& grains, const Spots& spots,
+                                  GrainMemory& memory, const fluid::CellField& eps, double step) {
+  const std::size_t batches = (grains.count + SpotBatch::k_size - 1) / SpotBatch::k_size;
+  sums_.resize(batches);
+  for (auto& charges : charges_) charges.resize(grains.count);
+  tbb::parallel_for(std::size_t{0}, batches,
+                    [&](std::size_t b) { charge(grains, spots, b, memory, eps, step); });
   std::array<std::int64_t, 3> unpaired{};
-  tbb::parallel_for(0, 3,
-                    [&](int d) { unpaired[d] = spread_component(d, grains, memory, eps, step); });
+  tbb::parallel_for(0, 3, [&](int d) {
+    clear(d);
+    paid_[d] = 0.0;
+    for (const BatchSums& sums : sums_) paid_[d] += sums.paid[d];
+    give(d, grains, spots, memory, eps);
+    unpaired[d] = pay_leavers(d, memory, step);
+    lattice_.close_periodic(d, exchange_.coefficient.component[d]);
+    lattice_.close_periodic(d, exchange_.source.component[d]);
+  });
   memory.leavers().clear();
-  return unpaired[0] + unpaired[1] + unpaired[2];
+  std::int64_t all = unpaired[0] + unpaired[1] + unpaired[2];
+  for (const BatchSums& sums : sums_) all += sums.unpaired;
+  return all;
 }
 
-double FaceExchange::settle(const particles::GrainRows& grains, GrainMemory& memory,
-                            const fluid::CellField& eps, const fluid::FaceField& velocity,
-                            double step) {
-  const std::size_t chunks = (grains.count + k_chunk - 1) / k_chunk;
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-    Stencil s;
+double FaceExchange::settle(const particles::GrainRows& grains, const std::vector<SpotBatch>& spots,
+                            GrainMemory& memory, const fluid::CellField& eps,
+                            const fluid::FaceField& velocity, double step) {
+  const std::size_t batches = (grains.count + SpotBatch::k_size - 1) / SpotBatch::k_size;
+  sums_.resize(batches);
+  tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t b) {
+    const std::size_t first = b * SpotBatch::k_size;
+    const std::size_t count = std::min(grains.count - first, SpotBatch::k_size);
+    SpotBatch::Reals own;
+    SpotBatch::Reals disturbance;
+    SpotBatch::Reals factor;
+    SpotBatch::Reals given;
     WideKernel wide(lattice_, rule_);
     WideStencil many;
-    for (std::size_t row = c * k_chunk; row < std::min(grains.count, (c + 1) * k_chunk); ++row) {
-      Remembered& r = memory[row];
-      const double radius = grains.position[4 * row + 3];
-      const bool is_wide = wide.takes(radius);
-      if (is_wide) wide.set(r.place.data(), radius);
-      const Place p = lattice_.place(r.place.data());
-      for (int d = 0; d < 3; ++d) {
-        const double* u = velocity.component[d].data();
-        const double v = r.velocity[d];
-        const double disturbance = r.lone_eps * r.disturbance[d];
-        const auto slip = [&](const auto& faces) {
-          double sum = 0.0;  // eps (u - v) does not jump with eps in plug flow
-          for (std::size_t n = 0; n < faces.size(); ++n) {
-            const double fluid = is_set_three_ ? 1.0 : faces.void_fraction[n];
-            sum += faces.weight[n] * faces.open[n] * fluid *
-                   (faces.void_fraction[n] * (u[faces.home[n]] - v) + disturbance);
-          }
-          return sum;
-        };
-        r.given[d] = 0.0;
-        if (!r.is_paired[d]) continue;
-        if (is_wide) {
-          wide.stencil(d, eps, many);
-          r.given[d] = step * r.taken[d] * slip(many);
-        } else {
-          lattice_.stencil(d, p, eps, s);
-          r.given[d] = step * r.taken[d] * slip(s);
+    for (int d = 0; d < 3; ++d) {
+      for (std::size_t q = 0; q < count; ++q) {
+        const Remembered& r = memory[first + q];
+        own[q] = r.velocity[d];
+        disturbance[q] = is_own_taken_off_ ? r.lone_eps * r.disturbance[d] : 0.0;
+        factor[q] = step * r.taken[d];  // 0 if unpaired
+      }
+      const double* u = velocity.component[d].data();
+      settle_faces(spots[b], d, count, face_void_.columns(d), u, own.data(), disturbance.data(),
+                   factor.data(), is_set_three_, given.data());
+      const auto wide_slip = [&](std::size_t q) {
+        wide.set(memory[first + q].place.data(), grains.position[4 * (first + q) + 3]);
+        wide.stencil(d, eps, many);
+        double sum = 0.0;
+        for (std::size_t n = 0; n < many.size(); ++n) {
+          const double fluid = is_set_three_ ? 1.0 : many.void_fraction[n];
+          sum += many.weight[n] * many.open[n] * fluid *
+                 (many.void_fraction[n] * (u[many.home[n]] - own[q]) + disturbance[q]);
         }
+        return sum;
+      };
+      sums_[b].given[d] = sums_[b].size[d] = 0.0;
+      for (std::size_t q = 0; q < count; ++q) {
+        Remembered& r = memory[first + q];
+        const double radius = grains.position[4 * (first + q) + 3];
+        if (wide.takes(radius)) given[q] = factor[q] * wide_slip(q);
+        r.given[d] = given[q];
+        const double impulse = grains.weight[first + q] * given[q];
+        sums_[b].given[d] += impulse;
+        sums_[b].size[d] += std::abs(impulse);
       }
     }
   });
@@ -178,10 +242,9 @@ double FaceExchange::settle(const particles::GrainRows& grains, GrainMemory& mem
   tbb::parallel_for(0, 3, [&](int d) {
     double on_grains = -paid_[d];
     double size = std::abs(paid_[d]);
-    for (std::size_t row = 0; row < grains.count; ++row) {
-      const double given = grains.weight[row] * memory[row].given[d];
-      on_grains += given;
-      size += std::abs(given);
+    for (const BatchSums& sums : sums_) {
+      on_grains += sums.given[d];
+      size += sums.size[d];
     }
     double on_fluid = 0.0;
     for (Touched& t : touched_[d]) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "coupling/face_void.hpp"
 #include "coupling/grain_memory.hpp"
 #include "coupling/lattice.hpp"
 #include "coupling/wide_kernel.hpp"
@@ -10,6 +11,12 @@
 #include <vector>
 
 namespace dust::coupling {
+
+/// Where the grains of a call are, batch by batch.
+struct Spots {
+  std::vector<SpotBatch> batches;
+  std::vector<double> eps;  ///< void fraction around each: of its cell, or the mean over its cells
+};
 
 /// Coefficient and source of each face from the grains around it. A grain with drag coefficient K,
 /// velocity v and weight W adds, at face f of component d with trilinear weight w_f,
@@ -22,16 +29,20 @@ class FaceExchange {
  public:
   /// `is_set_three`: the momentum equation is that of set III, whose fluid receives a density of
   /// force on the whole control volume, a_f V, in place of eps_f a_f V.
-  FaceExchange(const Lattice& lattice, const sdk::VoidageRule& rule, bool is_set_three);
+  FaceExchange(const Lattice& lattice, const FaceVoid& face_void, const sdk::VoidageRule& rule,
+               bool is_set_three, bool is_own_taken_off);
 
-  /// Spreads all grains (places, velocities and coefficients as remembered at map()) and the debts,
-  /// which are thereby paid. Returns the number of force components without an open face.
-  std::int64_t spread(const particles::GrainRows& grains, GrainMemory& memory,
+  /// Spreads all grains (velocities and coefficients as remembered at map(), `spots` of the same
+  /// rows) and the debts, which are thereby paid. Returns the number of force components without an
+  /// open face.
+  std::int64_t spread(const particles::GrainRows& grains, const Spots& spots, GrainMemory& memory,
                       const fluid::CellField& eps, double step);
   /// Writes what each grain's drag has given to a fluid of this velocity (Remembered::given), and
   /// compares the sum over the grains with that over the faces: returns |difference| / scale.
-  double settle(const particles::GrainRows& grains, GrainMemory& memory,
-                const fluid::CellField& eps, const fluid::FaceField& velocity, double step);
+  /// `spots`: of the places remembered.
+  double settle(const particles::GrainRows& grains, const std::vector<SpotBatch>& spots,
+                GrainMemory& memory, const fluid::CellField& eps, const fluid::FaceField& velocity,
+                double step);
 
   [[nodiscard]] const fluid::Exchange& exchange() const { return exchange_; }
   /// Force on the fluid per cell volume [N/m3], as settled.
@@ -43,15 +54,40 @@ class FaceExchange {
     double volume;  ///< [m3] of the face's control volume that the force's density acts on
     double force;   ///< [N] on the fluid, once settled
   };
-  std::int64_t spread_component(int d, const particles::GrainRows& grains, GrainMemory& memory,
-                                const fluid::CellField& eps, double step);
+  /// What a grain gives to the fluid by one component; nothing if it finds no open face.
+  struct Charge {
+    double drag = 0.0;   ///< [kg/(m3 s)] to the coefficient, times w eps
+    double push = 0.0;   ///< [N/m3] to the source, times w eps
+    double extra = 0.0;  ///< [N/m3] to the source, times w
+  };
+  /// Sums over a batch, added up in the order of the batches.
+  struct BatchSums {
+    std::int64_t unpaired = 0;
+    Triple paid{};
+    Triple given{};  ///< [N s] weight included
+    Triple size{};   ///< [N s] sum of the magnitudes
+  };
+  void charge(const particles::GrainRows& grains, const Spots& spots, std::size_t batch,
+              GrainMemory& memory, const fluid::CellField& eps, double step);
+  void give(int d, const particles::GrainRows& grains, const Spots& spots,
+            const GrainMemory& memory, const fluid::CellField& eps);
+  template <class Faces>
+  void give_one(int d, const Faces& faces, const Charge& charge);
+  std::int64_t pay_leavers(int d, GrainMemory& memory, double step);
+  /// Adds to one face; `eps` of the face.
+  void add(int d, std::ptrdiff_t face, double weight, double open, double eps,
+           const Charge& charge);
   void clear(int d);
 
   const Lattice& lattice_;
+  const FaceVoid& face_void_;
   const sdk::VoidageRule& rule_;
   bool is_set_three_;
+  bool is_own_taken_off_;  ///< what a grain does to the fluid by itself
   fluid::Exchange exchange_;
   std::array<std::vector<Touched>, 3> touched_;
+  std::array<std::vector<Charge>, 3> charges_;  ///< of the rows
+  std::vector<BatchSums> sums_;
   Triple paid_{};  ///< [N s] debts in the source
 };
 

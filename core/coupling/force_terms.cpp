@@ -85,21 +85,19 @@ void ForceTerms::end(const FluidState& fluid) {
   if (needs_.acceleration && is_first_) last_velocity_ = fluid.velocity;
 }
 
-sdk::Vec3 ForceTerms::velocity_at(sdk::Vec3 place, const fluid::FaceField& u,
-                                  const fluid::CellField& eps) const {
+sdk::Vec3 ForceTerms::velocity_at(sdk::Vec3 place, const fluid::FaceField& u) const {
   const double at[3] = {place.x, place.y, place.z};
   const Place p = lattice_.place(at);
   sdk::Vec3 velocity;
   Stencil s;
   for (int d = 0; d < 3; ++d) {
-    lattice_.stencil(d, p, eps, s);
-    for (std::size_t n = 0; n < 8; ++n) velocity[d] += s.weight[n] * u.component[d][s.face[n]];
+    lattice_.faces(d, p, s);
+    for (std::size_t n = 0; n < 8; ++n) velocity[d] += s.weight[n] * u.component[d][s.home[n]];
   }
   return velocity;
 }
 
-std::array<sdk::Vec3, 3> ForceTerms::gradient_at(sdk::Vec3 place, const fluid::FaceField& u,
-                                                 const fluid::CellField& eps) const {
+std::array<sdk::Vec3, 3> ForceTerms::gradient_at(sdk::Vec3 place, const fluid::FaceField& u) const {
   const fluid::Grid& grid = lattice_.grid();
   std::array<sdk::Vec3, 3> gradient;
   for (int e = 0; e < 3; ++e) {
@@ -114,7 +112,7 @@ std::array<sdk::Vec3, 3> ForceTerms::gradient_at(sdk::Vec3 place, const fluid::F
       high[e] = std::min(high[e], grid.origin[e] + grid.count[e] * grid.spacing[e]);
     }
     gradient[static_cast<std::size_t>(e)] =
-        (velocity_at(high, u, eps) - velocity_at(low, u, eps)) / (high[e] - low[e]);
+        (velocity_at(high, u) - velocity_at(low, u)) / (high[e] - low[e]);
   }
   return gradient;
 }
@@ -147,8 +145,7 @@ void ForceTerms::find_wall(sdk::Vec3 centre, double radius, double time, std::si
 }
 
 void ForceTerms::gather(const particles::GrainRows& grains, const Batch& batch,
-                        const FluidState& fluid, const fluid::CellField& eps, GrainMemory& memory,
-                        Columns& c) const {
+                        const FluidState& fluid, GrainMemory& memory, Columns& c) const {
   for (std::size_t n = 0; n < batch.count; ++n) {
     const std::size_t row = batch.first + n;
     const double* x = grains.position + 4 * row;
@@ -164,7 +161,7 @@ void ForceTerms::gather(const particles::GrainRows& grains, const Batch& batch,
     c.rotation.set(n, sdk::Vec3{w[0], w[1], w[2]});
     c.slip.set(n, batch.slip[n]);
     if (needs_.vorticity || needs_.acceleration) {
-      const auto gradient = gradient_at(centre, fluid.velocity, eps);
+      const auto gradient = gradient_at(centre, fluid.velocity);
       c.vorticity.set(n, sdk::Vec3{gradient[1].z - gradient[2].y, gradient[2].x - gradient[0].z,
                                    gradient[0].y - gradient[1].x});
       if (needs_.acceleration) {
@@ -173,9 +170,8 @@ void ForceTerms::gather(const particles::GrainRows& grains, const Batch& batch,
           // The field changes once per fluid step; its change is felt over the whole of it.
           sdk::Vec3 rate;
           if (!last_velocity_.component[0].empty()) {
-            rate = (velocity_at(centre, fluid.velocity, eps) -
-                    velocity_at(centre, last_velocity_, eps)) /
-                   step_;
+            rate =
+                (velocity_at(centre, fluid.velocity) - velocity_at(centre, last_velocity_)) / step_;
           }
           for (int d = 0; d < 3; ++d) change[d] = rate[d];
         }
@@ -232,10 +228,10 @@ void ForceTerms::impulse_was_read(GrainMemory& memory, std::size_t row,
 }
 
 void ForceTerms::evaluate(const particles::GrainRows& grains, const Batch& batch,
-                          const FluidState& fluid, double held, const fluid::CellField& eps,
-                          GrainMemory& memory, Sums& sums) const {
+                          const FluidState& fluid, double held, GrainMemory& memory,
+                          Sums& sums) const {
   Columns c;
-  gather(grains, batch, fluid, eps, memory, c);
+  gather(grains, batch, fluid, memory, c);
   for (std::size_t n = 0; n < batch.count; ++n) {
     sums.contained[n] = {};
     sums.returned[n] = {};

@@ -65,7 +65,7 @@ class ForceTerms {
   void begin(const FluidState& fluid, double step, bool is_first);
   /// May run at the same time for other batches.
   void evaluate(const particles::GrainRows& grains, const Batch& batch, const FluidState& fluid,
-                double held, const fluid::CellField& eps, GrainMemory& memory, Sums& sums) const;
+                double held, GrainMemory& memory, Sums& sums) const;
   /// After them: the fluid of this refresh is the last one seen.
   void end(const FluidState& fluid);
   /// The coupling has set the impulse of `row` from `received` to zero.
@@ -79,15 +79,14 @@ class ForceTerms {
  private:
   struct Columns;
   void gather(const particles::GrainRows& grains, const Batch& batch, const FluidState& fluid,
-              const fluid::CellField& eps, GrainMemory& memory, Columns& c) const;
+              GrainMemory& memory, Columns& c) const;
   void find_wall(sdk::Vec3 centre, double radius, double time, std::size_t n, Columns& c) const;
   void note_contact(const particles::GrainRows& grains, std::size_t row, double held,
                     double* numbers, Triple& acceleration) const;
-  [[nodiscard]] sdk::Vec3 velocity_at(sdk::Vec3 place, const fluid::FaceField& u,
-                                      const fluid::CellField& eps) const;
+  [[nodiscard]] sdk::Vec3 velocity_at(sdk::Vec3 place, const fluid::FaceField& u) const;
   /// Columns of the velocity gradient: derivative along x, y, z.
-  [[nodiscard]] std::array<sdk::Vec3, 3> gradient_at(sdk::Vec3 place, const fluid::FaceField& u,
-                                                     const fluid::CellField& eps) const;
+  [[nodiscard]] std::array<sdk::Vec3, 3> gradient_at(sdk::Vec3 place,
+                                                     const fluid::FaceField& u) const;
 
   std::vector<const sdk::FluidForce*> models_;
   std::vector<particles::Surface> surfaces_;

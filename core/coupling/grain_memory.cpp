@@ -14,6 +14,7 @@ constexpr std::size_t k_saved = 13;
 
 void GrainMemory::align(const particles::GrainRows& grains) {
   if (grains.count == ids_.size() && std::equal(ids_.begin(), ids_.end(), grains.id)) return;
+  ++order_;
 
   std::vector<std::pair<std::int64_t, std::size_t>> known(ids_.size());
   for (std::size_t row = 0; row < ids_.size(); ++row) known[row] = {ids_[row], row};

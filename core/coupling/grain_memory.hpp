@@ -50,6 +50,9 @@ class GrainMemory {
   /// Brings the memory into the order of `grains`; new grains start empty.
   void align(const particles::GrainRows& grains);
 
+  /// Changes whenever the order of the rows has.
+  [[nodiscard]] std::uint64_t order() const { return order_; }
+
   /// Keeps `width` further numbers per grain, zero for new grains; before the first align().
   void keep(std::size_t width) { width_ = width; }
   /// Those of a row.
@@ -65,6 +68,7 @@ class GrainMemory {
 
  private:
   std::vector<std::int64_t> ids_;
+  std::uint64_t order_ = 0;
   std::vector<Remembered> rows_;
   std::vector<Leaver> leavers_;
   std::size_t width_ = 0;

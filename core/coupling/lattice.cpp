@@ -27,6 +27,11 @@ Lattice::Lattice(const fluid::Grid& grid, const fluid::CellField& open_fraction)
       homes_[d].push_back(((grid.is_periodic[d] ? wrap(i, n) : i) + pad) * grid.stride[d]);
     }
   }
+  for (std::size_t d = 0; d < 3; ++d) {
+    short_homes_[d].assign(homes_[d].begin(), homes_[d].end());
+    axes_[d] = {grid.origin[static_cast<int>(d)], inverse_spacing_[static_cast<int>(d)],
+                grid.count[d], grid.is_periodic[d], short_homes_[d].data()};
+  }
   set_open_fraction(open_fraction);
 }
 
@@ -52,7 +57,7 @@ void Lattice::set_open_fraction(const fluid::CellField& open_fraction) {
   }
 }
 
-std::ptrdiff_t Lattice::open_cell(int i, int j, int k) const {
+std::ptrdiff_t Lattice::open_image(int i, int j, int k) const {
   const std::array<int, 3> at{i, j, k};
   for (int d = 0; d < 3; ++d) {
     const bool is_inside = at[d] >= 0 && at[d] < grid_.count[d];

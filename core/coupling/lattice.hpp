@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "coupling/face_kernels.hpp"
 #include "fluid/grid.hpp"
 
 #include <algorithm>
@@ -21,16 +22,15 @@ inline constexpr double k_off_side = 1e-5;
 
 /// Where a point lies along one axis.
 struct AxisPlace {
-  int cell = 0;          ///< cell, clamped into the grid
-  double face_part = 0;  ///< position between the faces `cell` and `cell` + 1, 0..1
-  int middle = 0;        ///< cell whose centre is the next one below, -1..count-1
-  double middle_part = 0;
+  double face_part = 0;    ///< position between the faces `cell` and `cell` + 1, 0..1
+  double middle_part = 0;  ///< position between the centres of `middle` and `middle` + 1, 0..1
+  int cell = 0;            ///< cell, clamped into the grid
+  int middle = 0;          ///< cell whose centre is the next one below, -1..count-1
 };
 using Place = std::array<AxisPlace, 3>;
 
 /// The eight faces of one component around a point, and what the exchange needs to know of them.
 struct Stencil {
-  std::array<std::ptrdiff_t, 8> face;   ///< where a field is read (halo faces where they lie)
   std::array<std::ptrdiff_t, 8> home;   ///< where the face is accounted (periodic images wrapped)
   std::array<double, 8> weight;         ///< trilinear, sum 1
   std::array<double, 8> void_fraction;  ///< at the face: mean of its two cells
@@ -43,6 +43,9 @@ struct Stencil {
 class Lattice {
  public:
   Lattice(const fluid::Grid& grid, const fluid::CellField& open_fraction);
+  // The axes point into the tables.
+  Lattice(const Lattice&) = delete;
+  Lattice& operator=(const Lattice&) = delete;
 
   /// After bodies have moved.
   void set_open_fraction(const fluid::CellField& open_fraction);
@@ -56,8 +59,21 @@ class Lattice {
   [[nodiscard]] std::ptrdiff_t cell(int i, int j, int k) const {
     return offset(cells_[0], i) + offset(cells_[1], j) + offset(cells_[2], k);
   }
-  /// The same, but only for open cells of the domain; -1 elsewhere.
-  [[nodiscard]] std::ptrdiff_t open_cell(int i, int j, int k) const;
+  /// Padded index at which a face is accounted: periodic images wrapped, others where they lie.
+  [[nodiscard]] std::ptrdiff_t home(int i, int j, int k) const {
+    return offset(homes_[0], i) + offset(homes_[1], j) + offset(homes_[2], k);
+  }
+  /// Open shares of the faces of component d, by home.
+  [[nodiscard]] const float* open_shares(int d) const { return open_face_[d].data(); }
+
+  /// As cell(), but only for open cells of the domain; -1 elsewhere.
+  [[nodiscard]] std::ptrdiff_t open_cell(int i, int j, int k) const {
+    if (is_inside(0, i) && is_inside(1, j) && is_inside(2, k)) {
+      const std::ptrdiff_t c = grid_.index(i, j, k);
+      return open_cell_[c] >= k_least_open ? c : -1;
+    }
+    return open_image(i, j, k);
+  }
   /// (i, j, k) of a padded index.
   [[nodiscard]] std::array<int, 3> indices(std::ptrdiff_t cell) const;
   /// Open cell nearest to `position` [m] among the 125 around it, -1 if there is none.
@@ -72,48 +88,46 @@ class Lattice {
   [[nodiscard]] std::ptrdiff_t cell(const Place& p) const {
     return cell(p[0].cell, p[1].cell, p[2].cell);
   }
-  /// The cell whose void fraction a grain at `p` has: its own, or an open neighbour's if closed.
-  [[nodiscard]] std::ptrdiff_t host_cell(const Place& p, const double* position) const {
-    const std::ptrdiff_t own = cell(p);
-    if (open_cell_[own] >= k_least_open) return own;
-    const std::ptrdiff_t other = nearest_open_cell(position);
-    return other >= 0 ? other : own;
+  /// Faces of component d around `p`: where they are accounted, and their weights.
+  void faces(int d, const Place& p, Stencil& s) const {
+    const int e = (d + 1) % 3;
+    const int f = (d + 2) % 3;
+    const std::ptrdiff_t low = offset(homes_[d], p[d].cell);
+    const std::ptrdiff_t step = offset(homes_[d], p[d].cell + 1) - low;
+    const std::array<std::ptrdiff_t, 2> column{low + offset(homes_[e], p[e].middle),
+                                               low + offset(homes_[e], p[e].middle + 1)};
+    const std::array<std::ptrdiff_t, 2> row{offset(homes_[f], p[f].middle),
+                                            offset(homes_[f], p[f].middle + 1)};
+    const std::array<double, 2> part_e{1.0 - p[e].middle_part, p[e].middle_part};
+    const std::array<double, 2> part_f{1.0 - p[f].middle_part, p[f].middle_part};
+    for (std::size_t n = 0; n < 4; ++n) {
+      const double across = part_e[n & 1] * part_f[n >> 1];
+      s.home[2 * n] = column[n & 1] + row[n >> 1];
+      s.home[2 * n + 1] = s.home[2 * n] + step;
+      s.weight[2 * n] = across * (1.0 - p[d].face_part);
+      s.weight[2 * n + 1] = across * p[d].face_part;
+    }
   }
-
-  /// Faces of component d around `p`, with void fractions from the padded field `eps`.
+  /// The same with the void fractions from the padded field `eps`, and the open shares.
   void stencil(int d, const Place& p, const fluid::CellField& eps, Stencil& s) const {
+    faces(d, p, s);
     const int e = (d + 1) % 3;
     const int f = (d + 2) % 3;
     const int first = p[d].cell;
     const std::array<std::ptrdiff_t, 3> along{
         offset(cells_[d], first - 1), offset(cells_[d], first), offset(cells_[d], first + 1)};
-    for (int n = 0; n < 4; ++n) {
-      const int ie = p[e].middle + (n & 1);
-      const int jf = p[f].middle + (n >> 1);
-      const std::ptrdiff_t column = offset(cells_[e], ie) + offset(cells_[f], jf);
-      const std::ptrdiff_t raw = offset(places_[e], ie) + offset(places_[f], jf);
-      const std::ptrdiff_t wrapped = offset(homes_[e], ie) + offset(homes_[f], jf);
-      const double across = ((n & 1) != 0 ? p[e].middle_part : 1.0 - p[e].middle_part) *
-                            ((n >> 1) != 0 ? p[f].middle_part : 1.0 - p[f].middle_part);
-      const double below = eps[along[0] + column];
+    for (std::size_t n = 0; n < 4; ++n) {
+      const std::ptrdiff_t column = offset(cells_[e], p[e].middle + static_cast<int>(n & 1)) +
+                                    offset(cells_[f], p[f].middle + static_cast<int>(n >> 1));
       const double own = eps[along[1] + column];
-      const double above = eps[along[2] + column];
-      const std::size_t a = 2 * static_cast<std::size_t>(n);
-      s.face[a] = offset(places_[d], first) + raw;
-      s.face[a + 1] = offset(places_[d], first + 1) + raw;
-      s.home[a] = offset(homes_[d], first) + wrapped;
-      s.home[a + 1] = offset(homes_[d], first + 1) + wrapped;
-      s.weight[a] = across * (1.0 - p[d].face_part);
-      s.weight[a + 1] = across * p[d].face_part;
-      s.void_fraction[a] = 0.5 * (below + own);
-      s.void_fraction[a + 1] = 0.5 * (own + above);
-      s.open[a] = open_face_[d][s.home[a]];
-      s.open[a + 1] = open_face_[d][s.home[a + 1]];
+      s.void_fraction[2 * n] = 0.5 * (eps[along[0] + column] + own);
+      s.void_fraction[2 * n + 1] = 0.5 * (own + eps[along[2] + column]);
+      s.open[2 * n] = open_face_[d][s.home[2 * n]];
+      s.open[2 * n + 1] = open_face_[d][s.home[2 * n + 1]];
     }
   }
   /// The face below (side 0) or above (1) a cell of the domain along d.
   struct Face {
-    std::ptrdiff_t place;  ///< where a field is read
     std::ptrdiff_t home;   ///< where it is accounted
     std::ptrdiff_t below;  ///< padded indices of its cells
     std::ptrdiff_t above;
@@ -122,26 +136,12 @@ class Lattice {
     std::array<int, 3> at{i, j, k};
     at[static_cast<std::size_t>(d)] += side;
     const std::ptrdiff_t above = cell(at[0], at[1], at[2]);
-    return {offset(places_[0], at[0]) + offset(places_[1], at[1]) + offset(places_[2], at[2]),
-            offset(homes_[0], at[0]) + offset(homes_[1], at[1]) + offset(homes_[2], at[2]),
-            cell(at[0] - (d == 0), at[1] - (d == 1), at[2] - (d == 2)), above};
+    return {home(at[0], at[1], at[2]), cell(at[0] - (d == 0), at[1] - (d == 1), at[2] - (d == 2)),
+            above};
   }
 
-  /// Value of component d in the cell at `p` from its two faces, weighted by their open shares:
-  /// the transpose of giving each face half of a cell. 0 if both are closed.
-  [[nodiscard]] double cell_mean(int d, const Place& p, const std::vector<double>& field) const {
-    const int e = (d + 1) % 3;
-    const int f = (d + 2) % 3;
-    const std::ptrdiff_t column = offset(homes_[e], p[e].cell) + offset(homes_[f], p[f].cell);
-    const std::ptrdiff_t low = offset(homes_[d], p[d].cell) + column;
-    const std::ptrdiff_t high = offset(homes_[d], p[d].cell + 1) + column;
-    const double share_low = open_face_[d][low];
-    const double share_high = open_face_[d][high];
-    const double sum = share_low + share_high;
-    return sum > 0.0 ? (share_low * field[low] + share_high * field[high]) / sum : 0.0;
-  }
-
-  /// Slope [1/m] of a cell field along d at `p`, between the same two faces with the same weights.
+  /// Slope [1/m] of a cell field along d at `p`, the mean over the same two faces, weighted by
+  /// their open shares.
   [[nodiscard]] double cell_slope(int d, const Place& p, const fluid::CellField& field) const {
     const int e = (d + 1) % 3;
     const int f = (d + 2) % 3;
@@ -157,11 +157,35 @@ class Lattice {
     return (share_low * (own - below) + share_high * (above - own)) * inverse_spacing_[d] / sum;
   }
 
+  /// place() of a batch of grains, 4 numbers of `position` each.
+  void place(const double* position, std::size_t count, SpotBatch& spots) const {
+    for (int d = 0; d < 3; ++d) place_along(axes_[d], position, count, d, spots);
+  }
+  /// The cell whose void fraction a grain in the cell `own` has: that, or an open neighbour's if it
+  /// is closed.
+  [[nodiscard]] std::ptrdiff_t host_cell(std::ptrdiff_t own, const double* position) const {
+    if (open_cell_[own] >= k_least_open) return own;
+    const std::ptrdiff_t other = nearest_open_cell(position);
+    return other >= 0 ? other : own;
+  }
+  /// Value of component d in a cell from its faces `low` and `high`: the transpose of giving each
+  /// face half of a cell. Closed faces count as 0: no force of the fluid's own is spent on them.
+  [[nodiscard]] double face_mean(int d, std::ptrdiff_t low, std::ptrdiff_t high,
+                                 const std::vector<double>& field) const {
+    return 0.5 * ((open_face_[d][low] > 0.0F ? field[low] : 0.0) +
+                  (open_face_[d][high] > 0.0F ? field[high] : 0.0));
+  }
+
   /// Copies face 0 to the last face along each periodic direction.
   void close_periodic(int d, std::vector<double>& field) const;
 
  private:
   using Offsets = std::vector<std::ptrdiff_t>;  ///< of the indices -2 .. count + 1
+  [[nodiscard]] bool is_inside(std::size_t d, int i) const {
+    return static_cast<unsigned>(i) < static_cast<unsigned>(grid_.count[d]);
+  }
+  /// open_cell() of a cell outside the grid.
+  [[nodiscard]] std::ptrdiff_t open_image(int i, int j, int k) const;
   static std::ptrdiff_t offset(const Offsets& table, int index) {
     return table[static_cast<std::size_t>(index + 2)];
   }
@@ -187,6 +211,8 @@ class Lattice {
   std::array<Offsets, 3> cells_;   ///< wrapped or clamped
   std::array<Offsets, 3> places_;  ///< where the array holds it
   std::array<Offsets, 3> homes_;   ///< wrapped where periodic, else where the array holds it
+  std::array<std::vector<std::int32_t>, 3> short_homes_;
+  std::array<AxisView, 3> axes_;
 };
 
 }  // namespace dust::coupling

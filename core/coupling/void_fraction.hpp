@@ -33,6 +33,8 @@ class VoidFraction {
   Counts map(const particles::GrainRows& grains);
   [[nodiscard]] const fluid::CellField& before() const { return before_.eps; }
   [[nodiscard]] const fluid::CellField& after() const { return after_.eps; }
+  /// Cells in which after() may differ from 1.
+  [[nodiscard]] const std::vector<std::ptrdiff_t>& filled_cells() const { return after_.touched; }
 
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);

@@ -48,12 +48,11 @@ void WideKernel::set(const double* position, double radius) {
 }
 
 void WideKernel::stencil(int d, const fluid::CellField& eps, WideStencil& s) const {
-  for (auto* column : {&s.face, &s.home}) column->clear();
+  s.home.clear();
   for (auto* column : {&s.weight, &s.void_fraction, &s.open}) column->clear();
   for (const Share& share : shares_) {
     for (const int side : {0, 1}) {
       const auto face = lattice_.face(d, share.i, share.j, share.k, side);
-      s.face.push_back(face.place);
       s.home.push_back(face.home);
       s.weight.push_back(0.5 * share.weight);
       s.void_fraction.push_back(0.5 * (eps[face.below] + eps[face.above]));

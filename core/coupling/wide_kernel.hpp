@@ -10,10 +10,10 @@ namespace dust::coupling {
 
 /// As Stencil, of any number of faces.
 struct WideStencil {
-  std::vector<std::ptrdiff_t> face, home;
+  std::vector<std::ptrdiff_t> home;
   std::vector<double> weight, void_fraction, open;
 
-  [[nodiscard]] std::size_t size() const { return face.size(); }
+  [[nodiscard]] std::size_t size() const { return home.size(); }
 };
 
 /// The cells over which a grain larger than a cell is spread by the voidage rule, and the faces

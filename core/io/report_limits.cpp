@@ -27,16 +27,16 @@ struct Rule {
 // Rounding of a ratio computed from lengths in mm shall not cross a limit.
 constexpr double k_rounding = 1e-9;
 
+constexpr const char* k_ratio = "largest_diameter_over_spacing";
+constexpr const char* k_ratio_limit = "limit_of_diameter_over_spacing";
 constexpr const char* k_any_overlap = "largest_overlap_over_radius";
 constexpr const char* k_coarse_overlap = "largest_overlap_over_radius_coarse";
 constexpr const char* k_fine_overlap = "largest_overlap_over_radius_fine";
 
 constexpr std::array k_rules{
-    Rule{
-        "largest_diameter_over_spacing", "Largest diameter over cell spacing, D/dx", Bound::at_most,
-        0.5,
-        "Volumes spread over cells need cells of two diameters; above, the void fraction of a cell "
-        "is noise. Use larger cells or a voidage rule for large grains."},
+    Rule{k_ratio, "Largest diameter over cell spacing, D/dx", Bound::at_most, 0.5,
+         "Volumes spread over cells need cells of two diameters; above, the void fraction of a "
+         "cell is noise. Use larger cells or a voidage rule for large grains."},
     Rule{"smallest_void_fraction", "Smallest void fraction of a cell", Bound::at_least, 0.35,
          "Drag laws are fitted down to a random packing (about 0.36); below, they extrapolate."},
     Rule{k_any_overlap, "Largest overlap over the smaller radius", Bound::at_most, 0.05,
@@ -117,9 +117,12 @@ std::vector<Limit> limits_of(const RunText& run) {
     // The larger of both repeats one of them; runs without fine grains have none to tell of.
     if (key == k_any_overlap && tells_apart) continue;
     if (key == k_fine_overlap && !(number_at(health, k_fine_overlap).value_or(0.0) > 0.0)) continue;
-    if (const auto reached = number_at(health, rule.key)) {
-      limits.push_back(limit_of(rule, *reached));
-    }
+    const auto reached = number_at(health, rule.key);
+    if (!reached) continue;
+    Rule own = rule;
+    // Each voidage rule has its own.
+    if (key == k_ratio) own.value = number_at(health, k_ratio_limit).value_or(rule.value);
+    limits.push_back(limit_of(own, *reached));
   }
   if (const double ratio = width_over_diameter(run.report); ratio > 0.0) {
     limits.push_back(

@@ -158,8 +158,12 @@ Json health(const Simulation& s) {
   if (s.coupling() != nullptr) {
     const auto& c = s.coupling()->report();
     h["voidage_shares_moved_to_open_cells"] = c.moved_shares;
+    h["voidage_cells_relieved"] = c.relieved_cells;
+    h["grains_without_open_cell"] = c.unplaced_grains;
+    h["drag_components_without_open_face"] = c.unpaired_forces;
     h["smallest_void_fraction"] = c.smallest_void_fraction;
     h["largest_diameter_over_spacing"] = c.largest_diameter_over_spacing;
+    h["limit_of_diameter_over_spacing"] = s.models().voidage->largest_diameter_over_spacing();
     h["largest_momentum_imbalance"] = c.largest_imbalance;
   }
   if (s.fluid() != nullptr) {

@@ -64,8 +64,12 @@ constexpr Named k_with_fluid[] = {
 };
 constexpr Named k_with_coupling[] = {
     {"health.voidage_shares_moved_to_open_cells", "1"},
+    {"health.voidage_cells_relieved", "1"},
+    {"health.grains_without_open_cell", "1"},
+    {"health.drag_components_without_open_face", "1"},
     {"health.smallest_void_fraction", "1"},
     {"health.largest_diameter_over_spacing", "1"},
+    {"health.limit_of_diameter_over_spacing", "1"},
     {"health.largest_momentum_imbalance", "1"},
 };
 constexpr Named k_of_emitter[] = {

@@ -185,6 +185,11 @@ void tell_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
   if (derived.diameter_over_spacing > 0.0) {
     out << ", largest grain / smallest cell edge D/dx = " << digits(derived.diameter_over_spacing);
   }
+  // A bed has no wake that walls could hold up; a lone grain has.
+  constexpr double k_wake = 10.0;
+  if (derived.diameter_over_spacing > 0.0 && derived.width_over_diameter < k_wake) {
+    out << "\n             (the wake of a lone grain in the fluid needs W/D above 10)";
+  }
   out << '\n';
 }
 

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coupling/coupling.hpp"
+#include "coupling/face_exchange.hpp"
+#include "coupling/face_void.hpp"
+#include "coupling/grain_memory.hpp"
+#include "coupling/lattice.hpp"
+#include "coupling/void_fraction.hpp"
+#include "coupling/wide_kernel.hpp"
+#include "fluid/properties.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace dust::coupling {
+
+/// Grains per call of the law and per task.
+inline constexpr std::size_t k_batch = ForceTerms::k_batch;
+static_assert(k_batch == SpotBatch::k_size);
+/// Rounding allowed in D / dx at the rule's limit (cells of exactly two diameters).
+inline constexpr double k_ratio_rounding = 1e-9;
+
+/// Columns of a batch of grains.
+struct Batch {
+  std::array<double, k_batch> reynolds, void_fraction, factor, size_ratio;
+};
+
+/// The parts written one after another, numbers to six digits.
+template <class... Part>
+std::string text(const Part&... parts) {
+  std::ostringstream stream;
+  (stream << ... << parts);
+  return stream.str();
+}
+
+/// State of the coupling. map.cpp: void fraction and implicit coefficients; own_flow.cpp: what a
+/// grain does to the fluid by itself; refresh.cpp: the action on the grains, and what they
+/// received.
+struct Coupling::Impl {
+  Impl(const scenario::FluidSpec& fluid, const scenario::TimeSpec& time, sdk::Vec3 gravity_vector,
+       const fluid::Grid& grid, const fluid::CellField& open_fraction, const sdk::VoidageRule& rule,
+       const sdk::DragLaw& law)
+      : lattice(grid, open_fraction),
+        drag(law),
+        voidage(rule),
+        void_fraction(lattice, rule),
+        face_void(lattice),
+        is_own_taken_off(fluid.corrects_own_disturbance && !fluid.is_one_way),
+        faces(lattice, face_void, rule, fluid.momentum_set == "III", is_own_taken_off),
+        properties(fluid),
+        gravity(gravity_vector),
+        is_set_three(fluid.momentum_set == "III"),
+        initial_velocity{fluid.initial_velocity.x, fluid.initial_velocity.y,
+                         fluid.initial_velocity.z},
+        is_one_way(fluid.is_one_way),
+        needs_size_ratio(law.needs_size_ratio()),
+        step(time.fluid_step) {
+    least_spacing = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+    refreshes = refreshes_for(step, 0.0);
+  }
+
+  /// `fastest`: largest rate of relaxation of a grain [1/s].
+  [[nodiscard]] double refreshes_for(double fluid_step, double fastest) const {
+    constexpr double k_steps_per_relaxation = 4.0;
+    constexpr double k_crossing_speed = 2.0;  // [m/s]
+    constexpr double k_refreshes_per_cell = 8.0;
+    constexpr double k_most_refreshes = 64.0;
+    const double relaxing = k_steps_per_relaxation * fluid_step * fastest;
+    const double crossing = k_refreshes_per_cell * k_crossing_speed * fluid_step / least_spacing;
+    // The allowance keeps rounding of a whole number from costing one more refresh.
+    constexpr double k_allowance = 1e-9;
+    const double wanted = std::ceil(std::max(relaxing, crossing) * (1.0 - k_allowance));
+    return std::clamp(wanted, 1.0, k_most_refreshes);
+  }
+
+  /// Runs `work(first, last)` over fixed batches of rows.
+  template <class Work>
+  static void for_batches(std::size_t count, const Work& work) {
+    const std::size_t batches = (count + k_batch - 1) / k_batch;
+    tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t b) {
+      work(b * k_batch, std::min(count, (b + 1) * k_batch));
+    });
+  }
+
+  /// F of the rows first..last; the batch's Reynolds numbers and void fractions are set.
+  void evaluate(Batch& batch, std::size_t count) const {
+    drag.evaluate({count, batch.reynolds.data(), batch.void_fraction.data(), batch.factor.data(),
+                   needs_size_ratio ? batch.size_ratio.data() : nullptr});
+  }
+  using Fluid = fluid::Properties::Values;
+  [[nodiscard]] Fluid fluid_at(const double* position) const {
+    if (properties.is_uniform()) return properties.own();
+    return properties.at({position[0], position[1], position[2]});
+  }
+  static double reynolds(const Fluid& fluid, double eps, double slip, double diameter) {
+    return eps * fluid.density * slip * diameter / fluid.viscosity;
+  }
+  /// K = 3 pi mu D F [kg/s].
+  static double coefficient(const Fluid& fluid, double diameter, double factor) {
+    return 3.0 * std::numbers::pi * fluid.viscosity * diameter * factor;
+  }
+  /// What the drag on a grain is made of K by: set III puts the pressure's part into it.
+  [[nodiscard]] double share_of_set(double eps) const { return is_set_three ? 1.0 / eps : 1.0; }
+
+  /// Drag and force by the stress of the own drag, over the drag.
+  [[nodiscard]] double stress_part(std::size_t row) const {
+    return is_own_taken_off ? 1.0 + memory[row].self_stress : 1.0;
+  }
+
+  void map(const particles::GrainRows& grains, double fluid_step);
+  void remember(const particles::GrainRows& grains, std::size_t first, std::size_t last);
+  /// Void fraction that a grain in the cell `own` has around it; sets `wide` for a grain larger
+  /// than a cell.
+  [[nodiscard]] double void_fraction_at(const double* position, std::ptrdiff_t own,
+                                        WideKernel& wide) const {
+    const fluid::CellField& eps = void_fraction.after();
+    if (!wide.takes(position[3])) return eps[lattice.host_cell(own, position)];
+    wide.set(position, position[3]);
+    return wide.mean(eps);
+  }
+  /// What the faces around a batch of grains show.
+  struct Seen {
+    std::array<Triple, k_batch> slip;    ///< [m/s] interstitial
+    std::array<Triple, k_batch> ratio;   ///< of the drag on the grain to the law's
+    std::array<Triple, k_batch> stress;  ///< [N/m3]
+  };
+  void look(const particles::GrainRows& grains, std::size_t first, std::size_t last,
+            const FluidState& fluid, Seen& seen, Batch& batch);
+  void find_own_solids(const particles::GrainRows& grains, std::size_t first, std::size_t last);
+  void find_own_flow(const particles::GrainRows& grains, std::size_t row, double eps, double slip);
+  void settle(const particles::GrainRows& grains, const fluid::FaceField& velocity);
+  void refresh(const particles::GrainRows& grains, std::size_t first, std::size_t last,
+               const FluidState& fluid);
+  void act(const particles::GrainRows& grains, std::size_t row, std::size_t n,
+           double drag_coefficient, const Triple& relative, double held,
+           const ForceTerms::Sums& sums);
+  [[nodiscard]] double held(const FluidState& fluid) const {
+    return fluid.held > 0.0 ? fluid.held : step / refreshes;
+  }
+  void collect(const particles::GrainRows& grains, double fluid_step);
+  void find_size_ratios(const particles::GrainRows& grains);
+
+  Lattice lattice;
+  const sdk::DragLaw& drag;
+  const sdk::VoidageRule& voidage;
+  VoidFraction void_fraction;
+  FaceVoid face_void;
+  GrainMemory memory;
+  Spots spots;                    ///< of the rows at map()
+  std::uint64_t spots_order = 0;  ///< GrainMemory::order() then
+  bool is_own_taken_off;          ///< what a grain does to the fluid by itself
+  FaceExchange faces;
+  std::unique_ptr<ForceTerms> forces;  ///< null without forces besides drag
+  CouplingReport report;
+  fluid::Properties properties;
+  sdk::Vec3 gravity;
+  bool is_set_three;
+  Triple initial_velocity;
+  bool is_one_way;
+  bool needs_size_ratio;
+  std::vector<std::array<double, 2>> size_sums;  ///< per cell W D^3 and W D^2, if needed
+  double step;
+  double least_spacing = 0.0;
+  double refreshes = 1.0;           ///< per fluid step
+  std::int64_t done_refreshes = 0;  ///< since map()
+  bool is_settled = true;           ///< Remembered::given belongs to the last map()
+};
+
+}  // namespace dust::coupling
