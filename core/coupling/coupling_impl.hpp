@@ -66,6 +66,7 @@ struct Coupling::Impl {
         step(time.fluid_step) {
     least_spacing = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
     refreshes = refreshes_for(step, 0.0);
+    if (is_own_taken_off) memory.keep_own_flow();
   }
 
   /// `fastest`: largest rate of relaxation of a grain [1/s].
@@ -113,7 +114,7 @@ struct Coupling::Impl {
 
   /// Drag and force by the stress of the own drag, over the drag.
   [[nodiscard]] double stress_part(std::size_t row) const {
-    return is_own_taken_off ? 1.0 + memory[row].self_stress : 1.0;
+    return is_own_taken_off ? 1.0 + memory.own_flow(row).self_stress : 1.0;
   }
 
   void map(const particles::GrainRows& grains, double fluid_step);

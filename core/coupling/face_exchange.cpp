@@ -84,10 +84,11 @@ void FaceExchange::charge(const particles::GrainRows& grains, const Spots& spots
       double excess = 1.0;
       double disturbance = 0.0;
       if (is_own_taken_off_) {
-        lone += r.own_solids;
-        if (!is_set_three_) excess += r.own_face_solids[d] * sums.open / sums.fluid;
-        r.lone_eps = lone;
-        disturbance = lone * r.disturbance[d];
+        OwnFlow& own = memory.own_flow(row);
+        lone += own.solids;
+        if (!is_set_three_) excess += own.face_solids[d] * sums.open / sums.fluid;
+        own.lone_eps = lone;
+        disturbance = lone * own.disturbance[d];
       }
       r.taken[d] = r.coefficient * excess / (sums.open * lone * lone);
       const double received = is_set_three_ ? sums.open : sums.fluid;
@@ -207,7 +208,11 @@ double FaceExchange::settle(const particles::GrainRows& grains, const std::vecto
       for (std::size_t q = 0; q < count; ++q) {
         const Remembered& r = memory[first + q];
         own[q] = r.velocity[d];
-        disturbance[q] = is_own_taken_off_ ? r.lone_eps * r.disturbance[d] : 0.0;
+        disturbance[q] = 0.0;
+        if (is_own_taken_off_) {
+          const OwnFlow& flow = memory.own_flow(first + q);
+          disturbance[q] = flow.lone_eps * flow.disturbance[d];
+        }
         factor[q] = step * r.taken[d];  // 0 if unpaired
       }
       const double* u = velocity.component[d].data();

@@ -22,11 +22,13 @@ void GrainMemory::align(const particles::GrainRows& grains) {
   std::vector<char> is_here(ids_.size(), 0);
   std::vector<Remembered> rows(grains.count);
   std::vector<double> kept(width_ * grains.count, 0.0);
+  std::vector<OwnFlow> own_flow(has_own_flow_ ? grains.count : 0);
   for (std::size_t row = 0; row < grains.count; ++row) {
     const auto found =
         std::lower_bound(known.begin(), known.end(), std::pair{grains.id[row], std::size_t{0}});
     if (found == known.end() || found->first != grains.id[row]) continue;
     rows[row] = rows_[found->second];
+    if (has_own_flow_) own_flow[row] = own_flow_[found->second];
     std::copy_n(kept_.data() + width_ * found->second, width_, kept.data() + width_ * row);
     is_here[found->second] = 1;
   }
@@ -37,18 +39,21 @@ void GrainMemory::align(const particles::GrainRows& grains) {
   }
   rows_ = std::move(rows);
   kept_ = std::move(kept);
+  own_flow_ = std::move(own_flow);
   ids_.assign(grains.id, grains.id + grains.count);
 }
 
 void GrainMemory::save(sdk::ArchiveWriter& archive) const {
   std::vector<double> numbers;
   numbers.reserve(k_saved * rows_.size());
-  for (const Remembered& r : rows_) {
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const Remembered& r = rows_[row];
+    const Triple disturbance = has_own_flow_ ? own_flow_[row].disturbance : Triple{};
     numbers.insert(numbers.end(), r.fluid_velocity.begin(), r.fluid_velocity.end());
     numbers.insert(numbers.end(), r.place.begin(), r.place.end());
     numbers.insert(numbers.end(), r.owed.begin(), r.owed.end());
     numbers.push_back(r.has_velocity ? 1.0 : 0.0);
-    numbers.insert(numbers.end(), r.disturbance.begin(), r.disturbance.end());
+    numbers.insert(numbers.end(), disturbance.begin(), disturbance.end());
   }
   std::vector<double> gone;
   for (const Leaver& l : leavers_) {
@@ -68,12 +73,14 @@ void GrainMemory::load(sdk::ArchiveReader& archive) {
   rows_.assign(ids_.size(), {});
   if (width_ > 0) kept_ = archive.numbers("kept");
   const double* n = numbers.data();
-  for (Remembered& r : rows_) {
+  own_flow_.assign(has_own_flow_ ? rows_.size() : 0, {});
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    Remembered& r = rows_[row];
     std::copy_n(n, 3, r.fluid_velocity.begin());
     std::copy_n(n + 3, 3, r.place.begin());
     std::copy_n(n + 6, 3, r.owed.begin());
     r.has_velocity = n[9] != 0.0;
-    std::copy_n(n + 10, 3, r.disturbance.begin());
+    if (has_own_flow_) std::copy_n(n + 10, 3, own_flow_[row].disturbance.begin());
     n += k_saved;
   }
   leavers_.assign(gone.size() / 6, {});

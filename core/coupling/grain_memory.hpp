@@ -27,12 +27,14 @@ struct Remembered {
   /// [kg/s] per component: drag on the grain = sum over faces of taken * weight * open * eps (u -
   /// v).
   Triple taken{};
+};
 
-  // What the grain does to the fluid by itself, if that is to be taken off; else nothing.
+/// What a grain does to the fluid by itself, if that is to be taken off.
+struct OwnFlow {
   Triple disturbance{};      ///< [m/s] of the fluid around it, by the force it has received
-  double lone_eps = 1.0;     ///< [-] void fraction in its cell, own_solids taken off, at map()
-  double own_solids = 0.0;   ///< [-] in its cell, beyond what would be there without it
-  Triple own_face_solids{};  ///< [-] the same at its faces
+  double lone_eps = 1.0;     ///< [-] void fraction in its cell, its solids taken off, at map()
+  double solids = 0.0;       ///< [-] in its cell, beyond what would be there without it
+  Triple face_solids{};      ///< [-] the same at its faces
   double self_stress = 0.0;  ///< [-] force by the stress of its own drag, over that drag
   double mobility = 0.0;     ///< [s/kg] steady disturbance per force on the grain
   double growth = 0.0;       ///< [-] share of the way to the steady disturbance per fluid step
@@ -53,6 +55,11 @@ class GrainMemory {
   /// Changes whenever the order of the rows has.
   [[nodiscard]] std::uint64_t order() const { return order_; }
 
+  /// Keeps what each grain does to the fluid by itself; before the first align().
+  void keep_own_flow() { has_own_flow_ = true; }
+  OwnFlow& own_flow(std::size_t row) { return own_flow_[row]; }
+  [[nodiscard]] const OwnFlow& own_flow(std::size_t row) const { return own_flow_[row]; }
+
   /// Keeps `width` further numbers per grain, zero for new grains; before the first align().
   void keep(std::size_t width) { width_ = width; }
   /// Those of a row.
@@ -70,6 +77,8 @@ class GrainMemory {
   std::vector<std::int64_t> ids_;
   std::uint64_t order_ = 0;
   std::vector<Remembered> rows_;
+  std::vector<OwnFlow> own_flow_;  ///< empty unless kept
+  bool has_own_flow_ = false;
   std::vector<Leaver> leavers_;
   std::size_t width_ = 0;
   std::vector<double> kept_;  ///< width_ per row

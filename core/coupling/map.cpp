@@ -38,7 +38,7 @@ void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t fi
     spots.eps[row] = void_fraction_at(position, here.cell(row - first), wide);
     double eps = spots.eps[row];
     if (is_own_taken_off) {
-      eps += r.own_solids;
+      eps += memory.own_flow(row).solids;
       find_own_flow(grains, row, eps, slip);
     }
     batch.void_fraction[row - first] = eps;

@@ -26,7 +26,7 @@ void Coupling::Impl::find_own_solids(const particles::GrainRows& grains, std::si
   };
   for (std::size_t row = first; row < last; ++row) {
     const double* position = grains.position + 4 * row;
-    Remembered& r = memory[row];
+    OwnFlow& of_grain = memory.own_flow(row);
     kernel.set(position, position[3]);
     const double volume = grains.weight[row] * sdk::sphere_volume(2.0 * position[3]);
     for (const WideKernel::Share& share : kernel.shares()) {
@@ -39,14 +39,14 @@ void Coupling::Impl::find_own_solids(const particles::GrainRows& grains, std::si
     const double here = is_wide ? kernel.mean(own) : own[host];
     const double eps = is_wide ? kernel.mean(void_fraction.after()) : void_fraction.after()[host];
     const double excess = own_disturbance::excess_of_one(1.0 - eps - here);
-    r.own_solids = std::min(excess * here, 1.0 - eps);
+    of_grain.solids = std::min(excess * here, 1.0 - eps);
     for (int d = 0; d < 3; ++d) {
       if (is_wide) {
         kernel.stencil(d, own, many);
-        r.own_face_solids[d] = excess * face_mean(many);
+        of_grain.face_solids[d] = excess * face_mean(many);
       } else {
         lattice.stencil(d, p, own, s);
-        r.own_face_solids[d] = excess * face_mean(s);
+        of_grain.face_solids[d] = excess * face_mean(s);
       }
     }
     for (const WideKernel::Share& share : kernel.shares()) own[share.cell] = 0.0;
@@ -59,7 +59,7 @@ void Coupling::Impl::find_own_flow(const particles::GrainRows& grains, std::size
                                    double slip) {
   namespace own = own_disturbance;
   const double* position = grains.position + 4 * row;
-  Remembered& r = memory[row];
+  OwnFlow& of_grain = memory.own_flow(row);
   WideKernel kernel(lattice, voidage);
   const bool is_wide = kernel.takes(position[3]);
   const double edge = std::cbrt(lattice.cell_volume());
@@ -74,12 +74,12 @@ void Coupling::Impl::find_own_flow(const particles::GrainRows& grains, std::size
   const double reynolds = fluid.density * slip * radius / fluid.viscosity;
   const double mobility = own::mobility(radius, fluid.viscosity, reynolds);
   const double weighted = own::excess_of_one(1.0 - eps) * grains.weight[row];
-  const double local = std::max(eps - r.own_solids, k_smallest_void_fraction);
-  r.mobility = weighted * mobility;
-  r.growth = -std::expm1(-step / own::build_up_time(radius, fluid.density, mobility));
-  r.self_stress = is_set_three ? 0.0
-                               : weighted * own::stress_share(reynolds) * density *
-                                     sdk::sphere_volume(2.0 * position[3]) / local;
+  const double local = std::max(eps - of_grain.solids, k_smallest_void_fraction);
+  of_grain.mobility = weighted * mobility;
+  of_grain.growth = -std::expm1(-step / own::build_up_time(radius, fluid.density, mobility));
+  of_grain.self_stress = is_set_three ? 0.0
+                                      : weighted * own::stress_share(reynolds) * density *
+                                            sdk::sphere_volume(2.0 * position[3]) / local;
 }
 
 }  // namespace dust::coupling

@@ -24,7 +24,7 @@ void Coupling::Impl::look(const particles::GrainRows& grains, std::size_t first,
   for (std::size_t q = 0; q < count; ++q) {
     const double* position = grains.position + 4 * (first + q);
     own[q] = void_fraction_at(position, spot.cell(q), wide);
-    if (is_own_taken_off) own[q] = std::min(1.0, own[q] + memory[first + q].own_solids);
+    if (is_own_taken_off) own[q] = std::min(1.0, own[q] + memory.own_flow(first + q).solids);
   }
   for (int d = 0; d < 3; ++d) {
     const double* u = state.velocity.component[d].data();
@@ -54,8 +54,9 @@ void Coupling::Impl::look(const particles::GrainRows& grains, std::size_t first,
       double slip = flux[q] / own[q];
       double around = open[q] > 0.0 ? fluid[q] / open[q] : own[q];
       if (is_own_taken_off) {
-        slip += r.disturbance[d];
-        if (open[q] > 0.0) around += r.own_face_solids[d];
+        const OwnFlow& flow = memory.own_flow(first + q);
+        slip += flow.disturbance[d];
+        if (open[q] > 0.0) around += flow.face_solids[d];
       }
       seen.slip[q][d] = slip;
       seen.ratio[q][d] = is_set_three ? 1.0 : around / own[q];
@@ -191,8 +192,9 @@ void Coupling::Impl::collect(const particles::GrainRows& grains, double fluid_st
         }
         if (is_own_taken_off) {
           // Per real grain; the mobility counts the weight.
-          const double steady = r.mobility * drag_impulse / fluid_step;
-          r.disturbance[d] += r.growth * (steady - r.disturbance[d]);
+          OwnFlow& own = memory.own_flow(row);
+          const double steady = own.mobility * drag_impulse / fluid_step;
+          own.disturbance[d] += own.growth * (steady - own.disturbance[d]);
         }
         r.place[d] = grains.position[4 * row + d];
         received[d] = 0.0;
