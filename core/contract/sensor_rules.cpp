@@ -37,6 +37,9 @@ void add(Readings& readings, const std::string& from, const Figures& figures) {
 
 class NoReport final : public sdk::ReportSink {
  public:
+  void section(std::string_view heading, std::string_view text) override {
+    require(!heading.empty() && !text.empty(), "its section has no heading or no text");
+  }
   void curve(std::string_view title, std::string_view, std::string_view, std::string_view series,
              std::span<const double> x, std::span<const double> y) override {
     require(x.size() == y.size(), "the curve '" + std::string(title) + "' (" + std::string(series) +
@@ -67,6 +70,35 @@ Readings observe(const Maker& make, const Trial& trial) {
   return readings;
 }
 
+/// Names, units and sizes of the fields.
+class FieldList final : public sdk::FieldSink {
+ public:
+  void field(std::string_view name, std::string_view unit, const sdk::GridShape& grid,
+             std::span<const double> values) override {
+    const std::string what = "the field '" + std::string(name) + "' ";
+    require(!unit.empty(), what + "has no unit; a bare number has \"1\"");
+    require(grid.count[0] > 0 && grid.count[1] > 0 && grid.count[2] > 0, what + "has no cells");
+    const auto cells = static_cast<std::size_t>(grid.count[0]) * grid.count[1] * grid.count[2];
+    require(values.size() == cells, what + "has " + std::to_string(values.size()) +
+                                        " numbers for " + std::to_string(cells) + " cells");
+    for (const double v : values) require(std::isfinite(v), what + "holds " + shown(v));
+    names_.emplace_back(name);
+    numbers_.insert(numbers_.end(), values.begin(), values.end());
+  }
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  [[nodiscard]] const std::vector<double>& numbers() const { return numbers_; }
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<double> numbers_;
+};
+
+FieldList fields_of(const sdk::Sensor& sensor) {
+  FieldList list;
+  sensor.fields(list);
+  return list;
+}
+
 bool is_name(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '/';
@@ -87,6 +119,12 @@ void check_names(const Maker& make) {
         unknown += " " + name + " [" + figure.unit + "]";
       }
     }
+  }
+  std::set<std::string> fields;
+  for (const std::string& name : fields_of(*sensor).names()) {
+    require(is_name(name) && name.find('/') == std::string::npos,
+            "the field '" + name + "' is not snake_case");
+    require(fields.insert(name).second, "the field '" + name + "' is given twice");
   }
   if (!unknown.empty()) throw Remark("units the engine does not know:" + unknown);
 }
@@ -113,11 +151,13 @@ void check_nothing(const Maker& make) {
   const std::vector<std::string> full = summary_of(*run(make, {}, false)).names();
   const auto sensor = make_as<sdk::Sensor>(make);
   const std::vector<std::string> series = series_of(*sensor).names();
+  const std::vector<std::string> fields = fields_of(*sensor).names();
   Scene scene(true);
   for (int s = 0; s < k_samples; ++s) {
     scene.show(*sensor);
     require(series_of(*sensor).names() == series, "the columns of its series change");
     require(summary_of(*sensor).names() == full, "the names of its summary change");
+    require(fields_of(*sensor).names() == fields, "its fields change");
   }
   const Figures nothing = summary_of(*sensor);
   for (const auto& [name, figure] : nothing.all()) {
@@ -152,6 +192,8 @@ void check_restart(const Maker& make) {
         const std::string when = "saved and loaded after " + std::to_string(s) + " samples ";
         compare(summary_of(*whole), summary_of(*part), when);
         compare(series_of(*whole), series_of(*part), when);
+        require(fields_of(*whole).numbers() == fields_of(*part).numbers(),
+                when + "a field differs");
       }
       scene.show(*whole);
       same.show(*part);

@@ -94,6 +94,27 @@ void write_fluid(hid_t file, const sdk::FluidColumns& f, std::span<const float> 
               Storage::compressed, {"1", "share of the cell not inside a body"});
 }
 
+void write_fields(hid_t file, const std::vector<SensorField>& fields) {
+  const Handle all = create_group(file, "sensors");
+  std::map<std::string, Handle> groups;
+  for (const SensorField& f : fields) {
+    auto [group, is_new] = groups.try_emplace(f.sensor);
+    if (is_new) group->second = create_group(all.get(), f.sensor);
+    const auto extent = [&](int d) { return static_cast<hsize_t>(f.grid.count[d]); };
+    write_array(group->second.get(), f.name, H5T_NATIVE_FLOAT, narrow(f.values).data(),
+                {extent(2), extent(1), extent(0)}, Storage::compressed,
+                {f.unit.c_str(), f.name.c_str()});
+    const std::string what = "cannot describe " + f.sensor + "/" + f.name;
+    const Handle set(H5Dopen2(group->second.get(), f.name.c_str(), H5P_DEFAULT), H5Dclose, what);
+    const std::array<double, 3> origin = {f.grid.origin.x, f.grid.origin.y, f.grid.origin.z};
+    const std::array<double, 3> spacing = {f.grid.spacing.x, f.grid.spacing.y, f.grid.spacing.z};
+    const std::array<std::int64_t, 3> count = {f.grid.count[0], f.grid.count[1], f.grid.count[2]};
+    write_attribute(set.get(), "origin", std::span<const double>(origin));
+    write_attribute(set.get(), "spacing", std::span<const double>(spacing));
+    write_attribute(set.get(), "count", std::span<const std::int64_t>(count));
+  }
+}
+
 /// The surfaces of the bodies that are there, where they are at `time`.
 WallLayout write_wall_group(hid_t file, const bodies::BodySet& bodies, sdk::Vec3 min, sdk::Vec3 max,
                             double time) {
@@ -177,6 +198,8 @@ FrameEntry write_frame(const fs::path& folder, const Frame& frame) {
     entry.walls = write_wall_group(out.get(), *frame.bodies, frame.world.domain_min,
                                    frame.world.domain_max, frame.time);
   }
+  entry.has_fields = !frame.fields.empty();
+  if (entry.has_fields) write_fields(out.get(), frame.fields);
   out.close("cannot write " + file.string());
   move_into_place(file, false);
   return entry;
@@ -188,6 +211,7 @@ FrameEntry read_frame_entry(const fs::path& folder, std::int64_t number) {
   FrameEntry entry{number, read_attribute(group.get(), "time").at(0),
                    static_cast<std::int64_t>(extents_of(group.get(), "id").at(0))};
   entry.has_walls = H5Lexists(in.get(), "walls", H5P_DEFAULT) > 0;
+  entry.has_fields = H5Lexists(in.get(), "sensors", H5P_DEFAULT) > 0;
   if (entry.has_walls) {
     entry.walls.points = static_cast<std::int64_t>(extents_of(in.get(), "walls/points").at(0));
     entry.walls.triangles = static_cast<std::int64_t>(extents_of(in.get(), "walls/body").at(0));

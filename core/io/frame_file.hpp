@@ -29,8 +29,8 @@ std::string six_digits(std::int64_t number);
 inline constexpr const char* k_walls_path = "frames/walls.h5";
 inline constexpr const char* k_open_fraction_path = "frames/open_fraction.h5";
 
-/// Writes one frame to its own file, complete or not at all: `/particles`, with fluid `/fluid`, and
-/// `/walls` if they change.
+/// Writes one frame to its own file, complete or not at all: `/particles`, with fluid `/fluid`,
+/// `/walls` if they change, and `/sensors` if any writes fields.
 FrameEntry write_frame(const std::filesystem::path& folder, const Frame& frame);
 /// What is known of a frame from its file; throws base::RunError when it cannot be read.
 FrameEntry read_frame_entry(const std::filesystem::path& folder, std::int64_t number);

@@ -241,6 +241,7 @@ std::string body_html(const RunText& run, const json& data, const Highlights& hi
   text += pictures_html(data["grains"], data["air"], highlights);
   text += setting_html(run, data["bodies"]);
   text += stream_html(highlights) + references_html(run);
+  text += own_sections_html(run);
   text += "<section id=\"curves\" hidden><h2>Curves of the sensors</h2></section>\n";
   text += "<section id=\"series\" hidden><h2>The run over time</h2></section>\n";
   text += balance_html(run) + health_html(run, explanation) + cost_html(run) + figures_html(run) +

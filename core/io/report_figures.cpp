@@ -36,27 +36,10 @@ std::string figures_html(const RunText& run) {
             rows + "</tbody></table></div></details>\n";
   }
   for (const json& table : list_at(run.report, "tables")) {
-    if (list_at(table, "rows").empty()) continue;
+    if (list_at(table, "rows").empty() || has_own_section(run, text_at(table, "sensor"))) continue;
     text += "<details><summary>" + escape_html(text_at(table, "title")) + " <small>table of " +
-            escape_html(words(text_at(table, "sensor"))) +
-            "</small></summary><div class=\"scroll\"><table><thead><tr>";
-    for (const json& name : list_at(table, "columns")) {
-      text += "<th class=\"n\">" + escape_html(name.is_string() ? name.get<std::string>() : "") +
-              "</th>";
-    }
-    text += "</tr></thead>\n<tbody>\n";
-    for (const json& cells : list_at(table, "rows")) {
-      text += "<tr>";
-      for (const json& cell : cells) {
-        text += "<td class=\"n\">" +
-                (cell.is_number()   ? number_html(cell.get<double>(), 5)
-                 : cell.is_string() ? escape_html(cell.get<std::string>())
-                                    : std::string("\u2013")) +
-                "</td>";
-      }
-      text += "</tr>\n";
-    }
-    text += "</tbody></table></div></details>\n";
+            escape_html(words(text_at(table, "sensor"))) + "</small></summary>" +
+            plain_table_html(table) + "</details>\n";
   }
   if (text.empty()) return text;
   return "<section id=\"figures\"><h2>All figures</h2>\n<p>Every sensor's figures of this run. The "

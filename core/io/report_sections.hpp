@@ -28,6 +28,8 @@ constexpr double k_parting_side = 0.02;
 [[nodiscard]] std::string health_html(const RunText& run, const std::string& explanation);
 [[nodiscard]] std::string figures_html(const RunText& run);
 [[nodiscard]] std::string provenance_html(const RunText& run);
+/// What sensors head themselves; the page's script draws their curves into it.
+[[nodiscard]] std::string own_sections_html(const RunText& run);
 
 /// Parts that several sections use.
 [[nodiscard]] std::string run_title(const RunText& run);
@@ -36,6 +38,9 @@ constexpr double k_parting_side = 0.02;
 [[nodiscard]] std::string fractions_html(const Highlights& highlights);
 /// The mean pressure of a place; three digits where no error tells how many count.
 [[nodiscard]] std::string depth_html(const LowPlace& place);
+[[nodiscard]] bool has_own_section(const RunText& run, const std::string& sensor);
+/// A table of report.json.
+[[nodiscard]] std::string plain_table_html(const nlohmann::json& table);
 /// How many limits of validity the run went beyond.
 [[nodiscard]] int limits_touched(const RunText& run);
 

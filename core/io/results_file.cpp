@@ -85,6 +85,9 @@ struct ResultsFile::Impl {
       }
       link(out.get(), "walls/" + number,
            frame.has_walls ? frame_path(frame.number) : std::string(k_walls_path), "/walls");
+      if (frame.has_fields) {
+        link(out.get(), "sensors/" + number, frame_path(frame.number), "/sensors");
+      }
     }
     out.close("cannot write " + file.string());
     move_into_place(file, false);

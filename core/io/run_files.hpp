@@ -15,6 +15,15 @@
 
 namespace dust::io {
 
+/// A field of a sensor, as it is written with a frame.
+struct SensorField {
+  std::string sensor;
+  std::string name;
+  std::string unit;
+  sdk::GridShape grid;
+  std::vector<double> values;  ///< one per cell, x fastest
+};
+
 /// One frame's data: copies, so that the writer may work while the run goes on. The spans of
 /// `world` point into columns kept alive by the caller for the duration of the call.
 struct Frame {
@@ -24,6 +33,7 @@ struct Frame {
   std::span<const float> momentum_exchange;  ///< [N/m3] 3 per cell; empty without fluid
   /// Bodies that are not always where they were, to be written with the frame; null: they are.
   const bodies::BodySet* bodies = nullptr;
+  std::vector<SensorField> fields;
 };
 
 /// results.h5 and the three XDMF files. Every frame is complete on disk when append() returns: the
@@ -42,6 +52,8 @@ struct Frame {
 ///                        pressure, void_fraction (nz, ny, nx) f32
 ///   /walls               attribute names, of the bodies
 ///   /walls/<frame>       points (m, 3) f32, triangles (t, 3) i32, body (t) i32
+///   /sensors/<frame>     only where a sensor writes fields: <sensor>/<field> (nz, ny, nx) f32 with
+///                        the attributes origin, spacing, count (x, y, z) of the sensor's own grid
 ///
 /// Walls that move or go are written with each frame, others once.
 ///

@@ -21,6 +21,7 @@ struct FrameEntry {
   std::int64_t grains = 0;
   bool has_walls = false;  ///< of its own
   WallLayout walls;
+  bool has_fields = false;  ///< of sensors
 };
 
 /// Extents of the fluid fields; no cells without fluid.

@@ -82,15 +82,16 @@ void compare(const fs::path& file, const sdk::Handshake& theirs) {
 /// Collects what one library registers; nothing reaches the registry unless all is well.
 class Collector final : public sdk::Registrar {
  public:
-  explicit Collector(const fs::path& file) : file_(file) {}
+  Collector(const fs::path& file, bool is_shipped) : file_(file), is_shipped_(is_shipped) {}
   using sdk::Registrar::add;
   void add(sdk::ModelInfo info, sdk::ModelFactory factory) override {
-    entries_.push_back({std::move(info), std::move(factory), file_});
+    entries_.push_back({std::move(info), std::move(factory), file_, is_shipped_});
   }
   std::vector<Entry> take() { return std::move(entries_); }
 
  private:
   fs::path file_;
+  bool is_shipped_;
   std::vector<Entry> entries_;
 };
 
@@ -139,7 +140,7 @@ std::vector<Entry> load_library(const fs::path& file) {
   }
   open_libraries().push_back(library);
   compare(file, library.get<const sdk::Handshake>("dust_handshake"));
-  Collector collector(file);
+  Collector collector(file, library.has("dust_shipped"));
   try {
     library.get<void(sdk::Registrar&)>("dust_register")(collector);
   } catch (const std::exception& problem) {

@@ -2,6 +2,7 @@
 #include "registry/registry.hpp"
 
 #include "base/error.hpp"
+#include "registry/guard.hpp"
 #include "registry/library.hpp"
 #include "scenario/diagnostics.hpp"
 
@@ -41,11 +42,20 @@ std::vector<fs::path> libraries_in(const fs::path& folder) {
   return files;
 }
 
+/// `lib/dust/plugins` relative to the program; empty if nobody knows where that is.
+fs::path own_folder() {
+  std::error_code code;
+  const fs::path program = boost::dll::program_location(code);
+  if (code) return {};
+  return (program.parent_path().parent_path() / "lib" / "dust" / "plugins").lexically_normal();
+}
+
 }  // namespace
 
 struct Registry::Impl {
   std::vector<Entry> entries;
   std::set<fs::path> files;
+  std::vector<fs::path> folders;
 };
 
 Registry::Registry() : impl_(std::make_unique<Impl>()) {}
@@ -54,6 +64,7 @@ Registry::~Registry() = default;
 void Registry::load(const std::vector<fs::path>& folders) {
   std::vector<std::string> problems;
   for (const fs::path& folder : folders) {
+    impl_->folders.push_back(folder);
     std::vector<fs::path> files;
     try {
       files = libraries_in(folder);
@@ -85,13 +96,9 @@ std::vector<fs::path> Registry::search_path(const std::vector<fs::path>& from_co
       begin = end + 1;
     }
   }
+  const fs::path own = own_folder();
   std::error_code code;
-  const fs::path program = boost::dll::program_location(code);
-  if (!code) {
-    const fs::path own =
-        (program.parent_path().parent_path() / "lib" / "dust" / "plugins").lexically_normal();
-    if (fs::is_directory(own, code)) folders.push_back(own);
-  }
+  if (!own.empty() && fs::is_directory(own, code)) folders.push_back(own);
   return folders;
 }
 
@@ -114,6 +121,8 @@ const Entry* Registry::find(std::string_view kind, std::string_view name) const 
 
 const std::vector<Entry>& Registry::entries() const { return impl_->entries; }
 
+const std::vector<fs::path>& Registry::folders() const { return impl_->folders; }
+
 std::vector<std::string> Registry::names(std::string_view kind) const {
   std::vector<std::string> result;
   for (const Entry& entry : impl_->entries) {
@@ -131,9 +140,14 @@ std::unique_ptr<sdk::Model> Registry::create(const scenario::ModelChoice& choice
     throw base::UserError(prefix + "unknown " + choice.kind + " model '" + choice.name + "'");
   }
   try {
-    return entry->factory(choice.values);
+    auto model = entry->factory(choice.values);
+    const bool is_tested = entry->file.empty() || entry->is_shipped;
+    return is_tested ? std::move(model) : guarded(std::move(model), *entry);
   } catch (const std::exception& problem) {
     throw base::UserError(prefix + problem.what());
+  } catch (...) {
+    throw base::UserError(prefix + file_text(entry->file) + " throws something that is no " +
+                          "std::exception while it makes " + choice.kind + "/" + choice.name);
   }
 }
 

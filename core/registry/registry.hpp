@@ -18,6 +18,7 @@ struct Entry {
   sdk::ModelInfo info;
   sdk::ModelFactory factory;
   std::filesystem::path file;  ///< empty: registered from code (tests)
+  bool is_shipped = false;     ///< of a library that came with the engine
 };
 
 /// All models found. Libraries stay loaded until the process ends.
@@ -39,8 +40,11 @@ class Registry {
   /// Sorted by kind and name.
   [[nodiscard]] const std::vector<Entry>& entries() const;
   [[nodiscard]] std::vector<std::string> names(std::string_view kind) const;
+  /// The folders looked into so far.
+  [[nodiscard]] const std::vector<std::filesystem::path>& folders() const;
 
   /// Makes the chosen model; a ParameterError becomes a base::UserError at the model's place.
+  /// Models of libraries that are not shipped are guarded.
   [[nodiscard]] std::unique_ptr<sdk::Model> create(const scenario::ModelChoice& choice) const;
   template <class Kind>
   [[nodiscard]] std::unique_ptr<Kind> create_as(const scenario::ModelChoice& choice) const {

@@ -75,6 +75,36 @@ double cpu_seconds() {
   return seconds(u.ru_utime) + seconds(u.ru_stime);
 }
 
+/// Collects the fields of the sensors for a frame.
+class FieldsOfSensors final : public sdk::FieldSink {
+ public:
+  explicit FieldsOfSensors(const Simulation& simulation) {
+    const auto& sensors = simulation.models().sensors;
+    for (std::size_t n = 0; n < sensors.size(); ++n) {
+      sensor_ = simulation.setup().sensors[n].name;
+      sensors[n]->fields(*this);
+    }
+  }
+  void field(std::string_view name, std::string_view unit, const sdk::GridShape& grid,
+             std::span<const double> values) override {
+    const auto cells = static_cast<std::size_t>(grid.count[0]) * grid.count[1] * grid.count[2];
+    if (values.size() != cells) {
+      throw sdk::ModelError("the sensor " + sensor_ + " gives " + std::to_string(values.size()) +
+                            " numbers for its field " + std::string(name) +
+                            "; expected: one for "
+                            "each of its " +
+                            std::to_string(cells) + " cells");
+    }
+    fields_.push_back(
+        {sensor_, std::string(name), std::string(unit), grid, {values.begin(), values.end()}});
+  }
+  std::vector<io::SensorField> take() { return std::move(fields_); }
+
+ private:
+  std::string sensor_;
+  std::vector<io::SensorField> fields_;
+};
+
 /// The files of one run and the loop over fluid steps.
 class Run {
  public:
@@ -219,6 +249,7 @@ class Run {
     frame.world = simulation_.world();
     frame.momentum_exchange = simulation_.momentum_exchange();
     if (simulation_.has_changing_walls()) frame.bodies = &simulation_.models().bodies;
+    frame.fields = FieldsOfSensors(simulation_).take();
     results_->append(frame);
     ++frames_;
     output_s_ += std::chrono::duration<double>(Clock::now() - begin).count();

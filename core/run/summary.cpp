@@ -69,6 +69,9 @@ class RowFigures final : public sdk::FigureSink {
 
 class JsonReport final : public sdk::ReportSink {
  public:
+  void section(std::string_view heading, std::string_view text) override {
+    sections.push_back({{"sensor", sensor}, {"heading", heading}, {"text", text}});
+  }
   void curve(std::string_view title, std::string_view x_label, std::string_view y_label,
              std::string_view series, std::span<const double> x,
              std::span<const double> y) override {
@@ -97,6 +100,7 @@ class JsonReport final : public sdk::ReportSink {
     tables[place_[sensor + key]]["rows"].push_back(cells);
   }
   std::string sensor;
+  Json sections = Json::array();
   Json curves = Json::array();
   Json tables = Json::array();
 
@@ -314,6 +318,7 @@ void write_summary(const std::filesystem::path& folder, const Simulation& s,
                              {"x", c.x},
                              {"y", c.y}});
   }
+  r["sections"] = report.sections;
   r["curves"] = report.curves;
   r["tables"] = report.tables;
   r["outline"] = outlines(s);

@@ -46,6 +46,14 @@ std::vector<std::string> offered(const registry::Registry& registry, const std::
   return names;
 }
 
+/// "; looked for in A, B": where a model that was not found might have been.
+std::string searched(const registry::Registry& registry, const std::string& kind) {
+  if (kind == "shape" || registry.folders().empty()) return "";
+  std::vector<std::string> folders;
+  for (const auto& folder : registry.folders()) folders.push_back(folder.string());
+  return "; plugins were looked for in " + listed(folders);
+}
+
 /// "drag model", "shape", "motion".
 std::string noun(const std::string& kind) {
   return kind == "shape" || kind == "motion" ? kind : kind + " model";
@@ -201,7 +209,7 @@ ReadModel ModelReader::read(MapReader& reader, const std::string& key, const std
     diagnostics_.error(name.where, path + ": unknown " + noun(kind) + " '" + printable(name.text) +
                                        "'" +
                                        (near.empty() ? "" : "; did you mean '" + near + "'?") +
-                                       " (" + available + ")");
+                                       " (" + available + ")" + searched(registry_, kind));
     reader.keys_are_unknowable();
     return {};
   }
@@ -220,6 +228,9 @@ ReadModel ModelReader::read(MapReader& reader, const std::string& key, const std
       result.model = offer->make(choice.values);
     } catch (const std::exception& problem) {
       diagnostics_.error(name.where, reader.path() + ": " + std::string(problem.what()));
+    } catch (...) {
+      diagnostics_.error(name.where, reader.path() + ": " + kind + "/" + name.text +
+                                         " throws something that is no std::exception");
     }
   }
   result.choice = std::move(choice);

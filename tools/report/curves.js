@@ -10,6 +10,8 @@
     if (!grid) section.append(grid = Dust.el('div', {class: 'grid'}));
     return grid;
   };
+  // A sensor that heads a section of its own has its curves there.
+  const place_of = (sensor) => (sensor && document.getElementById('own-' + sensor) ? 'own-' + sensor : 'curves');
   const split_label = (label) => {
     const found = /^(.*?)\s*\[([^\]]*)\]\s*$/.exec(label || '');
     return found ? {name: found[1], unit: found[2]} : {name: label || '', unit: ''};
@@ -116,7 +118,7 @@
       note = ` Means over ${k_points} parts of the samples, in the order of x.`;
     }
     in_chunks(lines, group[0].title || 'Curve', (part, title) =>
-      Dust.plot(grid_of('curves'), {title: has_many ? title + ', dust' : title, sensor: has_many ? '' : group[0].sensor,
+      Dust.plot(grid_of(has_many ? 'curves' : place_of(group[0].sensor)), {title: has_many ? title + ', dust' : title, sensor: has_many ? '' : group[0].sensor,
         x_label: axis_label(x_label.name, sx.unit), y_label: axis_label(y_label.name, sy.unit), unit: sy.unit, lines: part, note}));
   }
 
@@ -149,7 +151,7 @@
       y: c.values.map((v) => (v === null ? null : v / scale.factor))})));
     const title = lines.length === 1 ? (sensor ? sensor + ', ' : '') + lines[0].name : sensor || {kg: 'Mass', J: 'Energy', '-': 'Counts', '1': 'Counts', '': 'Counts'}[unit] || 'Quantities';
     const bare = scale.unit === '-' || scale.unit === '1' || scale.unit === '';
-    in_chunks(lines, title.charAt(0).toUpperCase() + title.slice(1), (part, name) => Dust.plot(grid_of(sensor ? 'curves' : 'series'), {title: name, x_label: 'time, s',
+    in_chunks(lines, title.charAt(0).toUpperCase() + title.slice(1), (part, name) => Dust.plot(grid_of(sensor ? place_of(sensor) : 'series'), {title: name, x_label: 'time, s',
       y_label: bare ? 'Number' : 'In ' + scale.unit, unit: bare ? '' : scale.unit, lines: part}));
   }
   say_zeros();

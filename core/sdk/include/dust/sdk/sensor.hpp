@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/grid_shape.hpp"
 #include "dust/sdk/model.hpp"
 #include "dust/sdk/vec3.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -96,16 +98,42 @@ class FigureSink {
                       double uncertainty = -1.0) = 0;
 };
 
-/// Takes pictures' raw material for the report: named curves.
+/// Takes raw material of the report: a section of the sensor's own, curves, histograms and tables.
 class ReportSink {
  public:
   virtual ~ReportSink() = default;
+  /// Heads a section of the sensor's own, which then holds its curves and tables, and says in
+  /// `text` what they show. Without it they stand among those of all sensors.
+  virtual void section(std::string_view heading, std::string_view text) = 0;
   virtual void curve(std::string_view title, std::string_view x_label, std::string_view y_label,
                      std::string_view series, std::span<const double> x,
                      std::span<const double> y) = 0;
   /// A table row per call; the first call with a title fixes the columns.
   virtual void row(std::string_view title, std::span<const std::string> columns,
                    std::span<const double> values) = 0;
+
+  /// A histogram: `heights[n]` between `edges[n]` and `edges[n + 1]`, as a curve of steps.
+  void histogram(std::string_view title, std::string_view x_label, std::string_view y_label,
+                 std::string_view series, std::span<const double> edges,
+                 std::span<const double> heights) {
+    std::vector<double> x;
+    std::vector<double> y;
+    for (std::size_t n = 0; n < heights.size() && n + 1 < edges.size(); ++n) {
+      x.insert(x.end(), {edges[n], edges[n + 1]});
+      y.insert(y.end(), {heights[n], heights[n]});
+    }
+    curve(title, x_label, y_label, series, x, y);
+  }
+};
+
+/// Takes fields for results.h5.
+class FieldSink {
+ public:
+  virtual ~FieldSink() = default;
+  /// One number per cell of a grid of the sensor's own, x fastest. It stands in results.h5 as
+  /// /sensors/<frame>/<sensor>/<name>. `name` is snake_case.
+  virtual void field(std::string_view name, std::string_view unit, const GridShape& grid,
+                     std::span<const double> values) = 0;
 };
 
 /// Observes the world once per fluid step (grains-only runs: once per sampling interval), on const
@@ -121,6 +149,8 @@ class Sensor : public Model {
   /// Figures for summary.json, with uncertainties.
   virtual void summary(FigureSink& sink) const = 0;
   virtual void report(ReportSink&) const {}
+  /// Fields as they are now; asked for with every frame, always for the same ones.
+  virtual void fields(FieldSink&) const {}
   /// Whether it reads WorldView::walls; these are kept only when a sensor does.
   [[nodiscard]] virtual bool looks_at_walls() const { return false; }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/grid_shape.hpp"
 #include "dust/sdk/model.hpp"
 #include "dust/sdk/vec3.hpp"
 
@@ -9,16 +10,8 @@
 
 namespace dust::sdk {
 
-/// The fluid grid as a rule sees it: cells counted from 0 in x fastest; a cell's number is
-/// i + count_x (j + count_y k). Grains near a periodic side may name cells outside [0, count);
-/// the core wraps them.
-struct GridShape {
-  Vec3 origin;               ///< [m] lower corner
-  Vec3 spacing;              ///< [m]
-  int count[3] = {1, 1, 1};  ///< cells per direction
-};
-
-/// The cells a grain's volume is spread over, one grain after another.
+/// The cells a grain's volume is spread over, one grain after another. Grains near a periodic side
+/// may name cells outside [0, count); the core wraps them.
 struct VoidageBatch {
   std::size_t count = 0;
   const double* x = nullptr;  ///< [m] centres

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "registry/guard.hpp"
+
+#include "registry/guard_report.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace dust::registry {
+namespace {
+
+/// Owner of the model, and the calls that all kinds have.
+template <class Kind>
+class Guarded : public Kind {
+ public:
+  Guarded(std::unique_ptr<sdk::Model> model, GuardReport faults)
+      : model_(static_cast<Kind*>(model.release())), faults_(std::move(faults)) {}
+  void save(sdk::ArchiveWriter& a) const override {
+    faults_.call("save", "its state", [&] { model_->save(a); });
+  }
+  void load(sdk::ArchiveReader& a) override {
+    faults_.call("load", "its state taken back", [&] { model_->load(a); });
+  }
+
+ protected:
+  /// Calls a member function of the model; `expected` ends the message if it throws.
+  template <class Function, class... Arguments>
+  auto ask(const char* name, const char* expected, Function function,
+           Arguments&&... arguments) const {
+    return faults_.call(name, expected, [&]() -> decltype(auto) {
+      return ((*model_).*function)(std::forward<Arguments>(arguments)...);
+    });
+  }
+  /// A question of the time before the run, or of no batch.
+  template <class Function, class... Arguments>
+  auto get(const char* name, Function function, Arguments&&... arguments) const {
+    return ask(name, "an answer", function, std::forward<Arguments>(arguments)...);
+  }
+  [[nodiscard]] const GuardReport& faults() const { return faults_; }
+  [[nodiscard]] Kind& model() const { return *model_; }
+
+ private:
+  std::unique_ptr<Kind> model_;
+  GuardReport faults_;
+};
+
+/// Contact and rolling: both see the batch of a contact.
+template <class Law>
+class PairLaw : public Guarded<Law> {
+ public:
+  using Guarded<Law>::Guarded;
+  void prepare(const sdk::MaterialProperties& i, const sdk::MaterialProperties& j) override {
+    this->ask("prepare", "two materials taken, or a ParameterError", &Law::prepare, i, j);
+  }
+  [[nodiscard]] int history_size() const override {
+    return this->ask("history_size", "a number of columns", &Law::history_size);
+  }
+};
+
+class Contact final : public PairLaw<sdk::ContactLaw> {
+ public:
+  using PairLaw::PairLaw;
+  void evaluate(const sdk::ContactBatch& b) const override {
+    ask("evaluate", "a force for every contact of the batch", &sdk::ContactLaw::evaluate, b);
+    const GuardReport::Inputs seen = {{"overlap", b.overlap},
+                                      {"effective_radius", b.effective_radius},
+                                      {"effective_mass", b.effective_mass},
+                                      {"velocity_x", b.velocity_x},
+                                      {"velocity_y", b.velocity_y},
+                                      {"velocity_z", b.velocity_z}};
+    faults().check(b.count, "normal_force", b.normal_force, seen);
+    faults().check(b.count, "force_x", b.force_x, seen);
+    faults().check(b.count, "force_y", b.force_y, seen);
+    faults().check(b.count, "force_z", b.force_z, seen);
+  }
+  [[nodiscard]] double collision_time(double radius, double mass, double speed) const override {
+    return get("collision_time", &sdk::ContactLaw::collision_time, radius, mass, speed);
+  }
+  [[nodiscard]] double half_period(double radius, double mass, double overlap) const override {
+    return get("half_period", &sdk::ContactLaw::half_period, radius, mass, overlap);
+  }
+  [[nodiscard]] double range() const override { return get("range", &sdk::ContactLaw::range); }
+  [[nodiscard]] bool has_hertz_force() const override {
+    return get("has_hertz_force", &sdk::ContactLaw::has_hertz_force);
+  }
+};
+
+class Rolling final : public PairLaw<sdk::RollingLaw> {
+ public:
+  using PairLaw::PairLaw;
+  void evaluate(const sdk::ContactBatch& b) const override {
+    ask("evaluate", "a couple for every contact of the batch", &sdk::RollingLaw::evaluate, b);
+    const GuardReport::Inputs seen = {{"normal_force", b.normal_force},
+                                      {"effective_radius", b.effective_radius},
+                                      {"rotation_x", b.rotation_x},
+                                      {"rotation_y", b.rotation_y},
+                                      {"rotation_z", b.rotation_z}};
+    faults().check(b.count, "torque_x", b.torque_x, seen);
+    faults().check(b.count, "torque_y", b.torque_y, seen);
+    faults().check(b.count, "torque_z", b.torque_z, seen);
+  }
+};
+
+class Cohesion final : public PairLaw<sdk::CohesionLaw> {
+ public:
+  using PairLaw::PairLaw;
+  void evaluate(const sdk::CohesionBatch& b) const override {
+    ask("evaluate", "an attraction for every pair of the batch", &sdk::CohesionLaw::evaluate, b);
+    const GuardReport::Inputs seen = {{"overlap", b.overlap},
+                                      {"effective_radius", b.effective_radius}};
+    faults().check(b.count, "contact_overlap", b.contact_overlap, seen);
+    faults().check(b.count, "attraction", b.attraction, seen);
+  }
+  [[nodiscard]] double range(double radius) const override {
+    return get("range", &sdk::CohesionLaw::range, radius);
+  }
+  [[nodiscard]] double resting_overlap(double radius) const override {
+    return get("resting_overlap", &sdk::CohesionLaw::resting_overlap, radius);
+  }
+  [[nodiscard]] bool needs_hertz_force() const override {
+    return get("needs_hertz_force", &sdk::CohesionLaw::needs_hertz_force);
+  }
+};
+
+class Drag final : public Guarded<sdk::DragLaw> {
+ public:
+  using Guarded::Guarded;
+  void evaluate(const sdk::DragBatch& b) const override {
+    ask("evaluate", "a factor for every grain of the batch", &sdk::DragLaw::evaluate, b);
+    faults().check(b.count, "factor", b.factor,
+                   {{"reynolds", b.reynolds},
+                    {"void_fraction", b.void_fraction},
+                    {"size_ratio", b.size_ratio}});
+  }
+  [[nodiscard]] bool needs_size_ratio() const override {
+    return get("needs_size_ratio", &sdk::DragLaw::needs_size_ratio);
+  }
+};
+
+class FluidForce final : public Guarded<sdk::FluidForce> {
+ public:
+  using Guarded::Guarded;
+  void evaluate(const sdk::FluidForceBatch& b) const override {
+    ask("evaluate", "a force for every grain of the batch", &sdk::FluidForce::evaluate, b);
+    const GuardReport::Inputs seen = {{"diameter", b.diameter},
+                                      {"void_fraction", b.void_fraction},
+                                      {"slip.x", b.slip.x},
+                                      {"slip.y", b.slip.y},
+                                      {"slip.z", b.slip.z}};
+    faults().check(b.count, "force.x", b.force.x, seen);
+    faults().check(b.count, "force.y", b.force.y, seen);
+    faults().check(b.count, "force.z", b.force.z, seen);
+    faults().check(b.count, "added_mass", b.added_mass, seen);
+    faults().check(b.count, "resistance", b.resistance, seen);
+  }
+  [[nodiscard]] sdk::FluidForceNeeds needs() const override {
+    return get("needs", &sdk::FluidForce::needs);
+  }
+  [[nodiscard]] sdk::FluidForceParts takes_over() const override {
+    return get("takes_over", &sdk::FluidForce::takes_over);
+  }
+  [[nodiscard]] sdk::FluidForceReaction reaction() const override {
+    return get("reaction", &sdk::FluidForce::reaction);
+  }
+  [[nodiscard]] int history_size() const override {
+    return get("history_size", &sdk::FluidForce::history_size);
+  }
+};
+
+class Voidage final : public Guarded<sdk::VoidageRule> {
+ public:
+  using Guarded::Guarded;
+  [[nodiscard]] int capacity(const sdk::GridShape& grid, double radius) const override {
+    return get("capacity", &sdk::VoidageRule::capacity, grid, radius);
+  }
+  [[nodiscard]] double largest_diameter_over_spacing() const override {
+    return get("largest_diameter_over_spacing", &sdk::VoidageRule::largest_diameter_over_spacing);
+  }
+  void spread(const sdk::GridShape& grid, const sdk::VoidageBatch& b) const override {
+    ask("spread", "the cells of every grain of the batch", &sdk::VoidageRule::spread, grid, b);
+    const GuardReport::Inputs seen = {{"x", b.x}, {"y", b.y}, {"z", b.z}, {"radius", b.radius}};
+    for (std::size_t g = 0; g < b.count; ++g) {
+      if (b.used[g] < 1 || b.used[g] > b.capacity) {
+        faults().refuse("gives used = " + std::to_string(b.used[g]), g, b.count, seen,
+                        "1 to " + std::to_string(b.capacity) + " cells, its capacity");
+      }
+      const double* weight = b.weight + g * static_cast<std::size_t>(b.capacity);
+      for (int n = 0; n < b.used[g]; ++n) {
+        if (!is_finite(weight[n])) faults().refuse_number("weight", weight[n], g, b.count, seen);
+      }
+    }
+  }
+  [[nodiscard]] sdk::Vec3 reach(const sdk::GridShape& grid, double radius) const override {
+    return get("reach", &sdk::VoidageRule::reach, grid, radius);
+  }
+};
+
+class Boundary final : public Guarded<sdk::BoundaryCondition> {
+ public:
+  using Guarded::Guarded;
+  [[nodiscard]] sdk::SideRules rules() const override {
+    return get("rules", &sdk::BoundaryCondition::rules);
+  }
+  void evaluate(const sdk::SideBatch& b) const override {
+    ask("evaluate", "values for every point of the batch", &sdk::BoundaryCondition::evaluate, b);
+    const GuardReport::Inputs seen = {{"x", b.x}, {"y", b.y}, {"z", b.z}};
+    const sdk::SideRules rules = model().rules();
+    double* const velocity[3] = {b.velocity_x, b.velocity_y, b.velocity_z};
+    const char* const names[3] = {"velocity_x", "velocity_y", "velocity_z"};
+    for (int d = 0; d < 3; ++d) {
+      const auto rule = b.normal[d] != 0.0 ? rules.normal_velocity : rules.tangential_velocity;
+      if (rule == sdk::SideRule::fixed) faults().check(b.count, names[d], velocity[d], seen);
+    }
+    if (rules.pressure == sdk::SideRule::fixed || rules.pressure == sdk::SideRule::pressure) {
+      faults().check(b.count, "pressure", b.pressure, seen);
+    }
+  }
+  [[nodiscard]] bool needs_flow() const override {
+    return get("needs_flow", &sdk::BoundaryCondition::needs_flow);
+  }
+};
+
+class Turbulence final : public Guarded<sdk::TurbulenceModel> {
+ public:
+  using Guarded::Guarded;
+  void evaluate(const sdk::TurbulenceBatch& b) const override {
+    ask("evaluate", "an eddy viscosity for every cell of the batch",
+        &sdk::TurbulenceModel::evaluate, b);
+    faults().check(b.count, "eddy_viscosity", b.eddy_viscosity,
+                   {{"strain_rate", b.strain_rate}, {"wall_distance", b.wall_distance}});
+  }
+};
+
+class Emitter final : public Guarded<sdk::Emitter> {
+ public:
+  using Guarded::Guarded;
+  void propose(const sdk::EmitterContext& context, std::vector<sdk::Seed>& seeds) override {
+    const std::size_t before = seeds.size();
+    ask("propose", "the grains of the interval", &sdk::Emitter::propose, context, seeds);
+    for (std::size_t n = before; n < seeds.size(); ++n) {
+      const sdk::Seed& s = seeds[n];
+      const std::pair<const char*, double> numbers[] = {
+          {"time", s.time},
+          {"position", s.position.x + s.position.y + s.position.z},
+          {"velocity", s.velocity.x + s.velocity.y + s.velocity.z},
+          {"rotation", s.rotation.x + s.rotation.y + s.rotation.z},
+          {"diameter", s.diameter},
+          {"weight", s.weight}};
+      for (const auto& [name, value] : numbers) {
+        if (!is_finite(value))
+          faults().refuse_number(name, value, n - before, seeds.size() - before, {});
+      }
+    }
+  }
+  [[nodiscard]] double requested_mass_flow() const override {
+    return get("requested_mass_flow", &sdk::Emitter::requested_mass_flow);
+  }
+  [[nodiscard]] std::vector<double> diameters() const override {
+    return get("diameters", &sdk::Emitter::diameters);
+  }
+  [[nodiscard]] double largest_speed() const override {
+    return get("largest_speed", &sdk::Emitter::largest_speed);
+  }
+  [[nodiscard]] sdk::EmitterRequest request() const override {
+    return get("request", &sdk::Emitter::request);
+  }
+  [[nodiscard]] sdk::EntryRule entry_rule() const override {
+    return get("entry_rule", &sdk::Emitter::entry_rule);
+  }
+  [[nodiscard]] std::vector<std::string> materials() const override {
+    return get("materials", &sdk::Emitter::materials);
+  }
+};
+
+class Motion final : public Guarded<sdk::Motion> {
+ public:
+  using Guarded::Guarded;
+  void surface_velocity(const sdk::SurfaceBatch& b) const override {
+    ask("surface_velocity", "a velocity for every point of the batch",
+        &sdk::Motion::surface_velocity, b);
+    const GuardReport::Inputs seen = {{"x", b.x}, {"y", b.y}, {"z", b.z}};
+    faults().check(b.count, "velocity_x", b.velocity_x, seen);
+    faults().check(b.count, "velocity_y", b.velocity_y, seen);
+    faults().check(b.count, "velocity_z", b.velocity_z, seen);
+  }
+  [[nodiscard]] double largest_speed() const override {
+    return get("largest_speed", &sdk::Motion::largest_speed);
+  }
+  [[nodiscard]] bool moves_body() const override {
+    return get("moves_body", &sdk::Motion::moves_body);
+  }
+  [[nodiscard]] sdk::RigidPose pose(double time) const override {
+    const sdk::RigidPose p = ask("pose", "a place at every time", &sdk::Motion::pose, time);
+    const double sum = p.shift.x + p.shift.y + p.shift.z + p.pivot.x + p.pivot.y + p.pivot.z +
+                       p.axis.x + p.axis.y + p.axis.z + p.angle + p.velocity.x + p.velocity.y +
+                       p.velocity.z + p.angular_velocity;
+    if (!is_finite(sum)) faults().refuse_number("pose", sum, 0, 1, {{"time", &time}});
+    return p;
+  }
+  [[nodiscard]] double largest_angular_velocity() const override {
+    return get("largest_angular_velocity", &sdk::Motion::largest_angular_velocity);
+  }
+};
+
+/// Figures may be "no number yet": only what a sensor throws is looked after.
+class Sensor final : public Guarded<sdk::Sensor> {
+ public:
+  using Guarded::Guarded;
+  void observe(const sdk::WorldView& world) override {
+    ask("observe", "a look at the world", &sdk::Sensor::observe, world);
+  }
+  [[nodiscard]] bool wants_contacts() const override {
+    return get("wants_contacts", &sdk::Sensor::wants_contacts);
+  }
+  void series(sdk::FigureSink& sink) const override {
+    ask("series", "the columns of series.csv", &sdk::Sensor::series, sink);
+  }
+  void summary(sdk::FigureSink& sink) const override {
+    ask("summary", "the figures of summary.json", &sdk::Sensor::summary, sink);
+  }
+  void report(sdk::ReportSink& sink) const override {
+    ask("report", "curves and rows of the report", &sdk::Sensor::report, sink);
+  }
+  void fields(sdk::FieldSink& sink) const override {
+    ask("fields", "the fields of a frame", &sdk::Sensor::fields, sink);
+  }
+  [[nodiscard]] bool looks_at_walls() const override {
+    return get("looks_at_walls", &sdk::Sensor::looks_at_walls);
+  }
+};
+
+template <class Guard>
+std::unique_ptr<sdk::Model> make(std::unique_ptr<sdk::Model> model, GuardReport faults) {
+  return std::make_unique<Guard>(std::move(model), std::move(faults));
+}
+
+}  // namespace
+
+std::unique_ptr<sdk::Model> guarded(std::unique_ptr<sdk::Model> model, const Entry& entry) {
+  using Make = std::unique_ptr<sdk::Model> (*)(std::unique_ptr<sdk::Model>, GuardReport);
+  static const std::pair<const char*, Make> makers[] = {
+      {sdk::ContactLaw::k_kind, make<Contact>},
+      {sdk::RollingLaw::k_kind, make<Rolling>},
+      {sdk::CohesionLaw::k_kind, make<Cohesion>},
+      {sdk::DragLaw::k_kind, make<Drag>},
+      {sdk::FluidForce::k_kind, make<FluidForce>},
+      {sdk::VoidageRule::k_kind, make<Voidage>},
+      {sdk::BoundaryCondition::k_kind, make<Boundary>},
+      {sdk::TurbulenceModel::k_kind, make<Turbulence>},
+      {sdk::Emitter::k_kind, make<Emitter>},
+      {sdk::Motion::k_kind, make<Motion>},
+      {sdk::Sensor::k_kind, make<Sensor>}};
+  const auto found = std::find_if(std::begin(makers), std::end(makers),
+                                  [&](const auto& m) { return entry.info.kind == m.first; });
+  if (found == std::end(makers)) return model;
+  return found->second(std::move(model), GuardReport(entry));
+}
+
+}  // namespace dust::registry

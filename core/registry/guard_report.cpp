@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "registry/guard_report.hpp"
+
+#include <cstdio>
+
+namespace dust::registry {
+namespace {
+
+std::string shown(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", std::isnan(value) ? std::abs(value) : value);
+  return text;
+}
+
+}  // namespace
+
+GuardReport::GuardReport(const Entry& entry)
+    : who_(entry.info.kind + "/" + entry.info.name + " (" + entry.file.string() + ")") {}
+
+void GuardReport::thrown(const char* function, const char* expected,
+                         const std::string& what) const {
+  throw sdk::ModelError(who_ + " throws in " + function + ": " + what + "; expected: " + expected);
+}
+
+void GuardReport::refuse_number(const char* name, double value, std::size_t row, std::size_t count,
+                                Inputs seen) const {
+  refuse(std::string("gives ") + name + " = " + shown(value), row, count, seen, "a finite number");
+}
+
+void GuardReport::refuse(const std::string& what, std::size_t row, std::size_t count, Inputs seen,
+                         const std::string& expected) const {
+  std::string text = who_ + " " + what + " in row " + std::to_string(row + 1) + " of " +
+                     std::to_string(count) + " of a batch";
+  const char* before = " (";
+  for (const auto& [name, column] : seen) {
+    if (column == nullptr) continue;
+    text += std::string(before) + name + " = " + shown(column[row]);
+    before = ", ";
+  }
+  if (before[0] == ',') text += ")";
+  throw sdk::ModelError(text + "; expected: " + expected);
+}
+
+}  // namespace dust::registry

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/error.hpp"
+#include "registry/registry.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace dust::registry {
+
+inline bool is_finite(double value) { return std::isfinite(value); }
+
+/// How a guarded model's faults are told: "drag/rough (/x/rough.so) ...; expected: ...".
+class GuardReport {
+ public:
+  /// Columns of a batch that help to see why; null ones are left out.
+  using Inputs = std::initializer_list<std::pair<const char*, const double*>>;
+
+  explicit GuardReport(const Entry& entry);
+
+  /// Calls and passes the answer on. ParameterErrors go through: they have a place in the scenario.
+  template <class Call>
+  std::invoke_result_t<Call> call(const char* function, const char* expected,
+                                  const Call& call) const {
+    try {
+      return call();
+    } catch (const sdk::ParameterError&) {
+      throw;
+    } catch (const std::exception& problem) {
+      thrown(function, expected, problem.what());
+    } catch (...) {
+      thrown(function, expected, "something that is no std::exception");
+    }
+  }
+
+  /// Refuses the first number of a column that is none.
+  void check(std::size_t count, const char* name, const double* column, Inputs seen) const {
+    if (column == nullptr) return;
+    double probe = 0.0;  // stays zero unless a number is infinite or none
+    for (std::size_t n = 0; n < count; ++n) probe += 0.0 * column[n];
+    if (probe == 0.0) return;
+    for (std::size_t n = 0; n < count; ++n) {
+      if (!is_finite(column[n])) refuse_number(name, column[n], n, count, seen);
+    }
+  }
+  [[noreturn]] void refuse_number(const char* name, double value, std::size_t row,
+                                  std::size_t count, Inputs seen) const;
+  [[noreturn]] void refuse(const std::string& what, std::size_t row, std::size_t count, Inputs seen,
+                           const std::string& expected) const;
+
+ private:
+  [[noreturn]] void thrown(const char* function, const char* expected,
+                           const std::string& what) const;
+  std::string who_;
+};
+
+}  // namespace dust::registry

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plugins that are well until they are used: the run ends, and says which model of which file did
+// what, what was expected, and how to go on.
+#include "support/engine.hpp"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+using dust::test::engine;
+using dust::test::json_text;
+using dust::test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path k_folder = BAD_PLUGINS;
+const std::string k_scenario = DUST_SOURCE "/tests/scenario/forces.yaml";
+
+std::vector<std::string> with_drag(const char* command, const std::string& library,
+                                   const std::string& law) {
+  return {command, k_scenario, "--plugin-path", k_folder / library, "--set", "drag.model=" + law};
+}
+
+/// Runs with the law of a bad library; the run fails with the words `begin` ... `end`.
+void check_run(const std::string& library, const std::string& law, const std::string& begin,
+               const std::string& end) {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "run";
+  auto arguments = with_drag("run", library, law);
+  arguments.insert(arguments.end(), {"-o", out, "--quiet"});
+  const auto run = engine(arguments);
+  INFO(run.err);
+  CHECK(run.status == 1);
+  const std::string who =
+      "drag/" + law + " (" + (k_folder / library / (library + ".so")).string() + ") ";
+  const std::size_t at = run.err.find(who + begin);
+  REQUIRE(at != std::string::npos);
+  CHECK(run.err.find(end + "\n", at) != std::string::npos);
+  CHECK(run.err.find("the last good checkpoint is " + (out / "checkpoint.h5").string()) !=
+        std::string::npos);
+  CHECK(json_text(out / "summary.json", "status") == "failed");
+  CHECK(fs::exists(out / "checkpoint.h5"));
+}
+
+}  // namespace
+
+TEST_CASE("a plugin that throws in a batch shall end the run with kind, name, file and words") {
+  check_run("throws_in_batch", "brittle",
+            "throws in evaluate: the table ends at Re = 0; expected: a factor for every grain of "
+            "the batch",
+            "");
+}
+
+TEST_CASE("a plugin that gives no number shall end the run with the row and what it saw") {
+  check_run("not_a_number", "rootless", "gives factor = nan in row ",
+            "; expected: a finite number");
+}
+
+TEST_CASE("a model that nobody offers shall be refused with names and folders searched") {
+  const auto check = engine(with_drag("check", "good", "rootles"));
+  CHECK(check.status == 2);
+  INFO(check.err);
+  CHECK(check.err.starts_with("--set drag.model: error: drag.model: unknown drag model 'rootles'"));
+  CHECK(check.err.find("(drag models: abraham, beetstra, constant, ") != std::string::npos);
+  CHECK(check.err.find("; plugins were looked for in " + (k_folder / "good").string() + ", " +
+                       fs::path(DUST_TEST_PLUGINS).string()) != std::string::npos);
+}
+
+TEST_CASE("every bad library shall be refused before anything is written") {
+  for (const char* library :
+       {"older", "newer", "other_compiler", "other_sizes", "no_handshake", "no_register",
+        "missing_symbol", "throws_on_register", "no_models", "bad_names"}) {
+    const TemporaryFolder folder;
+    const fs::path out = folder / "run";
+    const auto run = engine({"run", k_scenario, "--plugin-path", k_folder / library, "-o", out});
+    INFO(library);
+    INFO(run.err);
+    CHECK(run.status == 2);
+    CHECK(run.err.starts_with((k_folder / library / library).string() + ".so: error: "));
+    CHECK(!fs::exists(out));
+  }
+}

@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: Apache-2.0
+// A guarded model answers as the model itself; what it throws, and numbers that are none, are told
+// with kind, name, file and what was expected.
+#include "registry/guard.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+using namespace dust;
+
+namespace {
+
+constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double k_infinite = std::numeric_limits<double>::infinity();
+
+/// What a trial model does in its hot function.
+enum class Deed { well, throws, throws_no_exception, no_number, refuses };
+
+/// Does the deed; returns what is to be written.
+double deed(Deed what, double good) {
+  if (what == Deed::throws) throw std::runtime_error("out of table");
+  if (what == Deed::throws_no_exception) throw 42;
+  if (what == Deed::refuses) throw sdk::ParameterError("does not fit");
+  return what == Deed::no_number ? k_nan : good;
+}
+
+template <class Model>
+std::unique_ptr<typename Model::Kind> guard(Deed what = Deed::well) {
+  registry::Entry entry;
+  entry.info.kind = Model::Kind::k_kind;
+  entry.info.name = "trial";
+  entry.file = "/x/trial.so";
+  auto model = registry::guarded(std::make_unique<Model>(what), entry);
+  return std::unique_ptr<typename Model::Kind>(static_cast<typename Model::Kind*>(model.release()));
+}
+
+/// What calling says; "" if nothing is thrown.
+template <class Call>
+std::string said(const Call& call) {
+  try {
+    call();
+  } catch (const sdk::ModelError& problem) {
+    return problem.what();
+  }
+  return "";
+}
+
+template <class KindOfModel>
+struct Trial : KindOfModel {
+  using Kind = KindOfModel;
+  explicit Trial(Deed what) : what(what) {}
+  Deed what;
+};
+
+struct Contact final : Trial<sdk::ContactLaw> {
+  using Trial::Trial;
+  void prepare(const sdk::MaterialProperties& i, const sdk::MaterialProperties&) override {
+    density = deed(what, i.density);
+  }
+  int history_size() const override { return 3; }
+  void evaluate(const sdk::ContactBatch& b) const override {
+    for (double* column : {b.normal_force, b.force_x, b.force_y, b.force_z}) {
+      for (std::size_t n = 0; n < b.count; ++n) column[n] = density;
+    }
+    b.force_y[b.count - 1] = deed(what, 2.0);
+  }
+  double collision_time(double r, double m, double v) const override { return r + 2 * m + 3 * v; }
+  double half_period(double r, double m, double d) const override { return r + 4 * m + 5 * d; }
+  double range() const override { return 0.25; }
+  bool has_hertz_force() const override { return true; }
+  double density = 0.0;
+};
+
+struct Rolling final : Trial<sdk::RollingLaw> {
+  using Trial::Trial;
+  void prepare(const sdk::MaterialProperties&, const sdk::MaterialProperties&) override {}
+  int history_size() const override { return 4; }
+  void evaluate(const sdk::ContactBatch& b) const override { b.torque_z[0] = deed(what, 1.0); }
+};
+
+struct Cohesion final : Trial<sdk::CohesionLaw> {
+  using Trial::Trial;
+  void prepare(const sdk::MaterialProperties&, const sdk::MaterialProperties&) override {}
+  int history_size() const override { return 5; }
+  void evaluate(const sdk::CohesionBatch& b) const override { b.attraction[0] = deed(what, 1.0); }
+  double range(double r) const override { return 2 * r; }
+  double resting_overlap(double r) const override { return 3 * r; }
+  bool needs_hertz_force() const override { return true; }
+};
+
+struct Drag final : Trial<sdk::DragLaw> {
+  using Trial::Trial;
+  void evaluate(const sdk::DragBatch& b) const override {
+    for (std::size_t n = 0; n < b.count; ++n) b.factor[n] = 1.0;
+    b.factor[1] = deed(what, 2.0);
+  }
+  bool needs_size_ratio() const override { return true; }
+};
+
+struct FluidForce final : Trial<sdk::FluidForce> {
+  using Trial::Trial;
+  void evaluate(const sdk::FluidForceBatch& b) const override { b.force.y[0] = deed(what, 1.0); }
+  sdk::FluidForceNeeds needs() const override { return {true, false, true, 1.5}; }
+  sdk::FluidForceParts takes_over() const override { return {false, true, false}; }
+  sdk::FluidForceReaction reaction() const override { return sdk::FluidForceReaction::wall; }
+  int history_size() const override { return 6; }
+};
+
+struct Voidage final : Trial<sdk::VoidageRule> {
+  using Trial::Trial;
+  int capacity(const sdk::GridShape&, double) const override { return 2; }
+  double largest_diameter_over_spacing() const override { return 7.0; }
+  void spread(const sdk::GridShape&, const sdk::VoidageBatch& b) const override {
+    b.weight[0] = deed(what, 1.0);
+    b.used[0] = too_many ? 3 : 1;
+  }
+  sdk::Vec3 reach(const sdk::GridShape&, double r) const override { return {r, 2 * r, 3 * r}; }
+  bool too_many = false;
+};
+
+struct Boundary final : Trial<sdk::BoundaryCondition> {
+  using Trial::Trial;
+  sdk::SideRules rules() const override {
+    return {sdk::SideRule::fixed, sdk::SideRule::gradient, sdk::SideRule::gradient};
+  }
+  void evaluate(const sdk::SideBatch& b) const override {
+    b.velocity_x[0] = deed(what, 1.0);
+    b.velocity_y[0] = k_nan;  // not fixed: nobody reads it
+  }
+  bool needs_flow() const override { return true; }
+};
+
+struct Turbulence final : Trial<sdk::TurbulenceModel> {
+  using Trial::Trial;
+  void evaluate(const sdk::TurbulenceBatch& b) const override {
+    b.eddy_viscosity[0] = deed(what, 1.0);
+  }
+};
+
+struct Emitter final : Trial<sdk::Emitter> {
+  using Trial::Trial;
+  void propose(const sdk::EmitterContext&, std::vector<sdk::Seed>& seeds) override {
+    sdk::Seed seed;
+    seed.diameter = deed(what, 1e-3);
+    seeds.push_back(seed);
+  }
+  double requested_mass_flow() const override { return 1.0; }
+  std::vector<double> diameters() const override { return {1e-3}; }
+  double largest_speed() const override { return 2.0; }
+  sdk::EmitterRequest request() const override {
+    sdk::EmitterRequest r;
+    r.count = 9;
+    return r;
+  }
+  sdk::EntryRule entry_rule() const override { return {false, 0.5}; }
+  std::vector<std::string> materials() const override { return {"sand"}; }
+};
+
+struct Motion final : Trial<sdk::Motion> {
+  using Trial::Trial;
+  void surface_velocity(const sdk::SurfaceBatch& b) const override {
+    b.velocity_z[0] = deed(what, 1.0);
+  }
+  double largest_speed() const override { return 3.0; }
+  bool moves_body() const override { return true; }
+  sdk::RigidPose pose(double time) const override {
+    sdk::RigidPose p;
+    p.angle = deed(what, 2 * time);
+    return p;
+  }
+  double largest_angular_velocity() const override { return 4.0; }
+};
+
+struct Sensor final : Trial<sdk::Sensor> {
+  using Trial::Trial;
+  void observe(const sdk::WorldView& world) override { time = deed(what, world.time); }
+  bool wants_contacts() const override { return true; }
+  void series(sdk::FigureSink& sink) const override { sink.figure("time", time, "s"); }
+  void summary(sdk::FigureSink& sink) const override { sink.figure("end", time, "s"); }
+  void report(sdk::ReportSink& sink) const override { sink.section("Heading", "Text."); }
+  void fields(sdk::FieldSink& sink) const override { sink.field("one", "1", {}, {}); }
+  bool looks_at_walls() const override { return true; }
+  void save(sdk::ArchiveWriter& a) const override { a.number("time", time); }
+  void load(sdk::ArchiveReader& a) override { time = a.number("time"); }
+  double time = 0.0;
+};
+
+/// Remembers the names it is given.
+struct Names final : sdk::FigureSink, sdk::ReportSink, sdk::FieldSink {
+  void figure(std::string_view name, double, std::string_view, double) override {
+    text += std::string(name) + " ";
+  }
+  void section(std::string_view heading, std::string_view) override {
+    text += std::string(heading) + " ";
+  }
+  void curve(std::string_view, std::string_view, std::string_view, std::string_view,
+             std::span<const double>, std::span<const double>) override {}
+  void row(std::string_view, std::span<const std::string>, std::span<const double>) override {}
+  void field(std::string_view name, std::string_view, const sdk::GridShape&,
+             std::span<const double>) override {
+    text += std::string(name) + " ";
+  }
+  std::string text;
+};
+
+/// One number, as an archive.
+struct OneNumber final : sdk::ArchiveWriter, sdk::ArchiveReader {
+  void numbers(std::string_view, std::span<const double> values) override { kept = values[0]; }
+  void integers(std::string_view, std::span<const std::int64_t>) override {}
+  std::vector<double> numbers(std::string_view) override { return {kept}; }
+  std::vector<std::int64_t> integers(std::string_view) override { return {}; }
+  double kept = 0.0;
+};
+
+/// Columns for a batch of two.
+struct Columns {
+  double a[2] = {1.5, 2.5}, b[2] = {3.0, 4.0};
+  double out[6][2] = {};
+};
+
+const sdk::MaterialProperties k_material{2500.0, 1e7, 0.3};
+
+}  // namespace
+
+TEST_CASE("guarded pair laws shall answer as themselves and be told from their faults") {
+  Columns c;
+  sdk::ContactBatch batch;
+  batch.count = 2;
+  batch.overlap = c.a;
+  batch.effective_mass = c.b;
+  batch.normal_force = c.out[0];
+  batch.force_x = c.out[1];
+  batch.force_y = c.out[2];
+  batch.force_z = c.out[3];
+  batch.torque_x = c.out[4];
+  batch.torque_y = c.out[5];
+  batch.torque_z = c.out[5];
+  {
+    const auto law = guard<Contact>();
+    law->prepare(k_material, k_material);
+    law->evaluate(batch);
+    CHECK(c.out[1][0] == 2500.0);
+    CHECK(c.out[2][1] == 2.0);
+    CHECK(law->history_size() == 3);
+    CHECK(law->collision_time(1, 1, 1) == 6.0);
+    CHECK(law->half_period(1, 1, 1) == 10.0);
+    CHECK(law->range() == 0.25);
+    CHECK(law->has_hertz_force());
+  }
+  CHECK(said([&] { guard<Contact>(Deed::no_number)->evaluate(batch); }) ==
+        "contact/trial (/x/trial.so) gives force_y = nan in row 2 of 2 of a batch (overlap = 2.5, "
+        "effective_mass = 4); expected: a finite number");
+  CHECK(said([&] { guard<Contact>(Deed::throws)->evaluate(batch); }) ==
+        "contact/trial (/x/trial.so) throws in evaluate: out of table; expected: a force for every "
+        "contact of the batch");
+  CHECK_THROWS_AS(guard<Contact>(Deed::refuses)->prepare(k_material, k_material),
+                  sdk::ParameterError);
+  CHECK(guard<Rolling>()->history_size() == 4);
+  CHECK(said([&] { guard<Rolling>()->evaluate(batch); }).empty());
+  CHECK(said([&] {
+          guard<Rolling>(Deed::no_number)->evaluate(batch);
+        }).starts_with("rolling/trial (/x/trial.so) gives torque_"));
+
+  sdk::CohesionBatch pairs;
+  pairs.count = 1;
+  pairs.overlap = c.a;
+  pairs.contact_overlap = c.b;
+  pairs.attraction = c.out[0];
+  const auto cohesion = guard<Cohesion>();
+  CHECK(said([&] { cohesion->evaluate(pairs); }).empty());
+  CHECK(cohesion->history_size() == 5);
+  CHECK(cohesion->range(1.0) == 2.0);
+  CHECK(cohesion->resting_overlap(1.0) == 3.0);
+  CHECK(cohesion->needs_hertz_force());
+  CHECK(said([&] { guard<Cohesion>(Deed::no_number)->evaluate(pairs); }) ==
+        "cohesion/trial (/x/trial.so) gives attraction = nan in row 1 of 1 of a batch (overlap = "
+        "1.5); expected: a finite number");
+}
+
+TEST_CASE("guarded models of the air shall answer as themselves and be told from their faults") {
+  Columns c;
+  const sdk::DragBatch drag{2, c.a, c.b, c.out[0], nullptr};
+  CHECK(guard<Drag>()->needs_size_ratio());
+  guard<Drag>()->evaluate(drag);
+  CHECK(c.out[0][1] == 2.0);
+  CHECK(said([&] { guard<Drag>(Deed::no_number)->evaluate(drag); }) ==
+        "drag/trial (/x/trial.so) gives factor = nan in row 2 of 2 of a batch (reynolds = 2.5, "
+        "void_fraction = 4); expected: a finite number");
+  CHECK(said([&] { guard<Drag>(Deed::throws_no_exception)->evaluate(drag); }) ==
+        "drag/trial (/x/trial.so) throws in evaluate: something that is no std::exception; "
+        "expected: a factor for every grain of the batch");
+
+  sdk::FluidForceBatch force;
+  force.count = 1;
+  force.force = {c.out[1], c.out[2], c.out[3]};
+  const auto fluid_force = guard<FluidForce>();
+  CHECK(said([&] { fluid_force->evaluate(force); }).empty());
+  CHECK(fluid_force->needs().stresses);
+  CHECK(fluid_force->needs().wall_reach == 1.5);
+  CHECK(fluid_force->takes_over().viscous_stress);
+  CHECK(fluid_force->reaction() == sdk::FluidForceReaction::wall);
+  CHECK(fluid_force->history_size() == 6);
+  CHECK(said([&] { guard<FluidForce>(Deed::no_number)->evaluate(force); }) ==
+        "fluid_force/trial (/x/trial.so) gives force.y = nan in row 1 of 1 of a batch; expected: a "
+        "finite number");
+
+  sdk::SideBatch side;
+  side.count = 1;
+  side.normal = {1, 0, 0};
+  side.velocity_x = c.out[0];
+  side.velocity_y = c.out[1];
+  const auto boundary = guard<Boundary>();
+  CHECK(said([&] { boundary->evaluate(side); }).empty());
+  CHECK(boundary->needs_flow());
+  CHECK(boundary->rules().tangential_velocity == sdk::SideRule::gradient);
+  CHECK(said([&] { guard<Boundary>(Deed::no_number)->evaluate(side); }) ==
+        "boundary/trial (/x/trial.so) gives velocity_x = nan in row 1 of 1 of a batch; expected: a "
+        "finite number");
+
+  sdk::TurbulenceBatch cells;
+  cells.count = 1;
+  cells.strain_rate = c.a;
+  cells.eddy_viscosity = c.out[0];
+  CHECK(said([&] { guard<Turbulence>()->evaluate(cells); }).empty());
+  CHECK(said([&] { guard<Turbulence>(Deed::no_number)->evaluate(cells); }) ==
+        "turbulence/trial (/x/trial.so) gives eddy_viscosity = nan in row 1 of 1 of a batch "
+        "(strain_rate = 1.5); expected: a finite number");
+}
+
+TEST_CASE("a guarded rule of voidage shall keep within its own capacity") {
+  Columns c;
+  int used[2] = {};
+  sdk::VoidageBatch batch;
+  batch.count = 1;
+  batch.x = c.a;
+  batch.capacity = 2;
+  batch.used = used;
+  batch.weight = c.out[0];
+  const auto rule = guard<Voidage>();
+  CHECK(said([&] { rule->spread({}, batch); }).empty());
+  CHECK(rule->capacity({}, 1.0) == 2);
+  CHECK(rule->largest_diameter_over_spacing() == 7.0);
+  CHECK(rule->reach({}, 1.0).z == 3.0);
+  CHECK(said([&] { guard<Voidage>(Deed::no_number)->spread({}, batch); }) ==
+        "voidage/trial (/x/trial.so) gives weight = nan in row 1 of 1 of a batch (x = 1.5); "
+        "expected: a finite number");
+  registry::Entry entry;
+  entry.info.kind = "voidage";
+  entry.info.name = "greedy";
+  auto greedy = std::make_unique<Voidage>(Deed::well);
+  greedy->too_many = true;
+  const auto guarded = registry::guarded(std::move(greedy), entry);
+  CHECK(said([&] { static_cast<sdk::VoidageRule&>(*guarded).spread({}, batch); }) ==
+        "voidage/greedy () gives used = 3 in row 1 of 1 of a batch (x = 1.5); expected: 1 to 2 "
+        "cells, its capacity");
+}
+
+TEST_CASE("a guarded emitter, motion and sensor shall answer as themselves") {
+  std::vector<sdk::Seed> seeds;
+  const auto emitter = guard<Emitter>();
+  emitter->propose({}, seeds);
+  CHECK(seeds.size() == 1);
+  CHECK(emitter->requested_mass_flow() == 1.0);
+  CHECK(emitter->diameters() == std::vector<double>{1e-3});
+  CHECK(emitter->largest_speed() == 2.0);
+  CHECK(emitter->request().count == 9);
+  CHECK(!emitter->entry_rule().waits);
+  CHECK(emitter->materials() == std::vector<std::string>{"sand"});
+  CHECK(said([&] { guard<Emitter>(Deed::no_number)->propose({}, seeds); }) ==
+        "emitter/trial (/x/trial.so) gives diameter = nan in row 1 of 1 of a batch; expected: a "
+        "finite number");
+
+  Columns c;
+  sdk::SurfaceBatch surface;
+  surface.count = 1;
+  surface.x = c.a;
+  surface.velocity_z = c.out[0];
+  const auto motion = guard<Motion>();
+  CHECK(said([&] { motion->surface_velocity(surface); }).empty());
+  CHECK(motion->largest_speed() == 3.0);
+  CHECK(motion->moves_body());
+  CHECK(motion->pose(2.0).angle == 4.0);
+  CHECK(motion->largest_angular_velocity() == 4.0);
+  CHECK(said([&] { static_cast<void>(guard<Motion>()->pose(k_infinite)); }) ==
+        "motion/trial (/x/trial.so) gives pose = inf in row 1 of 1 of a batch (time = inf); "
+        "expected: a finite number");
+
+  const auto sensor = guard<Sensor>();
+  sdk::WorldView world;
+  world.time = 3.0;
+  sensor->observe(world);
+  OneNumber archive;
+  sensor->save(archive);
+  CHECK(archive.kept == 3.0);
+  Names names;
+  sensor->series(names);
+  sensor->summary(names);
+  sensor->report(names);
+  sensor->fields(names);
+  CHECK(names.text == "time end Heading one ");
+  CHECK(sensor->wants_contacts());
+  CHECK(sensor->looks_at_walls());
+  CHECK(
+      said([&] { guard<Sensor>(Deed::throws)->observe(world); }) ==
+      "sensor/trial (/x/trial.so) throws in observe: out of table; expected: a look at the world");
+}
