@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/error.hpp>
+#include <dust/sdk/parameter_schema.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -36,5 +39,43 @@ struct Course {
     return tau < ramp ? speed * tau / ramp : speed;
   }
 };
+
+/// When a motion sets off, and how fast it gathers speed: the `Parameters` of a motion derive from
+/// this.
+struct StartParameters {
+  double start = 0.0;  ///< [s]
+  double ramp = 0.0;   ///< [s]
+};
+template <class P>
+void declare_start(sdk::SchemaOf<P>& s) {
+  s.number(&P::start, "start", sdk::dimension::time, "Time at which it sets off.")
+      .symbol("t_0")
+      .at_least(0)
+      .optional();
+}
+template <class P>
+void declare_ramp(sdk::SchemaOf<P>& s) {
+  s.number(&P::ramp, "ramp", sdk::dimension::time, "Time in which it gathers speed, evenly.")
+      .symbol("r")
+      .at_least(0)
+      .optional();
+}
+
+/// The same for motions that end.
+struct CourseParameters : StartParameters {
+  double stop = std::numeric_limits<double>::infinity();  ///< [s]
+
+  /// `limit` is the way after which the motion ends.
+  [[nodiscard]] Course course(double speed, double limit) const {
+    if (stop <= start) throw sdk::ParameterError("stop is not after start");
+    return {.speed = speed, .start = start, .ramp = ramp, .stop = stop, .limit = limit};
+  }
+};
+template <class P>
+void declare_stop(sdk::SchemaOf<P>& s) {
+  s.number(&P::stop, "stop", sdk::dimension::time, "Time at which it stops.")
+      .at_least(0)
+      .optional();
+}
 
 }  // namespace dust::model

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/plugin.hpp"
 #include "dust/sdk/side_flow.hpp"
-#include "dust/sdk/table.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,13 +12,11 @@ using sdk::Vec3;
 
 class Hood final : public sdk::BoundaryCondition {
  public:
-  struct Parameters {
+  struct Parameters : sdk::CourseParameters {
     double flow = 0.0;
     Vec3 min;
     Vec3 max;
     std::string around = "no_slip";
-    std::vector<double> times;
-    std::vector<double> factors;
   };
 
   static sdk::ModelInfo describe() {
@@ -45,15 +42,11 @@ class Hood final : public sdk::BoundaryCondition {
     s.text(&Parameters::around, "around", "What the rest of the side is.")
         .one_of({"no_slip", "slip"})
         .optional();
-    s.numbers(&Parameters::times, "times", dim::time, "Times of the factors.").optional();
-    s.numbers(&Parameters::factors, "factors", dim::none,
-              "What flow is multiplied by at each of times; straight lines between.")
-        .symbol("g")
-        .optional();
+    sdk::declare_course(s, "flow");
     return s.build();
   }
 
-  explicit Hood(const Parameters& p) : p_(p), over_time_(p.times, p.factors, "times", "factors") {
+  explicit Hood(const Parameters& p) : p_(p), over_time_(p.over_time()) {
     for (int d = 0; d < 3; ++d) {
       if (p.max[d] < p.min[d]) {
         throw sdk::ParameterError(std::string("max must not lie below min: ") + "xyz"[d]);
@@ -62,10 +55,7 @@ class Hood final : public sdk::BoundaryCondition {
   }
 
   [[nodiscard]] sdk::SideRules rules() const override {
-    return {
-        .normal_velocity = sdk::SideRule::fixed,
-        .tangential_velocity = p_.around == "slip" ? sdk::SideRule::gradient : sdk::SideRule::fixed,
-        .pressure = sdk::SideRule::gradient};
+    return sdk::flow_rules(p_.around == "slip" ? sdk::SideRule::gradient : sdk::SideRule::fixed);
   }
   [[nodiscard]] bool needs_flow() const override { return true; }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/plugin.hpp"
 #include "dust/sdk/side_flow.hpp"
-#include "dust/sdk/table.hpp"
 
 namespace {
 
@@ -9,10 +8,8 @@ namespace sdk = dust::sdk;
 
 class MassFlow final : public sdk::BoundaryCondition {
  public:
-  struct Parameters {
+  struct Parameters : sdk::CourseParameters {
     double flow = 0.0;
-    std::vector<double> times;
-    std::vector<double> factors;
   };
 
   static sdk::ModelInfo describe() {
@@ -34,22 +31,13 @@ class MassFlow final : public sdk::BoundaryCondition {
     s.number(&Parameters::flow, "flow", dim::mass_flow,
              "Mass flow of the fluid into the domain; negative: out of it.")
         .symbol("\\dot m");
-    s.numbers(&Parameters::times, "times", dim::time, "Times of the factors.").optional();
-    s.numbers(&Parameters::factors, "factors", dim::none,
-              "What flow is multiplied by at each of times; straight lines between.")
-        .symbol("g")
-        .optional();
+    sdk::declare_course(s, "flow");
     return s.build();
   }
 
-  explicit MassFlow(const Parameters& p)
-      : flow_(p.flow), over_time_(p.times, p.factors, "times", "factors") {}
+  explicit MassFlow(const Parameters& p) : flow_(p.flow), over_time_(p.over_time()) {}
 
-  [[nodiscard]] sdk::SideRules rules() const override {
-    return {.normal_velocity = sdk::SideRule::fixed,
-            .tangential_velocity = sdk::SideRule::fixed,
-            .pressure = sdk::SideRule::gradient};
-  }
+  [[nodiscard]] sdk::SideRules rules() const override { return sdk::flow_rules(); }
   [[nodiscard]] bool needs_flow() const override { return true; }
 
   void evaluate(const sdk::SideBatch& batch) const override {

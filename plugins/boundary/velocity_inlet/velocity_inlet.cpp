@@ -13,15 +13,13 @@ namespace {
 
 class VelocityInlet final : public sdk::BoundaryCondition {
  public:
-  struct Parameters {
+  struct Parameters : sdk::CourseParameters {
     double speed = 0.0;
     std::string measure;
     std::string profile = "uniform";
     std::vector<std::string> across;
     std::vector<double> positions;
     std::vector<double> shares;
-    std::vector<double> times;
-    std::vector<double> factors;
   };
 
   static sdk::ModelInfo describe() {
@@ -61,11 +59,7 @@ class VelocityInlet final : public sdk::BoundaryCondition {
     s.numbers(&Parameters::shares, "shares", dim::none,
               "Speed at each of positions, in parts of speed.")
         .optional();
-    s.numbers(&Parameters::times, "times", dim::time, "Times of the factors.").optional();
-    s.numbers(&Parameters::factors, "factors", dim::none,
-              "What speed is multiplied by at each of times; straight lines between.")
-        .symbol("g")
-        .optional();
+    sdk::declare_course(s, "speed");
     return s.build();
   }
 
@@ -74,7 +68,7 @@ class VelocityInlet final : public sdk::BoundaryCondition {
         is_superficial_(p.measure == "superficial"),
         is_parabolic_(p.profile == "parabolic"),
         over_place_(p.positions, p.shares, "positions", "shares"),
-        over_time_(p.times, p.factors, "times", "factors") {
+        over_time_(p.over_time()) {
     for (const std::string& axis : p.across)
       varies_[static_cast<std::size_t>(axis[0] - 'x')] = true;
     const bool is_table = p.profile == "table";
@@ -96,11 +90,7 @@ class VelocityInlet final : public sdk::BoundaryCondition {
     }
   }
 
-  [[nodiscard]] sdk::SideRules rules() const override {
-    return {.normal_velocity = sdk::SideRule::fixed,
-            .tangential_velocity = sdk::SideRule::fixed,
-            .pressure = sdk::SideRule::gradient};
-  }
+  [[nodiscard]] sdk::SideRules rules() const override { return sdk::flow_rules(); }
   [[nodiscard]] bool needs_flow() const override { return true; }
 
   void evaluate(const sdk::SideBatch& batch) const override {

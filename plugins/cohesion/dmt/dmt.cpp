@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dmt.hpp"
 
+#include "../surface_energy.hpp"
+
 #include <dust/sdk/plugin.hpp>
 
 namespace {
@@ -18,18 +20,11 @@ DUST_KERNEL void evaluate_batch(double surface_energy, const sdk::CohesionBatch&
   }
 }
 
-class Dmt final : public sdk::CohesionLaw {
+class Dmt final : public dust::model::SurfaceEnergyLaw {
  public:
-  struct Parameters {
-    double surface_energy = 0.0;
-  };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
-    s.number(&Parameters::surface_energy, "surface_energy", sdk::dimension::surface_energy,
-             "Work to part a unit area of the two surfaces (of two equal solids: twice the "
-             "surface energy of one); the pull-off force is 2 pi R* times it.")
-        .symbol("\\gamma")
-        .above(0);
+    dust::model::declare_surface_energy(s, "2 pi");
     return s.build();
   }
   static sdk::ModelInfo describe() {
@@ -42,22 +37,15 @@ class Dmt final : public sdk::CohesionLaw {
                 "doi:10.1016/0021-9797(75)90018-1"};
   }
 
-  explicit Dmt(const Parameters& p) : surface_energy_(p.surface_energy) {}
-  void prepare(const sdk::MaterialProperties& i, const sdk::MaterialProperties& j) override {
-    young_ = sdk::effective_young_modulus(i, j);
-  }
+  explicit Dmt(const Parameters& p) : SurfaceEnergyLaw(p) {}
   [[nodiscard]] int history_size() const override { return 0; }
   void evaluate(const sdk::CohesionBatch& batch) const override {
-    evaluate_batch(surface_energy_, batch);
+    evaluate_batch(surface_energy(), batch);
   }
   [[nodiscard]] double range(double) const override { return 0.0; }
   [[nodiscard]] double resting_overlap(double radius) const override {
-    return formula::resting_overlap(surface_energy_, young_, radius);
+    return formula::resting_overlap(surface_energy(), young(), radius);
   }
-
- private:
-  double surface_energy_;
-  double young_ = 0.0;
 };
 
 }  // namespace

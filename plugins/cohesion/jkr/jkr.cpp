@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jkr.hpp"
 
+#include "../surface_energy.hpp"
+
 #include <dust/sdk/plugin.hpp>
 
 namespace {
@@ -22,18 +24,11 @@ DUST_KERNEL void evaluate_batch(double surface_energy, const sdk::CohesionBatch&
   }
 }
 
-class Jkr final : public sdk::CohesionLaw {
+class Jkr final : public dust::model::SurfaceEnergyLaw {
  public:
-  struct Parameters {
-    double surface_energy = 0.0;
-  };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
-    s.number(&Parameters::surface_energy, "surface_energy", sdk::dimension::surface_energy,
-             "Work to part a unit area of the two surfaces (of two equal solids: twice the "
-             "surface energy of one); the pull-off force is 3/2 pi R* times it.")
-        .symbol("\\gamma")
-        .above(0);
+    dust::model::declare_surface_energy(s, "3/2 pi");
     return s.build();
   }
   static sdk::ModelInfo describe() {
@@ -48,32 +43,25 @@ class Jkr final : public sdk::CohesionLaw {
                 "doi:10.1098/rspa.1971.0141"};
   }
 
-  explicit Jkr(const Parameters& p) : surface_energy_(p.surface_energy) {}
-  void prepare(const sdk::MaterialProperties& i, const sdk::MaterialProperties& j) override {
-    young_ = sdk::effective_young_modulus(i, j);
-  }
+  explicit Jkr(const Parameters& p) : SurfaceEnergyLaw(p) {}
   [[nodiscard]] int history_size() const override { return 1; }
   void evaluate(const sdk::CohesionBatch& batch) const override {
     // The cube root is a call: apart from the rest, so that that can use all lanes.
     for (std::size_t q = 0; q < batch.count; ++q) {
-      batch.attraction[q] = formula::length(surface_energy_, young_, batch.effective_radius[q]);
+      batch.attraction[q] = formula::length(surface_energy(), young(), batch.effective_radius[q]);
     }
-    evaluate_batch(surface_energy_, batch);
+    evaluate_batch(surface_energy(), batch);
   }
   [[nodiscard]] double range(double radius) const override {
-    const double length = formula::length(surface_energy_, young_, radius);
+    const double length = formula::length(surface_energy(), young(), radius);
     return -formula::k_tear * length * length / radius;
   }
   [[nodiscard]] double resting_overlap(double radius) const override {
-    const double length = formula::length(surface_energy_, young_, radius);
+    const double length = formula::length(surface_energy(), young(), radius);
     const double b = std::cbrt(formula::k_rest_cubed);
     return length * length / radius * b * formula::k_rest_cubed;
   }
   [[nodiscard]] bool needs_hertz_force() const override { return true; }
-
- private:
-  double surface_energy_;
-  double young_ = 0.0;
 };
 
 }  // namespace

@@ -11,25 +11,16 @@ namespace sdk = dust::sdk;
 
 class Belt final : public sdk::Motion {
  public:
-  struct Parameters {
+  struct Parameters : dust::model::StartParameters {
     double speed = 0.0;
-    double start = 0.0;
-    double ramp = 0.0;
   };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
     s.number(&Parameters::speed, "speed", sdk::dimension::velocity,
              "Speed of the belt; positive carries towards +x on top for a pulley axis along +y.")
         .symbol("U");
-    s.number(&Parameters::start, "start", sdk::dimension::time, "Time at which it sets off.")
-        .symbol("t_0")
-        .at_least(0)
-        .optional();
-    s.number(&Parameters::ramp, "ramp", sdk::dimension::time,
-             "Time in which it gathers speed, evenly.")
-        .symbol("r")
-        .at_least(0)
-        .optional();
+    dust::model::declare_start(s);
+    dust::model::declare_ramp(s);
     return s.build();
   }
   static sdk::ModelInfo describe() {

@@ -12,14 +12,11 @@ namespace sdk = dust::sdk;
 
 class Rotate final : public sdk::Motion {
  public:
-  struct Parameters {
+  struct Parameters : dust::model::CourseParameters {
     sdk::Vec3 pivot;
     sdk::Vec3 spin_axis;
     double spin = 0.0;
-    double start = 0.0;
-    double stop = std::numeric_limits<double>::infinity();
     double turn = std::numeric_limits<double>::infinity();
-    double ramp = 0.0;
   };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
@@ -31,21 +28,12 @@ class Rotate final : public sdk::Motion {
     s.number(&Parameters::spin, "spin", sdk::dimension::angular_velocity,
              "Angular velocity; negative turns the other way.")
         .symbol("omega");
-    s.number(&Parameters::start, "start", sdk::dimension::time, "Time at which it sets off.")
-        .symbol("t_0")
-        .at_least(0)
-        .optional();
-    s.number(&Parameters::stop, "stop", sdk::dimension::time, "Time at which it stops.")
-        .at_least(0)
-        .optional();
+    dust::model::declare_start(s);
+    dust::model::declare_stop(s);
     s.number(&Parameters::turn, "turn", sdk::dimension::angle, "Angle after which it stops.")
         .above(0)
         .optional();
-    s.number(&Parameters::ramp, "ramp", sdk::dimension::time,
-             "Time in which it gathers speed, evenly.")
-        .symbol("r")
-        .at_least(0)
-        .optional();
+    dust::model::declare_ramp(s);
     return s.build();
   }
   static sdk::ModelInfo describe() {
@@ -57,16 +45,11 @@ class Rotate final : public sdk::Motion {
   }
 
   explicit Rotate(const Parameters& p)
-      : course_{.speed = std::abs(p.spin),
-                .start = p.start,
-                .ramp = p.ramp,
-                .stop = p.stop,
-                .limit = p.turn},
+      : course_(p.course(std::abs(p.spin), p.turn)),
         sign_(p.spin < 0.0 ? -1.0 : 1.0),
         pivot_(p.pivot) {
     if (!(norm(p.spin_axis) > 0.0)) throw sdk::ParameterError("spin_axis has no direction");
     if (p.spin == 0.0) throw sdk::ParameterError("spin is zero: nothing would move");
-    if (p.stop <= p.start) throw sdk::ParameterError("stop is not after start");
     axis_ = p.spin_axis / norm(p.spin_axis);
   }
   [[nodiscard]] double largest_speed() const override { return 0.0; }

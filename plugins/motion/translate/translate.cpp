@@ -12,34 +12,22 @@ namespace sdk = dust::sdk;
 
 class Translate final : public sdk::Motion {
  public:
-  struct Parameters {
+  struct Parameters : dust::model::CourseParameters {
     sdk::Vec3 velocity;
-    double start = 0.0;
-    double stop = std::numeric_limits<double>::infinity();
     double travel = std::numeric_limits<double>::infinity();
-    double ramp = 0.0;
   };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
     s.vector(&Parameters::velocity, "velocity", sdk::dimension::velocity,
              "Velocity of the body; it turns with the body's frame.")
         .symbol("u");
-    s.number(&Parameters::start, "start", sdk::dimension::time, "Time at which it sets off.")
-        .symbol("t_0")
-        .at_least(0)
-        .optional();
-    s.number(&Parameters::stop, "stop", sdk::dimension::time, "Time at which it stops.")
-        .at_least(0)
-        .optional();
+    dust::model::declare_start(s);
+    dust::model::declare_stop(s);
     s.number(&Parameters::travel, "travel", sdk::dimension::length,
              "Distance after which it stops.")
         .above(0)
         .optional();
-    s.number(&Parameters::ramp, "ramp", sdk::dimension::time,
-             "Time in which it gathers speed, evenly.")
-        .symbol("r")
-        .at_least(0)
-        .optional();
+    dust::model::declare_ramp(s);
     return s.build();
   }
   static sdk::ModelInfo describe() {
@@ -50,14 +38,8 @@ class Translate final : public sdk::Motion {
             .source = "kinematics; own derivation"};
   }
 
-  explicit Translate(const Parameters& p)
-      : course_{.speed = norm(p.velocity),
-                .start = p.start,
-                .ramp = p.ramp,
-                .stop = p.stop,
-                .limit = p.travel} {
+  explicit Translate(const Parameters& p) : course_(p.course(norm(p.velocity), p.travel)) {
     if (!(course_.speed > 0.0)) throw sdk::ParameterError("velocity is zero: nothing would move");
-    if (p.stop <= p.start) throw sdk::ParameterError("stop is not after start");
     direction_ = p.velocity / course_.speed;
   }
   [[nodiscard]] double largest_speed() const override { return course_.speed; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cdt.hpp"
 
+#include "../friction.hpp"
+
 #include <dust/sdk/plugin.hpp>
 
 namespace {
@@ -25,17 +27,12 @@ DUST_KERNEL void evaluate_batch(double friction, const sdk::ContactBatch &b) {
   }
 }
 
-class Cdt final : public sdk::RollingLaw {
+class Cdt final : public dust::model::RollingFriction {
  public:
-  struct Parameters {
-    double friction = 0.0;
-  };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
-    s.number(&Parameters::friction, "friction", sdk::dimension::none,
-             "Coefficient of rolling friction: the couple is it times R* times the normal force.")
-        .symbol("\\mu_r")
-        .at_least(0);
+    dust::model::declare_rolling_friction(
+        s, "Coefficient of rolling friction: the couple is it times R* times the normal force.");
     return s.build();
   }
   static sdk::ModelInfo describe() {
@@ -49,13 +46,11 @@ class Cdt final : public sdk::RollingLaw {
                 "(1999) 536, doi:10.1016/S0378-4371(99)00183-1"};
   }
 
-  explicit Cdt(const Parameters &p) : friction_(p.friction) {}
-  void prepare(const sdk::MaterialProperties &, const sdk::MaterialProperties &) override {}
+  explicit Cdt(const Parameters &p) : RollingFriction(p) {}
   [[nodiscard]] int history_size() const override { return 0; }
-  void evaluate(const sdk::ContactBatch &batch) const override { evaluate_batch(friction_, batch); }
-
- private:
-  double friction_;
+  void evaluate(const sdk::ContactBatch &batch) const override {
+    evaluate_batch(friction(), batch);
+  }
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "epsd.hpp"
 
+#include "../friction.hpp"
+
 #include <dust/sdk/plugin.hpp>
 
 namespace {
@@ -39,11 +41,7 @@ class Epsd final : public sdk::RollingLaw {
   };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
-    s.number(&Parameters::friction, "friction", sdk::dimension::none,
-             "Coefficient of rolling friction: the couple never exceeds it times R* times the "
-             "normal force.")
-        .symbol("\\mu_r")
-        .at_least(0);
+    dust::model::declare_rolling_friction(s, dust::model::k_couple_is_bounded);
     s.number(&Parameters::damping_ratio, "damping_ratio", sdk::dimension::none,
              "Damping of the rocking about a resting place, as a share of the critical one.")
         .symbol("\\eta_r")

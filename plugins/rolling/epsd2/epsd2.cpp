@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "epsd2.hpp"
 
+#include "../friction.hpp"
+
 #include <dust/sdk/plugin.hpp>
 
 namespace {
@@ -29,18 +31,11 @@ DUST_KERNEL void evaluate_batch(double friction, const sdk::ContactBatch &b) {
   }
 }
 
-class Epsd2 final : public sdk::RollingLaw {
+class Epsd2 final : public dust::model::RollingFriction {
  public:
-  struct Parameters {
-    double friction = 0.0;
-  };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
-    s.number(&Parameters::friction, "friction", sdk::dimension::none,
-             "Coefficient of rolling friction: the couple never exceeds it times R* times the "
-             "normal force.")
-        .symbol("\\mu_r")
-        .at_least(0);
+    dust::model::declare_rolling_friction(s, dust::model::k_couple_is_bounded);
     return s.build();
   }
   static sdk::ModelInfo describe() {
@@ -56,13 +51,11 @@ class Epsd2 final : public sdk::RollingLaw {
                 "217 (2012) 409, doi:10.1016/j.powtec.2011.10.057"};
   }
 
-  explicit Epsd2(const Parameters &p) : friction_(p.friction) {}
-  void prepare(const sdk::MaterialProperties &, const sdk::MaterialProperties &) override {}
+  explicit Epsd2(const Parameters &p) : RollingFriction(p) {}
   [[nodiscard]] int history_size() const override { return 3; }
-  void evaluate(const sdk::ContactBatch &batch) const override { evaluate_batch(friction_, batch); }
-
- private:
-  double friction_;
+  void evaluate(const sdk::ContactBatch &batch) const override {
+    evaluate_batch(friction(), batch);
+  }
 };
 
 }  // namespace

@@ -60,46 +60,25 @@ class BedHeight final : public Sensor {
       masses_.push_back(g.weight[i] * g.mass[i]);
     }
     const formula::Profile profile(heights_, masses_);
-    values_ = {heights_.empty() ? 0.0 : profile.below(p_.share), 2.0 * profile.mean()};
-    if (is_after(world, p_.steady_after)) means_.add(values_, world.interval);
-    curve_.add(world.time, values_[0]);
+    figures_.add(world, {heights_.empty() ? 0.0 : profile.below(p_.share), 2.0 * profile.mean()},
+                 p_.steady_after);
   }
 
-  void series(FigureSink& sink) const override {
-    for (std::size_t n = 0; n < k_columns; ++n) sink.figure(k_names[n], values_[n], "m");
-  }
-  void summary(FigureSink& sink) const override {
-    for (std::size_t n = 0; n < k_columns; ++n) {
-      const double mean = means_.mean(n);
-      sink.figure(k_names[n], mean, "m", mean != 0.0 ? means_.error(n) : -1.0);
-      sink.figure(std::string(k_names[n]) + "_at_end", values_[n], "m");
-    }
-  }
+  void series(FigureSink& sink) const override { figures_.series(sink); }
+  void summary(FigureSink& sink) const override { figures_.summary(sink); }
   void report(ReportSink& sink) const override {
-    sink.curve("Bed height", "time [s]", "height [m]", "surface", curve_.x(), curve_.y());
+    sink.curve("Bed height", "time [s]", "height [m]", "surface", figures_.curve().x(),
+               figures_.curve().y());
   }
 
-  void save(ArchiveWriter& a) const override {
-    a.numbers("values", values_);
-    means_.save(a, "means");
-    curve_.save(a, "curve");
-  }
-  void load(ArchiveReader& a) override {
-    values_ = a.numbers("values");
-    means_.load(a, "means");
-    curve_.load(a, "curve");
-  }
+  void save(ArchiveWriter& a) const override { figures_.save(a); }
+  void load(ArchiveReader& a) override { figures_.load(a); }
 
  private:
-  static constexpr std::size_t k_columns = 2;
-  static constexpr const char* k_names[k_columns] = {"height", "twice_centre"};
-
   Parameters p_;
-  std::vector<double> values_ = std::vector<double>(k_columns, 0.0);  ///< at the last sample
   std::vector<double> heights_;
   std::vector<double> masses_;
-  BatchMeans means_{k_columns};
-  ThinnedCurve curve_;
+  SampledFigures figures_{{{"height", "m"}, {"twice_centre", "m"}}};
 };
 
 }  // namespace

@@ -57,53 +57,33 @@ class PressureDrop final : public Sensor {
     const auto pressure = [&](std::size_t c) {
       return static_cast<double>(world.fluid.pressure[c]);
     };
+    double drop = 0.0;
+    double flow = 0.0;
     if (p_.between == "planes") {
-      values_[0] = cells.plane_mean(axis_, p_.from[axis_], pressure) -
-                   cells.plane_mean(axis_, p_.to[axis_], pressure);
-      values_[1] = formula::along(p_.from[axis_], p_.to[axis_],
-                                  cells.superficial_velocity(axis_, p_.from[axis_]));
+      drop = cells.plane_mean(axis_, p_.from[axis_], pressure) -
+             cells.plane_mean(axis_, p_.to[axis_], pressure);
+      flow = formula::along(p_.from[axis_], p_.to[axis_],
+                            cells.superficial_velocity(axis_, p_.from[axis_]));
     } else {
-      values_[0] = cells.at(p_.from, pressure) - cells.at(p_.to, pressure);
+      drop = cells.at(p_.from, pressure) - cells.at(p_.to, pressure);
     }
-    if (is_after(world, p_.steady_after)) means_.add(values_, world.interval);
-    curve_.add(world.time, values_[0]);
+    figures_.add(world, {drop, flow}, p_.steady_after);
   }
 
-  void series(FigureSink& sink) const override {
-    for (std::size_t n = 0; n < k_columns; ++n) sink.figure(k_names[n], values_[n], k_units[n]);
-  }
-  void summary(FigureSink& sink) const override {
-    for (std::size_t n = 0; n < k_columns; ++n) {
-      const double mean = means_.mean(n);
-      sink.figure(k_names[n], mean, k_units[n], mean != 0.0 ? means_.error(n) : -1.0);
-      sink.figure(std::string(k_names[n]) + "_at_end", values_[n], k_units[n]);
-    }
-  }
+  void series(FigureSink& sink) const override { figures_.series(sink); }
+  void summary(FigureSink& sink) const override { figures_.summary(sink); }
   void report(ReportSink& sink) const override {
-    sink.curve("Pressure drop", "time [s]", "pressure [Pa]", "from - to", curve_.x(), curve_.y());
+    sink.curve("Pressure drop", "time [s]", "pressure [Pa]", "from - to", figures_.curve().x(),
+               figures_.curve().y());
   }
 
-  void save(ArchiveWriter& a) const override {
-    a.numbers("values", values_);
-    means_.save(a, "means");
-    curve_.save(a, "curve");
-  }
-  void load(ArchiveReader& a) override {
-    values_ = a.numbers("values");
-    means_.load(a, "means");
-    curve_.load(a, "curve");
-  }
+  void save(ArchiveWriter& a) const override { figures_.save(a); }
+  void load(ArchiveReader& a) override { figures_.load(a); }
 
  private:
-  static constexpr std::size_t k_columns = 2;
-  static constexpr const char* k_names[k_columns] = {"pressure_drop", "superficial_velocity"};
-  static constexpr const char* k_units[k_columns] = {"Pa", "m/s"};
-
   Parameters p_;
   int axis_;
-  std::vector<double> values_ = std::vector<double>(k_columns, 0.0);  ///< at the last sample
-  BatchMeans means_{k_columns};
-  ThinnedCurve curve_;
+  SampledFigures figures_{{{"pressure_drop", "Pa"}, {"superficial_velocity", "m/s"}}};
 };
 
 }  // namespace

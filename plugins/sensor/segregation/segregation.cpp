@@ -78,44 +78,24 @@ class Segregation final : public Sensor {
       place[is_fine] += g.weight[i] * dot(x - p_.min, p_.direction);
     }
     const bool has_both = number[0] > 0.0 && number[1] > 0.0;
-    values_ = {formula::lacey(cells), has_both ? place[1] / number[1] - place[0] / number[0] : 0.0,
-               has_both ? number[1] / (number[0] + number[1]) : 0.0};
-    if (is_after(world, p_.steady_after)) means_.add(values_, world.interval);
-    curve_.add(world.time, values_[0]);
+    figures_.add(
+        world,
+        {formula::lacey(cells), has_both ? place[1] / number[1] - place[0] / number[0] : 0.0,
+         has_both ? number[1] / (number[0] + number[1]) : 0.0},
+        p_.steady_after);
   }
 
-  void series(FigureSink& sink) const override {
-    for (std::size_t n = 0; n < k_columns; ++n) sink.figure(k_names[n], values_[n], k_units[n]);
-  }
-  void summary(FigureSink& sink) const override {
-    for (std::size_t n = 0; n < k_columns; ++n) {
-      const double mean = means_.mean(n);
-      sink.figure(k_names[n], mean, k_units[n], mean != 0.0 ? means_.error(n) : -1.0);
-      sink.figure(std::string(k_names[n]) + "_at_end", values_[n], k_units[n]);
-    }
-  }
+  void series(FigureSink& sink) const override { figures_.series(sink); }
+  void summary(FigureSink& sink) const override { figures_.summary(sink); }
   void report(ReportSink& sink) const override {
     sink.curve("Mixing of fine and coarse grains", "time [s]", "mixing index [1]", "all grains",
-               curve_.x(), curve_.y());
+               figures_.curve().x(), figures_.curve().y());
   }
 
-  void save(ArchiveWriter& a) const override {
-    a.numbers("values", values_);
-    means_.save(a, "means");
-    curve_.save(a, "curve");
-  }
-  void load(ArchiveReader& a) override {
-    values_ = a.numbers("values");
-    means_.load(a, "means");
-    curve_.load(a, "curve");
-  }
+  void save(ArchiveWriter& a) const override { figures_.save(a); }
+  void load(ArchiveReader& a) override { figures_.load(a); }
 
  private:
-  static constexpr std::size_t k_columns = 3;
-  static constexpr const char* k_names[k_columns] = {"mixing_index", "centre_shift",
-                                                     "fine_number_fraction"};
-  static constexpr const char* k_units[k_columns] = {"1", "m", "1"};
-
   [[nodiscard]] std::size_t index_of(Vec3 x) const {
     std::size_t c[3];
     for (int d = 0; d < 3; ++d) {
@@ -128,9 +108,8 @@ class Segregation final : public Sensor {
 
   Parameters p_;
   std::array<std::size_t, 3> count_{1, 1, 1};
-  std::vector<double> values_ = std::vector<double>(k_columns, 0.0);  ///< at the last sample
-  BatchMeans means_{k_columns};
-  ThinnedCurve curve_;
+  SampledFigures figures_{
+      {{"mixing_index", "1"}, {"centre_shift", "m"}, {"fine_number_fraction", "1"}}};
 };
 
 }  // namespace

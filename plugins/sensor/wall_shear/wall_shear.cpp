@@ -72,47 +72,26 @@ class WallShear final : public Sensor {
     Vec3 force;
     force[e] = area * cells.layer(d, layer, [&](std::size_t c) { return stress(e, c); }).sum;
     force[g] = area * cells.layer(d, layer, [&](std::size_t c) { return stress(g, c); }).sum;
-    values_ = {mean.open > 0.0 ? mean.sum / mean.open : 0.0, largest, force.x, force.y, force.z};
-    if (is_after(world, p_.steady_after)) means_.add(values_, world.interval);
-    curve_.add(world.time, values_[0]);
+    figures_.add(world,
+                 {mean.open > 0.0 ? mean.sum / mean.open : 0.0, largest, force.x, force.y, force.z},
+                 p_.steady_after);
   }
 
-  void series(FigureSink& sink) const override {
-    for (std::size_t n = 0; n < k_columns; ++n) sink.figure(k_names[n], values_[n], k_units[n]);
-  }
-  void summary(FigureSink& sink) const override {
-    for (std::size_t n = 0; n < k_columns; ++n) {
-      const double mean = means_.mean(n);
-      sink.figure(k_names[n], mean, k_units[n], mean != 0.0 ? means_.error(n) : -1.0);
-      sink.figure(std::string(k_names[n]) + "_at_end", values_[n], k_units[n]);
-    }
-  }
+  void series(FigureSink& sink) const override { figures_.series(sink); }
+  void summary(FigureSink& sink) const override { figures_.summary(sink); }
   void report(ReportSink& sink) const override {
-    sink.curve("Wall shear stress", "time [s]", "stress [Pa]", p_.side, curve_.x(), curve_.y());
+    sink.curve("Wall shear stress", "time [s]", "stress [Pa]", p_.side, figures_.curve().x(),
+               figures_.curve().y());
   }
 
-  void save(ArchiveWriter& a) const override {
-    a.numbers("values", values_);
-    means_.save(a, "means");
-    curve_.save(a, "curve");
-  }
-  void load(ArchiveReader& a) override {
-    values_ = a.numbers("values");
-    means_.load(a, "means");
-    curve_.load(a, "curve");
-  }
+  void save(ArchiveWriter& a) const override { figures_.save(a); }
+  void load(ArchiveReader& a) override { figures_.load(a); }
 
  private:
-  static constexpr std::size_t k_columns = 5;
-  static constexpr const char* k_names[k_columns] = {"mean", "largest", "force_x", "force_y",
-                                                     "force_z"};
-  static constexpr const char* k_units[k_columns] = {"Pa", "Pa", "N", "N", "N"};
-
   Parameters p_;
   int side_ = 0;
-  std::vector<double> values_ = std::vector<double>(k_columns, 0.0);  ///< at the last sample
-  BatchMeans means_{k_columns};
-  ThinnedCurve curve_;
+  SampledFigures figures_{
+      {{"mean", "Pa"}, {"largest", "Pa"}, {"force_x", "N"}, {"force_y", "N"}, {"force_z", "N"}}};
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// What most sensors need: size classes, paths of grains between two samples, and means over time
@@ -297,4 +298,55 @@ class ThinnedCurve {
   std::int64_t samples_per_point_ = 1;
   std::int64_t samples_ = 0;
 };
+
+/// The state of a sensor whose figures are those of a moment: the last ones for series.csv, their
+/// means with errors for the summary, the first one against time for the report.
+class SampledFigures {
+ public:
+  struct Column {
+    const char* name;
+    const char* unit;
+  };
+  explicit SampledFigures(std::vector<Column> columns)
+      : columns_(std::move(columns)), values_(columns_.size(), 0.0), means_(columns_.size()) {}
+
+  /// One look: a value per column; the means begin after `steady_after` [s].
+  void add(const WorldView& world, std::vector<double> values, double steady_after) {
+    values_ = std::move(values);
+    if (is_after(world, steady_after)) means_.add(values_, world.interval);
+    curve_.add(world.time, values_[0]);
+  }
+  void series(FigureSink& sink) const {
+    for (std::size_t n = 0; n < columns_.size(); ++n) {
+      sink.figure(columns_[n].name, values_[n], columns_[n].unit);
+    }
+  }
+  void summary(FigureSink& sink) const {
+    for (std::size_t n = 0; n < columns_.size(); ++n) {
+      const double mean = means_.mean(n);
+      const auto& [name, unit] = columns_[n];
+      sink.figure(name, mean, unit, mean != 0.0 ? means_.error(n) : -1.0);
+      sink.figure(std::string(name) + "_at_end", values_[n], unit);
+    }
+  }
+  [[nodiscard]] const ThinnedCurve& curve() const { return curve_; }
+
+  void save(ArchiveWriter& archive) const {
+    archive.numbers("values", values_);
+    means_.save(archive, "means");
+    curve_.save(archive, "curve");
+  }
+  void load(ArchiveReader& archive) {
+    values_ = archive.numbers("values");
+    means_.load(archive, "means");
+    curve_.load(archive, "curve");
+  }
+
+ private:
+  std::vector<Column> columns_;
+  std::vector<double> values_;  ///< at the last look
+  BatchMeans means_;
+  ThinnedCurve curve_;
+};
+
 }  // namespace dust::sdk

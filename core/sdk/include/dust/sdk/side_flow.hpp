@@ -3,11 +3,40 @@
 
 #include "dust/sdk/boundary_condition.hpp"
 #include "dust/sdk/error.hpp"
+#include "dust/sdk/parameter_schema.hpp"
+#include "dust/sdk/table.hpp"
 
 #include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace dust::sdk {
+
+/// A course in time that a flow or speed is multiplied by: the `Parameters` of a model derive from
+/// this, its schema calls declare_course, and CourseParameters::over_time makes the factor.
+struct CourseParameters {
+  std::vector<double> times;    ///< [s]
+  std::vector<double> factors;  ///< [-]
+
+  [[nodiscard]] Table over_time() const { return {times, factors, "times", "factors"}; }
+};
+/// `what` is the parameter that is multiplied: "flow".
+template <class P>
+void declare_course(SchemaOf<P>& s, const std::string& what) {
+  s.numbers(&P::times, "times", dimension::time, "Times of the factors.").optional();
+  s.numbers(&P::factors, "factors", dimension::none,
+            "What " + what + " is multiplied by at each of times; straight lines between.")
+      .symbol("g")
+      .optional();
+}
+
+/// What the solver is asked for where the flow through a side is given.
+inline SideRules flow_rules(SideRule tangential_velocity = SideRule::fixed) {
+  return {.normal_velocity = SideRule::fixed,
+          .tangential_velocity = tangential_velocity,
+          .pressure = SideRule::gradient};
+}
 
 /// Number of the axis that a side's normal points along.
 inline int axis_of(Vec3 normal) { return normal.x != 0.0 ? 0 : normal.y != 0.0 ? 1 : 2; }
