@@ -13,9 +13,31 @@ namespace {
 using sdk::SideRule;
 using sdk::Vec3;
 
-/// Points on a side, its normal and the time, in SI.
+/// Points on a side of a cube, and times, in SI.
 constexpr std::size_t k_points = 24;
+constexpr double k_edge = 0.3;  ///< [m]
 const double k_times[] = {0.0, 0.013, 0.5};
+
+/// A layer of cells with grains next to the side.
+class Flow {
+ public:
+  explicit Flow(const Units& units) {
+    const double face = k_edge * units.length / k_points;
+    for (std::size_t n = 0; n < k_points; ++n) {
+      void_fraction_.push_back(1.0 - 0.02 * static_cast<double>(n));
+      density_.push_back((1.2 + 0.01 * static_cast<double>(n)) * units.of(sdk::dimension::density));
+      area_.push_back(n % 5 == 0 ? 0.0 : face * face);  // some faces are covered by a body
+    }
+  }
+  void show(sdk::SideBatch& batch) const {
+    batch.void_fraction = void_fraction_.data();
+    batch.density = density_.data();
+    batch.area = area_.data();
+  }
+
+ private:
+  std::vector<double> void_fraction_, density_, area_;
+};
 
 Readings observe(const Maker& make, const Trial& trial) {
   const auto condition = make_as<sdk::BoundaryCondition>(make, trial.units);
@@ -31,14 +53,17 @@ Readings observe(const Maker& make, const Trial& trial) {
       std::vector<double> at[3];
       for (int d = 0; d < 3; ++d) {
         for (std::size_t n = 0; n < k_points; ++n) {
-          const double along = d == axis ? (side % 2 == 0 ? 0.0 : 0.3)
-                                         : 0.3 * (static_cast<double>(n) + 0.5) / k_points;
+          const double along = d == axis ? (side % 2 == 0 ? 0.0 : k_edge)
+                                         : k_edge * (static_cast<double>(n) + 0.5) / k_points;
           at[d].push_back(along * trial.units.length);
         }
       }
       std::vector<double> out[4];
       for (auto& column : out) column.assign(k_points + 1, k_unset);
-      const std::size_t size = trial.batch == 0 ? k_points : trial.batch;
+      const Flow flow(trial.units);
+      // What reads the flow sums over the side: it is shown in one piece.
+      const bool is_whole = trial.batch == 0 || condition->needs_flow();
+      const std::size_t size = is_whole ? k_points : trial.batch;
       for (std::size_t first = 0; first < k_points; first += size) {
         sdk::SideBatch b;
         b.count = std::min(size, k_points - first);
@@ -51,6 +76,11 @@ Readings observe(const Maker& make, const Trial& trial) {
         b.velocity_y = out[1].data() + first;
         b.velocity_z = out[2].data() + first;
         b.pressure = out[3].data() + first;
+        const double edge = k_edge * trial.units.length;
+        b.high = {edge, edge, edge};
+        b.spacing = (1.0 / k_points) * b.high;
+        (side % 2 == 0 ? b.high : b.low)[axis] = (side % 2 == 0 ? b.low : b.high)[axis];
+        if (condition->needs_flow()) flow.show(b);
         call_hot(trial, [&] { condition->evaluate(b); });
       }
       const std::string where = " on side " + std::to_string(side) + " at " + shown(time) + " s";
