@@ -21,12 +21,33 @@ std::vector<ProfilePoint> wall_profile(double radius, double end_radius, double 
   return {{radius, 0}, {radius + width, 0}, {end_radius + width, length}, {end_radius, length}};
 }
 
+/// What round walls along an axis share; their `Parameters` derive from this.
+struct WallParameters {
+  Vec3 base, axis;
+  double length = 0.0, radius = 0.0, thickness = 0.0;
+};
+
+/// A round wall that narrows or widens from the first end to the other.
+class RoundWall : public Revolved {
+ protected:
+  RoundWall(const WallParameters& p, double end_radius)
+      : Revolved(p.base, unit_direction(p.axis, "axis"),
+                 wall_profile(p.radius, end_radius, p.length, p.thickness)) {}
+};
+
 template <class P>
 void add_axis(SchemaOf<P>& s) {
   s.vector(&P::base, "base", dimension::length, "Centre of the first end.");
   s.vector(&P::axis, "axis", dimension::none,
            "Direction from the first end to the other; its length does not matter.");
   s.number(&P::length, "length", dimension::length, "Length along the axis.").symbol("L").above(0);
+}
+
+template <class P>
+void add_first_radius(SchemaOf<P>& s) {
+  s.number(&P::radius, "radius", dimension::length,
+           "Radius at the first end (inner face of a wall).")
+      .above(0);
 }
 
 template <class P>
@@ -38,12 +59,9 @@ void add_thickness(SchemaOf<P>& s) {
 }
 
 /// A tube, open at both ends, or a solid cylinder.
-class Cylinder final : public Revolved {
+class Cylinder final : public RoundWall {
  public:
-  struct Parameters {
-    Vec3 base, axis;
-    double length = 0.0, radius = 0.0, thickness = 0.0;
-  };
+  using Parameters = WallParameters;
   static sdk::ParameterSchema schema() {
     SchemaOf<Parameters> s;
     add_axis(s);
@@ -54,54 +72,40 @@ class Cylinder final : public Revolved {
     add_thickness(s);
     return s.build();
   }
-  explicit Cylinder(const Parameters& p)
-      : Revolved(p.base, unit_direction(p.axis, "axis"),
-                 wall_profile(p.radius, p.radius, p.length, p.thickness)) {}
+  explicit Cylinder(const Parameters& p) : RoundWall(p, p.radius) {}
 };
 
 /// A funnel (hopper), open at both ends, or a solid frustum.
-class Frustum final : public Revolved {
+class Frustum final : public RoundWall {
  public:
-  struct Parameters {
-    Vec3 base, axis;
-    double length = 0.0, radius = 0.0, end_radius = 0.0, thickness = 0.0;
+  struct Parameters : WallParameters {
+    double end_radius = 0.0;
   };
   static sdk::ParameterSchema schema() {
     SchemaOf<Parameters> s;
     add_axis(s);
-    s.number(&Parameters::radius, "radius", dimension::length,
-             "Radius at the first end (inner face of a wall).")
-        .above(0);
+    add_first_radius(s);
     s.number(&Parameters::end_radius, "end_radius", dimension::length,
              "Radius at the other end (inner face of a wall).")
         .above(0);
     add_thickness(s);
     return s.build();
   }
-  explicit Frustum(const Parameters& p)
-      : Revolved(p.base, unit_direction(p.axis, "axis"),
-                 wall_profile(p.radius, p.end_radius, p.length, p.thickness)) {}
+  explicit Frustum(const Parameters& p) : RoundWall(p, p.end_radius) {}
 };
 
 /// A cone that ends in a tip; with a thickness a conical cap, open at its first end.
-class Cone final : public Revolved {
+class Cone final : public RoundWall {
  public:
-  struct Parameters {
-    Vec3 base, axis;
-    double length = 0.0, radius = 0.0, thickness = 0.0;
-  };
+  using Parameters = WallParameters;
   static sdk::ParameterSchema schema() {
     SchemaOf<Parameters> s;
     add_axis(s);
-    s.number(&Parameters::radius, "radius", dimension::length,
-             "Radius at the first end (inner face of a wall).")
-        .above(0);
+    add_first_radius(s);
     add_thickness(s);
     return s.build();
   }
-  explicit Cone(const Parameters& p)
-      : Revolved(p.base, unit_direction(p.axis, "axis"),
-                 wall_profile(p.radius, 0.0, p.length, p.thickness)) {}
+  explicit Cone(const Parameters& p) : RoundWall(p, 0.0) {}
 };
 
 /// A round plate with a hole in its middle: orifice, neck, lid.

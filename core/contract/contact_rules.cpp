@@ -3,6 +3,7 @@
 // integrated with a small step.
 #include "contract/contact_bench.hpp"
 #include "contract/judge.hpp"
+#include "contract/symmetry_rules.hpp"
 #include "dust/sdk/sphere.hpp"
 
 #include <algorithm>
@@ -93,16 +94,6 @@ std::vector<Vec3> forces(const Maker& make, bool is_swapped,
     result.push_back(bench.vector(ContactBench::force, n));
   }
   return result;
-}
-
-void check_close(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const std::string& why) {
-  constexpr double k_rounding = 1e-9;
-  for (std::size_t n = 0; n < a.size(); ++n) {
-    const double size = std::max({norm(a[n]), norm(b[n]), 1e-300});
-    require(norm(a[n] - b[n]) <= k_rounding * size, why + ": " + shown(norm(a[n] - b[n]) / size) +
-                                                        " of the force on contact " +
-                                                        std::to_string(n));
-  }
 }
 
 /// A sphere that meets a wall at x = 0, integrated with a small step.
@@ -257,17 +248,8 @@ void check_energy(const Maker& make, const Subject& subject) {
 }
 
 void rules(const Maker& make, const Subject& subject, Judge& judge) {
-  const auto same = [](std::vector<Touch> t) { return t; };
-  judge.rule("treats both sides alike: action = reaction", [&] {
-    std::vector<Vec3> other = forces(make, true, [](auto t) { return swapped(std::move(t)); });
-    for (Vec3& f : other) f = -f;
-    check_close(forces(make, false, same), other, "seen from the other side the force differs by");
-  });
-  judge.rule("knows no preferred direction", [&] {
-    std::vector<Vec3> here = forces(make, false, same);
-    for (Vec3& f : here) f = turned(f);
-    check_close(here, forces(make, false, [](auto t) { return turned(std::move(t)); }),
-                "in a turned world the force differs by");
+  judge_symmetry(judge, "force", [&](bool is_swapped, const auto& change) {
+    return forces(make, is_swapped, change);
   });
   judge.rule("declared restitution = realised restitution",
              [&] { check_restitution(make, subject); });

@@ -2,6 +2,7 @@
 // Rules of rolling laws: a couple against relative rotation, the same from both sides.
 #include "contract/contact_bench.hpp"
 #include "contract/judge.hpp"
+#include "contract/symmetry_rules.hpp"
 #include "dust/sdk/sphere.hpp"
 
 #include <algorithm>
@@ -62,14 +63,6 @@ std::vector<Vec3> couples(const Maker& make, bool is_swapped,
   return result;
 }
 
-void check_close(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const std::string& why) {
-  constexpr double k_rounding = 1e-9;
-  for (std::size_t n = 0; n < a.size(); ++n) {
-    const double size = std::max({norm(a[n]), norm(b[n]), 1e-300});
-    require(norm(a[n] - b[n]) <= k_rounding * size, why + " on contact " + std::to_string(n));
-  }
-}
-
 void check_brakes(const Maker& make) {
   const auto law = make_law(make);
   const std::vector<Touch> touches = standard_touches(0.0, 0);
@@ -124,17 +117,8 @@ void check_energy(const Maker& make) {
 }
 
 void rules(const Maker& make, const Subject&, Judge& judge) {
-  const auto same = [](std::vector<Touch> t) { return t; };
-  judge.rule("treats both sides alike: action = reaction", [&] {
-    std::vector<Vec3> other = couples(make, true, [](auto t) { return swapped(std::move(t)); });
-    for (Vec3& c : other) c = -c;
-    check_close(couples(make, false, same), other, "seen from the other side the couple differs");
-  });
-  judge.rule("knows no preferred direction", [&] {
-    std::vector<Vec3> here = couples(make, false, same);
-    for (Vec3& c : here) c = turned(c);
-    check_close(here, couples(make, false, [](auto t) { return turned(std::move(t)); }),
-                "in a turned world the couple differs");
+  judge_symmetry(judge, "couple", [&](bool is_swapped, const auto& change) {
+    return couples(make, is_swapped, change);
   });
   judge.rule("brakes a rotation that begins", [&] { check_brakes(make); });
   judge.rule("leaves what does not rotate alone", [&] { check_rest(make); });
