@@ -81,6 +81,26 @@ with Prefix(arguments()) as prefix:
     check(whole["sensors"]["energy"], "the sensor gave nothing")
     check((work / "whole/series.csv").read_text() == (work / "parts/series.csv").read_text(),
           "the series differ")
+    # A sensor's own section of the report, its histogram and table, and its field in results.h5.
+    report = json.loads((work / "whole/report.json").read_text())
+    check([s["sensor"] for s in report["sections"]] == ["energy"], "the sensor heads no section")
+    titles = [c["title"] for c in report["curves"] if c["sensor"] == "energy"]
+    check(titles == ["Kinetic energy", "Energy per mass"], f"curves {titles}")
+    page = (work / "whole/report.html").read_text()
+    check('id="own-energy"><h2>Motion of the grains</h2>' in page, "the section is not on the page")
+    energy = next(c for c in report["curves"] if c["title"] == "Energy per mass")
+    check(len(energy["x"]) == 18 and energy["x"][1] == energy["x"][2] == -5, f"steps {energy['x']}")
+    for folder in ("whole", "parts"):
+        shape, origin, spacing, count, values = prefix.run(
+            prefix.options.build + "/bin/read_numbers", work / folder / "results.h5",
+            "sensors/000003/energy", "mass").splitlines()
+        check(shape.split() == count.split() == ["8", "8", "8"], f"a field of {shape} cells")
+        check(origin.split() == ["0", "0", "0"] and spacing.split() == ["0.0025"] * 3,
+              f"the field stands at {origin}, {spacing}")
+        total = sum(map(float, values.split()))
+        in_domain = summary(work / folder)["mass_kg"]["in_domain"]
+        check(abs(total / in_domain - 1) < 1e-5, f"{total} kg in the field, {in_domain} in all")
+
     # Another drag is another run: the comparison can fail.
     other = run("other", "30 ms", "--set", "drag.exponent=1")
     check(other["state_sha256"] != whole["state_sha256"], "the own drag law has no effect")
