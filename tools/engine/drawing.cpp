@@ -20,7 +20,7 @@ constexpr const char* k_body = "#444";
 constexpr const char* k_emitter = "#b03000";
 constexpr const char* k_sensor = "#1769aa";
 constexpr double k_line = 19.0;          ///< [px] between rows of text
-constexpr double k_legend = 300.0;       ///< [px] width of the legend
+constexpr double k_legend = 400.0;       ///< [px] width of the legend
 constexpr double k_badge = 8.0;          ///< [px] radius of a number's disc
 constexpr double k_least_width = 260.0;  ///< [px] for the head and the scale
 
@@ -168,7 +168,7 @@ class Drawing {
     const std::string what = "emitter: " + spec.model.name;
     const auto* min = value_of<Vec3>(registry_, spec.model, "min");
     const auto* max = value_of<Vec3>(registry_, spec.model, "max");
-    if (min != nullptr && max != nullptr && is_finite(*min) && is_finite(*max)) {
+    if (min != nullptr && max != nullptr && is_finite(*min) && is_finite(*max) && !(*min == *max)) {
       rectangle(turned(*min), turned(*max),
                 std::string("fill=\"") + k_emitter + "\" fill-opacity=\"0.08\" stroke=\"" +
                     k_emitter + "\" stroke-width=\"1.5\"");
