@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// usage: read_numbers FILE.h5 GROUP DATASET: its extents, its attribute units, and its numbers, one
-// line each; what follows links into other files is read as a user's program reads it.
+// usage: read_numbers FILE.h5 GROUP DATASET: its extents, its attributes origin, spacing and count
+// (an empty line for one that it lacks), and its numbers, one line each; links into other files are
+// followed as a user's program follows them.
 #include "io/hdf5_file.hpp"
 
 #include <functional>
@@ -24,7 +25,9 @@ int main(int argc, char** argv) {
     const Handle set(H5Dopen2(group.get(), argv[3], H5P_DEFAULT), H5Dclose, "no such dataset");
     std::cout << '\n';
     for (const char* name : {"origin", "spacing", "count"}) {
-      for (const double v : read_attribute(set.get(), name)) std::cout << v << ' ';
+      if (H5Aexists(set.get(), name) > 0) {
+        for (const double v : read_attribute(set.get(), name)) std::cout << v << ' ';
+      }
       std::cout << '\n';
     }
     std::vector<double> values(size);

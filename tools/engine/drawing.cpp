@@ -126,6 +126,20 @@ class Drawing {
          << px(std::abs(view_.x(a) - view_.x(b))) << "\" height=\""
          << px(std::abs(view_.y(a) - view_.y(b))) << "\" " << style << "/>\n";
   }
+  /// A frustum from the side: its two ends and the lines between them.
+  void frustum(Vec3 from, Vec3 to, double radius, double end_radius, const std::string& style) {
+    const double x = view_.x(to) - view_.x(from);
+    const double y = view_.y(to) - view_.y(from);
+    const double length = std::max(std::hypot(x, y), 1e-9);
+    out_ << "<polygon points=\"";
+    const std::pair<Vec3, double> corners[] = {
+        {from, radius}, {to, end_radius}, {to, -end_radius}, {from, -radius}};
+    for (const auto& [at, side] : corners) {
+      const double reach = side * view_.scale() / length;
+      out_ << px(view_.x(at) + y * reach) << ',' << px(view_.y(at) - x * reach) << ' ';
+    }
+    out_ << "\" " << style << "/>\n";
+  }
   void cross(Vec3 at, const char* colour) {
     constexpr double k_arm = 6.0;
     out_ << "<path fill=\"none\" stroke=\"" << colour << "\" stroke-width=\"1.5\" d=\"M"
@@ -168,10 +182,22 @@ class Drawing {
     const std::string what = "emitter: " + spec.model.name;
     const auto* min = value_of<Vec3>(registry_, spec.model, "min");
     const auto* max = value_of<Vec3>(registry_, spec.model, "max");
+    const std::string style = std::string("fill=\"") + k_emitter +
+                              "\" fill-opacity=\"0.08\" stroke=\"" + k_emitter +
+                              "\" stroke-width=\"1.5\"";
+    const auto* from = value_of<Vec3>(registry_, spec.model, "from");
+    const auto* to = value_of<Vec3>(registry_, spec.model, "to");
+    const auto* radius = value_of<double>(registry_, spec.model, "radius");
+    if (from != nullptr && to != nullptr && radius != nullptr && is_finite(*from) &&
+        is_finite(*to) && *radius > 0.0) {
+      const auto* end = value_of<double>(registry_, spec.model, "end_radius");
+      frustum(turned(*from), turned(*to), *radius, end != nullptr && *end > 0.0 ? *end : *radius,
+              style);
+      enter(k_emitter, spec.name, what, corner(turned(*from), turned(*to)));
+      return;
+    }
     if (min != nullptr && max != nullptr && is_finite(*min) && is_finite(*max) && !(*min == *max)) {
-      rectangle(turned(*min), turned(*max),
-                std::string("fill=\"") + k_emitter + "\" fill-opacity=\"0.08\" stroke=\"" +
-                    k_emitter + "\" stroke-width=\"1.5\"");
+      rectangle(turned(*min), turned(*max), style);
       enter(k_emitter, spec.name, what, corner(turned(*min), turned(*max)));
       return;
     }

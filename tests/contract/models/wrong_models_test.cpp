@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A rule that no model can break is none: one wrong model per rule, and what is said of it.
-#include "contract/contract.hpp"
+#include "contract/models/wrong_models.hpp"
 #include "dust/sdk/cohesion_law.hpp"
 #include "dust/sdk/plugin.hpp"
 #include "dust/sdk/sphere.hpp"
-#include "engine/counting_new.hpp"
 
 #include <doctest/doctest.h>
 
@@ -14,36 +13,12 @@
 #include <vector>
 
 using namespace dust;
-using contract::Verdict;
+using wrong::described;
+using wrong::findings_of;
+using wrong::Seen;
+using wrong::Verdict;
 
 namespace {
-
-sdk::ModelInfo described(const char* kind, sdk::ParameterSchema schema = {}) {
-  return {.kind = kind,
-          .name = "wrong",
-          .version = "1.0",
-          .summary = "Wrong.",
-          .equation = "0",
-          .source = "nobody",
-          .parameters = std::move(schema)};
-}
-
-/// The findings on a model made by `make` from its values.
-std::vector<contract::Finding> findings_of(sdk::ModelInfo info, sdk::ModelFactory make) {
-  contract::Options options;
-  options.allocations = engine::allocations_so_far;
-  return contract::check_model({std::move(info), std::move(make), {}}, options);
-}
-
-/// What the rule whose sentence holds `rule` says; "" if it is kept.
-std::string broken(const std::vector<contract::Finding>& findings, const std::string& rule) {
-  for (const auto& finding : findings) {
-    if (finding.rule.find(rule) == std::string::npos) continue;
-    return finding.verdict == Verdict::fail ? finding.why : "";
-  }
-  FAIL("no such rule: " << rule);
-  return "";
-}
 
 using Evaluate = std::function<void(const sdk::DragBatch&, double)>;
 
@@ -73,39 +48,53 @@ void each(const sdk::DragBatch& b, const std::function<double(std::size_t)>& fac
 }  // namespace
 
 TEST_CASE("a drag law that is wrong shall be told by the rule it breaks") {
-  CHECK(broken(drag([](auto& b, double) { each(b, [](auto) { return 1.0; }); }),
-               "parameter matters") == "no other value changes anything: 'size'");
-  CHECK(broken(drag([](auto& b, double p) { each(b, [&](auto) { return p; }); }), "homogeneous")
-            .find("4.0") != std::string::npos);
-  CHECK(broken(drag([](auto& b, double) {
-                 each(b, [&](auto n) { return n == 2 ? std::nan("") : 1.0; });
-               }),
-               "finite") ==
-        "factor at Re 0.01, void fraction 0.3 is not finite, or is not written");
+  Seen seen;
+  CHECK(seen.broken(drag([](auto& b, double) { each(b, [](auto) { return 1.0; }); }),
+                    "parameter matters") == "no other value changes anything: 'size'");
   CHECK(
-      broken(drag([](auto& b, double) { each(b, [&](auto n) { return static_cast<double>(n); }); }),
-             "split")
-          .find("in batches of 1") != std::string::npos);
-  CHECK(broken(drag([](auto& b, double) { b.factor[b.count] = 1.0; }), "finite") ==
+      seen.broken(drag([](auto& b, double p) { each(b, [&](auto) { return p; }); }), "homogeneous")
+          .find("4.0") != std::string::npos);
+  CHECK(seen.broken(drag([](auto& b, double) {
+                      each(b, [&](auto n) { return n == 2 ? std::nan("") : 1.0; });
+                    }),
+                    "finite") ==
+        "factor at Re 0.01, void fraction 0.3 is not finite, or is not written");
+  CHECK(seen.broken(drag([](auto& b, double) {
+                      each(b, [&](auto n) { return static_cast<double>(n); });
+                    }),
+                    "split")
+            .find("in batches of 1") != std::string::npos);
+  CHECK(seen.broken(drag([](auto& b, double) { b.factor[b.count] = 1.0; }), "finite") ==
         "it writes beyond the end of the batch");
-  CHECK(broken(drag([](auto& b, double) { const_cast<double*>(b.reynolds)[0] = 1.0; }), "finite") ==
-        "it overwrites its input");
-  CHECK(broken(drag([](auto& b, double) { each(b, [](auto) { return -1.0; }); }), "negative") ==
-        "F = -1 at Re 0");
-  CHECK(broken(drag([](auto& b, double) { each(b, [&](auto n) { return 1e9 - b.reynolds[n]; }); }),
-               "negative")
+  CHECK(seen.broken(drag([](auto& b, double) { const_cast<double*>(b.reynolds)[0] = 1.0; }),
+                    "finite") == "it overwrites its input");
+  CHECK(seen.broken(drag([](auto& b, double) { each(b, [](auto) { return -1.0; }); }),
+                    "negative") == "F = -1 at Re 0");
+  CHECK(seen.broken(
+                drag([](auto& b, double) { each(b, [&](auto n) { return 1e9 - b.reynolds[n]; }); }),
+                "negative")
             .find("F falls between Re 0 and 1e-06") != std::string::npos);
-  CHECK(broken(drag([](auto& b, double) {
-                 const std::vector<double> copy(b.count, 1.0);
-                 each(b, [&](auto n) { return copy[n]; });
-               }),
-               "allocate") == "it allocates 1 times in one call");
-  CHECK(broken(drag([](auto&, double) { throw sdk::ModelError("too dense"); }), "finite") ==
+  CHECK(seen.broken(drag([](auto& b, double) {
+                      const std::vector<double> copy(b.count, 1.0);
+                      each(b, [&](auto n) { return copy[n]; });
+                    }),
+                    "allocate") == "it allocates 1 times in one call");
+  CHECK(seen.broken(drag([](auto&, double) { throw sdk::ModelError("too dense"); }), "finite") ==
         "it throws: too dense");
   static double memory = 1.0;
-  CHECK(broken(drag([](auto& b, double) { each(b, [](auto) { return memory *= 1.1; }); }),
-               "asked again")
+  CHECK(seen.broken(drag([](auto& b, double) { each(b, [](auto) { return memory *= 1.1; }); }),
+                    "asked again")
             .find("differs between two models") != std::string::npos);
+  CHECK(seen.remarked(drag([](auto& b, double) { each(b, [](auto) { return 2.0; }); }), "Stokes") ==
+        "F = 2: meant for crowds only? Its limits should say so");
+  sdk::ModelInfo silent = described("drag");
+  silent.source.clear();
+  CHECK(seen.broken(findings_of(std::move(silent),
+                                [](std::span<const sdk::Value>) {
+                                  return std::make_unique<Drag>([](auto&, double) {}, 0.0);
+                                }),
+                    "says what it is") == "it has no source: author, year, or \"own definition\"");
+  seen.check_complete(true);
 }
 
 namespace {
@@ -175,27 +164,30 @@ std::vector<contract::Finding> spring(Spring::Fault fault) {
 }  // namespace
 
 TEST_CASE("a contact law that is wrong shall be told by the rule it breaks") {
+  Seen seen;
   for (const auto& finding : spring(Spring::none)) {
     // History is out of reach of a law that has none; its spring is told as it is.
     INFO(finding.rule);
     CHECK_MESSAGE(finding.verdict != Verdict::fail, finding.why);
   }
-  CHECK(broken(spring(Spring::one_sided), "both sides").find("seen from the other side") == 0);
-  CHECK(broken(spring(Spring::along_x), "direction").find("in a turned world") == 0);
-  CHECK(broken(spring(Spring::bouncy), "restitution").find("realised") != std::string::npos);
-  CHECK(broken(spring(Spring::slow_times), "times").find("collision_time says") !=
+  CHECK(seen.broken(spring(Spring::one_sided), "both sides").find("seen from the other side") == 0);
+  CHECK(seen.broken(spring(Spring::along_x), "direction").find("in a turned world") == 0);
+  CHECK(seen.broken(spring(Spring::bouncy), "restitution").find("realised") != std::string::npos);
+  CHECK(seen.broken(spring(Spring::slow_times), "times").find("collision_time says") !=
         std::string::npos);
-  CHECK(broken(spring(Spring::sticky_sliding), "energy").find("of its energy") !=
+  CHECK(seen.broken(spring(Spring::sticky_sliding), "energy").find("of its energy") !=
         std::string::npos);
-  CHECK(broken(spring(Spring::tells_stiffness_wrong), "stiffness").find("normal_stiffness is") ==
-        0);
+  CHECK(
+      seen.broken(spring(Spring::tells_stiffness_wrong), "stiffness").find("normal_stiffness is") ==
+      0);
+  seen.check_complete();
 }
 
 namespace {
 
 /// Attraction 2 pi gamma R* in touch, or something that is none.
 struct Sticky final : sdk::CohesionLaw {
-  enum Fault { none, pushes, reaches_far, rests_elsewhere, winds_up };
+  enum Fault { none, pushes, reaches_far, rests_elsewhere, winds_up, shrinks };
   Fault fault;
   double young = 1.0;
   explicit Sticky(Fault f) : fault(f) {}
@@ -216,7 +208,9 @@ struct Sticky final : sdk::CohesionLaw {
       b.attraction[q] = f;
     }
   }
-  [[nodiscard]] double range(double) const override { return 0.0; }
+  [[nodiscard]] double range(double radius) const override {
+    return fault == shrinks ? 1e-9 / radius : 0.0;
+  }
   [[nodiscard]] double resting_overlap(double radius) const override {
     const double d =
         std::cbrt(std::pow(0.75 * strength(radius) / (young * std::sqrt(radius)), 2.0));
@@ -233,18 +227,21 @@ std::vector<contract::Finding> sticky(Sticky::Fault fault) {
 }  // namespace
 
 TEST_CASE("a cohesive law that is wrong shall be told by the rule it breaks") {
+  Seen seen;
   for (const auto& finding : sticky(Sticky::none)) {
     INFO(finding.rule);
     // Its strength per radius, 0.3 N/m, is a hidden unit.
     if (finding.rule.find("homogeneous") != std::string::npos) continue;
     CHECK_MESSAGE(finding.verdict != Verdict::fail, finding.why);
   }
-  CHECK(broken(sticky(Sticky::pushes), "attracts").find("it pushes") == 0);
-  CHECK(broken(sticky(Sticky::reaches_far), "attracts").find("beyond range()") !=
+  CHECK(seen.broken(sticky(Sticky::pushes), "attracts").find("it pushes") == 0);
+  CHECK(seen.broken(sticky(Sticky::reaches_far), "attracts").find("beyond range()") !=
         std::string::npos);
-  CHECK(broken(sticky(Sticky::rests_elsewhere), "rests").find("resting_overlap() says") == 0);
-  CHECK(broken(sticky(Sticky::winds_up), "energy").find("more than there were") !=
+  CHECK(seen.broken(sticky(Sticky::rests_elsewhere), "rests").find("resting_overlap() says") == 0);
+  CHECK(seen.broken(sticky(Sticky::shrinks), "range that grows").find("range() falls") == 0);
+  CHECK(seen.broken(sticky(Sticky::winds_up), "energy").find("more than there were") !=
         std::string::npos);
+  seen.check_complete();
 }
 
 namespace {
@@ -257,7 +254,6 @@ struct Drip final : sdk::Emitter {
     for (; (released + 1.0) * mass / (share * k_flow) < context.end; ++released) {
       sdk::Seed seed;
       seed.time = (released + 1.0) * mass / (share * k_flow);
-      if (seed.time < context.begin) continue;
       seed.velocity = {0.0, 0.0, -1.0};
       seed.diameter = k_diameter;
       seeds.push_back(seed);
@@ -275,12 +271,15 @@ struct Drip final : sdk::Emitter {
 }  // namespace
 
 TEST_CASE("an emitter that is wrong shall be told by the rule it breaks") {
+  Seen seen;
   const auto findings = findings_of(described("emitter"), [](std::span<const sdk::Value>) {
     return std::make_unique<Drip>(0.8);
   });
-  CHECK(broken(findings, "mass").find("kg came in") != std::string::npos);
-  CHECK(broken(findings, "speeds").find("told are 0.5") != std::string::npos);
-  CHECK(broken(findings, "homogeneous").find("the number of results") != std::string::npos);
+  CHECK(seen.broken(findings, "mass").find("kg came in") != std::string::npos);
+  CHECK(seen.broken(findings, "speeds").find("told are 0.5") != std::string::npos);
+  CHECK(seen.broken(findings, "homogeneous").find("the number of results") != std::string::npos);
+  CHECK(seen.broken(findings, "saved and loaded").find("it gives ") != std::string::npos);
+  seen.check_complete();
 }
 
 namespace {
@@ -293,15 +292,24 @@ struct Counter final : sdk::Sensor {
   double looks = 0.0;
 };
 
+struct Blind final : sdk::Sensor {
+  void observe(const sdk::WorldView&) override {}
+  void series(sdk::FigureSink&) const override {}
+  void summary(sdk::FigureSink&) const override {}
+};
+
 }  // namespace
 
 TEST_CASE("a sensor that is wrong shall be told by the rule it breaks") {
+  Seen seen;
   const auto findings = findings_of(
       described("sensor"), [](std::span<const sdk::Value>) { return std::make_unique<Counter>(); });
-  CHECK(broken(findings, "names") == "'Looks' is not a path of snake_case words");
-  CHECK(broken(findings, "zeros") == "'looks' is 90 in an empty domain");
-  CHECK(broken(findings, "saved and loaded").find("after 1 samples 'looks' differs") !=
+  CHECK(seen.broken(findings, "names") == "'Looks' is not a path of snake_case words");
+  CHECK(seen.broken(findings, "zeros") == "'looks' is 90 in an empty domain");
+  CHECK(seen.broken(findings, "saved and loaded").find("after 1 samples 'looks' differs") !=
         std::string::npos);
+  CHECK(seen.broken(wrong::findings_on<Blind>(), "sees something") == "its summary is empty");
+  seen.check_complete();
 }
 
 TEST_CASE("parameters that cannot be guessed shall be asked for, unknown ones refused") {
