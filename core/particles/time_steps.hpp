@@ -10,9 +10,6 @@ namespace dust::particles {
 
 /// Grains of at least this share of the largest diameter step at the coarse rate.
 inline constexpr double k_coarse_share = 1.0 / 8.0;
-/// Approach speed [m/s] taken where a scenario gives none and no body moves faster: the speed of a
-/// fall from 13 mm. Approach speeds in contacts count, not the speed of a free fall.
-inline constexpr double k_default_speed = 0.5;
 
 /// Rayleigh time [s]: \f$ T_R = \pi R \sqrt{\rho/G} / (0.1631 \nu + 0.8766) \f$,
 /// \f$ G = E / (2 (1 + \nu)) \f$. Source: Li, Xu, Thornton, Powder Technol. 160 (2005) 219.

@@ -39,8 +39,10 @@ const ParameterSchema& TimeBlock::schema() {
              "Fixed step of the grains; 0 derives one per size class.")
         .at_least(0)
         .optional();
-    s.number(&TimeBlock::expected_speed, "expected_speed", dimension::velocity,
-             "Largest approach speed of grains, for their steps; 0 takes it from bodies and drops.")
+    s.number(
+         &TimeBlock::expected_speed, "expected_speed", dimension::velocity,
+         "Largest approach speed of grains, for their steps; 0 takes that of the fastest body, at "
+         "least 0.5 m/s.")
         .at_least(0)
         .optional();
     s.text(&TimeBlock::rates, "rates",

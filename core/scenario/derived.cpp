@@ -27,6 +27,8 @@ constexpr double k_steps_per_collision = 15.0;
 constexpr double k_fewest_steps_per_collision = 3.0;
 // Grains below this share of the largest diameter are sub-cycled.
 constexpr double k_coarse_share = 1.0 / 8.0;
+// Forgives the rounding of a quotient that is a whole number.
+constexpr double k_whole_slack = 1e-9;
 
 using Emitters = std::vector<std::unique_ptr<sdk::Emitter>>;
 
@@ -64,6 +66,12 @@ double expected_speed(const Setup& setup, const Emitters& emitters, double body_
   for (const auto& emitter : emitters) speed = std::max(speed, emitter->largest_speed());
   // v^2 = v_0^2 + 2 g h
   return std::sqrt(speed * speed + 2.0 * norm(setup.gravity) * fall_height(setup));
+}
+
+/// As the run takes it (particles/time_steps.hpp).
+double impact_speed(const Setup& setup, double body_speed) {
+  if (setup.time.expected_speed > 0.0) return setup.time.expected_speed;
+  return std::max(k_default_speed, body_speed);
 }
 
 /// The shortest collision of a grain with its like or with a wall of any material it may meet.
@@ -110,7 +118,7 @@ void derive_steps(const Setup& setup, const registry::Registry& registry, const 
       size.diameter = diameter;
       size.rayleigh_time = rayleigh_time(
           0.5 * diameter, setup.materials[static_cast<std::size_t>(material)].properties);
-      find_hertz_time(setup, registry, derived.expected_speed, size);
+      find_hertz_time(setup, registry, derived.impact_speed, size);
       size.stable_step =
           std::min(k_rayleigh_share * size.rayleigh_time, size.hertz_time / k_steps_per_collision);
       derived.sizes.push_back(size);
@@ -119,21 +127,30 @@ void derive_steps(const Setup& setup, const registry::Registry& registry, const 
   std::stable_sort(
       derived.sizes.begin(), derived.sizes.end(),
       [](const SizeNumbers& a, const SizeNumbers& b) { return a.diameter < b.diameter; });
+  if (derived.sizes.empty()) return;
+  if (!setup.time.rates_single) {
+    derived.coarse_limit = k_coarse_share * derived.sizes.back().diameter * (1.0 - 1e-12);
+  }
   for (std::size_t n = 0; n < derived.sizes.size(); ++n) {
     const double step = derived.sizes[n].stable_step;
     if (derived.deciding_size < 0 || step < derived.smallest_step) {
       derived.deciding_size = static_cast<int>(n);
       derived.smallest_step = step;
     }
-    derived.largest_step = std::max(derived.largest_step, step);
+    if (derived.sizes[n].diameter < derived.coarse_limit) continue;
+    if (derived.coarse_deciding_size < 0 || step < derived.largest_step) {
+      derived.coarse_deciding_size = static_cast<int>(n);
+      derived.largest_step = step;
+    }
   }
-  derived.smallest_step = std::min(derived.smallest_step, setup.time.fluid_step);
-  derived.largest_step = std::min(derived.largest_step, setup.time.fluid_step);
   if (setup.time.dem_step > 0.0) {
     derived.smallest_step = derived.largest_step = setup.time.dem_step;
-  } else if (setup.time.rates_single) {
-    derived.largest_step = derived.smallest_step;
   }
+  // As the run does: a whole number of steps per fluid step.
+  const double interval = setup.time.fluid_step;
+  derived.largest_step =
+      interval / std::max(1.0, std::ceil(interval / derived.largest_step - k_whole_slack));
+  derived.smallest_step = std::min(derived.smallest_step, derived.largest_step);
 }
 
 /// Lets a fresh emitter propose the grains of a short time and counts them.
@@ -200,25 +217,19 @@ void check_fixed_step(const Setup& setup, const registry::Registry& registry, co
   if (!(step > 0.0)) return;
   const Emitters emitters = make_emitters(setup, registry);
   Derived derived;
-  derived.expected_speed = expected_speed(setup, emitters, largest_body_speed(setup, registry));
+  derived.impact_speed = impact_speed(setup, largest_body_speed(setup, registry));
   derive_steps(setup, registry, emitters, derived);
-  const double largest = derived.sizes.empty() ? 0.0 : derived.sizes.back().diameter;
-  const SizeNumbers* deciding = nullptr;
-  for (const SizeNumbers& size : derived.sizes) {
-    const bool has_the_step =
-        setup.time.rates_single || size.diameter >= k_coarse_share * largest * (1.0 - 1e-12);
-    if (has_the_step && (deciding == nullptr || size.stable_step < deciding->stable_step)) {
-      deciding = &size;
-    }
-  }
-  if (deciding == nullptr || step <= deciding->stable_step) return;
+  if (derived.sizes.empty()) return;
+  const SizeNumbers* deciding =
+      &derived.sizes[static_cast<std::size_t>(derived.coarse_deciding_size)];
+  if (step <= deciding->stable_step) return;
   const bool is_hopeless =
       step > deciding->rayleigh_time || k_fewest_steps_per_collision * step > deciding->hertz_time;
   const std::string text =
       "time.dem_step: " + number_text(step) + " s is longer than the stable step of grains of " +
       short_number(deciding->diameter) + " m, " + short_number(deciding->stable_step) +
       " s (Rayleigh time " + short_number(deciding->rayleigh_time) + " s, shortest collision " +
-      short_number(deciding->hertz_time) + " s at " + short_number(derived.expected_speed) +
+      short_number(deciding->hertz_time) + " s at " + short_number(derived.impact_speed) +
       " m/s): " +
       (is_hopeless ? "the grains would fly apart; leave dem_step out or give at most that"
                    : "collisions lose their accuracy; leave dem_step out or give at most that");
@@ -234,6 +245,7 @@ Derived derive(const Setup& setup, const registry::Registry& registry) {
   const Emitters emitters = make_emitters(setup, registry);
   const double body_speed = largest_body_speed(setup, registry);
   derived.expected_speed = expected_speed(setup, emitters, body_speed);
+  derived.impact_speed = impact_speed(setup, body_speed);
   derive_steps(setup, registry, emitters, derived);
   for (std::size_t n = 0; n < emitters.size(); ++n) {
     derived.emissions.push_back(count_grains(setup, setup.emitters[n], *emitters[n]));

@@ -29,13 +29,20 @@ struct EmissionNumbers {
   double at_once = 0.0;              ///< computed grains that come at one moment
 };
 
+/// Approach speed [m/s] taken where a scenario gives none and no body moves faster: the speed of a
+/// fall from 13 mm. Approach speeds in contacts count, not the speed of a free fall.
+inline constexpr double k_default_speed = 0.5;
+
 /// Numbers that follow from a scenario and tell whether it is sensible, before it is run.
 struct Derived {
-  double expected_speed = 0.0;  ///< [m/s] of approach: given, or bodies, emitters and drops
+  double expected_speed = 0.0;  ///< [m/s] of flow: given, or bodies, emitters and drops
+  double impact_speed = 0.0;    ///< [m/s] of grains that meet, from which the steps follow
   std::vector<SizeNumbers> sizes;
-  int deciding_size = -1;      ///< which of `sizes` sets the smallest step
-  double smallest_step = 0.0;  ///< [s]
-  double largest_step = 0.0;   ///< [s] of the coarsest class, at most the fluid's step
+  int deciding_size = -1;         ///< which of `sizes` sets the smallest step
+  double smallest_step = 0.0;     ///< [s]
+  double coarse_limit = 0.0;      ///< [m] grains from here on share the largest step
+  double largest_step = 0.0;      ///< [s] a whole part of the fluid's step
+  int coarse_deciding_size = -1;  ///< which of `sizes` sets it
   std::vector<EmissionNumbers> emissions;
   double smallest_spacing = 0.0;       ///< [m] 0 without fluid
   double diameter_over_spacing = 0.0;  ///< largest grain over smallest cell edge

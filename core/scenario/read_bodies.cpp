@@ -96,6 +96,11 @@ std::optional<RemovalSpec> SetupReader::read_removal(MapReader& reader, Node& wr
   if (inner.is_good() && has_time == has_energy) {
     error(entry->where, reader.path_of("remove") + ": give at or " +
                             "when_kinetic_energy_per_grain_below" + (has_time ? ", not both" : ""));
+  } else if (inner.is_good() && has_energy && !(read.kinetic_energy_per_grain > 0.0)) {
+    // Zero stands for "not given" and is let through by the block itself.
+    error(mark_of(entry->value, "when_kinetic_energy_per_grain_below"),
+          reader.path_of("remove") + ".when_kinetic_energy_per_grain_below: 0 is never reached; " +
+              "give an energy above 0 J");
   } else if (has_time && entry->value.find("after") != nullptr) {
     error(entry->where, reader.path_of("remove") + ": after belongs to " +
                             "when_kinetic_energy_per_grain_below, not to at");

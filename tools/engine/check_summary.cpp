@@ -151,9 +151,23 @@ void tell_fluid(std::ostream& out, const Setup& setup, const Derived& derived) {
   out << '\n';
 }
 
+/// Whether fine grains are stepped more often than the others.
+bool has_two_steps(const Derived& derived) {
+  return derived.sizes.front().diameter < derived.coarse_limit;
+}
+
+/// What a size has to do with the steps.
+std::string step_note(const Derived& derived, int size) {
+  if (!has_two_steps(derived)) return size == derived.deciding_size ? "<- sets the step" : "";
+  if (size == derived.deciding_size) return "<- sets the smallest step";
+  return size == derived.coarse_deciding_size
+             ? "<- sets the step from " + engineering(derived.coarse_limit, "m") + " on"
+             : "";
+}
+
 void tell_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
   if (derived.sizes.empty()) return;
-  out << "  grains     diameter   Rayleigh    Hertz at " << digits(derived.expected_speed)
+  out << "  grains     diameter   Rayleigh    Hertz at " << digits(derived.impact_speed)
       << " m/s   stable step\n";
   for (std::size_t n = 0; n < derived.sizes.size(); ++n) {
     const auto& size = derived.sizes[n];
@@ -163,7 +177,7 @@ void tell_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
                   engineering(size.rayleigh_time, "s").c_str(),
                   (engineering(size.hertz_time, "s") + " (" + size.partner + ")").c_str(),
                   engineering(size.stable_step, "s").c_str(),
-                  static_cast<int>(n) == derived.deciding_size ? "<- sets the smallest step" : "");
+                  step_note(derived, static_cast<int>(n)).c_str());
     out << row.data();
   }
   if (setup.time.dem_step > 0.0) {
@@ -174,11 +188,12 @@ void tell_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
         << " steps per collision";
     if (setup.time.dem_step > deciding.stable_step) out << " (longer than the stable step)";
     out << '\n';
-  } else if (setup.time.rates_single) {
-    out << "             one step for all: " << engineering(derived.smallest_step, "s") << '\n';
+  } else if (!has_two_steps(derived)) {
+    out << "             one step for all: " << engineering(derived.largest_step, "s") << '\n';
   } else {
-    out << "             steps from " << engineering(derived.smallest_step, "s") << " to "
-        << engineering(derived.largest_step, "s") << ", each size class its own\n";
+    out << "             step " << engineering(derived.largest_step, "s") << "; grains below "
+        << engineering(derived.coarse_limit, "m") << " step down to "
+        << engineering(derived.smallest_step, "s") << " where they meet others\n";
   }
   out << "             narrowest extent / largest grain W/D = "
       << digits(derived.width_over_diameter);

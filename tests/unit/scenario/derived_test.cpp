@@ -33,14 +33,19 @@ TEST_CASE("the smallest grain shall set the step and each step shall keep both s
               .epsilon(k_roundings));
   }
   CHECK(derived.smallest_step == derived.sizes[0].stable_step);
-  CHECK(derived.largest_step == derived.sizes[4].stable_step);
+  // Grains of more than an eighth of the largest, here from 300 um on, share the step of the
+  // smallest of them, a whole part of the fluid's.
+  CHECK(derived.coarse_deciding_size == 1);
+  const double parts = setup.time.fluid_step / derived.largest_step;
+  CHECK(parts == doctest::Approx(std::ceil(setup.time.fluid_step / derived.sizes[1].stable_step))
+                     .epsilon(k_roundings));
 }
 
 TEST_CASE("a fixed step shall replace the derived ones") {
   const auto setup = read(transfer_point(), {{"time.dem_step", "1e-7"}}).setup;
   const auto derived = scenario::derive(setup, fakes());
   CHECK(derived.smallest_step == 1e-7);
-  CHECK(derived.largest_step == 1e-7);
+  CHECK(derived.largest_step == doctest::Approx(1e-7).epsilon(k_roundings));
 }
 
 TEST_CASE("the expected speed shall be that of bodies and the fall through the domain") {
@@ -48,8 +53,11 @@ TEST_CASE("the expected speed shall be that of bodies and the fall through the d
   // belt 0.8 m/s, fall 0.35 m: root(0.64 + 2 * 9.81 * 0.35)
   CHECK(scenario::derive(setup, fakes()).expected_speed ==
         doctest::Approx(std::sqrt(0.64 + 2 * 9.81 * 0.35)).epsilon(k_roundings));
+  // Steps follow from the belt alone.
+  CHECK(scenario::derive(setup, fakes()).impact_speed == 0.8);
   setup.time.expected_speed = 1.5;
   CHECK(scenario::derive(setup, fakes()).expected_speed == 1.5);
+  CHECK(scenario::derive(setup, fakes()).impact_speed == 1.5);
 }
 
 TEST_CASE("ratios and the rate of grains shall follow from the scenario") {

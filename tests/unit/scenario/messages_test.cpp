@@ -274,6 +274,9 @@ TEST_CASE("motions and removals that contradict themselves shall be told") {
       "lid: {shape: plane, material: glass, point: [0, 0, 0], normal: [0, 0, 1]";
   check_body(plane + ", remove: {at: 1 s, when_kinetic_energy_per_grain_below: 1 uJ}}",
              "bodies.lid.remove: give at or when_kinetic_energy_per_grain_below, not both", false);
+  check_body(plane + ", remove: {when_kinetic_energy_per_grain_below: 0}}",
+             "bodies.lid.remove.when_kinetic_energy_per_grain_below: 0 is never reached; give an "
+             "energy above 0 J");
   check_body(plane + ", remove: {}}",
              "bodies.lid.remove: give at or when_kinetic_energy_per_grain_below", false);
   check_body(plane + ", remove: {at: 1 s, after: 1 s}}",
