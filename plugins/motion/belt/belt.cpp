@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "belt.hpp"
+#include "../course.hpp"
 
 #include <dust/sdk/plugin.hpp>
 

@@ -32,7 +32,7 @@ inline sdk::ModelInfo described(const char* kind, sdk::ParameterSchema schema = 
 /// The findings on a model made by `make` from its values.
 inline std::vector<Finding> findings_of(sdk::ModelInfo info, sdk::ModelFactory make) {
   dust::contract::Options options;
-  options.allocations = engine::allocations_so_far;
+  options.allocations = dust::engine::allocations_so_far;
   return dust::contract::check_model({std::move(info), std::move(make), {}}, options);
 }
 

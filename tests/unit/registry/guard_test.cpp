@@ -53,7 +53,7 @@ std::string said(const Call& call) {
 template <class KindOfModel>
 struct Trial : KindOfModel {
   using Kind = KindOfModel;
-  explicit Trial(Deed what) : what(what) {}
+  explicit Trial(Deed d) : what(d) {}
   Deed what;
 };
 
