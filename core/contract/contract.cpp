@@ -99,6 +99,14 @@ class Variation {
     }
     return false;
   }
+  /// Whether another whole set of values, with another value of parameter n, gives something else:
+  /// the only way to try a choice that brings parameters of its own.
+  [[nodiscard]] bool matters_beside(const Variation& other, std::size_t n) const {
+    if (values_[n] == other.values_[n]) return false;
+    const auto mine = observe(values_);
+    const auto theirs = other.observe(other.values_);
+    return mine && theirs && !first_difference(*mine, *theirs).empty();
+  }
 
  private:
   /// Nothing where the values contradict each other.
@@ -139,7 +147,9 @@ void check_parameters(const Kind& kind, const registry::Entry& entry,
   std::string unknown;
   for (std::size_t n = 0; n < values.size(); ++n) {
     const auto is_open = [&](const Variation& v) { return v.is_open(n); };
-    const auto matters = [&](const Variation& v) { return v.matters(n); };
+    const auto matters = [&](const Variation& v) {
+      return v.matters(n) || variations.front().matters_beside(v, n);
+    };
     const std::string name = " '" + entry.info.parameters[n].name + "'";
     if (std::none_of(variations.begin(), variations.end(), is_open)) {
       unknown += name;

@@ -13,7 +13,7 @@ namespace {
 // virtual machine, which is up to twice as slow when its neighbour works: the constants lie between
 // both.
 constexpr double k_bytes_base = 4e7;
-constexpr double k_bytes_per_grain = 600.0;
+constexpr double k_bytes_per_grain = 1000.0;  // with lists, and copies on their way to disk
 constexpr double k_bytes_per_cell = 900.0;
 constexpr double k_frame_bytes_per_grain = 75.0;  // packed
 constexpr double k_frame_bytes_per_cell = 11.0;
@@ -22,7 +22,7 @@ constexpr double k_checkpoint_bytes_per_cell = 120.0;
 // Steps of grains per second: those at rest in a bed have six contacts each, those of a stream meet
 // now and then, those of a gas fly from one collision to the next.
 constexpr double k_bed_steps_per_second = 7e6;
-constexpr double k_stream_steps_per_second = 2.2e7;
+constexpr double k_stream_steps_per_second = 1.6e7;
 constexpr double k_gas_steps_per_second = 7e7;
 constexpr double k_cell_steps_per_second = 3e6;
 constexpr double k_start_seconds = 0.3;
@@ -35,19 +35,13 @@ double extent_along(const DomainSpec& domain, sdk::Vec3 direction) {
          std::abs(size.z * direction.z);
 }
 
-/// What a grain that is there at once costs per step of all, in the mean [s]: with gravity it falls
-/// through half of the domain and then rests, without it may be one of a gas.
-double seconds_at_once(const Setup& setup, double grains, const Derived& derived) {
-  const double g = norm(setup.gravity);
-  double flying = 0.0;  // share of the time
-  if (g > 0.0) {
-    flying = std::min(1.0, std::sqrt(fall_height(setup) / g) / setup.time.end);
-  } else if (!derived.sizes.empty()) {
-    const sdk::Vec3 size = setup.domain.max - setup.domain.min;
-    const double solids = grains * sdk::sphere_volume(derived.sizes.back().diameter);
-    flying = solids > k_dense * size.x * size.y * size.z ? 0.0 : 1.0;
-  }
-  return flying / k_gas_steps_per_second + (1.0 - flying) / k_bed_steps_per_second;
+/// Steps per second of grains that are there at once: with gravity they lie, or soon will.
+double rate_at_once(const Setup& setup, double grains, const Derived& derived) {
+  if (norm(setup.gravity) > 0.0 || derived.sizes.empty()) return k_bed_steps_per_second;
+  const sdk::Vec3 size = setup.domain.max - setup.domain.min;
+  const double solids = grains * sdk::sphere_volume(derived.sizes.back().diameter);
+  return solids > k_dense * size.x * size.y * size.z ? k_bed_steps_per_second
+                                                     : k_gas_steps_per_second;
 }
 
 }  // namespace
@@ -90,7 +84,7 @@ void estimate_cost(const Setup& setup, double body_speed, Derived& derived) {
   derived.core_seconds = k_start_seconds + cells * fluid_steps / k_cell_steps_per_second;
   if (derived.largest_step > 0.0) {
     derived.core_seconds += setup.time.end / derived.largest_step *
-                            (at_once * seconds_at_once(setup, at_once, derived) +
+                            (at_once / rate_at_once(setup, at_once, derived) +
                              mean_flowing / k_stream_steps_per_second);
   }
 }

@@ -5,7 +5,7 @@
 
 namespace {
 
-/// Draws the root of a negative number for every grain that moves.
+/// Draws the root of a negative number once a grain is faster than any begins with.
 struct Rootless final : dust::sdk::DragLaw {
   struct Parameters {};
   static dust::sdk::ModelInfo describe() {
@@ -17,7 +17,7 @@ struct Rootless final : dust::sdk::DragLaw {
   explicit Rootless(const Parameters&) {}
   void evaluate(const dust::sdk::DragBatch& batch) const override {
     for (std::size_t n = 0; n < batch.count; ++n) {
-      batch.factor[n] = 1.0 + std::sqrt(-batch.reynolds[n]);
+      batch.factor[n] = 1.0 + 0.1 * std::sqrt(100.0 - batch.reynolds[n]);
     }
   }
 };

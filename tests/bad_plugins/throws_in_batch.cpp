@@ -5,7 +5,7 @@
 
 namespace {
 
-/// Works until it meets a grain that moves.
+/// Works until a grain gets faster than any of the scenario begins with.
 struct Brittle final : dust::sdk::DragLaw {
   struct Parameters {};
   static dust::sdk::ModelInfo describe() {
@@ -17,7 +17,7 @@ struct Brittle final : dust::sdk::DragLaw {
   explicit Brittle(const Parameters&) {}
   void evaluate(const dust::sdk::DragBatch& batch) const override {
     for (std::size_t n = 0; n < batch.count; ++n) {
-      if (batch.reynolds[n] > 0.0) throw std::out_of_range("the table ends at Re = 0");
+      if (batch.reynolds[n] > 100.0) throw std::out_of_range("the table ends at Re = 100");
       batch.factor[n] = 1.0;
     }
   }
