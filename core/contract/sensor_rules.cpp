@@ -121,7 +121,8 @@ void check_names(const Maker& make) {
     }
   }
   std::set<std::string> fields;
-  for (const std::string& name : fields_of(*sensor).names()) {
+  const FieldList written = fields_of(*sensor);
+  for (const std::string& name : written.names()) {
     require(is_name(name) && name.find('/') == std::string::npos,
             "the field '" + name + "' is not snake_case");
     require(fields.insert(name).second, "the field '" + name + "' is given twice");
