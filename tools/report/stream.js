@@ -87,10 +87,10 @@
       svg.append(svg_el('polyline', {points: points.map((p) => `${x(p[0])},${y(p[1])}`).join(' '), style: 'fill:none;stroke:var(--soft);stroke-width:1.4;stroke-dasharray:6 4'}));
       const at = points[Math.floor(points.length * 0.62)];
       svg.append(svg_el('text', {x: x(at[0]) + 10, y: y(at[1]) - 4, 'text-anchor': 'start'}, 'free flight'));
-      for (const lone of flight.lone || []) {
+      for (const [n, lone] of (flight.lone || []).entries()) {
         const path = lone.x.map((v, k) => `${x(v)},${y(lone.drop[k])}`).join(' ');
         svg.append(svg_el('polyline', {points: path, style: 'fill:none;stroke:var(--plot1);stroke-width:1.4;stroke-dasharray:2 3'}));
-        const k = Math.floor(lone.x.length * 0.8);
+        const k = Math.floor(lone.x.length * (n === 0 ? 0.85 : 0.55));  // names apart from each other
         svg.append(svg_el('text', {x: x(lone.x[k]) - 8, y: y(lone.drop[k]) + 4, 'text-anchor': 'end', style: 'fill:var(--plot1)'},
           Dust.number(lone.diameter * 1e6, 3) + ' µm alone'));
       }
