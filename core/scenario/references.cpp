@@ -26,6 +26,7 @@ class NamedFigures final : public sdk::FigureSink {
 class NamedCurves final : public sdk::ReportSink {
  public:
   explicit NamedCurves(SensorFigures& out) : out_(out) {}
+  void section(std::string_view, std::string_view) override {}
   void curve(std::string_view title, std::string_view x_label, std::string_view y_label,
              std::string_view, std::span<const double>, std::span<const double>) override {
     out_.curves.push_back({std::string(title), std::string(x_label), std::string(y_label)});
