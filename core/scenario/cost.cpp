@@ -24,8 +24,10 @@ constexpr double k_checkpoint_bytes_per_cell = 120.0;
 constexpr double k_bed_steps_per_second = 7e6;
 constexpr double k_stream_steps_per_second = 1.6e7;
 constexpr double k_gas_steps_per_second = 7e7;
-constexpr double k_cell_steps_per_second = 3e6;
+constexpr double k_cell_steps_per_second = 2.2e6;
 constexpr double k_start_seconds = 0.3;
+constexpr double k_seconds_per_fluid_step = 7e-4;  // however few the cells
+constexpr double k_seconds_per_frame = 0.03;
 // Solid share above which grains without gravity press on each other.
 constexpr double k_dense = 0.2;
 
@@ -81,7 +83,9 @@ void estimate_cost(const Setup& setup, double body_speed, Derived& derived) {
       k_checkpoint_bytes_per_grain * derived.grains_in_domain + k_checkpoint_bytes_per_cell * cells;
   const double fluid_steps =
       setup.time.end / setup.time.fluid_step * std::max(1.0, std::ceil(derived.courant_number));
-  derived.core_seconds = k_start_seconds + cells * fluid_steps / k_cell_steps_per_second;
+  derived.core_seconds = k_start_seconds + cells * fluid_steps / k_cell_steps_per_second +
+                         frames * k_seconds_per_frame;
+  if (cells > 0.0) derived.core_seconds += fluid_steps * k_seconds_per_fluid_step;
   if (derived.largest_step > 0.0) {
     derived.core_seconds += setup.time.end / derived.largest_step *
                             (at_once / rate_at_once(setup, at_once, derived) +
