@@ -12,7 +12,7 @@ namespace dust::contact {
 struct RowView {
   const double* position = nullptr;  ///< x, y, z, radius
   const double* velocity = nullptr;  ///< synchronised; fourth 1 / mass
-  const double* rotation = nullptr;
+  const double* rotation = nullptr;  ///< fourth radius
 };
 
 /// Minimum image along periodic directions; elsewhere half is infinite, so that nothing is shifted.
@@ -41,8 +41,7 @@ struct Guest {
 /// Finds pairs from entry `next` up to `end` that are closer than touch + `range` [m] until a batch
 /// is full, loads them into the first columns and writes their numbers to `contacts` (k_batch of
 /// them); rows up to the padded count repeat the last one. Moves `next` on and returns how many. A
-/// pair that parts loses its history. Brings near, too, what load_history and the next batch want:
-/// most entries of a watch's list touch.
+/// pair that parts loses its history. Brings near, too, what load_history and the next batch want.
 std::size_t gather_touching(const RowView& rows, const Images& images, const PairView& pairs,
                             std::size_t& next, std::size_t end, double range,
                             std::int32_t* contacts, BatchColumns& columns);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstring>
+
 namespace dust::contact {
 
 /// Four doubles; the compiler lowers it to whatever the target has.
 typedef double Lanes __attribute__((vector_size(32), may_alias));
 typedef long long LaneMask __attribute__((vector_size(32)));
+typedef double HalfLanes __attribute__((vector_size(16), may_alias));
 
 /// Rows of four become columns of four, and back.
 __attribute__((always_inline)) inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
@@ -17,6 +20,31 @@ __attribute__((always_inline)) inline void transpose(Lanes& a, Lanes& b, Lanes& 
   b = __builtin_shuffle(ab_odd, cd_odd, LaneMask{0, 1, 4, 5});
   c = __builtin_shuffle(ab_even, cd_even, LaneMask{2, 3, 6, 7});
   d = __builtin_shuffle(ab_odd, cd_odd, LaneMask{2, 3, 6, 7});
+}
+
+__attribute__((always_inline)) inline void load(const double* column, Lanes& v) {
+  std::memcpy(&v, column, sizeof v);
+}
+__attribute__((always_inline)) inline void store(double* column, const Lanes& v) {
+  std::memcpy(column, &v, sizeof v);
+}
+
+/// Four rows as columns. The halves of rows come straight from memory to where they belong: loads
+/// are cheaper than shuffles across the halves of a register.
+__attribute__((always_inline)) inline void columns_of(const double* r0, const double* r1,
+                                                      const double* r2, const double* r3,
+                                                      Lanes* column) {
+  for (int at = 0; at < 4; at += 2) {
+    HalfLanes h[4];
+    std::memcpy(&h[0], r0 + at, sizeof h[0]);
+    std::memcpy(&h[1], r1 + at, sizeof h[1]);
+    std::memcpy(&h[2], r2 + at, sizeof h[2]);
+    std::memcpy(&h[3], r3 + at, sizeof h[3]);
+    const Lanes even = __builtin_shufflevector(h[0], h[2], 0, 1, 2, 3);
+    const Lanes odd = __builtin_shufflevector(h[1], h[3], 0, 1, 2, 3);
+    column[at] = __builtin_shuffle(even, odd, LaneMask{0, 4, 2, 6});
+    column[at + 1] = __builtin_shuffle(even, odd, LaneMask{1, 5, 3, 7});
+  }
 }
 
 }  // namespace dust::contact

@@ -88,7 +88,7 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
         materials[static_cast<std::size_t>(g.material)].density * sdk::sphere_volume(g.diameter);
     const double row[3][4] = {{g.position.x, g.position.y, g.position.z, 0.5 * g.diameter},
                               {g.velocity.x, g.velocity.y, g.velocity.z, 1.0 / mass},
-                              {g.rotation.x, g.rotation.y, g.rotation.z, 0.0}};
+                              {g.rotation.x, g.rotation.y, g.rotation.z, 0.5 * g.diameter}};
     for (std::size_t d = 0; d < 4; ++d) {
       store.position[4 * n + d] = row[0][d];
       store.velocity[4 * n + d] = row[1][d];

@@ -12,7 +12,7 @@ struct GrainRows {
   std::size_t count = 0;
   const double* position = nullptr;  ///< x, y, z [m], radius [m]
   const double* velocity = nullptr;  ///< [m/s] at the same instant, 1 / mass [1/kg]
-  const double* rotation = nullptr;  ///< angular velocity [rad/s], unused
+  const double* rotation = nullptr;  ///< angular velocity [rad/s], radius [m]
   const std::int64_t* id = nullptr;
   const std::int32_t* material = nullptr;
   const double* weight = nullptr;  ///< real grains per computed one

@@ -17,9 +17,9 @@ namespace dust::particles {
 struct GrainStore {
   contact::AlignedVector<double> position;  ///< x, y, z, radius
   contact::AlignedVector<double> velocity;  ///< fourth 1 / mass
-  contact::AlignedVector<double> rotation;
+  contact::AlignedVector<double> rotation;  ///< fourth the radius again, for who wants no position
   contact::AlignedVector<double> half_velocity;  ///< fourth lag [s]
-  contact::AlignedVector<double> half_rotation;
+  contact::AlignedVector<double> half_rotation;  ///< fourth the radius
   contact::AlignedVector<double> action;   ///< target velocity, rate [1/s]; empty without a fluid
   contact::AlignedVector<double> impulse;  ///< empty without a fluid
   contact::AlignedVector<double> start;    ///< position at the last rebuild, allowed deviation [m]

@@ -262,7 +262,8 @@ void Dem::Impl::rebuild() {
   const std::size_t size = chunk_rows(coarse_count);
   const std::size_t count = (coarse_count + size - 1) / size;
   chunks.resize(count);
-  std::vector<std::vector<RowPair>> shares(count);
+  // One number per pair, for sorting.
+  std::vector<std::vector<std::uint64_t>> shares(count);
   std::int64_t listed = 0;
   std::int64_t close = 0;
   const auto coarse = static_cast<std::int32_t>(coarse_count);
@@ -286,7 +287,8 @@ void Dem::Impl::rebuild() {
         near_fine.push(a, b);
         continue;
       }
-      shares[static_cast<std::size_t>(std::min(i, j)) / size].emplace_back(a, b);
+      shares[static_cast<std::size_t>(std::min(i, j)) / size].push_back(
+          static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b));
     }
   }
   // Lists are made for so long that the horizon adds little to what the allowances list anyhow.
@@ -322,8 +324,11 @@ void Dem::Impl::rebuild() {
     std::sort(share.begin(), share.end());
     chunk.near_pairs.a.reserve(share.size());
     chunk.near_pairs.b.reserve(share.size());
-    for (const auto& [a, b] : share) chunk.near_pairs.push(a, b);
-    std::vector<RowPair>().swap(share);
+    for (const std::uint64_t pair : share) {
+      chunk.near_pairs.push(static_cast<std::int32_t>(pair >> 32),
+                            static_cast<std::int32_t>(pair & 0xffffffffu));
+    }
+    std::vector<std::uint64_t>().swap(share);
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
       for (std::int32_t i = chunk.begin; i < chunk.end; ++i) {
         if (near_surface(static_cast<std::size_t>(i), surfaces[s])) {

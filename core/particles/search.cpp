@@ -4,8 +4,10 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace dust::particles {
 namespace {
@@ -13,6 +15,9 @@ namespace {
 constexpr std::uint64_t k_empty = ~std::uint64_t{0};
 constexpr int k_bits = 21;
 constexpr std::int64_t k_offset = std::int64_t{1} << (k_bits - 1);
+/// Cells of the box round a level's grains for each of them up to which a table of all cells is
+/// made; with more, most cells are empty and only the others are kept, in a hash table.
+constexpr double k_cells_per_grain = 128.0;
 
 struct Slot {
   std::uint64_t key = k_empty;
@@ -20,34 +25,132 @@ struct Slot {
   std::int32_t count = 0;
 };
 
-/// Grains of one size level in cells of one edge, in a table of open addresses. A grain's ball
-/// holds all places it may be at until the horizon: its centre is the middle of the straight path.
+/// All places a grain may be at until the horizon: the middle of its straight path and round it the
+/// radius, the allowance and half the path.
+struct Ball {
+  double x = 0.0;
+  double y = 0.0;
+  double z = 0.0;
+  double reach = 0.0;
+};
+
+/// Grains of one size level, ordered by cells of one edge. Cells of a row along x stand side by
+/// side where there is a table of all of them.
 class Level {
  public:
-  /// Per row the centre of the ball and its radius.
   Level(const SearchInput& in, const std::vector<std::int32_t>& rows,
-        const std::vector<double>& centre, const std::vector<double>& reach) {
+        const std::vector<Ball>& balls) {
     for (const std::int32_t row : rows) {
-      reach_ = std::max(reach_, reach[static_cast<std::size_t>(row)]);
+      reach_ = std::max(reach_, balls[static_cast<std::size_t>(row)].reach);
     }
     const double edge = std::max({2.0 * reach_, in.smallest_edge, 1e-12});
-    for (int d = 0; d < 3; ++d) {
-      origin_[d] = in.origin[d];
-      cells_[d] = in.period[d] > 0.0
-                      ? std::max<std::int64_t>(1, static_cast<std::int64_t>(in.period[d] / edge))
-                      : 0;
-      inverse_[d] = cells_[d] > 0 ? static_cast<double>(cells_[d]) / in.period[d] : 1.0 / edge;
+    lay_out(in, rows, balls, edge);
+    std::vector<std::int32_t> cell_of(rows.size());
+    is_table_ = !rows.empty() && static_cast<double>(count_[0]) * static_cast<double>(count_[1]) *
+                                         static_cast<double>(count_[2]) <=
+                                     k_cells_per_grain * static_cast<double>(rows.size());
+    if (is_table_) {
+      fill_table(rows, balls, cell_of);
+    } else {
+      fill_slots(rows, balls, cell_of);
     }
+    for (int d = 0; d < 3; ++d) period_[d] = in.period[d];
+    is_periodic_ = period_[0] + period_[1] + period_[2] > 0.0;
+  }
+
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  [[nodiscard]] std::int32_t row(std::size_t place) const { return rows_[place]; }
+  [[nodiscard]] const Ball& ball(std::size_t place) const { return balls_[place]; }
+
+  /// Writes the places from `first` on whose balls overlap `ball`, each once, and returns how many.
+  std::size_t near(const Ball& ball, std::size_t first, std::vector<std::int32_t>& found) const {
+    std::size_t count = 0;
+    const auto look = [&](std::size_t begin, std::size_t end) {
+      begin = std::max(begin, first);
+      if (begin >= end) return;
+      if (found.size() < count + (end - begin)) found.resize(2 * (count + (end - begin)));
+      count = is_periodic_ ? take_close<true>(ball, begin, end, found.data(), count)
+                           : take_close<false>(ball, begin, end, found.data(), count);
+    };
+    const double half = ball.reach + reach_;
+    const double centre[3] = {ball.x, ball.y, ball.z};
+    std::int64_t low[3];
+    std::int64_t high[3];
+    for (int d = 0; d < 3; ++d) {
+      low[d] = cell(centre[d] - half, d);
+      high[d] = cell(centre[d] + half, d);
+      if (wraps_[d]) {
+        // Once round a periodic side is enough.
+        high[d] = std::min(high[d], low[d] + count_[d] - 1);
+      } else {
+        low[d] = std::max<std::int64_t>(low[d], 0);
+        high[d] = std::min(high[d], count_[d] - 1);
+      }
+    }
+    if (is_table_) {
+      in_table(low, high, look);
+    } else {
+      in_slots(low, high, look);
+    }
+    return count;
+  }
+
+ private:
+  /// The cells: all of a periodic side, else of the box round the balls' centres.
+  void lay_out(const SearchInput& in, const std::vector<std::int32_t>& rows,
+               const std::vector<Ball>& balls, double edge) {
+    std::array<double, 3> low;
+    std::array<double, 3> high;
+    low.fill(std::numeric_limits<double>::max());
+    high.fill(std::numeric_limits<double>::lowest());
+    for (const std::int32_t row : rows) {
+      const Ball& b = balls[static_cast<std::size_t>(row)];
+      const double centre[3] = {b.x, b.y, b.z};
+      for (std::size_t d = 0; d < 3; ++d) {
+        low[d] = std::min(low[d], centre[d]);
+        high[d] = std::max(high[d], centre[d]);
+      }
+    }
+    for (std::size_t d = 0; d < 3; ++d) {
+      wraps_[d] = in.period[d] > 0.0;
+      origin_[d] = wraps_[d] ? in.origin[d] : low[d];
+      if (wraps_[d]) {
+        count_[d] = std::max<std::int64_t>(1, static_cast<std::int64_t>(in.period[d] / edge));
+        inverse_[d] = static_cast<double>(count_[d]) / in.period[d];
+      } else {
+        inverse_[d] = 1.0 / edge;
+        count_[d] = rows.empty() ? 1 : cell(high[d], static_cast<int>(d)) + 1;
+      }
+    }
+  }
+
+  void fill_table(const std::vector<std::int32_t>& rows, const std::vector<Ball>& balls,
+                  std::vector<std::int32_t>& cell_of) {
+    begin_.assign(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]) + 1, 0);
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      const Ball& b = balls[static_cast<std::size_t>(rows[n])];
+      const std::int64_t c =
+          index(wrap(cell(b.x, 0), 0), wrap(cell(b.y, 1), 1), wrap(cell(b.z, 2), 2));
+      cell_of[n] = static_cast<std::int32_t>(c);
+      ++begin_[static_cast<std::size_t>(c) + 1];
+    }
+    for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
+    std::vector<std::int32_t> next(begin_.begin(), begin_.end() - 1);
+    place(rows, balls, [&](std::size_t n) {
+      return static_cast<std::size_t>(next[static_cast<std::size_t>(cell_of[n])]++);
+    });
+  }
+
+  void fill_slots(const std::vector<std::int32_t>& rows, const std::vector<Ball>& balls,
+                  std::vector<std::int32_t>& slot_of) {
     const std::size_t size = std::bit_ceil(2 * rows.size() + 8);
     shift_ = 64 - std::countr_zero(size);
     slots_.resize(size);
-    std::vector<std::int32_t> slot_of(rows.size());
     for (std::size_t n = 0; n < rows.size(); ++n) {
-      const double* p = centre.data() + 3 * static_cast<std::ptrdiff_t>(rows[n]);
+      const Ball& b = balls[static_cast<std::size_t>(rows[n])];
       const std::uint64_t k =
-          key(wrap(cell(p[0], 0), 0), wrap(cell(p[1], 1), 1), wrap(cell(p[2], 2), 2));
-      std::size_t s = hash(k);
-      while (slots_[s].key != k_empty && slots_[s].key != k) s = (s + 1) & (size - 1);
+          key(wrap(cell(b.x, 0), 0), wrap(cell(b.y, 1), 1), wrap(cell(b.z, 2), 2));
+      const std::size_t s = slot(k);
       slots_[s].key = k;
       ++slots_[s].count;
       slot_of[n] = static_cast<std::int32_t>(s);
@@ -58,85 +161,93 @@ class Level {
       begin += s.count;
       s.count = 0;
     }
-    rows_.resize(rows.size());
-    balls_.resize(4 * rows.size());
-    for (std::size_t n = 0; n < rows.size(); ++n) {
+    place(rows, balls, [&](std::size_t n) {
       Slot& s = slots_[static_cast<std::size_t>(slot_of[n])];
-      const auto to = static_cast<std::size_t>(s.begin + s.count++);
+      return static_cast<std::size_t>(s.begin + s.count++);
+    });
+  }
+
+  template <class Place>
+  void place(const std::vector<std::int32_t>& rows, const std::vector<Ball>& balls,
+             Place&& place_of) {
+    rows_.resize(rows.size());
+    balls_.resize(rows.size());
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      const std::size_t to = place_of(n);
       rows_[to] = rows[n];
-      std::copy_n(centre.data() + 3 * static_cast<std::ptrdiff_t>(rows[n]), 3, &balls_[4 * to]);
-      balls_[4 * to + 3] = reach[static_cast<std::size_t>(rows[n])];
+      balls_[to] = balls[static_cast<std::size_t>(rows[n])];
     }
-    for (int d = 0; d < 3; ++d) period_[d] = in.period[d];
-    is_periodic_ = period_[0] + period_[1] + period_[2] > 0.0;
   }
 
-  static double reach_of(const SearchInput& in, std::int32_t row) {
-    const double* p = in.position + 4 * static_cast<std::ptrdiff_t>(row);
-    const double* v = in.velocity + 4 * static_cast<std::ptrdiff_t>(row);
-    return p[3] + in.allowance[4 * static_cast<std::ptrdiff_t>(row) + 3] + 0.5 * in.range +
-           0.5 * in.horizon * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  template <class Look>
+  void in_table(const std::int64_t* low, const std::int64_t* high, Look&& look) const {
+    const std::int64_t first = wrap(low[0], 0);
+    const std::int64_t last = first + high[0] - low[0];
+    for (std::int64_t z = low[2]; z <= high[2]; ++z) {
+      for (std::int64_t y = low[1]; y <= high[1]; ++y) {
+        const std::int64_t row = index(0, wrap(y, 1), wrap(z, 2));
+        const auto cells = [&](std::int64_t from, std::int64_t to) {
+          if (from > to) return;
+          look(static_cast<std::size_t>(begin_[static_cast<std::size_t>(row + from)]),
+               static_cast<std::size_t>(begin_[static_cast<std::size_t>(row + to) + 1]));
+        };
+        cells(first, std::min(last, count_[0] - 1));
+        if (last >= count_[0]) cells(0, last - count_[0]);
+      }
+    }
   }
 
-  /// Calls visit(row) for every grain whose ball of reach overlaps that of `p`.
-  template <class Visit>
-  void near(const double* p, double reach, Visit&& visit) const {
-    const double half = reach + reach_;
-    std::int64_t low[3];
-    std::int64_t high[3];
-    for (int d = 0; d < 3; ++d) {
-      low[d] = cell(p[d] - half, d);
-      high[d] = cell(p[d] + half, d);
-      // Once round a periodic side is enough.
-      if (cells_[d] > 0) high[d] = std::min(high[d], low[d] + cells_[d] - 1);
-    }
-    const double boxes = static_cast<double>(high[0] - low[0] + 1) *
-                         static_cast<double>(high[1] - low[1] + 1) *
-                         static_cast<double>(high[2] - low[2] + 1);
+  template <class Look>
+  void in_slots(const std::int64_t* low, const std::int64_t* high, Look&& look) const {
+    double boxes = 1.0;
+    for (int d = 0; d < 3; ++d) boxes *= static_cast<double>(high[d] - low[d] + 1);
     if (boxes > static_cast<double>(slots_.size())) {
-      visit_close(p, reach, 0, rows_.size(), visit);
+      look(0, rows_.size());
       return;
     }
     for (std::int64_t z = low[2]; z <= high[2]; ++z) {
       for (std::int64_t y = low[1]; y <= high[1]; ++y) {
         for (std::int64_t x = low[0]; x <= high[0]; ++x) {
-          const std::uint64_t k = key(wrap(x, 0), wrap(y, 1), wrap(z, 2));
-          std::size_t s = hash(k);
-          while (slots_[s].key != k_empty && slots_[s].key != k) s = (s + 1) & (slots_.size() - 1);
-          if (slots_[s].key == k_empty) continue;
-          const auto begin = static_cast<std::size_t>(slots_[s].begin);
-          visit_close(p, reach, begin, begin + static_cast<std::size_t>(slots_[s].count), visit);
+          const Slot& s = slots_[slot(key(wrap(x, 0), wrap(y, 1), wrap(z, 2)))];
+          const auto begin = static_cast<std::size_t>(s.begin);
+          look(begin, begin + static_cast<std::size_t>(s.count));
         }
       }
     }
   }
 
- private:
-  template <class Visit>
-  void visit_close(const double* p, double reach, std::size_t begin, std::size_t end,
-                   Visit&& visit) const {
+  /// Without branches on what is found: half of the grains looked at are near.
+  template <bool is_periodic>
+  std::size_t take_close(const Ball& ball, std::size_t begin, std::size_t end, std::int32_t* found,
+                         std::size_t count) const {
     for (std::size_t n = begin; n < end; ++n) {
-      const double* ball = &balls_[4 * n];
-      double apart[3] = {ball[0] - p[0], ball[1] - p[1], ball[2] - p[2]};
-      if (is_periodic_) {
+      const Ball& other = balls_[n];
+      double apart[3] = {other.x - ball.x, other.y - ball.y, other.z - ball.z};
+      if constexpr (is_periodic) {
         for (int d = 0; d < 3; ++d) {
           if (apart[d] > 0.5 * period_[d]) apart[d] -= period_[d];
           if (apart[d] < -0.5 * period_[d]) apart[d] += period_[d];
         }
       }
-      const double limit = reach + ball[3];
-      if (apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2] < limit * limit) {
-        visit(rows_[n]);
-      }
+      const double limit = ball.reach + other.reach;
+      found[count] = static_cast<std::int32_t>(n);
+      count += apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2] < limit * limit
+                   ? std::size_t{1}
+                   : std::size_t{0};
     }
+    return count;
   }
+
   [[nodiscard]] std::int64_t cell(double x, int d) const {
     return static_cast<std::int64_t>(std::floor((x - origin_[d]) * inverse_[d]));
   }
   [[nodiscard]] std::int64_t wrap(std::int64_t c, int d) const {
-    if (cells_[d] == 0) return c;
-    const std::int64_t m = c % cells_[d];
-    return m < 0 ? m + cells_[d] : m;
+    if (!wraps_[d]) return c;
+    const std::int64_t m = c % count_[d];
+    return m < 0 ? m + count_[d] : m;
+  }
+  [[nodiscard]] std::int64_t index(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    return (z * count_[1] + y) * count_[0] + x;
   }
   static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) {
     constexpr std::int64_t mask = (std::int64_t{1} << k_bits) - 1;
@@ -144,30 +255,37 @@ class Level {
                                       (((y + k_offset) & mask) << k_bits) |
                                       ((x + k_offset) & mask));
   }
-  [[nodiscard]] std::size_t hash(std::uint64_t k) const {
-    return static_cast<std::size_t>((k * 0x9E3779B97F4A7C15ull) >> shift_);
+  /// Where a key stands, or the empty slot it would take.
+  [[nodiscard]] std::size_t slot(std::uint64_t k) const {
+    auto s = static_cast<std::size_t>((k * 0x9E3779B97F4A7C15ull) >> shift_);
+    while (slots_[s].key != k_empty && slots_[s].key != k) s = (s + 1) & (slots_.size() - 1);
+    return s;
   }
 
   double reach_ = 0.0;
   double origin_[3] = {0, 0, 0};
   double inverse_[3] = {1, 1, 1};
-  std::int64_t cells_[3] = {0, 0, 0};
+  std::int64_t count_[3] = {1, 1, 1};
+  bool wraps_[3] = {false, false, false};
+  bool is_table_ = false;
+  std::vector<std::int32_t> begin_;  ///< places of a cell's grains, and the end
   int shift_ = 0;
   std::vector<Slot> slots_;
-  std::vector<std::int32_t> rows_;
-  std::vector<double> balls_;  ///< by place in rows_: centre and reach, side by side
+  std::vector<std::int32_t> rows_;  ///< by place
+  std::vector<Ball> balls_;
   double period_[3] = {0, 0, 0};
   bool is_periodic_ = false;
 };
 
-/// Square of the closest distance two grains come to within the horizon, going straight on.
-double closest_squared(const SearchInput& in, std::int32_t i, std::int32_t j) {
+/// Whether two grains come nearer than `limit` within the horizon, going straight on.
+bool comes_near(const SearchInput& in, std::int32_t i, std::int32_t j, double limit) {
   const double* pi = in.position + 4 * static_cast<std::ptrdiff_t>(i);
   const double* pj = in.position + 4 * static_cast<std::ptrdiff_t>(j);
   const double* vi = in.velocity + 4 * static_cast<std::ptrdiff_t>(i);
   const double* vj = in.velocity + 4 * static_cast<std::ptrdiff_t>(j);
   double x[3];
   double v[3];
+  double xx = 0.0;
   double xv = 0.0;
   double vv = 0.0;
   for (int d = 0; d < 3; ++d) {
@@ -177,16 +295,12 @@ double closest_squared(const SearchInput& in, std::int32_t i, std::int32_t j) {
       if (x[d] < -0.5 * in.period[d]) x[d] += in.period[d];
     }
     v[d] = vi[d] - vj[d];
+    xx += x[d] * x[d];
     xv += x[d] * v[d];
     vv += v[d] * v[d];
   }
   const double t = std::clamp(-xv / std::max(vv, 1e-300), 0.0, in.horizon);
-  double sum = 0.0;
-  for (int d = 0; d < 3; ++d) {
-    const double closest = x[d] + t * v[d];
-    sum += closest * closest;
-  }
-  return sum;
+  return xx + t * (2.0 * xv + t * vv) < limit * limit;
 }
 
 }  // namespace
@@ -196,50 +310,59 @@ std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_
   for (std::size_t n = 0; n < in.count; ++n) largest = std::max(largest, in.position[4 * n + 3]);
   // Level l holds radii in [largest / 2^(l+1), largest / 2^l); the very bound goes to the coarser.
   std::vector<std::vector<std::int32_t>> members;
-  std::vector<std::int32_t> level_of(in.count);
+  std::vector<Ball> balls(in.count);
   for (std::size_t n = 0; n < in.count; ++n) {
-    const double ratio = largest / in.position[4 * n + 3];
-    const int level = std::max(0, static_cast<int>(std::ceil(std::log2(ratio) - 1e-9)) - 1);
+    const double* p = in.position + 4 * n;
+    const double* v = in.velocity + 4 * n;
+    // ceil(log2(ratio) - 1e-9) - 1 without the logarithm.
+    int exponent = 0;
+    const double rest = std::frexp(largest / p[3], &exponent);
+    const int level = std::max(0, rest > 0.5 * (1.0 + 1e-9) ? exponent - 1 : exponent - 2);
     if (members.size() <= static_cast<std::size_t>(level))
       members.resize(static_cast<std::size_t>(level) + 1);
     members[static_cast<std::size_t>(level)].push_back(static_cast<std::int32_t>(n));
-    level_of[n] = level;
-  }
-  std::vector<double> reach_of(in.count);
-  std::vector<double> centre_of(3 * in.count);
-  for (std::size_t n = 0; n < in.count; ++n) {
-    reach_of[n] = Level::reach_of(in, static_cast<std::int32_t>(n));
-    for (std::size_t d = 0; d < 3; ++d) {
-      centre_of[3 * n + d] = in.position[4 * n + d] + 0.5 * in.horizon * in.velocity[4 * n + d];
-    }
+    const double way = 0.5 * in.horizon;
+    balls[n] = {p[0] + way * v[0], p[1] + way * v[1], p[2] + way * v[2],
+                p[3] + in.allowance[4 * n + 3] + 0.5 * in.range +
+                    way * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])};
   }
   std::vector<Level> levels;
-  for (const auto& rows : members) levels.emplace_back(in, rows, centre_of, reach_of);
+  for (const auto& rows : members) levels.emplace_back(in, rows, balls);
 
-  const std::size_t blocks = (in.count + block - 1) / block;
-  std::vector<std::vector<RowPair>> found(blocks);
-  const auto work = [&](std::size_t b) {
+  // Blocks of places, level by level.
+  struct Work {
+    std::size_t level, begin, end;
+  };
+  std::vector<Work> blocks;
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    for (std::size_t begin = 0; begin < levels[l].size(); begin += block) {
+      blocks.push_back({l, begin, std::min(levels[l].size(), begin + block)});
+    }
+  }
+  std::vector<std::vector<RowPair>> found(blocks.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+    thread_local std::vector<std::int32_t> close;
     auto& out = found[b];
-    const std::size_t end = std::min(in.count, (b + 1) * block);
-    for (std::size_t n = b * block; n < end; ++n) {
-      const auto i = static_cast<std::int32_t>(n);
-      const double* p = centre_of.data() + 3 * n;
-      const double own = in.position[4 * n + 3] + in.allowance[4 * n + 3] + in.range;
-      const double reach = reach_of[n];
-      const std::int32_t own_level = level_of[n];
-      for (std::int32_t l = 0; l <= own_level; ++l) {
-        if (members[static_cast<std::size_t>(l)].empty()) continue;
-        const bool is_own = l == own_level;
-        levels[static_cast<std::size_t>(l)].near(p, reach, [&](std::int32_t j) {
-          if (is_own && j <= i) return;
-          const std::ptrdiff_t m = 4 * static_cast<std::ptrdiff_t>(j);
-          const double limit = own + in.position[m + 3] + in.allowance[m + 3];
-          if (closest_squared(in, i, j) < limit * limit) out.emplace_back(i, j);
-        });
+    const Level& own = levels[blocks[b].level];
+    for (std::size_t place = blocks[b].begin; place < blocks[b].end; ++place) {
+      const std::int32_t i = own.row(place);
+      const auto n = 4 * static_cast<std::size_t>(i);
+      const double reach = in.position[n + 3] + in.allowance[n + 3] + in.range;
+      for (std::size_t l = 0; l <= blocks[b].level; ++l) {
+        // Of its own level a grain looks at those behind it: each pair is found once.
+        const bool is_own = l == blocks[b].level;
+        const Level& level = levels[l];
+        const std::size_t count = level.near(own.ball(place), is_own ? place + 1 : 0, close);
+        for (std::size_t k = 0; k < count; ++k) {
+          const std::int32_t j = level.row(static_cast<std::size_t>(close[k]));
+          const auto m = 4 * static_cast<std::size_t>(j);
+          if (comes_near(in, i, j, reach + in.position[m + 3] + in.allowance[m + 3])) {
+            out.emplace_back(i, j);
+          }
+        }
       }
     }
-  };
-  oneapi::tbb::parallel_for(std::size_t{0}, blocks, work);
+  });
   return found;
 }
 

@@ -25,12 +25,11 @@ struct SearchInput {
 using RowPair = std::pair<std::int32_t, std::int32_t>;
 
 /// All pairs that may touch within the horizon: if both went straight on, they would come closer
-/// than their radii plus their allowances. Each pair once, in the block (of `block` rows) of its
-/// first grain; the first grain is the finer one (higher grid level) or, at one level, the lower
-/// row.
+/// than their radii plus their allowances. Each pair once, in blocks of up to `block` grains whose
+/// order depends on the input alone; the first grain of a pair is not the coarser one by a level.
 ///
-/// A hash grid per size level (factor 2): a grain looks into the cells of its own level and of the
-/// coarser ones, so that dust among sand costs in proportion to the number of grains.
+/// Cells per size level (factor 2): a grain looks into the cells of its own level and of the coarser
+/// ones, so that dust among sand costs in proportion to the number of grains.
 std::vector<std::vector<RowPair>> search_pairs(const SearchInput& input, std::size_t block);
 
 }  // namespace dust::particles

@@ -53,6 +53,8 @@ class HertzMindlin final : public sdk::ContactLaw {
     };
     constants_.young = sdk::effective_young_modulus(i, j);
     constants_.shear = 1.0 / (shear(i) + shear(j));
+    constants_.normal_root = std::sqrt(2.0 * constants_.young);
+    constants_.tangential_root = std::sqrt(8.0 * constants_.shear);
   }
   [[nodiscard]] int history_size() const override { return 4; }
   [[nodiscard]] bool has_hertz_force() const override { return true; }

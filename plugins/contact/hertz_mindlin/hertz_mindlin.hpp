@@ -9,10 +9,12 @@ namespace dust::model::hertz_mindlin {
 
 /// Constants of a pair of materials.
 struct Constants {
-  double young = 0.0;     ///< [Pa] E*, 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2
-  double shear = 0.0;     ///< [Pa] G*, 1/G* = 2(2 - nu1)(1 + nu1)/E1 + 2(2 - nu2)(1 + nu2)/E2
-  double damping = 0.0;   ///< [-] -2 beta sqrt(5/6) >= 0
-  double friction = 0.0;  ///< [-] mu_s
+  double young = 0.0;        ///< [Pa] E*, 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2
+  double shear = 0.0;        ///< [Pa] G*, 1/G* = 2(2 - nu1)(1 + nu1)/E1 + 2(2 - nu2)(1 + nu2)/E2
+  double normal_root = 0.0;  ///< [Pa^(1/2)] sqrt(2 E*)
+  double tangential_root = 0.0;  ///< [Pa^(1/2)] sqrt(8 G*)
+  double damping = 0.0;          ///< [-] -2 beta sqrt(5/6) >= 0
+  double friction = 0.0;         ///< [-] mu_s
 };
 
 /// Largest tangential damper [m*/dt]. Its spin damps a grain at the rate 2.5 sum(gamma_t) / m, and
@@ -67,13 +69,15 @@ struct Contact {
 /// elastic impact without slip, this form a twentieth. While sliding the spring is set to what the
 /// limit leaves beside the damper. The displacement turns with the normal and keeps its length.
 [[gnu::always_inline]] inline void evaluate(const Constants& k, double time_step, Contact& c) {
-  constexpr double k_tiny = 1e-290;
+  constexpr double k_tiny = 1e-140;
   const double d = std::max(c.overlap, 0.0);
   const double root = std::sqrt(c.radius * d);
   const double kn = 4.0 / 3.0 * k.young * root;
   const double kt = 8.0 * k.shear * root;
-  const double gn = k.damping * std::sqrt(2.0 * k.young * root * c.mass);
-  const double gt = std::min(k.damping * std::sqrt(kt * c.mass),
+  // Both dampers grow with the fourth root of R d: one root does for two.
+  const double shared = std::sqrt(root * c.mass);
+  const double gn = k.damping * k.normal_root * shared;
+  const double gt = std::min(k.damping * k.tangential_root * shared,
                              c.mass * (k_most_tangential_damping / time_step));
 
   const double vn = c.vx * c.nx + c.vy * c.ny + c.vz * c.nz;
@@ -91,7 +95,10 @@ struct Contact {
   const double old2 = c.sx * c.sx + c.sy * c.sy + c.sz * c.sz;
   const double new2 = px * px + py * py + pz * pz;
   const double floor = std::max(kt, std::max(1e-6 * c.stiffness, k_tiny));
-  const double keep = std::sqrt(old2 / std::max(new2, k_tiny) * (c.stiffness / floor));
+  // One division for what is asked of both: roots and divisions are half of this law's time.
+  const double in_plane = std::max(new2, k_tiny);
+  const double inverse = 1.0 / (in_plane * floor);
+  const double keep = std::sqrt(old2 * c.stiffness * inverse);
   const double sx = keep * px + tx * time_step;
   const double sy = keep * py + ty * time_step;
   const double sz = keep * pz + tz * time_step;
@@ -104,7 +111,7 @@ struct Contact {
   const double total = std::sqrt(ux * ux + uy * uy + uz * uz);
   const double cap = std::min(1.0, limit / std::max(total, k_tiny));
   const double hold = cap < 1.0 ? 0.0 : 1.0;
-  const double back = (hold - 1.0) / floor;
+  const double back = (hold - 1.0) * (inverse * in_plane);
 
   c.sx = hold * sx + back * (cap * ux + gt * tx);
   c.sy = hold * sy + back * (cap * uy + gt * ty);

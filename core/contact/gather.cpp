@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contact/batch_kernels.hpp"
+#include "contact/lanes.hpp"
+#include "dust/sdk/plugin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+/// Rows of grains and contacts into the columns of a batch.
+namespace dust::contact {
+namespace {
+
+/// Entries ahead whose rows are fetched; measured flat between 32 and 128.
+constexpr std::size_t k_ahead = 48;
+
+__attribute__((always_inline)) inline const Lanes& row(const double* rows, std::int32_t n) {
+  return *reinterpret_cast<const Lanes*>(rows + 4 * static_cast<std::ptrdiff_t>(n));
+}
+__attribute__((always_inline)) inline void fold(Lanes& d, const Lanes& length, const Lanes& half) {
+  const LaneMask above = d > half;
+  const LaneMask below = d < -half;
+  d = above ? d - length : (below ? d + length : d);
+}
+
+constexpr LaneMask k_bits{1, 2, 4, 8};
+/// For every choice of four lanes, a byte of one for each lane chosen.
+constexpr std::uint32_t k_bytes[16] = {
+    0x0,       0x1,       0x100,     0x101,     0x10000,   0x10001,   0x10100,   0x10101,
+    0x1000000, 0x1000001, 0x1000100, 0x1000101, 0x1010000, 0x1010001, 0x1010100, 0x1010101};
+/// For every choice of four lanes, the chosen ones in order, then anything.
+constexpr LaneMask k_pack[16] = {{0, 1, 2, 3}, {0, 1, 2, 3}, {1, 0, 2, 3}, {0, 1, 2, 3},
+                                 {2, 0, 1, 3}, {0, 2, 1, 3}, {1, 2, 0, 3}, {0, 1, 2, 3},
+                                 {3, 0, 1, 2}, {0, 3, 1, 2}, {1, 3, 0, 2}, {0, 1, 3, 2},
+                                 {2, 3, 0, 1}, {0, 2, 3, 1}, {1, 2, 3, 0}, {0, 1, 2, 3}};
+typedef std::int32_t Numbers __attribute__((vector_size(16)));
+
+/// The pairs from `next` on that are near enough, until a batch is full: their separations and
+/// numbers. Brings near what the contacts further on want. Looks at positions alone: half of a
+/// watch's pairs touch, and the others' velocities would be loaded for nothing.
+template <bool is_periodic>
+__attribute__((always_inline)) inline std::size_t find_near(
+    const RowView& rows, const Images& images, const PairView& pairs, std::size_t& next,
+    std::size_t end, double range, std::int32_t* contacts, BatchColumns& columns) {
+  using B = BatchColumns;
+  // Copies: the bytes of is_touching may alias whatever stands in memory.
+  const double* const position = rows.position;
+  const double* const velocity = rows.velocity;
+  const double* const rotation = rows.rotation;
+  const std::int32_t* const pa = pairs.a;
+  const std::int32_t* const pb = pairs.b;
+  std::uint8_t* const is_touching = pairs.is_touching;
+  double* const history = pairs.history;
+  const std::size_t history_stride = pairs.history_stride;
+  const std::size_t last_four = pairs.count < 4 ? 0 : pairs.count - 4;
+  double* const separation_x = columns.column(B::separation_x);
+  double* const separation_y = columns.column(B::separation_y);
+  double* const separation_z = columns.column(B::separation_z);
+  // x, y, z become differences, the fourth column the sum of the radii.
+  const Lanes sign{-1.0, -1.0, -1.0, 1.0};
+  const Lanes length{images.length[0], images.length[1], images.length[2], 0.0};
+  const Lanes half{images.half[0], images.half[1], images.half[2], HUGE_VAL};
+  std::size_t found = 0;
+  const auto look_at = [&](std::size_t p, const std::int32_t* a, const std::int32_t* b,
+                           std::size_t lanes) __attribute__((always_inline)) {
+    Lanes x[4];
+    for (int l = 0; l < 4; ++l) {
+      x[l] = row(position, a[l]) + sign * row(position, b[l]);
+      if constexpr (is_periodic) fold(x[l], length, half);
+    }
+    transpose(x[0], x[1], x[2], x[3]);
+    const Lanes reach = x[3] + range;
+    const LaneMask near = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < reach * reach) & k_bits;
+    const auto touch =
+        static_cast<unsigned>(near[0] | near[1] | near[2] | near[3]) & ((1u << lanes) - 1u);
+    std::uint32_t before = 0;
+    const std::uint32_t now = k_bytes[touch];
+    std::memcpy(&before, is_touching + p, lanes);
+    std::memcpy(is_touching + p, &now, lanes);
+    if ((before & ~now) != 0) [[unlikely]] {
+      for (std::size_t l = 0; l < lanes; ++l) {
+        if ((touch >> l & 1u) != 0) continue;
+        std::memset(history + (p + l) * history_stride, 0, history_stride * sizeof(double));
+      }
+    }
+    // Those in touch to the front; what is written beyond them is overwritten by the next.
+    const LaneMask pack = k_pack[touch];
+    store(separation_x + found, __builtin_shuffle(x[0], pack));
+    store(separation_y + found, __builtin_shuffle(x[1], pack));
+    store(separation_z + found, __builtin_shuffle(x[2], pack));
+    const Numbers numbers = __builtin_convertvector(pack, Numbers) + static_cast<std::int32_t>(p);
+    std::memcpy(contacts + found, &numbers, sizeof numbers);
+    found += static_cast<std::size_t>(__builtin_popcount(touch));
+  };
+  std::size_t p = next;
+  for (; p + 4 <= end && found + 4 <= k_batch; p += 4) {
+    const std::int32_t* later = pb + std::min(p + k_ahead, last_four);
+    for (std::size_t l = 0; l < 4; ++l) {
+      const std::ptrdiff_t ahead = 4 * static_cast<std::ptrdiff_t>(later[l]);
+      __builtin_prefetch(position + ahead);
+      __builtin_prefetch(velocity + ahead);
+      __builtin_prefetch(rotation + ahead);
+      // Most that touch have touched before; of the others the history is not wanted.
+      const std::size_t entry = std::min(p + k_ahead, last_four) + l;
+      __builtin_prefetch(history + (is_touching[entry] != 0 ? entry : p) * history_stride, 1);
+    }
+    look_at(p, pa + p, pb + p, 4);
+  }
+  if (p < end && p + 4 > end && found + 4 <= k_batch) {
+    std::int32_t a[4];
+    std::int32_t b[4];
+    for (std::size_t l = 0; l < 4; ++l) {
+      a[l] = pa[std::min(p + l, end - 1)];
+      b[l] = pb[std::min(p + l, end - 1)];
+    }
+    look_at(p, a, b, end - p);
+    p = end;
+  }
+  next = p;
+  return found;
+}
+
+__attribute__((always_inline)) inline void load_columns(const double* rows, const std::int32_t* n,
+                                                        Lanes* column) {
+  columns_of(rows + 4 * static_cast<std::ptrdiff_t>(n[0]),
+             rows + 4 * static_cast<std::ptrdiff_t>(n[1]),
+             rows + 4 * static_cast<std::ptrdiff_t>(n[2]),
+             rows + 4 * static_cast<std::ptrdiff_t>(n[3]), column);
+}
+
+/// Loads what the contacts found want besides the separation; the columns are filled up to the
+/// padded count with the last contact.
+__attribute__((always_inline)) inline void load_motion(const RowView& rows, const PairView& pairs,
+                                                       std::int32_t* contacts, std::size_t found,
+                                                       BatchColumns& columns) {
+  using B = BatchColumns;
+  double* const c = columns.column(0);
+  const auto put = [&](int name, std::size_t q, const Lanes& value) __attribute__((always_inline)) {
+    store(c + static_cast<std::size_t>(name) * k_stride + q, value);
+  };
+  const std::size_t last = found - 1;
+  for (std::size_t q = found; q < padded(found); ++q) {
+    contacts[q] = contacts[last];
+    for (int d = 0; d < 3; ++d) {
+      c[static_cast<std::size_t>(B::separation_x + d) * k_stride + q] =
+          c[static_cast<std::size_t>(B::separation_x + d) * k_stride + last];
+    }
+  }
+  for (std::size_t q = 0; q < padded(found); q += 4) {
+    std::int32_t a[4];
+    std::int32_t b[4];
+    for (std::size_t l = 0; l < 4; ++l) {
+      a[l] = pairs.a[contacts[q + l]];
+      b[l] = pairs.b[contacts[q + l]];
+    }
+    Lanes i[4];
+    Lanes j[4];
+    load_columns(rows.velocity, a, i);
+    load_columns(rows.velocity, b, j);
+    for (int d = 0; d < 3; ++d) put(B::velocity_x + d, q, i[d] - j[d]);
+    put(B::inverse_mass, q, i[3] + j[3]);
+    load_columns(rows.rotation, a, i);
+    load_columns(rows.rotation, b, j);
+    for (int d = 0; d < 3; ++d) {
+      put(B::rotation_i_x + d, q, i[d]);
+      put(B::rotation_j_x + d, q, j[d]);
+    }
+    put(B::radius_i, q, i[3]);
+    put(B::radius_j, q, j[3]);
+  }
+}
+
+template <bool is_periodic>
+__attribute__((always_inline)) inline std::size_t gather(const RowView& rows, const Images& images,
+                                                         const PairView& pairs, std::size_t& next,
+                                                         std::size_t end, double range,
+                                                         std::int32_t* contacts,
+                                                         BatchColumns& columns) {
+  const std::size_t found =
+      find_near<is_periodic>(rows, images, pairs, next, end, range, contacts, columns);
+  if (found > 0) load_motion(rows, pairs, contacts, found, columns);
+  return found;
+}
+
+// A box without periodic sides need not look for images.
+DUST_KERNEL std::size_t gather_open(const RowView& rows, const Images& images,
+                                    const PairView& pairs, std::size_t& next, std::size_t end,
+                                    double range, std::int32_t* contacts, BatchColumns& columns) {
+  return gather<false>(rows, images, pairs, next, end, range, contacts, columns);
+}
+DUST_KERNEL std::size_t gather_periodic(const RowView& rows, const Images& images,
+                                        const PairView& pairs, std::size_t& next, std::size_t end,
+                                        double range, std::int32_t* contacts,
+                                        BatchColumns& columns) {
+  return gather<true>(rows, images, pairs, next, end, range, contacts, columns);
+}
+
+}  // namespace
+
+std::size_t gather_touching(const RowView& rows, const Images& images, const PairView& pairs,
+                            std::size_t& next, std::size_t end, double range,
+                            std::int32_t* contacts, BatchColumns& columns) {
+  const bool is_periodic = images.length[0] + images.length[1] + images.length[2] > 0.0;
+  return (is_periodic ? gather_periodic : gather_open)(rows, images, pairs, next, end, range,
+                                                       contacts, columns);
+}
+
+DUST_KERNEL void load_history(const PairView& pairs, const std::int32_t* contacts,
+                              std::size_t count, int groups, BatchColumns& columns) {
+  const std::size_t rounded = padded(count);
+  for (std::size_t q = 0; q < rounded; q += 4) {
+    const double* from[4];
+    for (std::size_t l = 0; l < 4; ++l) {
+      from[l] = pairs.history + static_cast<std::size_t>(contacts[std::min(q + l, count - 1)]) *
+                                    pairs.history_stride;
+    }
+    double* to = columns.column(BatchColumns::first_history) + q;
+    for (int g = 0; g < groups; ++g, to += 4 * k_stride) {
+      Lanes h[4];
+      columns_of(from[0] + 4 * g, from[1] + 4 * g, from[2] + 4 * g, from[3] + 4 * g, h);
+      for (std::size_t l = 0; l < 4; ++l) store(to + l * k_stride, h[l]);
+    }
+  }
+}
+
+}  // namespace dust::contact
