@@ -14,15 +14,6 @@ namespace {
 /// Entries ahead whose rows are fetched; measured flat between 32 and 128.
 constexpr std::size_t k_ahead = 48;
 
-__attribute__((always_inline)) inline const Lanes& row(const double* rows, std::int32_t n) {
-  return *reinterpret_cast<const Lanes*>(rows + 4 * static_cast<std::ptrdiff_t>(n));
-}
-__attribute__((always_inline)) inline void fold(Lanes& d, const Lanes& length, const Lanes& half) {
-  const LaneMask above = d > half;
-  const LaneMask below = d < -half;
-  d = above ? d - length : (below ? d + length : d);
-}
-
 constexpr LaneMask k_bits{1, 2, 4, 8};
 /// For every choice of four lanes, a byte of one for each lane chosen.
 constexpr std::uint32_t k_bytes[16] = {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 namespace dust::contact {
@@ -20,6 +22,17 @@ __attribute__((always_inline)) inline void transpose(Lanes& a, Lanes& b, Lanes& 
   b = __builtin_shuffle(ab_odd, cd_odd, LaneMask{0, 1, 4, 5});
   c = __builtin_shuffle(ab_even, cd_even, LaneMask{2, 3, 6, 7});
   d = __builtin_shuffle(ab_odd, cd_odd, LaneMask{2, 3, 6, 7});
+}
+
+/// Row n of rows of four.
+__attribute__((always_inline)) inline const Lanes& row(const double* rows, std::int32_t n) {
+  return *reinterpret_cast<const Lanes*>(rows + 4 * static_cast<std::ptrdiff_t>(n));
+}
+/// The nearest image along periodic directions.
+__attribute__((always_inline)) inline void fold(Lanes& d, const Lanes& length, const Lanes& half) {
+  const LaneMask above = d > half;
+  const LaneMask below = d < -half;
+  d = above ? d - length : (below ? d + length : d);
 }
 
 __attribute__((always_inline)) inline void load(const double* column, Lanes& v) {

@@ -167,7 +167,8 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
                                 counters.rebuilds,
                                 counters.late_lists,
                                 counters.flown_steps,
-                                allowance_level};
+                                allowance_level,
+                                watch_length};
   archive.integers("state", state);
   archive.number("time", time);
   double largest = counters.largest_coarse_overlap;
@@ -256,6 +257,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   counters.late_lists = state.at(12);
   counters.flown_steps = state.at(13);
   allowance_level = state.at(14);
+  watch_length = state.at(15);
   time = archive.number("time");
   counters.largest_coarse_overlap = archive.number("largest_coarse_overlap");
   counters.largest_fine_overlap = archive.number("largest_fine_overlap");

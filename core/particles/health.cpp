@@ -55,7 +55,7 @@ void Dem::Impl::fail(std::size_t row, const std::string& what, const std::string
 std::int64_t Dem::Impl::check_course(std::size_t begin, std::size_t end,
                                      bool& wants_rebuild) const {
   const double t = static_cast<double>(since_rebuild) * steps.coarse_step;
-  const double ahead = static_cast<double>(longest_watch()) * steps.coarse_step;
+  const double ahead = static_cast<double>(watch_length) * steps.coarse_step;
   std::int64_t late_grains = 0;
   bool asks = false;
   for (std::size_t n = begin; n < end; ++n) {

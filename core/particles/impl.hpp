@@ -170,10 +170,9 @@ struct Dem::Impl {
   void group_by_law(VerletList& list, bool is_surface);
 
   // watch.cpp
-  static std::int64_t longest_watch();
-  [[nodiscard]] double watch_allowance(std::size_t row) const;
+  void choose_watch_length();
   [[nodiscard]] double fastest() const;
-  [[nodiscard]] bool may_meet(std::size_t i, std::size_t j) const;
+  void choose_watch_allowances();
   [[nodiscard]] bool may_meet_surface(std::size_t i, const Surface& surface) const;
   [[nodiscard]] bool flies_straight(std::size_t row) const;
   template <class MayMeet>
@@ -268,8 +267,8 @@ struct Dem::Impl {
   std::int64_t next_horizon = 32;    ///< and the next ones
   std::int64_t allowance_level = 1;  ///< of the next lists; wider in dilute flow
   std::int64_t since_watch = 0;      ///< coarse steps
+  std::int64_t watch_length = 64;    ///< most coarse steps of the next watch, or of the present one
   std::int64_t flying = 0;           ///< grains asleep in the present watch
-  double watch_reach = 0.0;          ///< [m] most a grain may be off its course during this watch
   bool is_watching = false;
   bool must_watch = false;
   bool must_rebuild = true;
@@ -285,7 +284,8 @@ struct Dem::Impl {
   std::vector<std::int32_t> old_partner;
   std::vector<const double*> old_history;
   // Working space of a watch.
-  std::vector<std::uint8_t> is_awake;  ///< 2: awake, and in a list of another chunk
+  std::vector<double> watch_allowance;  ///< [m] how far a grain may be off its course
+  std::vector<std::uint8_t> is_awake;   ///< 2: awake, and in a list of another chunk
   Awake fine_awake;
   std::vector<std::int64_t> late;
   std::vector<std::uint8_t> wants;

@@ -47,7 +47,7 @@ std::uint64_t spread_bits(std::uint64_t v) {
 }  // namespace
 
 void Dem::Impl::neighbours() {
-  if (must_watch || since_watch >= longest_watch() || must_rebuild || since_rebuild >= horizon) {
+  if (must_watch || since_watch >= watch_length || must_rebuild || since_rebuild >= horizon) {
     land();
   }
   if (must_rebuild || since_rebuild >= horizon) rebuild();
@@ -180,6 +180,8 @@ void Dem::Impl::carry_over(VerletList& list, ContactList& contacts, bool is_surf
 void Dem::Impl::rebuild() {
   ++counters.rebuilds;
   const bool is_early = !must_sort && since_rebuild < horizon;
+  // A list given up before half of its time was made for too long, whoever asked for a new one.
+  const bool is_long = 2 * since_rebuild < horizon;
   gather_wall_loads();
   wrap_periodic();
   for (const Chunk& c : chunks) {
@@ -293,7 +295,9 @@ void Dem::Impl::rebuild() {
   }
   // Lists are made for so long that the horizon adds little to what the allowances list anyhow.
   const std::int64_t base = close + static_cast<std::int64_t>(store.size()) / 2;
-  if (10 * (listed - close) < base) {
+  if (is_long) {
+    next_horizon = std::max(horizon / 2, k_shortest_horizon);
+  } else if (10 * (listed - close) < base) {
     next_horizon = std::min(2 * horizon, k_longest_horizon);
   } else if (10 * (listed - close) > 4 * base) {
     next_horizon = std::max(horizon / 2, k_shortest_horizon);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "contact/approach.hpp"
 #include "contact/lanes.hpp"
 #include "dust/sdk/plugin.hpp"
 #include "particles/impl.hpp"
@@ -13,8 +14,10 @@
 namespace dust::particles {
 namespace {
 
-/// Most coarse steps of a watch.
+/// Coarse steps of a watch: in beds at rest long ones, where grains collide all the time short
+/// ones, for whom a watch or the lists suppose on a course longer is off it sooner.
 constexpr std::int64_t k_longest_watch = 64;
+constexpr std::int64_t k_shortest_watch = 8;
 /// Allowed deviation during a watch, as a share of that of the list: the list's check, made only
 /// when a watch ends, triggers at 0.7 of its allowance, so that 0.7 + k_watch_share stays below 1.
 constexpr double k_watch_share = 1.0 / 6.0;
@@ -26,37 +29,20 @@ constexpr double k_least_reach = 0.002;
 
 }  // namespace
 
-std::int64_t Dem::Impl::longest_watch() { return k_longest_watch; }
-double Dem::Impl::watch_allowance(std::size_t row) const {
-  return std::min(k_watch_share * store.start[4 * row + 3], watch_reach);
-}
-
-/// Whether two grains may touch before the watch ends, both within their allowances of a straight
-/// course.
-bool Dem::Impl::may_meet(std::size_t i, std::size_t j) const {
-  const double* vi = store.velocity.data() + 4 * i;
-  const double* vj = store.velocity.data() + 4 * j;
-  const sdk::Vec3 x = separation(store.position.data() + 4 * j, store.position.data() + 4 * i);
-  const sdk::Vec3 v{vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]};
-  const double reach = store.position[4 * i + 3] + store.position[4 * j + 3] + largest_range +
-                       watch_allowance(i) + watch_allowance(j);
-  const double horizon_time = static_cast<double>(k_longest_watch) * steps.coarse_step;
-  const double xv = dot(x, v);
-  const double vv = dot(v, v);
-  // Squares of the closest approach, times vv where it lies inside the horizon: no division.
-  if (xv >= 0.0) return dot(x, x) < reach * reach;
-  if (-xv >= vv * horizon_time) {
-    const sdk::Vec3 end = x + horizon_time * v;
-    return dot(end, end) < reach * reach;
+/// A watch that had to end before half of its length makes the next one shorter, one that lasted
+/// longer.
+void Dem::Impl::choose_watch_length() {
+  if (must_watch && 2 * since_watch < watch_length) {
+    watch_length = std::max(watch_length / 2, k_shortest_watch);
+  } else if (since_watch >= watch_length) {
+    watch_length = std::min(2 * watch_length, k_longest_watch);
   }
-  return dot(x, x) * vv - xv * xv < reach * reach * vv;
 }
-
 bool Dem::Impl::may_meet_surface(std::size_t i, const Surface& surface) const {
   const double* p = store.position.data() + 4 * i;
   const double* v = store.velocity.data() + 4 * i;
-  const double horizon_time = static_cast<double>(k_longest_watch) * steps.coarse_step;
-  const double reach = p[3] + largest_range + watch_allowance(i) +
+  const double horizon_time = static_cast<double>(watch_length) * steps.coarse_step;
+  const double reach = p[3] + largest_range + watch_allowance[i] +
                        horizon_time * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   // The surfaces stand where the step before saw them.
   return surface.may_touch({p[0], p[1], p[2]}, reach, horizon_time + steps.coarse_step);
@@ -73,9 +59,9 @@ bool Dem::Impl::flies_straight(std::size_t n) const {
     const double a = g[d] + action[3] * (action[d] - store.velocity[4 * n + d]);
     sum += a * a;
   }
-  const double horizon_time = static_cast<double>(k_longest_watch) * step;
+  const double horizon_time = static_cast<double>(watch_length) * step;
   const double bend = (0.5 * horizon_time + step) * horizon_time;
-  const double limit = 0.5 * watch_allowance(n);
+  const double limit = 0.5 * watch_allowance[n];
   return sum * bend * bend < limit * limit;
 }
 
@@ -93,7 +79,7 @@ void Dem::Impl::choose_contacts(VerletList& list, ContactList& contacts, MayMeet
           u < contacts.size() && contacts.a[u] == list.a[q] && contacts.b[u] == list.b[q];
       old += is_known ? 1 : 0;
       const bool is_touching = is_known && contacts.is_touching[u] != 0;
-      if (!is_touching && !meets(list.a[q], list.b[q])) continue;
+      if (!is_touching && !meets(q)) continue;
       next.push(list.a[q], list.b[q],
                 is_touching ? contacts.history.data() + u * history_stride : nullptr,
                 history_stride);
@@ -175,25 +161,44 @@ void Dem::Impl::promise_gifts() {
   });
 }
 
+/// How far each grain may be off its course during the next watch.
+void Dem::Impl::choose_watch_allowances() {
+  const double reach =
+      std::max(k_watch_reach * fastest() * static_cast<double>(k_longest_watch) * steps.coarse_step,
+               k_least_reach * steps.classes.back().diameter);
+  watch_allowance.resize(store.size());
+  for (std::size_t n = 0; n < store.size(); ++n) {
+    watch_allowance[n] = std::min(k_watch_share * store.start[4 * n + 3], reach);
+  }
+}
+
 /// Chooses, for the next steps, the entries of the lists that may come to touch and the grains that
 /// stand in one of them. Nobody else feels a contact: the others fly, and make all their steps at
 /// once when the watch ends.
 void Dem::Impl::begin_watch() {
   is_awake.assign(store.size(), 0);
-  watch_reach =
-      std::max(k_watch_reach * fastest() * static_cast<double>(k_longest_watch) * steps.coarse_step,
-               k_least_reach * steps.classes.back().diameter);
+  choose_watch_allowances();
   for (const Reaction& r : pending) is_awake[static_cast<std::size_t>(r.row)] = 1;
-  const auto pairs_meet = [&](std::int32_t a, std::int32_t b) {
-    return may_meet(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+  const contact::Courses courses{store.position.data(), store.velocity.data(),
+                                 watch_allowance.data()};
+  const double horizon_time = static_cast<double>(watch_length) * steps.coarse_step;
+  const auto pairs_meet = [&](const VerletList& list) {
+    thread_local std::vector<std::uint8_t> meets;
+    meets.resize(list.size());
+    contact::mark_approaching(courses, images, largest_range, horizon_time, list.a.data(),
+                              list.b.data(), list.size(), meets.data());
+    return meets.data();
   };
   const auto surface_meets = [&](std::int32_t a, std::int32_t s) {
     return may_meet_surface(static_cast<std::size_t>(a), surfaces[static_cast<std::size_t>(s)]);
   };
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     Chunk& chunk = chunks[c];
-    choose_contacts(chunk.near_pairs, chunk.pairs, pairs_meet);
-    choose_contacts(chunk.near_surfaces, chunk.surfaces, surface_meets);
+    const std::uint8_t* meets = pairs_meet(chunk.near_pairs);
+    choose_contacts(chunk.near_pairs, chunk.pairs, [&](std::size_t q) { return meets[q] != 0; });
+    choose_contacts(chunk.near_surfaces, chunk.surfaces, [&](std::size_t q) {
+      return surface_meets(chunk.near_surfaces.a[q], chunk.near_surfaces.b[q]);
+    });
     chunk.hints.assign(chunk.surfaces.size(), -1);
     invite_guests(chunk);
     const auto wake = [&](std::int32_t row) {
@@ -206,8 +211,13 @@ void Dem::Impl::begin_watch() {
   wake_guests();
 
   std::fill(fine_force.begin(), fine_force.end(), 0.0);
-  choose_contacts(near_fine, fine, [&](std::int32_t a, std::int32_t b) {
-    return b < 0 ? surface_meets(a, -1 - b) : pairs_meet(a, b);
+  choose_contacts(near_fine, fine, [&](std::size_t q) {
+    const std::int32_t a = near_fine.a[q];
+    const std::int32_t b = near_fine.b[q];
+    if (b < 0) return surface_meets(a, -1 - b);
+    std::uint8_t meets = 0;
+    contact::mark_approaching(courses, images, largest_range, horizon_time, &a, &b, 1, &meets);
+    return meets != 0;
   });
   for (std::size_t e = 0; e < fine.size(); ++e) {
     is_awake[static_cast<std::size_t>(fine.a[e])] = 1;
@@ -227,7 +237,7 @@ void Dem::Impl::begin_watch() {
       awake.start.push_back(
           {{p[0], p[1], p[2]},
            {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])},
-           static_cast<float>(watch_allowance(n))});
+           static_cast<float>(watch_allowance[n])});
     };
     for (std::size_t n = begin; n < end; ++n) {
       if (is_awake[n] == 0 && !flies_straight(n)) is_awake[n] = 1;
@@ -329,6 +339,7 @@ void Dem::Impl::land() {
   if (!is_watching) return;
   is_watching = false;
   if (since_watch == 0) return;
+  choose_watch_length();
   counters.flown_steps += flying * since_watch;
   const std::size_t blocks = (store.size() + k_block - 1) / k_block;
   late.assign(blocks, 0);
