@@ -47,7 +47,7 @@ std::size_t gather_touching(const RowView& rows, const Images& images, const Pai
                             std::int32_t* contacts, BatchColumns& columns);
 
 /// Overlap, normal, effective radius and mass, lever arms and the relative velocity of the contact
-/// point from what load_pairs wrote. Returns the largest overlap / smaller radius [-].
+/// point from what gather_touching wrote. Returns the largest overlap / smaller radius [-].
 double derive_pair_columns(BatchColumns& columns, std::size_t count);
 
 /// Takes the attraction of the cohesion stage from the forces, along the normals.

@@ -10,7 +10,6 @@ namespace dust::contact {
 /// Four doubles; the compiler lowers it to whatever the target has.
 typedef double Lanes __attribute__((vector_size(32), may_alias));
 typedef long long LaneMask __attribute__((vector_size(32)));
-typedef double HalfLanes __attribute__((vector_size(16), may_alias));
 
 /// Rows of four become columns of four, and back.
 __attribute__((always_inline)) inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
@@ -42,22 +41,12 @@ __attribute__((always_inline)) inline void store(double* column, const Lanes& v)
   std::memcpy(column, &v, sizeof v);
 }
 
-/// Four rows as columns. The halves of rows come straight from memory to where they belong: loads
-/// are cheaper than shuffles across the halves of a register.
+/// Four rows as columns.
 __attribute__((always_inline)) inline void columns_of(const double* r0, const double* r1,
                                                       const double* r2, const double* r3,
                                                       Lanes* column) {
-  for (int at = 0; at < 4; at += 2) {
-    HalfLanes h[4];
-    std::memcpy(&h[0], r0 + at, sizeof h[0]);
-    std::memcpy(&h[1], r1 + at, sizeof h[1]);
-    std::memcpy(&h[2], r2 + at, sizeof h[2]);
-    std::memcpy(&h[3], r3 + at, sizeof h[3]);
-    const Lanes even = __builtin_shufflevector(h[0], h[2], 0, 1, 2, 3);
-    const Lanes odd = __builtin_shufflevector(h[1], h[3], 0, 1, 2, 3);
-    column[at] = __builtin_shuffle(even, odd, LaneMask{0, 4, 2, 6});
-    column[at + 1] = __builtin_shuffle(even, odd, LaneMask{1, 5, 3, 7});
-  }
+  load(r0, column[0]), load(r1, column[1]), load(r2, column[2]), load(r3, column[3]);
+  transpose(column[0], column[1], column[2], column[3]);
 }
 
 }  // namespace dust::contact

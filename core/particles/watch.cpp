@@ -14,8 +14,8 @@
 namespace dust::particles {
 namespace {
 
-/// Coarse steps of a watch: in beds at rest long ones, where grains collide all the time short
-/// ones, for whom a watch or the lists suppose on a course longer is off it sooner.
+/// Coarse steps of a watch: long ones in beds at rest, short ones where grains collide all the
+/// time, because the longer a straight course is supposed, the sooner somebody is off it.
 constexpr std::int64_t k_longest_watch = 64;
 constexpr std::int64_t k_shortest_watch = 8;
 /// Allowed deviation during a watch, as a share of that of the list: the list's check, made only
