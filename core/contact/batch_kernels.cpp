@@ -83,7 +83,7 @@ DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count)
     // Coincident centres would give no direction; the tiny floor makes the normal zero instead.
     const double distance =
         std::sqrt(std::max(sx[q] * sx[q] + sy[q] * sy[q] + sz[q] * sz[q], 1e-300));
-    // Four reciprocals from one division, which costs as much as the rest of a line.
+    // Four reciprocals from one division.
     const double radii = ri[q] + rj[q];
     const double smaller = std::min(ri[q], rj[q]);
     const double by_radii = radii * distance;

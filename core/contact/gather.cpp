@@ -27,8 +27,8 @@ constexpr LaneMask k_pack[16] = {{0, 1, 2, 3}, {0, 1, 2, 3}, {1, 0, 2, 3}, {0, 1
 typedef std::int32_t Numbers __attribute__((vector_size(16)));
 
 /// The pairs from `next` on that are near enough, until a batch is full: their separations and
-/// numbers. Brings near what the contacts further on want. Looks at positions alone: half of a
-/// watch's pairs touch, and the others' velocities would be loaded for nothing.
+/// numbers. Brings near what the contacts further on want. Looks at positions alone: many of a
+/// watch's pairs do not touch, and their velocities would be loaded for nothing.
 template <bool is_periodic>
 __attribute__((always_inline)) inline std::size_t find_near(
     const RowView& rows, const Images& images, const PairView& pairs, std::size_t& next,
@@ -85,14 +85,14 @@ __attribute__((always_inline)) inline std::size_t find_near(
   };
   std::size_t p = next;
   for (; p + 4 <= end && found + 4 <= k_batch; p += 4) {
-    const std::int32_t* later = pb + std::min(p + k_ahead, last_four);
+    const std::size_t later = std::min(p + k_ahead, last_four);
     for (std::size_t l = 0; l < 4; ++l) {
-      const std::ptrdiff_t ahead = 4 * static_cast<std::ptrdiff_t>(later[l]);
+      const std::ptrdiff_t ahead = 4 * static_cast<std::ptrdiff_t>(pb[later + l]);
       __builtin_prefetch(position + ahead);
       __builtin_prefetch(velocity + ahead);
       __builtin_prefetch(rotation + ahead);
       // Most that touch have touched before; of the others the history is not wanted.
-      const std::size_t entry = std::min(p + k_ahead, last_four) + l;
+      const std::size_t entry = later + l;
       __builtin_prefetch(history + (is_touching[entry] != 0 ? entry : p) * history_stride, 1);
     }
     look_at(p, pa + p, pb + p, 4);

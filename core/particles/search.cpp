@@ -40,15 +40,16 @@ class Level {
  public:
   Level(const SearchInput& in, const std::vector<std::int32_t>& rows,
         const std::vector<Ball>& balls) {
+    if (rows.empty()) return;
     for (const std::int32_t row : rows) {
       reach_ = std::max(reach_, balls[static_cast<std::size_t>(row)].reach);
     }
-    const double edge = std::max({2.0 * reach_, in.smallest_edge, 1e-12});
+    const double edge = std::max(2.0 * reach_, 1e-12);
     lay_out(in, rows, balls, edge);
     std::vector<std::int32_t> cell_of(rows.size());
-    is_table_ = !rows.empty() && static_cast<double>(count_[0]) * static_cast<double>(count_[1]) *
-                                         static_cast<double>(count_[2]) <=
-                                     k_cells_per_grain * static_cast<double>(rows.size());
+    is_table_ = static_cast<double>(count_[0]) * static_cast<double>(count_[1]) *
+                    static_cast<double>(count_[2]) <=
+                k_cells_per_grain * static_cast<double>(rows.size());
     if (is_table_) {
       fill_table(rows, balls, cell_of);
     } else {
@@ -119,7 +120,7 @@ class Level {
         inverse_[d] = static_cast<double>(count_[d]) / in.period[d];
       } else {
         inverse_[d] = 1.0 / edge;
-        count_[d] = rows.empty() ? 1 : cell(high[d], static_cast<int>(d)) + 1;
+        count_[d] = cell(high[d], static_cast<int>(d)) + 1;
       }
     }
   }
@@ -352,6 +353,7 @@ std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_
         // Of its own level a grain looks at those behind it: each pair is found once.
         const bool is_own = l == blocks[b].level;
         const Level& level = levels[l];
+        if (level.size() == 0) continue;
         const std::size_t count = level.near(own.ball(place), is_own ? place + 1 : 0, close);
         for (std::size_t k = 0; k < count; ++k) {
           const std::int32_t j = level.row(static_cast<std::size_t>(close[k]));

@@ -19,7 +19,6 @@ struct SearchInput {
   double range = 0.0;                 ///< [m] beyond touch
   double origin[3] = {0, 0, 0};
   double period[3] = {0, 0, 0};  ///< [m] 0 = not periodic
-  double smallest_edge = 0.0;    ///< [m] of a cell, against a cell per grain far apart
 };
 
 using RowPair = std::pair<std::int32_t, std::int32_t>;
@@ -28,8 +27,8 @@ using RowPair = std::pair<std::int32_t, std::int32_t>;
 /// than their radii plus their allowances. Each pair once, in blocks of up to `block` grains whose
 /// order depends on the input alone; the first grain of a pair is not the coarser one by a level.
 ///
-/// Cells per size level (factor 2): a grain looks into the cells of its own level and of the coarser
-/// ones, so that dust among sand costs in proportion to the number of grains.
+/// Cells per size level (factor 2): a grain looks into the cells of its own level and of the
+/// coarser ones, so that dust among sand costs in proportion to the number of grains.
 std::vector<std::vector<RowPair>> search_pairs(const SearchInput& input, std::size_t block);
 
 }  // namespace dust::particles

@@ -167,9 +167,13 @@ void Dem::Impl::choose_watch_allowances() {
       std::max(k_watch_reach * fastest() * static_cast<double>(k_longest_watch) * steps.coarse_step,
                k_least_reach * steps.classes.back().diameter);
   watch_allowance.resize(store.size());
-  for (std::size_t n = 0; n < store.size(); ++n) {
-    watch_allowance[n] = std::min(k_watch_share * store.start[4 * n + 3], reach);
-  }
+  const std::size_t blocks = (store.size() + k_block - 1) / k_block;
+  oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    const std::size_t end = std::min(store.size(), (b + 1) * k_block);
+    for (std::size_t n = b * k_block; n < end; ++n) {
+      watch_allowance[n] = std::min(k_watch_share * store.start[4 * n + 3], reach);
+    }
+  });
 }
 
 /// Chooses, for the next steps, the entries of the lists that may come to touch and the grains that

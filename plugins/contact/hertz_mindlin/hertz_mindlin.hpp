@@ -95,7 +95,7 @@ struct Contact {
   const double old2 = c.sx * c.sx + c.sy * c.sy + c.sz * c.sz;
   const double new2 = px * px + py * py + pz * pz;
   const double floor = std::max(kt, std::max(1e-6 * c.stiffness, k_tiny));
-  // One division for what is asked of both: roots and divisions are half of this law's time.
+  // One division for both reciprocals.
   const double in_plane = std::max(new2, k_tiny);
   const double inverse = 1.0 / (in_plane * floor);
   const double keep = std::sqrt(old2 * c.stiffness * inverse);

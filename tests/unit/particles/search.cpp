@@ -39,7 +39,7 @@ struct Flock {
     in.range = 5e-6;
   }
 
-  /// Whether two grains come near within the horizon, looked at in ten thousand instants.
+  /// Closest distance [m] of two grains within the horizon, looked at in ten thousand instants.
   [[nodiscard]] double closest(std::size_t i, std::size_t j) const {
     double least = 1e9;
     for (int s = 0; s <= 10000; ++s) {
