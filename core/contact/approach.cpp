@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contact/approach.hpp"
 
-#include "contact/lanes.hpp"
+#include "base/lanes.hpp"
 #include "dust/sdk/plugin.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace dust::contact {
+using namespace lanes;
 
 DUST_KERNEL void mark_approaching(const Courses& courses, const Images& images, double range,
                                   double horizon, const std::int32_t* a, const std::int32_t* b,

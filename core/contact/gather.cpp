@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/lanes.hpp"
 #include "contact/batch_kernels.hpp"
-#include "contact/lanes.hpp"
 #include "dust/sdk/plugin.hpp"
 
 #include <algorithm>
@@ -9,6 +9,8 @@
 
 /// Rows of grains and contacts into the columns of a batch.
 namespace dust::contact {
+using namespace lanes;
+
 namespace {
 
 /// Entries ahead whose rows are fetched; measured flat between 32 and 128.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/lanes.hpp"
 #include "contact/batch_kernels.hpp"
-#include "contact/lanes.hpp"
 #include "dust/sdk/plugin.hpp"
 
 #include <algorithm>
 
 /// The columns of a batch back into rows of contacts and forces.
 namespace dust::contact {
+using namespace lanes;
 
 DUST_KERNEL void store_history(const PairView& pairs, const std::int32_t* contacts,
                                std::size_t count, int groups, BatchColumns& columns) {

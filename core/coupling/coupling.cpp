@@ -51,7 +51,7 @@ const fluid::Exchange& Coupling::exchange() const { return impl_->faces.exchange
 
 void Coupling::settle(const particles::GrainRows& grains, const fluid::FaceField& velocity) {
   impl_->memory.align(grains);
-  impl_->settle(grains, velocity);
+  impl_->settle(velocity);
 }
 
 void Coupling::refresh(const particles::GrainRows& grains, const fluid::FaceField& velocity,
@@ -61,12 +61,12 @@ void Coupling::refresh(const particles::GrainRows& grains, const fluid::FaceFiel
 
 void Coupling::refresh(const particles::GrainRows& grains, const FluidState& fluid) {
   impl_->memory.align(grains);
-  if (!impl_->is_settled) impl_->settle(grains, fluid.velocity);
+  if (!impl_->is_settled) impl_->settle(fluid.velocity);
   ForceTerms* forces = impl_->forces.get();
   if (forces != nullptr) forces->begin(fluid, impl_->step, impl_->done_refreshes == 0);
-  Impl::for_batches(grains.count, [&](std::size_t first, std::size_t last) {
-    impl_->refresh(grains, first, last, fluid);
-  });
+  impl_->sort_if_changed(grains);
+  impl_->for_batches(
+      [&](std::size_t batch, Impl::Rows rows) { impl_->refresh(grains, batch, rows, fluid); });
   if (forces != nullptr) forces->end(fluid);
   ++impl_->done_refreshes;
 }

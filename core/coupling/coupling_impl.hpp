@@ -14,9 +14,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -57,6 +59,7 @@ struct Coupling::Impl {
         is_own_taken_off(fluid.corrects_own_disturbance && !fluid.is_one_way),
         faces(lattice, face_void, rule, fluid.momentum_set == "III", is_own_taken_off),
         properties(fluid),
+        own_per_kinematic_viscosity(properties.own().density / properties.own().viscosity),
         gravity(gravity_vector),
         is_set_three(fluid.momentum_set == "III"),
         initial_velocity{fluid.initial_velocity.x, fluid.initial_velocity.y,
@@ -83,14 +86,19 @@ struct Coupling::Impl {
     return std::clamp(wanted, 1.0, k_most_refreshes);
   }
 
-  /// Runs `work(first, last)` over fixed batches of rows.
+  using Rows = std::span<const std::int32_t>;
+  /// Runs `work(batch, rows)` over the batches of grains in the order of the cells.
   template <class Work>
-  static void for_batches(std::size_t count, const Work& work) {
-    const std::size_t batches = (count + k_batch - 1) / k_batch;
-    tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t b) {
-      work(b * k_batch, std::min(count, (b + 1) * k_batch));
-    });
+  void for_batches(const Work& work) {
+    tbb::parallel_for(std::size_t{0}, spots.batches.size(),
+                      [&](std::size_t b) { work(b, spots.rows(b)); });
   }
+  /// Orders the grains by the cells they are in.
+  void sort(const particles::GrainRows& grains);
+  /// The rows may be in another order than at map().
+  void sort_if_changed(const particles::GrainRows& grains);
+  /// Makes the spots of a batch those of its grains; returns whether they were others.
+  bool locate(const particles::GrainRows& grains, Rows rows, SpotBatch& batch) const;
 
   /// F of the rows first..last; the batch's Reynolds numbers and void fractions are set.
   void evaluate(Batch& batch, std::size_t count) const {
@@ -102,8 +110,14 @@ struct Coupling::Impl {
     if (properties.is_uniform()) return properties.own();
     return properties.at({position[0], position[1], position[2]});
   }
-  static double reynolds(const Fluid& fluid, double eps, double slip, double diameter) {
-    return eps * fluid.density * slip * diameter / fluid.viscosity;
+  /// Density over viscosity [s/m2] at a place.
+  [[nodiscard]] double per_kinematic_viscosity(const double* position) const {
+    if (properties.is_uniform()) return own_per_kinematic_viscosity;
+    const Fluid fluid = fluid_at(position);
+    return fluid.density / fluid.viscosity;
+  }
+  [[nodiscard]] double reynolds(const double* position, double eps, double slip) const {
+    return eps * slip * 2.0 * position[3] * per_kinematic_viscosity(position);
   }
   /// K = 3 pi mu D F [kg/s].
   static double coefficient(const Fluid& fluid, double diameter, double factor) {
@@ -118,7 +132,9 @@ struct Coupling::Impl {
   }
 
   void map(const particles::GrainRows& grains, double fluid_step);
-  void remember(const particles::GrainRows& grains, std::size_t first, std::size_t last);
+  /// `coefficient` [kg/s] per grain: what the fluid is given.
+  void remember(const particles::GrainRows& grains, std::size_t batch, Rows rows,
+                double* coefficient);
   /// Void fraction that a grain in the cell `own` has around it; sets `wide` for a grain larger
   /// than a cell.
   [[nodiscard]] double void_fraction_at(const double* position, std::ptrdiff_t own,
@@ -130,16 +146,20 @@ struct Coupling::Impl {
   }
   /// What the faces around a batch of grains show.
   struct Seen {
-    std::array<Triple, k_batch> slip;    ///< [m/s] interstitial
-    std::array<Triple, k_batch> ratio;   ///< of the drag on the grain to the law's
-    std::array<Triple, k_batch> stress;  ///< [N/m3]
+    std::array<SpotBatch::Reals, 3> slip;    ///< [m/s] interstitial
+    std::array<SpotBatch::Reals, 3> ratio;   ///< of the drag on the grain to the law's
+    std::array<SpotBatch::Reals, 3> stress;  ///< [N/m3]
   };
-  void look(const particles::GrainRows& grains, std::size_t first, std::size_t last,
-            const FluidState& fluid, Seen& seen, Batch& batch);
-  void find_own_solids(const particles::GrainRows& grains, std::size_t first, std::size_t last);
+  void look(const particles::GrainRows& grains, SpotBatch& spot, Rows rows, const FluidState& fluid,
+            Seen& seen, Batch& batch);
+  bool look_into_cells(const particles::GrainRows& grains, const SpotBatch& spot, Rows rows,
+                       const FluidState& fluid, Seen& seen, Batch& batch);
+  void look_wide(const SpotBatch& spot, int d, const FluidState& fluid, const double* v,
+                 const FaceSumColumns& sums, double* flux, double* stress) const;
+  void find_own_solids(const particles::GrainRows& grains, Rows rows);
   void find_own_flow(const particles::GrainRows& grains, std::size_t row, double eps, double slip);
-  void settle(const particles::GrainRows& grains, const fluid::FaceField& velocity);
-  void refresh(const particles::GrainRows& grains, std::size_t first, std::size_t last,
+  void settle(const fluid::FaceField& velocity);
+  void refresh(const particles::GrainRows& grains, std::size_t batch, Rows rows,
                const FluidState& fluid);
   void act(const particles::GrainRows& grains, std::size_t row, std::size_t n,
            double drag_coefficient, const Triple& relative, double held,
@@ -156,13 +176,15 @@ struct Coupling::Impl {
   VoidFraction void_fraction;
   FaceVoid face_void;
   GrainMemory memory;
-  Spots spots;                    ///< of the rows at map()
-  std::uint64_t spots_order = 0;  ///< GrainMemory::order() then
-  bool is_own_taken_off;          ///< what a grain does to the fluid by itself
+  Spots spots;
+  std::uint64_t spots_order = 0;              ///< GrainMemory::order() when they were ordered
+  std::atomic<bool> are_spots_of_map{false};  ///< not those of a later refresh()
+  bool is_own_taken_off;                      ///< what a grain does to the fluid by itself
   FaceExchange faces;
   std::unique_ptr<ForceTerms> forces;  ///< null without forces besides drag
   CouplingReport report;
   fluid::Properties properties;
+  double own_per_kinematic_viscosity;  ///< [s/m2] of the uniform fluid
   sdk::Vec3 gravity;
   bool is_set_three;
   Triple initial_velocity;

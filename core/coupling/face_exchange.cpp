@@ -48,102 +48,149 @@ void FaceExchange::clear(int d) {
   touched_[d].clear();
 }
 
-/// What each grain of a batch gives, from the sums over its faces.
+void FaceExchange::resize(std::size_t batches) {
+  sums_.resize(batches);
+  charges_.resize(batches);
+}
+
 void FaceExchange::charge(const particles::GrainRows& grains, const Spots& spots, std::size_t batch,
-                          GrainMemory& memory, const fluid::CellField& eps, double step) {
-  const std::size_t first = batch * SpotBatch::k_size;
-  const std::size_t last = std::min(grains.count, first + SpotBatch::k_size);
-  const double volume = lattice_.cell_volume();
-  SpotBatch::Reals open;
-  SpotBatch::Reals fluid;
+                          const double* coefficient, GrainMemory& memory,
+                          const fluid::CellField& eps, double step) {
+  const std::span<const std::int32_t> rows = spots.rows(batch);
+  const SpotBatch& here = spots.batches[batch];
+  const double* around = spots.eps.data() + batch * SpotBatch::k_size;
+  const double per_volume = 1.0 / lattice_.cell_volume();
+  const double per_volume_and_step = per_volume / step;
+  SpotBatch::Reals shared;
+  std::array<ChargeInput, 3> inputs;
+  std::array<ChargeColumns, 3>& charges = charges_[batch];
   WideKernel wide(lattice_, rule_);
-  WideStencil many;
-  BatchSums& batch_sums = sums_[batch];
-  batch_sums = {};
+  BatchSums& sums = sums_[batch];
+  sums = {};
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    const auto row = static_cast<std::size_t>(rows[q]);
+    // What the grain's own solids add to the void fractions has no part in its drag.
+    const double lone = around[q] + (is_own_taken_off_ ? memory.own_flow(row).solids : 0.0);
+    shared[q] = grains.weight[row] * coefficient[q] * per_volume / (lone * lone);
+    sums.has_wide = sums.has_wide || wide.takes(here.position[4 * q + 3]);
+    for (std::size_t d = 0; d < 3; ++d) {
+      charges[d].velocity[q] = grains.velocity[4 * row + d];
+      charges[d].lag[q] = 0.0;
+      inputs[d].owed[q] = memory[row].owed[d] * per_volume_and_step;
+      inputs[d].gain[q] = 1.0;
+    }
+  }
   for (int d = 0; d < 3; ++d) {
-    sum_faces(spots.batches[batch], d, last - first, face_void_.columns(d),
-              {open.data(), fluid.data()});
-    for (std::size_t row = first; row < last; ++row) {
-      Remembered& r = memory[row];
-      FaceSums sums{open[row - first], fluid[row - first]};
-      if (wide.takes(grains.position[4 * row + 3])) {
-        wide.set(r.place.data(), grains.position[4 * row + 3]);
-        wide.stencil(d, eps, many);
-        sums = sums_of(many);
-      }
-      Charge& charge = charges_[d][row];
-      charge = {};
-      r.taken[d] = 0.0;
-      r.is_paired[d] = sums.open > k_least_weight;
-      if (!r.is_paired[d]) {
-        ++batch_sums.unpaired;
-        continue;
-      }
-      // What the grain's own solids add to the void fractions has no part in its drag.
-      double lone = spots.eps[row];
-      double excess = 1.0;
-      double disturbance = 0.0;
-      if (is_own_taken_off_) {
-        OwnFlow& own = memory.own_flow(row);
-        lone += own.solids;
-        if (!is_set_three_) excess += own.face_solids[d] * sums.open / sums.fluid;
-        own.lone_eps = lone;
-        disturbance = lone * own.disturbance[d];
-      }
-      r.taken[d] = r.coefficient * excess / (sums.open * lone * lone);
-      const double received = is_set_three_ ? sums.open : sums.fluid;
-      charge.drag = grains.weight[row] * r.taken[d] / volume;
-      charge.push = charge.drag * r.velocity[d];
-      charge.extra = r.owed[d] / (received * volume * step) - charge.drag * disturbance;
-      batch_sums.paid[d] += r.owed[d];
+    ChargeInput& input = inputs[d];
+    input.coefficient = shared.data();
+    sum_faces(here, d, face_void_.columns(d), {input.open.data(), input.fluid.data()});
+    if (sums.has_wide) sum_wide(here, d, eps, input);
+    for (std::size_t q = 0; is_own_taken_off_ && q < rows.size(); ++q) {
+      const OwnFlow& own = memory.own_flow(static_cast<std::size_t>(rows[q]));
+      charges[d].lag[q] = (around[q] + own.solids) * own.disturbance[d];
+      if (is_set_three_) continue;
+      input.gain[q] += own.face_solids[d] * input.open[q] / input.fluid[q];
+    }
+    charge_faces(rows.size(), input, k_least_weight, is_set_three_, charges[d]);
+  }
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    Remembered& r = memory[static_cast<std::size_t>(rows[q])];
+    for (std::size_t d = 0; d < 3; ++d) {
+      r.is_paired[d] = inputs[d].open[q] > k_least_weight;
+      sums.unpaired += r.is_paired[d] ? 0 : 1;
+      if (!r.is_paired[d]) continue;
+      sums.paid[d] += r.owed[d];
       r.owed[d] = 0.0;
     }
   }
 }
 
-inline void FaceExchange::add(int d, std::ptrdiff_t face, double weight, double open, double eps,
-                              const Charge& charge) {
+/// The sums over the faces of the grains that are larger than a cell.
+void FaceExchange::sum_wide(const SpotBatch& spots, int d, const fluid::CellField& eps,
+                            ChargeInput& input) const {
+  WideKernel wide(lattice_, rule_);
+  WideStencil many;
+  for (std::size_t q = 0; q < spots.count; ++q) {
+    const double* position = &spots.position[4 * q];
+    if (!wide.takes(position[3])) continue;
+    wide.set(position, position[3]);
+    wide.stencil(d, eps, many);
+    const FaceSums faces = sums_of(many);
+    input.open[q] = faces.open;
+    input.fluid[q] = faces.fluid;
+  }
+}
+
+inline void FaceExchange::add(int d, std::ptrdiff_t face, double open, double eps,
+                              const Charge& weighted) {
   double& coefficient = exchange_.coefficient.component[d][face];
   double& source = exchange_.source.component[d][face];
   if (coefficient == 0.0 && source == 0.0) {
     const double fluid = is_set_three_ ? 1.0 : eps;
     touched_[d].push_back({face, fluid * open * lattice_.cell_volume(), 0.0});
   }
-  coefficient += weight * eps * charge.drag;
-  source += weight * (eps * charge.push + charge.extra);
+  coefficient += eps * weighted.drag;
+  source += eps * weighted.push + weighted.extra;
 }
 
 template <class Faces>
 void FaceExchange::give_one(int d, const Faces& faces, const Charge& charge) {
   for (std::size_t n = 0; n < faces.size(); ++n) {
-    if (faces.open[n] == 0.0 || faces.weight[n] == 0.0) continue;
-    add(d, faces.home[n], faces.weight[n], faces.open[n], faces.void_fraction[n], charge);
+    const double w = faces.weight[n];
+    if (faces.open[n] == 0.0 || w == 0.0) continue;
+    add(d, faces.home[n], faces.open[n], faces.void_fraction[n],
+        {w * charge.drag, w * charge.push, w * charge.extra});
   }
 }
 
-// One component is one task and sums in row order: the same bits on any number of threads.
-void FaceExchange::give(int d, const particles::GrainRows& grains, const Spots& spots,
-                        const GrainMemory& memory, const fluid::CellField& eps) {
+void FaceExchange::give_runs(int d, const SpotBatch& spots, const ChargeColumns& charges) {
   const FaceColumns columns = face_void_.columns(d);
-  const std::vector<Charge>& charges = charges_[d];
+  RunCharge sum;
+  for (std::size_t r = 0; r < spots.runs; ++r) {
+    charge_run(spots, d, r, charges, sum);
+    std::size_t n = 0;
+    for_corners(corners(spots, d, (d + 1) % 3, (d + 2) % 3, spots.run[r]),
+                [&](std::int32_t face, double) {
+                  const Charge charge{sum.drag[n], sum.push[n], sum.extra[n]};
+                  ++n;
+                  const double open = columns.open[face];
+                  if (open == 0.0 || (charge.drag == 0.0 && charge.extra == 0.0)) return;
+                  add(d, face, open, columns.void_fraction[face], charge);
+                });
+  }
+}
+
+// One component is one task and sums in the order of the cells: the same bits on any number of
+// threads.
+void FaceExchange::give(int d, const Spots& spots, const fluid::CellField& eps) {
+  const FaceColumns columns = face_void_.columns(d);
   WideKernel wide(lattice_, rule_);
   WideStencil many;
-  for (std::size_t row = 0; row < grains.count; ++row) {
-    const Charge& charge = charges[row];
-    if (charge.drag == 0.0 && charge.extra == 0.0) continue;
-    if (wide.takes(grains.position[4 * row + 3])) {
-      wide.set(memory[row].place.data(), grains.position[4 * row + 3]);
-      wide.stencil(d, eps, many);
-      give_one(d, many, charge);
+  for (std::size_t b = 0; b < spots.batches.size(); ++b) {
+    const SpotBatch& batch = spots.batches[b];
+    const ChargeColumns& charges = charges_[b][d];
+    if (batch.has_long_runs() && !sums_[b].has_wide) {
+      give_runs(d, batch, charges);
       continue;
     }
-    const SpotBatch& batch = spots.batches[row / SpotBatch::k_size];
-    for_corners(corners(batch, d, (d + 1) % 3, (d + 2) % 3, row % SpotBatch::k_size),
-                [&](std::int32_t face, double weight) {
-                  const double open = columns.open[face];
-                  if (open == 0.0 || weight == 0.0) return;
-                  add(d, face, weight, open, columns.void_fraction[face], charge);
-                });
+    for (std::size_t q = 0; q < batch.count; ++q) {
+      const Charge charge{charges.drag[q], charges.drag[q] * charges.velocity[q], charges.extra[q]};
+      if (charge.drag == 0.0 && charge.extra == 0.0) continue;
+      const double* position = &batch.position[4 * q];
+      if (wide.takes(position[3])) {
+        wide.set(position, position[3]);
+        wide.stencil(d, eps, many);
+        give_one(d, many, charge);
+        continue;
+      }
+      for_corners(corners(batch, d, (d + 1) % 3, (d + 2) % 3, q),
+                  [&](std::int32_t face, double weight) {
+                    const double open = columns.open[face];
+                    if (open == 0.0 || weight == 0.0) return;
+                    add(d, face, open, columns.void_fraction[face],
+                        {weight * charge.drag, weight * charge.push, weight * charge.extra});
+                  });
+    }
   }
 }
 
@@ -167,19 +214,14 @@ std::int64_t FaceExchange::pay_leavers(int d, GrainMemory& memory, double step) 
   return unpaired;
 }
 
-std::int64_t FaceExchange::spread(const particles::GrainRows& grains, const Spots& spots,
-                                  GrainMemory& memory, const fluid::CellField& eps, double step) {
-  const std::size_t batches = (grains.count + SpotBatch::k_size - 1) / SpotBatch::k_size;
-  sums_.resize(batches);
-  for (auto& charges : charges_) charges.resize(grains.count);
-  tbb::parallel_for(std::size_t{0}, batches,
-                    [&](std::size_t b) { charge(grains, spots, b, memory, eps, step); });
+std::int64_t FaceExchange::spread(const Spots& spots, GrainMemory& memory,
+                                  const fluid::CellField& eps, double step) {
   std::array<std::int64_t, 3> unpaired{};
   tbb::parallel_for(0, 3, [&](int d) {
     clear(d);
     paid_[d] = 0.0;
     for (const BatchSums& sums : sums_) paid_[d] += sums.paid[d];
-    give(d, grains, spots, memory, eps);
+    give(d, spots, eps);
     unpaired[d] = pay_leavers(d, memory, step);
     lattice_.close_periodic(d, exchange_.coefficient.component[d]);
     lattice_.close_periodic(d, exchange_.source.component[d]);
@@ -190,55 +232,44 @@ std::int64_t FaceExchange::spread(const particles::GrainRows& grains, const Spot
   return all;
 }
 
-double FaceExchange::settle(const particles::GrainRows& grains, const std::vector<SpotBatch>& spots,
+double FaceExchange::settle(const Spots& spots, std::span<const std::int32_t> rows,
                             GrainMemory& memory, const fluid::CellField& eps,
                             const fluid::FaceField& velocity, double step) {
-  const std::size_t batches = (grains.count + SpotBatch::k_size - 1) / SpotBatch::k_size;
-  sums_.resize(batches);
-  tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t b) {
-    const std::size_t first = b * SpotBatch::k_size;
-    const std::size_t count = std::min(grains.count - first, SpotBatch::k_size);
-    SpotBatch::Reals own;
-    SpotBatch::Reals disturbance;
-    SpotBatch::Reals factor;
-    SpotBatch::Reals given;
+  const double impulse = step * lattice_.cell_volume();
+  tbb::parallel_for(std::size_t{0}, spots.batches.size(), [&](std::size_t b) {
+    const SpotBatch& here = spots.batches[b];
+    std::array<SpotBatch::Reals, 3> given;
     WideKernel wide(lattice_, rule_);
     WideStencil many;
+    BatchSums& sums = sums_[b];
+    sums.given = sums.size = {};
     for (int d = 0; d < 3; ++d) {
-      for (std::size_t q = 0; q < count; ++q) {
-        const Remembered& r = memory[first + q];
-        own[q] = r.velocity[d];
-        disturbance[q] = 0.0;
-        if (is_own_taken_off_) {
-          const OwnFlow& flow = memory.own_flow(first + q);
-          disturbance[q] = flow.lone_eps * flow.disturbance[d];
-        }
-        factor[q] = step * r.taken[d];  // 0 if unpaired
-      }
-      const double* u = velocity.component[d].data();
-      settle_faces(spots[b], d, count, face_void_.columns(d), u, own.data(), disturbance.data(),
-                   factor.data(), is_set_three_, given.data());
-      const auto wide_slip = [&](std::size_t q) {
-        wide.set(memory[first + q].place.data(), grains.position[4 * (first + q) + 3]);
+      const std::vector<double>& u = velocity.component[d];
+      const ChargeColumns& charges = charges_[b][d];
+      settle_faces(here, d, face_void_.columns(d), u.data(), charges, impulse, is_set_three_,
+                   given[d].data());
+      for (std::size_t q = 0; sums.has_wide && q < here.count; ++q) {
+        const double radius = here.position[4 * q + 3];
+        if (!wide.takes(radius)) continue;
+        wide.set(&here.position[4 * q], radius);
         wide.stencil(d, eps, many);
         double sum = 0.0;
         for (std::size_t n = 0; n < many.size(); ++n) {
           const double fluid = is_set_three_ ? 1.0 : many.void_fraction[n];
-          sum += many.weight[n] * many.open[n] * fluid *
-                 (many.void_fraction[n] * (u[many.home[n]] - own[q]) + disturbance[q]);
+          const double slip = many.void_fraction[n] * (u[many.home[n]] - charges.velocity[q]);
+          sum += many.weight[n] * many.open[n] * fluid * (slip + charges.lag[q]);
         }
-        return sum;
-      };
-      sums_[b].given[d] = sums_[b].size[d] = 0.0;
-      for (std::size_t q = 0; q < count; ++q) {
-        Remembered& r = memory[first + q];
-        const double radius = grains.position[4 * (first + q) + 3];
-        if (wide.takes(radius)) given[q] = factor[q] * wide_slip(q);
-        r.given[d] = given[q];
-        const double impulse = grains.weight[first + q] * given[q];
-        sums_[b].given[d] += impulse;
-        sums_[b].size[d] += std::abs(impulse);
+        given[d][q] = impulse * charges.drag[q] * sum;
       }
+      for (std::size_t q = 0; q < here.count; ++q) {
+        sums.given[d] += given[d][q];
+        sums.size[d] += std::abs(given[d][q]);
+      }
+    }
+    const std::span<const std::int32_t> own = rows.subspan(b * SpotBatch::k_size, here.count);
+    for (std::size_t q = 0; q < here.count; ++q) {
+      if (own[q] < 0) continue;
+      memory[static_cast<std::size_t>(own[q])].given = {given[0][q], given[1][q], given[2][q]};
     }
   });
 

@@ -1,21 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "coupling/cell_order.hpp"
 #include "coupling/face_void.hpp"
 #include "coupling/grain_memory.hpp"
 #include "coupling/lattice.hpp"
 #include "coupling/wide_kernel.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace dust::coupling {
 
-/// Where the grains of a call are, batch by batch.
+/// Where the grains of a call are, batch by batch in the order of the cells.
 struct Spots {
+  CellOrder order;
   std::vector<SpotBatch> batches;
   std::vector<double> eps;  ///< void fraction around each: of its cell, or the mean over its cells
+
+  /// The rows of a batch.
+  [[nodiscard]] std::span<const std::int32_t> rows(std::size_t batch) const {
+    const std::size_t first = batch * SpotBatch::k_size;
+    return order.rows().subspan(first, std::min(SpotBatch::k_size, order.rows().size() - first));
+  }
 };
 
 /// Coefficient and source of each face from the grains around it. A grain with drag coefficient K,
@@ -32,17 +42,22 @@ class FaceExchange {
   FaceExchange(const Lattice& lattice, const FaceVoid& face_void, const sdk::VoidageRule& rule,
                bool is_set_three, bool is_own_taken_off);
 
-  /// Spreads all grains (velocities and coefficients as remembered at map(), `spots` of the same
-  /// rows) and the debts, which are thereby paid. Returns the number of force components without an
-  /// open face.
-  std::int64_t spread(const particles::GrainRows& grains, const Spots& spots, GrainMemory& memory,
-                      const fluid::CellField& eps, double step);
+  /// Makes room for as many batches.
+  void resize(std::size_t batches);
+  /// What each grain of a batch gives, from the sums over its faces. `coefficient` [kg/s] is that
+  /// given to the fluid. Debts are paid thereby.
+  void charge(const particles::GrainRows& grains, const Spots& spots, std::size_t batch,
+              const double* coefficient, GrainMemory& memory, const fluid::CellField& eps,
+              double step);
+  /// Gives the faces what the batches are charged with, and the debts of the grains that are gone.
+  /// Returns the number of force components without an open face.
+  std::int64_t spread(const Spots& spots, GrainMemory& memory, const fluid::CellField& eps,
+                      double step);
   /// Writes what each grain's drag has given to a fluid of this velocity (Remembered::given), and
   /// compares the sum over the grains with that over the faces: returns |difference| / scale.
-  /// `spots`: of the places remembered.
-  double settle(const particles::GrainRows& grains, const std::vector<SpotBatch>& spots,
-                GrainMemory& memory, const fluid::CellField& eps, const fluid::FaceField& velocity,
-                double step);
+  /// `spots` as charged; `rows` of these grains by now, -1 for those that are gone.
+  double settle(const Spots& spots, std::span<const std::int32_t> rows, GrainMemory& memory,
+                const fluid::CellField& eps, const fluid::FaceField& velocity, double step);
 
   [[nodiscard]] const fluid::Exchange& exchange() const { return exchange_; }
   /// Force on the fluid per cell volume [N/m3], as settled.
@@ -54,29 +69,27 @@ class FaceExchange {
     double volume;  ///< [m3] of the face's control volume that the force's density acts on
     double force;   ///< [N] on the fluid, once settled
   };
-  /// What a grain gives to the fluid by one component; nothing if it finds no open face.
+  /// One grain's of the ChargeColumns; zero if it finds no open face.
   struct Charge {
-    double drag = 0.0;   ///< [kg/(m3 s)] to the coefficient, times w eps
-    double push = 0.0;   ///< [N/m3] to the source, times w eps
-    double extra = 0.0;  ///< [N/m3] to the source, times w
+    double drag = 0.0, push = 0.0, extra = 0.0;
   };
   /// Sums over a batch, added up in the order of the batches.
   struct BatchSums {
     std::int64_t unpaired = 0;
+    bool has_wide = false;  ///< grains larger than a cell
     Triple paid{};
     Triple given{};  ///< [N s] weight included
     Triple size{};   ///< [N s] sum of the magnitudes
   };
-  void charge(const particles::GrainRows& grains, const Spots& spots, std::size_t batch,
-              GrainMemory& memory, const fluid::CellField& eps, double step);
-  void give(int d, const particles::GrainRows& grains, const Spots& spots,
-            const GrainMemory& memory, const fluid::CellField& eps);
+  void sum_wide(const SpotBatch& spots, int d, const fluid::CellField& eps,
+                ChargeInput& input) const;
+  void give(int d, const Spots& spots, const fluid::CellField& eps);
+  void give_runs(int d, const SpotBatch& spots, const ChargeColumns& charges);
   template <class Faces>
   void give_one(int d, const Faces& faces, const Charge& charge);
   std::int64_t pay_leavers(int d, GrainMemory& memory, double step);
-  /// Adds to one face; `eps` of the face.
-  void add(int d, std::ptrdiff_t face, double weight, double open, double eps,
-           const Charge& charge);
+  /// Adds to one face of this open share and void fraction what is weighted already.
+  void add(int d, std::ptrdiff_t face, double open, double eps, const Charge& weighted);
   void clear(int d);
 
   const Lattice& lattice_;
@@ -86,7 +99,7 @@ class FaceExchange {
   bool is_own_taken_off_;  ///< what a grain does to the fluid by itself
   fluid::Exchange exchange_;
   std::array<std::vector<Touched>, 3> touched_;
-  std::array<std::vector<Charge>, 3> charges_;  ///< of the rows
+  std::vector<std::array<ChargeColumns, 3>> charges_;  ///< of the batches
   std::vector<BatchSums> sums_;
   Triple paid_{};  ///< [N s] debts in the source
 };

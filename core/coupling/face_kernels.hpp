@@ -12,8 +12,11 @@ namespace dust::coupling {
 /// of `face` along d and `middle` along the two others, or the next ones.
 struct SpotBatch {
   static constexpr std::size_t k_size = 256;
-  using Reals = std::array<double, k_size>;
-  using Numbers = std::array<std::int32_t, k_size>;
+  /// A run is worked on four grains at a time: what is written behind its end belongs to the next
+  /// run, which writes it again, or to nobody.
+  static constexpr std::size_t k_room = k_size + 4;
+  using Reals = std::array<double, k_room>;
+  using Numbers = std::array<std::int32_t, k_room>;
 
   std::array<Reals, 3> face_part;    ///< between the faces around the grain, 0..1
   std::array<Reals, 3> middle_part;  ///< between the middles of cells around it, 0..1
@@ -21,6 +24,17 @@ struct SpotBatch {
   std::array<Numbers, 3> face_step;  ///< to the upper one
   std::array<Numbers, 3> middle;
   std::array<Numbers, 3> middle_step;
+  std::size_t count = 0;
+  std::array<double, 4 * k_size> position;  ///< [m] and radius, of those placed
+
+  /// Grains in a row that have the same faces around them: where each run begins, and the end.
+  std::array<std::uint16_t, k_size + 1> run;
+  std::size_t runs = 0;
+  /// Whether it is worth the while to look the faces up once per run.
+  [[nodiscard]] bool has_long_runs() const {
+    constexpr std::size_t k_long = 4;  // about as fast either way
+    return k_long * runs <= count;
+  }
 
   /// Number of the cell that the grain lies in.
   [[nodiscard]] std::ptrdiff_t cell(std::size_t q) const {
@@ -87,17 +101,49 @@ struct FaceSumColumns {
   double* fluid = nullptr;
 };
 
-/// Fills the columns of one axis from `position` (x of the first grain, 4 numbers per grain).
-void place_along(const AxisView& axis, const double* position, std::size_t count, int d,
-                 SpotBatch& spots);
-void sum_faces(const SpotBatch& spots, int d, std::size_t count, const FaceColumns& faces,
-               const FaceSumColumns& sums);
+/// What a batch of grains gives by one component, to the coefficient and to the source.
+struct ChargeColumns {
+  SpotBatch::Reals drag;      ///< [kg/(m3 s)] to the coefficient, times w eps
+  SpotBatch::Reals velocity;  ///< [m/s] times the drag to the source, times w eps
+  SpotBatch::Reals extra;     ///< [N/m3] to the source, times w
+  SpotBatch::Reals lag;       ///< [m/s] slip that the grain makes itself, times eps around it
+};
+/// What the charges are made of; `coefficient` is the same for all components.
+struct ChargeInput {
+  const double* coefficient;     ///< [kg/(m3 s)] W K / (eps^2 V)
+  SpotBatch::Reals owed;         ///< [N/m3] debt per cell volume and step
+  SpotBatch::Reals gain;         ///< [-] of the drag, by the grain's own solids at the faces
+  SpotBatch::Reals open, fluid;  ///< sums over the faces
+};
+/// Sums of the charges of a run over each of its eight faces, weighted by w.
+struct RunCharge {
+  std::array<double, 8> drag, push, extra;
+};
+
+/// Fills the columns of one axis from `position` (x of the first grain, 4 numbers per grain) of
+/// `spots.count` grains.
+void place_along(const AxisView& axis, const double* position, int d, SpotBatch& spots);
+/// Finds the runs, once all axes are placed.
+void find_runs(SpotBatch& spots);
+
+// Columns written have SpotBatch::k_room.
+void sum_faces(const SpotBatch& spots, int d, const FaceColumns& faces, const FaceSumColumns& sums);
 /// The same, and flux = sum(w eps (u - v)).
-void look_at_faces(const SpotBatch& spots, int d, std::size_t count, const FaceColumns& faces,
-                   const double* u, const double* v, const FaceSumColumns& sums, double* flux);
-/// given = factor sum(w a e (eps (u - v) + disturbance)), e = 1 for `is_density`, else eps.
-void settle_faces(const SpotBatch& spots, int d, std::size_t count, const FaceColumns& faces,
-                  const double* u, const double* v, const double* disturbance, const double* factor,
-                  bool is_density, double* given);
+void look_at_faces(const SpotBatch& spots, int d, const FaceColumns& faces, const double* u,
+                   const double* v, const FaceSumColumns& sums, double* flux);
+/// slip = flux / eps, and ratio = (fluid / open) / eps, 1 without open faces: void fraction at the
+/// faces over that around the grain.
+void slip_of_faces(std::size_t count, const double* eps, const FaceSumColumns& sums,
+                   const double* flux, double* slip, double* ratio);
+/// drag and extra from `input`, velocity and lag; 0 for grains with less than `least_open` around
+/// them. `is_density`: what is owed is received by the open share, not by the fluid's.
+void charge_faces(std::size_t count, const ChargeInput& input, double least_open, bool is_density,
+                  ChargeColumns& charges);
+/// given = scale drag sum(w a e (eps (u - v) + lag)), e = 1 for `is_density`, else eps.
+void settle_faces(const SpotBatch& spots, int d, const FaceColumns& faces, const double* u,
+                  const ChargeColumns& charges, double scale, bool is_density, double* given);
+/// Adds up the charges of one run.
+void charge_run(const SpotBatch& spots, int d, std::size_t run, const ChargeColumns& charges,
+                RunCharge& sum);
 
 }  // namespace dust::coupling

@@ -146,8 +146,8 @@ void ForceTerms::find_wall(sdk::Vec3 centre, double radius, double time, std::si
 
 void ForceTerms::gather(const particles::GrainRows& grains, const Batch& batch,
                         const FluidState& fluid, GrainMemory& memory, Columns& c) const {
-  for (std::size_t n = 0; n < batch.count; ++n) {
-    const std::size_t row = batch.first + n;
+  for (std::size_t n = 0; n < batch.rows.size(); ++n) {
+    const auto row = static_cast<std::size_t>(batch.rows[n]);
     const double* x = grains.position + 4 * row;
     const double* v = grains.velocity + 4 * row;
     const double* w = grains.rotation + 4 * row;
@@ -186,7 +186,7 @@ void ForceTerms::gather(const particles::GrainRows& grains, const Batch& batch,
       for (int d = 0; d < 3; ++d) {
         gradient[static_cast<std::size_t>(d)] = lattice_.cell_slope(d, p, *fluid.pressure);
         viscous[static_cast<std::size_t>(d)] =
-            batch.stress[n][static_cast<std::size_t>(d)] + gradient[static_cast<std::size_t>(d)];
+            batch.stress[n][d] + gradient[static_cast<std::size_t>(d)];
       }
       c.pressure_gradient.set(n, gradient);
       c.viscous_stress.set(n, viscous);
@@ -232,19 +232,21 @@ void ForceTerms::evaluate(const particles::GrainRows& grains, const Batch& batch
                           Sums& sums) const {
   Columns c;
   gather(grains, batch, fluid, memory, c);
-  for (std::size_t n = 0; n < batch.count; ++n) {
+  for (std::size_t n = 0; n < batch.rows.size(); ++n) {
     sums.contained[n] = {};
     sums.returned[n] = {};
     sums.added_mass[n] = 0.0;
     sums.resistance[n] = 0.0;
-    note_contact(grains, batch.first + n, held, memory.kept(batch.first + n), sums.contact[n]);
+    const auto row = static_cast<std::size_t>(batch.rows[n]);
+    note_contact(grains, row, held, memory.kept(row), sums.contact[n]);
     if (needs_.wall_reach > 0.0) {
       const sdk::Vec3 normal{c.wall_normal.x[n], c.wall_normal.y[n], c.wall_normal.z[n]};
       const sdk::Vec3 speed{c.wall_velocity.x[n], c.wall_velocity.y[n], c.wall_velocity.z[n]};
       sums.normal[n] = {normal.x, normal.y, normal.z};
       sums.wall_speed[n] = dot(normal, speed);
     }
-    sums.kept[n] = is_set_three_ ? Triple{} : batch.stress[n];  // set III has it in the drag
+    const Triple stress{batch.stress.x[n], batch.stress.y[n], batch.stress.z[n]};
+    sums.kept[n] = is_set_three_ ? Triple{} : stress;  // set III has it in the drag
     if (is_set_three_ || !(taken_.pressure_gradient || taken_.viscous_stress)) continue;
     if (taken_.pressure_gradient && taken_.viscous_stress) {
       sums.kept[n] = {};
@@ -265,17 +267,18 @@ void ForceTerms::evaluate(const particles::GrainRows& grains, const Batch& batch
   for (const sdk::FluidForce* model : models_) {
     const auto size = static_cast<std::size_t>(model->history_size());
     if (size > 0) {
-      history.resize(size * batch.count);
-      for (std::size_t n = 0; n < batch.count; ++n) {
-        std::copy_n(memory.kept(batch.first + n) + offset, size, history.data() + size * n);
+      history.resize(size * batch.rows.size());
+      for (std::size_t n = 0; n < batch.rows.size(); ++n) {
+        std::copy_n(memory.kept(static_cast<std::size_t>(batch.rows[n])) + offset, size,
+                    history.data() + size * n);
       }
     }
     for (Column* column : {&c.force.x, &c.force.y, &c.force.z, &c.added_mass, &c.resistance}) {
-      std::fill_n(column->data(), batch.count, 0.0);
+      std::fill_n(column->data(), batch.rows.size(), 0.0);
     }
     const sdk::FluidForceNeeds needs = model->needs();
     sdk::FluidForceBatch b;
-    b.count = batch.count;
+    b.count = batch.rows.size();
     b.interval = held;
     b.gravity = gravity_;
     b.diameter = c.diameter.data();
@@ -303,7 +306,7 @@ void ForceTerms::evaluate(const particles::GrainRows& grains, const Batch& batch
     model->evaluate(b);
 
     const bool is_returned = model->reaction() == sdk::FluidForceReaction::fluid;
-    for (std::size_t n = 0; n < batch.count; ++n) {
+    for (std::size_t n = 0; n < batch.rows.size(); ++n) {
       // Set III divides by the void fraction what grains and fluid give each other.
       const double share = is_returned && is_set_three_ ? 1.0 / batch.void_fraction[n] : 1.0;
       Triple& sum = is_returned ? sums.returned[n] : sums.contained[n];
@@ -313,7 +316,8 @@ void ForceTerms::evaluate(const particles::GrainRows& grains, const Batch& batch
       sums.added_mass[n] += share * c.added_mass[n];
       sums.resistance[n] += c.resistance[n];
       if (size > 0) {
-        std::copy_n(history.data() + size * n, size, memory.kept(batch.first + n) + offset);
+        std::copy_n(history.data() + size * n, size,
+                    memory.kept(static_cast<std::size_t>(batch.rows[n])) + offset);
       }
     }
     offset += size;

@@ -44,11 +44,10 @@ class ForceTerms {
   };
   /// What the coupling has found already.
   struct Batch {
-    std::size_t first = 0;
-    std::size_t count = 0;
+    std::span<const std::int32_t> rows;
     const double* void_fraction = nullptr;
-    const Triple* slip = nullptr;    ///< [m/s]
-    const Triple* stress = nullptr;  ///< [N/m3] -grad p + div tau, in every set
+    sdk::VectorColumns slip{};    ///< [m/s]
+    sdk::VectorColumns stress{};  ///< [N/m3] -grad p + div tau, in every set
   };
 
   ForceTerms(std::span<const std::unique_ptr<sdk::FluidForce>> models,

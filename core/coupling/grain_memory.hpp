@@ -16,23 +16,18 @@ using Triple = std::array<double, 3>;
 struct Remembered {
   Triple fluid_velocity{};  ///< [m/s] its own plus the slip, at the last refresh
   Triple stress_impulse{};  ///< [N] sum over the refreshes of V_p (-grad p + div tau)
-  Triple given{};           ///< [N s] drag on one computed grain that the fluid was told to balance
-  Triple place{};           ///< [m] at map()
-  Triple velocity{};        ///< [m/s] at map()
-  double coefficient = 0;   ///< [kg/s] the drag coefficient given to the fluid at map()
+  Triple given{};           ///< [N s] drag that the fluid was told to balance, weight included
+  Triple place{};           ///< [m] at collect()
   Triple owed{};            ///< [N s] impulse the fluid has still to receive, weight included
   std::array<bool, 3> is_paired{};  ///< the component's force found open faces at map()
   bool has_velocity = false;
+  std::int32_t spot = -1;   ///< its number in the order of the cells at map(), -1 = not there then
   double size_ratio = 1.0;  ///< diameter over the Sauter mean in its cell, at map()
-  /// [kg/s] per component: drag on the grain = sum over faces of taken * weight * open * eps (u -
-  /// v).
-  Triple taken{};
 };
 
 /// What a grain does to the fluid by itself, if that is to be taken off.
 struct OwnFlow {
   Triple disturbance{};      ///< [m/s] of the fluid around it, by the force it has received
-  double lone_eps = 1.0;     ///< [-] void fraction in its cell, its solids taken off, at map()
   double solids = 0.0;       ///< [-] in its cell, beyond what would be there without it
   Triple face_solids{};      ///< [-] the same at its faces
   double self_stress = 0.0;  ///< [-] force by the stress of its own drag, over that drag

@@ -157,9 +157,10 @@ class Lattice {
     return (share_low * (own - below) + share_high * (above - own)) * inverse_spacing_[d] / sum;
   }
 
-  /// place() of a batch of grains, 4 numbers of `position` each.
-  void place(const double* position, std::size_t count, SpotBatch& spots) const {
-    for (int d = 0; d < 3; ++d) place_along(axes_[d], position, count, d, spots);
+  /// place() of a batch of grains, `spots.count` of them at `spots.position`, and their runs.
+  void place(SpotBatch& spots) const {
+    for (int d = 0; d < 3; ++d) place_along(axes_[d], spots.position.data(), d, spots);
+    find_runs(spots);
   }
   /// The cell whose void fraction a grain in the cell `own` has: that, or an open neighbour's if it
   /// is closed.

@@ -3,6 +3,8 @@
 
 #include "dust/sdk/error.hpp"
 
+#include <stdexcept>
+
 namespace dust::coupling {
 namespace {
 
@@ -14,54 +16,83 @@ constexpr double k_least_implicit = 0.6;
 
 }  // namespace
 
-/// Place, velocity and the implicit drag coefficient of each grain. The slip is that with the fluid
+bool Coupling::Impl::locate(const particles::GrainRows& grains, Rows rows, SpotBatch& batch) const {
+  bool is_other = batch.count != rows.size();
+  double* known = batch.position.data();
+  for (const std::int32_t row : rows) {
+    const double* position = grains.position + 4 * static_cast<std::size_t>(row);
+    for (int n = 0; n < 4; ++n) {
+      is_other |= known[n] != position[n];
+      known[n] = position[n];
+    }
+    known += 4;
+  }
+  // Grains do not move between map() and the first refresh().
+  if (!is_other) return false;
+  batch.count = rows.size();
+  lattice.place(batch);
+  return true;
+}
+
+/// The implicit drag coefficient of each grain. The slip is that with the fluid
 /// last seen at the grain (the initial velocity for a new one); collect() makes up for the lag.
-void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t first,
-                              std::size_t last) {
-  Batch batch;
+void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t batch, Rows rows,
+                              double* coefficient_of_fluid) {
+  Batch columns;
   WideKernel wide(lattice, voidage);
-  SpotBatch& here = spots.batches[first / k_batch];
-  lattice.place(grains.position + 4 * first, last - first, here);
-  if (is_own_taken_off) find_own_solids(grains, first, last);
-  for (std::size_t row = first; row < last; ++row) {
+  SpotBatch& here = spots.batches[batch];
+  double* around = spots.eps.data() + batch * k_batch;
+  locate(grains, rows, here);
+  if (is_own_taken_off) find_own_solids(grains, rows);
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    const auto row = static_cast<std::size_t>(rows[q]);
     const double* position = grains.position + 4 * row;
     const double* velocity = grains.velocity + 4 * row;
     Remembered& r = memory[row];
-    r.place = {position[0], position[1], position[2]};
-    r.velocity = {velocity[0], velocity[1], velocity[2]};
+    r.spot = static_cast<std::int32_t>(batch * k_batch + q);
     if (!r.has_velocity) r.fluid_velocity = initial_velocity;
     double slip = 0.0;
     for (int d = 0; d < 3; ++d) {
       slip += (r.fluid_velocity[d] - velocity[d]) * (r.fluid_velocity[d] - velocity[d]);
     }
     slip = std::sqrt(slip);
-    spots.eps[row] = void_fraction_at(position, here.cell(row - first), wide);
-    double eps = spots.eps[row];
+    around[q] = void_fraction_at(position, here.cell(q), wide);
+    double eps = around[q];
     if (is_own_taken_off) {
       eps += memory.own_flow(row).solids;
       find_own_flow(grains, row, eps, slip);
     }
-    batch.void_fraction[row - first] = eps;
-    batch.reynolds[row - first] = reynolds(fluid_at(position), eps, slip, 2.0 * position[3]);
-    batch.size_ratio[row - first] = r.size_ratio;
+    columns.void_fraction[q] = eps;
+    columns.reynolds[q] = reynolds(position, eps, slip);
+    columns.size_ratio[q] = r.size_ratio;
   }
-  evaluate(batch, last - first);
-  for (std::size_t row = first; row < last; ++row) {
+  evaluate(columns, rows.size());
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    const auto row = static_cast<std::size_t>(rows[q]);
     const double diameter = 2.0 * grains.position[4 * row + 3];
     const double inverse_mass = grains.velocity[4 * row + 3];
     const Fluid fluid = fluid_at(grains.position + 4 * row);
-    const double drag_coefficient = coefficient(fluid, diameter, batch.factor[row - first]) *
-                                    share_of_set(batch.void_fraction[row - first]) /
-                                    stress_part(row);
+    // The faces' coefficients hold the set's share already.
+    const double of_faces = coefficient(fluid, diameter, columns.factor[q]) / stress_part(row);
+    const double drag_coefficient = of_faces * share_of_set(columns.void_fraction[q]);
     // A free grain relaxes within the step: mean drag = (m / step) (1 - exp(-K step / m)) (u - v).
     const double relaxations = drag_coefficient * inverse_mass * step;
     const double mean = -std::expm1(-relaxations) / relaxations;
-    // The faces' coefficients hold the set's share already.
-    memory[row].coefficient = drag_coefficient * std::max(mean, k_least_implicit) /
-                              share_of_set(batch.void_fraction[row - first]);
-    memory[row].stress_impulse = {};
-    memory[row].given = {};
+    coefficient_of_fluid[q] = of_faces * std::max(mean, k_least_implicit);
   }
+}
+
+void Coupling::Impl::sort(const particles::GrainRows& grains) {
+  spots.order.sort(lattice.grid(), grains.position, grains.count);
+  spots_order = memory.order();
+  are_spots_of_map = false;
+  spots.batches.resize((grains.count + k_batch - 1) / k_batch);
+  spots.eps.resize(grains.count);
+}
+
+void Coupling::Impl::sort_if_changed(const particles::GrainRows& grains) {
+  if (spots_order == memory.order() && spots.order.rows().size() == grains.count) return;
+  sort(grains);
 }
 
 void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) {
@@ -76,6 +107,7 @@ void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) 
   refreshes = refreshes_for(step, fastest);
   done_refreshes = 0;
   if (needs_size_ratio) find_size_ratios(grains);
+  sort(grains);
   if (is_one_way) return;
 
   const VoidFraction::Counts counts = void_fraction.map(grains);
@@ -100,12 +132,15 @@ void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) 
              "that overlap or lie inside bodies"));
   }
   face_void.update(void_fraction.after(), void_fraction.filled_cells());
-  spots.batches.resize((grains.count + k_batch - 1) / k_batch);
-  spots.eps.resize(grains.count);
-  spots_order = memory.order();
-  for_batches(grains.count,
-              [&](std::size_t first, std::size_t last) { remember(grains, first, last); });
-  report.unpaired_forces += faces.spread(grains, spots, memory, void_fraction.after(), step);
+  const fluid::CellField& eps = void_fraction.after();
+  faces.resize(spots.batches.size());
+  for_batches([&](std::size_t batch, Rows rows) {
+    SpotBatch::Reals coefficient;
+    remember(grains, batch, rows, coefficient.data());
+    faces.charge(grains, spots, batch, coefficient.data(), memory, eps, step);
+  });
+  are_spots_of_map = true;
+  report.unpaired_forces += faces.spread(spots, memory, eps, step);
   is_settled = false;
 }
 
@@ -129,23 +164,22 @@ void Coupling::Impl::find_size_ratios(const particles::GrainRows& grains) {
   }
 }
 
-void Coupling::Impl::settle(const particles::GrainRows& grains, const fluid::FaceField& velocity) {
-  if (spots_order != memory.order()) {
-    // The rows are in another order than at map().
-    spots.batches.resize((grains.count + k_batch - 1) / k_batch);
-    for_batches(grains.count, [&](std::size_t first, std::size_t last) {
-      std::array<double, 4 * k_batch> places;
-      for (std::size_t row = first; row < last; ++row) {
-        std::copy_n(memory[row].place.data(), 3, &places[4 * (row - first)]);
-      }
-      lattice.place(places.data(), last - first, spots.batches[first / k_batch]);
-    });
-    spots_order = memory.order();
-  }
-  const double imbalance =
-      faces.settle(grains, spots.batches, memory, void_fraction.after(), velocity, step);
-  report.largest_imbalance = std::max(report.largest_imbalance, imbalance);
+void Coupling::Impl::settle(const fluid::FaceField& velocity) {
   is_settled = true;
+  if (is_one_way) return;
+  if (!are_spots_of_map) throw std::logic_error("Coupling::settle() after a refresh()");
+  std::span<const std::int32_t> rows = spots.order.rows();
+  std::vector<std::int32_t> rows_now;
+  if (spots_order != memory.order()) {
+    rows_now.assign(rows.size(), -1);
+    for (std::size_t row = 0; row < memory.size(); ++row) {
+      const std::int32_t spot = memory[row].spot;
+      if (spot >= 0) rows_now[static_cast<std::size_t>(spot)] = static_cast<std::int32_t>(row);
+    }
+    rows = rows_now;
+  }
+  const double imbalance = faces.settle(spots, rows, memory, void_fraction.after(), velocity, step);
+  report.largest_imbalance = std::max(report.largest_imbalance, imbalance);
 }
 
 }  // namespace dust::coupling

@@ -6,8 +6,7 @@
 namespace dust::coupling {
 
 /// Solids that a grain brings to its own cell and faces, less those that would be there without it.
-void Coupling::Impl::find_own_solids(const particles::GrainRows& grains, std::size_t first,
-                                     std::size_t last) {
+void Coupling::Impl::find_own_solids(const particles::GrainRows& grains, Rows rows) {
   // Solids of one grain as a field; zero between grains.
   static thread_local fluid::CellField own;
   own.resize(lattice.grid().size, 0.0);
@@ -24,7 +23,8 @@ void Coupling::Impl::find_own_solids(const particles::GrainRows& grains, std::si
     }
     return open > 0.0 ? sum / open : 0.0;
   };
-  for (std::size_t row = first; row < last; ++row) {
+  for (const std::int32_t number : rows) {
+    const auto row = static_cast<std::size_t>(number);
     const double* position = grains.position + 4 * row;
     OwnFlow& of_grain = memory.own_flow(row);
     kernel.set(position, position[3]);

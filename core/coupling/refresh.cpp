@@ -2,122 +2,159 @@
 #include "coupling/coupling_impl.hpp"
 #include "dust/sdk/sphere.hpp"
 
+#include <tbb/blocked_range.h>
+
 #include <stdexcept>
 
 namespace dust::coupling {
 
 /// What the grains see of the fluid: slip, what the drag on the grain is of the law's, stress; the
 /// batch's Reynolds numbers and void fractions.
-void Coupling::Impl::look(const particles::GrainRows& grains, std::size_t first, std::size_t last,
+void Coupling::Impl::look(const particles::GrainRows& grains, SpotBatch& spot, Rows rows,
                           const FluidState& state, Seen& seen, Batch& batch) {
-  const std::size_t count = last - first;
-  const fluid::CellField& eps = void_fraction.after();
-  static thread_local SpotBatch spot;
-  SpotBatch::Reals own;
-  SpotBatch::Reals v;
+  if (locate(grains, rows, spot)) are_spots_of_map = false;
+  const bool has_wide = look_into_cells(grains, spot, rows, state, seen, batch);
+  std::array<SpotBatch::Reals, 3> v;
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    const double* velocity = grains.velocity + 4 * static_cast<std::size_t>(rows[q]);
+    for (std::size_t d = 0; d < 3; ++d) v[d][q] = velocity[d];
+  }
   SpotBatch::Reals open;
   SpotBatch::Reals fluid;
   SpotBatch::Reals flux;  // relative to the grain: it does not jump with eps in plug flow
-  WideKernel wide(lattice, voidage);
-  WideStencil many;
-  lattice.place(grains.position + 4 * first, count, spot);
-  for (std::size_t q = 0; q < count; ++q) {
-    const double* position = grains.position + 4 * (first + q);
-    own[q] = void_fraction_at(position, spot.cell(q), wide);
-    if (is_own_taken_off) own[q] = std::min(1.0, own[q] + memory.own_flow(first + q).solids);
-  }
   for (int d = 0; d < 3; ++d) {
-    const double* u = state.velocity.component[d].data();
-    const std::vector<double>& push = state.stress_divergence.component[d];
-    for (std::size_t q = 0; q < count; ++q) v[q] = grains.velocity[4 * (first + q) + d];
-    look_at_faces(spot, d, count, face_void.columns(d), u, v.data(), {open.data(), fluid.data()},
-                  flux.data());
-    for (std::size_t q = 0; q < count; ++q) {
-      Remembered& r = memory[first + q];
-      const double* position = grains.position + 4 * (first + q);
-      double pushed = 0.0;
-      if (wide.takes(position[3])) {
-        open[q] = fluid[q] = flux[q] = 0.0;
-        wide.set(position, position[3]);
-        wide.stencil(d, eps, many);
-        for (std::size_t n = 0; n < many.size(); ++n) {
-          flux[q] += many.weight[n] * many.void_fraction[n] * (u[many.home[n]] - v[q]);
-          const double part = many.weight[n] * many.open[n];
-          open[q] += part;
-          fluid[q] += part * many.void_fraction[n];
-          if (many.open[n] > 0.0) pushed += many.weight[n] * push[many.home[n]];
-        }
-      } else if (!is_set_three || forces) {
-        const std::ptrdiff_t low = spot.cell(q);
-        pushed = lattice.face_mean(d, low, low + spot.face_step[d][q], push);
-      }
-      double slip = flux[q] / own[q];
-      double around = open[q] > 0.0 ? fluid[q] / open[q] : own[q];
-      if (is_own_taken_off) {
-        const OwnFlow& flow = memory.own_flow(first + q);
-        slip += flow.disturbance[d];
-        if (open[q] > 0.0) around += flow.face_solids[d];
-      }
-      seen.slip[q][d] = slip;
-      seen.ratio[q][d] = is_set_three ? 1.0 : around / own[q];
-      r.fluid_velocity[d] = v[q] + slip;
-      seen.stress[q][d] = is_set_three && !forces ? 0.0 : pushed;
+    look_at_faces(spot, d, face_void.columns(d), state.velocity.component[d].data(), v[d].data(),
+                  {open.data(), fluid.data()}, flux.data());
+    if (has_wide) {
+      look_wide(spot, d, state, v[d].data(), {open.data(), fluid.data()}, flux.data(),
+                seen.stress[d].data());
+    }
+    double* slip = seen.slip[d].data();
+    double* ratio = seen.ratio[d].data();
+    slip_of_faces(rows.size(), batch.void_fraction.data(), {open.data(), fluid.data()}, flux.data(),
+                  slip, ratio);
+    if (is_set_three) std::fill_n(ratio, rows.size(), 1.0);
+    for (std::size_t q = 0; is_own_taken_off && q < rows.size(); ++q) {
+      const OwnFlow& own = memory.own_flow(static_cast<std::size_t>(rows[q]));
+      slip[q] += own.disturbance[d];
+      if (is_set_three || !(open[q] > 0.0)) continue;
+      ratio[q] += own.face_solids[d] / batch.void_fraction[q];
     }
   }
-  for (std::size_t q = 0; q < count; ++q) {
-    const double* position = grains.position + 4 * (first + q);
-    Remembered& r = memory[first + q];
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    const auto row = static_cast<std::size_t>(rows[q]);
+    const Triple slip{seen.slip[0][q], seen.slip[1][q], seen.slip[2][q]};
+    Remembered& r = memory[row];
+    r.fluid_velocity = {v[0][q] + slip[0], v[1][q] + slip[1], v[2][q] + slip[2]};
     r.has_velocity = true;
-    batch.void_fraction[q] = own[q];
-    const Triple& w = seen.slip[q];
-    const double speed = std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
-    batch.reynolds[q] = reynolds(fluid_at(position), own[q], speed, 2.0 * position[3]);
+    const double speed = std::sqrt(slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2]);
+    batch.reynolds[q] = reynolds(grains.position + 4 * row, batch.void_fraction[q], speed);
     batch.size_ratio[q] = r.size_ratio;
   }
 }
 
-void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t first,
-                             std::size_t last, const FluidState& state) {
+/// Void fraction and stress of the cells that the grains of a batch are in; returns whether some of
+/// them are larger than a cell.
+bool Coupling::Impl::look_into_cells(const particles::GrainRows& grains, const SpotBatch& spot,
+                                     Rows rows, const FluidState& state, Seen& seen, Batch& batch) {
+  const bool needs_stress = !is_set_three || forces;
+  WideKernel wide(lattice, voidage);
+  bool has_wide = false;
+  // Grains of one cell come one after another.
+  std::ptrdiff_t last_cell = -1;
+  double eps = 1.0;
+  Triple stress{};
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    const auto row = static_cast<std::size_t>(rows[q]);
+    const double* position = grains.position + 4 * row;
+    const std::ptrdiff_t cell = spot.cell(q);
+    const bool is_wide = wide.takes(position[3]);
+    has_wide = has_wide || is_wide;
+    if (cell != last_cell || is_wide) {
+      last_cell = is_wide ? -1 : cell;
+      eps = void_fraction_at(position, cell, wide);
+      for (int d = 0; needs_stress && d < 3; ++d) {
+        stress[d] = lattice.face_mean(d, cell, cell + spot.face_step[d][q],
+                                      state.stress_divergence.component[d]);
+      }
+    }
+    batch.void_fraction[q] =
+        is_own_taken_off ? std::min(1.0, eps + memory.own_flow(row).solids) : eps;
+    for (std::size_t d = 0; d < 3; ++d) seen.stress[d][q] = stress[d];
+  }
+  return has_wide;
+}
+
+/// Component d of what the grains larger than a cell see.
+void Coupling::Impl::look_wide(const SpotBatch& spot, int d, const FluidState& state,
+                               const double* v, const FaceSumColumns& sums, double* flux,
+                               double* stress) const {
+  const std::vector<double>& u = state.velocity.component[d];
+  const std::vector<double>& push = state.stress_divergence.component[d];
+  const bool needs_stress = !is_set_three || forces;
+  WideKernel wide(lattice, voidage);
+  WideStencil many;
+  for (std::size_t q = 0; q < spot.count; ++q) {
+    const double* position = &spot.position[4 * q];
+    if (!wide.takes(position[3])) continue;
+    wide.set(position, position[3]);
+    wide.stencil(d, void_fraction.after(), many);
+    sums.open[q] = sums.fluid[q] = flux[q] = stress[q] = 0.0;
+    for (std::size_t n = 0; n < many.size(); ++n) {
+      flux[q] += many.weight[n] * many.void_fraction[n] * (u[many.home[n]] - v[q]);
+      const double part = many.weight[n] * many.open[n];
+      sums.open[q] += part;
+      sums.fluid[q] += part * many.void_fraction[n];
+      if (needs_stress && many.open[n] > 0.0) stress[q] += many.weight[n] * push[many.home[n]];
+    }
+  }
+}
+
+void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t number, Rows rows,
+                             const FluidState& state) {
   Batch batch;
   Seen seen;
-  look(grains, first, last, state, seen, batch);
-  evaluate(batch, last - first);
+  look(grains, spots.batches[number], rows, state, seen, batch);
+  evaluate(batch, rows.size());
   if (forces) {
     ForceTerms::Sums sums;
-    const ForceTerms::Batch terms{first, last - first, batch.void_fraction.data(), seen.slip.data(),
-                                  seen.stress.data()};
+    const auto columns = [](const std::array<SpotBatch::Reals, 3>& v) {
+      return sdk::VectorColumns{v[0].data(), v[1].data(), v[2].data()};
+    };
+    const ForceTerms::Batch terms{rows, batch.void_fraction.data(), columns(seen.slip),
+                                  columns(seen.stress)};
     forces->evaluate(grains, terms, state, held(state), memory, sums);
-    for (std::size_t row = first; row < last; ++row) {
-      const std::size_t n = row - first;
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      const auto row = static_cast<std::size_t>(rows[n]);
       const double drag_coefficient =
           coefficient(fluid_at(grains.position + 4 * row), 2.0 * grains.position[4 * row + 3],
                       batch.factor[n]) *
           share_of_set(batch.void_fraction[n]) / stress_part(row);
       Triple relative;
-      for (std::size_t d = 0; d < 3; ++d) relative[d] = seen.ratio[n][d] * seen.slip[n][d];
+      for (std::size_t d = 0; d < 3; ++d) relative[d] = seen.ratio[d][n] * seen.slip[d][n];
       act(grains, row, n, drag_coefficient, relative, held(state), sums);
     }
     return;
   }
-  for (std::size_t row = first; row < last; ++row) {
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    const auto row = static_cast<std::size_t>(rows[q]);
     const double diameter = 2.0 * grains.position[4 * row + 3];
     const double* v = grains.velocity + 4 * row;
     double* action = grains.fluid_action + 4 * row;
     Remembered& r = memory[row];
     const Fluid fluid = fluid_at(grains.position + 4 * row);
-    const double drag_coefficient = coefficient(fluid, diameter, batch.factor[row - first]) *
-                                    share_of_set(batch.void_fraction[row - first]) /
-                                    stress_part(row);
+    const double drag_coefficient = coefficient(fluid, diameter, batch.factor[q]) *
+                                    share_of_set(batch.void_fraction[q]) / stress_part(row);
+    const double per_drag = 1.0 / drag_coefficient;
     const double volume = sdk::sphere_volume(diameter);
     // The grains' reduced gravity is that of the fluid's own density.
     const double lift = volume * (properties.own().density - fluid.density);
     for (int d = 0; d < 3; ++d) {
       // The ratio differs from 1 only where the void fraction changes; it is applied to the slip of
       // this instant, because the grain has one rate for all directions.
-      const double relative = seen.ratio[row - first][d] * seen.slip[row - first][d];
-      const double force =
-          volume * seen.stress[row - first][d] + (lift == 0.0 ? 0.0 : lift * gravity[d]);
-      action[d] = v[d] + relative + force / drag_coefficient;
+      const double relative = seen.ratio[d][q] * seen.slip[d][q];
+      const double force = volume * seen.stress[d][q] + (lift == 0.0 ? 0.0 : lift * gravity[d]);
+      action[d] = v[d] + relative + force * per_drag;
       r.stress_impulse[d] += force;
     }
     action[3] = drag_coefficient * v[3];
@@ -180,15 +217,16 @@ void Coupling::Impl::collect(const particles::GrainRows& grains, double fluid_st
   }
   memory.align(grains);
   const double interval = fluid_step / static_cast<double>(done_refreshes);
-  for_batches(grains.count, [&](std::size_t first, std::size_t last) {
-    for (std::size_t row = first; row < last; ++row) {
+  const tbb::blocked_range<std::size_t> all(0, grains.count, 4 * k_batch);
+  tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t row = range.begin(); row < range.end(); ++row) {
       double* received = grains.fluid_impulse + 4 * row;
       Remembered& r = memory[row];
       if (forces) forces->impulse_was_read(memory, row, received);
       for (int d = 0; d < 3; ++d) {
         const double drag_impulse = received[d] - interval * r.stress_impulse[d];
         if (!is_one_way && r.is_paired[d]) {
-          r.owed[d] += grains.weight[row] * (r.given[d] - drag_impulse);
+          r.owed[d] += r.given[d] - grains.weight[row] * drag_impulse;
         }
         if (is_own_taken_off) {
           // Per real grain; the mobility counts the weight.
@@ -197,6 +235,7 @@ void Coupling::Impl::collect(const particles::GrainRows& grains, double fluid_st
           own.disturbance[d] += own.growth * (steady - own.disturbance[d]);
         }
         r.place[d] = grains.position[4 * row + d];
+        r.stress_impulse[d] = 0.0;
         received[d] = 0.0;
       }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "contact/lanes.hpp"
+#include "base/lanes.hpp"
 #include "dust/sdk/plugin.hpp"
 #include "particles/impl.hpp"
 
@@ -39,8 +39,8 @@ struct AwakeRows {
 /// new positions (Vyas et al., Comput. Phys. Commun. 310 (2025) 109524,
 /// doi:10.1016/j.cpc.2025.109524).
 DUST_KERNEL void integrate_rows(const AwakeRows& r, double step, bool has_fluid) {
-  using contact::Lanes;
-  const auto lanes = [](double* p, std::size_t n) __attribute__((always_inline))->Lanes& {
+  using lanes::Lanes;
+  const auto row_of = [](double* p, std::size_t n) __attribute__((always_inline))->Lanes& {
     return *reinterpret_cast<Lanes*>(p + 4 * n);
   };
   const auto fixed =
@@ -70,7 +70,7 @@ DUST_KERNEL void integrate_rows(const AwakeRows& r, double step, bool has_fluid)
     }
     const Lanes acceleration = fixed(r.force, f) * inverse_mass +
                                fixed(r.gravity, static_cast<std::size_t>(r.material[n]));
-    const Lanes old = lanes(r.half_velocity, n) * three;
+    const Lanes old = row_of(r.half_velocity, n) * three;
     const Lanes push = acceleration * kick * three;
     Lanes half = old + push;
     if (has_fluid) {
@@ -83,18 +83,18 @@ DUST_KERNEL void integrate_rows(const AwakeRows& r, double step, bool has_fluid)
       }
       const Lanes target = fixed(r.action, n) * three;
       half = old + (target - old) * (1.0 - e) + push * phi;
-      lanes(r.impulse, n) += (half - old - push) / inverse_mass;
+      row_of(r.impulse, n) += (half - old - push) / inverse_mass;
       ahead *= e;
     }
     const Lanes now = half + ahead * (half - old);
-    lanes(r.position, n) += half * step;
-    lanes(r.velocity, n) = now + fourth * inverse_mass;
-    lanes(r.half_velocity, n) = half + fourth * half_step;
+    row_of(r.position, n) += half * step;
+    row_of(r.velocity, n) = now + fourth * inverse_mass;
+    row_of(r.half_velocity, n) = half + fourth * half_step;
     // I = 2/5 m R^2
     const Lanes spin = fixed(r.force, f + 1) * (2.5 * inverse_mass / (radius * radius));
-    const Lanes turn = lanes(r.half_rotation, n) + spin * kick;
-    lanes(r.half_rotation, n) = turn;
-    lanes(r.rotation, n) = turn + spin * half_step;
+    const Lanes turn = row_of(r.half_rotation, n) + spin * kick;
+    row_of(r.half_rotation, n) = turn;
+    row_of(r.rotation, n) = turn + spin * half_step;
   }
 }
 

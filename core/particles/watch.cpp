@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/lanes.hpp"
 #include "contact/approach.hpp"
-#include "contact/lanes.hpp"
 #include "dust/sdk/plugin.hpp"
 #include "particles/impl.hpp"
 
@@ -289,8 +289,8 @@ struct FlyingRows {
 /// G, H and E^count come from doubling, bit by bit of `count`: no root, exponential or difference
 /// of near numbers.
 DUST_KERNEL void fly_rows(const FlyingRows& r, double step, std::int64_t count, bool has_fluid) {
-  using contact::Lanes;
-  const auto lanes = [](double* p, std::size_t n) __attribute__((always_inline))->Lanes& {
+  using lanes::Lanes;
+  const auto row_of = [](double* p, std::size_t n) __attribute__((always_inline))->Lanes& {
     return *reinterpret_cast<Lanes*>(p + 4 * n);
   };
   const auto fixed =
@@ -305,7 +305,7 @@ DUST_KERNEL void fly_rows(const FlyingRows& r, double step, std::int64_t count, 
   for (std::size_t n = r.begin; n < r.end; ++n) {
     if (r.is_awake[n] != 0) continue;
     const Lanes push = fixed(r.gravity, static_cast<std::size_t>(r.material[n])) * step * three;
-    const Lanes old = lanes(r.half_velocity, n) * three;
+    const Lanes old = row_of(r.half_velocity, n) * three;
     double decay = 1.0;
     Lanes first = push;
     if (has_fluid) {
@@ -327,11 +327,11 @@ DUST_KERNEL void fly_rows(const FlyingRows& r, double step, std::int64_t count, 
       }
     }
     const Lanes half = old + first * g;
-    lanes(r.position, n) += (old * total + first * h) * step;
-    lanes(r.velocity, n) = (half + first * (0.5 * power)) + fourth * lanes(r.velocity, n);
-    lanes(r.half_velocity, n) = half + fourth * lanes(r.half_velocity, n);
+    row_of(r.position, n) += (old * total + first * h) * step;
+    row_of(r.velocity, n) = (half + first * (0.5 * power)) + fourth * row_of(r.velocity, n);
+    row_of(r.half_velocity, n) = half + fourth * row_of(r.half_velocity, n);
     if (has_fluid) {
-      lanes(r.impulse, n) += (half - old - push * total) / lanes(r.velocity, n)[3];
+      row_of(r.impulse, n) += (half - old - push * total) / row_of(r.velocity, n)[3];
     }
   }
 }

@@ -13,8 +13,8 @@ struct Cut {
   double distance = 1.0;  ///< of that plane from the centre over the radius
 };
 
-inline Cut cut_of(double position, double origin, double spacing, double radius) {
-  const double scaled = (position - origin) / spacing;
+inline Cut cut_of(double position, double origin, double spacing, double inverse, double radius) {
+  const double scaled = (position - origin) * inverse;
   const double cell = std::floor(scaled);
   const double below = (scaled - cell) * spacing;
   const double above = spacing - below;
@@ -42,11 +42,12 @@ class Divided final : public sdk::VoidageRule {
   [[nodiscard]] double largest_diameter_over_spacing() const override { return 0.5; }
 
   void spread(const sdk::GridShape& grid, const sdk::VoidageBatch& batch) const override {
+    const sdk::Vec3 inverse{1.0 / grid.spacing.x, 1.0 / grid.spacing.y, 1.0 / grid.spacing.z};
     for (std::size_t g = 0; g < batch.count; ++g) {
       const double radius = batch.radius[g];
-      const Cut x = cut_of(batch.x[g], grid.origin.x, grid.spacing.x, radius);
-      const Cut y = cut_of(batch.y[g], grid.origin.y, grid.spacing.y, radius);
-      const Cut z = cut_of(batch.z[g], grid.origin.z, grid.spacing.z, radius);
+      const Cut x = cut_of(batch.x[g], grid.origin.x, grid.spacing.x, inverse.x, radius);
+      const Cut y = cut_of(batch.y[g], grid.origin.y, grid.spacing.y, inverse.y, radius);
+      const Cut z = cut_of(batch.z[g], grid.origin.z, grid.spacing.z, inverse.z, radius);
       spread_one(batch, g, x, y, z);
     }
   }

@@ -1,76 +1,195 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "coupling/cell_order.hpp"
 #include "coupling/face_void.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
 
 #include <memory>
+#include <numeric>
 #include <vector>
 
 namespace {
 
 using namespace dust;
+using coupling::SpotBatch;
 using test::World;
 
-TEST_CASE("batches of grains shall see at their faces what each sees by itself") {
-  for (const bool is_periodic : {false, true}) {
-    CAPTURE(is_periodic);
-    World::Choice choice;
-    choice.cells = {5, 1, 4};
-    choice.periodic = {is_periodic, is_periodic, false};
-    choice.open = [](int i, int, int k) { return i == 3 && k < 2 ? 0.0 : k == 0 ? 0.7 : 1.0; };
-    const World world(choice);
-    const coupling::Lattice lattice(world.grid, world.open);
-    test::Numbers random;
+/// Grains in a box with closed cells and solids in some; those of a batch, in the order of the
+/// cells.
+struct Faces {
+  Faces(bool is_periodic, std::array<int, 3> cells) : world(choice(is_periodic, cells)) {
     // Solids in some cells, two of them at sides.
-    fluid::CellField eps(world.grid.size, 1.0);
     std::vector<std::ptrdiff_t> touched;
-    for (const auto& c :
+    for (std::array<int, 3> c :
          std::vector<std::array<int, 3>>{{0, 0, 0}, {1, 0, 0}, {2, 0, 2}, {4, 0, 3}}) {
-      touched.push_back(world.grid.index(c[0], c[1], c[2]));
-      eps[touched.back()] = random.between(0.4, 0.9);
+      for (std::size_t d = 0; d < 3; ++d) c[d] = std::min(c[d], cells[d] - 1);
+      const std::ptrdiff_t cell = world.grid.index(c[0], c[1], c[2]);
+      if (eps[cell] == 1.0) touched.push_back(cell);
+      eps[cell] = random.between(0.4, 0.9);
     }
-    coupling::FaceVoid faces(lattice);
-    faces.update(fluid::CellField(world.grid.size, 0.5), {world.grid.index(3, 0, 3)});
+    const std::ptrdiff_t other = world.grid.index(cells[0] - 2, 0, cells[2] - 1);
+    faces.update(fluid::CellField(world.grid.size, 0.5), {other});
     faces.update(eps, touched);  // what was set before is 1 again
-
-    constexpr std::size_t k_count = 200;
-    std::vector<double> position, u(world.grid.size), v(k_count);
     for (double& number : u) number = random.next();
     for (std::size_t q = 0; q < k_count; ++q) {
       // Some lie beyond the sides.
       for (int d = 0; d < 3; ++d) position.push_back(random.between(-0.1, 1.1));
       position.push_back(1e-3);
-      v[q] = random.next();
     }
-    const auto spots = std::make_unique<coupling::SpotBatch>();
-    lattice.place(position.data(), k_count, *spots);
-    std::vector<double> open(k_count), fluid(k_count), flux(k_count), given(k_count);
-    const std::vector<double> ones(k_count, 1.0);
-    for (int d = 0; d < 3; ++d) {
-      CAPTURE(d);
-      coupling::look_at_faces(*spots, d, k_count, faces.columns(d), u.data(), v.data(),
-                              {open.data(), fluid.data()}, flux.data());
-      coupling::settle_faces(*spots, d, k_count, faces.columns(d), u.data(), v.data(), ones.data(),
-                             ones.data(), false, given.data());
-      for (std::size_t q = 0; q < k_count; ++q) {
-        const coupling::Place p = lattice.place(&position[4 * q]);
-        CHECK(spots->cell(q) == lattice.cell(p));
-        coupling::Stencil s;
-        lattice.stencil(d, p, eps, s);
-        double sums[4] = {};
-        for (std::size_t n = 0; n < coupling::Stencil::size(); ++n) {
-          const double part = s.weight[n] * s.open[n];
-          const double slip = s.void_fraction[n] * (u[s.home[n]] - v[q]);
-          sums[0] += part;
-          sums[1] += part * s.void_fraction[n];
-          sums[2] += s.weight[n] * slip;
-          sums[3] += part * s.void_fraction[n] * (slip + 1.0);
+    coupling::CellOrder order;
+    order.sort(world.grid, position.data(), k_count);
+    rows.assign(order.rows().begin(), order.rows().end());
+    spots->count = k_count;
+    for (std::size_t q = 0; q < k_count; ++q) {
+      std::copy_n(&position[4 * static_cast<std::size_t>(rows[q])], 4, &spots->position[4 * q]);
+    }
+    lattice.place(*spots);
+  }
+  static World::Choice choice(bool is_periodic, std::array<int, 3> cells) {
+    World::Choice c;
+    c.cells = cells;
+    c.periodic = {is_periodic, is_periodic, false};
+    c.open = [](int i, int, int k) { return i == 3 && k < 2 ? 0.0 : k == 0 ? 0.7 : 1.0; };
+    return c;
+  }
+
+  static constexpr std::size_t k_count = 200;
+  const World world;
+  const coupling::Lattice lattice{world.grid, world.open};
+  test::Numbers random;
+  fluid::CellField eps = fluid::CellField(world.grid.size, 1.0);
+  coupling::FaceVoid faces{lattice};
+  std::vector<double> u = std::vector<double>(world.grid.size);
+  std::vector<double> position;
+  std::vector<std::int32_t> rows;
+  std::unique_ptr<SpotBatch> spots = std::make_unique<SpotBatch>();
+};
+
+constexpr std::array<int, 3> k_many_cells{5, 1, 4};
+constexpr std::array<int, 3> k_few_cells{2, 1, 2};
+
+TEST_CASE("the order of the cells shall hold every grain once, those of one eighth by row") {
+  const Faces f(true, k_few_cells);
+  std::vector<std::int32_t> sorted = f.rows;
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::int32_t> all(Faces::k_count);
+  std::iota(all.begin(), all.end(), 0);
+  CHECK(sorted == all);
+  // 32 eighths at most, and no run comes twice.
+  CHECK(f.spots->runs <= 32);
+  for (std::size_t r = 0; r < f.spots->runs; ++r) {
+    const auto first = f.rows.begin() + f.spots->run[r];
+    CHECK(std::is_sorted(first, f.rows.begin() + f.spots->run[r + 1]));
+  }
+}
+
+TEST_CASE("a large grid shall be ordered as a small one") {
+  // Numbers of eighths of 1, 2 and 3 digits of the sort.
+  for (const int n : {4, 40, 200}) {
+    CAPTURE(n);
+    World::Choice choice;
+    choice.cells = {n, 2, n};
+    const World world(choice);
+    test::Numbers random;
+    std::vector<double> position;
+    for (int q = 0; q < 3000; ++q) {
+      for (int d = 0; d < 3; ++d) position.push_back(random.between(-0.01, 1.01));
+      position.push_back(1e-3);
+    }
+    coupling::CellOrder order;
+    order.sort(world.grid, position.data(), 3000);
+    const auto eighth = [&](std::int32_t row) {
+      std::array<long, 3> at;
+      for (int d = 0; d < 3; ++d) {
+        const int halves = 2 * choice.cells[d];
+        const double s = position[4 * static_cast<std::size_t>(row) + d] * halves;
+        at[static_cast<std::size_t>(d)] = static_cast<long>(std::clamp(s, 0.0, halves - 1.0));
+      }
+      return std::array<long, 4>{at[2], at[1], at[0], row};
+    };
+    CHECK(order.rows().size() == 3000);
+    CHECK(std::is_sorted(order.rows().begin(), order.rows().end(),
+                         [&](std::int32_t a, std::int32_t b) { return eighth(a) < eighth(b); }));
+  }
+}
+
+TEST_CASE("batches of grains shall see at their faces what each sees by itself") {
+  for (const auto& cells : {k_many_cells, k_few_cells}) {
+    for (const bool is_periodic : {false, true}) {
+      CAPTURE(is_periodic);
+      CAPTURE(cells[0]);
+      Faces f(is_periodic, cells);
+      CHECK(f.spots->has_long_runs() == (cells == k_few_cells));  // both ways of looking
+      SpotBatch::Reals v, open, fluid, flux, given, slip, ratio;
+      auto charges = std::make_unique<coupling::ChargeColumns>();
+      for (std::size_t q = 0; q < Faces::k_count; ++q) {
+        v[q] = charges->velocity[q] = f.random.next();
+        charges->drag[q] = f.random.next();
+        charges->lag[q] = f.random.next();
+        charges->extra[q] = f.random.next();
+      }
+      for (int d = 0; d < 3; ++d) {
+        CAPTURE(d);
+        coupling::look_at_faces(*f.spots, d, f.faces.columns(d), f.u.data(), v.data(),
+                                {open.data(), fluid.data()}, flux.data());
+        coupling::settle_faces(*f.spots, d, f.faces.columns(d), f.u.data(), *charges, 3.0, false,
+                               given.data());
+        std::vector<double> drag(f.world.grid.size), push(f.world.grid.size),
+            extra(f.world.grid.size);
+        for (std::size_t q = 0; q < Faces::k_count; ++q) {
+          const coupling::Place p = f.lattice.place(&f.spots->position[4 * q]);
+          CHECK(f.spots->cell(q) == f.lattice.cell(p));
+          coupling::Stencil s;
+          f.lattice.stencil(d, p, f.eps, s);
+          double sums[4] = {};
+          for (std::size_t n = 0; n < coupling::Stencil::size(); ++n) {
+            const double part = s.weight[n] * s.open[n];
+            const double slip_at = s.void_fraction[n] * (f.u[s.home[n]] - v[q]);
+            sums[0] += part;
+            sums[1] += part * s.void_fraction[n];
+            sums[2] += s.weight[n] * slip_at;
+            sums[3] += part * s.void_fraction[n] * (slip_at + charges->lag[q]);
+            drag[s.home[n]] += s.weight[n] * charges->drag[q];
+            push[s.home[n]] += s.weight[n] * charges->drag[q] * v[q];
+            extra[s.home[n]] += s.weight[n] * charges->extra[q];
+          }
+          CHECK(open[q] == doctest::Approx(sums[0]).epsilon(1e-12));
+          CHECK(fluid[q] == doctest::Approx(sums[1]).epsilon(1e-12));
+          CHECK(flux[q] == doctest::Approx(sums[2]).epsilon(1e-12));
+          CHECK(given[q] == doctest::Approx(3.0 * charges->drag[q] * sums[3]).epsilon(1e-12));
         }
-        CHECK(open[q] == doctest::Approx(sums[0]).epsilon(1e-12));
-        CHECK(fluid[q] == doctest::Approx(sums[1]).epsilon(1e-12));
-        CHECK(flux[q] == doctest::Approx(sums[2]).epsilon(1e-12));
-        CHECK(given[q] == doctest::Approx(sums[3]).epsilon(1e-12));
+        // Runs give the same faces the same, whatever stands behind their ends.
+        for (std::size_t r = 0; r < f.spots->runs; ++r) {
+          coupling::RunCharge sum;
+          coupling::charge_run(*f.spots, d, r, *charges, sum);
+          std::size_t n = 0;
+          coupling::for_corners(
+              coupling::corners(*f.spots, d, (d + 1) % 3, (d + 2) % 3, f.spots->run[r]),
+              [&](std::int32_t face, double) {
+                drag[face] -= sum.drag[n];
+                push[face] -= sum.push[n];
+                extra[face] -= sum.extra[n];
+                ++n;
+              });
+        }
+        for (const auto* left : {&drag, &push, &extra}) {
+          double largest = 0.0;
+          for (const double l : *left) largest = std::max(largest, std::abs(l));
+          CHECK(largest < 1e-12);
+        }
+        const SpotBatch::Reals around = [&] {
+          SpotBatch::Reals e;
+          e.fill(0.5);
+          return e;
+        }();
+        coupling::slip_of_faces(Faces::k_count, around.data(), {open.data(), fluid.data()},
+                                flux.data(), slip.data(), ratio.data());
+        for (std::size_t q = 0; q < Faces::k_count; ++q) {
+          CHECK(slip[q] == doctest::Approx(2.0 * flux[q]).epsilon(1e-14));
+          const double expected = open[q] > 0.0 ? 2.0 * fluid[q] / open[q] : 1.0;
+          CHECK(ratio[q] == doctest::Approx(expected).epsilon(1e-14));
+        }
       }
     }
   }

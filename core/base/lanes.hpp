@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace dust::contact {
+namespace dust::lanes {
 
 /// Four doubles; the compiler lowers it to whatever the target has.
 typedef double Lanes __attribute__((vector_size(32), may_alias));
@@ -49,4 +49,4 @@ __attribute__((always_inline)) inline void columns_of(const double* r0, const do
   transpose(column[0], column[1], column[2], column[3]);
 }
 
-}  // namespace dust::contact
+}  // namespace dust::lanes
