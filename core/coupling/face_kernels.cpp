@@ -6,6 +6,7 @@
 #include "dust/sdk/plugin.hpp"
 
 #include <cmath>
+#include <cstring>
 
 // Grain by grain in lanes: every grain's sums have the same order whatever the width of the lanes,
 // so that all processors give the same bits. Where many grains have the same faces around them,
@@ -13,9 +14,22 @@
 namespace dust::coupling {
 namespace {
 
-using lanes::Lanes;
-using lanes::load;
-using lanes::store;
+/// Four grains; without the alias of lanes::Lanes, which template arguments lose.
+typedef double Four __attribute__((vector_size(32)));
+
+/// Element q of a column, or four from q on.
+__attribute__((always_inline)) inline void get(const double* column, std::size_t q, double& value) {
+  value = column[q];
+}
+__attribute__((always_inline)) inline void get(const double* column, std::size_t q, Four& four) {
+  std::memcpy(&four, column + q, sizeof four);
+}
+__attribute__((always_inline)) inline void put(double* column, std::size_t q, double value) {
+  column[q] = value;
+}
+__attribute__((always_inline)) inline void put(double* column, std::size_t q, const Four& four) {
+  std::memcpy(column + q, &four, sizeof four);
+}
 
 /// The eight faces of a run and what stands there.
 struct RunFaces {
@@ -28,50 +42,101 @@ __attribute__((always_inline)) inline RunFaces faces_of_run(const SpotBatch& spo
                                                             const double* u) {
   RunFaces of_run;
   int n = 0;
-  for_corners(
-      corners(spots, d, (d + 1) % 3, (d + 2) % 3, first), [&](std::int32_t at, double)
-                                                              __attribute__((always_inline)) {
-                                                                of_run.open[n] = faces.open[at];
-                                                                of_run.eps[n] =
-                                                                    faces.void_fraction[at];
-                                                                of_run.u[n] =
-                                                                    u == nullptr ? 0.0 : u[at];
-                                                                ++n;
-                                                              });
+  for_corners(corners(spots, d, (d + 1) % 3, (d + 2) % 3, first), [&](std::int32_t at, double) {
+    of_run.open[n] = faces.open[at];
+    of_run.eps[n] = faces.void_fraction[at];
+    of_run.u[n] = u[at];
+    ++n;
+  });
   return of_run;
 }
 
 /// Trilinear weights of four grains, in the order of for_corners.
 __attribute__((always_inline)) inline void weights_of_four(const SpotBatch& spots, int d,
-                                                           std::size_t q, Lanes* weight) {
-  Lanes high, far, above;
-  load(spots.face_part[d].data() + q, high);
-  load(spots.middle_part[(d + 1) % 3].data() + q, far);
-  load(spots.middle_part[(d + 2) % 3].data() + q, above);
-  const Lanes low = 1.0 - high;
-  const Lanes near = 1.0 - far;
-  const Lanes below = 1.0 - above;
-  const Lanes across[4] = {near * below, far * below, near * above, far * above};
+                                                           std::size_t q, Four* weight) {
+  Four high, far, above;
+  get(spots.face_part[d].data(), q, high);
+  get(spots.middle_part[(d + 1) % 3].data(), q, far);
+  get(spots.middle_part[(d + 2) % 3].data(), q, above);
+  const Four low = 1.0 - high;
+  const Four near = 1.0 - far;
+  const Four below = 1.0 - above;
+  const Four across[4] = {near * below, far * below, near * above, far * above};
   for (int n = 0; n < 4; ++n) {
     weight[2 * n] = across[n] * low;
     weight[2 * n + 1] = across[n] * high;
   }
 }
 
-/// Calls work(faces, weights, q) for each four grains of each run.
-template <class Work>
-__attribute__((always_inline)) inline void for_runs(const SpotBatch& spots, int d,
-                                                    const FaceColumns& faces, const double* u,
-                                                    const Work& work) {
-  for (std::size_t r = 0; r < spots.runs; ++r) {
-    const RunFaces of_run = faces_of_run(spots, d, spots.run[r], faces, u);
-    for (std::size_t q = spots.run[r]; q < spots.run[r + 1]; q += 4) {
-      Lanes weight[8];
-      weights_of_four(spots, d, q, weight);
-      work(of_run, weight, q);
+/// Sums over the faces of each grain: `begin` sets up that of grain q, or of four from q on;
+/// add(weight, open, eps, u) sees the eight faces one after another; `end` writes it.
+template <template <class> class Sum, class Begin, class End>
+__attribute__((always_inline)) inline void for_faces(const SpotBatch& spots, int d,
+                                                     const FaceColumns& faces, const double* u,
+                                                     const Begin& begin, const End& end) {
+  if (spots.has_long_runs()) {
+    for (std::size_t r = 0; r < spots.runs; ++r) {
+      const RunFaces f = faces_of_run(spots, d, spots.run[r], faces, u);
+      for (std::size_t q = spots.run[r]; q < spots.run[r + 1]; q += 4) {
+        Four weight[8];
+        weights_of_four(spots, d, q, weight);
+        Sum<Four> sum;
+        begin(q, sum);
+        for (int n = 0; n < 8; ++n) sum.add(weight[n], f.open[n], f.eps[n], f.u[n]);
+        end(q, sum);
+      }
     }
+    return;
+  }
+  const int e = (d + 1) % 3;
+  const int f = (d + 2) % 3;
+  const double* eps = faces.void_fraction;
+  const float* open = faces.open;
+  const std::size_t count = spots.count;
+#pragma omp simd
+  for (std::size_t q = 0; q < count; ++q) {
+    Sum<double> sum;
+    begin(q, sum);
+    for_corners(
+        corners(spots, d, e, f, q), [&](std::int32_t at, double w) __attribute__((always_inline)) {
+          sum.add(w, open[at], eps[at], u[at]);
+        });
+    end(q, sum);
   }
 }
+
+/// open = sum(w a), fluid = sum(w a eps)
+template <class T>
+struct OpenSum {
+  T open{}, fluid{};
+  __attribute__((always_inline)) void add(const T& w, double a, double eps, double) {
+    const T part = w * a;
+    open += part;
+    fluid += part * eps;
+  }
+};
+/// The same, and flux = sum(w eps (u - v)).
+template <class T>
+struct FluxSum {
+  T v{};
+  T open{}, fluid{}, flux{};
+  __attribute__((always_inline)) void add(const T& w, double a, double eps, double u) {
+    const T part = w * a;
+    open += part;
+    fluid += part * eps;
+    flux += w * eps * (u - v);
+  }
+};
+/// sum(w a e (eps (u - v) + lag)), e = 1 for `is_density`, else eps.
+template <class T>
+struct DragSum {
+  bool is_density = false;
+  T v{}, lag{};
+  T drag{};
+  __attribute__((always_inline)) void add(const T& w, double a, double eps, double u) {
+    drag += w * (a * (is_density ? 1.0 : eps)) * (eps * (u - v) + lag);
+  }
+};
 
 }  // namespace
 
@@ -131,91 +196,25 @@ DUST_KERNEL void find_runs(SpotBatch& spots) {
 
 DUST_KERNEL void sum_faces(const SpotBatch& spots, int d, const FaceColumns& faces,
                            const FaceSumColumns& sums) {
-  if (spots.has_long_runs()) {
-    for_runs(
-        spots, d, faces, nullptr,
-        [&](const RunFaces& f, const Lanes* weight, std::size_t q) __attribute__((always_inline)) {
-          Lanes open{};
-          Lanes fluid{};
-          for (int n = 0; n < 8; ++n) {
-            const Lanes part = weight[n] * f.open[n];
-            open += part;
-            fluid += part * f.eps[n];
-          }
-          store(sums.open + q, open);
-          store(sums.fluid + q, fluid);
-        });
-    return;
-  }
-  const int e = (d + 1) % 3;
-  const int f = (d + 2) % 3;
-  const double* eps = faces.void_fraction;
-  const float* open_share = faces.open;
-  double* open_sum = sums.open;
-  double* fluid_sum = sums.fluid;
-  const std::size_t count = spots.count;
-#pragma omp simd
-  for (std::size_t q = 0; q < count; ++q) {
-    double open = 0.0;
-    double fluid = 0.0;
-    for_corners(corners(spots, d, e, f, q), [&](std::int32_t at, double w) {
-      const double part = w * open_share[at];
-      open += part;
-      fluid += part * eps[at];
-    });
-    open_sum[q] = open;
-    fluid_sum[q] = fluid;
-  }
+  for_faces<OpenSum>(
+      spots, d, faces, faces.void_fraction, [](std::size_t, auto&) __attribute__((always_inline)){},
+      [&](std::size_t q, const auto& sum) __attribute__((always_inline)) {
+        put(sums.open, q, sum.open);
+        put(sums.fluid, q, sum.fluid);
+      });
 }
 
 DUST_KERNEL void look_at_faces(const SpotBatch& spots, int d, const FaceColumns& faces,
                                const double* u, const double* v, const FaceSumColumns& sums,
-                               double* flux_sum) {
-  if (spots.has_long_runs()) {
-    for_runs(
-        spots, d, faces, u,
-        [&](const RunFaces& f, const Lanes* weight, std::size_t q) __attribute__((always_inline)) {
-          Lanes own;
-          load(v + q, own);
-          Lanes open{};
-          Lanes fluid{};
-          Lanes flux{};
-          for (int n = 0; n < 8; ++n) {
-            const Lanes part = weight[n] * f.open[n];
-            open += part;
-            fluid += part * f.eps[n];
-            flux += weight[n] * f.eps[n] * (f.u[n] - own);
-          }
-          store(sums.open + q, open);
-          store(sums.fluid + q, fluid);
-          store(flux_sum + q, flux);
-        });
-    return;
-  }
-  const int e = (d + 1) % 3;
-  const int f = (d + 2) % 3;
-  const double* eps = faces.void_fraction;
-  const float* open_share = faces.open;
-  double* open_sum = sums.open;
-  double* fluid_sum = sums.fluid;
-  const std::size_t count = spots.count;
-#pragma omp simd
-  for (std::size_t q = 0; q < count; ++q) {
-    const double own = v[q];
-    double open = 0.0;
-    double fluid = 0.0;
-    double flux = 0.0;
-    for_corners(corners(spots, d, e, f, q), [&](std::int32_t at, double w) {
-      const double part = w * open_share[at];
-      const double e_at = eps[at];
-      open += part;
-      fluid += part * e_at;
-      flux += w * e_at * (u[at] - own);
-    });
-    open_sum[q] = open;
-    fluid_sum[q] = fluid;
-    flux_sum[q] = flux;
-  }
+                               double* flux) {
+  for_faces<FluxSum>(
+      spots, d, faces,
+      u, [&](std::size_t q, auto& sum) __attribute__((always_inline)) { get(v, q, sum.v); },
+      [&](std::size_t q, const auto& sum) __attribute__((always_inline)) {
+        put(sums.open, q, sum.open);
+        put(sums.fluid, q, sum.fluid);
+        put(flux, q, sum.flux);
+      });
 }
 
 DUST_KERNEL void slip_of_faces(std::size_t count, const double* eps, const FaceSumColumns& sums,
@@ -252,67 +251,46 @@ DUST_KERNEL void charge_faces(std::size_t count, const ChargeInput& input, doubl
 DUST_KERNEL void settle_faces(const SpotBatch& spots, int d, const FaceColumns& faces,
                               const double* u, const ChargeColumns& charges, double scale,
                               bool is_density, double* given) {
-  if (spots.has_long_runs()) {
-    for_runs(
-        spots, d, faces, u,
-        [&](const RunFaces& f, const Lanes* weight, std::size_t q) __attribute__((always_inline)) {
-          Lanes own;
-          Lanes lag;
-          Lanes drag;
-          load(charges.velocity.data() + q, own);
-          load(charges.lag.data() + q, lag);
-          load(charges.drag.data() + q, drag);
-          Lanes sum{};
-          for (int n = 0; n < 8; ++n) {
-            const double share = f.open[n] * (is_density ? 1.0 : f.eps[n]);
-            sum += weight[n] * share * (f.eps[n] * (f.u[n] - own) + lag);
-          }
-          store(given + q, scale * drag * sum);
-        });
-    return;
-  }
-  const int e = (d + 1) % 3;
-  const int f = (d + 2) % 3;
-  const double* eps = faces.void_fraction;
-  const float* open_share = faces.open;
-  const std::size_t count = spots.count;
-#pragma omp simd
-  for (std::size_t q = 0; q < count; ++q) {
-    const double own = charges.velocity[q];
-    const double lag = charges.lag[q];
-    double sum = 0.0;
-    for_corners(corners(spots, d, e, f, q), [&](std::int32_t at, double w) {
-      const double e_at = eps[at];
-      const double share = is_density ? 1.0 : e_at;
-      sum += w * open_share[at] * share * (e_at * (u[at] - own) + lag);
-    });
-    given[q] = scale * charges.drag[q] * sum;
-  }
+  const double* v = charges.velocity.data();
+  const double* lag = charges.lag.data();
+  const double* drag = charges.drag.data();
+  for_faces<DragSum>(
+      spots, d, faces, u,
+      [&](std::size_t q, auto& sum) __attribute__((always_inline)) {
+        sum.is_density = is_density;
+        get(v, q, sum.v);
+        get(lag, q, sum.lag);
+      },
+      [&](std::size_t q, auto& sum) __attribute__((always_inline)) {
+        auto own = sum.drag;
+        get(drag, q, own);
+        put(given, q, scale * own * sum.drag);
+      });
 }
 
 DUST_KERNEL void charge_run(const SpotBatch& spots, int d, std::size_t run,
                             const ChargeColumns& charges, RunCharge& sum) {
-  Lanes drag_sum[8] = {};
-  Lanes push_sum[8] = {};
-  Lanes extra_sum[8] = {};
+  Four drag_sum[8] = {};
+  Four push_sum[8] = {};
+  Four extra_sum[8] = {};
   const std::size_t end = spots.run[run + 1];
   for (std::size_t q = spots.run[run]; q < end; q += 4) {
-    Lanes weight[8];
+    Four weight[8];
     weights_of_four(spots, d, q, weight);
-    Lanes drag;
-    Lanes velocity;
-    Lanes extra;
-    load(charges.drag.data() + q, drag);
-    load(charges.velocity.data() + q, velocity);
-    load(charges.extra.data() + q, extra);
-    Lanes push = drag * velocity;
+    Four drag;
+    Four velocity;
+    Four extra;
+    get(charges.drag.data(), q, drag);
+    get(charges.velocity.data(), q, velocity);
+    get(charges.extra.data(), q, extra);
+    Four push = drag * velocity;
     if (end - q < 4) {
       // What stands behind the end is another run's, or anything.
       const lanes::LaneMask is_own = lanes::LaneMask{0, 1, 2, 3} < static_cast<long long>(end - q);
-      for (Lanes& w : weight) w = is_own ? w : Lanes{};
-      drag = is_own ? drag : Lanes{};
-      push = is_own ? push : Lanes{};
-      extra = is_own ? extra : Lanes{};
+      for (Four& w : weight) w = is_own ? w : Four{};
+      drag = is_own ? drag : Four{};
+      push = is_own ? push : Four{};
+      extra = is_own ? extra : Four{};
     }
     for (int n = 0; n < 8; ++n) {
       drag_sum[n] += weight[n] * drag;
@@ -320,7 +298,7 @@ DUST_KERNEL void charge_run(const SpotBatch& spots, int d, std::size_t run,
       extra_sum[n] += weight[n] * extra;
     }
   }
-  const auto all = [](const Lanes& v) __attribute__((always_inline)) {
+  const auto all = [](const Four& v) __attribute__((always_inline)) {
     return (v[0] + v[1]) + (v[2] + v[3]);
   };
   for (std::size_t n = 0; n < 8; ++n) {
