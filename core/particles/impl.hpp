@@ -168,6 +168,7 @@ struct Dem::Impl {
   void choose_allowances();
   void carry_over(VerletList& list, ContactList& contacts, bool is_surface);
   void group_by_law(VerletList& list, bool is_surface);
+  static void list_by_row(std::span<const std::array<std::int32_t, 2>> pairs, Chunk& chunk);
 
   // watch.cpp
   void choose_watch_length();

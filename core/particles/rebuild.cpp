@@ -157,6 +157,24 @@ void Dem::Impl::group_by_law(VerletList& list, bool is_surface) {
   list.b.swap(b);
 }
 
+/// The pairs of a chunk by their earlier row, those of one row as they were found: the contacts of
+/// the same grains lie side by side.
+void Dem::Impl::list_by_row(std::span<const std::array<std::int32_t, 2>> pairs, Chunk& chunk) {
+  std::vector<std::int32_t> next(static_cast<std::size_t>(chunk.end - chunk.begin) + 1, 0);
+  const auto place = [&](const std::array<std::int32_t, 2>& pair) {
+    return static_cast<std::size_t>(std::min(pair[0], pair[1]) - chunk.begin);
+  };
+  for (const auto& pair : pairs) ++next[place(pair) + 1];
+  for (std::size_t n = 1; n < next.size(); ++n) next[n] += next[n - 1];
+  chunk.near_pairs.a.resize(pairs.size());
+  chunk.near_pairs.b.resize(pairs.size());
+  for (const auto& pair : pairs) {
+    const auto to = static_cast<std::size_t>(next[place(pair)]++);
+    chunk.near_pairs.a[to] = pair[0];
+    chunk.near_pairs.b[to] = pair[1];
+  }
+}
+
 /// The contacts in touch, found again in the new list.
 void Dem::Impl::carry_over(VerletList& list, ContactList& contacts, bool is_surface) {
   const std::size_t n = list.size();
@@ -264,8 +282,7 @@ void Dem::Impl::rebuild() {
   const std::size_t size = chunk_rows(coarse_count);
   const std::size_t count = (coarse_count + size - 1) / size;
   chunks.resize(count);
-  // One number per pair, for sorting.
-  std::vector<std::vector<std::uint64_t>> shares(count);
+  std::vector<std::vector<std::array<std::int32_t, 2>>> shares(count);
   std::int64_t listed = 0;
   std::int64_t close = 0;
   const auto coarse = static_cast<std::int32_t>(coarse_count);
@@ -289,8 +306,7 @@ void Dem::Impl::rebuild() {
         near_fine.push(a, b);
         continue;
       }
-      shares[static_cast<std::size_t>(std::min(i, j)) / size].push_back(
-          static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b));
+      shares[static_cast<std::size_t>(std::min(i, j)) / size].push_back({a, b});
     }
   }
   // Lists are made for so long that the horizon adds little to what the allowances list anyhow.
@@ -324,15 +340,8 @@ void Dem::Impl::rebuild() {
     chunk.begin = static_cast<std::int32_t>(c * size);
     chunk.end = static_cast<std::int32_t>(std::min(coarse_count, (c + 1) * size));
     chunk.wall_sums.assign(WallLoads::k_sums * wall_loads.walls(), 0.0);
-    auto& share = shares[c];
-    std::sort(share.begin(), share.end());
-    chunk.near_pairs.a.reserve(share.size());
-    chunk.near_pairs.b.reserve(share.size());
-    for (const std::uint64_t pair : share) {
-      chunk.near_pairs.push(static_cast<std::int32_t>(pair >> 32),
-                            static_cast<std::int32_t>(pair & 0xffffffffu));
-    }
-    std::vector<std::uint64_t>().swap(share);
+    list_by_row(shares[c], chunk);
+    std::vector<std::array<std::int32_t, 2>>().swap(shares[c]);
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
       for (std::int32_t i = chunk.begin; i < chunk.end; ++i) {
         if (near_surface(static_cast<std::size_t>(i), surfaces[s])) {
