@@ -61,6 +61,7 @@ struct DemReport {
   std::int64_t particle_steps = 0;  ///< sum over coarse steps of grains integrated
   std::int64_t fine_steps = 0;      ///< sub-steps of fine grains, summed over grains
   std::int64_t rebuilds = 0;
+  std::int64_t mends = 0;  ///< of the lists, for single grains off their course
   std::int64_t flown_steps =
       0;  ///< of particle_steps, those made in one go with others (watch.cpp)
   double largest_overlap = 0.0;         ///< [-] overlap / smaller radius, since the start

@@ -168,7 +168,10 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
                                 counters.late_lists,
                                 counters.flown_steps,
                                 allowance_level,
-                                watch_length};
+                                watch_length,
+                                must_mend,
+                                mended,
+                                counters.mends};
   archive.integers("state", state);
   archive.number("time", time);
   double largest = counters.largest_coarse_overlap;
@@ -258,6 +261,9 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   counters.flown_steps = state.at(13);
   allowance_level = state.at(14);
   watch_length = state.at(15);
+  must_mend = state.at(16) != 0;
+  mended = state.at(17);
+  counters.mends = state.at(18);
   time = archive.number("time");
   counters.largest_coarse_overlap = archive.number("largest_coarse_overlap");
   counters.largest_fine_overlap = archive.number("largest_fine_overlap");

@@ -46,35 +46,22 @@ void Dem::Impl::fail(std::size_t row, const std::string& what, const std::string
   throw sdk::ModelError(text.str() + partner + "; likely cause: " + cause);
 }
 
-/// The lists hold as long as no grain has left the straight course it had at the rebuild by more
-/// than its allowance. Looked after when a watch ends; a rebuild is asked for early enough for the
-/// next one. A fine grain of 10 um pressed between two of 600 um (soft as grains are made to be)
-/// comes off with up to the speed at which its elastic energy sets it free, some 10 m/s: more than
-/// its allowance in one step. The lists are made new then, at the cost of a partner that may be
-/// seen late; such events are counted and returned. A coarse grain that does this is an error.
-std::int64_t Dem::Impl::check_course(std::size_t begin, std::size_t end,
+/// The lists hold as long as no grain has left the straight course they suppose by more than its
+/// allowance. Looked after when a watch ends; mending is asked for early enough for the next one. A
+/// fine grain of 10 um pressed between two of 600 um (soft as grains are made to be) comes off with
+/// up to the speed at which its elastic energy sets it free, some 10 m/s: more than its allowance
+/// in one step. The lists are made new then, at the cost of a partner that may be seen late; such
+/// events are counted and returned. A coarse grain that does this is an error.
+std::int64_t Dem::Impl::check_course(std::size_t begin, std::size_t end, bool& wants_mending,
                                      bool& wants_rebuild) const {
-  const double t = static_cast<double>(since_rebuild) * steps.coarse_step;
-  const double ahead = static_cast<double>(watch_length) * steps.coarse_step;
   std::int64_t late_grains = 0;
   bool asks = false;
   for (std::size_t n = begin; n < end; ++n) {
-    const double* p = store.position.data() + 4 * n;
-    const double* v = store.velocity.data() + 4 * n;
-    const double* p0 = store.start.data() + 4 * n;
-    const float* v0 = store.start_velocity.data() + 4 * n;
-    double off2 = 0.0;
-    double next2 = 0.0;
-    for (int d = 0; d < 3; ++d) {
-      const double off = p[d] - p0[d] - t * v0[d];
-      const double next = off + ahead * (v[d] - v0[d]);
-      off2 += off * off;
-      next2 += next * next;
-    }
-    const double limit2 = p0[3] * p0[3];
-    asks = asks || std::max(off2, next2) > k_trigger * k_trigger * limit2;
-    if (off2 <= limit2) continue;
-    if (!std::isfinite(off2)) fail_as_not_a_number(n);
+    const Deviation off = deviation(n);
+    const double limit = store.start[4 * n + 3];
+    asks = asks || off.asks_for_another(limit);
+    if (off.now2 <= limit * limit) continue;
+    if (!std::isfinite(off.now2)) fail_as_not_a_number(n);
     if (n < coarse_count) {
       fail(n, "moved farther off its course than its skin allows between two checks",
            "speeds far above the expected one: give time.expected_speed or a smaller "
@@ -82,9 +69,34 @@ std::int64_t Dem::Impl::check_course(std::size_t begin, std::size_t end,
     }
     ++late_grains;
   }
-  wants_rebuild = wants_rebuild || asks;
+  wants_mending = wants_mending || asks;
   if (is_periodic) look_for_wraps(begin, end, wants_rebuild);
   return late_grains;
+}
+
+Dem::Impl::Deviation Dem::Impl::deviation(std::size_t n) const {
+  const double t = static_cast<double>(since_rebuild) * steps.coarse_step;
+  const double ahead = static_cast<double>(watch_length) * steps.coarse_step;
+  const double* p = store.position.data() + 4 * n;
+  const double* v = store.velocity.data() + 4 * n;
+  const double* p0 = store.start.data() + 4 * n;
+  const float* v0 = store.start_velocity.data() + 4 * n;
+  Deviation result;
+  for (int d = 0; d < 3; ++d) {
+    const double off = p[d] - p0[d] - t * v0[d];
+    const double next = off + ahead * (v[d] - v0[d]);
+    result.now2 += off * off;
+    result.next2 += next * next;
+  }
+  return result;
+}
+
+bool Dem::Impl::Deviation::asks_for_another(double allowance) const {
+  return std::max(now2, next2) > k_trigger * k_trigger * allowance * allowance;
+}
+
+bool Dem::Impl::is_off_course(std::size_t n) const {
+  return deviation(n).asks_for_another(store.start[4 * n + 3]);
 }
 
 /// The same for the choice of a watch and the grains it keeps awake; the next look comes after

@@ -170,6 +170,21 @@ struct Dem::Impl {
   void group_by_law(VerletList& list, bool is_surface);
   static void list_by_row(std::span<const std::array<std::int32_t, 2>> pairs, Chunk& chunk);
 
+  [[nodiscard]] bool near_surface(std::size_t row, const Surface& surface,
+                                  double horizon_time) const;
+  /// Whether lists of so many pairs are short enough for wider allowances.
+  [[nodiscard]] bool may_widen(std::size_t listed) const;
+  /// Side i of a pair is the fine grain where there is one, else the lower id, so that a history
+  /// keeps its sign through all sorts.
+  [[nodiscard]] std::array<std::int32_t, 2> in_order(std::int32_t i, std::int32_t j) const;
+
+  // mend.cpp
+  [[nodiscard]] bool mend();
+  [[nodiscard]] std::vector<std::int32_t> find_strays() const;
+  void set_on_course(std::size_t row);
+  void add_pairs_of(std::span<const std::int32_t> strays);
+  void add_surfaces_of(std::span<const std::int32_t> strays);
+
   // watch.cpp
   void choose_watch_length();
   [[nodiscard]] double fastest() const;
@@ -211,7 +226,15 @@ struct Dem::Impl {
   // health.cpp
   [[noreturn]] void fail_as_not_a_number(std::size_t row) const;
   [[noreturn]] void fail(std::size_t row, const std::string& what, const std::string& cause) const;
-  [[nodiscard]] std::int64_t check_course(std::size_t begin, std::size_t end,
+  /// Squares of how far a grain is off the course the lists suppose, and will be at the end of the
+  /// next watch if it goes straight on [m2].
+  struct Deviation {
+    double now2 = 0.0, next2 = 0.0;
+    [[nodiscard]] bool asks_for_another(double allowance) const;
+  };
+  [[nodiscard]] Deviation deviation(std::size_t row) const;
+  [[nodiscard]] bool is_off_course(std::size_t row) const;
+  [[nodiscard]] std::int64_t check_course(std::size_t begin, std::size_t end, bool& wants_mending,
                                           bool& wants_rebuild) const;
   [[nodiscard]] std::int64_t check_awake(const Awake& awake, std::int64_t ahead,
                                          bool& wants_watch) const;
@@ -272,6 +295,8 @@ struct Dem::Impl {
   std::int64_t flying = 0;           ///< grains asleep in the present watch
   bool is_watching = false;
   bool must_watch = false;
+  bool must_mend = false;   ///< grains are off the course the lists suppose
+  std::int64_t mended = 0;  ///< grains set on a new course since the last rebuild
   bool must_rebuild = true;
   bool must_sort = true;
   mutable DemReport counters;
@@ -284,6 +309,7 @@ struct Dem::Impl {
   std::vector<std::int32_t> old_begin;
   std::vector<std::int32_t> old_partner;
   std::vector<const double*> old_history;
+  double farthest_reach = 0.0;  ///< [m] of a grain until the lists' end, at most; 0 = not known
   // Working space of a watch.
   std::vector<double> watch_allowance;  ///< [m] how far a grain may be off its course
   std::vector<std::uint8_t> is_awake;   ///< 2: awake, and in a list of another chunk

@@ -50,6 +50,7 @@ void Dem::Impl::neighbours() {
   if (must_watch || since_watch >= watch_length || must_rebuild || since_rebuild >= horizon) {
     land();
   }
+  if (must_mend && !must_rebuild && since_rebuild < horizon) must_rebuild = !mend();
   if (must_rebuild || since_rebuild >= horizon) rebuild();
   if (!is_watching) begin_watch();
 }
@@ -121,6 +122,10 @@ void Dem::Impl::choose_allowances() {
 
 void Dem::Impl::group_by_law(VerletList& list, bool is_surface) {
   const std::size_t n = list.size();
+  if (!is_surface && laws.size() == 1 && n > 0) {
+    list.segments.assign(1, {0, -1, 0, static_cast<std::int32_t>(n)});
+    return;
+  }
   const auto& material = store.material;
   std::vector<std::int32_t> group(n);
   std::int32_t groups = 0;
@@ -193,6 +198,30 @@ void Dem::Impl::carry_over(VerletList& list, ContactList& contacts, bool is_surf
       break;
     }
   }
+}
+
+bool Dem::Impl::may_widen(std::size_t listed) const {
+  return allowance_level < k_widest_level &&
+         static_cast<double>(listed) < k_few_pairs * static_cast<double>(store.size());
+}
+
+bool Dem::Impl::near_surface(std::size_t n, const Surface& s, double horizon_time) const {
+  const double* p = store.position.data() + 4 * n;
+  const double* v = store.velocity.data() + 4 * n;
+  const double reach = p[3] + store.start[4 * n + 3] + largest_range +
+                       horizon_time * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  // The surfaces stand where the step before saw them.
+  return s.may_touch({p[0], p[1], p[2]}, reach, horizon_time + steps.coarse_step);
+}
+
+std::array<std::int32_t, 2> Dem::Impl::in_order(std::int32_t i, std::int32_t j) const {
+  const bool is_lower =
+      store.id[static_cast<std::size_t>(i)] < store.id[static_cast<std::size_t>(j)];
+  const std::int32_t a = is_lower ? i : j;
+  const std::int32_t b = is_lower ? j : i;
+  const bool is_turned =
+      a < static_cast<std::int32_t>(coarse_count) && b >= static_cast<std::int32_t>(coarse_count);
+  return is_turned ? std::array{b, a} : std::array{a, b};
 }
 
 void Dem::Impl::rebuild() {
@@ -296,13 +325,8 @@ void Dem::Impl::rebuild() {
                            store.start[4 * static_cast<std::size_t>(i) + 3] +
                            store.start[4 * static_cast<std::size_t>(j) + 3];
       close += dot(d, d) < reach * reach ? 1 : 0;
-      // Side i is the lower id in every list, so that a history keeps its sign through all sorts.
-      const bool in_order =
-          store.id[static_cast<std::size_t>(i)] < store.id[static_cast<std::size_t>(j)];
-      std::int32_t a = in_order ? i : j;
-      std::int32_t b = in_order ? j : i;
+      const auto [a, b] = in_order(i, j);
       if (i >= coarse || j >= coarse) {
-        if (a < coarse) std::swap(a, b);  // side i of a fine pair is a fine grain
         near_fine.push(a, b);
         continue;
       }
@@ -319,22 +343,12 @@ void Dem::Impl::rebuild() {
     next_horizon = std::max(horizon / 2, k_shortest_horizon);
   }
   const double made_for = in.horizon;
-  const auto pairs = static_cast<double>(listed);
-  const auto grains = static_cast<double>(store.size());
-  if (is_early && pairs < k_few_pairs * grains) {
-    allowance_level = std::min(allowance_level + 1, k_widest_level);
-  } else if (pairs > k_many_pairs * grains) {
+  if (is_early && may_widen(static_cast<std::size_t>(listed))) {
+    ++allowance_level;
+  } else if (static_cast<double>(listed) > k_many_pairs * static_cast<double>(store.size())) {
     allowance_level = std::max<std::int64_t>(allowance_level - 1, 0);
   }
 
-  const auto near_surface = [&](std::size_t n, const Surface& s) {
-    const double* p = store.position.data() + 4 * n;
-    const double* v = store.velocity.data() + 4 * n;
-    const double reach = p[3] + store.start[4 * n + 3] + largest_range +
-                         made_for * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    // The surfaces stand where the step before saw them.
-    return s.may_touch({p[0], p[1], p[2]}, reach, made_for + steps.coarse_step);
-  };
   const auto build = [&](std::size_t c) {
     Chunk& chunk = chunks[c];
     chunk.begin = static_cast<std::int32_t>(c * size);
@@ -344,7 +358,7 @@ void Dem::Impl::rebuild() {
     std::vector<std::array<std::int32_t, 2>>().swap(shares[c]);
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
       for (std::int32_t i = chunk.begin; i < chunk.end; ++i) {
-        if (near_surface(static_cast<std::size_t>(i), surfaces[s])) {
+        if (near_surface(static_cast<std::size_t>(i), surfaces[s], made_for)) {
           chunk.near_surfaces.push(i, static_cast<std::int32_t>(s));
         }
       }
@@ -358,7 +372,7 @@ void Dem::Impl::rebuild() {
 
   for (std::size_t n = coarse_count; n < store.size(); ++n) {
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
-      if (near_surface(n, surfaces[s])) {
+      if (near_surface(n, surfaces[s], made_for)) {
         near_fine.push(static_cast<std::int32_t>(n), -1 - static_cast<std::int32_t>(s));
       }
     }
@@ -374,7 +388,9 @@ void Dem::Impl::rebuild() {
   std::vector<const double*>().swap(old_history);
   contact_force.clear();  // in the order of rows that were
   since_rebuild = 0;
-  must_rebuild = must_sort = false;
+  mended = 0;
+  farthest_reach = 0.0;
+  must_mend = must_rebuild = must_sort = false;
 }
 
 }  // namespace dust::particles

@@ -363,13 +363,15 @@ void Dem::Impl::land() {
               .material = store.material.data(),
               .gravity = gravity.data()},
              steps.coarse_step, since_watch, has_fluid);
-    bool asks = false;
-    late[b] = check_course(begin, end, asks);
-    wants[b] = asks ? 1 : 0;
+    bool wants_mending = false;
+    bool wants_rebuild = false;
+    late[b] = check_course(begin, end, wants_mending, wants_rebuild);
+    wants[b] = wants_rebuild ? 2 : wants_mending ? 1 : 0;
   });
   for (std::size_t b = 0; b < blocks; ++b) {
     counters.late_lists += late[b];
-    must_rebuild = must_rebuild || wants[b] != 0;
+    must_mend = must_mend || wants[b] != 0;
+    must_rebuild = must_rebuild || wants[b] == 2;
   }
 }
 
