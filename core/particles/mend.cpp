@@ -196,14 +196,10 @@ void Dem::Impl::add_pairs_of(std::span<const std::int32_t> strays) {
     double xi[3], vi[3], xj[3], vj[3];
     course(i, xi, vi);
     course(j, xj, vj);
-    const sdk::Vec3 x = separation(xj, xi);
-    const sdk::Vec3 v{vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]};
-    const double xv = dot(x, v);
-    const double vv = dot(v, v);
-    const double when = std::clamp(-xv / std::max(vv, 1e-300), 0.0, left);
     const double limit = store.position[4 * i + 3] + store.position[4 * j + 3] +
                          store.start[4 * i + 3] + store.start[4 * j + 3] + largest_range;
-    return dot(x, x) + when * (2.0 * xv + when * vv) < limit * limit;
+    const sdk::Vec3 v{vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]};
+    return passes_within(separation(xj, xi), v, left, limit);
   };
   std::vector<std::vector<std::array<std::int32_t, 2>>> found(blocks);
   for_blocks([&](std::size_t b, std::size_t n) {

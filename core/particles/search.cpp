@@ -284,11 +284,8 @@ bool comes_near(const SearchInput& in, std::int32_t i, std::int32_t j, double li
   const double* pj = in.position + 4 * static_cast<std::ptrdiff_t>(j);
   const double* vi = in.velocity + 4 * static_cast<std::ptrdiff_t>(i);
   const double* vj = in.velocity + 4 * static_cast<std::ptrdiff_t>(j);
-  double x[3];
-  double v[3];
-  double xx = 0.0;
-  double xv = 0.0;
-  double vv = 0.0;
+  sdk::Vec3 x;
+  sdk::Vec3 v;
   for (int d = 0; d < 3; ++d) {
     x[d] = pi[d] - pj[d];
     if (in.period[d] > 0.0) {
@@ -296,12 +293,8 @@ bool comes_near(const SearchInput& in, std::int32_t i, std::int32_t j, double li
       if (x[d] < -0.5 * in.period[d]) x[d] += in.period[d];
     }
     v[d] = vi[d] - vj[d];
-    xx += x[d] * x[d];
-    xv += x[d] * v[d];
-    vv += v[d] * v[d];
   }
-  const double t = std::clamp(-xv / std::max(vv, 1e-300), 0.0, in.horizon);
-  return xx + t * (2.0 * xv + t * vv) < limit * limit;
+  return passes_within(x, v, in.horizon, limit);
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/vec3.hpp"
+
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,6 +23,15 @@ struct SearchInput {
   double origin[3] = {0, 0, 0};
   double period[3] = {0, 0, 0};  ///< [m] 0 = not periodic
 };
+
+/// Whether two grains, apart by `x` [m] and going on at the relative velocity `v` [m/s], come
+/// nearer than `limit` [m] within `horizon` [s].
+inline bool passes_within(const sdk::Vec3& x, const sdk::Vec3& v, double horizon, double limit) {
+  const double xv = dot(x, v);
+  const double vv = dot(v, v);
+  const double t = std::clamp(-xv / std::max(vv, 1e-300), 0.0, horizon);
+  return dot(x, x) + t * (2.0 * xv + t * vv) < limit * limit;
+}
 
 using RowPair = std::pair<std::int32_t, std::int32_t>;
 
