@@ -76,7 +76,8 @@ class Coupling {
   /// Tells the velocity that Exchange::coefficient was multiplied by during the fluid step
   /// (FluidSolver::drag_velocity: the mean over sub-steps and stages). Without this call the first
   /// refresh() after map() takes its own velocity, which is exact only for a fluid that takes drag
-  /// fully implicitly in one step.
+  /// fully implicitly in one step. Throws std::logic_error once a refresh() has seen the grains
+  /// moved since map().
   void settle(const particles::GrainRows& grains, const fluid::FaceField& velocity);
   /// `velocity` and `stress_divergence` as FluidSolver gives them. Halo faces next to the domain
   /// are read.

@@ -167,7 +167,7 @@ void Coupling::Impl::find_size_ratios(const particles::GrainRows& grains) {
 void Coupling::Impl::settle(const fluid::FaceField& velocity) {
   is_settled = true;
   if (is_one_way) return;
-  if (!are_spots_of_map) throw std::logic_error("Coupling::settle() after a refresh()");
+  if (!are_spots_of_map) throw std::logic_error("Coupling::settle() after a refresh() of grains that have moved");
   std::span<const std::int32_t> rows = spots.order.rows();
   std::vector<std::int32_t> rows_now;
   if (spots_order != memory.order()) {

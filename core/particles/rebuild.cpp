@@ -122,10 +122,6 @@ void Dem::Impl::choose_allowances() {
 
 void Dem::Impl::group_by_law(VerletList& list, bool is_surface) {
   const std::size_t n = list.size();
-  if (!is_surface && laws.size() == 1 && n > 0) {
-    list.segments.assign(1, {0, -1, 0, static_cast<std::int32_t>(n)});
-    return;
-  }
   const auto& material = store.material;
   std::vector<std::int32_t> group(n);
   std::int32_t groups = 0;
@@ -151,6 +147,7 @@ void Dem::Impl::group_by_law(VerletList& list, bool is_surface) {
     }
     begin[u + 1] += begin[u];
   }
+  if (list.segments.size() <= 1) return;  // in order already
   std::vector<std::int32_t> a(n);
   std::vector<std::int32_t> b(n);
   for (std::size_t q = 0; q < n; ++q) {

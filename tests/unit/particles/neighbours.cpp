@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/dem_rig.hpp"
 
+#include "dust/sdk/error.hpp"
 #include "dust/sdk/random.hpp"
 
 #include <doctest/doctest.h>
@@ -151,6 +152,21 @@ void look_for_missed_contacts(bool is_periodic, bool has_two_sizes) {
   CHECK(dem->report().late_lists == 0);
   CHECK(dem->report().rebuilds > 5);
   CHECK(dem->report().rebuilds < 200);
+}
+
+TEST_CASE("grains without a law between them shall be told, even where there is one law alone") {
+  DemRig rig;
+  const int sand = rig.material(2650, 50e6, 0.3);
+  const int coal = rig.material(1500, 50e6, 0.3);
+  rig.law(sand, sand, 0.9, 0.5);
+  rig.diameters = {600e-6};
+  rig.setup.domain.min = {0, 0, 0};
+  rig.setup.domain.max = {8e-3, 8e-3, 8e-3};
+  auto dem = rig.make();
+  dem->insert(std::vector<NewGrain>{
+      {.position = {4e-3, 4e-3, 4e-3}, .diameter = 600e-6, .material = sand},
+      {.position = {4.65e-3, 4e-3, 4e-3}, .diameter = 600e-6, .material = coal}});
+  CHECK_THROWS_AS(dem->neighbours(), dust::sdk::ModelError);
 }
 
 TEST_CASE("no contact shall be missed where a few fast grains run through a crowd at rest") {
