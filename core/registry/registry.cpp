@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -50,6 +51,33 @@ fs::path own_folder() {
   return (program.parent_path().parent_path() / "lib" / "dust" / "plugins").lexically_normal();
 }
 
+/// Many libraries of a folder that are refused for the same reason (an engine beside a newer folder
+/// of plugins) make one line.
+std::vector<std::string> gathered(const std::vector<std::string>& problems) {
+  constexpr std::size_t k_few = 4;
+  const std::string mark = ": error: ";
+  const auto fault_of = [&](const std::string& line) {
+    const std::size_t at = std::min(line.find(mark), line.size());
+    return std::pair(fs::path(line.substr(0, at)).parent_path().string(), line.substr(at));
+  };
+  std::map<std::pair<std::string, std::string>, std::size_t> number;
+  for (const std::string& line : problems) ++number[fault_of(line)];
+  std::vector<std::string> lines;
+  for (const std::string& line : problems) {
+    const auto fault = fault_of(line);
+    std::size_t& times = number[fault];
+    if (times < k_few) {
+      if (times > 0) lines.push_back(line);
+      continue;
+    }
+    const std::string first = fs::path(line.substr(0, line.find(mark))).filename().string();
+    lines.push_back(fault.first + mark + std::to_string(times) + " libraries, " + first +
+                    " the first" + ": " + fault.second.substr(mark.size()));
+    times = 0;  // said
+  }
+  return lines;
+}
+
 }  // namespace
 
 struct Registry::Impl {
@@ -83,7 +111,7 @@ void Registry::load(const std::vector<fs::path>& folders) {
       }
     }
   }
-  if (!problems.empty()) throw base::PluginError(problems);
+  if (!problems.empty()) throw base::PluginError(gathered(problems));
 }
 
 std::vector<fs::path> Registry::search_path(const std::vector<fs::path>& from_command_line) {

@@ -142,3 +142,22 @@ TEST_CASE("all wrong libraries shall be told at once") {
                                     "directory");
   }
 }
+
+TEST_CASE("many libraries of one folder with the same fault shall make one line") {
+  const fs::path folder = k_folder / "many";
+  fs::create_directories(folder);
+  const auto put = [&](const std::string& kind, const std::string& name) {
+    fs::copy_file(k_folder / kind / (kind + ".so"), folder / (name + ".so"),
+                  fs::copy_options::overwrite_existing);
+  };
+  for (const std::string name : {"a", "b", "c"}) put("older", name);
+  put("no_models", "n");
+  CHECK(refusal("many").size() == 4);
+  for (const std::string name : {"d", "z"}) put("older", name);
+  const auto lines = refusal("many");
+  REQUIRE(lines.size() == 2);
+  CHECK(lines[0].starts_with(folder.string() +
+                             ": error: 5 libraries, a.so the first: built against interface"));
+  CHECK(lines[1] == (folder / "n.so").string() + ": error: registers no model");
+  fs::remove_all(folder);
+}

@@ -142,7 +142,8 @@ class Fill final : public sdk::PlacedEmitter {
  private:
   void take_box() {
     if (p_.radius > 0.0 || p_.end_radius > 0.0 || p_.from != Vec3{} || p_.to != Vec3{}) {
-      throw sdk::ParameterError("from, to, radius and end_radius belong to region: cylinder");
+      throw sdk::ParameterError(
+          "from, to, radius and end_radius belong to region: cylinder; a box has min and max");
     }
     const Vec3 extent = p_.max - p_.min;
     for (int d = 0; d < 3; ++d) {
@@ -156,7 +157,8 @@ class Fill final : public sdk::PlacedEmitter {
   }
   void take_cylinder() {
     if (p_.min != Vec3{} || p_.max != Vec3{}) {
-      throw sdk::ParameterError("min and max belong to region: box");
+      throw sdk::ParameterError(
+          "min and max belong to region: box; a cylinder has from, to and radius");
     }
     length_ = norm(p_.to - p_.from);
     if (!(p_.radius > 0.0)) throw sdk::ParameterError("region: cylinder needs radius");

@@ -154,7 +154,7 @@ TEST_CASE("a filling without amount, or with both, or a wrong region, shall be r
   CHECK(says({{"mass", 1e-3}, {"max", Vec3{1e-3, 1e-3, 1e-4}}}) ==
         "the box from min to max is narrower than the largest grain");
   CHECK(says(with(with(k_box, k_frustum), {{"mass", 1e-3}})) ==
-        "min and max belong to region: box");
+        "min and max belong to region: box; a cylinder has from, to and radius");
   CHECK(says({{"mass", 1e-3}, {"region", std::string("cylinder")}, {"to", Vec3{0, 0, 1e-2}}}) ==
         "region: cylinder needs radius");
 }
