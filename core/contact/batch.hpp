@@ -68,6 +68,7 @@ class BatchColumns {
     scale_j,
     contact_overlap,  ///< [m] what the contact law sees under cohesion
     attraction,       ///< [N]
+    normal_velocity,  ///< [m/s] what a cohesive law sees
     first_history,
     k_columns = first_history + k_max_history
   };
@@ -84,7 +85,8 @@ class BatchColumns {
   /// The batch a law sees. `first_history_column` skips the columns of other stages.
   [[nodiscard]] sdk::ContactBatch view(std::size_t count, double time_step,
                                        int first_history_column);
-  [[nodiscard]] sdk::CohesionBatch cohesion_view(std::size_t count, int first_history_column);
+  [[nodiscard]] sdk::CohesionBatch cohesion_view(std::size_t count, double time_step,
+                                                 int first_history_column);
 
  private:
   AlignedVector<double> data_;

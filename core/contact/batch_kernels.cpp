@@ -37,11 +37,15 @@ sdk::ContactBatch BatchColumns::view(std::size_t count, double time_step,
   return b;
 }
 
-sdk::CohesionBatch BatchColumns::cohesion_view(std::size_t count, int first_history_column) {
+sdk::CohesionBatch BatchColumns::cohesion_view(std::size_t count, double time_step,
+                                               int first_history_column) {
   sdk::CohesionBatch b;
   b.count = padded(count);
+  b.time_step = time_step;
   b.overlap = column(overlap);
   b.effective_radius = column(effective_radius);
+  b.effective_mass = column(effective_mass);
+  b.normal_velocity = column(normal_velocity);
   b.contact_overlap = column(contact_overlap);
   b.attraction = column(attraction);
   b.history = history_.data() + first_history_column;
@@ -117,6 +121,22 @@ DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count)
     largest = std::max(largest, d * (all * by_radii * im[q]));
   }
   return largest;
+}
+
+DUST_KERNEL void derive_normal_velocity(BatchColumns& columns, std::size_t count) {
+  using B = BatchColumns;
+  const double* nx = columns.column(B::normal_x);
+  const double* ny = columns.column(B::normal_y);
+  const double* nz = columns.column(B::normal_z);
+  const double* vx = columns.column(B::velocity_x);
+  const double* vy = columns.column(B::velocity_y);
+  const double* vz = columns.column(B::velocity_z);
+  double* normal_velocity = columns.column(B::normal_velocity);
+  const std::size_t n = padded(count);
+#pragma omp simd
+  for (std::size_t q = 0; q < n; ++q) {
+    normal_velocity[q] = vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q];
+  }
 }
 
 DUST_KERNEL void subtract_attraction(BatchColumns& columns, std::size_t count) {

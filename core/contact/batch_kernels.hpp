@@ -50,6 +50,9 @@ std::size_t gather_touching(const RowView& rows, const Images& images, const Pai
 /// point from what gather_touching wrote. Returns the largest overlap / smaller radius [-].
 double derive_pair_columns(BatchColumns& columns, std::size_t count);
 
+/// How fast the sides of each pair part, for the cohesion stage.
+void derive_normal_velocity(BatchColumns& columns, std::size_t count);
+
 /// Takes the attraction of the cohesion stage from the forces, along the normals.
 void subtract_attraction(BatchColumns& columns, std::size_t count);
 

@@ -20,10 +20,30 @@ std::unique_ptr<sdk::CohesionLaw> make_law(const Maker& make, const Units& units
   return law;
 }
 
+/// Sizes, overlaps and speeds (> 0 apart) of the standard contacts.
+struct Pairs {
+  std::vector<double> radii, overlaps, masses, speeds;
+  double largest = 0.0;
+  double time_step = 0.0;
+  explicit Pairs(const Units& units) : time_step(1e-6 * units.time) {
+    for (const Touch& t : standard_touches(0.0, 0)) {
+      radii.push_back(t.radius * units.length);
+      overlaps.push_back(t.overlap * units.length);
+      masses.push_back(t.mass * units.mass);
+      speeds.push_back(dot(t.velocity, t.normal) * units.of(sdk::dimension::velocity));
+      largest = std::max(largest, radii.back());
+    }
+  }
+  /// One pair at rest.
+  explicit Pairs(double radius)
+      : radii{radius}, overlaps{0.0}, masses{1e-6}, speeds{0.0}, largest(radius), time_step(1e-6) {}
+};
+
 /// Columns of pairs with guards behind every one of them, history included.
 class CohesionBench {
  public:
-  enum Column { overlap, radius, contact_overlap, attraction, k_columns };
+  enum Column { overlap, radius, mass, normal_velocity, contact_overlap, attraction, k_columns };
+  static constexpr Column k_first_output = contact_overlap;
 
   CohesionBench(std::size_t count, int history) : count_((count + 7) / 8 * 8), history_(history) {
     columns_.assign(static_cast<std::size_t>(k_columns + history),
@@ -32,25 +52,33 @@ class CohesionBench {
       std::fill_n(columns_[h].begin(), count_, 0.0);
     }
   }
-  /// Overlaps of the pairs now; outputs are forgotten, the history is not.
-  void show(const std::vector<double>& radii, const std::vector<double>& overlaps) {
+  /// The pairs now, where they have these overlaps and part at these speeds times `pace`; outputs
+  /// are forgotten, the history is not.
+  void show(const Pairs& pairs, const std::vector<double>& overlaps, double pace) {
+    time_step_ = pairs.time_step;
     for (std::size_t n = 0; n < count_; ++n) {
-      columns_[overlap][n] = overlaps[n % overlaps.size()];
-      columns_[radius][n] = radii[n % radii.size()];
+      const std::size_t pair = n % pairs.radii.size();
+      columns_[overlap][n] = overlaps[pair];
+      columns_[radius][n] = pairs.radii[pair];
+      columns_[mass][n] = pairs.masses[pair];
+      columns_[normal_velocity][n] = pace * pairs.speeds[pair];
       columns_[contact_overlap][n] = columns_[attraction][n] =
           std::numeric_limits<double>::quiet_NaN();
     }
   }
   void evaluate(const sdk::CohesionLaw& law, std::size_t size, const Trial* trial = nullptr) {
     if (size == 0) size = count_;
-    const auto before_overlap = columns_[overlap];
-    const auto before_radius = columns_[radius];
+    const std::vector<std::vector<double>> inputs(columns_.begin(),
+                                                  columns_.begin() + k_first_output);
     std::vector<double*> history(static_cast<std::size_t>(history_));
     for (std::size_t first = 0; first < count_; first += size) {
       sdk::CohesionBatch b;
       b.count = std::min(size, count_ - first);
+      b.time_step = time_step_;
       b.overlap = columns_[overlap].data() + first;
       b.effective_radius = columns_[radius].data() + first;
+      b.effective_mass = columns_[mass].data() + first;
+      b.normal_velocity = columns_[normal_velocity].data() + first;
       b.contact_overlap = columns_[contact_overlap].data() + first;
       b.attraction = columns_[attraction].data() + first;
       for (std::size_t h = 0; h < history.size(); ++h) {
@@ -63,8 +91,7 @@ class CohesionBench {
         law.evaluate(b);
       }
     }
-    require(columns_[overlap] == before_overlap && columns_[radius] == before_radius,
-            "it overwrites its inputs");
+    require(std::equal(inputs.begin(), inputs.end(), columns_.begin()), "it overwrites its inputs");
     for (const auto& column : columns_) {
       require(std::all_of(column.begin() + static_cast<std::ptrdiff_t>(count_), column.end(),
                           [](double v) { return v == k_guard_value; }),
@@ -81,22 +108,11 @@ class CohesionBench {
   static constexpr double k_guard_value = -7.25e77;
   std::size_t count_;
   int history_;
+  double time_step_ = 0.0;
   std::vector<std::vector<double>> columns_;
 };
 
-/// Radii and overlaps of the standard contacts.
-struct Pairs {
-  std::vector<double> radii, overlaps;
-  double largest = 0.0;
-  explicit Pairs(const Units& units) {
-    for (const Touch& t : standard_touches(0.0, 0)) {
-      radii.push_back(t.radius * units.length);
-      overlaps.push_back(t.overlap * units.length);
-      largest = std::max(largest, radii.back());
-    }
-  }
-};
-
+constexpr double k_radius = 5e-4;
 constexpr int k_looks = 25;
 constexpr int k_parting = 12;  ///< looks until all are parted; the rest they come back
 constexpr int k_beyond = 10;   ///< looks from which on a pair is beyond its range
@@ -124,7 +140,7 @@ Readings observe(const Maker& make, const Trial& trial) {
   CohesionBench bench(pairs.radii.size(), law->history_size());
   Readings readings;
   for (int look = 0; look < k_looks; ++look) {
-    bench.show(pairs.radii, overlaps_at(look, pairs.overlaps, pull(*law, pairs.largest)));
+    bench.show(pairs, overlaps_at(look, pairs.overlaps, pull(*law, pairs.largest)), 1.0);
     bench.evaluate(*law, trial.batch, &trial);
     for (std::size_t n = 0; n < bench.count(); ++n) {
       const std::string row = " of pair " + std::to_string(n);
@@ -145,16 +161,23 @@ Readings observe(const Maker& make, const Trial& trial) {
   return readings;
 }
 
+/// A law that resists motion and nothing else.
+bool is_viscous(const sdk::CohesionLaw& law) { return !(law.resting_overlap(k_radius) > 0.0); }
+
 void check_attracts(const Maker& make) {
   const auto law = make_law(make);
-  const Pairs pairs({});
+  const Pairs pairs(Units{});
   CohesionBench bench(pairs.radii.size(), law->history_size());
   for (int look = 0; look < k_looks; ++look) {
-    bench.show(pairs.radii, overlaps_at(look, pairs.overlaps, pull(*law, pairs.largest)));
+    bench.show(pairs, overlaps_at(look, pairs.overlaps, pull(*law, pairs.largest)), 0.0);
     bench.evaluate(*law, 0);
     for (std::size_t n = 0; n < bench.count(); ++n) {
       const double force = bench.at(CohesionBench::attraction, n);
       require(force >= 0.0, "it pushes: the attraction is " + shown(force) + " N");
+      if (is_viscous(*law)) {
+        require(force == 0.0, "resting_overlap() is 0, and a pair at rest is attracted");
+        continue;
+      }
       require(look > 0 || force > 0.0, "a pair in touch is not attracted");
       if (look < k_beyond || look > k_looks - k_beyond) continue;
       const bool is_beyond = overlaps_at(look, pairs.overlaps, pull(*law, pairs.largest))[n] <
@@ -165,6 +188,35 @@ void check_attracts(const Maker& make) {
   }
 }
 
+/// Moving pairs beside resting ones: what motion adds pulls those that part and pushes those that
+/// come closer.
+void check_resists(const Maker& make) {
+  const auto law = make_law(make);
+  const Pairs pairs(Units{});
+  CohesionBench still(pairs.radii.size(), law->history_size());
+  CohesionBench moving(pairs.radii.size(), law->history_size());
+  bool resists = false;
+  for (int look = 0; look < k_looks; ++look) {
+    const auto overlaps = overlaps_at(look, pairs.overlaps, pull(*law, pairs.largest));
+    still.show(pairs, overlaps, 0.0);
+    still.evaluate(*law, 0);
+    moving.show(pairs, overlaps, 1.0);
+    moving.evaluate(*law, 0);
+    for (std::size_t n = 0; n < still.count(); ++n) {
+      const double added =
+          moving.at(CohesionBench::attraction, n) - still.at(CohesionBench::attraction, n);
+      const double speed = moving.at(CohesionBench::normal_velocity, n);
+      require(added * speed >= 0.0, "motion adds " + shown(added) +
+                                        " N of attraction to a pair that parts at " + shown(speed) +
+                                        " m/s: that drives it");
+      require(overlaps[n % overlaps.size()] >= -law->range(pairs.largest) || added == 0.0,
+              "a pair beyond range() still resists with " + shown(added) + " N");
+      resists = resists || added != 0.0;
+    }
+  }
+  require(resists || !is_viscous(*law), "it neither attracts at rest nor resists motion");
+}
+
 void check_range(const Maker& make) {
   const auto law = make_law(make);
   for (double radius = 1e-6; radius < 0.1; radius *= 2.0) {
@@ -172,7 +224,7 @@ void check_range(const Maker& make) {
     require(std::isfinite(range) && range >= 0.0, "range() is " + shown(range) + " m");
     require(law->range(2.0 * radius) >= range,
             "range() falls as grains grow: the core asks for the largest pair alone");
-    require(law->resting_overlap(radius) > 0.0, "resting_overlap() is not above 0");
+    require(law->resting_overlap(radius) >= 0.0, "resting_overlap() is below 0");
   }
 }
 
@@ -181,11 +233,12 @@ class Pair {
  public:
   Pair(const sdk::CohesionLaw& law, double radius)
       : law_(law),
+        pairs_(radius),
         radius_(radius),
         young_(sdk::effective_young_modulus(material(false, {}), material(true, {}))),
         bench_(1, law.history_size()) {}
   double force(double overlap) {
-    bench_.show({radius_}, {overlap});
+    bench_.show(pairs_, {overlap}, 0.0);
     bench_.evaluate(law_, 0);
     seen_ = bench_.at(CohesionBench::contact_overlap, 0);
     const double pressed = std::max(seen_, 0.0);
@@ -197,16 +250,16 @@ class Pair {
 
  private:
   const sdk::CohesionLaw& law_;
+  Pairs pairs_;
   double radius_;
   double young_;
   double seen_ = 0.0;
   CohesionBench bench_;
 };
 
-constexpr double k_radius = 5e-4;
-
 void check_rest(const Maker& make) {
   const auto law = make_law(make);
+  if (is_viscous(*law)) return;  // "attracts ..." has seen that nothing acts at rest
   Pair pair(*law, k_radius);
   double low = 1e-9 * k_radius;
   double high = 0.3 * k_radius;
@@ -255,6 +308,7 @@ void check_energy(const Maker& make) {
 void rules(const Maker& make, const Subject&, Judge& judge) {
   judge.rule("attracts in touch, never pushes, ends within its range",
              [&] { check_attracts(make); });
+  judge.rule("resists motion, if it heeds it, and never drives it", [&] { check_resists(make); });
   judge.rule("has a range that grows with the grains", [&] { check_range(make); });
   judge.rule("tells where a pair rests as it is", [&] { check_rest(make); });
   judge.rule("creates no energy in touch and parting", [&] { check_energy(make); });

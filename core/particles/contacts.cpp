@@ -64,7 +64,8 @@ void evaluate_laws(const PairLaws& law, BatchColumns& columns, std::size_t count
   const int first_rolling = law.contact->history_size();
   if (law.cohesion) {
     const int first = first_rolling + (law.rolling ? law.rolling->history_size() : 0);
-    law.cohesion->evaluate(columns.cohesion_view(count, first));
+    contact::derive_normal_velocity(columns, count);
+    law.cohesion->evaluate(columns.cohesion_view(count, time_step, first));
     batch.overlap = columns.column(BatchColumns::contact_overlap);
   }
   law.contact->evaluate(batch);

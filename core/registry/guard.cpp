@@ -107,7 +107,8 @@ class Cohesion final : public PairLaw<sdk::CohesionLaw> {
   void evaluate(const sdk::CohesionBatch& b) const override {
     ask("evaluate", "an attraction for every pair of the batch", &sdk::CohesionLaw::evaluate, b);
     const GuardReport::Inputs seen = {{"overlap", b.overlap},
-                                      {"effective_radius", b.effective_radius}};
+                                      {"effective_radius", b.effective_radius},
+                                      {"normal_velocity", b.normal_velocity}};
     faults().check(b.count, "contact_overlap", b.contact_overlap, seen);
     faults().check(b.count, "attraction", b.attraction, seen);
   }

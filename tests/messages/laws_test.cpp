@@ -172,7 +172,8 @@ TEST_CASE("a cohesion that does not fit its contact law or materials shall be to
 TEST_CASE("an unknown cohesion shall be told with all there are") {
   check("model: jkr", "model: jkrs",
         "s.yaml:21:23: error: interactions[0].cohesion.model: unknown cohesion model 'jkrs'; did "
-        "you mean 'jkr'? (cohesion models: dmt, jkr, liquid_bridge, sjkr); plugins were looked for "
+        "you mean 'jkr'? (cohesion models: dmt, jkr, liquid_bridge, lubrication, sjkr); plugins "
+        "were looked for "
         "in " DUST_TEST_PLUGINS);
 }
 

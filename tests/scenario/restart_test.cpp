@@ -65,6 +65,37 @@ TEST_CASE("a finished run shall be continued to a later end with the bits of the
         json_text(whole / "summary.json", "state_sha256"));
 }
 
+TEST_CASE("wet grains shall keep their bridges through a restart, with the bits of the whole") {
+  const TemporaryFolder folder;
+  const fs::path dry = folder / "dry";
+  const fs::path parts = folder / "parts";
+  const fs::path whole = folder / "whole";
+  const auto run = [](const fs::path& out, const std::string& end, bool is_wet, bool resumes) {
+    std::vector<std::string> arguments{"run",     k_scenario,  "-o",
+                                       out,       "--set",     "time.end=" + end,
+                                       "--quiet", "--threads", resumes ? "2" : "1"};
+    if (resumes) arguments.emplace_back("--resume");
+    const std::string law = "interactions[0].cohesion.";
+    for (const std::string setting :
+         {"model=liquid_bridge", "surface_tension=0.07 N/m", "relative_volume=0.001"}) {
+      if (is_wet) arguments.insert(arguments.end(), {"--set", law + setting});
+    }
+    return engine(arguments);
+  };
+  // Grains lie on the belt after 11 ms.
+  const auto first = run(parts, "20 ms", true, false);
+  INFO(first.err);
+  REQUIRE(first.status == 0);
+  REQUIRE(run(parts, "28 ms", true, true).status == 0);
+  REQUIRE(run(whole, "28 ms", true, false).status == 0);
+  REQUIRE(run(dry, "28 ms", false, false).status == 0);
+  const auto hash = [](const fs::path& out) {
+    return json_text(out / "summary.json", "state_sha256");
+  };
+  CHECK(hash(parts) == hash(whole));
+  CHECK(hash(dry) != hash(whole));
+}
+
 TEST_CASE("bodies that move, go and suck in the air shall give the same bits after a resume") {
   const TemporaryFolder folder;
   const fs::path parts = folder / "parts";

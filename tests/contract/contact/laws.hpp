@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/batch.hpp"
+#include "contact/batch_kernels.hpp"
 #include "contract/coupling/models.hpp"
 #include "dust/sdk/random.hpp"
 #include "scenario/units.hpp"
@@ -168,8 +169,12 @@ class LawBench {
       law.evaluate(b);
     });
   }
-  void cohesion(const sdk::CohesionLaw& law, std::size_t split = contact::k_batch) {
-    each(split, [&](sdk::ContactBatch, const sdk::CohesionBatch& b) { law.evaluate(b); });
+  void cohesion(const sdk::CohesionLaw& law, std::size_t split = contact::k_batch,
+                double step = 1e-6) {
+    each(split, [&](sdk::ContactBatch, sdk::CohesionBatch b) {
+      b.time_step = step;
+      law.evaluate(b);
+    });
   }
   /// What a rolling law reads from the contact stage.
   void load(double normal_force, double stiffness) {
@@ -207,17 +212,19 @@ class LawBench {
         columns_.column(B::rotation_x + d)[q] = r.rotation[d];
       }
     }
+    contact::derive_normal_velocity(columns_, count);
     for (std::size_t first = 0; first < count; first += split) {
       const std::size_t n = std::min(split, count - first);
       sdk::ContactBatch b = columns_.view(n, 0.0, 0);
-      sdk::CohesionBatch c = columns_.cohesion_view(n, 0);
+      sdk::CohesionBatch c = columns_.cohesion_view(n, 0.0, 0);
       std::array<double*, contact::k_max_history> history{};
       for (std::size_t h = 0; h < history.size(); ++h) history[h] = columns_.history()[h] + first;
       b.history = c.history = history.data();
       for (const double** column :
            {&b.overlap, &b.normal_x, &b.normal_y, &b.normal_z, &b.velocity_x, &b.velocity_y,
             &b.velocity_z, &b.rotation_x, &b.rotation_y, &b.rotation_z, &b.effective_radius,
-            &b.effective_mass, &c.overlap, &c.effective_radius}) {
+            &b.effective_mass, &c.overlap, &c.effective_radius, &c.effective_mass,
+            &c.normal_velocity}) {
         *column += first;
       }
       for (double** column :

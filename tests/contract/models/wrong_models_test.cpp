@@ -187,7 +187,18 @@ namespace {
 
 /// Attraction 2 pi gamma R* in touch, or something that is none.
 struct Sticky final : sdk::CohesionLaw {
-  enum Fault { none, pushes, reaches_far, rests_elsewhere, winds_up, shrinks };
+  enum Fault {
+    none,
+    pushes,
+    reaches_far,
+    rests_elsewhere,
+    winds_up,
+    shrinks,
+    drives,
+    resists_far,
+    does_nothing,
+    sticks_unsaid
+  };
   Fault fault;
   double young = 1.0;
   explicit Sticky(Fault f) : fault(f) {}
@@ -205,6 +216,10 @@ struct Sticky final : sdk::CohesionLaw {
       // Pulls hard while the grains come closer, and hardly while they part.
       if (fault == winds_up && b.overlap[q] < b.history[0][q]) f *= 0.5;
       b.history[0][q] = b.overlap[q];
+      const double film = 1e-3 * b.normal_velocity[q];
+      if (fault == drives && b.overlap[q] > 0.0) f -= film;
+      if (fault == resists_far) f += film;
+      if (fault == does_nothing) f = 0.0;
       b.attraction[q] = f;
     }
   }
@@ -214,6 +229,7 @@ struct Sticky final : sdk::CohesionLaw {
   [[nodiscard]] double resting_overlap(double radius) const override {
     const double d =
         std::cbrt(std::pow(0.75 * strength(radius) / (young * std::sqrt(radius)), 2.0));
+    if (fault == does_nothing || fault == sticks_unsaid) return 0.0;
     return fault == rests_elsewhere ? 10.0 * d : d;
   }
 };
@@ -238,6 +254,11 @@ TEST_CASE("a cohesive law that is wrong shall be told by the rule it breaks") {
   CHECK(seen.broken(sticky(Sticky::reaches_far), "attracts").find("beyond range()") !=
         std::string::npos);
   CHECK(seen.broken(sticky(Sticky::rests_elsewhere), "rests").find("resting_overlap() says") == 0);
+  CHECK(seen.broken(sticky(Sticky::sticks_unsaid), "attracts").find("resting_overlap() is 0") == 0);
+  CHECK(seen.broken(sticky(Sticky::drives), "resists").find("that drives it") != std::string::npos);
+  CHECK(seen.broken(sticky(Sticky::resists_far), "resists").find("beyond range()") !=
+        std::string::npos);
+  CHECK(seen.broken(sticky(Sticky::does_nothing), "resists").find("it neither") == 0);
   CHECK(seen.broken(sticky(Sticky::shrinks), "range that grows").find("range() falls") == 0);
   CHECK(seen.broken(sticky(Sticky::winds_up), "energy").find("more than there were") !=
         std::string::npos);

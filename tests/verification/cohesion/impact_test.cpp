@@ -137,7 +137,8 @@ std::vector<GrainState> clump(const DemRig::Choice& law, std::size_t threads) {
 TEST_CASE("a clump of sticky grains shall keep momentum and its bits on any number of threads") {
   for (const DemRig::Choice& law :
        {DemRig::Choice{"jkr", {{"surface_energy", 0.2}}},
-        DemRig::Choice{"liquid_bridge", {{"surface_tension", 0.05}, {"relative_volume", 0.01}}}}) {
+        DemRig::Choice{"liquid_bridge", {{"surface_tension", 0.05}, {"relative_volume", 0.01}}},
+        DemRig::Choice{"lubrication", {{"viscosity", 1e-3}}}}) {
     CAPTURE(law.name);
     const auto one = clump(law, 1);
     const auto two = clump(law, 2);
