@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "big_particle.hpp"
 
+#include "../shares_of_grain.hpp"
 #include "dust/sdk/plugin.hpp"
 
 #include <array>
@@ -73,15 +74,12 @@ class BigParticle final : public sdk::VoidageRule {
   }
 
  private:
-  /// Each cell is the alternating sum over its eight corners. The largest share is what the others
-  /// leave, so that the sum is 1 to rounding.
+  /// Each cell is the alternating sum over its eight corners.
   static void spread_one(const sdk::VoidageBatch& batch, std::size_t g,
                          const std::array<Planes, 3>& planes, const std::vector<double>& beyond) {
-    const std::size_t first = g * static_cast<std::size_t>(batch.capacity);
+    SharesOfGrain out(batch, g);
     const std::size_t row = planes[0].place.size();
     const std::size_t layer = row * planes[1].place.size();
-    std::size_t used = 0;
-    std::size_t largest = 0;
     for (std::size_t k = 0; k < planes[2].cells(); ++k) {
       for (std::size_t j = 0; j < planes[1].cells(); ++j) {
         for (std::size_t i = 0; i < planes[0].cells(); ++i) {
@@ -90,20 +88,12 @@ class BigParticle final : public sdk::VoidageRule {
           const double high = (at[layer] - at[layer + 1]) - (at[layer + row] - at[layer + row + 1]);
           const double weight = low - high;
           if (weight <= k_nothing) continue;
-          batch.cell_i[first + used] = planes[0].first + static_cast<int>(i);
-          batch.cell_j[first + used] = planes[1].first + static_cast<int>(j);
-          batch.cell_k[first + used] = planes[2].first + static_cast<int>(k);
-          batch.weight[first + used] = weight;
-          if (weight > batch.weight[first + largest]) largest = used;
-          ++used;
+          out.add(planes[0].first + static_cast<int>(i), planes[1].first + static_cast<int>(j),
+                  planes[2].first + static_cast<int>(k), weight);
         }
       }
     }
-    batch.weight[first + largest] = 0.0;
-    double others = 0.0;
-    for (std::size_t n = 0; n < used; ++n) others += batch.weight[first + n];
-    batch.weight[first + largest] = 1.0 - others;
-    batch.used[g] = static_cast<int>(used);
+    out.close();
   }
 
   double scale_;

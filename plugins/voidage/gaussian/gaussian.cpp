@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gaussian.hpp"
 
+#include "../shares_of_grain.hpp"
 #include "dust/sdk/plugin.hpp"
 
 #include <array>
@@ -68,31 +69,20 @@ class Gaussian final : public sdk::VoidageRule {
   }
 
  private:
-  /// The largest share is what the others leave, so that the sum is 1 to rounding.
   static void spread_one(const sdk::VoidageBatch& batch, std::size_t g,
                          const std::array<Shares, 3>& shares) {
-    const std::size_t first = g * static_cast<std::size_t>(batch.capacity);
-    std::size_t used = 0;
-    std::size_t largest = 0;
+    SharesOfGrain out(batch, g);
     for (std::size_t k = 0; k < shares[2].weight.size(); ++k) {
       for (std::size_t j = 0; j < shares[1].weight.size(); ++j) {
         for (std::size_t i = 0; i < shares[0].weight.size(); ++i) {
           const double weight = shares[0].weight[i] * shares[1].weight[j] * shares[2].weight[k];
           if (weight <= 0.0) continue;
-          batch.cell_i[first + used] = shares[0].first + static_cast<int>(i);
-          batch.cell_j[first + used] = shares[1].first + static_cast<int>(j);
-          batch.cell_k[first + used] = shares[2].first + static_cast<int>(k);
-          batch.weight[first + used] = weight;
-          if (weight > batch.weight[first + largest]) largest = used;
-          ++used;
+          out.add(shares[0].first + static_cast<int>(i), shares[1].first + static_cast<int>(j),
+                  shares[2].first + static_cast<int>(k), weight);
         }
       }
     }
-    batch.weight[first + largest] = 0.0;
-    double others = 0.0;
-    for (std::size_t n = 0; n < used; ++n) others += batch.weight[first + n];
-    batch.weight[first + largest] = 1.0 - others;
-    batch.used[g] = static_cast<int>(used);
+    out.close();
   }
 
   double width_;
