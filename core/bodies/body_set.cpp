@@ -50,11 +50,29 @@ SurfacePoint Body::contact(int part, Vec3 point, double reach, const Placement& 
   return s;
 }
 
-SurfacePoint Body::contact_again(int part, Vec3 point, double reach, const Placement& at,
-                                 std::int32_t& hint) const {
-  SurfacePoint s = shape->contact_again(part, at.to_body(point), reach, hint);
-  s.normal = at.turn(s.normal);
-  return s;
+void Body::touch(int part, const Touches& all, const Placement& at) const {
+  double centre[3][k_block];
+  for (std::size_t first = 0; first < all.count; first += k_block) {
+    const Touches t{.count = std::min(k_block, all.count - first),
+                    .x = centre[0],
+                    .y = centre[1],
+                    .z = centre[2],
+                    .reach = all.reach + first,
+                    .hint = all.hint + first,
+                    .distance = all.distance + first,
+                    .normal_x = all.normal_x + first,
+                    .normal_y = all.normal_y + first,
+                    .normal_z = all.normal_z + first};
+    for (std::size_t n = 0; n < t.count; ++n) {
+      const Vec3 q = at.to_body({all.x[first + n], all.y[first + n], all.z[first + n]});
+      for (int d = 0; d < 3; ++d) centre[d][n] = q[d];
+    }
+    shape->touch(part, t);
+    for (std::size_t n = 0; at.is_turned && n < t.count; ++n) {
+      const Vec3 turned = at.turn({t.normal_x[n], t.normal_y[n], t.normal_z[n]});
+      t.put(n, {t.distance[n], turned});
+    }
+  }
 }
 
 void Body::surface_velocities(const sdk::SurfaceBatch& all) const {

@@ -43,11 +43,10 @@ struct Body {
   /// Nearest surface point in the domain's frame, as the scenario puts the body or at a placement.
   [[nodiscard]] SurfacePoint nearest(sdk::Vec3 point) const;
   [[nodiscard]] SurfacePoint nearest(sdk::Vec3 point, const Placement& at) const;
-  /// The same for a part, see Shape::contact and Shape::is_within.
+  /// The same for a part, see Shape::contact, touch and is_within.
   [[nodiscard]] SurfacePoint contact(int part, sdk::Vec3 point, double reach,
                                      const Placement& at) const;
-  [[nodiscard]] SurfacePoint contact_again(int part, sdk::Vec3 point, double reach,
-                                           const Placement& at, std::int32_t& hint) const;
+  void touch(int part, const Touches& spheres, const Placement& at) const;
   [[nodiscard]] bool is_within(int part, sdk::Vec3 point, double reach, const Placement& at) const {
     return shape->is_within(part, at.to_body(point), reach);
   }

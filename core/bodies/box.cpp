@@ -13,7 +13,7 @@ using sdk::Vec3;
 namespace dimension = sdk::dimension;
 
 /// A solid box along the axes; a frame turns it.
-class Box final : public Shape {
+class Box final : public OnePart<Box> {
  public:
   struct Parameters {
     Vec3 min;

@@ -2,6 +2,7 @@
 #include "bodies/shape_kinds.hpp"
 
 #include "dust/sdk/error.hpp"
+#include "dust/sdk/plugin.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,41 @@ namespace {
 using sdk::SchemaOf;
 using sdk::Vec3;
 namespace dimension = sdk::dimension;
+
+struct Outline {
+  Vec3 head;            ///< of the head pulley's axis, y = 0
+  Vec3 back;            ///< unit vector from the head to the tail pulley, y = 0
+  double length = 0.0;  ///< [m] between both
+  double reach = 0.0;   ///< [m] radius and thickness
+};
+
+/// The point of the belt nearest to (x, z).
+inline SurfacePoint nearest_of(const Outline& o, double x, double z) {
+  const double qx = x - o.head.x;
+  const double qz = z - o.head.z;
+  const double s = std::min(std::max(qx * o.back.x + qz * o.back.z, 0.0), o.length);
+  const double dx = qx - s * o.back.x;
+  const double dz = qz - s * o.back.z;
+  const double r = std::sqrt(dx * dx + dz * dz);
+  const bool is_off_axis = r > 0.0;
+  const double divisor = is_off_axis ? r : 1.0;
+  return {r - o.reach,
+          {is_off_axis ? dx / divisor : -o.back.z, 0.0, is_off_axis ? dz / divisor : o.back.x}};
+}
+
+DUST_KERNEL void touch_all(const Outline& outline, const Touches& t) {
+  const Outline o = outline;
+  const double *x = t.x, *z = t.z;
+  double *distance = t.distance, *nx = t.normal_x, *ny = t.normal_y, *nz = t.normal_z;
+#pragma omp simd
+  for (std::size_t n = 0; n < t.count; ++n) {
+    const SurfacePoint s = nearest_of(o, x[n], z[n]);
+    distance[n] = s.distance;
+    nx[n] = s.normal.x;
+    ny[n] = 0.0;
+    nz[n] = s.normal.z;
+  }
+}
 
 /// Belt round two equal pulleys: all points within `reach` = radius + thickness of the line between
 /// the pulley axes. One closed outline without edges, so a grain never meets a corner.
@@ -37,37 +73,35 @@ class Conveyor final : public Shape {
         .optional();
     return s.build();
   }
-  explicit Conveyor(const Parameters& p) : head_(p.head), reach_(p.radius + p.thickness) {
-    head_.y = 0.0;
+  explicit Conveyor(const Parameters& p) {
+    belt_.reach = p.radius + p.thickness;
+    belt_.head = {p.head.x, 0.0, p.head.z};
     Vec3 along = p.tail - p.head;
     along.y = 0.0;
-    length_ = norm(along);
-    if (!(length_ > 0.0)) throw sdk::ParameterError("head and tail are the same point");
-    back_ = along / length_;
+    belt_.length = norm(along);
+    if (!(belt_.length > 0.0)) throw sdk::ParameterError("head and tail are the same point");
+    belt_.back = along / belt_.length;
   }
 
   [[nodiscard]] SurfacePoint nearest(Vec3 point) const override {
-    const Vec3 q{point.x - head_.x, 0.0, point.z - head_.z};
-    const double s = std::clamp(dot(q, back_), 0.0, length_);
-    const Vec3 d = q - s * back_;
-    const double r = norm(d);
-    const Vec3 normal = r > 0.0 ? d / r : Vec3{-back_.z, 0.0, back_.x};
-    return {r - reach_, normal};
+    return nearest_of(belt_, point.x, point.z);
   }
+  void touch(int /*part*/, const Touches& spheres) const override { touch_all(belt_, spheres); }
   [[nodiscard]] Vec3 lateral_axis() const override { return {0, 1, 0}; }
   [[nodiscard]] Triangles triangles(Vec3 min, Vec3 max, double edge) const override {
     // Outline, starting where the return run leaves the head pulley.
-    const Vec3 up = cross(Vec3{0, 1, 0}, back_);  // normal of one run
-    const int pieces = std::max(8, static_cast<int>(std::ceil(std::numbers::pi * reach_ / edge)));
+    const Vec3 up = cross(Vec3{0, 1, 0}, belt_.back);  // normal of one run
+    const int pieces =
+        std::max(8, static_cast<int>(std::ceil(std::numbers::pi * belt_.reach / edge)));
     std::vector<Vec3> outline;
-    const double reach_back = length_;
+    const double reach_back = belt_.length;
     for (int end = 0; end < 2; ++end) {
-      const Vec3 centre = end == 0 ? head_ : head_ + reach_back * back_;
+      const Vec3 centre = end == 0 ? belt_.head : belt_.head + reach_back * belt_.back;
       const Vec3 from = end == 0 ? -up : up;
-      const Vec3 over = end == 0 ? -back_ : back_;
+      const Vec3 over = end == 0 ? -belt_.back : belt_.back;
       for (int n = 0; n <= pieces; ++n) {
         const double a = std::numbers::pi * n / pieces;
-        outline.push_back(centre + reach_ * (std::cos(a) * from + std::sin(a) * over));
+        outline.push_back(centre + belt_.reach * (std::cos(a) * from + std::sin(a) * over));
       }
     }
     Triangles t;
@@ -97,10 +131,7 @@ class Conveyor final : public Shape {
     return true;
   }
 
-  Vec3 head_;
-  Vec3 back_;
-  double length_ = 0.0;
-  double reach_;
+  Outline belt_;
 };
 
 }  // namespace

@@ -37,9 +37,11 @@ class MeshShape : public Shape {
   [[nodiscard]] SurfacePoint contact(int part, Vec3 point, double reach) const override {
     return thickened(mesh_.contact(part, point, reach + half_));
   }
-  [[nodiscard]] SurfacePoint contact_again(int part, Vec3 point, double reach,
-                                           std::int32_t& hint) const override {
-    return thickened(mesh_.contact(part, point, reach + half_, &hint));
+  void touch(int part, const Touches& t) const override {
+    for (std::size_t n = 0; n < t.count; ++n) {
+      const Vec3 centre{t.x[n], t.y[n], t.z[n]};
+      t.put(n, thickened(mesh_.contact(part, centre, t.reach[n] + half_, &t.hint[n])));
+    }
   }
   [[nodiscard]] bool is_within(int part, Vec3 point, double reach) const override {
     return mesh_.is_within(part, point, reach + half_);

@@ -21,7 +21,7 @@ using sdk::SchemaOf;
 namespace dimension = sdk::dimension;
 
 /// Everything behind a plane is solid: distance = (x - p) . n.
-class Plane final : public Shape {
+class Plane final : public OnePart<Plane> {
  public:
   struct Parameters {
     Vec3 point;

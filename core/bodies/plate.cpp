@@ -12,7 +12,7 @@ using sdk::Vec3;
 namespace dimension = sdk::dimension;
 
 /// A flat plate hanging from a hinge: a box of `length` x `thickness`, endless across.
-class Plate final : public Shape {
+class Plate final : public OnePart<Plate> {
  public:
   struct Parameters {
     Vec3 hinge;

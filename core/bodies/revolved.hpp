@@ -17,7 +17,7 @@ struct ProfilePoint {
 /// inside on the left; edges on the axis itself are no surface. The nearest point of the solid lies
 /// in the half-plane of the axis and the point, so the distance is that to the polygon: exact, also
 /// at the rims.
-class Revolved : public Shape {
+class Revolved : public OnePart<Revolved> {
  public:
   Revolved(sdk::Vec3 base, sdk::Vec3 axis, std::vector<ProfilePoint> profile);
 

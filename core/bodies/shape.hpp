@@ -4,6 +4,7 @@
 #include "dust/sdk/parameter_schema.hpp"
 #include "dust/sdk/vec3.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -23,6 +24,29 @@ struct SurfacePoint {
 /// for the written surfaces. Triangles, three corners each.
 using Triangles = std::vector<sdk::Vec3>;
 
+/// Spheres and where they touch, in columns: one part, many grains, no call per grain.
+struct Touches {
+  std::size_t count = 0;
+  const double* x = nullptr;  ///< [m] centres
+  const double* y = nullptr;
+  const double* z = nullptr;
+  const double* reach = nullptr;  ///< [m] as of Shape::contact
+  /// -1 at first, then what the shape remembers of the sphere's last place (a triangle) so as to
+  /// find the next faster.
+  std::int32_t* hint = nullptr;
+  double* distance = nullptr;  ///< [m]
+  double* normal_x = nullptr;
+  double* normal_y = nullptr;
+  double* normal_z = nullptr;
+
+  void put(std::size_t n, const SurfacePoint& s) const {
+    distance[n] = s.distance;
+    normal_x[n] = s.normal.x;
+    normal_y[n] = s.normal.y;
+    normal_z[n] = s.normal.z;
+  }
+};
+
 /// A solid with an exact surface, in its own frame. A sphere touches each of its parts once, where
 /// it is nearest. Most shapes are one part: convex ones, and round hollow ones (tube, funnel,
 /// orifice) for spheres smaller than the hole; those with corners towards the grains have several.
@@ -39,12 +63,8 @@ class Shape {
                                              double /*reach*/) const {
     return nearest(point);
   }
-  /// The same for one sphere after the other place it comes to: `hint` is -1 at first, then what
-  /// the shape remembers of the last place (a triangle) so as to find the next faster.
-  [[nodiscard]] virtual SurfacePoint contact_again(int part, sdk::Vec3 point, double reach,
-                                                   std::int32_t& /*hint*/) const {
-    return contact(part, point, reach);
-  }
+  /// `contact` of many spheres.
+  virtual void touch(int part, const Touches& spheres) const = 0;
   /// Whether the part is nearer than `reach` [m], so that a sphere may come to touch it: for lists.
   [[nodiscard]] virtual bool is_within(int /*part*/, sdk::Vec3 point, double reach) const {
     return nearest(point).distance < reach;
@@ -63,6 +83,18 @@ class Shape {
   /// Whether the shape stays where it is when it turns about the line through `point` along the
   /// unit vector `axis`: a drum about its own axis.
   [[nodiscard]] virtual bool is_unchanged_by_turning(sdk::Vec3, sdk::Vec3) const { return false; }
+};
+
+/// Base of a shape S of one part: its `nearest`, without a virtual call per sphere.
+template <class S>
+class OnePart : public Shape {
+ public:
+  void touch(int /*part*/, const Touches& spheres) const final {
+    const S& shape = static_cast<const S&>(*this);
+    for (std::size_t n = 0; n < spheres.count; ++n) {
+      spheres.put(n, shape.S::nearest({spheres.x[n], spheres.y[n], spheres.z[n]}));
+    }
+  }
 };
 
 /// A kind of shape: how a scenario names it and what it needs.

@@ -45,6 +45,33 @@ void repeat_last(BatchColumns& columns, std::size_t count, int first, int last) 
   }
 }
 
+/// Where some grains are nearest to a surface.
+struct SurfacePoints {
+  double distance[k_batch];
+  double normal[3][k_batch];
+
+  void find(const Surface& surface, const double* position, std::span<const std::int32_t> rows,
+            double range, std::int32_t* hints) {
+    double centre[3][k_batch];
+    double reach[k_batch];
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      const double* p = position + 4 * static_cast<std::ptrdiff_t>(rows[n]);
+      for (int d = 0; d < 3; ++d) centre[d][n] = p[d];
+      reach[n] = p[3] + range;
+    }
+    surface.touch({.count = rows.size(),
+                   .x = centre[0],
+                   .y = centre[1],
+                   .z = centre[2],
+                   .reach = reach,
+                   .hint = hints,
+                   .distance = distance,
+                   .normal_x = normal[0],
+                   .normal_y = normal[1],
+                   .normal_z = normal[2]});
+  }
+};
+
 /// Pairs of a batch that touch; the others are within the range of cohesion.
 std::int64_t in_touch(BatchColumns& columns, std::size_t count) {
   const double* overlap = columns.column(BatchColumns::overlap);
@@ -195,6 +222,12 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk, double* force) {
     const Surface& surface = surfaces[static_cast<std::size_t>(segment.surface)];
     const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
     const double range = law.range;
+    SurfacePoints near;
+    const auto look = [&](std::int32_t begin, std::int32_t end) {
+      const std::span<const std::int32_t> rows(list.a.data() + begin,
+                                               static_cast<std::size_t>(end - begin));
+      near.find(surface, store.position.data(), rows, range, chunk.hints.data() + begin);
+    };
     std::size_t count = 0;
     const auto flush = [&] {
       if (count == 0) return;
@@ -220,14 +253,14 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk, double* force) {
       count = 0;
     };
     for (std::int32_t q = segment.begin; q < segment.end; ++q) {
+      const std::size_t n = static_cast<std::size_t>(q - segment.begin) % k_batch;
+      if (n == 0) look(q, std::min(segment.end, q + static_cast<std::int32_t>(k_batch)));
       const auto u = static_cast<std::size_t>(q);
       const std::int32_t i = list.a[u];
       const double* p = store.position.data() + 4 * static_cast<std::ptrdiff_t>(i);
       const double* v = store.velocity.data() + 4 * static_cast<std::ptrdiff_t>(i);
       const double* w = store.rotation.data() + 4 * static_cast<std::ptrdiff_t>(i);
-      const bodies::SurfacePoint s =
-          surface.contact_again({p[0], p[1], p[2]}, p[3] + range, chunk.hints[u]);
-      const double overlap = p[3] - s.distance;
+      const double overlap = p[3] - near.distance[n];
       if (!(overlap > -range)) {
         if (list.is_touching[u] != 0) {
           list.is_touching[u] = 0;
@@ -246,8 +279,8 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk, double* force) {
       columns.column(B::effective_radius)[count] = p[3];
       columns.column(B::effective_mass)[count] = 1.0 / v[3];
       for (int d = 0; d < 3; ++d) {
-        columns.column(B::normal_x + d)[count] = s.normal[d];
-        columns.column(B::rotation_j_x + d)[count] = p[d] - s.distance * s.normal[d];
+        columns.column(B::normal_x + d)[count] = near.normal[d][n];
+        columns.column(B::rotation_j_x + d)[count] = p[d] - near.distance[n] * near.normal[d][n];
         columns.column(B::velocity_x + d)[count] = v[d];
         columns.column(B::rotation_x + d)[count] = w[d];
       }

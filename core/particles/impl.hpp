@@ -121,7 +121,7 @@ struct Chunk {
   VerletList near_surfaces;
   ContactList pairs;
   ContactList surfaces;
-  /// Per entry of `surfaces`, see Shape::contact_again: forgotten when a watch begins, so that a
+  /// Per entry of `surfaces`, see bodies::Touches: forgotten when a watch begins, so that a
   /// run that goes on from a checkpoint finds what an unbroken one finds.
   std::vector<std::int32_t> hints;
   Awake awake;

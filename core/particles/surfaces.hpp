@@ -38,11 +38,15 @@ struct Surface {
     if (body != nullptr) return body->contact(part, point, reach, place);
     return {dot(normal, point) - offset, normal};
   }
-  /// The same with the shape's memory of where this sphere touched last.
-  [[nodiscard]] bodies::SurfacePoint contact_again(sdk::Vec3 point, double reach,
-                                                   std::int32_t& hint) const {
-    if (body != nullptr) return body->contact_again(part, point, reach, place, hint);
-    return {dot(normal, point) - offset, normal};
+  /// The same of many spheres.
+  void touch(const bodies::Touches& spheres) const {
+    if (body != nullptr) {
+      body->touch(part, spheres, place);
+      return;
+    }
+    for (std::size_t n = 0; n < spheres.count; ++n) {
+      spheres.put(n, {dot(normal, {spheres.x[n], spheres.y[n], spheres.z[n]}) - offset, normal});
+    }
   }
   /// The same at another time [s] than that of the last move_to.
   [[nodiscard]] bodies::SurfacePoint contact_at(

@@ -25,7 +25,7 @@ constexpr double k_step = 1e-3;
 constexpr Vec3 k_size{0.33, 0.011, 0.35};
 
 /// Everything below the top and left of the front of the belt.
-class Block final : public bodies::Shape {
+class Block final : public bodies::OnePart<Block> {
  public:
   [[nodiscard]] bodies::SurfacePoint nearest(Vec3 p) const override {
     const double over_x = p.x - 0.08;

@@ -187,6 +187,56 @@ TEST_CASE("every exact shape shall give the distance, side and normal that brute
   }
 }
 
+TEST_CASE("many spheres shall touch each part where one after the other would") {
+  auto all = described();
+  all.push_back({"belt",
+                 make_shape("conveyor", {{"head", Vec3{0.4, 0, 0.1}},
+                                         {"tail", Vec3{-0.5, 0, -0.2}},
+                                         {"radius", 0.3},
+                                         {"thickness", 0.01}}),
+                 {},
+                 0.0,
+                 {}});
+  all.push_back({"box with walls inside, a mesh",
+                 make_shape("container", {{"min", Vec3{-0.5, -0.5, -0.5}},
+                                          {"max", Vec3{0.5, 0.5, 0.5}},
+                                          {"thickness", 0.05}}),
+                 {},
+                 0.0,
+                 {}});
+  constexpr std::size_t k_spheres = 37;
+  for (const Described& d : all) {
+    CAPTURE(d.name);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> place(-0.8, 0.8);
+    for (int part = 0; part < d.shape->parts(); ++part) {
+      double column[8][k_spheres];
+      std::int32_t hint[k_spheres];
+      for (std::size_t n = 0; n < k_spheres; ++n) {
+        for (int k = 0; k < 3; ++k) column[k][n] = place(random);
+        column[3][n] = 0.3;
+        hint[n] = -1;
+      }
+      column[0][0] = 0.4, column[2][0] = 0.1;  // on the axis of the belt's pulley
+      const dust::bodies::Touches spheres{k_spheres, column[0], column[1], column[2], column[3],
+                                          hint,      column[4], column[5], column[6], column[7]};
+      // A second look has the memory of the first, and the same answer.
+      for (int look = 0; look < 2; ++look) {
+        d.shape->touch(part, spheres);
+        for (std::size_t n = 0; n < k_spheres; ++n) {
+          const SurfacePoint one =
+              d.shape->contact(part, {column[0][n], column[1][n], column[2][n]}, column[3][n]);
+          CHECK(column[4][n] == one.distance);
+          if (!std::isfinite(one.distance)) continue;
+          CHECK(column[5][n] == one.normal.x);
+          CHECK(column[6][n] == one.normal.y);
+          CHECK(column[7][n] == one.normal.z);
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("faces, rims and tips shall be met where they are") {
   const auto tube = make_shape("cylinder", {{"base", Vec3{}},
                                             {"axis", Vec3{0, 0, 1}},

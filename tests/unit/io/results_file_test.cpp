@@ -23,7 +23,7 @@ const sdk::Vec3 k_min{0, 0, 0};
 const sdk::Vec3 k_max{1, 1, 1};
 
 /// A single triangle over the lower corner.
-class Corner final : public bodies::Shape {
+class Corner final : public bodies::OnePart<Corner> {
  public:
   [[nodiscard]] bodies::SurfacePoint nearest(sdk::Vec3) const override { return {}; }
   [[nodiscard]] bodies::Triangles triangles(sdk::Vec3, sdk::Vec3, double) const override {

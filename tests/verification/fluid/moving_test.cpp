@@ -42,7 +42,7 @@ class Shift final : public sdk::Motion {
 };
 
 /// Everything between two parallel planes.
-class Slab final : public bodies::Shape {
+class Slab final : public bodies::OnePart<Slab> {
  public:
   Slab(Vec3 middle, Vec3 normal, double thickness)
       : middle_(middle), normal_(normal / norm(normal)), half_(0.5 * thickness) {}

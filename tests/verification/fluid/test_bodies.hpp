@@ -10,7 +10,7 @@
 namespace dust::test {
 
 /// Cylinder along y, solid inside (disc) or outside (ring) of its radius.
-class Cylinder final : public bodies::Shape {
+class Cylinder final : public bodies::OnePart<Cylinder> {
  public:
   Cylinder(sdk::Vec3 centre, double radius, bool is_ring)
       : centre_(centre), radius_(radius), sign_(is_ring ? -1.0 : 1.0) {}
@@ -31,7 +31,7 @@ class Cylinder final : public bodies::Shape {
 };
 
 /// Everything behind a plane through `point` with normal `normal`.
-class HalfSpace final : public bodies::Shape {
+class HalfSpace final : public bodies::OnePart<HalfSpace> {
  public:
   HalfSpace(sdk::Vec3 point, sdk::Vec3 normal) : point_(point), normal_(normal / norm(normal)) {}
   [[nodiscard]] bodies::SurfacePoint nearest(sdk::Vec3 p) const override {

@@ -11,7 +11,7 @@ using namespace dust::test;
 namespace {
 
 /// A plate of any thickness, 0 included, through `middle`; of a finite half length if given.
-class Plate final : public bodies::Shape {
+class Plate final : public bodies::OnePart<Plate> {
  public:
   Plate(Vec3 middle, Vec3 normal, double thickness, double half_length = 1e9)
       : middle_(middle),
