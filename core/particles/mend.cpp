@@ -16,12 +16,6 @@ namespace {
 constexpr std::size_t k_grains_per_stray = 16;
 constexpr std::size_t k_grains_per_mended = 4;
 
-/// All places a grain may be at until the lists' end: see SearchInput.
-struct Ball {
-  double x[3];
-  double reach;
-};
-
 /// The strays by the cells that their surroundings overlap, in a hash table: a grain looks into one
 /// cell. Cells of hashes that collide are one; who is near is found out by distances.
 class Surroundings {
@@ -41,11 +35,12 @@ class Surroundings {
     mask_ = size - 1;
     std::vector<std::pair<std::uint32_t, std::int32_t>> entries;
     for (std::size_t s = 0; s < strays.size(); ++s) {
+      const double centre[3] = {strays[s].x, strays[s].y, strays[s].z};
       std::int64_t low[3];
       std::int64_t high[3];
       for (int d = 0; d < 3; ++d) {
-        low[d] = cell(strays[s].x[d] - strays[s].reach - around, d);
-        high[d] = cell(strays[s].x[d] + strays[s].reach + around, d);
+        low[d] = cell(centre[d] - strays[s].reach - around, d);
+        high[d] = cell(centre[d] + strays[s].reach + around, d);
         if (count_[d] > 0) high[d] = std::min(high[d], low[d] + count_[d] - 1);
       }
       for (std::int64_t z = low[2]; z <= high[2]; ++z) {
@@ -67,8 +62,8 @@ class Surroundings {
   }
 
   /// Strays that may be near a place, in their order.
-  [[nodiscard]] std::span<const std::int32_t> at(const double* x) const {
-    const std::uint32_t s = slot(cell(x[0], 0), cell(x[1], 1), cell(x[2], 2));
+  [[nodiscard]] std::span<const std::int32_t> at(const Ball& b) const {
+    const std::uint32_t s = slot(cell(b.x, 0), cell(b.y, 1), cell(b.z, 2));
     const auto first = static_cast<std::size_t>(begin_[s]);
     return std::span(strays_).subspan(first, static_cast<std::size_t>(begin_[s + 1]) - first);
   }
@@ -159,14 +154,12 @@ void Dem::Impl::add_pairs_of(std::span<const std::int32_t> strays) {
     }
   };
   const auto ball_of = [&](std::size_t n) {
-    Ball b;
-    double v[3];
-    course(n, b.x, v);
+    double x[3], v[3];
+    course(n, x, v);
     const double way = 0.5 * left;
-    for (int d = 0; d < 3; ++d) b.x[d] += way * v[d];
-    b.reach = store.position[4 * n + 3] + store.start[4 * n + 3] + 0.5 * largest_range +
-              way * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    return b;
+    return Ball{x[0] + way * v[0], x[1] + way * v[1], x[2] + way * v[2],
+                store.position[4 * n + 3] + store.start[4 * n + 3] + 0.5 * largest_range +
+                    way * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])};
   };
   const std::size_t blocks = (store.size() + k_block - 1) / k_block;
   const auto for_blocks = [&](auto&& work) {
@@ -204,7 +197,7 @@ void Dem::Impl::add_pairs_of(std::span<const std::int32_t> strays) {
   std::vector<std::vector<std::array<std::int32_t, 2>>> found(blocks);
   for_blocks([&](std::size_t b, std::size_t n) {
     const Ball own = ball_of(n);
-    for (const std::int32_t s : near.at(own.x)) {
+    for (const std::int32_t s : near.at(own)) {
       const auto row = static_cast<std::size_t>(strays[static_cast<std::size_t>(s)]);
       // Of two strays the later one finds the pair.
       if (row == n || (is_stray[n] != 0 && n < row)) continue;

@@ -25,15 +25,6 @@ struct Slot {
   std::int32_t count = 0;
 };
 
-/// All places a grain may be at until the horizon: the middle of its straight path and round it the
-/// radius, the allowance and half the path.
-struct Ball {
-  double x = 0.0;
-  double y = 0.0;
-  double z = 0.0;
-  double reach = 0.0;
-};
-
 /// Grains of one size level, ordered by cells of one edge. Cells of a row along x stand side by
 /// side where there is a table of all of them.
 class Level {

@@ -33,6 +33,15 @@ inline bool passes_within(const sdk::Vec3& x, const sdk::Vec3& v, double horizon
   return dot(x, x) + t * (2.0 * xv + t * vv) < limit * limit;
 }
 
+/// All places a grain may be at until the horizon: the middle of its straight path and round it the
+/// radius, the allowance and half the path.
+struct Ball {
+  double x = 0.0;
+  double y = 0.0;
+  double z = 0.0;
+  double reach = 0.0;
+};
+
 using RowPair = std::pair<std::int32_t, std::int32_t>;
 
 /// All pairs that may touch within the horizon: if both went straight on, they would come closer
