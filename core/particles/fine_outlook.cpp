@@ -88,7 +88,11 @@ Outlook look_out(const Dem::Impl& dem, std::size_t entry, double extra_speed) {
   Outlook out;
   out.speed = norm(relative) + gain;
   const PairLaws& laws = dem.laws[static_cast<std::size_t>(law)];
-  const double margin = k_reach_margin * radius + laws.range;
+  // The laws' range is that of the largest grains; dust feels sand from much nearer.
+  const double range = laws.cohesion
+                           ? std::max(laws.contact->range(), laws.cohesion->range(reduced_radius))
+                           : laws.range;
+  const double margin = k_reach_margin * radius + range;
   out.is_near = dem.fine.is_touching[entry] != 0 || gap < (out.speed + extra_speed) * step + margin;
   if (!out.is_near) return out;
   const double approach = std::max(0.0, -dot(relative, normal)) + gain + extra_speed;
