@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 namespace dust::io {
 
@@ -122,6 +125,33 @@ std::uint8_t speed_code(const std::vector<float>& velocity, std::size_t k, doubl
   return static_cast<std::uint8_t>(std::lround(255.0 * std::sqrt(std::min(speed / scale, 1.0))));
 }
 
+/// The grains of a frame in the order in which they are painted: the coarse ones from the back to
+/// the front in slabs, those of a class side by side within a slab; then the dust.
+std::vector<std::size_t> paint_order(const std::vector<float>& position,
+                                     const std::vector<float>& diameter,
+                                     const std::vector<double>& classes, std::size_t count) {
+  constexpr double k_slabs = 24.0;
+  double front = std::numeric_limits<double>::infinity();
+  double back = -front;
+  for (std::size_t k = 0; k < count; ++k) {
+    front = std::min(front, static_cast<double>(position[3 * k + 1]));
+    back = std::max(back, static_cast<double>(position[3 * k + 1]));
+  }
+  const double depth = std::max(back - front, 1e-30);
+  std::vector<std::pair<int, std::size_t>> keys;
+  for (std::size_t k = 0; k < count; ++k) {
+    const bool is_dust = diameter[k] < k_dust_diameter;
+    const double share = (back - static_cast<double>(position[3 * k + 1])) / depth;
+    const int slab = std::isfinite(share) ? static_cast<int>(k_slabs * share) : 0;
+    const int size = class_of(classes, diameter[k]);
+    keys.emplace_back(is_dust ? std::numeric_limits<int>::max() : 256 * slab + size, k);
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::size_t> order;
+  for (const auto& [key, k] : keys) order.push_back(k);
+  return order;
+}
+
 }  // namespace
 
 json grains_of(const H5Source& source, const View& view, const json& given_classes) {
@@ -155,29 +185,26 @@ json grains_of(const H5Source& source, const View& view, const json& given_class
     most = std::max(most, count);
     std::vector<std::uint8_t> x, z, size, number, speed;
     std::size_t dust = 0;
-    for (const bool is_dust_turn : {false, true}) {
-      for (std::size_t k = 0; k < count; ++k) {
-        const bool is_dust = diameter[k] < k_dust_diameter;
-        if (is_dust != is_dust_turn) continue;
-        const std::int64_t name = k < id.size() ? id[k] : static_cast<std::int64_t>(k);
-        const double limit = is_dust ? share.dust : share.coarse;
-        if (limit < 1.0 && share_of(name) >= limit) continue;
-        const double across = (position[3 * k] - view.min_x) / (view.max_x - view.min_x);
-        const double up = (position[3 * k + 2] - view.min_z) / (view.max_z - view.min_z);
-        if (!(across >= 0.0 && across <= 1.0 && up >= 0.0 && up <= 1.0)) continue;
-        put16(x, across);
-        put16(z, up);
-        size.push_back(class_of(classes, diameter[k]));
-        speed.push_back(speed_code(velocity, k, fastest));
-        if (is_dust) {
-          const auto short_number =
-              dust_numbers.try_emplace(name, static_cast<std::uint32_t>(dust_numbers.size()))
-                  .first->second;
-          for (int byte = 0; byte < 4; ++byte) {
-            number.push_back(static_cast<std::uint8_t>(short_number >> (8 * byte)));
-          }
-          ++dust;
+    for (const std::size_t k : paint_order(position, diameter, classes, count)) {
+      const bool is_dust = diameter[k] < k_dust_diameter;
+      const std::int64_t name = k < id.size() ? id[k] : static_cast<std::int64_t>(k);
+      const double limit = is_dust ? share.dust : share.coarse;
+      if (limit < 1.0 && share_of(name) >= limit) continue;
+      const double across = (position[3 * k] - view.min_x) / (view.max_x - view.min_x);
+      const double up = (position[3 * k + 2] - view.min_z) / (view.max_z - view.min_z);
+      if (!(across >= 0.0 && across <= 1.0 && up >= 0.0 && up <= 1.0)) continue;
+      put16(x, across);
+      put16(z, up);
+      size.push_back(class_of(classes, diameter[k]));
+      speed.push_back(speed_code(velocity, k, fastest));
+      if (is_dust) {
+        const auto short_number =
+            dust_numbers.try_emplace(name, static_cast<std::uint32_t>(dust_numbers.size()))
+                .first->second;
+        for (int byte = 0; byte < 4; ++byte) {
+          number.push_back(static_cast<std::uint8_t>(short_number >> (8 * byte)));
         }
+        ++dust;
       }
     }
     const auto time = source.attribute(path, "time");

@@ -17,16 +17,21 @@ namespace {
 
 using nlohmann::json;
 
-/// Keeps what is dust: of a sensor that tells size classes apart only its fine classes; a sensor
-/// that does not is taken at its word.
-void keep_dust(std::vector<Figure>& figures) {
-  std::set<std::string> with_classes;
+/// Keeps what is dust: of a sensor that tells size classes apart only its fine classes; of one that
+/// adds up its classes the sum, if all of them are fine; a sensor without classes is taken at its
+/// word.
+void keep_dust(std::vector<Figure>& figures, const std::vector<Figure>& all) {
+  std::set<std::string> with_classes, with_coarse;
   for (const Figure& figure : figures) {
     if (class_of(figure.name) >= 0.0) with_classes.insert(figure.sensor);
   }
+  for (const Figure& figure : all) {
+    if (class_of(figure.name) >= k_dust_diameter) with_coarse.insert(figure.sensor);
+  }
   std::erase_if(figures, [&](const Figure& figure) {
     const double diameter = class_of(figure.name);
-    return diameter >= 0.0 ? diameter >= k_dust_diameter : with_classes.count(figure.sensor) > 0;
+    if (diameter >= 0.0) return diameter >= k_dust_diameter;
+    return with_classes.count(figure.sensor) > 0 || with_coarse.count(figure.sensor) > 0;
   });
 }
 
@@ -222,8 +227,8 @@ Highlights highlights_of(const RunText& run) {
     (quantile == 5 ? entry.low : quantile == 50 ? entry.median : entry.high) = figure;
   }
   highlights.fed = dust_fed(run.summary);
-  keep_dust(highlights.dust);
-  keep_dust(highlights.held);
+  keep_dust(highlights.dust, run.figures);
+  keep_dust(highlights.held, run.figures);
   for (const Figure& figure : highlights.dust) {
     if (is_opening(figure.sensor)) highlights.openings.push_back(figure);
   }

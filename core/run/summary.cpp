@@ -2,6 +2,7 @@
 #include "run/summary.hpp"
 
 #include "base/log.hpp"
+#include "bodies/seen_edges.hpp"
 #include "dust/sdk/plugin.hpp"
 #include "io/run_files.hpp"
 #include "particles/balance_book.hpp"
@@ -14,8 +15,11 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace dust::run {
 namespace {
@@ -182,19 +186,26 @@ Json health(const Simulation& s) {
 Json outlines(const Simulation& s) {
   Json all = Json::array();
   const auto& domain = s.setup().domain;
+  const sdk::Vec3 size = domain.max - domain.min;
+  const double longest = std::max({size.x, size.y, size.z});
+  constexpr double k_pieces = 100.0;  // of what is round, along the longest side
   for (const auto& body : s.models().bodies) {
-    const auto t = body.triangles(domain.min, domain.max, 2e-3);
-    Json segments = Json::array();
-    for (std::size_t n = 0; n + 2 < t.size(); n += 3) {
-      for (std::size_t e = 0; e < 3; ++e) {
-        const sdk::Vec3 a = t[n + e];
-        const sdk::Vec3 b = t[n + (e + 1) % 3];
-        // Edges in the front plane draw the side view; the others run across or cut faces.
-        if (std::abs(a.y - domain.min.y) < 1e-12 && std::abs(b.y - domain.min.y) < 1e-12) {
-          segments.push_back({{a.x, a.z}, {b.x, b.z}});
-        }
+    // A turned body is cut in its own frame: a larger box, the picture clips.
+    const sdk::Vec3 more = body.frame_angle != 0.0 ? size : sdk::Vec3{};
+    const auto t = body.triangles(domain.min - more, domain.max + more, longest / k_pieces);
+    // Front and back edges lie on each other: one is enough.
+    std::set<std::array<double, 4>> lines;
+    for (const auto& [a, b] : bodies::seen_edges(t, 1, longest)) {
+      const auto rounded = [&](double v) { return 1e-6 * longest * std::round(1e6 * v / longest); };
+      std::array<double, 4> line{rounded(a.x), rounded(a.z), rounded(b.x), rounded(b.z)};
+      if (std::pair(line[2], line[3]) < std::pair(line[0], line[1])) {
+        line = {line[2], line[3], line[0], line[1]};
       }
+      // An edge along y is seen from its end.
+      if (line[0] != line[2] || line[1] != line[3]) lines.insert(line);
     }
+    Json segments = Json::array();
+    for (const auto& l : lines) segments.push_back({{l[0], l[1]}, {l[2], l[3]}});
     all.push_back({{"body", body.name}, {"segments", segments}});
   }
   return all;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drawing_body.hpp"
 
-#include <array>
-#include <cstdint>
-#include <map>
-#include <tuple>
-#include <vector>
+#include "bodies/seen_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace dust::engine {
 namespace {
@@ -14,9 +13,6 @@ using sdk::Vec3;
 
 /// [px] side of the squares that look for the section of a body.
 constexpr double k_square = 3.0;
-/// Cosine of the angle between two triangles from which on their common edge is drawn.
-constexpr double k_sharp = 0.87;
-
 /// Grey squares where the middle plane lies inside the body, as one rectangle per row and run.
 std::string section_of(const bodies::Body& body, const SideView& view) {
   std::string path;
@@ -41,30 +37,6 @@ std::string section_of(const bodies::Body& body, const SideView& view) {
          "\"/>\n";
 }
 
-using Key = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
-
-/// A corner on a grid fine enough that equal corners are found again.
-Key key_of(Vec3 p, double step) {
-  return {std::llround(p.x / step), std::llround(p.y / step), std::llround(p.z / step)};
-}
-
-struct Edge {
-  Vec3 from, to;
-  std::vector<Vec3> normals;  ///< of the triangles that share it
-};
-
-/// Whether an edge is to be seen: rims, sharp bends, and where the surface turns from the eye.
-bool is_drawn(const Edge& edge, int depth) {
-  if (edge.normals.size() != 2) return true;
-  const Vec3& a = edge.normals[0];
-  const Vec3& b = edge.normals[1];
-  if (dot(a, b) < k_sharp) return true;
-  constexpr double k_level = 1e-9;
-  const bool faces_a = a[depth] > k_level;
-  const bool faces_b = b[depth] > k_level;
-  return faces_a != faces_b;
-}
-
 }  // namespace
 
 BodyPicture draw_body(const bodies::Body& body, const scenario::DomainSpec& domain,
@@ -77,30 +49,12 @@ BodyPicture draw_body(const bodies::Body& body, const scenario::DomainSpec& doma
   // A turned body is cut in its own frame: a larger box, the picture clips.
   const Vec3 more = body.frame_angle != 0.0 ? size : Vec3{};
   const auto corners = body.triangles(domain.min - more, domain.max + more, longest / k_pieces);
-  std::map<std::pair<Key, Key>, Edge> edges;
-  for (std::size_t n = 0; n + 2 < corners.size(); n += 3) {
-    const Vec3 normal = cross(corners[n + 1] - corners[n], corners[n + 2] - corners[n]);
-    const double area = norm(normal);
-    if (!(area > 0.0)) continue;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Vec3 from = corners[n + c];
-      const Vec3 to = corners[n + (c + 1) % 3];
-      Key a = key_of(from, 1e-7 * longest);
-      Key b = key_of(to, 1e-7 * longest);
-      if (b < a) std::swap(a, b);
-      Edge& edge = edges[{a, b}];
-      edge.from = from;
-      edge.to = to;
-      edge.normals.push_back(normal / area);
-    }
-  }
   std::string path;
-  for (const auto& [key, edge] : edges) {
-    if (!is_drawn(edge, view.depth())) continue;
-    const double x1 = view.x(edge.from);
-    const double y1 = view.y(edge.from);
-    const double x2 = view.x(edge.to);
-    const double y2 = view.y(edge.to);
+  for (const auto& [from, to] : bodies::seen_edges(corners, view.depth(), longest)) {
+    const double x1 = view.x(from);
+    const double y1 = view.y(from);
+    const double x2 = view.x(to);
+    const double y2 = view.y(to);
     if (std::hypot(x2 - x1, y2 - y1) < 0.05) continue;  // seen from its end
     path += "M" + px(x1) + " " + px(y1) + "L" + px(x2) + " " + px(y2);
   }

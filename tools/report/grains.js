@@ -4,7 +4,6 @@ Dust.grains = (() => {
   const set = Dust.data.grains;
   if (!set) return null;
   const [x0, z0, x1, z1] = Dust.data.view;
-  const is_dust = (k) => set.classes[k] < set.dust_below;
   const coarse = set.classes.filter((d) => d >= set.dust_below);
   const span = coarse.length > 1 ? Math.log(coarse.at(-1) / coarse[0]) : 1;
   const tone = (d) => (coarse.length > 1 ? Math.log(d / coarse[0]) / span : 0.4);
@@ -70,22 +69,35 @@ Dust.grains = (() => {
 
   const choice = document.getElementById('grains-colour'), air_box = document.getElementById('grains-air');
   const by_speed = () => choice.value === 'speed';
-  // Coarse grains of one colour: `pick(k)` says which, `radius_of(k)` how large.
+  const outline = (pen, picture, k) => {
+    const radius = Math.max(set.classes[current.size[k]] / 2 * picture.place.scale, 0.45);
+    const x = picture.x(x_of(current, k)), z = picture.z(z_of(current, k));
+    if (radius < 1) {
+      pen.rect(x - radius, z - radius, 2 * radius, 2 * radius);
+    } else {
+      pen.moveTo(x + radius, z);
+      pen.arc(x, z, radius, 0, 6.2832);
+    }
+  };
+  // Coarse grains of one colour: `pick(k)` says which.
   const paint_some = (pen, picture, colour, pick) => {
     pen.fillStyle = colour;
     pen.beginPath();
     for (let k = 0; k < current.n - current.dust; ++k) {
-      if (!pick(k)) continue;
-      const radius = Math.max(set.classes[current.size[k]] / 2 * picture.place.scale, 0.45);
-      const x = picture.x(x_of(current, k)), z = picture.z(z_of(current, k));
-      if (radius < 1) {
-        pen.rect(x - radius, z - radius, 2 * radius, 2 * radius);
-      } else {
-        pen.moveTo(x + radius, z);
-        pen.arc(x, z, radius, 0, 6.2832);
-      }
+      if (pick(k)) outline(pen, picture, k);
     }
     pen.fill();
+  };
+  // Coarse grains by size, in the order of the data: from the back to the front.
+  const paint_by_size = (pen, picture) => {
+    const end = current.n - current.dust;
+    for (let k = 0; k < end;) {
+      const size = current.size[k];
+      pen.fillStyle = Dust.css(Dust.sand_colour(tone(set.classes[size])));
+      pen.beginPath();
+      for (; k < end && current.size[k] === size; ++k) outline(pen, picture, k);
+      pen.fill();
+    }
   };
   const k_speed_steps = 24;
   const paint = (pen, picture) => {
@@ -110,9 +122,7 @@ Dust.grains = (() => {
           (k) => Math.min(Math.floor(current.speed[k] / 256 * k_speed_steps), k_speed_steps - 1) === c);
       }
     } else {
-      for (let c = 0; c < set.classes.length; ++c) {
-        if (!is_dust(c)) paint_some(pen, picture, Dust.css(Dust.sand_colour(tone(set.classes[c]))), (k) => current.size[k] === c);
-      }
+      paint_by_size(pen, picture);
     }
     paint_dust(pen, picture, true, 1.3);
   };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "unit/bodies/shapes.hpp"
+#include "bodies/seen_edges.hpp"
 #include "dust/sdk/error.hpp"
 
 #include <doctest/doctest.h>
@@ -288,6 +289,26 @@ TEST_CASE("written surfaces shall lie on the shapes and look outwards") {
   const auto hexagon = plane->triangles({-1, -1, -1}, {1, 1, 1}, 1.0);
   CHECK(hexagon.size() == 12);  // four triangles
   for (const Vec3& p : hexagon) CHECK(std::abs(p.x + p.y + p.z) < 1e-12);
+}
+
+TEST_CASE("a drawing shall show rims and bends of a surface, not its triangles") {
+  const auto count = [](const Shape& shape, int depth) {
+    return dust::bodies::seen_edges(shape.triangles({-1, -1, -1}, {1, 1, 1}, 0.02), depth, 2.0)
+        .size();
+  };
+  CHECK(count(*make_shape("box", {{"min", Vec3{-0.5, -0.4, -0.3}}, {"max", Vec3{0.5, 0.4, 0.3}}}),
+              1) == 12);
+  const auto disc = make_shape(
+      "disc", {{"centre", Vec3{}}, {"axis", Vec3{0, 1, 0}}, {"radius", 0.6}, {"thickness", 0.1}});
+  const auto t = disc->triangles({-1, -1, -1}, {1, 1, 1}, 0.02);
+  const auto along = dust::bodies::seen_edges(t, 1, 2.0);
+  CHECK(along.size() > 40);
+  for (const auto& [a, b] : along) {
+    CHECK(std::hypot(a.x, a.z) == doctest::Approx(0.6));
+    CHECK(std::hypot(b.x, b.z) == doctest::Approx(0.6));
+  }
+  // From the side two lines more, where the round turns from the eye.
+  CHECK(dust::bodies::seen_edges(t, 0, 2.0).size() == along.size() + 2);
 }
 
 TEST_CASE("a round shape shall know what turning leaves it as it is") {

@@ -155,8 +155,8 @@ void RunFolder::write_tracks(const std::vector<std::vector<FakeGrain>>& frames) 
     std::vector<float> position, velocity, diameter;
     std::vector<std::int64_t> id;
     for (const FakeGrain& grain : frames[frame]) {
-      position.insert(position.end(),
-                      {static_cast<float>(grain.x), 0.0F, static_cast<float>(grain.z)});
+      position.insert(position.end(), {static_cast<float>(grain.x), static_cast<float>(grain.y),
+                                       static_cast<float>(grain.z)});
       velocity.insert(velocity.end(), {static_cast<float>(grain.speed), 0.0F, 0.0F});
       diameter.push_back(static_cast<float>(grain.diameter));
       id.push_back(grain.id);

@@ -17,11 +17,12 @@ struct FakeRun {
   bool has_h5 = true;
 };
 
-/// A grain of a frame, at y = 0.
+/// A grain of a frame.
 struct FakeGrain {
   std::int64_t id = 0;
   double diameter = 0.0, x = 0.0, z = 0.0;  ///< [m]
   double speed = 0.0;                       ///< [m/s] along x
+  double y = 0.0;                           ///< [m]
 };
 
 /// The summary of a finished run with two sensors.

@@ -179,6 +179,44 @@ TEST_CASE("coarse grains carried along shall not be called dust") {
   CHECK_FALSE(has(page, "310\u202fg of dust per tonne"));
 }
 
+TEST_CASE("what lies in a box shall be called dust only where all of it is fine") {
+  const auto page_with = [](const std::string& size) {
+    const RunFolder folder;
+    json summary = fake_summary();
+    // A sum over classes, and the classes of another figure.
+    summary["sensors"] = {
+        {"box",
+         {{"grams_per_tonne", {{"value", 310.0}, {"unit", "g/t"}}},
+          {"mass_at_end", {{"value", 1e-9}, {"unit", "kg"}}},
+          {"class_" + size + "/mass_concentration", {{"value", 2.0}, {"unit", "kg/m3"}}}}}};
+    folder.write("summary.json", summary.dump());
+    return page_of(folder);
+  };
+  CHECK(has(page_with("10_um"), "310\u202fg of dust per tonne"));
+  CHECK_FALSE(has(page_with("4000_um"), "of dust per tonne"));
+}
+
+TEST_CASE("coarse grains shall be painted from the back to the front") {
+  const RunFolder folder;
+  fill(folder);
+  folder.write("scenario.yaml", "domain: {min: [0, 0, 0], max: [1, 1, 1]}\n");
+  const auto at = [](std::int64_t id, double x, double y) {
+    return dust::test::FakeGrain{.id = id, .diameter = 500e-6, .x = x, .z = 0.5, .y = y};
+  };
+  folder.write_tracks({{at(1, 0.2, 0.1), at(2, 0.4, 0.9), at(3, 0.6, 0.5), at(4, 0.8, 0.3)}});
+  const json frame = page_data(page_of(folder))["grains"]["frames"][0];
+  const std::string bytes = unpacked(frame["data"]);
+  REQUIRE(frame["n"] == 4);
+  std::vector<double> across;
+  for (std::size_t k = 0; k < 4; ++k) {
+    across.push_back((byte_at(bytes, 2 * k) + 256.0 * byte_at(bytes, 2 * k + 1)) / 65535.0);
+  }
+  // The eye looks along y.
+  const double expected[] = {0.4, 0.6, 0.8, 0.2};
+  for (std::size_t k = 0; k < 4; ++k)
+    CHECK(across[k] == doctest::Approx(expected[k]).epsilon(1e-4));
+}
+
 TEST_CASE("dust shall be summed over the openings and set against the dust in the load") {
   const RunFolder folder;
   json summary = fake_summary();
