@@ -326,7 +326,40 @@ std::vector<Value> MapReader::values(const sdk::ParameterSchema& schema) {
     if (!value) is_good_ = false;
     result.push_back(value.value_or(Value{}));
   }
+  warn_of_bare_vectors(schema, result);
   return result;
+}
+
+/// `min: [-20, -20, 0]` beside `max: [20, 20, 60 mm]` reaches over 20 m: hardly meant.
+void MapReader::warn_of_bare_vectors(const sdk::ParameterSchema& schema,
+                                     const std::vector<Value>& values) {
+  const auto unit_of = [](const Node& list) {
+    std::string unit;
+    for (const Node& item : list.items) {
+      std::string error;
+      const auto number = item.is_text() ? split_number(item.text, error) : std::nullopt;
+      if (number && !number->unit.empty()) unit = number->unit;
+    }
+    return unit;
+  };
+  for (std::size_t n = 0; n < schema.size(); ++n) {
+    const auto* bare = std::get_if<sdk::Vec3>(&values[n]);
+    const Entry* entry = node_.is_map() ? node_.find(schema[n].name) : nullptr;
+    if (bare == nullptr || entry == nullptr || *bare == sdk::Vec3{}) continue;
+    const std::string si = si_unit(schema[n].dimension);
+    if (si.empty() || !unit_of(entry->value).empty()) continue;
+    for (const Parameter& other : schema) {
+      const Entry* beside = node_.find(other.name);
+      if (beside == nullptr || other.type != ParameterType::vector) continue;
+      const std::string unit = unit_of(beside->value);
+      if (!(other.dimension == schema[n].dimension) || unit.empty() || unit == si) continue;
+      diagnostics_.warning(entry->value.where,
+                           path_of(schema[n].name) + ": has no unit and is read in " + si +
+                               ", while " + path_of(other.name) + " is in " + unit + ": write " +
+                               unit + " or " + si + " behind its last number");
+      break;
+    }
+  }
 }
 
 void MapReader::finish() {

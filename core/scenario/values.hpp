@@ -55,6 +55,9 @@ class MapReader {
   }
 
  private:
+  void warn_of_bare_vectors(const sdk::ParameterSchema& schema,
+                            const std::vector<sdk::Value>& values);
+
   const Node& node_;
   std::string path_;
   Mark where_;

@@ -177,6 +177,19 @@ TEST_CASE("an unknown cohesion shall be told with all there are") {
         "in " DUST_TEST_PLUGINS);
 }
 
+TEST_CASE("a corner without a unit beside one in mm shall be asked about") {
+  const Told wide = told("min: [0, 0, 0]", "min: [-10, 0, 0]");
+  CHECK(wide.errors.empty());
+  REQUIRE(wide.warnings.size() == 1);
+  CHECK(wide.warnings[0] ==
+        "s.yaml:5:8: warning: domain.min: has no unit and is read in m, while domain.max is in mm: "
+        "write mm or m behind its last number");
+  // Nothing to ask: the same unit, metres said, nothing but zeros, another dimension (velocity).
+  CHECK(told("min: [0, 0, 0]", "min: [-10, 0, 0 mm]").warnings.empty());
+  CHECK(told("max: [10, 10, 50 mm]", "max: [0.01, 0.01, 0.05 m]").warnings.empty());
+  CHECK(told().warnings.empty());
+}
+
 TEST_CASE("a fixed step above the stable one shall be told: warned of, or refused") {
   CHECK(told("output_every: 1 ms", "output_every: 1 ms, dem_step: 0.5 us").warnings.empty());
   const Told longer = told("output_every: 1 ms", "output_every: 1 ms, dem_step: 2.5 us");
