@@ -13,6 +13,7 @@ using sdk::Vec3;
 
 /// [px] side of the squares that look for the section of a body.
 constexpr double k_square = 3.0;
+
 /// Grey squares where the middle plane lies inside the body, as one rectangle per row and run.
 std::string section_of(const bodies::Body& body, const SideView& view) {
   std::string path;
