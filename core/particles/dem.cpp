@@ -41,10 +41,7 @@ Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
                                     (laws[n].rolling ? laws[n].rolling->history_size() : 0) +
                                     (laws[n].cohesion ? laws[n].cohesion->history_size() : 0));
     // R* is largest where the largest grain meets a wall.
-    laws[n].range = laws[n].contact->range();
-    if (laws[n].cohesion) {
-      laws[n].range = std::max(laws[n].range, laws[n].cohesion->range(0.5 * largest));
-    }
+    laws[n].range = laws[n].range_of(0.5 * largest);
     largest_range = std::max(largest_range, laws[n].range);
   }
   if (columns > contact::k_max_history) {

@@ -9,6 +9,7 @@
 #include "particles/grain_rows.hpp"
 #include "scenario/setup.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -26,7 +27,13 @@ struct PairLaws {
   std::unique_ptr<sdk::ContactLaw> contact;
   std::unique_ptr<sdk::RollingLaw> rolling;
   std::unique_ptr<sdk::CohesionLaw> cohesion;
-  double range = 0.0;  ///< [m] beyond touch, of contact and cohesion; set by the DEM
+  double range = 0.0;  ///< [m] range_of() the largest grains; set by the DEM
+
+  /// How far beyond touch [m] contact and cohesion act on a pair of this R* [m].
+  [[nodiscard]] double range_of(double effective_radius) const {
+    const double touch = contact->range();
+    return cohesion ? std::max(touch, cohesion->range(effective_radius)) : touch;
+  }
 };
 
 /// A grain to insert; the DEM gives the id.

@@ -10,6 +10,9 @@
 
 namespace dust::particles {
 
+/// The first three numbers of a row.
+inline sdk::Vec3 vec(const double* p) { return {p[0], p[1], p[2]}; }
+
 /// A fine grain while it is sub-cycled.
 struct Member {
   std::int32_t row = 0;

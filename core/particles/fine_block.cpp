@@ -11,8 +11,6 @@ using contact::BatchColumns;
 using contact::k_batch;
 using sdk::Vec3;
 
-Vec3 vec(const double* p) { return {p[0], p[1], p[2]}; }
-
 /// Drag integrated exactly over `kick`, as for coarse grains; then the drift.
 void advance(Member& m, double step) {
   const double kick = m.lag + 0.5 * step;

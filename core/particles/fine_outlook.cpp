@@ -14,8 +14,6 @@ constexpr double k_reach_margin = 0.05;
 /// Steps per contact.
 constexpr double k_steps_per_contact = 15.0;
 
-Vec3 vec(const double* p) { return {p[0], p[1], p[2]}; }
-
 double sum_of_parts(Vec3 v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 /// A cheap answer for most entries of a list: true only if the partner is out of reach by the rule
@@ -89,9 +87,7 @@ Outlook look_out(const Dem::Impl& dem, std::size_t entry, double extra_speed) {
   out.speed = norm(relative) + gain;
   const PairLaws& laws = dem.laws[static_cast<std::size_t>(law)];
   // The laws' range is that of the largest grains; dust feels sand from much nearer.
-  const double range = laws.cohesion
-                           ? std::max(laws.contact->range(), laws.cohesion->range(reduced_radius))
-                           : laws.range;
+  const double range = laws.cohesion ? laws.range_of(reduced_radius) : laws.range;
   const double margin = k_reach_margin * radius + range;
   out.is_near = dem.fine.is_touching[entry] != 0 || gap < (out.speed + extra_speed) * step + margin;
   if (!out.is_near) return out;
