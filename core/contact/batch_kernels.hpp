@@ -31,11 +31,10 @@ struct PairView {
   std::size_t count = 0;
 };
 
-/// A pair of which one side belongs to another chunk, and where that grain's share of the force is
-/// gathered.
-struct Guest {
-  std::int32_t entry = 0;  ///< of the list
-  std::int32_t place = 0;  ///< row of the force buffer, behind the chunk's own
+/// Rows of a chunk's force buffer where what a pair does to its two sides is gathered.
+struct Places {
+  std::int32_t a = 0;
+  std::int32_t b = 0;
 };
 
 /// Finds pairs from entry `next` up to `end` that are closer than touch + `range` [m] until a batch
@@ -65,12 +64,9 @@ void load_history(const PairView& pairs, const std::int32_t* contacts, std::size
 void store_history(const PairView& pairs, const std::int32_t* contacts, std::size_t count,
                    int groups, BatchColumns& columns);
 
-/// Adds forces and torques to rows of eight doubles: those of a chunk's own grains
-/// [first, first + size), and behind them those of its guests. `guest` moves on with the entries:
-/// all guests up to this batch's last entry are behind it afterwards.
-void scatter_pairs(const PairView& pairs, const std::int32_t* contacts, std::size_t count,
-                   std::int32_t first, std::int32_t size, bool has_scales, BatchColumns& columns,
-                   const Guest*& guest, double* force);
+/// Adds forces and torques to rows of eight doubles; `places` stand in the order of the list.
+void scatter_pairs(const Places* places, const std::int32_t* contacts, std::size_t count,
+                   bool has_scales, BatchColumns& columns, double* force);
 /// The same for surfaces: only side i receives.
 void scatter_single(const std::int32_t* local_rows, std::size_t count, BatchColumns& columns,
                     double* force);

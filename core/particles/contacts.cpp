@@ -166,7 +166,6 @@ void Dem::Impl::chunk_pairs(Chunk& chunk, double* force) {
   const contact::PairView pairs = chunk.pairs.view(history_stride);
   const contact::RowView rows = row_view();
   const int groups = static_cast<int>(history_stride / 4);
-  const contact::Guest* guest = chunk.guests.data();
   for (const Segment& segment : chunk.pairs.segments) {
     const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
     auto next = static_cast<std::size_t>(segment.begin);
@@ -194,8 +193,7 @@ void Dem::Impl::chunk_pairs(Chunk& chunk, double* force) {
         has_scales = has_scales || wi != wj;
       }
       contact::store_history(pairs, contacts, count, groups, columns);
-      contact::scatter_pairs(pairs, contacts, count, chunk.begin, chunk.end - chunk.begin,
-                             has_scales, columns, guest, force);
+      contact::scatter_pairs(chunk.places.data(), contacts, count, has_scales, columns, force);
     }
     if (!law.cohesion) chunk.contacts += static_cast<std::int64_t>(found);
   }

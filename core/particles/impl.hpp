@@ -125,9 +125,9 @@ struct Chunk {
   /// run that goes on from a checkpoint finds what an unbroken one finds.
   std::vector<std::int32_t> hints;
   Awake awake;
-  /// Pairs with grains of other chunks, which are in no other list; chunks that stand later in the
-  /// order own those grains.
-  std::vector<contact::Guest> guests;
+  std::vector<contact::Places> places;  ///< per entry of `pairs`: own grains, behind them guests
+  /// Guests: grains of chunks that stand later in the order, with which this chunk has pairs that
+  /// are in no other list.
   std::vector<std::int32_t> guest_rows;        ///< each once, ascending
   contact::AlignedVector<double> guest_force;  ///< eight numbers for each of them
   std::vector<Gift> gifts;                     ///< to this chunk's grains, by place

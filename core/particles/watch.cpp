@@ -111,23 +111,25 @@ double Dem::Impl::fastest() const {
   return std::sqrt(square);
 }
 
-/// Whom of later chunks this chunk's pairs name.
+/// Whom of later chunks this chunk's pairs name, and where forces on both sides are gathered.
 void Dem::Impl::invite_guests(Chunk& chunk) {
-  chunk.guests.clear();
-  chunk.guest_rows.clear();
-  for (std::size_t q = 0; q < chunk.pairs.size(); ++q) {
+  auto& rows = chunk.guest_rows;
+  rows.clear();
+  const std::size_t count = chunk.pairs.size();
+  for (std::size_t q = 0; q < count; ++q) {
     const std::int32_t row = std::max(chunk.pairs.a[q], chunk.pairs.b[q]);
-    if (row < chunk.end) continue;
-    chunk.guests.push_back({static_cast<std::int32_t>(q), row});
-    chunk.guest_rows.push_back(row);
+    if (row >= chunk.end) rows.push_back(row);
   }
-  std::sort(chunk.guest_rows.begin(), chunk.guest_rows.end());
-  chunk.guest_rows.erase(std::unique(chunk.guest_rows.begin(), chunk.guest_rows.end()),
-                         chunk.guest_rows.end());
-  const auto& rows = chunk.guest_rows;
-  for (contact::Guest& guest : chunk.guests) {
-    const auto number = std::lower_bound(rows.begin(), rows.end(), guest.place) - rows.begin();
-    guest.place = chunk.end - chunk.begin + static_cast<std::int32_t>(number);
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  const auto place = [&](std::int32_t row) {
+    if (row < chunk.end) return row - chunk.begin;
+    const auto number = std::lower_bound(rows.begin(), rows.end(), row) - rows.begin();
+    return chunk.end - chunk.begin + static_cast<std::int32_t>(number);
+  };
+  chunk.places.resize(count);
+  for (std::size_t q = 0; q < count; ++q) {
+    chunk.places[q] = {place(chunk.pairs.a[q]), place(chunk.pairs.b[q])};
   }
 }
 
