@@ -49,6 +49,40 @@ bool has_counted(const Highlights& highlights) {
   return std::any_of(list.begin(), list.end(), [](const Figure& f) { return f.value != 0.0; });
 }
 
+/// A figure that stands beside a published number, as html.
+struct Published {
+  std::string name;
+  std::string ours;
+  std::string theirs;
+};
+
+/// What a run with references was made for: each figure once, with the first of its numbers.
+std::vector<Published> published_figures(const RunText& run) {
+  constexpr std::size_t k_most = 4;
+  std::vector<Published> figures;
+  std::vector<std::string> told;
+  for (const nlohmann::json& entry : list_at(run.summary, "references")) {
+    const auto ours = number_at(entry, "ours");
+    const auto theirs = number_at(entry, "value");
+    std::string name = text_at(entry, "quantity");
+    if (!ours || !theirs || told.size() == k_most) continue;
+    if (std::find(told.begin(), told.end(), name) != told.end()) continue;
+    told.push_back(name);
+    if (name.starts_with("sensors.")) name.erase(0, 8);
+    std::replace(name.begin(), name.end(), '.', ' ');
+    name = words(name);
+    if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') {
+      name[0] = static_cast<char>(name[0] - 'a' + 'A');
+    }
+    const std::string unit = text_at(entry, "unit");
+    figures.push_back(
+        {escape_html(name),
+         quantity_html(*ours, number_at(entry, "our_uncertainty").value_or(-1.0), unit),
+         quantity_html(*theirs, number_at(entry, "uncertainty").value_or(-1.0), unit)});
+  }
+  return figures;
+}
+
 std::string lede_html(const RunText& run, const Highlights& highlights) {
   std::string text;
   if (highlights.has_dust() && !has_counted(highlights)) {
@@ -73,6 +107,10 @@ std::string lede_html(const RunText& run, const Highlights& highlights) {
               "\u202f% of the dust fed";
     }
     text += ".";
+  }
+  if (const auto figures = published_figures(run); text.empty() && !figures.empty()) {
+    const Published& first = figures.front();
+    text = first.name + " <strong>" + first.ours + "</strong>; published are " + first.theirs + ".";
   }
   if (text.empty()) {
     const auto emitted = number_at(object_at(run.summary, "particles"), "emitted");
@@ -205,31 +243,10 @@ std::string where_to_extract(const Highlights& highlights) {
   return answer("Where to extract?", value, text + "</ul>\n");
 }
 
-/// Figures that stand beside a published number: what such a run was made for. The same figure
-/// once, with the first of its numbers.
 std::string reference_tiles(const RunText& run) {
-  constexpr std::size_t k_most = 4;
   std::string text;
-  std::vector<std::string> told;
-  for (const nlohmann::json& entry : list_at(run.summary, "references")) {
-    const auto ours = number_at(entry, "ours");
-    const auto theirs = number_at(entry, "value");
-    std::string name = text_at(entry, "quantity");
-    if (!ours || !theirs || told.size() == k_most) continue;
-    if (std::find(told.begin(), told.end(), name) != told.end()) continue;
-    told.push_back(name);
-    if (name.starts_with("sensors.")) name.erase(0, 8);
-    std::replace(name.begin(), name.end(), '.', ' ');
-    name = words(name);
-    if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') {
-      name[0] = static_cast<char>(name[0] - 'a' + 'A');
-    }
-    const std::string unit = text_at(entry, "unit");
-    text +=
-        tile_html(escape_html(name).c_str(),
-                  quantity_html(*ours, number_at(entry, "our_uncertainty").value_or(-1.0), unit),
-                  "published " +
-                      quantity_html(*theirs, number_at(entry, "uncertainty").value_or(-1.0), unit));
+  for (const Published& p : published_figures(run)) {
+    text += tile_html(p.name.c_str(), p.ours, "published " + p.theirs);
   }
   return text;
 }

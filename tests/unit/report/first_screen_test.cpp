@@ -222,4 +222,11 @@ TEST_CASE("published numbers shall stand beside those of the run") {
   const std::string screen = first_screen(folder);
   CHECK(has(screen, "Slope mean angle"));
   CHECK(has(screen, "published 40.00\u00a0\u00b1\u00a00.40"));
+  // Without dust it is the headline.
+  summary["sensors"] = json::object();
+  folder.write("summary.json", summary.dump());
+  const std::string told = first_screen(folder);
+  CHECK(has(told, "<p class=\"lede\">Slope mean angle <strong>41.00\u00a0\u00b1\u00a00.30"));
+  CHECK(has(told, "published are 40.00\u00a0\u00b1\u00a00.40"));
+  CHECK_FALSE(has(told, "grains were released in"));
 }
