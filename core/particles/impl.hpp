@@ -73,17 +73,24 @@ struct ContactList {
       history.insert(history.end(), from, from + stride);
     }
   }
-  /// The content of `other` in blocks of just its size: lists are most of the memory.
-  void take_exactly(const ContactList& other) {
-    const auto take = [](auto& to, const auto& from) {
-      if (to.capacity() < from.size() || 4 * to.capacity() > 5 * from.size() + 64) {
-        std::remove_reference_t<decltype(to)>(from.begin(), from.end()).swap(to);
+  /// Room for so many entries, never given back: for lists made again and again.
+  void make_room(std::size_t most, std::size_t stride) {
+    if (a.size() < most) a.resize(most), b.resize(most), is_touching.resize(most);
+    if (history.size() < most * stride) history.resize(most * stride);
+  }
+  /// The first `count` entries of `other` in blocks of just their size: lists are most of the
+  /// memory.
+  void take_exactly(const ContactList& other, std::size_t count, std::size_t stride) {
+    const auto take = [](auto& to, const auto& from, std::size_t size) {
+      const auto end = from.begin() + static_cast<std::ptrdiff_t>(size);
+      if (to.capacity() < size || 4 * to.capacity() > 5 * size + 64) {
+        std::remove_reference_t<decltype(to)>(from.begin(), end).swap(to);
       } else {
-        to.assign(from.begin(), from.end());
+        to.assign(from.begin(), end);
       }
     };
-    take(a, other.a), take(b, other.b), take(is_touching, other.is_touching);
-    take(history, other.history);
+    take(a, other.a, count), take(b, other.b, count), take(is_touching, other.is_touching, count);
+    take(history, other.history, count * stride);
     segments = other.segments;
   }
   [[nodiscard]] std::size_t size() const { return a.size(); }
@@ -191,8 +198,8 @@ struct Dem::Impl {
   void choose_watch_allowances();
   [[nodiscard]] bool may_meet_surface(std::size_t i, const Surface& surface) const;
   [[nodiscard]] bool flies_straight(std::size_t row) const;
-  template <class MayMeet>
-  void choose_contacts(VerletList& list, ContactList& contacts, MayMeet&& meets);
+  void choose_contacts(const VerletList& list, ContactList& contacts,
+                       const std::vector<std::uint8_t>& meets);
   void begin_watch();
   void invite_guests(Chunk& chunk);
   void wake_guests();

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <numeric>
 
 namespace dust::particles {
 namespace {
@@ -65,29 +67,62 @@ bool Dem::Impl::flies_straight(std::size_t n) const {
   return sum * bend * bend < limit * limit;
 }
 
-/// The contact list made new: who touches, with the history, and who may come to touch.
-template <class MayMeet>
-void Dem::Impl::choose_contacts(VerletList& list, ContactList& contacts, MayMeet&& meets) {
+/// The contact list made new: who touches, with the history, and who may come to touch: `meets`,
+/// one byte of 0 or 1 per entry of the list. Without branches on either, which nobody foretells.
+void Dem::Impl::choose_contacts(const VerletList& list, ContactList& contacts,
+                                const std::vector<std::uint8_t>& meets) {
+  struct Choice {
+    std::int32_t entry;    ///< of the list
+    std::int32_t contact;  ///< before, or -1
+  };
+  thread_local std::vector<Choice> chosen;
   thread_local ContactList next;
-  next.clear();
-  std::size_t old = 0;  // of the present contacts, which stand in the order of the list
+  if (chosen.size() <= list.size()) chosen.resize(list.size() + 1);
+  next.segments.clear();
+  // Copies: what is stored may alias the lists.
+  Choice* const choice = chosen.data();
+  const std::int32_t* const a = list.a.data();
+  const std::int32_t* const b = list.b.data();
+  const std::int32_t* const old_a = contacts.a.data();
+  const std::int32_t* const old_b = contacts.b.data();
+  const std::uint8_t* const was_touching = contacts.is_touching.data();
+  const std::uint8_t* const may_meet = meets.data();
+  const std::size_t before = contacts.size();
+  std::size_t count = 0;
+  std::size_t u = 0;  // of the present contacts, which stand in the order of the list
   for (const Segment& s : list.segments) {
-    Segment chosen{s.law, s.surface, static_cast<std::int32_t>(next.size()), 0};
-    for (auto q = static_cast<std::size_t>(s.begin); q < static_cast<std::size_t>(s.end); ++q) {
-      const std::size_t u = old;
-      const bool is_known =
-          u < contacts.size() && contacts.a[u] == list.a[q] && contacts.b[u] == list.b[q];
-      old += is_known ? 1 : 0;
-      const bool is_touching = is_known && contacts.is_touching[u] != 0;
-      if (!is_touching && !meets(q)) continue;
-      next.push(list.a[q], list.b[q],
-                is_touching ? contacts.history.data() + u * history_stride : nullptr,
-                history_stride);
+    Segment part{s.law, s.surface, static_cast<std::int32_t>(count), 0};
+    for (std::int32_t q = s.begin; q < s.end; ++q) {
+      bool is_known = false;
+      bool is_touching = false;
+      if (u < before) {
+        is_known = (old_a[u] == a[q]) & (old_b[u] == b[q]);
+        is_touching = is_known & (was_touching[u] != 0);
+      }
+      choice[count] = {q, is_touching ? static_cast<std::int32_t>(u) : -1};
+      count += static_cast<std::size_t>(is_touching) | may_meet[q];
+      u += is_known ? 1 : 0;
     }
-    chosen.end = static_cast<std::int32_t>(next.size());
-    if (chosen.end > chosen.begin) next.segments.push_back(chosen);
+    part.end = static_cast<std::int32_t>(count);
+    if (part.end > part.begin) next.segments.push_back(part);
   }
-  contacts.take_exactly(next);
+  next.make_room(count, history_stride);
+  alignas(32) static constexpr double k_new[contact::k_max_history] = {};
+  const double* const history = contacts.history.data();
+  const std::size_t stride = history_stride;
+  std::int32_t* const next_a = next.a.data();
+  std::int32_t* const next_b = next.b.data();
+  std::uint8_t* const touches = next.is_touching.data();
+  double* to = next.history.data();
+  for (std::size_t k = 0; k < count; ++k, to += stride) {
+    const auto [q, contact] = choice[k];
+    next_a[k] = a[q];
+    next_b[k] = b[q];
+    touches[k] = contact < 0 ? 0 : 1;
+    const double* from = contact < 0 ? k_new : history + static_cast<std::size_t>(contact) * stride;
+    for (std::size_t h = 0; h < stride; h += 4) std::memcpy(to + h, from + h, 4 * sizeof(double));
+  }
+  contacts.take_exactly(next, count, history_stride);
 }
 
 /// [m/s] of all grains, and of surfaces that come nearer.
@@ -122,14 +157,19 @@ void Dem::Impl::invite_guests(Chunk& chunk) {
   }
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  const auto place = [&](std::int32_t row) {
-    if (row < chunk.end) return row - chunk.begin;
-    const auto number = std::lower_bound(rows.begin(), rows.end(), row) - rows.begin();
-    return chunk.end - chunk.begin + static_cast<std::int32_t>(number);
+  thread_local std::vector<std::int32_t> place;  // by row, from the chunk's first on
+  place.resize(coarse_count - static_cast<std::size_t>(chunk.begin));
+  const std::int32_t size = chunk.end - chunk.begin;
+  std::iota(place.begin(), place.begin() + size, 0);
+  for (std::size_t g = 0; g < rows.size(); ++g) {
+    place[static_cast<std::size_t>(rows[g] - chunk.begin)] = size + static_cast<std::int32_t>(g);
+  }
+  const auto place_of = [&](std::int32_t row) {
+    return place[static_cast<std::size_t>(row - chunk.begin)];
   };
   chunk.places.resize(count);
   for (std::size_t q = 0; q < count; ++q) {
-    chunk.places[q] = {place(chunk.pairs.a[q]), place(chunk.pairs.b[q])};
+    chunk.places[q] = {place_of(chunk.pairs.a[q]), place_of(chunk.pairs.b[q])};
   }
 }
 
@@ -188,23 +228,22 @@ void Dem::Impl::begin_watch() {
   const contact::Courses courses{store.position.data(), store.velocity.data(),
                                  watch_allowance.data()};
   const double horizon_time = static_cast<double>(watch_length) * steps.coarse_step;
-  const auto pairs_meet = [&](const VerletList& list) {
-    thread_local std::vector<std::uint8_t> meets;
-    meets.resize(list.size());
-    contact::mark_approaching(courses, images, largest_range, horizon_time, list.a.data(),
-                              list.b.data(), list.size(), meets.data());
-    return meets.data();
-  };
-  const auto surface_meets = [&](std::int32_t a, std::int32_t s) {
-    return may_meet_surface(static_cast<std::size_t>(a), surfaces[static_cast<std::size_t>(s)]);
+  const auto surface_meets = [&](std::int32_t a, std::int32_t s) -> std::uint8_t {
+    const auto row = static_cast<std::size_t>(a);
+    return may_meet_surface(row, surfaces[static_cast<std::size_t>(s)]) ? 1 : 0;
   };
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     Chunk& chunk = chunks[c];
-    const std::uint8_t* meets = pairs_meet(chunk.near_pairs);
-    choose_contacts(chunk.near_pairs, chunk.pairs, [&](std::size_t q) { return meets[q] != 0; });
-    choose_contacts(chunk.near_surfaces, chunk.surfaces, [&](std::size_t q) {
-      return surface_meets(chunk.near_surfaces.a[q], chunk.near_surfaces.b[q]);
-    });
+    thread_local std::vector<std::uint8_t> meets;
+    const VerletList& near = chunk.near_pairs;
+    meets.resize(near.size());
+    contact::mark_approaching(courses, images, largest_range, horizon_time, near.a.data(),
+                              near.b.data(), near.size(), meets.data());
+    choose_contacts(near, chunk.pairs, meets);
+    const VerletList& walls = chunk.near_surfaces;
+    meets.resize(walls.size());
+    for (std::size_t q = 0; q < walls.size(); ++q) meets[q] = surface_meets(walls.a[q], walls.b[q]);
+    choose_contacts(walls, chunk.surfaces, meets);
     chunk.hints.assign(chunk.surfaces.size(), -1);
     invite_guests(chunk);
     const auto wake = [&](std::int32_t row) {
@@ -217,14 +256,17 @@ void Dem::Impl::begin_watch() {
   wake_guests();
 
   std::fill(fine_force.begin(), fine_force.end(), 0.0);
-  choose_contacts(near_fine, fine, [&](std::size_t q) {
-    const std::int32_t a = near_fine.a[q];
-    const std::int32_t b = near_fine.b[q];
-    if (b < 0) return surface_meets(a, -1 - b);
-    std::uint8_t meets = 0;
-    contact::mark_approaching(courses, images, largest_range, horizon_time, &a, &b, 1, &meets);
-    return meets != 0;
-  });
+  std::vector<std::uint8_t> meets(near_fine.size());
+  for (std::size_t q = 0; q < meets.size(); ++q) {
+    const std::int32_t i = near_fine.a[q];
+    const std::int32_t j = near_fine.b[q];
+    if (j < 0) {
+      meets[q] = surface_meets(i, -1 - j);
+    } else {
+      contact::mark_approaching(courses, images, largest_range, horizon_time, &i, &j, 1, &meets[q]);
+    }
+  }
+  choose_contacts(near_fine, fine, meets);
   for (std::size_t e = 0; e < fine.size(); ++e) {
     is_awake[static_cast<std::size_t>(fine.a[e])] = 1;
     if (fine.b[e] >= 0) {
