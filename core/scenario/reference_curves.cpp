@@ -112,7 +112,10 @@ class CurveReader {
       return std::nullopt;
     }
     if (!parsed(list.unit)) {
-      error(entry, "unknown unit " + quoted(list.unit));
+      diagnostics_.error(
+          entry.value.items.back().where,
+          reader_.path_of(entry.key) + ": unknown unit " + quoted(list.unit) +
+              "; behind the last number stands the unit of all, like s, mm or kg/m3");
       return std::nullopt;
     }
     return list;

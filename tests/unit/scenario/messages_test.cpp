@@ -212,7 +212,8 @@ TEST_CASE("a reference curve that fits nothing shall be told with what there is"
   check_curve("{sensor: stream, x: [0, 0, 2 s], y: [0, 1, 2 deg], source: a}",
               "25: error: reference_curves[0].x: the places shall rise from each to the next");
   check_curve("{sensor: stream, x: [0, 1 sec], y: [0, 1 deg], source: a}",
-              "25: error: reference_curves[0].x: unknown unit 'sec'");
+              "29: error: reference_curves[0].x: unknown unit 'sec'; behind the last number stands "
+              "the unit of all, like s, mm or kg/m3");
   check_curve("{sensor: stream, x: [0 ms, 1 s], y: [0, 1 deg], source: a}",
               "26: error: reference_curves[0].x: one unit for the whole list, 's' or 'ms'");
   check_curve("{sensor: stream, x: 1 s, y: [0, 1 deg], source: a}",
