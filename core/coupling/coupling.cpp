@@ -61,7 +61,7 @@ void Coupling::refresh(const particles::GrainRows& grains, const fluid::FaceFiel
 
 void Coupling::refresh(const particles::GrainRows& grains, const FluidState& fluid) {
   impl_->memory.align(grains);
-  if (!impl_->is_settled) impl_->settle(fluid.velocity);
+  if (!impl_->is_settled && !impl_->is_overlapped) impl_->settle(fluid.velocity);
   ForceTerms* forces = impl_->forces.get();
   if (forces != nullptr) forces->begin(fluid, impl_->step, impl_->done_refreshes == 0);
   impl_->sort_if_changed(grains);

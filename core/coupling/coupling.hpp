@@ -39,6 +39,9 @@ struct CouplingReport {
 ///              handed to the next fluid step, so that the sum over time is exact.
 /// The equations and their derivation: docs/theory/coupling.md.
 ///
+/// Where the scenario lets both overlap, the fluid advances while the grains go through their cycle
+/// in the fluid of the step before (a copy that the caller keeps); settle() follows both.
+///
 /// Grains are recognised by their id: rows may be reordered at any time. Insert and remove grains
 /// between collect() and map(); one removed earlier takes along what it received in that fluid
 /// step.
@@ -77,7 +80,8 @@ class Coupling {
   /// (FluidSolver::drag_velocity: the mean over sub-steps and stages). Without this call the first
   /// refresh() after map() takes its own velocity, which is exact only for a fluid that takes drag
   /// fully implicitly in one step. Throws std::logic_error once a refresh() has seen the grains
-  /// moved since map().
+  /// moved since map(), unless both overlap: then it belongs between the last refresh() and
+  /// collect().
   void settle(const particles::GrainRows& grains, const fluid::FaceField& velocity);
   /// `velocity` and `stress_divergence` as FluidSolver gives them. Halo faces next to the domain
   /// are read.

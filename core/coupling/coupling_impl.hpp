@@ -65,6 +65,7 @@ struct Coupling::Impl {
         initial_velocity{fluid.initial_velocity.x, fluid.initial_velocity.y,
                          fluid.initial_velocity.z},
         is_one_way(fluid.is_one_way),
+        is_overlapped(fluid.overlaps_grains),
         needs_size_ratio(law.needs_size_ratio()),
         step(time.fluid_step) {
     least_spacing = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
@@ -177,8 +178,8 @@ struct Coupling::Impl {
   FaceVoid face_void;
   GrainMemory memory;
   Spots spots;
-  std::uint64_t spots_order = 0;              ///< GrainMemory::order() when they were ordered
   std::atomic<bool> are_spots_of_map{false};  ///< not those of a later refresh()
+  Spots mapped_spots;                         ///< those of map(), where it is overlapped
   bool is_own_taken_off;                      ///< what a grain does to the fluid by itself
   FaceExchange faces;
   std::unique_ptr<ForceTerms> forces;  ///< null without forces besides drag
@@ -189,6 +190,7 @@ struct Coupling::Impl {
   bool is_set_three;
   Triple initial_velocity;
   bool is_one_way;
+  bool is_overlapped;  ///< the grains move while the fluid that they were mapped for is solved
   bool needs_size_ratio;
   std::vector<std::array<double, 2>> size_sums;  ///< per cell W D^3 and W D^2, if needed
   double step;

@@ -20,6 +20,7 @@ struct Spots {
   CellOrder order;
   std::vector<SpotBatch> batches;
   std::vector<double> eps;  ///< void fraction around each: of its cell, or the mean over its cells
+  std::uint64_t memory_order = 0;  ///< GrainMemory::order() when they were ordered
 
   /// The rows of a batch.
   [[nodiscard]] std::span<const std::int32_t> rows(std::size_t batch) const {

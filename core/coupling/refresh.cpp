@@ -215,6 +215,9 @@ void Coupling::Impl::collect(const particles::GrainRows& grains, double fluid_st
   if (done_refreshes == 0) {
     throw std::logic_error("Coupling::collect() without a refresh() since map()");
   }
+  if (is_overlapped && !is_settled) {
+    throw std::logic_error("Coupling::collect() without settle(), where grains and fluid overlap");
+  }
   memory.align(grains);
   const double interval = fluid_step / static_cast<double>(done_refreshes);
   const tbb::blocked_range<std::size_t> all(0, grains.count, 4 * k_batch);

@@ -66,6 +66,9 @@ void FluidSolver::advance(double time, double step, const CellField& before, con
 
 const FaceField& FluidSolver::velocity() const { return impl_->u; }
 const FaceField& FluidSolver::drag_velocity() const { return impl_->drag_velocity; }
+const FaceField& FluidSolver::mean_velocity() const {
+  return impl_->drag_velocity_is_set ? impl_->drag_velocity : impl_->u;
+}
 const CellField& FluidSolver::pressure() const { return impl_->p; }
 const FaceField& FluidSolver::stress_divergence() const {
   impl_->find_stress();

@@ -59,6 +59,10 @@ class FluidSolver {
   /// coefficient * drag_velocity * step from the fluid, per volume and divided by the void
   /// fraction. Meaningful at faces that carry exchange. Not state: valid until the next step only.
   [[nodiscard]] const FaceField& drag_velocity() const;
+  /// What grains are to see that move while the next step is solved: drag_velocity() after a step
+  /// with drag, else velocity(). With the velocity at the end instead, dust of short relaxation
+  /// would stir up air that takes its drag in several sub-steps.
+  [[nodiscard]] const FaceField& mean_velocity() const;
   [[nodiscard]] const CellField& pressure() const;
   /// Acceleration-free part -grad p + div tau [N/m3] at faces, of the last step. Found when first
   /// asked for after a step: not from several threads at once.

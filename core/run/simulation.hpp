@@ -87,6 +87,9 @@ class Simulation {
   /// Whether any grain may ever come in; without, the run is one of the fluid alone.
   [[nodiscard]] bool has_grains() const { return !models_.class_diameters.empty(); }
   [[nodiscard]] const fluid::CellField& void_fraction() const;
+  void advance_fluid();
+  void hold_fluid();
+  void refresh_drag();
   void check_health() const;
   void publish_grains();
 
@@ -104,6 +107,12 @@ class Simulation {
     fluid::Exchange exchange;
   };
   std::unique_ptr<NoGrains> no_grains_;  ///< only for a fluid alone
+  /// The fluid of the step before, which the grains see while it is solved.
+  struct HeldFluid {
+    fluid::FaceField velocity, stress_divergence;
+    fluid::CellField pressure;
+  };
+  std::unique_ptr<HeldFluid> held_fluid_;  ///< only where fluid and grains overlap
   GrainTable grain_table_;
   ContactTable contact_table_;
   bool wants_contacts_ = false;

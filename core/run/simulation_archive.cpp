@@ -54,6 +54,16 @@ Simulation::SaveParts Simulation::save_parts() const {
   if (coupling_) {
     parts.emplace_back("coupling", [this](sdk::ArchiveWriter& a) { coupling_->save(a); });
   }
+  if (held_fluid_) {
+    parts.emplace_back("held_fluid", [this](sdk::ArchiveWriter& a) {
+      for (std::size_t d = 0; d < 3; ++d) {
+        const std::string axis(1, "xyz"[d]);
+        a.numbers("velocity_" + axis, held_fluid_->velocity.component[d]);
+        a.numbers("stress_" + axis, held_fluid_->stress_divergence.component[d]);
+      }
+      a.numbers("pressure", held_fluid_->pressure);
+    });
+  }
   for (std::size_t n = 0; n < models_.emitters.size(); ++n) {
     parts.emplace_back("emitter." + setup_.emitters[n].name,
                        [this, n](sdk::ArchiveWriter& a) { models_.emitters[n]->save(a); });
@@ -94,6 +104,16 @@ Simulation::LoadParts Simulation::load_parts() {
     parts.emplace_back("coupling", [this](sdk::ArchiveReader& a) {
       coupling_->load(a);
       fluid_table_->publish(*fluid_, void_fraction());
+    });
+  }
+  if (held_fluid_) {
+    parts.emplace_back("held_fluid", [this](sdk::ArchiveReader& a) {
+      for (std::size_t d = 0; d < 3; ++d) {
+        const std::string axis(1, "xyz"[d]);
+        held_fluid_->velocity.component[d] = a.numbers("velocity_" + axis);
+        held_fluid_->stress_divergence.component[d] = a.numbers("stress_" + axis);
+      }
+      held_fluid_->pressure = a.numbers("pressure");
     });
   }
   // Last, so that the places of the last sample are those saved, not those just published.

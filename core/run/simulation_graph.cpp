@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/simulation.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 /// The nodes of a grain step and of a fluid step, by what they read and write.
@@ -10,19 +13,10 @@ void Simulation::build_graphs() {
   dem_graph_.given({"grain.position", "grain.velocity", "contact.list", "contact.history",
                     "grain.fluid_action", "fluid.velocity", "fluid.void_fraction", "body.motion"});
   if (coupling_) {
-    dem_graph_.add(
-        {"drag",
-         {"grain.position", "grain.velocity", "fluid.velocity", "fluid.void_fraction"},
-         {"grain.fluid_action"},
-         [this] {
-           if (dem_step_ % dem_steps_per_refresh_ != 0) return;
-           const int held = std::min(dem_steps_per_refresh_, dem_steps_per_fluid_step_ - dem_step_);
-           const double step = dem_->coarse_step();
-           coupling_->refresh(dem_->rows(),
-                              {fluid_->velocity(), fluid_->stress_divergence(), &fluid_->pressure(),
-                               time() + dem_step_ * step, held * step});
-           dem_->fluid_action_changed();
-         }});
+    dem_graph_.add({"drag",
+                    {"grain.position", "grain.velocity", "fluid.velocity", "fluid.void_fraction"},
+                    {"grain.fluid_action"},
+                    [this] { refresh_drag(); }});
   }
   dem_graph_.add({"neighbour",
                   {"grain.position", "grain.velocity", "grain.fluid_action"},
@@ -47,7 +41,8 @@ void Simulation::build_graphs() {
                   [this] { dem_->integrate(); }});
   dem_graph_.build();
 
-  step_graph_.given({"emitter.state", "grain.state", "fluid.velocity", "fluid.exchange"});
+  step_graph_.given(
+      {"emitter.state", "grain.state", "fluid.velocity", "fluid.exchange", "fluid.held"});
   bool has_removals = false;
   for (const auto& body : setup_.bodies) has_removals |= body.removal.has_value();
   if (has_removals) {
@@ -60,17 +55,26 @@ void Simulation::build_graphs() {
          emit();
        }});
   if (fluid_) add_fluid_nodes();
-  step_graph_.add(
-      {"dem_cycle",
-       coupling_ ? std::vector<std::string>{"grain.state", "fluid.velocity", "fluid.void_fraction"}
-                 : std::vector<std::string>{"grain.state"},
-       {"grain.state", "grain.fluid_impulse"},
-       [this] { run_dem_cycle(); }});
+  std::vector<std::string> seen_by_grains{"grain.state"};
   if (coupling_) {
-    step_graph_.add({"collect",
-                     {"grain.state", "grain.fluid_impulse", "fluid.void_fraction"},
-                     {"fluid.exchange"},
-                     [this] { coupling_->collect(dem_->rows(), setup_.time.fluid_step); }});
+    seen_by_grains.emplace_back(held_fluid_ ? "fluid.held" : "fluid.velocity");
+    seen_by_grains.emplace_back("fluid.void_fraction");
+  }
+  step_graph_.add({"dem_cycle", seen_by_grains, {"grain.state", "grain.fluid_impulse"}, [this] {
+                     run_dem_cycle();
+                   }});
+  if (coupling_) {
+    step_graph_.add(
+        {"collect",
+         {"grain.state", "grain.fluid_impulse", "fluid.void_fraction", "fluid.velocity"},
+         {"fluid.exchange"},
+         [this] {
+           if (held_fluid_) coupling_->settle(dem_->rows(), fluid_->drag_velocity());
+           coupling_->collect(dem_->rows(), setup_.time.fluid_step);
+         }});
+  }
+  if (held_fluid_) {
+    step_graph_.add({"hold_fluid", {"fluid.velocity"}, {"fluid.held"}, [this] { hold_fluid(); }});
   }
   if (fluid_) {
     step_graph_.add(
@@ -94,10 +98,7 @@ void Simulation::add_fluid_nodes() {
   if (!coupling_) {
     step_graph_.add(
         {"fluid", {"fluid.velocity"}, {"fluid.velocity", "fluid.void_fraction"}, [this] {
-           fluid_->advance(time(), setup_.time.fluid_step, no_grains_->void_fraction,
-                           no_grains_->void_fraction, no_grains_->exchange);
-           fluid_sub_steps_ += fluid_->report().sub_steps;
-           pressure_iterations_ += fluid_->report().pressure_iterations;
+           advance_fluid();
          }});
     return;
   }
@@ -111,17 +112,61 @@ void Simulation::add_fluid_nodes() {
                      }
                      coupling_->map(dem_->rows(), setup_.time.fluid_step);
                    }});
+  if (held_fluid_) {
+    step_graph_.add({"fluid",
+                     {"fluid.void_fraction", "fluid.exchange", "fluid.velocity"},
+                     {"fluid.velocity"},
+                     [this] { advance_fluid(); }});
+    return;
+  }
   step_graph_.add({"fluid",
                    {"fluid.void_fraction", "fluid.exchange", "fluid.velocity", "grain.state"},
                    {"fluid.velocity", "fluid.exchange"},
                    [this] {
-                     fluid_->advance(time(), setup_.time.fluid_step,
-                                     coupling_->void_fraction_before(), coupling_->void_fraction(),
-                                     coupling_->exchange());
+                     advance_fluid();
                      coupling_->settle(dem_->rows(), fluid_->drag_velocity());
-                     fluid_sub_steps_ += fluid_->report().sub_steps;
-                     pressure_iterations_ += fluid_->report().pressure_iterations;
                    }});
+}
+
+void Simulation::advance_fluid() {
+  const fluid::CellField& before =
+      coupling_ ? coupling_->void_fraction_before() : no_grains_->void_fraction;
+  const fluid::Exchange& exchange = coupling_ ? coupling_->exchange() : no_grains_->exchange;
+  fluid_->advance(time(), setup_.time.fluid_step, before, void_fraction(), exchange);
+  fluid_sub_steps_ += fluid_->report().sub_steps;
+  pressure_iterations_ += fluid_->report().pressure_iterations;
+}
+
+void Simulation::hold_fluid() {
+  const fluid::FaceField& velocity = fluid_->mean_velocity();
+  const fluid::FaceField& stress = fluid_->stress_divergence();
+  const auto copy = [](const std::vector<double>& from, std::vector<double>& to) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, from.size(), 1U << 15),
+                      [&](const auto& r) {
+                        std::copy_n(from.data() + r.begin(), r.size(), to.data() + r.begin());
+                      });
+  };
+  for (std::size_t d = 0; d < 3; ++d) {
+    copy(velocity.component[d], held_fluid_->velocity.component[d]);
+    copy(stress.component[d], held_fluid_->stress_divergence.component[d]);
+  }
+  copy(fluid_->pressure(), held_fluid_->pressure);
+}
+
+void Simulation::refresh_drag() {
+  if (dem_step_ % dem_steps_per_refresh_ != 0) return;
+  const int held = std::min(dem_steps_per_refresh_, dem_steps_per_fluid_step_ - dem_step_);
+  const double step = dem_->coarse_step();
+  const double now = time() + dem_step_ * step;
+  if (held_fluid_) {
+    const HeldFluid& h = *held_fluid_;
+    coupling_->refresh(dem_->rows(),
+                       {h.velocity, h.stress_divergence, &h.pressure, now, held * step});
+  } else {
+    coupling_->refresh(dem_->rows(), {fluid_->velocity(), fluid_->stress_divergence(),
+                                      &fluid_->pressure(), now, held * step});
+  }
+  dem_->fluid_action_changed();
 }
 
 void Simulation::add_sensor_nodes() {

@@ -275,6 +275,11 @@ const ParameterSchema& CouplingBlock::schema() {
               "Whether what a grain does to the fluid by itself, its own void fraction, wake and "
               "pressure, is taken off before its drag is found.")
         .optional();
+    s.boolean(&CouplingBlock::overlap, "overlap",
+              "Whether the fluid's step and the grains' cycle run at the same time: the grains see "
+              "the fluid of the step before. Saves time on several cores; first order in the fluid "
+              "step.")
+        .optional();
     return s.build();
   }();
   return made;

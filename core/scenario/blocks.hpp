@@ -138,6 +138,7 @@ struct RegionBlock {
 struct CouplingBlock {
   bool one_way = false;
   bool correct_own_disturbance = false;
+  bool overlap = false;
   static const sdk::ParameterSchema& schema();
 };
 

@@ -103,6 +103,7 @@ void SetupReader::read_coupling(MapReader& top) {
   if (setup_.fluid) {
     setup_.fluid->is_one_way = coupling.one_way;
     setup_.fluid->corrects_own_disturbance = coupling.correct_own_disturbance;
+    setup_.fluid->overlaps_grains = coupling.overlap;
     if (coupling.correct_own_disturbance) check_own_disturbance(entry->where);
   }
   out_.add("coupling", written_block<CouplingBlock>(values));

@@ -144,7 +144,8 @@ struct FluidSpec {
   double largest_cfl = 1.0;          ///< sub-steps keep the Courant number below
   bool is_one_way = false;           ///< grains feel the fluid, the fluid does not feel the grains
   bool corrects_own_disturbance =
-      false;                         ///< grains do not feel what they do to the fluid by themselves
+      false;                     ///< grains do not feel what they do to the fluid by themselves
+  bool overlaps_grains = false;  ///< solved while the grains move in the fluid of the step before
   std::vector<FluidRegion> regions;  ///< the last one that holds a place counts
   Mark where;
 };

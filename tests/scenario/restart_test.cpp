@@ -46,6 +46,30 @@ TEST_CASE("an interrupted run shall go on to the same bits and the same series")
   }
 }
 
+TEST_CASE(
+    "air that overlaps the grains shall give the same bits on any threads and after a resume") {
+  const TemporaryFolder folder;
+  const auto run = [&](const std::string& name, const std::string& end, const std::string& threads,
+                       std::vector<std::string> more) {
+    std::vector<std::string> arguments{"run",         k_scenario, "-o",
+                                       folder / name, "--set",    "time.end=" + end,
+                                       "--threads",   threads,    "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto done = engine(arguments);
+    INFO(done.err);
+    REQUIRE(done.status == 0);
+    return json_text(folder / name / "summary.json", "state_sha256");
+  };
+  const std::vector<std::string> overlap{"--set", "coupling.overlap=true"};
+  const auto whole = run("whole", "24 ms", "1", overlap);
+  CHECK(run("threads", "24 ms", "2", overlap) == whole);
+  run("parts", "13 ms", "2", overlap);
+  auto resume = overlap;
+  resume.emplace_back("--resume");
+  CHECK(run("parts", "24 ms", "2", resume) == whole);
+  CHECK(run("turns", "24 ms", "1", {}) != whole);
+}
+
 TEST_CASE("a finished run shall be continued to a later end with the bits of the whole") {
   const TemporaryFolder folder;
   const fs::path parts = folder / "parts";

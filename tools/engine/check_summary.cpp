@@ -141,6 +141,7 @@ void tell_fluid(std::ostream& out, const Setup& setup, const Derived& derived) {
       << counted(static_cast<double>(n[0]) * n[1] * n[2]) << " cells, the smallest edge "
       << engineering(derived.smallest_spacing, "m") << "; momentum set "
       << setup.fluid->momentum_set << (setup.fluid->is_one_way ? ", one-way coupling" : "")
+      << (setup.fluid->overlaps_grains ? ", solved while the grains move" : "")
       << (setup.turbulence ? ", turbulence " + setup.turbulence->name : "") << '\n';
   out << "             Courant number " << digits(derived.courant_number) << " at "
       << digits(derived.expected_speed) << " m/s (sub-steps keep it below "

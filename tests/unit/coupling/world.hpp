@@ -126,6 +126,7 @@ struct World {
     double viscosity = k_air_viscosity;
     bool is_one_way = false;
     bool corrects_own_disturbance = false;
+    bool overlaps = false;
     std::function<double(int, int, int)> open;  ///< open fraction of a cell; null = 1 everywhere
   };
 
@@ -147,6 +148,7 @@ struct World {
     setup.fluid->momentum_set = c.momentum_set;
     setup.fluid->is_one_way = c.is_one_way;
     setup.fluid->corrects_own_disturbance = c.corrects_own_disturbance;
+    setup.fluid->overlaps_grains = c.overlaps;
     if (c.open) {
       for_cells([&](int i, int j, int k) { open[grid.index(i, j, k)] = c.open(i, j, k); });
     }

@@ -101,6 +101,7 @@ void check_same(const Setup& a, const Setup& b) {
     CHECK(a.fluid->largest_cfl == b.fluid->largest_cfl);
     CHECK(a.fluid->is_one_way == b.fluid->is_one_way);
     CHECK(a.fluid->corrects_own_disturbance == b.fluid->corrects_own_disturbance);
+    CHECK(a.fluid->overlaps_grains == b.fluid->overlaps_grains);
   }
   check_same(a.drag, b.drag);
   check_same(a.voidage, b.voidage);
@@ -156,6 +157,7 @@ TEST_CASE("a resolved scenario with settings shall give the same setup when read
                                       {"time.dem_step", "1.7 us"},
                                       {"coupling.one_way", "true"},
                                       {"coupling.correct_own_disturbance", "true"},
+                                      {"coupling.overlap", "true"},
                                       {"gravity", "[0.1, 0.2, -9.7]"}});
 }
 

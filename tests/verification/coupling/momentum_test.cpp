@@ -13,20 +13,22 @@ constexpr double k_side = 4e-3;      // of the periodic box [m]
 constexpr double k_air_speed = 0.5;  // at the start [m/s]
 constexpr double k_fluid_step = 1e-3;
 constexpr int k_steps = 20;
+constexpr int k_overlapped_steps = 150;
 constexpr double k_pressure_tolerance = 1e-10;
 constexpr double k_smallest_cfl = 0.1;  // a Courant number of 0.5 makes 5 sub-steps
 
 /// Air and grains in a periodic box, coupled as a run couples them.
 struct Cloud {
-  Cloud() : world(periodic_box()) {
+  explicit Cloud(bool overlaps = false) : world(periodic_box(overlaps)) {
     world.setup.fluid->largest_cfl = k_smallest_cfl;
     world.setup.fluid->pressure_tolerance = k_pressure_tolerance;
     air = std::make_unique<fluid::FluidSolver>(world.grid, *world.setup.fluid, bodies,
                                                fluid::Boundaries{});
     air->set_velocity([](sdk::Vec3) { return sdk::Vec3{k_air_speed, 0, 0}; });
   }
-  static World::Choice periodic_box() {
+  static World::Choice periodic_box(bool overlaps) {
     World::Choice choice;
+    choice.overlaps = overlaps;
     choice.max = {k_side, k_side, k_side};
     choice.cells = {4, 4, 4};
     choice.periodic = {true, true, true};
@@ -38,17 +40,30 @@ struct Cloud {
   /// the end of the fluid step for what drag acted on.
   void step(bool is_settled) {
     coupling::Coupling& coupling = *world.coupling;
+    const bool overlaps = world.choice.overlaps;
+    if (overlaps && time == 0.0) hold_air();
     coupling.map(world.grains.rows(), k_fluid_step);
     air->advance(time, k_fluid_step, coupling.void_fraction_before(), coupling.void_fraction(),
                  coupling.exchange());
     time += k_fluid_step;
-    if (is_settled) coupling.settle(world.grains.rows(), air->drag_velocity());
+    if (!overlaps) {
+      if (is_settled) coupling.settle(world.grains.rows(), air->drag_velocity());
+      hold_air();
+    }
     const int refreshes = static_cast<int>(std::lround(k_fluid_step / coupling.refresh_interval()));
     for (int n = 0; n < refreshes; ++n) {
-      coupling.refresh(world.grains.rows(), air->velocity(), air->stress_divergence());
+      coupling.refresh(world.grains.rows(), world.velocity, world.stress);
       world.grains.move(k_fluid_step / refreshes, {});
     }
+    if (overlaps) {
+      coupling.settle(world.grains.rows(), air->drag_velocity());
+      hold_air();
+    }
     coupling.collect(world.grains.rows(), k_fluid_step);
+  }
+  void hold_air() {
+    world.velocity = world.choice.overlaps ? air->mean_velocity() : air->velocity();
+    world.stress = air->stress_divergence();
   }
 
   /// [N s] of the air: interstitial velocity times the mass of air in each face's volume.
@@ -93,18 +108,20 @@ struct Cloud {
 struct Drift {
   double largest = 0.0;
   double given_to_grains = 0.0;  ///< share of the momentum, to see that something was exchanged
+  double most_given = 0.0;       ///< the largest share during the run
 };
-Drift drift_of(Cloud& cloud, bool is_settled) {
+Drift drift_of(Cloud& cloud, bool is_settled, int steps = k_steps) {
   // The grains are there from the first step on: the air fills what they leave of the box.
   const double air = k_side * k_side * k_side - cloud.world.grains.solid_volume();
   const sdk::Vec3 start{test::k_air * air * k_air_speed, 0, 0};
   Drift drift;
-  for (int step = 0; step < k_steps; ++step) {
+  for (int step = 0; step < steps; ++step) {
     cloud.step(is_settled);
     // Heavily loaded air comes to rest, which takes fewer.
     if (step == 0) REQUIRE(cloud.air->report().sub_steps > 1);
     const sdk::Vec3 now = cloud.air_momentum() + cloud.grain_momentum() + cloud.on_the_way();
     drift.largest = std::max(drift.largest, norm(now - start) / norm(start));
+    drift.most_given = std::max(drift.most_given, norm(cloud.grain_momentum()) / norm(start));
   }
   drift.given_to_grains = cloud.grain_momentum().x / start.x;
   return drift;
@@ -152,6 +169,14 @@ TEST_CASE("momentum of air in sub-steps and uniform dust shall be conserved") {
     const double grains = test::k_sand * load.solids;
     const double air = test::k_air * (1.0 - load.solids);
     CHECK(drift.given_to_grains == doctest::Approx(grains / (grains + air)).epsilon(0.05));
+    // The same where the grains move in the air of the step before while it is solved.
+    Cloud overlapped(true);
+    fill_regularly(overlapped.world, load.diameter, load.solids);
+    // In the first step they are given what the air of the start would give, up to 22 times the
+    // momentum there is; heavy dust of 5 um settles slowly after that.
+    const Drift of_overlap = drift_of(overlapped, true, k_overlapped_steps);
+    CHECK(of_overlap.largest < k_conserved * std::max(1.0, of_overlap.most_given));
+    CHECK(of_overlap.given_to_grains == doctest::Approx(grains / (grains + air)).epsilon(0.05));
     // With the velocity at the end of the fluid step for what drag acted on, momentum is made or
     // lost: 0.14, 0.15, 0.0027 and 0.88 of all there is.
     Cloud unsettled;
@@ -172,6 +197,12 @@ TEST_CASE("momentum of air in sub-steps and scattered dust shall be conserved") 
     const Drift drift = drift_of(cloud, true);
     CHECK(drift.largest < k_conserved * load.solids + 1e-6);
     CHECK(drift.given_to_grains > 0.1);
+    Cloud overlapped(true);
+    fill_at_random(overlapped.world, load.diameter, load.solids);
+    // The pressure that the grains feel is that of the step before; at the start there is none.
+    const Drift of_overlap = drift_of(overlapped, true, k_overlapped_steps);
+    CHECK(of_overlap.largest < load.solids);
+    CHECK(of_overlap.given_to_grains > 0.1);
   }
 }
 

@@ -36,25 +36,37 @@ struct TwoWay {
     const double length = world.choice.fluid_step;
     // The grains were there before: the first step must not push their volume of fluid aside.
     if (time == 0.0) coupling.map(world.grains.rows(), length);
+    const bool overlaps = world.choice.overlaps;
     coupling.map(world.grains.rows(), length);
     solver->advance(time, length, coupling.void_fraction_before(), coupling.void_fraction(),
                     driven(coupling.exchange()));
     time += length;
-    coupling.settle(world.grains.rows(), solver->drag_velocity());
-    world.stress = solver->stress_divergence();
-    for (int d = 0; d < 3; ++d) {
-      for (double& s : world.stress.component[d]) s += drive[d];
+    if (!overlaps) {
+      coupling.settle(world.grains.rows(), solver->drag_velocity());
+      hold_fluid();
     }
     const int refreshes = static_cast<int>(std::lround(length / coupling.refresh_interval()));
     for (int n = 0; n < refreshes; ++n) {
-      coupling.refresh(world.grains.rows(), solver->velocity(), world.stress);
+      coupling.refresh(world.grains.rows(), world.velocity, world.stress);
       if (is_held) {
         world.grains.hold(length / refreshes);
       } else {
         world.grains.move(length / refreshes, gravity);
       }
     }
+    if (overlaps) {
+      coupling.settle(world.grains.rows(), solver->drag_velocity());
+      hold_fluid();
+    }
     coupling.collect(world.grains.rows(), length);
+  }
+  /// What the grains see from now on.
+  void hold_fluid() {
+    world.velocity = world.choice.overlaps ? solver->mean_velocity() : solver->velocity();
+    world.stress = solver->stress_divergence();
+    for (int d = 0; d < 3; ++d) {
+      for (double& s : world.stress.component[d]) s += drive[d];
+    }
   }
   const fluid::Exchange& driven(const fluid::Exchange& exchange) {
     if (norm(drive) == 0.0) return exchange;
