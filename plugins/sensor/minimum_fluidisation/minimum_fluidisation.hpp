@@ -120,8 +120,13 @@ inline Ramp evaluate(const std::vector<Point>& points, double fixed_share, doubl
   }
   const Line plateau = fit(fluid, pressure);
   ramp.plateau = fluid.empty() ? 0.0 : plateau.mean;
-  ramp.by_pressure = crossing(bed, plateau);
-  ramp.by_height = crossing(fit(packed, height), fit(fluid, height));
+  // Lines that cross where nothing was measured tell of no change of state: a bed that compacts all
+  // the way has two lines of height nearly in one.
+  const auto seen = [&](const Crossing& c) {
+    return c.velocity >= slowest && c.velocity <= fastest ? c : Crossing{};
+  };
+  ramp.by_pressure = seen(crossing(bed, plateau));
+  ramp.by_height = seen(crossing(fit(packed, height), fit(fluid, height)));
   return ramp;
 }
 
