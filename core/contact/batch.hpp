@@ -74,13 +74,17 @@ class BatchColumns {
   };
 
   BatchColumns() : data_(static_cast<std::size_t>(k_columns) * k_stride, 0.0) {
-    for (int n = 0; n < k_max_history; ++n)
-      history_[static_cast<std::size_t>(n)] = column(first_history + n);
+    keep_history_here();
   }
   [[nodiscard]] double* column(int name) {
     return data_.data() + static_cast<std::size_t>(name) * k_stride;
   }
   [[nodiscard]] double* const* history() const { return history_.data(); }
+  /// Laws find the histories in columns elsewhere, `stride` apart, or again in the last columns.
+  void keep_history_at(double* first, std::size_t stride) {
+    for (auto& column : history_) column = first, first += stride;
+  }
+  void keep_history_here() { keep_history_at(column(first_history), k_stride); }
 
   /// The batch a law sees. `first_history_column` skips the columns of other stages.
   [[nodiscard]] sdk::ContactBatch view(std::size_t count, double time_step,

@@ -67,6 +67,9 @@ void store_history(const PairView& pairs, const std::int32_t* contacts, std::siz
 /// Adds forces and torques to rows of eight doubles; `places` stand in the order of the list.
 void scatter_pairs(const Places* places, const std::int32_t* contacts, std::size_t count,
                    bool has_scales, BatchColumns& columns, double* force);
+/// The same for contacts that stand in the order of `places`.
+void scatter_pairs(const Places* places, std::size_t count, bool has_scales, BatchColumns& columns,
+                   double* force);
 /// The same for surfaces: only side i receives.
 void scatter_single(const std::int32_t* local_rows, std::size_t count, BatchColumns& columns,
                     double* force);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/lanes.hpp"
-#include "contact/batch_kernels.hpp"
+#include "contact/standing.hpp"
 #include "dust/sdk/plugin.hpp"
 
 #include <algorithm>
@@ -121,16 +121,37 @@ __attribute__((always_inline)) inline void load_columns(const double* rows, cons
              rows + 4 * static_cast<std::ptrdiff_t>(n[3]), column);
 }
 
-/// Loads what the contacts found want besides the separation; the columns are filled up to the
-/// padded count with the last contact.
-__attribute__((always_inline)) inline void load_motion(const RowView& rows, const PairView& pairs,
-                                                       std::int32_t* contacts, std::size_t found,
-                                                       BatchColumns& columns) {
+/// What pairs a[0..4), b[0..4) want besides the separation, into the columns from q on.
+__attribute__((always_inline)) inline void load_motion(const RowView& rows, const std::int32_t* a,
+                                                       const std::int32_t* b, std::size_t q,
+                                                       double* columns) {
+  using B = BatchColumns;
+  const auto put = [&](int name, const Lanes& value) __attribute__((always_inline)) {
+    store(columns + static_cast<std::size_t>(name) * k_stride + q, value);
+  };
+  Lanes i[4];
+  Lanes j[4];
+  load_columns(rows.velocity, a, i);
+  load_columns(rows.velocity, b, j);
+  for (int d = 0; d < 3; ++d) put(B::velocity_x + d, i[d] - j[d]);
+  put(B::inverse_mass, i[3] + j[3]);
+  load_columns(rows.rotation, a, i);
+  load_columns(rows.rotation, b, j);
+  for (int d = 0; d < 3; ++d) {
+    put(B::rotation_i_x + d, i[d]);
+    put(B::rotation_j_x + d, j[d]);
+  }
+  put(B::radius_i, i[3]);
+  put(B::radius_j, j[3]);
+}
+
+/// The same for the contacts found; the columns are filled up to the padded count with the last
+/// contact.
+__attribute__((always_inline)) inline void load_motions(const RowView& rows, const PairView& pairs,
+                                                        std::int32_t* contacts, std::size_t found,
+                                                        BatchColumns& columns) {
   using B = BatchColumns;
   double* const c = columns.column(0);
-  const auto put = [&](int name, std::size_t q, const Lanes& value) __attribute__((always_inline)) {
-    store(c + static_cast<std::size_t>(name) * k_stride + q, value);
-  };
   const std::size_t last = found - 1;
   for (std::size_t q = found; q < padded(found); ++q) {
     contacts[q] = contacts[last];
@@ -146,21 +167,67 @@ __attribute__((always_inline)) inline void load_motion(const RowView& rows, cons
       a[l] = pairs.a[contacts[q + l]];
       b[l] = pairs.b[contacts[q + l]];
     }
-    Lanes i[4];
-    Lanes j[4];
-    load_columns(rows.velocity, a, i);
-    load_columns(rows.velocity, b, j);
-    for (int d = 0; d < 3; ++d) put(B::velocity_x + d, q, i[d] - j[d]);
-    put(B::inverse_mass, q, i[3] + j[3]);
-    load_columns(rows.rotation, a, i);
-    load_columns(rows.rotation, b, j);
-    for (int d = 0; d < 3; ++d) {
-      put(B::rotation_i_x + d, q, i[d]);
-      put(B::rotation_j_x + d, q, j[d]);
-    }
-    put(B::radius_i, q, i[3]);
-    put(B::radius_j, q, j[3]);
+    load_motion(rows, a, b, q, c);
   }
+}
+
+template <bool is_periodic>
+__attribute__((always_inline)) inline std::size_t load_standing(
+    const RowView& rows, const Images& images, const PairView& pairs, std::size_t first,
+    std::size_t count, double range, BatchColumns& columns) {
+  using B = BatchColumns;
+  const RowView r = rows;  // a copy: the bytes of is_touching may alias whatever stands in memory
+  const std::int32_t* const pa = pairs.a + first;
+  const std::int32_t* const pb = pairs.b + first;
+  std::uint8_t* const is_touching = pairs.is_touching + first;
+  const std::size_t last_four = pairs.count - first - 4;
+  double* const c = columns.column(0);
+  const Lanes sign{-1.0, -1.0, -1.0, 1.0};
+  const Lanes length{images.length[0], images.length[1], images.length[2], 0.0};
+  const Lanes half{images.half[0], images.half[1], images.half[2], HUGE_VAL};
+  std::size_t near = 0;
+  for (std::size_t q = 0; q < count; q += 4) {
+    const std::size_t later = std::min(q + k_ahead, last_four);
+    for (std::size_t l = 0; l < 4; ++l) {
+      const std::ptrdiff_t ahead = 4 * static_cast<std::ptrdiff_t>(pb[later + l]);
+      __builtin_prefetch(r.position + ahead);
+      __builtin_prefetch(r.velocity + ahead);
+      __builtin_prefetch(r.rotation + ahead);
+      __builtin_prefetch(pairs.history + (first + q + l) * pairs.history_stride, 1);
+    }
+    Lanes x[4];
+    for (int l = 0; l < 4; ++l) {
+      x[l] = row(r.position, pa[q + static_cast<std::size_t>(l)]) +
+             sign * row(r.position, pb[q + static_cast<std::size_t>(l)]);
+      if constexpr (is_periodic) fold(x[l], length, half);
+    }
+    transpose(x[0], x[1], x[2], x[3]);
+    const Lanes reach = x[3] + range;
+    const LaneMask is_near = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < reach * reach) & k_bits;
+    const auto touch = static_cast<unsigned>(is_near[0] | is_near[1] | is_near[2] | is_near[3]);
+    std::memcpy(is_touching + q, &k_bytes[touch], 4);
+    near += static_cast<std::size_t>(__builtin_popcount(touch));
+    for (int d = 0; d < 3; ++d) {
+      store(c + static_cast<std::size_t>(B::separation_x + d) * k_stride + q, x[d]);
+    }
+    load_motion(r, pa + q, pb + q, q, c);
+  }
+  return near;
+}
+
+DUST_KERNEL std::size_t standing_open(const RowView& rows, const Images& images,
+                                      const PairView& pairs, std::size_t first, std::size_t count,
+                                      double range, BatchColumns& columns) {
+  return load_standing<false>(rows, images, pairs, first, count, range, columns);
+}
+DUST_KERNEL std::size_t standing_periodic(const RowView& rows, const Images& images,
+                                          const PairView& pairs, std::size_t first,
+                                          std::size_t count, double range, BatchColumns& columns) {
+  return load_standing<true>(rows, images, pairs, first, count, range, columns);
+}
+
+[[nodiscard]] bool has_images(const Images& images) {
+  return images.length[0] + images.length[1] + images.length[2] > 0.0;
 }
 
 template <bool is_periodic>
@@ -171,7 +238,7 @@ __attribute__((always_inline)) inline std::size_t gather(const RowView& rows, co
                                                          BatchColumns& columns) {
   const std::size_t found =
       find_near<is_periodic>(rows, images, pairs, next, end, range, contacts, columns);
-  if (found > 0) load_motion(rows, pairs, contacts, found, columns);
+  if (found > 0) load_motions(rows, pairs, contacts, found, columns);
   return found;
 }
 
@@ -193,9 +260,15 @@ DUST_KERNEL std::size_t gather_periodic(const RowView& rows, const Images& image
 std::size_t gather_touching(const RowView& rows, const Images& images, const PairView& pairs,
                             std::size_t& next, std::size_t end, double range,
                             std::int32_t* contacts, BatchColumns& columns) {
-  const bool is_periodic = images.length[0] + images.length[1] + images.length[2] > 0.0;
-  return (is_periodic ? gather_periodic : gather_open)(rows, images, pairs, next, end, range,
-                                                       contacts, columns);
+  return (has_images(images) ? gather_periodic : gather_open)(rows, images, pairs, next, end, range,
+                                                              contacts, columns);
+}
+
+std::size_t gather_standing(const RowView& rows, const Images& images, const PairView& pairs,
+                            std::size_t first, std::size_t count, double range,
+                            BatchColumns& columns) {
+  return (has_images(images) ? standing_periodic : standing_open)(rows, images, pairs, first, count,
+                                                                  range, columns);
 }
 
 DUST_KERNEL void load_history(const PairView& pairs, const std::int32_t* contacts,

@@ -52,7 +52,7 @@ __attribute__((always_inline)) inline void add(const Places& place, const Lanes&
   }
 }
 
-template <bool has_scales>
+template <bool has_scales, bool is_in_order>
 __attribute__((always_inline)) inline void scatter(const Places* places,
                                                    const std::int32_t* contacts, std::size_t count,
                                                    BatchColumns& columns, double* force) {
@@ -70,8 +70,8 @@ __attribute__((always_inline)) inline void scatter(const Places* places,
   Lanes ti[4];
   Lanes tj[4];
   const auto add_lane = [&](std::size_t q, std::size_t l) __attribute__((always_inline)) {
-    add<has_scales>(places[contacts[q + l]], f[l], ti[l], tj[l], scale_i[q + l], scale_j[q + l],
-                    force);
+    const Places& place = is_in_order ? places[q + l] : places[contacts[q + l]];
+    add<has_scales>(place, f[l], ti[l], tj[l], scale_i[q + l], scale_j[q + l], force);
   };
   std::size_t q = 0;
   for (; q < count; q += 4) {
@@ -87,11 +87,19 @@ __attribute__((always_inline)) inline void scatter(const Places* places,
 
 DUST_KERNEL void scatter_alike(const Places* places, const std::int32_t* contacts,
                                std::size_t count, BatchColumns& columns, double* force) {
-  scatter<false>(places, contacts, count, columns, force);
+  scatter<false, false>(places, contacts, count, columns, force);
+}
+DUST_KERNEL void scatter_in_order(const Places* places, std::size_t count, BatchColumns& columns,
+                                  double* force) {
+  scatter<false, true>(places, nullptr, count, columns, force);
+}
+DUST_KERNEL void scatter_weighted_in_order(const Places* places, std::size_t count,
+                                           BatchColumns& columns, double* force) {
+  scatter<true, true>(places, nullptr, count, columns, force);
 }
 DUST_KERNEL void scatter_weighted(const Places* places, const std::int32_t* contacts,
                                   std::size_t count, BatchColumns& columns, double* force) {
-  scatter<true>(places, contacts, count, columns, force);
+  scatter<true, false>(places, contacts, count, columns, force);
 }
 
 }  // namespace
@@ -99,6 +107,11 @@ DUST_KERNEL void scatter_weighted(const Places* places, const std::int32_t* cont
 void scatter_pairs(const Places* places, const std::int32_t* contacts, std::size_t count,
                    bool has_scales, BatchColumns& columns, double* force) {
   (has_scales ? scatter_weighted : scatter_alike)(places, contacts, count, columns, force);
+}
+
+void scatter_pairs(const Places* places, std::size_t count, bool has_scales, BatchColumns& columns,
+                   double* force) {
+  (has_scales ? scatter_weighted_in_order : scatter_in_order)(places, count, columns, force);
 }
 
 void scatter_single(const std::int32_t* local_rows, std::size_t count, BatchColumns& columns,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "contact/standing.hpp"
 #include "particles/impl.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -160,15 +161,63 @@ void Dem::Impl::take_gifts(Chunk& chunk) {
   }
 }
 
+/// Statistical weights of the sides of a batch; returns whether any two differ.
+bool Dem::Impl::find_scales(const contact::PairView& pairs, const std::int32_t* contacts,
+                            std::size_t first, std::size_t count, BatchColumns& columns) const {
+  if (!has_weights) return false;
+  bool has_scales = false;
+  double* scale_i = columns.column(BatchColumns::scale_i);
+  double* scale_j = columns.column(BatchColumns::scale_j);
+  for (std::size_t q = 0; q < count; ++q) {
+    const std::size_t entry =
+        contacts == nullptr ? first + q : static_cast<std::size_t>(contacts[q]);
+    const double wi = store.weight[static_cast<std::size_t>(pairs.a[entry])];
+    const double wj = store.weight[static_cast<std::size_t>(pairs.b[entry])];
+    // Sum of w m v is kept: side i feels min(1, w_j / w_i) of the force.
+    scale_i[q] = wj < wi ? wj / wi : 1.0;
+    scale_j[q] = wi < wj ? wi / wj : 1.0;
+    has_scales = has_scales || wi != wj;
+  }
+  return has_scales;
+}
+
+/// Contacts that touched when the watch began: nearly all still do, so that nobody is sorted out,
+/// and their histories stand where the laws look for them.
+void Dem::Impl::standing_pairs(const Segment& segment, Chunk& chunk, double* force) {
+  const contact::PairView pairs = chunk.pairs.view(history_stride);
+  const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
+  auto& columns = thread_columns();
+  const auto end = static_cast<std::size_t>(segment.standing);
+  for (auto p = static_cast<std::size_t>(segment.begin); p < end; p += k_batch) {
+    const std::size_t count = std::min(k_batch, end - p);
+    const std::size_t near =
+        contact::gather_standing(row_view(), images, pairs, p, count, law.range, columns);
+    columns.keep_history_at(pairs.history + p * history_stride, count);
+    const double overlap = contact::derive_pair_columns(columns, count);
+    chunk.largest_overlap = std::max(chunk.largest_overlap, overlap);
+    if (near < count) contact::hold_apart(pairs.is_touching + p, count, columns);
+    evaluate_laws(law, columns, count, steps.coarse_step);
+    if (near < count) {
+      contact::forget_apart(pairs.is_touching + p, count, history_stride, columns);
+    }
+    chunk.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(near);
+    const bool has_scales = find_scales(pairs, nullptr, p, count, columns);
+    contact::scatter_pairs(chunk.places.data() + p, count, has_scales, columns, force);
+  }
+  columns.keep_history_here();
+}
+
 void Dem::Impl::chunk_pairs(Chunk& chunk, double* force) {
   std::int32_t contacts[k_batch];
   auto& columns = thread_columns();
   const contact::PairView pairs = chunk.pairs.view(history_stride);
   const contact::RowView rows = row_view();
   const int groups = static_cast<int>(history_stride / 4);
+  stand(chunk.pairs);
   for (const Segment& segment : chunk.pairs.segments) {
+    standing_pairs(segment, chunk, force);
     const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
-    auto next = static_cast<std::size_t>(segment.begin);
+    auto next = static_cast<std::size_t>(segment.standing);
     const auto end = static_cast<std::size_t>(segment.end);
     std::size_t found = 0;
     while (next < end) {
@@ -181,17 +230,7 @@ void Dem::Impl::chunk_pairs(Chunk& chunk, double* force) {
       chunk.largest_overlap = std::max(chunk.largest_overlap, overlap);
       evaluate_laws(law, columns, count, steps.coarse_step);
       if (law.cohesion) chunk.contacts += in_touch(columns, count);
-      bool has_scales = false;
-      double* scale_i = columns.column(BatchColumns::scale_i);
-      double* scale_j = columns.column(BatchColumns::scale_j);
-      for (std::size_t q = 0; has_weights && q < count; ++q) {
-        const double wi = store.weight[static_cast<std::size_t>(pairs.a[contacts[q]])];
-        const double wj = store.weight[static_cast<std::size_t>(pairs.b[contacts[q]])];
-        // Sum of w m v is kept: side i feels min(1, w_j / w_i) of the force.
-        scale_i[q] = wj < wi ? wj / wi : 1.0;
-        scale_j[q] = wi < wj ? wi / wj : 1.0;
-        has_scales = has_scales || wi != wj;
-      }
+      const bool has_scales = find_scales(pairs, contacts, 0, count, columns);
       contact::store_history(pairs, contacts, count, groups, columns);
       contact::scatter_pairs(chunk.places.data(), contacts, count, has_scales, columns, force);
     }

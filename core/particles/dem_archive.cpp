@@ -28,7 +28,7 @@ struct FlatLists {
     touching.insert(touching.end(), list.is_touching.begin(), list.is_touching.end());
     history.insert(history.end(), list.history.begin(), list.history.end());
     for (const Segment& s : list.segments) {
-      segments.insert(segments.end(), {s.law, s.surface, s.begin, s.end});
+      segments.insert(segments.end(), {s.law, s.surface, s.begin, s.end, s.standing});
     }
   }
   void add(const VerletList& list) {
@@ -37,7 +37,7 @@ struct FlatLists {
     a.insert(a.end(), list.a.begin(), list.a.end());
     b.insert(b.end(), list.b.begin(), list.b.end());
     for (const Segment& s : list.segments) {
-      segments.insert(segments.end(), {s.law, s.surface, s.begin, s.end});
+      segments.insert(segments.end(), {s.law, s.surface, s.begin, s.end, s.standing});
     }
   }
   void save(sdk::ArchiveWriter& archive, const std::string& name) const {
@@ -86,9 +86,9 @@ struct FlatLists {
   void take_segments(std::vector<Segment>& into, std::size_t count) {
     for (std::size_t s = segment_; s < segment_ + count; ++s) {
       const auto get = [&](std::size_t k) {
-        return static_cast<std::int32_t>(segments.at(4 * s + k));
+        return static_cast<std::int32_t>(segments.at(5 * s + k));
       };
-      into.push_back({get(0), get(1), get(2), get(3)});
+      into.push_back({get(0), get(1), get(2), get(3), get(4)});
     }
     segment_ += count;
   }

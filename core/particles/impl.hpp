@@ -41,6 +41,8 @@ struct Segment {
   std::int32_t surface = -1;
   std::int32_t begin = 0;
   std::int32_t end = 0;
+  /// Of a chunk's pairs: [begin, standing) touched when the watch began, a multiple of eight.
+  std::int32_t standing = 0;
 };
 
 /// Verlet list: who may meet whom until the next rebuild. For surfaces `b` is the surface's number.
@@ -54,14 +56,15 @@ struct VerletList {
   [[nodiscard]] std::size_t size() const { return a.size(); }
 };
 
-/// The entries of a Verlet list that may touch during a watch, in its order, with the history of
-/// contacts.
+/// The entries of a Verlet list that may touch during a watch, with the history of contacts: of
+/// each segment first those standing, then the others, both in the list's order.
 struct ContactList {
   std::vector<std::int32_t> a;
   std::vector<std::int32_t> b;
   std::vector<std::uint8_t> is_touching;
   contact::AlignedVector<double> history;
   std::vector<Segment> segments;
+  bool is_standing = false;  ///< histories of standing contacts are in columns
 
   void clear() { a.clear(), b.clear(), is_touching.clear(), history.clear(), segments.clear(); }
   /// `from`: the history of a pair in touch, or null.
@@ -198,8 +201,12 @@ struct Dem::Impl {
   void choose_watch_allowances();
   [[nodiscard]] bool may_meet_surface(std::size_t i, const Surface& surface) const;
   [[nodiscard]] bool flies_straight(std::size_t row) const;
+  // choose.cpp
   void choose_contacts(const VerletList& list, ContactList& contacts,
-                       const std::vector<std::uint8_t>& meets);
+                       const std::vector<std::uint8_t>& meets, bool may_stand) const;
+  void stand(ContactList& contacts) const;
+  void fall_in(ContactList& contacts) const;
+  // watch.cpp, on
   void begin_watch();
   void invite_guests(Chunk& chunk);
   void wake_guests();
@@ -208,6 +215,10 @@ struct Dem::Impl {
 
   // contacts.cpp
   void contact(double time, bool keeps_force);
+  [[nodiscard]] bool find_scales(const contact::PairView& pairs, const std::int32_t* contacts,
+                                 std::size_t first, std::size_t count,
+                                 contact::BatchColumns& columns) const;
+  void standing_pairs(const Segment& segment, Chunk& chunk, double* force);
   void chunk_pairs(Chunk& chunk, double* force);
   void chunk_surfaces(Chunk& chunk, double* force);
   void move_own(Chunk& chunk, const double* force, std::size_t count);

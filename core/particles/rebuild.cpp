@@ -47,7 +47,8 @@ std::uint64_t spread_bits(std::uint64_t v) {
 }  // namespace
 
 void Dem::Impl::neighbours() {
-  if (must_watch || since_watch >= watch_length || must_rebuild || since_rebuild >= horizon) {
+  if (!is_watching || must_watch || since_watch >= watch_length || must_rebuild ||
+      since_rebuild >= horizon) {
     land();
   }
   if (must_mend && !must_rebuild && since_rebuild < horizon) must_rebuild = !mend();

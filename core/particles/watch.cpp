@@ -67,64 +67,6 @@ bool Dem::Impl::flies_straight(std::size_t n) const {
   return sum * bend * bend < limit * limit;
 }
 
-/// The contact list made new: who touches, with the history, and who may come to touch: `meets`,
-/// one byte of 0 or 1 per entry of the list. Without branches on either, which nobody foretells.
-void Dem::Impl::choose_contacts(const VerletList& list, ContactList& contacts,
-                                const std::vector<std::uint8_t>& meets) {
-  struct Choice {
-    std::int32_t entry;    ///< of the list
-    std::int32_t contact;  ///< before, or -1
-  };
-  thread_local std::vector<Choice> chosen;
-  thread_local ContactList next;
-  if (chosen.size() <= list.size()) chosen.resize(list.size() + 1);
-  next.segments.clear();
-  // Copies: what is stored may alias the lists.
-  Choice* const choice = chosen.data();
-  const std::int32_t* const a = list.a.data();
-  const std::int32_t* const b = list.b.data();
-  const std::int32_t* const old_a = contacts.a.data();
-  const std::int32_t* const old_b = contacts.b.data();
-  const std::uint8_t* const was_touching = contacts.is_touching.data();
-  const std::uint8_t* const may_meet = meets.data();
-  const std::size_t before = contacts.size();
-  std::size_t count = 0;
-  std::size_t u = 0;  // of the present contacts, which stand in the order of the list
-  for (const Segment& s : list.segments) {
-    Segment part{s.law, s.surface, static_cast<std::int32_t>(count), 0};
-    for (std::int32_t q = s.begin; q < s.end; ++q) {
-      bool is_known = false;
-      bool is_touching = false;
-      if (u < before) {
-        is_known = (old_a[u] == a[q]) & (old_b[u] == b[q]);
-        is_touching = is_known & (was_touching[u] != 0);
-      }
-      choice[count] = {q, is_touching ? static_cast<std::int32_t>(u) : -1};
-      count += static_cast<std::size_t>(is_touching) | may_meet[q];
-      u += is_known ? 1 : 0;
-    }
-    part.end = static_cast<std::int32_t>(count);
-    if (part.end > part.begin) next.segments.push_back(part);
-  }
-  next.make_room(count, history_stride);
-  alignas(32) static constexpr double k_new[contact::k_max_history] = {};
-  const double* const history = contacts.history.data();
-  const std::size_t stride = history_stride;
-  std::int32_t* const next_a = next.a.data();
-  std::int32_t* const next_b = next.b.data();
-  std::uint8_t* const touches = next.is_touching.data();
-  double* to = next.history.data();
-  for (std::size_t k = 0; k < count; ++k, to += stride) {
-    const auto [q, contact] = choice[k];
-    next_a[k] = a[q];
-    next_b[k] = b[q];
-    touches[k] = contact < 0 ? 0 : 1;
-    const double* from = contact < 0 ? k_new : history + static_cast<std::size_t>(contact) * stride;
-    for (std::size_t h = 0; h < stride; h += 4) std::memcpy(to + h, from + h, 4 * sizeof(double));
-  }
-  contacts.take_exactly(next, count, history_stride);
-}
-
 /// [m/s] of all grains, and of surfaces that come nearer.
 double Dem::Impl::fastest() const {
   const std::size_t blocks = (store.size() + k_block - 1) / k_block;
@@ -239,11 +181,11 @@ void Dem::Impl::begin_watch() {
     meets.resize(near.size());
     contact::mark_approaching(courses, images, largest_range, horizon_time, near.a.data(),
                               near.b.data(), near.size(), meets.data());
-    choose_contacts(near, chunk.pairs, meets);
+    choose_contacts(near, chunk.pairs, meets, true);
     const VerletList& walls = chunk.near_surfaces;
     meets.resize(walls.size());
     for (std::size_t q = 0; q < walls.size(); ++q) meets[q] = surface_meets(walls.a[q], walls.b[q]);
-    choose_contacts(walls, chunk.surfaces, meets);
+    choose_contacts(walls, chunk.surfaces, meets, false);
     chunk.hints.assign(chunk.surfaces.size(), -1);
     invite_guests(chunk);
     const auto wake = [&](std::int32_t row) {
@@ -266,7 +208,7 @@ void Dem::Impl::begin_watch() {
       contact::mark_approaching(courses, images, largest_range, horizon_time, &i, &j, 1, &meets[q]);
     }
   }
-  choose_contacts(near_fine, fine, meets);
+  choose_contacts(near_fine, fine, meets, false);
   for (std::size_t e = 0; e < fine.size(); ++e) {
     is_awake[static_cast<std::size_t>(fine.a[e])] = 1;
     if (fine.b[e] >= 0) {
@@ -384,6 +326,8 @@ DUST_KERNEL void fly_rows(const FlyingRows& r, double step, std::int64_t count, 
 
 /// Ends the watch: who flew makes the steps of the watch, and the lists are looked after.
 void Dem::Impl::land() {
+  oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(),
+                            [&](std::size_t c) { fall_in(chunks[c].pairs); });
   if (!is_watching) return;
   is_watching = false;
   if (since_watch == 0) return;

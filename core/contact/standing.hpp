@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "contact/batch_kernels.hpp"
+
+namespace dust::contact {
+
+/// A block of `count` histories of `stride` numbers, row by row, becomes `stride` columns of
+/// `count`, in the same memory. `count` is a multiple of 8 up to k_batch, `stride` of 4.
+void rows_to_columns(double* block, std::size_t count, std::size_t stride);
+void columns_to_rows(double* block, std::size_t count, std::size_t stride);
+
+/// Loads pairs [first, first + count) into the first columns and tells in `is_touching` which are
+/// closer than touch + `range` [m]. Returns how many are. `count` as above. Brings near what the
+/// pairs further on want.
+std::size_t gather_standing(const RowView& rows, const Images& images, const PairView& pairs,
+                            std::size_t first, std::size_t count, double range,
+                            BatchColumns& columns);
+
+/// Pairs that have parted meet without overlap or motion: no law says anything about them.
+void hold_apart(const std::uint8_t* is_touching, std::size_t count, BatchColumns& columns);
+/// And whatever it said is taken back, the history with it.
+void forget_apart(const std::uint8_t* is_touching, std::size_t count, std::size_t stride,
+                  BatchColumns& columns);
+
+}  // namespace dust::contact
