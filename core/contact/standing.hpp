@@ -17,9 +17,10 @@ std::size_t gather_standing(const RowView& rows, const Images& images, const Pai
                             std::size_t first, std::size_t count, double range,
                             BatchColumns& columns);
 
-/// Pairs that have parted meet without overlap or motion: no law says anything about them.
+/// Pairs that have parted are shown to the laws without overlap or motion: none has to expect what
+/// lies beyond its range.
 void hold_apart(const std::uint8_t* is_touching, std::size_t count, BatchColumns& columns);
-/// And whatever it said is taken back, the history with it.
+/// And whatever a law said of them is taken back, the history with it.
 void forget_apart(const std::uint8_t* is_touching, std::size_t count, std::size_t stride,
                   BatchColumns& columns);
 
