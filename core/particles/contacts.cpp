@@ -5,6 +5,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace dust::particles {
@@ -102,6 +103,24 @@ void evaluate_laws(const PairLaws& law, BatchColumns& columns, std::size_t count
   contact::derive_torques(columns, count, law.rolling != nullptr);
 }
 
+/// Adds what other chunks' contacts do to the grains that stand in their lists. `force`: eight
+/// numbers of each row of the chunk, or of those that wait, by place.
+void Dem::Impl::take_gifts(Chunk& chunk, double* force, ForceOrder order) {
+  for (const Gift& gift : chunk.gifts) {
+    const double* given = chunks[static_cast<std::size_t>(gift.chunk)].guest_force.data() +
+                          8 * static_cast<std::ptrdiff_t>(gift.guest);
+    const auto place = static_cast<std::size_t>(gift.place);
+    const auto at = order == ForceOrder::by_row
+                        ? static_cast<std::size_t>(chunk.awake.rows[place] - chunk.begin)
+                        : place - chunk.moved;
+    double* f = force + 8 * at;
+    for (int d = 0; d < 8; ++d) f[d] += given[d];
+    if (contact_force.empty()) continue;
+    double* kept = contact_force.data() + 4 * static_cast<std::ptrdiff_t>(chunk.awake.rows[place]);
+    for (int d = 0; d < 3; ++d) kept[d] += given[d];
+  }
+}
+
 void Dem::Impl::contact(double now, bool keeps_force) {
   time = now;
   if (keeps_force) {
@@ -111,6 +130,7 @@ void Dem::Impl::contact(double now, bool keeps_force) {
   }
   // What fine grains gave back comes after the contacts: then everybody waits for it.
   const bool all_wait = !pending.empty();
+  ++contact_round;
   for (Surface& s : surfaces) s.move_to(now);
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     Chunk& chunk = chunks[c];
@@ -121,13 +141,39 @@ void Dem::Impl::contact(double now, bool keeps_force) {
     chunk.guest_force.assign(force + 8 * (chunk.end - chunk.begin),
                              force + 8 * (chunk.end - chunk.begin) +
                                  8 * static_cast<std::ptrdiff_t>(chunk.guest_rows.size()));
+    std::atomic_ref(given_in[c]).store(contact_round, std::memory_order_release);
     if (keeps_force) keep_force(chunk, force);
-    move_own(chunk, force, all_wait ? 0 : chunk.awake.own);
+    chunk.is_checked = false;
+    if (!all_wait && has_all_gifts(chunk)) {
+      move_all(chunk, force);
+    } else {
+      move_own(chunk, force, all_wait ? 0 : chunk.awake.own);
+    }
   });
 }
 
-/// Grains nobody else looks at move at once, while their rows and forces are in the cache; the
-/// others' forces are put aside.
+/// Whether all earlier chunks that look at grains of this one have done so. One thread takes the
+/// chunks in order and finds it always so.
+bool Dem::Impl::has_all_gifts(const Chunk& chunk) const {
+  return std::all_of(chunk.givers.begin(), chunk.givers.end(), [&](std::int32_t giver) {
+    return std::atomic_ref(given_in[static_cast<std::size_t>(giver)])
+               .load(std::memory_order_acquire) == contact_round;
+  });
+}
+
+/// Everybody moves at once, while the rows and forces are in the cache.
+void Dem::Impl::move_all(Chunk& chunk, double* force) {
+  const std::span<const std::int32_t> rows = chunk.awake.rows;
+  take_gifts(chunk, force, ForceOrder::by_row);
+  chunk.moved = rows.size();
+  chunk.force.clear();
+  integrate_awake(rows, static_cast<std::size_t>(chunk.begin), force, ForceOrder::by_row);
+  if (!is_check_due()) return;
+  check(chunk, since_watch + 1);
+  chunk.is_checked = true;
+}
+
+/// Grains nobody else looks at move at once; the others' forces are put aside.
 void Dem::Impl::move_own(Chunk& chunk, const double* force, std::size_t count) {
   const std::span<const std::int32_t> rows = chunk.awake.rows;
   const auto first = static_cast<std::size_t>(chunk.begin);
@@ -144,20 +190,6 @@ void Dem::Impl::keep_force(const Chunk& chunk, const double* force) {
   for (const std::int32_t row : chunk.awake.rows) {
     std::copy_n(force + 8 * (row - chunk.begin), 3,
                 contact_force.data() + 4 * static_cast<std::ptrdiff_t>(row));
-  }
-}
-
-/// Adds what other chunks' contacts do to the grains that waited.
-void Dem::Impl::take_gifts(Chunk& chunk) {
-  for (const Gift& gift : chunk.gifts) {
-    const double* given = chunks[static_cast<std::size_t>(gift.chunk)].guest_force.data() +
-                          8 * static_cast<std::ptrdiff_t>(gift.guest);
-    const auto place = static_cast<std::size_t>(gift.place);
-    double* f = chunk.force.data() + 8 * (place - chunk.moved);
-    for (int d = 0; d < 8; ++d) f[d] += given[d];
-    if (contact_force.empty()) continue;
-    double* kept = contact_force.data() + 4 * static_cast<std::ptrdiff_t>(chunk.awake.rows[place]);
-    for (int d = 0; d < 3; ++d) kept[d] += given[d];
   }
 }
 

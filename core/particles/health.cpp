@@ -101,9 +101,9 @@ bool Dem::Impl::is_off_course(std::size_t n) const {
 
 /// The same for the choice of a watch and the grains it keeps awake; the next look comes after
 /// `ahead` coarse steps. Returns how many were off by more than their allowance already.
-std::int64_t Dem::Impl::check_awake(const Awake& awake, std::int64_t ahead,
+std::int64_t Dem::Impl::check_awake(const Awake& awake, std::int64_t done, std::int64_t ahead,
                                     bool& wants_watch) const {
-  const double t = static_cast<double>(since_watch) * steps.coarse_step;
+  const double t = static_cast<double>(done) * steps.coarse_step;
   const double time_ahead = static_cast<double>(ahead) * steps.coarse_step;
   std::int64_t late_grains = 0;
   bool asks = false;

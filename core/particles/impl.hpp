@@ -141,9 +141,11 @@ struct Chunk {
   std::vector<std::int32_t> guest_rows;        ///< each once, ascending
   contact::AlignedVector<double> guest_force;  ///< eight numbers for each of them
   std::vector<Gift> gifts;                     ///< to this chunk's grains, by place
+  std::vector<std::int32_t> givers;            ///< chunks they come from, all of them earlier ones
   /// So many grains at the front of `awake` have made this step already. The others' forces, eight
   /// numbers each, wait in `force` for integrate().
   std::size_t moved = 0;
+  bool is_checked = false;  ///< check_awake() has been made, with the last of them
   contact::AlignedVector<double> force;
   double largest_overlap = 0.0;
   std::int64_t contacts = 0;
@@ -221,9 +223,12 @@ struct Dem::Impl {
   void standing_pairs(const Segment& segment, Chunk& chunk, double* force);
   void chunk_pairs(Chunk& chunk, double* force);
   void chunk_surfaces(Chunk& chunk, double* force);
+  [[nodiscard]] bool has_all_gifts(const Chunk& chunk) const;
+  void move_all(Chunk& chunk, double* force);
   void move_own(Chunk& chunk, const double* force, std::size_t count);
   void keep_force(const Chunk& chunk, const double* force);
-  void take_gifts(Chunk& chunk);
+  enum class ForceOrder { by_row, by_place };
+  void take_gifts(Chunk& chunk, double* force, ForceOrder order);
   void note_wall_loads(Chunk& chunk, const Surface& surface, const std::int32_t* contacts,
                        const bool* is_new, std::size_t count, contact::BatchColumns& columns);
   void force();
@@ -233,7 +238,8 @@ struct Dem::Impl {
 
   // integrate.cpp
   void integrate();
-  enum class ForceOrder { by_row, by_place };
+  [[nodiscard]] bool is_check_due() const;
+  void check(Chunk& chunk, std::int64_t done) const;
   void integrate_awake(std::span<const std::int32_t> rows, std::size_t first, const double* force,
                        ForceOrder order);
 
@@ -254,7 +260,7 @@ struct Dem::Impl {
   [[nodiscard]] bool is_off_course(std::size_t row) const;
   [[nodiscard]] std::int64_t check_course(std::size_t begin, std::size_t end, bool& wants_mending,
                                           bool& wants_rebuild) const;
-  [[nodiscard]] std::int64_t check_awake(const Awake& awake, std::int64_t ahead,
+  [[nodiscard]] std::int64_t check_awake(const Awake& awake, std::int64_t done, std::int64_t ahead,
                                          bool& wants_watch) const;
   void look_for_wraps(std::size_t begin, std::size_t end, bool& wants_rebuild) const;
 
@@ -311,6 +317,9 @@ struct Dem::Impl {
   std::int64_t since_watch = 0;      ///< coarse steps
   std::int64_t watch_length = 64;    ///< most coarse steps of the next watch, or of the present one
   std::int64_t flying = 0;           ///< grains asleep in the present watch
+  std::int64_t contact_round = 0;
+  /// By chunk: the last round whose guest_force is there. Read while others are written.
+  mutable std::vector<std::int64_t> given_in;
   bool is_watching = false;
   bool must_watch = false;
   bool must_mend = false;   ///< grains are off the course the lists suppose

@@ -123,21 +123,32 @@ void Dem::Impl::integrate_awake(std::span<const std::int32_t> rows, std::size_t 
                  steps.coarse_step, has_fluid);
 }
 
+/// Whether the step in hand ends with a look at how far everybody is off the supposed course.
+bool Dem::Impl::is_check_due() const { return (since_watch + 1) % k_check_every == 0; }
+
+/// `done`: steps of the watch, this one included.
+void Dem::Impl::check(Chunk& chunk, std::int64_t done) const {
+  chunk.wants_watch = false;
+  chunk.late = check_awake(chunk.awake, done, k_check_every, chunk.wants_watch);
+}
+
 void Dem::Impl::integrate() {
-  const bool is_check = (since_watch + 1) % k_check_every == 0;
+  const bool is_check = is_check_due();
   ++since_watch;
   ++since_rebuild;
   ++counters.steps;
   counters.particle_steps += static_cast<std::int64_t>(store.size());
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     Chunk& chunk = chunks[c];
-    take_gifts(chunk);
+    if (chunk.moved == chunk.awake.rows.size()) {
+      if (is_check && !chunk.is_checked) check(chunk, since_watch);
+      return;
+    }
+    take_gifts(chunk, chunk.force.data(), ForceOrder::by_place);
     integrate_awake(std::span(chunk.awake.rows).subspan(chunk.moved),
                     static_cast<std::size_t>(chunk.begin), chunk.force.data(),
                     ForceOrder::by_place);
-    if (!is_check) return;
-    chunk.wants_watch = false;
-    chunk.late = check_awake(chunk.awake, k_check_every, chunk.wants_watch);
+    if (is_check) check(chunk, since_watch);
   });
   if (is_check) {
     for (const Chunk& c : chunks) {
@@ -148,7 +159,7 @@ void Dem::Impl::integrate() {
   if (coarse_count < store.size()) {
     fine_pass();
     // Dust squeezed out between coarse grains goes off at several m/s: looked after at every step.
-    counters.late_lists += check_awake(fine_awake, 1, must_watch);
+    counters.late_lists += check_awake(fine_awake, since_watch, 1, must_watch);
   }
 }
 

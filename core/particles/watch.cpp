@@ -126,6 +126,7 @@ void Dem::Impl::wake_guests() {
 /// the lists alone.
 void Dem::Impl::promise_gifts() {
   for (Chunk& chunk : chunks) chunk.gifts.clear();
+  given_in.assign(chunks.size(), 0);
   for (std::size_t c = 0; c < chunks.size(); ++c) {
     const auto& rows = chunks[c].guest_rows;
     for (std::size_t g = 0; g < rows.size(); ++g) {
@@ -137,6 +138,10 @@ void Dem::Impl::promise_gifts() {
     Chunk& chunk = chunks[c];
     std::stable_sort(chunk.gifts.begin(), chunk.gifts.end(),
                      [](const Gift& a, const Gift& b) { return a.place < b.place; });
+    chunk.givers.clear();
+    for (const Gift& gift : chunk.gifts) chunk.givers.push_back(gift.chunk);
+    std::sort(chunk.givers.begin(), chunk.givers.end());
+    chunk.givers.erase(std::unique(chunk.givers.begin(), chunk.givers.end()), chunk.givers.end());
     auto place = static_cast<std::int32_t>(chunk.awake.own);
     for (Gift& gift : chunk.gifts) {
       while (chunk.awake.rows[static_cast<std::size_t>(place)] != gift.place) ++place;
