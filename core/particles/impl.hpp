@@ -352,6 +352,9 @@ struct Dem::Impl {
 void evaluate_laws(const PairLaws& law, contact::BatchColumns& columns, std::size_t count,
                    double time_step);
 
+/// Pairs of a batch that touch; the others are within the range of cohesion.
+std::int64_t in_touch(contact::BatchColumns& columns, std::size_t count);
+
 /// Batch scratch of the calling thread.
 contact::BatchColumns& thread_columns();
 
