@@ -28,6 +28,34 @@ constexpr LaneMask k_pack[16] = {{0, 1, 2, 3}, {0, 1, 2, 3}, {1, 0, 2, 3}, {0, 1
                                  {2, 3, 0, 1}, {0, 2, 3, 1}, {1, 2, 3, 0}, {0, 1, 2, 3}};
 typedef std::int32_t Numbers __attribute__((vector_size(16)));
 
+/// Separations of four pairs.
+template <bool is_periodic>
+class Separation {
+ public:
+  __attribute__((always_inline)) explicit Separation(const Images& images)
+      : length_{images.length[0], images.length[1], images.length[2], 0.0},
+        half_{images.half[0], images.half[1], images.half[2], HUGE_VAL} {}
+
+  /// Into the columns x; returns a bit for each pair that is closer than touch + `range` [m].
+  __attribute__((always_inline)) unsigned operator()(const double* position, const std::int32_t* a,
+                                                     const std::int32_t* b, double range,
+                                                     Lanes* x) const {
+    // x, y, z become differences, the fourth column the sum of the radii.
+    const Lanes sign{-1.0, -1.0, -1.0, 1.0};
+    for (int l = 0; l < 4; ++l) {
+      x[l] = row(position, a[l]) + sign * row(position, b[l]);
+      if constexpr (is_periodic) fold(x[l], length_, half_);
+    }
+    transpose(x[0], x[1], x[2], x[3]);
+    const Lanes reach = x[3] + range;
+    const LaneMask near = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < reach * reach) & k_bits;
+    return static_cast<unsigned>(near[0] | near[1] | near[2] | near[3]);
+  }
+
+ private:
+  const Lanes length_, half_;
+};
+
 /// The pairs from `next` on that are near enough, until a batch is full: their separations and
 /// numbers. Brings near what the contacts further on want. Looks at positions alone: many of a
 /// watch's pairs do not touch, and their velocities would be loaded for nothing.
@@ -49,23 +77,12 @@ __attribute__((always_inline)) inline std::size_t find_near(
   double* const separation_x = columns.column(B::separation_x);
   double* const separation_y = columns.column(B::separation_y);
   double* const separation_z = columns.column(B::separation_z);
-  // x, y, z become differences, the fourth column the sum of the radii.
-  const Lanes sign{-1.0, -1.0, -1.0, 1.0};
-  const Lanes length{images.length[0], images.length[1], images.length[2], 0.0};
-  const Lanes half{images.half[0], images.half[1], images.half[2], HUGE_VAL};
+  const Separation<is_periodic> separate(images);
   std::size_t found = 0;
   const auto look_at = [&](std::size_t p, const std::int32_t* a, const std::int32_t* b,
                            std::size_t lanes) __attribute__((always_inline)) {
     Lanes x[4];
-    for (int l = 0; l < 4; ++l) {
-      x[l] = row(position, a[l]) + sign * row(position, b[l]);
-      if constexpr (is_periodic) fold(x[l], length, half);
-    }
-    transpose(x[0], x[1], x[2], x[3]);
-    const Lanes reach = x[3] + range;
-    const LaneMask near = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < reach * reach) & k_bits;
-    const auto touch =
-        static_cast<unsigned>(near[0] | near[1] | near[2] | near[3]) & ((1u << lanes) - 1u);
+    const unsigned touch = separate(position, a, b, range, x) & ((1u << lanes) - 1u);
     std::uint32_t before = 0;
     const std::uint32_t now = k_bytes[touch];
     std::memcpy(&before, is_touching + p, lanes);
@@ -182,9 +199,7 @@ __attribute__((always_inline)) inline std::size_t load_standing(
   std::uint8_t* const is_touching = pairs.is_touching + first;
   const std::size_t last_four = pairs.count - first - 4;
   double* const c = columns.column(0);
-  const Lanes sign{-1.0, -1.0, -1.0, 1.0};
-  const Lanes length{images.length[0], images.length[1], images.length[2], 0.0};
-  const Lanes half{images.half[0], images.half[1], images.half[2], HUGE_VAL};
+  const Separation<is_periodic> separate(images);
   std::size_t near = 0;
   for (std::size_t q = 0; q < count; q += 4) {
     const std::size_t later = std::min(q + k_ahead, last_four);
@@ -196,15 +211,7 @@ __attribute__((always_inline)) inline std::size_t load_standing(
       __builtin_prefetch(pairs.history + (first + q + l) * pairs.history_stride, 1);
     }
     Lanes x[4];
-    for (int l = 0; l < 4; ++l) {
-      x[l] = row(r.position, pa[q + static_cast<std::size_t>(l)]) +
-             sign * row(r.position, pb[q + static_cast<std::size_t>(l)]);
-      if constexpr (is_periodic) fold(x[l], length, half);
-    }
-    transpose(x[0], x[1], x[2], x[3]);
-    const Lanes reach = x[3] + range;
-    const LaneMask is_near = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < reach * reach) & k_bits;
-    const auto touch = static_cast<unsigned>(is_near[0] | is_near[1] | is_near[2] | is_near[3]);
+    const unsigned touch = separate(r.position, pa + q, pb + q, range, x);
     std::memcpy(is_touching + q, &k_bytes[touch], 4);
     near += static_cast<std::size_t>(__builtin_popcount(touch));
     for (int d = 0; d < 3; ++d) {
