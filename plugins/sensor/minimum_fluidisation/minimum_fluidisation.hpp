@@ -79,6 +79,22 @@ struct Ramp {
   double plateau = 0.0;  ///< [Pa] mean pressure drop of the fluidised bed
 };
 
+/// The slowest points, up to the velocity where more than a few of them have reached `pressure`: a
+/// bubbling bed swings below it too.
+inline std::vector<Point> slow_points(std::vector<Point> points, double pressure) {
+  constexpr double k_few = 0.05;
+  std::stable_sort(points.begin(), points.end(),
+                   [](const Point& a, const Point& b) { return a.velocity < b.velocity; });
+  std::size_t above = 0;
+  std::size_t packed = 0;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    above += points[n].pressure < pressure ? 0 : 1;
+    if (static_cast<double>(above) <= k_few * static_cast<double>(n + 1)) packed = n + 1;
+  }
+  points.resize(packed);
+  return points;
+}
+
 /// The lines of the packed bed (velocity below `fixed_share` of that at which a first line reaches
 /// the plateau) and of the fluidised one (above `fluid_factor` times it), and where they cross. The
 /// plateau is first guessed by the median over the fastest fifth of the ramp.
@@ -101,10 +117,7 @@ inline Ramp evaluate(const std::vector<Point>& points, double fixed_share, doubl
   if (!(guess > 0.0)) return ramp;
   const auto pressure = [](const Point& p) { return p.pressure; };
   const auto height = [](const Point& p) { return p.height; };
-  std::vector<Point> packed;
-  for (const Point& p : points) {
-    if (p.pressure < fixed_share * guess) packed.push_back(p);
-  }
+  std::vector<Point> packed = slow_points(points, fixed_share * guess);
   const Line rough = fit(packed, pressure);
   if (packed.size() < k_fewest || !(rough.slope > 0.0)) return ramp;
   const double first = rough.middle + (guess - rough.mean) / rough.slope;

@@ -61,15 +61,17 @@ TEST_CASE("bed_height shall count masses with weights and look along its directi
 namespace {
 
 /// A bed that costs 2000 Pa/(m/s) until it is fluid at 0.3 m/s, then 600 Pa; it grows from 0.1 m by
-/// 0.2 m/(m/s) beyond. Optionally a hump where it locks, and noise.
+/// 0.2 m/(m/s) beyond. Optionally a hump where it locks, noise and swings.
 struct Ramp {
   double hump = 0.0;
   double noise = 0.0;
+  double swing = 0.0;     ///< of the fluid bed's pressure
   bool compacts = false;  ///< on the way down throughout: its lines of height cross at 0.04 m/s
 
   [[nodiscard]] double pressure(double u, double random) const {
     double p = u < 0.3 ? 2000.0 * u : 600.0;
     if (u > 0.27 && u < 0.33) p += hump * (1.0 - std::abs(u - 0.3) / 0.03);
+    if (u > 0.3) p += swing * 600.0 * (random - 0.5);
     return p + noise * 600.0 * (random - 0.5);
   }
   [[nodiscard]] double height(double u) const {
@@ -130,6 +132,17 @@ TEST_CASE("minimum_fluidisation shall not be misled by a hump or by noise") {
   CHECK(found.uncertainty > 0.0);
   CHECK(found.uncertainty < 0.01);
   CHECK(std::abs(found.value - 0.3) < 3.0 * found.uncertainty);
+}
+
+TEST_CASE("minimum_fluidisation shall not take the swings of a bubbling bed for a packed one") {
+  for (const double swing : {0.5, 1.0}) {
+    CAPTURE(swing);
+    const Figures figures = run({.swing = swing}, {0.6, 0.05}, 4000);
+    const Figure& found = figures.at("falling/by_pressure");
+    CHECK(std::abs(found.value - 0.3) < 3.0 * found.uncertainty);
+    CHECK(found.uncertainty < 0.01);
+    CHECK(figures["falling/plateau"] == doctest::Approx(600.0).epsilon(0.02));
+  }
 }
 
 TEST_CASE("minimum_fluidisation shall say nothing where the ramp does not reach both states") {
