@@ -111,6 +111,17 @@ class Simulation {
   struct HeldFluid {
     fluid::FaceField velocity, stress_divergence;
     fluid::CellField pressure;
+
+    /// What a checkpoint keeps of it, by name.
+    template <class Visit>
+    void each(Visit&& visit) {
+      for (std::size_t d = 0; d < 3; ++d) {
+        const std::string axis(1, "xyz"[d]);
+        visit("velocity_" + axis, velocity.component[d]);
+        visit("stress_" + axis, stress_divergence.component[d]);
+      }
+      visit("pressure", pressure);
+    }
   };
   std::unique_ptr<HeldFluid> held_fluid_;  ///< only where fluid and grains overlap
   GrainTable grain_table_;

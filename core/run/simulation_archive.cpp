@@ -56,12 +56,8 @@ Simulation::SaveParts Simulation::save_parts() const {
   }
   if (held_fluid_) {
     parts.emplace_back("held_fluid", [this](sdk::ArchiveWriter& a) {
-      for (std::size_t d = 0; d < 3; ++d) {
-        const std::string axis(1, "xyz"[d]);
-        a.numbers("velocity_" + axis, held_fluid_->velocity.component[d]);
-        a.numbers("stress_" + axis, held_fluid_->stress_divergence.component[d]);
-      }
-      a.numbers("pressure", held_fluid_->pressure);
+      held_fluid_->each(
+          [&](const std::string& name, const auto& field) { a.numbers(name, field); });
     });
   }
   for (std::size_t n = 0; n < models_.emitters.size(); ++n) {
@@ -108,12 +104,7 @@ Simulation::LoadParts Simulation::load_parts() {
   }
   if (held_fluid_) {
     parts.emplace_back("held_fluid", [this](sdk::ArchiveReader& a) {
-      for (std::size_t d = 0; d < 3; ++d) {
-        const std::string axis(1, "xyz"[d]);
-        held_fluid_->velocity.component[d] = a.numbers("velocity_" + axis);
-        held_fluid_->stress_divergence.component[d] = a.numbers("stress_" + axis);
-      }
-      held_fluid_->pressure = a.numbers("pressure");
+      held_fluid_->each([&](const std::string& name, auto& field) { field = a.numbers(name); });
     });
   }
   // Last, so that the places of the last sample are those saved, not those just published.
