@@ -108,7 +108,6 @@ void Dem::Impl::contact(double now, bool keeps_force) {
                                  8 * static_cast<std::ptrdiff_t>(chunk.guest_rows.size()));
     std::atomic_ref(given_in[c]).store(contact_round, std::memory_order_release);
     if (keeps_force) keep_force(chunk, force);
-    chunk.is_checked = false;
     if (!all_wait && has_all_gifts(chunk)) {
       move_all(chunk, force);
     } else {
@@ -133,9 +132,7 @@ void Dem::Impl::move_all(Chunk& chunk, double* force) {
   chunk.moved = rows.size();
   chunk.force.clear();
   integrate_awake(rows, static_cast<std::size_t>(chunk.begin), force, ForceOrder::by_row);
-  if (!is_check_due()) return;
-  check(chunk, since_watch + 1);
-  chunk.is_checked = true;
+  if (is_check_due()) check(chunk, since_watch + 1);
 }
 
 /// Grains nobody else looks at move at once; the others' forces are put aside.

@@ -145,7 +145,6 @@ struct Chunk {
   /// So many grains at the front of `awake` have made this step already. The others' forces, eight
   /// numbers each, wait in `force` for integrate().
   std::size_t moved = 0;
-  bool is_checked = false;  ///< check_awake() has been made, with the last of them
   contact::AlignedVector<double> force;
   double largest_overlap = 0.0;
   std::int64_t contacts = 0;
@@ -203,17 +202,17 @@ struct Dem::Impl {
   void choose_watch_allowances();
   [[nodiscard]] bool may_meet_surface(std::size_t i, const Surface& surface) const;
   [[nodiscard]] bool flies_straight(std::size_t row) const;
-  // choose.cpp
-  void choose_contacts(const VerletList& list, ContactList& contacts,
-                       const std::vector<std::uint8_t>& meets, bool may_stand) const;
-  void stand(ContactList& contacts) const;
-  void fall_in(ContactList& contacts) const;
-  // watch.cpp, on
   void begin_watch();
   void invite_guests(Chunk& chunk);
   void wake_guests();
   void promise_gifts();
   void land();
+
+  // choose.cpp
+  void choose_contacts(const VerletList& list, ContactList& contacts,
+                       const std::vector<std::uint8_t>& meets, bool may_stand) const;
+  void stand(ContactList& contacts) const;
+  void fall_in(ContactList& contacts) const;
 
   // contacts.cpp
   void contact(double time, bool keeps_force);
