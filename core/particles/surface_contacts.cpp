@@ -2,7 +2,6 @@
 #include "particles/impl.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 /// Contacts of a chunk's grains with surfaces.
 namespace dust::particles {
