@@ -38,6 +38,7 @@ class BatchColumns {
     rotation_j_x,
     rotation_j_y,
     rotation_j_z,
+    distance,  ///< [m] of the centres
     overlap,
     normal_x,
     normal_y,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contact/batch_kernels.hpp"
 
-#include "dust/sdk/plugin.hpp"
+#include "dust/sdk/kernel.hpp"
+#include "dust/sdk/square_roots.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +55,8 @@ sdk::CohesionBatch BatchColumns::cohesion_view(std::size_t count, double time_st
 
 DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count) {
   using B = BatchColumns;
+  const std::size_t n = padded(count);
+  double* distances = columns.column(B::distance);
   const double* sx = columns.column(B::separation_x);
   const double* sy = columns.column(B::separation_y);
   const double* sz = columns.column(B::separation_z);
@@ -80,13 +83,16 @@ DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count)
   double* mass = columns.column(B::effective_mass);
   double* li = columns.column(B::lever_i);
   double* lj = columns.column(B::lever_j);
+  // Coincident centres would give no direction; the tiny floor makes the normal zero instead.
+#pragma omp simd
+  for (std::size_t q = 0; q < n; ++q) {
+    distances[q] = std::max(sx[q] * sx[q] + sy[q] * sy[q] + sz[q] * sz[q], 1e-300);
+  }
+  sdk::take_square_roots(distances, n);
   double largest = 0.0;
-  const std::size_t n = padded(count);
 #pragma omp simd reduction(max : largest)
   for (std::size_t q = 0; q < n; ++q) {
-    // Coincident centres would give no direction; the tiny floor makes the normal zero instead.
-    const double distance =
-        std::sqrt(std::max(sx[q] * sx[q] + sy[q] * sy[q] + sz[q] * sz[q], 1e-300));
+    const double distance = distances[q];
     // Four reciprocals from one division.
     const double radii = ri[q] + rj[q];
     const double smaller = std::min(ri[q], rj[q]);

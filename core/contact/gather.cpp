@@ -205,10 +205,10 @@ __attribute__((always_inline)) inline std::size_t load_standing(
     const std::size_t later = std::min(q + k_ahead, last_four);
     for (std::size_t l = 0; l < 4; ++l) {
       const std::ptrdiff_t ahead = 4 * static_cast<std::ptrdiff_t>(pb[later + l]);
-      __builtin_prefetch(r.position + ahead);
-      __builtin_prefetch(r.velocity + ahead);
-      __builtin_prefetch(r.rotation + ahead);
-      __builtin_prefetch(pairs.history + (first + q + l) * pairs.history_stride, 1);
+      __builtin_prefetch(r.position + ahead, 0, 2);
+      __builtin_prefetch(r.velocity + ahead, 0, 2);
+      __builtin_prefetch(r.rotation + ahead, 0, 2);
+      __builtin_prefetch(pairs.history + (first + q + l) * pairs.history_stride, 0, 2);
     }
     Lanes x[4];
     const unsigned touch = separate(r.position, pa + q, pb + q, range, x);

@@ -14,20 +14,13 @@ using contact::BatchColumns;
 using contact::k_batch;
 
 /// Forces and torques of a chunk's grains and, behind them, of its guests, eight numbers each: of
-/// the calling thread, so that they stay in its cache. Zero for those awake.
-double* cleared_force(const Chunk& chunk) {
+/// the calling thread, so that they stay in its cache. All zero: whoever takes a force out while it
+/// is near leaves zeros.
+double* empty_force(const Chunk& chunk) {
   thread_local contact::AlignedVector<double> force;
   const auto rows = static_cast<std::size_t>(chunk.end - chunk.begin);
-  const std::size_t guests = chunk.guest_rows.size();
-  if (force.size() < 8 * (rows + guests)) force.resize(8 * (rows + guests));
-  if (2 * chunk.awake.rows.size() > rows) {
-    std::fill_n(force.begin(), 8 * rows, 0.0);
-  } else {
-    for (const std::int32_t row : chunk.awake.rows) {
-      std::fill_n(force.begin() + 8 * (row - chunk.begin), 8, 0.0);
-    }
-  }
-  std::fill_n(force.begin() + static_cast<std::ptrdiff_t>(8 * rows), 8 * guests, 0.0);
+  const std::size_t size = 8 * (rows + chunk.guest_rows.size());
+  if (force.size() < size) force.resize(size, 0.0);
   return force.data();
 }
 
@@ -98,13 +91,14 @@ void Dem::Impl::contact(double now, bool keeps_force) {
   for (Surface& s : surfaces) s.move_to(now);
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     Chunk& chunk = chunks[c];
-    double* force = cleared_force(chunk);
+    double* force = empty_force(chunk);
     chunk.contacts = 0;
     chunk_pairs(chunk, force);
     chunk_surfaces(chunk, force);
-    chunk.guest_force.assign(force + 8 * (chunk.end - chunk.begin),
-                             force + 8 * (chunk.end - chunk.begin) +
-                                 8 * static_cast<std::ptrdiff_t>(chunk.guest_rows.size()));
+    double* guests = force + 8 * (chunk.end - chunk.begin);
+    double* guests_end = guests + 8 * static_cast<std::ptrdiff_t>(chunk.guest_rows.size());
+    chunk.guest_force.assign(guests, guests_end);
+    std::fill(guests, guests_end, 0.0);
     std::atomic_ref(given_in[c]).store(contact_round, std::memory_order_release);
     if (keeps_force) keep_force(chunk, force);
     if (!all_wait && has_all_gifts(chunk)) {
@@ -135,15 +129,16 @@ void Dem::Impl::move_all(Chunk& chunk, double* force) {
 }
 
 /// Grains nobody else looks at move at once; the others' forces are put aside.
-void Dem::Impl::move_own(Chunk& chunk, const double* force, std::size_t count) {
+void Dem::Impl::move_own(Chunk& chunk, double* force, std::size_t count) {
   const std::span<const std::int32_t> rows = chunk.awake.rows;
   const auto first = static_cast<std::size_t>(chunk.begin);
   chunk.moved = count;
   integrate_awake(rows.first(count), first, force, ForceOrder::by_row);
   chunk.force.resize(8 * (rows.size() - count));
   for (std::size_t k = count; k < rows.size(); ++k) {
-    std::copy_n(force + 8 * (static_cast<std::size_t>(rows[k]) - first), 8,
-                chunk.force.data() + 8 * (k - count));
+    double* waiting = force + 8 * (static_cast<std::size_t>(rows[k]) - first);
+    std::copy_n(waiting, 8, chunk.force.data() + 8 * (k - count));
+    std::fill_n(waiting, 8, 0.0);
   }
 }
 

@@ -224,7 +224,7 @@ struct Dem::Impl {
   void chunk_surfaces(Chunk& chunk, double* force);
   [[nodiscard]] bool has_all_gifts(const Chunk& chunk) const;
   void move_all(Chunk& chunk, double* force);
-  void move_own(Chunk& chunk, const double* force, std::size_t count);
+  void move_own(Chunk& chunk, double* force, std::size_t count);
   void keep_force(const Chunk& chunk, const double* force);
   enum class ForceOrder { by_row, by_place };
   void take_gifts(Chunk& chunk, double* force, ForceOrder order);
@@ -239,7 +239,7 @@ struct Dem::Impl {
   void integrate();
   [[nodiscard]] bool is_check_due() const;
   void check(Chunk& chunk, std::int64_t done) const;
-  void integrate_awake(std::span<const std::int32_t> rows, std::size_t first, const double* force,
+  void integrate_awake(std::span<const std::int32_t> rows, std::size_t first, double* force,
                        ForceOrder order);
 
   // fine.cpp

@@ -22,7 +22,7 @@ struct AwakeRows {
   double* rotation = nullptr;
   double* half_velocity = nullptr;
   double* half_rotation = nullptr;
-  const double* force = nullptr;  ///< of the k-th row n, at 8 (by_row (n - first) + by_place k)
+  double* force = nullptr;  ///< of the k-th row n, at 8 (by_row (n - first) + by_place k)
   std::size_t by_row = 0;
   std::size_t by_place = 0;
   std::size_t first = 0;
@@ -58,7 +58,10 @@ DUST_KERNEL void integrate_rows(const AwakeRows& r, double step, bool has_fluid)
     __builtin_prefetch(r.position + next, 1);
     __builtin_prefetch(r.velocity + next, 1);
     __builtin_prefetch(r.rotation + next, 1);
-    const std::size_t f = 2 * (r.by_row * (n - r.first) + r.by_place * k);
+    Lanes* f = &row_of(r.force, 2 * (r.by_row * (n - r.first) + r.by_place * k));
+    const Lanes force = f[0];
+    const Lanes torque = f[1];
+    f[0] = f[1] = Lanes{};
     const double inverse_mass = r.velocity[4 * n + 3];
     const double radius = r.position[4 * n + 3];
     const double lag = r.half_velocity[4 * n + 3];
@@ -68,8 +71,8 @@ DUST_KERNEL void integrate_rows(const AwakeRows& r, double step, bool has_fluid)
       kick = lag + half_step;
       ahead = half_step / kick;
     }
-    const Lanes acceleration = fixed(r.force, f) * inverse_mass +
-                               fixed(r.gravity, static_cast<std::size_t>(r.material[n]));
+    const Lanes acceleration =
+        force * inverse_mass + fixed(r.gravity, static_cast<std::size_t>(r.material[n]));
     const Lanes old = row_of(r.half_velocity, n) * three;
     const Lanes push = acceleration * kick * three;
     Lanes half = old + push;
@@ -91,7 +94,7 @@ DUST_KERNEL void integrate_rows(const AwakeRows& r, double step, bool has_fluid)
     row_of(r.velocity, n) = now + fourth * inverse_mass;
     row_of(r.half_velocity, n) = half + fourth * half_step;
     // I = 2/5 m R^2
-    const Lanes spin = fixed(r.force, f + 1) * (2.5 * inverse_mass / (radius * radius));
+    const Lanes spin = torque * (2.5 * inverse_mass / (radius * radius));
     const Lanes turn = row_of(r.half_rotation, n) + spin * kick;
     row_of(r.half_rotation, n) = turn;
     row_of(r.rotation, n) = turn + spin * half_step;
@@ -99,10 +102,10 @@ DUST_KERNEL void integrate_rows(const AwakeRows& r, double step, bool has_fluid)
 }
 
 /// The named rows; `force` holds eight numbers per row, from row `first` on or in the order of
-/// `rows`, or is null: no force.
+/// `rows`, and is left at zero, or is null: no force.
 void Dem::Impl::integrate_awake(std::span<const std::int32_t> rows, std::size_t first,
-                                const double* force, ForceOrder order) {
-  alignas(32) static constexpr double k_no_force[8] = {};
+                                double* force, ForceOrder order) {
+  alignas(32) double no_force[8] = {};
   const bool has_force = force != nullptr;
   integrate_rows({.rows = rows.data(),
                   .count = rows.size(),
@@ -111,7 +114,7 @@ void Dem::Impl::integrate_awake(std::span<const std::int32_t> rows, std::size_t 
                   .rotation = store.rotation.data(),
                   .half_velocity = store.half_velocity.data(),
                   .half_rotation = store.half_rotation.data(),
-                  .force = has_force ? force : k_no_force,
+                  .force = has_force ? force : no_force,
                   .by_row = has_force && order == ForceOrder::by_row ? std::size_t{1} : 0,
                   .by_place = has_force && order == ForceOrder::by_place ? std::size_t{1} : 0,
                   .first = first,

@@ -26,7 +26,7 @@ constexpr double k_watch_share = 1.0 / 6.0;
 /// side in a bed need not be looked at.
 constexpr double k_watch_reach = 0.25;
 /// [-] and no less than this share of a diameter.
-constexpr double k_least_reach = 0.002;
+constexpr double k_least_reach = 0.004;
 
 }  // namespace
 

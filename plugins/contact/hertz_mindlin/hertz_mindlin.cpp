@@ -2,6 +2,9 @@
 #include "hertz_mindlin.hpp"
 
 #include <dust/sdk/plugin.hpp>
+#include <dust/sdk/square_roots.hpp>
+
+#include <algorithm>
 
 namespace {
 
@@ -73,7 +76,11 @@ class HertzMindlin final : public sdk::ContactLaw {
   formula::Constants constants_;
 };
 
-DUST_KERNEL void evaluate_batch(const formula::Constants& constants, const sdk::ContactBatch& b) {
+/// Contacts from one root to the next: what the stages hand on stays in the first-level cache.
+constexpr std::size_t k_block = 64;
+
+DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::ContactBatch& b,
+                                std::size_t first, std::size_t end) {
   const formula::Constants k = constants;
   const double time_step = b.time_step;
   const double *overlap = b.overlap, *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
@@ -82,27 +89,68 @@ DUST_KERNEL void evaluate_batch(const formula::Constants& constants, const sdk::
   double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2], *stiffness = b.history[3];
   double *fn = b.normal_force, *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
   double *fx = b.force_x, *fy = b.force_y, *fz = b.force_z;
+  alignas(64) double contact_radius[k_block], keep[k_block], compliance[k_block], total[k_block];
+  alignas(64) double dx[k_block], dy[k_block], dz[k_block];
+  const std::size_t count = end - first;
 #pragma omp simd
-  for (std::size_t q = 0; q < b.count; ++q) {
-    formula::Contact c{overlap[q],   nx[q],     ny[q],   nz[q], vx[q], vy[q],
-                       vz[q],        radius[q], mass[q], sx[q], sy[q], sz[q],
-                       stiffness[q], 0.0,       0.0,     0.0,   0.0,   0.0};
-    formula::evaluate(k, time_step, c);
-    sx[q] = c.sx;
-    sy[q] = c.sy;
-    sz[q] = c.sz;
+  for (std::size_t q = first; q < end; ++q) {
+    contact_radius[q - first] = formula::squared_contact_radius(overlap[q], radius[q]);
+  }
+  sdk::take_square_roots(contact_radius, count);
+#pragma omp simd
+  for (std::size_t q = first; q < end; ++q) {
+    formula::Contact c{};
+    c.nx = nx[q], c.ny = ny[q], c.nz = nz[q];
+    c.sx = sx[q], c.sy = sy[q], c.sz = sz[q];
+    c.stiffness = stiffness[q];
+    c.contact_radius = contact_radius[q - first];
+    formula::turn(k, c);
+    sx[q] = c.sx, sy[q] = c.sy, sz[q] = c.sz;
+    keep[q - first] = c.keep;
+    compliance[q - first] = c.compliance;
+  }
+  sdk::take_square_roots(keep, count);
+#pragma omp simd
+  for (std::size_t q = first; q < end; ++q) {
+    formula::Contact c{};
+    c.overlap = overlap[q];
+    c.nx = nx[q], c.ny = ny[q], c.nz = nz[q];
+    c.vx = vx[q], c.vy = vy[q], c.vz = vz[q];
+    c.mass = mass[q];
+    c.sx = sx[q], c.sy = sy[q], c.sz = sz[q];
+    c.contact_radius = contact_radius[q - first];
+    c.keep = keep[q - first];
+    formula::load(k, time_step, c);
+    sx[q] = c.sx, sy[q] = c.sy, sz[q] = c.sz;
+    fx[q] = c.fx, fy[q] = c.fy, fz[q] = c.fz;
+    dx[q - first] = c.dx, dy[q - first] = c.dy, dz[q - first] = c.dz;
+    total[q - first] = c.total;
     stiffness[q] = c.stiffness;
     kt[q] = c.stiffness;
     fn[q] = c.normal_force;
     kn[q] = c.normal_stiffness;
-    fx[q] = c.fx;
-    fy[q] = c.fy;
-    fz[q] = c.fz;
+  }
+  sdk::take_square_roots(total, count);
+#pragma omp simd
+  for (std::size_t q = first; q < end; ++q) {
+    formula::Contact c{};
+    c.nx = nx[q], c.ny = ny[q], c.nz = nz[q];
+    c.sx = sx[q], c.sy = sy[q], c.sz = sz[q];
+    c.normal_force = fn[q];
+    c.fx = fx[q], c.fy = fy[q], c.fz = fz[q];
+    c.compliance = compliance[q - first];
+    c.dx = dx[q - first], c.dy = dy[q - first], c.dz = dz[q - first];
+    c.total = total[q - first];
+    formula::slide(k, c);
+    sx[q] = c.sx, sy[q] = c.sy, sz[q] = c.sz;
+    fx[q] = c.fx, fy[q] = c.fy, fz[q] = c.fz;
   }
 }
 
 void HertzMindlin::run(const formula::Constants& constants, const sdk::ContactBatch& b) {
-  evaluate_batch(constants, b);
+  for (std::size_t first = 0; first < b.count; first += k_block) {
+    evaluate_block(constants, b, first, std::min(first + k_block, b.count));
+  }
 }
 
 }  // namespace

@@ -54,40 +54,41 @@ struct Contact {
   double normal_force;      ///< [N] out
   double normal_stiffness;  ///< [N/m] k_n, secant, out
   double fx, fy, fz;        ///< [N] out, on i
+
+  // Handed from stage to stage.
+  double contact_radius;  ///< [m] a = sqrt(R d)
+  double keep;            ///< [-] what the displacement's part in the plane is stretched by
+  double compliance;      ///< [m/N] 1 / k_t, bounded
+  double dx, dy, dz;      ///< [N] what the damper holds against
+  double total;           ///< [N] size of spring and damper together
 };
 
-/// Normal force \f$ F_n = \tfrac43 E^* \sqrt{R^*}\, d^{3/2} - \gamma_n v_n \f$ and tangential force
-/// \f$ F_t = -k_t \xi_t - \gamma_t v_t \f$, \f$ |F_t| \le \mu_s \max(F_n, 0) \f$ for spring and
-/// damper together.
-///
-/// The displacement is rescaled as the stiffness changes, \f$ \xi_t \sqrt{k_t} \f$ = const, so that
-/// a growing or shrinking overlap neither feeds nor drains the energy \f$ k_t \xi_t^2 / 2 \f$ of
-/// the spring (own derivation). Constant displacement (the "total" form) would create energy while
-/// the contact is loaded, constant force while it is unloaded; forces that shrink with k_t on
-/// unloading (Thornton, Cummins, Cleary, Powder Technol. 233 (2013) 30,
-/// doi:10.1016/j.powtec.2012.08.012) create none but lose a fifth of the tangential energy of an
-/// elastic impact without slip, this form a twentieth. While sliding the spring is set to what the
-/// limit leaves beside the damper. The displacement turns with the normal and keeps its length.
-[[gnu::always_inline]] inline void evaluate(const Constants& k, double time_step, Contact& c) {
-  constexpr double k_tiny = 1e-140;
-  const double d = std::max(c.overlap, 0.0);
-  const double root = std::sqrt(c.radius * d);
-  const double kn = 4.0 / 3.0 * k.young * root;
-  const double kt = 8.0 * k.shear * root;
-  // Both dampers grow with the fourth root of R d: one root does for two.
-  const double shared = std::sqrt(root * c.mass);
-  const double gn = k.damping * k.normal_root * shared;
-  const double gt = std::min(k.damping * k.tangential_root * shared,
-                             c.mass * (k_most_tangential_damping / time_step));
+// Normal force \f$ F_n = \tfrac43 E^* \sqrt{R^*}\, d^{3/2} - \gamma_n v_n \f$ and tangential force
+// \f$ F_t = -k_t \xi_t - \gamma_t v_t \f$, \f$ |F_t| \le \mu_s \max(F_n, 0) \f$ for spring and
+// damper together, in four stages. The caller takes the roots between them, of many contacts at
+// once: see sdk::take_square_roots().
+//
+// The displacement is rescaled as the stiffness changes, \f$ \xi_t \sqrt{k_t} \f$ = const, so that
+// a growing or shrinking overlap neither feeds nor drains the energy \f$ k_t \xi_t^2 / 2 \f$ of
+// the spring (own derivation). Constant displacement (the "total" form) would create energy while
+// the contact is loaded, constant force while it is unloaded; forces that shrink with k_t on
+// unloading (Thornton, Cummins, Cleary, Powder Technol. 233 (2013) 30,
+// doi:10.1016/j.powtec.2012.08.012) create none but lose a fifth of the tangential energy of an
+// elastic impact without slip, this form a twentieth. While sliding the spring is set to what the
+// limit leaves beside the damper. The displacement turns with the normal and keeps its length.
 
-  const double vn = c.vx * c.nx + c.vy * c.ny + c.vz * c.nz;
-  const double fn = kn * d - gn * vn;
-  const double tx = c.vx - vn * c.nx;
-  const double ty = c.vy - vn * c.ny;
-  const double tz = c.vz - vn * c.nz;
+inline constexpr double k_tiny = 1e-140;
 
-  // Into the new tangent plane, at the old length; then the change of k_t at constant energy. The
-  // floor matters in the last instant of a contact alone.
+/// \f$ a^2 = R^* d \f$ [m2].
+[[gnu::always_inline]] inline double squared_contact_radius(double overlap, double radius) {
+  return radius * std::max(overlap, 0.0);
+}
+
+/// The displacement into the new tangent plane; `keep`, squared, restores the old length and then
+/// makes the change of k_t at constant energy. The floor matters in the last instant of a contact
+/// alone.
+[[gnu::always_inline]] inline void turn(const Constants& k, Contact& c) {
+  const double kt = 8.0 * k.shear * c.contact_radius;
   const double sn = c.sx * c.nx + c.sy * c.ny + c.sz * c.nz;
   const double px = c.sx - sn * c.nx;
   const double py = c.sy - sn * c.ny;
@@ -98,30 +99,56 @@ struct Contact {
   // One division for both reciprocals.
   const double in_plane = std::max(new2, k_tiny);
   const double inverse = 1.0 / (in_plane * floor);
-  const double keep = std::sqrt(old2 * c.stiffness * inverse);
-  const double sx = keep * px + tx * time_step;
-  const double sy = keep * py + ty * time_step;
-  const double sz = keep * pz + tz * time_step;
+  c.keep = old2 * c.stiffness * inverse;
+  c.compliance = inverse * in_plane;
+  c.sx = px;
+  c.sy = py;
+  c.sz = pz;
+}
 
-  // Coulomb: spring and damper share the limit.
-  const double ux = -kt * sx - gt * tx;
-  const double uy = -kt * sy - gt * ty;
-  const double uz = -kt * sz - gt * tz;
-  const double limit = k.friction * std::max(fn, 0.0);
-  const double total = std::sqrt(ux * ux + uy * uy + uz * uz);
-  const double cap = std::min(1.0, limit / std::max(total, k_tiny));
-  const double hold = cap < 1.0 ? 0.0 : 1.0;
-  const double back = (hold - 1.0) * (inverse * in_plane);
-
-  c.sx = hold * sx + back * (cap * ux + gt * tx);
-  c.sy = hold * sy + back * (cap * uy + gt * ty);
-  c.sz = hold * sz + back * (cap * uz + gt * tz);
+/// Springs and dampers without limit; `total` is squared.
+[[gnu::always_inline]] inline void load(const Constants& k, double time_step, Contact& c) {
+  const double d = std::max(c.overlap, 0.0);
+  const double kn = 4.0 / 3.0 * k.young * c.contact_radius;
+  const double kt = 8.0 * k.shear * c.contact_radius;
+  // Both dampers grow with the fourth root of R d: one root does for two. It stays here, where the
+  // divider has nothing else to do.
+  const double shared = std::sqrt(c.contact_radius * c.mass);
+  const double gn = k.damping * k.normal_root * shared;
+  const double gt = std::min(k.damping * k.tangential_root * shared,
+                             c.mass * (k_most_tangential_damping / time_step));
+  const double vn = c.vx * c.nx + c.vy * c.ny + c.vz * c.nz;
+  const double tx = c.vx - vn * c.nx;
+  const double ty = c.vy - vn * c.ny;
+  const double tz = c.vz - vn * c.nz;
+  c.sx = c.keep * c.sx + tx * time_step;
+  c.sy = c.keep * c.sy + ty * time_step;
+  c.sz = c.keep * c.sz + tz * time_step;
+  c.dx = gt * tx;
+  c.dy = gt * ty;
+  c.dz = gt * tz;
+  c.fx = -kt * c.sx - c.dx;
+  c.fy = -kt * c.sy - c.dy;
+  c.fz = -kt * c.sz - c.dz;
+  c.total = c.fx * c.fx + c.fy * c.fy + c.fz * c.fz;
   c.stiffness = kt;
-  c.normal_force = fn;
+  c.normal_force = kn * d - gn * vn;
   c.normal_stiffness = kn;
-  c.fx = fn * c.nx + cap * ux;
-  c.fy = fn * c.ny + cap * uy;
-  c.fz = fn * c.nz + cap * uz;
+}
+
+/// Coulomb: spring and damper share the limit.
+[[gnu::always_inline]] inline void slide(const Constants& k, Contact& c) {
+  const double fn = c.normal_force;
+  const double limit = k.friction * std::max(fn, 0.0);
+  const double cap = std::min(1.0, limit / std::max(c.total, k_tiny));
+  const double hold = cap < 1.0 ? 0.0 : 1.0;
+  const double back = (hold - 1.0) * c.compliance;
+  c.sx = hold * c.sx + back * (cap * c.fx + c.dx);
+  c.sy = hold * c.sy + back * (cap * c.fy + c.dy);
+  c.sz = hold * c.sz + back * (cap * c.fz + c.dz);
+  c.fx = fn * c.nx + cap * c.fx;
+  c.fy = fn * c.ny + cap * c.fy;
+  c.fz = fn * c.nz + cap * c.fz;
 }
 
 }  // namespace dust::model::hertz_mindlin

@@ -4,30 +4,61 @@
 #include "../friction.hpp"
 
 #include <dust/sdk/plugin.hpp>
+#include <dust/sdk/square_roots.hpp>
+
+#include <algorithm>
 
 namespace {
 
 namespace formula = dust::model::epsd2;
 namespace sdk = dust::sdk;
 
-DUST_KERNEL void evaluate_batch(double friction, const sdk::ContactBatch &b) {
+/// Contacts from one root to the next: what the stages hand on stays in the first-level cache.
+constexpr std::size_t k_block = 64;
+
+DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch &b, std::size_t first,
+                                std::size_t end) {
   const double time_step = b.time_step;
   const double *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
   const double *wx = b.rotation_x, *wy = b.rotation_y, *wz = b.rotation_z;
   const double *radius = b.effective_radius, *fn = b.normal_force, *kt = b.tangential_stiffness;
   double *mx = b.history[0], *my = b.history[1], *mz = b.history[2];
   double *tx = b.torque_x, *ty = b.torque_y, *tz = b.torque_z;
+  alignas(64) double keep[k_block], size[k_block];
 #pragma omp simd
-  for (std::size_t q = 0; q < b.count; ++q) {
-    formula::Rolling c{nx[q],     ny[q], nz[q], wx[q], wy[q], wz[q],
-                       radius[q], fn[q], kt[q], mx[q], my[q], mz[q]};
-    formula::evaluate(friction, time_step, c);
-    mx[q] = c.mx;
-    my[q] = c.my;
-    mz[q] = c.mz;
-    tx[q] = c.mx;
-    ty[q] = c.my;
-    tz[q] = c.mz;
+  for (std::size_t q = first; q < end; ++q) {
+    formula::Rolling c{};
+    c.nx = nx[q], c.ny = ny[q], c.nz = nz[q];
+    c.mx = mx[q], c.my = my[q], c.mz = mz[q];
+    formula::turn(c);
+    tx[q] = c.mx, ty[q] = c.my, tz[q] = c.mz;
+    keep[q - first] = c.keep;
+  }
+  sdk::take_square_roots(keep, end - first);
+#pragma omp simd
+  for (std::size_t q = first; q < end; ++q) {
+    formula::Rolling c{};
+    c.nx = nx[q], c.ny = ny[q], c.nz = nz[q];
+    c.wx = wx[q], c.wy = wy[q], c.wz = wz[q];
+    c.radius = radius[q];
+    c.stiffness = kt[q];
+    c.mx = tx[q], c.my = ty[q], c.mz = tz[q];
+    c.keep = keep[q - first];
+    formula::roll(time_step, c);
+    tx[q] = c.mx, ty[q] = c.my, tz[q] = c.mz;
+    size[q - first] = c.size;
+  }
+  sdk::take_square_roots(size, end - first);
+#pragma omp simd
+  for (std::size_t q = first; q < end; ++q) {
+    formula::Rolling c{};
+    c.radius = radius[q];
+    c.normal_force = fn[q];
+    c.mx = tx[q], c.my = ty[q], c.mz = tz[q];
+    c.size = size[q - first];
+    formula::limit(friction, c);
+    mx[q] = c.mx, my[q] = c.my, mz[q] = c.mz;
+    tx[q] = c.mx, ty[q] = c.my, tz[q] = c.mz;
   }
 }
 
@@ -54,7 +85,9 @@ class Epsd2 final : public dust::model::RollingFriction {
   explicit Epsd2(const Parameters &p) : RollingFriction(p) {}
   [[nodiscard]] int history_size() const override { return 3; }
   void evaluate(const sdk::ContactBatch &batch) const override {
-    evaluate_batch(friction(), batch);
+    for (std::size_t first = 0; first < batch.count; first += k_block) {
+      evaluate_block(friction(), batch, first, std::min(first + k_block, batch.count));
+    }
   }
 };
 

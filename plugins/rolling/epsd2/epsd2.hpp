@@ -14,34 +14,54 @@ struct Rolling {
   double normal_force;  ///< [N]
   double stiffness;     ///< [N/m] k_t
   double mx, my, mz;
+
+  // Handed from stage to stage.
+  double keep;  ///< [-] what the couple's part across the new normal is stretched by
+  double size;  ///< [N m] of the couple without limit
 };
 
-/// Couple of an elastic-plastic spring without dashpot:
-/// \f$ \Delta M = -k_r \Delta\theta_r,\; k_r = k_t R^{*2},\; |M| \le \mu_r R^* |F_n| \f$.
-/// \f$ \Delta\theta_r \f$ is the relative rotation without its part about the normal. M turns with
-/// the contact and keeps its length.
-/// Source: model C of Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269,
-/// doi:10.1016/j.powtec.2010.09.030, with k_r of Iwashita and Oda, J. Eng. Mech. 124 (1998) 285.
-[[gnu::always_inline]] inline void evaluate(double friction, double time_step, Rolling& c) {
-  constexpr double k_tiny = 1e-290;
-  const double wn = c.wx * c.nx + c.wy * c.ny + c.wz * c.nz;
+// Couple of an elastic-plastic spring without dashpot:
+// \f$ \Delta M = -k_r \Delta\theta_r,\; k_r = k_t R^{*2},\; |M| \le \mu_r R^* |F_n| \f$.
+// \f$ \Delta\theta_r \f$ is the relative rotation without its part about the normal. M turns with
+// the contact and keeps its length.
+// Source: model C of Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269,
+// doi:10.1016/j.powtec.2010.09.030, with k_r of Iwashita and Oda, J. Eng. Mech. 124 (1998) 285.
+//
+// In three stages; the caller takes the roots between them, of many contacts at once: see
+// sdk::take_square_roots().
+
+inline constexpr double k_tiny = 1e-290;
+
+/// The couple across the new normal; `keep`, squared, restores the old size.
+[[gnu::always_inline]] inline void turn(Rolling& c) {
   const double mn = c.mx * c.nx + c.my * c.ny + c.mz * c.nz;
   const double px = c.mx - mn * c.nx;
   const double py = c.my - mn * c.ny;
   const double pz = c.mz - mn * c.nz;
   const double old2 = c.mx * c.mx + c.my * c.my + c.mz * c.mz;
   const double new2 = px * px + py * py + pz * pz;
-  const double keep = std::sqrt(old2 / std::max(new2, k_tiny));
+  c.keep = old2 / std::max(new2, k_tiny);
+  c.mx = px;
+  c.my = py;
+  c.mz = pz;
+}
+
+/// The spring without limit; `size` is squared.
+[[gnu::always_inline]] inline void roll(double time_step, Rolling& c) {
+  const double wn = c.wx * c.nx + c.wy * c.ny + c.wz * c.nz;
   const double step = c.stiffness * c.radius * c.radius * time_step;
-  const double mx = keep * px - step * (c.wx - wn * c.nx);
-  const double my = keep * py - step * (c.wy - wn * c.ny);
-  const double mz = keep * pz - step * (c.wz - wn * c.nz);
-  const double size = std::sqrt(mx * mx + my * my + mz * mz);
-  const double limit = friction * c.radius * std::abs(c.normal_force);
-  const double cut = std::min(1.0, limit / std::max(size, k_tiny));
-  c.mx = cut * mx;
-  c.my = cut * my;
-  c.mz = cut * mz;
+  c.mx = c.keep * c.mx - step * (c.wx - wn * c.nx);
+  c.my = c.keep * c.my - step * (c.wy - wn * c.ny);
+  c.mz = c.keep * c.mz - step * (c.wz - wn * c.nz);
+  c.size = c.mx * c.mx + c.my * c.my + c.mz * c.mz;
+}
+
+[[gnu::always_inline]] inline void limit(double friction, Rolling& c) {
+  const double most = friction * c.radius * std::abs(c.normal_force);
+  const double cut = std::min(1.0, most / std::max(c.size, k_tiny));
+  c.mx = cut * c.mx;
+  c.my = cut * c.my;
+  c.mz = cut * c.mz;
 }
 
 }  // namespace dust::model::epsd2

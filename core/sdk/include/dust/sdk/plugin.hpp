@@ -8,6 +8,7 @@
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/fluid_force.hpp"
+#include "dust/sdk/kernel.hpp"
 #include "dust/sdk/motion.hpp"
 #include "dust/sdk/sensor.hpp"
 #include "dust/sdk/turbulence_model.hpp"
@@ -48,14 +49,6 @@ constexpr Handshake make_handshake() {
 }
 
 }  // namespace dust::sdk
-
-/// The hot function of a kernel, compiled for several instruction sets, chosen when it is loaded.
-/// With -ffp-contract=off all give the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(DUST_NO_CLONES)
-#define DUST_KERNEL __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define DUST_KERNEL
-#endif
 
 /// Defines the two symbols a plugin library exports. Use once per library:
 /// `DUST_PLUGIN(registrar) { registrar.add<MyLaw>(); }`
