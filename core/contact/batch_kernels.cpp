@@ -5,7 +5,6 @@
 #include "dust/sdk/square_roots.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace dust::contact {
 sdk::ContactBatch BatchColumns::view(std::size_t count, double time_step,

@@ -205,6 +205,7 @@ __attribute__((always_inline)) inline std::size_t load_standing(
     const std::size_t later = std::min(q + k_ahead, last_four);
     for (std::size_t l = 0; l < 4; ++l) {
       const std::ptrdiff_t ahead = 4 * static_cast<std::ptrdiff_t>(pb[later + l]);
+      // Into the second level: in the first they would take the places of what is at work (0020).
       __builtin_prefetch(r.position + ahead, 0, 2);
       __builtin_prefetch(r.velocity + ahead, 0, 2);
       __builtin_prefetch(r.rotation + ahead, 0, 2);

@@ -22,7 +22,8 @@ struct AwakeRows {
   double* rotation = nullptr;
   double* half_velocity = nullptr;
   double* half_rotation = nullptr;
-  double* force = nullptr;  ///< of the k-th row n, at 8 (by_row (n - first) + by_place k)
+  double* force =
+      nullptr;  ///< of the k-th row n, at 8 (by_row (n - first) + by_place k); zeros are left
   std::size_t by_row = 0;
   std::size_t by_place = 0;
   std::size_t first = 0;
