@@ -32,8 +32,11 @@ inline std::size_t chunk_rows(std::size_t coarse_grains) {
 }
 /// Fine grains per block of the search.
 inline constexpr std::size_t k_fine_block = 256;
-/// Coarse steps between two checks of how far coarse grains are off the course a watch supposes.
-inline constexpr std::int64_t k_check_every = 4;
+/// Coarse steps between two checks of how far coarse grains are off the course a watch supposes:
+/// seldom where watches last long, because nobody moves much there.
+constexpr std::int64_t check_every(std::int64_t watch_length) {
+  return std::clamp<std::int64_t>(watch_length / 8, 4, 16);
+}
 
 /// Contacts of one law, [begin, end) of a list.
 struct Segment {

@@ -128,12 +128,12 @@ void Dem::Impl::integrate_awake(std::span<const std::int32_t> rows, std::size_t 
 }
 
 /// Whether the step in hand ends with a look at how far everybody is off the supposed course.
-bool Dem::Impl::is_check_due() const { return (since_watch + 1) % k_check_every == 0; }
+bool Dem::Impl::is_check_due() const { return (since_watch + 1) % check_every(watch_length) == 0; }
 
 /// `done`: steps of the watch, this one included.
 void Dem::Impl::check(Chunk& chunk, std::int64_t done) const {
   chunk.wants_watch = false;
-  chunk.late = check_awake(chunk.awake, done, k_check_every, chunk.wants_watch);
+  chunk.late = check_awake(chunk.awake, done, check_every(watch_length), chunk.wants_watch);
 }
 
 void Dem::Impl::integrate() {

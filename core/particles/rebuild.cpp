@@ -336,7 +336,7 @@ void Dem::Impl::rebuild() {
   if (is_long) {
     next_horizon = std::max(horizon / 2, k_shortest_horizon);
   } else if (10 * (listed - close) < base) {
-    next_horizon = std::min(2 * horizon, k_longest_horizon);
+    next_horizon = std::min((40 * (listed - close) < base ? 4 : 2) * horizon, k_longest_horizon);
   } else if (10 * (listed - close) > 4 * base) {
     next_horizon = std::max(horizon / 2, k_shortest_horizon);
   }

@@ -19,12 +19,14 @@ namespace {
 /// time, because the longer a straight course is supposed, the sooner somebody is off it.
 constexpr std::int64_t k_longest_watch = 64;
 constexpr std::int64_t k_shortest_watch = 8;
+/// Where half of the pairs looked at touch, as in beds. Grains that fly would have many to look at.
+constexpr std::int64_t k_longest_in_bed = 256;
 /// Allowed deviation during a watch, as a share of that of the list: the list's check, made only
 /// when a watch ends, triggers at 0.7 of its allowance, so that 0.7 + k_watch_share stays below 1.
 constexpr double k_watch_share = 1.0 / 6.0;
-/// No more than this share of the way the fastest grain flies during a watch: what rests side by
-/// side in a bed need not be looked at.
-constexpr double k_watch_reach = 0.25;
+/// No more than the fastest grain flies in so many coarse steps: what rests side by side in a bed
+/// need not be looked at.
+constexpr double k_reach_steps = 16.0;
 /// [-] and no less than this share of a diameter.
 constexpr double k_least_reach = 0.004;
 
@@ -33,11 +35,19 @@ constexpr double k_least_reach = 0.004;
 /// A watch that had to end before half of its length makes the next one shorter, one that lasted
 /// longer.
 void Dem::Impl::choose_watch_length() {
+  std::int64_t watched = 0;
+  std::int64_t touching = 0;
+  for (const Chunk& c : chunks) {
+    watched += static_cast<std::int64_t>(c.pairs.size() + c.surfaces.size());
+    touching += c.contacts;
+  }
   if (must_watch && 2 * since_watch < watch_length) {
     watch_length = std::max(watch_length / 2, k_shortest_watch);
   } else if (since_watch >= watch_length) {
-    watch_length = std::min(2 * watch_length, k_longest_watch);
+    watch_length *= 2;
   }
+  watch_length =
+      std::min(watch_length, 2 * touching > watched ? k_longest_in_bed : k_longest_watch);
 }
 bool Dem::Impl::may_meet_surface(std::size_t i, const Surface& surface) const {
   const double* p = store.position.data() + 4 * i;
@@ -152,7 +162,7 @@ void Dem::Impl::promise_gifts() {
 /// How far each grain may be off its course during the next watch.
 void Dem::Impl::choose_watch_allowances() {
   const double reach =
-      std::max(k_watch_reach * fastest() * static_cast<double>(k_longest_watch) * steps.coarse_step,
+      std::max(k_reach_steps * fastest() * steps.coarse_step,
                k_least_reach * steps.classes.back().diameter);
   watch_allowance.resize(store.size());
   const std::size_t blocks = (store.size() + k_block - 1) / k_block;
