@@ -195,34 +195,36 @@ void Dem::Impl::standing_pairs(const Segment& segment, Chunk& chunk, double* for
   columns.keep_history_here();
 }
 
-void Dem::Impl::chunk_pairs(Chunk& chunk, double* force) {
+/// The others: found touching or not at each step.
+void Dem::Impl::open_pairs(const Segment& segment, Chunk& chunk, double* force) {
   std::int32_t contacts[k_batch];
   auto& columns = thread_columns();
   const contact::PairView pairs = chunk.pairs.view(history_stride);
   const contact::RowView rows = row_view();
   const int groups = static_cast<int>(history_stride / 4);
+  const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
+  auto next = static_cast<std::size_t>(segment.standing);
+  const auto end = static_cast<std::size_t>(segment.end);
+  while (next < end) {
+    const std::size_t count =
+        contact::gather_touching(rows, images, pairs, next, end, law.range, contacts, columns);
+    if (count == 0) continue;
+    contact::load_history(pairs, contacts, count, groups, columns);
+    const double overlap = contact::derive_pair_columns(columns, count);
+    chunk.largest_overlap = std::max(chunk.largest_overlap, overlap);
+    evaluate_laws(law, columns, count, steps.coarse_step);
+    chunk.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(count);
+    const bool has_scales = find_scales(pairs, contacts, 0, count, columns);
+    contact::store_history(pairs, contacts, count, groups, columns);
+    contact::scatter_pairs(chunk.places.data(), contacts, count, has_scales, columns, force);
+  }
+}
+
+void Dem::Impl::chunk_pairs(Chunk& chunk, double* force) {
   stand(chunk.pairs);
   for (const Segment& segment : chunk.pairs.segments) {
     standing_pairs(segment, chunk, force);
-    const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
-    auto next = static_cast<std::size_t>(segment.standing);
-    const auto end = static_cast<std::size_t>(segment.end);
-    std::size_t found = 0;
-    while (next < end) {
-      const std::size_t count =
-          contact::gather_touching(rows, images, pairs, next, end, law.range, contacts, columns);
-      if (count == 0) continue;
-      found += count;
-      contact::load_history(pairs, contacts, count, groups, columns);
-      const double overlap = contact::derive_pair_columns(columns, count);
-      chunk.largest_overlap = std::max(chunk.largest_overlap, overlap);
-      evaluate_laws(law, columns, count, steps.coarse_step);
-      if (law.cohesion) chunk.contacts += in_touch(columns, count);
-      const bool has_scales = find_scales(pairs, contacts, 0, count, columns);
-      contact::store_history(pairs, contacts, count, groups, columns);
-      contact::scatter_pairs(chunk.places.data(), contacts, count, has_scales, columns, force);
-    }
-    if (!law.cohesion) chunk.contacts += static_cast<std::int64_t>(found);
+    open_pairs(segment, chunk, force);
   }
 }
 

@@ -223,6 +223,7 @@ struct Dem::Impl {
                                  std::size_t first, std::size_t count,
                                  contact::BatchColumns& columns) const;
   void standing_pairs(const Segment& segment, Chunk& chunk, double* force);
+  void open_pairs(const Segment& segment, Chunk& chunk, double* force);
   void chunk_pairs(Chunk& chunk, double* force);
   void chunk_surfaces(Chunk& chunk, double* force);
   [[nodiscard]] bool has_all_gifts(const Chunk& chunk) const;

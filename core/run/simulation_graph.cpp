@@ -10,11 +10,12 @@
 namespace dust::run {
 
 void Simulation::build_graphs() {
+  const std::string seen_air = held_fluid_ ? "fluid.held" : "fluid.velocity";
   dem_graph_.given({"grain.position", "grain.velocity", "contact.list", "contact.history",
-                    "grain.fluid_action", "fluid.velocity", "fluid.void_fraction", "body.motion"});
+                    "grain.fluid_action", seen_air, "fluid.void_fraction", "body.motion"});
   if (coupling_) {
     dem_graph_.add({"drag",
-                    {"grain.position", "grain.velocity", "fluid.velocity", "fluid.void_fraction"},
+                    {"grain.position", "grain.velocity", seen_air, "fluid.void_fraction"},
                     {"grain.fluid_action"},
                     [this] { refresh_drag(); }});
   }
@@ -57,7 +58,7 @@ void Simulation::build_graphs() {
   if (fluid_) add_fluid_nodes();
   std::vector<std::string> seen_by_grains{"grain.state"};
   if (coupling_) {
-    seen_by_grains.emplace_back(held_fluid_ ? "fluid.held" : "fluid.velocity");
+    seen_by_grains.push_back(seen_air);
     seen_by_grains.emplace_back("fluid.void_fraction");
   }
   step_graph_.add({"dem_cycle", seen_by_grains, {"grain.state", "grain.fluid_impulse"}, [this] {
