@@ -161,9 +161,8 @@ void Dem::Impl::promise_gifts() {
 
 /// How far each grain may be off its course during the next watch.
 void Dem::Impl::choose_watch_allowances() {
-  const double reach =
-      std::max(k_reach_steps * fastest() * steps.coarse_step,
-               k_least_reach * steps.classes.back().diameter);
+  const double reach = std::max(k_reach_steps * fastest() * steps.coarse_step,
+                                k_least_reach * steps.classes.back().diameter);
   watch_allowance.resize(store.size());
   const std::size_t blocks = (store.size() + k_block - 1) / k_block;
   oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
