@@ -19,8 +19,7 @@ Coupling::Coupling(const scenario::Setup& setup, const fluid::Grid& grid,
   if (!(fluid.viscosity > 0.0)) {
     throw sdk::ModelError("drag on grains needs a fluid with a viscosity above zero");
   }
-  impl_ =
-      std::make_unique<Impl>(fluid, setup.time, setup.gravity, grid, open_fraction, voidage, drag);
+  impl_ = std::make_unique<Impl>(setup, fluid, grid, open_fraction, voidage, drag);
 }
 Coupling::~Coupling() = default;
 
@@ -76,7 +75,7 @@ void Coupling::use(std::span<const std::unique_ptr<sdk::FluidForce>> forces,
   if (forces.empty()) return;
   Impl& s = *impl_;
   s.forces = std::make_unique<ForceTerms>(forces, std::move(surfaces), s.lattice, s.properties,
-                                          s.gravity, s.is_set_three);
+                                          s.gravity, s.is_set_three, s.graining);
   s.memory.keep(s.forces->kept_numbers());
 }
 

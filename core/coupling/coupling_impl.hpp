@@ -5,6 +5,7 @@
 #include "coupling/face_exchange.hpp"
 #include "coupling/face_void.hpp"
 #include "coupling/grain_memory.hpp"
+#include "coupling/graining.hpp"
 #include "coupling/lattice.hpp"
 #include "coupling/void_fraction.hpp"
 #include "coupling/wide_kernel.hpp"
@@ -48,9 +49,8 @@ std::string text(const Part&... parts) {
 /// grain does to the fluid by itself; refresh.cpp: the action on the grains, and what they
 /// received.
 struct Coupling::Impl {
-  Impl(const scenario::FluidSpec& fluid, const scenario::TimeSpec& time, sdk::Vec3 gravity_vector,
-       const fluid::Grid& grid, const fluid::CellField& open_fraction, const sdk::VoidageRule& rule,
-       const sdk::DragLaw& law)
+  Impl(const scenario::Setup& setup, const scenario::FluidSpec& fluid, const fluid::Grid& grid,
+       const fluid::CellField& open_fraction, const sdk::VoidageRule& rule, const sdk::DragLaw& law)
       : lattice(grid, open_fraction),
         drag(law),
         voidage(rule),
@@ -60,14 +60,15 @@ struct Coupling::Impl {
         faces(lattice, face_void, rule, fluid.momentum_set == "III", is_own_taken_off),
         properties(fluid),
         own_per_kinematic_viscosity(properties.own().density / properties.own().viscosity),
-        gravity(gravity_vector),
+        graining(setup.materials),
+        gravity(setup.gravity),
         is_set_three(fluid.momentum_set == "III"),
         initial_velocity{fluid.initial_velocity.x, fluid.initial_velocity.y,
                          fluid.initial_velocity.z},
         is_one_way(fluid.is_one_way),
         is_overlapped(fluid.overlaps_grains),
         needs_size_ratio(law.needs_size_ratio()),
-        step(time.fluid_step) {
+        step(setup.time.fluid_step) {
     least_spacing = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
     refreshes = refreshes_for(step, 0.0);
     if (is_own_taken_off) memory.keep_own_flow();
@@ -117,12 +118,20 @@ struct Coupling::Impl {
     const Fluid fluid = fluid_at(position);
     return fluid.density / fluid.viscosity;
   }
-  [[nodiscard]] double reynolds(const double* position, double eps, double slip) const {
-    return eps * slip * 2.0 * position[3] * per_kinematic_viscosity(position);
+  /// Reynolds number of the grains that a row stands for.
+  [[nodiscard]] double reynolds(const particles::GrainRows& grains, std::size_t row, double eps,
+                                double slip) const {
+    const double* position = grains.position + 4 * row;
+    return eps * slip * 2.0 * position[3] * per_kinematic_viscosity(position) /
+           graining.of(grains, row);
   }
-  /// K = 3 pi mu D F [kg/s].
-  static double coefficient(const Fluid& fluid, double diameter, double factor) {
-    return 3.0 * std::numbers::pi * fluid.viscosity * diameter * factor;
+  /// K = 3 pi mu D F [kg/s]: of l^3 grains of diameter D / l, l^2 times as much.
+  [[nodiscard]] double coefficient(const particles::GrainRows& grains, std::size_t row,
+                                   double factor) const {
+    const double* position = grains.position + 4 * row;
+    const double l = graining.of(grains, row);
+    return 3.0 * std::numbers::pi * fluid_at(position).viscosity * 2.0 * position[3] * factor *
+           (l * l);
   }
   /// What the drag on a grain is made of K by: set III puts the pressure's part into it.
   [[nodiscard]] double share_of_set(double eps) const { return is_set_three ? 1.0 / eps : 1.0; }
@@ -186,6 +195,7 @@ struct Coupling::Impl {
   CouplingReport report;
   fluid::Properties properties;
   double own_per_kinematic_viscosity;  ///< [s/m2] of the uniform fluid
+  Graining graining;
   sdk::Vec3 gravity;
   bool is_set_three;
   Triple initial_velocity;

@@ -46,12 +46,14 @@ struct ForceTerms::Columns {
 
 ForceTerms::ForceTerms(std::span<const std::unique_ptr<sdk::FluidForce>> models,
                        std::vector<particles::Surface> surfaces, const Lattice& lattice,
-                       const fluid::Properties& properties, sdk::Vec3 gravity, bool is_set_three)
+                       const fluid::Properties& properties, sdk::Vec3 gravity, bool is_set_three,
+                       const Graining& graining)
     : surfaces_(std::move(surfaces)),
       lattice_(lattice),
       properties_(properties),
       gravity_(gravity),
       is_set_three_(is_set_three),
+      graining_(graining),
       width_(k_first_history) {
   for (const auto& model : models) {
     const sdk::FluidForceNeeds needs = model->needs();
@@ -154,8 +156,9 @@ void ForceTerms::gather(const particles::GrainRows& grains, const Batch& batch,
     const sdk::Vec3 centre{x[0], x[1], x[2]};
     const fluid::Properties::Values own =
         properties_.is_uniform() ? properties_.own() : properties_.at(centre);
-    c.diameter[n] = 2.0 * x[3];
-    c.mass[n] = 1.0 / v[3];
+    const double l = graining_.of(grains, row);
+    c.diameter[n] = 2.0 * x[3] / l;
+    c.mass[n] = 1.0 / (v[3] * (l * l * l));
     c.density[n] = own.density;
     c.viscosity[n] = own.viscosity;
     c.rotation.set(n, sdk::Vec3{w[0], w[1], w[2]});
@@ -308,13 +311,15 @@ void ForceTerms::evaluate(const particles::GrainRows& grains, const Batch& batch
     const bool is_returned = model->reaction() == sdk::FluidForceReaction::fluid;
     for (std::size_t n = 0; n < batch.rows.size(); ++n) {
       // Set III divides by the void fraction what grains and fluid give each other.
-      const double share = is_returned && is_set_three_ ? 1.0 / batch.void_fraction[n] : 1.0;
+      const double l = graining_.of(grains, static_cast<std::size_t>(batch.rows[n]));
+      const double share =
+          l * l * l * (is_returned && is_set_three_ ? 1.0 / batch.void_fraction[n] : 1.0);
       Triple& sum = is_returned ? sums.returned[n] : sums.contained[n];
       sum[0] += share * c.force.x[n];
       sum[1] += share * c.force.y[n];
       sum[2] += share * c.force.z[n];
       sums.added_mass[n] += share * c.added_mass[n];
-      sums.resistance[n] += c.resistance[n];
+      sums.resistance[n] += c.resistance[n];  // of a wall: none with coarse grains
       if (size > 0) {
         std::copy_n(history.data() + size * n, size,
                     memory.kept(static_cast<std::size_t>(batch.rows[n])) + offset);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "coupling/grain_memory.hpp"
+#include "coupling/graining.hpp"
 #include "coupling/lattice.hpp"
 #include "dust/sdk/archive.hpp"
 #include "dust/sdk/fluid_force.hpp"
@@ -52,7 +53,8 @@ class ForceTerms {
 
   ForceTerms(std::span<const std::unique_ptr<sdk::FluidForce>> models,
              std::vector<particles::Surface> surfaces, const Lattice& lattice,
-             const fluid::Properties& properties, sdk::Vec3 gravity, bool is_set_three);
+             const fluid::Properties& properties, sdk::Vec3 gravity, bool is_set_three,
+             const Graining& graining);
 
   /// Forces that the models give in place of the core.
   [[nodiscard]] const sdk::FluidForceParts& taken() const { return taken_; }
@@ -93,6 +95,7 @@ class ForceTerms {
   const fluid::Properties& properties_;
   sdk::Vec3 gravity_;
   bool is_set_three_;
+  const Graining& graining_;
   sdk::FluidForceNeeds needs_;
   sdk::FluidForceParts taken_;
   std::size_t width_ = 0;

@@ -69,17 +69,15 @@ void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t ba
       find_own_flow(grains, row, eps, slip);
     }
     columns.void_fraction[q] = eps;
-    columns.reynolds[q] = reynolds(position, eps, slip);
+    columns.reynolds[q] = reynolds(grains, row, eps, slip);
     columns.size_ratio[q] = r.size_ratio;
   }
   evaluate(columns, rows.size());
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
-    const double diameter = 2.0 * grains.position[4 * row + 3];
     const double inverse_mass = grains.velocity[4 * row + 3];
-    const Fluid fluid = fluid_at(grains.position + 4 * row);
     // The faces' coefficients hold the set's share already.
-    const double of_faces = coefficient(fluid, diameter, columns.factor[q]) / stress_part(row);
+    const double of_faces = coefficient(grains, row, columns.factor[q]) / stress_part(row);
     const double drag_coefficient = of_faces * share_of_set(columns.void_fraction[q]);
     // A free grain relaxes within the step: mean drag = (m / step) (1 - exp(-K step / m)) (u - v).
     const double relaxations = drag_coefficient * inverse_mass * step;
@@ -107,9 +105,7 @@ void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) 
   memory.align(grains);
   double fastest = 0.0;  // 3 pi mu D / m [1/s]
   for (std::size_t row = 0; row < grains.count; ++row) {
-    const double* position = grains.position + 4 * row;
-    fastest = std::max(fastest, coefficient(fluid_at(position), 2.0 * position[3], 1.0) *
-                                    grains.velocity[4 * row + 3]);
+    fastest = std::max(fastest, coefficient(grains, row, 1.0) * grains.velocity[4 * row + 3]);
   }
   refreshes = refreshes_for(step, fastest);
   done_refreshes = 0;
@@ -164,11 +160,12 @@ void Coupling::Impl::find_size_ratios(const particles::GrainRows& grains) {
     const double diameter = 2.0 * grains.position[4 * row + 3];
     std::array<double, 2>& sums = size_sums[cell_of(row)];
     sums[0] += grains.weight[row] * diameter * diameter * diameter;
-    sums[1] += grains.weight[row] * diameter * diameter;
+    sums[1] += grains.weight[row] * diameter * diameter * graining.of(grains, row);
   }
   for (std::size_t row = 0; row < grains.count; ++row) {
     const std::array<double, 2>& sums = size_sums[cell_of(row)];
-    memory[row].size_ratio = 2.0 * grains.position[4 * row + 3] * sums[1] / sums[0];
+    memory[row].size_ratio =
+        2.0 * grains.position[4 * row + 3] / graining.of(grains, row) * sums[1] / sums[0];
   }
 }
 

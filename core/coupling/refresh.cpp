@@ -48,7 +48,7 @@ void Coupling::Impl::look(const particles::GrainRows& grains, SpotBatch& spot, R
     r.fluid_velocity = {v[0][q] + slip[0], v[1][q] + slip[1], v[2][q] + slip[2]};
     r.has_velocity = true;
     const double speed = std::sqrt(slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2]);
-    batch.reynolds[q] = reynolds(grains.position + 4 * row, batch.void_fraction[q], speed);
+    batch.reynolds[q] = reynolds(grains, row, batch.void_fraction[q], speed);
     batch.size_ratio[q] = r.size_ratio;
   }
 }
@@ -126,10 +126,8 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t num
     forces->evaluate(grains, terms, state, held(state), memory, sums);
     for (std::size_t n = 0; n < rows.size(); ++n) {
       const auto row = static_cast<std::size_t>(rows[n]);
-      const double drag_coefficient =
-          coefficient(fluid_at(grains.position + 4 * row), 2.0 * grains.position[4 * row + 3],
-                      batch.factor[n]) *
-          share_of_set(batch.void_fraction[n]) / stress_part(row);
+      const double drag_coefficient = coefficient(grains, row, batch.factor[n]) *
+                                      share_of_set(batch.void_fraction[n]) / stress_part(row);
       Triple relative;
       for (std::size_t d = 0; d < 3; ++d) relative[d] = seen.ratio[d][n] * seen.slip[d][n];
       act(grains, row, n, drag_coefficient, relative, held(state), sums);
@@ -143,7 +141,7 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t num
     double* action = grains.fluid_action + 4 * row;
     Remembered& r = memory[row];
     const Fluid fluid = fluid_at(grains.position + 4 * row);
-    const double drag_coefficient = coefficient(fluid, diameter, batch.factor[q]) *
+    const double drag_coefficient = coefficient(grains, row, batch.factor[q]) *
                                     share_of_set(batch.void_fraction[q]) / stress_part(row);
     const double per_drag = 1.0 / drag_coefficient;
     const double volume = sdk::sphere_volume(diameter);

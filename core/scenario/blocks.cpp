@@ -91,6 +91,12 @@ const ParameterSchema& MaterialBlock::schema() {
         .symbol("nu")
         .above(-1)
         .at_most(0.5);
+    s.number(&MaterialBlock::coarse_graining, "coarse_graining", dimension::none,
+             "Diameter of a grain over that of the smaller grains it stands for: the fluid acts as "
+             "on these, the contacts see the grain itself.")
+        .symbol("l")
+        .at_least(1)
+        .optional();
     return s.build();
   }();
   return made;

@@ -49,6 +49,7 @@ struct MaterialBlock {
   double density = 0.0;
   double young_modulus = 0.0;
   double poisson_ratio = 0.0;
+  double coarse_graining = MaterialSpec{}.coarse_graining;
   static const sdk::ParameterSchema& schema();
 };
 

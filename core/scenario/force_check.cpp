@@ -35,6 +35,14 @@ void check_forces(const Setup& setup, std::span<const sdk::FluidForce* const> mo
       is_told = true;
     }
     if (models[n] == nullptr || is_told) continue;
+    for (const MaterialSpec& material : setup.materials) {
+      if (material.coarse_graining == 1.0 || !(models[n]->needs().wall_reach > 0.0)) continue;
+      diagnostics.error(choices[n].where,
+                        choices[n].path + ": '" + choices[n].name +
+                            "' acts between a wall and the grain itself, but a grain of '" +
+                            material.name + "' stands for smaller ones: remove it, or materials." +
+                            material.name + ".coarse_graining");
+    }
     const sdk::FluidForceParts parts = models[n]->takes_over();
     for (const Part& part : k_parts) {
       if (!(parts.*part.flag)) continue;

@@ -12,8 +12,9 @@ void SetupReader::read_materials(MapReader& top) {
     std::vector<sdk::Value> values;
     const auto material = block<MaterialBlock>(reader, &values);
     reader.finish();
-    setup_.materials.push_back(
-        {entry.key, {material.density, material.young_modulus, material.poisson_ratio}});
+    setup_.materials.push_back({entry.key,
+                                {material.density, material.young_modulus, material.poisson_ratio},
+                                material.coarse_graining});
     written.add(entry.key, written_block<MaterialBlock>(values));
   });
   if (!written.entries.empty()) out_.add("materials", std::move(written));

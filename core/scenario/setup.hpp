@@ -64,6 +64,7 @@ struct DomainSpec {
 struct MaterialSpec {
   std::string name;
   sdk::MaterialProperties properties;
+  double coarse_graining = 1.0;  ///< [-] diameter of a grain over that of those it stands for
 };
 
 struct InteractionSpec {

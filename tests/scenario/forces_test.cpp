@@ -118,6 +118,12 @@ TEST_CASE("contradictory forces shall be told with their place and a remedy") {
   CHECK(holds(set, "forces.yaml:35:13: error: fluid_forces[2]: 'viscous' gives"));
   CHECK(holds(said({"fluid_forces=[{model: magnus}, {model: magnus}]"}),
               "fluid_forces[1]: 'magnus' is given already by fluid_forces[0]"));
+  CHECK(holds(said({"materials.sand.coarse_graining=2"}),
+              "fluid_forces[7]: 'lubrication' acts between a wall and the grain itself, but a "
+              "grain of 'sand' stands for smaller ones: remove it, or "
+              "materials.sand.coarse_graining"));
+  CHECK(holds(said({"materials.sand.coarse_graining=0.5"}),
+              "materials.sand.coarse_graining: 0.5 is outside l >= 1"));
   CHECK(holds(said({"fluid_forces={model: magnus}"}),
               "fluid_forces: a list of '- model: ...' is expected, not a map"));
   CHECK(holds(said({"fluid_forces=[{model: mangus}]"}), "did you mean 'magnus'?"));

@@ -121,6 +121,12 @@ void tell_things(std::ostream& out, const Setup& setup, const Derived& derived) 
     if (std::abs(e.real_per_second - e.computed_per_second) > 0.5) {
       out << " (standing for " << counted(e.real_per_second) << ")";
     }
+    const auto& spec = setup.emitters[n];
+    const double l = setup.materials[static_cast<std::size_t>(spec.material)].coarse_graining;
+    if (setup.fluid && l != 1.0) {
+      out << ", each for " << digits(l * l * l) << " of 1/" << digits(l)
+          << " of its size in the fluid";
+    }
     out << '\n';
     head = "             ";
   }

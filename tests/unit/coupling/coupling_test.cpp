@@ -416,4 +416,22 @@ TEST_CASE("a law shall get each grain's size over the Sauter mean of its cell") 
   }
 }
 
+TEST_CASE("a law shall get the sizes that coarse grains stand for") {
+  // A grain of 4 mm for 64 of 1 mm, among three of 2 mm that are themselves.
+  World::Choice choice;
+  choice.coarse_graining = {4.0, 1.0};
+  World world(choice);
+  world.grains.add({0.1, 0.1, 0.1}, {}, 4e-3);
+  for (int n = 0; n < 3; ++n) world.grains.add({0.1 + 0.02 * n, 0.15, 0.1}, {}, 2e-3);
+  for (std::size_t g = 1; g < 4; ++g) world.grains.material[g] = 1;
+  const SizeLaw law;
+  coupling::Coupling coupling(world.setup, world.grid, world.open, *world.voidage, law);
+  coupling.map(world.grains.rows(), 1e-3);
+  coupling.refresh(world.grains.rows(), world.velocity, world.stress);
+  const double mean = 1e-3 * (64 * 1 + 3 * 8) / (64 * 1 + 3 * 4);
+  REQUIRE(law.seen.size() == 4);
+  CHECK(law.seen[0] == doctest::Approx(1e-3 / mean).epsilon(1e-14));
+  CHECK(law.seen[1] == doctest::Approx(2e-3 / mean).epsilon(1e-14));
+}
+
 }  // namespace

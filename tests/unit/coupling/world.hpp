@@ -127,6 +127,7 @@ struct World {
     bool is_one_way = false;
     bool corrects_own_disturbance = false;
     bool overlaps = false;
+    std::vector<double> coarse_graining{1.0};   ///< by material
     std::function<double(int, int, int)> open;  ///< open fraction of a cell; null = 1 everywhere
   };
 
@@ -149,6 +150,7 @@ struct World {
     setup.fluid->is_one_way = c.is_one_way;
     setup.fluid->corrects_own_disturbance = c.corrects_own_disturbance;
     setup.fluid->overlaps_grains = c.overlaps;
+    for (const double ratio : c.coarse_graining) setup.materials.push_back({"sand", {}, ratio});
     if (c.open) {
       for_cells([&](int i, int j, int k) { open[grid.index(i, j, k)] = c.open(i, j, k); });
     }
