@@ -142,9 +142,11 @@ struct Coupling::Impl {
   }
 
   void map(const particles::GrainRows& grains, double fluid_step);
-  /// `coefficient` [kg/s] per grain: what the fluid is given.
+  void find_slips(const particles::GrainRows& grains, std::size_t batch, Rows rows, Batch& columns);
+  void find_steepness(Batch& columns, std::size_t count, double* steepness) const;
+  /// `coefficient` [kg/s] and `steepness` [-] per grain: GivenDrag.
   void remember(const particles::GrainRows& grains, std::size_t batch, Rows rows,
-                double* coefficient);
+                double* coefficient, double* steepness);
   /// Void fraction that a grain in the cell `own` has around it; sets `wide` for a grain larger
   /// than a cell.
   [[nodiscard]] double void_fraction_at(const double* position, std::ptrdiff_t own,

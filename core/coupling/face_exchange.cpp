@@ -54,8 +54,8 @@ void FaceExchange::resize(std::size_t batches) {
 }
 
 void FaceExchange::charge(const particles::GrainRows& grains, const Spots& spots, std::size_t batch,
-                          const double* coefficient, GrainMemory& memory,
-                          const fluid::CellField& eps, double step) {
+                          const GivenDrag& given, GrainMemory& memory, const fluid::CellField& eps,
+                          double step) {
   const std::span<const std::int32_t> rows = spots.rows(batch);
   const SpotBatch& here = spots.batches[batch];
   const double* around = spots.eps.data() + batch * SpotBatch::k_size;
@@ -71,11 +71,14 @@ void FaceExchange::charge(const particles::GrainRows& grains, const Spots& spots
     const auto row = static_cast<std::size_t>(rows[q]);
     // What the grain's own solids add to the void fractions has no part in its drag.
     const double lone = around[q] + (is_own_taken_off_ ? memory.own_flow(row).solids : 0.0);
-    shared[q] = grains.weight[row] * coefficient[q] * per_volume / (lone * lone);
+    const double slope = 1.0 + given.steepness[q];
+    shared[q] = grains.weight[row] * given.coefficient[q] * slope * per_volume / (lone * lone);
+    const double back = lone * given.steepness[q] / slope;
     sums.has_wide = sums.has_wide || wide.takes(here.position[4 * q + 3]);
     for (std::size_t d = 0; d < 3; ++d) {
-      charges[d].velocity[q] = grains.velocity[4 * row + d];
-      charges[d].lag[q] = 0.0;
+      const double v = grains.velocity[4 * row + d];
+      charges[d].velocity[q] = v;
+      charges[d].lag[q] = back * (v - memory[row].fluid_velocity[d]);
       inputs[d].owed[q] = memory[row].owed[d] * per_volume_and_step;
       inputs[d].gain[q] = 1.0;
     }
@@ -87,7 +90,7 @@ void FaceExchange::charge(const particles::GrainRows& grains, const Spots& spots
     if (sums.has_wide) sum_wide(here, d, eps, input);
     for (std::size_t q = 0; is_own_taken_off_ && q < rows.size(); ++q) {
       const OwnFlow& own = memory.own_flow(static_cast<std::size_t>(rows[q]));
-      charges[d].lag[q] = (around[q] + own.solids) * own.disturbance[d];
+      charges[d].lag[q] += (around[q] + own.solids) * own.disturbance[d];
       if (is_set_three_) continue;
       input.gain[q] += own.face_solids[d] * input.open[q] / input.fluid[q];
     }

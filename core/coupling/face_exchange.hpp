@@ -29,6 +29,14 @@ struct Spots {
   }
 };
 
+/// Drag of a batch of grains as the fluid is given it, K [(1 + b) s - b s_0] for the slip s to come
+/// and that of before, s_0: the tangent to a drag that grows as s^(1+b), so that the fluid is not
+/// too late with it where drag is stiff (docs/theory/coupling.md, Time).
+struct GivenDrag {
+  const double* coefficient;  ///< [kg/s] K at s_0
+  const double* steepness;    ///< [-] b = d ln K / d ln s, 0..1
+};
+
 /// Coefficient and source of each face from the grains around it. A grain with drag coefficient K,
 /// velocity v and weight W adds, at face f of component d with trilinear weight w_f,
 ///   coefficient += W w_f K eps_f / (a eps_c^2 V)
@@ -45,10 +53,9 @@ class FaceExchange {
 
   /// Makes room for as many batches.
   void resize(std::size_t batches);
-  /// What each grain of a batch gives, from the sums over its faces. `coefficient` [kg/s] is that
-  /// given to the fluid. Debts are paid thereby.
+  /// What each grain of a batch gives, from the sums over its faces. Debts are paid thereby.
   void charge(const particles::GrainRows& grains, const Spots& spots, std::size_t batch,
-              const double* coefficient, GrainMemory& memory, const fluid::CellField& eps,
+              const GivenDrag& given, GrainMemory& memory, const fluid::CellField& eps,
               double step);
   /// Gives the faces what the batches are charged with, and the debts of the grains that are gone.
   /// Returns the number of force components without an open face.

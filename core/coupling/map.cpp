@@ -11,14 +11,18 @@ namespace {
 /// Least part of the true drag coefficient given to the fluid. The mean drag of a free grain falls
 /// short of it when the grain follows the fluid within the step; a grain held by its neighbours
 /// feels it in full, and what the fluid was not given comes one step late. That is stable only if
-/// the late part is the smaller one: the share must exceed 1/2.
-constexpr double k_least_implicit = 0.6;
+/// the late part is the smaller one: the share must exceed 1/2, and 2/3 where the fluid takes many
+/// sub-steps.
+constexpr double k_least_implicit = 0.7;
 
 /// The same where the grains' cycle overlaps the fluid's step. What grains receive is then that of
 /// the step before: errors of a held one follow h x^2 - h x + 1 = 0, |x|^2 = 1/h, so that the
 /// fluid must be given more than the true coefficient (the rest of the debt is taken back). Free
 /// grains are stable from 1 to 4.
 constexpr double k_overlapped_implicit = 2.0;
+
+/// Relative change of the Reynolds number by which the steepness of a drag law is found.
+constexpr double k_reynolds_change = 0.01;
 
 }  // namespace
 
@@ -40,11 +44,9 @@ bool Coupling::Impl::locate(const particles::GrainRows& grains, Rows rows, SpotB
   return true;
 }
 
-/// The implicit drag coefficient of each grain. The slip is that with the fluid
-/// last seen at the grain (the initial velocity for a new one); collect() makes up for the lag.
-void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t batch, Rows rows,
-                              double* coefficient_of_fluid) {
-  Batch columns;
+/// The slip of each grain with the fluid last seen at it (the initial velocity for a new one).
+void Coupling::Impl::find_slips(const particles::GrainRows& grains, std::size_t batch, Rows rows,
+                                Batch& columns) {
   WideKernel wide(lattice, voidage);
   SpotBatch& here = spots.batches[batch];
   double* around = spots.eps.data() + batch * k_batch;
@@ -72,6 +74,29 @@ void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t ba
     columns.reynolds[q] = reynolds(grains, row, eps, slip);
     columns.size_ratio[q] = r.size_ratio;
   }
+}
+
+/// How drag grows with the slip at the present factors, d ln F / d ln Re: 0 for a viscous drag, 1
+/// for one of inertia. Spoils the factors and Reynolds numbers.
+void Coupling::Impl::find_steepness(Batch& columns, std::size_t count, double* steepness) const {
+  SpotBatch::Reals factor;
+  for (std::size_t q = 0; q < count; ++q) {
+    factor[q] = columns.factor[q];
+    columns.reynolds[q] *= 1.0 + k_reynolds_change;
+  }
+  evaluate(columns, count);
+  for (std::size_t q = 0; q < count; ++q) {
+    const double growth = columns.factor[q] / factor[q] - 1.0;
+    steepness[q] = std::clamp(growth * (1.0 / k_reynolds_change), 0.0, 1.0);
+  }
+}
+
+/// The drag of each grain as the fluid is given it. The slip is that of before; collect() makes up
+/// for the lag.
+void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t batch, Rows rows,
+                              double* coefficient_of_fluid, double* steepness) {
+  Batch columns;
+  find_slips(grains, batch, rows, columns);
   evaluate(columns, rows.size());
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
@@ -82,8 +107,13 @@ void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t ba
     // A free grain relaxes within the step: mean drag = (m / step) (1 - exp(-K step / m)) (u - v).
     const double relaxations = drag_coefficient * inverse_mass * step;
     const double mean = -std::expm1(-relaxations) / relaxations;
-    coefficient_of_fluid[q] =
-        of_faces * (is_overlapped ? k_overlapped_implicit : std::max(mean, k_least_implicit));
+    const double part = is_overlapped ? k_overlapped_implicit : std::max(mean, k_least_implicit);
+    coefficient_of_fluid[q] = of_faces * part;
+  }
+  find_steepness(columns, rows.size(), steepness);
+  // There is no tangent where no fluid has been seen yet.
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    if (!memory[static_cast<std::size_t>(rows[q])].has_velocity) steepness[q] = 0.0;
   }
 }
 
@@ -139,8 +169,9 @@ void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) 
   faces.resize(spots.batches.size());
   for_batches([&](std::size_t batch, Rows rows) {
     SpotBatch::Reals coefficient;
-    remember(grains, batch, rows, coefficient.data());
-    faces.charge(grains, spots, batch, coefficient.data(), memory, eps, step);
+    SpotBatch::Reals steepness;
+    remember(grains, batch, rows, coefficient.data(), steepness.data());
+    faces.charge(grains, spots, batch, {coefficient.data(), steepness.data()}, memory, eps, step);
   });
   are_spots_of_map = true;
   if (is_overlapped) mapped_spots = spots;

@@ -102,6 +102,14 @@ TEST_CASE("a run without the grains' own disturbance shall differ, and go on fro
               "correction out"));
 }
 
+TEST_CASE("a check shall tell what coarse grains stand for") {
+  const auto told = engine({"check", k_scenario, "--set", "fluid_forces=[]", "--set",
+                            "materials.sand.coarse_graining=2"});
+  CHECK(told.status == 0);
+  CHECK(
+      holds(told.out, "drop: sand, 3 grains at once, each for 8 of 1/2 of its size in the fluid"));
+}
+
 TEST_CASE("contradictory forces shall be told with their place and a remedy") {
   const std::string twice =
       said({"fluid_forces=[{model: archimedes}, {model: pressure_gradient, hydrostatic: true}]"});
