@@ -165,21 +165,57 @@ void FluidTable::set_open_fraction(const fluid::CellField& open_fraction) {
   }
 }
 
-void FluidTable::publish(const fluid::FluidSolver& solver, const fluid::CellField& void_fraction) {
+std::size_t FluidTable::row_beside(int d, int step, int j, int k) const {
+  std::array<int, 3> at{0, j, k};
+  const int n = grid_.count[d];
+  int next = at[d] + step;
+  if (grid_.is_periodic[d]) next = (next + n) % n;
+  if (next >= 0 && next < n) at[d] = next;
+  return static_cast<std::size_t>(grid_.count[0]) *
+         (at[1] + static_cast<std::size_t>(grid_.count[1]) * at[2]);
+}
+
+void FluidTable::publish_velocity(const fluid::FluidSolver& solver) {
   const auto& velocity = solver.velocity();
-  const auto& pressure = solver.pressure();
   const int nx = grid_.count[0];
-  const int ny = grid_.count[1];
   tbb::parallel_for(0, grid_.count[2], [&](int k) {
-    for (int j = 0; j < ny; ++j) {
+    for (int j = 0; j < grid_.count[1]; ++j) {
       const std::ptrdiff_t from = grid_.index(0, j, k);
-      const std::size_t to = static_cast<std::size_t>(nx) * (j + static_cast<std::size_t>(ny) * k);
+      const std::size_t to = row_beside(0, 0, j, k);
       for (int d = 0; d < 3; ++d) {
         const double* low = velocity.component[d].data() + from;
         const double* high = low + grid_.stride[d];
-        float* out = velocity_[d].data() + to;
-        for (int i = 0; i < nx; ++i) out[i] = static_cast<float>(0.5 * (low[i] + high[i]));
+        const std::size_t below = row_beside(d, -1, j, k);
+        const std::size_t above = row_beside(d, 1, j, k);
+        for (int i = 0; i < nx; ++i) {
+          const auto own = static_cast<std::size_t>(i);
+          // Along x the neighbours lie in the same row.
+          std::size_t before = own;
+          std::size_t after = own;
+          if (d == 0) {
+            const bool wraps = grid_.is_periodic[0];
+            if (i > 0 || wraps) before = static_cast<std::size_t>((i + nx - 1) % nx);
+            if (i + 1 < nx || wraps) after = static_cast<std::size_t>((i + 1) % nx);
+          }
+          const double eps = void_fraction_[to + own];
+          const auto face = [&](std::size_t beside) {
+            return open_fraction_[beside] > 0.0F ? 0.5 * (eps + void_fraction_[beside]) : eps;
+          };
+          const double flux = 0.5 * (face(below + before) * low[i] + face(above + after) * high[i]);
+          velocity_[d][to + own] = static_cast<float>(flux / eps);
+        }
       }
+    }
+  });
+}
+
+void FluidTable::publish(const fluid::FluidSolver& solver, const fluid::CellField& void_fraction) {
+  const auto& pressure = solver.pressure();
+  const int nx = grid_.count[0];
+  tbb::parallel_for(0, grid_.count[2], [&](int k) {
+    for (int j = 0; j < grid_.count[1]; ++j) {
+      const std::ptrdiff_t from = grid_.index(0, j, k);
+      const std::size_t to = row_beside(0, 0, j, k);
       const double* p = pressure.data() + from;
       const double* e = void_fraction.data() + from;
       for (int i = 0; i < nx; ++i) {
@@ -188,6 +224,7 @@ void FluidTable::publish(const fluid::FluidSolver& solver, const fluid::CellFiel
       }
     }
   });
+  publish_velocity(solver);
 }
 
 sdk::FluidColumns FluidTable::columns() const {

@@ -52,6 +52,12 @@ class FluidTable {
   [[nodiscard]] sdk::FluidColumns columns() const;
 
  private:
+  /// Velocities at the centres that times the void fraction are the mean of the fluxes through the
+  /// two faces: what flows through a bed is the same in each of its layers.
+  void publish_velocity(const fluid::FluidSolver& solver);
+  /// Where the row of cells `step` beside (j, k) along d begins; that of (j, k) beyond a side.
+  [[nodiscard]] std::size_t row_beside(int d, int step, int j, int k) const;
+
   fluid::Grid grid_;
   double density_;
   double viscosity_;
