@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Air through a held bed that several columns of cells side by side share: a fluid step is many times
-// the relaxation of the air, and drag grows faster than the slip.
+// Air through a held bed that several columns of cells side by side share: a fluid step is many
+// times the relaxation of the air, and drag grows faster than the slip.
 #include "two_way.hpp"
 
 #include <doctest/doctest.h>
@@ -59,7 +59,8 @@ double unevenness(double superficial, double step, bool overlaps, const std::str
 }
 
 TEST_CASE("air shall flow evenly through an even bed, however long the step and fast the air") {
-  // One grain of 125 in a cell opens that by 1 %, its resistance sinks by a tenth of that times ten.
+  // One grain of 125 in a cell opens that by 1 %, its resistance sinks by a tenth of that times
+  // ten.
   constexpr double k_of_one_grain = 0.1;
   for (const bool overlaps : {false, true}) {
     for (const std::string set : {"I", "III"}) {

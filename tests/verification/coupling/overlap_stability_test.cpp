@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The step of free dust beside air that is solved at the same time, as a matrix
 // (docs/decisions/0014_overlap_of_air_and_grains.md): which of its errors grow.
-#include <Eigen/Eigenvalues>
+#include "error_growth.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,6 +10,8 @@
 
 namespace {
 
+using dust::test::growth;
+using dust::test::Relaxation;
 using State = Eigen::RowVector4d;  // u, m, v, o
 enum class Shown { end_of_step, mean_of_step };
 
@@ -20,43 +22,20 @@ Eigen::Matrix4d step_of(double a, double k, double h, int n, Shown shown) {
   const State v{0, 0, 1, 0};
   const State o{0, 0, 0, 1};
   const double implicit = h * a * k;
-  const double decay = n == 0 ? std::exp(-implicit) : std::pow(1.0 + implicit / n, -n);
+  const Relaxation left(implicit, n);
   const State gap = u - v - o / implicit;
-  const State mean = v + o / implicit + (1.0 - decay) / implicit * gap;
+  const State mean = v + o / implicit + left.mean * gap;
   const State received = -std::expm1(-k) * ((shown == Shown::mean_of_step ? m : u) - v);
   Eigen::Matrix4d step;
-  step.row(0) = v + o / implicit + decay * gap;
+  step.row(0) = v + o / implicit + left.end * gap;
   step.row(1) = mean;
   step.row(2) = v + received;
   step.row(3) = implicit * (mean - v) - a * received;
   return step;
 }
 
-/// The largest besides that of the momentum both have together, which is 1.
-double growth(const Eigen::Matrix4d& step) {
-  const Eigen::Vector4cd all = step.eigenvalues();
-  Eigen::Index kept = 0;
-  double nearest = 1e30;
-  for (Eigen::Index n = 0; n < 4; ++n) {
-    const double off = std::abs(all[n] - 1.0);
-    if (off < nearest) nearest = off, kept = n;
-  }
-  double most = 0.0;
-  for (Eigen::Index n = 0; n < 4; ++n) {
-    if (n != kept) most = std::max(most, std::abs(all[n]));
-  }
-  return most;
-}
-
-/// Loads from dust in clean air to a bed, grains from heavy to carried along.
 double largest_growth(double h, int n, Shown shown) {
-  double most = 0.0;
-  for (double a = 1e-3; a < 1.1e5; a *= 1.6) {
-    for (double k = 1e-4; k < 1.1e3; k *= 1.6) {
-      most = std::max(most, growth(step_of(a, k, h, n, shown)));
-    }
-  }
-  return most;
+  return dust::test::largest_growth([&](double a, double k) { return step_of(a, k, h, n, shown); });
 }
 
 }  // namespace
