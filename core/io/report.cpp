@@ -88,8 +88,8 @@ json lone_json(const json& report, double speed, double gravity, double deepest)
   double density = 0.0;
   for (const json& emitter : list_at(setting, "emitters")) {
     const double own = number_at(emitter, "density").value_or(0.0);
-    if (density != 0.0 && own != density)
-      return json::array();  // which grains are whose is not told
+    // Which grains are whose is not told; coarse ones fly as those they stand for.
+    if ((density != 0.0 && own != density) || emitter.contains("stands_for")) return json::array();
     density = own;
   }
   std::vector<double> sizes;

@@ -135,6 +135,13 @@ std::string sides_html(const json& setting) {
   return table.html();
 }
 
+/// Of an emitter of coarse grains.
+std::string stands_for_html(const json& thing) {
+  const auto number = number_at(thing, "stands_for");
+  if (!number) return {};
+  return ", each grain for " + number_html(*number, 3) + " smaller ones in the air";
+}
+
 }  // namespace
 
 std::string setting_html(const RunText& run, const json& bodies) {
@@ -155,7 +162,8 @@ std::string setting_html(const RunText& run, const json& bodies) {
       key += std::string("<li><span class=\"badge ") + css_class + "\">" +
              (mark.empty() ? std::string("\u2013") : std::to_string(number)) + "</span><span><b>" +
              escape_html(words(text_at(thing, "name"))) + "</b> " +
-             escape_html(words(text_at(thing, "model"))) + "</span></li>\n";
+             escape_html(words(text_at(thing, "model"))) + stands_for_html(thing) +
+             "</span></li>\n";
     }
   };
   add("emitters", "emitter");

@@ -164,7 +164,10 @@ nlohmann::ordered_json setting_json(const scenario::Setup& setup,
   j["emitters"] = Json::array();
   for (const auto& e : setup.emitters) {
     Json emitter = thing_json(setup, registry, e.name, e.model, e.frame);
-    emitter["density"] = setup.materials[static_cast<std::size_t>(e.material)].properties.density;
+    const scenario::MaterialSpec& material = setup.materials[static_cast<std::size_t>(e.material)];
+    emitter["density"] = material.properties.density;
+    const double l = material.coarse_graining;
+    if (setup.fluid && l != 1.0) emitter["stands_for"] = l * l * l;  // smaller grains, in the fluid
     j["emitters"].push_back(std::move(emitter));
   }
   if (setup.fluid && setup.fluid->regions.empty()) {

@@ -102,12 +102,17 @@ TEST_CASE("a run without the grains' own disturbance shall differ, and go on fro
               "correction out"));
 }
 
-TEST_CASE("a check shall tell what coarse grains stand for") {
-  const auto told = engine({"check", k_scenario, "--set", "fluid_forces=[]", "--set",
-                            "materials.sand.coarse_graining=2"});
+TEST_CASE("coarse grains shall be told of, and be moved as what they stand for") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> coarse{"fluid_forces=[]", "materials.sand.coarse_graining=2"};
+  const auto told = engine({"check", k_scenario, "--set", coarse[0], "--set", coarse[1]});
   CHECK(told.status == 0);
   CHECK(
       holds(told.out, "drop: sand, 3 grains at once, each for 8 of 1/2 of its size in the fluid"));
+  CHECK(digest(folder, "coarse", coarse) != digest(folder, "plain", {coarse[0]}));
+  CHECK(holds(read_file(folder / "coarse" / "report.html"),
+              "each grain for 8 smaller ones in the air"));
+  CHECK(!holds(read_file(folder / "plain" / "report.html"), "smaller ones in the air"));
 }
 
 TEST_CASE("contradictory forces shall be told with their place and a remedy") {
