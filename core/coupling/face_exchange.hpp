@@ -41,9 +41,10 @@ struct GivenDrag {
 /// velocity v and weight W adds, at face f of component d with trilinear weight w_f,
 ///   coefficient += W w_f K eps_f / (a eps_c^2 V)
 ///   source      += W w_f K eps_f v / (a eps_c^2 V) + w_f owed / (e V step)
-/// a = sum(w open), e = sum(w open eps) over its eight faces, eps_c the void fraction of its cell,
-/// V the cell volume. Grains larger than a cell act through all faces of the cells they are spread
-/// over. Derivation and what this conserves: docs/theory/coupling.md.
+/// and for the tangent of the drag K (1 + b) in place of K, and source += W w_f K b s_0 / (a eps_c
+/// V). a = sum(w open), e = sum(w open eps) over its eight faces, eps_c the void fraction of its
+/// cell, V the cell volume. Grains larger than a cell act through all faces of the cells they are
+/// spread over. Derivation and what this conserves: docs/theory/coupling.md.
 class FaceExchange {
  public:
   /// `is_set_three`: the momentum equation is that of set III, whose fluid receives a density of

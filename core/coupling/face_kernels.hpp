@@ -106,7 +106,9 @@ struct ChargeColumns {
   SpotBatch::Reals drag;      ///< [kg/(m3 s)] to the coefficient, times w eps
   SpotBatch::Reals velocity;  ///< [m/s] times the drag to the source, times w eps
   SpotBatch::Reals extra;     ///< [N/m3] to the source, times w
-  SpotBatch::Reals lag;       ///< [m/s] slip that the grain makes itself, times eps around it
+  /// [m/s] slip besides that of the faces, times eps around the grain: what the grain makes itself,
+  /// less the part of the slip before that the tangent of its drag takes back.
+  SpotBatch::Reals lag;
 };
 /// What the charges are made of; `coefficient` is the same for all components.
 struct ChargeInput {
