@@ -10,9 +10,19 @@
 namespace dust::contact {
 using namespace lanes;
 
-DUST_KERNEL void mark_approaching(const Courses& courses, const Images& images, double range,
-                                  double horizon, const std::int32_t* a, const std::int32_t* b,
-                                  std::size_t count, std::uint8_t* is_approaching) {
+namespace {
+
+/// Pairs ahead whose rows are fetched.
+constexpr std::size_t k_ahead = 32;
+
+}  // namespace
+
+DUST_KERNEL void mark_approaching(const Courses& courses, const Images& images,
+                                  const Outlook& outlook, const std::int32_t* a,
+                                  const std::int32_t* b, std::size_t count,
+                                  std::uint8_t* approach) {
+  const double horizon = outlook.horizon;
+  const double behind2 = outlook.behind * outlook.behind;
   // x, y, z become differences, the fourth column of positions the sum of the radii.
   const Lanes sign{-1.0, -1.0, -1.0, 1.0};
   const Lanes length{images.length[0], images.length[1], images.length[2], 0.0};
@@ -22,6 +32,14 @@ DUST_KERNEL void mark_approaching(const Courses& courses, const Images& images, 
     Lanes v[4];
     Lanes allowance;
     for (std::size_t l = 0; l < 4; ++l) {
+      const std::size_t later = std::min(q + k_ahead + l, count - 1);
+      for (const std::int32_t grain : {a[later], b[later]}) {
+        __builtin_prefetch(courses.position + 4 * static_cast<std::ptrdiff_t>(grain), 0, 2);
+        __builtin_prefetch(courses.velocity + 4 * static_cast<std::ptrdiff_t>(grain), 0, 2);
+        __builtin_prefetch(courses.allowance + grain, 0, 2);
+      }
+    }
+    for (std::size_t l = 0; l < 4; ++l) {
       const std::size_t e = std::min(q + l, count - 1);
       x[l] = row(courses.position, a[e]) + sign * row(courses.position, b[e]);
       v[l] = row(courses.velocity, a[e]) + sign * row(courses.velocity, b[e]);
@@ -30,7 +48,7 @@ DUST_KERNEL void mark_approaching(const Courses& courses, const Images& images, 
     }
     transpose(x[0], x[1], x[2], x[3]);
     transpose(v[0], v[1], v[2], v[3]);
-    const Lanes reach = x[3] + allowance + range;
+    const Lanes reach = x[3] + allowance + outlook.range;
     const Lanes reach2 = reach * reach;
     const Lanes xx = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
     const Lanes xv = x[0] * v[0] + x[1] * v[1] + x[2] * v[2];
@@ -42,8 +60,15 @@ DUST_KERNEL void mark_approaching(const Courses& courses, const Images& images, 
     const LaneMask passes_between = (xv < 0.0) & (-xv < vv * horizon);
     const LaneMask is_near_between = xx * vv - xv * xv < reach2 * vv;
     const LaneMask meets = is_near | is_near_later | (passes_between & is_near_between);
+    // Distance < radii - speed times `behind`, squared twice: no root.
+    const Lanes flown2 = behind2 * vv;
+    const Lanes touch2 = x[3] * x[3];
+    const Lanes excess = touch2 + flown2 - xx;
+    const LaneMask overlaps = (flown2 < touch2) & (excess > 0.0) &
+                              (excess * excess > 4.0 * touch2 * flown2);
+    const LaneMask found = meets & (1LL * k_may_meet | (overlaps & (1LL * k_overlaps)));
     for (std::size_t l = 0; l < 4 && q + l < count; ++l) {
-      is_approaching[q + l] = meets[l] != 0 ? 1 : 0;
+      approach[q + l] = static_cast<std::uint8_t>(found[l]);
     }
   }
 }

@@ -15,10 +15,24 @@ struct Courses {
   const double* allowance = nullptr;  ///< [m] one per grain
 };
 
-/// Whether grains a[q] and b[q] may come closer than touch + `range` [m] within `horizon` [s]: 1 or
-/// 0 for each of `count` pairs.
-void mark_approaching(const Courses& courses, const Images& images, double range, double horizon,
+/// What is looked for: who may come closer than touch + `range` [m] within `horizon` [s], and who
+/// has overlapped for longer than `behind` [s].
+struct Outlook {
+  double range = 0.0;
+  double horizon = 0.0;
+  double behind = 0.0;
+};
+
+/// What mark_approaching says of a pair.
+enum Approach : std::uint8_t {
+  k_keeps_away = 0,
+  k_may_meet = 1,
+  k_overlaps = 2,  ///< by more than they come nearer in the time `behind`
+};
+
+/// For grains a[q] and b[q], of `count` pairs: k_may_meet, with k_overlaps or without, or 0.
+void mark_approaching(const Courses& courses, const Images& images, const Outlook& outlook,
                       const std::int32_t* a, const std::int32_t* b, std::size_t count,
-                      std::uint8_t* is_approaching);
+                      std::uint8_t* approach);
 
 }  // namespace dust::contact

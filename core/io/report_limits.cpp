@@ -49,8 +49,9 @@ constexpr std::array k_rules{
          "the Young's modulus, or see that the speeds met are those expected."},
     Rule{k_fine_overlap, "Largest overlap over the smaller radius, fine grains", Bound::at_most,
          0.05, "Fine grains are crushed between coarse ones: see below what that does."},
-    Rule{"late_neighbour_lists", "Neighbour lists renewed too late", Bound::at_most, 0.0,
-         "A contact may have begun unseen. Shorten the DEM step or widen the skin."},
+    Rule{"contacts_seen_late", "Contacts between grains that began unseen", Bound::at_most, 0.0,
+         "Somebody was thrown farther off its course than the lists foresee, and its first overlap "
+         "counted from the step it was seen at. Shorten the DEM step."},
     Rule{"entries_waiting", "Grains that never found room to enter", Bound::at_most, 0.0,
          "The feed is denser than its opening allows: less came than asked."},
     Rule{"largest_momentum_imbalance", "Largest momentum imbalance, grains and air", Bound::at_most,

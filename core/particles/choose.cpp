@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "contact/approach.hpp"
 #include "contact/standing.hpp"
 #include "particles/impl.hpp"
 
@@ -65,9 +66,12 @@ void each_block(const ContactList& contacts, Visit&& visit) {
 }  // namespace
 
 /// The contact list made new: who touches, with the history, and who may come to touch: `meets`,
-/// one byte of 0 or 1 per entry of the list. Without branches on either, which nobody foretells.
-void Dem::Impl::choose_contacts(const VerletList& list, ContactList& contacts,
-                                const std::vector<std::uint8_t>& meets, bool may_stand) const {
+/// one contact::Approach per entry of the list. Without branches on either, which nobody foretells.
+/// Returns how many have overlapped for some steps, though no contact of theirs is known: the watch
+/// before did not look at them.
+std::int64_t Dem::Impl::choose_contacts(const VerletList& list, ContactList& contacts,
+                                        const std::vector<std::uint8_t>& meets,
+                                        bool may_stand) const {
   struct Choice {
     std::int32_t entry;    ///< of the list
     std::int32_t contact;  ///< before, or -1
@@ -81,6 +85,7 @@ void Dem::Impl::choose_contacts(const VerletList& list, ContactList& contacts,
   }
   next.segments.clear();
   Choice* end = chosen.data();
+  std::int64_t seen_late = 0;
   const auto number = [&] { return static_cast<std::int32_t>(end - chosen.data()); };
   Known known(contacts);
   for (const Segment& s : list.segments) {
@@ -92,6 +97,8 @@ void Dem::Impl::choose_contacts(const VerletList& list, ContactList& contacts,
       *touches = *approaches = {static_cast<std::int32_t>(q), contact};
       touches += contact >= 0 ? 1 : 0;
       approaches += (contact < 0) & (meets[q] != 0) ? 1 : 0;
+      if ((contact < 0) & (meets[q] > contact::k_may_meet)) [[unlikely]]
+        seen_late += has_made_steps(list.a[q]) && has_made_steps(list.b[q]) ? 1 : 0;
     }
     Segment part{s.law, s.surface, number(), 0, 0};
     const std::ptrdiff_t stand = may_stand ? (touches - touching.data()) / 8 * 8 : 0;
@@ -117,6 +124,7 @@ void Dem::Impl::choose_contacts(const VerletList& list, ContactList& contacts,
     for (std::size_t h = 0; h < stride; h += 4) std::memcpy(to + h, from + h, 4 * sizeof(double));
   }
   contacts.take_exactly(next, count, history_stride);
+  return seen_late;
 }
 
 /// The histories of the standing contacts into columns, block by block, where they are.

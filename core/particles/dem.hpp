@@ -75,8 +75,7 @@ struct DemReport {
   double largest_coarse_overlap = 0.0;  ///< [-] of that, between grains on coarse steps and walls
   double largest_fine_overlap = 0.0;    ///< [-] of that, where a sub-stepped grain takes part
   std::int64_t contacts = 0;            ///< in touch at the last step
-  std::int64_t late_lists = 0;  ///< times a fine grain left its allowance within one step: a new
-                                ///< partner may have been seen one step late
+  std::int64_t contacts_seen_late = 0;  ///< between grains, begun while no watch looked at them
 };
 
 /// A contact as sensors see it.

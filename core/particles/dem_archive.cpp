@@ -165,7 +165,7 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
                                 counters.particle_steps,
                                 counters.fine_steps,
                                 counters.rebuilds,
-                                counters.late_lists,
+                                counters.contacts_seen_late,
                                 counters.flown_steps,
                                 allowance_level,
                                 watch_length,
@@ -257,7 +257,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   counters.particle_steps = state.at(9);
   counters.fine_steps = state.at(10);
   counters.rebuilds = state.at(11);
-  counters.late_lists = state.at(12);
+  counters.contacts_seen_late = state.at(12);
   counters.flown_steps = state.at(13);
   allowance_level = state.at(14);
   watch_length = state.at(15);

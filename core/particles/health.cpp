@@ -50,11 +50,10 @@ void Dem::Impl::fail(std::size_t row, const std::string& what, const std::string
 /// allowance. Looked after when a watch ends; mending is asked for early enough for the next one. A
 /// fine grain of 10 um pressed between two of 600 um (soft as grains are made to be) comes off with
 /// up to the speed at which its elastic energy sets it free, some 10 m/s: more than its allowance
-/// in one step. The lists are made new then, at the cost of a partner that may be seen late; such
-/// events are counted and returned. A coarse grain that does this is an error.
-std::int64_t Dem::Impl::check_course(std::size_t begin, std::size_t end, bool& wants_mending,
-                                     bool& wants_rebuild) const {
-  std::int64_t late_grains = 0;
+/// in one step. The lists are made new then, at the cost of a partner that may be seen late (counted
+/// when a watch begins). A coarse grain that does this is an error.
+void Dem::Impl::check_course(std::size_t begin, std::size_t end, bool& wants_mending,
+                             bool& wants_rebuild) const {
   bool asks = false;
   for (std::size_t n = begin; n < end; ++n) {
     const Deviation off = deviation(n);
@@ -67,11 +66,9 @@ std::int64_t Dem::Impl::check_course(std::size_t begin, std::size_t end, bool& w
            "speeds far above the expected one: give time.expected_speed or a smaller "
            "time.dem_step");
     }
-    ++late_grains;
   }
   wants_mending = wants_mending || asks;
   if (is_periodic) look_for_wraps(begin, end, wants_rebuild);
-  return late_grains;
 }
 
 Dem::Impl::Deviation Dem::Impl::deviation(std::size_t n) const {
@@ -100,12 +97,11 @@ bool Dem::Impl::is_off_course(std::size_t n) const {
 }
 
 /// The same for the choice of a watch and the grains it keeps awake; the next look comes after
-/// `ahead` coarse steps. Returns how many were off by more than their allowance already.
-std::int64_t Dem::Impl::check_awake(const Awake& awake, std::int64_t done, std::int64_t ahead,
-                                    bool& wants_watch) const {
+/// `ahead` coarse steps. Who is off by more than its allowance already may have met somebody unseen.
+void Dem::Impl::check_awake(const Awake& awake, std::int64_t done, std::int64_t ahead,
+                            bool& wants_watch) const {
   const double t = static_cast<double>(done) * steps.coarse_step;
   const double time_ahead = static_cast<double>(ahead) * steps.coarse_step;
-  std::int64_t late_grains = 0;
   bool asks = false;
   for (std::size_t k = 0; k < awake.rows.size(); ++k) {
     const auto n = static_cast<std::size_t>(awake.rows[k]);
@@ -122,12 +118,9 @@ std::int64_t Dem::Impl::check_awake(const Awake& awake, std::int64_t done, std::
     }
     const double limit2 = static_cast<double>(start.allowance) * start.allowance;
     asks = asks || std::max(off2, next2) > k_trigger * k_trigger * limit2;
-    if (off2 <= limit2) continue;
     if (!std::isfinite(off2)) fail_as_not_a_number(n);
-    ++late_grains;
   }
   wants_watch = wants_watch || asks;
-  return late_grains;
 }
 
 void Dem::Impl::fail_as_not_a_number(std::size_t row) const {

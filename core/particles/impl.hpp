@@ -151,7 +151,7 @@ struct Chunk {
   contact::AlignedVector<double> force;
   double largest_overlap = 0.0;
   std::int64_t contacts = 0;
-  std::int64_t late = 0;                      ///< of the last check
+  std::int64_t seen_late = 0;                 ///< contacts, when the watch began
   std::vector<double> wall_sums;              ///< WallLoads::k_sums per wall, if watched
   std::vector<sdk::WallImpact> wall_impacts;  ///< in the order of the contacts
   bool wants_watch = false;
@@ -205,6 +205,10 @@ struct Dem::Impl {
   void choose_watch_allowances();
   [[nodiscard]] bool may_meet_surface(std::size_t i, const Surface& surface) const;
   [[nodiscard]] bool flies_straight(std::size_t row) const;
+  /// Not one that has just come, perhaps into an overlap.
+  [[nodiscard]] bool has_made_steps(std::int32_t row) const {
+    return store.half_velocity[4 * static_cast<std::size_t>(row) + 3] == 0.5 * steps.coarse_step;
+  }
   void begin_watch();
   void invite_guests(Chunk& chunk);
   void wake_guests();
@@ -212,8 +216,8 @@ struct Dem::Impl {
   void land();
 
   // choose.cpp
-  void choose_contacts(const VerletList& list, ContactList& contacts,
-                       const std::vector<std::uint8_t>& meets, bool may_stand) const;
+  std::int64_t choose_contacts(const VerletList& list, ContactList& contacts,
+                               const std::vector<std::uint8_t>& meets, bool may_stand) const;
   void stand(ContactList& contacts) const;
   void fall_in(ContactList& contacts) const;
 
@@ -261,10 +265,10 @@ struct Dem::Impl {
   };
   [[nodiscard]] Deviation deviation(std::size_t row) const;
   [[nodiscard]] bool is_off_course(std::size_t row) const;
-  [[nodiscard]] std::int64_t check_course(std::size_t begin, std::size_t end, bool& wants_mending,
-                                          bool& wants_rebuild) const;
-  [[nodiscard]] std::int64_t check_awake(const Awake& awake, std::int64_t done, std::int64_t ahead,
-                                         bool& wants_watch) const;
+  void check_course(std::size_t begin, std::size_t end, bool& wants_mending,
+                    bool& wants_rebuild) const;
+  void check_awake(const Awake& awake, std::int64_t done, std::int64_t ahead,
+                   bool& wants_watch) const;
   void look_for_wraps(std::size_t begin, std::size_t end, bool& wants_rebuild) const;
 
   void fill_last_force() const;
@@ -344,7 +348,6 @@ struct Dem::Impl {
   std::vector<double> watch_allowance;  ///< [m] how far a grain may be off its course
   std::vector<std::uint8_t> is_awake;   ///< 2: awake, and in a list of another chunk
   Awake fine_awake;
-  std::vector<std::int64_t> late;
   std::vector<std::uint8_t> wants;
   // Working space of the fine pass.
   FineSpace fine_space;

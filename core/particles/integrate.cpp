@@ -59,6 +59,11 @@ DUST_KERNEL void integrate_rows(const AwakeRows& r, double step, bool has_fluid)
     __builtin_prefetch(r.position + next, 1);
     __builtin_prefetch(r.velocity + next, 1);
     __builtin_prefetch(r.rotation + next, 1);
+    if (has_fluid) {
+      __builtin_prefetch(r.action + next);
+      __builtin_prefetch(r.impulse + next, 1);
+      __builtin_prefetch(r.decay + next / 2);
+    }
     Lanes* f = &row_of(r.force, 2 * (r.by_row * (n - r.first) + r.by_place * k));
     const Lanes force = f[0];
     const Lanes torque = f[1];
@@ -133,7 +138,7 @@ bool Dem::Impl::is_check_due() const { return (since_watch + 1) % check_every(wa
 /// `done`: steps of the watch, this one included.
 void Dem::Impl::check(Chunk& chunk, std::int64_t done) const {
   chunk.wants_watch = false;
-  chunk.late = check_awake(chunk.awake, done, check_every(watch_length), chunk.wants_watch);
+  check_awake(chunk.awake, done, check_every(watch_length), chunk.wants_watch);
 }
 
 void Dem::Impl::integrate() {
@@ -155,13 +160,12 @@ void Dem::Impl::integrate() {
   if (is_check) {
     for (const Chunk& c : chunks) {
       must_watch = must_watch || c.wants_watch;
-      counters.late_lists += c.late;
     }
   }
   if (coarse_count < store.size()) {
     fine_pass();
     // Dust squeezed out between coarse grains goes off at several m/s: looked after at every step.
-    counters.late_lists += check_awake(fine_awake, since_watch, 1, must_watch);
+    check_awake(fine_awake, since_watch, 1, must_watch);
   }
 }
 

@@ -62,7 +62,7 @@ bool Dem::Impl::may_meet_surface(std::size_t i, const Surface& surface) const {
 /// Whether a grain without contacts leaves its straight course by little enough.
 bool Dem::Impl::flies_straight(std::size_t n) const {
   const double step = steps.coarse_step;
-  if (store.half_velocity[4 * n + 3] != 0.5 * step) return false;  // has just come
+  if (!has_made_steps(static_cast<std::int32_t>(n))) return false;
   const double* g = gravity.data() + 4 * static_cast<std::ptrdiff_t>(store.material[n]);
   const double* action = store.action_of(n);
   double sum = 0.0;
@@ -182,7 +182,10 @@ void Dem::Impl::begin_watch() {
   for (const Reaction& r : pending) is_awake[static_cast<std::size_t>(r.row)] = 1;
   const contact::Courses courses{store.position.data(), store.velocity.data(),
                                  watch_allowance.data()};
-  const double horizon_time = static_cast<double>(watch_length) * steps.coarse_step;
+  // Two steps: the velocities at hand are not quite those of the step behind.
+  const contact::Outlook outlook{.range = largest_range,
+                                 .horizon = static_cast<double>(watch_length) * steps.coarse_step,
+                                 .behind = 2.0 * steps.coarse_step};
   const auto surface_meets = [&](std::int32_t a, std::int32_t s) -> std::uint8_t {
     const auto row = static_cast<std::size_t>(a);
     return may_meet_surface(row, surfaces[static_cast<std::size_t>(s)]) ? 1 : 0;
@@ -192,9 +195,9 @@ void Dem::Impl::begin_watch() {
     thread_local std::vector<std::uint8_t> meets;
     const VerletList& near = chunk.near_pairs;
     meets.resize(near.size());
-    contact::mark_approaching(courses, images, largest_range, horizon_time, near.a.data(),
-                              near.b.data(), near.size(), meets.data());
-    choose_contacts(near, chunk.pairs, meets, true);
+    contact::mark_approaching(courses, images, outlook, near.a.data(), near.b.data(), near.size(),
+                              meets.data());
+    chunk.seen_late = choose_contacts(near, chunk.pairs, meets, true);
     const VerletList& walls = chunk.near_surfaces;
     meets.resize(walls.size());
     for (std::size_t q = 0; q < walls.size(); ++q) meets[q] = surface_meets(walls.a[q], walls.b[q]);
@@ -218,10 +221,11 @@ void Dem::Impl::begin_watch() {
     if (j < 0) {
       meets[q] = surface_meets(i, -1 - j);
     } else {
-      contact::mark_approaching(courses, images, largest_range, horizon_time, &i, &j, 1, &meets[q]);
+      contact::mark_approaching(courses, images, outlook, &i, &j, 1, &meets[q]);
     }
   }
-  choose_contacts(near_fine, fine, meets, false);
+  counters.contacts_seen_late += choose_contacts(near_fine, fine, meets, false);
+  for (const Chunk& c : chunks) counters.contacts_seen_late += c.seen_late;
   for (std::size_t e = 0; e < fine.size(); ++e) {
     is_awake[static_cast<std::size_t>(fine.a[e])] = 1;
     if (fine.b[e] >= 0) {
@@ -347,7 +351,6 @@ void Dem::Impl::land() {
   choose_watch_length();
   counters.flown_steps += flying * since_watch;
   const std::size_t blocks = (store.size() + k_block - 1) / k_block;
-  late.assign(blocks, 0);
   wants.assign(blocks, 0);
   oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
     const std::size_t begin = b * k_block;
@@ -366,11 +369,10 @@ void Dem::Impl::land() {
              steps.coarse_step, since_watch, has_fluid);
     bool wants_mending = false;
     bool wants_rebuild = false;
-    late[b] = check_course(begin, end, wants_mending, wants_rebuild);
+    check_course(begin, end, wants_mending, wants_rebuild);
     wants[b] = wants_rebuild ? 2 : wants_mending ? 1 : 0;
   });
   for (std::size_t b = 0; b < blocks; ++b) {
-    counters.late_lists += late[b];
     must_mend = must_mend || wants[b] != 0;
     must_rebuild = must_rebuild || wants[b] == 2;
   }

@@ -158,7 +158,7 @@ Json health(const Simulation& s) {
   Json h = Json::object();
   h["entries_delayed"] = s.delayed_entries();
   h["entries_waiting"] = s.waiting_entries();
-  h["late_neighbour_lists"] = s.dem().report().late_lists;
+  h["contacts_seen_late"] = s.dem().report().contacts_seen_late;
   const auto overlaps = s.dem().report();
   h["largest_overlap_over_radius"] = overlaps.largest_overlap;
   h["largest_overlap_over_radius_coarse"] = overlaps.largest_coarse_overlap;

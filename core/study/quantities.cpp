@@ -50,7 +50,7 @@ constexpr Named k_always[] = {
     {"mass_kg.removed", "kg"},
     {"health.entries_delayed", "1"},
     {"health.entries_waiting", "1"},
-    {"health.late_neighbour_lists", "1"},
+    {"health.contacts_seen_late", "1"},
     {"health.largest_overlap_over_radius", "1"},
     {"health.largest_overlap_over_radius_coarse", "1"},
     {"health.largest_overlap_over_radius_fine", "1"},

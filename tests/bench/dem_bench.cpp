@@ -4,8 +4,7 @@
 // A dilute flow (sand falling through air space with dust between); where a bed is given, that bed,
 // and the same loosened and thrown down, as where a container is being filled: lists last a few
 // steps there.
-#include "bench/read_bed.hpp"
-#include "support/dem_rig.hpp"
+#include "bench/in_tube.hpp"
 
 #include "dust/sdk/random.hpp"
 
@@ -138,8 +137,7 @@ void bed_of(const char* file, bool is_landing) {
   rig.setup.gravity = {0, 0, -9.81};
   Bed bed = read_bed(file);
   rig.diameters = bed.diameters;
-  rig.setup.domain.min = bed.low;
-  rig.setup.domain.max = bed.high + Vec3{0, 0, 0.01};
+  put_in_tube(rig, bed, sand);
   if (is_landing) {
     rig.setup.time.expected_speed = 1.0;
     const dust::sdk::Random random(1, 1);
@@ -150,7 +148,6 @@ void bed_of(const char* file, bool is_landing) {
       g.velocity = 0.6 * (u - Vec3{0.5, 0.5, 0.5}) + Vec3{0, 0, -0.5};
     }
   }
-  for (int s = 0; s < 5; ++s) rig.wall(s, sand);
   auto dem = rig.make();
   dem->insert(bed.grains);
   if (is_landing) {

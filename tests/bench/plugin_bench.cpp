@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the plugin boundary costs: a settled bed with the contact law from its library and the same
 // law compiled into this program, blocks of steps in turn. plugin_bench BED.csv (one thread)
-#include "bench/read_bed.hpp"
+#include "bench/in_tube.hpp"
 #include "contact/hertz_mindlin/hertz_mindlin.cpp"
-#include "support/dem_rig.hpp"
 
 #include <oneapi/tbb/global_control.h>
 
@@ -38,8 +37,8 @@ class OwnLaws : public dust::sdk::Registrar {
   dust::sdk::ModelFactory factory_;
 };
 
-std::unique_ptr<Dem> make_bed(const Bed& bed, bool is_compiled_in) {
-  DemRig rig;
+/// `rig` holds the walls, and has to outlive what it makes.
+std::unique_ptr<Dem> make_bed(DemRig& rig, const Bed& bed, bool is_compiled_in) {
   const int sand = rig.material(2650, 50e6, 0.3);
   rig.law(sand, sand, 0.9, 0.52, 0.3);
   if (is_compiled_in) {
@@ -51,9 +50,7 @@ std::unique_ptr<Dem> make_bed(const Bed& bed, bool is_compiled_in) {
   }
   rig.diameters = bed.diameters;
   rig.setup.gravity = {0, 0, -9.81};
-  rig.setup.domain.min = bed.low;
-  rig.setup.domain.max = bed.high + dust::sdk::Vec3{0, 0, 0.01};
-  for (int side = 0; side < 5; ++side) rig.wall(side, sand);
+  put_in_tube(rig, bed, sand);
   auto dem = rig.make();
   dem->insert(bed.grains);
   return dem;
@@ -68,7 +65,9 @@ int main(int argc, char** argv) {
   }
   oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   const Bed bed = read_bed(argv[1]);
-  const std::unique_ptr<Dem> dems[2] = {make_bed(bed, false), make_bed(bed, true)};
+  DemRig rigs[2];
+  const std::unique_ptr<Dem> dems[2] = {make_bed(rigs[0], bed, false),
+                                        make_bed(rigs[1], bed, true)};
   double best[2] = {1e30, 1e30};
   constexpr int k_steps = 50;
   for (int block = 0; block < 25; ++block) {

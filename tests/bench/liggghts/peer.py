@@ -1,4 +1,4 @@
-"""LIGGGHTS inputs for the cases of `compare`, and its rate from the log."""
+"""LIGGGHTS inputs for the cases of `compare` and `coupled_bed`, and its rate from the log."""
 
 import re
 import subprocess
@@ -21,14 +21,14 @@ def write_grains(folder, grains, low, high):
             out.write(f"{n + 1} {g[4]:.10g} {g[5]:.10g} {g[6]:.10g} 0 0 0\n")
 
 
-def write_input(folder, walls, pairs, step, skin, warm, steps):
-    """walls: lines with {law}; pairs: per property, sand with sand, belt, glass."""
+def write_input(folder, walls, pairs, step, skin, warm, steps, sides="f f f"):
+    """walls: lines with {law}; pairs: per property, sand with sand, belt, glass; sides: f, or p for periodic."""
     def matrix(name):
         sand, belt, glass = pairs[name]
         return f"{name} peratomtypepair 3 {sand} {belt} {glass} {belt} {belt} {belt} {glass} {belt} {glass}"
 
     lines = [
-        "atom_style granular", "atom_modify map array sort 1000 0.0012", "boundary f f f",
+        "atom_style granular", "atom_modify map array sort 1000 0.0012", f"boundary {sides}",
         "newton off", "communicate single vel yes", "units si", "read_data grains.data",
         f"neighbor {skin} bin", "neigh_modify delay 0",
         "fix m1 all property/global youngsModulus peratomtype 5e7 5e7 5e7",
@@ -48,10 +48,10 @@ def run(folder, count, steps, least_neighbours):
     ran = subprocess.run(["liggghts", "-in", "in.case"], cwd=folder, capture_output=True, text=True)
     log = ran.stdout
     if ran.returncode != 0:
-        sys.exit("compare: LIGGGHTS stopped: " + "\n".join(log.splitlines()[-5:]))
+        sys.exit("LIGGGHTS stopped: " + "\n".join(log.splitlines()[-5:]))
     seconds, left = re.findall(r"Loop time of ([0-9.eE+-]+) on 1 procs for \d+ steps with (\d+)",
                                log)[-1]
     found = int(re.findall(r"Total # of neighbors = (\d+)", log)[-1])
     if found < least_neighbours * count:
-        sys.exit(f"compare: LIGGGHTS found {found} neighbours of {count} grains; this is no comparison")
+        sys.exit(f"LIGGGHTS found {found} neighbours of {count} grains; this is no comparison")
     return 1e-6 * int(left) * steps / float(seconds)

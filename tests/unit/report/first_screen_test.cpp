@@ -141,13 +141,13 @@ TEST_CASE("limits of validity that a run went beyond shall be counted") {
   json summary = run_with_openings();
   summary["health"] = {{"largest_diameter_over_spacing", 0.49},
                        {"smallest_void_fraction", 0.3},
-                       {"late_neighbour_lists", 2},
+                       {"contacts_seen_late", 2},
                        {"largest_overlap_over_radius", 0.01}};
   folder.write("summary.json", summary.dump());
   CHECK(has(first_screen(folder), "2 limits of validity touched"));
   const std::string page = folder.read("report.html");
-  CHECK(has(page, "Neighbour lists renewed too late"));
-  summary["health"] = {{"largest_diameter_over_spacing", 0.5}, {"late_neighbour_lists", 0}};
+  CHECK(has(page, "Contacts between grains that began unseen"));
+  summary["health"] = {{"largest_diameter_over_spacing", 0.5}, {"contacts_seen_late", 0}};
   folder.write("summary.json", summary.dump());
   CHECK(has(first_screen(folder), "No limit of validity touched"));
 }
