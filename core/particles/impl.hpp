@@ -202,6 +202,11 @@ struct Dem::Impl {
   // watch.cpp
   void choose_watch_length();
   [[nodiscard]] double fastest() const;
+  [[nodiscard]] double typical_speed() const;
+  [[nodiscard]] double speed2(std::size_t row) const {
+    const double* v = store.velocity.data() + 4 * row;
+    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  }
   void choose_watch_allowances();
   [[nodiscard]] bool may_meet_surface(std::size_t i, const Surface& surface) const;
   [[nodiscard]] bool flies_straight(std::size_t row) const;

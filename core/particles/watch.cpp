@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace dust::particles {
@@ -24,9 +25,12 @@ constexpr std::int64_t k_longest_in_bed = 256;
 /// Allowed deviation during a watch, as a share of that of the list: the list's check, made only
 /// when a watch ends, triggers at 0.7 of its allowance, so that 0.7 + k_watch_share stays below 1.
 constexpr double k_watch_share = 1.0 / 6.0;
-/// No more than the fastest grain flies in so many coarse steps: what rests side by side in a bed
-/// need not be looked at.
+/// No more than a grain flies in so many coarse steps: what rests side by side in a bed need not be
+/// looked at. Its own speed counts, or that of the fast ones among all, of whom one may hit it: the
+/// fastest, but no more than this often the root mean square, lest a stray grain above a bed at rest
+/// has all of the bed look far.
 constexpr double k_reach_steps = 16.0;
+constexpr double k_fast = 4.0;
 /// [-] and no less than this share of a diameter.
 constexpr double k_least_reach = 0.004;
 
@@ -87,14 +91,25 @@ double Dem::Impl::fastest() const {
       oneapi::tbb::blocked_range<std::size_t>(0, blocks), walls * walls,
       [&](const oneapi::tbb::blocked_range<std::size_t>& range, double most) {
         const std::size_t end = std::min(store.size(), range.end() * k_block);
-        for (std::size_t n = range.begin() * k_block; n < end; ++n) {
-          const double* v = store.velocity.data() + 4 * n;
-          most = std::max(most, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-        }
+        for (std::size_t n = range.begin() * k_block; n < end; ++n) most = std::max(most, speed2(n));
         return most;
       },
       [](double a, double b) { return std::max(a, b); });
   return std::sqrt(square);
+}
+
+/// [m/s] root mean square over the grains; the same on any number of threads.
+double Dem::Impl::typical_speed() const {
+  const std::size_t blocks = (store.size() + k_block - 1) / k_block;
+  const double squares = oneapi::tbb::parallel_deterministic_reduce(
+      oneapi::tbb::blocked_range<std::size_t>(0, blocks), 0.0,
+      [&](const oneapi::tbb::blocked_range<std::size_t>& range, double sum) {
+        const std::size_t end = std::min(store.size(), range.end() * k_block);
+        for (std::size_t n = range.begin() * k_block; n < end; ++n) sum += speed2(n);
+        return sum;
+      },
+      std::plus<>());
+  return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(store.size(), 1)));
 }
 
 /// Whom of later chunks this chunk's pairs name, and where forces on both sides are gathered.
@@ -161,13 +176,15 @@ void Dem::Impl::promise_gifts() {
 
 /// How far each grain may be off its course during the next watch.
 void Dem::Impl::choose_watch_allowances() {
-  const double reach = std::max(k_reach_steps * fastest() * steps.coarse_step,
-                                k_least_reach * steps.classes.back().diameter);
+  const double fast = std::min(fastest(), k_fast * typical_speed());
+  const double least = k_least_reach * steps.classes.back().diameter;
   watch_allowance.resize(store.size());
   const std::size_t blocks = (store.size() + k_block - 1) / k_block;
   oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
     const std::size_t end = std::min(store.size(), (b + 1) * k_block);
     for (std::size_t n = b * k_block; n < end; ++n) {
+      const double speed = std::max(fast, std::sqrt(speed2(n)));
+      const double reach = std::max(k_reach_steps * speed * steps.coarse_step, least);
       watch_allowance[n] = std::min(k_watch_share * store.start[4 * n + 3], reach);
     }
   });
