@@ -124,7 +124,11 @@ void Dem::Impl::move_all(Chunk& chunk, double* force) {
   take_gifts(chunk, force, ForceOrder::by_row);
   chunk.moved = rows.size();
   chunk.force.clear();
-  integrate_awake(rows, static_cast<std::size_t>(chunk.begin), force, ForceOrder::by_row);
+  if (static_cast<std::int32_t>(rows.size()) == chunk.end - chunk.begin) {
+    integrate_all(static_cast<std::size_t>(chunk.begin), rows.size(), force);
+  } else {
+    integrate_awake(rows, static_cast<std::size_t>(chunk.begin), force, ForceOrder::by_row);
+  }
   if (is_check_due()) check(chunk, since_watch + 1);
 }
 

@@ -163,6 +163,8 @@ struct Reaction {
   double impulse[6] = {0, 0, 0, 0, 0, 0};
 };
 
+struct AwakeRows;
+
 struct Dem::Impl {
   Impl(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vector<PairLaws> laws,
        std::vector<double> diameters, double fluid_density);
@@ -252,6 +254,8 @@ struct Dem::Impl {
   void integrate();
   [[nodiscard]] bool is_check_due() const;
   void check(Chunk& chunk, std::int64_t done) const;
+  void integrate_all(std::size_t first, std::size_t count, double* force);
+  [[nodiscard]] AwakeRows awake_rows();
   void integrate_awake(std::span<const std::int32_t> rows, std::size_t first, double* force,
                        ForceOrder order);
 
@@ -303,7 +307,7 @@ struct Dem::Impl {
   sdk::Vec3 domain_min, domain_max;
   contact::Images images;
   TimeSteps steps;
-  std::vector<double> gravity;  ///< four per material, reduced by buoyancy
+  contact::AlignedVector<double> gravity;  ///< four per material, reduced by buoyancy
   std::size_t history_stride = 4;
   double largest_range = 0.0;
   bool is_periodic = false;
