@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
 #include "commands.hpp"
+#include "huge_pages.hpp"
 #include "scenario/suggest.hpp"
 
 #include <algorithm>
@@ -80,6 +81,7 @@ int engine_main(int argc, char** argv) {
   engine::add_test_plugin(app, status);
   std::vector<std::string> arguments(argv + 1, argv + argc);
   complete_arguments(app, arguments);
+  if (!arguments.empty() && arguments.front() == "run") engine::ask_for_huge_pages(argv);
   std::reverse(arguments.begin(), arguments.end());
   try {
     app.parse(arguments);
