@@ -40,11 +40,11 @@ std::string facts_html(const std::string& rows) {
 /// Keys that have their own place on the page.
 bool is_shown_elsewhere(const std::string& key) {
   static constexpr std::array k_keys{
-      "scenario",       "version",     "status",         "threads",        "wall_s",
-      "cpu_s",          "simulated_s", "dem_steps",      "fluid_steps",    "particle_steps",
-      "peak_rss_bytes", "particles",   "real_particles", "mass_kg",        "timers_s",
-      "state_sha256",   "sensors",     "reason",         "size_classes",   "plugins",
-      "build",          "warnings",    "references",     "scenario_sha256"};
+      "scenario",       "version",     "status",         "threads",         "wall_s",
+      "cpu_s",          "simulated_s", "dem_steps",      "fluid_steps",     "particle_steps",
+      "peak_rss_bytes", "particles",   "real_particles", "mass_kg",         "timers_s",
+      "state_sha256",   "sensors",     "reason",         "size_classes",    "plugins",
+      "build",          "warnings",    "references",     "scenario_sha256", "huge_page_bytes"};
   return std::find(k_keys.begin(), k_keys.end(), key) != k_keys.end();
 }
 

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <set>
 #include <utility>
@@ -211,6 +212,17 @@ Json outlines(const Simulation& s) {
   return all;
 }
 
+/// Of the memory held now, what stands in pages of 2 MB; 0 where nobody tells.
+std::int64_t huge_page_bytes() {
+  std::ifstream file("/proc/self/smaps_rollup");
+  std::string word;
+  while (file >> word) {
+    std::int64_t kibibytes = 0;
+    if (word == "AnonHugePages:" && file >> kibibytes) return 1024 * kibibytes;
+  }
+  return 0;
+}
+
 }  // namespace
 
 SeriesRow series_row(const Simulation& s) {
@@ -271,6 +283,7 @@ void write_summary(const std::filesystem::path& folder, const Simulation& s,
   j["wall_s"] = facts.wall_s;
   j["cpu_s"] = facts.cpu_s;
   j["peak_rss_bytes"] = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+  j["huge_page_bytes"] = huge_page_bytes();
   j["simulated_s"] = s.time();
   j["dem_step_s"] = s.dem().coarse_step();
   j["dem_steps"] = dem.steps;

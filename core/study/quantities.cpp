@@ -27,6 +27,7 @@ constexpr Named k_always[] = {
     {"wall_s", "s"},
     {"cpu_s", "s"},
     {"peak_rss_bytes", "B"},
+    {"huge_page_bytes", "B"},
     {"simulated_s", "s"},
     {"dem_step_s", "s"},
     {"dem_steps", "1"},

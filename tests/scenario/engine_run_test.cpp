@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -59,6 +60,25 @@ TEST_CASE("the written scenario shall give the same bits on one and on two threa
   REQUIRE(engine({"run", k_scenario, "-o", other, "--set", k_short, "--set", "seed=2", "--quiet"})
               .status == 0);
   CHECK(json_text(other / "summary.json", "state_sha256") != hash);
+}
+
+TEST_CASE("pages of 2 MB shall be asked for where one has to ask, and change no bit") {
+  const TemporaryFolder folder;
+  const auto run = [&](const char* name) {
+    const fs::path to = folder / name;
+    REQUIRE(engine({"run", k_scenario, "-o", to, "--set", k_short, "--quiet"}).status == 0);
+    return to / "summary.json";
+  };
+  const fs::path large = run("large");
+  setenv("GLIBC_TUNABLES", "glibc.malloc.hugetlb=0", 1);
+  const fs::path small = run("small");
+  unsetenv("GLIBC_TUNABLES");
+  CHECK(json_text(large, "state_sha256") == json_text(small, "state_sha256"));
+  if (read_file("/sys/kernel/mm/transparent_hugepage/enabled").find("[madvise]") !=
+      std::string::npos) {
+    CHECK(std::stoll(json_text(large, "huge_page_bytes")) > 0);
+    CHECK(std::stoll(json_text(small, "huge_page_bytes")) == 0);
+  }
 }
 
 TEST_CASE("grains alone shall run from the same scenario") {
