@@ -238,7 +238,8 @@ class BlockPass {
 
 }  // namespace
 
-Member load_member(const GrainStore& s, const contact::AlignedVector<double>& gravity, std::size_t row) {
+Member load_member(const GrainStore& s, const contact::AlignedVector<double>& gravity,
+                   std::size_t row) {
   Member m;
   m.row = static_cast<std::int32_t>(row);
   m.radius = s.position[4 * row + 3];

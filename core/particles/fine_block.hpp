@@ -8,7 +8,8 @@
 namespace dust::particles {
 
 /// A fine grain out of its rows, and back; its mean force [N] over the last sub-step to `force`.
-Member load_member(const GrainStore& s, const contact::AlignedVector<double>& gravity, std::size_t row);
+Member load_member(const GrainStore& s, const contact::AlignedVector<double>& gravity,
+                   std::size_t row);
 void store_member(GrainStore& s, const Member& m, double* force);
 
 /// Takes the members of a block through the coarse step that begins at `now` [s], in the sub-steps
