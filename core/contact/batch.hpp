@@ -38,6 +38,15 @@ class BatchColumns {
     rotation_j_x,
     rotation_j_y,
     rotation_j_z,
+    displacement_x,  ///< [m] of the centres since the last look, later of the contact point
+    displacement_y,
+    displacement_z,
+    angle_i_x,  ///< [rad] turned since the last look
+    angle_i_y,
+    angle_i_z,
+    angle_j_x,
+    angle_j_y,
+    angle_j_z,
     distance,  ///< [m] of the centres
     overlap,
     normal_x,
@@ -46,6 +55,9 @@ class BatchColumns {
     rotation_x,
     rotation_y,
     rotation_z,
+    angle_x,
+    angle_y,
+    angle_z,
     effective_radius,
     effective_mass,
     lever_i,  ///< [m] centre of i to the contact point

@@ -3,6 +3,7 @@
 
 #include "contact/batch.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -13,6 +14,8 @@ struct RowView {
   const double* position = nullptr;  ///< x, y, z, radius
   const double* velocity = nullptr;  ///< synchronised; fourth 1 / mass
   const double* rotation = nullptr;  ///< fourth radius
+  const double* half_velocity = nullptr;  ///< of the last step's way; fourth half its time
+  const double* half_rotation = nullptr;
 };
 
 /// Minimum image along periodic directions; elsewhere half is infinite, so that nothing is shifted.
@@ -45,8 +48,16 @@ std::size_t gather_touching(const RowView& rows, const Images& images, const Pai
                             std::size_t& next, std::size_t end, double range,
                             std::int32_t* contacts, BatchColumns& columns);
 
-/// Overlap, normal, effective radius and mass, lever arms and the relative velocity of the contact
-/// point from what gather_touching wrote. Returns the largest overlap / smaller radius [-].
+/// The share of the last displacement during which two touched: they came in by `parting` < 0 [m]
+/// to the overlap [m]. 1 but for contacts that have just begun.
+__attribute__((always_inline)) inline double touched_share(double overlap, double parting) {
+  const double share = overlap / std::max(-parting, 1e-300);
+  return overlap > 0.0 ? std::min(1.0, parting < 0.0 ? share : 1.0) : 1.0;
+}
+
+/// Overlap, normal, effective radius and mass, lever arms, the relative velocity of the contact
+/// point and its displacement since the last look, or since the two began to touch in between, from
+/// what gather_touching wrote. Returns the largest overlap / smaller radius [-].
 double derive_pair_columns(BatchColumns& columns, std::size_t count);
 
 /// How fast the sides of each pair part, for the cohesion stage.

@@ -35,6 +35,8 @@ __attribute__((always_inline)) inline void expect(const RowView& rows, std::int3
   __builtin_prefetch(rows.position + row, 0, 2);
   __builtin_prefetch(rows.velocity + row, 0, 2);
   __builtin_prefetch(rows.rotation + row, 0, 2);
+  __builtin_prefetch(rows.half_velocity + row, 0, 2);
+  __builtin_prefetch(rows.half_rotation + row, 0, 2);
 }
 
 /// Separations of four pairs.
@@ -77,6 +79,8 @@ __attribute__((always_inline)) inline std::size_t find_near(
   const double* const position = rows.position;
   const double* const velocity = rows.velocity;
   const double* const rotation = rows.rotation;
+  const double* const half_velocity = rows.half_velocity;
+  const double* const half_rotation = rows.half_rotation;
   const std::int32_t* const pa = pairs.a;
   const std::int32_t* const pb = pairs.b;
   std::uint8_t* const is_touching = pairs.is_touching;
@@ -120,6 +124,8 @@ __attribute__((always_inline)) inline std::size_t find_near(
       __builtin_prefetch(position + ahead);
       __builtin_prefetch(velocity + ahead);
       __builtin_prefetch(rotation + ahead);
+      __builtin_prefetch(half_velocity + ahead);
+      __builtin_prefetch(half_rotation + ahead);
       // Most that touch have touched before; of the others the history is not wanted.
       const std::size_t entry = later + l;
       __builtin_prefetch(history + (is_touching[entry] != 0 ? entry : p) * history_stride, 1);
@@ -170,6 +176,19 @@ __attribute__((always_inline)) inline void load_motion(const RowView& rows, cons
   }
   put(B::radius_i, i[3]);
   put(B::radius_j, j[3]);
+  // Ways and angles since the last step: half velocities times twice their lag, which is zero for a
+  // grain that has just come.
+  load_columns(rows.half_velocity, a, i);
+  load_columns(rows.half_velocity, b, j);
+  const Lanes time_i = i[3] + i[3];
+  const Lanes time_j = j[3] + j[3];
+  for (int d = 0; d < 3; ++d) put(B::displacement_x + d, i[d] * time_i - j[d] * time_j);
+  load_columns(rows.half_rotation, a, i);
+  load_columns(rows.half_rotation, b, j);
+  for (int d = 0; d < 3; ++d) {
+    put(B::angle_i_x + d, i[d] * time_i);
+    put(B::angle_j_x + d, j[d] * time_j);
+  }
 }
 
 /// The same for the contacts found; the columns are filled up to the padded count with the last

@@ -59,7 +59,8 @@ void columns_to_rows(double* block, std::size_t count, std::size_t stride) {
 void hold_apart(const std::uint8_t* is_touching, std::size_t count, BatchColumns& columns) {
   using B = BatchColumns;
   each_apart(is_touching, count, [&](std::size_t q) {
-    for (const int c : {B::overlap, B::velocity_x, B::velocity_y, B::velocity_z}) {
+    for (const int c : {B::overlap, B::velocity_x, B::velocity_y, B::velocity_z, B::displacement_x,
+                        B::displacement_y, B::displacement_z}) {
       columns.column(c)[q] = 0.0;
     }
   });

@@ -26,7 +26,8 @@ void set_normal_stiffness(Batch& batch, double* column) {
 
 constexpr const char* k_names[] = {
     "overlap",    "normal_x",   "normal_y",   "normal_z",   "velocity_x",       "velocity_y",
-    "velocity_z", "rotation_x", "rotation_y", "rotation_z", "effective_radius", "effective_mass"};
+    "velocity_z", "rotation_x", "rotation_y", "rotation_z", "displacement_x", "displacement_y",
+    "displacement_z", "angle_x", "angle_y", "angle_z", "effective_radius", "effective_mass"};
 
 }  // namespace
 
@@ -98,6 +99,8 @@ void ContactBench::show(const std::vector<Touch>& touches, double time_step, con
   is_rolling_ = is_rolling;
   for (std::size_t n = 0; n < count_; ++n) {
     const Touch& t = touches[n % touches.size()];
+    const Vec3 displacement = t.displacement.value_or(time_step * t.velocity);
+    const Vec3 angle = t.angle.value_or(time_step * t.rotation);
     const double row[k_inputs] = {t.overlap * length,
                                   t.normal.x,
                                   t.normal.y,
@@ -108,6 +111,12 @@ void ContactBench::show(const std::vector<Touch>& touches, double time_step, con
                                   t.rotation.x * turning,
                                   t.rotation.y * turning,
                                   t.rotation.z * turning,
+                                  displacement.x * length,
+                                  displacement.y * length,
+                                  displacement.z * length,
+                                  angle.x,
+                                  angle.y,
+                                  angle.z,
                                   t.radius * length,
                                   t.mass * units.mass};
     for (int c = 0; c < k_inputs; ++c) column(c)[n] = row[c];
@@ -134,7 +143,9 @@ void ContactBench::evaluate(const std::function<void(const sdk::ContactBatch&)>&
     const double** inputs[k_inputs] = {&b.overlap,    &b.normal_x,         &b.normal_y,
                                        &b.normal_z,   &b.velocity_x,       &b.velocity_y,
                                        &b.velocity_z, &b.rotation_x,       &b.rotation_y,
-                                       &b.rotation_z, &b.effective_radius, &b.effective_mass};
+                                       &b.rotation_z, &b.displacement_x,   &b.displacement_y,
+                                       &b.displacement_z, &b.angle_x,      &b.angle_y,
+                                       &b.angle_z,    &b.effective_radius, &b.effective_mass};
     for (int c = 0; c < k_inputs; ++c) *inputs[c] = column(c) + first;
     double* outputs[k_outputs];
     for (int c = 0; c < k_outputs; ++c) outputs[c] = column(k_inputs + c) + first;

@@ -6,6 +6,7 @@
 #include "dust/sdk/vec3.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct Touch {
   sdk::Vec3 normal, velocity, rotation;
   double radius = 0.0, mass = 0.0;
   double normal_force = 0.0, stiffness = 0.0;  ///< inputs of the rolling stage
+  /// Since the last look; without them that of a straight course over the time step.
+  std::optional<sdk::Vec3> displacement, angle;
 };
 
 /// Contacts of all directions, speeds and sizes, always the same ones. Overlaps reach from
@@ -71,7 +74,7 @@ class ContactBench {
   [[nodiscard]] std::size_t count() const { return count_; }
 
  private:
-  static constexpr int k_inputs = 12;
+  static constexpr int k_inputs = 18;
   static constexpr std::size_t k_guard = 8;
   [[nodiscard]] double at(int column, std::size_t row) const {
     return data_[offset_ + static_cast<std::size_t>(column) * stride_ + row];

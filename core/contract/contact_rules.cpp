@@ -96,38 +96,51 @@ std::vector<Vec3> forces(const Maker& make, bool is_swapped,
   return result;
 }
 
-/// A sphere that meets a wall at x = 0, integrated with a small step.
+/// A sphere that meets a wall at x = 0.
 struct Impact {
   double normal_speed = 0.0;             ///< [m/s] after, > 0 away from the wall
   double duration = 0.0;                 ///< [s]
   double energy_ratio = 0.0;             ///< after over before, rotation included
+  double tangential_ratio = 0.0;         ///< of the energy along the wall, rotation included
+  double patch_ratio = 0.0;              ///< speed of the contact point along the wall
   double largest_slip_over_limit = 0.0;  ///< max |F_t| / (mu max(F_n, 0)), if mu is given
   bool has_ended = false;
 };
 
-Impact run_impact(const sdk::ContactLaw& law, double speed, double tangential, double friction) {
+constexpr int k_small_steps = 4000;
+
+/// Integrated as the core does, in steps of collision_time / `steps`: the leapfrog, forces from
+/// velocities predicted for the time of the places, springs told the way of the last step, or of
+/// the part of it in touch. The wall is first touched after the share `start` of a step.
+Impact run_impact(const sdk::ContactLaw& law, double speed, double tangential, double friction,
+                  int steps = k_small_steps, double start = 0.5) {
   constexpr double k_radius = 5e-4;
-  constexpr int k_steps = 4000;
   const double mass = 2500.0 * sdk::sphere_volume(2.0 * k_radius);
   const double inertia = sdk::sphere_inertia(mass, k_radius);
-  const double step = law.collision_time(k_radius, mass, speed) / k_steps;
+  const double step = law.collision_time(k_radius, mass, speed) / steps;
   require(step > 0.0 && std::isfinite(step), "collision_time is not a positive time");
   ContactBench bench(1, law.history_size());
-  Vec3 velocity{-speed, tangential, 0.0};
-  double rotation = 0.0;  // about z
+  Vec3 velocity{-speed, tangential, 0.0};  // half a step behind the overlap
+  double rotation = 0.0;                   // about z, as well
+  Vec3 velocity_now = velocity;
+  double rotation_now = rotation;
   const double before = 0.5 * mass * dot(velocity, velocity);
-  double overlap = -0.5 * step * speed;
+  double overlap = -start * step * speed;
   Impact result;
   int n = 0;
-  for (; n < 10 * k_steps; ++n) {
+  for (; n < 10 * steps; ++n) {
     overlap -= step * velocity.x;
     if (overlap < -law.range() && n > 0) break;
     Touch t;
     t.overlap = overlap;
     t.normal = {1.0, 0.0, 0.0};
     // The contact point lies at -R x: it moves with v + w x r.
-    t.velocity = velocity + Vec3{0.0, -rotation * k_radius, 0.0};
-    t.rotation = {0.0, 0.0, rotation};
+    t.velocity = velocity_now + Vec3{0.0, -rotation_now * k_radius, 0.0};
+    t.rotation = {0.0, 0.0, rotation_now};
+    const double touched =
+        velocity.x < 0.0 ? std::clamp(overlap / (-step * velocity.x), 0.0, 1.0) : 1.0;
+    t.displacement = touched * step * (velocity + Vec3{0.0, -rotation * k_radius, 0.0});
+    t.angle = touched * step * Vec3{0.0, 0.0, rotation};
     t.radius = k_radius;
     t.mass = mass;
     bench.show({t}, step, {}, false);
@@ -141,14 +154,20 @@ Impact run_impact(const sdk::ContactLaw& law, double speed, double tangential, d
       result.largest_slip_over_limit =
           std::max(result.largest_slip_over_limit, (sliding - rounding) / std::max(limit, 1e-300));
     }
-    velocity += step / mass * force;
-    rotation += step / inertia * -k_radius * force.y;
+    const Vec3 kick = step / mass * force;
+    const double spin = step / inertia * -k_radius * force.y;
+    velocity += kick;
+    rotation += spin;
+    velocity_now = velocity + 0.5 * kick;
+    rotation_now = rotation + 0.5 * spin;
   }
-  result.has_ended = n < 10 * k_steps;
+  result.has_ended = n < 10 * steps;
   result.normal_speed = velocity.x;
   result.duration = n * step;
-  result.energy_ratio =
-      (0.5 * mass * dot(velocity, velocity) + 0.5 * inertia * rotation * rotation) / before;
+  const double along = mass * velocity.y * velocity.y + inertia * rotation * rotation;
+  result.tangential_ratio = along / (mass * tangential * tangential);
+  result.patch_ratio = (velocity.y - k_radius * rotation) / tangential;
+  result.energy_ratio = (0.5 * mass * velocity.x * velocity.x + 0.5 * along) / before;
   return result;
 }
 
@@ -247,6 +266,55 @@ void check_energy(const Maker& make, const Subject& subject) {
   }
 }
 
+/// What a step does to the spring along the wall. A law that moves its spring by velocity times time
+/// step, or that follows a changing stiffness at one end of the step, damps it or feeds it to first
+/// order: a tenth and more of the energy at the core's own step.
+void check_step(const Maker& make) {
+  // The core makes 15 steps per contact and more. The leapfrog itself leaves half a per cent of the
+  // energy and one of the speed at that step, a ninth of it at a third.
+  constexpr int k_core_steps = 15;
+  constexpr double k_energy = 0.02;
+  constexpr double k_patch = 0.04;
+  constexpr double k_order = 1.5;
+  constexpr int k_starts = 8;
+  const auto law = make_law(make);
+  // Slow along the wall, so that friction holds the contact for most of its time.
+  constexpr double k_speed = 0.5;
+  constexpr double k_tangential = 0.01;
+  const auto run = [&](int steps, double start) {
+    return run_impact(*law, k_speed, k_tangential, -1.0, steps, start);
+  };
+  const Impact converged = run(k_small_steps, 0.5);
+  if (!converged.has_ended) throw Remark("the grains stick");
+  double sums[2] = {0.0, 0.0};
+  for (int n = 0; n < k_starts; ++n) {
+    const double start = (n + 0.5) / k_starts;
+    const Impact coarse = run(k_core_steps, start);
+    const Impact fine = run(3 * k_core_steps, start);
+    require(coarse.has_ended && fine.has_ended, "a collision in few steps does not end");
+    const double energy = std::abs(coarse.tangential_ratio - converged.tangential_ratio);
+    require(energy <= k_energy,
+            "in 15 steps a collision keeps " + shown(coarse.tangential_ratio) +
+                " of the energy along the wall, in many steps " +
+                shown(converged.tangential_ratio) +
+                ": move springs by displacement and angle, not by velocity times time step");
+    const double patch = std::abs(coarse.patch_ratio - converged.patch_ratio);
+    require(patch <= k_patch, "in 15 steps the contact point leaves with " +
+                                  shown(coarse.patch_ratio) + " of its speed, in many steps with " +
+                                  shown(converged.patch_ratio));
+    sums[0] += patch * patch;
+    sums[1] += std::pow(fine.patch_ratio - converged.patch_ratio, 2);
+  }
+  // Below this what is left is the rounding of the converged run.
+  constexpr double k_exact = 1e-6;
+  if (sums[0] < k_starts * k_exact * k_exact) return;
+  const double order = 0.5 * std::log(sums[0] / sums[1]) / std::log(3.0);
+  require(order >= k_order, "a third of the time step leaves " +
+                                shown(std::sqrt(sums[1] / sums[0])) +
+                                " of the error along the wall: order " + shown(order) +
+                                " in place of 2");
+}
+
 void rules(const Maker& make, const Subject& subject, Judge& judge) {
   judge_symmetry(judge, "force", [&](bool is_swapped, const auto& change) {
     return forces(make, is_swapped, change);
@@ -257,6 +325,7 @@ void rules(const Maker& make, const Subject& subject, Judge& judge) {
   judge.rule("tells its normal stiffness as it is", [&] { check_stiffness(make); });
   judge.rule("creates no energy in oblique collisions, keeps Coulomb's limit",
              [&] { check_energy(make, subject); });
+  judge.rule("keeps its tangential energy to second order in the step", [&] { check_step(make); });
 }
 
 }  // namespace

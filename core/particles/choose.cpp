@@ -119,7 +119,8 @@ std::int64_t Dem::Impl::choose_contacts(const VerletList& list, ContactList& con
     const auto [q, contact] = chosen[k];
     next.a[k] = list.a[static_cast<std::size_t>(q)];
     next.b[k] = list.b[static_cast<std::size_t>(q)];
-    next.is_touching[k] = contact < 0 ? 0 : 1;
+    next.is_touching[k] =
+        contact < 0 ? 0 : contacts.is_touching[static_cast<std::size_t>(contact)];
     const double* from = contact < 0 ? k_new : history + static_cast<std::size_t>(contact) * stride;
     for (std::size_t h = 0; h < stride; h += 4) std::memcpy(to + h, from + h, 4 * sizeof(double));
   }

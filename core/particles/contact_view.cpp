@@ -2,6 +2,7 @@
 #include "particles/contact_view.hpp"
 
 #include "particles/impl.hpp"
+#include "particles/wall_contacts.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -71,49 +72,25 @@ class Viewer {
                std::vector<ContactRecord>& out) {
     using B = BatchColumns;
     const Surface& s = dem_.surfaces[static_cast<std::size_t>(number)];
-    const auto u = 4 * static_cast<std::size_t>(row);
-    const double* p = dem_.store.position.data() + u;
-    const double* v = dem_.store.velocity.data() + u;
-    const double* w = dem_.store.rotation.data() + u;
+    const GrainAtWall grain = GrainAtWall::from(dem_.row_view(), static_cast<std::size_t>(row));
     const auto law_number =
         dem_.law_of(dem_.store.material[static_cast<std::size_t>(row)], s.material);
     const PairLaws& law = dem_.laws[static_cast<std::size_t>(law_number)];
-    const bodies::SurfacePoint near = s.contact({p[0], p[1], p[2]}, p[3] + law.range);
-    const double overlap = p[3] - near.distance;
+    const bodies::SurfacePoint near = s.contact(grain.position, grain.radius + law.range);
+    const double overlap = grain.radius - near.distance;
     if (!(overlap > -law.range)) return;
     BatchColumns& columns = thread_columns();
-    const double lever = p[3] - 0.5 * overlap;
-    const sdk::Vec3 n = near.normal;
-    const sdk::Vec3 point = sdk::Vec3{p[0], p[1], p[2]} - near.distance * n;
-    double moving[3] = {0, 0, 0};
-    const double* points[3] = {&point.x, &point.y, &point.z};
-    const double* normals[3] = {&n.x, &n.y, &n.z};
-    double* moved[3] = {moving, moving + 1, moving + 2};
-    surface_velocities(s, dem_.time, 1, points, normals, moved);
-    const sdk::Vec3 spin{w[0], w[1], w[2]};
-    // v + w x (-lever n) - surface velocity
-    const sdk::Vec3 slip = sdk::Vec3{v[0], v[1], v[2]} - lever * cross(spin, n) -
-                           sdk::Vec3{moving[0], moving[1], moving[2]};
-    for (std::size_t q = 0; q < contact::padded(1); ++q) {
-      columns.column(B::overlap)[q] = overlap;
-      columns.column(B::lever_i)[q] = lever;
-      columns.column(B::lever_j)[q] = 0.0;
-      columns.column(B::effective_radius)[q] = p[3];
-      columns.column(B::effective_mass)[q] = 1.0 / v[3];
-      for (int d = 0; d < 3; ++d) {
-        columns.column(B::normal_x + d)[q] = n[d];
-        columns.column(B::velocity_x + d)[q] = slip[d];
-        columns.column(B::rotation_x + d)[q] = spin[d];
-      }
-      for (std::size_t h = 0; h < dem_.history_stride; ++h) {
-        columns.column(B::first_history + static_cast<int>(h))[q] = history[h];
-      }
+    put_at_wall(grain, near, 0, columns);
+    derive_wall_columns(s, dem_.time, grain.since, 1, columns);
+    for (std::size_t h = 0; h < dem_.history_stride; ++h) {
+      std::fill_n(columns.column(B::first_history + static_cast<int>(h)), contact::padded(1),
+                  history[h]);
     }
     evaluate_laws(law, columns, 1, time_step);
     ContactRecord r;
     r.row_i = row;
     r.row_j = -1 - number;
-    r.branch = -lever * n;
+    r.branch = -(grain.radius - 0.5 * overlap) * near.normal;
     r.overlap = overlap;
     for (int d = 0; d < 3; ++d) r.force[d] = columns.column(B::force_x + d)[0];
     out.push_back(r);

@@ -24,14 +24,6 @@ double* empty_force(const Chunk& chunk) {
   return force.data();
 }
 
-/// Where a row stands among those awake: two ascending runs.
-std::ptrdiff_t place_of(const Awake& awake, std::int32_t row) {
-  const auto middle = awake.rows.begin() + static_cast<std::ptrdiff_t>(awake.own);
-  auto place = std::lower_bound(awake.rows.begin(), middle, row);
-  if (place == middle || *place != row) place = std::lower_bound(middle, awake.rows.end(), row);
-  return place - awake.rows.begin();
-}
-
 }  // namespace
 
 std::int64_t in_touch(BatchColumns& columns, std::size_t count) {
@@ -85,8 +77,6 @@ void Dem::Impl::contact(double now, bool keeps_force) {
   } else {
     contact_force.clear();
   }
-  // What fine grains gave back comes after the contacts: then everybody waits for it.
-  const bool all_wait = !pending.empty();
   ++contact_round;
   for (Surface& s : surfaces) s.move_to(now);
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
@@ -101,10 +91,10 @@ void Dem::Impl::contact(double now, bool keeps_force) {
     std::fill(guests, guests_end, 0.0);
     std::atomic_ref(given_in[c]).store(contact_round, std::memory_order_release);
     if (keeps_force) keep_force(chunk, force);
-    if (!all_wait && has_all_gifts(chunk)) {
+    if (has_all_gifts(chunk)) {
       move_all(chunk, force);
     } else {
-      move_own(chunk, force, all_wait ? 0 : chunk.awake.own);
+      move_own(chunk, force);
     }
   });
 }
@@ -122,6 +112,7 @@ bool Dem::Impl::has_all_gifts(const Chunk& chunk) const {
 void Dem::Impl::move_all(Chunk& chunk, double* force) {
   const std::span<const std::int32_t> rows = chunk.awake.rows;
   take_gifts(chunk, force, ForceOrder::by_row);
+  resume_course(chunk, Movers::all);
   chunk.moved = rows.size();
   chunk.force.clear();
   if (static_cast<std::int32_t>(rows.size()) == chunk.end - chunk.begin) {
@@ -133,9 +124,11 @@ void Dem::Impl::move_all(Chunk& chunk, double* force) {
 }
 
 /// Grains nobody else looks at move at once; the others' forces are put aside.
-void Dem::Impl::move_own(Chunk& chunk, double* force, std::size_t count) {
+void Dem::Impl::move_own(Chunk& chunk, double* force) {
   const std::span<const std::int32_t> rows = chunk.awake.rows;
   const auto first = static_cast<std::size_t>(chunk.begin);
+  const std::size_t count = chunk.awake.own;
+  resume_course(chunk, Movers::unshared);
   chunk.moved = count;
   integrate_awake(rows.first(count), first, force, ForceOrder::by_row);
   chunk.force.resize(8 * (rows.size() - count));
@@ -153,7 +146,8 @@ void Dem::Impl::keep_force(const Chunk& chunk, const double* force) {
   }
 }
 
-/// Statistical weights of the sides of a batch; returns whether any two differ.
+/// Statistical weights of the sides of a batch, and the effective mass that a pair shows with them;
+/// returns whether any two differ.
 bool Dem::Impl::find_scales(const contact::PairView& pairs, const std::int32_t* contacts,
                             std::size_t first, std::size_t count, BatchColumns& columns) const {
   if (!has_weights) return false;
@@ -168,7 +162,13 @@ bool Dem::Impl::find_scales(const contact::PairView& pairs, const std::int32_t* 
     // Sum of w m v is kept: side i feels min(1, w_j / w_i) of the force.
     scale_i[q] = wj < wi ? wj / wi : 1.0;
     scale_j[q] = wi < wj ? wi / wj : 1.0;
-    has_scales = has_scales || wi != wj;
+    if (wi == wj) continue;
+    has_scales = true;
+    const auto inverse_mass = [&](std::int32_t row) {
+      return store.velocity[4 * static_cast<std::size_t>(row) + 3];
+    };
+    columns.column(BatchColumns::inverse_mass)[q] =
+        scale_i[q] * inverse_mass(pairs.a[entry]) + scale_j[q] * inverse_mass(pairs.b[entry]);
   }
   return has_scales;
 }
@@ -185,6 +185,7 @@ void Dem::Impl::standing_pairs(const Segment& segment, Chunk& chunk, double* for
     const std::size_t near =
         contact::gather_standing(row_view(), images, pairs, p, count, law.range, columns);
     columns.keep_history_at(pairs.history + p * history_stride, count);
+    const bool has_scales = find_scales(pairs, nullptr, p, count, columns);
     const double overlap = contact::derive_pair_columns(columns, count);
     chunk.largest_overlap = std::max(chunk.largest_overlap, overlap);
     if (near < count) contact::hold_apart(pairs.is_touching + p, count, columns);
@@ -193,7 +194,6 @@ void Dem::Impl::standing_pairs(const Segment& segment, Chunk& chunk, double* for
       contact::forget_apart(pairs.is_touching + p, count, history_stride, columns);
     }
     chunk.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(near);
-    const bool has_scales = find_scales(pairs, nullptr, p, count, columns);
     contact::scatter_pairs(chunk.places.data() + p, count, has_scales, columns, force);
   }
   columns.keep_history_here();
@@ -214,11 +214,11 @@ void Dem::Impl::open_pairs(const Segment& segment, Chunk& chunk, double* force) 
         contact::gather_touching(rows, images, pairs, next, end, law.range, contacts, columns);
     if (count == 0) continue;
     contact::load_history(pairs, contacts, count, groups, columns);
+    const bool has_scales = find_scales(pairs, contacts, 0, count, columns);
     const double overlap = contact::derive_pair_columns(columns, count);
     chunk.largest_overlap = std::max(chunk.largest_overlap, overlap);
     evaluate_laws(law, columns, count, steps.coarse_step);
     chunk.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(count);
-    const bool has_scales = find_scales(pairs, contacts, 0, count, columns);
     contact::store_history(pairs, contacts, count, groups, columns);
     contact::scatter_pairs(chunk.places.data(), contacts, count, has_scales, columns, force);
   }
@@ -232,23 +232,9 @@ void Dem::Impl::chunk_pairs(Chunk& chunk, double* force) {
   }
 }
 
-/// What fine grains gave back during the last coarse step acts now, spread over this one. The lag
-/// of one coarse step is harmless: the mass ratio is at least 512.
+/// The forces on grains that waited for other chunks' contacts.
 void Dem::Impl::force() {
-  const double inverse = 1.0 / steps.coarse_step;
-  for (const Reaction& r : pending) {
-    Chunk& chunk = chunks[static_cast<std::size_t>(r.row / chunks.front().end)];
-    double* f = chunk.force.data() + 8 * place_of(chunk.awake, r.row);
-    for (int d = 0; d < 3; ++d) {
-      f[d] += inverse * r.impulse[d];
-      f[4 + d] += inverse * r.impulse[3 + d];
-      if (!contact_force.empty()) {
-        contact_force[4 * static_cast<std::size_t>(r.row) + static_cast<std::size_t>(d)] +=
-            inverse * r.impulse[d];
-      }
-    }
-  }
-  pending.clear();
+  each_waiting([&](Chunk& chunk) { take_gifts(chunk, chunk.force.data(), ForceOrder::by_place); });
 }
 
 }  // namespace dust::particles

@@ -140,7 +140,7 @@ void Dem::Impl::remove_leavers() {
     }
   }
   if (keep.size() == store.size()) return;
-  // History and pending impulses of the others survive: the lists still name the rows as they
+  // History and left-over velocities of the others survive: the lists still name the rows as they
   // are, so the rows are dropped at the next rebuild's sort through this order.
   std::vector<std::int32_t> new_row(store.size(), -1);
   for (std::size_t n = 0; n < keep.size(); ++n)
@@ -163,9 +163,9 @@ void Dem::Impl::remove_leavers() {
     drop(c.surfaces, true, false);
   }
   drop(fine, false, true);
-  std::erase_if(pending,
-                [&](const Reaction& r) { return new_row[static_cast<std::size_t>(r.row)] < 0; });
-  for (Reaction& r : pending) r.row = new_row[static_cast<std::size_t>(r.row)];
+  std::erase_if(left_overs,
+                [&](const LeftOver& l) { return new_row[static_cast<std::size_t>(l.row)] < 0; });
+  for (LeftOver& l : left_overs) l.row = new_row[static_cast<std::size_t>(l.row)];
   store.reorder(keep);
   book.close();
   must_rebuild = must_sort = true;

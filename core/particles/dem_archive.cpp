@@ -2,7 +2,6 @@
 #include "particles/impl.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 namespace dust::particles {
@@ -63,6 +62,7 @@ struct FlatLists {
       const bool is_touching = touching.at(q) != 0;
       list.push(static_cast<std::int32_t>(a.at(q)), static_cast<std::int32_t>(b.at(q)),
                 is_touching ? history.data() + q * stride : nullptr, stride);
+      list.is_touching.back() = static_cast<std::uint8_t>(touching.at(q));
     }
     take_segments(list.segments, m);
     at_ += n;
@@ -145,14 +145,16 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   std::vector<std::int64_t> bounds;
   for (const Chunk& c : chunks) bounds.insert(bounds.end(), {c.begin, c.end, c.contacts});
   archive.integers("chunks", bounds);
-  std::vector<std::int64_t> pending_rows;
-  std::vector<double> pending_values;
-  for (const Reaction& r : pending) {
-    pending_rows.push_back(r.row);
-    pending_values.insert(pending_values.end(), r.impulse, r.impulse + 6);
+  std::vector<std::int64_t> left_rows;
+  std::vector<double> left_values;
+  for (const LeftOver& l : left_overs) {
+    left_rows.push_back(l.row);
+    for (const sdk::Vec3& v : {l.velocity, l.rotation, l.velocity_ahead, l.rotation_ahead}) {
+      left_values.insert(left_values.end(), {v.x, v.y, v.z});
+    }
   }
-  archive.integers("pending_rows", pending_rows);
-  archive.numbers("pending_values", pending_values);
+  archive.integers("left_rows", left_rows);
+  archive.numbers("left_values", left_values);
   const std::int64_t state[] = {static_cast<std::int64_t>(coarse_count),
                                 next_id,
                                 since_rebuild,
@@ -236,13 +238,17 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   }
   near_fines.take(near_fine);
   fines.take(fine, history_stride);
-  pending.clear();
-  const auto pending_rows = archive.integers("pending_rows");
-  const auto pending_values = archive.numbers("pending_values");
-  for (std::size_t n = 0; n < pending_rows.size(); ++n) {
-    Reaction r{.row = static_cast<std::int32_t>(pending_rows[n])};
-    std::memcpy(r.impulse, pending_values.data() + 6 * n, sizeof r.impulse);
-    pending.push_back(r);
+  left_overs.clear();
+  const auto left_rows = archive.integers("left_rows");
+  const auto left_values = archive.numbers("left_values");
+  for (std::size_t n = 0; n < left_rows.size(); ++n) {
+    LeftOver l{.row = static_cast<std::int32_t>(left_rows[n])};
+    const double* value = left_values.data() + 12 * n;
+    for (sdk::Vec3* v : {&l.velocity, &l.rotation, &l.velocity_ahead, &l.rotation_ahead}) {
+      *v = {value[0], value[1], value[2]};
+      value += 3;
+    }
+    left_overs.push_back(l);
   }
   const auto state = archive.integers("state");
   coarse_count = static_cast<std::size_t>(state.at(0));

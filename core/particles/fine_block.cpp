@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/fine_block.hpp"
 
+#include "particles/wall_contacts.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,10 +28,16 @@ void advance(Member& m, double step) {
   m.received += (half - old - push) / m.inverse_mass;
   m.velocity = half + (0.5 * step / kick * m.decay) * (half - old);
   m.half_velocity = half;
-  m.position += step * half;
+  m.displacement = step * half;
+  m.position += m.displacement;
   const Vec3 spin = (2.5 * m.inverse_mass / (m.radius * m.radius)) * m.twist;
   m.half_rotation += spin;
   m.rotation = m.half_rotation + (0.5 * step / kick) * spin;
+  m.angle = step * m.half_rotation;
+  if (m.is_guest) {
+    m.shift += step * (half - m.course);
+    m.turn += step * (m.half_rotation - m.course_rotation);
+  }
   m.force = m.impulse / kick;
   m.lag = 0.5 * step;
   m.impulse = m.twist = {};
@@ -44,9 +52,11 @@ class BlockPass {
     const double step = dem_.steps.coarse_step;
     const int count = 1 << block_.level;
     const double sub_step = step / count;
+    sub_step_ = sub_step;
     for (int m = 0; m < count; ++m) {
       time_ = now_ + m * sub_step;
-      before_end_ = step - m * sub_step;
+      slow_share_ = 0.5 - static_cast<double>(m) / count;
+      is_first_ = m == 0;
       evaluate(sub_step);
       for (Member& member : block_.members) advance(member, sub_step);
     }
@@ -65,14 +75,12 @@ class BlockPass {
       const bool is_touching = c.surface >= 0 ? load_surface(c) : load_pair(c);
       const auto e = static_cast<std::size_t>(c.entry);
       if (is_touching) {
-        if (c.surface >= 0 && dem_.wall_loads.is_on() && dem_.fine.is_touching[e] == 0) {
-          note_impact(c);
-        }
+        is_new_[count_] = dem_.fine.is_touching[e] == 0;
         in_batch_[count_++] = &c;
       } else if (dem_.fine.is_touching[e] != 0) {
         std::fill_n(dem_.fine.history.data() + e * dem_.history_stride, dem_.history_stride, 0.0);
       }
-      dem_.fine.is_touching[e] = is_touching ? 1 : 0;
+      dem_.fine.is_touching[e] = is_touching ? 1 + block_.level : 0;
     }
     if (open != nullptr) flush(*open, sub_step);
   }
@@ -84,43 +92,45 @@ class BlockPass {
   bool load_pair(const Candidate& c) {
     using B = BatchColumns;
     const Member& i = block_.members[static_cast<std::size_t>(c.member)];
-    Vec3 position;
-    Vec3 velocity;
-    Vec3 rotation;
-    double radius = 0.0;
-    double inverse_mass = 0.0;
-    if (c.partner >= 0) {
-      const Member& j = block_.members[static_cast<std::size_t>(c.partner)];
-      position = j.position, velocity = j.velocity, rotation = j.rotation;
-      radius = j.radius, inverse_mass = j.inverse_mass;
-    } else {
-      // The coarse grain has made its step: its course is the straight line between both ends.
-      const auto row = 4 * static_cast<std::size_t>(c.row);
-      velocity = vec(dem_.store.half_velocity.data() + row);
-      position = vec(dem_.store.position.data() + row) - before_end_ * velocity;
-      rotation = vec(dem_.store.half_rotation.data() + row);
-      radius = dem_.store.position[row + 3];
-      inverse_mass = dem_.store.velocity[row + 3];
-    }
-    const Vec3 d = dem_.separation(&position.x, &i.position.x);
-    const double reach = i.radius + radius + dem_.laws[static_cast<std::size_t>(c.law)].range;
+    const Member& j = block_.members[static_cast<std::size_t>(c.partner)];
+    const Vec3 d = dem_.separation(&j.position.x, &i.position.x);
+    const double reach = i.radius + j.radius + dem_.laws[static_cast<std::size_t>(c.law)].range;
     if (!(dot(d, d) < reach * reach)) return false;
     set(B::separation_x, d);
-    set(B::velocity_x, i.velocity - velocity);
+    // A guest's own step is a straight course; its velocity changes along it.
+    set(B::velocity_x, i.velocity - j.velocity + slow_share_ * j.slow_kick);
     set(B::rotation_i_x, i.rotation);
-    set(B::rotation_j_x, rotation);
+    set(B::rotation_j_x, j.rotation - slow_share_ * j.slow_twist);
+    set(B::angle_i_x, i.angle);
+    if (j.is_guest && is_first_) {
+      // The last look was in the coarse step before, on the course of then.
+      const double since = 2.0 * i.lag;
+      set(B::displacement_x, i.displacement - since * (j.course - j.slow_kick));
+      set(B::angle_j_x, since * (j.course_rotation - j.slow_twist));
+    } else {
+      set(B::displacement_x, i.displacement - j.displacement);
+      set(B::angle_j_x, j.angle);
+    }
     columns_.column(B::radius_i)[count_] = i.radius;
-    columns_.column(B::radius_j)[count_] = radius;
-    columns_.column(B::inverse_mass)[count_] = i.inverse_mass + inverse_mass;
+    columns_.column(B::radius_j)[count_] = j.radius;
+    // How the two answer a force: by weight, see apply().
+    columns_.column(B::inverse_mass)[count_] =
+        share(i, j) * i.inverse_mass + share(j, i) * j.inverse_mass;
     return true;
   }
 
-  /// Books the impact that begins with what load_surface() has just loaded.
-  void note_impact(const Candidate& c) {
+  /// Of a pair's force that a member of another weight feels: the sum of weight times momentum is
+  /// kept.
+  static double share(const Member& of, const Member& other) {
+    return other.weight < of.weight ? other.weight / of.weight : 1.0;
+  }
+
+  /// Books the impact that begins with contact q of the batch.
+  void note_impact(const Candidate& c, std::size_t q) {
     using B = BatchColumns;
     const auto get = [&](int column) {
-      return Vec3{columns_.column(column)[count_], columns_.column(column + 1)[count_],
-                  columns_.column(column + 2)[count_]};
+      return Vec3{columns_.column(column)[q], columns_.column(column + 1)[q],
+                  columns_.column(column + 2)[q]};
     };
     const Member& i = block_.members[static_cast<std::size_t>(c.member)];
     block_.wall_impacts.push_back(impact_of(dem_.surfaces[static_cast<std::size_t>(c.surface)].wall,
@@ -128,29 +138,21 @@ class BlockPass {
                                             get(B::normal_x)));
   }
 
-  bool load_surface(Candidate& c) {
-    using B = BatchColumns;
+  bool load_surface(const Candidate& c) {
     const Member& i = block_.members[static_cast<std::size_t>(c.member)];
     const Surface& surface = dem_.surfaces[static_cast<std::size_t>(c.surface)];
     const bodies::SurfacePoint s = surface.contact_at(time_, i.position);
     const double overlap = i.radius - s.distance;
     if (!(overlap > -dem_.laws[static_cast<std::size_t>(c.law)].range)) return false;
-    const double lever = i.radius - 0.5 * overlap;
-    const Vec3 point = i.position - s.distance * s.normal;
-    Vec3 wall;
-    const double* p[3] = {&point.x, &point.y, &point.z};
-    const double* n[3] = {&s.normal.x, &s.normal.y, &s.normal.z};
-    double* v[3] = {&wall.x, &wall.y, &wall.z};
-    surface_velocities(surface, time_, 1, p, n, v);
-    c.wall_velocity = wall;
-    set(B::velocity_x, i.velocity - lever * cross(i.rotation, s.normal) - wall);
-    set(B::rotation_x, i.rotation);
-    set(B::normal_x, s.normal);
-    columns_.column(B::overlap)[count_] = overlap;
-    columns_.column(B::effective_radius)[count_] = i.radius;
-    columns_.column(B::effective_mass)[count_] = 1.0 / i.inverse_mass;
-    columns_.column(B::lever_i)[count_] = lever;
-    columns_.column(B::lever_j)[count_] = 0.0;
+    put_at_wall({.position = i.position,
+                 .velocity = i.velocity,
+                 .rotation = i.rotation,
+                 .radius = i.radius,
+                 .inverse_mass = i.inverse_mass,
+                 .displacement = i.displacement,
+                 .angle = i.angle,
+                 .since = is_first_ ? 2.0 * i.lag : sub_step_},
+                s, count_, columns_);
     block_.largest_overlap = std::max(block_.largest_overlap, overlap / i.radius);
     return true;
   }
@@ -164,13 +166,21 @@ class BlockPass {
       const double* h = dem_.fine.history.data() + static_cast<std::size_t>(c.entry) * stride;
       for (std::size_t k = 0; k < stride; ++k) columns_.history()[k][q] = h[k];
     }
-    for (int c = 0; c < B::normal_force; ++c) {
-      double* column = columns_.column(c);
-      for (std::size_t q = count_; q < contact::padded(count_); ++q) column[q] = column[count_ - 1];
-    }
     if (open.surface < 0) {
+      for (int c = 0; c < B::normal_force; ++c) {
+        double* column = columns_.column(c);
+        for (std::size_t q = count_; q < contact::padded(count_); ++q) {
+          column[q] = column[count_ - 1];
+        }
+      }
       block_.largest_overlap =
           std::max(block_.largest_overlap, contact::derive_pair_columns(columns_, count_));
+    } else {
+      derive_wall_columns(dem_.surfaces[static_cast<std::size_t>(open.surface)], time_, sub_step,
+                          count_, columns_);
+      for (std::size_t q = 0; dem_.wall_loads.is_on() && q < count_; ++q) {
+        if (is_new_[q]) note_impact(*in_batch_[q], q);
+      }
     }
     const PairLaws& law = dem_.laws[static_cast<std::size_t>(open.law)];
     evaluate_laws(law, columns_, count_, sub_step);
@@ -197,42 +207,33 @@ class BlockPass {
         const auto wall =
             static_cast<std::size_t>(dem_.surfaces[static_cast<std::size_t>(c.surface)].wall);
         add_load(block_.wall_sums.data() + WallLoads::k_sums * wall, i.position, force, torque_i,
-                 c.wall_velocity, i.weight * duration);
+                 get(B::separation_x), i.weight * duration);
       }
       return;
     }
     const Vec3 torque_j = get(B::torque_j_x);
-    if (c.partner >= 0) {
-      Member& j = block_.members[static_cast<std::size_t>(c.partner)];
-      // Two grains that come together with different lags share one duration, so that their
-      // impulses are opposite.
-      duration = 0.5 * (duration + j.lag + 0.5 * sub_step);
-      const double share_i = j.weight < i.weight ? j.weight / i.weight : 1.0;
-      const double share_j = i.weight < j.weight ? i.weight / j.weight : 1.0;
-      i.impulse += (share_i * duration) * force;
-      i.twist += (share_i * duration) * torque_i;
-      j.impulse -= (share_j * duration) * force;
-      j.twist += (share_j * duration) * torque_j;
-      return;
-    }
-    const double weight = dem_.store.weight[static_cast<std::size_t>(c.row)];
-    const double share_i = weight < i.weight ? weight / i.weight : 1.0;
-    const double share_j = i.weight < weight ? i.weight / weight : 1.0;
+    Member& j = block_.members[static_cast<std::size_t>(c.partner)];
+    // Two grains that come together with different lags share one duration, so that their impulses
+    // are opposite. A guest has had its own step already.
+    if (!j.is_guest) duration = 0.5 * (duration + j.lag + 0.5 * sub_step);
+    const double share_i = share(i, j);
+    const double share_j = share(j, i);
     i.impulse += (share_i * duration) * force;
     i.twist += (share_i * duration) * torque_i;
-    for (int d = 0; d < 3; ++d) {
-      c.reaction[d] -= share_j * duration * force[d];
-      c.reaction[3 + d] += share_j * duration * torque_j[d];
-    }
+    j.impulse -= (share_j * duration) * force;
+    j.twist += (share_j * duration) * torque_j;
   }
 
   Dem::Impl& dem_;
   Block& block_;
   double now_;
   double time_ = 0.0;
-  double before_end_ = 0.0;
+  double sub_step_ = 0.0;
+  double slow_share_ = 0.0;  ///< of a guest's own kick still to come, less half of it
+  bool is_first_ = false;    ///< sub-step of the coarse step
   std::size_t count_ = 0;
   Candidate* in_batch_[k_batch] = {};
+  bool is_new_[k_batch] = {};
   BatchColumns& columns_ = thread_columns();
 };
 
@@ -253,9 +254,35 @@ Member load_member(const GrainStore& s, const contact::AlignedVector<double>& gr
   m.half_velocity = vec(s.half_velocity.data() + 4 * row);
   m.half_rotation = vec(s.half_rotation.data() + 4 * row);
   m.lag = s.half_velocity[4 * row + 3];
+  m.displacement = 2.0 * m.lag * m.half_velocity;
+  m.angle = 2.0 * m.lag * m.half_rotation;
   m.target = vec(action);
   m.gravity = vec(gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material[row]));
   if (s.has_fluid) m.received = vec(s.impulse.data() + 4 * row);
+  return m;
+}
+
+Member load_guest(const Dem::Impl& dem, std::int32_t row, double sub_step) {
+  const GrainStore& s = dem.store;
+  const auto n = static_cast<std::size_t>(row);
+  Member m;
+  m.row = row;
+  m.is_guest = true;
+  m.radius = s.position[4 * n + 3];
+  m.inverse_mass = s.velocity[4 * n + 3];
+  m.weight = s.weight[n];
+  m.course = m.velocity = m.half_velocity = vec(s.half_velocity.data() + 4 * n);
+  m.course_rotation = m.rotation = m.half_rotation = vec(s.half_rotation.data() + 4 * n);
+  m.position = vec(s.position.data() + 4 * n) - dem.steps.coarse_step * m.course;
+  m.lag = 0.5 * sub_step;
+  // The step has left a velocity predicted from the kick, half of it less what drag takes.
+  const double drag = s.has_fluid ? s.decay[2 * n] : 1.0;
+  m.slow_kick = (2.0 / drag) * (vec(s.velocity.data() + 4 * n) - m.course);
+  m.slow_twist = 2.0 * (vec(s.rotation.data() + 4 * n) - m.course_rotation);
+  if (const LeftOver* l = dem.left_over(row)) {
+    m.velocity += l->velocity_ahead;
+    m.rotation += l->rotation_ahead;
+  }
   return m;
 }
 

@@ -11,6 +11,8 @@
 #include "particles/time_steps.hpp"
 #include "particles/wall_loads.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -64,7 +66,7 @@ struct VerletList {
 struct ContactList {
   std::vector<std::int32_t> a;
   std::vector<std::int32_t> b;
-  std::vector<std::uint8_t> is_touching;
+  std::vector<std::uint8_t> is_touching;  ///< 0: no; of a fine list: 1 + its level
   contact::AlignedVector<double> history;
   std::vector<Segment> segments;
   bool is_standing = false;  ///< histories of standing contacts are in columns
@@ -157,10 +159,17 @@ struct Chunk {
   bool wants_watch = false;
 };
 
-/// What fine grains give back to a coarse one: impulse and angular impulse, due in the next step.
-struct Reaction {
+/// What fine grains have left to a coarse one for its next step: its row says the mean velocity of
+/// the step, its way over its time; this is added before the next kick.
+struct LeftOver {
   std::int32_t row = 0;
-  double impulse[6] = {0, 0, 0, 0, 0, 0};
+  sdk::Vec3 velocity, rotation;              ///< [m/s], [rad/s] at the end, less the mean
+  sdk::Vec3 velocity_ahead, rotation_ahead;  ///< half of the last kick: predicted, less that
+
+  void add(const LeftOver& other) {
+    velocity += other.velocity, rotation += other.rotation;
+    velocity_ahead += other.velocity_ahead, rotation_ahead += other.rotation_ahead;
+  }
 };
 
 struct AwakeRows;
@@ -239,13 +248,22 @@ struct Dem::Impl {
   void chunk_surfaces(Chunk& chunk, double* force);
   [[nodiscard]] bool has_all_gifts(const Chunk& chunk) const;
   void move_all(Chunk& chunk, double* force);
-  void move_own(Chunk& chunk, double* force, std::size_t count);
+  void move_own(Chunk& chunk, double* force);
   void keep_force(const Chunk& chunk, const double* force);
   enum class ForceOrder { by_row, by_place };
   void take_gifts(Chunk& chunk, double* force, ForceOrder order);
   void note_wall_loads(Chunk& chunk, const Surface& surface, const std::int32_t* contacts,
                        const bool* is_new, std::size_t count, contact::BatchColumns& columns);
   void force();
+  /// Those of whose grains some have waited for other chunks: often none.
+  template <class Work>
+  void each_waiting(Work&& work) {
+    const auto waits = [](const Chunk& c) { return c.moved < c.awake.rows.size(); };
+    if (std::none_of(chunks.begin(), chunks.end(), waits)) return;
+    oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+      if (waits(chunks[c])) work(chunks[c]);
+    });
+  }
 
   // wall_loads.cpp
   void gather_wall_loads();
@@ -261,7 +279,21 @@ struct Dem::Impl {
 
   // fine.cpp
   void fine_pass();
+  void find_clusters();
+  [[nodiscard]] bool is_heavy(std::int32_t coarse, std::int32_t fine_row) const;
   void make_blocks();
+  void seat_guests(std::int32_t cluster, Block& block);
+  void list_candidates();
+  void give_back();
+  /// Who is about to move: all of a chunk, those that other chunks look at, or the others.
+  enum class Movers { all, shared, unshared };
+  void resume_course(const Chunk& chunk, Movers movers);
+  [[nodiscard]] const LeftOver* left_over(std::int32_t row) const {
+    const auto l = std::lower_bound(
+        left_overs.begin(), left_overs.end(), row,
+        [](const LeftOver& a, std::int32_t wanted) { return a.row < wanted; });
+    return l != left_overs.end() && l->row == row ? &*l : nullptr;
+  }
 
   // health.cpp
   [[noreturn]] void fail_as_not_a_number(std::size_t row) const;
@@ -285,7 +317,8 @@ struct Dem::Impl {
   void load(sdk::ArchiveReader& archive);
 
   [[nodiscard]] contact::RowView row_view() const {
-    return {store.position.data(), store.velocity.data(), store.rotation.data()};
+    return {store.position.data(), store.velocity.data(), store.rotation.data(),
+            store.half_velocity.data(), store.half_rotation.data()};
   }
   [[nodiscard]] sdk::Vec3 separation(const double* from, const double* to) const {
     double d[3];
@@ -321,7 +354,7 @@ struct Dem::Impl {
   std::vector<Chunk> chunks;
   VerletList near_fine;
   ContactList fine;  ///< partner >= 0: row; < 0: surface -1 - b
-  std::vector<Reaction> pending;
+  std::vector<LeftOver> left_overs;  ///< of coarse grains that fine ones were near, by row
   contact::AlignedVector<double> fine_force;  ///< four per fine grain, of the last sub-step
   std::int64_t next_id = 0;
   WallLoads wall_loads;  ///< empty between fluid steps, so that nothing of it is saved
@@ -351,6 +384,7 @@ struct Dem::Impl {
   std::vector<std::int32_t> old_row;
   std::vector<std::int32_t> old_begin;
   std::vector<std::int32_t> old_partner;
+  std::vector<std::uint8_t> old_touching;
   std::vector<const double*> old_history;
   double farthest_reach = 0.0;  ///< [m] of a grain until the lists' end, at most; 0 = not known
   // Working space of a watch.

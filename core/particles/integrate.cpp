@@ -244,11 +244,8 @@ void Dem::Impl::integrate() {
   ++since_rebuild;
   ++counters.steps;
   counters.particle_steps += static_cast<std::int64_t>(store.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
-    Chunk& chunk = chunks[c];
-    // move_all() has been here: whoever stands in no other chunk's list has no givers to wait for.
-    if (chunk.moved > 0 && chunk.moved == chunk.awake.rows.size()) return;
-    take_gifts(chunk, chunk.force.data(), ForceOrder::by_place);
+  each_waiting([&](Chunk& chunk) {
+    resume_course(chunk, Movers::shared);
     integrate_awake(std::span(chunk.awake.rows).subspan(chunk.moved),
                     static_cast<std::size_t>(chunk.begin), chunk.force.data(),
                     ForceOrder::by_place);
@@ -263,6 +260,8 @@ void Dem::Impl::integrate() {
     fine_pass();
     // Dust squeezed out between coarse grains goes off at several m/s: looked after at every step.
     check_awake(fine_awake, since_watch, 1, must_watch);
+  } else {
+    left_overs.clear();
   }
 }
 

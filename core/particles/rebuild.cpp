@@ -193,6 +193,7 @@ void Dem::Impl::carry_over(VerletList& list, ContactList& contacts, bool is_surf
          m < old_begin[static_cast<std::size_t>(a) + 1]; ++m) {
       if (old_partner[static_cast<std::size_t>(m)] != b) continue;
       contacts.push(list.a[q], list.b[q], old_history[static_cast<std::size_t>(m)], history_stride);
+      contacts.is_touching.back() = old_touching[static_cast<std::size_t>(m)];
       break;
     }
   }
@@ -243,7 +244,7 @@ void Dem::Impl::rebuild() {
       for (std::size_t q = 0; q < list.size(); ++q) {
         if (list.is_touching[q] == 0) continue;
         visit(list.a[q], is_surface ? -1 - list.b[q] : list.b[q],
-              list.history.data() + q * history_stride);
+              list.history.data() + q * history_stride, list.is_touching[q]);
       }
     };
     for (const Chunk& c : old_chunks) {
@@ -252,26 +253,30 @@ void Dem::Impl::rebuild() {
     }
     walk(old_fine, false);
   };
-  each([&](std::int32_t a, std::int32_t, const double*) {
+  each([&](std::int32_t a, std::int32_t, const double*, std::uint8_t) {
     ++old_begin[static_cast<std::size_t>(a) + 1];
   });
   for (std::size_t n = 0; n < old_rows; ++n) old_begin[n + 1] += old_begin[n];
   old_partner.resize(static_cast<std::size_t>(old_begin.back()));
   old_history.resize(old_partner.size());
+  old_touching.resize(old_partner.size());
   std::vector<std::int32_t> fill(old_begin.begin(), old_begin.end() - 1);
-  each([&](std::int32_t a, std::int32_t b, const double* history) {
+  each([&](std::int32_t a, std::int32_t b, const double* history, std::uint8_t touching) {
     const auto to = static_cast<std::size_t>(fill[static_cast<std::size_t>(a)]++);
     old_partner[to] = b;
     old_history[to] = history;
+    old_touching[to] = touching;
   });
 
   if (must_sort || counters.rebuilds % k_sort_every == 0) {
     sort_rows();
-    if (!pending.empty()) {
+    if (!left_overs.empty()) {
       std::vector<std::int32_t> new_row(old_row.size());
       for (std::size_t n = 0; n < old_row.size(); ++n)
         new_row[static_cast<std::size_t>(old_row[n])] = static_cast<std::int32_t>(n);
-      for (Reaction& r : pending) r.row = new_row[static_cast<std::size_t>(r.row)];
+      for (LeftOver& l : left_overs) l.row = new_row[static_cast<std::size_t>(l.row)];
+      std::sort(left_overs.begin(), left_overs.end(),
+                [](const LeftOver& a, const LeftOver& b) { return a.row < b.row; });
     }
   } else {
     old_row.resize(store.size());
@@ -383,6 +388,7 @@ void Dem::Impl::rebuild() {
   std::vector<std::int32_t>().swap(old_row);
   std::vector<std::int32_t>().swap(old_begin);
   std::vector<std::int32_t>().swap(old_partner);
+  std::vector<std::uint8_t>().swap(old_touching);
   std::vector<const double*>().swap(old_history);
   contact_force.clear();  // in the order of rows that were
   since_rebuild = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/impl.hpp"
+#include "particles/wall_contacts.hpp"
 
 #include <algorithm>
 
@@ -10,17 +11,14 @@ namespace {
 using contact::BatchColumns;
 using contact::k_batch;
 
-void repeat_last(BatchColumns& columns, std::size_t count, int first, int last) {
-  for (int c = first; c <= last; ++c) {
-    double* column = columns.column(c);
-    for (std::size_t q = count; q < contact::padded(count); ++q) column[q] = column[count - 1];
-  }
-}
-
 /// Where some grains are nearest to a surface.
 struct SurfacePoints {
   double distance[k_batch];
   double normal[3][k_batch];
+
+  [[nodiscard]] bodies::SurfacePoint point(std::size_t n) const {
+    return {distance[n], {normal[0][n], normal[1][n], normal[2][n]}};
+  }
 
   void find(const Surface& surface, const double* position, std::span<const std::int32_t> rows,
             double range, std::int32_t* hints) {
@@ -47,22 +45,14 @@ struct SurfacePoints {
 }  // namespace
 
 void Dem::Impl::chunk_surfaces(Chunk& chunk, double* force) {
-  using B = BatchColumns;
   ContactList& list = chunk.surfaces;
   auto& columns = thread_columns();
   const contact::PairView pairs = list.view(history_stride);
   const int groups = static_cast<int>(history_stride / 4);
+  const contact::RowView grains = row_view();
   std::int32_t contacts[k_batch];
   std::int32_t local[k_batch];
   bool is_new[k_batch];
-  const double* point[3];
-  const double* normal[3];
-  double* velocity[3];
-  for (int d = 0; d < 3; ++d) {
-    point[d] = columns.column(B::rotation_j_x + d);
-    normal[d] = columns.column(B::normal_x + d);
-    velocity[d] = columns.column(B::separation_x + d);
-  }
   for (const Segment& segment : list.segments) {
     const Surface& surface = surfaces[static_cast<std::size_t>(segment.surface)];
     const PairLaws& law = laws[static_cast<std::size_t>(segment.law)];
@@ -76,19 +66,7 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk, double* force) {
     std::size_t count = 0;
     const auto flush = [&] {
       if (count == 0) return;
-      surface_velocities(surface, time, count, point, normal, velocity);
-      for (std::size_t q = 0; q < count; ++q) {
-        const double lever = columns.column(B::lever_i)[q];
-        const double n[3] = {normal[0][q], normal[1][q], normal[2][q]};
-        const double w[3] = {columns.column(B::rotation_x)[q], columns.column(B::rotation_y)[q],
-                             columns.column(B::rotation_z)[q]};
-        // v + w x (-lever n) - surface velocity
-        columns.column(B::velocity_x)[q] -= velocity[0][q] + lever * (w[1] * n[2] - w[2] * n[1]);
-        columns.column(B::velocity_y)[q] -= velocity[1][q] + lever * (w[2] * n[0] - w[0] * n[2]);
-        columns.column(B::velocity_z)[q] -= velocity[2][q] + lever * (w[0] * n[1] - w[1] * n[0]);
-      }
-      repeat_last(columns, count, B::velocity_x, B::velocity_z);
-      repeat_last(columns, count, B::overlap, B::lever_j);
+      derive_wall_columns(surface, time, steps.coarse_step, count, columns);
       contact::load_history(pairs, contacts, count, groups, columns);
       evaluate_laws(law, columns, count, steps.coarse_step);
       contact::store_history(pairs, contacts, count, groups, columns);
@@ -102,10 +80,8 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk, double* force) {
       if (n == 0) look(q, std::min(segment.end, q + static_cast<std::int32_t>(k_batch)));
       const auto u = static_cast<std::size_t>(q);
       const std::int32_t i = list.a[u];
-      const double* p = store.position.data() + 4 * static_cast<std::ptrdiff_t>(i);
-      const double* v = store.velocity.data() + 4 * static_cast<std::ptrdiff_t>(i);
-      const double* w = store.rotation.data() + 4 * static_cast<std::ptrdiff_t>(i);
-      const double overlap = p[3] - near.distance[n];
+      const double radius = store.position[4 * static_cast<std::size_t>(i) + 3];
+      const double overlap = radius - near.distance[n];
       if (!(overlap > -range)) {
         if (list.is_touching[u] != 0) {
           list.is_touching[u] = 0;
@@ -117,19 +93,9 @@ void Dem::Impl::chunk_surfaces(Chunk& chunk, double* force) {
       list.is_touching[u] = 1;
       contacts[count] = q;
       local[count] = i - chunk.begin;
-      columns.column(B::overlap)[count] = overlap;
-      // The contact point halves the overlap, as between two grains.
-      columns.column(B::lever_i)[count] = p[3] - 0.5 * overlap;
-      columns.column(B::lever_j)[count] = 0.0;
-      columns.column(B::effective_radius)[count] = p[3];
-      columns.column(B::effective_mass)[count] = 1.0 / v[3];
-      for (int d = 0; d < 3; ++d) {
-        columns.column(B::normal_x + d)[count] = near.normal[d][n];
-        columns.column(B::rotation_j_x + d)[count] = p[d] - near.distance[n] * near.normal[d][n];
-        columns.column(B::velocity_x + d)[count] = v[d];
-        columns.column(B::rotation_x + d)[count] = w[d];
-      }
-      chunk.largest_overlap = std::max(chunk.largest_overlap, overlap / p[3]);
+      put_at_wall(GrainAtWall::from(grains, static_cast<std::size_t>(i)), near.point(n), count,
+                  columns);
+      chunk.largest_overlap = std::max(chunk.largest_overlap, overlap / radius);
       if (++count == k_batch) flush();
     }
     flush();

@@ -196,7 +196,7 @@ void Dem::Impl::choose_watch_allowances() {
 void Dem::Impl::begin_watch() {
   is_awake.assign(store.size(), 0);
   choose_watch_allowances();
-  for (const Reaction& r : pending) is_awake[static_cast<std::size_t>(r.row)] = 1;
+  for (const LeftOver& l : left_overs) is_awake[static_cast<std::size_t>(l.row)] = 1;
   const contact::Courses courses{store.position.data(), store.velocity.data(),
                                  watch_allowance.data()};
   // Two steps: the velocities at hand are not quite those of the step behind.

@@ -33,7 +33,7 @@ class HertzMindlin final : public sdk::ContactLaw {
   }
   static sdk::ModelInfo describe() {
     return {.name = "hertz_mindlin",
-            .version = "1.0",
+            .version = "2.0",
             .summary =
                 "Hertz normal and energy-conserving Mindlin tangential contact with viscous "
                 "damping and strict Coulomb friction.",
@@ -85,6 +85,7 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
   const double time_step = b.time_step;
   const double *overlap = b.overlap, *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
   const double *vx = b.velocity_x, *vy = b.velocity_y, *vz = b.velocity_z;
+  const double *ux = b.displacement_x, *uy = b.displacement_y, *uz = b.displacement_z;
   const double *radius = b.effective_radius, *mass = b.effective_mass;
   double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2], *stiffness = b.history[3];
   double *fn = b.normal_force, *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
@@ -116,6 +117,7 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
     c.overlap = overlap[q];
     c.nx = nx[q], c.ny = ny[q], c.nz = nz[q];
     c.vx = vx[q], c.vy = vy[q], c.vz = vz[q];
+    c.ux = ux[q], c.uy = uy[q], c.uz = uz[q];
     c.mass = mass[q];
     c.sx = sx[q], c.sy = sy[q], c.sz = sz[q];
     c.contact_radius = contact_radius[q - first];

@@ -46,9 +46,9 @@ inline double half_period(double young, double radius, double mass, double overl
 }
 
 /// One contact: geometry and kinematics in, force out. n points from j to i, v is the velocity of i
-/// relative to j at the contact point. SI.
+/// relative to j at the contact point, u their displacement since the last look [m]. SI.
 struct Contact {
-  double overlap, nx, ny, nz, vx, vy, vz, radius, mass;
+  double overlap, nx, ny, nz, vx, vy, vz, ux, uy, uz, radius, mass;
   double sx, sy, sz;        ///< [m] tangential displacement, in and out
   double stiffness;         ///< [N/m] k_t of the last step in, of this one out
   double normal_force;      ///< [N] out
@@ -70,7 +70,8 @@ struct Contact {
 //
 // The displacement is rescaled as the stiffness changes, \f$ \xi_t \sqrt{k_t} \f$ = const, so that
 // a growing or shrinking overlap neither feeds nor drains the energy \f$ k_t \xi_t^2 / 2 \f$ of
-// the spring (own derivation). Constant displacement (the "total" form) would create energy while
+// the spring (own derivation): \f$ d(\sqrt{k_t}\,\xi_t) = \sqrt{k_t}\, du_t \f$, the root on the
+// right side being its mean over the step (second order). Constant displacement (the "total" form) would create energy while
 // the contact is loaded, constant force while it is unloaded; forces that shrink with k_t on
 // unloading (Thornton, Cummins, Cleary, Powder Technol. 233 (2013) 30,
 // doi:10.1016/j.powtec.2012.08.012) create none but lose a fifth of the tangential energy of an
@@ -79,13 +80,27 @@ struct Contact {
 
 inline constexpr double k_tiny = 1e-140;
 
+/// Weight of a step's force that begins or ends like the fourth root of the overlap, as dampers and
+/// the tangential spring do, where touching or parting is less than a step off: x = `overlap` /
+/// `flight`, the way along the normal in a step [m]. Held for the whole step it would be in error by
+/// half of it, to first order. \f$ -\zeta(-\tfrac14, 1 + x) / x^{1/4} \f$ makes the sum over looks at
+/// x, x + 1, ... the integral (Euler-Maclaurin for an algebraic end: Navot, J. Math. Phys. 40 (1961)
+/// 271, doi:10.1002/sapm1961401271); this is within 0.04 of it for 0.001 < x < 1.
+[[gnu::always_inline]] inline double edge_weight(double overlap, double flight) {
+  const double way = std::max(flight, k_tiny);
+  const double shifted = overlap + 0.006 * way;
+  const double inverse = 1.0 / (way * shifted);
+  const double x = overlap * shifted * inverse;
+  return x < 1.0 ? 0.62 + x * (0.45 + 0.25 * x) + 0.0075 * way * way * inverse : 1.0;
+}
+
 /// \f$ a^2 = R^* d \f$ [m2].
 [[gnu::always_inline]] inline double squared_contact_radius(double overlap, double radius) {
   return radius * std::max(overlap, 0.0);
 }
 
 /// The displacement into the new tangent plane; `keep`, squared, restores the old length and then
-/// makes the change of k_t at constant energy. The floor matters in the last instant of a contact
+/// makes the change of k_t at constant energy; of a contact that has just begun it is zero. The floor matters in the last instant of a contact
 /// alone.
 [[gnu::always_inline]] inline void turn(const Constants& k, Contact& c) {
   const double kt = 8.0 * k.shear * c.contact_radius;
@@ -96,10 +111,11 @@ inline constexpr double k_tiny = 1e-140;
   const double old2 = c.sx * c.sx + c.sy * c.sy + c.sz * c.sz;
   const double new2 = px * px + py * py + pz * pz;
   const double floor = std::max(kt, std::max(1e-6 * c.stiffness, k_tiny));
-  // One division for both reciprocals.
-  const double in_plane = std::max(new2, k_tiny);
+  // One division for both reciprocals. A spring without length keeps the ratio of stiffnesses; one
+  // turned up along the normal is lost.
+  const double in_plane = new2 + k_tiny;
   const double inverse = 1.0 / (in_plane * floor);
-  c.keep = old2 * c.stiffness * inverse;
+  c.keep = std::min(old2 + k_tiny, 4.0 * in_plane) * c.stiffness * inverse;
   c.compliance = inverse * in_plane;
   c.sx = px;
   c.sy = py;
@@ -118,21 +134,27 @@ inline constexpr double k_tiny = 1e-140;
   const double gt = std::min(k.damping * k.tangential_root * shared,
                              c.mass * (k_most_tangential_damping / time_step));
   const double vn = c.vx * c.nx + c.vy * c.ny + c.vz * c.nz;
+  const double edge = edge_weight(d, std::abs(vn) * time_step);
   const double tx = c.vx - vn * c.nx;
   const double ty = c.vy - vn * c.ny;
   const double tz = c.vz - vn * c.nz;
-  c.sx = c.keep * c.sx + tx * time_step;
-  c.sy = c.keep * c.sy + ty * time_step;
-  c.sz = c.keep * c.sz + tz * time_step;
+  // sqrt(k_t) over the step in mean, in its value at the end: it begins like the fourth root of the
+  // overlap. `keep` holds the restored length as well, which differs from 1 by the square of the angle
+  // turned: of third order here.
+  const double mean = c.keep > 0.0 ? 0.5 + 0.5 * c.keep : 0.8;
+  const double un = c.ux * c.nx + c.uy * c.ny + c.uz * c.nz;
+  c.sx = c.keep * c.sx + mean * (c.ux - un * c.nx);
+  c.sy = c.keep * c.sy + mean * (c.uy - un * c.ny);
+  c.sz = c.keep * c.sz + mean * (c.uz - un * c.nz);
   c.dx = gt * tx;
   c.dy = gt * ty;
   c.dz = gt * tz;
-  c.fx = -kt * c.sx - c.dx;
-  c.fy = -kt * c.sy - c.dy;
-  c.fz = -kt * c.sz - c.dz;
+  c.fx = edge * (-kt * c.sx - c.dx);
+  c.fy = edge * (-kt * c.sy - c.dy);
+  c.fz = edge * (-kt * c.sz - c.dz);
   c.total = c.fx * c.fx + c.fy * c.fy + c.fz * c.fz;
   c.stiffness = kt;
-  c.normal_force = kn * d - gn * vn;
+  c.normal_force = kn * d - edge * gn * vn;
   c.normal_stiffness = kn;
 }
 

@@ -10,18 +10,19 @@ namespace sdk = dust::sdk;
 
 DUST_KERNEL void evaluate_batch(const formula::Constants& constants, const sdk::ContactBatch& b) {
   const formula::Constants k = constants;
-  const double time_step = b.time_step;
   const double *overlap = b.overlap, *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
   const double *vx = b.velocity_x, *vy = b.velocity_y, *vz = b.velocity_z;
+  const double *ux = b.displacement_x, *uy = b.displacement_y, *uz = b.displacement_z;
   const double* mass = b.effective_mass;
   double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2];
   double *fn = b.normal_force, *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
   double *fx = b.force_x, *fy = b.force_y, *fz = b.force_z;
 #pragma omp simd
   for (std::size_t q = 0; q < b.count; ++q) {
-    formula::Contact c{overlap[q], nx[q], ny[q], nz[q], vx[q], vy[q], vz[q], mass[q], sx[q],
-                       sy[q],      sz[q], 0.0,   0.0,   0.0,   0.0,   0.0,   0.0};
-    formula::evaluate(k, time_step, c);
+    formula::Contact c{overlap[q], nx[q], ny[q],   nz[q], vx[q], vy[q], vz[q], ux[q], uy[q],
+                       uz[q],      mass[q], sx[q], sy[q], sz[q], 0.0,   0.0,   0.0,   0.0,
+                       0.0,        0.0};
+    formula::evaluate(k, b.time_step, c);
     sx[q] = c.sx;
     sy[q] = c.sy;
     sz[q] = c.sz;
@@ -70,7 +71,7 @@ class Hooke final : public sdk::ContactLaw {
   static sdk::ModelInfo describe() {
     return {
         .name = "hooke",
-        .version = "1.0",
+        .version = "2.0",
         .summary = "Linear spring and dashpot, normal and tangential, with Coulomb friction.",
         .equation =
             "F_n = k_n d - \\gamma_n v_n,\\quad F_t = -k_t \\xi_t - \\gamma_t v_t,\\quad "

@@ -12,18 +12,20 @@ namespace sdk = dust::sdk;
 
 DUST_KERNEL void evaluate_batch(const formula::Constants &constants, const sdk::ContactBatch &b) {
   const formula::Constants k = constants;
-  const double time_step = b.time_step;
   const double *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
   const double *wx = b.rotation_x, *wy = b.rotation_y, *wz = b.rotation_z;
+  const double *ax = b.angle_x, *ay = b.angle_y, *az = b.angle_z;
   const double *radius = b.effective_radius, *mass = b.effective_mass;
   const double *fn = b.normal_force, *kn = b.normal_stiffness;
-  double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2];
+  double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2], *last = b.history[3];
   double *tx = b.torque_x, *ty = b.torque_y, *tz = b.torque_z;
 #pragma omp simd
   for (std::size_t q = 0; q < b.count; ++q) {
-    formula::Rolling c{nx[q], ny[q], nz[q], wx[q], wy[q], wz[q], radius[q], mass[q],
-                       fn[q], kn[q], sx[q], sy[q], sz[q], 0.0,   0.0,       0.0};
-    formula::evaluate(k, time_step, c);
+    formula::Rolling c{nx[q],     ny[q],   nz[q], wx[q], wy[q],   wz[q], ax[q], ay[q], az[q],
+                       radius[q], mass[q], fn[q], kn[q], last[q], sx[q], sy[q], sz[q], 0.0,
+                       0.0,       0.0};
+    formula::evaluate(k, c);
+    last[q] = c.last_stiffness;
     sx[q] = c.sx;
     sy[q] = c.sy;
     sz[q] = c.sz;
@@ -52,7 +54,7 @@ class Epsd final : public sdk::RollingLaw {
   }
   static sdk::ModelInfo describe() {
     return {.name = "epsd",
-            .version = "1.0",
+            .version = "2.0",
             .summary = "Elastic-plastic rolling spring with a dashpot below full mobilisation.",
             .equation =
                 "\\Delta M_s = -2.25 k_n \\mu_r^2 R^{*2} \\Delta\\theta_r,\\quad "
@@ -65,7 +67,7 @@ class Epsd final : public sdk::RollingLaw {
 
   explicit Epsd(const Parameters &p) : constants_{p.friction, p.damping_ratio} {}
   void prepare(const sdk::MaterialProperties &, const sdk::MaterialProperties &) override {}
-  [[nodiscard]] int history_size() const override { return 3; }
+  [[nodiscard]] int history_size() const override { return 4; }
   void evaluate(const sdk::ContactBatch &batch) const override {
     evaluate_batch(constants_, batch);
   }

@@ -12,28 +12,30 @@ struct Constants {
   double damping_ratio = 0.0;  ///< [-] eta_r
 };
 
-/// One contact. n: unit normal, w: angular velocity of i relative to j [rad/s], s: couple of the
-/// spring on i [N m], in and out, m: couple on i [N m], out.
+/// One contact. n: unit normal, w: angular velocity of i relative to j [rad/s], a: rotation of i
+/// relative to j since the last look [rad], s: couple of the spring on i [N m], in and out, m:
+/// couple on i [N m], out.
 struct Rolling {
-  double nx, ny, nz, wx, wy, wz;
+  double nx, ny, nz, wx, wy, wz, ax, ay, az;
   double radius;        ///< [m] R*
   double mass;          ///< [kg] m*
   double normal_force;  ///< [N]
   double stiffness;     ///< [N/m] k_n
+  double last_stiffness;  ///< [N/m] k_n at the last look, in and out
   double sx, sy, sz;
   double mx, my, mz;
 };
 
 /// Couple of an elastic-plastic spring with a dashpot below full mobilisation:
 /// \f$ \Delta M_s = -k_r \Delta\theta_r,\; k_r = 2.25 k_n \mu_r^2 R^{*2},\;
-/// |M_s| \le \mu_r R^* |F_n| \f$; \f$ M_d = -2 \eta_r \sqrt{I_r k_r}\, \omega_r \f$ while
+/// |M_s| \le \mu_r R^* |F_n| \f$, k_n being the mean over the step (second order); \f$ M_d = -2 \eta_r \sqrt{I_r k_r}\, \omega_r \f$ while
 /// \f$ |M_s| \f$ is below its limit, else 0; the limit holds for the sum, too.
 /// \f$ \omega_r \f$ is the relative angular velocity without its part about the normal,
 /// \f$ I_r = \tfrac75 m^* R^{*2} \f$: the inertia of a sphere about its contact with a wall. M_s
 /// turns with the contact and keeps its length.
 /// Source: model C of Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269,
 /// doi:10.1016/j.powtec.2010.09.030; I_r of a pair: own choice.
-[[gnu::always_inline]] inline void evaluate(const Constants& k, double time_step, Rolling& c) {
+[[gnu::always_inline]] inline void evaluate(const Constants& k, Rolling& c) {
   constexpr double k_tiny = 1e-290;
   const double wn = c.wx * c.nx + c.wy * c.ny + c.wz * c.nz;
   const double rx = c.wx - wn * c.nx;
@@ -48,10 +50,13 @@ struct Rolling {
   const double keep = std::sqrt(old2 / std::max(new2, k_tiny));
   const double reach = k.friction * c.radius;
   const double kr = 2.25 * c.stiffness * reach * reach;
-  const double step = kr * time_step;
-  const double sx = keep * px - step * rx;
-  const double sy = keep * py - step * ry;
-  const double sz = keep * pz - step * rz;
+  const double last = c.last_stiffness > 0.0 ? c.last_stiffness : c.stiffness;
+  const double mean = 2.25 * 0.5 * (last + c.stiffness) * reach * reach;
+  const double an = c.ax * c.nx + c.ay * c.ny + c.az * c.nz;
+  const double sx = keep * px - mean * (c.ax - an * c.nx);
+  const double sy = keep * py - mean * (c.ay - an * c.ny);
+  const double sz = keep * pz - mean * (c.az - an * c.nz);
+  c.last_stiffness = c.stiffness;
   const double size = std::sqrt(sx * sx + sy * sy + sz * sz);
   const double limit = reach * std::abs(c.normal_force);
   const double cut = std::min(1.0, limit / std::max(size, k_tiny));

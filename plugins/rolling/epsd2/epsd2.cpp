@@ -18,11 +18,10 @@ constexpr std::size_t k_block = 64;
 
 DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch &b, std::size_t first,
                                 std::size_t end) {
-  const double time_step = b.time_step;
   const double *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
-  const double *wx = b.rotation_x, *wy = b.rotation_y, *wz = b.rotation_z;
+  const double *ax = b.angle_x, *ay = b.angle_y, *az = b.angle_z;
   const double *radius = b.effective_radius, *fn = b.normal_force, *kt = b.tangential_stiffness;
-  double *mx = b.history[0], *my = b.history[1], *mz = b.history[2];
+  double *mx = b.history[0], *my = b.history[1], *mz = b.history[2], *last = b.history[3];
   double *tx = b.torque_x, *ty = b.torque_y, *tz = b.torque_z;
   alignas(64) double keep[k_block], size[k_block];
 #pragma omp simd
@@ -39,13 +38,15 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch &b, std
   for (std::size_t q = first; q < end; ++q) {
     formula::Rolling c{};
     c.nx = nx[q], c.ny = ny[q], c.nz = nz[q];
-    c.wx = wx[q], c.wy = wy[q], c.wz = wz[q];
+    c.ax = ax[q], c.ay = ay[q], c.az = az[q];
     c.radius = radius[q];
     c.stiffness = kt[q];
+    c.last_stiffness = last[q];
     c.mx = tx[q], c.my = ty[q], c.mz = tz[q];
     c.keep = keep[q - first];
-    formula::roll(time_step, c);
+    formula::roll(c);
     tx[q] = c.mx, ty[q] = c.my, tz[q] = c.mz;
+    last[q] = kt[q];
     size[q - first] = c.size;
   }
   sdk::take_square_roots(size, end - first);
@@ -71,7 +72,7 @@ class Epsd2 final : public dust::model::RollingFriction {
   }
   static sdk::ModelInfo describe() {
     return {.name = "epsd2",
-            .version = "1.0",
+            .version = "2.0",
             .summary = "Elastic-plastic rolling spring without dashpot.",
             .equation =
                 "\\Delta M = -k_t R^{*2} \\Delta\\theta_r,\\quad "
@@ -83,7 +84,7 @@ class Epsd2 final : public dust::model::RollingFriction {
   }
 
   explicit Epsd2(const Parameters &p) : RollingFriction(p) {}
-  [[nodiscard]] int history_size() const override { return 3; }
+  [[nodiscard]] int history_size() const override { return 4; }
   void evaluate(const sdk::ContactBatch &batch) const override {
     for (std::size_t first = 0; first < batch.count; first += k_block) {
       evaluate_block(friction(), batch, first, std::min(first + k_block, batch.count));

@@ -6,13 +6,14 @@
 
 namespace dust::model::epsd2 {
 
-/// One contact. n: unit normal, w: angular velocity of i relative to j [rad/s], m: couple on i [N
-/// m], in and out.
+/// One contact. n: unit normal, a: rotation of i relative to j since the last look [rad], m: couple
+/// on i [N m], in and out.
 struct Rolling {
-  double nx, ny, nz, wx, wy, wz;
-  double radius;        ///< [m] R*
-  double normal_force;  ///< [N]
-  double stiffness;     ///< [N/m] k_t
+  double nx, ny, nz, ax, ay, az;
+  double radius;          ///< [m] R*
+  double normal_force;    ///< [N]
+  double stiffness;       ///< [N/m] k_t
+  double last_stiffness;  ///< [N/m] k_t at the last look; 0 of a contact that has just begun
   double mx, my, mz;
 
   // Handed from stage to stage.
@@ -22,8 +23,8 @@ struct Rolling {
 
 // Couple of an elastic-plastic spring without dashpot:
 // \f$ \Delta M = -k_r \Delta\theta_r,\; k_r = k_t R^{*2},\; |M| \le \mu_r R^* |F_n| \f$.
-// \f$ \Delta\theta_r \f$ is the relative rotation without its part about the normal. M turns with
-// the contact and keeps its length.
+// \f$ \Delta\theta_r \f$ is the relative rotation without its part about the normal, k_t the mean over
+// the step (second order). M turns with the contact and keeps its length.
 // Source: model C of Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269,
 // doi:10.1016/j.powtec.2010.09.030, with k_r of Iwashita and Oda, J. Eng. Mech. 124 (1998) 285.
 //
@@ -47,12 +48,13 @@ inline constexpr double k_tiny = 1e-290;
 }
 
 /// The spring without limit; `size` is squared.
-[[gnu::always_inline]] inline void roll(double time_step, Rolling& c) {
-  const double wn = c.wx * c.nx + c.wy * c.ny + c.wz * c.nz;
-  const double step = c.stiffness * c.radius * c.radius * time_step;
-  c.mx = c.keep * c.mx - step * (c.wx - wn * c.nx);
-  c.my = c.keep * c.my - step * (c.wy - wn * c.ny);
-  c.mz = c.keep * c.mz - step * (c.wz - wn * c.nz);
+[[gnu::always_inline]] inline void roll(Rolling& c) {
+  const double an = c.ax * c.nx + c.ay * c.ny + c.az * c.nz;
+  const double last = c.last_stiffness > 0.0 ? c.last_stiffness : c.stiffness;
+  const double kr = 0.5 * (last + c.stiffness) * c.radius * c.radius;
+  c.mx = c.keep * c.mx - kr * (c.ax - an * c.nx);
+  c.my = c.keep * c.my - kr * (c.ay - an * c.ny);
+  c.mz = c.keep * c.mz - kr * (c.az - an * c.nz);
   c.size = c.mx * c.mx + c.my * c.my + c.mz * c.mz;
 }
 

@@ -86,6 +86,9 @@ DUST_KERNEL void run(const my_contact::Constants& constants, const sdk::ContactB
                           b.velocity_x[q],
                           b.velocity_y[q],
                           b.velocity_z[q],
+                          b.displacement_x[q],
+                          b.displacement_y[q],
+                          b.displacement_z[q],
                           b.effective_mass[q],
                           sx[q],
                           sy[q],
@@ -95,7 +98,7 @@ DUST_KERNEL void run(const my_contact::Constants& constants, const sdk::ContactB
                           0.0,
                           0.0,
                           0.0};
-    my_contact::evaluate(k, b.time_step, c);
+    my_contact::evaluate(k, c);
     sx[q] = c.sx;
     sy[q] = c.sy;
     sz[q] = c.sz;

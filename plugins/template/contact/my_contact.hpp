@@ -27,9 +27,10 @@ inline double collision_time(double stiffness, double mass) {
   return std::numbers::pi * std::sqrt(mass / stiffness);
 }
 
-/// One contact: inputs, history (s: tangential spring [m], in and out), outputs.
+/// One contact: inputs (v: relative velocity, u: displacement since the last look [m]), history (s:
+/// tangential spring [m], in and out), outputs.
 struct Contact {
-  double overlap, nx, ny, nz, vx, vy, vz, mass;
+  double overlap, nx, ny, nz, vx, vy, vz, ux, uy, uz, mass;
   double sx, sy, sz;
   double normal_force, tangential_stiffness, fx, fy, fz;
 };
@@ -37,7 +38,7 @@ struct Contact {
 /// Linear springs with dampers, Coulomb's limit on the tangential force:
 /// \f$ F_n = k d - c v_n,\; F_t = -k_t s - c_t v_t,\; |F_t| \le \mu \max(F_n, 0) \f$,
 /// \f$ c = 2 \zeta \sqrt{m^* k} \f$. Source: Cundall, Strack, Geotechnique 29 (1979) 47.
-[[gnu::always_inline]] inline void evaluate(const Constants& k, double time_step, Contact& c) {
+[[gnu::always_inline]] inline void evaluate(const Constants& k, Contact& c) {
   constexpr double k_tiny = 1e-290;
   const double stiffness = c.overlap > 0.0 ? k.stiffness : 0.0;
   const double tangential = k.ratio * stiffness;
@@ -48,11 +49,15 @@ struct Contact {
   const double tx = c.vx - vn * c.nx;
   const double ty = c.vy - vn * c.ny;
   const double tz = c.vz - vn * c.nz;
-  // The spring follows the contact: what points along the new normal is dropped.
+  // The spring grows by the displacement, and not by velocity times time step, which would damp it.
+  // It follows the contact: what points along the new normal is dropped.
+  c.sx += c.ux;
+  c.sy += c.uy;
+  c.sz += c.uz;
   const double sn = c.sx * c.nx + c.sy * c.ny + c.sz * c.nz;
-  c.sx += tx * time_step - sn * c.nx;
-  c.sy += ty * time_step - sn * c.ny;
-  c.sz += tz * time_step - sn * c.nz;
+  c.sx -= sn * c.nx;
+  c.sy -= sn * c.ny;
+  c.sz -= sn * c.nz;
   const double fx = -tangential * c.sx - damper * tx;
   const double fy = -tangential * c.sy - damper * ty;
   const double fz = -tangential * c.sz - damper * tz;

@@ -158,20 +158,20 @@ class LawBench {
   std::vector<SampleRow>& rows() { return rows_; }
 
   void contact(const sdk::ContactLaw& law, double step, std::size_t split = contact::k_batch) {
-    each(split, [&](sdk::ContactBatch b, sdk::CohesionBatch) {
+    each(split, step, [&](sdk::ContactBatch b, sdk::CohesionBatch) {
       b.time_step = step;
       law.evaluate(b);
     });
   }
   void rolling(const sdk::RollingLaw& law, double step, std::size_t split = contact::k_batch) {
-    each(split, [&](sdk::ContactBatch b, sdk::CohesionBatch) {
+    each(split, step, [&](sdk::ContactBatch b, sdk::CohesionBatch) {
       b.time_step = step;
       law.evaluate(b);
     });
   }
   void cohesion(const sdk::CohesionLaw& law, std::size_t split = contact::k_batch,
                 double step = 1e-6) {
-    each(split, [&](sdk::ContactBatch, sdk::CohesionBatch b) {
+    each(split, step, [&](sdk::ContactBatch, sdk::CohesionBatch b) {
       b.time_step = step;
       law.evaluate(b);
     });
@@ -199,7 +199,7 @@ class LawBench {
  private:
   /// Whole groups of eight, as the core promises.
   template <class Call>
-  void each(std::size_t split, Call&& call) {
+  void each(std::size_t split, double step, Call&& call) {
     const std::size_t count = contact::padded(rows_.size());
     for (std::size_t q = 0; q < count; ++q) {
       const SampleRow& r = rows_[std::min(q, rows_.size() - 1)];
@@ -210,6 +210,8 @@ class LawBench {
         columns_.column(B::normal_x + d)[q] = r.normal[d];
         columns_.column(B::velocity_x + d)[q] = r.velocity[d];
         columns_.column(B::rotation_x + d)[q] = r.rotation[d];
+        columns_.column(B::displacement_x + d)[q] = step * r.velocity[d];
+        columns_.column(B::angle_x + d)[q] = step * r.rotation[d];
       }
     }
     contact::derive_normal_velocity(columns_, count);
@@ -222,7 +224,8 @@ class LawBench {
       b.history = c.history = history.data();
       for (const double** column :
            {&b.overlap, &b.normal_x, &b.normal_y, &b.normal_z, &b.velocity_x, &b.velocity_y,
-            &b.velocity_z, &b.rotation_x, &b.rotation_y, &b.rotation_z, &b.effective_radius,
+            &b.velocity_z, &b.rotation_x, &b.rotation_y, &b.rotation_z, &b.displacement_x,
+            &b.displacement_y, &b.displacement_z, &b.angle_x, &b.angle_y, &b.angle_z, &b.effective_radius,
             &b.effective_mass, &c.overlap, &c.effective_radius, &c.effective_mass,
             &c.normal_velocity}) {
         *column += first;

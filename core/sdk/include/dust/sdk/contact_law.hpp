@@ -26,8 +26,10 @@ inline double effective_young_modulus(const MaterialProperties& i, const Materia
 /// of a batch share the law's parameters and the time step.
 ///
 /// Side i is the grain that receives the result, side j the other grain or a wall. The unit normal
-/// points from j to i. Velocities are those at the same instant as the positions. For a wall,
-/// effective_radius and effective_mass are the grain's own.
+/// points from j to i. Velocities are those at the same instant as the positions: for dampers. What
+/// a spring remembers grows by `displacement` and `angle`, which are exact, and not by a velocity
+/// times the time step: that would damp the spring or feed it, by a part of first order in the
+/// step. For a wall, effective_radius and effective_mass are the grain's own.
 ///
 /// The core pads the columns: `count` is a multiple of 8 and rows beyond the true number hold a
 /// harmless contact. Inputs are read only; a law writes the output columns of its own stage and its
@@ -47,6 +49,14 @@ struct ContactBatch {
   const double* rotation_x = nullptr;  ///< [rad/s] angular velocity of i relative to j
   const double* rotation_y = nullptr;
   const double* rotation_z = nullptr;
+  /// [m] Displacement of i relative to j at the contact point since the law was last asked about
+  /// this contact, or since the two began to touch. Its part along the normal is no overlap.
+  const double* displacement_x = nullptr;
+  const double* displacement_y = nullptr;
+  const double* displacement_z = nullptr;
+  const double* angle_x = nullptr;  ///< [rad] rotation of i relative to j over the same time
+  const double* angle_y = nullptr;
+  const double* angle_z = nullptr;
   const double* effective_radius = nullptr;  ///< [m] R*
   const double* effective_mass = nullptr;    ///< [kg] m*
 
