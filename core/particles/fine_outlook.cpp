@@ -13,6 +13,10 @@ using sdk::Vec3;
 constexpr double k_reach_margin = 0.05;
 /// Steps per contact.
 constexpr double k_steps_per_contact = 15.0;
+/// Of a Hertz contact, the half period at its deepest over its duration: pi / sqrt(15/8) / 2.94. A
+/// collision then has the same step on its way in, where its speed counts, and at its deepest, where
+/// the overlap does.
+constexpr double k_deepest = 0.78;
 
 double sum_of_parts(Vec3 v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
@@ -96,7 +100,7 @@ Outlook look_out(const Dem::Impl& dem, std::size_t entry, double extra_speed) {
   if (laws.cohesion) overlap = std::max(overlap, laws.cohesion->resting_overlap(reduced_radius));
   out.stable_step =
       std::min(laws.contact->collision_time(reduced_radius, mass, std::max(approach, 1e-12)),
-               laws.contact->half_period(reduced_radius, mass, overlap)) /
+               laws.contact->half_period(reduced_radius, mass, overlap) / k_deepest) /
       k_steps_per_contact;
   return out;
 }
