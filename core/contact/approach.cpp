@@ -2,6 +2,7 @@
 #include "contact/approach.hpp"
 
 #include "base/lanes.hpp"
+#include "contact/batch_kernels.hpp"
 #include "dust/sdk/plugin.hpp"
 
 #include <algorithm>
@@ -14,6 +15,10 @@ namespace {
 
 /// Pairs ahead whose rows are fetched.
 constexpr std::size_t k_ahead = 32;
+
+__attribute__((always_inline)) inline const Lanes& wide_row(const double* rows, std::int32_t n) {
+  return *reinterpret_cast<const Lanes*>(rows + k_motion_stride * static_cast<std::size_t>(n));
+}
 
 }  // namespace
 
@@ -35,14 +40,14 @@ DUST_KERNEL void mark_approaching(const Courses& courses, const Images& images,
       const std::size_t later = std::min(q + k_ahead + l, count - 1);
       for (const std::int32_t grain : {a[later], b[later]}) {
         __builtin_prefetch(courses.position + 4 * static_cast<std::ptrdiff_t>(grain), 0, 2);
-        __builtin_prefetch(courses.velocity + 4 * static_cast<std::ptrdiff_t>(grain), 0, 2);
+        __builtin_prefetch(courses.velocity + k_motion_stride * static_cast<std::size_t>(grain), 0, 2);
         __builtin_prefetch(courses.allowance + grain, 0, 2);
       }
     }
     for (std::size_t l = 0; l < 4; ++l) {
       const std::size_t e = std::min(q + l, count - 1);
       x[l] = row(courses.position, a[e]) + sign * row(courses.position, b[e]);
-      v[l] = row(courses.velocity, a[e]) + sign * row(courses.velocity, b[e]);
+      v[l] = wide_row(courses.velocity, a[e]) + sign * wide_row(courses.velocity, b[e]);
       fold(x[l], length, half);
       allowance[l] = courses.allowance[a[e]] + courses.allowance[b[e]];
     }

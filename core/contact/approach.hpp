@@ -11,7 +11,7 @@ namespace dust::contact {
 /// Grains on straight courses, each to be found within its allowance of it.
 struct Courses {
   const double* position = nullptr;   ///< rows: x, y, z, radius
-  const double* velocity = nullptr;   ///< rows
+  const double* velocity = nullptr;   ///< rows, k_motion_stride apart
   const double* allowance = nullptr;  ///< [m] one per grain
 };
 

@@ -58,6 +58,33 @@ sdk::CohesionBatch BatchColumns::cohesion_view(std::size_t count, double time_st
   return b;
 }
 
+namespace {
+
+/// Of contacts that have begun within the last step, what lies before it is no displacement. Few
+/// batches have one.
+DUST_KERNEL void cut_first_displacements(BatchColumns& columns, std::size_t n) {
+  using B = BatchColumns;
+  const double* overlap = columns.column(B::overlap);
+  const double* normal[3] = {columns.column(B::normal_x), columns.column(B::normal_y),
+                             columns.column(B::normal_z)};
+  double* way[3] = {columns.column(B::displacement_x), columns.column(B::displacement_y),
+                    columns.column(B::displacement_z)};
+  double* angle[3] = {columns.column(B::angle_x), columns.column(B::angle_y),
+                      columns.column(B::angle_z)};
+#pragma omp simd
+  for (std::size_t q = 0; q < n; ++q) {
+    const double parting =
+        way[0][q] * normal[0][q] + way[1][q] * normal[1][q] + way[2][q] * normal[2][q];
+    const double share = touched_share(overlap[q], parting);
+    for (int d = 0; d < 3; ++d) {
+      way[d][q] *= share;
+      angle[d][q] *= share;
+    }
+  }
+}
+
+}  // namespace
+
 DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count) {
   using B = BatchColumns;
   const std::size_t n = padded(count);
@@ -107,7 +134,8 @@ DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count)
   }
   sdk::take_square_roots(distances, n);
   double largest = 0.0;
-#pragma omp simd reduction(max : largest)
+  double shallowest = 0.0;  // of those in touch, the overlap before the last step
+#pragma omp simd reduction(max : largest) reduction(min : shallowest)
   for (std::size_t q = 0; q < n; ++q) {
     const double distance = distances[q];
     // Four reciprocals from one division.
@@ -133,16 +161,17 @@ DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count)
     wx[q] = aix[q] - ajx[q];
     wy[q] = aiy[q] - ajy[q];
     wz[q] = aiz[q] - ajz[q];
-    const double share = touched_share(d, ux[q] * x + uy[q] * y + uz[q] * z);
+    const double before = d + (ux[q] * x + uy[q] * y + uz[q] * z);
+    shallowest = std::min(shallowest, d > 0.0 ? before : 0.0);
     const double px = arm_i * tix[q] + arm_j * tjx[q];
     const double py = arm_i * tiy[q] + arm_j * tjy[q];
     const double pz = arm_i * tiz[q] + arm_j * tjz[q];
-    ux[q] = share * (ux[q] - (py * z - pz * y));
-    uy[q] = share * (uy[q] - (pz * x - px * z));
-    uz[q] = share * (uz[q] - (px * y - py * x));
-    ax[q] = share * (tix[q] - tjx[q]);
-    ay[q] = share * (tiy[q] - tjy[q]);
-    az[q] = share * (tiz[q] - tjz[q]);
+    ux[q] -= py * z - pz * y;
+    uy[q] -= pz * x - px * z;
+    uz[q] -= px * y - py * x;
+    ax[q] = tix[q] - tjx[q];
+    ay[q] = tiy[q] - tjy[q];
+    az[q] = tiz[q] - tjz[q];
     overlap[q] = d;
     nx[q] = x;
     ny[q] = y;
@@ -153,6 +182,7 @@ DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count)
     mass[q] = all * by_radii * smaller;
     largest = std::max(largest, d * (all * by_radii * im[q]));
   }
+  if (shallowest < 0.0) cut_first_displacements(columns, n);
   return largest;
 }
 

@@ -9,13 +9,16 @@
 
 namespace dust::contact {
 
-/// Rows of four doubles of all grains.
+/// Doubles from one grain's velocity to the next: the velocity of the instant and that of the last
+/// step's way stand in one line of the cache, because a contact wants both.
+inline constexpr std::size_t k_motion_stride = 8;
+
+/// Rows of all grains: of four doubles, and two such in turn.
 struct RowView {
   const double* position = nullptr;  ///< x, y, z, radius
-  const double* velocity = nullptr;  ///< synchronised; fourth 1 / mass
-  const double* rotation = nullptr;  ///< fourth radius
-  const double* half_velocity = nullptr;  ///< of the last step's way; fourth half its time
-  const double* half_rotation = nullptr;
+  /// Velocity of the instant, 1 / mass, velocity of the last step's way, half of its time.
+  const double* motion = nullptr;
+  const double* spin = nullptr;  ///< the same of the rotation; fourth and eighth radius
 };
 
 /// Minimum image along periodic directions; elsewhere half is infinite, so that nothing is shifted.

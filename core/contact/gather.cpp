@@ -31,12 +31,10 @@ typedef std::int32_t Numbers __attribute__((vector_size(16)));
 /// Brings a grain's rows into the second level of the cache: in the first they would take the
 /// places of what is at work (decision 0020).
 __attribute__((always_inline)) inline void expect(const RowView& rows, std::int32_t grain) {
-  const std::ptrdiff_t row = 4 * static_cast<std::ptrdiff_t>(grain);
-  __builtin_prefetch(rows.position + row, 0, 2);
-  __builtin_prefetch(rows.velocity + row, 0, 2);
-  __builtin_prefetch(rows.rotation + row, 0, 2);
-  __builtin_prefetch(rows.half_velocity + row, 0, 2);
-  __builtin_prefetch(rows.half_rotation + row, 0, 2);
+  const auto row = static_cast<std::size_t>(grain);
+  __builtin_prefetch(rows.position + 4 * row, 0, 2);
+  __builtin_prefetch(rows.motion + k_motion_stride * row, 0, 2);
+  __builtin_prefetch(rows.spin + k_motion_stride * row, 0, 2);
 }
 
 /// Separations of four pairs.
@@ -77,10 +75,8 @@ __attribute__((always_inline)) inline std::size_t find_near(
   using B = BatchColumns;
   // Copies: the bytes of is_touching may alias whatever stands in memory.
   const double* const position = rows.position;
-  const double* const velocity = rows.velocity;
-  const double* const rotation = rows.rotation;
-  const double* const half_velocity = rows.half_velocity;
-  const double* const half_rotation = rows.half_rotation;
+  const double* const motion = rows.motion;
+  const double* const spin = rows.spin;
   const std::int32_t* const pa = pairs.a;
   const std::int32_t* const pb = pairs.b;
   std::uint8_t* const is_touching = pairs.is_touching;
@@ -120,12 +116,10 @@ __attribute__((always_inline)) inline std::size_t find_near(
     const std::size_t later = std::min(p + k_ahead, last_four);
     for (std::size_t l = 0; l < 4; ++l) {
       expect(rows, pa[later + l]);
-      const std::ptrdiff_t ahead = 4 * static_cast<std::ptrdiff_t>(pb[later + l]);
-      __builtin_prefetch(position + ahead);
-      __builtin_prefetch(velocity + ahead);
-      __builtin_prefetch(rotation + ahead);
-      __builtin_prefetch(half_velocity + ahead);
-      __builtin_prefetch(half_rotation + ahead);
+      const auto ahead = static_cast<std::size_t>(pb[later + l]);
+      __builtin_prefetch(position + 4 * ahead);
+      __builtin_prefetch(motion + k_motion_stride * ahead);
+      __builtin_prefetch(spin + k_motion_stride * ahead);
       // Most that touch have touched before; of the others the history is not wanted.
       const std::size_t entry = later + l;
       __builtin_prefetch(history + (is_touching[entry] != 0 ? entry : p) * history_stride, 1);
@@ -148,10 +142,8 @@ __attribute__((always_inline)) inline std::size_t find_near(
 
 __attribute__((always_inline)) inline void load_columns(const double* rows, const std::int32_t* n,
                                                         Lanes* column) {
-  columns_of(rows + 4 * static_cast<std::ptrdiff_t>(n[0]),
-             rows + 4 * static_cast<std::ptrdiff_t>(n[1]),
-             rows + 4 * static_cast<std::ptrdiff_t>(n[2]),
-             rows + 4 * static_cast<std::ptrdiff_t>(n[3]), column);
+  const auto row = [&](int l) { return rows + k_motion_stride * static_cast<std::size_t>(n[l]); };
+  columns_of(row(0), row(1), row(2), row(3), column);
 }
 
 /// What pairs a[0..4), b[0..4) want besides the separation, into the columns from q on.
@@ -164,12 +156,12 @@ __attribute__((always_inline)) inline void load_motion(const RowView& rows, cons
   };
   Lanes i[4];
   Lanes j[4];
-  load_columns(rows.velocity, a, i);
-  load_columns(rows.velocity, b, j);
+  load_columns(rows.motion, a, i);
+  load_columns(rows.motion, b, j);
   for (int d = 0; d < 3; ++d) put(B::velocity_x + d, i[d] - j[d]);
   put(B::inverse_mass, i[3] + j[3]);
-  load_columns(rows.rotation, a, i);
-  load_columns(rows.rotation, b, j);
+  load_columns(rows.spin, a, i);
+  load_columns(rows.spin, b, j);
   for (int d = 0; d < 3; ++d) {
     put(B::rotation_i_x + d, i[d]);
     put(B::rotation_j_x + d, j[d]);
@@ -178,13 +170,13 @@ __attribute__((always_inline)) inline void load_motion(const RowView& rows, cons
   put(B::radius_j, j[3]);
   // Ways and angles since the last step: half velocities times twice their lag, which is zero for a
   // grain that has just come.
-  load_columns(rows.half_velocity, a, i);
-  load_columns(rows.half_velocity, b, j);
+  load_columns(rows.motion + 4, a, i);
+  load_columns(rows.motion + 4, b, j);
   const Lanes time_i = i[3] + i[3];
   const Lanes time_j = j[3] + j[3];
   for (int d = 0; d < 3; ++d) put(B::displacement_x + d, i[d] * time_i - j[d] * time_j);
-  load_columns(rows.half_rotation, a, i);
-  load_columns(rows.half_rotation, b, j);
+  load_columns(rows.spin + 4, a, i);
+  load_columns(rows.spin + 4, b, j);
   for (int d = 0; d < 3; ++d) {
     put(B::angle_i_x + d, i[d] * time_i);
     put(B::angle_j_x + d, j[d] * time_j);

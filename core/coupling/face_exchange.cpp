@@ -76,7 +76,7 @@ void FaceExchange::charge(const particles::GrainRows& grains, const Spots& spots
     const double back = lone * given.steepness[q] / slope;
     sums.has_wide = sums.has_wide || wide.takes(here.position[4 * q + 3]);
     for (std::size_t d = 0; d < 3; ++d) {
-      const double v = grains.velocity[4 * row + d];
+      const double v = grains.velocity_of(row)[d];
       charges[d].velocity[q] = v;
       charges[d].lag[q] = back * (v - memory[row].fluid_velocity[d]);
       inputs[d].owed[q] = memory[row].owed[d] * per_volume_and_step;

@@ -151,8 +151,8 @@ void ForceTerms::gather(const particles::GrainRows& grains, const Batch& batch,
   for (std::size_t n = 0; n < batch.rows.size(); ++n) {
     const auto row = static_cast<std::size_t>(batch.rows[n]);
     const double* x = grains.position + 4 * row;
-    const double* v = grains.velocity + 4 * row;
-    const double* w = grains.rotation + 4 * row;
+    const double* v = grains.velocity_of(row);
+    const double* w = grains.rotation_of(row);
     const sdk::Vec3 centre{x[0], x[1], x[2]};
     const fluid::Properties::Values own =
         properties_.is_uniform() ? properties_.own() : properties_.at(centre);
@@ -202,7 +202,7 @@ void ForceTerms::gather(const particles::GrainRows& grains, const Batch& batch,
 /// fluid's and gravity's part.
 void ForceTerms::note_contact(const particles::GrainRows& grains, std::size_t row, double held,
                               double* numbers, Triple& acceleration) const {
-  const double* v = grains.velocity + 4 * row;
+  const double* v = grains.velocity_of(row);
   const double* impulse = grains.fluid_impulse + 4 * row;
   const double last = numbers[k_held];
   const double mass = 1.0 / v[3];

@@ -55,7 +55,7 @@ void Coupling::Impl::find_slips(const particles::GrainRows& grains, std::size_t 
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
     const double* position = grains.position + 4 * row;
-    const double* velocity = grains.velocity + 4 * row;
+    const double* velocity = grains.velocity_of(row);
     Remembered& r = memory[row];
     r.spot = static_cast<std::int32_t>(batch * k_batch + q);
     if (!r.has_velocity) r.fluid_velocity = initial_velocity;
@@ -100,7 +100,7 @@ void Coupling::Impl::remember(const particles::GrainRows& grains, std::size_t ba
   evaluate(columns, rows.size());
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
-    const double inverse_mass = grains.velocity[4 * row + 3];
+    const double inverse_mass = grains.velocity_of(row)[3];
     // The faces' coefficients hold the set's share already.
     const double of_faces = coefficient(grains, row, columns.factor[q]) / stress_part(row);
     const double drag_coefficient = of_faces * share_of_set(columns.void_fraction[q]);
@@ -135,7 +135,7 @@ void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) 
   memory.align(grains);
   double fastest = 0.0;  // 3 pi mu D / m [1/s]
   for (std::size_t row = 0; row < grains.count; ++row) {
-    fastest = std::max(fastest, coefficient(grains, row, 1.0) * grains.velocity[4 * row + 3]);
+    fastest = std::max(fastest, coefficient(grains, row, 1.0) * grains.velocity_of(row)[3]);
   }
   refreshes = refreshes_for(step, fastest);
   done_refreshes = 0;

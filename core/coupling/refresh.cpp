@@ -16,7 +16,7 @@ void Coupling::Impl::look(const particles::GrainRows& grains, SpotBatch& spot, R
   const bool has_wide = look_into_cells(grains, spot, rows, state, seen, batch);
   std::array<SpotBatch::Reals, 3> v;
   for (std::size_t q = 0; q < rows.size(); ++q) {
-    const double* velocity = grains.velocity + 4 * static_cast<std::size_t>(rows[q]);
+    const double* velocity = grains.velocity_of(static_cast<std::size_t>(rows[q]));
     for (std::size_t d = 0; d < 3; ++d) v[d][q] = velocity[d];
   }
   SpotBatch::Reals open;
@@ -137,7 +137,7 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t num
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
     const double diameter = 2.0 * grains.position[4 * row + 3];
-    const double* v = grains.velocity + 4 * row;
+    const double* v = grains.velocity_of(row);
     double* action = grains.fluid_action + 4 * row;
     Remembered& r = memory[row];
     const Fluid fluid = fluid_at(grains.position + 4 * row);
@@ -166,7 +166,7 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t num
 void Coupling::Impl::act(const particles::GrainRows& grains, std::size_t row, std::size_t n,
                          double drag_coefficient, const Triple& relative, double held,
                          const ForceTerms::Sums& sums) {
-  const double* v = grains.velocity + 4 * row;
+  const double* v = grains.velocity_of(row);
   double* action = grains.fluid_action + 4 * row;
   Remembered& r = memory[row];
   const double mass = 1.0 / v[3];

@@ -165,7 +165,7 @@ bool Dem::Impl::find_scales(const contact::PairView& pairs, const std::int32_t* 
     if (wi == wj) continue;
     has_scales = true;
     const auto inverse_mass = [&](std::int32_t row) {
-      return store.velocity[4 * static_cast<std::size_t>(row) + 3];
+      return store.velocity(static_cast<std::size_t>(row))[3];
     };
     columns.column(BatchColumns::inverse_mass)[q] =
         scale_i[q] * inverse_mass(pairs.a[entry]) + scale_j[q] * inverse_mass(pairs.b[entry]);

@@ -88,11 +88,11 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
                               {g.rotation.x, g.rotation.y, g.rotation.z, 0.5 * g.diameter}};
     for (std::size_t d = 0; d < 4; ++d) {
       store.position[4 * n + d] = row[0][d];
-      store.velocity[4 * n + d] = row[1][d];
-      store.rotation[4 * n + d] = row[2][d];
+      store.velocity(n)[d] = row[1][d];
+      store.rotation(n)[d] = row[2][d];
       // Lag 0: the first kick lasts half a step, as if positions and velocities had come together.
-      store.half_velocity[4 * n + d] = d < 3 ? row[1][d] : 0.0;
-      store.half_rotation[4 * n + d] = row[2][d];
+      store.half_velocity(n)[d] = d < 3 ? row[1][d] : 0.0;
+      store.half_rotation(n)[d] = row[2][d];
     }
     if (store.has_fluid) {
       std::fill_n(store.action.begin() + 4 * static_cast<std::ptrdiff_t>(n), 4, 0.0);
@@ -193,11 +193,11 @@ void Dem::Impl::look_at_weights() {
 void Dem::Impl::fill_last_force() const {
   last_force.assign(4 * store.size(), 0.0);
   for (std::size_t n = 0; n < store.size(); ++n) {
-    const double mass = 1.0 / store.velocity[4 * n + 3];
+    const double mass = 1.0 / store.velocity(n)[3];
     const double* action = store.action_of(n);
     const double* g = gravity.data() + 4 * static_cast<std::ptrdiff_t>(store.material[n]);
     for (std::size_t d = 0; d < 3; ++d) {
-      last_force[4 * n + d] = mass * (g[d] + action[3] * (action[d] - store.velocity[4 * n + d]));
+      last_force[4 * n + d] = mass * (g[d] + action[3] * (action[d] - store.velocity(n)[d]));
     }
   }
   if (must_sort) return;  // rows have changed since the forces were computed
@@ -235,8 +235,9 @@ GrainRows Dem::rows() {
   GrainStore& s = impl_->store;
   return {.count = s.size(),
           .position = s.position.data(),
-          .velocity = s.velocity.data(),
-          .rotation = s.rotation.data(),
+          .velocity = s.motion.data(),
+          .rotation = s.spin.data(),
+          .motion_stride = GrainStore::k_motion_stride,
           .id = s.id.data(),
           .material = s.material.data(),
           .weight = s.weight.data(),

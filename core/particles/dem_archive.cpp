@@ -102,10 +102,8 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
     archive.numbers(name, {v.data(), v.size()});
   };
   rows("position", store.position);
-  rows("velocity", store.velocity);
-  rows("rotation", store.rotation);
-  rows("half_velocity", store.half_velocity);
-  rows("half_rotation", store.half_rotation);
+  rows("motion", store.motion);
+  rows("spin", store.spin);
   rows("start", store.start);
   rows("fine_force", fine_force);
   const std::vector<double> course(store.start_velocity.begin(), store.start_velocity.end());
@@ -189,10 +187,8 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
     v.assign(values.begin(), values.end());
   };
   rows("position", store.position);
-  rows("velocity", store.velocity);
-  rows("rotation", store.rotation);
-  rows("half_velocity", store.half_velocity);
-  rows("half_rotation", store.half_rotation);
+  rows("motion", store.motion);
+  rows("spin", store.spin);
   rows("start", store.start);
   rows("fine_force", fine_force);
   const auto course = archive.numbers("start_velocity");

@@ -159,8 +159,8 @@ bool Dem::Impl::is_heavy(std::int32_t coarse, std::int32_t fine_row) const {
   const auto f = static_cast<std::size_t>(fine_row);
   const double coarse_share = std::min(1.0, store.weight[f] / store.weight[c]);
   const double fine_share = std::min(1.0, store.weight[c] / store.weight[f]);
-  return coarse_share * store.velocity[4 * c + 3] * k_heavy <=
-         fine_share * store.velocity[4 * f + 3];
+  return coarse_share * store.velocity(c)[3] * k_heavy <=
+         fine_share * store.velocity(f)[3];
 }
 
 /// Clusters at the level of their most demanding member, no finer than that member's class needs,
@@ -275,16 +275,16 @@ void Dem::Impl::give_back() {
         continue;
       }
       LeftOver l{.row = m.row};
-      const auto row = 4 * static_cast<std::size_t>(m.row);
+      const auto row = static_cast<std::size_t>(m.row);
       for (int d = 0; d < 3; ++d) {
-        const auto k = row + static_cast<std::size_t>(d);
+        const auto k = 4 * row + static_cast<std::size_t>(d);
         const double mean = inverse_step * m.shift[d];
         const double mean_turn = inverse_step * m.turn[d];
         store.position[k] += m.shift[d];
-        store.velocity[k] += m.velocity[d] - m.course[d];
-        store.rotation[k] += m.rotation[d] - m.course_rotation[d];
-        store.half_velocity[k] += mean;
-        store.half_rotation[k] += mean_turn;
+        store.velocity(row)[d] += m.velocity[d] - m.course[d];
+        store.rotation(row)[d] += m.rotation[d] - m.course_rotation[d];
+        store.half_velocity(row)[d] += mean;
+        store.half_rotation(row)[d] += mean_turn;
         l.velocity[d] = gain[d] - mean;
         l.rotation[d] = spin[d] - mean_turn;
         l.velocity_ahead[d] = m.velocity[d] - m.half_velocity[d];
@@ -316,10 +316,10 @@ void Dem::Impl::resume_course(const Chunk& chunk, Movers movers) {
   for (auto l = first; l != left_overs.end() && l->row < chunk.end; ++l) {
     const bool is_shared = is_awake[static_cast<std::size_t>(l->row)] == 2;
     if (movers != Movers::all && is_shared != (movers == Movers::shared)) continue;
-    const auto row = 4 * static_cast<std::size_t>(l->row);
+    const auto row = static_cast<std::size_t>(l->row);
     for (int d = 0; d < 3; ++d) {
-      store.half_velocity[row + static_cast<std::size_t>(d)] += l->velocity[d];
-      store.half_rotation[row + static_cast<std::size_t>(d)] += l->rotation[d];
+      store.half_velocity(row)[d] += l->velocity[d];
+      store.half_rotation(row)[d] += l->rotation[d];
     }
   }
 }

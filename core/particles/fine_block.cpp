@@ -244,16 +244,16 @@ Member load_member(const GrainStore& s, const contact::AlignedVector<double>& gr
   Member m;
   m.row = static_cast<std::int32_t>(row);
   m.radius = s.position[4 * row + 3];
-  m.inverse_mass = s.velocity[4 * row + 3];
+  m.inverse_mass = s.velocity(row)[3];
   m.weight = s.weight[row];
   const double* action = s.action_of(row);
   m.rate = action[3];
   m.position = vec(s.position.data() + 4 * row);
-  m.velocity = vec(s.velocity.data() + 4 * row);
-  m.rotation = vec(s.rotation.data() + 4 * row);
-  m.half_velocity = vec(s.half_velocity.data() + 4 * row);
-  m.half_rotation = vec(s.half_rotation.data() + 4 * row);
-  m.lag = s.half_velocity[4 * row + 3];
+  m.velocity = vec(s.velocity(row));
+  m.rotation = vec(s.rotation(row));
+  m.half_velocity = vec(s.half_velocity(row));
+  m.half_rotation = vec(s.half_rotation(row));
+  m.lag = s.half_velocity(row)[3];
   m.displacement = 2.0 * m.lag * m.half_velocity;
   m.angle = 2.0 * m.lag * m.half_rotation;
   m.target = vec(action);
@@ -269,16 +269,16 @@ Member load_guest(const Dem::Impl& dem, std::int32_t row, double sub_step) {
   m.row = row;
   m.is_guest = true;
   m.radius = s.position[4 * n + 3];
-  m.inverse_mass = s.velocity[4 * n + 3];
+  m.inverse_mass = s.velocity(n)[3];
   m.weight = s.weight[n];
-  m.course = m.velocity = m.half_velocity = vec(s.half_velocity.data() + 4 * n);
-  m.course_rotation = m.rotation = m.half_rotation = vec(s.half_rotation.data() + 4 * n);
+  m.course = m.velocity = m.half_velocity = vec(s.half_velocity(n));
+  m.course_rotation = m.rotation = m.half_rotation = vec(s.half_rotation(n));
   m.position = vec(s.position.data() + 4 * n) - dem.steps.coarse_step * m.course;
   m.lag = 0.5 * sub_step;
   // The step has left a velocity predicted from the kick, half of it less what drag takes.
   const double drag = s.has_fluid ? s.decay[2 * n] : 1.0;
-  m.slow_kick = (2.0 / drag) * (vec(s.velocity.data() + 4 * n) - m.course);
-  m.slow_twist = 2.0 * (vec(s.rotation.data() + 4 * n) - m.course_rotation);
+  m.slow_kick = (2.0 / drag) * (vec(s.velocity(n)) - m.course);
+  m.slow_twist = 2.0 * (vec(s.rotation(n)) - m.course_rotation);
   if (const LeftOver* l = dem.left_over(row)) {
     m.velocity += l->velocity_ahead;
     m.rotation += l->rotation_ahead;
@@ -291,14 +291,14 @@ void store_member(GrainStore& s, const Member& m, double* force) {
   for (int d = 0; d < 3; ++d) {
     const auto k = 4 * row + static_cast<std::size_t>(d);
     s.position[k] = m.position[d];
-    s.velocity[k] = m.velocity[d];
-    s.rotation[k] = m.rotation[d];
-    s.half_velocity[k] = m.half_velocity[d];
-    s.half_rotation[k] = m.half_rotation[d];
+    s.velocity(row)[d] = m.velocity[d];
+    s.rotation(row)[d] = m.rotation[d];
+    s.half_velocity(row)[d] = m.half_velocity[d];
+    s.half_rotation(row)[d] = m.half_rotation[d];
     if (s.has_fluid) s.impulse[k] = m.received[d];
     force[d] = m.force[d];
   }
-  s.half_velocity[4 * row + 3] = m.lag;
+  s.half_velocity(row)[3] = m.lag;
 }
 
 void run_block(Dem::Impl& dem, Block& block, double now) { BlockPass(dem, block, now).run(); }

@@ -28,8 +28,8 @@ bool is_far(const Dem::Impl& dem, std::size_t i, std::int32_t b, double extra_sp
   const auto j = static_cast<std::size_t>(b);
   const bool is_fine = j >= dem.coarse_count;
   const Vec3 position = vec(s.position.data() + 4 * i);
-  const Vec3 velocity = vec(s.velocity.data() + 4 * i);
-  const Vec3 other = vec((is_fine ? s.velocity : s.half_velocity).data() + 4 * j);
+  const Vec3 velocity = vec(s.velocity(i));
+  const Vec3 other = vec(is_fine ? s.velocity(j) : s.half_velocity(j));
   Vec3 place = vec(s.position.data() + 4 * j);
   if (!is_fine) place -= step * other;
   const Vec3 d = dem.separation(&place.x, &position.x);
@@ -51,12 +51,12 @@ Outlook look_out(const Dem::Impl& dem, std::size_t entry, double extra_speed) {
   const auto i = static_cast<std::size_t>(dem.fine.a[entry]);
   const std::int32_t b = dem.fine.b[entry];
   const Vec3 position = vec(s.position.data() + 4 * i);
-  const Vec3 velocity = vec(s.velocity.data() + 4 * i);
+  const Vec3 velocity = vec(s.velocity(i));
   const double radius = s.position[4 * i + 3];
   if (b >= 0 && dem.fine.is_touching[entry] == 0 && is_far(dem, i, b, extra_speed)) return {};
   double gap = 0.0;
   double reduced_radius = radius;
-  double mass = 1.0 / s.velocity[4 * i + 3];
+  double mass = 1.0 / s.velocity(i)[3];
   Vec3 normal;
   Vec3 relative = velocity;
   std::int32_t law = 0;
@@ -69,7 +69,7 @@ Outlook look_out(const Dem::Impl& dem, std::size_t entry, double extra_speed) {
   } else {
     const auto j = static_cast<std::size_t>(b);
     const bool is_fine = j >= dem.coarse_count;
-    const Vec3 other = vec((is_fine ? s.velocity : s.half_velocity).data() + 4 * j);
+    const Vec3 other = vec(is_fine ? s.velocity(j) : s.half_velocity(j));
     Vec3 place = vec(s.position.data() + 4 * j);
     if (!is_fine) place -= step * other;
     const Vec3 d = dem.separation(&place.x, &position.x);
@@ -79,7 +79,7 @@ Outlook look_out(const Dem::Impl& dem, std::size_t entry, double extra_speed) {
     normal = d / distance;
     relative = velocity - other;
     reduced_radius = radius * partner / (radius + partner);
-    mass = 1.0 / (s.velocity[4 * i + 3] + s.velocity[4 * j + 3]);
+    mass = 1.0 / (s.velocity(i)[3] + s.velocity(j)[3]);
     law = dem.law_of(s.material[i], s.material[j]);
   }
   const double* g = dem.gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material[i]);

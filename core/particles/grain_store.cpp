@@ -19,9 +19,8 @@ void reorder_rows(Vector& rows, std::span<const std::int32_t> order, std::size_t
 }  // namespace
 
 void GrainStore::resize(std::size_t count) {
-  for (auto* rows : {&position, &velocity, &rotation, &half_velocity, &half_rotation, &start}) {
-    rows->resize(4 * count, 0.0);
-  }
+  for (auto* rows : {&position, &start}) rows->resize(4 * count, 0.0);
+  for (auto* rows : {&motion, &spin}) rows->resize(k_motion_stride * count, 0.0);
   start_velocity.resize(4 * count, 0.0F);
   if (has_fluid) {
     action.resize(4 * count, 0.0);
@@ -35,9 +34,8 @@ void GrainStore::resize(std::size_t count) {
 }
 
 void GrainStore::reorder(std::span<const std::int32_t> order) {
-  for (auto* rows : {&position, &velocity, &rotation, &half_velocity, &half_rotation, &start}) {
-    reorder_rows(*rows, order, 4);
-  }
+  for (auto* rows : {&position, &start}) reorder_rows(*rows, order, 4);
+  for (auto* rows : {&motion, &spin}) reorder_rows(*rows, order, k_motion_stride);
   reorder_rows(start_velocity, order, 4);
   if (has_fluid) {
     reorder_rows(action, order, 4);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/aligned.hpp"
+#include "contact/batch_kernels.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,11 +16,12 @@ namespace dust::particles {
 /// Positions stand at the time x^n; half_velocity at x^n minus the lag in its fourth column (half a
 /// step, zero for a grain that has just come); velocity is the one predicted for x^n.
 struct GrainStore {
+  static constexpr std::size_t k_motion_stride = contact::k_motion_stride;
   contact::AlignedVector<double> position;  ///< x, y, z, radius
-  contact::AlignedVector<double> velocity;  ///< fourth 1 / mass
-  contact::AlignedVector<double> rotation;  ///< fourth the radius again, for who wants no position
-  contact::AlignedVector<double> half_velocity;  ///< fourth lag [s]
-  contact::AlignedVector<double> half_rotation;  ///< fourth the radius
+  /// Eight per grain, a line of the cache: velocity, 1 / mass, half velocity, lag [s].
+  contact::AlignedVector<double> motion;
+  /// The same of the rotation; fourth and eighth the radius again, for who wants no position.
+  contact::AlignedVector<double> spin;
   contact::AlignedVector<double> action;   ///< target velocity, rate [1/s]; empty without a fluid
   contact::AlignedVector<double> impulse;  ///< empty without a fluid
   contact::AlignedVector<double> start;    ///< position at the last rebuild, allowed deviation [m]
@@ -35,6 +37,18 @@ struct GrainStore {
   bool has_fluid = false;  ///< a fluid is declared: the columns for it are there
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
+  [[nodiscard]] double* velocity(std::size_t row) { return motion.data() + k_motion_stride * row; }
+  [[nodiscard]] const double* velocity(std::size_t row) const {
+    return motion.data() + k_motion_stride * row;
+  }
+  [[nodiscard]] double* rotation(std::size_t row) { return spin.data() + k_motion_stride * row; }
+  [[nodiscard]] const double* rotation(std::size_t row) const {
+    return spin.data() + k_motion_stride * row;
+  }
+  [[nodiscard]] double* half_velocity(std::size_t row) { return velocity(row) + 4; }
+  [[nodiscard]] const double* half_velocity(std::size_t row) const { return velocity(row) + 4; }
+  [[nodiscard]] double* half_rotation(std::size_t row) { return rotation(row) + 4; }
+  [[nodiscard]] const double* half_rotation(std::size_t row) const { return rotation(row) + 4; }
   /// Target velocity and rate of a grain; zeros without a fluid.
   [[nodiscard]] const double* action_of(std::size_t row) const {
     static constexpr double k_none[4] = {};

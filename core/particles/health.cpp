@@ -15,7 +15,7 @@ constexpr double k_trigger = 0.7;
 
 void Dem::Impl::fail(std::size_t row, const std::string& what, const std::string& cause) const {
   const double* p = store.position.data() + 4 * row;
-  const double* v = store.velocity.data() + 4 * row;
+  const double* v = store.velocity(row);
   std::ostringstream text;
   text.precision(6);
   text << "grain " << store.id[row] << " (diameter " << 2.0 * p[3] << " m, "
@@ -75,7 +75,7 @@ Dem::Impl::Deviation Dem::Impl::deviation(std::size_t n) const {
   const double t = static_cast<double>(since_rebuild) * steps.coarse_step;
   const double ahead = static_cast<double>(watch_length) * steps.coarse_step;
   const double* p = store.position.data() + 4 * n;
-  const double* v = store.velocity.data() + 4 * n;
+  const double* v = store.velocity(n);
   const double* p0 = store.start.data() + 4 * n;
   const float* v0 = store.start_velocity.data() + 4 * n;
   Deviation result;
@@ -106,7 +106,7 @@ void Dem::Impl::check_awake(const Awake& awake, std::int64_t done, std::int64_t 
   for (std::size_t k = 0; k < awake.rows.size(); ++k) {
     const auto n = static_cast<std::size_t>(awake.rows[k]);
     const double* p = store.position.data() + 4 * n;
-    const double* v = store.velocity.data() + 4 * n;
+    const double* v = store.velocity(n);
     const Awake::Start& start = awake.start[k];
     double off2 = 0.0;
     double next2 = 0.0;

@@ -215,7 +215,7 @@ struct Dem::Impl {
   [[nodiscard]] double fastest() const;
   [[nodiscard]] double typical_speed() const;
   [[nodiscard]] double speed2(std::size_t row) const {
-    const double* v = store.velocity.data() + 4 * row;
+    const double* v = store.velocity(row);
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
   }
   void choose_watch_allowances();
@@ -223,7 +223,7 @@ struct Dem::Impl {
   [[nodiscard]] bool flies_straight(std::size_t row) const;
   /// Not one that has just come, perhaps into an overlap.
   [[nodiscard]] bool has_made_steps(std::int32_t row) const {
-    return store.half_velocity[4 * static_cast<std::size_t>(row) + 3] == 0.5 * steps.coarse_step;
+    return store.half_velocity(static_cast<std::size_t>(row))[3] == 0.5 * steps.coarse_step;
   }
   void begin_watch();
   void invite_guests(Chunk& chunk);
@@ -317,8 +317,7 @@ struct Dem::Impl {
   void load(sdk::ArchiveReader& archive);
 
   [[nodiscard]] contact::RowView row_view() const {
-    return {store.position.data(), store.velocity.data(), store.rotation.data(),
-            store.half_velocity.data(), store.half_rotation.data()};
+    return {store.position.data(), store.motion.data(), store.spin.data()};
   }
   [[nodiscard]] sdk::Vec3 separation(const double* from, const double* to) const {
     double d[3];

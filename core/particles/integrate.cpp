@@ -18,10 +18,8 @@ struct AwakeRows {
   const std::int32_t* rows = nullptr;  ///< null: all from `first` on
   std::size_t count = 0;
   double* position = nullptr;
-  double* velocity = nullptr;
-  double* rotation = nullptr;
-  double* half_velocity = nullptr;
-  double* half_rotation = nullptr;
+  double* motion = nullptr;
+  double* spin = nullptr;
   double* force =
       nullptr;  ///< of the k-th row n, at 8 (by_row (n - first) + by_place k); zeros are left
   std::size_t by_row = 0;
@@ -62,6 +60,30 @@ __attribute__((always_inline)) inline void set_all(const Lanes& four, Wide& all)
   set_side_by_side(four, four, all);
 }
 
+/// Of one grain, or two that follow each other, what stands first in a line and what stands behind it.
+__attribute__((always_inline)) inline void split(const double* lines, std::size_t n, Lanes& first,
+                                                 Lanes& second) {
+  lanes::load(lines + GrainStore::k_motion_stride * n, first);
+  lanes::load(lines + GrainStore::k_motion_stride * n + 4, second);
+}
+__attribute__((always_inline)) inline void split(const double* lines, std::size_t n, Wide& first,
+                                                 Wide& second) {
+  const Wide* const line = reinterpret_cast<const Wide*>(lines + GrainStore::k_motion_stride * n);
+  first = __builtin_shufflevector(line[0], line[1], 0, 1, 2, 3, 8, 9, 10, 11);
+  second = __builtin_shufflevector(line[0], line[1], 4, 5, 6, 7, 12, 13, 14, 15);
+}
+__attribute__((always_inline)) inline void join(const Lanes& first, const Lanes& second,
+                                                std::size_t n, double* lines) {
+  lanes::store(lines + GrainStore::k_motion_stride * n, first);
+  lanes::store(lines + GrainStore::k_motion_stride * n + 4, second);
+}
+__attribute__((always_inline)) inline void join(const Wide& first, const Wide& second,
+                                                std::size_t n, double* lines) {
+  Wide* const line = reinterpret_cast<Wide*>(lines + GrainStore::k_motion_stride * n);
+  line[0] = __builtin_shufflevector(first, second, 0, 1, 2, 3, 8, 9, 10, 11);
+  line[1] = __builtin_shufflevector(first, second, 4, 5, 6, 7, 12, 13, 14, 15);
+}
+
 /// Leapfrog with drag integrated exactly between the kicks:
 /// \f$ v' = v E + u (1 - E) + a \phi \tau \f$, E = exp(-k tau), phi = (1 - E) / (k tau), tau the
 /// lag of v plus half the step. The velocity for the next forces is predicted to the instant of the
@@ -99,9 +121,11 @@ __attribute__((always_inline)) inline void step_rows(const AwakeRows& r, double 
   for (int k = 0; k < 2 * k_rows<V>; ++k) reinterpret_cast<Lanes*>(f)[k] = Lanes{};
   V inverse_mass;
   V radius;
-  take_fourth(at(r.velocity), inverse_mass);
+  V last;
+  V old_row;
+  split(r.motion, n, last, old_row);
+  take_fourth(last, inverse_mass);
   take_fourth(at(r.position), radius);
-  const V old_row = at(r.half_velocity);
   V kick = V{} + step;
   V ahead = V{} + 0.5;  // what is left of the step after the kick, in kicks
   bool is_new = false;
@@ -143,20 +167,21 @@ __attribute__((always_inline)) inline void step_rows(const AwakeRows& r, double 
   }
   const V now = half + ahead * (half - old);
   at(r.position) += half * step;
-  at(r.velocity) = now + fourth * inverse_mass;
-  at(r.half_velocity) = half + fourth * half_step;
+  join(now + fourth * inverse_mass, half + fourth * half_step, n, r.motion);
   // I = 2/5 m R^2
   const V spin = torque * (2.5 * inverse_mass / (radius * radius));
-  const V turn = at(r.half_rotation) + spin * kick;
-  at(r.half_rotation) = turn;
-  at(r.rotation) = turn + spin * half_step;
+  V old_turn;
+  split(r.spin, n, last, old_turn);
+  const V turn = old_turn + spin * kick;
+  join(turn + spin * half_step, turn, n, r.spin);
 }
 
 /// The rows of a grain soon to come.
 template <bool has_fluid>
 __attribute__((always_inline)) inline void expect(const AwakeRows& r, std::size_t n) {
-  for (const double* p : {r.half_velocity, r.half_rotation, r.position, r.velocity, r.rotation}) {
-    __builtin_prefetch(p + 4 * n, 1);
+  __builtin_prefetch(r.position + 4 * n, 1);
+  for (const double* p : {r.motion, r.spin}) {
+    __builtin_prefetch(p + GrainStore::k_motion_stride * n, 1);
   }
   if constexpr (has_fluid) {
     __builtin_prefetch(r.action + 4 * n);
@@ -218,10 +243,8 @@ void Dem::Impl::integrate_all(std::size_t first, std::size_t count, double* forc
 
 AwakeRows Dem::Impl::awake_rows() {
   return {.position = store.position.data(),
-          .velocity = store.velocity.data(),
-          .rotation = store.rotation.data(),
-          .half_velocity = store.half_velocity.data(),
-          .half_rotation = store.half_rotation.data(),
+          .motion = store.motion.data(),
+          .spin = store.spin.data(),
           .action = store.action.data(),
           .impulse = store.impulse.data(),
           .decay = store.decay.data(),

@@ -115,7 +115,7 @@ std::vector<std::int32_t> Dem::Impl::find_strays() const {
 void Dem::Impl::set_on_course(std::size_t n) {
   const double t = static_cast<double>(since_rebuild) * steps.coarse_step;
   for (std::size_t d = 0; d < 3; ++d) {
-    const auto v = static_cast<float>(store.velocity[4 * n + d]);
+    const auto v = static_cast<float>(store.velocity(n)[d]);
     store.start_velocity[4 * n + d] = v;
     store.start[4 * n + d] = store.position[4 * n + d] - t * static_cast<double>(v);
   }

@@ -206,7 +206,7 @@ bool Dem::Impl::may_widen(std::size_t listed) const {
 
 bool Dem::Impl::near_surface(std::size_t n, const Surface& s, double horizon_time) const {
   const double* p = store.position.data() + 4 * n;
-  const double* v = store.velocity.data() + 4 * n;
+  const double* v = store.velocity(n);
   const double reach = p[3] + store.start[4 * n + 3] + largest_range +
                        horizon_time * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   // The surfaces stand where the step before saw them.
@@ -287,7 +287,7 @@ void Dem::Impl::rebuild() {
   for (std::size_t n = 0; n < store.size(); ++n) {
     for (std::size_t d = 0; d < 3; ++d) {
       store.start[4 * n + d] = store.position[4 * n + d];
-      store.start_velocity[4 * n + d] = static_cast<float>(store.velocity[4 * n + d]);
+      store.start_velocity[4 * n + d] = static_cast<float>(store.velocity(n)[d]);
     }
   }
 
@@ -299,7 +299,8 @@ void Dem::Impl::rebuild() {
   SearchInput in;
   in.count = store.size();
   in.position = store.position.data();
-  in.velocity = store.velocity.data();
+  in.velocity = store.motion.data();
+  in.velocity_stride = GrainStore::k_motion_stride;
   in.allowance = store.start.data();
   in.horizon = static_cast<double>(horizon) * steps.coarse_step;
   in.range = largest_range;

@@ -273,8 +273,8 @@ class Level {
 bool comes_near(const SearchInput& in, std::int32_t i, std::int32_t j, double limit) {
   const double* pi = in.position + 4 * static_cast<std::ptrdiff_t>(i);
   const double* pj = in.position + 4 * static_cast<std::ptrdiff_t>(j);
-  const double* vi = in.velocity + 4 * static_cast<std::ptrdiff_t>(i);
-  const double* vj = in.velocity + 4 * static_cast<std::ptrdiff_t>(j);
+  const double* vi = in.velocity + in.velocity_stride * static_cast<std::size_t>(i);
+  const double* vj = in.velocity + in.velocity_stride * static_cast<std::size_t>(j);
   sdk::Vec3 x;
   sdk::Vec3 v;
   for (int d = 0; d < 3; ++d) {
@@ -298,7 +298,7 @@ std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_
   std::vector<Ball> balls(in.count);
   for (std::size_t n = 0; n < in.count; ++n) {
     const double* p = in.position + 4 * n;
-    const double* v = in.velocity + 4 * n;
+    const double* v = in.velocity + in.velocity_stride * n;
     // ceil(log2(ratio) - 1e-9) - 1 without the logarithm.
     int exponent = 0;
     const double rest = std::frexp(largest / p[3], &exponent);

@@ -121,7 +121,7 @@ void Dem::Impl::note_wall_loads(Chunk& chunk, const Surface& surface, const std:
     add_load(sums, {p[0], p[1], p[2]}, get(B::force_x), get(B::torque_i_x), get(B::separation_x),
              weight * steps.coarse_step);
     if (!is_new[q]) continue;
-    chunk.wall_impacts.push_back(impact_of(surface.wall, 1.0 / store.velocity[4 * row + 3], weight,
+    chunk.wall_impacts.push_back(impact_of(surface.wall, 1.0 / store.velocity(row)[3], weight,
                                            get(B::velocity_x), get(B::normal_x)));
   }
 }

@@ -40,18 +40,18 @@ void move_to_point(const PointColumns& p, std::size_t q, double wall_share, doub
 }  // namespace
 
 GrainAtWall GrainAtWall::from(const contact::RowView& rows, std::size_t row) {
-  const auto vec = [row](const double* p) {
-    return sdk::Vec3{p[4 * row], p[4 * row + 1], p[4 * row + 2]};
-  };
+  const auto vec = [](const double* p) { return sdk::Vec3{p[0], p[1], p[2]}; };
+  const double* motion = rows.motion + contact::k_motion_stride * row;
+  const double* spin = rows.spin + contact::k_motion_stride * row;
   GrainAtWall g;
-  g.position = vec(rows.position);
-  g.velocity = vec(rows.velocity);
-  g.rotation = vec(rows.rotation);
+  g.position = vec(rows.position + 4 * row);
+  g.velocity = vec(motion);
+  g.rotation = vec(spin);
   g.radius = rows.position[4 * row + 3];
-  g.inverse_mass = rows.velocity[4 * row + 3];
-  g.since = 2.0 * rows.half_velocity[4 * row + 3];
-  g.displacement = g.since * vec(rows.half_velocity);
-  g.angle = g.since * vec(rows.half_rotation);
+  g.inverse_mass = motion[3];
+  g.since = 2.0 * motion[7];
+  g.displacement = g.since * vec(motion + 4);
+  g.angle = g.since * vec(spin + 4);
   return g;
 }
 

@@ -18,7 +18,6 @@ struct GrainAtWall {
   sdk::Vec3 displacement, angle;  ///< [m], [rad] since the last look
   double since = 0.0;             ///< [s] that is so long ago
 
-  /// From rows of four: position, velocity, rotation and the two of the last step's way.
   static GrainAtWall from(const contact::RowView& rows, std::size_t row);
 };
 

@@ -86,7 +86,7 @@ sdk::WallColumns Dem::close_wall_loads(double interval) {
     double mass = 0.0;
     for (const std::int32_t row : rows[w]) {
       const auto n = static_cast<std::size_t>(row);
-      mass += dem.store.weight[n] / dem.store.velocity[4 * n + 3];
+      mass += dem.store.weight[n] / dem.store.velocity(n)[3];
     }
     dem.wall_loads.set_contact(w, mass, static_cast<std::int64_t>(rows[w].size()));
   }

@@ -55,7 +55,7 @@ void Dem::Impl::choose_watch_length() {
 }
 bool Dem::Impl::may_meet_surface(std::size_t i, const Surface& surface) const {
   const double* p = store.position.data() + 4 * i;
-  const double* v = store.velocity.data() + 4 * i;
+  const double* v = store.velocity(i);
   const double horizon_time = static_cast<double>(watch_length) * steps.coarse_step;
   const double reach = p[3] + largest_range + watch_allowance[i] +
                        horizon_time * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -71,7 +71,7 @@ bool Dem::Impl::flies_straight(std::size_t n) const {
   const double* action = store.action_of(n);
   double sum = 0.0;
   for (std::size_t d = 0; d < 3; ++d) {
-    const double a = g[d] + action[3] * (action[d] - store.velocity[4 * n + d]);
+    const double a = g[d] + action[3] * (action[d] - store.velocity(n)[d]);
     sum += a * a;
   }
   const double horizon_time = static_cast<double>(watch_length) * step;
@@ -197,7 +197,7 @@ void Dem::Impl::begin_watch() {
   is_awake.assign(store.size(), 0);
   choose_watch_allowances();
   for (const LeftOver& l : left_overs) is_awake[static_cast<std::size_t>(l.row)] = 1;
-  const contact::Courses courses{store.position.data(), store.velocity.data(),
+  const contact::Courses courses{store.position.data(), store.motion.data(),
                                  watch_allowance.data()};
   // Two steps: the velocities at hand are not quite those of the step behind.
   const contact::Outlook outlook{.range = largest_range,
@@ -257,7 +257,7 @@ void Dem::Impl::begin_watch() {
     const auto take = [&](std::size_t n) {
       awake.rows.push_back(static_cast<std::int32_t>(n));
       const double* p = store.position.data() + 4 * n;
-      const double* v = store.velocity.data() + 4 * n;
+      const double* v = store.velocity(n);
       awake.start.push_back(
           {{p[0], p[1], p[2]},
            {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])},
@@ -293,8 +293,7 @@ struct FlyingRows {
   std::size_t end = 0;
   const std::uint8_t* is_awake = nullptr;
   double* position = nullptr;
-  double* velocity = nullptr;
-  double* half_velocity = nullptr;
+  double* motion = nullptr;
   double* impulse = nullptr;
   const double* action = nullptr;
   const double* decay = nullptr;
@@ -313,6 +312,12 @@ DUST_KERNEL void fly_rows(const FlyingRows& r, double step, std::int64_t count, 
   const auto row_of = [](double* p, std::size_t n) __attribute__((always_inline))->Lanes& {
     return *reinterpret_cast<Lanes*>(p + 4 * n);
   };
+  const auto velocity = [&r](std::size_t n) __attribute__((always_inline))->Lanes& {
+    return *reinterpret_cast<Lanes*>(r.motion + GrainStore::k_motion_stride * n);
+  };
+  const auto half_velocity = [&r](std::size_t n) __attribute__((always_inline))->Lanes& {
+    return *reinterpret_cast<Lanes*>(r.motion + GrainStore::k_motion_stride * n + 4);
+  };
   const auto fixed =
       [](const double* p, std::size_t n) __attribute__((always_inline))->const Lanes& {
     return *reinterpret_cast<const Lanes*>(p + 4 * n);
@@ -325,7 +330,7 @@ DUST_KERNEL void fly_rows(const FlyingRows& r, double step, std::int64_t count, 
   for (std::size_t n = r.begin; n < r.end; ++n) {
     if (r.is_awake[n] != 0) continue;
     const Lanes push = fixed(r.gravity, static_cast<std::size_t>(r.material[n])) * step * three;
-    const Lanes old = row_of(r.half_velocity, n) * three;
+    const Lanes old = half_velocity(n) * three;
     double decay = 1.0;
     Lanes first = push;
     if (has_fluid) {
@@ -348,10 +353,10 @@ DUST_KERNEL void fly_rows(const FlyingRows& r, double step, std::int64_t count, 
     }
     const Lanes half = old + first * g;
     row_of(r.position, n) += (old * total + first * h) * step;
-    row_of(r.velocity, n) = (half + first * (0.5 * power)) + fourth * row_of(r.velocity, n);
-    row_of(r.half_velocity, n) = half + fourth * row_of(r.half_velocity, n);
+    velocity(n) = (half + first * (0.5 * power)) + fourth * velocity(n);
+    half_velocity(n) = half + fourth * half_velocity(n);
     if (has_fluid) {
-      row_of(r.impulse, n) += (half - old - push * total) / row_of(r.velocity, n)[3];
+      row_of(r.impulse, n) += (half - old - push * total) / velocity(n)[3];
     }
   }
 }
@@ -376,8 +381,7 @@ void Dem::Impl::land() {
               .end = end,
               .is_awake = is_awake.data(),
               .position = store.position.data(),
-              .velocity = store.velocity.data(),
-              .half_velocity = store.half_velocity.data(),
+              .motion = store.motion.data(),
               .impulse = store.impulse.data(),
               .action = store.action.data(),
               .decay = store.decay.data(),

@@ -62,12 +62,12 @@ void GrainTable::publish(const particles::GrainRows& rows, std::span<const doubl
     for (int d = 0; d < 3; ++d) {
       const std::size_t at = 4 * row + static_cast<std::size_t>(d);
       number_[k_x + d][n] = rows.position[at];
-      number_[k_velocity_x + d][n] = rows.velocity[at];
-      number_[k_rotation_x + d][n] = rows.rotation[at];
+      number_[k_velocity_x + d][n] = rows.velocity_of(row)[d];
+      number_[k_rotation_x + d][n] = rows.rotation_of(row)[d];
       number_[k_force_x + d][n] = at < force.size() ? force[at] : 0.0;
     }
     number_[k_diameter][n] = 2.0 * rows.position[4 * row + 3];
-    number_[k_mass][n] = 1.0 / rows.velocity[4 * row + 3];
+    number_[k_mass][n] = 1.0 / rows.velocity_of(row)[3];
     number_[k_weight][n] = rows.weight[row];
   }
   take_places_before();

@@ -41,8 +41,8 @@ EntryScene entry_scene_of(const scenario::Setup& setup, const Models& models) {
 double kinetic_energy_per_grain(const particles::GrainRows& rows) {
   double sum = 0.0;
   for (std::size_t n = 0; n < rows.count; ++n) {
-    const double* v = rows.velocity + 4 * n;
-    const double* w = rows.rotation + 4 * n;
+    const double* v = rows.velocity_of(n);
+    const double* w = rows.rotation_of(n);
     const double r = rows.position[4 * n + 3];
     const double inertia = 0.4 * r * r / v[3];
     sum += 0.5 / v[3] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) +

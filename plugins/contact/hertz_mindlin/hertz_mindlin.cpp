@@ -91,11 +91,23 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
   double *fn = b.normal_force, *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
   double *fx = b.force_x, *fy = b.force_y, *fz = b.force_z;
   alignas(64) double contact_radius[k_block], keep[k_block], compliance[k_block], total[k_block];
-  alignas(64) double dx[k_block], dy[k_block], dz[k_block];
+  alignas(64) double dx[k_block], dy[k_block], dz[k_block], edge[k_block];
   const std::size_t count = end - first;
-#pragma omp simd
+  // Overlaps less the way of a step: below zero where a contact begins or ends.
+  double least = 0.0;
+#pragma omp simd reduction(min : least)
   for (std::size_t q = first; q < end; ++q) {
     contact_radius[q - first] = formula::squared_contact_radius(overlap[q], radius[q]);
+    const double flight = std::abs(vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q]) * time_step;
+    least = std::min(least, overlap[q] - flight);
+    edge[q - first] = 1.0;
+  }
+  if (least < 0.0) {
+#pragma omp simd
+    for (std::size_t q = first; q < end; ++q) {
+      const double flight = std::abs(vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q]) * time_step;
+      edge[q - first] = formula::edge_weight(std::max(overlap[q], 0.0), flight);
+    }
   }
   sdk::take_square_roots(contact_radius, count);
 #pragma omp simd
@@ -122,6 +134,7 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
     c.sx = sx[q], c.sy = sy[q], c.sz = sz[q];
     c.contact_radius = contact_radius[q - first];
     c.keep = keep[q - first];
+    c.edge = edge[q - first];
     formula::load(k, time_step, c);
     sx[q] = c.sx, sy[q] = c.sy, sz[q] = c.sz;
     fx[q] = c.fx, fy[q] = c.fy, fz[q] = c.fz;

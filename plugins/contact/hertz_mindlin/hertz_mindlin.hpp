@@ -59,6 +59,7 @@ struct Contact {
   double contact_radius;  ///< [m] a = sqrt(R d)
   double keep;            ///< [-] what the displacement's part in the plane is stretched by
   double compliance;      ///< [m/N] 1 / k_t, bounded
+  double edge;            ///< [-] weight of what begins or ends in this step
   double dx, dy, dz;      ///< [N] what the damper holds against
   double total;           ///< [N] size of spring and damper together
 };
@@ -134,7 +135,6 @@ inline constexpr double k_tiny = 1e-140;
   const double gt = std::min(k.damping * k.tangential_root * shared,
                              c.mass * (k_most_tangential_damping / time_step));
   const double vn = c.vx * c.nx + c.vy * c.ny + c.vz * c.nz;
-  const double edge = edge_weight(d, std::abs(vn) * time_step);
   const double tx = c.vx - vn * c.nx;
   const double ty = c.vy - vn * c.ny;
   const double tz = c.vz - vn * c.nz;
@@ -149,12 +149,12 @@ inline constexpr double k_tiny = 1e-140;
   c.dx = gt * tx;
   c.dy = gt * ty;
   c.dz = gt * tz;
-  c.fx = edge * (-kt * c.sx - c.dx);
-  c.fy = edge * (-kt * c.sy - c.dy);
-  c.fz = edge * (-kt * c.sz - c.dz);
+  c.fx = c.edge * (-kt * c.sx - c.dx);
+  c.fy = c.edge * (-kt * c.sy - c.dy);
+  c.fz = c.edge * (-kt * c.sz - c.dz);
   c.total = c.fx * c.fx + c.fy * c.fy + c.fz * c.fz;
   c.stiffness = kt;
-  c.normal_force = kn * d - edge * gn * vn;
+  c.normal_force = kn * d - c.edge * gn * vn;
   c.normal_stiffness = kn;
 }
 

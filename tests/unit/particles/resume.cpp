@@ -53,8 +53,8 @@ std::vector<double> rows_of(dust::particles::Dem& dem) {
   for (std::size_t n = 0; n < rows.count; ++n) {
     out.push_back(static_cast<double>(rows.id[n]));
     for (std::size_t d = 0; d < 4; ++d) {
-      out.insert(out.end(), {rows.position[4 * n + d], rows.velocity[4 * n + d],
-                             rows.rotation[4 * n + d], rows.fluid_impulse[4 * n + d]});
+      out.insert(out.end(), {rows.position[4 * n + d], rows.velocity_of(n)[d],
+                             rows.rotation_of(n)[d], rows.fluid_impulse[4 * n + d]});
     }
   }
   return out;

@@ -66,7 +66,7 @@ class Gas {
     double sum = 0.0;
     for (std::size_t n = 0; n < rows.count; ++n) {
       row_of[static_cast<std::size_t>(rows.id[n])] = n;
-      const double* v = rows.velocity + 4 * n;
+      const double* v = rows.velocity_of(n);
       sum += 0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / v[3];
     }
     const double young = 50e6 / (1.0 - 0.09) / 2.0;
