@@ -32,21 +32,9 @@ class BatchColumns {
     velocity_y,
     velocity_z,
     inverse_mass,  ///< [1/kg] sum of both sides
-    rotation_i_x,
-    rotation_i_y,
-    rotation_i_z,
-    rotation_j_x,
-    rotation_j_y,
-    rotation_j_z,
     displacement_x,  ///< [m] of the centres since the last look, later of the contact point
     displacement_y,
     displacement_z,
-    angle_i_x,  ///< [rad] turned since the last look
-    angle_i_y,
-    angle_i_z,
-    angle_j_x,
-    angle_j_y,
-    angle_j_z,
     distance,  ///< [m] of the centres
     overlap,
     normal_x,
@@ -83,7 +71,21 @@ class BatchColumns {
     attraction,       ///< [N]
     normal_velocity,  ///< [m/s] what a cohesive law sees
     first_history,
-    k_columns = first_history + k_max_history
+    k_columns = first_history + k_max_history,
+    // What is read before the laws write stands where they write: with columns of their own a batch
+    // would not stay in the first-level cache.
+    rotation_i_x = force_x,
+    rotation_i_y,
+    rotation_i_z,
+    rotation_j_x,
+    rotation_j_y,
+    rotation_j_z,
+    angle_i_x = torque_i_x,  ///< [rad] turned since the last look
+    angle_i_y,
+    angle_i_z,
+    angle_j_x,
+    angle_j_y,
+    angle_j_z
   };
 
   BatchColumns() : data_(static_cast<std::size_t>(k_columns) * k_stride, 0.0) {

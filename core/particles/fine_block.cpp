@@ -167,7 +167,7 @@ class BlockPass {
       for (std::size_t k = 0; k < stride; ++k) columns_.history()[k][q] = h[k];
     }
     if (open.surface < 0) {
-      for (int c = 0; c < B::normal_force; ++c) {
+      for (int c = 0; c <= B::torque_j_z; ++c) {
         double* column = columns_.column(c);
         for (std::size_t q = count_; q < contact::padded(count_); ++q) {
           column[q] = column[count_ - 1];

@@ -91,23 +91,15 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
   double *fn = b.normal_force, *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
   double *fx = b.force_x, *fy = b.force_y, *fz = b.force_z;
   alignas(64) double contact_radius[k_block], keep[k_block], compliance[k_block], total[k_block];
-  alignas(64) double dx[k_block], dy[k_block], dz[k_block], edge[k_block];
+  alignas(64) double dx[k_block], dy[k_block], dz[k_block], vn[k_block];
   const std::size_t count = end - first;
   // Overlaps less the way of a step: below zero where a contact begins or ends.
   double least = 0.0;
 #pragma omp simd reduction(min : least)
   for (std::size_t q = first; q < end; ++q) {
     contact_radius[q - first] = formula::squared_contact_radius(overlap[q], radius[q]);
-    const double flight = std::abs(vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q]) * time_step;
-    least = std::min(least, overlap[q] - flight);
-    edge[q - first] = 1.0;
-  }
-  if (least < 0.0) {
-#pragma omp simd
-    for (std::size_t q = first; q < end; ++q) {
-      const double flight = std::abs(vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q]) * time_step;
-      edge[q - first] = formula::edge_weight(std::max(overlap[q], 0.0), flight);
-    }
+    vn[q - first] = vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q];
+    least = std::min(least, overlap[q] - std::abs(vn[q - first]) * time_step);
   }
   sdk::take_square_roots(contact_radius, count);
 #pragma omp simd
@@ -134,7 +126,7 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
     c.sx = sx[q], c.sy = sy[q], c.sz = sz[q];
     c.contact_radius = contact_radius[q - first];
     c.keep = keep[q - first];
-    c.edge = edge[q - first];
+    c.vn = vn[q - first];
     formula::load(k, time_step, c);
     sx[q] = c.sx, sy[q] = c.sy, sz[q] = c.sz;
     fx[q] = c.fx, fy[q] = c.fy, fz[q] = c.fz;
@@ -144,6 +136,22 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
     kt[q] = c.stiffness;
     fn[q] = c.normal_force;
     kn[q] = c.normal_stiffness;
+  }
+  if (least < 0.0) {
+#pragma omp simd
+    for (std::size_t q = first; q < end; ++q) {
+      formula::Contact c{};
+      c.overlap = overlap[q];
+      c.vn = vn[q - first];
+      c.normal_force = fn[q];
+      c.normal_stiffness = kn[q];
+      c.fx = fx[q], c.fy = fy[q], c.fz = fz[q];
+      c.total = total[q - first];
+      formula::weigh_edge(time_step, c);
+      fn[q] = c.normal_force;
+      fx[q] = c.fx, fy[q] = c.fy, fz[q] = c.fz;
+      total[q - first] = c.total;
+    }
   }
   sdk::take_square_roots(total, count);
 #pragma omp simd

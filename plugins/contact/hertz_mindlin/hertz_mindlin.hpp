@@ -59,7 +59,7 @@ struct Contact {
   double contact_radius;  ///< [m] a = sqrt(R d)
   double keep;            ///< [-] what the displacement's part in the plane is stretched by
   double compliance;      ///< [m/N] 1 / k_t, bounded
-  double edge;            ///< [-] weight of what begins or ends in this step
+  double vn;              ///< [m/s] of parting
   double dx, dy, dz;      ///< [N] what the damper holds against
   double total;           ///< [N] size of spring and damper together
 };
@@ -134,10 +134,9 @@ inline constexpr double k_tiny = 1e-140;
   const double gn = k.damping * k.normal_root * shared;
   const double gt = std::min(k.damping * k.tangential_root * shared,
                              c.mass * (k_most_tangential_damping / time_step));
-  const double vn = c.vx * c.nx + c.vy * c.ny + c.vz * c.nz;
-  const double tx = c.vx - vn * c.nx;
-  const double ty = c.vy - vn * c.ny;
-  const double tz = c.vz - vn * c.nz;
+  const double tx = c.vx - c.vn * c.nx;
+  const double ty = c.vy - c.vn * c.ny;
+  const double tz = c.vz - c.vn * c.nz;
   // sqrt(k_t) over the step in mean, in its value at the end: it begins like the fourth root of the
   // overlap. `keep` holds the restored length as well, which differs from 1 by the square of the angle
   // turned: of third order here.
@@ -149,13 +148,25 @@ inline constexpr double k_tiny = 1e-140;
   c.dx = gt * tx;
   c.dy = gt * ty;
   c.dz = gt * tz;
-  c.fx = c.edge * (-kt * c.sx - c.dx);
-  c.fy = c.edge * (-kt * c.sy - c.dy);
-  c.fz = c.edge * (-kt * c.sz - c.dz);
+  c.fx = -kt * c.sx - c.dx;
+  c.fy = -kt * c.sy - c.dy;
+  c.fz = -kt * c.sz - c.dz;
   c.total = c.fx * c.fx + c.fy * c.fy + c.fz * c.fz;
   c.stiffness = kt;
-  c.normal_force = kn * d - c.edge * gn * vn;
+  c.normal_force = kn * d - gn * c.vn;
   c.normal_stiffness = kn;
+}
+
+/// Where a contact begins or ends within a step: all but the elastic normal force gets its weight.
+[[gnu::always_inline]] inline void weigh_edge(double time_step, Contact& c) {
+  const double d = std::max(c.overlap, 0.0);
+  const double edge = edge_weight(d, std::abs(c.vn) * time_step);
+  const double elastic = c.normal_stiffness * d;
+  c.normal_force = elastic + edge * (c.normal_force - elastic);
+  c.fx *= edge;
+  c.fy *= edge;
+  c.fz *= edge;
+  c.total *= edge * edge;
 }
 
 /// Coulomb: spring and damper share the limit.
