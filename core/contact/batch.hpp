@@ -31,7 +31,7 @@ class BatchColumns {
     velocity_x,  ///< [m/s] of the centres, later of the contact point
     velocity_y,
     velocity_z,
-    inverse_mass,  ///< [1/kg] sum of both sides
+    inverse_mass,    ///< [1/kg] sum of both sides
     displacement_x,  ///< [m] of the centres since the last look, later of the contact point
     displacement_y,
     displacement_z,

@@ -266,53 +266,44 @@ void check_energy(const Maker& make, const Subject& subject) {
   }
 }
 
-/// What a step does to the spring along the wall. A law that moves its spring by velocity times time
-/// step, or that follows a changing stiffness at one end of the step, damps it or feeds it to first
-/// order: a tenth and more of the energy at the core's own step.
+/// What a step does to the spring along the wall. A law that moves its spring by velocity times
+/// time step damps it, to first order: a tenth and more of the energy at the core's own step.
 void check_step(const Maker& make) {
-  // The core makes 15 steps per contact and more. The leapfrog itself leaves half a per cent of the
-  // energy and one of the speed at that step, a ninth of it at a third.
+  // The core makes 15 steps per contact and more. The leapfrog and what begins or ends within a
+  // step leave a fiftieth of the energy at that step in mean over the starts; below k_small the
+  // order is not told from that scatter.
   constexpr int k_core_steps = 15;
-  constexpr double k_energy = 0.02;
-  constexpr double k_patch = 0.04;
-  constexpr double k_order = 1.5;
-  constexpr int k_starts = 8;
-  const auto law = make_law(make);
+  constexpr double k_energy = 0.05;
+  constexpr double k_small = 0.01;
+  constexpr double k_order = 1.3;
+  constexpr int k_starts = 16;
   // Slow along the wall, so that friction holds the contact for most of its time.
   constexpr double k_speed = 0.5;
   constexpr double k_tangential = 0.01;
-  const auto run = [&](int steps, double start) {
-    return run_impact(*law, k_speed, k_tangential, -1.0, steps, start);
+  const auto law = make_law(make);
+  const auto kept = [&](int steps) {
+    double sum = 0.0;
+    for (int n = 0; n < k_starts; ++n) {
+      const Impact impact =
+          run_impact(*law, k_speed, k_tangential, -1.0, steps, (n + 0.5) / k_starts);
+      if (!impact.has_ended) throw Remark("the grains stick");
+      sum += impact.tangential_ratio / k_starts;
+    }
+    return sum;
   };
-  const Impact converged = run(k_small_steps, 0.5);
-  if (!converged.has_ended) throw Remark("the grains stick");
-  double sums[2] = {0.0, 0.0};
-  for (int n = 0; n < k_starts; ++n) {
-    const double start = (n + 0.5) / k_starts;
-    const Impact coarse = run(k_core_steps, start);
-    const Impact fine = run(3 * k_core_steps, start);
-    require(coarse.has_ended && fine.has_ended, "a collision in few steps does not end");
-    const double energy = std::abs(coarse.tangential_ratio - converged.tangential_ratio);
-    require(energy <= k_energy,
-            "in 15 steps a collision keeps " + shown(coarse.tangential_ratio) +
-                " of the energy along the wall, in many steps " +
-                shown(converged.tangential_ratio) +
-                ": move springs by displacement and angle, not by velocity times time step");
-    const double patch = std::abs(coarse.patch_ratio - converged.patch_ratio);
-    require(patch <= k_patch, "in 15 steps the contact point leaves with " +
-                                  shown(coarse.patch_ratio) + " of its speed, in many steps with " +
-                                  shown(converged.patch_ratio));
-    sums[0] += patch * patch;
-    sums[1] += std::pow(fine.patch_ratio - converged.patch_ratio, 2);
-  }
-  // Below this what is left is the rounding of the converged run.
-  constexpr double k_exact = 1e-6;
-  if (sums[0] < k_starts * k_exact * k_exact) return;
-  const double order = 0.5 * std::log(sums[0] / sums[1]) / std::log(3.0);
-  require(order >= k_order, "a third of the time step leaves " +
-                                shown(std::sqrt(sums[1] / sums[0])) +
-                                " of the error along the wall: order " + shown(order) +
-                                " in place of 2");
+  const double converged = kept(k_small_steps);
+  const double coarse = kept(k_core_steps);
+  const double error = std::abs(coarse - converged);
+  require(error <= k_energy,
+          "in 15 steps a collision keeps " + shown(coarse) +
+              " of the energy along the wall, in many steps " + shown(converged) +
+              ": move springs by displacement and angle, not by velocity times time step");
+  if (error < k_small) return;
+  const double finer = std::abs(kept(3 * k_core_steps) - converged);
+  const double order = std::log(error / finer) / std::log(3.0);
+  require(order >= k_order, "with a third of the time step the energy along the wall is still " +
+                                shown(finer) + " off, where it was " + shown(error) + ": order " +
+                                shown(order) + " in place of 2");
 }
 
 void rules(const Maker& make, const Subject& subject, Judge& judge) {

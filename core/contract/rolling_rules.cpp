@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numbers>
 
 namespace dust::contract {
 namespace {
@@ -116,6 +118,66 @@ void check_energy(const Maker& make) {
   }
 }
 
+/// A grain on a pressed contact that rocks on the law's spring about it, stepped as the core does.
+class Rocking {
+ public:
+  explicit Rocking(const Maker& make) : law_(make_law(make)), bench_(1, law_->history_size()) {}
+
+  /// Couple [N m] after another step of `angle` [rad] at `rotation` [rad/s].
+  double couple(double angle, double rotation, double step) {
+    Touch t;
+    t.overlap = 1e-6;
+    t.normal = {0.0, 0.0, 1.0};
+    t.rotation = {0.0, rotation, 0.0};
+    t.angle = Vec3{0.0, angle, 0.0};
+    t.radius = k_radius;
+    t.mass = mass();
+    t.normal_force = 10.0 * mass() * 9.81;
+    t.stiffness = 100.0;
+    bench_.show({t}, step, {}, true);
+    bench_.evaluate([&](const sdk::ContactBatch& batch) { law_->evaluate(batch); }, 0);
+    return bench_.vector(ContactBench::torque, 0).y;
+  }
+  /// Energy of the rotation after a swing there and back, as a share, in `steps` steps.
+  double swing(double duration, int steps) {
+    const double step = duration / steps;
+    double rotation = k_slow;  // half a step behind
+    double now = rotation;
+    for (int n = 0; n < steps; ++n) {
+      const double kick = step / inertia() * couple(step * rotation, now, step);
+      rotation += kick;
+      now = rotation + 0.5 * kick;
+    }
+    return now * now / (k_slow * k_slow);
+  }
+  static double mass() { return 2500.0 * sdk::sphere_volume(2.0 * k_radius); }
+  static double inertia() { return sdk::sphere_inertia(mass(), k_radius); }
+
+ private:
+  static constexpr double k_radius = 5e-4;
+  static constexpr double k_slow = 1e-3;  ///< [rad/s] far from any limit of the couple
+  std::unique_ptr<sdk::RollingLaw> law_;
+  ContactBench bench_;
+};
+
+/// A spring that moves by rotation times time step is damped by the step, to first order.
+void check_step(const Maker& make) {
+  // What is left of a turn when it is over.
+  constexpr double k_turning = 1e-3;
+  Rocking probe(make);
+  probe.couple(k_step * k_turning, k_turning, k_step);
+  const double stiffness = -probe.couple(0.0, 0.0, k_step) / (k_step * k_turning);
+  if (!(stiffness > 0.0)) return;  // no spring
+  const double period = 2.0 * std::numbers::pi * std::sqrt(Rocking::inertia() / stiffness);
+  // 15 steps for half a swing, as the core makes at least; the leapfrog's own error is a fortieth.
+  constexpr double k_energy = 0.05;
+  const double coarse = Rocking(make).swing(period, 30);
+  const double fine = Rocking(make).swing(period, 3000);
+  require(std::abs(coarse - fine) <= k_energy,
+          "a grain that rocks keeps " + shown(coarse) + " of its energy in 30 steps, " +
+              shown(fine) + " in many: move springs by angle, not by rotation times time step");
+}
+
 void rules(const Maker& make, const Subject&, Judge& judge) {
   judge_symmetry(judge, "couple", [&](bool is_swapped, const auto& change) {
     return couples(make, is_swapped, change);
@@ -123,6 +185,7 @@ void rules(const Maker& make, const Subject&, Judge& judge) {
   judge.rule("brakes a rotation that begins", [&] { check_brakes(make); });
   judge.rule("leaves what does not rotate alone", [&] { check_rest(make); });
   judge.rule("creates no energy", [&] { check_energy(make); });
+  judge.rule("keeps what its spring holds, to second order in the step", [&] { check_step(make); });
 }
 
 }  // namespace

@@ -237,12 +237,12 @@ GrainRows Dem::rows() {
           .position = s.position.data(),
           .velocity = s.motion.data(),
           .rotation = s.spin.data(),
-          .motion_stride = GrainStore::k_motion_stride,
           .id = s.id.data(),
           .material = s.material.data(),
           .weight = s.weight.data(),
           .fluid_action = s.action.data(),
-          .fluid_impulse = s.impulse.data()};
+          .fluid_impulse = s.impulse.data(),
+          .motion_stride = GrainStore::k_motion_stride};
 }
 
 std::span<const double> Dem::last_force() const {

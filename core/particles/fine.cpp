@@ -75,8 +75,8 @@ void Dem::Impl::fine_pass() {
   for (std::size_t b = 0; b < w.block_count; ++b) {
     Block& block = w.blocks[b];
     if (wall_loads.is_on()) wall_loads.take(block.wall_sums, block.wall_impacts);
-    counters.fine_steps +=
-        (static_cast<std::int64_t>(block.members.size()) - block.guests) << block.level;
+    counters.fine_steps += (static_cast<std::int64_t>(block.members.size()) - block.guests)
+                           << block.level;
     counters.largest_fine_overlap = std::max(counters.largest_fine_overlap, block.largest_overlap);
   }
   give_back();
@@ -159,8 +159,7 @@ bool Dem::Impl::is_heavy(std::int32_t coarse, std::int32_t fine_row) const {
   const auto f = static_cast<std::size_t>(fine_row);
   const double coarse_share = std::min(1.0, store.weight[f] / store.weight[c]);
   const double fine_share = std::min(1.0, store.weight[c] / store.weight[f]);
-  return coarse_share * store.velocity(c)[3] * k_heavy <=
-         fine_share * store.velocity(f)[3];
+  return coarse_share * store.velocity(c)[3] * k_heavy <= fine_share * store.velocity(f)[3];
 }
 
 /// Clusters at the level of their most demanding member, no finer than that member's class needs,
@@ -250,11 +249,10 @@ void Dem::Impl::list_candidates() {
       c.law = law_of(material, surfaces[static_cast<std::size_t>(c.surface)].material);
     } else {
       c.law = law_of(material, store.material[static_cast<std::size_t>(fine.b[e])]);
-      c.partner = fine.b[e] >= coarse
-                      ? fine_state(fine.b[e]).seat
-                      : std::lower_bound(w.guests.begin(), w.guests.end(),
-                                         Guest{s.cluster, fine.b[e]}, stands_before)
-                            ->seat;
+      c.partner = fine.b[e] >= coarse ? fine_state(fine.b[e]).seat
+                                      : std::lower_bound(w.guests.begin(), w.guests.end(),
+                                                         Guest{s.cluster, fine.b[e]}, stands_before)
+                                            ->seat;
     }
     w.blocks[static_cast<std::size_t>(s.block)].candidates.push_back(c);
   }
@@ -311,8 +309,9 @@ void Dem::Impl::give_back() {
 /// Before a chunk's grains move: those that fine grains were near go on with the velocity that they
 /// ended the last step with. `waits`: of grains that another chunk looks at, or of the others.
 void Dem::Impl::resume_course(const Chunk& chunk, Movers movers) {
-  const auto first = std::lower_bound(left_overs.begin(), left_overs.end(), chunk.begin,
-                                      [](const LeftOver& l, std::int32_t row) { return l.row < row; });
+  const auto first =
+      std::lower_bound(left_overs.begin(), left_overs.end(), chunk.begin,
+                       [](const LeftOver& l, std::int32_t row) { return l.row < row; });
   for (auto l = first; l != left_overs.end() && l->row < chunk.end; ++l) {
     const bool is_shared = is_awake[static_cast<std::size_t>(l->row)] == 2;
     if (movers != Movers::all && is_shared != (movers == Movers::shared)) continue;

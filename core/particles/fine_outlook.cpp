@@ -14,8 +14,8 @@ constexpr double k_reach_margin = 0.05;
 /// Steps per contact.
 constexpr double k_steps_per_contact = 15.0;
 /// Of a Hertz contact, the half period at its deepest over its duration: pi / sqrt(15/8) / 2.94. A
-/// collision then has the same step on its way in, where its speed counts, and at its deepest, where
-/// the overlap does.
+/// collision then has the same step on its way in, where its speed counts, and at its deepest,
+/// where the overlap does.
 constexpr double k_deepest = 0.78;
 
 double sum_of_parts(Vec3 v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }

@@ -13,7 +13,6 @@ struct GrainRows {
   const double* position = nullptr;  ///< x, y, z [m], radius [m]
   const double* velocity = nullptr;  ///< [m/s] at the same instant, 1 / mass [1/kg]
   const double* rotation = nullptr;  ///< angular velocity [rad/s], radius [m]
-  std::size_t motion_stride = 4;     ///< doubles from one grain's of these two to the next's
   const std::int64_t* id = nullptr;
   const std::int32_t* material = nullptr;
   const double* weight = nullptr;  ///< real grains per computed one
@@ -25,6 +24,9 @@ struct GrainRows {
   /// Impulse [N s] a computed grain has received through fluid_action since the coupling last set
   /// it to zero: x, y, z, unused. Exactly what changed the grain's momentum.
   double* fluid_impulse = nullptr;
+
+  /// Doubles from one grain's velocity, or rotation, to the next's.
+  std::size_t motion_stride = 4;
 
   [[nodiscard]] const double* velocity_of(std::size_t row) const {
     return velocity + motion_stride * row;

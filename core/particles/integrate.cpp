@@ -60,7 +60,8 @@ __attribute__((always_inline)) inline void set_all(const Lanes& four, Wide& all)
   set_side_by_side(four, four, all);
 }
 
-/// Of one grain, or two that follow each other, what stands first in a line and what stands behind it.
+/// Of one grain, or two that follow each other, what stands first in a line and what stands behind
+/// it.
 __attribute__((always_inline)) inline void split(const double* lines, std::size_t n, Lanes& first,
                                                  Lanes& second) {
   lanes::load(lines + GrainStore::k_motion_stride * n, first);

@@ -72,9 +72,9 @@ struct Contact {
 // The displacement is rescaled as the stiffness changes, \f$ \xi_t \sqrt{k_t} \f$ = const, so that
 // a growing or shrinking overlap neither feeds nor drains the energy \f$ k_t \xi_t^2 / 2 \f$ of
 // the spring (own derivation): \f$ d(\sqrt{k_t}\,\xi_t) = \sqrt{k_t}\, du_t \f$, the root on the
-// right side being its mean over the step (second order). Constant displacement (the "total" form) would create energy while
-// the contact is loaded, constant force while it is unloaded; forces that shrink with k_t on
-// unloading (Thornton, Cummins, Cleary, Powder Technol. 233 (2013) 30,
+// right side being its mean over the step (second order). Constant displacement (the "total" form)
+// would create energy while the contact is loaded, constant force while it is unloaded; forces that
+// shrink with k_t on unloading (Thornton, Cummins, Cleary, Powder Technol. 233 (2013) 30,
 // doi:10.1016/j.powtec.2012.08.012) create none but lose a fifth of the tangential energy of an
 // elastic impact without slip, this form a twentieth. While sliding the spring is set to what the
 // limit leaves beside the damper. The displacement turns with the normal and keeps its length.
@@ -83,10 +83,10 @@ inline constexpr double k_tiny = 1e-140;
 
 /// Weight of a step's force that begins or ends like the fourth root of the overlap, as dampers and
 /// the tangential spring do, where touching or parting is less than a step off: x = `overlap` /
-/// `flight`, the way along the normal in a step [m]. Held for the whole step it would be in error by
-/// half of it, to first order. \f$ -\zeta(-\tfrac14, 1 + x) / x^{1/4} \f$ makes the sum over looks at
-/// x, x + 1, ... the integral (Euler-Maclaurin for an algebraic end: Navot, J. Math. Phys. 40 (1961)
-/// 271, doi:10.1002/sapm1961401271); this is within 0.04 of it for 0.001 < x < 1.
+/// `flight`, the way along the normal in a step [m]. Held for the whole step it would be in error
+/// by half of it, to first order. \f$ -\zeta(-\tfrac14, 1 + x) / x^{1/4} \f$ makes the sum over
+/// looks at x, x + 1, ... the integral (Euler-Maclaurin for an algebraic end: Navot, J. Math. Phys.
+/// 40 (1961) 271, doi:10.1002/sapm1961401271); this is within 0.04 of it for 0.001 < x < 1.
 [[gnu::always_inline]] inline double edge_weight(double overlap, double flight) {
   const double way = std::max(flight, k_tiny);
   const double shifted = overlap + 0.006 * way;
@@ -101,8 +101,8 @@ inline constexpr double k_tiny = 1e-140;
 }
 
 /// The displacement into the new tangent plane; `keep`, squared, restores the old length and then
-/// makes the change of k_t at constant energy; of a contact that has just begun it is zero. The floor matters in the last instant of a contact
-/// alone.
+/// makes the change of k_t at constant energy; of a contact that has just begun it is zero. The
+/// floor matters in the last instant of a contact alone.
 [[gnu::always_inline]] inline void turn(const Constants& k, Contact& c) {
   const double kt = 8.0 * k.shear * c.contact_radius;
   const double sn = c.sx * c.nx + c.sy * c.ny + c.sz * c.nz;
@@ -138,8 +138,8 @@ inline constexpr double k_tiny = 1e-140;
   const double ty = c.vy - c.vn * c.ny;
   const double tz = c.vz - c.vn * c.nz;
   // sqrt(k_t) over the step in mean, in its value at the end: it begins like the fourth root of the
-  // overlap. `keep` holds the restored length as well, which differs from 1 by the square of the angle
-  // turned: of third order here.
+  // overlap. `keep` holds the restored length as well, which differs from 1 by the square of the
+  // angle turned: of third order here.
   const double mean = c.keep > 0.0 ? 0.5 + 0.5 * c.keep : 0.8;
   const double un = c.ux * c.nx + c.uy * c.ny + c.uz * c.nz;
   c.sx = c.keep * c.sx + mean * (c.ux - un * c.nx);

@@ -8,20 +8,19 @@ namespace {
 namespace formula = dust::model::hooke;
 namespace sdk = dust::sdk;
 
-DUST_KERNEL void evaluate_batch(const formula::Constants& constants, const sdk::ContactBatch& b) {
+DUST_KERNEL void evaluate_batch(const formula::Constants &constants, const sdk::ContactBatch &b) {
   const formula::Constants k = constants;
   const double *overlap = b.overlap, *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
   const double *vx = b.velocity_x, *vy = b.velocity_y, *vz = b.velocity_z;
   const double *ux = b.displacement_x, *uy = b.displacement_y, *uz = b.displacement_z;
-  const double* mass = b.effective_mass;
+  const double *mass = b.effective_mass;
   double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2];
   double *fn = b.normal_force, *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
   double *fx = b.force_x, *fy = b.force_y, *fz = b.force_z;
 #pragma omp simd
   for (std::size_t q = 0; q < b.count; ++q) {
-    formula::Contact c{overlap[q], nx[q], ny[q],   nz[q], vx[q], vy[q], vz[q], ux[q], uy[q],
-                       uz[q],      mass[q], sx[q], sy[q], sz[q], 0.0,   0.0,   0.0,   0.0,
-                       0.0,        0.0};
+    formula::Contact c{overlap[q], nx[q], ny[q], nz[q], vx[q], vy[q], vz[q], ux[q], uy[q], uz[q],
+                       mass[q],    sx[q], sy[q], sz[q], 0.0,   0.0,   0.0,   0.0,   0.0,   0.0};
     formula::evaluate(k, b.time_step, c);
     sx[q] = c.sx;
     sy[q] = c.sy;
@@ -79,16 +78,16 @@ class Hooke final : public sdk::ContactLaw {
         .source = "Cundall and Strack, Geotechnique 29 (1979) 47, doi:10.1680/geot.1979.29.1.47"};
   }
 
-  explicit Hooke(const Parameters& p) {
+  explicit Hooke(const Parameters &p) {
     constants_.stiffness = p.normal_stiffness;
     constants_.tangential_stiffness = p.tangential_stiffness_ratio * p.normal_stiffness;
     constants_.damping = formula::damping(p.restitution);
     constants_.friction = p.friction;
   }
 
-  void prepare(const sdk::MaterialProperties&, const sdk::MaterialProperties&) override {}
+  void prepare(const sdk::MaterialProperties &, const sdk::MaterialProperties &) override {}
   [[nodiscard]] int history_size() const override { return 3; }
-  void evaluate(const sdk::ContactBatch& batch) const override {
+  void evaluate(const sdk::ContactBatch &batch) const override {
     evaluate_batch(constants_, batch);
   }
   [[nodiscard]] double collision_time(double, double mass, double) const override {

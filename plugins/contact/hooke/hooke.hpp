@@ -59,9 +59,9 @@ struct Contact {
   const double gt = k.damping * std::sqrt(kt * (2.0 / 7.0) * c.mass);
 
   const double vn = c.vx * c.nx + c.vy * c.ny + c.vz * c.nz;
-  // Dampers and the tangential spring begin and end with a jump. The look within a step of it counts
-  // for half a step and the way to it, x = d / (|v_n| dt): held for the whole step they would be in
-  // error by half of it, to first order.
+  // Dampers and the tangential spring begin and end with a jump. The look within a step of it
+  // counts for half a step and the way to it, x = d / (|v_n| dt): held for the whole step they
+  // would be in error by half of it, to first order.
   const double x = c.overlap / std::max(std::abs(vn) * time_step, k_tiny);
   const double edge = x < 1.0 ? 0.5 + x : 1.0;
   const double fn = kn * c.overlap - edge * gn * vn;

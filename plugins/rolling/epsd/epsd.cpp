@@ -21,9 +21,8 @@ DUST_KERNEL void evaluate_batch(const formula::Constants &constants, const sdk::
   double *tx = b.torque_x, *ty = b.torque_y, *tz = b.torque_z;
 #pragma omp simd
   for (std::size_t q = 0; q < b.count; ++q) {
-    formula::Rolling c{nx[q],     ny[q],   nz[q], wx[q], wy[q],   wz[q], ax[q], ay[q], az[q],
-                       radius[q], mass[q], fn[q], kn[q], last[q], sx[q], sy[q], sz[q], 0.0,
-                       0.0,       0.0};
+    formula::Rolling c{nx[q],   ny[q], nz[q], wx[q],   wy[q], wz[q], ax[q], ay[q], az[q], radius[q],
+                       mass[q], fn[q], kn[q], last[q], sx[q], sy[q], sz[q], 0.0,   0.0,   0.0};
     formula::evaluate(k, c);
     last[q] = c.last_stiffness;
     sx[q] = c.sx;

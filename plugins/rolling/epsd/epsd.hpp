@@ -17,10 +17,10 @@ struct Constants {
 /// couple on i [N m], out.
 struct Rolling {
   double nx, ny, nz, wx, wy, wz, ax, ay, az;
-  double radius;        ///< [m] R*
-  double mass;          ///< [kg] m*
-  double normal_force;  ///< [N]
-  double stiffness;     ///< [N/m] k_n
+  double radius;          ///< [m] R*
+  double mass;            ///< [kg] m*
+  double normal_force;    ///< [N]
+  double stiffness;       ///< [N/m] k_n
   double last_stiffness;  ///< [N/m] k_n at the last look, in and out
   double sx, sy, sz;
   double mx, my, mz;
@@ -28,13 +28,12 @@ struct Rolling {
 
 /// Couple of an elastic-plastic spring with a dashpot below full mobilisation:
 /// \f$ \Delta M_s = -k_r \Delta\theta_r,\; k_r = 2.25 k_n \mu_r^2 R^{*2},\;
-/// |M_s| \le \mu_r R^* |F_n| \f$, k_n being the mean over the step (second order); \f$ M_d = -2 \eta_r \sqrt{I_r k_r}\, \omega_r \f$ while
-/// \f$ |M_s| \f$ is below its limit, else 0; the limit holds for the sum, too.
-/// \f$ \omega_r \f$ is the relative angular velocity without its part about the normal,
-/// \f$ I_r = \tfrac75 m^* R^{*2} \f$: the inertia of a sphere about its contact with a wall. M_s
-/// turns with the contact and keeps its length.
-/// Source: model C of Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269,
-/// doi:10.1016/j.powtec.2010.09.030; I_r of a pair: own choice.
+/// |M_s| \le \mu_r R^* |F_n| \f$, k_n being the mean over the step (second order); \f$ M_d = -2
+/// \eta_r \sqrt{I_r k_r}\, \omega_r \f$ while \f$ |M_s| \f$ is below its limit, else 0; the limit
+/// holds for the sum, too. \f$ \omega_r \f$ is the relative angular velocity without its part about
+/// the normal, \f$ I_r = \tfrac75 m^* R^{*2} \f$: the inertia of a sphere about its contact with a
+/// wall. M_s turns with the contact and keeps its length. Source: model C of Ai, Chen, Rotter, Ooi,
+/// Powder Technol. 206 (2011) 269, doi:10.1016/j.powtec.2010.09.030; I_r of a pair: own choice.
 [[gnu::always_inline]] inline void evaluate(const Constants& k, Rolling& c) {
   constexpr double k_tiny = 1e-290;
   const double wn = c.wx * c.nx + c.wy * c.ny + c.wz * c.nz;

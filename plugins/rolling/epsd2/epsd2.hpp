@@ -23,10 +23,10 @@ struct Rolling {
 
 // Couple of an elastic-plastic spring without dashpot:
 // \f$ \Delta M = -k_r \Delta\theta_r,\; k_r = k_t R^{*2},\; |M| \le \mu_r R^* |F_n| \f$.
-// \f$ \Delta\theta_r \f$ is the relative rotation without its part about the normal, k_t the mean over
-// the step (second order). M turns with the contact and keeps its length.
-// Source: model C of Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269,
-// doi:10.1016/j.powtec.2010.09.030, with k_r of Iwashita and Oda, J. Eng. Mech. 124 (1998) 285.
+// \f$ \Delta\theta_r \f$ is the relative rotation without its part about the normal, k_t the mean
+// over the step (second order). M turns with the contact and keeps its length. Source: model C of
+// Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269, doi:10.1016/j.powtec.2010.09.030, with k_r
+// of Iwashita and Oda, J. Eng. Mech. 124 (1998) 285.
 //
 // In three stages; the caller takes the roots between them, of many contacts at once: see
 // sdk::take_square_roots().

@@ -19,12 +19,12 @@ namespace {
 
 /// A couple against the rotation, or something that is none.
 struct Rolling final : RollingLaw {
-  enum Fault { none, one_sided, along_x, drives, restless };
+  enum Fault { none, one_sided, along_x, drives, restless, moves_by_rotation };
   explicit Rolling(Fault f) : fault(f) {}
   void prepare(const MaterialProperties& i, const MaterialProperties& j) override {
     lead = fault == one_sided ? i.density / j.density : 1.0;
   }
-  [[nodiscard]] int history_size() const override { return 0; }
+  [[nodiscard]] int history_size() const override { return fault == moves_by_rotation ? 1 : 0; }
   void evaluate(const ContactBatch& b) const override {
     for (std::size_t q = 0; q < b.count; ++q) {
       // Small beside what stops a grain within a step.
@@ -35,6 +35,9 @@ struct Rolling final : RollingLaw {
       b.torque_y[q] = brake * b.rotation_y[q];
       b.torque_z[q] = brake * b.rotation_z[q] + (fault == restless ? 1e-12 : 0.0);
       if (fault == drives) b.torque_y[q] *= 1e7;
+      if (fault != moves_by_rotation) continue;
+      b.history[0][q] += b.time_step * b.rotation_y[q];
+      b.torque_y[q] -= 1e-6 * b.history[0][q];
     }
   }
   Fault fault;
@@ -56,6 +59,8 @@ TEST_CASE("a rolling law that is wrong shall be told by the rule it breaks") {
         "contact 0 feels a couple without any rotation");
   CHECK(seen.broken(findings_on<Rolling>(Rolling::drives), "energy")
             .find("a rolling grain gets faster: ") == 0);
+  CHECK(seen.broken(findings_on<Rolling>(Rolling::moves_by_rotation), "second order")
+            .find("a grain that rocks keeps ") == 0);
   seen.check_complete();
 }
 

@@ -112,13 +112,25 @@ struct Spring final : sdk::ContactLaw {
     bouncy,
     slow_times,
     sticky_sliding,
-    tells_stiffness_wrong
+    tells_stiffness_wrong,
+    moves_by_velocity,
+    moves_by_displacement
   };
   Spring(P parameters, Fault f) : p(parameters), fault(f) {}
   void prepare(const sdk::MaterialProperties& i, const sdk::MaterialProperties& j) override {
     lead = i.density / j.density;
   }
-  [[nodiscard]] int history_size() const override { return 0; }
+  [[nodiscard]] bool has_spring() const {
+    return fault == moves_by_velocity || fault == moves_by_displacement;
+  }
+  [[nodiscard]] int history_size() const override { return has_spring() ? 1 : 0; }
+  /// Along y alone, as the contract's collisions are.
+  double spring(const sdk::ContactBatch& b, std::size_t q) const {
+    const double way =
+        fault == moves_by_velocity ? b.time_step * b.velocity_y[q] : b.displacement_y[q];
+    b.history[0][q] += way;
+    return -0.8 * p.stiffness * b.history[0][q];
+  }
   void evaluate(const sdk::ContactBatch& b) const override {
     for (std::size_t q = 0; q < b.count; ++q) {
       const double vn = b.velocity_x[q] * b.normal_x[q] + b.velocity_y[q] * b.normal_y[q] +
@@ -135,6 +147,7 @@ struct Spring final : sdk::ContactLaw {
       b.force_x[q] = f * b.normal_x[q] + (fault == along_x ? 0.01 * f : 0.0);
       b.force_y[q] = f * b.normal_y[q];
       b.force_z[q] = f * b.normal_z[q];
+      if (has_spring()) b.force_y[q] += spring(b, q);
       if (fault == sticky_sliding) b.force_y[q] += 5.0 * f * (b.velocity_y[q] > 0.0 ? 1.0 : -1.0);
     }
   }
@@ -180,6 +193,10 @@ TEST_CASE("a contact law that is wrong shall be told by the rule it breaks") {
   CHECK(
       seen.broken(spring(Spring::tells_stiffness_wrong), "stiffness").find("normal_stiffness is") ==
       0);
+  CHECK(
+      seen.broken(spring(Spring::moves_by_velocity), "second order").find("of the energy along") !=
+      std::string::npos);
+  CHECK(Seen().broken(spring(Spring::moves_by_displacement), "second order").empty());
   seen.check_complete();
 }
 
