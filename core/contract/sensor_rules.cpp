@@ -205,10 +205,53 @@ void check_restart(const Maker& make) {
   }
 }
 
+/// However seldom rows are written, they say the same: values of a moment and totals those of the
+/// full series, means its time means.
+void check_thinned(const Maker& make) {
+  constexpr int k_samples_per_row = 9;
+  // A mean of means is the mean of all to some roundings of the largest.
+  constexpr double k_rounding = 1e-12;
+  const auto full = make_as<sdk::Sensor>(make);
+  const auto thinned = make_as<sdk::Sensor>(make);
+  Scene scene;
+  Scene same;
+  std::vector<double> sums;
+  std::vector<double> sizes;
+  for (int s = 0; s < k_samples; ++s) {
+    scene.show(*full);
+    same.show(*thinned);
+    const Figures row = series_of(*full);
+    sums.resize(row.all().size());
+    sizes.resize(row.all().size());
+    for (std::size_t c = 0; c < sums.size(); ++c) {
+      const double value = row.all()[c].second.value;
+      sums[c] += value / k_samples_per_row;
+      sizes[c] += std::abs(value);
+    }
+    full->end_row();
+    if ((s + 1) % k_samples_per_row != 0) continue;
+    const Figures seldom = series_of(*thinned);
+    require(seldom.names() == row.names(), "a series with fewer rows has other columns");
+    for (std::size_t c = 0; c < sums.size(); ++c) {
+      const auto& [name, figure] = seldom.all()[c];
+      const bool is_mean = thinned->row_value(name) == sdk::RowValue::mean;
+      const double wanted = is_mean ? sums[c] : row.all()[c].second.value;
+      require(std::abs(figure.value - wanted) <= (is_mean ? k_rounding * sizes[c] : 0.0),
+              "'" + name + "' is " + shown(figure.value) + " in a row for every " +
+                  std::to_string(k_samples_per_row) + " samples; the samples say " +
+                  shown(wanted));
+    }
+    thinned->end_row();
+    sums.clear();
+    sizes.clear();
+  }
+}
+
 void rules(const Maker& make, const Subject&, Judge& judge) {
   judge.rule("names its figures and their units", [&] { check_names(make); });
   judge.rule("sees something in a stream, with errors", [&] { check_sees(make); });
   judge.rule("gives zeros of the same names where there is nothing", [&] { check_nothing(make); });
+  judge.rule("loses nothing between rows of series.csv", [&] { check_thinned(make); });
   judge.rule("goes on with the same bits when saved and loaded", [&] { check_restart(make); });
 }
 

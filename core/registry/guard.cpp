@@ -316,6 +316,12 @@ class Sensor final : public Guarded<sdk::Sensor> {
   void series(sdk::FigureSink& sink) const override {
     ask("series", "the columns of series.csv", &sdk::Sensor::series, sink);
   }
+  [[nodiscard]] sdk::RowValue row_value(std::string_view column) const override {
+    return get("row_value", &sdk::Sensor::row_value, column);
+  }
+  void end_row() override {
+    ask("end_row", "the beginning of another row", &sdk::Sensor::end_row);
+  }
   void summary(sdk::FigureSink& sink) const override {
     ask("summary", "the figures of summary.json", &sdk::Sensor::summary, sink);
   }

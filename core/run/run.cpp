@@ -215,6 +215,9 @@ class Run {
   int close() {
     const bool has_failed = facts_.status == "failed";
     if (!has_failed) checkpoint();
+    // What came after the last full interval counts, too. Not in the checkpoint: a run that is
+    // continued to a later end has no such row.
+    if (facts_.status == "finished" && simulation_.steps_done() % steps_per_row_ != 0) write_row();
     take_times();
     for (const std::string& text : shortfalls(simulation_)) {
       base::log_warning(text);
@@ -258,6 +261,7 @@ class Run {
   void write_row() {
     const auto row = series_row(simulation_);
     series_->append(row.names, row.values);
+    for (const auto& sensor : simulation_.models().sensors) sensor->end_row();
   }
 
   void checkpoint() {

@@ -61,16 +61,30 @@ class JsonFigures final : public sdk::FigureSink {
 
 class RowFigures final : public sdk::FigureSink {
  public:
-  RowFigures(SeriesRow& row, std::string prefix) : row_(row), prefix_(std::move(prefix)) {}
+  RowFigures(SeriesRow& row, std::string prefix, const sdk::Sensor& sensor)
+      : row_(row), prefix_(std::move(prefix)), sensor_(sensor) {}
   void figure(std::string_view name, double value, std::string_view unit, double) override {
     row_.names.push_back(prefix_ + std::string(name) + " [" + std::string(unit) + "]");
     row_.values.push_back(value);
+    row_.kinds.push_back(sensor_.row_value(name));
   }
 
  private:
   SeriesRow& row_;
   std::string prefix_;
+  const sdk::Sensor& sensor_;
 };
+
+/// What each column of series.csv stands for, however seldom rows are written.
+Json series_columns(const Simulation& s) {
+  static constexpr const char* k_kinds[] = {"instant", "mean", "total"};
+  const SeriesRow row = series_row(s);
+  Json columns = Json::object();
+  for (std::size_t c = 0; c < row.names.size(); ++c) {
+    columns[row.names[c]] = k_kinds[static_cast<int>(row.kinds[c])];
+  }
+  return columns;
+}
 
 class JsonReport final : public sdk::ReportSink {
  public:
@@ -227,9 +241,11 @@ std::int64_t huge_page_bytes() {
 
 SeriesRow series_row(const Simulation& s) {
   SeriesRow row;
-  const auto add = [&row](const char* name, double value) {
+  using sdk::RowValue;
+  const auto add = [&row](const char* name, double value, RowValue kind = RowValue::instant) {
     row.names.emplace_back(name);
     row.values.push_back(value);
+    row.kinds.push_back(kind);
   };
   const auto c = s.world().grains;
   double translation = 0.0;
@@ -249,13 +265,14 @@ SeriesRow series_row(const Simulation& s) {
   add("kinetic_energy [J]", translation + rotation);
   add("particles [1]", static_cast<double>(b.in_domain));
   add("real_particles [1]", b.real_in_domain);
-  add("mass_emitted [kg]", b.mass_emitted);
+  add("mass_emitted [kg]", b.mass_emitted, RowValue::total);
   add("mass_in_domain [kg]", b.mass_in_domain);
-  add("mass_left [kg]", b.mass_left);
-  add("mass_removed [kg]", b.mass_removed);
+  add("mass_left [kg]", b.mass_left, RowValue::total);
+  add("mass_removed [kg]", b.mass_removed, RowValue::total);
   for (std::size_t n = 0; n < s.models().sensors.size(); ++n) {
-    RowFigures sink(row, s.setup().sensors[n].name + "/");
-    s.models().sensors[n]->series(sink);
+    const sdk::Sensor& sensor = *s.models().sensors[n];
+    RowFigures sink(row, s.setup().sensors[n].name + "/", sensor);
+    sensor.series(sink);
   }
   return row;
 }
@@ -307,6 +324,7 @@ void write_summary(const std::filesystem::path& folder, const Simulation& s,
   j["health"] = health(s);
   j["warnings"] = facts.warnings;
   j["frames"] = facts.frames;
+  j["series"] = series_columns(s);
   j["scenario_sha256"] = facts.scenario_sha256;
   j["state_sha256"] = s.state_digest();
   j["build"] = {{"compiler", k_compiler},

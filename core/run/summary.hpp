@@ -36,6 +36,7 @@ std::vector<double> node_seconds(const Simulation& simulation, const std::vector
 struct SeriesRow {
   std::vector<std::string> names;  ///< "name [unit]"
   std::vector<double> values;
+  std::vector<sdk::RowValue> kinds;  ///< what each column stands for
 };
 SeriesRow series_row(const Simulation& simulation);
 

@@ -126,6 +126,7 @@ class Discharge final : public Sensor {
     sink.figure("mass", sums_[k_mass], "kg");
     sink.figure("number", sums_[k_number], "1");
   }
+  [[nodiscard]] RowValue row_value(std::string_view) const override { return RowValue::total; }
   void summary(FigureSink& sink) const override {
     const auto rate = formula::middle_rate(time_, mass_, p_.from_share, p_.to_share);
     const auto numbers = formula::middle_rate(time_, number_, p_.from_share, p_.to_share);

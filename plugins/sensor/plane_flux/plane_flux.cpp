@@ -74,11 +74,11 @@ class PlaneFlux final : public Sensor {
       }
     }
     for (int way = 0; way < 2; ++way) mass_so_far_[way] += passed[k_ways * k_mass + way];
-    last_rate_ = 0.0;
     if (world.interval > 0.0) {
       for (double& v : passed) v /= world.interval;
-      last_rate_ = passed[k_ways * k_mass + k_net];
-      curve_.add(world.time, last_rate_);
+      const double rate = passed[k_ways * k_mass + k_net];
+      row_.add({&rate, 1}, world.interval);
+      curve_.add(world.time, rate);
     }
     if (is_steady) {
       if (emitted_before_ < 0.0) emitted_before_ = emitted_mass_;
@@ -88,10 +88,14 @@ class PlaneFlux final : public Sensor {
   }
 
   void series(FigureSink& sink) const override {
-    sink.figure("net/mass_rate", last_rate_, "kg/s");
+    sink.figure("net/mass_rate", row_.mean(0), "kg/s");
     sink.figure("forward/mass", mass_so_far_[0], "kg");
     sink.figure("backward/mass", mass_so_far_[1], "kg");
   }
+  [[nodiscard]] RowValue row_value(std::string_view column) const override {
+    return column == "net/mass_rate" ? RowValue::mean : RowValue::total;
+  }
+  void end_row() override { row_.end_row(); }
 
   void summary(FigureSink& sink) const override {
     sink.figure("forward/mass", mass_so_far_[0], "kg");
@@ -113,7 +117,7 @@ class PlaneFlux final : public Sensor {
     a.numbers("classes", classes_);
     a.numbers("squares", squares_);
     a.numbers("mass_so_far", mass_so_far_);
-    a.number("last_rate", last_rate_);
+    row_.save(a, "row");
     const double emitted[] = {emitted_mass_, emitted_before_};
     a.numbers("emitted", emitted);
     means_.save(a, "means");
@@ -123,7 +127,7 @@ class PlaneFlux final : public Sensor {
     classes_ = a.numbers("classes");
     squares_ = a.numbers("squares");
     mass_so_far_ = a.numbers("mass_so_far");
-    last_rate_ = a.number("last_rate");
+    row_.load(a, "row");
     const std::vector<double> emitted = a.numbers("emitted");
     emitted_mass_ = emitted.at(0);
     emitted_before_ = emitted.at(1);
@@ -201,7 +205,7 @@ class PlaneFlux final : public Sensor {
   std::vector<double> values_;  ///< what passed during one sample; no state between calls
   std::vector<double> squares_ = std::vector<double>(k_columns, 0.0);
   std::vector<double> mass_so_far_ = {0.0, 0.0};  ///< [kg] forward, backward, since the start
-  double last_rate_ = 0.0;                        ///< [kg/s] net, during the last sample
+  RowMeans row_{1};                               ///< [kg/s] net
   double emitted_mass_ = 0.0;                     ///< [kg] until the last sample
   double emitted_before_ = -1.0;  ///< [kg] until the first steady sample; -1 before it
   BatchMeans means_{k_columns};

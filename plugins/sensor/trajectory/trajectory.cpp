@@ -143,6 +143,7 @@ class Trajectory final : public Sensor {
       sink.figure(drop_name(d) + "/number", level.weight_sum, "1");
     }
   }
+  [[nodiscard]] RowValue row_value(std::string_view) const override { return RowValue::total; }
 
   void summary(FigureSink& sink) const override {
     for (std::size_t d = 0; d < levels_.size(); ++d) {

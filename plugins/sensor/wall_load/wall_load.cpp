@@ -98,6 +98,7 @@ class WallLoad final : public Sensor {
       values_[static_cast<std::size_t>(d)] = force[d];
       values_[3 + static_cast<std::size_t>(d)] = torque[d];
     }
+    row_.add({values_.data(), k_mass}, world.interval);
     curve_.add(world.time, norm(force));
     if (!is_after(world, p_.averaging_after)) return;
     means_.add(values_, world.interval);
@@ -114,8 +115,15 @@ class WallLoad final : public Sensor {
   }
 
   void series(FigureSink& sink) const override {
-    for (std::size_t c = 0; c < k_columns; ++c) sink.figure(k_names[c], values_[c], k_units[c]);
+    for (std::size_t c = 0; c < k_columns; ++c) {
+      sink.figure(k_names[c], c < k_mass ? row_.mean(c) : values_[c], k_units[c]);
+    }
   }
+  [[nodiscard]] RowValue row_value(std::string_view column) const override {
+    const auto* const end = k_names + k_mass;
+    return std::find(k_names, end, column) != end ? RowValue::mean : RowValue::instant;
+  }
+  void end_row() override { row_.end_row(); }
 
   void summary(FigureSink& sink) const override {
     for (std::size_t c = 0; c < k_columns; ++c) {
@@ -148,6 +156,7 @@ class WallLoad final : public Sensor {
     a.numbers("normal", normal_);
     a.numbers("tangential", tangential_);
     means_.save(a, "means");
+    row_.save(a, "row");
     curve_.save(a, "curve");
   }
   void load(ArchiveReader& a) override {
@@ -160,12 +169,13 @@ class WallLoad final : public Sensor {
     normal_ = a.numbers("normal");
     tangential_ = a.numbers("tangential");
     means_.load(a, "means");
+    row_.load(a, "row");
     curve_.load(a, "curve");
   }
 
  private:
   static constexpr std::size_t k_power = 6;
-  static constexpr std::size_t k_mass = 7;
+  static constexpr std::size_t k_mass = 7;  ///< the first of those that a moment has
   static constexpr std::size_t k_contacts = 8;
   static constexpr std::size_t k_columns = 9;
   static constexpr const char* k_names[k_columns] = {"force_x",  "force_y",         "force_z",
@@ -182,6 +192,7 @@ class WallLoad final : public Sensor {
   double largest_ = 0.0;                     ///< [J]
   std::vector<double> normal_, tangential_;  ///< spectra
   BatchMeans means_{k_columns};
+  RowMeans row_{k_mass};  ///< of force, torque and power
   ThinnedCurve curve_;
 };
 

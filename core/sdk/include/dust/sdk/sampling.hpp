@@ -246,6 +246,44 @@ class BatchMeans {
   std::int64_t open_samples_ = 0;
 };
 
+/// Time means of columns between two rows of series.csv: however seldom rows are written, each times
+/// the time since the one before is the integral over all samples between them.
+class RowMeans {
+ public:
+  explicit RowMeans(std::size_t columns) : sums_(columns, 0.0) {}
+
+  /// One sample: `values` (as many as there are columns) held for `duration` [s].
+  void add(std::span<const double> values, double duration) {
+    for (std::size_t c = 0; c < sums_.size(); ++c) sums_[c] += values[c] * duration;
+    duration_ += duration;
+  }
+  /// Since the last row; 0 without samples.
+  [[nodiscard]] double mean(std::size_t column) const {
+    return duration_ > 0.0 ? sums_[column] / duration_ : 0.0;
+  }
+  void end_row() {
+    std::fill(sums_.begin(), sums_.end(), 0.0);
+    duration_ = 0.0;
+  }
+
+  void save(ArchiveWriter& archive, const std::string& name) const {
+    archive.numbers(name + "_sums", sums_);
+    archive.number(name + "_duration", duration_);
+  }
+  void load(ArchiveReader& archive, const std::string& name) {
+    const std::vector<double> sums = archive.numbers(name + "_sums");
+    if (sums.size() != sums_.size()) {
+      throw ModelError("the saved means '" + name + "' do not fit together");
+    }
+    sums_ = sums;
+    duration_ = archive.number(name + "_duration");
+  }
+
+ private:
+  std::vector<double> sums_;  ///< integrals over time
+  double duration_ = 0.0;     ///< [s]
+};
+
 /// A curve over time for the report with at most 2048 points: when it is full, neighbours are
 /// averaged in pairs and every later point is the mean of twice as many samples.
 class ThinnedCurve {

@@ -136,6 +136,13 @@ class FieldSink {
                      std::span<const double> values) = 0;
 };
 
+/// What a column of series.csv stands for where a row is written every so many fluid steps only.
+enum class RowValue {
+  instant,  ///< as it is at the time of the row
+  mean,     ///< over the time since the row before
+  total     ///< of all that has happened since the start
+};
+
 /// Observes the world once per fluid step (grains-only runs: once per sampling interval), on const
 /// data, possibly at the same time as other sensors. Everything between calls is state.
 class Sensor : public Model {
@@ -146,6 +153,11 @@ class Sensor : public Model {
   [[nodiscard]] virtual bool wants_contacts() const { return false; }
   /// Columns for series.csv: the same names in the same order at every call.
   virtual void series(FigureSink& sink) const = 0;
+  /// What a column of `series` stands for. What happens between two rows must not be lost: a load
+  /// or a rate is a mean.
+  [[nodiscard]] virtual RowValue row_value(std::string_view) const { return RowValue::instant; }
+  /// A row has been written: the time that means are taken over begins anew (RowMeans).
+  virtual void end_row() {}
   /// Figures for summary.json, with uncertainties.
   virtual void summary(FigureSink& sink) const = 0;
   virtual void report(ReportSink&) const {}
