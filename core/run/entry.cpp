@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace dust::run {
@@ -14,6 +15,10 @@ using sdk::Vec3;
 
 /// A seed written exactly on a side may miss it by rounding.
 constexpr double k_rounding = 1e-12;
+/// Roundings of a coordinate on its way from the scenario into a distance: written in another unit,
+/// shifted or turned in a frame, carried back in time, subtracted, through a periodic side; some
+/// thirty of half a unit in the last place at the worst.
+constexpr double k_roundings = 16.0;
 
 std::string place_text(Vec3 x) {
   std::ostringstream text;
@@ -61,7 +66,7 @@ void check_place(const EntryScene& scene, const Entrant& e, double allowed) {
   for (const particles::Surface& s : scene.surfaces) {
     if (s.is_removed()) continue;
     const double overlap = radius - s.contact_at(scene.time, x).distance;
-    if (overlap <= allowed * radius) continue;
+    if (overlap <= allowed * radius + scene.rounding()) continue;
     std::ostringstream text;
     text << "overlaps '" << s.name << "' by " << overlap << " m; move it clear";
     refuse(scene, e, text.str());
@@ -80,7 +85,15 @@ Vec3 EntryScene::separation(Vec3 from, Vec3 to) const {
   return apart;
 }
 
-SphereGrid::SphereGrid(const EntryScene& scene, double largest) : scene_(scene) {
+double EntryScene::rounding() const {
+  // Of the coordinates, not of the radius: the distance of two of them is as exact as they are.
+  double largest = 0.0;
+  for (int d = 0; d < 3; ++d) largest = std::max({largest, std::abs(min[d]), std::abs(max[d])});
+  return k_roundings * std::numeric_limits<double>::epsilon() * largest;
+}
+
+SphereGrid::SphereGrid(const EntryScene& scene, double largest)
+    : scene_(scene), rounding_(scene.rounding()) {
   for (int d = 0; d < 3; ++d) {
     edge_[d] = largest > 0.0 ? largest : 1.0;
     if (!scene.is_periodic[static_cast<std::size_t>(d)]) continue;
@@ -127,7 +140,8 @@ const SphereGrid::Sphere* SphereGrid::overlapping(Vec3 centre, double radius,
         if (found == first_.end()) continue;
         for (std::int32_t n = found->second; n >= 0; n = next_[static_cast<std::size_t>(n)]) {
           const Sphere& s = spheres_[static_cast<std::size_t>(n)];
-          const double reach = radius + s.radius - allowed * std::min(radius, s.radius);
+          const double reach =
+              radius + s.radius - allowed * std::min(radius, s.radius) - rounding_;
           const Vec3 apart = scene_.separation(s.centre, centre);
           if (dot(apart, apart) < reach * reach) return &s;
         }
@@ -203,8 +217,9 @@ bool LazySurroundings::is_free(Vec3 centre, double radius) const {
   for (int d = 0; d < 3; ++d) {
     if (!(x[d] >= scene_.min[d] && x[d] <= scene_.max[d])) return false;
   }
+  const double reach = radius - scene_.rounding();
   for (const particles::Surface& s : scene_.surfaces) {
-    if (!s.is_removed() && s.contact_at(scene_.time, x).distance < radius) return false;
+    if (!s.is_removed() && s.contact_at(scene_.time, x).distance < reach) return false;
   }
   return grid_->overlapping(x, radius, 0.0) == nullptr;
 }

@@ -33,6 +33,8 @@ struct EntryScene {
 
   /// From `from` to `to`, the shortest way through periodic sides.
   [[nodiscard]] sdk::Vec3 separation(sdk::Vec3 from, sdk::Vec3 to) const;
+  /// [m] Distances below this are rounding: what touches exactly does not overlap.
+  [[nodiscard]] double rounding() const;
 };
 
 /// Spheres in cells of a grid, found by place; periodic sides are looked through.
@@ -46,8 +48,8 @@ class SphereGrid {
   /// `largest`: [m] diameter of the largest sphere that comes.
   SphereGrid(const EntryScene& scene, double largest);
   void add(const Sphere& sphere);
-  /// A sphere that overlaps by more than `allowed` [-] of the smaller radius; null if there is
-  /// none.
+  /// A sphere that overlaps by more than `allowed` [-] of the smaller radius and than rounding;
+  /// null if there is none.
   [[nodiscard]] const Sphere* overlapping(sdk::Vec3 centre, double radius, double allowed) const;
 
  private:
@@ -55,6 +57,7 @@ class SphereGrid {
   [[nodiscard]] std::uint64_t key_of(std::array<std::int64_t, 3> cell) const;
 
   const EntryScene& scene_;
+  double rounding_;  ///< [m]
   sdk::Vec3 edge_;
   std::array<std::int64_t, 3> cells_{};  ///< along periodic directions
   std::vector<Sphere> spheres_;

@@ -5,7 +5,9 @@
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/size_distribution.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace {
@@ -73,7 +75,9 @@ class Lattice final : public sdk::PlacedEmitter {
   }
 
   explicit Lattice(const Parameters& p) : PlacedEmitter(p.time), p_(p), sizes_(p) {
-    if (p.spacing < sizes_.largest()) {
+    // Two numbers written in different units may differ by a rounding of each.
+    constexpr double k_rounding = 4.0 * std::numeric_limits<double>::epsilon();
+    if (p.spacing < sizes_.largest() * (1.0 - k_rounding)) {
       std::ostringstream text;
       text << "spacing, " << p.spacing << " m, is smaller than the largest grain, "
            << sizes_.largest() << " m: neighbours would overlap";
@@ -118,7 +122,8 @@ class Lattice final : public sdk::PlacedEmitter {
     const std::vector<std::size_t> size_of = shuffled_sizes(context.random);
     const auto all = static_cast<std::int64_t>(sites_.size());
     // A displacement of at most half the gap in any direction keeps neighbours apart.
-    const double reach = p_.jitter * 0.5 * (p_.spacing - sizes_.largest()) / std::sqrt(3.0);
+    const double play = std::max(0.0, p_.spacing - sizes_.largest());
+    const double reach = p_.jitter * 0.5 * play / std::sqrt(3.0);
     std::uint64_t n = 0;
     for (std::int64_t site = 0; site < all; ++site) {
       if ((site + 1) * count_ / all == site * count_ / all) continue;

@@ -169,6 +169,43 @@ TEST_CASE("grains that may not wait shall be refused with both sides named") {
         std::string::npos);
 }
 
+TEST_CASE("grains that touch each other or a wall exactly shall come in, an overlap shall not") {
+  auto s = scene();
+  s.rules[0].waits = false;
+  particles::Surface floor;
+  floor.name = "left";
+  floor.normal = {1, 0, 0};
+  floor.offset = -0.3;
+  s.surfaces = {floor};
+  // Rows of grains side by side, as somebody writes them down: in millimetres, or with a sum.
+  constexpr double k_overlap = 1e-12;  // [m] far below what any contact notices, above rounding
+  for (int tenths = 3; tenths < 40; ++tenths) {
+    CAPTURE(tenths);
+    const double diameter = 1e-3 * (0.1 * tenths);
+    const double radius = 0.5 * diameter;
+    std::vector<Entrant> row;
+    for (int n = 0; n < 40; ++n) {
+      row.push_back(grain(1e-3 * (-300.0 + 0.1 * tenths * (n + 0.5)), diameter));
+      row.push_back(grain(0.1 + n * diameter, diameter));
+    }
+    CHECK(refusal(s, row) == "not refused");
+    CHECK(refusal(s, {grain(0.1, diameter), grain(0.1 + diameter - k_overlap, diameter)}) !=
+          "not refused");
+    CHECK(refusal(s, {grain(-0.3 + radius - k_overlap, diameter)}) != "not refused");
+    // An emitter that looks for a place finds the one that just fits.
+    Present present;
+    present.add(-0.3 + radius, diameter);
+    present.add(-0.3 + radius + 2.0 * diameter, diameter);
+    const std::vector<std::int64_t> ids{1, 2};
+    auto rows = present.rows();
+    rows.id = ids.data();
+    const std::vector<Entrant> none;
+    const run::LazySurroundings around(s, rows, none, diameter, nullptr);
+    CHECK(around.is_free({-0.3 + 1.5 * diameter, 0, 0}, radius));
+    CHECK_FALSE(around.is_free({-0.3 + 1.5 * diameter, 0, 0}, radius + k_overlap));
+  }
+}
+
 TEST_CASE("a bed pressed by its weight may overlap as much as is allowed and no more") {
   auto s = scene();
   s.rules[0] = {.waits = false, .allowed_overlap = 0.01};
