@@ -126,10 +126,12 @@ double Simulation::time() const {
 void Simulation::start() {
   emit();
   is_started_ = true;
-  const bool is_filled = std::any_of(entry_scene_.rules.begin(), entry_scene_.rules.end(),
-                                     [](const sdk::EntryRule& rule) { return !rule.waits; });
-  // A bed that is there at the start does not push its volume out of the air in the first step.
-  if (coupling_ && is_filled) coupling_->map(dem_->rows(), setup_.time.fluid_step);
+  // Grains that are there at the start do not push their volume out of the air in the first step,
+  // and the first frame shows the air between them.
+  if (coupling_ && dem_->rows().count > 0) {
+    coupling_->map(dem_->rows(), setup_.time.fluid_step);
+    fluid_table_->publish(*fluid_, void_fraction());
+  }
   publish_grains();
 }
 
