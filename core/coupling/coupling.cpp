@@ -68,6 +68,7 @@ void Coupling::refresh(const particles::GrainRows& grains, const FluidState& flu
       [&](std::size_t batch, Impl::Rows rows) { impl_->refresh(grains, batch, rows, fluid); });
   if (forces != nullptr) forces->end(fluid);
   ++impl_->done_refreshes;
+  impl_->last_held = impl_->held(fluid);
 }
 
 void Coupling::use(std::span<const std::unique_ptr<sdk::FluidForce>> forces,
@@ -102,6 +103,7 @@ void Coupling::save(sdk::ArchiveWriter& archive) const {
   if (impl_->forces) impl_->forces->save(archive);
   archive.number("refreshes", impl_->refreshes);
   archive.number("step", impl_->step);
+  archive.number("last_held", impl_->last_held);
   archive.integers(
       "counts", std::array{r.moved_shares, r.relieved_cells, r.unplaced_grains, r.unpaired_forces});
   archive.numbers("extremes", std::array{r.smallest_void_fraction, r.largest_imbalance,
@@ -115,6 +117,7 @@ void Coupling::load(sdk::ArchiveReader& archive) {
   if (impl_->forces) impl_->forces->load(archive);
   impl_->refreshes = archive.number("refreshes");
   impl_->step = archive.number("step");
+  impl_->last_held = archive.number("last_held");
   const std::vector<std::int64_t> counts = archive.integers("counts");
   const std::vector<double> extremes = archive.numbers("extremes");
   r.moved_shares = counts.at(0);

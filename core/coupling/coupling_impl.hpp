@@ -99,8 +99,10 @@ struct Coupling::Impl {
   void sort(const particles::GrainRows& grains);
   /// The rows may be in another order than at map().
   void sort_if_changed(const particles::GrainRows& grains);
-  /// Makes the spots of a batch those of its grains; returns whether they were others.
-  bool locate(const particles::GrainRows& grains, Rows rows, SpotBatch& batch) const;
+  /// Makes the spots of a batch those of its grains, flown on for `ahead` [s]; returns whether they
+  /// were others.
+  bool locate(const particles::GrainRows& grains, Rows rows, SpotBatch& batch,
+              double ahead = 0.0) const;
 
   /// F of the rows first..last; the batch's Reynolds numbers and void fractions are set.
   void evaluate(Batch& batch, std::size_t count) const {
@@ -164,8 +166,11 @@ struct Coupling::Impl {
   };
   void look(const particles::GrainRows& grains, SpotBatch& spot, Rows rows, const FluidState& fluid,
             Seen& seen, Batch& batch);
-  bool look_into_cells(const particles::GrainRows& grains, const SpotBatch& spot, Rows rows,
-                       const FluidState& fluid, Seen& seen, Batch& batch);
+  void foresee(const particles::GrainRows& grains, Rows rows, double held, const Seen& seen,
+               Batch& batch, std::array<SpotBatch::Reals, 3>& change);
+  void begin_action(const particles::GrainRows& grains, Rows rows, const Seen& seen, Batch& batch);
+  bool look_into_cells(const SpotBatch& spot, Rows rows, const FluidState& fluid, Seen& seen,
+                       Batch& batch);
   void look_wide(const SpotBatch& spot, int d, const FluidState& fluid, const double* v,
                  const FaceSumColumns& sums, double* flux, double* stress) const;
   void find_own_solids(const particles::GrainRows& grains, Rows rows);
@@ -176,6 +181,11 @@ struct Coupling::Impl {
   void act(const particles::GrainRows& grains, std::size_t row, std::size_t n,
            double drag_coefficient, const Triple& relative, double held,
            const ForceTerms::Sums& sums);
+  /// Part of the weight that the DEM's gravity is.
+  [[nodiscard]] double weight_share(double inverse_mass, double volume) const {
+    return forces ? forces->weight_share(1.0 / inverse_mass, volume)
+                  : 1.0 - properties.own().density * volume * inverse_mass;
+  }
   [[nodiscard]] double held(const FluidState& fluid) const {
     return fluid.held > 0.0 ? fluid.held : step / refreshes;
   }
@@ -209,6 +219,7 @@ struct Coupling::Impl {
   double least_spacing = 0.0;
   double refreshes = 1.0;           ///< per fluid step
   std::int64_t done_refreshes = 0;  ///< since map()
+  double last_held = 0.0;           ///< [s] from the last refresh to the one in hand, 0 = none yet
   bool is_settled = true;           ///< Remembered::given belongs to the last map()
 };
 

@@ -7,8 +7,8 @@ namespace dust::coupling {
 namespace {
 
 /// Numbers of a Remembered that outlive a fluid step: velocity of the fluid, place, debt,
-/// disturbance.
-constexpr std::size_t k_saved = 13;
+/// disturbance, own velocity.
+constexpr std::size_t k_saved = 16;
 
 }  // namespace
 
@@ -54,6 +54,7 @@ void GrainMemory::save(sdk::ArchiveWriter& archive) const {
     numbers.insert(numbers.end(), r.owed.begin(), r.owed.end());
     numbers.push_back(r.has_velocity ? 1.0 : 0.0);
     numbers.insert(numbers.end(), disturbance.begin(), disturbance.end());
+    numbers.insert(numbers.end(), r.velocity.begin(), r.velocity.end());
   }
   std::vector<double> gone;
   for (const Leaver& l : leavers_) {
@@ -81,6 +82,7 @@ void GrainMemory::load(sdk::ArchiveReader& archive) {
     std::copy_n(n + 6, 3, r.owed.begin());
     r.has_velocity = n[9] != 0.0;
     if (has_own_flow_) std::copy_n(n + 10, 3, own_flow_[row].disturbance.begin());
+    std::copy_n(n + 13, 3, r.velocity.begin());
     n += k_saved;
   }
   leavers_.assign(gone.size() / 6, {});

@@ -15,6 +15,7 @@ using Triple = std::array<double, 3>;
 /// What the coupling remembers of one grain.
 struct Remembered {
   Triple fluid_velocity{};  ///< [m/s] its own plus the slip, at the last refresh
+  Triple velocity{};        ///< [m/s] its own, at the last refresh
   Triple stress_impulse{};  ///< [N] sum over the refreshes of V_p (-grad p + div tau)
   Triple given{};           ///< [N s] drag that the fluid was told to balance, weight included
   Triple place{};           ///< [m] at collect()

@@ -26,18 +26,22 @@ constexpr double k_reynolds_change = 0.01;
 
 }  // namespace
 
-bool Coupling::Impl::locate(const particles::GrainRows& grains, Rows rows, SpotBatch& batch) const {
+bool Coupling::Impl::locate(const particles::GrainRows& grains, Rows rows, SpotBatch& batch,
+                            double ahead) const {
   bool is_other = batch.count != rows.size();
   double* known = batch.position.data();
+  const std::array<double, 4> times{ahead, ahead, ahead, 0.0};
   for (const std::int32_t row : rows) {
     const double* position = grains.position + 4 * static_cast<std::size_t>(row);
-    for (int n = 0; n < 4; ++n) {
-      is_other |= known[n] != position[n];
-      known[n] = position[n];
+    const double* velocity = grains.velocity + 4 * static_cast<std::size_t>(row);
+    for (std::size_t n = 0; n < 4; ++n) {
+      const double place = position[n] + times[n] * velocity[n];
+      is_other |= known[n] != place;
+      known[n] = place;
     }
     known += 4;
   }
-  // Grains do not move between map() and the first refresh().
+  // Grains that lie still are where they were.
   if (!is_other) return false;
   batch.count = rows.size();
   lattice.place(batch);

@@ -8,12 +8,13 @@
 
 namespace dust::coupling {
 
-/// What the grains see of the fluid: slip, what the drag on the grain is of the law's, stress; the
-/// batch's Reynolds numbers and void fractions.
+/// What the grains see of the fluid half way through the interval that the action holds for, by
+/// their velocity now: slip, what the drag on the grain is of the law's, stress; the batch's
+/// Reynolds numbers and void fractions.
 void Coupling::Impl::look(const particles::GrainRows& grains, SpotBatch& spot, Rows rows,
                           const FluidState& state, Seen& seen, Batch& batch) {
-  if (locate(grains, rows, spot)) are_spots_of_map = false;
-  const bool has_wide = look_into_cells(grains, spot, rows, state, seen, batch);
+  if (locate(grains, rows, spot, 0.5 * held(state))) are_spots_of_map = false;
+  const bool has_wide = look_into_cells(spot, rows, state, seen, batch);
   std::array<SpotBatch::Reals, 3> v;
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const double* velocity = grains.velocity_of(static_cast<std::size_t>(rows[q]));
@@ -41,22 +42,87 @@ void Coupling::Impl::look(const particles::GrainRows& grains, SpotBatch& spot, R
       ratio[q] += own.face_solids[d] / batch.void_fraction[q];
     }
   }
+}
+
+namespace {
+
+/// The one of smaller size of two changes in the same direction, else none.
+double common(double a, double b) {
+  if (!(a * b > 0.0)) return 0.0;
+  return std::abs(a) < std::abs(b) ? a : b;
+}
+
+}  // namespace
+
+/// Grains that have no action yet get that of the drag at their present slip, for `foresee`.
+void Coupling::Impl::begin_action(const particles::GrainRows& grains, Rows rows, const Seen& seen,
+                                  Batch& batch) {
+  const auto is_new = [&](std::int32_t row) {
+    return !memory[static_cast<std::size_t>(row)].has_velocity;
+  };
+  if (std::none_of(rows.begin(), rows.end(), is_new)) return;
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    const Triple slip{seen.slip[0][q], seen.slip[1][q], seen.slip[2][q]};
+    const double speed = std::sqrt(slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2]);
+    const auto row = static_cast<std::size_t>(rows[q]);
+    batch.reynolds[q] = reynolds(grains, row, batch.void_fraction[q], speed);
+    batch.size_ratio[q] = memory[row].size_ratio;
+  }
+  evaluate(batch, rows.size());
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    if (!is_new(rows[q])) continue;
+    const auto row = static_cast<std::size_t>(rows[q]);
+    const double* v = grains.velocity + 4 * row;
+    double* action = grains.fluid_action + 4 * row;
+    for (std::size_t d = 0; d < 3; ++d) action[d] = v[d] + seen.slip[d][q];
+    action[3] = coefficient(grains, row, batch.factor[q]) * v[3];
+  }
+}
+
+/// `change` [m/s] of each grain's velocity in the first half of the interval of length `held`, and
+/// the batch's Reynolds numbers of the slip then. With the drag coefficient of that slip the whole
+/// interval is right to second order, where that of the beginning is right to first.
+///
+/// The change is what the last action and the weight make of the grain. One that its neighbours
+/// hold or hit does not follow them: it changes by no more than it did since the last refresh.
+void Coupling::Impl::foresee(const particles::GrainRows& grains, Rows rows, double held,
+                             const Seen& seen, Batch& batch,
+                             std::array<SpotBatch::Reals, 3>& change) {
+  begin_action(grains, rows, seen, batch);
+  const double half = 0.5 * held;
+  const double before = last_held > 0.0 ? half / last_held : 0.0;
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
-    const Triple slip{seen.slip[0][q], seen.slip[1][q], seen.slip[2][q]};
+    const double* v = grains.velocity + 4 * row;
+    const double* action = grains.fluid_action + 4 * row;
     Remembered& r = memory[row];
-    r.fluid_velocity = {v[0][q] + slip[0], v[1][q] + slip[1], v[2][q] + slip[2]};
+    const double rate = action[3];
+    // As much as an implicit half step makes of it: where a grain relaxes fast, the drag of early
+    // on counts more for its way than that of the middle.
+    const double ahead = half / (1.0 + rate * half);
+    const double share = weight_share(v[3], sdk::sphere_volume(2.0 * grains.position[4 * row + 3]));
+    double square = 0.0;
+    const bool is_known = r.has_velocity && before > 0.0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      // Of a new grain only the drag is known; its weight may be borne by what else acts on it.
+      const double weight = is_known ? share * gravity[static_cast<int>(d)] : 0.0;
+      const double free = (rate * (action[d] - v[d]) + weight) * ahead;
+      change[d][q] = is_known ? common(free, (v[d] - r.velocity[d]) * before) : free;
+      const double slip = seen.slip[d][q] - change[d][q];
+      square += slip * slip;
+      r.velocity[d] = v[d];
+      r.fluid_velocity[d] = v[d] + seen.slip[d][q];
+    }
     r.has_velocity = true;
-    const double speed = std::sqrt(slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2]);
-    batch.reynolds[q] = reynolds(grains, row, batch.void_fraction[q], speed);
+    batch.reynolds[q] = reynolds(grains, row, batch.void_fraction[q], std::sqrt(square));
     batch.size_ratio[q] = r.size_ratio;
   }
 }
 
 /// Void fraction and stress of the cells that the grains of a batch are in; returns whether some of
 /// them are larger than a cell.
-bool Coupling::Impl::look_into_cells(const particles::GrainRows& grains, const SpotBatch& spot,
-                                     Rows rows, const FluidState& state, Seen& seen, Batch& batch) {
+bool Coupling::Impl::look_into_cells(const SpotBatch& spot, Rows rows, const FluidState& state,
+                                     Seen& seen, Batch& batch) {
   const bool needs_stress = !is_set_three || forces;
   WideKernel wide(lattice, voidage);
   bool has_wide = false;
@@ -66,7 +132,7 @@ bool Coupling::Impl::look_into_cells(const particles::GrainRows& grains, const S
   Triple stress{};
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
-    const double* position = grains.position + 4 * row;
+    const double* position = &spot.position[4 * q];
     const std::ptrdiff_t cell = spot.cell(q);
     const bool is_wide = wide.takes(position[3]);
     has_wide = has_wide || is_wide;
@@ -115,7 +181,14 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t num
   Batch batch;
   Seen seen;
   look(grains, spots.batches[number], rows, state, seen, batch);
+  std::array<SpotBatch::Reals, 3> change;
+  foresee(grains, rows, held(state), seen, batch, change);
   evaluate(batch, rows.size());
+  // The ratio differs from 1 only where the void fraction changes. It is applied to the slip half
+  // way, because the grain has one rate for all directions.
+  const auto relative_slip = [&](std::size_t d, std::size_t q) {
+    return seen.ratio[d][q] * (seen.slip[d][q] - change[d][q]) + change[d][q];
+  };
   if (forces) {
     ForceTerms::Sums sums;
     const auto columns = [](const std::array<SpotBatch::Reals, 3>& v) {
@@ -129,7 +202,7 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t num
       const double drag_coefficient = coefficient(grains, row, batch.factor[n]) *
                                       share_of_set(batch.void_fraction[n]) / stress_part(row);
       Triple relative;
-      for (std::size_t d = 0; d < 3; ++d) relative[d] = seen.ratio[d][n] * seen.slip[d][n];
+      for (std::size_t d = 0; d < 3; ++d) relative[d] = relative_slip(d, n);
       act(grains, row, n, drag_coefficient, relative, held(state), sums);
     }
     return;
@@ -147,12 +220,10 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t num
     const double volume = sdk::sphere_volume(diameter);
     // The grains' reduced gravity is that of the fluid's own density.
     const double lift = volume * (properties.own().density - fluid.density);
-    for (int d = 0; d < 3; ++d) {
-      // The ratio differs from 1 only where the void fraction changes; it is applied to the slip of
-      // this instant, because the grain has one rate for all directions.
-      const double relative = seen.ratio[d][q] * seen.slip[d][q];
-      const double force = volume * seen.stress[d][q] + (lift == 0.0 ? 0.0 : lift * gravity[d]);
-      action[d] = v[d] + relative + force * per_drag;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double force =
+          volume * seen.stress[d][q] + (lift == 0.0 ? 0.0 : lift * gravity[static_cast<int>(d)]);
+      action[d] = v[d] + relative_slip(d, q) + force * per_drag;
       r.stress_impulse[d] += force;
     }
     action[3] = drag_coefficient * v[3];

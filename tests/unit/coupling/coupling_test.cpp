@@ -73,7 +73,8 @@ void scatter(World& world, const Way& way) {
 
 /// One fluid step with the grains in free flight, refreshed as often as asked for. Returns the
 /// impulse that a uniform `gradient` gives to them: in cells at a side half of it, where one of the
-/// two faces is the side's. Large grains are kept away from the sides.
+/// two faces is the side's. They are looked at half way through each interval. Large grains are
+/// kept away from the sides.
 sdk::Vec3 advance(World& world, sdk::Vec3 gravity = {0, 0, -9.81}, sdk::Vec3 gradient = {}) {
   const int refreshes = static_cast<int>(std::lround(k_step / world.coupling->refresh_interval()));
   sdk::Vec3 impulse;
@@ -82,7 +83,9 @@ sdk::Vec3 advance(World& world, sdk::Vec3 gravity = {0, 0, -9.81}, sdk::Vec3 gra
     for (std::size_t g = 0; g < world.grains.count(); ++g) {
       const double volume = sdk::sphere_volume(2 * world.grains.position[4 * g + 3]);
       for (int d = 0; d < 3; ++d) {
-        const double cell = std::floor(world.grains.position[4 * g + d] / world.grid.spacing[d]);
+        const double place = world.grains.position[4 * g + d] +
+                             0.5 * k_step / refreshes * world.grains.velocity[4 * g + d];
+        const double cell = std::floor(place / world.grid.spacing[d]);
         const double part = cell < 1 || cell >= world.grid.count[d] - 1 ? 0.5 : 1.0;
         impulse[d] += part * world.grains.weight[g] * volume * gradient[d] * k_step / refreshes;
       }

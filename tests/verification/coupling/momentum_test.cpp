@@ -87,7 +87,7 @@ struct Cloud {
   }
   /// [N s] that collect() found and the next map() hands to the air.
   [[nodiscard]] sdk::Vec3 on_the_way() {
-    constexpr std::size_t k_saved = 13;  // numbers per grain in a checkpoint, the debt at 6
+    constexpr std::size_t k_saved = 16;  // numbers per grain in a checkpoint, the debt at 6
     test::Archive archive;
     world.coupling->save(archive);
     const std::vector<double> numbers = archive.numbers("grains");
