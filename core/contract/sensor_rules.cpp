@@ -238,8 +238,7 @@ void check_thinned(const Maker& make) {
       const double wanted = is_mean ? sums[c] : row.all()[c].second.value;
       require(std::abs(figure.value - wanted) <= (is_mean ? k_rounding * sizes[c] : 0.0),
               "'" + name + "' is " + shown(figure.value) + " in a row for every " +
-                  std::to_string(k_samples_per_row) + " samples; the samples say " +
-                  shown(wanted));
+                  std::to_string(k_samples_per_row) + " samples; the samples say " + shown(wanted));
     }
     thinned->end_row();
     sums.clear();

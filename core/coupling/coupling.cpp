@@ -64,6 +64,9 @@ void Coupling::refresh(const particles::GrainRows& grains, const FluidState& flu
   ForceTerms* forces = impl_->forces.get();
   if (forces != nullptr) forces->begin(fluid, impl_->step, impl_->done_refreshes == 0);
   impl_->sort_if_changed(grains);
+  if (impl_->stress_book && impl_->done_refreshes == 0) {
+    impl_->stress_book->leave(impl_->void_fraction.after(), fluid.stress_divergence, impl_->step);
+  }
   impl_->for_batches(
       [&](std::size_t batch, Impl::Rows rows) { impl_->refresh(grains, batch, rows, fluid); });
   if (forces != nullptr) forces->end(fluid);
@@ -78,6 +81,8 @@ void Coupling::use(std::span<const std::unique_ptr<sdk::FluidForce>> forces,
   s.forces = std::make_unique<ForceTerms>(forces, std::move(surfaces), s.lattice, s.properties,
                                           s.gravity, s.is_set_three, s.graining);
   s.memory.keep(s.forces->kept_numbers());
+  // Models take over parts of the stress, and walls carry others.
+  s.stress_book.reset();
 }
 
 bool takes_over_buoyancy(std::span<const std::unique_ptr<sdk::FluidForce>> forces) {
@@ -104,6 +109,7 @@ void Coupling::save(sdk::ArchiveWriter& archive) const {
   archive.number("refreshes", impl_->refreshes);
   archive.number("step", impl_->step);
   archive.number("last_held", impl_->last_held);
+  if (impl_->stress_book) impl_->stress_book->save(archive);
   archive.integers(
       "counts", std::array{r.moved_shares, r.relieved_cells, r.unplaced_grains, r.unpaired_forces});
   archive.numbers("extremes", std::array{r.smallest_void_fraction, r.largest_imbalance,
@@ -118,6 +124,7 @@ void Coupling::load(sdk::ArchiveReader& archive) {
   impl_->refreshes = archive.number("refreshes");
   impl_->step = archive.number("step");
   impl_->last_held = archive.number("last_held");
+  if (impl_->stress_book) impl_->stress_book->load(archive);
   const std::vector<std::int64_t> counts = archive.integers("counts");
   const std::vector<double> extremes = archive.numbers("extremes");
   r.moved_shares = counts.at(0);

@@ -7,6 +7,7 @@
 #include "coupling/grain_memory.hpp"
 #include "coupling/graining.hpp"
 #include "coupling/lattice.hpp"
+#include "coupling/stress_book.hpp"
 #include "coupling/void_fraction.hpp"
 #include "coupling/wide_kernel.hpp"
 #include "fluid/properties.hpp"
@@ -72,6 +73,11 @@ struct Coupling::Impl {
     least_spacing = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
     refreshes = refreshes_for(step, 0.0);
     if (is_own_taken_off) memory.keep_own_flow();
+    // Where the air overlaps, the stress that grains see is a step older than that of the air: as a
+    // debt it would rock a dense bed.
+    if (!is_one_way && !is_set_three && !is_overlapped && properties.is_uniform()) {
+      stress_book = std::make_unique<StressBook>(lattice, rule);
+    }
   }
 
   /// `fastest`: largest rate of relaxation of a grain [1/s].
@@ -203,7 +209,8 @@ struct Coupling::Impl {
   Spots mapped_spots;                         ///< those of map(), where it is overlapped
   bool is_own_taken_off;                      ///< what a grain does to the fluid by itself
   FaceExchange faces;
-  std::unique_ptr<ForceTerms> forces;  ///< null without forces besides drag
+  std::unique_ptr<ForceTerms> forces;       ///< null without forces besides drag
+  std::unique_ptr<StressBook> stress_book;  ///< null where grains and fluid do not see one stress
   CouplingReport report;
   fluid::Properties properties;
   double own_per_kinematic_viscosity;  ///< [s/m2] of the uniform fluid
@@ -214,6 +221,7 @@ struct Coupling::Impl {
   bool is_one_way;
   bool is_overlapped;  ///< the grains move while the fluid that they were mapped for is solved
   bool needs_size_ratio;
+  std::vector<Triple> stress_received;  ///< [N s] per row, weight included, between two steps
   std::vector<std::array<double, 2>> size_sums;  ///< per cell W D^3 and W D^2, if needed
   double step;
   double least_spacing = 0.0;

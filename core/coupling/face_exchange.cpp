@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coupling/face_exchange.hpp"
 
+#include "coupling/stress_book.hpp"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -11,6 +13,12 @@ namespace {
 
 /// Weight of open faces below which a force component finds no fluid to act on.
 constexpr double k_least_weight = 1e-6;
+
+/// Part of what is owed to a cell that is paid at once. The pressure answers it, and with that what
+/// is owed next: all at once would rock a bed in which the fluid is the smaller part.
+constexpr double k_paid_share = 0.5;
+/// [N s] Less than this is paid off.
+constexpr double k_nothing_owed = 1e-60;
 
 /// Sums over the eight faces of a grain.
 struct FaceSums {
@@ -217,8 +225,41 @@ std::int64_t FaceExchange::pay_leavers(int d, GrainMemory& memory, double step) 
   return unpaired;
 }
 
+/// Debts of cells: to either face along the component the half, all to one if the other is closed.
+void FaceExchange::pay_cells(int d, std::vector<double>& owed, double step) {
+  const FaceColumns columns = face_void_.columns(d);
+  const fluid::Grid& grid = lattice_.grid();
+  const double impulse = step * lattice_.cell_volume();
+  for (int k = 0; k < grid.count[2]; ++k) {
+    for (int j = 0; j < grid.count[1]; ++j) {
+      for (int i = 0; i < grid.count[0]; ++i) {
+        double& debt = owed[static_cast<std::size_t>(grid.index(i, j, k))];
+        if (debt == 0.0) continue;
+        const std::array<std::ptrdiff_t, 2> faces{lattice_.face(d, i, j, k, 0).home,
+                                                  lattice_.face(d, i, j, k, 1).home};
+        std::array<double, 2> fluid{};
+        double open = 0.0;
+        for (std::size_t n = 0; n < 2; ++n) {
+          const double part = columns.open[faces[n]];
+          fluid[n] = part * (is_set_three_ ? 1.0 : columns.void_fraction[faces[n]]);
+          open += part > 0.0 ? 1.0 : 0.0;
+        }
+        if (open == 0.0) continue;
+        const double paid = std::abs(debt) < k_nothing_owed ? debt : k_paid_share * debt;
+        debt -= paid;
+        paid_[d] += paid;
+        for (std::size_t n = 0; n < 2; ++n) {
+          if (!(fluid[n] > 0.0)) continue;
+          add(d, faces[n], columns.open[faces[n]], columns.void_fraction[faces[n]],
+              {0.0, 0.0, paid / (open * fluid[n] * impulse)});
+        }
+      }
+    }
+  }
+}
+
 std::int64_t FaceExchange::spread(const Spots& spots, GrainMemory& memory,
-                                  const fluid::CellField& eps, double step) {
+                                  const fluid::CellField& eps, double step, StressBook* stress) {
   std::array<std::int64_t, 3> unpaired{};
   tbb::parallel_for(0, 3, [&](int d) {
     clear(d);
@@ -226,6 +267,7 @@ std::int64_t FaceExchange::spread(const Spots& spots, GrainMemory& memory,
     for (const BatchSums& sums : sums_) paid_[d] += sums.paid[d];
     give(d, spots, eps);
     unpaired[d] = pay_leavers(d, memory, step);
+    if (stress != nullptr) pay_cells(d, stress->owed(d), step);
     lattice_.close_periodic(d, exchange_.coefficient.component[d]);
     lattice_.close_periodic(d, exchange_.source.component[d]);
   });

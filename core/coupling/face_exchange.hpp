@@ -15,6 +15,8 @@
 
 namespace dust::coupling {
 
+class StressBook;
+
 /// Where the grains of a call are, batch by batch in the order of the cells.
 struct Spots {
   CellOrder order;
@@ -58,10 +60,11 @@ class FaceExchange {
   void charge(const particles::GrainRows& grains, const Spots& spots, std::size_t batch,
               const GivenDrag& given, GrainMemory& memory, const fluid::CellField& eps,
               double step);
-  /// Gives the faces what the batches are charged with, and the debts of the grains that are gone.
-  /// Returns the number of force components without an open face.
+  /// Gives the faces what the batches are charged with, the debts of the grains that are gone, and
+  /// part of those of cells (`owed(d)` [N s] per padded cell, null: there are none). Returns the
+  /// number of force components without an open face.
   std::int64_t spread(const Spots& spots, GrainMemory& memory, const fluid::CellField& eps,
-                      double step);
+                      double step, StressBook* stress);
   /// Writes what each grain's drag has given to a fluid of this velocity (Remembered::given), and
   /// compares the sum over the grains with that over the faces: returns |difference| / scale.
   /// `spots` as charged; `rows` of these grains by now, -1 for those that are gone.
@@ -97,6 +100,7 @@ class FaceExchange {
   template <class Faces>
   void give_one(int d, const Faces& faces, const Charge& charge);
   std::int64_t pay_leavers(int d, GrainMemory& memory, double step);
+  void pay_cells(int d, std::vector<double>& owed, double step);
   /// Adds to one face of this open share and void fraction what is weighted already.
   void add(int d, std::ptrdiff_t face, double open, double eps, const Charge& weighted);
   void clear(int d);

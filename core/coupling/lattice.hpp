@@ -3,6 +3,7 @@
 
 #include "coupling/face_kernels.hpp"
 #include "fluid/grid.hpp"
+#include "fluid/parallel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -177,6 +178,13 @@ class Lattice {
                   (open_face_[d][high] > 0.0F ? field[high] : 0.0));
   }
 
+  /// Calls work(i, j, k, padded index) for every cell; each in one thread.
+  template <class Work>
+  void for_cells(const Work& work) const {
+    fluid::for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
+      for (int i = 0; i < grid_.count[0]; ++i) work(i, j, k, grid_.index(i, j, k));
+    });
+  }
   /// Copies face 0 to the last face along each periodic direction.
   void close_periodic(int d, std::vector<double>& field) const;
 

@@ -179,7 +179,7 @@ void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) 
   });
   are_spots_of_map = true;
   if (is_overlapped) mapped_spots = spots;
-  report.unpaired_forces += faces.spread(spots, memory, eps, step);
+  report.unpaired_forces += faces.spread(spots, memory, eps, step, stress_book.get());
   is_settled = false;
 }
 

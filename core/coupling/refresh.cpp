@@ -289,12 +289,16 @@ void Coupling::Impl::collect(const particles::GrainRows& grains, double fluid_st
   }
   memory.align(grains);
   const double interval = fluid_step / static_cast<double>(done_refreshes);
+  if (stress_book) stress_received.resize(grains.count);
   const tbb::blocked_range<std::size_t> all(0, grains.count, 4 * k_batch);
   tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& range) {
     for (std::size_t row = range.begin(); row < range.end(); ++row) {
       double* received = grains.fluid_impulse + 4 * row;
       Remembered& r = memory[row];
       if (forces) forces->impulse_was_read(memory, row, received);
+      for (std::size_t d = 0; stress_book && d < 3; ++d) {
+        stress_received[row][d] = grains.weight[row] * interval * r.stress_impulse[d];
+      }
       for (int d = 0; d < 3; ++d) {
         const double drag_impulse = received[d] - interval * r.stress_impulse[d];
         if (!is_one_way && r.is_paired[d]) {
@@ -312,6 +316,7 @@ void Coupling::Impl::collect(const particles::GrainRows& grains, double fluid_st
       }
     }
   });
+  if (stress_book) stress_book->receive(spots, stress_received);
 }
 
 }  // namespace dust::coupling

@@ -70,6 +70,9 @@ const FaceField& FluidSolver::mean_velocity() const {
   return impl_->drag_velocity_is_set ? impl_->drag_velocity : impl_->u;
 }
 const CellField& FluidSolver::pressure() const { return impl_->p; }
+const CellField& FluidSolver::mean_pressure() const {
+  return impl_->is_booked ? impl_->mean_pressure : impl_->p;
+}
 const FaceField& FluidSolver::stress_divergence() const {
   impl_->find_stress();
   return impl_->stress;
@@ -130,6 +133,8 @@ void FluidSolver::save(sdk::ArchiveWriter& archive) const {
   archive.numbers("stress_z", s.stress.component[2]);
   archive.integer("is_consistent", s.is_consistent ? 1 : 0);
   if (s.standing) archive.integers("open_cells", s.continuity.open_cells());
+  archive.integer("has_book", s.book ? 1 : 0);
+  if (s.book) s.book->save(archive);
 }
 
 void FluidSolver::load(sdk::ArchiveReader& archive, double time) {
@@ -156,6 +161,11 @@ void FluidSolver::load(sdk::ArchiveReader& archive, double time) {
   take("stress_y", s.stress.component[1]);
   take("stress_z", s.stress.component[2]);
   s.is_consistent = archive.integer("is_consistent") != 0;
+  if (archive.integer("has_book") != 0) {
+    s.book = std::make_unique<MomentumBook>(s.grid, s.geometry, s.properties);
+    s.book->load(archive);
+    s.mean_pressure.assign(s.grid.size, 0.0);
+  }
   s.rates_are_known = false;
   s.walls_have_changed = true;
   s.stress_is_known = true;

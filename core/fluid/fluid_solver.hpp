@@ -64,8 +64,13 @@ class FluidSolver {
   /// would stir up air that takes its drag in several sub-steps.
   [[nodiscard]] const FaceField& mean_velocity() const;
   [[nodiscard]] const CellField& pressure() const;
-  /// Acceleration-free part -grad p + div tau [N/m3] at faces, of the last step. Found when first
-  /// asked for after a step: not from several threads at once.
+  /// What grains are to see of the pressure: its mean over the last step where they act on one
+  /// fluid, else pressure(). Halos are filled after stress_divergence().
+  [[nodiscard]] const CellField& mean_pressure() const;
+  /// Acceleration-free part -grad p + div tau [N/m3] at faces, of the last step: of its end, or the
+  /// mean over it where grains act on one fluid, which then have exactly the part of it that the
+  /// fluid was not given. Found when first asked for after a step: not from several threads at
+  /// once.
   [[nodiscard]] const FaceField& stress_divergence() const;
   /// Share of a cell's volume outside all bodies, 0..1 (padded; halo cells as their neighbours).
   [[nodiscard]] const CellField& open_fraction() const;

@@ -80,6 +80,17 @@ void Momentum::convection_row(const FaceField& u, const CellField& eps, double s
   open_side_row(u, d, j, k, out);
 }
 
+void Momentum::outflow_row(int d, int j, int k, double* out) const {
+  const int n = geometry_.extent[d][0];
+  const std::ptrdiff_t o = grid_.index(0, j, k);
+  std::fill_n(out, n, 0.0);
+  for (int e = 0; e < 3; ++e) {
+    if (grid_.count[e] == 1) continue;  // nothing varies, and nothing flows out between walls
+    outflow_row_along(n, grid_.stride[e], grid_.stride[d], 1.0 / grid_.spacing[e],
+                      &flux_.component[e][o], out);
+  }
+}
+
 void Momentum::open_side_row(const FaceField& u, int d, int j, int k, double* out) const {
   const auto& v = u.component[d];
   const std::array<int, 3> c = {0, j, k};

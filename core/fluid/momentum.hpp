@@ -26,6 +26,10 @@ class Momentum {
   void convection_row(const FaceField& u, const CellField& eps, double smoothness, int d, int j,
                       int k, double* out) const;
 
+  /// out = div F [1/s] of the control volumes of that row, from the last find_flux; meaningless on
+  /// the sides themselves.
+  void outflow_row(int d, int j, int k, double* out) const;
+
   /// Prepares (1 + implicit (coefficient - viscosity laplace) / inertia) for `solve`; implicit [s].
   /// `has_drag` = false: the coefficient is 0 everywhere.
   void prepare(double implicit, const FaceField& coefficient, bool has_drag);

@@ -50,6 +50,17 @@ DUST_KERNEL void convect_row(int n, std::ptrdiff_t s, std::ptrdiff_t across, dou
   }
 }
 
+/// Adds what flows out of the control volumes of a row along one direction, per volume [1/s].
+DUST_KERNEL void outflow_row_along(int n, std::ptrdiff_t s, std::ptrdiff_t across, double inverse_h,
+                                   const double* flux, double* out) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double high = 0.5 * (flux[i + s] + flux[i + s - across]);
+    const double low = 0.5 * (flux[i] + flux[i - across]);
+    out[i] += inverse_h * (high - low);
+  }
+}
+
 DUST_KERNEL void divide_by_face_eps_row(int n, std::ptrdiff_t across, const double* eps,
                                         double* out) {
 #pragma GCC ivdep

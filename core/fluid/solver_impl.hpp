@@ -7,6 +7,7 @@
 #include "fluid/fluid_solver.hpp"
 #include "fluid/geometry.hpp"
 #include "fluid/momentum.hpp"
+#include "fluid/momentum_book.hpp"
 #include "fluid/sides.hpp"
 
 #include <array>
@@ -59,6 +60,18 @@ struct FluidSolver::Impl {
   /// Halos as far as the steps themselves need them.
   void fill_stage(FaceField& v) const { eddies ? sides.fill_velocity(v) : sides.fill_varying(v); }
   void find_stress();
+  /// stress = -grad pressure + div tau of the velocity `v`, halos filled.
+  void find_stress_of(const FaceField& v, CellField& pressure);
+  /// Whether this step's momentum is booked: where grains act on one fluid without eddies, whose
+  /// grid stays.
+  [[nodiscard]] bool keeps_book() const {
+    return has_drag && !eddies && !standing && properties.by_place().is_uniform();
+  }
+  /// Adds a row's convection of this stage to the book.
+  void book_convection(const FaceField& v, int d, int j, int k, const double* row, double time);
+  void begin_book(const CellField& before, const CellField& after, const Exchange& exchange,
+                  double step);
+  void end_book(const Exchange& exchange, double step, double last);
   void advance(double time, double step, const CellField& before, const CellField& after,
                const Exchange& exchange);
   /// From the shares `begin` to `end` of a fluid step, between two cuts of the grid.
@@ -82,6 +95,8 @@ struct FluidSolver::Impl {
   FaceField sum;
   FaceField stress;
   FaceField drag_velocity;
+  std::unique_ptr<MomentumBook> book;  ///< once there were grains
+  CellField mean_pressure;             ///< over the last step, if that was booked
   FaceField zero;
   CellField p;
   CellField eps;
@@ -95,6 +110,8 @@ struct FluidSolver::Impl {
   bool stress_is_known = true;
   bool drag_velocity_is_set = false;
   bool has_drag = false;    ///< in this step
+  bool is_booked = false;   ///< the momentum of this step
+  double last_share = 1.0;  ///< of the last sub-step in its step
   bool is_clean = false;    ///< no solids anywhere in this step
   bool eps_is_one = false;  ///< now, halos included
   bool walls_have_changed = true;

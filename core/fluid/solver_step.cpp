@@ -92,14 +92,43 @@ void FluidSolver::Impl::convect(const FaceField& v, double smoothness, const Fac
       const std::ptrdiff_t o = grid.index(0, j, k);
       if (add_to == nullptr) {
         momentum.convection_row(v, eps, smoothness, d, j, k, &sum.component[d][o]);
+        if (is_booked) book_convection(v, d, j, k, &sum.component[d][o], k_delta * step);
         return;
       }
       thread_local std::vector<double> row;
       row.resize(static_cast<std::size_t>(n[0]));
       momentum.convection_row(v, eps, smoothness, d, j, k, row.data());
+      if (is_booked) book_convection(v, d, j, k, row.data(), (1.0 - k_delta) * step);
       second_stage_row(n[0], step, &add_to->component[d][o], row.data(), &right.component[d][o]);
     });
   }
+}
+
+void FluidSolver::Impl::book_convection(const FaceField& v, int d, int j, int k, const double* row,
+                                        double time) {
+  const std::ptrdiff_t o = grid.index(0, j, k);
+  thread_local std::vector<double> outflow;
+  outflow.resize(static_cast<std::size_t>(geometry.extent[d][0]));
+  momentum.outflow_row(d, j, k, outflow.data());
+  book->add_convection(d, o, time, &v.component[d][o], &eps[o], row, outflow.data());
+}
+
+void FluidSolver::Impl::begin_book(const CellField& before, const CellField& after,
+                                   const Exchange& exchange, double step) {
+  if (!book) {
+    book = std::make_unique<MomentumBook>(grid, geometry, properties);
+    mean_pressure.assign(grid.size, 0.0);
+  }
+  std::fill(mean_pressure.begin(), mean_pressure.end(), 0.0);
+  set_eps(before, after, 0.0);
+  book->begin(u, eps, exchange.source, step);
+}
+
+void FluidSolver::Impl::end_book(const Exchange& exchange, double step, double last) {
+  find_stress_of(drag_velocity, mean_pressure);
+  sides.fill_pressure(p, false);
+  stress_is_known = true;
+  book->end(u, eps, exchange, drag_velocity, stress, step, last);
 }
 
 void FluidSolver::Impl::add_drag_velocity(const FaceField& stage, double share) {
@@ -141,7 +170,7 @@ void FluidSolver::Impl::sub_step(double time, double step, double share, double 
     }
   };
   momentum.prepare(k_gamma * step, exchange.coefficient, has_drag);
-  const FaceField& source = with_eddies(exchange.source);
+  const FaceField& source = is_booked ? book->source() : with_eddies(exchange.source);
 
   convect(u, smoothness, nullptr, step);
   sides.evaluate_pressure(time + step);
@@ -174,6 +203,8 @@ void FluidSolver::Impl::sub_step(double time, double step, double share, double 
   for_rows(grid.count[0], grid.count[1], grid.count[2], [&](int j, int k) {
     const std::ptrdiff_t o = grid.index(0, j, k);
     for (int i = 0; i < grid.count[0]; ++i) p[o + i] += phi[o + i];
+    if (!is_booked) return;
+    for (int i = 0; i < grid.count[0]; ++i) mean_pressure[o + i] += share * p[o + i];
   });
 }
 
@@ -230,9 +261,13 @@ void FluidSolver::Impl::solve_stage() {
 void FluidSolver::Impl::find_stress() {
   if (stress_is_known) return;
   stress_is_known = true;
-  sides.fill_pressure(p, false);
-  momentum.viscous_force(u, stress);
-  if (eddies) eddies->update(u);
+  find_stress_of(u, p);
+}
+
+void FluidSolver::Impl::find_stress_of(const FaceField& v, CellField& pressure) {
+  sides.fill_pressure(pressure, false);
+  momentum.viscous_force(v, stress);
+  if (eddies) eddies->update(v);
   for (int d = 0; d < 3; ++d) {
     const auto& n = geometry.extent[d];
     const double inverse_h = 1.0 / grid.spacing[d];
@@ -241,7 +276,7 @@ void FluidSolver::Impl::find_stress() {
       const std::ptrdiff_t o = grid.index(0, j, k);
       for (int i = 0; i < n[0]; ++i) {
         if (!is_unknown(geometry.kind[d][o + i])) continue;
-        stress.component[d][o + i] -= inverse_h * (p[o + i] - p[o + i - s]);
+        stress.component[d][o + i] -= inverse_h * (pressure[o + i] - pressure[o + i - s]);
         if (eddies) stress.component[d][o + i] += eddies->force().component[d][o + i];
       }
     });
@@ -262,6 +297,7 @@ void FluidSolver::Impl::advance(double time, double step, const CellField& befor
     }
   }
   drag_velocity_is_set = has_drag;
+  is_booked = keeps_book();
   if (standing) rates_are_known = false;
   const int cuts = cuts_per_step(step);
   for (int cut = 0; cut < cuts; ++cut) {
@@ -277,6 +313,7 @@ void FluidSolver::Impl::advance(double time, double step, const CellField& befor
   report.divergence = continuity.largest_divergence(u, eps);
   if (has_drag) sides.fill_velocity(drag_velocity);
   stress_is_known = false;
+  if (is_booked) end_book(exchange, step, last_share);
 }
 
 void FluidSolver::Impl::advance_part(double time, double step, double begin, double end,
@@ -308,6 +345,7 @@ void FluidSolver::Impl::advance_part(double time, double step, double begin, dou
     momentum.extend(u, Ghosts::uncrossed);
     if (standing) sides.fill_velocity(u);
   }
+  if (is_booked) begin_book(before, after, exchange, step);
   while (done < until) {
     if (!rates_are_known) rates = momentum.rates(u);
     rates_are_known = false;
@@ -325,7 +363,8 @@ void FluidSolver::Impl::advance_part(double time, double step, double begin, dou
     }
     const double dt = parts == 1 ? left : left / parts;
     set_eps(before, after, parts == 1 ? end : (done + dt) / step);
-    sub_step(time + done, dt, dt / step, rates.speed, exchange);
+    last_share = dt / step;
+    sub_step(time + done, dt, last_share, rates.speed, exchange);
     report.courant_number = std::max(report.courant_number, dt * rates.courant);
     ++report.sub_steps;
     done = parts == 1 ? until : done + dt;

@@ -319,9 +319,7 @@ class Sensor final : public Guarded<sdk::Sensor> {
   [[nodiscard]] sdk::RowValue row_value(std::string_view column) const override {
     return get("row_value", &sdk::Sensor::row_value, column);
   }
-  void end_row() override {
-    ask("end_row", "the beginning of another row", &sdk::Sensor::end_row);
-  }
+  void end_row() override { ask("end_row", "the beginning of another row", &sdk::Sensor::end_row); }
   void summary(sdk::FigureSink& sink) const override {
     ask("summary", "the figures of summary.json", &sdk::Sensor::summary, sink);
   }

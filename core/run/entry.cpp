@@ -140,8 +140,7 @@ const SphereGrid::Sphere* SphereGrid::overlapping(Vec3 centre, double radius,
         if (found == first_.end()) continue;
         for (std::int32_t n = found->second; n >= 0; n = next_[static_cast<std::size_t>(n)]) {
           const Sphere& s = spheres_[static_cast<std::size_t>(n)];
-          const double reach =
-              radius + s.radius - allowed * std::min(radius, s.radius) - rounding_;
+          const double reach = radius + s.radius - allowed * std::min(radius, s.radius) - rounding_;
           const Vec3 apart = scene_.separation(s.centre, centre);
           if (dot(apart, apart) < reach * reach) return &s;
         }

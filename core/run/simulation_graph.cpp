@@ -151,7 +151,7 @@ void Simulation::hold_fluid() {
     copy(velocity.component[d], held_fluid_->velocity.component[d]);
     copy(stress.component[d], held_fluid_->stress_divergence.component[d]);
   }
-  copy(fluid_->pressure(), held_fluid_->pressure);
+  copy(fluid_->mean_pressure(), held_fluid_->pressure);
 }
 
 void Simulation::refresh_drag() {
@@ -165,7 +165,7 @@ void Simulation::refresh_drag() {
                        {h.velocity, h.stress_divergence, &h.pressure, now, held * step});
   } else {
     coupling_->refresh(dem_->rows(), {fluid_->velocity(), fluid_->stress_divergence(),
-                                      &fluid_->pressure(), now, held * step});
+                                      &fluid_->mean_pressure(), now, held * step});
   }
   dem_->fluid_action_changed();
 }

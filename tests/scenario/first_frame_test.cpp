@@ -66,8 +66,8 @@ const std::string k_feed = R"(    model: feed
 
 void run(const TemporaryFolder& folder, const std::string& text) {
   std::ofstream(folder / "box.yaml") << text;
-  const auto done = engine({"run", folder / "box.yaml", "-o", folder / "out", "--force", "--quiet",
-                            "--threads", "1"});
+  const auto done = engine(
+      {"run", folder / "box.yaml", "-o", folder / "out", "--force", "--quiet", "--threads", "1"});
   INFO(done.err);
   REQUIRE(done.status == 0);
 }

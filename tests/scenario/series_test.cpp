@@ -99,9 +99,8 @@ TEST_CASE("a run stopped between two rows shall go on to the same series") {
   const auto arguments = [&](const std::string& name) {
     // Checkpoints every 5 steps, rows every 7: one of 20 checkpoints falls on a row.
     return std::vector<std::string>{
-        "run",     k_scenario, "-o",    folder / name,
-        "--set",   k_end,      "--set", k_seldom,
-        "--set",   "time.checkpoint_every=5 ms",
+        "run",     k_scenario,  "-o",     folder / name, "--set",
+        k_end,     "--set",     k_seldom, "--set",       "time.checkpoint_every=5 ms",
         "--quiet", "--threads", "1"};
   };
   REQUIRE(engine(arguments("whole")).status == 0);

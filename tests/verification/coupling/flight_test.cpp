@@ -135,14 +135,16 @@ TEST_CASE("a fall with a constant drag coefficient shall be a hyperbolic tangent
   World::Choice choice;
   choice.factor = [](double reynolds, double) { return k_c_d / 24.0 * reynolds + 1e-12; };
   const double diameter = 6e-4;
-  const double terminal = std::sqrt(4 * 9.81 * diameter * test::k_sand / (3 * k_c_d * test::k_air));
+  const sdk::Vec3 gravity = reduced_gravity(9.81, test::k_air, test::k_sand);
+  const double g = norm(gravity);
+  const double terminal = std::sqrt(4 * g * diameter * test::k_sand / (3 * k_c_d * test::k_air));
   const double time = 0.5;
   double last = 0.0;
   for (const double interval : {4e-4, 2e-4, 1e-4}) {
     Flight flight(choice);
     flight.world.grains.add({0, 0, 0}, {}, diameter);
-    flight.run(time, interval, {0, 0, -9.81});
-    const double expected = -terminal * std::tanh(9.81 * time / terminal);
+    flight.run(time, interval, gravity);
+    const double expected = -terminal * std::tanh(g * time / terminal);
     const double error = std::abs(flight.world.grains.velocity[2] / expected - 1);
     CHECK(error < 1e-3);
     // The coefficient is that of the middle of the interval: second order.

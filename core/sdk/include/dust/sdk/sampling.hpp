@@ -246,8 +246,8 @@ class BatchMeans {
   std::int64_t open_samples_ = 0;
 };
 
-/// Time means of columns between two rows of series.csv: however seldom rows are written, each times
-/// the time since the one before is the integral over all samples between them.
+/// Time means of columns between two rows of series.csv: however seldom rows are written, each
+/// times the time since the one before is the integral over all samples between them.
 class RowMeans {
  public:
   explicit RowMeans(std::size_t columns) : sums_(columns, 0.0) {}
