@@ -4,6 +4,7 @@
 #include "coupling/coupling.hpp"
 #include "coupling/face_exchange.hpp"
 #include "coupling/face_void.hpp"
+#include "coupling/foresight.hpp"
 #include "coupling/grain_memory.hpp"
 #include "coupling/graining.hpp"
 #include "coupling/lattice.hpp"
@@ -172,8 +173,8 @@ struct Coupling::Impl {
   };
   void look(const particles::GrainRows& grains, SpotBatch& spot, Rows rows, const FluidState& fluid,
             Seen& seen, Batch& batch);
-  void foresee(const particles::GrainRows& grains, Rows rows, double held, const Seen& seen,
-               Batch& batch, std::array<SpotBatch::Reals, 3>& change);
+  void look_ahead(const particles::GrainRows& grains, Rows rows, double held, const Seen& seen,
+                  Batch& batch, Foresight& ahead);
   void begin_action(const particles::GrainRows& grains, Rows rows, const Seen& seen, Batch& batch);
   bool look_into_cells(const SpotBatch& spot, Rows rows, const FluidState& fluid, Seen& seen,
                        Batch& batch);

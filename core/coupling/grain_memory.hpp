@@ -14,16 +14,17 @@ using Triple = std::array<double, 3>;
 
 /// What the coupling remembers of one grain.
 struct Remembered {
+  // What a refresh needs stands together.
   Triple fluid_velocity{};  ///< [m/s] its own plus the slip, at the last refresh
   Triple velocity{};        ///< [m/s] its own, at the last refresh
   Triple stress_impulse{};  ///< [N] sum over the refreshes of V_p (-grad p + div tau)
-  Triple given{};           ///< [N s] drag that the fluid was told to balance, weight included
-  Triple place{};           ///< [m] at collect()
-  Triple owed{};            ///< [N s] impulse the fluid has still to receive, weight included
-  std::array<bool, 3> is_paired{};  ///< the component's force found open faces at map()
-  bool has_velocity = false;
-  std::int32_t spot = -1;   ///< its number in the order of the cells at map(), -1 = not there then
   double size_ratio = 1.0;  ///< diameter over the Sauter mean in its cell, at map()
+  bool has_velocity = false;
+  std::array<bool, 3> is_paired{};  ///< the component's force found open faces at map()
+  std::int32_t spot = -1;  ///< its number in the order of the cells at map(), -1 = not there then
+  Triple given{};          ///< [N s] drag that the fluid was told to balance, weight included
+  Triple place{};          ///< [m] at collect()
+  Triple owed{};           ///< [N s] impulse the fluid has still to receive, weight included
 };
 
 /// What a grain does to the fluid by itself, if that is to be taken off.

@@ -44,17 +44,7 @@ void Coupling::Impl::look(const particles::GrainRows& grains, SpotBatch& spot, R
   }
 }
 
-namespace {
-
-/// The one of smaller size of two changes in the same direction, else none.
-double common(double a, double b) {
-  if (!(a * b > 0.0)) return 0.0;
-  return std::abs(a) < std::abs(b) ? a : b;
-}
-
-}  // namespace
-
-/// Grains that have no action yet get that of the drag at their present slip, for `foresee`.
+/// Grains that have no action yet get that of the drag at their present slip, for `look_ahead`.
 void Coupling::Impl::begin_action(const particles::GrainRows& grains, Rows rows, const Seen& seen,
                                   Batch& batch) {
   const auto is_new = [&](std::int32_t row) {
@@ -79,15 +69,9 @@ void Coupling::Impl::begin_action(const particles::GrainRows& grains, Rows rows,
   }
 }
 
-/// `change` [m/s] of each grain's velocity in the first half of the interval of length `held`, and
-/// the batch's Reynolds numbers of the slip then. With the drag coefficient of that slip the whole
-/// interval is right to second order, where that of the beginning is right to first.
-///
-/// The change is what the last action and the weight make of the grain. One that its neighbours
-/// hold or hit does not follow them: it changes by no more than it did since the last refresh.
-void Coupling::Impl::foresee(const particles::GrainRows& grains, Rows rows, double held,
-                             const Seen& seen, Batch& batch,
-                             std::array<SpotBatch::Reals, 3>& change) {
+/// The change of each grain's velocity until half way, and the batch's Reynolds numbers then.
+void Coupling::Impl::look_ahead(const particles::GrainRows& grains, Rows rows, double held,
+                                const Seen& seen, Batch& batch, Foresight& ahead) {
   begin_action(grains, rows, seen, batch);
   const double half = 0.5 * held;
   const double before = last_held > 0.0 ? half / last_held : 0.0;
@@ -96,26 +80,25 @@ void Coupling::Impl::foresee(const particles::GrainRows& grains, Rows rows, doub
     const double* v = grains.velocity + 4 * row;
     const double* action = grains.fluid_action + 4 * row;
     Remembered& r = memory[row];
-    const double rate = action[3];
-    // As much as an implicit half step makes of it: where a grain relaxes fast, the drag of early
-    // on counts more for its way than that of the middle.
-    const double ahead = half / (1.0 + rate * half);
-    const double share = weight_share(v[3], sdk::sphere_volume(2.0 * grains.position[4 * row + 3]));
-    double square = 0.0;
     const bool is_known = r.has_velocity && before > 0.0;
+    ahead.rate[q] = action[3];
+    ahead.is_known[q] = is_known ? 1.0 : 0.0;
+    // Of a new grain only the drag is known; its weight may be borne by what else acts on it.
+    const double volume = sdk::sphere_volume(2.0 * grains.position[4 * row + 3]);
+    ahead.weight[q] = is_known ? weight_share(v[3], volume) : 0.0;
     for (std::size_t d = 0; d < 3; ++d) {
-      // Of a new grain only the drag is known; its weight may be borne by what else acts on it.
-      const double weight = is_known ? share * gravity[static_cast<int>(d)] : 0.0;
-      const double free = (rate * (action[d] - v[d]) + weight) * ahead;
-      change[d][q] = is_known ? common(free, (v[d] - r.velocity[d]) * before) : free;
-      const double slip = seen.slip[d][q] - change[d][q];
-      square += slip * slip;
+      ahead.pull[d][q] = action[d] - v[d];
+      ahead.change[d][q] = v[d] - r.velocity[d];
       r.velocity[d] = v[d];
       r.fluid_velocity[d] = v[d] + seen.slip[d][q];
     }
     r.has_velocity = true;
-    batch.reynolds[q] = reynolds(grains, row, batch.void_fraction[q], std::sqrt(square));
     batch.size_ratio[q] = r.size_ratio;
+  }
+  foresee(rows.size(), half, before, {gravity.x, gravity.y, gravity.z}, seen.slip, ahead);
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    const auto row = static_cast<std::size_t>(rows[q]);
+    batch.reynolds[q] = reynolds(grains, row, batch.void_fraction[q], ahead.speed[q]);
   }
 }
 
@@ -181,13 +164,14 @@ void Coupling::Impl::refresh(const particles::GrainRows& grains, std::size_t num
   Batch batch;
   Seen seen;
   look(grains, spots.batches[number], rows, state, seen, batch);
-  std::array<SpotBatch::Reals, 3> change;
-  foresee(grains, rows, held(state), seen, batch, change);
+  Foresight ahead;
+  look_ahead(grains, rows, held(state), seen, batch, ahead);
   evaluate(batch, rows.size());
   // The ratio differs from 1 only where the void fraction changes. It is applied to the slip half
   // way, because the grain has one rate for all directions.
   const auto relative_slip = [&](std::size_t d, std::size_t q) {
-    return seen.ratio[d][q] * (seen.slip[d][q] - change[d][q]) + change[d][q];
+    const double change = ahead.change[d][q];
+    return seen.ratio[d][q] * (seen.slip[d][q] - change) + change;
   };
   if (forces) {
     ForceTerms::Sums sums;

@@ -2,79 +2,107 @@
 #include "fluid/momentum_book.hpp"
 
 #include "dust/sdk/error.hpp"
+#include "dust/sdk/plugin.hpp"
 #include "fluid/parallel.hpp"
 
+#include <array>
 #include <string>
 
 namespace dust::fluid {
+namespace {
+
+DUST_KERNEL void begin_row(int n, std::ptrdiff_t s, double density, bool is_whole, double step,
+                           const double* eps, const double* u, const double* owed,
+                           const double* source, double* excess, double* with_debt) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double share = 0.5 * (eps[i] + eps[i - s]);
+    excess[i] -= density * share * u[i];
+    with_debt[i] = source[i] - owed[i] / ((is_whole ? 1.0 : share) * step);
+  }
+}
+
+DUST_KERNEL void convection_row(int n, std::ptrdiff_t s, double mass, const double* eps,
+                                const double* convection, const double* outflow, const double* u,
+                                double* excess) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    excess[i] += mass * (0.5 * (eps[i] + eps[i - s]) * convection[i] + outflow[i] * u[i]);
+  }
+}
+
+DUST_KERNEL void end_row(int n, std::ptrdiff_t s, double density, bool is_whole, double step,
+                         double last, const double* eps, const double* before, const double* u,
+                         const double* source, const double* coefficient, const double* drag,
+                         const double* stress, double* excess, double* owed) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double share = 0.5 * (eps[i] + eps[i - s]);
+    const double change = share - 0.5 * (before[i] + before[i - s]);
+    const double force = source[i] - coefficient[i] * drag[i] + stress[i];
+    const double now = excess[i] + density * share * u[i] - (is_whole ? 1.0 : share) * step * force;
+    excess[i] = now;
+    owed[i] = now - density * change * last * u[i];
+  }
+}
+
+}  // namespace
 
 MomentumBook::MomentumBook(const Grid& grid, const Geometry& geometry,
                            const FaceProperties& properties)
-    : grid_(grid), geometry_(geometry), properties_(properties), excess_(grid), owed_(grid) {}
+    : grid_(grid),
+      geometry_(geometry),
+      properties_(properties),
+      excess_(grid),
+      owed_(grid),
+      source_(grid) {}
 
-bool MomentumBook::is_booked(int d, std::ptrdiff_t o, std::array<int, 3> at) const {
-  if (geometry_.kind[d][static_cast<std::size_t>(o)] != FaceKind::plain) return false;
-  return grid_.is_periodic[d] || (at[d] > 0 && at[d] < grid_.count[d]);
-}
-
-/// Calls work(d, o, at) for every face of the domain.
 template <class Work>
-void MomentumBook::for_faces(const Work& work) const {
+void MomentumBook::each_row(const Work& work) const {
   for (int d = 0; d < 3; ++d) {
     const auto& n = geometry_.extent[d];
-    for_rows(n[0], n[1], n[2], [&](int j, int k) {
-      const std::ptrdiff_t o = grid_.index(0, j, k);
-      for (int i = 0; i < n[0]; ++i) work(d, o + i, std::array<int, 3>{i, j, k});
-    });
+    for_rows(n[0], n[1], n[2], [&](int j, int k) { work(d, j, k, grid_.index(0, j, k), n[0]); });
+  }
+}
+
+/// Faces of a row in or next to bodies and on sides are not booked.
+void MomentumBook::leave_out(int d, int j, int k) {
+  const std::ptrdiff_t o = grid_.index(0, j, k);
+  const int n = geometry_.extent[d][0];
+  for (int i = 0; i < n; ++i) {
+    const int at = std::array{i, j, k}[static_cast<std::size_t>(d)];
+    const bool is_side = !grid_.is_periodic[d] && (at == 0 || at == grid_.count[d]);
+    if (!is_side && geometry_.kind[d][o + i] == FaceKind::plain) continue;
+    excess_.component[d][o + i] = owed_.component[d][o + i] = 0.0;
   }
 }
 
 void MomentumBook::begin(const FaceField& u, const CellField& eps, const FaceField& source,
                          double step) {
-  if (source_.component[0].empty()) source_ = FaceField(grid_);
   eps_before_ = eps;
-  const double density = properties_.density();
-  const bool is_whole = properties_.is_set_three();
-  for_faces([&](int d, std::ptrdiff_t o, const std::array<int, 3>&) {
-    const double share = 0.5 * (eps[o] + eps[o - grid_.stride[d]]);
-    excess_.component[d][o] -= density * share * u.component[d][o];
-    const double back = owed_.component[d][o] / ((is_whole ? 1.0 : share) * step);
-    source_.component[d][o] = source.component[d][o] - back;
+  each_row([&](int d, int, int, std::ptrdiff_t o, int n) {
+    begin_row(n, grid_.stride[d], properties_.density(), properties_.is_set_three(), step, &eps[o],
+              &u.component[d][o], &owed_.component[d][o], &source.component[d][o],
+              &excess_.component[d][o], &source_.component[d][o]);
   });
 }
 
 void MomentumBook::add_convection(int d, std::ptrdiff_t o, double time, const double* u,
                                   const double* eps, const double* convection,
                                   const double* outflow) {
-  const double mass = time * properties_.density();
-  const std::ptrdiff_t s = grid_.stride[d];
-  double* excess = &excess_.component[d][o];
-  for (int i = 0; i < geometry_.extent[d][0]; ++i) {
-    excess[i] += mass * (0.5 * (eps[i] + eps[i - s]) * convection[i] + outflow[i] * u[i]);
-  }
+  convection_row(geometry_.extent[d][0], grid_.stride[d], time * properties_.density(), eps,
+                 convection, outflow, u, &excess_.component[d][o]);
 }
 
 void MomentumBook::end(const FaceField& u, const CellField& eps, const Exchange& exchange,
                        const FaceField& drag_velocity, const FaceField& stress, double step,
                        double last) {
-  const double density = properties_.density();
-  const bool is_whole = properties_.is_set_three();
-  for_faces([&](int d, std::ptrdiff_t o, const std::array<int, 3>& at) {
-    double& excess = excess_.component[d][o];
-    double& owed = owed_.component[d][o];
-    if (!is_booked(d, o, at)) {
-      excess = owed = 0.0;
-      return;
-    }
-    const std::ptrdiff_t below = o - grid_.stride[d];
-    const double share = 0.5 * (eps[o] + eps[below]);
-    const double change = share - 0.5 * (eps_before_[o] + eps_before_[below]);
-    const double force = exchange.source.component[d][o] -
-                         exchange.coefficient.component[d][o] * drag_velocity.component[d][o] +
-                         stress.component[d][o];
-    const double velocity = u.component[d][o];
-    excess += density * share * velocity - (is_whole ? 1.0 : share) * step * force;
-    owed = excess - density * change * last * velocity;
+  each_row([&](int d, int j, int k, std::ptrdiff_t o, int n) {
+    end_row(n, grid_.stride[d], properties_.density(), properties_.is_set_three(), step, last,
+            &eps[o], &eps_before_[o], &u.component[d][o], &exchange.source.component[d][o],
+            &exchange.coefficient.component[d][o], &drag_velocity.component[d][o],
+            &stress.component[d][o], &excess_.component[d][o], &owed_.component[d][o]);
+    leave_out(d, j, k);
   });
 }
 

@@ -37,9 +37,10 @@ class MomentumBook {
   void load(sdk::ArchiveReader& archive);
 
  private:
-  [[nodiscard]] bool is_booked(int d, std::ptrdiff_t o, std::array<int, 3> at) const;
+  /// Calls work(d, j, k, padded index of the first face, number of faces) for every row.
   template <class Work>
-  void for_faces(const Work& work) const;
+  void each_row(const Work& work) const;
+  void leave_out(int d, int j, int k);
 
   const Grid& grid_;
   const Geometry& geometry_;
