@@ -101,7 +101,7 @@ TEST_CASE("a grain in rising gas shall follow the known transient") {
   flight.world.grains.add({0, 0, 0}, {}, 1e-4, 2000);
   const sdk::Vec3 g = reduced_gravity(9.80665, 1.2, 2000);
   constexpr double k_tolerance = 1e-4;
-  constexpr double k_interval = 2e-5;  // the coefficient is frozen between refreshes: first order
+  constexpr double k_interval = 2e-5;
   flight.run(0.01, k_interval, g);
   CHECK(flight.world.grains.velocity[2] == doctest::Approx(-0.0125526).epsilon(k_tolerance));
   flight.run(0.09, k_interval, g);
