@@ -22,16 +22,30 @@ using nlohmann::json;
 
 constexpr std::size_t k_series_rows = 2000;  ///< more points than a plot has pixels
 
-/// series.csv for the plots: every `stride`th row, the last one included.
-json series_json(const std::vector<SeriesColumn>& columns) {
+/// Mean of a column over the rows (first, last], each for the time since the one before.
+double mean_between(const std::vector<double>& time, const std::vector<double>& values,
+                    std::size_t first, std::size_t last) {
+  double sum = 0.0;
+  for (std::size_t k = first + 1; k <= last; ++k) sum += (time[k] - time[k - 1]) * values[k];
+  return sum / (time[last] - time[first]);
+}
+
+/// series.csv for the plots: every `stride`th row, the last one included. What is a mean over the
+/// time since the row before, by `kinds` of summary.json, is that of the rows left out, too.
+json series_json(const std::vector<SeriesColumn>& columns, const json& kinds) {
   json list = json::array();
   for (const SeriesColumn& column : columns) {
     const std::size_t rows = column.values.size();
     const std::size_t stride = std::max<std::size_t>(1, (rows + k_series_rows - 1) / k_series_rows);
+    const auto kind = kinds.find(column.name + " [" + column.unit + "]");
+    const bool is_mean = stride > 1 && kind != kinds.end() && *kind == "mean" &&
+                         columns.front().values.size() == rows;
     json values = json::array();
     for (std::size_t k = 0; k < rows; ++k) {
       if ((rows - 1 - k) % stride != 0) continue;
-      const double value = column.values[k];
+      const double value = is_mean && k >= stride
+                               ? mean_between(columns.front().values, column.values, k - stride, k)
+                               : column.values[k];
       if (std::isfinite(value)) {
         // Single precision prints short; a plot shows no more.
         values.push_back(static_cast<float>(value));
@@ -350,7 +364,7 @@ void write_report(const std::filesystem::path& folder) {
     }
   }
   data["curves"] = list_at(run.report, "curves");
-  data["series"] = series_json(run.series);
+  data["series"] = series_json(run.series, object_at(run.summary, "series"));
   data["stream"] = stream_json(highlights);
   data["places"] = places_json(highlights);
   data["partings"] = partings_json(highlights);

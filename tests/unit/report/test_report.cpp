@@ -381,6 +381,32 @@ TEST_CASE("the air map shall hold the mean over the depth and mask bodies") {
   CHECK(fields[3][1] == 127);
 }
 
+TEST_CASE("a plot of fewer points than rows shall keep what means are means of") {
+  const RunFolder folder;
+  json summary = fake_summary();
+  summary["series"] = {{"plate/force_z [N]", "mean"}, {"plate/contacts [1]", "instant"}};
+  folder.write("summary.json", summary.dump());
+  constexpr int k_rows = 8000;  // four times as many as are plotted
+  std::string text = "time [s],plate/force_z [N],plate/contacts [1]\n0,0,0\n";
+  for (int k = 1; k <= k_rows; ++k) {
+    // One row in 40 holds a blow.
+    text += std::to_string(0.001 * k) + "," + (k % 40 == 1 ? "40" : "0") + "," +
+            std::to_string(k % 7) + "\n";
+  }
+  folder.write("series.csv", text);
+  dust::io::write_report(folder.path());
+  const json series = page_data(folder.read("report.html"))["series"];
+  REQUIRE(series.size() == 3);
+  const auto& force = series[1]["values"];
+  REQUIRE(force.size() < 2100);
+  const double interval =
+      series[0]["values"][2].get<double>() - series[0]["values"][1].get<double>();
+  double impulse = 0.0;
+  for (const auto& value : force) impulse += value.get<double>() * interval;
+  CHECK(impulse == doctest::Approx(0.001 * 40 * k_rows / 40).epsilon(1e-4));
+  CHECK(series[2]["values"].back() == k_rows % 7);
+}
+
 TEST_CASE("numbers shall be printed as on paper") {
   using namespace dust::io;
   CHECK(value_html(0.128404, 0.00031) == "0.12840\u00a0\u00b1\u00a00.00031");
