@@ -47,6 +47,7 @@ Geometry GeometryBuilder::build() {
     find_open_parts(d);
     find_ghosts(d);
   }
+  find_skew();
   sort_wall_points();
   return std::move(g_);
 }

@@ -86,6 +86,33 @@ struct OpenPart {
   std::array<double, 2> weight{};
 };
 
+/// A face beside a surface that moves along itself askew to the grid. Convection along the grid's
+/// lines would carry the layer at such a surface across it: the errors along two lines do not
+/// cancel. Here it runs along the surface.
+struct SkewFace {
+  std::int32_t at = 0;
+  int i = 0;
+  int along = 1;                 ///< axis of the grid that the surface is parallel to
+  int other = 2;                 ///< the other component across that axis
+  double own_part = 0.0;         ///< of the direction along the surface, across that axis
+  double other_part = 0.0;       ///< the same, component `other`
+  double distance = 0.0;         ///< [m]
+  double inverse_length = 0.0;   ///< [1/m]
+  std::int32_t begin = 0;        ///< nodes of the own component ...
+  std::int32_t other_begin = 0;  ///< ... and of the other one, at the same place
+  std::int32_t end = 0;
+};
+
+/// What a face, or a point of the surface, gives to the value at a SkewFace (the own component's:
+/// without the face itself) and to its derivatives along and across the surface: least squares in
+/// coordinates along the surface (linear) and of the distance from it (a parabola).
+struct SkewNode {
+  std::int32_t from = 0;  ///< place of a face; -1 - n: point n of WallPoints
+  double mean = 0.0;
+  double slope = 0.0;   ///< [1/m]
+  double ascent = 0.0;  ///< [1/m]
+};
+
 /// given: on a side with given velocity, or outside the domain; plain: unknown with the plain
 /// stencil; cut: unknown, stencil in the list `cut`; inside: in a body, in the list `ghost`.
 enum class FaceKind : std::uint8_t { given, plain, cut, inside };
@@ -109,6 +136,9 @@ struct Geometry {
   /// Faces between cells that a body thinner than their distance keeps apart: no fluid passes, but
   /// a body that moves shoves fluid through.
   std::array<std::vector<std::int32_t>, 3> parted;
+  std::array<std::vector<SkewFace>, 3> skew;            ///< in the order of rows
+  std::array<std::vector<std::int32_t>, 3> skew_begin;  ///< as cut_begin
+  std::array<std::vector<SkewNode>, 3> skew_node;
   WallPoints wall;
   long close_distances = 0;  ///< wall distances that were raised to k_least_distance
 

@@ -12,7 +12,8 @@
 namespace dust::fluid {
 
 /// Makes a Geometry. measure_cells.cpp: what is open, which faces hold unknowns.
-/// wall_stencils.cpp: the faces next to surfaces and their images.
+/// wall_stencils.cpp: the faces next to surfaces and their images. skew_stencils.cpp: convection
+/// along surfaces.
 class GeometryBuilder {
  public:
   GeometryBuilder(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
@@ -78,6 +79,34 @@ class GeometryBuilder {
   bool interpolation(int d, Vec3 p, GhostFace& ghost) const;
   void sort_wall_points();
 
+  // Faces beside surfaces that move along themselves: skew_stencils.cpp.
+  struct Beside {
+    Hit hit;
+    std::int32_t wall_point = -1;  ///< its foot, if that is near
+    bool is_usable = false;        ///< beside a surface that moves along itself
+  };
+  struct Frame {
+    Vec3 place;
+    Hit hit;
+    Vec3 tangent;
+    int along = 1;
+  };
+  struct PatchPoint {
+    std::int32_t from = 0;
+    double x = 0.0;  ///< along the surface, in cells
+    double z = 0.0;  ///< distance from the surface less that of the face, in cells
+    double weight = 0.0;
+  };
+  [[nodiscard]] bool is_turning(int body) const;
+  void find_skew();
+  void find_beside(int d);
+  void find_skew(int d);
+  void add_skew(int d, const std::array<int, 3>& c);
+  /// Fills patch_ with what is round a place; false if the surface there is not one and smooth.
+  bool gather(int d, const std::array<int, 3>& c, const Frame& frame, bool& is_askew);
+  bool fit(int d, const std::array<int, 3>& c, const Frame& frame, std::ptrdiff_t self,
+           std::vector<SkewNode>& nodes, bool& is_askew);
+
   const Grid& grid_;
   const bodies::BodySet& bodies_;
   const SideKinds& sides_;
@@ -89,6 +118,9 @@ class GeometryBuilder {
   double near_ = 0.0;                                ///< [m]
   CellField distance_;                               ///< [m] of cell centres; empty without bodies
   std::array<std::vector<std::uint8_t>, 3> closed_;  ///< 1 in a body at the end, 2 parted
+  std::array<std::vector<std::int32_t>, 3> beside_index_;  ///< per face, -1 = far
+  std::array<std::vector<Beside>, 3> beside_;
+  std::vector<PatchPoint> patch_;
   Geometry g_;
   std::vector<Point> points_;
 };

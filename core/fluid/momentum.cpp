@@ -3,6 +3,7 @@
 
 #include "fluid/momentum_rows.hpp"
 #include "fluid/parallel.hpp"
+#include "fluid/skew_convection.hpp"
 
 #include <cmath>
 #include <limits>
@@ -59,11 +60,7 @@ void Momentum::convection_row(const FaceField& u, const CellField& eps, double s
   // The component's own direction comes last: the ends of a row on open sides are taken out of it.
   for (const int e : {(d + 1) % 3, (d + 2) % 3, d}) {
     const auto& kinds = sides_.kinds();
-    if (grid_.count[e] == 1 &&
-        (kinds.is_periodic[e] || (e != d && kinds.beyond(d, e, 0) == Beyond::gradient &&
-                                  kinds.beyond(d, e, 1) == Beyond::gradient))) {
-      continue;  // nothing varies along this direction
-    }
+    if (is_even(d, e)) continue;
     if (e == d) {
       if (d != 0 && !kinds.is_periodic[d] && (c[d] == 0 || c[d] == grid_.count[d])) continue;
       first = out[0];
@@ -78,6 +75,30 @@ void Momentum::convection_row(const FaceField& u, const CellField& eps, double s
   }
   divide_by_face_eps_row(n, grid_.stride[d], &eps[o], out);
   open_side_row(u, d, j, k, out);
+  skew_row(u, eps, smoothness, d, j, k, out);
+}
+
+bool Momentum::is_even(int d, int e) const {
+  const auto& kinds = sides_.kinds();
+  return grid_.count[e] == 1 &&
+         (kinds.is_periodic[e] || (e != d && kinds.beyond(d, e, 0) == Beyond::gradient &&
+                                   kinds.beyond(d, e, 1) == Beyond::gradient));
+}
+
+void Momentum::skew_row(const FaceField& u, const CellField& eps, double smoothness, int d, int j,
+                        int k, double* out) const {
+  const std::size_t row = static_cast<std::size_t>(k) * geometry_.extent[d][1] + j;
+  for (int n = geometry_.skew_begin[d][row]; n < geometry_.skew_begin[d][row + 1]; ++n) {
+    const SkewFace& face = geometry_.skew[d][n];
+    const int e = face.along;
+    double along = 0.0;
+    if (!is_even(d, e)) {
+      convect_row(1, grid_.stride[e], grid_.stride[d], 1.0 / grid_.spacing[e], smoothness,
+                  &flux_.component[e][face.at], &u.component[d][face.at], &along);
+      along /= 0.5 * (eps[face.at] + eps[face.at - grid_.stride[d]]);
+    }
+    out[face.i] = along + convection_along_surface(grid_, geometry_, face, u, d);
+  }
 }
 
 void Momentum::outflow_row(int d, int j, int k, double* out) const {

@@ -57,6 +57,11 @@ class Momentum {
     double y_low, y_high, z_low, z_high;
   };
   [[nodiscard]] RowWeights row_weights(int d, int j, int k) const;
+  /// Nothing of component d varies along e.
+  [[nodiscard]] bool is_even(int d, int e) const;
+  /// Puts convection along the surface in the place of that along the grid where SkewFace says so.
+  void skew_row(const FaceField& u, const CellField& eps, double smoothness, int d, int j, int k,
+                double* out) const;
   void open_side_row(const FaceField& u, int d, int j, int k, double* out) const;
 
   const Grid& grid_;
