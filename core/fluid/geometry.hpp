@@ -104,8 +104,8 @@ struct SkewFace {
 };
 
 /// What a face, or a point of the surface, gives to the value at a SkewFace (the own component's:
-/// without the face itself) and to its derivatives along and across the surface: least squares in
-/// coordinates along the surface (linear) and of the distance from it (a parabola).
+/// without the face itself) and to its derivatives along and across the surface: a polynomial of
+/// second degree in the way along the surface and the distance from it, by least squares.
 struct SkewNode {
   std::int32_t from = 0;  ///< place of a face; -1 - n: point n of WallPoints
   double mean = 0.0;

@@ -55,6 +55,14 @@ struct Grid {
     p[d] -= 0.5 * spacing[d];
     return p;
   }
+  /// [m] Largest edge of a cell, directions of one cell left out.
+  [[nodiscard]] double largest_spacing() const {
+    double largest = 0.0;
+    for (int d = 0; d < 3; ++d) {
+      if (count[d] > 1 && spacing[d] > largest) largest = spacing[d];
+    }
+    return largest;
+  }
   [[nodiscard]] double cell_volume() const { return spacing.x * spacing.y * spacing.z; }
   [[nodiscard]] sdk::GridShape shape() const {
     return {origin, spacing, {count[0], count[1], count[2]}};

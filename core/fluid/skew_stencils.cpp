@@ -27,8 +27,12 @@ constexpr double k_at_surface = 0.71;
 constexpr double k_least_alignment = 0.8;
 /// Component of a normal below which it lies in a plane of the grid, or along the grid.
 constexpr double k_along_grid = 1e-3;
-/// Neighbours needed for the four coefficients of a fit.
-constexpr std::size_t k_least_nodes = 8;
+/// Neighbours needed for the six coefficients of a fit.
+constexpr std::size_t k_least_nodes = 10;
+/// Largest speed x cell / kinematic viscosity: a layer of less than a tenth of a cell (after the
+/// way of a cell) is nothing to be resolved, and the dissipation of the plain scheme is what such
+/// flows need. Runs were stable up to three times this.
+constexpr double k_largest_cell_reynolds = 1000.0;
 /// Sum of the weights' magnitudes beyond which a fit is taken as undetermined; 2 to 5 is usual.
 constexpr double k_largest_weights = 20.0;
 
@@ -36,7 +40,9 @@ constexpr double k_largest_weights = 20.0;
 
 bool GeometryBuilder::is_turning(int body) const {
   const bodies::Body& b = bodies_[static_cast<std::size_t>(body)];
-  return !b.motions.empty() && !b.is_removed() && !b.displaces() && !b.suction;
+  if (b.motions.empty() || b.is_removed() || b.displaces() || b.suction) return false;
+  return b.largest_speed() * grid_.largest_spacing() <=
+         k_largest_cell_reynolds * properties_.viscosity() / properties_.density();
 }
 
 void GeometryBuilder::find_skew() {
@@ -53,10 +59,7 @@ void GeometryBuilder::find_skew() {
 void GeometryBuilder::find_beside(int d) {
   const auto& e = g_.extent[d];
   beside_index_[d].assign(grid_.size, -1);
-  double cell = 0.0;
-  for (int dir = 0; dir < 3; ++dir) {
-    if (grid_.count[dir] > 1) cell = std::max(cell, grid_.spacing[dir]);
-  }
+  const double cell = grid_.largest_spacing();
   const double most = (k_skew_reach + k_patch) * cell;
   for (int k = 0; k < e[2]; ++k) {
     for (int j = 0; j < e[1]; ++j) {
@@ -186,26 +189,31 @@ bool GeometryBuilder::gather(int d, const std::array<int, 3>& c, const Frame& f,
 bool GeometryBuilder::fit(int d, const std::array<int, 3>& c, const Frame& frame,
                           std::ptrdiff_t self, std::vector<SkewNode>& nodes, bool& is_askew) {
   if (!gather(d, c, frame, is_askew)) return false;
-  // value = c0 + c1 x + c2 z + c3 z^2 by least squares; once with the face itself, once without.
-  const auto row = [](const PatchPoint& p) { return Eigen::Vector4d(1.0, p.x, p.z, p.z * p.z); };
-  Eigen::Matrix4d all = Eigen::Matrix4d::Zero();
-  Eigen::Matrix4d others = Eigen::Matrix4d::Zero();
+  // A full polynomial of second degree, c0 + c1 x + c2 z + c3 x^2 + c4 x z + c5 z^2, by least
+  // squares; once with the face itself, once without. Without x^2 the dissipation would be of first
+  // order where the surface bends.
+  using Row = Eigen::Vector<double, 6>;
+  using Square = Eigen::Matrix<double, 6, 6>;
+  const auto row = [](const PatchPoint& p) {
+    return Row{1.0, p.x, p.z, p.x * p.x, p.x * p.z, p.z * p.z};
+  };
+  Square all = Square::Zero();
+  Square others = Square::Zero();
   for (const PatchPoint& p : patch_) {
-    const Eigen::Vector4d r = row(p);
-    const Eigen::Matrix4d square = (p.weight * p.weight) * (r * r.transpose());
+    const Row r = p.weight * row(p);
+    const Square square = r * r.transpose();
     all += square;
     if (p.from != self) others += square;
   }
-  const Eigen::LDLT<Eigen::Matrix4d> of_all(all);
-  const Eigen::LDLT<Eigen::Matrix4d> of_others(others);
-  const Eigen::Vector4d value = of_others.solve(Eigen::Vector4d::Unit(0));
-  const Eigen::Vector4d slope = of_all.solve(Eigen::Vector4d::Unit(1));
-  const Eigen::Vector4d ascent = of_all.solve(Eigen::Vector4d::Unit(2));
+  const Eigen::LDLT<Square> of_all(all);
+  const Row value = Eigen::LDLT<Square>(others).solve(Row::Unit(0));
+  const Row slope = of_all.solve(Row::Unit(1));
+  const Row ascent = of_all.solve(Row::Unit(2));
   const double scale_along = spacing_along(frame.tangent);
   const double scale_across = spacing_along(frame.hit.normal);
   double size = 0.0;
   for (const PatchPoint& p : patch_) {
-    const Eigen::Vector4d r = (p.weight * p.weight) * row(p);
+    const Row r = (p.weight * p.weight) * row(p);
     SkewNode node;
     node.from = p.from;
     node.mean = p.from == self ? 0.0 : value.dot(r);
