@@ -8,6 +8,7 @@
 #include "coupling/grain_memory.hpp"
 #include "coupling/graining.hpp"
 #include "coupling/lattice.hpp"
+#include "coupling/smooth_kernel.hpp"
 #include "coupling/stress_book.hpp"
 #include "coupling/void_fraction.hpp"
 #include "coupling/wide_kernel.hpp"
@@ -59,7 +60,7 @@ struct Coupling::Impl {
         void_fraction(lattice, rule),
         face_void(lattice),
         is_own_taken_off(fluid.corrects_own_disturbance && !fluid.is_one_way),
-        faces(lattice, face_void, rule, fluid.momentum_set == "III", is_own_taken_off),
+        faces(lattice, face_void, rule, fluid.momentum_set == "III"),
         properties(fluid),
         own_per_kinematic_viscosity(properties.own().density / properties.own().viscosity),
         graining(setup.materials),
@@ -72,8 +73,8 @@ struct Coupling::Impl {
         needs_size_ratio(law.needs_size_ratio()),
         step(setup.time.fluid_step) {
     least_spacing = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+    mean_spacing = std::cbrt(lattice.cell_volume());
     refreshes = refreshes_for(step, 0.0);
-    if (is_own_taken_off) memory.keep_own_flow();
     // Where the air overlaps, the stress that grains see is a step older than that of the air: as a
     // debt it would rock a dense bed.
     if (!is_one_way && !is_set_three && !is_overlapped && properties.is_uniform()) {
@@ -147,7 +148,7 @@ struct Coupling::Impl {
 
   /// Drag and force by the stress of the own drag, over the drag.
   [[nodiscard]] double stress_part(std::size_t row) const {
-    return is_own_taken_off ? 1.0 + memory.own_flow(row).self_stress : 1.0;
+    return memory.is_smooth(row) ? 1.0 + memory.own_flow(row).self_stress : 1.0;
   }
 
   void map(const particles::GrainRows& grains, double fluid_step);
@@ -180,8 +181,20 @@ struct Coupling::Impl {
                        Batch& batch);
   void look_wide(const SpotBatch& spot, int d, const FluidState& fluid, const double* v,
                  const FaceSumColumns& sums, double* flux, double* stress) const;
-  void find_own_solids(const particles::GrainRows& grains, Rows rows);
-  void find_own_flow(const particles::GrainRows& grains, std::size_t row, double eps, double slip);
+  [[nodiscard]] bool has_candidates(const particles::GrainRows& grains) const;
+  [[nodiscard]] bool is_candidate(const particles::GrainRows& grains, std::size_t row) const;
+  [[nodiscard]] double own_part(const particles::GrainRows& grains, std::size_t row, double eps,
+                                double slip) const;
+  bool take_own_off(const particles::GrainRows& grains, std::size_t row, double slip,
+                    SmoothKernel& kernel, double& eps);
+  [[nodiscard]] static double void_of_others(const OwnFlow& own, const Triple& faces);
+  void find_own_solids(const particles::GrainRows& grains, std::size_t row,
+                       const SmoothKernel& kernel);
+  void find_own_flow(const particles::GrainRows& grains, std::size_t row,
+                     const SmoothKernel& kernel, double eps, double slip);
+  void advance_own_flow();
+  void look_smooth(const SpotBatch& spot, Rows rows, const FluidState& fluid,
+                   const std::array<SpotBatch::Reals, 3>& v, Seen& seen, Batch& batch) const;
   void settle(const fluid::FaceField& velocity);
   void refresh(const particles::GrainRows& grains, std::size_t batch, Rows rows,
                const FluidState& fluid);
@@ -226,6 +239,7 @@ struct Coupling::Impl {
   std::vector<std::array<double, 2>> size_sums;  ///< per cell W D^3 and W D^2, if needed
   double step;
   double least_spacing = 0.0;
+  double mean_spacing = 0.0;        ///< [m] edge of the cube of a cell's volume
   double refreshes = 1.0;           ///< per fluid step
   std::int64_t done_refreshes = 0;  ///< since map()
   double last_held = 0.0;           ///< [s] from the last refresh to the one in hand, 0 = none yet

@@ -37,15 +37,19 @@ FaceSums sums_of(const Faces& s) {
   return sums;
 }
 
+/// Of a batch: whether each grain is coupled through a SmoothKernel.
+const char* is_smooth_of(const Spots& spots, std::size_t batch) {
+  return spots.is_smooth.data() + batch * SpotBatch::k_size;
+}
+
 }  // namespace
 
 FaceExchange::FaceExchange(const Lattice& lattice, const FaceVoid& face_void,
-                           const sdk::VoidageRule& rule, bool is_set_three, bool is_own_taken_off)
+                           const sdk::VoidageRule& rule, bool is_set_three)
     : lattice_(lattice),
       face_void_(face_void),
       rule_(rule),
       is_set_three_(is_set_three),
-      is_own_taken_off_(is_own_taken_off),
       exchange_{fluid::FaceField(lattice.grid()), fluid::FaceField(lattice.grid())} {}
 
 void FaceExchange::clear(int d) {
@@ -77,12 +81,13 @@ void FaceExchange::charge(const particles::GrainRows& grains, const Spots& spots
   sums = {};
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
-    // What the grain's own solids add to the void fractions has no part in its drag.
-    const double lone = around[q] + (is_own_taken_off_ ? memory.own_flow(row).solids : 0.0);
+    const double lone = around[q];
     const double slope = 1.0 + given.steepness[q];
     shared[q] = grains.weight[row] * given.coefficient[q] * slope * per_volume / (lone * lone);
     const double back = lone * given.steepness[q] / slope;
-    sums.has_wide = sums.has_wide || wide.takes(here.position[4 * q + 3]);
+    const bool is_smooth = is_smooth_of(spots, batch)[q] != 0;
+    sums.has_smooth = sums.has_smooth || is_smooth;
+    sums.has_wide = sums.has_wide || (!is_smooth && wide.takes(here.position[4 * q + 3]));
     for (std::size_t d = 0; d < 3; ++d) {
       const double v = grains.velocity_of(row)[d];
       charges[d].velocity[q] = v;
@@ -96,13 +101,10 @@ void FaceExchange::charge(const particles::GrainRows& grains, const Spots& spots
     input.coefficient = shared.data();
     sum_faces(here, d, face_void_.columns(d), {input.open.data(), input.fluid.data()});
     if (sums.has_wide) sum_wide(here, d, eps, input);
-    for (std::size_t q = 0; is_own_taken_off_ && q < rows.size(); ++q) {
-      const OwnFlow& own = memory.own_flow(static_cast<std::size_t>(rows[q]));
-      charges[d].lag[q] += (around[q] + own.solids) * own.disturbance[d];
-      if (is_set_three_) continue;
-      input.gain[q] += own.face_solids[d] * input.open[q] / input.fluid[q];
-    }
-    charge_faces(rows.size(), input, k_least_weight, is_set_three_, charges[d]);
+  }
+  if (sums.has_smooth) charge_smooth(spots, batch, memory, inputs, charges);
+  for (int d = 0; d < 3; ++d) {
+    charge_faces(rows.size(), inputs[d], k_least_weight, is_set_three_, charges[d]);
   }
   for (std::size_t q = 0; q < rows.size(); ++q) {
     Remembered& r = memory[static_cast<std::size_t>(rows[q])];
@@ -132,6 +134,36 @@ void FaceExchange::sum_wide(const SpotBatch& spots, int d, const fluid::CellFiel
   }
 }
 
+/// What changes for the grains with a SmoothKernel, all of whose faces are open: the void fraction
+/// that makes a slip of the flux is that of OwnFlow, their own flow is no part of the slip, and the
+/// drag is spread such that its sum is K times that slip.
+void FaceExchange::charge_smooth(const Spots& spots, std::size_t batch, const GrainMemory& memory,
+                                 std::array<ChargeInput, 3>& inputs,
+                                 std::array<ChargeColumns, 3>& charges) const {
+  const std::span<const std::int32_t> rows = spots.rows(batch);
+  const SpotBatch& here = spots.batches[batch];
+  const double* around = spots.eps.data() + batch * SpotBatch::k_size;
+  SmoothKernel kernel(lattice_);
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    if (is_smooth_of(spots, batch)[q] == 0) continue;
+    const OwnFlow& own = memory.own_flow(static_cast<std::size_t>(rows[q]));
+    const double* position = &here.position[4 * q];
+    kernel.set(position, 2.0 * position[3]);
+    const double lone = around[q];
+    for (int d = 0; d < 3; ++d) {
+      const auto c = static_cast<std::size_t>(d);
+      const double* void_fraction = face_void_.columns(d).void_fraction;
+      double eps = 0.0;
+      kernel.for_faces(d, [&](std::ptrdiff_t face, double w) { eps += w * void_fraction[face]; });
+      const double of_flux = own.void_of_flux(c, eps);
+      inputs[c].open[q] = 1.0;
+      inputs[c].fluid[q] = eps;
+      inputs[c].gain[q] = lone / of_flux * (is_set_three_ ? 1.0 : lone / eps);
+      charges[c].lag[q] = of_flux * (charges[c].lag[q] / lone + own.disturbance(c));
+    }
+  }
+}
+
 inline void FaceExchange::add(int d, std::ptrdiff_t face, double open, double eps,
                               const Charge& weighted) {
   double& coefficient = exchange_.coefficient.component[d][face];
@@ -152,6 +184,15 @@ void FaceExchange::give_one(int d, const Faces& faces, const Charge& charge) {
     add(d, faces.home[n], faces.open[n], faces.void_fraction[n],
         {w * charge.drag, w * charge.push, w * charge.extra});
   }
+}
+
+void FaceExchange::give_smooth(int d, const SmoothKernel& kernel, const Charge& charge) {
+  const FaceColumns columns = face_void_.columns(d);
+  kernel.for_faces(d, [&](std::ptrdiff_t face, double w) {
+    if (w == 0.0) return;
+    add(d, face, columns.open[face], columns.void_fraction[face],
+        {w * charge.drag, w * charge.push, w * charge.extra});
+  });
 }
 
 void FaceExchange::give_runs(int d, const SpotBatch& spots, const ChargeColumns& charges) {
@@ -177,10 +218,11 @@ void FaceExchange::give(int d, const Spots& spots, const fluid::CellField& eps) 
   const FaceColumns columns = face_void_.columns(d);
   WideKernel wide(lattice_, rule_);
   WideStencil many;
+  SmoothKernel smooth(lattice_);
   for (std::size_t b = 0; b < spots.batches.size(); ++b) {
     const SpotBatch& batch = spots.batches[b];
     const ChargeColumns& charges = charges_[b][d];
-    if (batch.has_long_runs() && !sums_[b].has_wide) {
+    if (batch.has_long_runs() && !sums_[b].has_wide && !sums_[b].has_smooth) {
       give_runs(d, batch, charges);
       continue;
     }
@@ -188,6 +230,11 @@ void FaceExchange::give(int d, const Spots& spots, const fluid::CellField& eps) 
       const Charge charge{charges.drag[q], charges.drag[q] * charges.velocity[q], charges.extra[q]};
       if (charge.drag == 0.0 && charge.extra == 0.0) continue;
       const double* position = &batch.position[4 * q];
+      if (is_smooth_of(spots, b)[q] != 0) {
+        smooth.set(position, 2.0 * position[3]);
+        give_smooth(d, smooth, charge);
+        continue;
+      }
       if (wide.takes(position[3])) {
         wide.set(position, position[3]);
         wide.stencil(d, eps, many);
@@ -277,6 +324,19 @@ std::int64_t FaceExchange::spread(const Spots& spots, GrainMemory& memory,
   return all;
 }
 
+/// Component d of what a grain's drag has given to the fluid, over its charge and a cell's volume.
+double FaceExchange::drag_through(int d, const SmoothKernel& kernel, const std::vector<double>& u,
+                                  double velocity, double lag) const {
+  const FaceColumns columns = face_void_.columns(d);
+  double sum = 0.0;
+  kernel.for_faces(d, [&](std::ptrdiff_t face, double w) {
+    const double eps = columns.void_fraction[face];
+    const double fluid = is_set_three_ ? 1.0 : eps;
+    sum += w * columns.open[face] * fluid * (eps * (u[face] - velocity) + lag);
+  });
+  return sum;
+}
+
 double FaceExchange::settle(const Spots& spots, std::span<const std::int32_t> rows,
                             GrainMemory& memory, const fluid::CellField& eps,
                             const fluid::FaceField& velocity, double step) {
@@ -286,6 +346,7 @@ double FaceExchange::settle(const Spots& spots, std::span<const std::int32_t> ro
     std::array<SpotBatch::Reals, 3> given;
     WideKernel wide(lattice_, rule_);
     WideStencil many;
+    SmoothKernel smooth(lattice_);
     BatchSums& sums = sums_[b];
     sums.given = sums.size = {};
     for (int d = 0; d < 3; ++d) {
@@ -295,7 +356,7 @@ double FaceExchange::settle(const Spots& spots, std::span<const std::int32_t> ro
                    given[d].data());
       for (std::size_t q = 0; sums.has_wide && q < here.count; ++q) {
         const double radius = here.position[4 * q + 3];
-        if (!wide.takes(radius)) continue;
+        if (!wide.takes(radius) || is_smooth_of(spots, b)[q] != 0) continue;
         wide.set(&here.position[4 * q], radius);
         wide.stencil(d, eps, many);
         double sum = 0.0;
@@ -305,6 +366,12 @@ double FaceExchange::settle(const Spots& spots, std::span<const std::int32_t> ro
           sum += many.weight[n] * many.open[n] * fluid * (slip + charges.lag[q]);
         }
         given[d][q] = impulse * charges.drag[q] * sum;
+      }
+      for (std::size_t q = 0; sums.has_smooth && q < here.count; ++q) {
+        if (is_smooth_of(spots, b)[q] == 0) continue;
+        smooth.set(&here.position[4 * q], 2.0 * here.position[4 * q + 3]);
+        given[d][q] = impulse * charges.drag[q] *
+                      drag_through(d, smooth, u, charges.velocity[q], charges.lag[q]);
       }
       for (std::size_t q = 0; q < here.count; ++q) {
         sums.given[d] += given[d][q];

@@ -5,6 +5,7 @@
 #include "coupling/face_void.hpp"
 #include "coupling/grain_memory.hpp"
 #include "coupling/lattice.hpp"
+#include "coupling/smooth_kernel.hpp"
 #include "coupling/wide_kernel.hpp"
 
 #include <algorithm>
@@ -22,6 +23,7 @@ struct Spots {
   CellOrder order;
   std::vector<SpotBatch> batches;
   std::vector<double> eps;  ///< void fraction around each: of its cell, or the mean over its cells
+  std::vector<char> is_smooth;  ///< of each: coupled through a SmoothKernel
   std::uint64_t memory_order = 0;  ///< GrainMemory::order() when they were ordered
 
   /// The rows of a batch.
@@ -46,13 +48,14 @@ struct GivenDrag {
 /// and for the tangent of the drag K (1 + b) in place of K, and source += W w_f K b s_0 / (a eps_c
 /// V). a = sum(w open), e = sum(w open eps) over its eight faces, eps_c the void fraction of its
 /// cell, V the cell volume. Grains larger than a cell act through all faces of the cells they are
-/// spread over. Derivation and what this conserves: docs/theory/coupling.md.
+/// spread over, those whose own disturbance is taken off through the faces of a SmoothKernel.
+/// Derivation and what this conserves: docs/theory/coupling.md.
 class FaceExchange {
  public:
   /// `is_set_three`: the momentum equation is that of set III, whose fluid receives a density of
   /// force on the whole control volume, a_f V, in place of eps_f a_f V.
   FaceExchange(const Lattice& lattice, const FaceVoid& face_void, const sdk::VoidageRule& rule,
-               bool is_set_three, bool is_own_taken_off);
+               bool is_set_three);
 
   /// Makes room for as many batches.
   void resize(std::size_t batches);
@@ -88,13 +91,20 @@ class FaceExchange {
   /// Sums over a batch, added up in the order of the batches.
   struct BatchSums {
     std::int64_t unpaired = 0;
-    bool has_wide = false;  ///< grains larger than a cell
+    bool has_wide = false;    ///< grains larger than a cell
+    bool has_smooth = false;  ///< grains with a SmoothKernel
     Triple paid{};
     Triple given{};  ///< [N s] weight included
     Triple size{};   ///< [N s] sum of the magnitudes
   };
   void sum_wide(const SpotBatch& spots, int d, const fluid::CellField& eps,
                 ChargeInput& input) const;
+  void charge_smooth(const Spots& spots, std::size_t batch, const GrainMemory& memory,
+                     std::array<ChargeInput, 3>& inputs,
+                     std::array<ChargeColumns, 3>& charges) const;
+  void give_smooth(int d, const SmoothKernel& kernel, const Charge& charge);
+  [[nodiscard]] double drag_through(int d, const SmoothKernel& kernel, const std::vector<double>& u,
+                                    double velocity, double lag) const;
   void give(int d, const Spots& spots, const fluid::CellField& eps);
   void give_runs(int d, const SpotBatch& spots, const ChargeColumns& charges);
   template <class Faces>
@@ -109,7 +119,6 @@ class FaceExchange {
   const FaceVoid& face_void_;
   const sdk::VoidageRule& rule_;
   bool is_set_three_;
-  bool is_own_taken_off_;  ///< what a grain does to the fluid by itself
   fluid::Exchange exchange_;
   std::array<std::vector<Touched>, 3> touched_;
   std::vector<std::array<ChargeColumns, 3>> charges_;  ///< of the batches

@@ -6,9 +6,11 @@
 namespace dust::coupling {
 namespace {
 
-/// Numbers of a Remembered that outlive a fluid step: velocity of the fluid, place, debt,
-/// disturbance, own velocity.
-constexpr std::size_t k_saved = 16;
+/// Numbers of a Remembered that outlive a fluid step: velocity of the fluid, place, debt, own
+/// velocity.
+constexpr std::size_t k_saved = 13;
+/// Numbers of an OwnFlow that do: the flow.
+constexpr std::size_t k_saved_flow = 3 * own_disturbance::k_groups;
 
 }  // namespace
 
@@ -48,12 +50,10 @@ void GrainMemory::save(sdk::ArchiveWriter& archive) const {
   numbers.reserve(k_saved * rows_.size());
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     const Remembered& r = rows_[row];
-    const Triple disturbance = has_own_flow_ ? own_flow_[row].disturbance : Triple{};
     numbers.insert(numbers.end(), r.fluid_velocity.begin(), r.fluid_velocity.end());
     numbers.insert(numbers.end(), r.place.begin(), r.place.end());
     numbers.insert(numbers.end(), r.owed.begin(), r.owed.end());
     numbers.push_back(r.has_velocity ? 1.0 : 0.0);
-    numbers.insert(numbers.end(), disturbance.begin(), disturbance.end());
     numbers.insert(numbers.end(), r.velocity.begin(), r.velocity.end());
   }
   std::vector<double> gone;
@@ -65,6 +65,29 @@ void GrainMemory::save(sdk::ArchiveWriter& archive) const {
   archive.numbers("grains", numbers);
   archive.numbers("leavers", gone);
   if (width_ > 0) archive.numbers("kept", kept_);
+  save_own_flow(archive);
+}
+
+void GrainMemory::save_own_flow(sdk::ArchiveWriter& archive) const {
+  std::vector<double> flows;
+  flows.reserve(k_saved_flow * own_flow_.size());
+  for (const OwnFlow& own : own_flow_) {
+    for (const Triple& part : own.flow) flows.insert(flows.end(), part.begin(), part.end());
+  }
+  archive.numbers("own_flow", flows);
+}
+
+void GrainMemory::load_own_flow(sdk::ArchiveReader& archive) {
+  const std::vector<double> flows = archive.numbers("own_flow");
+  has_own_flow_ = !flows.empty();
+  own_flow_.assign(flows.size() / k_saved_flow, {});
+  const double* n = flows.data();
+  for (OwnFlow& own : own_flow_) {
+    for (Triple& part : own.flow) {
+      std::copy_n(n, 3, part.begin());
+      n += 3;
+    }
+  }
 }
 
 void GrainMemory::load(sdk::ArchiveReader& archive) {
@@ -74,15 +97,13 @@ void GrainMemory::load(sdk::ArchiveReader& archive) {
   rows_.assign(ids_.size(), {});
   if (width_ > 0) kept_ = archive.numbers("kept");
   const double* n = numbers.data();
-  own_flow_.assign(has_own_flow_ ? rows_.size() : 0, {});
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     Remembered& r = rows_[row];
     std::copy_n(n, 3, r.fluid_velocity.begin());
     std::copy_n(n + 3, 3, r.place.begin());
     std::copy_n(n + 6, 3, r.owed.begin());
     r.has_velocity = n[9] != 0.0;
-    if (has_own_flow_) std::copy_n(n + 10, 3, own_flow_[row].disturbance.begin());
-    std::copy_n(n + 13, 3, r.velocity.begin());
+    std::copy_n(n + 10, 3, r.velocity.begin());
     n += k_saved;
   }
   leavers_.assign(gone.size() / 6, {});
@@ -90,6 +111,7 @@ void GrainMemory::load(sdk::ArchiveReader& archive) {
     std::copy_n(gone.data() + 6 * l, 3, leavers_[l].place.begin());
     std::copy_n(gone.data() + 6 * l + 3, 3, leavers_[l].owed.begin());
   }
+  load_own_flow(archive);
 }
 
 }  // namespace dust::coupling

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "coupling/own_disturbance.hpp"
 #include "dust/sdk/archive.hpp"
 #include "particles/grain_rows.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -27,14 +29,34 @@ struct Remembered {
   Triple owed{};           ///< [N s] impulse the fluid has still to receive, weight included
 };
 
-/// What a grain does to the fluid by itself, if that is to be taken off.
+/// What a grain does to the fluid by itself, while that is taken off.
 struct OwnFlow {
-  Triple disturbance{};      ///< [m/s] of the fluid around it, by the force it has received
-  double solids = 0.0;       ///< [-] in its cell, beyond what would be there without it
-  Triple face_solids{};      ///< [-] the same at its faces
+  using Groups = std::array<double, own_disturbance::k_groups>;
+
+  bool is_smooth = false;    ///< coupled through a SmoothKernel since map(); else nothing is taken off
+  std::array<Triple, own_disturbance::k_groups> flow{};  ///< [m/s] by the drag it has received
+  Groups kept{};             ///< [-] share of the flow that is left after a fluid step
+  Groups gained{};           ///< [s/kg] flow that a fluid step adds, per force on the grain
+  Triple paid{};             ///< [N s] owed before map(), which the fluid receives in this step
+  double excess = 0.0;       ///< [-] of its own solids and flow, over those of a lone grain
+  Triple solids{};           ///< [-] its own at the faces of each component
   double self_stress = 0.0;  ///< [-] force by the stress of its own drag, over that drag
-  double mobility = 0.0;     ///< [s/kg] steady disturbance per force on the grain
-  double growth = 0.0;       ///< [-] share of the way to the steady disturbance per fluid step
+
+  /// Component d of what is taken off the fluid's velocity [m/s], to be added to the slip.
+  [[nodiscard]] double disturbance(std::size_t d) const {
+    double sum = 0.0;
+    for (const Triple& part : flow) sum += part[d];
+    return excess * sum;
+  }
+  /// Its own share of the solids at faces of the mean void fraction `eps`: no more than there are.
+  [[nodiscard]] double solids_at(std::size_t d, double eps) const {
+    return std::min(solids[d], 1.0 - eps);
+  }
+  /// Void fraction that turns the flux through those faces into the slip: that of the others, and
+  /// for what flows round its own solids (docs/theory/own_disturbance.md).
+  [[nodiscard]] double void_of_flux(std::size_t d, double eps) const {
+    return eps + excess * solids_at(d, eps) * (1.0 / 3.0);
+  }
 };
 
 /// Impulse owed to the fluid [N s] for a grain that is gone, at the place where it was last [m].
@@ -52,10 +74,18 @@ class GrainMemory {
   /// Changes whenever the order of the rows has.
   [[nodiscard]] std::uint64_t order() const { return order_; }
 
-  /// Keeps what each grain does to the fluid by itself; before the first align().
-  void keep_own_flow() { has_own_flow_ = true; }
+  /// Keeps what each grain does to the fluid by itself, from now on.
+  void keep_own_flow() {
+    has_own_flow_ = true;
+    own_flow_.resize(rows_.size());
+  }
+  [[nodiscard]] bool has_own_flow() const { return has_own_flow_; }
   OwnFlow& own_flow(std::size_t row) { return own_flow_[row]; }
   [[nodiscard]] const OwnFlow& own_flow(std::size_t row) const { return own_flow_[row]; }
+  /// Whether the grain is coupled through a SmoothKernel.
+  [[nodiscard]] bool is_smooth(std::size_t row) const {
+    return has_own_flow_ && own_flow_[row].is_smooth;
+  }
 
   /// Keeps `width` further numbers per grain, zero for new grains; before the first align().
   void keep(std::size_t width) { width_ = width; }
@@ -71,10 +101,13 @@ class GrainMemory {
   void load(sdk::ArchiveReader& archive);
 
  private:
+  void save_own_flow(sdk::ArchiveWriter& archive) const;
+  void load_own_flow(sdk::ArchiveReader& archive);
+
   std::vector<std::int64_t> ids_;
   std::uint64_t order_ = 0;
   std::vector<Remembered> rows_;
-  std::vector<OwnFlow> own_flow_;  ///< empty unless kept
+  std::vector<OwnFlow> own_flow_;  ///< empty until kept
   bool has_own_flow_ = false;
   std::vector<Leaver> leavers_;
   std::size_t width_ = 0;

@@ -37,6 +37,14 @@ Lattice::Lattice(const fluid::Grid& grid, const fluid::CellField& open_fraction)
 
 void Lattice::set_open_fraction(const fluid::CellField& open_fraction) {
   open_cell_ = open_fraction;
+  has_bodies_ = false;
+  for (int k = 0; k < grid_.count[2]; ++k) {
+    for (int j = 0; j < grid_.count[1]; ++j) {
+      for (int i = 0; i < grid_.count[0]; ++i) {
+        has_bodies_ = has_bodies_ || open_cell_[grid_.index(i, j, k)] != 1.0;
+      }
+    }
+  }
   for (int d = 0; d < 3; ++d) {
     open_face_[d].assign(grid_.size, 0.0F);
     for (int k = 0; k < grid_.count[2]; ++k) {

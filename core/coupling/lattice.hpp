@@ -64,6 +64,15 @@ class Lattice {
   [[nodiscard]] std::ptrdiff_t home(int i, int j, int k) const {
     return offset(homes_[0], i) + offset(homes_[1], j) + offset(homes_[2], k);
   }
+  /// What an index along one axis adds to the padded index of a cell or the home of a face, periodic
+  /// images wrapped however far they are. Without periods it must be inside.
+  [[nodiscard]] std::ptrdiff_t offset_along(int axis, int index) const {
+    const int n = grid_.count[axis];
+    const bool is_wrapped = grid_.is_periodic[axis] && (index < 0 || index >= n);
+    return offset(homes_[axis], is_wrapped ? ((index % n) + n) % n : index);
+  }
+  /// Whether a body takes part of a cell.
+  [[nodiscard]] bool has_bodies() const { return has_bodies_; }
   /// Open shares of the faces of component d, by home.
   [[nodiscard]] const float* open_shares(int d) const { return open_face_[d].data(); }
 
@@ -216,6 +225,7 @@ class Lattice {
   double cell_volume_;
   sdk::Vec3 inverse_spacing_;
   fluid::CellField open_cell_;
+  bool has_bodies_ = false;
   std::array<std::vector<float>, 3> open_face_;
   std::array<Offsets, 3> cells_;   ///< wrapped or clamped
   std::array<Offsets, 3> places_;  ///< where the array holds it

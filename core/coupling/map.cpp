@@ -55,7 +55,8 @@ void Coupling::Impl::find_slips(const particles::GrainRows& grains, std::size_t 
   SpotBatch& here = spots.batches[batch];
   double* around = spots.eps.data() + batch * k_batch;
   locate(grains, rows, here);
-  if (is_own_taken_off) find_own_solids(grains, rows);
+  char* is_smooth = spots.is_smooth.data() + batch * k_batch;
+  SmoothKernel smooth(lattice);
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
     const double* position = grains.position + 4 * row;
@@ -69,13 +70,12 @@ void Coupling::Impl::find_slips(const particles::GrainRows& grains, std::size_t 
     }
     slip = std::sqrt(slip);
     around[q] = void_fraction_at(position, here.cell(q), wide);
-    double eps = around[q];
-    if (is_own_taken_off) {
-      eps += memory.own_flow(row).solids;
-      find_own_flow(grains, row, eps, slip);
+    is_smooth[q] = 0;
+    if (memory.has_own_flow()) {
+      is_smooth[q] = take_own_off(grains, row, slip, smooth, around[q]) ? 1 : 0;
     }
-    columns.void_fraction[q] = eps;
-    columns.reynolds[q] = reynolds(grains, row, eps, slip);
+    columns.void_fraction[q] = around[q];
+    columns.reynolds[q] = reynolds(grains, row, around[q], slip);
     columns.size_ratio[q] = r.size_ratio;
   }
 }
@@ -127,6 +127,7 @@ void Coupling::Impl::sort(const particles::GrainRows& grains) {
   are_spots_of_map = false;
   spots.batches.resize((grains.count + k_batch - 1) / k_batch);
   spots.eps.resize(grains.count);
+  spots.is_smooth.resize(grains.count);
 }
 
 void Coupling::Impl::sort_if_changed(const particles::GrainRows& grains) {
@@ -146,6 +147,7 @@ void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) 
   if (needs_size_ratio) find_size_ratios(grains);
   sort(grains);
   if (is_one_way) return;
+  if (is_own_taken_off && !memory.has_own_flow() && has_candidates(grains)) memory.keep_own_flow();
 
   const VoidFraction::Counts counts = void_fraction.map(grains);
   const double limit = voidage.largest_diameter_over_spacing();
@@ -224,6 +226,7 @@ void Coupling::Impl::settle(const fluid::FaceField& velocity) {
   const double imbalance =
       faces.settle(mapped, rows, memory, void_fraction.after(), velocity, step);
   report.largest_imbalance = std::max(report.largest_imbalance, imbalance);
+  advance_own_flow();
 }
 
 }  // namespace dust::coupling

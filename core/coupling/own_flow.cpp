@@ -4,82 +4,189 @@
 #include "dust/sdk/sphere.hpp"
 
 namespace dust::coupling {
+namespace {
 
-/// Solids that a grain brings to its own cell and faces, less those that would be there without it.
-void Coupling::Impl::find_own_solids(const particles::GrainRows& grains, Rows rows) {
-  // Solids of one grain as a field; zero between grains.
-  static thread_local fluid::CellField own;
-  own.resize(lattice.grid().size, 0.0);
-  WideKernel kernel(lattice, voidage);
-  Stencil s;
-  WideStencil many;
-  const auto face_mean = [](const auto& near) {
+/// Share of the slip from which on what a grain makes by itself is taken off: below it the eight
+/// faces next to the grain do, and cost less.
+constexpr double k_worth = 0.005;
+
+/// Cells and shares of one grain as the voidage rule spreads it.
+struct Shares {
+  std::vector<int> i, j, k;
+  std::vector<double> weight;
+  std::size_t used = 0;
+
+  void set(const sdk::VoidageRule& rule, const sdk::GridShape& shape, const double* position) {
+    const int capacity = rule.capacity(shape, position[3]);
+    const auto size = static_cast<std::size_t>(capacity);
+    if (weight.size() < size) {
+      for (auto* column : {&i, &j, &k}) column->resize(size);
+      weight.resize(size);
+    }
+    int count = 0;
+    rule.spread(shape, {1, position, position + 1, position + 2, position + 3, capacity, &count,
+                        i.data(), j.data(), k.data(), weight.data()});
+    used = static_cast<std::size_t>(count);
+  }
+};
+
+}  // namespace
+
+/// Whether some grain may be worth it by its size alone: what it makes is most in slow flow.
+bool Coupling::Impl::has_candidates(const particles::GrainRows& grains) const {
+  for (std::size_t row = 0; row < grains.count; ++row) {
+    if (is_candidate(grains, row)) return true;
+  }
+  return false;
+}
+
+bool Coupling::Impl::is_candidate(const particles::GrainRows& grains, std::size_t row) const {
+  const double diameter = 2.0 * grains.position[4 * row + 3];
+  const double l = graining.of(grains, row);
+  // The viscosity cancels.
+  const double most =
+      3.0 * std::numbers::pi * own_disturbance::mobility_of_corners(mean_spacing, 1.0, 1.0, 0.0);
+  return diameter <= own_disturbance::k_largest_ratio * least_spacing &&
+         most * diameter * grains.weight[row] * l * l > k_worth;
+}
+
+/// What the grain would make of a fluid with its eight faces, over its slip [-]; `eps` of its cell.
+double Coupling::Impl::own_part(const particles::GrainRows& grains, std::size_t row, double eps,
+                                double slip) const {
+  namespace own = own_disturbance;
+  const double* position = grains.position + 4 * row;
+  const Fluid fluid = fluid_at(position);
+  const double volume = grains.weight[row] * sdk::sphere_volume(2.0 * position[3]);
+  const double others = 1.0 - eps - volume / lattice.cell_volume();
+  // Schiller and Naumann's drag will do to tell whether it is worth it.
+  const double factor = 1.0 + 0.15 * std::pow(reynolds(grains, row, 1.0, slip), 0.687);
+  return own::excess_of_one(others) * grains.weight[row] * coefficient(grains, row, factor) *
+         own::mobility_of_corners(mean_spacing, fluid.viscosity, fluid.density, slip);
+}
+
+/// Decides whether what a grain does by itself is taken off until the next map(), and finds it.
+/// `eps` is the void fraction of its cell, and becomes that of the others around it.
+bool Coupling::Impl::take_own_off(const particles::GrainRows& grains, std::size_t row, double slip,
+                                  SmoothKernel& kernel, double& eps) {
+  OwnFlow& own = memory.own_flow(row);
+  const double* position = grains.position + 4 * row;
+  if (!is_candidate(grains, row) || !(own_part(grains, row, eps, slip) > k_worth) ||
+      !kernel.set(position, 2.0 * position[3])) {
+    own = {};
+    return false;
+  }
+  own.is_smooth = true;
+  own.paid = memory[row].owed;
+  find_own_solids(grains, row, kernel);
+  Triple faces;
+  for (int d = 0; d < 3; ++d) {
+    const double* void_fraction = face_void.columns(d).void_fraction;
     double sum = 0.0;
-    double open = 0.0;
-    for (std::size_t n = 0; n < near.size(); ++n) {
-      const double part = near.weight[n] * near.open[n];
-      sum += part * near.void_fraction[n];
-      open += part;
-    }
-    return open > 0.0 ? sum / open : 0.0;
-  };
-  for (const std::int32_t number : rows) {
-    const auto row = static_cast<std::size_t>(number);
-    const double* position = grains.position + 4 * row;
-    OwnFlow& of_grain = memory.own_flow(row);
-    kernel.set(position, position[3]);
-    const double volume = grains.weight[row] * sdk::sphere_volume(2.0 * position[3]);
-    for (const WideKernel::Share& share : kernel.shares()) {
-      own[share.cell] +=
-          volume * share.weight / (lattice.open_fraction(share.cell) * lattice.cell_volume());
-    }
-    const bool is_wide = kernel.takes(position[3]);
-    const Place p = lattice.place(position);
-    const std::ptrdiff_t host = lattice.host_cell(lattice.cell(p), position);
-    const double here = is_wide ? kernel.mean(own) : own[host];
-    const double eps = is_wide ? kernel.mean(void_fraction.after()) : void_fraction.after()[host];
-    const double excess = own_disturbance::excess_of_one(1.0 - eps - here);
-    of_grain.solids = std::min(excess * here, 1.0 - eps);
+    kernel.for_faces(d, [&](std::ptrdiff_t face, double w) { sum += w * void_fraction[face]; });
+    faces[static_cast<std::size_t>(d)] = sum;
+  }
+  own.excess = 1.0;
+  own.excess = own_disturbance::excess_of_one(1.0 - void_of_others(own, faces));
+  eps = void_of_others(own, faces);
+  find_own_flow(grains, row, kernel, (faces[0] + faces[1] + faces[2]) / 3.0, slip);
+  return true;
+}
+
+/// Void fraction [-] for the law: of the faces, of the mean void fractions `faces` by component,
+/// without the grain's own solids as far as these are in excess.
+double Coupling::Impl::void_of_others(const OwnFlow& own, const Triple& faces) {
+  double sum = 0.0;
+  for (std::size_t d = 0; d < 3; ++d) sum += faces[d] + own.excess * own.solids_at(d, faces[d]);
+  return std::min(1.0, sum / 3.0);
+}
+
+/// Its own solids at its faces: each cell gives its share to both faces along each axis.
+void Coupling::Impl::find_own_solids(const particles::GrainRows& grains, std::size_t row,
+                                     const SmoothKernel& kernel) {
+  static thread_local Shares shares;
+  const double* position = grains.position + 4 * row;
+  shares.set(voidage, lattice.grid().shape(), position);
+  OwnFlow& own = memory.own_flow(row);
+  const double solids =
+      grains.weight[row] * sdk::sphere_volume(2.0 * position[3]) / lattice.cell_volume();
+  own.solids = {};
+  for (std::size_t n = 0; n < shares.used; ++n) {
+    const std::array<int, 3> cell{shares.i[n], shares.j[n], shares.k[n]};
     for (int d = 0; d < 3; ++d) {
-      if (is_wide) {
-        kernel.stencil(d, own, many);
-        of_grain.face_solids[d] = excess * face_mean(many);
-      } else {
-        lattice.stencil(d, p, own, s);
-        of_grain.face_solids[d] = excess * face_mean(s);
-      }
+      std::array<int, 3> above = cell;
+      above[static_cast<std::size_t>(d)] += 1;
+      own.solids[static_cast<std::size_t>(d)] += solids * shares.weight[n] * 0.5 *
+                                                 (kernel.weight(d, cell) + kernel.weight(d, above));
     }
-    for (const WideKernel::Share& share : kernel.shares()) own[share.cell] = 0.0;
   }
 }
 
-/// Flow around a grain by its own drag: how far it goes, and how much of it pushes the grain. `eps`
-/// of the others around, `slip` [m/s] through it.
-void Coupling::Impl::find_own_flow(const particles::GrainRows& grains, std::size_t row, double eps,
-                                   double slip) {
-  namespace own = own_disturbance;
+/// How its flow grows and fades in a fluid step, and what its stress does; `eps` at its faces.
+void Coupling::Impl::find_own_flow(const particles::GrainRows& grains, std::size_t row,
+                                   const SmoothKernel& kernel, double eps, double slip) {
   const double* position = grains.position + 4 * row;
-  OwnFlow& of_grain = memory.own_flow(row);
-  WideKernel kernel(lattice, voidage);
-  const bool is_wide = kernel.takes(position[3]);
-  const double edge = std::cbrt(lattice.cell_volume());
-  double radius = own::k_trilinear_radius * edge;
-  double density = own::k_trilinear_density / lattice.cell_volume();
-  if (is_wide) {
-    kernel.set(position, position[3]);
-    radius = kernel.ball_radius();
-    density = 1.0 / sdk::sphere_volume(2.0 * radius);
-  }
+  OwnFlow& own = memory.own_flow(row);
   const Fluid fluid = fluid_at(position);
-  const double reynolds = fluid.density * slip * radius / fluid.viscosity;
-  const double mobility = own::mobility(radius, fluid.viscosity, reynolds);
-  const double weighted = own::excess_of_one(1.0 - eps) * grains.weight[row];
-  const double local = std::max(eps - of_grain.solids, k_smallest_void_fraction);
-  of_grain.mobility = weighted * mobility;
-  of_grain.growth = -std::expm1(-step / own::build_up_time(radius, fluid.density, mobility));
-  of_grain.self_stress = is_set_three ? 0.0
-                                      : weighted * own::stress_share(reynolds) * density *
-                                            sdk::sphere_volume(2.0 * position[3]) / local;
+  const own_disturbance::Response response =
+      own_disturbance::response(kernel.width(), fluid.viscosity, fluid.density, slip);
+  for (std::size_t n = 0; n < own_disturbance::k_groups; ++n) {
+    own.kept[n] = std::exp(-response.rate[n] * step);
+    own.gained[n] = -std::expm1(-response.rate[n] * step) * response.mobility[n];
+  }
+  const double density = kernel.concentration(0) / (eps * lattice.cell_volume());
+  own.self_stress = is_set_three ? 0.0
+                                 : own.excess * grains.weight[row] * response.stress * density *
+                                       sdk::sphere_volume(2.0 * position[3]);
+}
+
+/// After settle(): the flow that a fluid step has left of what there was, and what it added.
+void Coupling::Impl::advance_own_flow() {
+  if (!memory.has_own_flow()) return;
+  for (std::size_t row = 0; row < memory.size(); ++row) {
+    OwnFlow& own = memory.own_flow(row);
+    if (!own.is_smooth) continue;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double force = (memory[row].given[d] - own.paid[d]) / step;
+      for (std::size_t n = 0; n < own_disturbance::k_groups; ++n) {
+        own.flow[n][d] = own.kept[n] * own.flow[n][d] + own.gained[n] * force;
+      }
+    }
+  }
+}
+
+/// What the grains with a SmoothKernel see of the fluid, in place of what their eight faces show.
+void Coupling::Impl::look_smooth(const SpotBatch& spot, Rows rows, const FluidState& state,
+                                 const std::array<SpotBatch::Reals, 3>& v, Seen& seen,
+                                 Batch& batch) const {
+  const bool needs_stress = !is_set_three || forces;
+  SmoothKernel kernel(lattice);
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    const auto row = static_cast<std::size_t>(rows[q]);
+    if (!memory.is_smooth(row)) continue;
+    const OwnFlow& own = memory.own_flow(row);
+    kernel.set(&spot.position[4 * q], 2.0 * spot.position[4 * q + 3]);
+    Triple faces;
+    for (int d = 0; d < 3; ++d) {
+      const auto c = static_cast<std::size_t>(d);
+      const double* void_fraction = face_void.columns(d).void_fraction;
+      const double* u = state.velocity.component[d].data();
+      const double* push = state.stress_divergence.component[d].data();
+      double eps = 0.0;
+      double flux = 0.0;
+      double stress = 0.0;
+      kernel.for_faces(d, [&](std::ptrdiff_t face, double w) {
+        const double part = w * void_fraction[face];
+        eps += part;
+        flux += part * (u[face] - v[c][q]);
+        if (needs_stress) stress += w * push[face];
+      });
+      faces[c] = eps;
+      seen.slip[c][q] = flux / own.void_of_flux(c, eps) + own.disturbance(c);
+      seen.ratio[c][q] = 1.0;
+      seen.stress[c][q] = stress;
+    }
+    batch.void_fraction[q] = void_of_others(own, faces);
+  }
 }
 
 }  // namespace dust::coupling

@@ -35,13 +35,8 @@ void Coupling::Impl::look(const particles::GrainRows& grains, SpotBatch& spot, R
     slip_of_faces(rows.size(), batch.void_fraction.data(), {open.data(), fluid.data()}, flux.data(),
                   slip, ratio);
     if (is_set_three) std::fill_n(ratio, rows.size(), 1.0);
-    for (std::size_t q = 0; is_own_taken_off && q < rows.size(); ++q) {
-      const OwnFlow& own = memory.own_flow(static_cast<std::size_t>(rows[q]));
-      slip[q] += own.disturbance[d];
-      if (is_set_three || !(open[q] > 0.0)) continue;
-      ratio[q] += own.face_solids[d] / batch.void_fraction[q];
-    }
   }
+  if (memory.has_own_flow()) look_smooth(spot, rows, state, v, seen, batch);
 }
 
 /// Grains that have no action yet get that of the drag at their present slip, for `look_ahead`.
@@ -127,8 +122,7 @@ bool Coupling::Impl::look_into_cells(const SpotBatch& spot, Rows rows, const Flu
                                       state.stress_divergence.component[d]);
       }
     }
-    batch.void_fraction[q] =
-        is_own_taken_off ? std::min(1.0, eps + memory.own_flow(row).solids) : eps;
+    batch.void_fraction[q] = eps;
     for (std::size_t d = 0; d < 3; ++d) seen.stress[d][q] = stress[d];
   }
   return has_wide;
@@ -287,12 +281,6 @@ void Coupling::Impl::collect(const particles::GrainRows& grains, double fluid_st
         const double drag_impulse = received[d] - interval * r.stress_impulse[d];
         if (!is_one_way && r.is_paired[d]) {
           r.owed[d] += r.given[d] - grains.weight[row] * drag_impulse;
-        }
-        if (is_own_taken_off) {
-          // Per real grain; the mobility counts the weight.
-          OwnFlow& own = memory.own_flow(row);
-          const double steady = own.mobility * drag_impulse / fluid_step;
-          own.disturbance[d] += own.growth * (steady - own.disturbance[d]);
         }
         r.place[d] = grains.position[4 * row + d];
         r.stress_impulse[d] = 0.0;

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coupling/lattice.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace dust::coupling {
+
+/// The faces that a grain is coupled to where its own disturbance is taken off: along each axis a
+/// cubic B-spline of knots max(D, 1.25 dx), made to sum to 1 over the faces (or middles of cells) it
+/// meets. The same weights gather the fluid's velocity and spread the force, and with splines as
+/// wide as that neither jumps as the grain moves (docs/theory/own_disturbance.md).
+class SmoothKernel {
+ public:
+  explicit SmoothKernel(const Lattice& lattice) : lattice_(lattice) {}
+
+  /// Looks at a grain of `diameter` at `position` [m]. Returns whether all that the kernel meets is
+  /// open fluid of the domain, once; where not, its weights still sum to 1 over what lies inside.
+  bool set(const double* position, double diameter);
+
+  /// Standard deviation [m] of the Gaussian that the grid answers like (own_disturbance), the
+  /// geometric mean of the axes.
+  [[nodiscard]] double width() const { return width_; }
+  /// Sum of the squares of the weights of component d [-].
+  [[nodiscard]] double concentration(int d) const;
+  /// Weight of the face of component d below the cell (i, j, k); indices may lie beyond a period.
+  [[nodiscard]] double weight(int d, std::array<int, 3> face) const;
+
+  /// Calls look(home, weight) for the faces of component d; the weights sum to 1.
+  template <class Look>
+  __attribute__((always_inline)) inline void for_faces(int d, const Look& look) const {
+    const Points& x = points(d, 0);
+    const Points& y = points(d, 1);
+    const Points& z = points(d, 2);
+    for (std::size_t k = 0; k < z.count; ++k) {
+      for (std::size_t j = 0; j < y.count; ++j) {
+        const std::ptrdiff_t row = z.offset[k] + y.offset[j];
+        const double across = z.weight[k] * y.weight[j];
+        for (std::size_t i = 0; i < x.count; ++i) look(row + x.offset[i], across * x.weight[i]);
+      }
+    }
+  }
+  /// The same for the cells around the grain: look(cell, weight).
+  template <class Look>
+  void for_cells(const Look& look) const {
+    constexpr int k_no_component = 3;
+    for_faces(k_no_component, look);
+  }
+
+ private:
+  /// 4 knots of at most k_largest_ratio cells, and some for rounding.
+  static constexpr std::size_t k_room = 20;
+  /// What the spline meets along one axis.
+  struct Points {
+    int first = 0;
+    std::size_t count = 0;
+    std::array<std::ptrdiff_t, k_room> offset;
+    std::array<double, k_room> weight;
+  };
+  [[nodiscard]] const Points& points(int d, int axis) const {
+    return (d == axis ? faces_ : middles_)[static_cast<std::size_t>(axis)];
+  }
+  bool meet(int axis, double place, double knots, bool is_of_faces, Points& points) const;
+  [[nodiscard]] bool is_clear() const;
+
+  const Lattice& lattice_;
+  std::array<Points, 3> faces_;
+  std::array<Points, 3> middles_;
+  double width_ = 0.0;
+};
+
+}  // namespace dust::coupling
