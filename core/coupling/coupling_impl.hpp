@@ -187,7 +187,8 @@ struct Coupling::Impl {
                                 double slip) const;
   bool take_own_off(const particles::GrainRows& grains, std::size_t row, double slip,
                     SmoothKernel& kernel, double& eps);
-  [[nodiscard]] static double void_of_others(const OwnFlow& own, const Triple& faces);
+  [[nodiscard]] static double void_of_others(const OwnFlow& own, const Triple& of_faces);
+  void spread_smoothly(const particles::GrainRows& grains);
   void find_own_solids(const particles::GrainRows& grains, std::size_t row,
                        const SmoothKernel& kernel);
   void find_own_flow(const particles::GrainRows& grains, std::size_t row,

@@ -38,6 +38,7 @@ struct OwnFlow {
   Groups kept{};             ///< [-] share of the flow that is left after a fluid step
   Groups gained{};           ///< [s/kg] flow that a fluid step adds, per force on the grain
   Triple paid{};             ///< [N s] owed before map(), which the fluid receives in this step
+  double spread = 0.0;       ///< [-] of its solids, by the SmoothKernel and not by the voidage rule
   double excess = 0.0;       ///< [-] of its own solids and flow, over those of a lone grain
   Triple solids{};           ///< [-] its own at the faces of each component
   double self_stress = 0.0;  ///< [-] force by the stress of its own drag, over that drag

@@ -170,6 +170,7 @@ void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) 
              " of its open volume and no cell around has room; use fewer cells, or look for grains "
              "that overlap or lie inside bodies"));
   }
+  if (memory.has_own_flow()) spread_smoothly(grains);
   face_void.update(void_fraction.after(), void_fraction.filled_cells());
   const fluid::CellField& eps = void_fraction.after();
   faces.resize(spots.batches.size());

@@ -95,13 +95,26 @@ double SmoothKernel::concentration(int d) const {
   return product;
 }
 
+double SmoothKernel::overlap(int d) const {
+  double product = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Points& of_faces = points(d, axis);
+    const Points& of_cells = points(k_cells, axis);
+    double sum = 0.0;
+    for (std::size_t n = 0; n < of_faces.count; ++n) {
+      const int i = of_faces.first + static_cast<int>(n);
+      const double beside = d == axis ? 0.5 * (of_cells.at(i - 1) + of_cells.at(i)) : of_cells.at(i);
+      sum += of_faces.weight[n] * beside;
+    }
+    product *= sum;
+  }
+  return product;
+}
+
 double SmoothKernel::weight(int d, std::array<int, 3> face) const {
   double product = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
-    const Points& p = points(d, axis);
-    const int n = face[static_cast<std::size_t>(axis)] - p.first;
-    if (n < 0 || n >= static_cast<int>(p.count)) return 0.0;
-    product *= p.weight[static_cast<std::size_t>(n)];
+    product *= points(d, axis).at(face[static_cast<std::size_t>(axis)]);
   }
   return product;
 }

@@ -23,10 +23,21 @@ class SmoothKernel {
   /// Standard deviation [m] of the Gaussian that the grid answers like (own_disturbance), the
   /// geometric mean of the axes.
   [[nodiscard]] double width() const { return width_; }
+  /// Its own void: sum over the faces of component d of their weights times the mean of the weights
+  /// of the two cells beside [-].
+  [[nodiscard]] double overlap(int d) const;
   /// Sum of the squares of the weights of component d [-].
   [[nodiscard]] double concentration(int d) const;
+  /// Mean of a cell field.
+  [[nodiscard]] double mean(const fluid::CellField& field) const {
+    double sum = 0.0;
+    for_cells([&](std::ptrdiff_t cell, double w) { sum += w * field[cell]; });
+    return sum;
+  }
   /// Weight of the face of component d below the cell (i, j, k); indices may lie beyond a period.
   [[nodiscard]] double weight(int d, std::array<int, 3> face) const;
+  /// Weight of a cell.
+  [[nodiscard]] double weight(std::array<int, 3> cell) const { return weight(k_cells, cell); }
 
   /// Calls look(home, weight) for the faces of component d; the weights sum to 1.
   template <class Look>
@@ -45,11 +56,11 @@ class SmoothKernel {
   /// The same for the cells around the grain: look(cell, weight).
   template <class Look>
   void for_cells(const Look& look) const {
-    constexpr int k_no_component = 3;
-    for_faces(k_no_component, look);
+    for_faces(k_cells, look);
   }
 
  private:
+  static constexpr int k_cells = 3;  ///< in place of a component: no axis has faces
   /// 4 knots of at most k_largest_ratio cells, and some for rounding.
   static constexpr std::size_t k_room = 20;
   /// What the spline meets along one axis.
@@ -58,6 +69,12 @@ class SmoothKernel {
     std::size_t count = 0;
     std::array<std::ptrdiff_t, k_room> offset;
     std::array<double, k_room> weight;
+
+    /// Weight of an index.
+    [[nodiscard]] double at(int index) const {
+      const int n = index - first;
+      return n < 0 || n >= static_cast<int>(count) ? 0.0 : weight[static_cast<std::size_t>(n)];
+    }
   };
   [[nodiscard]] const Points& points(int d, int axis) const {
     return (d == axis ? faces_ : middles_)[static_cast<std::size_t>(axis)];

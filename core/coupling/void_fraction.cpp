@@ -185,6 +185,13 @@ VoidFraction::Counts VoidFraction::map(const particles::GrainRows& grains) {
   return total;
 }
 
+void VoidFraction::add_after(std::ptrdiff_t cell, double volume) {
+  double& eps = after_.eps[cell];
+  if (eps == 1.0) after_.touched.push_back(cell);
+  // What is taken away again must not leave more than nothing by rounding.
+  eps = std::min(1.0, eps - volume / (lattice_.open_fraction(cell) * lattice_.cell_volume()));
+}
+
 void VoidFraction::save(sdk::ArchiveWriter& archive) const {
   const auto save_state = [&](const char* cells, const char* values, const State& state) {
     std::vector<std::int64_t> indices(state.touched.begin(), state.touched.end());

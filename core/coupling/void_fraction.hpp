@@ -31,6 +31,9 @@ class VoidFraction {
 
   /// The rule's shares of every grain (times its weight), summed in row order.
   Counts map(const particles::GrainRows& grains);
+  /// Adds solids [m3], which may be negative, to a cell after map(), where a grain is not spread by
+  /// the rule.
+  void add_after(std::ptrdiff_t cell, double volume);
   [[nodiscard]] const fluid::CellField& before() const { return before_.eps; }
   [[nodiscard]] const fluid::CellField& after() const { return after_.eps; }
   /// Cells in which after() may differ from 1.

@@ -100,6 +100,8 @@ struct Setting {
 struct Error {
   double least = 1e9;
   double largest = -1e9;
+  double mean = 0.0;
+  int count = 0;
 };
 
 double mean_velocity(const TwoWay& run, int d) {
@@ -113,14 +115,15 @@ double mean_velocity(const TwoWay& run, int d) {
 }
 
 Error drag_error(const Setting& s) {
-  constexpr int k_cells = 20;
+  static const int k_cells = std::getenv("CELLS") ? std::atoi(std::getenv("CELLS")) : 20;
+  static const double k_courant = std::getenv("CO") ? std::atof(std::getenv("CO")) : 0.3;
   const double cell = s.diameter / s.ratio;
   const double side = k_cells * cell;
   const double speed = terminal_speed(s.diameter, s.fluid);
   const double nu = s.fluid.viscosity / s.fluid.density;
   const double width = 0.7 * cell;
   const double end = std::min(0.8 * side / speed, 30.0 * width * width / nu);
-  const int steps = std::max(40, static_cast<int>(std::ceil(end * speed / (0.3 * cell))));
+  const int steps = std::max(40, static_cast<int>(std::ceil(end * speed / (k_courant * cell))));
   World::Choice choice;
   choice.max = {side, side, side};
   choice.cells = {k_cells, k_cells, k_cells};
@@ -165,6 +168,7 @@ Error drag_error(const Setting& s) {
     const double e = force / law(s.diameter, s.fluid, slip + images * force) - 1.0;
     error.least = std::min(error.least, e);
     error.largest = std::max(error.largest, e);
+    error.mean += (e - error.mean) / ++error.count;
     if (!s.is_towed) n = steps - 2 > n ? steps - 2 : n;
   }
   return error;
@@ -176,6 +180,7 @@ TEST_CASE("sweep") {
                               {0.0, 0.0, 0.5}, {0.0, 0.0, 0.0}, {0.21, 0.37, 0.68}};
   for (const Fluid& fluid : {k_air, k_water}) {
     for (const double diameter : diameters) {
+      if (std::getenv("ONLY") && std::atof(std::getenv("ONLY")) != 1e6 * diameter) continue;
       for (const double ratio : {0.05, 0.1, 0.25, 0.5, 1.0, 2.0}) {
         std::string line;
         char buffer[200];
@@ -188,10 +193,10 @@ TEST_CASE("sweep") {
           high = std::max(high, e.largest);
         }
         const Error e = drag_error({diameter, ratio, fluid, places[5], true});
-        std::printf("%s D %g um D/dx %g w %.3g Re %.3g: held%s | towed %+.1f .. %+.1f\n", fluid.name,
+        std::printf("%s D %g um D/dx %g w %.3g Re %.3g: held%s | towed %+.1f .. %+.1f, mean %+.1f\n", fluid.name,
                     1e6 * diameter, ratio, terminal_speed(diameter, fluid),
                     fluid.density * terminal_speed(diameter, fluid) * diameter / fluid.viscosity,
-                    line.c_str(), 100 * e.least, 100 * e.largest);
+                    line.c_str(), 100 * e.least, 100 * e.largest, 100 * e.mean);
         std::fflush(stdout);
       }
     }
