@@ -8,6 +8,7 @@
 #include "coupling/grain_memory.hpp"
 #include "coupling/graining.hpp"
 #include "coupling/lattice.hpp"
+#include "coupling/own_disturbance.hpp"
 #include "coupling/smooth_kernel.hpp"
 #include "coupling/stress_book.hpp"
 #include "coupling/void_fraction.hpp"
@@ -59,7 +60,7 @@ struct Coupling::Impl {
         voidage(rule),
         void_fraction(lattice, rule),
         face_void(lattice),
-        is_own_taken_off(fluid.corrects_own_disturbance && !fluid.is_one_way),
+        own_flow_is(fluid.is_one_way ? scenario::OwnDisturbance::felt : fluid.own_disturbance),
         faces(lattice, face_void, rule, fluid.momentum_set == "III"),
         properties(fluid),
         own_per_kinematic_viscosity(properties.own().density / properties.own().viscosity),
@@ -181,6 +182,10 @@ struct Coupling::Impl {
                        Batch& batch);
   void look_wide(const SpotBatch& spot, int d, const FluidState& fluid, const double* v,
                  const FaceSumColumns& sums, double* flux, double* stress) const;
+  /// Share of the slip from which on what a grain makes by itself is taken off [-].
+  [[nodiscard]] double worth() const {
+    return own_flow_is == scenario::OwnDisturbance::taken_off ? 0.0 : own_disturbance::k_worth;
+  }
   [[nodiscard]] bool has_candidates(const particles::GrainRows& grains) const;
   [[nodiscard]] bool is_candidate(const particles::GrainRows& grains, std::size_t row) const;
   [[nodiscard]] double own_part(const particles::GrainRows& grains, std::size_t row, double eps,
@@ -222,7 +227,7 @@ struct Coupling::Impl {
   Spots spots;
   std::atomic<bool> are_spots_of_map{false};  ///< not those of a later refresh()
   Spots mapped_spots;                         ///< those of map(), where it is overlapped
-  bool is_own_taken_off;                      ///< what a grain does to the fluid by itself
+  scenario::OwnDisturbance own_flow_is;       ///< what a grain does to the fluid by itself
   FaceExchange faces;
   std::unique_ptr<ForceTerms> forces;       ///< null without forces besides drag
   std::unique_ptr<StressBook> stress_book;  ///< null where grains and fluid do not see one stress

@@ -147,7 +147,7 @@ void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) 
   if (needs_size_ratio) find_size_ratios(grains);
   sort(grains);
   if (is_one_way) return;
-  if (is_own_taken_off && !memory.has_own_flow() && has_candidates(grains)) memory.keep_own_flow();
+  if (own_flow_is != scenario::OwnDisturbance::felt && !memory.has_own_flow() && has_candidates(grains)) memory.keep_own_flow();
 
   const VoidFraction::Counts counts = void_fraction.map(grains);
   const double limit = voidage.largest_diameter_over_spacing();

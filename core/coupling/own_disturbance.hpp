@@ -12,6 +12,10 @@ namespace dust::coupling {
 /// off again. Derivations, figures and limits: docs/theory/own_disturbance.md.
 namespace own_disturbance {
 
+/// Share of the slip from which on what a grain makes by itself is taken off: below it the eight
+/// faces next to the grain do, and cost less.
+inline constexpr double k_worth = 0.005;
+
 /// Knots of the smooth kernel lie as far apart as the grain is large, and at least so many cells:
 /// the answer of the grid to it is then the same within 0.3 % anywhere in a cell.
 inline constexpr double k_least_knots = 1.25;
@@ -83,6 +87,13 @@ inline double mobility_of_corners(double cell, double viscosity, double density,
   const double radius = 0.7515 * cell;
   const double reynolds = density * slip * radius / viscosity;
   return 1.0 / (5.0 * std::numbers::pi * viscosity * radius * (1.0 + reynolds / 3.0));
+}
+
+/// The most that a grain of diameter D makes of the fluid in cells of edge dx over its slip [-], in
+/// slow flow and as the mean over the places in a cell: 3 pi mu D times mobility_of_corners = 0.80
+/// D/dx. Faster flow carries it away.
+inline double most_of_slip(double diameter, double cell) {
+  return 3.0 * std::numbers::pi * diameter * mobility_of_corners(cell, 1.0, 1.0, 0.0);
 }
 
 /// How much more solids than the mean there are around a grain because it is there, over its own

@@ -6,15 +6,15 @@
 namespace dust::coupling {
 namespace {
 
-/// Share of the slip from which on what a grain makes by itself is taken off: below it the eight
-/// faces next to the grain do, and cost less.
-constexpr double k_worth = 0.005;
 /// What a drag law makes of solids, over their share: exponents of the void fraction of 2.65 to 3.7.
 constexpr double k_law_of_solids = 3.0;
 
 /// D/dx above which a lone grain's solids are spread by its kernel, too: they would fill a good part
 /// of a cell, and jump as it moves.
-constexpr double k_sharp = 0.5 + 1e-9;
+constexpr double k_sharp = 0.3;
+/// How much of its own flow slows the stream that carries this away [-]: the mean over the kernel and
+/// where it goes.
+constexpr double k_slowing = 0.7;
 /// Excess up to which solids are left to the voidage rule alone.
 constexpr double k_crowded = 0.05;
 
@@ -51,11 +51,9 @@ bool Coupling::Impl::has_candidates(const particles::GrainRows& grains) const {
 bool Coupling::Impl::is_candidate(const particles::GrainRows& grains, std::size_t row) const {
   const double diameter = 2.0 * grains.position[4 * row + 3];
   const double l = graining.of(grains, row);
-  // The viscosity cancels.
-  const double most =
-      3.0 * std::numbers::pi * own_disturbance::mobility_of_corners(mean_spacing, 1.0, 1.0, 0.0);
-  return diameter <= own_disturbance::k_largest_ratio * least_spacing &&
-         most * diameter * grains.weight[row] * l * l > k_worth;
+  const double most = own_disturbance::most_of_slip(diameter, mean_spacing);
+  return diameter <= own_disturbance::k_largest_ratio * least_spacing * (1.0 + k_ratio_rounding) &&
+         most * grains.weight[row] * l * l > worth();
 }
 
 /// What the grain would make of a fluid with its eight faces, and its own solids of its drag, over
@@ -68,7 +66,7 @@ double Coupling::Impl::own_part(const particles::GrainRows& grains, std::size_t 
   const double volume = grains.weight[row] * sdk::sphere_volume(2.0 * position[3]);
   const double solids = volume / lattice.cell_volume();
   const double excess = own::excess_of_one(1.0 - eps - solids);
-  if (excess * k_law_of_solids * solids > k_worth) return 1.0;
+  if (excess * k_law_of_solids * solids > worth()) return 1.0;
   // Schiller and Naumann's drag will do to tell whether it is worth it.
   const double factor = 1.0 + 0.15 * std::pow(reynolds(grains, row, 1.0, slip), 0.687);
   return excess * grains.weight[row] * coefficient(grains, row, factor) *
@@ -82,7 +80,7 @@ bool Coupling::Impl::take_own_off(const particles::GrainRows& grains, std::size_
   OwnFlow& own = memory.own_flow(row);
   const double* position = grains.position + 4 * row;
   const bool is_worth = own.spread > 0.0 || (is_candidate(grains, row) &&
-                                             own_part(grains, row, eps, slip) > k_worth);
+                                             own_part(grains, row, eps, slip) > worth());
   if (!is_worth || !kernel.set(position, 2.0 * position[3])) {
     own = {};
     return false;
@@ -180,8 +178,12 @@ void Coupling::Impl::find_own_flow(const particles::GrainRows& grains, std::size
   const double* position = grains.position + 4 * row;
   OwnFlow& own = memory.own_flow(row);
   const Fluid fluid = fluid_at(position);
+  // The stream that carries the flow away is slowed by it.
+  double own_speed = 0.0;
+  for (std::size_t d = 0; d < 3; ++d) own_speed += own.disturbance(d) * own.disturbance(d);
+  const double stream = std::max(0.0, slip - k_slowing * std::sqrt(own_speed));
   const own_disturbance::Response response =
-      own_disturbance::response(kernel.width(), fluid.viscosity, fluid.density, slip);
+      own_disturbance::response(kernel.width(), fluid.viscosity, fluid.density, stream);
   for (std::size_t n = 0; n < own_disturbance::k_groups; ++n) {
     own.kept[n] = std::exp(-response.rate[n] * step);
     own.gained[n] = -std::expm1(-response.rate[n] * step) * response.mobility[n];

@@ -277,9 +277,14 @@ const ParameterSchema& CouplingBlock::schema() {
     s.boolean(&CouplingBlock::one_way, "one_way",
               "Whether the grains feel the fluid but the fluid does not feel the grains.")
         .optional();
+    s.text(&CouplingBlock::self_disturbance, "self_disturbance",
+           "Whether what a grain does to the fluid by itself, its own void fraction, wake and "
+           "pressure, is taken off before its drag is found: where it is above 0.5 % (auto), for "
+           "all grains (on), for none (off).")
+        .one_of({"auto", "on", "off"})
+        .optional();
     s.boolean(&CouplingBlock::correct_own_disturbance, "correct_own_disturbance",
-              "Whether what a grain does to the fluid by itself, its own void fraction, wake and "
-              "pressure, is taken off before its drag is found.")
+              "Older name: true is `self_disturbance: on`, false `off`. Without effect beside it.")
         .optional();
     s.boolean(&CouplingBlock::overlap, "overlap",
               "Whether the fluid's step and the grains' cycle run at the same time: the grains see "

@@ -138,6 +138,7 @@ struct RegionBlock {
 
 struct CouplingBlock {
   bool one_way = false;
+  std::string self_disturbance = "auto";
   bool correct_own_disturbance = false;
   bool overlap = false;
   static const sdk::ParameterSchema& schema();

@@ -98,24 +98,38 @@ void SetupReader::read_coupling(MapReader& top) {
   MapReader reader(entry ? entry->value : empty, "coupling", entry ? entry->where : root_.where,
                    diagnostics_);
   std::vector<sdk::Value> values;
-  const auto coupling = block<CouplingBlock>(reader, &values);
+  auto coupling = block<CouplingBlock>(reader, &values);
   reader.finish();
+  const Node& given = entry ? entry->value : empty;
+  if (given.find("correct_own_disturbance") != nullptr &&
+      given.find("self_disturbance") == nullptr) {
+    coupling.self_disturbance = coupling.correct_own_disturbance ? "on" : "off";
+    for (std::size_t n = 0; n < values.size(); ++n) {
+      const bool is_it = CouplingBlock::schema()[n].name == "self_disturbance";
+      if (is_it) values[n] = coupling.self_disturbance;
+    }
+  }
   if (setup_.fluid) {
     setup_.fluid->is_one_way = coupling.one_way;
-    setup_.fluid->corrects_own_disturbance = coupling.correct_own_disturbance;
+    const bool is_on = coupling.self_disturbance == "on";
+    setup_.fluid->own_disturbance = is_on ? OwnDisturbance::taken_off
+                                    : coupling.self_disturbance == "off"
+                                        ? OwnDisturbance::felt
+                                        : OwnDisturbance::automatic;
     setup_.fluid->overlaps_grains = coupling.overlap;
-    if (coupling.correct_own_disturbance) check_own_disturbance(entry->where);
+    if (is_on) check_own_disturbance(entry->where);
   }
   out_.add("coupling", written_block<CouplingBlock>(values));
 }
 
-/// The closed forms are those of an open flow in three directions.
+/// The closed forms are those of an open flow in three directions. Without it nothing is taken off by
+/// itself; who asks for it is told.
 void SetupReader::check_own_disturbance(Mark where) {
   constexpr int k_fewest = 4;
   for (int d = 0; d < 3; ++d) {
     if (setup_.fluid->cells[static_cast<std::size_t>(d)] >= k_fewest) continue;
     error(where,
-          "coupling.correct_own_disturbance: the flow around a grain is only known in three "
+          "coupling.self_disturbance: the flow around a grain is only known in three "
           "directions, and fluid.cells has fewer than 4 along " +
               std::string(1, "xyz"[d]) + ": use more cells, or leave the correction out");
   }

@@ -84,10 +84,12 @@ TEST_CASE("each force and the turbulence shall change the run, those of the set 
 
 TEST_CASE("a run without the grains' own disturbance shall differ, and go on from a checkpoint") {
   const TemporaryFolder folder;
-  const std::string setting = "coupling.correct_own_disturbance=true";
+  const std::string setting = "coupling.self_disturbance=on";
   const std::string whole = digest(folder, "whole", {setting}, {"--threads", "1"});
   CHECK(digest(folder, "two", {setting}, {"--threads", "2"}) == whole);
-  CHECK(digest(folder, "felt", {}) != whole);
+  CHECK(digest(folder, "felt", {"coupling.self_disturbance=off"}) != whole);
+  // The older name of the same.
+  CHECK(digest(folder, "older", {"coupling.correct_own_disturbance=true"}) == whole);
   const fs::path half = folder / "half";
   REQUIRE(
       engine({"run", k_scenario, "-o", half, "--quiet", "--set", setting, "--set", "time.end=5 ms"})
@@ -97,7 +99,7 @@ TEST_CASE("a run without the grains' own disturbance shall differ, and go on fro
   CHECK(json_text(half / "summary.json", "state_sha256") == whole);
   // The closed forms are those of a flow open in three directions.
   CHECK(holds(said({setting, "fluid.cells=[10, 3, 10]"}),
-              "coupling.correct_own_disturbance: the flow around a grain is only known in three "
+              "coupling.self_disturbance: the flow around a grain is only known in three "
               "directions, and fluid.cells has fewer than 4 along y: use more cells, or leave the "
               "correction out"));
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check_summary.hpp"
 
+#include "coupling/own_disturbance.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -172,6 +174,35 @@ std::string step_note(const Derived& derived, int size) {
              : "";
 }
 
+/// Which sizes of grains do not feel what they do to the fluid by themselves.
+void tell_own_disturbance(std::ostream& out, const Setup& setup, const Derived& derived) {
+  if (!setup.fluid || setup.fluid->is_one_way || derived.sizes.empty()) return;
+  namespace own = coupling::own_disturbance;
+  const double cell = derived.smallest_spacing;
+  const bool is_asked = setup.fluid->own_disturbance == scenario::OwnDisturbance::taken_off;
+  const bool is_off = setup.fluid->own_disturbance == scenario::OwnDisturbance::felt;
+  double finest = 0.0;
+  double coarsest = 0.0;
+  for (const auto& size : derived.sizes) {
+    const double most = own::most_of_slip(size.diameter, cell);
+    const double limit = own::k_largest_ratio * cell;
+    if (is_off || size.diameter > limit || (!is_asked && most <= own::k_worth)) continue;
+    if (finest == 0.0) finest = size.diameter;
+    coarsest = size.diameter;
+  }
+  const double largest = derived.sizes.back().diameter;
+  if (coarsest > 0.0) {
+    out << ",\n             own disturbance taken off for lone grains of "
+        << engineering(finest, "m");
+    if (coarsest > finest) out << " to " << engineering(coarsest, "m");
+  }
+  const double felt = own::most_of_slip(largest, cell);
+  if (coarsest < largest && felt > own::k_worth) {
+    out << ",\n             own disturbance felt by grains of " << engineering(largest, "m")
+        << ": up to " << digits(100.0 * std::min(felt, 1.0)) << " % of a lone one's slip";
+  }
+}
+
 void tell_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
   if (derived.sizes.empty()) return;
   out << "  grains     diameter   Rayleigh    Hertz at " << digits(derived.impact_speed)
@@ -207,6 +238,7 @@ void tell_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
   if (derived.diameter_over_spacing > 0.0) {
     out << ", largest grain / smallest cell edge D/dx = " << digits(derived.diameter_over_spacing);
   }
+  tell_own_disturbance(out, setup, derived);
   // A bed has no wake that walls could hold up; a lone grain has.
   constexpr double k_wake = 10.0;
   if (derived.diameter_over_spacing > 0.0 && derived.width_over_diameter < k_wake) {

@@ -59,7 +59,7 @@ constexpr Way k_ways[] = {{false, false, false},
                           {true, true, true}};
 World::Choice box(const Way& way) {
   World::Choice choice = box(way.with_body);
-  choice.corrects_own_disturbance = way.corrects;
+  if (way.corrects) choice.own_disturbance = scenario::OwnDisturbance::taken_off;
   if (way.with_large) choice.voidage = "big_particle";
   return choice;
 }
@@ -280,7 +280,7 @@ TEST_CASE("one and two threads shall give the same bits") {
   for (const std::size_t threads : {1, 2}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     World::Choice choice = box(true);
-    choice.corrects_own_disturbance = true;
+    choice.own_disturbance = scenario::OwnDisturbance::taken_off;
     World world(choice);
     world.set(world.velocity, swirl);
     scatter(world, 5000);
@@ -297,7 +297,7 @@ TEST_CASE("one and two threads shall give the same bits") {
 
 TEST_CASE("a coupling resumed from an archive shall give the same bits") {
   World::Choice choice = box(true);
-  choice.corrects_own_disturbance = true;
+  choice.own_disturbance = scenario::OwnDisturbance::taken_off;
   World world(choice);
   world.set(world.velocity, swirl);
   scatter(world, 600);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <memory>
@@ -125,7 +126,7 @@ struct World {
     double density = k_air;
     double viscosity = k_air_viscosity;
     bool is_one_way = false;
-    bool corrects_own_disturbance = false;
+    scenario::OwnDisturbance own_disturbance = scenario::OwnDisturbance::felt;
     bool overlaps = false;
     std::vector<double> coarse_graining{1.0};   ///< by material
     std::function<double(int, int, int)> open;  ///< open fraction of a cell; null = 1 everywhere
@@ -148,7 +149,8 @@ struct World {
     setup.fluid->viscosity = c.viscosity;
     setup.fluid->momentum_set = c.momentum_set;
     setup.fluid->is_one_way = c.is_one_way;
-    setup.fluid->corrects_own_disturbance = c.corrects_own_disturbance;
+    setup.fluid->own_disturbance = c.own_disturbance;
+    if (std::getenv("AUTO")) setup.fluid->own_disturbance = scenario::OwnDisturbance::automatic;
     setup.fluid->overlaps_grains = c.overlaps;
     for (const double ratio : c.coarse_graining) setup.materials.push_back({"sand", {}, ratio});
     if (c.open) {

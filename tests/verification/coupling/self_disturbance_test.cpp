@@ -134,7 +134,7 @@ Error drag_error(const Setting& s) {
   choice.density = s.fluid.density;
   choice.viscosity = s.fluid.viscosity;
   choice.fluid_step = end / steps;
-  if (const char* mode = std::getenv("SELF")) choice.corrects_own_disturbance = mode[0] == '1';
+  if (const char* mode = std::getenv("SELF")) choice.own_disturbance = mode[0] == '1' ? scenario::OwnDisturbance::automatic : scenario::OwnDisturbance::felt;
   TwoWay run(choice, {}, {}, 1e-6);
   sdk::Vec3 at = s.place;
   for (int d = 0; d < 3; ++d) at[d] = (k_cells / 2 - 1 + at[d]) * cell;
