@@ -33,7 +33,7 @@ bool Coupling::Impl::locate(const particles::GrainRows& grains, Rows rows, SpotB
   const std::array<double, 4> times{ahead, ahead, ahead, 0.0};
   for (const std::int32_t row : rows) {
     const double* position = grains.position + 4 * static_cast<std::size_t>(row);
-    const double* velocity = grains.velocity + 4 * static_cast<std::size_t>(row);
+    const double* velocity = grains.velocity_of(static_cast<std::size_t>(row));
     for (std::size_t n = 0; n < 4; ++n) {
       const double place = position[n] + times[n] * velocity[n];
       is_other |= known[n] != place;

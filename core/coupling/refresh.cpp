@@ -57,7 +57,7 @@ void Coupling::Impl::begin_action(const particles::GrainRows& grains, Rows rows,
   for (std::size_t q = 0; q < rows.size(); ++q) {
     if (!is_new(rows[q])) continue;
     const auto row = static_cast<std::size_t>(rows[q]);
-    const double* v = grains.velocity + 4 * row;
+    const double* v = grains.velocity_of(row);
     double* action = grains.fluid_action + 4 * row;
     for (std::size_t d = 0; d < 3; ++d) action[d] = v[d] + seen.slip[d][q];
     action[3] = coefficient(grains, row, batch.factor[q]) * v[3];
@@ -72,7 +72,7 @@ void Coupling::Impl::look_ahead(const particles::GrainRows& grains, Rows rows, d
   const double before = last_held > 0.0 ? half / last_held : 0.0;
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
-    const double* v = grains.velocity + 4 * row;
+    const double* v = grains.velocity_of(row);
     const double* action = grains.fluid_action + 4 * row;
     Remembered& r = memory[row];
     const bool is_known = r.has_velocity && before > 0.0;
