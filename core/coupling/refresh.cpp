@@ -109,7 +109,6 @@ bool Coupling::Impl::look_into_cells(const SpotBatch& spot, Rows rows, const Flu
   double eps = 1.0;
   Triple stress{};
   for (std::size_t q = 0; q < rows.size(); ++q) {
-    const auto row = static_cast<std::size_t>(rows[q]);
     const double* position = &spot.position[4 * q];
     const std::ptrdiff_t cell = spot.cell(q);
     const bool is_wide = wide.takes(position[3]);
