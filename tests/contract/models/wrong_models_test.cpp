@@ -330,6 +330,17 @@ struct Counter final : sdk::Sensor {
   double looks = 0.0;
 };
 
+/// Tells the last look for the mean of all since the row before.
+struct Last final : sdk::Sensor {
+  void observe(const sdk::WorldView&) override { ++looks; }
+  void series(sdk::FigureSink& sink) const override { sink.figure("looks", looks, "1"); }
+  [[nodiscard]] sdk::RowValue row_value(std::string_view) const override {
+    return sdk::RowValue::mean;
+  }
+  void summary(sdk::FigureSink&) const override {}
+  double looks = 0.0;
+};
+
 struct Blind final : sdk::Sensor {
   void observe(const sdk::WorldView&) override {}
   void series(sdk::FigureSink&) const override {}
@@ -346,6 +357,8 @@ TEST_CASE("a sensor that is wrong shall be told by the rule it breaks") {
   CHECK(seen.broken(findings, "zeros") == "'looks' is 90 in an empty domain");
   CHECK(seen.broken(findings, "saved and loaded").find("after 1 samples 'looks' differs") !=
         std::string::npos);
+  CHECK(seen.broken(wrong::findings_on<Last>(), "between rows") ==
+        "'looks' is 9 in a row for every 9 samples; the samples say 5");
   CHECK(seen.broken(wrong::findings_on<Blind>(), "sees something") == "its summary is empty");
   seen.check_complete();
 }
