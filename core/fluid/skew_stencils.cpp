@@ -19,8 +19,8 @@ constexpr int k_patch = 3;
 /// long along it, where little changes, and narrow across it, where the layer is.
 constexpr double k_width_along = 2.0;
 constexpr double k_width_across = 0.8;
-/// Neighbours of less weight are left out.
-constexpr double k_least_weight = 0.02;
+/// Neighbours of less weight than exp(-this) = 0.02 are left out.
+constexpr double k_largest_exponent = 3.9;
 /// Faces nearer to the surface (in cells, to both sides) put a point of it into the fit.
 constexpr double k_at_surface = 0.71;
 /// Least product of the normals of two neighbours: the surface bends by 37 degrees at most.
@@ -127,7 +127,7 @@ void GeometryBuilder::add_skew(int d, const std::array<int, 3>& c) {
   if (fit(d, c, frame, o, nodes, is_askew)) {
     face.begin = begin;
     face.other_begin = static_cast<std::int32_t>(nodes.size());
-    if (fit(other, c, frame, -1, nodes, is_askew) && is_askew) {
+    if (fit(other, c, frame, -1, nodes, is_askew)) {
       face.end = static_cast<std::int32_t>(nodes.size());
       g_.skew[d].push_back(face);
       return;
@@ -161,10 +161,11 @@ bool GeometryBuilder::gather(int d, const std::array<int, 3>& c, const Frame& f,
       const auto add = [&](std::int32_t from, Vec3 to, double distance) {
         const double x = dot(to, f.tangent) / scale_along;
         const double z = (distance - f.hit.distance) / scale_across;
-        const double weight =
-            std::exp(-std::pow(x / k_width_along, 2) - std::pow(z / k_width_across, 2));
-        if (weight >= k_least_weight) patch_.push_back({from, x, z, weight});
-        return weight >= k_least_weight;
+        const double exponent =
+            x * x / (k_width_along * k_width_along) + z * z / (k_width_across * k_width_across);
+        if (exponent > k_largest_exponent) return false;
+        patch_.push_back({from, x, z, std::exp(-exponent)});
+        return true;
       };
       if (closed_[d][o] == 2) return false;
       const bool is_solid = g_.kind[d][o] == FaceKind::inside;
@@ -188,7 +189,7 @@ bool GeometryBuilder::gather(int d, const std::array<int, 3>& c, const Frame& f,
 
 bool GeometryBuilder::fit(int d, const std::array<int, 3>& c, const Frame& frame,
                           std::ptrdiff_t self, std::vector<SkewNode>& nodes, bool& is_askew) {
-  if (!gather(d, c, frame, is_askew)) return false;
+  if (!gather(d, c, frame, is_askew) || !is_askew) return false;
   // A full polynomial of second degree, c0 + c1 x + c2 z + c3 x^2 + c4 x z + c5 z^2, by least
   // squares; once with the face itself, once without. Without x^2 the dissipation would be of first
   // order where the surface bends.

@@ -4,6 +4,7 @@
 #include "test_bodies.hpp"
 
 #include <doctest/doctest.h>
+#include <tbb/global_control.h>
 #include <numbers>
 
 using namespace dust;
@@ -113,7 +114,7 @@ class Spin final : public sdk::Motion {
 /// Off the grid's lines, so that it is cut everywhere else.
 constexpr Vec3 k_centre{0.000157, 0.000093, 0.000154};
 
-/// A box with a cylinder along `axis`, `depth` cells deep along it, slippery sides.
+/// A box with a cylinder along `axis`, `depth` cells deep along it, slippery sides; to be started.
 Case spinning(double speed, double cell, double viscosity, int axis, int depth) {
   Case c;
   const int n = 2 * static_cast<int>(std::lround(k_half_width / cell));
@@ -131,7 +132,6 @@ Case spinning(double speed, double cell, double viscosity, int axis, int depth) 
   bodies::Body b = body(std::make_unique<Spun>(k_centre, axis), 0.0);
   b.motions.push_back(std::make_unique<Spin>(speed, axis));
   c.bodies.push_back(std::move(b));
-  c.start();
   return c;
 }
 
@@ -203,6 +203,7 @@ Deviation deviation(const Case& c, double speed, int axis) {
 
 Deviation spin(double speed, double cell, int axis = 1, int depth = 1) {
   Case c = spinning(speed, cell, k_viscosity, axis, depth);
+  c.start();
   c.advance_to(k_end, 1e-3);
   return deviation(c, speed, axis);
 }
@@ -219,16 +220,18 @@ TEST_CASE("a spinning cylinder shall carry the air that diffusion gives it, at a
   constexpr double k_coarse = 0.08;
   // The same with twice the cells: second order.
   constexpr double k_fine = 0.03;
+  // Fluxes through cut faces see a layer one cell thick to some per cent, and continuity moves the
+  // air through the surface for it: 0.8 % of its speed was seen.
+  constexpr double k_through = 0.01;
   for (const double speed : {0.008, 0.2, 0.8, 2.0}) {
     const Deviation e = spin(speed, 1.25e-3);
     tell(speed, 1.25e-3, e);
     CHECK(std::abs(e.carried) < k_coarse);
+    CHECK(e.normal < k_through);
   }
-  for (const double speed : {0.8, 2.0}) {
-    const Deviation e = spin(speed, 0.625e-3);
-    tell(speed, 0.625e-3, e);
-    CHECK(std::abs(e.carried) < k_fine);
-  }
+  const Deviation fine = spin(2.0, 0.625e-3);
+  tell(2.0, 0.625e-3, fine);
+  CHECK(std::abs(fine.carried) < k_fine);
 }
 
 TEST_CASE(
@@ -248,7 +251,8 @@ TEST_CASE(
   // At the largest cell Reynolds number that convection along the surface is used for; far beyond.
   for (const double viscosity : {3.1e-6, 1e-9}) {
     Case c = spinning(2.0, 1.25e-3, viscosity, 1, 1);
-    c.advance_to(0.4, 1e-3);
+    c.start();
+    c.advance_to(0.25, 1e-3);
     double fastest = 0.0;
     for (const int d : {0, 2}) {
       c.each_face(d, [&](int, int, int, Vec3 x, double v) {
@@ -260,4 +264,30 @@ TEST_CASE(
     MESSAGE("viscosity " << viscosity << ": fastest air " << fastest / 2.0 << " of the surface");
     CHECK(fastest < 1.3 * 2.0);
   }
+}
+
+TEST_CASE(
+    "a run beside a turning surface shall go on from saved fields, on any number of threads") {
+  const auto make = [] { return spinning(0.8, 1.25e-3, k_viscosity, 1, 4); };
+  Case whole = make();
+  whole.start();
+  {
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    whole.advance_to(0.02, 1e-3);
+  }
+  const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
+  Case first = make();
+  first.start();
+  first.advance_to(0.011, 1e-3);
+  MemoryArchive archive;
+  first.solver->save(archive);
+  Case second = make();
+  second.start();
+  second.solver->load(archive, first.time);
+  second.time = first.time;
+  second.advance_to(0.02, 1e-3);
+  for (int d = 0; d < 3; ++d) {
+    CHECK(second.solver->velocity().component[d] == whole.solver->velocity().component[d]);
+  }
+  CHECK(second.solver->pressure() == whole.solver->pressure());
 }
