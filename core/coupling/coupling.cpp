@@ -85,6 +85,20 @@ void Coupling::use(std::span<const std::unique_ptr<sdk::FluidForce>> forces,
   s.stress_book.reset();
 }
 
+void Coupling::use_sides(const std::array<const sdk::BoundaryCondition*, 6>& sides) {
+  using own_disturbance::Side;
+  for (std::size_t n = 0; n < sides.size(); ++n) {
+    if (sides[n] == nullptr) continue;
+    const sdk::SideRules rules = sides[n]->rules();
+    if (rules.normal_velocity != sdk::SideRule::fixed) {
+      impl_->sides[n] = Side::open;
+    } else {
+      const bool is_slip = rules.tangential_velocity != sdk::SideRule::fixed;
+      impl_->sides[n] = is_slip ? Side::slip : Side::wall;
+    }
+  }
+}
+
 bool takes_over_buoyancy(std::span<const std::unique_ptr<sdk::FluidForce>> forces) {
   return std::any_of(forces.begin(), forces.end(),
                      [](const auto& force) { return force->takes_over().buoyancy; });

@@ -3,6 +3,7 @@
 
 #include "coupling/force_terms.hpp"
 #include "dust/sdk/archive.hpp"
+#include "dust/sdk/boundary_condition.hpp"
 #include "dust/sdk/drag_law.hpp"
 #include "dust/sdk/fluid_force.hpp"
 #include "dust/sdk/voidage_rule.hpp"
@@ -10,6 +11,7 @@
 #include "particles/grain_rows.hpp"
 #include "scenario/setup.hpp"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -62,6 +64,10 @@ class Coupling {
   /// reduce gravity (takes_over_buoyancy).
   void use(std::span<const std::unique_ptr<sdk::FluidForce>> forces,
            std::vector<particles::Surface> surfaces);
+
+  /// Optional: what the sides do to the fluid, null where periodic; without it all others count as
+  /// walls. A grain's own flow is another beside them.
+  void use_sides(const std::array<const sdk::BoundaryCondition*, 6>& sides);
 
   /// Optional, before the run: throws base::UserError if a grain of one of the `diameters` [m] is
   /// too large for the grid. map() finds the same later, as sdk::ModelError.

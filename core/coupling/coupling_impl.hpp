@@ -193,6 +193,8 @@ struct Coupling::Impl {
   bool take_own_off(const particles::GrainRows& grains, std::size_t row, double slip,
                     SmoothKernel& kernel, double& eps);
   [[nodiscard]] static double void_of_others(const OwnFlow& own, const Triple& of_faces);
+  [[nodiscard]] double own_weight(const particles::GrainRows& grains, std::size_t row) const;
+  [[nodiscard]] double crowding(const particles::GrainRows& grains, std::size_t row) const;
   void spread_smoothly(const particles::GrainRows& grains);
   void find_own_solids(const particles::GrainRows& grains, std::size_t row,
                        const SmoothKernel& kernel);
@@ -200,7 +202,10 @@ struct Coupling::Impl {
                      const SmoothKernel& kernel, double eps, double slip);
   void advance_own_flow();
   void look_smooth(const SpotBatch& spot, Rows rows, const FluidState& fluid,
-                   const std::array<SpotBatch::Reals, 3>& v, Seen& seen, Batch& batch) const;
+                   const std::array<SpotBatch::Reals, 3>& v, Seen& seen, Batch& batch);
+  void look_at_kernel(const double* position, const SmoothKernel& kernel, const FluidState& fluid,
+                      OwnFlow::Seen& seen) const;
+  [[nodiscard]] double beside_sides(const double* position, int d, double k) const;
   void settle(const fluid::FaceField& velocity);
   void refresh(const particles::GrainRows& grains, std::size_t batch, Rows rows,
                const FluidState& fluid);
@@ -228,6 +233,10 @@ struct Coupling::Impl {
   std::atomic<bool> are_spots_of_map{false};  ///< not those of a later refresh()
   Spots mapped_spots;                         ///< those of map(), where it is overlapped
   scenario::OwnDisturbance own_flow_is;       ///< what a grain does to the fluid by itself
+  /// What the sides of the domain are to a grain's own flow, where not periodic.
+  std::array<own_disturbance::Side, 6> sides{
+      own_disturbance::Side::wall, own_disturbance::Side::wall, own_disturbance::Side::wall,
+      own_disturbance::Side::wall, own_disturbance::Side::wall, own_disturbance::Side::wall};
   FaceExchange faces;
   std::unique_ptr<ForceTerms> forces;       ///< null without forces besides drag
   std::unique_ptr<StressBook> stress_book;  ///< null where grains and fluid do not see one stress

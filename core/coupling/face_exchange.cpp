@@ -134,9 +134,9 @@ void FaceExchange::sum_wide(const SpotBatch& spots, int d, const fluid::CellFiel
   }
 }
 
-/// What changes for the grains with a SmoothKernel, all of whose faces are open: the void fraction
-/// that makes a slip of the flux is that of OwnFlow, their own flow is no part of the slip, and the
-/// drag is spread such that its sum is K times that slip.
+/// What changes for the grains with a SmoothKernel: the void fraction that makes a slip of the flux
+/// is that of OwnFlow, their own flow is no part of the slip, and the drag is spread such that its
+/// sum is K times that slip.
 void FaceExchange::charge_smooth(const Spots& spots, std::size_t batch, const GrainMemory& memory,
                                  std::array<ChargeInput, 3>& inputs,
                                  std::array<ChargeColumns, 3>& charges) const {
@@ -152,13 +152,18 @@ void FaceExchange::charge_smooth(const Spots& spots, std::size_t batch, const Gr
     const double lone = around[q];
     for (int d = 0; d < 3; ++d) {
       const auto c = static_cast<std::size_t>(d);
-      const double* void_fraction = face_void_.columns(d).void_fraction;
-      double eps = 0.0;
-      kernel.for_faces(d, [&](std::ptrdiff_t face, double w) { eps += w * void_fraction[face]; });
-      const double of_flux = own.void_of_flux(c, eps);
-      inputs[c].open[q] = 1.0;
-      inputs[c].fluid[q] = eps;
-      inputs[c].gain[q] = lone / of_flux * (is_set_three_ ? 1.0 : lone / eps);
+      const FaceColumns columns = face_void_.columns(d);
+      double open = 0.0;
+      double fluid = 0.0;
+      kernel.for_faces(d, [&](std::ptrdiff_t face, double w) {
+        const double part = w * columns.open[face];
+        open += part;
+        fluid += part * columns.void_fraction[face];
+      });
+      const double of_flux = own.void_of_flux(c, fluid / open);
+      inputs[c].open[q] = open;
+      inputs[c].fluid[q] = fluid;
+      inputs[c].gain[q] = lone / of_flux * (is_set_three_ ? 1.0 : lone * open / fluid);
       charges[c].lag[q] = of_flux * (charges[c].lag[q] / lone + own.disturbance(c));
     }
   }
@@ -189,7 +194,7 @@ void FaceExchange::give_one(int d, const Faces& faces, const Charge& charge) {
 void FaceExchange::give_smooth(int d, const SmoothKernel& kernel, const Charge& charge) {
   const FaceColumns columns = face_void_.columns(d);
   kernel.for_faces(d, [&](std::ptrdiff_t face, double w) {
-    if (w == 0.0) return;
+    if (w == 0.0 || columns.open[face] == 0.0F) return;
     add(d, face, columns.open[face], columns.void_fraction[face],
         {w * charge.drag, w * charge.push, w * charge.extra});
   });

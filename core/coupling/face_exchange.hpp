@@ -23,7 +23,7 @@ struct Spots {
   CellOrder order;
   std::vector<SpotBatch> batches;
   std::vector<double> eps;  ///< void fraction around each: of its cell, or the mean over its cells
-  std::vector<char> is_smooth;  ///< of each: coupled through a SmoothKernel
+  std::vector<char> is_smooth;     ///< of each: coupled through a SmoothKernel
   std::uint64_t memory_order = 0;  ///< GrainMemory::order() when they were ordered
 
   /// The rows of a batch.

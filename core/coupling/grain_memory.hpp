@@ -33,15 +33,30 @@ struct Remembered {
 struct OwnFlow {
   using Groups = std::array<double, own_disturbance::k_groups>;
 
-  bool is_smooth = false;    ///< coupled through a SmoothKernel since map(); else nothing is taken off
+  bool is_smooth =
+      false;  ///< coupled through a SmoothKernel since map(); else nothing is taken off
+  bool is_beside = false;                                ///< a side of the domain cuts its kernel
   std::array<Triple, own_disturbance::k_groups> flow{};  ///< [m/s] by the drag it has received
-  Groups kept{};             ///< [-] share of the flow that is left after a fluid step
-  Groups gained{};           ///< [s/kg] flow that a fluid step adds, per force on the grain
+  Groups kept{};  ///< [-] share of the flow that is left after a fluid step
+  /// [s/kg] flow that a fluid step adds along each axis, per force on the grain
+  std::array<Triple, own_disturbance::k_groups> gained{};
   Triple paid{};             ///< [N s] owed before map(), which the fluid receives in this step
   double spread = 0.0;       ///< [-] of its solids, by the SmoothKernel and not by the voidage rule
   double excess = 0.0;       ///< [-] of its own solids and flow, over those of a lone grain
   Triple solids{};           ///< [-] its own at the faces of each component
   double self_stress = 0.0;  ///< [-] force by the stress of its own drag, over that drag
+
+  /// What its faces showed when it was last looked at since map(), and where that was: they are
+  /// looked at again once it has gone on by part of a cell.
+  struct Seen {
+    bool is_valid = false;
+    Triple place{};   ///< [m]
+    Triple flux{};    ///< [m/s] void fraction times velocity
+    Triple all{};     ///< [-] void fraction that goes with it
+    Triple eps{};     ///< [-] void fraction of the open faces
+    Triple stress{};  ///< [N/m3]
+  };
+  Seen seen;
 
   /// Component d of what is taken off the fluid's velocity [m/s], to be added to the slip.
   [[nodiscard]] double disturbance(std::size_t d) const {

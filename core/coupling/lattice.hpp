@@ -64,12 +64,17 @@ class Lattice {
   [[nodiscard]] std::ptrdiff_t home(int i, int j, int k) const {
     return offset(homes_[0], i) + offset(homes_[1], j) + offset(homes_[2], k);
   }
-  /// What an index along one axis adds to the padded index of a cell or the home of a face, periodic
-  /// images wrapped however far they are. Without periods it must be inside.
+  /// What an index along one axis adds to the padded index of a cell or the home of a face,
+  /// periodic images wrapped however far they are. Without periods it must be inside.
   [[nodiscard]] std::ptrdiff_t offset_along(int axis, int index) const {
     const int n = grid_.count[axis];
     const bool is_wrapped = grid_.is_periodic[axis] && (index < 0 || index >= n);
     return offset(homes_[axis], is_wrapped ? ((index % n) + n) % n : index);
+  }
+  /// Whether a padded index is that of a cell of the domain, not of the halo.
+  [[nodiscard]] bool is_in_domain(std::ptrdiff_t cell) const {
+    const std::array<int, 3> at = indices(cell);
+    return is_inside(0, at[0]) && is_inside(1, at[1]) && is_inside(2, at[2]);
   }
   /// Whether a body takes part of a cell.
   [[nodiscard]] bool has_bodies() const { return has_bodies_; }

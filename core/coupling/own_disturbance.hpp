@@ -14,13 +14,13 @@ namespace own_disturbance {
 
 /// Share of the slip from which on what a grain makes by itself is taken off: below it the eight
 /// faces next to the grain do, and cost less.
-inline constexpr double k_worth = 0.005;
+inline constexpr double k_worth = 0.01;
 
 /// Knots of the smooth kernel lie as far apart as the grain is large, and at least so many cells:
 /// the answer of the grid to it is then the same within 0.3 % anywhere in a cell.
 inline constexpr double k_least_knots = 1.25;
 /// Largest D/dx for which a grain has a smooth kernel: it has (4 D/dx)^3 faces per component.
-inline constexpr double k_largest_ratio = 4.0;
+inline constexpr double k_largest_ratio = 4.5;
 
 /// Standard deviation [m] of the Gaussian that the staggered grid of cells `h` [m] answers like, if
 /// a force is spread by cubic B-splines of knots `knots` [m] and the velocity is gathered by the
@@ -39,8 +39,8 @@ inline double still_mobility(double width, double viscosity) {
 
 /// The waves that flow is made of in three groups: sigma k of each and its share of G_0. Fitted to
 /// the unsteady answer 1 - (1 + nu t / sigma^2)^(-1/2) within 0.024 for t from 0.01 to 1000
-/// sigma^2/nu, to the steady answer of Oseen's flow within 1.1 % for w sigma / nu from 0 to 100, and
-/// exact in the short run: sum of shares times (sigma k)^2 = 1/2.
+/// sigma^2/nu, to the steady answer of Oseen's flow within 1.1 % for w sigma / nu from 0 to 100,
+/// and exact in the short run: sum of shares times (sigma k)^2 = 1/2.
 inline constexpr std::size_t k_groups = 3;
 inline constexpr std::array<double, k_groups> k_waves{0.0543, 0.3427, 1.1277};
 inline constexpr std::array<double, k_groups> k_shares{0.1583, 0.4946, 0.3471};
@@ -53,6 +53,25 @@ inline double left_by_stream(double p) {
   constexpr double k_slow = 0.05;  // below, the series; next term 3 p^4 / 35
   if (p < k_slow) return 1.0 - 0.2 * p * p;
   return 1.5 / (p * p) * ((1.0 + p * p) * std::atan(p) / p - 1.0);
+}
+
+/// What the sides of the domain are to the flow that a grain makes.
+enum class Side { open, wall, slip };
+/// Factor [-] on a group of waves of wave number k for a force at the distance y [m] from a side,
+/// along it or across: \f$ 1 \mp e^{-c k y} \f$, with c such that far away the flow is that of the
+/// image of a point force (Lorentz 1896; Blake 1971, doi:10.1017/S0305004100049902: 9/16 and 9/8 of
+/// R/y, beside a plane without friction -3/8 and 3/4), and on the side none or twice as much.
+inline double beside_side(Side side, bool is_across, double k, double distance) {
+  if (side == Side::open) return 1.0;
+  constexpr double k_along_wall = 32.0 / (9.0 * std::numbers::pi);
+  constexpr double k_across_wall = 16.0 / (9.0 * std::numbers::pi);
+  constexpr double k_along_slip = 16.0 / (3.0 * std::numbers::pi);
+  constexpr double k_across_slip = 8.0 / (3.0 * std::numbers::pi);
+  if (side == Side::wall) {
+    return -std::expm1(-(is_across ? k_across_wall : k_along_wall) * k * distance);
+  }
+  return is_across ? -std::expm1(-k_across_slip * k * distance)
+                   : 1.0 + std::exp(-k_along_slip * k * distance);
 }
 
 /// Flow at a grain by its own force, group by group.
@@ -80,9 +99,9 @@ inline Response response(double width, double viscosity, double density, double 
 }
 
 /// Steady velocity [m/s] per force [N] that a grain coupled through the eight faces around it makes
-/// at its place, on the mean over the places in a cubic cell of edge `cell` [m]: as a ball of 0.7515
-/// cells does in Oseen's flow, \f$ G = [5 \pi \mu a (1 + \frac{1}{3} \rho w a / \mu)]^{-1} \f$. It
-/// is 30 % less in the middle of eight faces and twice as much on one of them.
+/// at its place, on the mean over the places in a cubic cell of edge `cell` [m]: as a ball of
+/// 0.7515 cells does in Oseen's flow, \f$ G = [5 \pi \mu a (1 + \frac{1}{3} \rho w a / \mu)]^{-1}
+/// \f$. It is 30 % less in the middle of eight faces and twice as much on one of them.
 inline double mobility_of_corners(double cell, double viscosity, double density, double slip) {
   const double radius = 0.7515 * cell;
   const double reynolds = density * slip * radius / viscosity;

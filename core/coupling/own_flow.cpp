@@ -6,17 +6,22 @@
 namespace dust::coupling {
 namespace {
 
-/// What a drag law makes of solids, over their share: exponents of the void fraction of 2.65 to 3.7.
+/// What a drag law makes of solids, over their share: exponents of the void fraction of 2.65
+/// to 3.7.
 constexpr double k_law_of_solids = 3.0;
 
-/// D/dx above which a lone grain's solids are spread by its kernel, too: they would fill a good part
-/// of a cell, and jump as it moves.
-constexpr double k_sharp = 0.3;
-/// How much of its own flow slows the stream that carries this away [-]: the mean over the kernel and
-/// where it goes.
+/// D/dx above which a lone grain's solids are spread by its kernel, too: they would fill a good
+/// part of a cell, and jump as it moves.
+constexpr double k_sharp = 0.5 - 1e-9;
+/// How much of its own flow slows the stream that carries this away [-]: the mean over the kernel
+/// and where it goes.
 constexpr double k_slowing = 0.7;
-/// Excess up to which solids are left to the voidage rule alone.
-constexpr double k_crowded = 0.05;
+/// Part of a cell that a grain goes on before its faces are looked at again within a fluid step:
+/// the kernel is some cells wide, so that what it shows changes little over it.
+constexpr double k_look_again = 0.25;
+/// Share of solids of others in one of the cells around from which on a grain is one of many: it
+/// keeps its eight faces, so that a bed has the ends that its cells give it.
+constexpr double k_crowded = 0.1;
 
 /// Cells and shares of one grain as the voidage rule spreads it.
 struct Shares {
@@ -48,12 +53,19 @@ bool Coupling::Impl::has_candidates(const particles::GrainRows& grains) const {
   return false;
 }
 
+/// How much of a real grain a row stands for, as far as that is itself [-]: one that stands for
+/// many shows what they do together, of which each is a small part. Over the weight it is the part
+/// of what the row does.
+double Coupling::Impl::own_weight(const particles::GrainRows& grains, std::size_t row) const {
+  const double l = graining.of(grains, row);
+  return std::min(1.0, grains.weight[row]) / (l * l * l);
+}
+
 bool Coupling::Impl::is_candidate(const particles::GrainRows& grains, std::size_t row) const {
   const double diameter = 2.0 * grains.position[4 * row + 3];
-  const double l = graining.of(grains, row);
   const double most = own_disturbance::most_of_slip(diameter, mean_spacing);
   return diameter <= own_disturbance::k_largest_ratio * least_spacing * (1.0 + k_ratio_rounding) &&
-         most * grains.weight[row] * l * l > worth();
+         most * own_weight(grains, row) > worth();
 }
 
 /// What the grain would make of a fluid with its eight faces, and its own solids of its drag, over
@@ -66,10 +78,16 @@ double Coupling::Impl::own_part(const particles::GrainRows& grains, std::size_t 
   const double volume = grains.weight[row] * sdk::sphere_volume(2.0 * position[3]);
   const double solids = volume / lattice.cell_volume();
   const double excess = own::excess_of_one(1.0 - eps - solids);
-  if (excess * k_law_of_solids * solids > worth()) return 1.0;
+  const double weighted = excess * own_weight(grains, row);
+  if (weighted * k_law_of_solids * sdk::sphere_volume(2.0 * position[3]) / lattice.cell_volume() >
+      worth()) {
+    return 1.0;
+  }
+  if (weighted * own::most_of_slip(2.0 * position[3], mean_spacing) <= worth()) return 0.0;
   // Schiller and Naumann's drag will do to tell whether it is worth it.
   const double factor = 1.0 + 0.15 * std::pow(reynolds(grains, row, 1.0, slip), 0.687);
-  return excess * grains.weight[row] * coefficient(grains, row, factor) *
+  const double l = graining.of(grains, row);
+  return weighted / (l * l) * coefficient(grains, row, factor) *
          own::mobility_of_corners(mean_spacing, fluid.viscosity, fluid.density, slip);
 }
 
@@ -79,24 +97,35 @@ bool Coupling::Impl::take_own_off(const particles::GrainRows& grains, std::size_
                                   SmoothKernel& kernel, double& eps) {
   OwnFlow& own = memory.own_flow(row);
   const double* position = grains.position + 4 * row;
-  const bool is_worth = own.spread > 0.0 || (is_candidate(grains, row) &&
-                                             own_part(grains, row, eps, slip) > worth());
-  if (!is_worth || !kernel.set(position, 2.0 * position[3])) {
-    own = {};
+  const bool is_worth =
+      own.spread > 0.0 || (is_candidate(grains, row) && own_part(grains, row, eps, slip) > worth());
+  const auto room = is_worth && (own.spread > 0.0 || crowding(grains, row) < k_crowded)
+                        ? kernel.set(position, 2.0 * position[3])
+                        : SmoothKernel::Room::none;
+  if (room == SmoothKernel::Room::none) {
+    if (own.is_smooth) own = {};
     return false;
   }
+  own.is_beside = room == SmoothKernel::Room::beside;
+  own.seen.is_valid = false;
   own.is_smooth = true;
   own.paid = memory[row].owed;
   find_own_solids(grains, row, kernel);
   Triple of_faces;
   for (int d = 0; d < 3; ++d) {
-    const double* at_faces = face_void.columns(d).void_fraction;
-    double sum = 0.0;
-    kernel.for_faces(d, [&](std::ptrdiff_t face, double w) { sum += w * at_faces[face]; });
-    of_faces[static_cast<std::size_t>(d)] = sum;
+    const FaceColumns columns = face_void.columns(d);
+    double open = 0.0;
+    double fluid = 0.0;
+    kernel.for_faces(d, [&](std::ptrdiff_t face, double w) {
+      const double part = w * columns.open[face];
+      open += part;
+      fluid += part * columns.void_fraction[face];
+    });
+    of_faces[static_cast<std::size_t>(d)] = fluid / open;
   }
   own.excess = 1.0;
-  own.excess = own_disturbance::excess_of_one(1.0 - void_of_others(own, of_faces));
+  own.excess = own_disturbance::excess_of_one(1.0 - void_of_others(own, of_faces)) *
+               own_weight(grains, row) / grains.weight[row];
   eps = void_of_others(own, of_faces);
   find_own_flow(grains, row, kernel, (of_faces[0] + of_faces[1] + of_faces[2]) / 3.0, slip);
   return true;
@@ -112,6 +141,36 @@ double Coupling::Impl::void_of_others(const OwnFlow& own, const Triple& of_faces
   return std::min(1.0, sum / 3.0);
 }
 
+/// Most solids of others in one of the 27 cells around, while its own are spread by the rule.
+double Coupling::Impl::crowding(const particles::GrainRows& grains, std::size_t row) const {
+  static thread_local Shares shares;
+  const double* position = grains.position + 4 * row;
+  const double solids =
+      grains.weight[row] * sdk::sphere_volume(2.0 * position[3]) / lattice.cell_volume();
+  const Place p = lattice.place(position);
+  const std::ptrdiff_t here = lattice.cell(p);
+  const double at_least = 1.0 - void_fraction.after()[here] -
+                          solids / std::max(k_least_open, lattice.open_fraction(here));
+  if (at_least >= k_crowded) return at_least;  // as in most of a packing
+  shares.set(voidage, lattice.grid().shape(), position);
+  double most = 0.0;
+  for (int k = -1; k <= 1; ++k) {
+    for (int j = -1; j <= 1; ++j) {
+      for (int i = -1; i <= 1; ++i) {
+        const std::ptrdiff_t cell = lattice.cell(p[0].cell + i, p[1].cell + j, p[2].cell + k);
+        double others = 1.0 - void_fraction.after()[cell];
+        if (others < k_crowded) continue;
+        for (std::size_t n = 0; n < shares.used; ++n) {
+          const bool is_it = lattice.open_cell(shares.i[n], shares.j[n], shares.k[n]) == cell;
+          if (is_it) others -= solids * shares.weight[n] / lattice.open_fraction(cell);
+        }
+        most = std::max(most, others);
+      }
+    }
+  }
+  return most;
+}
+
 /// Spreads the solids of large lone grains by their kernels, in place of the voidage rule.
 void Coupling::Impl::spread_smoothly(const particles::GrainRows& grains) {
   struct Move {
@@ -122,27 +181,24 @@ void Coupling::Impl::spread_smoothly(const particles::GrainRows& grains) {
   std::vector<Move> moves;
   SmoothKernel kernel(lattice);
   for (std::size_t row = 0; row < grains.count; ++row) {
-    OwnFlow& own = memory.own_flow(row);
-    own.spread = 0.0;
     const double* position = grains.position + 4 * row;
     if (2.0 * position[3] <= k_sharp * least_spacing || !is_candidate(grains, row)) continue;
-    if (!kernel.set(position, 2.0 * position[3])) continue;
+    OwnFlow& own = memory.own_flow(row);
+    own.spread = 0.0;
     const double volume = grains.weight[row] * sdk::sphere_volume(2.0 * position[3]);
+    const double others = crowding(grains, row);
+    if (others >= k_crowded) continue;
+    if (kernel.set(position, 2.0 * position[3]) == SmoothKernel::Room::none) continue;
     shares.set(voidage, lattice.grid().shape(), position);
-    double others = 1.0 - kernel.mean(void_fraction.after());
+    // Nothing jumps when others come near.
+    own.spread = 1.0 - std::max(0.0, others) / k_crowded;
     for (std::size_t n = 0; n < shares.used; ++n) {
-      others -= volume / lattice.cell_volume() * shares.weight[n] *
-                kernel.weight({shares.i[n], shares.j[n], shares.k[n]});
+      const std::ptrdiff_t from = lattice.open_cell(shares.i[n], shares.j[n], shares.k[n]);
+      if (from >= 0) moves.push_back({from, -own.spread * volume * shares.weight[n]});
     }
-    const double excess = own_disturbance::excess_of_one(others);
-    if (excess <= k_crowded) continue;
-    own.spread = (excess - k_crowded) / (1.0 - k_crowded);
-    for (std::size_t n = 0; n < shares.used; ++n) {
-      const std::ptrdiff_t cell = lattice.open_cell(shares.i[n], shares.j[n], shares.k[n]);
-      if (cell >= 0) moves.push_back({cell, -own.spread * volume * shares.weight[n]});
-    }
-    kernel.for_cells([&](std::ptrdiff_t cell, double w) {
-      if (w > 0.0) moves.push_back({cell, own.spread * volume * w});
+    const double put = own.spread * volume / kernel.inside();
+    kernel.for_cells([&](std::ptrdiff_t to, double w) {
+      if (w > 0.0 && lattice.is_in_domain(to)) moves.push_back({to, put * w});
     });
   }
   for (const Move& move : moves) void_fraction.add_after(move.cell, move.volume);
@@ -167,7 +223,7 @@ void Coupling::Impl::find_own_solids(const particles::GrainRows& grains, std::si
       above[static_cast<std::size_t>(d)] += 1;
       own.solids[static_cast<std::size_t>(d)] +=
           (1.0 - own.spread) * solids * shares.weight[n] * 0.5 *
-          (kernel.weight(d, cell) + kernel.weight(d, above));
+          (kernel.weight(d, cell) + kernel.weight(d, above)) / kernel.inside(d);
     }
   }
 }
@@ -186,12 +242,32 @@ void Coupling::Impl::find_own_flow(const particles::GrainRows& grains, std::size
       own_disturbance::response(kernel.width(), fluid.viscosity, fluid.density, stream);
   for (std::size_t n = 0; n < own_disturbance::k_groups; ++n) {
     own.kept[n] = std::exp(-response.rate[n] * step);
-    own.gained[n] = -std::expm1(-response.rate[n] * step) * response.mobility[n];
+    const double gained = -std::expm1(-response.rate[n] * step) * response.mobility[n];
+    const double k = own_disturbance::k_waves[n] / kernel.width();
+    for (int d = 0; d < 3; ++d) {
+      own.gained[n][static_cast<std::size_t>(d)] = gained * beside_sides(position, d, k);
+    }
   }
   const double density = kernel.concentration(0) / (eps * lattice.cell_volume());
   own.self_stress = is_set_three ? 0.0
                                  : own.excess * grains.weight[row] * response.stress * density *
                                        sdk::sphere_volume(2.0 * position[3]);
+}
+
+/// What the sides make of a group of waves of a force along d.
+double Coupling::Impl::beside_sides(const double* position, int d, double k) const {
+  const fluid::Grid& grid = lattice.grid();
+  double factor = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    if (grid.is_periodic[a]) continue;
+    const double above = position[axis] - grid.origin[axis];
+    const double below = grid.count[a] * grid.spacing[axis] - above;
+    const bool is_across = axis == d;
+    factor *= own_disturbance::beside_side(sides[2 * a], is_across, k, std::max(above, 0.0)) *
+              own_disturbance::beside_side(sides[2 * a + 1], is_across, k, std::max(below, 0.0));
+  }
+  return factor;
 }
 
 /// After settle(): the flow that a fluid step has left of what there was, and what it added.
@@ -203,44 +279,71 @@ void Coupling::Impl::advance_own_flow() {
     for (std::size_t d = 0; d < 3; ++d) {
       const double force = (memory[row].given[d] - own.paid[d]) / step;
       for (std::size_t n = 0; n < own_disturbance::k_groups; ++n) {
-        own.flow[n][d] = own.kept[n] * own.flow[n][d] + own.gained[n] * force;
+        own.flow[n][d] = own.kept[n] * own.flow[n][d] + own.gained[n][d] * force;
       }
     }
   }
 }
 
+/// Looks at the faces of a grain with a SmoothKernel.
+void Coupling::Impl::look_at_kernel(const double* position, const SmoothKernel& kernel,
+                                    const FluidState& state, OwnFlow::Seen& seen) const {
+  const bool needs_stress = !is_set_three || forces;
+  for (int d = 0; d < 3; ++d) {
+    const FaceColumns columns = face_void.columns(d);
+    const double* u = state.velocity.component[d].data();
+    const double* push = state.stress_divergence.component[d].data();
+    double all = 0.0;
+    double flux = 0.0;
+    double open = 0.0;
+    double fluid = 0.0;
+    double stress = 0.0;
+    kernel.for_faces(d, [&](std::ptrdiff_t face, double w) {
+      const double eps = columns.void_fraction[face];
+      const double part = w * columns.open[face];
+      all += w * eps;
+      flux += w * eps * u[face];
+      open += part;
+      fluid += part * eps;
+      if (needs_stress && part > 0.0) stress += w * push[face];
+    });
+    const auto c = static_cast<std::size_t>(d);
+    seen.place[c] = position[d];
+    seen.flux[c] = flux;
+    seen.all[c] = all;
+    seen.eps[c] = open > 0.0 ? fluid / open : all;
+    seen.stress[c] = stress;
+  }
+  seen.is_valid = true;
+}
+
 /// What the grains with a SmoothKernel see of the fluid, in place of what their eight faces show.
 void Coupling::Impl::look_smooth(const SpotBatch& spot, Rows rows, const FluidState& state,
                                  const std::array<SpotBatch::Reals, 3>& v, Seen& seen,
-                                 Batch& batch) const {
-  const bool needs_stress = !is_set_three || forces;
+                                 Batch& batch) {
   SmoothKernel kernel(lattice);
+  const double far = k_look_again * least_spacing;
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
     if (!memory.is_smooth(row)) continue;
-    const OwnFlow& own = memory.own_flow(row);
-    kernel.set(&spot.position[4 * q], 2.0 * spot.position[4 * q + 3]);
-    Triple of_faces;
-    for (int d = 0; d < 3; ++d) {
-      const auto c = static_cast<std::size_t>(d);
-      const double* at_faces = face_void.columns(d).void_fraction;
-      const double* u = state.velocity.component[d].data();
-      const double* push = state.stress_divergence.component[d].data();
-      double eps = 0.0;
-      double flux = 0.0;
-      double stress = 0.0;
-      kernel.for_faces(d, [&](std::ptrdiff_t face, double w) {
-        const double part = w * at_faces[face];
-        eps += part;
-        flux += part * (u[face] - v[c][q]);
-        if (needs_stress) stress += w * push[face];
-      });
-      of_faces[c] = eps;
-      seen.slip[c][q] = flux / own.void_of_flux(c, eps) + own.disturbance(c);
-      seen.ratio[c][q] = 1.0;
-      seen.stress[c][q] = stress;
+    OwnFlow& own = memory.own_flow(row);
+    const double* position = &spot.position[4 * q];
+    double way = 0.0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      way = std::max(way, std::abs(position[d] - own.seen.place[d]));
     }
-    batch.void_fraction[q] = void_of_others(own, of_faces);
+    if (!own.seen.is_valid || way > far) {
+      kernel.set(position, 2.0 * position[3]);
+      look_at_kernel(position, kernel, state, own.seen);
+    }
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double flux = own.seen.flux[d] - own.seen.all[d] * v[d][q];
+      seen.slip[d][q] = flux / own.void_of_flux(d, own.seen.eps[d]) + own.disturbance(d);
+      seen.ratio[d][q] = 1.0;
+      // Beside a side the pressure acts as on all others, so that a layer on it has its weight.
+      if (!own.is_beside) seen.stress[d][q] = own.seen.stress[d];
+    }
+    batch.void_fraction[q] = void_of_others(own, own.seen.eps);
   }
 }
 

@@ -9,22 +9,29 @@
 namespace dust::coupling {
 
 /// The faces that a grain is coupled to where its own disturbance is taken off: along each axis a
-/// cubic B-spline of knots max(D, 1.25 dx), made to sum to 1 over the faces (or middles of cells) it
-/// meets. The same weights gather the fluid's velocity and spread the force, and with splines as
+/// cubic B-spline of knots max(D, 1.25 dx), made to sum to 1 over the faces (or middles of cells)
+/// it meets. The same weights gather the fluid's velocity and spread the force, and with splines as
 /// wide as that neither jumps as the grain moves (docs/theory/own_disturbance.md).
 class SmoothKernel {
  public:
   explicit SmoothKernel(const Lattice& lattice) : lattice_(lattice) {}
 
-  /// Looks at a grain of `diameter` at `position` [m]. Returns whether all that the kernel meets is
-  /// open fluid of the domain, once; where not, its weights still sum to 1 over what lies inside.
-  bool set(const double* position, double diameter);
+  /// What is around a grain: open fluid alone, a side of the domain besides, or what the kernel
+  /// cannot be used with: a body, or fewer cells along an axis than it needs.
+  enum class Room { open, beside, none };
+  /// Looks at a grain of `diameter` at `position` [m]. Beside a side the kernel is not wider than
+  /// the halo beyond, which holds the mirrored velocity.
+  Room set(const double* position, double diameter);
 
   /// Standard deviation [m] of the Gaussian that the grid answers like (own_disturbance), the
   /// geometric mean of the axes.
   [[nodiscard]] double width() const { return width_; }
-  /// Its own void: sum over the faces of component d of their weights times the mean of the weights
-  /// of the two cells beside [-].
+  /// Share of the weights of component d inside the domain, faces on the sides not counted [-].
+  [[nodiscard]] double inside(int d) const;
+  /// The same of the cells.
+  [[nodiscard]] double inside() const { return inside(k_cells); }
+  /// What it would find of itself, spread over the cells inside: sum over the faces inside of their
+  /// weights times the mean of the weights of the two cells beside, both made to sum to 1 [-].
   [[nodiscard]] double overlap(int d) const;
   /// Sum of the squares of the weights of component d [-].
   [[nodiscard]] double concentration(int d) const;
@@ -61,25 +68,28 @@ class SmoothKernel {
 
  private:
   static constexpr int k_cells = 3;  ///< in place of a component: no axis has faces
-  /// 4 knots of at most k_largest_ratio cells, and some for rounding.
+  /// 4 knots of at most k_largest_ratio cells (19 points), and some for rounding.
   static constexpr std::size_t k_room = 20;
   /// What the spline meets along one axis.
   struct Points {
     int first = 0;
+    int lowest = 0;  ///< first and last inside the domain, if any
+    int highest = 0;
     std::size_t count = 0;
+    double inside = 1.0;  ///< sum of the weights of those
     std::array<std::ptrdiff_t, k_room> offset;
     std::array<double, k_room> weight;
 
-    /// Weight of an index.
+    /// Weight of an index inside the domain, 0 beyond.
     [[nodiscard]] double at(int index) const {
-      const int n = index - first;
-      return n < 0 || n >= static_cast<int>(count) ? 0.0 : weight[static_cast<std::size_t>(n)];
+      return index < lowest || index > highest ? 0.0
+                                               : weight[static_cast<std::size_t>(index - first)];
     }
   };
   [[nodiscard]] const Points& points(int d, int axis) const {
     return (d == axis ? faces_ : middles_)[static_cast<std::size_t>(axis)];
   }
-  bool meet(int axis, double place, double knots, bool is_of_faces, Points& points) const;
+  void meet(int axis, double place, double knots, bool is_of_faces, Points& points) const;
   [[nodiscard]] bool is_clear() const;
 
   const Lattice& lattice_;

@@ -122,8 +122,8 @@ void SetupReader::read_coupling(MapReader& top) {
   out_.add("coupling", written_block<CouplingBlock>(values));
 }
 
-/// The closed forms are those of an open flow in three directions. Without it nothing is taken off by
-/// itself; who asks for it is told.
+/// The closed forms are those of an open flow in three directions. Without it nothing is taken off
+/// by itself; who asks for it is told.
 void SetupReader::check_own_disturbance(Mark where) {
   constexpr int k_fewest = 4;
   for (int d = 0; d < 3; ++d) {

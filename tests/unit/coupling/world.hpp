@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -126,7 +126,8 @@ struct World {
     double density = k_air;
     double viscosity = k_air_viscosity;
     bool is_one_way = false;
-    scenario::OwnDisturbance own_disturbance = scenario::OwnDisturbance::felt;
+    /// In a prescribed fluid grains feel what that shows; where it is solved, as by default.
+    std::optional<scenario::OwnDisturbance> own_disturbance;
     bool overlaps = false;
     std::vector<double> coarse_graining{1.0};   ///< by material
     std::function<double(int, int, int)> open;  ///< open fraction of a cell; null = 1 everywhere
@@ -149,8 +150,7 @@ struct World {
     setup.fluid->viscosity = c.viscosity;
     setup.fluid->momentum_set = c.momentum_set;
     setup.fluid->is_one_way = c.is_one_way;
-    setup.fluid->own_disturbance = c.own_disturbance;
-    if (std::getenv("AUTO")) setup.fluid->own_disturbance = scenario::OwnDisturbance::automatic;
+    setup.fluid->own_disturbance = c.own_disturbance.value_or(scenario::OwnDisturbance::felt);
     setup.fluid->overlaps_grains = c.overlaps;
     for (const double ratio : c.coarse_graining) setup.materials.push_back({"sand", {}, ratio});
     if (c.open) {

@@ -24,10 +24,12 @@ struct TwoWay {
     fluid.pressure_tolerance = tolerance;
     fluid.regions = std::move(regions);
     world.setup.gravity = {0, 0, -k_gravity};
+    fluid.own_disturbance = choice.own_disturbance.value_or(scenario::OwnDisturbance::automatic);
     world.restart();
     fluid::Boundaries pointers{};
     for (std::size_t n = 0; n < 6; ++n) pointers[n] = sides[n].get();
     solver = std::make_unique<fluid::FluidSolver>(world.grid, fluid, bodies, pointers);
+    world.coupling->use_sides(pointers);
   }
 
   /// One fluid step in the order of a run. Grains move under `gravity`, or are held where they are.
