@@ -46,8 +46,8 @@ TEST_CASE("the drag of a lone grain: sizes, cells, places") {
             of_places(diameter, ratio, fluid, scenario::OwnDisturbance::automatic, true);
         const std::string without =
             of_places(diameter, ratio, fluid, scenario::OwnDisturbance::felt, false);
-        MESSAGE(fluid.name << ", " << 1e6 * diameter << " um, D/dx " << ratio << ": felt" << without
-                           << "; taken off" << with);
+        MESSAGE(std::string(fluid.name) << ", " << 1e6 * diameter << " um, D/dx " << ratio
+                                        << ": felt" << without << "; taken off" << with);
       }
     }
   }

