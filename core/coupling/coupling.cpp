@@ -39,6 +39,7 @@ void Coupling::set_open_fraction(const fluid::CellField& open_fraction) {
   impl_->lattice.set_open_fraction(open_fraction);
 }
 
+void Coupling::start(const particles::GrainRows& grains) { impl_->start(grains); }
 void Coupling::map(const particles::GrainRows& grains, double fluid_step) {
   impl_->map(grains, fluid_step);
 }

@@ -76,6 +76,9 @@ class Coupling {
   /// After bodies have moved, before map(): share of each cell outside them.
   void set_open_fraction(const fluid::CellField& open_fraction);
 
+  /// Before the first map(), once: the void fraction round grains that are there at the start. They
+  /// push nothing aside in the first fluid step. Throws as map() does.
+  void start(const particles::GrainRows& grains);
   /// Throws sdk::ModelError if a grain is too large for the grid.
   void map(const particles::GrainRows& grains, double fluid_step);
   [[nodiscard]] const fluid::CellField& void_fraction_before() const;

@@ -206,6 +206,8 @@ struct Coupling::Impl {
   void look_at_kernel(const double* position, const SmoothKernel& kernel, const FluidState& fluid,
                       OwnFlow::Seen& seen) const;
   [[nodiscard]] double beside_sides(const double* position, int d, double k) const;
+  void map_solids(const particles::GrainRows& grains);
+  void start(const particles::GrainRows& grains);
   void settle(const fluid::FaceField& velocity);
   void refresh(const particles::GrainRows& grains, std::size_t batch, Rows rows,
                const FluidState& fluid);

@@ -135,20 +135,10 @@ void Coupling::Impl::sort_if_changed(const particles::GrainRows& grains) {
   sort(grains);
 }
 
-void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) {
-  step = fluid_step;
-  memory.align(grains);
-  double fastest = 0.0;  // 3 pi mu D / m [1/s]
-  for (std::size_t row = 0; row < grains.count; ++row) {
-    fastest = std::max(fastest, coefficient(grains, row, 1.0) * grains.velocity_of(row)[3]);
-  }
-  refreshes = refreshes_for(step, fastest);
-  done_refreshes = 0;
-  if (needs_size_ratio) find_size_ratios(grains);
-  sort(grains);
-  if (is_one_way) return;
-  if (own_flow_is != scenario::OwnDisturbance::felt && !memory.has_own_flow() && has_candidates(grains)) memory.keep_own_flow();
-
+/// The void fraction of cells and faces round the grains where they are. Asks no drag law.
+void Coupling::Impl::map_solids(const particles::GrainRows& grains) {
+  const bool may_be_alone = own_flow_is != scenario::OwnDisturbance::felt;
+  if (may_be_alone && !memory.has_own_flow() && has_candidates(grains)) memory.keep_own_flow();
   const VoidFraction::Counts counts = void_fraction.map(grains);
   const double limit = voidage.largest_diameter_over_spacing();
   if (counts.largest_ratio > limit * (1.0 + k_ratio_rounding)) {
@@ -172,6 +162,27 @@ void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) 
   }
   if (memory.has_own_flow()) spread_smoothly(grains);
   face_void.update(void_fraction.after(), void_fraction.filled_cells());
+}
+
+void Coupling::Impl::start(const particles::GrainRows& grains) {
+  memory.align(grains);
+  sort(grains);
+  if (!is_one_way) map_solids(grains);
+}
+
+void Coupling::Impl::map(const particles::GrainRows& grains, double fluid_step) {
+  step = fluid_step;
+  memory.align(grains);
+  double fastest = 0.0;  // 3 pi mu D / m [1/s]
+  for (std::size_t row = 0; row < grains.count; ++row) {
+    fastest = std::max(fastest, coefficient(grains, row, 1.0) * grains.velocity_of(row)[3]);
+  }
+  refreshes = refreshes_for(step, fastest);
+  done_refreshes = 0;
+  if (needs_size_ratio) find_size_ratios(grains);
+  sort(grains);
+  if (is_one_way) return;
+  map_solids(grains);
   const fluid::CellField& eps = void_fraction.after();
   faces.resize(spots.batches.size());
   for_batches([&](std::size_t batch, Rows rows) {

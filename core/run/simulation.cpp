@@ -130,7 +130,7 @@ void Simulation::start() {
   // Grains that are there at the start do not push their volume out of the air in the first step,
   // and the first frame shows the air between them.
   if (coupling_ && dem_->rows().count > 0) {
-    coupling_->map(dem_->rows(), setup_.time.fluid_step);
+    coupling_->start(dem_->rows());
     fluid_table_->publish(*fluid_, void_fraction());
   }
   publish_grains();

@@ -13,8 +13,12 @@ int main() {
   double overlap = 0.0;
   double speed = -1.0;  // of separation
   for (int n = 0; n < 100000; ++n) {
-    my_contact::Contact c{overlap, 1, 0, 0, speed, 0, 0, 1.0, 0, 0, 0, 0, 0, 0, 0, 0};
-    my_contact::evaluate(k, step, c);
+    my_contact::Contact c{};
+    c.overlap = overlap;
+    c.nx = 1.0;
+    c.vx = speed;
+    c.mass = 1.0;
+    my_contact::evaluate(k, c);
     speed += step * c.fx;
     overlap -= step * speed;
     if (overlap <= 0.0) break;
