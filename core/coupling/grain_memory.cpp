@@ -85,6 +85,8 @@ void GrainMemory::load_own_flow(sdk::ArchiveReader& archive) {
   for (OwnFlow& own : own_flow_) {
     for (Triple& part : own.flow) {
       std::copy_n(n, 3, part.begin());
+      // A flow is forgotten when its grain is no longer alone: the next map() has to know of it.
+      own.is_smooth = own.is_smooth || part != Triple{};
       n += 3;
     }
   }

@@ -86,7 +86,7 @@ with Prefix(arguments()) as prefix:
     told = json.loads(prefix.run(prefix.engine, "check", work / "own.yaml", "--json", *plugins))
     check(abs(told["largest_step_s"] / whole["dem_step_s"] - 1) < 1e-9,
           f"check tells a step of {told['largest_step_s']} s, the run takes {whole['dem_step_s']} s")
-    run("parts", "22 ms", "--threads", "1")
+    run("parts", "24 ms", "--threads", "1")
     # Grains lie on the bottom by then, so a law without its history would go on in another way.
     history = numbers(work / "parts/checkpoint.h5", "parts/grains", "surfaces_history")
     check(any(float(h) != 0.0 for h in history), "no contact has a history where the run is cut")
