@@ -40,7 +40,8 @@ DUST_KERNEL void mark_approaching(const Courses& courses, const Images& images,
       const std::size_t later = std::min(q + k_ahead + l, count - 1);
       for (const std::int32_t grain : {a[later], b[later]}) {
         __builtin_prefetch(courses.position + 4 * static_cast<std::ptrdiff_t>(grain), 0, 2);
-        __builtin_prefetch(courses.velocity + k_motion_stride * static_cast<std::size_t>(grain), 0, 2);
+        __builtin_prefetch(courses.velocity + k_motion_stride * static_cast<std::size_t>(grain), 0,
+                           2);
         __builtin_prefetch(courses.allowance + grain, 0, 2);
       }
     }
@@ -69,8 +70,8 @@ DUST_KERNEL void mark_approaching(const Courses& courses, const Images& images,
     const Lanes flown2 = behind2 * vv;
     const Lanes touch2 = x[3] * x[3];
     const Lanes excess = touch2 + flown2 - xx;
-    const LaneMask overlaps = (flown2 < touch2) & (excess > 0.0) &
-                              (excess * excess > 4.0 * touch2 * flown2);
+    const LaneMask overlaps =
+        (flown2 < touch2) & (excess > 0.0) & (excess * excess > 4.0 * touch2 * flown2);
     const LaneMask found = meets & (1LL * k_may_meet | (overlaps & (1LL * k_overlaps)));
     for (std::size_t l = 0; l < 4 && q + l < count; ++l) {
       approach[q + l] = static_cast<std::uint8_t>(found[l]);

@@ -58,11 +58,7 @@ sdk::CohesionBatch BatchColumns::cohesion_view(std::size_t count, double time_st
   return b;
 }
 
-namespace {
-
-/// Of contacts that have begun within the last step, what lies before it is no displacement. Few
-/// batches have one.
-DUST_KERNEL void cut_first_displacements(BatchColumns& columns, std::size_t n) {
+DUST_KERNEL void cut_first_displacements(BatchColumns& columns, std::size_t count) {
   using B = BatchColumns;
   const double* overlap = columns.column(B::overlap);
   const double* normal[3] = {columns.column(B::normal_x), columns.column(B::normal_y),
@@ -71,19 +67,20 @@ DUST_KERNEL void cut_first_displacements(BatchColumns& columns, std::size_t n) {
                     columns.column(B::displacement_z)};
   double* angle[3] = {columns.column(B::angle_x), columns.column(B::angle_y),
                       columns.column(B::angle_z)};
+  const std::size_t n = padded(count);
 #pragma omp simd
   for (std::size_t q = 0; q < n; ++q) {
     const double parting =
         way[0][q] * normal[0][q] + way[1][q] * normal[1][q] + way[2][q] * normal[2][q];
-    const double share = touched_share(overlap[q], parting);
+    // They came in by -parting to the overlap.
+    const double inside = overlap[q] / std::max(-parting, 1e-300);
+    const double share = overlap[q] > 0.0 && parting < 0.0 ? std::min(1.0, inside) : 1.0;
     for (int d = 0; d < 3; ++d) {
       way[d][q] *= share;
       angle[d][q] *= share;
     }
   }
 }
-
-}  // namespace
 
 DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count) {
   using B = BatchColumns;
@@ -182,7 +179,8 @@ DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count)
     mass[q] = all * by_radii * smaller;
     largest = std::max(largest, d * (all * by_radii * im[q]));
   }
-  if (shallowest < 0.0) cut_first_displacements(columns, n);
+  // Few batches have one.
+  if (shallowest < 0.0) cut_first_displacements(columns, count);
   return largest;
 }
 

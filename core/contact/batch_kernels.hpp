@@ -3,7 +3,6 @@
 
 #include "contact/batch.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -51,17 +50,14 @@ std::size_t gather_touching(const RowView& rows, const Images& images, const Pai
                             std::size_t& next, std::size_t end, double range,
                             std::int32_t* contacts, BatchColumns& columns);
 
-/// The share of the last displacement during which two touched: they came in by `parting` < 0 [m]
-/// to the overlap [m]. 1 but for contacts that have just begun.
-__attribute__((always_inline)) inline double touched_share(double overlap, double parting) {
-  const double share = overlap / std::max(-parting, 1e-300);
-  return overlap > 0.0 ? std::min(1.0, parting < 0.0 ? share : 1.0) : 1.0;
-}
-
 /// Overlap, normal, effective radius and mass, lever arms, the relative velocity of the contact
 /// point and its displacement since the last look, or since the two began to touch in between, from
 /// what gather_touching wrote. Returns the largest overlap / smaller radius [-].
 double derive_pair_columns(BatchColumns& columns, std::size_t count);
+
+/// Of contacts that have begun within the last step, takes off displacement and angle what lies
+/// before the touch. Done by derive_pair_columns.
+void cut_first_displacements(BatchColumns& columns, std::size_t count);
 
 /// How fast the sides of each pair part, for the cohesion stage.
 void derive_normal_velocity(BatchColumns& columns, std::size_t count);

@@ -159,9 +159,8 @@ bool Dem::Impl::find_scales(const contact::PairView& pairs, const std::int32_t* 
         contacts == nullptr ? first + q : static_cast<std::size_t>(contacts[q]);
     const double wi = store.weight[static_cast<std::size_t>(pairs.a[entry])];
     const double wj = store.weight[static_cast<std::size_t>(pairs.b[entry])];
-    // Sum of w m v is kept: side i feels min(1, w_j / w_i) of the force.
-    scale_i[q] = wj < wi ? wj / wi : 1.0;
-    scale_j[q] = wi < wj ? wi / wj : 1.0;
+    scale_i[q] = felt_share(wi, wj);
+    scale_j[q] = felt_share(wj, wi);
     if (wi == wj) continue;
     has_scales = true;
     const auto inverse_mass = [&](std::int32_t row) {

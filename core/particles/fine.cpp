@@ -157,9 +157,8 @@ void Dem::Impl::find_clusters() {
 bool Dem::Impl::is_heavy(std::int32_t coarse, std::int32_t fine_row) const {
   const auto c = static_cast<std::size_t>(coarse);
   const auto f = static_cast<std::size_t>(fine_row);
-  const double coarse_share = std::min(1.0, store.weight[f] / store.weight[c]);
-  const double fine_share = std::min(1.0, store.weight[c] / store.weight[f]);
-  return coarse_share * store.velocity(c)[3] * k_heavy <= fine_share * store.velocity(f)[3];
+  return felt_share(store.weight[c], store.weight[f]) * store.velocity(c)[3] * k_heavy <=
+         felt_share(store.weight[f], store.weight[c]) * store.velocity(f)[3];
 }
 
 /// Clusters at the level of their most demanding member, no finer than that member's class needs,
@@ -307,7 +306,7 @@ void Dem::Impl::give_back() {
 }
 
 /// Before a chunk's grains move: those that fine grains were near go on with the velocity that they
-/// ended the last step with. `waits`: of grains that another chunk looks at, or of the others.
+/// ended the last step with.
 void Dem::Impl::resume_course(const Chunk& chunk, Movers movers) {
   const auto first =
       std::lower_bound(left_overs.begin(), left_overs.end(), chunk.begin,

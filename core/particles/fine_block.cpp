@@ -52,7 +52,6 @@ class BlockPass {
     const double step = dem_.steps.coarse_step;
     const int count = 1 << block_.level;
     const double sub_step = step / count;
-    sub_step_ = sub_step;
     for (int m = 0; m < count; ++m) {
       time_ = now_ + m * sub_step;
       slow_share_ = 0.5 - static_cast<double>(m) / count;
@@ -114,15 +113,9 @@ class BlockPass {
     columns_.column(B::radius_i)[count_] = i.radius;
     columns_.column(B::radius_j)[count_] = j.radius;
     // How the two answer a force: by weight, see apply().
-    columns_.column(B::inverse_mass)[count_] =
-        share(i, j) * i.inverse_mass + share(j, i) * j.inverse_mass;
+    columns_.column(B::inverse_mass)[count_] = felt_share(i.weight, j.weight) * i.inverse_mass +
+                                               felt_share(j.weight, i.weight) * j.inverse_mass;
     return true;
-  }
-
-  /// Of a pair's force that a member of another weight feels: the sum of weight times momentum is
-  /// kept.
-  static double share(const Member& of, const Member& other) {
-    return other.weight < of.weight ? other.weight / of.weight : 1.0;
   }
 
   /// Books the impact that begins with contact q of the batch.
@@ -151,7 +144,7 @@ class BlockPass {
                  .inverse_mass = i.inverse_mass,
                  .displacement = i.displacement,
                  .angle = i.angle,
-                 .since = is_first_ ? 2.0 * i.lag : sub_step_},
+                 .since = 2.0 * i.lag},
                 s, count_, columns_);
     block_.largest_overlap = std::max(block_.largest_overlap, overlap / i.radius);
     return true;
@@ -216,8 +209,8 @@ class BlockPass {
     // Two grains that come together with different lags share one duration, so that their impulses
     // are opposite. A guest has had its own step already.
     if (!j.is_guest) duration = 0.5 * (duration + j.lag + 0.5 * sub_step);
-    const double share_i = share(i, j);
-    const double share_j = share(j, i);
+    const double share_i = felt_share(i.weight, j.weight);
+    const double share_j = felt_share(j.weight, i.weight);
     i.impulse += (share_i * duration) * force;
     i.twist += (share_i * duration) * torque_i;
     j.impulse -= (share_j * duration) * force;
@@ -228,7 +221,6 @@ class BlockPass {
   Block& block_;
   double now_;
   double time_ = 0.0;
-  double sub_step_ = 0.0;
   double slow_share_ = 0.0;  ///< of a guest's own kick still to come, less half of it
   bool is_first_ = false;    ///< sub-step of the coarse step
   std::size_t count_ = 0;

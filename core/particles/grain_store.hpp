@@ -11,6 +11,12 @@
 
 namespace dust::particles {
 
+/// Share of a pair's force that a grain of a statistical `weight` feels beside one of the weight
+/// `other`: the lighter feels all of it, and the sum of w m v is kept.
+inline double felt_share(double weight, double other) {
+  return other < weight ? other / weight : 1.0;
+}
+
 /// The grains, row by row. Rows of four doubles unless said otherwise.
 ///
 /// Positions stand at the time x^n; half_velocity at x^n minus the lag in its fourth column (half a

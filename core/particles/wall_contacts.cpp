@@ -103,16 +103,11 @@ void derive_wall_columns(const Surface& surface, double time, double since, std:
     const double n[3] = {normal[0][q], normal[1][q], normal[2][q]};
     move_to_point(now, q, 1.0, lever, n);
     move_to_point(way, q, columns.column(k_since)[q], lever, n);
-    const double parting = way.value[0][q] * n[0] + way.value[1][q] * n[1] + way.value[2][q] * n[2];
-    const double share = contact::touched_share(columns.column(B::overlap)[q], parting);
-    for (int d = 0; d < 3; ++d) {
-      way.value[d][q] *= share;
-      columns.column(B::angle_x + d)[q] *= share;
-    }
   }
   repeat_last(columns, count, B::velocity_x, B::velocity_z);
   repeat_last(columns, count, B::displacement_x, B::displacement_z);
   repeat_last(columns, count, B::overlap, B::lever_j);
+  contact::cut_first_displacements(columns, count);
 }
 
 }  // namespace dust::particles

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Energy of many elastic collisions.
 #include "dust/sdk/random.hpp"
-#include "support/dem_rig.hpp"
+#include "verification/contact/gas_energy.hpp"
 
 #include <doctest/doctest.h>
 
@@ -58,33 +58,9 @@ class Gas {
   static constexpr double k_radius = 3e-4;
   static constexpr double k_edge = 1e-2;
 
-  /// Kinetic energy and that of the Hertz springs, 8/15 E* sqrt(R*) d^(5/2).
   double energy() {
-    dem_->neighbours();
-    const auto rows = dem_->rows();
-    std::vector<std::size_t> row_of(rows.count);
-    double sum = 0.0;
-    for (std::size_t n = 0; n < rows.count; ++n) {
-      row_of[static_cast<std::size_t>(rows.id[n])] = n;
-      const double* v = rows.velocity_of(n);
-      sum += 0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / v[3];
-    }
-    const double young = 50e6 / (1.0 - 0.09) / 2.0;
-    for (const auto& [i, j] : dem_->listed_pairs()) {
-      const double* a = rows.position + 4 * row_of[static_cast<std::size_t>(i)];
-      const double* b = rows.position + 4 * row_of[static_cast<std::size_t>(j)];
-      double square = 0.0;
-      for (int d = 0; d < 3; ++d) {
-        double x = a[d] - b[d];
-        x -= k_edge * std::round(x / k_edge);
-        square += x * x;
-      }
-      const double overlap = 2.0 * k_radius - std::sqrt(square);
-      if (overlap > 0.0) {
-        sum += 8.0 / 15.0 * young * std::sqrt(0.5 * k_radius) * std::pow(overlap, 2.5);
-      }
-    }
-    return sum;
+    return energy_of_gas(*dem_, k_edge, 50e6 / (1.0 - 0.09) / 2.0,
+                         [](std::int64_t, std::int64_t, double) {});
   }
 
   std::unique_ptr<dust::particles::Dem> dem_;

@@ -152,7 +152,8 @@ struct Named {
 
 std::vector<Named> cases() {
   std::vector<Named> all;
-  const auto add = [&](const std::string& name, auto&& change, const Setting& setting = {}) -> Named& {
+  const auto add = [&](const std::string& name, auto&& change,
+                       const Setting& setting = {}) -> Named& {
     StickCase c = base();
     change(c);
     return all.emplace_back(Named{name, c, setting});
@@ -198,6 +199,8 @@ TEST_CASE("an impact that sticks shall end as the law says at the default step")
   for (const Named& n : cases()) {
     CAPTURE(n.name);
     const Errors e = errors(n.c, n.s);
+    MESSAGE(n.name << ": patch speed off by " << 100.0 * e.patch << " %, tangential energy by "
+                   << 100.0 * e.energy << " %");
     CHECK(e.patch < n.patch);
     CHECK(e.energy < n.energy);
   }
@@ -213,6 +216,7 @@ TEST_CASE("impacts that stick shall converge to second order in the step") {
     s.steps_per_contact = 60.0;
     const double fine = errors(n.c, s).root_mean;
     const double order = 0.5 * std::log2(coarse / fine);
+    MESSAGE(n.name << ": order " << order);
     CHECK(order > n.order);
   }
 }
