@@ -153,13 +153,7 @@ void FaceExchange::charge_smooth(const Spots& spots, std::size_t batch, const Gr
     for (int d = 0; d < 3; ++d) {
       const auto c = static_cast<std::size_t>(d);
       const FaceColumns columns = face_void_.columns(d);
-      double open = 0.0;
-      double fluid = 0.0;
-      kernel.for_faces(d, [&](std::ptrdiff_t face, double w) {
-        const double part = w * columns.open[face];
-        open += part;
-        fluid += part * columns.void_fraction[face];
-      });
+      const auto [open, fluid] = kernel.sum_faces(d, columns);
       const double of_flux = own.void_of_flux(c, fluid / open);
       inputs[c].open[q] = open;
       inputs[c].fluid[q] = fluid;

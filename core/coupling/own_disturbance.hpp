@@ -115,6 +115,16 @@ inline double most_of_slip(double diameter, double cell) {
   return 3.0 * std::numbers::pi * diameter * mobility_of_corners(cell, 1.0, 1.0, 0.0);
 }
 
+/// Whether what a grain of diameter D does by itself may be taken off in cells of the edges
+/// `least` and, of a cube of their volume, `mean` [m]: a smooth kernel has room for it, and the
+/// `part` of it that one real grain does [-] is above `worth`.
+inline bool may_be_taken_off(double diameter, double mean, double least, double part,
+                             double worth) {
+  constexpr double k_rounding = 1e-9;  // of a ratio of two lengths
+  return diameter <= k_largest_ratio * least * (1.0 + k_rounding) &&
+         most_of_slip(diameter, mean) * part > worth;
+}
+
 /// How much more solids than the mean there are around a grain because it is there, over its own
 /// volume [-]: 1 for a lone grain, nearly 0 in a packing, where a place that one grain leaves
 /// another takes. The compressibility of hard spheres after Carnahan and Starling, J. Chem. Phys.

@@ -63,9 +63,8 @@ double Coupling::Impl::own_weight(const particles::GrainRows& grains, std::size_
 
 bool Coupling::Impl::is_candidate(const particles::GrainRows& grains, std::size_t row) const {
   const double diameter = 2.0 * grains.position[4 * row + 3];
-  const double most = own_disturbance::most_of_slip(diameter, mean_spacing);
-  return diameter <= own_disturbance::k_largest_ratio * least_spacing * (1.0 + k_ratio_rounding) &&
-         most * own_weight(grains, row) > worth();
+  return own_disturbance::may_be_taken_off(diameter, mean_spacing, least_spacing,
+                                           own_weight(grains, row), worth());
 }
 
 /// What the grain would make of a fluid with its eight faces, and its own solids of its drag, over
@@ -114,14 +113,8 @@ bool Coupling::Impl::take_own_off(const particles::GrainRows& grains, std::size_
   Triple of_faces;
   for (int d = 0; d < 3; ++d) {
     const FaceColumns columns = face_void.columns(d);
-    double open = 0.0;
-    double fluid = 0.0;
-    kernel.for_faces(d, [&](std::ptrdiff_t face, double w) {
-      const double part = w * columns.open[face];
-      open += part;
-      fluid += part * columns.void_fraction[face];
-    });
-    of_faces[static_cast<std::size_t>(d)] = fluid / open;
+    const SmoothKernel::Sums sums = kernel.sum_faces(d, columns);
+    of_faces[static_cast<std::size_t>(d)] = sums.fluid / sums.open;
   }
   own.excess = 1.0;
   own.excess = own_disturbance::excess_of_one(1.0 - void_of_others(own, of_faces)) *

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "coupling/face_void.hpp"
 #include "coupling/lattice.hpp"
 
 #include <array>
@@ -59,6 +60,19 @@ class SmoothKernel {
         for (std::size_t i = 0; i < x.count; ++i) look(row + x.offset[i], across * x.weight[i]);
       }
     }
+  }
+  /// Sums over the faces of component d: weight times open share, and that times void fraction [-].
+  struct Sums {
+    double open = 0.0, fluid = 0.0;
+  };
+  [[nodiscard]] Sums sum_faces(int d, const FaceColumns& columns) const {
+    Sums sums;
+    for_faces(d, [&](std::ptrdiff_t face, double w) {
+      const double part = w * columns.open[face];
+      sums.open += part;
+      sums.fluid += part * columns.void_fraction[face];
+    });
+    return sums;
   }
   /// The same for the cells around the grain: look(cell, weight).
   template <class Look>

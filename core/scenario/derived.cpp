@@ -194,10 +194,13 @@ void derive_ratios(const Setup& setup, Derived& derived) {
   if (largest > 0.0) derived.width_over_diameter = std::min({size.x, size.y, size.z}) / largest;
   if (!setup.fluid) return;
   derived.smallest_spacing = std::numeric_limits<double>::infinity();
+  double volume = 1.0;
   for (int d = 0; d < 3; ++d) {
-    derived.smallest_spacing = std::min(derived.smallest_spacing,
-                                        size[d] / setup.fluid->cells[static_cast<std::size_t>(d)]);
+    const double spacing = size[d] / setup.fluid->cells[static_cast<std::size_t>(d)];
+    derived.smallest_spacing = std::min(derived.smallest_spacing, spacing);
+    volume *= spacing;
   }
+  derived.mean_spacing = std::cbrt(volume);
   derived.diameter_over_spacing = largest / derived.smallest_spacing;
   derived.courant_number =
       derived.expected_speed * setup.time.fluid_step / derived.smallest_spacing;

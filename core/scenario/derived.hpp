@@ -45,6 +45,7 @@ struct Derived {
   int coarse_deciding_size = -1;  ///< which of `sizes` sets it
   std::vector<EmissionNumbers> emissions;
   double smallest_spacing = 0.0;       ///< [m] 0 without fluid
+  double mean_spacing = 0.0;           ///< [m] edge of a cube of a cell's volume
   double diameter_over_spacing = 0.0;  ///< largest grain over smallest cell edge
   double width_over_diameter = 0.0;    ///< narrowest extent over largest grain
   double courant_number = 0.0;         ///< at the expected speed with the fluid's step

@@ -178,15 +178,15 @@ std::string step_note(const Derived& derived, int size) {
 void tell_own_disturbance(std::ostream& out, const Setup& setup, const Derived& derived) {
   if (!setup.fluid || setup.fluid->is_one_way || derived.sizes.empty()) return;
   namespace own = coupling::own_disturbance;
-  const double cell = derived.smallest_spacing;
   const bool is_asked = setup.fluid->own_disturbance == scenario::OwnDisturbance::taken_off;
   const bool is_off = setup.fluid->own_disturbance == scenario::OwnDisturbance::felt;
   double finest = 0.0;
   double coarsest = 0.0;
   for (const auto& size : derived.sizes) {
-    const double most = own::most_of_slip(size.diameter, cell);
-    const double limit = own::k_largest_ratio * cell;
-    if (is_off || size.diameter > limit || (!is_asked && most <= own::k_worth)) continue;
+    const bool may_be =
+        own::may_be_taken_off(size.diameter, derived.mean_spacing, derived.smallest_spacing, 1.0,
+                              is_asked ? 0.0 : own::k_worth);
+    if (is_off || !may_be) continue;
     if (finest == 0.0) finest = size.diameter;
     coarsest = size.diameter;
   }
@@ -196,7 +196,7 @@ void tell_own_disturbance(std::ostream& out, const Setup& setup, const Derived& 
         << engineering(finest, "m");
     if (coarsest > finest) out << " to " << engineering(coarsest, "m");
   }
-  const double felt = own::most_of_slip(largest, cell);
+  const double felt = own::most_of_slip(largest, derived.mean_spacing);
   if (coarsest < largest && felt > own::k_worth) {
     out << ",\n             own disturbance felt by grains of " << engineering(largest, "m")
         << ": up to " << digits(100.0 * std::min(felt, 1.0)) << " % of a lone one's slip";
