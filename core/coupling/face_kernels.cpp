@@ -6,7 +6,6 @@
 #include "dust/sdk/plugin.hpp"
 
 #include <cmath>
-#include <cstring>
 
 // Grain by grain in lanes: every grain's sums have the same order whatever the width of the lanes,
 // so that all processors give the same bits. Where many grains have the same faces around them,
@@ -22,13 +21,13 @@ __attribute__((always_inline)) inline void get(const double* column, std::size_t
   value = column[q];
 }
 __attribute__((always_inline)) inline void get(const double* column, std::size_t q, Four& four) {
-  std::memcpy(&four, column + q, sizeof four);
+  four = *reinterpret_cast<const lanes::LooseLanes*>(column + q);
 }
 __attribute__((always_inline)) inline void put(double* column, std::size_t q, double value) {
   column[q] = value;
 }
 __attribute__((always_inline)) inline void put(double* column, std::size_t q, const Four& four) {
-  std::memcpy(column + q, &four, sizeof four);
+  *reinterpret_cast<lanes::LooseLanes*>(column + q) = four;
 }
 
 /// The eight faces of a run and what stands there.

@@ -35,54 +35,11 @@ struct AwakeRows {
 namespace {
 
 using lanes::Lanes;
-/// The rows of two grains side by side.
-typedef double Wide __attribute__((vector_size(64), may_alias));
 
-template <class V>
-constexpr int k_rows = sizeof(V) / sizeof(Lanes);
-
-// Vectors wider than a clone knows are not returned: the compiler warns of it even where nothing is
-// called.
-
-/// What stands in the fourth column, in all four.
+/// What stands in the fourth column, in all four. Not returned: the compiler warns of vectors wider
+/// than the base of the clones, even where nothing is called.
 __attribute__((always_inline)) inline void take_fourth(const Lanes& v, Lanes& all) {
   all = __builtin_shufflevector(v, v, 3, 3, 3, 3);
-}
-__attribute__((always_inline)) inline void take_fourth(const Wide& v, Wide& all) {
-  all = __builtin_shufflevector(v, v, 3, 3, 3, 3, 7, 7, 7, 7);
-}
-__attribute__((always_inline)) inline void set_side_by_side(const Lanes& a, const Lanes& b,
-                                                            Wide& both) {
-  both = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-__attribute__((always_inline)) inline void set_all(const Lanes& four, Lanes& all) { all = four; }
-__attribute__((always_inline)) inline void set_all(const Lanes& four, Wide& all) {
-  set_side_by_side(four, four, all);
-}
-
-/// Of one grain, or two that follow each other, what stands first in a line and what stands behind
-/// it.
-__attribute__((always_inline)) inline void split(const double* lines, std::size_t n, Lanes& first,
-                                                 Lanes& second) {
-  lanes::load(lines + GrainStore::k_motion_stride * n, first);
-  lanes::load(lines + GrainStore::k_motion_stride * n + 4, second);
-}
-__attribute__((always_inline)) inline void split(const double* lines, std::size_t n, Wide& first,
-                                                 Wide& second) {
-  const Wide* const line = reinterpret_cast<const Wide*>(lines + GrainStore::k_motion_stride * n);
-  first = __builtin_shufflevector(line[0], line[1], 0, 1, 2, 3, 8, 9, 10, 11);
-  second = __builtin_shufflevector(line[0], line[1], 4, 5, 6, 7, 12, 13, 14, 15);
-}
-__attribute__((always_inline)) inline void join(const Lanes& first, const Lanes& second,
-                                                std::size_t n, double* lines) {
-  lanes::store(lines + GrainStore::k_motion_stride * n, first);
-  lanes::store(lines + GrainStore::k_motion_stride * n + 4, second);
-}
-__attribute__((always_inline)) inline void join(const Wide& first, const Wide& second,
-                                                std::size_t n, double* lines) {
-  Wide* const line = reinterpret_cast<Wide*>(lines + GrainStore::k_motion_stride * n);
-  line[0] = __builtin_shufflevector(first, second, 0, 1, 2, 3, 8, 9, 10, 11);
-  line[1] = __builtin_shufflevector(first, second, 4, 5, 6, 7, 12, 13, 14, 15);
 }
 
 /// Leapfrog with drag integrated exactly between the kicks:
@@ -91,90 +48,57 @@ __attribute__((always_inline)) inline void join(const Wide& first, const Wide& s
 /// new positions (Vyas et al., Comput. Phys. Commun. 310 (2025) 109524,
 /// doi:10.1016/j.cpc.2025.109524).
 ///
-/// One row, or two that follow each other; `f`: their forces and torques in turn.
-template <class V, bool has_fluid>
-__attribute__((always_inline)) inline void step_rows(const AwakeRows& r, double step, std::size_t n,
-                                                     double* f) {
-  const auto at = [n](double* p) __attribute__((always_inline))->V& {
-    return *reinterpret_cast<V*>(p + 4 * n);
-  };
+/// `f`: the row's force and torque; zeros are left.
+template <bool has_fluid>
+__attribute__((always_inline)) inline void step_row(const AwakeRows& r, double step, std::size_t n,
+                                                    double* f) {
   const double half_step = 0.5 * step;
-  V three;
-  V fourth;
-  set_all(Lanes{1.0, 1.0, 1.0, 0.0}, three);
-  set_all(Lanes{0.0, 0.0, 0.0, 1.0}, fourth);
-  const auto gravity_of = [&](std::size_t m) __attribute__((always_inline))->const Lanes& {
-    return lanes::row(r.gravity, r.material[m]);
-  };
-  V force;
-  V torque;
-  V weight;
-  if constexpr (k_rows<V> == 1) {
-    force = reinterpret_cast<const Lanes*>(f)[0];
-    torque = reinterpret_cast<const Lanes*>(f)[1];
-    weight = gravity_of(n);
-  } else {
-    const Lanes* const rows = reinterpret_cast<const Lanes*>(f);
-    set_side_by_side(rows[0], rows[2], force);
-    set_side_by_side(rows[1], rows[3], torque);
-    set_side_by_side(gravity_of(n), gravity_of(n + 1), weight);
-  }
-  for (int k = 0; k < 2 * k_rows<V>; ++k) reinterpret_cast<Lanes*>(f)[k] = Lanes{};
-  V inverse_mass;
-  V radius;
-  V last;
-  V old_row;
-  split(r.motion, n, last, old_row);
-  take_fourth(last, inverse_mass);
-  take_fourth(at(r.position), radius);
-  V kick = V{} + step;
-  V ahead = V{} + 0.5;  // what is left of the step after the kick, in kicks
-  bool is_new = false;
-  for (int k = 0; k < k_rows<V>; ++k) is_new |= old_row[4 * k + 3] != half_step;
+  const Lanes three{1.0, 1.0, 1.0, 0.0};
+  const Lanes fourth{0.0, 0.0, 0.0, 1.0};
+  auto& position = *reinterpret_cast<Lanes*>(r.position + 4 * n);
+  auto* const motion = reinterpret_cast<Lanes*>(r.motion + GrainStore::k_motion_stride * n);
+  auto* const spin = reinterpret_cast<Lanes*>(r.spin + GrainStore::k_motion_stride * n);
+  auto* const given = reinterpret_cast<Lanes*>(f);
+  const Lanes force = given[0];
+  const Lanes torque = given[1];
+  given[0] = given[1] = Lanes{};
+  Lanes inverse_mass;
+  Lanes radius;
+  take_fourth(motion[0], inverse_mass);
+  take_fourth(position, radius);
+  Lanes kick = Lanes{} + step;
+  Lanes ahead = Lanes{} + 0.5;  // what is left of the step after the kick, in kicks
+  const double lag = motion[1][3];
+  const bool is_new = lag != half_step;
   if (is_new) [[unlikely]] {
-    take_fourth(old_row, kick);
-    kick += half_step;
+    kick = Lanes{} + (lag + half_step);
     ahead = half_step / kick;
   }
-  const V acceleration = force * inverse_mass + weight;
-  const V old = old_row * three;
-  const V push = acceleration * kick * three;
-  V half = old + push;
+  const Lanes acceleration = force * inverse_mass + lanes::row(r.gravity, r.material[n]);
+  const Lanes old = motion[1] * three;
+  const Lanes push = acceleration * kick * three;
+  Lanes half = old + push;
   if constexpr (has_fluid) {
-    V e;
-    V phi;
-    const double* const decay = r.decay + 2 * n;
-    if constexpr (k_rows<V> == 1) {
-      e = V{} + decay[0];
-      phi = V{} + decay[1];
-    } else {
-      const Lanes d = *reinterpret_cast<const Lanes*>(decay);
-      e = __builtin_shufflevector(d, d, 0, 0, 0, 0, 2, 2, 2, 2);
-      phi = __builtin_shufflevector(d, d, 1, 1, 1, 1, 3, 3, 3, 3);
-    }
-    const V action = *reinterpret_cast<const V*>(r.action + 4 * n);
+    Lanes e = Lanes{} + r.decay[2 * n];
+    Lanes phi = Lanes{} + r.decay[2 * n + 1];
+    const Lanes action = *reinterpret_cast<const Lanes*>(r.action + 4 * n);
     if (is_new) [[unlikely]] {
-      for (int k = 0; k < 4 * k_rows<V>; ++k) {
-        if (kick[k] == step) continue;
-        const double x = action[k / 4 * 4 + 3] * kick[k];
-        e[k] = std::exp(-x);
-        phi[k] = x > 0.0 ? -std::expm1(-x) / x : 1.0;
-      }
+      const double x = action[3] * kick[0];
+      e = Lanes{} + std::exp(-x);
+      phi = Lanes{} + (x > 0.0 ? -std::expm1(-x) / x : 1.0);
     }
-    const V target = action * three;
-    half = old + (target - old) * (1.0 - e) + push * phi;
-    at(r.impulse) += (half - old - push) / inverse_mass;
+    half = old + (action * three - old) * (1.0 - e) + push * phi;
+    *reinterpret_cast<Lanes*>(r.impulse + 4 * n) += (half - old - push) / inverse_mass;
     ahead *= e;
   }
-  const V now = half + ahead * (half - old);
-  at(r.position) += half * step;
-  join(now + fourth * inverse_mass, half + fourth * half_step, n, r.motion);
+  position += half * step;
+  motion[0] = half + ahead * (half - old) + fourth * inverse_mass;
+  motion[1] = half + fourth * half_step;
   // I = 2/5 m R^2
-  const V spin = torque * (2.5 * inverse_mass / (radius * radius));
-  V old_turn;
-  split(r.spin, n, last, old_turn);
-  const V turn = old_turn + spin * kick;
-  join(turn + spin * half_step, turn, n, r.spin);
+  const Lanes turn_rate = torque * (2.5 * inverse_mass / (radius * radius));
+  const Lanes turn = spin[1] + turn_rate * kick;
+  spin[0] = turn + turn_rate * half_step;
+  spin[1] = turn;
 }
 
 /// The rows of a grain soon to come.
@@ -194,21 +118,17 @@ __attribute__((always_inline)) inline void expect(const AwakeRows& r, std::size_
 template <bool has_fluid>
 __attribute__((always_inline)) inline void integrate(const AwakeRows& r, double step) {
   if (r.rows == nullptr) {
-    // In twos: they begin with a cache line.
     const std::size_t end = r.first + r.count;
-    std::size_t n = r.first;
-    for (; n + 2 <= end; n += 2) {
+    for (std::size_t n = r.first; n < end; ++n) {
       expect<has_fluid>(r, std::min(n + k_ahead, end - 1));
-      step_rows<Wide, has_fluid>(r, step, n, r.force + 8 * (n - r.first));
+      step_row<has_fluid>(r, step, n, r.force + 8 * (n - r.first));
     }
-    if (n < end) step_rows<Lanes, has_fluid>(r, step, n, r.force + 8 * (n - r.first));
     return;
   }
   for (std::size_t k = 0; k < r.count; ++k) {
     const auto n = static_cast<std::size_t>(r.rows[k]);
     expect<has_fluid>(r, static_cast<std::size_t>(r.rows[std::min(k + k_ahead, r.count - 1)]));
-    step_rows<Lanes, has_fluid>(r, step, n,
-                                r.force + 8 * (r.by_row * (n - r.first) + r.by_place * k));
+    step_row<has_fluid>(r, step, n, r.force + 8 * (r.by_row * (n - r.first) + r.by_place * k));
   }
 }
 
@@ -233,7 +153,7 @@ void Dem::Impl::integrate_awake(std::span<const std::int32_t> rows, std::size_t 
   (has_fluid ? integrate_in_fluid : integrate_dry)(r, steps.coarse_step);
 }
 
-/// All rows [first, first + count), `first` even; `force` by row.
+/// All rows [first, first + count); `force` by row.
 void Dem::Impl::integrate_all(std::size_t first, std::size_t count, double* force) {
   AwakeRows r = awake_rows();
   r.count = count;
