@@ -6,13 +6,6 @@
 #include <sstream>
 
 namespace dust::particles {
-namespace {
-
-/// Share of the allowance at which a new list, or a new watch, is asked for.
-constexpr double k_trigger = 0.7;
-
-}  // namespace
-
 void Dem::Impl::fail(std::size_t row, const std::string& what, const std::string& cause) const {
   const double* p = store.position.data() + 4 * row;
   const double* v = store.velocity(row);
@@ -50,8 +43,8 @@ void Dem::Impl::fail(std::size_t row, const std::string& what, const std::string
 /// allowance. Looked after when a watch ends; mending is asked for early enough for the next one. A
 /// fine grain of 10 um pressed between two of 600 um (soft as grains are made to be) comes off with
 /// up to the speed at which its elastic energy sets it free, some 10 m/s: more than its allowance
-/// in one step. The lists are made new then, at the cost of a partner that may be seen late (counted
-/// when a watch begins). A coarse grain that does this is an error.
+/// in one step. The lists are made new then, at the cost of a partner that may be seen late
+/// (counted when a watch begins). A coarse grain that does this is an error.
 void Dem::Impl::check_course(std::size_t begin, std::size_t end, bool& wants_mending,
                              bool& wants_rebuild) const {
   bool asks = false;
@@ -71,33 +64,13 @@ void Dem::Impl::check_course(std::size_t begin, std::size_t end, bool& wants_men
   if (is_periodic) look_for_wraps(begin, end, wants_rebuild);
 }
 
-Dem::Impl::Deviation Dem::Impl::deviation(std::size_t n) const {
-  const double t = static_cast<double>(since_rebuild) * steps.coarse_step;
-  const double ahead = static_cast<double>(watch_length) * steps.coarse_step;
-  const double* p = store.position.data() + 4 * n;
-  const double* v = store.velocity(n);
-  const double* p0 = store.start.data() + 4 * n;
-  const float* v0 = store.start_velocity.data() + 4 * n;
-  Deviation result;
-  for (int d = 0; d < 3; ++d) {
-    const double off = p[d] - p0[d] - t * v0[d];
-    const double next = off + ahead * (v[d] - v0[d]);
-    result.now2 += off * off;
-    result.next2 += next * next;
-  }
-  return result;
-}
-
-bool Dem::Impl::Deviation::asks_for_another(double allowance) const {
-  return std::max(now2, next2) > k_trigger * k_trigger * allowance * allowance;
-}
-
 bool Dem::Impl::is_off_course(std::size_t n) const {
   return deviation(n).asks_for_another(store.start[4 * n + 3]);
 }
 
 /// The same for the choice of a watch and the grains it keeps awake; the next look comes after
-/// `ahead` coarse steps. Who is off by more than its allowance already may have met somebody unseen.
+/// `ahead` coarse steps. Who is off by more than its allowance already may have met somebody
+/// unseen.
 void Dem::Impl::check_awake(const Awake& awake, std::int64_t done, std::int64_t ahead,
                             bool& wants_watch) const {
   const double t = static_cast<double>(done) * steps.coarse_step;
@@ -117,7 +90,7 @@ void Dem::Impl::check_awake(const Awake& awake, std::int64_t done, std::int64_t 
       next2 += next * next;
     }
     const double limit2 = static_cast<double>(start.allowance) * start.allowance;
-    asks = asks || std::max(off2, next2) > k_trigger * k_trigger * limit2;
+    asks = asks || std::max(off2, next2) > Deviation::k_trigger * Deviation::k_trigger * limit2;
     if (!std::isfinite(off2)) fail_as_not_a_number(n);
   }
   wants_watch = wants_watch || asks;

@@ -289,9 +289,9 @@ struct Dem::Impl {
   enum class Movers { all, shared, unshared };
   void resume_course(const Chunk& chunk, Movers movers);
   [[nodiscard]] const LeftOver* left_over(std::int32_t row) const {
-    const auto l = std::lower_bound(
-        left_overs.begin(), left_overs.end(), row,
-        [](const LeftOver& a, std::int32_t wanted) { return a.row < wanted; });
+    const auto l =
+        std::lower_bound(left_overs.begin(), left_overs.end(), row,
+                         [](const LeftOver& a, std::int32_t wanted) { return a.row < wanted; });
     return l != left_overs.end() && l->row == row ? &*l : nullptr;
   }
 
@@ -302,9 +302,28 @@ struct Dem::Impl {
   /// next watch if it goes straight on [m2].
   struct Deviation {
     double now2 = 0.0, next2 = 0.0;
-    [[nodiscard]] bool asks_for_another(double allowance) const;
+    /// Share of the allowance at which a new list, or a new watch, is asked for.
+    static constexpr double k_trigger = 0.7;
+    [[nodiscard]] bool asks_for_another(double allowance) const {
+      return std::max(now2, next2) > k_trigger * k_trigger * allowance * allowance;
+    }
   };
-  [[nodiscard]] Deviation deviation(std::size_t row) const;
+  [[nodiscard]] Deviation deviation(std::size_t n) const {
+    const double t = static_cast<double>(since_rebuild) * steps.coarse_step;
+    const double ahead = static_cast<double>(watch_length) * steps.coarse_step;
+    const double* p = store.position.data() + 4 * n;
+    const double* v = store.velocity(n);
+    const double* p0 = store.start.data() + 4 * n;
+    const float* v0 = store.start_velocity.data() + 4 * n;
+    Deviation result;
+    for (int d = 0; d < 3; ++d) {
+      const double off = p[d] - p0[d] - t * v0[d];
+      const double next = off + ahead * (v[d] - v0[d]);
+      result.now2 += off * off;
+      result.next2 += next * next;
+    }
+    return result;
+  }
   [[nodiscard]] bool is_off_course(std::size_t row) const;
   void check_course(std::size_t begin, std::size_t end, bool& wants_mending,
                     bool& wants_rebuild) const;
@@ -352,8 +371,8 @@ struct Dem::Impl {
   std::size_t coarse_count = 0;
   std::vector<Chunk> chunks;
   VerletList near_fine;
-  ContactList fine;  ///< partner >= 0: row; < 0: surface -1 - b
-  std::vector<LeftOver> left_overs;  ///< of coarse grains that fine ones were near, by row
+  ContactList fine;                           ///< partner >= 0: row; < 0: surface -1 - b
+  std::vector<LeftOver> left_overs;           ///< of coarse grains that fine ones were near, by row
   contact::AlignedVector<double> fine_force;  ///< four per fine grain, of the last sub-step
   std::int64_t next_id = 0;
   WallLoads wall_loads;  ///< empty between fluid steps, so that nothing of it is saved

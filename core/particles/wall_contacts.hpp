@@ -21,10 +21,54 @@ struct GrainAtWall {
   static GrainAtWall from(const contact::RowView& rows, std::size_t row);
 };
 
-/// Puts the grain's side of contact q of a batch: geometry, motion, displacement. `near` is where
-/// the surface is nearest.
-void put_at_wall(const GrainAtWall& grain, const bodies::SurfacePoint& near, std::size_t q,
-                 contact::BatchColumns& columns);
+/// Where a batch of walls keeps what has no second grain: the contact point, and how long ago the
+/// last look was.
+inline constexpr int k_wall_point = contact::BatchColumns::rotation_j_x;
+inline constexpr int k_wall_since = contact::BatchColumns::angle_j_x;
+
+inline GrainAtWall GrainAtWall::from(const contact::RowView& rows, std::size_t row) {
+  const auto vec = [](const double* p) { return sdk::Vec3{p[0], p[1], p[2]}; };
+  const double* motion = rows.motion + contact::k_motion_stride * row;
+  const double* spin = rows.spin + contact::k_motion_stride * row;
+  GrainAtWall g;
+  g.position = vec(rows.position + 4 * row);
+  g.velocity = vec(motion);
+  g.rotation = vec(spin);
+  g.radius = rows.position[4 * row + 3];
+  g.inverse_mass = motion[3];
+  g.since = 2.0 * motion[7];
+  g.displacement = g.since * vec(motion + 4);
+  g.angle = g.since * vec(spin + 4);
+  return g;
+}
+
+/// Puts the grain's side of contact q of a batch: geometry, motion of the contact point. `near` is
+/// where the surface is nearest.
+inline void put_at_wall(const GrainAtWall& g, const bodies::SurfacePoint& near, std::size_t q,
+                        contact::BatchColumns& columns) {
+  using B = contact::BatchColumns;
+  const auto put = [&](int name, double value) { columns.column(name)[q] = value; };
+  const double overlap = g.radius - near.distance;
+  // The contact point halves the overlap, as between two grains.
+  const double lever = g.radius - 0.5 * overlap;
+  // w x -n is the way it goes round the centre.
+  const sdk::Vec3 velocity = g.velocity - lever * cross(g.rotation, near.normal);
+  const sdk::Vec3 displacement = g.displacement - lever * cross(g.angle, near.normal);
+  put(B::overlap, overlap);
+  put(B::lever_i, lever);
+  put(B::lever_j, 0.0);
+  put(B::effective_radius, g.radius);
+  put(B::effective_mass, 1.0 / g.inverse_mass);
+  put(k_wall_since, g.since);
+  for (int d = 0; d < 3; ++d) {
+    put(B::normal_x + d, near.normal[d]);
+    put(k_wall_point + d, g.position[d] - near.distance * near.normal[d]);
+    put(B::velocity_x + d, velocity[d]);
+    put(B::rotation_x + d, g.rotation[d]);
+    put(B::displacement_x + d, displacement[d]);
+    put(B::angle_x + d, g.angle[d]);
+  }
+}
 
 /// The surface's side of all contacts: takes its velocity at `time` [s] off the velocities of the
 /// contact points, and its way since the last look, half of which was `since` / 2 [s] ago, off the
