@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,6 +16,16 @@ struct Node {
   std::vector<std::string> reads;
   std::vector<std::string> writes;
   std::function<void()> work;
+};
+
+/// Nodes that every part of the work ("tile") can go through in one task, while its data are in the
+/// cache: scheduling, not another algorithm.
+struct Fusion {
+  std::string part;
+  std::vector<std::string> nodes;  ///< added one behind the other
+  std::function<void()> work;      ///< does what they do
+  /// How the time was shared by the nodes; sums to one.
+  std::function<std::vector<double>()> shares;
 };
 
 /// Time and runs of a node.
@@ -38,6 +49,13 @@ class TaskGraph {
   /// Names that exist before the first node runs (state carried over from the last pass).
   void given(std::vector<std::string> names);
   void add(Node node);
+  /// Runs the named nodes as one where they stand one behind the other; where a node was added
+  /// between them, each runs by itself. Drawn and timed they are always one by one.
+  void fuse(Fusion fusion);
+  /// For tests: names with what stands there as a number. The nodes then run one after the other,
+  /// none fused, and what a node has changed without declaring it is a std::logic_error.
+  using Digests = std::map<std::string, std::function<std::uint64_t()>>;
+  void check_writes(Digests digests);
   /// Derives the edges; throws std::logic_error on a read of a name that nobody wrote.
   void build();
   /// Runs every node once and waits; rethrows the first exception. After an exception the graph is

@@ -226,6 +226,29 @@ void Dem::neighbours() { impl_->neighbours(); }
 void Dem::contact(double time, bool keeps_force) { impl_->contact(time, keeps_force); }
 void Dem::force() { impl_->force(); }
 void Dem::integrate() { impl_->integrate(); }
+void Dem::step_tiles(double time, bool keeps_force) { impl_->step_tiles(time, keeps_force); }
+void Dem::advance_fine() { impl_->advance_fine(); }
+void Dem::add_force(const std::function<sdk::Vec3(std::size_t)>& force) {
+  impl_->each_deferred([&](Chunk& chunk) {
+    const std::size_t moved = impl_->deferred.moved(chunk.index);
+    double* f = impl_->deferred.rows(chunk.index).data();
+    for (const std::int32_t row : std::span(chunk.awake.rows).subspan(moved)) {
+      const sdk::Vec3 more = force(static_cast<std::size_t>(row));
+      for (int d = 0; d < 3; ++d) f[d] += more[d];
+      f += k_force_row;
+    }
+  });
+}
+
+void Dem::let_all_step() { impl_->all_step = true; }
+
+std::array<double, 3> Dem::phase_shares() const {
+  TileTimes sum = impl_->times_before;
+  for (const Chunk& c : impl_->chunks) sum.add(c.times);
+  const double all = sum.contact + sum.force + sum.integration;
+  if (!(all > 0.0)) return {};
+  return {sum.contact / all, sum.force / all, sum.integration / all};
+}
 void Dem::fluid_action_changed() { impl_->refresh_decay(); }
 void Dem::bodies_changed() { impl_->must_rebuild = true; }
 

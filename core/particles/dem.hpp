@@ -10,7 +10,10 @@
 #include "scenario/setup.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -110,10 +113,25 @@ class Dem {
   void remove_leavers();
 
   void neighbours();
-  /// `keeps_force`: last_force() is asked for after this step.
+  /// The phases of a step at `time` [s], each over all tiles. `keeps_force`: last_force() is asked
+  /// for after this step. Between force() and integrate() the forces of the particles that are
+  /// about to move are complete: see add_force().
   void contact(double time, bool keeps_force = true);
   void force();
   void integrate();
+  /// The three phases at once, with the same bits: each tile goes through them in one task where
+  /// its forces are complete.
+  void step_tiles(double time, bool keeps_force = true);
+  /// How the time in step_tiles() was shared by contact, force and integration; sums to one, or
+  /// zeros before the first step.
+  [[nodiscard]] std::array<double, 3> phase_shares() const;
+  /// Sub-steps of the particles of the finer rates; ends the step.
+  void advance_fine();
+  /// Adds `force`(row) [N] to each coarse particle that makes this step: for stages of one's own
+  /// between force() and integrate(). Those that fly without a partner make no steps, unless
+  /// let_all_step() was called before the first.
+  void add_force(const std::function<sdk::Vec3(std::size_t)>& force);
+  void let_all_step();
 
   /// Brings all grains to the present time: those without partners nearby make many steps at once
   /// (watch.cpp). Whatever looks at the grains below does it first; end a run of steps with it, so
@@ -142,6 +160,9 @@ class Dem {
 
   /// Pairs in the Verlet list as ids (i < j), sorted: for tests against brute force.
   [[nodiscard]] std::vector<std::pair<std::int64_t, std::int64_t>> listed_pairs() const;
+
+  /// The arrays that the phases of a step read and write, by name, as numbers (graph::TaskGraph).
+  [[nodiscard]] std::map<std::string, std::function<std::uint64_t()>> digests() const;
 
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);

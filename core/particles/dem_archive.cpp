@@ -223,6 +223,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   chunks.clear();
   chunks.resize(bounds.size() / 3);
   for (std::size_t c = 0; c < chunks.size(); ++c) {
+    chunks[c].index = static_cast<std::int32_t>(c);
     chunks[c].begin = static_cast<std::int32_t>(bounds[3 * c]);
     chunks[c].end = static_cast<std::int32_t>(bounds[3 * c + 1]);
     chunks[c].contacts = bounds[3 * c + 2];

@@ -5,9 +5,13 @@
 #include "particles/balance_book.hpp"
 #include "particles/dem.hpp"
 #include "particles/fine.hpp"
+#include "particles/forces/deferred_forces.hpp"
+#include "particles/forces/force_buffer.hpp"
+#include "particles/forces/ghost_exchange.hpp"
 #include "particles/grain_store.hpp"
 #include "particles/search.hpp"
 #include "particles/surfaces.hpp"
+#include "particles/tile.hpp"
 #include "particles/time_steps.hpp"
 #include "particles/wall_loads.hpp"
 
@@ -121,17 +125,21 @@ struct Awake {
   std::vector<Start> start;
 };
 
-/// What another chunk's contacts do to a grain that waits.
-struct Gift {
-  std::int32_t place = 0;  ///< among those awake
-  std::int32_t chunk = 0;  ///< the giver
-  std::int32_t guest = 0;  ///< number among the giver's guests
+/// Time [s] that a tile has spent in each of its phases, in steps whose times were taken.
+struct TileTimes {
+  double contact = 0.0, force = 0.0, integration = 0.0;
+
+  void add(const TileTimes& other) {
+    contact += other.contact, force += other.force, integration += other.integration;
+  }
 };
 
 /// Coarse grains [begin, end) with everything only their owner writes.
 struct Chunk {
+  std::int32_t index = 0;
   std::int32_t begin = 0;
   std::int32_t end = 0;
+  [[nodiscard]] Tile tile() const { return {index, begin, end}; }
   VerletList near_pairs;
   VerletList near_surfaces;
   ContactList pairs;
@@ -140,23 +148,14 @@ struct Chunk {
   /// run that goes on from a checkpoint finds what an unbroken one finds.
   std::vector<std::int32_t> hints;
   Awake awake;
-  std::vector<contact::Places> places;  ///< per entry of `pairs`: own grains, behind them guests
-  /// Guests: grains of chunks that stand later in the order, with which this chunk has pairs that
-  /// are in no other list.
-  std::vector<std::int32_t> guest_rows;        ///< each once, ascending
-  contact::AlignedVector<double> guest_force;  ///< eight numbers for each of them
-  std::vector<Gift> gifts;                     ///< to this chunk's grains, by place
-  std::vector<std::int32_t> givers;            ///< chunks they come from, all of them earlier ones
-  /// So many grains at the front of `awake` have made this step already. The others' forces, eight
-  /// numbers each, wait in `force` for integrate().
-  std::size_t moved = 0;
-  contact::AlignedVector<double> force;
+  std::vector<contact::Places> places;  ///< per entry of `pairs`: rows of a ForceBuffer
   double largest_overlap = 0.0;
   std::int64_t contacts = 0;
   std::int64_t seen_late = 0;                 ///< contacts, when the watch began
   std::vector<double> wall_sums;              ///< WallLoads::k_sums per wall, if watched
   std::vector<sdk::WallImpact> wall_impacts;  ///< in the order of the contacts
   bool wants_watch = false;
+  TileTimes times;
 };
 
 /// What fine grains have left to a coarse one for its next step: its row says the mean velocity of
@@ -226,9 +225,7 @@ struct Dem::Impl {
     return store.half_velocity(static_cast<std::size_t>(row))[3] == 0.5 * steps.coarse_step;
   }
   void begin_watch();
-  void invite_guests(Chunk& chunk);
-  void wake_guests();
-  void promise_gifts();
+  void wake_ghosts();
   void land();
 
   // choose.cpp
@@ -238,7 +235,6 @@ struct Dem::Impl {
   void fall_in(ContactList& contacts) const;
 
   // contacts.cpp
-  void contact(double time, bool keeps_force);
   [[nodiscard]] bool find_scales(const contact::PairView& pairs, const std::int32_t* contacts,
                                  std::size_t first, std::size_t count,
                                  contact::BatchColumns& columns) const;
@@ -246,30 +242,38 @@ struct Dem::Impl {
   void open_pairs(const Segment& segment, Chunk& chunk, double* force);
   void chunk_pairs(Chunk& chunk, double* force);
   void chunk_surfaces(Chunk& chunk, double* force);
-  [[nodiscard]] bool has_all_gifts(const Chunk& chunk) const;
-  void move_all(Chunk& chunk, double* force);
-  void move_own(Chunk& chunk, double* force);
-  void keep_force(const Chunk& chunk, const double* force);
-  enum class ForceOrder { by_row, by_place };
-  void take_gifts(Chunk& chunk, double* force, ForceOrder order);
   void note_wall_loads(Chunk& chunk, const Surface& surface, const std::int32_t* contacts,
                        const bool* is_new, std::size_t count, contact::BatchColumns& columns);
+
+  // tile_step.cpp
+  void step_tiles(double now, bool keeps_force);
+  void contact(double now, bool keeps_force);
   void force();
-  /// Those of whose grains some have waited for other chunks: often none.
+  void integrate();
+  void begin_contacts(double now, bool keeps_force);
+  void evaluate(Chunk& chunk, ForceBuffer& force);
+  void keep_force(const Chunk& chunk, const double* force);
+  void add_contributions(const Chunk& chunk, ForceBuffer& force);
+  void add_to_deferred(Chunk& chunk);
+  void note_contribution(std::int32_t row, const double* given);
+  void move_all(Chunk& chunk, ForceBuffer& force);
+  void move_unshared(Chunk& chunk, ForceBuffer& force);
+  void move_deferred(Chunk& chunk);
+  void end_tiles();
+  /// Tiles of whose particles some have not moved: often none.
   template <class Work>
-  void each_waiting(Work&& work) {
-    const auto waits = [](const Chunk& c) { return c.moved < c.awake.rows.size(); };
-    if (std::none_of(chunks.begin(), chunks.end(), waits)) return;
+  void each_deferred(Work&& work) {
+    if (!deferred.has_any()) return;
     oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
-      if (waits(chunks[c])) work(chunks[c]);
+      if (deferred.has(static_cast<std::int32_t>(c))) work(chunks[c]);
     });
   }
+  enum class ForceOrder { by_row, by_place };
 
   // wall_loads.cpp
   void gather_wall_loads();
 
   // integrate.cpp
-  void integrate();
   [[nodiscard]] bool is_check_due() const;
   void check(Chunk& chunk, std::int64_t done) const;
   void integrate_all(std::size_t first, std::size_t count, double* force);
@@ -278,6 +282,7 @@ struct Dem::Impl {
                        ForceOrder order);
 
   // fine.cpp
+  void advance_fine();
   void fine_pass();
   void find_clusters();
   [[nodiscard]] bool is_heavy(std::int32_t coarse, std::int32_t fine_row) const;
@@ -384,9 +389,10 @@ struct Dem::Impl {
   std::int64_t since_watch = 0;      ///< coarse steps
   std::int64_t watch_length = 64;    ///< most coarse steps of the next watch, or of the present one
   std::int64_t flying = 0;           ///< grains asleep in the present watch
-  std::int64_t contact_round = 0;
-  /// By chunk: the last round whose guest_force is there. Read while others are written.
-  mutable std::vector<std::int64_t> given_in;
+  GhostExchange ghosts;
+  DeferredForces deferred;
+  TileTimes times_before;  ///< of the tiles before the last rebuild
+  bool all_step = false;   ///< nobody flies without steps
   bool is_watching = false;
   bool must_watch = false;
   bool must_mend = false;   ///< grains are off the course the lists suppose

@@ -3,8 +3,6 @@
 #include "dust/sdk/plugin.hpp"
 #include "particles/impl.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -180,33 +178,6 @@ bool Dem::Impl::is_check_due() const { return (since_watch + 1) % check_every(wa
 void Dem::Impl::check(Chunk& chunk, std::int64_t done) const {
   chunk.wants_watch = false;
   check_awake(chunk.awake, done, check_every(watch_length), chunk.wants_watch);
-}
-
-void Dem::Impl::integrate() {
-  const bool is_check = is_check_due();
-  ++since_watch;
-  ++since_rebuild;
-  ++counters.steps;
-  counters.particle_steps += static_cast<std::int64_t>(store.size());
-  each_waiting([&](Chunk& chunk) {
-    resume_course(chunk, Movers::shared);
-    integrate_awake(std::span(chunk.awake.rows).subspan(chunk.moved),
-                    static_cast<std::size_t>(chunk.begin), chunk.force.data(),
-                    ForceOrder::by_place);
-    if (is_check) check(chunk, since_watch);
-  });
-  if (is_check) {
-    for (const Chunk& c : chunks) {
-      must_watch = must_watch || c.wants_watch;
-    }
-  }
-  if (coarse_count < store.size()) {
-    fine_pass();
-    // Dust squeezed out between coarse grains goes off at several m/s: looked after at every step.
-    check_awake(fine_awake, since_watch, 1, must_watch);
-  } else {
-    left_overs.clear();
-  }
 }
 
 }  // namespace dust::particles

@@ -231,6 +231,7 @@ void Dem::Impl::rebuild() {
   gather_wall_loads();
   wrap_periodic();
   for (const Chunk& c : chunks) {
+    times_before.add(c.times);
     counters.largest_coarse_overlap = std::max(counters.largest_coarse_overlap, c.largest_overlap);
   }
   // The contacts in touch, by their first grain's old row.
@@ -355,6 +356,7 @@ void Dem::Impl::rebuild() {
 
   const auto build = [&](std::size_t c) {
     Chunk& chunk = chunks[c];
+    chunk.index = static_cast<std::int32_t>(c);
     chunk.begin = static_cast<std::int32_t>(c * size);
     chunk.end = static_cast<std::int32_t>(std::min(coarse_count, (c + 1) * size));
     chunk.wall_sums.assign(WallLoads::k_sums * wall_loads.walls(), 0.0);

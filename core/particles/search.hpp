@@ -17,7 +17,7 @@ struct SearchInput {
   std::size_t count = 0;
   const double* position = nullptr;  ///< x, y, z, radius
   const double* velocity = nullptr;
-  std::size_t velocity_stride = 4;  ///< doubles from one grain's to the next
+  std::size_t velocity_stride = 4;    ///< doubles from one grain's to the next
   const double* allowance = nullptr;  ///< fourth column of rows: allowed deviation [m]
   double horizon = 0.0;               ///< [s] for how long the list is to hold
   double range = 0.0;                 ///< [m] beyond touch

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 
 namespace dust::particles {
 namespace {
@@ -27,8 +26,8 @@ constexpr std::int64_t k_longest_in_bed = 256;
 constexpr double k_watch_share = 1.0 / 6.0;
 /// No more than a grain flies in so many coarse steps: what rests side by side in a bed need not be
 /// looked at. Its own speed counts, or that of the fast ones among all, of whom one may hit it: the
-/// fastest, but no more than this often the root mean square, lest a stray grain above a bed at rest
-/// has all of the bed look far.
+/// fastest, but no more than this often the root mean square, lest a stray grain above a bed at
+/// rest has all of the bed look far.
 constexpr double k_reach_steps = 16.0;
 constexpr double k_fast = 4.0;
 /// [-] and no less than this share of a diameter.
@@ -91,7 +90,8 @@ double Dem::Impl::fastest() const {
       oneapi::tbb::blocked_range<std::size_t>(0, blocks), walls * walls,
       [&](const oneapi::tbb::blocked_range<std::size_t>& range, double most) {
         const std::size_t end = std::min(store.size(), range.end() * k_block);
-        for (std::size_t n = range.begin() * k_block; n < end; ++n) most = std::max(most, speed2(n));
+        for (std::size_t n = range.begin() * k_block; n < end; ++n)
+          most = std::max(most, speed2(n));
         return most;
       },
       [](double a, double b) { return std::max(a, b); });
@@ -112,66 +112,13 @@ double Dem::Impl::typical_speed() const {
   return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(store.size(), 1)));
 }
 
-/// Whom of later chunks this chunk's pairs name, and where forces on both sides are gathered.
-void Dem::Impl::invite_guests(Chunk& chunk) {
-  auto& rows = chunk.guest_rows;
-  rows.clear();
-  const std::size_t count = chunk.pairs.size();
-  for (std::size_t q = 0; q < count; ++q) {
-    const std::int32_t row = std::max(chunk.pairs.a[q], chunk.pairs.b[q]);
-    if (row >= chunk.end) rows.push_back(row);
-  }
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  thread_local std::vector<std::int32_t> place;  // by row, from the chunk's first on
-  place.resize(coarse_count - static_cast<std::size_t>(chunk.begin));
-  const std::int32_t size = chunk.end - chunk.begin;
-  std::iota(place.begin(), place.begin() + size, 0);
-  for (std::size_t g = 0; g < rows.size(); ++g) {
-    place[static_cast<std::size_t>(rows[g] - chunk.begin)] = size + static_cast<std::int32_t>(g);
-  }
-  const auto place_of = [&](std::int32_t row) {
-    return place[static_cast<std::size_t>(row - chunk.begin)];
-  };
-  chunk.places.resize(count);
-  for (std::size_t q = 0; q < count; ++q) {
-    chunk.places[q] = {place_of(chunk.pairs.a[q]), place_of(chunk.pairs.b[q])};
-  }
-}
-
-/// Guests are looked at by other chunks: they may not move before all contacts are done.
-void Dem::Impl::wake_guests() {
+/// Ghosts are looked at by other tiles: they may not move before all contacts are done.
+void Dem::Impl::wake_ghosts() {
   for (const Chunk& chunk : chunks) {
-    for (const std::int32_t row : chunk.guest_rows) is_awake[static_cast<std::size_t>(row)] = 2;
-  }
-}
-
-/// Tells every chunk where its grains' forces are gathered elsewhere, in an order that depends on
-/// the lists alone.
-void Dem::Impl::promise_gifts() {
-  for (Chunk& chunk : chunks) chunk.gifts.clear();
-  given_in.assign(chunks.size(), 0);
-  for (std::size_t c = 0; c < chunks.size(); ++c) {
-    const auto& rows = chunks[c].guest_rows;
-    for (std::size_t g = 0; g < rows.size(); ++g) {
-      Chunk& owner = chunks[static_cast<std::size_t>(rows[g] / chunks.front().end)];
-      owner.gifts.push_back({rows[g], static_cast<std::int32_t>(c), static_cast<std::int32_t>(g)});
+    for (const std::int32_t row : ghosts.ghosts(chunk.index)) {
+      is_awake[static_cast<std::size_t>(row)] = 2;
     }
   }
-  oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
-    Chunk& chunk = chunks[c];
-    std::stable_sort(chunk.gifts.begin(), chunk.gifts.end(),
-                     [](const Gift& a, const Gift& b) { return a.place < b.place; });
-    chunk.givers.clear();
-    for (const Gift& gift : chunk.gifts) chunk.givers.push_back(gift.chunk);
-    std::sort(chunk.givers.begin(), chunk.givers.end());
-    chunk.givers.erase(std::unique(chunk.givers.begin(), chunk.givers.end()), chunk.givers.end());
-    auto place = static_cast<std::int32_t>(chunk.awake.own);
-    for (Gift& gift : chunk.gifts) {
-      while (chunk.awake.rows[static_cast<std::size_t>(place)] != gift.place) ++place;
-      gift.place = place;
-    }
-  });
 }
 
 /// How far each grain may be off its course during the next watch.
@@ -207,6 +154,7 @@ void Dem::Impl::begin_watch() {
     const auto row = static_cast<std::size_t>(a);
     return may_meet_surface(row, surfaces[static_cast<std::size_t>(s)]) ? 1 : 0;
   };
+  ghosts.restart(chunks.size(), chunk_rows(coarse_count), coarse_count);
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     Chunk& chunk = chunks[c];
     thread_local std::vector<std::uint8_t> meets;
@@ -220,7 +168,7 @@ void Dem::Impl::begin_watch() {
     for (std::size_t q = 0; q < walls.size(); ++q) meets[q] = surface_meets(walls.a[q], walls.b[q]);
     choose_contacts(walls, chunk.surfaces, meets, false);
     chunk.hints.assign(chunk.surfaces.size(), -1);
-    invite_guests(chunk);
+    ghosts.find_ghosts(chunk.tile(), chunk.pairs.a, chunk.pairs.b, chunk.places);
     const auto wake = [&](std::int32_t row) {
       if (row < chunk.end) is_awake[static_cast<std::size_t>(row)] = 1;
     };
@@ -228,7 +176,7 @@ void Dem::Impl::begin_watch() {
     for (const std::int32_t row : chunk.pairs.b) wake(row);
     for (const std::int32_t row : chunk.surfaces.a) wake(row);
   });
-  wake_guests();
+  wake_ghosts();
 
   std::fill(fine_force.begin(), fine_force.end(), 0.0);
   std::vector<std::uint8_t> meets(near_fine.size());
@@ -264,7 +212,7 @@ void Dem::Impl::begin_watch() {
            static_cast<float>(watch_allowance[n])});
     };
     for (std::size_t n = begin; n < end; ++n) {
-      if (is_awake[n] == 0 && !flies_straight(n)) is_awake[n] = 1;
+      if (is_awake[n] == 0 && (all_step || !flies_straight(n))) is_awake[n] = 1;
       if (is_awake[n] == 1) take(n);
     }
     awake.own = awake.rows.size();
@@ -277,7 +225,8 @@ void Dem::Impl::begin_watch() {
     gather(chunk.awake, static_cast<std::size_t>(chunk.begin), static_cast<std::size_t>(chunk.end));
   });
   gather(fine_awake, coarse_count, store.size());
-  promise_gifts();
+  ghosts.plan();
+  deferred.restart(chunks.size());
   flying = static_cast<std::int64_t>(store.size() - fine_awake.rows.size());
   for (const Chunk& c : chunks) flying -= static_cast<std::int64_t>(c.awake.rows.size());
   since_watch = 0;

@@ -25,7 +25,9 @@ namespace dust::run {
 /// Everything a run holds: models, grains, fluid, the two task graphs and the clock.
 class Simulation {
  public:
-  Simulation(const scenario::Setup& setup, Models models);
+  /// `checks_writes`, for tests: the nodes of a grain step run one by one, and one that changes what
+  /// it does not declare to write is a std::logic_error.
+  Simulation(const scenario::Setup& setup, Models models, bool checks_writes = false);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -73,7 +75,8 @@ class Simulation {
   [[nodiscard]] LoadParts load_parts();
 
  private:
-  void build_graphs();
+  void build_dem_graph(bool checks_writes);
+  void build_step_graph();
   void add_fluid_nodes();
   void air_bodies_changed();
   void take_open_fraction();
@@ -89,6 +92,7 @@ class Simulation {
   [[nodiscard]] const fluid::CellField& void_fraction() const;
   void advance_fluid();
   void hold_fluid();
+  [[nodiscard]] bool is_refresh_due() const;
   void refresh_drag();
   void check_health() const;
   void publish_grains();

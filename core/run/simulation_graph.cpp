@@ -9,39 +9,71 @@
 /// The nodes of a grain step and of a fluid step, by what they read and write.
 namespace dust::run {
 
-void Simulation::build_graphs() {
+/// A step of the coarse rate. What a node says it writes is checked in a test.
+void Simulation::build_dem_graph(bool checks_writes) {
   const std::string seen_air = held_fluid_ ? "fluid.held" : "fluid.velocity";
-  dem_graph_.given({"grain.position", "grain.velocity", "contact.list", "contact.history",
-                    "grain.fluid_action", seen_air, "fluid.void_fraction", "body.motion"});
+  // What a sort of the rows, or grains that have flown, change.
+  const std::vector<std::string> grains{"grain.position", "grain.velocity", "grain.fluid_action",
+                                        "grain.fluid_impulse"};
+  const auto with = [](std::vector<std::string> names, std::initializer_list<const char*> more) {
+    names.insert(names.end(), more.begin(), more.end());
+    return names;
+  };
+  dem_graph_.given(with(grains, {"contact.list", "contact.history", "contact.force", "fine.force",
+                                 "fine.left_over", "fluid.void_fraction", "body.motion"}));
+  dem_graph_.given({seen_air});
   if (coupling_) {
+    dem_graph_.add({"synchronise",
+                    with(grains, {"contact.list", "contact.history"}),
+                    {"grain.position", "grain.velocity", "grain.fluid_impulse", "contact.history"},
+                    [this] {
+                      if (is_refresh_due()) dem_->land();
+                    }});
     dem_graph_.add({"drag",
                     {"grain.position", "grain.velocity", seen_air, "fluid.void_fraction"},
                     {"grain.fluid_action"},
                     [this] { refresh_drag(); }});
   }
-  dem_graph_.add({"neighbour",
-                  {"grain.position", "grain.velocity", "grain.fluid_action"},
-                  {"contact.list", "contact.history", "grain.position", "grain.velocity",
-                   "grain.fluid_action"},
-                  [this] { dem_->neighbours(); }});
-  dem_graph_.add({"contact",
-                  {"grain.position", "grain.velocity", "contact.list", "body.motion"},
-                  {"contact.history", "contact.force"},
-                  [this] {
-                    // The published forces are those of a fluid step's last grain step.
-                    dem_->contact(time() + dem_step_ * dem_->coarse_step(),
-                                  dem_step_ + 1 == dem_steps_per_fluid_step_);
-                  }});
-  dem_graph_.add({"force",
-                  {"contact.force", "grain.position", "grain.velocity", "grain.fluid_action"},
-                  {"grain.force"},
-                  [this] { dem_->force(); }});
+  dem_graph_.add(
+      {"neighbour", with(grains, {"contact.list", "contact.history", "fine.left_over"}),
+       with(grains, {"contact.list", "contact.history", "contact.force", "contact.ghost_force",
+                     "grain.force", "fine.force", "fine.left_over"}),
+       [this] { dem_->neighbours(); }});
+  const auto now = [this] { return time() + dem_step_ * dem_->coarse_step(); };
+  // The published forces are those of a fluid step's last grain step.
+  const auto keeps_force = [this] { return dem_step_ + 1 == dem_steps_per_fluid_step_; };
+  dem_graph_.add(
+      {"contact",
+       {"grain.position", "grain.velocity", "contact.list", "contact.history", "body.motion"},
+       {"contact.history", "contact.force", "contact.ghost_force", "grain.force"},
+       [this, now, keeps_force] { dem_->contact(now(), keeps_force()); }});
+  dem_graph_.add(
+      {"force", {"contact.ghost_force", "grain.force"}, {"grain.force", "contact.force"}, [this] {
+         dem_->force();
+       }});
   dem_graph_.add({"integration",
-                  {"grain.force", "grain.fluid_action", "grain.position"},
-                  {"grain.position", "grain.velocity", "grain.fluid_impulse"},
+                  with(grains, {"grain.force", "fine.left_over"}),
+                  {"grain.position", "grain.velocity", "grain.fluid_impulse", "grain.force"},
                   [this] { dem_->integrate(); }});
+  dem_graph_.add({"fine_level",
+                  with(grains, {"contact.list", "contact.history", "body.motion"}),
+                  {"grain.position", "grain.velocity", "grain.fluid_impulse", "contact.history",
+                   "contact.force", "fine.force", "fine.left_over"},
+                  [this] { dem_->advance_fine(); }});
+  dem_graph_.fuse({.part = "tile",
+                   .nodes = {"contact", "force", "integration"},
+                   .work = [this, now, keeps_force] { dem_->step_tiles(now(), keeps_force()); },
+                   .shares =
+                       [this] {
+                         const auto shares = dem_->phase_shares();
+                         return std::vector<double>(shares.begin(), shares.end());
+                       }});
+  if (checks_writes) dem_graph_.check_writes(dem_->digests());
   dem_graph_.build();
+}
 
+void Simulation::build_step_graph() {
+  const std::string seen_air = held_fluid_ ? "fluid.held" : "fluid.velocity";
   step_graph_.given(
       {"emitter.state", "grain.state", "fluid.velocity", "fluid.exchange", "fluid.held"});
   bool has_removals = false;
@@ -154,8 +186,10 @@ void Simulation::hold_fluid() {
   copy(fluid_->mean_pressure(), held_fluid_->pressure);
 }
 
+bool Simulation::is_refresh_due() const { return dem_step_ % dem_steps_per_refresh_ == 0; }
+
 void Simulation::refresh_drag() {
-  if (dem_step_ % dem_steps_per_refresh_ != 0) return;
+  if (!is_refresh_due()) return;
   const int held = std::min(dem_steps_per_refresh_, dem_steps_per_fluid_step_ - dem_step_);
   const double step = dem_->coarse_step();
   const double now = time() + dem_step_ * step;

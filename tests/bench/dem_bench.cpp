@@ -38,10 +38,9 @@ void measure(const char* name, Dem& dem, int warm_up, int steps, int repeats) {
     const double t0 = seconds();
     dem.neighbours();
     const double t1 = seconds();
-    dem.contact(time, false);
+    dem.step_tiles(time, false);
     const double t2 = seconds();
-    dem.force();
-    dem.integrate();
+    dem.advance_fine();
     const double t3 = seconds();
     spent[0] += t1 - t0, spent[1] += t2 - t1, spent[2] += t3 - t2;
     time += dem.coarse_step();
@@ -62,9 +61,9 @@ void measure(const char* name, Dem& dem, int warm_up, int steps, int repeats) {
   const auto after = dem.report();
   const auto count = static_cast<double>(dem.rows().count);
   std::printf(
-      "%-12s %8.0f grains  dt %.2e s  %6.1f M grain-steps/s  (neighbours %4.1f %%, contact %4.1f "
+      "%-12s %8.0f grains  dt %.2e s  %6.1f M grain-steps/s  (neighbours %4.1f %%, tiles %4.1f "
       "%%, "
-      "integrate %4.1f %%)  rebuilds %.4f, mends %.4f/step  contacts %lld  fine sub-steps/step "
+      "fine level %4.1f %%)  rebuilds %.4f, mends %.4f/step  contacts %lld  fine sub-steps/step "
       "%.0f\n",
       name, count, dem.coarse_step(), 1e-6 * count * steps / best[0], 100 * best[1] / best[0],
       100 * best[2] / best[0], 100 * best[3] / best[0],

@@ -128,9 +128,8 @@ class Stepper {
   void step(std::int64_t count = 1) {
     for (std::int64_t n = 0; n < count; ++n) {
       dem_.neighbours();
-      dem_.contact(time());
-      dem_.force();
-      dem_.integrate();
+      dem_.step_tiles(time());
+      dem_.advance_fine();
       ++steps_;
     }
   }

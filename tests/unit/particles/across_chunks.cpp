@@ -59,6 +59,7 @@ TEST_CASE("a contact across chunks shall act once on each of its grains") {
     dem->contact(step * dem->coarse_step(), true);
     dem->force();
     dem->integrate();
+    dem->advance_fine();
     CHECK(dem->report().contacts == static_cast<std::int64_t>(records.size()));
     const auto force = dem->last_force();
     double worst = 0.0;

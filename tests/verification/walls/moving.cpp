@@ -218,9 +218,8 @@ TEST_CASE("a run with moving walls shall resume with the same bits") {
   const auto run = [&](dust::particles::Dem& d, int steps) {
     for (int n = 0; n < steps; ++n) {
       d.neighbours();
-      d.contact(time);
-      d.force();
-      d.integrate();
+      d.step_tiles(time);
+      d.advance_fine();
       time += d.coarse_step();
     }
   };
