@@ -61,6 +61,7 @@ struct TaskGraph::Impl {
   std::vector<std::pair<int, int>> edges;
   std::vector<Fusion> fusions;
   Digests digests;
+  int checked_every = 1;
   std::vector<std::unique_ptr<Unit>> units;
   tbb::flow::graph flow;
   std::unique_ptr<tbb::flow::broadcast_node<tbb::flow::continue_msg>> start;
@@ -161,8 +162,10 @@ struct TaskGraph::Impl {
 
   /// One node after the other, looking at everything before and after.
   void run_checked() {
-    const auto look = [this] {
+    const bool is_looked_at = passes % checked_every == 0;
+    const auto look = [&] {
       std::map<std::string, std::uint64_t> found;
+      if (!is_looked_at) return found;
       for (const auto& [what, digest] : digests) found[what] = digest();
       return found;
     };
@@ -204,7 +207,10 @@ void TaskGraph::given(std::vector<std::string> names) {
 
 void TaskGraph::add(Node node) { impl_->nodes.push_back(std::move(node)); }
 void TaskGraph::fuse(Fusion fusion) { impl_->fusions.push_back(std::move(fusion)); }
-void TaskGraph::check_writes(Digests digests) { impl_->digests = std::move(digests); }
+void TaskGraph::check_writes(Digests digests, int every) {
+  impl_->digests = std::move(digests);
+  impl_->checked_every = every;
+}
 
 void TaskGraph::build() {
   Impl& g = *impl_;

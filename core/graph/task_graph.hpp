@@ -53,9 +53,10 @@ class TaskGraph {
   /// between them, each runs by itself. Drawn and timed they are always one by one.
   void fuse(Fusion fusion);
   /// For tests: names with what stands there as a number. The nodes then run one after the other,
-  /// none fused, and what a node has changed without declaring it is a std::logic_error.
+  /// none fused, and at one pass in `every` what a node has changed without declaring it is a
+  /// std::logic_error.
   using Digests = std::map<std::string, std::function<std::uint64_t()>>;
-  void check_writes(Digests digests);
+  void check_writes(Digests digests, int every = 1);
   /// Derives the edges; throws std::logic_error on a read of a name that nobody wrote.
   void build();
   /// Runs every node once and waits; rethrows the first exception. After an exception the graph is

@@ -127,9 +127,9 @@ class Dem {
   [[nodiscard]] std::array<double, 3> phase_shares() const;
   /// Sub-steps of the particles of the finer rates; ends the step.
   void advance_fine();
-  /// Adds `force`(row) [N] to each coarse particle that makes this step: for stages of one's own
-  /// between force() and integrate(). Those that fly without a partner make no steps, unless
-  /// let_all_step() was called before the first.
+  /// Adds `force`(row) [N], asked by several threads, to each coarse particle that makes this step:
+  /// for stages of one's own between force() and integrate(). Those that fly without a partner make
+  /// no steps, unless let_all_step() was called before the first.
   void add_force(const std::function<sdk::Vec3(std::size_t)>& force);
   void let_all_step();
 

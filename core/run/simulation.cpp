@@ -54,7 +54,7 @@ double kinetic_energy_per_grain(const particles::GrainRows& rows) {
 
 }  // namespace
 
-Simulation::Simulation(const scenario::Setup& setup, Models models, bool checks_writes)
+Simulation::Simulation(const scenario::Setup& setup, Models models, int check_every)
     : setup_(setup), models_(std::move(models)) {
   const double step = setup_.time.fluid_step;
   steps_wanted_ = static_cast<std::int64_t>(std::ceil(setup_.time.end / step - 1e-9));
@@ -92,7 +92,7 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, bool checks_
   if (looks_at_walls_) dem_->watch_walls();
   dem_steps_per_fluid_step_ =
       std::max(1, static_cast<int>(std::lround(step / dem_->coarse_step())));
-  build_dem_graph(checks_writes);
+  build_dem_graph(check_every);
   build_step_graph();
   publish_grains();
   if (fluid_) fluid_table_->publish(*fluid_, void_fraction());

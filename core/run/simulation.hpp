@@ -25,9 +25,9 @@ namespace dust::run {
 /// Everything a run holds: models, grains, fluid, the two task graphs and the clock.
 class Simulation {
  public:
-  /// `checks_writes`, for tests: the nodes of a grain step run one by one, and one that changes what
-  /// it does not declare to write is a std::logic_error.
-  Simulation(const scenario::Setup& setup, Models models, bool checks_writes = false);
+  /// `check_every`, for tests, if not 0: the nodes of a grain step run one by one, and at one step
+  /// in so many one that changes what it does not declare to write is a std::logic_error.
+  Simulation(const scenario::Setup& setup, Models models, int check_every = 0);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -75,7 +75,7 @@ class Simulation {
   [[nodiscard]] LoadParts load_parts();
 
  private:
-  void build_dem_graph(bool checks_writes);
+  void build_dem_graph(int check_every);
   void build_step_graph();
   void add_fluid_nodes();
   void air_bodies_changed();

@@ -10,7 +10,7 @@
 namespace dust::run {
 
 /// A step of the coarse rate. What a node says it writes is checked in a test.
-void Simulation::build_dem_graph(bool checks_writes) {
+void Simulation::build_dem_graph(int check_every) {
   const std::string seen_air = held_fluid_ ? "fluid.held" : "fluid.velocity";
   // What a sort of the rows, or grains that have flown, change.
   const std::vector<std::string> grains{"grain.position", "grain.velocity", "grain.fluid_action",
@@ -68,7 +68,7 @@ void Simulation::build_dem_graph(bool checks_writes) {
                          const auto shares = dem_->phase_shares();
                          return std::vector<double>(shares.begin(), shares.end());
                        }});
-  if (checks_writes) dem_graph_.check_writes(dem_->digests());
+  if (check_every > 0) dem_graph_.check_writes(dem_->digests(), check_every);
   dem_graph_.build();
 }
 

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <cstdint>
 #include <mutex>
 #include <stdexcept>
 
@@ -80,4 +81,75 @@ TEST_CASE("the DOT text shall name every node and edge") {
   const std::string dot = g.dot_cluster();
   CHECK(dot.find("\"picture.a\" -> \"picture.b\"") != std::string::npos);
   CHECK(dot.find("reads: x") != std::string::npos);
+}
+
+namespace {
+
+/// contact, force, integration with a stage in between or without; counts who ran.
+struct Tiles {
+  TaskGraph graph{"tiles"};
+  int fused = 0, contact = 0, stage = 0;
+  int position = 0, hidden = 0;
+
+  explicit Tiles(bool has_stage) {
+    graph.given({"position"});
+    graph.add({"contact", {"position"}, {"force"}, [this] { ++contact; }});
+    if (has_stage) graph.add({"stage", {"force"}, {"force"}, [this] { ++stage; }});
+    graph.add({"integration", {"force"}, {"position"}, [this] { ++position; }});
+    graph.fuse({.part = "tile",
+                .nodes = {"contact", "integration"},
+                .work = [this] { ++fused, ++position; },
+                .shares =
+                    [] {
+                      return std::vector<double>{0.75, 0.25};
+                    }});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("fused nodes shall run as one, and be timed and drawn one by one") {
+  Tiles tiles(false);
+  tiles.graph.build();
+  for (int pass = 0; pass < 3; ++pass) tiles.graph.run();
+  CHECK(tiles.fused == 3);
+  CHECK(tiles.contact == 0);
+  const auto timings = tiles.graph.timings();
+  REQUIRE(timings.size() == 2);
+  CHECK(timings[0].name == "contact");
+  CHECK(timings[0].runs == 3);
+  CHECK(timings[0].seconds == doctest::Approx(3.0 * timings[1].seconds));
+  CHECK(tiles.graph.edges() == Edges{{0, 1}});
+  const std::string dot = tiles.graph.dot_cluster();
+  CHECK(dot.find("label=\"per tile\"") != std::string::npos);
+  CHECK(dot.find("\"tiles.contact\" -> \"tiles.integration\"") != std::string::npos);
+}
+
+TEST_CASE("a node added between fused ones shall make them run one by one") {
+  Tiles tiles(true);
+  tiles.graph.build();
+  tiles.graph.run();
+  CHECK(tiles.fused == 0);
+  CHECK(tiles.contact == 1);
+  CHECK(tiles.stage == 1);
+  CHECK(tiles.position == 1);
+}
+
+TEST_CASE("a node that changes what it does not declare shall be named") {
+  Tiles tiles(false);
+  tiles.graph.check_writes(
+      {{"position", [&] { return static_cast<std::uint64_t>(tiles.position); }},
+       {"force", [&] { return static_cast<std::uint64_t>(tiles.contact); }}});
+  tiles.graph.build();
+  tiles.graph.run();
+  CHECK(tiles.fused == 0);
+
+  Tiles lying(false);
+  lying.graph.check_writes(
+      {{"velocity", [&] { return static_cast<std::uint64_t>(lying.contact); }}});
+  lying.graph.build();
+  CHECK_THROWS_WITH_AS(lying.graph.run(),
+                       "graph 'tiles': node 'contact' has changed 'velocity', which it does not "
+                       "declare to write",
+                       std::logic_error);
 }
