@@ -4,7 +4,7 @@
 #include "bodies/placement.hpp"
 #include "bodies/shape.hpp"
 #include "dust/sdk/motion.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <cstdint>
 #include <limits>

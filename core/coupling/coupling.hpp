@@ -9,7 +9,7 @@
 #include "dust/sdk/voidage_rule.hpp"
 #include "fluid/grid.hpp"
 #include "particles/grain_rows.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "particles/grain_rows.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -6,7 +6,7 @@
 #include "dust/sdk/boundary_condition.hpp"
 #include "dust/sdk/turbulence_model.hpp"
 #include "fluid/grid.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <array>
 #include <functional>

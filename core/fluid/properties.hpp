@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dust/sdk/vec3.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 
 #include "dust/sdk/error.hpp"
 #include "fluid/parallel.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <algorithm>
 #include <string>

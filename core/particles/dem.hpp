@@ -7,7 +7,7 @@
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/sensor.hpp"
 #include "particles/grain_rows.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 
 #include "bodies/body_set.hpp"
 #include "dust/sdk/vec3.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "registry/guard.hpp"
 #include "registry/library.hpp"
-#include "scenario/diagnostics.hpp"
+#include "setup/mark.hpp"
 
 #include <boost/dll/runtime_symbol_info.hpp>
 

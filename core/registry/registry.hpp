@@ -3,7 +3,7 @@
 
 #include "dust/sdk/model.hpp"
 #include "dust/sdk/plugin.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <filesystem>
 #include <memory>

@@ -11,7 +11,7 @@
 #include "dust/sdk/voidage_rule.hpp"
 #include "particles/dem.hpp"
 #include "registry/registry.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <array>
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scenario/reference_spec.hpp"
+#include "setup/reference_spec.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,6 @@
 
 #include "base/log.hpp"
 #include "dust/sdk/error.hpp"
-#include "scenario/diagnostics.hpp"
 #include "scenario/units.hpp"
 
 #include <algorithm>

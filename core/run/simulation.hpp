@@ -11,7 +11,7 @@
 #include "run/emission_book.hpp"
 #include "run/entry.hpp"
 #include "run/models.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <cstdint>
 #include <functional>

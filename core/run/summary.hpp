@@ -2,8 +2,8 @@
 #pragma once
 
 #include "run/simulation.hpp"
-#include "scenario/reference_curve.hpp"
-#include "scenario/reference_spec.hpp"
+#include "setup/reference_curve.hpp"
+#include "setup/reference_spec.hpp"
 
 #include <filesystem>
 #include <string>

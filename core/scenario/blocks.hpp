@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include "dust/sdk/parameter_schema.hpp"
 #include "dust/sdk/vec3.hpp"

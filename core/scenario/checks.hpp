@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenario/diagnostics.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <array>
 #include <string>

@@ -3,7 +3,7 @@
 
 #include "registry/registry.hpp"
 #include "scenario/diagnostics.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <string>
 #include <vector>

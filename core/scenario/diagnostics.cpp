@@ -8,11 +8,6 @@
 
 namespace dust::scenario {
 
-std::string place(const Mark& where) {
-  if (where.line <= 0) return where.file;
-  return where.file + ":" + std::to_string(where.line) + ":" + std::to_string(where.column);
-}
-
 void Diagnostics::add_file(const std::string& file) {
   if (std::find(files_.begin(), files_.end(), file) == files_.end()) files_.push_back(file);
 }

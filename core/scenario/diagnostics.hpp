@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dust/sdk/dimension.hpp"
-#include "scenario/setup.hpp"
+#include "setup/mark.hpp"
 
 #include <map>
 #include <string>
@@ -51,8 +51,5 @@ class Diagnostics {
   std::vector<Problem> warnings_;
   std::map<std::string, sdk::Dimension> dimensions_;
 };
-
-/// "file:line:column", or "file" alone for places without lines (the command line).
-std::string place(const Mark& where);
 
 }  // namespace dust::scenario

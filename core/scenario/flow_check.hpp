@@ -3,7 +3,7 @@
 
 #include "dust/sdk/boundary_condition.hpp"
 #include "scenario/diagnostics.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <array>
 

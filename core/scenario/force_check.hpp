@@ -3,7 +3,7 @@
 
 #include "dust/sdk/fluid_force.hpp"
 #include "scenario/diagnostics.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <span>
 

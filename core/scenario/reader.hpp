@@ -2,9 +2,9 @@
 #pragma once
 
 #include "registry/registry.hpp"
-#include "scenario/reference_curve.hpp"
-#include "scenario/reference_spec.hpp"
-#include "scenario/setup.hpp"
+#include "setup/reference_curve.hpp"
+#include "setup/reference_spec.hpp"
+#include "setup/setup.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scenario/reference_curve.hpp"
 #include "scenario/references.hpp"
+#include "setup/reference_curve.hpp"
 
 #include <vector>
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "dust/sdk/model.hpp"
-#include "scenario/reference_curve.hpp"
-#include "scenario/reference_spec.hpp"
 #include "scenario/values.hpp"
+#include "setup/reference_curve.hpp"
+#include "setup/reference_spec.hpp"
 
 #include <string>
 #include <utility>

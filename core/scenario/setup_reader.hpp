@@ -5,8 +5,8 @@
 #include "scenario/model_reader.hpp"
 #include "scenario/reference_curves.hpp"
 #include "scenario/references.hpp"
-#include "scenario/setup.hpp"
 #include "scenario/suggest.hpp"
+#include "setup/setup.hpp"
 
 #include <array>
 #include <filesystem>

@@ -4,7 +4,7 @@
 #include "bodies/body_set.hpp"
 #include "dust/sdk/plugin.hpp"
 #include "particles/dem.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <dlfcn.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenario/derived.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <string>
 

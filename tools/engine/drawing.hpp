@@ -2,7 +2,7 @@
 #pragma once
 
 #include "registry/registry.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <string>
 

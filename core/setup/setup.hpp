@@ -4,6 +4,7 @@
 #include "dust/sdk/contact_law.hpp"
 #include "dust/sdk/parameter_schema.hpp"
 #include "dust/sdk/vec3.hpp"
+#include "setup/mark.hpp"
 
 #include <array>
 #include <cstdint>
@@ -13,14 +14,6 @@
 #include <vector>
 
 namespace dust::scenario {
-
-/// A place in a scenario file, counted from 1. A value of the command line has file "--set PATH"
-/// and line 0.
-struct Mark {
-  std::string file;
-  int line = 0;
-  int column = 0;
-};
 
 /// A model chosen by name with its parsed parameters (in the order of the model's schema).
 struct ModelChoice {
