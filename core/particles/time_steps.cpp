@@ -3,7 +3,6 @@
 
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/sphere.hpp"
-#include "scenario/derived.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +42,7 @@ TimeSteps time_steps(const scenario::Setup& setup, const bodies::BodySet& bodies
   if (diameters.empty()) throw sdk::ParameterError("no grain diameters: the time step is unknown");
   out.expected_speed = setup.time.expected_speed;
   if (!(out.expected_speed > 0.0)) {
-    out.expected_speed = scenario::k_default_speed;
+    out.expected_speed = k_default_speed;
     for (const auto& body : bodies) {
       out.expected_speed = std::max(out.expected_speed, body.largest_speed());
     }

@@ -15,6 +15,10 @@ inline constexpr double k_coarse_share = 1.0 / 8.0;
 /// \f$ G = E / (2 (1 + \nu)) \f$. Source: Li, Xu, Thornton, Powder Technol. 160 (2005) 219.
 double rayleigh_time(const sdk::MaterialProperties& material, double radius);
 
+/// Approach speed [m/s] taken where a scenario gives none and no body moves faster: the speed of a
+/// fall from 13 mm. Approach speeds in contacts count, not the speed of a free fall.
+inline constexpr double k_default_speed = 0.5;
+
 struct TimeSteps {
   std::vector<ClassStep> classes;
   double coarse_step = 0.0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
+#include "preflight/reader.hpp"
 #include "run/run_options.hpp"
 #include "run/simulation.hpp"
 #include "run/summary.hpp"
@@ -25,7 +26,7 @@ int print_graph(const RunOptions& options, const std::optional<std::filesystem::
   registry::Registry registry;
   registry.load(registry::Registry::search_path(options.plugin_path));
   const auto read =
-      scenario::read_scenario(options.scenario, options.overrides, registry, options.set_files);
+      preflight::read_scenario(options.scenario, options.overrides, registry, options.set_files);
   const Simulation simulation(read.setup, make_models(read.setup, registry));
   std::fputs(graph_dot(simulation).c_str(), stdout);
   return 0;

@@ -4,6 +4,7 @@
 #include "dust/sdk/error.hpp"
 #include "io/report.hpp"
 #include "io/run_files.hpp"
+#include "preflight/reader.hpp"
 #include "run/progress.hpp"
 #include "run/run_options.hpp"
 #include "run/simulation.hpp"
@@ -318,7 +319,7 @@ int run_scenario(const RunOptions& options) {
   registry::Registry registry;
   registry.load(registry::Registry::search_path(options.plugin_path));
   const auto read =
-      scenario::read_scenario(options.scenario, options.overrides, registry, options.set_files);
+      preflight::read_scenario(options.scenario, options.overrides, registry, options.set_files);
   base::log_to_terminal(options.verbose);
   for (const std::string& warning : read.warnings) base::log_warning(warning);
 

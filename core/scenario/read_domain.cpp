@@ -48,9 +48,9 @@ void SetupReader::read_time(MapReader& top) {
                  .checkpoint_every = time.checkpoint_every,
                  .dem_step = time.dem_step,
                  .expected_speed = time.expected_speed,
-                 .rates_single = time.rates == "single"};
+                 .rates_single = time.rates == "single",
+                 .dem_step_where = mark_of(entry->value, "dem_step")};
   const Node& map = entry->value;
-  dem_step_where_ = mark_of(map, "dem_step");
   check_time(setup_.time,
              {mark_of(map, "fluid_step"), mark_of(map, "output_every"),
               mark_of(map, "checkpoint_every"), mark_of(map, "dem_step"), mark_of(map, "end")},
@@ -148,10 +148,7 @@ Node SetupReader::read_side(const Entry& entry, std::size_t n, bool& is_read, bo
     Node map = Node::make_map();
     append(map, std::move(model.written));
     written.add("air", std::move(map));
-    if (has_fluid_) {
-      side.air = std::move(model.choice);
-      air_[n] = std::move(model.model);
-    }
+    if (has_fluid_) side.air = std::move(model.choice);
   }
   reader.finish();
   return written;

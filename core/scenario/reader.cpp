@@ -3,8 +3,6 @@
 
 #include "dust/sdk/emitter.hpp"
 #include "scenario/checks.hpp"
-#include "scenario/derived.hpp"
-#include "scenario/flow_check.hpp"
 #include "scenario/overlay.hpp"
 #include "scenario/setup_reader.hpp"
 #include "scenario/units.hpp"
@@ -57,14 +55,6 @@ void SetupReader::read() {
   check_voidage();
   check_emitters();
   check_periods();
-  if (diagnostics_.error_count() == 0) {
-    check_fixed_step(setup_, registry_, dem_step_where_, diagnostics_);
-  }
-  SideModels sides{};
-  for (std::size_t n = 0; n < 6; ++n) {
-    sides[n] = static_cast<const sdk::BoundaryCondition*>(air_[n].get());
-  }
-  check_flow(setup_, sides, diagnostics_);
   if (setup_.emitters.empty() && !setup_.fluid) {
     diagnostics_.warning(root_.where, "nothing moves: no emitter takes part and fluid is none");
   }
@@ -140,23 +130,19 @@ void SetupReader::check_emitters() {
   }
 }
 
-ReadResult read_scenario(const fs::path& file, const std::vector<Override>& overrides,
-                         const registry::Registry& registry,
-                         const std::vector<fs::path>& set_files) {
-  Diagnostics diagnostics;
+std::optional<ReadResult> read_file(const fs::path& file, const std::vector<Override>& overrides,
+                                    const registry::Registry& registry,
+                                    const std::vector<fs::path>& set_files,
+                                    Diagnostics& diagnostics) {
   auto root = read_with_includes(file, diagnostics);
   for (const fs::path& set_file : set_files) {
     auto over = read_with_includes(set_file, diagnostics);
     if (root && over) merge(*root, std::move(*over));
   }
-  // Without a tree there is nothing more to find.
-  if (!root) diagnostics.throw_errors();
-  if (!root) throw std::logic_error("a file that cannot be read gave no error");
+  if (!root) return std::nullopt;
   if (root->where.line == 0) root->where = {file.generic_string(), 1, 1};
   for (const Override& override : overrides) apply_override(*root, override, diagnostics);
-  auto result = read_tree(*root, file, registry, diagnostics);
-  diagnostics.throw_errors();
-  return std::move(*result);
+  return read_tree(*root, file, registry, diagnostics);
 }
 
 std::optional<ReadResult> read_tree(const Node& root, const fs::path& file,

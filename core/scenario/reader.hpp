@@ -19,7 +19,7 @@ struct Override {
   std::string value;
 };
 
-/// A scenario read and checked.
+/// A scenario as it is written, with names and numbers checked.
 struct ReadResult {
   Setup setup;
   std::vector<ReferenceSpec> references;         ///< of enabled sensors
@@ -28,17 +28,19 @@ struct ReadResult {
   std::vector<std::string> warnings;  ///< "file:line:column: warning: ..."
 };
 
-/// Reads `file`, merges includes, lays `set_files` over it and applies `overrides`, checks
-/// everything and throws one UserError with all problems. Nothing is written.
-ReadResult read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                         const registry::Registry& registry,
-                         const std::vector<std::filesystem::path>& set_files = {});
-
 struct Node;
 class Diagnostics;
 
-/// As read_scenario for a tree at hand: its problems go to `diagnostics`, and nothing comes back
-/// where there are errors. `file` names the scenario that has no name of its own.
+/// Reads `file`, merges includes, lays `set_files` over it and applies `overrides`. Its problems go
+/// to `diagnostics`, and nothing comes back where there are errors. Whether what is written can be
+/// run, preflight/reader.hpp tells.
+std::optional<ReadResult> read_file(const std::filesystem::path& file,
+                                    const std::vector<Override>& overrides,
+                                    const registry::Registry& registry,
+                                    const std::vector<std::filesystem::path>& set_files,
+                                    Diagnostics& diagnostics);
+
+/// As read_file for a tree at hand. `file` names the scenario that has no name of its own.
 std::optional<ReadResult> read_tree(const Node& root, const std::filesystem::path& file,
                                     const registry::Registry& registry, Diagnostics& diagnostics);
 

@@ -143,9 +143,7 @@ class SetupReader {
   Diagnostics& diagnostics_;
   ScenarioNames names_;
   ModelReader models_;
-  Mark dem_step_where_;
   bool has_fluid_ = false;
-  std::array<std::unique_ptr<sdk::Model>, 6> air_;
   bool pairs_are_read_ = true;
   std::vector<std::unique_ptr<sdk::Model>> emitters_;
   std::unique_ptr<sdk::Model> voidage_;

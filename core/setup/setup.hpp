@@ -33,6 +33,7 @@ struct TimeSpec {
   double expected_speed =
       0.0;                    ///< [m/s] largest approach speed of grains, 0 = from bodies and drops
   bool rates_single = false;  ///< one rate for all grains
+  Mark dem_step_where;
 };
 
 enum class GrainSide { open, wall, periodic };

@@ -3,9 +3,9 @@
 
 #include "base/error.hpp"
 #include "io/run_files.hpp"
-#include "scenario/derived.hpp"
+#include "preflight/derived.hpp"
+#include "preflight/reader.hpp"
 #include "scenario/overlay.hpp"
-#include "scenario/reader.hpp"
 #include "scenario/suggest.hpp"
 #include "scenario/units.hpp"
 #include "scenario/values.hpp"
@@ -165,7 +165,7 @@ struct Planner::Impl {
     Node number = Node::make_text(std::to_string(seed));
     number.where = spec.where;
     scenario::set_path(root, "seed", number, spec.where, own);
-    const auto read = scenario::read_tree(root, spec.base, registry, own);
+    const auto read = preflight::read_tree(root, spec.base, registry, own);
     for (const auto& [path, dimension] : own.dimensions()) dimensions[path] = dimension;
     if (!read) {
       tell(own);
@@ -177,7 +177,7 @@ struct Planner::Impl {
     io::Sha256 digest;
     digest.update(read->resolved_yaml.data(), read->resolved_yaml.size());
     point.hash = digest.hex_digest().substr(0, k_hash_digits);
-    const auto derived = scenario::derive(read->setup, registry);
+    const auto derived = preflight::derive(read->setup, registry);
     point.core_seconds = derived.core_seconds;
     point.memory_bytes = derived.memory_bytes;
     measures.see(quantities_of(read->setup, registry));

@@ -3,8 +3,8 @@
 // or a leak. Linked with libFuzzer (tools/dev/fuzz) or with generate.cpp (the tests).
 #include "base/error.hpp"
 #include "fuzz/patience.hpp"
+#include "preflight/reader.hpp"
 #include "scenario/derived.hpp"
-#include "scenario/reader.hpp"
 #include "unit/scenario/fake_models.hpp"
 
 #include <unistd.h>
@@ -56,10 +56,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     stream.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   }
   try {
-    const auto result = dust::scenario::read_scenario(input_file(), {}, *registry);
+    const auto result = dust::preflight::read_scenario(input_file(), {}, *registry);
     // What is accepted is written out, and read again as the same.
     std::ofstream(input_file(), std::ios::binary | std::ios::trunc) << result.resolved_yaml;
-    const auto again = dust::scenario::read_scenario(input_file(), {}, *registry);
+    const auto again = dust::preflight::read_scenario(input_file(), {}, *registry);
     if (again.resolved_yaml != result.resolved_yaml) broken("the resolved scenario changes");
   } catch (const dust::base::UserError& problem) {
     check_lines(problem.lines());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a scenario is told about the shipped laws of contact, rolling and cohesion.
 #include "base/error.hpp"
+#include "preflight/reader.hpp"
 #include "registry/registry.hpp"
-#include "scenario/reader.hpp"
 
 #include <unistd.h>
 
@@ -78,7 +78,7 @@ Told told(const std::string& from = "", const std::string& to = "") {
   std::ofstream(folder / "s.yaml", std::ios::binary) << text;
   Told out;
   try {
-    out.warnings = scenario::read_scenario(folder / "s.yaml", {}, shipped(), {}).warnings;
+    out.warnings = preflight::read_scenario(folder / "s.yaml", {}, shipped(), {}).warnings;
   } catch (const base::UserError& problem) {
     out.errors = problem.lines();
   }
@@ -97,9 +97,9 @@ scenario::Setup read_again() {
   fs::create_directories(folder);
   std::ofstream(folder / "s.yaml", std::ios::binary) << k_scenario;
   const std::string resolved =
-      scenario::read_scenario(folder / "s.yaml", {}, shipped(), {}).resolved_yaml;
+      preflight::read_scenario(folder / "s.yaml", {}, shipped(), {}).resolved_yaml;
   std::ofstream(folder / "r.yaml", std::ios::binary) << resolved;
-  auto again = scenario::read_scenario(folder / "r.yaml", {}, shipped(), {}).setup;
+  auto again = preflight::read_scenario(folder / "r.yaml", {}, shipped(), {}).setup;
   fs::remove_all(folder);
   return again;
 }

@@ -6,9 +6,9 @@
 // STRIDE 1 takes every mistake; n takes every n-th, beginning at another place for each scenario.
 #include "base/error.hpp"
 #include "messages/places.hpp"
+#include "preflight/reader.hpp"
 #include "scenario/diagnostics.hpp"
 #include "scenario/overlay.hpp"
-#include "scenario/reader.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -108,7 +108,7 @@ class Mutator {
  private:
   [[nodiscard]] std::vector<std::string> problems(const fs::path& file) const {
     try {
-      (void)dust::scenario::read_scenario(file, {}, registry_);
+      (void)dust::preflight::read_scenario(file, {}, registry_);
     } catch (const dust::base::UserError& problem) {
       return problem.lines();
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/quantities.hpp"
+#include "preflight/reader.hpp"
 #include "registry/registry.hpp"
-#include "scenario/reader.hpp"
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
@@ -43,7 +43,7 @@ TEST_CASE("the quantities known before a run shall be those it tells") {
       overrides.push_back({setting.substr(0, sign), setting.substr(sign + 1)});
       arguments.insert(arguments.end(), {"--set", setting});
     }
-    const auto read = scenario::read_scenario(one.file, overrides, registry);
+    const auto read = preflight::read_scenario(one.file, overrides, registry);
     std::set<std::string> known;
     for (const auto& q : study::quantities_of(read.setup, registry)) known.insert(q.path);
     const auto run = test::engine(arguments);

@@ -15,7 +15,7 @@
 namespace dust::engine {
 namespace {
 
-using scenario::Derived;
+using preflight::Derived;
 using scenario::Setup;
 
 std::string digits(double value, int significant = 3) {

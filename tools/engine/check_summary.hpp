@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scenario/derived.hpp"
+#include "preflight/derived.hpp"
 #include "setup/setup.hpp"
 
 #include <string>
@@ -9,9 +9,9 @@
 namespace dust::engine {
 
 /// What a scenario will do, for a person to read before it is run.
-std::string check_summary(const scenario::Setup& setup, const scenario::Derived& derived);
+std::string check_summary(const scenario::Setup& setup, const preflight::Derived& derived);
 
 /// The numbers of it, for programs; times on one core.
-std::string check_json(const scenario::Setup& setup, const scenario::Derived& derived);
+std::string check_json(const scenario::Setup& setup, const preflight::Derived& derived);
 
 }  // namespace dust::engine

@@ -2,7 +2,8 @@
 #include "check_summary.hpp"
 #include "commands.hpp"
 #include "drawing.hpp"
-#include "scenario/derived.hpp"
+#include "preflight/derived.hpp"
+#include "preflight/reader.hpp"
 
 #include <iostream>
 
@@ -30,9 +31,9 @@ void add_check(CLI::App& app, int&) {
     const run::RunOptions options = arguments->scenario.options();
     const auto registry = load_plugins(arguments->scenario.plugin_path);
     const auto result =
-        scenario::read_scenario(options.scenario, options.overrides, *registry, options.set_files);
+        preflight::read_scenario(options.scenario, options.overrides, *registry, options.set_files);
     for (const std::string& warning : result.warnings) std::cerr << warning << '\n';
-    const auto derived = scenario::derive(result.setup, *registry);
+    const auto derived = preflight::derive(result.setup, *registry);
     std::cout << (arguments->as_json ? check_json : check_summary)(result.setup, derived);
     if (!arguments->drawing.empty()) {
       write_file(arguments->drawing, draw_setup(result.setup, *registry));

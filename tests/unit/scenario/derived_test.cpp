@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario/derived.hpp"
+#include "preflight/derived.hpp"
 #include "unit/scenario/support.hpp"
 
 #include <doctest/doctest.h>
@@ -17,14 +17,14 @@ TEST_CASE("the Rayleigh time shall be that of its formula with the nu term outsi
   // R = 0.3 mm, rho = 2650, E = 50 MPa, nu = 0.3: G = 19.2307692 MPa, root(rho/G) = 0.011738824,
   // pi R root / (0.04893 + 0.8766) = 1.195378e-5 s.
   const sdk::MaterialProperties sand{2650, 5e7, 0.3};
-  CHECK(scenario::rayleigh_time(3e-4, sand) == doctest::Approx(1.195378e-5).epsilon(1e-6));
-  CHECK(scenario::rayleigh_time(6e-4, sand) ==
-        doctest::Approx(2 * scenario::rayleigh_time(3e-4, sand)).epsilon(k_roundings));
+  CHECK(preflight::rayleigh_time(3e-4, sand) == doctest::Approx(1.195378e-5).epsilon(1e-6));
+  CHECK(preflight::rayleigh_time(6e-4, sand) ==
+        doctest::Approx(2 * preflight::rayleigh_time(3e-4, sand)).epsilon(k_roundings));
 }
 
 TEST_CASE("the smallest grain shall set the step and each step shall keep both shares") {
   const auto setup = read(transfer_point()).setup;
-  const auto derived = scenario::derive(setup, fakes());
+  const auto derived = preflight::derive(setup, fakes());
   REQUIRE(derived.sizes.size() == 5);
   CHECK(derived.deciding_size == 0);
   for (const auto& size : derived.sizes) {
@@ -43,7 +43,7 @@ TEST_CASE("the smallest grain shall set the step and each step shall keep both s
 
 TEST_CASE("a fixed step shall replace the derived ones") {
   const auto setup = read(transfer_point(), {{"time.dem_step", "1e-7"}}).setup;
-  const auto derived = scenario::derive(setup, fakes());
+  const auto derived = preflight::derive(setup, fakes());
   CHECK(derived.smallest_step == 1e-7);
   CHECK(derived.largest_step == doctest::Approx(1e-7).epsilon(k_roundings));
 }
@@ -51,18 +51,18 @@ TEST_CASE("a fixed step shall replace the derived ones") {
 TEST_CASE("the expected speed shall be that of bodies and the fall through the domain") {
   auto setup = read(transfer_point()).setup;
   // belt 0.8 m/s, fall 0.35 m: root(0.64 + 2 * 9.81 * 0.35)
-  CHECK(scenario::derive(setup, fakes()).expected_speed ==
+  CHECK(preflight::derive(setup, fakes()).expected_speed ==
         doctest::Approx(std::sqrt(0.64 + 2 * 9.81 * 0.35)).epsilon(k_roundings));
   // Steps follow from the belt alone.
-  CHECK(scenario::derive(setup, fakes()).impact_speed == 0.8);
+  CHECK(preflight::derive(setup, fakes()).impact_speed == 0.8);
   setup.time.expected_speed = 1.5;
-  CHECK(scenario::derive(setup, fakes()).expected_speed == 1.5);
-  CHECK(scenario::derive(setup, fakes()).impact_speed == 1.5);
+  CHECK(preflight::derive(setup, fakes()).expected_speed == 1.5);
+  CHECK(preflight::derive(setup, fakes()).impact_speed == 1.5);
 }
 
 TEST_CASE("ratios and the rate of grains shall follow from the scenario") {
   const auto setup = read(transfer_point()).setup;
-  const auto derived = scenario::derive(setup, fakes());
+  const auto derived = preflight::derive(setup, fakes());
   CHECK(derived.smallest_spacing == doctest::Approx(0.011 / 9).epsilon(k_roundings));
   CHECK(derived.diameter_over_spacing == doctest::Approx(6e-4 * 9 / 0.011).epsilon(k_roundings));
   CHECK(derived.width_over_diameter == doctest::Approx(0.011 / 6e-4).epsilon(k_roundings));
@@ -76,7 +76,7 @@ TEST_CASE("the estimates shall be within a factor of two of what the transfer po
   shipped.load({DUST_TEST_PLUGINS});
   const auto estimate = [&](const std::vector<scenario::Override>& set) {
     const auto file = std::string(DUST_SOURCE) + "/scenarios/transfer_point.yaml";
-    return scenario::derive(scenario::read_scenario(file, set, shipped).setup, shipped);
+    return preflight::derive(preflight::read_scenario(file, set, shipped).setup, shipped);
   };
   const auto is_near = [](double told, double measured) {
     return told > 0.5 * measured && told < 2.0 * measured;

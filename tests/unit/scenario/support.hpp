@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/error.hpp"
-#include "scenario/reader.hpp"
+#include "preflight/reader.hpp"
 #include "unit/scenario/fake_models.hpp"
 
 #include <unistd.h>
@@ -55,7 +55,7 @@ inline std::filesystem::path transfer_point() {
 inline dust::scenario::ReadResult read(const std::filesystem::path& file,
                                        const std::vector<dust::scenario::Override>& set = {},
                                        const std::vector<std::filesystem::path>& set_files = {}) {
-  return dust::scenario::read_scenario(file, set, fakes(), set_files);
+  return dust::preflight::read_scenario(file, set, fakes(), set_files);
 }
 
 /// What the reader says to a file, the folder cut off; empty if it is well.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario/cost.hpp"
+#include "preflight/cost.hpp"
 
 #include "dust/sdk/sphere.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace dust::scenario {
+namespace dust::preflight {
 namespace {
 
 // What things cost, measured by `tools/dev/record_estimates` and by long runs on one core of a
@@ -31,6 +31,9 @@ constexpr double k_seconds_per_frame = 0.03;
 // Solid share above which grains without gravity press on each other.
 constexpr double k_dense = 0.2;
 
+using scenario::DomainSpec;
+using scenario::Setup;
+
 double extent_along(const DomainSpec& domain, sdk::Vec3 direction) {
   const sdk::Vec3 size = domain.max - domain.min;
   return std::abs(size.x * direction.x) + std::abs(size.y * direction.y) +
@@ -48,12 +51,12 @@ double rate_at_once(const Setup& setup, double grains, const Derived& derived) {
 
 }  // namespace
 
-double fall_height(const Setup& setup) {
+double fall_height(const scenario::Setup& setup) {
   const double g = norm(setup.gravity);
   return g > 0.0 ? extent_along(setup.domain, setup.gravity / g) : 0.0;
 }
 
-void estimate_cost(const Setup& setup, double body_speed, Derived& derived) {
+void estimate_cost(const scenario::Setup& setup, double body_speed, Derived& derived) {
   const double g = norm(setup.gravity);
   const sdk::Vec3 size = setup.domain.max - setup.domain.min;
   const double speed = body_speed > 0.0 ? body_speed : derived.expected_speed;
@@ -93,4 +96,4 @@ void estimate_cost(const Setup& setup, double body_speed, Derived& derived) {
   }
 }
 
-}  // namespace dust::scenario
+}  // namespace dust::preflight

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace dust::scenario {
+namespace dust::preflight {
 
 /// Times of the grains of one material and size.
 struct SizeNumbers {
@@ -28,10 +28,6 @@ struct EmissionNumbers {
   double real_per_second = 0.0;      ///< the same, counted with their weights
   double at_once = 0.0;              ///< computed grains that come at one moment
 };
-
-/// Approach speed [m/s] taken where a scenario gives none and no body moves faster: the speed of a
-/// fall from 13 mm. Approach speeds in contacts count, not the speed of a free fall.
-inline constexpr double k_default_speed = 0.5;
 
 /// Numbers that follow from a scenario and tell whether it is sensible, before it is run.
 struct Derived {
@@ -62,10 +58,10 @@ double rayleigh_time(double radius, const sdk::MaterialProperties& material);
 
 /// Is a fixed `time.dem_step` too long for the grains that take it? A warning above the stable
 /// step, an error where a collision would not be seen or the grains would fly apart.
-void check_fixed_step(const Setup& setup, const registry::Registry& registry, const Mark& where,
-                      Diagnostics& diagnostics);
+void check_fixed_step(const scenario::Setup& setup, const registry::Registry& registry,
+                      scenario::Diagnostics& diagnostics);
 
 /// Derives all numbers; makes the models it needs.
-Derived derive(const Setup& setup, const registry::Registry& registry);
+Derived derive(const scenario::Setup& setup, const registry::Registry& registry);
 
-}  // namespace dust::scenario
+}  // namespace dust::preflight

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario/flow_check.hpp"
+#include "preflight/flow_check.hpp"
 
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/table.hpp"
@@ -13,9 +13,17 @@
 #include <string>
 #include <vector>
 
-namespace dust::scenario {
+namespace dust::preflight {
 namespace {
 
+using scenario::BodySpec;
+using scenario::Diagnostics;
+using scenario::k_side_names;
+using scenario::Mark;
+using scenario::number_text;
+using scenario::Setup;
+using scenario::SideSpec;
+using scenario::SuctionSpec;
 using sdk::SideRule;
 
 /// Net flow over the sum of the flows that counts as none.
@@ -234,4 +242,4 @@ void check_flow(const Setup& setup, const SideModels& sides, Diagnostics& diagno
   }
 }
 
-}  // namespace dust::scenario
+}  // namespace dust::preflight

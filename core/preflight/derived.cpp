@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario/derived.hpp"
+#include "preflight/derived.hpp"
 
 #include "bodies/body_set.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/motion.hpp"
 #include "dust/sdk/random.hpp"
 #include "dust/sdk/sphere.hpp"
-#include "scenario/cost.hpp"
+#include "particles/time_steps.hpp"
+#include "preflight/cost.hpp"
 #include "scenario/units.hpp"
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 #include <limits>
 #include <numbers>
 
-namespace dust::scenario {
+namespace dust::preflight {
 namespace {
 
 // Shares of the Rayleigh and Hertz times that keep a collision accurate (a realised restitution
@@ -29,6 +30,13 @@ constexpr double k_fewest_steps_per_collision = 3.0;
 constexpr double k_coarse_share = 1.0 / 8.0;
 // Forgives the rounding of a quotient that is a whole number.
 constexpr double k_whole_slack = 1e-9;
+
+using scenario::BodySpec;
+using scenario::EmitterSpec;
+using scenario::InteractionSpec;
+using scenario::ModelChoice;
+using scenario::number_text;
+using scenario::Setup;
 
 using Emitters = std::vector<std::unique_ptr<sdk::Emitter>>;
 
@@ -71,7 +79,7 @@ double expected_speed(const Setup& setup, const Emitters& emitters, double body_
 /// As the run takes it (particles/time_steps.hpp).
 double impact_speed(const Setup& setup, double body_speed) {
   if (setup.time.expected_speed > 0.0) return setup.time.expected_speed;
-  return std::max(k_default_speed, body_speed);
+  return std::max(particles::k_default_speed, body_speed);
 }
 
 /// The shortest collision of a grain with its like or with a wall of any material it may meet.
@@ -214,8 +222,8 @@ double rayleigh_time(double radius, const sdk::MaterialProperties& m) {
          (0.1631 * m.poisson_ratio + 0.8766);
 }
 
-void check_fixed_step(const Setup& setup, const registry::Registry& registry, const Mark& where,
-                      Diagnostics& diagnostics) {
+void check_fixed_step(const Setup& setup, const registry::Registry& registry,
+                      scenario::Diagnostics& diagnostics) {
   const double step = setup.time.dem_step;
   if (!(step > 0.0)) return;
   const Emitters emitters = make_emitters(setup, registry);
@@ -237,9 +245,9 @@ void check_fixed_step(const Setup& setup, const registry::Registry& registry, co
       (is_hopeless ? "the grains would fly apart; leave dem_step out or give at most that"
                    : "collisions lose their accuracy; leave dem_step out or give at most that");
   if (is_hopeless) {
-    diagnostics.error(where, text);
+    diagnostics.error(setup.time.dem_step_where, text);
   } else {
-    diagnostics.warning(where, text);
+    diagnostics.warning(setup.time.dem_step_where, text);
   }
 }
 
@@ -258,4 +266,4 @@ Derived derive(const Setup& setup, const registry::Registry& registry) {
   return derived;
 }
 
-}  // namespace dust::scenario
+}  // namespace dust::preflight

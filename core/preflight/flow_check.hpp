@@ -7,15 +7,17 @@
 
 #include <array>
 
-namespace dust::scenario {
+namespace dust::preflight {
 
-/// The air's models of the six sides, in the order of k_side_names; null where periodic or wrong.
+/// The air's models of the six sides, in the order of scenario::k_side_names; null where periodic
+/// or wrong.
 using SideModels = std::array<const sdk::BoundaryCondition*, 6>;
 
 /// Tells sides that cannot be solved together, with the reason: what a model refuses on its side,
 /// rules that do not go together, flows that no side gives way to. Flows are added up over whole
 /// sides at some times of the run; where bodies may cover part of a side, only flows that are all
 /// of one sign are refused. Warns of cells far from cubic.
-void check_flow(const Setup& setup, const SideModels& sides, Diagnostics& diagnostics);
+void check_flow(const scenario::Setup& setup, const SideModels& sides,
+                scenario::Diagnostics& diagnostics);
 
-}  // namespace dust::scenario
+}  // namespace dust::preflight

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preflight/reader.hpp"
+
+#include "preflight/derived.hpp"
+#include "preflight/flow_check.hpp"
+#include "scenario/diagnostics.hpp"
+
+#include <array>
+#include <memory>
+#include <stdexcept>
+
+namespace dust::preflight {
+namespace {
+
+using Result = std::optional<scenario::ReadResult>;
+
+void check_sides(const scenario::Setup& setup, const registry::Registry& registry,
+                 scenario::Diagnostics& diagnostics) {
+  std::array<std::unique_ptr<sdk::BoundaryCondition>, 6> made;
+  SideModels sides{};
+  for (std::size_t n = 0; n < 6; ++n) {
+    const auto& air = setup.domain.sides[n].air;
+    if (air) made[n] = registry.create_as<sdk::BoundaryCondition>(*air);
+    sides[n] = made[n].get();
+  }
+  check_flow(setup, sides, diagnostics);
+}
+
+/// Looks at what was read without errors.
+Result checked(Result read, const registry::Registry& registry,
+               scenario::Diagnostics& diagnostics) {
+  if (!read) return read;
+  check_fixed_step(read->setup, registry, diagnostics);
+  check_sides(read->setup, registry, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  read->warnings = diagnostics.warning_lines();
+  return read;
+}
+
+}  // namespace
+
+scenario::ReadResult read_scenario(const std::filesystem::path& file,
+                                   const std::vector<scenario::Override>& overrides,
+                                   const registry::Registry& registry,
+                                   const std::vector<std::filesystem::path>& set_files) {
+  scenario::Diagnostics diagnostics;
+  Result read = checked(scenario::read_file(file, overrides, registry, set_files, diagnostics),
+                        registry, diagnostics);
+  diagnostics.throw_errors();
+  if (!read) throw std::logic_error("a scenario that cannot be read gave no error");
+  return std::move(*read);
+}
+
+std::optional<scenario::ReadResult> read_tree(const scenario::Node& root,
+                                              const std::filesystem::path& file,
+                                              const registry::Registry& registry,
+                                              scenario::Diagnostics& diagnostics) {
+  return checked(scenario::read_tree(root, file, registry, diagnostics), registry, diagnostics);
+}
+
+}  // namespace dust::preflight
