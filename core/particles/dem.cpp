@@ -19,7 +19,7 @@ Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
       surfaces(surfaces_of(setup, bodies)),
       domain_min(setup.domain.min),
       domain_max(setup.domain.max),
-      steps(time_steps(setup, bodies, laws, diameters)) {
+      steps(particles::time_steps(setup, bodies, laws, diameters)) {
   store.has_fluid = setup.fluid.has_value();
   for (const auto& m : setup.materials) {
     materials.push_back(m.properties);
@@ -214,6 +214,7 @@ Dem::~Dem() = default;
 
 double Dem::coarse_step() const { return impl_->steps.coarse_step; }
 std::span<const ClassStep> Dem::class_steps() const { return impl_->steps.classes; }
+const TimeSteps& Dem::time_steps() const { return impl_->steps; }
 void Dem::insert(std::span<const NewGrain> grains) {
   impl_->land();
   impl_->insert(grains);

@@ -22,6 +22,7 @@
 namespace dust::particles {
 
 class BalanceBook;
+struct TimeSteps;
 
 /// The laws of one pair of materials; `rolling` and `cohesion` may be null.
 struct PairLaws {
@@ -63,6 +64,8 @@ struct ClassStep {
   double hertz_time = 0.0;     ///< [s] at the expected speed
   double stable_step = 0.0;    ///< [s] min(0.3 Rayleigh, Hertz / 15)
   int level = 0;               ///< steps are coarse_step / 2^level at the finest
+  int material = -1;           ///< of the grain that has the shortest collision
+  int partner = -1;            ///< material of what it meets in it
 };
 
 /// Counters of the DEM, for the summary and health checks.
@@ -107,6 +110,7 @@ class Dem {
 
   [[nodiscard]] double coarse_step() const;  ///< [s] divides the fluid step
   [[nodiscard]] std::span<const ClassStep> class_steps() const;
+  [[nodiscard]] const TimeSteps& time_steps() const;
 
   void insert(std::span<const NewGrain> grains);
   /// Books and drops grains beyond open sides. Call between coarse steps.

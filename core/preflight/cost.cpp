@@ -42,9 +42,9 @@ double extent_along(const DomainSpec& domain, sdk::Vec3 direction) {
 
 /// Steps per second of grains that are there at once: with gravity they lie, or soon will.
 double rate_at_once(const Setup& setup, double grains, const Derived& derived) {
-  if (norm(setup.gravity) > 0.0 || derived.sizes.empty()) return k_bed_steps_per_second;
+  if (norm(setup.gravity) > 0.0 || derived.steps.classes.empty()) return k_bed_steps_per_second;
   const sdk::Vec3 size = setup.domain.max - setup.domain.min;
-  const double solids = grains * sdk::sphere_volume(derived.sizes.back().diameter);
+  const double solids = grains * sdk::sphere_volume(derived.steps.classes.back().diameter);
   return solids > k_dense * size.x * size.y * size.z ? k_bed_steps_per_second
                                                      : k_gas_steps_per_second;
 }
@@ -89,8 +89,8 @@ void estimate_cost(const scenario::Setup& setup, double body_speed, Derived& der
   derived.core_seconds = k_start_seconds + cells * fluid_steps / k_cell_steps_per_second +
                          frames * k_seconds_per_frame;
   if (cells > 0.0) derived.core_seconds += fluid_steps * k_seconds_per_fluid_step;
-  if (derived.largest_step > 0.0) {
-    derived.core_seconds += setup.time.end / derived.largest_step *
+  if (derived.steps.coarse_step > 0.0) {
+    derived.core_seconds += setup.time.end / derived.steps.coarse_step *
                             (at_once / rate_at_once(setup, at_once, derived) +
                              mean_flowing / k_stream_steps_per_second);
   }

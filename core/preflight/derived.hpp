@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "particles/time_steps.hpp"
 #include "registry/registry.hpp"
 #include "scenario/diagnostics.hpp"
 #include "setup/setup.hpp"
@@ -9,16 +10,6 @@
 #include <vector>
 
 namespace dust::preflight {
-
-/// Times of the grains of one material and size.
-struct SizeNumbers {
-  int material = 0;            ///< index into Setup::materials
-  double diameter = 0.0;       ///< [m]
-  double rayleigh_time = 0.0;  ///< [s]
-  double hertz_time = 0.0;     ///< [s] shortest collision at the expected speed
-  std::string partner;         ///< material it collides with that quickly
-  double stable_step = 0.0;    ///< [s] min(0.3 Rayleigh, Hertz / 15)
-};
 
 /// What an emitter sends.
 struct EmissionNumbers {
@@ -32,13 +23,7 @@ struct EmissionNumbers {
 /// Numbers that follow from a scenario and tell whether it is sensible, before it is run.
 struct Derived {
   double expected_speed = 0.0;  ///< [m/s] of flow: given, or bodies, emitters and drops
-  double impact_speed = 0.0;    ///< [m/s] of grains that meet, from which the steps follow
-  std::vector<SizeNumbers> sizes;
-  int deciding_size = -1;         ///< which of `sizes` sets the smallest step
-  double smallest_step = 0.0;     ///< [s]
-  double coarse_limit = 0.0;      ///< [m] grains from here on share the largest step
-  double largest_step = 0.0;      ///< [s] a whole part of the fluid's step
-  int coarse_deciding_size = -1;  ///< which of `sizes` sets it
+  particles::TimeSteps steps;   ///< as the run takes them; without classes where no grains come
   std::vector<EmissionNumbers> emissions;
   double smallest_spacing = 0.0;       ///< [m] 0 without fluid
   double mean_spacing = 0.0;           ///< [m] edge of a cube of a cell's volume
@@ -51,10 +36,6 @@ struct Derived {
   double disk_bytes = 0.0;             ///< rough: frames and checkpoint
   double core_seconds = 0.0;           ///< [s] rough: wall time on one core
 };
-
-/// Rayleigh time [s] of a sphere: \f$ T_R = \pi R \sqrt{\rho / G} / (0.1631 \nu + 0.8766) \f$,
-/// R radius [m], \f$ G = E / (2 (1 + \nu)) \f$. The nu term stands outside the root (Johnson 1985).
-double rayleigh_time(double radius, const sdk::MaterialProperties& material);
 
 /// Is a fixed `time.dem_step` too long for the grains that take it? A warning above the stable
 /// step, an error where a collision would not be seen or the grains would fly apart.

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "bodies/body_set.hpp"
 #include "dust/sdk/boundary_condition.hpp"
 #include "dust/sdk/drag_law.hpp"
-#include "dust/sdk/emitter.hpp"
 #include "dust/sdk/fluid_force.hpp"
 #include "dust/sdk/sensor.hpp"
 #include "dust/sdk/turbulence_model.hpp"
 #include "dust/sdk/voidage_rule.hpp"
-#include "particles/dem.hpp"
+#include "preflight/grain_models.hpp"
 #include "registry/registry.hpp"
 #include "setup/setup.hpp"
 
@@ -20,17 +18,13 @@
 namespace dust::run {
 
 /// Every model of a scenario, made once.
-struct Models {
-  bodies::BodySet bodies;
-  std::vector<particles::PairLaws> laws;
-  std::vector<std::unique_ptr<sdk::Emitter>> emitters;
+struct Models : preflight::GrainModels {
   std::vector<std::unique_ptr<sdk::Sensor>> sensors;
   std::array<std::unique_ptr<sdk::BoundaryCondition>, 6> boundaries;
   std::unique_ptr<sdk::DragLaw> drag;
   std::vector<std::unique_ptr<sdk::FluidForce>> fluid_forces;
   std::unique_ptr<sdk::VoidageRule> voidage;
   std::unique_ptr<sdk::TurbulenceModel> turbulence;  ///< null: laminar
-  std::vector<double> class_diameters;  ///< [m] all sizes the emitters may give, ascending
 };
 
 Models make_models(const scenario::Setup& setup, const registry::Registry& registry);

@@ -4,12 +4,14 @@
 #include "dust/sdk/error.hpp"
 #include "io/report.hpp"
 #include "io/run_files.hpp"
+#include "particles/time_steps.hpp"
 #include "preflight/reader.hpp"
 #include "run/progress.hpp"
 #include "run/run_options.hpp"
 #include "run/simulation.hpp"
 #include "run/summary.hpp"
 #include "run/summary_emitters.hpp"
+#include "scenario/units.hpp"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
@@ -168,6 +170,7 @@ class Run {
       base::log_info("resumed at " + std::to_string(simulation_.time()) + " s");
     } else {
       tell_bodies();
+      tell_steps();
       write_frame();
       write_row();
       checkpoint();
@@ -188,6 +191,18 @@ class Run {
                     ": the shortest edge is %.3g of the largest grain's diameter",
                     edge / diameters.back());
       base::log_info("body " + body.name + text);
+    }
+  }
+
+  /// As `engine check` tells them, every digit of them.
+  void tell_steps() const {
+    const particles::TimeSteps& steps = simulation_.dem().time_steps();
+    base::log_info("time step " + scenario::number_text(steps.coarse_step) + " s");
+    if (simulation_.models().class_diameters.empty()) return;
+    for (const auto& c : steps.classes) {
+      base::log_info("grains of " + scenario::number_text(c.diameter) + " m: stable step " +
+                     scenario::number_text(c.stable_step) + " s, step " +
+                     scenario::number_text(steps.step_of(c)) + " s");
     }
   }
 

@@ -15,6 +15,7 @@
 namespace dust::engine {
 namespace {
 
+using particles::TimeSteps;
 using preflight::Derived;
 using scenario::Setup;
 
@@ -160,29 +161,40 @@ void tell_fluid(std::ostream& out, const Setup& setup, const Derived& derived) {
   out << '\n';
 }
 
-/// Whether fine grains are stepped more often than the others.
-bool has_two_steps(const Derived& derived) {
-  return derived.sizes.front().diameter < derived.coarse_limit;
-}
+/// Whether fine grains may be stepped more often than the others.
+bool has_two_steps(const TimeSteps& steps) { return !steps.is_coarse(steps.classes.front()); }
 
 /// What a size has to do with the steps.
-std::string step_note(const Derived& derived, int size) {
-  if (!has_two_steps(derived)) return size == derived.deciding_size ? "<- sets the step" : "";
-  if (size == derived.deciding_size) return "<- sets the smallest step";
-  return size == derived.coarse_deciding_size
-             ? "<- sets the step from " + engineering(derived.coarse_limit, "m") + " on"
-             : "";
+std::string step_note(const TimeSteps& steps, const particles::ClassStep& size) {
+  if (&size == steps.coarse_deciding()) {
+    return has_two_steps(steps)
+               ? "<- sets the step from " + engineering(steps.coarse_limit, "m") + " on"
+               : "<- sets the step";
+  }
+  return &size == steps.deciding() ? "<- sets the smallest step" : "";
+}
+
+/// Whose collision is the shortest: "steel", or "sand on steel" where several kinds of grains come.
+std::string partners(const Setup& setup, const particles::ClassStep& size) {
+  if (size.partner < 0) return "nobody";
+  const bool is_one_kind = std::all_of(
+      setup.emitters.begin(), setup.emitters.end(), [&](const scenario::EmitterSpec& e) {
+        return e.material == size.material && e.more_materials.empty();
+      });
+  const std::string& partner = material_name(setup, size.partner);
+  return is_one_kind ? partner : material_name(setup, size.material) + " on " + partner;
 }
 
 /// Which sizes of grains do not feel what they do to the fluid by themselves.
 void tell_own_disturbance(std::ostream& out, const Setup& setup, const Derived& derived) {
-  if (!setup.fluid || setup.fluid->is_one_way || derived.sizes.empty()) return;
+  const auto& classes = derived.steps.classes;
+  if (!setup.fluid || setup.fluid->is_one_way || classes.empty()) return;
   namespace own = coupling::own_disturbance;
   const bool is_asked = setup.fluid->own_disturbance == scenario::OwnDisturbance::taken_off;
   const bool is_off = setup.fluid->own_disturbance == scenario::OwnDisturbance::felt;
   double finest = 0.0;
   double coarsest = 0.0;
-  for (const auto& size : derived.sizes) {
+  for (const auto& size : classes) {
     const bool may_be =
         own::may_be_taken_off(size.diameter, derived.mean_spacing, derived.smallest_spacing, 1.0,
                               is_asked ? 0.0 : own::k_worth);
@@ -190,7 +202,7 @@ void tell_own_disturbance(std::ostream& out, const Setup& setup, const Derived& 
     if (finest == 0.0) finest = size.diameter;
     coarsest = size.diameter;
   }
-  const double largest = derived.sizes.back().diameter;
+  const double largest = classes.back().diameter;
   if (coarsest > 0.0) {
     out << ",\n             own disturbance taken off for lone grains of "
         << engineering(finest, "m");
@@ -203,36 +215,42 @@ void tell_own_disturbance(std::ostream& out, const Setup& setup, const Derived& 
   }
 }
 
+/// The step of those at the coarse rate and, where there are finer grains, theirs.
+void tell_step(std::ostream& out, const Setup& setup, const TimeSteps& steps) {
+  if (setup.time.dem_step > 0.0) {
+    const auto& deciding = *steps.deciding();
+    out << "             one fixed step of " << engineering(steps.coarse_step, "s") << " = "
+        << digits(100.0 * steps.coarse_step / deciding.rayleigh_time)
+        << " % of the smallest Rayleigh time, " << digits(deciding.hertz_time / steps.coarse_step)
+        << " steps per collision";
+    if (steps.coarse_step > deciding.stable_step) out << " (longer than the stable step)";
+  } else {
+    out << "             " << (has_two_steps(steps) ? "step " : "one step for all: ")
+        << engineering(steps.coarse_step, "s");
+  }
+  if (has_two_steps(steps)) {
+    out << "; grains below " << engineering(steps.coarse_limit, "m") << " step down to "
+        << engineering(steps.finest_step(), "s") << " where they meet others";
+  }
+  out << '\n';
+}
+
 void tell_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
-  if (derived.sizes.empty()) return;
-  out << "  grains     diameter   Rayleigh    Hertz at " << digits(derived.impact_speed)
-      << " m/s   stable step\n";
-  for (std::size_t n = 0; n < derived.sizes.size(); ++n) {
-    const auto& size = derived.sizes[n];
-    std::array<char, 160> row{};
-    std::snprintf(row.data(), row.size(), "             %-10s %-11s %-18s %-10s %s\n",
+  const TimeSteps& steps = derived.steps;
+  if (steps.classes.empty()) return;
+  out << "  grains     diameter   Rayleigh    Hertz at " << digits(steps.expected_speed)
+      << " m/s   stable step   step\n";
+  for (const auto& size : steps.classes) {
+    std::array<char, 200> row{};
+    std::snprintf(row.data(), row.size(), "             %-10s %-11s %-18s %-13s %-10s %s\n",
                   engineering(size.diameter, "m").c_str(),
                   engineering(size.rayleigh_time, "s").c_str(),
-                  (engineering(size.hertz_time, "s") + " (" + size.partner + ")").c_str(),
+                  (engineering(size.hertz_time, "s") + " (" + partners(setup, size) + ")").c_str(),
                   engineering(size.stable_step, "s").c_str(),
-                  step_note(derived, static_cast<int>(n)).c_str());
+                  engineering(steps.step_of(size), "s").c_str(), step_note(steps, size).c_str());
     out << row.data();
   }
-  if (setup.time.dem_step > 0.0) {
-    const auto& deciding = derived.sizes[static_cast<std::size_t>(derived.deciding_size)];
-    out << "             one fixed step of " << engineering(setup.time.dem_step, "s") << " = "
-        << digits(100.0 * setup.time.dem_step / deciding.rayleigh_time)
-        << " % of the smallest Rayleigh time, " << digits(deciding.hertz_time / setup.time.dem_step)
-        << " steps per collision";
-    if (setup.time.dem_step > deciding.stable_step) out << " (longer than the stable step)";
-    out << '\n';
-  } else if (!has_two_steps(derived)) {
-    out << "             one step for all: " << engineering(derived.largest_step, "s") << '\n';
-  } else {
-    out << "             step " << engineering(derived.largest_step, "s") << "; grains below "
-        << engineering(derived.coarse_limit, "m") << " step down to "
-        << engineering(derived.smallest_step, "s") << " where they meet others\n";
-  }
+  tell_step(out, setup, steps);
   out << "             narrowest extent / largest grain W/D = "
       << digits(derived.width_over_diameter);
   if (derived.diameter_over_spacing > 0.0) {
@@ -271,8 +289,17 @@ std::string check_json(const Setup& setup, const Derived& derived) {
   j["name"] = setup.name;
   j["end_s"] = setup.time.end;
   j["fluid_step_s"] = setup.time.fluid_step;
-  j["smallest_step_s"] = derived.smallest_step;
-  j["largest_step_s"] = derived.largest_step;
+  j["smallest_step_s"] = derived.steps.finest_step();
+  j["largest_step_s"] = derived.steps.coarse_step;
+  // As in summary.json.
+  j["size_classes"] = nlohmann::ordered_json::array();
+  for (const auto& c : derived.steps.classes) {
+    j["size_classes"].push_back({{"diameter_m", c.diameter},
+                                 {"rayleigh_time_s", c.rayleigh_time},
+                                 {"hertz_time_s", c.hertz_time},
+                                 {"stable_step_s", c.stable_step},
+                                 {"level", c.level}});
+  }
   j["diameter_over_spacing"] = derived.diameter_over_spacing;
   j["width_over_diameter"] = derived.width_over_diameter;
   j["courant_number"] = derived.courant_number;

@@ -17,35 +17,36 @@ TEST_CASE("the Rayleigh time shall be that of its formula with the nu term outsi
   // R = 0.3 mm, rho = 2650, E = 50 MPa, nu = 0.3: G = 19.2307692 MPa, root(rho/G) = 0.011738824,
   // pi R root / (0.04893 + 0.8766) = 1.195378e-5 s.
   const sdk::MaterialProperties sand{2650, 5e7, 0.3};
-  CHECK(preflight::rayleigh_time(3e-4, sand) == doctest::Approx(1.195378e-5).epsilon(1e-6));
-  CHECK(preflight::rayleigh_time(6e-4, sand) ==
-        doctest::Approx(2 * preflight::rayleigh_time(3e-4, sand)).epsilon(k_roundings));
+  CHECK(particles::rayleigh_time(sand, 3e-4) == doctest::Approx(1.195378e-5).epsilon(1e-6));
+  CHECK(particles::rayleigh_time(sand, 6e-4) ==
+        doctest::Approx(2 * particles::rayleigh_time(sand, 3e-4)).epsilon(k_roundings));
 }
 
 TEST_CASE("the smallest grain shall set the step and each step shall keep both shares") {
   const auto setup = read(transfer_point()).setup;
-  const auto derived = preflight::derive(setup, fakes());
-  REQUIRE(derived.sizes.size() == 5);
-  CHECK(derived.deciding_size == 0);
-  for (const auto& size : derived.sizes) {
+  const particles::TimeSteps steps = preflight::derive(setup, fakes()).steps;
+  REQUIRE(steps.classes.size() == 5);
+  CHECK(steps.deciding() == &steps.classes[0]);
+  for (const auto& size : steps.classes) {
     CHECK(size.stable_step ==
           doctest::Approx(std::min(0.3 * size.rayleigh_time, size.hertz_time / 15))
               .epsilon(k_roundings));
   }
-  CHECK(derived.smallest_step == derived.sizes[0].stable_step);
+  CHECK(steps.finest_step() <= steps.classes[0].stable_step);
+  CHECK(steps.finest_step() > 0.5 * steps.classes[0].stable_step);
   // Grains of more than an eighth of the largest, here from 300 um on, share the step of the
   // smallest of them, a whole part of the fluid's.
-  CHECK(derived.coarse_deciding_size == 1);
-  const double parts = setup.time.fluid_step / derived.largest_step;
-  CHECK(parts == doctest::Approx(std::ceil(setup.time.fluid_step / derived.sizes[1].stable_step))
+  CHECK(steps.coarse_deciding() == &steps.classes[1]);
+  const double parts = setup.time.fluid_step / steps.coarse_step;
+  CHECK(parts == doctest::Approx(std::ceil(setup.time.fluid_step / steps.classes[1].stable_step))
                      .epsilon(k_roundings));
 }
 
 TEST_CASE("a fixed step shall replace the derived ones") {
   const auto setup = read(transfer_point(), {{"time.dem_step", "1e-7"}}).setup;
-  const auto derived = preflight::derive(setup, fakes());
-  CHECK(derived.smallest_step == 1e-7);
-  CHECK(derived.largest_step == doctest::Approx(1e-7).epsilon(k_roundings));
+  const particles::TimeSteps steps = preflight::derive(setup, fakes()).steps;
+  CHECK(steps.coarse_step == doctest::Approx(1e-7).epsilon(k_roundings));
+  CHECK(steps.finest_step() == steps.coarse_step);
 }
 
 TEST_CASE("the expected speed shall be that of bodies and the fall through the domain") {
@@ -54,10 +55,10 @@ TEST_CASE("the expected speed shall be that of bodies and the fall through the d
   CHECK(preflight::derive(setup, fakes()).expected_speed ==
         doctest::Approx(std::sqrt(0.64 + 2 * 9.81 * 0.35)).epsilon(k_roundings));
   // Steps follow from the belt alone.
-  CHECK(preflight::derive(setup, fakes()).impact_speed == 0.8);
+  CHECK(preflight::derive(setup, fakes()).steps.expected_speed == 0.8);
   setup.time.expected_speed = 1.5;
   CHECK(preflight::derive(setup, fakes()).expected_speed == 1.5);
-  CHECK(preflight::derive(setup, fakes()).impact_speed == 1.5);
+  CHECK(preflight::derive(setup, fakes()).steps.expected_speed == 1.5);
 }
 
 TEST_CASE("ratios and the rate of grains shall follow from the scenario") {

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preflight/grain_models.hpp"
+
+#include <algorithm>
+
+namespace dust::preflight {
+namespace {
+
+bodies::BodySet make_bodies(const scenario::Setup& setup, const registry::Registry& registry) {
+  bodies::BodySet made;
+  for (const auto& spec : setup.bodies) {
+    std::vector<std::unique_ptr<sdk::Motion>> motions;
+    for (const auto& motion : spec.motions) {
+      motions.push_back(registry.create_as<sdk::Motion>(motion));
+    }
+    made.push_back(bodies::make_body(setup, spec, std::move(motions)));
+  }
+  return made;
+}
+
+particles::PairLaws make_laws(const scenario::Setup& setup, const scenario::InteractionSpec& spec,
+                              const registry::Registry& registry) {
+  particles::PairLaws laws;
+  laws.material_i = spec.material_i;
+  laws.material_j = spec.material_j;
+  const auto& i = setup.materials.at(static_cast<std::size_t>(spec.material_i)).properties;
+  const auto& j = setup.materials.at(static_cast<std::size_t>(spec.material_j)).properties;
+  laws.contact = registry.create_as<sdk::ContactLaw>(spec.contact);
+  laws.contact->prepare(i, j);
+  if (spec.rolling) {
+    laws.rolling = registry.create_as<sdk::RollingLaw>(*spec.rolling);
+    laws.rolling->prepare(i, j);
+  }
+  if (spec.cohesion) {
+    laws.cohesion = registry.create_as<sdk::CohesionLaw>(*spec.cohesion);
+    laws.cohesion->prepare(i, j);
+  }
+  return laws;
+}
+
+}  // namespace
+
+GrainModels make_grain_models(const scenario::Setup& setup, const registry::Registry& registry) {
+  GrainModels m;
+  m.bodies = make_bodies(setup, registry);
+  for (const auto& spec : setup.interactions) m.laws.push_back(make_laws(setup, spec, registry));
+  for (const auto& spec : setup.emitters) {
+    m.emitters.push_back(registry.create_as<sdk::Emitter>(spec.model));
+    const auto diameters = m.emitters.back()->diameters();
+    m.class_diameters.insert(m.class_diameters.end(), diameters.begin(), diameters.end());
+  }
+  std::sort(m.class_diameters.begin(), m.class_diameters.end());
+  m.class_diameters.erase(std::unique(m.class_diameters.begin(), m.class_diameters.end()),
+                          m.class_diameters.end());
+  return m;
+}
+
+}  // namespace dust::preflight

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bodies/body_set.hpp"
+#include "dust/sdk/emitter.hpp"
+#include "particles/dem.hpp"
+#include "registry/registry.hpp"
+#include "setup/setup.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace dust::preflight {
+
+/// The models of a scenario that the steps of its grains follow from, made once: by a run, and by
+/// whoever asks for its steps before.
+struct GrainModels {
+  bodies::BodySet bodies;
+  std::vector<particles::PairLaws> laws;
+  std::vector<std::unique_ptr<sdk::Emitter>> emitters;
+  std::vector<double> class_diameters;  ///< [m] all sizes the emitters may give, ascending
+};
+
+GrainModels make_grain_models(const scenario::Setup& setup, const registry::Registry& registry);
+
+}  // namespace dust::preflight
