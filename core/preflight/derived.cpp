@@ -2,6 +2,7 @@
 #include "preflight/derived.hpp"
 
 #include "dust/sdk/random.hpp"
+#include "fluid/grid.hpp"
 #include "preflight/cost.hpp"
 #include "preflight/grain_models.hpp"
 #include "scenario/units.hpp"
@@ -10,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
 namespace dust::preflight {
 namespace {
@@ -96,14 +96,10 @@ void derive_ratios(const Setup& setup, Derived& derived) {
   const double largest = classes.empty() ? 0.0 : classes.back().diameter;
   if (largest > 0.0) derived.width_over_diameter = std::min({size.x, size.y, size.z}) / largest;
   if (!setup.fluid) return;
-  derived.smallest_spacing = std::numeric_limits<double>::infinity();
-  double volume = 1.0;
-  for (int d = 0; d < 3; ++d) {
-    const double spacing = size[d] / setup.fluid->cells[static_cast<std::size_t>(d)];
-    derived.smallest_spacing = std::min(derived.smallest_spacing, spacing);
-    volume *= spacing;
-  }
-  derived.mean_spacing = std::cbrt(volume);
+  const sdk::Vec3 h =
+      fluid::Grid::make(setup.domain.min, setup.domain.max, setup.fluid->cells, {}).spacing;
+  derived.smallest_spacing = std::min({h.x, h.y, h.z});
+  derived.mean_spacing = std::cbrt(h.x * h.y * h.z);
   derived.diameter_over_spacing = largest / derived.smallest_spacing;
   derived.courant_number =
       derived.expected_speed * setup.time.fluid_step / derived.smallest_spacing;

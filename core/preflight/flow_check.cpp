@@ -3,6 +3,7 @@
 
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/table.hpp"
+#include "fluid/sides.hpp"
 #include "scenario/units.hpp"
 
 #include <algorithm>
@@ -118,15 +119,6 @@ struct Faces {
   }
 };
 
-bool can_be_solved(const sdk::SideRules& r) {
-  const bool is_given = r.normal_velocity == SideRule::fixed && r.pressure == SideRule::gradient;
-  const bool is_open = r.normal_velocity == SideRule::gradient &&
-                       (r.pressure == SideRule::fixed || r.pressure == SideRule::pressure);
-  const bool tangential_is_known =
-      r.tangential_velocity == SideRule::fixed || r.tangential_velocity == SideRule::gradient;
-  return (is_given || is_open) && tangential_is_known;
-}
-
 void check_cells(const Setup& setup, Diagnostics& diagnostics) {
   double least = 0.0;
   double largest = 0.0;
@@ -185,7 +177,7 @@ void check_flow(const Setup& setup, const SideModels& sides, Diagnostics& diagno
   for (std::size_t n = 0; n < 6; ++n) {
     if (sides[n] == nullptr) continue;
     const sdk::SideRules rules = sides[n]->rules();
-    if (!can_be_solved(rules)) {
+    if (!fluid::can_be_solved(rules)) {
       diagnostics.error(setup.domain.sides[n].where,
                         path_of(n) +
                             ".air: a given normal velocity goes with a zero pressure "
