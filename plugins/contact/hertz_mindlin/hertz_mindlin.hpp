@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/contact_plane.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -105,22 +107,17 @@ inline constexpr double k_tiny = 1e-140;
 /// floor matters in the last instant of a contact alone.
 [[gnu::always_inline]] inline void turn(const Constants& k, Contact& c) {
   const double kt = 8.0 * k.shear * c.contact_radius;
-  const double sn = c.sx * c.nx + c.sy * c.ny + c.sz * c.nz;
-  const double px = c.sx - sn * c.nx;
-  const double py = c.sy - sn * c.ny;
-  const double pz = c.sz - sn * c.nz;
-  const double old2 = c.sx * c.sx + c.sy * c.sy + c.sz * c.sz;
-  const double new2 = px * px + py * py + pz * pz;
+  const sdk::InPlane spring = sdk::in_contact_plane({c.sx, c.sy, c.sz}, {c.nx, c.ny, c.nz});
   const double floor = std::max(kt, std::max(1e-6 * c.stiffness, k_tiny));
   // One division for both reciprocals. A spring without length keeps the ratio of stiffnesses; one
   // turned up along the normal is lost.
-  const double in_plane = new2 + k_tiny;
+  const double in_plane = spring.squared + k_tiny;
   const double inverse = 1.0 / (in_plane * floor);
-  c.keep = std::min(old2 + k_tiny, 4.0 * in_plane) * c.stiffness * inverse;
+  c.keep = std::min(spring.squared_before + k_tiny, 4.0 * in_plane) * c.stiffness * inverse;
   c.compliance = inverse * in_plane;
-  c.sx = px;
-  c.sy = py;
-  c.sz = pz;
+  c.sx = spring.part.x;
+  c.sy = spring.part.y;
+  c.sz = spring.part.z;
 }
 
 /// Springs and dampers without limit; `total` is squared.

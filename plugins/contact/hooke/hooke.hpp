@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/contact_plane.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -70,17 +72,12 @@ struct Contact {
   const double tz = c.vz - vn * c.nz;
 
   // Into the new tangent plane, at the old length.
-  const double sn = c.sx * c.nx + c.sy * c.ny + c.sz * c.nz;
-  const double px = c.sx - sn * c.nx;
-  const double py = c.sy - sn * c.ny;
-  const double pz = c.sz - sn * c.nz;
-  const double old2 = c.sx * c.sx + c.sy * c.sy + c.sz * c.sz;
-  const double new2 = px * px + py * py + pz * pz;
-  const double keep = std::sqrt(old2 / std::max(new2, k_tiny));
+  const sdk::InPlane spring = sdk::in_contact_plane({c.sx, c.sy, c.sz}, {c.nx, c.ny, c.nz});
+  const double keep = std::sqrt(spring.squared_before / std::max(spring.squared, k_tiny));
   const double un = c.ux * c.nx + c.uy * c.ny + c.uz * c.nz;
-  const double sx = touch * (keep * px + c.ux - un * c.nx);
-  const double sy = touch * (keep * py + c.uy - un * c.ny);
-  const double sz = touch * (keep * pz + c.uz - un * c.nz);
+  const double sx = touch * (keep * spring.part.x + c.ux - un * c.nx);
+  const double sy = touch * (keep * spring.part.y + c.uy - un * c.ny);
+  const double sz = touch * (keep * spring.part.z + c.uz - un * c.nz);
 
   // Coulomb: spring and damper share the limit.
   const double ux = edge * (-kt * sx - gt * tx);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/contact_plane.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -40,21 +42,16 @@ struct Rolling {
   const double rx = c.wx - wn * c.nx;
   const double ry = c.wy - wn * c.ny;
   const double rz = c.wz - wn * c.nz;
-  const double sn = c.sx * c.nx + c.sy * c.ny + c.sz * c.nz;
-  const double px = c.sx - sn * c.nx;
-  const double py = c.sy - sn * c.ny;
-  const double pz = c.sz - sn * c.nz;
-  const double old2 = c.sx * c.sx + c.sy * c.sy + c.sz * c.sz;
-  const double new2 = px * px + py * py + pz * pz;
-  const double keep = std::sqrt(old2 / std::max(new2, k_tiny));
+  const sdk::InPlane spring = sdk::in_contact_plane({c.sx, c.sy, c.sz}, {c.nx, c.ny, c.nz});
+  const double keep = std::sqrt(spring.squared_before / std::max(spring.squared, k_tiny));
   const double reach = k.friction * c.radius;
   const double kr = 2.25 * c.stiffness * reach * reach;
   const double last = c.last_stiffness > 0.0 ? c.last_stiffness : c.stiffness;
   const double mean = 2.25 * 0.5 * (last + c.stiffness) * reach * reach;
   const double an = c.ax * c.nx + c.ay * c.ny + c.az * c.nz;
-  const double sx = keep * px - mean * (c.ax - an * c.nx);
-  const double sy = keep * py - mean * (c.ay - an * c.ny);
-  const double sz = keep * pz - mean * (c.az - an * c.nz);
+  const double sx = keep * spring.part.x - mean * (c.ax - an * c.nx);
+  const double sy = keep * spring.part.y - mean * (c.ay - an * c.ny);
+  const double sz = keep * spring.part.z - mean * (c.az - an * c.nz);
   c.last_stiffness = c.stiffness;
   const double size = std::sqrt(sx * sx + sy * sy + sz * sz);
   const double limit = reach * std::abs(c.normal_force);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/contact_plane.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -35,16 +37,11 @@ inline constexpr double k_tiny = 1e-290;
 
 /// The couple across the new normal; `keep`, squared, restores the old size.
 [[gnu::always_inline]] inline void turn(Rolling& c) {
-  const double mn = c.mx * c.nx + c.my * c.ny + c.mz * c.nz;
-  const double px = c.mx - mn * c.nx;
-  const double py = c.my - mn * c.ny;
-  const double pz = c.mz - mn * c.nz;
-  const double old2 = c.mx * c.mx + c.my * c.my + c.mz * c.mz;
-  const double new2 = px * px + py * py + pz * pz;
-  c.keep = old2 / std::max(new2, k_tiny);
-  c.mx = px;
-  c.my = py;
-  c.mz = pz;
+  const sdk::InPlane couple = sdk::in_contact_plane({c.mx, c.my, c.mz}, {c.nx, c.ny, c.nz});
+  c.keep = couple.squared_before / std::max(couple.squared, k_tiny);
+  c.mx = couple.part.x;
+  c.my = couple.part.y;
+  c.mz = couple.part.z;
 }
 
 /// The spring without limit; `size` is squared.

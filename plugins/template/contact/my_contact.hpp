@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/contact_plane.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -51,13 +53,11 @@ struct Contact {
   const double tz = c.vz - vn * c.nz;
   // The spring grows by the displacement, and not by velocity times time step, which would damp it.
   // It follows the contact: what points along the new normal is dropped.
-  c.sx += c.ux;
-  c.sy += c.uy;
-  c.sz += c.uz;
-  const double sn = c.sx * c.nx + c.sy * c.ny + c.sz * c.nz;
-  c.sx -= sn * c.nx;
-  c.sy -= sn * c.ny;
-  c.sz -= sn * c.nz;
+  const auto spring =
+      dust::sdk::in_contact_plane({c.sx + c.ux, c.sy + c.uy, c.sz + c.uz}, {c.nx, c.ny, c.nz});
+  c.sx = spring.part.x;
+  c.sy = spring.part.y;
+  c.sz = spring.part.z;
   const double fx = -tangential * c.sx - damper * tx;
   const double fy = -tangential * c.sy - damper * ty;
   const double fz = -tangential * c.sz - damper * tz;
