@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/text.hpp"
 #include "bodies/mesh.hpp"
 #include "bodies/shape_kinds.hpp"
 #include "dust/sdk/error.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 namespace dust::bodies {
 namespace {
@@ -14,12 +14,7 @@ using sdk::SchemaOf;
 using sdk::Vec3;
 namespace dimension = sdk::dimension;
 
-std::string text_of(const char* format, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-std::string millimetres(double metres) { return text_of("%.4g mm", 1e3 * metres); }
+std::string millimetres(double metres) { return base::digits_text(1e3 * metres, 4) + " mm"; }
 std::string place_of(Vec3 p) {
   return "(" + millimetres(p.x) + ", " + millimetres(p.y) + ", " + millimetres(p.z) + ")";
 }
@@ -145,9 +140,9 @@ class StlMesh final : public MeshShape {
     all.push_back(
         file_ + ": " + std::to_string(h.triangles) + " triangles, " + std::to_string(h.vertices) +
         " points, " + std::to_string(h.shells) + (h.shells == 1 ? " shell, " : " shells, ") +
-        (h.is_closed() ? "closed, volume " + text_of("%.4g", 1e6 * h.volume) + " cm3"
+        (h.is_closed() ? "closed, volume " + base::digits_text(1e6 * h.volume, 4) + " cm3"
                        : std::to_string(h.open_edges) + " open edges") +
-        ", area " + text_of("%.4g", 1e4 * h.area) + " cm2, " + std::to_string(mesh_.parts()) +
+        ", area " + base::digits_text(1e4 * h.area, 4) + " cm2, " + std::to_string(mesh_.parts()) +
         " parts that a grain can touch at once; edges " + millimetres(h.shortest_edge) + " to " +
         millimetres(h.longest_edge) + ", median " + millimetres(h.median_edge));
     return all;

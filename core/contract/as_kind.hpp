@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/text.hpp"
 #include "contract/judge.hpp"
 
-#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -20,11 +20,7 @@ inline void require(bool is_kept, const std::string& why) {
 }
 
 /// A number for messages.
-inline std::string shown(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+inline std::string shown(double value) { return base::digits_text(value, 4); }
 
 /// Runs the hot call of a trial; a Violation when it allocates and the trial watches.
 template <class Call>

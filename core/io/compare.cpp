@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/compare.hpp"
 
+#include "base/text.hpp"
 #include "io/report_highlights.hpp"
 #include "io/report_names.hpp"
 #include "io/report_text.hpp"
@@ -84,17 +85,15 @@ std::vector<Figure> told_first(const RunText& run) {
     for (const Figure& figure : *figures) {
       const std::string leaf = leaf_of(figure.name);
       const double diameter = highlights.classes.size() > 1 ? class_of(figure.name) : -1.0;
-      char size[32] = "";
-      if (diameter > 0.0) std::snprintf(size, sizeof size, ", %g um", diameter * 1e6);
+      const std::string size =
+          diameter > 0.0 ? ", " + base::digits_text(diameter * 1e6, 6) + " um" : std::string();
       add("dust",
           place_words(figure.sensor) + size + (leaf == "grams_per_tonne" ? "" : ", " + leaf),
           figure);
     }
   }
   for (const StreamDrop& drop : highlights.stream) {
-    char name[64];
-    std::snprintf(name, sizeof name, "median at %g mm drop", drop.drop * 1e3);
-    add("stream", name, drop.median);
+    add("stream", "median at " + base::digits_text(drop.drop * 1e3, 6) + " mm drop", drop.median);
   }
   for (const LowPlace& place : highlights.places) {
     add("low pressure", "place " + place.name + ", x", place.x);
@@ -116,20 +115,16 @@ std::vector<Figure> told_first(const RunText& run) {
 
 /// "0.0292 +- 0.0106", as many digits as the error allows.
 std::string plain(double value, double error) {
-  char text[64];
   if (!std::isfinite(value)) return "-";
   if (!(error > 0.0) || !std::isfinite(error)) {
     // Counts stay whole.
-    std::snprintf(text, sizeof text, value == std::round(value) ? "%.12g" : "%.5g", value);
-    return text;
+    return base::digits_text(value, value == std::round(value) ? 12 : 5);
+  }
+  if (std::max(std::abs(value), error) < 1e-4) {
+    return base::digits_text(value, 3) + " +- " + base::digits_text(error, 2);
   }
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12);
-  if (std::max(std::abs(value), error) < 1e-4) {
-    std::snprintf(text, sizeof text, "%.3g +- %.2g", value, error);
-  } else {
-    std::snprintf(text, sizeof text, "%.*f +- %.*f", decimals, value, decimals, error);
-  }
-  return text;
+  return base::fixed_text(value, decimals) + " +- " + base::fixed_text(error, decimals);
 }
 
 /// Characters, not bytes, so that columns stay in line.

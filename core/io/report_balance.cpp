@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace dust::io {
 
@@ -15,12 +14,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double k_closure = 1e-9;  ///< relative; round-off of sums of 1e6 to 1e7 masses in double
-
-std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", std::clamp(share, 0.0, 1.0) * 100.0);
-  return text;
-}
 
 /// One line of the balance; `closes` turns false when emitted differs from the sum of the parts.
 std::string balance_row(const char* name, const json& parts, bool is_exact, const char* unit,
@@ -83,9 +76,9 @@ std::string mass_bar(const json& mass) {
     ++tone;
     if (!(share > 0.0)) continue;
     const std::string mark = "tone" + std::to_string(tone);
-    bar += "<i class=\"" + mark + "\" style=\"width:" + percent(share) + "%\"></i>";
-    legend +=
-        "<span><i class=\"" + mark + "\"></i>" + name + " " + percent(share) + "\u202f%</span>";
+    bar += "<i class=\"" + mark + "\" style=\"width:" + percent_of_whole(share) + "%\"></i>";
+    legend += "<span><i class=\"" + mark + "\"></i>" + name + " " + percent_of_whole(share) +
+              "\u202f%</span>";
   }
   return "<div class=\"stack\" role=\"img\" aria-label=\"Shares of the mass released\">" + bar +
          "</div><p class=\"legend\">" + legend + "</p>\n";

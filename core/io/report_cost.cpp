@@ -6,19 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace dust::io {
 
 namespace {
 
 using nlohmann::json;
-
-std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", std::clamp(share, 0.0, 1.0) * 100.0);
-  return text;
-}
 
 struct Cost {
   std::string name;
@@ -105,9 +98,9 @@ std::string cost_html(const RunText& run) {
     for (const Cost& cost : costs) {
       text += "<tr><th scope=\"row\">" + escape_html(words(cost.name)) + "</th><td class=\"n\">" +
               number_html(cost.seconds, 3) + "\u202fs</td><td class=\"n\">" +
-              percent(whole > 0.0 ? cost.seconds / whole : 0.0) +
-              "\u202f%</td><td class=\"bar\"><i style=\"width:" + percent(cost.seconds / longest) +
-              "%\"></i></td></tr>\n";
+              percent_of_whole(whole > 0.0 ? cost.seconds / whole : 0.0) +
+              "\u202f%</td><td class=\"bar\"><i style=\"width:" +
+              percent_of_whole(cost.seconds / longest) + "%\"></i></td></tr>\n";
     }
     text +=
         "</tbody></table></div>\n<p class=\"note\">Wall-clock time of each kind of node; nodes "

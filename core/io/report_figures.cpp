@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/text.hpp"
 #include "io/report_sections.hpp"
 #include "io/report_table.hpp"
 #include "io/report_text.hpp"
@@ -6,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace dust::io {
 
@@ -20,8 +20,8 @@ std::string figures_html(const RunText& run) {
     std::size_t count = 0;
     for (; k < run.figures.size() && run.figures[k].sensor == sensor; ++k, ++count) {
       const Figure& figure = run.figures[k];
-      char plain[64];
-      std::snprintf(plain, sizeof plain, std::isfinite(figure.value) ? "%.9g" : "", figure.value);
+      const std::string plain =
+          std::isfinite(figure.value) ? base::digits_text(figure.value, 9) : std::string();
       rows += "<tr><td>" + escape_html(words(figure.name)) + "</td><td class=\"n\">" +
               quantity_html(figure.value, figure.uncertainty, figure.unit) +
               "</td><td class=\"n raw\">" + plain +

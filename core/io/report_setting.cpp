@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/text.hpp"
 #include "io/report_sections.hpp"
 #include "io/report_table.hpp"
 #include "io/report_text.hpp"
@@ -6,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 namespace dust::io {
@@ -32,11 +32,7 @@ std::optional<Point> point_at(const json& object, const char* key) {
   return Point{list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
 }
 
-std::string px(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", value);
-  return text;
-}
+std::string px(double value) { return base::fixed_text(value, 1); }
 
 /// The x-z plane seen along y, in pixels.
 class Side {
@@ -117,8 +113,7 @@ std::string scale_svg(const Side& side) {
   const double lead = wanted / decade;
   const double length = decade * (lead >= 5.0 ? 5.0 : lead >= 2.0 ? 2.0 : 1.0);
   const double y = k_margin + side.height() + 20.0;
-  char label[64];
-  std::snprintf(label, sizeof label, "%g mm", 1e3 * length);
+  const std::string label = base::digits_text(1e3 * length, 6) + " mm";
   return "<path class=\"scale\" d=\"M" + px(k_margin) + " " + px(y - 4) + "v8m0 -4H" +
          px(k_margin + side.scale() * length) + "m0 -4v8\"/><text x=\"" +
          px(k_margin + side.scale() * length + 8) + "\" y=\"" + px(y + 4) + "\">" + label +

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/report_table.hpp"
 
+#include "io/report_text.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace dust::io {
 
@@ -49,18 +50,16 @@ std::string HtmlTable::html() const {
 
 std::string bar_html(double share, const char* css_class) {
   if (!(share > 0.0)) return {};
-  char width[32];
-  std::snprintf(width, sizeof width, "%.1f", 100.0 * std::min(share, 1.0));
-  return std::string("<i class=\"bar ") + css_class + "\" style=\"width:" + width + "%\"></i>";
+  return std::string("<i class=\"bar ") + css_class +
+         "\" style=\"width:" + percent_of_whole(share) + "%\"></i>";
 }
 
 std::string error_bar_html(double share, double error, const char* css_class) {
   const std::string bar = bar_html(share, css_class);
   if (bar.empty() || !(error > 0.0)) return bar;
   const double low = std::max(share - error, 0.0), high = std::min(share + error, 1.0);
-  char place[64];
-  std::snprintf(place, sizeof place, "left:%.1f%%;width:%.1f%%", 100.0 * low, 100.0 * (high - low));
-  return k_error_bar + bar + "<s style=\"" + place + "\"></s></span>";
+  return k_error_bar + bar + "<s style=\"left:" + percent_of_whole(low) +
+         "%;width:" + percent_of_whole(high - low) + "%\"></s></span>";
 }
 
 std::string tile_html(const std::string& name, const std::string& value, const std::string& note) {

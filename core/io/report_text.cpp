@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/report_text.hpp"
 
+#include "base/text.hpp"
+
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 namespace dust::io {
@@ -15,12 +16,6 @@ namespace {
 
 constexpr const char* k_narrow_space = "\u202f";
 constexpr const char* k_minus = "\u2212";
-
-std::string print(const char* format, int digits, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, digits, value);
-  return text;
-}
 
 /// Length of the UTF-8 sequence at `at`, 0 when it is not well formed.
 std::size_t sequence_length(std::string_view text, std::size_t at) {
@@ -137,7 +132,7 @@ std::string number_html(double value, int digits) {
   if (std::isinf(value)) return value > 0 ? "\u221e" : "\u2212\u221e";
   const double size = std::abs(value);
   if (size != 0.0 && (size < 1e-3 || size >= 1e6)) {
-    const std::string text = print("%.*e", digits - 1, value);
+    const std::string text = base::exponent_text(value, digits - 1);
     const auto split = text.find('e');
     const int exponent = std::stoi(text.substr(split + 1));
     std::string mantissa = text.substr(0, split);
@@ -150,7 +145,7 @@ std::string number_html(double value, int digits) {
   }
   // More figures before the point than asked for: still the whole number, not a power of ten.
   if (size >= std::pow(10.0, digits)) return count_html(value);
-  const std::string text = print("%.*g", digits, value);
+  const std::string text = base::digits_text(value, digits);
   // 99.97 with two figures rounds to a number with three before the point.
   if (text.find('e') != std::string::npos) return count_html(value);
   return with_minus(text);
@@ -158,7 +153,7 @@ std::string number_html(double value, int digits) {
 
 std::string count_html(double value) {
   if (!std::isfinite(value)) return number_html(value);
-  const std::string digits = print("%.*f", 0, std::abs(value));
+  const std::string digits = base::fixed_text(std::abs(value), 0);
   std::string text;
   for (std::size_t k = 0; k < digits.size(); ++k) {
     if (k > 0 && (digits.size() - k) % 3 == 0) text += k_narrow_space;
@@ -176,13 +171,13 @@ std::string value_html(double value, double error) {
     const int exponent = static_cast<int>(std::floor(std::log10(size)));
     const int decimals = std::clamp(exponent - place, 0, 8);
     const double unit = std::pow(10.0, exponent);
-    return "(" + with_minus(print("%.*f", decimals, value / unit)) + "\u00a0\u00b1\u00a0" +
-           print("%.*f", decimals, error / unit) + ")\u202f\u00d7\u202f10<sup>" +
+    return "(" + with_minus(base::fixed_text(value / unit, decimals)) + "\u00a0\u00b1\u00a0" +
+           base::fixed_text(error / unit, decimals) + ")\u202f\u00d7\u202f10<sup>" +
            with_minus(std::to_string(exponent)) + "</sup>";
   }
   const int decimals = std::clamp(-place, 0, 8);
-  return with_minus(print("%.*f", decimals, value)) + "\u00a0\u00b1\u00a0" +
-         print("%.*f", decimals, error);
+  return with_minus(base::fixed_text(value, decimals)) + "\u00a0\u00b1\u00a0" +
+         base::fixed_text(error, decimals);
 }
 
 std::string quantity_html(double value, double error, std::string_view unit) {
@@ -219,15 +214,16 @@ std::string quantity_html(double value, double error, std::string_view unit) {
 
 std::string duration_html(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0.0) return "\u2013";
-  char text[64];
   if (seconds < 100.0) return number_html(seconds, 3) + "\u202fs";
-  const auto whole = static_cast<long long>(std::llround(seconds));
-  if (whole < 3600) {
-    std::snprintf(text, sizeof text, "%lld\u202fmin %02lld\u202fs", whole / 60, whole % 60);
-  } else {
-    std::snprintf(text, sizeof text, "%lld\u202fh %02lld\u202fmin", whole / 3600, whole / 60 % 60);
-  }
+  std::string text = base::duration_text(seconds);
+  // A number and its unit stay together, the two of them may part.
+  text.replace(text.rfind(' '), 1, k_narrow_space);
+  text.replace(text.find(' '), 1, k_narrow_space);
   return text;
+}
+
+std::string percent_of_whole(double fraction) {
+  return base::fixed_text(100.0 * std::clamp(fraction, 0.0, 1.0), 1);
 }
 
 std::string packed(std::span<const std::uint8_t> bytes) {

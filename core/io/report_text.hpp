@@ -31,6 +31,9 @@ namespace dust::io {
 /// A value and its error in the unit that reads best (m -> mm or um, kg -> g, mg or ug, ...).
 [[nodiscard]] std::string quantity_html(double value, double error, std::string_view unit);
 
+/// A fraction of a whole in per cent, one decimal, cut back to 0 to 100; the sign is the caller's.
+[[nodiscard]] std::string percent_of_whole(double fraction);
+
 /// "1 h 02 min", "3 min 20 s", "12.4 s".
 [[nodiscard]] std::string duration_html(double seconds);
 

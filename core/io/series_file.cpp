@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "io/run_files.hpp"
 
 #include <fcntl.h>
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -15,17 +15,6 @@
 
 namespace dust::io {
 namespace {
-
-/// Shortest decimal that reads back as the same double.
-void append_number(std::string& text, double value) {
-  if (!std::isfinite(value)) {
-    text += std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
-    return;
-  }
-  char digits[32];
-  const auto end = std::to_chars(std::begin(digits), std::end(digits), value).ptr;
-  text.append(digits, end);
-}
 
 /// RFC 4180: a field with a comma, quote or line break is quoted.
 void append_field(std::string& text, const std::string& field) {
@@ -123,7 +112,7 @@ void SeriesFile::append(std::span<const std::string> names_with_units,
   std::string line;
   for (const double value : values) {
     if (!line.empty()) line += ',';
-    append_number(line, value);
+    line += base::shortest_text(value);
   }
   impl_->write_line(line + '\n');
   ++impl_->rows;

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/xdmf.hpp"
 
+#include "base/text.hpp"
 #include "io/frame_file.hpp"
 
-#include <charconv>
 #include <functional>
-#include <iterator>
 
 namespace dust::io {
 namespace {
 
-std::string number(double value) {
-  char digits[32];
-  return {digits, std::to_chars(std::begin(digits), std::end(digits), value).ptr};
-}
+std::string number(double value) { return base::shortest_text(value); }
 std::string number(std::int64_t value) { return std::to_string(value); }
 
 std::string triple(double a, double b, double c) {

@@ -8,9 +8,7 @@
 #include "scenario/units.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace dust::preflight {
 namespace {
@@ -24,11 +22,7 @@ using scenario::number_text;
 using scenario::Setup;
 
 /// Three digits, for messages.
-std::string short_number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
+std::string short_number(double value) { return base::digits_text(value, 3); }
 
 double largest_speed(const bodies::BodySet& bodies) {
   double speed = 0.0;

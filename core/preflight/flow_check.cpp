@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/flow_check.hpp"
 
+#include "base/text.hpp"
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/table.hpp"
 #include "fluid/sides.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <memory>
 #include <string>
@@ -41,11 +41,7 @@ std::string path_of(std::size_t side) {
 }
 
 /// Three digits, as in "0.0012 m3/s".
-std::string flow_text(double flow) {
-  std::array<char, 40> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.3g m3/s", flow);
-  return buffer.data();
-}
+std::string flow_text(double flow) { return base::digits_text(flow, 3) + " m3/s"; }
 
 /// The faces of one side as the fluid has them, without bodies and grains.
 struct Faces {

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "registry/guard_report.hpp"
 
-#include <cstdio>
+#include "base/text.hpp"
 
 namespace dust::registry {
 namespace {
 
 std::string shown(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", std::isnan(value) ? std::abs(value) : value);
-  return text;
+  return base::digits_text(std::isnan(value) ? std::abs(value) : value, 6);
 }
 
 }  // namespace

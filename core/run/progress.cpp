@@ -1,28 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/progress.hpp"
 
+#include "base/text.hpp"
+
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
-#include <string>
 
 namespace dust::run {
-namespace {
-
-std::string duration(double seconds) {
-  char text[32];
-  const int s = static_cast<int>(seconds + 0.5);
-  if (s < 60) {
-    std::snprintf(text, sizeof text, "%d s", s);
-  } else if (s < 3600) {
-    std::snprintf(text, sizeof text, "%d min %02d s", s / 60, s % 60);
-  } else {
-    std::snprintf(text, sizeof text, "%d h %02d min", s / 3600, s % 3600 / 60);
-  }
-  return text;
-}
-
-}  // namespace
 
 Progress::Progress(bool is_quiet, double end_time, double time_at_start)
     : is_quiet_(is_quiet),
@@ -44,7 +30,8 @@ void Progress::update(double time, std::int64_t grains) {
   recent_time_ = time;
   std::printf("%s%5.1f %%  %.4g of %.4g s  %lld grains  %.0f s per simulated s  ETA %s%s",
               is_terminal_ ? "\r\033[K" : "", 100.0 * time / end_time_, time, end_time_,
-              static_cast<long long>(grains), pace_, duration(pace_ * (end_time_ - time)).c_str(),
+              static_cast<long long>(grains), pace_,
+              base::duration_text(std::round(pace_ * (end_time_ - time))).c_str(),
               is_terminal_ ? "" : "\n");
   std::fflush(stdout);
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/references.hpp"
 
+#include "base/text.hpp"
+
 #include <cmath>
-#include <cstdio>
 
 namespace dust::run {
 namespace {
@@ -12,14 +13,9 @@ using Json = nlohmann::ordered_json;
 /// A number with its uncertainty, "-" for none.
 std::string shown(const Json& value, const Json& uncertainty) {
   if (!value.is_number()) return "-";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.4g", value.get<double>());
-  std::string out = text;
-  if (uncertainty.is_number()) {
-    std::snprintf(text, sizeof text, " +- %.2g", uncertainty.get<double>());
-    out += text;
-  }
-  return out;
+  const std::string text = base::digits_text(value.get<double>(), 4);
+  if (!uncertainty.is_number()) return text;
+  return text + " +- " + base::digits_text(uncertainty.get<double>(), 2);
 }
 
 }  // namespace
@@ -58,9 +54,7 @@ std::vector<std::string> reference_lines(const Json& references) {
                        shown(r["ours"], r["our_uncertainty"]) + unit + ", reference " +
                        shown(r["value"], r["uncertainty"]) + unit;
     if (r["error_percent"].is_number()) {
-      char text[32];
-      std::snprintf(text, sizeof text, ", %.1f %% off", r["error_percent"].get<double>());
-      line += text;
+      line += ", " + base::fixed_text(r["error_percent"].get<double>(), 1) + " % off";
     }
     lines.push_back(line + " (" + r["source"].get<std::string>() + ")");
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/axes.hpp"
 
+#include "base/text.hpp"
 #include "dust/sdk/parameter_schema.hpp"
 #include "scenario/suggest.hpp"
 #include "scenario/units.hpp"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace dust::study {
 namespace {
@@ -77,9 +77,7 @@ std::vector<Node> with_common_unit(std::vector<Node> values) {
 double AxisReader::Interval::at(double share) const {
   const double value = is_log ? low * std::pow(high / low, share) : low + share * (high - low);
   // Twelve digits: 0.1 + 0.2 shall read 0.3.
-  char text[40];
-  std::snprintf(text, sizeof text, "%.12g", value);
-  return std::strtod(text, nullptr);
+  return std::strtod(base::digits_text(value, 12).c_str(), nullptr);
 }
 
 Node AxisReader::Interval::node(double share, const Mark& where) const {

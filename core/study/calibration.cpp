@@ -2,12 +2,12 @@
 #include "study/calibration.hpp"
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "study/landscape.hpp"
 #include "study/sampling.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 namespace dust::study {
@@ -64,9 +64,8 @@ class Calibrator {
       for (std::size_t d = 0; d < share.size(); ++d) {
         const Freedom& p = settings_.parameters[d];
         // Five digits: a scenario that a person can read, and the same on every machine.
-        char text[40];
-        std::snprintf(text, sizeof text, "%.5g", p.low + share[d] * (p.high - p.low));
-        place.push_back(std::strtod(text, nullptr));
+        const std::string text = base::digits_text(p.low + share[d] * (p.high - p.low), 5);
+        place.push_back(std::strtod(text.c_str(), nullptr));
       }
       places.push_back(std::move(place));
     }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/effects.hpp"
 
+#include "base/text.hpp"
 #include "study/runner.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 namespace dust::study {
@@ -99,9 +99,7 @@ std::string amount_text(double value, double error, const std::string& unit) {
   if (error > 0.0 && std::isfinite(error)) {
     // Two digits of the error, and the value cut at the same place.
     const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(error))));
-    char both[80];
-    std::snprintf(both, sizeof both, "%.*f +- %.*f", decimals, value, decimals, error);
-    text = both;
+    text = base::fixed_text(value, decimals) + " +- " + base::fixed_text(error, decimals);
   } else {
     text = short_number(value);
   }

@@ -1,31 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/runner.hpp"
 
+#include "base/text.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 namespace dust::study {
 
-std::string short_number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
-std::string duration_text(double seconds) {
-  constexpr double k_minute = 60.0;
-  constexpr double k_hour = 3600.0;
-  char text[40];
-  if (seconds < 2.0 * k_minute) {
-    std::snprintf(text, sizeof text, "%.3g s", seconds);
-  } else if (seconds < 2.0 * k_hour) {
-    std::snprintf(text, sizeof text, "%.0f min", seconds / k_minute);
-  } else {
-    std::snprintf(text, sizeof text, "%.1f h", seconds / k_hour);
-  }
-  return text;
-}
+std::string short_number(double value) { return base::digits_text(value, 4); }
 
 Runner::Runner(Plan& plan, const PointStore& store, Launcher& launcher, Settings settings)
     : plan_(plan), store_(store), launcher_(launcher), settings_(settings), results_{plan, {}} {}
@@ -108,7 +92,7 @@ std::string Runner::remaining() const {
   if (!(estimate_done_ > 0.0) || !(left > 0.0)) return {};
   const double elapsed =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  return "; about " + duration_text(left * elapsed / estimate_done_) + " left";
+  return "; about " + base::estimated_duration_text(left * elapsed / estimate_done_) + " left";
 }
 
 void Runner::tell(std::size_t n) {
@@ -119,7 +103,7 @@ void Runner::tell(std::size_t n) {
   if (outcome.status == Status::failed) {
     text = "failed: " + outcome.reason;
   } else {
-    text = "in " + duration_text(outcome.wall_s);
+    text = "in " + base::duration_text(outcome.wall_s);
     for (std::size_t k = 0; k < plan_.outputs.size() && k < outcome.outputs.size(); ++k) {
       if (!outcome.outputs[k].value) continue;
       text += (k == 0 ? ": " : ", ") + plan_.outputs[k].name + " = " +

@@ -46,8 +46,6 @@ class Runner {
   bool was_stopped_ = false;
 };
 
-/// "12 s", "3.4 min", "2.1 h"
-std::string duration_text(double seconds);
 /// Four significant digits.
 std::string short_number(double value);
 

@@ -2,6 +2,7 @@
 #include "study/study.hpp"
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "io/run_files.hpp"
 #include "registry/registry.hpp"
 #include "study/calibrate_runs.hpp"
@@ -88,7 +89,7 @@ void tell_plan(const Plan& plan, const PointStore& store, const Resources& resou
       "on "
       "this machine (rough)\n",
       plan.points.size(), done, resources.jobs, resources.threads, largest / k_megabyte,
-      duration_text(core_seconds / (resources.jobs * resources.threads)).c_str());
+      base::estimated_duration_text(core_seconds / (resources.jobs * resources.threads)).c_str());
   tell_memory(largest, resources);
 }
 
@@ -118,7 +119,7 @@ void tell_calibration(const Spec& spec, const Plan& plan, const std::vector<Poin
   }
   const double runs = static_cast<double>(c.runs * spec.replicates);
   std::printf("at most %.0f runs of about %s on one core each; %d at a time with %d threads each\n",
-              runs, duration_text(seconds).c_str(), resources.jobs, resources.threads);
+              runs, base::duration_text(seconds).c_str(), resources.jobs, resources.threads);
 }
 
 void tell_expectations(const Spec& spec, const Results& results) {

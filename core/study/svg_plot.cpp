@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/svg_plot.hpp"
 
+#include "base/text.hpp"
 #include "io/report_text.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace dust::study {
@@ -17,16 +17,10 @@ constexpr double k_right = 14.0;
 constexpr double k_top = 12.0;
 constexpr double k_bottom = 46.0;
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", value);
-  return text;
-}
+std::string number(double value) { return base::fixed_text(value, 1); }
 
 std::string label(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", std::abs(value) < 1e-300 ? 0.0 : value);
-  std::string shown = text;
+  std::string shown = base::digits_text(std::abs(value) < 1e-300 ? 0.0 : value, 6);
   if (shown.starts_with('-')) shown.replace(0, 1, "\u2212");
   return shown;
 }

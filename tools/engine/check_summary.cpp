@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check_summary.hpp"
 
+#include "base/text.hpp"
 #include "coupling/own_disturbance.hpp"
 
 #include <nlohmann/json.hpp>
@@ -20,9 +21,7 @@ using preflight::Derived;
 using scenario::Setup;
 
 std::string digits(double value, int significant = 3) {
-  std::array<char, 40> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.*g", significant, value);
-  return buffer.data();
+  return base::digits_text(value, significant);
 }
 
 /// Number with a prefix that leaves one to three digits before the point: "1.2 us".
@@ -49,22 +48,11 @@ std::string millimetres(sdk::Vec3 v) {
 
 /// "12,345"
 std::string counted(double value) {
-  std::array<char, 40> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.0f", value);
-  std::string text = buffer.data();
+  std::string text = base::fixed_text(value, 0);
   for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) {
     text.insert(static_cast<std::size_t>(at), ",");
   }
   return text;
-}
-
-std::string duration(double seconds) {
-  constexpr double k_minute = 60.0;
-  constexpr double k_hour = 3600.0;
-  if (seconds < 2.0 * k_minute) return digits(std::max(seconds, 1.0), 2) + " s";
-  // Two digits are what is known; 98 min, but 1.7 h rather than "1e+02 min".
-  if (seconds < 99.0 * k_minute) return digits(seconds / k_minute, 2) + " min";
-  return digits(seconds / k_hour, seconds < 99.0 * k_hour ? 2 : 3) + " h";
 }
 
 const std::string& material_name(const Setup& setup, int material) {
@@ -274,10 +262,10 @@ void tell_cost(std::ostream& out, const Derived& derived) {
       << " grains at a time (each stays about " << engineering(derived.residence_time, "s") << "), "
       << counted(derived.memory_bytes / k_megabyte) << " MB of memory, "
       << counted(derived.disk_bytes / k_megabyte) << " MB on disk\n             "
-      << duration(derived.core_seconds) << " on one core";
+      << base::estimated_duration_text(derived.core_seconds) << " on one core";
   if (cores > 1) {
-    out << ", " << duration(derived.core_seconds / (k_shared * cores)) << " on the " << cores
-        << " of this machine";
+    out << ", " << base::estimated_duration_text(derived.core_seconds / (k_shared * cores))
+        << " on the " << cores << " of this machine";
   }
   out << " (rough: within a factor of two for most)\n";
 }

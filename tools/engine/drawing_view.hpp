@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/text.hpp"
 #include "setup/setup.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 namespace dust::engine {
 
 /// Coordinate in an SVG text [px].
-inline std::string px(double value) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.1f", value);
-  return buffer.data();
-}
+inline std::string px(double value) { return base::fixed_text(value, 1); }
 
 /// Looks along one axis of the domain; gravity points down where it follows an axis.
 class SideView {

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/text.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+using namespace dust::base;
+
+TEST_CASE("Numbers for people read as printf writes them") {
+  const double numbers[] = {0.0,   1.0,   -1.0,    0.1 + 0.2, 1e-5, 123456.0, 1234567.0,
+                            9.995, 1e100, -2.5e-9, 99.95,     1e21, 0.5,      2.5};
+  for (const double v : numbers) {
+    for (const int digits : {1, 2, 3, 4, 6, 9, 12}) {
+      CAPTURE(v);
+      CAPTURE(digits);
+      char expected[400];
+      std::snprintf(expected, sizeof expected, "%.*g", digits, v);
+      CHECK(digits_text(v, digits) == expected);
+      std::snprintf(expected, sizeof expected, "%.*f", digits, v);
+      CHECK(fixed_text(v, digits) == expected);
+      std::snprintf(expected, sizeof expected, "%.*e", digits, v);
+      CHECK(exponent_text(v, digits) == expected);
+    }
+  }
+  CHECK(digits_text(std::numeric_limits<double>::infinity(), 4) == "inf");
+  CHECK(digits_text(-std::numeric_limits<double>::infinity(), 4) == "-inf");
+  CHECK(digits_text(std::numeric_limits<double>::quiet_NaN(), 4) == "nan");
+}
+
+TEST_CASE("The shortest text of a number reads back as the same bits") {
+  for (const double v : {0.1, 1.0 / 3.0, 1e300, 5e-324, -0.0, 123456789.0}) {
+    const double back = std::strtod(shortest_text(v).c_str(), nullptr);
+    CHECK(back == v);
+    CHECK(std::signbit(back) == std::signbit(v));
+  }
+  CHECK(shortest_text(0.1) == "0.1");
+  CHECK(shortest_text(std::numeric_limits<double>::infinity()) == "inf");
+  CHECK(shortest_text(-std::numeric_limits<double>::quiet_NaN()) == "nan");
+}
+
+TEST_CASE("Durations: three digits below 100 s, then minutes and hours") {
+  CHECK(duration_text(0.01234) == "0.0123 s");
+  CHECK(duration_text(99.94) == "99.9 s");
+  CHECK(duration_text(125.0) == "2 min 05 s");
+  CHECK(duration_text(3599.6) == "1 h 00 min");
+  CHECK(duration_text(3725.0) == "1 h 02 min");
+}
+
+TEST_CASE("Estimated durations: two digits of one unit") {
+  CHECK(estimated_duration_text(0.2) == "1 s");
+  CHECK(estimated_duration_text(44.4) == "44 s");
+  CHECK(estimated_duration_text(98.0 * 60.0) == "98 min");
+  CHECK(estimated_duration_text(100.0 * 60.0) == "1.7 h");
+  CHECK(estimated_duration_text(123.0 * 3600.0) == "123 h");
+}
