@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/report_pictures.hpp"
 
+#include "base/cells.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -22,7 +24,7 @@ class Coarse {
       if (diameter[k] < k_dust_diameter) continue;
       const Grain grain{position[3 * k], position[3 * k + 1], position[3 * k + 2],
                         k_near_diameters * diameter[k]};
-      cells_[key(index(grain.x), index(grain.y), index(grain.z))].push_back(grain);
+      cells_[base::cell_key(index(grain.x), index(grain.y), index(grain.z))].push_back(grain);
     }
   }
 
@@ -33,7 +35,7 @@ class Coarse {
     for (std::int64_t a = i - 1; a <= i + 1; ++a) {
       for (std::int64_t b = j - 1; b <= j + 1; ++b) {
         for (std::int64_t c = k - 1; c <= k + 1; ++c) {
-          const auto found = cells_.find(key(a, b, c));
+          const auto found = cells_.find(base::cell_key(a, b, c));
           if (found == cells_.end()) continue;
           for (const Grain& g : found->second) {
             const double dx = x - g.x, dy = y - g.y, dz = z - g.z;
@@ -49,17 +51,10 @@ class Coarse {
   struct Grain {
     double x, y, z, reach;
   };
-  [[nodiscard]] std::int64_t index(double v) const {
-    return static_cast<std::int64_t>(std::floor(v / cell_));
-  }
-  static std::int64_t key(std::int64_t i, std::int64_t j, std::int64_t k) {
-    // 21 bits each: 2 million cells per direction.
-    constexpr std::int64_t k_mask = (1 << 21) - 1;
-    return (i & k_mask) << 42 | (j & k_mask) << 21 | (k & k_mask);
-  }
+  [[nodiscard]] std::int64_t index(double v) const { return base::cell_index(v / cell_); }
 
   double cell_ = 1e-9;
-  std::unordered_map<std::int64_t, std::vector<Grain>> cells_;
+  std::unordered_map<std::uint64_t, std::vector<Grain>> cells_;
 };
 
 /// What is known of a grain of dust so far.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/entry.hpp"
 
+#include "base/cells.hpp"
 #include "dust/sdk/error.hpp"
 
 #include <algorithm>
@@ -107,20 +108,14 @@ SphereGrid::SphereGrid(const EntryScene& scene, double largest)
 std::array<std::int64_t, 3> SphereGrid::cell_of(Vec3 point) const {
   std::array<std::int64_t, 3> cell{};
   for (int d = 0; d < 3; ++d) {
-    cell[static_cast<std::size_t>(d)] =
-        static_cast<std::int64_t>(std::floor((point[d] - scene_.min[d]) / edge_[d]));
+    cell[static_cast<std::size_t>(d)] = base::cell_index((point[d] - scene_.min[d]) / edge_[d]);
   }
   return cell;
 }
 
 std::uint64_t SphereGrid::key_of(std::array<std::int64_t, 3> cell) const {
-  std::uint64_t key = 0;
-  for (std::size_t d = 0; d < 3; ++d) {
-    std::int64_t c = cell[d];
-    if (cells_[d] > 0) c = (c % cells_[d] + cells_[d]) % cells_[d];
-    key = key << 21 | (static_cast<std::uint64_t>(c + 1024) & 0x1fffff);
-  }
-  return key;
+  for (std::size_t d = 0; d < 3; ++d) cell[d] = base::wrapped_cell(cell[d], cells_[d]);
+  return base::cell_key(cell[0], cell[1], cell[2]);
 }
 
 void SphereGrid::add(const Sphere& sphere) {
