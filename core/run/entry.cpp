@@ -2,6 +2,7 @@
 #include "run/entry.hpp"
 
 #include "base/cells.hpp"
+#include "base/periodic.hpp"
 #include "dust/sdk/error.hpp"
 
 #include <algorithm>
@@ -80,8 +81,7 @@ Vec3 EntryScene::separation(Vec3 from, Vec3 to) const {
   Vec3 apart = to - from;
   for (int d = 0; d < 3; ++d) {
     if (!is_periodic[static_cast<std::size_t>(d)]) continue;
-    const double length = max[d] - min[d];
-    apart[d] -= length * std::round(apart[d] / length);
+    apart[d] = base::nearest_image_of_any(apart[d], max[d] - min[d]);
   }
   return apart;
 }

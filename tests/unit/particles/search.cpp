@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/search.hpp"
 
+#include "base/periodic.hpp"
+
 #include "dust/sdk/random.hpp"
 
 #include <doctest/doctest.h>
@@ -46,7 +48,7 @@ struct Flock {
       double sum = 0.0;
       for (std::size_t d = 0; d < 3; ++d) {
         double x = position[4 * i + d] - position[4 * j + d];
-        if (in.period[d] > 0.0) x -= in.period[d] * std::round(x / in.period[d]);
+        if (in.period[d] > 0.0) x = dust::base::nearest_image_of_any(x, in.period[d]);
         x += 1e-4 * s * in.horizon * (velocity[4 * i + d] - velocity[4 * j + d]);
         sum += x * x;
       }
