@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/impl.hpp"
 
+#include "base/cells.hpp"
+
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -32,7 +34,7 @@ class Surroundings {
       inverse_[d] = static_cast<double>(count_[d]) / images_.length[d];
     }
     const std::size_t size = std::bit_ceil(64 * strays.size() + 64);
-    mask_ = size - 1;
+    shift_ = 64 - std::countr_zero(size);
     std::vector<std::pair<std::uint32_t, std::int32_t>> entries;
     for (std::size_t s = 0; s < strays.size(); ++s) {
       const double centre[3] = {strays[s].x, strays[s].y, strays[s].z};
@@ -70,24 +72,19 @@ class Surroundings {
 
  private:
   [[nodiscard]] std::int64_t cell(double x, int d) const {
-    return static_cast<std::int64_t>(std::floor(x * inverse_[d]));
+    return base::cell_index(x * inverse_[d]);
   }
   [[nodiscard]] std::uint32_t slot(std::int64_t x, std::int64_t y, std::int64_t z) const {
-    const auto wrapped = [&](std::int64_t c, int d) {
-      if (count_[d] == 0) return static_cast<std::uint64_t>(c);
-      const std::int64_t m = c % count_[d];
-      return static_cast<std::uint64_t>(m < 0 ? m + count_[d] : m);
-    };
-    std::uint64_t h = wrapped(x, 0) * 0x9E3779B97F4A7C15ull;
-    h = (h ^ h >> 32 ^ wrapped(y, 1)) * 0xC2B2AE3D27D4EB4Full;
-    h = (h ^ h >> 29 ^ wrapped(z, 2)) * 0x165667B19E3779F9ull;
-    return static_cast<std::uint32_t>((h >> 20) & mask_);
+    const std::uint64_t key =
+        base::cell_key(base::wrapped_cell(x, count_[0]), base::wrapped_cell(y, count_[1]),
+                       base::wrapped_cell(z, count_[2]));
+    return static_cast<std::uint32_t>(base::spread_key(key) >> shift_);
   }
 
   const contact::Images& images_;
   double inverse_[3];
   std::int64_t count_[3] = {0, 0, 0};  ///< of cells along a periodic side, else 0
-  std::uint64_t mask_ = 0;
+  int shift_ = 0;
   std::vector<std::int32_t> begin_;
   std::vector<std::int32_t> strays_;
 };

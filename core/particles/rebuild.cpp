@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/cells.hpp"
 #include "dust/sdk/error.hpp"
 #include "particles/impl.hpp"
 
@@ -103,12 +104,8 @@ void Dem::Impl::choose_allowances() {
   std::vector<std::uint64_t> key_of(store.size() - coarse_count);
   for (std::size_t n = coarse_count; n < store.size(); ++n) {
     const double* p = store.position.data() + 4 * n;
-    std::uint64_t key = 0;
-    for (int d = 0; d < 3; ++d) {
-      key = key << 21 | (static_cast<std::uint64_t>(static_cast<std::int64_t>(
-                             std::floor((p[d] - domain_min[d]) / edge) + 1024.0)) &
-                         0x1fffff);
-    }
+    const auto cell = [&](int d) { return base::cell_index((p[d] - domain_min[d]) / edge); };
+    const std::uint64_t key = base::cell_key(cell(0), cell(1), cell(2));
     key_of[n - coarse_count] = key;
     ++crowd[key];
   }

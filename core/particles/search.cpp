@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/search.hpp"
 
+#include "base/cells.hpp"
+
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -13,8 +15,7 @@ namespace dust::particles {
 namespace {
 
 constexpr std::uint64_t k_empty = ~std::uint64_t{0};
-constexpr int k_bits = 21;
-constexpr std::int64_t k_offset = std::int64_t{1} << (k_bits - 1);
+constexpr std::int64_t k_offset = std::int64_t{1} << (base::k_cell_bits - 1);
 /// Cells of the box round a level's grains for each of them up to which a table of all cells is
 /// made; with more, most cells are empty and only the others are kept, in a hash table.
 constexpr double k_cells_per_grain = 128.0;
@@ -231,25 +232,21 @@ class Level {
   }
 
   [[nodiscard]] std::int64_t cell(double x, int d) const {
-    return static_cast<std::int64_t>(std::floor((x - origin_[d]) * inverse_[d]));
+    return base::cell_index((x - origin_[d]) * inverse_[d]);
   }
   [[nodiscard]] std::int64_t wrap(std::int64_t c, int d) const {
-    if (!wraps_[d]) return c;
-    const std::int64_t m = c % count_[d];
-    return m < 0 ? m + count_[d] : m;
+    return wraps_[d] ? base::wrapped_cell(c, count_[d]) : c;
   }
   [[nodiscard]] std::int64_t index(std::int64_t x, std::int64_t y, std::int64_t z) const {
     return (z * count_[1] + y) * count_[0] + x;
   }
   static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) {
-    constexpr std::int64_t mask = (std::int64_t{1} << k_bits) - 1;
-    return static_cast<std::uint64_t>((((z + k_offset) & mask) << (2 * k_bits)) |
-                                      (((y + k_offset) & mask) << k_bits) |
-                                      ((x + k_offset) & mask));
+    // The offset orders the slots: results depend on it.
+    return base::cell_key(x + k_offset, y + k_offset, z + k_offset);
   }
   /// Where a key stands, or the empty slot it would take.
   [[nodiscard]] std::size_t slot(std::uint64_t k) const {
-    auto s = static_cast<std::size_t>((k * 0x9E3779B97F4A7C15ull) >> shift_);
+    auto s = static_cast<std::size_t>(base::spread_key(k) >> shift_);
     while (slots_[s].key != k_empty && slots_[s].key != k) s = (s + 1) & (slots_.size() - 1);
     return s;
   }
