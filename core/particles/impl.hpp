@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/periodic.hpp"
 #include "contact/batch_kernels.hpp"
 #include "particles/balance_book.hpp"
 #include "particles/dem.hpp"
@@ -346,9 +347,7 @@ struct Dem::Impl {
   [[nodiscard]] sdk::Vec3 separation(const double* from, const double* to) const {
     double d[3];
     for (int k = 0; k < 3; ++k) {
-      d[k] = to[k] - from[k];
-      if (d[k] > images.half[k]) d[k] -= images.length[k];
-      if (d[k] < -images.half[k]) d[k] += images.length[k];
+      d[k] = base::nearest_image(to[k] - from[k], images.length[k], images.half[k]);
     }
     return {d[0], d[1], d[2]};
   }

@@ -2,6 +2,7 @@
 #include "particles/search.hpp"
 
 #include "base/cells.hpp"
+#include "base/periodic.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -217,10 +218,7 @@ class Level {
       const Ball& other = balls_[n];
       double apart[3] = {other.x - ball.x, other.y - ball.y, other.z - ball.z};
       if constexpr (is_periodic) {
-        for (int d = 0; d < 3; ++d) {
-          if (apart[d] > 0.5 * period_[d]) apart[d] -= period_[d];
-          if (apart[d] < -0.5 * period_[d]) apart[d] += period_[d];
-        }
+        for (int d = 0; d < 3; ++d) apart[d] = base::nearest_image(apart[d], period_[d]);
       }
       const double limit = ball.reach + other.reach;
       found[count] = static_cast<std::int32_t>(n);
@@ -275,11 +273,7 @@ bool comes_near(const SearchInput& in, std::int32_t i, std::int32_t j, double li
   sdk::Vec3 x;
   sdk::Vec3 v;
   for (int d = 0; d < 3; ++d) {
-    x[d] = pi[d] - pj[d];
-    if (in.period[d] > 0.0) {
-      if (x[d] > 0.5 * in.period[d]) x[d] -= in.period[d];
-      if (x[d] < -0.5 * in.period[d]) x[d] += in.period[d];
-    }
+    x[d] = base::nearest_image(pi[d] - pj[d], in.period[d]);
     v[d] = vi[d] - vj[d];
   }
   return passes_within(x, v, in.horizon, limit);
