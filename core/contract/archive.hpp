@@ -21,6 +21,8 @@ class MemoryArchive final : public sdk::ArchiveWriter, public sdk::ArchiveReader
   std::vector<std::int64_t> integers(std::string_view name) override;
   using sdk::ArchiveReader::integer;
   using sdk::ArchiveReader::number;
+  using sdk::ArchiveWriter::integer;
+  using sdk::ArchiveWriter::number;
 
  private:
   std::map<std::string, std::vector<double>> numbers_;

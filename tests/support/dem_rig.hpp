@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bodies/body_set.hpp"
+#include "contract/archive.hpp"
 #include "dust/sdk/plugin.hpp"
 #include "particles/dem.hpp"
 #include "setup/setup.hpp"
@@ -158,25 +159,6 @@ inline GrainState grain(particles::Dem& dem, std::int64_t id) {
   throw std::runtime_error("no such grain");
 }
 
-/// Keeps what a model saves, in memory.
-class MemoryArchive : public sdk::ArchiveWriter, public sdk::ArchiveReader {
- public:
-  void numbers(std::string_view name, std::span<const double> values) override {
-    numbers_[std::string(name)].assign(values.begin(), values.end());
-  }
-  void integers(std::string_view name, std::span<const std::int64_t> values) override {
-    integers_[std::string(name)].assign(values.begin(), values.end());
-  }
-  std::vector<double> numbers(std::string_view name) override {
-    return numbers_.at(std::string(name));
-  }
-  std::vector<std::int64_t> integers(std::string_view name) override {
-    return integers_.at(std::string(name));
-  }
-
- private:
-  std::map<std::string, std::vector<double>> numbers_;
-  std::map<std::string, std::vector<std::int64_t>> integers_;
-};
+using contract::MemoryArchive;
 
 }  // namespace dust::test

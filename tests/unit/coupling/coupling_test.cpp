@@ -10,7 +10,7 @@
 namespace {
 
 using namespace dust;
-using test::Archive;
+using test::MemoryArchive;
 using test::Numbers;
 using test::World;
 
@@ -107,7 +107,7 @@ TEST_CASE("the sums over time of what grains received and the fluid got shall be
     // Of the pressure gradient the fluid leaves to the grains what they take up in the cells;
     // grains that cross cells take up another part, and the difference is exchanged, too.
     const auto owed_to_cells = [&] {
-      Archive archive;
+      MemoryArchive archive;
       world.coupling->save(archive);
       sdk::Vec3 sum;
       for (int d = 0; d < 3; ++d) {
@@ -307,7 +307,7 @@ TEST_CASE("a coupling resumed from an archive shall give the same bits") {
     world.coupling->collect(world.grains.rows(), k_step);
   }
   world.grains.remove_last();
-  Archive archive;
+  MemoryArchive archive;
   world.coupling->save(archive);
   World resumed(choice);
   resumed.velocity = world.velocity;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "contract/archive.hpp"
 #include "contract/plugin_library.hpp"
 #include "coupling/coupling.hpp"
 #include "dust/sdk/random.hpp"
@@ -10,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -241,25 +241,6 @@ class Numbers {
   std::uint32_t count_ = 0;
 };
 
-/// An archive in memory.
-class Archive final : public sdk::ArchiveWriter, public sdk::ArchiveReader {
- public:
-  void numbers(std::string_view name, std::span<const double> values) override {
-    numbers_[std::string(name)].assign(values.begin(), values.end());
-  }
-  void integers(std::string_view name, std::span<const std::int64_t> values) override {
-    integers_[std::string(name)].assign(values.begin(), values.end());
-  }
-  std::vector<double> numbers(std::string_view name) override {
-    return numbers_.at(std::string(name));
-  }
-  std::vector<std::int64_t> integers(std::string_view name) override {
-    return integers_.at(std::string(name));
-  }
-
- private:
-  std::map<std::string, std::vector<double>> numbers_;
-  std::map<std::string, std::vector<std::int64_t>> integers_;
-};
+using contract::MemoryArchive;
 
 }  // namespace dust::test

@@ -107,7 +107,7 @@ struct Cloud {
   /// air has received too much.
   [[nodiscard]] sdk::Vec3 on_the_way() {
     constexpr std::size_t k_saved = 13;  // numbers per grain in a checkpoint, the debt at 6
-    test::Archive archive;
+    test::MemoryArchive archive;
     world.coupling->save(archive);
     air->save(archive);
     const std::vector<double> numbers = archive.numbers("grains");

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "contract/archive.hpp"
 #include "fluid/fluid_solver.hpp"
 
 #include <array>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -115,29 +115,6 @@ struct Case {
 /// Order between errors at two resolutions a factor 2 apart.
 inline double order(double coarse, double fine) { return std::log2(coarse / fine); }
 
-/// Archive in memory.
-class MemoryArchive final : public sdk::ArchiveWriter, public sdk::ArchiveReader {
- public:
-  using sdk::ArchiveReader::integer;
-  using sdk::ArchiveReader::number;
-  using sdk::ArchiveWriter::integer;
-  using sdk::ArchiveWriter::number;
-  void numbers(std::string_view name, std::span<const double> v) override {
-    numbers_[std::string(name)].assign(v.begin(), v.end());
-  }
-  void integers(std::string_view name, std::span<const std::int64_t> v) override {
-    integers_[std::string(name)].assign(v.begin(), v.end());
-  }
-  std::vector<double> numbers(std::string_view name) override {
-    return numbers_.at(std::string(name));
-  }
-  std::vector<std::int64_t> integers(std::string_view name) override {
-    return integers_.at(std::string(name));
-  }
-
- private:
-  std::map<std::string, std::vector<double>> numbers_;
-  std::map<std::string, std::vector<std::int64_t>> integers_;
-};
+using contract::MemoryArchive;
 
 }  // namespace dust::test

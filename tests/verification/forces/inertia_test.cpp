@@ -171,7 +171,7 @@ TEST_CASE("the memory of a grain shall survive a restart and a new order of rows
     step(*whole);
     step(*part);
   }
-  test::Archive archive;
+  test::MemoryArchive archive;
   part->world.coupling->save(archive);
   part->world.restart();
   part->world.coupling->use(part->forces, {});

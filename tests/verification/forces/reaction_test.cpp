@@ -97,7 +97,7 @@ struct Cloud {
     }
     // What collect() found and the next map() hands to the liquid, the debt at 6 of 13 numbers; of
     // cells where no other force acts; and less what the liquid has received too much.
-    test::Archive archive;
+    test::MemoryArchive archive;
     world.coupling->save(archive);
     liquid->save(archive);
     const std::vector<double> numbers = archive.numbers("grains");
