@@ -2,7 +2,6 @@
 #include "io/atomic_file.hpp"
 
 #include "base/error.hpp"
-#include "io/run_files.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace dust::io {
 
@@ -14,5 +15,8 @@ std::filesystem::path temporary_name(const std::filesystem::path& file);
 /// on the disk, not in its cache, when this returns: they survive a power cut. A killed process
 /// never leaves half a file either way.
 void move_into_place(const std::filesystem::path& file, bool is_synced);
+
+/// Replaces `file` with `text` in one step. Throws RunError.
+void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace dust::io

@@ -2,10 +2,11 @@
 #include "io/report_page.hpp"
 
 #include "base/error.hpp"
+#include "io/atomic_file.hpp"
 #include "io/report_assets.hpp"
 #include "io/report_text.hpp"
 
-#include <fstream>
+#include <string>
 
 namespace dust::io {
 
@@ -57,20 +58,11 @@ std::string footer_html(const std::string& version) {
 }
 
 void write_page(const std::filesystem::path& target, const std::string& text) {
-  const std::filesystem::path part = target.string() + ".part";
-  {
-    std::ofstream stream(part, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) {
-      throw base::UserError("error: cannot write " + target.string() +
-                            "; make room on the disk or give yourself the right to write there");
-    }
-  }
-  std::error_code failed;
-  std::filesystem::rename(part, target, failed);
-  if (failed) {
-    throw base::UserError("error: cannot replace " + target.string() + ": " + failed.message());
+  try {
+    write_text(target, text);
+  } catch (const base::RunError& problem) {
+    throw base::UserError("error: " + std::string(problem.what()) +
+                          "; make room on the disk or give yourself the right to write there");
   }
 }
 

@@ -114,7 +114,4 @@ class Sha256 {
   void compress(const std::uint8_t* block);
 };
 
-/// Replaces `file` with `text` atomically (temporary file, rename).
-void write_text(const std::filesystem::path& file, const std::string& text);
-
 }  // namespace dust::io

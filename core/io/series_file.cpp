@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "io/atomic_file.hpp"
 #include "io/run_files.hpp"
 
 #include <fcntl.h>

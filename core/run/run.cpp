@@ -2,6 +2,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "dust/sdk/error.hpp"
+#include "io/atomic_file.hpp"
 #include "io/report.hpp"
 #include "io/run_files.hpp"
 #include "particles/time_steps.hpp"

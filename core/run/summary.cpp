@@ -4,6 +4,7 @@
 #include "base/log.hpp"
 #include "bodies/seen_edges.hpp"
 #include "dust/sdk/plugin.hpp"
+#include "io/atomic_file.hpp"
 #include "io/run_files.hpp"
 #include "particles/balance_book.hpp"
 #include "run/references.hpp"

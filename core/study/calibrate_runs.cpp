@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/calibrate_runs.hpp"
 
-#include "io/run_files.hpp"
+#include "io/atomic_file.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 #include "study/point_store.hpp"
 
 #include "base/error.hpp"
-#include "io/run_files.hpp"
+#include "io/atomic_file.hpp"
 #include "scenario/suggest.hpp"
 #include "study/quantities.hpp"
 

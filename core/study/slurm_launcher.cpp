@@ -2,7 +2,7 @@
 #include "study/launcher.hpp"
 
 #include "base/error.hpp"
-#include "io/run_files.hpp"
+#include "io/atomic_file.hpp"
 #include "study/slurm_script.hpp"
 
 #include <sys/wait.h>

@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "io/run_files.hpp"
+#include "io/atomic_file.hpp"
 #include "registry/registry.hpp"
 #include "study/calibrate_runs.hpp"
 #include "study/effects.hpp"

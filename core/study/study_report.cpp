@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/study_report.hpp"
 
+#include "io/atomic_file.hpp"
 #include "io/report_page.hpp"
 #include "io/report_text.hpp"
-#include "io/run_files.hpp"
 #include "study/effects.hpp"
 #include "study/runner.hpp"
 #include "study/svg_plot.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
+#include "io/atomic_file.hpp"
 #include "io/run_files.hpp"
 #include "unit/io/synthetic_frame.hpp"
 
