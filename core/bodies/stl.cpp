@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies/mesh.hpp"
+#include "base/finite.hpp"
 #include "dust/sdk/error.hpp"
 
 #include <cmath>
@@ -76,7 +77,7 @@ std::vector<Vec3> read_stl(const std::string& file) {
   }
   if (corners.empty()) throw ParameterError(file + " holds no triangles");
   for (const Vec3& p : corners) {
-    if (std::isfinite(p.x + p.y + p.z)) continue;
+    if (base::is_finite(p)) continue;
     throw ParameterError(file + " holds a corner that is not a number");
   }
   return corners;

@@ -187,7 +187,8 @@ class Voidage final : public Guarded<sdk::VoidageRule> {
       }
       const double* weight = b.weight + g * static_cast<std::size_t>(b.capacity);
       for (int n = 0; n < b.used[g]; ++n) {
-        if (!is_finite(weight[n])) faults().refuse_number("weight", weight[n], g, b.count, seen);
+        if (!base::is_finite(weight[n]))
+          faults().refuse_number("weight", weight[n], g, b.count, seen);
       }
     }
   }
@@ -248,7 +249,7 @@ class Emitter final : public Guarded<sdk::Emitter> {
           {"diameter", s.diameter},
           {"weight", s.weight}};
       for (const auto& [name, value] : numbers) {
-        if (!is_finite(value))
+        if (!base::is_finite(value))
           faults().refuse_number(name, value, n - before, seeds.size() - before, {});
       }
     }
@@ -295,7 +296,7 @@ class Motion final : public Guarded<sdk::Motion> {
     const double sum = p.shift.x + p.shift.y + p.shift.z + p.pivot.x + p.pivot.y + p.pivot.z +
                        p.axis.x + p.axis.y + p.axis.z + p.angle + p.velocity.x + p.velocity.y +
                        p.velocity.z + p.angular_velocity;
-    if (!is_finite(sum)) faults().refuse_number("pose", sum, 0, 1, {{"time", &time}});
+    if (!base::is_finite(sum)) faults().refuse_number("pose", sum, 0, 1, {{"time", &time}});
     return p;
   }
   [[nodiscard]] double largest_angular_velocity() const override {

@@ -3,6 +3,8 @@
 
 #include "base/text.hpp"
 
+#include <cmath>
+
 namespace dust::registry {
 namespace {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/finite.hpp"
 #include "dust/sdk/error.hpp"
 #include "registry/registry.hpp"
 
-#include <cmath>
 #include <cstddef>
 #include <initializer_list>
 #include <string>
@@ -12,8 +12,6 @@
 #include <utility>
 
 namespace dust::registry {
-
-inline bool is_finite(double value) { return std::isfinite(value); }
 
 /// How a guarded model's faults are told: "drag/rough (/x/rough.so) ...; expected: ...".
 class GuardReport {
@@ -41,12 +39,8 @@ class GuardReport {
   /// Refuses the first number of a column that is none.
   void check(std::size_t count, const char* name, const double* column, Inputs seen) const {
     if (column == nullptr) return;
-    double probe = 0.0;  // stays zero unless a number is infinite or none
-    for (std::size_t n = 0; n < count; ++n) probe += 0.0 * column[n];
-    if (probe == 0.0) return;
-    for (std::size_t n = 0; n < count; ++n) {
-      if (!is_finite(column[n])) refuse_number(name, column[n], n, count, seen);
-    }
+    const std::size_t bad = base::first_not_finite(column, count);
+    if (bad < count) refuse_number(name, column[bad], bad, count, seen);
   }
   [[noreturn]] void refuse_number(const char* name, double value, std::size_t row,
                                   std::size_t count, Inputs seen) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/simulation.hpp"
 
+#include "base/finite.hpp"
 #include "base/log.hpp"
 #include "dust/sdk/error.hpp"
 #include "scenario/units.hpp"
@@ -204,9 +205,9 @@ void Simulation::publish_grains() {
 void Simulation::check_health() const {
   const auto c = grain_table_.columns();
   for (std::size_t n = 0; n < c.id.size(); ++n) {
-    const double sum = c.x[n] + c.y[n] + c.z[n] + c.velocity_x[n] + c.velocity_y[n] +
-                       c.velocity_z[n] + c.rotation_x[n] + c.rotation_y[n] + c.rotation_z[n];
-    if (!std::isfinite(sum)) {
+    if (!base::is_finite({c.x[n], c.y[n], c.z[n]}) ||
+        !base::is_finite({c.velocity_x[n], c.velocity_y[n], c.velocity_z[n]}) ||
+        !base::is_finite({c.rotation_x[n], c.rotation_y[n], c.rotation_z[n]})) {
       throw sdk::ModelError("grain " + std::to_string(c.id[n]) +
                             " has a position or velocity that is not a number; likely causes: a "
                             "time step too long for the stiffness, or an overlap at entry");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/summary_models.hpp"
 
+#include "base/finite.hpp"
 #include "bodies/shape.hpp"
 
 #include <cmath>
@@ -25,7 +26,7 @@ std::optional<Vec3> point_of(const registry::Entry& entry, const ModelChoice& ch
     // Of a list of places the first.
     const auto* list = std::get_if<std::vector<Vec3>>(&choice.values[n]);
     if (list != nullptr && !list->empty()) v = &list->front();
-    if (v != nullptr && std::isfinite(v->x + v->y + v->z)) return *v;
+    if (v != nullptr && base::is_finite(*v)) return *v;
   }
   return std::nullopt;
 }
