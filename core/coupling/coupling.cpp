@@ -2,14 +2,114 @@
 #include "coupling/coupling.hpp"
 
 #include "base/error.hpp"
-#include "coupling/coupling_impl.hpp"
+#include "coupling/drag_exchange.hpp"
+#include "coupling/drag_linearisation.hpp"
+#include "coupling/drag_relaxation.hpp"
+#include "coupling/flow_sampler.hpp"
+#include "coupling/refresh_schedule.hpp"
+#include "coupling/self_disturbance.hpp"
+#include "coupling/size_ratios.hpp"
+#include "coupling/stress_balance.hpp"
 #include "dust/sdk/error.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <sstream>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace dust::coupling {
+namespace {
+
+/// Rounding allowed in D / dx at the rule's limit (cells of exactly two diameters).
+constexpr double k_ratio_rounding = 1e-9;
+
+/// The parts written one after another, numbers to six digits.
+template <class... Part>
+std::string text(const Part&... parts) {
+  std::ostringstream stream;
+  (stream << ... << parts);
+  return stream.str();
+}
+
+DragLinearisation::Order order_of(const scenario::FluidSpec& fluid) {
+  return fluid.overlaps_grains ? DragLinearisation::Order::overlapped
+                               : DragLinearisation::Order::fluid_first;
+}
+
+double least_edge(const fluid::Grid& grid) {
+  return std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+}
+
+}  // namespace
+
+/// The parts of an exchange, and what is passed from one to the next:
+///   begin_step   void fraction -> linearised drag of each batch -> its contributions at the faces
+///   refresh      fluid at the particles -> their relaxation
+///   evaluate     what each particle's drag took from the fluid
+///   end_step     the difference to what it received: its residual
+struct Coupling::Impl {
+  Impl(const scenario::Setup& setup, const scenario::FluidSpec& fluid, const fluid::Grid& grid,
+       const fluid::CellField& open_fraction, const sdk::VoidageRule& rule,
+       const sdk::DragLaw& law);
+
+  Lattice lattice;
+  DragModel drag;
+  const sdk::VoidageRule& voidage;
+  ParticleStates states;
+  VoidFractionField void_fraction;
+  FaceVoidFraction face_void;
+  SelfDisturbance self;
+  SizeRatios size_ratios;
+  DragLinearisation linearisation;
+  DragExchange exchange;
+  FlowSampler sampler;
+  DragRelaxation relaxation;
+  RefreshSchedule schedule;
+  std::unique_ptr<ForceModels> forces;            ///< null without forces besides drag
+  std::unique_ptr<StressBalance> stress_balance;  ///< null where both do not see one stress
+  /// Of the particles where the fluid is looked at.
+  FaceStencils stencils;
+  /// Of those that the fluid was given drag for, until its impulses are evaluated; and their
+  /// storage where the particles move on meanwhile.
+  std::optional<FaceStencils> assembled;
+  FaceStencils storage;
+  CouplingReport report;
+  bool is_one_way;
+  bool is_overlapped;  ///< the particles move while the fluid that they were mapped for is solved
+};
+
+Coupling::Impl::Impl(const scenario::Setup& setup, const scenario::FluidSpec& fluid,
+                     const fluid::Grid& grid, const fluid::CellField& open_fraction,
+                     const sdk::VoidageRule& rule, const sdk::DragLaw& law)
+    : lattice(grid, open_fraction),
+      drag(law, fluid, setup.materials),
+      voidage(rule),
+      void_fraction(lattice, rule),
+      face_void(lattice),
+      self(fluid.is_one_way ? scenario::OwnDisturbance::felt : fluid.own_disturbance, lattice, rule,
+           drag, face_void, void_fraction, states),
+      size_ratios(lattice),
+      linearisation(lattice, rule, drag, void_fraction, self, states,
+                    {fluid.initial_velocity.x, fluid.initial_velocity.y, fluid.initial_velocity.z},
+                    order_of(fluid)),
+      exchange(lattice, face_void, rule, drag.momentum_set()),
+      sampler(lattice, rule, drag.momentum_set(), void_fraction, face_void, self, states),
+      relaxation(drag, self, states, setup.gravity),
+      schedule(setup.time.fluid_step, least_edge(grid)),
+      is_one_way(fluid.is_one_way),
+      is_overlapped(fluid.overlaps_grains) {
+  // Where the air overlaps, the stress that particles see is a step older than that of the air: as
+  // a residual it would rock a dense bed.
+  if (!is_one_way && !drag.is_set_three() && !is_overlapped && drag.properties().is_uniform()) {
+    stress_balance = std::make_unique<StressBalance>(lattice, rule);
+  }
+}
 
 Coupling::Coupling(const scenario::Setup& setup, const fluid::Grid& grid,
                    const fluid::CellField& open_fraction, const sdk::VoidageRule& voidage,
@@ -23,15 +123,32 @@ Coupling::Coupling(const scenario::Setup& setup, const fluid::Grid& grid,
 }
 Coupling::~Coupling() = default;
 
+void Coupling::use(std::span<const std::unique_ptr<sdk::FluidForce>> forces,
+                   std::vector<particles::Surface> surfaces) {
+  if (forces.empty()) return;
+  Impl& s = *impl_;
+  s.forces = std::make_unique<ForceModels>(forces, std::move(surfaces), s.lattice,
+                                           s.drag.properties(), s.relaxation.gravity(),
+                                           s.drag.momentum_set(), s.drag.graining());
+  s.states.add_columns(s.forces->state_columns());
+  s.sampler.sample_stress();
+  s.relaxation.use(*s.forces);
+  // Models take over parts of the stress, and walls carry others.
+  s.stress_balance.reset();
+}
+
+void Coupling::use_boundaries(const std::array<const sdk::BoundaryCondition*, 6>& boundaries) {
+  impl_->self.use_boundaries(boundaries);
+}
+
 void Coupling::check_diameters(std::span<const double> diameters) const {
   const double limit = impl_->voidage.largest_diameter_over_spacing();
+  const double spacing = least_edge(impl_->lattice.grid());
   for (const double diameter : diameters) {
-    if (impl_->is_one_way || diameter <= limit * (1.0 + k_ratio_rounding) * impl_->least_spacing) {
-      continue;
-    }
-    throw base::UserError(text(
-        "error: grains of ", diameter, " m are too large for fluid cells of ", impl_->least_spacing,
-        " m: the voidage rule is valid for D/dx up to ", limit, "; use fewer fluid cells"));
+    if (impl_->is_one_way || diameter <= limit * (1.0 + k_ratio_rounding) * spacing) continue;
+    throw base::UserError(
+        text("error: grains of ", diameter, " m are too large for fluid cells of ", spacing,
+             " m: the voidage rule is valid for D/dx up to ", limit, "; use fewer fluid cells"));
   }
 }
 
@@ -39,19 +156,88 @@ void Coupling::set_open_fraction(const fluid::CellField& open_fraction) {
   impl_->lattice.set_open_fraction(open_fraction);
 }
 
-void Coupling::start(const particles::GrainRows& grains) { impl_->start(grains); }
-void Coupling::map(const particles::GrainRows& grains, double fluid_step) {
-  impl_->map(grains, fluid_step);
+void Coupling::start(const particles::GrainRows& grains) {
+  Impl& s = *impl_;
+  s.states.align(grains);
+  if (!s.is_one_way) deposit(grains);
 }
+
+/// The void fraction of cells and faces round the particles where they are. Asks no drag law.
+void Coupling::deposit(const particles::GrainRows& grains) {
+  Impl& s = *impl_;
+  s.self.prepare(grains);
+  const VoidFractionField::Counts counts = s.void_fraction.deposit(grains);
+  const double limit = s.voidage.largest_diameter_over_spacing();
+  if (counts.largest_ratio > limit * (1.0 + k_ratio_rounding)) {
+    const std::size_t row = counts.largest_row;
+    throw sdk::ModelError(
+        text("grain ", grains.id[row], " of diameter ", 2.0 * grains.position[4 * row + 3],
+             " m is too large for cells of ", least_edge(s.lattice.grid()),
+             " m: the voidage rule is valid for D/dx up to ", limit, "; use fewer cells"));
+  }
+  CouplingReport& report = s.report;
+  report.moved_shares += counts.moved_shares;
+  report.relieved_cells += counts.limited_cells;
+  report.unplaced_grains += counts.unplaced_grains;
+  report.smallest_void_fraction = std::min(report.smallest_void_fraction, counts.smallest);
+  report.largest_diameter_over_spacing =
+      std::max(report.largest_diameter_over_spacing, counts.largest_ratio);
+  if (counts.smallest <= 0.0) {
+    throw sdk::ModelError(
+        text("the grains in one cell fill ", 1.0 - counts.smallest,
+             " of its open volume and no cell around has room; use fewer cells, or look for grains "
+             "that overlap or lie inside bodies"));
+  }
+  if (s.states.has_own_flow()) s.self.spread_solids(grains);
+  s.face_void.update(s.void_fraction.after(), s.void_fraction.filled_cells());
+}
+
+void Coupling::begin_step(const particles::GrainRows& grains, double fluid_step) {
+  Impl& s = *impl_;
+  s.states.align(grains);
+  s.schedule.begin_step(fluid_step, s.drag.fastest_relaxation(grains));
+  if (s.drag.needs_size_ratio()) s.size_ratios.find(grains, s.drag.graining(), s.states);
+  FaceStencils here = std::move(s.is_overlapped ? s.storage : s.stencils);
+  here.sort(s.lattice.grid(), grains, s.states.order());
+  if (s.is_one_way) {
+    s.stencils = std::move(here);
+    return;
+  }
+  deposit(grains);
+  const fluid::CellField& eps = s.void_fraction.after();
+  s.exchange.resize(here.size());
+  here.for_batches([&](std::size_t batch, FaceStencils::Rows rows) {
+    LinearisedDrag drag;
+    const StencilBatch& stencils = here.locate(s.lattice, grains, batch);
+    s.linearisation.evaluate(grains, rows, stencils, batch, fluid_step, drag);
+    s.exchange.assemble(grains, here, batch, drag, s.states, eps, fluid_step);
+  });
+  s.report.unpaired_forces +=
+      s.exchange.scatter(here, s.states, eps, fluid_step, s.stress_balance.get());
+  if (s.is_overlapped) s.stencils = here;
+  s.assembled = std::move(here);
+}
+
 const fluid::CellField& Coupling::void_fraction_before() const {
   return impl_->void_fraction.before();
 }
 const fluid::CellField& Coupling::void_fraction() const { return impl_->void_fraction.after(); }
-const fluid::Exchange& Coupling::exchange() const { return impl_->faces.exchange(); }
+const fluid::Exchange& Coupling::exchange() const { return impl_->exchange.exchange(); }
 
-void Coupling::settle(const particles::GrainRows& grains, const fluid::FaceField& velocity) {
-  impl_->memory.align(grains);
-  impl_->settle(velocity);
+void Coupling::evaluate(const particles::GrainRows& grains, const fluid::FaceField& velocity) {
+  Impl& s = *impl_;
+  s.states.align(grains);
+  if (s.is_one_way) return;
+  if (!s.assembled) throw std::logic_error("Coupling::evaluate() without begin_step()");
+  FaceStencils there = *std::exchange(s.assembled, std::nullopt);
+  const std::vector<std::int32_t> now = s.states.rows_now(there.order(), there.rows());
+  const FaceStencils::Rows rows = now.empty() ? there.rows() : FaceStencils::Rows(now);
+  const double step = s.schedule.fluid_step();
+  const double imbalance =
+      s.exchange.evaluate(there, rows, s.states, s.void_fraction.after(), velocity, step);
+  s.report.largest_imbalance = std::max(s.report.largest_imbalance, imbalance);
+  s.self.end_step(step);
+  (s.is_overlapped ? s.storage : s.stencils) = std::move(there);
 }
 
 void Coupling::refresh(const particles::GrainRows& grains, const fluid::FaceField& velocity,
@@ -60,95 +246,90 @@ void Coupling::refresh(const particles::GrainRows& grains, const fluid::FaceFiel
 }
 
 void Coupling::refresh(const particles::GrainRows& grains, const FluidState& fluid) {
-  impl_->memory.align(grains);
-  if (!impl_->is_settled && !impl_->is_overlapped) impl_->settle(fluid.velocity);
-  ForceTerms* forces = impl_->forces.get();
-  if (forces != nullptr) forces->begin(fluid, impl_->step, impl_->done_refreshes == 0);
-  impl_->sort_if_changed(grains);
-  if (impl_->stress_book && impl_->done_refreshes == 0) {
-    impl_->stress_book->leave(impl_->void_fraction.after(), fluid.stress_divergence, impl_->step);
-  }
-  impl_->for_batches(
-      [&](std::size_t batch, Impl::Rows rows) { impl_->refresh(grains, batch, rows, fluid); });
-  if (forces != nullptr) forces->end(fluid);
-  ++impl_->done_refreshes;
-  impl_->last_held = impl_->held(fluid);
-}
-
-void Coupling::use(std::span<const std::unique_ptr<sdk::FluidForce>> forces,
-                   std::vector<particles::Surface> surfaces) {
-  if (forces.empty()) return;
   Impl& s = *impl_;
-  s.forces = std::make_unique<ForceTerms>(forces, std::move(surfaces), s.lattice, s.properties,
-                                          s.gravity, s.is_set_three, s.graining);
-  s.memory.keep(s.forces->kept_numbers());
-  // Models take over parts of the stress, and walls carry others.
-  s.stress_book.reset();
+  s.states.align(grains);
+  if (s.assembled && !s.is_overlapped) evaluate(grains, fluid.velocity);
+  const bool is_first = s.schedule.is_first();
+  const double held = fluid.held > 0.0 ? fluid.held : s.schedule.interval();
+  const double last_held = s.schedule.last_held();
+  if (s.forces) s.forces->begin(fluid, s.schedule.fluid_step(), is_first);
+  if (!s.stencils.are_in_order(s.states.order(), grains.count)) {
+    s.stencils.sort(s.lattice.grid(), grains, s.states.order());
+  }
+  if (s.stress_balance && is_first) {
+    s.stress_balance->leave(s.void_fraction.after(), fluid.stress_divergence,
+                            s.schedule.fluid_step());
+  }
+  s.stencils.for_batches([&](std::size_t batch, FaceStencils::Rows rows) {
+    // Half way through the interval that the action holds for.
+    const StencilBatch& here = s.stencils.locate(s.lattice, grains, batch, 0.5 * held);
+    SampledFlow flow;
+    DragColumns columns;
+    s.sampler.sample(grains, rows, here, fluid, flow, columns);
+    s.relaxation.update(grains, rows, fluid, flow, held, last_held, columns);
+  });
+  if (s.forces) s.forces->end(fluid);
+  s.schedule.note(held);
 }
 
-void Coupling::use_sides(const std::array<const sdk::BoundaryCondition*, 6>& sides) {
-  using own_disturbance::Side;
-  for (std::size_t n = 0; n < sides.size(); ++n) {
-    if (sides[n] == nullptr) continue;
-    const sdk::SideRules rules = sides[n]->rules();
-    if (rules.normal_velocity != sdk::SideRule::fixed) {
-      impl_->sides[n] = Side::open;
-    } else {
-      const bool is_slip = rules.tangential_velocity != sdk::SideRule::fixed;
-      impl_->sides[n] = is_slip ? Side::slip : Side::wall;
+double Coupling::refresh_interval() const { return impl_->schedule.interval(); }
+
+void Coupling::end_step(const particles::GrainRows& grains, double fluid_step) {
+  Impl& s = *impl_;
+  if (s.assembled) throw std::logic_error("Coupling::end_step() before evaluate()");
+  s.states.align(grains);
+  const double interval = s.schedule.mean_interval(fluid_step);
+  std::span<Triple> stress;
+  if (s.stress_balance) stress = s.stress_balance->room_for(grains.count);
+  const tbb::blocked_range<std::size_t> all(0, grains.count, 4 * StencilBatch::k_size);
+  tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t row = range.begin(); row < range.end(); ++row) {
+      double* received = grains.fluid_impulse + 4 * row;
+      ParticleState& r = s.states[row];
+      if (s.forces) s.forces->impulse_was_read(s.states, row, received);
+      for (std::size_t d = 0; !stress.empty() && d < 3; ++d) {
+        stress[row][d] = grains.weight[row] * interval * r.stress_impulse[d];
+      }
+      for (int d = 0; d < 3; ++d) {
+        const double drag_impulse = received[d] - interval * r.stress_impulse[d];
+        if (!s.is_one_way && r.is_paired[d]) {
+          r.owed[d] += r.given[d] - grains.weight[row] * drag_impulse;
+        }
+        r.place[d] = grains.position[4 * row + d];
+        r.stress_impulse[d] = 0.0;
+        received[d] = 0.0;
+      }
     }
-  }
+  });
+  if (s.stress_balance) s.stress_balance->receive(s.stencils, stress);
+}
+
+void Coupling::momentum_exchange(std::vector<float>& per_cell) const {
+  impl_->exchange.per_cell(per_cell);
+}
+const CouplingReport& Coupling::report() const { return impl_->report; }
+
+void Coupling::save(sdk::ArchiveWriter& archive) const {
+  impl_->void_fraction.save(archive);
+  impl_->states.save(archive);
+  if (impl_->forces) impl_->forces->save(archive);
+  impl_->schedule.save(archive);
+  if (impl_->stress_balance) impl_->stress_balance->save(archive);
+  coupling::save(impl_->report, archive);
+}
+
+void Coupling::load(sdk::ArchiveReader& archive) {
+  impl_->void_fraction.load(archive);
+  impl_->states.load(archive);
+  if (impl_->forces) impl_->forces->load(archive);
+  impl_->schedule.load(archive);
+  if (impl_->stress_balance) impl_->stress_balance->load(archive);
+  coupling::load(impl_->report, archive);
 }
 
 bool takes_over_buoyancy(std::span<const std::unique_ptr<sdk::FluidForce>> forces) {
   return std::any_of(forces.begin(), forces.end(),
                      [](const auto& force) { return force->takes_over().buoyancy; });
-}
-
-double Coupling::refresh_interval() const { return impl_->step / impl_->refreshes; }
-
-void Coupling::collect(const particles::GrainRows& grains, double fluid_step) {
-  impl_->collect(grains, fluid_step);
-}
-
-void Coupling::momentum_exchange(std::vector<float>& per_cell) const {
-  impl_->faces.per_cell(per_cell);
-}
-const CouplingReport& Coupling::report() const { return impl_->report; }
-
-void Coupling::save(sdk::ArchiveWriter& archive) const {
-  const CouplingReport& r = impl_->report;
-  impl_->void_fraction.save(archive);
-  impl_->memory.save(archive);
-  if (impl_->forces) impl_->forces->save(archive);
-  archive.number("refreshes", impl_->refreshes);
-  archive.number("step", impl_->step);
-  archive.number("last_held", impl_->last_held);
-  if (impl_->stress_book) impl_->stress_book->save(archive);
-  archive.integers(
-      "counts", std::array{r.moved_shares, r.relieved_cells, r.unplaced_grains, r.unpaired_forces});
-  archive.numbers("extremes", std::array{r.smallest_void_fraction, r.largest_imbalance,
-                                         r.largest_diameter_over_spacing});
-}
-
-void Coupling::load(sdk::ArchiveReader& archive) {
-  CouplingReport& r = impl_->report;
-  impl_->void_fraction.load(archive);
-  impl_->memory.load(archive);
-  if (impl_->forces) impl_->forces->load(archive);
-  impl_->refreshes = archive.number("refreshes");
-  impl_->step = archive.number("step");
-  impl_->last_held = archive.number("last_held");
-  if (impl_->stress_book) impl_->stress_book->load(archive);
-  const std::vector<std::int64_t> counts = archive.integers("counts");
-  const std::vector<double> extremes = archive.numbers("extremes");
-  r.moved_shares = counts.at(0);
-  r.relieved_cells = counts.at(1);
-  r.unplaced_grains = counts.at(2);
-  r.unpaired_forces = counts.at(3);
-  r.smallest_void_fraction = extremes.at(0);
-  r.largest_imbalance = extremes.at(1);
-  r.largest_diameter_over_spacing = extremes.at(2);
 }
 
 }  // namespace dust::coupling

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/derived.hpp"
 
+#include "base/text.hpp"
 #include "dust/sdk/random.hpp"
 #include "fluid/grid.hpp"
 #include "preflight/cost.hpp"

@@ -72,7 +72,7 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
       coupling_ = std::make_unique<coupling::Coupling>(setup_, grid_, fluid_->open_fraction(),
                                                        *models_.voidage, *models_.drag);
       coupling_->use(models_.fluid_forces, particles::surfaces_of(setup_, models_.bodies));
-      coupling_->use_sides(boundaries);
+      coupling_->use_boundaries(boundaries);
       if (setup_.fluid->overlaps_grains) {
         held_fluid_ = std::make_unique<HeldFluid>(
             HeldFluid{fluid_->velocity(), fluid::FaceField(grid_), fluid_->pressure()});

@@ -102,8 +102,8 @@ void Simulation::build_step_graph() {
          {"grain.state", "grain.fluid_impulse", "fluid.void_fraction", "fluid.velocity"},
          {"fluid.exchange"},
          [this] {
-           if (held_fluid_) coupling_->settle(dem_->rows(), fluid_->drag_velocity());
-           coupling_->collect(dem_->rows(), setup_.time.fluid_step);
+           if (held_fluid_) coupling_->evaluate(dem_->rows(), fluid_->drag_velocity());
+           coupling_->end_step(dem_->rows(), setup_.time.fluid_step);
          }});
   }
   if (held_fluid_) {
@@ -143,7 +143,7 @@ void Simulation::add_fluid_nodes() {
                        fluid_->look_ahead(time() + setup_.time.fluid_step);
                        coupling_->set_open_fraction(fluid_->open_fraction());
                      }
-                     coupling_->map(dem_->rows(), setup_.time.fluid_step);
+                     coupling_->begin_step(dem_->rows(), setup_.time.fluid_step);
                    }});
   if (held_fluid_) {
     step_graph_.add({"fluid",
@@ -157,7 +157,7 @@ void Simulation::add_fluid_nodes() {
                    {"fluid.velocity", "fluid.exchange"},
                    [this] {
                      advance_fluid();
-                     coupling_->settle(dem_->rows(), fluid_->drag_velocity());
+                     coupling_->evaluate(dem_->rows(), fluid_->drag_velocity());
                    }});
 }
 

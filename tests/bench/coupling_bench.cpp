@@ -34,9 +34,9 @@ void exchange(benchmark::State& state, double diameter, int cells) {
   World world(bed(cells));
   fill(world, diameter);
   for (auto _ : state) {
-    world.coupling->map(world.grains.rows(), 1e-3);
+    world.coupling->begin_step(world.grains.rows(), 1e-3);
     world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
-    world.coupling->collect(world.grains.rows(), 1e-3);
+    world.coupling->end_step(world.grains.rows(), 1e-3);
   }
   state.counters["us_per_grain"] =
       benchmark::Counter(20000e-6 * static_cast<double>(state.iterations()),
@@ -48,7 +48,7 @@ void refresh(benchmark::State& state, double diameter, int cells) {
                                   static_cast<std::size_t>(state.range(0)));
   World world(bed(cells));
   fill(world, diameter);
-  world.coupling->map(world.grains.rows(), 1e-3);
+  world.coupling->begin_step(world.grains.rows(), 1e-3);
   for (auto _ : state) {
     world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
   }
@@ -62,7 +62,7 @@ void map(benchmark::State& state, double diameter, int cells) {
                                   static_cast<std::size_t>(state.range(0)));
   World world(bed(cells));
   fill(world, diameter);
-  for (auto _ : state) world.coupling->map(world.grains.rows(), 1e-3);
+  for (auto _ : state) world.coupling->begin_step(world.grains.rows(), 1e-3);
   state.counters["us_per_grain"] =
       benchmark::Counter(20000e-6 * static_cast<double>(state.iterations()),
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coupling/cell_order.hpp"
-#include "coupling/face_void.hpp"
+#include "coupling/stencils/cell_order.hpp"
+#include "coupling/stencils/face_void_fraction.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
@@ -12,7 +12,7 @@
 namespace {
 
 using namespace dust;
-using coupling::SpotBatch;
+using coupling::StencilBatch;
 using test::World;
 
 /// Grains in a box with closed cells and solids in some; those of a batch, in the order of the
@@ -59,11 +59,11 @@ struct Faces {
   const coupling::Lattice lattice{world.grid, world.open};
   test::Numbers random;
   fluid::CellField eps = fluid::CellField(world.grid.size, 1.0);
-  coupling::FaceVoid faces{lattice};
+  coupling::FaceVoidFraction faces{lattice};
   std::vector<double> u = std::vector<double>(world.grid.size);
   std::vector<double> position;
   std::vector<std::int32_t> rows;
-  std::unique_ptr<SpotBatch> spots = std::make_unique<SpotBatch>();
+  std::unique_ptr<StencilBatch> spots = std::make_unique<StencilBatch>();
 };
 
 constexpr std::array<int, 3> k_many_cells{5, 1, 4};
@@ -120,9 +120,9 @@ TEST_CASE("batches of grains shall see at their faces what each sees by itself")
       CAPTURE(is_periodic);
       CAPTURE(cells[0]);
       Faces f(is_periodic, cells);
-      CHECK(f.spots->has_long_runs() == (cells == k_few_cells));  // both ways of looking
-      SpotBatch::Reals v, open, fluid, flux, given, slip, ratio;
-      auto charges = std::make_unique<coupling::ChargeColumns>();
+      CHECK(coupling::has_long_runs(*f.spots) == (cells == k_few_cells));  // both ways of looking
+      StencilBatch::Reals v, open, fluid, flux, given, slip, ratio;
+      auto charges = std::make_unique<coupling::FaceContributions>();
       for (std::size_t q = 0; q < Faces::k_count; ++q) {
         v[q] = charges->velocity[q] = f.random.next();
         charges->drag[q] = f.random.next();
@@ -139,11 +139,11 @@ TEST_CASE("batches of grains shall see at their faces what each sees by itself")
             extra(f.world.grid.size);
         for (std::size_t q = 0; q < Faces::k_count; ++q) {
           const coupling::Place p = f.lattice.place(&f.spots->position[4 * q]);
-          CHECK(f.spots->cell(q) == f.lattice.cell(p));
+          CHECK(coupling::cell_of(*f.spots, q) == f.lattice.cell(p));
           coupling::Stencil s;
           f.lattice.stencil(d, p, f.eps, s);
           double sums[4] = {};
-          for (std::size_t n = 0; n < coupling::Stencil::size(); ++n) {
+          for (std::size_t n = 0; n < coupling::size(s); ++n) {
             const double part = s.weight[n] * s.open[n];
             const double slip_at = s.void_fraction[n] * (f.u[s.home[n]] - v[q]);
             sums[0] += part;
@@ -161,7 +161,7 @@ TEST_CASE("batches of grains shall see at their faces what each sees by itself")
         }
         // Runs give the same faces the same, whatever stands behind their ends.
         for (std::size_t r = 0; r < f.spots->runs; ++r) {
-          coupling::RunCharge sum;
+          coupling::GroupContributions sum;
           coupling::charge_run(*f.spots, d, r, *charges, sum);
           std::size_t n = 0;
           coupling::for_corners(
@@ -178,8 +178,8 @@ TEST_CASE("batches of grains shall see at their faces what each sees by itself")
           for (const double l : *left) largest = std::max(largest, std::abs(l));
           CHECK(largest < 1e-12);
         }
-        const SpotBatch::Reals around = [&] {
-          SpotBatch::Reals e;
+        const StencilBatch::Reals around = [&] {
+          StencilBatch::Reals e;
           e.fill(0.5);
           return e;
         }();

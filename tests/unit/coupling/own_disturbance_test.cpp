@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coupling/own_disturbance.hpp"
 
-#include "coupling/smooth_kernel.hpp"
-#include "coupling/wide_kernel.hpp"
+#include "coupling/stencils/smooth_kernel.hpp"
+#include "coupling/stencils/wide_kernel.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
@@ -167,7 +167,7 @@ TEST_CASE("a lone grain shall see the void fraction and the slip of the empty fl
       World world(choice);
       world.grains.add({at, 0.0163, 0.0159}, {}, size.diameter);
       world.set(world.velocity, [](sdk::Vec3) { return sdk::Vec3{0, 0, 0.1}; });
-      world.coupling->map(world.grains.rows(), 1e-3);
+      world.coupling->begin_step(world.grains.rows(), 1e-3);
       CHECK(seen == doctest::Approx(1.0).epsilon(1e-12));
       world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
       CHECK(seen == doctest::Approx(1.0).epsilon(1e-12));
@@ -214,7 +214,7 @@ TEST_CASE("grains larger than a cell shall be coupled over all their cells") {
   double centre = 0.0;
   coupling::WideStencil s;
   kernel.stencil(0, world.coupling->void_fraction(), s);
-  for (std::size_t n = 0; n < s.size(); ++n) sum += s.weight[n];
+  for (std::size_t n = 0; n < coupling::size(s); ++n) sum += s.weight[n];
   for (const auto& share : kernel.shares()) centre += share.weight * (share.i + 0.5) * 2e-3;
   CHECK(sum == doctest::Approx(1.0).epsilon(1e-12));
   // The cells' centres stand for what lies in them.

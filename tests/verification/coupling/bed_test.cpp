@@ -79,12 +79,12 @@ double pressure_drop(const World& world) {
 /// The bed held in place for some fluid steps of plug flow, up to the exchange of the last step.
 void run_held(World& world, int steps) {
   for (int step = 1; step <= steps; ++step) {
-    world.coupling->map(world.grains.rows(), k_step);
+    world.coupling->begin_step(world.grains.rows(), k_step);
     set_plug_flow(world);
     world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
     if (step == steps) return;
     world.grains.hold(k_step);
-    world.coupling->collect(world.grains.rows(), k_step);
+    world.coupling->end_step(world.grains.rows(), k_step);
   }
 }
 
@@ -166,13 +166,13 @@ TEST_CASE("a moving bed in a moving stream shall have the pressure drop of its s
     moving.grains.velocity[4 * g + 2] = k_speed;
   }
   for (int step = 1; step <= k_steps_to_steady; ++step) {
-    moving.coupling->map(moving.grains.rows(), k_step);
+    moving.coupling->begin_step(moving.grains.rows(), k_step);
     set_plug_flow(moving);
     for (double& u : moving.velocity.component[2]) u += k_speed;
     moving.coupling->refresh(moving.grains.rows(), moving.velocity, moving.stress);
     if (step == k_steps_to_steady) break;
     moving.grains.hold(k_step);
-    moving.coupling->collect(moving.grains.rows(), k_step);
+    moving.coupling->end_step(moving.grains.rows(), k_step);
   }
   CHECK(pressure_drop(moving) == doctest::Approx(at_rest).epsilon(1e-9));
 }

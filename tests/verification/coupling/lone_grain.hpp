@@ -181,13 +181,13 @@ inline LoneGrain::Error LoneGrain::error() const {
   Error error;
   int count = 0;
   for (int n = 0; n < steps; ++n) {
-    if (n == 0) coupling.map(grains.rows(), step);
-    coupling.map(grains.rows(), step);
+    if (n == 0) coupling.begin_step(grains.rows(), step);
+    coupling.begin_step(grains.rows(), step);
     run.solver->advance(run.time, step, coupling.void_fraction_before(), coupling.void_fraction(),
                         coupling.exchange());
     run.time += step;
     const auto settle = [&] {
-      coupling.settle(grains.rows(), run.solver->drag_velocity());
+      coupling.evaluate(grains.rows(), run.solver->drag_velocity());
       run.hold_fluid();
     };
     if (!overlaps) settle();
@@ -207,7 +207,7 @@ inline LoneGrain::Error LoneGrain::error() const {
       force += (grains.impulse[static_cast<std::size_t>(d)] - before) / step;
     }
     if (overlaps) settle();
-    coupling.collect(grains.rows(), step);
+    coupling.end_step(grains.rows(), step);
     if (3 * n < 2 * steps) continue;
     const double own = grains.velocity[static_cast<std::size_t>(d)];
     double found = 0.0;

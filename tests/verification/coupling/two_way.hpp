@@ -29,7 +29,7 @@ struct TwoWay {
     fluid::Boundaries pointers{};
     for (std::size_t n = 0; n < 6; ++n) pointers[n] = sides[n].get();
     solver = std::make_unique<fluid::FluidSolver>(world.grid, fluid, bodies, pointers);
-    world.coupling->use_sides(pointers);
+    world.coupling->use_boundaries(pointers);
   }
 
   /// One fluid step in the order of a run. Grains move under `gravity`, or are held where they are.
@@ -37,14 +37,14 @@ struct TwoWay {
     coupling::Coupling& coupling = *world.coupling;
     const double length = world.choice.fluid_step;
     // The grains were there before: the first step must not push their volume of fluid aside.
-    if (time == 0.0) coupling.map(world.grains.rows(), length);
+    if (time == 0.0) coupling.begin_step(world.grains.rows(), length);
     const bool overlaps = world.choice.overlaps;
-    coupling.map(world.grains.rows(), length);
+    coupling.begin_step(world.grains.rows(), length);
     solver->advance(time, length, coupling.void_fraction_before(), coupling.void_fraction(),
                     driven(coupling.exchange()));
     time += length;
     if (!overlaps) {
-      coupling.settle(world.grains.rows(), solver->drag_velocity());
+      coupling.evaluate(world.grains.rows(), solver->drag_velocity());
       hold_fluid();
     }
     const int refreshes = static_cast<int>(std::lround(length / coupling.refresh_interval()));
@@ -57,10 +57,10 @@ struct TwoWay {
       }
     }
     if (overlaps) {
-      coupling.settle(world.grains.rows(), solver->drag_velocity());
+      coupling.evaluate(world.grains.rows(), solver->drag_velocity());
       hold_fluid();
     }
-    coupling.collect(world.grains.rows(), length);
+    coupling.end_step(world.grains.rows(), length);
   }
   /// What the grains see from now on.
   void hold_fluid() {

@@ -69,18 +69,18 @@ struct Cloud {
   }
   void step() {
     coupling::Coupling& coupling = *world.coupling;
-    coupling.map(world.grains.rows(), k_step);
+    coupling.begin_step(world.grains.rows(), k_step);
     liquid->advance(time, k_step, coupling.void_fraction_before(), coupling.void_fraction(),
                     coupling.exchange());
     time += k_step;
-    coupling.settle(world.grains.rows(), liquid->drag_velocity());
+    coupling.evaluate(world.grains.rows(), liquid->drag_velocity());
     const int refreshes = static_cast<int>(std::lround(k_step / coupling.refresh_interval()));
     for (int n = 0; n < refreshes; ++n) {
       coupling.refresh(world.grains.rows(),
                        {liquid->velocity(), liquid->stress_divergence(), &liquid->mean_pressure()});
       world.grains.move(k_step / refreshes, {});
     }
-    coupling.collect(world.grains.rows(), k_step);
+    coupling.end_step(world.grains.rows(), k_step);
   }
   [[nodiscard]] sdk::Vec3 momentum() {
     sdk::Vec3 sum;

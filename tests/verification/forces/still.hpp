@@ -54,7 +54,7 @@ struct Still {
     }
     return f;
   }
-  void map() { world.coupling->map(world.grains.rows(), world.choice.fluid_step); }
+  void map() { world.coupling->begin_step(world.grains.rows(), world.choice.fluid_step); }
   void refresh(double held) {
     world.coupling->refresh(world.grains.rows(),
                             {world.velocity, world.stress, &pressure, time, held});
@@ -68,7 +68,7 @@ struct Still {
       world.grains.move(held, dem_gravity);
       time += held;
     }
-    world.coupling->collect(world.grains.rows(), world.choice.fluid_step);
+    world.coupling->end_step(world.grains.rows(), world.choice.fluid_step);
   }
 
   World world;

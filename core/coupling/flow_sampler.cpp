@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/flow_sampler.hpp"
+
+#include <algorithm>
+
+namespace dust::coupling {
+
+FlowSampler::FlowSampler(const Lattice& lattice, const sdk::VoidageRule& voidage,
+                         fluid::MomentumSet set, const VoidFractionField& void_fraction,
+                         const FaceVoidFraction& face_void, SelfDisturbance& self,
+                         const ParticleStates& states)
+    : lattice_(lattice),
+      voidage_(voidage),
+      set_(set),
+      void_fraction_(void_fraction),
+      face_void_(face_void),
+      self_(self),
+      states_(states),
+      needs_stress_(set != fluid::MomentumSet::three) {}
+
+void FlowSampler::sample(const particles::GrainRows& grains, std::span<const std::int32_t> rows,
+                         const StencilBatch& here, const FluidState& state, SampledFlow& flow,
+                         DragColumns& columns) const {
+  const bool has_wide = sample_cells(here, rows.size(), state, flow, columns);
+  std::array<StencilBatch::Reals, 3> v;
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    const double* velocity = grains.velocity_of(static_cast<std::size_t>(rows[q]));
+    for (std::size_t d = 0; d < 3; ++d) v[d][q] = velocity[d];
+  }
+  StencilBatch::Reals open;
+  StencilBatch::Reals fluid;
+  StencilBatch::Reals flux;  // relative to the particle: it does not jump with eps in plug flow
+  for (int d = 0; d < 3; ++d) {
+    look_at_faces(here, d, face_void_.columns(d), state.velocity.component[d].data(), v[d].data(),
+                  {open.data(), fluid.data()}, flux.data());
+    if (has_wide) {
+      sample_wide(here, d, state, v[d].data(), {open.data(), fluid.data()}, flux.data(),
+                  flow.stress[d].data());
+    }
+    double* slip = flow.slip[d].data();
+    double* ratio = flow.ratio[d].data();
+    slip_of_faces(rows.size(), columns.void_fraction.data(), {open.data(), fluid.data()},
+                  flux.data(), slip, ratio);
+    if (set_ == fluid::MomentumSet::three) std::fill_n(ratio, rows.size(), 1.0);
+  }
+  if (states_.has_own_flow()) self_.sample(here, rows, state, needs_stress_, v, flow, columns);
+}
+
+/// Void fraction and stress of the cells that the particles of a batch are in; returns whether some
+/// of them are larger than a cell.
+bool FlowSampler::sample_cells(const StencilBatch& here, std::size_t count, const FluidState& state,
+                               SampledFlow& flow, DragColumns& columns) const {
+  WideKernel wide(lattice_, voidage_);
+  bool has_wide = false;
+  // Particles of one cell come one after another.
+  std::ptrdiff_t last_cell = -1;
+  double eps = 1.0;
+  Triple stress{};
+  for (std::size_t q = 0; q < count; ++q) {
+    const double* position = &here.position[4 * q];
+    const std::ptrdiff_t cell = cell_of(here, q);
+    const bool is_wide = wide.takes(position[3]);
+    has_wide = has_wide || is_wide;
+    if (cell != last_cell || is_wide) {
+      last_cell = is_wide ? -1 : cell;
+      eps = void_fraction_.around(position, cell, wide);
+      for (int d = 0; needs_stress_ && d < 3; ++d) {
+        stress[d] = lattice_.face_mean(d, cell, cell + here.face_step[d][q],
+                                       state.stress_divergence.component[d]);
+      }
+    }
+    columns.void_fraction[q] = eps;
+    for (std::size_t d = 0; d < 3; ++d) flow.stress[d][q] = stress[d];
+  }
+  return has_wide;
+}
+
+/// Component d of what the particles larger than a cell see.
+void FlowSampler::sample_wide(const StencilBatch& here, int d, const FluidState& state,
+                              const double* v, const FaceSumColumns& sums, double* flux,
+                              double* stress) const {
+  const std::vector<double>& u = state.velocity.component[d];
+  const std::vector<double>& push = state.stress_divergence.component[d];
+  WideKernel wide(lattice_, voidage_);
+  WideStencil many;
+  for (std::size_t q = 0; q < here.count; ++q) {
+    const double* position = &here.position[4 * q];
+    if (!wide.takes(position[3])) continue;
+    wide.set(position, position[3]);
+    wide.stencil(d, void_fraction_.after(), many);
+    sums.open[q] = sums.fluid[q] = flux[q] = stress[q] = 0.0;
+    for (std::size_t n = 0; n < size(many); ++n) {
+      flux[q] += many.weight[n] * many.void_fraction[n] * (u[many.home[n]] - v[q]);
+      const double part = many.weight[n] * many.open[n];
+      sums.open[q] += part;
+      sums.fluid[q] += part * many.void_fraction[n];
+      if (needs_stress_ && many.open[n] > 0.0) stress[q] += many.weight[n] * push[many.home[n]];
+    }
+  }
+}
+
+}  // namespace dust::coupling

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/stencils/face_kernels.hpp"
+
+#include "base/lanes.hpp"
+#include "coupling/stencils/lattice.hpp"
+#include "dust/sdk/plugin.hpp"
+
+#include <cmath>
+
+// Grain by grain in lanes: every grain's sums have the same order whatever the width of the lanes,
+// so that all processors give the same bits. Where many grains have the same faces around them,
+// these are looked up once per run; else by each grain for itself.
+namespace dust::coupling {
+namespace {
+
+/// Four grains; without the alias of lanes::Lanes, which template arguments lose.
+typedef double Four __attribute__((vector_size(32)));
+
+/// Element q of a column, or four from q on.
+__attribute__((always_inline)) inline void get(const double* column, std::size_t q, double& value) {
+  value = column[q];
+}
+__attribute__((always_inline)) inline void get(const double* column, std::size_t q, Four& four) {
+  four = *reinterpret_cast<const lanes::LooseLanes*>(column + q);
+}
+__attribute__((always_inline)) inline void put(double* column, std::size_t q, double value) {
+  column[q] = value;
+}
+__attribute__((always_inline)) inline void put(double* column, std::size_t q, const Four& four) {
+  *reinterpret_cast<lanes::LooseLanes*>(column + q) = four;
+}
+
+/// The eight faces of a run and what stands there.
+struct RunFaces {
+  double open[8], eps[8], u[8];
+};
+
+__attribute__((always_inline)) inline RunFaces faces_of_run(const StencilBatch& spots, int d,
+                                                            std::size_t first,
+                                                            const FaceColumns& faces,
+                                                            const double* u) {
+  RunFaces of_run;
+  int n = 0;
+  for_corners(corners(spots, d, (d + 1) % 3, (d + 2) % 3, first), [&](std::int32_t at, double) {
+    of_run.open[n] = faces.open[at];
+    of_run.eps[n] = faces.void_fraction[at];
+    of_run.u[n] = u[at];
+    ++n;
+  });
+  return of_run;
+}
+
+/// Trilinear weights of four grains, in the order of for_corners.
+__attribute__((always_inline)) inline void weights_of_four(const StencilBatch& spots, int d,
+                                                           std::size_t q, Four* weight) {
+  Four high, far, above;
+  get(spots.face_part[d].data(), q, high);
+  get(spots.middle_part[(d + 1) % 3].data(), q, far);
+  get(spots.middle_part[(d + 2) % 3].data(), q, above);
+  const Four low = 1.0 - high;
+  const Four near = 1.0 - far;
+  const Four below = 1.0 - above;
+  const Four across[4] = {near * below, far * below, near * above, far * above};
+  for (int n = 0; n < 4; ++n) {
+    weight[2 * n] = across[n] * low;
+    weight[2 * n + 1] = across[n] * high;
+  }
+}
+
+/// Sums over the faces of each grain: `begin` sets up that of grain q, or of four from q on;
+/// add(weight, open, eps, u) sees the eight faces one after another; `end` writes it.
+template <template <class> class Sum, class Begin, class End>
+__attribute__((always_inline)) inline void for_faces(const StencilBatch& spots, int d,
+                                                     const FaceColumns& faces, const double* u,
+                                                     const Begin& begin, const End& end) {
+  if (has_long_runs(spots)) {
+    for (std::size_t r = 0; r < spots.runs; ++r) {
+      const RunFaces f = faces_of_run(spots, d, spots.run[r], faces, u);
+      for (std::size_t q = spots.run[r]; q < spots.run[r + 1]; q += 4) {
+        Four weight[8];
+        weights_of_four(spots, d, q, weight);
+        Sum<Four> sum;
+        begin(q, sum);
+        for (int n = 0; n < 8; ++n) sum.add(weight[n], f.open[n], f.eps[n], f.u[n]);
+        end(q, sum);
+      }
+    }
+    return;
+  }
+  const int e = (d + 1) % 3;
+  const int f = (d + 2) % 3;
+  const double* eps = faces.void_fraction;
+  const float* open = faces.open;
+  const std::size_t count = spots.count;
+#pragma omp simd
+  for (std::size_t q = 0; q < count; ++q) {
+    Sum<double> sum;
+    begin(q, sum);
+    for_corners(
+        corners(spots, d, e, f, q), [&](std::int32_t at, double w) __attribute__((always_inline)) {
+          sum.add(w, open[at], eps[at], u[at]);
+        });
+    end(q, sum);
+  }
+}
+
+/// open = sum(w a), fluid = sum(w a eps)
+template <class T>
+struct OpenSum {
+  T open{}, fluid{};
+  __attribute__((always_inline)) void add(const T& w, double a, double eps, double) {
+    const T part = w * a;
+    open += part;
+    fluid += part * eps;
+  }
+};
+/// The same, and flux = sum(w eps (u - v)).
+template <class T>
+struct FluxSum {
+  T v{};
+  T open{}, fluid{}, flux{};
+  __attribute__((always_inline)) void add(const T& w, double a, double eps, double u) {
+    const T part = w * a;
+    open += part;
+    fluid += part * eps;
+    flux += w * eps * (u - v);
+  }
+};
+/// sum(w a e (eps (u - v) + lag)), e = 1 for `is_density`, else eps.
+template <class T>
+struct DragSum {
+  bool is_density = false;
+  T v{}, lag{};
+  T drag{};
+  __attribute__((always_inline)) void add(const T& w, double a, double eps, double u) {
+    drag += w * (a * (is_density ? 1.0 : eps)) * (eps * (u - v) + lag);
+  }
+};
+
+}  // namespace
+
+DUST_KERNEL void place_along(const AxisView& axis, const double* position, int d,
+                             StencilBatch& spots) {
+  const double origin = axis.origin;
+  const double inverse = axis.inverse_spacing;
+  const double n = axis.count;
+  const int last = axis.count - 1;
+  const bool is_periodic = axis.is_periodic;
+  const std::int32_t* homes = axis.homes + 2;
+  double* face_part = spots.face_part[d].data();
+  double* middle_part = spots.middle_part[d].data();
+  std::int32_t* face = spots.face[d].data();
+  std::int32_t* face_step = spots.face_step[d].data();
+  std::int32_t* middle = spots.middle[d].data();
+  std::int32_t* middle_step = spots.middle_step[d].data();
+  const std::size_t count = spots.count;
+#pragma omp simd
+  for (std::size_t q = 0; q < count; ++q) {
+    double s = (position[4 * q + d] - origin) * inverse;
+    s = is_periodic ? s - n * std::floor(s / n) : s;
+    // A point on a side itself would have no open face along the axis.
+    s = s < k_off_side ? k_off_side : s;
+    s = s > n - k_off_side ? n - k_off_side : s;
+    int cell = static_cast<int>(s);
+    cell = cell > last ? last : cell;
+    const double part = s - cell;
+    const bool is_lower_half = part < 0.5;
+    const int low = cell - (is_lower_half ? 1 : 0);
+    face_part[q] = part;
+    middle_part[q] = part + (is_lower_half ? 0.5 : -0.5);
+    face[q] = homes[cell];
+    face_step[q] = homes[cell + 1] - homes[cell];
+    middle[q] = homes[low];
+    middle_step[q] = homes[low + 1] - homes[low];
+  }
+}
+
+DUST_KERNEL void find_runs(StencilBatch& spots) {
+  // A run ends where the lower face or the lower middle changes along any axis: the steps belong to
+  // these.
+  const auto differs = [&](std::size_t q) __attribute__((always_inline)) {
+    std::int32_t bits = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      bits |=
+          (spots.face[d][q] ^ spots.face[d][q - 1]) | (spots.middle[d][q] ^ spots.middle[d][q - 1]);
+    }
+    return bits != 0;
+  };
+  spots.runs = 0;
+  for (std::size_t q = 0; q < spots.count; ++q) {
+    if (q == 0 || differs(q)) spots.run[spots.runs++] = static_cast<std::uint16_t>(q);
+  }
+  spots.run[spots.runs] = static_cast<std::uint16_t>(spots.count);
+}
+
+DUST_KERNEL void sum_faces(const StencilBatch& spots, int d, const FaceColumns& faces,
+                           const FaceSumColumns& sums) {
+  for_faces<OpenSum>(
+      spots, d, faces, faces.void_fraction, [](std::size_t, auto&) __attribute__((always_inline)){},
+      [&](std::size_t q, const auto& sum) __attribute__((always_inline)) {
+        put(sums.open, q, sum.open);
+        put(sums.fluid, q, sum.fluid);
+      });
+}
+
+DUST_KERNEL void look_at_faces(const StencilBatch& spots, int d, const FaceColumns& faces,
+                               const double* u, const double* v, const FaceSumColumns& sums,
+                               double* flux) {
+  for_faces<FluxSum>(
+      spots, d, faces,
+      u, [&](std::size_t q, auto& sum) __attribute__((always_inline)) { get(v, q, sum.v); },
+      [&](std::size_t q, const auto& sum) __attribute__((always_inline)) {
+        put(sums.open, q, sum.open);
+        put(sums.fluid, q, sum.fluid);
+        put(flux, q, sum.flux);
+      });
+}
+
+DUST_KERNEL void slip_of_faces(std::size_t count, const double* eps, const FaceSumColumns& sums,
+                               const double* flux, double* slip, double* ratio) {
+  const double* open = sums.open;
+  const double* fluid = sums.fluid;
+#pragma omp simd
+  for (std::size_t q = 0; q < count; ++q) {
+    const bool is_open = open[q] > 0.0;
+    // One division for both reciprocals.
+    const double share = is_open ? open[q] : 1.0;
+    const double inverse = 1.0 / (share * eps[q]);
+    slip[q] = flux[q] * (inverse * share);
+    ratio[q] = is_open ? fluid[q] * inverse : 1.0;
+  }
+}
+
+DUST_KERNEL void charge_faces(std::size_t count, const ContributionInputs& input, double least_open,
+                              bool is_density, FaceContributions& charges) {
+#pragma omp simd
+  for (std::size_t q = 0; q < count; ++q) {
+    const double open = input.open[q];
+    const double received = is_density ? open : input.fluid[q];
+    const bool is_paired = open > least_open;
+    // One division for both reciprocals.
+    const double inverse = 1.0 / (is_paired ? open * received : 1.0);
+    const double drag = input.coefficient[q] * input.gain[q] * (inverse * received);
+    const double extra = input.owed[q] * (inverse * open) - drag * charges.lag[q];
+    charges.drag[q] = is_paired ? drag : 0.0;
+    charges.extra[q] = is_paired ? extra : 0.0;
+  }
+}
+
+DUST_KERNEL void settle_faces(const StencilBatch& spots, int d, const FaceColumns& faces,
+                              const double* u, const FaceContributions& charges, double scale,
+                              bool is_density, double* given) {
+  const double* v = charges.velocity.data();
+  const double* lag = charges.lag.data();
+  const double* drag = charges.drag.data();
+  for_faces<DragSum>(
+      spots, d, faces, u,
+      [&](std::size_t q, auto& sum) __attribute__((always_inline)) {
+        sum.is_density = is_density;
+        get(v, q, sum.v);
+        get(lag, q, sum.lag);
+      },
+      [&](std::size_t q, auto& sum) __attribute__((always_inline)) {
+        auto own = sum.drag;
+        get(drag, q, own);
+        put(given, q, scale * own * sum.drag);
+      });
+}
+
+DUST_KERNEL void charge_run(const StencilBatch& spots, int d, std::size_t run,
+                            const FaceContributions& charges, GroupContributions& sum) {
+  Four drag_sum[8] = {};
+  Four push_sum[8] = {};
+  Four extra_sum[8] = {};
+  const std::size_t end = spots.run[run + 1];
+  for (std::size_t q = spots.run[run]; q < end; q += 4) {
+    Four weight[8];
+    weights_of_four(spots, d, q, weight);
+    Four drag;
+    Four velocity;
+    Four extra;
+    get(charges.drag.data(), q, drag);
+    get(charges.velocity.data(), q, velocity);
+    get(charges.extra.data(), q, extra);
+    Four push = drag * velocity;
+    if (end - q < 4) {
+      // What stands behind the end is another run's, or anything.
+      const lanes::LaneMask is_own = lanes::LaneMask{0, 1, 2, 3} < static_cast<long long>(end - q);
+      for (Four& w : weight) w = is_own ? w : Four{};
+      drag = is_own ? drag : Four{};
+      push = is_own ? push : Four{};
+      extra = is_own ? extra : Four{};
+    }
+    for (int n = 0; n < 8; ++n) {
+      drag_sum[n] += weight[n] * drag;
+      push_sum[n] += weight[n] * push;
+      extra_sum[n] += weight[n] * extra;
+    }
+  }
+  const auto all = [](const Four& v) __attribute__((always_inline)) {
+    return (v[0] + v[1]) + (v[2] + v[3]);
+  };
+  for (std::size_t n = 0; n < 8; ++n) {
+    sum.drag[n] = all(drag_sum[n]);
+    sum.push[n] = all(push_sum[n]);
+    sum.extra[n] = all(extra_sum[n]);
+  }
+}
+
+}  // namespace dust::coupling

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/stencils/smooth_kernel.hpp"
+
+#include "coupling/own_disturbance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dust::coupling {
+namespace {
+
+/// Cubic B-spline of knots 1 apart, without its factor 1/6; 0 from 2 on.
+double spline(double x) {
+  const double far = 2.0 - std::abs(x);
+  if (far <= 0.0) return 0.0;
+  const double near = 1.0 - std::abs(x);
+  return far * far * far - (near > 0.0 ? 4.0 * near * near * near : 0.0);
+}
+
+}  // namespace
+
+/// Points along an axis around `place` (in cells from the first face), `knots` in cells.
+void SmoothKernel::meet(int axis, double place, double knots, bool is_of_faces,
+                        Points& points) const {
+  const double shift = is_of_faces ? 0.0 : 0.5;
+  int first = static_cast<int>(std::ceil(place - shift - 2.0 * knots));
+  int last = static_cast<int>(std::floor(place - shift + 2.0 * knots));
+  if (!lattice_.grid().is_periodic[static_cast<std::size_t>(axis)]) {
+    const int beyond = lattice_.grid().count[static_cast<std::size_t>(axis)] + 1;
+    first = std::clamp(first, -2, beyond);
+    last = std::clamp(last, first, beyond);
+  }
+  last = std::min(last, first + static_cast<int>(k_room) - 1);
+  points.first = first;
+  points.count = static_cast<std::size_t>(last - first + 1);
+  const double per_knot = 1.0 / knots;
+  double sum = 0.0;
+  for (std::size_t p = 0; p < points.count; ++p) {
+    const int i = first + static_cast<int>(p);
+    points.offset[p] = lattice_.offset_along(axis, i);
+    points.weight[p] = spline((i + shift - place) * per_knot);
+    sum += points.weight[p];
+  }
+  if (!(sum > 0.0)) points.weight[0] = sum = 1.0;  // a grain far beyond a side
+  const double inverse = 1.0 / sum;
+  for (std::size_t p = 0; p < points.count; ++p) points.weight[p] *= inverse;
+  points.lowest = first;
+  points.highest = last;
+  points.inside = 1.0;
+  if (lattice_.grid().is_periodic[static_cast<std::size_t>(axis)]) return;
+  points.lowest = std::max(first, is_of_faces ? 1 : 0);
+  points.highest = std::min(last, lattice_.grid().count[static_cast<std::size_t>(axis)] - 1);
+  points.inside = 0.0;
+  for (int i = points.lowest; i <= points.highest; ++i) points.inside += weight_at(points, i);
+}
+
+SmoothKernel::Room SmoothKernel::set(const double* position, double diameter) {
+  constexpr int k_fewest = 4;  // cells between sides: the flow around a grain is one in space
+  const fluid::Grid& grid = lattice_.grid();
+  Room room = Room::open;
+  double volume = 1.0;
+  for (int d = 0; d < 3; ++d) {
+    const auto axis = static_cast<std::size_t>(d);
+    const double h = grid.spacing[d];
+    const int n = grid.count[axis];
+    double knots = std::max(diameter / h, own_disturbance::k_least_knots);
+    double place = (position[d] - grid.origin[d]) / h;
+    if (grid.is_periodic[axis]) {
+      if (4.0 * knots > n) room = Room::none;
+    } else {
+      place = std::clamp(place, 0.0, static_cast<double>(n));
+      const double side = std::min(place, n - place);
+      // Two cells of the halo, and half a cell to the next point.
+      if (2.0 * knots > side - 0.5 && room == Room::open) room = Room::beside;
+      if (n < k_fewest) room = Room::none;
+      knots = std::min(knots, 0.5 * (side + 2.5));
+    }
+    meet(d, place, knots, true, faces_[axis]);
+    meet(d, place, knots, false, middles_[axis]);
+    volume *= own_disturbance::kernel_width(knots * h, h);
+  }
+  width_ = std::cbrt(volume);
+  if (room != Room::none && lattice_.has_bodies() && !is_clear()) room = Room::none;
+  return room;
+}
+
+/// Whether no body cuts a cell of the kernel.
+bool SmoothKernel::is_clear() const {
+  bool is_open = true;
+  for_cells([&](std::ptrdiff_t cell, double) {
+    is_open = is_open && lattice_.open_fraction(cell) == 1.0;
+  });
+  return is_open;
+}
+
+double SmoothKernel::concentration(int d) const {
+  double product = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Points& p = points(d, axis);
+    double sum = 0.0;
+    for (std::size_t n = 0; n < p.count; ++n) sum += p.weight[n] * p.weight[n];
+    product *= sum;
+  }
+  return product;
+}
+
+double SmoothKernel::inside(int d) const {
+  return points(d, 0).inside * points(d, 1).inside * points(d, 2).inside;
+}
+
+double SmoothKernel::overlap(int d) const {
+  double product = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Points& of_faces = points(d, axis);
+    const Points& of_cells = points(k_cells, axis);
+    double sum = 0.0;
+    for (int i = of_faces.lowest; i <= of_faces.highest; ++i) {
+      const double beside = d == axis ? 0.5 * (weight_at(of_cells, i - 1) + weight_at(of_cells, i))
+                                      : weight_at(of_cells, i);
+      sum += weight_at(of_faces, i) * beside;
+    }
+    const double whole = of_faces.inside * of_cells.inside;
+    product *= whole > 0.0 ? sum / whole : 0.0;
+  }
+  return product;
+}
+
+double SmoothKernel::weight(int d, std::array<int, 3> face) const {
+  double product = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    product *= weight_at(points(d, axis), face[static_cast<std::size_t>(axis)]);
+  }
+  return product;
+}
+
+}  // namespace dust::coupling

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coupling/particle_states.hpp"
+#include "coupling/stencils/face_stencils.hpp"
+#include "coupling/stencils/lattice.hpp"
+#include "coupling/stencils/wide_kernel.hpp"
+#include "dust/sdk/archive.hpp"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace dust::coupling {
+
+/// Force of the pressure and the viscous stress on the grains, on either side: the fluid leaves
+/// them (1 - eps) of it in every cell, as it is solved; they receive V_i of that where they are
+/// looked at. The difference is owed to the fluid, cell by cell (docs/theory/coupling.md, Time).
+class StressBalance {
+ public:
+  StressBalance(const Lattice& lattice, const sdk::VoidageRule& rule);
+
+  /// What the fluid leaves to the grains over `step` [s]: in each cell half of the stress at either
+  /// face, times the volume of the grains.
+  void leave(const fluid::CellField& eps, const fluid::FaceField& stress, double step);
+  /// Room for what each of `count` particles receives in a step.
+  [[nodiscard]] std::span<Triple> room_for(std::size_t count) {
+    received_.resize(count);
+    return received_;
+  }
+  /// What they have received: `impulse` [N s] per particle, weight included, at these stencils.
+  void receive(const FaceStencils& stencils, std::span<const Triple> impulse);
+  /// Owed to the fluid [N s], component d, per padded cell.
+  [[nodiscard]] std::vector<double>& owed(int d) { return owed_[static_cast<std::size_t>(d)]; }
+
+  void save(sdk::ArchiveWriter& archive) const;
+  void load(sdk::ArchiveReader& archive);
+
+ private:
+  const Lattice& lattice_;
+  const sdk::VoidageRule& rule_;
+  std::array<std::vector<double>, 3> owed_;
+  std::vector<Triple> received_;  ///< [N s] storage of room_for()
+};
+
+}  // namespace dust::coupling
