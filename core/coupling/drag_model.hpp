@@ -7,7 +7,7 @@
 #include "fluid/momentum_set.hpp"
 #include "fluid/properties.hpp"
 #include "particles/grain_rows.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <array>
 #include <cstddef>

@@ -10,7 +10,7 @@
 #include "coupling/void_fraction_field.hpp"
 #include "dust/sdk/boundary_condition.hpp"
 #include "dust/sdk/voidage_rule.hpp"
-#include "scenario/setup.hpp"
+#include "setup/setup.hpp"
 
 #include <array>
 #include <span>

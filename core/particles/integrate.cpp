@@ -2,6 +2,7 @@
 #include "base/lanes.hpp"
 #include "dust/sdk/plugin.hpp"
 #include "particles/impl.hpp"
+#include "particles/motion/leapfrog.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,13 +41,7 @@ __attribute__((always_inline)) inline void take_fourth(const Lanes& v, Lanes& al
   all = __builtin_shufflevector(v, v, 3, 3, 3, 3);
 }
 
-/// Leapfrog with drag integrated exactly between the kicks:
-/// \f$ v' = v E + u (1 - E) + a \phi \tau \f$, E = exp(-k tau), phi = (1 - E) / (k tau), tau the
-/// lag of v plus half the step. The velocity for the next forces is predicted to the instant of the
-/// new positions (Vyas et al., Comput. Phys. Commun. 310 (2025) 109524,
-/// doi:10.1016/j.cpc.2025.109524).
-///
-/// `f`: the row's force and torque; zeros are left.
+/// One step of the leapfrog. `f`: the row's force and torque; zeros are left.
 template <bool has_fluid>
 __attribute__((always_inline)) inline void step_row(const AwakeRows& r, double step, std::size_t n,
                                                     double* f) {
@@ -81,19 +76,25 @@ __attribute__((always_inline)) inline void step_row(const AwakeRows& r, double s
     Lanes phi = Lanes{} + r.decay[2 * n + 1];
     const Lanes action = *reinterpret_cast<const Lanes*>(r.action + 4 * n);
     if (is_new) [[unlikely]] {
-      const double x = action[3] * kick[0];
-      e = Lanes{} + std::exp(-x);
-      phi = Lanes{} + (x > 0.0 ? -std::expm1(-x) / x : 1.0);
+      const leapfrog::Relaxation drag = leapfrog::relaxation(action[3], kick[0]);
+      e = Lanes{} + drag.decay;
+      phi = Lanes{} + drag.mean;
     }
-    half = old + (action * three - old) * (1.0 - e) + push * phi;
-    *reinterpret_cast<Lanes*>(r.impulse + 4 * n) += (half - old - push) / inverse_mass;
+    const Lanes target = action * three;
+    leapfrog::kick(old, push, target, e, phi, half);
+    Lanes received;
+    leapfrog::drag_impulse(half, old, push, inverse_mass, received);
+    *reinterpret_cast<Lanes*>(r.impulse + 4 * n) += received;
     ahead *= e;
   }
   position += half * step;
-  motion[0] = half + ahead * (half - old) + fourth * inverse_mass;
+  Lanes predicted;
+  leapfrog::predict(half, old, ahead, predicted);
+  motion[0] = predicted + fourth * inverse_mass;
   motion[1] = half + fourth * half_step;
-  // I = 2/5 m R^2
-  const Lanes turn_rate = torque * (2.5 * inverse_mass / (radius * radius));
+  Lanes inverse_inertia;
+  leapfrog::inverse_inertia(inverse_mass, radius, inverse_inertia);
+  const Lanes turn_rate = torque * inverse_inertia;
   const Lanes turn = spin[1] + turn_rate * kick;
   spin[0] = turn + turn_rate * half_step;
   spin[1] = turn;

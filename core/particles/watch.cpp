@@ -3,6 +3,7 @@
 #include "contact/approach.hpp"
 #include "dust/sdk/plugin.hpp"
 #include "particles/impl.hpp"
+#include "particles/motion/leapfrog.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -250,12 +251,7 @@ struct FlyingRows {
   const double* gravity = nullptr;
 };
 
-/// `count` leapfrog steps with drag at once. One step is v' = v + d with
-/// d = (u - v) (1 - E) + a phi tau, and d' = E d. So, with G = 1 + E + ... + E^(count - 1) and H
-/// the sum of the first `count` G,
-/// v_count = v + d G, x_count = x + tau (count v + d H).
-/// G, H and E^count come from doubling, bit by bit of `count`: no root, exponential or difference
-/// of near numbers.
+/// `count` steps of the leapfrog at once for those asleep.
 DUST_KERNEL void fly_rows(const FlyingRows& r, double step, std::int64_t count, bool has_fluid) {
   using lanes::Lanes;
   const auto row_of = [](double* p, std::size_t n) __attribute__((always_inline))->Lanes& {
@@ -274,8 +270,6 @@ DUST_KERNEL void fly_rows(const FlyingRows& r, double step, std::int64_t count, 
   const Lanes three{1.0, 1.0, 1.0, 0.0};
   const Lanes fourth{0.0, 0.0, 0.0, 1.0};
   const auto total = static_cast<double>(count);
-  int highest = 0;
-  while ((count >> (highest + 1)) != 0) ++highest;
   for (std::size_t n = r.begin; n < r.end; ++n) {
     if (r.is_awake[n] != 0) continue;
     const Lanes push = fixed(r.gravity, static_cast<std::size_t>(r.material[n])) * step * three;
@@ -284,28 +278,20 @@ DUST_KERNEL void fly_rows(const FlyingRows& r, double step, std::int64_t count, 
     Lanes first = push;
     if (has_fluid) {
       decay = r.decay[2 * n];
-      first = (fixed(r.action, n) * three - old) * (1.0 - decay) + push * r.decay[2 * n + 1];
+      const Lanes target = fixed(r.action, n) * three;
+      leapfrog::first_change(old, push, target, decay, r.decay[2 * n + 1], first);
     }
-    double power = decay;
-    double g = 1.0;
-    double h = 1.0;
-    for (int bit = highest - 1; bit >= 0; --bit) {
-      const auto m = static_cast<double>(count >> (bit + 1));
-      h = h + m * g + power * h;
-      g = g + power * g;
-      power *= power;
-      if (((count >> bit) & 1) != 0) {
-        g = 1.0 + decay * g;
-        h += g;
-        power *= decay;
-      }
-    }
-    const Lanes half = old + first * g;
-    row_of(r.position, n) += (old * total + first * h) * step;
-    velocity(n) = (half + first * (0.5 * power)) + fourth * velocity(n);
+    const auto flight = leapfrog::FreeFlight::of(count, decay);
+    const Lanes half = old + first * flight.g;
+    row_of(r.position, n) += (old * total + first * flight.h) * step;
+    velocity(n) = (half + first * (0.5 * flight.power)) + fourth * velocity(n);
     half_velocity(n) = half + fourth * half_velocity(n);
     if (has_fluid) {
-      row_of(r.impulse, n) += (half - old - push * total) / velocity(n)[3];
+      const Lanes whole_push = push * total;
+      const double inverse_mass = velocity(n)[3];
+      Lanes received;
+      leapfrog::drag_impulse(half, old, whole_push, inverse_mass, received);
+      row_of(r.impulse, n) += received;
     }
   }
 }

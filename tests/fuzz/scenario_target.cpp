@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "fuzz/patience.hpp"
 #include "preflight/reader.hpp"
-#include "scenario/derived.hpp"
+#include "preflight/derived.hpp"
 #include "unit/scenario/fake_models.hpp"
 
 #include <unistd.h>
