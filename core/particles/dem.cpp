@@ -5,51 +5,43 @@
 #include "dust/sdk/sphere.hpp"
 #include "particles/contact_view.hpp"
 #include "particles/impl.hpp"
+#include "particles/motion/leapfrog.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace dust::particles {
+namespace {
+
+std::vector<std::string> names_of(const auto& materials) {
+  std::vector<std::string> names;
+  for (const auto& m : materials) names.push_back(m.name);
+  return names;
+}
+
+double largest_of(std::span<const double> diameters) {
+  return diameters.empty() ? 0.0 : *std::max_element(diameters.begin(), diameters.end());
+}
+
+}  // namespace
 
 Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
                 std::vector<PairLaws> pair_laws, std::vector<double> diameters,
                 double fluid_density)
-    : laws(std::move(pair_laws)),
+    : laws(std::move(pair_laws), names_of(setup.materials), largest_of(diameters)),
       surfaces(surfaces_of(setup, bodies)),
       domain_min(setup.domain.min),
       domain_max(setup.domain.max),
-      steps(particles::time_steps(setup, bodies, laws, diameters)) {
+      steps(particles::time_steps(setup, bodies, laws.all(), diameters)) {
   store.has_fluid = setup.fluid.has_value();
   for (const auto& m : setup.materials) {
     materials.push_back(m.properties);
-    material_names.push_back(m.name);
     // Buoyancy of the hydrostatic pressure: the fluid's own pressure does not hold it.
     const double share = 1.0 - fluid_density / m.properties.density;
     gravity.insert(gravity.end(), {share * setup.gravity.x, share * setup.gravity.y,
                                    share * setup.gravity.z, 0.0});
   }
-  law_table.assign(materials.size() * materials.size(), -1);
-  int columns = 0;
-  const double largest = *std::max_element(diameters.begin(), diameters.end());
-  for (std::size_t n = 0; n < laws.size(); ++n) {
-    const auto i = static_cast<std::size_t>(laws[n].material_i);
-    const auto j = static_cast<std::size_t>(laws[n].material_j);
-    law_table[i * materials.size() + j] = law_table[j * materials.size() + i] =
-        static_cast<std::int32_t>(n);
-    columns = std::max(columns, laws[n].contact->history_size() +
-                                    (laws[n].rolling ? laws[n].rolling->history_size() : 0) +
-                                    (laws[n].cohesion ? laws[n].cohesion->history_size() : 0));
-    // R* is largest where the largest grain meets a wall.
-    laws[n].range = laws[n].range_of(0.5 * largest);
-    largest_range = std::max(largest_range, laws[n].range);
-  }
-  if (columns > contact::k_max_history) {
-    throw sdk::ParameterError("contact, rolling and cohesion law together keep " +
-                              std::to_string(columns) + " numbers per contact; at most " +
-                              std::to_string(contact::k_max_history) + " are possible");
-  }
-  history_stride = static_cast<std::size_t>(std::max(4, (columns + 3) / 4 * 4));
   for (int d = 0; d < 3; ++d) {
     const auto low = setup.domain.sides[static_cast<std::size_t>(2 * d)].grains;
     const auto high = setup.domain.sides[static_cast<std::size_t>(2 * d + 1)].grains;
@@ -62,18 +54,6 @@ Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
       images.half[d] = 0.5 * images.length[d];
     }
   }
-}
-
-std::int32_t Dem::Impl::law_of(int i, int j) const {
-  const std::int32_t law =
-      law_table[static_cast<std::size_t>(i) * materials.size() + static_cast<std::size_t>(j)];
-  if (law < 0) {
-    throw sdk::ModelError("no interaction between the materials " +
-                          material_names[static_cast<std::size_t>(i)] + " and " +
-                          material_names[static_cast<std::size_t>(j)] +
-                          ": declare one under `interactions`");
-  }
-  return law;
 }
 
 void Dem::Impl::insert(std::span<const NewGrain> grains) {
@@ -163,9 +143,7 @@ void Dem::Impl::remove_leavers() {
     drop(c.surfaces, true, false);
   }
   drop(fine, false, true);
-  std::erase_if(left_overs,
-                [&](const LeftOver& l) { return new_row[static_cast<std::size_t>(l.row)] < 0; });
-  for (LeftOver& l : left_overs) l.row = new_row[static_cast<std::size_t>(l.row)];
+  fine_level.renumber(new_row);
   store.reorder(keep);
   book.close();
   must_rebuild = must_sort = true;
@@ -176,10 +154,11 @@ void Dem::Impl::refresh_decay() {
   if (!store.has_fluid) return;
   const double step = steps.coarse_step;
   for (std::size_t n = 0; n < store.size(); ++n) {
-    const double x = store.action[4 * n + 3] * step;
-    has_fluid = has_fluid || x > 0.0;
-    store.decay[2 * n] = std::exp(-x);
-    store.decay[2 * n + 1] = x > 0.0 ? -std::expm1(-x) / x : 1.0;
+    const double rate = store.action[4 * n + 3];
+    has_fluid = has_fluid || rate * step > 0.0;
+    const leapfrog::Relaxation drag = leapfrog::relaxation(rate, step);
+    store.decay[2 * n] = drag.decay;
+    store.decay[2 * n + 1] = drag.mean;
   }
 }
 
@@ -202,6 +181,7 @@ void Dem::Impl::fill_last_force() const {
   }
   if (must_sort) return;  // rows have changed since the forces were computed
   for (std::size_t q = 0; q < contact_force.size(); ++q) last_force[q] += contact_force[q];
+  const std::span<const double> fine_force = fine_level.force();
   for (std::size_t q = 0; q < fine_force.size(); ++q)
     last_force[4 * coarse_count + q] += fine_force[q];
 }
@@ -290,6 +270,8 @@ DemReport Dem::report() const {
     out.contacts += c.contacts;
     out.largest_coarse_overlap = std::max(out.largest_coarse_overlap, c.largest_overlap);
   }
+  out.fine_steps = impl_->fine_level.sub_steps();
+  out.largest_fine_overlap = impl_->fine_level.largest_overlap();
   out.largest_overlap = std::max(out.largest_coarse_overlap, out.largest_fine_overlap);
   return out;
 }

@@ -3,10 +3,10 @@
 
 #include "bodies/body_set.hpp"
 #include "dust/sdk/archive.hpp"
-#include "dust/sdk/cohesion_law.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/sensor.hpp"
 #include "particles/grain_rows.hpp"
+#include "particles/pair_law_table.hpp"
 #include "setup/setup.hpp"
 
 #include <algorithm>
@@ -23,22 +23,6 @@ namespace dust::particles {
 
 class BalanceBook;
 struct TimeSteps;
-
-/// The laws of one pair of materials; `rolling` and `cohesion` may be null.
-struct PairLaws {
-  int material_i = 0;
-  int material_j = 0;
-  std::unique_ptr<sdk::ContactLaw> contact;
-  std::unique_ptr<sdk::RollingLaw> rolling;
-  std::unique_ptr<sdk::CohesionLaw> cohesion;
-  double range = 0.0;  ///< [m] range_of() the largest grains; set by the DEM
-
-  /// How far beyond touch [m] contact and cohesion act on a pair of this R* [m].
-  [[nodiscard]] double range_of(double effective_radius) const {
-    const double touch = contact->range();
-    return cohesion ? std::max(touch, cohesion->range(effective_radius)) : touch;
-  }
-};
 
 /// A grain to insert; the DEM gives the id.
 struct NewGrain {

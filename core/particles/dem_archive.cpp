@@ -105,7 +105,6 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   rows("motion", store.motion);
   rows("spin", store.spin);
   rows("start", store.start);
-  rows("fine_force", fine_force);
   const std::vector<double> course(store.start_velocity.begin(), store.start_velocity.end());
   archive.numbers("start_velocity", course);
   if (store.has_fluid) {
@@ -143,16 +142,7 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   std::vector<std::int64_t> bounds;
   for (const Chunk& c : chunks) bounds.insert(bounds.end(), {c.begin, c.end, c.contacts});
   archive.integers("chunks", bounds);
-  std::vector<std::int64_t> left_rows;
-  std::vector<double> left_values;
-  for (const LeftOver& l : left_overs) {
-    left_rows.push_back(l.row);
-    for (const sdk::Vec3& v : {l.velocity, l.rotation, l.velocity_ahead, l.rotation_ahead}) {
-      left_values.insert(left_values.end(), {v.x, v.y, v.z});
-    }
-  }
-  archive.integers("left_rows", left_rows);
-  archive.numbers("left_values", left_values);
+  fine_level.save(archive);
   const std::int64_t state[] = {static_cast<std::int64_t>(coarse_count),
                                 next_id,
                                 since_rebuild,
@@ -163,7 +153,7 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
                                 has_fluid,
                                 counters.steps,
                                 counters.particle_steps,
-                                counters.fine_steps,
+                                fine_level.sub_steps(),
                                 counters.rebuilds,
                                 counters.contacts_seen_late,
                                 counters.flown_steps,
@@ -177,7 +167,6 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   double largest = counters.largest_coarse_overlap;
   for (const Chunk& c : chunks) largest = std::max(largest, c.largest_overlap);
   archive.number("largest_coarse_overlap", largest);
-  archive.number("largest_fine_overlap", counters.largest_fine_overlap);
   book.save(archive);
 }
 
@@ -190,7 +179,6 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   rows("motion", store.motion);
   rows("spin", store.spin);
   rows("start", store.start);
-  rows("fine_force", fine_force);
   const auto course = archive.numbers("start_velocity");
   store.start_velocity.assign(course.begin(), course.end());
   if (store.has_fluid) {
@@ -235,18 +223,6 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   }
   near_fines.take(near_fine);
   fines.take(fine, history_stride);
-  left_overs.clear();
-  const auto left_rows = archive.integers("left_rows");
-  const auto left_values = archive.numbers("left_values");
-  for (std::size_t n = 0; n < left_rows.size(); ++n) {
-    LeftOver l{.row = static_cast<std::int32_t>(left_rows[n])};
-    const double* value = left_values.data() + 12 * n;
-    for (sdk::Vec3* v : {&l.velocity, &l.rotation, &l.velocity_ahead, &l.rotation_ahead}) {
-      *v = {value[0], value[1], value[2]};
-      value += 3;
-    }
-    left_overs.push_back(l);
-  }
   const auto state = archive.integers("state");
   coarse_count = static_cast<std::size_t>(state.at(0));
   next_id = state.at(1);
@@ -258,7 +234,6 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   has_fluid = state.at(7) != 0;
   counters.steps = state.at(8);
   counters.particle_steps = state.at(9);
-  counters.fine_steps = state.at(10);
   counters.rebuilds = state.at(11);
   counters.contacts_seen_late = state.at(12);
   counters.flown_steps = state.at(13);
@@ -269,7 +244,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   counters.mends = state.at(18);
   time = archive.number("time");
   counters.largest_coarse_overlap = archive.number("largest_coarse_overlap");
-  counters.largest_fine_overlap = archive.number("largest_fine_overlap");
+  fine_level.load(archive, state.at(10));
   for (Surface& s : surfaces) s.move_to(time);
   book.load(archive);
   look_at_weights();

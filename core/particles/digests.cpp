@@ -47,17 +47,6 @@ std::uint64_t histories(const Dem::Impl& dem) {
   return d.value();
 }
 
-std::uint64_t left_overs(const Dem::Impl& dem) {
-  Digest d;
-  for (const LeftOver& l : dem.left_overs) {
-    d.add(&l.row, 1);
-    for (const sdk::Vec3& v : {l.velocity, l.rotation, l.velocity_ahead, l.rotation_ahead}) {
-      d.add(&v.x, 1).add(&v.y, 1).add(&v.z, 1);
-    }
-  }
-  return d.value();
-}
-
 }  // namespace
 
 std::map<std::string, std::function<std::uint64_t()>> Dem::digests() const {
@@ -79,8 +68,8 @@ std::map<std::string, std::function<std::uint64_t()>> Dem::digests() const {
       {"contact.force", [dem] { return Digest().add(dem->contact_force).value(); }},
       {"contact.ghost_force", [dem] { return dem->ghosts.digest(); }},
       {"grain.force", [dem] { return dem->deferred.digest(); }},
-      {"fine.force", [dem] { return Digest().add(dem->fine_force).value(); }},
-      {"fine.left_over", [dem] { return left_overs(*dem); }},
+      {"fine.force", [dem] { return Digest().add(dem->fine_level.force()).value(); }},
+      {"fine.left_over", [dem] { return dem->fine_level.deferred().digest(); }},
   };
 }
 

@@ -12,10 +12,9 @@ void Dem::Impl::fail(std::size_t row, const std::string& what, const std::string
   std::ostringstream text;
   text.precision(6);
   text << "grain " << store.id[row] << " (diameter " << 2.0 * p[3] << " m, "
-       << material_names[static_cast<std::size_t>(store.material[row])] << ") " << what
-       << " at time " << time << " s, position (" << p[0] << ", " << p[1] << ", " << p[2]
-       << ") m, velocity (" << v[0] << ", " << v[1] << ", " << v[2]
-       << ") m/s; last known contact: ";
+       << laws.material_name(store.material[row]) << ") " << what << " at time " << time
+       << " s, position (" << p[0] << ", " << p[1] << ", " << p[2] << ") m, velocity (" << v[0]
+       << ", " << v[1] << ", " << v[2] << ") m/s; last known contact: ";
   std::string partner = "none";
   const auto look = [&](const ContactList& list, bool is_surface) {
     for (std::size_t q = 0; q < list.size(); ++q) {

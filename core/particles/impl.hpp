@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "base/periodic.hpp"
 #include "contact/batch_kernels.hpp"
+#include "contact/nearest_image.hpp"
 #include "particles/balance_book.hpp"
 #include "particles/dem.hpp"
-#include "particles/fine.hpp"
+#include "particles/fine_level/fine_level.hpp"
 #include "particles/forces/deferred_forces.hpp"
 #include "particles/forces/force_buffer.hpp"
 #include "particles/forces/ghost_exchange.hpp"
 #include "particles/grain_store.hpp"
+#include "particles/law_stages.hpp"
 #include "particles/search.hpp"
 #include "particles/surfaces.hpp"
 #include "particles/tile.hpp"
@@ -37,8 +38,6 @@ inline constexpr std::size_t k_block = 512;
 inline std::size_t chunk_rows(std::size_t coarse_grains) {
   return std::clamp(std::bit_ceil(coarse_grains / 16 + 1), std::size_t{512}, std::size_t{2048});
 }
-/// Fine grains per block of the search.
-inline constexpr std::size_t k_fine_block = 256;
 /// Coarse steps between two checks of how far coarse grains are off the course a watch supposes:
 /// seldom where watches last long, because nobody moves much there.
 constexpr std::int64_t check_every(std::int64_t watch_length) {
@@ -159,19 +158,6 @@ struct Chunk {
   TileTimes times;
 };
 
-/// What fine grains have left to a coarse one for its next step: its row says the mean velocity of
-/// the step, its way over its time; this is added before the next kick.
-struct LeftOver {
-  std::int32_t row = 0;
-  sdk::Vec3 velocity, rotation;              ///< [m/s], [rad/s] at the end, less the mean
-  sdk::Vec3 velocity_ahead, rotation_ahead;  ///< half of the last kick: predicted, less that
-
-  void add(const LeftOver& other) {
-    velocity += other.velocity, rotation += other.rotation;
-    velocity_ahead += other.velocity_ahead, rotation_ahead += other.rotation_ahead;
-  }
-};
-
 struct AwakeRows;
 
 struct Dem::Impl {
@@ -183,7 +169,9 @@ struct Dem::Impl {
   void remove_leavers();
   void refresh_decay();
   void look_at_weights();
-  [[nodiscard]] std::int32_t law_of(int material_i, int material_j) const;
+  [[nodiscard]] std::int32_t law_of(int material_i, int material_j) const {
+    return laws.index(material_i, material_j);
+  }
 
   // rebuild.cpp
   void neighbours();
@@ -282,24 +270,12 @@ struct Dem::Impl {
   void integrate_awake(std::span<const std::int32_t> rows, std::size_t first, double* force,
                        ForceOrder order);
 
-  // fine.cpp
+  // dem_fine_level.cpp
+  [[nodiscard]] FineScene fine_scene();
   void advance_fine();
-  void fine_pass();
-  void find_clusters();
-  [[nodiscard]] bool is_heavy(std::int32_t coarse, std::int32_t fine_row) const;
-  void make_blocks();
-  void seat_guests(std::int32_t cluster, Block& block);
-  void list_candidates();
-  void give_back();
   /// Who is about to move: all of a chunk, those that other chunks look at, or the others.
   enum class Movers { all, shared, unshared };
   void resume_course(const Chunk& chunk, Movers movers);
-  [[nodiscard]] const LeftOver* left_over(std::int32_t row) const {
-    const auto l =
-        std::lower_bound(left_overs.begin(), left_overs.end(), row,
-                         [](const LeftOver& a, std::int32_t wanted) { return a.row < wanted; });
-    return l != left_overs.end() && l->row == row ? &*l : nullptr;
-  }
 
   // health.cpp
   [[noreturn]] void fail_as_not_a_number(std::size_t row) const;
@@ -345,26 +321,20 @@ struct Dem::Impl {
     return {store.position.data(), store.motion.data(), store.spin.data()};
   }
   [[nodiscard]] sdk::Vec3 separation(const double* from, const double* to) const {
-    double d[3];
-    for (int k = 0; k < 3; ++k) {
-      d[k] = base::nearest_image(to[k] - from[k], images.length[k], images.half[k]);
-    }
-    return {d[0], d[1], d[2]};
+    return contact::nearest_image(images, from, to);
   }
 
   // Fixed after construction.
-  std::vector<PairLaws> laws;
-  std::vector<std::int32_t> law_table;
+  PairLawTable laws;
   std::vector<sdk::MaterialProperties> materials;
-  std::vector<std::string> material_names;
   std::vector<Surface> surfaces;
   std::array<scenario::GrainSide, 6> sides{};
   sdk::Vec3 domain_min, domain_max;
   contact::Images images;
   TimeSteps steps;
   contact::AlignedVector<double> gravity;  ///< four per material, reduced by buoyancy
-  std::size_t history_stride = 4;
-  double largest_range = 0.0;
+  std::size_t history_stride = laws.history_stride();
+  double largest_range = laws.largest_range();
   bool is_periodic = false;
   bool has_fluid = false;
   bool has_weights = false;  ///< coarse grains of different weights
@@ -375,9 +345,8 @@ struct Dem::Impl {
   std::size_t coarse_count = 0;
   std::vector<Chunk> chunks;
   VerletList near_fine;
-  ContactList fine;                           ///< partner >= 0: row; < 0: surface -1 - b
-  std::vector<LeftOver> left_overs;           ///< of coarse grains that fine ones were near, by row
-  contact::AlignedVector<double> fine_force;  ///< four per fine grain, of the last sub-step
+  ContactList fine;  ///< partner >= 0: row; < 0: surface -1 - b
+  FineLevel fine_level;
   std::int64_t next_id = 0;
   WallLoads wall_loads;  ///< empty between fluid steps, so that nothing of it is saved
   double time = 0.0;
@@ -415,19 +384,6 @@ struct Dem::Impl {
   std::vector<std::uint8_t> is_awake;   ///< 2: awake, and in a list of another chunk
   Awake fine_awake;
   std::vector<std::uint8_t> wants;
-  // Working space of the fine pass.
-  FineSpace fine_space;
 };
-
-/// All stages of a pair's laws on one batch, from the overlaps to the torques. The columns of
-/// history stand in the order contact, rolling, cohesion.
-void evaluate_laws(const PairLaws& law, contact::BatchColumns& columns, std::size_t count,
-                   double time_step);
-
-/// Pairs of a batch that touch; the others are within the range of cohesion.
-std::int64_t in_touch(contact::BatchColumns& columns, std::size_t count);
-
-/// Batch scratch of the calling thread.
-contact::BatchColumns& thread_columns();
 
 }  // namespace dust::particles

@@ -268,13 +268,11 @@ void Dem::Impl::rebuild() {
 
   if (must_sort || counters.rebuilds % k_sort_every == 0) {
     sort_rows();
-    if (!left_overs.empty()) {
+    if (!fine_level.deferred().all().empty()) {
       std::vector<std::int32_t> new_row(old_row.size());
       for (std::size_t n = 0; n < old_row.size(); ++n)
         new_row[static_cast<std::size_t>(old_row[n])] = static_cast<std::int32_t>(n);
-      for (LeftOver& l : left_overs) l.row = new_row[static_cast<std::size_t>(l.row)];
-      std::sort(left_overs.begin(), left_overs.end(),
-                [](const LeftOver& a, const LeftOver& b) { return a.row < b.row; });
+      fine_level.renumber(new_row);
     }
   } else {
     old_row.resize(store.size());
@@ -382,7 +380,7 @@ void Dem::Impl::rebuild() {
   }
   near_fine.segments.push_back({0, -1, 0, static_cast<std::int32_t>(near_fine.size())});
   carry_over(near_fine, fine, false);
-  fine_force.assign(4 * (store.size() - coarse_count), 0.0);
+  fine_level.clear_force(store.size() - coarse_count);
 
   // Lists are most of the memory: what only a rebuild needs is given back.
   std::vector<std::int32_t>().swap(old_row);

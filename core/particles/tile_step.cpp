@@ -182,15 +182,4 @@ void Dem::Impl::end_tiles() {
   counters.particle_steps += static_cast<std::int64_t>(store.size());
 }
 
-/// The particles of the finer rates make their sub-steps.
-void Dem::Impl::advance_fine() {
-  if (coarse_count == store.size()) {
-    left_overs.clear();
-    return;
-  }
-  fine_pass();
-  // Dust squeezed out between coarse grains goes off at several m/s: looked after at every step.
-  check_awake(fine_awake, since_watch, 1, must_watch);
-}
-
 }  // namespace dust::particles

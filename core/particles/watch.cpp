@@ -144,7 +144,9 @@ void Dem::Impl::choose_watch_allowances() {
 void Dem::Impl::begin_watch() {
   is_awake.assign(store.size(), 0);
   choose_watch_allowances();
-  for (const LeftOver& l : left_overs) is_awake[static_cast<std::size_t>(l.row)] = 1;
+  for (const DeferredImpulse& impulse : fine_level.deferred().all()) {
+    is_awake[static_cast<std::size_t>(impulse.particle)] = 1;
+  }
   const contact::Courses courses{store.position.data(), store.motion.data(),
                                  watch_allowance.data()};
   // Two steps: the velocities at hand are not quite those of the step behind.
@@ -179,7 +181,7 @@ void Dem::Impl::begin_watch() {
   });
   wake_ghosts();
 
-  std::fill(fine_force.begin(), fine_force.end(), 0.0);
+  fine_level.clear_force(store.size() - coarse_count);
   std::vector<std::uint8_t> meets(near_fine.size());
   for (std::size_t q = 0; q < meets.size(); ++q) {
     const std::int32_t i = near_fine.a[q];

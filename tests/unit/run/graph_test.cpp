@@ -3,7 +3,7 @@
 #include "run/models.hpp"
 #include "run/simulation.hpp"
 #include "run/summary.hpp"
-#include "scenario/reader.hpp"
+#include "preflight/reader.hpp"
 
 #include <doctest/doctest.h>
 
@@ -38,7 +38,7 @@ std::unique_ptr<Simulation> simulation(const Case& c, int check_every) {
   static const bool is_loaded = (registry.load({DUST_TEST_PLUGINS}), true);
   REQUIRE(is_loaded);
   const auto read =
-      dust::scenario::read_scenario(fs::path(DUST_SOURCE) / c.file, c.settings, registry, {});
+      dust::preflight::read_scenario(fs::path(DUST_SOURCE) / c.file, c.settings, registry, {});
   return std::make_unique<Simulation>(read.setup, dust::run::make_models(read.setup, registry),
                                       check_every);
 }
