@@ -16,7 +16,7 @@ struct Run {
   std::size_t end = 0;
 };
 
-/// The contacts of a list in the order of the Verlet list: of each segment two runs are.
+/// The contacts of a list in the order of the outer list: of each segment two runs are.
 class Known {
  public:
   explicit Known(const ContactList& contacts)
@@ -69,7 +69,7 @@ void each_block(const ContactList& contacts, Visit&& visit) {
 /// one contact::Approach per entry of the list. Without branches on either, which nobody foretells.
 /// Returns how many have overlapped for some steps, though no contact of theirs is known: the watch
 /// before did not look at them.
-std::int64_t Dem::Impl::choose_contacts(const VerletList& list, ContactList& contacts,
+std::int64_t Dem::Impl::choose_contacts(const OuterList& list, ContactList& contacts,
                                         const std::vector<std::uint8_t>& meets,
                                         bool may_stand) const {
   struct Choice {
@@ -119,8 +119,7 @@ std::int64_t Dem::Impl::choose_contacts(const VerletList& list, ContactList& con
     const auto [q, contact] = chosen[k];
     next.a[k] = list.a[static_cast<std::size_t>(q)];
     next.b[k] = list.b[static_cast<std::size_t>(q)];
-    next.is_touching[k] =
-        contact < 0 ? 0 : contacts.is_touching[static_cast<std::size_t>(contact)];
+    next.is_touching[k] = contact < 0 ? 0 : contacts.is_touching[static_cast<std::size_t>(contact)];
     const double* from = contact < 0 ? k_new : history + static_cast<std::size_t>(contact) * stride;
     for (std::size_t h = 0; h < stride; h += 4) std::memcpy(to + h, from + h, 4 * sizeof(double));
   }

@@ -60,6 +60,7 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
   if (grains.empty()) return;
   std::size_t n = store.size();
   store.resize(n + grains.size());
+  trajectories.resize(n + grains.size());
   for (const NewGrain& g : grains) {
     const double mass =
         materials[static_cast<std::size_t>(g.material)].density * sdk::sphere_volume(g.diameter);
@@ -145,6 +146,7 @@ void Dem::Impl::remove_leavers() {
   drop(fine, false, true);
   fine_level.renumber(new_row);
   store.reorder(keep);
+  trajectories.reorder(keep);
   book.close();
   must_rebuild = must_sort = true;
 }

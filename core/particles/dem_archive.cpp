@@ -15,7 +15,7 @@ std::vector<std::int64_t> widened(const std::vector<T>& v) {
 /// Lists of one kind, one after another, with their sizes.
 struct FlatLists {
   std::vector<std::int64_t> sizes, a, b;
-  std::vector<std::int64_t> touching;  ///< of a Verlet list: number in the contact list
+  std::vector<std::int64_t> touching;  ///< of a outer list: number in the contact list
   std::vector<std::int64_t> segments;
   std::vector<double> history;
 
@@ -30,7 +30,7 @@ struct FlatLists {
       segments.insert(segments.end(), {s.law, s.surface, s.begin, s.end, s.standing});
     }
   }
-  void add(const VerletList& list) {
+  void add(const OuterList& list) {
     sizes.insert(sizes.end(), {static_cast<std::int64_t>(list.size()),
                                static_cast<std::int64_t>(list.segments.size())});
     a.insert(a.end(), list.a.begin(), list.a.end());
@@ -67,7 +67,7 @@ struct FlatLists {
     take_segments(list.segments, m);
     at_ += n;
   }
-  void take(VerletList& list) {
+  void take(OuterList& list) {
     const auto [n, m] = next_sizes();
     list.clear();
     for (std::size_t q = at_; q < at_ + n; ++q) {
@@ -104,9 +104,7 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   rows("position", store.position);
   rows("motion", store.motion);
   rows("spin", store.spin);
-  rows("start", store.start);
-  const std::vector<double> course(store.start_velocity.begin(), store.start_velocity.end());
-  archive.numbers("start_velocity", course);
+  trajectories.save(archive);
   if (store.has_fluid) {
     rows("action", store.action);
     rows("impulse", store.impulse);
@@ -143,11 +141,12 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   for (const Chunk& c : chunks) bounds.insert(bounds.end(), {c.begin, c.end, c.contacts});
   archive.integers("chunks", bounds);
   fine_level.save(archive);
+  const ListTuner::State lists = tuner.state();
   const std::int64_t state[] = {static_cast<std::int64_t>(coarse_count),
                                 next_id,
                                 since_rebuild,
-                                horizon,
-                                next_horizon,
+                                lists.outer_lifetime,
+                                lists.next_outer_lifetime,
                                 must_rebuild,
                                 must_sort,
                                 has_fluid,
@@ -157,8 +156,8 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
                                 counters.rebuilds,
                                 counters.contacts_seen_late,
                                 counters.flown_steps,
-                                allowance_level,
-                                watch_length,
+                                lists.skin_level,
+                                lists.inner_lifetime,
                                 must_mend,
                                 mended,
                                 counters.mends};
@@ -178,9 +177,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   rows("position", store.position);
   rows("motion", store.motion);
   rows("spin", store.spin);
-  rows("start", store.start);
-  const auto course = archive.numbers("start_velocity");
-  store.start_velocity.assign(course.begin(), course.end());
+  trajectories.load(archive);
   if (store.has_fluid) {
     rows("action", store.action);
     rows("impulse", store.impulse);
@@ -227,8 +224,6 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   coarse_count = static_cast<std::size_t>(state.at(0));
   next_id = state.at(1);
   since_rebuild = state.at(2);
-  horizon = state.at(3);
-  next_horizon = state.at(4);
   must_rebuild = state.at(5) != 0;
   must_sort = state.at(6) != 0;
   has_fluid = state.at(7) != 0;
@@ -237,8 +232,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   counters.rebuilds = state.at(11);
   counters.contacts_seen_late = state.at(12);
   counters.flown_steps = state.at(13);
-  allowance_level = state.at(14);
-  watch_length = state.at(15);
+  tuner.restore({state.at(3), state.at(4), state.at(14), state.at(15)});
   must_mend = state.at(16) != 0;
   mended = state.at(17);
   counters.mends = state.at(18);

@@ -30,9 +30,6 @@ struct GrainStore {
   contact::AlignedVector<double> spin;
   contact::AlignedVector<double> action;   ///< target velocity, rate [1/s]; empty without a fluid
   contact::AlignedVector<double> impulse;  ///< empty without a fluid
-  contact::AlignedVector<double> start;    ///< position at the last rebuild, allowed deviation [m]
-  /// Velocity at the last rebuild; single precision is fine enough for the check of the course.
-  contact::AlignedVector<float> start_velocity;
   /// Two per grain: exp(-k dt), (1 - exp(-k dt)) / (k dt); empty without a fluid.
   contact::AlignedVector<double> decay;
   std::vector<std::int64_t> id;

@@ -49,7 +49,7 @@ void Dem::Impl::check_course(std::size_t begin, std::size_t end, bool& wants_men
   bool asks = false;
   for (std::size_t n = begin; n < end; ++n) {
     const Deviation off = deviation(n);
-    const double limit = store.start[4 * n + 3];
+    const double limit = trajectories.skin(n);
     asks = asks || off.asks_for_another(limit);
     if (off.now2 <= limit * limit) continue;
     if (!std::isfinite(off.now2)) fail_as_not_a_number(n);
@@ -64,7 +64,7 @@ void Dem::Impl::check_course(std::size_t begin, std::size_t end, bool& wants_men
 }
 
 bool Dem::Impl::is_off_course(std::size_t n) const {
-  return deviation(n).asks_for_another(store.start[4 * n + 3]);
+  return deviation(n).asks_for_another(trajectories.skin(n));
 }
 
 /// The same for the choice of a watch and the grains it keeps awake; the next look comes after

@@ -11,6 +11,9 @@
 #include "particles/forces/ghost_exchange.hpp"
 #include "particles/grain_store.hpp"
 #include "particles/law_stages.hpp"
+#include "particles/neighbours/list_tuner.hpp"
+#include "particles/neighbours/pair_lists.hpp"
+#include "particles/neighbours/reference_trajectories.hpp"
 #include "particles/search.hpp"
 #include "particles/surfaces.hpp"
 #include "particles/tile.hpp"
@@ -44,73 +47,6 @@ constexpr std::int64_t check_every(std::int64_t watch_length) {
   return std::clamp<std::int64_t>(watch_length / 8, 4, 16);
 }
 
-/// Contacts of one law, [begin, end) of a list.
-struct Segment {
-  std::int32_t law = 0;
-  std::int32_t surface = -1;
-  std::int32_t begin = 0;
-  std::int32_t end = 0;
-  /// Of a chunk's pairs: [begin, standing) touched when the watch began, a multiple of eight.
-  std::int32_t standing = 0;
-};
-
-/// Verlet list: who may meet whom until the next rebuild. For surfaces `b` is the surface's number.
-struct VerletList {
-  std::vector<std::int32_t> a;
-  std::vector<std::int32_t> b;
-  std::vector<Segment> segments;
-
-  void clear() { a.clear(), b.clear(), segments.clear(); }
-  void push(std::int32_t i, std::int32_t j) { a.push_back(i), b.push_back(j); }
-  [[nodiscard]] std::size_t size() const { return a.size(); }
-};
-
-/// The entries of a Verlet list that may touch during a watch, with the history of contacts: of
-/// each segment first those standing, then the others, both in the list's order.
-struct ContactList {
-  std::vector<std::int32_t> a;
-  std::vector<std::int32_t> b;
-  std::vector<std::uint8_t> is_touching;  ///< 0: no; of a fine list: 1 + its level
-  contact::AlignedVector<double> history;
-  std::vector<Segment> segments;
-  bool is_standing = false;  ///< histories of standing contacts are in columns
-
-  void clear() { a.clear(), b.clear(), is_touching.clear(), history.clear(), segments.clear(); }
-  /// `from`: the history of a pair in touch, or null.
-  void push(std::int32_t i, std::int32_t j, const double* from, std::size_t stride) {
-    a.push_back(i), b.push_back(j), is_touching.push_back(from == nullptr ? 0 : 1);
-    if (from == nullptr) {
-      history.insert(history.end(), stride, 0.0);
-    } else {
-      history.insert(history.end(), from, from + stride);
-    }
-  }
-  /// Room for so many entries, never given back: for lists made again and again.
-  void make_room(std::size_t most, std::size_t stride) {
-    if (a.size() < most) a.resize(most), b.resize(most), is_touching.resize(most);
-    if (history.size() < most * stride) history.resize(most * stride);
-  }
-  /// The first `count` entries of `other` in blocks of just their size: lists are most of the
-  /// memory.
-  void take_exactly(const ContactList& other, std::size_t count, std::size_t stride) {
-    const auto take = [](auto& to, const auto& from, std::size_t size) {
-      const auto end = from.begin() + static_cast<std::ptrdiff_t>(size);
-      if (to.capacity() < size || 4 * to.capacity() > 5 * size + 64) {
-        std::remove_reference_t<decltype(to)>(from.begin(), end).swap(to);
-      } else {
-        to.assign(from.begin(), end);
-      }
-    };
-    take(a, other.a, count), take(b, other.b, count), take(is_touching, other.is_touching, count);
-    take(history, other.history, count * stride);
-    segments = other.segments;
-  }
-  [[nodiscard]] std::size_t size() const { return a.size(); }
-  [[nodiscard]] contact::PairView view(std::size_t stride) {
-    return {a.data(), b.data(), is_touching.data(), history.data(), stride, size()};
-  }
-};
-
 /// Grains that make every step of a watch.
 struct Awake {
   std::vector<std::int32_t> rows;
@@ -140,8 +76,8 @@ struct Chunk {
   std::int32_t begin = 0;
   std::int32_t end = 0;
   [[nodiscard]] Tile tile() const { return {index, begin, end}; }
-  VerletList near_pairs;
-  VerletList near_surfaces;
+  OuterList near_pairs;
+  OuterList near_surfaces;
   ContactList pairs;
   ContactList surfaces;
   /// Per entry of `surfaces`, see bodies::Touches: forgotten when a watch begins, so that a
@@ -159,6 +95,7 @@ struct Chunk {
 };
 
 struct AwakeRows;
+class ContactCarrier;
 
 struct Dem::Impl {
   Impl(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vector<PairLaws> laws,
@@ -176,30 +113,30 @@ struct Dem::Impl {
   // rebuild.cpp
   void neighbours();
   void rebuild();
-  void sort_rows();
+  [[nodiscard]] ContactCarrier take_contacts();
+  void reorder_if_due(ContactCarrier& contacts);
+  void restart_trajectories();
+  [[nodiscard]] std::vector<std::vector<RowPair>> share_pairs(
+      ListTuner::OuterStatistics& statistics);
+  void make_tile(std::size_t number, std::span<const RowPair> pairs,
+                 const ContactCarrier& contacts);
+  void make_fine_list(const ContactCarrier& contacts);
   void wrap_periodic();
-  void choose_allowances();
-  void carry_over(VerletList& list, ContactList& contacts, bool is_surface);
-  void group_by_law(VerletList& list, bool is_surface);
-  static void list_by_row(std::span<const std::array<std::int32_t, 2>> pairs, Chunk& chunk);
-
+  void group_by_law(OuterList& list, bool is_surface);
   [[nodiscard]] bool near_surface(std::size_t row, const Surface& surface,
                                   double horizon_time) const;
-  /// Whether lists of so many pairs are short enough for wider allowances.
-  [[nodiscard]] bool may_widen(std::size_t listed) const;
   /// Side i of a pair is the fine grain where there is one, else the lower id, so that a history
   /// keeps its sign through all sorts.
-  [[nodiscard]] std::array<std::int32_t, 2> in_order(std::int32_t i, std::int32_t j) const;
+  [[nodiscard]] RowPair in_order(std::int32_t i, std::int32_t j) const;
 
   // mend.cpp
   [[nodiscard]] bool mend();
   [[nodiscard]] std::vector<std::int32_t> find_strays() const;
-  void set_on_course(std::size_t row);
   void add_pairs_of(std::span<const std::int32_t> strays);
   void add_surfaces_of(std::span<const std::int32_t> strays);
 
   // watch.cpp
-  void choose_watch_length();
+  void record_inner_list();
   [[nodiscard]] double fastest() const;
   [[nodiscard]] double typical_speed() const;
   [[nodiscard]] double speed2(std::size_t row) const {
@@ -218,7 +155,7 @@ struct Dem::Impl {
   void land();
 
   // choose.cpp
-  std::int64_t choose_contacts(const VerletList& list, ContactList& contacts,
+  std::int64_t choose_contacts(const OuterList& list, ContactList& contacts,
                                const std::vector<std::uint8_t>& meets, bool may_stand) const;
   void stand(ContactList& contacts) const;
   void fall_in(ContactList& contacts) const;
@@ -280,31 +217,13 @@ struct Dem::Impl {
   // health.cpp
   [[noreturn]] void fail_as_not_a_number(std::size_t row) const;
   [[noreturn]] void fail(std::size_t row, const std::string& what, const std::string& cause) const;
-  /// Squares of how far a grain is off the course the lists suppose, and will be at the end of the
-  /// next watch if it goes straight on [m2].
-  struct Deviation {
-    double now2 = 0.0, next2 = 0.0;
-    /// Share of the allowance at which a new list, or a new watch, is asked for.
-    static constexpr double k_trigger = 0.7;
-    [[nodiscard]] bool asks_for_another(double allowance) const {
-      return std::max(now2, next2) > k_trigger * k_trigger * allowance * allowance;
-    }
-  };
   [[nodiscard]] Deviation deviation(std::size_t n) const {
-    const double t = static_cast<double>(since_rebuild) * steps.coarse_step;
-    const double ahead = static_cast<double>(watch_length) * steps.coarse_step;
-    const double* p = store.position.data() + 4 * n;
-    const double* v = store.velocity(n);
-    const double* p0 = store.start.data() + 4 * n;
-    const float* v0 = store.start_velocity.data() + 4 * n;
-    Deviation result;
-    for (int d = 0; d < 3; ++d) {
-      const double off = p[d] - p0[d] - t * v0[d];
-      const double next = off + ahead * (v[d] - v0[d]);
-      result.now2 += off * off;
-      result.next2 += next * next;
-    }
-    return result;
+    return trajectories.deviation(n, store.position.data() + 4 * n, store.velocity(n),
+                                  list_time(since_rebuild), list_time(tuner.inner_lifetime()));
+  }
+  /// [s] of so many coarse steps.
+  [[nodiscard]] double list_time(std::int64_t count) const {
+    return static_cast<double>(count) * steps.coarse_step;
   }
   [[nodiscard]] bool is_off_course(std::size_t row) const;
   void check_course(std::size_t begin, std::size_t end, bool& wants_mending,
@@ -344,19 +263,17 @@ struct Dem::Impl {
   BalanceBook book;
   std::size_t coarse_count = 0;
   std::vector<Chunk> chunks;
-  VerletList near_fine;
+  OuterList near_fine;
   ContactList fine;  ///< partner >= 0: row; < 0: surface -1 - b
   FineLevel fine_level;
   std::int64_t next_id = 0;
   WallLoads wall_loads;  ///< empty between fluid steps, so that nothing of it is saved
   double time = 0.0;
-  std::int64_t since_rebuild = 0;    ///< coarse steps
-  std::int64_t horizon = 0;          ///< coarse steps the present lists are made for
-  std::int64_t next_horizon = 32;    ///< and the next ones
-  std::int64_t allowance_level = 1;  ///< of the next lists; wider in dilute flow
-  std::int64_t since_watch = 0;      ///< coarse steps
-  std::int64_t watch_length = 64;    ///< most coarse steps of the next watch, or of the present one
-  std::int64_t flying = 0;           ///< grains asleep in the present watch
+  ReferenceTrajectories trajectories;
+  ListTuner tuner;
+  std::int64_t since_rebuild = 0;  ///< coarse steps
+  std::int64_t since_watch = 0;    ///< coarse steps
+  std::int64_t flying = 0;         ///< grains asleep in the present watch
   GhostExchange ghosts;
   DeferredForces deferred;
   TileTimes times_before;  ///< of the tiles before the last rebuild
@@ -372,12 +289,6 @@ struct Dem::Impl {
   /// Of the contacts of coarse grains at the last step that kept it, four per grain; else empty.
   contact::AlignedVector<double> contact_force;
 
-  // Working space of a rebuild: old rows by new row, old lists.
-  std::vector<std::int32_t> old_row;
-  std::vector<std::int32_t> old_begin;
-  std::vector<std::int32_t> old_partner;
-  std::vector<std::uint8_t> old_touching;
-  std::vector<const double*> old_history;
   double farthest_reach = 0.0;  ///< [m] of a grain until the lists' end, at most; 0 = not known
   // Working space of a watch.
   std::vector<double> watch_allowance;  ///< [m] how far a grain may be off its course

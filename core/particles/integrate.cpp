@@ -173,12 +173,14 @@ AwakeRows Dem::Impl::awake_rows() {
 }
 
 /// Whether the step in hand ends with a look at how far everybody is off the supposed course.
-bool Dem::Impl::is_check_due() const { return (since_watch + 1) % check_every(watch_length) == 0; }
+bool Dem::Impl::is_check_due() const {
+  return (since_watch + 1) % check_every(tuner.inner_lifetime()) == 0;
+}
 
 /// `done`: steps of the watch, this one included.
 void Dem::Impl::check(Chunk& chunk, std::int64_t done) const {
   chunk.wants_watch = false;
-  check_awake(chunk.awake, done, check_every(watch_length), chunk.wants_watch);
+  check_awake(chunk.awake, done, check_every(tuner.inner_lifetime()), chunk.wants_watch);
 }
 
 }  // namespace dust::particles

@@ -108,22 +108,15 @@ std::vector<std::int32_t> Dem::Impl::find_strays() const {
   return strays;
 }
 
-/// A stray's course begins anew where it is, with its whole allowance.
-void Dem::Impl::set_on_course(std::size_t n) {
-  const double t = static_cast<double>(since_rebuild) * steps.coarse_step;
-  for (std::size_t d = 0; d < 3; ++d) {
-    const auto v = static_cast<float>(store.velocity(n)[d]);
-    store.start_velocity[4 * n + d] = v;
-    store.start[4 * n + d] = store.position[4 * n + d] - t * static_cast<double>(v);
-  }
-}
-
 /// False where lists are to be made new: for many strays, or because they are short and will hold
 /// longer with wider allowances.
 bool Dem::Impl::mend() {
   std::size_t listed = near_fine.size();
   for (const Chunk& c : chunks) listed += c.near_pairs.size();
-  if (may_widen(listed)) return false;
+  if (tuner.may_widen_skins(static_cast<std::int64_t>(listed),
+                            static_cast<std::int64_t>(store.size()))) {
+    return false;
+  }
   const std::vector<std::int32_t> strays = find_strays();
   mended += static_cast<std::int64_t>(strays.size());
   if (k_grains_per_stray * strays.size() > store.size() ||
@@ -132,7 +125,11 @@ bool Dem::Impl::mend() {
     return false;
   }
   must_mend = false;
-  for (const std::int32_t n : strays) set_on_course(static_cast<std::size_t>(n));
+  for (const std::int32_t row : strays) {
+    const auto n = static_cast<std::size_t>(row);
+    trajectories.restart(n, store.position.data() + 4 * n, store.velocity(n),
+                         list_time(since_rebuild));
+  }
   add_pairs_of(strays);
   add_surfaces_of(strays);
   ++counters.mends;
@@ -141,22 +138,15 @@ bool Dem::Impl::mend() {
 
 /// The pairs that the strays' new courses bring near, put behind what is listed already.
 void Dem::Impl::add_pairs_of(std::span<const std::int32_t> strays) {
-  const double step = steps.coarse_step;
-  const double t = static_cast<double>(since_rebuild) * step;
-  const double left = static_cast<double>(horizon - since_rebuild) * step;
-  const auto course = [&](std::size_t n, double* x, double* v) {
-    for (std::size_t d = 0; d < 3; ++d) {
-      v[d] = static_cast<double>(store.start_velocity[4 * n + d]);
-      x[d] = store.start[4 * n + d] + t * v[d];
-    }
-  };
+  const double t = list_time(since_rebuild);
+  const double left = list_time(tuner.outer_lifetime() - since_rebuild);
   const auto ball_of = [&](std::size_t n) {
-    double x[3], v[3];
-    course(n, x, v);
+    const sdk::Vec3 x = trajectories.position(n, t);
+    const sdk::Vec3 v = trajectories.velocity(n);
     const double way = 0.5 * left;
-    return Ball{x[0] + way * v[0], x[1] + way * v[1], x[2] + way * v[2],
-                store.position[4 * n + 3] + store.start[4 * n + 3] + 0.5 * largest_range +
-                    way * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])};
+    return Ball{x.x + way * v.x, x.y + way * v.y, x.z + way * v.z,
+                store.position[4 * n + 3] + trajectories.skin(n) + 0.5 * largest_range +
+                    way * std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z)};
   };
   const std::size_t blocks = (store.size() + k_block - 1) / k_block;
   const auto for_blocks = [&](auto&& work) {
@@ -183,15 +173,14 @@ void Dem::Impl::add_pairs_of(std::span<const std::int32_t> strays) {
   const Surroundings near(balls, 1.0000001 * farthest_reach, images);
   // Whether two grains on their courses come near until the lists' end.
   const auto comes_near = [&](std::size_t i, std::size_t j) {
-    double xi[3], vi[3], xj[3], vj[3];
-    course(i, xi, vi);
-    course(j, xj, vj);
     const double limit = store.position[4 * i + 3] + store.position[4 * j + 3] +
-                         store.start[4 * i + 3] + store.start[4 * j + 3] + largest_range;
-    const sdk::Vec3 v{vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]};
-    return passes_within(separation(xj, xi), v, left, limit);
+                         trajectories.skin(i) + trajectories.skin(j) + largest_range;
+    const sdk::Vec3 xi = trajectories.position(i, t);
+    const sdk::Vec3 xj = trajectories.position(j, t);
+    return passes_within(separation(&xj.x, &xi.x),
+                         trajectories.velocity(i) - trajectories.velocity(j), left, limit);
   };
-  std::vector<std::vector<std::array<std::int32_t, 2>>> found(blocks);
+  std::vector<std::vector<RowPair>> found(blocks);
   for_blocks([&](std::size_t b, std::size_t n) {
     const Ball own = ball_of(n);
     for (const std::int32_t s : near.at(own)) {
@@ -205,7 +194,7 @@ void Dem::Impl::add_pairs_of(std::span<const std::int32_t> strays) {
   });
 
   // The new pairs by the list they belong to, without those that stand there.
-  std::vector<std::vector<std::array<std::int32_t, 2>>> shares(chunks.size() + 1);
+  std::vector<std::vector<RowPair>> shares(chunks.size() + 1);
   const auto coarse = static_cast<std::int32_t>(coarse_count);
   for (const auto& block : found) {
     for (const auto& [a, b] : block) {
@@ -218,11 +207,11 @@ void Dem::Impl::add_pairs_of(std::span<const std::int32_t> strays) {
   oneapi::tbb::parallel_for(std::size_t{0}, shares.size(), [&](std::size_t c) {
     auto& share = shares[c];
     if (share.empty()) return;
-    VerletList& list = c < chunks.size() ? chunks[c].near_pairs : near_fine;
+    OuterList& list = c < chunks.size() ? chunks[c].near_pairs : near_fine;
     std::sort(share.begin(), share.end());
     std::vector<std::uint8_t> is_listed(share.size(), 0);
     for (std::size_t q = 0; q < list.size(); ++q) {
-      const std::array<std::int32_t, 2> pair{list.a[q], list.b[q]};
+      const RowPair pair{list.a[q], list.b[q]};
       if (pair[1] < 0) continue;  // a fine grain and a surface
       if (is_stray[static_cast<std::size_t>(pair[0])] == 0 &&
           is_stray[static_cast<std::size_t>(pair[1])] == 0) {
@@ -246,13 +235,13 @@ void Dem::Impl::add_pairs_of(std::span<const std::int32_t> strays) {
 
 /// The same with surfaces.
 void Dem::Impl::add_surfaces_of(std::span<const std::int32_t> strays) {
-  const double left = static_cast<double>(horizon - since_rebuild) * steps.coarse_step;
+  const double left = list_time(tuner.outer_lifetime() - since_rebuild);
   std::vector<std::uint8_t> has_more(chunks.size(), 0);
   for (const std::int32_t row : strays) {
     const auto n = static_cast<std::size_t>(row);
     const bool is_coarse = n < coarse_count;
     const auto owner = static_cast<std::size_t>(is_coarse ? row / chunks.front().end : 0);
-    VerletList& list = is_coarse ? chunks[owner].near_surfaces : near_fine;
+    OuterList& list = is_coarse ? chunks[owner].near_surfaces : near_fine;
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
       if (!near_surface(n, surfaces[s], left)) continue;
       const auto number = static_cast<std::int32_t>(s);

@@ -334,7 +334,7 @@ std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_
           const std::int32_t j = level.row(static_cast<std::size_t>(close[k]));
           const auto m = 4 * static_cast<std::size_t>(j);
           if (comes_near(in, i, j, reach + in.position[m + 3] + in.allowance[m + 3])) {
-            out.emplace_back(i, j);
+            out.push_back({i, j});
           }
         }
       }

@@ -4,10 +4,10 @@
 #include "dust/sdk/vec3.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace dust::particles {
@@ -43,7 +43,7 @@ struct Ball {
   double reach = 0.0;
 };
 
-using RowPair = std::pair<std::int32_t, std::int32_t>;
+using RowPair = std::array<std::int32_t, 2>;
 
 /// All pairs that may touch within the horizon: if both went straight on, they would come closer
 /// than their radii plus their allowances. Each pair once, in blocks of up to `block` grains whose

@@ -16,12 +16,6 @@
 namespace dust::particles {
 namespace {
 
-/// Coarse steps of a watch: long ones in beds at rest, short ones where grains collide all the
-/// time, because the longer a straight course is supposed, the sooner somebody is off it.
-constexpr std::int64_t k_longest_watch = 64;
-constexpr std::int64_t k_shortest_watch = 8;
-/// Where half of the pairs looked at touch, as in beds. Grains that fly would have many to look at.
-constexpr std::int64_t k_longest_in_bed = 256;
 /// Allowed deviation during a watch, as a share of that of the list: the list's check, made only
 /// when a watch ends, triggers at 0.7 of its allowance, so that 0.7 + k_watch_share stays below 1.
 constexpr double k_watch_share = 1.0 / 6.0;
@@ -36,27 +30,19 @@ constexpr double k_least_reach = 0.004;
 
 }  // namespace
 
-/// A watch that had to end before half of its length makes the next one shorter, one that lasted
-/// longer.
-void Dem::Impl::choose_watch_length() {
-  std::int64_t watched = 0;
-  std::int64_t touching = 0;
+void Dem::Impl::record_inner_list() {
+  ListTuner::InnerStatistics s{.was_left = must_watch, .steps = since_watch};
   for (const Chunk& c : chunks) {
-    watched += static_cast<std::int64_t>(c.pairs.size() + c.surfaces.size());
-    touching += c.contacts;
+    s.entries += static_cast<std::int64_t>(c.pairs.size() + c.surfaces.size());
+    s.contacts += c.contacts;
   }
-  if (must_watch && 2 * since_watch < watch_length) {
-    watch_length = std::max(watch_length / 2, k_shortest_watch);
-  } else if (since_watch >= watch_length) {
-    watch_length *= 2;
-  }
-  watch_length =
-      std::min(watch_length, 2 * touching > watched ? k_longest_in_bed : k_longest_watch);
+  tuner.record(s);
 }
+
 bool Dem::Impl::may_meet_surface(std::size_t i, const Surface& surface) const {
   const double* p = store.position.data() + 4 * i;
   const double* v = store.velocity(i);
-  const double horizon_time = static_cast<double>(watch_length) * steps.coarse_step;
+  const double horizon_time = list_time(tuner.inner_lifetime());
   const double reach = p[3] + largest_range + watch_allowance[i] +
                        horizon_time * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   // The surfaces stand where the step before saw them.
@@ -74,7 +60,7 @@ bool Dem::Impl::flies_straight(std::size_t n) const {
     const double a = g[d] + action[3] * (action[d] - store.velocity(n)[d]);
     sum += a * a;
   }
-  const double horizon_time = static_cast<double>(watch_length) * step;
+  const double horizon_time = list_time(tuner.inner_lifetime());
   const double bend = (0.5 * horizon_time + step) * horizon_time;
   const double limit = 0.5 * watch_allowance[n];
   return sum * bend * bend < limit * limit;
@@ -133,7 +119,7 @@ void Dem::Impl::choose_watch_allowances() {
     for (std::size_t n = b * k_block; n < end; ++n) {
       const double speed = std::max(fast, std::sqrt(speed2(n)));
       const double reach = std::max(k_reach_steps * speed * steps.coarse_step, least);
-      watch_allowance[n] = std::min(k_watch_share * store.start[4 * n + 3], reach);
+      watch_allowance[n] = std::min(k_watch_share * trajectories.skin(n), reach);
     }
   });
 }
@@ -151,7 +137,7 @@ void Dem::Impl::begin_watch() {
                                  watch_allowance.data()};
   // Two steps: the velocities at hand are not quite those of the step behind.
   const contact::Outlook outlook{.range = largest_range,
-                                 .horizon = static_cast<double>(watch_length) * steps.coarse_step,
+                                 .horizon = list_time(tuner.inner_lifetime()),
                                  .behind = 2.0 * steps.coarse_step};
   const auto surface_meets = [&](std::int32_t a, std::int32_t s) -> std::uint8_t {
     const auto row = static_cast<std::size_t>(a);
@@ -161,12 +147,12 @@ void Dem::Impl::begin_watch() {
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     Chunk& chunk = chunks[c];
     thread_local std::vector<std::uint8_t> meets;
-    const VerletList& near = chunk.near_pairs;
+    const OuterList& near = chunk.near_pairs;
     meets.resize(near.size());
     contact::mark_approaching(courses, images, outlook, near.a.data(), near.b.data(), near.size(),
                               meets.data());
     chunk.seen_late = choose_contacts(near, chunk.pairs, meets, true);
-    const VerletList& walls = chunk.near_surfaces;
+    const OuterList& walls = chunk.near_surfaces;
     meets.resize(walls.size());
     for (std::size_t q = 0; q < walls.size(); ++q) meets[q] = surface_meets(walls.a[q], walls.b[q]);
     choose_contacts(walls, chunk.surfaces, meets, false);
@@ -307,7 +293,7 @@ void Dem::Impl::land() {
   if (!is_watching) return;
   is_watching = false;
   if (since_watch == 0) return;
-  choose_watch_length();
+  record_inner_list();
   counters.flown_steps += flying * since_watch;
   const std::size_t blocks = (store.size() + k_block - 1) / k_block;
   wants.assign(blocks, 0);
