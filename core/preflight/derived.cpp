@@ -31,7 +31,6 @@ double largest_speed(const bodies::BodySet& bodies) {
   return speed;
 }
 
-/// Those that the run will take.
 particles::TimeSteps derive_steps(const Setup& setup, const GrainModels& models) {
   if (!models.class_diameters.empty()) {
     return particles::time_steps(setup, models.bodies, models.laws, models.class_diameters);
@@ -102,11 +101,15 @@ void derive_ratios(const Setup& setup, Derived& derived) {
 
 }  // namespace
 
+particles::TimeSteps derive_steps(const Setup& setup, const registry::Registry& registry) {
+  return derive_steps(setup, make_grain_models(setup, registry));
+}
+
 void check_fixed_step(const Setup& setup, const registry::Registry& registry,
                       scenario::Diagnostics& diagnostics) {
   const double step = setup.time.dem_step;
   if (!(step > 0.0)) return;
-  const auto steps = derive_steps(setup, make_grain_models(setup, registry));
+  const particles::TimeSteps steps = derive_steps(setup, registry);
   const particles::ClassStep* deciding = steps.coarse_deciding();
   if (deciding == nullptr) return;
   if (step <= deciding->stable_step) return;

@@ -37,6 +37,9 @@ struct Derived {
   double core_seconds = 0.0;           ///< [s] rough: wall time on one core
 };
 
+/// The steps that a run will take.
+particles::TimeSteps derive_steps(const scenario::Setup& setup, const registry::Registry& registry);
+
 /// Is a fixed `time.dem_step` too long for the grains that take it? A warning above the stable
 /// step, an error where a collision would not be seen or the grains would fly apart.
 void check_fixed_step(const scenario::Setup& setup, const registry::Registry& registry,
