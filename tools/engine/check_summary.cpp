@@ -226,17 +226,22 @@ void tell_step(std::ostream& out, const Setup& setup, const TimeSteps& steps) {
 void tell_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
   const TimeSteps& steps = derived.steps;
   if (steps.classes.empty()) return;
-  out << "  grains     diameter   Rayleigh    Hertz at " << digits(steps.expected_speed)
-      << " m/s   stable step   step\n";
+  const auto tell_row = [&](const char* head, const std::array<std::string, 6>& cells) {
+    std::array<char, 240> row{};
+    std::snprintf(row.data(), row.size(), "%-13s%-11s%-12s%-26s%-14s%-10s%s", head,
+                  cells[0].c_str(), cells[1].c_str(), cells[2].c_str(), cells[3].c_str(),
+                  cells[4].c_str(), cells[5].c_str());
+    std::string text = row.data();
+    text.erase(text.find_last_not_of(' ') + 1);
+    out << text << '\n';
+  };
+  tell_row("  grains", {"diameter", "Rayleigh", "Hertz at " + digits(steps.expected_speed) + " m/s",
+                        "stable step", "step", ""});
   for (const auto& size : steps.classes) {
-    std::array<char, 200> row{};
-    std::snprintf(row.data(), row.size(), "             %-10s %-11s %-18s %-13s %-10s %s\n",
-                  engineering(size.diameter, "m").c_str(),
-                  engineering(size.rayleigh_time, "s").c_str(),
-                  (engineering(size.hertz_time, "s") + " (" + partners(setup, size) + ")").c_str(),
-                  engineering(size.stable_step, "s").c_str(),
-                  engineering(steps.step_of(size), "s").c_str(), step_note(steps, size).c_str());
-    out << row.data();
+    tell_row("", {engineering(size.diameter, "m"), engineering(size.rayleigh_time, "s"),
+                  engineering(size.hertz_time, "s") + " (" + partners(setup, size) + ")",
+                  engineering(size.stable_step, "s"), engineering(steps.step_of(size), "s"),
+                  step_note(steps, size)});
   }
   tell_step(out, setup, steps);
   out << "             narrowest extent / largest grain W/D = "

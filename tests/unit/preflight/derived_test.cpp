@@ -42,11 +42,17 @@ TEST_CASE("the smallest grain shall set the step and each step shall keep both s
                      .epsilon(k_roundings));
 }
 
-TEST_CASE("a fixed step shall replace the derived ones") {
+TEST_CASE(
+    "a fixed step shall replace the derived one, and fine grains still be stepped as they need") {
   const auto setup = read(transfer_point(), {{"time.dem_step", "1e-7"}}).setup;
   const particles::TimeSteps steps = preflight::derive(setup, fakes()).steps;
   CHECK(steps.coarse_step == doctest::Approx(1e-7).epsilon(k_roundings));
-  CHECK(steps.finest_step() == steps.coarse_step);
+  // The finest is stable at 0.05 us or less: halved until it is.
+  const particles::ClassStep& finest = steps.classes.front();
+  CHECK(finest.stable_step < 0.5 * steps.coarse_step);
+  CHECK(steps.step_of(finest) <= finest.stable_step);
+  CHECK(2.0 * steps.step_of(finest) > finest.stable_step);
+  CHECK(steps.step_of(steps.classes[1]) == steps.coarse_step);
 }
 
 TEST_CASE("the expected speed shall be that of bodies and the fall through the domain") {
