@@ -5,7 +5,7 @@
 #include "dust/sdk/random.hpp"
 #include "fluid/grid.hpp"
 #include "preflight/cost.hpp"
-#include "preflight/grain_models.hpp"
+#include "preflight/particle_models.hpp"
 #include "scenario/units.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ double largest_speed(const bodies::BodySet& bodies) {
   return speed;
 }
 
-particles::TimeSteps derive_steps(const Setup& setup, const GrainModels& models) {
+particles::TimeSteps derive_steps(const Setup& setup, const ParticleModels& models) {
   if (!models.class_diameters.empty()) {
     return particles::time_steps(setup, models.bodies, models.laws, models.class_diameters);
   }
@@ -102,7 +102,7 @@ void derive_ratios(const Setup& setup, Derived& derived) {
 }  // namespace
 
 particles::TimeSteps derive_steps(const Setup& setup, const registry::Registry& registry) {
-  return derive_steps(setup, make_grain_models(setup, registry));
+  return derive_steps(setup, make_particle_models(setup, registry));
 }
 
 void check_fixed_step(const Setup& setup, const registry::Registry& registry,
@@ -131,7 +131,7 @@ void check_fixed_step(const Setup& setup, const registry::Registry& registry,
 }
 
 Derived derive(const Setup& setup, const registry::Registry& registry) {
-  const GrainModels models = make_grain_models(setup, registry);
+  const ParticleModels models = make_particle_models(setup, registry);
   const double body_speed = largest_speed(models.bodies);
   Derived derived;
   derived.expected_speed = expected_speed(setup, models.emitters, body_speed);

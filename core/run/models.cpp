@@ -5,7 +5,7 @@ namespace dust::run {
 
 Models make_models(const scenario::Setup& setup, const registry::Registry& registry) {
   Models m;
-  static_cast<preflight::GrainModels&>(m) = preflight::make_grain_models(setup, registry);
+  static_cast<preflight::ParticleModels&>(m) = preflight::make_particle_models(setup, registry);
   for (const auto& spec : setup.sensors) {
     m.sensors.push_back(registry.create_as<sdk::Sensor>(spec.model));
   }

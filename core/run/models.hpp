@@ -7,7 +7,7 @@
 #include "dust/sdk/sensor.hpp"
 #include "dust/sdk/turbulence_model.hpp"
 #include "dust/sdk/voidage_rule.hpp"
-#include "preflight/grain_models.hpp"
+#include "preflight/particle_models.hpp"
 #include "registry/registry.hpp"
 #include "setup/setup.hpp"
 
@@ -18,7 +18,7 @@
 namespace dust::run {
 
 /// Every model of a scenario, made once.
-struct Models : preflight::GrainModels {
+struct Models : preflight::ParticleModels {
   std::vector<std::unique_ptr<sdk::Sensor>> sensors;
   std::array<std::unique_ptr<sdk::BoundaryCondition>, 6> boundaries;
   std::unique_ptr<sdk::DragLaw> drag;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "preflight/grain_models.hpp"
+#include "preflight/particle_models.hpp"
 
 #include <algorithm>
 
@@ -40,8 +40,9 @@ particles::PairLaws make_laws(const scenario::Setup& setup, const scenario::Inte
 
 }  // namespace
 
-GrainModels make_grain_models(const scenario::Setup& setup, const registry::Registry& registry) {
-  GrainModels m;
+ParticleModels make_particle_models(const scenario::Setup& setup,
+                                    const registry::Registry& registry) {
+  ParticleModels m;
   m.bodies = make_bodies(setup, registry);
   for (const auto& spec : setup.interactions) m.laws.push_back(make_laws(setup, spec, registry));
   for (const auto& spec : setup.emitters) {

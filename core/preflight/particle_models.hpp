@@ -14,13 +14,14 @@ namespace dust::preflight {
 
 /// The models of a scenario that the steps of its grains follow from, made once: by a run, and by
 /// whoever asks for its steps before.
-struct GrainModels {
+struct ParticleModels {
   bodies::BodySet bodies;
   std::vector<particles::PairLaws> laws;
   std::vector<std::unique_ptr<sdk::Emitter>> emitters;
   std::vector<double> class_diameters;  ///< [m] all sizes the emitters may give, ascending
 };
 
-GrainModels make_grain_models(const scenario::Setup& setup, const registry::Registry& registry);
+ParticleModels make_particle_models(const scenario::Setup& setup,
+                                    const registry::Registry& registry);
 
 }  // namespace dust::preflight
