@@ -164,68 +164,92 @@ bool find_flows(const Setup& setup, const SideModels& sides, AllFaces& all, doub
   return is_good;
 }
 
+/// Tells a side whose rules the solver cannot do with; false after one.
+bool check_rules(const Setup& setup, const SideModels& sides, Diagnostics& diagnostics) {
+  for (std::size_t n = 0; n < 6; ++n) {
+    if (sides[n] == nullptr || fluid::can_be_solved(sides[n]->rules())) continue;
+    diagnostics.error(setup.domain.sides[n].where,
+                      path_of(n) +
+                          ".air: a given normal velocity goes with a zero pressure "
+                          "gradient, a given pressure with a zero velocity gradient; "
+                          "this model asks for another combination");
+    return false;
+  }
+  return true;
+}
+
+/// Whether the velocity through some side follows from the pressure.
+bool gives_way(const SideModels& sides) {
+  return std::any_of(sides.begin(), sides.end(), [](const sdk::BoundaryCondition* side) {
+    return side != nullptr && side->rules().normal_velocity != SideRule::fixed;
+  });
+}
+
+/// Flow [m3/s] into the domain through sides and openings of bodies, and the sum of its parts.
+struct Balance {
+  double net = 0.0;
+  double gross = 0.0;
+};
+
+Balance balance_of(const Setup& setup, const std::array<double, 6>& flows, double time) {
+  Balance b;
+  for (const double flow : flows) {
+    b.net += flow;
+    b.gross += std::abs(flow);
+  }
+  for (const BodySpec& body : setup.bodies) {
+    if (!body.suction) continue;
+    const double flow = flow_into(*body.suction, time);
+    b.net -= flow;
+    b.gross += std::abs(flow);
+  }
+  return b;
+}
+
+/// Names every flow at the place of the first that is not none.
+void tell_imbalance(const Setup& setup, const std::array<double, 6>& flows, double time, double net,
+                    Diagnostics& diagnostics) {
+  std::string which;
+  std::size_t first = 6;
+  for (std::size_t n = 0; n < 6; ++n) {
+    if (flows[n] == 0.0) continue;
+    first = std::min(first, n);
+    which += (which.empty() ? "" : ", ") + std::string(k_side_names[n]) + " " + flow_text(flows[n]);
+  }
+  Mark where = first < 6 ? setup.domain.sides[first].where : setup.domain.sides[0].where;
+  for (const BodySpec& body : setup.bodies) {
+    if (!body.suction) continue;
+    if (which.empty()) where = body.where;
+    which +=
+        (which.empty() ? "" : ", ") + body.name + " " + flow_text(-flow_into(*body.suction, time));
+  }
+  diagnostics.error(where, "domain.boundaries: at t = " + number_text(time) + " s the sides let " +
+                               flow_text(std::abs(net)) + " more fluid " +
+                               (net > 0 ? "in than out" : "out than in") + " (" + which +
+                               ") and none of them gives way; make one "
+                               "a total_pressure, static_pressure or zero_gradient side");
+}
+
 }  // namespace
 
 void check_flow(const Setup& setup, const SideModels& sides, Diagnostics& diagnostics) {
   if (!setup.fluid || diagnostics.has_errors()) return;
   check_cells(setup, diagnostics);
-  bool gives_way = false;
-  for (std::size_t n = 0; n < 6; ++n) {
-    if (sides[n] == nullptr) continue;
-    const sdk::SideRules rules = sides[n]->rules();
-    if (!fluid::can_be_solved(rules)) {
-      diagnostics.error(setup.domain.sides[n].where,
-                        path_of(n) +
-                            ".air: a given normal velocity goes with a zero pressure "
-                            "gradient, a given pressure with a zero velocity gradient; "
-                            "this model asks for another combination");
-      return;
-    }
-    gives_way |= rules.normal_velocity != SideRule::fixed;
-  }
+  if (!check_rules(setup, sides, diagnostics)) return;
   for (std::size_t n = 0; n < 6; ++n) {
     if (sides[n] != nullptr && Faces::count_of(setup, n) > k_most_faces) return;
   }
+  const bool is_open = gives_way(sides);
   AllFaces all;
   std::array<double, 6> flows{};
   for (int step = 0; step <= k_times; ++step) {
     const double time = setup.time.end * step / k_times;
     if (!find_flows(setup, sides, all, time, flows, diagnostics)) return;
-    if (gives_way) continue;
-    double net = 0.0;
-    double gross = 0.0;
-    for (const double flow : flows) {
-      net += flow;
-      gross += std::abs(flow);
-    }
-    for (const BodySpec& body : setup.bodies) {
-      if (!body.suction) continue;
-      const double flow = flow_into(*body.suction, time);
-      net -= flow;
-      gross += std::abs(flow);
-    }
-    const bool is_certain = setup.bodies.empty() || std::abs(net) >= gross * (1.0 - k_balance);
-    if (!is_certain || std::abs(net) <= k_balance * gross) continue;
-    std::string which;
-    std::size_t first = 6;
-    for (std::size_t n = 0; n < 6; ++n) {
-      if (flows[n] == 0.0) continue;
-      first = std::min(first, n);
-      which +=
-          (which.empty() ? "" : ", ") + std::string(k_side_names[n]) + " " + flow_text(flows[n]);
-    }
-    Mark where = first < 6 ? setup.domain.sides[first].where : setup.domain.sides[0].where;
-    for (const BodySpec& body : setup.bodies) {
-      if (!body.suction) continue;
-      if (which.empty()) where = body.where;
-      which += (which.empty() ? "" : ", ") + body.name + " " +
-               flow_text(-flow_into(*body.suction, time));
-    }
-    diagnostics.error(where, "domain.boundaries: at t = " + number_text(time) +
-                                 " s the sides let " + flow_text(std::abs(net)) + " more fluid " +
-                                 (net > 0 ? "in than out" : "out than in") + " (" + which +
-                                 ") and none of them gives way; make one "
-                                 "a total_pressure, static_pressure or zero_gradient side");
+    if (is_open) continue;
+    const Balance b = balance_of(setup, flows, time);
+    const bool is_certain = setup.bodies.empty() || std::abs(b.net) >= b.gross * (1.0 - k_balance);
+    if (!is_certain || std::abs(b.net) <= k_balance * b.gross) continue;
+    tell_imbalance(setup, flows, time, b.net, diagnostics);
     return;
   }
 }

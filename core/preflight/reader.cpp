@@ -30,8 +30,8 @@ void check_sides(const scenario::Setup& setup, const registry::Registry& registr
 Result checked(Result read, const registry::Registry& registry,
                scenario::Diagnostics& diagnostics) {
   if (!read) return read;
-  check_fixed_step(read->setup, registry, diagnostics);
   check_sides(read->setup, registry, diagnostics);
+  check_fixed_step(read->setup, registry, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   read->warnings = diagnostics.warning_lines();
   return read;
