@@ -76,9 +76,9 @@ void Body::touch(int part, const Touches& all, const Placement& at) const {
 }
 
 void Body::surface_velocities(const sdk::SurfaceBatch& all) const {
-  std::fill_n(all.velocity_x, all.count, 0.0);
-  std::fill_n(all.velocity_y, all.count, 0.0);
-  std::fill_n(all.velocity_z, all.count, 0.0);
+  std::fill_n(all.velocity.x, all.count, 0.0);
+  std::fill_n(all.velocity.y, all.count, 0.0);
+  std::fill_n(all.velocity.z, all.count, 0.0);
   if (motions.empty()) return;
   const Placement at = placement(all.time);
   const Vec3 axis = at.turn(shape->lateral_axis());
@@ -87,29 +87,23 @@ void Body::surface_velocities(const sdk::SurfaceBatch& all) const {
     sdk::SurfaceBatch b{.count = std::min(k_block, all.count - first),
                         .time = all.time,
                         .axis = axis,
-                        .x = all.x + first,
-                        .y = all.y + first,
-                        .z = all.z + first,
-                        .normal_x = all.normal_x + first,
-                        .normal_y = all.normal_y + first,
-                        .normal_z = all.normal_z + first,
-                        .velocity_x = run[0],
-                        .velocity_y = run[1],
-                        .velocity_z = run[2]};
+                        .position = all.position.from(first),
+                        .normal = all.normal.from(first),
+                        .velocity = {run[0], run[1], run[2]}};
     for (const auto& motion : motions) {
       if (motion->moves_body()) continue;
       motion->surface_velocity(b);
       for (std::size_t q = 0; q < b.count; ++q) {
-        all.velocity_x[first + q] += run[0][q];
-        all.velocity_y[first + q] += run[1][q];
-        all.velocity_z[first + q] += run[2][q];
+        all.velocity.x[first + q] += run[0][q];
+        all.velocity.y[first + q] += run[1][q];
+        all.velocity.z[first + q] += run[2][q];
       }
     }
     for (std::size_t q = first; q < first + b.count; ++q) {
-      const Vec3 v = at.velocity_at({all.x[q], all.y[q], all.z[q]});
-      all.velocity_x[q] += v.x;
-      all.velocity_y[q] += v.y;
-      all.velocity_z[q] += v.z;
+      const Vec3 v = at.velocity_at(all.position[q]);
+      all.velocity.x[q] += v.x;
+      all.velocity.y[q] += v.y;
+      all.velocity.z[q] += v.z;
     }
   }
 }
@@ -119,15 +113,9 @@ Vec3 Body::surface_velocity(Vec3 point, Vec3 normal, double time) const {
   surface_velocities({.count = 1,
                       .time = time,
                       .axis = {},
-                      .x = &point.x,
-                      .y = &point.y,
-                      .z = &point.z,
-                      .normal_x = &normal.x,
-                      .normal_y = &normal.y,
-                      .normal_z = &normal.z,
-                      .velocity_x = &v.x,
-                      .velocity_y = &v.y,
-                      .velocity_z = &v.z});
+                      .position = {&point.x, &point.y, &point.z},
+                      .normal = {&normal.x, &normal.y, &normal.z},
+                      .velocity = {&v.x, &v.y, &v.z}});
   return v;
 }
 

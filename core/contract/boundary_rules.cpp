@@ -69,12 +69,12 @@ Readings observe(const Maker& make, const Trial& trial) {
         b.count = std::min(size, k_points - first);
         b.time = time * trial.units.time;
         b.normal[axis] = side % 2 == 0 ? -1.0 : 1.0;
-        b.x = at[0].data() + first;
-        b.y = at[1].data() + first;
-        b.z = at[2].data() + first;
-        b.velocity_x = out[0].data() + first;
-        b.velocity_y = out[1].data() + first;
-        b.velocity_z = out[2].data() + first;
+        b.position.x = at[0].data() + first;
+        b.position.y = at[1].data() + first;
+        b.position.z = at[2].data() + first;
+        b.velocity.x = out[0].data() + first;
+        b.velocity.y = out[1].data() + first;
+        b.velocity.z = out[2].data() + first;
         b.pressure = out[3].data() + first;
         const double edge = k_edge * trial.units.length;
         b.high = {edge, edge, edge};

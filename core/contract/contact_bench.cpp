@@ -24,10 +24,24 @@ void set_normal_stiffness(Batch& batch, double* column) {
   if constexpr (requires { batch.normal_stiffness; }) batch.normal_stiffness = column;
 }
 
-constexpr const char* k_names[] = {
-    "overlap",    "normal_x",   "normal_y",   "normal_z",   "velocity_x",       "velocity_y",
-    "velocity_z", "rotation_x", "rotation_y", "rotation_z", "displacement_x", "displacement_y",
-    "displacement_z", "angle_x", "angle_y", "angle_z", "effective_radius", "effective_mass"};
+constexpr const char* k_names[] = {"overlap",
+                                   "normal.x",
+                                   "normal.y",
+                                   "normal.z",
+                                   "velocity.x",
+                                   "velocity.y",
+                                   "velocity.z",
+                                   "angular_velocity.x",
+                                   "angular_velocity.y",
+                                   "angular_velocity.z",
+                                   "displacement.x",
+                                   "displacement.y",
+                                   "displacement.z",
+                                   "angle.x",
+                                   "angle.y",
+                                   "angle.z",
+                                   "effective_radius",
+                                   "effective_mass"};
 
 }  // namespace
 
@@ -50,7 +64,7 @@ std::vector<Touch> standard_touches(double range, int look) {
     t.normal = direction(3);
     if (look > 0) t.normal = rotate(t.normal, direction(5), 1e-3 * look);
     t.velocity = 0.5 * direction(7);
-    t.rotation = 100.0 * direction(9);
+    t.angular_velocity = 100.0 * direction(9);
     t.normal_force = (n % 8 == 1 ? -1.0 : 1.0) * 1e-3 * draw(11);
     t.stiffness = 1000.0 * draw(12);
     touches.push_back(t);
@@ -62,7 +76,7 @@ std::vector<Touch> swapped(std::vector<Touch> touches) {
   for (Touch& t : touches) {
     t.normal = -t.normal;
     t.velocity = -t.velocity;
-    t.rotation = -t.rotation;
+    t.angular_velocity = -t.angular_velocity;
   }
   return touches;
 }
@@ -73,7 +87,7 @@ std::vector<Touch> turned(std::vector<Touch> touches) {
   for (Touch& t : touches) {
     t.normal = turned(t.normal);
     t.velocity = turned(t.velocity);
-    t.rotation = turned(t.rotation);
+    t.angular_velocity = turned(t.angular_velocity);
   }
   return touches;
 }
@@ -100,7 +114,7 @@ void ContactBench::show(const std::vector<Touch>& touches, double time_step, con
   for (std::size_t n = 0; n < count_; ++n) {
     const Touch& t = touches[n % touches.size()];
     const Vec3 displacement = t.displacement.value_or(time_step * t.velocity);
-    const Vec3 angle = t.angle.value_or(time_step * t.rotation);
+    const Vec3 angle = t.angle.value_or(time_step * t.angular_velocity);
     const double row[k_inputs] = {t.overlap * length,
                                   t.normal.x,
                                   t.normal.y,
@@ -108,9 +122,9 @@ void ContactBench::show(const std::vector<Touch>& touches, double time_step, con
                                   t.velocity.x * speed,
                                   t.velocity.y * speed,
                                   t.velocity.z * speed,
-                                  t.rotation.x * turning,
-                                  t.rotation.y * turning,
-                                  t.rotation.z * turning,
+                                  t.angular_velocity.x * turning,
+                                  t.angular_velocity.y * turning,
+                                  t.angular_velocity.z * turning,
                                   displacement.x * length,
                                   displacement.y * length,
                                   displacement.z * length,
@@ -140,24 +154,36 @@ void ContactBench::evaluate(const std::function<void(const sdk::ContactBatch&)>&
     sdk::ContactBatch b;
     b.count = std::min(size, count_ - first);
     b.time_step = time_step_;
-    const double** inputs[k_inputs] = {&b.overlap,    &b.normal_x,         &b.normal_y,
-                                       &b.normal_z,   &b.velocity_x,       &b.velocity_y,
-                                       &b.velocity_z, &b.rotation_x,       &b.rotation_y,
-                                       &b.rotation_z, &b.displacement_x,   &b.displacement_y,
-                                       &b.displacement_z, &b.angle_x,      &b.angle_y,
-                                       &b.angle_z,    &b.effective_radius, &b.effective_mass};
+    const double** inputs[k_inputs] = {&b.overlap,
+                                       &b.normal.x,
+                                       &b.normal.y,
+                                       &b.normal.z,
+                                       &b.velocity.x,
+                                       &b.velocity.y,
+                                       &b.velocity.z,
+                                       &b.angular_velocity.x,
+                                       &b.angular_velocity.y,
+                                       &b.angular_velocity.z,
+                                       &b.displacement.x,
+                                       &b.displacement.y,
+                                       &b.displacement.z,
+                                       &b.angle.x,
+                                       &b.angle.y,
+                                       &b.angle.z,
+                                       &b.effective_radius,
+                                       &b.effective_mass};
     for (int c = 0; c < k_inputs; ++c) *inputs[c] = column(c) + first;
     double* outputs[k_outputs];
     for (int c = 0; c < k_outputs; ++c) outputs[c] = column(k_inputs + c) + first;
     b.normal_force = outputs[normal_force];
     set_normal_stiffness(b, outputs[normal_stiffness]);
     b.tangential_stiffness = outputs[tangential_stiffness];
-    b.force_x = outputs[force];
-    b.force_y = outputs[force + 1];
-    b.force_z = outputs[force + 2];
-    b.torque_x = outputs[torque];
-    b.torque_y = outputs[torque + 1];
-    b.torque_z = outputs[torque + 2];
+    b.force.x = outputs[force];
+    b.force.y = outputs[force + 1];
+    b.force.z = outputs[force + 2];
+    b.torque.x = outputs[torque];
+    b.torque.y = outputs[torque + 1];
+    b.torque.z = outputs[torque + 2];
     for (int h = 0; h < history_; ++h) {
       history[static_cast<std::size_t>(h)] = column(k_inputs + k_outputs + h) + first;
     }

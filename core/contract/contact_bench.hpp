@@ -23,7 +23,7 @@ inline sdk::MaterialProperties material(bool is_second, const Units& units) {
 /// One contact as the core would show it, in SI.
 struct Touch {
   double overlap = 0.0;
-  sdk::Vec3 normal, velocity, rotation;
+  sdk::Vec3 normal, velocity, angular_velocity;
   double radius = 0.0, mass = 0.0;
   double normal_force = 0.0, stiffness = 0.0;  ///< inputs of the rolling stage
   /// Since the last look; without them that of a straight course over the time step.

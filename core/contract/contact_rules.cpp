@@ -136,7 +136,7 @@ Impact run_impact(const sdk::ContactLaw& law, double speed, double tangential, d
     t.normal = {1.0, 0.0, 0.0};
     // The contact point lies at -R x: it moves with v + w x r.
     t.velocity = velocity_now + Vec3{0.0, -rotation_now * k_radius, 0.0};
-    t.rotation = {0.0, 0.0, rotation_now};
+    t.angular_velocity = {0.0, 0.0, rotation_now};
     const double touched =
         velocity.x < 0.0 ? std::clamp(overlap / (-step * velocity.x), 0.0, 1.0) : 1.0;
     t.displacement = touched * step * (velocity + Vec3{0.0, -rotation * k_radius, 0.0});

@@ -27,12 +27,13 @@ sdk::EmitterContext context_of(int n, const Units& u) {
   return c;
 }
 
-std::vector<sdk::Seed> propose(sdk::Emitter& emitter, int first, int last, const Units& u) {
-  std::vector<sdk::Seed> seeds;
-  for (int n = first; n < last && seeds.size() < k_enough; ++n) {
-    emitter.propose(context_of(n, u), seeds);
+std::vector<sdk::InsertionRequest> propose(sdk::Emitter& emitter, int first, int last,
+                                           const Units& u) {
+  std::vector<sdk::InsertionRequest> requests;
+  for (int n = first; n < last && requests.size() < k_enough; ++n) {
+    emitter.propose(context_of(n, u), requests);
   }
-  return seeds;
+  return requests;
 }
 
 Readings observe(const Maker& make, const Trial& trial) {
@@ -41,18 +42,18 @@ Readings observe(const Maker& make, const Trial& trial) {
   const auto add = [&](const std::string& name, double value, sdk::Dimension dimension) {
     readings.push_back({name, value, dimension});
   };
-  const std::vector<sdk::Seed> seeds = propose(*emitter, 0, 50, trial.units);
-  add("count", static_cast<double>(seeds.size()), sdk::dimension::none);
-  for (std::size_t n = 0; n < seeds.size(); ++n) {
-    const sdk::Seed& s = seeds[n];
-    const std::string seed = " of seed " + std::to_string(n);
-    add("time" + seed, s.time, sdk::dimension::time);
+  const std::vector<sdk::InsertionRequest> requests = propose(*emitter, 0, 50, trial.units);
+  add("count", static_cast<double>(requests.size()), sdk::dimension::none);
+  for (std::size_t n = 0; n < requests.size(); ++n) {
+    const sdk::InsertionRequest& s = requests[n];
+    const std::string request = " of request " + std::to_string(n);
+    add("time" + request, s.time, sdk::dimension::time);
     for (int d = 0; d < 3; ++d) {
-      add("position" + seed, s.position[d], sdk::dimension::length);
-      add("velocity" + seed, s.velocity[d], sdk::dimension::velocity);
+      add("position" + request, s.position[d], sdk::dimension::length);
+      add("velocity" + request, s.velocity[d], sdk::dimension::velocity);
     }
-    add("diameter" + seed, s.diameter, sdk::dimension::length);
-    add("weight" + seed, s.weight, sdk::dimension::none);
+    add("diameter" + request, s.diameter, sdk::dimension::length);
+    add("weight" + request, s.weight, sdk::dimension::none);
   }
   add("requested_mass_flow", emitter->requested_mass_flow(), sdk::dimension::mass_flow);
   for (const double d : emitter->diameters()) add("diameters", d, sdk::dimension::length);
@@ -68,13 +69,13 @@ void check_seeds(const Maker& make) {
   const double fastest = emitter->largest_speed() * (1.0 + 1e-9);
   std::size_t count = 0;
   for (int n = 0; n < 200 && count < k_enough; ++n) {
-    std::vector<sdk::Seed> seeds;
+    std::vector<sdk::InsertionRequest> requests;
     const sdk::EmitterContext context = context_of(n, {});
-    emitter->propose(context, seeds);
-    count += seeds.size();
-    for (const sdk::Seed& s : seeds) {
+    emitter->propose(context, requests);
+    count += requests.size();
+    for (const sdk::InsertionRequest& s : requests) {
       require(s.time >= context.begin && s.time < context.end,
-              "a seed for " + shown(s.time) + " s comes in the interval from " +
+              "a request for " + shown(s.time) + " s comes in the interval from " +
                   shown(context.begin) + " s");
       require(
           s.diameter >= sizes.front() * (1.0 - 1e-9) && s.diameter <= sizes.back() * (1.0 + 1e-9),
@@ -97,10 +98,10 @@ void check_mass(const Maker& make) {
   double time = 0.0;
   // Long enough for the last grain not to matter, short enough for coarse and fast streams.
   for (int n = 0; n < 20000 && count < 2 * k_enough; ++n) {
-    std::vector<sdk::Seed> seeds;
-    emitter->propose(context_of(n, {}), seeds);
-    count += seeds.size();
-    for (const sdk::Seed& s : seeds) {
+    std::vector<sdk::InsertionRequest> requests;
+    emitter->propose(context_of(n, {}), requests);
+    count += requests.size();
+    for (const sdk::InsertionRequest& s : requests) {
       const double one = s.weight * k_density * sdk::sphere_volume(s.diameter);
       mass += one;
       largest = std::max(largest, one);
@@ -128,7 +129,7 @@ void check_restart(const Maker& make) {
     const auto b = propose(*part, pause, pause + 30, {});
     const std::string when = "saved and loaded after " + std::to_string(pause) + " intervals ";
     require(a.size() == b.size(), when + "it gives " + std::to_string(b.size()) +
-                                      " seeds instead of " + std::to_string(a.size()));
+                                      " requests instead of " + std::to_string(a.size()));
     for (std::size_t n = 0; n < a.size(); ++n) {
       require(a[n].time == b[n].time && a[n].position == b[n].position &&
                   a[n].velocity == b[n].velocity && a[n].diameter == b[n].diameter &&

@@ -40,12 +40,13 @@ Vectors vectors() {
 /// One instant of the standard scene: sand-like grains in a liquid, near walls and away from them.
 struct Scene {
   std::vector<double> diameter, mass, density, viscosity, void_fraction, gap;
-  Vectors rotation, slip, vorticity, acceleration, pressure_gradient, viscous_stress, normal, wall;
+  Vectors angular_velocity, slip, vorticity, acceleration, pressure_gradient, viscous_stress,
+      normal, wall;
   Vec3 gravity;
   double interval = 0.0;
 };
 
-/// A change of the frame for true vectors and for axial ones (vorticity, rotation).
+/// A change of the frame for true vectors and for axial ones (vorticity, angular velocity).
 struct Frame {
   std::function<Vec3(Vec3)> turn = [](Vec3 v) { return v; };
   std::function<Vec3(Vec3)> turn_axial = [](Vec3 v) { return v; };
@@ -56,8 +57,8 @@ Scene scene_at(int call, const Units& u, const Frame& frame, bool is_calm) {
   Scene s;
   s.interval = k_interval * u.time;
   s.gravity = (is_calm ? 0.0 : u.of(dim::acceleration)) * frame.turn({1.0, -2.0, -9.81});
-  for (Vectors* v : {&s.rotation, &s.slip, &s.vorticity, &s.acceleration, &s.pressure_gradient,
-                     &s.viscous_stress, &s.normal, &s.wall}) {
+  for (Vectors* v : {&s.angular_velocity, &s.slip, &s.vorticity, &s.acceleration,
+                     &s.pressure_gradient, &s.viscous_stress, &s.normal, &s.wall}) {
     *v = vectors();
   }
   for (std::uint32_t g = 0; g < k_grains; ++g) {
@@ -81,7 +82,7 @@ Scene scene_at(int call, const Units& u, const Frame& frame, bool is_calm) {
                             : std::numeric_limits<double>::infinity());
     const Vec3 towards{number() - 0.5, number() - 0.5, number() + 0.1};
     s.slip.set(g, frame.turn(u.of(dim::velocity) * vector(0.4)));
-    s.rotation.set(g, frame.turn_axial((1.0 / u.time) * vector(600.0)));
+    s.angular_velocity.set(g, frame.turn_axial((1.0 / u.time) * vector(600.0)));
     s.vorticity.set(g, frame.turn_axial((1.0 / u.time) * vector(200.0)));
     s.acceleration.set(g, frame.turn(u.of(dim::acceleration) * vector(5.0)));
     s.pressure_gradient.set(g, frame.turn(u.of(dim::pressure / dim::length) * vector(900.0)));
@@ -125,7 +126,7 @@ Result evaluate(const sdk::FluidForce& model, const Trial& trial, const Frame& f
       b.density = s.density.data() + first;
       b.viscosity = s.viscosity.data() + first;
       b.void_fraction = s.void_fraction.data() + first;
-      b.rotation = s.rotation.view(first);
+      b.angular_velocity = s.angular_velocity.view(first);
       b.slip = s.slip.view(first);
       if (needs.vorticity) b.vorticity = s.vorticity.view(first);
       if (needs.acceleration) b.acceleration = s.acceleration.view(first);

@@ -38,15 +38,15 @@ std::vector<Vec3> velocities(const sdk::Motion& motion, const Trial& trial, doub
     b.count = std::min(size, k_points - first);
     b.time = time * trial.units.time;
     b.axis = {0.0, 1.0, 0.0};
-    b.x = in[0].data() + first;
-    b.y = in[1].data() + first;
-    b.z = in[2].data() + first;
-    b.normal_x = in[3].data() + first;
-    b.normal_y = in[4].data() + first;
-    b.normal_z = in[5].data() + first;
-    b.velocity_x = out[0].data() + first;
-    b.velocity_y = out[1].data() + first;
-    b.velocity_z = out[2].data() + first;
+    b.position.x = in[0].data() + first;
+    b.position.y = in[1].data() + first;
+    b.position.z = in[2].data() + first;
+    b.normal.x = in[3].data() + first;
+    b.normal.y = in[4].data() + first;
+    b.normal.z = in[5].data() + first;
+    b.velocity.x = out[0].data() + first;
+    b.velocity.y = out[1].data() + first;
+    b.velocity.z = out[2].data() + first;
     call_hot(trial, [&] { motion.surface_velocity(b); });
   }
   std::vector<Vec3> result;

@@ -73,7 +73,8 @@ void check_brakes(const Maker& make) {
   bench.evaluate([&](const sdk::ContactBatch& batch) { law->evaluate(batch); }, 0);
   for (std::size_t n = 0; n < touches.size(); ++n) {
     const Vec3 torque = bench.vector(ContactBench::torque, n);
-    require(dot(torque, touches[n].rotation) <= 1e-12 * norm(torque) * norm(touches[n].rotation),
+    require(dot(torque, touches[n].angular_velocity) <=
+                1e-12 * norm(torque) * norm(touches[n].angular_velocity),
             "a contact that begins is driven, not braked");
   }
 }
@@ -81,7 +82,7 @@ void check_brakes(const Maker& make) {
 void check_rest(const Maker& make) {
   const auto law = make_law(make);
   std::vector<Touch> touches = standard_touches(0.0, 0);
-  for (Touch& t : touches) t.rotation = {};
+  for (Touch& t : touches) t.angular_velocity = {};
   ContactBench bench(touches.size(), law->history_size());
   for (int look = 0; look < 3; ++look) {
     bench.show(touches, k_step, {}, true);
@@ -105,7 +106,7 @@ void check_energy(const Maker& make) {
     Touch t;
     t.overlap = 1e-6;
     t.normal = {0.0, 0.0, 1.0};
-    t.rotation = rotation;
+    t.angular_velocity = rotation;
     t.radius = k_radius;
     t.mass = mass;
     t.normal_force = 10.0 * mass * 9.81;
@@ -128,7 +129,7 @@ class Rocking {
     Touch t;
     t.overlap = 1e-6;
     t.normal = {0.0, 0.0, 1.0};
-    t.rotation = {0.0, rotation, 0.0};
+    t.angular_velocity = {0.0, rotation, 0.0};
     t.angle = Vec3{0.0, angle, 0.0};
     t.radius = k_radius;
     t.mass = mass();

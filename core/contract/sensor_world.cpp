@@ -71,21 +71,48 @@ void World::show_grains() {
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const Grain& g = grains[i];
     id_.push_back(static_cast<std::int64_t>(i));
-    const double values[18] = {
-        l * g.now.x,      l * g.now.y,         l * g.now.z,      l * g.before.x,   l * g.before.y,
-        l * g.before.z,   v * g.velocity.x,    v * g.velocity.y, v * g.velocity.z, w * g.rotation.x,
-        w * g.rotation.y, w * g.rotation.z,    f * g.force.x,    f * g.force.y,    f * g.force.z,
-        l * g.diameter,   units.mass * g.mass, g.weight};
+    const double values[18] = {l * g.now.x,
+                               l * g.now.y,
+                               l * g.now.z,
+                               l * g.before.x,
+                               l * g.before.y,
+                               l * g.before.z,
+                               v * g.velocity.x,
+                               v * g.velocity.y,
+                               v * g.velocity.z,
+                               w * g.angular_velocity.x,
+                               w * g.angular_velocity.y,
+                               w * g.angular_velocity.z,
+                               f * g.force.x,
+                               f * g.force.y,
+                               f * g.force.z,
+                               l * g.diameter,
+                               units.mass * g.mass,
+                               g.weight};
     for (int c = 0; c < 18; ++c) columns_[c].push_back(values[c]);
   }
   material_.assign(grains.size(), 0);
   sdk::GrainColumns& g = view_.grains;
   g.id = id_;
   g.material = material_;
-  std::span<const double>* targets[18] = {
-      &g.x,          &g.y,          &g.z,          &g.x_before,   &g.y_before,   &g.z_before,
-      &g.velocity_x, &g.velocity_y, &g.velocity_z, &g.rotation_x, &g.rotation_y, &g.rotation_z,
-      &g.force_x,    &g.force_y,    &g.force_z,    &g.diameter,   &g.mass,       &g.weight};
+  std::span<const double>* targets[18] = {&g.x,
+                                          &g.y,
+                                          &g.z,
+                                          &g.x_before,
+                                          &g.y_before,
+                                          &g.z_before,
+                                          &g.velocity_x,
+                                          &g.velocity_y,
+                                          &g.velocity_z,
+                                          &g.angular_velocity_x,
+                                          &g.angular_velocity_y,
+                                          &g.angular_velocity_z,
+                                          &g.force_x,
+                                          &g.force_y,
+                                          &g.force_z,
+                                          &g.diameter,
+                                          &g.mass,
+                                          &g.weight};
   for (int c = 0; c < 18; ++c) *targets[c] = columns_[c];
 }
 

@@ -43,7 +43,7 @@ struct Grain {
   double mass = 1e-9;
   double weight = 1.0;
   sdk::Vec3 force;
-  sdk::Vec3 rotation = {};
+  sdk::Vec3 angular_velocity = {};
 };
 
 /// A contact of grain `i` with grain `j`, or with a wall (-1).

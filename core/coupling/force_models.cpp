@@ -279,7 +279,7 @@ sdk::FluidForceBatch ForceModels::batch_for(const sdk::FluidForce& model, const 
   b.gravity = gravity_;
   b.diameter = c.diameter.data();
   b.mass = c.mass.data();
-  b.rotation = columns_of(c.rotation);
+  b.angular_velocity = columns_of(c.rotation);
   b.density = c.density.data();
   b.viscosity = c.viscosity.data();
   b.void_fraction = batch.void_fraction;

@@ -43,8 +43,15 @@ void set_shares(const sdk::VoidageRule& rule, const sdk::GridShape& shape, const
     shares.weight.resize(size);
   }
   int count = 0;
-  rule.spread(shape, {1, position, position + 1, position + 2, position + 3, capacity, &count,
-                      shares.i.data(), shares.j.data(), shares.k.data(), shares.weight.data()});
+  rule.spread(shape, {1,
+                      {position, position + 1, position + 2},
+                      position + 3,
+                      capacity,
+                      &count,
+                      shares.i.data(),
+                      shares.j.data(),
+                      shares.k.data(),
+                      shares.weight.data()});
   shares.used = static_cast<std::size_t>(count);
 }
 

@@ -60,15 +60,10 @@ void WallPoints::evaluate(const bodies::BodySet& bodies, double time) {
     bodies[b].surface_velocities({.count = count,
                                   .time = time,
                                   .axis = {},
-                                  .x = &x[first],
-                                  .y = &y[first],
-                                  .z = &z[first],
-                                  .normal_x = &normal_x[first],
-                                  .normal_y = &normal_y[first],
-                                  .normal_z = &normal_z[first],
-                                  .velocity_x = &velocity[0][first],
-                                  .velocity_y = &velocity[1][first],
-                                  .velocity_z = &velocity[2][first]});
+                                  .position = {&x[first], &y[first], &z[first]},
+                                  .normal = {&normal_x[first], &normal_y[first], &normal_z[first]},
+                                  .velocity = {&velocity[0][first], &velocity[1][first],
+                                               &velocity[2][first]}});
   }
 }
 

@@ -54,7 +54,7 @@ void write_particles(hid_t file, const sdk::GrainColumns& g, double time) {
   };
   vectors("position", g.x, g.y, g.z);
   vectors("velocity", g.velocity_x, g.velocity_y, g.velocity_z);
-  vectors("angular_velocity", g.rotation_x, g.rotation_y, g.rotation_z);
+  vectors("angular_velocity", g.angular_velocity_x, g.angular_velocity_y, g.angular_velocity_z);
   vectors("force", g.force_x, g.force_y, g.force_z);
   scalars("diameter", H5T_NATIVE_FLOAT, narrow(g.diameter).data());
   scalars("weight", H5T_NATIVE_FLOAT, narrow(g.weight).data());

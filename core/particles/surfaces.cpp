@@ -43,15 +43,9 @@ void surface_velocities(const Surface& surface, double time, std::size_t count,
   surface.body->surface_velocities({.count = count,
                                     .time = time,
                                     .axis = {},
-                                    .x = point[0],
-                                    .y = point[1],
-                                    .z = point[2],
-                                    .normal_x = normal[0],
-                                    .normal_y = normal[1],
-                                    .normal_z = normal[2],
-                                    .velocity_x = velocity[0],
-                                    .velocity_y = velocity[1],
-                                    .velocity_z = velocity[2]});
+                                    .position = {point[0], point[1], point[2]},
+                                    .normal = {normal[0], normal[1], normal[2]},
+                                    .velocity = {velocity[0], velocity[1], velocity[2]}});
 }
 
 }  // namespace dust::particles

@@ -55,15 +55,15 @@ EmissionNumbers count_grains(const Setup& setup, const EmitterSpec& spec, sdk::E
   numbers.emitter = spec.name;
   numbers.mass_flow = emitter.requested_mass_flow();
   const auto request = emitter.request();
-  if (!emitter.entry_rule().waits && request.count > 0) {
+  if (!emitter.insertion_rule().waits && request.count > 0) {
     numbers.at_once = static_cast<double>(request.count);
     return numbers;
   }
   constexpr int k_most_steps = 50;
   constexpr std::size_t k_enough = 20000;
-  std::vector<sdk::Seed> seeds;
+  std::vector<sdk::InsertionRequest> requests;
   double time = 0.0;
-  for (int n = 0; n < k_most_steps && time < setup.time.end && seeds.size() < k_enough; ++n) {
+  for (int n = 0; n < k_most_steps && time < setup.time.end && requests.size() < k_enough; ++n) {
     sdk::EmitterContext context;
     context.begin = time;
     context.end = time + setup.time.fluid_step;
@@ -71,16 +71,16 @@ EmissionNumbers count_grains(const Setup& setup, const EmitterSpec& spec, sdk::E
         setup.materials[static_cast<std::size_t>(spec.material)].properties.density;
     context.gravity = setup.gravity;
     context.random = sdk::Random(setup.seed, sdk::stream_of(spec.name.c_str()));
-    emitter.propose(context, seeds);
+    emitter.propose(context, requests);
     time = context.end;
   }
   if (!(time > 0.0)) return numbers;
-  if (!emitter.entry_rule().waits) {
-    numbers.at_once = static_cast<double>(seeds.size());
+  if (!emitter.insertion_rule().waits) {
+    numbers.at_once = static_cast<double>(requests.size());
     return numbers;
   }
-  for (const sdk::Seed& seed : seeds) numbers.real_per_second += seed.weight / time;
-  numbers.computed_per_second = static_cast<double>(seeds.size()) / time;
+  for (const sdk::InsertionRequest& one : requests) numbers.real_per_second += one.weight / time;
+  numbers.computed_per_second = static_cast<double>(requests.size()) / time;
   return numbers;
 }
 

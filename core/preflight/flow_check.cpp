@@ -77,12 +77,12 @@ struct Faces {
     one.assign(batch.count, 1.0);
     density.assign(batch.count, setup.fluid->density);
     area.assign(batch.count, batch.spacing[e] * batch.spacing[f]);
-    batch.x = x.data();
-    batch.y = y.data();
-    batch.z = z.data();
-    batch.velocity_x = velocity[0].data();
-    batch.velocity_y = velocity[1].data();
-    batch.velocity_z = velocity[2].data();
+    batch.position.x = x.data();
+    batch.position.y = y.data();
+    batch.position.z = z.data();
+    batch.velocity.x = velocity[0].data();
+    batch.velocity.y = velocity[1].data();
+    batch.velocity.z = velocity[2].data();
     batch.pressure = pressure.data();
     batch.void_fraction = one.data();
     batch.density = density.data();

@@ -65,13 +65,13 @@ class Contact final : public PairLaw<sdk::ContactLaw> {
     const GuardReport::Inputs seen = {{"overlap", b.overlap},
                                       {"effective_radius", b.effective_radius},
                                       {"effective_mass", b.effective_mass},
-                                      {"velocity_x", b.velocity_x},
-                                      {"velocity_y", b.velocity_y},
-                                      {"velocity_z", b.velocity_z}};
+                                      {"velocity.x", b.velocity.x},
+                                      {"velocity.y", b.velocity.y},
+                                      {"velocity.z", b.velocity.z}};
     faults().check(b.count, "normal_force", b.normal_force, seen);
-    faults().check(b.count, "force_x", b.force_x, seen);
-    faults().check(b.count, "force_y", b.force_y, seen);
-    faults().check(b.count, "force_z", b.force_z, seen);
+    faults().check(b.count, "force.x", b.force.x, seen);
+    faults().check(b.count, "force.y", b.force.y, seen);
+    faults().check(b.count, "force.z", b.force.z, seen);
   }
   [[nodiscard]] double collision_time(double radius, double mass, double speed) const override {
     return get("collision_time", &sdk::ContactLaw::collision_time, radius, mass, speed);
@@ -92,12 +92,12 @@ class Rolling final : public PairLaw<sdk::RollingLaw> {
     ask("evaluate", "a couple for every contact of the batch", &sdk::RollingLaw::evaluate, b);
     const GuardReport::Inputs seen = {{"normal_force", b.normal_force},
                                       {"effective_radius", b.effective_radius},
-                                      {"rotation_x", b.rotation_x},
-                                      {"rotation_y", b.rotation_y},
-                                      {"rotation_z", b.rotation_z}};
-    faults().check(b.count, "torque_x", b.torque_x, seen);
-    faults().check(b.count, "torque_y", b.torque_y, seen);
-    faults().check(b.count, "torque_z", b.torque_z, seen);
+                                      {"angular_velocity.x", b.angular_velocity.x},
+                                      {"angular_velocity.y", b.angular_velocity.y},
+                                      {"angular_velocity.z", b.angular_velocity.z}};
+    faults().check(b.count, "torque.x", b.torque.x, seen);
+    faults().check(b.count, "torque.y", b.torque.y, seen);
+    faults().check(b.count, "torque.z", b.torque.z, seen);
   }
 };
 
@@ -179,7 +179,10 @@ class Voidage final : public Guarded<sdk::VoidageRule> {
   }
   void spread(const sdk::GridShape& grid, const sdk::VoidageBatch& b) const override {
     ask("spread", "the cells of every grain of the batch", &sdk::VoidageRule::spread, grid, b);
-    const GuardReport::Inputs seen = {{"x", b.x}, {"y", b.y}, {"z", b.z}, {"radius", b.radius}};
+    const GuardReport::Inputs seen = {{"position.x", b.position.x},
+                                      {"position.y", b.position.y},
+                                      {"position.z", b.position.z},
+                                      {"radius", b.radius}};
     for (std::size_t g = 0; g < b.count; ++g) {
       if (b.used[g] < 1 || b.used[g] > b.capacity) {
         faults().refuse("gives used = " + std::to_string(b.used[g]), g, b.count, seen,
@@ -205,10 +208,11 @@ class Boundary final : public Guarded<sdk::BoundaryCondition> {
   }
   void evaluate(const sdk::SideBatch& b) const override {
     ask("evaluate", "values for every point of the batch", &sdk::BoundaryCondition::evaluate, b);
-    const GuardReport::Inputs seen = {{"x", b.x}, {"y", b.y}, {"z", b.z}};
+    const GuardReport::Inputs seen = {
+        {"position.x", b.position.x}, {"position.y", b.position.y}, {"position.z", b.position.z}};
     const sdk::SideRules rules = model().rules();
-    double* const velocity[3] = {b.velocity_x, b.velocity_y, b.velocity_z};
-    const char* const names[3] = {"velocity_x", "velocity_y", "velocity_z"};
+    double* const velocity[3] = {b.velocity.x, b.velocity.y, b.velocity.z};
+    const char* const names[3] = {"velocity.x", "velocity.y", "velocity.z"};
     for (int d = 0; d < 3; ++d) {
       const auto rule = b.normal[d] != 0.0 ? rules.normal_velocity : rules.tangential_velocity;
       if (rule == sdk::SideRule::fixed) faults().check(b.count, names[d], velocity[d], seen);
@@ -236,21 +240,22 @@ class Turbulence final : public Guarded<sdk::TurbulenceModel> {
 class Emitter final : public Guarded<sdk::Emitter> {
  public:
   using Guarded::Guarded;
-  void propose(const sdk::EmitterContext& context, std::vector<sdk::Seed>& seeds) override {
-    const std::size_t before = seeds.size();
-    ask("propose", "the grains of the interval", &sdk::Emitter::propose, context, seeds);
-    for (std::size_t n = before; n < seeds.size(); ++n) {
-      const sdk::Seed& s = seeds[n];
+  void propose(const sdk::EmitterContext& context,
+               std::vector<sdk::InsertionRequest>& requests) override {
+    const std::size_t before = requests.size();
+    ask("propose", "the grains of the interval", &sdk::Emitter::propose, context, requests);
+    for (std::size_t n = before; n < requests.size(); ++n) {
+      const sdk::InsertionRequest& s = requests[n];
       const std::pair<const char*, double> numbers[] = {
           {"time", s.time},
           {"position", s.position.x + s.position.y + s.position.z},
           {"velocity", s.velocity.x + s.velocity.y + s.velocity.z},
-          {"rotation", s.rotation.x + s.rotation.y + s.rotation.z},
+          {"angular_velocity", s.angular_velocity.x + s.angular_velocity.y + s.angular_velocity.z},
           {"diameter", s.diameter},
           {"weight", s.weight}};
       for (const auto& [name, value] : numbers) {
         if (!base::is_finite(value))
-          faults().refuse_number(name, value, n - before, seeds.size() - before, {});
+          faults().refuse_number(name, value, n - before, requests.size() - before, {});
       }
     }
   }
@@ -266,8 +271,8 @@ class Emitter final : public Guarded<sdk::Emitter> {
   [[nodiscard]] sdk::EmitterRequest request() const override {
     return get("request", &sdk::Emitter::request);
   }
-  [[nodiscard]] sdk::EntryRule entry_rule() const override {
-    return get("entry_rule", &sdk::Emitter::entry_rule);
+  [[nodiscard]] sdk::InsertionRule insertion_rule() const override {
+    return get("insertion_rule", &sdk::Emitter::insertion_rule);
   }
   [[nodiscard]] std::vector<std::string> materials() const override {
     return get("materials", &sdk::Emitter::materials);
@@ -280,10 +285,11 @@ class Motion final : public Guarded<sdk::Motion> {
   void surface_velocity(const sdk::SurfaceBatch& b) const override {
     ask("surface_velocity", "a velocity for every point of the batch",
         &sdk::Motion::surface_velocity, b);
-    const GuardReport::Inputs seen = {{"x", b.x}, {"y", b.y}, {"z", b.z}};
-    faults().check(b.count, "velocity_x", b.velocity_x, seen);
-    faults().check(b.count, "velocity_y", b.velocity_y, seen);
-    faults().check(b.count, "velocity_z", b.velocity_z, seen);
+    const GuardReport::Inputs seen = {
+        {"position.x", b.position.x}, {"position.y", b.position.y}, {"position.z", b.position.z}};
+    faults().check(b.count, "velocity.x", b.velocity.x, seen);
+    faults().check(b.count, "velocity.y", b.velocity.y, seen);
+    faults().check(b.count, "velocity.z", b.velocity.z, seen);
   }
   [[nodiscard]] double largest_speed() const override {
     return get("largest_speed", &sdk::Motion::largest_speed);
@@ -330,8 +336,8 @@ class Sensor final : public Guarded<sdk::Sensor> {
   void fields(sdk::FieldSink& sink) const override {
     ask("fields", "the fields of a frame", &sdk::Sensor::fields, sink);
   }
-  [[nodiscard]] bool looks_at_walls() const override {
-    return get("looks_at_walls", &sdk::Sensor::looks_at_walls);
+  [[nodiscard]] bool wants_walls() const override {
+    return get("wants_walls", &sdk::Sensor::wants_walls);
   }
 };
 

@@ -110,9 +110,9 @@ sdk::GrainColumns GrainTable::columns() const {
   c.velocity_x = number_[k_velocity_x];
   c.velocity_y = number_[k_velocity_y];
   c.velocity_z = number_[k_velocity_z];
-  c.rotation_x = number_[k_rotation_x];
-  c.rotation_y = number_[k_rotation_y];
-  c.rotation_z = number_[k_rotation_z];
+  c.angular_velocity_x = number_[k_rotation_x];
+  c.angular_velocity_y = number_[k_rotation_y];
+  c.angular_velocity_z = number_[k_rotation_z];
   c.force_x = number_[k_force_x];
   c.force_y = number_[k_force_y];
   c.force_z = number_[k_force_z];

@@ -15,7 +15,7 @@ namespace {
 
 using sdk::Vec3;
 
-/// A seed written exactly on a side may miss it by rounding.
+/// A request written exactly on a side may miss it by rounding.
 constexpr double k_rounding = 1e-12;
 /// Roundings of a coordinate on its way from the scenario into a distance: written in another unit,
 /// shifted or turned in a frame, carried back in time, subtracted, through a periodic side; some
@@ -174,8 +174,8 @@ std::vector<Entrant> take_free_places(std::vector<Entrant>& waiting,
   for (std::size_t n = 0; n < waiting.size(); ++n) {
     const Entrant& e = waiting[n];
     const auto emitter = static_cast<std::size_t>(e.emitter);
-    const sdk::EntryRule rule =
-        emitter < scene.rules.size() ? scene.rules[emitter] : sdk::EntryRule{};
+    const sdk::InsertionRule rule =
+        emitter < scene.rules.size() ? scene.rules[emitter] : sdk::InsertionRule{};
     const double radius = 0.5 * e.grain.diameter;
     if (!rule.waits) check_place(scene, e, rule.allowed_overlap);
     const auto* other = grid.overlapping(e.grain.position, radius, rule.allowed_overlap);

@@ -28,7 +28,7 @@ struct EntryScene {
   std::array<bool, 3> is_periodic{};
   double time = 0.0;  ///< [s] at which bodies that move are looked at
   std::vector<particles::Surface> surfaces;
-  std::vector<sdk::EntryRule> rules;  ///< by emitter
+  std::vector<sdk::InsertionRule> rules;  ///< by emitter
   std::vector<std::string> names;     ///< by emitter, "file:line:column: error: emitters.bed"
 
   /// From `from` to `to`, the shortest way through periodic sides.
@@ -75,7 +75,7 @@ std::vector<Entrant> take_free_places(std::vector<Entrant>& waiting,
 
 /// The grains (in the domain and about to enter), bodies and walls, for emitters that look for
 /// places; sorted into cells when first asked, because most emitters never ask. In a frame, points
-/// are turned as the core turns the emitter's seeds. One thread.
+/// are turned as the core turns the emitter's requests. One thread.
 class LazySurroundings final : public sdk::Surroundings {
  public:
   LazySurroundings(const EntryScene& scene, const particles::GrainRows& rows,

@@ -31,7 +31,7 @@ EntryScene entry_scene_of(const scenario::Setup& setup, const Models& models) {
   scene.surfaces = particles::surfaces_of(setup, models.bodies);
   for (std::size_t n = 0; n < models.emitters.size(); ++n) {
     const auto& choice = setup.emitters[n].model;
-    scene.rules.push_back(models.emitters[n]->entry_rule());
+    scene.rules.push_back(models.emitters[n]->insertion_rule());
     scene.names.push_back(scenario::place(choice.where) + ": error: " + choice.path);
   }
   return scene;
@@ -88,8 +88,8 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
                                 [](const auto& s) { return s->wants_contacts(); });
   entry_scene_ = entry_scene_of(setup_, models_);
   emissions_ = EmissionBook(models_.emitters.size());
-  for (const auto& sensor : models_.sensors) looks_at_walls_ |= sensor->looks_at_walls();
-  if (looks_at_walls_) dem_->watch_walls();
+  for (const auto& sensor : models_.sensors) wants_walls_ |= sensor->wants_walls();
+  if (wants_walls_) dem_->watch_walls();
   dem_steps_per_fluid_step_ =
       std::max(1, static_cast<int>(std::lround(step / dem_->coarse_step())));
   build_dem_graph(check_every);
@@ -207,7 +207,8 @@ void Simulation::check_health() const {
   for (std::size_t n = 0; n < c.id.size(); ++n) {
     if (!base::is_finite({c.x[n], c.y[n], c.z[n]}) ||
         !base::is_finite({c.velocity_x[n], c.velocity_y[n], c.velocity_z[n]}) ||
-        !base::is_finite({c.rotation_x[n], c.rotation_y[n], c.rotation_z[n]})) {
+        !base::is_finite(
+            {c.angular_velocity_x[n], c.angular_velocity_y[n], c.angular_velocity_z[n]})) {
       throw sdk::ModelError("grain " + std::to_string(c.id[n]) +
                             " has a position or velocity that is not a number; likely causes: a "
                             "time step too long for the stiffness, or an overlap at entry");

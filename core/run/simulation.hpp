@@ -135,7 +135,7 @@ class Simulation {
   graph::TaskGraph step_graph_{"fluid_step"};
   graph::TaskGraph dem_graph_{"dem_step"};
 
-  bool looks_at_walls_ = false;
+  bool wants_walls_ = false;
   std::int64_t steps_done_ = 0;
   std::int64_t steps_wanted_ = 0;
   int dem_steps_per_fluid_step_ = 1;
@@ -145,7 +145,7 @@ class Simulation {
   std::int64_t pressure_iterations_ = 0;
   std::vector<float> momentum_exchange_;
   std::int64_t delayed_entries_ = 0;
-  std::vector<sdk::Seed> seeds_;
+  std::vector<sdk::InsertionRequest> requests_;
   EntryScene entry_scene_;
   EmissionBook emissions_;
   bool is_started_ = false;       ///< the first step's grains are in already

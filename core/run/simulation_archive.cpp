@@ -11,8 +11,8 @@ std::string Simulation::state_digest() const {
   const auto update = [&sha](const auto& span) { sha.update(span.data(), span.size_bytes()); };
   const auto c = grain_table_.columns();
   update(c.id);
-  for (const auto& column : {c.x, c.y, c.z, c.velocity_x, c.velocity_y, c.velocity_z, c.rotation_x,
-                             c.rotation_y, c.rotation_z}) {
+  for (const auto& column : {c.x, c.y, c.z, c.velocity_x, c.velocity_y, c.velocity_z,
+                             c.angular_velocity_x, c.angular_velocity_y, c.angular_velocity_z}) {
     update(column);
   }
   if (fluid_) {

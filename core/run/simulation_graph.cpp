@@ -120,7 +120,7 @@ void Simulation::build_step_graph() {
   }
   step_graph_.add({"publish_grains", {"grain.state"}, {"grain.columns"}, [this] {
                      publish_grains();
-                     if (looks_at_walls_) dem_->close_wall_loads(setup_.time.fluid_step);
+                     if (wants_walls_) dem_->close_wall_loads(setup_.time.fluid_step);
                    }});
   step_graph_.add({"health", {"grain.columns"}, {"health"}, [this] { check_health(); }});
   add_sensor_nodes();

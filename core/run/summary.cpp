@@ -258,8 +258,9 @@ SeriesRow series_row(const Simulation& s) {
                    (c.velocity_x[n] * c.velocity_x[n] + c.velocity_y[n] * c.velocity_y[n] +
                     c.velocity_z[n] * c.velocity_z[n]);
     rotation += 0.2 * m * r * r *
-                (c.rotation_x[n] * c.rotation_x[n] + c.rotation_y[n] * c.rotation_y[n] +
-                 c.rotation_z[n] * c.rotation_z[n]);
+                (c.angular_velocity_x[n] * c.angular_velocity_x[n] +
+                 c.angular_velocity_y[n] * c.angular_velocity_y[n] +
+                 c.angular_velocity_z[n] * c.angular_velocity_z[n]);
   }
   const auto& b = s.dem().balance();
   add("time [s]", s.time());

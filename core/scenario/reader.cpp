@@ -121,9 +121,9 @@ void SetupReader::check_emitters() {
     context.grain_density =
         setup_.materials[static_cast<std::size_t>(spec.material)].properties.density;
     context.gravity = setup_.gravity;
-    std::vector<sdk::Seed> seeds;
+    std::vector<sdk::InsertionRequest> requests;
     try {
-      static_cast<sdk::Emitter&>(*emitters_[n]).propose(context, seeds);
+      static_cast<sdk::Emitter&>(*emitters_[n]).propose(context, requests);
     } catch (const std::exception& problem) {
       error(spec.model.where, spec.model.path + ": " + problem.what());
     }

@@ -46,8 +46,8 @@ class Belt final : public sdk::Motion {
  public:
   void surface_velocity(const sdk::SurfaceBatch& b) const override {
     for (std::size_t n = 0; n < b.count; ++n) {
-      b.velocity_x[n] = b.normal_z[n] > 0.9 ? 0.8 : 0.0;
-      b.velocity_y[n] = b.velocity_z[n] = 0.0;
+      b.velocity.x[n] = b.normal.z[n] > 0.9 ? 0.8 : 0.0;
+      b.velocity.y[n] = b.velocity.z[n] = 0.0;
     }
   }
   [[nodiscard]] double largest_speed() const override { return 0.8; }

@@ -31,10 +31,8 @@ class Belt final : public sdk::Motion {
  public:
   void surface_velocity(const sdk::SurfaceBatch& b) const override {
     for (std::size_t n = 0; n < b.count; ++n) {
-      const Vec3 t = 0.8 * cross(b.axis, {b.normal_x[n], b.normal_y[n], b.normal_z[n]});
-      b.velocity_x[n] = t.x;
-      b.velocity_y[n] = t.y;
-      b.velocity_z[n] = t.z;
+      const Vec3 t = 0.8 * cross(b.axis, b.normal[n]);
+      b.velocity.set(n, t);
     }
   }
   [[nodiscard]] double largest_speed() const override { return 0.8; }

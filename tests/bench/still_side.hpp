@@ -14,7 +14,7 @@ class StillSide final : public sdk::BoundaryCondition {
   [[nodiscard]] sdk::SideRules rules() const override { return rules_; }
   void evaluate(const sdk::SideBatch& b) const override {
     for (std::size_t n = 0; n < b.count; ++n) {
-      b.velocity_x[n] = b.velocity_y[n] = b.velocity_z[n] = b.pressure[n] = 0.0;
+      b.velocity.x[n] = b.velocity.y[n] = b.velocity.z[n] = b.pressure[n] = 0.0;
     }
   }
 

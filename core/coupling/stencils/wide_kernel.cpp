@@ -24,8 +24,15 @@ void WideKernel::set(const double* position, double radius) {
   for (auto* column : {&i_, &j_, &k_}) column->resize(static_cast<std::size_t>(capacity));
   weight_.resize(static_cast<std::size_t>(capacity));
   int used = 0;
-  rule_.spread(grid.shape(), {1, position, position + 1, position + 2, &radius, capacity, &used,
-                              i_.data(), j_.data(), k_.data(), weight_.data()});
+  rule_.spread(grid.shape(), {1,
+                              {position, position + 1, position + 2},
+                              &radius,
+                              capacity,
+                              &used,
+                              i_.data(),
+                              j_.data(),
+                              k_.data(),
+                              weight_.data()});
   shares_.clear();
   double sum = 0.0;
   double moment = 0.0;

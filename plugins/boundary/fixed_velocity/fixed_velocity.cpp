@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dust/sdk/plugin.hpp"
+#include <dust/sdk/plugin.hpp>
 
 namespace {
 
@@ -10,16 +10,6 @@ class FixedVelocity final : public sdk::BoundaryCondition {
   struct Parameters {
     sdk::Vec3 velocity;
   };
-
-  static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "fixed_velocity",
-            .version = "1.0",
-            .summary = "Inlet or outlet with a given velocity.",
-            .equation = R"(u = u_w, \quad \partial p/\partial n = 0)",
-            .source = "Dirichlet condition; docs/theory/fluid.md, section 4",
-            .parameters = {}};
-  }
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
     s.vector(&Parameters::velocity, "velocity", sdk::dimension::velocity,
@@ -27,8 +17,15 @@ class FixedVelocity final : public sdk::BoundaryCondition {
         .symbol("u_w");
     return s.build();
   }
+  static sdk::ModelInfo describe() {
+    return {.name = "fixed_velocity",
+            .version = "1.0",
+            .summary = "Inlet or outlet with a given velocity.",
+            .equation = R"(u = u_w, \quad \partial p/\partial n = 0)",
+            .source = "Dirichlet condition; docs/theory/fluid.md, section 4"};
+  }
 
-  explicit FixedVelocity(const Parameters& p) : parameters_(p) {}
+  explicit FixedVelocity(const Parameters& p) : p_(p) {}
 
   [[nodiscard]] sdk::SideRules rules() const override {
     return {.normal_velocity = sdk::SideRule::fixed,
@@ -37,14 +34,12 @@ class FixedVelocity final : public sdk::BoundaryCondition {
   }
   void evaluate(const sdk::SideBatch& batch) const override {
     for (std::size_t n = 0; n < batch.count; ++n) {
-      batch.velocity_x[n] = parameters_.velocity.x;
-      batch.velocity_y[n] = parameters_.velocity.y;
-      batch.velocity_z[n] = parameters_.velocity.z;
+      batch.velocity.set(n, p_.velocity);
     }
   }
 
  private:
-  Parameters parameters_;
+  Parameters p_;
 };
 
 }  // namespace

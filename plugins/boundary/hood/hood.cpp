@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/side_flow.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/side_flow.hpp>
 
 #include <algorithm>
 #include <array>
@@ -18,18 +18,6 @@ class Hood final : public sdk::BoundaryCondition {
     Vec3 max;
     std::string around = "no_slip";
   };
-
-  static sdk::ModelInfo describe() {
-    return {
-        .kind = {},
-        .name = "hood",
-        .version = "1.0",
-        .summary = "Wall with a rectangular opening that sucks a given volume flow.",
-        .equation =
-            R"(Q = -\sum_f A_f c_f\, \varepsilon u_n,\quad \varepsilon u_n \text{ uniform over the opening},\quad u_n = 0 \text{ elsewhere})",
-        .source = "Dirichlet condition; docs/theory/fluid.md, section 4",
-        .parameters = {}};
-  }
   static sdk::ParameterSchema schema() {
     namespace dim = sdk::dimension;
     sdk::SchemaOf<Parameters> s;
@@ -44,6 +32,15 @@ class Hood final : public sdk::BoundaryCondition {
         .optional();
     sdk::declare_course(s, "flow");
     return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    return {
+        .name = "hood",
+        .version = "1.0",
+        .summary = "Wall with a rectangular opening that sucks a given volume flow.",
+        .equation =
+            R"(Q = -\sum_f A_f c_f\, \varepsilon u_n,\quad \varepsilon u_n \text{ uniform over the opening},\quad u_n = 0 \text{ elsewhere})",
+        .source = "Dirichlet condition; docs/theory/fluid.md, section 4"};
   }
 
   explicit Hood(const Parameters& p) : p_(p), over_time_(p.over_time()) {
@@ -69,7 +66,8 @@ class Hood final : public sdk::BoundaryCondition {
  private:
   /// Share of the face round point n that the opening covers.
   [[nodiscard]] double covered(const sdk::SideBatch& batch, std::size_t n) const {
-    const std::array<double, 3> place{batch.x[n], batch.y[n], batch.z[n]};
+    const std::array<double, 3> place{batch.position.x[n], batch.position.y[n],
+                                      batch.position.z[n]};
     double share = 1.0;
     for (int d = 0; d < 3; ++d) {
       if (d == sdk::axis_of(batch.normal)) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/side_flow.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/side_flow.hpp>
 
 namespace {
 
@@ -11,20 +11,6 @@ class MassFlow final : public sdk::BoundaryCondition {
   struct Parameters : sdk::CourseParameters {
     double flow = 0.0;
   };
-
-  static sdk::ModelInfo describe() {
-    return {
-        .kind = {},
-        .name = "mass_flow",
-        .version = "1.0",
-        .summary =
-            "Inlet or outlet with a given mass flow of the fluid through the open part of the "
-            "side.",
-        .equation =
-            R"(\dot m = \sum_f A_f \rho \varepsilon u_n,\quad \varepsilon u_n \text{ uniform},\quad u_t = 0)",
-        .source = "Dirichlet condition; docs/theory/fluid.md, section 4",
-        .parameters = {}};
-  }
   static sdk::ParameterSchema schema() {
     namespace dim = sdk::dimension;
     sdk::SchemaOf<Parameters> s;
@@ -33,6 +19,17 @@ class MassFlow final : public sdk::BoundaryCondition {
         .symbol("\\dot m");
     sdk::declare_course(s, "flow");
     return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    return {
+        .name = "mass_flow",
+        .version = "1.0",
+        .summary =
+            "Inlet or outlet with a given mass flow of the fluid through the open part of the "
+            "side.",
+        .equation =
+            R"(\dot m = \sum_f A_f \rho \varepsilon u_n,\quad \varepsilon u_n \text{ uniform},\quad u_t = 0)",
+        .source = "Dirichlet condition; docs/theory/fluid.md, section 4"};
   }
 
   explicit MassFlow(const Parameters& p) : flow_(p.flow), over_time_(p.over_time()) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dust/sdk/plugin.hpp"
+#include <dust/sdk/plugin.hpp>
 
 namespace {
 
@@ -8,17 +8,14 @@ namespace sdk = dust::sdk;
 class NoSlip final : public sdk::BoundaryCondition {
  public:
   struct Parameters {};
-
+  static sdk::ParameterSchema schema() { return {}; }
   static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "no_slip",
+    return {.name = "no_slip",
             .version = "1.0",
             .summary = "Wall at rest to which the fluid sticks.",
             .equation = R"(u = 0, \quad \partial p/\partial n = 0)",
-            .source = "no-slip condition; docs/theory/fluid.md, section 4",
-            .parameters = {}};
+            .source = "no-slip condition; docs/theory/fluid.md, section 4"};
   }
-  static sdk::ParameterSchema schema() { return {}; }
 
   explicit NoSlip(const Parameters&) {}
 
@@ -29,7 +26,7 @@ class NoSlip final : public sdk::BoundaryCondition {
   }
   void evaluate(const sdk::SideBatch& batch) const override {
     for (std::size_t n = 0; n < batch.count; ++n) {
-      batch.velocity_x[n] = batch.velocity_y[n] = batch.velocity_z[n] = 0.0;
+      batch.velocity.set(n, {});
     }
   }
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dust/sdk/plugin.hpp"
+#include <dust/sdk/plugin.hpp>
 
 namespace {
 
@@ -8,18 +8,15 @@ namespace sdk = dust::sdk;
 class Slip final : public sdk::BoundaryCondition {
  public:
   struct Parameters {};
-
+  static sdk::ParameterSchema schema() { return {}; }
   static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "slip",
+    return {.name = "slip",
             .version = "1.0",
             .summary = "Frictionless wall or plane of symmetry.",
             .equation =
                 R"(u_n = 0, \quad \partial u_t/\partial n = 0, \quad \partial p/\partial n = 0)",
-            .source = "symmetry; docs/theory/fluid.md, section 4",
-            .parameters = {}};
+            .source = "symmetry; docs/theory/fluid.md, section 4"};
   }
-  static sdk::ParameterSchema schema() { return {}; }
 
   explicit Slip(const Parameters&) {}
 
@@ -30,7 +27,7 @@ class Slip final : public sdk::BoundaryCondition {
   }
   void evaluate(const sdk::SideBatch& batch) const override {
     for (std::size_t n = 0; n < batch.count; ++n) {
-      batch.velocity_x[n] = batch.velocity_y[n] = batch.velocity_z[n] = 0.0;
+      batch.velocity.set(n, {});
     }
   }
 };

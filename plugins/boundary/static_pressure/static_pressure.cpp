@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/side_flow.hpp"
-#include "dust/sdk/table.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/side_flow.hpp>
+#include <dust/sdk/table.hpp>
 
 namespace {
 
@@ -14,16 +14,6 @@ class StaticPressure final : public sdk::BoundaryCondition {
     std::vector<double> times;
     std::vector<double> factors;
   };
-
-  static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "static_pressure",
-            .version = "1.0",
-            .summary = "Open side at a given pressure, passed normal to it either way.",
-            .equation = R"(p = p_0\, g(t),\quad \partial u_n/\partial n = 0,\quad u_t = 0)",
-            .source = "Dirichlet condition for the pressure; docs/theory/fluid.md, section 4",
-            .parameters = {}};
-  }
   static sdk::ParameterSchema schema() {
     namespace dim = sdk::dimension;
     sdk::SchemaOf<Parameters> s;
@@ -36,6 +26,13 @@ class StaticPressure final : public sdk::BoundaryCondition {
         .symbol("g")
         .optional();
     return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    return {.name = "static_pressure",
+            .version = "1.0",
+            .summary = "Open side at a given pressure, passed normal to it either way.",
+            .equation = R"(p = p_0\, g(t),\quad \partial u_n/\partial n = 0,\quad u_t = 0)",
+            .source = "Dirichlet condition for the pressure; docs/theory/fluid.md, section 4"};
   }
 
   explicit StaticPressure(const Parameters& p)

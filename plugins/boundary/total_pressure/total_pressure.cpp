@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dust/sdk/plugin.hpp"
+#include <dust/sdk/plugin.hpp>
 
 namespace {
 
@@ -10,7 +10,14 @@ class TotalPressure final : public sdk::BoundaryCondition {
   struct Parameters {
     double pressure = 0.0;
   };
-
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.number(&Parameters::pressure, "pressure", sdk::dimension::pressure,
+             "Pressure of the air at rest far away, without its hydrostatic part.")
+        .symbol("p_0")
+        .optional();
+    return s.build();
+  }
   static sdk::ModelInfo describe() {
     return {
         .name = "total_pressure",
@@ -23,16 +30,8 @@ class TotalPressure final : public sdk::BoundaryCondition {
         .source =
             "Bernoulli along the streamlines of entering air; docs/theory/fluid.md, section 4"};
   }
-  static sdk::ParameterSchema schema() {
-    sdk::SchemaOf<Parameters> s;
-    s.number(&Parameters::pressure, "pressure", sdk::dimension::pressure,
-             "Pressure of the air at rest far away, without its hydrostatic part.")
-        .symbol("p_0")
-        .optional();
-    return s.build();
-  }
 
-  explicit TotalPressure(const Parameters& p) : parameters_(p) {}
+  explicit TotalPressure(const Parameters& p) : p_(p) {}
 
   [[nodiscard]] sdk::SideRules rules() const override {
     return {.normal_velocity = sdk::SideRule::gradient,
@@ -40,11 +39,11 @@ class TotalPressure final : public sdk::BoundaryCondition {
             .pressure = sdk::SideRule::pressure};
   }
   void evaluate(const sdk::SideBatch& batch) const override {
-    for (std::size_t n = 0; n < batch.count; ++n) batch.pressure[n] = parameters_.pressure;
+    for (std::size_t n = 0; n < batch.count; ++n) batch.pressure[n] = p_.pressure;
   }
 
  private:
-  Parameters parameters_;
+  Parameters p_;
 };
 
 }  // namespace

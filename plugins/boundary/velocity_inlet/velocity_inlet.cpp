@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "velocity_inlet.hpp"
 
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/side_flow.hpp"
-#include "dust/sdk/table.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/side_flow.hpp>
+#include <dust/sdk/table.hpp>
 
 #include <algorithm>
 #include <array>
 
-namespace dust::model::velocity_inlet {
 namespace {
+
+namespace formula = dust::model::velocity_inlet;
+namespace sdk = dust::sdk;
 
 class VelocityInlet final : public sdk::BoundaryCondition {
  public:
@@ -21,20 +23,6 @@ class VelocityInlet final : public sdk::BoundaryCondition {
     std::vector<double> positions;
     std::vector<double> shares;
   };
-
-  static sdk::ModelInfo describe() {
-    return {
-        .kind = {},
-        .name = "velocity_inlet",
-        .version = "1.0",
-        .summary =
-            "Inlet with a speed normal to the side, a profile over it and a course in "
-            "time.",
-        .equation =
-            R"(\varepsilon u_n = U f(s)\, g(t) \text{ (superficial)},\quad u_n = U f(s)\, g(t) \text{ (interstitial)},\quad u_t = 0)",
-        .source = "Dirichlet condition; docs/theory/fluid.md, section 4",
-        .parameters = {}};
-  }
   static sdk::ParameterSchema schema() {
     namespace dim = sdk::dimension;
     sdk::SchemaOf<Parameters> s;
@@ -61,6 +49,17 @@ class VelocityInlet final : public sdk::BoundaryCondition {
         .optional();
     sdk::declare_course(s, "speed");
     return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    return {
+        .name = "velocity_inlet",
+        .version = "1.0",
+        .summary =
+            "Inlet with a speed normal to the side, a profile over it and a course in "
+            "time.",
+        .equation =
+            R"(\varepsilon u_n = U f(s)\, g(t) \text{ (superficial)},\quad u_n = U f(s)\, g(t) \text{ (interstitial)},\quad u_t = 0)",
+        .source = "Dirichlet condition; docs/theory/fluid.md, section 4"};
   }
 
   explicit VelocityInlet(const Parameters& p)
@@ -110,14 +109,15 @@ class VelocityInlet final : public sdk::BoundaryCondition {
 
  private:
   [[nodiscard]] double shape(const sdk::SideBatch& batch, std::size_t n) const {
-    const std::array<const double*, 3> place{batch.x, batch.y, batch.z};
+    const std::array<const double*, 3> place{batch.position.x, batch.position.y, batch.position.z};
     double factor = 1.0;
     for (int d = 0; d < 3; ++d) {
       const auto e = static_cast<std::size_t>(d);
       if (!varies_[e]) continue;
       if (!is_parabolic_) return over_place_(place[e][n]);
       const double width = batch.high[d] - batch.low[d];
-      factor *= parabola_mean((place[e][n] - batch.low[d]) / width, batch.spacing[d] / width);
+      factor *=
+          formula::parabola_mean((place[e][n] - batch.low[d]) / width, batch.spacing[d] / width);
     }
     return factor;
   }
@@ -131,6 +131,5 @@ class VelocityInlet final : public sdk::BoundaryCondition {
 };
 
 }  // namespace
-}  // namespace dust::model::velocity_inlet
 
-DUST_PLUGIN(registrar) { registrar.add<dust::model::velocity_inlet::VelocityInlet>(); }
+DUST_PLUGIN(registrar) { registrar.add<VelocityInlet>(); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/side_flow.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/side_flow.hpp>
 
 namespace {
 
@@ -11,18 +11,6 @@ class VolumeFlow final : public sdk::BoundaryCondition {
   struct Parameters : sdk::CourseParameters {
     double flow = 0.0;
   };
-
-  static sdk::ModelInfo describe() {
-    return {
-        .kind = {},
-        .name = "volume_flow",
-        .version = "1.0",
-        .summary = "Inlet or outlet with a given volume flow through the open part of the side.",
-        .equation =
-            R"(Q = \sum_f A_f \varepsilon u_n,\quad \varepsilon u_n \text{ uniform},\quad u_t = 0)",
-        .source = "Dirichlet condition; docs/theory/fluid.md, section 4",
-        .parameters = {}};
-  }
   static sdk::ParameterSchema schema() {
     namespace dim = sdk::dimension;
     sdk::SchemaOf<Parameters> s;
@@ -31,6 +19,15 @@ class VolumeFlow final : public sdk::BoundaryCondition {
         .symbol("Q");
     sdk::declare_course(s, "flow");
     return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    return {
+        .name = "volume_flow",
+        .version = "1.0",
+        .summary = "Inlet or outlet with a given volume flow through the open part of the side.",
+        .equation =
+            R"(Q = \sum_f A_f \varepsilon u_n,\quad \varepsilon u_n \text{ uniform},\quad u_t = 0)",
+        .source = "Dirichlet condition; docs/theory/fluid.md, section 4"};
   }
 
   explicit VolumeFlow(const Parameters& p) : flow_(p.flow), over_time_(p.over_time()) {}

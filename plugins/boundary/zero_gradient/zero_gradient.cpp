@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dust/sdk/plugin.hpp"
+#include <dust/sdk/plugin.hpp>
 
 namespace {
 
@@ -10,16 +10,6 @@ class ZeroGradient final : public sdk::BoundaryCondition {
   struct Parameters {
     double pressure = 0.0;
   };
-
-  static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "zero_gradient",
-            .version = "1.0",
-            .summary = "Outlet: fully developed flow at a given static pressure.",
-            .equation = R"(\partial u/\partial n = 0, \quad p = p_0)",
-            .source = "standard outflow condition; docs/theory/fluid.md, section 4",
-            .parameters = {}};
-  }
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
     s.number(&Parameters::pressure, "pressure", sdk::dimension::pressure,
@@ -28,8 +18,15 @@ class ZeroGradient final : public sdk::BoundaryCondition {
         .optional();
     return s.build();
   }
+  static sdk::ModelInfo describe() {
+    return {.name = "zero_gradient",
+            .version = "1.0",
+            .summary = "Outlet: fully developed flow at a given static pressure.",
+            .equation = R"(\partial u/\partial n = 0, \quad p = p_0)",
+            .source = "standard outflow condition; docs/theory/fluid.md, section 4"};
+  }
 
-  explicit ZeroGradient(const Parameters& p) : parameters_(p) {}
+  explicit ZeroGradient(const Parameters& p) : p_(p) {}
 
   [[nodiscard]] sdk::SideRules rules() const override {
     return {.normal_velocity = sdk::SideRule::gradient,
@@ -37,11 +34,11 @@ class ZeroGradient final : public sdk::BoundaryCondition {
             .pressure = sdk::SideRule::fixed};
   }
   void evaluate(const sdk::SideBatch& batch) const override {
-    for (std::size_t n = 0; n < batch.count; ++n) batch.pressure[n] = parameters_.pressure;
+    for (std::size_t n = 0; n < batch.count; ++n) batch.pressure[n] = p_.pressure;
   }
 
  private:
-  Parameters parameters_;
+  Parameters p_;
 };
 
 }  // namespace

@@ -11,71 +11,6 @@ namespace {
 namespace formula = dust::model::hertz_mindlin;
 namespace sdk = dust::sdk;
 
-class HertzMindlin final : public sdk::ContactLaw {
- public:
-  struct Parameters {
-    double restitution = 0.0;
-    double friction = 0.0;
-  };
-  static sdk::ParameterSchema schema() {
-    sdk::SchemaOf<Parameters> s;
-    s.number(&Parameters::restitution, "restitution", sdk::dimension::none,
-             "Ratio of the speeds after and before a head-on collision; realised exactly, because "
-             "the normal force may attract while the contact opens.")
-        .symbol("e")
-        .above(0)
-        .at_most(1);
-    s.number(&Parameters::friction, "friction", sdk::dimension::none,
-             "Coefficient of sliding friction; limits spring and damper together.")
-        .symbol("\\mu_s")
-        .at_least(0);
-    return s.build();
-  }
-  static sdk::ModelInfo describe() {
-    return {.name = "hertz_mindlin",
-            .version = "2.0",
-            .summary =
-                "Hertz normal and energy-conserving Mindlin tangential contact with viscous "
-                "damping and strict Coulomb friction.",
-            .equation =
-                "F_n = \\tfrac43 E^* \\sqrt{R^*} d^{3/2} - \\gamma_n v_n,\\quad "
-                "F_t = -k_t \\xi_t - \\gamma_t v_t,\\quad |F_t| \\le \\mu_s \\max(F_n, 0)",
-            .source =
-                "Tsuji, Tanaka, Ishida, Powder Technol. 71 (1992) 239, "
-                "doi:10.1016/0032-5910(92)88030-L; rescaled tangential spring: own derivation"};
-  }
-
-  explicit HertzMindlin(const Parameters& p) {
-    constants_.damping = formula::damping(p.restitution);
-    constants_.friction = p.friction;
-  }
-
-  void prepare(const sdk::MaterialProperties& i, const sdk::MaterialProperties& j) override {
-    const auto shear = [](const sdk::MaterialProperties& m) {
-      return 2.0 * (2.0 - m.poisson_ratio) * (1.0 + m.poisson_ratio) / m.young_modulus;
-    };
-    constants_.young = sdk::effective_young_modulus(i, j);
-    constants_.shear = 1.0 / (shear(i) + shear(j));
-    constants_.normal_root = std::sqrt(2.0 * constants_.young);
-    constants_.tangential_root = std::sqrt(8.0 * constants_.shear);
-  }
-  [[nodiscard]] int history_size() const override { return 4; }
-  [[nodiscard]] bool has_hertz_force() const override { return true; }
-
-  void evaluate(const sdk::ContactBatch& batch) const override { run(constants_, batch); }
-
-  [[nodiscard]] double collision_time(double radius, double mass, double speed) const override {
-    return formula::collision_time(constants_.young, radius, mass, speed);
-  }
-  [[nodiscard]] double half_period(double radius, double mass, double overlap) const override {
-    return formula::half_period(constants_.young, radius, mass, overlap);
-  }
-
- private:
-  static void run(const formula::Constants& constants, const sdk::ContactBatch& b);
-  formula::Constants constants_;
-};
-
 /// Contacts from one root to the next: what the stages hand on stays in the first-level cache.
 constexpr std::size_t k_block = 64;
 
@@ -83,13 +18,13 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
                                 std::size_t first, std::size_t end) {
   const formula::Constants k = constants;
   const double time_step = b.time_step;
-  const double *overlap = b.overlap, *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
-  const double *vx = b.velocity_x, *vy = b.velocity_y, *vz = b.velocity_z;
-  const double *ux = b.displacement_x, *uy = b.displacement_y, *uz = b.displacement_z;
+  const double *overlap = b.overlap, *nx = b.normal.x, *ny = b.normal.y, *nz = b.normal.z;
+  const double *vx = b.velocity.x, *vy = b.velocity.y, *vz = b.velocity.z;
+  const double *ux = b.displacement.x, *uy = b.displacement.y, *uz = b.displacement.z;
   const double *radius = b.effective_radius, *mass = b.effective_mass;
   double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2], *stiffness = b.history[3];
   double *fn = b.normal_force, *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
-  double *fx = b.force_x, *fy = b.force_y, *fz = b.force_z;
+  double *fx = b.force.x, *fy = b.force.y, *fz = b.force.z;
   alignas(64) double contact_radius[k_block], keep[k_block], compliance[k_block], total[k_block];
   alignas(64) double dx[k_block], dy[k_block], dz[k_block], vn[k_block];
   const std::size_t count = end - first;
@@ -170,11 +105,77 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
   }
 }
 
-void HertzMindlin::run(const formula::Constants& constants, const sdk::ContactBatch& b) {
+void evaluate_batch(const formula::Constants& constants, const sdk::ContactBatch& b) {
   for (std::size_t first = 0; first < b.count; first += k_block) {
     evaluate_block(constants, b, first, std::min(first + k_block, b.count));
   }
 }
+
+class HertzMindlin final : public sdk::ContactLaw {
+ public:
+  struct Parameters {
+    double restitution = 0.0;
+    double friction = 0.0;
+  };
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.number(&Parameters::restitution, "restitution", sdk::dimension::none,
+             "Ratio of the speeds after and before a head-on collision; realised exactly, because "
+             "the normal force may attract while the contact opens.")
+        .symbol("e")
+        .above(0)
+        .at_most(1);
+    s.number(&Parameters::friction, "friction", sdk::dimension::none,
+             "Coefficient of sliding friction; limits spring and damper together.")
+        .symbol("\\mu_s")
+        .at_least(0);
+    return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    return {.name = "hertz_mindlin",
+            .version = "2.0",
+            .summary =
+                "Hertz normal and energy-conserving Mindlin tangential contact with viscous "
+                "damping and strict Coulomb friction.",
+            .equation =
+                "F_n = \\tfrac43 E^* \\sqrt{R^*} d^{3/2} - \\gamma_n v_n,\\quad "
+                "F_t = -k_t \\xi_t - \\gamma_t v_t,\\quad |F_t| \\le \\mu_s \\max(F_n, 0)",
+            .source =
+                "Tsuji, Tanaka, Ishida, Powder Technol. 71 (1992) 239, "
+                "doi:10.1016/0032-5910(92)88030-L; rescaled tangential spring: own derivation"};
+  }
+
+  explicit HertzMindlin(const Parameters& p) {
+    constants_.damping = formula::damping(p.restitution);
+    constants_.friction = p.friction;
+  }
+
+  void prepare(const sdk::MaterialProperties& i, const sdk::MaterialProperties& j) override {
+    const auto shear = [](const sdk::MaterialProperties& m) {
+      return 2.0 * (2.0 - m.poisson_ratio) * (1.0 + m.poisson_ratio) / m.young_modulus;
+    };
+    constants_.young = sdk::effective_young_modulus(i, j);
+    constants_.shear = 1.0 / (shear(i) + shear(j));
+    constants_.normal_root = std::sqrt(2.0 * constants_.young);
+    constants_.tangential_root = std::sqrt(8.0 * constants_.shear);
+  }
+  [[nodiscard]] int history_size() const override { return 4; }
+  [[nodiscard]] bool has_hertz_force() const override { return true; }
+
+  void evaluate(const sdk::ContactBatch& batch) const override {
+    evaluate_batch(constants_, batch);
+  }
+
+  [[nodiscard]] double collision_time(double radius, double mass, double speed) const override {
+    return formula::collision_time(constants_.young, radius, mass, speed);
+  }
+  [[nodiscard]] double half_period(double radius, double mass, double overlap) const override {
+    return formula::half_period(constants_.young, radius, mass, overlap);
+  }
+
+ private:
+  formula::Constants constants_;
+};
 
 }  // namespace
 

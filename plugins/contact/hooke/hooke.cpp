@@ -10,13 +10,13 @@ namespace sdk = dust::sdk;
 
 DUST_KERNEL void evaluate_batch(const formula::Constants &constants, const sdk::ContactBatch &b) {
   const formula::Constants k = constants;
-  const double *overlap = b.overlap, *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
-  const double *vx = b.velocity_x, *vy = b.velocity_y, *vz = b.velocity_z;
-  const double *ux = b.displacement_x, *uy = b.displacement_y, *uz = b.displacement_z;
+  const double *overlap = b.overlap, *nx = b.normal.x, *ny = b.normal.y, *nz = b.normal.z;
+  const double *vx = b.velocity.x, *vy = b.velocity.y, *vz = b.velocity.z;
+  const double *ux = b.displacement.x, *uy = b.displacement.y, *uz = b.displacement.z;
   const double *mass = b.effective_mass;
   double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2];
   double *fn = b.normal_force, *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
-  double *fx = b.force_x, *fy = b.force_y, *fz = b.force_z;
+  double *fx = b.force.x, *fy = b.force.y, *fz = b.force.z;
 #pragma omp simd
   for (std::size_t q = 0; q < b.count; ++q) {
     formula::Contact c{overlap[q], nx[q], ny[q], nz[q], vx[q], vy[q], vz[q], ux[q], uy[q], uz[q],

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "beetstra.hpp"
 
-#include "dust/sdk/plugin.hpp"
+#include <dust/sdk/plugin.hpp>
 
-namespace dust::model::beetstra {
 namespace {
+
+namespace formula = dust::model::beetstra;
+namespace sdk = dust::sdk;
 
 class Beetstra final : public sdk::DragLaw {
  public:
@@ -19,16 +21,17 @@ class Beetstra final : public sdk::DragLaw {
     return s.build();
   }
   static sdk::ModelInfo describe() {
-    sdk::ModelInfo info;
-    info.name = "beetstra";
-    info.version = "1.0";
-    info.summary =
-        "Drag in random arrays of spheres of one or several sizes, lattice-Boltzmann, to Re 1000.";
-    info.equation =
-        R"(F = \varepsilon F_B(Re, \varepsilon);\ F_i = (y_i + 0.064 y_i^3)\, \varepsilon F_B(Re / y_i, \varepsilon),\ y_i = D_i / \langle D \rangle)";
-    info.source =
-        "Beetstra, van der Hoef and Kuipers, AIChE J. 53 (2007) 489-501, doi:10.1002/aic.11065";
-    return info;
+    return {
+        .name = "beetstra",
+        .version = "1.0",
+        .summary =
+            "Drag in random arrays of spheres of one or several sizes, lattice-Boltzmann, to Re "
+            "1000.",
+        .equation =
+            R"(F = \varepsilon F_B(Re, \varepsilon);\ F_i = (y_i + 0.064 y_i^3)\, \varepsilon F_B(Re / y_i, \varepsilon),\ y_i = D_i / \langle D \rangle)",
+        .source =
+            "Beetstra, van der Hoef and Kuipers, AIChE J. 53 (2007) 489-501, "
+            "doi:10.1002/aic.11065"};
   }
   explicit Beetstra(const Parameters& p) : is_polydisperse_(p.polydisperse) {}
 
@@ -36,12 +39,13 @@ class Beetstra final : public sdk::DragLaw {
   void evaluate(const sdk::DragBatch& batch) const override {
     if (!is_polydisperse_) {
       for (std::size_t g = 0; g < batch.count; ++g) {
-        batch.factor[g] = factor(batch.reynolds[g], batch.void_fraction[g]);
+        batch.factor[g] = formula::factor(batch.reynolds[g], batch.void_fraction[g]);
       }
       return;
     }
     for (std::size_t g = 0; g < batch.count; ++g) {
-      batch.factor[g] = factor(batch.reynolds[g], batch.void_fraction[g], batch.size_ratio[g]);
+      batch.factor[g] =
+          formula::factor(batch.reynolds[g], batch.void_fraction[g], batch.size_ratio[g]);
     }
   }
 
@@ -50,6 +54,5 @@ class Beetstra final : public sdk::DragLaw {
 };
 
 }  // namespace
-}  // namespace dust::model::beetstra
 
-DUST_PLUGIN(registrar) { registrar.add<dust::model::beetstra::Beetstra>(); }
+DUST_PLUGIN(registrar) { registrar.add<Beetstra>(); }

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ergun.hpp"
 
-#include "dust/sdk/plugin.hpp"
+#include <dust/sdk/plugin.hpp>
 
-namespace dust::model::ergun {
 namespace {
+
+namespace formula = dust::model::ergun;
+namespace sdk = dust::sdk;
 
 DUST_KERNEL void run(std::size_t count, const double* reynolds, const double* void_fraction,
                      double* result) {
 #pragma omp simd
-  for (std::size_t g = 0; g < count; ++g) result[g] = factor(reynolds[g], void_fraction[g]);
+  for (std::size_t g = 0; g < count; ++g)
+    result[g] = formula::factor(reynolds[g], void_fraction[g]);
 }
 
 class Ergun final : public sdk::DragLaw {
@@ -17,14 +20,13 @@ class Ergun final : public sdk::DragLaw {
   struct Parameters {};
   static sdk::ParameterSchema schema() { return sdk::SchemaOf<Parameters>{}.build(); }
   static sdk::ModelInfo describe() {
-    sdk::ModelInfo info;
-    info.name = "ergun";
-    info.version = "1.0";
-    info.summary = "Drag of the grains of a packed bed.";
-    info.equation =
-        R"(F = \frac{1}{18} \left( 150 \frac{1 - \varepsilon}{\varepsilon} + 1.75 \frac{Re}{\varepsilon} \right))";
-    info.source = "Ergun, Chem. Eng. Prog. 48 (1952) 89";
-    return info;
+    return {
+        .name = "ergun",
+        .version = "1.0",
+        .summary = "Drag of the grains of a packed bed.",
+        .equation =
+            R"(F = \frac{1}{18} \left( 150 \frac{1 - \varepsilon}{\varepsilon} + 1.75 \frac{Re}{\varepsilon} \right))",
+        .source = "Ergun, Chem. Eng. Prog. 48 (1952) 89"};
   }
   explicit Ergun(const Parameters&) {}
 
@@ -34,6 +36,5 @@ class Ergun final : public sdk::DragLaw {
 };
 
 }  // namespace
-}  // namespace dust::model::ergun
 
-DUST_PLUGIN(registrar) { registrar.add<dust::model::ergun::Ergun>(); }
+DUST_PLUGIN(registrar) { registrar.add<Ergun>(); }

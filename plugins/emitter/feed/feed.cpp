@@ -71,7 +71,8 @@ class Feed final : public sdk::Emitter {
     check_sizes();
   }
 
-  void propose(const sdk::EmitterContext& context, std::vector<sdk::Seed>& seeds) override {
+  void propose(const sdk::EmitterContext& context,
+               std::vector<sdk::InsertionRequest>& requests) override {
     check_flow(context.grain_density);
     const double end = std::min(context.end, p_.end);
     for (;;) {
@@ -81,7 +82,7 @@ class Feed final : public sdk::Emitter {
         if (rare.time < next.time) next = rare;
       }
       if (!(next.time < end)) return;
-      seeds.push_back(place(next, context));
+      requests.push_back(place(next, context));
       ++released_[next.size];
     }
   }
@@ -234,7 +235,7 @@ class Feed final : public sdk::Emitter {
   /// opening, so that they meet what hovers in front of it as in life. Rare grains, which the air
   /// stops within a millisecond, are let go one interval in front of it: behind it they would hover
   /// where the next common grains appear.
-  sdk::Seed place(const Event& e, const sdk::EmitterContext& context) {
+  sdk::InsertionRequest place(const Event& e, const sdk::EmitterContext& context) {
     const double radius = 0.5 * sizes_.diameters()[e.size];
     const double largest = sizes_.largest();
     const double behind = 0.5 * largest / speed_;  // [s] of travel behind the opening

@@ -108,20 +108,20 @@ class File final : public sdk::PlacedEmitter {
     r.count = static_cast<std::int64_t>(table_.diameter.size());
     return r;
   }
-  [[nodiscard]] sdk::EntryRule entry_rule() const override {
+  [[nodiscard]] sdk::InsertionRule insertion_rule() const override {
     return {.waits = false, .allowed_overlap = p_.allowed_overlap};
   }
   [[nodiscard]] std::vector<std::string> materials() const override { return p_.materials; }
 
  protected:
-  void place(const sdk::EmitterContext&, std::vector<sdk::Seed>& seeds) override {
+  void place(const sdk::EmitterContext&, std::vector<sdk::InsertionRequest>& requests) override {
     for (std::size_t n = 0; n < table_.diameter.size(); ++n) {
-      seeds.push_back({.position = at(table_.centre, n) + p_.offset,
-                       .velocity = at(table_.velocity, n),
-                       .rotation = at(table_.rotation, n),
-                       .diameter = table_.diameter[n],
-                       .material = material_.empty() ? -1 : material_[n],
-                       .line = table_.line[n]});
+      requests.push_back({.position = at(table_.centre, n) + p_.offset,
+                          .velocity = at(table_.velocity, n),
+                          .angular_velocity = at(table_.rotation, n),
+                          .diameter = table_.diameter[n],
+                          .material = material_.empty() ? -1 : material_[n],
+                          .line = table_.line[n]});
     }
   }
 

@@ -111,7 +111,8 @@ class Fill final : public sdk::PlacedEmitter {
     throw sdk::ParameterError(text.str());
   }
 
-  void place(const sdk::EmitterContext& context, std::vector<sdk::Seed>& seeds) override {
+  void place(const sdk::EmitterContext& context,
+             std::vector<sdk::InsertionRequest>& requests) override {
     check(context);
     const auto wanted = numbers(context.grain_density);
     const std::int64_t all = std::accumulate(wanted.begin(), wanted.end(), std::int64_t{0});
@@ -122,7 +123,7 @@ class Fill final : public sdk::PlacedEmitter {
     });
     formula::PlacedSpheres placed({low_.x, low_.y, low_.z}, {high_.x, high_.y, high_.z},
                                   sizes_.largest(), all);
-    seeds.reserve(seeds.size() + static_cast<std::size_t>(all));
+    requests.reserve(requests.size() + static_cast<std::size_t>(all));
     std::uint64_t number = 0;
     std::int64_t tries_left = k_mean_tries * all + k_tries;
     for (const std::size_t i : coarse_first) {
@@ -130,10 +131,10 @@ class Fill final : public sdk::PlacedEmitter {
       for (std::int64_t n = 0; n < wanted[i]; ++n, ++number) {
         Vec3 x;
         if (!find_place(number, radius, context, placed, tries_left, x)) {
-          tell_shortfall(number, all, radius, seeds, context);
+          tell_shortfall(number, all, radius, requests, context);
         }
         placed.add({x.x, x.y, x.z}, radius);
-        seeds.push_back(
+        requests.push_back(
             {.position = x, .velocity = p_.velocity, .diameter = sizes_.diameters()[i]});
       }
     }
@@ -224,11 +225,11 @@ class Fill final : public sdk::PlacedEmitter {
   }
 
   [[noreturn]] void tell_shortfall(std::uint64_t number, std::int64_t all, double radius,
-                                   const std::vector<sdk::Seed>& seeds,
+                                   const std::vector<sdk::InsertionRequest>& requests,
                                    const sdk::EmitterContext& context) const {
     const double wanted = solids_volume(numbers(context.grain_density));
     double placed = 0.0;
-    for (auto s = seeds.end() - static_cast<std::ptrdiff_t>(number); s != seeds.end(); ++s) {
+    for (auto s = requests.end() - static_cast<std::ptrdiff_t>(number); s != requests.end(); ++s) {
       placed += sdk::sphere_volume(s->diameter);
     }
     std::ostringstream text;

@@ -117,8 +117,9 @@ class Lattice final : public sdk::PlacedEmitter {
   }
 
  protected:
-  void place(const sdk::EmitterContext& context, std::vector<sdk::Seed>& seeds) override {
-    const std::size_t first = seeds.size();
+  void place(const sdk::EmitterContext& context,
+             std::vector<sdk::InsertionRequest>& requests) override {
+    const std::size_t first = requests.size();
     const std::vector<std::size_t> size_of = shuffled_sizes(context.random);
     const auto all = static_cast<std::int64_t>(sites_.size());
     // A displacement of at most half the gap in any direction keeps neighbours apart.
@@ -128,26 +129,26 @@ class Lattice final : public sdk::PlacedEmitter {
     for (std::int64_t site = 0; site < all; ++site) {
       if ((site + 1) * count_ / all == site * count_ / all) continue;
       const formula::Point& x = sites_[static_cast<std::size_t>(site)];
-      sdk::Seed seed{.position = {x[0], x[1], x[2]},
-                     .velocity = p_.velocity,
-                     .diameter = sizes_.diameters()[size_of[n]]};
+      sdk::InsertionRequest request{.position = {x[0], x[1], x[2]},
+                                    .velocity = p_.velocity,
+                                    .diameter = sizes_.diameters()[size_of[n]]};
       for (int d = 0; d < 3; ++d) {
         const auto slot = static_cast<std::uint32_t>(d);
         if (reach > 0.0) {
-          seed.position[d] += reach * (2.0 * context.random.uniform(n, k_jitter, slot) - 1.0);
+          request.position[d] += reach * (2.0 * context.random.uniform(n, k_jitter, slot) - 1.0);
         }
         if (p_.velocity_scatter > 0.0) {
           // Box and Muller, Ann. Math. Stat. 29 (1958) 610.
           const double r = std::sqrt(-2.0 * std::log(context.random.uniform(n, k_speed, 2 * slot)));
           const double turn =
               2.0 * std::numbers::pi * context.random.uniform(n, k_speed, 2 * slot + 1);
-          seed.velocity[d] += p_.velocity_scatter * r * std::cos(turn);
+          request.velocity[d] += p_.velocity_scatter * r * std::cos(turn);
         }
       }
-      seeds.push_back(seed);
+      requests.push_back(request);
       ++n;
     }
-    if (p_.velocity_scatter > 0.0) take_drift_away(seeds, first);
+    if (p_.velocity_scatter > 0.0) take_drift_away(requests, first);
   }
 
  private:
@@ -167,15 +168,15 @@ class Lattice final : public sdk::PlacedEmitter {
   }
 
   /// The scatter shall not move the whole: the momentum becomes that of `velocity`.
-  void take_drift_away(std::vector<sdk::Seed>& seeds, std::size_t first) const {
+  void take_drift_away(std::vector<sdk::InsertionRequest>& requests, std::size_t first) const {
     Vec3 momentum;
     double mass = 0.0;
-    for (std::size_t n = first; n < seeds.size(); ++n) {
-      const double m = sdk::sphere_volume(seeds[n].diameter);
-      momentum += m * (seeds[n].velocity - p_.velocity);
+    for (std::size_t n = first; n < requests.size(); ++n) {
+      const double m = sdk::sphere_volume(requests[n].diameter);
+      momentum += m * (requests[n].velocity - p_.velocity);
       mass += m;
     }
-    for (std::size_t n = first; n < seeds.size(); ++n) seeds[n].velocity -= momentum / mass;
+    for (std::size_t n = first; n < requests.size(); ++n) requests[n].velocity -= momentum / mass;
   }
 
   Parameters p_;

@@ -66,12 +66,12 @@ class Single final : public sdk::PlacedEmitter {
   }
 
  protected:
-  void place(const sdk::EmitterContext&, std::vector<sdk::Seed>& seeds) override {
+  void place(const sdk::EmitterContext&, std::vector<sdk::InsertionRequest>& requests) override {
     for (std::size_t n = 0; n < p_.positions.size(); ++n) {
-      seeds.push_back({.position = p_.positions[n],
-                       .velocity = of(p_.velocities, n),
-                       .rotation = of(p_.rotations, n),
-                       .diameter = of(p_.diameters, n)});
+      requests.push_back({.position = p_.positions[n],
+                          .velocity = of(p_.velocities, n),
+                          .angular_velocity = of(p_.rotations, n),
+                          .diameter = of(p_.diameters, n)});
     }
   }
 

@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "archimedes.hpp"
 
-#include "dust/sdk/plugin.hpp"
+#include <dust/sdk/plugin.hpp>
 
-namespace dust::model::archimedes {
 namespace {
+
+namespace formula = dust::model::archimedes;
+namespace sdk = dust::sdk;
 
 class Archimedes final : public sdk::FluidForce {
  public:
   struct Parameters {};
   static sdk::ParameterSchema schema() { return sdk::SchemaOf<Parameters>{}.build(); }
   static sdk::ModelInfo describe() {
-    sdk::ModelInfo info;
-    info.name = "archimedes";
-    info.version = "1.0";
-    info.summary = "Buoyancy by the hydrostatic pressure of the fluid at the grain.";
-    info.equation = R"(f = -\rho_f V_p g)";
-    info.source = "Archimedes, On floating bodies, proposition 6";
-    return info;
+    return {.name = "archimedes",
+            .version = "1.0",
+            .summary = "Buoyancy by the hydrostatic pressure of the fluid at the grain.",
+            .equation = R"(f = -\rho_f V_p g)",
+            .source = "Archimedes, On floating bodies, proposition 6"};
   }
   explicit Archimedes(const Parameters&) {}
 
   void evaluate(const sdk::FluidForceBatch& batch) const override {
     for (std::size_t g = 0; g < batch.count; ++g) {
-      batch.force.set(g, force(batch.density[g], batch.diameter[g], batch.gravity));
+      batch.force.set(g, formula::force(batch.density[g], batch.diameter[g], batch.gravity));
     }
   }
   [[nodiscard]] sdk::FluidForceParts takes_over() const override { return {.buoyancy = true}; }
@@ -33,6 +33,5 @@ class Archimedes final : public sdk::FluidForce {
 };
 
 }  // namespace
-}  // namespace dust::model::archimedes
 
-DUST_PLUGIN(registrar) { registrar.add<dust::model::archimedes::Archimedes>(); }
+DUST_PLUGIN(registrar) { registrar.add<Archimedes>(); }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "basset.hpp"
 
-#include "dust/sdk/plugin.hpp"
+#include <dust/sdk/plugin.hpp>
 
-namespace dust::model::basset {
 namespace {
+
+namespace formula = dust::model::basset;
+namespace sdk = dust::sdk;
 
 class Basset final : public sdk::FluidForce {
  public:
@@ -25,17 +27,16 @@ class Basset final : public sdk::FluidForce {
     return s.build();
   }
   static sdk::ModelInfo describe() {
-    sdk::ModelInfo info;
-    info.name = "basset";
-    info.version = "1.0";
-    info.summary = "Memory of the viscous layer round an accelerating grain.";
-    info.equation =
-        R"(f = \frac32 D^2 \sqrt{\pi \rho_f \mu} \int_{t - T}^{t} \frac{dw / dt'}{\sqrt{t - t'}}\, dt')";
-    info.source =
-        "Basset, A treatise on hydrodynamics, vol. 2 (1888), chapter 22; in this form Maxey, "
-        "Riley, "
-        "Phys. Fluids 26 (1983) 883-889, doi:10.1063/1.864230";
-    return info;
+    return {
+        .name = "basset",
+        .version = "1.0",
+        .summary = "Memory of the viscous layer round an accelerating grain.",
+        .equation =
+            R"(f = \frac32 D^2 \sqrt{\pi \rho_f \mu} \int_{t - T}^{t} \frac{dw / dt'}{\sqrt{t - t'}}\, dt')",
+        .source =
+            "Basset, A treatise on hydrodynamics, vol. 2 (1888), chapter 22; in this form Maxey, "
+            "Riley, "
+            "Phys. Fluids 26 (1983) 883-889, doi:10.1063/1.864230"};
   }
   explicit Basset(const Parameters& p) : p_(p) {}
 
@@ -43,8 +44,8 @@ class Basset final : public sdk::FluidForce {
     // Mean over the interval of the part that the interval itself makes, per acceleration.
     const double present = 4.0 / 3.0 * std::sqrt(batch.interval);
     for (std::size_t g = 0; g < batch.count; ++g) {
-      History history(batch.history + g * History::k_numbers);
-      const double c = factor(batch.diameter[g], batch.density[g], batch.viscosity[g]);
+      formula::History history(batch.history + g * formula::History::k_numbers);
+      const double c = formula::factor(batch.diameter[g], batch.density[g], batch.viscosity[g]);
       history.note(batch.slip[g], p_.sudden_start);
       const sdk::Vec3 past = history.past(batch.interval, p_.window);
       batch.added_mass[g] = c * present;
@@ -52,13 +53,12 @@ class Basset final : public sdk::FluidForce {
     }
   }
   [[nodiscard]] sdk::FluidForceNeeds needs() const override { return {.acceleration = true}; }
-  [[nodiscard]] int history_size() const override { return History::k_numbers; }
+  [[nodiscard]] int history_size() const override { return formula::History::k_numbers; }
 
  private:
   Parameters p_;
 };
 
 }  // namespace
-}  // namespace dust::model::basset
 
-DUST_PLUGIN(registrar) { registrar.add<dust::model::basset::Basset>(); }
+DUST_PLUGIN(registrar) { registrar.add<Basset>(); }

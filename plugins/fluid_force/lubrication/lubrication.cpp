@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lubrication.hpp"
 
-#include "dust/sdk/plugin.hpp"
+#include <dust/sdk/plugin.hpp>
 
-namespace dust::model::lubrication {
 namespace {
+
+namespace formula = dust::model::lubrication;
+namespace sdk = dust::sdk;
 
 class Lubrication final : public sdk::FluidForce {
  public:
@@ -28,23 +30,22 @@ class Lubrication final : public sdk::FluidForce {
     return s.build();
   }
   static sdk::ModelInfo describe() {
-    sdk::ModelInfo info;
-    info.name = "lubrication";
-    info.version = "1.0";
-    info.summary = "Fluid squeezed from between a grain and a wall resists their approach.";
-    info.equation =
-        R"(f = -6 \pi \mu R\, (\lambda(\delta) - \lambda(\delta_r))\, n\, (u_p - u_w) \cdot n,\ \lambda - 1 = \frac{7 \delta + 2}{6 \delta^2 + 2 \delta},\ \delta = h / R)";
-    info.source =
-        "Brenner, Chem. Eng. Sci. 16 (1961) 242-251, doi:10.1016/0009-2509(61)80035-3; Bevan, "
-        "Prieve, J. Chem. Phys. 113 (2000) 1228-1236, doi:10.1063/1.481900";
-    return info;
+    return {
+        .name = "lubrication",
+        .version = "1.0",
+        .summary = "Fluid squeezed from between a grain and a wall resists their approach.",
+        .equation =
+            R"(f = -6 \pi \mu R\, (\lambda(\delta) - \lambda(\delta_r))\, n\, (u_p - u_w) \cdot n,\ \lambda - 1 = \frac{7 \delta + 2}{6 \delta^2 + 2 \delta},\ \delta = h / R)",
+        .source =
+            "Brenner, Chem. Eng. Sci. 16 (1961) 242-251, doi:10.1016/0009-2509(61)80035-3; Bevan, "
+            "Prieve, J. Chem. Phys. 113 (2000) 1228-1236, doi:10.1063/1.481900"};
   }
   explicit Lubrication(const Parameters& p) : p_(p) {}
 
   void evaluate(const sdk::FluidForceBatch& batch) const override {
     for (std::size_t g = 0; g < batch.count; ++g) {
-      batch.resistance[g] = resistance(batch.viscosity[g], 0.5 * batch.diameter[g], batch.gap[g],
-                                       p_.smallest_gap, p_.reach);
+      batch.resistance[g] = formula::resistance(batch.viscosity[g], 0.5 * batch.diameter[g],
+                                                batch.gap[g], p_.smallest_gap, p_.reach);
     }
   }
   [[nodiscard]] sdk::FluidForceNeeds needs() const override {
@@ -59,6 +60,5 @@ class Lubrication final : public sdk::FluidForce {
 };
 
 }  // namespace
-}  // namespace dust::model::lubrication
 
-DUST_PLUGIN(registrar) { registrar.add<dust::model::lubrication::Lubrication>(); }
+DUST_PLUGIN(registrar) { registrar.add<Lubrication>(); }

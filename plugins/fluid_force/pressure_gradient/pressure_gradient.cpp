@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pressure_gradient.hpp"
 
-#include "dust/sdk/plugin.hpp"
+#include <dust/sdk/plugin.hpp>
 
-namespace dust::model::pressure_gradient {
 namespace {
+
+namespace formula = dust::model::pressure_gradient;
+namespace sdk = dust::sdk;
 
 class PressureGradient final : public sdk::FluidForce {
  public:
@@ -20,23 +22,22 @@ class PressureGradient final : public sdk::FluidForce {
     return s.build();
   }
   static sdk::ModelInfo describe() {
-    sdk::ModelInfo info;
-    info.name = "pressure_gradient";
-    info.version = "1.0";
-    info.summary = "Force of the pressure gradient of the flow on the volume of the grain.";
-    info.equation = R"(f = -V_p \nabla p)";
-    info.source =
-        "Zhou, Kuang, Chu, Yu, J. Fluid Mech. 661 (2010) 482-510, "
-        "doi:10.1017/S002211201000306X, sets I and II";
-    return info;
+    return {.name = "pressure_gradient",
+            .version = "1.0",
+            .summary = "Force of the pressure gradient of the flow on the volume of the grain.",
+            .equation = R"(f = -V_p \nabla p)",
+            .source =
+                "Zhou, Kuang, Chu, Yu, J. Fluid Mech. 661 (2010) 482-510, "
+                "doi:10.1017/S002211201000306X, sets I and II"};
   }
   explicit PressureGradient(const Parameters& p) : p_(p) {}
 
   void evaluate(const sdk::FluidForceBatch& batch) const override {
     for (std::size_t g = 0; g < batch.count; ++g) {
       sdk::Vec3 gradient = batch.pressure_gradient[g];
-      if (p_.hydrostatic) gradient += hydrostatic_gradient(batch.density[g], batch.gravity);
-      batch.force.set(g, force(batch.diameter[g], gradient));
+      if (p_.hydrostatic)
+        gradient += formula::hydrostatic_gradient(batch.density[g], batch.gravity);
+      batch.force.set(g, formula::force(batch.diameter[g], gradient));
     }
   }
   [[nodiscard]] sdk::FluidForceNeeds needs() const override { return {.stresses = true}; }
@@ -52,6 +53,5 @@ class PressureGradient final : public sdk::FluidForce {
 };
 
 }  // namespace
-}  // namespace dust::model::pressure_gradient
 
-DUST_PLUGIN(registrar) { registrar.add<dust::model::pressure_gradient::PressureGradient>(); }
+DUST_PLUGIN(registrar) { registrar.add<PressureGradient>(); }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "saffman.hpp"
 
-#include "dust/sdk/plugin.hpp"
+#include <dust/sdk/plugin.hpp>
 
-namespace dust::model::saffman {
 namespace {
+
+namespace formula = dust::model::saffman;
+namespace sdk = dust::sdk;
 
 class Saffman final : public sdk::FluidForce {
  public:
@@ -20,17 +22,17 @@ class Saffman final : public sdk::FluidForce {
     return s.build();
   }
   static sdk::ModelInfo describe() {
-    sdk::ModelInfo info;
-    info.name = "saffman";
-    info.version = "1.0";
-    info.summary = "Lift of a grain that slips in a shear flow.";
-    info.equation =
-        R"(f = 1.615 D^2 \sqrt{\rho_f \mu / |\omega|}\; w \times \omega,\ \omega = \nabla \times u_f)";
-    info.source =
-        "Saffman, J. Fluid Mech. 22 (1965) 385-400, doi:10.1017/S0022112065000824; corrigendum 31 "
-        "(1968) 624; Mei, Int. J. Multiphase Flow 18 (1992) 145-147, "
-        "doi:10.1016/0301-9322(92)90012-6";
-    return info;
+    return {
+        .name = "saffman",
+        .version = "1.0",
+        .summary = "Lift of a grain that slips in a shear flow.",
+        .equation =
+            R"(f = 1.615 D^2 \sqrt{\rho_f \mu / |\omega|}\; w \times \omega,\ \omega = \nabla \times u_f)",
+        .source =
+            "Saffman, J. Fluid Mech. 22 (1965) 385-400, doi:10.1017/S0022112065000824; corrigendum "
+            "31 "
+            "(1968) 624; Mei, Int. J. Multiphase Flow 18 (1992) 145-147, "
+            "doi:10.1016/0301-9322(92)90012-6"};
   }
   explicit Saffman(const Parameters& p) : is_mei_(p.form == "mei") {}
 
@@ -39,11 +41,11 @@ class Saffman final : public sdk::FluidForce {
       const sdk::Vec3 slip = batch.slip[g];
       const sdk::Vec3 vorticity = batch.vorticity[g];
       const double diameter = batch.diameter[g];
-      sdk::Vec3 f = force(diameter, batch.density[g], batch.viscosity[g], slip, vorticity);
+      sdk::Vec3 f = formula::force(diameter, batch.density[g], batch.viscosity[g], slip, vorticity);
       const double speed = norm(slip);
       if (is_mei_ && speed > 0.0) {
         const double reynolds = batch.density[g] * speed * diameter / batch.viscosity[g];
-        f = mei_factor(reynolds, 0.5 * diameter * norm(vorticity) / speed) * f;
+        f = formula::mei_factor(reynolds, 0.5 * diameter * norm(vorticity) / speed) * f;
       }
       batch.force.set(g, f);
     }
@@ -55,6 +57,5 @@ class Saffman final : public sdk::FluidForce {
 };
 
 }  // namespace
-}  // namespace dust::model::saffman
 
-DUST_PLUGIN(registrar) { registrar.add<dust::model::saffman::Saffman>(); }
+DUST_PLUGIN(registrar) { registrar.add<Saffman>(); }

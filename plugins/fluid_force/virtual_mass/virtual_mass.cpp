@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "virtual_mass.hpp"
 
-#include "dust/sdk/plugin.hpp"
+#include <dust/sdk/plugin.hpp>
 
-namespace dust::model::virtual_mass {
 namespace {
+
+namespace formula = dust::model::virtual_mass;
+namespace sdk = dust::sdk;
 
 class VirtualMass final : public sdk::FluidForce {
  public:
@@ -22,19 +24,17 @@ class VirtualMass final : public sdk::FluidForce {
     return s.build();
   }
   static sdk::ModelInfo describe() {
-    sdk::ModelInfo info;
-    info.name = "virtual_mass";
-    info.version = "1.0";
-    info.summary = "Inertia of the fluid that an accelerating grain takes along.";
-    info.equation = R"(f = C_A \rho_f V_p \left(\frac{d u_f}{dt} - \frac{d u_p}{dt}\right))";
-    info.source = "Lamb, Hydrodynamics, 6th ed. (1932), section 92";
-    return info;
+    return {.name = "virtual_mass",
+            .version = "1.0",
+            .summary = "Inertia of the fluid that an accelerating grain takes along.",
+            .equation = R"(f = C_A \rho_f V_p \left(\frac{d u_f}{dt} - \frac{d u_p}{dt}\right))",
+            .source = "Lamb, Hydrodynamics, 6th ed. (1932), section 92"};
   }
   explicit VirtualMass(const Parameters& p) : p_(p) {}
 
   void evaluate(const sdk::FluidForceBatch& batch) const override {
     for (std::size_t g = 0; g < batch.count; ++g) {
-      const double mass = added_mass(p_.coefficient, batch.density[g], batch.diameter[g]);
+      const double mass = formula::added_mass(p_.coefficient, batch.density[g], batch.diameter[g]);
       batch.added_mass[g] = mass;
       batch.force.set(g, mass * batch.acceleration[g]);
     }
@@ -46,6 +46,5 @@ class VirtualMass final : public sdk::FluidForce {
 };
 
 }  // namespace
-}  // namespace dust::model::virtual_mass
 
-DUST_PLUGIN(registrar) { registrar.add<dust::model::virtual_mass::VirtualMass>(); }
+DUST_PLUGIN(registrar) { registrar.add<VirtualMass>(); }

@@ -8,6 +8,7 @@
 
 namespace {
 
+namespace formula = dust::model::belt;
 namespace sdk = dust::sdk;
 
 class Belt final : public sdk::Motion {
@@ -34,13 +35,11 @@ class Belt final : public sdk::Motion {
 
   explicit Belt(const Parameters& p) : p_(p) {}
   void surface_velocity(const sdk::SurfaceBatch& b) const override {
-    const double speed = dust::model::belt::speed_at(p_.speed, p_.start, p_.ramp, b.time);
+    const double speed = formula::speed_at(p_.speed, p_.start, p_.ramp, b.time);
     for (std::size_t q = 0; q < b.count; ++q) {
-      const auto v = dust::model::belt::velocity(speed, b.axis.x, b.axis.y, b.axis.z, b.normal_x[q],
-                                                 b.normal_y[q], b.normal_z[q]);
-      b.velocity_x[q] = v.x;
-      b.velocity_y[q] = v.y;
-      b.velocity_z[q] = v.z;
+      const auto v = formula::velocity(speed, b.axis.x, b.axis.y, b.axis.z, b.normal.x[q],
+                                       b.normal.y[q], b.normal.z[q]);
+      b.velocity.set(q, {v.x, v.y, v.z});
     }
   }
   [[nodiscard]] double largest_speed() const override { return std::abs(p_.speed); }

@@ -12,10 +12,10 @@ namespace sdk = dust::sdk;
 
 DUST_KERNEL void evaluate_batch(double friction, const sdk::ContactBatch &b) {
   const double time_step = b.time_step;
-  const double *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
-  const double *wx = b.rotation_x, *wy = b.rotation_y, *wz = b.rotation_z;
+  const double *nx = b.normal.x, *ny = b.normal.y, *nz = b.normal.z;
+  const double *wx = b.angular_velocity.x, *wy = b.angular_velocity.y, *wz = b.angular_velocity.z;
   const double *radius = b.effective_radius, *mass = b.effective_mass, *fn = b.normal_force;
-  double *tx = b.torque_x, *ty = b.torque_y, *tz = b.torque_z;
+  double *tx = b.torque.x, *ty = b.torque.y, *tz = b.torque.z;
 #pragma omp simd
   for (std::size_t q = 0; q < b.count; ++q) {
     formula::Rolling c{nx[q],     ny[q],   nz[q], wx[q], wy[q], wz[q],

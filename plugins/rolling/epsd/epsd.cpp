@@ -12,13 +12,13 @@ namespace sdk = dust::sdk;
 
 DUST_KERNEL void evaluate_batch(const formula::Constants &constants, const sdk::ContactBatch &b) {
   const formula::Constants k = constants;
-  const double *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
-  const double *wx = b.rotation_x, *wy = b.rotation_y, *wz = b.rotation_z;
-  const double *ax = b.angle_x, *ay = b.angle_y, *az = b.angle_z;
+  const double *nx = b.normal.x, *ny = b.normal.y, *nz = b.normal.z;
+  const double *wx = b.angular_velocity.x, *wy = b.angular_velocity.y, *wz = b.angular_velocity.z;
+  const double *ax = b.angle.x, *ay = b.angle.y, *az = b.angle.z;
   const double *radius = b.effective_radius, *mass = b.effective_mass;
   const double *fn = b.normal_force, *kn = b.normal_stiffness;
   double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2], *last = b.history[3];
-  double *tx = b.torque_x, *ty = b.torque_y, *tz = b.torque_z;
+  double *tx = b.torque.x, *ty = b.torque.y, *tz = b.torque.z;
 #pragma omp simd
   for (std::size_t q = 0; q < b.count; ++q) {
     formula::Rolling c{nx[q],   ny[q], nz[q], wx[q],   wy[q], wz[q], ax[q], ay[q], az[q], radius[q],

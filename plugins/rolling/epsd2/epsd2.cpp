@@ -18,11 +18,11 @@ constexpr std::size_t k_block = 64;
 
 DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch &b, std::size_t first,
                                 std::size_t end) {
-  const double *nx = b.normal_x, *ny = b.normal_y, *nz = b.normal_z;
-  const double *ax = b.angle_x, *ay = b.angle_y, *az = b.angle_z;
+  const double *nx = b.normal.x, *ny = b.normal.y, *nz = b.normal.z;
+  const double *ax = b.angle.x, *ay = b.angle.y, *az = b.angle.z;
   const double *radius = b.effective_radius, *fn = b.normal_force, *kt = b.tangential_stiffness;
   double *mx = b.history[0], *my = b.history[1], *mz = b.history[2], *last = b.history[3];
-  double *tx = b.torque_x, *ty = b.torque_y, *tz = b.torque_z;
+  double *tx = b.torque.x, *ty = b.torque.y, *tz = b.torque.z;
   alignas(64) double keep[k_block], size[k_block];
 #pragma omp simd
   for (std::size_t q = first; q < end; ++q) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bubbles.hpp"
 
-#include "dust/sdk/fluid_cells.hpp"
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/fluid_cells.hpp>
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 #include <array>
 #include <map>
@@ -11,60 +11,56 @@
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::bubbles;
+namespace sdk = dust::sdk;
 
-class Bubbles final : public Sensor {
+class Bubbles final : public sdk::Sensor {
  public:
-  struct Parameters : SteadyParameters {
-    Vec3 min;
-    Vec3 max;
+  struct Parameters : sdk::SteadyParameters {
+    sdk::Vec3 min;
+    sdk::Vec3 max;
     double threshold = 0.7;
-    Vec3 direction;
+    sdk::Vec3 direction;
     double smallest = 0.0;
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
-    s.vector(&Parameters::min, "min", dimension::length, "Lower corner of the box looked at.");
-    s.vector(&Parameters::max, "max", dimension::length,
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.vector(&Parameters::min, "min", sdk::dimension::length, "Lower corner of the box looked at.");
+    s.vector(&Parameters::max, "max", sdk::dimension::length,
              "Upper corner; what is connected with the upper face is the space over the bed.");
-    s.number(&Parameters::threshold, "threshold", dimension::none,
+    s.number(&Parameters::threshold, "threshold", sdk::dimension::none,
              "Void fraction above which a cell belongs to a bubble.")
         .symbol("\\varepsilon_b")
         .above(0)
         .below(1)
         .optional();
-    s.vector(&Parameters::direction, "direction", dimension::none,
+    s.vector(&Parameters::direction, "direction", sdk::dimension::none,
              "Upwards, along one axis; [0, 0, 0] = against gravity.")
         .optional();
-    s.number(&Parameters::smallest, "smallest", dimension::length,
+    s.number(&Parameters::smallest, "smallest", sdk::dimension::length,
              "Bubbles of a smaller diameter do not count; 0 = all.")
         .at_least(0)
         .optional();
-    declare_steady(s);
+    sdk::declare_steady(s);
     return s.build();
   }
-
-  static ModelInfo describe() {
-    return {"",
-            "bubbles",
-            "1.0",
-            "Number, size and rise velocity of the connected empty regions of a bed.",
-            R"(\varepsilon > \varepsilon_b,\quad d_b = (6 V_b / \pi)^{1/3})",
-            "own definition",
-            {}};
+  static sdk::ModelInfo describe() {
+    return {.name = "bubbles",
+            .version = "1.0",
+            .summary = "Number, size and rise velocity of the connected empty regions of a bed.",
+            .equation = R"(\varepsilon > \varepsilon_b,\quad d_b = (6 V_b / \pi)^{1/3})",
+            .source = "own definition"};
   }
 
   explicit Bubbles(const Parameters& p) : p_(p) {
     for (int d = 0; d < 3; ++d) {
       if (p.max[d] > p.min[d]) continue;
-      throw ParameterError("'max' must lie above 'min' along each axis");
+      throw sdk::ParameterError("'max' must lie above 'min' along each axis");
     }
   }
 
-  void observe(const WorldView& world) override {
-    const FluidCells cells(world.fluid);
+  void observe(const sdk::WorldView& world) override {
+    const sdk::FluidCells cells(world.fluid);
     if (cells.is_empty()) return;
     find_axis(world);
     read(world, cells);
@@ -90,7 +86,7 @@ class Bubbles final : public Sensor {
     }
     values_ = {number, bed_volume_ > 0.0 ? volume / bed_volume_ : 0.0,
                number > 0.0 ? diameters / number : 0.0, weights > 0.0 ? moved / weights : 0.0};
-    if (is_after(world, p_.steady_after)) {
+    if (sdk::is_after(world, p_.steady_after)) {
       const double sums[] = {number, values_[1], diameters, weights, moved};
       means_.add(sums, world.interval);
     }
@@ -99,10 +95,10 @@ class Bubbles final : public Sensor {
     last_ = std::move(found);
   }
 
-  void series(FigureSink& sink) const override {
+  void series(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_columns; ++n) sink.figure(k_names[n], values_[n], k_units[n]);
   }
-  void summary(FigureSink& sink) const override {
+  void summary(sdk::FigureSink& sink) const override {
     const auto error = [&](std::size_t n) {
       return means_.mean(n) != 0.0 ? means_.error(n) : -1.0;
     };
@@ -114,11 +110,11 @@ class Bubbles final : public Sensor {
     sink.figure("diameter", ratio(2, 0), "m");
     sink.figure("rise_velocity", ratio(4, 3), "m/s");
   }
-  void report(ReportSink& sink) const override {
+  void report(sdk::ReportSink& sink) const override {
     sink.curve("Bubbles", "time [s]", "share of the box [1]", "bubbles", curve_.x(), curve_.y());
   }
 
-  void save(ArchiveWriter& a) const override {
+  void save(sdk::ArchiveWriter& a) const override {
     std::vector<double> last;
     for (const Bubble& b : last_) {
       last.insert(last.end(), {b.volume, b.height, b.is_over_bed ? 1.0 : 0.0});
@@ -129,7 +125,7 @@ class Bubbles final : public Sensor {
     means_.save(a, "means");
     curve_.save(a, "curve");
   }
-  void load(ArchiveReader& a) override {
+  void load(sdk::ArchiveReader& a) override {
     values_ = a.numbers("values");
     was_ = a.integers("regions");
     const std::vector<double> last = a.numbers("bubbles");
@@ -151,19 +147,19 @@ class Bubbles final : public Sensor {
   /// Change of volume between two samples beyond which a bubble has merged or split.
   static constexpr double k_most_growth = 1.5;
 
-  void find_axis(const WorldView& world) {
-    const Vec3 up = norm(p_.direction) > 0.0 ? p_.direction : -world.gravity;
+  void find_axis(const sdk::WorldView& world) {
+    const sdk::Vec3 up = norm(p_.direction) > 0.0 ? p_.direction : -world.gravity;
     axis_ = -1;
     for (int d = 0; d < 3; ++d) {
       if (std::abs(up[d]) > (1.0 - 1e-9) * norm(up) && norm(up) > 0.0) axis_ = d;
     }
-    if (axis_ < 0) throw ModelError("bubbles needs a direction along one of the axes");
+    if (axis_ < 0) throw sdk::ModelError("bubbles needs a direction along one of the axes");
     sign_ = up[axis_] > 0.0 ? 1.0 : -1.0;
   }
 
   /// The part of the grid inside the box.
-  void read(const WorldView& world, const FluidCells& cells) {
-    const FluidColumns& f = world.fluid;
+  void read(const sdk::WorldView& world, const sdk::FluidCells& cells) {
+    const sdk::FluidColumns& f = world.fluid;
     int last[3];
     for (int d = 0; d < 3; ++d) {
       // Cells whose centre lies inside.
@@ -189,9 +185,9 @@ class Bubbles final : public Sensor {
     }
   }
 
-  std::vector<Bubble> gather(const WorldView& world,
+  std::vector<Bubble> gather(const sdk::WorldView& world,
                              const std::vector<std::int64_t>& region) const {
-    const FluidColumns& f = world.fluid;
+    const sdk::FluidColumns& f = world.fluid;
     const double volume = f.spacing.x * f.spacing.y * f.spacing.z;
     std::int64_t regions = 0;
     for (const std::int64_t r : region) regions = std::max(regions, r);
@@ -266,8 +262,8 @@ class Bubbles final : public Sensor {
   std::vector<std::int64_t> was_;  ///< regions at the last sample
   std::vector<Bubble> last_;
   std::vector<double> values_ = std::vector<double>(k_columns, 0.0);
-  BatchMeans means_{5};
-  ThinnedCurve curve_;
+  sdk::BatchMeans means_{5};
+  sdk::ThinnedCurve curve_;
 };
 
 }  // namespace

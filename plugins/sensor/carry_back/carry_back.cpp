@@ -1,81 +1,78 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "carry_back.hpp"
 
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::carry_back;
+namespace sdk = dust::sdk;
 
-class CarryBack final : public Sensor {
+class CarryBack final : public sdk::Sensor {
  public:
-  struct Parameters : SteadyParameters {
-    Vec3 min;
-    Vec3 max;
-    Vec3 direction{-1.0, 0.0, 0.0};
+  struct Parameters : sdk::SteadyParameters {
+    sdk::Vec3 min;
+    sdk::Vec3 max;
+    sdk::Vec3 direction{-1.0, 0.0, 0.0};
     double faster_than = 0.0;
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
-    s.vector(&Parameters::min, "min", dimension::length,
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.vector(&Parameters::min, "min", sdk::dimension::length,
              "Lower corner of the layer along the return run.");
-    s.vector(&Parameters::max, "max", dimension::length, "Upper corner of the layer.");
-    s.vector(&Parameters::direction, "direction", dimension::none,
+    s.vector(&Parameters::max, "max", sdk::dimension::length, "Upper corner of the layer.");
+    s.vector(&Parameters::direction, "direction", sdk::dimension::none,
              "Direction in which the return run moves, along one axis.")
         .symbol("d")
         .optional();
-    s.number(&Parameters::faster_than, "faster_than", dimension::velocity,
+    s.number(&Parameters::faster_than, "faster_than", sdk::dimension::velocity,
              "Only grains that move faster than this along the direction ride on the belt.")
         .at_least(0)
         .optional();
-    declare_steady(s);
+    sdk::declare_steady(s);
     return s.build();
   }
-
-  static ModelInfo describe() {
-    return {"",
-            "carry_back",
-            "1.0",
-            "Mass flow that rides back with the return run of a belt, by size class.",
-            R"(\dot m = \frac{1}{L} \sum_i w_i m_i \mathbf{v}_i \cdot \mathbf{d})",
-            "own definition",
-            {}};
+  static sdk::ModelInfo describe() {
+    return {.name = "carry_back",
+            .version = "1.0",
+            .summary = "Mass flow that rides back with the return run of a belt, by size class.",
+            .equation = R"(\dot m = \frac{1}{L} \sum_i w_i m_i \mathbf{v}_i \cdot \mathbf{d})",
+            .source = "own definition"};
   }
 
   explicit CarryBack(const Parameters& p) : p_(p) {
-    const Vec3 extent = p.max - p.min;
+    const sdk::Vec3 extent = p.max - p.min;
     if (!(extent.x > 0.0 && extent.y > 0.0 && extent.z > 0.0)) {
-      throw ParameterError("'max' must lie above 'min' in x, y and z");
+      throw sdk::ParameterError("'max' must lie above 'min' in x, y and z");
     }
-    const Vec3 d = p.direction;
+    const sdk::Vec3 d = p.direction;
     const int axes = (d.x != 0.0) + (d.y != 0.0) + (d.z != 0.0);
-    if (axes != 1) throw ParameterError("'direction' must lie along one axis, e.g. [-1, 0, 0]");
+    if (axes != 1)
+      throw sdk::ParameterError("'direction' must lie along one axis, e.g. [-1, 0, 0]");
     p_.direction = d / norm(d);
     length_ = formula::extent_along(extent.x, extent.y, extent.z, p_.direction.x, p_.direction.y,
                                     p_.direction.z);
   }
 
-  void observe(const WorldView& world) override {
+  void observe(const sdk::WorldView& world) override {
     if (classes_.empty() && !world.class_diameters.empty()) {
       classes_.assign(world.class_diameters.begin(), world.class_diameters.end());
-      means_ = BatchMeans(k_columns * (1 + classes_.size()));
+      means_ = sdk::BatchMeans(k_columns * (1 + classes_.size()));
     }
     values_.assign(means_.columns(), 0.0);
-    const GrainColumns& g = world.grains;
+    const sdk::GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
-      const Vec3 x{g.x[i], g.y[i], g.z[i]};
+      const sdk::Vec3 x{g.x[i], g.y[i], g.z[i]};
       if (!is_inside(x)) continue;
       const double speed = dot({g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]}, p_.direction);
       if (speed <= p_.faster_than) continue;
       add(0, g.weight[i], g.mass[i], speed);
       if (!classes_.empty()) {
-        add(1 + nearest_class(g.diameter[i], classes_), g.weight[i], g.mass[i], speed);
+        add(1 + sdk::nearest_class(g.diameter[i], classes_), g.weight[i], g.mass[i], speed);
       }
     }
-    if (is_after(world, p_.steady_after)) {
+    if (sdk::is_after(world, p_.steady_after)) {
       if (emitted_before_ < 0.0) emitted_before_ = emitted_mass_;
       means_.add(values_, world.interval);
     }
@@ -83,24 +80,24 @@ class CarryBack final : public Sensor {
     curve_.add(world.time, values_[0]);
   }
 
-  void series(FigureSink& sink) const override {
+  void series(sdk::FigureSink& sink) const override {
     sink.figure("mass_flow", values_[0], "kg/s");
     sink.figure("mass", values_[2], "kg");
   }
 
-  void summary(FigureSink& sink) const override {
+  void summary(sdk::FigureSink& sink) const override {
     figures_of("", 0, sink);
     for (std::size_t c = 0; c < classes_.size(); ++c) {
-      figures_of(class_name(classes_[c]) + "/", c + 1, sink);
+      figures_of(sdk::class_name(classes_[c]) + "/", c + 1, sink);
     }
   }
 
-  void report(ReportSink& sink) const override {
+  void report(sdk::ReportSink& sink) const override {
     sink.curve("Carried back", "time [s]", "mass flow [kg/s]", "all grains", curve_.x(),
                curve_.y());
   }
 
-  void save(ArchiveWriter& a) const override {
+  void save(sdk::ArchiveWriter& a) const override {
     const double emitted[] = {emitted_mass_, emitted_before_};
     a.numbers("classes", classes_);
     a.numbers("values", values_);
@@ -108,7 +105,7 @@ class CarryBack final : public Sensor {
     means_.save(a, "means");
     curve_.save(a, "curve");
   }
-  void load(ArchiveReader& a) override {
+  void load(sdk::ArchiveReader& a) override {
     classes_ = a.numbers("classes");
     values_ = a.numbers("values");
     const std::vector<double> emitted = a.numbers("emitted");
@@ -121,7 +118,7 @@ class CarryBack final : public Sensor {
  private:
   static constexpr std::size_t k_columns = 4;  ///< mass flow, number flow, mass, number
 
-  [[nodiscard]] bool is_inside(Vec3 x) const {
+  [[nodiscard]] bool is_inside(sdk::Vec3 x) const {
     return x.x >= p_.min.x && x.x < p_.max.x && x.y >= p_.min.y && x.y < p_.max.y &&
            x.z >= p_.min.z && x.z < p_.max.z;
   }
@@ -139,7 +136,7 @@ class CarryBack final : public Sensor {
     return emitted_before_ < 0.0 ? 0.0 : emitted_mass_ - emitted_before_;
   }
 
-  void figures_of(const std::string& prefix, std::size_t group, FigureSink& sink) const {
+  void figures_of(const std::string& prefix, std::size_t group, sdk::FigureSink& sink) const {
     static constexpr const char* k_names[k_columns] = {"mass_flow", "number_flow", "mean_mass",
                                                        "mean_number"};
     static constexpr const char* k_units[k_columns] = {"kg/s", "1/s", "kg", "1"};
@@ -164,8 +161,8 @@ class CarryBack final : public Sensor {
   std::vector<double> values_ = std::vector<double>(k_columns, 0.0);  ///< at the last sample
   double emitted_mass_ = 0.0;     ///< [kg] until the last sample
   double emitted_before_ = -1.0;  ///< [kg] until the first steady sample; -1 before it
-  BatchMeans means_{k_columns};
-  ThinnedCurve curve_;
+  sdk::BatchMeans means_{k_columns};
+  sdk::ThinnedCurve curve_;
 };
 
 }  // namespace

@@ -1,45 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordination.hpp"
 
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::coordination;
+namespace sdk = dust::sdk;
 
-class Coordination final : public Sensor {
+class Coordination final : public sdk::Sensor {
  public:
-  struct Parameters : SelectionParameters {
+  struct Parameters : sdk::SelectionParameters {
     bool with_walls = true;
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
-    declare_selection(s);
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    sdk::declare_selection(s);
     s.boolean(&Parameters::with_walls, "with_walls",
               "Whether contacts with bodies and walls count.")
         .optional();
     return s.build();
   }
-
-  static ModelInfo describe() {
-    return {"",
-            "coordination",
-            "1.0",
-            "Number of contacts per grain, also without grains that carry no load.",
-            R"(Z = \frac1N \sum_i n_i, \quad Z_m = \frac{\sum_i n_i - N_1}{N - N_0 - N_1})",
-            "Thornton, Geotechnique 50 (2000) 43, doi:10.1680/geot.2000.50.1.43",
-            {}};
+  static sdk::ModelInfo describe() {
+    return {
+        .name = "coordination",
+        .version = "1.0",
+        .summary = "Number of contacts per grain, also without grains that carry no load.",
+        .equation = R"(Z = \frac1N \sum_i n_i, \quad Z_m = \frac{\sum_i n_i - N_1}{N - N_0 - N_1})",
+        .source = "Thornton, Geotechnique 50 (2000) 43, doi:10.1680/geot.2000.50.1.43"};
   }
 
   explicit Coordination(const Parameters& p) : p_(p) {}
   [[nodiscard]] bool wants_contacts() const override { return true; }
 
-  void observe(const WorldView& world) override {
-    const GrainColumns& g = world.grains;
-    const ContactColumns& c = world.contacts;
+  void observe(const sdk::WorldView& world) override {
+    const sdk::GrainColumns& g = world.grains;
+    const sdk::ContactColumns& c = world.contacts;
     std::vector<std::int32_t> count(g.id.size(), 0);
     double walls = 0.0;
     for (std::size_t n = 0; n < c.grain_i.size(); ++n) {
@@ -61,7 +58,7 @@ class Coordination final : public Sensor {
     const formula::Numbers z = formula::numbers_of(count);
     values_ = {z.mean, z.mechanical, z.rattlers,
                chosen > 0 ? walls / static_cast<double>(chosen) : 0.0};
-    if (is_after(world, p_.steady_after)) means_.add(values_, world.interval);
+    if (sdk::is_after(world, p_.steady_after)) means_.add(values_, world.interval);
     shares_.assign(k_most + 1, 0.0);
     for (const std::int32_t n : count) {
       shares_[static_cast<std::size_t>(std::min<std::int32_t>(n, k_most))] +=
@@ -70,11 +67,11 @@ class Coordination final : public Sensor {
     curve_.add(world.time, z.mean);
   }
 
-  void series(FigureSink& sink) const override {
+  void series(sdk::FigureSink& sink) const override {
     sink.figure("mean", values_[0], "1");
     sink.figure("mechanical", values_[1], "1");
   }
-  void summary(FigureSink& sink) const override {
+  void summary(sdk::FigureSink& sink) const override {
     static constexpr const char* k_names[k_columns] = {"mean", "mechanical", "rattler_share",
                                                        "wall_contacts_per_grain"};
     for (std::size_t n = 0; n < k_columns; ++n) {
@@ -83,7 +80,7 @@ class Coordination final : public Sensor {
       sink.figure(std::string(k_names[n]) + "_at_end", values_[n], "1");
     }
   }
-  void report(ReportSink& sink) const override {
+  void report(sdk::ReportSink& sink) const override {
     sink.curve("Coordination number", "time [s]", "contacts per grain [1]", "mean", curve_.x(),
                curve_.y());
     std::vector<double> contacts;
@@ -92,13 +89,13 @@ class Coordination final : public Sensor {
                "all grains", contacts, shares_);
   }
 
-  void save(ArchiveWriter& a) const override {
+  void save(sdk::ArchiveWriter& a) const override {
     a.numbers("values", values_);
     a.numbers("shares", shares_);
     means_.save(a, "means");
     curve_.save(a, "curve");
   }
-  void load(ArchiveReader& a) override {
+  void load(sdk::ArchiveReader& a) override {
     values_ = a.numbers("values");
     shares_ = a.numbers("shares");
     means_.load(a, "means");
@@ -112,8 +109,8 @@ class Coordination final : public Sensor {
   Parameters p_;
   std::vector<double> values_ = std::vector<double>(k_columns, 0.0);  ///< at the last sample
   std::vector<double> shares_ = std::vector<double>(k_most + 1, 0.0);
-  BatchMeans means_{k_columns};
-  ThinnedCurve curve_;
+  sdk::BatchMeans means_{k_columns};
+  sdk::ThinnedCurve curve_;
 };
 
 }  // namespace

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "discharge.hpp"
 
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 #include <numbers>
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::discharge;
+namespace sdk = dust::sdk;
 
 /// Loose bulk over solid density, where no bulk density is given.
 constexpr double k_solids_of_bulk = 0.6;
 
-class Discharge final : public Sensor {
+class Discharge final : public sdk::Sensor {
  public:
   struct Parameters {
-    Vec3 centre;
+    sdk::Vec3 centre;
     double hole = 0.0;
-    Vec3 direction{0.0, 0.0, -1.0};
+    sdk::Vec3 direction{0.0, 0.0, -1.0};
     double reach = 0.0;
     double opened_at = 0.0;
     double from_share = 0.2;
@@ -29,83 +29,82 @@ class Discharge final : public Sensor {
     double beverloo_c = 0.58;
     double beverloo_k = 1.4;
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
-    s.vector(&Parameters::centre, "centre", dimension::length, "Middle of the hole.");
-    s.number(&Parameters::hole, "hole", dimension::length, "Diameter of the hole.")
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.vector(&Parameters::centre, "centre", sdk::dimension::length, "Middle of the hole.");
+    s.number(&Parameters::hole, "hole", sdk::dimension::length, "Diameter of the hole.")
         .symbol("D_0")
         .above(0);
-    s.vector(&Parameters::direction, "direction", dimension::none,
+    s.vector(&Parameters::direction, "direction", sdk::dimension::none,
              "Direction in which the grains leave.")
         .optional();
-    s.number(&Parameters::reach, "reach", dimension::length,
+    s.number(&Parameters::reach, "reach", sdk::dimension::length,
              "Grains pass within this distance of the centre; 0 = half the hole's diameter.")
         .at_least(0)
         .optional();
-    s.number(&Parameters::opened_at, "opened_at", dimension::time,
+    s.number(&Parameters::opened_at, "opened_at", sdk::dimension::time,
              "When the hole opens: the discharge time counts from then.")
         .at_least(0)
         .optional();
-    s.number(&Parameters::from_share, "from_share", dimension::none,
+    s.number(&Parameters::from_share, "from_share", sdk::dimension::none,
              "Share of the mass after which the rate is taken.")
         .at_least(0)
         .below(1)
         .optional();
-    s.number(&Parameters::to_share, "to_share", dimension::none,
+    s.number(&Parameters::to_share, "to_share", sdk::dimension::none,
              "Share of the mass up to which the rate is taken.")
         .above(0)
         .at_most(1)
         .optional();
-    s.number(&Parameters::bulk_density, "bulk_density", dimension::density,
+    s.number(&Parameters::bulk_density, "bulk_density", sdk::dimension::density,
              "Bulk density in Beverloo's correlation; 0 = 0.6 of the grains' own.")
         .symbol("rho_b")
         .at_least(0)
         .optional();
-    s.number(&Parameters::grain_diameter, "grain_diameter", dimension::length,
+    s.number(&Parameters::grain_diameter, "grain_diameter", sdk::dimension::length,
              "Diameter in Beverloo's correlation; 0 = the mean by mass of what passed.")
         .symbol("d")
         .at_least(0)
         .optional();
-    s.number(&Parameters::beverloo_c, "beverloo_c", dimension::none, "Beverloo's factor.")
+    s.number(&Parameters::beverloo_c, "beverloo_c", sdk::dimension::none, "Beverloo's factor.")
         .symbol("C")
         .above(0)
         .optional();
-    s.number(&Parameters::beverloo_k, "beverloo_k", dimension::none,
+    s.number(&Parameters::beverloo_k, "beverloo_k", sdk::dimension::none,
              "Width of the empty ring at the hole's rim, in diameters.")
         .symbol("k")
         .at_least(0)
         .optional();
     return s.build();
   }
-
-  static ModelInfo describe() {
-    return {"",
-            "discharge",
-            "1.0",
-            "Time and rate of the discharge through a hole, beside Beverloo's correlation.",
-            R"(W = C \rho_b \sqrt{g}\,(D_0 - k d)^{5/2})",
+  static sdk::ModelInfo describe() {
+    return {
+        .name = "discharge",
+        .version = "1.0",
+        .summary = "Time and rate of the discharge through a hole, beside Beverloo's correlation.",
+        .equation = R"(W = C \rho_b \sqrt{g}\,(D_0 - k d)^{5/2})",
+        .source =
             "Beverloo, Leniger, van de Velde, Chem. Eng. Sci. 15 (1961) 260, "
-            "doi:10.1016/0009-2509(61)85030-6",
-            {}};
+            "doi:10.1016/0009-2509(61)85030-6"};
   }
 
   explicit Discharge(const Parameters& p) : p_(p) {
     const double length = norm(p.direction);
-    if (!(length > 0.0)) throw ParameterError("'direction' must not be zero");
+    if (!(length > 0.0)) throw sdk::ParameterError("'direction' must not be zero");
     p_.direction = p.direction / length;
-    if (!(p.to_share > p.from_share)) throw ParameterError("to_share must lie above from_share");
+    if (!(p.to_share > p.from_share))
+      throw sdk::ParameterError("to_share must lie above from_share");
     if (!(p.reach > 0.0)) p_.reach = 0.5 * p.hole;
   }
 
-  void observe(const WorldView& world) override {
-    const GrainColumns& g = world.grains;
+  void observe(const sdk::WorldView& world) override {
+    const sdk::GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
-      const Path path = path_of(world, i);
-      const Passage way = passage(dot(path.before - p_.centre, p_.direction),
-                                  dot(path.now - p_.centre, p_.direction));
+      const sdk::Path path = sdk::path_of(world, i);
+      const sdk::Passage way = sdk::passage(dot(path.before - p_.centre, p_.direction),
+                                            dot(path.now - p_.centre, p_.direction));
       if (way.direction == 0) continue;
-      const Vec3 off = path.at(way.fraction) - p_.centre;
+      const sdk::Vec3 off = path.at(way.fraction) - p_.centre;
       if (dot(off, off) > p_.reach * p_.reach) continue;
       const double mass = way.direction * g.weight[i] * g.mass[i];
       sums_[k_mass] += mass;
@@ -122,12 +121,14 @@ class Discharge final : public Sensor {
     number_.push_back(sums_[k_number]);
   }
 
-  void series(FigureSink& sink) const override {
+  void series(sdk::FigureSink& sink) const override {
     sink.figure("mass", sums_[k_mass], "kg");
     sink.figure("number", sums_[k_number], "1");
   }
-  [[nodiscard]] RowValue row_value(std::string_view) const override { return RowValue::total; }
-  void summary(FigureSink& sink) const override {
+  [[nodiscard]] sdk::RowValue row_value(std::string_view) const override {
+    return sdk::RowValue::total;
+  }
+  void summary(sdk::FigureSink& sink) const override {
     const auto rate = formula::middle_rate(time_, mass_, p_.from_share, p_.to_share);
     const auto numbers = formula::middle_rate(time_, number_, p_.from_share, p_.to_share);
     const double expected = expected_rate();
@@ -142,20 +143,20 @@ class Discharge final : public Sensor {
     sink.figure("rate_over_beverloo", is_comparable ? rate.value / expected : 0.0, "1",
                 is_comparable && rate.error >= 0.0 ? rate.error / expected : -1.0);
   }
-  void report(ReportSink& sink) const override {
-    ThinnedCurve curve;
+  void report(sdk::ReportSink& sink) const override {
+    sdk::ThinnedCurve curve;
     for (std::size_t n = 0; n < time_.size(); ++n) curve.add(time_[n], mass_[n]);
     sink.curve("Discharge", "time [s]", "mass passed [kg]", "all grains", curve.x(), curve.y());
   }
 
-  void save(ArchiveWriter& a) const override {
+  void save(sdk::ArchiveWriter& a) const override {
     a.numbers("sums", sums_);
     a.number("gravity", gravity_);
     a.numbers("time", time_);
     a.numbers("mass", mass_);
     a.numbers("number", number_);
   }
-  void load(ArchiveReader& a) override {
+  void load(sdk::ArchiveReader& a) override {
     sums_ = a.numbers("sums");
     gravity_ = a.number("gravity");
     time_ = a.numbers("time");

@@ -1,53 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinetic_energy.hpp"
 
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::kinetic_energy;
+namespace sdk = dust::sdk;
 
-class KineticEnergy final : public Sensor {
+class KineticEnergy final : public sdk::Sensor {
  public:
-  struct Parameters : SelectionParameters {
+  struct Parameters : sdk::SelectionParameters {
     double settled_below = 1e-9;
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
-    declare_selection(s);
-    s.number(&Parameters::settled_below, "settled_below", dimension::energy,
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    sdk::declare_selection(s);
+    s.number(&Parameters::settled_below, "settled_below", sdk::dimension::energy,
              "Mean energy per grain below which the grains count as settled.")
         .above(0)
         .optional();
     return s.build();
   }
-
-  static ModelInfo describe() {
-    return {"",
-            "kinetic_energy",
-            "1.0",
-            "Kinetic energy of the grains, its mean per grain, and the granular temperature.",
-            R"(E = \sum_i w_i \left(\tfrac12 m_i v_i^2 + \tfrac15 m_i R_i^2 \omega_i^2\right))",
-            "Haff, J. Fluid Mech. 134 (1983) 401, doi:10.1017/S0022112083003419 (temperature)",
-            {}};
+  static sdk::ModelInfo describe() {
+    return {.name = "kinetic_energy",
+            .version = "1.0",
+            .summary =
+                "Kinetic energy of the grains, its mean per grain, and the granular temperature.",
+            .equation =
+                R"(E = \sum_i w_i \left(\tfrac12 m_i v_i^2 + \tfrac15 m_i R_i^2 \omega_i^2\right))",
+            .source =
+                "Haff, J. Fluid Mech. 134 (1983) 401, doi:10.1017/S0022112083003419 (temperature)"};
   }
 
   explicit KineticEnergy(const Parameters& p) : p_(p) {}
 
-  void observe(const WorldView& world) override {
+  void observe(const sdk::WorldView& world) override {
     formula::Sums sums;
-    const GrainColumns& g = world.grains;
+    const sdk::GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
       if (!p_.takes(g.diameter[i])) continue;
       sums.add(g.weight[i], g.mass[i], 0.5 * g.diameter[i],
                {g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]},
-               {g.rotation_x[i], g.rotation_y[i], g.rotation_z[i]});
+               {g.angular_velocity_x[i], g.angular_velocity_y[i], g.angular_velocity_z[i]});
     }
     values_ = {sums.translation, sums.rotation, sums.mean_per_grain(), sums.temperature()};
-    if (is_after(world, p_.steady_after)) means_.add(values_, world.interval);
+    if (sdk::is_after(world, p_.steady_after)) means_.add(values_, world.interval);
     // The last time from which on the grains were slow.
     const bool is_settled = sums.number > 0.0 && sums.mean_per_grain() < p_.settled_below;
     if (is_settled && !is_settled_) settled_at_ = world.time;
@@ -55,10 +54,10 @@ class KineticEnergy final : public Sensor {
     curve_.add(world.time, values_[2]);
   }
 
-  void series(FigureSink& sink) const override {
+  void series(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_columns; ++n) sink.figure(k_names[n], values_[n], k_units[n]);
   }
-  void summary(FigureSink& sink) const override {
+  void summary(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_columns; ++n) {
       const double mean = means_.mean(n);
       sink.figure(k_names[n], mean, k_units[n], mean > 0.0 ? means_.error(n) : -1.0);
@@ -67,19 +66,19 @@ class KineticEnergy final : public Sensor {
     sink.figure("is_settled", is_settled_ ? 1.0 : 0.0, "1");
     sink.figure("settled_at", is_settled_ ? settled_at_ : 0.0, "s");
   }
-  void report(ReportSink& sink) const override {
+  void report(sdk::ReportSink& sink) const override {
     sink.curve("Kinetic energy", "time [s]", "mean per grain [J]", "all grains", curve_.x(),
                curve_.y());
   }
 
-  void save(ArchiveWriter& a) const override {
+  void save(sdk::ArchiveWriter& a) const override {
     a.numbers("values", values_);
     a.number("settled_at", settled_at_);
     a.integer("is_settled", is_settled_ ? 1 : 0);
     means_.save(a, "means");
     curve_.save(a, "curve");
   }
-  void load(ArchiveReader& a) override {
+  void load(sdk::ArchiveReader& a) override {
     values_ = a.numbers("values");
     settled_at_ = a.number("settled_at");
     is_settled_ = a.integer("is_settled") != 0;
@@ -97,8 +96,8 @@ class KineticEnergy final : public Sensor {
   std::vector<double> values_ = std::vector<double>(k_columns, 0.0);  ///< at the last sample
   double settled_at_ = 0.0;                                           ///< [s]
   bool is_settled_ = false;
-  BatchMeans means_{k_columns};
-  ThinnedCurve curve_;
+  sdk::BatchMeans means_{k_columns};
+  sdk::ThinnedCurve curve_;
 };
 
 }  // namespace

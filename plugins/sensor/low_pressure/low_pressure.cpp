@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "low_pressure.hpp"
 
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 #include <cfloat>
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::low_pressure;
+namespace sdk = dust::sdk;
 
 /// Cells with less room than this are taken for solid.
 constexpr float k_least_open = 0.5f;
@@ -41,49 +41,47 @@ DUST_KERNEL void close_block(std::size_t n, double duration, double* __restrict 
   }
 }
 
-class LowPressure final : public Sensor {
+class LowPressure final : public sdk::Sensor {
  public:
   struct Parameters {
     std::int64_t count = 5;
     double averaging_after = 0.0;
-    Vec3 average_along;
+    sdk::Vec3 average_along;
     double separation = 0.01;
     double block = 0.02;
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
     s.integer(&Parameters::count, "count", "How many places are reported.")
         .at_least(1)
         .at_most(100)
         .optional();
-    s.number(&Parameters::averaging_after, "averaging_after", dimension::time,
+    s.number(&Parameters::averaging_after, "averaging_after", sdk::dimension::time,
              "Time from which the pressure is averaged.")
         .at_least(0)
         .optional();
-    s.vector(&Parameters::average_along, "average_along", dimension::none,
+    s.vector(&Parameters::average_along, "average_along", sdk::dimension::none,
              "An axis along which the mean pressure is averaged as well, for flows that are level "
              "in it; [0, 0, 0] = none.")
         .optional();
-    s.number(&Parameters::separation, "separation", dimension::length,
+    s.number(&Parameters::separation, "separation", sdk::dimension::length,
              "Least distance between two places.")
         .at_least(0)
         .optional();
-    s.number(&Parameters::block, "block", dimension::time,
+    s.number(&Parameters::block, "block", sdk::dimension::time,
              "Length of the time blocks from whose means the error is taken.")
         .above(0)
         .optional();
     return s.build();
   }
-
-  static ModelInfo describe() {
-    return {"",
-            "low_pressure",
-            "1.0",
-            "The places of lowest mean pressure: where dust gathers and may be extracted.",
+  static sdk::ModelInfo describe() {
+    return {
+        .name = "low_pressure",
+        .version = "1.0",
+        .summary = "The places of lowest mean pressure: where dust gathers and may be extracted.",
+        .equation =
             R"(\bar p(\mathbf{x}) = \frac{1}{T}\int p\,dt,\quad \mathrm{local\ minima} < 0)",
-            "own definition",
-            {}};
+        .source = "own definition"};
   }
 
   explicit LowPressure(const Parameters& p) : p_(p) {
@@ -93,14 +91,15 @@ class LowPressure final : public Sensor {
       ++axes;
       direction_ = d;
     }
-    if (axes > 1) throw ParameterError("'average_along' must lie along one axis, e.g. [0, 1, 0]");
+    if (axes > 1)
+      throw sdk::ParameterError("'average_along' must lie along one axis, e.g. [0, 1, 0]");
   }
 
-  void observe(const WorldView& world) override {
-    const FluidColumns& f = world.fluid;
+  void observe(const sdk::WorldView& world) override {
+    const sdk::FluidColumns& f = world.fluid;
     if (f.pressure.empty()) return;
     if (block_.size() != f.pressure.size()) start(f);
-    const bool is_averaging = is_after(world, p_.averaging_after);
+    const bool is_averaging = sdk::is_after(world, p_.averaging_after);
     const float lowest = accumulate(f.pressure.size(), f.pressure.data(), f.open_fraction.data(),
                                     is_averaging ? world.interval : 0.0, block_.data());
     lowest_ = lowest == FLT_MAX ? 0.0 : static_cast<double>(lowest);
@@ -114,9 +113,11 @@ class LowPressure final : public Sensor {
     block_duration_ = 0.0;
   }
 
-  void series(FigureSink& sink) const override { sink.figure("lowest_pressure", lowest_, "Pa"); }
+  void series(sdk::FigureSink& sink) const override {
+    sink.figure("lowest_pressure", lowest_, "Pa");
+  }
 
-  void summary(FigureSink& sink) const override {
+  void summary(sdk::FigureSink& sink) const override {
     const std::vector<Place> places = find_places();
     sink.figure("found", static_cast<double>(places.size()), "1");
     for (std::size_t n = 0; n < static_cast<std::size_t>(p_.count); ++n) {
@@ -131,7 +132,7 @@ class LowPressure final : public Sensor {
     }
   }
 
-  void report(ReportSink& sink) const override {
+  void report(sdk::ReportSink& sink) const override {
     sink.curve("Lowest pressure", "time [s]", "pressure [Pa]", "open cells", curve_.x(),
                curve_.y());
     const std::vector<std::string> columns = {"x [m]", "y [m]", "z [m]", "depth [Pa]",
@@ -143,7 +144,7 @@ class LowPressure final : public Sensor {
     }
   }
 
-  void save(ArchiveWriter& a) const override {
+  void save(sdk::ArchiveWriter& a) const override {
     const double numbers[] = {origin_.x,  origin_.y, origin_.z,       spacing_.x, spacing_.y,
                               spacing_.z, density_,  block_duration_, lowest_};
     const std::int64_t integers[] = {cells_.count[0], cells_.count[1], cells_.count[2], blocks_};
@@ -156,7 +157,7 @@ class LowPressure final : public Sensor {
     a.integers("is_open", open);
     curve_.save(a, "curve");
   }
-  void load(ArchiveReader& a) override {
+  void load(sdk::ArchiveReader& a) override {
     const std::vector<double> numbers = a.numbers("numbers");
     const std::vector<std::int64_t> integers = a.integers("integers");
     origin_ = {numbers.at(0), numbers.at(1), numbers.at(2)};
@@ -176,14 +177,14 @@ class LowPressure final : public Sensor {
 
  private:
   struct Place {
-    Vec3 position;          ///< [m]
+    sdk::Vec3 position;     ///< [m]
     double pressure = 0.0;  ///< [Pa]
     double error = -1.0;    ///< [Pa]
   };
 
   static constexpr std::int64_t k_fewest_blocks = 4;
 
-  void start(const FluidColumns& f) {
+  void start(const sdk::FluidColumns& f) {
     for (int d = 0; d < 3; ++d) cells_.count[d] = f.count[d];
     origin_ = f.origin;
     spacing_ = f.spacing;
@@ -219,7 +220,7 @@ class LowPressure final : public Sensor {
   /// What the minima are looked for in: the mean pressure and its error, by cell or by row.
   struct Field {
     formula::Cells cells;
-    Vec3 spacing;
+    sdk::Vec3 spacing;
     std::vector<double> pressure;
     std::vector<double> error;  ///< empty below `k_fewest_blocks`
     std::vector<char> is_open;
@@ -276,8 +277,8 @@ class LowPressure final : public Sensor {
   Parameters p_;
   int direction_ = -1;  ///< averaged along, 0 to 2; -1: none
   formula::Cells cells_;
-  Vec3 origin_;
-  Vec3 spacing_;
+  sdk::Vec3 origin_;
+  sdk::Vec3 spacing_;
   double density_ = 0.0;
   std::vector<double> block_;    ///< [Pa s] integral over the open block
   std::vector<double> total_;    ///< [Pa] sum of the block means
@@ -286,7 +287,7 @@ class LowPressure final : public Sensor {
   std::int64_t blocks_ = 0;
   double block_duration_ = 0.0;  ///< [s]
   double lowest_ = 0.0;          ///< [Pa] at the last sample
-  ThinnedCurve curve_;
+  sdk::ThinnedCurve curve_;
 };
 
 }  // namespace

@@ -1,69 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "minimum_fluidisation.hpp"
 
-#include "dust/sdk/fluid_cells.hpp"
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/fluid_cells.hpp>
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::minimum_fluidisation;
+namespace sdk = dust::sdk;
 using formula::Point;
 
-class MinimumFluidisation final : public Sensor {
+class MinimumFluidisation final : public sdk::Sensor {
  public:
   struct Parameters {
-    Vec3 from;
-    Vec3 to;
+    sdk::Vec3 from;
+    sdk::Vec3 to;
     double after = 0.0;
     double fixed_share = 0.7;
     double fluid_factor = 1.2;
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
-    s.vector(&Parameters::from, "from", dimension::length,
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.vector(&Parameters::from, "from", sdk::dimension::length,
              "A point of the cross-section below the bed; heights are counted from it.");
-    s.vector(&Parameters::to, "to", dimension::length,
+    s.vector(&Parameters::to, "to", sdk::dimension::length,
              "A point of the cross-section above the bed.");
-    s.number(&Parameters::after, "after", dimension::time, "Time from which the ramp is looked at.")
+    s.number(&Parameters::after, "after", sdk::dimension::time,
+             "Time from which the ramp is looked at.")
         .at_least(0)
         .optional();
-    s.number(&Parameters::fixed_share, "fixed_share", dimension::none,
+    s.number(&Parameters::fixed_share, "fixed_share", sdk::dimension::none,
              "The bed counts as packed below this share of the velocity at which it would cost as "
              "much as the plateau.")
         .above(0)
         .below(1)
         .optional();
-    s.number(&Parameters::fluid_factor, "fluid_factor", dimension::none,
+    s.number(&Parameters::fluid_factor, "fluid_factor", sdk::dimension::none,
              "It counts as fluidised above this multiple of that velocity.")
         .above(1)
         .optional();
     return s.build();
   }
-
-  static ModelInfo describe() {
+  static sdk::ModelInfo describe() {
     return {
-        "",
-        "minimum_fluidisation",
-        "1.0",
-        "Velocity at which a bed becomes fluid, from a ramp of the flow up or down.",
-        R"(\Delta p_{packed}(U_{mf}) = \Delta p_{fluid}(U_{mf}), \quad H_{packed}(U_{mf}) = H_{fluid}(U_{mf}))",
-        "Richardson, in Davidson, Harrison (ed.), Fluidization, Academic Press 1971, ch. 2",
-        {}};
+        .name = "minimum_fluidisation",
+        .version = "1.0",
+        .summary = "Velocity at which a bed becomes fluid, from a ramp of the flow up or down.",
+        .equation =
+            R"(\Delta p_{packed}(U_{mf}) = \Delta p_{fluid}(U_{mf}), \quad H_{packed}(U_{mf}) = H_{fluid}(U_{mf}))",
+        .source =
+            "Richardson, in Davidson, Harrison (ed.), Fluidization, Academic Press 1971, ch. 2"};
   }
 
-  explicit MinimumFluidisation(const Parameters& p) : p_(p), axis_(common_axis(p.from, p.to)) {
+  explicit MinimumFluidisation(const Parameters& p) : p_(p), axis_(sdk::common_axis(p.from, p.to)) {
     if (axis_ < 0) {
-      throw ParameterError(
+      throw sdk::ParameterError(
           "'from' and 'to' must differ along one axis only, which the planes cross");
     }
   }
 
-  void observe(const WorldView& world) override {
-    const FluidCells cells(world.fluid);
-    if (cells.is_empty() || !is_after(world, p_.after)) return;
+  void observe(const sdk::WorldView& world) override {
+    const sdk::FluidCells cells(world.fluid);
+    if (cells.is_empty() || !sdk::is_after(world, p_.after)) return;
     const auto pressure = [&](std::size_t c) {
       return static_cast<double>(world.fluid.pressure[c]);
     };
@@ -76,23 +75,23 @@ class MinimumFluidisation final : public Sensor {
     add(last_);
   }
 
-  void series(FigureSink& sink) const override {
+  void series(sdk::FigureSink& sink) const override {
     sink.figure("superficial_velocity", last_.velocity, "m/s");
     sink.figure("pressure_drop", last_.pressure, "Pa");
     sink.figure("height", last_.height, "m");
   }
-  void summary(FigureSink& sink) const override {
+  void summary(sdk::FigureSink& sink) const override {
     const auto [rising, falling] = branches();
     tell(sink, "rising/", formula::evaluate(rising, p_.fixed_share, p_.fluid_factor));
     tell(sink, "falling/", formula::evaluate(falling, p_.fixed_share, p_.fluid_factor));
   }
-  void report(ReportSink& sink) const override {
+  void report(sdk::ReportSink& sink) const override {
     const auto [rising, falling] = branches();
     draw(sink, "rising", rising);
     draw(sink, "falling", falling);
   }
 
-  void save(ArchiveWriter& a) const override {
+  void save(sdk::ArchiveWriter& a) const override {
     std::vector<double> numbers;
     for (const Point& p : points_) {
       numbers.insert(numbers.end(), {p.velocity, p.pressure, p.height});
@@ -104,7 +103,7 @@ class MinimumFluidisation final : public Sensor {
     a.numbers("open", open);
     a.integers("counts", counts);
   }
-  void load(ArchiveReader& a) override {
+  void load(sdk::ArchiveReader& a) override {
     const std::vector<double> numbers = a.numbers("points");
     points_.clear();
     for (std::size_t n = 0; n + 2 < numbers.size(); n += 3) {
@@ -122,7 +121,7 @@ class MinimumFluidisation final : public Sensor {
   static constexpr std::size_t k_most_points = 2048;
 
   /// Centre of mass of the grains along the axis [m].
-  [[nodiscard]] double centre(const GrainColumns& g) const {
+  [[nodiscard]] double centre(const sdk::GrainColumns& g) const {
     const std::span<const double> place = axis_ == 0 ? g.x : axis_ == 1 ? g.y : g.z;
     double mass = 0.0;
     double moment = 0.0;
@@ -174,12 +173,13 @@ class MinimumFluidisation final : public Sensor {
     }
     return b;
   }
-  static void tell(FigureSink& sink, const std::string& name, const formula::Ramp& ramp) {
+  static void tell(sdk::FigureSink& sink, const std::string& name, const formula::Ramp& ramp) {
     sink.figure(name + "by_pressure", ramp.by_pressure.velocity, "m/s", ramp.by_pressure.error);
     sink.figure(name + "by_height", ramp.by_height.velocity, "m/s", ramp.by_height.error);
     sink.figure(name + "plateau", ramp.plateau, "Pa");
   }
-  static void draw(ReportSink& sink, const std::string& name, const std::vector<Point>& points) {
+  static void draw(sdk::ReportSink& sink, const std::string& name,
+                   const std::vector<Point>& points) {
     std::vector<double> velocity;
     std::vector<double> pressure;
     std::vector<double> height;

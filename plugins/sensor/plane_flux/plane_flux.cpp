@@ -1,75 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plane_flux.hpp"
 
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::plane_flux;
+namespace sdk = dust::sdk;
 
-class PlaneFlux final : public Sensor {
+class PlaneFlux final : public sdk::Sensor {
  public:
-  struct Parameters : SelectionParameters {
-    Vec3 point;
-    Vec3 normal;
-    Vec3 min;
-    Vec3 max;
+  struct Parameters : sdk::SelectionParameters {
+    sdk::Vec3 point;
+    sdk::Vec3 normal;
+    sdk::Vec3 min;
+    sdk::Vec3 max;
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
-    s.vector(&Parameters::point, "point", dimension::length, "A point of the plane.");
-    s.vector(&Parameters::normal, "normal", dimension::none,
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.vector(&Parameters::point, "point", sdk::dimension::length, "A point of the plane.");
+    s.vector(&Parameters::normal, "normal", sdk::dimension::none,
              "Normal of the plane; passages along it count as forward.")
         .symbol("n");
-    s.vector(&Parameters::min, "min", dimension::length,
+    s.vector(&Parameters::min, "min", sdk::dimension::length,
              "Lower corner of the box that cuts the rectangle out of the plane.");
-    s.vector(&Parameters::max, "max", dimension::length,
+    s.vector(&Parameters::max, "max", sdk::dimension::length,
              "Upper corner of that box; may equal 'min' along the normal.");
-    declare_selection(s);
+    sdk::declare_selection(s);
     return s.build();
   }
-
-  static ModelInfo describe() {
-    return {"",
-            "plane_flux",
-            "1.0",
-            "Number and mass that pass a rectangle, by size class and direction.",
-            R"(\dot m = \frac{1}{T} \sum_{\mathrm{passages}} \pm w_i m_i)",
-            "own definition",
-            {}};
+  static sdk::ModelInfo describe() {
+    return {.name = "plane_flux",
+            .version = "1.0",
+            .summary = "Number and mass that pass a rectangle, by size class and direction.",
+            .equation = R"(\dot m = \frac{1}{T} \sum_{\mathrm{passages}} \pm w_i m_i)",
+            .source = "own definition"};
   }
 
   explicit PlaneFlux(const Parameters& p) : p_(p) {
     const double length = norm(p.normal);
-    if (!(length > 0.0)) throw ParameterError("'normal' must not be zero");
+    if (!(length > 0.0)) throw sdk::ParameterError("'normal' must not be zero");
     p_.normal = p.normal / length;
-    const Vec3 extent = p.max - p.min;
+    const sdk::Vec3 extent = p.max - p.min;
     if (!(extent.x >= 0.0 && extent.y >= 0.0 && extent.z >= 0.0)) {
-      throw ParameterError("'max' must not lie below 'min'");
+      throw sdk::ParameterError("'max' must not lie below 'min'");
     }
     // Rounding of the interpolated point must not throw a grain out of a box without thickness.
     tolerance_ = k_rounding * (norm(p.min) + norm(p.max) + norm(p.point));
   }
 
-  void observe(const WorldView& world) override {
+  void observe(const sdk::WorldView& world) override {
     if (classes_.empty() && !world.class_diameters.empty()) {
       classes_.assign(world.class_diameters.begin(), world.class_diameters.end());
       resize(1 + classes_.size());
     }
     std::vector<double>& passed = values_;
     passed.assign(means_.columns(), 0.0);
-    const bool is_steady = is_after(world, p_.steady_after);
-    const GrainColumns& g = world.grains;
+    const bool is_steady = sdk::is_after(world, p_.steady_after);
+    const sdk::GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
       if (!p_.takes(g.diameter[i])) continue;
-      const int direction = passage_of(path_of(world, i));
+      const int direction = passage_of(sdk::path_of(world, i));
       if (direction == 0) continue;
       count(0, direction, g.weight[i], g.mass[i], is_steady);
       if (!classes_.empty()) {
-        count(1 + nearest_class(g.diameter[i], classes_), direction, g.weight[i], g.mass[i],
+        count(1 + sdk::nearest_class(g.diameter[i], classes_), direction, g.weight[i], g.mass[i],
               is_steady);
       }
     }
@@ -87,33 +83,33 @@ class PlaneFlux final : public Sensor {
     emitted_mass_ = world.emitted_mass;
   }
 
-  void series(FigureSink& sink) const override {
+  void series(sdk::FigureSink& sink) const override {
     sink.figure("net/mass_rate", row_.mean(0), "kg/s");
     sink.figure("forward/mass", mass_so_far_[0], "kg");
     sink.figure("backward/mass", mass_so_far_[1], "kg");
   }
-  [[nodiscard]] RowValue row_value(std::string_view column) const override {
-    return column == "net/mass_rate" ? RowValue::mean : RowValue::total;
+  [[nodiscard]] sdk::RowValue row_value(std::string_view column) const override {
+    return column == "net/mass_rate" ? sdk::RowValue::mean : sdk::RowValue::total;
   }
   void end_row() override { row_.end_row(); }
 
-  void summary(FigureSink& sink) const override {
+  void summary(sdk::FigureSink& sink) const override {
     sink.figure("forward/mass", mass_so_far_[0], "kg");
     sink.figure("backward/mass", mass_so_far_[1], "kg");
     sink.figure("observed_time", means_.duration(), "s");
     rates_of("", 0, sink);
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (!p_.takes(classes_[c])) continue;
-      rates_of(class_name(classes_[c]) + "/", c + 1, sink);
+      rates_of(sdk::class_name(classes_[c]) + "/", c + 1, sink);
     }
   }
 
-  void report(ReportSink& sink) const override {
+  void report(sdk::ReportSink& sink) const override {
     sink.curve("Flux through the plane", "time [s]", "net mass rate [kg/s]", "all grains",
                curve_.x(), curve_.y());
   }
 
-  void save(ArchiveWriter& a) const override {
+  void save(sdk::ArchiveWriter& a) const override {
     a.numbers("classes", classes_);
     a.numbers("squares", squares_);
     a.numbers("mass_so_far", mass_so_far_);
@@ -123,7 +119,7 @@ class PlaneFlux final : public Sensor {
     means_.save(a, "means");
     curve_.save(a, "curve");
   }
-  void load(ArchiveReader& a) override {
+  void load(sdk::ArchiveReader& a) override {
     classes_ = a.numbers("classes");
     squares_ = a.numbers("squares");
     mass_so_far_ = a.numbers("mass_so_far");
@@ -144,16 +140,16 @@ class PlaneFlux final : public Sensor {
   static constexpr std::size_t k_columns = 2 * k_ways;
 
   void resize(std::size_t groups) {
-    means_ = BatchMeans(k_columns * groups);
+    means_ = sdk::BatchMeans(k_columns * groups);
     squares_.assign(k_columns * groups, 0.0);
   }
 
   /// +1 along the normal, -1 against it, 0: not through the rectangle.
-  [[nodiscard]] int passage_of(const Path& path) const {
-    const Passage p =
-        passage(dot(path.before - p_.point, p_.normal), dot(path.now - p_.point, p_.normal));
+  [[nodiscard]] int passage_of(const sdk::Path& path) const {
+    const sdk::Passage p =
+        sdk::passage(dot(path.before - p_.point, p_.normal), dot(path.now - p_.point, p_.normal));
     if (p.direction == 0) return 0;
-    const Vec3 x = path.at(p.fraction);
+    const sdk::Vec3 x = path.at(p.fraction);
     for (int d = 0; d < 3; ++d) {
       if (x[d] < p_.min[d] - tolerance_ || x[d] > p_.max[d] + tolerance_) return 0;
     }
@@ -173,7 +169,7 @@ class PlaneFlux final : public Sensor {
     }
   }
 
-  void rates_of(const std::string& prefix, std::size_t group, FigureSink& sink) const {
+  void rates_of(const std::string& prefix, std::size_t group, sdk::FigureSink& sink) const {
     static constexpr const char* k_way_names[k_ways] = {"forward/", "backward/", "net/"};
     static constexpr const char* k_quantities[2] = {"number_rate", "mass_rate"};
     static constexpr const char* k_units[2] = {"1/s", "kg/s"};
@@ -205,11 +201,11 @@ class PlaneFlux final : public Sensor {
   std::vector<double> values_;  ///< what passed during one sample; no state between calls
   std::vector<double> squares_ = std::vector<double>(k_columns, 0.0);
   std::vector<double> mass_so_far_ = {0.0, 0.0};  ///< [kg] forward, backward, since the start
-  RowMeans row_{1};                               ///< [kg/s] net
+  sdk::RowMeans row_{1};                          ///< [kg/s] net
   double emitted_mass_ = 0.0;                     ///< [kg] until the last sample
   double emitted_before_ = -1.0;  ///< [kg] until the first steady sample; -1 before it
-  BatchMeans means_{k_columns};
-  ThinnedCurve curve_;
+  sdk::BatchMeans means_{k_columns};
+  sdk::ThinnedCurve curve_;
 };
 
 }  // namespace

@@ -1,72 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "probe.hpp"
 
-#include "dust/sdk/fluid_cells.hpp"
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/fluid_cells.hpp>
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::probe;
+namespace sdk = dust::sdk;
 
-class Probe final : public Sensor {
+class Probe final : public sdk::Sensor {
  public:
-  struct Parameters : SteadyParameters {
-    Vec3 from;
-    Vec3 to;
+  struct Parameters : sdk::SteadyParameters {
+    sdk::Vec3 from;
+    sdk::Vec3 to;
     std::int64_t count = 11;
-    Vec3 across;
+    sdk::Vec3 across;
     std::int64_t count_across = 1;
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
-    s.vector(&Parameters::from, "from", dimension::length, "Where the line begins.");
-    s.vector(&Parameters::to, "to", dimension::length, "Where it ends.");
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.vector(&Parameters::from, "from", sdk::dimension::length, "Where the line begins.");
+    s.vector(&Parameters::to, "to", sdk::dimension::length, "Where it ends.");
     s.integer(&Parameters::count, "count", "Number of places on the line; 1 = its middle.")
         .at_least(1)
         .at_most(1000)
         .optional();
-    s.vector(&Parameters::across, "across", dimension::length,
+    s.vector(&Parameters::across, "across", sdk::dimension::length,
              "From the first to the last of the lines of a plane.")
         .optional();
     s.integer(&Parameters::count_across, "count_across", "Number of lines of a plane.")
         .at_least(1)
         .at_most(1000)
         .optional();
-    declare_steady(s);
+    sdk::declare_steady(s);
     return s.build();
   }
-
-  static ModelInfo describe() {
-    return {"",
-            "probe",
-            "1.0",
+  static sdk::ModelInfo describe() {
+    return {
+        .name = "probe",
+        .version = "1.0",
+        .summary =
             "Velocity, pressure and void fraction of the air at a point, along a line, in a plane.",
-            R"(\bar q(x_n) = \frac1T \int q(x_n, t)\, dt)",
-            "own definition",
-            {}};
+        .equation = R"(\bar q(x_n) = \frac1T \int q(x_n, t)\, dt)",
+        .source = "own definition"};
   }
 
   explicit Probe(const Parameters& p)
       : p_(p), places_(formula::lattice(p.from, p.to, p.count, p.across, p.count_across)) {
     constexpr std::size_t k_most = 2000;
     if (places_.size() > k_most) {
-      throw ParameterError("count times count_across are " + std::to_string(places_.size()) +
-                           " places; at most " + std::to_string(k_most) + " are kept");
+      throw sdk::ParameterError("count times count_across are " + std::to_string(places_.size()) +
+                                " places; at most " + std::to_string(k_most) + " are kept");
     }
     if (p.count_across > 1 && !(norm(p.across) > 0.0)) {
-      throw ParameterError("several lines need 'across': where the last one lies from the first");
+      throw sdk::ParameterError(
+          "several lines need 'across': where the last one lies from the first");
     }
     values_.assign(places_.size() * k_columns, 0.0);
     overall_.assign(k_columns, 0.0);
-    means_ = BatchMeans(values_.size());
+    means_ = sdk::BatchMeans(values_.size());
   }
 
-  void observe(const WorldView& world) override {
-    const FluidColumns& f = world.fluid;
-    const FluidCells cells(f);
+  void observe(const sdk::WorldView& world) override {
+    const sdk::FluidColumns& f = world.fluid;
+    const sdk::FluidCells cells(f);
     if (cells.is_empty()) return;
     const std::span<const float> columns[k_columns] = {f.velocity_x, f.velocity_y, f.velocity_z,
                                                        f.pressure, f.void_fraction};
@@ -78,13 +77,13 @@ class Probe final : public Sensor {
         overall_[c] += value / static_cast<double>(places_.size());
       }
     }
-    if (is_after(world, p_.steady_after)) means_.add(values_, world.interval);
+    if (sdk::is_after(world, p_.steady_after)) means_.add(values_, world.interval);
   }
 
-  void series(FigureSink& sink) const override {
+  void series(sdk::FigureSink& sink) const override {
     for (std::size_t c = 0; c < k_columns; ++c) sink.figure(k_names[c], overall_[c], k_units[c]);
   }
-  void summary(FigureSink& sink) const override {
+  void summary(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < places_.size(); ++n) {
       const std::string place = "place_" + std::to_string(n + 1) + "/";
       for (std::size_t c = 0; c < k_columns; ++c) {
@@ -94,7 +93,7 @@ class Probe final : public Sensor {
       }
     }
   }
-  void report(ReportSink& sink) const override {
+  void report(sdk::ReportSink& sink) const override {
     const auto count = static_cast<std::size_t>(p_.count);
     std::vector<double> way;
     for (std::size_t n = 0; n < count; ++n) way.push_back(norm(places_[n] - places_[0]));
@@ -112,12 +111,12 @@ class Probe final : public Sensor {
     }
   }
 
-  void save(ArchiveWriter& a) const override {
+  void save(sdk::ArchiveWriter& a) const override {
     a.numbers("values", values_);
     a.numbers("overall", overall_);
     means_.save(a, "means");
   }
-  void load(ArchiveReader& a) override {
+  void load(sdk::ArchiveReader& a) override {
     values_ = a.numbers("values");
     overall_ = a.numbers("overall");
     means_.load(a, "means");
@@ -134,10 +133,10 @@ class Probe final : public Sensor {
       "velocity [m/s]", "velocity [m/s]", "velocity [m/s]", "pressure [Pa]", "void fraction [1]"};
 
   Parameters p_;
-  std::vector<Vec3> places_;     ///< [m] line by line
-  std::vector<double> values_;   ///< k_columns per place, at the last sample
-  std::vector<double> overall_;  ///< means over the places
-  BatchMeans means_;
+  std::vector<sdk::Vec3> places_;  ///< [m] line by line
+  std::vector<double> values_;     ///< k_columns per place, at the last sample
+  std::vector<double> overall_;    ///< means over the places
+  sdk::BatchMeans means_;
 };
 
 }  // namespace

@@ -1,61 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "settling_velocity.hpp"
 
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::settling_velocity;
+namespace sdk = dust::sdk;
 
-class SettlingVelocity final : public Sensor {
+class SettlingVelocity final : public sdk::Sensor {
  public:
-  struct Parameters : SelectionParameters {
-    Vec3 base;
-    Vec3 direction;
+  struct Parameters : sdk::SelectionParameters {
+    sdk::Vec3 base;
+    sdk::Vec3 direction;
     std::vector<double> levels;
     double until = 0.0;
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
-    s.vector(&Parameters::base, "base", dimension::length, "Heights count from this point.")
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.vector(&Parameters::base, "base", sdk::dimension::length, "Heights count from this point.")
         .optional();
-    s.vector(&Parameters::direction, "direction", dimension::none,
+    s.vector(&Parameters::direction, "direction", sdk::dimension::none,
              "Downwards; [0, 0, 0] = along gravity.")
         .optional();
-    s.numbers(&Parameters::levels, "levels", dimension::length,
+    s.numbers(&Parameters::levels, "levels", sdk::dimension::length,
               "Heights over base whose first passage is timed.")
         .at_least(0)
         .optional();
-    s.number(&Parameters::until, "until", dimension::length,
+    s.number(&Parameters::until, "until", sdk::dimension::length,
              "Means end where the grains are below this height; 0 = never.")
         .at_least(0)
         .optional();
-    declare_selection(s);
+    sdk::declare_selection(s);
     return s.build();
   }
-
-  static ModelInfo describe() {
-    return {"",
-            "settling_velocity",
-            "1.0",
-            "How fast grains sink, how fast at most, and when they pass given heights.",
-            R"(v = \frac{\sum w_i m_i v_i \cdot n}{\sum w_i m_i})",
-            "own definition",
-            {}};
+  static sdk::ModelInfo describe() {
+    return {.name = "settling_velocity",
+            .version = "1.0",
+            .summary = "How fast grains sink, how fast at most, and when they pass given heights.",
+            .equation = R"(v = \frac{\sum w_i m_i v_i \cdot n}{\sum w_i m_i})",
+            .source = "own definition"};
   }
 
   explicit SettlingVelocity(const Parameters& p) : p_(p), passages_(p.levels) {}
 
-  void observe(const WorldView& world) override {
-    Vec3 down = norm(p_.direction) > 0.0 ? p_.direction : world.gravity;
+  void observe(const sdk::WorldView& world) override {
+    sdk::Vec3 down = norm(p_.direction) > 0.0 ? p_.direction : world.gravity;
     if (!(norm(down) > 0.0)) {
-      throw ModelError("settling_velocity needs a direction where there is no gravity");
+      throw sdk::ModelError("settling_velocity needs a direction where there is no gravity");
     }
     down = down / norm(down);
-    const GrainColumns& g = world.grains;
+    const sdk::GrainColumns& g = world.grains;
     double mass = 0.0;
     double height = 0.0;
     double velocity = 0.0;
@@ -63,8 +59,8 @@ class SettlingVelocity final : public Sensor {
       if (!p_.takes(g.diameter[i])) continue;
       const double m = g.weight[i] * g.mass[i];
       mass += m;
-      height -= m * dot(down, Vec3{g.x[i], g.y[i], g.z[i]} - p_.base);
-      velocity += m * dot(down, Vec3{g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]});
+      height -= m * dot(down, sdk::Vec3{g.x[i], g.y[i], g.z[i]} - p_.base);
+      velocity += m * dot(down, sdk::Vec3{g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]});
     }
     if (!(mass > 0.0)) {
       values_ = {0.0, 0.0};
@@ -80,17 +76,17 @@ class SettlingVelocity final : public Sensor {
     has_grains_ = true;
     if (velocity > largest_[0]) largest_ = {velocity, world.time};
     is_down_ = is_down_ || height < p_.until;
-    if (is_after(world, p_.steady_after) && !is_down_) {
+    if (sdk::is_after(world, p_.steady_after) && !is_down_) {
       means_.add({&velocity, 1}, world.interval);
     }
     curve_.add(world.time, velocity);
   }
 
-  void series(FigureSink& sink) const override {
+  void series(sdk::FigureSink& sink) const override {
     sink.figure("velocity", values_[0], "m/s");
     sink.figure("height", values_[1], "m");
   }
-  void summary(FigureSink& sink) const override {
+  void summary(sdk::FigureSink& sink) const override {
     const double mean = means_.mean(0);
     sink.figure("velocity", mean, "m/s", mean != 0.0 ? means_.error(0) : -1.0);
     sink.figure("velocity_at_end", values_[0], "m/s");
@@ -98,17 +94,17 @@ class SettlingVelocity final : public Sensor {
     sink.figure("largest/velocity", largest_[0], "m/s");
     sink.figure("largest/time", largest_[1], "s");
     for (std::size_t n = 0; n < passages_.levels().size(); ++n) {
-      const std::string name = "level_" + name_of(passages_.levels()[n] * 1e3) + "_mm/";
+      const std::string name = "level_" + sdk::name_of(passages_.levels()[n] * 1e3) + "_mm/";
       sink.figure(name + "time", passages_.times()[n], "s");
       sink.figure(name + "velocity", passages_.velocities()[n], "m/s");
     }
   }
-  void report(ReportSink& sink) const override {
+  void report(sdk::ReportSink& sink) const override {
     sink.curve("Settling", "time [s]", "velocity [m/s]", "mean of the grains", curve_.x(),
                curve_.y());
   }
 
-  void save(ArchiveWriter& a) const override {
+  void save(sdk::ArchiveWriter& a) const override {
     a.numbers("values", values_);
     a.numbers("largest", largest_);
     a.integer("has_grains", has_grains_ ? 1 : 0);
@@ -118,7 +114,7 @@ class SettlingVelocity final : public Sensor {
     means_.save(a, "means");
     curve_.save(a, "curve");
   }
-  void load(ArchiveReader& a) override {
+  void load(sdk::ArchiveReader& a) override {
     values_ = a.numbers("values");
     largest_ = a.numbers("largest");
     has_grains_ = a.integer("has_grains") != 0;
@@ -136,8 +132,8 @@ class SettlingVelocity final : public Sensor {
   std::vector<double> largest_{0.0, 0.0};  ///< velocity [m/s] and when [s]
   bool has_grains_ = false;
   bool is_down_ = false;  ///< below `until`: what bounces back no longer counts
-  BatchMeans means_{1};
-  ThinnedCurve curve_;
+  sdk::BatchMeans means_{1};
+  sdk::ThinnedCurve curve_;
 };
 
 }  // namespace

@@ -1,55 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "size_distribution.hpp"
 
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 #include <limits>
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::size_distribution;
+namespace sdk = dust::sdk;
 
 constexpr double k_far = std::numeric_limits<double>::infinity();
 
-class Sizes final : public Sensor {
+class Sizes final : public sdk::Sensor {
  public:
-  struct Parameters : SelectionParameters {
-    Vec3 min{-k_far, -k_far, -k_far};
-    Vec3 max{k_far, k_far, k_far};
+  struct Parameters : sdk::SelectionParameters {
+    sdk::Vec3 min{-k_far, -k_far, -k_far};
+    sdk::Vec3 max{k_far, k_far, k_far};
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
-    s.vector(&Parameters::min, "min", dimension::length,
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.vector(&Parameters::min, "min", sdk::dimension::length,
              "Lower corner of the box looked at; without it, the whole domain.")
         .optional();
-    s.vector(&Parameters::max, "max", dimension::length, "Upper corner of the box.").optional();
-    declare_selection(s);
+    s.vector(&Parameters::max, "max", sdk::dimension::length, "Upper corner of the box.")
+        .optional();
+    sdk::declare_selection(s);
     return s.build();
   }
-
-  static ModelInfo describe() {
-    return {"",
-            "size_distribution",
-            "1.0",
-            "Shares of the size classes by number and by mass, and their mean sizes.",
-            R"(d_{32} = \sum_i w_i d_i^3 / \sum_i w_i d_i^2)",
-            "ISO 9276-2:2014 (mean sizes from distributions)",
-            {}};
+  static sdk::ModelInfo describe() {
+    return {.name = "size_distribution",
+            .version = "1.0",
+            .summary = "Shares of the size classes by number and by mass, and their mean sizes.",
+            .equation = R"(d_{32} = \sum_i w_i d_i^3 / \sum_i w_i d_i^2)",
+            .source = "ISO 9276-2:2014 (mean sizes from distributions)"};
   }
 
   explicit Sizes(const Parameters& p) : p_(p) {
     for (int d = 0; d < 3; ++d) {
-      if (!(p.max[d] > p.min[d])) throw ParameterError("'max' must lie above 'min' in x, y and z");
+      if (!(p.max[d] > p.min[d]))
+        throw sdk::ParameterError("'max' must lie above 'min' in x, y and z");
     }
   }
 
-  void observe(const WorldView& world) override {
+  void observe(const sdk::WorldView& world) override {
     if (classes_.empty() && !world.class_diameters.empty()) {
       classes_.assign(world.class_diameters.begin(), world.class_diameters.end());
-      means_ = BatchMeans(k_means + 2 * classes_.size());
+      means_ = sdk::BatchMeans(k_means + 2 * classes_.size());
       values_.assign(means_.columns(), 0.0);
     }
     if (classes_.empty()) return;
@@ -57,11 +55,11 @@ class Sizes final : public Sensor {
     std::vector<double> masses(classes_.size(), 0.0);
     double number = 0.0;
     double mass = 0.0;
-    const GrainColumns& g = world.grains;
+    const sdk::GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
       if (!p_.takes(g.diameter[i])) continue;
-      if (!is_in_box({g.x[i], g.y[i], g.z[i]}, p_.min, p_.max)) continue;
-      const std::size_t c = nearest_class(g.diameter[i], classes_);
+      if (!sdk::is_in_box({g.x[i], g.y[i], g.z[i]}, p_.min, p_.max)) continue;
+      const std::size_t c = sdk::nearest_class(g.diameter[i], classes_);
       numbers[c] += g.weight[i];
       masses[c] += g.weight[i] * g.mass[i];
       number += g.weight[i];
@@ -77,24 +75,24 @@ class Sizes final : public Sensor {
       values_[k_means + 2 * c] = numbers[c] / number;
       values_[k_means + 2 * c + 1] = masses[c] / mass;
     }
-    if (is_after(world, p_.steady_after)) means_.add(values_, world.interval);
+    if (sdk::is_after(world, p_.steady_after)) means_.add(values_, world.interval);
   }
 
-  void series(FigureSink& sink) const override {
+  void series(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_means; ++n) {
       sink.figure(k_names[n], values_.empty() ? 0.0 : values_[n], "m");
     }
   }
-  void summary(FigureSink& sink) const override {
+  void summary(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_means; ++n) figure(sink, k_names[n], n, "m");
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (!p_.takes(classes_[c])) continue;
-      const std::string prefix = class_name(classes_[c]) + "/";
+      const std::string prefix = sdk::class_name(classes_[c]) + "/";
       figure(sink, prefix + "number_fraction", k_means + 2 * c, "1");
       figure(sink, prefix + "mass_fraction", k_means + 2 * c + 1, "1");
     }
   }
-  void report(ReportSink& sink) const override {
+  void report(sdk::ReportSink& sink) const override {
     const std::vector<std::string> columns = {"diameter [um]", "number [%]", "mass [%]"};
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       const double row[] = {1e6 * classes_[c], 1e2 * means_.mean(k_means + 2 * c),
@@ -103,12 +101,12 @@ class Sizes final : public Sensor {
     }
   }
 
-  void save(ArchiveWriter& a) const override {
+  void save(sdk::ArchiveWriter& a) const override {
     a.numbers("classes", classes_);
     a.numbers("values", values_);
     means_.save(a, "means");
   }
-  void load(ArchiveReader& a) override {
+  void load(sdk::ArchiveReader& a) override {
     classes_ = a.numbers("classes");
     values_ = a.numbers("values");
     means_.load(a, "means");
@@ -119,7 +117,7 @@ class Sizes final : public Sensor {
   static constexpr double k_quantiles[3] = {0.1, 0.5, 0.9};
   static constexpr const char* k_names[k_means] = {"sauter_diameter", "d_10", "d_50", "d_90"};
 
-  void figure(FigureSink& sink, const std::string& name, std::size_t column,
+  void figure(sdk::FigureSink& sink, const std::string& name, std::size_t column,
               const char* unit) const {
     const double mean = means_.mean(column);
     sink.figure(name, mean, unit, mean > 0.0 ? means_.error(column) : -1.0);
@@ -128,7 +126,7 @@ class Sizes final : public Sensor {
   Parameters p_;
   std::vector<double> classes_;
   std::vector<double> values_ = std::vector<double>(k_means, 0.0);  ///< at the last sample
-  BatchMeans means_{k_means};
+  sdk::BatchMeans means_{k_means};
 };
 
 }  // namespace

@@ -1,52 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stress.hpp"
 
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::stress;
+namespace sdk = dust::sdk;
 
-class Stress final : public Sensor {
+class Stress final : public sdk::Sensor {
  public:
-  struct Parameters : SteadyParameters {
-    Vec3 min;
-    Vec3 max;
-    Vec3 cells{1.0, 1.0, 1.0};
+  struct Parameters : sdk::SteadyParameters {
+    sdk::Vec3 min;
+    sdk::Vec3 max;
+    sdk::Vec3 cells{1.0, 1.0, 1.0};
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
-    s.vector(&Parameters::min, "min", dimension::length, "Lower corner of the box looked at.");
-    s.vector(&Parameters::max, "max", dimension::length, "Upper corner of the box.");
-    s.vector(&Parameters::cells, "cells", dimension::none,
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.vector(&Parameters::min, "min", sdk::dimension::length, "Lower corner of the box looked at.");
+    s.vector(&Parameters::max, "max", sdk::dimension::length, "Upper corner of the box.");
+    s.vector(&Parameters::cells, "cells", sdk::dimension::none,
              "Number of cells along x, y and z over which the fields are averaged.")
         .at_least(1)
         .at_most(1000)
         .optional();
-    declare_steady(s);
+    sdk::declare_steady(s);
     return s.build();
   }
-
-  static ModelInfo describe() {
+  static sdk::ModelInfo describe() {
     return {
-        "",
-        "stress",
-        "1.0",
-        "Stress, density and velocity of the grains as fields averaged over cells.",
-        R"(\sigma_{ab} = \frac1V \Big(\sum_i m_i v'_{i,a} v'_{i,b} - \sum_c s_c f_{c,a} b_{c,b}\Big))",
-        "Goldhirsch, Granular Matter 12 (2010) 239, doi:10.1007/s10035-010-0181-z",
-        {}};
+        .name = "stress",
+        .version = "1.0",
+        .summary = "Stress, density and velocity of the grains as fields averaged over cells.",
+        .equation =
+            R"(\sigma_{ab} = \frac1V \Big(\sum_i m_i v'_{i,a} v'_{i,b} - \sum_c s_c f_{c,a} b_{c,b}\Big))",
+        .source = "Goldhirsch, Granular Matter 12 (2010) 239, doi:10.1007/s10035-010-0181-z"};
   }
 
   explicit Stress(const Parameters& p) : p_(p) {
     for (int d = 0; d < 3; ++d) {
       const auto u = static_cast<std::size_t>(d);
-      if (!(p.max[d] > p.min[d])) throw ParameterError("'max' must lie above 'min' in x, y and z");
+      if (!(p.max[d] > p.min[d]))
+        throw sdk::ParameterError("'max' must lie above 'min' in x, y and z");
       if (p.cells[d] != std::floor(p.cells[d]))
-        throw ParameterError("'cells' must be whole numbers");
+        throw sdk::ParameterError("'cells' must be whole numbers");
       cells_.low[u] = p.min[d];
       cells_.high[u] = p.max[d];
       cells_.count[u] = static_cast<std::size_t>(p.cells[d]);
@@ -56,7 +54,7 @@ class Stress final : public Sensor {
   }
   [[nodiscard]] bool wants_contacts() const override { return true; }
 
-  void observe(const WorldView& world) override {
+  void observe(const sdk::WorldView& world) override {
     std::fill(fields_.begin(), fields_.end(), 0.0);
     add_grains(world.grains);
     add_contacts(world);
@@ -68,20 +66,20 @@ class Stress final : public Sensor {
         totals_[f] += fields_[c * k_fields + f] / static_cast<double>(cells_.size());
       }
     }
-    if (is_after(world, p_.steady_after)) {
+    if (sdk::is_after(world, p_.steady_after)) {
       means_.add(totals_, world.interval);
       for (std::size_t n = 0; n < fields_.size(); ++n) sums_[n] += world.interval * fields_[n];
     }
     curve_.add(world.time, pressure(totals_.data()));
   }
 
-  void series(FigureSink& sink) const override {
+  void series(sdk::FigureSink& sink) const override {
     sink.figure("pressure", pressure(totals_.data()), "Pa");
     sink.figure("xx", totals_[0], "Pa");
     sink.figure("yy", totals_[1], "Pa");
     sink.figure("zz", totals_[2], "Pa");
   }
-  void summary(FigureSink& sink) const override {
+  void summary(sdk::FigureSink& sink) const override {
     for (std::size_t f = 0; f < k_components; ++f) {
       sink.figure(k_names[f], means_.mean(f), "Pa", error(f));
       sink.figure(std::string(k_names[f]) + "_at_end", totals_[f], "Pa");
@@ -91,7 +89,7 @@ class Stress final : public Sensor {
     sink.figure("pressure", p, "Pa");
     sink.figure("bulk_density", means_.mean(k_density), "kg/m3", error(k_density));
   }
-  void report(ReportSink& sink) const override {
+  void report(sdk::ReportSink& sink) const override {
     sink.curve("Pressure of the grains", "time [s]", "pressure [Pa]", "whole box", curve_.x(),
                curve_.y());
     const double time = means_.duration();
@@ -119,13 +117,13 @@ class Stress final : public Sensor {
     }
   }
 
-  void save(ArchiveWriter& a) const override {
+  void save(sdk::ArchiveWriter& a) const override {
     a.numbers("totals", totals_);
     a.numbers("sums", sums_);
     means_.save(a, "means");
     curve_.save(a, "curve");
   }
-  void load(ArchiveReader& a) override {
+  void load(sdk::ArchiveReader& a) override {
     totals_ = a.numbers("totals");
     sums_ = a.numbers("sums");
     means_.load(a, "means");
@@ -146,7 +144,7 @@ class Stress final : public Sensor {
     return means_.mean(field) != 0.0 ? means_.error(field) : -1.0;
   }
 
-  void add_grains(const GrainColumns& g) {
+  void add_grains(const sdk::GrainColumns& g) {
     const auto cell_of = [&](std::size_t i) -> double* {
       const formula::Point x{g.x[i], g.y[i], g.z[i]};
       if (!cells_.holds(x)) return nullptr;
@@ -175,9 +173,9 @@ class Stress final : public Sensor {
     }
   }
 
-  void add_contacts(const WorldView& world) {
-    const GrainColumns& g = world.grains;
-    const ContactColumns& c = world.contacts;
+  void add_contacts(const sdk::WorldView& world) {
+    const sdk::GrainColumns& g = world.grains;
+    const sdk::ContactColumns& c = world.contacts;
     for (std::size_t n = 0; n < c.grain_i.size(); ++n) {
       const auto i = static_cast<std::size_t>(c.grain_i[n]);
       const auto j = static_cast<std::size_t>(c.grain_j[n]);
@@ -211,8 +209,8 @@ class Stress final : public Sensor {
   std::vector<double> fields_;  ///< of the last sample; no state between calls
   std::vector<double> totals_ = std::vector<double>(k_fields, 0.0);  ///< means over the box
   std::vector<double> sums_;  ///< integrals of the fields over time
-  BatchMeans means_{k_fields};
-  ThinnedCurve curve_;
+  sdk::BatchMeans means_{k_fields};
+  sdk::ThinnedCurve curve_;
 };
 
 }  // namespace

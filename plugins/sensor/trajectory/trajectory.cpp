@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trajectory.hpp"
 
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::trajectory;
+namespace sdk = dust::sdk;
 
 /// Everything that crossed one level, in order of time.
 struct Crossings {
@@ -29,7 +29,7 @@ struct Crossings {
   }
   void end_sample() { until.push_back(static_cast<std::int64_t>(place.size())); }
 
-  void save(ArchiveWriter& a, const std::string& name) const {
+  void save(sdk::ArchiveWriter& a, const std::string& name) const {
     const double sums[] = {weight_sum, moment};
     a.numbers(name + "_place", place);
     a.numbers(name + "_speed", speed);
@@ -38,7 +38,7 @@ struct Crossings {
     a.integers(name + "_class", size_class);
     a.integers(name + "_until", until);
   }
-  void load(ArchiveReader& a, const std::string& name) {
+  void load(sdk::ArchiveReader& a, const std::string& name) {
     place = a.numbers(name + "_place");
     speed = a.numbers(name + "_speed");
     weight = a.numbers(name + "_weight");
@@ -50,81 +50,81 @@ struct Crossings {
   }
 };
 
-class Trajectory final : public Sensor {
+class Trajectory final : public sdk::Sensor {
  public:
-  struct Parameters : SelectionParameters {
-    Vec3 from;
+  struct Parameters : sdk::SelectionParameters {
+    sdk::Vec3 from;
     std::vector<double> drops;
-    Vec3 along{1.0, 0.0, 0.0};
+    sdk::Vec3 along{1.0, 0.0, 0.0};
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
-    s.vector(&Parameters::from, "from", dimension::length,
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.vector(&Parameters::from, "from", sdk::dimension::length,
              "Point A where the belt meets the head pulley; places and drops count from it.")
         .symbol("A");
-    s.numbers(&Parameters::drops, "drops", dimension::length,
+    s.numbers(&Parameters::drops, "drops", sdk::dimension::length,
               "Distances below A, along gravity, at which the stream is measured.")
         .symbol("h")
         .above(0);
-    s.vector(&Parameters::along, "along", dimension::none,
+    s.vector(&Parameters::along, "along", sdk::dimension::none,
              "Direction of the belt; its part across gravity is used.")
         .optional();
-    declare_selection(s);
+    sdk::declare_selection(s);
     return s.build();
   }
-
-  static ModelInfo describe() {
-    return {"",
-            "trajectory",
-            "1.0",
+  static sdk::ModelInfo describe() {
+    return {
+        .name = "trajectory",
+        .version = "1.0",
+        .summary =
             "Edges and middle of a falling stream at given drops: quantiles of where grains cross.",
-            R"(Q(p) = \inf\{x : \sum_{x_i \le x} w_i \ge p \sum w_i\})",
+        .equation = R"(Q(p) = \inf\{x : \sum_{x_i \le x} w_i \ge p \sum w_i\})",
+        .source =
             "quantiles: Hyndman and Fan 1996, definition 5, doi:10.1080/00031305.1996.10473566; "
-            "errors: Woodruff 1952, doi:10.1080/01621459.1952.10483443",
-            {}};
+            "errors: Woodruff 1952, doi:10.1080/01621459.1952.10483443"};
   }
 
   explicit Trajectory(const Parameters& p) : p_(p), levels_(p.drops.size()) {
-    if (p.drops.empty()) throw ParameterError("'drops' needs at least one length");
+    if (p.drops.empty()) throw sdk::ParameterError("'drops' needs at least one length");
     for (std::size_t d = 1; d < p.drops.size(); ++d) {
-      if (p.drops[d] <= p.drops[d - 1]) throw ParameterError("'drops' must ascend");
+      if (p.drops[d] <= p.drops[d - 1]) throw sdk::ParameterError("'drops' must ascend");
     }
-    if (!(norm(p.along) > 0.0)) throw ParameterError("'along' must not be zero");
+    if (!(norm(p.along) > 0.0)) throw sdk::ParameterError("'along' must not be zero");
   }
 
-  void observe(const WorldView& world) override {
+  void observe(const sdk::WorldView& world) override {
     if (classes_.empty()) {
       classes_.assign(world.class_diameters.begin(), world.class_diameters.end());
     }
-    if (!is_after(world, p_.steady_after)) return;
+    if (!sdk::is_after(world, p_.steady_after)) return;
     const double gravity = norm(world.gravity);
     if (!(gravity > 0.0)) {
-      throw ModelError("the trajectory sensor needs gravity to know which way is down");
+      throw sdk::ModelError("the trajectory sensor needs gravity to know which way is down");
     }
-    const Vec3 down = world.gravity / gravity;
-    const Vec3 across = p_.along - dot(p_.along, down) * down;
-    if (!(norm(across) > 0.0)) throw ModelError("'along' of the trajectory lies along gravity");
-    const Vec3 along = across / norm(across);
+    const sdk::Vec3 down = world.gravity / gravity;
+    const sdk::Vec3 across = p_.along - dot(p_.along, down) * down;
+    if (!(norm(across) > 0.0))
+      throw sdk::ModelError("'along' of the trajectory lies along gravity");
+    const sdk::Vec3 along = across / norm(across);
 
-    const GrainColumns& g = world.grains;
+    const sdk::GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
       if (!p_.takes(g.diameter[i])) continue;
-      const Path path = path_of(world, i);
+      const sdk::Path path = sdk::path_of(world, i);
       const double depth_before = dot(path.before - p_.from, down);
       const double depth_now = dot(path.now - p_.from, down);
       const double place_before = dot(path.before - p_.from, along);
       const double place_now = dot(path.now - p_.from, along);
-      const std::size_t c = nearest_class(g.diameter[i], classes_);
-      const Vec3 velocity{g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]};
-      if (depth_now <= 0.0 && passage(place_before, place_now).direction > 0) {
+      const std::size_t c = sdk::nearest_class(g.diameter[i], classes_);
+      const sdk::Vec3 velocity{g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]};
+      if (depth_now <= 0.0 && sdk::passage(place_before, place_now).direction > 0) {
         at_a_.add(depth_now, dot(velocity, down), g.weight[i], c);
       }
       for (std::size_t d = 0; d < levels_.size(); ++d) {
-        const Passage p = passage(depth_before - p_.drops[d], depth_now - p_.drops[d]);
+        const sdk::Passage p = sdk::passage(depth_before - p_.drops[d], depth_now - p_.drops[d]);
         if (p.direction <= 0) continue;
         // Speed where the level is met: back along the acceleration at the end of the interval.
-        const Vec3 force{g.force_x[i], g.force_y[i], g.force_z[i]};
+        const sdk::Vec3 force{g.force_x[i], g.force_y[i], g.force_z[i]};
         const double since = (1.0 - p.fraction) * world.interval;
         const double speed = dot(velocity - (since / g.mass[i]) * force, down);
         levels_[d].add(place_before + p.fraction * (place_now - place_before), speed, g.weight[i],
@@ -135,7 +135,7 @@ class Trajectory final : public Sensor {
     for (Crossings& level : levels_) level.end_sample();
   }
 
-  void series(FigureSink& sink) const override {
+  void series(sdk::FigureSink& sink) const override {
     for (std::size_t d = 0; d < levels_.size(); ++d) {
       const Crossings& level = levels_[d];
       const double mean = level.weight_sum > 0.0 ? level.moment / level.weight_sum : 0.0;
@@ -143,9 +143,11 @@ class Trajectory final : public Sensor {
       sink.figure(drop_name(d) + "/number", level.weight_sum, "1");
     }
   }
-  [[nodiscard]] RowValue row_value(std::string_view) const override { return RowValue::total; }
+  [[nodiscard]] sdk::RowValue row_value(std::string_view) const override {
+    return sdk::RowValue::total;
+  }
 
-  void summary(FigureSink& sink) const override {
+  void summary(sdk::FigureSink& sink) const override {
     for (std::size_t d = 0; d < levels_.size(); ++d) {
       const Crossings& level = levels_[d];
       const std::string name = drop_name(d) + "/";
@@ -157,7 +159,7 @@ class Trajectory final : public Sensor {
       figure(sink, name + "median_vertical_speed", level, level.speed, 0.5, "m/s", -1);
       for (std::size_t c = 0; c < classes_.size(); ++c) {
         if (!p_.takes(classes_[c])) continue;
-        figure(sink, name + class_name(classes_[c]) + "/median", level, level.place, 0.5, "m",
+        figure(sink, name + sdk::class_name(classes_[c]) + "/median", level, level.place, 0.5, "m",
                static_cast<std::int64_t>(c));
       }
     }
@@ -167,7 +169,7 @@ class Trajectory final : public Sensor {
     figure(sink, "at_a/median_vertical_speed", at_a_, upright, 0.5, "m/s", -1);
   }
 
-  void report(ReportSink& sink) const override {
+  void report(sdk::ReportSink& sink) const override {
     std::vector<double> depth;
     for (const double drop : p_.drops) depth.push_back(-drop);
     for (const auto& [p, quantile] : k_quantiles) {
@@ -189,12 +191,12 @@ class Trajectory final : public Sensor {
     }
   }
 
-  void save(ArchiveWriter& a) const override {
+  void save(sdk::ArchiveWriter& a) const override {
     a.numbers("classes", classes_);
     at_a_.save(a, "at_a");
     for (std::size_t d = 0; d < levels_.size(); ++d) levels_[d].save(a, level_name(d));
   }
-  void load(ArchiveReader& a) override {
+  void load(sdk::ArchiveReader& a) override {
     classes_ = a.numbers("classes");
     at_a_.load(a, "at_a");
     for (std::size_t d = 0; d < levels_.size(); ++d) levels_[d].load(a, level_name(d));
@@ -206,7 +208,7 @@ class Trajectory final : public Sensor {
       {0.05, "quantile_5"}, {0.5, "median"}, {0.95, "quantile_95"}};
 
   [[nodiscard]] std::string drop_name(std::size_t d) const {
-    return "drop_" + name_of(p_.drops[d] * 1e3) + "_mm";
+    return "drop_" + sdk::name_of(p_.drops[d] * 1e3) + "_mm";
   }
   static std::string level_name(std::size_t d) { return "level_" + std::to_string(d); }
 
@@ -235,7 +237,7 @@ class Trajectory final : public Sensor {
     return formula::sorted(chosen, weights, blocks);
   }
 
-  static void figure(FigureSink& sink, const std::string& name, const Crossings& level,
+  static void figure(sdk::FigureSink& sink, const std::string& name, const Crossings& level,
                      std::span<const double> values, double p, const char* unit,
                      std::int64_t size_class) {
     const formula::SortedSample sample = sample_of(level, values, size_class);

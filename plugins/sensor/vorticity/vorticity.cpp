@@ -1,57 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vorticity.hpp"
 
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 #include <limits>
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::vorticity;
+namespace sdk = dust::sdk;
 
-class Vorticity final : public Sensor {
+class Vorticity final : public sdk::Sensor {
  public:
-  struct Parameters : SteadyParameters {
-    Vec3 min = {-k_far, -k_far, -k_far};
-    Vec3 max = {k_far, k_far, k_far};
+  struct Parameters : sdk::SteadyParameters {
+    sdk::Vec3 min = {-k_far, -k_far, -k_far};
+    sdk::Vec3 max = {k_far, k_far, k_far};
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
-    s.vector(&Parameters::min, "min", dimension::length, "Lower corner of the box looked at.")
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.vector(&Parameters::min, "min", sdk::dimension::length, "Lower corner of the box looked at.")
         .optional();
-    s.vector(&Parameters::max, "max", dimension::length, "Upper corner of the box looked at.")
+    s.vector(&Parameters::max, "max", sdk::dimension::length, "Upper corner of the box looked at.")
         .optional();
-    declare_steady(s);
+    sdk::declare_steady(s);
     return s.build();
   }
-
-  static ModelInfo describe() {
-    return {"",
-            "vorticity",
-            "1.0",
+  static sdk::ModelInfo describe() {
+    return {
+        .name = "vorticity",
+        .version = "1.0",
+        .summary =
             "How the air turns: mean and largest vorticity, and where the mean flow turns fastest.",
-            R"(\omega = \nabla \times u)",
-            "own definition",
-            {}};
+        .equation = R"(\omega = \nabla \times u)",
+        .source = "own definition"};
   }
 
   explicit Vorticity(const Parameters& p) : p_(p) {
     for (int d = 0; d < 3; ++d) {
       if (p.max[d] > p.min[d]) continue;
-      throw ParameterError("'max' must lie above 'min' along each axis");
+      throw sdk::ParameterError("'max' must lie above 'min' along each axis");
     }
   }
 
-  void observe(const WorldView& world) override {
-    const FluidColumns& f = world.fluid;
-    const FluidCells cells(f);
+  void observe(const sdk::WorldView& world) override {
+    const sdk::FluidColumns& f = world.fluid;
+    const sdk::FluidCells cells(f);
     if (cells.is_empty()) return;
     if (total_.size() != 3 * cells.size()) total_.assign(3 * cells.size(), 0.0);
-    const bool is_steady = is_after(world, p_.steady_after);
-    Vec3 sum;
+    const bool is_steady = sdk::is_after(world, p_.steady_after);
+    sdk::Vec3 sum;
     double magnitude = 0.0;
     double largest = 0.0;
     double count = 0.0;
@@ -59,8 +57,8 @@ class Vorticity final : public Sensor {
       for (int j = 0; j < f.count[1]; ++j) {
         for (int i = 0; i < f.count[0]; ++i) {
           const std::size_t c = cells.index(i, j, k);
-          if (!cells.is_open(c) || !is_in_box(cells.centre(i, j, k), p_.min, p_.max)) continue;
-          const Vec3 curl = formula::curl(f, cells, i, j, k);
+          if (!cells.is_open(c) || !sdk::is_in_box(cells.centre(i, j, k), p_.min, p_.max)) continue;
+          const sdk::Vec3 curl = formula::curl(f, cells, i, j, k);
           sum += curl;
           magnitude += norm(curl);
           largest = std::max(largest, norm(curl));
@@ -81,10 +79,10 @@ class Vorticity final : public Sensor {
     curve_.add(world.time, values_[1]);
   }
 
-  void series(FigureSink& sink) const override {
+  void series(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_columns; ++n) sink.figure(k_names[n], values_[n], "1/s");
   }
-  void summary(FigureSink& sink) const override {
+  void summary(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_columns; ++n) {
       const double mean = means_.mean(n);
       sink.figure(k_names[n], mean, "1/s", mean != 0.0 ? means_.error(n) : -1.0);
@@ -94,12 +92,12 @@ class Vorticity final : public Sensor {
     sink.figure("fastest/z", place_.z, "m");
     sink.figure("fastest/vorticity", fastest_, "1/s");
   }
-  void report(ReportSink& sink) const override {
+  void report(sdk::ReportSink& sink) const override {
     sink.curve("Largest vorticity", "time [s]", "vorticity [1/s]", "open cells", curve_.x(),
                curve_.y());
   }
 
-  void save(ArchiveWriter& a) const override {
+  void save(sdk::ArchiveWriter& a) const override {
     const double place[] = {place_.x, place_.y, place_.z, fastest_};
     a.numbers("values", values_);
     a.numbers("total", total_);
@@ -107,7 +105,7 @@ class Vorticity final : public Sensor {
     means_.save(a, "means");
     curve_.save(a, "curve");
   }
-  void load(ArchiveReader& a) override {
+  void load(sdk::ArchiveReader& a) override {
     values_ = a.numbers("values");
     total_ = a.numbers("total");
     const std::vector<double> place = a.numbers("place");
@@ -124,14 +122,14 @@ class Vorticity final : public Sensor {
                                                      "mean_z"};
 
   /// Where the time mean turns fastest; the first of equals.
-  void find_place(const FluidColumns& f, const FluidCells& cells) {
+  void find_place(const sdk::FluidColumns& f, const sdk::FluidCells& cells) {
     const double time = means_.duration();
     double best = -1.0;
     for (int k = 0; k < f.count[2]; ++k) {
       for (int j = 0; j < f.count[1]; ++j) {
         for (int i = 0; i < f.count[0]; ++i) {
           const std::size_t c = 3 * cells.index(i, j, k);
-          const double size = norm(Vec3{total_[c], total_[c + 1], total_[c + 2]});
+          const double size = norm(sdk::Vec3{total_[c], total_[c + 1], total_[c + 2]});
           if (!(size > best) || size == 0.0) continue;
           best = size;
           place_ = cells.centre(i, j, k);
@@ -144,10 +142,10 @@ class Vorticity final : public Sensor {
   Parameters p_;
   std::vector<double> values_ = std::vector<double>(k_columns, 0.0);  ///< at the last sample
   std::vector<double> total_;  ///< [1] vorticity times time, 3 per cell
-  Vec3 place_;                 ///< [m]
+  sdk::Vec3 place_;            ///< [m]
   double fastest_ = 0.0;       ///< [1/s]
-  BatchMeans means_{k_columns};
-  ThinnedCurve curve_;
+  sdk::BatchMeans means_{k_columns};
+  sdk::ThinnedCurve curve_;
 };
 
 }  // namespace

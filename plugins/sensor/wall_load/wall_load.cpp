@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wall_load.hpp"
 
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,37 +12,37 @@
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::wall_load;
+namespace sdk = dust::sdk;
 
-class WallLoad final : public Sensor {
+class WallLoad final : public sdk::Sensor {
  public:
   struct Parameters {
     std::vector<std::string> walls;
-    Vec3 about;
+    sdk::Vec3 about;
     double averaging_after = 0.0;
     double least_energy = 1e-12;
     double largest_energy = 1e-3;
     std::int64_t bins = 36;
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
     s.texts(&Parameters::walls, "walls",
             "Bodies, groups of bodies and sides of the domain whose loads are added up.")
-        .refers_to(Refers::wall);
-    s.vector(&Parameters::about, "about", dimension::length, "Point the torque is taken about.")
+        .refers_to(sdk::Refers::wall);
+    s.vector(&Parameters::about, "about", sdk::dimension::length,
+             "Point the torque is taken about.")
         .symbol("p")
         .optional();
-    s.number(&Parameters::averaging_after, "averaging_after", dimension::time,
+    s.number(&Parameters::averaging_after, "averaging_after", sdk::dimension::time,
              "Time from which means are taken and impacts are counted.")
         .at_least(0)
         .optional();
-    s.number(&Parameters::least_energy, "least_energy", dimension::energy,
+    s.number(&Parameters::least_energy, "least_energy", sdk::dimension::energy,
              "Lower end of the spectrum of impact energies; softer touches do not count.")
         .above(0)
         .optional();
-    s.number(&Parameters::largest_energy, "largest_energy", dimension::energy,
+    s.number(&Parameters::largest_energy, "largest_energy", sdk::dimension::energy,
              "Upper end of the spectrum; harder impacts count in its last bin.")
         .above(0)
         .optional();
@@ -52,34 +52,32 @@ class WallLoad final : public Sensor {
         .optional();
     return s.build();
   }
-
-  static ModelInfo describe() {
-    return {"",
-            "wall_load",
-            "1.0",
-            "Force, torque, power, mass in contact and impact energies of walls.",
-            R"(F = -\sum_c w_c f_c,\quad T_p = -\sum_c w_c [(x_c - p) \times f_c + M_c],\quad )"
-            R"(P = \sum_c w_c f_c \cdot v_w,\quad E = \tfrac{1}{2} m v_n^2)",
-            "own definition",
-            {}};
+  static sdk::ModelInfo describe() {
+    return {.name = "wall_load",
+            .version = "1.0",
+            .summary = "Force, torque, power, mass in contact and impact energies of walls.",
+            .equation =
+                R"(F = -\sum_c w_c f_c,\quad T_p = -\sum_c w_c [(x_c - p) \times f_c + M_c],\quad )"
+                R"(P = \sum_c w_c f_c \cdot v_w,\quad E = \tfrac{1}{2} m v_n^2)",
+            .source = "own definition"};
   }
 
   explicit WallLoad(const Parameters& p)
       : p_(p), bins_{p.least_energy, p.largest_energy, static_cast<std::size_t>(p.bins)} {
     if (!(p.largest_energy > p.least_energy)) {
-      throw ParameterError("largest_energy is not above least_energy");
+      throw sdk::ParameterError("largest_energy is not above least_energy");
     }
     normal_.assign(bins_.count, 0.0);
     tangential_.assign(bins_.count, 0.0);
   }
 
-  [[nodiscard]] bool looks_at_walls() const override { return true; }
+  [[nodiscard]] bool wants_walls() const override { return true; }
 
-  void observe(const WorldView& world) override {
-    const WallColumns& w = world.walls;
+  void observe(const sdk::WorldView& world) override {
+    const sdk::WallColumns& w = world.walls;
     values_.fill(0.0);
-    Vec3 force;
-    Vec3 torque;
+    sdk::Vec3 force;
+    sdk::Vec3 torque;
     std::vector<bool> is_chosen(w.name.size());
     for (std::size_t n = 0; n < w.name.size(); ++n) {
       const auto asked = [&](const std::string& name) {
@@ -100,9 +98,9 @@ class WallLoad final : public Sensor {
     }
     row_.add({values_.data(), k_mass}, world.interval);
     curve_.add(world.time, norm(force));
-    if (!is_after(world, p_.averaging_after)) return;
+    if (!sdk::is_after(world, p_.averaging_after)) return;
     means_.add(values_, world.interval);
-    for (const WallImpact& i : w.impacts) {
+    for (const sdk::WallImpact& i : w.impacts) {
       const double energy = i.normal_energy + i.tangential_energy;
       if (!is_chosen[static_cast<std::size_t>(i.wall)] || energy < p_.least_energy) continue;
       impacts_ += i.weight;
@@ -114,18 +112,18 @@ class WallLoad final : public Sensor {
     }
   }
 
-  void series(FigureSink& sink) const override {
+  void series(sdk::FigureSink& sink) const override {
     for (std::size_t c = 0; c < k_columns; ++c) {
       sink.figure(k_names[c], c < k_mass ? row_.mean(c) : values_[c], k_units[c]);
     }
   }
-  [[nodiscard]] RowValue row_value(std::string_view column) const override {
+  [[nodiscard]] sdk::RowValue row_value(std::string_view column) const override {
     const auto* const end = k_names + k_mass;
-    return std::find(k_names, end, column) != end ? RowValue::mean : RowValue::instant;
+    return std::find(k_names, end, column) != end ? sdk::RowValue::mean : sdk::RowValue::instant;
   }
   void end_row() override { row_.end_row(); }
 
-  void summary(FigureSink& sink) const override {
+  void summary(sdk::FigureSink& sink) const override {
     for (std::size_t c = 0; c < k_columns; ++c) {
       sink.figure(k_names[c], means_.mean(c), k_units[c], means_.error(c));
     }
@@ -140,7 +138,7 @@ class WallLoad final : public Sensor {
                 time > 0.0 && impacts_ > 0.0 ? std::sqrt(impacts_) / time : -1.0);
   }
 
-  void report(ReportSink& sink) const override {
+  void report(sdk::ReportSink& sink) const override {
     sink.curve("Force on the wall", "time [s]", "force [N]", "all", curve_.x(), curve_.y());
     std::vector<double> energy;
     for (std::size_t b = 0; b < bins_.count; ++b) energy.push_back(bins_.middle(b));
@@ -149,7 +147,7 @@ class WallLoad final : public Sensor {
                tangential_);
   }
 
-  void save(ArchiveWriter& a) const override {
+  void save(sdk::ArchiveWriter& a) const override {
     a.numbers("values", values_);
     const double sums[] = {impacts_, impact_energy_[0], impact_energy_[1], largest_};
     a.numbers("sums", sums);
@@ -159,7 +157,7 @@ class WallLoad final : public Sensor {
     row_.save(a, "row");
     curve_.save(a, "curve");
   }
-  void load(ArchiveReader& a) override {
+  void load(sdk::ArchiveReader& a) override {
     const auto values = a.numbers("values");
     std::copy_n(values.begin(), std::min(values.size(), values_.size()), values_.begin());
     const auto sums = a.numbers("sums");
@@ -191,9 +189,9 @@ class WallLoad final : public Sensor {
   std::array<double, 2> impact_energy_{};    ///< [J] normal, tangential
   double largest_ = 0.0;                     ///< [J]
   std::vector<double> normal_, tangential_;  ///< spectra
-  BatchMeans means_{k_columns};
-  RowMeans row_{k_mass};  ///< of force, torque and power
-  ThinnedCurve curve_;
+  sdk::BatchMeans means_{k_columns};
+  sdk::RowMeans row_{k_mass};  ///< of force, torque and power
+  sdk::ThinnedCurve curve_;
 };
 
 }  // namespace

@@ -1,45 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wall_shear.hpp"
 
-#include "dust/sdk/fluid_cells.hpp"
-#include "dust/sdk/plugin.hpp"
-#include "dust/sdk/sampling.hpp"
+#include <dust/sdk/fluid_cells.hpp>
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
 
 #include <array>
 
 namespace {
 
-using namespace dust::sdk;
 namespace formula = dust::model::wall_shear;
+namespace sdk = dust::sdk;
 
 constexpr std::array<const char*, 6> k_sides = {"left", "right", "front", "back", "bottom", "top"};
 
-class WallShear final : public Sensor {
+class WallShear final : public sdk::Sensor {
  public:
-  struct Parameters : SteadyParameters {
+  struct Parameters : sdk::SteadyParameters {
     std::string side;
-    Vec3 wall_velocity;
+    sdk::Vec3 wall_velocity;
   };
-
-  static ParameterSchema schema() {
-    SchemaOf<Parameters> s;
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
     s.text(&Parameters::side, "side", "The side of the domain that is looked at.")
         .one_of({k_sides.begin(), k_sides.end()});
-    s.vector(&Parameters::wall_velocity, "wall_velocity", dimension::velocity,
+    s.vector(&Parameters::wall_velocity, "wall_velocity", sdk::dimension::velocity,
              "Velocity of the wall itself; its part along the wall counts.")
         .optional();
-    declare_steady(s);
+    sdk::declare_steady(s);
     return s.build();
   }
-
-  static ModelInfo describe() {
-    return {"",
-            "wall_shear",
-            "1.0",
-            "Shear stress and friction force of the air on a side of the domain.",
-            R"(\tau = \mu \frac{u_t - u_w}{h / 2}, \quad F = \int \tau\, dA)",
-            "own definition",
-            {}};
+  static sdk::ModelInfo describe() {
+    return {.name = "wall_shear",
+            .version = "1.0",
+            .summary = "Shear stress and friction force of the air on a side of the domain.",
+            .equation = R"(\tau = \mu \frac{u_t - u_w}{h / 2}, \quad F = \int \tau\, dA)",
+            .source = "own definition"};
   }
 
   explicit WallShear(const Parameters& p) : p_(p) {
@@ -48,9 +44,9 @@ class WallShear final : public Sensor {
     }
   }
 
-  void observe(const WorldView& world) override {
-    const FluidColumns& f = world.fluid;
-    const FluidCells cells(f);
+  void observe(const sdk::WorldView& world) override {
+    const sdk::FluidColumns& f = world.fluid;
+    const sdk::FluidCells cells(f);
     if (cells.is_empty()) return;
     const int d = side_ / 2;
     const int e = (d + 1) % 3;
@@ -67,9 +63,9 @@ class WallShear final : public Sensor {
       largest = std::max(largest, s);
       return s;
     };
-    const FluidCells::LayerSum mean = cells.layer(d, layer, size);
+    const sdk::FluidCells::LayerSum mean = cells.layer(d, layer, size);
     const double area = f.spacing[e] * f.spacing[g];
-    Vec3 force;
+    sdk::Vec3 force;
     force[e] = area * cells.layer(d, layer, [&](std::size_t c) { return stress(e, c); }).sum;
     force[g] = area * cells.layer(d, layer, [&](std::size_t c) { return stress(g, c); }).sum;
     figures_.add(world,
@@ -77,20 +73,20 @@ class WallShear final : public Sensor {
                  p_.steady_after);
   }
 
-  void series(FigureSink& sink) const override { figures_.series(sink); }
-  void summary(FigureSink& sink) const override { figures_.summary(sink); }
-  void report(ReportSink& sink) const override {
+  void series(sdk::FigureSink& sink) const override { figures_.series(sink); }
+  void summary(sdk::FigureSink& sink) const override { figures_.summary(sink); }
+  void report(sdk::ReportSink& sink) const override {
     sink.curve("Wall shear stress", "time [s]", "stress [Pa]", p_.side, figures_.curve().x(),
                figures_.curve().y());
   }
 
-  void save(ArchiveWriter& a) const override { figures_.save(a); }
-  void load(ArchiveReader& a) override { figures_.load(a); }
+  void save(sdk::ArchiveWriter& a) const override { figures_.save(a); }
+  void load(sdk::ArchiveReader& a) override { figures_.load(a); }
 
  private:
   Parameters p_;
   int side_ = 0;
-  SampledFigures figures_{
+  sdk::SampledFigures figures_{
       {{"mean", "Pa"}, {"largest", "Pa"}, {"force_x", "N"}, {"force_y", "N"}, {"force_z", "N"}}};
 };
 

@@ -5,6 +5,7 @@
 
 namespace {
 
+namespace formula = my_boundary;
 namespace sdk = dust::sdk;
 
 class MyBoundary final : public sdk::BoundaryCondition {
@@ -33,13 +34,11 @@ class MyBoundary final : public sdk::BoundaryCondition {
   }
   // 2. What the model says of itself.
   static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "my_boundary",
+    return {.name = "my_boundary",
             .version = "1.0",
             .summary = "Wind of a given velocity with regular gusts.",
             .equation = "u_b = u (1 + a \\sin 2 \\pi f t), \\quad \\partial p / \\partial n = 0",
-            .source = "own definition",
-            .parameters = {}};
+            .source = "own definition"};
   }
 
   explicit MyBoundary(const Parameters& p) : p_(p) {}
@@ -52,11 +51,11 @@ class MyBoundary final : public sdk::BoundaryCondition {
   }
   // 4. The values: a pure function of time and place.
   void evaluate(const sdk::SideBatch& batch) const override {
-    const double strength = my_boundary::strength(p_.gusts, p_.frequency, batch.time);
+    const double strength = formula::strength(p_.gusts, p_.frequency, batch.time);
     for (std::size_t n = 0; n < batch.count; ++n) {
-      batch.velocity_x[n] = strength * p_.velocity.x;
-      batch.velocity_y[n] = strength * p_.velocity.y;
-      batch.velocity_z[n] = strength * p_.velocity.z;
+      batch.velocity.x[n] = strength * p_.velocity.x;
+      batch.velocity.y[n] = strength * p_.velocity.y;
+      batch.velocity.z[n] = strength * p_.velocity.z;
     }
   }
 

@@ -5,15 +5,16 @@
 
 namespace {
 
+namespace formula = my_cohesion;
 namespace sdk = dust::sdk;
 
-DUST_KERNEL void run(double surface_energy, double reach, const sdk::CohesionBatch& b) {
+DUST_KERNEL void evaluate_batch(double surface_energy, double reach, const sdk::CohesionBatch& b) {
 #pragma omp simd
   for (std::size_t q = 0; q < b.count; ++q) {
     // The contact law sees the overlap as it is: this attraction deforms nothing.
     b.contact_overlap[q] = b.overlap[q];
     b.attraction[q] =
-        my_cohesion::attraction(surface_energy, reach, b.effective_radius[q], b.overlap[q]);
+        formula::attraction(surface_energy, reach, b.effective_radius[q], b.overlap[q]);
   }
 }
 
@@ -39,15 +40,13 @@ class MyCohesion final : public sdk::CohesionLaw {
   }
   // 2. What the model says of itself.
   static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "my_cohesion",
+    return {.name = "my_cohesion",
             .version = "1.0",
             .summary = "Constant attraction in touch that ends over a short gap.",
             .equation = "F_c = 2 \\pi \\gamma R^* \\max(0, 1 - s/a)",
             .source =
                 "Derjaguin, Muller, Toporov, J. Colloid Interface Sci. 53 (1975) 314, "
-                "doi:10.1016/0021-9797(75)90018-1, in touch; the end is our own",
-            .parameters = {}};
+                "doi:10.1016/0021-9797(75)90018-1, in touch; the end is our own"};
   }
 
   explicit MyCohesion(const Parameters& p) : p_(p) {}
@@ -59,12 +58,12 @@ class MyCohesion final : public sdk::CohesionLaw {
   [[nodiscard]] int history_size() const override { return 0; }
   // 4. The law on a batch, before the contact stage.
   void evaluate(const sdk::CohesionBatch& batch) const override {
-    run(p_.surface_energy, p_.reach, batch);
+    evaluate_batch(p_.surface_energy, p_.reach, batch);
   }
   // 5. What the core asks for its search and its time steps.
   [[nodiscard]] double range(double) const override { return p_.reach; }
   [[nodiscard]] double resting_overlap(double radius) const override {
-    return my_cohesion::resting_overlap(p_.surface_energy, young_, radius);
+    return formula::resting_overlap(p_.surface_energy, young_, radius);
   }
 
  private:

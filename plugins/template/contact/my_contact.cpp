@@ -5,7 +5,45 @@
 
 namespace {
 
+namespace formula = my_contact;
 namespace sdk = dust::sdk;
+
+DUST_KERNEL void evaluate_batch(const formula::Constants& constants, const sdk::ContactBatch& b) {
+  const formula::Constants k = constants;
+  double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2];
+#pragma omp simd
+  for (std::size_t q = 0; q < b.count; ++q) {
+    formula::Contact c{b.overlap[q],
+                       b.normal.x[q],
+                       b.normal.y[q],
+                       b.normal.z[q],
+                       b.velocity.x[q],
+                       b.velocity.y[q],
+                       b.velocity.z[q],
+                       b.displacement.x[q],
+                       b.displacement.y[q],
+                       b.displacement.z[q],
+                       b.effective_mass[q],
+                       sx[q],
+                       sy[q],
+                       sz[q],
+                       0.0,
+                       0.0,
+                       0.0,
+                       0.0,
+                       0.0};
+    formula::evaluate(k, c);
+    sx[q] = c.sx;
+    sy[q] = c.sy;
+    sz[q] = c.sz;
+    b.normal_force[q] = c.normal_force;
+    b.normal_stiffness[q] = k.stiffness;
+    b.tangential_stiffness[q] = c.tangential_stiffness;
+    b.force.x[q] = c.fx;
+    b.force.y[q] = c.fy;
+    b.force.z[q] = c.fz;
+  }
+}
 
 class MyContact final : public sdk::ContactLaw {
  public:
@@ -41,77 +79,37 @@ class MyContact final : public sdk::ContactLaw {
   }
   // 2. What the model says of itself.
   static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "my_contact",
+    return {.name = "my_contact",
             .version = "1.0",
             .summary = "Linear springs and dampers with Coulomb friction.",
             .equation =
                 "F_n = k d - c v_n,\\quad F_t = -k_t s - c_t v_t,\\quad "
                 "|F_t| \\le \\mu \\max(F_n, 0)",
-            .source = "Cundall, Strack, Geotechnique 29 (1979) 47, doi:10.1680/geot.1979.29.1.47",
-            .parameters = {}};
+            .source = "Cundall, Strack, Geotechnique 29 (1979) 47, doi:10.1680/geot.1979.29.1.47"};
   }
 
   explicit MyContact(const Parameters& p)
-      : constants_{p.stiffness, p.stiffness_ratio, my_contact::damping(p.restitution), p.friction} {
-  }
+      : constants_{p.stiffness, p.stiffness_ratio, formula::damping(p.restitution), p.friction} {}
 
   // 3. The pair of materials, once; this law does not need them.
   void prepare(const sdk::MaterialProperties&, const sdk::MaterialProperties&) override {}
   // 4. What the core shall keep for each contact: the tangential spring.
   [[nodiscard]] int history_size() const override { return 3; }
   // 5. The law on a batch: columns in, columns out; no allocation, no lock.
-  void evaluate(const sdk::ContactBatch& batch) const override;
+  void evaluate(const sdk::ContactBatch& batch) const override {
+    evaluate_batch(constants_, batch);
+  }
   // 6. Times from which the core derives the steps.
   [[nodiscard]] double collision_time(double, double mass, double) const override {
-    return my_contact::collision_time(constants_.stiffness, mass);
+    return formula::collision_time(constants_.stiffness, mass);
   }
   [[nodiscard]] double half_period(double, double mass, double) const override {
-    return my_contact::collision_time(constants_.stiffness, mass);
+    return formula::collision_time(constants_.stiffness, mass);
   }
 
  private:
-  my_contact::Constants constants_;
+  formula::Constants constants_;
 };
-
-DUST_KERNEL void run(const my_contact::Constants& constants, const sdk::ContactBatch& b) {
-  const my_contact::Constants k = constants;
-  double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2];
-#pragma omp simd
-  for (std::size_t q = 0; q < b.count; ++q) {
-    my_contact::Contact c{b.overlap[q],
-                          b.normal_x[q],
-                          b.normal_y[q],
-                          b.normal_z[q],
-                          b.velocity_x[q],
-                          b.velocity_y[q],
-                          b.velocity_z[q],
-                          b.displacement_x[q],
-                          b.displacement_y[q],
-                          b.displacement_z[q],
-                          b.effective_mass[q],
-                          sx[q],
-                          sy[q],
-                          sz[q],
-                          0.0,
-                          0.0,
-                          0.0,
-                          0.0,
-                          0.0};
-    my_contact::evaluate(k, c);
-    sx[q] = c.sx;
-    sy[q] = c.sy;
-    sz[q] = c.sz;
-    b.normal_force[q] = c.normal_force;
-    b.normal_stiffness[q] = k.stiffness;
-    b.tangential_stiffness[q] = c.tangential_stiffness;
-    b.force_x[q] = c.fx;
-    b.force_y[q] = c.fy;
-    b.force_z[q] = c.fz;
-  }
-}
-
-void MyContact::evaluate(const sdk::ContactBatch& batch) const { run(constants_, batch); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 
 namespace {
 
+namespace formula = my_drag;
 namespace sdk = dust::sdk;
 
 class MyDrag final : public sdk::DragLaw {
@@ -24,13 +25,11 @@ class MyDrag final : public sdk::DragLaw {
   }
   // 2. What the model says of itself.
   static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "my_drag",
+    return {.name = "my_drag",
             .version = "1.0",
             .summary = "Drag of a lone sphere times a power of the void fraction.",
             .equation = "F = (1 + 0.15 Re^{0.687}) \\varepsilon^{-n}",
-            .source = "Schiller, Naumann, VDI-Z. 77 (1935) 318",
-            .parameters = {}};
+            .source = "Schiller, Naumann, VDI-Z. 77 (1935) 318"};
   }
 
   explicit MyDrag(const Parameters& p) : p_(p) {}
@@ -38,7 +37,7 @@ class MyDrag final : public sdk::DragLaw {
   // 3. The law on a batch: columns in, columns out; no allocation, no lock, no state.
   void evaluate(const sdk::DragBatch& batch) const override {
     for (std::size_t n = 0; n < batch.count; ++n) {
-      batch.factor[n] = my_drag::factor(batch.reynolds[n], batch.void_fraction[n], p_.exponent);
+      batch.factor[n] = formula::factor(batch.reynolds[n], batch.void_fraction[n], p_.exponent);
     }
   }
 

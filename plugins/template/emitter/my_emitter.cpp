@@ -5,6 +5,7 @@
 
 namespace {
 
+namespace formula = my_emitter;
 namespace sdk = dust::sdk;
 
 class MyEmitter final : public sdk::Emitter {
@@ -37,13 +38,11 @@ class MyEmitter final : public sdk::Emitter {
   }
   // 2. What the model says of itself.
   static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "my_emitter",
+    return {.name = "my_emitter",
             .version = "1.0",
             .summary = "Grains of one size, one by one, from about one point.",
             .equation = "t_n = (n + 1/2) m / \\dot m",
-            .source = "own definition",
-            .parameters = {}};
+            .source = "own definition"};
   }
 
   explicit MyEmitter(const Parameters& p) : p_(p) {
@@ -52,20 +51,21 @@ class MyEmitter final : public sdk::Emitter {
 
   // 3. The grains of one interval. Random numbers are a function of the grain's number: the same
   //    however the time is cut.
-  void propose(const sdk::EmitterContext& context, std::vector<sdk::Seed>& seeds) override {
-    const double mass = my_emitter::grain_mass(p_.diameter, context.grain_density);
+  void propose(const sdk::EmitterContext& context,
+               std::vector<sdk::InsertionRequest>& requests) override {
+    const double mass = formula::grain_mass(p_.diameter, context.grain_density);
     for (;; ++released_) {
-      const double time = my_emitter::time_of(released_, mass, p_.mass_flow);
+      const double time = formula::time_of(released_, mass, p_.mass_flow);
       if (!(time < context.end)) return;
       const auto draw = [&](std::uint32_t slot) {
         return 2.0 * context.random.uniform(static_cast<std::uint64_t>(released_), 0, slot) - 1.0;
       };
-      sdk::Seed seed;
-      seed.time = time;
-      seed.position = p_.point + sdk::Vec3{p_.spread * draw(0), p_.spread * draw(1), 0.0};
-      seed.velocity = p_.velocity;
-      seed.diameter = p_.diameter;
-      seeds.push_back(seed);
+      sdk::InsertionRequest request;
+      request.time = time;
+      request.position = p_.point + sdk::Vec3{p_.spread * draw(0), p_.spread * draw(1), 0.0};
+      request.velocity = p_.velocity;
+      request.diameter = p_.diameter;
+      requests.push_back(request);
     }
   }
   // 4. What the core wants to know before.

@@ -5,6 +5,7 @@
 
 namespace {
 
+namespace formula = my_fluid_force;
 namespace sdk = dust::sdk;
 
 class MyFluidForce final : public sdk::FluidForce {
@@ -24,13 +25,11 @@ class MyFluidForce final : public sdk::FluidForce {
   }
   // 2. What the model says of itself.
   static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "my_fluid_force",
+    return {.name = "my_fluid_force",
             .version = "1.0",
             .summary = "Lift of a grain in a weak shear.",
             .equation = "f = C_L \\rho_f V_p w \\times \\omega",
-            .source = "Auton, J. Fluid Mech. 183 (1987) 199-218",
-            .parameters = {}};
+            .source = "Auton, J. Fluid Mech. 183 (1987) 199-218"};
   }
 
   explicit MyFluidForce(const Parameters& p) : p_(p) {}
@@ -41,8 +40,8 @@ class MyFluidForce final : public sdk::FluidForce {
   // 4. The force on a batch: columns in, columns out; no allocation, no lock.
   void evaluate(const sdk::FluidForceBatch& batch) const override {
     for (std::size_t n = 0; n < batch.count; ++n) {
-      batch.force.set(n, my_fluid_force::force(p_.coefficient, batch.density[n], batch.diameter[n],
-                                               batch.slip[n], batch.vorticity[n]));
+      batch.force.set(n, formula::force(p_.coefficient, batch.density[n], batch.diameter[n],
+                                        batch.slip[n], batch.vorticity[n]));
     }
   }
 

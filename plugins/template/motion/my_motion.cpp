@@ -5,6 +5,7 @@
 
 namespace {
 
+namespace formula = my_motion;
 namespace sdk = dust::sdk;
 
 class MyMotion final : public sdk::Motion {
@@ -28,26 +29,22 @@ class MyMotion final : public sdk::Motion {
   }
   // 2. What the model says of itself.
   static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "my_motion",
+    return {.name = "my_motion",
             .version = "1.0",
             .summary = "A surface that slides to and fro along itself.",
             .equation = "u = (v - (v \\cdot n) n) \\cos 2 \\pi f t",
-            .source = "own definition",
-            .parameters = {}};
+            .source = "own definition"};
   }
 
   explicit MyMotion(const Parameters& p) : p_(p) {}
 
   // 3. Velocity of the surface: a pure function of time and place.
   void surface_velocity(const sdk::SurfaceBatch& batch) const override {
-    const double phase = my_motion::phase(p_.frequency, batch.time);
+    const double phase = formula::phase(p_.frequency, batch.time);
     for (std::size_t n = 0; n < batch.count; ++n) {
-      const sdk::Vec3 normal{batch.normal_x[n], batch.normal_y[n], batch.normal_z[n]};
+      const sdk::Vec3 normal = batch.normal[n];
       const sdk::Vec3 v = phase * (p_.velocity - dot(p_.velocity, normal) * normal);
-      batch.velocity_x[n] = v.x;
-      batch.velocity_y[n] = v.y;
-      batch.velocity_z[n] = v.z;
+      batch.velocity.set(n, v);
     }
   }
   // 4. Its bound, for time steps and checks.

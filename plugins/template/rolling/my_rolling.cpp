@@ -5,7 +5,29 @@
 
 namespace {
 
+namespace formula = my_rolling;
 namespace sdk = dust::sdk;
+
+DUST_KERNEL void evaluate_batch(double friction, double smooth_below, const sdk::ContactBatch& b) {
+#pragma omp simd
+  for (std::size_t q = 0; q < b.count; ++q) {
+    formula::Rolling c{b.normal.x[q],
+                       b.normal.y[q],
+                       b.normal.z[q],
+                       b.angular_velocity.x[q],
+                       b.angular_velocity.y[q],
+                       b.angular_velocity.z[q],
+                       b.effective_radius[q],
+                       b.normal_force[q],
+                       0.0,
+                       0.0,
+                       0.0};
+    formula::evaluate(friction, smooth_below, c);
+    b.torque.x[q] = c.mx;
+    b.torque.y[q] = c.my;
+    b.torque.z[q] = c.mz;
+  }
+}
 
 class MyRolling final : public sdk::RollingLaw {
  public:
@@ -29,15 +51,13 @@ class MyRolling final : public sdk::RollingLaw {
   }
   // 2. What the model says of itself.
   static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "my_rolling",
+    return {.name = "my_rolling",
             .version = "1.0",
             .summary = "A constant couple against rolling, smooth through rest.",
             .equation = "M = -\\mu_r R^* |F_n| w_r / \\sqrt{w_r^2 + w_0^2}",
             .source =
                 "Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269, model A, smoothed, "
-                "doi:10.1016/j.powtec.2010.09.030",
-            .parameters = {}};
+                "doi:10.1016/j.powtec.2010.09.030"};
   }
 
   explicit MyRolling(const Parameters& p) : p_(p) {}
@@ -46,36 +66,13 @@ class MyRolling final : public sdk::RollingLaw {
   void prepare(const sdk::MaterialProperties&, const sdk::MaterialProperties&) override {}
   [[nodiscard]] int history_size() const override { return 0; }
   // 4. The law on a batch, after the contact stage has written the normal force.
-  void evaluate(const sdk::ContactBatch& batch) const override;
+  void evaluate(const sdk::ContactBatch& batch) const override {
+    evaluate_batch(p_.friction, p_.smooth_below, batch);
+  }
 
  private:
   Parameters p_;
 };
-
-DUST_KERNEL void run(double friction, double smooth_below, const sdk::ContactBatch& b) {
-#pragma omp simd
-  for (std::size_t q = 0; q < b.count; ++q) {
-    my_rolling::Rolling c{b.normal_x[q],
-                          b.normal_y[q],
-                          b.normal_z[q],
-                          b.rotation_x[q],
-                          b.rotation_y[q],
-                          b.rotation_z[q],
-                          b.effective_radius[q],
-                          b.normal_force[q],
-                          0.0,
-                          0.0,
-                          0.0};
-    my_rolling::evaluate(friction, smooth_below, c);
-    b.torque_x[q] = c.mx;
-    b.torque_y[q] = c.my;
-    b.torque_z[q] = c.mz;
-  }
-}
-
-void MyRolling::evaluate(const sdk::ContactBatch& batch) const {
-  run(p_.friction, p_.smooth_below, batch);
-}
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 
 namespace {
 
+namespace formula = my_sensor;
 namespace sdk = dust::sdk;
 
 class MySensor final : public sdk::Sensor {
@@ -29,13 +30,11 @@ class MySensor final : public sdk::Sensor {
   }
   // 2. What the model says of itself.
   static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "my_sensor",
+    return {.name = "my_sensor",
             .version = "1.0",
             .summary = "Mass and kinetic energy of the grains, now and on average.",
             .equation = "E = \\sum_i w_i m_i v_i^2 / 2",
-            .source = "own definition",
-            .parameters = {}};
+            .source = "own definition"};
   }
 
   explicit MySensor(const Parameters& p) : p_(p) {}
@@ -54,10 +53,10 @@ class MySensor final : public sdk::Sensor {
       const double mass = g.weight[i] * g.mass[i];
       now_[0] += mass;
       const double energy =
-          my_sensor::kinetic_energy(mass, g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]);
+          formula::kinetic_energy(mass, g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]);
       now_[1] += energy;
-      mass_in_[my_sensor::cell({g.x[i], g.y[i], g.z[i]}, grid_)] += mass;
-      if (energy > 0.0) mass_at_[my_sensor::decade(energy / mass)] += mass * world.interval;
+      mass_in_[formula::cell({g.x[i], g.y[i], g.z[i]}, grid_)] += mass;
+      if (energy > 0.0) mass_at_[formula::decade(energy / mass)] += mass * world.interval;
     }
     if (sdk::is_after(world, p_.steady_after)) means_.add(now_, world.interval);
     curve_.add(world.time, now_[1]);
@@ -83,7 +82,7 @@ class MySensor final : public sdk::Sensor {
                curve_.y());
     std::vector<double> edges;
     for (std::size_t n = 0; n <= mass_at_.size(); ++n) {
-      edges.push_back(my_sensor::k_first_decade + static_cast<double>(n));
+      edges.push_back(formula::k_first_decade + static_cast<double>(n));
     }
     sink.histogram("Energy per mass", "log10 of energy per mass in J/kg", "mass times time [kg s]",
                    "all grains", edges, mass_at_);
@@ -118,7 +117,7 @@ class MySensor final : public sdk::Sensor {
   std::vector<double> now_ = {0.0, 0.0};  ///< mass [kg], kinetic energy [J]
   sdk::GridShape grid_{{}, {}, {k_cells, k_cells, k_cells}};
   std::vector<double> mass_in_ = std::vector<double>(k_cells * k_cells * k_cells);  ///< [kg]
-  std::vector<double> mass_at_ = std::vector<double>(my_sensor::k_decades);         ///< [kg s]
+  std::vector<double> mass_at_ = std::vector<double>(formula::k_decades);           ///< [kg s]
   sdk::BatchMeans means_{2};
   sdk::ThinnedCurve curve_;
 };

@@ -5,6 +5,7 @@
 
 namespace {
 
+namespace formula = my_turbulence;
 namespace sdk = dust::sdk;
 
 class MyTurbulence final : public sdk::TurbulenceModel {
@@ -23,13 +24,11 @@ class MyTurbulence final : public sdk::TurbulenceModel {
   }
   // 2. What the model says of itself.
   static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "my_turbulence",
+    return {.name = "my_turbulence",
             .version = "1.0",
             .summary = "Eddy viscosity of a mixing length.",
             .equation = "\\mu_t = \\rho l^2 |S|, l = min(l, 0.41 d)",
-            .source = "Prandtl, Z. angew. Math. Mech. 5 (1925) 136-139",
-            .parameters = {}};
+            .source = "Prandtl, Z. angew. Math. Mech. 5 (1925) 136-139"};
   }
 
   explicit MyTurbulence(const Parameters& p) : p_(p) {}
@@ -37,7 +36,7 @@ class MyTurbulence final : public sdk::TurbulenceModel {
   // 3. The law on a batch of cells: columns in, columns out; no allocation, no lock, no state.
   void evaluate(const sdk::TurbulenceBatch& batch) const override {
     for (std::size_t n = 0; n < batch.count; ++n) {
-      batch.eddy_viscosity[n] = my_turbulence::eddy_viscosity(
+      batch.eddy_viscosity[n] = formula::eddy_viscosity(
           batch.density[n], p_.mixing_length, batch.wall_distance[n], batch.strain_rate[n]);
     }
   }

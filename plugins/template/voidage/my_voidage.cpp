@@ -5,6 +5,7 @@
 
 namespace {
 
+namespace formula = my_voidage;
 namespace sdk = dust::sdk;
 
 class MyVoidage final : public sdk::VoidageRule {
@@ -14,13 +15,11 @@ class MyVoidage final : public sdk::VoidageRule {
   static sdk::ParameterSchema schema() { return sdk::SchemaOf<Parameters>{}.build(); }
   // 2. What the model says of itself.
   static sdk::ModelInfo describe() {
-    return {.kind = {},
-            .name = "my_voidage",
+    return {.name = "my_voidage",
             .version = "1.0",
             .summary = "Each grain counts as a cube of its volume, cut exactly by the cells.",
             .equation = "\\varepsilon = 1 - \\frac{1}{V_c} \\sum_g |Q_g \\cap C|",
-            .source = "own definition",
-            .parameters = {}};
+            .source = "own definition"};
   }
   explicit MyVoidage(const Parameters&) {}
 
@@ -31,10 +30,10 @@ class MyVoidage final : public sdk::VoidageRule {
   // 4. The rule on a batch; the shares of each grain sum to 1.
   void spread(const sdk::GridShape& grid, const sdk::VoidageBatch& batch) const override {
     for (std::size_t g = 0; g < batch.count; ++g) {
-      const double side = my_voidage::k_side * batch.radius[g];
-      const auto x = my_voidage::shares(batch.x[g], side, grid.origin.x, grid.spacing.x);
-      const auto y = my_voidage::shares(batch.y[g], side, grid.origin.y, grid.spacing.y);
-      const auto z = my_voidage::shares(batch.z[g], side, grid.origin.z, grid.spacing.z);
+      const double side = formula::k_side * batch.radius[g];
+      const auto x = formula::shares(batch.position.x[g], side, grid.origin.x, grid.spacing.x);
+      const auto y = formula::shares(batch.position.y[g], side, grid.origin.y, grid.spacing.y);
+      const auto z = formula::shares(batch.position.z[g], side, grid.origin.z, grid.spacing.z);
       int used = 0;
       for (int corner = 0; corner < 8; ++corner) {
         const int i = corner & 1;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "smagorinsky.hpp"
 
-#include "dust/sdk/plugin.hpp"
+#include <dust/sdk/plugin.hpp>
 
-namespace dust::model::smagorinsky {
 namespace {
+
+namespace formula = dust::model::smagorinsky;
+namespace sdk = dust::sdk;
 
 class Smagorinsky final : public sdk::TurbulenceModel {
  public:
@@ -23,24 +25,23 @@ class Smagorinsky final : public sdk::TurbulenceModel {
     return s.build();
   }
   static sdk::ModelInfo describe() {
-    sdk::ModelInfo info;
-    info.name = "smagorinsky";
-    info.version = "1.0";
-    info.summary = "Eddy viscosity of the eddies smaller than a cell.";
-    info.equation =
-        R"(\mu_t = \rho_f\, l^2 |S|,\ l = \min(C_s \Delta, 0.41\, d),\ |S| = \sqrt{2 S_{ij} S_{ij}})";
-    info.source =
-        "Smagorinsky, Mon. Weather Rev. 91 (1963) 99-164, "
-        "doi:10.1175/1520-0493(1963)091<0099:GCEWTP>2.3.CO;2";
-    return info;
+    return {
+        .name = "smagorinsky",
+        .version = "1.0",
+        .summary = "Eddy viscosity of the eddies smaller than a cell.",
+        .equation =
+            R"(\mu_t = \rho_f\, l^2 |S|,\ l = \min(C_s \Delta, 0.41\, d),\ |S| = \sqrt{2 S_{ij} S_{ij}})",
+        .source =
+            "Smagorinsky, Mon. Weather Rev. 91 (1963) 99-164, "
+            "doi:10.1175/1520-0493(1963)091<0099:GCEWTP>2.3.CO;2"};
   }
   explicit Smagorinsky(const Parameters& p) : p_(p) {}
 
   void evaluate(const sdk::TurbulenceBatch& batch) const override {
     for (std::size_t n = 0; n < batch.count; ++n) {
       batch.eddy_viscosity[n] =
-          eddy_viscosity(p_.coefficient, batch.filter_width, batch.wall_distance[n],
-                         batch.strain_rate[n], batch.density[n]);
+          formula::eddy_viscosity(p_.coefficient, batch.filter_width, batch.wall_distance[n],
+                                  batch.strain_rate[n], batch.density[n]);
     }
   }
 
@@ -49,6 +50,5 @@ class Smagorinsky final : public sdk::TurbulenceModel {
 };
 
 }  // namespace
-}  // namespace dust::model::smagorinsky
 
-DUST_PLUGIN(registrar) { registrar.add<dust::model::smagorinsky::Smagorinsky>(); }
+DUST_PLUGIN(registrar) { registrar.add<Smagorinsky>(); }

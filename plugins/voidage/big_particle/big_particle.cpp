@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "big_particle.hpp"
 
+#include <dust/sdk/plugin.hpp>
 #include "../shares_of_grain.hpp"
-#include "dust/sdk/plugin.hpp"
 
 #include <array>
 
-namespace dust::model::big_particle {
 namespace {
+
+namespace formula = dust::model::big_particle;
+namespace sdk = dust::sdk;
 
 /// Shares below this are the rounding of differences between volumes of order 1.
 constexpr double k_nothing = 1e-14;
@@ -28,18 +30,18 @@ class BigParticle final : public sdk::VoidageRule {
     return s.build();
   }
   static sdk::ModelInfo describe() {
-    sdk::ModelInfo info;
-    info.name = "big_particle";
-    info.version = "1.0";
-    info.summary =
-        "Grains larger than a cell: volume spread evenly over an enlarged sphere, by exact overlap "
-        "with the cells.";
-    info.equation =
-        R"(\varepsilon = 1 - (1 - \varepsilon_i) \frac{1}{V_c} \sum_g |S_g' \cap C|,\quad R' = R\,(1 - \varepsilon_i)^{-1/3})";
-    info.source = "own derivation, plugins/voidage/big_particle/README.md";
-    return info;
+    return {
+        .name = "big_particle",
+        .version = "1.0",
+        .summary =
+            "Grains larger than a cell: volume spread evenly over an enlarged sphere, by exact "
+            "overlap "
+            "with the cells.",
+        .equation =
+            R"(\varepsilon = 1 - (1 - \varepsilon_i) \frac{1}{V_c} \sum_g |S_g' \cap C|,\quad R' = R\,(1 - \varepsilon_i)^{-1/3})",
+        .source = "own derivation, plugins/voidage/big_particle/README.md"};
   }
-  explicit BigParticle(const Parameters& p) : scale_(enlargement(p.inner_void_fraction)) {}
+  explicit BigParticle(const Parameters& p) : scale_(formula::enlargement(p.inner_void_fraction)) {}
 
   [[nodiscard]] int capacity(const sdk::GridShape& grid, double radius) const override {
     int cells = 1;
@@ -54,13 +56,13 @@ class BigParticle final : public sdk::VoidageRule {
   }
 
   void spread(const sdk::GridShape& grid, const sdk::VoidageBatch& batch) const override {
-    thread_local std::array<Planes, 3> planes;
+    thread_local std::array<formula::Planes, 3> planes;
     thread_local std::vector<double> beyond;  // share beyond three planes, x fastest
     for (std::size_t g = 0; g < batch.count; ++g) {
       const double radius = scale_ * batch.radius[g];
-      planes[0].set(batch.x[g], grid.origin.x, grid.spacing.x, radius);
-      planes[1].set(batch.y[g], grid.origin.y, grid.spacing.y, radius);
-      planes[2].set(batch.z[g], grid.origin.z, grid.spacing.z, radius);
+      planes[0].set(batch.position.x[g], grid.origin.x, grid.spacing.x, radius);
+      planes[1].set(batch.position.y[g], grid.origin.y, grid.spacing.y, radius);
+      planes[2].set(batch.position.z[g], grid.origin.z, grid.spacing.z, radius);
       beyond.clear();
       for (const double c : planes[2].place) {
         for (const double b : planes[1].place) {
@@ -76,8 +78,9 @@ class BigParticle final : public sdk::VoidageRule {
  private:
   /// Each cell is the alternating sum over its eight corners.
   static void spread_one(const sdk::VoidageBatch& batch, std::size_t g,
-                         const std::array<Planes, 3>& planes, const std::vector<double>& beyond) {
-    SharesOfGrain out(batch, g);
+                         const std::array<formula::Planes, 3>& planes,
+                         const std::vector<double>& beyond) {
+    dust::model::SharesOfGrain out(batch, g);
     const std::size_t row = planes[0].place.size();
     const std::size_t layer = row * planes[1].place.size();
     for (std::size_t k = 0; k < planes[2].cells(); ++k) {
@@ -100,6 +103,5 @@ class BigParticle final : public sdk::VoidageRule {
 };
 
 }  // namespace
-}  // namespace dust::model::big_particle
 
-DUST_PLUGIN(registrar) { registrar.add<dust::model::big_particle::BigParticle>(); }
+DUST_PLUGIN(registrar) { registrar.add<BigParticle>(); }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "divided.hpp"
 
-#include "dust/sdk/plugin.hpp"
+#include <dust/sdk/plugin.hpp>
 
-namespace dust::model::divided {
 namespace {
+
+namespace formula = dust::model::divided;
+namespace sdk = dust::sdk;
 
 /// Where a grain lies along one axis: its cell, and the one plane that may cut it.
 struct Cut {
@@ -28,13 +30,11 @@ class Divided final : public sdk::VoidageRule {
   struct Parameters {};
   static sdk::ParameterSchema schema() { return sdk::SchemaOf<Parameters>{}.build(); }
   static sdk::ModelInfo describe() {
-    sdk::ModelInfo info;
-    info.name = "divided";
-    info.version = "1.0";
-    info.summary = "A grain's volume goes to the cells it overlaps, by exact overlap volumes.";
-    info.equation = R"(\varepsilon = 1 - \frac{1}{V_c} \sum_g |S_g \cap C|)";
-    info.source = "own derivation, plugins/voidage/divided/README.md";
-    return info;
+    return {.name = "divided",
+            .version = "1.0",
+            .summary = "A grain's volume goes to the cells it overlaps, by exact overlap volumes.",
+            .equation = R"(\varepsilon = 1 - \frac{1}{V_c} \sum_g |S_g \cap C|)",
+            .source = "own derivation, plugins/voidage/divided/README.md"};
   }
   explicit Divided(const Parameters&) {}
 
@@ -45,9 +45,9 @@ class Divided final : public sdk::VoidageRule {
     const sdk::Vec3 inverse{1.0 / grid.spacing.x, 1.0 / grid.spacing.y, 1.0 / grid.spacing.z};
     for (std::size_t g = 0; g < batch.count; ++g) {
       const double radius = batch.radius[g];
-      const Cut x = cut_of(batch.x[g], grid.origin.x, grid.spacing.x, inverse.x, radius);
-      const Cut y = cut_of(batch.y[g], grid.origin.y, grid.spacing.y, inverse.y, radius);
-      const Cut z = cut_of(batch.z[g], grid.origin.z, grid.spacing.z, inverse.z, radius);
+      const Cut x = cut_of(batch.position.x[g], grid.origin.x, grid.spacing.x, inverse.x, radius);
+      const Cut y = cut_of(batch.position.y[g], grid.origin.y, grid.spacing.y, inverse.y, radius);
+      const Cut z = cut_of(batch.position.z[g], grid.origin.z, grid.spacing.z, inverse.z, radius);
       spread_one(batch, g, x, y, z);
     }
   }
@@ -75,13 +75,13 @@ class Divided final : public sdk::VoidageRule {
     const bool is_xy = x.side != 0 && y.side != 0;
     const bool is_yz = y.side != 0 && z.side != 0;
     const bool is_zx = z.side != 0 && x.side != 0;
-    const double xy = is_xy ? edge(x.distance, y.distance) : 0.0;
-    const double yz = is_yz ? edge(y.distance, z.distance) : 0.0;
-    const double zx = is_zx ? edge(z.distance, x.distance) : 0.0;
-    const double xyz = is_xy && is_yz ? corner(x.distance, y.distance, z.distance) : 0.0;
-    if (x.side != 0) add_some(x.side, 0, 0, cap(x.distance) - xy - zx + xyz);
-    if (y.side != 0) add_some(0, y.side, 0, cap(y.distance) - xy - yz + xyz);
-    if (z.side != 0) add_some(0, 0, z.side, cap(z.distance) - yz - zx + xyz);
+    const double xy = is_xy ? formula::edge(x.distance, y.distance) : 0.0;
+    const double yz = is_yz ? formula::edge(y.distance, z.distance) : 0.0;
+    const double zx = is_zx ? formula::edge(z.distance, x.distance) : 0.0;
+    const double xyz = is_xy && is_yz ? formula::corner(x.distance, y.distance, z.distance) : 0.0;
+    if (x.side != 0) add_some(x.side, 0, 0, formula::cap(x.distance) - xy - zx + xyz);
+    if (y.side != 0) add_some(0, y.side, 0, formula::cap(y.distance) - xy - yz + xyz);
+    if (z.side != 0) add_some(0, 0, z.side, formula::cap(z.distance) - yz - zx + xyz);
     add_some(x.side, y.side, 0, xy - xyz);
     add_some(0, y.side, z.side, yz - xyz);
     add_some(x.side, 0, z.side, zx - xyz);
@@ -95,6 +95,5 @@ class Divided final : public sdk::VoidageRule {
 };
 
 }  // namespace
-}  // namespace dust::model::divided
 
-DUST_PLUGIN(registrar) { registrar.add<dust::model::divided::Divided>(); }
+DUST_PLUGIN(registrar) { registrar.add<Divided>(); }

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gaussian.hpp"
 
+#include <dust/sdk/plugin.hpp>
 #include "../shares_of_grain.hpp"
-#include "dust/sdk/plugin.hpp"
 
 #include <array>
 
-namespace dust::model::gaussian {
 namespace {
+
+namespace formula = dust::model::gaussian;
+namespace sdk = dust::sdk;
 
 class Gaussian final : public sdk::VoidageRule {
  public:
@@ -25,24 +27,23 @@ class Gaussian final : public sdk::VoidageRule {
     return s.build();
   }
   static sdk::ModelInfo describe() {
-    sdk::ModelInfo info;
-    info.name = "gaussian";
-    info.version = "1.0";
-    info.summary = "A grain's volume is spread as a Gaussian, cut at three standard deviations.";
-    info.equation =
-        R"(w = \prod_d \frac{\mathrm{erf}(x_d^+ / \sqrt2 \sigma_d) - \mathrm{erf}(x_d^- / \sqrt2 \sigma_d)}{2\,\mathrm{erf}(3 / \sqrt2)},\quad \sigma_d = \max(b D, \Delta x_d / 2))";
-    info.source =
-        "kernel averaging: Anderson and Jackson, Ind. Eng. Chem. Fundam. 6 (1967) 527, "
-        "doi:10.1021/i160024a007";
-    return info;
+    return {
+        .name = "gaussian",
+        .version = "1.0",
+        .summary = "A grain's volume is spread as a Gaussian, cut at three standard deviations.",
+        .equation =
+            R"(w = \prod_d \frac{\mathrm{erf}(x_d^+ / \sqrt2 \sigma_d) - \mathrm{erf}(x_d^- / \sqrt2 \sigma_d)}{2\,\mathrm{erf}(3 / \sqrt2)},\quad \sigma_d = \max(b D, \Delta x_d / 2))",
+        .source =
+            "kernel averaging: Anderson and Jackson, Ind. Eng. Chem. Fundam. 6 (1967) 527, "
+            "doi:10.1021/i160024a007"};
   }
   explicit Gaussian(const Parameters& p) : width_(p.width_over_diameter) {}
 
   [[nodiscard]] int capacity(const sdk::GridShape& grid, double radius) const override {
     int cells = 1;
     for (int d = 0; d < 3; ++d) {
-      const double sigma = deviation(width_, 2.0 * radius, grid.spacing[d]);
-      cells *= static_cast<int>(2.0 * k_reach * sigma / grid.spacing[d]) + 2;
+      const double sigma = formula::deviation(width_, 2.0 * radius, grid.spacing[d]);
+      cells *= static_cast<int>(2.0 * formula::k_reach * sigma / grid.spacing[d]) + 2;
     }
     return cells;
   }
@@ -50,19 +51,19 @@ class Gaussian final : public sdk::VoidageRule {
   [[nodiscard]] sdk::Vec3 reach(const sdk::GridShape& grid, double radius) const override {
     sdk::Vec3 r;
     for (int d = 0; d < 3; ++d) {
-      r[d] = k_reach * deviation(width_, 2.0 * radius, grid.spacing[d]);
+      r[d] = formula::k_reach * formula::deviation(width_, 2.0 * radius, grid.spacing[d]);
     }
     return r;
   }
 
   void spread(const sdk::GridShape& grid, const sdk::VoidageBatch& batch) const override {
-    thread_local std::array<Shares, 3> shares;
+    thread_local std::array<formula::Shares, 3> shares;
     for (std::size_t g = 0; g < batch.count; ++g) {
-      const double place[3] = {batch.x[g], batch.y[g], batch.z[g]};
+      const double place[3] = {batch.position.x[g], batch.position.y[g], batch.position.z[g]};
       for (int d = 0; d < 3; ++d) {
         shares[static_cast<std::size_t>(d)].set(
             place[d], grid.origin[d], grid.spacing[d],
-            deviation(width_, 2.0 * batch.radius[g], grid.spacing[d]));
+            formula::deviation(width_, 2.0 * batch.radius[g], grid.spacing[d]));
       }
       spread_one(batch, g, shares);
     }
@@ -70,8 +71,8 @@ class Gaussian final : public sdk::VoidageRule {
 
  private:
   static void spread_one(const sdk::VoidageBatch& batch, std::size_t g,
-                         const std::array<Shares, 3>& shares) {
-    SharesOfGrain out(batch, g);
+                         const std::array<formula::Shares, 3>& shares) {
+    dust::model::SharesOfGrain out(batch, g);
     for (std::size_t k = 0; k < shares[2].weight.size(); ++k) {
       for (std::size_t j = 0; j < shares[1].weight.size(); ++j) {
         for (std::size_t i = 0; i < shares[0].weight.size(); ++i) {
@@ -89,6 +90,5 @@ class Gaussian final : public sdk::VoidageRule {
 };
 
 }  // namespace
-}  // namespace dust::model::gaussian
 
-DUST_PLUGIN(registrar) { registrar.add<dust::model::gaussian::Gaussian>(); }
+DUST_PLUGIN(registrar) { registrar.add<Gaussian>(); }

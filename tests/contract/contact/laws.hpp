@@ -222,17 +222,33 @@ class LawBench {
       std::array<double*, contact::k_max_history> history{};
       for (std::size_t h = 0; h < history.size(); ++h) history[h] = columns_.history()[h] + first;
       b.history = c.history = history.data();
-      for (const double** column :
-           {&b.overlap, &b.normal_x, &b.normal_y, &b.normal_z, &b.velocity_x, &b.velocity_y,
-            &b.velocity_z, &b.rotation_x, &b.rotation_y, &b.rotation_z, &b.displacement_x,
-            &b.displacement_y, &b.displacement_z, &b.angle_x, &b.angle_y, &b.angle_z, &b.effective_radius,
-            &b.effective_mass, &c.overlap, &c.effective_radius, &c.effective_mass,
-            &c.normal_velocity}) {
+      for (const double** column : {&b.overlap,
+                                    &b.normal.x,
+                                    &b.normal.y,
+                                    &b.normal.z,
+                                    &b.velocity.x,
+                                    &b.velocity.y,
+                                    &b.velocity.z,
+                                    &b.angular_velocity.x,
+                                    &b.angular_velocity.y,
+                                    &b.angular_velocity.z,
+                                    &b.displacement.x,
+                                    &b.displacement.y,
+                                    &b.displacement.z,
+                                    &b.angle.x,
+                                    &b.angle.y,
+                                    &b.angle.z,
+                                    &b.effective_radius,
+                                    &b.effective_mass,
+                                    &c.overlap,
+                                    &c.effective_radius,
+                                    &c.effective_mass,
+                                    &c.normal_velocity}) {
         *column += first;
       }
       for (double** column :
-           {&b.normal_force, &b.normal_stiffness, &b.tangential_stiffness, &b.force_x, &b.force_y,
-            &b.force_z, &b.torque_x, &b.torque_y, &b.torque_z, &c.contact_overlap, &c.attraction}) {
+           {&b.normal_force, &b.normal_stiffness, &b.tangential_stiffness, &b.force.x, &b.force.y,
+            &b.force.z, &b.torque.x, &b.torque.y, &b.torque.z, &c.contact_overlap, &c.attraction}) {
         *column += first;
       }
       call(b, c);

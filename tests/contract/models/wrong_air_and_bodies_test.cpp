@@ -30,14 +30,14 @@ struct Rolling final : RollingLaw {
       // Small beside what stops a grain within a step.
       const double brake = (fault == drives ? 1e-4 : -1e-4) * lead * b.effective_radius[q] *
                            b.effective_radius[q] * b.effective_mass[q];
-      const double size = std::abs(brake) * std::abs(b.rotation_y[q]);
-      b.torque_x[q] = brake * b.rotation_x[q] + (fault == along_x ? size : 0.0);
-      b.torque_y[q] = brake * b.rotation_y[q];
-      b.torque_z[q] = brake * b.rotation_z[q] + (fault == restless ? 1e-12 : 0.0);
-      if (fault == drives) b.torque_y[q] *= 1e7;
+      const double size = std::abs(brake) * std::abs(b.angular_velocity.y[q]);
+      b.torque.x[q] = brake * b.angular_velocity.x[q] + (fault == along_x ? size : 0.0);
+      b.torque.y[q] = brake * b.angular_velocity.y[q];
+      b.torque.z[q] = brake * b.angular_velocity.z[q] + (fault == restless ? 1e-12 : 0.0);
+      if (fault == drives) b.torque.y[q] *= 1e7;
       if (fault != moves_by_rotation) continue;
-      b.history[0][q] += b.time_step * b.rotation_y[q];
-      b.torque_y[q] -= 1e-6 * b.history[0][q];
+      b.history[0][q] += b.time_step * b.angular_velocity.y[q];
+      b.torque.y[q] -= 1e-6 * b.history[0][q];
     }
   }
   Fault fault;
@@ -78,9 +78,9 @@ struct Centre final : VoidageRule {
         return static_cast<int>(std::floor((at - grid.origin[d]) / grid.spacing[d]));
       };
       b.used[g] = 1;
-      b.cell_i[g] = cell(0, b.x[g]) + (fault == next_door ? 2 : 0);
-      b.cell_j[g] = cell(1, b.y[g]);
-      b.cell_k[g] = cell(2, b.z[g]);
+      b.cell_i[g] = cell(0, b.position.x[g]) + (fault == next_door ? 2 : 0);
+      b.cell_j[g] = cell(1, b.position.y[g]);
+      b.cell_k[g] = cell(2, b.position.z[g]);
       b.weight[g] = fault == loses ? 0.75 : 1.0;
     }
   }
@@ -106,7 +106,7 @@ struct Side final : BoundaryCondition {
   [[nodiscard]] SideRules rules() const override { return asked; }
   void evaluate(const SideBatch& b) const override {
     for (std::size_t n = 0; n < b.count; ++n) {
-      b.velocity_x[n] = b.velocity_y[n] = b.velocity_z[n] = 1.0;
+      b.velocity.x[n] = b.velocity.y[n] = b.velocity.z[n] = 1.0;
       if (b.pressure != nullptr) b.pressure[n] = 1.0;
     }
   }
@@ -142,7 +142,7 @@ struct Slide final : Motion {
   explicit Slide(Fault f) : fault(f) {}
   void surface_velocity(const SurfaceBatch& b) const override {
     Motion::surface_velocity(b);
-    if (fault == surface_faster) std::fill_n(b.velocity_y, b.count, 3.0);
+    if (fault == surface_faster) std::fill_n(b.velocity.y, b.count, 3.0);
   }
   [[nodiscard]] double largest_speed() const override { return fault == faster ? 0.5 : 1.0; }
   [[nodiscard]] bool moves_body() const override { return true; }

@@ -127,14 +127,14 @@ struct Spring final : sdk::ContactLaw {
   /// Along y alone, as the contract's collisions are.
   double spring(const sdk::ContactBatch& b, std::size_t q) const {
     const double way =
-        fault == moves_by_velocity ? b.time_step * b.velocity_y[q] : b.displacement_y[q];
+        fault == moves_by_velocity ? b.time_step * b.velocity.y[q] : b.displacement.y[q];
     b.history[0][q] += way;
     return -0.8 * p.stiffness * b.history[0][q];
   }
   void evaluate(const sdk::ContactBatch& b) const override {
     for (std::size_t q = 0; q < b.count; ++q) {
-      const double vn = b.velocity_x[q] * b.normal_x[q] + b.velocity_y[q] * b.normal_y[q] +
-                        b.velocity_z[q] * b.normal_z[q];
+      const double vn = b.velocity.x[q] * b.normal.x[q] + b.velocity.y[q] * b.normal.y[q] +
+                        b.velocity.z[q] * b.normal.z[q];
       const double log_e = std::log(p.restitution);
       const double zeta = -log_e / std::sqrt(9.869604401089358 + log_e * log_e);
       double f = p.stiffness * b.overlap[q] -
@@ -144,11 +144,11 @@ struct Spring final : sdk::ContactLaw {
       b.normal_force[q] = f;
       b.normal_stiffness[q] = (fault == tells_stiffness_wrong ? 2.0 : 1.0) * p.stiffness;
       b.tangential_stiffness[q] = p.stiffness;
-      b.force_x[q] = f * b.normal_x[q] + (fault == along_x ? 0.01 * f : 0.0);
-      b.force_y[q] = f * b.normal_y[q];
-      b.force_z[q] = f * b.normal_z[q];
-      if (has_spring()) b.force_y[q] += spring(b, q);
-      if (fault == sticky_sliding) b.force_y[q] += 5.0 * f * (b.velocity_y[q] > 0.0 ? 1.0 : -1.0);
+      b.force.x[q] = f * b.normal.x[q] + (fault == along_x ? 0.01 * f : 0.0);
+      b.force.y[q] = f * b.normal.y[q];
+      b.force.z[q] = f * b.normal.z[q];
+      if (has_spring()) b.force.y[q] += spring(b, q);
+      if (fault == sticky_sliding) b.force.y[q] += 5.0 * f * (b.velocity.y[q] > 0.0 ? 1.0 : -1.0);
     }
   }
   [[nodiscard]] double collision_time(double, double mass, double) const override {
@@ -193,9 +193,8 @@ TEST_CASE("a contact law that is wrong shall be told by the rule it breaks") {
   CHECK(
       seen.broken(spring(Spring::tells_stiffness_wrong), "stiffness").find("normal_stiffness is") ==
       0);
-  CHECK(
-      seen.broken(spring(Spring::moves_by_velocity), "second order").find("the energy along") !=
-      std::string::npos);
+  CHECK(seen.broken(spring(Spring::moves_by_velocity), "second order").find("the energy along") !=
+        std::string::npos);
   CHECK(Seen().broken(spring(Spring::moves_by_displacement), "second order").empty());
   seen.check_complete();
 }
@@ -287,14 +286,15 @@ namespace {
 /// Says 1 g/s and gives `share` of it; forgets where it was when it is resumed.
 struct Drip final : sdk::Emitter {
   explicit Drip(double s) : share(s) {}
-  void propose(const sdk::EmitterContext& context, std::vector<sdk::Seed>& seeds) override {
+  void propose(const sdk::EmitterContext& context,
+               std::vector<sdk::InsertionRequest>& requests) override {
     const double mass = context.grain_density * sdk::sphere_volume(k_diameter);
     for (; (released + 1.0) * mass / (share * k_flow) < context.end; ++released) {
-      sdk::Seed seed;
-      seed.time = (released + 1.0) * mass / (share * k_flow);
-      seed.velocity = {0.0, 0.0, -1.0};
-      seed.diameter = k_diameter;
-      seeds.push_back(seed);
+      sdk::InsertionRequest request;
+      request.time = (released + 1.0) * mass / (share * k_flow);
+      request.velocity = {0.0, 0.0, -1.0};
+      request.diameter = k_diameter;
+      requests.push_back(request);
     }
   }
   [[nodiscard]] double requested_mass_flow() const override { return k_flow; }

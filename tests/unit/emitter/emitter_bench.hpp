@@ -28,11 +28,11 @@ inline sdk::EmitterContext context(double begin, double end, double density = 26
   return c;
 }
 
-/// All seeds of the first millisecond.
-inline std::vector<sdk::Seed> seeds_of(sdk::Emitter& e, double density = 2650.0) {
-  std::vector<sdk::Seed> seeds;
-  e.propose(context(0.0, 1e-3, density), seeds);
-  return seeds;
+/// All requests of the first millisecond.
+inline std::vector<sdk::InsertionRequest> requests_of(sdk::Emitter& e, double density = 2650.0) {
+  std::vector<sdk::InsertionRequest> requests;
+  e.propose(context(0.0, 1e-3, density), requests);
+  return requests;
 }
 
 /// The text of a ParameterError.
@@ -46,12 +46,12 @@ inline std::string refusal(const std::function<void()>& act) {
 }
 
 /// Pairs that overlap, by brute force.
-inline std::size_t overlaps(const std::vector<sdk::Seed>& seeds) {
+inline std::size_t overlaps(const std::vector<sdk::InsertionRequest>& requests) {
   std::size_t count = 0;
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    for (std::size_t j = i + 1; j < seeds.size(); ++j) {
-      const sdk::Vec3 apart = seeds[i].position - seeds[j].position;
-      const double reach = 0.5 * (seeds[i].diameter + seeds[j].diameter);
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    for (std::size_t j = i + 1; j < requests.size(); ++j) {
+      const sdk::Vec3 apart = requests[i].position - requests[j].position;
+      const double reach = 0.5 * (requests[i].diameter + requests[j].diameter);
       count += dot(apart, apart) < reach * reach ? 1 : 0;
     }
   }

@@ -125,12 +125,12 @@ TEST_CASE("the emitter shall give the grains of a file with their lines, shifted
   const TemporaryFolder folder;
   const auto file = write(folder, "bed.csv", "diameter,x,y,z\n4e-4,0,0,1e-3\n3e-4,0,0,2e-3\n");
   const auto e = emitter("file", {{"file", file}, {"offset", Vec3{0, 0, 1e-2}}});
-  const auto seeds = seeds_of(*e);
-  REQUIRE(seeds.size() == 2);
-  CHECK(seeds[1].position.z == doctest::Approx(12e-3).epsilon(1e-14));
-  CHECK(seeds[1].line == 3);
+  const auto requests = requests_of(*e);
+  REQUIRE(requests.size() == 2);
+  CHECK(requests[1].position.z == doctest::Approx(12e-3).epsilon(1e-14));
+  CHECK(requests[1].line == 3);
   CHECK(e->diameters() == std::vector<double>{3e-4, 4e-4});
-  CHECK(e->entry_rule().allowed_overlap == 0.005);
+  CHECK(e->insertion_rule().allowed_overlap == 0.005);
 }
 
 TEST_CASE("many different sizes shall be gathered in classes that hold both ends") {
@@ -148,17 +148,17 @@ TEST_CASE("the last frame of a run shall be read, or the group that is named, wi
   const TemporaryFolder folder;
   const auto path = write_results(folder);
   const auto e = emitter("file", {{"file", path}, {"materials", std::vector<std::string>{"dust"}}});
-  const auto seeds = seeds_of(*e);
-  REQUIRE(seeds.size() == 2);
-  CHECK(seeds[1].position == Vec3{4, 5, 7});
-  CHECK(seeds[1].velocity == Vec3{0, 0, -2});
-  CHECK(seeds[0].diameter == 0.5);
-  CHECK(seeds[0].material == 0);   // dust
-  CHECK(seeds[1].material == -1);  // the other one is the emitter's own
+  const auto requests = requests_of(*e);
+  REQUIRE(requests.size() == 2);
+  CHECK(requests[1].position == Vec3{4, 5, 7});
+  CHECK(requests[1].velocity == Vec3{0, 0, -2});
+  CHECK(requests[0].diameter == 0.5);
+  CHECK(requests[0].material == 0);   // dust
+  CHECK(requests[1].material == -1);  // the other one is the emitter's own
   const auto first = emitter(
       "file",
       {{"file", path}, {"group", std::string("particles/000000")}, {"with_velocities", false}});
-  const auto at_rest = seeds_of(*first);
+  const auto at_rest = requests_of(*first);
   CHECK(at_rest[1].position == Vec3{4, 5, 6});
   CHECK(at_rest[1].velocity == Vec3{0, 0, 0});
   CHECK(at_rest[0].material == -1);

@@ -30,9 +30,9 @@ const Parameters k_frustum{{"region", std::string("cylinder")},
                            {"radius", 2e-3},
                            {"end_radius", 5e-3}};
 
-double mass_of(const std::vector<sdk::Seed>& seeds) {
+double mass_of(const std::vector<sdk::InsertionRequest>& requests) {
   double mass = 0.0;
-  for (const auto& s : seeds) mass += 2650.0 * sdk::sphere_volume(s.diameter);
+  for (const auto& s : requests) mass += 2650.0 * sdk::sphere_volume(s.diameter);
   return mass;
 }
 
@@ -42,12 +42,12 @@ TEST_CASE("a filled box shall hold its mass, within half a grain, without overla
   // 30 % of 0.96 cm3.
   const double mass = 0.30 * 0.96e-6 * 2650.0;
   const auto fill = emitter("fill", with(sand(mass), k_box));
-  const auto seeds = seeds_of(*fill);
-  CHECK(std::abs(mass_of(seeds) - mass) < 0.5 * 2650.0 * sdk::sphere_volume(600e-6));
-  REQUIRE(seeds.size() > 3000);
-  CHECK(overlaps(seeds) == 0);
+  const auto requests = requests_of(*fill);
+  CHECK(std::abs(mass_of(requests) - mass) < 0.5 * 2650.0 * sdk::sphere_volume(600e-6));
+  REQUIRE(requests.size() > 3000);
+  CHECK(overlaps(requests) == 0);
   double by_size = 0.0;
-  for (const auto& s : seeds) {
+  for (const auto& s : requests) {
     const double r = 0.5 * s.diameter;
     for (int d = 0; d < 3; ++d) {
       CHECK(s.position[d] >= r * (1.0 - 1e-12));
@@ -63,14 +63,14 @@ TEST_CASE("grains shall lie wholly within a slanting frustum and fill all of it"
   const auto fill = emitter(
       "fill",
       with({{"count", std::int64_t{1500}}, {"diameters", std::vector<double>{400e-6}}}, k_frustum));
-  const auto seeds = seeds_of(*fill);
-  REQUIRE(seeds.size() == 1500);
-  CHECK(overlaps(seeds) == 0);
+  const auto requests = requests_of(*fill);
+  REQUIRE(requests.size() == 1500);
+  CHECK(overlaps(requests) == 0);
   const Vec3 from{1e-3, 2e-3, 3e-3};
   const Vec3 along = Vec3{4e-3, 0, 10e-3};
   const double length = norm(along);
   double mean = 0.0;
-  for (const auto& s : seeds) {
+  for (const auto& s : requests) {
     const double t = dot(s.position - from, along) / length;
     const double off = norm(s.position - from - (t / length) * along);
     CHECK(t >= 200e-6 * (1 - 1e-9));
@@ -97,17 +97,17 @@ TEST_CASE("what stands in the region shall be kept clear") {
       with({{"count", std::int64_t{2000}}, {"diameters", std::vector<double>{400e-6}}}, k_box));
   auto c = context(0.0, 1e-3);
   c.surroundings = &ball;
-  std::vector<sdk::Seed> seeds;
-  fill->propose(c, seeds);
-  REQUIRE(seeds.size() == 2000);
-  for (const auto& s : seeds) CHECK(ball.is_free(s.position, 200e-6));
+  std::vector<sdk::InsertionRequest> requests;
+  fill->propose(c, requests);
+  REQUIRE(requests.size() == 2000);
+  for (const auto& s : requests) CHECK(ball.is_free(s.position, 200e-6));
 }
 
 TEST_CASE("a region that cannot hold its grains shall be refused with the volume that could") {
   // 60 % of the box: known when the scenario is read.
   const auto dense = emitter("fill", with(sand(0.60 * 0.96e-6 * 2650.0), k_box));
   const auto at_reading = refusal([&] {
-    std::vector<sdk::Seed> none;
+    std::vector<sdk::InsertionRequest> none;
     dense->propose(context(0.0, 0.0), none);
   });
   CHECK(at_reading.find("the region cannot hold the grains: they would take up ") == 0);
@@ -117,7 +117,7 @@ TEST_CASE("a region that cannot hold its grains shall be refused with the volume
                                        {"diameters", std::vector<double>{1e-3}},
                                        {"min", Vec3{0, 0, 0}},
                                        {"max", Vec3{8e-3, 8e-3, 8e-3}}});
-  const auto at_start = refusal([&] { seeds_of(*jammed); });
+  const auto at_start = refusal([&] { requests_of(*jammed); });
   CHECK(at_start.find("only ") == 0);
   CHECK(at_start.find(" of 430 grains") != std::string::npos);
   CHECK(at_start.find("found a place") != std::string::npos);
@@ -129,18 +129,18 @@ TEST_CASE("a filling shall come once, at its moment, also through a checkpoint")
   p["time"] = 2.5e-3;
   const auto whole = emitter("fill", p);
   for (int n = 0; n < 6; ++n) {
-    std::vector<sdk::Seed> seeds;
-    whole->propose(context(1e-3 * n, 1e-3 * (n + 1)), seeds);
-    CHECK(seeds.size() == (n == 2 ? 10 : 0));
-    for (const auto& s : seeds) CHECK(s.time == 1e-3 * n);
+    std::vector<sdk::InsertionRequest> requests;
+    whole->propose(context(1e-3 * n, 1e-3 * (n + 1)), requests);
+    CHECK(requests.size() == (n == 2 ? 10 : 0));
+    for (const auto& s : requests) CHECK(s.time == 1e-3 * n);
   }
   MemoryArchive archive;
   whole->save(archive);
   const auto loaded = emitter("fill", p);
   loaded->load(archive);
-  std::vector<sdk::Seed> seeds;
-  loaded->propose(context(2e-3, 3e-3), seeds);
-  CHECK(seeds.empty());
+  std::vector<sdk::InsertionRequest> requests;
+  loaded->propose(context(2e-3, 3e-3), requests);
+  CHECK(requests.empty());
 }
 
 TEST_CASE("a filling without amount, or with both, or a wrong region, shall be refused") {

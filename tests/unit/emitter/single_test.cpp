@@ -13,17 +13,17 @@ TEST_CASE("single grains shall come as they are written, one entry standing for 
                                          {"diameters", std::vector<double>{1e-3}},
                                          {"velocities", std::vector<Vec3>{{0, 0, 1}, {0, 0, -2}}},
                                          {"rotations", std::vector<Vec3>{{5, 0, 0}}}});
-  const auto seeds = seeds_of(*single);
-  REQUIRE(seeds.size() == 2);
+  const auto requests = requests_of(*single);
+  REQUIRE(requests.size() == 2);
   for (std::size_t n = 0; n < 2; ++n) {
-    CHECK(seeds[n].position == places[n]);
-    CHECK(seeds[n].diameter == 1e-3);
-    CHECK(seeds[n].rotation == Vec3{5, 0, 0});
+    CHECK(requests[n].position == places[n]);
+    CHECK(requests[n].diameter == 1e-3);
+    CHECK(requests[n].angular_velocity == Vec3{5, 0, 0});
   }
-  CHECK(seeds[1].velocity == Vec3{0, 0, -2});
+  CHECK(requests[1].velocity == Vec3{0, 0, -2});
   CHECK(single->largest_speed() == 2.0);
   CHECK(single->diameters() == std::vector<double>{1e-3});
-  CHECK_FALSE(single->entry_rule().waits);
+  CHECK_FALSE(single->insertion_rule().waits);
 }
 
 TEST_CASE("lists that do not fit the number of grains shall be refused") {

@@ -190,15 +190,15 @@ TEST_CASE("a feed shall release a law in its shares") {
                      {"size_classes", std::int64_t{3}}};
   const auto feed = test::emitter("feed", p);
   std::map<double, double> real;
-  std::vector<sdk::Seed> seeds;
-  for (int n = 0; n < 300; ++n) feed->propose(test::context(1e-3 * n, 1e-3 * (n + 1)), seeds);
-  for (const auto& s : seeds) real[s.diameter] += 1.0 / static_cast<double>(seeds.size());
+  std::vector<sdk::InsertionRequest> requests;
+  for (int n = 0; n < 300; ++n) feed->propose(test::context(1e-3 * n, 1e-3 * (n + 1)), requests);
+  for (const auto& s : requests) real[s.diameter] += 1.0 / static_cast<double>(requests.size());
   const auto shares = feed->request().shares;
   REQUIRE(shares.size() == 3);
-  REQUIRE(seeds.size() > 5000);
+  REQUIRE(requests.size() > 5000);
   for (const auto& share : shares) {
     // No size strays by more than its share of 500 grains.
     CHECK(std::abs(real[share.diameter] - share.number_fraction) <
-          500.0 * share.number_fraction / static_cast<double>(seeds.size()));
+          500.0 * share.number_fraction / static_cast<double>(requests.size()));
   }
 }

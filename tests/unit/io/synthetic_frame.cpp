@@ -26,10 +26,21 @@ SyntheticFrame::SyntheticFrame(std::int64_t number, int grains, int nx, int ny, 
   sdk::GrainColumns& g = world.grains;
   g.id = id_;
   g.material = material_;
-  std::span<const double>* targets[15] = {
-      &g.x,          &g.y,          &g.z,          &g.velocity_x, &g.velocity_y,
-      &g.velocity_z, &g.rotation_x, &g.rotation_y, &g.rotation_z, &g.force_x,
-      &g.force_y,    &g.force_z,    &g.diameter,   &g.mass,       &g.weight};
+  std::span<const double>* targets[15] = {&g.x,
+                                          &g.y,
+                                          &g.z,
+                                          &g.velocity_x,
+                                          &g.velocity_y,
+                                          &g.velocity_z,
+                                          &g.angular_velocity_x,
+                                          &g.angular_velocity_y,
+                                          &g.angular_velocity_z,
+                                          &g.force_x,
+                                          &g.force_y,
+                                          &g.force_z,
+                                          &g.diameter,
+                                          &g.mass,
+                                          &g.weight};
   for (int c = 0; c < 15; ++c) *targets[c] = columns_[c];
   if (nx * ny * nz == 0) return;
 

@@ -11,8 +11,8 @@
 
 using dust::sdk::Emitter;
 using dust::sdk::EmitterContext;
+using dust::sdk::InsertionRequest;
 using dust::sdk::Random;
-using dust::sdk::Seed;
 using dust::sdk::Value;
 using dust::sdk::Vec3;
 using namespace dust::test;
@@ -33,20 +33,20 @@ std::map<std::string, Value> transfer_point() {
           {"copies_of_rare", std::int64_t{20}}};
 }
 
-std::vector<Seed> run(Emitter& feed, int from, int to) {
-  std::vector<Seed> seeds;
+std::vector<InsertionRequest> run(Emitter& feed, int from, int to) {
+  std::vector<InsertionRequest> requests;
   for (int n = from; n < to; ++n) {
     feed.propose({.begin = 1e-3 * n,
                   .end = 1e-3 * (n + 1),
                   .grain_density = k_density,
                   .gravity = {0, 0, -9.81},
                   .random = Random(1, 42)},
-                 seeds);
+                 requests);
   }
-  return seeds;
+  return requests;
 }
 
-double mass(const Seed& s) {
+double mass(const InsertionRequest& s) {
   return s.weight * k_density * std::numbers::pi / 6.0 * s.diameter * s.diameter * s.diameter;
 }
 
@@ -54,12 +54,12 @@ double mass(const Seed& s) {
 
 TEST_CASE("the feed shall release its mass flow to within one grain at any time") {
   auto feed = ModelLoader::make<Emitter>("emitter", "feed", transfer_point());
-  const auto seeds = run(*feed, 0, 700);
+  const auto requests = run(*feed, 0, 700);
   const double largest = k_density * std::numbers::pi / 6.0 * std::pow(600e-6, 3);
   double released = 0.0;
   double last = 0.0;
-  REQUIRE(seeds.size() > 20000);
-  for (const Seed& s : seeds) {
+  REQUIRE(requests.size() > 20000);
+  for (const InsertionRequest& s : requests) {
     CHECK_MESSAGE(s.time >= last, "seeds in order of time");
     REQUIRE(std::abs(released - k_flow * s.time) < largest);
     released += mass(s);
@@ -73,7 +73,7 @@ TEST_CASE("the feed shall follow the size distribution, rare sizes with their we
   std::map<double, double> real;
   double sum = 0.0;
   std::size_t copies = 0;
-  for (const Seed& s : run(*feed, 0, 700)) {
+  for (const InsertionRequest& s : run(*feed, 0, 700)) {
     real[s.diameter] += s.weight;
     sum += s.weight;
     if (s.diameter < 100e-6) {
@@ -92,16 +92,16 @@ TEST_CASE("the feed shall follow the size distribution, rare sizes with their we
 
 TEST_CASE("seeds shall not overlap when they move on with the stream") {
   auto feed = ModelLoader::make<Emitter>("emitter", "feed", transfer_point());
-  const auto seeds = run(*feed, 0, 40);
+  const auto requests = run(*feed, 0, 40);
   const Vec3 velocity{0, 0, -0.15};
   std::size_t near = 0;
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    CHECK(seeds[i].position.x - 0.5 * seeds[i].diameter >= 26e-3);
-    CHECK(seeds[i].position.y + 0.5 * seeds[i].diameter <= 9.5e-3);
-    for (std::size_t j = i + 1; j < seeds.size(); ++j) {
-      const Vec3 d =
-          seeds[j].position - seeds[i].position - (seeds[j].time - seeds[i].time) * velocity;
-      const double reach = 0.5 * (seeds[i].diameter + seeds[j].diameter);
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    CHECK(requests[i].position.x - 0.5 * requests[i].diameter >= 26e-3);
+    CHECK(requests[i].position.y + 0.5 * requests[i].diameter <= 9.5e-3);
+    for (std::size_t j = i + 1; j < requests.size(); ++j) {
+      const Vec3 d = requests[j].position - requests[i].position -
+                     (requests[j].time - requests[i].time) * velocity;
+      const double reach = 0.5 * (requests[i].diameter + requests[j].diameter);
       REQUIRE(norm(d) >= reach);
       near += norm(d) < 1.1 * reach ? 1 : 0;
     }
@@ -112,7 +112,7 @@ TEST_CASE("seeds shall not overlap when they move on with the stream") {
 TEST_CASE("seeds shall start wholly behind the opening, rare ones one interval in front of it") {
   auto feed = ModelLoader::make<Emitter>("emitter", "feed", transfer_point());
   std::size_t rare = 0;
-  for (const Seed& s : run(*feed, 0, 100)) {
+  for (const InsertionRequest& s : run(*feed, 0, 100)) {
     // The largest grain has a radius of 0.3 mm; an interval of 1 ms at 0.15 m/s is 0.15 mm.
     const bool is_rare = s.diameter < 100e-6;
     CHECK(s.position.z == doctest::Approx(0.22 + (is_rare ? -0.15e-3 : 0.3e-3)).epsilon(1e-12));
@@ -122,22 +122,22 @@ TEST_CASE("seeds shall start wholly behind the opening, rare ones one interval i
   CHECK(rare > 0);
 }
 
-TEST_CASE("a resumed feed shall go on with the same seeds") {
+TEST_CASE("a resumed feed shall go on with the same requests") {
   auto whole = ModelLoader::make<Emitter>("emitter", "feed", transfer_point());
   auto first = ModelLoader::make<Emitter>("emitter", "feed", transfer_point());
   auto second = ModelLoader::make<Emitter>("emitter", "feed", transfer_point());
   const auto expected = run(*whole, 0, 30);
-  auto seeds = run(*first, 0, 13);
+  auto requests = run(*first, 0, 13);
   MemoryArchive archive;
   first->save(archive);
   second->load(archive);
   const auto rest = run(*second, 13, 30);
-  seeds.insert(seeds.end(), rest.begin(), rest.end());
-  REQUIRE(seeds.size() == expected.size());
-  for (std::size_t n = 0; n < seeds.size(); ++n) {
-    CHECK(seeds[n].time == expected[n].time);
-    CHECK(seeds[n].position == expected[n].position);
-    CHECK(seeds[n].diameter == expected[n].diameter);
+  requests.insert(requests.end(), rest.begin(), rest.end());
+  REQUIRE(requests.size() == expected.size());
+  for (std::size_t n = 0; n < requests.size(); ++n) {
+    CHECK(requests[n].time == expected[n].time);
+    CHECK(requests[n].position == expected[n].position);
+    CHECK(requests[n].diameter == expected[n].diameter);
   }
 }
 

@@ -64,10 +64,10 @@ struct Contact final : Trial<sdk::ContactLaw> {
   }
   int history_size() const override { return 3; }
   void evaluate(const sdk::ContactBatch& b) const override {
-    for (double* column : {b.normal_force, b.force_x, b.force_y, b.force_z}) {
+    for (double* column : {b.normal_force, b.force.x, b.force.y, b.force.z}) {
       for (std::size_t n = 0; n < b.count; ++n) column[n] = density;
     }
-    b.force_y[b.count - 1] = deed(what, 2.0);
+    b.force.y[b.count - 1] = deed(what, 2.0);
   }
   double collision_time(double r, double m, double v) const override { return r + 2 * m + 3 * v; }
   double half_period(double r, double m, double d) const override { return r + 4 * m + 5 * d; }
@@ -80,7 +80,7 @@ struct Rolling final : Trial<sdk::RollingLaw> {
   using Trial::Trial;
   void prepare(const sdk::MaterialProperties&, const sdk::MaterialProperties&) override {}
   int history_size() const override { return 4; }
-  void evaluate(const sdk::ContactBatch& b) const override { b.torque_z[0] = deed(what, 1.0); }
+  void evaluate(const sdk::ContactBatch& b) const override { b.torque.z[0] = deed(what, 1.0); }
 };
 
 struct Cohesion final : Trial<sdk::CohesionLaw> {
@@ -129,8 +129,8 @@ struct Boundary final : Trial<sdk::BoundaryCondition> {
     return {sdk::SideRule::fixed, sdk::SideRule::gradient, sdk::SideRule::gradient};
   }
   void evaluate(const sdk::SideBatch& b) const override {
-    b.velocity_x[0] = deed(what, 1.0);
-    b.velocity_y[0] = k_nan;  // not fixed: nobody reads it
+    b.velocity.x[0] = deed(what, 1.0);
+    b.velocity.y[0] = k_nan;  // not fixed: nobody reads it
   }
   bool needs_flow() const override { return true; }
 };
@@ -144,10 +144,10 @@ struct Turbulence final : Trial<sdk::TurbulenceModel> {
 
 struct Emitter final : Trial<sdk::Emitter> {
   using Trial::Trial;
-  void propose(const sdk::EmitterContext&, std::vector<sdk::Seed>& seeds) override {
-    sdk::Seed seed;
-    seed.diameter = deed(what, 1e-3);
-    seeds.push_back(seed);
+  void propose(const sdk::EmitterContext&, std::vector<sdk::InsertionRequest>& requests) override {
+    sdk::InsertionRequest request;
+    request.diameter = deed(what, 1e-3);
+    requests.push_back(request);
   }
   double requested_mass_flow() const override { return 1.0; }
   std::vector<double> diameters() const override { return {1e-3}; }
@@ -157,14 +157,14 @@ struct Emitter final : Trial<sdk::Emitter> {
     r.count = 9;
     return r;
   }
-  sdk::EntryRule entry_rule() const override { return {false, 0.5}; }
+  sdk::InsertionRule insertion_rule() const override { return {false, 0.5}; }
   std::vector<std::string> materials() const override { return {"sand"}; }
 };
 
 struct Motion final : Trial<sdk::Motion> {
   using Trial::Trial;
   void surface_velocity(const sdk::SurfaceBatch& b) const override {
-    b.velocity_z[0] = deed(what, 1.0);
+    b.velocity.z[0] = deed(what, 1.0);
   }
   double largest_speed() const override { return 3.0; }
   bool moves_body() const override { return true; }
@@ -184,7 +184,7 @@ struct Sensor final : Trial<sdk::Sensor> {
   void summary(sdk::FigureSink& sink) const override { sink.figure("end", time, "s"); }
   void report(sdk::ReportSink& sink) const override { sink.section("Heading", "Text."); }
   void fields(sdk::FieldSink& sink) const override { sink.field("one", "1", {}, {}); }
-  bool looks_at_walls() const override { return true; }
+  bool wants_walls() const override { return true; }
   void save(sdk::ArchiveWriter& a) const override { a.number("time", time); }
   void load(sdk::ArchiveReader& a) override { time = a.number("time"); }
   double time = 0.0;
@@ -234,12 +234,12 @@ TEST_CASE("guarded pair laws shall answer as themselves and be told from their f
   batch.overlap = c.a;
   batch.effective_mass = c.b;
   batch.normal_force = c.out[0];
-  batch.force_x = c.out[1];
-  batch.force_y = c.out[2];
-  batch.force_z = c.out[3];
-  batch.torque_x = c.out[4];
-  batch.torque_y = c.out[5];
-  batch.torque_z = c.out[5];
+  batch.force.x = c.out[1];
+  batch.force.y = c.out[2];
+  batch.force.z = c.out[3];
+  batch.torque.x = c.out[4];
+  batch.torque.y = c.out[5];
+  batch.torque.z = c.out[5];
   {
     const auto law = guard<Contact>();
     law->prepare(k_material, k_material);
@@ -253,7 +253,7 @@ TEST_CASE("guarded pair laws shall answer as themselves and be told from their f
     CHECK(law->has_hertz_force());
   }
   CHECK(said([&] { guard<Contact>(Deed::no_number)->evaluate(batch); }) ==
-        "contact/trial (/x/trial.so) gives force_y = nan in row 2 of 2 of a batch (overlap = 2.5, "
+        "contact/trial (/x/trial.so) gives force.y = nan in row 2 of 2 of a batch (overlap = 2.5, "
         "effective_mass = 4); expected: a finite number");
   CHECK(said([&] { guard<Contact>(Deed::throws)->evaluate(batch); }) ==
         "contact/trial (/x/trial.so) throws in evaluate: out of table; expected: a force for every "
@@ -312,14 +312,14 @@ TEST_CASE("guarded models of the air shall answer as themselves and be told from
   sdk::SideBatch side;
   side.count = 1;
   side.normal = {1, 0, 0};
-  side.velocity_x = c.out[0];
-  side.velocity_y = c.out[1];
+  side.velocity.x = c.out[0];
+  side.velocity.y = c.out[1];
   const auto boundary = guard<Boundary>();
   CHECK(said([&] { boundary->evaluate(side); }).empty());
   CHECK(boundary->needs_flow());
   CHECK(boundary->rules().tangential_velocity == sdk::SideRule::gradient);
   CHECK(said([&] { guard<Boundary>(Deed::no_number)->evaluate(side); }) ==
-        "boundary/trial (/x/trial.so) gives velocity_x = nan in row 1 of 1 of a batch; expected: a "
+        "boundary/trial (/x/trial.so) gives velocity.x = nan in row 1 of 1 of a batch; expected: a "
         "finite number");
 
   sdk::TurbulenceBatch cells;
@@ -337,7 +337,7 @@ TEST_CASE("a guarded rule of voidage shall keep within its own capacity") {
   int used[2] = {};
   sdk::VoidageBatch batch;
   batch.count = 1;
-  batch.x = c.a;
+  batch.position.x = c.a;
   batch.capacity = 2;
   batch.used = used;
   batch.weight = c.out[0];
@@ -346,9 +346,10 @@ TEST_CASE("a guarded rule of voidage shall keep within its own capacity") {
   CHECK(rule->capacity({}, 1.0) == 2);
   CHECK(rule->largest_diameter_over_spacing() == 7.0);
   CHECK(rule->reach({}, 1.0).z == 3.0);
-  CHECK(said([&] { guard<Voidage>(Deed::no_number)->spread({}, batch); }) ==
-        "voidage/trial (/x/trial.so) gives weight = nan in row 1 of 1 of a batch (x = 1.5); "
-        "expected: a finite number");
+  CHECK(
+      said([&] { guard<Voidage>(Deed::no_number)->spread({}, batch); }) ==
+      "voidage/trial (/x/trial.so) gives weight = nan in row 1 of 1 of a batch (position.x = 1.5); "
+      "expected: a finite number");
   registry::Entry entry;
   entry.info.kind = "voidage";
   entry.info.name = "greedy";
@@ -356,30 +357,31 @@ TEST_CASE("a guarded rule of voidage shall keep within its own capacity") {
   greedy->too_many = true;
   const auto guarded = registry::guarded(std::move(greedy), entry);
   CHECK(said([&] { static_cast<sdk::VoidageRule&>(*guarded).spread({}, batch); }) ==
-        "voidage/greedy () gives used = 3 in row 1 of 1 of a batch (x = 1.5); expected: 1 to 2 "
+        "voidage/greedy () gives used = 3 in row 1 of 1 of a batch (position.x = 1.5); expected: 1 "
+        "to 2 "
         "cells, its capacity");
 }
 
 TEST_CASE("a guarded emitter, motion and sensor shall answer as themselves") {
-  std::vector<sdk::Seed> seeds;
+  std::vector<sdk::InsertionRequest> requests;
   const auto emitter = guard<Emitter>();
-  emitter->propose({}, seeds);
-  CHECK(seeds.size() == 1);
+  emitter->propose({}, requests);
+  CHECK(requests.size() == 1);
   CHECK(emitter->requested_mass_flow() == 1.0);
   CHECK(emitter->diameters() == std::vector<double>{1e-3});
   CHECK(emitter->largest_speed() == 2.0);
   CHECK(emitter->request().count == 9);
-  CHECK(!emitter->entry_rule().waits);
+  CHECK(!emitter->insertion_rule().waits);
   CHECK(emitter->materials() == std::vector<std::string>{"sand"});
-  CHECK(said([&] { guard<Emitter>(Deed::no_number)->propose({}, seeds); }) ==
+  CHECK(said([&] { guard<Emitter>(Deed::no_number)->propose({}, requests); }) ==
         "emitter/trial (/x/trial.so) gives diameter = nan in row 1 of 1 of a batch; expected: a "
         "finite number");
 
   Columns c;
   sdk::SurfaceBatch surface;
   surface.count = 1;
-  surface.x = c.a;
-  surface.velocity_z = c.out[0];
+  surface.position.x = c.a;
+  surface.velocity.z = c.out[0];
   const auto motion = guard<Motion>();
   CHECK(said([&] { motion->surface_velocity(surface); }).empty());
   CHECK(motion->largest_speed() == 3.0);
@@ -404,7 +406,7 @@ TEST_CASE("a guarded emitter, motion and sensor shall answer as themselves") {
   sensor->fields(names);
   CHECK(names.text == "time end Heading one ");
   CHECK(sensor->wants_contacts());
-  CHECK(sensor->looks_at_walls());
+  CHECK(sensor->wants_walls());
   CHECK(
       said([&] { guard<Sensor>(Deed::throws)->observe(world); }) ==
       "sensor/trial (/x/trial.so) throws in observe: out of table; expected: a look at the world");

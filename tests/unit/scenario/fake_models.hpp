@@ -197,11 +197,11 @@ struct Feed final : Emitter {
       throw ParameterError("diameters and number_fractions differ in length");
     }
   }
-  void propose(const EmitterContext& context, std::vector<Seed>& seeds) override {
-    Seed seed;
-    seed.time = context.begin;
-    seed.diameter = 4e-4;
-    seeds.insert(seeds.end(), 10, seed);
+  void propose(const EmitterContext& context, std::vector<InsertionRequest>& requests) override {
+    InsertionRequest request;
+    request.time = context.begin;
+    request.diameter = 4e-4;
+    requests.insert(requests.end(), 10, request);
   }
   [[nodiscard]] double requested_mass_flow() const override { return parameters.mass_flow; }
   [[nodiscard]] std::vector<double> diameters() const override { return parameters.diameters; }

@@ -10,10 +10,10 @@ using dust::sdk::Vec3;
 
 namespace {
 
-Grain moving(Vec3 velocity, Vec3 rotation, double weight = 1.0) {
+Grain moving(Vec3 velocity, Vec3 angular_velocity, double weight = 1.0) {
   Grain g;
   g.velocity = velocity;
-  g.rotation = rotation;
+  g.angular_velocity = angular_velocity;
   g.diameter = 2e-3;
   g.mass = 1e-6;
   g.weight = weight;

@@ -25,11 +25,9 @@ class TestSide final : public sdk::BoundaryCondition {
   [[nodiscard]] sdk::SideRules rules() const override { return side_rules; }
   void evaluate(const sdk::SideBatch& b) const override {
     for (std::size_t n = 0; n < b.count; ++n) {
-      const Vec3 p{b.x[n], b.y[n], b.z[n]};
+      const Vec3 p = b.position[n];
       const Vec3 v = velocity(p, b.time);
-      b.velocity_x[n] = v.x;
-      b.velocity_y[n] = v.y;
-      b.velocity_z[n] = v.z;
+      b.velocity.set(n, v);
       b.pressure[n] = pressure(p, b.time);
     }
   }

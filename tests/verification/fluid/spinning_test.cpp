@@ -98,10 +98,8 @@ class Spin final : public sdk::Motion {
   Spin(double speed, int axis) : speed_(speed), axis_(Spun::unit(axis)) {}
   void surface_velocity(const sdk::SurfaceBatch& b) const override {
     for (std::size_t n = 0; n < b.count; ++n) {
-      const Vec3 v = speed_ * cross(axis_, {b.normal_x[n], b.normal_y[n], b.normal_z[n]});
-      b.velocity_x[n] = v.x;
-      b.velocity_y[n] = v.y;
-      b.velocity_z[n] = v.z;
+      const Vec3 v = speed_ * cross(axis_, b.normal[n]);
+      b.velocity.set(n, v);
     }
   }
   [[nodiscard]] double largest_speed() const override { return std::abs(speed_); }

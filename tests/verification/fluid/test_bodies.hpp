@@ -53,11 +53,8 @@ class Turning final : public sdk::Motion {
   explicit Turning(double speed) : speed_(speed) {}
   void surface_velocity(const sdk::SurfaceBatch& b) const override {
     for (std::size_t n = 0; n < b.count; ++n) {
-      const sdk::Vec3 v =
-          speed_ * sdk::cross({0, 1, 0}, {b.normal_x[n], b.normal_y[n], b.normal_z[n]});
-      b.velocity_x[n] = v.x;
-      b.velocity_y[n] = v.y;
-      b.velocity_z[n] = v.z;
+      const sdk::Vec3 v = speed_ * sdk::cross({0, 1, 0}, b.normal[n]);
+      b.velocity.set(n, v);
     }
   }
   [[nodiscard]] double largest_speed() const override { return std::abs(speed_); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/columns.hpp"
 #include "dust/sdk/model.hpp"
 #include "dust/sdk/vec3.hpp"
 
@@ -29,16 +30,12 @@ struct SideRules {
 /// Points on the side at which values are wanted.
 struct SideBatch {
   std::size_t count = 0;
-  double time = 0.0;          ///< [s]
-  Vec3 normal;                ///< unit vector out of the domain
-  const double* x = nullptr;  ///< [m]
-  const double* y = nullptr;
-  const double* z = nullptr;
-  double* velocity_x = nullptr;  ///< [m/s] out, where a component is `fixed`; interstitial
-  double* velocity_y = nullptr;
-  double* velocity_z = nullptr;
-  double* pressure = nullptr;  ///< [Pa] out, where pressure is `fixed` or `pressure`
-  Vec3 low;                    ///< [m] corners of the side
+  double time = 0.0;              ///< [s]
+  Vec3 normal;                    ///< unit vector out of the domain
+  VectorColumns position;         ///< [m]
+  MutableVectorColumns velocity;  ///< [m/s] out, where a component is `fixed`; interstitial
+  double* pressure = nullptr;     ///< [Pa] out, where pressure is `fixed` or `pressure`
+  Vec3 low;                       ///< [m] corners of the side
   Vec3 high;
   Vec3 spacing;  ///< [m] of the fluid's cells; a point of the normal velocity is a face's centre
   /// The rest only for models with BoundaryCondition::needs_flow, null elsewhere.

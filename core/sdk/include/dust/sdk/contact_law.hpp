@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/columns.hpp"
 #include "dust/sdk/model.hpp"
 
 #include <cstddef>
@@ -39,24 +40,14 @@ struct ContactBatch {
   double time_step = 0.0;  ///< [s] the step this contact is integrated with
 
   // Geometry and kinematics, written by the core.
-  const double* overlap = nullptr;   ///< [m] > 0 in touch; < 0 within a law's range
-  const double* normal_x = nullptr;  ///< [-]
-  const double* normal_y = nullptr;
-  const double* normal_z = nullptr;
-  const double* velocity_x = nullptr;  ///< [m/s] of i relative to j at the contact point
-  const double* velocity_y = nullptr;
-  const double* velocity_z = nullptr;
-  const double* rotation_x = nullptr;  ///< [rad/s] angular velocity of i relative to j
-  const double* rotation_y = nullptr;
-  const double* rotation_z = nullptr;
+  const double* overlap = nullptr;  ///< [m] > 0 in touch; < 0 within a law's range
+  VectorColumns normal;             ///< [-]
+  VectorColumns velocity;           ///< [m/s] of i relative to j at the contact point
+  VectorColumns angular_velocity;   ///< [rad/s] of i relative to j
   /// [m] Displacement of i relative to j at the contact point since the law was last asked about
   /// this contact, or since the two began to touch. Its part along the normal is no overlap.
-  const double* displacement_x = nullptr;
-  const double* displacement_y = nullptr;
-  const double* displacement_z = nullptr;
-  const double* angle_x = nullptr;  ///< [rad] rotation of i relative to j over the same time
-  const double* angle_y = nullptr;
-  const double* angle_z = nullptr;
+  VectorColumns displacement;
+  VectorColumns angle;  ///< [rad] rotation of i relative to j over the same time
   const double* effective_radius = nullptr;  ///< [m] R*
   const double* effective_mass = nullptr;    ///< [kg] m*
 
@@ -64,15 +55,11 @@ struct ContactBatch {
   double* normal_force = nullptr;          ///< [N] > 0 repulsive, may be negative (damping)
   double* normal_stiffness = nullptr;      ///< [N/m] k_n, secant: elastic force / overlap
   double* tangential_stiffness = nullptr;  ///< [N/m] k_t
-  double* force_x = nullptr;               ///< [N] total force on i; j receives the opposite
-  double* force_y = nullptr;
-  double* force_z = nullptr;
+  MutableVectorColumns force;              ///< [N] total force on i; j receives the opposite
 
   // Written by the rolling stage: couple on i, j receives the opposite. Forces' own torque about
   // the centres is added by the core.
-  double* torque_x = nullptr;  ///< [N m]
-  double* torque_y = nullptr;
-  double* torque_z = nullptr;
+  MutableVectorColumns torque;  ///< [N m]
 
   /// History columns of the stage being run, as many as it declared; zero when a contact begins.
   /// Vectors kept here are in the domain's frame; the law turns them with the normal.

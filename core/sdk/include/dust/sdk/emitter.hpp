@@ -13,12 +13,12 @@
 
 namespace dust::sdk {
 
-/// A grain about to enter.
-struct Seed {
+/// Asks the core to insert a grain.
+struct InsertionRequest {
   double time = 0.0;      ///< [s] when its centre would be at `position`, moving with `velocity`
   Vec3 position;          ///< [m] domain frame
   Vec3 velocity;          ///< [m/s]
-  Vec3 rotation;          ///< [rad/s]
+  Vec3 angular_velocity;  ///< [rad/s]
   double diameter = 0.0;  ///< [m]
   double weight = 1.0;    ///< [-] real grains per computed grain, w = 1/k for rare dust
   std::int32_t material = -1;  ///< index into Emitter::materials(), -1 = the emitter's own
@@ -35,7 +35,7 @@ class Surroundings {
 
 /// What an emitter is given to work with.
 struct EmitterContext {
-  double begin = 0.0;  ///< [s] seeds wanted for begin <= time < end
+  double begin = 0.0;  ///< [s] requests wanted for begin <= time < end
   double end = 0.0;
   double grain_density = 0.0;                  ///< [kg/m3] of the emitter's material
   Vec3 gravity;                                ///< [m/s2]
@@ -57,22 +57,23 @@ struct EmitterRequest {
   std::vector<Share> shares;  ///< ascending; empty = no distribution is asked for
 };
 
-/// What happens to a seed whose place is taken.
-struct EntryRule {
+/// What happens to a request whose place is taken.
+struct InsertionRule {
   bool waits = true;             ///< it tries again; otherwise the run ends and names both grains
   double allowed_overlap = 0.0;  ///< [-] of the smaller radius, as in a bed pressed by its weight
 };
 
 /// Proposes grains; the core inserts them at the beginning of the interval, carried back along
-/// their velocity, gives ids and books mass. A seed that would touch a grain is treated by
-/// entry_rule(). Calls come with consecutive intervals from one thread; what a later call needs is
-/// state, saved by save/load. A call with an empty interval asks for no seeds, only for a check.
-/// Positions and directions given as parameters are in the emitter's own frame = the domain's frame
-/// unless the scenario puts the emitter into a named frame; the core turns the seeds.
+/// their velocity, gives ids and books mass. A request that would touch a grain is treated by
+/// insertion_rule(). Calls come with consecutive intervals from one thread; what a later call needs
+/// is state, saved by save/load. A call with an empty interval asks for no requests, only for a
+/// check. Positions and directions given as parameters are in the emitter's own frame = the
+/// domain's frame unless the scenario puts the emitter into a named frame; the core turns the
+/// requests.
 class Emitter : public Model {
  public:
   static constexpr const char* k_kind = "emitter";
-  virtual void propose(const EmitterContext& context, std::vector<Seed>& seeds) = 0;
+  virtual void propose(const EmitterContext& context, std::vector<InsertionRequest>& requests) = 0;
   /// Mass rate the scenario asks for [kg/s], 0 if not a stream; the summary compares.
   [[nodiscard]] virtual double requested_mass_flow() const = 0;
   /// Diameters that may come [m], ascending: size classes, time steps and sensors derive from them.
@@ -84,8 +85,8 @@ class Emitter : public Model {
     r.mass_flow = requested_mass_flow();
     return r;
   }
-  [[nodiscard]] virtual EntryRule entry_rule() const { return {}; }
-  /// Names of materials that seeds may have beside the emitter's own.
+  [[nodiscard]] virtual InsertionRule insertion_rule() const { return {}; }
+  /// Names of materials that requests may have beside the emitter's own.
   [[nodiscard]] virtual std::vector<std::string> materials() const { return {}; }
 };
 

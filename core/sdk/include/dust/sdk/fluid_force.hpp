@@ -1,34 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/columns.hpp"
 #include "dust/sdk/model.hpp"
 #include "dust/sdk/vec3.hpp"
 
 #include <cstddef>
 
 namespace dust::sdk {
-
-/// A vector per grain, as three columns.
-struct VectorColumns {
-  const double* x = nullptr;
-  const double* y = nullptr;
-  const double* z = nullptr;
-
-  [[nodiscard]] Vec3 operator[](std::size_t row) const { return {x[row], y[row], z[row]}; }
-};
-
-/// The same to write into.
-struct MutableVectorColumns {
-  double* x = nullptr;
-  double* y = nullptr;
-  double* z = nullptr;
-
-  void set(std::size_t row, Vec3 v) const {
-    x[row] = v.x;
-    y[row] = v.y;
-    z[row] = v.z;
-  }
-};
 
 /// Columns of `count` grains and of the fluid around each. Those a model has not asked for
 /// (FluidForce::needs) are null.
@@ -39,7 +18,7 @@ struct FluidForceBatch {
 
   const double* diameter = nullptr;       ///< [m]
   const double* mass = nullptr;           ///< [kg] of one real grain
-  VectorColumns rotation;                 ///< [rad/s] angular velocity of the grain
+  VectorColumns angular_velocity;         ///< [rad/s] of the grain
   const double* density = nullptr;        ///< [kg/m3] of the fluid
   const double* viscosity = nullptr;      ///< [Pa s] of the fluid
   const double* void_fraction = nullptr;  ///< [-] in (0, 1]

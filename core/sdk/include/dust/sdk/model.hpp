@@ -24,13 +24,13 @@ class Model {
 
 /// What a model says of itself; help, schema, messages and reference pages derive from it.
 struct ModelInfo {
-  std::string kind;      ///< filled from the interface
-  std::string name;      ///< how a scenario chooses it, snake_case
-  std::string version;   ///< of the model, "1.0"
-  std::string summary;   ///< one sentence
-  std::string equation;  ///< TeX
-  std::string source;    ///< author, year, equation or table, DOI
-  ParameterSchema parameters;
+  std::string kind = {};            ///< filled from the interface
+  std::string name;                 ///< how a scenario chooses it, snake_case
+  std::string version;              ///< of the model, "1.0"
+  std::string summary;              ///< one sentence
+  std::string equation;             ///< TeX
+  std::string source;               ///< author, year, equation or table, DOI
+  ParameterSchema parameters = {};  ///< filled from the model's schema()
 };
 
 using ModelFactory = std::function<std::unique_ptr<Model>(std::span<const Value> values)>;
@@ -41,8 +41,8 @@ class Registrar {
   virtual ~Registrar() = default;
   virtual void add(ModelInfo info, ModelFactory factory) = 0;
 
-  /// Adds `M`, which has `struct Parameters`, `static ModelInfo describe()` (kind may stay empty),
-  /// `static ParameterSchema schema()` and a constructor from `Parameters`.
+  /// Adds `M`, which has `struct Parameters`, `static ModelInfo describe()` (kind and parameters
+  /// stay empty), `static ParameterSchema schema()` and a constructor from `Parameters`.
   template <class M>
   void add() {
     ModelInfo info = M::describe();

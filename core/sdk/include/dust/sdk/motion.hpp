@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/columns.hpp"
 #include "dust/sdk/model.hpp"
 #include "dust/sdk/vec3.hpp"
 
@@ -12,17 +13,11 @@ namespace dust::sdk {
 /// Points of a body's surface.
 struct SurfaceBatch {
   std::size_t count = 0;
-  double time = 0.0;          ///< [s]
-  Vec3 axis;                  ///< unit vector: the body's lateral axis (belt: the pulley's axis)
-  const double* x = nullptr;  ///< [m]
-  const double* y = nullptr;
-  const double* z = nullptr;
-  const double* normal_x = nullptr;  ///< [-] outward
-  const double* normal_y = nullptr;
-  const double* normal_z = nullptr;
-  double* velocity_x = nullptr;  ///< [m/s] out: velocity of the surface
-  double* velocity_y = nullptr;
-  double* velocity_z = nullptr;
+  double time = 0.0;       ///< [s]
+  Vec3 axis;               ///< unit vector: the body's lateral axis (belt: the pulley's axis)
+  VectorColumns position;  ///< [m]
+  VectorColumns normal;    ///< [-] outward
+  MutableVectorColumns velocity;  ///< [m/s] out: velocity of the surface
 };
 
 /// Where a rigid body is, compared with where the scenario puts it:
@@ -45,9 +40,9 @@ class Motion : public Model {
   static constexpr const char* k_kind = "motion";
   /// Velocity of the surface relative to the body.
   virtual void surface_velocity(const SurfaceBatch& batch) const {
-    std::fill_n(batch.velocity_x, batch.count, 0.0);
-    std::fill_n(batch.velocity_y, batch.count, 0.0);
-    std::fill_n(batch.velocity_z, batch.count, 0.0);
+    std::fill_n(batch.velocity.x, batch.count, 0.0);
+    std::fill_n(batch.velocity.y, batch.count, 0.0);
+    std::fill_n(batch.velocity.z, batch.count, 0.0);
   }
   /// Upper bound [m/s] over all times of the speed of the surface along itself and of the shift.
   [[nodiscard]] virtual double largest_speed() const = 0;

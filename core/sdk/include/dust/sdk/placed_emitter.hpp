@@ -15,19 +15,19 @@ namespace dust::sdk {
 /// before the first step. No grain waits for its place: one that is taken is an error.
 class PlacedEmitter : public Emitter {
  public:
-  void propose(const EmitterContext& context, std::vector<Seed>& seeds) final {
+  void propose(const EmitterContext& context, std::vector<InsertionRequest>& requests) final {
     if (!(context.end > context.begin)) {
       check(context);
       return;
     }
     if (is_done_ || !(time_ < context.end)) return;
-    const std::size_t first = seeds.size();
-    place(context, seeds);
-    for (std::size_t n = first; n < seeds.size(); ++n) seeds[n].time = context.begin;
+    const std::size_t first = requests.size();
+    place(context, requests);
+    for (std::size_t n = first; n < requests.size(); ++n) requests[n].time = context.begin;
     is_done_ = true;
   }
   [[nodiscard]] double requested_mass_flow() const final { return 0.0; }
-  [[nodiscard]] EntryRule entry_rule() const override { return {.waits = false}; }
+  [[nodiscard]] InsertionRule insertion_rule() const override { return {.waits = false}; }
 
   void save(ArchiveWriter& archive) const override { archive.integer("is_done", is_done_ ? 1 : 0); }
   void load(ArchiveReader& archive) override { is_done_ = archive.integer("is_done") != 0; }
@@ -35,7 +35,7 @@ class PlacedEmitter : public Emitter {
  protected:
   explicit PlacedEmitter(double time) : time_(time) {}
   /// Appends all grains; called once. Throws ParameterError where that is impossible.
-  virtual void place(const EmitterContext& context, std::vector<Seed>& seeds) = 0;
+  virtual void place(const EmitterContext& context, std::vector<InsertionRequest>& requests) = 0;
   /// What can be told from the density alone, when a scenario is read.
   virtual void check(const EmitterContext&) const {}
 

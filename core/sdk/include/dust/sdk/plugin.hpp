@@ -19,7 +19,7 @@
 namespace dust::sdk {
 
 /// Raised with every change of a struct or virtual function in this folder.
-inline constexpr std::uint32_t k_interface_version = 6;
+inline constexpr std::uint32_t k_interface_version = 7;
 
 /// What both sides of the plugin boundary must agree on, compared before any virtual call.
 struct Handshake {
@@ -35,10 +35,10 @@ constexpr Handshake make_handshake() {
   return {k_interface_version,
           __GNUC__,
           {sizeof(ContactBatch), sizeof(DragBatch), sizeof(VoidageBatch), sizeof(SideBatch),
-           sizeof(SurfaceBatch), sizeof(Seed), sizeof(WorldView), sizeof(Parameter),
+           sizeof(SurfaceBatch), sizeof(InsertionRequest), sizeof(WorldView), sizeof(Parameter),
            sizeof(CohesionBatch), sizeof(FluidForceBatch), sizeof(TurbulenceBatch)},
           {alignof(ContactBatch), alignof(DragBatch), alignof(VoidageBatch), alignof(SideBatch),
-           alignof(SurfaceBatch), alignof(Seed), alignof(WorldView), alignof(Parameter),
+           alignof(SurfaceBatch), alignof(InsertionRequest), alignof(WorldView), alignof(Parameter),
            alignof(CohesionBatch), alignof(FluidForceBatch), alignof(TurbulenceBatch)},
 #ifdef _GLIBCXX_USE_CXX11_ABI
           _GLIBCXX_USE_CXX11_ABI

@@ -21,11 +21,11 @@ struct GrainColumns {
   std::span<const double> x, y, z;  ///< [m] now
   std::span<const double> x_before, y_before,
       z_before;  ///< [m] at the last sample (birth place if new)
-  std::span<const double> velocity_x, velocity_y, velocity_z;  ///< [m/s]
-  std::span<const double> rotation_x, rotation_y, rotation_z;  ///< [rad/s]
-  std::span<const double> force_x, force_y, force_z;           ///< [N] contact + fluid + weight
-  std::span<const double> diameter;                            ///< [m]
-  std::span<const double> mass;                                ///< [kg] of one real grain
+  std::span<const double> velocity_x, velocity_y, velocity_z;                          ///< [m/s]
+  std::span<const double> angular_velocity_x, angular_velocity_y, angular_velocity_z;  ///< [rad/s]
+  std::span<const double> force_x, force_y, force_z;  ///< [N] contact + fluid + weight
+  std::span<const double> diameter;                   ///< [m]
+  std::span<const double> mass;                       ///< [kg] of one real grain
   std::span<const double> weight;  ///< [-] real grains per computed one; mass counts weight * mass
 };
 
@@ -62,7 +62,7 @@ struct WallImpact {
 };
 
 /// Walls: sides of the domain, then bodies. Means are over the interval since the last sample.
-/// Empty unless a sensor of the run asks for them (Sensor::looks_at_walls).
+/// Empty unless a sensor of the run asks for them (Sensor::wants_walls).
 struct WallColumns {
   std::span<const std::string> name;
   std::span<const std::string> group;      ///< "" = none
@@ -164,7 +164,7 @@ class Sensor : public Model {
   /// Fields as they are now; asked for with every frame, always for the same ones.
   virtual void fields(FieldSink&) const {}
   /// Whether it reads WorldView::walls; these are kept only when a sensor does.
-  [[nodiscard]] virtual bool looks_at_walls() const { return false; }
+  [[nodiscard]] virtual bool wants_walls() const { return false; }
 };
 
 }  // namespace dust::sdk

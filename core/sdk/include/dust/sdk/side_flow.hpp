@@ -44,9 +44,9 @@ inline int axis_of(Vec3 normal) { return normal.x != 0.0 ? 0 : normal.y != 0.0 ?
 /// Sets the velocity of all points to zero.
 inline void set_at_rest(const SideBatch& batch) {
   for (std::size_t n = 0; n < batch.count; ++n) {
-    batch.velocity_x[n] = 0.0;
-    batch.velocity_y[n] = 0.0;
-    batch.velocity_z[n] = 0.0;
+    batch.velocity.x[n] = 0.0;
+    batch.velocity.y[n] = 0.0;
+    batch.velocity.z[n] = 0.0;
   }
 }
 
@@ -54,7 +54,7 @@ inline void set_at_rest(const SideBatch& batch) {
 /// point n, over the void fraction there.
 template <class Speed>
 void set_superficial(const SideBatch& batch, const Speed& superficial) {
-  const std::array<double*, 3> velocity{batch.velocity_x, batch.velocity_y, batch.velocity_z};
+  const std::array<double*, 3> velocity{batch.velocity.x, batch.velocity.y, batch.velocity.z};
   const int d = axis_of(batch.normal);
   double* const out = velocity[static_cast<std::size_t>(d)];
   const double inward = -batch.normal[d];

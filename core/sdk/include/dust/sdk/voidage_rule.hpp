@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/columns.hpp"
 #include "dust/sdk/grid_shape.hpp"
 #include "dust/sdk/model.hpp"
 #include "dust/sdk/vec3.hpp"
@@ -14,9 +15,7 @@ namespace dust::sdk {
 /// may name cells outside [0, count); the core wraps them.
 struct VoidageBatch {
   std::size_t count = 0;
-  const double* x = nullptr;  ///< [m] centres
-  const double* y = nullptr;
-  const double* z = nullptr;
+  VectorColumns position;          ///< [m] of the centres
   const double* radius = nullptr;  ///< [m]
   int capacity = 0;                ///< rows per grain in the output
   int* used = nullptr;             ///< out: cells of grain g, <= capacity
