@@ -161,7 +161,7 @@ class Rocking {
   ContactBench bench_;
 };
 
-/// A spring that moves by rotation times time step is damped by the step, to first order.
+/// A spring that moves by angular velocity times time step is damped by the step, to first order.
 void check_step(const Maker& make) {
   // What is left of a turn when it is over.
   constexpr double k_turning = 1e-3;
@@ -176,7 +176,8 @@ void check_step(const Maker& make) {
   const double fine = Rocking(make).swing(period, 3000);
   require(std::abs(coarse - fine) <= k_energy,
           "a grain that rocks keeps " + shown(coarse) + " of its energy in 30 steps, " +
-              shown(fine) + " in many: move springs by angle, not by rotation times time step");
+              shown(fine) +
+              " in many: move springs by angle, not by angular velocity times time step");
 }
 
 void rules(const Maker& make, const Subject&, Judge& judge) {
