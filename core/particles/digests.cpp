@@ -69,7 +69,7 @@ std::map<std::string, std::function<std::uint64_t()>> Dem::digests() const {
       {"contact.ghost_force", [dem] { return dem->ghosts.digest(); }},
       {"grain.force", [dem] { return dem->deferred.digest(); }},
       {"fine.force", [dem] { return Digest().add(dem->fine_level.force()).value(); }},
-      {"fine.left_over", [dem] { return dem->fine_level.deferred().digest(); }},
+      {"fine.deferred_impulse", [dem] { return dem->fine_level.deferred().digest(); }},
   };
 }
 

@@ -20,7 +20,7 @@ void Simulation::build_dem_graph(int check_every) {
     return names;
   };
   dem_graph_.given(with(grains, {"contact.list", "contact.history", "contact.force", "fine.force",
-                                 "fine.left_over", "fluid.void_fraction", "body.motion"}));
+                                 "fine.deferred_impulse", "fluid.void_fraction", "body.motion"}));
   dem_graph_.given({seen_air});
   if (coupling_) {
     dem_graph_.add({"synchronise",
@@ -35,9 +35,9 @@ void Simulation::build_dem_graph(int check_every) {
                     [this] { refresh_drag(); }});
   }
   dem_graph_.add(
-      {"neighbour", with(grains, {"contact.list", "contact.history", "fine.left_over"}),
+      {"neighbour", with(grains, {"contact.list", "contact.history", "fine.deferred_impulse"}),
        with(grains, {"contact.list", "contact.history", "contact.force", "contact.ghost_force",
-                     "grain.force", "fine.force", "fine.left_over"}),
+                     "grain.force", "fine.force", "fine.deferred_impulse"}),
        [this] { dem_->neighbours(); }});
   const auto now = [this] { return time() + dem_step_ * dem_->coarse_step(); };
   // The published forces are those of a fluid step's last grain step.
@@ -52,13 +52,13 @@ void Simulation::build_dem_graph(int check_every) {
          dem_->force();
        }});
   dem_graph_.add({"integration",
-                  with(grains, {"grain.force", "fine.left_over"}),
+                  with(grains, {"grain.force", "fine.deferred_impulse"}),
                   {"grain.position", "grain.velocity", "grain.fluid_impulse", "grain.force"},
                   [this] { dem_->integrate(); }});
   dem_graph_.add({"fine_level",
                   with(grains, {"contact.list", "contact.history", "body.motion"}),
                   {"grain.position", "grain.velocity", "grain.fluid_impulse", "contact.history",
-                   "contact.force", "fine.force", "fine.left_over"},
+                   "contact.force", "fine.force", "fine.deferred_impulse"},
                   [this] { dem_->advance_fine(); }});
   dem_graph_.fuse({.part = "tile",
                    .nodes = {"contact", "force", "integration"},
