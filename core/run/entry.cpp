@@ -68,7 +68,7 @@ void check_place(const EntryScene& scene, const Entrant& e, double allowed) {
   for (const particles::Surface& s : scene.surfaces) {
     if (s.is_removed()) continue;
     const double overlap = radius - s.contact_at(scene.time, x).distance;
-    if (overlap <= allowed * radius + scene.rounding()) continue;
+    if (overlap <= allowed * radius + rounding(scene)) continue;
     std::ostringstream text;
     text << "overlaps '" << s.name << "' by " << overlap << " m; move it clear";
     refuse(scene, e, text.str());
@@ -77,24 +77,26 @@ void check_place(const EntryScene& scene, const Entrant& e, double allowed) {
 
 }  // namespace
 
-Vec3 EntryScene::separation(Vec3 from, Vec3 to) const {
+Vec3 separation(const EntryScene& scene, Vec3 from, Vec3 to) {
   Vec3 apart = to - from;
   for (int d = 0; d < 3; ++d) {
-    if (!is_periodic[static_cast<std::size_t>(d)]) continue;
-    apart[d] = base::nearest_image_of_any(apart[d], max[d] - min[d]);
+    if (!scene.is_periodic[static_cast<std::size_t>(d)]) continue;
+    apart[d] = base::nearest_image_of_any(apart[d], scene.max[d] - scene.min[d]);
   }
   return apart;
 }
 
-double EntryScene::rounding() const {
+double rounding(const EntryScene& scene) {
   // Of the coordinates, not of the radius: the distance of two of them is as exact as they are.
   double largest = 0.0;
-  for (int d = 0; d < 3; ++d) largest = std::max({largest, std::abs(min[d]), std::abs(max[d])});
+  for (int d = 0; d < 3; ++d) {
+    largest = std::max({largest, std::abs(scene.min[d]), std::abs(scene.max[d])});
+  }
   return k_roundings * std::numeric_limits<double>::epsilon() * largest;
 }
 
 SphereGrid::SphereGrid(const EntryScene& scene, double largest)
-    : scene_(scene), rounding_(scene.rounding()) {
+    : scene_(scene), rounding_(rounding(scene)) {
   for (int d = 0; d < 3; ++d) {
     edge_[d] = largest > 0.0 ? largest : 1.0;
     if (!scene.is_periodic[static_cast<std::size_t>(d)]) continue;
@@ -136,7 +138,7 @@ const SphereGrid::Sphere* SphereGrid::overlapping(Vec3 centre, double radius,
         for (std::int32_t n = found->second; n >= 0; n = next_[static_cast<std::size_t>(n)]) {
           const Sphere& s = spheres_[static_cast<std::size_t>(n)];
           const double reach = radius + s.radius - allowed * std::min(radius, s.radius) - rounding_;
-          const Vec3 apart = scene_.separation(s.centre, centre);
+          const Vec3 apart = separation(scene_, s.centre, centre);
           if (dot(apart, apart) < reach * reach) return &s;
         }
       }
@@ -185,7 +187,7 @@ std::vector<Entrant> take_free_places(std::vector<Entrant>& waiting,
     } else if (rule.waits) {
       blocked.push_back(e);
     } else {
-      const double apart = norm(scene.separation(other->centre, e.grain.position));
+      const double apart = norm(separation(scene, other->centre, e.grain.position));
       const double smaller = std::min(radius, other->radius);
       std::ostringstream text;
       text << "and " << partner_text(*other, waiting) << " overlap by "
@@ -211,7 +213,7 @@ bool LazySurroundings::is_free(Vec3 centre, double radius) const {
   for (int d = 0; d < 3; ++d) {
     if (!(x[d] >= scene_.min[d] && x[d] <= scene_.max[d])) return false;
   }
-  const double reach = radius - scene_.rounding();
+  const double reach = radius - rounding(scene_);
   for (const particles::Surface& s : scene_.surfaces) {
     if (!s.is_removed() && s.contact_at(scene_.time, x).distance < reach) return false;
   }

@@ -30,12 +30,12 @@ struct EntryScene {
   std::vector<particles::Surface> surfaces;
   std::vector<sdk::InsertionRule> rules;  ///< by emitter
   std::vector<std::string> names;     ///< by emitter, "file:line:column: error: emitters.bed"
-
-  /// From `from` to `to`, the shortest way through periodic sides.
-  [[nodiscard]] sdk::Vec3 separation(sdk::Vec3 from, sdk::Vec3 to) const;
-  /// [m] Distances below this are rounding: what touches exactly does not overlap.
-  [[nodiscard]] double rounding() const;
 };
+
+/// From `from` to `to`, the shortest way through periodic sides.
+[[nodiscard]] sdk::Vec3 separation(const EntryScene& scene, sdk::Vec3 from, sdk::Vec3 to);
+/// [m] Distances below this are rounding: what touches exactly does not overlap.
+[[nodiscard]] double rounding(const EntryScene& scene);
 
 /// Spheres in cells of a grid, found by place; periodic sides are looked through.
 class SphereGrid {

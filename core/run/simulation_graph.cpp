@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "run/run_checks.hpp"
 #include "run/simulation.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
-#include <algorithm>
+#include <string>
+#include <vector>
 
 /// The nodes of a grain step and of a fluid step, by what they read and write.
 namespace dust::run {
 
+/// The fluid that particles see.
+std::string Simulation::fluid_seen() const {
+  return has_lagged_fluid() ? "fluid.held" : "fluid.velocity";
+}
+
 /// A step of the coarse rate. What a node says it writes is checked in a test.
 void Simulation::build_dem_graph(int check_every) {
-  const std::string seen_air = held_fluid_ ? "fluid.held" : "fluid.velocity";
+  const std::string seen_air = fluid_seen();
   // What a sort of the rows, or grains that have flown, change.
   const std::vector<std::string> grains{"grain.position", "grain.velocity", "grain.fluid_action",
                                         "grain.fluid_impulse"};
@@ -20,14 +24,14 @@ void Simulation::build_dem_graph(int check_every) {
     return names;
   };
   dem_graph_.given(with(grains, {"contact.list", "contact.history", "contact.force", "fine.force",
-                                 "fine.deferred_impulse", "fluid.void_fraction", "body.motion"}));
+                                 "fine.left_over", "fluid.void_fraction", "body.motion"}));
   dem_graph_.given({seen_air});
-  if (coupling_) {
+  if (coupling() != nullptr) {
     dem_graph_.add({"synchronise",
                     with(grains, {"contact.list", "contact.history"}),
                     {"grain.position", "grain.velocity", "grain.fluid_impulse", "contact.history"},
                     [this] {
-                      if (is_refresh_due()) dem_->land();
+                      if (cycle_->is_refresh_due()) dem_->land();
                     }});
     dem_graph_.add({"drag",
                     {"grain.position", "grain.velocity", seen_air, "fluid.void_fraction"},
@@ -35,13 +39,13 @@ void Simulation::build_dem_graph(int check_every) {
                     [this] { refresh_drag(); }});
   }
   dem_graph_.add(
-      {"neighbour", with(grains, {"contact.list", "contact.history", "fine.deferred_impulse"}),
+      {"neighbour", with(grains, {"contact.list", "contact.history", "fine.left_over"}),
        with(grains, {"contact.list", "contact.history", "contact.force", "contact.ghost_force",
-                     "grain.force", "fine.force", "fine.deferred_impulse"}),
+                     "grain.force", "fine.force", "fine.left_over"}),
        [this] { dem_->neighbours(); }});
-  const auto now = [this] { return time() + dem_step_ * dem_->coarse_step(); };
+  const auto now = [this] { return time() + cycle_->time(); };
   // The published forces are those of a fluid step's last grain step.
-  const auto keeps_force = [this] { return dem_step_ + 1 == dem_steps_per_fluid_step_; };
+  const auto keeps_force = [this] { return cycle_->is_last_step(); };
   dem_graph_.add(
       {"contact",
        {"grain.position", "grain.velocity", "contact.list", "contact.history", "body.motion"},
@@ -52,13 +56,13 @@ void Simulation::build_dem_graph(int check_every) {
          dem_->force();
        }});
   dem_graph_.add({"integration",
-                  with(grains, {"grain.force", "fine.deferred_impulse"}),
+                  with(grains, {"grain.force", "fine.left_over"}),
                   {"grain.position", "grain.velocity", "grain.fluid_impulse", "grain.force"},
                   [this] { dem_->integrate(); }});
   dem_graph_.add({"fine_level",
                   with(grains, {"contact.list", "contact.history", "body.motion"}),
                   {"grain.position", "grain.velocity", "grain.fluid_impulse", "contact.history",
-                   "contact.force", "fine.force", "fine.deferred_impulse"},
+                   "contact.force", "fine.force", "fine.left_over"},
                   [this] { dem_->advance_fine(); }});
   dem_graph_.fuse({.part = "tile",
                    .nodes = {"contact", "force", "integration"},
@@ -73,9 +77,17 @@ void Simulation::build_dem_graph(int check_every) {
 }
 
 void Simulation::build_step_graph() {
-  const std::string seen_air = held_fluid_ ? "fluid.held" : "fluid.velocity";
   step_graph_.given(
       {"emitter.state", "grain.state", "fluid.velocity", "fluid.exchange", "fluid.held"});
+  add_first_nodes();
+  if (fluid_) add_fluid_nodes();
+  add_particle_nodes();
+  add_last_nodes();
+  add_sensor_nodes();
+  step_graph_.build();
+}
+
+void Simulation::add_first_nodes() {
   bool has_removals = false;
   for (const auto& body : setup_.bodies) has_removals |= body.removal.has_value();
   if (has_removals) {
@@ -85,123 +97,80 @@ void Simulation::build_step_graph() {
   }
   step_graph_.add(
       {"emit", {"emitter.state", "grain.state"}, {"emitter.state", "grain.state"}, [this] {
-         emit();
+         insert();
        }});
-  if (fluid_) add_fluid_nodes();
-  std::vector<std::string> seen_by_grains{"grain.state"};
-  if (coupling_) {
-    seen_by_grains.push_back(seen_air);
-    seen_by_grains.emplace_back("fluid.void_fraction");
-  }
-  step_graph_.add({"dem_cycle", seen_by_grains, {"grain.state", "grain.fluid_impulse"}, [this] {
-                     run_dem_cycle();
-                   }});
-  if (coupling_) {
-    step_graph_.add(
-        {"collect",
-         {"grain.state", "grain.fluid_impulse", "fluid.void_fraction", "fluid.velocity"},
-         {"fluid.exchange"},
-         [this] {
-           if (held_fluid_) coupling_->evaluate(dem_->rows(), fluid_->drag_velocity());
-           coupling_->end_step(dem_->rows(), setup_.time.fluid_step);
-         }});
-  }
-  if (held_fluid_) {
-    step_graph_.add({"hold_fluid", {"fluid.velocity"}, {"fluid.held"}, [this] { hold_fluid(); }});
-  }
-  if (fluid_) {
-    step_graph_.add(
-        {"publish_fluid", {"fluid.velocity", "fluid.void_fraction"}, {"fluid.columns"}, [this] {
-           if (fluid_->has_moving_bodies()) {
-             fluid_table_->set_open_fraction(fluid_->open_fraction());
-           }
-           fluid_table_->publish(*fluid_, void_fraction());
-         }});
-  }
-  step_graph_.add({"publish_grains", {"grain.state"}, {"grain.columns"}, [this] {
-                     publish_grains();
-                     if (wants_walls_) dem_->close_wall_loads(setup_.time.fluid_step);
-                   }});
-  step_graph_.add({"health", {"grain.columns"}, {"health"}, [this] { check_health(); }});
-  add_sensor_nodes();
-  step_graph_.build();
 }
 
 void Simulation::add_fluid_nodes() {
-  if (!coupling_) {
+  if (coupling() == nullptr) {
     step_graph_.add(
         {"fluid", {"fluid.velocity"}, {"fluid.velocity", "fluid.void_fraction"}, [this] {
-           advance_fluid();
+           fluid_->advance(time());
          }});
     return;
   }
   step_graph_.add({"voidage",
                    {"grain.state", "fluid.exchange"},
                    {"fluid.void_fraction", "fluid.exchange"},
-                   [this] {
-                     if (fluid_->has_moving_bodies()) {
-                       fluid_->look_ahead(time() + setup_.time.fluid_step);
-                       coupling_->set_open_fraction(fluid_->open_fraction());
-                     }
-                     coupling_->begin_step(dem_->rows(), setup_.time.fluid_step);
-                   }});
-  if (held_fluid_) {
+                   [this] { fluid_->begin_step(time(), dem_->rows()); }});
+  if (fluid_->is_lagged()) {
     step_graph_.add({"fluid",
                      {"fluid.void_fraction", "fluid.exchange", "fluid.velocity"},
                      {"fluid.velocity"},
-                     [this] { advance_fluid(); }});
+                     [this] { fluid_->advance(time()); }});
     return;
   }
   step_graph_.add({"fluid",
                    {"fluid.void_fraction", "fluid.exchange", "fluid.velocity", "grain.state"},
                    {"fluid.velocity", "fluid.exchange"},
                    [this] {
-                     advance_fluid();
-                     coupling_->evaluate(dem_->rows(), fluid_->drag_velocity());
+                     fluid_->advance(time());
+                     fluid_->evaluate_drag(dem_->rows());
                    }});
 }
 
-void Simulation::advance_fluid() {
-  const fluid::CellField& before =
-      coupling_ ? coupling_->void_fraction_before() : no_grains_->void_fraction;
-  const fluid::Exchange& exchange = coupling_ ? coupling_->exchange() : no_grains_->exchange;
-  fluid_->advance(time(), setup_.time.fluid_step, before, void_fraction(), exchange);
-  fluid_sub_steps_ += fluid_->report().sub_steps;
-  pressure_iterations_ += fluid_->report().pressure_iterations;
+void Simulation::add_particle_nodes() {
+  std::vector<std::string> seen_by_grains{"grain.state"};
+  if (coupling() != nullptr) {
+    seen_by_grains.push_back(fluid_seen());
+    seen_by_grains.emplace_back("fluid.void_fraction");
+  }
+  step_graph_.add({"dem_cycle", seen_by_grains, {"grain.state", "grain.fluid_impulse"}, [this] {
+                     run_dem_cycle();
+                   }});
+  if (coupling() != nullptr) {
+    step_graph_.add(
+        {"collect",
+         {"grain.state", "grain.fluid_impulse", "fluid.void_fraction", "fluid.velocity"},
+         {"fluid.exchange"},
+         [this] {
+           if (fluid_->is_lagged()) fluid_->evaluate_drag(dem_->rows());
+           fluid_->end_step(dem_->rows());
+         }});
+  }
+  if (has_lagged_fluid()) {
+    step_graph_.add({"hold_fluid", {"fluid.velocity"}, {"fluid.held"}, [this] {
+                       fluid_->keep_for_particles();
+                     }});
+  }
 }
 
-void Simulation::hold_fluid() {
-  const fluid::FaceField& velocity = fluid_->mean_velocity();
-  const fluid::FaceField& stress = fluid_->stress_divergence();
-  const auto copy = [](const std::vector<double>& from, std::vector<double>& to) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, from.size(), 1U << 15),
-                      [&](const auto& r) {
-                        std::copy_n(from.data() + r.begin(), r.size(), to.data() + r.begin());
-                      });
-  };
-  for (std::size_t d = 0; d < 3; ++d) {
-    copy(velocity.component[d], held_fluid_->velocity.component[d]);
-    copy(stress.component[d], held_fluid_->stress_divergence.component[d]);
+void Simulation::add_last_nodes() {
+  if (fluid_) {
+    step_graph_.add(
+        {"publish_fluid", {"fluid.velocity", "fluid.void_fraction"}, {"fluid.columns"}, [this] {
+           if (fluid_->solver().has_moving_bodies()) {
+             snapshots_.set_open_fraction(fluid_->solver().open_fraction());
+           }
+           take_fluid_snapshot();
+         }});
   }
-  copy(fluid_->mean_pressure(), held_fluid_->pressure);
-}
-
-bool Simulation::is_refresh_due() const { return dem_step_ % dem_steps_per_refresh_ == 0; }
-
-void Simulation::refresh_drag() {
-  if (!is_refresh_due()) return;
-  const int held = std::min(dem_steps_per_refresh_, dem_steps_per_fluid_step_ - dem_step_);
-  const double step = dem_->coarse_step();
-  const double now = time() + dem_step_ * step;
-  if (held_fluid_) {
-    const HeldFluid& h = *held_fluid_;
-    coupling_->refresh(dem_->rows(),
-                       {h.velocity, h.stress_divergence, &h.pressure, now, held * step});
-  } else {
-    coupling_->refresh(dem_->rows(), {fluid_->velocity(), fluid_->stress_divergence(),
-                                      &fluid_->mean_pressure(), now, held * step});
-  }
-  dem_->fluid_action_changed();
+  step_graph_.add({"publish_grains", {"grain.state"}, {"grain.columns"}, [this] {
+                     snapshots_.take(*dem_);
+                     if (looks_at_walls_) dem_->close_wall_loads(setup_.time.fluid_step);
+                   }});
+  step_graph_.add(
+      {"health", {"grain.columns"}, {"health"}, [this] { check_finite(snapshots_.particles()); }});
 }
 
 void Simulation::add_sensor_nodes() {

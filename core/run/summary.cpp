@@ -52,12 +52,15 @@ class JsonFigures final : public sdk::FigureSink {
  public:
   void figure(std::string_view name, double value, std::string_view unit,
               double uncertainty) override {
-    json[std::string(name)] = {
+    json_[std::string(name)] = {
         {"value", number(value)},
         {"unit", unit},
         {"uncertainty", uncertainty < 0.0 ? Json(nullptr) : number(uncertainty)}};
   }
-  Json json = Json::object();
+  [[nodiscard]] const Json& json() const { return json_; }
+
+ private:
+  Json json_ = Json::object();
 };
 
 class RowFigures final : public sdk::FigureSink {
@@ -90,7 +93,7 @@ Json series_columns(const Simulation& s) {
 class JsonReport final : public sdk::ReportSink {
  public:
   void section(std::string_view heading, std::string_view text) override {
-    sections.push_back({{"sensor", sensor}, {"heading", heading}, {"text", text}});
+    sections_.push_back({{"sensor", sensor_}, {"heading", heading}, {"text", text}});
   }
   void curve(std::string_view title, std::string_view x_label, std::string_view y_label,
              std::string_view series, std::span<const double> x,
@@ -99,32 +102,37 @@ class JsonReport final : public sdk::ReportSink {
     Json ys = Json::array();
     for (const double v : x) xs.push_back(number(v));
     for (const double v : y) ys.push_back(number(v));
-    curves.push_back({{"sensor", sensor},
-                      {"title", title},
-                      {"x_label", x_label},
-                      {"y_label", y_label},
-                      {"series", series},
-                      {"x", xs},
-                      {"y", ys}});
+    curves_.push_back({{"sensor", sensor_},
+                       {"title", title},
+                       {"x_label", x_label},
+                       {"y_label", y_label},
+                       {"series", series},
+                       {"x", xs},
+                       {"y", ys}});
   }
   void row(std::string_view title, std::span<const std::string> columns,
            std::span<const double> values) override {
     const std::string key(title);
-    if (!place_.contains(sensor + key)) {
-      place_[sensor + key] = tables.size();
-      tables.push_back(
-          {{"sensor", sensor}, {"title", key}, {"columns", columns}, {"rows", Json::array()}});
+    if (!place_.contains(sensor_ + key)) {
+      place_[sensor_ + key] = tables_.size();
+      tables_.push_back(
+          {{"sensor", sensor_}, {"title", key}, {"columns", columns}, {"rows", Json::array()}});
     }
     Json cells = Json::array();
     for (const double v : values) cells.push_back(number(v));
-    tables[place_[sensor + key]]["rows"].push_back(cells);
+    tables_[place_[sensor_ + key]]["rows"].push_back(cells);
   }
-  std::string sensor;
-  Json sections = Json::array();
-  Json curves = Json::array();
-  Json tables = Json::array();
+  /// Whose parts follow.
+  void begin(const std::string& sensor) { sensor_ = sensor; }
+  [[nodiscard]] Json take_sections() { return std::move(sections_); }
+  [[nodiscard]] Json take_curves() { return std::move(curves_); }
+  [[nodiscard]] Json take_tables() { return std::move(tables_); }
 
  private:
+  std::string sensor_;
+  Json sections_ = Json::array();
+  Json curves_ = Json::array();
+  Json tables_ = Json::array();
   std::map<std::string, std::size_t> place_;
 };
 
@@ -172,8 +180,8 @@ Json class_steps(const particles::Dem& dem) {
 
 Json health(const Simulation& s) {
   Json h = Json::object();
-  h["entries_delayed"] = s.delayed_entries();
-  h["entries_waiting"] = s.waiting_entries();
+  h["entries_delayed"] = s.insertion().delayed();
+  h["entries_waiting"] = s.insertion().waiting().size();
   h["contacts_seen_late"] = s.dem().report().contacts_seen_late;
   const auto overlaps = s.dem().report();
   h["largest_overlap_over_radius"] = overlaps.largest_overlap;
@@ -193,8 +201,8 @@ Json health(const Simulation& s) {
   if (s.fluid() != nullptr) {
     h["last_divergence_per_s"] = s.fluid()->report().divergence;
     h["last_courant_number"] = s.fluid()->report().courant_number;
-    h["fluid_sub_steps"] = s.fluid_sub_steps();
-    h["pressure_iterations"] = s.pressure_iterations();
+    h["fluid_sub_steps"] = s.fluid_stage()->sub_steps();
+    h["pressure_iterations"] = s.fluid_stage()->pressure_iterations();
   }
   return h;
 }
@@ -236,6 +244,111 @@ std::int64_t huge_page_bytes() {
     if (word == "AnonHugePages:" && file >> kibibytes) return 1024 * kibibytes;
   }
   return 0;
+}
+
+/// What was run, and what it cost.
+Json run_json(const Simulation& s, const RunFacts& facts) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  Json j;
+  j["scenario"] = s.setup().name;
+  j["version"] = DUST_VERSION;
+  j["status"] = facts.status;
+  if (!facts.reason.empty()) j["reason"] = facts.reason;
+  j["threads"] = facts.threads;
+  j["wall_s"] = facts.wall_s;
+  j["cpu_s"] = facts.cpu_s;
+  j["peak_rss_bytes"] = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+  j["huge_page_bytes"] = huge_page_bytes();
+  return j;
+}
+
+/// What was computed: time, steps, particles and their masses.
+Json amounts_json(const Simulation& s) {
+  const auto& b = s.dem().balance();
+  const auto dem = s.dem().report();
+  Json j;
+  j["simulated_s"] = s.time();
+  j["dem_step_s"] = s.dem().coarse_step();
+  j["dem_steps"] = dem.steps;
+  j["fluid_steps"] = s.fluid() != nullptr ? s.steps_done() : 0;
+  j["particle_steps"] = dem.particle_steps;
+  j["fine_particle_steps"] = dem.fine_steps;
+  j["neighbour_rebuilds"] = dem.rebuilds;
+  j["contacts"] = dem.contacts;
+  j["particles"] = counts(b);
+  j["real_particles"] = {{"emitted", b.real_emitted},
+                         {"in_domain", b.real_in_domain},
+                         {"left", b.real_left},
+                         {"removed", b.real_removed}};
+  j["mass_kg"] = {{"emitted", b.mass_emitted},
+                  {"in_domain", b.mass_in_domain},
+                  {"left", b.mass_left},
+                  {"removed", b.mass_removed}};
+  j["emitters"] = emitters_json(s);
+  j["size_classes"] = s.models().class_diameters.empty() ? Json::array() : class_steps(s.dem());
+  return j;
+}
+
+/// Times of the phases, checks, and by what all was made.
+Json record_json(const Simulation& s, const RunFacts& facts) {
+  Json j;
+  j["timers_s"] = node_times(s, facts);
+  j["health"] = health(s);
+  j["warnings"] = facts.warnings;
+  j["frames"] = facts.frames;
+  j["series"] = series_columns(s);
+  j["scenario_sha256"] = facts.scenario_sha256;
+  j["state_sha256"] = s.state_digest();
+  j["build"] = {{"compiler", k_compiler},
+                {"processor", k_processor},
+                {"plugin_interface", sdk::k_interface_version}};
+  if (facts.registry != nullptr) j["plugins"] = plugins_json(s.setup(), *facts.registry);
+  return j;
+}
+
+/// The sensors' figures; what they have for the report goes there.
+Json sensors_json(const Simulation& s, JsonReport& report) {
+  Json sensors = Json::object();
+  for (std::size_t n = 0; n < s.models().sensors.size(); ++n) {
+    const std::string& name = s.setup().sensors[n].name;
+    JsonFigures figures;
+    s.models().sensors[n]->summary(figures);
+    sensors[name] = figures.json();
+    report.begin(name);
+    s.models().sensors[n]->report(report);
+  }
+  return sensors;
+}
+
+/// Curves from elsewhere stand among those of their sensors, marked as such.
+void add_reference_curves(const std::vector<scenario::ReferenceCurve>& references, Json& curves) {
+  for (const scenario::ReferenceCurve& c : references) {
+    curves.push_back({{"sensor", c.sensor},
+                      {"title", c.axes.title},
+                      {"x_label", c.axes.x_label},
+                      {"y_label", c.axes.y_label},
+                      {"series", c.source},
+                      {"kind", "reference"},
+                      {"x", c.x},
+                      {"y", c.y}});
+  }
+}
+
+/// What the report needs beyond the other files.
+Json report_json(const Simulation& s, const RunFacts& facts, JsonReport& report) {
+  Json r;
+  r["title"] = s.setup().name;
+  r["sections"] = report.take_sections();
+  r["curves"] = report.take_curves();
+  add_reference_curves(facts.reference_curves, r["curves"]);
+  r["tables"] = report.take_tables();
+  add_emitter_tables(s, r["tables"]);
+  r["outline"] = outlines(s);
+  r["classes"] = s.models().class_diameters;
+  if (facts.registry != nullptr) r["setting"] = setting_json(s.setup(), *facts.registry);
+  r["graph_dot"] = graph_dot(s);
+  return r;
 }
 
 }  // namespace
@@ -288,88 +401,15 @@ std::vector<double> node_seconds(const Simulation& simulation, const std::vector
 
 void write_summary(const std::filesystem::path& folder, const Simulation& s,
                    const RunFacts& facts) {
-  const auto& b = s.dem().balance();
-  const auto dem = s.dem().report();
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-
-  Json j;
-  j["scenario"] = s.setup().name;
-  j["version"] = DUST_VERSION;
-  j["status"] = facts.status;
-  if (!facts.reason.empty()) j["reason"] = facts.reason;
-  j["threads"] = facts.threads;
-  j["wall_s"] = facts.wall_s;
-  j["cpu_s"] = facts.cpu_s;
-  j["peak_rss_bytes"] = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
-  j["huge_page_bytes"] = huge_page_bytes();
-  j["simulated_s"] = s.time();
-  j["dem_step_s"] = s.dem().coarse_step();
-  j["dem_steps"] = dem.steps;
-  j["fluid_steps"] = s.fluid() != nullptr ? s.steps_done() : 0;
-  j["particle_steps"] = dem.particle_steps;
-  j["fine_particle_steps"] = dem.fine_steps;
-  j["neighbour_rebuilds"] = dem.rebuilds;
-  j["contacts"] = dem.contacts;
-  j["particles"] = counts(b);
-  j["real_particles"] = {{"emitted", b.real_emitted},
-                         {"in_domain", b.real_in_domain},
-                         {"left", b.real_left},
-                         {"removed", b.real_removed}};
-  j["mass_kg"] = {{"emitted", b.mass_emitted},
-                  {"in_domain", b.mass_in_domain},
-                  {"left", b.mass_left},
-                  {"removed", b.mass_removed}};
-  j["emitters"] = emitters_json(s);
-  j["size_classes"] = s.models().class_diameters.empty() ? Json::array() : class_steps(s.dem());
-  j["timers_s"] = node_times(s, facts);
-  j["health"] = health(s);
-  j["warnings"] = facts.warnings;
-  j["frames"] = facts.frames;
-  j["series"] = series_columns(s);
-  j["scenario_sha256"] = facts.scenario_sha256;
-  j["state_sha256"] = s.state_digest();
-  j["build"] = {{"compiler", k_compiler},
-                {"processor", k_processor},
-                {"plugin_interface", sdk::k_interface_version}};
-  if (facts.registry != nullptr) j["plugins"] = plugins_json(s.setup(), *facts.registry);
-  Json sensors = Json::object();
   JsonReport report;
-  for (std::size_t n = 0; n < s.models().sensors.size(); ++n) {
-    const std::string& name = s.setup().sensors[n].name;
-    JsonFigures figures;
-    s.models().sensors[n]->summary(figures);
-    sensors[name] = figures.json;
-    report.sensor = name;
-    s.models().sensors[n]->report(report);
-  }
-  j["sensors"] = sensors;
-  j["references"] = references_json(facts.references, sensors);
-  for (const std::string& line : reference_lines(j["references"])) base::log_info(line);
-  io::write_text(folder / "summary.json", j.dump(2) + "\n");
-
-  add_emitter_tables(s, report.tables);
-  Json r;
-  r["title"] = s.setup().name;
-  // Curves from elsewhere stand among those of their sensors, marked as such.
-  for (const scenario::ReferenceCurve& c : facts.reference_curves) {
-    report.curves.push_back({{"sensor", c.sensor},
-                             {"title", c.axes.title},
-                             {"x_label", c.axes.x_label},
-                             {"y_label", c.axes.y_label},
-                             {"series", c.source},
-                             {"kind", "reference"},
-                             {"x", c.x},
-                             {"y", c.y}});
-  }
-  r["sections"] = report.sections;
-  r["curves"] = report.curves;
-  r["tables"] = report.tables;
-  r["outline"] = outlines(s);
-  r["classes"] = s.models().class_diameters;
-  if (facts.registry != nullptr) r["setting"] = setting_json(s.setup(), *facts.registry);
-  r["graph_dot"] = graph_dot(s);
-  io::write_text(folder / "report.json", r.dump() + "\n");
+  Json summary = run_json(s, facts);
+  summary.update(amounts_json(s));
+  summary.update(record_json(s, facts));
+  summary["sensors"] = sensors_json(s, report);
+  summary["references"] = references_json(facts.references, summary["sensors"]);
+  for (const std::string& line : reference_lines(summary["references"])) base::log_info(line);
+  io::write_text(folder / "summary.json", summary.dump(2) + "\n");
+  io::write_text(folder / "report.json", report_json(s, facts, report).dump() + "\n");
 }
 
 std::string graph_dot(const Simulation& s) {

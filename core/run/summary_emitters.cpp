@@ -27,7 +27,7 @@ std::vector<SizeRow> size_rows(const Simulation& s, std::size_t e) {
                     .asked_number = share.number_fraction,
                     .asked_mass = share.number_fraction * std::pow(share.diameter, 3) / cubes});
   }
-  for (const auto& line : s.emissions().lines_of(e)) {
+  for (const auto& line : s.insertion().ledger().lines_of(e)) {
     auto at = std::find_if(rows.begin(), rows.end(),
                            [&](const SizeRow& r) { return r.diameter == line.diameter; });
     if (at == rows.end()) at = rows.insert(rows.end(), {.diameter = line.diameter});
@@ -45,7 +45,7 @@ double requested_stream(const Simulation& s, const sdk::EmitterRequest& r) {
 }
 
 std::int64_t waiting_of(const Simulation& s, std::size_t e) {
-  return std::count_if(s.waiting().begin(), s.waiting().end(),
+  return std::count_if(s.insertion().waiting().begin(), s.insertion().waiting().end(),
                        [e](const Entrant& w) { return static_cast<std::size_t>(w.emitter) == e; });
 }
 
@@ -60,7 +60,7 @@ Json emitters_json(const Simulation& s) {
   Json all = Json::object();
   for (std::size_t e = 0; e < s.models().emitters.size(); ++e) {
     const auto r = s.models().emitters[e]->request();
-    const auto came = s.emissions().totals_of(e);
+    const auto came = s.insertion().ledger().totals_of(e);
     const double stream = requested_stream(s, r);
     Json j;
     j["model"] = s.setup().emitters[e].model.name;
@@ -90,7 +90,7 @@ Json emitters_json(const Simulation& s) {
 
 void add_emitter_tables(const Simulation& s, Json& tables) {
   for (std::size_t e = 0; e < s.models().emitters.size(); ++e) {
-    const auto came = s.emissions().totals_of(e);
+    const auto came = s.insertion().ledger().totals_of(e);
     const auto rows = size_rows(s, e);
     if (came.computed == 0 || rows.size() > k_most_rows) continue;
     Json cells = Json::array();
@@ -117,7 +117,7 @@ std::vector<std::string> shortfalls(const Simulation& s) {
     const auto r = s.models().emitters[e]->request();
     std::ostringstream text;
     text << "emitter '" << s.setup().emitters[e].name
-         << "' falls short: " << s.emissions().totals_of(e).mass << " kg of "
+         << "' falls short: " << s.insertion().ledger().totals_of(e).mass << " kg of "
          << requested_stream(s, r) << " kg came in; " << waiting
          << " grains wait because grains in the domain take their "
          << "places: make room in front of the emitter or reduce its flow";

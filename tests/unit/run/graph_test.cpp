@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "preflight/reader.hpp"
 #include "registry/registry.hpp"
 #include "run/models.hpp"
 #include "run/simulation.hpp"
 #include "run/summary.hpp"
-#include "preflight/reader.hpp"
 
 #include <doctest/doctest.h>
 

@@ -10,7 +10,7 @@
 namespace dust::run {
 
 /// What each emitter has brought into the domain, size by size, in whole numbers.
-class EmissionBook {
+class EmissionLedger {
  public:
   struct Line {
     double diameter = 0.0;  ///< [m]
@@ -23,7 +23,7 @@ class EmissionBook {
     double real = 0.0;
     double mass = 0.0;  ///< [kg]
   };
-  explicit EmissionBook(std::size_t emitters = 0) : lines_(emitters) {}
+  explicit EmissionLedger(std::size_t emitters = 0) : lines_(emitters) {}
 
   void enter(std::size_t emitter, double diameter, double weight, double grain_mass);
   /// Ascending by diameter.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run/emission_book.hpp"
+#include "run/emission_ledger.hpp"
 
 namespace dust::run {
 
-void EmissionBook::enter(std::size_t emitter, double diameter, double weight, double grain_mass) {
+void EmissionLedger::enter(std::size_t emitter, double diameter, double weight, double grain_mass) {
   ++lines_[emitter][{diameter, weight, grain_mass}];
 }
 
-std::vector<EmissionBook::Line> EmissionBook::lines_of(std::size_t emitter) const {
+std::vector<EmissionLedger::Line> EmissionLedger::lines_of(std::size_t emitter) const {
   std::vector<Line> lines;
   for (const auto& [key, count] : lines_[emitter]) {
     lines.push_back({key.diameter, key.weight, count, key.grain_mass});
@@ -15,7 +15,7 @@ std::vector<EmissionBook::Line> EmissionBook::lines_of(std::size_t emitter) cons
   return lines;
 }
 
-EmissionBook::Totals EmissionBook::totals_of(std::size_t emitter) const {
+EmissionLedger::Totals EmissionLedger::totals_of(std::size_t emitter) const {
   Totals t;
   for (const auto& [key, count] : lines_[emitter]) {
     t.computed += count;
@@ -25,7 +25,7 @@ EmissionBook::Totals EmissionBook::totals_of(std::size_t emitter) const {
   return t;
 }
 
-void EmissionBook::save(sdk::ArchiveWriter& archive) const {
+void EmissionLedger::save(sdk::ArchiveWriter& archive) const {
   std::vector<double> numbers;
   std::vector<std::int64_t> integers;
   for (std::size_t e = 0; e < lines_.size(); ++e) {
@@ -38,7 +38,7 @@ void EmissionBook::save(sdk::ArchiveWriter& archive) const {
   archive.integers("emission_counts", integers);
 }
 
-void EmissionBook::load(sdk::ArchiveReader& archive) {
+void EmissionLedger::load(sdk::ArchiveReader& archive) {
   const auto numbers = archive.numbers("emission_numbers");
   const auto integers = archive.integers("emission_counts");
   for (auto& lines : lines_) lines.clear();

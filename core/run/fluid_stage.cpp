@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/fluid_stage.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+
+namespace dust::run {
+namespace {
+
+fluid::Grid grid_of(const scenario::Setup& setup) {
+  std::array<bool, 3> periodic{};
+  for (std::size_t d = 0; d < 3; ++d) {
+    periodic[d] = setup.domain.sides[2 * d].grains == scenario::GrainSide::periodic;
+  }
+  return fluid::Grid::make(setup.domain.min, setup.domain.max, setup.fluid->cells, periodic);
+}
+
+void copy(const std::vector<double>& from, std::vector<double>& to) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, from.size(), 1U << 15), [&](const auto& r) {
+    std::copy_n(from.data() + r.begin(), r.size(), to.data() + r.begin());
+  });
+}
+
+}  // namespace
+
+FluidStage::FluidStage(const scenario::Setup& setup, const Models& models)
+    : setup_(setup), models_(models), grid_(grid_of(setup)) {
+  fluid::Boundaries boundaries{};
+  for (std::size_t s = 0; s < 6; ++s) boundaries[s] = models_.boundaries[s].get();
+  solver_ = std::make_unique<fluid::FluidSolver>(grid_, *setup_.fluid, models_.bodies, boundaries);
+  const sdk::Vec3 initial = setup_.fluid->initial_velocity;
+  solver_->set_velocity([initial](sdk::Vec3) { return initial; });
+  if (models_.turbulence) solver_->use(*models_.turbulence);
+  if (models_.class_diameters.empty()) {
+    no_particles_ = std::make_unique<NoParticles>(NoParticles{
+        fluid::CellField(grid_.size, 1.0), {fluid::FaceField(grid_), fluid::FaceField(grid_)}});
+    momentum_exchange_.assign(
+        3 * static_cast<std::size_t>(grid_.count[0]) * grid_.count[1] * grid_.count[2], 0.0F);
+  } else {
+    make_coupling(boundaries);
+  }
+}
+
+void FluidStage::make_coupling(const fluid::Boundaries& boundaries) {
+  coupling_ = std::make_unique<coupling::Coupling>(setup_, grid_, solver_->open_fraction(),
+                                                   *models_.voidage, *models_.drag);
+  coupling_->use(models_.fluid_forces, particles::surfaces_of(setup_, models_.bodies));
+  coupling_->use_boundaries(boundaries);
+  if (!setup_.fluid->overlaps_grains) return;
+  lagged_ = std::make_unique<LaggedFluid>(
+      LaggedFluid{solver_->velocity(), fluid::FaceField(grid_), solver_->pressure()});
+}
+
+const fluid::CellField& FluidStage::void_fraction() const {
+  return coupling_ ? coupling_->void_fraction() : no_particles_->void_fraction;
+}
+
+void FluidStage::begin_step(double time, const particles::GrainRows& rows) {
+  if (solver_->has_moving_bodies()) {
+    solver_->look_ahead(time + setup_.time.fluid_step);
+    coupling_->set_open_fraction(solver_->open_fraction());
+  }
+  coupling_->begin_step(rows, setup_.time.fluid_step);
+}
+
+void FluidStage::advance(double time) {
+  const fluid::CellField& before =
+      coupling_ ? coupling_->void_fraction_before() : no_particles_->void_fraction;
+  const fluid::Exchange& exchange = coupling_ ? coupling_->exchange() : no_particles_->exchange;
+  solver_->advance(time, setup_.time.fluid_step, before, void_fraction(), exchange);
+  sub_steps_ += solver_->report().sub_steps;
+  pressure_iterations_ += solver_->report().pressure_iterations;
+}
+
+void FluidStage::refresh(const particles::GrainRows& rows, double now, double held) {
+  if (lagged_) {
+    coupling_->refresh(
+        rows, {lagged_->velocity, lagged_->stress_divergence, &lagged_->pressure, now, held});
+  } else {
+    coupling_->refresh(rows, {solver_->velocity(), solver_->stress_divergence(),
+                              &solver_->mean_pressure(), now, held});
+  }
+}
+
+void FluidStage::keep_for_particles() {
+  const fluid::FaceField& velocity = solver_->mean_velocity();
+  const fluid::FaceField& stress = solver_->stress_divergence();
+  for (std::size_t d = 0; d < 3; ++d) {
+    copy(velocity.component[d], lagged_->velocity.component[d]);
+    copy(stress.component[d], lagged_->stress_divergence.component[d]);
+  }
+  copy(solver_->mean_pressure(), lagged_->pressure);
+}
+
+void FluidStage::bodies_changed(double time) {
+  solver_->bodies_changed(time);
+  open_fraction_changed();
+}
+
+const std::vector<float>& FluidStage::momentum_exchange() {
+  if (coupling_) coupling_->momentum_exchange(momentum_exchange_);
+  return momentum_exchange_;
+}
+
+template <class Fluid, class Visit>
+void FluidStage::for_fields(Fluid& fluid, const Visit& visit) {
+  for (std::size_t d = 0; d < 3; ++d) {
+    const std::string axis(1, "xyz"[d]);
+    visit("velocity_" + axis, fluid.velocity.component[d]);
+    visit("stress_" + axis, fluid.stress_divergence.component[d]);
+  }
+  visit(std::string("pressure"), fluid.pressure);
+}
+
+void FluidStage::add_parts(SaveParts& parts) const {
+  parts.emplace_back("fluid", [this](sdk::ArchiveWriter& a) { solver_->save(a); });
+  if (coupling_) {
+    parts.emplace_back("coupling", [this](sdk::ArchiveWriter& a) { coupling_->save(a); });
+  }
+  if (!lagged_) return;
+  parts.emplace_back("held_fluid", [this](sdk::ArchiveWriter& a) {
+    for_fields(*lagged_,
+               [&](const std::string& name, const auto& field) { a.numbers(name, field); });
+  });
+}
+
+void FluidStage::add_parts(LoadParts& parts, const std::function<double()>& time,
+                           const std::function<void()>& loaded) {
+  parts.emplace_back("fluid", [this, time, loaded](sdk::ArchiveReader& a) {
+    solver_->load(a, time());
+    open_fraction_changed();
+    loaded();
+  });
+  if (coupling_) {
+    parts.emplace_back("coupling", [this, loaded](sdk::ArchiveReader& a) {
+      coupling_->load(a);
+      loaded();
+    });
+  }
+  if (!lagged_) return;
+  parts.emplace_back("held_fluid", [this](sdk::ArchiveReader& a) {
+    for_fields(*lagged_, [&](const std::string& name, auto& field) { field = a.numbers(name); });
+  });
+}
+
+}  // namespace dust::run

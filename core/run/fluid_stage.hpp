@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coupling/coupling.hpp"
+#include "fluid/fluid_solver.hpp"
+#include "run/archive_parts.hpp"
+#include "run/models.hpp"
+#include "setup/setup.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dust::run {
+
+/// The fluid of a run and its coupling to the particles, in the stages of a fluid step.
+class FluidStage {
+ public:
+  /// `setup` has a fluid; both are kept by reference. Without particles it is one of the fluid
+  /// alone.
+  FluidStage(const scenario::Setup& setup, const Models& models);
+
+  [[nodiscard]] const fluid::Grid& grid() const { return grid_; }
+  [[nodiscard]] const fluid::FluidSolver& solver() const { return *solver_; }
+  [[nodiscard]] const coupling::Coupling* coupling() const { return coupling_.get(); }
+  /// Whether particles see the fluid of the step before, while the next is solved.
+  [[nodiscard]] bool is_lagged() const { return lagged_ != nullptr; }
+  [[nodiscard]] const fluid::CellField& void_fraction() const;
+  [[nodiscard]] std::int64_t sub_steps() const { return sub_steps_; }
+  [[nodiscard]] std::int64_t pressure_iterations() const { return pressure_iterations_; }
+
+  /// The void fraction of particles that are there at the start.
+  void start(const particles::GrainRows& rows) { coupling_->start(rows); }
+  /// Void fraction and drag of the particles for the step from `time` [s] on.
+  void begin_step(double time, const particles::GrainRows& rows);
+  /// Solves for the fluid.
+  void advance(double time);
+  /// The impulses that the fluid took in advance().
+  void evaluate_drag(const particles::GrainRows& rows) {
+    coupling_->evaluate(rows, solver_->drag_velocity());
+  }
+  /// The fluid's action on the particles at `now` [s], for `held` [s].
+  void refresh(const particles::GrainRows& rows, double now, double held);
+  void end_step(const particles::GrainRows& rows) {
+    coupling_->end_step(rows, setup_.time.fluid_step);
+  }
+  /// Keeps the fluid as it is for the particles of the next step, where it is lagged.
+  void keep_for_particles();
+
+  /// Bodies were taken away.
+  void bodies_changed(double time);
+  /// The fluid's open fraction is another.
+  void open_fraction_changed() {
+    if (coupling_) coupling_->set_open_fraction(solver_->open_fraction());
+  }
+
+  /// Momentum exchange per cell for a frame.
+  [[nodiscard]] const std::vector<float>& momentum_exchange();
+
+  /// Of a checkpoint.
+  void set_counts(std::int64_t sub_steps, std::int64_t pressure_iterations) {
+    sub_steps_ = sub_steps;
+    pressure_iterations_ = pressure_iterations;
+  }
+  void add_parts(SaveParts& parts) const;
+  /// `time()` [s] of the checkpoint, once its clock is loaded; `loaded` is called after each part.
+  void add_parts(LoadParts& parts, const std::function<double()>& time,
+                 const std::function<void()>& loaded);
+
+ private:
+  /// What a fluid alone meets: no solids and no forces of particles.
+  struct NoParticles {
+    fluid::CellField void_fraction;
+    fluid::Exchange exchange;
+  };
+  /// The fluid of the step before.
+  struct LaggedFluid {
+    fluid::FaceField velocity, stress_divergence;
+    fluid::CellField pressure;
+  };
+  /// Visits the fields of a lagged fluid with their names in a checkpoint.
+  template <class Fluid, class Visit>
+  static void for_fields(Fluid& fluid, const Visit& visit);
+  void make_coupling(const fluid::Boundaries& boundaries);
+
+  const scenario::Setup& setup_;
+  const Models& models_;
+  fluid::Grid grid_;
+  std::unique_ptr<fluid::FluidSolver> solver_;
+  std::unique_ptr<coupling::Coupling> coupling_;
+  std::unique_ptr<NoParticles> no_particles_;  ///< only for a fluid alone
+  std::unique_ptr<LaggedFluid> lagged_;        ///< only where fluid and particles overlap
+  std::int64_t sub_steps_ = 0;
+  std::int64_t pressure_iterations_ = 0;
+  std::vector<float> momentum_exchange_;
+};
+
+}  // namespace dust::run
