@@ -19,9 +19,9 @@ constexpr double k_depth = 1e-6;
 
 }  // namespace
 
-bool BodySuction::Opening::holds(Vec3 p, double rounding) const {
+bool BodySuction::holds(const Opening& opening, Vec3 p, double rounding) {
   for (int d = 0; d < 3; ++d) {
-    if (p[d] < min[d] - rounding || p[d] > max[d] + rounding) return false;
+    if (p[d] < opening.min[d] - rounding || p[d] > opening.max[d] + rounding) return false;
   }
   return true;
 }
@@ -53,7 +53,7 @@ double BodySuction::covered(const Opening& opening, const Grid& grid, Vec3 centr
                      centre.z + ((c + 0.5) / n[2] - 0.5) * grid.spacing.z};
         const auto hit = field.nearest(p);
         if (hit.body != static_cast<int>(opening.body)) continue;
-        if (opening.holds(at.to_body(p - hit.distance * hit.normal), rounding_)) ++inside;
+        if (holds(opening, at.to_body(p - hit.distance * hit.normal), rounding_)) ++inside;
       }
     }
   }
@@ -116,7 +116,7 @@ void BodySuction::add_to(WallPoints& wall, const bodies::BodySet& bodies, double
     for (std::size_t n = first; n < last; ++n) {
       const Vec3 p{wall.x[n], wall.y[n], wall.z[n]};
       const Vec3 normal{wall.normal_x[n], wall.normal_y[n], wall.normal_z[n]};
-      const double own = opening.holds(at.to_body(p), rounding_) ? speed : 0.0;
+      const double own = holds(opening, at.to_body(p), rounding_) ? speed : 0.0;
       for (int d = 0; d < 3; ++d) {
         wall.velocity[d][n] = (is_kept ? 0.0 : wall.velocity[d][n]) - own * normal[d];
       }

@@ -37,9 +37,8 @@ class BodySuction {
     std::vector<std::int32_t> cell;
     std::vector<double> share;  ///< of the flow, over the cell's volume [1/m3]
     double area = 0.0;          ///< [m2]
-
-    [[nodiscard]] bool holds(sdk::Vec3 p, double rounding) const;
   };
+  [[nodiscard]] static bool holds(const Opening& opening, sdk::Vec3 p, double rounding);
   [[nodiscard]] double covered(const Opening& opening, const Grid& grid, sdk::Vec3 centre,
                                const class BodyField& field, const bodies::Placement& at) const;
 

@@ -54,7 +54,7 @@ FaceField Continuity::find_pattern() const {
     for (int high = 0; high < 2; ++high) {
       const bool is_closed = sides_.kinds().is_periodic[d]
                                  ? grid_.count[d] == 1
-                                 : !sides_.kinds().is_pressure_side(d, high);
+                                 : !is_pressure_side(sides_.kinds(), d, high);
       if (!is_closed) continue;
       for (int a = 0; a < grid_.count[e]; ++a) {
         for (int b = 0; b < grid_.count[f]; ++b) {
@@ -189,7 +189,7 @@ void Continuity::prepare(const CellField& eps, double step, const FaceField& dra
     } else {
       // Half a cell between the centre and the pressure on the side.
       for (int high = 0; high < 2; ++high) {
-        if (!sides_.kinds().is_pressure_side(d, high)) continue;
+        if (!is_pressure_side(sides_.kinds(), d, high)) continue;
         scale_side(k_field.component[d], d, high, 2.0);
       }
     }
@@ -261,7 +261,7 @@ void Continuity::check_balance(const FaceField& v, const CellField& eps) const {
     const int e = (d + 1) % 3;
     const int f = (d + 2) % 3;
     for (int high = 0; high < 2; ++high) {
-      if (sides_.kinds().is_pressure_side(d, high)) return;
+      if (is_pressure_side(sides_.kinds(), d, high)) return;
       for (int a = 0; a < grid_.count[e]; ++a) {
         for (int b = 0; b < grid_.count[f]; ++b) {
           const std::ptrdiff_t o = grid_.index(0, 0, 0) + a * grid_.stride[e] +

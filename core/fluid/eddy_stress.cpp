@@ -28,7 +28,8 @@ EddyStress::EddyStress(const Grid& grid, const Geometry& geometry, const Sides& 
       molecular_(grid.size, properties.viscosity()),
       rate_(grid.size, 0.0),
       viscosity_(grid.size, 0.0),
-      force_(grid) {
+      force_(grid),
+      sum_(grid) {
   double volume = 1.0;
   int directions = 0;
   for (int d = 0; d < 3; ++d) {
@@ -60,7 +61,7 @@ void EddyStress::find_walls(const FaceField& start) {
     const int high = side % 2;
     const int e = (d + 1) % 3;
     const int f = (d + 2) % 3;
-    is_wall_[side] = sides_.kinds().beyond(e, d, high) == Beyond::fixed;
+    is_wall_[side] = beyond(sides_.kinds(), e, d, high) == Beyond::fixed;
     for (int a = 0; a < grid_.count[e] && is_wall_[side]; ++a) {
       for (int b = 0; b < grid_.count[f]; ++b) {
         const std::ptrdiff_t o = grid_.index(0, 0, 0) + a * grid_.stride[e] + b * grid_.stride[f] +
@@ -163,6 +164,20 @@ void EddyStress::update(const FaceField& u) {
     const auto& n = geometry_.extent[d];
     for_rows(n[0], n[1], n[2], [&](int j, int k) { force_row(u, d, j, k); });
   }
+}
+
+const FaceField& EddyStress::add_to(const FaceField& source, const FaceField& u) {
+  update(u);
+  for (int d = 0; d < 3; ++d) {
+    const auto& n = geometry_.extent[d];
+    for_rows(n[0], n[1], n[2], [&](int j, int k) {
+      const std::ptrdiff_t o = grid_.index(0, j, k);
+      for (int i = 0; i < n[0]; ++i) {
+        sum_.component[d][o + i] = source.component[d][o + i] + force_.component[d][o + i];
+      }
+    });
+  }
+  return sum_;
 }
 
 }  // namespace dust::fluid

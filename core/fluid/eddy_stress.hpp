@@ -30,6 +30,8 @@ class EddyStress {
   void update(const FaceField& u);
   /// [Pa s] per cell; 0 in bodies.
   [[nodiscard]] const CellField& eddy_viscosity() const { return viscosity_; }
+  /// `source` with the force for the velocity `u`; valid until the next call.
+  const FaceField& add_to(const FaceField& source, const FaceField& u);
   /// [N/m3] div tau at unknown faces, 0 elsewhere.
   [[nodiscard]] const FaceField& force() const { return force_; }
 
@@ -52,6 +54,7 @@ class EddyStress {
   CellField rate_;  ///< [1/s]
   CellField viscosity_;
   FaceField force_;
+  FaceField sum_;  ///< storage of add_to()
 };
 
 }  // namespace dust::fluid

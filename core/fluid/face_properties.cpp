@@ -8,8 +8,8 @@ namespace dust::fluid {
 FaceProperties::FaceProperties(const Grid& grid, const scenario::FluidSpec& fluid)
     : grid_(grid),
       properties_(fluid),
-      is_set_three_(fluid.momentum_set == "III"),
-      is_varying_(is_set_three_ || !properties_.is_uniform()),
+      set_(momentum_set_of(fluid.momentum_set)),
+      is_varying_(set_ == MomentumSet::three || !properties_.is_uniform()),
       largest_(fluid.viscosity / fluid.density) {
   if (!is_varying_) return;
   density_ = FaceField(grid);
@@ -41,6 +41,7 @@ FaceProperties::FaceProperties(const Grid& grid, const scenario::FluidSpec& flui
 
 void FaceProperties::set_void_fraction(const CellField& eps) {
   if (!is_varying_) return;
+  const bool is_set_three = set_ == MomentumSet::three;
   largest_ = 0.0;
   for (int d = 0; d < 3; ++d) {
     const std::ptrdiff_t s = grid_.stride[d];
@@ -49,7 +50,7 @@ void FaceProperties::set_void_fraction(const CellField& eps) {
     auto& inverse = inverse_inertia_.component[d];
     for (std::ptrdiff_t o = s; o < static_cast<std::ptrdiff_t>(grid_.size); ++o) {
       if (rho[o] == 0.0) continue;  // padding of the rows
-      inverse[o] = 1.0 / (is_set_three_ ? rho[o] * 0.5 * (eps[o] + eps[o - s]) : rho[o]);
+      inverse[o] = 1.0 / (is_set_three ? rho[o] * 0.5 * (eps[o] + eps[o - s]) : rho[o]);
       largest_ = std::max(largest_, mu[o] * inverse[o]);
     }
   }

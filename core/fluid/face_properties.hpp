@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fluid/grid.hpp"
+#include "fluid/momentum_set.hpp"
 #include "fluid/properties.hpp"
 
 #include <array>
@@ -18,12 +19,12 @@ struct RowProperty {
 /// A face between two cells has the mean of their properties.
 class FaceProperties {
  public:
-  /// `is_set_three`: the inertia is density times void fraction (docs/theory/fluid.md, section 1).
+  /// In set III the inertia is density times void fraction (docs/theory/fluid.md, section 1).
   FaceProperties(const Grid& grid, const scenario::FluidSpec& fluid);
 
   /// Do inertia or viscosity differ from face to face?
   [[nodiscard]] bool is_varying() const { return is_varying_; }
-  [[nodiscard]] bool is_set_three() const { return is_set_three_; }
+  [[nodiscard]] MomentumSet momentum_set() const { return set_; }
   [[nodiscard]] const Properties& by_place() const { return properties_; }
   /// Takes note of the void fraction (halo filled), before it is used.
   void set_void_fraction(const CellField& eps);
@@ -51,7 +52,7 @@ class FaceProperties {
  private:
   Grid grid_;
   Properties properties_;
-  bool is_set_three_;
+  MomentumSet set_;
   bool is_varying_;
   FaceField density_;          ///< [kg/m3], if varying
   FaceField inverse_inertia_;  ///< [m3/kg], if varying

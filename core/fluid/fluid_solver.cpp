@@ -12,163 +12,149 @@ namespace dust::fluid {
 using sdk::Vec3;
 using Ghosts = Momentum::Ghosts;
 
-FluidSolver::Impl::Impl(const Grid& g, const scenario::FluidSpec& f, const bodies::BodySet& b,
-                        const Boundaries& boundaries)
-    : grid(g),
-      fluid(f),
-      bodies(b),
-      sides(grid, boundaries),
-      properties(grid, fluid),
-      standing(standing_part()),
-      geometry(Geometry::build(grid, bodies, sides.kinds(), properties, {}, standing.get())),
-      suction(bodies),
-      momentum(grid, geometry, sides, properties),
-      continuity(grid, geometry, sides, properties, momentum),
-      u(grid),
-      next(grid),
-      right(grid),
-      sum(grid),
-      stress(grid),
-      drag_velocity(grid),
-      p(grid.size, 0.0),
-      eps(grid.size, 1.0) {
-  complete_geometry(0.0);
-  sides.set_flow_data(geometry.open_area, properties.by_place());
-  sides.evaluate_velocity(0.0, eps);
-  sides.evaluate_pressure(0.0);
+FluidSolver::Impl::Impl(const Grid& grid, const scenario::FluidSpec& fluid,
+                        const bodies::BodySet& bodies, const Boundaries& boundaries)
+    : grid_(grid),
+      fluid_(fluid),
+      sides_(grid_, boundaries),
+      properties_(grid_, fluid_),
+      cut_(grid_, bodies, sides_, properties_),
+      momentum_(grid_, geometry(), sides_, properties_),
+      continuity_(grid_, geometry(), sides_, properties_, momentum_),
+      u_(grid_),
+      p_(grid_.size, 0.0),
+      stages_{FaceField(grid_), FaceField(grid_), FaceField(grid_)},
+      void_fraction_(grid_),
+      drag_velocity_(grid_),
+      stress_(FaceField(grid_)) {
+  cut_.complete(0.0);
+  sides_.set_flow_data(geometry().open_area, properties_.by_place());
+  sides_.evaluate_velocity(0.0, void_fraction_.field());
+  sides_.evaluate_pressure(0.0);
   for (int d = 0; d < 3; ++d) {
-    std::fill(u.component[d].begin(), u.component[d].end(), f.initial_velocity[d]);
+    std::fill(u_.component[d].begin(), u_.component[d].end(), fluid_.initial_velocity[d]);
   }
-  momentum.extend(u, Ghosts::all);
-  sides.fill_velocity(u);
+  momentum_.extend(u_, Ghosts::all);
+  sides_.fill_velocity(u_);
 }
 
-FluidSolver::FluidSolver(const Grid& grid, const scenario::FluidSpec& fluid,
-                         const bodies::BodySet& bodies, const Boundaries& boundaries)
-    : impl_(std::make_unique<Impl>(grid, fluid, bodies, boundaries)) {}
-
-FluidSolver::~FluidSolver() = default;
-
-void FluidSolver::use(const sdk::TurbulenceModel& turbulence) {
-  Impl& s = *impl_;
-  s.all_sources = FaceField(s.grid);
-  s.eddies = std::make_unique<EddyStress>(s.grid, s.geometry, s.sides, s.properties, s.bodies,
-                                          turbulence, s.u);
-}
-const CellField* FluidSolver::eddy_viscosity() const {
-  return impl_->eddies ? &impl_->eddies->eddy_viscosity() : nullptr;
+void FluidSolver::Impl::use(const sdk::TurbulenceModel& turbulence) {
+  eddies_ = std::make_unique<EddyStress>(grid_, geometry(), sides_, properties_, cut_.bodies(),
+                                         turbulence, u_);
 }
 
-void FluidSolver::advance(double time, double step, const CellField& before, const CellField& after,
-                          const Exchange& exchange) {
-  impl_->advance(time, step, before, after, exchange);
+/// Cuts the grid by the bodies as they move from `begin` to `end` [s], for all that depends on it.
+void FluidSolver::Impl::recut(double begin, double end) {
+  cut_.cut(begin, end);
+  momentum_.geometry_changed();
+  cut_.complete(end);
+  continuity_.geometry_changed(p_);
+  if (eddies_) eddies_->bodies_moved(cut_.bodies(), end);
 }
 
-const FaceField& FluidSolver::velocity() const { return impl_->u; }
-const FaceField& FluidSolver::drag_velocity() const { return impl_->drag_velocity; }
-const FaceField& FluidSolver::mean_velocity() const {
-  return impl_->drag_velocity_is_set ? impl_->drag_velocity : impl_->u;
-}
-const CellField& FluidSolver::pressure() const { return impl_->p; }
-const CellField& FluidSolver::mean_pressure() const {
-  return impl_->is_booked ? impl_->mean_pressure : impl_->p;
-}
-const FaceField& FluidSolver::stress_divergence() const {
-  impl_->find_stress();
-  return impl_->stress;
-}
-const CellField& FluidSolver::open_fraction() const { return impl_->open_ahead; }
-const FluidReport& FluidSolver::report() const { return impl_->report; }
-
-bool FluidSolver::has_moving_bodies() const { return impl_->standing != nullptr; }
-
-void FluidSolver::look_ahead(double time) {
-  Impl& s = *impl_;
-  if (!s.standing) return;
-  s.open_ahead =
-      Geometry::open_fractions(s.grid, s.bodies, s.sides.kinds(), s.properties, time, *s.standing);
-  s.sides.fill_cells(s.open_ahead);
+void FluidSolver::Impl::bodies_changed(double time) {
+  cut_.bodies_changed();
+  recut(time, time);
+  momentum_.extend(u_, Ghosts::all);
+  sides_.fill_velocity(u_);
+  rates_.invalidate();
 }
 
-void FluidSolver::bodies_changed(double time) {
-  Impl& s = *impl_;
-  s.standing = s.standing_part();
-  s.geometry = Geometry::build(s.grid, s.bodies, s.sides.kinds(), s.properties, {time, time},
-                               s.standing.get());
-  s.momentum.geometry_changed();
-  s.complete_geometry(time);
-  s.continuity.geometry_changed(s.p);
-  if (s.eddies) s.eddies->bodies_moved(s.bodies, time);
-  s.momentum.extend(s.u, Ghosts::all);
-  s.sides.fill_velocity(s.u);
-  s.rates_are_known = false;
-}
-
-void FluidSolver::set_velocity(const std::function<Vec3(Vec3)>& velocity) {
-  Impl& s = *impl_;
+void FluidSolver::Impl::set_velocity(const std::function<Vec3(Vec3)>& velocity) {
   for (int d = 0; d < 3; ++d) {
-    for (int k = 0; k < s.geometry.extent[d][2]; ++k) {
-      for (int j = 0; j < s.geometry.extent[d][1]; ++j) {
-        for (int i = 0; i < s.geometry.extent[d][0]; ++i) {
-          s.u.component[d][s.grid.index(i, j, k)] = velocity(s.grid.face(d, i, j, k))[d];
+    const auto& n = geometry().extent[d];
+    for (int k = 0; k < n[2]; ++k) {
+      for (int j = 0; j < n[1]; ++j) {
+        for (int i = 0; i < n[0]; ++i) {
+          u_.component[d][grid_.index(i, j, k)] = velocity(grid_.face(d, i, j, k))[d];
         }
       }
     }
   }
-  s.momentum.extend(s.u, Ghosts::all);
-  s.sides.fill_velocity(s.u);
-  s.is_consistent = false;
-  s.rates_are_known = false;
+  momentum_.extend(u_, Ghosts::all);
+  sides_.fill_velocity(u_);
+  is_consistent_ = false;
+  rates_.invalidate();
 }
 
-void FluidSolver::save(sdk::ArchiveWriter& archive) const {
-  Impl& s = *impl_;
-  s.find_stress();
-  archive.numbers("velocity_x", s.u.component[0]);
-  archive.numbers("velocity_y", s.u.component[1]);
-  archive.numbers("velocity_z", s.u.component[2]);
-  archive.numbers("pressure", s.p);
-  archive.numbers("stress_x", s.stress.component[0]);
-  archive.numbers("stress_y", s.stress.component[1]);
-  archive.numbers("stress_z", s.stress.component[2]);
-  archive.integer("is_consistent", s.is_consistent ? 1 : 0);
-  if (s.standing) archive.integers("open_cells", s.continuity.open_cells());
-  archive.integer("has_book", s.book ? 1 : 0);
-  if (s.book) s.book->save(archive);
+const FaceField& FluidSolver::Impl::stress_divergence() {
+  return stress_.get([this](FaceField& stress) { find_stress(u_, p_, stress); });
 }
 
-void FluidSolver::load(sdk::ArchiveReader& archive, double time) {
-  Impl& s = *impl_;
+void FluidSolver::Impl::save(sdk::ArchiveWriter& archive) {
+  const FaceField& stress = stress_divergence();
+  archive.numbers("velocity_x", u_.component[0]);
+  archive.numbers("velocity_y", u_.component[1]);
+  archive.numbers("velocity_z", u_.component[2]);
+  archive.numbers("pressure", p_);
+  archive.numbers("stress_x", stress.component[0]);
+  archive.numbers("stress_y", stress.component[1]);
+  archive.numbers("stress_z", stress.component[2]);
+  archive.integer("is_consistent", is_consistent_ ? 1 : 0);
+  if (has_movers()) archive.integers("open_cells", continuity_.open_cells());
+  archive.integer("has_book", balance_ ? 1 : 0);
+  if (balance_) balance_->save(archive);
+}
+
+void FluidSolver::Impl::load(sdk::ArchiveReader& archive, double time) {
   // The bodies may have moved or gone since the start.
   const bool has_changed =
-      s.standing || std::any_of(s.bodies.begin(), s.bodies.end(),
-                                [](const bodies::Body& b) { return b.is_removed(); });
+      has_movers() || std::any_of(cut_.bodies().begin(), cut_.bodies().end(),
+                                  [](const bodies::Body& b) { return b.is_removed(); });
   if (has_changed) bodies_changed(time);
-  if (s.standing) s.continuity.was_open(archive.integers("open_cells"));
+  if (has_movers()) continuity_.was_open(archive.integers("open_cells"));
   const auto take = [&](const char* name, std::vector<double>& into) {
     auto values = archive.numbers(name);
-    if (values.size() != s.grid.size) {
+    if (values.size() != grid_.size) {
       throw sdk::ModelError(std::string("the checkpoint's fluid field ") + name +
                             " belongs to another grid");
     }
     into = std::move(values);
   };
-  take("velocity_x", s.u.component[0]);
-  take("velocity_y", s.u.component[1]);
-  take("velocity_z", s.u.component[2]);
-  take("pressure", s.p);
-  take("stress_x", s.stress.component[0]);
-  take("stress_y", s.stress.component[1]);
-  take("stress_z", s.stress.component[2]);
-  s.is_consistent = archive.integer("is_consistent") != 0;
+  take("velocity_x", u_.component[0]);
+  take("velocity_y", u_.component[1]);
+  take("velocity_z", u_.component[2]);
+  take("pressure", p_);
+  FaceField& stress = stress_.write();
+  take("stress_x", stress.component[0]);
+  take("stress_y", stress.component[1]);
+  take("stress_z", stress.component[2]);
+  is_consistent_ = archive.integer("is_consistent") != 0;
   if (archive.integer("has_book") != 0) {
-    s.book = std::make_unique<MomentumBook>(s.grid, s.geometry, s.properties);
-    s.book->load(archive);
-    s.mean_pressure.assign(s.grid.size, 0.0);
+    balance_ = std::make_unique<MomentumBalance>(grid_, geometry(), properties_);
+    balance_->load(archive);
+    mean_pressure_.assign(grid_.size, 0.0);
   }
-  s.rates_are_known = false;
-  s.walls_have_changed = true;
-  s.stress_is_known = true;
+  rates_.invalidate();
+  cut_.walls_have_changed();
 }
+
+FluidSolver::FluidSolver(const Grid& grid, const scenario::FluidSpec& fluid,
+                         const bodies::BodySet& bodies, const Boundaries& boundaries)
+    : impl_(std::make_unique<Impl>(grid, fluid, bodies, boundaries)) {}
+FluidSolver::~FluidSolver() = default;
+
+void FluidSolver::use(const sdk::TurbulenceModel& turbulence) { impl_->use(turbulence); }
+const CellField* FluidSolver::eddy_viscosity() const { return impl_->eddy_viscosity(); }
+void FluidSolver::advance(double time, double step, const CellField& before, const CellField& after,
+                          const Exchange& exchange) {
+  impl_->advance(time, step, before, after, exchange);
+}
+const FaceField& FluidSolver::velocity() const { return impl_->velocity(); }
+const FaceField& FluidSolver::drag_velocity() const { return impl_->drag_velocity(); }
+const FaceField& FluidSolver::mean_velocity() const { return impl_->mean_velocity(); }
+const CellField& FluidSolver::pressure() const { return impl_->pressure(); }
+const CellField& FluidSolver::mean_pressure() const { return impl_->mean_pressure(); }
+const FaceField& FluidSolver::stress_divergence() const { return impl_->stress_divergence(); }
+const CellField& FluidSolver::open_fraction() const { return impl_->open_fraction(); }
+const FluidReport& FluidSolver::report() const { return impl_->report(); }
+bool FluidSolver::has_moving_bodies() const { return impl_->has_movers(); }
+void FluidSolver::look_ahead(double time) { impl_->predict_open_fraction(time); }
+void FluidSolver::bodies_changed(double time) { impl_->bodies_changed(time); }
+void FluidSolver::set_velocity(const std::function<Vec3(Vec3)>& velocity) {
+  impl_->set_velocity(velocity);
+}
+void FluidSolver::save(sdk::ArchiveWriter& archive) const { impl_->save(archive); }
+void FluidSolver::load(sdk::ArchiveReader& archive, double time) { impl_->load(archive, time); }
 
 }  // namespace dust::fluid

@@ -16,7 +16,7 @@ constexpr double k_near = 1.8;
 
 GeometryBuilder::GeometryBuilder(const Grid& grid, const bodies::BodySet& bodies,
                                  const SideKinds& sides, const FaceProperties& properties,
-                                 Geometry::Interval interval, const Geometry* standing,
+                                 TimeInterval interval, const Geometry* standing,
                                  BodyField::Which which)
     : grid_(grid),
       bodies_(bodies),
@@ -52,37 +52,41 @@ Geometry GeometryBuilder::build() {
   return std::move(g_);
 }
 
-void WallPoints::evaluate(const bodies::BodySet& bodies, double time) {
+void evaluate(WallPoints& wall, const bodies::BodySet& bodies, double time) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const std::size_t first = body_begin[b];
-    const std::size_t count = body_begin[b + 1] - first;
+    const std::size_t first = wall.body_begin[b];
+    const std::size_t count = wall.body_begin[b + 1] - first;
     if (count == 0 || bodies[b].motions.empty()) continue;
     bodies[b].surface_velocities({.count = count,
                                   .time = time,
                                   .axis = {},
-                                  .position = {&x[first], &y[first], &z[first]},
-                                  .normal = {&normal_x[first], &normal_y[first], &normal_z[first]},
-                                  .velocity = {&velocity[0][first], &velocity[1][first],
-                                               &velocity[2][first]}});
+                                  .x = &wall.x[first],
+                                  .y = &wall.y[first],
+                                  .z = &wall.z[first],
+                                  .normal_x = &wall.normal_x[first],
+                                  .normal_y = &wall.normal_y[first],
+                                  .normal_z = &wall.normal_z[first],
+                                  .velocity_x = &wall.velocity[0][first],
+                                  .velocity_y = &wall.velocity[1][first],
+                                  .velocity_z = &wall.velocity[2][first]});
   }
 }
 
-Geometry Geometry::build(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
-                         const FaceProperties& properties, Interval interval,
-                         const Geometry* standing) {
+Geometry build_geometry(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
+                        const FaceProperties& properties, TimeInterval interval,
+                        const Geometry* standing) {
   return GeometryBuilder(grid, bodies, sides, properties, interval, standing, BodyField::Which::all)
       .build();
 }
 
-Geometry Geometry::build_standing(const Grid& grid, const bodies::BodySet& bodies,
-                                  const SideKinds& sides, const FaceProperties& properties) {
+Geometry build_static_geometry(const Grid& grid, const bodies::BodySet& bodies,
+                               const SideKinds& sides, const FaceProperties& properties) {
   return GeometryBuilder(grid, bodies, sides, properties, {}, nullptr, BodyField::Which::standing)
       .build();
 }
 
-CellField Geometry::open_fractions(const Grid& grid, const bodies::BodySet& bodies,
-                                   const SideKinds& sides, const FaceProperties& properties,
-                                   double time, const Geometry& standing) {
+CellField open_fractions(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
+                         const FaceProperties& properties, double time, const Geometry& standing) {
   GeometryBuilder builder(grid, bodies, sides, properties, {time, time}, &standing,
                           BodyField::Which::all);
   builder.measure_cells();

@@ -19,35 +19,37 @@ enum class Beyond { fixed, gradient, periodic };
 struct SideKinds {
   std::array<sdk::SideRules, 6> rules;
   std::array<bool, 3> is_periodic{false, false, false};
-
-  [[nodiscard]] Beyond beyond(int component, int direction, int is_high) const {
-    if (is_periodic[direction]) return Beyond::periodic;
-    const auto& r = rules[2 * direction + is_high];
-    const auto rule = component == direction ? r.normal_velocity : r.tangential_velocity;
-    return rule == sdk::SideRule::fixed ? Beyond::fixed : Beyond::gradient;
-  }
-  /// Is the velocity through this side an unknown, driven by a pressure given outside?
-  [[nodiscard]] bool is_pressure_side(int direction, int is_high) const {
-    return !is_periodic[direction] &&
-           rules[2 * direction + is_high].normal_velocity != sdk::SideRule::fixed;
-  }
 };
+
+[[nodiscard]] inline Beyond beyond(const SideKinds& sides, int component, int direction,
+                                   int is_high) {
+  if (sides.is_periodic[direction]) return Beyond::periodic;
+  const auto& r = sides.rules[2 * direction + is_high];
+  const auto rule = component == direction ? r.normal_velocity : r.tangential_velocity;
+  return rule == sdk::SideRule::fixed ? Beyond::fixed : Beyond::gradient;
+}
+/// Is the velocity through this side an unknown, driven by a pressure given outside?
+[[nodiscard]] inline bool is_pressure_side(const SideKinds& sides, int direction, int is_high) {
+  return !sides.is_periodic[direction] &&
+         sides.rules[2 * direction + is_high].normal_velocity != sdk::SideRule::fixed;
+}
 
 /// Points of bodies' surfaces at which the fluid needs the surface velocity, grouped by body.
 struct WallPoints {
   std::vector<double> x, y, z, normal_x, normal_y, normal_z;
   std::array<std::vector<double>, 3> velocity;
   std::vector<std::size_t> body_begin;  ///< first point of each body, and the end
-
-  void evaluate(const bodies::BodySet& bodies, double time);
-  /// Component d of the velocity with which the surface itself shifts along its normal at point n:
-  /// what a surface does to the fluid behind it, whatever it does along itself.
-  [[nodiscard]] double normal_part(int d, std::size_t n) const {
-    const double across =
-        velocity[0][n] * normal_x[n] + velocity[1][n] * normal_y[n] + velocity[2][n] * normal_z[n];
-    return across * (d == 0 ? normal_x[n] : d == 1 ? normal_y[n] : normal_z[n]);
-  }
 };
+
+/// The velocities at `time` [s].
+void evaluate(WallPoints& wall, const bodies::BodySet& bodies, double time);
+/// Component d of the velocity with which the surface itself shifts along its normal at point n:
+/// what a surface does to the fluid behind it, whatever it does along itself.
+[[nodiscard]] inline double normal_part(const WallPoints& w, int d, std::size_t n) {
+  const double across = w.velocity[0][n] * w.normal_x[n] + w.velocity[1][n] * w.normal_y[n] +
+                        w.velocity[2][n] * w.normal_z[n];
+  return across * (d == 0 ? w.normal_x[n] : d == 1 ? w.normal_y[n] : w.normal_z[n]);
+}
 
 /// A face whose viscous stencil is not the plain one: next to a surface, to a side in x or to a
 /// border of fluids of different viscosity. div(grad u) = sum_s weight_s (value_s - u), s =
@@ -141,24 +143,24 @@ struct Geometry {
   std::array<std::vector<SkewNode>, 3> skew_node;
   WallPoints wall;
   long close_distances = 0;  ///< wall distances that were raised to k_least_distance
-
-  struct Interval {
-    double begin = 0.0;
-    double end = 0.0;
-  };
-  /// `standing`: the geometry of the bodies that stand, if others move; cells far from the movers
-  /// take theirs from it.
-  static Geometry build(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
-                        const FaceProperties& properties, Interval interval,
-                        const Geometry* standing);
-  /// The geometry without the bodies that move.
-  static Geometry build_standing(const Grid& grid, const bodies::BodySet& bodies,
-                                 const SideKinds& sides, const FaceProperties& properties);
-  /// Only the open fractions at `time`.
-  static CellField open_fractions(const Grid& grid, const bodies::BodySet& bodies,
-                                  const SideKinds& sides, const FaceProperties& properties,
-                                  double time, const Geometry& standing);
 };
+
+/// [s]
+struct TimeInterval {
+  double begin = 0.0;
+  double end = 0.0;
+};
+/// `standing`: the geometry of the bodies that stand, if others move; cells far from the movers
+/// take theirs from it.
+Geometry build_geometry(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
+                        const FaceProperties& properties, TimeInterval interval,
+                        const Geometry* standing);
+/// The geometry without the bodies that move.
+Geometry build_static_geometry(const Grid& grid, const bodies::BodySet& bodies,
+                               const SideKinds& sides, const FaceProperties& properties);
+/// Only the open fractions at `time`.
+CellField open_fractions(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
+                         const FaceProperties& properties, double time, const Geometry& standing);
 
 /// Least distance of a face's point from a surface along the grid, in cells: bounds the viscous
 /// weight. The surface is met at a place wrong by at most this share of a cell.

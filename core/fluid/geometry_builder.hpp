@@ -17,8 +17,8 @@ namespace dust::fluid {
 class GeometryBuilder {
  public:
   GeometryBuilder(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
-                  const FaceProperties& properties, Geometry::Interval interval,
-                  const Geometry* standing, BodyField::Which which);
+                  const FaceProperties& properties, TimeInterval interval, const Geometry* standing,
+                  BodyField::Which which);
 
   Geometry build();
   void measure_cells();
@@ -62,7 +62,7 @@ class GeometryBuilder {
   bool stencil(int d, int dir, const std::array<int, 3>& c, std::ptrdiff_t o, CutFace& face);
   void find_open_parts(int d);
   [[nodiscard]] bool has_fixed(int d, int dir) const {
-    return sides_.beyond(d, dir, 0) == Beyond::fixed || sides_.beyond(d, dir, 1) == Beyond::fixed;
+    return beyond(sides_, d, dir, 0) == Beyond::fixed || beyond(sides_, d, dir, 1) == Beyond::fixed;
   }
   [[nodiscard]] std::ptrdiff_t wrapped(std::ptrdiff_t o, int dir, int c, int step) const;
   void find_ghosts(int d);

@@ -120,8 +120,8 @@ void GeometryBuilder::find_unknowns(int d) {
       const bool inside = closed_[d][o] != 0 || is_inside(grid_.face(d, i, j, k));
       bool is_given = false;
       if (!sides_.is_periodic[d]) {
-        is_given = (c[d] == 0 && !sides_.is_pressure_side(d, 0)) ||
-                   (c[d] == grid_.count[d] && !sides_.is_pressure_side(d, 1));
+        is_given = (c[d] == 0 && !is_pressure_side(sides_, d, 0)) ||
+                   (c[d] == grid_.count[d] && !is_pressure_side(sides_, d, 1));
       }
       kind[o] = inside ? FaceKind::inside : is_given ? FaceKind::given : FaceKind::plain;
     }

@@ -81,8 +81,8 @@ void Momentum::convection_row(const FaceField& u, const CellField& eps, double s
 bool Momentum::is_even(int d, int e) const {
   const auto& kinds = sides_.kinds();
   return grid_.count[e] == 1 &&
-         (kinds.is_periodic[e] || (e != d && kinds.beyond(d, e, 0) == Beyond::gradient &&
-                                   kinds.beyond(d, e, 1) == Beyond::gradient));
+         (kinds.is_periodic[e] || (e != d && beyond(kinds, d, e, 0) == Beyond::gradient &&
+                                   beyond(kinds, d, e, 1) == Beyond::gradient));
 }
 
 void Momentum::skew_row(const FaceField& u, const CellField& eps, double smoothness, int d, int j,
@@ -116,7 +116,7 @@ void Momentum::open_side_row(const FaceField& u, int d, int j, int k, double* ou
   const auto& v = u.component[d];
   const std::array<int, 3> c = {0, j, k};
   for (int high = 0; high < 2; ++high) {
-    if (!sides_.kinds().is_pressure_side(d, high)) continue;
+    if (!is_pressure_side(sides_.kinds(), d, high)) continue;
     if (d != 0 && c[d] != (high ? grid_.count[d] : 0)) continue;
     const int first = d == 0 ? (high ? grid_.count[0] : 0) : 0;
     const int last = d == 0 ? first + 1 : geometry_.extent[d][0];
@@ -151,7 +151,7 @@ Momentum::RowWeights Momentum::row_weights(int d, int j, int k) const {
       if (grid_.count[e] == 1 && sides_.kinds().is_periodic[e]) weight = 0.0;
       const int edge = high ? geometry_.extent[d][e] - 1 : 0;
       if (sides_.kinds().is_periodic[e] || c[e] != edge) continue;
-      weight = d != e && sides_.kinds().beyond(d, e, high) == Beyond::fixed ? 2.0 * plain : 0.0;
+      weight = d != e && beyond(sides_.kinds(), d, e, high) == Beyond::fixed ? 2.0 * plain : 0.0;
     }
     (e == 1 ? w.y_low : w.z_low) = side_weight[0];
     (e == 1 ? w.y_high : w.z_high) = side_weight[1];
@@ -328,7 +328,7 @@ void Momentum::extend(FaceField& u, Ghosts which) const {
         const GhostFace& g = ghosts[n];
         if (!all && g.is_crossed) continue;
         if (g.is_parted) {
-          v[g.at] = geometry_.wall.normal_part(d, static_cast<std::size_t>(g.wall_point));
+          v[g.at] = normal_part(geometry_.wall, d, static_cast<std::size_t>(g.wall_point));
           continue;
         }
         const double w = wall[g.wall_point];

@@ -12,7 +12,8 @@ namespace {
 constexpr int k_coarsest_cells = 60;
 constexpr int k_coarsest_sweeps = 12;
 /// The level from which on a cycle visits the next one twice. From the first on it takes no fewer
-/// iterations in the box of the transfer point; never takes 10 instead of 7 (tests/bench/fluid_bench).
+/// iterations in the box of the transfer point; never takes 10 instead of 7
+/// (tests/bench/fluid_bench).
 constexpr std::size_t k_first_twice = 2;
 /// Directions up to this times the smallest spacing are coarsened together.
 constexpr double k_same_spacing = 1.5;
@@ -238,12 +239,12 @@ void Multigrid::coarsen_faces(const MultigridLevel& fine, MultigridLevel& coarse
         for (int z = from[2]; z < to[2]; ++z) {
           for (int y = from[1]; y < to[1]; ++y) {
             for (int x = from[0]; x < to[0]; ++x) {
-              const std::ptrdiff_t o = fine.index(x, y, z);
+              const std::ptrdiff_t o = index_of(fine, x, y, z);
               sum += fine.face[d][o] * fine.mask[o] * fine.mask[o - s];
             }
           }
         }
-        coarse.face[d][coarse.index(i, j, k)] = scale * sum;
+        coarse.face[d][index_of(coarse, i, j, k)] = scale * sum;
       }
     });
   }
@@ -251,7 +252,7 @@ void Multigrid::coarsen_faces(const MultigridLevel& fine, MultigridLevel& coarse
 
 void Multigrid::invert_diagonal(MultigridLevel& l) {
   for_rows(l.count[0], l.count[1], l.count[2], [&](int j, int k) {
-    const std::ptrdiff_t o = l.index(0, j, k);
+    const std::ptrdiff_t o = index_of(l, 0, j, k);
     invert_row(l.count[0], l.stride[1], l.stride[2], &l.face[0][o], &l.face[1][o], &l.face[2][o],
                &l.inverse_diagonal[o]);
   });
@@ -260,7 +261,7 @@ void Multigrid::invert_diagonal(MultigridLevel& l) {
 void Multigrid::smooth(MultigridLevel& l, int colour, bool from_zero) const {
   const bool has_y = l.count[1] > 1;
   for_rows(l.count[0], l.count[1], l.count[2], [&](int j, int k) {
-    const std::ptrdiff_t o = l.index(0, j, k);
+    const std::ptrdiff_t o = index_of(l, 0, j, k);
     const int parity = (j + k + colour) & 1;
     if (from_zero) {
       smooth_zero_row(l.count[0], parity, &l.inverse_diagonal[o], &l.b[o], &l.x[o]);
@@ -278,11 +279,11 @@ void Multigrid::restrict_residual(std::size_t level) {
   for_rows(f.count[0] * f.factor[1] * f.factor[2], c.count[1], c.count[2], [&](int j, int k) {
     thread_local std::vector<float> row;
     row.assign(static_cast<std::size_t>(f.count[0]) + 1, 0.0F);
-    float* b = &c.b[c.index(0, j, k)];
+    float* b = &c.b[index_of(c, 0, j, k)];
     std::fill_n(b, c.count[0], 0.0F);
     for (int z = k * f.factor[2]; z < std::min((k + 1) * f.factor[2], f.count[2]); ++z) {
       for (int y = j * f.factor[1]; y < std::min((j + 1) * f.factor[1], f.count[1]); ++y) {
-        const std::ptrdiff_t o = f.index(0, y, z);
+        const std::ptrdiff_t o = index_of(f, 0, y, z);
         if (f.is_flat) {
           flat_residual_row(f.count[0], f.stride[2], &f.face[0][o], &f.face[2][o], &f.mask[o],
                             &f.b[o], &f.x[o], row.data());
@@ -304,9 +305,9 @@ void Multigrid::prolong(std::size_t level) {
   MultigridLevel& f = *levels_[level];
   const MultigridLevel& c = *levels_[level + 1];
   for_rows(f.count[0], f.count[1], f.count[2], [&](int j, int k) {
-    const std::ptrdiff_t o = f.index(0, j, k);
+    const std::ptrdiff_t o = index_of(f, 0, j, k);
     prolong_row(f.count[0], f.factor[0], &f.mask[o],
-                &c.x[c.index(0, j / f.factor[1], k / f.factor[2])], &f.x[o]);
+                &c.x[index_of(c, 0, j / f.factor[1], k / f.factor[2])], &f.x[o]);
   });
   wrap(f, f.x);
 }

@@ -22,11 +22,10 @@ struct MultigridLevel {
   std::vector<float> x;
   std::vector<float> b;
   std::vector<float> mask;  ///< 0 where the coarse correction is not taken
-
-  [[nodiscard]] std::ptrdiff_t index(int i, int j, int k) const {
-    return start + i + stride[1] * j + stride[2] * k;
-  }
 };
+[[nodiscard]] inline std::ptrdiff_t index_of(const MultigridLevel& l, int i, int j, int k) {
+  return l.start + i + l.stride[1] * j + l.stride[2] * k;
+}
 
 /// One cycle of multigrid for  sum_f k_f (x - x_neighbour) = b  on a box of cells with k_f >= 0:
 /// piecewise constant transfer, red-black Gauss-Seidel W(2,2), symmetric, so that it can

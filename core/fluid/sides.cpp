@@ -226,7 +226,7 @@ void Sides::fill_component(std::vector<double>& v, int d, int direction, bool fo
   for (int high = 0; high < 2; ++high) {
     const int side = 2 * direction + high;
     const auto size = plane_size(side, d);
-    const Beyond beyond = kinds_.beyond(d, direction, high);
+    const Beyond beyond = dust::fluid::beyond(kinds_, d, direction, high);
     const std::ptrdiff_t out = high ? s : -s;
     // First number outside for tangential components, the side's own face for the normal one.
     const std::ptrdiff_t edge = d == direction ? (high ? n * s : 0) : (high ? (n - 1) * s : 0);
@@ -268,8 +268,8 @@ void Sides::fill_velocity(FaceField& u) const {
 bool Sides::find_idle(int direction) const {
   if (grid_.count[direction] > 1 || kinds_.is_periodic[direction]) return false;
   for (int high = 0; high < 2; ++high) {
-    if (kinds_.is_pressure_side(direction, high)) return false;
-    if (kinds_.beyond((direction + 1) % 3, direction, high) != Beyond::gradient) return false;
+    if (is_pressure_side(kinds_, direction, high)) return false;
+    if (beyond(kinds_, (direction + 1) % 3, direction, high) != Beyond::gradient) return false;
   }
   return true;
 }
@@ -320,7 +320,7 @@ void Sides::fill_pressure(CellField& p, bool is_increment) const {
   fill_cells(p);
   for (int side = 0; side < 6; ++side) {
     const int d = side / 2;
-    if (!kinds_.is_pressure_side(d, side % 2)) continue;
+    if (!is_pressure_side(kinds_, d, side % 2)) continue;
     const auto size = plane_size(side, k_pressure);
     const std::ptrdiff_t edge = side % 2 ? (grid_.count[d] - 1) * grid_.stride[d] : 0;
     const std::ptrdiff_t out = side % 2 ? grid_.stride[d] : -grid_.stride[d];

@@ -16,7 +16,7 @@ using sdk::Vec3;
 using Ghosts = Momentum::Ghosts;
 
 constexpr double k_largest_speed = 1e4;  ///< [m/s] beyond this the flow has blown up
-constexpr int k_most_sub_steps = 200;
+constexpr int k_max_sub_steps = 200;
 /// Steps of velocity below this share of the largest speed are smooth for the limiter.
 constexpr double k_smooth_share = 0.05;
 
@@ -28,352 +28,345 @@ std::string place_text(Vec3 p, double time) {
 
 }  // namespace
 
+void FluidSolver::Impl::advance(double time, double step, const CellField& before,
+                                const CellField& after, const Exchange& exchange) {
+  if (!(step > 0.0)) throw sdk::ModelError("the fluid step must be positive");
+  const StepState s = begin_step(time, step, before, after, exchange);
+  const int cuts = cut_.intervals(step);
+  double last_share = 1.0;
+  for (int cut = 0; cut < cuts; ++cut) {
+    const double begin = static_cast<double>(cut) / cuts;
+    const double end = cut + 1 == cuts ? 1.0 : (cut + 1.0) / cuts;
+    last_share = advance_part(s, begin, end);
+  }
+  end_step(s, last_share);
+}
+
+FluidSolver::Impl::StepState FluidSolver::Impl::begin_step(double time, double step,
+                                                           const CellField& before,
+                                                           const CellField& after,
+                                                           const Exchange& exchange) {
+  report_ = {};
+  const bool has_drag = has_coefficient(exchange);
+  const bool is_clean = is_uniform(after, grid_.count, 1.0) &&
+                        (&before == &after || is_uniform(before, grid_.count, 1.0));
+  drag_velocity_.begin(has_drag);
+  // Where particles act on one fluid without eddies, whose grid stays.
+  is_balanced_ = has_drag && !eddies_ && !has_movers() && properties_.by_place().is_uniform();
+  if (has_movers()) rates_.invalidate();
+  return {time, step, before, after, exchange, is_clean, has_drag, is_balanced_};
+}
+
+/// From the shares `begin` to `end` of a fluid step, between two cuts of the grid; returns the
+/// share of the last sub-step.
+double FluidSolver::Impl::advance_part(const StepState& s, double begin, double end) {
+  begin_part(s, begin, end);
+  const double until = end < 1.0 ? end * s.step : s.step;
+  double done = begin > 0.0 ? begin * s.step : 0.0;
+  double last_share = 1.0;
+  while (done < until) {
+    const Momentum::Rates rates =
+        rates_.get([this](Momentum::Rates& r) { r = momentum_.rates(u_); });
+    rates_.invalidate();
+    check_finite(s.time + done, rates);
+    const double left = until - done;
+    const int parts = parts_of(s, left, rates);
+    const double dt = parts == 1 ? left : left / parts;
+    set_void_fraction(s, parts == 1 ? end : (done + dt) / s.step);
+    last_share = dt / s.step;
+    sub_step(s, {s.time + done, dt, last_share, std::pow(k_smooth_share * rates.speed, 2) + 1e-30});
+    report_.courant_number = std::max(report_.courant_number, dt * rates.courant);
+    ++report_.sub_steps;
+    done = parts == 1 ? until : done + dt;
+  }
+  return last_share;
+}
+
+void FluidSolver::Impl::begin_part(const StepState& s, double begin, double end) {
+  const double until = end < 1.0 ? end * s.step : s.step;
+  const double done = begin > 0.0 ? begin * s.step : 0.0;
+  if (has_movers()) {
+    recut(s.time + done, s.time + until);
+  } else {
+    cut_.evaluate_walls(s.time + until);
+  }
+  cut_.set_deep_ghosts(u_, stages_.next);
+  cut_.set_rate(s.before, s.after, begin, end, s.step, continuity_);
+  if (!is_consistent_) {
+    make_consistent(s, s.time);
+  } else {
+    momentum_.extend(u_, Ghosts::uncrossed);
+    if (has_movers()) sides_.fill_velocity(u_);
+  }
+  if (s.is_balanced) begin_balance(s);
+}
+
+/// The first field may not obey continuity: mended before it makes pressure.
+void FluidSolver::Impl::make_consistent(const StepState& s, double time) {
+  set_void_fraction(s, 0.0);
+  sides_.evaluate_velocity(time, void_fraction_.field());
+  momentum_.extend(u_, Ghosts::all);
+  sides_.fill_velocity(u_);
+  cut_.set_sinks(continuity_.sinks(), time);
+  report_.pressure_iterations += continuity_.project(u_, void_fraction_.field(), s.step, no_drag(),
+                                                     false, fluid_.pressure_tolerance);
+  sides_.fill_velocity(u_);
+  find_first_pressure(s, time);
+  is_consistent_ = true;
+  rates_.invalidate();
+}
+
+/// The pressure that keeps the present velocity free of divergence under the sides' pressures and
+/// the sources: else these would act in the first step as a blow that nothing holds.
+void FluidSolver::Impl::find_first_pressure(const StepState& s, double time) {
+  sides_.evaluate_pressure(time);
+  sides_.fill_pressure(p_, false);
+  FaceField& next = stages_.next;
+  for (int d = 0; d < 3; ++d) {
+    const auto& n = geometry().extent[d];
+    const double inverse_h = 1.0 / grid_.spacing[d];
+    for_rows(n[0], n[1], n[2], [&](int j, int k) {
+      const std::ptrdiff_t o = grid_.index(0, j, k);
+      for (int i = 0; i < n[0]; ++i) {
+        const double force = s.exchange.source.component[d][o + i] -
+                             inverse_h * (p_[o + i] - p_[o + i - grid_.stride[d]]);
+        double& v = next.component[d][o + i];
+        v = u_.component[d][o + i];
+        if (is_unknown(geometry().kind[d][o + i])) {
+          v += s.step * properties_.inverse_inertia_at(d, o + i) * force;
+        }
+      }
+    });
+  }
+  momentum_.extend(next, Ghosts::uncrossed);
+  sides_.fill_velocity(next);
+  report_.pressure_iterations += continuity_.project(next, void_fraction_.field(), s.step,
+                                                     no_drag(), false, fluid_.pressure_tolerance);
+  const CellField& phi = continuity_.increment();
+  for (std::size_t o = 0; o < grid_.size; ++o) p_[o] += phi[o];
+}
+
+/// Sub-steps for the rest of the part, `left` [s], by the Courant number.
+int FluidSolver::Impl::parts_of(const StepState& s, double left,
+                                const Momentum::Rates& rates) const {
+  const int parts =
+      std::max(1, static_cast<int>(std::ceil(left * rates.courant / fluid_.largest_cfl - 1e-9)));
+  if (report_.sub_steps + parts <= k_max_sub_steps) return parts;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "the fluid needs more than %d sub-steps in the step from t = %.6g s: largest "
+                "speed %.4g m/s; it is diverging, or time.fluid_step is far too long",
+                k_max_sub_steps, s.time, rates.speed);
+  throw sdk::ModelError(text);
+}
+
+template <class Body>
+void FluidSolver::Impl::each_moving_row(const Body& body) const {
+  for (int d = 0; d < 3; ++d) {
+    if (sides_.is_still(d)) continue;
+    const auto& n = geometry().extent[d];
+    for_rows(n[0], n[1], n[2],
+             [&](int j, int k) { body(d, grid_.index(0, j, k), n[0], 1.0 / grid_.spacing[d]); });
+  }
+}
+
+void FluidSolver::Impl::sub_step(const StepState& s, const SubStep& part) {
+  auto& [next, right, sum] = stages_;
+  const double step = part.step;
+  momentum_.prepare(k_gamma * step, s.exchange.coefficient, s.has_drag);
+  const FaceField& source = s.is_balanced ? balance_->source()
+                            : eddies_     ? eddies_->add_to(s.exchange.source, u_)
+                                          : s.exchange.source;
+
+  convect(s, part, u_, nullptr);
+  sides_.evaluate_pressure(part.time + step);
+  sides_.fill_pressure(p_, false);
+  each_moving_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
+    first_stage_row(n, grid_.stride[d], step, properties_.inertia(d, o), inverse_h,
+                    &u_.component[d][o], &stages_.sum.component[d][o], &p_[o],
+                    &source.component[d][o], &stages_.right.component[d][o]);
+    std::copy_n(&u_.component[d][o], n, &stages_.next.component[d][o]);
+  });
+  sides_.evaluate_velocity(part.time + k_gamma * step, void_fraction_.field());
+  solve_stage();
+  if (s.has_drag) drag_velocity_.add_stage(geometry(), next, (1.0 - k_gamma) * part.share);
+  each_moving_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
+    between_stages_row(n, grid_.stride[d], step, properties_.inertia(d, o), inverse_h,
+                       &u_.component[d][o], &stages_.next.component[d][o],
+                       &stages_.right.component[d][o], &p_[o], &source.component[d][o],
+                       &stages_.sum.component[d][o]);
+  });
+  convect(s, part, next, &sum);
+  sides_.evaluate_velocity(part.time + step, void_fraction_.field());
+  solve_stage();
+  if (s.has_drag) drag_velocity_.add_stage(geometry(), next, k_gamma * part.share);
+  std::swap(u_, next);
+  project(s, part);
+}
+
+/// Makes the velocity obey continuity, and adds the increment to the pressure.
+void FluidSolver::Impl::project(const StepState& s, const SubStep& part) {
+  const bool is_plain = s.is_clean && !s.has_drag && !properties_.is_varying();
+  cut_.set_sinks(continuity_.sinks(), part.time + part.step);
+  report_.pressure_iterations +=
+      continuity_.project(u_, void_fraction_.field(), part.step, s.exchange.coefficient, is_plain,
+                          fluid_.pressure_tolerance);
+  fill_stage(u_);
+  if (s.has_drag) {
+    drag_velocity_.add_pressure(geometry(), continuity_, properties_, part.step,
+                                s.exchange.coefficient, part.share);
+  }
+  const CellField& phi = continuity_.increment();
+  for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
+    const std::ptrdiff_t o = grid_.index(0, j, k);
+    for (int i = 0; i < grid_.count[0]; ++i) p_[o + i] += phi[o + i];
+    if (!s.is_balanced) return;
+    for (int i = 0; i < grid_.count[0]; ++i) mean_pressure_[o + i] += part.share * p_[o + i];
+  });
+}
+
+/// Convection of `v`: into Stages::sum, or as part of the second right side, with `add_to`.
+void FluidSolver::Impl::convect(const StepState& s, const SubStep& part, const FaceField& v,
+                                const FaceField* add_to) {
+  const CellField& eps = void_fraction_.field();
+  const double step = part.step;
+  momentum_.find_flux(v, eps);
+  for (int d = 0; d < 3; ++d) {
+    if (!geometry().has_unknown[d]) continue;
+    const auto& n = geometry().extent[d];
+    for_rows(n[0], n[1], n[2], [&](int j, int k) {
+      const std::ptrdiff_t o = grid_.index(0, j, k);
+      if (add_to == nullptr) {
+        double* sum = &stages_.sum.component[d][o];
+        momentum_.convection_row(v, eps, part.smoothness, d, j, k, sum);
+        if (s.is_balanced) balance_convection(v, d, j, k, sum, k_delta * step);
+        return;
+      }
+      thread_local std::vector<double> row;
+      row.resize(static_cast<std::size_t>(n[0]));
+      momentum_.convection_row(v, eps, part.smoothness, d, j, k, row.data());
+      if (s.is_balanced) balance_convection(v, d, j, k, row.data(), (1.0 - k_delta) * step);
+      second_stage_row(n[0], step, &add_to->component[d][o], row.data(),
+                       &stages_.right.component[d][o]);
+    });
+  }
+}
+
+/// Solves for the next stage with the sides' present values and completes it.
+void FluidSolver::Impl::solve_stage() {
+  FaceField& next = stages_.next;
+  sides_.fill_for_sweeps(next);
+  momentum_.solve(stages_.right, next);
+  momentum_.extend(next, Ghosts::but_deep);
+  fill_stage(next);
+}
+
+void FluidSolver::Impl::end_step(const StepState& s, double last_share) {
+  sides_.fill_velocity(u_);
+  const Momentum::Rates& rates = rates_.write() = momentum_.rates(u_);
+  check_finite(s.time + s.step, rates);
+  report_.largest_speed = rates.speed;
+  report_.divergence = continuity_.largest_divergence(u_, void_fraction_.field());
+  if (s.has_drag) drag_velocity_.end(sides_);
+  stress_.invalidate();
+  if (!s.is_balanced) return;
+  const FaceField& mean_velocity = drag_velocity_.field();
+  FaceField& stress = stress_.write();
+  find_stress(mean_velocity, mean_pressure_, stress);
+  sides_.fill_pressure(p_, false);
+  balance_->end(u_, void_fraction_.field(), s.exchange, mean_velocity, stress, s.step, last_share);
+}
+
+void FluidSolver::Impl::begin_balance(const StepState& s) {
+  if (!balance_) {
+    balance_ = std::make_unique<MomentumBalance>(grid_, geometry(), properties_);
+    mean_pressure_.assign(grid_.size, 0.0);
+  }
+  std::fill(mean_pressure_.begin(), mean_pressure_.end(), 0.0);
+  set_void_fraction(s, 0.0);
+  balance_->begin(u_, void_fraction_.field(), s.exchange.source, s.step);
+}
+
+/// Adds a row's convection, which acted for `time` [s], to the balance.
+void FluidSolver::Impl::balance_convection(const FaceField& v, int d, int j, int k,
+                                           const double* row, double time) {
+  const std::ptrdiff_t o = grid_.index(0, j, k);
+  thread_local std::vector<double> outflow;
+  outflow.resize(static_cast<std::size_t>(geometry().extent[d][0]));
+  momentum_.outflow_row(d, j, k, outflow.data());
+  balance_->add_convection(d, o, time, &v.component[d][o], &void_fraction_.field()[o], row,
+                           outflow.data());
+}
+
+/// stress = -grad pressure + div tau of the velocity `v`, halos filled.
+void FluidSolver::Impl::find_stress(const FaceField& v, CellField& pressure, FaceField& stress) {
+  sides_.fill_pressure(pressure, false);
+  momentum_.viscous_force(v, stress);
+  if (eddies_) eddies_->update(v);
+  for (int d = 0; d < 3; ++d) {
+    const auto& n = geometry().extent[d];
+    const double inverse_h = 1.0 / grid_.spacing[d];
+    const std::ptrdiff_t s = grid_.stride[d];
+    for_rows(n[0], n[1], n[2], [&](int j, int k) {
+      const std::ptrdiff_t o = grid_.index(0, j, k);
+      for (int i = 0; i < n[0]; ++i) {
+        if (!is_unknown(geometry().kind[d][o + i])) continue;
+        stress.component[d][o + i] -= inverse_h * (pressure[o + i] - pressure[o + i - s]);
+        if (eddies_) stress.component[d][o + i] += eddies_->force().component[d][o + i];
+      }
+    });
+    if (sides_.kinds().is_periodic[d]) wrap_last_face(grid_, d, stress.component[d]);
+  }
+}
+
+void FluidSolver::Impl::set_void_fraction(const StepState& s, double share) {
+  void_fraction_.set(grid_, sides_, s.before, s.after, share, s.is_clean, properties_);
+}
+
+/// Is the number everywhere in the rows of cells (of faces along d) that of `value`?
 bool FluidSolver::Impl::is_uniform(const std::vector<double>& field, const std::array<int, 3>& n,
                                    double value) {
   const auto differs = [&](int j, int k) {
-    const double* row = &field[grid.index(0, j, k)];
+    const double* row = &field[grid_.index(0, j, k)];
     bool all = true;
     for (int i = 0; i < n[0]; ++i) all &= row[i] == value;
     return all ? 0.0 : 1.0;
   };
-  return max_rows(n[0], n[1], n[2], partial, differs) == 0.0;
+  return max_rows(n[0], n[1], n[2], partial_, differs) == 0.0;
 }
 
 bool FluidSolver::Impl::has_coefficient(const Exchange& exchange) {
   for (int d = 0; d < 3; ++d) {
-    if (!is_uniform(exchange.coefficient.component[d], geometry.extent[d], 0.0)) return true;
+    if (!is_uniform(exchange.coefficient.component[d], geometry().extent[d], 0.0)) return true;
   }
   return false;
-}
-
-void FluidSolver::Impl::set_eps(const CellField& before, const CellField& after, double share) {
-  if (is_clean && eps_is_one) return;
-  eps_is_one = is_clean;
-
-  for_rows(grid.count[0], grid.count[1], grid.count[2], [&](int j, int k) {
-    const std::ptrdiff_t o = grid.index(0, j, k);
-    for (int i = 0; i < grid.count[0]; ++i) {
-      eps[o + i] = (1.0 - share) * before[o + i] + share * after[o + i];
-    }
-  });
-  sides.fill_cells(eps);
-  if (properties.is_set_three()) properties.set_void_fraction(eps);
 }
 
 void FluidSolver::Impl::check_finite(double time, const Momentum::Rates& r) const {
   if (r.speed <= k_largest_speed) return;
   for (int d = 0; d < 3; ++d) {
-    const auto& n = geometry.extent[d];
+    const auto& n = geometry().extent[d];
     for (int k = 0; k < n[2]; ++k) {
       for (int j = 0; j < n[1]; ++j) {
         for (int i = 0; i < n[0]; ++i) {
-          const double v = u.component[d][grid.index(i, j, k)];
+          const double v = u_.component[d][grid_.index(i, j, k)];
           if (std::abs(v) <= k_largest_speed) continue;
           throw sdk::ModelError(
               std::string("the fluid diverged: velocity component ") + "xyz"[d] +
               (std::isfinite(v) ? " beyond 1e4 m/s " : " is not a number ") +
-              place_text(grid.face(d, i, j, k), time) +
+              place_text(grid_.face(d, i, j, k), time) +
               "; likely causes: a force of grains or a boundary value out of range, or a fluid "
               "step too long for it (shorten time.fluid_step)");
         }
       }
     }
   }
-  throw sdk::ModelError("the fluid diverged outside the domain " + place_text(grid.origin, time));
-}
-
-void FluidSolver::Impl::convect(const FaceField& v, double smoothness, const FaceField* add_to,
-                                double step) {
-  momentum.find_flux(v, eps);
-  for (int d = 0; d < 3; ++d) {
-    if (!geometry.has_unknown[d]) continue;
-    const auto& n = geometry.extent[d];
-    for_rows(n[0], n[1], n[2], [&](int j, int k) {
-      const std::ptrdiff_t o = grid.index(0, j, k);
-      if (add_to == nullptr) {
-        momentum.convection_row(v, eps, smoothness, d, j, k, &sum.component[d][o]);
-        if (is_booked) book_convection(v, d, j, k, &sum.component[d][o], k_delta * step);
-        return;
-      }
-      thread_local std::vector<double> row;
-      row.resize(static_cast<std::size_t>(n[0]));
-      momentum.convection_row(v, eps, smoothness, d, j, k, row.data());
-      if (is_booked) book_convection(v, d, j, k, row.data(), (1.0 - k_delta) * step);
-      second_stage_row(n[0], step, &add_to->component[d][o], row.data(), &right.component[d][o]);
-    });
-  }
-}
-
-void FluidSolver::Impl::book_convection(const FaceField& v, int d, int j, int k, const double* row,
-                                        double time) {
-  const std::ptrdiff_t o = grid.index(0, j, k);
-  thread_local std::vector<double> outflow;
-  outflow.resize(static_cast<std::size_t>(geometry.extent[d][0]));
-  momentum.outflow_row(d, j, k, outflow.data());
-  book->add_convection(d, o, time, &v.component[d][o], &eps[o], row, outflow.data());
-}
-
-void FluidSolver::Impl::begin_book(const CellField& before, const CellField& after,
-                                   const Exchange& exchange, double step) {
-  if (!book) {
-    book = std::make_unique<MomentumBook>(grid, geometry, properties);
-    mean_pressure.assign(grid.size, 0.0);
-  }
-  std::fill(mean_pressure.begin(), mean_pressure.end(), 0.0);
-  set_eps(before, after, 0.0);
-  book->begin(u, eps, exchange.source, step);
-}
-
-void FluidSolver::Impl::end_book(const Exchange& exchange, double step, double last) {
-  find_stress_of(drag_velocity, mean_pressure);
-  sides.fill_pressure(p, false);
-  stress_is_known = true;
-  book->end(u, eps, exchange, drag_velocity, stress, step, last);
-}
-
-void FluidSolver::Impl::add_drag_velocity(const FaceField& stage, double share) {
-  for (int d = 0; d < 3; ++d) {
-    const auto& n = geometry.extent[d];
-    for_rows(n[0], n[1], n[2], [&](int j, int k) {
-      const std::ptrdiff_t o = grid.index(0, j, k);
-      const double* from = &stage.component[d][o];
-      double* to = &drag_velocity.component[d][o];
-      for (int i = 0; i < n[0]; ++i) to[i] += share * from[i];
-    });
-  }
-}
-
-void FluidSolver::Impl::add_pressure_drag(double step, const FaceField& drag, double share) {
-  const FaceField& k_field = continuity.coefficients();
-  const CellField& phi = continuity.increment();
-  for (int d = 0; d < 3; ++d) {
-    const auto& n = geometry.extent[d];
-    for_rows(n[0], n[1], n[2], [&](int j, int k) {
-      const std::ptrdiff_t o = grid.index(0, j, k);
-      pressure_drag_row(n[0], grid.stride[d], step, properties.inertia(d, o), 1.0 / grid.spacing[d],
-                        share, &k_field.component[d][o], &drag.component[d][o], &phi[o],
-                        &drag_velocity.component[d][o]);
-    });
-  }
-}
-
-void FluidSolver::Impl::sub_step(double time, double step, double share, double speed,
-                                 const Exchange& exchange) {
-  const bool is_plain = is_clean && !has_drag && !properties.is_varying();
-  const double smoothness = std::pow(k_smooth_share * speed, 2) + 1e-30;
-  const auto each_row = [&](const auto& body) {
-    for (int d = 0; d < 3; ++d) {
-      if (sides.is_still(d)) continue;
-      const auto& n = geometry.extent[d];
-      for_rows(n[0], n[1], n[2],
-               [&](int j, int k) { body(d, grid.index(0, j, k), n[0], 1.0 / grid.spacing[d]); });
-    }
-  };
-  momentum.prepare(k_gamma * step, exchange.coefficient, has_drag);
-  const FaceField& source = is_booked ? book->source() : with_eddies(exchange.source);
-
-  convect(u, smoothness, nullptr, step);
-  sides.evaluate_pressure(time + step);
-  sides.fill_pressure(p, false);
-  each_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
-    first_stage_row(n, grid.stride[d], step, properties.inertia(d, o), inverse_h,
-                    &u.component[d][o], &sum.component[d][o], &p[o], &source.component[d][o],
-                    &right.component[d][o]);
-    std::copy_n(&u.component[d][o], n, &next.component[d][o]);
-  });
-  sides.evaluate_velocity(time + k_gamma * step, eps);
-  solve_stage();
-  if (has_drag) add_drag_velocity(next, (1.0 - k_gamma) * share);
-  each_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
-    between_stages_row(n, grid.stride[d], step, properties.inertia(d, o), inverse_h,
-                       &u.component[d][o], &next.component[d][o], &right.component[d][o], &p[o],
-                       &source.component[d][o], &sum.component[d][o]);
-  });
-  convect(next, smoothness, &sum, step);
-  sides.evaluate_velocity(time + step, eps);
-  solve_stage();
-  if (has_drag) add_drag_velocity(next, k_gamma * share);
-  std::swap(u, next);
-  suction.set_sinks(continuity.sinks(), time + step);
-  report.pressure_iterations +=
-      continuity.project(u, eps, step, exchange.coefficient, is_plain, fluid.pressure_tolerance);
-  fill_stage(u);
-  if (has_drag) add_pressure_drag(step, exchange.coefficient, share);
-  const CellField& phi = continuity.increment();
-  for_rows(grid.count[0], grid.count[1], grid.count[2], [&](int j, int k) {
-    const std::ptrdiff_t o = grid.index(0, j, k);
-    for (int i = 0; i < grid.count[0]; ++i) p[o + i] += phi[o + i];
-    if (!is_booked) return;
-    for (int i = 0; i < grid.count[0]; ++i) mean_pressure[o + i] += share * p[o + i];
-  });
-}
-
-void FluidSolver::Impl::find_first_pressure(double time, double step, const Exchange& exchange) {
-  sides.evaluate_pressure(time);
-  sides.fill_pressure(p, false);
-  for (int d = 0; d < 3; ++d) {
-    const auto& n = geometry.extent[d];
-    const double inverse_h = 1.0 / grid.spacing[d];
-    for_rows(n[0], n[1], n[2], [&](int j, int k) {
-      const std::ptrdiff_t o = grid.index(0, j, k);
-      for (int i = 0; i < n[0]; ++i) {
-        const double force = exchange.source.component[d][o + i] -
-                             inverse_h * (p[o + i] - p[o + i - grid.stride[d]]);
-        double& v = next.component[d][o + i];
-        v = u.component[d][o + i];
-        if (is_unknown(geometry.kind[d][o + i])) {
-          v += step * properties.inverse_inertia_at(d, o + i) * force;
-        }
-      }
-    });
-  }
-  momentum.extend(next, Ghosts::uncrossed);
-  sides.fill_velocity(next);
-  report.pressure_iterations +=
-      continuity.project(next, eps, step, no_drag(), false, fluid.pressure_tolerance);
-  const CellField& phi = continuity.increment();
-  for (std::size_t o = 0; o < grid.size; ++o) p[o] += phi[o];
-}
-
-const FaceField& FluidSolver::Impl::with_eddies(const FaceField& source) {
-  if (!eddies) return source;
-  eddies->update(u);
-  for (int d = 0; d < 3; ++d) {
-    const auto& n = geometry.extent[d];
-    for_rows(n[0], n[1], n[2], [&](int j, int k) {
-      const std::ptrdiff_t o = grid.index(0, j, k);
-      for (int i = 0; i < n[0]; ++i) {
-        all_sources.component[d][o + i] =
-            source.component[d][o + i] + eddies->force().component[d][o + i];
-      }
-    });
-  }
-  return all_sources;
-}
-
-void FluidSolver::Impl::solve_stage() {
-  sides.fill_for_sweeps(next);
-  momentum.solve(right, next);
-  momentum.extend(next, Ghosts::but_deep);
-  fill_stage(next);
-}
-
-void FluidSolver::Impl::find_stress() {
-  if (stress_is_known) return;
-  stress_is_known = true;
-  find_stress_of(u, p);
-}
-
-void FluidSolver::Impl::find_stress_of(const FaceField& v, CellField& pressure) {
-  sides.fill_pressure(pressure, false);
-  momentum.viscous_force(v, stress);
-  if (eddies) eddies->update(v);
-  for (int d = 0; d < 3; ++d) {
-    const auto& n = geometry.extent[d];
-    const double inverse_h = 1.0 / grid.spacing[d];
-    const std::ptrdiff_t s = grid.stride[d];
-    for_rows(n[0], n[1], n[2], [&](int j, int k) {
-      const std::ptrdiff_t o = grid.index(0, j, k);
-      for (int i = 0; i < n[0]; ++i) {
-        if (!is_unknown(geometry.kind[d][o + i])) continue;
-        stress.component[d][o + i] -= inverse_h * (pressure[o + i] - pressure[o + i - s]);
-        if (eddies) stress.component[d][o + i] += eddies->force().component[d][o + i];
-      }
-    });
-    if (sides.kinds().is_periodic[d]) wrap_last_face(grid, d, stress.component[d]);
-  }
-}
-
-void FluidSolver::Impl::advance(double time, double step, const CellField& before,
-                                const CellField& after, const Exchange& exchange) {
-  if (!(step > 0.0)) throw sdk::ModelError("the fluid step must be positive");
-  report = {};
-  has_drag = has_coefficient(exchange);
-  is_clean = is_uniform(after, grid.count, 1.0) &&
-             (&before == &after || is_uniform(before, grid.count, 1.0));
-  if (has_drag || drag_velocity_is_set) {
-    for (auto& component : drag_velocity.component) {
-      std::fill(component.begin(), component.end(), 0.0);
-    }
-  }
-  drag_velocity_is_set = has_drag;
-  is_booked = keeps_book();
-  if (standing) rates_are_known = false;
-  const int cuts = cuts_per_step(step);
-  for (int cut = 0; cut < cuts; ++cut) {
-    const double begin = static_cast<double>(cut) / cuts;
-    const double end = cut + 1 == cuts ? 1.0 : (cut + 1.0) / cuts;
-    advance_part(time, step, begin, end, before, after, exchange);
-  }
-  sides.fill_velocity(u);
-  rates = momentum.rates(u);
-  rates_are_known = true;
-  check_finite(time + step, rates);
-  report.largest_speed = rates.speed;
-  report.divergence = continuity.largest_divergence(u, eps);
-  if (has_drag) sides.fill_velocity(drag_velocity);
-  stress_is_known = false;
-  if (is_booked) end_book(exchange, step, last_share);
-}
-
-void FluidSolver::Impl::advance_part(double time, double step, double begin, double end,
-                                     const CellField& before, const CellField& after,
-                                     const Exchange& exchange) {
-  const double until = end < 1.0 ? end * step : step;
-  double done = begin > 0.0 ? begin * step : 0.0;
-  if (standing) {
-    cut_anew(time + done, time + until);
-  } else {
-    evaluate_walls(time + until);
-  }
-  set_deep_ghosts();
-  set_rate(before, after, begin, end, step);
-  if (!is_consistent) {
-    // The first field may not obey continuity: mend it before it makes pressure.
-    set_eps(before, after, 0.0);
-    sides.evaluate_velocity(time, eps);
-    momentum.extend(u, Ghosts::all);
-    sides.fill_velocity(u);
-    suction.set_sinks(continuity.sinks(), time);
-    report.pressure_iterations +=
-        continuity.project(u, eps, step, no_drag(), false, fluid.pressure_tolerance);
-    sides.fill_velocity(u);
-    find_first_pressure(time, step, exchange);
-    is_consistent = true;
-    rates_are_known = false;
-  } else {
-    momentum.extend(u, Ghosts::uncrossed);
-    if (standing) sides.fill_velocity(u);
-  }
-  if (is_booked) begin_book(before, after, exchange, step);
-  while (done < until) {
-    if (!rates_are_known) rates = momentum.rates(u);
-    rates_are_known = false;
-    check_finite(time + done, rates);
-    const double left = until - done;
-    const int parts =
-        std::max(1, static_cast<int>(std::ceil(left * rates.courant / fluid.largest_cfl - 1e-9)));
-    if (report.sub_steps + parts > k_most_sub_steps) {
-      char text[200];
-      std::snprintf(text, sizeof text,
-                    "the fluid needs more than %d sub-steps in the step from t = %.6g s: largest "
-                    "speed %.4g m/s; it is diverging, or time.fluid_step is far too long",
-                    k_most_sub_steps, time, rates.speed);
-      throw sdk::ModelError(text);
-    }
-    const double dt = parts == 1 ? left : left / parts;
-    set_eps(before, after, parts == 1 ? end : (done + dt) / step);
-    last_share = dt / step;
-    sub_step(time + done, dt, last_share, rates.speed, exchange);
-    report.courant_number = std::max(report.courant_number, dt * rates.courant);
-    ++report.sub_steps;
-    done = parts == 1 ? until : done + dt;
-  }
+  throw sdk::ModelError("the fluid diverged outside the domain " + place_text(grid_.origin, time));
 }
 
 const FaceField& FluidSolver::Impl::no_drag() {
-  if (zero.component[0].empty()) zero = FaceField(grid);
-  return zero;
+  if (zero_.component[0].empty()) zero_ = FaceField(grid_);
+  return zero_;
 }
 
 }  // namespace dust::fluid

@@ -59,7 +59,7 @@ bool GeometryBuilder::stencil(int d, int dir, const std::array<int, 3>& c, std::
     if (c[dir] == edge && !sides_.is_periodic[dir]) {
       // The weights of y and z are kept per row, those of x in this list.
       if (dir == 0) is_irregular = true;
-      if (dir != d && sides_.beyond(d, dir, side) == Beyond::fixed) {
+      if (dir != d && beyond(sides_, d, dir, side) == Beyond::fixed) {
         distance[side] = 0.5 * h;
         face.wall_point[2 * dir + side] = CutFace::k_side;
       } else {

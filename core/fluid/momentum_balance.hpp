@@ -17,9 +17,9 @@ namespace dust::fluid {
 /// F the fluxes that carried the momentum, p and tau means over the step, w = eps (set III: 1).
 /// Sums of F u_f, grad p and div tau over a domain without sides vanish. Faces next to bodies and
 /// on sides are not booked.
-class MomentumBook {
+class MomentumBalance {
  public:
-  MomentumBook(const Grid& grid, const Geometry& geometry, const FaceProperties& properties);
+  MomentumBalance(const Grid& grid, const Geometry& geometry, const FaceProperties& properties);
 
   /// At the beginning of a fluid step: the fluid as it is, halos of `eps` filled, and the source
   /// with what is taken back over `step` [s].

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fluid/momentum_book.hpp"
+#include "fluid/momentum_balance.hpp"
 
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/plugin.hpp"
@@ -48,8 +48,8 @@ DUST_KERNEL void end_row(int n, std::ptrdiff_t s, double density, bool is_whole,
 
 }  // namespace
 
-MomentumBook::MomentumBook(const Grid& grid, const Geometry& geometry,
-                           const FaceProperties& properties)
+MomentumBalance::MomentumBalance(const Grid& grid, const Geometry& geometry,
+                                 const FaceProperties& properties)
     : grid_(grid),
       geometry_(geometry),
       properties_(properties),
@@ -58,7 +58,7 @@ MomentumBook::MomentumBook(const Grid& grid, const Geometry& geometry,
       source_(grid) {}
 
 template <class Work>
-void MomentumBook::each_row(const Work& work) const {
+void MomentumBalance::each_row(const Work& work) const {
   for (int d = 0; d < 3; ++d) {
     const auto& n = geometry_.extent[d];
     for_rows(n[0], n[1], n[2], [&](int j, int k) { work(d, j, k, grid_.index(0, j, k), n[0]); });
@@ -66,7 +66,7 @@ void MomentumBook::each_row(const Work& work) const {
 }
 
 /// Faces of a row in or next to bodies and on sides are not booked.
-void MomentumBook::leave_out(int d, int j, int k) {
+void MomentumBalance::leave_out(int d, int j, int k) {
   const std::ptrdiff_t o = grid_.index(0, j, k);
   const int n = geometry_.extent[d][0];
   for (int i = 0; i < n; ++i) {
@@ -77,36 +77,38 @@ void MomentumBook::leave_out(int d, int j, int k) {
   }
 }
 
-void MomentumBook::begin(const FaceField& u, const CellField& eps, const FaceField& source,
-                         double step) {
+void MomentumBalance::begin(const FaceField& u, const CellField& eps, const FaceField& source,
+                            double step) {
   eps_before_ = eps;
   each_row([&](int d, int, int, std::ptrdiff_t o, int n) {
-    begin_row(n, grid_.stride[d], properties_.density(), properties_.is_set_three(), step, &eps[o],
-              &u.component[d][o], &owed_.component[d][o], &source.component[d][o],
-              &excess_.component[d][o], &source_.component[d][o]);
+    begin_row(n, grid_.stride[d], properties_.density(),
+              properties_.momentum_set() == MomentumSet::three, step, &eps[o], &u.component[d][o],
+              &owed_.component[d][o], &source.component[d][o], &excess_.component[d][o],
+              &source_.component[d][o]);
   });
 }
 
-void MomentumBook::add_convection(int d, std::ptrdiff_t o, double time, const double* u,
-                                  const double* eps, const double* convection,
-                                  const double* outflow) {
+void MomentumBalance::add_convection(int d, std::ptrdiff_t o, double time, const double* u,
+                                     const double* eps, const double* convection,
+                                     const double* outflow) {
   convection_row(geometry_.extent[d][0], grid_.stride[d], time * properties_.density(), eps,
                  convection, outflow, u, &excess_.component[d][o]);
 }
 
-void MomentumBook::end(const FaceField& u, const CellField& eps, const Exchange& exchange,
-                       const FaceField& drag_velocity, const FaceField& stress, double step,
-                       double last) {
+void MomentumBalance::end(const FaceField& u, const CellField& eps, const Exchange& exchange,
+                          const FaceField& drag_velocity, const FaceField& stress, double step,
+                          double last) {
   each_row([&](int d, int j, int k, std::ptrdiff_t o, int n) {
-    end_row(n, grid_.stride[d], properties_.density(), properties_.is_set_three(), step, last,
-            &eps[o], &eps_before_[o], &u.component[d][o], &exchange.source.component[d][o],
+    end_row(n, grid_.stride[d], properties_.density(),
+            properties_.momentum_set() == MomentumSet::three, step, last, &eps[o], &eps_before_[o],
+            &u.component[d][o], &exchange.source.component[d][o],
             &exchange.coefficient.component[d][o], &drag_velocity.component[d][o],
             &stress.component[d][o], &excess_.component[d][o], &owed_.component[d][o]);
     leave_out(d, j, k);
   });
 }
 
-void MomentumBook::save(sdk::ArchiveWriter& archive) const {
+void MomentumBalance::save(sdk::ArchiveWriter& archive) const {
   for (std::size_t d = 0; d < 3; ++d) {
     const std::string axis(1, "xyz"[d]);
     archive.numbers("excess_" + axis, excess_.component[d]);
@@ -114,7 +116,7 @@ void MomentumBook::save(sdk::ArchiveWriter& archive) const {
   }
 }
 
-void MomentumBook::load(sdk::ArchiveReader& archive) {
+void MomentumBalance::load(sdk::ArchiveReader& archive) {
   for (std::size_t d = 0; d < 3; ++d) {
     const std::string axis(1, "xyz"[d]);
     for (auto* field : {&excess_, &owed_}) {
