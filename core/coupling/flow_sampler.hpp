@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coupling/drag_model.hpp"
+#include "coupling/drag/drag_model.hpp"
 #include "coupling/fluid_state.hpp"
 #include "coupling/particle_states.hpp"
-#include "coupling/self_disturbance.hpp"
+#include "coupling/self_disturbance/self_disturbance.hpp"
 #include "coupling/stencils/face_void_fraction.hpp"
 #include "coupling/stencils/lattice.hpp"
 #include "coupling/void_fraction_field.hpp"

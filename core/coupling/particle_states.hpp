@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coupling/own_disturbance.hpp"
+#include "coupling/self_disturbance/own_disturbance.hpp"
 #include "dust/sdk/archive.hpp"
 #include "particles/grain_rows.hpp"
 

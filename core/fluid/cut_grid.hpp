@@ -2,11 +2,11 @@
 #pragma once
 
 #include "bodies/body_set.hpp"
-#include "fluid/body_suction.hpp"
-#include "fluid/continuity.hpp"
 #include "fluid/face_properties.hpp"
-#include "fluid/geometry.hpp"
+#include "fluid/geometry/body_suction.hpp"
+#include "fluid/geometry/geometry.hpp"
 #include "fluid/grid.hpp"
+#include "fluid/pressure/continuity.hpp"
 #include "fluid/sides.hpp"
 
 #include <memory>

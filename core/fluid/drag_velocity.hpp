@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fluid/continuity.hpp"
 #include "fluid/face_properties.hpp"
-#include "fluid/geometry.hpp"
+#include "fluid/geometry/geometry.hpp"
 #include "fluid/grid.hpp"
+#include "fluid/pressure/continuity.hpp"
 
 namespace dust::fluid {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dust/sdk/boundary_condition.hpp"
-#include "fluid/geometry.hpp"
+#include "fluid/geometry/geometry.hpp"
 #include "fluid/grid.hpp"
 #include "fluid/properties.hpp"
 

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "fluid/cached.hpp"
-#include "fluid/continuity.hpp"
 #include "fluid/cut_grid.hpp"
 #include "fluid/drag_velocity.hpp"
-#include "fluid/eddy_stress.hpp"
 #include "fluid/fluid_solver.hpp"
-#include "fluid/momentum.hpp"
-#include "fluid/momentum_balance.hpp"
+#include "fluid/momentum/eddy_stress.hpp"
+#include "fluid/momentum/momentum.hpp"
+#include "fluid/momentum/momentum_balance.hpp"
+#include "fluid/pressure/continuity.hpp"
 #include "fluid/sides.hpp"
 #include "fluid/step_void_fraction.hpp"
 

@@ -3,7 +3,7 @@
 #include "preflight/reader.hpp"
 #include "run/run_options.hpp"
 #include "run/simulation.hpp"
-#include "run/summary.hpp"
+#include "run/summary/summary.hpp"
 
 #include <nlohmann/json.hpp>
 

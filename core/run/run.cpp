@@ -10,8 +10,8 @@
 #include "run/progress.hpp"
 #include "run/run_options.hpp"
 #include "run/simulation.hpp"
-#include "run/summary.hpp"
-#include "run/summary_emitters.hpp"
+#include "run/summary/summary.hpp"
+#include "run/summary/summary_emitters.hpp"
 #include "scenario/units.hpp"
 
 #include <oneapi/tbb/global_control.h>

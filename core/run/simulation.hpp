@@ -6,9 +6,9 @@
 #include "run/archive_parts.hpp"
 #include "run/dem_cycle.hpp"
 #include "run/fluid_stage.hpp"
-#include "run/insertion.hpp"
+#include "run/insertion/insertion.hpp"
 #include "run/models.hpp"
-#include "run/snapshots.hpp"
+#include "run/snapshots/snapshots.hpp"
 #include "run/step_clock.hpp"
 #include "setup/setup.hpp"
 

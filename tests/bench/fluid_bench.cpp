@@ -4,7 +4,7 @@
 #include "bench/still_side.hpp"
 #include "dust/sdk/parameter_schema.hpp"
 #include "fluid/fluid_solver.hpp"
-#include "fluid/pressure_solver.hpp"
+#include "fluid/pressure/pressure_solver.hpp"
 
 #include <tbb/global_control.h>
 #include <algorithm>

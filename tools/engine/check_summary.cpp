@@ -2,7 +2,7 @@
 #include "check_summary.hpp"
 
 #include "base/text.hpp"
-#include "coupling/own_disturbance.hpp"
+#include "coupling/self_disturbance/own_disturbance.hpp"
 
 #include <nlohmann/json.hpp>
 

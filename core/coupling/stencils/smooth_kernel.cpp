@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coupling/stencils/smooth_kernel.hpp"
 
-#include "coupling/own_disturbance.hpp"
+#include "coupling/self_disturbance/own_disturbance.hpp"
 
 #include <algorithm>
 #include <cmath>

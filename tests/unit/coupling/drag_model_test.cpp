@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coupling/drag_model.hpp"
+#include "coupling/drag/drag_model.hpp"
 
 #include "fluid/momentum_set.hpp"
 #include "unit/coupling/world.hpp"

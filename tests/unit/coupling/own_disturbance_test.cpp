@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coupling/own_disturbance.hpp"
+#include "coupling/self_disturbance/own_disturbance.hpp"
 
 #include "coupling/stencils/smooth_kernel.hpp"
 #include "coupling/stencils/wide_kernel.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fluid/pressure_solver.hpp"
+#include "fluid/pressure/pressure_solver.hpp"
 
 #include "dust/sdk/error.hpp"
 

@@ -2,7 +2,7 @@
 #include "preflight/derived.hpp"
 #include "preflight/reader.hpp"
 #include "run/simulation.hpp"
-#include "run/summary.hpp"
+#include "run/summary/summary.hpp"
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>

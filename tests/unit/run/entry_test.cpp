@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run/entry.hpp"
+#include "run/insertion/entry.hpp"
 
 #include "dust/sdk/error.hpp"
 #include "support/dem_rig.hpp"

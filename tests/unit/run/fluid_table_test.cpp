@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/fluid_cells.hpp"
-#include "run/columns.hpp"
+#include "run/snapshots/columns.hpp"
 #include "verification/fluid/fluid_case.hpp"
 
 #include <doctest/doctest.h>

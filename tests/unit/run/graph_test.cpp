@@ -3,7 +3,7 @@
 #include "registry/registry.hpp"
 #include "run/models.hpp"
 #include "run/simulation.hpp"
-#include "run/summary.hpp"
+#include "run/summary/summary.hpp"
 
 #include <doctest/doctest.h>
 

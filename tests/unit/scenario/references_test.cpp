@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run/references.hpp"
+#include "run/summary/references.hpp"
 
 #include "unit/scenario/support.hpp"
 

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coupling/drag/drag_model.hpp"
+#include "coupling/particle_states.hpp"
+#include "coupling/self_disturbance/self_disturbance.hpp"
+#include "coupling/stencils/lattice.hpp"
+#include "coupling/void_fraction_field.hpp"
+
+#include <array>
+#include <span>
+
+namespace dust::coupling {
+
+/// Drag of a batch of particles as the fluid is given it, K [(1 + b) s - b s_0] for the slip s to
+/// come and that of before, s_0: the tangent to a drag that grows as s^(1+b), so that the fluid is
+/// not too late with it where drag is stiff (docs/theory/coupling.md, Time).
+struct LinearisedDrag {
+  StencilBatch::Reals coefficient;    ///< [kg/s] K at s_0
+  StencilBatch::Reals slope;          ///< [-] b = d ln K / d ln s, 0..1
+  StencilBatch::Reals void_fraction;  ///< [-] around each: of its cell, or the mean over its cells
+  std::array<char, StencilBatch::k_size> is_smooth;  ///< coupled through a SmoothKernel
+};
+
+/// Finds it from the slip of each particle with the fluid last seen at it.
+class DragLinearisation {
+ public:
+  /// How the particles' cycle and the fluid's step follow each other decides which part of the
+  /// coefficient is stable.
+  enum class Order { fluid_first, overlapped };
+
+  /// All are kept by reference. `initial_velocity` [m/s]: of the fluid, for new particles.
+  DragLinearisation(const Lattice& lattice, const sdk::VoidageRule& voidage, const DragModel& drag,
+                    const VoidFractionField& void_fraction, SelfDisturbance& self,
+                    ParticleStates& states, const Triple& initial_velocity, Order order);
+
+  /// Of batch `number` with the stencils `here`, for a fluid step of `step` [s].
+  void evaluate(const particles::GrainRows& grains, std::span<const std::int32_t> rows,
+                const StencilBatch& here, std::size_t number, double step, LinearisedDrag& drag);
+
+ private:
+  void find_slips(const particles::GrainRows& grains, std::span<const std::int32_t> rows,
+                  const StencilBatch& here, std::size_t number, double step, LinearisedDrag& drag,
+                  DragColumns& columns);
+  [[nodiscard]] double implicit_factor(double relaxations) const;
+
+  const Lattice& lattice_;
+  const sdk::VoidageRule& voidage_;
+  const DragModel& drag_;
+  const VoidFractionField& void_fraction_;
+  SelfDisturbance& self_;
+  ParticleStates& states_;
+  Triple initial_velocity_;
+  Order order_;
+};
+
+}  // namespace dust::coupling

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bodies/body_set.hpp"
+#include "dust/sdk/table.hpp"
+#include "fluid/geometry/geometry.hpp"
+#include "fluid/grid.hpp"
+#include "fluid/pressure/continuity.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace dust::fluid {
+
+/// Openings in the surfaces of bodies that suck a given volume flow: extraction hoods, nozzles.
+/// Each cell at the opening gives off its share of the flow by the area of the surface in it, which
+/// is what the open areas of its faces leave over; so the flow out of the fluid is the given one
+/// whatever the grid. The surface's velocity there points into the body.
+class BodySuction {
+ public:
+  explicit BodySuction(const bodies::BodySet& bodies);
+
+  /// Finds the cells at the openings. Throws sdk::ModelError for an opening that meets no fluid.
+  void find_cells(const Grid& grid, const bodies::BodySet& bodies, const Geometry& geometry,
+                  double time);
+  /// Adds the velocity into the openings to that of the surface's points.
+  void add_to(WallPoints& wall, const bodies::BodySet& bodies, double time) const;
+  void set_sinks(std::vector<Continuity::Sink>& sinks, double time) const;
+
+ private:
+  struct Opening {
+    std::size_t body = 0;
+    double flow = 0.0;  ///< [m3/s]
+    sdk::Vec3 min;      ///< in the body's frame
+    sdk::Vec3 max;
+    sdk::Table over_time;
+    std::vector<std::int32_t> cell;
+    std::vector<double> share;  ///< of the flow, over the cell's volume [1/m3]
+    double area = 0.0;          ///< [m2]
+  };
+  [[nodiscard]] static bool holds(const Opening& opening, sdk::Vec3 p, double rounding);
+  [[nodiscard]] double covered(const Opening& opening, const Grid& grid, sdk::Vec3 centre,
+                               const class BodyField& field, const bodies::Placement& at) const;
+
+  std::vector<Opening> openings_;
+  double rounding_ = 0.0;  ///< [m]
+};
+
+}  // namespace dust::fluid

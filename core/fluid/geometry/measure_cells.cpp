@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fluid/geometry/geometry_builder.hpp"
+#include "fluid/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dust::fluid {
+
+using sdk::Vec3;
+
+void GeometryBuilder::measure_cells() {
+  const auto& n = grid_.count;
+  g_.open_fraction.assign(grid_.size, 1.0);
+  if (field_.is_empty()) return;
+  distance_.assign(grid_.size, 0.0);
+  const double reach = norm(grid_.spacing);
+  for_rows(n[0] * 100, n[1], n[2], [&](int j, int k) {
+    for (int i = 0; i < n[0]; ++i) {
+      const std::ptrdiff_t o = grid_.index(i, j, k);
+      const Vec3 centre = grid_.centre(i, j, k);
+      distance_[o] = field_.nearest(centre).distance;
+      g_.open_fraction[o] = is_as_standing(field_, centre, reach)
+                                ? standing_->open_fraction[o]
+                                : field_.open_share(centre, grid_.spacing);
+    }
+  });
+}
+
+void GeometryBuilder::measure_faces(int d) {
+  const auto& n = grid_.count;
+  auto& e = g_.extent[d];
+  e = n;
+  if (!sides_.is_periodic[d]) e[d] += 1;
+  auto& area = g_.open_area.component[d];
+  area.assign(grid_.size, 0.0);
+  closed_[d].assign(grid_.size, 0);
+  Vec3 size = grid_.spacing;
+  size[d] = 0.0;
+  const double reach = norm(grid_.spacing);
+  for_rows(e[0] * 100, e[1], e[2], [&](int j, int k) {
+    for (int i = 0; i < e[0]; ++i) {
+      const std::ptrdiff_t o = grid_.index(i, j, k);
+      const Vec3 centre = grid_.face(d, i, j, k);
+      bool is_still = true;
+      for (const BodyField& instant : instants_) {
+        is_still = is_still && is_as_standing(instant, centre, reach);
+      }
+      is_still = is_still && (instants_.empty() || is_as_standing(field_, centre, reach));
+      double now = 1.0;
+      if (is_still && standing_ != nullptr) {
+        now = area[o] = standing_->open_area.component[d][o];
+      } else if (!field_.is_empty()) {
+        now = area[o] = field_.open_share(centre, size);
+        if (!instants_.empty() && smear_ > 0.0) {
+          double sum = 0.0;
+          for (const BodyField& instant : instants_) {
+            sum += instant.open_share(centre, size, nullptr, smear_);
+          }
+          area[o] = sum / k_instants;
+        }
+      } else {
+        area[o] = 1.0;
+      }
+      closed_[d][o] = now == 0.0 ? 1 : 0;
+    }
+  });
+  if (!sides_.is_periodic[d]) return;
+  const int b = (d + 1) % 3;
+  const int c = (d + 2) % 3;
+  for (int p = 0; p < n[b]; ++p) {
+    for (int q = 0; q < n[c]; ++q) {
+      const std::ptrdiff_t o = grid_.index(0, 0, 0) + p * grid_.stride[b] + q * grid_.stride[c];
+      area[o + n[d] * grid_.stride[d]] = area[o];
+    }
+  }
+}
+
+bool GeometryBuilder::is_near(int d, const std::array<int, 3>& c, std::ptrdiff_t o) const {
+  if (distance_.empty()) return false;
+  const bool has_upper = c[d] < grid_.count[d];
+  const std::ptrdiff_t lower =
+      c[d] > 0 || sides_.is_periodic[d] ? wrapped(o, d, c[d], -1) : (has_upper ? o : -1);
+  const double a = has_upper ? distance_[o] : distance_[lower];
+  const double b = lower >= 0 ? distance_[lower] : a;
+  return std::min(a, b) < near_;
+}
+
+void GeometryBuilder::find_parted(int d) {
+  if (field_.is_empty() || grid_.count[d] == 1) return;
+  const auto& n = grid_.count;
+  for (int k = 0; k < n[2]; ++k) {
+    for (int j = 0; j < n[1]; ++j) {
+      for (int i = 0; i < n[0]; ++i) {
+        const std::array<int, 3> c = {i, j, k};
+        const std::ptrdiff_t o = grid_.index(i, j, k);
+        if (c[d] == 0 && !sides_.is_periodic[d]) continue;
+        if (!(g_.open_area.component[d][o] > 0.0) || !is_near(d, c, o)) continue;
+        const Vec3 upper = grid_.centre(i, j, k);
+        Vec3 lower = upper;
+        lower[d] -= grid_.spacing[d];
+        const auto from = field_.outside(lower);
+        const auto to = field_.outside(upper);
+        if (!from || !to || !field_.passes_through(*from, *to)) continue;
+        g_.parted[d].push_back(static_cast<std::int32_t>(o));
+        closed_[d][o] = 2;
+      }
+    }
+  }
+}
+
+void GeometryBuilder::find_unknowns(int d) {
+  auto& kind = g_.kind[d];
+  kind.assign(grid_.size, FaceKind::given);
+  const auto& e = g_.extent[d];
+  for_rows(e[0] * 100, e[1], e[2], [&](int j, int k) {
+    for (int i = 0; i < e[0]; ++i) {
+      const std::ptrdiff_t o = grid_.index(i, j, k);
+      const std::array<int, 3> c = {i, j, k};
+      const bool inside = closed_[d][o] != 0 || is_inside(grid_.face(d, i, j, k));
+      bool is_given = false;
+      if (!sides_.is_periodic[d]) {
+        is_given = (c[d] == 0 && !is_pressure_side(sides_, d, 0)) ||
+                   (c[d] == grid_.count[d] && !is_pressure_side(sides_, d, 1));
+      }
+      kind[o] = inside ? FaceKind::inside : is_given ? FaceKind::given : FaceKind::plain;
+    }
+  });
+}
+
+void GeometryBuilder::find_open_parts(int d) {
+  const auto& e = g_.extent[d];
+  Vec3 size = grid_.spacing;
+  size[d] = 0.0;
+  for (int k = 0; k < e[2]; ++k) {
+    for (int j = 0; j < e[1]; ++j) {
+      for (int i = 0; i < e[0]; ++i) {
+        const std::ptrdiff_t o = grid_.index(i, j, k);
+        const double area = g_.open_area.component[d][o];
+        if (area == 0.0 || area == 1.0 || closed_[d][o] != 0) continue;
+        const std::array<int, 3> c = {i, j, k};
+        const Vec3 centre = grid_.face(d, i, j, k);
+        Vec3 middle = centre;
+        static_cast<void>(field_.open_share(centre, size, &middle));
+        OpenPart part;
+        part.at = static_cast<std::int32_t>(o);
+        part.below = static_cast<std::int32_t>(wrapped(o, d, c[d], -1));
+        int n = 0;
+        for (int dir = 0; dir < 3; ++dir) {
+          if (dir == d) continue;
+          const double shift = (middle[dir] - centre[dir]) / grid_.spacing[dir];
+          part.neighbour[n] = static_cast<std::int32_t>(o);
+          if (grid_.count[dir] > 1) {
+            part.neighbour[n] =
+                static_cast<std::int32_t>(wrapped(o, dir, c[dir], shift > 0.0 ? 1 : -1));
+            part.weight[n] = std::abs(shift);
+          }
+          ++n;
+        }
+        g_.open_part[d].push_back(part);
+      }
+    }
+  }
+}
+
+}  // namespace dust::fluid

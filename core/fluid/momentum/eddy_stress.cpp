@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fluid/momentum/eddy_stress.hpp"
+
+#include "fluid/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dust::fluid {
+namespace {
+
+/// Walls farther away than this many filter widths count as infinitely far.
+constexpr double k_far = 10.0;
+
+}  // namespace
+
+EddyStress::EddyStress(const Grid& grid, const Geometry& geometry, const Sides& sides,
+                       const FaceProperties& properties, const bodies::BodySet& bodies,
+                       const sdk::TurbulenceModel& model, const FaceField& start)
+    : grid_(grid),
+      geometry_(geometry),
+      sides_(sides),
+      properties_(properties),
+      model_(model),
+      distance_(grid.size, std::numeric_limits<double>::infinity()),
+      density_(grid.size, properties.density()),
+      molecular_(grid.size, properties.viscosity()),
+      rate_(grid.size, 0.0),
+      viscosity_(grid.size, 0.0),
+      force_(grid),
+      sum_(grid) {
+  double volume = 1.0;
+  int directions = 0;
+  for (int d = 0; d < 3; ++d) {
+    if (grid.count[d] == 1) continue;
+    volume *= grid.spacing[d];
+    ++directions;
+  }
+  filter_width_ = directions > 0 ? std::pow(volume, 1.0 / directions) : grid.spacing.x;
+  if (!properties.by_place().is_uniform()) {
+    for_rows(grid.count[0], grid.count[1], grid.count[2], [&](int j, int k) {
+      for (int i = 0; i < grid.count[0]; ++i) {
+        const auto values = properties.by_place().at(grid.centre(i, j, k));
+        density_[grid.index(i, j, k)] = values.density;
+        molecular_[grid.index(i, j, k)] = values.viscosity;
+      }
+    });
+  }
+  find_walls(start);
+  find_distances(bodies, 0.0);
+}
+
+void EddyStress::bodies_moved(const bodies::BodySet& bodies, double time) {
+  find_distances(bodies, time);
+}
+
+void EddyStress::find_walls(const FaceField& start) {
+  for (int side = 0; side < 6; ++side) {
+    const int d = side / 2;
+    const int high = side % 2;
+    const int e = (d + 1) % 3;
+    const int f = (d + 2) % 3;
+    is_wall_[side] = beyond(sides_.kinds(), e, d, high) == Beyond::fixed;
+    for (int a = 0; a < grid_.count[e] && is_wall_[side]; ++a) {
+      for (int b = 0; b < grid_.count[f]; ++b) {
+        const std::ptrdiff_t o = grid_.index(0, 0, 0) + a * grid_.stride[e] + b * grid_.stride[f] +
+                                 high * grid_.count[d] * grid_.stride[d];
+        if (start.component[d][o] != 0.0) is_wall_[side] = false;
+      }
+    }
+  }
+}
+
+void EddyStress::find_distances(const bodies::BodySet& bodies, double time) {
+  const double reach = k_far * filter_width_;
+  for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
+    for (int i = 0; i < grid_.count[0]; ++i) {
+      const sdk::Vec3 centre = grid_.centre(i, j, k);
+      double least = std::numeric_limits<double>::infinity();
+      for (int side = 0; side < 6; ++side) {
+        if (!is_wall_[side]) continue;
+        const int d = side / 2;
+        const double end = grid_.origin[d] + (side % 2) * grid_.count[d] * grid_.spacing[d];
+        least = std::min(least, std::abs(centre[d] - end));
+      }
+      for (const bodies::Body& body : bodies) {
+        if (body.is_removed()) continue;
+        const bodies::Placement at = body.placement(time);
+        for (int part = 0; part < body.shape->parts(); ++part) {
+          if (!body.is_within(part, centre, reach, at)) continue;
+          least = std::min(least, std::max(0.0, body.nearest(centre, at).distance));
+        }
+      }
+      distance_[grid_.index(i, j, k)] = least;
+    }
+  });
+}
+
+void EddyStress::find_viscosity(const FaceField& u) {
+  for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
+    const std::ptrdiff_t row = grid_.index(0, j, k);
+    for (int i = 0; i < grid_.count[0]; ++i) {
+      const std::ptrdiff_t o = row + i;
+      double sum = 0.0;  // 2 S_ij S_ij
+      for (int d = 0; d < 3; ++d) {
+        const auto& v = u.component[d];
+        const std::ptrdiff_t s = grid_.stride[d];
+        const double own = (v[o + s] - v[o]) / grid_.spacing[d];
+        sum += 2.0 * own * own;
+        const int e = (d + 1) % 3;
+        const std::ptrdiff_t t = grid_.stride[e];
+        const auto& w = u.component[e];
+        // Means of the two faces, differences over two cells.
+        const double across =
+            0.25 * ((v[o + t] + v[o + t + s]) - (v[o - t] + v[o - t + s])) / grid_.spacing[e];
+        const double back =
+            0.25 * ((w[o + s] + w[o + s + t]) - (w[o - s] + w[o - s + t])) / grid_.spacing[d];
+        sum += (across + back) * (across + back);
+      }
+      rate_[o] = std::sqrt(sum);
+    }
+    model_.evaluate({static_cast<std::size_t>(grid_.count[0]), filter_width_, &rate_[row],
+                     &distance_[row], &density_[row], &molecular_[row], &viscosity_[row]});
+    for (int i = 0; i < grid_.count[0]; ++i) {
+      if (!(geometry_.open_fraction[row + i] > 0.0)) viscosity_[row + i] = 0.0;
+    }
+  });
+  sides_.fill_cells(viscosity_);
+}
+
+void EddyStress::force_row(const FaceField& u, int d, int j, int k) {
+  const std::ptrdiff_t s = grid_.stride[d];
+  const double h = grid_.spacing[d];
+  const auto& v = u.component[d];
+  const std::ptrdiff_t row = grid_.index(0, j, k);
+  for (int i = 0; i < geometry_.extent[d][0]; ++i) {
+    const std::ptrdiff_t o = row + i;
+    double& force = force_.component[d][o];
+    force = 0.0;
+    if (!is_unknown(geometry_.kind[d][o])) continue;
+    const double above = 2.0 * viscosity_[o] * (v[o + s] - v[o]) / h;
+    const double below = 2.0 * viscosity_[o - s] * (v[o] - v[o - s]) / h;
+    force = (above - below) / h;
+    for (int e = 0; e < 3; ++e) {
+      if (e == d) continue;
+      const std::ptrdiff_t t = grid_.stride[e];
+      const auto& w = u.component[e];
+      // Stress on the edge at the lower corner of face o along e.
+      const auto edge = [&](std::ptrdiff_t at) {
+        const double mean = 0.25 * ((viscosity_[at] + viscosity_[at - s]) +
+                                    (viscosity_[at - t] + viscosity_[at - t - s]));
+        return mean * ((v[at] - v[at - t]) / grid_.spacing[e] + (w[at] - w[at - s]) / h);
+      };
+      force += (edge(o + t) - edge(o)) / grid_.spacing[e];
+    }
+  }
+}
+
+void EddyStress::update(const FaceField& u) {
+  find_viscosity(u);
+  for (int d = 0; d < 3; ++d) {
+    if (!geometry_.has_unknown[d]) continue;
+    const auto& n = geometry_.extent[d];
+    for_rows(n[0], n[1], n[2], [&](int j, int k) { force_row(u, d, j, k); });
+  }
+}
+
+const FaceField& EddyStress::add_to(const FaceField& source, const FaceField& u) {
+  update(u);
+  for (int d = 0; d < 3; ++d) {
+    const auto& n = geometry_.extent[d];
+    for_rows(n[0], n[1], n[2], [&](int j, int k) {
+      const std::ptrdiff_t o = grid_.index(0, j, k);
+      for (int i = 0; i < n[0]; ++i) {
+        sum_.component[d][o + i] = source.component[d][o + i] + force_.component[d][o + i];
+      }
+    });
+  }
+  return sum_;
+}
+
+}  // namespace dust::fluid

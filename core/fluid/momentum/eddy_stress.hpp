@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bodies/body_set.hpp"
+#include "dust/sdk/turbulence_model.hpp"
+#include "fluid/face_properties.hpp"
+#include "fluid/geometry/geometry.hpp"
+#include "fluid/sides.hpp"
+
+#include <array>
+
+namespace dust::fluid {
+
+/// Stress of the motion smaller than a cell, by the eddy viscosity of a model:
+///   tau_ij = mu_t (d_i u_j + d_j u_i) .
+/// Taken explicitly and as differences of fluxes between neighbouring faces: what one loses the
+/// next one gains. A model of cell size is stable wherever convection is: with mu_t of
+/// (0.2 h)^2 rho |S| the diffusion number is below 0.25 times the Courant number.
+class EddyStress {
+ public:
+  /// Walls among the sides (where the fluid sticks and none is blown through at the start) are
+  /// those of the beginning. `start`: velocities with filled halos.
+  EddyStress(const Grid& grid, const Geometry& geometry, const Sides& sides,
+             const FaceProperties& properties, const bodies::BodySet& bodies,
+             const sdk::TurbulenceModel& model, const FaceField& start);
+
+  /// Distances from the bodies where they are at `time` [s].
+  void bodies_moved(const bodies::BodySet& bodies, double time);
+  /// Eddy viscosity and force for a velocity with filled halos.
+  void update(const FaceField& u);
+  /// [Pa s] per cell; 0 in bodies.
+  [[nodiscard]] const CellField& eddy_viscosity() const { return viscosity_; }
+  /// `source` with the force for the velocity `u`; valid until the next call.
+  const FaceField& add_to(const FaceField& source, const FaceField& u);
+  /// [N/m3] div tau at unknown faces, 0 elsewhere.
+  [[nodiscard]] const FaceField& force() const { return force_; }
+
+ private:
+  void find_walls(const FaceField& start);
+  void find_distances(const bodies::BodySet& bodies, double time);
+  void find_viscosity(const FaceField& u);
+  void force_row(const FaceField& u, int d, int j, int k);
+
+  const Grid& grid_;
+  const Geometry& geometry_;
+  const Sides& sides_;
+  const FaceProperties& properties_;
+  const sdk::TurbulenceModel& model_;
+  double filter_width_ = 0.0;
+  std::array<bool, 6> is_wall_{};  ///< sides
+  CellField distance_;             ///< [m]
+  CellField density_;
+  CellField molecular_;
+  CellField rate_;  ///< [1/s]
+  CellField viscosity_;
+  FaceField force_;
+  FaceField sum_;  ///< storage of add_to()
+};
+
+}  // namespace dust::fluid

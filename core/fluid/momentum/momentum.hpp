@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fluid/face_properties.hpp"
+#include "fluid/geometry/geometry.hpp"
+#include "fluid/grid.hpp"
+#include "fluid/sides.hpp"
+
+#include <array>
+#include <vector>
+
+namespace dust::fluid {
+
+/// Convection, viscous stencils and the implicit solve of the momentum equation.
+class Momentum {
+ public:
+  Momentum(const Grid& grid, const Geometry& geometry, const Sides& sides,
+           const FaceProperties& properties);
+
+  /// After the geometry was built anew.
+  void geometry_changed();
+  /// flux = mean void fraction of the two cells x velocity, everywhere including halos.
+  void find_flux(const FaceField& u, const CellField& eps);
+  /// out = u . grad u of component `d` at row (j, k) (extent_x numbers), from the last find_flux.
+  /// `smoothness` [m2/s2]: squared steps of velocity below this are taken as smooth.
+  void convection_row(const FaceField& u, const CellField& eps, double smoothness, int d, int j,
+                      int k, double* out) const;
+
+  /// out = div F [1/s] of the control volumes of that row, from the last find_flux; meaningless on
+  /// the sides themselves.
+  void outflow_row(int d, int j, int k, double* out) const;
+
+  /// Prepares (1 + implicit (coefficient - viscosity laplace) / inertia) for `solve`; implicit [s].
+  /// `has_drag` = false: the coefficient is 0 everywhere.
+  void prepare(double implicit, const FaceField& coefficient, bool has_drag);
+  /// Solves the prepared system for `u` (start values in, halos filled for sweeps).
+  void solve(const FaceField& right, FaceField& u);
+  /// Sweeps of the last prepared system.
+  [[nodiscard]] int sweeps() const { return sweeps_; }
+
+  /// out = viscosity laplace(u) [N/m3] at unknown faces, 0 elsewhere; halos filled for velocity.
+  void viscous_force(const FaceField& u, FaceField& out) const;
+  /// Velocity inside the bodies. Deep ghosts hold the surface's velocity and change with it alone;
+  /// uncrossed ones are those through whose faces no fluid passes.
+  enum class Ghosts { all, but_deep, uncrossed };
+  void extend(FaceField& u, Ghosts which) const;
+  /// Largest sum over the directions of |u| / h [1/s] and largest |component| [m/s]; infinite
+  /// where a number is not finite.
+  struct Rates {
+    double courant = 0.0;
+    double speed = 0.0;
+  };
+  [[nodiscard]] Rates rates(const FaceField& u);
+
+ private:
+  struct RowWeights {
+    double y_low, y_high, z_low, z_high;
+  };
+  [[nodiscard]] RowWeights row_weights(int d, int j, int k) const;
+  /// Nothing of component d varies along e.
+  [[nodiscard]] bool is_even(int d, int e) const;
+  /// Puts convection along the surface in the place of that along the grid where SkewFace says so.
+  void skew_row(const FaceField& u, const CellField& eps, double smoothness, int d, int j, int k,
+                double* out) const;
+  void open_side_row(const FaceField& u, int d, int j, int k, double* out) const;
+
+  const Grid& grid_;
+  const Geometry& geometry_;
+  const Sides& sides_;
+  const FaceProperties& properties_;
+  double implicit_ = 0.0;
+  bool is_plain_ = false;  ///< prepared for a uniform fluid without drag
+  double relaxation_ = 1.0;
+  int sweeps_ = 1;
+  FaceField flux_;
+  FaceField inverse_;  ///< of the diagonal; 0 where the plain stencil does not hold
+  std::array<std::vector<double>, 3> cut_inverse_;
+  std::vector<double> partial_;
+  std::vector<double> partial_speed_;
+};
+
+}  // namespace dust::fluid

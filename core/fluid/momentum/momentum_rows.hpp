@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/plugin.hpp"
+#include "fluid/geometry/geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+/// Loops of the momentum equation over rows of faces: the inside of momentum.cpp, which alone
+/// includes this. Internal linkage, so that each kernel's versions stay next to its calls.
+namespace dust::fluid {
+namespace {
+
+/// Value between cells with upstream neighbours: `up`, `at`, and `down` behind the face. Two slopes
+/// are blended (weights 1/3 upwind, 2/3 central in smooth flow: third order; the smoother one next
+/// to a jump), after Jiang and Shu (1996) 10.1006/jcph.1996.0130 with the global smoothness
+/// indicator of Yamaleev and Carpenter (2009) 10.1016/j.jcp.2009.01.011.
+inline __attribute__((always_inline)) double face_value(double up, double at, double down,
+                                                        double smoothness) {
+  const double behind = at - up;
+  const double ahead = down - at;
+  const double b0 = ahead * ahead + smoothness;
+  const double b1 = behind * behind + smoothness;
+  const double bend = (ahead - behind) * (ahead - behind);
+  const double w0 = 2.0 * (b0 + bend) * b1;
+  const double w1 = (b1 + bend) * b0;
+  return at + 0.5 * (behind + (w0 / (w0 + w1)) * (ahead - behind));
+}
+
+DUST_KERNEL void convect_row(int n, std::ptrdiff_t s, std::ptrdiff_t across, double inverse_h,
+                             double smoothness, const double* flux, const double* u, double* out) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double high = 0.5 * (flux[i + s] + flux[i + s - across]);
+    const double low = 0.5 * (flux[i] + flux[i - across]);
+    const double m2 = u[i - 2 * s];
+    const double m1 = u[i - s];
+    const double c = u[i];
+    const double p1 = u[i + s];
+    const double p2 = u[i + 2 * s];
+    const bool high_out = high > 0.0;
+    const bool low_in = low > 0.0;
+    const double at_high =
+        face_value(high_out ? m1 : p2, high_out ? c : p1, high_out ? p1 : c, smoothness);
+    const double at_low =
+        face_value(low_in ? m2 : p1, low_in ? m1 : c, low_in ? c : m1, smoothness);
+    out[i] += inverse_h * (high * (at_high - c) - low * (at_low - c));
+  }
+}
+
+/// Adds what flows out of the control volumes of a row along one direction, per volume [1/s].
+DUST_KERNEL void outflow_row_along(int n, std::ptrdiff_t s, std::ptrdiff_t across, double inverse_h,
+                                   const double* flux, double* out) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double high = 0.5 * (flux[i + s] + flux[i + s - across]);
+    const double low = 0.5 * (flux[i] + flux[i - across]);
+    out[i] += inverse_h * (high - low);
+  }
+}
+
+DUST_KERNEL void divide_by_face_eps_row(int n, std::ptrdiff_t across, const double* eps,
+                                        double* out) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) out[i] /= 0.5 * (eps[i] + eps[i - across]);
+}
+
+DUST_KERNEL void flux_row(int n, std::ptrdiff_t across, const double* eps, const double* u,
+                          double* flux) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) flux[i] = 0.5 * (eps[i] + eps[i - across]) * u[i];
+}
+
+DUST_KERNEL void inverse_row(int n, double implicit, double sum, double inverse_density,
+                             const double* coefficient, const FaceKind* kind, double* inverse) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double d = 1.0 / (1.0 + implicit * (coefficient[i] * inverse_density + sum));
+    inverse[i] = kind[i] == FaceKind::plain ? d : 0.0;
+  }
+}
+
+/// The same with viscosity and 1 / inertia per face; `sum` in 1/m2.
+DUST_KERNEL void inverse_row_each(int n, double implicit, double sum, const double* inertia,
+                                  const double* viscosity, const double* coefficient,
+                                  const FaceKind* kind, double* inverse) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double d = 1.0 / (1.0 + implicit * inertia[i] * (coefficient[i] + viscosity[i] * sum));
+    inverse[i] = kind[i] == FaceKind::plain ? d : 0.0;
+  }
+}
+
+DUST_KERNEL void sweep_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, int parity, double omega,
+                           double ax, double y_low, double y_high, double z_low, double z_high,
+                           const double* right, const double* inverse, double* u) {
+  const double* old = u;
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double t = (right[i] + ax * (old[i - 1] + old[i + 1]) + y_low * old[i - sy] +
+                      y_high * old[i + sy] + z_low * old[i - sz] + z_high * old[i + sz]) *
+                     inverse[i];
+    const bool takes = inverse[i] > 0.0 && ((i + parity) & 1) == 0;
+    const double next = old[i] + omega * (t - old[i]);
+    u[i] = takes ? next : old[i];
+  }
+}
+
+/// The same where nothing varies along y.
+DUST_KERNEL void flat_sweep_row(int n, std::ptrdiff_t sz, int parity, double omega, double ax,
+                                double z_low, double z_high, const double* right,
+                                const double* inverse, double* u) {
+  const double* old = u;
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double t =
+        (right[i] + ax * (old[i - 1] + old[i + 1]) + z_low * old[i - sz] + z_high * old[i + sz]) *
+        inverse[i];
+    const bool takes = inverse[i] > 0.0 && ((i + parity) & 1) == 0;
+    const double next = old[i] + omega * (t - old[i]);
+    u[i] = takes ? next : old[i];
+  }
+}
+
+/// The same with viscosity and 1 / inertia per face; weights in s/m2.
+DUST_KERNEL void sweep_row_each(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, int parity,
+                                double omega, double ax, double y_low, double y_high, double z_low,
+                                double z_high, const double* inertia, const double* viscosity,
+                                const double* right, const double* inverse, double* u) {
+  const double* old = u;
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double around = ax * (old[i - 1] + old[i + 1]) + y_low * old[i - sy] +
+                          y_high * old[i + sy] + z_low * old[i - sz] + z_high * old[i + sz];
+    const double t = (right[i] + viscosity[i] * inertia[i] * around) * inverse[i];
+    const bool takes = inverse[i] > 0.0 && ((i + parity) & 1) == 0;
+    const double next = old[i] + omega * (t - old[i]);
+    u[i] = takes ? next : old[i];
+  }
+}
+
+DUST_KERNEL void scale_row(int n, const double* factor, double* values) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) values[i] *= factor[i];
+}
+
+DUST_KERNEL void laplace_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, double ax, double ay,
+                             double az, const double* u, const FaceKind* kind, double* out) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double l = ax * ((u[i - 1] - u[i]) + (u[i + 1] - u[i])) +
+                     ay * ((u[i - sy] - u[i]) + (u[i + sy] - u[i])) +
+                     az * ((u[i - sz] - u[i]) + (u[i + sz] - u[i]));
+    out[i] = is_unknown(kind[i]) ? l : 0.0;
+  }
+}
+
+struct RowRates {
+  double courant = 0.0;
+  double speed = 0.0;
+  double bad = 0.0;
+};
+
+// Ghost faces carry mirrored values that nothing is carried with: left out. A number that is not
+// finite makes its product with 0 differ from 0 and stays in the sum.
+DUST_KERNEL void rate_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, double hx, double hy,
+                          double hz, const FaceKind* ku, const FaceKind* kv, const FaceKind* kw,
+                          const double* u, const double* v, const double* w, double* courant,
+                          double* speed, double* bad) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double u0 = ku[i] == FaceKind::inside ? 0.0 : std::abs(u[i]);
+    const double u1 = ku[i + 1] == FaceKind::inside ? 0.0 : std::abs(u[i + 1]);
+    const double v0 = kv[i] == FaceKind::inside ? 0.0 : std::abs(v[i]);
+    const double v1 = kv[i + sy] == FaceKind::inside ? 0.0 : std::abs(v[i + sy]);
+    const double w0 = kw[i] == FaceKind::inside ? 0.0 : std::abs(w[i]);
+    const double w1 = kw[i + sz] == FaceKind::inside ? 0.0 : std::abs(w[i + sz]);
+    const double a = u0 > u1 ? u0 : u1;
+    const double b = v0 > v1 ? v0 : v1;
+    const double c = w0 > w1 ? w0 : w1;
+    courant[i] = a * hx + b * hy + c * hz;
+    const double ab = a > b ? a : b;
+    speed[i] = ab > c ? ab : c;
+    bad[i] = 0.0 * (u[i] + v[i] + w[i]);
+  }
+}
+
+RowRates largest_of(int n, const double* courant, const double* speed, const double* bad) {
+  double c[4] = {};
+  double s[4] = {};
+  double b[4] = {};
+  for (int i = 0; i < n; ++i) {
+    const int l = i & 3;
+    c[l] = courant[i] > c[l] ? courant[i] : c[l];
+    s[l] = speed[i] > s[l] ? speed[i] : s[l];
+    b[l] += bad[i];
+  }
+  return {std::max(std::max(c[0], c[1]), std::max(c[2], c[3])),
+          std::max(std::max(s[0], s[1]), std::max(s[2], s[3])), b[0] + b[1] + b[2] + b[3]};
+}
+
+}  // namespace
+}  // namespace dust::fluid

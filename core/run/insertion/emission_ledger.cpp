@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/insertion/emission_ledger.hpp"
+
+namespace dust::run {
+
+void EmissionLedger::enter(std::size_t emitter, double diameter, double weight, double grain_mass) {
+  ++lines_[emitter][{diameter, weight, grain_mass}];
+}
+
+std::vector<EmissionLedger::Line> EmissionLedger::lines_of(std::size_t emitter) const {
+  std::vector<Line> lines;
+  for (const auto& [key, count] : lines_[emitter]) {
+    lines.push_back({key.diameter, key.weight, count, key.grain_mass});
+  }
+  return lines;
+}
+
+EmissionLedger::Totals EmissionLedger::totals_of(std::size_t emitter) const {
+  Totals t;
+  for (const auto& [key, count] : lines_[emitter]) {
+    t.computed += count;
+    t.real += key.weight * static_cast<double>(count);
+    t.mass += key.weight * static_cast<double>(count) * key.grain_mass;
+  }
+  return t;
+}
+
+void EmissionLedger::save(sdk::ArchiveWriter& archive) const {
+  std::vector<double> numbers;
+  std::vector<std::int64_t> integers;
+  for (std::size_t e = 0; e < lines_.size(); ++e) {
+    for (const auto& [key, count] : lines_[e]) {
+      numbers.insert(numbers.end(), {key.diameter, key.weight, key.grain_mass});
+      integers.insert(integers.end(), {static_cast<std::int64_t>(e), count});
+    }
+  }
+  archive.numbers("emission_numbers", numbers);
+  archive.integers("emission_counts", integers);
+}
+
+void EmissionLedger::load(sdk::ArchiveReader& archive) {
+  const auto numbers = archive.numbers("emission_numbers");
+  const auto integers = archive.integers("emission_counts");
+  for (auto& lines : lines_) lines.clear();
+  for (std::size_t n = 0; 2 * n + 1 < integers.size(); ++n) {
+    lines_.at(static_cast<std::size_t>(
+        integers[2 * n]))[{numbers[3 * n], numbers[3 * n + 1], numbers[3 * n + 2]}] =
+        integers[2 * n + 1];
+  }
+}
+
+}  // namespace dust::run

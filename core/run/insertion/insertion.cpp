@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/insertion/insertion.hpp"
+
+#include "dust/sdk/error.hpp"
+#include "dust/sdk/sphere.hpp"
+#include "setup/mark.hpp"
+
+#include <utility>
+
+namespace dust::run {
+namespace {
+
+EntryScene entry_scene_of(const scenario::Setup& setup, const Models& models) {
+  EntryScene scene;
+  scene.min = setup.domain.min;
+  scene.max = setup.domain.max;
+  for (std::size_t d = 0; d < 3; ++d) {
+    scene.is_periodic[d] = setup.domain.sides[2 * d].grains == scenario::GrainSide::periodic;
+  }
+  scene.surfaces = particles::surfaces_of(setup, models.bodies);
+  for (std::size_t n = 0; n < models.emitters.size(); ++n) {
+    const auto& choice = setup.emitters[n].model;
+    scene.rules.push_back(models.emitters[n]->entry_rule());
+    scene.names.push_back(scenario::place(choice.where) + ": error: " + choice.path);
+  }
+  return scene;
+}
+
+/// The turned frame of an emitter, if it has one.
+const scenario::FrameSpec* frame_of(const scenario::Setup& setup, std::size_t emitter) {
+  const int frame = setup.emitters[emitter].frame;
+  return frame >= 0 ? &setup.frames[static_cast<std::size_t>(frame)] : nullptr;
+}
+
+}  // namespace
+
+Insertion::Insertion(const scenario::Setup& setup, const Models& models)
+    : setup_(setup),
+      models_(models),
+      scene_(entry_scene_of(setup, models)),
+      ledger_(models.emitters.size()) {}
+
+void Insertion::propose(double time, const particles::GrainRows& rows) {
+  for (std::size_t n = 0; n < models_.emitters.size(); ++n) {
+    propose(n, time, time + setup_.time.fluid_step, rows);
+  }
+}
+
+void Insertion::propose(std::size_t n, double begin, double end, const particles::GrainRows& rows) {
+  const auto& spec = setup_.emitters[n];
+  sdk::EmitterContext context;
+  context.begin = begin;
+  context.end = end;
+  context.grain_density =
+      setup_.materials[static_cast<std::size_t>(spec.material)].properties.density;
+  context.gravity = setup_.gravity;
+  context.random = sdk::Random(setup_.seed, sdk::stream_of(spec.name.c_str()));
+  const LazySurroundings surroundings(scene_, rows, waiting_, models_.class_diameters.back(),
+                                      frame_of(setup_, n));
+  context.surroundings = &surroundings;
+  seeds_.clear();
+  try {
+    models_.emitters[n]->propose(context, seeds_);
+  } catch (const std::exception& problem) {
+    throw sdk::ModelError(scene_.names[n] + ": " + problem.what());
+  }
+  for (const sdk::Seed& seed : seeds_) add_waiting(n, begin, seed);
+}
+
+void Insertion::add_waiting(std::size_t n, double begin, const sdk::Seed& seed) {
+  const auto& spec = setup_.emitters[n];
+  const scenario::FrameSpec* frame = frame_of(setup_, n);
+  // Carried back to the beginning of the interval; inside the feed nothing but the feed acts.
+  Entrant e;
+  e.emitter = static_cast<std::int32_t>(n);
+  e.line = seed.line;
+  particles::NewGrain& grain = e.grain;
+  grain.position = seed.position - (seed.time - begin) * seed.velocity;
+  grain.velocity = seed.velocity;
+  grain.rotation = seed.rotation;
+  if (frame != nullptr) {
+    const sdk::Vec3 axis = frame->axis / norm(frame->axis);
+    grain.position = turned(grain.position, *frame);
+    grain.velocity = rotate(grain.velocity, axis, frame->angle);
+    grain.rotation = rotate(grain.rotation, axis, frame->angle);
+  }
+  grain.diameter = seed.diameter;
+  grain.weight = seed.weight;
+  grain.material = seed.material < 0
+                       ? spec.material
+                       : spec.more_materials.at(static_cast<std::size_t>(seed.material));
+  waiting_.push_back(e);
+}
+
+void Insertion::start(particles::Dem& dem) {
+  insert(0.0, dem);
+  is_started_ = true;
+}
+
+bool Insertion::run(double time, particles::Dem& dem) {
+  if (std::exchange(is_started_, false)) return false;
+  insert(time, dem);
+  return true;
+}
+
+void Insertion::insert(double time, particles::Dem& dem) {
+  scene_.time = time;
+  propose(time, dem.rows());
+  dem.remove_leavers();
+  const auto entering = take_free_places(waiting_, dem.rows(), scene_);
+  delayed_ += static_cast<std::int64_t>(waiting_.size());
+  if (entering.empty()) return;
+  std::vector<particles::NewGrain> grains;
+  grains.reserve(entering.size());
+  for (const Entrant& e : entering) {
+    grains.push_back(e.grain);
+    const auto& material = setup_.materials[static_cast<std::size_t>(e.grain.material)];
+    ledger_.enter(static_cast<std::size_t>(e.emitter), e.grain.diameter, e.grain.weight,
+                  material.properties.density * sdk::sphere_volume(e.grain.diameter));
+  }
+  dem.insert(grains);
+}
+
+void Insertion::save(sdk::ArchiveWriter& archive) const {
+  archive.integer("delayed_entries", delayed_);
+  archive.integer("is_started", is_started_ ? 1 : 0);
+  save_waiting(waiting_, archive);
+  ledger_.save(archive);
+}
+
+void Insertion::load(sdk::ArchiveReader& archive) {
+  delayed_ = archive.integer("delayed_entries");
+  is_started_ = archive.integer("is_started") != 0;
+  load_waiting(waiting_, archive);
+  ledger_.load(archive);
+}
+
+}  // namespace dust::run

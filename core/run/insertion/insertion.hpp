@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/archive.hpp"
+#include "run/insertion/emission_ledger.hpp"
+#include "run/insertion/entry.hpp"
+#include "run/models.hpp"
+#include "setup/setup.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace dust::run {
+
+/// Particles into the domain: what emitters propose, and what finds a free place.
+class Insertion {
+ public:
+  /// Both are kept by reference.
+  Insertion(const scenario::Setup& setup, const Models& models);
+
+  /// Lets in what is there before the first step, which then asks no emitter. Throws ModelError
+  /// where that is impossible.
+  void start(particles::Dem& dem);
+  /// Lets in what the emitters propose for a fluid step from `time` [s] on; false: the step's are
+  /// in since start().
+  bool run(double time, particles::Dem& dem);
+
+  /// Particles that had to wait a fluid step or more because their place was taken, and those
+  /// waiting.
+  [[nodiscard]] std::int64_t delayed() const { return delayed_; }
+  [[nodiscard]] const std::vector<Entrant>& waiting() const { return waiting_; }
+  [[nodiscard]] const EmissionLedger& ledger() const { return ledger_; }
+
+  void save(sdk::ArchiveWriter& archive) const;
+  void load(sdk::ArchiveReader& archive);
+
+ private:
+  void insert(double time, particles::Dem& dem);
+  void propose(double time, const particles::GrainRows& rows);
+  void propose(std::size_t emitter, double begin, double end, const particles::GrainRows& rows);
+  void add_waiting(std::size_t emitter, double begin, const sdk::Seed& seed);
+
+  const scenario::Setup& setup_;
+  const Models& models_;
+  EntryScene scene_;
+  EmissionLedger ledger_;
+  std::vector<sdk::Seed> seeds_;  ///< storage of what one emitter proposes
+  std::vector<Entrant> waiting_;  ///< proposed, not yet in the domain
+  std::int64_t delayed_ = 0;
+  bool is_started_ = false;  ///< the first step's particles are in already
+};
+
+}  // namespace dust::run

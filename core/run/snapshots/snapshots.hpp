@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fluid/fluid_solver.hpp"
+#include "particles/dem.hpp"
+#include "run/snapshots/columns.hpp"
+#include "run/snapshots/contact_table.hpp"
+#include "setup/setup.hpp"
+
+#include <optional>
+
+namespace dust::run {
+
+/// Copies of particles, contacts and fluid for sensors and files, taken once per fluid step.
+class Snapshots {
+ public:
+  explicit Snapshots(bool wants_contacts) : wants_contacts_(wants_contacts) {}
+
+  /// Where there is a fluid.
+  void use_fluid(const fluid::Grid& grid, const scenario::FluidSpec& fluid,
+                 const fluid::CellField& open_fraction) {
+    fluid_.emplace(grid, fluid, open_fraction);
+  }
+  /// After bodies have moved.
+  void set_open_fraction(const fluid::CellField& open_fraction) {
+    fluid_->set_open_fraction(open_fraction);
+  }
+
+  /// Notes where particles came in since the last copy.
+  void note_births(const particles::GrainRows& rows) { particles_.note_births(rows); }
+  void take(particles::Dem& dem);
+  void take(const fluid::FluidSolver& fluid, const fluid::CellField& void_fraction) {
+    fluid_->publish(fluid, void_fraction);
+  }
+
+  [[nodiscard]] sdk::GrainColumns particles() const { return particles_.columns(); }
+  /// Fills in what there is of particles, contacts and fluid.
+  void show(sdk::WorldView& view) const;
+
+  /// The positions of the copy before.
+  void save(sdk::ArchiveWriter& archive) const { particles_.save(archive); }
+  void load(sdk::ArchiveReader& archive) { particles_.load(archive); }
+
+ private:
+  GrainTable particles_;
+  ContactTable contacts_;
+  bool wants_contacts_;
+  std::optional<FluidTable> fluid_;
+};
+
+}  // namespace dust::run

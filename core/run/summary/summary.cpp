@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/summary/summary.hpp"
+
+#include "base/log.hpp"
+#include "bodies/seen_edges.hpp"
+#include "dust/sdk/plugin.hpp"
+#include "io/atomic_file.hpp"
+#include "io/run_files.hpp"
+#include "particles/balance_book.hpp"
+#include "run/summary/references.hpp"
+#include "run/summary/summary_emitters.hpp"
+#include "run/summary/summary_models.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace dust::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* k_compiler =
+#if defined(__clang__)
+    "clang " __clang_version__;
+#elif defined(__GNUC__)
+    "g++ " __VERSION__;
+#else
+    "unknown";
+#endif
+constexpr const char* k_processor =
+#if defined(__x86_64__)
+    "x86-64";
+#elif defined(__aarch64__)
+    "aarch64";
+#else
+    "unknown";
+#endif
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// Figures of a sensor as JSON: {"path": {"value", "unit", "uncertainty"}}.
+class JsonFigures final : public sdk::FigureSink {
+ public:
+  void figure(std::string_view name, double value, std::string_view unit,
+              double uncertainty) override {
+    json_[std::string(name)] = {
+        {"value", number(value)},
+        {"unit", unit},
+        {"uncertainty", uncertainty < 0.0 ? Json(nullptr) : number(uncertainty)}};
+  }
+  [[nodiscard]] const Json& json() const { return json_; }
+
+ private:
+  Json json_ = Json::object();
+};
+
+class RowFigures final : public sdk::FigureSink {
+ public:
+  RowFigures(SeriesRow& row, std::string prefix, const sdk::Sensor& sensor)
+      : row_(row), prefix_(std::move(prefix)), sensor_(sensor) {}
+  void figure(std::string_view name, double value, std::string_view unit, double) override {
+    row_.names.push_back(prefix_ + std::string(name) + " [" + std::string(unit) + "]");
+    row_.values.push_back(value);
+    row_.kinds.push_back(sensor_.row_value(name));
+  }
+
+ private:
+  SeriesRow& row_;
+  std::string prefix_;
+  const sdk::Sensor& sensor_;
+};
+
+/// What each column of series.csv stands for, however seldom rows are written.
+Json series_columns(const Simulation& s) {
+  static constexpr const char* k_kinds[] = {"instant", "mean", "total"};
+  const SeriesRow row = series_row(s);
+  Json columns = Json::object();
+  for (std::size_t c = 0; c < row.names.size(); ++c) {
+    columns[row.names[c]] = k_kinds[static_cast<int>(row.kinds[c])];
+  }
+  return columns;
+}
+
+class JsonReport final : public sdk::ReportSink {
+ public:
+  void section(std::string_view heading, std::string_view text) override {
+    sections_.push_back({{"sensor", sensor_}, {"heading", heading}, {"text", text}});
+  }
+  void curve(std::string_view title, std::string_view x_label, std::string_view y_label,
+             std::string_view series, std::span<const double> x,
+             std::span<const double> y) override {
+    Json xs = Json::array();
+    Json ys = Json::array();
+    for (const double v : x) xs.push_back(number(v));
+    for (const double v : y) ys.push_back(number(v));
+    curves_.push_back({{"sensor", sensor_},
+                       {"title", title},
+                       {"x_label", x_label},
+                       {"y_label", y_label},
+                       {"series", series},
+                       {"x", xs},
+                       {"y", ys}});
+  }
+  void row(std::string_view title, std::span<const std::string> columns,
+           std::span<const double> values) override {
+    const std::string key(title);
+    if (!place_.contains(sensor_ + key)) {
+      place_[sensor_ + key] = tables_.size();
+      tables_.push_back(
+          {{"sensor", sensor_}, {"title", key}, {"columns", columns}, {"rows", Json::array()}});
+    }
+    Json cells = Json::array();
+    for (const double v : values) cells.push_back(number(v));
+    tables_[place_[sensor_ + key]]["rows"].push_back(cells);
+  }
+  /// Whose parts follow.
+  void begin(const std::string& sensor) { sensor_ = sensor; }
+  [[nodiscard]] Json take_sections() { return std::move(sections_); }
+  [[nodiscard]] Json take_curves() { return std::move(curves_); }
+  [[nodiscard]] Json take_tables() { return std::move(tables_); }
+
+ private:
+  std::string sensor_;
+  Json sections_ = Json::array();
+  Json curves_ = Json::array();
+  Json tables_ = Json::array();
+  std::map<std::string, std::size_t> place_;
+};
+
+Json counts(const particles::Balance& b) {
+  return {{"emitted", b.emitted},
+          {"in_domain", b.in_domain},
+          {"left", b.left},
+          {"removed", b.removed},
+          {"max", b.max}};
+}
+
+std::vector<graph::NodeTiming> node_timings(const Simulation& s) {
+  auto nodes = s.dem_graph().timings();
+  const auto more = s.step_graph().timings();
+  nodes.insert(nodes.end(), more.begin(), more.end());
+  return nodes;
+}
+
+Json node_times(const Simulation& s, const RunFacts& facts) {
+  Json times = Json::object();
+  const auto nodes = node_timings(s);
+  const auto seconds = facts.node_s.empty() ? node_seconds(s, {}) : facts.node_s;
+  for (std::size_t n = 0; n < nodes.size(); ++n) times[nodes[n].name] = seconds.at(n);
+  times["output"] = facts.output_s;
+  return times;
+}
+
+Json class_steps(const particles::Dem& dem) {
+  Json rows = Json::array();
+  for (const auto& c : dem.class_steps()) {
+    const auto m = dem.book().masses_of(c.diameter);
+    rows.push_back({{"diameter_m", c.diameter},
+                    {"rayleigh_time_s", c.rayleigh_time},
+                    {"hertz_time_s", c.hertz_time},
+                    {"stable_step_s", c.stable_step},
+                    {"level", c.level},
+                    {"mass_kg",
+                     {{"emitted", m.emitted},
+                      {"in_domain", m.in_domain},
+                      {"left", m.left},
+                      {"removed", m.removed}}}});
+  }
+  return rows;
+}
+
+Json health(const Simulation& s) {
+  Json h = Json::object();
+  h["entries_delayed"] = s.insertion().delayed();
+  h["entries_waiting"] = s.insertion().waiting().size();
+  h["contacts_seen_late"] = s.dem().report().contacts_seen_late;
+  const auto overlaps = s.dem().report();
+  h["largest_overlap_over_radius"] = overlaps.largest_overlap;
+  h["largest_overlap_over_radius_coarse"] = overlaps.largest_coarse_overlap;
+  h["largest_overlap_over_radius_fine"] = overlaps.largest_fine_overlap;
+  if (s.coupling() != nullptr) {
+    const auto& c = s.coupling()->report();
+    h["voidage_shares_moved_to_open_cells"] = c.moved_shares;
+    h["voidage_cells_relieved"] = c.relieved_cells;
+    h["grains_without_open_cell"] = c.unplaced_grains;
+    h["drag_components_without_open_face"] = c.unpaired_forces;
+    h["smallest_void_fraction"] = c.smallest_void_fraction;
+    h["largest_diameter_over_spacing"] = c.largest_diameter_over_spacing;
+    h["limit_of_diameter_over_spacing"] = s.models().voidage->largest_diameter_over_spacing();
+    h["largest_momentum_imbalance"] = c.largest_imbalance;
+  }
+  if (s.fluid() != nullptr) {
+    h["last_divergence_per_s"] = s.fluid()->report().divergence;
+    h["last_courant_number"] = s.fluid()->report().courant_number;
+    h["fluid_sub_steps"] = s.fluid_stage()->sub_steps();
+    h["pressure_iterations"] = s.fluid_stage()->pressure_iterations();
+  }
+  return h;
+}
+
+Json outlines(const Simulation& s) {
+  Json all = Json::array();
+  const auto& domain = s.setup().domain;
+  const sdk::Vec3 size = domain.max - domain.min;
+  const double longest = std::max({size.x, size.y, size.z});
+  constexpr double k_pieces = 100.0;  // of what is round, along the longest side
+  for (const auto& body : s.models().bodies) {
+    // A turned body is cut in its own frame: a larger box, the picture clips.
+    const sdk::Vec3 more = body.frame_angle != 0.0 ? size : sdk::Vec3{};
+    const auto t = body.triangles(domain.min - more, domain.max + more, longest / k_pieces);
+    // Front and back edges lie on each other: one is enough.
+    std::set<std::array<double, 4>> lines;
+    for (const auto& [a, b] : bodies::seen_edges(t, 1, longest)) {
+      const auto rounded = [&](double v) { return 1e-6 * longest * std::round(1e6 * v / longest); };
+      std::array<double, 4> line{rounded(a.x), rounded(a.z), rounded(b.x), rounded(b.z)};
+      if (std::pair(line[2], line[3]) < std::pair(line[0], line[1])) {
+        line = {line[2], line[3], line[0], line[1]};
+      }
+      // An edge along y is seen from its end.
+      if (line[0] != line[2] || line[1] != line[3]) lines.insert(line);
+    }
+    Json segments = Json::array();
+    for (const auto& l : lines) segments.push_back({{l[0], l[1]}, {l[2], l[3]}});
+    all.push_back({{"body", body.name}, {"segments", segments}});
+  }
+  return all;
+}
+
+/// Of the memory held now, what stands in pages of 2 MB; 0 where nobody tells.
+std::int64_t huge_page_bytes() {
+  std::ifstream file("/proc/self/smaps_rollup");
+  std::string word;
+  while (file >> word) {
+    std::int64_t kibibytes = 0;
+    if (word == "AnonHugePages:" && file >> kibibytes) return 1024 * kibibytes;
+  }
+  return 0;
+}
+
+/// What was run, and what it cost.
+Json run_json(const Simulation& s, const RunFacts& facts) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  Json j;
+  j["scenario"] = s.setup().name;
+  j["version"] = DUST_VERSION;
+  j["status"] = facts.status;
+  if (!facts.reason.empty()) j["reason"] = facts.reason;
+  j["threads"] = facts.threads;
+  j["wall_s"] = facts.wall_s;
+  j["cpu_s"] = facts.cpu_s;
+  j["peak_rss_bytes"] = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+  j["huge_page_bytes"] = huge_page_bytes();
+  return j;
+}
+
+/// What was computed: time, steps, particles and their masses.
+Json amounts_json(const Simulation& s) {
+  const auto& b = s.dem().balance();
+  const auto dem = s.dem().report();
+  Json j;
+  j["simulated_s"] = s.time();
+  j["dem_step_s"] = s.dem().coarse_step();
+  j["dem_steps"] = dem.steps;
+  j["fluid_steps"] = s.fluid() != nullptr ? s.steps_done() : 0;
+  j["particle_steps"] = dem.particle_steps;
+  j["fine_particle_steps"] = dem.fine_steps;
+  j["neighbour_rebuilds"] = dem.rebuilds;
+  j["contacts"] = dem.contacts;
+  j["particles"] = counts(b);
+  j["real_particles"] = {{"emitted", b.real_emitted},
+                         {"in_domain", b.real_in_domain},
+                         {"left", b.real_left},
+                         {"removed", b.real_removed}};
+  j["mass_kg"] = {{"emitted", b.mass_emitted},
+                  {"in_domain", b.mass_in_domain},
+                  {"left", b.mass_left},
+                  {"removed", b.mass_removed}};
+  j["emitters"] = emitters_json(s);
+  j["size_classes"] = s.models().class_diameters.empty() ? Json::array() : class_steps(s.dem());
+  return j;
+}
+
+/// Times of the phases, checks, and by what all was made.
+Json record_json(const Simulation& s, const RunFacts& facts) {
+  Json j;
+  j["timers_s"] = node_times(s, facts);
+  j["health"] = health(s);
+  j["warnings"] = facts.warnings;
+  j["frames"] = facts.frames;
+  j["series"] = series_columns(s);
+  j["scenario_sha256"] = facts.scenario_sha256;
+  j["state_sha256"] = s.state_digest();
+  j["build"] = {{"compiler", k_compiler},
+                {"processor", k_processor},
+                {"plugin_interface", sdk::k_interface_version}};
+  if (facts.registry != nullptr) j["plugins"] = plugins_json(s.setup(), *facts.registry);
+  return j;
+}
+
+/// The sensors' figures; what they have for the report goes there.
+Json sensors_json(const Simulation& s, JsonReport& report) {
+  Json sensors = Json::object();
+  for (std::size_t n = 0; n < s.models().sensors.size(); ++n) {
+    const std::string& name = s.setup().sensors[n].name;
+    JsonFigures figures;
+    s.models().sensors[n]->summary(figures);
+    sensors[name] = figures.json();
+    report.begin(name);
+    s.models().sensors[n]->report(report);
+  }
+  return sensors;
+}
+
+/// Curves from elsewhere stand among those of their sensors, marked as such.
+void add_reference_curves(const std::vector<scenario::ReferenceCurve>& references, Json& curves) {
+  for (const scenario::ReferenceCurve& c : references) {
+    curves.push_back({{"sensor", c.sensor},
+                      {"title", c.axes.title},
+                      {"x_label", c.axes.x_label},
+                      {"y_label", c.axes.y_label},
+                      {"series", c.source},
+                      {"kind", "reference"},
+                      {"x", c.x},
+                      {"y", c.y}});
+  }
+}
+
+/// What the report needs beyond the other files.
+Json report_json(const Simulation& s, const RunFacts& facts, JsonReport& report) {
+  Json r;
+  r["title"] = s.setup().name;
+  r["sections"] = report.take_sections();
+  r["curves"] = report.take_curves();
+  add_reference_curves(facts.reference_curves, r["curves"]);
+  r["tables"] = report.take_tables();
+  add_emitter_tables(s, r["tables"]);
+  r["outline"] = outlines(s);
+  r["classes"] = s.models().class_diameters;
+  if (facts.registry != nullptr) r["setting"] = setting_json(s.setup(), *facts.registry);
+  r["graph_dot"] = graph_dot(s);
+  return r;
+}
+
+}  // namespace
+
+SeriesRow series_row(const Simulation& s) {
+  SeriesRow row;
+  using sdk::RowValue;
+  const auto add = [&row](const char* name, double value, RowValue kind = RowValue::instant) {
+    row.names.emplace_back(name);
+    row.values.push_back(value);
+    row.kinds.push_back(kind);
+  };
+  const auto c = s.world().grains;
+  double translation = 0.0;
+  double rotation = 0.0;
+  for (std::size_t n = 0; n < c.id.size(); ++n) {
+    const double m = c.weight[n] * c.mass[n];
+    const double r = 0.5 * c.diameter[n];
+    translation += 0.5 * m *
+                   (c.velocity_x[n] * c.velocity_x[n] + c.velocity_y[n] * c.velocity_y[n] +
+                    c.velocity_z[n] * c.velocity_z[n]);
+    rotation += 0.2 * m * r * r *
+                (c.angular_velocity_x[n] * c.angular_velocity_x[n] +
+                 c.angular_velocity_y[n] * c.angular_velocity_y[n] +
+                 c.angular_velocity_z[n] * c.angular_velocity_z[n]);
+  }
+  const auto& b = s.dem().balance();
+  add("time [s]", s.time());
+  add("kinetic_energy [J]", translation + rotation);
+  add("particles [1]", static_cast<double>(b.in_domain));
+  add("real_particles [1]", b.real_in_domain);
+  add("mass_emitted [kg]", b.mass_emitted, RowValue::total);
+  add("mass_in_domain [kg]", b.mass_in_domain);
+  add("mass_left [kg]", b.mass_left, RowValue::total);
+  add("mass_removed [kg]", b.mass_removed, RowValue::total);
+  for (std::size_t n = 0; n < s.models().sensors.size(); ++n) {
+    const sdk::Sensor& sensor = *s.models().sensors[n];
+    RowFigures sink(row, s.setup().sensors[n].name + "/", sensor);
+    sensor.series(sink);
+  }
+  return row;
+}
+
+std::vector<double> node_seconds(const Simulation& simulation, const std::vector<double>& before) {
+  std::vector<double> seconds;
+  for (const auto& node : node_timings(simulation)) seconds.push_back(node.seconds);
+  for (std::size_t n = 0; n < std::min(before.size(), seconds.size()); ++n) seconds[n] += before[n];
+  return seconds;
+}
+
+void write_summary(const std::filesystem::path& folder, const Simulation& s,
+                   const RunFacts& facts) {
+  JsonReport report;
+  Json summary = run_json(s, facts);
+  summary.update(amounts_json(s));
+  summary.update(record_json(s, facts));
+  summary["sensors"] = sensors_json(s, report);
+  summary["references"] = references_json(facts.references, summary["sensors"]);
+  for (const std::string& line : reference_lines(summary["references"])) base::log_info(line);
+  io::write_text(folder / "summary.json", summary.dump(2) + "\n");
+  io::write_text(folder / "report.json", report_json(s, facts, report).dump() + "\n");
+}
+
+std::string graph_dot(const Simulation& s) {
+  std::string dot = "digraph dust {\n  rankdir=LR;\n  node [shape=box, fontname=\"sans-serif\"];\n";
+  dot += s.step_graph().dot_cluster(2);
+  dot += s.dem_graph().dot_cluster(2);
+  dot += "  \"fluid_step.dem_cycle\" -> \"dem_step." + s.dem_graph().timings().front().name +
+         "\" [style=dashed, label=\"every DEM step\"];\n}\n";
+  return dot;
+}
+
+}  // namespace dust::run

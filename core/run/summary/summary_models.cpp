@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/summary/summary_models.hpp"
+
+#include "base/finite.hpp"
+#include "bodies/shape.hpp"
+
+#include <cmath>
+#include <optional>
+#include <set>
+#include <tuple>
+
+namespace dust::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using scenario::ModelChoice;
+using sdk::Vec3;
+
+/// A parameter of a model that is a point, if it has one of that name.
+std::optional<Vec3> point_of(const registry::Entry& entry, const ModelChoice& choice,
+                             const char* name) {
+  for (std::size_t n = 0; n < choice.values.size() && n < entry.info.parameters.size(); ++n) {
+    const auto& p = entry.info.parameters[n];
+    if (p.name != name || !(p.dimension == sdk::dimension::length)) continue;
+    const auto* v = std::get_if<Vec3>(&choice.values[n]);
+    // Of a list of places the first.
+    const auto* list = std::get_if<std::vector<Vec3>>(&choice.values[n]);
+    if (list != nullptr && !list->empty()) v = &list->front();
+    if (v != nullptr && base::is_finite(*v)) return *v;
+  }
+  return std::nullopt;
+}
+
+/// A point of a turned frame in the domain's.
+Vec3 in_domain(const scenario::Setup& setup, Vec3 at, int frame_index) {
+  if (frame_index < 0) return at;
+  const auto& frame = setup.frames[static_cast<std::size_t>(frame_index)];
+  return frame.origin + rotate(at - frame.origin, frame.axis / norm(frame.axis), frame.angle);
+}
+
+Json vector_json(Vec3 v) { return {v.x, v.y, v.z}; }
+
+/// Name, model and place of an emitter or a sensor.
+Json thing_json(const scenario::Setup& setup, const registry::Registry& registry,
+                const std::string& name, const ModelChoice& choice, int frame) {
+  Json j = {{"name", name}, {"model", choice.name}};
+  const registry::Entry* entry = registry.find(choice.kind, choice.name);
+  if (entry == nullptr) return j;
+  j["what"] = entry->info.summary;
+  const auto min = point_of(*entry, choice, "min");
+  const auto max = point_of(*entry, choice, "max");
+  if (min && max) {
+    j["min"] = vector_json(in_domain(setup, *min, frame));
+    j["max"] = vector_json(in_domain(setup, *max, frame));
+    return j;
+  }
+  for (const char* key : {"from", "point", "position", "positions", "origin", "center", "centre"}) {
+    if (const auto at = point_of(*entry, choice, key)) {
+      j["at"] = vector_json(in_domain(setup, *at, frame));
+      break;
+    }
+  }
+  return j;
+}
+
+/// Outer radius of the pulley that a belt goes round [m]; 0 where the shape has none.
+double pulley_radius(const ModelChoice& shape) {
+  double radius = 0.0;
+  for (const auto& kind : bodies::shape_catalogue()) {
+    if (kind.name != shape.name || kind.name != "conveyor") continue;
+    for (std::size_t n = 0; n < shape.values.size() && n < kind.parameters.size(); ++n) {
+      const std::string& name = kind.parameters[n].name;
+      const auto* value = std::get_if<double>(&shape.values[n]);
+      if (value != nullptr && (name == "radius" || name == "thickness")) radius += *value;
+    }
+  }
+  return radius;
+}
+
+/// Level bodies whose surface moves at one speed: the start of a free flight.
+Json belts_json(const scenario::Setup& setup, const registry::Registry& registry) {
+  Json list = Json::array();
+  for (const auto& body : setup.bodies) {
+    const bool is_level =
+        body.frame < 0 || setup.frames[static_cast<std::size_t>(body.frame)].angle == 0.0;
+    for (const auto& motion : body.motions) {
+      const registry::Entry* entry = registry.find(motion.kind, motion.name);
+      if (entry == nullptr || !is_level) continue;
+      for (std::size_t n = 0; n < motion.values.size(); ++n) {
+        const auto& p = entry->info.parameters[n];
+        const auto* speed = std::get_if<double>(&motion.values[n]);
+        if (p.name == "speed" && p.dimension == sdk::dimension::velocity && speed != nullptr) {
+          Json belt = {{"name", body.name}, {"speed", *speed}};
+          if (const double radius = pulley_radius(body.shape); radius > 0.0)
+            belt["radius"] = radius;
+          list.push_back(std::move(belt));
+        }
+      }
+    }
+  }
+  return list;
+}
+
+const char* word_of(scenario::GrainSide side) {
+  switch (side) {
+    case scenario::GrainSide::open:
+      return "open";
+    case scenario::GrainSide::wall:
+      return "wall";
+    case scenario::GrainSide::periodic:
+      return "periodic";
+  }
+  return "";
+}
+
+}  // namespace
+
+nlohmann::ordered_json plugins_json(const scenario::Setup& setup,
+                                    const registry::Registry& registry) {
+  std::set<std::tuple<std::string, std::string, std::string>> used;
+  const auto add = [&](const ModelChoice& choice) {
+    // Shapes are the core's own and have no entry.
+    if (const auto* entry = registry.find(choice.kind, choice.name)) {
+      used.emplace(choice.kind, choice.name, entry->info.version);
+    }
+  };
+  const auto add_if = [&](const std::optional<ModelChoice>& choice) {
+    if (choice) add(*choice);
+  };
+  for (const auto& pair : setup.interactions) {
+    add(pair.contact);
+    add_if(pair.rolling);
+    add_if(pair.cohesion);
+  }
+  for (const auto& body : setup.bodies) {
+    for (const auto& motion : body.motions) add(motion);
+  }
+  for (const auto& emitter : setup.emitters) add(emitter.model);
+  for (const auto& sensor : setup.sensors) add(sensor.model);
+  for (const auto& side : setup.domain.sides) add_if(side.air);
+  add_if(setup.drag);
+  for (const auto& force : setup.fluid_forces) add(force);
+  add_if(setup.voidage);
+  add_if(setup.turbulence);
+  Json list = Json::array();
+  for (const auto& [kind, name, version] : used) {
+    list.push_back({{"kind", kind}, {"name", name}, {"version", version}});
+  }
+  return list;
+}
+
+nlohmann::ordered_json setting_json(const scenario::Setup& setup,
+                                    const registry::Registry& registry) {
+  Json j;
+  j["domain"] = {{"min", vector_json(setup.domain.min)}, {"max", vector_json(setup.domain.max)}};
+  j["gravity"] = vector_json(setup.gravity);
+  j["sides"] = Json::array();
+  for (std::size_t n = 0; n < setup.domain.sides.size(); ++n) {
+    const auto& side = setup.domain.sides[n];
+    j["sides"].push_back({{"name", scenario::k_side_names[n]},
+                          {"grains", word_of(side.grains)},
+                          {"air", side.air ? side.air->name : ""}});
+  }
+  j["belts"] = belts_json(setup, registry);
+  j["emitters"] = Json::array();
+  for (const auto& e : setup.emitters) {
+    Json emitter = thing_json(setup, registry, e.name, e.model, e.frame);
+    const scenario::MaterialSpec& material = setup.materials[static_cast<std::size_t>(e.material)];
+    emitter["density"] = material.properties.density;
+    const double l = material.coarse_graining;
+    if (setup.fluid && l != 1.0) emitter["stands_for"] = l * l * l;  // smaller grains, in the fluid
+    j["emitters"].push_back(std::move(emitter));
+  }
+  if (setup.fluid && setup.fluid->regions.empty()) {
+    j["fluid"] = {{"density", setup.fluid->density}, {"viscosity", setup.fluid->viscosity}};
+  }
+  j["sensors"] = Json::array();
+  for (const auto& s : setup.sensors) {
+    j["sensors"].push_back(thing_json(setup, registry, s.name, s.model, -1));
+  }
+  return j;
+}
+
+}  // namespace dust::run
