@@ -8,7 +8,7 @@
 namespace {
 
 using dust::coupling::RefreshSchedule;
-using dust::test::Archive;
+using dust::test::MemoryArchive;
 
 constexpr double k_step = 1e-3;
 constexpr double k_spacing = 1e-3;  // 16 crossings of 1/8 cell at 2 m/s in a step
@@ -50,7 +50,7 @@ TEST_CASE("a resumed schedule shall have the interval and what the last refresh 
   RefreshSchedule schedule(k_step, k_spacing);
   schedule.begin_step(k_step / 2, 5e4);
   schedule.note(3e-6);
-  Archive archive;
+  MemoryArchive archive;
   schedule.save(archive);
   RefreshSchedule other(k_step, k_spacing);
   other.load(archive);

@@ -20,7 +20,7 @@ TEST_CASE("a run shall have the whole steps that cover its end, rounding aside")
   clock.advance();
   clock.advance();
   CHECK(clock.time() == 0.5);
-  dust::test::Archive archive;
+  dust::test::MemoryArchive archive;
   clock.save(archive);
   StepClock resumed(0.25, 2.0);  // continued to a later end
   resumed.load(archive);
