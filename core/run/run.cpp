@@ -9,6 +9,7 @@
 #include "preflight/reader.hpp"
 #include "run/progress.hpp"
 #include "run/run_options.hpp"
+#include "run/run_times.hpp"
 #include "run/simulation.hpp"
 #include "run/summary/summary.hpp"
 #include "run/summary/summary_emitters.hpp"
@@ -16,8 +17,6 @@
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
-
-#include <sys/resource.h>
 
 #include <array>
 #include <chrono>
@@ -29,7 +28,7 @@ namespace dust::run {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
+using Clock = RunTimes::Clock;
 
 volatile std::sig_atomic_t g_signal = 0;
 void on_signal(int signal) { g_signal = signal; }
@@ -68,15 +67,6 @@ fs::path choose_folder(const RunOptions& options, const std::string& name) {
                           " holds no checkpoint.h5 to resume from; name the run's folder with -o");
   }
   return newest;
-}
-
-double cpu_seconds() {
-  rusage u{};
-  getrusage(RUSAGE_SELF, &u);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(u.ru_utime) + seconds(u.ru_stime);
 }
 
 /// Collects the fields of the sensors for a frame.
@@ -129,18 +119,14 @@ class Run {
     parts.emplace_back("files", [this](sdk::ArchiveReader& a) {
       frames_ = a.integer("frames");
       rows_ = a.integer("rows");
-      nodes_before_ = a.numbers("node_seconds");
-      output_s_ = a.number("output_s");
-      wall_before_ = a.number("wall_s");
-      cpu_before_ = a.number("cpu_s");
+      times_.load(a);
     });
     io::read_checkpoint(folder_ / "checkpoint.h5", resolved_, parts);
     is_resumed_ = true;
   }
 
   int execute(RunFacts facts) {
-    start_ = Clock::now();
-    cpu_start_ = cpu_seconds();
+    times_.start();
     open_files();
     facts_ = std::move(facts);
     Progress progress(is_quiet_, simulation_.setup().time.end, simulation_.time());
@@ -272,7 +258,7 @@ class Run {
     frame.fields = FieldsOfSensors(simulation_).take();
     results_->append(frame);
     ++frames_;
-    output_s_ += std::chrono::duration<double>(Clock::now() - begin).count();
+    times_.add_output(begin);
   }
 
   void write_row() {
@@ -287,24 +273,17 @@ class Run {
     parts.emplace_back("files", [this](sdk::ArchiveWriter& a) {
       a.integer("frames", frames_);
       a.integer("rows", series_->rows());
-      a.numbers("node_seconds", node_seconds(simulation_, nodes_before_));
-      a.number("output_s", output_s_);
-      a.number("wall_s", wall_before_ + wall_here());
-      a.number("cpu_s", cpu_before_ + cpu_seconds() - cpu_start_);
+      times_.save(a, node_seconds(simulation_, times_.nodes_before()));
     });
     io::write_checkpoint(folder_ / "checkpoint.h5", resolved_, parts);
-    output_s_ += std::chrono::duration<double>(Clock::now() - begin).count();
-  }
-
-  [[nodiscard]] double wall_here() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
+    times_.add_output(begin);
   }
 
   void take_times() {
-    facts_.wall_s = wall_before_ + wall_here();
-    facts_.cpu_s = cpu_before_ + cpu_seconds() - cpu_start_;
-    facts_.node_s = node_seconds(simulation_, nodes_before_);
-    facts_.output_s = output_s_;
+    facts_.wall_s = times_.wall();
+    facts_.cpu_s = times_.cpu();
+    facts_.node_s = node_seconds(simulation_, times_.nodes_before());
+    facts_.output_s = times_.output();
     facts_.frames = frames_;
   }
 
@@ -318,12 +297,7 @@ class Run {
   std::int64_t steps_per_row_ = 1;
   std::int64_t frames_ = 0;
   std::int64_t rows_ = 0;
-  double wall_before_ = 0.0;
-  std::vector<double> nodes_before_;  ///< node_seconds of the run up to its last checkpoint
-  double cpu_before_ = 0.0;
-  double cpu_start_ = 0.0;
-  double output_s_ = 0.0;
-  Clock::time_point start_;
+  RunTimes times_;
   std::unique_ptr<io::ResultsFile> results_;
   std::unique_ptr<io::SeriesFile> series_;
   RunFacts facts_;

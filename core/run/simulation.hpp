@@ -66,6 +66,7 @@ class Simulation {
  private:
   void make_particles();
   void build_dem_graph(int check_every);
+  void add_tile_nodes();
   void build_step_graph();
   void add_first_nodes();
   void add_fluid_nodes();

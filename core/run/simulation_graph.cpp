@@ -7,6 +7,17 @@
 
 /// The nodes of a grain step and of a fluid step, by what they read and write.
 namespace dust::run {
+namespace {
+
+/// What a sort of the rows, or grains that have flown, change; and more.
+std::vector<std::string> grains_and(std::initializer_list<const char*> more) {
+  std::vector<std::string> names{"grain.position", "grain.velocity", "grain.fluid_action",
+                                 "grain.fluid_impulse"};
+  names.insert(names.end(), more.begin(), more.end());
+  return names;
+}
+
+}  // namespace
 
 /// The fluid that particles see.
 std::string Simulation::fluid_seen() const {
@@ -16,19 +27,12 @@ std::string Simulation::fluid_seen() const {
 /// A step of the coarse rate. What a node says it writes is checked in a test.
 void Simulation::build_dem_graph(int check_every) {
   const std::string seen_air = fluid_seen();
-  // What a sort of the rows, or grains that have flown, change.
-  const std::vector<std::string> grains{"grain.position", "grain.velocity", "grain.fluid_action",
-                                        "grain.fluid_impulse"};
-  const auto with = [](std::vector<std::string> names, std::initializer_list<const char*> more) {
-    names.insert(names.end(), more.begin(), more.end());
-    return names;
-  };
-  dem_graph_.given(with(grains, {"contact.list", "contact.history", "contact.force", "fine.force",
-                                 "fine.left_over", "fluid.void_fraction", "body.motion"}));
+  dem_graph_.given(grains_and({"contact.list", "contact.history", "contact.force", "fine.force",
+                               "fine.left_over", "fluid.void_fraction", "body.motion"}));
   dem_graph_.given({seen_air});
   if (coupling() != nullptr) {
     dem_graph_.add({"synchronise",
-                    with(grains, {"contact.list", "contact.history"}),
+                    grains_and({"contact.list", "contact.history"}),
                     {"grain.position", "grain.velocity", "grain.fluid_impulse", "contact.history"},
                     [this] {
                       if (cycle_->is_refresh_due()) dem_->land();
@@ -39,10 +43,17 @@ void Simulation::build_dem_graph(int check_every) {
                     [this] { refresh_drag(); }});
   }
   dem_graph_.add(
-      {"neighbour", with(grains, {"contact.list", "contact.history", "fine.left_over"}),
-       with(grains, {"contact.list", "contact.history", "contact.force", "contact.ghost_force",
-                     "grain.force", "fine.force", "fine.left_over"}),
+      {"neighbour", grains_and({"contact.list", "contact.history", "fine.left_over"}),
+       grains_and({"contact.list", "contact.history", "contact.force", "contact.ghost_force",
+                   "grain.force", "fine.force", "fine.left_over"}),
        [this] { dem_->neighbours(); }});
+  add_tile_nodes();
+  if (check_every > 0) dem_graph_.check_writes(dem_->digests(), check_every);
+  dem_graph_.build();
+}
+
+/// Contacts, forces and motion of a tile, which runs them as one where it can; the fine level.
+void Simulation::add_tile_nodes() {
   const auto now = [this] { return time() + cycle_->time(); };
   // The published forces are those of a fluid step's last grain step.
   const auto keeps_force = [this] { return cycle_->is_last_step(); };
@@ -56,11 +67,11 @@ void Simulation::build_dem_graph(int check_every) {
          dem_->force();
        }});
   dem_graph_.add({"integration",
-                  with(grains, {"grain.force", "fine.left_over"}),
+                  grains_and({"grain.force", "fine.left_over"}),
                   {"grain.position", "grain.velocity", "grain.fluid_impulse", "grain.force"},
                   [this] { dem_->integrate(); }});
   dem_graph_.add({"fine_level",
-                  with(grains, {"contact.list", "contact.history", "body.motion"}),
+                  grains_and({"contact.list", "contact.history", "body.motion"}),
                   {"grain.position", "grain.velocity", "grain.fluid_impulse", "contact.history",
                    "contact.force", "fine.force", "fine.left_over"},
                   [this] { dem_->advance_fine(); }});
@@ -72,8 +83,6 @@ void Simulation::build_dem_graph(int check_every) {
                          const auto shares = dem_->phase_shares();
                          return std::vector<double>(shares.begin(), shares.end());
                        }});
-  if (check_every > 0) dem_graph_.check_writes(dem_->digests(), check_every);
-  dem_graph_.build();
 }
 
 void Simulation::build_step_graph() {

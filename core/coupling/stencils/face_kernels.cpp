@@ -6,6 +6,7 @@
 #include "dust/sdk/plugin.hpp"
 
 #include <cmath>
+#include <type_traits>
 
 // Grain by grain in lanes: every grain's sums have the same order whatever the width of the lanes,
 // so that all processors give the same bits. Where many grains have the same faces around them,
@@ -68,7 +69,7 @@ __attribute__((always_inline)) inline void weights_of_four(const StencilBatch& s
 }
 
 /// Sums over the faces of each grain: `begin` sets up that of grain q, or of four from q on;
-/// add(weight, open, eps, u) sees the eight faces one after another; `end` writes it.
+/// add(sum, weight, open, eps, u) sees the eight faces one after another; `end` writes it.
 template <template <class> class Sum, class Begin, class End>
 __attribute__((always_inline)) inline void for_faces(const StencilBatch& spots, int d,
                                                      const FaceColumns& faces, const double* u,
@@ -81,7 +82,7 @@ __attribute__((always_inline)) inline void for_faces(const StencilBatch& spots, 
         weights_of_four(spots, d, q, weight);
         Sum<Four> sum;
         begin(q, sum);
-        for (int n = 0; n < 8; ++n) sum.add(weight[n], f.open[n], f.eps[n], f.u[n]);
+        for (int n = 0; n < 8; ++n) add(sum, weight[n], f.open[n], f.eps[n], f.u[n]);
         end(q, sum);
       }
     }
@@ -98,7 +99,7 @@ __attribute__((always_inline)) inline void for_faces(const StencilBatch& spots, 
     begin(q, sum);
     for_corners(
         corners(spots, d, e, f, q), [&](std::int32_t at, double w) __attribute__((always_inline)) {
-          sum.add(w, open[at], eps[at], u[at]);
+          add(sum, w, open[at], eps[at], u[at]);
         });
     end(q, sum);
   }
@@ -108,34 +109,40 @@ __attribute__((always_inline)) inline void for_faces(const StencilBatch& spots, 
 template <class T>
 struct OpenSum {
   T open{}, fluid{};
-  __attribute__((always_inline)) void add(const T& w, double a, double eps, double) {
-    const T part = w * a;
-    open += part;
-    fluid += part * eps;
-  }
 };
+template <class T>
+__attribute__((always_inline)) inline void add(OpenSum<T>& sum, const std::type_identity_t<T>& w,
+                                               double a, double eps, double) {
+  const T part = w * a;
+  sum.open += part;
+  sum.fluid += part * eps;
+}
 /// The same, and flux = sum(w eps (u - v)).
 template <class T>
 struct FluxSum {
   T v{};
   T open{}, fluid{}, flux{};
-  __attribute__((always_inline)) void add(const T& w, double a, double eps, double u) {
-    const T part = w * a;
-    open += part;
-    fluid += part * eps;
-    flux += w * eps * (u - v);
-  }
 };
+template <class T>
+__attribute__((always_inline)) inline void add(FluxSum<T>& sum, const std::type_identity_t<T>& w,
+                                               double a, double eps, double u) {
+  const T part = w * a;
+  sum.open += part;
+  sum.fluid += part * eps;
+  sum.flux += w * eps * (u - sum.v);
+}
 /// sum(w a e (eps (u - v) + lag)), e = 1 for `is_density`, else eps.
 template <class T>
 struct DragSum {
   bool is_density = false;
   T v{}, lag{};
   T drag{};
-  __attribute__((always_inline)) void add(const T& w, double a, double eps, double u) {
-    drag += w * (a * (is_density ? 1.0 : eps)) * (eps * (u - v) + lag);
-  }
 };
+template <class T>
+__attribute__((always_inline)) inline void add(DragSum<T>& sum, const std::type_identity_t<T>& w,
+                                               double a, double eps, double u) {
+  sum.drag += w * (a * (sum.is_density ? 1.0 : eps)) * (eps * (u - sum.v) + sum.lag);
+}
 
 }  // namespace
 

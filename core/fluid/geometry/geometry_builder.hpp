@@ -3,6 +3,7 @@
 
 #include "fluid/geometry/body_field.hpp"
 #include "fluid/geometry/geometry.hpp"
+#include "fluid/geometry/skew_stencils.hpp"
 
 #include <array>
 #include <cmath>
@@ -11,9 +12,8 @@
 
 namespace dust::fluid {
 
-/// Makes a Geometry. measure_cells.cpp: what is open, which faces hold unknowns.
-/// wall_stencils.cpp: the faces next to surfaces and their images. skew_stencils.cpp: convection
-/// along surfaces.
+/// Makes a Geometry. geometry_builder.cpp: what is open, which faces hold unknowns.
+/// wall_stencils.cpp: the faces next to surfaces and their images.
 class GeometryBuilder {
  public:
   GeometryBuilder(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
@@ -29,11 +29,6 @@ class GeometryBuilder {
   using Vec3 = sdk::Vec3;
   /// Instants at which the shares of faces next to bodies that move are measured, per interval.
   static constexpr int k_instants = 8;
-  struct Point {
-    Vec3 place;
-    Vec3 normal;
-    int body = 0;
-  };
 
   [[nodiscard]] Hit nearest(Vec3 p) const { return field_.nearest(p); }
   [[nodiscard]] bool is_inside(Vec3 p) const { return field_.is_inside(p); }
@@ -76,46 +71,12 @@ class GeometryBuilder {
   }
   [[nodiscard]] std::ptrdiff_t wrapped(std::ptrdiff_t o, int dir, int c, int step) const;
   void find_ghosts(int d);
-  /// Size of a cell along a direction.
-  [[nodiscard]] double spacing_along(Vec3 n) const {
-    double sum = 0.0;
-    for (int d = 0; d < 3; ++d) sum += std::pow(n[d] * grid_.spacing[d], 2);
-    return std::sqrt(sum);
-  }
   /// The image lies on the normal through the ghost, as far outside that it needs fluid faces only.
   void find_image(int d, Vec3 p, const Hit& hit, double depth, double scale,
                   GhostFace& ghost) const;
   /// Trilinear weights of component `d` at `p`; false if a face inside a body carries weight.
   bool interpolation(int d, Vec3 p, GhostFace& ghost) const;
   void sort_wall_points();
-
-  // Faces beside surfaces that move along themselves: skew_stencils.cpp.
-  struct Beside {
-    Hit hit;
-    std::int32_t wall_point = -1;  ///< its foot, if that is near
-    bool is_usable = false;        ///< beside a surface that moves along itself
-  };
-  struct Frame {
-    Vec3 place;
-    Hit hit;
-    Vec3 tangent;
-    int along = 1;
-  };
-  struct PatchPoint {
-    std::int32_t from = 0;
-    double x = 0.0;  ///< along the surface, in cells
-    double z = 0.0;  ///< distance from the surface less that of the face, in cells
-    double weight = 0.0;
-  };
-  [[nodiscard]] bool is_turning(int body) const;
-  void find_skew();
-  void find_beside(int d);
-  void find_skew(int d);
-  void add_skew(int d, const std::array<int, 3>& c);
-  /// Fills patch_ with what is round a place; false if the surface there is not one and smooth.
-  bool gather(int d, const std::array<int, 3>& c, const Frame& frame, bool& is_askew);
-  bool fit(int d, const std::array<int, 3>& c, const Frame& frame, std::ptrdiff_t self,
-           std::vector<SkewNode>& nodes, bool& is_askew);
 
   const Grid& grid_;
   const bodies::BodySet& bodies_;
@@ -128,11 +89,8 @@ class GeometryBuilder {
   double near_ = 0.0;                                ///< [m]
   CellField distance_;                               ///< [m] of cell centres; empty without bodies
   std::array<std::vector<std::uint8_t>, 3> closed_;  ///< 1 in a body at the end, 2 parted
-  std::array<std::vector<std::int32_t>, 3> beside_index_;  ///< per face, -1 = far
-  std::array<std::vector<Beside>, 3> beside_;
-  std::vector<PatchPoint> patch_;
   Geometry g_;
-  std::vector<Point> points_;
+  std::vector<SurfacePoint> points_;
 };
 
 }  // namespace dust::fluid

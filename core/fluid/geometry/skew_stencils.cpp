@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fluid/geometry/geometry_builder.hpp"
+#include "fluid/geometry/skew_stencils.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,25 +38,34 @@ constexpr double k_largest_weights = 20.0;
 
 }  // namespace
 
-bool GeometryBuilder::is_turning(int body) const {
-  const bodies::Body& b = bodies_[static_cast<std::size_t>(body)];
+SkewStencils::SkewStencils(const Surroundings& surroundings, Geometry& geometry,
+                           std::vector<SurfacePoint>& points)
+    : around_(surroundings),
+      grid_(surroundings.grid),
+      sides_(surroundings.sides),
+      g_(geometry),
+      points_(points) {}
+
+bool SkewStencils::is_turning(int body) const {
+  const bodies::Body& b = around_.bodies[static_cast<std::size_t>(body)];
   if (b.motions.empty() || b.is_removed() || b.displaces() || b.suction) return false;
   return b.largest_speed() * grid_.largest_spacing() <=
-         k_largest_cell_reynolds * properties_.viscosity() / properties_.density();
+         k_largest_cell_reynolds * around_.properties.viscosity() / around_.properties.density();
 }
 
-void GeometryBuilder::find_skew() {
+void SkewStencils::find() {
   for (int d = 0; d < 3; ++d) {
     g_.skew_begin[d].assign(static_cast<std::size_t>(g_.extent[d][1]) * g_.extent[d][2] + 1, 0);
   }
   bool any = false;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) any = any || is_turning(static_cast<int>(b));
-  if (!any || field_.is_empty()) return;
+  for (std::size_t b = 0; b < around_.bodies.size(); ++b)
+    any = any || is_turning(static_cast<int>(b));
+  if (!any || around_.field.is_empty()) return;
   for (int d = 0; d < 3; ++d) find_beside(d);
   for (int d = 0; d < 3; ++d) find_skew(d);
 }
 
-void GeometryBuilder::find_beside(int d) {
+void SkewStencils::find_beside(int d) {
   const auto& e = g_.extent[d];
   beside_index_[d].assign(grid_.size, -1);
   const double cell = grid_.largest_spacing();
@@ -67,9 +76,9 @@ void GeometryBuilder::find_beside(int d) {
         const std::array<int, 3> c = {i, j, k};
         const std::ptrdiff_t o = grid_.index(i, j, k);
         const std::ptrdiff_t of_cell = c[d] < grid_.count[d] ? o : o - grid_.stride[d];
-        if (std::abs(distance_[of_cell]) > most + cell) continue;
-        const Hit hit = nearest(grid_.face(d, i, j, k));
-        const double scale = spacing_along(hit.normal);
+        if (std::abs(around_.distance[of_cell]) > most + cell) continue;
+        const Hit hit = around_.field.nearest(grid_.face(d, i, j, k));
+        const double scale = spacing_along(grid_, hit.normal);
         if (hit.distance < -k_at_surface * scale || hit.distance > most) continue;
         Beside b{hit, -1, is_turning(hit.body)};
         if (b.is_usable && std::abs(hit.distance) < k_at_surface * scale) {
@@ -84,7 +93,7 @@ void GeometryBuilder::find_beside(int d) {
   }
 }
 
-void GeometryBuilder::find_skew(int d) {
+void SkewStencils::find_skew(int d) {
   const auto& e = g_.extent[d];
   for (int k = 0; k < e[2]; ++k) {
     for (int j = 0; j < e[1]; ++j) {
@@ -95,12 +104,12 @@ void GeometryBuilder::find_skew(int d) {
   }
 }
 
-void GeometryBuilder::add_skew(int d, const std::array<int, 3>& c) {
+void SkewStencils::add_skew(int d, const std::array<int, 3>& c) {
   const std::ptrdiff_t o = grid_.index(c[0], c[1], c[2]);
   if (beside_index_[d][o] < 0 || !is_unknown(g_.kind[d][o])) return;
   if (!sides_.is_periodic[d] && (c[d] == 0 || c[d] == grid_.count[d])) return;
   const Hit& hit = beside_[d][static_cast<std::size_t>(beside_index_[d][o])].hit;
-  if (hit.distance > k_skew_reach * spacing_along(hit.normal)) return;
+  if (hit.distance > k_skew_reach * spacing_along(grid_, hit.normal)) return;
   int along = -1;
   for (int dir = 0; dir < 3; ++dir) {
     if (dir != d && std::abs(hit.normal[dir]) < k_along_grid) along = dir;
@@ -119,7 +128,7 @@ void GeometryBuilder::add_skew(int d, const std::array<int, 3>& c) {
   face.own_part = tangent[d];
   face.other_part = tangent[other];
   face.distance = hit.distance;
-  face.inverse_length = 1.0 / spacing_along(tangent);
+  face.inverse_length = 1.0 / spacing_along(grid_, tangent);
   const Frame frame{grid_.face(d, c[0], c[1], c[2]), hit, tangent, along};
   auto& nodes = g_.skew_node[d];
   const auto begin = static_cast<std::int32_t>(nodes.size());
@@ -136,12 +145,12 @@ void GeometryBuilder::add_skew(int d, const std::array<int, 3>& c) {
   nodes.resize(static_cast<std::size_t>(begin));
 }
 
-bool GeometryBuilder::gather(int d, const std::array<int, 3>& c, const Frame& f, bool& is_askew) {
+bool SkewStencils::gather(int d, const std::array<int, 3>& c, const Frame& f, bool& is_askew) {
   patch_.clear();
   const int a = (f.along + 1) % 3;
   const int b = (f.along + 2) % 3;
-  const double scale_along = spacing_along(f.tangent);
-  const double scale_across = spacing_along(f.hit.normal);
+  const double scale_along = spacing_along(grid_, f.tangent);
+  const double scale_across = spacing_along(grid_, f.hit.normal);
   for (int q = -k_patch; q <= k_patch; ++q) {
     for (int p = -k_patch; p <= k_patch; ++p) {
       std::array<int, 3> at = c;
@@ -167,7 +176,7 @@ bool GeometryBuilder::gather(int d, const std::array<int, 3>& c, const Frame& f,
         patch_.push_back({from, x, z, std::exp(-exponent)});
         return true;
       };
-      if (closed_[d][o] == 2) return false;
+      if (around_.closed[d][o] == 2) return false;
       const bool is_solid = g_.kind[d][o] == FaceKind::inside;
       bool counts = !is_solid && add(static_cast<std::int32_t>(o), way, beside.hit.distance);
       if (beside.wall_point >= 0) {
@@ -187,8 +196,8 @@ bool GeometryBuilder::gather(int d, const std::array<int, 3>& c, const Frame& f,
   return patch_.size() >= k_least_nodes;
 }
 
-bool GeometryBuilder::fit(int d, const std::array<int, 3>& c, const Frame& frame,
-                          std::ptrdiff_t self, std::vector<SkewNode>& nodes, bool& is_askew) {
+bool SkewStencils::fit(int d, const std::array<int, 3>& c, const Frame& frame, std::ptrdiff_t self,
+                       std::vector<SkewNode>& nodes, bool& is_askew) {
   if (!gather(d, c, frame, is_askew) || !is_askew) return false;
   // A full polynomial of second degree, c0 + c1 x + c2 z + c3 x^2 + c4 x z + c5 z^2, by least
   // squares; once with the face itself, once without. Without x^2 the dissipation would be of first
@@ -210,8 +219,8 @@ bool GeometryBuilder::fit(int d, const std::array<int, 3>& c, const Frame& frame
   const Row value = Eigen::LDLT<Square>(others).solve(Row::Unit(0));
   const Row slope = of_all.solve(Row::Unit(1));
   const Row ascent = of_all.solve(Row::Unit(2));
-  const double scale_along = spacing_along(frame.tangent);
-  const double scale_across = spacing_along(frame.hit.normal);
+  const double scale_along = spacing_along(grid_, frame.tangent);
+  const double scale_across = spacing_along(grid_, frame.hit.normal);
   double size = 0.0;
   for (const PatchPoint& p : patch_) {
     const Row r = (p.weight * p.weight) * row(p);

@@ -150,7 +150,7 @@ void GeometryBuilder::find_ghosts(int d) {
         ghost.is_crossed = g_.open_area.component[d][o] > 0.0 && !ghost.is_parted;
         points_.push_back({p - hit.distance * hit.normal, hit.normal, hit.body});
         const double depth = std::max(0.0, -hit.distance);
-        const double scale = spacing_along(hit.normal);
+        const double scale = spacing_along(grid_, hit.normal);
         if (depth < k_ghost_depth * scale) find_image(d, p, hit, depth, scale, ghost);
         g_.ghost[d].push_back(ghost);
       }
@@ -208,7 +208,7 @@ void GeometryBuilder::sort_wall_points() {
   w.body_begin.assign(1, 0);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     for (std::size_t n = 0; n < points_.size(); ++n) {
-      const Point& p = points_[n];
+      const SurfacePoint& p = points_[n];
       if (p.body != static_cast<int>(b)) continue;
       new_place[n] = static_cast<std::int32_t>(w.x.size());
       w.x.push_back(p.place.x);

@@ -39,7 +39,7 @@ Continuity::Continuity(const Grid& grid, const Geometry& geometry, const Sides& 
       momentum_(momentum),
       pattern_(find_pattern()),
       solver_(std::make_unique<PressureSolver>(grid, pattern_)),
-      rate_(grid.size, 0.0),
+      given_{CellField(grid.size, 0.0), {}, 0.0, 0.0},
       residual_(grid.size, 0.0),
       increment_(grid.size, 0.0) {}
 
@@ -126,8 +126,8 @@ void Continuity::geometry_changed(CellField& pressure) {
 }
 
 void Continuity::set_moved(double net, double gross) {
-  moved_ = net;
-  moved_gross_ = gross;
+  given_.net = net;
+  given_.gross = gross;
 }
 
 /// Shift of the velocity from the middle of a cut face to that of its open part.
@@ -149,7 +149,7 @@ void Continuity::find_open_parts(const FaceField& v) {
 void Continuity::find_divergence(const FaceField& v, const CellField& eps) {
   for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
     const std::ptrdiff_t o = grid_.index(0, j, k);
-    std::copy_n(&rate_[o], grid_.count[0], &residual_[o]);
+    std::copy_n(&given_.rate[o], grid_.count[0], &residual_[o]);
     for (int d = 0; d < 3; ++d) {
       if (grid_.count[d] == 1 && sides_.kinds().is_periodic[d]) continue;
       if (sides_.is_still(d)) continue;
@@ -158,7 +158,7 @@ void Continuity::find_divergence(const FaceField& v, const CellField& eps) {
                           &residual_[o]);
     }
   });
-  for (const Sink& sink : sinks_) residual_[sink.cell] += sink.rate;
+  for (const Sink& sink : given_.sinks) residual_[sink.cell] += sink.rate;
   for (int d = 0; d < 3; ++d) {
     for (std::size_t n = 0; n < geometry_.open_part[d].size(); ++n) {
       const OpenPart& f = geometry_.open_part[d][n];
@@ -276,16 +276,16 @@ void Continuity::check_balance(const FaceField& v, const CellField& eps) const {
     }
   }
   double sunk = 0.0;
-  for (const Sink& sink : sinks_) sunk += sink.rate * grid_.cell_volume();
-  net -= moved_ + sunk;
-  gross += moved_gross_ + std::abs(sunk);
-  const double allowed = moved_gross_ > 0.0 ? k_moving_balance : k_flux_balance;
+  for (const Sink& sink : given_.sinks) sunk += sink.rate * grid_.cell_volume();
+  net -= given_.net + sunk;
+  gross += given_.gross + std::abs(sunk);
+  const double allowed = given_.gross > 0.0 ? k_moving_balance : k_flux_balance;
   if (std::abs(net) <= allowed * gross) return;
   char text[240];
   std::snprintf(text, sizeof text,
                 "the sides%s let %.4g m3/s more air in than out and none of them gives way; make "
                 "one a total_pressure or zero_gradient side",
-                moved_gross_ > 0.0 || sunk != 0.0 ? " and bodies" : "", net);
+                given_.gross > 0.0 || sunk != 0.0 ? " and bodies" : "", net);
   throw sdk::ModelError(text);
 }
 

@@ -33,7 +33,7 @@ class Continuity {
   void was_open(const std::vector<std::int64_t>& cells);
 
   /// [1/s] d(theta eps)/dt per cell, to be set before `project`.
-  [[nodiscard]] CellField& rate() { return rate_; }
+  [[nodiscard]] CellField& rate() { return given_.rate; }
   /// [m3/s] what bodies that move make of the open volume: gained in all, and gained plus lost.
   void set_moved(double net, double gross);
   /// Fluid that goes out of a cell into a body.
@@ -41,7 +41,7 @@ class Continuity {
     std::int32_t cell = 0;
     double rate = 0.0;  ///< [1/s] of the cell's volume
   };
-  [[nodiscard]] std::vector<Sink>& sinks() { return sinks_; }
+  [[nodiscard]] std::vector<Sink>& sinks() { return given_.sinks; }
 
   /// Makes `v` obey continuity over `step` by the pressure increment; returns the solver's
   /// iterations. Throws sdk::ModelError where a closed room would have to change its volume.
@@ -56,6 +56,13 @@ class Continuity {
   [[nodiscard]] double largest_divergence(const FaceField& v, const CellField& eps);
 
  private:
+  /// What the flow has to make up for.
+  struct VolumeChanges {
+    CellField rate;           ///< [1/s] d(theta eps)/dt
+    std::vector<Sink> sinks;  ///< into bodies
+    double net = 0.0;         ///< [m3/s] of the open volume, by bodies that move
+    double gross = 0.0;       ///< [m3/s] gained plus lost
+  };
   [[nodiscard]] FaceField find_pattern() const;
   void find_open_parts(const FaceField& v);
   void find_divergence(const FaceField& v, const CellField& eps);
@@ -72,10 +79,7 @@ class Continuity {
   std::unique_ptr<PressureSolver> solver_;
   bool is_plain_ = false;       ///< as the equation is prepared
   std::vector<char> was_open_;  ///< only for geometries that change
-  CellField rate_;
-  std::vector<Sink> sinks_;
-  double moved_ = 0.0;
-  double moved_gross_ = 0.0;
+  VolumeChanges given_;
   CellField residual_;
   CellField increment_;
   std::array<std::vector<double>, 3> open_part_shift_;

@@ -9,6 +9,52 @@ namespace dust::fluid {
 
 using sdk::Vec3;
 
+namespace {
+
+/// Distance from the surfaces (in cells) beyond which no thin body can come between two neighbours.
+constexpr double k_near = 1.8;
+
+}  // namespace
+
+GeometryBuilder::GeometryBuilder(const Grid& grid, const bodies::BodySet& bodies,
+                                 const SideKinds& sides, const FaceProperties& properties,
+                                 TimeInterval interval, const Geometry* standing,
+                                 BodyField::Which which)
+    : grid_(grid),
+      bodies_(bodies),
+      sides_(sides),
+      properties_(properties),
+      standing_(standing),
+      field_(grid, bodies, interval.end, which) {
+  if (field_.has_movers()) {
+    smear_ = (interval.end - interval.begin) / k_instants;
+    for (int n = 0; n < k_instants; ++n) {
+      instants_.emplace_back(grid, bodies, interval.begin + (n + 0.5) * smear_, which);
+    }
+  }
+  for (int d = 0; d < 3; ++d) {
+    if (grid.count[d] > 1) near_ = std::max(near_, k_near * grid.spacing[d]);
+  }
+}
+
+Geometry GeometryBuilder::build() {
+  measure_cells();
+  for (int d = 0; d < 3; ++d) measure_faces(d);
+  for (int d = 0; d < 3; ++d) find_parted(d);
+  for (int d = 0; d < 3; ++d) find_unknowns(d);
+  for (int d = 0; d < 3; ++d) {
+    const auto& kind = g_.kind[d];
+    g_.has_unknown[d] = std::find(kind.begin(), kind.end(), FaceKind::plain) != kind.end();
+    find_cut(d);
+    find_open_parts(d);
+    find_ghosts(d);
+  }
+  SkewStencils({grid_, bodies_, sides_, properties_, field_, distance_, closed_}, g_, points_)
+      .find();
+  sort_wall_points();
+  return std::move(g_);
+}
+
 void GeometryBuilder::measure_cells() {
   const auto& n = grid_.count;
   g_.open_fraction.assign(grid_.size, 1.0);
