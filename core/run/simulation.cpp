@@ -29,8 +29,8 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
   make_particles();
   cycle_.emplace(clock_.fluid_step(), dem_->coarse_step());
   insertion_ = std::make_unique<Insertion>(setup_, models_);
-  for (const auto& sensor : models_.sensors) looks_at_walls_ |= sensor->looks_at_walls();
-  if (looks_at_walls_) dem_->watch_walls();
+  for (const auto& sensor : models_.sensors) wants_walls_ |= sensor->wants_walls();
+  if (wants_walls_) dem_->watch_walls();
   build_dem_graph(check_every);
   build_step_graph();
   snapshots_.take(*dem_);

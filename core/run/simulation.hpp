@@ -92,7 +92,7 @@ class Simulation {
   std::unique_ptr<Insertion> insertion_;
   Snapshots snapshots_;
   std::vector<float> no_exchange_;  ///< of a run without fluid
-  bool looks_at_walls_ = false;
+  bool wants_walls_ = false;
   graph::TaskGraph step_graph_{"fluid_step"};
   graph::TaskGraph dem_graph_{"dem_step"};
 };

@@ -28,7 +28,7 @@ std::string Simulation::fluid_seen() const {
 void Simulation::build_dem_graph(int check_every) {
   const std::string seen_air = fluid_seen();
   dem_graph_.given(grains_and({"contact.list", "contact.history", "contact.force", "fine.force",
-                               "fine.left_over", "fluid.void_fraction", "body.motion"}));
+                               "fine.deferred_impulse", "fluid.void_fraction", "body.motion"}));
   dem_graph_.given({seen_air});
   if (coupling() != nullptr) {
     dem_graph_.add({"synchronise",
@@ -43,9 +43,9 @@ void Simulation::build_dem_graph(int check_every) {
                     [this] { refresh_drag(); }});
   }
   dem_graph_.add(
-      {"neighbour", grains_and({"contact.list", "contact.history", "fine.left_over"}),
+      {"neighbour", grains_and({"contact.list", "contact.history", "fine.deferred_impulse"}),
        grains_and({"contact.list", "contact.history", "contact.force", "contact.ghost_force",
-                   "grain.force", "fine.force", "fine.left_over"}),
+                   "grain.force", "fine.force", "fine.deferred_impulse"}),
        [this] { dem_->neighbours(); }});
   add_tile_nodes();
   if (check_every > 0) dem_graph_.check_writes(dem_->digests(), check_every);
@@ -67,13 +67,13 @@ void Simulation::add_tile_nodes() {
          dem_->force();
        }});
   dem_graph_.add({"integration",
-                  grains_and({"grain.force", "fine.left_over"}),
+                  grains_and({"grain.force", "fine.deferred_impulse"}),
                   {"grain.position", "grain.velocity", "grain.fluid_impulse", "grain.force"},
                   [this] { dem_->integrate(); }});
   dem_graph_.add({"fine_level",
                   grains_and({"contact.list", "contact.history", "body.motion"}),
                   {"grain.position", "grain.velocity", "grain.fluid_impulse", "contact.history",
-                   "contact.force", "fine.force", "fine.left_over"},
+                   "contact.force", "fine.force", "fine.deferred_impulse"},
                   [this] { dem_->advance_fine(); }});
   dem_graph_.fuse({.part = "tile",
                    .nodes = {"contact", "force", "integration"},
@@ -176,7 +176,7 @@ void Simulation::add_last_nodes() {
   }
   step_graph_.add({"publish_grains", {"grain.state"}, {"grain.columns"}, [this] {
                      snapshots_.take(*dem_);
-                     if (looks_at_walls_) dem_->close_wall_loads(setup_.time.fluid_step);
+                     if (wants_walls_) dem_->close_wall_loads(setup_.time.fluid_step);
                    }});
   step_graph_.add(
       {"health", {"grain.columns"}, {"health"}, [this] { check_finite(snapshots_.particles()); }});

@@ -12,8 +12,8 @@ std::string state_digest(const sdk::GrainColumns& c, const fluid::FluidSolver* f
   io::Sha256 sha;
   const auto update = [&sha](const auto& span) { sha.update(span.data(), span.size_bytes()); };
   update(c.id);
-  for (const auto& column : {c.x, c.y, c.z, c.velocity_x, c.velocity_y, c.velocity_z, c.rotation_x,
-                             c.rotation_y, c.rotation_z}) {
+  for (const auto& column : {c.x, c.y, c.z, c.velocity_x, c.velocity_y, c.velocity_z,
+                             c.angular_velocity_x, c.angular_velocity_y, c.angular_velocity_z}) {
     update(column);
   }
   for (int k = 0; fluid != nullptr && k < grid.count[2]; ++k) {

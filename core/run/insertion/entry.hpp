@@ -29,7 +29,7 @@ struct EntryScene {
   double time = 0.0;  ///< [s] at which bodies that move are looked at
   std::vector<particles::Surface> surfaces;
   std::vector<sdk::InsertionRule> rules;  ///< by emitter
-  std::vector<std::string> names;     ///< by emitter, "file:line:column: error: emitters.bed"
+  std::vector<std::string> names;         ///< by emitter, "file:line:column: error: emitters.bed"
 };
 
 /// From `from` to `to`, the shortest way through periodic sides.

@@ -20,7 +20,7 @@ EntryScene entry_scene_of(const scenario::Setup& setup, const Models& models) {
   scene.surfaces = particles::surfaces_of(setup, models.bodies);
   for (std::size_t n = 0; n < models.emitters.size(); ++n) {
     const auto& choice = setup.emitters[n].model;
-    scene.rules.push_back(models.emitters[n]->entry_rule());
+    scene.rules.push_back(models.emitters[n]->insertion_rule());
     scene.names.push_back(scenario::place(choice.where) + ": error: " + choice.path);
   }
   return scene;
@@ -58,37 +58,37 @@ void Insertion::propose(std::size_t n, double begin, double end, const particles
   const LazySurroundings surroundings(scene_, rows, waiting_, models_.class_diameters.back(),
                                       frame_of(setup_, n));
   context.surroundings = &surroundings;
-  seeds_.clear();
+  requests_.clear();
   try {
-    models_.emitters[n]->propose(context, seeds_);
+    models_.emitters[n]->propose(context, requests_);
   } catch (const std::exception& problem) {
     throw sdk::ModelError(scene_.names[n] + ": " + problem.what());
   }
-  for (const sdk::Seed& seed : seeds_) add_waiting(n, begin, seed);
+  for (const sdk::InsertionRequest& request : requests_) add_waiting(n, begin, request);
 }
 
-void Insertion::add_waiting(std::size_t n, double begin, const sdk::Seed& seed) {
+void Insertion::add_waiting(std::size_t n, double begin, const sdk::InsertionRequest& request) {
   const auto& spec = setup_.emitters[n];
   const scenario::FrameSpec* frame = frame_of(setup_, n);
   // Carried back to the beginning of the interval; inside the feed nothing but the feed acts.
   Entrant e;
   e.emitter = static_cast<std::int32_t>(n);
-  e.line = seed.line;
+  e.line = request.line;
   particles::NewGrain& grain = e.grain;
-  grain.position = seed.position - (seed.time - begin) * seed.velocity;
-  grain.velocity = seed.velocity;
-  grain.rotation = seed.rotation;
+  grain.position = request.position - (request.time - begin) * request.velocity;
+  grain.velocity = request.velocity;
+  grain.rotation = request.angular_velocity;
   if (frame != nullptr) {
     const sdk::Vec3 axis = frame->axis / norm(frame->axis);
     grain.position = turned(grain.position, *frame);
     grain.velocity = rotate(grain.velocity, axis, frame->angle);
     grain.rotation = rotate(grain.rotation, axis, frame->angle);
   }
-  grain.diameter = seed.diameter;
-  grain.weight = seed.weight;
-  grain.material = seed.material < 0
+  grain.diameter = request.diameter;
+  grain.weight = request.weight;
+  grain.material = request.material < 0
                        ? spec.material
-                       : spec.more_materials.at(static_cast<std::size_t>(seed.material));
+                       : spec.more_materials.at(static_cast<std::size_t>(request.material));
   waiting_.push_back(e);
 }
 

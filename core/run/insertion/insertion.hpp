@@ -39,14 +39,14 @@ class Insertion {
   void insert(double time, particles::Dem& dem);
   void propose(double time, const particles::GrainRows& rows);
   void propose(std::size_t emitter, double begin, double end, const particles::GrainRows& rows);
-  void add_waiting(std::size_t emitter, double begin, const sdk::Seed& seed);
+  void add_waiting(std::size_t emitter, double begin, const sdk::InsertionRequest& request);
 
   const scenario::Setup& setup_;
   const Models& models_;
   EntryScene scene_;
   EmissionLedger ledger_;
-  std::vector<sdk::Seed> seeds_;  ///< storage of what one emitter proposes
-  std::vector<Entrant> waiting_;  ///< proposed, not yet in the domain
+  std::vector<sdk::InsertionRequest> requests_;  ///< storage of what one emitter proposes
+  std::vector<Entrant> waiting_;                 ///< proposed, not yet in the domain
   std::int64_t delayed_ = 0;
   bool is_started_ = false;  ///< the first step's particles are in already
 };
