@@ -9,7 +9,7 @@
 #include <cmath>
 
 /// Lists mended where single grains have left the course they suppose, in place of lists made new
-/// for everybody (docs/decisions/0018_lists_are_mended.md).
+/// for everybody (docs/decisions/0018_lists_are_updated.md).
 namespace dust::particles {
 namespace {
 

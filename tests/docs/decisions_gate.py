@@ -3,7 +3,7 @@
 
 A title `# NNNN Title`, a line `State: accepted` or `State: superseded by [NNNN](file)` (more may follow
 behind a full stop or semicolon), and the five headings in this order, each with text. Numbers are given
-once and without gaps; links between decisions lead to a file. Exit status 1, one line per problem."""
+once and without gaps; whatever names a decision by its file, here or in the code, names one that exists. Exit status 1, one line per problem."""
 
 import pathlib
 import re
@@ -12,6 +12,7 @@ import sys
 HEADINGS = ["Context", "Decision", "Consequences", "Figures", "Tried and dropped"]
 STATE = re.compile(r"State: (accepted|superseded by \[\d{4}\]\([\w.]+\))(\.|;|$)")
 LINK = re.compile(r"\]\((\d{4}_\w+\.md)\)")
+NAMED = re.compile(r"decisions/(\d{4}_\w+\.md)")
 
 
 def decision_problems(path, text):
@@ -41,6 +42,14 @@ def problems(root):
     for path in paths:
         for line, text in decision_problems(path, path.read_text()):
             yield path, line, text
+    names = {path.name for path in paths}
+    for folder in ("core", "plugins", "tools", "tests", "docs"):
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix not in (".md", ".hpp", ".cpp", ".py", ".txt") or not path.is_file():
+                continue
+            for number, line in enumerate(path.read_text(errors="replace").split("\n"), 1):
+                for name in set(NAMED.findall(line)) - names:
+                    yield path, number, f"there is no decision {name}"
 
 
 def main():

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""The gates of the pages find what they are for: each is tried on pages that break its rule."""
+
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import decisions_gate
+import theory_gate
+
+DECISION = """# 0001 A title
+State: accepted.
+
+## Context
+a
+
+## Decision
+b
+
+## Consequences
+c
+
+## Figures
+d
+
+## Tried and dropped
+e
+"""
+
+
+class Tree(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+
+    def write(self, path, text):
+        path = self.root / path
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    def said(self, problems):
+        return "\n".join(text for _, _, text in problems)
+
+
+class Theory(Tree):
+    def problems(self, page, code="// docs/theory/a.md, eq. (1)\n", derivations=None):
+        self.write("docs/theory/a.md", page)
+        self.write("core/a.cpp", code)
+        return self.said(theory_gate.problems(self.root, derivations or {}))
+
+    def test_a_numbered_and_cited_equation_passes(self):
+        self.assertEqual(self.problems("$$ a = b \\tag{1} $$\n"), "")
+
+    def test_an_equation_without_a_number_is_found(self):
+        self.assertIn("no number", self.problems("$$ a = b \\tag{1} $$\n\n$$ c = d $$\n"))
+
+    def test_a_number_given_twice_is_found(self):
+        self.assertIn("given twice", self.problems("$$ a \\tag{1} $$\n\n$$ b \\tag{1} $$\n"))
+
+    def test_an_equation_in_plain_text_is_found(self):
+        self.assertIn("plain text", self.problems("$$ a \\tag{1} $$\n\n    a = b + c\n"))
+
+    def test_a_cited_number_that_does_not_exist_is_found(self):
+        self.assertIn("no equation (2)", self.problems(
+            "$$ a \\tag{1} $$\n", "// docs/theory/a.md, eq. (1), (2)\n"))
+
+    def test_a_cited_page_that_does_not_exist_is_found(self):
+        self.assertIn("no page", self.problems(
+            "$$ a \\tag{1} $$\n", "// docs/theory/a.md, eq. (1)\n// docs/theory/b.md, eq. (1)\n"))
+
+    def test_an_equation_that_no_stage_cites_is_found(self):
+        self.assertIn("cites equation (2)", self.problems("$$ a \\tag{1} $$\n\n$$ b \\tag{2} $$\n"))
+
+    def test_a_derivation_that_is_cited_is_found(self):
+        self.assertIn("listed as a derivation",
+                      self.problems("$$ a \\tag{1} $$\n", derivations={"a": {1}}))
+
+
+class Decisions(Tree):
+    def problems(self, text, name="0001_a.md"):
+        self.write("docs/decisions/" + name, text)
+        return self.said(decisions_gate.problems(self.root))
+
+    def test_a_whole_decision_passes(self):
+        self.assertEqual(self.problems(DECISION), "")
+
+    def test_a_heading_that_is_missing_is_found(self):
+        self.assertIn("the headings are", self.problems(DECISION.replace("## Figures\n", "")))
+
+    def test_an_empty_part_is_found(self):
+        self.assertIn("nothing stands under `Figures`",
+                      self.problems(DECISION.replace("## Figures\nd\n", "## Figures\n")))
+
+    def test_a_state_that_says_nothing_is_found(self):
+        self.assertIn("second line", self.problems(DECISION.replace("accepted", "replaced")))
+
+    def test_a_gap_in_the_numbers_is_found(self):
+        self.assertIn("number 0001", self.problems(DECISION, "0002_a.md"))
+
+    def test_a_decision_named_by_code_that_does_not_exist_is_found(self):
+        self.write("core/a.cpp", "// docs/decisions/0009_b.md\n")
+        self.assertIn("no decision 0009_b.md", self.problems(DECISION))
+
+
+if __name__ == "__main__":
+    unittest.main()
