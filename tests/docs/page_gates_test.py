@@ -8,6 +8,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import decisions_gate
+import glossary_gate
 import theory_gate
 
 DECISION = """# 0001 A title
@@ -103,6 +104,31 @@ class Decisions(Tree):
     def test_a_decision_named_by_code_that_does_not_exist_is_found(self):
         self.write("core/a.cpp", "// docs/decisions/0009_b.md\n")
         self.assertIn("no decision 0009_b.md", self.problems(DECISION))
+
+
+class Glossary(Tree):
+    def problems(self, rows):
+        self.write("docs/architecture/glossary.md",
+                   "# Glossary\n\n| term | meaning | source |\n| --- | --- | --- |\n" + rows)
+        return self.said(glossary_gate.glossary_problems(self.root / "docs/architecture/glossary.md"))
+
+    def test_whole_rows_in_order_pass(self):
+        self.assertEqual(self.problems("| a | b | c |\n| b | c | d |\n"), "")
+
+    def test_a_row_without_a_source_is_found(self):
+        self.assertIn("a source", self.problems("| a | b | |\n"))
+
+    def test_disorder_and_doubles_are_found(self):
+        self.assertIn("stands behind", self.problems("| b | c | d |\n| a | b | c |\n"))
+        self.assertIn("given twice", self.problems("| a | b | c |\n| a | b | c |\n"))
+
+    def test_links_to_nowhere_are_found(self):
+        self.write("docs/a.md", "# One heading\n[a](a.md#one-heading) [b](b.md)\n[c](a.md#two) `[d](d)`\n")
+        said = self.said(glossary_gate.link_problems(self.root))
+        self.assertIn("b.md leads nowhere", said)
+        self.assertIn("a.md#two names a heading", said)
+        self.assertNotIn("one-heading", said)
+        self.assertNotIn("(d)", said)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+"""The gates of the style find what they are for: each is tried on sources that break its rule."""
+
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import allow_list
+import folders_gate
+import format_gate
+import functions_gate
+import test_names_gate
+import words_gate
+
+GLOSSARY = """# Glossary
+## Words that identifiers do not use
+| not | but |
+| --- | --- |
+| `watch`, `look_out` | list |
+| `chunk` (`core/io`) | tile |
+"""
+LONG_BODY = "".join(f"  f({n});\n" for n in range(60))
+SHORT_BODY = "  f(1);\n"
+
+
+class Tree(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+
+    def write(self, path, text):
+        path = self.root / path
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+
+class Words(Tree):
+    def found(self, code, path="core/a.cpp"):
+        self.write("docs/architecture/glossary.md", GLOSSARY)
+        self.write(path, code)
+        return set(words_gate.findings(self.root))
+
+    def test_words_are_found_in_both_ways_of_writing_names(self):
+        self.assertEqual(self.found("int begin_watch; struct WatchList {}; int k_look_out_;"),
+                         {"begin_watch", "WatchList", "k_look_out_"})
+
+    def test_parts_of_words_comments_and_strings_are_not_meant(self):
+        self.assertEqual(self.found("int stopwatch; // watch\n/* watch */ f(\"watch\", 'w');\n"
+                                    "auto r = R\"(watch)\"; int n = 1'000; int m = 2'000;"), set())
+
+    def test_a_word_is_right_in_its_own_folder(self):
+        self.assertEqual(self.found("int chunk;", "core/io/a.cpp"), set())
+        self.assertEqual(self.found("int chunk;", "core/run/a.cpp"), {"chunk"})
+
+
+class Functions(Tree):
+    def found(self, code):
+        self.write("core/a.cpp", code)
+        return set(functions_gate.findings(self.root))
+
+    def test_long_functions_are_found_wherever_they_stand(self):
+        inside = "".join("  " + line + "\n" for line in LONG_BODY.split("\n"))
+        self.assertEqual(
+            self.found("namespace a {\n\nint Thing::first(int a,\n    int b) {\n" + LONG_BODY +
+                       "}\n\nclass Other {\n public:\n  void second() const {\n" + inside +
+                       "  }\n};\n\n}  // namespace a\n"),
+            {"core/a.cpp Thing::first", "core/a.cpp Other::second"})
+
+    def test_short_functions_types_tables_and_kernels_pass(self):
+        self.assertEqual(
+            self.found("enum class E {\n  a = 1,\n  b\n};\n\nstruct Data {\n" +
+                       "".join(f"  int a{n};\n" for n in range(70)) + "};\n\n" +
+                       "constexpr std::array k_table = {\n" +
+                       "".join(f"  g({n}),\n" for n in range(70)) + "};\n\n" +
+                       "void one() {\n" + SHORT_BODY + "}\n\nDUST_KERNEL void two() {\n" +
+                       LONG_BODY + "}\n\nvoid three() {\n" + SHORT_BODY + "}\n"), set())
+
+    def test_a_limit_is_a_limit(self):
+        body = "".join(f"  f({n});\n" for n in range(58))
+        self.assertEqual(self.found("void a() {\n" + body + "}\n"), set())
+        self.assertEqual(self.found("void a() {\n" + body + "  f();\n}\n"), {"core/a.cpp a"})
+
+
+class Folders(Tree):
+    def test_units_are_counted_once_and_only_shrink(self):
+        for n in range(16):
+            self.write(f"core/a/unit_{n}.hpp", "")
+            self.write(f"core/a/unit_{n}.cpp", "")
+        found = folders_gate.counts(self.root)
+        self.assertEqual(found, {"core/a": 16})
+        self.assertIn("up to 15", "".join(folders_gate.problems(found, {})))
+        self.assertIn("takes none", "".join(folders_gate.problems({"core/a": 17}, {"core/a": 16})))
+        self.assertIn("smaller number", "".join(folders_gate.problems(found, {"core/a": 20})))
+        self.assertIn("take it out", "".join(folders_gate.problems({}, {"core/a": 20})))
+        self.assertEqual(list(folders_gate.problems(found, {"core/a": 16})), [])
+
+
+class TestNames(Tree):
+    def test_both_ways_round(self):
+        self.write("tests/a.cpp", "TEST_CASE(\"a\") {}\n")
+        self.write("tests/b_test.cpp", "int main() {}\n")
+        self.write("tests/c_test.cpp", "  TEST_CASE_TEMPLATE(\"c\", T, int) {}\n")
+        self.write("tests/d.cpp", "int helper();\n")
+        self.assertEqual(set(test_names_gate.findings(self.root)), {"tests/a.cpp", "tests/b_test.cpp"})
+
+
+class Format(Tree):
+    def test_a_line_that_is_not_formatted_is_found(self):
+        program, why = format_gate.formatter()
+        if program is None:
+            self.skipTest(why)
+        self.write(".clang-format", "BasedOnStyle: Google\n")
+        self.write("core/good.cpp", "int a = 1;\n")
+        self.write("core/bad.cpp", "int b = 1;\nint   c = 1;\n")
+        found = format_gate.unformatted(program, self.root, ["core/good.cpp", "core/bad.cpp"])
+        self.assertEqual(len(found), 1)
+        self.assertTrue(found[0].startswith("core/bad.cpp:2:"), found)
+
+
+class AllowLists(Tree):
+    def test_new_and_gone_entries_are_told_and_the_gone_taken_out(self):
+        path = self.root / "allowed.txt"
+        path.write_text("# head\ngone\nkept\n")
+        said = list(allow_list.differences({"kept": "a.cpp:1", "new": "a.cpp:2"},
+                                           allow_list.read(path), "allowed.txt", "rename"))
+        self.assertEqual(said, ["a.cpp:2: new: rename",
+                                "allowed.txt: gone is allowed and no longer there; take it out"])
+        self.assertEqual(allow_list.run({"kept": "a.cpp:1"}, path, "rename", ["--shrink"]), 0)
+        self.assertEqual(path.read_text(), "# head\nkept\n")
+
+
+if __name__ == "__main__":
+    unittest.main()
