@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """glossary_gate.py ROOT: every row of the glossary has a term, a meaning and a source, terms stand in
 alphabetical order within their table and once, and relative links of all pages lead to a file, with
-#anchors to a heading. Exit status 1, one line per problem."""
+#anchors to a heading. Files and folders that the tour and the theory name in `back ticks` exist. Exit status 1, one line per problem."""
 
 import pathlib
 import re
 import sys
 
+PATH = re.compile(r"`((?:core|plugins|tools|tests|docs|scenarios)/[\w./]+)`")
 LINK = re.compile(r"\]\((?!https?://|mailto:)([^)\s]*)\)")
 
 
@@ -29,6 +30,18 @@ def link_problems(root):
                     yield page, number, f"the link {target} leads nowhere"
                 elif anchor and path.suffix == ".md" and anchor not in anchors(path.read_text()):
                     yield page, number, f"the link {target} names a heading that is not there"
+
+
+def path_problems(root):
+    pages = [root / "CONTRIBUTING.md", *sorted((root / "docs/architecture").glob("*.md")),
+             *sorted((root / "docs/theory").glob("*.md"))]
+    for page in pages:
+        if not page.exists():
+            continue
+        for number, line in enumerate(page.read_text().split("\n"), 1):
+            for name in PATH.findall(line):
+                if not (root / name).exists():
+                    yield page, number, f"there is no {name}"
 
 
 def glossary_problems(page):
@@ -59,7 +72,8 @@ def glossary_problems(page):
 
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
-    found = [*glossary_problems(root / "docs/architecture/glossary.md"), *link_problems(root)]
+    found = [*glossary_problems(root / "docs/architecture/glossary.md"), *link_problems(root),
+             *path_problems(root)]
     for path, line, text in found:
         print(f"{path.relative_to(root)}:{line}: {text}")
     return 1 if found else 0

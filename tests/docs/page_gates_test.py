@@ -130,6 +130,11 @@ class Glossary(Tree):
         self.assertNotIn("one-heading", said)
         self.assertNotIn("(d)", said)
 
+    def test_files_that_are_named_and_not_there_are_found(self):
+        self.write("core/a.cpp", "")
+        self.write("docs/theory/a.md", "`core/a.cpp` and `core/b.cpp` and `core/<x>/c.cpp`\n")
+        self.assertEqual(self.said(glossary_gate.path_problems(self.root)), "there is no core/b.cpp")
+
 
 if __name__ == "__main__":
     unittest.main()
