@@ -75,6 +75,13 @@ class Theory(Tree):
     def test_an_equation_that_no_stage_cites_is_found(self):
         self.assertIn("cites equation (2)", self.problems("$$ a \\tag{1} $$\n\n$$ b \\tag{2} $$\n"))
 
+    def test_the_list_of_uncited_equations_only_shrinks(self):
+        self.write("docs/theory/a.md", "$$ a \\tag{1} $$\n\n$$ b \\tag{2} $$\n")
+        self.write("core/a.cpp", "// docs/theory/a.md, eq. (1)\n")
+        self.assertEqual(self.said(theory_gate.problems(self.root, {}, {("a", "2")})), "")
+        self.assertIn("equation (1) is cited by now", self.said(
+            theory_gate.problems(self.root, {}, {("a", "1"), ("a", "2")})))
+
     def test_a_derivation_that_is_cited_is_found(self):
         self.assertIn("listed as a derivation",
                       self.problems("$$ a \\tag{1} $$\n", derivations={"a": {1}}))
