@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """The gates of the pages find what they are for: each is tried on pages that break its rule."""
 
+import importlib.machinery
+import importlib.util
 import pathlib
 import sys
 import tempfile
@@ -10,6 +12,18 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import decisions_gate
 import glossary_gate
 import theory_gate
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def draw_architecture():
+    """The script as a module; it has no .py."""
+    sys.dont_write_bytecode = True
+    loader = importlib.machinery.SourceFileLoader("draw", str(ROOT / "tools/dev/draw_architecture"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("draw", loader))
+    loader.exec_module(module)
+    return module
+
 
 DECISION = """# 0001 A title
 State: accepted.
@@ -141,6 +155,47 @@ class Glossary(Tree):
         self.write("core/a.cpp", "")
         self.write("docs/theory/a.md", "`core/a.cpp` and `core/b.cpp` and `core/<x>/c.cpp`\n")
         self.assertEqual(self.said(glossary_gate.path_problems(self.root)), "there is no core/b.cpp")
+
+
+class Diagrams(unittest.TestCase):
+    draw = draw_architecture()
+    DOT = """digraph dust {
+  subgraph "cluster_step" {
+    "step.emit" [label="emit", tooltip="reads: a"];
+    "step.sensor one" [label="sensor one"];
+    "step.sensor two" [label="sensor two"];
+    "step.emit" -> "step.sensor one";
+    "step.emit" -> "step.sensor two";
+  }
+  "step.emit" -> "inner.drag" [style=dashed];
+}
+"""
+
+    def test_the_rooms_are_those_of_the_checked_table(self):
+        rooms = self.draw.rooms()
+        self.assertIn("base", rooms["particles"])
+        self.assertEqual(rooms["base"], set())
+
+    def test_edges_that_a_longer_way_replaces_are_left_out(self):
+        self.assertEqual(self.draw.without_shortcuts([("a", "b"), ("b", "c"), ("a", "c")]),
+                         [("a", "b"), ("b", "c")])
+        circle = [("a", "b"), ("b", "a"), ("a", "c")]
+        self.assertEqual(self.draw.without_shortcuts(circle), circle)
+
+    def test_nodes_and_edges_come_from_the_dot_text_and_sensors_are_one(self):
+        nodes, edges = self.draw.clusters(self.DOT)["step"]
+        self.assertEqual(nodes, ["emit", "sensor one", "sensor two"])
+        drawn = self.draw.graph_diagram("step", nodes, edges)
+        self.assertEqual(drawn.count("step_sensors["), 1)
+        self.assertEqual(drawn.count("step_emit --> step_sensors"), 1)
+
+    def test_a_node_that_the_table_does_not_explain_is_found(self):
+        page = "<!-- end of step -->\n\n| node | what |\n| --- | --- |\n| emit, sensors | a |\n\nmore\n"
+        self.assertEqual(self.draw.unexplained(page, "step", ["emit", "sensor one", "fluid"]), ["fluid"])
+
+    def test_a_stale_diagram_is_replaced_between_its_marks(self):
+        page = "a\n<!-- x: drawn by tools/dev/draw_architecture -->\nold\n<!-- end of x -->\nb\n"
+        self.assertEqual(self.draw.replaced(page, "x", "new"), page.replace("old", "new"))
 
 
 if __name__ == "__main__":
