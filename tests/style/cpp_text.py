@@ -24,3 +24,14 @@ def sources(root, folders):
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in SUFFIXES and path.is_file():
                 yield path
+
+
+def end_of_block(lines, n, statement):
+    """The first line from `n` on that closes what `statement` left open; the last line if none does."""
+    depth = statement.count("{") - statement.count("}")
+    while n < len(lines):
+        depth += lines[n].count("{") - lines[n].count("}")
+        if depth <= 0:
+            return n
+        n += 1
+    return n - 1

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """functions_gate.py ROOT [--shrink]: functions of core, plugins and tools have up to 60 lines, from
 the first line of the declaration to the closing brace. Kernels (DUST_KERNEL) are exempt, and so are
-tables. Reads the sources as clang-format leaves them: a body ends with a brace in the column of its
-declaration. Longer ones from before stand in functions_allowed.txt by file and name, which only
+tables. Reads the sources as clang-format leaves them. Longer ones from before stand in functions_allowed.txt by file and name, which only
 shrinks."""
 
 import pathlib
@@ -34,7 +33,6 @@ def functions(text):
     scopes = []  # (name of the type, or None of a namespace)
     n = 0
     while n < len(lines):
-        indent = 2 * sum(1 for s in scopes if s is not None)
         line = lines[n]
         if not line.strip() or line.lstrip().startswith("#"):
             while line.rstrip().endswith("\\") and n + 1 < len(lines):
@@ -64,16 +62,12 @@ def functions(text):
         if SCOPE.match(declaration):
             scopes.append(None)
         elif re.match(r"(typedef )?enum\b", declaration):
-            while n < len(lines) and not lines[n].startswith(" " * indent + "}"):
-                n += 1
-            n += 1
+            n = cpp_text.end_of_block(lines, n, declaration) + 1
         elif TYPE.match(declaration):
             scopes.append(re.search(r"(?:class|struct|union|enum)\s+(?:class\s+)?([\w:]*)", declaration)[1])
         else:
-            end = " " * indent + "}"
-            while n < len(lines) and not (lines[n].startswith(end)):
-                n += 1
-            closing = lines[n].strip() if n < len(lines) else ""
+            n = cpp_text.end_of_block(lines, n, declaration)
+            closing = lines[n].strip()
             n += 1
             if "(" in declaration and closing == "}":
                 types = [s for s in scopes if s]

@@ -12,6 +12,7 @@ import folders_gate
 import format_gate
 import functions_gate
 import test_names_gate
+import types_gate
 import words_gate
 
 GLOSSARY = """# Glossary
@@ -96,6 +97,40 @@ class Folders(Tree):
         self.assertIn("smaller number", "".join(folders_gate.problems(found, {"core/a": 20})))
         self.assertIn("take it out", "".join(folders_gate.problems({}, {"core/a": 20})))
         self.assertEqual(list(folders_gate.problems(found, {"core/a": 16})), [])
+
+
+class Types(Tree):
+    def found(self, code, path="core/a.hpp"):
+        self.write(path, code)
+        return set(types_gate.findings(self.root))
+
+    def test_public_data_of_a_type_that_changes_itself_are_found(self):
+        code = "struct Sum {\n  double value = 0.0;\n  void add(double x);\n};\n"
+        self.assertEqual(self.found(code), {"public_data Sum"})
+
+    def test_types_inside_types_have_their_full_names(self):
+        self.assertEqual(
+            self.found("class Outer {\n public:\n  struct Inner {\n    int a[3] = {1, 2, 3}, b;\n"
+                       "    void set() {\n      a[0] = 1;\n    }\n  };\n\n private:\n  int c_;\n};\n"),
+            {"public_data Outer::Inner"})
+
+    def test_aggregates_and_values_pass(self):
+        self.assertEqual(
+            self.found("struct View {\n  const double* x = nullptr;\n  std::map<int, f(int)> m;\n"
+                       "  double at(int i) const { return x[i]; }\n  View& operator+=(const View& v);\n"
+                       "  static View make(int n);\n  View() = default;\n  explicit View(int n);\n"
+                       "  int (*count)(int) = nullptr;\n};\n"), set())
+
+    def test_types_of_a_source_may_be_open_but_not_large(self):
+        members = "".join(f"  int a{n}, b{n};\n" for n in range(8))
+        code = "struct Impl {\n" + members + "  void step();\n};\n"
+        self.assertEqual(self.found(code, "core/a.cpp"), {"members Impl"})
+        self.assertEqual(self.found(code.replace(", b0", ""), "core/a.cpp"), set())
+
+    def test_members_with_initialisers_over_lines_end_where_they_end(self):
+        self.assertEqual(
+            self.found("class A {\n  std::array<int, 2> a_{\n      1,\n      2};\n  void f();\n\n"
+                       " public:\n  int b = 0;\n};\n"), {"public_data A"})
 
 
 class TestNames(Tree):
