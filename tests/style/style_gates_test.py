@@ -118,6 +118,8 @@ class Types(Tree):
         self.assertEqual(
             self.found("struct View {\n  const double* x = nullptr;\n  std::map<int, f(int)> m;\n"
                        "  double at(int i) const { return x[i]; }\n  View& operator+=(const View& v);\n"
+                       "  __attribute__((always_inline)) static inline View of(int n) {\n    return {};\n"
+                       "  }\n  constexpr static int k_n = 3;\n"
                        "  static View make(int n);\n  View() = default;\n  explicit View(int n);\n"
                        "  int (*count)(int) = nullptr;\n};\n"), set())
 

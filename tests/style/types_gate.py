@@ -19,12 +19,13 @@ LIMIT = 15
 TYPE = re.compile(r"(?:template\s*<.*?>\s*)?(?:typedef )?(class|struct|union)\s+"
                   r"(?:alignas\([^)]*\)\s*)?([\w:]+)[^()]*\{$")
 SKIPPED = ("using ", "friend ", "typedef ", "static ", "enum ", "public:", "private:", "protected:",
-           "template", "class ", "struct ", "union ", "static_assert", "DUST_", "constexpr static ")
+           "template", "class ", "struct ", "union ", "static_assert", "DUST_")
 
 
 def bare(statement):
     """Without template arguments, attributes, initialisers and array bounds."""
-    statement = re.sub(r"\[\[.*?\]\]", "", statement)
+    statement = re.sub(r"\[\[.*?\]\]|__attribute__\(\(.*?\)\)", "", statement).strip()
+    statement = re.sub(r"^(inline|constexpr) static\b", "static", statement)
     before = None
     while before != statement:
         before = statement
@@ -53,7 +54,7 @@ def changes_its_object(statement, type_name):
     """Whether it declares a member function that may change an object."""
     declared = bare(statement).strip()
     if "(" not in declared or declared.startswith(("using ", "friend ", "typedef ", "static ", "enum ",
-                                                   "constexpr static ", "static_assert", "DUST_")):
+                                                   "static_assert", "DUST_")):
         return False
     declared = re.split(r"\)\s*:\s*\w", declared)[0] + (")" if re.search(r"\)\s*:\s*\w", declared) else "")
     if re.search(r"=\s*(default|delete)", declared):
