@@ -164,6 +164,10 @@ class Diagrams(unittest.TestCase):
     "step.emit" [label="emit", tooltip="reads: a"];
     "step.sensor one" [label="sensor one"];
     "step.sensor two" [label="sensor two"];
+    subgraph "cluster_step.tile" {
+    label="per tile"; style=dashed;
+    "step.contact" [label="contact"];
+    }
     "step.emit" -> "step.sensor one";
     "step.emit" -> "step.sensor two";
   }
@@ -183,9 +187,11 @@ class Diagrams(unittest.TestCase):
         self.assertEqual(self.draw.without_shortcuts(circle), circle)
 
     def test_nodes_and_edges_come_from_the_dot_text_and_sensors_are_one(self):
-        nodes, edges = self.draw.clusters(self.DOT)["step"]
-        self.assertEqual(nodes, ["emit", "sensor one", "sensor two"])
-        drawn = self.draw.graph_diagram("step", nodes, edges)
+        self.assertEqual(list(self.draw.clusters(self.DOT)), ["step"])
+        nodes, edges, parts = self.draw.clusters(self.DOT)["step"]
+        self.assertEqual(nodes, ["emit", "sensor one", "sensor two", "contact"])
+        drawn = self.draw.graph_diagram("step", nodes, edges, parts)
+        self.assertIn('subgraph box_0["per tile"]\n    step_contact["contact"]\n  end', drawn)
         self.assertEqual(drawn.count("step_sensors["), 1)
         self.assertEqual(drawn.count("step_emit --> step_sensors"), 1)
 
