@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bodies/mesh.hpp"
 #include "base/finite.hpp"
+#include "bodies/mesh.hpp"
 #include "dust/sdk/error.hpp"
 
 #include <cmath>

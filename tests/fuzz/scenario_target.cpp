@@ -3,8 +3,8 @@
 // or a leak. Linked with libFuzzer (tools/dev/fuzz) or with generate.cpp (the tests).
 #include "base/error.hpp"
 #include "fuzz/patience.hpp"
-#include "preflight/reader.hpp"
 #include "preflight/derived.hpp"
+#include "preflight/reader.hpp"
 #include "unit/scenario/fake_models.hpp"
 
 #include <unistd.h>

@@ -241,7 +241,7 @@ TEST_CASE("check shall draw the set-up") {
   CHECK(svg.starts_with("<svg "));
   CHECK(svg.find(">belt</tspan>") != std::string::npos);
   CHECK(svg.find(">feed</tspan>") != std::string::npos);
-  CHECK(svg.find(">stream</tspan>") != std::string::npos);  // a sensor that is a point
+  CHECK(svg.find(">stream</tspan>") != std::string::npos);   // a sensor that is a point
   CHECK(svg.find("fill=\"#c4c4c4\"") != std::string::npos);  // the belt is solid inside
   CHECK(svg.find("wall of glass, air: slip") != std::string::npos);
   CHECK(svg.find(">50 mm (") != std::string::npos);

@@ -8,12 +8,12 @@ namespace {
 namespace formula = dust::model::hooke;
 namespace sdk = dust::sdk;
 
-DUST_KERNEL void evaluate_batch(const formula::Constants &constants, const sdk::ContactBatch &b) {
+DUST_KERNEL void evaluate_batch(const formula::Constants& constants, const sdk::ContactBatch& b) {
   const formula::Constants k = constants;
   const double *overlap = b.overlap, *nx = b.normal.x, *ny = b.normal.y, *nz = b.normal.z;
   const double *vx = b.velocity.x, *vy = b.velocity.y, *vz = b.velocity.z;
   const double *ux = b.displacement.x, *uy = b.displacement.y, *uz = b.displacement.z;
-  const double *mass = b.effective_mass;
+  const double* mass = b.effective_mass;
   double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2];
   double *fn = b.normal_force, *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
   double *fx = b.force.x, *fy = b.force.y, *fz = b.force.z;
@@ -78,16 +78,16 @@ class Hooke final : public sdk::ContactLaw {
         .source = "Cundall and Strack, Geotechnique 29 (1979) 47, doi:10.1680/geot.1979.29.1.47"};
   }
 
-  explicit Hooke(const Parameters &p) {
+  explicit Hooke(const Parameters& p) {
     constants_.stiffness = p.normal_stiffness;
     constants_.tangential_stiffness = p.tangential_stiffness_ratio * p.normal_stiffness;
     constants_.damping = formula::damping(p.restitution);
     constants_.friction = p.friction;
   }
 
-  void prepare(const sdk::MaterialProperties &, const sdk::MaterialProperties &) override {}
+  void prepare(const sdk::MaterialProperties&, const sdk::MaterialProperties&) override {}
   [[nodiscard]] int history_size() const override { return 3; }
-  void evaluate(const sdk::ContactBatch &batch) const override {
+  void evaluate(const sdk::ContactBatch& batch) const override {
     evaluate_batch(constants_, batch);
   }
   [[nodiscard]] double collision_time(double, double mass, double) const override {

@@ -10,7 +10,7 @@ namespace {
 namespace formula = dust::model::cdt;
 namespace sdk = dust::sdk;
 
-DUST_KERNEL void evaluate_batch(double friction, const sdk::ContactBatch &b) {
+DUST_KERNEL void evaluate_batch(double friction, const sdk::ContactBatch& b) {
   const double time_step = b.time_step;
   const double *nx = b.normal.x, *ny = b.normal.y, *nz = b.normal.z;
   const double *wx = b.angular_velocity.x, *wy = b.angular_velocity.y, *wz = b.angular_velocity.z;
@@ -46,9 +46,9 @@ class Cdt final : public dust::model::RollingFriction {
                 "(1999) 536, doi:10.1016/S0378-4371(99)00183-1"};
   }
 
-  explicit Cdt(const Parameters &p) : RollingFriction(p) {}
+  explicit Cdt(const Parameters& p) : RollingFriction(p) {}
   [[nodiscard]] int history_size() const override { return 0; }
-  void evaluate(const sdk::ContactBatch &batch) const override {
+  void evaluate(const sdk::ContactBatch& batch) const override {
     evaluate_batch(friction(), batch);
   }
 };

@@ -10,7 +10,7 @@ namespace {
 namespace formula = dust::model::epsd;
 namespace sdk = dust::sdk;
 
-DUST_KERNEL void evaluate_batch(const formula::Constants &constants, const sdk::ContactBatch &b) {
+DUST_KERNEL void evaluate_batch(const formula::Constants& constants, const sdk::ContactBatch& b) {
   const formula::Constants k = constants;
   const double *nx = b.normal.x, *ny = b.normal.y, *nz = b.normal.z;
   const double *wx = b.angular_velocity.x, *wy = b.angular_velocity.y, *wz = b.angular_velocity.z;
@@ -64,10 +64,10 @@ class Epsd final : public sdk::RollingLaw {
                 "doi:10.1016/j.powtec.2010.09.030"};
   }
 
-  explicit Epsd(const Parameters &p) : constants_{p.friction, p.damping_ratio} {}
-  void prepare(const sdk::MaterialProperties &, const sdk::MaterialProperties &) override {}
+  explicit Epsd(const Parameters& p) : constants_{p.friction, p.damping_ratio} {}
+  void prepare(const sdk::MaterialProperties&, const sdk::MaterialProperties&) override {}
   [[nodiscard]] int history_size() const override { return 4; }
-  void evaluate(const sdk::ContactBatch &batch) const override {
+  void evaluate(const sdk::ContactBatch& batch) const override {
     evaluate_batch(constants_, batch);
   }
 

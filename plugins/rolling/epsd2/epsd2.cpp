@@ -16,7 +16,7 @@ namespace sdk = dust::sdk;
 /// Contacts from one root to the next: what the stages hand on stays in the first-level cache.
 constexpr std::size_t k_block = 64;
 
-DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch &b, std::size_t first,
+DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std::size_t first,
                                 std::size_t end) {
   const double *nx = b.normal.x, *ny = b.normal.y, *nz = b.normal.z;
   const double *ax = b.angle.x, *ay = b.angle.y, *az = b.angle.z;
@@ -83,9 +83,9 @@ class Epsd2 final : public dust::model::RollingFriction {
                 "217 (2012) 409, doi:10.1016/j.powtec.2011.10.057"};
   }
 
-  explicit Epsd2(const Parameters &p) : RollingFriction(p) {}
+  explicit Epsd2(const Parameters& p) : RollingFriction(p) {}
   [[nodiscard]] int history_size() const override { return 4; }
-  void evaluate(const sdk::ContactBatch &batch) const override {
+  void evaluate(const sdk::ContactBatch& batch) const override {
     for (std::size_t first = 0; first < batch.count; first += k_block) {
       evaluate_block(friction(), batch, first, std::min(first + k_block, batch.count));
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "io/report.hpp"
 #include "base/error.hpp"
 #include "fake_run.hpp"
-#include "io/report.hpp"
 #include "io/report_text.hpp"
 
 #include <doctest/doctest.h>

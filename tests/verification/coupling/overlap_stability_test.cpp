@@ -15,8 +15,8 @@ using dust::test::Relaxation;
 using State = Eigen::RowVector4d;  // u, m, v, o
 enum class Shown { end_of_step, mean_of_step };
 
-/// Errors of one step with load `a`, `k` relaxations and h = `h` over `n` sub-steps, 0: many; drag as
-/// slip^(1 + b), given to the air along its tangent (decision 0021).
+/// Errors of one step with load `a`, `k` relaxations and h = `h` over `n` sub-steps, 0: many; drag
+/// as slip^(1 + b), given to the air along its tangent (decision 0021).
 Eigen::Matrix4d step_of(double a, double k, double h, int n, Shown shown, double b = 0.0) {
   const State u{1, 0, 0, 0};
   const State m{0, 1, 0, 0};
