@@ -72,7 +72,7 @@ DUST_KERNEL void cut_first_displacements(BatchColumns& columns, std::size_t coun
   for (std::size_t q = 0; q < n; ++q) {
     const double parting =
         way[0][q] * normal[0][q] + way[1][q] * normal[1][q] + way[2][q] * normal[2][q];
-    // They came in by -parting to the overlap.
+    // They came in by -parting to the overlap; docs/theory/grains.md, eq. (5).
     const double inside = overlap[q] / std::max(-parting, 1e-300);
     const double share = overlap[q] > 0.0 && parting < 0.0 ? std::min(1.0, inside) : 1.0;
     for (int d = 0; d < 3; ++d) {
@@ -135,7 +135,7 @@ DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count)
 #pragma omp simd reduction(max : largest) reduction(min : shallowest)
   for (std::size_t q = 0; q < n; ++q) {
     const double distance = distances[q];
-    // Four reciprocals from one division.
+    // Four reciprocals from one division; docs/theory/grains.md, eq. (1), (2).
     const double radii = ri[q] + rj[q];
     const double smaller = std::min(ri[q], rj[q]);
     const double by_radii = radii * distance;
@@ -241,7 +241,7 @@ DUST_KERNEL void derive_torques(BatchColumns& columns, std::size_t count, bool h
   const double couple = has_couple ? 1.0 : 0.0;
 #pragma omp simd
   for (std::size_t q = 0; q < n; ++q) {
-    // Force F at -lever_i n on i and -F at +lever_j n on j: both torques are -lever n x F.
+    // F at -lever_i n on i, -F at +lever_j n on j; docs/theory/grains.md, eq. (3).
     const double tx = ny[q] * fz[q] - nz[q] * fy[q];
     const double ty = nz[q] * fx[q] - nx[q] * fz[q];
     const double tz = nx[q] * fy[q] - ny[q] * fx[q];

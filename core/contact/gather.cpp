@@ -169,7 +169,7 @@ __attribute__((always_inline)) inline void load_motion(const RowView& rows, cons
   put(B::radius_i, i[3]);
   put(B::radius_j, j[3]);
   // Ways and angles since the last step: half velocities times twice their lag, which is zero for a
-  // grain that has just come.
+  // grain that has just come; docs/theory/grains.md, eq. (4).
   load_columns(rows.motion + 4, a, i);
   load_columns(rows.motion + 4, b, j);
   const Lanes time_i = i[3] + i[3];

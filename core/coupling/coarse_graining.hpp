@@ -13,7 +13,7 @@ namespace dust::coupling {
 
 /// Grains that stand for smaller ones: one of diameter D for l^3 of D / l, l that of its material
 /// (`coarse_graining`). The fluid acts on each of these as on a grain of its own, and the row gets
-/// the sum. docs/theory/coarse_graining.md.
+/// the sum; docs/theory/coarse_graining.md, eq. (1).
 class CoarseGraining {
  public:
   explicit CoarseGraining(std::span<const scenario::MaterialSpec> materials) {

@@ -16,7 +16,7 @@ namespace dust::coupling {
 /// the packing's, and drag laws are singular at 0.
 inline constexpr double k_smallest_void_fraction = 0.30;
 
-/// Void fraction of the open volume of each cell: eps = 1 - V_grains / (open_fraction V_cell).
+/// Void fraction of the open volume of each cell; docs/theory/coupling.md, eq. (10).
 class VoidFractionField {
  public:
   struct Counts {

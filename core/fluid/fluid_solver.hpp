@@ -29,7 +29,7 @@ using Boundaries = std::array<const sdk::BoundaryCondition*, 6>;
 
 /// Volume-averaged Navier-Stokes on a staggered grid cut by bodies: incompressible, laminar or with
 /// an eddy viscosity,
-///   d(eps)/dt + div(eps u) = 0
+///   d(eps)/dt + div(eps u) = 0                     docs/theory/fluid.md, eq. (1), (2)
 ///   rho (du/dt + u . grad u) = -grad p + div tau - coefficient u + source  (Exchange).
 /// Bodies that move shove it away; bodies with an opening suck it in. Owns velocity and pressure.
 /// Deterministic for any number of

@@ -24,7 +24,7 @@ struct Each {
 };
 
 /// How much of a pressure force over `step` arrives as velocity when drag of rate z / step acts:
-/// (1 - R(-z)) / z with R the stability function of the implicit pair.
+/// (1 - R(-z)) / z, R the stability function of the pair; docs/theory/fluid.md, eq. (7).
 inline __attribute__((always_inline)) double response(double z) {
   const double d = 1.0 + k_gamma * z;
   return (1.0 + k_gamma * k_gamma * z) / (d * d);

@@ -46,7 +46,7 @@ struct ClassStep {
   double diameter = 0.0;       ///< [m]
   double rayleigh_time = 0.0;  ///< [s]
   double hertz_time = 0.0;     ///< [s] at the expected speed
-  double stable_step = 0.0;    ///< [s] min(0.3 Rayleigh, Hertz / 15)
+  double stable_step = 0.0;    ///< [s] docs/theory/grains.md, eq. (10)
   int level = 0;               ///< steps are coarse_step / 2^level at the finest
   int material = -1;           ///< of the grain that has the shortest collision
   int partner = -1;            ///< material of what it meets in it

@@ -12,7 +12,7 @@
 namespace dust::particles {
 
 /// Share of a pair's force that a grain of a statistical `weight` feels beside one of the weight
-/// `other`: the lighter feels all of it, and the sum of w m v is kept.
+/// `other`: the lighter feels all of it; docs/theory/rare_grains.md, eq. (1).
 inline double felt_share(double weight, double other) {
   return other < weight ? other / weight : 1.0;
 }

@@ -107,7 +107,7 @@ int level_of(double coarse_step, double stable_step) {
 double rayleigh_time(const sdk::MaterialProperties& material, double radius) {
   const double shear = material.young_modulus / (2.0 * (1.0 + material.poisson_ratio));
   return std::numbers::pi * radius * std::sqrt(material.density / shear) /
-         (0.1631 * material.poisson_ratio + 0.8766);
+         (0.1631 * material.poisson_ratio + 0.8766);  // docs/theory/grains.md, eq. (9)
 }
 
 double TimeSteps::step_of(const ClassStep& c) const { return std::ldexp(coarse_step, -c.level); }

@@ -27,7 +27,7 @@ class StressBalance;
 /// V). a = sum(w open), e = sum(w open eps) over its eight faces, eps_c the void fraction of its
 /// cell, V the cell volume. Grains larger than a cell act through all faces of the cells they are
 /// spread over, those whose own disturbance is taken off through the faces of a SmoothKernel.
-/// Derivation and what this conserves: docs/theory/coupling.md.
+/// Derivation and what this conserves: docs/theory/coupling.md, eq. (5), (14), (16).
 class DragExchange {
  public:
   /// In set III the fluid receives a density of force on the whole control volume, a_f V, in place

@@ -36,7 +36,7 @@ DragLinearisation::DragLinearisation(const Lattice& lattice, const sdk::VoidageR
       order_(order) {}
 
 /// Part of the coefficient that the fluid is given. A free particle relaxes within the step: mean
-/// drag = (m / step) (1 - exp(-K step / m)) (u - v), `relaxations` = K step / m.
+/// drag by docs/theory/coupling.md, eq. (13), (14), `relaxations` = K step / m.
 double DragLinearisation::implicit_factor(double relaxations) const {
   const double mean = -std::expm1(-relaxations) / relaxations;
   return order_ == Order::overlapped ? k_overlapped_implicit : std::max(mean, k_least_implicit);

@@ -14,7 +14,7 @@ namespace dust::coupling {
 
 /// Drag of a batch of particles as the fluid is given it, K [(1 + b) s - b s_0] for the slip s to
 /// come and that of before, s_0: the tangent to a drag that grows as s^(1+b), so that the fluid is
-/// not too late with it where drag is stiff (docs/theory/coupling.md, Time).
+/// not too late with it where drag is stiff; docs/theory/coupling.md, eq. (15).
 struct LinearisedDrag {
   StencilBatch::Reals coefficient;    ///< [kg/s] K at s_0
   StencilBatch::Reals slope;          ///< [-] b = d ln K / d ln s, 0..1

@@ -15,7 +15,7 @@ DUST_KERNEL void predict_along(std::size_t count, double half, double before, do
 #pragma omp simd
   for (std::size_t q = 0; q < count; ++q) {
     // As much as an implicit half step makes of it: where a grain relaxes fast, the drag of early
-    // on counts more for its way than that of the middle.
+    // on counts more than that of the middle; docs/theory/coupling.md, eq. (12).
     const double ahead = half / (1.0 + rate[q] * half);
     const double free = (rate[q] * pull[q] + weight[q] * gravity) * ahead;
     const double seen = change[q] * before;

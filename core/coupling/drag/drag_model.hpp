@@ -55,7 +55,7 @@ class DragModel {
     return 3.0 * std::numbers::pi * fluid_at(position).viscosity * 2.0 * position[3] * factor *
            (l * l);
   }
-  /// What the drag on a particle is made of K by: set III puts the pressure's part into it.
+  /// Set III puts the pressure's part into the drag; docs/theory/coupling.md, eq. (3).
   [[nodiscard]] double factor_of_set(double eps) const { return is_set_three() ? 1.0 / eps : 1.0; }
 
   /// F of the first `count` particles, from their Reynolds numbers and void fractions.

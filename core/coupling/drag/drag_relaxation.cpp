@@ -142,7 +142,7 @@ void DragRelaxation::relax_by_forces(const particles::GrainRows& grains, Rows ro
   }
 }
 
-/// The action on a grain with forces besides drag. The grain obeys
+/// With forces besides drag (docs/theory/coupling.md, eq. (21)) the grain obeys
 ///   (m + m_a) dv/dt = K (relative slip) + sum of forces + m g' + contacts ,
 /// while the DEM integrates dv/dt = rate (target - v) + g' + contacts / m: the target makes up for
 /// the difference, for the contacts with those of the last interval.

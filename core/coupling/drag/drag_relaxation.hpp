@@ -13,7 +13,7 @@
 namespace dust::coupling {
 
 /// The action of the fluid on the particles: target velocity and rate of their relaxation,
-/// dv/dt = rate (target - v) + g' + contacts / m, until the next refresh.
+/// dv/dt = rate (target - v) + g' + contacts / m; docs/theory/coupling.md, eq. (11).
 class DragRelaxation {
  public:
   /// All are kept by reference.

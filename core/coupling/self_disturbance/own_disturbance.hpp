@@ -9,7 +9,7 @@
 namespace dust::coupling {
 
 /// Closed forms for what a single grain does to the fluid it is coupled to, so that it can be taken
-/// off again. Derivations, figures and limits: docs/theory/own_disturbance.md.
+/// off again. Figures and limits: docs/theory/own_disturbance.md, eq. (1), (2), (3), (4), (5).
 namespace own_disturbance {
 
 /// Share of the slip from which on what a grain makes by itself is taken off: below it the eight

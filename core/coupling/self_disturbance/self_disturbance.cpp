@@ -127,7 +127,7 @@ bool SelfDisturbance::is_candidate(const particles::GrainRows& grains, std::size
 }
 
 /// What the grain would make of a fluid with its eight faces, and its own solids of its drag, over
-/// its slip or drag [-]; `eps` of its cell.
+/// its slip or drag [-]; `eps` of its cell; docs/theory/own_disturbance.md, eq. (8).
 double SelfDisturbance::own_part(const particles::GrainRows& grains, std::size_t row, double eps,
                                  double slip) const {
   namespace own = own_disturbance;

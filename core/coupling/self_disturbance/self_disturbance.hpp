@@ -49,7 +49,7 @@ class SelfDisturbance {
   /// The flows at the end of the fluid step: what is left of them, and what was added.
   void end_step(double step);
 
-  /// Drag and force by the stress of the own drag, over the drag.
+  /// Drag with the stress of the own drag; docs/theory/own_disturbance.md, eq. (7).
   [[nodiscard]] double stress_factor(std::size_t row) const {
     return states_.is_smooth(row) ? 1.0 + states_.own_flow(row).self_stress : 1.0;
   }

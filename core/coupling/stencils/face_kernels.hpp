@@ -135,7 +135,7 @@ void sum_faces(const StencilBatch& spots, int d, const FaceColumns& faces,
 void look_at_faces(const StencilBatch& spots, int d, const FaceColumns& faces, const double* u,
                    const double* v, const FaceSumColumns& sums, double* flux);
 /// slip = flux / eps, and ratio = (fluid / open) / eps, 1 without open faces: void fraction at the
-/// faces over that around the grain.
+/// faces over that around the grain; docs/theory/coupling.md, eq. (4), (7).
 void slip_of_faces(std::size_t count, const double* eps, const FaceSumColumns& sums,
                    const double* flux, double* slip, double* ratio);
 /// drag and extra from `input`, velocity and lag; 0 for grains with less than `least_open` around

@@ -12,7 +12,7 @@
 namespace dust::fluid {
 
 /// Stress of the motion smaller than a cell, by the eddy viscosity of a model:
-///   tau_ij = mu_t (d_i u_j + d_j u_i) .
+///   tau_ij = mu_t (d_i u_j + d_j u_i) ;   docs/theory/fluid.md, eq. (15).
 /// Taken explicitly and as differences of fluxes between neighbouring faces: what one loses the
 /// next one gains. A model of cell size is stable wherever convection is: with mu_t of
 /// (0.2 h)^2 rho |S| the diffusion number is below 0.25 times the Courant number.

@@ -327,7 +327,7 @@ void Momentum::extend(FaceField& u, Ghosts which) const {
       for (int n = block * 64; n < std::min(count, (block + 1) * 64); ++n) {
         const GhostFace& g = ghosts[n];
         if (!all && g.is_crossed) continue;
-        if (g.is_parted) {
+        if (g.is_parted) {  // docs/theory/fluid.md, eq. (14)
           v[g.at] = normal_part(geometry_.wall, d, static_cast<std::size_t>(g.wall_point));
           continue;
         }

@@ -19,7 +19,7 @@ class Momentum {
 
   /// After the geometry was built anew.
   void geometry_changed();
-  /// flux = mean void fraction of the two cells x velocity, everywhere including halos.
+  /// flux = mean void fraction x velocity, halos included; docs/theory/fluid.md, eq. (3).
   void find_flux(const FaceField& u, const CellField& eps);
   /// out = u . grad u of component `d` at row (j, k) (extent_x numbers), from the last find_flux.
   /// `smoothness` [m2/s2]: squared steps of velocity below this are taken as smooth.

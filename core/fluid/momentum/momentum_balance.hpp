@@ -11,7 +11,7 @@ namespace dust::fluid {
 
 /// What the fluid of each face's control volume has received in excess of what the equation gives
 /// it, kept so that it can be taken back: with grains in it the scheme conserves momentum to its
-/// order only (docs/theory/fluid.md, Momentum). Per cell volume [N s/m3], over a fluid step,
+/// order only (docs/theory/fluid.md, eq. (8)). Per cell volume [N s/m3], over a fluid step,
 ///   excess = rho (eps u)_end - rho (eps u)_begin
 ///            + dt (rho sum F u_f - w (source - coefficient u_drag - grad p + div tau)) ,
 /// F the fluxes that carried the momentum, p and tau means over the step, w = eps (set III: 1).

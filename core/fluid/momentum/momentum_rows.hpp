@@ -16,7 +16,7 @@ namespace {
 /// Value between cells with upstream neighbours: `up`, `at`, and `down` behind the face. Two slopes
 /// are blended (weights 1/3 upwind, 2/3 central in smooth flow: third order; the smoother one next
 /// to a jump), after Jiang and Shu (1996) 10.1006/jcph.1996.0130 with the global smoothness
-/// indicator of Yamaleev and Carpenter (2009) 10.1016/j.jcp.2009.01.011.
+/// indicator of Yamaleev, Carpenter (2009) 10.1016/j.jcp.2009.01.011, docs/theory/fluid.md, eq. (4)
 inline __attribute__((always_inline)) double face_value(double up, double at, double down,
                                                         double smoothness) {
   const double behind = at - up;

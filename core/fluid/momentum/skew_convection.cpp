@@ -54,8 +54,8 @@ double convection_along_surface(const Grid& grid, const Geometry& geometry, cons
     other_slope += node[n].slope * v;
   }
   const double along = here * face.own_part + other_here * face.other_part;
-  // From continuity, for a surface that neither lets through nor stretches: interpolated, the
-  // velocity across a layer as thick as a cell would be an error of that along it.
+  // From continuity, for a tight surface that does not stretch; docs/theory/fluid.md, eq. (12).
+  // Interpolated, the velocity across a layer of one cell would be an error of that along it.
   const double stretch =
       face.own_part * slope + face.other_part * other_slope + stretch_along(grid, face, u, d);
   const double across = -0.5 * face.distance * stretch;

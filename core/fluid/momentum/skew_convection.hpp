@@ -7,7 +7,7 @@
 namespace dust::fluid {
 
 /// u . grad u [m/s2] of component `d` in the plane across SkewFace::along, at a face beside a
-/// surface that moves along itself askew to the grid:
+/// surface that moves along itself askew to the grid; docs/theory/fluid.md, eq. (11):
 ///   u_t du/dt + u_n du/dn + k (|u_t| + |u_n|) (u - mean) / h ,
 /// derivatives along and across the surface by weighted least squares (SkewNode). The last term is
 /// the dissipation, of third order: `mean` is what the neighbours let expect, so a layer that does

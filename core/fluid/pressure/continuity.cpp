@@ -171,7 +171,7 @@ void Continuity::find_divergence(const FaceField& v, const CellField& eps) {
   }
 }
 
-/// Coefficients of the pressure equation for the present void fraction.
+/// Coefficients of the pressure equation at present; docs/theory/fluid.md, eq. (5).
 void Continuity::prepare(const CellField& eps, double step, const FaceField& drag) {
   FaceField& k_field = solver_->coefficients();
   for (int d = 0; d < 3; ++d) {

@@ -16,7 +16,7 @@
 namespace dust::fluid {
 
 /// Continuity on the cut grid and the projection that makes a velocity obey it:
-///   d(theta eps)/dt + sum_f a eps u A / V + sinks = 0 ,
+///   d(theta eps)/dt + sum_f a eps u A / V + sinks = 0 ,   docs/theory/fluid.md, eq. (13),
 /// theta the open share of the cell, a that of the face.
 class Continuity {
  public:
@@ -48,7 +48,7 @@ class Continuity {
   /// `is_plain`: no drag and no solids; the equation is then the last one if that was plain, too.
   int project(FaceField& v, const CellField& eps, double step, const FaceField& drag, bool is_plain,
               double tolerance);
-  /// [Pa] of the last projection.
+  /// [Pa] of the last projection; docs/theory/fluid.md, eq. (6).
   [[nodiscard]] const CellField& increment() const { return increment_; }
   /// Coefficients of the last projection: positive where the increment drives a flow.
   [[nodiscard]] const FaceField& coefficients() const { return solver_->coefficients(); }

@@ -17,7 +17,7 @@ constexpr std::size_t k_contacts = 256;
 /// their forces comes that late. Near a light one all are one cluster.
 constexpr double k_heavy = 64.0;
 
-/// Whether a coarse particle answers a fine one's forces by little enough.
+/// Whether a coarse particle is heavy beside a fine one; docs/theory/grains.md, eq. (13).
 bool is_heavy(const GrainStore& s, std::int32_t coarse, std::int32_t fine) {
   const auto c = static_cast<std::size_t>(coarse);
   const auto f = static_cast<std::size_t>(fine);

@@ -29,7 +29,7 @@ class Clusters {
   /// Fine particles of clusters: of the finest level first, cluster by cluster.
   [[nodiscard]] std::span<const std::int32_t> sub_cycled() const { return sub_cycled_; }
   [[nodiscard]] std::int32_t cluster_of(std::int32_t fine) const { return at(fine).cluster; }
-  /// The cluster makes 2^level sub-steps.
+  /// The cluster makes 2^level sub-steps; docs/theory/grains.md, eq. (11).
   [[nodiscard]] int level_of(std::int32_t cluster) const { return at(cluster).level; }
   /// By cluster and particle, each once.
   [[nodiscard]] std::span<const CoarsePartner> coarse_partners() const { return partners_; }

@@ -11,7 +11,7 @@
 namespace dust::particles {
 
 /// A particle while it is sub-cycled: a fine one, or a coarse one that a cluster is near, which has
-/// made its coarse step and is followed along it once more, with the impulses of the cluster.
+/// made its coarse step and is followed along it with impulses; docs/theory/grains.md, eq. (12).
 struct SubCycledParticle {
   std::int32_t particle = 0;
   bool is_coarse = false;

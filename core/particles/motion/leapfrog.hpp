@@ -9,7 +9,7 @@
 /// 310 (2025) 109524, doi:10.1016/j.cpc.2025.109524), written once: for one particle (Vector is
 /// sdk::Vec3, Number is double) and for vector registers (both are lanes::Lanes). With u the
 /// target velocity of drag, k its rate, a the acceleration by all else and tau the time since the
-/// last kick plus half a step:
+/// last kick plus half a step; docs/theory/grains.md, eq. (6), (7):
 ///
 /// \f$ v' = v E + u (1 - E) + a \phi \tau, \quad E = e^{-k \tau}, \quad
 ///     \phi = (1 - E) / (k \tau), \quad x' = x + \Delta t\, v' \f$
@@ -40,7 +40,7 @@ __attribute__((always_inline)) inline void kick(const Vector& old, const Vector&
 
 /// The velocity for the next forces, predicted to the instant of the new positions by the change
 /// of the kick. `ahead` [-]: what is left of the step after the kick, over the kick's duration,
-/// times the decay where there is drag.
+/// times the decay where there is drag; docs/theory/grains.md, eq. (8).
 template <class Vector, class Number>
 __attribute__((always_inline)) inline void predict(const Vector& half, const Vector& old,
                                                    const Number& ahead, Vector& velocity) {
@@ -66,7 +66,7 @@ __attribute__((always_inline)) inline void first_change(const Vector& old, const
 
 /// `count` equal steps at once. With d the change of velocity by the first step, that of the next
 /// one is E d. So, with G = 1 + E + ... + E^(count - 1) and H the sum of the first `count` G,
-/// \f$ v_n = v + d G, \quad x_n = x + \Delta t\, (n v + d H) \f$.
+/// \f$ v_n = v + d G, \quad x_n = x + \Delta t\, (n v + d H) \f$; docs/theory/grains.md, eq. (14).
 struct FreeFlight {
   double power = 1.0;  ///< E^count
   double g = 1.0;

@@ -51,7 +51,7 @@ inline void set_at_rest(const SideBatch& batch) {
 }
 
 /// Sets the interstitial velocity along the inward normal to what `superficial(n)` [m/s] makes of
-/// point n, over the void fraction there.
+/// point n, over the void fraction there; docs/theory/fluid.md, eq. (10).
 template <class Speed>
 void set_superficial(const SideBatch& batch, const Speed& superficial) {
   const std::array<double*, 3> velocity{batch.velocity.x, batch.velocity.y, batch.velocity.z};
