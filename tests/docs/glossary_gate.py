@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """glossary_gate.py ROOT: every row of the glossary has a term, a meaning and a source, terms stand in
 alphabetical order within their table and once, and relative links of all pages lead to a file, with
-#anchors to a heading. Files and folders that the tour and the theory name in `back ticks` exist. Exit status 1, one line per problem."""
+#anchors to a heading. Files and folders that the tour, the theory and the decisions name in `back ticks` exist. Exit status 1, one line per problem."""
 
 import pathlib
 import re
@@ -34,6 +34,7 @@ def link_problems(root):
 
 def path_problems(root):
     pages = [root / "CONTRIBUTING.md", *sorted((root / "docs/architecture").glob("*.md")),
+             *sorted((root / "docs/decisions").glob("*.md")),
              *sorted((root / "docs/theory").glob("*.md"))]
     for page in pages:
         if not page.exists():
