@@ -135,6 +135,19 @@ class Types(Tree):
                        " public:\n  int b = 0;\n};\n"), {"public_data A"})
 
 
+class Spread(Tree):
+    def test_a_class_in_three_sources_is_found_and_namespaces_are_not_meant(self):
+        for name in "abc":
+            self.write(f"core/{name}.cpp", f"void Dem::{name}() {{\n  f();\n}}\n\n"
+                                           f"void formula::{name}() {{\n  f();\n}}\n")
+        self.assertEqual(set(types_gate.findings(self.root)), {"sources Dem"})
+
+    def test_an_impl_in_foreign_hands_is_found(self):
+        self.write("core/a.cpp", "struct Dem::Impl {\n  int a;\n};\n\nvoid Dem::f() {\n  g();\n}\n")
+        self.write("core/b.hpp", "void take(const Dem::Impl& dem);\n")
+        self.assertEqual(types_gate.findings(self.root), {"impl Dem": "core/b.hpp"})
+
+
 class TestNames(Tree):
     def test_both_ways_round(self):
         self.write("tests/a.cpp", "TEST_CASE(\"a\") {}\n")

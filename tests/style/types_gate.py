@@ -3,7 +3,8 @@
 
 A type with behaviour (a member function that may change it) has no public data and up to 15 data
 members. Exempt: plain aggregates, whose functions only look or are operators; from the first rule types
-of a source, which nobody else sees. Reads the sources as clang-format
+of a source, which nobody else sees. A class has its functions in at most two sources. Its Impl is used
+where its functions are and nowhere else. Reads the sources as clang-format
 leaves them. Others from before stand in types_allowed.txt by rule and type, which only shrinks."""
 
 import pathlib
@@ -13,9 +14,12 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import allow_list
 import cpp_text
+import functions_gate
 
 FOLDERS = ("core", "plugins", "tools")
 LIMIT = 15
+SOURCES = 2
+IMPL = re.compile(r"\b([A-Z]\w*)::Impl\b")
 TYPE = re.compile(r"(?:template\s*<.*?>\s*)?(?:typedef )?(class|struct|union)\s+"
                   r"(?:alignas\([^)]*\)\s*)?([\w:]+)[^()]*\{$")
 SKIPPED = ("using ", "friend ", "typedef ", "static ", "enum ", "public:", "private:", "protected:",
@@ -124,8 +128,36 @@ def types_of(text):
             here["behaviour"] |= changes_its_object(statement, here["name"])
 
 
+def class_of(function):
+    """`Dem::Impl` of `Dem::Impl::step`; nothing for a function of a namespace."""
+    parts = function.split("::")[:-1]
+    return "::".join(parts) if parts and all(part[:1].isupper() for part in parts) else None
+
+
+def spread(root):
+    """Classes over too many sources, and Impls used where no function of their class stands."""
+    sources = {}
+    uses = {}
+    for path in cpp_text.sources(root, FOLDERS):
+        name = path.relative_to(root).as_posix()
+        text = path.read_text(errors="replace")
+        here = {class_of(function) for function, *_ in functions_gate.functions(text)} - {None}
+        if path.suffix == ".cpp":
+            for one in here:
+                sources.setdefault(one, []).append(name)
+        code = cpp_text.code_only(text)
+        own = {one.split("::")[0] for one in here}
+        own |= set(re.findall(r"\b(?:struct|class) ([A-Z]\w*)(?:::Impl)? (?:final )?[{:]", code))
+        for one in set(IMPL.findall(code)) - own:
+            uses.setdefault(one, name)
+    found = {f"sources {one}": f"{names[0]}: {len(names)} sources" for one, names in sources.items()
+             if len(names) > SOURCES}
+    found.update((f"impl {one}", name) for one, name in uses.items())
+    return found
+
+
 def findings(root):
-    found = {}
+    found = spread(root)
     for path in cpp_text.sources(root, FOLDERS):
         name = path.relative_to(root).as_posix()
         for one in types_of(path.read_text(errors="replace")):
@@ -142,7 +174,8 @@ def findings(root):
 def main():
     here = pathlib.Path(__file__).parent
     return allow_list.run(findings(allow_list.root_of(sys.argv[1:])), here / "types_allowed.txt",
-                          f"a type with behaviour has no public data and up to {LIMIT} data members",
+                          f"a type with behaviour has no public data, up to {LIMIT} data members, "
+                          f"at most {SOURCES} sources and an Impl of its own",
                           sys.argv[1:])
 
 
