@@ -112,7 +112,7 @@ struct EmitterSpec {
   ModelChoice model;
   int material = 0;
   int frame = -1;
-  std::vector<int> more_materials = {};  ///< that requests may have, in the order of the model's names
+  std::vector<int> more_materials = {};  ///< that requests may have, ordered as the model's names
 };
 
 struct SensorSpec {

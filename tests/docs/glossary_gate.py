@@ -41,7 +41,8 @@ def path_problems(root):
             continue
         for number, line in enumerate(page.read_text().split("\n"), 1):
             for name in PATH.findall(line):
-                if not (root / name).exists():
+                # A unit may be named without .hpp and .cpp.
+                if not any((root / (name + end)).exists() for end in ("", ".hpp", ".cpp")):
                     yield page, number, f"there is no {name}"
 
 

@@ -7,7 +7,8 @@
 namespace dust::particles {
 
 /// How long pair lists are made for, and how wide skins are: chosen from what the lists before have
-/// cost. Arithmetic on counts alone (docs/decisions/0006_watches.md, 0010_lists_fit_the_flow.md).
+/// cost. Arithmetic on counts alone (docs/decisions/0006_inner_pair_list.md,
+/// 0010_lists_fit_the_flow.md).
 ///
 /// The outer list names who may meet until its lifetime ends; the inner list, made of it again and
 /// again, who may meet within a few steps. Lifetimes are in coarse steps.

@@ -54,16 +54,15 @@ Shares spread(const sdk::VoidageRule& rule, const Columns& c, std::size_t batch)
            std::vector<int>(rows), std::vector<double>(rows)};
   for (std::size_t first = 0; first < count; first += batch) {
     const std::size_t row = first * static_cast<std::size_t>(capacity);
-    rule.spread(k_grid,
-                {std::min(batch, count - first),
-                 {c.x.data() + first, c.y.data() + first, c.z.data() + first},
-                 c.radius.data() + first,
-                 capacity,
-                 s.used.data() + first,
-                 s.i.data() + row,
-                 s.j.data() + row,
-                 s.k.data() + row,
-                 s.weight.data() + row});
+    rule.spread(k_grid, {std::min(batch, count - first),
+                         {c.x.data() + first, c.y.data() + first, c.z.data() + first},
+                         c.radius.data() + first,
+                         capacity,
+                         s.used.data() + first,
+                         s.i.data() + row,
+                         s.j.data() + row,
+                         s.k.data() + row,
+                         s.weight.data() + row});
   }
   return s;
 }
