@@ -10,18 +10,14 @@ void evaluate(WallPoints& wall, const bodies::BodySet& bodies, double time) {
     const std::size_t first = wall.body_begin[b];
     const std::size_t count = wall.body_begin[b + 1] - first;
     if (count == 0 || bodies[b].motions.empty()) continue;
-    bodies[b].surface_velocities({.count = count,
-                                  .time = time,
-                                  .axis = {},
-                                  .x = &wall.x[first],
-                                  .y = &wall.y[first],
-                                  .z = &wall.z[first],
-                                  .normal_x = &wall.normal_x[first],
-                                  .normal_y = &wall.normal_y[first],
-                                  .normal_z = &wall.normal_z[first],
-                                  .velocity_x = &wall.velocity[0][first],
-                                  .velocity_y = &wall.velocity[1][first],
-                                  .velocity_z = &wall.velocity[2][first]});
+    bodies[b].surface_velocities(
+        {.count = count,
+         .time = time,
+         .axis = {},
+         .position = {&wall.x[first], &wall.y[first], &wall.z[first]},
+         .normal = {&wall.normal_x[first], &wall.normal_y[first], &wall.normal_z[first]},
+         .velocity = {&wall.velocity[0][first], &wall.velocity[1][first],
+                      &wall.velocity[2][first]}});
   }
 }
 
