@@ -264,7 +264,7 @@ TEST_CASE("guarded pair laws shall answer as themselves and be told from their f
   CHECK(said([&] { guard<Rolling>()->evaluate(batch); }).empty());
   CHECK(said([&] {
           guard<Rolling>(Deed::no_number)->evaluate(batch);
-        }).starts_with("rolling/trial (/x/trial.so) gives torque_"));
+        }).starts_with("rolling/trial (/x/trial.so) gives torque."));
 
   sdk::CohesionBatch pairs;
   pairs.count = 1;
