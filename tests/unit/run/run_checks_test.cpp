@@ -16,13 +16,13 @@ TEST_CASE("a grain whose position or velocity is not a number shall stop the run
   std::vector<double> bad{1.0, std::numeric_limits<double>::quiet_NaN()};
   dust::sdk::GrainColumns columns;
   columns.id = id;
-  for (auto* column :
-       {&columns.x, &columns.y, &columns.z, &columns.velocity_x, &columns.velocity_y,
-        &columns.velocity_z, &columns.rotation_x, &columns.rotation_y, &columns.rotation_z}) {
+  for (auto* column : {&columns.x, &columns.y, &columns.z, &columns.velocity_x, &columns.velocity_y,
+                       &columns.velocity_z, &columns.angular_velocity_x,
+                       &columns.angular_velocity_y, &columns.angular_velocity_z}) {
     *column = good;
   }
   CHECK_NOTHROW(dust::run::check_finite(columns));
-  for (auto* column : {&columns.x, &columns.velocity_z, &columns.rotation_y}) {
+  for (auto* column : {&columns.x, &columns.velocity_z, &columns.angular_velocity_y}) {
     *column = bad;
     std::string message;
     try {
