@@ -31,8 +31,8 @@ void FlowSampler::sample(const particles::GrainRows& grains, std::span<const std
   StencilBatch::Reals fluid;
   StencilBatch::Reals flux;  // relative to the particle: it does not jump with eps in plug flow
   for (int d = 0; d < 3; ++d) {
-    look_at_faces(here, d, face_void_.columns(d), state.velocity.component[d].data(), v[d].data(),
-                  {open.data(), fluid.data()}, flux.data());
+    sample_faces(here, d, face_void_.columns(d), state.velocity.component[d].data(), v[d].data(),
+                 {open.data(), fluid.data()}, flux.data());
     if (has_wide) {
       sample_wide(here, d, state, v[d].data(), {open.data(), fluid.data()}, flux.data(),
                   flow.stress[d].data());

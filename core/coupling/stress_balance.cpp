@@ -29,14 +29,14 @@ void StressBalance::leave(const fluid::CellField& eps, const fluid::FaceField& s
   });
 }
 
-void StressBalance::receive(const FaceStencils& spots, std::span<const Triple> impulse) {
+void StressBalance::receive(const FaceStencils& stencils, std::span<const Triple> impulse) {
   // One component is one task and sums in the order of the cells: the same bits on any number of
   // threads.
   tbb::parallel_for(std::size_t{0}, std::size_t{3}, [&](std::size_t d) {
     WideKernel wide(lattice_, rule_);
-    for (std::size_t b = 0; b < spots.size(); ++b) {
-      const StencilBatch& batch = spots[b];
-      const std::span<const std::int32_t> rows = spots.rows(b);
+    for (std::size_t b = 0; b < stencils.size(); ++b) {
+      const StencilBatch& batch = stencils[b];
+      const std::span<const std::int32_t> rows = stencils.rows(b);
       for (std::size_t q = 0; q < batch.count; ++q) {
         const double received = impulse[static_cast<std::size_t>(rows[q])][d];
         const double* position = &batch.position[4 * q];

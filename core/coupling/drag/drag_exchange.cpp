@@ -75,7 +75,7 @@ void DragExchange::assemble(const particles::GrainRows& grains, const FaceStenci
   if (batch.has_smooth) assemble_smooth(rows, here, drag, states, inputs, batch);
   const bool is_density = set_ == fluid::MomentumSet::three;
   for (int d = 0; d < 3; ++d) {
-    charge_faces(rows.size(), inputs[d], k_least_weight, is_density, batch.component[d]);
+    find_contributions(rows.size(), inputs[d], k_least_weight, is_density, batch.component[d]);
   }
   pay(rows, inputs, states, batch);
 }
@@ -130,12 +130,12 @@ void DragExchange::pay(std::span<const std::int32_t> rows,
 }
 
 /// The sums over the faces of the grains that are larger than a cell.
-void DragExchange::sum_wide(const StencilBatch& spots, int d, const fluid::CellField& eps,
+void DragExchange::sum_wide(const StencilBatch& stencils, int d, const fluid::CellField& eps,
                             ContributionInputs& input) const {
   WideKernel wide(lattice_, rule_);
   WideStencil many;
-  for (std::size_t q = 0; q < spots.count; ++q) {
-    const double* position = &spots.position[4 * q];
+  for (std::size_t q = 0; q < stencils.count; ++q) {
+    const double* position = &stencils.position[4 * q];
     if (!wide.takes(position[3])) continue;
     wide.set(position, position[3]);
     wide.stencil(d, eps, many);
@@ -187,80 +187,83 @@ inline void DragExchange::add(int d, std::ptrdiff_t face, double open, double ep
 }
 
 template <class Faces>
-void DragExchange::scatter_one(int d, const Faces& faces, const Contribution& charge) {
+void DragExchange::scatter_one(int d, const Faces& faces, const Contribution& contribution) {
   for (std::size_t n = 0; n < size(faces); ++n) {
     const double w = faces.weight[n];
     if (faces.open[n] == 0.0 || w == 0.0) continue;
     add(d, faces.home[n], faces.open[n], faces.void_fraction[n],
-        {w * charge.drag, w * charge.push, w * charge.extra});
+        {w * contribution.drag, w * contribution.push, w * contribution.extra});
   }
 }
 
-void DragExchange::scatter_smooth(int d, const SmoothKernel& kernel, const Contribution& charge) {
+void DragExchange::scatter_smooth(int d, const SmoothKernel& kernel,
+                                  const Contribution& contribution) {
   const FaceColumns columns = face_void_.columns(d);
   kernel.for_faces(d, [&](std::ptrdiff_t face, double w) {
     if (w == 0.0 || columns.open[face] == 0.0F) return;
     add(d, face, columns.open[face], columns.void_fraction[face],
-        {w * charge.drag, w * charge.push, w * charge.extra});
+        {w * contribution.drag, w * contribution.push, w * contribution.extra});
   });
 }
 
-void DragExchange::scatter_runs(int d, const StencilBatch& spots,
-                                const FaceContributions& charges) {
+void DragExchange::scatter_groups(int d, const StencilBatch& stencils,
+                                  const FaceContributions& contributions) {
   const FaceColumns columns = face_void_.columns(d);
   GroupContributions sum;
-  for (std::size_t r = 0; r < spots.runs; ++r) {
-    charge_run(spots, d, r, charges, sum);
+  for (std::size_t r = 0; r < stencils.groups; ++r) {
+    sum_group(stencils, d, r, contributions, sum);
     std::size_t n = 0;
-    for_corners(corners(spots, d, (d + 1) % 3, (d + 2) % 3, spots.run[r]),
+    for_corners(corners(stencils, d, (d + 1) % 3, (d + 2) % 3, stencils.group[r]),
                 [&](std::int32_t face, double) {
-                  const Contribution charge{sum.drag[n], sum.push[n], sum.extra[n]};
+                  const Contribution contribution{sum.drag[n], sum.push[n], sum.extra[n]};
                   ++n;
                   const double open = columns.open[face];
-                  if (open == 0.0 || (charge.drag == 0.0 && charge.extra == 0.0)) return;
-                  add(d, face, open, columns.void_fraction[face], charge);
+                  if (open == 0.0 || (contribution.drag == 0.0 && contribution.extra == 0.0))
+                    return;
+                  add(d, face, open, columns.void_fraction[face], contribution);
                 });
   }
 }
 
 // One component is one task and sums in the order of the cells: the same bits on any number of
 // threads.
-void DragExchange::scatter_component(int d, const FaceStencils& spots,
+void DragExchange::scatter_component(int d, const FaceStencils& stencils,
                                      const fluid::CellField& eps) {
   const FaceColumns columns = face_void_.columns(d);
   WideKernel wide(lattice_, rule_);
   WideStencil many;
   SmoothKernel smooth(lattice_);
-  for (std::size_t b = 0; b < spots.size(); ++b) {
-    const StencilBatch& batch = spots[b];
-    const FaceContributions& charges = batches_[b].component[d];
-    if (has_long_runs(batch) && !batches_[b].has_wide && !batches_[b].has_smooth) {
-      scatter_runs(d, batch, charges);
+  for (std::size_t b = 0; b < stencils.size(); ++b) {
+    const StencilBatch& batch = stencils[b];
+    const FaceContributions& contributions = batches_[b].component[d];
+    if (has_large_groups(batch) && !batches_[b].has_wide && !batches_[b].has_smooth) {
+      scatter_groups(d, batch, contributions);
       continue;
     }
     for (std::size_t q = 0; q < batch.count; ++q) {
-      const Contribution charge{charges.drag[q], charges.drag[q] * charges.velocity[q],
-                                charges.extra[q]};
-      if (charge.drag == 0.0 && charge.extra == 0.0) continue;
+      const Contribution contribution{contributions.drag[q],
+                                      contributions.drag[q] * contributions.velocity[q],
+                                      contributions.extra[q]};
+      if (contribution.drag == 0.0 && contribution.extra == 0.0) continue;
       const double* position = &batch.position[4 * q];
       if (batches_[b].is_smooth[q] != 0) {
         smooth.set(position, 2.0 * position[3]);
-        scatter_smooth(d, smooth, charge);
+        scatter_smooth(d, smooth, contribution);
         continue;
       }
       if (wide.takes(position[3])) {
         wide.set(position, position[3]);
         wide.stencil(d, eps, many);
-        scatter_one(d, many, charge);
+        scatter_one(d, many, contribution);
         continue;
       }
-      for_corners(corners(batch, d, (d + 1) % 3, (d + 2) % 3, q),
-                  [&](std::int32_t face, double weight) {
-                    const double open = columns.open[face];
-                    if (open == 0.0 || weight == 0.0) return;
-                    add(d, face, open, columns.void_fraction[face],
-                        {weight * charge.drag, weight * charge.push, weight * charge.extra});
-                  });
+      for_corners(corners(batch, d, (d + 1) % 3, (d + 2) % 3, q), [&](std::int32_t face,
+                                                                      double weight) {
+        const double open = columns.open[face];
+        if (open == 0.0 || weight == 0.0) return;
+        add(d, face, open, columns.void_fraction[face],
+            {weight * contribution.drag, weight * contribution.push, weight * contribution.extra});
+      });
     }
   }
 }
@@ -338,7 +341,8 @@ std::int64_t DragExchange::scatter(const FaceStencils& stencils, ParticleStates&
   return all;
 }
 
-/// Component d of what a grain's drag has given to the fluid, over its charge and a cell's volume.
+/// Component d of what a grain's drag has given to the fluid, over its contribution and a cell's
+/// volume.
 double DragExchange::drag_through(int d, const SmoothKernel& kernel, const std::vector<double>& u,
                                   double velocity, double lag) const {
   const FaceColumns columns = face_void_.columns(d);
@@ -377,8 +381,8 @@ void DragExchange::evaluate_batch(const StencilBatch& here, const fluid::CellFie
   for (int d = 0; d < 3; ++d) {
     const std::vector<double>& u = velocity.component[d];
     const FaceContributions& own = batch.component[d];
-    settle_faces(here, d, face_void_.columns(d), u.data(), own, impulse, is_density,
-                 given[d].data());
+    evaluate_faces(here, d, face_void_.columns(d), u.data(), own, impulse, is_density,
+                   given[d].data());
     if (batch.has_wide) evaluate_wide(here, d, eps, u, impulse, batch, given);
     for (std::size_t q = 0; batch.has_smooth && q < here.count; ++q) {
       if (batch.is_smooth[q] == 0) continue;

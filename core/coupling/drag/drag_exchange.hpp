@@ -95,7 +95,7 @@ class DragExchange {
            ParticleStates& states, BatchContributions& batch) const;
   void scatter_component(int d, const FaceStencils& stencils, const fluid::CellField& eps);
   void scatter_smooth(int d, const SmoothKernel& kernel, const Contribution& c);
-  void scatter_runs(int d, const StencilBatch& stencils, const FaceContributions& contributions);
+  void scatter_groups(int d, const StencilBatch& stencils, const FaceContributions& contributions);
   template <class Faces>
   void scatter_one(int d, const Faces& faces, const Contribution& c);
   std::int64_t pay_escaped(int d, ParticleStates& states, double step);

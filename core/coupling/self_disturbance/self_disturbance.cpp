@@ -361,7 +361,7 @@ void SelfDisturbance::look_at_kernel(const double* position, const SmoothKernel&
 }
 
 /// What the grains with a SmoothKernel see of the fluid, in place of what their eight faces show.
-void SelfDisturbance::sample(const StencilBatch& spot, std::span<const std::int32_t> rows,
+void SelfDisturbance::sample(const StencilBatch& here, std::span<const std::int32_t> rows,
                              const FluidState& state, bool needs_stress,
                              const std::array<StencilBatch::Reals, 3>& v, SampledFlow& seen,
                              DragColumns& batch) {
@@ -371,7 +371,7 @@ void SelfDisturbance::sample(const StencilBatch& spot, std::span<const std::int3
     const auto row = static_cast<std::size_t>(rows[q]);
     if (!states_.is_smooth(row)) continue;
     OwnFlow& own = states_.own_flow(row);
-    const double* position = &spot.position[4 * q];
+    const double* position = &here.position[4 * q];
     double way = 0.0;
     for (std::size_t d = 0; d < 3; ++d) {
       way = std::max(way, std::abs(position[d] - own.seen.place[d]));

@@ -10,7 +10,7 @@
 
 // Grain by grain in lanes: every grain's sums have the same order whatever the width of the lanes,
 // so that all processors give the same bits. Where many grains have the same faces around them,
-// these are looked up once per run; else by each grain for itself.
+// these are looked up once per group; else by each grain for itself.
 namespace dust::coupling {
 namespace {
 
@@ -31,33 +31,33 @@ __attribute__((always_inline)) inline void put(double* column, std::size_t q, co
   *reinterpret_cast<lanes::LooseLanes*>(column + q) = four;
 }
 
-/// The eight faces of a run and what stands there.
-struct RunFaces {
+/// The eight faces of a group and what stands there.
+struct GroupFaces {
   double open[8], eps[8], u[8];
 };
 
-__attribute__((always_inline)) inline RunFaces faces_of_run(const StencilBatch& spots, int d,
-                                                            std::size_t first,
-                                                            const FaceColumns& faces,
-                                                            const double* u) {
-  RunFaces of_run;
+__attribute__((always_inline)) inline GroupFaces faces_of_group(const StencilBatch& stencils, int d,
+                                                                std::size_t first,
+                                                                const FaceColumns& faces,
+                                                                const double* u) {
+  GroupFaces of_group;
   int n = 0;
-  for_corners(corners(spots, d, (d + 1) % 3, (d + 2) % 3, first), [&](std::int32_t at, double) {
-    of_run.open[n] = faces.open[at];
-    of_run.eps[n] = faces.void_fraction[at];
-    of_run.u[n] = u[at];
+  for_corners(corners(stencils, d, (d + 1) % 3, (d + 2) % 3, first), [&](std::int32_t at, double) {
+    of_group.open[n] = faces.open[at];
+    of_group.eps[n] = faces.void_fraction[at];
+    of_group.u[n] = u[at];
     ++n;
   });
-  return of_run;
+  return of_group;
 }
 
 /// Trilinear weights of four grains, in the order of for_corners.
-__attribute__((always_inline)) inline void weights_of_four(const StencilBatch& spots, int d,
+__attribute__((always_inline)) inline void weights_of_four(const StencilBatch& stencils, int d,
                                                            std::size_t q, Four* weight) {
   Four high, far, above;
-  get(spots.face_part[d].data(), q, high);
-  get(spots.middle_part[(d + 1) % 3].data(), q, far);
-  get(spots.middle_part[(d + 2) % 3].data(), q, above);
+  get(stencils.face_part[d].data(), q, high);
+  get(stencils.middle_part[(d + 1) % 3].data(), q, far);
+  get(stencils.middle_part[(d + 2) % 3].data(), q, above);
   const Four low = 1.0 - high;
   const Four near = 1.0 - far;
   const Four below = 1.0 - above;
@@ -71,15 +71,15 @@ __attribute__((always_inline)) inline void weights_of_four(const StencilBatch& s
 /// Sums over the faces of each grain: `begin` sets up that of grain q, or of four from q on;
 /// add(sum, weight, open, eps, u) sees the eight faces one after another; `end` writes it.
 template <template <class> class Sum, class Begin, class End>
-__attribute__((always_inline)) inline void for_faces(const StencilBatch& spots, int d,
+__attribute__((always_inline)) inline void for_faces(const StencilBatch& stencils, int d,
                                                      const FaceColumns& faces, const double* u,
                                                      const Begin& begin, const End& end) {
-  if (has_long_runs(spots)) {
-    for (std::size_t r = 0; r < spots.runs; ++r) {
-      const RunFaces f = faces_of_run(spots, d, spots.run[r], faces, u);
-      for (std::size_t q = spots.run[r]; q < spots.run[r + 1]; q += 4) {
+  if (has_large_groups(stencils)) {
+    for (std::size_t r = 0; r < stencils.groups; ++r) {
+      const GroupFaces f = faces_of_group(stencils, d, stencils.group[r], faces, u);
+      for (std::size_t q = stencils.group[r]; q < stencils.group[r + 1]; q += 4) {
         Four weight[8];
-        weights_of_four(spots, d, q, weight);
+        weights_of_four(stencils, d, q, weight);
         Sum<Four> sum;
         begin(q, sum);
         for (int n = 0; n < 8; ++n) add(sum, weight[n], f.open[n], f.eps[n], f.u[n]);
@@ -92,15 +92,16 @@ __attribute__((always_inline)) inline void for_faces(const StencilBatch& spots, 
   const int f = (d + 2) % 3;
   const double* eps = faces.void_fraction;
   const float* open = faces.open;
-  const std::size_t count = spots.count;
+  const std::size_t count = stencils.count;
 #pragma omp simd
   for (std::size_t q = 0; q < count; ++q) {
     Sum<double> sum;
     begin(q, sum);
     for_corners(
-        corners(spots, d, e, f, q), [&](std::int32_t at, double w) __attribute__((always_inline)) {
-          add(sum, w, open[at], eps[at], u[at]);
-        });
+        corners(stencils, d, e, f, q), [&](std::int32_t at, double w)
+                                           __attribute__((always_inline)) {
+                                             add(sum, w, open[at], eps[at], u[at]);
+                                           });
     end(q, sum);
   }
 }
@@ -147,20 +148,20 @@ __attribute__((always_inline)) inline void add(DragSum<T>& sum, const std::type_
 }  // namespace
 
 DUST_KERNEL void place_along(const AxisView& axis, const double* position, int d,
-                             StencilBatch& spots) {
+                             StencilBatch& stencils) {
   const double origin = axis.origin;
   const double inverse = axis.inverse_spacing;
   const double n = axis.count;
   const int last = axis.count - 1;
   const bool is_periodic = axis.is_periodic;
   const std::int32_t* homes = axis.homes + 2;
-  double* face_part = spots.face_part[d].data();
-  double* middle_part = spots.middle_part[d].data();
-  std::int32_t* face = spots.face[d].data();
-  std::int32_t* face_step = spots.face_step[d].data();
-  std::int32_t* middle = spots.middle[d].data();
-  std::int32_t* middle_step = spots.middle_step[d].data();
-  const std::size_t count = spots.count;
+  double* face_part = stencils.face_part[d].data();
+  double* middle_part = stencils.middle_part[d].data();
+  std::int32_t* face = stencils.face[d].data();
+  std::int32_t* face_step = stencils.face_step[d].data();
+  std::int32_t* middle = stencils.middle[d].data();
+  std::int32_t* middle_step = stencils.middle_step[d].data();
+  const std::size_t count = stencils.count;
 #pragma omp simd
   for (std::size_t q = 0; q < count; ++q) {
     double s = (position[4 * q + d] - origin) * inverse;
@@ -182,39 +183,40 @@ DUST_KERNEL void place_along(const AxisView& axis, const double* position, int d
   }
 }
 
-DUST_KERNEL void find_runs(StencilBatch& spots) {
-  // A run ends where the lower face or the lower middle changes along any axis: the steps belong to
-  // these.
+DUST_KERNEL void find_groups(StencilBatch& stencils) {
+  // A group ends where the lower face or the lower middle changes along any axis: the steps belong
+  // to these.
   const auto differs = [&](std::size_t q) __attribute__((always_inline)) {
     std::int32_t bits = 0;
     for (std::size_t d = 0; d < 3; ++d) {
-      bits |=
-          (spots.face[d][q] ^ spots.face[d][q - 1]) | (spots.middle[d][q] ^ spots.middle[d][q - 1]);
+      bits |= (stencils.face[d][q] ^ stencils.face[d][q - 1]) |
+              (stencils.middle[d][q] ^ stencils.middle[d][q - 1]);
     }
     return bits != 0;
   };
-  spots.runs = 0;
-  for (std::size_t q = 0; q < spots.count; ++q) {
-    if (q == 0 || differs(q)) spots.run[spots.runs++] = static_cast<std::uint16_t>(q);
+  stencils.groups = 0;
+  for (std::size_t q = 0; q < stencils.count; ++q) {
+    if (q == 0 || differs(q)) stencils.group[stencils.groups++] = static_cast<std::uint16_t>(q);
   }
-  spots.run[spots.runs] = static_cast<std::uint16_t>(spots.count);
+  stencils.group[stencils.groups] = static_cast<std::uint16_t>(stencils.count);
 }
 
-DUST_KERNEL void sum_faces(const StencilBatch& spots, int d, const FaceColumns& faces,
+DUST_KERNEL void sum_faces(const StencilBatch& stencils, int d, const FaceColumns& faces,
                            const FaceSumColumns& sums) {
   for_faces<OpenSum>(
-      spots, d, faces, faces.void_fraction, [](std::size_t, auto&) __attribute__((always_inline)){},
+      stencils, d, faces, faces.void_fraction,
+      [](std::size_t, auto&) __attribute__((always_inline)){},
       [&](std::size_t q, const auto& sum) __attribute__((always_inline)) {
         put(sums.open, q, sum.open);
         put(sums.fluid, q, sum.fluid);
       });
 }
 
-DUST_KERNEL void look_at_faces(const StencilBatch& spots, int d, const FaceColumns& faces,
-                               const double* u, const double* v, const FaceSumColumns& sums,
-                               double* flux) {
+DUST_KERNEL void sample_faces(const StencilBatch& stencils, int d, const FaceColumns& faces,
+                              const double* u, const double* v, const FaceSumColumns& sums,
+                              double* flux) {
   for_faces<FluxSum>(
-      spots, d, faces,
+      stencils, d, faces,
       u, [&](std::size_t q, auto& sum) __attribute__((always_inline)) { get(v, q, sum.v); },
       [&](std::size_t q, const auto& sum) __attribute__((always_inline)) {
         put(sums.open, q, sum.open);
@@ -238,8 +240,9 @@ DUST_KERNEL void slip_of_faces(std::size_t count, const double* eps, const FaceS
   }
 }
 
-DUST_KERNEL void charge_faces(std::size_t count, const ContributionInputs& input, double least_open,
-                              bool is_density, FaceContributions& charges) {
+DUST_KERNEL void find_contributions(std::size_t count, const ContributionInputs& input,
+                                    double least_open, bool is_density,
+                                    FaceContributions& contributions) {
 #pragma omp simd
   for (std::size_t q = 0; q < count; ++q) {
     const double open = input.open[q];
@@ -248,20 +251,20 @@ DUST_KERNEL void charge_faces(std::size_t count, const ContributionInputs& input
     // One division for both reciprocals.
     const double inverse = 1.0 / (is_paired ? open * received : 1.0);
     const double drag = input.coefficient[q] * input.gain[q] * (inverse * received);
-    const double extra = input.owed[q] * (inverse * open) - drag * charges.lag[q];
-    charges.drag[q] = is_paired ? drag : 0.0;
-    charges.extra[q] = is_paired ? extra : 0.0;
+    const double extra = input.owed[q] * (inverse * open) - drag * contributions.lag[q];
+    contributions.drag[q] = is_paired ? drag : 0.0;
+    contributions.extra[q] = is_paired ? extra : 0.0;
   }
 }
 
-DUST_KERNEL void settle_faces(const StencilBatch& spots, int d, const FaceColumns& faces,
-                              const double* u, const FaceContributions& charges, double scale,
-                              bool is_density, double* given) {
-  const double* v = charges.velocity.data();
-  const double* lag = charges.lag.data();
-  const double* drag = charges.drag.data();
+DUST_KERNEL void evaluate_faces(const StencilBatch& stencils, int d, const FaceColumns& faces,
+                                const double* u, const FaceContributions& contributions,
+                                double scale, bool is_density, double* given) {
+  const double* v = contributions.velocity.data();
+  const double* lag = contributions.lag.data();
+  const double* drag = contributions.drag.data();
   for_faces<DragSum>(
-      spots, d, faces, u,
+      stencils, d, faces, u,
       [&](std::size_t q, auto& sum) __attribute__((always_inline)) {
         sum.is_density = is_density;
         get(v, q, sum.v);
@@ -274,24 +277,24 @@ DUST_KERNEL void settle_faces(const StencilBatch& spots, int d, const FaceColumn
       });
 }
 
-DUST_KERNEL void charge_run(const StencilBatch& spots, int d, std::size_t run,
-                            const FaceContributions& charges, GroupContributions& sum) {
+DUST_KERNEL void sum_group(const StencilBatch& stencils, int d, std::size_t group,
+                           const FaceContributions& contributions, GroupContributions& sum) {
   Four drag_sum[8] = {};
   Four push_sum[8] = {};
   Four extra_sum[8] = {};
-  const std::size_t end = spots.run[run + 1];
-  for (std::size_t q = spots.run[run]; q < end; q += 4) {
+  const std::size_t end = stencils.group[group + 1];
+  for (std::size_t q = stencils.group[group]; q < end; q += 4) {
     Four weight[8];
-    weights_of_four(spots, d, q, weight);
+    weights_of_four(stencils, d, q, weight);
     Four drag;
     Four velocity;
     Four extra;
-    get(charges.drag.data(), q, drag);
-    get(charges.velocity.data(), q, velocity);
-    get(charges.extra.data(), q, extra);
+    get(contributions.drag.data(), q, drag);
+    get(contributions.velocity.data(), q, velocity);
+    get(contributions.extra.data(), q, extra);
     Four push = drag * velocity;
     if (end - q < 4) {
-      // What stands behind the end is another run's, or anything.
+      // What stands behind the end is another group's, or anything.
       const lanes::LaneMask is_own = lanes::LaneMask{0, 1, 2, 3} < static_cast<long long>(end - q);
       for (Four& w : weight) w = is_own ? w : Four{};
       drag = is_own ? drag : Four{};

@@ -12,8 +12,8 @@ namespace dust::coupling {
 /// of `face` along d and `middle` along the two others, or the next ones.
 struct StencilBatch {
   static constexpr std::size_t k_size = 256;
-  /// A run is worked on four grains at a time: what is written behind its end belongs to the next
-  /// run, which writes it again, or to nobody.
+  /// A group is worked on four grains at a time: what is written behind its end belongs to the next
+  /// group, which writes it again, or to none.
   static constexpr std::size_t k_room = k_size + 4;
   using Reals = std::array<double, k_room>;
   using Numbers = std::array<std::int32_t, k_room>;
@@ -27,15 +27,15 @@ struct StencilBatch {
   std::size_t count = 0;
   std::array<double, 4 * k_size> position;  ///< [m] and radius, of those placed
 
-  /// Grains in a row that have the same faces around them: where each run begins, and the end.
-  std::array<std::uint16_t, k_size + 1> run;
-  std::size_t runs = 0;
+  /// Grains in a row that have the same faces around them: where each group begins, and the end.
+  std::array<std::uint16_t, k_size + 1> group;
+  std::size_t groups = 0;
 };
 
-/// Whether it is worth the while to look the faces up once per run.
-[[nodiscard]] inline bool has_long_runs(const StencilBatch& s) {
+/// Whether it is worth the while to look the faces up once per group.
+[[nodiscard]] inline bool has_large_groups(const StencilBatch& s) {
   constexpr std::size_t k_long = 4;  // about as fast either way
-  return k_long * s.runs <= s.count;
+  return k_long * s.groups <= s.count;
 }
 /// Number of the cell that particle q of the batch lies in.
 [[nodiscard]] inline std::ptrdiff_t cell_of(const StencilBatch& s, std::size_t q) {
@@ -110,43 +110,44 @@ struct FaceContributions {
   /// less the part of the slip before that the tangent of its drag takes back.
   StencilBatch::Reals lag;
 };
-/// What the charges are made of; `coefficient` is the same for all components.
+/// What the contributions are made of; `coefficient` is the same for all components.
 struct ContributionInputs {
   const double* coefficient;        ///< [kg/(m3 s)] W K / (eps^2 V)
   StencilBatch::Reals owed;         ///< [N/m3] debt per cell volume and step
   StencilBatch::Reals gain;         ///< [-] of the drag, by the grain's own solids at the faces
   StencilBatch::Reals open, fluid;  ///< sums over the faces
 };
-/// Sums of the charges of a run over each of its eight faces, weighted by w.
+/// Sums of the contributions of a group over each of its eight faces, weighted by w.
 struct GroupContributions {
   std::array<double, 8> drag, push, extra;
 };
 
 /// Fills the columns of one axis from `position` (x of the first grain, 4 numbers per grain) of
-/// `spots.count` grains.
-void place_along(const AxisView& axis, const double* position, int d, StencilBatch& spots);
+/// `stencils.count` grains.
+void place_along(const AxisView& axis, const double* position, int d, StencilBatch& stencils);
 /// Finds the runs, once all axes are placed.
-void find_runs(StencilBatch& spots);
+void find_groups(StencilBatch& stencils);
 
 // Columns written have StencilBatch::k_room.
-void sum_faces(const StencilBatch& spots, int d, const FaceColumns& faces,
+void sum_faces(const StencilBatch& stencils, int d, const FaceColumns& faces,
                const FaceSumColumns& sums);
 /// The same, and flux = sum(w eps (u - v)).
-void look_at_faces(const StencilBatch& spots, int d, const FaceColumns& faces, const double* u,
-                   const double* v, const FaceSumColumns& sums, double* flux);
+void sample_faces(const StencilBatch& stencils, int d, const FaceColumns& faces, const double* u,
+                  const double* v, const FaceSumColumns& sums, double* flux);
 /// slip = flux / eps, and ratio = (fluid / open) / eps, 1 without open faces: void fraction at the
 /// faces over that around the grain; docs/theory/coupling.md, eq. (4), (7).
 void slip_of_faces(std::size_t count, const double* eps, const FaceSumColumns& sums,
                    const double* flux, double* slip, double* ratio);
 /// drag and extra from `input`, velocity and lag; 0 for grains with less than `least_open` around
 /// them. `is_density`: what is owed is received by the open share, not by the fluid's.
-void charge_faces(std::size_t count, const ContributionInputs& input, double least_open,
-                  bool is_density, FaceContributions& charges);
+void find_contributions(std::size_t count, const ContributionInputs& input, double least_open,
+                        bool is_density, FaceContributions& contributions);
 /// given = scale drag sum(w a e (eps (u - v) + lag)), e = 1 for `is_density`, else eps.
-void settle_faces(const StencilBatch& spots, int d, const FaceColumns& faces, const double* u,
-                  const FaceContributions& charges, double scale, bool is_density, double* given);
-/// Adds up the charges of one run.
-void charge_run(const StencilBatch& spots, int d, std::size_t run, const FaceContributions& charges,
-                GroupContributions& sum);
+void evaluate_faces(const StencilBatch& stencils, int d, const FaceColumns& faces, const double* u,
+                    const FaceContributions& contributions, double scale, bool is_density,
+                    double* given);
+/// Adds up the contributions of one group.
+void sum_group(const StencilBatch& stencils, int d, std::size_t group,
+               const FaceContributions& contributions, GroupContributions& sum);
 
 }  // namespace dust::coupling

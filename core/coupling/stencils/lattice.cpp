@@ -23,14 +23,14 @@ Lattice::Lattice(const fluid::Grid& grid, const fluid::CellField& open_fraction)
     for (int i = -2; i <= n + 1; ++i) {
       const int inside = grid.is_periodic[d] ? wrap(i, n) : std::clamp(i, 0, n - 1);
       cells_[d].push_back((inside + pad) * grid.stride[d]);
-      places_[d].push_back((i + pad) * grid.stride[d]);
-      homes_[d].push_back(((grid.is_periodic[d] ? wrap(i, n) : i) + pad) * grid.stride[d]);
+      padded_[d].push_back((i + pad) * grid.stride[d]);
+      storage_[d].push_back(((grid.is_periodic[d] ? wrap(i, n) : i) + pad) * grid.stride[d]);
     }
   }
   for (std::size_t d = 0; d < 3; ++d) {
-    short_homes_[d].assign(homes_[d].begin(), homes_[d].end());
+    short_storage_[d].assign(storage_[d].begin(), storage_[d].end());
     axes_[d] = {grid.origin[static_cast<int>(d)], inverse_spacing_[static_cast<int>(d)],
-                grid.count[d], grid.is_periodic[d], short_homes_[d].data()};
+                grid.count[d], grid.is_periodic[d], short_storage_[d].data()};
   }
   set_open_fraction(open_fraction);
 }
@@ -132,8 +132,8 @@ void Lattice::close_periodic(int d, std::vector<double>& field) const {
   const int f = (d + 2) % 3;
   for (int j = 0; j < grid_.count[f]; ++j) {
     for (int i = 0; i < grid_.count[e]; ++i) {
-      const std::ptrdiff_t column = offset(places_[e], i) + offset(places_[f], j);
-      field[offset(places_[d], grid_.count[d]) + column] = field[offset(places_[d], 0) + column];
+      const std::ptrdiff_t column = offset(padded_[e], i) + offset(padded_[f], j);
+      field[offset(padded_[d], grid_.count[d]) + column] = field[offset(padded_[d], 0) + column];
     }
   }
 }

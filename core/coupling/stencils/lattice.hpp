@@ -61,14 +61,14 @@ class Lattice {
   }
   /// Padded index at which a face is accounted: periodic images wrapped, others where they lie.
   [[nodiscard]] std::ptrdiff_t home(int i, int j, int k) const {
-    return offset(homes_[0], i) + offset(homes_[1], j) + offset(homes_[2], k);
+    return offset(storage_[0], i) + offset(storage_[1], j) + offset(storage_[2], k);
   }
   /// What an index along one axis adds to the padded index of a cell or the home of a face,
   /// periodic images wrapped however far they are. Without periods it must be inside.
   [[nodiscard]] std::ptrdiff_t offset_along(int axis, int index) const {
     const int n = grid_.count[axis];
     const bool is_wrapped = grid_.is_periodic[axis] && (index < 0 || index >= n);
-    return offset(homes_[axis], is_wrapped ? ((index % n) + n) % n : index);
+    return offset(storage_[axis], is_wrapped ? ((index % n) + n) % n : index);
   }
   /// Whether a padded index is that of a cell of the domain, not of the halo.
   [[nodiscard]] bool is_in_domain(std::ptrdiff_t cell) const {
@@ -106,12 +106,12 @@ class Lattice {
   void faces(int d, const Place& p, Stencil& s) const {
     const int e = (d + 1) % 3;
     const int f = (d + 2) % 3;
-    const std::ptrdiff_t low = offset(homes_[d], p[d].cell);
-    const std::ptrdiff_t step = offset(homes_[d], p[d].cell + 1) - low;
-    const std::array<std::ptrdiff_t, 2> column{low + offset(homes_[e], p[e].middle),
-                                               low + offset(homes_[e], p[e].middle + 1)};
-    const std::array<std::ptrdiff_t, 2> row{offset(homes_[f], p[f].middle),
-                                            offset(homes_[f], p[f].middle + 1)};
+    const std::ptrdiff_t low = offset(storage_[d], p[d].cell);
+    const std::ptrdiff_t step = offset(storage_[d], p[d].cell + 1) - low;
+    const std::array<std::ptrdiff_t, 2> column{low + offset(storage_[e], p[e].middle),
+                                               low + offset(storage_[e], p[e].middle + 1)};
+    const std::array<std::ptrdiff_t, 2> row{offset(storage_[f], p[f].middle),
+                                            offset(storage_[f], p[f].middle + 1)};
     const std::array<double, 2> part_e{1.0 - p[e].middle_part, p[e].middle_part};
     const std::array<double, 2> part_f{1.0 - p[f].middle_part, p[f].middle_part};
     for (std::size_t n = 0; n < 4; ++n) {
@@ -160,9 +160,9 @@ class Lattice {
     const int e = (d + 1) % 3;
     const int f = (d + 2) % 3;
     const std::ptrdiff_t column = offset(cells_[e], p[e].cell) + offset(cells_[f], p[f].cell);
-    const std::ptrdiff_t home = offset(homes_[e], p[e].cell) + offset(homes_[f], p[f].cell);
-    const double share_low = open_face_[d][offset(homes_[d], p[d].cell) + home];
-    const double share_high = open_face_[d][offset(homes_[d], p[d].cell + 1) + home];
+    const std::ptrdiff_t home = offset(storage_[e], p[e].cell) + offset(storage_[f], p[f].cell);
+    const double share_low = open_face_[d][offset(storage_[d], p[d].cell) + home];
+    const double share_high = open_face_[d][offset(storage_[d], p[d].cell + 1) + home];
     const double sum = share_low + share_high;
     if (!(sum > 0.0)) return 0.0;
     const double below = field[offset(cells_[d], p[d].cell - 1) + column];
@@ -171,10 +171,10 @@ class Lattice {
     return (share_low * (own - below) + share_high * (above - own)) * inverse_spacing_[d] / sum;
   }
 
-  /// place() of a batch of grains, `spots.count` of them at `spots.position`, and their runs.
-  void place(StencilBatch& spots) const {
-    for (int d = 0; d < 3; ++d) place_along(axes_[d], spots.position.data(), d, spots);
-    find_runs(spots);
+  /// place() of a batch of grains, `stencils.count` of them at `stencils.position`, and their runs.
+  void place(StencilBatch& stencils) const {
+    for (int d = 0; d < 3; ++d) place_along(axes_[d], stencils.position.data(), d, stencils);
+    find_groups(stencils);
   }
   /// The cell whose void fraction a grain in the cell `own` has: that, or an open neighbour's if it
   /// is closed.
@@ -231,10 +231,10 @@ class Lattice {
   fluid::CellField open_cell_;
   bool has_bodies_ = false;
   std::array<std::vector<float>, 3> open_face_;
-  std::array<Offsets, 3> cells_;   ///< wrapped or clamped
-  std::array<Offsets, 3> places_;  ///< where the array holds it
-  std::array<Offsets, 3> homes_;   ///< wrapped where periodic, else where the array holds it
-  std::array<std::vector<std::int32_t>, 3> short_homes_;
+  std::array<Offsets, 3> cells_;    ///< wrapped or clamped
+  std::array<Offsets, 3> padded_;   ///< where the array holds it
+  std::array<Offsets, 3> storage_;  ///< wrapped where periodic, else where the array holds it
+  std::array<std::vector<std::int32_t>, 3> short_storage_;
   std::array<AxisView, 3> axes_;
 };
 

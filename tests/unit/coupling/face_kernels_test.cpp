@@ -40,11 +40,11 @@ struct Faces {
     coupling::CellOrder order;
     order.sort(world.grid, position.data(), k_count);
     rows.assign(order.rows().begin(), order.rows().end());
-    spots->count = k_count;
+    stencils->count = k_count;
     for (std::size_t q = 0; q < k_count; ++q) {
-      std::copy_n(&position[4 * static_cast<std::size_t>(rows[q])], 4, &spots->position[4 * q]);
+      std::copy_n(&position[4 * static_cast<std::size_t>(rows[q])], 4, &stencils->position[4 * q]);
     }
-    lattice.place(*spots);
+    lattice.place(*stencils);
   }
   static World::Choice choice(bool is_periodic, std::array<int, 3> cells) {
     World::Choice c;
@@ -63,7 +63,7 @@ struct Faces {
   std::vector<double> u = std::vector<double>(world.grid.size);
   std::vector<double> position;
   std::vector<std::int32_t> rows;
-  std::unique_ptr<StencilBatch> spots = std::make_unique<StencilBatch>();
+  std::unique_ptr<StencilBatch> stencils = std::make_unique<StencilBatch>();
 };
 
 constexpr std::array<int, 3> k_many_cells{5, 1, 4};
@@ -76,11 +76,11 @@ TEST_CASE("the order of the cells shall hold every grain once, those of one eigh
   std::vector<std::int32_t> all(Faces::k_count);
   std::iota(all.begin(), all.end(), 0);
   CHECK(sorted == all);
-  // 32 eighths at most, and no run comes twice.
-  CHECK(f.spots->runs <= 32);
-  for (std::size_t r = 0; r < f.spots->runs; ++r) {
-    const auto first = f.rows.begin() + f.spots->run[r];
-    CHECK(std::is_sorted(first, f.rows.begin() + f.spots->run[r + 1]));
+  // 32 eighths at most, and no group comes twice.
+  CHECK(f.stencils->groups <= 32);
+  for (std::size_t r = 0; r < f.stencils->groups; ++r) {
+    const auto first = f.rows.begin() + f.stencils->group[r];
+    CHECK(std::is_sorted(first, f.rows.begin() + f.stencils->group[r + 1]));
   }
 }
 
@@ -120,26 +120,27 @@ TEST_CASE("batches of grains shall see at their faces what each sees by itself")
       CAPTURE(is_periodic);
       CAPTURE(cells[0]);
       Faces f(is_periodic, cells);
-      CHECK(coupling::has_long_runs(*f.spots) == (cells == k_few_cells));  // both ways of looking
+      CHECK(coupling::has_large_groups(*f.stencils) ==
+            (cells == k_few_cells));  // both ways of looking
       StencilBatch::Reals v, open, fluid, flux, given, slip, ratio;
-      auto charges = std::make_unique<coupling::FaceContributions>();
+      auto contributions = std::make_unique<coupling::FaceContributions>();
       for (std::size_t q = 0; q < Faces::k_count; ++q) {
-        v[q] = charges->velocity[q] = f.random.next();
-        charges->drag[q] = f.random.next();
-        charges->lag[q] = f.random.next();
-        charges->extra[q] = f.random.next();
+        v[q] = contributions->velocity[q] = f.random.next();
+        contributions->drag[q] = f.random.next();
+        contributions->lag[q] = f.random.next();
+        contributions->extra[q] = f.random.next();
       }
       for (int d = 0; d < 3; ++d) {
         CAPTURE(d);
-        coupling::look_at_faces(*f.spots, d, f.faces.columns(d), f.u.data(), v.data(),
-                                {open.data(), fluid.data()}, flux.data());
-        coupling::settle_faces(*f.spots, d, f.faces.columns(d), f.u.data(), *charges, 3.0, false,
-                               given.data());
+        coupling::sample_faces(*f.stencils, d, f.faces.columns(d), f.u.data(), v.data(),
+                               {open.data(), fluid.data()}, flux.data());
+        coupling::evaluate_faces(*f.stencils, d, f.faces.columns(d), f.u.data(), *contributions,
+                                 3.0, false, given.data());
         std::vector<double> drag(f.world.grid.size), push(f.world.grid.size),
             extra(f.world.grid.size);
         for (std::size_t q = 0; q < Faces::k_count; ++q) {
-          const coupling::Place p = f.lattice.place(&f.spots->position[4 * q]);
-          CHECK(coupling::cell_of(*f.spots, q) == f.lattice.cell(p));
+          const coupling::Place p = f.lattice.place(&f.stencils->position[4 * q]);
+          CHECK(coupling::cell_of(*f.stencils, q) == f.lattice.cell(p));
           coupling::Stencil s;
           f.lattice.stencil(d, p, f.eps, s);
           double sums[4] = {};
@@ -149,23 +150,23 @@ TEST_CASE("batches of grains shall see at their faces what each sees by itself")
             sums[0] += part;
             sums[1] += part * s.void_fraction[n];
             sums[2] += s.weight[n] * slip_at;
-            sums[3] += part * s.void_fraction[n] * (slip_at + charges->lag[q]);
-            drag[s.home[n]] += s.weight[n] * charges->drag[q];
-            push[s.home[n]] += s.weight[n] * charges->drag[q] * v[q];
-            extra[s.home[n]] += s.weight[n] * charges->extra[q];
+            sums[3] += part * s.void_fraction[n] * (slip_at + contributions->lag[q]);
+            drag[s.home[n]] += s.weight[n] * contributions->drag[q];
+            push[s.home[n]] += s.weight[n] * contributions->drag[q] * v[q];
+            extra[s.home[n]] += s.weight[n] * contributions->extra[q];
           }
           CHECK(open[q] == doctest::Approx(sums[0]).epsilon(1e-12));
           CHECK(fluid[q] == doctest::Approx(sums[1]).epsilon(1e-12));
           CHECK(flux[q] == doctest::Approx(sums[2]).epsilon(1e-12));
-          CHECK(given[q] == doctest::Approx(3.0 * charges->drag[q] * sums[3]).epsilon(1e-12));
+          CHECK(given[q] == doctest::Approx(3.0 * contributions->drag[q] * sums[3]).epsilon(1e-12));
         }
         // Runs give the same faces the same, whatever stands behind their ends.
-        for (std::size_t r = 0; r < f.spots->runs; ++r) {
+        for (std::size_t r = 0; r < f.stencils->groups; ++r) {
           coupling::GroupContributions sum;
-          coupling::charge_run(*f.spots, d, r, *charges, sum);
+          coupling::sum_group(*f.stencils, d, r, *contributions, sum);
           std::size_t n = 0;
           coupling::for_corners(
-              coupling::corners(*f.spots, d, (d + 1) % 3, (d + 2) % 3, f.spots->run[r]),
+              coupling::corners(*f.stencils, d, (d + 1) % 3, (d + 2) % 3, f.stencils->group[r]),
               [&](std::int32_t face, double) {
                 drag[face] -= sum.drag[n];
                 push[face] -= sum.push[n];
