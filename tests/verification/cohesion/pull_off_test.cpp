@@ -64,6 +64,7 @@ double pulled(const Case& c, double share) {
     is_first = false;
     Stepper stepper(*dem);
     while (stepper.time() < 2e-3) stepper.step();
+    archive = MemoryArchive();
     dem->save(archive);
     end = grain(*dem, 0).position.z;
   }
