@@ -22,10 +22,12 @@ __attribute__((always_inline)) inline const Lanes& wide_row(const double* rows, 
 
 }  // namespace
 
-DUST_KERNEL void mark_approaching(const Courses& courses, const Images& images,
+DUST_KERNEL void mark_approaching(const Courses& given, const Images& images,
                                   const Outlook& outlook, const std::int32_t* a,
                                   const std::int32_t* b, std::size_t count,
                                   std::uint8_t* approach) {
+  const Courses courses =
+      given;  // a copy: the bytes of `approach` may alias whatever stands in memory
   const double horizon = outlook.horizon;
   const double behind2 = outlook.behind * outlook.behind;
   // x, y, z become differences, the fourth column of positions the sum of the radii.
@@ -35,7 +37,7 @@ DUST_KERNEL void mark_approaching(const Courses& courses, const Images& images,
   for (std::size_t q = 0; q < count; q += 4) {
     Lanes x[4];
     Lanes v[4];
-    Lanes allowance;
+    double allowances[4];
     for (std::size_t l = 0; l < 4; ++l) {
       const std::size_t later = std::min(q + k_ahead + l, count - 1);
       for (const std::int32_t grain : {a[later], b[later]}) {
@@ -50,8 +52,9 @@ DUST_KERNEL void mark_approaching(const Courses& courses, const Images& images,
       x[l] = row(courses.position, a[e]) + sign * row(courses.position, b[e]);
       v[l] = wide_row(courses.velocity, a[e]) + sign * wide_row(courses.velocity, b[e]);
       fold(x[l], length, half);
-      allowance[l] = courses.allowance[a[e]] + courses.allowance[b[e]];
+      allowances[l] = courses.allowance[a[e]] + courses.allowance[b[e]];
     }
+    const Lanes allowance{allowances[0], allowances[1], allowances[2], allowances[3]};
     transpose(x[0], x[1], x[2], x[3]);
     transpose(v[0], v[1], v[2], v[3]);
     const Lanes reach = x[3] + allowance + outlook.range;
@@ -73,8 +76,13 @@ DUST_KERNEL void mark_approaching(const Courses& courses, const Images& images,
     const LaneMask overlaps =
         (flown2 < touch2) & (excess > 0.0) & (excess * excess > 4.0 * touch2 * flown2);
     const LaneMask found = meets & (1LL * k_may_meet | (overlaps & (1LL * k_overlaps)));
-    for (std::size_t l = 0; l < 4 && q + l < count; ++l) {
-      approach[q + l] = static_cast<std::uint8_t>(found[l]);
+    const auto byte = [&](int l) { return static_cast<std::uint8_t>(found[l]); };
+    if (q + 4 <= count) {
+      // Written out: in a loop of unknown length the lanes would go through memory.
+      approach[q] = byte(0), approach[q + 1] = byte(1);
+      approach[q + 2] = byte(2), approach[q + 3] = byte(3);
+    } else {
+      for (std::size_t l = 0; q + l < count; ++l) approach[q + l] = byte(static_cast<int>(l));
     }
   }
 }

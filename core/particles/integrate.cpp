@@ -115,7 +115,8 @@ __attribute__((always_inline)) inline void expect(const AwakeRows& r, std::size_
 }
 
 template <bool has_fluid>
-__attribute__((always_inline)) inline void integrate(const AwakeRows& r, double step) {
+__attribute__((always_inline)) inline void integrate(const AwakeRows& given, double step) {
+  const AwakeRows r = given;  // a copy: vectors of lanes may alias whatever stands in memory
   if (r.rows == nullptr) {
     const std::size_t end = r.first + r.count;
     for (std::size_t n = r.first; n < end; ++n) {

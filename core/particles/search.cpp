@@ -273,7 +273,9 @@ bool comes_near(const SearchInput& in, std::int32_t i, std::int32_t j, double li
   sdk::Vec3 x;
   sdk::Vec3 v;
   for (int d = 0; d < 3; ++d) {
-    x[d] = base::nearest_image(pi[d] - pj[d], in.period[d]);
+    x[d] = pi[d] - pj[d];
+    // Asked here: the side on which a partner is, is nothing that a processor can foretell.
+    if (in.period[d] > 0.0) x[d] = base::nearest_image(x[d], in.period[d]);
     v[d] = vi[d] - vj[d];
   }
   return passes_within(x, v, in.horizon, limit);
