@@ -37,7 +37,7 @@ DUST_KERNEL void mark_approaching(const Courses& given, const Images& images,
   for (std::size_t q = 0; q < count; q += 4) {
     Lanes x[4];
     Lanes v[4];
-    double allowances[4];
+    double skins[4];
     for (std::size_t l = 0; l < 4; ++l) {
       const std::size_t later = std::min(q + k_ahead + l, count - 1);
       for (const std::int32_t grain : {a[later], b[later]}) {
@@ -52,9 +52,9 @@ DUST_KERNEL void mark_approaching(const Courses& given, const Images& images,
       x[l] = row(courses.position, a[e]) + sign * row(courses.position, b[e]);
       v[l] = wide_row(courses.velocity, a[e]) + sign * wide_row(courses.velocity, b[e]);
       fold(x[l], length, half);
-      allowances[l] = courses.allowance[a[e]] + courses.allowance[b[e]];
+      skins[l] = courses.allowance[a[e]] + courses.allowance[b[e]];
     }
-    const Lanes allowance{allowances[0], allowances[1], allowances[2], allowances[3]};
+    const Lanes allowance{skins[0], skins[1], skins[2], skins[3]};
     transpose(x[0], x[1], x[2], x[3]);
     transpose(v[0], v[1], v[2], v[3]);
     const Lanes reach = x[3] + allowance + outlook.range;
