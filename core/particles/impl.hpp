@@ -118,8 +118,7 @@ struct Dem::Impl {
   void restart_trajectories();
   [[nodiscard]] std::vector<std::vector<RowPair>> share_pairs(
       ListTuner::OuterStatistics& statistics);
-  void make_tile(std::size_t number, std::span<const RowPair> pairs,
-                 const ContactCarrier& contacts);
+  void make_tile(std::size_t number, std::vector<RowPair> pairs, const ContactCarrier& contacts);
   void make_fine_list(const ContactCarrier& contacts);
   void wrap_periodic();
   void group_by_law(OuterList& list, bool is_surface);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 /// Outer lists made new.
 namespace dust::particles {
@@ -62,11 +63,13 @@ void Dem::Impl::rebuild() {
   // No particle flies farther than a diameter, for the search looks as far as the fastest one
   // flies.
   tuner.begin_outer(steps.classes.back().diameter / steps.coarse_step / std::max(fastest(), 1e-15));
-  const auto shares = share_pairs(statistics);
+  auto shares = share_pairs(statistics);
   tuner.record(statistics);
   chunks.resize(shares.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(),
-                            [&](std::size_t c) { make_tile(c, shares[c], contacts); });
+  oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+    // Lists are most of the memory: a share is given back with its tile.
+    make_tile(c, std::exchange(shares[c], {}), contacts);
+  });
   make_fine_list(contacts);
   contact_force.clear();  // in the order of rows that were
   since_rebuild = 0;
@@ -158,7 +161,7 @@ std::vector<std::vector<RowPair>> Dem::Impl::share_pairs(ListTuner::OuterStatist
   return shares;
 }
 
-void Dem::Impl::make_tile(std::size_t number, std::span<const RowPair> pairs,
+void Dem::Impl::make_tile(std::size_t number, std::vector<RowPair> pairs,
                           const ContactCarrier& contacts) {
   const std::size_t size = chunk_rows(coarse_count);
   Chunk& chunk = chunks[number];
@@ -167,6 +170,7 @@ void Dem::Impl::make_tile(std::size_t number, std::span<const RowPair> pairs,
   chunk.end = static_cast<std::int32_t>(std::min(coarse_count, (number + 1) * size));
   chunk.wall_sums.assign(WallLoads::k_sums * wall_loads.walls(), 0.0);
   list_by_row(pairs, chunk);
+  std::vector<RowPair>().swap(pairs);
   const double lifetime = list_time(tuner.outer_lifetime());
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     for (std::int32_t i = chunk.begin; i < chunk.end; ++i) {

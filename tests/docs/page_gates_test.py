@@ -5,12 +5,12 @@ import importlib.machinery
 import importlib.util
 import pathlib
 import sys
-import tempfile
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
+sys.path[:0] = [str(pathlib.Path(__file__).parent), str(pathlib.Path(__file__).parents[1] / "support")]
 import decisions_gate
 import glossary_gate
+import tree_of_files  # noqa: E402
 import theory_gate
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -45,17 +45,7 @@ e
 """
 
 
-class Tree(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = pathlib.Path(folder.name)
-
-    def write(self, path, text):
-        path = self.root / path
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-
+class Tree(tree_of_files.Tree):
     def said(self, problems):
         return "\n".join(text for _, _, text in problems)
 

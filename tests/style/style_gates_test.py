@@ -3,15 +3,15 @@
 
 import pathlib
 import sys
-import tempfile
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
+sys.path[:0] = [str(pathlib.Path(__file__).parent), str(pathlib.Path(__file__).parents[1] / "support")]
 import allow_list
 import folders_gate
 import format_gate
 import functions_gate
 import test_names_gate
+import tree_of_files  # noqa: E402
 import types_gate
 import words_gate
 
@@ -26,19 +26,7 @@ LONG_BODY = "".join(f"  f({n});\n" for n in range(60))
 SHORT_BODY = "  f(1);\n"
 
 
-class Tree(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = pathlib.Path(folder.name)
-
-    def write(self, path, text):
-        path = self.root / path
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-
-
-class Words(Tree):
+class Words(tree_of_files.Tree):
     def found(self, code, path="core/a.cpp"):
         self.write("docs/architecture/glossary.md", GLOSSARY)
         self.write(path, code)
@@ -57,7 +45,7 @@ class Words(Tree):
         self.assertEqual(self.found("int chunk;", "core/run/a.cpp"), {"chunk"})
 
 
-class Functions(Tree):
+class Functions(tree_of_files.Tree):
     def found(self, code):
         self.write("core/a.cpp", code)
         return set(functions_gate.findings(self.root))
@@ -85,7 +73,7 @@ class Functions(Tree):
         self.assertEqual(self.found("void a() {\n" + body + "  f();\n}\n"), {"core/a.cpp a"})
 
 
-class Folders(Tree):
+class Folders(tree_of_files.Tree):
     def test_units_are_counted_once_and_only_shrink(self):
         for n in range(16):
             self.write(f"core/a/unit_{n}.hpp", "")
@@ -99,7 +87,7 @@ class Folders(Tree):
         self.assertEqual(list(folders_gate.problems(found, {"core/a": 16})), [])
 
 
-class Types(Tree):
+class Types(tree_of_files.Tree):
     def found(self, code, path="core/a.hpp"):
         self.write(path, code)
         return set(types_gate.findings(self.root))
@@ -135,7 +123,7 @@ class Types(Tree):
                        " public:\n  int b = 0;\n};\n"), {"public_data A"})
 
 
-class Spread(Tree):
+class Spread(tree_of_files.Tree):
     def test_a_class_in_three_sources_is_found_and_namespaces_are_not_meant(self):
         for name in "abc":
             self.write(f"core/{name}.cpp", f"void Dem::{name}() {{\n  f();\n}}\n\n"
@@ -148,7 +136,7 @@ class Spread(Tree):
         self.assertEqual(types_gate.findings(self.root), {"impl Dem": "core/b.hpp"})
 
 
-class TestNames(Tree):
+class TestNames(tree_of_files.Tree):
     def test_both_ways_round(self):
         self.write("tests/a.cpp", "TEST_CASE(\"a\") {}\n")
         self.write("tests/b_test.cpp", "int main() {}\n")
@@ -157,7 +145,7 @@ class TestNames(Tree):
         self.assertEqual(set(test_names_gate.findings(self.root)), {"tests/a.cpp", "tests/b_test.cpp"})
 
 
-class Format(Tree):
+class Format(tree_of_files.Tree):
     def test_a_line_that_is_not_formatted_is_found(self):
         program, why = format_gate.formatter()
         if program is None:
@@ -170,7 +158,7 @@ class Format(Tree):
         self.assertTrue(found[0].startswith("core/bad.cpp:2:"), found)
 
 
-class AllowLists(Tree):
+class AllowLists(tree_of_files.Tree):
     def test_new_and_gone_entries_are_told_and_the_gone_taken_out(self):
         path = self.root / "allowed.txt"
         path.write_text("# head\ngone\nkept\n")
