@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/text.hpp"
-#include "contract/judge.hpp"
+#include "contract/rule_runner.hpp"
 
 #include <memory>
 #include <string>
@@ -24,9 +24,9 @@ inline std::string shown(double value) { return base::digits_text(value, 4); }
 
 /// Runs the hot call of a trial; a Violation when it allocates and the trial watches.
 template <class Call>
-void call_hot(const Trial& trial, const Call& call) {
-  if (trial.judge == nullptr) return call();
-  const std::uint64_t count = trial.judge->allocations(call);
+void call_hot(const TestVariant& variant, const Call& call) {
+  if (variant.runner == nullptr) return call();
+  const std::uint64_t count = variant.runner->allocations(call);
   require(count == 0, "it allocates " + std::to_string(count) + " times in one call");
 }
 

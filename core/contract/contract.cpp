@@ -3,8 +3,8 @@
 
 #include "base/error.hpp"
 #include "contract/as_kind.hpp"
-#include "contract/guess.hpp"
-#include "contract/judge.hpp"
+#include "contract/input/default_values.hpp"
+#include "contract/rule_runner.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ using sdk::Value;
 bool is_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 /// Name of the first reading that differs, "" if none does.
-std::string first_difference(const Readings& a, const Readings& b) {
+std::string first_difference(const Observations& a, const Observations& b) {
   if (a.size() != b.size()) return "the number of results";
   for (std::size_t n = 0; n < a.size(); ++n) {
     if (a[n].name != b[n].name || !is_same(a[n].value, b[n].value)) return a[n].name;
@@ -38,9 +38,9 @@ void check_description(const sdk::ModelInfo& info) {
 }
 
 /// The most any number of a group is: components of one result are judged by the largest of them.
-std::map<std::string, double> sizes(const Readings& readings) {
+std::map<std::string, double> sizes(const Observations& observations) {
   std::map<std::string, double> largest;
-  for (const Reading& r : readings) {
+  for (const Observation& r : observations) {
     double& size = largest[r.name.substr(0, r.name.find(' '))];
     size = std::max(size, std::abs(r.value));
   }
@@ -50,8 +50,8 @@ std::map<std::string, double> sizes(const Readings& readings) {
 void check_units(const Kind& kind, const Maker& make) {
   // Roots and powers of other numbers round differently; a wrong exponent is off by a factor of 2.
   constexpr double k_rounding = 1e-6;
-  const Readings here = kind.observe(make, {});
-  const Readings there = kind.observe(make, {.units = kind.other_units});
+  const Observations here = kind.observe(make, {});
+  const Observations there = kind.observe(make, {.units = kind.other_units});
   require(here.size() == there.size(), "the number of results depends on the units");
   const auto largest = sizes(here);
   for (std::size_t n = 0; n < here.size(); ++n) {
@@ -110,7 +110,7 @@ class Variation {
 
  private:
   /// Nothing where the values contradict each other.
-  [[nodiscard]] std::optional<Readings> observe(const std::vector<Value>& values) const {
+  [[nodiscard]] std::optional<Observations> observe(const std::vector<Value>& values) const {
     try {
       return kind_.observe(
           [&](const Units& units) {
@@ -121,10 +121,10 @@ class Variation {
       return std::nullopt;
     }
   }
-  [[nodiscard]] bool differs(const std::optional<Readings>& base,
+  [[nodiscard]] bool differs(const std::optional<Observations>& base,
                              const std::vector<Value>& values) const {
-    const auto readings = observe(values);
-    return readings && (!base || !first_difference(*base, *readings).empty());
+    const auto observations = observe(values);
+    return observations && (!base || !first_difference(*base, *observations).empty());
   }
   static std::vector<Value> with(std::vector<Value> values, std::size_t n, const Value& value) {
     values[n] = value;
@@ -141,7 +141,7 @@ void check_parameters(const Kind& kind, const registry::Entry& entry,
                       const std::vector<Value>& values, const Maker& make, const Options& options) {
   std::vector<Variation> variations{{kind, entry, values, options}};
   for (const auto& given : options.also_given) {
-    variations.emplace_back(kind, entry, guess_values(entry.info, entry.factory, given), options);
+    variations.emplace_back(kind, entry, default_values(entry.info, entry.factory, given), options);
   }
   std::string idle;
   std::string unknown;
@@ -158,9 +158,9 @@ void check_parameters(const Kind& kind, const registry::Entry& entry,
     }
   }
   if (!idle.empty()) {
-    const Readings base = kind.observe(make, {});
+    const Observations base = kind.observe(make, {});
     const bool is_nothing =
-        std::none_of(base.begin(), base.end(), [](const Reading& r) { return r.value > 0.0; });
+        std::none_of(base.begin(), base.end(), [](const Observation& r) { return r.value > 0.0; });
     if (is_nothing) {
       throw Remark("the model gives nothing here to tell by; place it with --set PARAMETER=VALUE");
     }
@@ -170,39 +170,40 @@ void check_parameters(const Kind& kind, const registry::Entry& entry,
 }
 
 void check_common(const registry::Entry& entry, const Kind& kind, const Maker& make,
-                  const std::vector<Value>& values, const Options& options, Judge& judge) {
-  judge.rule("gives finite numbers, all of them", [&] {
-    for (const Reading& r : kind.observe(make, {})) {
+                  const std::vector<Value>& values, const Options& options, RuleRunner& runner) {
+  runner.rule("gives finite numbers, all of them", [&] {
+    for (const Observation& r : kind.observe(make, {})) {
       require(std::isfinite(r.value), r.name + " is not finite, or is not written");
     }
   });
-  judge.rule("gives the same bits when asked again", [&] {
+  runner.rule("gives the same bits when asked again", [&] {
     const std::string what = first_difference(kind.observe(make, {}), kind.observe(make, {}));
     require(what.empty(), what + " differs between two models of the same parameters");
   });
   if (!kind.batches.empty()) {
-    judge.rule("gives the same bits however its batch is split", [&] {
-      const Readings whole = kind.observe(make, {});
+    runner.rule("gives the same bits however its batch is split", [&] {
+      const Observations whole = kind.observe(make, {});
       for (const std::size_t batch : kind.batches) {
         const std::string what = first_difference(whole, kind.observe(make, {.batch = batch}));
         require(what.empty(), what + " differs in batches of " + std::to_string(batch));
       }
     });
   }
-  judge.rule("every parameter matters",
-             [&] { check_parameters(kind, entry, values, make, options); });
-  judge.rule("is homogeneous in its dimensions", [&] { check_units(kind, make); });
+  runner.rule("every parameter matters",
+              [&] { check_parameters(kind, entry, values, make, options); });
+  runner.rule("is homogeneous in its dimensions", [&] { check_units(kind, make); });
   if (kind.is_hot) {
-    judge.rule("does not allocate in the hot call", [&] {
-      if (!judge.watches_allocations()) throw Remark("allocations are not watched in this program");
-      (void)kind.observe(make, {.judge = &judge});
+    runner.rule("does not allocate in the hot call", [&] {
+      if (!runner.watches_allocations())
+        throw Remark("allocations are not watched in this program");
+      (void)kind.observe(make, {.runner = &runner});
     });
   }
 }
 
 }  // namespace
 
-std::vector<Finding> check_model(const registry::Entry& entry, const Options& options) {
+std::vector<RuleResult> check_model(const registry::Entry& entry, const Options& options) {
   std::vector<const std::map<std::string, Value>*> named{&options.given, &options.others};
   for (const auto& given : options.also_given) named.push_back(&given);
   for (const auto* values : named) {
@@ -215,23 +216,24 @@ std::vector<Finding> check_model(const registry::Entry& entry, const Options& op
                             ": there is no parameter '" + name + "'");
     }
   }
-  const Subject subject{entry.info, guess_values(entry.info, entry.factory, options.given)};
+  const ModelUnderTest model_under_test{entry.info,
+                                        default_values(entry.info, entry.factory, options.given)};
   const Maker make = [&](const Units& units) {
-    return entry.factory(in_units(units, entry.info.parameters, subject.values));
+    return entry.factory(in_units(units, entry.info.parameters, model_under_test.values));
   };
-  Judge judge(options.allocations);
-  judge.rule("says what it is: equation, source, parameters",
-             [&] { check_description(entry.info); });
+  RuleRunner runner(options.allocations);
+  runner.rule("says what it is: equation, source, parameters",
+              [&] { check_description(entry.info); });
   const Kind* kind = find_kind(entry.info.kind);
   if (kind == nullptr) {
-    judge.rule("keeps the rules of its kind", [&] {
+    runner.rule("keeps the rules of its kind", [&] {
       throw Remark("this engine has no rules for the kind '" + entry.info.kind + "'");
     });
-    return judge.findings;
+    return runner.results();
   }
-  check_common(entry, *kind, make, subject.values, options, judge);
-  kind->rules(make, subject, judge);
-  return judge.findings;
+  check_common(entry, *kind, make, model_under_test.values, options, runner);
+  kind->rules(make, model_under_test, runner);
+  return runner.results();
 }
 
 }  // namespace dust::contract

@@ -19,7 +19,7 @@ enum class Verdict {
 };
 
 /// One rule applied to one model.
-struct Finding {
+struct RuleResult {
   std::string rule;
   Verdict verdict = Verdict::pass;
   std::string why;  ///< empty for a plain pass
@@ -39,6 +39,6 @@ struct Options {
 
 /// Every rule of the model's kind, in a fixed order. Never throws for what the model does wrong.
 /// Throws base::UserError when required parameters can be neither guessed nor were given.
-std::vector<Finding> check_model(const registry::Entry& entry, const Options& options = {});
+std::vector<RuleResult> check_model(const registry::Entry& entry, const Options& options = {});
 
 }  // namespace dust::contract

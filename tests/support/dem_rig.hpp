@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bodies/body_set.hpp"
-#include "contract/archive.hpp"
+#include "contract/memory_archive.hpp"
 #include "dust/sdk/plugin.hpp"
 #include "particles/dem.hpp"
 #include "setup/setup.hpp"

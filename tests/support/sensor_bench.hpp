@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "contract/sensor_world.hpp"
+#include "contract/memory_archive.hpp"
+#include "contract/scenes/synthetic_scene.hpp"
 #include "dust/sdk/plugin.hpp"
 
 #include <map>
@@ -15,13 +16,16 @@ namespace dust::test {
 using contract::Contact;
 using contract::Figure;
 using contract::Figures;
+using contract::for_cells;
 using contract::Grain;
 using contract::MemoryArchive;
+using contract::pressure_at;
 using contract::series_of;
+using contract::set_cells;
 using contract::step;
 using contract::summary_of;
+using contract::SyntheticScene;
 using contract::Wall;
-using contract::World;
 
 /// A sensor's description and a way to make one, straight from its library.
 struct SensorKind {

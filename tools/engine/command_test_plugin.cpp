@@ -18,7 +18,7 @@
 namespace dust::engine {
 namespace {
 
-using contract::Finding;
+using contract::RuleResult;
 using contract::Verdict;
 
 /// Reads PARAMETER=VALUE for the models that have such a parameter.
@@ -63,25 +63,26 @@ const char* word(Verdict verdict) {
   return "";
 }
 
-void print_table(const registry::Entry& entry, const std::vector<Finding>& findings) {
+void print_table(const registry::Entry& entry, const std::vector<RuleResult>& results) {
   std::size_t width = 0;
-  for (const Finding& f : findings) width = std::max(width, f.rule.size());
+  for (const RuleResult& f : results) width = std::max(width, f.rule.size());
   std::cout << entry.info.kind << '/' << entry.info.name << ' ' << entry.info.version << " ("
             << entry.file.string() << ")\n";
-  for (const Finding& f : findings) {
+  for (const RuleResult& f : results) {
     std::cout << "  " << word(f.verdict) << "  " << std::left
               << std::setw(f.why.empty() ? 0 : static_cast<int>(width) + 2) << f.rule << f.why
               << '\n';
   }
 }
 
-nlohmann::ordered_json as_json(const registry::Entry& entry, const std::vector<Finding>& findings) {
+nlohmann::ordered_json as_json(const registry::Entry& entry,
+                               const std::vector<RuleResult>& results) {
   nlohmann::ordered_json json = {{"kind", entry.info.kind},
                                  {"name", entry.info.name},
                                  {"version", entry.info.version},
                                  {"file", entry.file.string()},
                                  {"rules", nlohmann::ordered_json::array()}};
-  for (const Finding& f : findings) {
+  for (const RuleResult& f : results) {
     const char* verdict = f.verdict == Verdict::fail ? "fail" : word(f.verdict);
     json["rules"].push_back({{"rule", f.rule}, {"verdict", verdict}, {"why", f.why}});
   }
@@ -126,14 +127,14 @@ void add_test_plugin(CLI::App& app, int& status) {
     std::size_t failed = 0;
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     for (std::size_t n = 0; n < entries.size(); ++n) {
-      const auto findings = contract::check_model(entries[n], options[n]);
+      const auto results = contract::check_model(entries[n], options[n]);
       failed += static_cast<std::size_t>(
-          std::count_if(findings.begin(), findings.end(),
-                        [](const Finding& f) { return f.verdict == Verdict::fail; }));
+          std::count_if(results.begin(), results.end(),
+                        [](const RuleResult& f) { return f.verdict == Verdict::fail; }));
       if (arguments->as_json) {
-        json.push_back(as_json(entries[n], findings));
+        json.push_back(as_json(entries[n], results));
       } else {
-        print_table(entries[n], findings);
+        print_table(entries[n], results);
       }
     }
     if (arguments->as_json) {

@@ -100,7 +100,7 @@ const std::map<std::string, std::vector<Values>>& sets_of_values() {
   return list;
 }
 
-std::vector<contract::Finding> findings_of(const registry::Entry& entry) {
+std::vector<contract::RuleResult> findings_of(const registry::Entry& entry) {
   contract::Options options;
   const auto sets = sets_of_values().find(full_name(entry.info));
   if (sets != sets_of_values().end()) {
@@ -112,8 +112,8 @@ std::vector<contract::Finding> findings_of(const registry::Entry& entry) {
 }
 
 Verdict verdict(const std::string& kind, const std::string& name, const std::string& rule) {
-  for (const auto& finding : findings_of(*shipped().find(kind, name))) {
-    if (finding.rule.find(rule) != std::string::npos) return finding.verdict;
+  for (const auto& result : findings_of(*shipped().find(kind, name))) {
+    if (result.rule.find(rule) != std::string::npos) return result.verdict;
   }
   FAIL("no such rule: " << rule);
   return Verdict::fail;
@@ -135,11 +135,11 @@ TEST_CASE("every shipped model shall keep the rules of its kind") {
     const bool is_general = entry.info.kind != "sensor";  // placed in contract/sensor
     if (!is_general || judged_elsewhere().contains(full_name(entry.info))) continue;
     ++judged;
-    const auto findings = findings_of(entry);
-    CHECK(findings.size() >= 5);
-    for (const auto& finding : findings) {
-      CAPTURE(finding.rule);
-      CHECK_MESSAGE(finding.verdict != Verdict::fail, finding.why);
+    const auto results = findings_of(entry);
+    CHECK(results.size() >= 5);
+    for (const auto& result : results) {
+      CAPTURE(result.rule);
+      CHECK_MESSAGE(result.verdict != Verdict::fail, result.why);
     }
   }
   CHECK(judged >= 20);

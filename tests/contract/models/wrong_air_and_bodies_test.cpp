@@ -199,9 +199,9 @@ struct Push final : FluidForce {
 
 TEST_CASE("a force of the fluid that is wrong shall be told by the rule it breaks") {
   Seen seen;
-  for (const auto& finding : findings_on<Push>(Push::none)) {
-    INFO(finding.rule);
-    CHECK_MESSAGE(finding.verdict != wrong::Verdict::fail, finding.why);
+  for (const auto& result : findings_on<Push>(Push::none)) {
+    INFO(result.rule);
+    CHECK_MESSAGE(result.verdict != wrong::Verdict::fail, result.why);
   }
   CHECK(seen.broken(findings_on<Push>(Push::always), "uniform stream").find(" N on grain 0") !=
         std::string::npos);

@@ -15,7 +15,7 @@
 /// Models made to break a rule, and what is said of them.
 namespace wrong {
 
-using dust::contract::Finding;
+using dust::contract::RuleResult;
 using dust::contract::Verdict;
 namespace sdk = dust::sdk;
 
@@ -30,7 +30,7 @@ inline sdk::ModelInfo described(const char* kind, sdk::ParameterSchema schema = 
 }
 
 /// The findings on a model made by `make` from its values.
-inline std::vector<Finding> findings_of(sdk::ModelInfo info, sdk::ModelFactory make) {
+inline std::vector<RuleResult> findings_of(sdk::ModelInfo info, sdk::ModelFactory make) {
   dust::contract::Options options;
   options.allocations = dust::engine::allocations_so_far;
   return dust::contract::check_model({std::move(info), std::move(make), {}}, options);
@@ -38,7 +38,7 @@ inline std::vector<Finding> findings_of(sdk::ModelInfo info, sdk::ModelFactory m
 
 /// The findings on a model without parameters.
 template <class Model, class... Arguments>
-std::vector<Finding> findings_on(Arguments... arguments) {
+std::vector<RuleResult> findings_on(Arguments... arguments) {
   return findings_of(described(Model::k_kind), [=](std::span<const sdk::Value>) {
     return std::make_unique<Model>(arguments...);
   });
@@ -48,12 +48,12 @@ std::vector<Finding> findings_on(Arguments... arguments) {
 class Seen {
  public:
   /// What the rule whose sentence holds `rule` says; "" if it is kept.
-  std::string broken(const std::vector<Finding>& findings, const std::string& rule) {
-    return told(findings, rule, Verdict::fail);
+  std::string broken(const std::vector<RuleResult>& results, const std::string& rule) {
+    return told(results, rule, Verdict::fail);
   }
   /// The same of a rule that remarks and does not fail.
-  std::string remarked(const std::vector<Finding>& findings, const std::string& rule) {
-    return told(findings, rule, Verdict::remark);
+  std::string remarked(const std::vector<RuleResult>& results, const std::string& rule) {
+    return told(results, rule, Verdict::remark);
   }
   /// No rule is left that no model has broken. Rules that are one and the same for all kinds are
   /// broken by drag laws (`also_common`).
@@ -74,16 +74,17 @@ class Seen {
   }
 
  private:
-  std::string told(const std::vector<Finding>& findings, const std::string& rule, Verdict verdict) {
+  std::string told(const std::vector<RuleResult>& results, const std::string& rule,
+                   Verdict verdict) {
     std::string why;
     bool is_there = false;
-    for (const Finding& finding : findings) {
-      all_.insert(finding.rule);
-      if (is_there || finding.rule.find(rule) == std::string::npos) continue;
+    for (const RuleResult& result : results) {
+      all_.insert(result.rule);
+      if (is_there || result.rule.find(rule) == std::string::npos) continue;
       is_there = true;
-      if (finding.verdict != verdict) continue;
-      broken_.insert(finding.rule);
-      why = finding.why;
+      if (result.verdict != verdict) continue;
+      broken_.insert(result.rule);
+      why = result.why;
     }
     if (!is_there) FAIL("no such rule: " << rule);
     return why;

@@ -30,7 +30,7 @@ struct Drag final : sdk::DragLaw {
 };
 
 /// A drag law with one parameter, a length.
-std::vector<contract::Finding> drag(const Evaluate& evaluate) {
+std::vector<contract::RuleResult> drag(const Evaluate& evaluate) {
   struct P {
     double size = 0.0;
   };
@@ -162,7 +162,7 @@ struct Spring final : sdk::ContactLaw {
   double lead = 1.0;
 };
 
-std::vector<contract::Finding> spring(Spring::Fault fault) {
+std::vector<contract::RuleResult> spring(Spring::Fault fault) {
   sdk::SchemaOf<Spring::P> s;
   s.number(&Spring::P::stiffness, "stiffness", sdk::dimension::stiffness, "Stiffness.").above(0);
   s.number(&Spring::P::restitution, "restitution", sdk::dimension::none, "Restitution.")
@@ -178,10 +178,10 @@ std::vector<contract::Finding> spring(Spring::Fault fault) {
 
 TEST_CASE("a contact law that is wrong shall be told by the rule it breaks") {
   Seen seen;
-  for (const auto& finding : spring(Spring::none)) {
+  for (const auto& result : spring(Spring::none)) {
     // History is out of reach of a law that has none; its spring is told as it is.
-    INFO(finding.rule);
-    CHECK_MESSAGE(finding.verdict != Verdict::fail, finding.why);
+    INFO(result.rule);
+    CHECK_MESSAGE(result.verdict != Verdict::fail, result.why);
   }
   CHECK(seen.broken(spring(Spring::one_sided), "both sides").find("seen from the other side") == 0);
   CHECK(seen.broken(spring(Spring::along_x), "direction").find("in a turned world") == 0);
@@ -250,7 +250,7 @@ struct Sticky final : sdk::CohesionLaw {
   }
 };
 
-std::vector<contract::Finding> sticky(Sticky::Fault fault) {
+std::vector<contract::RuleResult> sticky(Sticky::Fault fault) {
   return findings_of(described("cohesion", {}), [fault](std::span<const sdk::Value>) {
     return std::make_unique<Sticky>(fault);
   });
@@ -260,11 +260,11 @@ std::vector<contract::Finding> sticky(Sticky::Fault fault) {
 
 TEST_CASE("a cohesive law that is wrong shall be told by the rule it breaks") {
   Seen seen;
-  for (const auto& finding : sticky(Sticky::none)) {
-    INFO(finding.rule);
+  for (const auto& result : sticky(Sticky::none)) {
+    INFO(result.rule);
     // Its strength per radius, 0.3 N/m, is a hidden unit.
-    if (finding.rule.find("homogeneous") != std::string::npos) continue;
-    CHECK_MESSAGE(finding.verdict != Verdict::fail, finding.why);
+    if (result.rule.find("homogeneous") != std::string::npos) continue;
+    CHECK_MESSAGE(result.verdict != Verdict::fail, result.why);
   }
   CHECK(seen.broken(sticky(Sticky::pushes), "attracts").find("it pushes") == 0);
   CHECK(seen.broken(sticky(Sticky::reaches_far), "attracts").find("beyond range()") !=
@@ -310,13 +310,13 @@ struct Drip final : sdk::Emitter {
 
 TEST_CASE("an emitter that is wrong shall be told by the rule it breaks") {
   Seen seen;
-  const auto findings = findings_of(described("emitter"), [](std::span<const sdk::Value>) {
+  const auto results = findings_of(described("emitter"), [](std::span<const sdk::Value>) {
     return std::make_unique<Drip>(0.8);
   });
-  CHECK(seen.broken(findings, "mass").find("kg came in") != std::string::npos);
-  CHECK(seen.broken(findings, "speeds").find("told are 0.5") != std::string::npos);
-  CHECK(seen.broken(findings, "homogeneous").find("the number of results") != std::string::npos);
-  CHECK(seen.broken(findings, "saved and loaded").find("it gives ") != std::string::npos);
+  CHECK(seen.broken(results, "mass").find("kg came in") != std::string::npos);
+  CHECK(seen.broken(results, "speeds").find("told are 0.5") != std::string::npos);
+  CHECK(seen.broken(results, "homogeneous").find("the number of results") != std::string::npos);
+  CHECK(seen.broken(results, "saved and loaded").find("it gives ") != std::string::npos);
   seen.check_complete();
 }
 
@@ -351,11 +351,11 @@ struct Blind final : sdk::Sensor {
 
 TEST_CASE("a sensor that is wrong shall be told by the rule it breaks") {
   Seen seen;
-  const auto findings = findings_of(
+  const auto results = findings_of(
       described("sensor"), [](std::span<const sdk::Value>) { return std::make_unique<Counter>(); });
-  CHECK(seen.broken(findings, "names") == "'Looks' is not a path of snake_case words");
-  CHECK(seen.broken(findings, "zeros") == "'looks' is 90 in an empty domain");
-  CHECK(seen.broken(findings, "saved and loaded").find("after 1 samples 'looks' differs") !=
+  CHECK(seen.broken(results, "names") == "'Looks' is not a path of snake_case words");
+  CHECK(seen.broken(results, "zeros") == "'looks' is 90 in an empty domain");
+  CHECK(seen.broken(results, "saved and loaded").find("after 1 samples 'looks' differs") !=
         std::string::npos);
   CHECK(seen.broken(wrong::findings_on<Last>(), "between rows") ==
         "'looks' is 9 in a row for every 9 samples; the samples say 5");

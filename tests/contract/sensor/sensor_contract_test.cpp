@@ -228,7 +228,7 @@ TEST_CASE("every sensor shall keep the rules of sensors") {
     const auto findings = contract::check_model(
         *entry, {.given = subject.parameters, .also_given = {}, .others = subject.others});
     CHECK(findings.size() >= 9);
-    for (const contract::Finding& finding : findings) {
+    for (const contract::RuleResult& finding : findings) {
       CAPTURE(finding.rule);
       CHECK_MESSAGE(finding.verdict == contract::Verdict::pass, finding.why);
     }

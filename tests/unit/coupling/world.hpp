@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "contract/archive.hpp"
+#include "contract/memory_archive.hpp"
 #include "contract/plugin_library.hpp"
 #include "coupling/coupling.hpp"
 #include "dust/sdk/random.hpp"

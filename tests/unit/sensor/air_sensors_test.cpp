@@ -14,24 +14,24 @@ using sdk::Vec3;
 namespace {
 
 /// 20 x 10 x 40 cells of 1 mm.
-World air() {
-  World world;
+SyntheticScene air() {
+  SyntheticScene world;
   world.domain_max = {0.02, 0.01, 0.04};
-  world.set_cells(20, 10, 40);
+  set_cells(world, 20, 10, 40);
   return world;
 }
-Figures after(sdk::Sensor& sensor, World& world, int samples = 20) {
+Figures after(sdk::Sensor& sensor, SyntheticScene& world, int samples = 20) {
   for (int s = 0; s < samples; ++s) step(sensor, world);
   return summary_of(sensor);
 }
 /// Floats carry 7 digits.
 constexpr double k_float = 1e-5;
 
-void set_pressure(World& world, const std::function<double(Vec3)>& p) {
-  world.for_cells([&](std::size_t c, Vec3 x) { world.pressure[c] = static_cast<float>(p(x)); });
+void set_pressure(SyntheticScene& world, const std::function<double(Vec3)>& p) {
+  for_cells(world, [&](std::size_t c, Vec3 x) { world.pressure[c] = static_cast<float>(p(x)); });
 }
-void set_velocity(World& world, const std::function<Vec3(Vec3)>& u) {
-  world.for_cells([&](std::size_t c, Vec3 x) {
+void set_velocity(SyntheticScene& world, const std::function<Vec3(Vec3)>& u) {
+  for_cells(world, [&](std::size_t c, Vec3 x) {
     for (int d = 0; d < 3; ++d) world.velocity[d][c] = static_cast<float>(u(x)[d]);
   });
 }
@@ -39,7 +39,7 @@ void set_velocity(World& world, const std::function<Vec3(Vec3)>& u) {
 }  // namespace
 
 TEST_CASE("pressure_drop shall be exact where the pressure is linear, between centres too") {
-  World world = air();
+  SyntheticScene world = air();
   set_pressure(world, [](Vec3 x) { return 1000.0 - 5e4 * x.z + 300.0 * x.x; });
   const auto planes =
       load_sensor("pressure_drop").make({{"from", Vec3{0, 0, 0.0103}}, {"to", Vec3{0, 0, 0.0311}}});
@@ -56,10 +56,10 @@ TEST_CASE("pressure_drop shall be exact where the pressure is linear, between ce
 }
 
 TEST_CASE("pressure_drop shall leave bodies out of its means and count solids with the area") {
-  World world = air();
+  SyntheticScene world = air();
   // A body over a quarter of the section with nonsense inside; a bed of half voids through which
   // air flows with 0.8 m/s: 0.75 * 0.5 * 0.8 = 0.3 m/s superficial.
-  world.for_cells([&](std::size_t c, Vec3 x) {
+  for_cells(world, [&](std::size_t c, Vec3 x) {
     const bool is_body = x.x < 0.005;
     world.open_fraction[c] = is_body ? 0.0f : 1.0f;
     world.pressure[c] = is_body ? -1e6f : static_cast<float>(100.0 - 1000.0 * x.z);
@@ -75,11 +75,12 @@ TEST_CASE("pressure_drop shall leave bodies out of its means and count solids wi
 }
 
 TEST_CASE("probe shall be exact on linear fields, along lines and in planes") {
-  World world = air();
+  SyntheticScene world = air();
   set_velocity(world, [](Vec3 x) { return Vec3{10 * x.z, -5 * x.x, 1 + x.y}; });
   set_pressure(world, [](Vec3 x) { return 7.0 - 400 * x.z; });
-  world.for_cells(
-      [&](std::size_t c, Vec3 x) { world.void_fraction[c] = static_cast<float>(0.5 + 10 * x.z); });
+  for_cells(world, [&](std::size_t c, Vec3 x) {
+    world.void_fraction[c] = static_cast<float>(0.5 + 10 * x.z);
+  });
   const auto line = load_sensor("probe").make({{"from", Vec3{0.0052, 0.0045, 0.0103}},
                                                {"to", Vec3{0.0152, 0.0045, 0.0303}},
                                                {"count", std::int64_t{5}}});
@@ -110,9 +111,9 @@ TEST_CASE("probe shall be exact on linear fields, along lines and in planes") {
 }
 
 TEST_CASE("probe shall look past bodies and stay at the last centre beyond the sides") {
-  World world = air();
+  SyntheticScene world = air();
   set_velocity(world, [](Vec3 x) { return Vec3{0, 0, 100 * x.z}; });
-  world.for_cells([&](std::size_t c, Vec3 x) {
+  for_cells(world, [&](std::size_t c, Vec3 x) {
     if (x.z < 0.01) return;
     world.open_fraction[c] = x.z < 0.02 ? 0.2f : 1.0f;
     if (x.z < 0.02) world.velocity[2][c] = -9.0f;
@@ -126,7 +127,7 @@ TEST_CASE("probe shall look past bodies and stay at the last centre beyond the s
 }
 
 TEST_CASE("wall_shear shall be the viscosity times the slope, the wall's motion taken off") {
-  World world = air();
+  SyntheticScene world = air();
   set_velocity(world, [](Vec3 x) { return Vec3{30 * x.z, -40 * x.z, 0}; });
   const auto floor = load_sensor("wall_shear").make({{"side", std::string("bottom")}});
   const Figures figures = after(*floor, world);
@@ -143,8 +144,8 @@ TEST_CASE("wall_shear shall be the viscosity times the slope, the wall's motion 
   // Half a cell below it the air is slower by 30 * 0.5 mm/s: the lid is held back.
   CHECK(after(*lid, world)["force_x"] == doctest::Approx(-1.8e-5 * 30 * area).epsilon(1e-3));
   // A body that covers half of the side carries its share itself.
-  world.for_cells(
-      [&](std::size_t c, Vec3 x) { world.open_fraction[c] = x.x < 0.01 ? 0.0f : 1.0f; });
+  for_cells(world,
+            [&](std::size_t c, Vec3 x) { world.open_fraction[c] = x.x < 0.01 ? 0.0f : 1.0f; });
   const auto half = load_sensor("wall_shear").make({{"side", std::string("bottom")}});
   world.time = 0.0;
   CHECK(after(*half, world)["force_x"] == doctest::Approx(1.8e-5 * 15 * area).epsilon(k_float));
@@ -153,7 +154,7 @@ TEST_CASE("wall_shear shall be the viscosity times the slope, the wall's motion 
 TEST_CASE("vorticity shall be twice the rate of a solid rotation, about each axis") {
   for (int axis = 0; axis < 3; ++axis) {
     CAPTURE(axis);
-    World world = air();
+    SyntheticScene world = air();
     Vec3 turn;
     turn[axis] = 25.0;
     set_velocity(world, [&](Vec3 x) { return cross(turn, x - Vec3{0.01, 0.005, 0.02}); });
@@ -169,7 +170,7 @@ TEST_CASE("vorticity shall be twice the rate of a solid rotation, about each axi
 }
 
 TEST_CASE("vorticity shall find where the mean flow turns fastest, in its box and in the open") {
-  World world = air();
+  SyntheticScene world = air();
   // An eddy at (14.5, *, 30.5) mm, a stronger one in a body at (5.5, *, 10.5).
   const auto eddy = [](Vec3 x, double cx, double cz, double strength) {
     const double r2 = std::pow((x.x - cx) / 2e-3, 2) + std::pow((x.z - cz) / 2e-3, 2);
@@ -191,7 +192,7 @@ TEST_CASE("vorticity shall find where the mean flow turns fastest, in its box an
   CHECK(figures["fastest/z"] == doctest::Approx(0.0305).epsilon(1e-9));
   // In the middle -dw/dx + du/dz = 2 * 200 1/s, less by differences over 2 of 4 mm.
   CHECK(figures["fastest/vorticity"] == doctest::Approx(400.0 * std::exp(-0.25)).epsilon(1e-4));
-  world.for_cells([&](std::size_t c, Vec3 x) {
+  for_cells(world, [&](std::size_t c, Vec3 x) {
     world.open_fraction[c] = norm(x - Vec3{0.0055, x.y, 0.0105}) < 2.5e-3 ? 0.0f : 1.0f;
   });
   const auto open = load_sensor("vorticity").make({});

@@ -17,9 +17,10 @@ constexpr double k_degree = std::numbers::pi / 180.0;
 const Vec3 k_centre{0.05, 0.04, 0.01};
 
 /// A bed on a jittered level grid of 0.6 mm, filled from z = 0 up to `height(x, y)`.
-World bed(const std::function<double(double, double)>& height, double noise = 0.0, int seed = 1) {
+SyntheticScene bed(const std::function<double(double, double)>& height, double noise = 0.0,
+                   int seed = 1) {
   Dice dice(seed);
-  World world;
+  SyntheticScene world;
   world.class_diameters = {600e-6};
   for (double x = 0.0; x < 0.1; x += 0.6e-3) {
     for (double y = 0.0; y < 0.08; y += 0.6e-3) {
@@ -39,7 +40,7 @@ World bed(const std::function<double(double, double)>& height, double noise = 0.
 
 double radius(double x, double y) { return std::hypot(x - k_centre.x, y - k_centre.y); }
 
-Figure measured(World world, std::map<std::string, dust::sdk::Value> parameters) {
+Figure measured(SyntheticScene world, std::map<std::string, dust::sdk::Value> parameters) {
   const auto sensor = load_sensor("angle_of_repose").make(parameters);
   step(*sensor, world);
   return summary_of(*sensor).at("angle");
@@ -83,7 +84,7 @@ TEST_CASE("a slope and a crater shall be measured, also with gravity along anoth
         doctest::Approx(41.0).epsilon(k_exact));
   // The same crater is no cone.
   CHECK(measured(crater, {{"centre", k_centre}}).value == 0.0);
-  World turned = slope;
+  SyntheticScene turned = slope;
   turned.gravity = {-9.81, 0, 0};
   for (Grain& g : turned.grains) g.now = {g.now.z, g.now.x, g.now.y};
   CHECK(measured(turned, {{"form", std::string("planar")}, {"direction", Vec3{0, 1, 0}}}).value ==

@@ -13,7 +13,7 @@ using sdk::Vec3;
 
 namespace {
 
-void fill(World& world, double low, double high, int count, double mass, double weight,
+void fill(SyntheticScene& world, double low, double high, int count, double mass, double weight,
           double diameter = 300e-6) {
   for (int n = 0; n < count; ++n) {
     Grain g;
@@ -29,7 +29,7 @@ void fill(World& world, double low, double high, int count, double mass, double 
 }  // namespace
 
 TEST_CASE("bed_height shall be that of a uniform column, by share and by centre") {
-  World world;
+  SyntheticScene world;
   fill(world, 0.02, 0.12, 20000, 1e-9, 1.0);
   const auto sensor =
       load_sensor("bed_height").make({{"base", Vec3{0.3, 0, 0.02}}, {"share", 0.9}});
@@ -42,7 +42,7 @@ TEST_CASE("bed_height shall be that of a uniform column, by share and by centre"
 }
 
 TEST_CASE("bed_height shall count masses with weights and look along its direction") {
-  World world;
+  SyntheticScene world;
   // A heavy layer of 40 mm under a light one of 60: masses 3 : 1.
   fill(world, 0.0, 0.04, 4000, 1e-9, 3.0);
   fill(world, 0.04, 0.10, 4000, 2e-9, 0.5);
@@ -87,9 +87,9 @@ Figures run(const Ramp& ramp, const std::vector<double>& velocities, int samples
   parameters.insert(more.begin(), more.end());
   const auto sensor = load_sensor("minimum_fluidisation").make(parameters);
   const sdk::Random random(5, sdk::stream_of("ramp"));
-  World world;
+  SyntheticScene world;
   world.domain_max = {0.004, 0.003, 0.04};
-  world.set_cells(4, 3, 40);
+  set_cells(world, 4, 3, 40);
   for (float& e : world.void_fraction) e = 0.5f;
   fill(world, 0.0105, 0.1105, 200, 1e-9, 1.0);
   for (int s = 0; s < samples; ++s) {
@@ -97,7 +97,7 @@ Figures run(const Ramp& ramp, const std::vector<double>& velocities, int samples
     const auto low = std::min(velocities.size() - 2, static_cast<std::size_t>(at));
     const double u = velocities[low] + (at - low) * (velocities[low + 1] - velocities[low]);
     const double drop = ramp.pressure(u, random.uniform(static_cast<std::uint64_t>(s), 0));
-    world.for_cells([&](std::size_t c, Vec3 x) {
+    for_cells(world, [&](std::size_t c, Vec3 x) {
       world.velocity[2][c] = static_cast<float>(2.0 * u);  // half of it is void
       world.pressure[c] = static_cast<float>(drop * (0.0305 - x.z) / 0.02);
     });

@@ -33,7 +33,7 @@ Grain at(Vec3 place, double diameter, double mass, double weight) {
 
 TEST_CASE("the concentration in a box shall be the weighted mass inside per volume") {
   const auto sensor = kind().make(k_box);
-  World world;
+  SyntheticScene world;
   world.emitted_mass = 5e-6;
   // A lattice of 4 x 4 x 4 over twice the box in x: half of it lies inside.
   for (int i = 0; i < 64; ++i) {
@@ -60,7 +60,7 @@ TEST_CASE("the diameters shall restrict what counts in a box") {
   auto parameters = k_box;
   parameters["finer_than"] = 100e-6;
   const auto sensor = kind().make(parameters);
-  World world;
+  SyntheticScene world;
   world.grains = {at({0.015, 0.005, 0.02}, 10e-6, 1.0, 1.0),
                   at({0.015, 0.005, 0.02}, 300e-6, 10.0, 1.0)};
   step(*sensor, world);
@@ -75,7 +75,7 @@ TEST_CASE("the error of a concentration shall cover the truth at its rate, with 
     for (int run = 0; run < k_runs; ++run) {
       Dice dice(run);
       const auto sensor = kind().make(k_box);
-      World world;
+      SyntheticScene world;
       for (int sample = 0; sample < 160; ++sample) {
         world.grains.clear();
         const int n = dice.poisson(0.5 * copies);

@@ -17,17 +17,17 @@ constexpr double k_dense = 0.45;
 constexpr double k_radius = 6.2e-3;
 
 /// 20 x 20 x 60 cells of 1 mm: dense below 50 mm, empty above.
-World bed() {
-  World world;
+SyntheticScene bed() {
+  SyntheticScene world;
   world.domain_max = {0.02, 0.02, 0.06};
-  world.set_cells(20, 20, 60);
+  set_cells(world, 20, 20, 60);
   world.interval = 1e-3;
   return world;
 }
 /// Spheres of nothing but air in the bed; the void fraction of a cell on a border is smeared over
 /// one cell, as grains smear it.
-void blow(World& world, const std::vector<Vec3>& centres, double radius = k_radius) {
-  world.for_cells([&](std::size_t c, Vec3 x) {
+void blow(SyntheticScene& world, const std::vector<Vec3>& centres, double radius = k_radius) {
+  for_cells(world, [&](std::size_t c, Vec3 x) {
     double share = x.z > 0.05 ? 1.0 : 0.0;
     for (const Vec3& centre : centres) {
       share = std::max(share, std::clamp(0.5 + (radius - norm(x - centre)) / 1e-3, 0.0, 1.0));
@@ -45,7 +45,7 @@ constexpr double k_cells = 0.03;
 }  // namespace
 
 TEST_CASE("bubbles shall have the number, size and speed of the spheres there are") {
-  World world = bed();
+  SyntheticScene world = bed();
   const auto bubbles = sensor();
   constexpr double k_speed = 0.25;
   for (int n = 0; n < 50; ++n) {
@@ -63,7 +63,7 @@ TEST_CASE("bubbles shall have the number, size and speed of the spheres there ar
 }
 
 TEST_CASE("bubbles shall leave out the space over the bed, and those too small") {
-  World world = bed();
+  SyntheticScene world = bed();
   blow(world, {{0.01, 0.01, 0.044}, {0.01, 0.01, 0.02}});  // the upper one breaks the surface
   const auto all = sensor();
   step(*all, world);
@@ -79,7 +79,7 @@ TEST_CASE("bubbles shall leave out the space over the bed, and those too small")
 }
 
 TEST_CASE("bubbles that merge shall not count as one that jumps") {
-  World world = bed();
+  SyntheticScene world = bed();
   const auto bubbles = sensor();
   blow(world, {{0.006, 0.01, 0.015}, {0.014, 0.01, 0.03}}, 5e-3);
   step(*bubbles, world);
@@ -91,7 +91,7 @@ TEST_CASE("bubbles that merge shall not count as one that jumps") {
 
 TEST_CASE("bubbles shall refuse a box without inside and a slanted direction") {
   CHECK_THROWS(load_sensor("bubbles").make({{"min", Vec3{0, 0, 1}}, {"max", Vec3{1, 1, 1}}}));
-  World world = bed();
+  SyntheticScene world = bed();
   blow(world, {});
   const auto slanted = sensor({{"direction", Vec3{1, 0, 1}}});
   CHECK_THROWS(step(*slanted, world));

@@ -32,7 +32,7 @@ Grain riding(Vec3 place, Vec3 velocity) {
 
 TEST_CASE("evenly spaced riders shall carry spacing, mass and speed back exactly") {
   const auto sensor = kind().make(k_layer);
-  World world;
+  SyntheticScene world;
   // One grain of 1e-12 kg per millimetre at 0.8 m/s: 800 grains/s.
   for (int i = 0; i < 80; ++i) {
     world.grains.push_back(riding({0.001 * (i + 0.5), 0.005, 0.115}, {-0.8, 0, 0}));
@@ -53,7 +53,7 @@ TEST_CASE("evenly spaced riders shall carry spacing, mass and speed back exactly
 
 TEST_CASE("grains that do not ride shall not count") {
   const auto sensor = kind().make(k_layer);
-  World world;
+  SyntheticScene world;
   world.grains = {riding({0.04, 0.005, 0.115}, {0, 0, 0}),      // at rest
                   riding({0.04, 0.005, 0.115}, {0.8, 0, 0}),    // forward
                   riding({0.04, 0.005, 0.115}, {-0.05, 0, 0}),  // drifts
@@ -69,7 +69,7 @@ TEST_CASE("emission before the steady part shall not dilute what is carried back
   auto parameters = k_layer;
   parameters["steady_after"] = 0.01;
   const auto sensor = kind().make(parameters);
-  World world;
+  SyntheticScene world;
   world.grains = {riding({0.04, 0.005, 0.115}, {-0.8, 0, 0})};
   world.emitted_mass = 1.0;
   for (int s = 0; s < 20; ++s) {

@@ -11,7 +11,7 @@ using dust::sdk::Vec3;
 TEST_CASE("the coordination number of a simple cubic block shall follow from its faces") {
   // n^3 grains: 3 n^2 (n - 1) contacts, Z = 6 (n - 1) / n; 6 n^2 wall contacts fill it up to 6.
   constexpr int n = 5;
-  World world;
+  SyntheticScene world;
   const auto index = [](int i, int j, int k) { return i + n * (j + n * k); };
   for (int k = 0; k < n; ++k) {
     for (int j = 0; j < n; ++j) {
@@ -44,7 +44,7 @@ TEST_CASE("the coordination number of a simple cubic block shall follow from its
 TEST_CASE("grains without load shall not count in the mechanical coordination number") {
   // A ring of four (2 contacts each), one leaning on it by one contact, one free; one is within the
   // reach of a law without touching.
-  World world;
+  SyntheticScene world;
   world.grains.resize(6);
   world.contacts = {{0, 1, {}, {}}, {1, 2, {}, {}}, {2, 3, {}, {}},
                     {3, 0, {}, {}}, {4, 0, {}, {}}, {5, 1, {}, {}, -1e-9}};

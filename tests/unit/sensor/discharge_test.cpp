@@ -34,7 +34,7 @@ TEST_CASE("a steady discharge shall have its rate, its time, and Beverloo's besi
   auto p = k_hole;
   p["opened_at"] = 0.05;
   const auto sensor = load_sensor("discharge").make(p);
-  World world;
+  SyntheticScene world;
   // One grain every 1.25 ms between 0.1 and 0.3 s, in and beside the hole: 800 a second.
   for (int n = 1; n <= 500; ++n) {
     world.grains.clear();
@@ -76,7 +76,7 @@ TEST_CASE("Beverloo's correlation shall give the silo's rates within its round n
 
 TEST_CASE("grains that come back through the hole shall be taken off") {
   const auto sensor = load_sensor("discharge").make(k_hole);
-  World world;
+  SyntheticScene world;
   Grain down = falling(0.1, 1e-3, 0.5e-3, 1e-3);
   world.grains = {down};
   step(*sensor, world);

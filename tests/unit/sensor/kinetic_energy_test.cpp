@@ -24,7 +24,7 @@ Grain moving(Vec3 velocity, Vec3 angular_velocity, double weight = 1.0) {
 
 TEST_CASE("energies shall be those of full spheres, with their weights") {
   const auto sensor = load_sensor("kinetic_energy").make({});
-  World world;
+  SyntheticScene world;
   world.grains = {moving({3, 0, 0}, {0, 100, 0}), moving({0, 0, -1}, {}, 0.5)};
   step(*sensor, world);
   const Figures f = summary_of(*sensor);
@@ -36,7 +36,7 @@ TEST_CASE("energies shall be those of full spheres, with their weights") {
 
 TEST_CASE("the granular temperature shall be the variance of the velocity, whatever the drift") {
   const auto sensor = load_sensor("kinetic_energy").make({});
-  World world;
+  SyntheticScene world;
   for (int n = 0; n < 8; ++n) {
     const double s[3] = {n % 2 * 2.0 - 1, n / 2 % 2 * 2.0 - 1, n / 4 * 2.0 - 1};
     world.grains.push_back(moving(Vec3{5, 0, -7} + Vec3{0.1 * s[0], 0.2 * s[1], 0.3 * s[2]}, {}));
@@ -48,7 +48,7 @@ TEST_CASE("the granular temperature shall be the variance of the velocity, whate
 
 TEST_CASE("grains shall count as settled from the last time they became slow") {
   const auto sensor = load_sensor("kinetic_energy").make({{"settled_below", 1e-9}});
-  World world;
+  SyntheticScene world;
   world.interval = 0.1;
   for (const double v : {1.0, 0.01, 0.1, 0.01, 0.01}) {  // 5e-11 J and 5e-9 J
     world.grains = {moving({v, 0, 0}, {})};

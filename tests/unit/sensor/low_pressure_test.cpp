@@ -20,7 +20,7 @@ struct Well {
 };
 
 /// A sum of Gaussian wells 4 cells wide.
-void dig(World& world, const std::vector<Well>& wells) {
+void dig(SyntheticScene& world, const std::vector<Well>& wells) {
   for (int k = 0; k < world.count[2]; ++k) {
     for (int j = 0; j < world.count[1]; ++j) {
       for (int i = 0; i < world.count[0]; ++i) {
@@ -29,7 +29,7 @@ void dig(World& world, const std::vector<Well>& wells) {
           const double r2 = std::pow(i - w.i, 2) + std::pow(j - w.j, 2) + std::pow(k - w.k, 2);
           p -= w.depth * std::exp(-r2 / 32.0);
         }
-        world.pressure_at(i, j, k) = static_cast<float>(p);
+        pressure_at(world, i, j, k) = static_cast<float>(p);
       }
     }
   }
@@ -46,8 +46,8 @@ double smoothed_share() {
 
 TEST_CASE("wells of pressure shall be found in place, depth and order") {
   const auto sensor = kind().make({{"count", std::int64_t{3}}});
-  World world;
-  world.set_cells(60, 20, 40);
+  SyntheticScene world;
+  set_cells(world, 60, 20, 40);
   dig(world, {{12, 10, 20, 0.3}, {45, 10, 10, 0.5}});
   for (int s = 0; s < 100; ++s) step(*sensor, world);
   const Figures figures = summary_of(*sensor);
@@ -68,11 +68,11 @@ TEST_CASE("wells of pressure shall be found in place, depth and order") {
 
 TEST_CASE("solid cells and neighbours of deeper wells shall not be reported") {
   const auto sensor = kind().make({{"count", std::int64_t{5}}, {"separation", 0.015}});
-  World world;
-  world.set_cells(60, 3, 40);
+  SyntheticScene world;
+  set_cells(world, 60, 3, 40);
   // Fourteen cells of 1 mm from the deepest one, and a well inside a body.
   dig(world, {{20, 1, 20, 0.5}, {34, 1, 20, 0.4}});
-  world.pressure_at(50, 1, 30) = -9.0f;
+  pressure_at(world, 50, 1, 30) = -9.0f;
   world.open_fraction[50 + 60 * (1 + 3 * 30)] = 0.0f;
   step(*sensor, world);
   const Figures figures = summary_of(*sensor);
@@ -87,8 +87,8 @@ TEST_CASE("solid cells and neighbours of deeper wells shall not be reported") {
 
 TEST_CASE("pressure before the averaging shall not count") {
   const auto sensor = kind().make({{"averaging_after", 0.05}});
-  World world;
-  world.set_cells(20, 3, 20);
+  SyntheticScene world;
+  set_cells(world, 20, 3, 20);
   dig(world, {{5, 1, 5, 9.0}});
   for (int s = 0; s < 50; ++s) step(*sensor, world);
   dig(world, {{14, 1, 14, 0.25}});
@@ -100,8 +100,8 @@ TEST_CASE("pressure before the averaging shall not count") {
 
 TEST_CASE("the error of a depth shall cover the truth at its rate") {
   Coverage coverage;
-  World world;
-  world.set_cells(9, 3, 9);
+  SyntheticScene world;
+  set_cells(world, 9, 3, 9);
   for (int run = 0; run < k_runs; ++run) {
     Dice dice(run);
     const auto sensor = kind().make({{"count", std::int64_t{1}}});
@@ -120,8 +120,8 @@ TEST_CASE("the error of a depth shall cover the truth at its rate") {
 }
 
 TEST_CASE("a level flow shall have one place per eddy, at half its depth, however noisy the rows") {
-  World world;
-  world.set_cells(60, 8, 40);
+  SyntheticScene world;
+  set_cells(world, 60, 8, 40);
   // Two wells level along y, each with its own deepest row; noise of a tenth makes more minima.
   const auto dig_rows = [&world] {
     Dice dice(7);
@@ -129,7 +129,7 @@ TEST_CASE("a level flow shall have one place per eddy, at half its depth, howeve
       for (int j = 0; j < 8; ++j) {
         for (int i = 0; i < 60; ++i) {
           const double a = std::hypot(i - 12.0, k - 20.0), b = std::hypot(i - 45.0, k - 10.0);
-          world.pressure_at(i, j, k) =
+          pressure_at(world, i, j, k) =
               static_cast<float>(-0.3 * std::exp(-a * a / 32.0) - 0.5 * std::exp(-b * b / 32.0) -
                                  0.05 * (j % 2 == 0 ? 1.0 : -1.0) *
                                      (0.5 + std::abs(dice.normal())) * (i % 5 == 0 ? 1.0 : 0.0));
@@ -153,7 +153,7 @@ TEST_CASE("a level flow shall have one place per eddy, at half its depth, howeve
     for (int j = 0; j < 8; ++j) {
       for (int i = 0; i < 60; ++i) {
         const double a = std::hypot(i - 12.0, k - 20.0);
-        world.pressure_at(i, j, k) = static_cast<float>(-0.3 * std::exp(-a * a / 32.0));
+        pressure_at(world, i, j, k) = static_cast<float>(-0.3 * std::exp(-a * a / 32.0));
       }
     }
   }

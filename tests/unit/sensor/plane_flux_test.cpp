@@ -30,7 +30,7 @@ Grain moving(Vec3 before, Vec3 now, double interval) {
 }
 
 /// Moves every grain on by its velocity.
-void advance(World& world) {
+void advance(SyntheticScene& world) {
   for (Grain& g : world.grains) {
     g.before = g.now;
     g.now += world.interval * g.velocity;
@@ -48,7 +48,7 @@ TEST_CASE("a uniform stream shall give its exact flux through any plane") {
     parameters["min"] = Vec3{0.05, 0, 0.2};
     parameters["max"] = Vec3{0.11, 0.011, 0.21};
     const auto sensor = kind().make(parameters);
-    World world;
+    SyntheticScene world;
     world.domain_max = {10, 1, 1};
     for (int i = 0; i < 300; ++i) {
       Grain g;
@@ -77,7 +77,7 @@ TEST_CASE("a uniform stream shall give its exact flux through any plane") {
 
 TEST_CASE("only passages through the rectangle shall count, each in its direction") {
   const auto sensor = kind().make(k_lip);
-  World world;
+  SyntheticScene world;
   const double h = world.interval;
   world.grains = {moving({0.0795, 0.005, 0.205}, {0.0805, 0.005, 0.205}, h),   // forward
                   moving({0.0805, 0.005, 0.205}, {0.0795, 0.005, 0.205}, h),   // backward
@@ -99,7 +99,7 @@ TEST_CASE("a return through a periodic side shall not be taken for a passage") {
   parameters["min"] = Vec3{0.165, 0, 0};
   parameters["max"] = Vec3{0.165, 1, 1};
   const auto sensor = kind().make(parameters);
-  World world;
+  SyntheticScene world;
   Grain g = moving({0.3295, 0.005, 0.1}, {0.3305, 0.005, 0.1}, world.interval);
   g.now.x -= 0.33;
   world.grains = {g};
@@ -112,7 +112,7 @@ TEST_CASE("rates before the steady part shall not count, masses shall") {
   auto parameters = k_lip;
   parameters["steady_after"] = 0.01;
   const auto sensor = kind().make(parameters);
-  World world;
+  SyntheticScene world;
   for (int s = 0; s < 20; ++s) {
     world.grains.clear();
     if (s < 10) {
@@ -137,7 +137,7 @@ TEST_CASE("the error of a rate shall cover the truth at its rate, for weighted g
     for (int run = 0; run < k_runs; ++run) {
       Dice dice(run);
       const auto sensor = kind().make(k_lip);
-      World world;
+      SyntheticScene world;
       for (int s = 0; s < k_samples; ++s) {
         world.grains.clear();
         for (int n = dice.poisson(c.per_sample * c.copies); n > 0; --n) {
@@ -174,7 +174,7 @@ TEST_CASE("dust through an opening shall count per tonne emitted in the same tim
   parameters["steady_after"] = 0.01;
   parameters["finer_than"] = 100e-6;
   const auto sensor = kind().make(parameters);
-  World world;
+  SyntheticScene world;
   for (int s = 0; s < 40; ++s) {
     // Two grains of 1 ug and one coarse grain pass per sample, 5 g are emitted; before the steady
     // part ten times as much is emitted.

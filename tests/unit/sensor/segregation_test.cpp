@@ -26,8 +26,8 @@ Grain at(Vec3 place, bool is_fine) {
 }  // namespace
 
 TEST_CASE("separate layers shall have the index 0 and their distance, even mixtures at least 1") {
-  World layers;
-  World even;
+  SyntheticScene layers;
+  SyntheticScene even;
   for (int n = 0; n < 4000; ++n) {
     const Vec3 place{0.1 * ((n % 20) + 0.5) / 20, 0.005, 0.1 * ((n / 20 % 200) + 0.5) / 200};
     layers.grains.push_back(at(place, place.z < 0.05));
@@ -51,7 +51,7 @@ TEST_CASE("the index of random mixtures shall be 1 on average") {
   constexpr int k_mixtures = 60;
   for (int run = 0; run < k_mixtures; ++run) {
     Dice dice(run);
-    World world;
+    SyntheticScene world;
     for (int n = 0; n < 1000; ++n) {
       const Vec3 place{0.1 * dice.uniform(), 0.01 * dice.uniform(), 0.1 * dice.uniform()};
       world.grains.push_back(at(place, dice.uniform() < 0.3));

@@ -13,7 +13,7 @@ using sdk::Vec3;
 namespace {
 
 /// Two grains that fall from 50 mm side by side with 2 m/s2, until they hold a speed of 0.2 m/s.
-void fall(World& world, sdk::Sensor& sensor, double end, Vec3 down = {0, 0, -1}) {
+void fall(SyntheticScene& world, sdk::Sensor& sensor, double end, Vec3 down = {0, 0, -1}) {
   while (world.time < end - 1e-9) {
     const double t = world.time + world.interval;
     const double speed = std::min(2.0 * t, 0.2);
@@ -36,7 +36,7 @@ constexpr double k_linear = 1e-4;
 }  // namespace
 
 TEST_CASE("settling_velocity shall time levels and take means above the floor only") {
-  World world;
+  SyntheticScene world;
   const auto sensor = load_sensor("settling_velocity")
                           .make({{"levels", std::vector<double>{0.045, 0.03, 0.001}},
                                  {"steady_after", 0.1},
@@ -55,7 +55,7 @@ TEST_CASE("settling_velocity shall time levels and take means above the floor on
 }
 
 TEST_CASE("settling_velocity shall not take a bounce for settling") {
-  World world;
+  SyntheticScene world;
   const auto sensor = load_sensor("settling_velocity").make({{"until", 0.01}});
   for (const double height : {0.03, 0.02, 0.005, 0.015}) {  // down, and up again
     world.grains.assign(1, {});
@@ -67,7 +67,7 @@ TEST_CASE("settling_velocity shall not take a bounce for settling") {
 }
 
 TEST_CASE("settling_velocity shall follow its direction and begin anew with the grains") {
-  World world;
+  SyntheticScene world;
   world.gravity = {0, 0, 0};
   const auto sensor = load_sensor("settling_velocity")
                           .make({{"direction", Vec3{2, 0, 0}},

@@ -14,7 +14,7 @@ namespace formula = dust::model::size_distribution;
 TEST_CASE("shares by number and mass and the Sauter diameter shall be those of the grains there") {
   const auto sensor = load_sensor("size_distribution")
                           .make({{"min", Vec3{0, 0, 0}}, {"max", Vec3{0.1, 0.011, 0.35}}});
-  World world;
+  SyntheticScene world;
   const auto add = [&](int count, double d, double x, double weight = 1.0) {
     for (int n = 0; n < count; ++n) {
       Grain g;

@@ -16,7 +16,7 @@ namespace {
 
 const std::map<std::string, Value> k_box{{"min", Vec3{0, 0, 0}}, {"max", Vec3{0.01, 0.01, 0.02}}};
 
-Figures after_one(World& world, std::map<std::string, Value> parameters) {
+Figures after_one(SyntheticScene& world, std::map<std::string, Value> parameters) {
   const auto sensor = load_sensor("stress").make(parameters);
   step(*sensor, world);
   return summary_of(*sensor);
@@ -39,7 +39,7 @@ TEST_CASE("the share of a line in a box shall be its clipped length") {
 
 TEST_CASE("chains that carry a force through a box shall press with force per area") {
   // 6 chains of 20 grains along z, each under 2 mN, from floor to lid of the box.
-  World world;
+  SyntheticScene world;
   const double d = 1e-3;
   for (int chain = 0; chain < 6; ++chain) {
     for (int n = 0; n < 20; ++n) {
@@ -69,7 +69,7 @@ TEST_CASE("chains that carry a force through a box shall press with force per ar
 }
 
 TEST_CASE("a contact through a periodic side shall press as one within") {
-  World world;
+  SyntheticScene world;
   world.domain_min = {0, 0, 0};
   world.domain_max = {0.01, 0.01, 0.02};
   Grain g;
@@ -83,7 +83,7 @@ TEST_CASE("a contact through a periodic side shall press as one within") {
 }
 
 TEST_CASE("an oblique force shall give a symmetric shear stress") {
-  World world;
+  SyntheticScene world;
   world.grains.resize(2);
   world.grains[0].now = {4e-3, 5e-3, 5e-3};
   world.grains[1].now = {5e-3, 5e-3, 6e-3};
@@ -96,7 +96,7 @@ TEST_CASE("an oblique force shall give a symmetric shear stress") {
 }
 
 TEST_CASE("a gas without contacts shall press with density times variance, drift not counted") {
-  World world;
+  SyntheticScene world;
   for (int n = 0; n < 8; ++n) {
     Grain g;
     g.now = {1e-3 * (1 + n), 5e-3, 5e-3};

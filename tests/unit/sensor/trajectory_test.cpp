@@ -49,7 +49,7 @@ Grain free_flight(Grain g, double since, double interval) {
 
 TEST_CASE("grains in free flight shall cross on the parabola at the speed of free fall") {
   const auto sensor = kind().make(k_stream);
-  World world;
+  SyntheticScene world;
   // Grains leave A all the time; each sample shows those in flight.
   constexpr int k_per_sample = 5;
   for (int s = 0; s < 400; ++s) {
@@ -87,7 +87,7 @@ TEST_CASE("the quantiles of a normal stream shall be covered by their errors at 
   for (int run = 0; run < k_runs; ++run) {
     Dice dice(run);
     const auto sensor = kind().make(k_stream);
-    World world;
+    SyntheticScene world;
     for (int s = 0; s < k_samples; ++s) {
       world.grains.clear();
       for (int n = 0; n < k_per_sample; ++n) {
@@ -121,7 +121,7 @@ TEST_CASE("grains that cross in clusters shall widen the error") {
     for (const bool is_clustered : {false, true}) {
       Dice dice(run);
       const auto sensor = kind().make(k_stream);
-      World world;
+      SyntheticScene world;
       for (int s = 0; s < 200; ++s) {
         world.grains.clear();
         const double shared = dice.normal();
@@ -142,7 +142,7 @@ TEST_CASE("grains that cross in clusters shall widen the error") {
 TEST_CASE("copies of weight 1/k shall give the same quantiles") {
   const auto single = kind().make(k_stream);
   const auto copied = kind().make(k_stream);
-  World world;
+  SyntheticScene world;
   Dice dice(1);
   constexpr int k_copies = 20;
   for (int s = 0; s < 100; ++s) {
@@ -176,8 +176,8 @@ TEST_CASE("figures shall not depend on which axis gravity has") {
   parameters["from"] = Vec3{0.2, 0.08, 0};
   parameters["along"] = Vec3{0.3, 1, 0};  // only the part across gravity matters
   const auto turned = kind().make(parameters);
-  World a;
-  World b;
+  SyntheticScene a;
+  SyntheticScene b;
   b.gravity = {-k_gravity, 0, 0};
   b.domain_max = {0.35, 0.33, 0.011};
   const auto turn = [](Vec3 v) { return Vec3{v.z, v.x, v.y}; };
@@ -200,7 +200,7 @@ TEST_CASE("figures shall not depend on which axis gravity has") {
 
 TEST_CASE("the speed at A shall be that of grains above the belt alone") {
   const auto sensor = kind().make(k_stream);
-  World world;
+  SyntheticScene world;
   const auto passing = [](double height, double vertical) {
     Grain g;
     g.before = {0.0796, 0.005, 0.2 + height};
@@ -222,7 +222,7 @@ TEST_CASE("the speed at A shall be that of grains above the belt alone") {
 
 TEST_CASE("size classes shall have their own median") {
   const auto sensor = kind().make(k_stream);
-  World world;
+  SyntheticScene world;
   for (int s = 0; s < 20; ++s) {
     world.grains = {falling_at(0.11), falling_at(0.13), falling_at(0.13)};
     world.grains[1].diameter = world.grains[2].diameter = 600e-6;
@@ -238,7 +238,7 @@ TEST_CASE("a trajectory without gravity or with unordered drops shall be refused
   parameters["drops"] = std::vector<double>{0.14, 0.05};
   CHECK_THROWS_AS((void)kind().make(parameters), sdk::ParameterError);
   const auto sensor = kind().make(k_stream);
-  World world;
+  SyntheticScene world;
   world.gravity = {0, 0, 0};
   CHECK_THROWS_AS(step(*sensor, world), sdk::ModelError);
 }

@@ -12,8 +12,8 @@ namespace dust::contract {
 /// Values with which the factory makes a model: those given, the defaults, and for the others
 /// typical values of their dimension within their range. Throws base::UserError that names the
 /// parameters to give when none of the attempts is accepted.
-std::vector<sdk::Value> guess_values(const sdk::ModelInfo& info, const sdk::ModelFactory& factory,
-                                     const std::map<std::string, sdk::Value>& given);
+std::vector<sdk::Value> default_values(const sdk::ModelInfo& info, const sdk::ModelFactory& factory,
+                                       const std::map<std::string, sdk::Value>& given);
 
 /// Other values a parameter might have, each within its range, the most different first; empty
 /// where nothing can be guessed (names of the scenario's things, free text).

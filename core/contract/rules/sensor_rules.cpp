@@ -2,8 +2,9 @@
 // Rules of sensors: figures with names, units and errors, nothing from nothing, and the same
 // figures through an interruption.
 #include "contract/as_kind.hpp"
-#include "contract/judge.hpp"
-#include "contract/sensor_scene.hpp"
+#include "contract/rule_runner.hpp"
+#include "contract/memory_archive.hpp"
+#include "contract/scenes/sensor_stream.hpp"
 #include "scenario/units.hpp"
 
 #include <algorithm>
@@ -18,20 +19,20 @@ constexpr int k_samples = 90;
 /// Figures that are ratios of the same quantity, or counts.
 bool is_bare(const std::string& unit) { return unit == "1" || unit == "-" || unit == "g/t"; }
 
-void add(Readings& readings, const std::string& from, const Figures& figures) {
+void add(Observations& observations, const std::string& from, const Figures& figures) {
   for (const auto& [name, figure] : figures.all()) {
-    Reading r{from + name, figure.value, sdk::dimension::none};
+    Observation r{from + name, figure.value, sdk::dimension::none};
     if (!is_bare(figure.unit)) {
       const auto unit = scenario::parse_unit(figure.unit);
       r.has_dimension = unit.has_value();
       if (unit) r.dimension = unit->dimension;
     }
-    readings.push_back(r);
+    observations.push_back(r);
     // A negative error means "none" and has no unit.
     r.name += " (error)";
     if (figure.uncertainty < 0.0) r.dimension = sdk::dimension::none;
     r.value = figure.uncertainty;
-    readings.push_back(r);
+    observations.push_back(r);
   }
 }
 
@@ -54,20 +55,19 @@ class NoReport final : public sdk::ReportSink {
 
 std::unique_ptr<sdk::Sensor> run(const Maker& make, const Units& units, bool is_empty) {
   auto sensor = make_as<sdk::Sensor>(make, units);
-  Scene scene(is_empty);
-  scene.world.units = units;
+  SensorStream scene(is_empty, units);
   for (int s = 0; s < k_samples; ++s) scene.show(*sensor);
   return sensor;
 }
 
-Readings observe(const Maker& make, const Trial& trial) {
-  const auto sensor = run(make, trial.units, false);
-  Readings readings;
-  add(readings, "summary: ", summary_of(*sensor));
-  add(readings, "series: ", series_of(*sensor));
+Observations observe(const Maker& make, const TestVariant& variant) {
+  const auto sensor = run(make, variant.units, false);
+  Observations observations;
+  add(observations, "summary: ", summary_of(*sensor));
+  add(observations, "series: ", series_of(*sensor));
   NoReport report;
   sensor->report(report);
-  return readings;
+  return observations;
 }
 
 /// Names, units and sizes of the fields.
@@ -153,7 +153,7 @@ void check_nothing(const Maker& make) {
   const auto sensor = make_as<sdk::Sensor>(make);
   const std::vector<std::string> series = series_of(*sensor).names();
   const std::vector<std::string> fields = fields_of(*sensor).names();
-  Scene scene(true);
+  SensorStream scene(true);
   for (int s = 0; s < k_samples; ++s) {
     scene.show(*sensor);
     require(series_of(*sensor).names() == series, "the columns of its series change");
@@ -182,8 +182,8 @@ void check_restart(const Maker& make) {
   for (const int pause : {0, 1, 37, k_samples - 1}) {
     const auto whole = make_as<sdk::Sensor>(make);
     auto part = make_as<sdk::Sensor>(make);
-    Scene scene;
-    Scene same;
+    SensorStream scene;
+    SensorStream same;
     for (int s = 0; s < k_samples; ++s) {
       if (s == pause) {
         MemoryArchive archive;
@@ -213,8 +213,8 @@ void check_thinned(const Maker& make) {
   constexpr double k_rounding = 1e-12;
   const auto full = make_as<sdk::Sensor>(make);
   const auto thinned = make_as<sdk::Sensor>(make);
-  Scene scene;
-  Scene same;
+  SensorStream scene;
+  SensorStream same;
   std::vector<double> sums;
   std::vector<double> sizes;
   for (int s = 0; s < k_samples; ++s) {
@@ -246,12 +246,12 @@ void check_thinned(const Maker& make) {
   }
 }
 
-void rules(const Maker& make, const Subject&, Judge& judge) {
-  judge.rule("names its figures and their units", [&] { check_names(make); });
-  judge.rule("sees something in a stream, with errors", [&] { check_sees(make); });
-  judge.rule("gives zeros of the same names where there is nothing", [&] { check_nothing(make); });
-  judge.rule("loses nothing between rows of series.csv", [&] { check_thinned(make); });
-  judge.rule("goes on with the same bits when saved and loaded", [&] { check_restart(make); });
+void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
+  runner.rule("names its figures and their units", [&] { check_names(make); });
+  runner.rule("sees something in a stream, with errors", [&] { check_sees(make); });
+  runner.rule("gives zeros of the same names where there is nothing", [&] { check_nothing(make); });
+  runner.rule("loses nothing between rows of series.csv", [&] { check_thinned(make); });
+  runner.rule("goes on with the same bits when saved and loaded", [&] { check_restart(make); });
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "contract/archive.hpp"
+#include "contract/memory_archive.hpp"
 
 #include <stdexcept>
 

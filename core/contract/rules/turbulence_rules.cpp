@@ -2,7 +2,7 @@
 // Rules of turbulence models: an eddy viscosity that is never negative and vanishes where nothing
 // is sheared.
 #include "contract/as_kind.hpp"
-#include "contract/judge.hpp"
+#include "contract/rule_runner.hpp"
 #include "dust/sdk/turbulence_model.hpp"
 
 #include <algorithm>
@@ -16,9 +16,9 @@ const double k_rates[] = {0.0, 1e-3, 1.0, 40.0, 3000.0};     // 1/s
 const double k_distances[] = {1e-5, 1e-3, 5e-3, 0.1, 10.0};  // m
 constexpr std::size_t k_count = std::size(k_rates) * std::size(k_distances);
 
-std::vector<double> evaluate(const Maker& make, const Trial& trial, double width = 5e-3) {
-  const auto model = make_as<sdk::TurbulenceModel>(make, trial.units);
-  const Units& u = trial.units;
+std::vector<double> evaluate(const Maker& make, const TestVariant& variant, double width = 5e-3) {
+  const auto model = make_as<sdk::TurbulenceModel>(make, variant.units);
+  const Units& u = variant.units;
   std::vector<double> rate;
   std::vector<double> distance;
   for (const double s : k_rates) {
@@ -31,7 +31,7 @@ std::vector<double> evaluate(const Maker& make, const Trial& trial, double width
   const std::vector<double> viscosity(k_count, 1.8e-5 * u.of(dim::dynamic_viscosity));
   constexpr double k_guard = -7.25e77;
   std::vector<double> eddy(k_count + 1, k_guard);
-  const std::size_t most = trial.batch == 0 ? k_count : trial.batch;
+  const std::size_t most = variant.batch == 0 ? k_count : variant.batch;
   for (std::size_t first = 0; first < k_count; first += most) {
     const sdk::TurbulenceBatch batch{std::min(most, k_count - first),
                                      width * u.length,
@@ -40,23 +40,23 @@ std::vector<double> evaluate(const Maker& make, const Trial& trial, double width
                                      density.data() + first,
                                      viscosity.data() + first,
                                      eddy.data() + first};
-    call_hot(trial, [&] { model->evaluate(batch); });
+    call_hot(variant, [&] { model->evaluate(batch); });
   }
   require(eddy.back() == k_guard, "it writes beyond the end of the batch");
   eddy.pop_back();
   return eddy;
 }
 
-Readings observe(const Maker& make, const Trial& trial) {
-  Readings readings;
-  for (const double value : evaluate(make, trial)) {
-    readings.push_back({"eddy_viscosity", value, dim::dynamic_viscosity});
+Observations observe(const Maker& make, const TestVariant& variant) {
+  Observations observations;
+  for (const double value : evaluate(make, variant)) {
+    observations.push_back({"eddy_viscosity", value, dim::dynamic_viscosity});
   }
-  return readings;
+  return observations;
 }
 
-void rules(const Maker& make, const Subject&, Judge& judge) {
-  judge.rule("gives no negative eddy viscosity, and none where nothing is sheared", [&] {
+void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
+  runner.rule("gives no negative eddy viscosity, and none where nothing is sheared", [&] {
     const auto eddy = evaluate(make, {});
     for (std::size_t n = 0; n < k_count; ++n) {
       require(eddy[n] >= 0.0, shown(eddy[n]) + " Pa s");
@@ -64,7 +64,7 @@ void rules(const Maker& make, const Subject&, Judge& judge) {
               shown(eddy[n]) + " Pa s without any shear");
     }
   });
-  judge.rule("vanishes as the cells become small", [&] {
+  runner.rule("vanishes as the cells become small", [&] {
     const auto coarse = evaluate(make, {});
     const auto fine = evaluate(make, {}, 5e-7);
     for (std::size_t n = std::size(k_distances); n < k_count; ++n) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rules of boundaries: a combination the solver can use, values where it wants them.
 #include "contract/as_kind.hpp"
-#include "contract/judge.hpp"
+#include "contract/rule_runner.hpp"
 #include "dust/sdk/boundary_condition.hpp"
 
 #include <algorithm>
@@ -39,14 +39,14 @@ class Flow {
   std::vector<double> void_fraction_, density_, area_;
 };
 
-Readings observe(const Maker& make, const Trial& trial) {
-  const auto condition = make_as<sdk::BoundaryCondition>(make, trial.units);
+Observations observe(const Maker& make, const TestVariant& variant) {
+  const auto condition = make_as<sdk::BoundaryCondition>(make, variant.units);
   const sdk::SideRules asked = condition->rules();
   constexpr double k_unset = std::numeric_limits<double>::quiet_NaN();
-  Readings readings;
-  readings.push_back({"rule normal_velocity", static_cast<double>(asked.normal_velocity), {}});
-  readings.push_back({"rule pressure", static_cast<double>(asked.pressure), {}});
-  readings.push_back({"rule tangential", static_cast<double>(asked.tangential_velocity), {}});
+  Observations observations;
+  observations.push_back({"rule normal_velocity", static_cast<double>(asked.normal_velocity), {}});
+  observations.push_back({"rule pressure", static_cast<double>(asked.pressure), {}});
+  observations.push_back({"rule tangential", static_cast<double>(asked.tangential_velocity), {}});
   for (int side = 0; side < 6; ++side) {
     for (const double time : k_times) {
       const int axis = side / 2;
@@ -55,19 +55,19 @@ Readings observe(const Maker& make, const Trial& trial) {
         for (std::size_t n = 0; n < k_points; ++n) {
           const double along = d == axis ? (side % 2 == 0 ? 0.0 : k_edge)
                                          : k_edge * (static_cast<double>(n) + 0.5) / k_points;
-          at[d].push_back(along * trial.units.length);
+          at[d].push_back(along * variant.units.length);
         }
       }
       std::vector<double> out[4];
       for (auto& column : out) column.assign(k_points + 1, k_unset);
-      const Flow flow(trial.units);
+      const Flow flow(variant.units);
       // What reads the flow sums over the side: it is shown in one piece.
-      const bool is_whole = trial.batch == 0 || condition->needs_flow();
-      const std::size_t size = is_whole ? k_points : trial.batch;
+      const bool is_whole = variant.batch == 0 || condition->needs_flow();
+      const std::size_t size = is_whole ? k_points : variant.batch;
       for (std::size_t first = 0; first < k_points; first += size) {
         sdk::SideBatch b;
         b.count = std::min(size, k_points - first);
-        b.time = time * trial.units.time;
+        b.time = time * variant.units.time;
         b.normal[axis] = side % 2 == 0 ? -1.0 : 1.0;
         b.position.x = at[0].data() + first;
         b.position.y = at[1].data() + first;
@@ -76,12 +76,12 @@ Readings observe(const Maker& make, const Trial& trial) {
         b.velocity.y = out[1].data() + first;
         b.velocity.z = out[2].data() + first;
         b.pressure = out[3].data() + first;
-        const double edge = k_edge * trial.units.length;
+        const double edge = k_edge * variant.units.length;
         b.high = {edge, edge, edge};
         b.spacing = (1.0 / k_points) * b.high;
         (side % 2 == 0 ? b.high : b.low)[axis] = (side % 2 == 0 ? b.low : b.high)[axis];
         if (condition->needs_flow()) flow.show(b);
-        call_hot(trial, [&] { condition->evaluate(b); });
+        call_hot(variant, [&] { condition->evaluate(b); });
       }
       const std::string where = " on side " + std::to_string(side) + " at " + shown(time) + " s";
       for (int c = 0; c < 4; ++c) {
@@ -93,17 +93,17 @@ Readings observe(const Maker& make, const Trial& trial) {
         if (!is_wanted) continue;
         for (std::size_t n = 0; n < k_points; ++n) {
           const std::string name = c == 3 ? "pressure" : std::string("velocity_") + "xyz"[c];
-          readings.push_back({name + where, out[c][n],
-                              c == 3 ? sdk::dimension::pressure : sdk::dimension::velocity});
+          observations.push_back({name + where, out[c][n],
+                                  c == 3 ? sdk::dimension::pressure : sdk::dimension::velocity});
         }
       }
     }
   }
-  return readings;
+  return observations;
 }
 
-void rules(const Maker& make, const Subject&, Judge& judge) {
-  judge.rule("asks for a combination that determines the flow", [&] {
+void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
+  runner.rule("asks for a combination that determines the flow", [&] {
     const sdk::SideRules r = make_as<sdk::BoundaryCondition>(make)->rules();
     const bool is_wall = r.normal_velocity == SideRule::fixed && r.pressure == SideRule::gradient;
     const bool is_open = r.normal_velocity == SideRule::gradient &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "contract/guess.hpp"
+#include "contract/input/default_values.hpp"
 
 #include "base/error.hpp"
 
@@ -127,8 +127,8 @@ std::optional<Value> guess(const Parameter& p, int attempt, int list) {
 
 }  // namespace
 
-std::vector<Value> guess_values(const sdk::ModelInfo& info, const sdk::ModelFactory& factory,
-                                const std::map<std::string, Value>& given) {
+std::vector<Value> default_values(const sdk::ModelInfo& info, const sdk::ModelFactory& factory,
+                                  const std::map<std::string, Value>& given) {
   std::string refusal;
   std::string missing;
   for (int attempt = 0; attempt < k_attempts; ++attempt) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contract/contract.hpp"
-#include "contract/units.hpp"
+#include "contract/input/units.hpp"
 #include "dust/sdk/model.hpp"
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace dust::contract {
 
-/// A rule that is broken, with the reason; caught by Judge.
+/// A rule that is broken, with the reason; caught by the rule runner.
 class Violation : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -26,10 +26,10 @@ class Remark : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Applies rules and keeps what was found.
-class Judge {
+/// Applies rules and keeps the results.
+class RuleRunner {
  public:
-  explicit Judge(std::uint64_t (*counter)()) : allocations_(counter) {}
+  explicit RuleRunner(std::uint64_t (*counter)()) : allocations_(counter) {}
 
   /// `rule` is a sentence "it shall ..."; `check` throws Violation or Remark, or returns.
   void rule(const std::string& rule, const std::function<void()>& check);
@@ -37,26 +37,27 @@ class Judge {
   [[nodiscard]] std::uint64_t allocations(const std::function<void()>& call) const;
   [[nodiscard]] bool watches_allocations() const { return allocations_ != nullptr; }
 
-  std::vector<Finding> findings;
+  [[nodiscard]] const std::vector<RuleResult>& results() const { return results_; }
 
  private:
+  std::vector<RuleResult> results_;
   std::uint64_t (*allocations_)();
 };
 
 /// A number a model gave, with its name for messages.
-struct Reading {
+struct Observation {
   std::string name;
   double value = 0.0;
   sdk::Dimension dimension;
   bool has_dimension = true;  ///< false: the model's own, for example history columns
 };
-using Readings = std::vector<Reading>;
+using Observations = std::vector<Observation>;
 
 /// How a standard scene is shown to a model.
-struct Trial {
-  Units units;                   ///< the scene and all parameters are given in these units
-  std::size_t batch = 0;         ///< rows per call, 0 = all at once
-  const Judge* judge = nullptr;  ///< watches allocations in the hot call, if set
+struct TestVariant {
+  Units units;                         ///< the scene and all parameters are given in these units
+  std::size_t batch = 0;               ///< rows per call, 0 = all at once
+  const RuleRunner* runner = nullptr;  ///< watches allocations in the hot call, if set
 };
 
 /// Makes the model with its parameters in the given units.
@@ -65,12 +66,12 @@ using Maker = std::function<std::unique_ptr<sdk::Model>(const Units&)>;
 /// What the rules need to know of a kind.
 struct Kind {
   /// Everything the model gives in a standard scene. Throws Violation for a fault in how it writes.
-  std::function<Readings(const Maker&, const Trial&)> observe;
+  std::function<Observations(const Maker&, const TestVariant&)> observe;
   std::vector<std::size_t> batches;  ///< ways to split; empty = the kind has no batches
   Units other_units;                 ///< in which the model must give the same quantities
   bool is_hot = false;               ///< the call must not allocate
   /// Rules of this kind alone.
-  std::function<void(const Maker&, const Subject&, Judge&)> rules;
+  std::function<void(const Maker&, const ModelUnderTest&, RuleRunner&)> rules;
 };
 
 /// The kind's rules, or null for a kind that has none yet.

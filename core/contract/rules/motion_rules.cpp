@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rules of motions: a bounded velocity of the surface.
 #include "contract/as_kind.hpp"
-#include "contract/judge.hpp"
+#include "contract/rule_runner.hpp"
 #include "dust/sdk/motion.hpp"
 
 #include <algorithm>
@@ -17,14 +17,14 @@ constexpr std::size_t k_points = 40;
 const double k_times[] = {0.0, 0.0037, 0.013, 0.05, 0.5};
 
 /// Velocities at points round a roll about y, at one time.
-std::vector<Vec3> velocities(const sdk::Motion& motion, const Trial& trial, double time) {
+std::vector<Vec3> velocities(const sdk::Motion& motion, const TestVariant& variant, double time) {
   std::vector<double> in[6];
   for (std::size_t n = 0; n < k_points; ++n) {
     const double angle = 6.283185307179586 * static_cast<double>(n) / k_points;
     const Vec3 normal{std::sin(angle), 0.0, std::cos(angle)};
     const Vec3 at = Vec3{0.08, 0.001 * static_cast<double>(n % 11), 0.16} + 0.04 * normal;
     for (int d = 0; d < 3; ++d) {
-      in[d].push_back(at[d] * trial.units.length);
+      in[d].push_back(at[d] * variant.units.length);
       in[3 + d].push_back(normal[d]);
     }
   }
@@ -32,11 +32,11 @@ std::vector<Vec3> velocities(const sdk::Motion& motion, const Trial& trial, doub
   for (auto& column : out) {
     column.assign(k_points + 1, std::numeric_limits<double>::quiet_NaN());
   }
-  const std::size_t size = trial.batch == 0 ? k_points : trial.batch;
+  const std::size_t size = variant.batch == 0 ? k_points : variant.batch;
   for (std::size_t first = 0; first < k_points; first += size) {
     sdk::SurfaceBatch b;
     b.count = std::min(size, k_points - first);
-    b.time = time * trial.units.time;
+    b.time = time * variant.units.time;
     b.axis = {0.0, 1.0, 0.0};
     b.position.x = in[0].data() + first;
     b.position.y = in[1].data() + first;
@@ -47,7 +47,7 @@ std::vector<Vec3> velocities(const sdk::Motion& motion, const Trial& trial, doub
     b.velocity.x = out[0].data() + first;
     b.velocity.y = out[1].data() + first;
     b.velocity.z = out[2].data() + first;
-    call_hot(trial, [&] { motion.surface_velocity(b); });
+    call_hot(variant, [&] { motion.surface_velocity(b); });
   }
   std::vector<Vec3> result;
   for (std::size_t n = 0; n < k_points; ++n) result.push_back({out[0][n], out[1][n], out[2][n]});
@@ -57,38 +57,38 @@ std::vector<Vec3> velocities(const sdk::Motion& motion, const Trial& trial, doub
   return result;
 }
 
-Readings observe(const Maker& make, const Trial& trial) {
-  const auto motion = make_as<sdk::Motion>(make, trial.units);
-  Readings readings;
+Observations observe(const Maker& make, const TestVariant& variant) {
+  const auto motion = make_as<sdk::Motion>(make, variant.units);
+  Observations observations;
   for (const double time : k_times) {
-    const auto v = velocities(*motion, trial, time);
+    const auto v = velocities(*motion, variant, time);
     for (std::size_t n = 0; n < v.size(); ++n) {
       const std::string point = " of point " + std::to_string(n) + " at " + shown(time) + " s";
       for (int d = 0; d < 3; ++d) {
-        readings.push_back(
+        observations.push_back(
             {std::string("velocity_") + "xyz"[d] + point, v[n][d], sdk::dimension::velocity});
       }
     }
   }
   for (const double time : k_times) {
-    const sdk::RigidPose pose = motion->pose(time * trial.units.time);
+    const sdk::RigidPose pose = motion->pose(time * variant.units.time);
     const std::string when = " at " + shown(time) + " s";
     for (int d = 0; d < 3; ++d) {
       const std::string axis = std::string("_") + "xyz"[d] + when;
-      readings.push_back({"shift" + axis, pose.shift[d], sdk::dimension::length});
-      readings.push_back({"pivot" + axis, pose.pivot[d], sdk::dimension::length});
-      readings.push_back({"axis" + axis, pose.axis[d], sdk::dimension::none});
-      readings.push_back({"shift_velocity" + axis, pose.velocity[d], sdk::dimension::velocity});
+      observations.push_back({"shift" + axis, pose.shift[d], sdk::dimension::length});
+      observations.push_back({"pivot" + axis, pose.pivot[d], sdk::dimension::length});
+      observations.push_back({"axis" + axis, pose.axis[d], sdk::dimension::none});
+      observations.push_back({"shift_velocity" + axis, pose.velocity[d], sdk::dimension::velocity});
     }
-    readings.push_back({"angle" + when, pose.angle, sdk::dimension::none});
-    readings.push_back(
+    observations.push_back({"angle" + when, pose.angle, sdk::dimension::none});
+    observations.push_back(
         {"angular_velocity" + when, pose.angular_velocity, sdk::dimension::angular_velocity});
   }
-  readings.push_back({"moves_body", motion->moves_body() ? 1.0 : 0.0, {}, false});
-  readings.push_back({"largest_angular_velocity", motion->largest_angular_velocity(),
-                      sdk::dimension::angular_velocity});
-  readings.push_back({"largest_speed", motion->largest_speed(), sdk::dimension::velocity});
-  return readings;
+  observations.push_back({"moves_body", motion->moves_body() ? 1.0 : 0.0, {}, false});
+  observations.push_back({"largest_angular_velocity", motion->largest_angular_velocity(),
+                          sdk::dimension::angular_velocity});
+  observations.push_back({"largest_speed", motion->largest_speed(), sdk::dimension::velocity});
+  return observations;
 }
 
 /// Where a body is follows from how fast it moves: the mean of the velocity at both ends of a short
@@ -118,9 +118,9 @@ void check_pose(const Maker& make) {
                                 "velocity says");
 }
 
-void rules(const Maker& make, const Subject&, Judge& judge) {
-  judge.rule("is where its velocity takes it", [&] { check_pose(make); });
-  judge.rule("is never faster than the largest speed it tells", [&] {
+void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
+  runner.rule("is where its velocity takes it", [&] { check_pose(make); });
+  runner.rule("is never faster than the largest speed it tells", [&] {
     const auto motion = make_as<sdk::Motion>(make);
     const double bound = motion->largest_speed() * (1.0 + 1e-12);
     for (int n = 0; n <= 1000; ++n) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rules of voidage rules: what spreads a volume keeps it.
 #include "contract/as_kind.hpp"
-#include "contract/judge.hpp"
+#include "contract/rule_runner.hpp"
 #include "dust/sdk/random.hpp"
 #include "dust/sdk/voidage_rule.hpp"
 
@@ -44,12 +44,12 @@ struct Shares {
   std::vector<int> used, i, j, k;
   std::vector<double> weight;
 };
-Shares spread(const Maker& make, const Trial& trial) {
-  const auto rule = make_as<sdk::VoidageRule>(make, trial.units);
+Shares spread(const Maker& make, const TestVariant& variant) {
+  const auto rule = make_as<sdk::VoidageRule>(make, variant.units);
   require(rule->largest_diameter_over_spacing() > 0.0, "it is valid for no grain at all");
-  const sdk::GridShape grid = grid_in(trial.units);
+  const sdk::GridShape grid = grid_in(variant.units);
   Shares s;
-  s.grains = sample(*rule, trial.units);
+  s.grains = sample(*rule, variant.units);
   s.capacity =
       rule->capacity(grid, *std::max_element(s.grains.radius.begin(), s.grains.radius.end()));
   require(s.capacity >= 1, "its capacity is " + std::to_string(s.capacity));
@@ -65,7 +65,7 @@ Shares spread(const Maker& make, const Trial& trial) {
   s.i.assign(rows + 1, 0);
   s.j = s.k = s.i;
   s.weight.assign(rows + 1, 0.0);
-  const std::size_t size = trial.batch == 0 ? count : trial.batch;
+  const std::size_t size = variant.batch == 0 ? count : variant.batch;
   for (std::size_t first = 0; first < count; first += size) {
     const std::size_t row = first * static_cast<std::size_t>(s.capacity);
     const sdk::VoidageBatch batch{std::min(size, count - first),
@@ -79,7 +79,7 @@ Shares spread(const Maker& make, const Trial& trial) {
                                   s.j.data() + row,
                                   s.k.data() + row,
                                   s.weight.data() + row};
-    call_hot(trial, [&] { rule->spread(grid, batch); });
+    call_hot(variant, [&] { rule->spread(grid, batch); });
   }
   require(s.used.back() == -1 && s.weight.back() == 0.0, "it writes beyond the end of the batch");
   for (std::size_t g = 0; g < count; ++g) {
@@ -90,22 +90,25 @@ Shares spread(const Maker& make, const Trial& trial) {
   return s;
 }
 
-Readings observe(const Maker& make, const Trial& trial) {
-  const Shares s = spread(make, trial);
-  Readings readings;
+Observations observe(const Maker& make, const TestVariant& variant) {
+  const Shares s = spread(make, variant);
+  Observations observations;
   for (std::size_t g = 0; g < s.grains.x.size(); ++g) {
     const std::string grain = " of grain " + std::to_string(g);
-    readings.push_back({"used" + grain, static_cast<double>(s.used[g]), {}, false});
+    observations.push_back({"used" + grain, static_cast<double>(s.used[g]), {}, false});
     for (int n = 0; n < s.used[g]; ++n) {
       const std::size_t row =
           g * static_cast<std::size_t>(s.capacity) + static_cast<std::size_t>(n);
-      readings.push_back({"weight" + grain, s.weight[row], sdk::dimension::none});
-      readings.push_back({"cell_i" + grain, static_cast<double>(s.i[row]), sdk::dimension::none});
-      readings.push_back({"cell_j" + grain, static_cast<double>(s.j[row]), sdk::dimension::none});
-      readings.push_back({"cell_k" + grain, static_cast<double>(s.k[row]), sdk::dimension::none});
+      observations.push_back({"weight" + grain, s.weight[row], sdk::dimension::none});
+      observations.push_back(
+          {"cell_i" + grain, static_cast<double>(s.i[row]), sdk::dimension::none});
+      observations.push_back(
+          {"cell_j" + grain, static_cast<double>(s.j[row]), sdk::dimension::none});
+      observations.push_back(
+          {"cell_k" + grain, static_cast<double>(s.k[row]), sdk::dimension::none});
     }
   }
-  return readings;
+  return observations;
 }
 
 void check_shares(const Maker& make) {
@@ -136,9 +139,9 @@ void check_shares(const Maker& make) {
   }
 }
 
-void rules(const Maker& make, const Subject&, Judge& judge) {
-  judge.rule("conserves volume: the shares of a grain sum to 1, in cells it touches",
-             [&] { check_shares(make); });
+void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
+  runner.rule("conserves volume: the shares of a grain sum to 1, in cells it touches",
+              [&] { check_shares(make); });
 }
 
 }  // namespace

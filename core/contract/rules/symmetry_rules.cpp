@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "contract/symmetry_rules.hpp"
+#include "contract/rules/symmetry_rules.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,14 +22,14 @@ void check_close(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const s
 
 }  // namespace
 
-void judge_symmetry(Judge& judge, const std::string& what, const ShowTouches& show) {
+void judge_symmetry(RuleRunner& runner, const std::string& what, const ShowTouches& show) {
   const auto same = [](std::vector<Touch> t) { return t; };
-  judge.rule("treats both sides alike: action = reaction", [&] {
+  runner.rule("treats both sides alike: action = reaction", [&] {
     std::vector<Vec3> other = show(true, [](auto t) { return swapped(std::move(t)); });
     for (Vec3& v : other) v = -v;
     check_close(show(false, same), other, "seen from the other side the " + what);
   });
-  judge.rule("knows no preferred direction", [&] {
+  runner.rule("knows no preferred direction", [&] {
     std::vector<Vec3> here = show(false, same);
     for (Vec3& v : here) v = turned(v);
     check_close(here, show(false, [](auto t) { return turned(std::move(t)); }),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rules of cohesive laws: pairs that touch, part beyond the law's range and come back.
-#include "contract/contact_bench.hpp"
-#include "contract/judge.hpp"
+#include "contract/rule_runner.hpp"
+#include "contract/scenes/contact_bench.hpp"
 #include "dust/sdk/cohesion_law.hpp"
 
 #include <algorithm>
@@ -66,7 +66,8 @@ class CohesionBench {
           std::numeric_limits<double>::quiet_NaN();
     }
   }
-  void evaluate(const sdk::CohesionLaw& law, std::size_t size, const Trial* trial = nullptr) {
+  void evaluate(const sdk::CohesionLaw& law, std::size_t size,
+                const TestVariant* variant = nullptr) {
     if (size == 0) size = count_;
     const std::vector<std::vector<double>> inputs(columns_.begin(),
                                                   columns_.begin() + k_first_output);
@@ -85,8 +86,8 @@ class CohesionBench {
         history[h] = columns_[k_columns + h].data() + first;
       }
       b.history = history.data();
-      if (trial != nullptr) {
-        call_hot(*trial, [&] { law.evaluate(b); });
+      if (variant != nullptr) {
+        call_hot(*variant, [&] { law.evaluate(b); });
       } else {
         law.evaluate(b);
       }
@@ -134,31 +135,32 @@ double pull(const sdk::CohesionLaw& law, double largest) {
   return std::max(law.range(largest), 1e-3 * largest);
 }
 
-Readings observe(const Maker& make, const Trial& trial) {
-  const auto law = make_law(make, trial.units);
-  const Pairs pairs(trial.units);
+Observations observe(const Maker& make, const TestVariant& variant) {
+  const auto law = make_law(make, variant.units);
+  const Pairs pairs(variant.units);
   CohesionBench bench(pairs.radii.size(), law->history_size());
-  Readings readings;
+  Observations observations;
   for (int look = 0; look < k_looks; ++look) {
     bench.show(pairs, overlaps_at(look, pairs.overlaps, pull(*law, pairs.largest)), 1.0);
-    bench.evaluate(*law, trial.batch, &trial);
+    bench.evaluate(*law, variant.batch, &variant);
     for (std::size_t n = 0; n < bench.count(); ++n) {
       const std::string row = " of pair " + std::to_string(n);
-      readings.push_back(
+      observations.push_back(
           {"attraction" + row, bench.at(CohesionBench::attraction, n), sdk::dimension::force});
-      readings.push_back({"contact_overlap" + row, bench.at(CohesionBench::contact_overlap, n),
-                          sdk::dimension::length});
+      observations.push_back({"contact_overlap" + row, bench.at(CohesionBench::contact_overlap, n),
+                              sdk::dimension::length});
       for (int h = 0; h < law->history_size(); ++h) {
         const auto column = static_cast<std::size_t>(CohesionBench::k_columns + h);
-        readings.push_back({"history_" + std::to_string(h) + row, bench.at(column, n), {}, false});
+        observations.push_back(
+            {"history_" + std::to_string(h) + row, bench.at(column, n), {}, false});
       }
     }
   }
   for (const double r : pairs.radii) {
-    readings.push_back({"range", law->range(r), sdk::dimension::length});
-    readings.push_back({"resting_overlap", law->resting_overlap(r), sdk::dimension::length});
+    observations.push_back({"range", law->range(r), sdk::dimension::length});
+    observations.push_back({"resting_overlap", law->resting_overlap(r), sdk::dimension::length});
   }
-  return readings;
+  return observations;
 }
 
 /// A law that resists motion and nothing else.
@@ -305,13 +307,13 @@ void check_energy(const Maker& make) {
           "touch and parting leave " + shown(gained) + " J more than there were");
 }
 
-void rules(const Maker& make, const Subject&, Judge& judge) {
-  judge.rule("attracts in touch, never pushes, ends within its range",
-             [&] { check_attracts(make); });
-  judge.rule("resists motion, if it heeds it, and never drives it", [&] { check_resists(make); });
-  judge.rule("has a range that grows with the grains", [&] { check_range(make); });
-  judge.rule("tells where a pair rests as it is", [&] { check_rest(make); });
-  judge.rule("creates no energy in touch and parting", [&] { check_energy(make); });
+void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
+  runner.rule("attracts in touch, never pushes, ends within its range",
+              [&] { check_attracts(make); });
+  runner.rule("resists motion, if it heeds it, and never drives it", [&] { check_resists(make); });
+  runner.rule("has a range that grows with the grains", [&] { check_range(make); });
+  runner.rule("tells where a pair rests as it is", [&] { check_rest(make); });
+  runner.rule("creates no energy in touch and parting", [&] { check_energy(make); });
 }
 
 }  // namespace

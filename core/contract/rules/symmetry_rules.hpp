@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "contract/contact_bench.hpp"
-#include "contract/judge.hpp"
+#include "contract/rule_runner.hpp"
+#include "contract/scenes/contact_bench.hpp"
 
 #include <functional>
 #include <string>
@@ -17,6 +17,6 @@ using ShowTouches = std::function<std::vector<sdk::Vec3>(
 
 /// Rules of every law between two sides: `what` it gives, a force or a couple, is the opposite one
 /// seen from the other side, and turns with the world.
-void judge_symmetry(Judge& judge, const std::string& what, const ShowTouches& show);
+void judge_symmetry(RuleRunner& runner, const std::string& what, const ShowTouches& show);
 
 }  // namespace dust::contract

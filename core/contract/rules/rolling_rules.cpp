@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rules of rolling laws: a couple against relative rotation, the same from both sides.
-#include "contract/contact_bench.hpp"
-#include "contract/judge.hpp"
-#include "contract/symmetry_rules.hpp"
+#include "contract/rule_runner.hpp"
+#include "contract/rules/symmetry_rules.hpp"
+#include "contract/scenes/contact_bench.hpp"
 #include "dust/sdk/sphere.hpp"
 
 #include <algorithm>
@@ -27,27 +27,28 @@ std::unique_ptr<sdk::RollingLaw> make_law(const Maker& make, const Units& units 
   return law;
 }
 
-Readings observe(const Maker& make, const Trial& trial) {
-  const auto law = make_law(make, trial.units);
+Observations observe(const Maker& make, const TestVariant& variant) {
+  const auto law = make_law(make, variant.units);
   ContactBench bench(standard_touches(0.0, 0).size(), law->history_size());
-  Readings readings;
+  Observations observations;
   for (int look = 0; look < 3; ++look) {
-    bench.show(standard_touches(0.0, look), k_step, trial.units, true);
+    bench.show(standard_touches(0.0, look), k_step, variant.units, true);
     bench.evaluate(
-        [&](const sdk::ContactBatch& batch) { call_hot(trial, [&] { law->evaluate(batch); }); },
-        trial.batch);
+        [&](const sdk::ContactBatch& batch) { call_hot(variant, [&] { law->evaluate(batch); }); },
+        variant.batch);
     for (std::size_t n = 0; n < bench.count(); ++n) {
       const std::string row = " of contact " + std::to_string(n);
       for (int d = 0; d < 3; ++d) {
-        readings.push_back({std::string("torque_") + "xyz"[d] + row,
-                            bench.output(ContactBench::torque + d, n), sdk::dimension::energy});
+        observations.push_back({std::string("torque_") + "xyz"[d] + row,
+                                bench.output(ContactBench::torque + d, n), sdk::dimension::energy});
       }
       for (int h = 0; h < law->history_size(); ++h) {
-        readings.push_back({"history_" + std::to_string(h) + row, bench.history(h, n), {}, false});
+        observations.push_back(
+            {"history_" + std::to_string(h) + row, bench.history(h, n), {}, false});
       }
     }
   }
-  return readings;
+  return observations;
 }
 
 std::vector<Vec3> couples(const Maker& make, bool is_swapped,
@@ -180,14 +181,15 @@ void check_step(const Maker& make) {
               " in many: move springs by angle, not by angular velocity times time step");
 }
 
-void rules(const Maker& make, const Subject&, Judge& judge) {
-  judge_symmetry(judge, "couple", [&](bool is_swapped, const auto& change) {
+void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
+  judge_symmetry(runner, "couple", [&](bool is_swapped, const auto& change) {
     return couples(make, is_swapped, change);
   });
-  judge.rule("brakes a rotation that begins", [&] { check_brakes(make); });
-  judge.rule("leaves what does not rotate alone", [&] { check_rest(make); });
-  judge.rule("creates no energy", [&] { check_energy(make); });
-  judge.rule("keeps what its spring holds, to second order in the step", [&] { check_step(make); });
+  runner.rule("brakes a rotation that begins", [&] { check_brakes(make); });
+  runner.rule("leaves what does not rotate alone", [&] { check_rest(make); });
+  runner.rule("creates no energy", [&] { check_energy(make); });
+  runner.rule("keeps what its spring holds, to second order in the step",
+              [&] { check_step(make); });
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ std::vector<sdk::Value> in_units(const Units& units, const sdk::ParameterSchema&
                                  std::span<const sdk::Value> values);
 
 /// What the rules of a kind may look up: the description and the values chosen.
-struct Subject {
+struct ModelUnderTest {
   sdk::ModelInfo info;
   std::vector<sdk::Value> values;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rules of contact laws: symmetry of the two sides, no preferred direction, and single collisions
 // integrated with a small step.
-#include "contract/contact_bench.hpp"
-#include "contract/judge.hpp"
-#include "contract/symmetry_rules.hpp"
+#include "contract/rule_runner.hpp"
+#include "contract/rules/symmetry_rules.hpp"
+#include "contract/scenes/contact_bench.hpp"
 #include "dust/sdk/sphere.hpp"
 
 #include <algorithm>
@@ -37,20 +37,21 @@ double small_step(const sdk::ContactLaw& law, const Units& units) {
   return step / units.time / 50.0;
 }
 
-Readings observe(const Maker& make, const Trial& trial) {
-  const auto law = make_law(make, trial.units);
-  const double step = small_step(*law, trial.units);
+Observations observe(const Maker& make, const TestVariant& variant) {
+  const auto law = make_law(make, variant.units);
+  const double step = small_step(*law, variant.units);
   ContactBench bench(standard_touches(0.0, 0).size(), law->history_size());
-  Readings readings;
+  Observations observations;
   const auto add = [&](const std::string& name, double value, sdk::Dimension dimension,
                        bool has_dimension = true) {
-    readings.push_back({name, value, dimension, has_dimension});
+    observations.push_back({name, value, dimension, has_dimension});
   };
   for (int look = 0; look < 3; ++look) {
-    bench.show(standard_touches(law->range() / trial.units.length, look), step, trial.units, false);
+    bench.show(standard_touches(law->range() / variant.units.length, look), step, variant.units,
+               false);
     bench.evaluate(
-        [&](const sdk::ContactBatch& batch) { call_hot(trial, [&] { law->evaluate(batch); }); },
-        trial.batch);
+        [&](const sdk::ContactBatch& batch) { call_hot(variant, [&] { law->evaluate(batch); }); },
+        variant.batch);
     for (std::size_t n = 0; n < bench.count(); ++n) {
       const std::string row = " of contact " + std::to_string(n);
       add("normal_force" + row, bench.output(ContactBench::normal_force, n), sdk::dimension::force);
@@ -68,15 +69,15 @@ Readings observe(const Maker& make, const Trial& trial) {
     }
   }
   for (const Touch& t : standard_touches(0.0, 0)) {
-    const double radius = t.radius * trial.units.length;
-    const double mass = t.mass * trial.units.mass;
-    add("half_period", law->half_period(radius, mass, t.overlap * trial.units.length),
+    const double radius = t.radius * variant.units.length;
+    const double mass = t.mass * variant.units.mass;
+    add("half_period", law->half_period(radius, mass, t.overlap * variant.units.length),
         sdk::dimension::time);
     add("collision_time",
-        law->collision_time(radius, mass, 0.5 * trial.units.of(sdk::dimension::velocity)),
+        law->collision_time(radius, mass, 0.5 * variant.units.of(sdk::dimension::velocity)),
         sdk::dimension::time);
   }
-  return readings;
+  return observations;
 }
 
 /// Forces of the standard contacts after a few looks, changed by `change`.
@@ -171,11 +172,11 @@ Impact run_impact(const sdk::ContactLaw& law, double speed, double tangential, d
   return result;
 }
 
-void check_restitution(const Maker& make, const Subject& subject) {
+void check_restitution(const Maker& make, const ModelUnderTest& model_under_test) {
   // A four thousandth of the collision per step; laws whose damping is fitted rather than exact
   // are known to be off by up to a hundredth.
   constexpr double k_realised = 0.01;
-  const double* declared = subject.number("restitution");
+  const double* declared = model_under_test.number("restitution");
   const auto law = make_law(make);
   for (const double speed : {0.1, 1.0}) {
     const Impact impact = run_impact(*law, speed, 0.0, -1.0);
@@ -222,7 +223,7 @@ void check_stiffness(const Maker& make) {
   }
 }
 
-void check_times(const Maker& make, const Subject& subject) {
+void check_times(const Maker& make, const ModelUnderTest& model_under_test) {
   const auto law = make_law(make);
   constexpr double k_radius = 5e-4;
   const double mass = 2500.0 * sdk::sphere_volume(2.0 * k_radius);
@@ -230,7 +231,7 @@ void check_times(const Maker& make, const Subject& subject) {
   if (!impact.has_ended) throw Remark("the grains stick");
   const double told = law->collision_time(k_radius, mass, 0.5);
   // Damping lengthens a collision; the elastic time is told.
-  const double* e = subject.number("restitution");
+  const double* e = model_under_test.number("restitution");
   const double damped = e != nullptr ? 1.0 + 0.5 * std::abs(std::log(*e)) : 2.0;
   require(impact.duration >= 0.9 * told && impact.duration <= 1.1 * damped * told,
           "a collision lasts " + shown(impact.duration) + " s, collision_time says " + shown(told));
@@ -251,8 +252,8 @@ void check_times(const Maker& make, const Subject& subject) {
   }
 }
 
-void check_energy(const Maker& make, const Subject& subject) {
-  const double* friction = subject.number("friction");
+void check_energy(const Maker& make, const ModelUnderTest& model_under_test) {
+  const double* friction = model_under_test.number("friction");
   const auto law = make_law(make);
   for (const double tangential : {0.1, 0.5, 2.0}) {
     const Impact impact = run_impact(*law, 0.5, tangential, friction != nullptr ? *friction : -1.0);
@@ -306,17 +307,17 @@ void check_step(const Maker& make) {
                                 shown(order) + " in place of 2");
 }
 
-void rules(const Maker& make, const Subject& subject, Judge& judge) {
-  judge_symmetry(judge, "force", [&](bool is_swapped, const auto& change) {
+void rules(const Maker& make, const ModelUnderTest& model_under_test, RuleRunner& runner) {
+  judge_symmetry(runner, "force", [&](bool is_swapped, const auto& change) {
     return forces(make, is_swapped, change);
   });
-  judge.rule("declared restitution = realised restitution",
-             [&] { check_restitution(make, subject); });
-  judge.rule("tells its times as they are", [&] { check_times(make, subject); });
-  judge.rule("tells its normal stiffness as it is", [&] { check_stiffness(make); });
-  judge.rule("creates no energy in oblique collisions, keeps Coulomb's limit",
-             [&] { check_energy(make, subject); });
-  judge.rule("keeps its tangential energy to second order in the step", [&] { check_step(make); });
+  runner.rule("declared restitution = realised restitution",
+              [&] { check_restitution(make, model_under_test); });
+  runner.rule("tells its times as they are", [&] { check_times(make, model_under_test); });
+  runner.rule("tells its normal stiffness as it is", [&] { check_stiffness(make); });
+  runner.rule("creates no energy in oblique collisions, keeps Coulomb's limit",
+              [&] { check_energy(make, model_under_test); });
+  runner.rule("keeps its tangential energy to second order in the step", [&] { check_step(make); });
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rules of drag laws.
 #include "contract/as_kind.hpp"
-#include "contract/judge.hpp"
+#include "contract/rule_runner.hpp"
 #include "dust/sdk/drag_law.hpp"
 
 #include <algorithm>
@@ -27,8 +27,8 @@ struct Columns {
   }
 };
 
-Columns evaluate(const Maker& make, const Trial& trial) {
-  const auto law = make_as<sdk::DragLaw>(make, trial.units);
+Columns evaluate(const Maker& make, const TestVariant& variant) {
+  const auto law = make_as<sdk::DragLaw>(make, variant.units);
   Columns c;
   constexpr double k_guard = -7.25e77;
   const std::size_t rows = c.reynolds.size();
@@ -36,14 +36,14 @@ Columns evaluate(const Maker& make, const Trial& trial) {
   const std::vector<double> void_fraction = c.void_fraction;
   c.factor.assign(rows, std::numeric_limits<double>::quiet_NaN());
   c.factor.push_back(k_guard);
-  const std::size_t size = trial.batch == 0 ? rows : trial.batch;
+  const std::size_t size = variant.batch == 0 ? rows : variant.batch;
   const std::vector<double> mean_size(size, 1.0);
   for (std::size_t first = 0; first < rows; first += size) {
     sdk::DragBatch batch{std::min(size, rows - first), c.reynolds.data() + first,
                          c.void_fraction.data() + first, c.factor.data() + first};
     // A law for several sizes sees a grain of the mean size.
     if (law->needs_size_ratio()) batch.size_ratio = mean_size.data();
-    call_hot(trial, [&] { law->evaluate(batch); });
+    call_hot(variant, [&] { law->evaluate(batch); });
   }
   require(c.factor.back() == k_guard, "it writes beyond the end of the batch");
   require(c.reynolds == reynolds && c.void_fraction == void_fraction, "it overwrites its input");
@@ -51,19 +51,19 @@ Columns evaluate(const Maker& make, const Trial& trial) {
   return c;
 }
 
-Readings observe(const Maker& make, const Trial& trial) {
-  const Columns c = evaluate(make, trial);
-  Readings readings;
+Observations observe(const Maker& make, const TestVariant& variant) {
+  const Columns c = evaluate(make, variant);
+  Observations observations;
   for (std::size_t n = 0; n < c.factor.size(); ++n) {
-    readings.push_back(
+    observations.push_back(
         {"factor at Re " + shown(c.reynolds[n]) + ", void fraction " + shown(c.void_fraction[n]),
          c.factor[n], sdk::dimension::none});
   }
-  return readings;
+  return observations;
 }
 
-void rules(const Maker& make, const Subject&, Judge& judge) {
-  judge.rule("is never negative and grows with the slip", [&] {
+void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
+  runner.rule("is never negative and grows with the slip", [&] {
     const Columns c = evaluate(make, {});
     for (std::size_t n = 0; n < c.factor.size(); ++n) {
       require(c.factor[n] >= 0.0, "F = " + shown(c.factor[n]) + " at Re " + shown(c.reynolds[n]));
@@ -73,7 +73,7 @@ void rules(const Maker& make, const Subject&, Judge& judge) {
                                                   " at void fraction " + shown(c.void_fraction[n]));
     }
   });
-  judge.rule("is Stokes's law for a lone slow grain: F(0, 1) = 1", [&] {
+  runner.rule("is Stokes's law for a lone slow grain: F(0, 1) = 1", [&] {
     const Columns c = evaluate(make, {});
     const double lone = c.factor[c.factor.size() - k_per_void_fraction + 1];
     // At Re = 1e-6 the usual inertial corrections are below 1e-4.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "contract/units.hpp"
+#include "contract/input/units.hpp"
 
 #include <cmath>
 
@@ -26,7 +26,7 @@ std::vector<sdk::Value> in_units(const Units& units, const sdk::ParameterSchema&
   return result;
 }
 
-const double* Subject::number(const std::string& name) const {
+const double* ModelUnderTest::number(const std::string& name) const {
   for (std::size_t n = 0; n < info.parameters.size(); ++n) {
     if (info.parameters[n].name == name) return std::get_if<double>(&values[n]);
   }

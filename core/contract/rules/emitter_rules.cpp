@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rules of emitters: the mass asked for, within the sizes, speeds and times told, and the same
 // stream through an interruption.
-#include "contract/archive.hpp"
 #include "contract/as_kind.hpp"
-#include "contract/judge.hpp"
+#include "contract/memory_archive.hpp"
+#include "contract/rule_runner.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/sphere.hpp"
 
@@ -36,13 +36,13 @@ std::vector<sdk::InsertionRequest> propose(sdk::Emitter& emitter, int first, int
   return requests;
 }
 
-Readings observe(const Maker& make, const Trial& trial) {
-  const auto emitter = make_as<sdk::Emitter>(make, trial.units);
-  Readings readings;
+Observations observe(const Maker& make, const TestVariant& variant) {
+  const auto emitter = make_as<sdk::Emitter>(make, variant.units);
+  Observations observations;
   const auto add = [&](const std::string& name, double value, sdk::Dimension dimension) {
-    readings.push_back({name, value, dimension});
+    observations.push_back({name, value, dimension});
   };
-  const std::vector<sdk::InsertionRequest> requests = propose(*emitter, 0, 50, trial.units);
+  const std::vector<sdk::InsertionRequest> requests = propose(*emitter, 0, 50, variant.units);
   add("count", static_cast<double>(requests.size()), sdk::dimension::none);
   for (std::size_t n = 0; n < requests.size(); ++n) {
     const sdk::InsertionRequest& s = requests[n];
@@ -58,7 +58,7 @@ Readings observe(const Maker& make, const Trial& trial) {
   add("requested_mass_flow", emitter->requested_mass_flow(), sdk::dimension::mass_flow);
   for (const double d : emitter->diameters()) add("diameters", d, sdk::dimension::length);
   add("largest_speed", emitter->largest_speed(), sdk::dimension::velocity);
-  return readings;
+  return observations;
 }
 
 void check_seeds(const Maker& make) {
@@ -139,10 +139,10 @@ void check_restart(const Maker& make) {
   }
 }
 
-void rules(const Maker& make, const Subject&, Judge& judge) {
-  judge.rule("keeps to the times, sizes and speeds it tells", [&] { check_seeds(make); });
-  judge.rule("balances its mass", [&] { check_mass(make); });
-  judge.rule("goes on with the same bits when saved and loaded", [&] { check_restart(make); });
+void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
+  runner.rule("keeps to the times, sizes and speeds it tells", [&] { check_seeds(make); });
+  runner.rule("balances its mass", [&] { check_mass(make); });
+  runner.rule("goes on with the same bits when saved and loaded", [&] { check_restart(make); });
 }
 
 }  // namespace

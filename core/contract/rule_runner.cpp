@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "contract/judge.hpp"
+#include "contract/rule_runner.hpp"
 
 #include <map>
 
 namespace dust::contract {
 
-void Judge::rule(const std::string& rule, const std::function<void()>& check) {
-  Finding finding{rule, Verdict::pass, {}};
+void RuleRunner::rule(const std::string& rule, const std::function<void()>& check) {
+  RuleResult result{rule, Verdict::pass, {}};
   try {
     check();
   } catch (const Remark& remark) {
-    finding = {rule, Verdict::remark, remark.what()};
+    result = {rule, Verdict::remark, remark.what()};
   } catch (const Violation& violation) {
-    finding = {rule, Verdict::fail, violation.what()};
+    result = {rule, Verdict::fail, violation.what()};
   } catch (const std::exception& problem) {
-    finding = {rule, Verdict::fail, std::string("it throws: ") + problem.what()};
+    result = {rule, Verdict::fail, std::string("it throws: ") + problem.what()};
   } catch (...) {
-    finding = {rule, Verdict::fail, "it throws something that is no std::exception"};
+    result = {rule, Verdict::fail, "it throws something that is no std::exception"};
   }
-  findings.push_back(std::move(finding));
+  results_.push_back(std::move(result));
 }
 
-std::uint64_t Judge::allocations(const std::function<void()>& call) const {
+std::uint64_t RuleRunner::allocations(const std::function<void()>& call) const {
   if (allocations_ == nullptr) return call(), 0;
   const std::uint64_t before = allocations_();
   call();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "contract/contact_bench.hpp"
+#include "contract/scenes/contact_bench.hpp"
 
 #include "dust/sdk/random.hpp"
 #include "dust/sdk/sphere.hpp"

@@ -2,7 +2,7 @@
 // Rules of forces of the fluid besides drag: nothing from nothing, the same in a mirror and in a
 // turned frame, and a reaction that fits what is taken over.
 #include "contract/as_kind.hpp"
-#include "contract/judge.hpp"
+#include "contract/rule_runner.hpp"
 #include "dust/sdk/fluid_force.hpp"
 #include "dust/sdk/random.hpp"
 
@@ -99,7 +99,7 @@ struct Result {
 };
 
 /// What the model gives at the last of some calls.
-Result evaluate(const sdk::FluidForce& model, const Trial& trial, const Frame& frame = {},
+Result evaluate(const sdk::FluidForce& model, const TestVariant& variant, const Frame& frame = {},
                 bool is_calm = false) {
   const int size = model.history_size();
   require(size >= 0, "it keeps " + std::to_string(size) + " numbers per grain");
@@ -109,13 +109,13 @@ Result evaluate(const sdk::FluidForce& model, const Trial& trial, const Frame& f
   history.back() = k_guard;
   Result r;
   for (int call = 0; call < k_calls; ++call) {
-    const Scene s = scene_at(call, trial.units, frame, is_calm);
+    const Scene s = scene_at(call, variant.units, frame, is_calm);
     const std::vector<double> zeros(k_grains + 1, 0.0);
     r = {{zeros, zeros, zeros}, zeros, zeros};
     for (auto* c : {&r.force.x, &r.force.y, &r.force.z, &r.added_mass, &r.resistance}) {
       c->back() = k_guard;
     }
-    const std::size_t most = trial.batch == 0 ? k_grains : trial.batch;
+    const std::size_t most = variant.batch == 0 ? k_grains : variant.batch;
     for (std::size_t first = 0; first < k_grains; first += most) {
       sdk::FluidForceBatch b;
       b.count = std::min(most, k_grains - first);
@@ -143,7 +143,7 @@ Result evaluate(const sdk::FluidForce& model, const Trial& trial, const Frame& f
       b.added_mass = r.added_mass.data() + first;
       b.resistance = r.resistance.data() + first;
       b.history = size > 0 ? history.data() + first * static_cast<std::size_t>(size) : nullptr;
-      call_hot(trial, [&] { model.evaluate(b); });
+      call_hot(variant, [&] { model.evaluate(b); });
     }
     for (auto* c : {&r.force.x, &r.force.y, &r.force.z, &r.added_mass, &r.resistance}) {
       require(c->back() == k_guard, "it writes beyond the end of the batch");
@@ -156,20 +156,20 @@ Result evaluate(const sdk::FluidForce& model, const Trial& trial, const Frame& f
 
 Vec3 force_on(const Result& r, std::size_t g) { return {r.force.x[g], r.force.y[g], r.force.z[g]}; }
 
-Readings observe(const Maker& make, const Trial& trial) {
-  const auto model = make_as<sdk::FluidForce>(make, trial.units);
-  const Result r = evaluate(*model, trial);
+Observations observe(const Maker& make, const TestVariant& variant) {
+  const auto model = make_as<sdk::FluidForce>(make, variant.units);
+  const Result r = evaluate(*model, variant);
   const sdk::Dimension rate = dim::mass / dim::time;
-  Readings readings;
+  Observations observations;
   for (std::size_t g = 0; g < k_grains; ++g) {
     const std::string grain = " on grain " + std::to_string(g);
-    readings.push_back({"force" + grain, r.force.x[g], dim::force});
-    readings.push_back({"force" + grain, r.force.y[g], dim::force});
-    readings.push_back({"force" + grain, r.force.z[g], dim::force});
-    readings.push_back({"added_mass" + grain, r.added_mass[g], dim::mass});
-    readings.push_back({"resistance" + grain, r.resistance[g], rate});
+    observations.push_back({"force" + grain, r.force.x[g], dim::force});
+    observations.push_back({"force" + grain, r.force.y[g], dim::force});
+    observations.push_back({"force" + grain, r.force.z[g], dim::force});
+    observations.push_back({"added_mass" + grain, r.added_mass[g], dim::mass});
+    observations.push_back({"resistance" + grain, r.resistance[g], rate});
   }
-  return readings;
+  return observations;
 }
 
 void check_frame(const sdk::FluidForce& model, const Frame& frame, const std::string& what) {
@@ -186,15 +186,15 @@ void check_frame(const sdk::FluidForce& model, const Frame& frame, const std::st
   }
 }
 
-void rules(const Maker& make, const Subject&, Judge& judge) {
-  judge.rule("gives no force in a uniform stream that carries the grain, without gravity", [&] {
+void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
+  runner.rule("gives no force in a uniform stream that carries the grain, without gravity", [&] {
     const Result r = evaluate(*make_as<sdk::FluidForce>(make), {}, {}, true);
     for (std::size_t g = 0; g < k_grains; ++g) {
       require(norm(force_on(r, g)) == 0.0,
               shown(norm(force_on(r, g))) + " N on grain " + std::to_string(g));
     }
   });
-  judge.rule("turns with the frame and mirrors with it", [&] {
+  runner.rule("turns with the frame and mirrors with it", [&] {
     const auto model = make_as<sdk::FluidForce>(make);
     const auto cycle = [](Vec3 v) { return Vec3{v.y, v.z, v.x}; };
     check_frame(*model, {cycle, cycle}, "when the axes are exchanged");
@@ -207,7 +207,7 @@ void rules(const Maker& make, const Subject&, Judge& judge) {
                  }},
                 "in a mirror: vorticity and spin are axial");
   });
-  judge.rule("gives no negative added mass or resistance, resistance only near a wall", [&] {
+  runner.rule("gives no negative added mass or resistance, resistance only near a wall", [&] {
     const auto model = make_as<sdk::FluidForce>(make);
     const Result r = evaluate(*model, {});
     for (std::size_t g = 0; g < k_grains; ++g) {
@@ -217,7 +217,7 @@ void rules(const Maker& make, const Subject&, Judge& judge) {
               "resistance " + shown(r.resistance[g]) + " kg/s where no wall is near");
     }
   });
-  judge.rule("what it takes over is contained in the momentum set", [&] {
+  runner.rule("what it takes over is contained in the momentum set", [&] {
     const auto model = make_as<sdk::FluidForce>(make);
     const sdk::FluidForceParts parts = model->takes_over();
     const bool takes = parts.pressure_gradient || parts.viscous_stress || parts.buoyancy;

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contract/scenes/scene_columns.hpp"
+
+#include <span>
+
+namespace dust::contract {
+
+SceneColumns::SceneColumns(const SyntheticScene& scene) {
+  show_domain(scene);
+  show_particles(scene);
+  show_contacts(scene);
+  show_walls(scene);
+  show_fluid(scene);
+}
+
+void SceneColumns::show_domain(const SyntheticScene& scene) {
+  const double l = scene.units.length;
+  class_diameters_ = scene.class_diameters;
+  for (double& d : class_diameters_) d *= l;
+  view_.time = scene.units.time * scene.time;
+  view_.interval = scene.units.time * scene.interval;
+  view_.domain_min = l * scene.domain_min;
+  view_.domain_max = l * scene.domain_max;
+  view_.gravity = scene.units.of(sdk::dimension::acceleration) * scene.gravity;
+  view_.class_diameters = class_diameters_;
+  view_.emitted_mass = scene.units.mass * scene.emitted_mass;
+}
+
+void SceneColumns::show_particles(const SyntheticScene& scene) {
+  const double l = scene.units.length;
+  const double v = scene.units.of(sdk::dimension::velocity);
+  const double w = scene.units.of(sdk::dimension::angular_velocity);
+  const double f = scene.units.of(sdk::dimension::force);
+  id_.clear();
+  for (auto& column : columns_) column.clear();
+  for (std::size_t i = 0; i < scene.grains.size(); ++i) {
+    const Grain& g = scene.grains[i];
+    id_.push_back(static_cast<std::int64_t>(i));
+    const double values[18] = {l * g.now.x,
+                               l * g.now.y,
+                               l * g.now.z,
+                               l * g.before.x,
+                               l * g.before.y,
+                               l * g.before.z,
+                               v * g.velocity.x,
+                               v * g.velocity.y,
+                               v * g.velocity.z,
+                               w * g.angular_velocity.x,
+                               w * g.angular_velocity.y,
+                               w * g.angular_velocity.z,
+                               f * g.force.x,
+                               f * g.force.y,
+                               f * g.force.z,
+                               l * g.diameter,
+                               scene.units.mass * g.mass,
+                               g.weight};
+    for (int c = 0; c < 18; ++c) columns_[c].push_back(values[c]);
+  }
+  material_.assign(scene.grains.size(), 0);
+  sdk::GrainColumns& g = view_.grains;
+  g.id = id_;
+  g.material = material_;
+  std::span<const double>* targets[18] = {&g.x,
+                                          &g.y,
+                                          &g.z,
+                                          &g.x_before,
+                                          &g.y_before,
+                                          &g.z_before,
+                                          &g.velocity_x,
+                                          &g.velocity_y,
+                                          &g.velocity_z,
+                                          &g.angular_velocity_x,
+                                          &g.angular_velocity_y,
+                                          &g.angular_velocity_z,
+                                          &g.force_x,
+                                          &g.force_y,
+                                          &g.force_z,
+                                          &g.diameter,
+                                          &g.mass,
+                                          &g.weight};
+  for (int c = 0; c < 18; ++c) *targets[c] = columns_[c];
+}
+
+void SceneColumns::show_contacts(const SyntheticScene& scene) {
+  const double l = scene.units.length;
+  const double f = scene.units.of(sdk::dimension::force);
+  for (auto& column : partners_) column.clear();
+  for (auto& column : contact_columns_) column.clear();
+  for (const Contact& c : scene.contacts) {
+    partners_[0].push_back(c.i);
+    partners_[1].push_back(c.j);
+    const double values[7] = {f * c.force.x,  f * c.force.y,  f * c.force.z, l * c.branch.x,
+                              l * c.branch.y, l * c.branch.z, l * c.overlap};
+    for (int n = 0; n < 7; ++n) contact_columns_[n].push_back(values[n]);
+  }
+  sdk::ContactColumns& c = view_.contacts;
+  c.grain_i = partners_[0];
+  c.grain_j = partners_[1];
+  std::span<const double>* targets[7] = {&c.force_x,  &c.force_y,  &c.force_z, &c.branch_x,
+                                         &c.branch_y, &c.branch_z, &c.overlap};
+  for (int n = 0; n < 7; ++n) *targets[n] = contact_columns_[n];
+}
+
+void SceneColumns::show_walls(const SyntheticScene& scene) {
+  const double energy = scene.units.of(sdk::dimension::energy);
+  wall_name_.clear(), wall_group_.clear(), wall_force_.clear(), wall_torque_.clear();
+  wall_power_.clear(), wall_mass_.clear(), wall_contacts_.clear();
+  for (const Wall& w : scene.walls) {
+    wall_name_.push_back(w.name);
+    wall_group_.push_back(w.group);
+    wall_force_.push_back(scene.units.of(sdk::dimension::force) * w.force);
+    wall_torque_.push_back(energy * w.torque);
+    wall_power_.push_back(energy / scene.units.time * w.power);
+    wall_mass_.push_back(scene.units.mass * w.mass);
+    wall_contacts_.push_back(w.contacts);
+  }
+  impacts_ = scene.impacts;
+  for (sdk::WallImpact& impact : impacts_) {
+    impact.normal_energy *= energy;
+    impact.tangential_energy *= energy;
+  }
+  view_.walls = {wall_name_,  wall_group_, wall_force_,    wall_torque_,
+                 wall_power_, wall_mass_,  wall_contacts_, impacts_};
+}
+
+void SceneColumns::show_fluid(const SyntheticScene& scene) {
+  pressure_ = scene.pressure;
+  const auto p = static_cast<float>(scene.units.of(sdk::dimension::pressure));
+  for (float& value : pressure_) value *= p;
+  const auto v = static_cast<float>(scene.units.length / scene.units.time);
+  for (int d = 0; d < 3; ++d) {
+    velocity_[d] = scene.velocity[d];
+    for (float& value : velocity_[d]) value *= v;
+  }
+  sdk::FluidColumns& f = view_.fluid;
+  f.spacing = scene.units.length * scene.spacing;
+  for (int d = 0; d < 3; ++d) f.count[d] = scene.count[d];
+  f.density = scene.units.of(sdk::dimension::density) * scene.density;
+  f.viscosity = scene.units.of(sdk::dimension::dynamic_viscosity) * scene.viscosity;
+  f.origin = scene.units.length * scene.domain_min;
+  f.pressure = pressure_;
+  f.open_fraction = scene.open_fraction;
+  f.velocity_x = velocity_[0];
+  f.velocity_y = velocity_[1];
+  f.velocity_z = velocity_[2];
+  f.void_fraction = scene.void_fraction;
+}
+
+}  // namespace dust::contract

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "contract/scenes/synthetic_scene.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace dust::contract {
+
+/// A scene's columns as a sensor sees them, in the scene's units.
+class SceneColumns {
+ public:
+  explicit SceneColumns(const SyntheticScene& scene);
+  SceneColumns(const SceneColumns&) = delete;  // the view points into the columns
+  SceneColumns& operator=(const SceneColumns&) = delete;
+  ~SceneColumns() = default;
+  /// Valid as long as this is.
+  [[nodiscard]] const sdk::WorldView& view() const { return view_; }
+
+ private:
+  void show_domain(const SyntheticScene& scene);
+  void show_particles(const SyntheticScene& scene);
+  void show_contacts(const SyntheticScene& scene);
+  void show_walls(const SyntheticScene& scene);
+  void show_fluid(const SyntheticScene& scene);
+
+  std::vector<std::int64_t> id_;
+  std::vector<std::int32_t> material_;
+  std::vector<double> columns_[18];
+  std::vector<std::int32_t> partners_[2];
+  std::vector<double> contact_columns_[7];
+  std::vector<std::string> wall_name_, wall_group_;
+  std::vector<sdk::Vec3> wall_force_, wall_torque_;
+  std::vector<double> wall_power_, wall_mass_;
+  std::vector<std::int64_t> wall_contacts_;
+  std::vector<sdk::WallImpact> impacts_;
+  std::vector<float> pressure_;
+  std::vector<float> velocity_[3];
+  std::vector<double> class_diameters_;
+  sdk::WorldView view_;
+};
+
+}  // namespace dust::contract
