@@ -34,7 +34,7 @@ void for_plane(const Grid& g, int direction, const Body& body) {
 }
 
 void check(const sdk::SideRules& r, int side) {
-  if (can_be_solved(r)) return;
+  if (sdk::can_be_solved(r)) return;
   throw sdk::ParameterError(
       std::string("the boundary model of side ") + scenario::k_side_names[side] +
       " asks for a combination that cannot be solved: a given normal velocity goes with a zero "
@@ -42,15 +42,6 @@ void check(const sdk::SideRules& r, int side) {
 }
 
 }  // namespace
-
-bool can_be_solved(const sdk::SideRules& r) {
-  const bool is_given = r.normal_velocity == SideRule::fixed && r.pressure == SideRule::gradient;
-  const bool is_open = r.normal_velocity == SideRule::gradient &&
-                       (r.pressure == SideRule::fixed || r.pressure == SideRule::pressure);
-  const bool tangential_is_known =
-      r.tangential_velocity == SideRule::fixed || r.tangential_velocity == SideRule::gradient;
-  return (is_given || is_open) && tangential_is_known;
-}
 
 Sides::Sides(const Grid& grid, const std::array<const sdk::BoundaryCondition*, 6>& conditions)
     : grid_(grid) {

@@ -11,10 +11,6 @@
 
 namespace dust::fluid {
 
-/// Whether the solver can do with these rules of a side: a given normal velocity goes with a zero
-/// pressure gradient, a given pressure with a zero velocity gradient.
-bool can_be_solved(const sdk::SideRules& rules);
-
 /// The six sides of the domain: values from the boundary models and the filling of halos.
 class Sides {
  public:

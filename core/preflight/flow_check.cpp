@@ -167,7 +167,7 @@ bool find_flows(const Setup& setup, const SideModels& sides, AllFaces& all, doub
 /// Tells a side whose rules the solver cannot do with; false after one.
 bool check_rules(const Setup& setup, const SideModels& sides, Diagnostics& diagnostics) {
   for (std::size_t n = 0; n < 6; ++n) {
-    if (sides[n] == nullptr || fluid::can_be_solved(sides[n]->rules())) continue;
+    if (sides[n] == nullptr || sdk::can_be_solved(sides[n]->rules())) continue;
     diagnostics.error(setup.domain.sides[n].where,
                       path_of(n) +
                           ".air: a given normal velocity goes with a zero pressure "

@@ -103,24 +103,23 @@ void SceneColumns::show_contacts(const SyntheticScene& scene) {
 
 void SceneColumns::show_walls(const SyntheticScene& scene) {
   const double energy = scene.units.of(sdk::dimension::energy);
-  wall_name_.clear(), wall_group_.clear(), wall_force_.clear(), wall_torque_.clear();
-  wall_power_.clear(), wall_mass_.clear(), wall_contacts_.clear();
+  walls_ = {};
   for (const Wall& w : scene.walls) {
-    wall_name_.push_back(w.name);
-    wall_group_.push_back(w.group);
-    wall_force_.push_back(scene.units.of(sdk::dimension::force) * w.force);
-    wall_torque_.push_back(energy * w.torque);
-    wall_power_.push_back(energy / scene.units.time * w.power);
-    wall_mass_.push_back(scene.units.mass * w.mass);
-    wall_contacts_.push_back(w.contacts);
+    walls_.name.push_back(w.name);
+    walls_.group.push_back(w.group);
+    walls_.force.push_back(scene.units.of(sdk::dimension::force) * w.force);
+    walls_.torque.push_back(energy * w.torque);
+    walls_.power.push_back(energy / scene.units.time * w.power);
+    walls_.mass.push_back(scene.units.mass * w.mass);
+    walls_.contacts.push_back(w.contacts);
   }
   impacts_ = scene.impacts;
   for (sdk::WallImpact& impact : impacts_) {
     impact.normal_energy *= energy;
     impact.tangential_energy *= energy;
   }
-  view_.walls = {wall_name_,  wall_group_, wall_force_,    wall_torque_,
-                 wall_power_, wall_mass_,  wall_contacts_, impacts_};
+  view_.walls = {walls_.name,  walls_.group, walls_.force,    walls_.torque,
+                 walls_.power, walls_.mass,  walls_.contacts, impacts_};
 }
 
 void SceneColumns::show_fluid(const SyntheticScene& scene) {

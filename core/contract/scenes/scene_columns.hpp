@@ -20,6 +20,13 @@ class SceneColumns {
   [[nodiscard]] const sdk::WorldView& view() const { return view_; }
 
  private:
+  struct WallColumns {
+    std::vector<std::string> name, group;
+    std::vector<sdk::Vec3> force, torque;
+    std::vector<double> power, mass;
+    std::vector<std::int64_t> contacts;
+  };
+
   void show_domain(const SyntheticScene& scene);
   void show_particles(const SyntheticScene& scene);
   void show_contacts(const SyntheticScene& scene);
@@ -31,10 +38,7 @@ class SceneColumns {
   std::vector<double> columns_[18];
   std::vector<std::int32_t> partners_[2];
   std::vector<double> contact_columns_[7];
-  std::vector<std::string> wall_name_, wall_group_;
-  std::vector<sdk::Vec3> wall_force_, wall_torque_;
-  std::vector<double> wall_power_, wall_mass_;
-  std::vector<std::int64_t> wall_contacts_;
+  WallColumns walls_;
   std::vector<sdk::WallImpact> impacts_;
   std::vector<float> pressure_;
   std::vector<float> velocity_[3];

@@ -27,6 +27,17 @@ struct SideRules {
   SideRule pressure = SideRule::gradient;
 };
 
+/// Whether rules determine the flow: normal velocity and pressure fixed and gradient (walls,
+/// inlets) or gradient and fixed or total pressure (open sides); the tangential velocity fixed or
+/// of zero gradient.
+inline bool can_be_solved(const SideRules& r) {
+  const bool is_given = r.normal_velocity == SideRule::fixed && r.pressure == SideRule::gradient;
+  const bool is_open = r.normal_velocity == SideRule::gradient &&
+                       (r.pressure == SideRule::fixed || r.pressure == SideRule::pressure);
+  return (is_given || is_open) &&
+         (r.tangential_velocity == SideRule::fixed || r.tangential_velocity == SideRule::gradient);
+}
+
 /// Points on the side at which values are wanted.
 struct SideBatch {
   std::size_t count = 0;
