@@ -19,8 +19,9 @@ set(CPACK_DEBIAN_DUST-DEV_PACKAGE_NAME dust-dev)
 set(CPACK_DEBIAN_DUST-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DUST-DEV_PACKAGE_DEPENDS
   "dust (= ${PROJECT_VERSION}), cmake (>= 3.25), g++-${DUST_COMPILER_MAJOR}, g++, make | ninja-build")
+set(CPACK_DEBIAN_DUST-DEV_PACKAGE_RECOMMENDS "python3-h5py, python3-matplotlib")
 set(CPACK_COMPONENT_DUST_DESCRIPTION "The engine with its models and scenarios.")
 set(CPACK_COMPONENT_DUST-DEV_DESCRIPTION
-  "Headers, CMake package and templates for models of your own: engine new-plugin KIND NAME.")
+  "Headers, CMake package and templates for models of your own: engine new-plugin KIND NAME; results in Python: dust_results.")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/dust RENAME copyright)
 include(CPack)

@@ -44,6 +44,10 @@ try:
           "without dust-dev the remedy is not told")
     run("dpkg-deb", "-x", packages["dust-dev"], folder / "root")
     run(engine, "new-plugin", "drag", "own")
+    package = folder / "root/usr/lib/python3/dist-packages/dust_results"
+    check(sorted(p.name for p in package.glob("*")) == sorted(
+        p.name for p in pathlib.Path(options.source, "tools/python/dust_results").glob("*.py")),
+        "the Python package is not whole")
     check((folder / "root/usr/lib/cmake/dust/dust-config.cmake").exists(), "no CMake package")
     check((folder / "root/usr/include/dust/sdk/plugin.hpp").exists(), "no headers")
 finally:
