@@ -25,6 +25,10 @@ void add_report(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_new_plugin(CLI::App& app, int& status);
 void add_test_plugin(CLI::App& app, int& status);
+void add_report_bug(CLI::App& app, int& status);
+/// The last ones: they print all commands declared before.
+void add_man(CLI::App& app, int& status);
+void add_completion(CLI::App& app, int& status);
 
 /// Options that name a scenario and change it: SCENARIO, --set, --set-file, --plugin-path.
 struct ScenarioArguments {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "about/version.hpp"
 #include "base/error.hpp"
 #include "commands.hpp"
 #include "huge_pages.hpp"
@@ -56,7 +57,7 @@ int report(const CLI::App& app, const CLI::ParseError& problem) {
 int engine_main(int argc, char** argv) {
   CLI::App app{"Bulk solids, the air around them and the dust that gets loose."};
   app.name("engine");
-  app.set_version_flag("--version", std::string("engine ") + DUST_VERSION);
+  app.set_version_flag("--version", engine::version_text());
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   app.footer(
@@ -79,6 +80,9 @@ int engine_main(int argc, char** argv) {
   engine::add_compare(app, status);
   engine::add_new_plugin(app, status);
   engine::add_test_plugin(app, status);
+  engine::add_report_bug(app, status);
+  engine::add_man(app, status);
+  engine::add_completion(app, status);
   std::vector<std::string> arguments(argv + 1, argv + argc);
   complete_arguments(app, arguments);
   if (!arguments.empty() && arguments.front() == "run") engine::ask_for_huge_pages(argv);

@@ -1,0 +1,26 @@
+# cmake -DSOURCE=... -DOUTPUT=... -P commit.cmake: writes OUTPUT, a header with the commit of SOURCE.
+# Runs with every build; an unchanged header is left alone, so nothing is compiled again.
+set(commit unknown)
+find_program(git git)
+if(git AND EXISTS ${SOURCE}/.git)
+  # In a container the checkout often belongs to another user: reading it is harmless.
+  set(ask ${git} -c safe.directory=* -C ${SOURCE})
+  execute_process(COMMAND ${ask} rev-parse --short=12 HEAD OUTPUT_VARIABLE commit ERROR_QUIET
+    OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    set(commit unknown)
+  else()
+    execute_process(COMMAND ${ask} --no-optional-locks diff --quiet HEAD ERROR_QUIET RESULT_VARIABLE status)
+    if(NOT status EQUAL 0)
+      string(APPEND commit ", changed")
+    endif()
+  endif()
+endif()
+set(text "#define DUST_COMMIT \"${commit}\"\n")
+set(before "")
+if(EXISTS ${OUTPUT})
+  file(READ ${OUTPUT} before)
+endif()
+if(NOT before STREQUAL text)
+  file(WRITE ${OUTPUT} "${text}")
+endif()
