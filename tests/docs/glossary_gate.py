@@ -18,7 +18,7 @@ def anchors(text):
 
 def link_problems(root):
     pages = [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").rglob("*.md")),
-             *sorted((root / "plugins").rglob("*.md")), *sorted((root / "third_party").rglob("*.md"))]
+             *sorted((root / "plugins").rglob("*.md")), *sorted((root / "scenarios").rglob("*.md")), *sorted((root / "third_party").rglob("*.md"))]
     for page in pages:
         if not page.exists():
             continue

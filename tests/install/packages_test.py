@@ -42,6 +42,8 @@ try:
     run(engine, "check", folder / "root/usr/share/dust/scenarios/transfer_point.yaml")
     check("install the package dust-dev" in run(engine, "new-plugin", "drag", "own", status=2),
           "without dust-dev the remedy is not told")
+    for file in ("man/man1/engine.1", "bash-completion/completions/engine"):
+        check((folder / "root/usr/share" / file).stat().st_size > 0, f"no {file}")
     run("dpkg-deb", "-x", packages["dust-dev"], folder / "root")
     run(engine, "new-plugin", "drag", "own")
     package = folder / "root/usr/lib/python3/dist-packages/dust_results"

@@ -116,6 +116,8 @@ class ARun(unittest.TestCase):
         circles = figure.axes[0].collections[0]
         self.assertEqual(len(circles.get_offsets()), len(grains))
         np.testing.assert_allclose(circles.get_offsets()[:, 1], 1e3 * grains["position"][:, 2], rtol=1e-6)
+        widths = getattr(circles, "get_widths", lambda: 2 * circles._widths)()
+        self.assertGreater(widths.min(), 0.2)  # 10 um would not be seen on 200 mm
         figure.savefig(FOLDER / "grains.png")
         self.assertEqual((FOLDER / "grains.png").read_bytes()[:4], b"\x89PNG")
 

@@ -38,6 +38,7 @@ std::vector<fs::path> shipped_scenarios() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(DUST_SOURCE "/scenarios")) {
     if (entry.path().extension() != ".yaml") continue;
+    if (entry.path().parent_path().filename() == "materials") continue;  // parts, to be included
     std::ifstream stream(entry.path());
     bool is_study = false;
     for (std::string line; std::getline(stream, line);) is_study |= line.starts_with("base:");

@@ -12,6 +12,8 @@ from .table import ResultsError, find_name, with_unit
 #: Beyond this many grains each is a dot instead of a circle of its size.
 MOST_CIRCLES = 200_000
 DOTS_PER_INCH = 150
+#: What is finer than this share of the picture is drawn as large as this, to be seen.
+SMALLEST_SHARE = 1 / 300
 
 
 def _figure(width=6.4, height=4.8, **grid):
@@ -35,7 +37,8 @@ def _across(axis):
 
 
 def draw_grains(run, frame=-1, colour="speed", along="y", finer_than=None):
-    """The grains of a frame, seen along an axis, at their true size, with the bodies cut in the middle.
+    """The grains of a frame, seen along an axis, at their true size (fine ones larger, to be seen), with the
+    bodies cut in the middle.
 
     `colour` is 'speed' or a column of numbers of run.grains(); `finer_than` [m] leaves out what is
     coarser.
@@ -53,8 +56,9 @@ def draw_grains(run, frame=-1, colour="speed", along="y", finer_than=None):
     place = grains["position"][:, [a, b]].astype(float)
     walls = run.walls(frame)
     factor, unit = _scale(place if len(place) else np.ones(1))
-    if len(place) <= MOST_CIRCLES:
-        size = factor * grains["diameter"]
+    if 0 < len(place) <= MOST_CIRCLES:
+        seen = np.concatenate([place, walls.points[:, [a, b]]])
+        size = factor * np.maximum(grains["diameter"], SMALLEST_SHARE * np.ptp(seen, axis=0).max())
         dots = EllipseCollection(size, size, np.zeros(len(size)), units="xy", offsets=factor * place,
                                  transOffset=axes.transData, array=values, linewidths=0)
         axes.add_collection(dots)
