@@ -3,7 +3,7 @@
 
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/sphere.hpp"
-#include "particles/contact_view.hpp"
+#include "particles/forces/contact_snapshot.hpp"
 #include "particles/impl.hpp"
 #include "particles/motion/leapfrog.hpp"
 
@@ -60,7 +60,7 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
   if (grains.empty()) return;
   std::size_t n = store.size();
   store.resize(n + grains.size());
-  trajectories.resize(n + grains.size());
+  outer.resize(n + grains.size());
   for (const NewGrain& g : grains) {
     const double mass =
         materials[static_cast<std::size_t>(g.material)].density * sdk::sphere_volume(g.diameter);
@@ -88,7 +88,7 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
     ++n;
   }
   book.close();
-  must_rebuild = must_sort = true;
+  outer.require(OuterList::Due::reorder);
 }
 
 void Dem::Impl::remove_leavers() {
@@ -126,29 +126,12 @@ void Dem::Impl::remove_leavers() {
   std::vector<std::int32_t> new_row(store.size(), -1);
   for (std::size_t n = 0; n < keep.size(); ++n)
     new_row[static_cast<std::size_t>(keep[n])] = static_cast<std::int32_t>(n);
-  const auto drop = [&](ContactList& list, bool is_surface, bool is_fine) {
-    for (std::size_t q = 0; q < list.size(); ++q) {
-      list.a[q] = new_row[static_cast<std::size_t>(list.a[q])];
-      const bool b_is_row = !is_surface && (!is_fine || list.b[q] >= 0);
-      const std::int32_t b = b_is_row ? new_row[static_cast<std::size_t>(list.b[q])] : 0;
-      if (list.a[q] < 0 || b < 0) {
-        list.is_touching[q] = 0;
-        list.a[q] = list.b[q] = 0;
-      } else if (b_is_row) {
-        list.b[q] = b;
-      }
-    }
-  };
-  for (Chunk& c : chunks) {
-    drop(c.pairs, false, false);
-    drop(c.surfaces, true, false);
-  }
-  drop(fine, false, true);
+  inner.renumber(new_row);
   fine_level.renumber(new_row);
   store.reorder(keep);
-  trajectories.reorder(keep);
+  outer.reorder(keep);
   book.close();
-  must_rebuild = must_sort = true;
+  outer.require(OuterList::Due::reorder);
 }
 
 void Dem::Impl::refresh_decay() {
@@ -164,9 +147,13 @@ void Dem::Impl::refresh_decay() {
   }
 }
 
+void Dem::Impl::gather_wall_loads() {
+  if (wall_loads.is_on()) contact_forces.give_wall_loads(wall_loads);
+}
+
 void Dem::Impl::look_at_weights() {
   has_weights = false;
-  for (std::size_t n = 1; n < coarse_count; ++n) {
+  for (std::size_t n = 1; n < tiling.coarse_count; ++n) {
     has_weights = has_weights || store.weight[n] != store.weight[0];
   }
 }
@@ -181,11 +168,11 @@ void Dem::Impl::fill_last_force() const {
       last_force[4 * n + d] = mass * (g[d] + action[3] * (action[d] - store.velocity(n)[d]));
     }
   }
-  if (must_sort) return;  // rows have changed since the forces were computed
+  if (outer.is_reorder_due()) return;  // rows have changed since the forces were computed
   for (std::size_t q = 0; q < contact_force.size(); ++q) last_force[q] += contact_force[q];
   const std::span<const double> fine_force = fine_level.force();
   for (std::size_t q = 0; q < fine_force.size(); ++q)
-    last_force[4 * coarse_count + q] += fine_force[q];
+    last_force[4 * tiling.coarse_count + q] += fine_force[q];
 }
 
 Dem::Dem(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vector<PairLaws> laws,
@@ -212,10 +199,10 @@ void Dem::integrate() { impl_->integrate(); }
 void Dem::step_tiles(double time, bool keeps_force) { impl_->step_tiles(time, keeps_force); }
 void Dem::advance_fine() { impl_->advance_fine(); }
 void Dem::add_force(const std::function<sdk::Vec3(std::size_t)>& force) {
-  impl_->each_deferred([&](Chunk& chunk) {
-    const std::size_t moved = impl_->deferred.moved(chunk.index);
-    double* f = impl_->deferred.rows(chunk.index).data();
-    for (const std::int32_t row : std::span(chunk.awake.rows).subspan(moved)) {
+  impl_->each_deferred([&](Tile tile) {
+    const auto active = impl_->inner.active(static_cast<std::size_t>(tile.index)).all();
+    double* f = impl_->deferred.rows(tile.index).data();
+    for (const std::int32_t row : active.subspan(impl_->deferred.moved(tile.index))) {
       const sdk::Vec3 more = force(static_cast<std::size_t>(row));
       for (int d = 0; d < 3; ++d) f[d] += more[d];
       f += k_force_row;
@@ -225,15 +212,9 @@ void Dem::add_force(const std::function<sdk::Vec3(std::size_t)>& force) {
 
 void Dem::let_all_step() { impl_->all_step = true; }
 
-std::array<double, 3> Dem::phase_shares() const {
-  TileTimes sum = impl_->times_before;
-  for (const Chunk& c : impl_->chunks) sum.add(c.times);
-  const double all = sum.contact + sum.force + sum.integration;
-  if (!(all > 0.0)) return {};
-  return {sum.contact / all, sum.force / all, sum.integration / all};
-}
+std::array<double, 3> Dem::phase_shares() const { return impl_->phase_times.shares(); }
 void Dem::fluid_action_changed() { impl_->refresh_decay(); }
-void Dem::bodies_changed() { impl_->must_rebuild = true; }
+void Dem::bodies_changed() { impl_->outer.require(OuterList::Due::rebuild); }
 
 void Dem::land() { impl_->land(); }
 GrainRows Dem::rows() {
@@ -259,7 +240,9 @@ std::span<const double> Dem::last_force() const {
 
 std::vector<ContactRecord> Dem::contacts() const {
   impl_->land();
-  return contact_records(*impl_);
+  // Since grains came or went, the lists name other rows; they are made new at the next step.
+  if (impl_->outer.is_reorder_due()) return {};
+  return contact_snapshot(impl_->contact_scene(), impl_->inner);
 }
 
 const BalanceBook& Dem::book() const { return impl_->book; }
@@ -267,11 +250,8 @@ const Balance& Dem::balance() const { return impl_->book.balance(); }
 
 DemReport Dem::report() const {
   DemReport out = impl_->counters;
-  out.contacts = 0;
-  for (const Chunk& c : impl_->chunks) {
-    out.contacts += c.contacts;
-    out.largest_coarse_overlap = std::max(out.largest_coarse_overlap, c.largest_overlap);
-  }
+  out.contacts = impl_->contact_forces.contacts();
+  out.largest_coarse_overlap = impl_->contact_forces.largest_overlap();
   out.fine_steps = impl_->fine_level.sub_steps();
   out.largest_fine_overlap = impl_->fine_level.largest_overlap();
   out.largest_overlap = std::max(out.largest_coarse_overlap, out.largest_fine_overlap);
@@ -286,16 +266,34 @@ std::vector<std::pair<std::int64_t, std::int64_t>> Dem::listed_pairs() const {
     const std::int64_t j = id[static_cast<std::size_t>(b)];
     out.emplace_back(std::min(i, j), std::max(i, j));
   };
-  for (const Chunk& c : impl_->chunks) {
-    for (std::size_t q = 0; q < c.near_pairs.size(); ++q) add(c.near_pairs.a[q], c.near_pairs.b[q]);
-  }
-  for (std::size_t q = 0; q < impl_->near_fine.size(); ++q) {
-    if (impl_->near_fine.b[q] >= 0) add(impl_->near_fine.a[q], impl_->near_fine.b[q]);
-  }
+  const auto add_all = [&](const PairList& list) {
+    for (std::size_t q = 0; q < list.size(); ++q) {
+      if (list.b()[q] >= 0) add(list.a()[q], list.b()[q]);
+    }
+  };
+  for (std::size_t t = 0; t < impl_->outer.tiles(); ++t) add_all(impl_->outer.pairs(t));
+  add_all(impl_->outer.fine());
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
+
+void Dem::watch_walls() {
+  std::size_t walls = 0;
+  for (const Surface& s : impl_->surfaces) walls = std::max<std::size_t>(walls, s.wall + 1u);
+  impl_->wall_loads.begin(impl_->surfaces, walls);
+  impl_->outer.require(OuterList::Due::rebuild);
+}
+
+sdk::WallColumns Dem::close_wall_loads(double interval) {
+  if (!impl_->wall_loads.is_on()) return {};
+  impl_->gather_wall_loads();
+  impl_->wall_loads.close(interval);
+  impl_->wall_loads.note_contacts(impl_->contact_scene(), impl_->inner);
+  return impl_->wall_loads.columns();
+}
+
+sdk::WallColumns Dem::wall_loads() const { return impl_->wall_loads.columns(); }
 
 void Dem::save(sdk::ArchiveWriter& archive) const {
   impl_->land();

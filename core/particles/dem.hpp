@@ -58,10 +58,9 @@ struct DemReport {
   std::int64_t particle_steps = 0;  ///< sum over coarse steps of grains integrated
   std::int64_t fine_steps = 0;      ///< sub-steps of fine grains, summed over grains
   std::int64_t rebuilds = 0;
-  std::int64_t mends = 0;  ///< of the lists, for single grains off their course
-  std::int64_t flown_steps =
-      0;  ///< of particle_steps, those made in one go with others (watch.cpp)
-  double largest_overlap = 0.0;         ///< [-] overlap / smaller radius, since the start
+  std::int64_t mends = 0;        ///< of the lists, for single grains off their course
+  std::int64_t flown_steps = 0;  ///< of particle_steps, those made many at once in free flight
+  double largest_overlap = 0.0;  ///< [-] overlap / smaller radius, since the start
   double largest_coarse_overlap = 0.0;  ///< [-] of that, between grains on coarse steps and walls
   double largest_fine_overlap = 0.0;    ///< [-] of that, where a sub-stepped grain takes part
   std::int64_t contacts = 0;            ///< in touch at the last step
@@ -121,9 +120,9 @@ class Dem {
   void add_force(const std::function<sdk::Vec3(std::size_t)>& force);
   void let_all_step();
 
-  /// Brings all grains to the present time: those without partners nearby make many steps at once
-  /// (watch.cpp). Whatever looks at the grains below does it first; end a run of steps with it, so
-  /// that several may look at the same time.
+  /// Ends the inner pair list and brings all grains to the present time: those in free flight make
+  /// many steps at once. Whatever looks at the grains below does it first; end a run of steps with
+  /// it, so that several may look at the same time.
   void land();
   [[nodiscard]] GrainRows rows();
   /// Force [N] (contact + fluid + weight) of the last step, 4 per grain in row order; without the

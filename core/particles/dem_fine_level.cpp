@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/impl.hpp"
+#include "particles/motion/integrate.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -21,9 +22,9 @@ FineScene Dem::Impl::fine_scene() {
           .images = images,
           .gravity = gravity,
           .particles = store,
-          .coarse_count = coarse_count,
-          .active = fine_awake.rows,
-          .contacts = fine.view(history_stride),
+          .coarse_count = tiling.coarse_count,
+          .active = inner.fine_active().all(),
+          .contacts = inner.fine().view(),
           .time = time,
           .wall_loads = wall_loads,
           .contact_force = contact_force};
@@ -31,29 +32,31 @@ FineScene Dem::Impl::fine_scene() {
 
 /// The particles of the finer rates make their sub-steps.
 void Dem::Impl::advance_fine() {
-  if (coarse_count == store.size()) {
+  if (tiling.coarse_count == store.size()) {
     fine_level.forget_deferred();
     return;
   }
   const FineScene scene = fine_scene();
   fine_level.form_clusters(scene);
-  const std::span<const std::int32_t> rows = fine_awake.rows;
+  const std::span<const std::int32_t> rows = inner.fine_active().all();
   oneapi::tbb::parallel_for(
       std::size_t{0}, (rows.size() + k_fine_particles - 1) / k_fine_particles, [&](std::size_t b) {
         const std::size_t first = b * k_fine_particles;
-        integrate_awake(rows.subspan(first, std::min(k_fine_particles, rows.size() - first)), 0,
-                        nullptr, ForceOrder::by_row);
+        integrate_without_force(
+            motion_rows(), rows.subspan(first, std::min(k_fine_particles, rows.size() - first)),
+            steps.coarse_step);
       });
   fine_level.sub_cycle(scene);
-  // Dust squeezed out between coarse grains goes off at several m/s: looked after at every step.
-  check_awake(fine_awake, since_watch, 1, must_watch);
+  // Dust squeezed out between coarse particles goes off at several m/s: looked at in every step.
+  const std::int32_t bad = inner.check_fine(list_scene());
+  if (bad >= 0) fail_as_not_a_number(static_cast<std::size_t>(bad));
 }
 
-/// Before a chunk's grains move: those that fine ones were near go on with the velocity that they
+/// Before a tile's particles move: those that fine ones were near go on with the velocity that they
 /// ended the last step with.
-void Dem::Impl::resume_course(const Chunk& chunk, Movers movers) {
-  for (const DeferredImpulse& impulse : fine_level.deferred().of(chunk.begin, chunk.end)) {
-    const bool is_shared = is_awake[static_cast<std::size_t>(impulse.particle)] == 2;
+void Dem::Impl::apply_deferred_impulses(Tile tile, Movers movers) {
+  for (const DeferredImpulse& impulse : fine_level.deferred().of(tile.begin, tile.end)) {
+    const bool is_shared = inner.is_shared(impulse.particle);
     if (movers != Movers::all && is_shared != (movers == Movers::shared)) continue;
     impulse.act_on(store);
   }

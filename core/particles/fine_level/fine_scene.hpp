@@ -3,11 +3,11 @@
 
 #include "contact/batch_kernels.hpp"
 #include "dust/sdk/vec3.hpp"
+#include "particles/forces/wall_loads.hpp"
 #include "particles/grain_store.hpp"
 #include "particles/pair_law_table.hpp"
 #include "particles/surfaces.hpp"
 #include "particles/time_steps.hpp"
-#include "particles/wall_loads.hpp"
 
 #include <cstddef>
 #include <cstdint>

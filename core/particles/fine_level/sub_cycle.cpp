@@ -2,8 +2,8 @@
 #include "particles/fine_level/sub_cycle.hpp"
 
 #include "contact/nearest_image.hpp"
-#include "particles/law_stages.hpp"
-#include "particles/wall_contacts.hpp"
+#include "particles/forces/law_stages.hpp"
+#include "particles/forces/wall_contacts.hpp"
 
 #include <algorithm>
 

@@ -3,18 +3,24 @@
 
 namespace dust::particles {
 
-void ContactCarrier::take(ContactList&& list, bool has_surfaces) {
-  old_.push_back({std::move(list), has_surfaces});
+namespace {
+
+/// The second side of an entry: a particle, or -1 - surface.
+std::int32_t partner_of(const auto& list, std::size_t entry) {
+  const std::int32_t b = list.b()[entry];
+  return list.partners() == Partners::surfaces ? -1 - b : b;
 }
+
+}  // namespace
 
 /// Calls `visit`(row, partner, history, touching) for each contact in touch.
 template <class Visit>
 void ContactCarrier::each(Visit&& visit) const {
-  for (const auto& [list, has_surfaces] : old_) {
+  for (const ContactList& list : old_) {
     for (std::size_t q = 0; q < list.size(); ++q) {
-      if (list.is_touching[q] == 0) continue;
-      visit(static_cast<std::size_t>(list.a[q]), has_surfaces ? -1 - list.b[q] : list.b[q],
-            list.history.data() + q * stride_, list.is_touching[q]);
+      if (list.touching()[q] == 0) continue;
+      visit(static_cast<std::size_t>(list.a()[q]), partner_of(list, q), list.history(q),
+            list.touching()[q]);
     }
   }
 }
@@ -35,22 +41,21 @@ void ContactCarrier::arrange() {
   });
 }
 
-void ContactCarrier::adopt(const OuterList& list, bool has_surfaces, ContactList& contacts) const {
+void ContactCarrier::adopt(const PairList& list, ContactList& contacts) const {
   contacts.clear();
   if (partner_.empty()) return;
   const auto old_row = [&](std::int32_t row) {
     return old_row_.empty() ? row : old_row_[static_cast<std::size_t>(row)];
   };
   for (std::size_t q = 0; q < list.size(); ++q) {
-    const auto a = static_cast<std::size_t>(old_row(list.a[q]));
-    std::int32_t b = has_surfaces ? -1 - list.b[q] : list.b[q];
+    const auto a = static_cast<std::size_t>(old_row(list.a()[q]));
+    std::int32_t b = partner_of(list, q);
     if (b >= 0) b = old_row(b);
     if (a >= rows_) continue;  // it has just come
     for (auto m = static_cast<std::size_t>(begin_[a]); m < static_cast<std::size_t>(begin_[a + 1]);
          ++m) {
       if (partner_[m] != b) continue;
-      contacts.push(list.a[q], list.b[q], history_[m], stride_);
-      contacts.is_touching.back() = touching_[m];
+      contacts.push(list.a()[q], list.b()[q], history_[m], touching_[m]);
       break;
     }
   }

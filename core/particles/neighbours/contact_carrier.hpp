@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "particles/neighbours/pair_lists.hpp"
+#include "particles/neighbours/contact_list.hpp"
+#include "particles/neighbours/pair_list.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace dust::particles {
@@ -18,9 +20,7 @@ class ContactCarrier {
   /// `rows`: particles that the old lists name; `stride`: numbers of a history.
   ContactCarrier(std::size_t rows, std::size_t stride) : rows_(rows), stride_(stride) {}
 
-  /// Takes an old list. Of one with `has_surfaces` the second side is the surface's number; in
-  /// others a partner below zero is -1 - surface.
-  void take(ContactList&& list, bool has_surfaces);
+  void take(ContactList&& list) { old_.push_back(std::move(list)); }
   /// After the last list: finds what they hold in touch.
   void arrange();
   /// The new rows: row n was row order[n].
@@ -28,20 +28,16 @@ class ContactCarrier {
     old_row_.assign(order.begin(), order.end());
   }
 
-  /// The contacts of a new outer list that are known, in its order. Several threads may ask.
-  void adopt(const OuterList& list, bool has_surfaces, ContactList& contacts) const;
+  /// The contacts of a new pair list that are known, in its order. Several threads may ask.
+  void adopt(const PairList& list, ContactList& contacts) const;
 
  private:
-  struct Old {
-    ContactList list;
-    bool has_surfaces;
-  };
   template <class Visit>
   void each(Visit&& visit) const;
 
   std::size_t rows_;
   std::size_t stride_;
-  std::deque<Old> old_;
+  std::deque<ContactList> old_;
   std::vector<std::int32_t> old_row_;  ///< by new row; empty: rows are what they were
   // By the first particle's old row.
   std::vector<std::int32_t> begin_;

@@ -2,8 +2,8 @@
 #include "dust/sdk/random.hpp"
 #include "particles/neighbours/contact_carrier.hpp"
 #include "particles/neighbours/reference_trajectories.hpp"
+#include "particles/neighbours/search.hpp"
 #include "particles/row_order.hpp"
-#include "particles/search.hpp"
 
 #include <doctest/doctest.h>
 
@@ -19,16 +19,17 @@ namespace {
 
 constexpr std::size_t k_stride = 4;
 
-OuterList list_of(const std::vector<RowPair>& pairs) {
-  OuterList list;
+PairList list_of(const std::vector<RowPair>& pairs, Partners partners) {
+  PairList list(partners);
   for (const RowPair& p : pairs) list.push(p[0], p[1]);
   return list;
 }
 
 /// History by which a contact is known again.
-void push(ContactList& list, std::int32_t a, std::int32_t b, double mark) {
+void push(ContactList& list, std::int32_t a, std::int32_t b, double mark,
+          std::uint8_t touching = 1) {
   const double history[k_stride] = {mark, 2 * mark, 3 * mark, 4 * mark};
-  list.push(a, b, history, k_stride);
+  list.push(a, b, history, touching);
 }
 
 }  // namespace
@@ -45,13 +46,12 @@ TEST_CASE("contacts shall keep their histories through any order of the rows") {
       new_row[static_cast<std::size_t>(order[static_cast<std::size_t>(n)])] = n;
 
     // Pairs n, n + 7 touch, every third entry is apart; walls by number.
-    ContactList pairs;
-    ContactList walls;
+    ContactList pairs(Partners::particles, k_stride);
+    ContactList walls(Partners::surfaces, k_stride);
     std::vector<RowPair> new_pairs;
     std::vector<RowPair> new_walls;
     for (std::int32_t n = 0; n + 7 < k_rows; ++n) {
-      push(pairs, n, n + 7, n + 1.0);
-      if (n % 3 == 0) pairs.is_touching.back() = 0;
+      push(pairs, n, n + 7, n + 1.0, n % 3 == 0 ? 0 : 1);
       new_pairs.push_back(
           {new_row[static_cast<std::size_t>(n)], new_row[static_cast<std::size_t>(n) + 7]});
       push(walls, n, n % 4, 100.0 + n);
@@ -59,43 +59,44 @@ TEST_CASE("contacts shall keep their histories through any order of the rows") {
     }
     std::shuffle(new_pairs.begin(), new_pairs.end(), random);
     ContactCarrier carrier(k_rows, k_stride);
-    carrier.take(std::move(pairs), false);
-    carrier.take(std::move(walls), true);
+    carrier.take(std::move(pairs));
+    carrier.take(std::move(walls));
     carrier.arrange();
     carrier.renumber(order);
 
-    ContactList found;
-    carrier.adopt(list_of(new_pairs), false, found);
+    ContactList found(Partners::particles, k_stride);
+    carrier.adopt(list_of(new_pairs, Partners::particles), found);
     CHECK(found.size() == 22);  // of 33, without every third
     for (std::size_t q = 0; q < found.size(); ++q) {
-      const std::int32_t n = order[static_cast<std::size_t>(found.a[q])];
-      CHECK(order[static_cast<std::size_t>(found.b[q])] == n + 7);
+      const std::int32_t n = order[static_cast<std::size_t>(found.a()[q])];
+      CHECK(order[static_cast<std::size_t>(found.b()[q])] == n + 7);
       CHECK(n % 3 != 0);
       for (std::size_t h = 0; h < k_stride; ++h) {
-        CHECK(found.history[k_stride * q + h] == static_cast<double>(h + 1) * (n + 1.0));
+        CHECK(found.history(q)[h] == static_cast<double>(h + 1) * (n + 1.0));
       }
     }
-    carrier.adopt(list_of(new_walls), true, found);
-    CHECK(found.size() == new_walls.size());
-    for (std::size_t q = 0; q < found.size(); ++q) {
-      CHECK(found.history[k_stride * q] == 100.0 + order[static_cast<std::size_t>(found.a[q])]);
+    ContactList at_walls(Partners::surfaces, k_stride);
+    carrier.adopt(list_of(new_walls, Partners::surfaces), at_walls);
+    CHECK(at_walls.size() == new_walls.size());
+    for (std::size_t q = 0; q < at_walls.size(); ++q) {
+      CHECK(at_walls.history(q)[0] == 100.0 + order[static_cast<std::size_t>(at_walls.a()[q])]);
     }
   }
 }
 
 TEST_CASE("particles that have just come shall have no contacts to carry") {
-  ContactList pairs;
+  ContactList pairs(Partners::particles, k_stride);
   push(pairs, 0, 1, 1.0);
   ContactCarrier carrier(2, k_stride);
-  carrier.take(std::move(pairs), false);
+  carrier.take(std::move(pairs));
   carrier.arrange();
   const std::vector<std::int32_t> order{2, 1, 0};  // row 2 is new
   carrier.renumber(order);
-  ContactList found;
-  carrier.adopt(list_of({{2, 1}, {0, 1}, {0, 2}}), false, found);
+  ContactList found(Partners::particles, k_stride);
+  carrier.adopt(list_of({{2, 1}, {0, 1}, {0, 2}}, Partners::particles), found);
   REQUIRE(found.size() == 1);
-  CHECK(found.a[0] == 2);
-  CHECK(found.b[0] == 1);
+  CHECK(found.a()[0] == 2);
+  CHECK(found.b()[0] == 1);
 }
 
 TEST_CASE(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "particles/search.hpp"
+#include "particles/neighbours/search.hpp"
 
 #include "base/periodic.hpp"
 

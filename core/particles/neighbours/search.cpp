@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "particles/search.hpp"
+#include "particles/neighbours/search.hpp"
 
 #include "base/cells.hpp"
 #include "base/periodic.hpp"
@@ -281,14 +281,13 @@ bool comes_near(const SearchInput& in, std::int32_t i, std::int32_t j, double li
   return passes_within(x, v, in.horizon, limit);
 }
 
-}  // namespace
-
-std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_t block) {
+/// Particles by size. Level l holds radii in [largest / 2^(l+1), largest / 2^l); the very bound
+/// goes to the coarser. `balls`: the swept one of each particle.
+std::vector<Level> levels_of(const SearchInput& in, std::vector<Ball>& balls) {
   double largest = 0.0;
   for (std::size_t n = 0; n < in.count; ++n) largest = std::max(largest, in.position[4 * n + 3]);
-  // Level l holds radii in [largest / 2^(l+1), largest / 2^l); the very bound goes to the coarser.
   std::vector<std::vector<std::int32_t>> members;
-  std::vector<Ball> balls(in.count);
+  balls.resize(in.count);
   for (std::size_t n = 0; n < in.count; ++n) {
     const double* p = in.position + 4 * n;
     const double* v = in.velocity + in.velocity_stride * n;
@@ -306,6 +305,14 @@ std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_
   }
   std::vector<Level> levels;
   for (const auto& rows : members) levels.emplace_back(in, rows, balls);
+  return levels;
+}
+
+}  // namespace
+
+std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_t block) {
+  std::vector<Ball> balls;
+  const std::vector<Level> levels = levels_of(in, balls);
 
   // Blocks of places, level by level.
   struct Work {
@@ -327,7 +334,7 @@ std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_
       const auto n = 4 * static_cast<std::size_t>(i);
       const double reach = in.position[n + 3] + in.allowance[n + 3] + in.range;
       for (std::size_t l = 0; l <= blocks[b].level; ++l) {
-        // Of its own level a grain looks at those behind it: each pair is found once.
+        // Of its own level a particle looks at those behind it: each pair is found once.
         const bool is_own = l == blocks[b].level;
         const Level& level = levels[l];
         if (level.size() == 0) continue;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "particles/wall_loads.hpp"
+#include "particles/forces/wall_loads.hpp"
 
-#include "particles/impl.hpp"
+#include "particles/forces/contact_forces.hpp"
+#include "particles/neighbours/inner_list.hpp"
 
 #include <algorithm>
 
@@ -47,52 +48,33 @@ sdk::WallColumns WallLoads::columns() const {
   return {name_, group_, force_, torque_, power_, mass_, count_, impacts_};
 }
 
-/// Everything the chunks have added up, in their order.
-void Dem::Impl::gather_wall_loads() {
-  if (!wall_loads.is_on()) return;
-  for (Chunk& c : chunks) wall_loads.take(c.wall_sums, c.wall_impacts);
-}
-
-void Dem::watch_walls() {
-  Impl& dem = *impl_;
-  std::size_t walls = 0;
-  for (const Surface& s : dem.surfaces) walls = std::max<std::size_t>(walls, s.wall + 1u);
-  dem.wall_loads.begin(dem.surfaces, walls);
-  dem.must_rebuild = true;
-}
-
-sdk::WallColumns Dem::close_wall_loads(double interval) {
-  Impl& dem = *impl_;
-  if (!dem.wall_loads.is_on()) return {};
-  dem.gather_wall_loads();
-  dem.wall_loads.close(interval);
-  // A grain that touches two parts of one body counts once.
-  std::vector<std::vector<std::int32_t>> rows(dem.wall_loads.walls());
+void WallLoads::note_contacts(const ContactScene& scene, const InnerList& lists) {
+  // A particle that touches two parts of one body counts once.
+  std::vector<std::vector<std::int32_t>> rows(walls());
   const auto note = [&](std::int32_t surface, std::int32_t row) {
-    rows[static_cast<std::size_t>(dem.surfaces[static_cast<std::size_t>(surface)].wall)].push_back(
-        row);
+    const auto wall = scene.surfaces[static_cast<std::size_t>(surface)].wall;
+    rows[static_cast<std::size_t>(wall)].push_back(row);
   };
-  for (const Chunk& c : dem.chunks) {
-    for (std::size_t q = 0; q < c.surfaces.size(); ++q) {
-      if (c.surfaces.is_touching[q] != 0) note(c.surfaces.b[q], c.surfaces.a[q]);
+  for (std::size_t t = 0; t < lists.tiles(); ++t) {
+    const ContactList& list = lists.contacts(t).walls;
+    for (std::size_t q = 0; q < list.size(); ++q) {
+      if (list.touching()[q] != 0) note(list.b()[q], list.a()[q]);
     }
   }
-  for (std::size_t q = 0; q < dem.fine.size(); ++q) {
-    if (dem.fine.is_touching[q] != 0 && dem.fine.b[q] < 0) note(-1 - dem.fine.b[q], dem.fine.a[q]);
+  const ContactList& fine = lists.fine();
+  for (std::size_t q = 0; q < fine.size(); ++q) {
+    if (fine.touching()[q] != 0 && fine.b()[q] < 0) note(-1 - fine.b()[q], fine.a()[q]);
   }
   for (std::size_t w = 0; w < rows.size(); ++w) {
     std::sort(rows[w].begin(), rows[w].end());
     rows[w].erase(std::unique(rows[w].begin(), rows[w].end()), rows[w].end());
-    double mass = 0.0;
+    mass_[w] = 0.0;
     for (const std::int32_t row : rows[w]) {
       const auto n = static_cast<std::size_t>(row);
-      mass += dem.store.weight[n] / dem.store.velocity(n)[3];
+      mass_[w] += scene.particles.weight[n] / scene.particles.velocity(n)[3];
     }
-    dem.wall_loads.set_contact(w, mass, static_cast<std::int64_t>(rows[w].size()));
+    count_[w] = static_cast<std::int64_t>(rows[w].size());
   }
-  return dem.wall_loads.columns();
 }
-
-sdk::WallColumns Dem::wall_loads() const { return impl_->wall_loads.columns(); }
 
 }  // namespace dust::particles

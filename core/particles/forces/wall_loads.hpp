@@ -11,6 +11,9 @@
 
 namespace dust::particles {
 
+class InnerList;
+struct ContactScene;
+
 /// What grains did to walls since the last time it was asked, added up in a fixed order.
 class WallLoads {
  public:
@@ -25,10 +28,8 @@ class WallLoads {
   void take(std::vector<double>& sums, std::vector<sdk::WallImpact>& impacts);
   /// Ends the interval [s]: what was added becomes the means of `columns`.
   void close(double interval);
-  void set_contact(std::size_t wall, double mass, std::int64_t count) {
-    mass_[wall] = mass;
-    count_[wall] = count;
-  }
+  /// What touches walls now.
+  void note_contacts(const ContactScene& scene, const InnerList& lists);
   [[nodiscard]] sdk::WallColumns columns() const;
 
  private:

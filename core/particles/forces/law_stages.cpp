@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "particles/law_stages.hpp"
+#include "particles/forces/law_stages.hpp"
 
 #include "contact/batch_kernels.hpp"
 

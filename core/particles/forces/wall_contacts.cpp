@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "particles/wall_contacts.hpp"
+#include "particles/forces/wall_contacts.hpp"
 
 #include <algorithm>
 

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "particles/forces/contact_forces.hpp"
+
+#include "contact/standing.hpp"
+#include "particles/forces/law_stages.hpp"
+
+#include <algorithm>
+
+namespace dust::particles {
+
+using contact::BatchColumns;
+using contact::k_batch;
+
+void ContactForces::restart(std::size_t tiles, std::size_t walls) {
+  largest_before_ = largest_overlap();
+  tiles_.assign(tiles, {});
+  for (OfTile& t : tiles_) t.wall_sums.assign(WallLoads::k_sums * walls, 0.0);
+}
+
+void ContactForces::evaluate(const ContactScene& scene, Tile range, TileContacts& contacts,
+                             double* force) {
+  OfTile& tile = tiles_[static_cast<std::size_t>(range.index)];
+  tile.contacts = 0;
+  contacts.pairs.histories_to_columns();
+  for (const LawRange& r : contacts.pairs.ranges()) {
+    persistent_pairs(scene, r, contacts, tile, force);
+    new_pairs(scene, r, contacts, tile, force);
+  }
+  walls(scene, range, contacts, tile, force);
+}
+
+/// Statistical weights of the sides of a batch, and the effective mass that a pair shows with them;
+/// returns whether any two differ.
+bool ContactForces::find_weight_ratios(const ContactScene& scene, const contact::PairView& pairs,
+                                       const std::int32_t* contacts, std::size_t first,
+                                       std::size_t count, BatchColumns& columns) {
+  if (!scene.has_weights) return false;
+  bool has_scales = false;
+  double* scale_i = columns.column(BatchColumns::scale_i);
+  double* scale_j = columns.column(BatchColumns::scale_j);
+  const GrainStore& particles = scene.particles;
+  for (std::size_t q = 0; q < count; ++q) {
+    const std::size_t entry =
+        contacts == nullptr ? first + q : static_cast<std::size_t>(contacts[q]);
+    const double wi = particles.weight[static_cast<std::size_t>(pairs.a[entry])];
+    const double wj = particles.weight[static_cast<std::size_t>(pairs.b[entry])];
+    scale_i[q] = felt_share(wi, wj);
+    scale_j[q] = felt_share(wj, wi);
+    if (wi == wj) continue;
+    has_scales = true;
+    const auto inverse_mass = [&](std::int32_t row) {
+      return particles.velocity(static_cast<std::size_t>(row))[3];
+    };
+    columns.column(BatchColumns::inverse_mass)[q] =
+        scale_i[q] * inverse_mass(pairs.a[entry]) + scale_j[q] * inverse_mass(pairs.b[entry]);
+  }
+  return has_scales;
+}
+
+/// Contacts that touched when the list was pruned: nearly all still do, so that none is sorted out,
+/// and their histories stand where the laws look for them.
+void ContactForces::persistent_pairs(const ContactScene& scene, const LawRange& range,
+                                     TileContacts& contacts, OfTile& tile, double* force) {
+  const contact::PairView pairs = contacts.pairs.view();
+  const std::size_t stride = pairs.history_stride;
+  const PairLaws& law = scene.laws[static_cast<std::size_t>(range.law)];
+  auto& columns = thread_columns();
+  const auto end = static_cast<std::size_t>(range.persistent_end);
+  for (auto p = static_cast<std::size_t>(range.begin); p < end; p += k_batch) {
+    const std::size_t count = std::min(k_batch, end - p);
+    const std::size_t near =
+        contact::gather_standing(scene.rows(), scene.images, pairs, p, count, law.range, columns);
+    columns.keep_history_at(pairs.history + p * stride, count);
+    const bool has_scales = find_weight_ratios(scene, pairs, nullptr, p, count, columns);
+    const double overlap = contact::derive_pair_columns(columns, count);
+    tile.largest_overlap = std::max(tile.largest_overlap, overlap);
+    if (near < count) contact::hold_apart(pairs.is_touching + p, count, columns);
+    evaluate_laws(law, columns, count, scene.step);
+    if (near < count) contact::forget_apart(pairs.is_touching + p, count, stride, columns);
+    tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(near);
+    contact::scatter_pairs(contacts.slots.data() + p, count, has_scales, columns, force);
+  }
+  columns.keep_history_here();
+}
+
+/// The others: found touching or not at each step.
+void ContactForces::new_pairs(const ContactScene& scene, const LawRange& range,
+                              TileContacts& contacts, OfTile& tile, double* force) {
+  std::int32_t touching[k_batch];
+  auto& columns = thread_columns();
+  const contact::PairView pairs = contacts.pairs.view();
+  const contact::RowView rows = scene.rows();
+  const int groups = static_cast<int>(pairs.history_stride / 4);
+  const PairLaws& law = scene.laws[static_cast<std::size_t>(range.law)];
+  auto next = static_cast<std::size_t>(range.persistent_end);
+  const auto end = static_cast<std::size_t>(range.end);
+  while (next < end) {
+    const std::size_t count = contact::gather_touching(rows, scene.images, pairs, next, end,
+                                                       law.range, touching, columns);
+    if (count == 0) continue;
+    contact::load_history(pairs, touching, count, groups, columns);
+    const bool has_scales = find_weight_ratios(scene, pairs, touching, 0, count, columns);
+    const double overlap = contact::derive_pair_columns(columns, count);
+    tile.largest_overlap = std::max(tile.largest_overlap, overlap);
+    evaluate_laws(law, columns, count, scene.step);
+    tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(count);
+    contact::store_history(pairs, touching, count, groups, columns);
+    contact::scatter_pairs(contacts.slots.data(), touching, count, has_scales, columns, force);
+  }
+}
+
+std::int64_t ContactForces::contacts() const {
+  std::int64_t sum = 0;
+  for (const OfTile& t : tiles_) sum += t.contacts;
+  return sum;
+}
+
+double ContactForces::largest_overlap() const {
+  double largest = largest_before_;
+  for (const OfTile& t : tiles_) largest = std::max(largest, t.largest_overlap);
+  return largest;
+}
+
+void ContactForces::give_wall_loads(WallLoads& loads) {
+  for (OfTile& t : tiles_) loads.take(t.wall_sums, t.wall_impacts);
+}
+
+}  // namespace dust::particles

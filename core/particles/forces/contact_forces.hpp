@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "contact/batch_kernels.hpp"
+#include "dust/sdk/sensor.hpp"
+#include "particles/forces/wall_loads.hpp"
+#include "particles/grain_store.hpp"
+#include "particles/neighbours/inner_list.hpp"
+#include "particles/pair_law_table.hpp"
+#include "particles/surfaces.hpp"
+#include "particles/tile.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace dust::particles {
+
+/// What contacts are evaluated on: views of what others own.
+struct ContactScene {
+  const GrainStore& particles;
+  const PairLawTable& laws;
+  std::span<const Surface> surfaces;
+  const contact::Images& images;
+  double step = 0.0;         ///< [s]
+  double time = 0.0;         ///< [s] of the positions
+  bool has_weights = false;  ///< coarse particles of different statistical weights
+
+  [[nodiscard]] contact::RowView rows() const {
+    return {particles.position.data(), particles.motion.data(), particles.spin.data()};
+  }
+};
+
+/// The contacts of coarse particles, tile by tile, through the laws in batches; and what they leave
+/// beside forces: counts, overlaps, loads on walls. Tiles may be worked through at once.
+class ContactForces {
+ public:
+  /// New tiles and so many walls whose loads are kept.
+  void restart(std::size_t tiles, std::size_t walls);
+  /// Adds the forces of all contacts of a tile to `force`, rows of a ForceBuffer.
+  void evaluate(const ContactScene& scene, Tile tile, TileContacts& contacts, double* force);
+
+  /// In touch at the last step.
+  [[nodiscard]] std::int64_t contacts() const;
+  [[nodiscard]] std::int64_t contacts(std::size_t tile) const { return tiles_[tile].contacts; }
+  void set_contacts(std::size_t tile, std::int64_t count) { tiles_[tile].contacts = count; }
+  /// [-] overlap / smaller radius, since the start.
+  [[nodiscard]] double largest_overlap() const;
+  void set_largest_overlap(double overlap) { largest_before_ = overlap; }
+  /// Gives what tiles have added up, in their order.
+  void give_wall_loads(WallLoads& loads);
+
+ private:
+  struct OfTile {
+    std::int64_t contacts = 0;
+    double largest_overlap = 0.0;
+    std::vector<double> wall_sums;              ///< WallLoads::k_sums per wall, if kept
+    std::vector<sdk::WallImpact> wall_impacts;  ///< in the order of the contacts
+  };
+  /// One batch of contacts with a surface.
+  struct WallBatch;
+
+  // contact_forces.cpp
+  static bool find_weight_ratios(const ContactScene& scene, const contact::PairView& pairs,
+                                 const std::int32_t* contacts, std::size_t first, std::size_t count,
+                                 contact::BatchColumns& columns);
+  void persistent_pairs(const ContactScene& scene, const LawRange& range, TileContacts& contacts,
+                        OfTile& tile, double* force);
+  void new_pairs(const ContactScene& scene, const LawRange& range, TileContacts& contacts,
+                 OfTile& tile, double* force);
+  // wall_forces.cpp
+  void walls(const ContactScene& scene, Tile range, TileContacts& contacts, OfTile& tile,
+             double* force);
+  static void note_wall_loads(const ContactScene& scene, OfTile& tile, const Surface& surface,
+                              std::span<const std::int32_t> rows, const bool* is_new,
+                              contact::BatchColumns& columns);
+
+  std::vector<OfTile> tiles_;
+  double largest_before_ = 0.0;  ///< of tiles that are gone
+};
+
+}  // namespace dust::particles

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "particles/forces/contact_forces.hpp"
+#include "particles/forces/law_stages.hpp"
+#include "particles/forces/wall_contacts.hpp"
+
+#include <algorithm>
+
+/// Contacts of a tile's particles with surfaces.
+namespace dust::particles {
+namespace {
+
+using contact::BatchColumns;
+using contact::k_batch;
+
+/// Where some particles are nearest to a surface.
+struct SurfacePoints {
+  double distance[k_batch];
+  double normal[3][k_batch];
+
+  [[nodiscard]] bodies::SurfacePoint point(std::size_t n) const {
+    return {distance[n], {normal[0][n], normal[1][n], normal[2][n]}};
+  }
+
+  void find(const Surface& surface, const double* position, std::span<const std::int32_t> rows,
+            double range, std::int32_t* nearest_triangles) {
+    double centre[3][k_batch];
+    double reach[k_batch];
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      const double* p = position + 4 * static_cast<std::ptrdiff_t>(rows[n]);
+      for (int d = 0; d < 3; ++d) centre[d][n] = p[d];
+      reach[n] = p[3] + range;
+    }
+    surface.touch({.count = rows.size(),
+                   .x = centre[0],
+                   .y = centre[1],
+                   .z = centre[2],
+                   .reach = reach,
+                   .hint = nearest_triangles,
+                   .distance = distance,
+                   .normal_x = normal[0],
+                   .normal_y = normal[1],
+                   .normal_z = normal[2]});
+  }
+};
+
+}  // namespace
+
+/// Contacts with a surface until a batch is full.
+struct ContactForces::WallBatch {
+  const ContactScene& scene;
+  const Surface& surface;
+  const PairLaws& law;
+  const contact::PairView& list;
+  Tile range;
+  OfTile& tile;
+  double* force;
+  BatchColumns& columns;
+  std::size_t count = 0;
+  std::int32_t contacts[k_batch];
+  std::int32_t rows[k_batch];
+  std::int32_t local_rows[k_batch];
+  bool is_new[k_batch];
+
+  /// Entry `q` of the list, `overlap` [m] deep or within the law's range.
+  void add(std::int32_t q, double overlap, const bodies::SurfacePoint& near) {
+    const auto u = static_cast<std::size_t>(q);
+    const std::int32_t row = list.a[u];
+    is_new[count] = list.is_touching[u] == 0;
+    list.is_touching[u] = 1;
+    contacts[count] = q;
+    rows[count] = row;
+    local_rows[count] = row - range.begin;
+    const auto grain = GrainAtWall::from(scene.rows(), static_cast<std::size_t>(row));
+    put_at_wall(grain, near, count, columns);
+    tile.largest_overlap = std::max(tile.largest_overlap, overlap / grain.radius);
+    if (++count == k_batch) evaluate();
+  }
+  void evaluate() {
+    if (count == 0) return;
+    const int groups = static_cast<int>(list.history_stride / 4);
+    derive_wall_columns(surface, scene.time, scene.step, count, columns);
+    contact::load_history(list, contacts, count, groups, columns);
+    evaluate_laws(law, columns, count, scene.step);
+    contact::store_history(list, contacts, count, groups, columns);
+    if (!tile.wall_sums.empty()) {
+      note_wall_loads(scene, tile, surface, {rows, count}, is_new, columns);
+    }
+    contact::scatter_single(local_rows, count, columns, force);
+    tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(count);
+    count = 0;
+  }
+};
+
+void ContactForces::walls(const ContactScene& scene, Tile range, TileContacts& contacts,
+                          OfTile& tile, double* force) {
+  const contact::PairView list = contacts.walls.view();
+  const double* const position = scene.particles.position.data();
+  for (const LawRange& r : contacts.walls.ranges()) {
+    const Surface& surface = scene.surfaces[static_cast<std::size_t>(r.surface)];
+    const PairLaws& law = scene.laws[static_cast<std::size_t>(r.law)];
+    SurfacePoints near;
+    WallBatch batch{.scene = scene,
+                    .surface = surface,
+                    .law = law,
+                    .list = list,
+                    .range = range,
+                    .tile = tile,
+                    .force = force,
+                    .columns = thread_columns()};
+    for (std::int32_t q = r.begin; q < r.end; ++q) {
+      const std::size_t n = static_cast<std::size_t>(q - r.begin) % k_batch;
+      if (n == 0) {
+        const auto count =
+            static_cast<std::size_t>(std::min(r.end, q + static_cast<std::int32_t>(k_batch)) - q);
+        near.find(surface, position, {list.a + q, count}, law.range,
+                  contacts.nearest_triangles.data() + q);
+      }
+      const auto u = static_cast<std::size_t>(q);
+      const double radius = position[4 * static_cast<std::size_t>(list.a[u]) + 3];
+      const double overlap = radius - near.distance[n];
+      if (overlap > -law.range) {
+        batch.add(q, overlap, near.point(n));
+      } else if (list.is_touching[u] != 0) {
+        list.is_touching[u] = 0;
+        std::fill_n(list.history + u * list.history_stride, list.history_stride, 0.0);
+      }
+    }
+    batch.evaluate();
+  }
+}
+
+/// Books what a batch did to a wall. The velocity columns hold the relative velocity of the contact
+/// points, the separation columns that of the surface.
+void ContactForces::note_wall_loads(const ContactScene& scene, OfTile& tile, const Surface& surface,
+                                    std::span<const std::int32_t> rows, const bool* is_new,
+                                    BatchColumns& columns) {
+  using B = BatchColumns;
+  double* sums = tile.wall_sums.data() + WallLoads::k_sums * static_cast<std::size_t>(surface.wall);
+  for (std::size_t q = 0; q < rows.size(); ++q) {
+    const auto get = [&](int column) {
+      return sdk::Vec3{columns.column(column)[q], columns.column(column + 1)[q],
+                       columns.column(column + 2)[q]};
+    };
+    const auto row = static_cast<std::size_t>(rows[q]);
+    const double* p = scene.particles.position.data() + 4 * row;
+    const double weight = scene.particles.weight[row];
+    add_load(sums, {p[0], p[1], p[2]}, get(B::force_x), get(B::torque_i_x), get(B::separation_x),
+             weight * scene.step);
+    if (!is_new[q]) continue;
+    tile.wall_impacts.push_back(impact_of(surface.wall, 1.0 / scene.particles.velocity(row)[3],
+                                          weight, get(B::velocity_x), get(B::normal_x)));
+  }
+}
+
+}  // namespace dust::particles

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "particles/neighbours/contact_list.hpp"
+
+#include "contact/approach.hpp"
+#include "contact/standing.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+
+namespace dust::particles {
+namespace {
+
+/// Entries [next, end) of a contact list.
+struct Run {
+  std::size_t next = 0;
+  std::size_t end = 0;
+};
+
+/// Finds the contacts of a list in the order of the pair list it came from: both runs of a range
+/// stand in that order.
+class HistoryCursor {
+ public:
+  explicit HistoryCursor(const ContactList& contacts)
+      : contacts_(contacts), rest_{0, contacts.ranges().empty() ? contacts.size() : 0} {}
+
+  /// To the contacts of another range. After a rebuild there is one run of all.
+  void turn_to(const LawRange& range) {
+    if (contacts_.ranges().empty()) return;
+    persistent_ = rest_ = {};
+    for (const LawRange& r : contacts_.ranges()) {
+      if (r.law != range.law || r.surface != range.surface) continue;
+      persistent_ = {static_cast<std::size_t>(r.begin), static_cast<std::size_t>(r.persistent_end)};
+      rest_ = {static_cast<std::size_t>(r.persistent_end), static_cast<std::size_t>(r.end)};
+      return;
+    }
+  }
+  /// The contact of the next entry of the range, in touch, or -1.
+  [[nodiscard]] std::int32_t find(std::int32_t a, std::int32_t b) {
+    return std::max(find_in(persistent_, a, b), find_in(rest_, a, b));
+  }
+
+ private:
+  std::int32_t find_in(Run& run, std::int32_t a, std::int32_t b) const {
+    if (run.next >= run.end) return -1;
+    const std::size_t u = run.next;
+    const bool is_it = (contacts_.a()[u] == a) & (contacts_.b()[u] == b);
+    run.next += is_it ? 1 : 0;
+    return is_it & (contacts_.touching()[u] != 0) ? static_cast<std::int32_t>(u) : -1;
+  }
+  const ContactList& contacts_;
+  Run persistent_, rest_;
+};
+
+/// Visits the blocks of a list whose histories stand in columns: where one begins, how many rows.
+template <class Visit>
+void each_block(std::span<const LawRange> ranges, Visit&& visit) {
+  for (const LawRange& r : ranges) {
+    for (std::int32_t p = r.begin; p < r.persistent_end;) {
+      const std::int32_t count =
+          std::min(r.persistent_end - p, static_cast<std::int32_t>(contact::k_batch));
+      visit(static_cast<std::size_t>(p), static_cast<std::size_t>(count));
+      p += count;
+    }
+  }
+}
+
+/// The first `count` of `from` in a block of just their size: lists are most of the memory.
+template <class Vector>
+void take_exactly(Vector& to, const Vector& from, std::size_t count) {
+  const auto end = from.begin() + static_cast<std::ptrdiff_t>(count);
+  if (to.capacity() < count || 4 * to.capacity() > 5 * count + 64) {
+    Vector(from.begin(), end).swap(to);
+  } else {
+    to.assign(from.begin(), end);
+  }
+}
+
+}  // namespace
+
+struct ContactList::Choice {
+  std::int32_t entry;    ///< of the pair list
+  std::int32_t contact;  ///< before, or -1
+};
+
+/// Working space of a thread, never given back: for lists made again and again.
+struct ContactList::Scratch {
+  std::vector<Choice> touching, apart, chosen;
+  std::vector<std::int32_t> a, b;
+  std::vector<std::uint8_t> is_touching;
+  contact::AlignedVector<double> history;
+  std::vector<LawRange> ranges;
+  std::vector<std::int32_t> unseen;
+
+  void expect(std::size_t entries) {
+    for (auto* v : {&touching, &apart, &chosen}) {
+      if (v->size() <= entries) v->resize(entries + 1);
+    }
+    ranges.clear();
+    unseen.clear();
+  }
+  void make_room(std::size_t count, std::size_t stride) {
+    if (a.size() < count) a.resize(count), b.resize(count), is_touching.resize(count);
+    if (history.size() < count * stride) history.resize(count * stride);
+  }
+};
+
+void ContactList::clear() {
+  a_.clear(), b_.clear(), is_touching_.clear(), history_.clear(), ranges_.clear();
+}
+
+void ContactList::push(std::int32_t i, std::int32_t j, const double* history,
+                       std::uint8_t touching) {
+  a_.push_back(i), b_.push_back(j), is_touching_.push_back(touching);
+  if (history == nullptr) {
+    history_.insert(history_.end(), stride_, 0.0);
+  } else {
+    history_.insert(history_.end(), history, history + stride_);
+  }
+}
+
+/// Marks first, without branches on either, which no processor foretells; copies then.
+std::span<const std::int32_t> ContactList::prune(const PairList& outer,
+                                                 std::span<const std::uint8_t> approach,
+                                                 bool may_persist) {
+  thread_local Scratch scratch;
+  scratch.expect(outer.size());
+  const std::int32_t* const a = outer.a().data();
+  const std::int32_t* const b = outer.b().data();
+  Choice* end = scratch.chosen.data();
+  const auto number = [&] { return static_cast<std::int32_t>(end - scratch.chosen.data()); };
+  HistoryCursor known(*this);
+  for (const LawRange& range : outer.ranges()) {
+    known.turn_to(range);
+    Choice* const touching = scratch.touching.data();
+    Choice* touches = touching;
+    Choice* approaches = scratch.apart.data();
+    for (auto q = static_cast<std::size_t>(range.begin); q < static_cast<std::size_t>(range.end);
+         ++q) {
+      const std::int32_t contact = known.find(a[q], b[q]);
+      *touches = *approaches = {static_cast<std::int32_t>(q), contact};
+      touches += contact >= 0 ? 1 : 0;
+      approaches += (contact < 0) & (approach[q] != 0) ? 1 : 0;
+      if ((contact < 0) & (approach[q] > contact::k_may_meet)) [[unlikely]] {
+        scratch.unseen.push_back(static_cast<std::int32_t>(q));
+      }
+    }
+    LawRange part{range.law, range.surface, number(), 0, 0};
+    const std::ptrdiff_t persistent = may_persist ? (touches - touching) / 8 * 8 : 0;
+    end = std::copy_n(touching, persistent, end);
+    part.persistent_end = number();
+    end = std::merge(touching + persistent, touches, scratch.apart.data(), approaches, end,
+                     [](const Choice& x, const Choice& y) { return x.entry < y.entry; });
+    part.end = number();
+    if (part.end > part.begin) scratch.ranges.push_back(part);
+  }
+  const auto count = static_cast<std::size_t>(number());
+  scratch.make_room(count, stride_);
+  alignas(32) static constexpr double k_new[contact::k_max_history] = {};
+  const double* const history = history_.data();
+  double* to = scratch.history.data();
+  for (std::size_t k = 0; k < count; ++k, to += stride_) {
+    const auto [q, contact] = scratch.chosen[k];
+    scratch.a[k] = a[static_cast<std::size_t>(q)];
+    scratch.b[k] = b[static_cast<std::size_t>(q)];
+    scratch.is_touching[k] = contact < 0 ? 0 : is_touching_[static_cast<std::size_t>(contact)];
+    const double* from =
+        contact < 0 ? k_new : history + static_cast<std::size_t>(contact) * stride_;
+    for (std::size_t h = 0; h < stride_; h += 4) std::memcpy(to + h, from + h, 4 * sizeof(double));
+  }
+  take(scratch, count);
+  return scratch.unseen;
+}
+
+void ContactList::take(const Scratch& scratch, std::size_t count) {
+  take_exactly(a_, scratch.a, count);
+  take_exactly(b_, scratch.b, count);
+  take_exactly(is_touching_, scratch.is_touching, count);
+  take_exactly(history_, scratch.history, count * stride_);
+  ranges_ = scratch.ranges;
+}
+
+void ContactList::histories_to_columns() {
+  if (is_in_columns_) return;
+  is_in_columns_ = true;
+  each_block(ranges_, [&](std::size_t first, std::size_t count) {
+    contact::rows_to_columns(history_.data() + first * stride_, count, stride_);
+  });
+}
+
+void ContactList::histories_to_rows() {
+  if (!is_in_columns_) return;
+  is_in_columns_ = false;
+  each_block(ranges_, [&](std::size_t first, std::size_t count) {
+    contact::columns_to_rows(history_.data() + first * stride_, count, stride_);
+  });
+}
+
+void ContactList::renumber(std::span<const std::int32_t> new_row) {
+  const auto row_of = [&](std::int32_t row) { return new_row[static_cast<std::size_t>(row)]; };
+  for (std::size_t q = 0; q < size(); ++q) {
+    a_[q] = row_of(a_[q]);
+    const bool is_particle =
+        partners_ == Partners::particles || (partners_ == Partners::both && b_[q] >= 0);
+    const std::int32_t b = is_particle ? row_of(b_[q]) : 0;
+    if (a_[q] < 0 || b < 0) {
+      is_touching_[q] = 0;
+      a_[q] = b_[q] = 0;
+    } else if (is_particle) {
+      b_[q] = b;
+    }
+  }
+}
+
+}  // namespace dust::particles

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/random.hpp"
+#include "particles/grain_store.hpp"
+#include "particles/neighbours/list_scene.hpp"
+#include "support/dem_rig.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <utility>
+
+namespace dust::test {
+
+/// Particles at random places of a periodic box, coarse ones first, for tests of pair lists.
+class ListCloud {
+ public:
+  static constexpr double k_box = 0.02;       // [m]
+  static constexpr double k_diameter = 1e-3;  // [m] of coarse ones; fine ones have a tenth
+  static constexpr double k_step = 1e-5;      // [s]
+
+  ListCloud(std::size_t coarse, std::size_t fine, double speed, std::size_t tile_size = 512) {
+    DemRig rig;
+    const int sand = rig.material(2650, 50e6, 0.3);
+    rig.law(sand, sand, 0.7, 0.4);
+    laws_ = std::make_unique<particles::PairLawTable>(std::move(rig.laws),
+                                                      std::vector<std::string>{"m0"}, k_diameter);
+    for (int d = 0; d < 3; ++d) {
+      images_.length[d] = k_box;
+      images_.half[d] = 0.5 * k_box;
+    }
+    tiling_ = {coarse, tile_size};
+    particles.resize(coarse + fine);
+    const sdk::Random random(17, 1);
+    for (std::size_t n = 0; n < particles.size(); ++n) {
+      for (std::size_t d = 0; d < 3; ++d) {
+        particles.position[4 * n + d] = k_box * random.uniform(n, d);
+        particles.velocity(n)[d] = speed * (2.0 * random.uniform(n, 3 + d) - 1.0);
+      }
+      particles.position[4 * n + 3] = n < coarse ? 0.5 * k_diameter : 0.05 * k_diameter;
+      particles.half_velocity(n)[3] = 0.5 * k_step;  // it has made steps
+      particles.id[n] = static_cast<std::int64_t>(particles.size() - n);
+    }
+  }
+
+  [[nodiscard]] particles::ListScene scene() const {
+    return {.particles = particles,
+            .tiling = tiling_,
+            .laws = *laws_,
+            .surfaces = {},
+            .images = images_,
+            .gravity = gravity_,
+            .origin = {0, 0, 0},
+            .step = k_step,
+            .largest_diameter = k_diameter};
+  }
+  /// All go straight on.
+  void drift(double duration) {
+    for (std::size_t n = 0; n < particles.size(); ++n) {
+      for (std::size_t d = 0; d < 3; ++d) {
+        particles.position[4 * n + d] += duration * particles.velocity(n)[d];
+      }
+    }
+  }
+  /// Whether two touch within a `duration` [s] if both go straight on.
+  [[nodiscard]] bool will_touch(std::size_t i, std::size_t j, double duration) const {
+    const particles::ListScene s = scene();
+    const double* vi = particles.velocity(i);
+    const double* vj = particles.velocity(j);
+    return particles::passes_within(contact::nearest_image(images_, s.position(j), s.position(i)),
+                                    {vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]}, duration,
+                                    s.radius(i) + s.radius(j));
+  }
+
+  particles::GrainStore particles;
+
+ private:
+  std::unique_ptr<particles::PairLawTable> laws_;
+  contact::Images images_;
+  particles::Tiling tiling_;
+  double gravity_[4] = {0, 0, 0, 0};
+};
+
+}  // namespace dust::test
