@@ -14,7 +14,7 @@ namespace {
 /// Dust may be as fast as what carries it; beyond that it was thrown.
 constexpr double k_room = 1.2;
 /// Speed of a fine grain set free by the elastic energy of coarse ones of the softness that such
-/// runs are made with [m/s]: the order of magnitude that core/particles/health.cpp tells of.
+/// runs are made with [m/s]: the order of magnitude that core/particles/dem_step.cpp tells of.
 constexpr double k_thrown = 10.0;
 
 }  // namespace

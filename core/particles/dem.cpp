@@ -1,128 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/dem.hpp"
 
-#include "dust/sdk/error.hpp"
 #include "dust/sdk/sphere.hpp"
 #include "particles/forces/contact_snapshot.hpp"
 #include "particles/impl.hpp"
-#include "particles/motion/leapfrog.hpp"
+#include "particles/particle_error.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <utility>
 
 namespace dust::particles {
-namespace {
-
-std::vector<std::string> names_of(const auto& materials) {
-  std::vector<std::string> names;
-  for (const auto& m : materials) names.push_back(m.name);
-  return names;
-}
-
-double largest_of(std::span<const double> diameters) {
-  return diameters.empty() ? 0.0 : *std::max_element(diameters.begin(), diameters.end());
-}
-
-}  // namespace
 
 Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
-                std::vector<PairLaws> pair_laws, std::vector<double> diameters,
+                std::vector<PairLaws> laws, const std::vector<double>& diameters,
                 double fluid_density)
-    : laws(std::move(pair_laws), names_of(setup.materials), largest_of(diameters)),
-      surfaces(surfaces_of(setup, bodies)),
-      domain_min(setup.domain.min),
-      domain_max(setup.domain.max),
-      steps(particles::time_steps(setup, bodies, laws.all(), diameters)) {
-  store.has_fluid = setup.fluid.has_value();
-  for (const auto& m : setup.materials) {
-    materials.push_back(m.properties);
-    // Buoyancy of the hydrostatic pressure: the fluid's own pressure does not hold it.
-    const double share = 1.0 - fluid_density / m.properties.density;
-    gravity.insert(gravity.end(), {share * setup.gravity.x, share * setup.gravity.y,
-                                   share * setup.gravity.z, 0.0});
-  }
-  for (int d = 0; d < 3; ++d) {
-    const auto low = setup.domain.sides[static_cast<std::size_t>(2 * d)].grains;
-    const auto high = setup.domain.sides[static_cast<std::size_t>(2 * d + 1)].grains;
-    sides[static_cast<std::size_t>(2 * d)] = low;
-    sides[static_cast<std::size_t>(2 * d + 1)] = high;
-    images.half[d] = std::numeric_limits<double>::infinity();
-    if (low == scenario::GrainSide::periodic) {
-      is_periodic = true;
-      images.length[d] = domain_max[d] - domain_min[d];
-      images.half[d] = 0.5 * images.length[d];
-    }
-  }
-}
+    : conditions(setup, bodies, std::move(laws), diameters, fluid_density),
+      store(setup.fluid.has_value()),
+      inner(conditions.laws.history_stride()) {}
 
 void Dem::Impl::insert(std::span<const NewGrain> grains) {
   if (grains.empty()) return;
-  std::size_t n = store.size();
-  store.resize(n + grains.size());
-  outer.resize(n + grains.size());
   for (const NewGrain& g : grains) {
-    const double mass =
-        materials[static_cast<std::size_t>(g.material)].density * sdk::sphere_volume(g.diameter);
-    const double row[3][4] = {{g.position.x, g.position.y, g.position.z, 0.5 * g.diameter},
-                              {g.velocity.x, g.velocity.y, g.velocity.z, 1.0 / mass},
-                              {g.rotation.x, g.rotation.y, g.rotation.z, 0.5 * g.diameter}};
-    for (std::size_t d = 0; d < 4; ++d) {
-      store.position[4 * n + d] = row[0][d];
-      store.velocity(n)[d] = row[1][d];
-      store.rotation(n)[d] = row[2][d];
-      // Lag 0: the first kick lasts half a step, as if positions and velocities had come together.
-      store.half_velocity(n)[d] = d < 3 ? row[1][d] : 0.0;
-      store.half_rotation(n)[d] = row[2][d];
-    }
-    if (store.has_fluid) {
-      std::fill_n(store.action.begin() + 4 * static_cast<std::ptrdiff_t>(n), 4, 0.0);
-      std::fill_n(store.impulse.begin() + 4 * static_cast<std::ptrdiff_t>(n), 4, 0.0);
-      store.decay[2 * n] = store.decay[2 * n + 1] = 1.0;
-    }
-    store.id[n] = next_id++;
-    store.material[n] = g.material;
-    store.weight[n] = g.weight;
-    store.population[n] = book.population(g.diameter, g.weight, g.material, mass);
-    book.enter(store.population[n]);
-    ++n;
+    const auto& material = conditions.materials[static_cast<std::size_t>(g.material)];
+    const double mass = material.density * sdk::sphere_volume(g.diameter);
+    const std::int32_t population = book.population(g.diameter, g.weight, g.material, mass);
+    store.append(g, mass, population);
+    book.enter(population);
   }
+  outer.resize(store.size());
   book.close();
   outer.require(OuterList::Due::reorder);
 }
 
-void Dem::Impl::remove_leavers() {
+void Dem::Impl::remove_escaped() {
   std::vector<std::int32_t> keep;
   keep.reserve(store.size());
   for (std::size_t n = 0; n < store.size(); ++n) {
-    const double* p = store.position.data() + 4 * n;
-    bool leaves = false;
-    for (int d = 0; d < 3; ++d) {
-      const bool below = p[d] < domain_min[d];
-      const bool above = p[d] > domain_max[d];
-      if (!below && !above && std::isfinite(p[d])) continue;
-      const auto side = static_cast<std::size_t>(2 * d + (above ? 1 : 0));
-      if (sides[side] == scenario::GrainSide::wall) {
-        // Dust squeezed against a wall by a coarse grain gets its centre into it and comes back out
-        // (the overlap is reported); a grain wholly beyond is lost.
-        const double depth = above ? p[d] - domain_max[d] : domain_min[d] - p[d];
-        if (depth <= p[3]) continue;
-        fail(n,
-             "left the domain through the wall '" + std::string(scenario::k_side_names[side]) + "'",
-             "the time step is too long for the speed of the impact: give time.expected_speed or a "
-             "smaller time.dem_step");
-      }
-      leaves = leaves || sides[side] == scenario::GrainSide::open;
+    const ParticleDomain::Place place = conditions.domain.place_of(store.position(n));
+    if (place.where == ParticleDomain::Where::lost) {
+      throw_particle_error(
+          contact_scene(), inner, n,
+          "left the domain through the wall '" + std::string(scenario::k_side_names[place.side]) +
+              "'",
+          "the time step is too long for the speed of the impact: give time.expected_speed or a "
+          "smaller time.dem_step");
     }
-    if (leaves) {
-      book.leave(store.population[n]);
+    if (place.where == ParticleDomain::Where::escaped) {
+      book.leave(store.population(n));
     } else {
       keep.push_back(static_cast<std::int32_t>(n));
     }
   }
   if (keep.size() == store.size()) return;
-  // History and left-over velocities of the others survive: the lists still name the rows as they
-  // are, so the rows are dropped at the next rebuild's sort through this order.
+  // Histories and deferred impulses of the others survive: contacts name the new rows from here on,
+  // and the next rebuild takes them up.
   std::vector<std::int32_t> new_row(store.size(), -1);
   for (std::size_t n = 0; n < keep.size(); ++n)
     new_row[static_cast<std::size_t>(keep[n])] = static_cast<std::int32_t>(n);
@@ -134,41 +65,23 @@ void Dem::Impl::remove_leavers() {
   outer.require(OuterList::Due::reorder);
 }
 
-void Dem::Impl::refresh_decay() {
-  has_fluid = false;
-  if (!store.has_fluid) return;
-  const double step = steps.coarse_step;
-  for (std::size_t n = 0; n < store.size(); ++n) {
-    const double rate = store.action[4 * n + 3];
-    has_fluid = has_fluid || rate * step > 0.0;
-    const leapfrog::Relaxation drag = leapfrog::relaxation(rate, step);
-    store.decay[2 * n] = drag.decay;
-    store.decay[2 * n + 1] = drag.mean;
-  }
-}
-
 void Dem::Impl::gather_wall_loads() {
-  if (wall_loads.is_on()) contact_forces.give_wall_loads(wall_loads);
-}
-
-void Dem::Impl::look_at_weights() {
-  has_weights = false;
-  for (std::size_t n = 1; n < tiling.coarse_count; ++n) {
-    has_weights = has_weights || store.weight[n] != store.weight[0];
-  }
+  if (wall_loads.is_on()) tile_step.contact_forces().give_wall_loads(wall_loads);
 }
 
 void Dem::Impl::fill_last_force() const {
   last_force.assign(4 * store.size(), 0.0);
   for (std::size_t n = 0; n < store.size(); ++n) {
-    const double mass = 1.0 / store.velocity(n)[3];
-    const double* action = store.action_of(n);
-    const double* g = gravity.data() + 4 * static_cast<std::ptrdiff_t>(store.material[n]);
+    const double mass = 1.0 / store.inverse_mass(n);
+    const double* drag = store.drag(n);
+    const double* g =
+        conditions.gravity.data() + 4 * static_cast<std::ptrdiff_t>(store.material(n));
     for (std::size_t d = 0; d < 3; ++d) {
-      last_force[4 * n + d] = mass * (g[d] + action[3] * (action[d] - store.velocity(n)[d]));
+      last_force[4 * n + d] = mass * (g[d] + drag[3] * (drag[d] - store.velocity(n)[d]));
     }
   }
   if (outer.is_reorder_due()) return;  // rows have changed since the forces were computed
+  const std::span<const double> contact_force = tile_step.contact_force();
   for (std::size_t q = 0; q < contact_force.size(); ++q) last_force[q] += contact_force[q];
   const std::span<const double> fine_force = fine_level.force();
   for (std::size_t q = 0; q < fine_force.size(); ++q)
@@ -181,65 +94,56 @@ Dem::Dem(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vecto
                                    fluid_density)) {}
 Dem::~Dem() = default;
 
-double Dem::coarse_step() const { return impl_->steps.coarse_step; }
-std::span<const ClassStep> Dem::class_steps() const { return impl_->steps.classes; }
-const TimeSteps& Dem::time_steps() const { return impl_->steps; }
+double Dem::coarse_step() const { return impl_->conditions.step(); }
+std::span<const ClassStep> Dem::class_steps() const { return impl_->conditions.steps.classes; }
+const TimeSteps& Dem::time_steps() const { return impl_->conditions.steps; }
 void Dem::insert(std::span<const NewGrain> grains) {
-  impl_->land();
+  impl_->synchronise();
   impl_->insert(grains);
 }
 void Dem::remove_leavers() {
-  impl_->land();
-  impl_->remove_leavers();
+  impl_->synchronise();
+  impl_->remove_escaped();
 }
-void Dem::neighbours() { impl_->neighbours(); }
-void Dem::contact(double time, bool keeps_force) { impl_->contact(time, keeps_force); }
-void Dem::force() { impl_->force(); }
-void Dem::integrate() { impl_->integrate(); }
-void Dem::step_tiles(double time, bool keeps_force) { impl_->step_tiles(time, keeps_force); }
+void Dem::neighbours() { impl_->update_pair_lists(); }
+void Dem::contact(double time, bool keeps_force) {
+  impl_->begin_step(time, keeps_force);
+  impl_->tile_step.contact(impl_->step_scene());
+}
+void Dem::force() { impl_->tile_step.force(impl_->step_scene()); }
+void Dem::integrate() {
+  impl_->tile_step.integrate(impl_->step_scene());
+  impl_->end_step();
+}
+void Dem::step_tiles(double time, bool keeps_force) {
+  impl_->begin_step(time, keeps_force);
+  impl_->tile_step.run(impl_->step_scene(), PhaseTimes::is_due(impl_->counters.steps));
+  impl_->end_step();
+}
 void Dem::advance_fine() { impl_->advance_fine(); }
 void Dem::add_force(const std::function<sdk::Vec3(std::size_t)>& force) {
-  impl_->each_deferred([&](Tile tile) {
-    const auto active = impl_->inner.active(static_cast<std::size_t>(tile.index)).all();
-    double* f = impl_->deferred.rows(tile.index).data();
-    for (const std::int32_t row : active.subspan(impl_->deferred.moved(tile.index))) {
-      const sdk::Vec3 more = force(static_cast<std::size_t>(row));
-      for (int d = 0; d < 3; ++d) f[d] += more[d];
-      f += k_force_row;
-    }
-  });
+  impl_->tile_step.add_force(impl_->step_scene(), force);
 }
+void Dem::let_all_step() { impl_->inner.let_all_step(); }
 
-void Dem::let_all_step() { impl_->all_step = true; }
-
-std::array<double, 3> Dem::phase_shares() const { return impl_->phase_times.shares(); }
-void Dem::fluid_action_changed() { impl_->refresh_decay(); }
+std::array<double, 3> Dem::phase_shares() const { return impl_->tile_step.phase_shares(); }
+void Dem::fluid_action_changed() { impl_->store.update_decay(impl_->conditions.step()); }
 void Dem::bodies_changed() { impl_->outer.require(OuterList::Due::rebuild); }
 
-void Dem::land() { impl_->land(); }
+void Dem::land() { impl_->synchronise(); }
 GrainRows Dem::rows() {
-  impl_->land();
-  GrainStore& s = impl_->store;
-  return {.count = s.size(),
-          .position = s.position.data(),
-          .velocity = s.motion.data(),
-          .rotation = s.spin.data(),
-          .id = s.id.data(),
-          .material = s.material.data(),
-          .weight = s.weight.data(),
-          .fluid_action = s.action.data(),
-          .fluid_impulse = s.impulse.data(),
-          .motion_stride = GrainStore::k_motion_stride};
+  impl_->synchronise();
+  return impl_->store.rows();
 }
 
 std::span<const double> Dem::last_force() const {
-  impl_->land();
+  impl_->synchronise();
   impl_->fill_last_force();
   return impl_->last_force;
 }
 
 std::vector<ContactRecord> Dem::contacts() const {
-  impl_->land();
+  impl_->synchronise();
   // Since grains came or went, the lists name other rows; they are made new at the next step.
   if (impl_->outer.is_reorder_due()) return {};
   return contact_snapshot(impl_->contact_scene(), impl_->inner);
@@ -250,8 +154,8 @@ const Balance& Dem::balance() const { return impl_->book.balance(); }
 
 DemReport Dem::report() const {
   DemReport out = impl_->counters;
-  out.contacts = impl_->contact_forces.contacts();
-  out.largest_coarse_overlap = impl_->contact_forces.largest_overlap();
+  out.contacts = impl_->tile_step.contact_forces().contacts();
+  out.largest_coarse_overlap = impl_->tile_step.contact_forces().largest_overlap();
   out.fine_steps = impl_->fine_level.sub_steps();
   out.largest_fine_overlap = impl_->fine_level.largest_overlap();
   out.largest_overlap = std::max(out.largest_coarse_overlap, out.largest_fine_overlap);
@@ -260,10 +164,10 @@ DemReport Dem::report() const {
 
 std::vector<std::pair<std::int64_t, std::int64_t>> Dem::listed_pairs() const {
   std::vector<std::pair<std::int64_t, std::int64_t>> out;
-  const auto& id = impl_->store.id;
+  const ParticleStore& store = impl_->store;
   const auto add = [&](std::int32_t a, std::int32_t b) {
-    const std::int64_t i = id[static_cast<std::size_t>(a)];
-    const std::int64_t j = id[static_cast<std::size_t>(b)];
+    const std::int64_t i = store.id(static_cast<std::size_t>(a));
+    const std::int64_t j = store.id(static_cast<std::size_t>(b));
     out.emplace_back(std::min(i, j), std::max(i, j));
   };
   const auto add_all = [&](const PairList& list) {
@@ -280,8 +184,9 @@ std::vector<std::pair<std::int64_t, std::int64_t>> Dem::listed_pairs() const {
 
 void Dem::watch_walls() {
   std::size_t walls = 0;
-  for (const Surface& s : impl_->surfaces) walls = std::max<std::size_t>(walls, s.wall + 1u);
-  impl_->wall_loads.begin(impl_->surfaces, walls);
+  for (const Surface& s : impl_->conditions.surfaces)
+    walls = std::max<std::size_t>(walls, s.wall + 1u);
+  impl_->wall_loads.begin(impl_->conditions.surfaces, walls);
   impl_->outer.require(OuterList::Due::rebuild);
 }
 
@@ -296,9 +201,67 @@ sdk::WallColumns Dem::close_wall_loads(double interval) {
 sdk::WallColumns Dem::wall_loads() const { return impl_->wall_loads.columns(); }
 
 void Dem::save(sdk::ArchiveWriter& archive) const {
-  impl_->land();
+  impl_->synchronise();
   impl_->save(archive);
 }
 void Dem::load(sdk::ArchiveReader& archive) { impl_->load(archive); }
+
+void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
+  store.save(archive);
+  outer.save(archive);
+  inner.save(archive);
+  tile_step.save(archive, tiling);
+  fine_level.save(archive);
+  book.save(archive);
+  archive.number("time", conditions.time);
+  const ListTuner::State lifetimes = tuner.state();
+  const OuterList::State list = outer.state();
+  const std::int64_t state[] = {static_cast<std::int64_t>(tiling.coarse_count),
+                                store.next_id(),
+                                list.age,
+                                lifetimes.outer_lifetime,
+                                lifetimes.next_outer_lifetime,
+                                list.due >= OuterList::Due::rebuild,
+                                list.due == OuterList::Due::reorder,
+                                store.has_drag(),
+                                counters.steps,
+                                counters.particle_steps,
+                                fine_level.sub_steps(),
+                                counters.rebuilds,
+                                counters.contacts_seen_late,
+                                counters.flown_steps,
+                                lifetimes.skin_level,
+                                lifetimes.inner_lifetime,
+                                list.due == OuterList::Due::update,
+                                list.updated,
+                                counters.mends};
+  archive.integers("state", state);
+}
+
+void Dem::Impl::load(sdk::ArchiveReader& archive) {
+  const auto state = archive.integers("state");
+  tiling = Tiling::of(static_cast<std::size_t>(state.at(0)));
+  counters.steps = state.at(8);
+  counters.particle_steps = state.at(9);
+  counters.rebuilds = state.at(11);
+  counters.contacts_seen_late = state.at(12);
+  counters.flown_steps = state.at(13);
+  counters.mends = state.at(18);
+  tuner.restore({state.at(3), state.at(4), state.at(14), state.at(15)});
+  OuterList::Due due = OuterList::Due::nothing;
+  if (state.at(16) != 0) due = OuterList::Due::update;
+  if (state.at(5) != 0) due = OuterList::Due::rebuild;
+  if (state.at(6) != 0) due = OuterList::Due::reorder;
+  store.load(archive, state.at(1), state.at(7) != 0);
+  const std::size_t tiles = tile_step.load(archive, wall_loads.walls());
+  outer.load(archive, tiles, tuner.outer_lifetime(),
+             {.age = state.at(2), .updated = state.at(17), .due = due});
+  inner.load(archive, tiles);
+  fine_level.load(archive, state.at(10));
+  book.load(archive);
+  conditions.time = archive.number("time");
+  for (Surface& s : conditions.surfaces) s.move_to(conditions.time);
+  has_weights = store.has_weights(tiling.coarse_count);
+}
 
 }  // namespace dust::particles

@@ -149,14 +149,14 @@ class Dem {
   [[nodiscard]] std::vector<std::pair<std::int64_t, std::int64_t>> listed_pairs() const;
 
   /// The arrays that the phases of a step read and write, by name, as numbers (graph::TaskGraph).
-  [[nodiscard]] std::map<std::string, std::function<std::uint64_t()>> digests() const;
+  using Digests = std::map<std::string, std::function<std::uint64_t()>>;
+  [[nodiscard]] Digests digests() const;
 
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
 
-  struct Impl;
-
  private:
+  class Impl;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -24,25 +24,18 @@ std::uint64_t histories(const InnerList& inner) {
 
 }  // namespace
 
-std::map<std::string, std::function<std::uint64_t()>> Dem::digests() const {
+Dem::Digests Dem::digests() const {
   const Impl* dem = impl_.get();
-  const auto of = [dem](auto... columns) {
-    return [dem, columns...] {
-      Digest d;
-      (d.add(dem->store.*columns), ...);
-      return d.value();
-    };
-  };
   return {
-      {"grain.position", of(&GrainStore::position)},
-      {"grain.velocity", of(&GrainStore::motion, &GrainStore::spin)},
-      {"grain.fluid_action", of(&GrainStore::action, &GrainStore::decay)},
-      {"grain.fluid_impulse", of(&GrainStore::impulse)},
+      {"grain.position", [dem] { return dem->store.position_digest(); }},
+      {"grain.velocity", [dem] { return dem->store.motion_digest(); }},
+      {"grain.fluid_action", [dem] { return dem->store.drag_digest(); }},
+      {"grain.fluid_impulse", [dem] { return dem->store.impulse_digest(); }},
       {"contact.list", [dem] { return lists(dem->outer, dem->inner); }},
       {"contact.history", [dem] { return histories(dem->inner); }},
-      {"contact.force", [dem] { return Digest().add(dem->contact_force).value(); }},
-      {"contact.ghost_force", [dem] { return dem->ghosts.digest(); }},
-      {"grain.force", [dem] { return dem->deferred.digest(); }},
+      {"contact.force", [dem] { return Digest().add(dem->tile_step.contact_force()).value(); }},
+      {"contact.ghost_force", [dem] { return dem->tile_step.ghost_digest(); }},
+      {"grain.force", [dem] { return dem->tile_step.deferred_digest(); }},
       {"fine.force", [dem] { return Digest().add(dem->fine_level.force()).value(); }},
       {"fine.deferred_impulse", [dem] { return dem->fine_level.deferred().digest(); }},
   };

@@ -1,48 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "particles/impl.hpp"
+#include "particles/tile_step.hpp"
+
 #include "particles/motion/integrate.hpp"
+#include "particles/particle_error.hpp"
 
 #include <algorithm>
 
-/// The step of the coarse particles, tile by tile: contacts, forces, integration. A tile whose
-/// forces are complete goes through all three in one task, while its rows are in the cache
-/// (docs/decisions/0012_forces_stay_in_the_cache.md); phase by phase, for whoever wants to look or
-/// add something in between, the bits are the same.
 namespace dust::particles {
-void Dem::Impl::begin_contacts(double now, bool keeps_force) {
-  time = now;
+
+void TileStep::restart(std::size_t tiles, std::size_t walls) {
+  contact_forces_.restart(tiles, walls);
+  phase_times_.restart(tiles);
+  contact_force_.clear();  // in the order of rows that were
+}
+
+void TileStep::begin(std::size_t coarse_count, bool keeps_force) {
   if (keeps_force) {
-    contact_force.assign(4 * tiling.coarse_count, 0.0);
+    contact_force_.assign(4 * coarse_count, 0.0);
   } else {
-    contact_force.clear();
+    contact_force_.clear();
   }
-  ghosts.begin_step();
-  for (Surface& s : surfaces) s.move_to(now);
+  ghosts_.begin_step();
 }
 
 /// All contacts of a tile: forces on its particles into the buffer, those on its ghosts published.
-void Dem::Impl::evaluate(Tile tile, ForceBuffer& force) {
+void TileStep::evaluate(const StepScene& scene, Tile tile, ForceBuffer& force) {
   const auto t = static_cast<std::size_t>(tile.index);
-  contact_forces.evaluate(contact_scene(), tile, inner.contacts(t), force.rows());
-  ghosts.publish(tile.index, force.ghosts());
-  if (!contact_force.empty()) keep_force(tile, force.rows());
+  contact_forces_.evaluate(scene.contacts, tile, scene.lists.contacts(t), force.rows());
+  ghosts_.publish(tile.index, force.ghosts());
+  if (!contact_force_.empty()) keep_force(active_of(scene, tile), tile, force.rows());
 }
 
-void Dem::Impl::keep_force(Tile tile, const double* force) {
-  for (const std::int32_t row : inner.active(static_cast<std::size_t>(tile.index)).all()) {
+void TileStep::keep_force(const ActiveSet& active, Tile tile, const double* force) {
+  for (const std::int32_t row : active.all()) {
     std::copy_n(force + k_force_row * static_cast<std::size_t>(row - tile.begin), 3,
-                contact_force.data() + 4 * static_cast<std::ptrdiff_t>(row));
+                contact_force_.data() + 4 * static_cast<std::ptrdiff_t>(row));
   }
 }
 
-void Dem::Impl::note_contribution(std::int32_t row, const double* given) {
-  if (contact_force.empty()) return;
-  double* kept = contact_force.data() + 4 * static_cast<std::ptrdiff_t>(row);
+void TileStep::note_contribution(std::int32_t row, const double* given) {
+  if (contact_force_.empty()) return;
+  double* kept = contact_force_.data() + 4 * static_cast<std::ptrdiff_t>(row);
   for (int d = 0; d < 3; ++d) kept[d] += given[d];
 }
 
-void Dem::Impl::add_contributions(Tile tile, ForceBuffer& force) {
-  ghosts.for_each_contribution(tile.index, [&](std::int32_t row, const double* given) {
+void TileStep::add_contributions(Tile tile, ForceBuffer& force) {
+  ghosts_.for_each_contribution(tile.index, [&](std::int32_t row, const double* given) {
     double* f = force.rows() + k_force_row * static_cast<std::size_t>(row - tile.begin);
     for (std::size_t d = 0; d < k_force_row; ++d) f[d] += given[d];
     note_contribution(row, given);
@@ -50,13 +53,13 @@ void Dem::Impl::add_contributions(Tile tile, ForceBuffer& force) {
 }
 
 /// The same to those that wait, who stand in the order of rows.
-void Dem::Impl::add_to_deferred(Tile tile) {
-  const ActiveSet& active = inner.active(static_cast<std::size_t>(tile.index));
+void TileStep::add_to_deferred(const StepScene& scene, Tile tile) {
+  const ActiveSet& active = active_of(scene, tile);
   const std::span<const std::int32_t> rows = active.all();
-  const std::size_t moved = deferred.moved(tile.index);
-  double* const force = deferred.rows(tile.index).data();
+  const std::size_t moved = deferred_.moved(tile.index);
+  double* const force = deferred_.rows(tile.index).data();
   std::size_t place = active.unshared_count();
-  ghosts.for_each_contribution(tile.index, [&](std::int32_t row, const double* given) {
+  ghosts_.for_each_contribution(tile.index, [&](std::int32_t row, const double* given) {
     while (rows[place] != row) ++place;
     double* f = force + k_force_row * (place - moved);
     for (std::size_t d = 0; d < k_force_row; ++d) f[d] += given[d];
@@ -64,94 +67,127 @@ void Dem::Impl::add_to_deferred(Tile tile) {
   });
 }
 
-/// All active particles move at once, while the rows and forces are in the cache.
-void Dem::Impl::move_all(Tile tile, ForceBuffer& force) {
-  const ActiveSet& active = inner.active(static_cast<std::size_t>(tile.index));
-  apply_deferred_impulses(tile, Movers::all);
-  deferred.clear(tile.index);
-  if (active.size() == tile.size()) {
-    integrate_tile(motion_rows(), tile, force.rows(), steps.coarse_step);
-  } else {
-    integrate_in_tile(motion_rows(), tile, active.all(), force.rows(), steps.coarse_step);
+/// Before particles move: those that fine ones were near go on with the velocity that they ended
+/// the last step with.
+void TileStep::apply_impulses(const StepScene& scene, Tile tile, Selection selection) {
+  for (const DeferredImpulse& impulse : scene.impulses.of(tile.begin, tile.end)) {
+    const bool is_shared = scene.lists.is_shared(impulse.particle);
+    if (selection != Selection::all && is_shared != (selection == Selection::shared)) continue;
+    impulse.act_on(scene.particles);
   }
-  check(tile);
+}
+
+/// All active particles move at once, while the rows and forces are in the cache.
+void TileStep::move_all(const StepScene& scene, Tile tile, ForceBuffer& force) {
+  const ActiveSet& active = active_of(scene, tile);
+  apply_impulses(scene, tile, Selection::all);
+  deferred_.clear(tile.index);
+  if (active.size() == tile.size()) {
+    integrate_tile(scene.motion, tile, force.rows(), scene.step());
+  } else {
+    integrate_in_tile(scene.motion, tile, active.all(), force.rows(), scene.step());
+  }
+  check(scene, tile);
 }
 
 /// Those that no other tile looks at move at once; the others' forces are put aside.
-void Dem::Impl::move_unshared(Tile tile, ForceBuffer& force) {
-  const ActiveSet& active = inner.active(static_cast<std::size_t>(tile.index));
-  apply_deferred_impulses(tile, Movers::unshared);
-  integrate_in_tile(motion_rows(), tile, active.unshared(), force.rows(), steps.coarse_step);
-  deferred.keep(tile, active.all(), active.unshared_count(), force);
+void TileStep::move_unshared(const StepScene& scene, Tile tile, ForceBuffer& force) {
+  const ActiveSet& active = active_of(scene, tile);
+  apply_impulses(scene, tile, Selection::unshared);
+  integrate_in_tile(scene.motion, tile, active.unshared(), force.rows(), scene.step());
+  deferred_.keep(tile, active.all(), active.unshared_count(), force);
 }
 
-void Dem::Impl::move_deferred(Tile tile) {
-  const ActiveSet& active = inner.active(static_cast<std::size_t>(tile.index));
-  const std::size_t moved = deferred.moved(tile.index);
-  apply_deferred_impulses(tile, moved == 0 ? Movers::all : Movers::shared);
-  integrate_in_order(motion_rows(), active.all().subspan(moved), deferred.rows(tile.index).data(),
-                     steps.coarse_step);
-  deferred.clear(tile.index);
-  check(tile);
+void TileStep::move_deferred(const StepScene& scene, Tile tile) {
+  const ActiveSet& active = active_of(scene, tile);
+  const std::size_t moved = deferred_.moved(tile.index);
+  apply_impulses(scene, tile, moved == 0 ? Selection::all : Selection::shared);
+  integrate_in_order(scene.motion, active.all().subspan(moved), deferred_.rows(tile.index).data(),
+                     scene.step());
+  deferred_.clear(tile.index);
+  check(scene, tile);
 }
 
-void Dem::Impl::check(Tile tile) {
-  if (!inner.life().is_check_due()) return;
-  const std::int32_t bad = inner.check(static_cast<std::size_t>(tile.index), list_scene());
-  if (bad >= 0) fail_as_not_a_number(static_cast<std::size_t>(bad));
+void TileStep::check(const StepScene& scene, Tile tile) {
+  if (!scene.lists.life().is_check_due()) return;
+  const std::int32_t bad =
+      scene.lists.check(static_cast<std::size_t>(tile.index), scene.list_scene);
+  if (bad >= 0) throw_not_a_number(scene.contacts, scene.lists, static_cast<std::size_t>(bad));
 }
 
-void Dem::Impl::contact(double now, bool keeps_force) {
-  begin_contacts(now, keeps_force);
-  each_tile([&](Tile tile) {
-    ForceBuffer force(tile, ghosts.ghosts(tile.index).size());
-    evaluate(tile, force);
-    deferred.keep(tile, inner.active(static_cast<std::size_t>(tile.index)).all(), 0, force);
+void TileStep::contact(const StepScene& scene) {
+  each_tile(scene, [&](Tile tile) {
+    ForceBuffer force(tile, ghosts_.ghosts(tile.index).size());
+    evaluate(scene, tile, force);
+    deferred_.keep(tile, active_of(scene, tile).all(), 0, force);
   });
 }
 
-void Dem::Impl::force() {
-  each_deferred([&](Tile tile) { add_to_deferred(tile); });
+void TileStep::force(const StepScene& scene) {
+  each_deferred(scene, [&](Tile tile) { add_to_deferred(scene, tile); });
 }
 
-void Dem::Impl::integrate() {
-  each_deferred([&](Tile tile) { move_deferred(tile); });
-  end_tiles();
+void TileStep::integrate(const StepScene& scene) {
+  each_deferred(scene, [&](Tile tile) { move_deferred(scene, tile); });
 }
 
-/// contact(), force() and integrate() at once: a tile goes through as many of them as it can.
-void Dem::Impl::step_tiles(double now, bool keeps_force) {
-  begin_contacts(now, keeps_force);
-  const bool is_timed = PhaseTimes::is_due(counters.steps);
-  each_tile([&](Tile tile) {
-    ForceBuffer force(tile, ghosts.ghosts(tile.index).size());
-    auto clock = phase_times.clock(static_cast<std::size_t>(tile.index), is_timed);
-    evaluate(tile, force);
+void TileStep::run(const StepScene& scene, bool is_timed) {
+  each_tile(scene, [&](Tile tile) {
+    ForceBuffer force(tile, ghosts_.ghosts(tile.index).size());
+    auto clock = phase_times_.clock(static_cast<std::size_t>(tile.index), is_timed);
+    evaluate(scene, tile, force);
     clock.stop(PhaseTimes::k_contact);
-    if (ghosts.has_all(tile.index)) {
+    if (ghosts_.has_all(tile.index)) {
       add_contributions(tile, force);
       clock.stop(PhaseTimes::k_force);
-      move_all(tile, force);
+      move_all(scene, tile, force);
     } else {
-      move_unshared(tile, force);
+      move_unshared(scene, tile, force);
     }
     clock.stop(PhaseTimes::k_integration);
   });
-  each_deferred([&](Tile tile) {
-    auto clock = phase_times.clock(static_cast<std::size_t>(tile.index), is_timed);
-    add_to_deferred(tile);
+  each_deferred(scene, [&](Tile tile) {
+    auto clock = phase_times_.clock(static_cast<std::size_t>(tile.index), is_timed);
+    add_to_deferred(scene, tile);
     clock.stop(PhaseTimes::k_force);
-    move_deferred(tile);
+    move_deferred(scene, tile);
     clock.stop(PhaseTimes::k_integration);
   });
-  end_tiles();
 }
 
-void Dem::Impl::end_tiles() {
-  inner.end_step();
-  outer.count_step();
-  ++counters.steps;
-  counters.particle_steps += static_cast<std::int64_t>(store.size());
+void TileStep::add_force(const StepScene& scene,
+                         const std::function<sdk::Vec3(std::size_t)>& force) {
+  each_deferred(scene, [&](Tile tile) {
+    double* f = deferred_.rows(tile.index).data();
+    for (const std::int32_t row :
+         active_of(scene, tile).all().subspan(deferred_.moved(tile.index))) {
+      const sdk::Vec3 more = force(static_cast<std::size_t>(row));
+      for (int d = 0; d < 3; ++d) f[d] += more[d];
+      f += k_force_row;
+    }
+  });
+}
+
+void TileStep::save(sdk::ArchiveWriter& archive, const Tiling& tiling) const {
+  archive.numbers("contact_force", contact_force_);
+  std::vector<std::int64_t> bounds;
+  for (std::size_t t = 0; t < contact_forces_.tiles(); ++t) {
+    const Tile tile = tiling.tile(t);
+    bounds.insert(bounds.end(), {tile.begin, tile.end, contact_forces_.contacts(t)});
+  }
+  archive.integers("chunks", bounds);
+  archive.number("largest_coarse_overlap", contact_forces_.largest_overlap());
+}
+
+std::size_t TileStep::load(sdk::ArchiveReader& archive, std::size_t walls) {
+  const auto bounds = archive.integers("chunks");
+  const std::size_t tiles = bounds.size() / 3;
+  restart(tiles, walls);
+  for (std::size_t t = 0; t < tiles; ++t) contact_forces_.set_contacts(t, bounds[3 * t + 2]);
+  contact_forces_.set_largest_overlap(archive.number("largest_coarse_overlap"));
+  const auto forces = archive.numbers("contact_force");
+  contact_force_.assign(forces.begin(), forces.end());
+  return tiles;
 }
 
 }  // namespace dust::particles

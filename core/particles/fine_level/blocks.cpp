@@ -74,19 +74,21 @@ void Blocks::load_partners(const FineScene& scene, Partners partners,
 
 void Blocks::list_candidates(const FineScene& scene, const Clusters& clusters) {
   const contact::PairView& contacts = scene.contacts;
-  const auto& material = scene.particles.material;
+  const auto material = [&](std::int32_t particle) {
+    return scene.particles.material(static_cast<std::size_t>(particle));
+  };
   const Partners partners = clusters.coarse_partners();
   for (std::size_t e = 0; e < contacts.count; ++e) {
     if (!clusters.is_near(e)) continue;
     const std::int32_t b = contacts.b[e];
     const std::size_t n = scene.fine_index(contacts.a[e]);
     CandidateContact c{.entry = static_cast<std::int32_t>(e), .particle = fine_[n].index};
-    const int own_material = material[static_cast<std::size_t>(contacts.a[e])];
+    const int own_material = material(contacts.a[e]);
     if (b < 0) {
       c.surface = -1 - b;
       c.law = scene.laws.index(own_material, scene.surface(c.surface).material);
     } else {
-      c.law = scene.laws.index(own_material, material[static_cast<std::size_t>(b)]);
+      c.law = scene.laws.index(own_material, material(b));
       const auto cluster = clusters.cluster_of(static_cast<std::int32_t>(n));
       c.partner = scene.is_fine(b) ? fine_[scene.fine_index(b)].index
                                    : partner_index_[first_partner(partners, cluster, b)];

@@ -18,11 +18,11 @@ constexpr std::size_t k_contacts = 256;
 constexpr double k_heavy = 64.0;
 
 /// Whether a coarse particle is heavy beside a fine one; docs/theory/grains.md, eq. (13).
-bool is_heavy(const GrainStore& s, std::int32_t coarse, std::int32_t fine) {
+bool is_heavy(const ParticleStore& s, std::int32_t coarse, std::int32_t fine) {
   const auto c = static_cast<std::size_t>(coarse);
   const auto f = static_cast<std::size_t>(fine);
-  return felt_share(s.weight[c], s.weight[f]) * s.velocity(c)[3] * k_heavy <=
-         felt_share(s.weight[f], s.weight[c]) * s.velocity(f)[3];
+  return felt_share(s.weight(c), s.weight(f)) * s.inverse_mass(c) * k_heavy <=
+         felt_share(s.weight(f), s.weight(c)) * s.inverse_mass(f);
 }
 
 /// The finest level that a fine particle's size may need.
@@ -145,8 +145,7 @@ void Clusters::choose_levels(const FineScene& scene) {
     Fine& fine = at(n);
     if (fine.cluster < 0) continue;
     fine.cluster = root(n);
-    const double diameter =
-        2.0 * scene.particles.position[4 * static_cast<std::size_t>(particle) + 3];
+    const double diameter = 2.0 * scene.particles.radius(static_cast<std::size_t>(particle));
     const int wanted = static_cast<int>(
         std::ceil(std::log2(scene.steps.coarse_step / std::max(fine.stable_step, 1e-30))));
     std::int32_t& level = at(fine.cluster).level;

@@ -23,7 +23,7 @@ void DeferredImpulse::add(const DeferredImpulse& other) {
   predicted_angular_velocity += other.predicted_angular_velocity;
 }
 
-void DeferredImpulse::act_on(GrainStore& particles) const {
+void DeferredImpulse::act_on(ParticleStore& particles) const {
   const auto n = static_cast<std::size_t>(particle);
   for (int d = 0; d < 3; ++d) {
     particles.half_velocity(n)[d] += velocity[d];

@@ -3,7 +3,7 @@
 
 #include "dust/sdk/archive.hpp"
 #include "dust/sdk/vec3.hpp"
-#include "particles/grain_store.hpp"
+#include "particles/store/particle_store.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +23,7 @@ struct DeferredImpulse {
 
   void add(const DeferredImpulse& other);
   /// Before the particle's next kick.
-  void act_on(GrainStore& particles) const;
+  void act_on(ParticleStore& particles) const;
 };
 
 /// The deferred impulses of one coarse step: one per particle, in the order of particles.

@@ -4,8 +4,8 @@
 #include "contact/batch_kernels.hpp"
 #include "dust/sdk/vec3.hpp"
 #include "particles/forces/wall_loads.hpp"
-#include "particles/grain_store.hpp"
 #include "particles/pair_law_table.hpp"
+#include "particles/store/particle_store.hpp"
 #include "particles/surfaces.hpp"
 #include "particles/time_steps.hpp"
 
@@ -24,7 +24,7 @@ struct FineScene {
   std::span<const double> gravity;  ///< four per material, reduced by buoyancy
 
   /// Coarse particles first, [0, coarse_count). They have made their step.
-  GrainStore& particles;
+  ParticleStore& particles;
   std::size_t coarse_count = 0;
   std::span<const std::int32_t> active;  ///< fine particles that make this step
   /// Contacts of fine particles (side a) with particles (b >= 0) and surfaces (-1 - b). What

@@ -24,9 +24,9 @@ double sum_of_parts(Vec3 v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.
 
 /// Acceleration [m/s2] of a fine particle by all but contacts.
 Vec3 free_acceleration(const FineScene& scene, std::size_t i) {
-  const GrainStore& s = scene.particles;
-  const double* g = scene.gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material[i]);
-  const double* action = s.action_of(i);
+  const ParticleStore& s = scene.particles;
+  const double* g = scene.gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material(i));
+  const double* action = s.drag(i);
   return vector_of(g) + action[3] * (vector_of(action) - vector_of(s.velocity(i)));
 }
 
@@ -36,10 +36,10 @@ struct Partner {
   Vec3 velocity, position;
 
   Partner(const FineScene& scene, std::size_t j) {
-    const GrainStore& s = scene.particles;
+    const ParticleStore& s = scene.particles;
     const bool is_fine = j >= scene.coarse_count;
     velocity = vector_of(is_fine ? s.velocity(j) : s.half_velocity(j));
-    position = vector_of(s.position.data() + 4 * j);
+    position = vector_of(s.position(j));
     if (!is_fine) position -= scene.steps.coarse_step * velocity;
   }
 };
@@ -47,17 +47,17 @@ struct Partner {
 /// A cheap answer for most entries of a list: true only if the partner is out of reach by the rule
 /// of predict_contact(). Sums of components stand for the norms they bound, so there is no root.
 bool is_far(const FineScene& scene, std::size_t i, std::size_t j, double extra_speed) {
-  const GrainStore& s = scene.particles;
+  const ParticleStore& s = scene.particles;
   const double step = scene.steps.coarse_step;
-  const Vec3 position = vector_of(s.position.data() + 4 * i);
+  const Vec3 position = vector_of(s.position(i));
   const Partner other(scene, j);
   const Vec3 d = contact::nearest_image(scene.images, &other.position.x, &position.x);
-  const double radius = s.position[4 * i + 3];
+  const double radius = s.radius(i);
   const Vec3 free = free_acceleration(scene, i);
   const double speed = sum_of_parts(vector_of(s.velocity(i)) - other.velocity) +
                        sum_of_parts(free) * step + extra_speed;
-  const double reach = (1.0 + k_reach_margin) * radius + s.position[4 * j + 3] +
-                       scene.laws.largest_range() + speed * step;
+  const double reach =
+      (1.0 + k_reach_margin) * radius + s.radius(j) + scene.laws.largest_range() + speed * step;
   return dot(d, d) > reach * reach;
 }
 
@@ -73,24 +73,24 @@ struct Approach {
 };
 
 Approach approach_to_surface(const FineScene& scene, std::size_t i, std::int32_t number) {
-  const GrainStore& s = scene.particles;
+  const ParticleStore& s = scene.particles;
   const Surface& surface = scene.surface(number);
-  const double radius = s.position[4 * i + 3];
-  const auto point = surface.contact(vector_of(s.position.data() + 4 * i));
+  const double radius = s.radius(i);
+  const auto point = surface.contact(vector_of(s.position(i)));
   return {.gap = point.distance - radius,
           .effective_radius = radius,
           .effective_mass = 1.0 / s.velocity(i)[3],
           .surface_speed = surface.displacing_speed,
           .normal = point.normal,
           .relative = vector_of(s.velocity(i)),
-          .law = scene.laws.index(s.material[i], surface.material)};
+          .law = scene.laws.index(s.material(i), surface.material)};
 }
 
 Approach approach_to_particle(const FineScene& scene, std::size_t i, std::size_t j) {
-  const GrainStore& s = scene.particles;
-  const Vec3 position = vector_of(s.position.data() + 4 * i);
-  const double radius = s.position[4 * i + 3];
-  const double partner = s.position[4 * j + 3];
+  const ParticleStore& s = scene.particles;
+  const Vec3 position = vector_of(s.position(i));
+  const double radius = s.radius(i);
+  const double partner = s.radius(j);
   const Partner other(scene, j);
   const Vec3 d = contact::nearest_image(scene.images, &other.position.x, &position.x);
   const double distance = std::max(norm(d), 1e-300);
@@ -99,7 +99,7 @@ Approach approach_to_particle(const FineScene& scene, std::size_t i, std::size_t
           .effective_mass = 1.0 / (s.velocity(i)[3] + s.velocity(j)[3]),
           .normal = d / distance,
           .relative = vector_of(s.velocity(i)) - other.velocity,
-          .law = scene.laws.index(s.material[i], s.material[j])};
+          .law = scene.laws.index(s.material(i), s.material(j))};
 }
 
 /// [s] that a contact needs which is approached at this speed, or has this overlap already.
@@ -134,7 +134,7 @@ ContactPrediction predict_contact(const FineScene& scene, std::size_t entry, dou
   const PairLaws& laws = scene.law(a.law);
   // The laws' range is that of the largest particles; dust feels sand from much nearer.
   const double range = laws.cohesion ? laws.range_of(a.effective_radius) : laws.range;
-  const double margin = k_reach_margin * scene.particles.position[4 * i + 3] + range;
+  const double margin = k_reach_margin * scene.particles.radius(i) + range;
   out.is_near = is_touching || a.gap < (out.speed + extra_speed) * step + margin;
   if (!out.is_near) return out;
   const double approach = std::max(0.0, -dot(a.relative, a.normal)) + gain + extra_speed;

@@ -37,46 +37,46 @@ void SubCycledParticle::advance(double sub_step) {
 }
 
 SubCycledParticle load_fine(const FineScene& scene, std::int32_t particle) {
-  const GrainStore& s = scene.particles;
+  const ParticleStore& s = scene.particles;
   const auto n = static_cast<std::size_t>(particle);
-  const double* drag = s.action_of(n);
+  const double* drag = s.drag(n);
   SubCycledParticle p;
   p.particle = particle;
-  p.radius = s.position[4 * n + 3];
-  p.inverse_mass = s.velocity(n)[3];
-  p.weight = s.weight[n];
+  p.radius = s.radius(n);
+  p.inverse_mass = s.inverse_mass(n);
+  p.weight = s.weight(n);
   p.relaxation_rate = drag[3];
-  p.position = vector_of(s.position.data() + 4 * n);
+  p.position = vector_of(s.position(n));
   p.velocity = vector_of(s.velocity(n));
   p.angular_velocity = vector_of(s.rotation(n));
   p.half_velocity = vector_of(s.half_velocity(n));
   p.half_angular_velocity = vector_of(s.half_rotation(n));
-  p.since_kick = s.half_velocity(n)[3];
+  p.since_kick = s.time_since_kick(n);
   p.displacement = 2.0 * p.since_kick * p.half_velocity;
   p.angle = 2.0 * p.since_kick * p.half_angular_velocity;
   p.target = vector_of(drag);
-  p.gravity = vector_of(scene.gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material[n]));
-  if (s.has_fluid) p.received = vector_of(s.impulse.data() + 4 * n);
+  p.gravity = vector_of(scene.gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material(n)));
+  if (s.has_fluid()) p.received = vector_of(s.impulse(n));
   return p;
 }
 
 SubCycledParticle load_coarse(const FineScene& scene, const DeferredImpulses& deferred,
                               std::int32_t particle, double sub_step) {
-  const GrainStore& s = scene.particles;
+  const ParticleStore& s = scene.particles;
   const auto n = static_cast<std::size_t>(particle);
   SubCycledParticle p;
   p.particle = particle;
   p.is_coarse = true;
-  p.radius = s.position[4 * n + 3];
-  p.inverse_mass = s.velocity(n)[3];
-  p.weight = s.weight[n];
+  p.radius = s.radius(n);
+  p.inverse_mass = s.inverse_mass(n);
+  p.weight = s.weight(n);
   p.step_velocity = p.velocity = p.half_velocity = vector_of(s.half_velocity(n));
   p.step_angular_velocity = p.angular_velocity = p.half_angular_velocity =
       vector_of(s.half_rotation(n));
-  p.position = vector_of(s.position.data() + 4 * n) - scene.steps.coarse_step * p.step_velocity;
+  p.position = vector_of(s.position(n)) - scene.steps.coarse_step * p.step_velocity;
   p.since_kick = 0.5 * sub_step;
   // The step has left a velocity predicted from the kick, half of it less what drag takes.
-  const double drag = s.has_fluid ? s.decay[2 * n] : 1.0;
+  const double drag = s.decay(n);
   p.slow_kick = (2.0 / drag) * (vector_of(s.velocity(n)) - p.step_velocity);
   p.slow_angular_kick = 2.0 * (vector_of(s.rotation(n)) - p.step_angular_velocity);
   if (const DeferredImpulse* before = deferred.find(particle)) {
@@ -86,16 +86,15 @@ SubCycledParticle load_coarse(const FineScene& scene, const DeferredImpulses& de
   return p;
 }
 
-void store_fine(const SubCycledParticle& p, GrainStore& s, double* force) {
+void store_fine(const SubCycledParticle& p, ParticleStore& s, double* force) {
   const auto n = static_cast<std::size_t>(p.particle);
   for (int d = 0; d < 3; ++d) {
-    const auto k = 4 * n + static_cast<std::size_t>(d);
-    s.position[k] = p.position[d];
+    s.position(n)[d] = p.position[d];
     s.velocity(n)[d] = p.velocity[d];
     s.rotation(n)[d] = p.angular_velocity[d];
     s.half_velocity(n)[d] = p.half_velocity[d];
     s.half_rotation(n)[d] = p.half_angular_velocity[d];
-    if (s.has_fluid) s.impulse[k] = p.received[d];
+    if (s.has_fluid()) s.impulse(n)[d] = p.received[d];
     force[d] = p.force[d];
   }
   s.half_velocity(n)[3] = p.since_kick;
@@ -110,14 +109,14 @@ bool store_coarse(const SubCycledParticle& p, const FineScene& scene, DeferredIm
     return false;
   }
   const double inverse_step = 1.0 / scene.steps.coarse_step;
-  GrainStore& s = scene.particles;
+  ParticleStore& s = scene.particles;
   const auto n = static_cast<std::size_t>(p.particle);
   deferred.particle = p.particle;
   for (int d = 0; d < 3; ++d) {
     const auto k = 4 * n + static_cast<std::size_t>(d);
     const double mean = inverse_step * p.added_displacement[d];
     const double mean_spin = inverse_step * p.added_angle[d];
-    s.position[k] += p.added_displacement[d];
+    s.position(n)[d] += p.added_displacement[d];
     s.velocity(n)[d] += p.velocity[d] - p.step_velocity[d];
     s.rotation(n)[d] += p.angular_velocity[d] - p.step_angular_velocity[d];
     s.half_velocity(n)[d] += mean;

@@ -41,7 +41,7 @@ SubCycledParticle load_fine(const FineScene& scene, std::int32_t particle);
 SubCycledParticle load_coarse(const FineScene& scene, const DeferredImpulses& deferred,
                               std::int32_t particle, double sub_step);
 /// A fine particle back to where it came from; its force [N] to `force`.
-void store_fine(const SubCycledParticle& p, GrainStore& particles, double* force);
+void store_fine(const SubCycledParticle& p, ParticleStore& particles, double* force);
 /// Adds to a coarse particle what fine ones have done to it, and returns what waits for its next
 /// step: its row shows the mean velocity of the step, its way over its time, which springs go by.
 /// Nothing was done: returns false.

@@ -38,18 +38,18 @@ bool ContactForces::find_weight_ratios(const ContactScene& scene, const contact:
   bool has_scales = false;
   double* scale_i = columns.column(BatchColumns::scale_i);
   double* scale_j = columns.column(BatchColumns::scale_j);
-  const GrainStore& particles = scene.particles;
+  const ParticleStore& particles = scene.particles;
   for (std::size_t q = 0; q < count; ++q) {
     const std::size_t entry =
         contacts == nullptr ? first + q : static_cast<std::size_t>(contacts[q]);
-    const double wi = particles.weight[static_cast<std::size_t>(pairs.a[entry])];
-    const double wj = particles.weight[static_cast<std::size_t>(pairs.b[entry])];
+    const double wi = particles.weight(static_cast<std::size_t>(pairs.a[entry]));
+    const double wj = particles.weight(static_cast<std::size_t>(pairs.b[entry]));
     scale_i[q] = felt_share(wi, wj);
     scale_j[q] = felt_share(wj, wi);
     if (wi == wj) continue;
     has_scales = true;
     const auto inverse_mass = [&](std::int32_t row) {
-      return particles.velocity(static_cast<std::size_t>(row))[3];
+      return particles.inverse_mass(static_cast<std::size_t>(row));
     };
     columns.column(BatchColumns::inverse_mass)[q] =
         scale_i[q] * inverse_mass(pairs.a[entry]) + scale_j[q] * inverse_mass(pairs.b[entry]);

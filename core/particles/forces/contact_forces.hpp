@@ -4,11 +4,11 @@
 #include "contact/batch_kernels.hpp"
 #include "dust/sdk/sensor.hpp"
 #include "particles/forces/wall_loads.hpp"
-#include "particles/grain_store.hpp"
 #include "particles/neighbours/inner_list.hpp"
 #include "particles/pair_law_table.hpp"
+#include "particles/store/particle_store.hpp"
+#include "particles/store/tile.hpp"
 #include "particles/surfaces.hpp"
-#include "particles/tile.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace dust::particles {
 
 /// What contacts are evaluated on: views of what others own.
 struct ContactScene {
-  const GrainStore& particles;
+  const ParticleStore& particles;
   const PairLawTable& laws;
   std::span<const Surface> surfaces;
   const contact::Images& images;
@@ -27,9 +27,7 @@ struct ContactScene {
   double time = 0.0;         ///< [s] of the positions
   bool has_weights = false;  ///< coarse particles of different statistical weights
 
-  [[nodiscard]] contact::RowView rows() const {
-    return {particles.position.data(), particles.motion.data(), particles.spin.data()};
-  }
+  [[nodiscard]] contact::RowView rows() const { return particles.contact_rows(); }
 };
 
 /// The contacts of coarse particles, tile by tile, through the laws in batches; and what they leave
@@ -41,6 +39,7 @@ class ContactForces {
   /// Adds the forces of all contacts of a tile to `force`, rows of a ForceBuffer.
   void evaluate(const ContactScene& scene, Tile tile, TileContacts& contacts, double* force);
 
+  [[nodiscard]] std::size_t tiles() const { return tiles_.size(); }
   /// In touch at the last step.
   [[nodiscard]] std::int64_t contacts() const;
   [[nodiscard]] std::int64_t contacts(std::size_t tile) const { return tiles_[tile].contacts; }

@@ -56,10 +56,9 @@ class Viewer {
         r.row_i = a[static_cast<std::size_t>(contacts[q])];
         r.row_j = b[static_cast<std::size_t>(contacts[q])];
         // Read again from the rows: the law's columns need not keep the separation.
-        const double* const positions = scene_.particles.position.data();
-        r.branch = contact::nearest_image(scene_.images,
-                                          positions + 4 * static_cast<std::ptrdiff_t>(r.row_i),
-                                          positions + 4 * static_cast<std::ptrdiff_t>(r.row_j));
+        r.branch = contact::nearest_image(
+            scene_.images, scene_.particles.position(static_cast<std::size_t>(r.row_i)),
+            scene_.particles.position(static_cast<std::size_t>(r.row_j)));
         r.overlap = columns.column(B::overlap)[q];
         for (int d = 0; d < 3; ++d) r.force[d] = columns.column(B::force_x + d)[q];
         out.push_back(r);
@@ -74,7 +73,7 @@ class Viewer {
     const Surface& s = scene_.surfaces[static_cast<std::size_t>(number)];
     const GrainAtWall grain = GrainAtWall::from(scene_.rows(), static_cast<std::size_t>(row));
     const auto law_number =
-        scene_.laws.index(scene_.particles.material[static_cast<std::size_t>(row)], s.material);
+        scene_.laws.index(scene_.particles.material(static_cast<std::size_t>(row)), s.material);
     const PairLaws& law = scene_.laws[static_cast<std::size_t>(law_number)];
     const bodies::SurfacePoint near = s.contact(grain.position, grain.radius + law.range);
     const double overlap = grain.radius - near.distance;
@@ -105,13 +104,13 @@ class Viewer {
 /// A list without order of laws, sorted into one list per law.
 std::vector<ContactList> by_law(const ContactScene& scene, const ContactList& list) {
   const PairLawTable& laws = scene.laws;
-  std::vector<ContactList> lists(laws.size(), {Partners::particles, laws.history_stride()});
+  std::vector<ContactList> lists(laws.size(), {PartnerKind::particles, laws.history_stride()});
   for (std::size_t q = 0; q < list.size(); ++q) {
     const std::int32_t a = list.a()[q];
     const std::int32_t b = list.b()[q];
     if (b < 0) continue;
-    const auto law = laws.index(scene.particles.material[static_cast<std::size_t>(a)],
-                                scene.particles.material[static_cast<std::size_t>(b)]);
+    const auto law = laws.index(scene.particles.material(static_cast<std::size_t>(a)),
+                                scene.particles.material(static_cast<std::size_t>(b)));
     const bool touches = list.touching()[q] != 0;
     lists[static_cast<std::size_t>(law)].push(a, b, touches ? list.history(q) : nullptr,
                                               touches ? 1 : 0);

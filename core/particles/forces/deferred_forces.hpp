@@ -4,7 +4,7 @@
 #include "base/digest.hpp"
 #include "contact/aligned.hpp"
 #include "particles/forces/force_buffer.hpp"
-#include "particles/tile.hpp"
+#include "particles/store/tile.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "particles/tile.hpp"
+#include "particles/store/tile.hpp"
 
 #include <cstddef>
 #include <span>

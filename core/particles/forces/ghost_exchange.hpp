@@ -4,7 +4,7 @@
 #include "base/digest.hpp"
 #include "contact/aligned.hpp"
 #include "contact/batch_kernels.hpp"
-#include "particles/tile.hpp"
+#include "particles/store/tile.hpp"
 
 #include <cstddef>
 #include <cstdint>

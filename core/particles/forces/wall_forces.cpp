@@ -94,7 +94,7 @@ struct ContactForces::WallBatch {
 void ContactForces::walls(const ContactScene& scene, Tile range, TileContacts& contacts,
                           OfTile& tile, double* force) {
   const contact::PairView list = contacts.walls.view();
-  const double* const position = scene.particles.position.data();
+  const double* const position = scene.rows().position;
   for (const LawRange& r : contacts.walls.ranges()) {
     const Surface& surface = scene.surfaces[static_cast<std::size_t>(r.surface)];
     const PairLaws& law = scene.laws[static_cast<std::size_t>(r.law)];
@@ -142,12 +142,12 @@ void ContactForces::note_wall_loads(const ContactScene& scene, OfTile& tile, con
                        columns.column(column + 2)[q]};
     };
     const auto row = static_cast<std::size_t>(rows[q]);
-    const double* p = scene.particles.position.data() + 4 * row;
-    const double weight = scene.particles.weight[row];
+    const double* p = scene.particles.position(row);
+    const double weight = scene.particles.weight(row);
     add_load(sums, {p[0], p[1], p[2]}, get(B::force_x), get(B::torque_i_x), get(B::separation_x),
              weight * scene.step);
     if (!is_new[q]) continue;
-    tile.wall_impacts.push_back(impact_of(surface.wall, 1.0 / scene.particles.velocity(row)[3],
+    tile.wall_impacts.push_back(impact_of(surface.wall, 1.0 / scene.particles.inverse_mass(row),
                                           weight, get(B::velocity_x), get(B::normal_x)));
   }
 }

@@ -71,7 +71,7 @@ void WallLoads::note_contacts(const ContactScene& scene, const InnerList& lists)
     mass_[w] = 0.0;
     for (const std::int32_t row : rows[w]) {
       const auto n = static_cast<std::size_t>(row);
-      mass_[w] += scene.particles.weight[n] / scene.particles.velocity(n)[3];
+      mass_[w] += scene.particles.weight(n) / scene.particles.inverse_mass(n);
     }
     count_[w] = static_cast<std::int64_t>(rows[w].size());
   }

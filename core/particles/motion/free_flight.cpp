@@ -23,10 +23,10 @@ DUST_KERNEL void fly_rows(const FlyingRows& f, double step, std::int64_t count) 
     return *reinterpret_cast<Lanes*>(p + 4 * n);
   };
   const auto velocity = [&r](std::size_t n) __attribute__((always_inline))->Lanes& {
-    return *reinterpret_cast<Lanes*>(r.motion + GrainStore::k_motion_stride * n);
+    return *reinterpret_cast<Lanes*>(r.motion + ParticleStore::k_motion_stride * n);
   };
   const auto half_velocity = [&r](std::size_t n) __attribute__((always_inline))->Lanes& {
-    return *reinterpret_cast<Lanes*>(r.motion + GrainStore::k_motion_stride * n + 4);
+    return *reinterpret_cast<Lanes*>(r.motion + ParticleStore::k_motion_stride * n + 4);
   };
   const auto fixed =
       [](const double* p, std::size_t n) __attribute__((always_inline))->const Lanes& {
@@ -41,9 +41,9 @@ DUST_KERNEL void fly_rows(const FlyingRows& f, double step, std::int64_t count) 
     const Lanes old = half_velocity(n) * three;
     double decay = 1.0;
     Lanes first = push;
-    if (r.has_fluid) {
+    if (r.has_drag) {
       decay = r.decay[2 * n];
-      const Lanes target = fixed(r.action, n) * three;
+      const Lanes target = fixed(r.drag, n) * three;
       leapfrog::first_change(old, push, target, decay, r.decay[2 * n + 1], first);
     }
     const auto flight = leapfrog::FreeFlight::of(count, decay);
@@ -51,7 +51,7 @@ DUST_KERNEL void fly_rows(const FlyingRows& f, double step, std::int64_t count) 
     row_of(r.position, n) += (old * total + first * flight.h) * step;
     velocity(n) = (half + first * (0.5 * flight.power)) + fourth * velocity(n);
     half_velocity(n) = half + fourth * half_velocity(n);
-    if (r.has_fluid) {
+    if (r.has_drag) {
       const Lanes whole_push = push * total;
       const double inverse_mass = velocity(n)[3];
       Lanes received;

@@ -42,8 +42,8 @@ __attribute__((always_inline)) inline void step_row(const MotionRows& r, double 
   const Lanes three{1.0, 1.0, 1.0, 0.0};
   const Lanes fourth{0.0, 0.0, 0.0, 1.0};
   auto& position = *reinterpret_cast<Lanes*>(r.position + 4 * n);
-  auto* const motion = reinterpret_cast<Lanes*>(r.motion + GrainStore::k_motion_stride * n);
-  auto* const spin = reinterpret_cast<Lanes*>(r.spin + GrainStore::k_motion_stride * n);
+  auto* const motion = reinterpret_cast<Lanes*>(r.motion + ParticleStore::k_motion_stride * n);
+  auto* const spin = reinterpret_cast<Lanes*>(r.spin + ParticleStore::k_motion_stride * n);
   auto* const given = reinterpret_cast<Lanes*>(f);
   const Lanes force = given[0];
   const Lanes torque = given[1];
@@ -67,13 +67,13 @@ __attribute__((always_inline)) inline void step_row(const MotionRows& r, double 
   if constexpr (has_fluid) {
     Lanes e = Lanes{} + r.decay[2 * n];
     Lanes phi = Lanes{} + r.decay[2 * n + 1];
-    const Lanes action = *reinterpret_cast<const Lanes*>(r.action + 4 * n);
+    const Lanes drag = *reinterpret_cast<const Lanes*>(r.drag + 4 * n);
     if (is_new) [[unlikely]] {
-      const leapfrog::Relaxation drag = leapfrog::relaxation(action[3], kick[0]);
-      e = Lanes{} + drag.decay;
-      phi = Lanes{} + drag.mean;
+      const leapfrog::Relaxation relaxation = leapfrog::relaxation(drag[3], kick[0]);
+      e = Lanes{} + relaxation.decay;
+      phi = Lanes{} + relaxation.mean;
     }
-    const Lanes target = action * three;
+    const Lanes target = drag * three;
     leapfrog::kick(old, push, target, e, phi, half);
     Lanes received;
     leapfrog::drag_impulse(half, old, push, inverse_mass, received);
@@ -98,10 +98,10 @@ template <bool has_fluid>
 __attribute__((always_inline)) inline void expect(const MotionRows& r, std::size_t n) {
   __builtin_prefetch(r.position + 4 * n, 1);
   for (const double* p : {r.motion, r.spin}) {
-    __builtin_prefetch(p + GrainStore::k_motion_stride * n, 1);
+    __builtin_prefetch(p + ParticleStore::k_motion_stride * n, 1);
   }
   if constexpr (has_fluid) {
-    __builtin_prefetch(r.action + 4 * n);
+    __builtin_prefetch(r.drag + 4 * n);
     __builtin_prefetch(r.impulse + 4 * n, 1);
     __builtin_prefetch(r.decay + 2 * n);
   }
@@ -132,7 +132,7 @@ DUST_KERNEL void integrate_in_fluid(const SteppingRows& r, double step) {
 }
 
 void run(const SteppingRows& r, double step) {
-  (r.rows.has_fluid ? integrate_in_fluid : integrate_dry)(r, step);
+  (r.rows.has_drag ? integrate_in_fluid : integrate_dry)(r, step);
 }
 
 }  // namespace

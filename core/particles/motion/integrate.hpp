@@ -2,7 +2,7 @@
 #pragma once
 
 #include "particles/motion/motion_rows.hpp"
-#include "particles/tile.hpp"
+#include "particles/store/tile.hpp"
 
 #include <cstdint>
 #include <span>

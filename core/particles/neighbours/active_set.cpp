@@ -14,9 +14,9 @@ void ActiveSet::clear() {
   unshared_ = 0;
 }
 
-void ActiveSet::add(const GrainStore& particles, std::size_t row, double skin) {
+void ActiveSet::add(const ParticleStore& particles, std::size_t row, double skin) {
   rows_.push_back(static_cast<std::int32_t>(row));
-  const double* p = particles.position.data() + 4 * row;
+  const double* p = particles.position(row);
   const double* v = particles.velocity(row);
   reference_.push_back(
       {{p[0], p[1], p[2]},
@@ -24,11 +24,11 @@ void ActiveSet::add(const GrainStore& particles, std::size_t row, double skin) {
        static_cast<float>(skin)});
 }
 
-ActiveSet::Check ActiveSet::check(const GrainStore& particles, double t, double ahead) const {
+ActiveSet::Check ActiveSet::check(const ParticleStore& particles, double t, double ahead) const {
   Check found;
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const auto n = static_cast<std::size_t>(rows_[k]);
-    const double* p = particles.position.data() + 4 * n;
+    const double* p = particles.position(n);
     const double* v = particles.velocity(n);
     const Reference& reference = reference_[k];
     double off2 = 0.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "particles/grain_store.hpp"
+#include "particles/store/particle_store.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@ class ActiveSet {
  public:
   void clear();
   /// From its position and velocity on, it may be off the trajectory by `skin` [m].
-  void add(const GrainStore& particles, std::size_t row, double skin);
+  void add(const ParticleStore& particles, std::size_t row, double skin);
   /// All up to here are unshared, those that follow are shared.
   void end_unshared() { unshared_ = rows_.size(); }
 
@@ -32,7 +32,7 @@ class ActiveSet {
     std::int32_t not_a_number = -1;  ///< a particle whose position is none; the look ends there
   };
   /// At `t` [s] after the list was made; the next look comes after `ahead` [s].
-  [[nodiscard]] Check check(const GrainStore& particles, double t, double ahead) const;
+  [[nodiscard]] Check check(const ParticleStore& particles, double t, double ahead) const;
 
  private:
   /// Single precision does for what is checked against it.

@@ -8,7 +8,7 @@ namespace {
 /// The second side of an entry: a particle, or -1 - surface.
 std::int32_t partner_of(const auto& list, std::size_t entry) {
   const std::int32_t b = list.b()[entry];
-  return list.partners() == Partners::surfaces ? -1 - b : b;
+  return list.partners() == PartnerKind::surfaces ? -1 - b : b;
 }
 
 }  // namespace

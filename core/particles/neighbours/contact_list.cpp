@@ -201,7 +201,7 @@ void ContactList::renumber(std::span<const std::int32_t> new_row) {
   for (std::size_t q = 0; q < size(); ++q) {
     a_[q] = row_of(a_[q]);
     const bool is_particle =
-        partners_ == Partners::particles || (partners_ == Partners::both && b_[q] >= 0);
+        partners_ == PartnerKind::particles || (partners_ == PartnerKind::both && b_[q] >= 0);
     const std::int32_t b = is_particle ? row_of(b_[q]) : 0;
     if (a_[q] < 0 || b < 0) {
       is_touching_[q] = 0;

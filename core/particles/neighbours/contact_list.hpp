@@ -19,10 +19,10 @@ namespace dust::particles {
 class ContactList {
  public:
   /// `history_stride`: numbers kept per contact, a multiple of four.
-  ContactList(Partners partners, std::size_t history_stride)
+  ContactList(PartnerKind partners, std::size_t history_stride)
       : partners_(partners), stride_(history_stride) {}
 
-  [[nodiscard]] Partners partners() const { return partners_; }
+  [[nodiscard]] PartnerKind partners() const { return partners_; }
   [[nodiscard]] std::size_t size() const { return a_.size(); }
   [[nodiscard]] std::span<const std::int32_t> a() const { return a_; }
   [[nodiscard]] std::span<const std::int32_t> b() const { return b_; }
@@ -68,7 +68,7 @@ class ContactList {
   struct Choice;
   void take(const Scratch& scratch, std::size_t count);
 
-  Partners partners_;
+  PartnerKind partners_;
   std::size_t stride_;
   std::vector<std::int32_t> a_;
   std::vector<std::int32_t> b_;

@@ -44,9 +44,9 @@ std::int64_t InnerList::prune(const PruneInput& in, GhostExchange& ghosts) {
   choose_skins(in);
   for (const DeferredImpulse& impulse : in.impulses) activate(impulse.particle);
   const double duration = scene.time_of(in.lifetime);
+  const contact::RowView rows = scene.particles.contact_rows();
   const Pruning p{.in = in,
-                  .trajectories = {scene.particles.position.data(), scene.particles.motion.data(),
-                                   skin_.data()},
+                  .trajectories = {rows.position, rows.motion, skin_.data()},
                   // Two steps: the velocities at hand are not quite those of the step behind.
                   .look_ahead = {.range = scene.laws.largest_range(),
                                  .horizon = duration,
@@ -157,9 +157,9 @@ std::int64_t InnerList::prune_fine(const Pruning& p) {
 bool InnerList::flies_straight(const Pruning& p, std::size_t n) const {
   const ListScene& scene = p.in.scene;
   if (!scene.has_made_steps(static_cast<std::int32_t>(n))) return false;
-  const GrainStore& particles = scene.particles;
-  const double* g = scene.gravity.data() + 4 * static_cast<std::ptrdiff_t>(particles.material[n]);
-  const double* action = particles.action_of(n);
+  const ParticleStore& particles = scene.particles;
+  const double* g = scene.gravity.data() + 4 * static_cast<std::ptrdiff_t>(particles.material(n));
+  const double* action = particles.drag(n);
   double sum = 0.0;
   for (std::size_t d = 0; d < 3; ++d) {
     const double a = g[d] + action[3] * (action[d] - particles.velocity(n)[d]);
@@ -174,7 +174,7 @@ void InnerList::collect_active(const Pruning& p, std::size_t begin, std::size_t 
                                ActiveSet& active) {
   active.clear();
   for (std::size_t n = begin; n < end; ++n) {
-    if (activity_[n] == k_ballistic && (p.in.all_active || !flies_straight(p, n))) {
+    if (activity_[n] == k_ballistic && (all_active_ || !flies_straight(p, n))) {
       activity_[n] = k_active;
     }
     if (activity_[n] == k_active) active.add(p.in.scene.particles, n, skin_[n]);
@@ -230,7 +230,7 @@ ContactCarrier InnerList::release(std::size_t particles) {
   carrier.take(std::move(fine_));
   carrier.arrange();
   set_tiles(0);
-  fine_ = ContactList(Partners::both, stride_);
+  fine_ = ContactList(PartnerKind::both, stride_);
   return carrier;
 }
 

@@ -40,7 +40,7 @@ struct TileContacts {
 class InnerList {
  public:
   explicit InnerList(std::size_t history_stride)
-      : stride_(history_stride), fine_(Partners::both, history_stride) {}
+      : stride_(history_stride), fine_(PartnerKind::both, history_stride) {}
 
   [[nodiscard]] const InnerListLife& life() const { return life_; }
 
@@ -49,11 +49,12 @@ class InnerList {
     const OuterList& outer;
     std::int64_t lifetime = 0;                  ///< coarse steps
     std::span<const DeferredImpulse> impulses;  ///< whose particles step to receive them
-    bool all_active = false;                    ///< none flies freely
   };
   /// A new list; contacts keep their histories. Finds the ghosts that its pairs make, too. Returns
   /// how many contacts between particles had begun unseen by the list before.
   std::int64_t prune(const PruneInput& in, GhostExchange& ghosts);
+  /// From the next list on all particles are active: none flies freely.
+  void let_all_step() { all_active_ = true; }
   /// All histories into rows, as everyone but the laws knows them.
   void return_histories();
   /// No step more of this list.
@@ -105,7 +106,7 @@ class InnerList {
 
   struct OfTile {
     explicit OfTile(std::size_t stride)
-        : contacts{{Partners::particles, stride}, {Partners::surfaces, stride}, {}, {}} {}
+        : contacts{{PartnerKind::particles, stride}, {PartnerKind::surfaces, stride}, {}, {}} {}
     TileContacts contacts;
     ActiveSet active;
     std::int64_t missed_onsets = 0;
@@ -136,6 +137,7 @@ class InnerList {
   std::vector<double> skin_;            ///< [m] by particle
   std::vector<std::uint8_t> activity_;  ///< by particle
   std::int64_t ballistic_count_ = 0;
+  bool all_active_ = false;
 };
 
 }  // namespace dust::particles

@@ -11,7 +11,7 @@ namespace dust::particles {
 
 RowPair ListScene::in_order(std::int32_t i, std::int32_t j) const {
   const bool is_lower =
-      particles.id[static_cast<std::size_t>(i)] < particles.id[static_cast<std::size_t>(j)];
+      particles.id(static_cast<std::size_t>(i)) < particles.id(static_cast<std::size_t>(j));
   const std::int32_t a = is_lower ? i : j;
   const std::int32_t b = is_lower ? j : i;
   return tiling.is_coarse(a) && !tiling.is_coarse(b) ? RowPair{b, a} : RowPair{a, b};

@@ -3,11 +3,11 @@
 
 #include "contact/nearest_image.hpp"
 #include "dust/sdk/vec3.hpp"
-#include "particles/grain_store.hpp"
 #include "particles/neighbours/search.hpp"
 #include "particles/pair_law_table.hpp"
+#include "particles/store/particle_store.hpp"
+#include "particles/store/tile.hpp"
 #include "particles/surfaces.hpp"
-#include "particles/tile.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace dust::particles {
 
 /// What pair lists are made from: views of what others own.
 struct ListScene {
-  const GrainStore& particles;
+  const ParticleStore& particles;
   const Tiling& tiling;
   const PairLawTable& laws;
   std::span<const Surface> surfaces;
@@ -32,9 +32,7 @@ struct ListScene {
   [[nodiscard]] double time_of(std::int64_t steps) const {
     return static_cast<double>(steps) * step;
   }
-  [[nodiscard]] const double* position(std::size_t row) const {
-    return particles.position.data() + 4 * row;
-  }
+  [[nodiscard]] const double* position(std::size_t row) const { return particles.position(row); }
   [[nodiscard]] double radius(std::size_t row) const { return position(row)[3]; }
   [[nodiscard]] double speed2(std::size_t row) const {
     const double* v = particles.velocity(row);
@@ -42,7 +40,7 @@ struct ListScene {
   }
   /// Not one that has just come, perhaps into an overlap.
   [[nodiscard]] bool has_made_steps(std::int32_t row) const {
-    return particles.half_velocity(static_cast<std::size_t>(row))[3] == 0.5 * step;
+    return particles.time_since_kick(static_cast<std::size_t>(row)) == 0.5 * step;
   }
   [[nodiscard]] std::size_t blocks() const { return (particles.size() + k_block - 1) / k_block; }
   /// Whether a particle that goes on for a `duration` [s], and may be found within `reach` [m] of

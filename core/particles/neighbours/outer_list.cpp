@@ -39,7 +39,7 @@ void OuterList::build(const ListScene& scene, ListTuner& tuner) {
 }
 
 void OuterList::restart_trajectories(const ListScene& scene, double skin_in_diameters) {
-  choose_skins({.position = scene.particles.position.data(),
+  choose_skins({.position = scene.particles.contact_rows().position,
                 .count = scene.particles.size(),
                 .coarse_count = scene.tiling.coarse_count,
                 .skin_in_diameters = skin_in_diameters,
@@ -57,9 +57,9 @@ OuterList::Shares OuterList::share_pairs(const ListScene& scene,
                                          ListTuner::OuterStatistics& statistics) {
   SearchInput in;
   in.count = scene.particles.size();
-  in.position = scene.particles.position.data();
-  in.velocity = scene.particles.motion.data();
-  in.velocity_stride = GrainStore::k_motion_stride;
+  in.position = scene.particles.contact_rows().position;
+  in.velocity = scene.particles.contact_rows().motion;
+  in.velocity_stride = ParticleStore::k_motion_stride;
   in.allowance = trajectories_.rows();
   in.horizon = scene.time_of(lifetime_);
   in.range = scene.laws.largest_range();
@@ -126,13 +126,13 @@ bool OuterList::may_meet(const ListScene& scene, std::size_t row, const Surface&
 }
 
 void OuterList::group_by_law(const ListScene& scene, PairList& list) {
-  const auto& material = scene.particles.material;
+  const auto material = [&](std::size_t row) { return scene.particles.material(row); };
   std::vector<std::int32_t> law(list.size());
   for (std::size_t q = 0; q < list.size(); ++q) {
     const auto b = static_cast<std::size_t>(list.b()[q]);
     law[q] = scene.laws.index(
-        material[static_cast<std::size_t>(list.a()[q])],
-        list.partners() == Partners::surfaces ? scene.surfaces[b].material : material[b]);
+        material(static_cast<std::size_t>(list.a()[q])),
+        list.partners() == PartnerKind::surfaces ? scene.surfaces[b].material : material(b));
   }
   list.group_by_law(law, static_cast<std::int32_t>(scene.laws.size()));
 }

@@ -77,8 +77,8 @@ class OuterList {
 
  private:
   struct OfTile {
-    PairList pairs{Partners::particles};
-    PairList walls{Partners::surfaces};
+    PairList pairs{PartnerKind::particles};
+    PairList walls{PartnerKind::surfaces};
   };
   using Shares = std::vector<std::vector<RowPair>>;
 
@@ -115,7 +115,7 @@ class OuterList {
 
   ReferenceTrajectories trajectories_;
   std::vector<OfTile> tiles_;
-  PairList fine_{Partners::both};
+  PairList fine_{PartnerKind::both};
   std::int64_t lifetime_ = 0;  ///< coarse steps
   std::int64_t age_ = 0;       ///< coarse steps
   std::int64_t updated_ = 0;   ///< particles set on new trajectories so far

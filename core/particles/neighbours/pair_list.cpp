@@ -30,7 +30,7 @@ void PairList::assign_by_row(std::span<const RowPair> pairs, Tile tile) {
 
 void PairList::group_by_law(std::span<const std::int32_t> law, std::int32_t laws) {
   const std::size_t n = size();
-  const bool has_surfaces = partners_ == Partners::surfaces;
+  const bool has_surfaces = partners_ == PartnerKind::surfaces;
   const auto group_of = [&](std::size_t q) {
     return has_surfaces ? b_[q] * laws + law[q] : law[q];
   };

@@ -3,7 +3,7 @@
 
 #include "base/digest.hpp"
 #include "particles/neighbours/search.hpp"
-#include "particles/tile.hpp"
+#include "particles/store/tile.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace dust::particles {
 
 /// What stands on the second side of a list's entries.
-enum class Partners : std::uint8_t {
+enum class PartnerKind : std::uint8_t {
   particles,
   surfaces,  ///< their numbers
   both       ///< particles, and surfaces as -1 - number
@@ -32,9 +32,9 @@ struct LawRange {
 /// Who may meet whom, law by law: a part of an outer list.
 class PairList {
  public:
-  explicit PairList(Partners partners) : partners_(partners) {}
+  explicit PairList(PartnerKind partners) : partners_(partners) {}
 
-  [[nodiscard]] Partners partners() const { return partners_; }
+  [[nodiscard]] PartnerKind partners() const { return partners_; }
   [[nodiscard]] std::size_t size() const { return a_.size(); }
   [[nodiscard]] std::span<const std::int32_t> a() const { return a_; }
   [[nodiscard]] std::span<const std::int32_t> b() const { return b_; }
@@ -56,7 +56,7 @@ class PairList {
   void add_to(base::Digest& digest) const;
 
  private:
-  Partners partners_;
+  PartnerKind partners_;
   std::vector<std::int32_t> a_;
   std::vector<std::int32_t> b_;
   std::vector<LawRange> ranges_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/neighbours/reference_trajectories.hpp"
 
-#include "particles/reorder_rows.hpp"
+#include "particles/store/reorder_rows.hpp"
 
 #include <vector>
 

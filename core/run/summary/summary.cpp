@@ -6,7 +6,7 @@
 #include "dust/sdk/plugin.hpp"
 #include "io/atomic_file.hpp"
 #include "io/run_files.hpp"
-#include "particles/balance_book.hpp"
+#include "particles/store/balance_book.hpp"
 #include "run/summary/references.hpp"
 #include "run/summary/summary_emitters.hpp"
 #include "run/summary/summary_models.hpp"

@@ -46,16 +46,12 @@ class FineRig {
   /// Coarse particles come first.
   std::int32_t add(double diameter, Vec3 position, Vec3 velocity, Vec3 spin = {}) {
     const std::size_t n = store.size();
-    store.resize(n + 1);
-    const double mass = k_density * dust::sdk::sphere_volume(diameter);
-    for (int d = 0; d < 3; ++d) {
-      store.position[4 * n + static_cast<std::size_t>(d)] = position[d];
-      store.velocity(n)[d] = store.half_velocity(n)[d] = velocity[d];
-      store.rotation(n)[d] = store.half_rotation(n)[d] = spin[d];
-    }
-    store.position[4 * n + 3] = 0.5 * diameter;
-    store.velocity(n)[3] = 1.0 / mass;
-    store.weight[n] = 1.0;
+    dust::particles::NewGrain grain;
+    grain.position = position;
+    grain.velocity = velocity;
+    grain.rotation = spin;
+    grain.diameter = diameter;
+    store.append(grain, k_density * dust::sdk::sphere_volume(diameter), 0);
     if (diameter == k_coarse) {
       ++coarse_count_;
     } else {
@@ -122,7 +118,7 @@ class FineRig {
     time_ = other.time_;
   }
 
-  GrainStore store;
+  ParticleStore store;
   FineLevel level;
 
  private:
@@ -132,7 +128,7 @@ class FineRig {
     for (int d = 0; d < 3; ++d) {
       const double change = kick * gravity_[static_cast<std::size_t>(d)];
       store.half_velocity(n)[d] += change;
-      store.position[4 * n + static_cast<std::size_t>(d)] += step * store.half_velocity(n)[d];
+      store.position(n)[d] += step * store.half_velocity(n)[d];
       store.velocity(n)[d] = store.half_velocity(n)[d] + 0.5 * step / kick * change;
       store.rotation(n)[d] = store.half_rotation(n)[d];
     }
@@ -190,14 +186,14 @@ TEST_CASE("a deferred impulse shall act once, and not again when its contact is 
   const Vec3 mean = vector_of(rig.store.half_velocity(0));
   CHECK(end.x < mean.x);
   CHECK(mean.x < 0.0);
-  CHECK(rig.store.position[0] == doctest::Approx(mean.x * rig.coarse_step()).epsilon(1e-12));
+  CHECK(rig.store.position(0)[0] == doctest::Approx(mean.x * rig.coarse_step()).epsilon(1e-12));
   REQUIRE(rig.level.deferred().all().size() == 1);
 
   rig.unlist_all();
-  const double x = rig.store.position[0];
+  const double x = rig.store.position(0)[0];
   rig.step();
   CHECK(rig.store.half_velocity(0)[0] == end.x);
-  CHECK(rig.store.position[0] == x + rig.coarse_step() * end.x);
+  CHECK(rig.store.position(0)[0] == x + rig.coarse_step() * end.x);
   CHECK(rig.level.deferred().all().empty());
   rig.step();
   CHECK(rig.store.half_velocity(0)[0] == end.x);
@@ -217,7 +213,7 @@ TEST_CASE("a cluster that touches nothing shall step like free flight") {
   CHECK(rig.level.sub_steps() >= 4 * k_steps);
   const double t = k_steps * rig.coarse_step();
   for (std::size_t n = 0; n < 2; ++n) {
-    const Vec3 x = vector_of(rig.store.position.data() + 4 * n);
+    const Vec3 x = vector_of(rig.store.position(n));
     const Vec3 v = vector_of(rig.store.velocity(n));
     CHECK(norm(x - (place[n] + t * velocity + (0.5 * t * t) * gravity)) < 1e-15);
     CHECK(norm(v - (velocity + t * gravity)) < 1e-14);
@@ -252,7 +248,7 @@ TEST_CASE("no two particles that meet within a step shall be predicted to keep a
     // Coarse particles have made their step when the fine level looks at them.
     if (size == k_coarse) {
       for (int d = 0; d < 3; ++d) {
-        rig.store.position[static_cast<std::size_t>(d)] -= rig.coarse_step() * speed[d];
+        rig.store.position(0)[d] -= rig.coarse_step() * speed[d];
       }
     }
     const Vec3 from = (distance / norm(way)) * way;
@@ -329,9 +325,8 @@ TEST_CASE("a fine level that was saved shall go on with the same bits") {
   for (FineRig* rig : {first.get(), second.get()}) {
     for (int n = 0; n < 3; ++n) rig->step();
   }
-  CHECK(first->store.position == second->store.position);
-  CHECK(first->store.motion == second->store.motion);
-  CHECK(first->store.spin == second->store.spin);
+  CHECK(first->store.position_digest() == second->store.position_digest());
+  CHECK(first->store.motion_digest() == second->store.motion_digest());
   CHECK(first->level.sub_steps() == second->level.sub_steps());
   CHECK(first->level.largest_overlap() == second->level.largest_overlap());
   CHECK(first->level.force()[0] == second->level.force()[0]);

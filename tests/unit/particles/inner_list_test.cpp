@@ -39,7 +39,7 @@ TEST_CASE("an inner list shall be over with its lifetime, or when a particle use
 
 TEST_CASE("an active particle shall use up its skin at 0.7 of it, now or at the next look") {
   ListCloud cloud(2, 0, 0.0);
-  GrainStore& particles = cloud.particles;
+  ParticleStore& particles = cloud.particles;
   particles.velocity(1)[2] = 0.5;
   ActiveSet active;
   active.add(particles, 1, 1e-4);
@@ -50,22 +50,22 @@ TEST_CASE("an active particle shall use up its skin at 0.7 of it, now or at the 
   constexpr double k_time = 1e-3;
   cloud.drift(k_time);
   CHECK_FALSE(active.check(particles, k_time, 1e-3).is_skin_used_up);
-  particles.position[0] += 0.65e-4;
+  particles.position(0)[0] += 0.65e-4;
   CHECK_FALSE(active.check(particles, k_time, 1e-3).is_skin_used_up);
   particles.velocity(0)[0] = 0.02;  // 0.2 of the skin until the next look
   CHECK(active.check(particles, k_time, 1e-3).is_skin_used_up);
   particles.velocity(0)[0] = 0.0;
-  particles.position[0] += 0.1e-4;
+  particles.position(0)[0] += 0.1e-4;
   CHECK(active.check(particles, k_time, 1e-3).is_skin_used_up);
   CHECK(active.check(particles, k_time, 0.0).not_a_number == -1);
-  particles.position[1] = std::numeric_limits<double>::quiet_NaN();
+  particles.position(0)[1] = std::numeric_limits<double>::quiet_NaN();
   CHECK(active.check(particles, k_time, 0.0).not_a_number == 0);
 }
 
 TEST_CASE("a pruned list shall hold what touches, with its history, and what may come to touch") {
   constexpr std::size_t k_stride = 4;
   constexpr std::int32_t k_entries = 60;  // of two laws
-  PairList outer(Partners::particles);
+  PairList outer(PartnerKind::particles);
   std::vector<std::int32_t> law;
   for (std::int32_t n = 0; n < k_entries; ++n) {
     outer.push(n, n + 100);
@@ -74,7 +74,7 @@ TEST_CASE("a pruned list shall hold what touches, with its history, and what may
   outer.group_by_law(law, 2);
   REQUIRE(outer.ranges().size() == 2);
   // In touch: every third. They come as after a rebuild: in the order of the outer list.
-  ContactList list(Partners::particles, k_stride);
+  ContactList list(PartnerKind::particles, k_stride);
   for (std::size_t q = 0; q < outer.size(); ++q) {
     const double mark = outer.a()[q] + 1.0;
     const double history[k_stride] = {mark, 2 * mark, 3 * mark, 4 * mark};
@@ -122,7 +122,7 @@ TEST_CASE("a pruned list shall hold what touches, with its history, and what may
 
 TEST_CASE("contacts of particles that are gone shall end, the others be renumbered") {
   const double history[4] = {1, 2, 3, 4};
-  ContactList list(Partners::both, 4);
+  ContactList list(PartnerKind::both, 4);
   list.push(0, 2, history, 1);
   list.push(1, 2, history, 1);
   list.push(2, -1 - 5, history, 3);  // the surface 5
@@ -152,12 +152,8 @@ struct Lists {
     inner.adopt(outer, none);
   }
   std::int64_t prune(std::int64_t lifetime) {
-    return inner.prune({.scene = cloud.scene(),
-                        .outer = outer,
-                        .lifetime = lifetime,
-                        .impulses = {},
-                        .all_active = false},
-                       ghosts);
+    return inner.prune(
+        {.scene = cloud.scene(), .outer = outer, .lifetime = lifetime, .impulses = {}}, ghosts);
   }
 };
 
@@ -234,27 +230,39 @@ TEST_CASE("particles with partners shall be active, and what other tiles look at
 TEST_CASE("contacts released shall be adopted by the next lists, wherever their particles stand") {
   Lists lists(900, 0, 0.1);
   lists.prune(8);
-  // A history by which each pair is known again.
-  std::map<std::pair<std::int32_t, std::int32_t>, double> marks;
+  ParticleStore& particles = lists.cloud.particles;
+  // A history by which each pair is known again, by ids.
+  std::map<std::pair<std::int64_t, std::int64_t>, double> marks;
+  const auto ids = [&](std::int32_t a, std::int32_t b) {
+    return std::pair(particles.id(static_cast<std::size_t>(a)),
+                     particles.id(static_cast<std::size_t>(b)));
+  };
   const std::size_t stride = lists.cloud.scene().laws.history_stride();
   for (std::size_t t = 0; t < lists.inner.tiles(); ++t) {
     const auto view = lists.inner.contacts(t).pairs.view();
     for (std::size_t q = 0; q < view.count; q += 3) {
       view.is_touching[q] = 1;
-      view.history[q * stride] = marks[{view.a[q], view.b[q]}] =
+      view.history[q * stride] = marks[ids(view.a[q], view.b[q])] =
           static_cast<double>(1000 * t + q + 1);
     }
   }
   REQUIRE(marks.size() > 30);
-  const ContactCarrier carrier = lists.inner.release(lists.cloud.particles.size());
+  ContactCarrier carrier = lists.inner.release(particles.size());
   CHECK(lists.inner.tiles() == 0);
+  std::vector<std::int32_t> order(particles.size());
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    order[n] = static_cast<std::int32_t>((7 * n + 3) % order.size());  // a permutation of 900
+  }
+  particles.reorder(order);
+  lists.outer.reorder(order);
+  carrier.renumber(order);
   lists.outer.build(lists.cloud.scene(), lists.tuner);
   lists.inner.adopt(lists.outer, carrier);
   std::size_t found = 0;
   for (std::size_t t = 0; t < lists.inner.tiles(); ++t) {
     const ContactList& pairs = lists.inner.contacts(t).pairs;
     for (std::size_t q = 0; q < pairs.size(); ++q) {
-      CHECK(pairs.history(q)[0] == marks.at({pairs.a()[q], pairs.b()[q]}));
+      CHECK(pairs.history(q)[0] == marks.at(ids(pairs.a()[q], pairs.b()[q])));
       ++found;
     }
   }

@@ -2,14 +2,16 @@
 #pragma once
 
 #include "dust/sdk/random.hpp"
-#include "particles/grain_store.hpp"
 #include "particles/neighbours/list_scene.hpp"
+#include "particles/store/particle_store.hpp"
 #include "support/dem_rig.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace dust::test {
 
@@ -31,17 +33,23 @@ class ListCloud {
       images_.half[d] = 0.5 * k_box;
     }
     tiling_ = {coarse, tile_size};
-    particles.resize(coarse + fine);
     const sdk::Random random(17, 1);
-    for (std::size_t n = 0; n < particles.size(); ++n) {
-      for (std::size_t d = 0; d < 3; ++d) {
-        particles.position[4 * n + d] = k_box * random.uniform(n, d);
-        particles.velocity(n)[d] = speed * (2.0 * random.uniform(n, 3 + d) - 1.0);
+    for (std::size_t n = 0; n < coarse + fine; ++n) {
+      particles::NewGrain g;
+      g.diameter = n < coarse ? k_diameter : 0.1 * k_diameter;
+      for (int d = 0; d < 3; ++d) {
+        g.position[d] = k_box * random.uniform(n, static_cast<std::uint32_t>(d));
+        g.velocity[d] = speed * (2.0 * random.uniform(n, static_cast<std::uint32_t>(3 + d)) - 1.0);
       }
-      particles.position[4 * n + 3] = n < coarse ? 0.5 * k_diameter : 0.05 * k_diameter;
+      particles.append(g, 1e-6, 0);
       particles.half_velocity(n)[3] = 0.5 * k_step;  // it has made steps
-      particles.id[n] = static_cast<std::int64_t>(particles.size() - n);
     }
+    // So that the order of ids is not that of rows.
+    std::vector<std::int32_t> order(coarse + fine);
+    for (std::size_t n = 0; n < order.size(); ++n) {
+      order[n] = static_cast<std::int32_t>(n < coarse ? coarse - 1 - n : 2 * coarse + fine - 1 - n);
+    }
+    particles.reorder(order);
   }
 
   [[nodiscard]] particles::ListScene scene() const {
@@ -59,7 +67,7 @@ class ListCloud {
   void drift(double duration) {
     for (std::size_t n = 0; n < particles.size(); ++n) {
       for (std::size_t d = 0; d < 3; ++d) {
-        particles.position[4 * n + d] += duration * particles.velocity(n)[d];
+        particles.position(n)[d] += duration * particles.velocity(n)[d];
       }
     }
   }
@@ -73,7 +81,7 @@ class ListCloud {
                                     s.radius(i) + s.radius(j));
   }
 
-  particles::GrainStore particles;
+  particles::ParticleStore particles;
 
  private:
   std::unique_ptr<particles::PairLawTable> laws_;

@@ -95,7 +95,7 @@ TEST_CASE("an update shall list what particles meet on their new trajectories, u
     thrown.insert(n);
     const auto row = static_cast<std::size_t>(n);
     for (std::size_t d = 0; d < 3; ++d) {
-      double& x = cloud.particles.position[4 * row + d];
+      double& x = cloud.particles.position(row)[d];
       x += x < 0.5 * ListCloud::k_box ? 4e-3 : -4e-3;
       cloud.particles.velocity(row)[d] *= -3.0;
     }
@@ -120,7 +120,7 @@ TEST_CASE("an update shall be refused where a list built anew is cheaper") {
   outer.resize(cloud.particles.size());
   ListTuner tuner = tuner_of(64);
   outer.build(cloud.scene(), tuner);
-  for (std::size_t n = 0; n < 40; ++n) cloud.particles.position[4 * n] += 3e-3;
+  for (std::size_t n = 0; n < 40; ++n) cloud.particles.position(n)[0] += 3e-3;
   CHECK_FALSE(outer.update(cloud.scene(), tuner));
 }
 

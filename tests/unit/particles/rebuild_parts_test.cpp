@@ -3,7 +3,7 @@
 #include "particles/neighbours/contact_carrier.hpp"
 #include "particles/neighbours/reference_trajectories.hpp"
 #include "particles/neighbours/search.hpp"
-#include "particles/row_order.hpp"
+#include "particles/store/row_order.hpp"
 
 #include <doctest/doctest.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t k_stride = 4;
 
-PairList list_of(const std::vector<RowPair>& pairs, Partners partners) {
+PairList list_of(const std::vector<RowPair>& pairs, PartnerKind partners) {
   PairList list(partners);
   for (const RowPair& p : pairs) list.push(p[0], p[1]);
   return list;
@@ -46,8 +46,8 @@ TEST_CASE("contacts shall keep their histories through any order of the rows") {
       new_row[static_cast<std::size_t>(order[static_cast<std::size_t>(n)])] = n;
 
     // Pairs n, n + 7 touch, every third entry is apart; walls by number.
-    ContactList pairs(Partners::particles, k_stride);
-    ContactList walls(Partners::surfaces, k_stride);
+    ContactList pairs(PartnerKind::particles, k_stride);
+    ContactList walls(PartnerKind::surfaces, k_stride);
     std::vector<RowPair> new_pairs;
     std::vector<RowPair> new_walls;
     for (std::int32_t n = 0; n + 7 < k_rows; ++n) {
@@ -64,8 +64,8 @@ TEST_CASE("contacts shall keep their histories through any order of the rows") {
     carrier.arrange();
     carrier.renumber(order);
 
-    ContactList found(Partners::particles, k_stride);
-    carrier.adopt(list_of(new_pairs, Partners::particles), found);
+    ContactList found(PartnerKind::particles, k_stride);
+    carrier.adopt(list_of(new_pairs, PartnerKind::particles), found);
     CHECK(found.size() == 22);  // of 33, without every third
     for (std::size_t q = 0; q < found.size(); ++q) {
       const std::int32_t n = order[static_cast<std::size_t>(found.a()[q])];
@@ -75,8 +75,8 @@ TEST_CASE("contacts shall keep their histories through any order of the rows") {
         CHECK(found.history(q)[h] == static_cast<double>(h + 1) * (n + 1.0));
       }
     }
-    ContactList at_walls(Partners::surfaces, k_stride);
-    carrier.adopt(list_of(new_walls, Partners::surfaces), at_walls);
+    ContactList at_walls(PartnerKind::surfaces, k_stride);
+    carrier.adopt(list_of(new_walls, PartnerKind::surfaces), at_walls);
     CHECK(at_walls.size() == new_walls.size());
     for (std::size_t q = 0; q < at_walls.size(); ++q) {
       CHECK(at_walls.history(q)[0] == 100.0 + order[static_cast<std::size_t>(at_walls.a()[q])]);
@@ -85,15 +85,15 @@ TEST_CASE("contacts shall keep their histories through any order of the rows") {
 }
 
 TEST_CASE("particles that have just come shall have no contacts to carry") {
-  ContactList pairs(Partners::particles, k_stride);
+  ContactList pairs(PartnerKind::particles, k_stride);
   push(pairs, 0, 1, 1.0);
   ContactCarrier carrier(2, k_stride);
   carrier.take(std::move(pairs));
   carrier.arrange();
   const std::vector<std::int32_t> order{2, 1, 0};  // row 2 is new
   carrier.renumber(order);
-  ContactList found(Partners::particles, k_stride);
-  carrier.adopt(list_of({{2, 1}, {0, 1}, {0, 2}}, Partners::particles), found);
+  ContactList found(PartnerKind::particles, k_stride);
+  carrier.adopt(list_of({{2, 1}, {0, 1}, {0, 2}}, PartnerKind::particles), found);
   REQUIRE(found.size() == 1);
   CHECK(found.a()[0] == 2);
   CHECK(found.b()[0] == 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "particles/balance_book.hpp"
+#include "particles/store/balance_book.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "particles/row_order.hpp"
+#include "particles/store/row_order.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "particles/store/particle_store.hpp"
+
+#include "particles/dem.hpp"
+#include "particles/motion/leapfrog.hpp"
+#include "particles/store/reorder_rows.hpp"
+
+namespace dust::particles {
+namespace {
+
+using Rows = contact::AlignedVector<double>;
+
+template <class T>
+std::vector<std::int64_t> widened(const std::vector<T>& v) {
+  return {v.begin(), v.end()};
+}
+
+void save_rows(sdk::ArchiveWriter& archive, const char* name, const Rows& rows) {
+  archive.numbers(name, {rows.data(), rows.size()});
+}
+
+void load_rows(sdk::ArchiveReader& archive, const char* name, Rows& rows) {
+  const auto values = archive.numbers(name);
+  rows.assign(values.begin(), values.end());
+}
+
+}  // namespace
+
+GrainRows ParticleStore::rows() {
+  return {.count = size(),
+          .position = position_.data(),
+          .velocity = motion_.data(),
+          .rotation = spin_.data(),
+          .id = id_.data(),
+          .material = material_.data(),
+          .weight = weight_.data(),
+          .fluid_action = drag_.data(),
+          .fluid_impulse = impulse_.data(),
+          .motion_stride = k_motion_stride};
+}
+
+ParticleStore::Motion ParticleStore::motion() {
+  return {position_.data(), motion_.data(), spin_.data(),    impulse_.data(),
+          drag_.data(),     decay_.data(),  material_.data()};
+}
+
+void ParticleStore::append(const NewGrain& g, double mass, std::int32_t population) {
+  const double radius = 0.5 * g.diameter;
+  const sdk::Vec3& v = g.velocity;
+  const sdk::Vec3& w = g.rotation;
+  position_.insert(position_.end(), {g.position.x, g.position.y, g.position.z, radius});
+  // Time since the last kick 0: the first one lasts half a step, as if positions and velocities had
+  // come together.
+  motion_.insert(motion_.end(), {v.x, v.y, v.z, 1.0 / mass, v.x, v.y, v.z, 0.0});
+  spin_.insert(spin_.end(), {w.x, w.y, w.z, radius, w.x, w.y, w.z, radius});
+  if (has_fluid_) {
+    drag_.insert(drag_.end(), 4, 0.0);
+    impulse_.insert(impulse_.end(), 4, 0.0);
+    decay_.insert(decay_.end(), 2, 1.0);
+  }
+  id_.push_back(next_id_++);
+  material_.push_back(g.material);
+  population_.push_back(population);
+  weight_.push_back(g.weight);
+}
+
+void ParticleStore::reorder(std::span<const std::int32_t> order) {
+  reorder_rows(position_, order, 4);
+  for (auto* rows : {&motion_, &spin_}) reorder_rows(*rows, order, k_motion_stride);
+  if (has_fluid_) {
+    reorder_rows(drag_, order, 4);
+    reorder_rows(impulse_, order, 4);
+    reorder_rows(decay_, order, 2);
+  }
+  reorder_rows(id_, order, 1);
+  reorder_rows(material_, order, 1);
+  reorder_rows(population_, order, 1);
+  reorder_rows(weight_, order, 1);
+}
+
+void ParticleStore::update_decay(double step) {
+  has_drag_ = false;
+  if (!has_fluid_) return;
+  for (std::size_t n = 0; n < size(); ++n) {
+    const double rate = drag_[4 * n + 3];
+    has_drag_ = has_drag_ || rate * step > 0.0;
+    const leapfrog::Relaxation relaxation = leapfrog::relaxation(rate, step);
+    decay_[2 * n] = relaxation.decay;
+    decay_[2 * n + 1] = relaxation.mean;
+  }
+}
+
+bool ParticleStore::has_weights(std::size_t count) const {
+  for (std::size_t n = 1; n < count; ++n) {
+    if (weight_[n] != weight_[0]) return true;
+  }
+  return false;
+}
+
+std::uint64_t ParticleStore::position_digest() const {
+  return base::Digest().add(position_).value();
+}
+std::uint64_t ParticleStore::motion_digest() const {
+  return base::Digest().add(motion_).add(spin_).value();
+}
+std::uint64_t ParticleStore::drag_digest() const {
+  return base::Digest().add(drag_).add(decay_).value();
+}
+std::uint64_t ParticleStore::impulse_digest() const { return base::Digest().add(impulse_).value(); }
+
+void ParticleStore::save(sdk::ArchiveWriter& archive) const {
+  save_rows(archive, "position", position_);
+  save_rows(archive, "motion", motion_);
+  save_rows(archive, "spin", spin_);
+  if (has_fluid_) {
+    save_rows(archive, "action", drag_);
+    save_rows(archive, "impulse", impulse_);
+    save_rows(archive, "decay", decay_);
+  }
+  archive.integers("id", id_);
+  archive.integers("material", widened(material_));
+  archive.integers("population", widened(population_));
+  archive.numbers("weight", weight_);
+}
+
+void ParticleStore::load(sdk::ArchiveReader& archive, std::int64_t next_id, bool has_drag) {
+  next_id_ = next_id;
+  has_drag_ = has_drag;
+  load_rows(archive, "position", position_);
+  load_rows(archive, "motion", motion_);
+  load_rows(archive, "spin", spin_);
+  if (has_fluid_) {
+    load_rows(archive, "action", drag_);
+    load_rows(archive, "impulse", impulse_);
+    load_rows(archive, "decay", decay_);
+  }
+  id_ = archive.integers("id");
+  const auto material = archive.integers("material");
+  const auto population = archive.integers("population");
+  material_.assign(material.begin(), material.end());
+  population_.assign(population.begin(), population.end());
+  weight_ = archive.numbers("weight");
+}
+
+}  // namespace dust::particles
