@@ -118,6 +118,11 @@ class ParticleStates {
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   ParticleState& operator[](std::size_t row) { return rows_[row]; }
   const ParticleState& operator[](std::size_t row) const { return rows_[row]; }
+  /// Fetches what a refresh needs of it.
+  void prefetch(std::size_t row) const {
+    __builtin_prefetch(&rows_[row]);
+    __builtin_prefetch(&rows_[row].is_paired);
+  }
   [[nodiscard]] std::vector<EscapedParticle>& escaped() { return escaped_; }
 
   void save(sdk::ArchiveWriter& archive) const;

@@ -4,6 +4,7 @@
 #include "dust/sdk/error.hpp"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <string>
 
@@ -30,27 +31,55 @@ void StressBalance::leave(const fluid::CellField& eps, const fluid::FaceField& s
 }
 
 void StressBalance::receive(const FaceStencils& stencils, std::span<const Triple> impulse) {
-  // One component is one task and sums in the order of the cells: the same bits on any number of
-  // threads.
-  tbb::parallel_for(std::size_t{0}, std::size_t{3}, [&](std::size_t d) {
-    WideKernel wide(lattice_, rule_);
-    for (std::size_t b = 0; b < stencils.size(); ++b) {
-      const StencilBatch& batch = stencils[b];
-      const std::span<const std::int32_t> rows = stencils.rows(b);
-      for (std::size_t q = 0; q < batch.count; ++q) {
-        const double received = impulse[static_cast<std::size_t>(rows[q])][d];
-        const double* position = &batch.position[4 * q];
-        if (!wide.takes(position[3])) {
-          owed_[d][cell_of(batch, q)] -= received;
-          continue;
-        }
+  // Components share nothing, and each sums in the order of the cells: the same bits on any number
+  // of threads. On one thread all go in one pass.
+  if (tbb::this_task_arena::max_concurrency() == 1) {
+    receive(stencils, impulse, 0, 3);
+    return;
+  }
+  tbb::parallel_for(std::size_t{0}, std::size_t{3},
+                    [&](std::size_t d) { receive(stencils, impulse, d, d + 1); });
+}
+
+/// The components from `first` to `end`.
+void StressBalance::receive(const FaceStencils& stencils, std::span<const Triple> impulse,
+                            std::size_t first, std::size_t end) {
+  WideKernel wide(lattice_, rule_);
+  // Particles of one cell come one after another: what it is owed stays in the registers meanwhile.
+  std::ptrdiff_t cell = -1;
+  Triple owed{};
+  const auto put_back = [&] {
+    if (cell < 0) return;
+    for (std::size_t d = first; d < end; ++d) owed_[d][static_cast<std::size_t>(cell)] = owed[d];
+  };
+  for (std::size_t b = 0; b < stencils.size(); ++b) {
+    const StencilBatch& batch = stencils[b];
+    const std::span<const std::int32_t> rows = stencils.rows(b);
+    for (std::size_t q = 0; q < batch.count; ++q) {
+      const Triple& received = impulse[static_cast<std::size_t>(rows[q])];
+      const double* position = &batch.position[4 * q];
+      if (wide.takes(position[3])) {
+        put_back();
+        cell = -1;
         wide.set(position, position[3]);
         for (const WideKernel::Share& share : wide.shares()) {
-          owed_[d][share.cell] -= share.weight * received;
+          for (std::size_t d = first; d < end; ++d) {
+            owed_[d][share.cell] -= share.weight * received[d];
+          }
+        }
+        continue;
+      }
+      if (const std::ptrdiff_t own = cell_of(batch, q); own != cell) {
+        put_back();
+        cell = own;
+        for (std::size_t d = first; d < end; ++d) {
+          owed[d] = owed_[d][static_cast<std::size_t>(cell)];
         }
       }
+      for (std::size_t d = first; d < end; ++d) owed[d] -= received[d];
     }
-  });
+  }
+  put_back();
 }
 
 void StressBalance::save(sdk::ArchiveWriter& archive) const {

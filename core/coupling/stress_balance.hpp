@@ -37,6 +37,9 @@ class StressBalance {
   void load(sdk::ArchiveReader& archive);
 
  private:
+  void receive(const FaceStencils& stencils, std::span<const Triple> impulse, std::size_t first,
+               std::size_t end);
+
   const Lattice& lattice_;
   const sdk::VoidageRule& rule_;
   std::array<std::vector<double>, 3> owed_;

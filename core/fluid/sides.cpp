@@ -18,7 +18,7 @@ constexpr int k_pressure = 3;  ///< "component" of the pressure in evaluate_at
 
 /// Calls body(a, b, offset) for a padded plane across `direction`: offset is the index of the
 /// plane's cell with 0 along `direction`; a, b count the other two directions, halos included.
-/// The inner loop runs along x where it can.
+/// The inner loop runs along x where it can. What is written for one (a, b) no other one reads.
 template <class Body>
 void for_plane(const Grid& g, int direction, const Body& body) {
   const int e = direction == 0 ? 1 : 0;
@@ -29,7 +29,12 @@ void for_plane(const Grid& g, int direction, const Body& body) {
   for_rows(n_e * 4, n_f, 1, [&](int q, int) {
     const int b = q + low;
     const std::ptrdiff_t o = g.index(0, 0, 0) + b * g.stride[f];
-    for (int a = low; a < low + n_e; ++a) body(a, b, o + a * g.stride[e]);
+    if (e == 0) {
+#pragma GCC ivdep
+      for (int a = low; a < low + n_e; ++a) body(a, b, o + a);
+    } else {
+      for (int a = low; a < low + n_e; ++a) body(a, b, o + a * g.stride[e]);
+    }
   });
 }
 
@@ -205,12 +210,13 @@ void Sides::fill_component(std::vector<double>& v, int d, int direction, bool fo
   const std::ptrdiff_t s = grid_.stride[direction];
   const int n = grid_.count[direction];
   if (kinds_.is_periodic[direction]) {
-    const int second = n > 1 ? n - 2 : 0;
-    for_plane(grid_, direction, [&](int, int, std::ptrdiff_t o) {
-      v[o - s] = v[o + (n - 1) * s];
-      v[o - 2 * s] = v[o + second * s];
-      v[o + n * s] = v[o];
-      v[o + (n + 1) * s] = v[o + (n > 1 ? s : 0)];
+    const std::ptrdiff_t last = (n - 1) * s;
+    const std::ptrdiff_t second = n > 1 ? s : 0;
+    for_plane(grid_, direction, [p = v.data(), s, last, second](int, int, std::ptrdiff_t o) {
+      p[o - s] = p[o + last];
+      p[o - 2 * s] = p[o + last - second];
+      p[o + last + s] = p[o];
+      p[o + last + 2 * s] = p[o + second];
     });
     return;
   }
@@ -225,14 +231,18 @@ void Sides::fill_component(std::vector<double>& v, int d, int direction, bool fo
     const std::ptrdiff_t third = n > 1 ? edge - 2 * out : second;
     // In y and z the halo has no room for a second face beyond the last one.
     const std::ptrdiff_t further = d == direction && high && d != 0 ? edge + out : edge + 2 * out;
+    if (beyond == Beyond::gradient) {
+      const std::ptrdiff_t mirrored = d == direction ? edge : second;
+      for_plane(grid_, direction,
+                [p = v.data(), edge, out, further, mirrored](int, int, std::ptrdiff_t o) {
+                  p[o + further] = p[o + mirrored];
+                  p[o + edge + out] = p[o + edge];
+                });
+      continue;
+    }
     const auto& given = values_[side].velocity[d];
     for_plane(grid_, direction, [&](int a, int b, std::ptrdiff_t o) {
       double* at = &v[o];
-      if (beyond == Beyond::gradient) {
-        at[further] = d == direction ? at[edge] : at[second];
-        at[edge + out] = at[edge];
-        return;
-      }
       const int p = std::clamp(a, 0, size[0] - 1);
       const int q = std::clamp(b, 0, size[1] - 1);
       const double wall = given[static_cast<std::size_t>(q) * size[0] + p];
@@ -295,15 +305,19 @@ void Sides::fill_cells(CellField& values) const {
   for (int direction = 0; direction < 3; ++direction) {
     const std::ptrdiff_t s = grid_.stride[direction];
     const int n = grid_.count[direction];
+    const std::ptrdiff_t last = (n - 1) * s;
+    const std::ptrdiff_t inner = n > 1 ? s : 0;
+    // What the first and the second cell beyond either end take.
     const bool is_periodic = kinds_.is_periodic[direction];
-    for_plane(grid_, direction, [&](int, int, std::ptrdiff_t o) {
-      for (int layer = 1; layer <= 2; ++layer) {
-        const int inner = std::min(layer, n) - 1;
-        values[o - layer * s] = is_periodic ? values[o + (n - 1 - inner) * s] : values[o];
-        values[o + (n - 1 + layer) * s] =
-            is_periodic ? values[o + inner * s] : values[o + (n - 1) * s];
-      }
-    });
+    const std::array<std::ptrdiff_t, 2> low{is_periodic ? last : 0, is_periodic ? last - inner : 0};
+    const std::array<std::ptrdiff_t, 2> high{is_periodic ? 0 : last, is_periodic ? inner : last};
+    for_plane(grid_, direction,
+              [p = values.data(), s, last, low, high](int, int, std::ptrdiff_t o) {
+                p[o - s] = p[o + low[0]];
+                p[o - 2 * s] = p[o + low[1]];
+                p[o + last + s] = p[o + high[0]];
+                p[o + last + 2 * s] = p[o + high[1]];
+              });
   }
 }
 

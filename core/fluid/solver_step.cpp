@@ -26,6 +26,21 @@ std::string place_text(Vec3 p, double time) {
   return text;
 }
 
+/// stress -= grad p, at unknown faces, and the force of eddies where there are any.
+void subtract_gradient(int n, std::ptrdiff_t s, double inverse_h, const FaceKind* kind,
+                       const double* p, const double* eddies, double* stress) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double force = inverse_h * (p[i] - p[i - s]);
+    const double next = stress[i] - force;
+    stress[i] = is_unknown(kind[i]) ? next : stress[i];
+  }
+  if (eddies == nullptr) return;
+  for (int i = 0; i < n; ++i) {
+    if (is_unknown(kind[i])) stress[i] += eddies[i];
+  }
+}
+
 }  // namespace
 
 void FluidSolver::Impl::advance(double time, double step, const CellField& before,
@@ -217,11 +232,15 @@ void FluidSolver::Impl::project(const StepState& s, const SubStep& part) {
                                 s.exchange.coefficient, part.share);
   }
   const CellField& phi = continuity_.increment();
+  const bool is_first = report_.sub_steps == 0;
   for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
     const std::ptrdiff_t o = grid_.index(0, j, k);
     for (int i = 0; i < grid_.count[0]; ++i) p_[o + i] += phi[o + i];
     if (!s.is_balanced) return;
-    for (int i = 0; i < grid_.count[0]; ++i) mean_pressure_[o + i] += part.share * p_[o + i];
+    for (int i = 0; i < grid_.count[0]; ++i) {
+      const double before = is_first ? 0.0 : mean_pressure_[o + i];
+      mean_pressure_[o + i] = before + part.share * p_[o + i];
+    }
   });
 }
 
@@ -282,20 +301,16 @@ void FluidSolver::Impl::begin_balance(const StepState& s) {
     balance_ = std::make_unique<MomentumBalance>(grid_, geometry(), properties_);
     mean_pressure_.assign(grid_.size, 0.0);
   }
-  std::fill(mean_pressure_.begin(), mean_pressure_.end(), 0.0);
   set_void_fraction(s, 0.0);
-  balance_->begin(u_, void_fraction_.field(), s.exchange.source, s.step);
+  balance_->begin(u_, void_fraction_, s.exchange.source, s.step);
 }
 
 /// Adds a row's convection, which acted for `time` [s], to the balance.
 void FluidSolver::Impl::balance_convection(const FaceField& v, int d, int j, int k,
                                            const double* row, double time) {
   const std::ptrdiff_t o = grid_.index(0, j, k);
-  thread_local std::vector<double> outflow;
-  outflow.resize(static_cast<std::size_t>(geometry().extent[d][0]));
-  momentum_.outflow_row(d, j, k, outflow.data());
   balance_->add_convection(d, o, time, &v.component[d][o], &void_fraction_.field()[o], row,
-                           outflow.data());
+                           momentum_.row_flux(d, j, k));
 }
 
 /// stress = -grad pressure + div tau of the velocity `v`, halos filled.
@@ -309,11 +324,9 @@ void FluidSolver::Impl::find_stress(const FaceField& v, CellField& pressure, Fac
     const std::ptrdiff_t s = grid_.stride[d];
     for_rows(n[0], n[1], n[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid_.index(0, j, k);
-      for (int i = 0; i < n[0]; ++i) {
-        if (!is_unknown(geometry().kind[d][o + i])) continue;
-        stress.component[d][o + i] -= inverse_h * (pressure[o + i] - pressure[o + i - s]);
-        if (eddies_) stress.component[d][o + i] += eddies_->force().component[d][o + i];
-      }
+      const double* eddies = eddies_ ? &eddies_->force().component[d][o] : nullptr;
+      subtract_gradient(n[0], s, inverse_h, &geometry().kind[d][o], &pressure[o], eddies,
+                        &stress.component[d][o]);
     });
     if (sides_.kinds().is_periodic[d]) wrap_last_face(grid_, d, stress.component[d]);
   }

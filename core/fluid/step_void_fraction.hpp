@@ -28,6 +28,11 @@ class StepVoidFraction {
     sides.fill_cells(eps_);
     if (properties.momentum_set() == MomentumSet::three) properties.set_void_fraction(eps_);
   }
+  /// Gives its field away for another of the same size, to be set anew.
+  void give_away(CellField& other) {
+    eps_.swap(other);
+    is_one_ = false;
+  }
 
  private:
   CellField eps_;

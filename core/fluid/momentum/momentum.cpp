@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluid/momentum/momentum.hpp"
 
+#include "fluid/momentum/half_sweeps.hpp"
 #include "fluid/momentum/momentum_rows.hpp"
 #include "fluid/momentum/skew_convection.hpp"
 #include "fluid/parallel.hpp"
@@ -54,7 +55,7 @@ void Momentum::convection_row(const FaceField& u, const CellField& eps, double s
   const int n = geometry_.extent[d][0];
   const std::ptrdiff_t o = grid_.index(0, j, k);
   const std::array<int, 3> c = {0, j, k};
-  std::fill_n(out, n, 0.0);
+  bool is_begun = false;
   double first = 0.0;
   double last = 0.0;
   // The component's own direction comes last: the ends of a row on open sides are taken out of it.
@@ -63,12 +64,15 @@ void Momentum::convection_row(const FaceField& u, const CellField& eps, double s
     if (is_even(d, e)) continue;
     if (e == d) {
       if (d != 0 && !kinds.is_periodic[d] && (c[d] == 0 || c[d] == grid_.count[d])) continue;
-      first = out[0];
-      last = out[n - 1];
+      first = is_begun ? out[0] : 0.0;
+      last = is_begun ? out[n - 1] : 0.0;
     }
-    convect_row(n, grid_.stride[e], grid_.stride[d], 1.0 / grid_.spacing[e], smoothness,
-                &flux_.component[e][o], &u.component[d][o], out);
+    (is_begun ? convect_row : begin_convect_row)(n, grid_.stride[e], grid_.stride[d],
+                                                 1.0 / grid_.spacing[e], smoothness,
+                                                 &flux_.component[e][o], &u.component[d][o], out);
+    is_begun = true;
   }
+  if (!is_begun) std::fill_n(out, n, 0.0);
   if (d == 0 && !sides_.kinds().is_periodic[0]) {
     out[0] = first;
     out[n - 1] = last;
@@ -101,15 +105,17 @@ void Momentum::skew_row(const FaceField& u, const CellField& eps, double smoothn
   }
 }
 
-void Momentum::outflow_row(int d, int j, int k, double* out) const {
-  const int n = geometry_.extent[d][0];
+RowFlux Momentum::row_flux(int d, int j, int k) const {
   const std::ptrdiff_t o = grid_.index(0, j, k);
-  std::fill_n(out, n, 0.0);
-  for (int e = 0; e < 3; ++e) {
-    if (grid_.count[e] == 1) continue;  // nothing varies, and nothing flows out between walls
-    outflow_row_along(n, grid_.stride[e], grid_.stride[d], 1.0 / grid_.spacing[e],
-                      &flux_.component[e][o], out);
+  RowFlux flux{};
+  for (std::size_t e = 0; e < 3; ++e) {
+    flux.through[e] = &flux_.component[e][o];
+    flux.stride[e] = grid_.stride[e];
+    // Of one cell nothing varies, and nothing flows out between walls.
+    flux.per_length[e] = grid_.count[e] == 1 ? 0.0 : 1.0 / grid_.spacing[static_cast<int>(e)];
   }
+  flux.across = grid_.stride[d];
+  return flux;
 }
 
 void Momentum::open_side_row(const FaceField& u, int d, int j, int k, double* out) const {
@@ -221,57 +227,69 @@ void Momentum::prepare(double implicit, const FaceField& coefficient, bool has_d
 }
 
 void Momentum::solve(const FaceField& right, FaceField& u) {
-  const bool is_varying = properties_.is_varying();
   // Per viscosity over inertia where these vary.
-  const double a =
-      is_varying ? implicit_ : implicit_ * properties_.viscosity() / properties_.density();
+  const double a = properties_.is_varying()
+                       ? implicit_
+                       : implicit_ * properties_.viscosity() / properties_.density();
   const double ax = grid_.count[0] == 1 && sides_.kinds().is_periodic[0]
                         ? 0.0
                         : a / (grid_.spacing[0] * grid_.spacing[0]);
-  const std::ptrdiff_t offset[6] = {
-      -1, 1, -grid_.stride[1], grid_.stride[1], -grid_.stride[2], grid_.stride[2]};
   for (int d = 0; d < 3; ++d) {
     if (!geometry_.has_unknown[d]) continue;
-    auto& v = u.component[d];
-    const auto& r = right.component[d];
+    const HalfSweep sweep{d, a, ax, right.component[d].data(), u.component[d].data()};
     const auto& e = geometry_.extent[d];
-    for (int half = 0; half < 2 * sweeps_; ++half) {
-      for_rows(e[0], e[1], e[2], [&](int j, int k) {
-        const std::ptrdiff_t o = grid_.index(0, j, k);
-        const int parity = (j + k + half) & 1;
-        const RowWeights w = row_weights(d, j, k);
-        if (is_varying) {
-          sweep_row_each(e[0], grid_.stride[1], grid_.stride[2], parity, relaxation_, ax,
-                         a * w.y_low, a * w.y_high, a * w.z_low, a * w.z_high,
-                         properties_.inertia(d, o).each, properties_.viscosity(d, o).each, &r[o],
-                         &inverse_.component[d][o], &v[o]);
-        } else if (w.y_low == 0.0 && w.y_high == 0.0) {
-          flat_sweep_row(e[0], grid_.stride[2], parity, relaxation_, ax, a * w.z_low, a * w.z_high,
-                         &r[o], &inverse_.component[d][o], &v[o]);
-        } else {
-          sweep_row(e[0], grid_.stride[1], grid_.stride[2], parity, relaxation_, ax, a * w.y_low,
-                    a * w.y_high, a * w.z_low, a * w.z_high, &r[o], &inverse_.component[d][o],
-                    &v[o]);
-        }
-        const std::size_t row = static_cast<std::size_t>(k) * e[1] + j;
-        for (int n = geometry_.cut_begin[d][row]; n < geometry_.cut_begin[d][row + 1]; ++n) {
-          const CutFace& face = geometry_.cut[d][n];
-          if ((face.i + parity) & 1) continue;
-          double t = r[face.at];
-          const double b = is_varying ? a * properties_.viscosity_at(d, face.at) *
-                                            properties_.inverse_inertia_at(d, face.at)
-                                      : a;
-          for (int s = 0; s < 6; ++s) {
-            const double value = face.wall_point[s] >= 0
-                                     ? geometry_.wall.velocity[d][face.wall_point[s]]
-                                     : v[face.at + offset[s]];
-            t += b * face.weight[s] * value;
-          }
-          v[face.at] += relaxation_ * (t * cut_inverse_[d][n] - v[face.at]);
-        }
-      });
-      if (sides_.is_any_periodic()) sides_.wrap(v, d);
+    const int halves = 2 * sweeps_;
+    if (!sides_.is_any_periodic()) {
+      for_half_sweeps(halves, e[0], e[1], e[2],
+                      [&](int half, int j, int k) { sweep_row_and_cuts(sweep, half, j, k); });
+      continue;
     }
+    for (int half = 0; half < halves; ++half) {
+      for_rows(e[0], e[1], e[2], [&](int j, int k) { sweep_row_and_cuts(sweep, half, j, k); });
+      sides_.wrap(u.component[d], d);
+    }
+  }
+}
+
+/// A row of a half sweep, and the faces next to bodies in it.
+void Momentum::sweep_row_and_cuts(const HalfSweep& s, int half, int j, int k) const {
+  const int d = s.d;
+  const double a = s.a;
+  const bool is_varying = properties_.is_varying();
+  const int n = geometry_.extent[d][0];
+  const std::ptrdiff_t o = grid_.index(0, j, k);
+  const std::ptrdiff_t sy = grid_.stride[1];
+  const std::ptrdiff_t sz = grid_.stride[2];
+  const int parity = (j + k + half) & 1;
+  const RowWeights w = row_weights(d, j, k);
+  const double* inverse = &inverse_.component[d][o];
+  if (is_varying) {
+    sweep_row_each(n, sy, sz, parity, relaxation_, s.ax, a * w.y_low, a * w.y_high, a * w.z_low,
+                   a * w.z_high, properties_.inertia(d, o).each, properties_.viscosity(d, o).each,
+                   s.right + o, inverse, s.u + o);
+  } else if (w.y_low == 0.0 && w.y_high == 0.0) {
+    flat_sweep_row(n, sz, parity, relaxation_, s.ax, a * w.z_low, a * w.z_high, s.right + o,
+                   inverse, s.u + o);
+  } else {
+    sweep_row(n, sy, sz, parity, relaxation_, s.ax, a * w.y_low, a * w.y_high, a * w.z_low,
+              a * w.z_high, s.right + o, inverse, s.u + o);
+  }
+  const std::ptrdiff_t offset[6] = {-1, 1, -sy, sy, -sz, sz};
+  const std::size_t row = static_cast<std::size_t>(k) * geometry_.extent[d][1] + j;
+  for (int c = geometry_.cut_begin[d][row]; c < geometry_.cut_begin[d][row + 1]; ++c) {
+    const CutFace& face = geometry_.cut[d][c];
+    if ((face.i + parity) & 1) continue;
+    double t = s.right[face.at];
+    const double b = is_varying ? a * properties_.viscosity_at(d, face.at) *
+                                      properties_.inverse_inertia_at(d, face.at)
+                                : a;
+    for (int side = 0; side < 6; ++side) {
+      const double value = face.wall_point[side] >= 0
+                               ? geometry_.wall.velocity[d][face.wall_point[side]]
+                               : s.u[face.at + offset[side]];
+      t += b * face.weight[side] * value;
+    }
+    s.u[face.at] += relaxation_ * (t * cut_inverse_[d][c] - s.u[face.at]);
   }
 }
 

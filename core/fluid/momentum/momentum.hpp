@@ -11,6 +11,16 @@
 
 namespace dust::fluid {
 
+/// Fluxes along a row of control volumes: through[e][i] belongs to the lower face of a cell in
+/// direction e, and a control volume has the mean of two cells, `across` apart. What flows out per
+/// volume [1/s] is the sum over e of per_length[e] times the difference along stride[e].
+struct RowFlux {
+  std::array<const double*, 3> through;
+  std::array<std::ptrdiff_t, 3> stride;
+  std::array<double, 3> per_length;  ///< [1/m]
+  std::ptrdiff_t across;
+};
+
 /// Convection, viscous stencils and the implicit solve of the momentum equation.
 class Momentum {
  public:
@@ -26,9 +36,9 @@ class Momentum {
   void convection_row(const FaceField& u, const CellField& eps, double smoothness, int d, int j,
                       int k, double* out) const;
 
-  /// out = div F [1/s] of the control volumes of that row, from the last find_flux; meaningless on
+  /// What flows through the control volumes of that row, from the last find_flux; meaningless on
   /// the sides themselves.
-  void outflow_row(int d, int j, int k, double* out) const;
+  [[nodiscard]] RowFlux row_flux(int d, int j, int k) const;
 
   /// Prepares (1 + implicit (coefficient - viscosity laplace) / inertia) for `solve`; implicit [s].
   /// `has_drag` = false: the coefficient is 0 everywhere.
@@ -57,6 +67,14 @@ class Momentum {
     double y_low, y_high, z_low, z_high;
   };
   [[nodiscard]] RowWeights row_weights(int d, int j, int k) const;
+  /// A component of the system that is solved; a, ax: weights of the neighbours.
+  struct HalfSweep {
+    int d;
+    double a, ax;
+    const double* right;
+    double* u;
+  };
+  void sweep_row_and_cuts(const HalfSweep& s, int half, int j, int k) const;
   /// Nothing of component d varies along e.
   [[nodiscard]] bool is_even(int d, int e) const;
   /// Puts convection along the surface in the place of that along the grid where SkewFace says so.

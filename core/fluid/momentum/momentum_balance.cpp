@@ -5,7 +5,7 @@
 #include "dust/sdk/plugin.hpp"
 #include "fluid/parallel.hpp"
 
-#include <array>
+#include <algorithm>
 #include <string>
 
 namespace dust::fluid {
@@ -22,19 +22,35 @@ DUST_KERNEL void begin_row(int n, std::ptrdiff_t s, double density, bool is_whol
   }
 }
 
-DUST_KERNEL void convection_row(int n, std::ptrdiff_t s, double mass, const double* eps,
-                                const double* convection, const double* outflow, const double* u,
-                                double* excess) {
+/// What flows out of a control volume along one direction, per volume [1/s].
+inline __attribute__((always_inline)) double outflow(const double* flux, std::ptrdiff_t s,
+                                                     std::ptrdiff_t across, double per_length,
+                                                     double before) {
+  const double high = 0.5 * (flux[s] + flux[s - across]);
+  const double low = 0.5 * (flux[0] + flux[-across]);
+  return before + per_length * (high - low);
+}
+
+DUST_KERNEL void convection_row(int n, double mass, const RowFlux& flux, const double* eps,
+                                const double* convection, const double* u, double* excess) {
+  const std::ptrdiff_t s = flux.across;
+  const auto [x, y, z] = flux.through;
+  const auto [sx, sy, sz] = flux.stride;
+  const auto [hx, hy, hz] = flux.per_length;
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
-    excess[i] += mass * (0.5 * (eps[i] + eps[i - s]) * convection[i] + outflow[i] * u[i]);
+    double out = outflow(x + i, sx, s, hx, 0.0);
+    out = outflow(y + i, sy, s, hy, out);
+    out = outflow(z + i, sz, s, hz, out);
+    excess[i] += mass * (0.5 * (eps[i] + eps[i - s]) * convection[i] + out * u[i]);
   }
 }
 
+/// Faces in or next to bodies are not booked.
 DUST_KERNEL void end_row(int n, std::ptrdiff_t s, double density, bool is_whole, double step,
-                         double last, const double* eps, const double* before, const double* u,
-                         const double* source, const double* coefficient, const double* drag,
-                         const double* stress, double* excess, double* owed) {
+                         double last, const FaceKind* kind, const double* eps, const double* before,
+                         const double* u, const double* source, const double* coefficient,
+                         const double* drag, const double* stress, double* excess, double* owed) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const double share = 0.5 * (eps[i] + eps[i - s]);
@@ -44,6 +60,9 @@ DUST_KERNEL void end_row(int n, std::ptrdiff_t s, double density, bool is_whole,
     excess[i] = now;
     owed[i] = now - density * change * last * u[i];
   }
+  // In loops of their own, which a vector of bytes does not hold up.
+  for (int i = 0; i < n; ++i) excess[i] = kind[i] == FaceKind::plain ? excess[i] : 0.0;
+  for (int i = 0; i < n; ++i) owed[i] = kind[i] == FaceKind::plain ? owed[i] : 0.0;
 }
 
 }  // namespace
@@ -55,7 +74,8 @@ MomentumBalance::MomentumBalance(const Grid& grid, const Geometry& geometry,
       properties_(properties),
       excess_(grid),
       owed_(grid),
-      source_(grid) {}
+      source_(grid),
+      eps_before_(grid.size, 1.0) {}
 
 template <class Work>
 void MomentumBalance::each_row(const Work& work) const {
@@ -65,34 +85,39 @@ void MomentumBalance::each_row(const Work& work) const {
   }
 }
 
-/// Faces of a row in or next to bodies and on sides are not booked.
-void MomentumBalance::leave_out(int d, int j, int k) {
-  const std::ptrdiff_t o = grid_.index(0, j, k);
+/// Faces on sides are not booked.
+void MomentumBalance::leave_out_sides(int d, int j, int k) {
+  if (grid_.is_periodic[d]) return;
   const int n = geometry_.extent[d][0];
-  for (int i = 0; i < n; ++i) {
-    const int at = std::array{i, j, k}[static_cast<std::size_t>(d)];
-    const bool is_side = !grid_.is_periodic[d] && (at == 0 || at == grid_.count[d]);
-    if (!is_side && geometry_.kind[d][o + i] == FaceKind::plain) continue;
-    excess_.component[d][o + i] = owed_.component[d][o + i] = 0.0;
+  const int at = d == 1 ? j : k;
+  const std::ptrdiff_t o = grid_.index(0, j, k);
+  for (auto* field : {&excess_, &owed_}) {
+    double* row = &field->component[d][o];
+    if (d == 0) {
+      row[0] = row[grid_.count[0]] = 0.0;
+    } else if (at == 0 || at == grid_.count[d]) {
+      std::fill_n(row, n, 0.0);
+    }
   }
 }
 
-void MomentumBalance::begin(const FaceField& u, const CellField& eps, const FaceField& source,
-                            double step) {
-  eps_before_ = eps;
+void MomentumBalance::begin(const FaceField& u, StepVoidFraction& void_fraction,
+                            const FaceField& source, double step) {
+  const CellField& eps = void_fraction.field();
   each_row([&](int d, int, int, std::ptrdiff_t o, int n) {
     begin_row(n, grid_.stride[d], properties_.density(),
               properties_.momentum_set() == MomentumSet::three, step, &eps[o], &u.component[d][o],
               &owed_.component[d][o], &source.component[d][o], &excess_.component[d][o],
               &source_.component[d][o]);
   });
+  void_fraction.give_away(eps_before_);
 }
 
 void MomentumBalance::add_convection(int d, std::ptrdiff_t o, double time, const double* u,
                                      const double* eps, const double* convection,
-                                     const double* outflow) {
-  convection_row(geometry_.extent[d][0], grid_.stride[d], time * properties_.density(), eps,
-                 convection, outflow, u, &excess_.component[d][o]);
+                                     const RowFlux& flux) {
+  convection_row(geometry_.extent[d][0], time * properties_.density(), flux, eps, convection, u,
+                 &excess_.component[d][o]);
 }
 
 void MomentumBalance::end(const FaceField& u, const CellField& eps, const Exchange& exchange,
@@ -100,11 +125,11 @@ void MomentumBalance::end(const FaceField& u, const CellField& eps, const Exchan
                           double last) {
   each_row([&](int d, int j, int k, std::ptrdiff_t o, int n) {
     end_row(n, grid_.stride[d], properties_.density(),
-            properties_.momentum_set() == MomentumSet::three, step, last, &eps[o], &eps_before_[o],
-            &u.component[d][o], &exchange.source.component[d][o],
+            properties_.momentum_set() == MomentumSet::three, step, last, &geometry_.kind[d][o],
+            &eps[o], &eps_before_[o], &u.component[d][o], &exchange.source.component[d][o],
             &exchange.coefficient.component[d][o], &drag_velocity.component[d][o],
             &stress.component[d][o], &excess_.component[d][o], &owed_.component[d][o]);
-    leave_out(d, j, k);
+    leave_out_sides(d, j, k);
   });
 }
 

@@ -5,7 +5,8 @@
 #include "fluid/face_properties.hpp"
 #include "fluid/geometry/geometry.hpp"
 #include "fluid/grid.hpp"
-#include "fluid/sides.hpp"
+#include "fluid/momentum/momentum.hpp"
+#include "fluid/step_void_fraction.hpp"
 
 namespace dust::fluid {
 
@@ -21,14 +22,15 @@ class MomentumBalance {
  public:
   MomentumBalance(const Grid& grid, const Geometry& geometry, const FaceProperties& properties);
 
-  /// At the beginning of a fluid step: the fluid as it is, halos of `eps` filled, and the source
-  /// with what is taken back over `step` [s].
-  void begin(const FaceField& u, const CellField& eps, const FaceField& source, double step);
+  /// At the beginning of a fluid step: the fluid as it is, and the source with what is taken back
+  /// over `step` [s]. Keeps the void fraction of now; that of the step is to be set anew.
+  void begin(const FaceField& u, StepVoidFraction& void_fraction, const FaceField& source,
+             double step);
   [[nodiscard]] const FaceField& source() const { return source_; }
-  /// A row of component d from padded index `o` on: its convection u . grad u and the outflow div F
-  /// [1/s] of its control volumes, which acted for `time` [s].
+  /// A row of component d from padded index `o` on: its convection u . grad u and what flows
+  /// through its control volumes, which acted for `time` [s].
   void add_convection(int d, std::ptrdiff_t o, double time, const double* u, const double* eps,
-                      const double* convection, const double* outflow);
+                      const double* convection, const RowFlux& flux);
   /// At the end; `source` as begin() had it, `last` the share of the step of its last part.
   void end(const FaceField& u, const CellField& eps, const Exchange& exchange,
            const FaceField& drag_velocity, const FaceField& stress, double step, double last);
@@ -40,7 +42,7 @@ class MomentumBalance {
   /// Calls work(d, j, k, padded index of the first face, number of faces) for every row.
   template <class Work>
   void each_row(const Work& work) const;
-  void leave_out(int d, int j, int k);
+  void leave_out_sides(int d, int j, int k);
 
   const Grid& grid_;
   const Geometry& geometry_;

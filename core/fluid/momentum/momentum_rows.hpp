@@ -29,8 +29,12 @@ inline __attribute__((always_inline)) double face_value(double up, double at, do
   return at + 0.5 * (behind + (w0 / (w0 + w1)) * (ahead - behind));
 }
 
-DUST_KERNEL void convect_row(int n, std::ptrdiff_t s, std::ptrdiff_t across, double inverse_h,
-                             double smoothness, const double* flux, const double* u, double* out) {
+/// Adds to out, or begins it.
+template <bool adds>
+inline __attribute__((always_inline)) void convect(int n, std::ptrdiff_t s, std::ptrdiff_t across,
+                                                   double inverse_h, double smoothness,
+                                                   const double* flux, const double* u,
+                                                   double* out) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const double high = 0.5 * (flux[i + s] + flux[i + s - across]);
@@ -46,19 +50,18 @@ DUST_KERNEL void convect_row(int n, std::ptrdiff_t s, std::ptrdiff_t across, dou
         face_value(high_out ? m1 : p2, high_out ? c : p1, high_out ? p1 : c, smoothness);
     const double at_low =
         face_value(low_in ? m2 : p1, low_in ? m1 : c, low_in ? c : m1, smoothness);
-    out[i] += inverse_h * (high * (at_high - c) - low * (at_low - c));
+    const double before = adds ? out[i] : 0.0;
+    out[i] = before + inverse_h * (high * (at_high - c) - low * (at_low - c));
   }
 }
-
-/// Adds what flows out of the control volumes of a row along one direction, per volume [1/s].
-DUST_KERNEL void outflow_row_along(int n, std::ptrdiff_t s, std::ptrdiff_t across, double inverse_h,
-                                   const double* flux, double* out) {
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const double high = 0.5 * (flux[i + s] + flux[i + s - across]);
-    const double low = 0.5 * (flux[i] + flux[i - across]);
-    out[i] += inverse_h * (high - low);
-  }
+DUST_KERNEL void convect_row(int n, std::ptrdiff_t s, std::ptrdiff_t across, double inverse_h,
+                             double smoothness, const double* flux, const double* u, double* out) {
+  convect<true>(n, s, across, inverse_h, smoothness, flux, u, out);
+}
+DUST_KERNEL void begin_convect_row(int n, std::ptrdiff_t s, std::ptrdiff_t across, double inverse_h,
+                                   double smoothness, const double* flux, const double* u,
+                                   double* out) {
+  convect<false>(n, s, across, inverse_h, smoothness, flux, u, out);
 }
 
 DUST_KERNEL void divide_by_face_eps_row(int n, std::ptrdiff_t across, const double* eps,
@@ -93,35 +96,47 @@ DUST_KERNEL void inverse_row_each(int n, double implicit, double sum, const doub
   }
 }
 
+/// Numbers of a row that are found first and then put in, every other one. In one go, each next to
+/// those that its neighbours read, the loop would have to go number by number.
+constexpr int k_chunk = 256;
+
+/// u += omega (t - u) at every other number of a row, t = value(i) reading neighbours along x.
+template <class Value>
+inline __attribute__((always_inline)) void sweep(int n, int parity, double omega,
+                                                 const double* inverse, double* u,
+                                                 const Value& value) {
+  alignas(64) double next[k_chunk];
+  for (int first = 0; first < n; first += k_chunk) {
+    const int count = std::min(k_chunk, n - first);
+#pragma GCC ivdep
+    for (int q = 0; q < count; ++q) {
+      const double old = u[first + q];
+      next[q] = old + omega * (value(first + q) * inverse[first + q] - old);
+    }
+#pragma GCC ivdep
+    for (int q = 0; q < count; ++q) {
+      const bool takes = inverse[first + q] > 0.0 && ((first + q + parity) & 1) == 0;
+      u[first + q] = takes ? next[q] : u[first + q];
+    }
+  }
+}
+
 DUST_KERNEL void sweep_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, int parity, double omega,
                            double ax, double y_low, double y_high, double z_low, double z_high,
                            const double* right, const double* inverse, double* u) {
-  const double* old = u;
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const double t = (right[i] + ax * (old[i - 1] + old[i + 1]) + y_low * old[i - sy] +
-                      y_high * old[i + sy] + z_low * old[i - sz] + z_high * old[i + sz]) *
-                     inverse[i];
-    const bool takes = inverse[i] > 0.0 && ((i + parity) & 1) == 0;
-    const double next = old[i] + omega * (t - old[i]);
-    u[i] = takes ? next : old[i];
-  }
+  sweep(n, parity, omega, inverse, u, [=](int i) {
+    return right[i] + ax * (u[i - 1] + u[i + 1]) + y_low * u[i - sy] + y_high * u[i + sy] +
+           z_low * u[i - sz] + z_high * u[i + sz];
+  });
 }
 
 /// The same where nothing varies along y.
 DUST_KERNEL void flat_sweep_row(int n, std::ptrdiff_t sz, int parity, double omega, double ax,
                                 double z_low, double z_high, const double* right,
                                 const double* inverse, double* u) {
-  const double* old = u;
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const double t =
-        (right[i] + ax * (old[i - 1] + old[i + 1]) + z_low * old[i - sz] + z_high * old[i + sz]) *
-        inverse[i];
-    const bool takes = inverse[i] > 0.0 && ((i + parity) & 1) == 0;
-    const double next = old[i] + omega * (t - old[i]);
-    u[i] = takes ? next : old[i];
-  }
+  sweep(n, parity, omega, inverse, u, [=](int i) {
+    return right[i] + ax * (u[i - 1] + u[i + 1]) + z_low * u[i - sz] + z_high * u[i + sz];
+  });
 }
 
 /// The same with viscosity and 1 / inertia per face; weights in s/m2.
@@ -129,16 +144,11 @@ DUST_KERNEL void sweep_row_each(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, int
                                 double omega, double ax, double y_low, double y_high, double z_low,
                                 double z_high, const double* inertia, const double* viscosity,
                                 const double* right, const double* inverse, double* u) {
-  const double* old = u;
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
-    const double around = ax * (old[i - 1] + old[i + 1]) + y_low * old[i - sy] +
-                          y_high * old[i + sy] + z_low * old[i - sz] + z_high * old[i + sz];
-    const double t = (right[i] + viscosity[i] * inertia[i] * around) * inverse[i];
-    const bool takes = inverse[i] > 0.0 && ((i + parity) & 1) == 0;
-    const double next = old[i] + omega * (t - old[i]);
-    u[i] = takes ? next : old[i];
-  }
+  sweep(n, parity, omega, inverse, u, [=](int i) {
+    const double around = ax * (u[i - 1] + u[i + 1]) + y_low * u[i - sy] + y_high * u[i + sy] +
+                          z_low * u[i - sz] + z_high * u[i + sz];
+    return right[i] + viscosity[i] * inertia[i] * around;
+  });
 }
 
 DUST_KERNEL void scale_row(int n, const double* factor, double* values) {

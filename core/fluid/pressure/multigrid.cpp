@@ -18,27 +18,35 @@ constexpr std::size_t k_first_twice = 2;
 /// Directions up to this times the smallest spacing are coarsened together.
 constexpr double k_same_spacing = 1.5;
 
+/// Numbers of a row that are found first and then put in, every other one. In one go, each next to
+/// those that its neighbours read, the loop would have to go number by number.
+constexpr int k_chunk = 512;
+
 DUST_KERNEL void smooth_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, int parity, bool has_y,
                             const float* ax, const float* ay, const float* az, const float* inverse,
                             const float* b, float* x) {
-  // Every lane is written, the other colour with its own old value: neighbours read no change.
-  const float* old = x;
-  if (has_y) {
+  alignas(64) float next[k_chunk];
+  for (int first = 0; first < n; first += k_chunk) {
+    const int end = std::min(first + k_chunk, n);
+    float* const found = next - first;
+    if (has_y) {
 #pragma GCC ivdep
-    for (int i = 0; i < n; ++i) {
-      const float t = (b[i] + ax[i] * old[i - 1] + ax[i + 1] * old[i + 1] + ay[i] * old[i - sy] +
-                       ay[i + sy] * old[i + sy] + az[i] * old[i - sz] + az[i + sz] * old[i + sz]) *
-                      inverse[i];
-      x[i] = ((i + parity) & 1) ? x[i] : t;
-    }
-  } else {
+      for (int i = first; i < end; ++i) {
+        found[i] = (b[i] + ax[i] * x[i - 1] + ax[i + 1] * x[i + 1] + ay[i] * x[i - sy] +
+                    ay[i + sy] * x[i + sy] + az[i] * x[i - sz] + az[i + sz] * x[i + sz]) *
+                   inverse[i];
+      }
+    } else {
 #pragma GCC ivdep
-    for (int i = 0; i < n; ++i) {
-      const float t = (b[i] + ax[i] * old[i - 1] + ax[i + 1] * old[i + 1] + az[i] * old[i - sz] +
-                       az[i + sz] * old[i + sz]) *
-                      inverse[i];
-      x[i] = ((i + parity) & 1) ? x[i] : t;
+      for (int i = first; i < end; ++i) {
+        found[i] = (b[i] + ax[i] * x[i - 1] + ax[i + 1] * x[i + 1] + az[i] * x[i - sz] +
+                    az[i + sz] * x[i + sz]) *
+                   inverse[i];
+      }
     }
+    // Every lane is written, the other colour with its own old value: neighbours read no change.
+#pragma GCC ivdep
+    for (int i = first; i < end; ++i) x[i] = ((i + parity) & 1) ? x[i] : found[i];
   }
 }
 
