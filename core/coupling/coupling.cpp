@@ -255,6 +255,7 @@ void Coupling::refresh(const particles::GrainRows& grains, const FluidState& flu
   if (s.forces) s.forces->begin(fluid, s.schedule.fluid_step(), is_first);
   if (!s.stencils.are_in_order(s.states.order(), grains.count)) {
     s.stencils.sort(s.lattice.grid(), grains, s.states.order());
+    if (!s.assembled) s.states.number(s.stencils.rows());
   }
   if (s.stress_balance && is_first) {
     s.stress_balance->leave(s.void_fraction.after(), fluid.stress_divergence,
@@ -301,7 +302,11 @@ void Coupling::end_step(const particles::GrainRows& grains, double fluid_step) {
       }
     }
   });
-  if (s.stress_balance) s.stress_balance->receive(s.stencils, stress);
+  if (!s.stress_balance) return;
+  // In the cells where they were looked at, however the rows were reordered since.
+  const std::vector<std::int32_t> now = s.states.rows_now(s.stencils.order(), s.stencils.rows());
+  s.stress_balance->receive(s.stencils, now.empty() ? s.stencils.rows() : FaceStencils::Rows(now),
+                            stress);
 }
 
 void Coupling::momentum_exchange(std::vector<float>& per_cell) const {

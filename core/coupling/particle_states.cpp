@@ -45,6 +45,12 @@ void ParticleStates::align(const particles::GrainRows& grains) {
   ids_.assign(grains.id, grains.id + grains.count);
 }
 
+void ParticleStates::number(std::span<const std::int32_t> rows) {
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    rows_[static_cast<std::size_t>(rows[n])].stencil = static_cast<std::int32_t>(n);
+  }
+}
+
 std::vector<std::int32_t> ParticleStates::rows_now(std::uint64_t order,
                                                    std::span<const std::int32_t> then) const {
   if (order == order_) return {};

@@ -25,7 +25,7 @@ struct ParticleState {
   bool has_velocity = false;
   std::array<bool, 3> is_paired{};  ///< the component's force found open faces at map()
   std::int32_t stencil =
-      -1;          ///< its number in the order of the cells at begin_step(), -1: was not there
+      -1;          ///< its number in the order of the cells, as last numbered; -1: was not there
   Triple given{};  ///< [N s] drag that the fluid was told to balance, weight included
   Triple place{};  ///< [m] at collect()
   Triple owed{};   ///< [N s] impulse the fluid has still to receive, weight included
@@ -91,6 +91,9 @@ class ParticleStates {
 
   /// Changes whenever the order of the rows has.
   [[nodiscard]] std::uint64_t order() const { return order_; }
+
+  /// Numbers the particles of these rows, in the order of the cells.
+  void number(std::span<const std::int32_t> rows);
 
   /// Where the particles `then`, numbered as order() was `order`, are now: by
   /// ParticleState::stencil, -1 for those that are gone. Empty if nothing has changed.

@@ -30,20 +30,21 @@ void StressBalance::leave(const fluid::CellField& eps, const fluid::FaceField& s
   });
 }
 
-void StressBalance::receive(const FaceStencils& stencils, std::span<const Triple> impulse) {
+void StressBalance::receive(const FaceStencils& stencils, FaceStencils::Rows now,
+                            std::span<const Triple> impulse) {
   // Components share nothing, and each sums in the order of the cells: the same bits on any number
   // of threads. On one thread all go in one pass.
   if (tbb::this_task_arena::max_concurrency() == 1) {
-    receive(stencils, impulse, 0, 3);
+    receive(stencils, now, impulse, 0, 3);
     return;
   }
   tbb::parallel_for(std::size_t{0}, std::size_t{3},
-                    [&](std::size_t d) { receive(stencils, impulse, d, d + 1); });
+                    [&](std::size_t d) { receive(stencils, now, impulse, d, d + 1); });
 }
 
 /// The components from `first` to `end`.
-void StressBalance::receive(const FaceStencils& stencils, std::span<const Triple> impulse,
-                            std::size_t first, std::size_t end) {
+void StressBalance::receive(const FaceStencils& stencils, FaceStencils::Rows now,
+                            std::span<const Triple> impulse, std::size_t first, std::size_t end) {
   WideKernel wide(lattice_, rule_);
   // Particles of one cell come one after another: what it is owed stays in the registers meanwhile.
   std::ptrdiff_t cell = -1;
@@ -54,8 +55,9 @@ void StressBalance::receive(const FaceStencils& stencils, std::span<const Triple
   };
   for (std::size_t b = 0; b < stencils.size(); ++b) {
     const StencilBatch& batch = stencils[b];
-    const std::span<const std::int32_t> rows = stencils.rows(b);
+    const FaceStencils::Rows rows = now.subspan(b * StencilBatch::k_size, batch.count);
     for (std::size_t q = 0; q < batch.count; ++q) {
+      if (rows[q] < 0) continue;
       const Triple& received = impulse[static_cast<std::size_t>(rows[q])];
       const double* position = &batch.position[4 * q];
       if (wide.takes(position[3])) {

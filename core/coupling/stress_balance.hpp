@@ -28,8 +28,10 @@ class StressBalance {
     received_.resize(count);
     return received_;
   }
-  /// What they have received: `impulse` [N s] per particle, weight included, at these stencils.
-  void receive(const FaceStencils& stencils, std::span<const Triple> impulse);
+  /// What they have received: `impulse` [N s] per particle, weight included, at these stencils, of
+  /// particles whose rows are `now` others; -1 for those that are gone.
+  void receive(const FaceStencils& stencils, FaceStencils::Rows now,
+               std::span<const Triple> impulse);
   /// Owed to the fluid [N s], component d, per padded cell.
   [[nodiscard]] std::vector<double>& owed(int d) { return owed_[static_cast<std::size_t>(d)]; }
 
@@ -37,8 +39,8 @@ class StressBalance {
   void load(sdk::ArchiveReader& archive);
 
  private:
-  void receive(const FaceStencils& stencils, std::span<const Triple> impulse, std::size_t first,
-               std::size_t end);
+  void receive(const FaceStencils& stencils, FaceStencils::Rows now,
+               std::span<const Triple> impulse, std::size_t first, std::size_t end);
 
   const Lattice& lattice_;
   const sdk::VoidageRule& rule_;

@@ -91,7 +91,7 @@ TEST_CASE("what grains receive of the stress shall be taken off what the fluid l
   for (int d = 0; d < 3; ++d) {
     received[0][static_cast<std::size_t>(d)] = k_step * cell * 0.1 * stress[d];
   }
-  balance.receive(stencils, received);
+  balance.receive(stencils, stencils.rows(), received);
   for (int d = 0; d < 3; ++d) {
     for (const double owed : balance.owed(d)) CHECK(std::abs(owed) < 1e-18);
   }
