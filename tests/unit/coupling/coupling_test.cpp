@@ -188,7 +188,7 @@ TEST_CASE("rows reordered between map and refresh shall change nothing for any g
 }
 
 /// What is owed to the fluid for the stress, per component and cell.
-std::array<std::vector<double>, 3> stress_owed(const World& world) {
+std::array<std::vector<double>, 3> stress_residuals(const World& world) {
   MemoryArchive archive;
   world.coupling->save(archive);
   std::array<std::vector<double>, 3> owed;
@@ -203,7 +203,7 @@ TEST_CASE(
   // As they were; reordered after the last refresh; reordered before it, and after it once more;
   // one of them gone.
   enum class Fate { none, after, twice, gone };
-  const auto owed_after = [](Fate fate) {
+  const auto residuals_after = [](Fate fate) {
     World world(box(false));
     world.set(world.velocity, swirl);
     world.set(world.stress, [](sdk::Vec3 p) { return 1e5 * sdk::Vec3{p.x, p.y * p.z, p.z}; });
@@ -217,16 +217,16 @@ TEST_CASE(
     }
     if (fate == Fate::gone) world.grains.remove_last();
     world.coupling->end_step(world.grains.rows(), k_step);
-    return stress_owed(world);
+    return stress_residuals(world);
   };
-  const auto plain = owed_after(Fate::none);
+  const auto plain = residuals_after(Fate::none);
   double scale = 0.0;
   for (const auto& component : plain) {
     for (const double owed : component) scale = std::max(scale, std::abs(owed));
   }
   REQUIRE(scale > 0.0);
   for (const Fate fate : {Fate::after, Fate::twice, Fate::gone}) {
-    const auto owed = owed_after(fate);
+    const auto owed = residuals_after(fate);
     for (std::size_t d = 0; d < 3; ++d) {
       int others = 0;
       for (std::size_t cell = 0; cell < owed[d].size(); ++cell) {
