@@ -78,7 +78,9 @@ void FluidSolver::Impl::set_velocity(const std::function<Vec3(Vec3)>& velocity) 
 }
 
 const FaceField& FluidSolver::Impl::stress_divergence() {
-  return stress_.get([this](FaceField& stress) { find_stress(u_, p_, stress); });
+  return stress_.get([this](FaceField& stress) {
+    find_stress(u_, p_, stress, eddies_ ? &eddies_->force() : nullptr);
+  });
 }
 
 void FluidSolver::Impl::save(sdk::ArchiveWriter& archive) {

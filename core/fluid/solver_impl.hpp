@@ -95,7 +95,8 @@ class FluidSolver::Impl {
   void recut(double begin, double end);
   void begin_balance(const StepState& s);
   void balance_convection(const FaceField& v, int d, int j, int k, const double* row, double time);
-  void find_stress(const FaceField& v, CellField& pressure, FaceField& stress);
+  void find_stress(const FaceField& v, CellField& pressure, FaceField& stress,
+                   const FaceField* eddies);
   void set_void_fraction(const StepState& s, double share);
   [[nodiscard]] bool is_uniform(const std::vector<double>& field, const std::array<int, 3>& n,
                                 double value);

@@ -66,8 +66,8 @@ FluidSolver::Impl::StepState FluidSolver::Impl::begin_step(double time, double s
   const bool is_clean = is_uniform(after, grid_.count, 1.0) &&
                         (&before == &after || is_uniform(before, grid_.count, 1.0));
   drag_velocity_.begin(has_drag);
-  // Where particles act on one fluid without eddies, whose grid stays.
-  is_balanced_ = has_drag && !eddies_ && !has_movers() && properties_.by_place().is_uniform();
+  // Where particles act on one fluid whose grid stays.
+  is_balanced_ = has_drag && !has_movers() && properties_.by_place().is_uniform();
   if (has_movers()) rates_.invalidate();
   return {time, step, before, after, exchange, is_clean, has_drag, is_balanced_};
 }
@@ -189,9 +189,9 @@ void FluidSolver::Impl::sub_step(const StepState& s, const SubStep& part) {
   auto& [next, right, sum] = stages_;
   const double step = part.step;
   momentum_.prepare(k_gamma * step, s.exchange.coefficient, s.has_drag);
-  const FaceField& source = s.is_balanced ? balance_->source()
-                            : eddies_     ? eddies_->add_to(s.exchange.source, u_)
-                                          : s.exchange.source;
+  const FaceField& given = s.is_balanced ? balance_->source() : s.exchange.source;
+  const FaceField& source = eddies_ ? eddies_->add_to(given, u_) : given;
+  if (eddies_ && s.is_balanced) eddies_->add_to_mean(part.share, report_.sub_steps == 0);
 
   convect(s, part, u_, nullptr);
   sides_.evaluate_pressure(part.time + step);
@@ -291,7 +291,7 @@ void FluidSolver::Impl::end_step(const StepState& s, double last_share) {
   if (!s.is_balanced) return;
   const FaceField& mean_velocity = drag_velocity_.field();
   FaceField& stress = stress_.write();
-  find_stress(mean_velocity, mean_pressure_, stress);
+  find_stress(mean_velocity, mean_pressure_, stress, eddies_ ? &eddies_->mean_force() : nullptr);
   sides_.fill_pressure(p_, false);
   balance_->end(u_, void_fraction_.field(), s.exchange, mean_velocity, stress, s.step, last_share);
 }
@@ -313,8 +313,10 @@ void FluidSolver::Impl::balance_convection(const FaceField& v, int d, int j, int
                            momentum_.row_flux(d, j, k));
 }
 
-/// stress = -grad pressure + div tau of the velocity `v`, halos filled.
-void FluidSolver::Impl::find_stress(const FaceField& v, CellField& pressure, FaceField& stress) {
+/// stress = -grad pressure + div tau of the velocity `v`, halos filled, with the force of `eddies`
+/// (null: none).
+void FluidSolver::Impl::find_stress(const FaceField& v, CellField& pressure, FaceField& stress,
+                                    const FaceField* eddies) {
   sides_.fill_pressure(pressure, false);
   momentum_.viscous_force(v, stress);
   if (eddies_) eddies_->update(v);
@@ -324,9 +326,8 @@ void FluidSolver::Impl::find_stress(const FaceField& v, CellField& pressure, Fac
     const std::ptrdiff_t s = grid_.stride[d];
     for_rows(n[0], n[1], n[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid_.index(0, j, k);
-      const double* eddies = eddies_ ? &eddies_->force().component[d][o] : nullptr;
-      subtract_gradient(n[0], s, inverse_h, &geometry().kind[d][o], &pressure[o], eddies,
-                        &stress.component[d][o]);
+      subtract_gradient(n[0], s, inverse_h, &geometry().kind[d][o], &pressure[o],
+                        eddies ? &eddies->component[d][o] : nullptr, &stress.component[d][o]);
     });
     if (sides_.kinds().is_periodic[d]) wrap_last_face(grid_, d, stress.component[d]);
   }

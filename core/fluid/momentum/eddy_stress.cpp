@@ -29,6 +29,7 @@ EddyStress::EddyStress(const Grid& grid, const Geometry& geometry, const Sides& 
       rate_(grid.size, 0.0),
       viscosity_(grid.size, 0.0),
       force_(grid),
+      mean_force_(grid),
       sum_(grid) {
   double volume = 1.0;
   int directions = 0;
@@ -178,6 +179,19 @@ const FaceField& EddyStress::add_to(const FaceField& source, const FaceField& u)
     });
   }
   return sum_;
+}
+
+void EddyStress::add_to_mean(double share, bool is_first) {
+  for (int d = 0; d < 3; ++d) {
+    const auto& n = geometry_.extent[d];
+    for_rows(n[0], n[1], n[2], [&](int j, int k) {
+      const std::ptrdiff_t o = grid_.index(0, j, k);
+      for (int i = 0; i < n[0]; ++i) {
+        double& mean = mean_force_.component[d][o + i];
+        mean = (is_first ? 0.0 : mean) + share * force_.component[d][o + i];
+      }
+    });
+  }
 }
 
 }  // namespace dust::fluid

@@ -34,6 +34,9 @@ class EddyStress {
   const FaceField& add_to(const FaceField& source, const FaceField& u);
   /// [N/m3] div tau at unknown faces, 0 elsewhere.
   [[nodiscard]] const FaceField& force() const { return force_; }
+  /// Adds the present force, which acts for a `share` of a fluid step, to the mean over it.
+  void add_to_mean(double share, bool is_first);
+  [[nodiscard]] const FaceField& mean_force() const { return mean_force_; }
 
  private:
   void find_walls(const FaceField& start);
@@ -54,6 +57,7 @@ class EddyStress {
   CellField rate_;  ///< [1/s]
   CellField viscosity_;
   FaceField force_;
+  FaceField mean_force_;
   FaceField sum_;  ///< storage of add_to()
 };
 

@@ -329,6 +329,22 @@ TEST_CASE("momentum shall be conserved to rounding with every drag law, thin and
   }
 }
 
+TEST_CASE("momentum of air with eddies and scattered grains shall be conserved to rounding") {
+  constexpr double k_rounding = 1e-10;
+  const auto model = test::make_model<sdk::TurbulenceModel>("turbulence", "smagorinsky");
+  for (const std::string set : {"I", "II", "III"}) {
+    CAPTURE(set);
+    Cloud cloud(scattered_box("di_felice", "divided", set));
+    cloud.air->use(*model);
+    scatter(cloud.world, 8e-4, 0.05);
+    const Kept kept = kept_over(cloud, 50);
+    const fluid::CellField& viscosity = *cloud.air->eddy_viscosity();
+    CHECK(*std::max_element(viscosity.begin(), viscosity.end()) > 0.1 * test::k_air_viscosity);
+    CHECK(kept.drift < k_rounding);
+    CHECK(kept.on_the_way < k_late);
+  }
+}
+
 TEST_CASE("momentum of air in sub-steps and scattered dust shall be conserved") {
   // At the start a uniform flow is none between scattered grains: its momentum is that of the flow
   // that the first step makes of it. Of the order of the square of the solids' share.
