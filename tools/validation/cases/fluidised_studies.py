@@ -1,0 +1,33 @@
+"""The studies of chapter 5: tables 5.7 to 5.11, and the height of the bed."""
+
+import bed
+import study_points
+from bed import SOFT
+from runs import Plan
+
+TITLE = "Studies of the fluidised bed: cells, drag laws, sides, walls, restitution, sizes, height"
+BITS = ("fluidised_bed_column", "mixer")
+STUDIES = ("fluidised_bed_cells", "fluidised_bed_restitution", "fluidised_bed_drag", "fluidised_bed_sides", "fluidised_bed_grains",
+           "fluidised_bed_rolling", "fluidised_bed_depth_cells")
+
+
+def plans():
+    return [Plan("fluidised_bed_150mm_5", "thesis/fluidised_bed_150mm.yaml", SOFT),
+            Plan("fluidised_bed_ramp_5", "thesis/fluidised_bed_ramp.yaml", SOFT),
+            *(plan for study in STUDIES for plan in study_points.plans(study, SOFT))]
+
+
+def fill(page, runs):
+    for study in STUDIES:
+        text = study_points.read(study)
+        for label, settings in study_points.points(text):
+            run = runs[study_points.plan_of(study, label, settings, SOFT).name]
+            for name, given in text["measure"].items():
+                page.add(f"{study}, {label}: {name} [{given['unit']}]", study_points.measured(run, given),
+                         "[thesis](thesis.md)", why="judged beside the thesis's model on that page")
+    run = runs["fluidised_bed_ramp_5"]
+    for litres, measured in ((20, 6.00), (30, 8.93), (40, 12.13), (50, 14.47), (75, 15.60)):
+        page.add(f"ramp, rising: pressure drop at {litres} l/min [mbar]", bed.drop_at(run, litres, 0.2, 5.2),
+                 f"{measured:.2f} (measured)", why="no band is agreed for the rising branch")
+    bed.draw(page, [run], since=0.2)
+    page.note("Columns of 20 x 3 mm (of 10 x 15 mm between walls for rolling friction and cells in depth), sand of 5 MPa.")

@@ -1,0 +1,63 @@
+"""Every number and sign of chapters 3 to 6 of the thesis beside ours."""
+
+from thesis import chapter_3, chapter_4, chapter_5, chapter_6
+from thesis.row import AS_GOOD, BETTER, NO_TRUTH, NOT_RUN, WORSE
+
+import cases
+
+TITLE = "The thesis: every number beside ours"
+BITS = ("transfer_point", "container_walls", "container_periodic", "settling_a1", "fluidised_bed_column", "rare_sizes", "mixer")
+SOURCES = ("settling_a1", "air_to_water", "settling_b", "rectangular_container", "conical_pile", "hourglass", "fluidised_column",
+           "fluidised_vessel", "fluidised_studies", "belt", "dust")
+CHAPTERS = {"3: one sphere settling": chapter_3, "4: hourglass, piles, container": chapter_4, "5: fluidised bed": chapter_5,
+            "6: belt conveyor and transfer point": chapter_6}
+HEAD = ("where", "what", "measured", "thesis", "ours", "verdict", "band", "parameters that differ", "runs", "hours of one core")
+
+
+def plans():
+    return [plan for case in SOURCES for plan in cases.load(case).plans()]
+
+
+def cost_of(row, runs):
+    """Hours that the runs took, or what `engine check` expects of those that are left."""
+    texts = []
+    for name in row.runs:
+        if name.startswith("..."):
+            continue
+        run = runs[name]
+        if run.is_finished():
+            texts.append(f"{run.summary['cpu_s'] / 3600:.2g}")
+        elif runs.engine:
+            hours = runs.engine.hours(run.plan)
+            texts.append("refused" if hours is None else f"about {hours:.2g} left" + (" each" if len(row.runs) > 1 else ""))
+    return " + ".join(dict.fromkeys(texts))
+
+
+def fill(page, runs):
+    chapters = {title: chapter.rows(runs) for title, chapter in CHAPTERS.items()}
+    every = [row for rows in chapters.values() for row in rows]
+    page.body(summary(every))
+    for title, rows in chapters.items():
+        page.body([f"## Chapter {title}", "", "| " + " | ".join(HEAD) + " |", "| --- |" + " --- |" * (len(HEAD) - 1),
+                   *("| " + " | ".join(row.cells(cost_of(row, runs))) + " |" for row in rows), ""])
+    page.body(left(runs))
+
+
+def summary(rows):
+    count = {v: sum(row.verdict() == v for row in rows) for v in (BETTER, AS_GOOD, WORSE, NO_TRUTH, NOT_RUN)}
+    judged = count[BETTER] + count[AS_GOOD] + count[WORSE]
+    share = f"{100 * (count[BETTER] + count[AS_GOOD]) / judged:.0f} % of the {judged} rows that are judged" if judged else "none yet"
+    return ["**As good**: |ours - measured| <= |thesis - measured| + uncertainty of the measurement. **Better**: nearer than the "
+            "thesis's model. A sign is as good when the change is beyond twice its standard error the thesis's way. Bands are the "
+            "thesis's own limits: 5.7 % of the angle, 7.7 % of the time, 6.6 % of the pile. Where nothing was measured, nothing is "
+            "judged; where the thesis gives no value of its model, as good is within the uncertainty or the band.", "",
+            f"{len(rows)} rows: " + ", ".join(f"{n} {v}" for v, n in count.items() if n) + f". As good or better: {share}.", ""]
+
+
+def left(runs):
+    """What has not been run, with its scenario and its cost."""
+    missing = [run for run in runs if not run.is_finished()]
+    hours = {run.name: runs.engine.hours(run.plan) if runs.engine else None for run in missing}
+    return ["## What has not been run", "", f"{len(missing)} runs, about {sum(h or 0 for h in hours.values()):.0f} hours of one core as "
+            "`engine check` expects (on the safe side: runs that ended took less).", "",
+            *(f"- {run.name}: `{run.plan.shown()}`" + (f", {hours[run.name]:.2g} h" if hours[run.name] else "") for run in missing), ""]

@@ -1,0 +1,62 @@
+"""docs/validation/README.md: every page there with what it says, and all figures that do not
+pass or have not been run."""
+
+from page import FOLDER
+JUDGED = ["figure", "ours", "published", "pass band", "verdict"]
+
+
+def cells(line):
+    return [c.strip() for c in line.strip().strip("|").split(" | ")]
+
+
+def rows_of(text):
+    """Rows of the tables that hold a verdict."""
+    rows, inside = [], False
+    for line in text.splitlines():
+        if not line.startswith("|"):
+            inside = False
+        elif cells(line) == JUDGED:
+            inside = True
+        elif inside and not line.startswith("| ---"):
+            rows.append(cells(line))
+    return rows
+
+
+def index():
+    table, left = [], []
+    for page in sorted(FOLDER.glob("*.md")):
+        if page.name == "README.md":
+            continue
+        text = page.read_text()
+        title = text.splitlines()[0].lstrip("# ")
+        rows = rows_of(text)
+        count = {v: sum(r[-1] == v for r in rows) for v in ("pass", "FAIL", "open")}
+        judged = " ".join(f"{n} {v}" for v, n in count.items() if n) or "-"
+        table.append(f"| [{title}]({page.name}) | {len(rows) or '-'} | {judged} |")
+        left += [f"| [{page.stem}]({page.name}) | {r[0]} | {r[1]} | {r[3]} | {r[4]} |"
+                 for r in rows if r[-1] in ("FAIL", "open")]
+    lines = ["# Checks against measurements, other codes and the thesis", "",
+             "Written by `tools/validation/run --index` from the pages of this folder, which `tools/validation/run CASE` wrote when "
+             "the runs had ended. Each page names its commands; `tools/validation/run --stale` says which are of an engine "
+             "whose bits have changed since. Closed forms and invariants are tests (`tests/verification`), not pages.", "",
+             "| page | figures beside published ones | with a pass band |", "| --- | --- | --- |", *table, ""]
+    lines += ["## What does not pass, and what has not been run", ""]
+    if left:
+        lines += ["Why, where it is known, stands on the page.", "",
+                  "| page | figure | ours | pass band | verdict |", "| --- | --- | --- | --- | --- |", *left, ""]
+    else:
+        lines += ["Nothing.", ""]
+    return "\n".join(lines)
+
+
+def write():
+    (FOLDER / "README.md").write_text(index())
+    return 0
+
+
+def check():
+    target = FOLDER / "README.md"
+    if target.exists() and target.read_text() == index():
+        return 0
+    print(f"{target}: not the index of the pages beside it: run tools/validation/run --index")
+    return 1

@@ -1,0 +1,127 @@
+"""A page of docs/validation: figures beside published ones, charts, what failed, what has not been run."""
+
+import datetime
+
+import chart
+from runs import ROOT, cpu_name
+
+FOLDER = ROOT / "docs" / "validation"
+HEAD = ["| figure | ours | published | pass band | verdict |", "| --- | --- | --- | --- | --- |"]
+NOT_RUN = "not run to its end"
+
+
+def as_text(value):
+    return f"{value:.0f}" if abs(value) >= 1e4 else f"{value:.4g}"
+
+
+def with_error(ours, unit=""):
+    """A figure as text: a number or (number, uncertainty or None)."""
+    value, error = ours if isinstance(ours, tuple) else (ours, None)
+    return as_text(value) + (f" ± {error:.2g}" if error else "") + (f" {unit}" if unit else "")
+
+
+class Page:
+    def __init__(self, name):
+        self.name = name
+        self._rows, self._notes, self._charts, self._body = [], [], [], []
+
+    def add(self, what, ours, published, low=None, high=None, unit="", band=None, why=None):
+        """A figure; one without a band says why it has none."""
+        is_judged = low is not None or high is not None
+        if not is_judged and not why:
+            raise ValueError(f"{what}: neither a band nor why there is none")
+        if band is None and is_judged:
+            band = (f"{low:g} to {high:g}" if low is not None and high is not None
+                    else f"above {low:g}" if high is None else f"below {high:g}")
+        if ours is None:
+            shown, verdict = NOT_RUN, "open"
+        else:
+            value = ours[0] if isinstance(ours, tuple) else ours
+            shown, verdict = with_error(ours, unit), "-"
+            if is_judged:
+                inside = (low is None or value >= low) and (high is None or value <= high)
+                verdict = "pass" if inside else "FAIL"
+        self._rows.append((what, shown, published, band or f"none: {why}", verdict))
+
+    def note(self, text):
+        self._notes.append(text)
+
+    def chart(self, title, across, up, curves, text):
+        """Ours beside the published curve: curves as chart.draw takes them; `text` says what is seen."""
+        curves = [c for c in curves if c.x]
+        if any(c.is_ours for c in curves):
+            file = f"{self.name}_{len(self._charts) + 1}.svg"
+            self._charts.append((file, title, text))
+            chart.draw(FOLDER / "pictures" / file, title, across, up, curves)
+
+    def body(self, lines):
+        """Lines of a page that is not a table of figures."""
+        self._body += lines
+
+    def _left(self, verdict):
+        return [f"- {what}" + (f": {shown} (band {band})" if verdict == "FAIL" else "")
+                for what, shown, _, band, seen in self._rows if seen == verdict]
+
+    def text(self, title, runs, how):
+        """The page. `how`: the command that writes it."""
+        out = [f"# {title}", "",
+               f"Written by `{how}` on {datetime.date.today()}, {cpu_name()}. {self._origin(runs)}", ""]
+        if self._rows:
+            out += HEAD + ["| " + " | ".join(row) + " |" for row in self._rows] + [""]
+        out += self._body
+        for file, name, text in self._charts:
+            out += [f"![{name}](pictures/{file})", "", text, ""]
+        out += [note + "\n" for note in self._notes]
+        if self._rows:
+            out += ["## What failed", "", *(self._left("FAIL") or ["Nothing."]), "",
+                    "## What has not been run", "", *(self._not_run(runs) or ["Nothing."]), ""]
+        # A run may begin with what another has left, in the folder of the runs.
+        return ("\n".join(out + runs_section(runs)) + "\n").replace(f"{runs.folder}/", "")
+
+    def _not_run(self, runs):
+        missing = [f"- `{run.plan.shown()}`" + hours_text(runs, run) for run in runs if not run.is_finished()]
+        return missing or self._left("open")
+
+    def _origin(self, runs):
+        finished = [run for run in runs if run.is_finished()]
+        commits = sorted({c for run in finished for c in run.note().get("commits", ["not noted"])})
+        if not finished:
+            return ""
+        dates = sorted({run.note().get("date", "?") for run in finished})
+        return f"Runs of commit {', '.join(commits)}, " + " to ".join(sorted({dates[0], dates[-1]})) + "."
+
+    def write(self, title, runs, how):
+        file = FOLDER / f"{self.name}.md"
+        file.write_text(self.text(title, runs, how))
+        print(f"wrote {file.relative_to(ROOT)}")
+
+
+def hours_text(runs, run):
+    hours = runs.engine.hours(run.plan) if runs.engine else None
+    begun = run.summary["simulated_s"] if run.summary else None
+    return (f": {hours:.2g} hours of one core, as `engine check` expects" if hours is not None else "") + (
+        f"; stopped at {begun:.3g} s" if begun else "")
+
+
+def runs_section(runs):
+    """The runs of a page, with what they cost, and their commands."""
+    runs = [run for run in runs if run.is_finished()]
+    if not runs:
+        return []
+    out = ["## Runs", "", "| run | commit | grains | simulated [s] | DEM step [s] | stiffness | fluid steps | "
+           "grain-steps | CPU [s] | state |", "| --- |" + " --- |" * 9]
+    for run in runs:
+        s = run.summary
+        out.append(f"| {run.name} | {', '.join(run.note().get('commits', ['?']))} | {s['particles']['max']} | "
+                   f"{s['simulated_s']:.3g} | {s['dem_step_s']:.3g} | {run.stiffness()} | {s['fluid_steps']} | "
+                   f"{s['particle_steps']:.3g} | {s['cpu_s']:.0f} | `{s['state_sha256'][:12]}` |")
+    return out + ["", "```", *dict.fromkeys(run.plan.shown() for run in runs), "```", "", *bits_lines(runs)]
+
+
+def bits_lines(runs):
+    """What `tools/validation/run --stale` reads: the record of bits that the runs' engines had."""
+    seen = {}
+    for run in runs:
+        bits = run.note().get("bits")
+        seen.setdefault(" ".join(f"{c}={s}" for c, s in sorted(bits.items())) if bits else "unknown", []).append(run.name)
+    return [f"<!-- bits {bits} -->" for bits in sorted(seen)]

@@ -1,0 +1,219 @@
+"""Runs of scenarios: what shall be run, how, and what a run has left."""
+
+import atexit
+import csv
+import dataclasses
+import datetime
+import fcntl
+import json
+import os
+import pathlib
+import platform
+import shlex
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BITS = "tests/bits/recorded.json"
+
+
+def cpu_name():
+    with open("/proc/cpuinfo") as lines:
+        for line in lines:
+            if line.startswith("model name"):
+                return line.split(":")[1].strip()
+    return platform.machine()
+
+
+def git(*command):
+    """What git says in the checkout; an empty text where it has nothing to say."""
+    done = subprocess.run(["git", *command], cwd=ROOT, capture_output=True, text=True)
+    return done.stdout.strip() if done.returncode == 0 else ""
+
+
+def read_table(name):
+    """Rows of a table of docs/validation/data, comments left out."""
+    with open(ROOT / "docs/validation/data" / name) as lines:
+        return list(csv.DictReader(l for l in lines if not l.startswith("#")))
+
+
+@dataclasses.dataclass(frozen=True)
+class Plan:
+    """What shall be run: a scenario, relative to scenarios/, and what is set on top of it."""
+
+    name: str
+    scenario: str
+    settings: dict = dataclasses.field(default_factory=dict)
+
+    def options(self):
+        return [part for key, value in self.settings.items() for part in ("--set", f"{key}={value}")]
+
+    def file(self):
+        return ROOT / "scenarios" / self.scenario
+
+    def shown(self):
+        """The command as the reader of a page would type it."""
+        return shlex.join(["engine", "run", f"scenarios/{self.scenario}", *self.options()])
+
+
+class Engine:
+    """The program that runs, and of which commit and bits it is."""
+
+    def __init__(self, file, threads=1, commit=None):
+        self._file, self._threads = pathlib.Path(file), threads
+        self._commit = commit or self._commit_beside() or commit_of_checkout()
+        self._told = {}
+
+    def _commit_beside(self):
+        """An engine that was copied says in a file `commit` beside its bin of which commit it is."""
+        beside = self._file.parent.parent / "commit"
+        return beside.read_text().strip() if beside.exists() else None
+
+    def commit(self):
+        return self._commit
+
+    def path(self):
+        return str(self._file)
+
+    def bits(self):
+        """State at the end of each case of tools/dev/check_bits, as recorded at the engine's commit."""
+        return bits_at(self._commit.split("+")[0])
+
+    def command(self, plan, folder):
+        resume = ["--resume"] if (folder / "checkpoint.h5").exists() else []
+        return [self.path(), "run", str(plan.file()), "-o", str(folder), "--threads", str(self._threads),
+                "--quiet", *plan.options(), *resume]
+
+    def hours(self, plan):
+        """Hours of one core that `engine check` expects; None if it refuses the scenario."""
+        if plan.shown() not in self._told:
+            self._told[plan.shown()] = self._ask_hours(plan)
+        return self._told[plan.shown()]
+
+    def remember(self, file):
+        """Keeps what was asked in a file: a check of a large grid takes a second."""
+        if file.exists():
+            kept = json.loads(file.read_text())
+            self._told = kept["hours"] if kept["commit"] == self._commit else {}
+        atexit.register(lambda: file.parent.is_dir() and file.write_text(
+            json.dumps({"commit": self._commit, "hours": self._told}, indent=1)))
+
+    def _ask_hours(self, plan):
+        done = subprocess.run([self.path(), "check", str(plan.file()), "--json", *plan.options()],
+                              capture_output=True, text=True)
+        return json.loads(done.stdout)["core_s"] / 3600 if done.returncode == 0 else None
+
+
+def commit_of_checkout():
+    """Short name of the commit; with "+changes" where engine or plugins differ from it."""
+    changed = git("status", "--porcelain", "--untracked-files=no", "core", "plugins", "tools/engine")
+    return (git("log", "-1", "--format=%h") or "unknown") + ("+changes" if changed else "")
+
+
+def bits_at(commit):
+    """The record of bits at a commit; of the checkout, where git does not know the commit."""
+    text = git("show", f"{commit}:{BITS}") or (ROOT / BITS).read_text()
+    return {case: digests["state"] for case, digests in json.loads(text).items()}
+
+
+class Run:
+    """One run of a plan and what it left in its folder."""
+
+    def __init__(self, plan, folder):
+        self.plan, self.folder = plan, pathlib.Path(folder)
+
+    @property
+    def name(self):
+        return self.plan.name
+
+    @property
+    def summary(self):
+        file = self.folder / "summary.json"
+        return json.loads(file.read_text()) if file.exists() else None
+
+    def is_finished(self):
+        return self.summary is not None and self.summary["status"] == "finished"
+
+    def is_begun(self):
+        return (self.folder / "checkpoint.h5").exists()
+
+    def figure(self, sensor, name):
+        """(value, uncertainty or None) of a finished run, else None."""
+        if not self.is_finished():
+            return None
+        found = self.summary["sensors"].get(sensor, {}).get(name)
+        if not found or found["value"] is None:
+            return None
+        return found["value"], found["uncertainty"]
+
+    def series(self):
+        """Rows of series.csv as numbers, of a finished run; else none."""
+        if not self.is_finished():
+            return []
+        with open(self.folder / "series.csv") as lines:
+            return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(lines)]
+
+    def curve(self, column, scale=1.0, since=0.0):
+        """(times [s], values) of a column of series.csv."""
+        rows = [r for r in self.series() if r["time [s]"] >= since]
+        return [r["time [s]"] for r in rows], [scale * r[column] for r in rows]
+
+    def stiffness(self):
+        """Young's moduli as run, from the resolved scenario."""
+        text, inside = [], False
+        for line in (self.folder / "scenario.yaml").read_text().splitlines():
+            if not line.startswith(" "):
+                inside = line.startswith("materials:")
+            elif inside and "young_modulus:" in line:
+                name = line.split(":")[0].strip()
+                value = float(line.split("young_modulus:")[1].split(",")[0].strip(" }"))
+                text.append(f"{name} {value / 1e6:g} MPa")
+        return ", ".join(text)
+
+    def note(self):
+        """Who ran it: {commits, bits, date, machine}; empty for a run of another tool."""
+        file = self.folder / "validation.json"
+        return json.loads(file.read_text()) if file.exists() else {}
+
+    def start(self, engine, nice=0):
+        """Starts it, or goes on from its checkpoint; returns the process, or None if it runs already."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with open(self.folder / "lock", "w") as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                return None
+            self._write_note(engine)
+            # What an earlier start that ended before its first checkpoint left is no obstacle.
+            force = [] if self.is_begun() else ["--force"]
+            # The engine inherits the lock and holds it until it ends.
+            return subprocess.Popen([*engine.command(self.plan, self.folder), *force], pass_fds=[lock.fileno()],
+                                    preexec_fn=lambda: os.nice(nice), stdin=subprocess.DEVNULL)
+
+    def _write_note(self, engine):
+        commits = self.note().get("commits", []) if self.is_begun() else []
+        note = {"command": self.plan.shown(), "commits": sorted({*commits, engine.commit()}),
+                "bits": engine.bits(), "date": datetime.date.today().isoformat(), "machine": cpu_name()}
+        (self.folder / "validation.json").write_text(json.dumps(note, indent=1) + "\n")
+
+
+class Runs:
+    """The runs of a case in one folder, begun or not."""
+
+    def __init__(self, plans, folder, engine):
+        self.folder, self.engine = pathlib.Path(folder), engine
+        self._runs = {plan.name: Run(plan, self.folder / plan.name) for plan in plans}
+
+    def __getitem__(self, name):
+        return self._runs[name]
+
+    def __iter__(self):
+        return iter(self._runs.values())
+
+    def do(self, run):
+        """Brings a run to its end, unless it is there."""
+        if run.is_finished():
+            return
+        print(run.plan.shown(), flush=True)
+        process = run.start(self.engine)
+        if process is None or process.wait() != 0:
+            print(f"{run.name}: " + ("runs already" if process is None else "not finished"), flush=True)

@@ -1,0 +1,105 @@
+"""Points of a study as runs, so that a page or a campaign can do them one by one."""
+
+import itertools
+import json
+import math
+
+import yaml
+
+from runs import ROOT, Plan
+
+FOLDER = ROOT / "scenarios" / "studies"
+
+
+def read(study):
+    return yaml.safe_load((FOLDER / f"{study}.yaml").read_text())
+
+
+def levels_of(given):
+    """Levels of an axis: a list, whose last one may carry the unit of all, or {from, to, count}."""
+    if isinstance(given, dict):
+        step = (given["to"] - given["from"]) / (given["count"] - 1)
+        return [round(given["from"] + n * step, 12) for n in range(given["count"])]
+    if isinstance(given[-1], str) and len(given[-1].split(" ", 1)) == 2:
+        unit = given[-1].split(" ", 1)[1]
+        return [f"{v} {unit}" if isinstance(v, (int, float)) else v for v in given]
+    return given
+
+
+def as_setting(value):
+    return value if isinstance(value, str) else json.dumps(value)
+
+
+def points(text):
+    """(name, settings) of each point of a study of cases, axes and axes that go together."""
+    found = list((text.get("cases") or {"": {}}).items())
+    axes = [[({path: level}, str(level)) for level in levels_of(given)] for path, given in (text.get("vary") or {}).items()]
+    together = {path: levels_of(given) for path, given in (text.get("zip") or {}).items()}
+    if together:
+        rows = [dict(zip(together, values)) for values in zip(*together.values())]
+        axes.append([(row, str(next(iter(row.values())))) for row in rows])
+    out = []
+    for (name, settings), *chosen in itertools.product(found, *axes):
+        label = " ".join([name, *(text for _, text in chosen)]).strip()
+        for more, _ in chosen:
+            settings = {**settings, **more}
+        out.append((label, {**(text.get("set") or {}), **settings}))
+    out = [(label, {path: as_setting(v) for path, v in settings.items()}) for label, settings in out]
+    seeds = range(1, text.get("replicates", 1) + 1)
+    return out if len(seeds) == 1 else [(f"{label} seed {n}", {**settings, "seed": str(n)}) for label, settings in out for n in seeds]
+
+
+def plan_of(study, label, settings, extra=None):
+    base = (FOLDER / read(study)["base"]).resolve().relative_to(ROOT / "scenarios")
+    name = "".join(c if c.isalnum() or c in "._-" else "_" for c in f"{study}_{label}")
+    return Plan(name, str(base), {**settings, **(extra or {})})
+
+
+def plans(study, extra=None):
+    return [plan_of(study, label, settings, extra) for label, settings in points(read(study))]
+
+
+def labelled(study, extra=None):
+    """(name of the point, plan) for each point of a study."""
+    return [(label, plan_of(study, label, settings, extra)) for label, settings in points(read(study))]
+
+
+UNITS = {"mm": 1e-3, "mbar": 100.0, "m/s": 1.0, None: 1.0, "deg": 1.0, "s": 1.0}
+
+
+def measured(run, given):
+    """(value, standard error) of a study's `measure` in a finished run; None if it is not there."""
+    given = {"quantity": given} if isinstance(given, str) else given
+    terms = [figure_at(run, given[key]) for key in ("quantity", "minus") if key in given]
+    if None in terms:
+        return None
+    scale = UNITS[given.get("unit")]
+    value = terms[0][0] - sum(t[0] for t in terms[1:])
+    return value / scale, math.sqrt(sum((t[1] or 0.0) ** 2 for t in terms)) / scale
+
+
+def figure_at(run, quantity):
+    _, sensor, *path = quantity.split(".")
+    return run.figure(sensor, "/".join(path))
+
+
+def change(runs, study, expectation, extra=None):
+    """(change, error, points) of an expected sign: from the first level to the last, or between two named cases, as the mean
+    over what else is varied. None if a run is missing."""
+    text = read(study)
+    given, levels = text["measure"][expectation["output"]], None
+    found = {}
+    for label, settings in points(text):
+        run = runs[plan_of(study, label, settings, extra).name]
+        key = label.split(" ")[0] if expectation["input"] == "case" else settings.get(expectation["input"])
+        found.setdefault(key, []).append(measured(run, given))
+    levels = list(found)
+    first, last = expectation.get("from", levels[0]), expectation.get("to", levels[-1])
+    if first not in found and "cases" in text and expectation["input"] == "case":
+        return None
+    before, after = found.get(first), found.get(last)
+    if not before or not after or None in before or None in after:
+        return None
+    mean = lambda pairs: (sum(v for v, _ in pairs) / len(pairs), math.sqrt(sum(e * e for _, e in pairs)) / len(pairs))
+    (a, ea), (b, eb) = mean(before), mean(after)
+    return b - a, math.hypot(ea, eb)
