@@ -9,7 +9,7 @@
 namespace dust::preflight {
 namespace {
 
-// What things cost, measured by `tools/dev/record_estimates` and by long runs on one core of a
+// What things cost, measured by `tools/validation/run estimates` and by long runs on one core of a
 // virtual machine, which is up to twice as slow when its neighbour works: the constants lie between
 // both.
 constexpr double k_bytes_base = 4e7;

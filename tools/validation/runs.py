@@ -6,7 +6,6 @@ import dataclasses
 import datetime
 import fcntl
 import json
-import os
 import pathlib
 import platform
 import shlex
@@ -174,7 +173,7 @@ class Run:
         file = self.folder / "validation.json"
         return json.loads(file.read_text()) if file.exists() else {}
 
-    def start(self, engine, nice=0):
+    def start(self, engine):
         """Starts it, or goes on from its checkpoint; returns the process, or None if it runs already."""
         self.folder.mkdir(parents=True, exist_ok=True)
         with open(self.folder / "lock", "w") as lock:
@@ -187,7 +186,7 @@ class Run:
             force = [] if self.is_begun() else ["--force"]
             # The engine inherits the lock and holds it until it ends.
             return subprocess.Popen([*engine.command(self.plan, self.folder), *force], pass_fds=[lock.fileno()],
-                                    preexec_fn=lambda: os.nice(nice), stdin=subprocess.DEVNULL)
+                                    stdin=subprocess.DEVNULL)
 
     def _write_note(self, engine):
         commits = self.note().get("commits", []) if self.is_begun() else []

@@ -14,6 +14,7 @@ from page import FOLDER
 from runs import BITS, ROOT
 
 LINE = re.compile(r"<!-- bits (.*?) -->")
+NO_RUN = "<!-- bits none -->"
 
 
 def bits_of(text):
@@ -38,10 +39,10 @@ def tell():
     for case in cases.names():
         file = FOLDER / f"{case}.md"
         watched = cases.load(case).BITS
-        if not file.exists():
-            print(f"{case}: no page")
-        elif not watched:
+        if not watched:
             print(f"{case}: holds no figures of runs")
+        elif not file.exists() or NO_RUN in file.read_text():
+            print(f"{case}: no run has ended")
         else:
             reason = why(file.read_text(), watched, today)
             count += bool(reason)

@@ -1,5 +1,6 @@
 """Points of a study as runs, so that a page or a campaign can do them one by one."""
 
+import functools
 import itertools
 import json
 import math
@@ -11,6 +12,7 @@ from runs import ROOT, Plan
 FOLDER = ROOT / "scenarios" / "studies"
 
 
+@functools.cache
 def read(study):
     return yaml.safe_load((FOLDER / f"{study}.yaml").read_text())
 

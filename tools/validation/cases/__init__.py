@@ -5,7 +5,9 @@ BITS     cases of tools/dev/check_bits that go through the same parts of the eng
          has changed since a page's runs, the page is stale
 plans()  the runs it needs, the ones that say most for their cost first
 later(runs)  runs that begin with what one of those has left, where there are any
-fill(page, runs)  figures, charts and notes, from runs that are finished or not"""
+fill(page, runs)  figures, charts and notes, from runs that are finished or not
+
+A page that is not one of runs (messages, a cluster) has write(args) in place of fill, and no plans."""
 
 import importlib
 import pathlib

@@ -25,8 +25,8 @@ def fill(page, runs):
     for size in SIZES:
         times, passed = runs[f"dosta_silo_{size}"].curve("outlet/number [1]")
         curves.append(Curve(f"{size}, ours", [t - 0.5 for t in times], [100000 - n for n in passed]))
-        curves.append(published(f"{size}, MUSEN", [float(r["time_s"]) for r in table],
-                                [float(r[f"{size}_M1_musen"]) for r in table], is_points=False))
+        theirs = [(float(r["time_s"]), float(r[f"{size}_M1_musen"])) for r in table if r[f"{size}_M1_musen"]]
+        curves.append(published(f"{size}, MUSEN", *zip(*theirs), is_points=False))
     page.chart("Grains left in the silo", "time after opening [s]", "grains", curves, "Ours beside the published counts.")
     page.note("Own packing: grains rained on a plug that goes at 0.5 s; grains a hundred times softer than the paper's, steel "
               "walls as stiff as its.")

@@ -1,23 +1,21 @@
-#!/usr/bin/env python3
-"""Compares what `engine check` estimates with what runs cost: grains, memory, disk, processor time. A scenario that
-would take long is cut: time.end is shortened until the estimate fits --seconds, and the estimate is asked for anew.
+"""Compares what `engine check` estimates with what runs cost: grains, memory, disk, processor time. A scenario that would
+take long is cut: time.end is shortened until the estimate fits a minute, and the estimate is asked for anew. With
+--no-run the finished runs of --runs are taken, whatever case they are of; rows of scenarios that are not among them
+stay as they are."""
 
-  tools/dev/record_estimates --engine build/release/bin/engine [SCENARIO...] [--seconds 60] [--record]
-
-Without scenarios: all shipped ones. A folder of a run in place of a scenario: the run is not done again, its
-scenario.yaml is estimated. Rows of scenarios that are not run now stay as they are in docs/validation/estimates.md.
-Exit status 1 if a ratio of memory, disk or time is beyond a factor of two."""
-
-import argparse
 import datetime
 import json
 import pathlib
 import re
 import subprocess
-import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from runs import ROOT
+
+TITLE = "What a run is told to cost, and what it costs"
+# Costs, no figures of what runs compute.
+BITS = ()
+LONGEST = 60.0  # [s], estimate of one run
 RECORD = ROOT / "docs" / "validation" / "estimates.md"
 SHIPPED = [p for p in sorted((ROOT / "scenarios").rglob("*.yaml"))
            if not re.search(r"^base:", p.read_text(), re.M) and p.parent.name != "materials"]
@@ -97,15 +95,13 @@ def row(scenario, r):
             f"{r['time'][0] / max(r['time'][1], 1e-9):.2f} |")
 
 
-def record(rows):
+def record(rows, commit):
     old = RECORD.read_text().splitlines() if RECORD.exists() else []
     kept = {line.split("`")[1]: line for line in old if line.startswith("| `")}
     kept |= rows
-    commit = subprocess.run(["git", "log", "-1", "--format=%h"], cwd=ROOT, text=True,
-                            capture_output=True).stdout.strip()
     names = [str(p.relative_to(ROOT / "scenarios")) for p in SHIPPED]
     lines = ["# What a run is told to cost, and what it costs", "",
-             f"Written by `tools/dev/record_estimates --record`, last on {datetime.date.today()} at commit {commit}: what",
+             f"Written by `tools/validation/run estimates`, last on {datetime.date.today()} at commit {commit}: what",
              "`engine check` estimates / what the run cost, on one thread. Long scenarios are cut; the estimate is that of",
              "the piece. Time is processor time: a machine with other work beside it needs up to twice as much of it.", "",
              "| scenario | run | most grains | memory | disk | processor time | time, estimated over measured |",
@@ -117,22 +113,24 @@ def record(rows):
     RECORD.write_text("\n".join(lines))
 
 
-parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-parser.add_argument("scenarios", nargs="*", type=pathlib.Path)
-parser.add_argument("--engine", type=pathlib.Path, default=ROOT / "build/release/bin/engine")
-parser.add_argument("--seconds", type=float, default=60.0, help="longest estimate of one run")
-parser.add_argument("--record", action="store_true", help=f"write {RECORD.relative_to(ROOT)}")
-options = parser.parse_args()
-rows, is_good = {}, True
-for scenario in [p.resolve() for p in options.scenarios] or SHIPPED:
-    if scenario.is_dir():
-        result = recorded(options.engine, scenario)
-        scenario = scenario_named(json.loads((scenario / "summary.json").read_text())["scenario"])
+def plans():
+    return []
+
+
+def finished_runs(folder):
+    for file in sorted(folder.glob("*/summary.json")):
+        if json.loads(file.read_text())["status"] == "finished":
+            yield file.parent
+
+
+def write(args):
+    engine, rows = args.engine.path(), {}
+    if args.no_run:
+        done = [(scenario_named(json.loads((f / "summary.json").read_text())["scenario"]), f) for f in finished_runs(args.runs)]
+        results = ((scenario, recorded(engine, folder)) for scenario, folder in done)
     else:
-        result = measure(options.engine, scenario, options.seconds)
-    is_good = is_good and all(is_near(w, result[w]) for w in SMALL)
-    rows[str(scenario.relative_to(ROOT / "scenarios"))] = row(scenario, result)
-    print(row(scenario, result), flush=True)
-    if options.record:
-        record(rows)
-sys.exit(0 if is_good else 1)
+        results = ((scenario, measure(engine, scenario, LONGEST)) for scenario in SHIPPED)
+    for scenario, result in results:
+        rows[str(scenario.relative_to(ROOT / "scenarios"))] = row(scenario, result)
+        print(row(scenario, result), flush=True)
+        record(rows, args.engine.commit())

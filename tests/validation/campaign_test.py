@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""A campaign with a stand-in for the engine that counts to its end, leaves a checkpoint when it is told to stop and goes on
+from it."""
+
+import csv
+import pathlib
+import stat
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import package
+
+TOOL = package.ROOT / "tools/validation/campaign"
+ENGINE = """#!{python}
+import json, pathlib, signal, sys, time
+args = sys.argv[1:]
+if args[0] == "check":
+    print(json.dumps({{"core_s": 36.0}}))
+    sys.exit(0)
+folder = pathlib.Path(args[args.index("-o") + 1])
+checkpoint, summary = folder / "checkpoint.h5", folder / "summary.json"
+assert ("--resume" in args) == checkpoint.exists(), args
+told = []
+signal.signal(signal.SIGTERM, lambda *_: told.append(1))
+count = int(checkpoint.read_text()) if checkpoint.exists() else 0
+while count < {length} and not told:
+    count += 1
+    time.sleep(0.01)
+    checkpoint.write_text(str(count))
+with open(folder / "starts", "a") as file:
+    file.write(f"{{count}}\\n")
+if "copies_of_rare" in " ".join(args):
+    sys.exit(1)
+status = "interrupted" if told else "finished"
+summary.write_text(json.dumps({{"status": status, "simulated_s": count / 100, "cpu_s": 18.0, "state_sha256": "0" * 64,
+                               "sensors": {{}}}}))
+sys.exit(143 if told else 0)
+"""
+
+
+class Campaign(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.runs = pathlib.Path(self.folder.name) / "runs"
+        self.list = pathlib.Path(self.folder.name) / "list"
+
+    def engine(self, length):
+        file = pathlib.Path(self.folder.name) / "engine"
+        file.write_text(ENGINE.format(python=sys.executable, length=length))
+        file.chmod(file.stat().st_mode | stat.S_IXUSR)
+        return file
+
+    def campaign(self, what, *more):
+        done = subprocess.run([sys.executable, TOOL, what, "--runs", self.runs, "--list", self.list, "--commit", "abc1234", "--nice", "0",
+                               "--engine", pathlib.Path(self.folder.name) / "engine", *more], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def ended(self):
+        file = self.runs / "campaign.csv"
+        if not file.exists():
+            return {}
+        with open(file, newline="") as lines:
+            return {row["run"]: row for row in csv.DictReader(lines)}
+
+    def wait_for(self, what):
+        until = time.time() + 60
+        while not what():
+            self.assertLess(time.time(), until, "it did not happen")
+            time.sleep(0.02)
+
+    def test_stopped_and_begun_again_it_goes_on_from_the_checkpoint(self):
+        self.engine(length=100)
+        self.list.write_text("janssen_rough  # a comment\n")
+        self.campaign("start")
+        checkpoint = self.runs / "janssen_rough" / "checkpoint.h5"
+        self.wait_for(lambda: checkpoint.exists() and checkpoint.read_text() > "0")
+        self.campaign("stop")
+        reached = int(checkpoint.read_text())
+        self.assertLess(reached, 100)
+        self.assertEqual(self.ended(), {})
+        self.assertIn("broken off", self.campaign("left"))
+        self.campaign("start", "--foreground")
+        self.assertEqual((self.runs / "janssen_rough" / "starts").read_text(), f"{reached}\n100\n")
+        row = self.ended()["janssen_rough"]
+        self.assertEqual((row["status"], row["commits"]), ("finished", "abc1234"))
+
+    def test_what_fails_is_written_down_and_the_next_one_runs(self):
+        self.engine(length=1)
+        self.list.write_text("rare_copies_*\njanssen_*\n")
+        self.campaign("start", "--foreground")
+        self.assertEqual([r["status"] for r in self.ended().values()], 3 * ["ended with 1"] + 2 * ["finished"])
+        # Half of what was told: what is left is told by that pace.
+        self.list.write_text("janssen_*\nbeverloo_8\n")
+        self.assertIn("1 left, about 0.0 h of one core (0.50 of what", self.campaign("left"))
+
+    def test_a_run_that_another_process_has_is_left_to_it(self):
+        self.engine(length=6000)
+        self.list.write_text("janssen_rough\n")
+        self.campaign("start")
+        self.wait_for(lambda: (self.runs / "janssen_rough" / "checkpoint.h5").exists())
+        code = ("import sys, pathlib; sys.path.insert(0, %r); import runs, cases; "
+                "r = runs.Run(cases.all_plans()['janssen_rough'], pathlib.Path(%r) / 'janssen_rough'); "
+                "print(r.start(runs.Engine(%r, 1, 'abc1234')))"
+                % (str(package.ROOT / "tools/validation"), str(self.runs), str(pathlib.Path(self.folder.name) / "engine")))
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertEqual(done.stdout.strip(), "None", done.stderr)
+        self.campaign("stop")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+"""Rules of tools/validation: verdicts, bands, stale pages, points of studies, cases."""
+
+import json
+import pathlib
+import tempfile
+import unittest
+
+import package
+
+import bed
+import cases
+import page
+import runs
+import stale
+import study_points
+from cases import beverloo, dosta_drum
+from thesis.row import Row, Sign
+
+
+def finished_run(folder, name, sensors, note=None):
+    """A run as the engine leaves it, as far as the pages read it."""
+    run = runs.Run(runs.Plan(name, "verification/box.yaml"), pathlib.Path(folder) / name)
+    run.folder.mkdir()
+    figures = {s: {f: {"value": v, "unit": "1", "uncertainty": e} for f, (v, e) in figs.items()} for s, figs in sensors.items()}
+    (run.folder / "summary.json").write_text(json.dumps({
+        "status": "finished", "sensors": figures, "particles": {"max": 1}, "simulated_s": 1.0, "dem_step_s": 1e-5,
+        "fluid_steps": 0, "particle_steps": 1.0, "cpu_s": 1.0, "state_sha256": "abcdef0123456789"}))
+    (run.folder / "scenario.yaml").write_text("materials:\n  sand: {young_modulus: 5e6}\n")
+    if note:
+        (run.folder / "validation.json").write_text(json.dumps(note))
+    return run
+
+
+class ThesisRows(unittest.TestCase):
+    def row(self, ours, **more):
+        return Row("table", "what", ("run",), ours and (ours, None), measured=6.6, uncertainty=0.1, thesis=6.3, **more)
+
+    def test_nearer_than_the_thesis_is_better(self):
+        self.assertEqual(self.row(6.8).verdict(), "better")
+
+    def test_within_the_uncertainty_beyond_the_thesis_is_as_good(self):
+        self.assertEqual(self.row(6.21).verdict(), "as good")
+
+    def test_beyond_that_is_worse_even_inside_the_band(self):
+        row = self.row(7.05, limit=0.077)
+        self.assertEqual(row.verdict(), "worse")
+        self.assertIn("pass", row.band())
+
+    def test_the_band_fails_by_the_measured_value(self):
+        self.assertIn("FAIL", self.row(7.83, limit=0.077).band())
+
+    def test_without_a_run_nothing_is_judged(self):
+        row = self.row(None, limit=0.077)
+        self.assertEqual((row.verdict(), row.band()), ("not run", "7.7 %"))
+
+    def test_a_sign_counts_beyond_twice_its_error(self):
+        self.assertEqual(Sign("t", "w", (), (1.0, 0.4)).verdict(), "as good")
+        self.assertEqual(Sign("t", "w", (), (1.0, 0.6)).verdict(), "worse")
+        self.assertEqual(Sign("t", "w", (), (-1.0, 0.1)).verdict(), "worse")
+
+
+class Pages(unittest.TestCase):
+    def test_a_figure_without_a_band_says_why(self):
+        with self.assertRaises(ValueError):
+            page.Page("x").add("a", 1.0, "2")
+
+    def test_what_failed_and_what_has_not_been_run_is_listed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            note = {"commits": ["abc1234"], "bits": {"box": "0123"}, "date": "2026-01-01"}
+            done = finished_run(folder, "done", {}, note)
+            missing = runs.Plan("missing", "verification/haff.yaml")
+            all_of_them = runs.Runs([done.plan, missing], folder, None)
+            sheet = page.Page("x")
+            sheet.add("inside", 1.0, "1", 0.9, 1.1)
+            sheet.add("outside", 2.0, "1", 0.9, 1.1)
+            sheet.add("left", None, "1", 0.9, 1.1)
+            text = sheet.text("Title", all_of_them, "how")
+        self.assertIn("- outside: 2 (band 0.9 to 1.1)", text)
+        self.assertNotIn("- inside", text)
+        self.assertIn("- `engine run scenarios/verification/haff.yaml`", text)
+        self.assertIn("Runs of commit abc1234, 2026-01-01", text)
+        self.assertEqual(stale.bits_of(text), [{"box": "0123"}])
+
+
+class Stale(unittest.TestCase):
+    TEXT = "<!-- bits box=1 drum=2 -->\n"
+
+    def test_the_same_bits_are_not_stale(self):
+        self.assertEqual(stale.why(self.TEXT, ("box",), {"box": "1", "drum": "3"}), "")
+
+    def test_other_bits_of_a_watched_case_are(self):
+        self.assertIn("drum", stale.why(self.TEXT, ("box", "drum"), {"box": "1", "drum": "3"}))
+
+    def test_a_case_that_was_not_recorded_then_is(self):
+        self.assertIn("mixer", stale.why(self.TEXT, ("mixer",), {"mixer": "1"}))
+
+    def test_one_run_of_an_older_engine_is_enough(self):
+        self.assertTrue(stale.why(self.TEXT + "<!-- bits box=0 drum=2 -->\n", ("box",), {"box": "1"}))
+
+    def test_a_page_that_says_nothing_is(self):
+        self.assertTrue(stale.why("# A page\n", ("box",), {"box": "1"}))
+        self.assertTrue(stale.why("<!-- bits unknown -->", ("box",), {"box": "1"}))
+
+
+class Points(unittest.TestCase):
+    def test_axes_cases_and_zips_are_combined(self):
+        text = {"set": {"a": "1"}, "cases": {"one": {}, "two": {"b": "2"}}, "vary": {"c": [0.2, "0.4 m/s"]},
+                "zip": {"d": ["1", "2"], "e": ["x", "y"]}}
+        found = study_points.points(text)
+        self.assertEqual(len(found), 8)
+        self.assertIn(("two 0.2 m/s 2", {"a": "1", "b": "2", "c": "0.2 m/s", "d": "2", "e": "y"}), found)
+
+    def test_levels_are_spread_over_an_interval(self):
+        self.assertEqual(study_points.levels_of({"from": 0.1, "to": 0.3, "count": 3}), [0.1, 0.2, 0.3])
+
+    def test_replicates_have_seeds(self):
+        found = study_points.points({"cases": {"base": {}}, "replicates": 2})
+        self.assertEqual([settings["seed"] for _, settings in found], ["1", "2"])
+
+
+class Cases(unittest.TestCase):
+    def test_runs_have_one_meaning_each_and_their_scenario_is_there(self):
+        plans = cases.all_plans()
+        self.assertGreater(len(plans), 200)
+        self.assertEqual([p.scenario for p in plans.values() if not p.file().exists()], [])
+
+    def test_watched_bits_are_recorded(self):
+        recorded = json.loads((runs.ROOT / runs.BITS).read_text())
+        for name in cases.names():
+            case = cases.load(name)
+            self.assertLessEqual(set(case.BITS), set(recorded), name)
+            self.assertTrue(hasattr(case, "write") or hasattr(case, "fill"), name)
+
+    def test_pages_are_written_without_any_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in cases.names():
+                case = cases.load(name)
+                if hasattr(case, "fill"):
+                    sheet = page.Page(name)
+                    case.fill(sheet, runs.Runs(case.plans(), folder, None))
+                    self.assertIn("not run", sheet.text(case.TITLE, runs.Runs([], folder, None), "how").replace("**", ""))
+
+
+class Figures(unittest.TestCase):
+    def test_the_power_of_a_rate_is_found(self):
+        points = [(h, 0.58 * 1500 * 9.81 ** 0.5 * (h - 1.4e-3) ** 2.5) for h in (6e-3, 8e-3, 10e-3)]
+        exponent, k = beverloo.fit_power(points)
+        self.assertAlmostEqual(exponent, 2.5, 6)
+        self.assertAlmostEqual(k, 1.4, 6)
+
+    def test_the_lag_of_a_shifted_curve_is_its_shift(self):
+        theirs = {0.1 * n: 1000.0 * (n % 9) for n in range(50)}
+        ours = {round(0.01 * n, 2): 1000.0 * (((n - 5) // 10) % 9) for n in range(-40, 600)}
+        self.assertAlmostEqual(dosta_drum.lag(ours, theirs), 0.05, delta=0.051)
+
+    def test_ergun_is_that_of_the_thesis(self):
+        """Mono 0.6 mm at 0.435, 30 l/min: 5.637 mbar over 102.1 mm."""
+        speed = 30 / bed.LITRES_PER_MINUTE / bed.VESSEL_SECTION
+        self.assertAlmostEqual(bed.ergun(((0.6e-3, 1.0),), 0.565, speed) * 0.1021 / 100, 5.637, delta=0.02)
+
+
+if __name__ == "__main__":
+    unittest.main()
