@@ -1,6 +1,8 @@
 """Chapter 4: hourglass, conical piles, rectangular container."""
 
-from cases import hourglass
+import study_points
+from cases import hourglass, hourglass_friction
+from cases.belt import sign_text
 from runs import read_table
 from thesis.row import Row, Sign
 
@@ -9,7 +11,7 @@ OURS = "sizes (the thesis gives none)"
 
 
 def rows(runs):
-    return [*discharge(runs), *piles(runs), *container(runs)]
+    return [*discharge(runs), *friction(runs), *piles(runs), *container(runs), *computing_times(runs)]
 
 
 def discharge(runs):
@@ -36,6 +38,19 @@ def hourglass_rows(runs, row, neck, mass, kind, stiff):
                 run.figure("crater", "angle"), angle, 1.1, model, 0.057, differs=differs)]
 
 
+def friction(runs):
+    """Signs of the contours; the pair that meets both measured figures is the calibration's (4.4.2)."""
+    study = hourglass_friction.STUDY
+    names = [plan.name for plan in hourglass_friction.plans()]
+    out = []
+    for expectation in study_points.read(study)["expect"]:
+        ours = study_points.change(runs, study, expectation)
+        sign = 1 if expectation["then"] == "rises" else -1
+        out.append(Sign("Table 4.7, Figures 4.9 to 4.14", sign_text(expectation), (names[0], f"... {len(names)} runs"),
+                        ours and (sign * ours[0], ours[1]), expectation["then"], SOFT))
+    return out
+
+
 def piles(runs):
     return [Row("4.5", "pile, lifted cylinder: angle [deg]", ("pile_cylinder",), runs["pile_cylinder"].figure("pile", "angle"),
                 33, 1.1, 34.2, 0.066, differs=f"{OURS}, {SOFT}"),
@@ -58,3 +73,16 @@ def container(runs):
     ours = (narrow[0] - wide[0], (narrow[1] or 0.0) + (wide[1] or 0.0)) if narrow and wide else None
     return out + [Sign("Table 4.10", "container, walls: angle at W/D 4 less that at 32 [deg]", ("container_walls", "container_walls_32"),
                        ours, "6.0", f"{OURS}, {SOFT}")]
+
+
+def computing_times(runs):
+    """Seconds of a processor, the thesis's on its machine and ours on ours; nothing is judged."""
+    out = []
+    for row in read_table("thesis_table_4_10_rectangular_container.csv"):
+        n = int(row["W_over_D"])
+        for kind, column in (("walls", "cpu_wall_s"), ("periodic", "cpu_periodic_s")):
+            run = runs[f"container_{kind}" + ("" if n == 4 else f"_{n}")]
+            out.append(Row("Table 4.10", f"container, W/D {n}, {kind}: computing time [s]", (run.name,),
+                           (run.summary["cpu_s"], None) if run.is_finished() else None, thesis=float(row[column]),
+                           why="another machine", differs=f"{OURS}, {SOFT}"))
+    return out

@@ -4,14 +4,14 @@ import bed
 import study_points
 from bed import LITRES_PER_MINUTE, SOFT, VESSEL_SECTION
 from runs import read_table
-from thesis.row import Row
+from thesis.row import Row, Sign
 
 COLUMN = "column of 20 x 3 mm, periodic, of the vessel's 200 x 15; E 5 MPa in place of 50"
 NO_LIMIT = "the thesis names none for pressures"
 
 
 def rows(runs):
-    return [*fluidisation(runs), *falling(runs), *tables(runs)]
+    return [*fluidisation(runs), *falling(runs), *rising(runs), *tables(runs), *signs(runs)]
 
 
 def fluidisation(runs):
@@ -35,6 +35,39 @@ def falling(runs):
                               ("fluidised_bed_vessel_5", "coarse grains that stand for 64; E 5 MPa in place of 50")):
             out.append(Row("Table A.4", f"100 mm, falling, {litres} l/min: pressure drop [mbar]", (name,),
                            bed.drop_at(runs[name], litres, 1.0), measured, max(std, 0.3), why=NO_LIMIT, differs=differs))
+    return out
+
+
+def rising(runs):
+    run, out = runs["fluidised_bed_ramp_5"], []
+    for litres, measured, std in ((30, 8.93, 0.34), (40, 12.13, 0.47), (50, 14.47, 0.43), (75, 15.60, 0.3)):
+        out.append(Row("Table A.4", f"100 mm, rising, {litres} l/min: pressure drop [mbar]", (run.name,),
+                       bed.drop_at(run, litres, 0.2, 5.2), measured, std, why=NO_LIMIT, differs=COLUMN))
+    return out
+
+
+def signs(runs):
+    """The penetration effect, one size against the distribution, and one cell in depth against five."""
+    ramp = runs["fluidised_bed_ramp_5"]
+    up, down = bed.drop_at(ramp, 40, 0.2, 5.2), bed.drop_at(ramp, 40, 5.2)
+    grains = {label: runs[study_points.plan_of("fluidised_bed_grains", label, settings, SOFT).name]
+              for label, settings in study_points.points(study_points.read("fluidised_bed_grains"))}
+    fine, coarse = (grains[label].figure("u_mf", "falling/by_pressure") for label in ("distribution", "mono_0_6_mm"))
+    return [Sign("Table A.4", "penetration: rising less falling flow at 40 l/min [mbar]", (ramp.name,),
+                 (up[0] - down[0], None) if up and down else None, "+1.2 (measured)", COLUMN),
+            Sign("5.5", "minimum fluidisation, 0.6 mm less distribution [m/s]",
+                 (grains["distribution"].name, grains["mono_0_6_mm"].name),
+                 (coarse[0] - fine[0], (coarse[1] or 0) + (fine[1] or 0)) if fine and coarse else None, "rises (1.35 by Ergun)", COLUMN),
+            *depth(runs)]
+
+
+def depth(runs):
+    out = []
+    for speed, litres in (("0.167 m/s", 30), ("0.444 m/s", 80)):
+        (one_name, one), (five_name, five) = (drop_of(runs, "fluidised_bed_depth_cells", f"{kind} {speed}") for kind in ("one", "five"))
+        out.append(Row("5.4", f"{litres} l/min: pressure drop with five cells in depth over that with one", (one_name, five_name),
+                       (five[0] / one[0], None) if one and five else None, thesis=1.0, why="the thesis says that one is enough",
+                       differs="10 mm of the vessel's 200 along x; E 5 MPa in place of 50"))
     return out
 
 
