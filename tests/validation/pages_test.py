@@ -67,7 +67,7 @@ class Pages(unittest.TestCase):
 
     def test_what_failed_and_what_has_not_been_run_is_listed(self):
         with tempfile.TemporaryDirectory() as folder:
-            note = {"commits": ["abc1234"], "bits": {"box": "0123"}, "date": "2026-01-01"}
+            note = {"commits": ["abc1234"], "bits": [{"box": "0123"}, {}], "date": "2026-01-01"}
             done = finished_run(folder, "done", {}, note)
             missing = runs.Plan("missing", "verification/haff.yaml")
             all_of_them = runs.Runs([done.plan, missing], folder, None)
@@ -80,7 +80,7 @@ class Pages(unittest.TestCase):
         self.assertNotIn("- inside", text)
         self.assertIn("- `engine run scenarios/verification/haff.yaml`", text)
         self.assertIn("Runs of commit abc1234, 2026-01-01", text)
-        self.assertEqual(stale.bits_of(text), [{"box": "0123"}])
+        self.assertEqual(stale.bits_of(text), [{"box": "0123"}, None])
 
 
 class Stale(unittest.TestCase):
@@ -101,6 +101,11 @@ class Stale(unittest.TestCase):
     def test_a_page_that_says_nothing_is(self):
         self.assertTrue(stale.why("# A page\n", ("box",), {"box": "1"}))
         self.assertTrue(stale.why("<!-- bits unknown -->", ("box",), {"box": "1"}))
+
+
+    def test_an_engine_that_is_not_a_commit_claims_no_bits(self):
+        self.assertEqual(runs.bits_at("abc1234+changes"), {})
+        self.assertEqual(runs.bits_at("of no commit"), {})
 
 
 class Points(unittest.TestCase):

@@ -120,8 +120,8 @@ def runs_section(runs):
 
 def bits_lines(runs):
     """What `tools/validation/run --stale` reads: the record of bits that the runs' engines had."""
-    seen = {}
+    seen = set()
     for run in runs:
-        bits = run.note().get("bits")
-        seen.setdefault(" ".join(f"{c}={s}" for c, s in sorted(bits.items())) if bits else "unknown", []).append(run.name)
+        for bits in run.note().get("bits") or [{}]:
+            seen.add(" ".join(f"{case}={state}" for case, state in sorted(bits.items())) or "unknown")
     return [f"<!-- bits {bits} -->" for bits in sorted(seen)]

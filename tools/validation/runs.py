@@ -59,7 +59,7 @@ class Engine:
 
     def __init__(self, file, threads=1, commit=None):
         self._file, self._threads = pathlib.Path(file), threads
-        self._commit = commit or self._commit_beside() or commit_of_checkout()
+        self._commit = commit or self._commit_beside() or commit_of_checkout(self._file)
         self._told = {}
 
     def _commit_beside(self):
@@ -75,7 +75,7 @@ class Engine:
 
     def bits(self):
         """State at the end of each case of tools/dev/check_bits, as recorded at the engine's commit."""
-        return bits_at(self._commit.split("+")[0])
+        return bits_at(self._commit)
 
     def command(self, plan, folder):
         resume = ["--resume"] if (folder / "checkpoint.h5").exists() else []
@@ -102,16 +102,25 @@ class Engine:
         return json.loads(done.stdout)["core_s"] / 3600 if done.returncode == 0 else None
 
 
-def commit_of_checkout():
-    """Short name of the commit; with "+changes" where engine or plugins differ from it."""
-    changed = git("status", "--porcelain", "--untracked-files=no", "core", "plugins", "tools/engine")
-    return (git("log", "-1", "--format=%h") or "unknown") + ("+changes" if changed else "")
+SOURCES = ("core", "plugins", "tools/engine")
+
+
+def commit_of_checkout(engine):
+    """Short name of the commit; with "+changes" where the sources differ from it, "+older" where the engine was built
+    before their last commit."""
+    commit = git("log", "-1", "--format=%h")
+    if not commit:
+        return "unknown"
+    if git("status", "--porcelain", "--untracked-files=no", *SOURCES):
+        return f"{commit}+changes"
+    last = git("log", "-1", "--format=%ct", "--", *SOURCES)
+    return f"{commit}+older" if engine.exists() and last and engine.stat().st_mtime < int(last) else commit
 
 
 def bits_at(commit):
-    """The record of bits at a commit; of the checkout, where git does not know the commit."""
-    text = git("show", f"{commit}:{BITS}") or (ROOT / BITS).read_text()
-    return {case: digests["state"] for case, digests in json.loads(text).items()}
+    """The record of bits at a commit; empty where the engine is not just that of a commit, so that nothing is claimed."""
+    text = git("show", f"{commit}:{BITS}") if "+" not in commit else ""
+    return {case: digests["state"] for case, digests in json.loads(text or "{}").items()}
 
 
 class Run:
@@ -189,9 +198,10 @@ class Run:
                                     stdin=subprocess.DEVNULL)
 
     def _write_note(self, engine):
-        commits = self.note().get("commits", []) if self.is_begun() else []
-        note = {"command": self.plan.shown(), "commits": sorted({*commits, engine.commit()}),
-                "bits": engine.bits(), "date": datetime.date.today().isoformat(), "machine": cpu_name()}
+        before = self.note() if self.is_begun() else {}
+        bits = [b for b in before.get("bits", []) if b != engine.bits()]
+        note = {"command": self.plan.shown(), "commits": sorted({*before.get("commits", []), engine.commit()}),
+                "bits": [*bits, engine.bits()], "date": datetime.date.today().isoformat(), "machine": cpu_name()}
         (self.folder / "validation.json").write_text(json.dumps(note, indent=1) + "\n")
 
 

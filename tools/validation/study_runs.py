@@ -23,7 +23,8 @@ def written_by(case, engine):
 
 def bits_line(engine):
     """What `tools/validation/run --stale` reads."""
-    return "<!-- bits " + " ".join(f"{case}={state}" for case, state in sorted(engine.bits().items())) + " -->"
+    text = " ".join(f"{case}={state}" for case, state in sorted(engine.bits().items()))
+    return f"<!-- bits {text or 'unknown'} -->"
 
 
 def write_page(case, lines):
