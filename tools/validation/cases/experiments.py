@@ -1,0 +1,111 @@
+"""What fails on the other pages, and the experiments to it: one thing changed at a time beside the run that fails."""
+
+import dataclasses
+
+from bed import SAND_DENSITY
+from runs import Plan
+
+TITLE = "What fails, and the experiments to it"
+BITS = ("container_walls", "container_periodic", "settling_a1", "dosta_drum", "fluidised_bed_column", "mixer")
+SOFT = {"materials.sand.young_modulus": "5 MPa"}
+SAND = "interactions[0]"
+EXPLAINS = "an experiment: it explains and judges nothing"
+
+
+@dataclasses.dataclass(frozen=True)
+class Experiment:
+    """`varied`: (what is changed, plan) pairs, the run that fails first; figure: of a run, with its unit."""
+
+    failure: str
+    question: str
+    varied: tuple
+    figure: callable
+    unit: str
+
+
+def figure(sensor, name, scale=1.0):
+    def of(run):
+        found = run.figure(sensor, name)
+        return found and (scale * found[0], scale * (found[1] or 0.0))
+    return of
+
+
+def void_fraction(run):
+    """Of the settled slice of 3 x 3 mm, by twice the height of its centre."""
+    height = run.figure("height", "twice_centre")
+    return height and (1 - 1.377e-3 / SAND_DENSITY / 9e-6 / height[0], None)
+
+
+def first_maximum(run):
+    """Of the drum's small grains in the quarter x < 0, z < 0; it turns from 0.5 s on."""
+    found = [r["m1_below/number [1]"] for r in run.series() if 0.8 <= r["time [s]"] <= 1.7]
+    return (max(found), None) if found else None
+
+
+def variants(base, scenario, common, changes):
+    return (("as it fails", Plan(base, scenario, common)),
+            *((text, Plan(f"{base}_{name}", scenario, {**common, **settings})) for text, name, settings in changes))
+
+
+WIDE = {"bodies.tube.radius": "15 mm", "bodies.floor.radius": "16 mm", "emitters.bed.radius": "15 mm", "emitters.bed.mass": "42.4 g",
+        "domain.min": "[-17, -17, -5 mm]", "domain.max": "[17, 17, 90 mm]"}
+
+
+def hole(diameter):
+    return {"bodies.floor.hole_radius": f"{diameter / 2:g} mm", "bodies.plug.radius": f"{diameter / 2:g} mm",
+            "sensors.outlet.hole": f"{diameter} mm"}
+
+
+EXPERIMENTS = (
+    Experiment("Beverloo's k, 1.611 where 1.2 to 1.6 is published", "does the tube of 20 mm hold the widest hole back?",
+               variants("beverloo_10", "verification/beverloo.yaml", hole(10), (("tube of 30 mm", "wide", WIDE),)),
+               figure("outlet", "rate_over_beverloo"), "of Beverloo's rate"),
+    Experiment("The same at the narrowest hole", "is it the wide hole alone?",
+               variants("beverloo_6", "verification/beverloo.yaml", hole(6), (("tube of 30 mm", "wide", WIDE),)),
+               figure("outlet", "rate_over_beverloo"), "of Beverloo's rate"),
+    Experiment("Void fraction of settled sand, 0.405 where the bulk density of 1530 kg/m3 gives 0.423",
+               "what loosens a bed that rains?",
+               variants("fixed_bed_settling", "thesis/fixed_bed_settling.yaml", {}, (
+                   ("stiff as the thesis's", "50MPa", {"materials.sand.young_modulus": "50 MPa", "materials.plexiglass.young_modulus": "50 MPa"}),
+                   ("friction 0.8 in place of 0.49", "rough", {f"{SAND}.contact.friction": "0.8"}),
+                   ("rolling friction 0.6 in place of 0.3", "rolling", {f"{SAND}.rolling.friction": "0.6"}),
+                   ("restitution 0.3 in place of 0.9", "inelastic", {f"{SAND}.contact.restitution": "0.3"}))), void_fraction, ""),
+    Experiment("Periodic containers, 3 to 5 deg below the thesis's", "stiffness, rolling or time?",
+               variants("container_periodic", "thesis/container_periodic.yaml", {"time.end": "0.9 s", **SOFT}, (
+                   ("stiff as the thesis's", "50MPa", {"materials.sand.young_modulus": "50 MPa"}),
+                   ("rolling friction 0.5 in place of 0.3", "rolling", {f"{SAND}.rolling.friction": "0.5"}),
+                   ("until 1.5 s", "longer", {"time.end": "1.5 s"}))), figure("slope", "angle"), "deg"),
+    Experiment("B2 to B4, too fast", "added mass and memory of the liquid, or its walls?",
+               variants("settling_b3_with", "thesis/settling_b3.yaml", {}, (
+                   ("with virtual mass", "virtual_mass", {"fluid_forces": "[{model: lubrication}, {model: virtual_mass}]"}),
+                   ("with virtual mass and memory", "basset", {"fluid_forces": "[{model: lubrication}, {model: virtual_mass}, {model: basset}]"}),
+                   ("box twice as wide", "wide", {"domain.max": "[200, 200, 160 mm]", "fluid.cells": "[54, 54, 43]",
+                                                  "emitters.sphere.positions": "[[100, 100, 127.5 mm]]",
+                                                  "sensors.fall.base": "[0, 0, 7.5 mm]"}))),
+               figure("fall", "level_60_mm/velocity"), "m/s 60 mm over the floor"),
+    Experiment("The hourglass, 7.8 s where 6.6 are measured", "is it the sand's friction? (through 8 mm, for its cost)",
+               variants("hourglass_8mm", "thesis/hourglass_8mm.yaml", SOFT, (
+                   ("rolling friction 0.2 in place of 0.3", "rolling", {f"{SAND}.rolling.friction": "0.2"}),
+                   ("friction 0.42 in place of 0.52", "smooth", {f"{SAND}.contact.friction": "0.42"}))),
+               figure("outlet", "duration"), "s"),
+    Experiment("The drum's counts", "how much is chance: other seeds of the packing",
+               variants("dosta_drum", "thesis/dosta_drum.yaml", {"materials.m1.young_modulus": "10 MPa", "materials.m2.young_modulus": "5 MPa"},
+                        tuple((f"seed {n}", f"seed_{n}", {"seed": str(n)}) for n in (2, 3))),
+               first_maximum, "grains, first maximum"),
+    Experiment("Layers that hang above the fluidised column", "do cells of half the height let them fall?",
+               variants("fluidised_bed_column_5", "thesis/fluidised_bed_column.yaml",
+                        {"materials.sand.young_modulus": "5 MPa", "materials.plexiglass.young_modulus": "5 MPa"},
+                        (("cells of 2.5 mm in height", "thin", {"fluid.cells": "[4, 1, 100]"}),)),
+               figure("height", "twice_centre_at_end", 1e3), "mm at the end"))
+
+
+def plans():
+    return [plan for experiment in EXPERIMENTS for _, plan in experiment.varied]
+
+
+def fill(page, runs):
+    for experiment in EXPERIMENTS:
+        for text, plan in experiment.varied:
+            page.add(f"{experiment.failure}: {text}", experiment.figure(runs[plan.name]), experiment.question, unit=experiment.unit,
+                     why=EXPLAINS)
+    page.note("Each run beside the first of its group differs by what its row names and by nothing else.")
