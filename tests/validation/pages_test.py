@@ -103,6 +103,11 @@ class Stale(unittest.TestCase):
         self.assertTrue(stale.why("<!-- bits unknown -->", ("box",), {"box": "1"}))
 
 
+    def test_a_page_is_marked_once_and_unmarked(self):
+        once = stale.marked("# Title\n\ntext\n", stale.MARK + " (why).*")
+        self.assertEqual(stale.marked(once, stale.MARK + " (more).*").count(stale.MARK), 1)
+        self.assertEqual(stale.marked(once, ""), "# Title\n\ntext\n")
+
     def test_an_engine_that_is_not_a_commit_claims_no_bits(self):
         self.assertEqual(runs.bits_at("abc1234+changes"), {})
         self.assertEqual(runs.bits_at("of no commit"), {})

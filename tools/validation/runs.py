@@ -90,11 +90,19 @@ class Engine:
 
     def remember(self, file):
         """Keeps what was asked in a file: a check of a large grid takes a second."""
-        if file.exists():
-            kept = json.loads(file.read_text())
-            self._told = kept["hours"] if kept["commit"] == self._commit else {}
-        atexit.register(lambda: file.parent.is_dir() and file.write_text(
-            json.dumps({"commit": self._commit, "hours": self._told}, indent=1)))
+        self._told = self._kept_in(file)
+        atexit.register(self._keep_in, file)
+
+    def _kept_in(self, file):
+        kept = json.loads(file.read_text()) if file.exists() else {"commit": ""}
+        return kept["hours"] if kept["commit"] == self._commit else {}
+
+    def _keep_in(self, file):
+        """With what other processes have asked meanwhile."""
+        if file.parent.is_dir():
+            told = {**self._kept_in(file), **self._told}
+            file.with_suffix(".part").write_text(json.dumps({"commit": self._commit, "hours": told}, indent=1))
+            file.with_suffix(".part").replace(file)
 
     def _ask_hours(self, plan):
         done = subprocess.run([self.path(), "check", str(plan.file()), "--json", *plan.options()],

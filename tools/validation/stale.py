@@ -14,6 +14,7 @@ from page import FOLDER
 from runs import BITS, ROOT
 
 LINE = re.compile(r"<!-- bits (.*?) -->")
+MARK = "*Figures of an older engine"
 NO_RUN = "<!-- bits none -->"
 
 
@@ -33,18 +34,39 @@ def why(text, watched, today):
     return f"bits have changed in {', '.join(changed)}" if changed else ""
 
 
-def tell():
+def pages():
+    """(case, file, why it is stale or None where no run stands on it) of each case."""
     today = {case: digests["state"] for case, digests in json.loads((ROOT / BITS).read_text()).items()}
-    count = 0
     for case in cases.names():
-        file = FOLDER / f"{case}.md"
-        watched = cases.load(case).BITS
-        if not watched:
-            print(f"{case}: holds no figures of runs")
-        elif not file.exists() or NO_RUN in file.read_text():
-            print(f"{case}: no run has ended")
+        file, watched = FOLDER / f"{case}.md", cases.load(case).BITS
+        has_runs = watched and file.exists() and NO_RUN not in file.read_text()
+        yield case, file, why(file.read_text(), watched, today) if has_runs else None
+
+
+def tell():
+    count = 0
+    for case, _, reason in pages():
+        if reason is None:
+            print(f"{case}: " + ("no run has ended" if cases.load(case).BITS else "holds no figures of runs"))
         else:
-            reason = why(file.read_text(), watched, today)
             count += bool(reason)
             print(f"{case}: " + (f"STALE: {reason}" if reason else "of today's bits"))
     return 1 if count else 0
+
+
+def marked(text, line):
+    """The page with `line` below its title, in place of an earlier one; with an empty line without it."""
+    title, *rest = text.splitlines()
+    rest = [l for l in rest if not l.startswith(MARK)]
+    return "\n".join([title, *([line] if line else []), *rest]) + "\n"
+
+
+def mark(engine, today):
+    """Says on each stale page that it is, since when that is known, and what making it anew costs."""
+    for case, file, reason in pages():
+        if reason is None:
+            continue
+        hours = [engine.hours(plan) or 0.0 for plan in cases.load(case).plans()] if reason else []
+        cost = f": about {sum(hours):.2g} hours of one core" if hours else ""
+        line = f"{MARK} ({today}: {reason}). Anew by `tools/validation/run {case}`{cost}.*" if reason else ""
+        file.write_text(marked(file.read_text(), line))
