@@ -108,6 +108,11 @@ class Stale(unittest.TestCase):
         self.assertEqual(stale.marked(once, stale.MARK + " (more).*").count(stale.MARK), 1)
         self.assertEqual(stale.marked(once, ""), "# Title\n\ntext\n")
 
+    def test_the_engine_tells_its_commit(self):
+        self.assertEqual(runs.commit_in("engine 0.1.0\ncommit: abc1234, changed\n"), "abc1234+changes")
+        self.assertEqual(runs.commit_in("engine 0.1.0\ncommit: abc1234\n"), "abc1234")
+        self.assertIsNone(runs.commit_in("engine 0.1.0\n"))
+
     def test_an_engine_that_is_not_a_commit_claims_no_bits(self):
         self.assertEqual(runs.bits_at("abc1234+changes"), {})
         self.assertEqual(runs.bits_at("of no commit"), {})

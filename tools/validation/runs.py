@@ -59,8 +59,15 @@ class Engine:
 
     def __init__(self, file, threads=1, commit=None):
         self._file, self._threads = pathlib.Path(file), threads
-        self._commit = commit or self._commit_beside() or commit_of_checkout(self._file)
+        self._commit = commit or self._commit_told() or self._commit_beside() or commit_of_checkout(self._file)
         self._told = {}
+
+    def _commit_told(self):
+        """What `engine --version` says of it, where it does."""
+        if not self._file.exists():
+            return None
+        done = subprocess.run([self._file, "--version"], capture_output=True, text=True)
+        return commit_in(done.stdout)
 
     def _commit_beside(self):
         """An engine that was copied says in a file `commit` beside its bin of which commit it is."""
@@ -108,6 +115,15 @@ class Engine:
         done = subprocess.run([self.path(), "check", str(plan.file()), "--json", *plan.options()],
                               capture_output=True, text=True)
         return json.loads(done.stdout)["core_s"] / 3600 if done.returncode == 0 else None
+
+
+def commit_in(version):
+    """The commit in the text of `engine --version`; with "+changes" where the build had any."""
+    for line in version.splitlines():
+        if line.startswith("commit: ") and line != "commit: unknown":
+            commit, *changed = line.removeprefix("commit: ").split(", ")
+            return commit + ("+changes" if changed else "")
+    return None
 
 
 SOURCES = ("core", "plugins", "tools/engine")
