@@ -23,7 +23,7 @@ def rows_of(text):
 
 
 def index():
-    table, left = [], []
+    table, failed, left = [], [], []
     for page in sorted(FOLDER.glob("*.md")):
         if page.name == "README.md":
             continue
@@ -33,20 +33,23 @@ def index():
         count = {v: sum(r[-1] == v for r in rows) for v in ("pass", "FAIL", "open")}
         judged = " ".join(f"{n} {v}" for v, n in count.items() if n) or "-"
         table.append(f"| [{title}]({page.name}) | {len(rows) or '-'} | {judged} |")
-        left += [f"| [{page.stem}]({page.name}) | {r[0]} | {r[1]} | {r[3]} | {r[4]} |"
-                 for r in rows if r[-1] in ("FAIL", "open")]
+        failed += [f"| [{page.stem}]({page.name}) | {r[0]} | {r[1]} | {r[3]} |" for r in rows if r[-1] == "FAIL"]
+        if count["open"]:
+            left.append(f"| [{page.stem}]({page.name}#what-has-not-been-run) | {count['open']} |")
     lines = ["# Checks against measurements, other codes and the thesis", "",
              "Written by `tools/validation/run --index` from the pages of this folder, which `tools/validation/run CASE` wrote when "
              "the runs had ended. Each page names its commands; `tools/validation/run --stale` says which are of an engine "
              "whose bits have changed since. Closed forms and invariants are tests (`tests/verification`), not pages.", "",
              "| page | figures beside published ones | with a pass band |", "| --- | --- | --- |", *table, ""]
-    lines += ["## What does not pass, and what has not been run", ""]
-    if left:
-        lines += ["Why, where it is known, stands on the page.", "",
-                  "| page | figure | ours | pass band | verdict |", "| --- | --- | --- | --- | --- |", *left, ""]
-    else:
-        lines += ["Nothing.", ""]
+    lines += ["## What does not pass", "", "Why, where it is known, stands on the page; experiments to it: `tools/validation/run experiments`.", "",
+              *table_of("| page | figure | ours | pass band |", failed)]
+    lines += ["## What has not been run", "", "What each run would cost stands on the page.", "",
+              *table_of("| page | figures left |", left)]
     return "\n".join(lines)
+
+
+def table_of(head, rows):
+    return [head, "| " + " | ".join(["---"] * (head.count("|") - 1)) + " |", *rows, ""] if rows else ["Nothing.", ""]
 
 
 def write():
