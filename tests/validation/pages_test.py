@@ -6,7 +6,7 @@ import pathlib
 import tempfile
 import unittest
 
-import package
+import package  # noqa: F401
 
 import bed
 import cases

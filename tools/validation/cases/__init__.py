@@ -7,7 +7,8 @@ plans()  the runs it needs, the ones that say most for their cost first
 later(runs)  runs that begin with what one of those has left, where there are any
 fill(page, runs)  figures, charts and notes, from runs that are finished or not
 
-A page that is not one of runs (messages, a cluster) has write(args) in place of fill, and no plans."""
+A page that is not one of runs (messages, a cluster) has write(args) in place of fill, and no plans; with
+TAKES_FINISHED_RUNS it is written with --no-run as well."""
 
 import importlib
 import pathlib

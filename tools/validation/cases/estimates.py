@@ -15,6 +15,7 @@ from runs import ROOT
 TITLE = "What a run is told to cost, and what it costs"
 # Costs, no figures of what runs compute.
 BITS = ()
+TAKES_FINISHED_RUNS = True
 LONGEST = 60.0  # [s], estimate of one run
 RECORD = ROOT / "docs" / "validation" / "estimates.md"
 SHIPPED = [p for p in sorted((ROOT / "scenarios").rglob("*.yaml"))

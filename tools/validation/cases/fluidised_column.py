@@ -1,7 +1,7 @@
 """A column of the fluidised bed of chapter 5, in the sand's own grains: falling and rising flow."""
 
 import bed
-from bed import AIR_DENSITY, GRAVITY, SAND_DENSITY, SOFT, add_column, add_drops
+from bed import SOFT, add_column, add_drops
 from runs import Plan
 
 TITLE = "The fluidised column: falling and rising flow"

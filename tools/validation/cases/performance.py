@@ -8,6 +8,7 @@ from runs import ROOT, Runs, cpu_name
 TITLE = "How fast it is"
 # Times, no figures of what runs compute.
 BITS = ()
+TAKES_FINISHED_RUNS = True
 TARGET = ROOT / "docs" / "performance.md"
 NEIGHBOURS = ("Beside the peers, in one run each: [grains](performance_grains.md), [air](performance_air.md), "
               "[both](performance_coupled.md). Several time rates beside one: [rates](performance_rates.md). Air and grains at the "

@@ -31,7 +31,7 @@ def on_base(file, base, folder):
 
 def write(args):
     out = ["# Expected signs of the shipped studies", "", study_runs.written_by("signs", args.engine), ""]
-    out += [f"Every study as shipped, but on the base `{study_runs.study_runs.shown(BASE)}` (see its head for what is coarser "
+    out += [f"Every study as shipped, but on the base `{study_runs.shown(BASE)}` (see its head for what is coarser "
             "there), so that signs can be looked at in minutes; digits do not hold.", ""]
     out += ["A change counts when it exceeds twice its standard error.", "",
             "| study | expected | found | change | points | state |", "| --- | --- | --- | --- | --- | --- |"]

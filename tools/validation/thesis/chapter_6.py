@@ -1,7 +1,7 @@
 """Chapter 6: the stream off the belt and its dust; the thesis shows signs, and hardly a number."""
 
 import study_points
-from cases import belt, dust
+from cases import belt
 from thesis.row import Row, Sign
 
 WHERE = {"table_6_4_air": "Table 6.4, Figures 6.10, 6.11", "table_6_4_speed": "Table 6.4, Figures 6.5 to 6.8",
