@@ -14,7 +14,8 @@ FOLDER = ROOT / "scenarios" / "studies"
 
 @functools.cache
 def read(study):
-    return yaml.safe_load((FOLDER / f"{study}.yaml").read_text())
+    # The loader in C, ten times as fast, where PyYAML has it.
+    return yaml.load((FOLDER / f"{study}.yaml").read_text(), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
 
 
 def levels_of(given):
