@@ -5,6 +5,7 @@ import json
 import pathlib
 import tempfile
 import unittest
+import unittest.mock
 
 import package  # noqa: F401
 
@@ -30,6 +31,40 @@ def finished_run(folder, name, sensors, note=None):
     if note:
         (run.folder / "validation.json").write_text(json.dumps(note))
     return run
+
+
+class AnyFigures(dict):
+    """A row of series.csv that has every column; time and what flows grow."""
+
+    def __missing__(self, column):
+        return 50.0 * self["time [s]"] + 1.0
+
+
+class AnyRun(runs.Run):
+    """A finished run whose sensors have every figure."""
+
+    summary = {"status": "finished", "sensors": {}, "cpu_s": 3600.0, "mass_kg": {"in_domain": 1.0}, "particles": {"max": 1},
+               "simulated_s": 1.0, "dem_step_s": 1e-5, "fluid_steps": 0, "particle_steps": 1.0, "state_sha256": 64 * "0",
+               "size_classes": [{"hertz_time_s": 1e-4}]}
+
+    def figure(self, sensor, name):
+        return 1.0 + 1e-3 * len(self.name), 0.01
+
+    def series(self):
+        return [AnyFigures({"time [s]": 0.01 * n, "fall/velocity [m/s]": 0.1, "outlet/number [1]": 1000.0 * n,
+                             "drop/superficial_velocity [m/s]": 0.00556 * (n % 100)})
+                for n in range(620)]
+
+    def stiffness(self):
+        return "sand 5 MPa"
+
+
+class AllRuns(runs.Runs):
+    def __init__(self, case):
+        super().__init__(case.plans(), "/nowhere", None)
+        self._runs = {plan.name: AnyRun(plan, "/nowhere") for plan in case.plans()}
+        if hasattr(case, "later"):
+            self._runs |= {plan.name: AnyRun(plan, "/nowhere") for plan in case.later(self)}
 
 
 class ThesisRows(unittest.TestCase):
@@ -155,6 +190,24 @@ class Cases(unittest.TestCase):
                     sheet = page.Page(name)
                     case.fill(sheet, runs.Runs(case.plans(), folder, None))
                     self.assertIn("not run", sheet.text(case.TITLE, runs.Runs([], folder, None), "how").replace("**", ""))
+
+
+    def test_pages_and_charts_are_written_from_finished_runs(self):
+        drawn = []
+        with unittest.mock.patch("chart.draw", lambda file, title, across, up, curves: drawn.append((file.name, curves))):
+            for name in cases.names():
+                case = cases.load(name)
+                if hasattr(case, "fill"):
+                    sheet = page.Page(name)
+                    everything = AllRuns(case)
+                    case.fill(sheet, everything)
+                    text = sheet.text(case.TITLE, everything, "how")
+                    self.assertNotIn("| open |", text, name)
+                    self.assertNotIn("not run |", text, name)
+        self.assertGreater(len(drawn), 10)
+        for name, curves in drawn:
+            for curve in curves:
+                self.assertEqual(len(curve.x), len(curve.y), f"{name}: {curve.name}")
 
 
 class Figures(unittest.TestCase):

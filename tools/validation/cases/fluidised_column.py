@@ -1,30 +1,23 @@
-"""A column of the fluidised bed of chapter 5, in the sand's own grains: falling and rising flow."""
+"""A column of the fluidised bed of chapter 5, in the sand's own grains: falling flow."""
 
 import bed
 from bed import SOFT, add_column, add_drops
 from runs import Plan
 
-TITLE = "The fluidised column: falling and rising flow"
+TITLE = "The fluidised column: falling flow"
 BITS = ("fluidised_bed_column", "mixer")
 SCENARIO = "thesis/fluidised_bed_column.yaml"
 SECTION, MASS = 20e-3 * 3e-3, 9.18e-3  # [m2], [kg]
-RISING = {"domain.boundaries.bottom.air.times": "[0.2, 6.2 s]", "domain.boundaries.bottom.air.factors": "[0, 1.25]",
-          "time.end": "6.2 s"}
 
 
 def plans():
-    return [Plan("fluidised_bed_column_5", SCENARIO, SOFT), Plan("fluidised_bed_column_5_rising", SCENARIO, SOFT | RISING),
-            Plan("fluidised_bed_column_50", SCENARIO)]
+    return [Plan("fluidised_bed_column_5", SCENARIO, SOFT), Plan("fluidised_bed_column_50", SCENARIO)]
 
 
 def fill(page, runs):
     for name, folder in (("5 MPa", "fluidised_bed_column_5"), ("50 MPa", "fluidised_bed_column_50")):
         weight = add_column(page, runs[folder], f"{name}, falling", MASS, SECTION)
         add_drops(page, runs[folder], f"{name}, falling")
-    for litres, measured in ((20, 6.00), (30, 8.93), (40, 12.13), (50, 14.47), (80, 15.27)):
-        page.add(f"5 MPa, rising: pressure drop at {litres} l/min [mbar]",
-                 bed.drop_at(runs["fluidised_bed_column_5_rising"], litres, 0.2), f"{measured:.2f} (measured)",
-                 why="no band is agreed for the rising branch; see the chart")
     bed.draw(page, runs)
     page.note(
         f"A column of the vessel of 200 x 15 mm in plan, 20 x 3 mm with 100 mm of sand, periodic both ways (59,914 grains, weight over section "

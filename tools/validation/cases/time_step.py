@@ -82,9 +82,11 @@ def fill(page, runs):
 
 
 def add_distance(page, text, default, finest):
-    error = math.hypot(default[1], finest[1]) if default and finest else 0.0
-    page.add(f"{text}: default less shortest step, in standard errors of the difference",
-             (default[0] - finest[0]) / error if error else None, "0", -3, 3)
+    distance = None
+    if default and finest:
+        change, error = default[0] - finest[0], math.hypot(default[1], finest[1])
+        distance = change / error if error else math.copysign(math.inf, change) if change else 0.0
+    page.add(f"{text}: default less shortest step, in standard errors of the difference", distance, "0", -3, 3)
 
 
 def draw(page, runs, case):
