@@ -57,8 +57,9 @@ def tell():
 def marked(text, line):
     """The page with `line` below its title, in place of an earlier one; with an empty line without it."""
     title, *rest = text.splitlines()
-    rest = [l for l in rest if not l.startswith(MARK)]
-    return "\n".join([title, *([line] if line else []), *rest]) + "\n"
+    if len(rest) > 1 and rest[1].startswith(MARK):
+        del rest[:2]
+    return "\n".join([title, *(["", line] if line else []), *rest]) + "\n"
 
 
 def mark(engine, today):
@@ -67,6 +68,7 @@ def mark(engine, today):
         if reason is None:
             continue
         hours = [engine.hours(plan) or 0.0 for plan in cases.load(case).plans()] if reason else []
-        cost = f": about {sum(hours):.2g} hours of one core" if hours else ""
+        total = sum(hours)
+        cost = f": about {total:.0f} hours of one core" if total > 10 else f": about {60 * total:.0f} min of one core" if hours else ""
         line = f"{MARK} ({today}: {reason}). Anew by `tools/validation/run {case}`{cost}.*" if reason else ""
         file.write_text(marked(file.read_text(), line))
