@@ -13,9 +13,24 @@ def name_of(kind, width):
     return f"container_{kind}" + ("" if width == 4 else f"_{width}")
 
 
+# Where front, back and middle of the wide ones are told apart: slices of 1 mm at the walls, a third in the middle.
+PLACES, WIDE = ("wall", "middle"), (12, 24, 32)
+
+
+def sensor_at(place, width):
+    """A slope of a part of the container, `width` [mm] deep."""
+    first, last = (0, 1) if place == "wall" else (width / 3, 2 * width / 3)
+    return (f"{{model: angle_of_repose, form: planar, direction: [1, 0, 0], min: [0, {first:.4g}, 0 mm], "
+            f"max: [40, {last:.4g}, 90 mm]}}")
+
+
+def plan_of(kind, n):
+    places = {f"sensors.slope_{p}": sensor_at(p, 0.5 * n) for p in PLACES} if kind == "walls" and n in WIDE else {}
+    return Plan(name_of(kind, n), f"thesis/{name_of(kind, n)}.yaml", {"time.end": "0.9 s", **SOFT, **places})
+
+
 def plans():
-    return [Plan(name_of(kind, n), f"thesis/{name_of(kind, n)}.yaml", {"time.end": "0.9 s", **SOFT})
-            for n in WIDTHS for kind in KINDS]
+    return [plan_of(kind, n) for n in WIDTHS for kind in KINDS]
 
 
 def fill(page, runs):
@@ -25,6 +40,10 @@ def fill(page, runs):
         for n in WIDTHS:
             angles[kind, n] = runs[name_of(kind, n)].figure("slope", "angle")
             add_width(page, kind, n, angles[kind, n], table[n])
+    for n in WIDE:
+        for place in PLACES:
+            page.add(f"slope, W/D50 = {n}, walls, {'at the front wall' if place == 'wall' else 'in the middle'} [deg]",
+                     runs[name_of("walls", n)].figure(f"slope_{place}", "angle"), "-", why="the thesis shows pictures of it")
     narrow, wide = angles["walls", 4], angles["walls", 32]
     page.add("walls: narrowest less widest [deg]", narrow[0] - wide[0] if narrow and wide else None,
              "6.0 (thesis, DEM)", low=3.0)

@@ -1,7 +1,7 @@
 """Chapter 4: hourglass, conical piles, rectangular container."""
 
 import study_points
-from cases import hourglass, hourglass_friction
+from cases import hourglass, hourglass_friction, rectangular_container
 from cases.belt import sign_text
 from runs import read_table
 from thesis.row import Row, Sign
@@ -69,6 +69,11 @@ def container(runs):
             out.append(Row("Table 4.10", f"container, W/D {n}, {kind}: angle [deg]", (name,), found[kind, n], measured,
                            1.1 if measured else 0.0, float(row["AoR_wall_deg" if kind == "walls" else "AoR_periodic_deg"]),
                            0.057 if measured else None, why="nothing was measured", differs=f"{OURS}, {SOFT}"))
+    for n in rectangular_container.WIDE:
+        for place in rectangular_container.PLACES:
+            run = runs[rectangular_container.name_of("walls", n)]
+            out.append(Row("4.6", f"container, W/D {n}, walls, {place}: angle [deg]", (run.name,), run.figure(f"slope_{place}", "angle"),
+                           why="the thesis shows pictures of it", differs=f"{OURS}, {SOFT}"))
     narrow, wide = found["walls", 4], found["walls", 32]
     ours = (narrow[0] - wide[0], (narrow[1] or 0.0) + (wide[1] or 0.0)) if narrow and wide else None
     return out + [Sign("Table 4.10", "container, walls: angle at W/D 4 less that at 32 [deg]", ("container_walls", "container_walls_32"),
