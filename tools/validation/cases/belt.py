@@ -6,7 +6,7 @@ from chart import Curve, published
 TITLE = "The stream off the belt: tables 6.4 and 6.6, Figure 6.15"
 BITS = ("transfer_point", "rare_sizes", "mixer")
 STUDIES = ("table_6_4_air", "table_6_4_speed", "table_6_6", "table_6_4_inclination", "table_6_4_plate", "table_6_4_rolling",
-           "figure_6_15")
+           "figure_6_15", "table_6_6_air")
 # The thesis runs to 1 s; the stream is steady before.
 TO_ONE_SECOND = {"time.end": "1 s"}
 

@@ -6,7 +6,7 @@ from thesis.row import Row, Sign
 
 WHERE = {"table_6_4_air": "Table 6.4, Figures 6.10, 6.11", "table_6_4_speed": "Table 6.4, Figures 6.5 to 6.8",
          "table_6_4_inclination": "Table 6.4", "table_6_4_plate": "Table 6.4", "table_6_4_rolling": "Table 6.4, Figure 6.13",
-         "table_6_6": "Table 6.6", "figure_6_15": "Figure 6.15", "dust_4s": "Figures 6.28 to 6.33"}
+         "table_6_6": "Table 6.6", "figure_6_15": "Figure 6.15", "table_6_6_air": "6.5, Table 6.6", "dust_4s": "Figures 6.28 to 6.33"}
 FEED = "feed's opening and velocity (the thesis gives none)"
 
 
