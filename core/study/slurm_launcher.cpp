@@ -88,12 +88,13 @@ class SlurmLauncher final : public Launcher {
       fs::remove(exit_file(points[n]));
     }
     io::write_text(folder_ / "points", list);
-    io::write_text(folder_ / "job.sh", slurm_script({.name = name_,
-                                                     .store = fs::absolute(store_.folder()),
-                                                     .resources = resources_,
-                                                     .slurm = slurm_,
-                                                     .tasks = some.size(),
-                                                     .memory_bytes = memory}));
+    io::write_text(folder_ / "job.sh",
+                   slurm_script({.name = name_,
+                                 .store = fs::absolute(store_.folder()),
+                                 .resources = resources_,
+                                 .slurm = slurm_,
+                                 .points = static_cast<std::int64_t>(some.size()),
+                                 .memory_bytes = memory}));
     const Reply reply = shell("sbatch --parsable " + shell_quoted((folder_ / "job.sh").string()));
     const std::string job = reply.text.substr(0, reply.text.find_first_not_of("0123456789"));
     if (reply.status != 0 || job.empty()) {

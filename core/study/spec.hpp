@@ -70,7 +70,9 @@ struct SlurmSpec {
   std::string time_limit;
   std::int64_t at_a_time = 0;
   std::int64_t attempts = 2;
+  std::int64_t points_per_job = 1;
   std::vector<std::string> options;
+  std::vector<std::string> prologue;
   static const sdk::ParameterSchema& schema();
 };
 

@@ -44,7 +44,17 @@ const sdk::ParameterSchema& SlurmSpec::schema() {
         .at_least(1)
         .at_most(100)
         .optional();
+    s.integer(
+         &SlurmSpec::points_per_job, "points_per_job",
+         "Points that one job runs side by side, for clusters that give whole nodes; cores and "
+         "memory asked for are those of all.")
+        .at_least(1)
+        .at_most(1000)
+        .optional();
     s.texts(&SlurmSpec::options, "options", "More options of sbatch, e.g. [--qos=long].")
+        .optional();
+    s.texts(&SlurmSpec::prologue, "prologue",
+            "Lines of shell before the runs of a job, e.g. [module load hdf5].")
         .optional();
     return s.build();
   }();
