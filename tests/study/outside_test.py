@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The page docs/how_to/run_a_study.md to the letter: its study is checked as it stands, and its
-Snakefile drives runs from outside.
+"""The page docs/how_to/run_a_study.md to the letter: its study is checked as it stands, as that of
+run_on_a_cluster.md, and its Snakefile drives runs from outside.
 
     outside_test.py ENGINE SOURCE
 
@@ -18,6 +18,7 @@ import tempfile
 
 ENGINE, SOURCE = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
 PAGE = (SOURCE / "docs/how_to/run_a_study.md").read_text()
+CLUSTER_PAGE = (SOURCE / "docs/how_to/run_on_a_cluster.md").read_text()
 
 
 def check(condition, text):
@@ -25,8 +26,8 @@ def check(condition, text):
         sys.exit("FAILED: " + text)
 
 
-def block_with(text):
-    for block in re.findall(r"```[a-z]*\n(.*?)```", PAGE, flags=re.S):
+def block_with(text, page=PAGE):
+    for block in re.findall(r"```[a-z]*\n(.*?)```", page, flags=re.S):
         if text in block:
             return block
     sys.exit(f"FAILED: the page has no block with {text!r}")
@@ -46,6 +47,9 @@ def check_studies(folder):
         (folder / "scenarios/studies" / name).write_text(text)
         told = run(["engine", "study", name, "--dry-run"], folder / "scenarios/studies")
         check("16 points" in told or "at most 30 runs" in told, f"{name}: {told}")
+    (folder / "speeds.yaml").write_text(block_with("points_per_job", CLUSTER_PAGE))
+    told = run(["engine", "study", "speeds.yaml", "--dry-run"], folder)
+    check("12 points" in told, f"the study of the cluster's page: {told}")
 
 
 def drive_with_snakemake(folder):
