@@ -27,9 +27,9 @@ class Belt final : public sdk::Motion {
   }
   static sdk::ModelInfo describe() {
     return {.name = "belt",
-            .version = "1.1",
+            .version = "1.2",
             .summary = "A surface that runs along itself round the body's lateral axis.",
-            .equation = "v = U\\, \\min(1, (t - t_0)/r)\\, a \\times n",
+            .equation = "v = U\\, \\min(1, (t - t_0)/r)\\, a \\times n / |a \\times n|",
             .source = "kinematics of an inextensible belt; own derivation"};
   }
 

@@ -147,6 +147,21 @@ TEST_CASE("a belt shall gather speed evenly, and shake when it is told to") {
                    .epsilon(1e-9));
 }
 
+TEST_CASE("a belt shall keep its speed where idlers lean its surface to the axis") {
+  using dust::model::belt::velocity;
+  for (const double degrees : {0.0, 20.0, 35.0, 45.0, 80.0}) {
+    const double lean = degrees * std::numbers::pi / 180.0;
+    const auto v = velocity(2.0, 0, 1, 0, 0, -std::sin(lean), std::cos(lean));
+    CAPTURE(degrees);
+    CHECK(v.x == doctest::Approx(2.0).epsilon(1e-12));
+    CHECK(v.y == 0.0);
+    CHECK(v.z == 0.0);
+  }
+  // At the face of a pulley's end nothing tells where to.
+  const auto v = velocity(2.0, 0, 1, 0, 0, 1, 0);
+  CHECK(std::hypot(v.x, v.y, v.z) == 0.0);
+}
+
 TEST_CASE("a drum about its own axis shall stand while its surface turns") {
   Body drum;
   drum.shape = make_shape("cylinder", {{"base", Vec3{}},
