@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "feed.hpp"
+#include "large_first.hpp"
 
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/size_distribution.hpp>
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 namespace {
 
@@ -18,7 +21,10 @@ using sdk::Vec3;
 constexpr double k_largest_solids = 0.35;
 /// Draws over which the size distribution may stray.
 constexpr double k_window = 500.0;
-constexpr std::uint32_t k_tries = 100000;
+constexpr std::uint32_t k_tries = 2000000;
+/// Grains that a random place for the largest one meets on average. Beyond this so few places are
+/// free (one in exp(10)) that a stream placed in order of time comes to an end.
+constexpr double k_max_met = 10.0;
 /// Free gap between placed grains relative to the sum of their radii.
 constexpr double k_gap = 1e-6;
 
@@ -74,7 +80,12 @@ class Feed final : public sdk::Emitter {
   void propose(const sdk::EmitterContext& context,
                std::vector<sdk::InsertionRequest>& requests) override {
     check_flow(context.grain_density);
+    choose_order(context);
     const double end = std::min(context.end, p_.end);
+    if (large_first_) {
+      if (context.end > context.begin) release_large_first(end, context, requests);
+      return;
+    }
     for (;;) {
       Event next = next_common(context);
       for (std::size_t i = 0; i < sizes_.size(); ++i) {
@@ -99,7 +110,11 @@ class Feed final : public sdk::Emitter {
   [[nodiscard]] double largest_speed() const override { return norm(p_.velocity); }
 
   void save(sdk::ArchiveWriter& archive) const override {
-    archive.integers("released", std::vector<std::int64_t>(released_.begin(), released_.end()));
+    std::vector<std::int64_t> released(released_.begin(), released_.end());
+    // One more than there are sizes says how they are placed.
+    if (large_first_) released.push_back(1);
+    archive.integers("released", released);
+    if (large_first_) large_first_->save(archive);
     std::vector<double> rows;
     for (const Placed& g : recent_) {
       rows.insert(rows.end(), {g.time, g.position.x, g.position.y, g.position.z, g.radius});
@@ -109,6 +124,13 @@ class Feed final : public sdk::Emitter {
   void load(sdk::ArchiveReader& archive) override {
     const auto released = archive.integers("released");
     released_.assign(released.begin(), released.end());
+    is_order_chosen_ = true;
+    large_first_.reset();
+    if (released_.size() > sizes_.size()) {
+      released_.resize(sizes_.size());
+      place_large_first();
+      large_first_->load(archive);
+    }
     const auto rows = archive.numbers("recent");
     recent_.clear();
     for (std::size_t n = 0; n + 4 < rows.size(); n += 5) {
@@ -182,6 +204,55 @@ class Feed final : public sdk::Emitter {
          << k_largest_solids << " can be placed without overlaps. Widen the opening or raise the "
          << "speed to " << speed_ * solids / k_largest_solids << " m/s";
     throw sdk::ParameterError(text.str());
+  }
+
+  /// Computed grains of size i per second.
+  [[nodiscard]] double flow_of(std::size_t i, double density) const {
+    return rate(i, density) * (is_rare(i) ? static_cast<double>(p_.copies_of_rare) : 1.0);
+  }
+
+  /// In order of time where that leads on, for it keeps the mass to within one grain; large ones
+  /// first where it does not.
+  void choose_order(const sdk::EmitterContext& context) {
+    if (std::exchange(is_order_chosen_, true)) return;
+    std::vector<double> flows;
+    for (std::size_t i = 0; i < sizes_.size(); ++i) {
+      flows.push_back(flow_of(i, context.grain_density));
+    }
+    if (formula::met_by_largest(sizes_.diameters(), flows, area_, speed_) > k_max_met) {
+      place_large_first();
+    }
+  }
+  void place_large_first() {
+    large_first_.emplace(formula::Opening{p_.min, p_.max, axis_, p_.velocity, speed_},
+                         sizes_.largest(), sizes_.size());
+  }
+
+  void release_large_first(double end, const sdk::EmitterContext& context,
+                           std::vector<sdk::InsertionRequest>& requests) {
+    const double behind = 0.5 * sizes_.largest() / speed_;
+    const double in_front = context.end - context.begin;
+    std::vector<formula::LargeFirst::Size> sizes;
+    for (std::size_t i = 0; i < sizes_.size(); ++i) {
+      sizes.push_back({sizes_.diameters()[i], flow_of(i, context.grain_density),
+                       is_rare(i) ? behind + in_front : 0.0});
+    }
+    for (const auto& g :
+         large_first_->release(std::move(sizes), end, p_.begin, p_.end, context.random)) {
+      requests.push_back(request_of(g.size, g.time, g.position, in_front));
+      ++released_[g.size];
+    }
+  }
+
+  /// `in_front`: [s] how far rare grains are let go in front of the opening.
+  [[nodiscard]] sdk::InsertionRequest request_of(std::size_t size, double time, Vec3 x,
+                                                 double in_front) const {
+    const double behind = 0.5 * sizes_.largest() / speed_;  // [s] of travel behind the opening
+    return {.time = time,
+            .position = x + (is_rare(size) ? in_front : -behind) * p_.velocity,
+            .velocity = p_.velocity,
+            .diameter = sizes_.diameters()[size],
+            .weight = is_rare(size) ? 1.0 / static_cast<double>(p_.copies_of_rare) : 1.0};
   }
 
   [[nodiscard]] bool is_rare(std::size_t i) const { return sizes_.diameters()[i] < p_.rare_below; }
@@ -258,11 +329,7 @@ class Feed final : public sdk::Emitter {
       });
       if (!is_free) continue;
       recent_.push_back({block_time, x, radius});
-      return {.time = e.time,
-              .position = x + (is_rare(e.size) ? in_front : -behind) * p_.velocity,
-              .velocity = p_.velocity,
-              .diameter = sizes_.diameters()[e.size],
-              .weight = is_rare(e.size) ? 1.0 / static_cast<double>(p_.copies_of_rare) : 1.0};
+      return request_of(e.size, e.time, x, in_front);
     }
     std::ostringstream text;
     text << "no free place for a grain of " << 2.0 * radius << " m in the opening at " << e.time
@@ -281,6 +348,8 @@ class Feed final : public sdk::Emitter {
   bool has_common_ = false;
   std::vector<long long> released_;  ///< computed grains per size
   std::vector<Placed> recent_;
+  bool is_order_chosen_ = false;
+  std::optional<formula::LargeFirst> large_first_;  ///< where places would run out otherwise
 };
 
 }  // namespace

@@ -150,3 +150,72 @@ TEST_CASE("an opening that cannot pass the flow shall be refused with the number
   CHECK_THROWS_AS(ModelLoader::make<Emitter>("emitter", "feed", parameters),
                   dust::sdk::ParameterError);
 }
+
+namespace {
+
+/// Rubble: 0.5 to 60 mm, 5 % solids.
+std::map<std::string, Value> rubble() {
+  return {{"mass_flow", 0.05 * k_density * 0.2 * 0.2 * 2.0},
+          {"min", Vec3{0, 0, 1}},
+          {"max", Vec3{0.2, 0.2, 1}},
+          {"velocity", Vec3{0, 0, -2.0}},
+          {"distribution", std::string("rosin_rammler")},
+          {"characteristic_diameter", 20e-3},
+          {"exponent", 1.0},
+          {"smallest", 0.5e-3},
+          {"largest", 60e-3},
+          {"size_classes", std::int64_t{12}},
+          {"rare_below", 1e-3},
+          {"copies_of_rare", std::int64_t{2}}};
+}
+
+}  // namespace
+
+TEST_CASE("a feed from half a millimetre to sixty shall find places, without overlaps") {
+  auto feed = ModelLoader::make<Emitter>("emitter", "feed", rubble());
+  const auto requests = run(*feed, 0, 60);
+  double released = 0.0;
+  double largest = 0.0;
+  double one_of_each = 0.0;
+  std::map<double, double> masses;
+  for (const InsertionRequest& s : requests) {
+    released += mass(s);
+    largest = std::max(largest, s.diameter);
+    masses[s.diameter] = mass(s);
+  }
+  for (const auto& [diameter, one] : masses) one_of_each += one;
+  CHECK(largest > 50e-3);
+  REQUIRE(requests.size() > 5000);
+  CHECK(std::abs(released - std::get<double>(rubble()["mass_flow"]) * 0.06) < one_of_each);
+  // In the frame that moves with the stream, large ones against all.
+  std::size_t overlaps = 0;
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    if (requests[i].diameter < 3e-3) continue;
+    for (std::size_t j = 0; j < requests.size(); ++j) {
+      if (i == j) continue;
+      const Vec3 apart = (requests[i].position - requests[i].time * requests[i].velocity) -
+                         (requests[j].position - requests[j].time * requests[j].velocity);
+      const double reach = 0.5 * (requests[i].diameter + requests[j].diameter);
+      overlaps += dot(apart, apart) < reach * reach ? 1 : 0;
+    }
+  }
+  CHECK(overlaps == 0);
+}
+
+TEST_CASE("a resumed feed of such sizes shall go on with the same requests") {
+  auto whole = ModelLoader::make<Emitter>("emitter", "feed", rubble());
+  const auto all = run(*whole, 0, 20);
+  auto first = ModelLoader::make<Emitter>("emitter", "feed", rubble());
+  auto requests = run(*first, 0, 9);
+  MemoryArchive archive;
+  first->save(archive);
+  auto second = ModelLoader::make<Emitter>("emitter", "feed", rubble());
+  second->load(archive);
+  const auto rest = run(*second, 9, 20);
+  requests.insert(requests.end(), rest.begin(), rest.end());
+  REQUIRE(requests.size() == all.size());
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    CHECK(requests[n].position == all[n].position);
+    CHECK(requests[n].time == all[n].time);
+  }
+}
