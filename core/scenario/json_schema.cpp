@@ -232,7 +232,7 @@ Json domain_schema() {
 }
 
 /// A file that is laid over what it includes: every key may be missing, a model's name too. Lists
-/// are replaced as a whole and stay as they are.
+/// are replaced as a whole and stay as they are, but for the pairs of `interactions`.
 Json addition(const Json& full, const Json& definitions) {
   if (full.contains("$ref")) {
     const std::string ref = full["$ref"];
@@ -266,7 +266,12 @@ std::string json_schema(const registry::Registry& registry) {
   interaction["properties"]["contact"] = {{"$ref", "#/definitions/contact"}};
   interaction["properties"]["rolling"] = {{"$ref", "#/definitions/rolling"}};
   interaction["properties"]["cohesion"] = {{"$ref", "#/definitions/cohesion"}};
-  interaction["required"].push_back("contact");
+  interaction["properties"]["like"] = {
+      {"type", "array"},
+      {"items", {{"type", "string"}}},
+      {"minItems", 2},
+      {"maxItems", 2},
+      {"description", "Another pair of materials, from which all that is not given is taken."}};
   Json definitions = {{"side", domain["side"]}};
   for (const char* kind : {"contact", "rolling", "cohesion", "boundary", "drag", "fluid_force",
                            "voidage", "turbulence", "motion"}) {
@@ -282,7 +287,9 @@ std::string json_schema(const registry::Registry& registry) {
   properties["time"] = block<TimeBlock>();
   properties["domain"] = domain["domain"];
   properties["materials"] = named(block<MaterialBlock>());
-  properties["interactions"] = {{"type", "array"}, {"items", interaction}};
+  Json whole_interaction = interaction;
+  whole_interaction["anyOf"] = {{{"required", {"contact"}}}, {{"required", {"like"}}}};
+  properties["interactions"] = {{"type", "array"}, {"items", whole_interaction}};
   properties["frames"] = named(block<FrameBlock>());
   properties["bodies"] = named(body_schema(registry));
   properties["emitters"] =
@@ -311,6 +318,9 @@ std::string json_schema(const registry::Registry& registry) {
   root["required"] = {"time", "gravity", "domain", "fluid"};
   definitions["scenario"] = root;
   definitions["addition"] = addition(root, definitions);
+  Json more_of_pair = addition(interaction, definitions);
+  more_of_pair["required"] = {"between"};
+  definitions["addition"]["properties"]["interactions"]["items"] = more_of_pair;
 
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", "Scenario of the dust engine"},

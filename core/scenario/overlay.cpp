@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario/overlay.hpp"
 
+#include "scenario/interactions/pair_list.hpp"
 #include "scenario/suggest.hpp"
 
 #include <algorithm>
@@ -79,7 +80,7 @@ class IncludeReader {
     open_.push_back(identity(file));
     Node merged = included(taken, file);
     open_.pop_back();
-    merge(merged, std::move(*root));
+    merge_scenario(merged, std::move(*root));
     return merged;
   }
 
@@ -108,7 +109,7 @@ class IncludeReader {
                            "include: " + file.generic_string() + " includes itself in a circle");
         continue;
       }
-      if (auto node = read(file, &name.where)) merge(base, std::move(*node));
+      if (auto node = read(file, &name.where)) merge_scenario(base, std::move(*node));
     }
     return base;
   }
@@ -212,13 +213,24 @@ void merge(Node& base, Node over) {
   base.where = over.where;
 }
 
+void merge_scenario(Node& base, Node over) {
+  Entry* below = base.is_map() ? base.find("interactions") : nullptr;
+  Entry* above = over.is_map() ? over.find("interactions") : nullptr;
+  if (below != nullptr && above != nullptr && below->value.is_list() && above->value.is_list()) {
+    below->where = above->where;
+    merge_pairs(below->value, std::move(above->value));
+    std::erase_if(over.entries, [](const Entry& e) { return e.key == "interactions"; });
+  }
+  merge(base, std::move(over));
+}
+
 void set_path(Node& root, const std::string& path, Node value, const Mark& here,
               Diagnostics& diagnostics) {
   const auto steps = parse_path(path);
   if (!steps) {
     diagnostics.error(here,
                       "not the path of a key, like bodies.belt.speed or "
-                      "interactions[1].contact.friction");
+                      "interactions.sand-belt.contact.friction");
     return;
   }
   Node* node = &root;
@@ -234,6 +246,16 @@ void set_path(Node& root, const std::string& path, Node value, const Mark& here,
         return;
       }
       node = &node->items[step.index];
+      continue;
+    }
+    if (n == 1 && node->is_list() && steps->front().key == "interactions") {
+      Node* pair = find_pair(*node, step.key);
+      if (pair == nullptr) {
+        diagnostics.error(here, "there is no interaction '" + printable(step.key) + "'" +
+                                    suggestion(step.key, pair_names(*node), "there are"));
+        return;
+      }
+      node = pair;
       continue;
     }
     if (!node->is_map()) {

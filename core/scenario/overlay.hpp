@@ -17,6 +17,9 @@ std::optional<Node> read_with_includes(const std::filesystem::path& file, Diagno
 /// Lays `over` over `base`: maps are merged key by key, everything else is replaced.
 void merge(Node& base, Node over);
 
+/// The same for two scenarios, where `interactions` are laid over each other pair by pair.
+void merge_scenario(Node& base, Node over);
+
 /// Sets the key at a dotted `path` of `root`; problems are told at `here`.
 void set_path(Node& root, const std::string& path, Node value, const Mark& here,
               Diagnostics& diagnostics);

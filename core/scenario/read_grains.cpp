@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/emitter.hpp"
 #include "scenario/checks.hpp"
+#include "scenario/interactions/pair_list.hpp"
 #include "scenario/setup_reader.hpp"
 
 namespace dust::scenario {
@@ -29,10 +30,12 @@ void SetupReader::read_interactions(MapReader& top) {
                                   kind_text(entry->value));
     return;
   }
+  Node list = entry->value;
+  complete_pairs(list, diagnostics_);
   Node written = Node::make_list();
-  for (std::size_t n = 0; n < entry->value.items.size(); ++n) {
+  for (std::size_t n = 0; n < list.items.size(); ++n) {
     written.items.push_back(
-        read_interaction(entry->value.items[n], "interactions[" + std::to_string(n) + "]"));
+        read_interaction(list.items[n], "interactions[" + std::to_string(n) + "]"));
   }
   out_.add("interactions", std::move(written));
 }

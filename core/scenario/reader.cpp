@@ -137,7 +137,7 @@ std::optional<ReadResult> read_file(const fs::path& file, const std::vector<Over
   auto root = read_with_includes(file, diagnostics);
   for (const fs::path& set_file : set_files) {
     auto over = read_with_includes(set_file, diagnostics);
-    if (root && over) merge(*root, std::move(*over));
+    if (root && over) merge_scenario(*root, std::move(*over));
   }
   if (!root) return std::nullopt;
   if (root->where.line == 0) root->where = {file.generic_string(), 1, 1};

@@ -48,6 +48,11 @@ constexpr std::array k_symbols = {
     Symbol{"P", 1, 10, dim::dynamic_viscosity, true},
     Symbol{"J", 1, 1, dim::energy, true},
     Symbol{"W", 1, 1, dim::energy / dim::time, true},
+    // Exact by definition: the international yard and pound of 1959.
+    Symbol{"in", 254, 10000, dim::length, false},
+    Symbol{"ft", 3048, 10000, dim::length, false},
+    Symbol{"lb", 45359237, 1e8, dim::mass, false},
+    Symbol{"cfm", 28316846592, 6e13, dim::volume_flow, false},
 };
 
 struct Prefix {
@@ -71,7 +76,7 @@ constexpr std::array k_named = {
     Named{dim::length, "a length", "m, mm, um"},
     Named{dim::mass, "a mass", "kg, g, mg"},
     Named{dim::time, "a time", "s, ms, min"},
-    Named{dim::temperature, "a temperature", "K"},
+    Named{dim::temperature, "a temperature", "K, degC"},
     Named{dim::angle, "an angle", "rad, deg"},
     Named{dim::area, "an area", "m2, mm2"},
     Named{dim::volume, "a volume", "m3, l, ml"},
@@ -317,6 +322,11 @@ std::optional<WrittenNumber> split_number(std::string_view raw, std::string& err
 
 std::optional<double> to_si(const WrittenNumber& written, Dimension dimension, std::string& error) {
   if (written.unit.empty()) return written.number;
+  // The one unit whose zero lies elsewhere: it stands alone and in no product.
+  if (dimension == dim::temperature && (written.unit == "degC" || written.unit == "\u00b0C")) {
+    constexpr double k_zero_celsius = 273.15;
+    return written.number + k_zero_celsius;
+  }
   const auto unit = parse_unit(written.unit);
   const std::string shown = printable(written.unit);
   if (!unit) {

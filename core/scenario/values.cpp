@@ -8,6 +8,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 
 namespace dust::scenario {
 namespace {
@@ -326,40 +327,84 @@ std::vector<Value> MapReader::values(const sdk::ParameterSchema& schema) {
     if (!value) is_good_ = false;
     result.push_back(value.value_or(Value{}));
   }
-  warn_of_bare_vectors(schema, result);
+  warn_of_bare_numbers(schema);
   return result;
 }
 
-/// `min: [-20, -20, 0]` beside `max: [20, 20, 60 mm]` reaches over 20 m: hardly meant.
-void MapReader::warn_of_bare_vectors(const sdk::ParameterSchema& schema,
-                                     const std::vector<Value>& values) {
-  const auto unit_of = [](const Node& list) {
-    std::string unit;
-    for (const Node& item : list.items) {
-      std::string error;
-      const auto number = item.is_text() ? split_number(item.text, error) : std::nullopt;
-      if (number && !number->unit.empty()) unit = number->unit;
+namespace {
+
+/// The unit of the numbers of a node, "" where all are bare; `largest`: the largest bare number.
+std::string unit_in(const Node& node, double& largest) {
+  std::string unit;
+  const std::vector<Node> one{node};
+  for (const Node& item : node.is_list() ? node.items : one) {
+    if (item.is_list()) {
+      const std::string inner = unit_in(item, largest);
+      if (!inner.empty()) unit = inner;
+      continue;
     }
-    return unit;
-  };
-  for (std::size_t n = 0; n < schema.size(); ++n) {
-    const auto* bare = std::get_if<sdk::Vec3>(&values[n]);
-    const Entry* entry = node_.is_map() ? node_.find(schema[n].name) : nullptr;
-    if (bare == nullptr || entry == nullptr || *bare == sdk::Vec3{}) continue;
-    const std::string si = si_unit(schema[n].dimension);
-    if (si.empty() || !unit_of(entry->value).empty()) continue;
-    for (const Parameter& other : schema) {
-      const Entry* beside = node_.find(other.name);
-      if (beside == nullptr || other.type != ParameterType::vector) continue;
-      const std::string unit = unit_of(beside->value);
-      if (!(other.dimension == schema[n].dimension) || unit.empty() || unit == si) continue;
-      diagnostics_.warning(entry->value.where,
-                           path_of(schema[n].name) + ": has no unit and is read in " + si +
-                               ", while " + path_of(other.name) + " is in " + unit + ": write " +
-                               unit + " or " + si + " behind its last number");
-      break;
-    }
+    std::string error;
+    const auto number = item.is_text() ? split_number(item.text, error) : std::nullopt;
+    if (!number) continue;
+    if (!number->unit.empty()) unit = number->unit;
+    if (std::abs(number->number) > std::abs(largest)) largest = number->number;
   }
+  return unit;
+}
+
+/// The unit that a bare number was hardly meant without; "" where SI is likely. Whole metres are
+/// typed by those who think in millimetres, more than a full turn by those who think in degrees.
+std::string likely_unit(sdk::Dimension dimension, double value) {
+  constexpr double k_sure_length = 10.0;
+  const double size = std::abs(value);
+  if (dimension == sdk::dimension::length) {
+    return size >= k_sure_length || (size >= 1.0 && size == std::floor(size)) ? "mm" : "";
+  }
+  if (dimension == sdk::dimension::angle && size > 2.0 * std::numbers::pi) return "deg";
+  return "";
+}
+
+}  // namespace
+
+/// `max: [330, 11, 350]` is a domain of 330 m, `min: [-20, -20, 0]` beside `max: [20, 20, 60 mm]`
+/// reaches over 20 m: hardly meant.
+void MapReader::warn_of_bare_numbers(const sdk::ParameterSchema& schema) {
+  for (const Parameter& parameter : schema) {
+    const std::string si = si_unit(parameter.dimension);
+    const Entry* entry = node_.is_map() ? node_.find(parameter.name) : nullptr;
+    if (entry == nullptr || si.empty()) continue;
+    double largest = 0.0;
+    if (!unit_in(entry->value, largest).empty() || largest == 0.0) continue;
+    if (parameter.type == ParameterType::vector && warn_of_bare_neighbour(schema, parameter)) {
+      continue;
+    }
+    const std::string likely = likely_unit(parameter.dimension, largest);
+    if (likely.empty()) continue;
+    const std::string number = number_text(largest);
+    diagnostics_.warning(entry->value.where, path_of(parameter.name) + ": " + number +
+                                                 " has no unit and is read as " + number + " " +
+                                                 si + ": write " + number + " " + likely + " or " +
+                                                 number + " " + si);
+  }
+}
+
+/// Told where another vector of the same map has a unit.
+bool MapReader::warn_of_bare_neighbour(const sdk::ParameterSchema& schema,
+                                       const Parameter& parameter) {
+  const std::string si = si_unit(parameter.dimension);
+  for (const Parameter& other : schema) {
+    const Entry* beside = node_.find(other.name);
+    if (beside == nullptr || other.type != ParameterType::vector) continue;
+    double ignored = 0.0;
+    const std::string unit = unit_in(beside->value, ignored);
+    if (!(other.dimension == parameter.dimension) || unit.empty() || unit == si) continue;
+    diagnostics_.warning(node_.find(parameter.name)->value.where,
+                         path_of(parameter.name) + ": has no unit and is read in " + si +
+                             ", while " + path_of(other.name) + " is in " + unit + ": write " +
+                             unit + " or " + si + " behind its last number");
+    return true;
+  }
+  return false;
 }
 
 void MapReader::finish() {

@@ -55,8 +55,8 @@ class MapReader {
   }
 
  private:
-  void warn_of_bare_vectors(const sdk::ParameterSchema& schema,
-                            const std::vector<sdk::Value>& values);
+  void warn_of_bare_numbers(const sdk::ParameterSchema& schema);
+  bool warn_of_bare_neighbour(const sdk::ParameterSchema& schema, const sdk::Parameter& parameter);
 
   const Node& node_;
   std::string path_;

@@ -76,3 +76,66 @@ TEST_CASE("everything written in full shall differ only where it was set") {
   CHECK(read(transfer_point(), {{"time.end", "0.7 s"}}).resolved_yaml == plain);
   CHECK(read(transfer_point(), {{"time.end", "0.6 s"}}).resolved_yaml != plain);
 }
+
+TEST_CASE("an interaction shall be set by its pair, in either order") {
+  for (const std::string pair : {"sand-belt", "belt-sand"}) {
+    const auto setup =
+        read(transfer_point(), {{"interactions." + pair + ".contact.friction", "0.1"}}).setup;
+    CHECK(std::get<double>(setup.interactions[1].contact.values[1]) == 0.1);
+    CHECK(setup.interactions.size() == 4);
+  }
+  const auto lines =
+      problems(transfer_point(), {{"interactions.sand-bellt.contact.friction", "1"}});
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0].find("no interaction 'sand-bellt'; did you mean 'sand-belt'?") !=
+        std::string::npos);
+}
+
+TEST_CASE("an including file shall complete interactions pair by pair and add others") {
+  const Folder folder;
+  const auto base = text_of(transfer_point());
+  folder.write("base.yaml", base);
+  const auto file = folder.write("over.yaml",
+                                 "include: base.yaml\n"
+                                 "interactions:\n"
+                                 "  - between: [belt, sand]\n"
+                                 "    contact: {friction: 0.1}\n"
+                                 "  - {between: [belt, plate], like: [sand, plate]}\n");
+  const auto plain = read(transfer_point()).setup;
+  const auto setup = read(file).setup;
+  REQUIRE(setup.interactions.size() == 5);
+  CHECK(std::get<double>(setup.interactions[1].contact.values[1]) == 0.1);
+  CHECK(setup.interactions[1].contact.values[0] == plain.interactions[1].contact.values[0]);
+  REQUIRE(setup.interactions[1].rolling);
+  CHECK(setup.interactions[0].contact.values == plain.interactions[0].contact.values);
+}
+
+TEST_CASE("a pair shall be completed by another one it is like") {
+  const Folder folder;
+  std::string text = text_of(transfer_point());
+  const std::string plate = "  - between: [sand, plate]\n";
+  const std::size_t at = text.find(plate);
+  REQUIRE(at != std::string::npos);
+  const std::size_t end = text.find("  - between: [sand, glass]");
+  const auto with = [&](const std::string& lines) {
+    return folder.write("like.yaml", text.substr(0, at) + plate + lines + text.substr(end));
+  };
+  const auto setup = read(with("    like: [belt, sand]\n    contact: {friction: 0.2}\n")).setup;
+  const auto& like = setup.interactions[2];
+  CHECK(std::get<double>(like.contact.values[1]) == 0.2);
+  CHECK(like.contact.values[0] == setup.interactions[1].contact.values[0]);
+  REQUIRE(like.rolling);
+  CHECK(like.rolling->values == setup.interactions[1].rolling->values);
+  // What is written out stands by itself.
+  CHECK(read(with("    like: [belt, sand]\n")).resolved_yaml.find("like") == std::string::npos);
+  const auto wrong = [&](const std::string& lines) {
+    const auto all = problems(with(lines));
+    REQUIRE(!all.empty());
+    return all.front();
+  };
+  CHECK(wrong("    like: [sand, bellt]\n").find("there is no interaction between") !=
+        std::string::npos);
+  CHECK(wrong("    like: [sand, plate]\n").find("in a circle") != std::string::npos);
+  CHECK(wrong("    like: sand\n").find("two materials of another interaction") !=
+        std::string::npos);
+}

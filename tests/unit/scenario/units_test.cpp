@@ -47,6 +47,24 @@ TEST_CASE("the units of the contract shall give SI values") {
   CHECK(value("1.2 kg/m3", dim::density) == 1.2);
 }
 
+TEST_CASE("the units of the trade shall give SI values") {
+  CHECK(value("500 t/h", dim::mass_flow) == doctest::Approx(500e3 / 3600).epsilon(k_two_roundings));
+  CHECK(value("2000 m3/h", dim::volume_flow) ==
+        doctest::Approx(2000.0 / 3600).epsilon(k_two_roundings));
+  CHECK(value("48 in", dim::length) == doctest::Approx(1.2192).epsilon(k_two_roundings));
+  CHECK(value("10 ft", dim::length) == doctest::Approx(3.048).epsilon(k_two_roundings));
+  CHECK(value("600 ft/min", dim::velocity) == doctest::Approx(3.048).epsilon(k_two_roundings));
+  CHECK(value("2 lb", dim::mass) == doctest::Approx(0.90718474).epsilon(k_two_roundings));
+  CHECK(value("100 lb/ft3", dim::density) == doctest::Approx(1601.846337396014).epsilon(1e-14));
+  CHECK(value("1000 cfm", dim::volume_flow) ==
+        doctest::Approx(1000 * 0.3048 * 0.3048 * 0.3048 / 60).epsilon(1e-14));
+  CHECK(value("20 degC", dim::temperature) == doctest::Approx(293.15).epsilon(k_two_roundings));
+  CHECK(value("-40 \u00b0C", dim::temperature) == doctest::Approx(233.15).epsilon(k_two_roundings));
+  // Its zero lies elsewhere: it is not a factor.
+  CHECK(refusal("3 J/degC", dim::temperature).find("a temperature is expected (K, degC)") !=
+        std::string::npos);
+}
+
 TEST_CASE("compound units, exponents and brackets shall be understood") {
   CHECK(value("2 Pa s", dim::dynamic_viscosity) == 2);
   CHECK(value("2 Pa*s", dim::dynamic_viscosity) == 2);
