@@ -9,19 +9,19 @@
 namespace dust::preflight {
 namespace {
 
-// What things cost, measured by `tools/validation/run estimates` and by long runs on one core of a
-// virtual machine, which is up to twice as slow when its neighbour works: the constants lie between
-// both.
-constexpr double k_bytes_base = 4e7;
-constexpr double k_bytes_per_grain = 1000.0;  // with lists, and copies on their way to disk
+// What things cost on one core of an idle virtual machine of 2026, by `tools/validation/run estimates`
+// and long runs. What this machine does differently is learnt: LearntCosts.
+constexpr double k_bytes_base = 3.5e7;
+constexpr double k_bytes_per_grain = 1500.0;  // with lists, and copies on their way to disk
 constexpr double k_bytes_per_cell = 900.0;
-constexpr double k_frame_bytes_per_grain = 75.0;  // packed
+constexpr double k_disk_base = 4e5;               // report, series, scenario, summary
+constexpr double k_frame_bytes_per_grain = 48.0;  // packed
 constexpr double k_frame_bytes_per_cell = 11.0;
-constexpr double k_checkpoint_bytes_per_grain = 800.0;
+constexpr double k_checkpoint_bytes_per_grain = 480.0;
 constexpr double k_checkpoint_bytes_per_cell = 120.0;
 // Steps of grains per second: those at rest in a bed have six contacts each, those of a stream meet
 // now and then, those of a gas fly from one collision to the next.
-constexpr double k_bed_steps_per_second = 7e6;
+constexpr double k_bed_steps_per_second = 1.1e7;
 constexpr double k_stream_steps_per_second = 1.6e7;
 constexpr double k_gas_steps_per_second = 7e7;
 constexpr double k_cell_steps_per_second = 2.2e6;
@@ -40,13 +40,31 @@ double extent_along(const DomainSpec& domain, sdk::Vec3 direction) {
          std::abs(size.z * direction.z);
 }
 
-/// Steps per second of grains that are there at once: with gravity they lie, or soon will.
-double rate_at_once(const Setup& setup, double grains, const Derived& derived) {
-  if (norm(setup.gravity) > 0.0 || derived.steps.classes.empty()) return k_bed_steps_per_second;
+/// [s] that grains filled in loosely fall before they lie on each other: the top of the filling
+/// sinks by half its height. Nothing where they are few.
+double settling_time(const Setup& setup, double grains, const Derived& derived) {
+  constexpr double k_loose = 0.3;
+  const double g = norm(setup.gravity);
+  const double height = extent_along(setup.domain, setup.gravity / g);
+  const sdk::Vec3 size = setup.domain.max - setup.domain.min;
+  const double volume = grains * sdk::sphere_volume(derived.steps.classes.back().diameter);
+  const double filled = volume / (k_loose * size.x * size.y * size.z) * height;
+  return std::sqrt(std::min(filled, height) / g);
+}
+
+/// Seconds for `grains` that are there at once: with gravity they fall, then lie.
+double seconds_at_once(const Setup& setup, double grains, const Derived& derived) {
+  const double end = setup.time.end;
+  const double steps = grains * end / derived.steps.coarse_step;
+  if (derived.steps.classes.empty()) return steps / k_bed_steps_per_second;
+  if (norm(setup.gravity) > 0.0) {
+    const double share = std::min(1.0, settling_time(setup, grains, derived) / end);
+    return steps * (share / k_gas_steps_per_second + (1.0 - share) / k_bed_steps_per_second);
+  }
   const sdk::Vec3 size = setup.domain.max - setup.domain.min;
   const double solids = grains * sdk::sphere_volume(derived.steps.classes.back().diameter);
-  return solids > k_dense * size.x * size.y * size.z ? k_bed_steps_per_second
-                                                     : k_gas_steps_per_second;
+  return steps / (solids > k_dense * size.x * size.y * size.z ? k_bed_steps_per_second
+                                                              : k_gas_steps_per_second);
 }
 
 }  // namespace
@@ -81,6 +99,7 @@ void estimate_cost(const scenario::Setup& setup, double body_speed, Derived& der
       k_bytes_base + k_bytes_per_grain * derived.grains_in_domain + k_bytes_per_cell * cells;
   const double frames = std::floor(setup.time.end / setup.time.output_every + 1e-9) + 1.0;
   derived.disk_bytes =
+      k_disk_base +
       frames *
           (k_frame_bytes_per_grain * (at_once + mean_flowing) + k_frame_bytes_per_cell * cells) +
       k_checkpoint_bytes_per_grain * derived.grains_in_domain + k_checkpoint_bytes_per_cell * cells;
@@ -90,9 +109,9 @@ void estimate_cost(const scenario::Setup& setup, double body_speed, Derived& der
                          frames * k_seconds_per_frame;
   if (cells > 0.0) derived.core_seconds += fluid_steps * k_seconds_per_fluid_step;
   if (derived.steps.coarse_step > 0.0) {
-    derived.core_seconds += setup.time.end / derived.steps.coarse_step *
-                            (at_once / rate_at_once(setup, at_once, derived) +
-                             mean_flowing / k_stream_steps_per_second);
+    derived.core_seconds +=
+        seconds_at_once(setup, at_once, derived) +
+        setup.time.end / derived.steps.coarse_step * mean_flowing / k_stream_steps_per_second;
   }
 }
 

@@ -258,7 +258,15 @@ void tell_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
   out << '\n';
 }
 
-void tell_cost(std::ostream& out, const Derived& derived) {
+/// What the times rest on.
+std::string basis_text(const preflight::LearntCosts::Factor& learnt) {
+  if (learnt.runs == 0) return "rough: no run on this machine yet to learn from";
+  return "learnt from " + std::to_string(learnt.runs) + (learnt.runs == 1 ? " run" : " runs") +
+         (learnt.is_of_scenario ? " of it" : " of others") + " on this machine";
+}
+
+void tell_cost(std::ostream& out, const Derived& derived,
+               const preflight::LearntCosts::Factor& learnt) {
   constexpr double k_megabyte = 1e6;
   // Measured on two cores: 95 % of the time of both is used.
   constexpr double k_shared = 0.95;
@@ -272,12 +280,13 @@ void tell_cost(std::ostream& out, const Derived& derived) {
     out << ", " << base::estimated_duration_text(derived.core_seconds / (k_shared * cores))
         << " on the " << cores << " of this machine";
   }
-  out << " (rough: within a factor of two for most)\n";
+  out << " (" << basis_text(learnt) << ")\n";
 }
 
 }  // namespace
 
-std::string check_json(const Setup& setup, const Derived& derived) {
+std::string check_json(const Setup& setup, const Derived& derived,
+                       const preflight::LearntCosts::Factor& learnt) {
   nlohmann::ordered_json j;
   j["name"] = setup.name;
   j["end_s"] = setup.time.end;
@@ -300,10 +309,12 @@ std::string check_json(const Setup& setup, const Derived& derived) {
   j["memory_bytes"] = derived.memory_bytes;
   j["disk_bytes"] = derived.disk_bytes;
   j["core_s"] = derived.core_seconds;
+  j["core_s_basis"] = basis_text(learnt);
   return j.dump(2) + "\n";
 }
 
-std::string check_summary(const Setup& setup, const Derived& derived) {
+std::string check_summary(const Setup& setup, const Derived& derived,
+                          const preflight::LearntCosts::Factor& learnt) {
   std::ostringstream out;
   const auto& time = setup.time;
   out << setup.name << ": the scenario is valid\n";
@@ -315,7 +326,7 @@ std::string check_summary(const Setup& setup, const Derived& derived) {
   tell_things(out, setup, derived);
   tell_fluid(out, setup, derived);
   tell_steps(out, setup, derived);
-  tell_cost(out, derived);
+  tell_cost(out, derived, learnt);
   return out.str();
 }
 

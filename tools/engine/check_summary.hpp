@@ -2,16 +2,20 @@
 #pragma once
 
 #include "preflight/derived.hpp"
+#include "preflight/learnt_costs.hpp"
 #include "setup/setup.hpp"
 
 #include <string>
 
 namespace dust::engine {
 
-/// What a scenario will do, for a person to read before it is run.
-std::string check_summary(const scenario::Setup& setup, const preflight::Derived& derived);
+/// What a scenario will do, for a person to read before it is run. `learnt` has been applied to the
+/// times of `derived`.
+std::string check_summary(const scenario::Setup& setup, const preflight::Derived& derived,
+                          const preflight::LearntCosts::Factor& learnt);
 
 /// The numbers of it, for programs; times on one core.
-std::string check_json(const scenario::Setup& setup, const preflight::Derived& derived);
+std::string check_json(const scenario::Setup& setup, const preflight::Derived& derived,
+                       const preflight::LearntCosts::Factor& learnt);
 
 }  // namespace dust::engine

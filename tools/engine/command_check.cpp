@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "drawing.hpp"
 #include "preflight/derived.hpp"
+#include "preflight/learnt_costs.hpp"
 #include "preflight/reader.hpp"
 
 #include <iostream>
@@ -33,8 +34,10 @@ void add_check(CLI::App& app, int&) {
     const auto result =
         preflight::read_scenario(options.scenario, options.overrides, *registry, options.set_files);
     for (const std::string& warning : result.warnings) std::cerr << warning << '\n';
-    const auto derived = preflight::derive(result.setup, *registry);
-    std::cout << (arguments->as_json ? check_json : check_summary)(result.setup, derived);
+    auto derived = preflight::derive(result.setup, *registry);
+    const auto learnt = preflight::LearntCosts().factor_for(result.setup.name);
+    derived.core_seconds *= learnt.value;
+    std::cout << (arguments->as_json ? check_json : check_summary)(result.setup, derived, learnt);
     if (!arguments->drawing.empty()) {
       write_file(arguments->drawing, draw_setup(result.setup, *registry));
       if (!arguments->as_json) std::cout << "drawn in " << arguments->drawing << '\n';

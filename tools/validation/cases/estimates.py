@@ -5,6 +5,7 @@ stay as they are."""
 
 import datetime
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -26,8 +27,10 @@ SMALL = {"memory": 64e6, "disk": 4e6, "time": 2.0}  # below this nobody plans by
 
 def estimate(engine, scenario, settings):
     """What `engine check` says of the cost, as numbers, and the end of the run [s]."""
-    out = subprocess.run([engine, "check", scenario, "--json", *settings], text=True, check=True,
-                         capture_output=True).stdout
+    # As on a machine of which nothing is learnt yet.
+    with tempfile.TemporaryDirectory(prefix="dust-cache-") as cache:
+        out = subprocess.run([engine, "check", scenario, "--json", *settings], text=True, check=True,
+                             capture_output=True, env=os.environ | {"XDG_CACHE_HOME": cache}).stdout
     return json.loads(out)
 
 
