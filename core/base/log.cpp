@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/log.hpp"
 
+#include "base/write_error.hpp"
+
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+
+#include <cerrno>
 
 namespace dust::base {
 namespace {
@@ -15,6 +19,8 @@ spdlog::logger& logger() {
     terminal->set_pattern("%l: %v");
     auto made = std::make_shared<spdlog::logger>("dust", terminal);
     made->set_level(spdlog::level::info);
+    // A log that cannot grow on a full disk is not what the user has to read about.
+    made->set_error_handler([](const std::string&) {});
     return made;
   }();
   return *instance;
@@ -23,9 +29,13 @@ spdlog::logger& logger() {
 }  // namespace
 
 void log_to_file(const std::filesystem::path& file, bool append) {
-  auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), !append);
-  sink->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
-  logger().sinks().push_back(std::move(sink));
+  try {
+    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), !append);
+    sink->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
+    logger().sinks().push_back(std::move(sink));
+  } catch (const spdlog::spdlog_ex&) {
+    throw WriteError(file, errno);
+  }
 }
 void log_to_terminal(bool is_verbose) {
   logger().sinks().front()->set_level(is_verbose ? spdlog::level::info : spdlog::level::warn);

@@ -16,7 +16,13 @@ std::filesystem::path temporary_name(const std::filesystem::path& file);
 /// never leaves half a file either way.
 void move_into_place(const std::filesystem::path& file, bool is_synced);
 
-/// Replaces `file` with `text` in one step. Throws RunError.
+/// Removes `temporary_name(file)` if it is there: half a file takes room that a full disk needs.
+void discard(const std::filesystem::path& file) noexcept;
+
+/// Makes `folder` and those above it. Throws base::WriteError.
+void make_folder(const std::filesystem::path& folder);
+
+/// Replaces `file` with `text` in one step. Throws base::WriteError.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace dust::io

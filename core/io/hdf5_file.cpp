@@ -2,6 +2,7 @@
 #include "io/hdf5_file.hpp"
 
 #include "base/error.hpp"
+#include "io/hdf5/output_driver.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -27,6 +28,7 @@ std::string library_message() {
 }
 
 [[noreturn]] void fail(const std::string& what) {
+  require_written();  // the system's reason, where there is one
   const std::string reason = library_message();
   throw base::RunError(what + (reason.empty() ? "" : " (" + reason + ")"));
 }
@@ -73,7 +75,9 @@ Handle::~Handle() {
   if (id_ >= 0) close_(id_);
 }
 void Handle::close(const std::string& what) {
-  if (id_ >= 0) require(close_(std::exchange(id_, -1)), what);
+  if (id_ < 0) return;
+  require(close_(std::exchange(id_, -1)), what);
+  require_written();
 }
 
 QuietHdf5::QuietHdf5() {
@@ -85,6 +89,8 @@ QuietHdf5::~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
 Handle create_file(const std::filesystem::path& file, bool with_checked_metadata) {
   const std::string what = "cannot create " + file.string();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
+  use_output_driver(access.get());
+  clear_write_failure();
   // By default a file with open groups stays open behind H5Fclose, unwritten, and would be renamed
   // too early; this way H5Fclose refuses.
   H5Pset_fclose_degree(access.get(), H5F_CLOSE_SEMI);
@@ -96,6 +102,7 @@ Handle create_file(const std::filesystem::path& file, bool with_checked_metadata
 }
 
 Handle open_file(const std::filesystem::path& file) {
+  clear_write_failure();
   return {H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
           "cannot open " + file.string()};
 }
@@ -140,6 +147,7 @@ void write_array(hid_t parent, const std::string& name, hid_t type, const void* 
   }
   write_attribute(dataset.get(), "units", std::string(meaning.units));
   write_attribute(dataset.get(), "long_name", std::string(meaning.long_name));
+  require_written();
 }
 
 std::vector<hsize_t> extents_of(hid_t parent, const std::string& name) {

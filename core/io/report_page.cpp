@@ -58,12 +58,7 @@ std::string footer_html(const std::string& version) {
 }
 
 void write_page(const std::filesystem::path& target, const std::string& text) {
-  try {
-    write_text(target, text);
-  } catch (const base::RunError& problem) {
-    throw base::UserError("error: " + std::string(problem.what()) +
-                          "; make room on the disk or give yourself the right to write there");
-  }
+  write_text(target, text);
 }
 
 }  // namespace dust::io

@@ -110,7 +110,7 @@ ResultsFile::ResultsFile(fs::path folder, std::int64_t resume_frames, const bodi
   impl_->material_names = material_names;
   for (const bodies::Body& body : bodies) impl_->body_names.push_back(body.name);
   impl_->domain_min = domain_min;
-  fs::create_directories(impl_->folder / k_frame_folder);
+  make_folder(impl_->folder / k_frame_folder);
   const std::int64_t kept = resume_frames < 0 ? 0 : resume_frames;
   impl_->read_frames(kept);
   if (kept == 0) impl_->fluid = {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "base/write_error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/run_files.hpp"
 
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 
@@ -76,7 +76,7 @@ struct SeriesFile::Impl {
     while (done < line.size()) {
       const ssize_t part = ::write(descriptor, line.data() + done, line.size() - done);
       if (part < 0 && errno != EINTR) {
-        throw base::RunError("cannot write " + file.string() + ": " + std::strerror(errno));
+        throw base::WriteError(file, errno);
       }
       done += static_cast<std::size_t>(std::max<ssize_t>(part, 0));
     }
@@ -93,7 +93,7 @@ SeriesFile::SeriesFile(std::filesystem::path file, std::int64_t resume_rows)
   }
   impl_->descriptor = ::open(impl_->file.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   if (impl_->descriptor < 0) {
-    throw base::RunError("cannot open " + impl_->file.string() + ": " + std::strerror(errno));
+    throw base::WriteError(impl_->file, errno);
   }
 }
 

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/write_error.hpp"
 #include "dust/sdk/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/report.hpp"
 #include "io/run_files.hpp"
 #include "particles/time_steps.hpp"
+#include "preflight/derived.hpp"
+#include "preflight/learnt_costs.hpp"
 #include "preflight/reader.hpp"
+#include "run/folder/log_header.hpp"
+#include "run/folder/output_folder.hpp"
 #include "run/progress.hpp"
 #include "run/run_options.hpp"
 #include "run/run_times.hpp"
@@ -18,7 +23,6 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -32,42 +36,6 @@ using Clock = RunTimes::Clock;
 
 volatile std::sig_atomic_t g_signal = 0;
 void on_signal(int signal) { g_signal = signal; }
-
-/// Everything a run writes; --force clears these and nothing else.
-constexpr std::array k_run_files = {
-    "scenario.yaml", "summary.json",  "series.csv", "results.h5",  "particles.xdmf", "fluid.xdmf",
-    "walls.xdmf",    "checkpoint.h5", "run.log",    "report.html", "report.json",    "frames"};
-
-fs::path choose_folder(const RunOptions& options, const std::string& name) {
-  if (options.output) {
-    const fs::path& folder = *options.output;
-    const bool is_used = fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder));
-    if (options.resume) {
-      if (!fs::exists(folder / "checkpoint.h5")) {
-        throw base::UserError(
-            "error: " + folder.string() +
-            " holds no checkpoint.h5 to resume from; start the run without --resume");
-      }
-    } else if (is_used && !options.force) {
-      throw base::UserError("error: the folder " + folder.string() +
-                            " is not empty; give --resume to go on with the run in it, --force to "
-                            "replace it, or another -o");
-    }
-    return folder;
-  }
-  const auto numbered = [&](int n) {
-    return fs::path("results") / (n == 1 ? name : name + "-" + std::to_string(n));
-  };
-  int free = 1;
-  while (fs::exists(numbered(free))) ++free;
-  if (!options.resume && !(options.force && free > 1)) return numbered(free);
-  const fs::path newest = numbered(std::max(1, free - 1));
-  if (options.resume && !fs::exists(newest / "checkpoint.h5")) {
-    throw base::UserError("error: " + newest.string() +
-                          " holds no checkpoint.h5 to resume from; name the run's folder with -o");
-  }
-  return newest;
-}
 
 /// Collects the fields of the sensors for a frame.
 class FieldsOfSensors final : public sdk::FieldSink {
@@ -127,12 +95,13 @@ class Run {
 
   int execute(RunFacts facts) {
     times_.start();
-    open_files();
     facts_ = std::move(facts);
-    Progress progress(is_quiet_, simulation_.setup().time.end, simulation_.time());
     facts_.status = "finished";
+    // What is wrong in the scenario or the folder is the caller's.
+    if (!survives_writing([this] { open_files(); })) return close();
+    Progress progress(is_quiet_, simulation_.setup().time.end, simulation_.time());
     try {
-      loop(progress);
+      if (survives_writing([&] { loop(progress); })) survives_writing([this] { end_files(); });
     } catch (const std::exception& e) {
       facts_.status = "failed";
       facts_.reason = e.what();
@@ -143,8 +112,8 @@ class Run {
 
  private:
   void open_files() {
-    fs::create_directories(folder_);
     base::log_to_file(folder_ / "run.log", is_resumed_);
+    for (const std::string& line : facts_.log_header) base::log_info(line);
     io::write_text(folder_ / "scenario.yaml", resolved_);
     std::vector<std::string> materials;
     for (const auto& m : simulation_.setup().materials) materials.push_back(m.name);
@@ -215,36 +184,78 @@ class Run {
     if (!simulation_.is_finished()) facts_.status = "interrupted";
   }
 
-  int close() {
-    const bool has_failed = facts_.status == "failed";
-    if (!has_failed) checkpoint();
+  /// Does `work`; false when a file could not be written, which ends the run.
+  template <class Work>
+  bool survives_writing(Work&& work) {
+    try {
+      work();
+      return true;
+    } catch (const base::WriteError& e) {
+      // The first one is the one to tell.
+      if (facts_.status != "failed") facts_.reason = e.what();
+      facts_.status = "failed";
+      is_disk_bad_ = true;
+      return false;
+    }
+  }
+
+  /// The state at the end.
+  void end_files() {
+    checkpoint();
     // What came after the last full interval counts, too. Not in the checkpoint: a run that is
     // continued to a later end has no such row.
     if (facts_.status == "finished" && simulation_.steps_done() % steps_per_row_ != 0) write_row();
+  }
+
+  int close() {
     take_times();
     for (const std::string& text : shortfalls(simulation_)) {
       base::log_warning(text);
       facts_.warnings.push_back(text);
     }
-    write_summary(folder_, simulation_, facts_);
-    if (has_failed) {
-      base::log_error("the run failed at t = " + std::to_string(simulation_.time()) +
-                      " s: " + facts_.reason);
-      base::log_error("the last good checkpoint is " + (folder_ / "checkpoint.h5").string() +
-                      "; after mending the cause start again, or resume from it with --resume");
-    } else {
-      base::log_info("status: " + facts_.status);
-    }
+    survives_writing([this] { write_summary(folder_, simulation_, facts_); });
+    base::log_info("status: " + facts_.status);
     base::log_flush();
     results_.reset();
-    io::write_report(folder_);
-    if (has_failed) return 1;
+    if (!is_disk_bad_) survives_writing([this] { io::write_report(folder_); });
+    if (facts_.status == "failed") {
+      log_failure();
+      return 1;
+    }
+    learn_cost();
     if (facts_.status == "interrupted") {
       std::fprintf(stderr, "interrupted at t = %.4g s; go on with --resume -o %s\n",
                    simulation_.time(), folder_.c_str());
       return 128 + static_cast<int>(g_signal);
     }
     return 0;
+  }
+
+  /// The next estimate knows what this run took. A short run says more of the start than of the
+  /// steps.
+  void learn_cost() const {
+    constexpr double k_shortest = 5.0;
+    if (facts_.status != "finished" || facts_.cpu_s < k_shortest || facts_.registry == nullptr) {
+      return;
+    }
+    const auto derived = preflight::derive(simulation_.setup(), *facts_.registry);
+    preflight::LearntCosts().add(simulation_.setup().name, derived.core_seconds, facts_.cpu_s);
+  }
+
+  void log_failure() const {
+    const std::string checkpoint = (folder_ / "checkpoint.h5").string();
+    const std::string when = "the run failed at t = " + std::to_string(simulation_.time()) + " s: ";
+    if (is_disk_bad_) {
+      base::log_error(
+          when + facts_.reason +
+          (fs::exists(checkpoint)
+               ? ", then go on from the last good checkpoint with --resume -o " + folder_.string()
+               : ", then start again with --force -o " + folder_.string()));
+      return;
+    }
+    base::log_error(when + facts_.reason);
+    base::log_error("the last good checkpoint is " + checkpoint +
+                    "; after mending the cause start again, or resume from it with --resume");
   }
 
   void write_frame() {
@@ -292,6 +303,7 @@ class Run {
   std::string resolved_;
   bool is_quiet_ = false;
   bool is_resumed_ = false;
+  bool is_disk_bad_ = false;  ///< a file could not be written
   std::int64_t steps_per_frame_ = 1;
   std::int64_t steps_per_checkpoint_ = 1;
   std::int64_t steps_per_row_ = 1;
@@ -317,28 +329,28 @@ int run_scenario(const RunOptions& options) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
 
-  const fs::path folder = choose_folder(options, read.setup.name);
+  OutputFolder output(options, read.setup.name);
   std::unique_ptr<Simulation> simulation;
   try {
     simulation = std::make_unique<Simulation>(read.setup, make_models(read.setup, registry));
   } catch (const sdk::ModelError& e) {
     throw base::UserError(options.scenario.string() + ": error: " + e.what());
   }
-  Run run(*simulation, folder, read.resolved_yaml, options);
-  if (options.resume) {
-    run.resume();
-  } else {
+  if (!options.resume) {
     try {
       simulation->start();
     } catch (const sdk::ModelError& e) {
       throw base::UserError(e.what());
     }
   }
-  if (options.force && !options.resume) {
-    for (const char* file : k_run_files) fs::remove_all(folder / file);
-  }
+  output.open();
+  const fs::path folder = output.path();
+  Run run(*simulation, folder, read.resolved_yaml, options);
+  if (options.resume) run.resume();
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  // A file beyond the limit of `ulimit -f` is an error like a full disk, not the program's end.
+  std::signal(SIGXFSZ, SIG_IGN);
 
   RunFacts facts;
   facts.threads = threads;
@@ -349,6 +361,7 @@ int run_scenario(const RunOptions& options) {
   io::Sha256 digest;
   digest.update(read.resolved_yaml.data(), read.resolved_yaml.size());
   facts.scenario_sha256 = digest.hex_digest();
+  facts.log_header = log_header(read.setup, registry, options, facts.scenario_sha256);
   const int status = run.execute(std::move(facts));
   if (!options.quiet) std::printf("results: %s\n", folder.c_str());
   return status;

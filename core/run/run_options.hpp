@@ -21,6 +21,8 @@ struct RunOptions {
   bool verbose = false;
   int threads = 0;  ///< 0 = all cores
   std::vector<std::filesystem::path> plugin_path;
+  std::string command;  ///< as typed, for run.log
+  std::string program;  ///< version, commit and compiler, for run.log
 };
 
 /// Runs a scenario from reading to report; returns the exit status (CONTRACT: 0, 1, 130, 143).

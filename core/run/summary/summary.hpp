@@ -26,6 +26,7 @@ struct RunFacts {
   std::vector<scenario::ReferenceCurve> reference_curves;
   const registry::Registry* registry = nullptr;  ///< where the models came from; null in tests
   std::string scenario_sha256;                   ///< of scenario.yaml as run
+  std::vector<std::string> log_header;           ///< the first lines of run.log
 };
 
 /// Seconds in each node of the two graphs, in a fixed order; `before` holds those of the run up to

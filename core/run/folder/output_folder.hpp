@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "run/run_options.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace dust::run {
+
+/// The folder that a run writes to: chosen by -o, --force and --resume, then held for this process
+/// alone. Two runs that write to one folder would leave files of which neither is whole.
+class OutputFolder {
+ public:
+  /// Writes nothing; throws base::UserError where the options do not fit what is there.
+  OutputFolder(const RunOptions& options, const std::string& scenario_name);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  /// Makes the folder if it is new and locks it; with --force the files of the run before go.
+  /// Throws base::UserError when another process holds it, base::WriteError when it cannot be
+  /// made.
+  void open();
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  void choose_numbered(const RunOptions& options);
+  void make();
+  void lock();
+
+  std::string name_;  ///< of the scenario
+  std::filesystem::path path_;
+  bool is_new_number_ = false;  ///< results/NAME-2 and so on: the next one where it is taken
+  bool is_replaced_ = false;    ///< --force
+  int descriptor_ = -1;         ///< of the file that carries the lock
+};
+
+}  // namespace dust::run
