@@ -268,3 +268,33 @@ TEST_CASE("describe shall tell parameters with unit, default and range") {
   CHECK(engine("describe shape/conveyor --json").out.starts_with("{"));
   CHECK(engine("schema").out.starts_with("{"));
 }
+
+TEST_CASE("models shall be listed by kind, in short and with what they take") {
+  const Outcome kinds = engine("list");
+  CHECK(kinds.status == 0);
+  CHECK(kinds.out.find("emitter ") != std::string::npos);
+  CHECK(kinds.out.find("conveyor") != std::string::npos);
+  const Outcome drags = engine("list drag");
+  CHECK(drags.status == 0);
+  const Outcome described = engine("describe drag");
+  CHECK(described.status == 0);
+  // Lines of the one stand among those of the other, between lines of parameters.
+  std::istringstream lines(drags.out);
+  int models = 0;
+  for (std::string line; std::getline(lines, line); ++models) {
+    CHECK(described.out.find(line + "\n") != std::string::npos);
+  }
+  CHECK(models >= 1);
+  check_refused("list darg", "engine list: error: there is no kind 'darg'; did you mean 'drag'?");
+}
+
+TEST_CASE("help shall be a command, of the program and of each command") {
+  const Outcome all = engine("help");
+  CHECK(all.status == 0);
+  CHECK(all.out == engine("--help").out);
+  const Outcome one = engine("help study");
+  CHECK(one.status == 0);
+  CHECK(one.out == engine("study --help").out);
+  check_refused("help stud",
+                "engine help: error: there is no command 'stud'; did you mean 'study'?");
+}

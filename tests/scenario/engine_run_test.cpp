@@ -175,3 +175,33 @@ TEST_CASE("the graph shall be printed as DOT with the nodes of the cycle") {
     CHECK(run.out.find(name) != std::string::npos);
   }
 }
+
+TEST_CASE("a scenario written by engine new shall be valid in any sizes, without a warning") {
+  const TemporaryFolder folder;
+  const std::vector<std::vector<std::string>> all = {
+      {"transfer"},
+      {"transfer", "--speed", "3 m/s", "--drop", "3 ft", "--flow", "2 t/h", "--grain", "5 mm",
+       "--width", "60 mm"},
+      {"hopper"},
+      {"hopper", "--outlet", "1 in", "--diameter", "100 mm", "--mass", "1 lb", "--grain", "3 mm"}};
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const auto file = folder / ("mine" + std::to_string(n) + ".yaml");
+    std::vector<std::string> arguments{"new"};
+    arguments.insert(arguments.end(), all[n].begin(), all[n].end());
+    arguments.insert(arguments.end(), {"-o", file});
+    CAPTURE(n);
+    const auto made = engine(arguments);
+    INFO(made.err);
+    REQUIRE(made.status == 0);
+    const auto checked = engine({"check", file});
+    INFO(checked.err);
+    CHECK(checked.status == 0);
+    CHECK(checked.err.empty());
+    // Never over a file that is there.
+    CHECK(engine(arguments).status == 2);
+  }
+  const auto wrong = engine({"new", "hopper", "--mass", "3 mm", "-o", folder / "x.yaml"});
+  CHECK(wrong.status == 2);
+  CHECK(wrong.err.find("--mass: 'mm' is the unit of a length: a mass is expected") !=
+        std::string::npos);
+}

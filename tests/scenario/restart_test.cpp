@@ -10,6 +10,7 @@
 
 using dust::test::engine;
 using dust::test::engine_interrupted;
+using dust::test::engine_interrupted_when;
 using dust::test::json_text;
 using dust::test::read_file;
 using dust::test::TemporaryFolder;
@@ -157,4 +158,60 @@ TEST_CASE("resuming without a checkpoint shall be refused with a remedy") {
   const auto run = engine({"run", k_scenario, "-o", folder / "none", "--resume"});
   CHECK(run.status == 2);
   CHECK(run.err.find("checkpoint") != std::string::npos);
+}
+
+TEST_CASE("a folder that a run writes to shall be refused to another one") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  const std::string in_use = "another engine is writing to " + out.string();
+  bool is_asked = false;
+  const auto others_are_refused = [&] {
+    if (!fs::exists(out / "checkpoint.h5")) return false;
+    for (const std::string how : {"--resume", "--force"}) {
+      const auto other = engine({"run", k_scenario, "-o", out, how, "--quiet"});
+      CAPTURE(how);
+      CHECK(other.status == 2);
+      CHECK(other.err.find(in_use) != std::string::npos);
+      CHECK(other.err.find("run.log") != std::string::npos);
+    }
+    const auto watched = engine({"watch", out, "--once"});
+    CHECK(watched.status == 0);
+    CHECK(watched.out.find(" of 0.06 s, ") != std::string::npos);
+    is_asked = true;
+    return true;
+  };
+  const auto first = engine_interrupted_when(
+      {"run", k_scenario, "-o", out, "--threads", "1", "--quiet"}, SIGKILL, others_are_refused);
+  CHECK(first.status == 128 + SIGKILL);
+  CHECK(is_asked);
+  // A killed process holds nothing.
+  const auto stopped = engine({"watch", out});
+  CHECK(stopped.status == 1);
+  CHECK(stopped.out.find("stopped at t = ") == 0);
+  const auto next = engine({"run", k_scenario, "-o", out, "--set", k_short, "--resume", "--quiet"});
+  INFO(next.err);
+  CHECK(next.status == 0);
+  const auto finished = engine({"watch", out});
+  CHECK(finished.status == 0);
+  CHECK(finished.out.find("finished: t = 0.024 of 0.024 s, 100.0 %, ") == 0);
+}
+
+TEST_CASE("run.log shall begin with what the run is made by, where and from what") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "a b";
+  REQUIRE(engine({"run", k_scenario, "-o", out, "--set", "time.end=2 ms", "--quiet"}).status == 0);
+  const std::string log = read_file(out / "run.log");
+  CHECK(log.find("engine 0.") < log.find(", commit "));
+  CHECK(log.find(", commit ") < log.find(", plugin interface "));
+  CHECK(log.find("machine: ") != std::string::npos);
+  CHECK(log.find("command: engine run " + k_scenario + " -o '" + out.string() +
+                 "' --set 'time.end=2 ms' --quiet") != std::string::npos);
+  CHECK(log.find("sha256 " + json_text(out / "summary.json", "scenario_sha256")) <
+        log.find("plugin: "));
+  const std::size_t drag = log.find("plugin: drag/");
+  REQUIRE(drag != std::string::npos);
+  const std::string line = log.substr(drag, log.find('\n', drag) - drag);
+  CHECK(line.find(".so, sha256 ") != std::string::npos);
+  // 64 digits of a digest at its end.
+  CHECK(line.substr(line.rfind(' ') + 1).size() == 64);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
-#include "bodies/shape.hpp"
+#include "catalogue/catalogue.hpp"
 #include "commands.hpp"
 #include "scenario/suggest.hpp"
 #include "scenario/units.hpp"
@@ -8,32 +8,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <iostream>
 
 namespace dust::engine {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// What there is to tell, of a plugin or of a shape of the core.
-struct Subject {
-  sdk::ModelInfo info;
-  std::string file;
-};
-
-std::vector<Subject> subjects(const registry::Registry& registry) {
-  std::vector<Subject> all;
-  for (const auto& entry : registry.entries()) all.push_back({entry.info, entry.file.string()});
-  for (const auto& shape : bodies::shape_catalogue()) {
-    sdk::ModelInfo info;
-    info.kind = "shape";
-    info.name = shape.name;
-    info.summary = shape.summary;
-    info.parameters = shape.parameters;
-    all.push_back({info, ""});
-  }
-  return all;
-}
 
 Subject find_subject(const registry::Registry& registry, const std::string& wanted) {
   std::vector<std::string> names;
@@ -133,17 +114,28 @@ void add_describe(CLI::App& app, int&) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "describe", "Tell a model's parameters: type, unit, default, range, equation, source");
-  command->add_option("KIND/NAME", arguments->subject, "A model, for example drag/gidaspow")
+  command
+      ->add_option("KIND/NAME", arguments->subject,
+                   "A model, for example drag/gidaspow; a kind alone: all of its models in short")
       ->required();
   auto* markdown = command->add_flag("--markdown", arguments->as_markdown, "Print as Markdown");
   command->add_flag("--json", arguments->as_json, "Print as JSON")->excludes(markdown);
   add_plugin_path(*command, arguments->folders);
   command->footer(
       "Examples:\n"
+      "  engine describe drag\n"
       "  engine describe contact/hertz_mindlin\n"
       "  engine describe shape/conveyor --markdown");
   command->callback([arguments] {
     const auto registry = load_plugins(arguments->folders);
+    const auto all = subjects(*registry);
+    const auto kinds = kinds_of(all);
+    if (std::find(kinds.begin(), kinds.end(), arguments->subject) != kinds.end() &&
+        !arguments->as_json && !arguments->as_markdown) {
+      std::cout << arguments->subject << '\n';
+      print_kind(std::cout, all, arguments->subject, true);
+      return;
+    }
     const Subject subject = find_subject(*registry, arguments->subject);
     if (arguments->as_json) {
       print_json(subject);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands.hpp"
+#include "program/program.hpp"
 
 namespace dust::engine {
 
-void add_run(CLI::App& app, int& status) {
+void add_run(CLI::App& app, int& status, const std::string& command_line) {
   struct Arguments {
     ScenarioArguments scenario;
     std::string output;
@@ -37,7 +38,7 @@ void add_run(CLI::App& app, int& status) {
       "  engine run scenarios/transfer_point.yaml -o results/slow "
       "--set bodies.belt.speed='0.4 m/s'\n"
       "  engine run scenarios/transfer_point.yaml -o results/slow --resume");
-  command->callback([arguments, &status] {
+  command->callback([arguments, &status, command_line] {
     run::RunOptions options = arguments->scenario.options();
     if (!arguments->output.empty()) options.output = arguments->output;
     options.force = arguments->force;
@@ -45,6 +46,8 @@ void add_run(CLI::App& app, int& status) {
     options.quiet = arguments->quiet;
     options.verbose = arguments->verbose;
     options.threads = arguments->threads;
+    options.command = command_line;
+    options.program = program_text();
     status = run::run_scenario(options);
   });
 }

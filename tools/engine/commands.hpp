@@ -14,10 +14,15 @@
 namespace dust::engine {
 
 /// Each adds its command to the program; the command sets `status` when it has run.
-void add_run(CLI::App& app, int& status);
+/// `command_line`: as typed, for run.log.
+void add_run(CLI::App& app, int& status, const std::string& command_line);
 void add_check(CLI::App& app, int& status);
 void add_plugins(CLI::App& app, int& status);
 void add_describe(CLI::App& app, int& status);
+void add_list(CLI::App& app, int& status);
+void add_follow(CLI::App& app, int& status);
+void add_new(CLI::App& app, int& status);
+void add_help(CLI::App& app, int& status);
 void add_schema(CLI::App& app, int& status);
 void add_graph(CLI::App& app, int& status);
 void add_study(CLI::App& app, int& status);

@@ -69,20 +69,26 @@ int engine_main(int argc, char** argv) {
       "Exit status: 0 finished, 1 failed while running, 2 wrong input, 130 and 143 "
       "interrupted.");
   int status = 0;
-  engine::add_run(app, status);
+  std::vector<std::string> words{"engine"};
+  words.insert(words.end(), argv + 1, argv + argc);
+  engine::add_run(app, status, engine::command_text(words));
   engine::add_check(app, status);
+  engine::add_list(app, status);
   engine::add_plugins(app, status);
   engine::add_describe(app, status);
   engine::add_schema(app, status);
   engine::add_graph(app, status);
   engine::add_study(app, status);
+  engine::add_follow(app, status);
   engine::add_report(app, status);
   engine::add_compare(app, status);
+  engine::add_new(app, status);
   engine::add_new_plugin(app, status);
   engine::add_test_plugin(app, status);
   engine::add_report_bug(app, status);
   engine::add_man(app, status);
   engine::add_completion(app, status);
+  engine::add_help(app, status);
   std::vector<std::string> arguments(argv + 1, argv + argc);
   complete_arguments(app, arguments);
   if (!arguments.empty() && arguments.front() == "run") engine::ask_for_huge_pages(argv);
@@ -103,6 +109,9 @@ int main(int argc, char** argv) {
   } catch (const base::UserError& problem) {
     for (const std::string& line : problem.lines()) std::cerr << line << '\n';
     return k_wrong_input;
+  } catch (const std::filesystem::filesystem_error& problem) {
+    std::cerr << "error: " << problem.path1().string() << ": " << problem.code().message() << '\n';
+    return k_failed;
   } catch (const std::exception& problem) {
     std::cerr << "error: " << problem.what() << '\n';
     return k_failed;

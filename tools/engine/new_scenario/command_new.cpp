@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/error.hpp"
+#include "commands.hpp"
+#include "new_scenario/new_scenario.hpp"
+#include "scenario/suggest.hpp"
+#include "scenario/units.hpp"
+
+#include <filesystem>
+#include <iostream>
+#include <map>
+
+namespace dust::engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A size of the command line in SI; throws base::UserError.
+double size_in_si(const Size& size, const std::string& text) {
+  const std::string place = std::string("engine new: error: --") + size.option + ": ";
+  std::string error;
+  const auto written = scenario::split_number(text, error);
+  if (!written) throw base::UserError(place + error);
+  const auto value = scenario::to_si(*written, scenario::parse_unit(size.unit)->dimension, error);
+  if (!value) throw base::UserError(place + error);
+  if (!(*value > 0.0)) throw base::UserError(place + "above 0 is expected, not " + text);
+  return *value;
+}
+
+void write_new(const Starter& starter, const std::map<std::string, std::string>& given,
+               const std::string& output) {
+  const fs::path file = output.empty() ? std::string(starter.name) + ".yaml" : output;
+  std::error_code code;
+  if (fs::exists(file, code)) {
+    throw base::UserError(file.string() + ": error: exists already: choose another with -o FILE");
+  }
+  std::vector<double> sizes;
+  for (const Size& size : starter.sizes) {
+    const auto at = given.find(size.option);
+    const bool is_given = at != given.end() && !at->second.empty();
+    sizes.push_back(size_in_si(size, is_given ? at->second : size.by_default));
+  }
+  write_file(file, starter.write(file.stem().string(), sizes));
+  std::cout << "wrote " << file.string() << "; next: engine check " << file.string() << '\n';
+}
+
+}  // namespace
+
+void add_new(CLI::App& app, int&) {
+  CLI::App* command = app.add_subcommand("new", "Write a scenario to start from, in your sizes");
+  command->require_subcommand(1);
+  command->footer(
+      "Examples:\n"
+      "  engine new transfer --speed '2.5 m/s' --drop '1.2 ft' -o my_belt.yaml\n"
+      "  engine new hopper --outlet '30 mm'");
+  for (const Starter& starter : starters()) {
+    struct Arguments {
+      std::map<std::string, std::string> sizes;
+      std::string output;
+    };
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* one = command->add_subcommand(starter.name, starter.sentence);
+    for (const Size& size : starter.sizes) {
+      one->add_option(std::string("--") + size.option, arguments->sizes[size.option],
+                      std::string(size.sentence) + " (default: " + size.by_default + ")")
+          ->type_name("SIZE");
+    }
+    one->add_option("-o,--output", arguments->output,
+                    std::string("File to write (default: ") + starter.name + ".yaml)")
+        ->type_name("FILE");
+    one->callback(
+        [arguments, &starter] { write_new(starter, arguments->sizes, arguments->output); });
+  }
+}
+
+}  // namespace dust::engine
