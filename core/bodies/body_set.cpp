@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies/body_set.hpp"
 
+#include "bodies/local_axes.hpp"
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -82,14 +84,22 @@ void Body::surface_velocities(const sdk::SurfaceBatch& all) const {
   if (motions.empty()) return;
   const Placement at = placement(all.time);
   const Vec3 axis = at.turn(shape->lateral_axis());
+  const auto* const local = dynamic_cast<const LocalAxes*>(shape.get());
+  const std::size_t block = local != nullptr ? 1 : k_block;
   double run[3][k_block];
-  for (std::size_t first = 0; first < all.count; first += k_block) {
-    sdk::SurfaceBatch b{.count = std::min(k_block, all.count - first),
+  for (std::size_t first = 0; first < all.count; first += block) {
+    sdk::SurfaceBatch b{.count = std::min(block, all.count - first),
                         .time = all.time,
                         .axis = axis,
                         .position = all.position.from(first),
                         .normal = all.normal.from(first),
                         .velocity = {run[0], run[1], run[2]}};
+    if (local != nullptr) {
+      const Vec3 n = b.normal[0];
+      const Vec3 own =
+          at.is_turned ? Vec3{dot(n, at.column[0]), dot(n, at.column[1]), dot(n, at.column[2])} : n;
+      b.axis = at.turn(local->lateral_axis_at(at.to_body(b.position[0]), own));
+    }
     for (const auto& motion : motions) {
       if (motion->moves_body()) continue;
       motion->surface_velocity(b);

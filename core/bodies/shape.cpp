@@ -7,8 +7,9 @@ namespace dust::bodies {
 
 const std::vector<ShapeKind>& shape_catalogue() {
   static const std::vector<ShapeKind> catalogue = {
-      conveyor_kind(), plate_kind(), plane_kind(), box_kind(),       cylinder_kind(),
-      frustum_kind(),  cone_kind(),  disc_kind(),  container_kind(), mesh_kind(),
+      conveyor_kind(), belt_conveyor_kind(), plate_kind(),   plane_kind(),
+      box_kind(),      cylinder_kind(),      frustum_kind(), cone_kind(),
+      disc_kind(),     container_kind(),     mesh_kind(),
   };
   return catalogue;
 }

@@ -11,6 +11,7 @@
 namespace dust::bodies {
 
 ShapeKind conveyor_kind();
+ShapeKind belt_conveyor_kind();
 ShapeKind plate_kind();
 ShapeKind plane_kind();
 ShapeKind box_kind();

@@ -201,7 +201,7 @@ TEST_CASE("run.log shall begin with what the run is made by, where and from what
   const fs::path out = folder / "a b";
   REQUIRE(engine({"run", k_scenario, "-o", out, "--set", "time.end=2 ms", "--quiet"}).status == 0);
   const std::string log = read_file(out / "run.log");
-  CHECK(log.find("engine 0.") < log.find(", commit "));
+  CHECK(log.find("engine 0.") < log.find(", commit: "));
   CHECK(log.find(", commit: ") < log.find(", plugin interface: "));
   CHECK(log.find("machine: ") != std::string::npos);
   CHECK(log.find("command: engine run " + k_scenario + " -o '" + out.string() +

@@ -67,7 +67,7 @@ Json thing_json(const scenario::Setup& setup, const registry::Registry& registry
 double pulley_radius(const ModelChoice& shape) {
   double radius = 0.0;
   for (const auto& kind : bodies::shape_catalogue()) {
-    if (kind.name != shape.name || kind.name != "conveyor") continue;
+    if (kind.name != shape.name || !kind.name.ends_with("conveyor")) continue;
     for (std::size_t n = 0; n < shape.values.size() && n < kind.parameters.size(); ++n) {
       const std::string& name = kind.parameters[n].name;
       const auto* value = std::get_if<double>(&shape.values[n]);

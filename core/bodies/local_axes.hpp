@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/vec3.hpp"
+
+namespace dust::bodies {
+
+/// A shape whose lateral axis is another from place to place, as that of the rolls of a trough is,
+/// derives from this too.
+class LocalAxes {
+ public:
+  virtual ~LocalAxes() = default;
+  /// Lateral axis (unit) at a point of the surface: square to the normal there, and such that a
+  /// belt on it runs along axis x normal.
+  [[nodiscard]] virtual sdk::Vec3 lateral_axis_at(sdk::Vec3 point, sdk::Vec3 normal) const = 0;
+};
+
+}  // namespace dust::bodies

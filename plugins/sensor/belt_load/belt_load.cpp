@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "belt_load.hpp"
+
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
+
+#include <array>
+
+namespace {
+
+namespace formula = dust::model::belt_load;
+namespace sdk = dust::sdk;
+
+class BeltLoad final : public sdk::Sensor {
+ public:
+  struct Parameters : sdk::SteadyParameters {
+    sdk::Vec3 from;
+    sdk::Vec3 to;
+    double width = 0.0;
+    double height = 0.0;
+    double belt_speed = 0.0;
+    sdk::Vec3 up{0, 0, 1};
+  };
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.vector(&Parameters::from, "from", sdk::dimension::length,
+             "Middle of the belt's top where the stretch looked at begins.");
+    s.vector(&Parameters::to, "to", sdk::dimension::length,
+             "The same where it ends, in the direction the belt runs.");
+    s.number(&Parameters::width, "width", sdk::dimension::length,
+             "Width of the stretch, half on either side.")
+        .above(0);
+    s.number(&Parameters::height, "height", sdk::dimension::length,
+             "Height over the belt up to which grains belong to its load.")
+        .above(0);
+    s.number(&Parameters::belt_speed, "belt_speed", sdk::dimension::velocity,
+             "Speed of the belt, to compare the load's with; 0 = no comparison.")
+        .optional();
+    s.vector(&Parameters::up, "up", sdk::dimension::none,
+             "Direction away from the belt; its length does not matter.")
+        .optional();
+    sdk::declare_steady(s);
+    return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    return {.name = "belt_load",
+            .version = "1.0",
+            .summary = "Load of a stretch of belt: mass, flow, speed, and how far off the middle.",
+            .equation = R"(\dot m = \frac{1}{L} \sum_i w_i m_i v_i,\quad )"
+                        R"(\bar y = \frac{\sum_i w_i m_i y_i}{\sum_i w_i m_i})",
+            .source = "own definition"};
+  }
+
+  explicit BeltLoad(const Parameters& p) : p_(p) {
+    length_ = norm(p.to - p.from);
+    if (!(length_ > 0.0)) throw sdk::ParameterError("'from' and 'to' are the same point");
+    along_ = (p.to - p.from) / length_;
+    left_ = cross(p.up, along_);
+    if (!(norm(left_) > 1e-6 * norm(p.up))) throw sdk::ParameterError("'up' is along the belt");
+    left_ = left_ / norm(left_);
+    up_ = cross(along_, left_);
+  }
+
+  void observe(const sdk::WorldView& world) override {
+    formula::Sums sums;
+    const sdk::GrainColumns& g = world.grains;
+    for (std::size_t i = 0; i < g.id.size(); ++i) {
+      const sdk::Vec3 q = sdk::Vec3{g.x[i], g.y[i], g.z[i]} - p_.from;
+      const double x = dot(q, along_);
+      const double y = dot(q, left_);
+      const double z = dot(q, up_);
+      if (x < 0.0 || x >= length_ || std::abs(y) > 0.5 * p_.width || z < 0.0 || z >= p_.height)
+        continue;
+      sums.add(g.weight[i] * g.mass[i], y,
+               dot({g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]}, along_));
+    }
+    values_ = {sums.mass / length_, sums.along / length_, formula::off_centre(sums),
+               formula::half_width(sums), formula::speed(sums)};
+    curve_.add(world.time, values_[k_off_centre]);
+    if (!sdk::is_after(world, p_.steady_after)) return;
+    means_.add({values_.data(), k_off_centre}, world.interval);
+    // Where nothing lies there is no place and no speed: such samples do not count for them.
+    if (sums.mass > 0.0) {
+      loaded_.add({values_.data() + k_off_centre, k_columns - k_off_centre}, world.interval);
+    }
+  }
+
+  void series(sdk::FigureSink& sink) const override {
+    for (std::size_t c = 0; c < k_columns; ++c) sink.figure(k_names[c], values_[c], k_units[c]);
+  }
+
+  void summary(sdk::FigureSink& sink) const override {
+    for (std::size_t c = 0; c < k_off_centre; ++c) {
+      sink.figure(k_names[c], means_.mean(c), k_units[c], means_.error(c));
+    }
+    for (std::size_t c = k_off_centre; c < k_columns; ++c) {
+      const std::size_t q = c - k_off_centre;
+      sink.figure(k_names[c], loaded_.mean(q), k_units[c], loaded_.error(q));
+    }
+    if (p_.belt_speed == 0.0) return;
+    const double error = loaded_.error(2);
+    sink.figure("speed_over_belt_speed", loaded_.mean(2) / p_.belt_speed, "1",
+                error < 0.0 ? -1.0 : error / std::abs(p_.belt_speed));
+  }
+
+  void report(sdk::ReportSink& sink) const override {
+    sink.curve("Load off the middle of the belt", "time [s]", "to the left [m]", "centre of mass",
+               curve_.x(), curve_.y());
+  }
+
+  void save(sdk::ArchiveWriter& a) const override {
+    a.numbers("values", values_);
+    means_.save(a, "means");
+    loaded_.save(a, "loaded");
+    curve_.save(a, "curve");
+  }
+  void load(sdk::ArchiveReader& a) override {
+    const auto values = a.numbers("values");
+    std::copy_n(values.begin(), std::min(values.size(), values_.size()), values_.begin());
+    means_.load(a, "means");
+    loaded_.load(a, "loaded");
+    curve_.load(a, "curve");
+  }
+
+ private:
+  static constexpr std::size_t k_off_centre = 2;  ///< the first that only a load has
+  static constexpr std::size_t k_columns = 5;
+  static constexpr const char* k_names[k_columns] = {"mass_per_length", "mass_flow", "off_centre",
+                                                     "half_width", "speed"};
+  static constexpr const char* k_units[k_columns] = {"kg/m", "kg/s", "m", "m", "m/s"};
+
+  Parameters p_;
+  double length_ = 0.0;  ///< [m]
+  sdk::Vec3 along_, left_, up_;
+  std::array<double, k_columns> values_{};  ///< at the last sample
+  sdk::BatchMeans means_{k_off_centre};
+  sdk::BatchMeans loaded_{k_columns - k_off_centre};
+  sdk::ThinnedCurve curve_;
+};
+
+}  // namespace
+
+DUST_PLUGIN(registrar) { registrar.add<BeltLoad>(); }

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace dust::model::belt_load {
+
+/// What lies on a stretch of belt, summed grain by grain.
+struct Sums {
+  double mass = 0.0;    ///< [kg]
+  double aside = 0.0;   ///< [kg m] mass times distance from the middle, to the left positive
+  double spread = 0.0;  ///< [kg m2] mass times its square
+  double along = 0.0;   ///< [kg m/s] mass times velocity along the belt
+
+  constexpr void add(double m, double y, double v) {
+    mass += m;
+    aside += m * y;
+    spread += m * y * y;
+    along += m * v;
+  }
+};
+
+/// [m] Centre of mass across the belt: \f$ \bar y = \sum m y / \sum m \f$; 0 for nothing.
+constexpr double off_centre(const Sums& s) { return s.mass > 0.0 ? s.aside / s.mass : 0.0; }
+
+/// [m] Half the width the load takes, as of an even strip: \f$ \sqrt{3 \mathrm{var}(y)} \f$.
+inline double half_width(const Sums& s) {
+  if (!(s.mass > 0.0)) return 0.0;
+  const double mean = s.aside / s.mass;
+  return std::sqrt(3.0 * std::max(s.spread / s.mass - mean * mean, 0.0));
+}
+
+/// [m/s] Mean velocity along the belt, by mass; 0 for nothing.
+constexpr double speed(const Sums& s) { return s.mass > 0.0 ? s.along / s.mass : 0.0; }
+
+}  // namespace dust::model::belt_load

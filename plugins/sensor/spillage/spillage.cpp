@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spillage.hpp"
+
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
+
+namespace {
+
+namespace formula = dust::model::spillage;
+namespace sdk = dust::sdk;
+
+class Spillage final : public sdk::Sensor {
+ public:
+  struct Parameters : sdk::SelectionParameters {
+    sdk::Vec3 min;
+    sdk::Vec3 max;
+  };
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.vector(&Parameters::min, "min", sdk::dimension::length,
+             "Lower corner of the level that spilt grains fall through.");
+    s.vector(&Parameters::max, "max", sdk::dimension::length, "Upper corner; equal to 'min' in z.");
+    sdk::declare_selection(s);
+    return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    return {.name = "spillage",
+            .version = "1.0",
+            .summary = "Mass that falls beside the belt, per hour and per tonne of load.",
+            .equation = R"(\dot m = \frac{3600}{T} \sum_{\mathrm{falls}} w_i m_i)",
+            .source = "own definition"};
+  }
+
+  explicit Spillage(const Parameters& p) : p_(p) {
+    if (p.min.z != p.max.z) throw sdk::ParameterError("'min' and 'max' must agree in z: a level");
+    if (!(p.max.x > p.min.x && p.max.y > p.min.y)) {
+      throw sdk::ParameterError("'max' must lie above 'min' in x and y");
+    }
+  }
+
+  void observe(const sdk::WorldView& world) override {
+    const sdk::GrainColumns& g = world.grains;
+    const bool is_steady = sdk::is_after(world, p_.steady_after);
+    double fell = 0.0;
+    for (std::size_t i = 0; i < g.id.size(); ++i) {
+      if (!p_.takes(g.diameter[i])) continue;
+      const sdk::Path path = sdk::path_of(world, i);
+      const sdk::Passage passed = sdk::passage(path.before.z - p_.min.z, path.now.z - p_.min.z);
+      if (passed.direction >= 0) continue;
+      const sdk::Vec3 x = path.at(passed.fraction);
+      if (x.x < p_.min.x || x.x > p_.max.x || x.y < p_.min.y || x.y > p_.max.y) continue;
+      const double mass = g.weight[i] * g.mass[i];
+      fell += mass;
+      if (!is_steady) continue;
+      count_ += g.weight[i];
+      steady_ += mass;
+      squares_ += mass * mass;
+    }
+    mass_ += fell;
+    if (is_steady) {
+      if (duration_ == 0.0) emitted_before_ = emitted_;
+      duration_ += world.interval;
+    }
+    emitted_ = world.emitted_mass;
+    if (world.interval > 0.0) {
+      const double rate = formula::per_hour(fell, world.interval);
+      row_.add({&rate, 1}, world.interval);
+    }
+  }
+
+  void series(sdk::FigureSink& sink) const override {
+    sink.figure("mass", mass_, "kg");
+    sink.figure("rate", row_.mean(0), "kg/h");
+  }
+  [[nodiscard]] sdk::RowValue row_value(std::string_view column) const override {
+    return column == "mass" ? sdk::RowValue::total : sdk::RowValue::mean;
+  }
+  void end_row() override { row_.end_row(); }
+
+  void summary(sdk::FigureSink& sink) const override {
+    const double error = formula::error_of(squares_);
+    const double emitted = duration_ > 0.0 ? emitted_ - emitted_before_ : 0.0;
+    constexpr double k_grams_per_tonne = 1e6;
+    const double per_mass = emitted > 0.0 ? k_grams_per_tonne / emitted : 0.0;
+    sink.figure("rate", formula::per_hour(steady_, duration_), "kg/h",
+                error < 0.0 ? -1.0 : formula::per_hour(error, duration_));
+    sink.figure("grams_per_tonne", steady_ * per_mass, "g/t",
+                error < 0.0 || per_mass == 0.0 ? -1.0 : error * per_mass);
+    sink.figure("mass", mass_, "kg");
+    sink.figure("grains", count_, "1");
+  }
+
+  void save(sdk::ArchiveWriter& a) const override {
+    const double numbers[] = {mass_,     count_,   steady_,        squares_,
+                              duration_, emitted_, emitted_before_};
+    a.numbers("numbers", numbers);
+    row_.save(a, "row");
+  }
+  void load(sdk::ArchiveReader& a) override {
+    const auto n = a.numbers("numbers");
+    mass_ = n.at(0), count_ = n.at(1), steady_ = n.at(2), squares_ = n.at(3);
+    duration_ = n.at(4), emitted_ = n.at(5), emitted_before_ = n.at(6);
+    row_.load(a, "row");
+  }
+
+ private:
+  Parameters p_;
+  double mass_ = 0.0;            ///< [kg] since the start
+  double count_ = 0.0;           ///< real grains while steady
+  double steady_ = 0.0;          ///< [kg] while steady
+  double squares_ = 0.0;         ///< [kg2]
+  double duration_ = 0.0;        ///< [s]
+  double emitted_ = 0.0;         ///< [kg] until the last sample
+  double emitted_before_ = 0.0;  ///< [kg] until the first steady sample
+  sdk::RowMeans row_{1};
+};
+
+}  // namespace
+
+DUST_PLUGIN(registrar) { registrar.add<Spillage>(); }

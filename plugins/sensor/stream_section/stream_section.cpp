@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stream_section.hpp"
+
+#include <dust/sdk/plugin.hpp>
+#include <dust/sdk/sampling.hpp>
+
+#include <array>
+
+namespace {
+
+namespace formula = dust::model::stream_section;
+namespace sdk = dust::sdk;
+
+class StreamSection final : public sdk::Sensor {
+ public:
+  struct Parameters : sdk::SelectionParameters {
+    sdk::Vec3 point;
+    sdk::Vec3 normal;
+    sdk::Vec3 min;
+    sdk::Vec3 max;
+    double bulk_density = 0.0;
+    sdk::Vec3 belt_velocity;
+  };
+  static sdk::ParameterSchema schema() {
+    sdk::SchemaOf<Parameters> s;
+    s.vector(&Parameters::point, "point", sdk::dimension::length, "A point of the plane.");
+    s.vector(&Parameters::normal, "normal", sdk::dimension::none,
+             "Normal of the plane, in the direction of the stream.")
+        .symbol("n");
+    s.vector(&Parameters::min, "min", sdk::dimension::length,
+             "Lower corner of the box that cuts the opening out of the plane; the plane is along "
+             "two axes.");
+    s.vector(&Parameters::max, "max", sdk::dimension::length,
+             "Upper corner of that box; may equal 'min' along the normal.");
+    s.number(&Parameters::bulk_density, "bulk_density", sdk::dimension::density,
+             "Bulk density of the resting material.")
+        .symbol("\\rho_b")
+        .above(0);
+    s.vector(&Parameters::belt_velocity, "belt_velocity", sdk::dimension::velocity,
+             "Velocity of the belt that the stream falls on; 0 = no comparison.")
+        .optional();
+    sdk::declare_selection(s);
+    return s.build();
+  }
+  static sdk::ModelInfo describe() {
+    return {.name = "stream_section",
+            .version = "1.0",
+            .summary = "Velocity, angle, fill ratio and impact pressure of a stream at an opening.",
+            .equation = R"(\phi = \frac{\dot m}{\rho_b v_n A},\quad p = \rho_b v_n^2)",
+            .source = "own definition"};
+  }
+
+  explicit StreamSection(const Parameters& p) : p_(p) {
+    const double length = norm(p.normal);
+    if (!(length > 0.0)) throw sdk::ParameterError("'normal' must not be zero");
+    p_.normal = p.normal / length;
+    const sdk::Vec3 extent = p.max - p.min;
+    int axis = -1;
+    for (int d = 0; d < 3; ++d) {
+      if (!(extent[d] >= 0.0)) throw sdk::ParameterError("'max' must not lie below 'min'");
+      if (std::abs(p_.normal[d]) > 1.0 - k_rounding) axis = d;
+    }
+    if (axis < 0) throw sdk::ParameterError("'normal' must lie along one axis");
+    area_ = extent[(axis + 1) % 3] * extent[(axis + 2) % 3];
+    if (!(area_ > 0.0)) throw sdk::ParameterError("the opening has no area");
+    tolerance_ = k_rounding * (norm(p.min) + norm(p.max) + norm(p.point));
+  }
+
+  void observe(const sdk::WorldView& world) override {
+    values_.fill(0.0);
+    const sdk::GrainColumns& g = world.grains;
+    for (std::size_t i = 0; i < g.id.size() && world.interval > 0.0; ++i) {
+      if (!p_.takes(g.diameter[i])) continue;
+      const sdk::Path path = sdk::path_of(world, i);
+      const sdk::Passage passed =
+          sdk::passage(dot(path.before - p_.point, p_.normal), dot(path.now - p_.point, p_.normal));
+      if (passed.direction <= 0 || !is_in_opening(path.at(passed.fraction))) continue;
+      const double rate = g.weight[i] * g.mass[i] / world.interval;
+      values_[0] += rate;
+      values_[1] += rate * g.velocity_x[i];
+      values_[2] += rate * g.velocity_y[i];
+      values_[3] += rate * g.velocity_z[i];
+    }
+    row_.add(values_, world.interval);
+    if (sdk::is_after(world, p_.steady_after)) means_.add(values_, world.interval);
+  }
+
+  void series(sdk::FigureSink& sink) const override {
+    const Stream s = stream_of([&](std::size_t c) { return row_.mean(c); });
+    sink.figure("mass_flow", s.mass_flow, "kg/s");
+    sink.figure("speed", norm(s.velocity), "m/s");
+    sink.figure("fill_ratio", fill_ratio(s), "1");
+  }
+  [[nodiscard]] sdk::RowValue row_value(std::string_view) const override {
+    return sdk::RowValue::mean;
+  }
+  void end_row() override { row_.end_row(); }
+
+  void summary(sdk::FigureSink& sink) const override {
+    const Stream s = stream_of([&](std::size_t c) { return means_.mean(c); });
+    const double normal = dot(s.velocity, p_.normal);
+    sink.figure("mass_flow", s.mass_flow, "kg/s", means_.error(0));
+    sink.figure("velocity_x", s.velocity.x, "m/s");
+    sink.figure("velocity_y", s.velocity.y, "m/s");
+    sink.figure("velocity_z", s.velocity.z, "m/s");
+    sink.figure("speed", norm(s.velocity), "m/s");
+    sink.figure("angle", formula::angle(normal, norm(s.velocity - normal * p_.normal)), "rad");
+    sink.figure("fill_ratio", fill_ratio(s), "1");
+    sink.figure("impact_pressure", formula::impact_pressure(p_.bulk_density, normal), "Pa");
+    const double belt = norm(p_.belt_velocity);
+    if (belt == 0.0) return;
+    const double along = dot(s.velocity, p_.belt_velocity) / belt;
+    sink.figure("speed_along_belt", along, "m/s");
+    sink.figure("speed_along_belt_over_belt_speed", along / belt, "1");
+  }
+
+  void save(sdk::ArchiveWriter& a) const override {
+    row_.save(a, "row");
+    means_.save(a, "means");
+  }
+  void load(sdk::ArchiveReader& a) override {
+    row_.load(a, "row");
+    means_.load(a, "means");
+  }
+
+ private:
+  static constexpr double k_rounding = 1e-12;
+  static constexpr std::size_t k_columns = 4;  ///< mass flow, momentum flow
+  struct Stream {
+    double mass_flow = 0.0;  ///< [kg/s]
+    sdk::Vec3 velocity;      ///< [m/s] mean by mass passed
+  };
+
+  template <class Mean>
+  [[nodiscard]] Stream stream_of(Mean mean) const {
+    const double flow = mean(0);
+    if (!(flow > 0.0)) return {};
+    return {flow, sdk::Vec3{mean(1), mean(2), mean(3)} / flow};
+  }
+  [[nodiscard]] double fill_ratio(const Stream& s) const {
+    return formula::fill_ratio(s.mass_flow, p_.bulk_density, dot(s.velocity, p_.normal), area_);
+  }
+  [[nodiscard]] bool is_in_opening(sdk::Vec3 x) const {
+    for (int d = 0; d < 3; ++d) {
+      if (x[d] < p_.min[d] - tolerance_ || x[d] > p_.max[d] + tolerance_) return false;
+    }
+    return true;
+  }
+
+  Parameters p_;
+  double area_ = 0.0;  ///< [m2]
+  double tolerance_ = 0.0;
+  std::array<double, k_columns> values_{};  ///< of one sample
+  sdk::RowMeans row_{k_columns};
+  sdk::BatchMeans means_{k_columns};
+};
+
+}  // namespace
+
+DUST_PLUGIN(registrar) { registrar.add<StreamSection>(); }

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an engineer reads off a transfer point, through the whole program.
+#include "support/engine.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+
+using dust::test::engine;
+using dust::test::read_file;
+using dust::test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A figure of a sensor in summary.json.
+double figure(const std::string& summary, const std::string& sensor, const std::string& name) {
+  auto at = summary.find("\"sensors\": {");
+  for (const std::string& key : {sensor, name, std::string("value")}) {
+    at = summary.find("\"" + key + "\"", at);
+    REQUIRE(at != std::string::npos);
+  }
+  return std::stod(summary.substr(summary.find(':', at) + 1));
+}
+
+/// Three blocks (spheres that cannot roll) that slide down a plate at 30 degrees.
+const std::string k_slide = R"(
+time: {end: 0.6 s, fluid_step: 1 ms, output_every: 0.6 s, expected_speed: 1 m/s}
+gravity: [4.905, 0, -8.495709211]
+domain:
+  min: [0, 0, 0]
+  max: [1, 0.4, 0.3 m]
+  boundaries:
+    left: {grains: open}
+    right: {grains: open}
+    front: {grains: open}
+    back: {grains: open}
+    bottom: {grains: wall, material: steel}
+    top: {grains: open}
+materials:
+  limestone: {density: 2700, young_modulus: 50 MPa, poisson_ratio: 0.3}
+  steel: {density: 7850, young_modulus: 50 MPa, poisson_ratio: 0.3}
+interactions:
+  - between: [limestone, limestone]
+    contact: {model: hertz_mindlin, restitution: 0.3, friction: 0.6}
+  - between: [limestone, steel]
+    contact: {model: hertz_mindlin, restitution: 0.05, friction: 0.3}
+    rolling: {model: epsd2, friction: 20}
+emitters:
+  blocks: {model: single, material: limestone, diameters: [60 mm],
+    positions: [[50, 100, 29.94 mm], [50, 200, 29.94 mm], [50, 300, 29.94 mm]]}
+fluid: none
+sensors:
+  liner: {model: wear, min: [0, 0, -5 mm], max: [1, 0.4, 0.005 m], cell: 50 mm, coefficient: 2e-3, hardness: 4 GPa}
+)";
+
+}  // namespace
+
+TEST_CASE("blocks that slide down a liner shall wear it by Archard's law within one per cent") {
+  const TemporaryFolder folder;
+  const fs::path scenario = folder / "slide.yaml";
+  std::ofstream(scenario) << k_slide;
+  const fs::path out = folder / "out";
+  const auto run = engine({"run", scenario, "-o", out, "--quiet"});
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const std::string summary = read_file(out / "summary.json");
+  const double mass = 2700 * std::numbers::pi / 6 * std::pow(0.06, 3);
+  const double press = mass * 8.495709211;
+  const double way = 0.5 * (4.905 - 0.3 * 8.495709211) * 0.6 * 0.6;
+  const double worn = 3 * 2e-3 * press * way / 4e9;
+  CHECK(figure(summary, "liner", "volume") == doctest::Approx(worn).epsilon(0.01));
+  CHECK(figure(summary, "liner", "normal_force") == doctest::Approx(3 * press).epsilon(0.01));
+}

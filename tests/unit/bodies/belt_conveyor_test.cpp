@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bodies/local_axes.hpp"
+#include "bodies/shape.hpp"
+#include "dust/sdk/error.hpp"
+#include "unit/bodies/shapes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+namespace {
+
+using dust::bodies::Shape;
+using dust::bodies::SurfacePoint;
+using dust::sdk::Value;
+using dust::sdk::Vec3;
+using dust::test::make_shape;
+
+constexpr double k_pi = std::numbers::pi;
+
+// A belt of 1 m on rolls at 35 degrees, from (-8, 0) to the head at the origin, along +x.
+constexpr double k_radius = 0.3;
+constexpr double k_thickness = 0.02;
+constexpr double k_width = 1.0;
+constexpr double k_angle = 35.0 * k_pi / 180.0;
+constexpr double k_centre = 0.38;
+constexpr double k_bend = 0.12;
+constexpr double k_transition = 1.6;
+constexpr double k_rise = 0.05;
+
+std::map<std::string, Value> troughed() {
+  return {{"head", Vec3{}},           {"tail", Vec3{-8, 0, 0}}, {"radius", k_radius},
+          {"thickness", k_thickness}, {"width", k_width},       {"trough_angle", k_angle},
+          {"centre_roll", k_centre},  {"bend_radius", k_bend},  {"transition", k_transition},
+          {"pulley_rise", k_rise}};
+}
+
+/// The middle of the carrying run, told a second time: a walk along the section, bend by bend, of
+/// the length of half the belt. At `x` before the head pulley.
+Vec3 walk(double x, double across) {
+  const double t = std::clamp(-x / k_transition, 0.0, 1.0);
+  const double blend = 3 * t * t - 2 * t * t * t;
+  const double slope = std::tan(k_angle / 2) * blend;  // of half the trough angle
+  const double angle = 2 * std::atan(slope);
+  const double tangent = k_bend * std::tan(k_angle / 2);
+  const double arc = angle > 0 ? tangent / slope * angle : 2 * tangent;  // length of the bend
+  const double flat = k_centre / 2 - tangent;
+  double y = 0, z = k_radius + k_thickness / 2 - k_rise * blend;
+  const double way = std::abs(across);
+  constexpr int k_steps = 4000;
+  for (int n = 0; n < k_steps; ++n) {
+    const double w = (n + 0.5) * way / k_steps;
+    const double turned = angle * std::clamp((w - flat) / arc, 0.0, 1.0);
+    y += std::cos(turned) * way / k_steps;
+    z += std::sin(turned) * way / k_steps;
+  }
+  return {x, across < 0 ? -y : y, z};
+}
+
+}  // namespace
+
+TEST_CASE("a troughed belt shall lie where its rolls put it, in the transition too") {
+  const auto belt = make_shape("belt_conveyor", troughed());
+  for (const double x : {-4.0, -1.6, -1.3, -0.8, -0.3, -0.05}) {
+    for (const double across : {0.0, 0.1, -0.16, 0.2, 0.24, -0.35, 0.45, 0.4999}) {
+      CAPTURE(x);
+      CAPTURE(across);
+      // Half a thickness from its middle surface on either face; the walk ends within 1e-7.
+      const Vec3 middle = walk(x, across);
+      CHECK(std::abs(belt->nearest(middle).distance + k_thickness / 2) < 1e-6);
+    }
+  }
+  // The belt keeps its width: beyond it there is the rounded edge, then air.
+  const Vec3 edge = walk(-0.8, 0.5);
+  const Vec3 before = walk(-0.8, 0.49);
+  const Vec3 out = (edge - before) / norm(edge - before);
+  CHECK(belt->nearest(edge + 0.5 * k_thickness * out).distance ==
+        doctest::Approx(0.0).epsilon(1e-6).scale(1.0));
+  CHECK(belt->nearest(edge + 1.5 * k_thickness * out).distance ==
+        doctest::Approx(k_thickness).epsilon(1e-5));
+}
+
+TEST_CASE("the distance to a troughed belt shall be that of brute force, its normal the gradient") {
+  const auto belt = make_shape("belt_conveyor", troughed());
+  std::vector<Vec3> middle;
+  constexpr double k_spacing = 0.02;
+  for (double across = -0.5; across < 0.501; across += k_spacing) {
+    for (double x = -3.0; x <= 0.0; x += k_spacing) middle.push_back(walk(x, across));
+  }
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int n = 0; n < 300; ++n) {
+    const Vec3 p{-2.5 + 2.4 * unit(random), -0.7 + 1.4 * unit(random), 0.2 + 0.7 * unit(random)};
+    CAPTURE(p.x);
+    CAPTURE(p.y);
+    CAPTURE(p.z);
+    const SurfacePoint s = belt->nearest(p);
+    double brute = std::numeric_limits<double>::infinity();
+    for (const Vec3& q : middle) brute = std::min(brute, norm(p - q));
+    // Nearer than any of the points, by less than their spacing; other faces may be nearer still.
+    CHECK(s.distance + k_thickness / 2 <= brute + 1e-6);
+    if (p.z > 0.35) CHECK(brute <= s.distance + k_thickness / 2 + k_spacing);
+    CHECK(norm(s.normal) == doctest::Approx(1.0).epsilon(1e-12));
+    const Vec3 foot = p - s.distance * s.normal;
+    CHECK(std::abs(belt->nearest(foot).distance) < 1e-9);
+    constexpr double k_step = 1e-6;
+    CHECK(belt->nearest(p + k_step * s.normal).distance - s.distance ==
+          doctest::Approx(k_step).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("a belt shall run along itself at its speed on every face, in any direction in plan") {
+  const Vec3 along{std::cos(0.7), std::sin(0.7), 0.0};
+  const Vec3 aside{-std::sin(0.7), std::cos(0.7), 0.0};
+  const Vec3 head{1.0, 2.0, 3.0};
+  auto values = troughed();
+  values["head"] = head;
+  values["tail"] = head - 8.0 * along;
+  const auto belt = make_shape("belt_conveyor", values);
+  const auto direction = [&](Vec3 local) {
+    const Vec3 p = head + local.x * along + local.y * aside + Vec3{0, 0, local.z};
+    const SurfacePoint s = belt->nearest(p);
+    const Vec3 axis = dynamic_cast<const dust::bodies::LocalAxes&>(*belt).lateral_axis_at(
+        p - s.distance * s.normal, s.normal);
+    const Vec3 c = cross(axis, s.normal);  // where motion: belt runs to
+    CHECK(norm(c) == doctest::Approx(1.0).epsilon(1e-9));
+    CHECK(std::abs(dot(c, s.normal)) < 1e-9);
+    return c;
+  };
+  const Vec3 wing = walk(-4.0, 0.4);
+  for (const Vec3& over : {Vec3{-4, 0, 0.4}, wing + Vec3{0, -0.02, 0.04}, wing - Vec3{0, 0, 0.03},
+                           wing + Vec3{0, 0.3, 0.2}}) {
+    CHECK(norm(direction(over) - along) < 1e-9);  // carrying run: above, under, at its edge
+  }
+  CHECK(norm(direction({0.4, 0.1, 0.0}) - Vec3{0, 0, -1}) < 1e-9);  // down the head pulley
+  CHECK(norm(direction({-4, 0.2, -0.4}) + along) < 1e-9);           // return run
+  CHECK(norm(direction({-8.4, 0.1, 0.0}) - Vec3{0, 0, 1}) < 1e-9);  // up the tail pulley
+  // In the transition a line of the belt goes down and outwards to the pulley.
+  const Vec3 falling = direction(walk(-0.8, 0.45) + Vec3{0, -0.01, 0.02});
+  const Vec3 line = walk(-0.799, 0.45) - walk(-0.801, 0.45);
+  CHECK(dot(falling, aside) == doctest::Approx(line.y / norm(line)).epsilon(0.02));
+  CHECK(falling.z == doctest::Approx(line.z / norm(line)).epsilon(0.02));
+}
+
+TEST_CASE("a belt's surface shall be smooth from its trough over the pulley to its return run") {
+  const auto belt = make_shape("belt_conveyor", troughed());
+  for (const double y : {0.0, 0.2, 0.4}) {
+    CAPTURE(y);
+    // A ball of 50 mm that is moved along just out of touch of the carrying run.
+    SurfacePoint last = belt->nearest({-2.5, y, 0.6});
+    double z = 0.6;
+    for (double x = -2.5; x < 0.25; x += 1e-3) {
+      for (int n = 0; n < 40; ++n) z -= belt->nearest({x, y, z}).distance - 0.05;
+      const SurfacePoint s = belt->nearest({x, y, z});
+      CHECK(s.distance == doctest::Approx(0.05).epsilon(1e-6));
+      // It bends by at most one millimetre's worth of its least radius.
+      if (x > -2.5) CHECK(norm(s.normal - last.normal) < 1e-3 / 0.2);
+      last = s;
+    }
+  }
+}
+
+TEST_CASE("drawn faces of a belt shall lie on it and look outwards") {
+  const auto belt = make_shape("belt_conveyor", troughed());
+  const auto t = belt->triangles({-3, -1, -1}, {1, 1, 1}, 0.1);
+  REQUIRE(t.size() > 300);
+  double farthest = 0.0;
+  int inwards = 0;
+  int skipped = 0;
+  for (std::size_t n = 0; n + 2 < t.size(); n += 3) {
+    // Where the belt runs on to the pulley its underside goes on inside.
+    bool is_in_pulley = false;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double distance = belt->nearest(t[n + c]).distance;
+      is_in_pulley = is_in_pulley || (distance < 0.0 &&
+                                      std::hypot(t[n + c].x, t[n + c].z) < k_radius + k_thickness);
+      // Tips of the rounded edge are drawn square to the section: a hundredth of a millimetre off.
+      if (!is_in_pulley) CHECK(std::abs(distance) < 1e-5);
+      farthest = std::max(farthest, -t[n + c].x);
+    }
+    const Vec3 normal = cross(t[n + 1] - t[n], t[n + 2] - t[n]);
+    const Vec3 middle = (t[n] + t[n + 1] + t[n + 2]) / 3.0;
+    const SurfacePoint s = belt->nearest(middle + (0.005 / norm(normal)) * normal);
+    if (!is_in_pulley && !(dot(s.normal, normal) > 0.7 * norm(normal))) ++inwards;
+    skipped += is_in_pulley ? 1 : 0;
+  }
+  CHECK(inwards == 0);
+  CHECK(skipped < static_cast<int>(t.size()) / 3 / 4);
+  CHECK(farthest == doctest::Approx(3.0).epsilon(1e-12));  // cut off beside the box
+}
+
+TEST_CASE("a belt whose parts do not fit shall be refused") {
+  const auto refused = [](const char* key, const Value& value) {
+    auto values = troughed();
+    values[key] = value;
+    try {
+      make_shape("belt_conveyor", values);
+    } catch (const dust::sdk::ParameterError& e) {
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  CHECK(refused("centre_roll", 1.2) == "centre_roll is not shorter than the width");
+  CHECK(refused("bend_radius", 2.0) == "bend_radius is too large for the rolls");
+  CHECK(refused("transition", 5.0) == "head and tail are nearer than both transitions are long");
+  CHECK(refused("tail", Vec3{}) == "head and tail are the same point");
+  CHECK(refused("up", Vec3{-1, 0, 0}) == "up is along the belt");
+  CHECK(refused("sag", 0.02) == "sag needs the idler_spacing");
+}

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an engineer asks of a transfer point: load, stream, spillage, wear.
+#include "unit/sensor/coverage.hpp"
+
+#include "dust/sdk/error.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace dust;
+using namespace dust::test;
+using sdk::Vec3;
+
+namespace {
+
+Grain at(Vec3 place, Vec3 velocity, double mass = 1e-6) {
+  Grain g;
+  g.before = g.now = place;
+  g.velocity = velocity;
+  g.mass = mass;
+  return g;
+}
+
+/// A world in which a grain goes by `interval` x velocity from sample to sample.
+void move_on(World& world) {
+  for (Grain& g : world.grains) {
+    g.before = g.now;
+    g.now = g.now + world.interval * g.velocity;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a strip beside the middle of a belt shall be off centre by what it lies aside") {
+  // A belt towards (0.6, 0.8), 2 m/s; grains every 10 mm along it, 30 and 50 mm to the left.
+  const Vec3 along{0.6, 0.8, 0.0};
+  const Vec3 left{-0.8, 0.6, 0.0};
+  const auto sensor = load_sensor("belt_load")
+                          .make({{"from", Vec3{0.1, 0.1, 0.1}},
+                                 {"to", Vec3{0.1, 0.1, 0.1} + 0.5 * along},
+                                 {"width", 0.4},
+                                 {"height", 0.1},
+                                 {"belt_speed", 2.5}});
+  World world;
+  for (int n = 0; n < 50; ++n) {
+    for (const double aside : {0.03, 0.05}) {
+      world.grains.push_back(
+          at(Vec3{0.1, 0.1, 0.12} + (0.01 * (n + 0.5)) * along + aside * left, 2.0 * along, 0.02));
+    }
+  }
+  // Beside the belt, above its load, before and after the stretch.
+  for (const Vec3 off : {0.25 * left, Vec3{0, 0, 0.11}, -0.3 * along, 0.3 * along}) {
+    world.grains.push_back(at(Vec3{0.1, 0.1, 0.11} + 0.25 * along + off, 2.0 * along, 5.0));
+  }
+  for (int s = 0; s < 10; ++s) step(*sensor, world);
+  const Figures figures = summary_of(*sensor);
+  CHECK(figures["mass_per_length"] == doctest::Approx(100 * 0.02 / 0.5).epsilon(1e-12));
+  CHECK(figures["mass_flow"] == doctest::Approx(100 * 0.02 / 0.5 * 2.0).epsilon(1e-12));
+  CHECK(figures["off_centre"] == doctest::Approx(0.04).epsilon(1e-12));
+  CHECK(figures["half_width"] == doctest::Approx(0.01 * std::sqrt(3.0)).epsilon(1e-9));
+  CHECK(figures["speed"] == doctest::Approx(2.0).epsilon(1e-12));
+  CHECK(figures["speed_over_belt_speed"] == doctest::Approx(0.8).epsilon(1e-12));
+}
+
+TEST_CASE("samples without load shall not pull the place of the load to the middle") {
+  const auto sensor =
+      load_sensor("belt_load")
+          .make({{"from", Vec3{0, 0, 0}}, {"to", Vec3{1, 0, 0}}, {"width", 1.0}, {"height", 0.1}});
+  World world;
+  for (int s = 0; s < 10; ++s) step(*sensor, world);
+  world.grains = {at({0.5, 0.2, 0.05}, {1, 0, 0}, 3.0)};
+  for (int s = 0; s < 10; ++s) step(*sensor, world);
+  const Figures figures = summary_of(*sensor);
+  CHECK(figures["mass_per_length"] == doctest::Approx(1.5).epsilon(1e-12));
+  CHECK(figures["off_centre"] == doctest::Approx(0.2).epsilon(1e-12));
+  CHECK(figures["speed"] == doctest::Approx(1.0).epsilon(1e-12));
+}
+
+TEST_CASE("a stream through an opening shall have its velocity, angle, fill and pressure") {
+  // A curtain of 20 x 10 grains of 1 g, 1 mm apart in height, at (1.5, 0, -2) m/s: each sample of 1
+  // ms 2 layers pass.
+  const auto sensor = load_sensor("stream_section")
+                          .make({{"point", Vec3{0, 0, 0.1}},
+                                 {"normal", Vec3{0, 0, -1}},
+                                 {"min", Vec3{0, 0, 0.1}},
+                                 {"max", Vec3{0.33, 0.011, 0.1}},
+                                 {"bulk_density", 1600.0},
+                                 {"belt_velocity", Vec3{3.0, 0, 0}}});
+  World world;
+  for (int layer = 0; layer < 60; ++layer) {
+    for (int n = 0; n < 20; ++n) {
+      world.grains.push_back(
+          at({0.005 + 0.005 * n, 0.005, 0.1005 + 1e-3 * layer}, {1.5, 0, -2}, 1e-3));
+    }
+  }
+  for (int s = 0; s < 20; ++s) {
+    move_on(world);
+    step(*sensor, world);
+  }
+  const Figures figures = summary_of(*sensor);
+  const double flow = 20 * 1e-3 * 2.0 / 1e-3;
+  CHECK(figures["mass_flow"] == doctest::Approx(flow).epsilon(1e-9));
+  CHECK(figures["velocity_x"] == doctest::Approx(1.5).epsilon(1e-12));
+  CHECK(figures["velocity_z"] == doctest::Approx(-2.0).epsilon(1e-12));
+  CHECK(figures["speed"] == doctest::Approx(2.5).epsilon(1e-12));
+  CHECK(figures["angle"] == doctest::Approx(std::atan(2.0 / 1.5)).epsilon(1e-12));
+  CHECK(figures["fill_ratio"] == doctest::Approx(flow / (1600 * 2.0 * 0.33 * 0.011)).epsilon(1e-9));
+  CHECK(figures["impact_pressure"] == doctest::Approx(1600 * 4.0).epsilon(1e-12));
+  CHECK(figures["speed_along_belt_over_belt_speed"] == doctest::Approx(0.5).epsilon(1e-12));
+}
+
+TEST_CASE("what falls through the level shall count once, per hour and per tonne") {
+  const auto sensor =
+      load_sensor("spillage")
+          .make(
+              {{"min", Vec3{0, 0, 0.1}}, {"max", Vec3{0.2, 0.011, 0.1}}, {"steady_after", 0.005}});
+  World world;
+  // One grain of 1 g per millisecond; one rises, one falls beside.
+  for (int n = 0; n < 20; ++n) {
+    world.grains.push_back(at({0.1, 0.005, 0.1005 + 1e-3 * n}, {0, 0, -1}, 1e-3));
+  }
+  world.grains.push_back(at({0.1, 0.005, 0.0905}, {0, 0, 1}, 1.0));
+  world.grains.push_back(at({0.25, 0.005, 0.1105}, {0, 0, -1}, 1.0));
+  for (int s = 0; s < 15; ++s) {
+    move_on(world);
+    world.emitted_mass += 0.5;
+    step(*sensor, world);
+  }
+  const Figures figures = summary_of(*sensor);
+  CHECK(figures["mass"] == doctest::Approx(15e-3).epsilon(1e-9));
+  CHECK(figures["grains"] == doctest::Approx(10.0));
+  CHECK(figures["rate"] == doctest::Approx(3600.0).epsilon(1e-9));
+  CHECK(figures["grams_per_tonne"] == doctest::Approx(1e6 * 1e-3 / 0.5).epsilon(1e-9));
+  // Ten counts: an error of one in the root of ten.
+  CHECK(figures.at("rate").uncertainty == doctest::Approx(3600.0 / std::sqrt(10.0)).epsilon(1e-9));
+}
+
+TEST_CASE("a block that slides on a liner shall wear it as Archard's closed form says") {
+  const double k = 2e-3;
+  const double hardness = 4e9;
+  const auto sensor = load_sensor("wear").make({{"min", Vec3{0, 0, 0.05}},
+                                                {"max", Vec3{0.3, 0.01, 0.15}},
+                                                {"cell", 0.01},
+                                                {"coefficient", k},
+                                                {"hardness", hardness}});
+  World world;
+  // 30 N on a plate whose normal is (0.6, 0, 0.8): grain slides along (0.8, 0, -0.6) at 2 m/s and
+  // turns so that its surface goes 0.5 m/s faster. Friction of 12 N against it.
+  const Vec3 out{0.6, 0.0, 0.8};
+  const Vec3 down{0.8, 0.0, -0.6};
+  const double radius = 0.004;
+  Grain g = at(Vec3{0.105, 0.005, 0.105} + radius * out, 2.0 * down, 1e-3);
+  g.weight = 3.0;
+  g.angular_velocity = (0.5 / radius) * cross(down, out);  // its underside goes along `down`
+  world.grains = {g, g};
+  world.contacts = {{.i = 0, .j = -1, .force = 30.0 * out - 12.0 * down, .branch = -radius * out},
+                    {.i = 0, .j = 1, .force = 100.0 * out, .branch = -radius * out}};
+  for (int s = 0; s < 20; ++s) step(*sensor, world);
+  const Figures figures = summary_of(*sensor);
+  const double worn = 3.0 * k * 30.0 * 2.5 / hardness;  // [m3/s]
+  CHECK(figures["volume_rate"] == doctest::Approx(worn).epsilon(1e-9));
+  CHECK(figures["volume"] == doctest::Approx(worn * 0.02).epsilon(1e-9));
+  CHECK(figures["normal_force"] == doctest::Approx(90.0).epsilon(1e-9));
+  CHECK(figures["friction_power"] == doctest::Approx(3.0 * 12.0 * 2.5).epsilon(1e-9));
+  CHECK(figures["depth_rate_largest/value"] == doctest::Approx(worn / 1e-4).epsilon(1e-9));
+  CHECK(figures["pressure_largest/value"] == doctest::Approx(90.0 / 1e-4).epsilon(1e-9));
+  CHECK(figures["depth_rate_largest/x"] == doctest::Approx(0.105).epsilon(1e-9));
+  CHECK(figures["depth_rate_largest/z"] == doctest::Approx(0.105).epsilon(1e-9));
+}

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lumps on belts of finite width: no energy from the surface, and where a belt throws them.
+#include "verification/walls/wall_rig.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+using dust::particles::NewGrain;
+using dust::sdk::Value;
+using dust::sdk::Vec3;
+using namespace dust::test;
+
+namespace {
+
+constexpr double k_pi = std::numbers::pi;
+constexpr double k_lump = 0.03;  // [m] radius
+constexpr double k_pulley = 0.3;
+constexpr double k_thickness = 0.02;
+
+/// One lump on a belt whose top is z = 0 over the head pulley, which is at x = 0.
+struct LumpOnBelt {
+  WallRig rig;
+  std::unique_ptr<dust::particles::Dem> dem;
+  std::unique_ptr<Stepper> stepper;
+
+  struct Belt {
+    double speed = 0.0;
+    double trough_angle = 0.0;
+    double direction = 0.0;  ///< [rad] in plan
+    double friction = 0.0;
+    double rolling = -1.0;
+    double restitution = 1.0;
+  };
+  LumpOnBelt(const Belt& belt, Vec3 position, Vec3 velocity)
+      : rig(belt.restitution, belt.friction, 2 * k_lump, belt.rolling) {
+    rig.setup.gravity = {0, 0, -k_g};
+    rig.setup.domain.min = {-10, -10, -10};
+    rig.setup.domain.max = {10, 10, 10};
+    rig.setup.time.expected_speed = 10.0;
+    const Vec3 along{std::cos(belt.direction), std::sin(belt.direction), 0.0};
+    const Vec3 head{0, 0, -k_pulley - k_thickness};
+    rig.body("belt_conveyor",
+             {{"head", head},
+              {"tail", head - 8.0 * along},
+              {"radius", k_pulley},
+              {"thickness", k_thickness},
+              {"width", 1.0},
+              {"trough_angle", belt.trough_angle},
+              {"centre_roll", 0.38},
+              {"transition", 1.6}},
+             WallRig::motion("belt", {{"speed", belt.speed}}));
+    dem = rig.make();
+    dem->insert(std::vector<NewGrain>{
+        {.position = position, .velocity = velocity, .diameter = 2 * k_lump}});
+    stepper = std::make_unique<Stepper>(*dem);
+  }
+  GrainState now() { return grain(*dem, 0); }
+  [[nodiscard]] double at_rest() const { return k_lump - rig.resting_overlap(); }
+  /// Kinetic energy and that of place, per mass [m2/s2].
+  double energy() {
+    const GrainState g = now();
+    return 0.5 * dot(g.velocity, g.velocity) + k_g * g.position.z;
+  }
+};
+
+/// Where a lump that touches the belt over (x, y) of a troughed belt rests on it, without overlap.
+Vec3 on_trough(LumpOnBelt& l, double x, double y) {
+  Vec3 p{x, y, 0.6};
+  for (int n = 0; n < 100; ++n) p.z -= l.rig.bodies[0].nearest(p).distance - k_lump;
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("a lump that swings in a trough shall neither gain nor lose energy at its bends") {
+  // Elastic, without friction: what it has is kept, whatever part of the belt it is on. The belt
+  // runs below it and must not matter.
+  constexpr double k_angle = 35.0 * k_pi / 180.0;
+  LumpOnBelt probe({.trough_angle = k_angle}, {}, {});
+  LumpOnBelt l({.speed = 2.5, .trough_angle = k_angle}, on_trough(probe, -4.0, 0.3), {});
+  const double start = l.energy();
+  const double fall = k_g * (l.now().position.z - on_trough(probe, -4.0, 0.0).z);
+  double farthest = 0.0;
+  double largest_error = 0.0;
+  int turns = 0;
+  double last = 0.0;
+  while (l.stepper->time() < 2.0) {
+    l.stepper->step(20);
+    const GrainState g = l.now();
+    if (last != 0.0 && last * g.velocity.y < 0.0) {
+      ++turns;
+      farthest = std::max(farthest, std::abs(std::abs(g.position.y) - 0.3));
+    }
+    last = g.velocity.y;
+    largest_error = std::max(largest_error, std::abs(l.energy() - start));
+  }
+  CHECK(turns >= 2);
+  // The spring's own energy, at most m g times an overlap of some tenths of a millimetre, comes and
+  // goes: below one per cent of the fall.
+  CHECK(largest_error < 0.01 * fall);
+  CHECK(farthest < 0.01);
+  CHECK(l.now().position.x == doctest::Approx(-4.0).epsilon(1e-9));
+}
+
+TEST_CASE("a lump shall go through transition and over the pulley without energy from the belt") {
+  constexpr double k_angle = 35.0 * k_pi / 180.0;
+  LumpOnBelt probe({.trough_angle = k_angle}, {}, {});
+  for (const double y : {0.0, 0.22, 0.4}) {
+    CAPTURE(y);
+    LumpOnBelt l({.speed = 2.5, .trough_angle = k_angle}, on_trough(probe, -1.8, y), {3, 0, 0});
+    const double start = l.energy();
+    while (l.now().position.x < 0.3) l.stepper->step(20);
+    CHECK(l.energy() == doctest::Approx(start).epsilon(0.01));
+  }
+}
+
+TEST_CASE("a belt in any direction in plan shall carry a lump at its speed") {
+  constexpr double k_turn = 2.2;
+  const Vec3 along{std::cos(k_turn), std::sin(k_turn), 0.0};
+  LumpOnBelt::Belt belt{.speed = 1.2, .direction = k_turn, .friction = 0.6, .restitution = 0.5};
+  belt.rolling = 1.0;
+  LumpOnBelt l(belt, {}, {});
+  const Vec3 start = -3.0 * along + Vec3{0, 0, l.at_rest()};
+  LumpOnBelt carried(belt, start, {});
+  while (carried.stepper->time() < 1.0) carried.stepper->step(20);
+  const GrainState g = carried.now();
+  CHECK(norm(g.velocity - belt.speed * along) < 1e-3 * belt.speed);
+  // It slides up to speed: u^2 / (2 mu g) behind the belt.
+  const double behind = belt.speed * belt.speed / (2 * 0.6 * k_g);
+  const Vec3 gone = g.position - start;
+  CHECK(dot(gone, along) ==
+        doctest::Approx(belt.speed * carried.stepper->time() - behind).epsilon(0.01));
+  CHECK(norm(gone - dot(gone, along) * along) < 1e-4);
+}
+
+namespace {
+
+/// Angle [deg] from the top of the pulley at which a lump that does not turn leaves it, and its
+/// speed then.
+struct Discharge {
+  double angle = 0.0;
+  double speed = 0.0;
+};
+Discharge discharge(double speed, double friction) {
+  LumpOnBelt l({.speed = speed, .friction = friction, .rolling = 20.0, .restitution = 0.5},
+               {-0.01, 0, k_lump - 1e-5}, {speed, 0, 0});
+  Discharge d;
+  int apart = 0;
+  while (l.stepper->time() < 2.0 && apart < 100) {
+    l.stepper->step();
+    const GrainState g = l.now();
+    if (l.dem->report().contacts > 0) {
+      apart = 0;
+      d.angle = std::atan2(g.position.x, g.position.z + k_pulley + k_thickness) * 180.0 / k_pi;
+      d.speed = norm(g.velocity);
+    } else if (g.position.x > 0.0) {
+      ++apart;
+    }
+  }
+  return d;
+}
+
+/// Booth (1934): a block of the belt's speed on a pulley slips once g sin(a) > mu (g cos(a) - v^2 /
+/// R), gathers speed by d(v^2)/da = 2 R g (sin(a) - mu cos(a)) + 2 mu v^2, and leaves where v^2 /
+/// (g R) = cos(a). The equation is integrated here in small steps.
+Discharge booth(double speed, double friction) {
+  const double radius = k_pulley + k_thickness + k_lump;
+  double square = speed * speed;
+  constexpr double k_step = 1e-5;
+  double a = 0.0;
+  while (k_g * std::sin(a) < friction * (k_g * std::cos(a) - square / radius)) a += k_step;
+  while (square < k_g * radius * std::cos(a)) {
+    square += k_step *
+              (2 * radius * k_g * (std::sin(a) - friction * std::cos(a)) + 2 * friction * square);
+    a += k_step;
+  }
+  return {a * 180.0 / k_pi, std::sqrt(square)};
+}
+
+}  // namespace
+
+TEST_CASE("a lump shall slip on the head pulley and leave it as Booth's equations say") {
+  constexpr double k_degrees = 1.0;
+  for (const double speed : {0.8, 1.2, 1.6}) {
+    CAPTURE(speed);
+    const Discharge found = discharge(speed, 0.6);
+    const Discharge expected = booth(speed, 0.6);
+    CHECK(std::abs(found.angle - expected.angle) < k_degrees);
+    // A degree further it is 3 % faster.
+    CHECK(found.speed == doctest::Approx(expected.speed).epsilon(0.03));
+  }
+}
+
+TEST_CASE("without slip a lump shall leave a slow belt's pulley where CEMA says") {
+  for (const double speed : {0.8, 1.4}) {
+    CAPTURE(speed);
+    const Discharge found = discharge(speed, 20.0);
+    // v^2 / (g r) = cos(a) at the radius of the centre of mass; it goes at the belt's speed, as it
+    // does not turn.
+    const double expected =
+        std::acos(speed * speed / (k_g * (k_pulley + k_thickness + k_lump))) * 180.0 / k_pi;
+    CHECK(std::abs(found.angle - expected) < 1.0);
+  }
+}
+
+TEST_CASE("a fast belt shall throw a lump from the tangent line along a parabola") {
+  // CEMA, high speed: v^2 / (g r) above 1, here 2.4 m/s and 1.66.
+  constexpr double speed = 2.4;
+  for (const double y : {0.0, 0.3}) {
+    LumpOnBelt l({.speed = speed, .friction = 0.6, .rolling = 1.0, .restitution = 0.5},
+                 {-0.5, y, k_lump - 1e-5}, {speed, 0, 0});
+    while (l.now().position.z > k_lump - 1.0) l.stepper->step(5);
+    const GrainState g = l.now();
+    const double fall = std::sqrt(2.0 * (k_lump - g.position.z) / k_g);
+    CHECK(g.position.x == doctest::Approx(speed * fall).epsilon(0.01));
+    CHECK(g.position.y == doctest::Approx(y).epsilon(1e-6).scale(1.0));
+  }
+}
