@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies/body_set.hpp"
 
-#include "bodies/local_axes.hpp"
+#include "bodies/belt/local_axes.hpp"
 
 #include <algorithm>
 #include <stdexcept>

@@ -52,7 +52,7 @@ interactions:
     rolling: {model: epsd2, friction: 20}
 emitters:
   blocks: {model: single, material: limestone, diameters: [60 mm],
-    positions: [[50, 100, 29.94 mm], [50, 200, 29.94 mm], [50, 300, 29.94 mm]]}
+    positions: [[50, 100, 30.001 mm], [50, 200, 30.001 mm], [50, 300, 30.001 mm]]}
 fluid: none
 sensors:
   liner: {model: wear, min: [0, 0, -5 mm], max: [1, 0.4, 0.005 m], cell: 50 mm, coefficient: 2e-3, hardness: 4 GPa}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "bodies/belt/local_axes.hpp"
 #include "bodies/belt/trough.hpp"
-#include "bodies/local_axes.hpp"
 #include "bodies/shape_kinds.hpp"
 #include "dust/sdk/error.hpp"
 

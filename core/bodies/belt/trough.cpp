@@ -154,8 +154,8 @@ Vec3 Trough::foot(Vec3 point) const {
     f = nearest_in(section(x), point.y, point.z);
     const double rest = point.x + f.pull - x;
     // Along the chord through the last two, where it falls about as steeply as it should.
-    const double steepness = n > 0 && x != last_x ? (last_rest - rest) / (x - last_x) : 1.0;
-    const double change = rest / (steepness > 0.4 && steepness < 2.5 ? steepness : 1.0);
+    const double chord_slope = n > 0 && x != last_x ? (last_rest - rest) / (x - last_x) : 1.0;
+    const double change = rest / (chord_slope > 0.4 && chord_slope < 2.5 ? chord_slope : 1.0);
     last_x = x;
     last_rest = rest;
     x = std::clamp(x + change, -p_.length, 0.0);

@@ -14,8 +14,9 @@ namespace sdk = dust::sdk;
 class BeltLoad final : public sdk::Sensor {
  public:
   struct Parameters : sdk::SteadyParameters {
-    sdk::Vec3 from;
-    sdk::Vec3 to;
+    sdk::Vec3 point;
+    sdk::Vec3 direction;
+    double length = 0.0;
     double width = 0.0;
     double height = 0.0;
     double belt_speed = 0.0;
@@ -23,10 +24,13 @@ class BeltLoad final : public sdk::Sensor {
   };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
-    s.vector(&Parameters::from, "from", sdk::dimension::length,
+    s.vector(&Parameters::point, "point", sdk::dimension::length,
              "Middle of the belt's top where the stretch looked at begins.");
-    s.vector(&Parameters::to, "to", sdk::dimension::length,
-             "The same where it ends, in the direction the belt runs.");
+    s.vector(&Parameters::direction, "direction", sdk::dimension::none,
+             "Direction in which the belt runs; its length does not matter.");
+    s.number(&Parameters::length, "length", sdk::dimension::length, "Length of the stretch.")
+        .symbol("L")
+        .above(0);
     s.number(&Parameters::width, "width", sdk::dimension::length,
              "Width of the stretch, half on either side.")
         .above(0);
@@ -52,9 +56,8 @@ class BeltLoad final : public sdk::Sensor {
   }
 
   explicit BeltLoad(const Parameters& p) : p_(p) {
-    length_ = norm(p.to - p.from);
-    if (!(length_ > 0.0)) throw sdk::ParameterError("'from' and 'to' are the same point");
-    along_ = (p.to - p.from) / length_;
+    if (!(norm(p.direction) > 0.0)) throw sdk::ParameterError("'direction' must not be zero");
+    along_ = p.direction / norm(p.direction);
     left_ = cross(p.up, along_);
     if (!(norm(left_) > 1e-6 * norm(p.up))) throw sdk::ParameterError("'up' is along the belt");
     left_ = left_ / norm(left_);
@@ -65,16 +68,16 @@ class BeltLoad final : public sdk::Sensor {
     formula::Sums sums;
     const sdk::GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
-      const sdk::Vec3 q = sdk::Vec3{g.x[i], g.y[i], g.z[i]} - p_.from;
+      const sdk::Vec3 q = sdk::Vec3{g.x[i], g.y[i], g.z[i]} - p_.point;
       const double x = dot(q, along_);
       const double y = dot(q, left_);
       const double z = dot(q, up_);
-      if (x < 0.0 || x >= length_ || std::abs(y) > 0.5 * p_.width || z < 0.0 || z >= p_.height)
+      if (x < 0.0 || x >= p_.length || std::abs(y) > 0.5 * p_.width || z < 0.0 || z >= p_.height)
         continue;
       sums.add(g.weight[i] * g.mass[i], y,
                dot({g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]}, along_));
     }
-    values_ = {sums.mass / length_, sums.along / length_, formula::off_centre(sums),
+    values_ = {sums.mass / p_.length, sums.along / p_.length, formula::off_centre(sums),
                formula::half_width(sums), formula::speed(sums)};
     curve_.add(world.time, values_[k_off_centre]);
     if (!sdk::is_after(world, p_.steady_after)) return;
@@ -130,7 +133,6 @@ class BeltLoad final : public sdk::Sensor {
   static constexpr const char* k_units[k_columns] = {"kg/m", "kg/s", "m", "m", "m/s"};
 
   Parameters p_;
-  double length_ = 0.0;  ///< [m]
   sdk::Vec3 along_, left_, up_;
   std::array<double, k_columns> values_{};  ///< at the last sample
   sdk::BatchMeans means_{k_off_centre};

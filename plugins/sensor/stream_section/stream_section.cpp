@@ -81,15 +81,12 @@ class StreamSection final : public sdk::Sensor {
       values_[2] += rate * g.velocity_y[i];
       values_[3] += rate * g.velocity_z[i];
     }
-    row_.add(values_, world.interval);
+    row_.add({values_.data(), 1}, world.interval);
     if (sdk::is_after(world, p_.steady_after)) means_.add(values_, world.interval);
   }
 
   void series(sdk::FigureSink& sink) const override {
-    const Stream s = stream_of([&](std::size_t c) { return row_.mean(c); });
-    sink.figure("mass_flow", s.mass_flow, "kg/s");
-    sink.figure("speed", norm(s.velocity), "m/s");
-    sink.figure("fill_ratio", fill_ratio(s), "1");
+    sink.figure("mass_flow", row_.mean(0), "kg/s");
   }
   [[nodiscard]] sdk::RowValue row_value(std::string_view) const override {
     return sdk::RowValue::mean;
@@ -97,7 +94,7 @@ class StreamSection final : public sdk::Sensor {
   void end_row() override { row_.end_row(); }
 
   void summary(sdk::FigureSink& sink) const override {
-    const Stream s = stream_of([&](std::size_t c) { return means_.mean(c); });
+    const Stream s = stream();
     const double normal = dot(s.velocity, p_.normal);
     sink.figure("mass_flow", s.mass_flow, "kg/s", means_.error(0));
     sink.figure("velocity_x", s.velocity.x, "m/s");
@@ -131,11 +128,10 @@ class StreamSection final : public sdk::Sensor {
     sdk::Vec3 velocity;      ///< [m/s] mean by mass passed
   };
 
-  template <class Mean>
-  [[nodiscard]] Stream stream_of(Mean mean) const {
-    const double flow = mean(0);
+  [[nodiscard]] Stream stream() const {
+    const double flow = means_.mean(0);
     if (!(flow > 0.0)) return {};
-    return {flow, sdk::Vec3{mean(1), mean(2), mean(3)} / flow};
+    return {flow, sdk::Vec3{means_.mean(1), means_.mean(2), means_.mean(3)} / flow};
   }
   [[nodiscard]] double fill_ratio(const Stream& s) const {
     return formula::fill_ratio(s.mass_flow, p_.bulk_density, dot(s.velocity, p_.normal), area_);
@@ -151,7 +147,7 @@ class StreamSection final : public sdk::Sensor {
   double area_ = 0.0;  ///< [m2]
   double tolerance_ = 0.0;
   std::array<double, k_columns> values_{};  ///< of one sample
-  sdk::RowMeans row_{k_columns};
+  sdk::RowMeans row_{1};                    ///< of the mass flow
   sdk::BatchMeans means_{k_columns};
 };
 

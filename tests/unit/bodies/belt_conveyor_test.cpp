@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bodies/local_axes.hpp"
+#include "bodies/belt/local_axes.hpp"
 #include "bodies/shape.hpp"
 #include "dust/sdk/error.hpp"
 #include "unit/bodies/shapes.hpp"

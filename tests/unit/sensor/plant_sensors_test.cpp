@@ -38,8 +38,9 @@ TEST_CASE("a strip beside the middle of a belt shall be off centre by what it li
   const Vec3 along{0.6, 0.8, 0.0};
   const Vec3 left{-0.8, 0.6, 0.0};
   const auto sensor = load_sensor("belt_load")
-                          .make({{"from", Vec3{0.1, 0.1, 0.1}},
-                                 {"to", Vec3{0.1, 0.1, 0.1} + 0.5 * along},
+                          .make({{"point", Vec3{0.1, 0.1, 0.1}},
+                                 {"direction", along},
+                                 {"length", 0.5},
                                  {"width", 0.4},
                                  {"height", 0.1},
                                  {"belt_speed", 2.5}});
