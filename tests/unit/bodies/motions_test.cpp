@@ -162,6 +162,50 @@ TEST_CASE("a belt shall keep its speed where idlers lean its surface to the axis
   CHECK(std::hypot(v.x, v.y, v.z) == 0.0);
 }
 
+TEST_CASE("a troughed belt in a turned frame shall run along its wings as fast as in its middle") {
+  Body body;
+  body.shape = make_shape("belt_conveyor", {{"head", Vec3{}},
+                                            {"tail", Vec3{-6, 0, 0}},
+                                            {"radius", 0.3},
+                                            {"thickness", 0.02},
+                                            {"width", 1.0},
+                                            {"trough_angle", 0.6}});
+  body.motions = list(motion("belt", {{"speed", 2.5}}));
+  body.frame_origin = {1, 2, 3};
+  body.frame_axis = {0, 0, 1};
+  body.frame_angle = 1.1;
+  const auto at = body.placement(0.0);
+  // A fluid asks for all its wall points at once, grains for a batch of contacts.
+  std::vector<double> in[6];
+  std::vector<double> out[3];
+  for (const double x : {-3.0, -0.9}) {
+    for (const double y : {-0.4, -0.2, 0.0, 0.3}) {
+      const auto s = body.nearest(at.to_domain({x, y, 0.8}));
+      const Vec3 p = at.to_domain({x, y, 0.8}) - s.distance * s.normal;
+      for (int d = 0; d < 3; ++d) {
+        in[d].push_back(p[d]);
+        in[3 + d].push_back(s.normal[d]);
+        out[d].push_back(0.0);
+      }
+    }
+  }
+  body.surface_velocities({.count = in[0].size(),
+                           .time = 0.0,
+                           .axis = {},
+                           .position = {in[0].data(), in[1].data(), in[2].data()},
+                           .normal = {in[3].data(), in[4].data(), in[5].data()},
+                           .velocity = {out[0].data(), out[1].data(), out[2].data()}});
+  const Vec3 along = at.turn({1, 0, 0});
+  for (std::size_t n = 0; n < in[0].size(); ++n) {
+    CAPTURE(n);
+    const Vec3 v{out[0][n], out[1][n], out[2][n]};
+    CHECK(norm(v) == doctest::Approx(2.5).epsilon(1e-9));
+    CHECK(std::abs(dot(v, {in[3][n], in[4][n], in[5][n]})) < 1e-9);
+    // In the trough straight along the belt, in the transition nearly so.
+    CHECK(dot(v, along) > (n < 4 ? 2.5 * (1 - 1e-9) : 2.5 * 0.97));
+  }
+}
+
 TEST_CASE("a drum about its own axis shall stand while its surface turns") {
   Body drum;
   drum.shape = make_shape("cylinder", {{"base", Vec3{}},
