@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "commands.hpp"
 #include "huge_pages.hpp"
+#include "program/program.hpp"
 #include "scenario/suggest.hpp"
 
 #include <algorithm>
