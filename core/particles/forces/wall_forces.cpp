@@ -47,11 +47,23 @@ struct SurfacePoints {
 
 /// Contacts with a surface until a batch is full.
 struct ContactForces::WallBatch {
+  /// Not an aggregate: its arrays are filled as they are needed, never cleared.
+  WallBatch(const ContactScene& on, const LawRange& laws, const contact::PairView& entries,
+            std::int32_t first, OfTile& sums, double* forces)
+      : scene(on),
+        surface(on.surfaces[static_cast<std::size_t>(laws.surface)]),
+        law(on.laws[static_cast<std::size_t>(laws.law)]),
+        list(entries),
+        first_row(first),
+        tile(sums),
+        force(forces),
+        columns(thread_columns()) {}
+
   const ContactScene& scene;
   const Surface& surface;
   const PairLaws& law;
   const contact::PairView& list;
-  Tile range;
+  std::int32_t first_row;  ///< of the tile
   OfTile& tile;
   double* force;
   BatchColumns& columns;
@@ -69,7 +81,7 @@ struct ContactForces::WallBatch {
     list.is_touching[u] = 1;
     contacts[count] = q;
     rows[count] = row;
-    local_rows[count] = row - range.begin;
+    local_rows[count] = row - first_row;
     const auto grain = GrainAtWall::from(scene.rows(), static_cast<std::size_t>(row));
     put_at_wall(grain, near, count, columns);
     tile.largest_overlap = std::max(tile.largest_overlap, overlap / grain.radius);
@@ -96,17 +108,10 @@ void ContactForces::walls(const ContactScene& scene, Tile range, TileContacts& c
   const contact::PairView list = contacts.walls.view();
   const double* const position = scene.rows().position;
   for (const LawRange& r : contacts.walls.ranges()) {
-    const Surface& surface = scene.surfaces[static_cast<std::size_t>(r.surface)];
-    const PairLaws& law = scene.laws[static_cast<std::size_t>(r.law)];
     SurfacePoints near;
-    WallBatch batch{.scene = scene,
-                    .surface = surface,
-                    .law = law,
-                    .list = list,
-                    .range = range,
-                    .tile = tile,
-                    .force = force,
-                    .columns = thread_columns()};
+    WallBatch batch(scene, r, list, range.begin, tile, force);
+    const Surface& surface = batch.surface;
+    const PairLaws& law = batch.law;
     for (std::int32_t q = r.begin; q < r.end; ++q) {
       const std::size_t n = static_cast<std::size_t>(q - r.begin) % k_batch;
       if (n == 0) {

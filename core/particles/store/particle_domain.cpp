@@ -34,15 +34,6 @@ void ParticleDomain::wrap(ParticleStore& particles) const {
   }
 }
 
-bool ParticleDomain::is_far_out(const double* p) const {
-  if (!is_periodic_) return false;
-  const double slack = p[3];
-  for (int d = 0; d < 3; ++d) {
-    if (images_.length[d] > 0.0 && (p[d] < min_[d] - slack || p[d] > max_[d] + slack)) return true;
-  }
-  return false;
-}
-
 ParticleDomain::Place ParticleDomain::place_of(const double* p) const {
   Place found;
   for (int d = 0; d < 3; ++d) {

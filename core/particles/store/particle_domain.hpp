@@ -23,7 +23,15 @@ class ParticleDomain {
   void wrap(ParticleStore& particles) const;
   /// Positions are wrapped now and then only: whether one (x, y, z, radius) is so far beyond a
   /// periodic side that it is time.
-  [[nodiscard]] bool is_far_out(const double* position) const;
+  [[nodiscard]] bool is_far_out(const double* position) const {
+    if (!is_periodic_) return false;
+    for (int d = 0; d < 3; ++d) {
+      const double x = position[d];
+      const double slack = position[3];
+      if (images_.length[d] > 0.0 && (x < min_[d] - slack || x > max_[d] + slack)) return true;
+    }
+    return false;
+  }
 
   enum class Where { inside, escaped, lost };
   struct Place {
