@@ -262,6 +262,7 @@ void Coupling::refresh(const particles::GrainRows& grains, const FluidState& flu
                             s.schedule.fluid_step());
   }
   s.stencils.for_batches([&](std::size_t batch, FaceStencils::Rows rows) {
+    s.relaxation.fetch(grains, rows);
     // Half way through the interval that the action holds for.
     const StencilBatch& here = s.stencils.locate(s.lattice, grains, batch, 0.5 * held);
     SampledFlow flow;

@@ -28,6 +28,13 @@ DragRelaxation::DragRelaxation(const DragModel& drag, const SelfDisturbance& sel
                                ParticleStates& states, sdk::Vec3 gravity)
     : drag_(drag), self_(self), states_(states), gravity_(gravity) {}
 
+void DragRelaxation::fetch(const particles::GrainRows& grains, Rows rows) const {
+  for (const std::int32_t row : rows) {
+    states_.prefetch(static_cast<std::size_t>(row));
+    __builtin_prefetch(grains.fluid_action + 4 * static_cast<std::size_t>(row));
+  }
+}
+
 /// Particles that have no action yet get that of the drag at their present slip, for `look_ahead`.
 void DragRelaxation::begin(const particles::GrainRows& grains, Rows rows, const SampledFlow& flow,
                            DragColumns& columns) const {
@@ -57,11 +64,6 @@ void DragRelaxation::begin(const particles::GrainRows& grains, Rows rows, const 
 void DragRelaxation::look_ahead(const particles::GrainRows& grains, Rows rows, double held,
                                 double last_held, const SampledFlow& flow, DragColumns& columns,
                                 DragLookAhead& ahead) {
-  // Their rows lie anywhere: all are fetched at a time.
-  for (const std::int32_t row : rows) {
-    states_.prefetch(static_cast<std::size_t>(row));
-    __builtin_prefetch(grains.fluid_action + 4 * static_cast<std::size_t>(row));
-  }
   begin(grains, rows, flow, columns);
   const double half = 0.5 * held;
   const double before = last_held > 0.0 ? half / last_held : 0.0;

@@ -24,6 +24,10 @@ class DragRelaxation {
   /// Forces besides drag, kept by reference.
   void use(const ForceModels& forces) { forces_ = &forces; }
 
+  /// Rows in the order of the cells lie anywhere: those of a batch are fetched at a time, while its
+  /// faces are looked at.
+  void fetch(const particles::GrainRows& grains, std::span<const std::int32_t> rows) const;
+
   /// Writes the action on a batch that holds for `held` [s], the last one for `last_held` (0: there
   /// was none). `columns` holds the void fractions, and is overwritten.
   void update(const particles::GrainRows& grains, std::span<const std::int32_t> rows,
