@@ -112,6 +112,8 @@ void write_fields(hid_t file, const std::vector<SensorField>& fields) {
     write_attribute(set.get(), "origin", std::span<const double>(origin));
     write_attribute(set.get(), "spacing", std::span<const double>(spacing));
     write_attribute(set.get(), "count", std::span<const std::int64_t>(count));
+    write_attribute(set.get(), "role", f.role);
+    if (!f.quantity.empty()) write_attribute(set.get(), "quantity", f.quantity);
   }
 }
 

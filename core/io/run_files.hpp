@@ -22,6 +22,8 @@ struct SensorField {
   std::string unit;
   sdk::GridShape grid;
   std::vector<double> values;  ///< one per cell, x fastest
+  std::string role;            ///< what the field is, as summary.json names it
+  std::string quantity;        ///< "" = not said
 };
 
 /// One frame's data: copies, so that the writer may work while the run goes on. The spans of
@@ -53,7 +55,8 @@ struct Frame {
 ///   /walls               attribute names, of the bodies
 ///   /walls/<frame>       points (m, 3) f32, triangles (t, 3) i32, body (t) i32
 ///   /sensors/<frame>     only where a sensor writes fields: <sensor>/<field> (nz, ny, nx) f32 with
-///                        the attributes origin, spacing, count (x, y, z) of the sensor's own grid
+///                        the attributes origin, spacing, count (x, y, z) of the sensor's own grid,
+///                        role and quantity (figure_role.hpp)
 ///
 /// Walls that move or go are written with each frame, others once.
 ///

@@ -4,18 +4,19 @@
 #include "base/write_error.hpp"
 #include "dust/sdk/error.hpp"
 #include "io/atomic_file.hpp"
-#include "io/report.hpp"
 #include "io/run_files.hpp"
 #include "particles/time_steps.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/learnt_costs.hpp"
 #include "preflight/reader.hpp"
+#include "report/report.hpp"
 #include "run/folder/log_header.hpp"
 #include "run/folder/output_folder.hpp"
 #include "run/progress.hpp"
 #include "run/run_options.hpp"
 #include "run/run_times.hpp"
 #include "run/simulation.hpp"
+#include "run/summary/figure_json.hpp"
 #include "run/summary/summary.hpp"
 #include "run/summary/summary_emitters.hpp"
 #include "scenario/units.hpp"
@@ -48,7 +49,7 @@ class FieldsOfSensors final : public sdk::FieldSink {
     }
   }
   void field(std::string_view name, std::string_view unit, const sdk::GridShape& grid,
-             std::span<const double> values) override {
+             std::span<const double> values, const sdk::FigureRole& role) override {
     const auto cells = static_cast<std::size_t>(grid.count[0]) * grid.count[1] * grid.count[2];
     if (values.size() != cells) {
       throw sdk::ModelError("the sensor " + sensor_ + " gives " + std::to_string(values.size()) +
@@ -57,8 +58,13 @@ class FieldsOfSensors final : public sdk::FieldSink {
                             "each of its " +
                             std::to_string(cells) + " cells");
     }
-    fields_.push_back(
-        {sensor_, std::string(name), std::string(unit), grid, {values.begin(), values.end()}});
+    fields_.push_back({sensor_,
+                       std::string(name),
+                       std::string(unit),
+                       grid,
+                       {values.begin(), values.end()},
+                       std::string(sdk::name_of(role.role)),
+                       std::string(sdk::info_of(role.quantity).name)});
   }
   std::vector<io::SensorField> take() { return std::move(fields_); }
 
@@ -128,6 +134,8 @@ class Run {
       tell_bodies();
       tell_steps();
       write_frame();
+      io::write_text(folder_ / "series.csv-metadata.json",
+                     series_metadata(simulation_).dump(1) + "\n");
       write_row();
       checkpoint();
     }
@@ -217,7 +225,7 @@ class Run {
     base::log_info("status: " + facts_.status);
     base::log_flush();
     results_.reset();
-    if (!is_disk_bad_) survives_writing([this] { io::write_report(folder_); });
+    if (!is_disk_bad_) survives_writing([this] { report::write_report(folder_); });
     if (facts_.status == "failed") {
       log_failure();
       return 1;

@@ -15,7 +15,8 @@ namespace {
 class NamedFigures final : public sdk::FigureSink {
  public:
   explicit NamedFigures(SensorFigures& out) : out_(out) {}
-  void figure(std::string_view name, double, std::string_view unit, double) override {
+  void figure(std::string_view name, double, std::string_view unit, double,
+              const sdk::FigureRole&) override {
     out_.figures.emplace_back(name, unit);
   }
 

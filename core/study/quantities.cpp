@@ -87,7 +87,8 @@ class NamesOnly final : public sdk::FigureSink {
  public:
   NamesOnly(std::vector<Quantity>& all, std::string prefix)
       : all_(all), prefix_(std::move(prefix)) {}
-  void figure(std::string_view name, double, std::string_view unit, double) override {
+  void figure(std::string_view name, double, std::string_view unit, double,
+              const sdk::FigureRole&) override {
     all_.push_back({prefix_ + dotted(std::string(name)), std::string(unit), true});
   }
 

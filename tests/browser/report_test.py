@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Reports in a real headless browser: the page draws without a script error, asks nobody for anything,
-shows the numbers of summary.json, and stays within its size.
+shows the numbers of summary.json, can be read by everybody (axe-core: contrast, names, headings, keyboard), and
+stays within its size. report.json is what its schema says.
 
     report_test.py ENGINE SOURCE
 
@@ -38,6 +39,7 @@ def run(*command):
 def drawn(chromium, page, profile):
     """The page's document after its scripts have run. Every name resolves to nothing: no request can
     succeed, and the log would tell of one that was tried."""
+    profile.mkdir(exist_ok=True)
     log = profile / "log"
     command = [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
                "--disable-background-networking", "--disable-component-update", "--disable-sync",
@@ -114,6 +116,45 @@ def check(condition, text):
         sys.exit("FAILED: " + text)
 
 
+AUDIT = """<script>{axe}</script><script>
+(async () => {{
+  await new Promise((done) => setTimeout(done, 2000));
+  if ('{theme}' === 'dark') Dust.set_theme('dark');
+  for (const part of document.querySelectorAll('details')) part.open = true;
+  await new Promise((done) => setTimeout(done, 500));
+  const {{violations}} = await axe.run(document, {{resultTypes: ['violations']}});
+  document.documentElement.dataset.violations = JSON.stringify(violations.map((v) => [v.id, v.help, v.nodes[0].html.slice(0, 120)]));
+}})();
+</script></body>"""
+
+
+def check_access(chromium, page, source, theme):
+    """No rule of axe-core is broken, whatever the theme, with everything folded out."""
+    axe = (source / "third_party/axe/axe.min.js").read_text()
+    with tempfile.TemporaryDirectory() as folder:
+        copy = pathlib.Path(folder) / "audit.html"
+        copy.write_text(page.read_text().replace("</body>", AUDIT.format(axe=axe, theme=theme)))
+        text, _ = drawn(chromium, copy, pathlib.Path(folder) / "profile")
+    document = Document()
+    document.feed(text)
+    found = document.root.get("data-violations")
+    name = f"{page.parent.name}/{page.name}, {theme}"
+    check(found is not None, f"{name}: the audit did not come to its end")
+    check(json.loads(found) == [], f"{name}: {found}")
+
+
+def check_document(folder, source):
+    """report.json is what the schema says."""
+    try:
+        import jsonschema
+    except ImportError:
+        print("report.json is not held against its schema: no python3-jsonschema")
+        return
+    schema = json.loads((source / "tools/report/report.schema.json").read_text())
+    faults = [e.message[:200] for e in jsonschema.Draft7Validator(schema).iter_errors(json.loads((folder / "report.json").read_text()))]
+    check(not faults, f"{folder.name}/report.json: {faults}")
+
+
 def check_page(chromium, page):
     with tempfile.TemporaryDirectory() as profile:
         text, console = drawn(chromium, page, pathlib.Path(profile))
@@ -168,10 +209,13 @@ def main():
             run(engine, "run", *arguments, "-o", folder / name, "--quiet", "--threads", "1")
             text, document = check_page(chromium, folder / name / "report.html")
             check_figures(folder / name, document)
+            check_document(folder / name, source)
             check(("speed-picture" in document.ids) == (name != "grains"), f"{name}: the map of the air")
             check("<canvas" in text, f"{name}: no picture was drawn")
             check(("line dashed" in text) == (name == "settling"), f"{name}: curves from elsewhere")
             print(f"{name}: {(folder / name / 'report.html').stat().st_size} bytes, {len(document.rows)} rows")
+        for theme in ("light", "dark"):
+            check_access(chromium, folder / "transfer" / "report.html", source, theme)
         both = folder / "both" / "compare.html"
         both.parent.mkdir()
         table = run(engine, "compare", folder / "transfer", folder / "air", "-o", both)
@@ -182,6 +226,8 @@ def main():
         text, document = check_page(chromium, folder / "study" / "report.html")
         check(text.count("<canvas") >= 3, "the study shows no effects")
         check(document.text.count("finished") >= 8, "the study does not list its points")
+        check_access(chromium, folder / "study" / "report.html", source, "light")
+        check_access(chromium, both, source, "light")
 
 
 main()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/report_h5.hpp"
+#include "report/h5_source.hpp"
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
@@ -77,7 +77,7 @@ struct Solids {
   double of_grains = 0.0;
   double of_air = 0.0;
 };
-Solids solids_of(const dust::io::H5Source& source, const std::string& frame) {
+Solids solids_of(const dust::report::H5Source& source, const std::string& frame) {
   Solids solids;
   for (const double d : source.floats("/particles/" + frame + "/diameter")) {
     solids.of_grains += 0.5235987755982989 * d * d * d;
@@ -100,7 +100,7 @@ TEST_CASE("the first frame shall show the grains that are there in the void frac
       CAPTURE(voidage);
       const TemporaryFolder folder;
       run(folder, scenario(emitter, voidage));
-      const dust::io::H5Source source(folder / "out" / "results.h5");
+      const dust::report::H5Source source(folder / "out" / "results.h5");
       const std::vector<std::string> frames = source.frames("/fluid");
       REQUIRE(frames.size() == 4);
       const Solids first = solids_of(source, frames[0]);
@@ -113,7 +113,7 @@ TEST_CASE("the first frame shall show the grains that are there in the void frac
 TEST_CASE("grains that lie there from the start shall push no air aside in the first step") {
   const TemporaryFolder folder;
   run(folder, scenario(k_block, "divided"));
-  const dust::io::H5Source source(folder / "out" / "results.h5");
+  const dust::report::H5Source source(folder / "out" / "results.h5");
   for (const std::string& frame : source.frames("/fluid")) {
     double fastest = 0.0;
     for (const float u : source.floats("/fluid/" + frame + "/velocity")) {

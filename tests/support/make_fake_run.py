@@ -149,8 +149,9 @@ def outline():
     return [{"body": "belt", "polygons": [ring]}]
 
 
-def figure(value, unit, error=None):
-    return {"value": value, "unit": unit, "uncertainty": error}
+def figure(value, unit, error=None, role="detail", quantity="", **more):
+    entry = {"value": value, "unit": unit, "uncertainty": error, "role": role}
+    return entry | ({"quantity": quantity} if quantity else {}) | more
 
 
 def write_text(folder, status, end, released, inside, with_fluid, rng):
@@ -159,8 +160,9 @@ def write_text(folder, status, end, released, inside, with_fluid, rng):
     quant = {"quantile_5": [], "median": [], "quantile_95": []}
     for h in drops:
         middle = BELT * math.sqrt(2 * h / G) * 0.95
-        for name, value in (("quantile_5", middle - 0.004 - 0.08 * h), ("median", middle), ("quantile_95", middle + 0.003 + 0.05 * h)):
-            stream[f"drop_{round(h * 1000)}_mm/{name}"] = figure(value, "m", 0.0003)
+        for name, p, value in (("quantile_5", 0.05, middle - 0.004 - 0.08 * h), ("median", 0.5, middle),
+                               ("quantile_95", 0.95, middle + 0.003 + 0.05 * h)):
+            stream[f"drop_{round(h * 1000)}_mm/{name}"] = figure(value, "m", 0.0003, "stream_quantile", "length", probability=p, drop_m=h)
             quant[name].append(value)
     mass = released * 1.18e-7
     left = released - inside
@@ -177,13 +179,21 @@ def write_text(folder, status, end, released, inside, with_fluid, rng):
         "limits": {"void_fraction_floor": 1834, "cfl_substeps": 212, "overlap_above_5_percent": 0, "lost_grains": 0},
         "sensors": {
             "stream": stream,
-            "loose_dust": {"grams_per_tonne": figure(0.0137, "g/t", 0.0021), "mass_concentration": figure(3.1e-7, "kg/m3", 4.2e-8),
+            "left": {"observed_time": figure(0.15, "s", None, "observed_time", "time", towards="emission"),
+                     "class_10_um/forward/number_rate": figure(61.9, "1/s", 37.0, "opening", "number_rate", direction="forward", diameters_m=[1e-5, 1e-5]),
+                     "class_10_um/net/grams_per_tonne": figure(0.0143, "g/t", 0.0086, "opening", "mass_per_load", direction="net", diameters_m=[1e-5, 1e-5],
+                                                               towards="emission")},
+            "loose_dust": {"grams_per_tonne": figure(0.0137, "g/t", 0.0021, "stock", "mass_per_load", diameters_m=[0.0, 1e-4]), "mass_concentration": figure(3.1e-7, "kg/m3", 4.2e-8),
                            "number_concentration": figure(2.3e5, "1/m3", 3.1e4)},
-            "carry_back": {"grams_per_tonne": figure(310.0, "g/t", 25.0), "class_10_um/grams_per_tonne": figure(0.0042, "g/t", 0.0011),
-                           "class_300_um/grams_per_tonne": figure(309.9, "g/t", 25.0)},
-            "suction": {"found": figure(2, "1"), "place_1/x": figure(0.0551, "m"), "place_1/z": figure(0.075, "m"),
-                        "place_1/depth": figure(0.392, "Pa", 0.014), "place_2/x": figure(0.215, "m"),
-                        "place_2/z": figure(0.12, "m"), "place_2/depth": figure(0.218, "Pa", 0.02)},
+            "carry_back": {name: figure(value, "g/t", error, "passage", "mass_per_load", direction="forward", towards="carry_back", **sizes)
+                           for name, value, error, sizes in (("grams_per_tonne", 310.0, 25.0, {}),
+                                                             ("class_10_um/grams_per_tonne", 0.0042, 0.0011, {"diameters_m": [1e-5, 1e-5]}),
+                                                             ("class_300_um/grams_per_tonne", 309.9, 25.0, {"diameters_m": [3e-4, 3e-4]}))},
+            "suction": {"found": figure(2, "1")} | {
+                f"place_{n}/{name}": figure(value, unit, error, "low_pressure", quantity, index=n)
+                for n, x, z, depth, scatter in ((1, 0.0551, 0.075, 0.392, 0.014), (2, 0.215, 0.12, 0.218, 0.02))
+                for name, value, unit, error, quantity in (("x", x, "m", None, "x"), ("z", z, "m", None, "z"),
+                                                           ("depth", depth, "Pa", scatter, "depth_of_pressure"))},
             "lip": {"forward/mass_rate": figure(0.00598, "kg/s", 2e-5)},
         },
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
 #include "commands.hpp"
-#include "io/compare.hpp"
+#include "report/compare.hpp"
 
 #include <cstdio>
 
@@ -22,9 +22,9 @@ void add_compare(CLI::App& app, int&) {
   command->footer(
       "Example:\n  engine compare results/transfer_point results/transfer_point-2 -o both.html");
   command->callback([arguments] {
-    const auto comparison = io::compare_runs(arguments->first, arguments->second);
-    io::write_comparison(comparison, arguments->first, arguments->second, arguments->page);
-    std::fputs(io::comparison_text(comparison).c_str(), stdout);
+    const auto comparison = report::compare_runs(arguments->first, arguments->second);
+    report::write_comparison(comparison, arguments->first, arguments->second, arguments->page);
+    std::fputs(report::comparison_text(comparison).c_str(), stdout);
     std::printf("page: %s\n", arguments->page.c_str());
   });
 }

@@ -100,8 +100,9 @@ Dust.air = (() => {
 
   // The places a sensor found, or else the lowest cell of the frame.
   const paint_lowest = (pen, picture) => {
-    for (const place of Dust.data.places) Dust.ring(pen, picture.x(place.x), picture.z(place.z), place.name);
-    if (Dust.data.places.length) return;
+    const places = (Dust.data.extraction || {places: []}).places;
+    for (const place of places) Dust.ring(pen, picture.x(place.x), picture.z(place.z), place.name);
+    if (places.length) return;
     let place = -1, lowest = 127;
     for (let k = 0; k < cells; ++k) {
       if (current.pressure[k] < lowest) {
@@ -118,7 +119,7 @@ Dust.air = (() => {
   const checkbox = document.getElementById('air-dust');
   let tables = {};
   const make_tables = () => {
-    tables = {speed: Dust.table(Dust.speed_colour, 0), pressure: Dust.table(Dust.pressure_colour, -1)};
+    tables = {speed: Dust.colour_table(Dust.speed_colour, 0), pressure: Dust.colour_table(Dust.pressure_colour, -1)};
   };
   make_tables();
   Dust.redraw.push(make_tables);

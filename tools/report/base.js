@@ -1,6 +1,6 @@
 'use strict';
 // What all parts of the page share. Text from the run only ever enters through textContent.
-const Dust = {data: JSON.parse(document.getElementById('run-data').textContent), redraw: []};
+const Dust = {data: JSON.parse(document.getElementById('run-data').textContent), redraw: [], later: []};
 
 Dust.fail = (error) => {
   const root = document.documentElement;
@@ -38,38 +38,7 @@ Dust.set_theme = (theme) => {
   for (const draw of Dust.redraw) draw();
 };
 
-// Numbers as on paper: a true minus, four digits, powers of ten raised by Unicode.
-Dust.number = (value, digits = 4) => {
-  if (value === null || !Number.isFinite(value)) return '–';
-  const size = Math.abs(value);
-  if (size !== 0 && (size < 1e-3 || size >= 1e6)) {
-    const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
-    const raised = String(+exponent).replace('-', '⁻').replace(/\d/g, (d) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[d]);
-    return String(+mantissa).replace('-', '−') + ' × 10' + raised;
-  }
-  return String(+value.toPrecision(digits)).replace('-', '−');
-};
-Dust.count = (value) => String(value).replace(/\B(?=(\d{3})+$)/g, '\u202f');
-Dust.words = (name) => String(name).replace(/_/g, ' ').replace(/ um(?=$|\W)/g, ' µm').replace(/(\w)\/([a-z]{3,})/g, '$1 / $2');  // m/s stays
-Dust.sentence = (name) => Dust.words(name).replace(/^./, (c) => c.toUpperCase());
-
-// The unit that reads best for numbers up to `largest`: {factor, unit}.
-Dust.scale = (unit, largest) => {
-  const ladder = {
-    'm': [['m', 1], ['mm', 1e-3], ['µm', 1e-6]],
-    's': [['s', 1], ['ms', 1e-3]],
-    'kg': [['kg', 1], ['g', 1e-3], ['mg', 1e-6], ['µg', 1e-9], ['ng', 1e-12]],
-    'kg/s': [['kg/s', 1], ['g/s', 1e-3], ['mg/s', 1e-6], ['µg/s', 1e-9], ['ng/s', 1e-12]],
-    'kg/m3': [['kg/m³', 1], ['g/m³', 1e-3], ['mg/m³', 1e-6], ['µg/m³', 1e-9], ['ng/m³', 1e-12]],
-    'J': [['J', 1], ['mJ', 1e-3], ['µJ', 1e-6], ['nJ', 1e-9]],
-  }[unit];
-  if (!ladder) return {factor: 1, unit: unit.replace(/m3/g, 'm³').replace(/m2/g, 'm²').replace(/s2/g, 's²')};
-  for (const [name, factor] of ladder) {
-    // Lengths of the picture's size read better in mm.
-    if (largest >= factor || name === ladder.at(-1)[0]) return {factor, unit: name};
-  }
-  return {factor: 1, unit};
-};
+Object.assign(Dust, Numbers);
 
 // Round steps for about `wanted` ticks in [low, high].
 Dust.ticks = (low, high, wanted) => {
@@ -80,4 +49,28 @@ Dust.ticks = (low, high, wanted) => {
   const list = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) list.push(+(k * step).toPrecision(12));
   return list;
+};
+
+// Saves text or a canvas as a file of the reader's.
+Dust.save = (name, blob) => {
+  const link = Dust.el('a', {href: URL.createObjectURL(blob), download: name});
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+};
+Dust.save_canvas = (name, canvas) => {
+  // On the paper of the theme: a picture without ground is of no use elsewhere.
+  const copy = Dust.el('canvas', {width: canvas.width, height: canvas.height}), pen = copy.getContext('2d');
+  pen.fillStyle = Dust.colour('paper');
+  pen.fillRect(0, 0, copy.width, copy.height);
+  pen.drawImage(canvas, 0, 0);
+  copy.toBlob((blob) => Dust.save(name, blob));
+};
+Dust.file_name = (text) => text.toLowerCase().replace(/[^a-z0-9]+/g, '_').replace(/^_|_$/g, '') || 'figure';
+// Columns of different length, RFC 4180.
+Dust.csv = (heads, columns) => {
+  const field = (v) => (v === null || v === undefined ? '' : /[",\n]/.test(String(v)) ? `"${String(v).replace(/"/g, '""')}"` : String(v));
+  const rows = Math.max(...columns.map((c) => c.length), 0);
+  const lines = [heads.map(field).join(',')];
+  for (let k = 0; k < rows; ++k) lines.push(columns.map((c) => field(c[k])).join(','));
+  return lines.join('\r\n') + '\r\n';
 };

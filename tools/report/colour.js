@@ -44,7 +44,7 @@ Dust.grain_speed_colour = (t) => (Dust.theme() === 'dark' ? Dust.oklch(0.5 + 0.4
 Dust.css = (rgb) => `rgb(${rgb[0]},${rgb[1]},${rgb[2]})`;
 
 // The 256 colours of a map as RGBA bytes; 255 is a masked cell and stays clear.
-Dust.table = (colour_of, low) => {
+Dust.colour_table = (colour_of, low) => {
   const bytes = new Uint8ClampedArray(1024);
   for (let k = 0; k < 255; ++k) bytes.set([...colour_of(low + (1 - low) * k / 254), 255], 4 * k);
   return bytes;

@@ -54,7 +54,7 @@
       }
     };
     const picture = new Dust.Picture(box, 'Grains and air of ' + run.name, (pen, self) => {
-      self.table = Dust.table(Dust.speed_colour, 0);
+      self.table = Dust.colour_table(Dust.speed_colour, 0);
       pen.fillStyle = Dust.colour(air ? 'body' : 'raised');
       pen.fillRect(self.place.left, self.place.top, self.place.inner, self.place.height);
       if (shown && shown.air) paint_air(pen, self);

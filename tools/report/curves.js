@@ -76,8 +76,12 @@
   };
   const is_zero = (list) => list.every((v) => !v);
   const zeros = new Set(), drawn = new Set();
-  // Sensors of dust share a plot: their amounts compare.
-  const is_dust = (sensor) => /dust/.test(sensor);
+  // Sensors that speak of dust share a plot: their amounts compare.
+  const dust = Dust.data.dust || {openings: [], passages: [], stocks: []};
+  const of_dust = new Set([...dust.openings, ...dust.passages, ...dust.stocks].map((f) => f.sensor));
+  const is_dust = (sensor) => of_dust.has(sensor);
+  const roles = Dust.data.summary.series_roles || {};
+  const role_of = (column) => roles[`${column.name} [${column.unit}]`] || {};
   const say_zeros = () => {
     const still = [...zeros].filter((sensor) => !drawn.has(sensor));
     if (!still.length) return;
@@ -126,22 +130,23 @@
   const columns = Dust.data.series;
   const clock = columns.find((c) => /^(t|time)$/i.test(c.name)) || columns[0];
   if (!clock || clock.values.length < 2 || !ascending(clock.values)) return say_zeros();
-  const sensors = [...Dust.data.sensors].sort((a, b) => b.length - a.length);
+  const sensors = Object.keys(Dust.data.summary.sensors || {}).sort((a, b) => b.length - a.length);
   const sensor_of = (name) => sensors.find((s) => name.startsWith(s) && /^[ /._:]/.test(name.slice(s.length))) || '';
   // A sensor's own curve against time already tells what its column of the same unit repeats.
   const told_by_curve = new Set(shown.filter((c) => /^time/i.test(c.x_label || '')).map((c) => c.sensor + '\n' + split_label(c.y_label).unit));
+  const of_stream = new Set(Object.entries(Dust.data.summary.sensors || {}).filter(([, figures]) => Object.values(figures || {}).some((f) => f && f.role === 'stream_quantile')).map(([sensor]) => sensor));
   const told = columns.filter((c) => c !== clock).map((c) => {
     const sensor = sensor_of(c.name);
     return {...c, sensor, short: sensor ? c.name.slice(sensor.length + 1) : c.name};
   }).filter((c) => {
     // What the path of the stream already shows, as running means.
-    if (c.sensor && /^drop_/.test(c.short)) return false;
+    if (of_stream.has(c.sensor)) return false;
     if (c.sensor && is_zero(c.values)) {
       zeros.add(c.sensor);
       return false;
     }
     if (c.sensor) drawn.add(c.sensor);
-    return !(is_dust(c.sensor) && c.short === 'number');  // its mass tells
+    return !(is_dust(c.sensor) && role_of(c).quantity === 'number');  // its mass tells
   }).filter((c) => c.values.some((v) => v !== null) && !told_by_curve.has(c.sensor + '\n' + c.unit));
   for (const group of by(told, (c) => (is_dust(c.sensor) ? 'dust' : c.sensor) + '\n' + c.unit)) {
     const has_many = new Set(group.map((c) => c.sensor)).size > 1;

@@ -2,7 +2,7 @@
 #   cmake -DOUTPUT=x.cpp -DFILES=a.js|b.css -P embed.cmake
 # The names seen by the program are the bare file names.
 string(REPLACE "|" ";" files "${FILES}")
-set(source "// Written by tools/report/embed.cmake; do not edit.\n#include \"io/report_assets.hpp\"\n\n")
+set(source "// Written by tools/report/embed.cmake; do not edit.\n#include \"report/assets.hpp\"\n\n")
 set(cases "")
 set(number 0)
 foreach(file IN LISTS files)
@@ -16,5 +16,5 @@ foreach(file IN LISTS files)
   string(APPEND cases "  if (name == \"${name}\") return {k_file_${number}, sizeof k_file_${number} - 1};\n")
   math(EXPR number "${number} + 1")
 endforeach()
-string(APPEND source "\nnamespace dust::io {\n\nstd::string_view report_asset(std::string_view name) {\n${cases}  return {};\n}\n\n}  // namespace dust::io\n")
+string(APPEND source "\nnamespace dust::report {\n\nstd::string_view report_asset(std::string_view name) {\n${cases}  return {};\n}\n\n}  // namespace dust::report\n")
 file(WRITE "${OUTPUT}" "${source}")

@@ -1,15 +1,40 @@
 'use strict';
 // Mean pressure with the places of low pressure, and where the dust is.
-(() => {
+Dust.sections.extraction = ({extraction, air, dust_map, dust}) => {
+  if (!extraction) return null;
+  const {places, first, reach_m} = extraction, {el} = Dust;
+  const has_shares = places.some((place) => place.dust_share !== null);
+  const columns = [{title: 'Ring'}, {title: 'x', number: true}, {title: 'z', number: true}, {title: 'Mean pressure', number: true},
+    ...(has_shares ? [{title: `Dust within ${Dust.quantity(reach_m, -1, 'm')}`, number: true}] : []), {title: ''}];
+  const rows = places.map((place, k) => [place.name, `${Dust.number(place.x * 1e3, 3)}\u202fmm`, `${Dust.number(place.z * 1e3, 3)}\u202fmm`, Dust.depth(place),
+    ...(has_shares ? [place.dust_share === null ? Dust.dash : Dust.percent(place.dust_share)] : []),
+    k === first && place.dust_share > 0 ? Dust.strong('extract here first') : '']);
+  const map = (id, title, text) => el('figure', {}, el('div', {class: 'picture', id: id + '-picture'}), el('div', {id: id + '-legend', class: 'key'}),
+    el('figcaption', {}, el('b', {}, title), text));
+  const maps = [];
+  if (air) maps.push(map('mean-pressure', 'Mean pressure', ' over the second half of the run, in Pa. Rings: places of low mean pressure, the deepest is 1.'));
+  if (dust_map) {
+    maps.push(map('dust-map', 'Where the dust is', ', mean over the frames of the second half of the run: share of the dust in the domain per cm² of the side view, logarithmic.'
+      + (dust && dust.partings.length ? ' Squares: where it parted from the load, in per cent of the loose dust.' : '')));
+  }
+  return Dust.section('extraction', 'Where to extract',
+    Dust.p({}, 'Suction works with the flow where the pressure is low on its own, and removes most where dust lingers. Ranked by mean pressure; extract first where, among places surely '
+      + 'below zero, most dust is near.'),
+    Dust.table(columns, rows, {look: 'narrow', label: 'Places of low pressure'}),
+    Dust.p({class: 'note'}, "Mean pressure with one standard error, over the sensor's averaging time and depth. Dust riding on a surface near by counts as near."),
+    maps.length ? el('div', {class: 'pair'}, ...maps) : null);
+};
+Dust.draw_extraction = () => {
   const rings = (pen, picture) => {
-    for (const place of Dust.data.places) Dust.ring(pen, picture.x(place.x), picture.z(place.z), place.name);
+    for (const place of (Dust.data.extraction || {places: []}).places) Dust.ring(pen, picture.x(place.x), picture.z(place.z), place.name);
   };
   // Where dust parted from the load, with its share.
   const squares = (pen, picture) => {
     pen.textAlign = 'center';
     pen.textBaseline = 'middle';
     pen.font = '11px ' + Dust.colour('sans');
-    for (const {x, z, side, share} of Dust.data.partings || []) {
+    for (const {x, z, side, share} of (Dust.data.dust || {partings: []}).partings) {
+      if (share < 0.02) continue;  // the squares that matter
       const size = side * picture.place.scale, left = picture.x(x) - size / 2, top = picture.z(z) - size / 2;
       pen.strokeStyle = pen.fillStyle = Dust.colour('ink');
       pen.lineWidth = 1;
@@ -93,4 +118,4 @@
   };
   Dust.redraw.push(draw);
   draw();
-})();
+};

@@ -1,7 +1,7 @@
 'use strict';
 // The task graph as a picture: nodes in the layer of their longest way from a start, edges downward.
 (() => {
-  const text = Dust.data.graph, place = document.getElementById('graph-picture');
+  const text = Dust.data.graph_dot, place = document.getElementById('graph-picture');
   if (!text || !place) return;
   const name = '("(?:[^"\\\\]|\\\\.)*"|[\\w.]+)';
   const bare = (quoted) => quoted.replace(/^"|"$/g, '').replace(/\\(.)/g, '$1');

@@ -7,7 +7,9 @@ Dust.Picture = class {
     this.whole = scene.view;
     this.view = [...this.whole];
     this.canvas = Dust.el('canvas', {role: 'img', 'aria-label': label});
-    parent.append(this.canvas);
+    const as_png = Dust.el('button', {type: 'button', 'aria-label': `${label} as PNG`}, 'PNG');
+    as_png.addEventListener('click', () => Dust.save_canvas(Dust.file_name(label).slice(0, 60) + '.png', this.canvas));
+    parent.append(this.canvas, Dust.el('div', {class: 'downloads screen'}, as_png));
     this.parent = parent;
     // Drawn in the next frame: a canvas that changes its own box must not do so inside the observer.
     new ResizeObserver(() => requestAnimationFrame(() => this.draw())).observe(parent);

@@ -1,8 +1,8 @@
 'use strict';
 // Plots with uPlot, for any page. `Dust.plot(parent, {title, sensor, x_label, y_label, unit, note, lines})` adds one
 // figure; lines: [{name, x, y, low, high, kind}] with x ascending, null for a gap. `low` and `high` are a band, or
-// bars where the kind is 'points'; a 'reference' is dashed and stands behind. Everything under Dust.data.plots is
-// drawn into the elements that name it by data-plots.
+// bars where the kind is 'points'; a 'reference' is dashed and stands behind. `Dust.readable_plot` takes numbers in SI
+// units and shows them in the unit that reads best.
 (() => {
   const ink_of = (k) => Dust.colour('plot' + (k % 6 + 1));
   const capital = (text) => text.replace(/^./, (c) => c.toUpperCase());
@@ -31,8 +31,19 @@
       ` ${capital(y_label)}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '', note ? ' ' + note.trim() : '');
     if (lines.some((line) => line.low && line.kind !== 'points')) caption.append(' Band: one standard error to either side.');
     if (lines.some((line) => line.low && line.kind === 'points')) caption.append(' Bars: one standard error to either side.');
-    const key = Dust.el('div', {class: 'legend'});
-    parent.append(Dust.el('figure', {}, Dust.el('div', {class: 'axis-unit'}, unit), holder, lines.length > 1 ? key : '', caption));
+    const key = Dust.el('div', {class: 'legend', 'aria-hidden': lines.length > 1 ? 'false' : 'true'});
+    const file = Dust.file_name(sensor + ' ' + title);
+    const as_csv = Dust.el('button', {type: 'button', 'aria-label': `Numbers of ${Dust.sentence(title)} as CSV`}, 'CSV');
+    as_csv.addEventListener('click', () => {
+      const heads = lines.flatMap((line) => [`${line.name}: ${x_label}`, `${line.name}: ${y_label}${unit && !y_label.includes(unit) ? ', ' + unit : ''}`,
+        ...(line.low ? [`${line.name}: low`, `${line.name}: high`] : [])]);
+      const columns = lines.flatMap((line) => [line.x, line.y, ...(line.low ? [line.low, line.high] : [])]);
+      Dust.save(file + '.csv', new Blob([Dust.csv(heads, columns)], {type: 'text/csv'}));
+    });
+    const as_png = Dust.el('button', {type: 'button', 'aria-label': `Picture of ${Dust.sentence(title)} as PNG`}, 'PNG');
+    as_png.addEventListener('click', () => Dust.save_canvas(file + '.png', holder.querySelector('canvas')));
+    const downloads = Dust.el('div', {class: 'downloads screen'}, as_csv, as_png);
+    parent.append(Dust.el('figure', {}, Dust.el('div', {class: 'axis-unit'}, unit), holder, key, caption, downloads));
 
     const data = uPlot.join(lines.map((line) => [line.x, line.y, ...(line.low ? [line.low, line.high] : [])]));
     const make = () => {
@@ -57,19 +68,21 @@
         swatch.style.background = is_reference ? `repeating-linear-gradient(90deg, ${colour} 0 5px, transparent 5px 8px)` : colour;
         keys.push(Dust.el('span', {}, swatch, Dust.words(line.name)));
       }
-      key.replaceChildren(...keys);
+      const reading = Dust.el('span', {class: 'reading'});
+      key.replaceChildren(...keys, reading);
       holder.replaceChildren();
-      return new uPlot({width: Math.max(holder.clientWidth, 200), height, series, bands, padding: [10, 10, 0, 0],
+      return new uPlot({width: Math.max(holder.clientWidth, 200), height, series, bands, padding: [10, 18, 0, 0],
         legend: {show: false}, cursor: {points: {show: false}, drag: {x: true, y: false}}, scales: {x: {time: false}},
         axes: [{...axis, size: 28, label: x_label, labelSize: 18, labelGap: 0, labelFont: axis.font}, {...axis, size: 58}],
         hooks: {draw: [bars_hook(bars)], setCursor: [(u) => {
           const k = u.cursor.idx;
+          reading.textContent = k === null || k === undefined ? '' : `at ${Dust.number(u.data[0][k])} (${x_label})`;
           if (k === null || k === undefined) return;
           let at = 1;
           lines.forEach((line, n) => {
             const value = u.data[at][k];
             at += line.low ? 3 : 1;
-            keys[n].lastChild.textContent = Dust.words(line.name) + (value === null || value === undefined ? '' : ': ' + Dust.number(value));
+            keys[n].lastChild.textContent = Dust.words(line.name) + (value === null || value === undefined ? '' : ': ' + Dust.number(value) + (unit ? ' ' + unit : ''));
           });
         }]}}, data, holder);
     };
@@ -91,7 +104,5 @@
     const shown = (list) => list && list.map((v) => (v === null ? null : v / scale.factor));
     return {...plot, unit: scale.unit, lines: plot.lines.map((line) => ({...line, y: shown(line.y), low: shown(line.low), high: shown(line.high)}))};
   };
-  for (const grid of document.querySelectorAll('[data-plots]')) {
-    for (const plot of (Dust.data.plots || {})[grid.dataset.plots] || []) Dust.plot(grid, readable(plot));
-  }
+  Dust.readable_plot = (parent, plot) => Dust.plot(parent, readable(plot));
 })();

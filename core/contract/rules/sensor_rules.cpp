@@ -2,13 +2,14 @@
 // Rules of sensors: figures with names, units and errors, nothing from nothing, and the same
 // figures through an interruption.
 #include "contract/as_kind.hpp"
-#include "contract/rule_runner.hpp"
 #include "contract/memory_archive.hpp"
+#include "contract/rule_runner.hpp"
 #include "contract/scenes/sensor_stream.hpp"
 #include "scenario/units.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <set>
 
 namespace dust::contract {
@@ -18,6 +19,30 @@ constexpr int k_samples = 90;
 
 /// Figures that are ratios of the same quantity, or counts.
 bool is_bare(const std::string& unit) { return unit == "1" || unit == "-" || unit == "g/t"; }
+
+/// What a figure is, as a text.
+std::string role_of(const Figure& figure) {
+  const sdk::FigureRole& r = figure.role;
+  return std::string(sdk::name_of(r.role)) + "," + std::string(sdk::info_of(r.quantity).name) +
+         "," + std::string(sdk::name_of(r.direction)) + "," + shown(r.smallest) + "," +
+         shown(r.largest) + "," + figure.species + "," + figure.towards + "," +
+         shown(r.probability) + "," + shown(r.drop) + "," + std::to_string(r.index);
+}
+
+/// The roles of all, to see that they stay.
+std::string roles_of(const Figures& figures) {
+  std::string text;
+  for (const auto& [name, figure] : figures.all()) text += name + ":" + role_of(figure) + ";";
+  return text;
+}
+
+/// A text as a number that another text hardly has (Fowler, Noll and Vo): parameters that change
+/// nothing but roles matter as well.
+double number_of(const std::string& text) {
+  std::uint64_t sum = 14695981039346656037ull;
+  for (const char c : text) sum = (sum ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+  return static_cast<double>(sum % 1000003);
+}
 
 void add(Observations& observations, const std::string& from, const Figures& figures) {
   for (const auto& [name, figure] : figures.all()) {
@@ -33,6 +58,8 @@ void add(Observations& observations, const std::string& from, const Figures& fig
     if (figure.uncertainty < 0.0) r.dimension = sdk::dimension::none;
     r.value = figure.uncertainty;
     observations.push_back(r);
+    observations.push_back(
+        {from + name + " (role)", number_of(role_of(figure)), sdk::dimension::none});
   }
 }
 
@@ -74,7 +101,7 @@ Observations observe(const Maker& make, const TestVariant& variant) {
 class FieldList final : public sdk::FieldSink {
  public:
   void field(std::string_view name, std::string_view unit, const sdk::GridShape& grid,
-             std::span<const double> values) override {
+             std::span<const double> values, const sdk::FigureRole&) override {
     const std::string what = "the field '" + std::string(name) + "' ";
     require(!unit.empty(), what + "has no unit; a bare number has \"1\"");
     require(grid.count[0] > 0 && grid.count[1] > 0 && grid.count[2] > 0, what + "has no cells");
@@ -130,6 +157,56 @@ void check_names(const Maker& make) {
   if (!unknown.empty()) throw Remark("units the engine does not know:" + unknown);
 }
 
+/// What must hold of the role of one figure.
+void check_role(const std::string& name, const Figure& figure) {
+  const sdk::FigureRole& role = figure.role;
+  const std::string what = "'" + name + "' ";
+  const sdk::QuantityInfo quantity = sdk::info_of(role.quantity);
+  const bool is_known = role.quantity != sdk::Quantity::unspecified;
+  require(is_known || role.role == sdk::Role::detail,
+          what + "has the role " + std::string(sdk::name_of(role.role)) + " but no quantity");
+  if (is_known) {
+    const bool is_bare_number = is_bare(figure.unit);
+    const auto unit = scenario::parse_unit(figure.unit);
+    const bool fits = is_bare_number ? quantity.dimension == sdk::dimension::none
+                                     : !unit || unit->dimension == quantity.dimension;
+    require(fits, what + "is said to be a " + std::string(quantity.name) + ", which has no unit " +
+                      figure.unit);
+    require(
+        (role.quantity == sdk::Quantity::mass_per_load) == (figure.unit == "g/t"),
+        what + "has the unit " + figure.unit + "; mass_per_load is given in g/t, and only that");
+  }
+  require(role.smallest >= 0.0 && (role.largest == 0.0 || role.largest >= role.smallest),
+          what + "counts diameters from " + shown(role.smallest) + " to " + shown(role.largest));
+  const bool is_quantile = role.role == sdk::Role::stream_quantile;
+  require(is_quantile ? role.probability > 0.0 && role.probability < 1.0 : role.probability == 0.0,
+          what + "has the probability " + shown(role.probability) +
+              "; a stream_quantile has one between 0 and 1, nothing else has any");
+  require((role.role == sdk::Role::opening || role.role == sdk::Role::passage) ==
+              (role.direction != sdk::Direction::none),
+          what + "has the direction " + std::string(sdk::name_of(role.direction)) +
+              "; what passes an opening or a place has one, nothing else has any");
+  require(role.role != sdk::Role::low_pressure || role.index >= 1,
+          what + "is a place of low pressure without an index from 1 on");
+}
+
+void check_roles(const Maker& make) {
+  const auto seeing = run(make, {}, false);
+  const auto blind = run(make, {}, true);
+  std::string without;
+  for (const bool is_series : {false, true}) {
+    const Figures figures = is_series ? series_of(*seeing) : summary_of(*seeing);
+    for (const auto& [name, figure] : figures.all()) {
+      check_role(name, figure);
+      if (figure.role.quantity == sdk::Quantity::unspecified) without += " " + name;
+    }
+    require(roles_of(figures) == roles_of(is_series ? series_of(*blind) : summary_of(*blind)),
+            "the roles of its figures depend on what it sees");
+  }
+  if (!without.empty())
+    throw Remark("figures without a quantity, which the report just lists:" + without);
+}
+
 void check_sees(const Maker& make) {
   const auto sensor = run(make, {}, false);
   const Figures figures = summary_of(*sensor);
@@ -162,7 +239,7 @@ void check_nothing(const Maker& make) {
   }
   const Figures nothing = summary_of(*sensor);
   for (const auto& [name, figure] : nothing.all()) {
-    if (name == "observed_time") continue;  // how long it looked is no find
+    if (figure.role.role == sdk::Role::observed_time) continue;  // how long it looked is no find
     require(figure.value == 0.0 && figure.uncertainty <= 0.0,
             "'" + name + "' is " + shown(figure.value) + " in an empty domain");
   }
@@ -248,6 +325,7 @@ void check_thinned(const Maker& make) {
 
 void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
   runner.rule("names its figures and their units", [&] { check_names(make); });
+  runner.rule("says what its figures are", [&] { check_roles(make); });
   runner.rule("sees something in a stream, with errors", [&] { check_sees(make); });
   runner.rule("gives zeros of the same names where there is nothing", [&] { check_nothing(make); });
   runner.rule("loses nothing between rows of series.csv", [&] { check_thinned(make); });

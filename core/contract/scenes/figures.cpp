@@ -5,9 +5,12 @@
 
 namespace dust::contract {
 
-void Figures::figure(std::string_view name, double value, std::string_view unit,
-                     double uncertainty) {
-  figures_.emplace_back(std::string(name), Figure{value, std::string(unit), uncertainty});
+void Figures::figure(std::string_view name, double value, std::string_view unit, double uncertainty,
+                     const sdk::FigureRole& role) {
+  Figure figure{value, std::string(unit),         uncertainty,
+                role,  std::string(role.species), std::string(role.towards)};
+  figure.role.species = figure.role.towards = {};
+  figures_.emplace_back(std::string(name), std::move(figure));
 }
 const Figure& Figures::at(const std::string& name) const {
   for (const auto& [known, figure] : figures_) {

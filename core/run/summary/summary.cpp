@@ -7,6 +7,7 @@
 #include "io/atomic_file.hpp"
 #include "io/run_files.hpp"
 #include "particles/store/balance_book.hpp"
+#include "run/summary/figure_json.hpp"
 #include "run/summary/references.hpp"
 #include "run/summary/summary_emitters.hpp"
 #include "run/summary/summary_models.hpp"
@@ -47,15 +48,16 @@ constexpr const char* k_processor =
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-/// Figures of a sensor as JSON: {"path": {"value", "unit", "uncertainty"}}.
+/// Figures of a sensor as JSON: {"path": {"value", "unit", "uncertainty", "role", ...}}.
 class JsonFigures final : public sdk::FigureSink {
  public:
-  void figure(std::string_view name, double value, std::string_view unit,
-              double uncertainty) override {
-    json_[std::string(name)] = {
-        {"value", number(value)},
-        {"unit", unit},
-        {"uncertainty", uncertainty < 0.0 ? Json(nullptr) : number(uncertainty)}};
+  void figure(std::string_view name, double value, std::string_view unit, double uncertainty,
+              const sdk::FigureRole& role) override {
+    Json& entry = json_[std::string(name)];
+    entry = {{"value", number(value)},
+             {"unit", unit},
+             {"uncertainty", uncertainty < 0.0 ? Json(nullptr) : number(uncertainty)}};
+    entry.update(role_json(role));
   }
   [[nodiscard]] const Json& json() const { return json_; }
 
@@ -67,7 +69,8 @@ class RowFigures final : public sdk::FigureSink {
  public:
   RowFigures(SeriesRow& row, std::string prefix, const sdk::Sensor& sensor)
       : row_(row), prefix_(std::move(prefix)), sensor_(sensor) {}
-  void figure(std::string_view name, double value, std::string_view unit, double) override {
+  void figure(std::string_view name, double value, std::string_view unit, double,
+              const sdk::FigureRole&) override {
     row_.names.push_back(prefix_ + std::string(name) + " [" + std::string(unit) + "]");
     row_.values.push_back(value);
     row_.kinds.push_back(sensor_.row_value(name));
@@ -81,11 +84,10 @@ class RowFigures final : public sdk::FigureSink {
 
 /// What each column of series.csv stands for, however seldom rows are written.
 Json series_columns(const Simulation& s) {
-  static constexpr const char* k_kinds[] = {"instant", "mean", "total"};
   const SeriesRow row = series_row(s);
   Json columns = Json::object();
   for (std::size_t c = 0; c < row.names.size(); ++c) {
-    columns[row.names[c]] = k_kinds[static_cast<int>(row.kinds[c])];
+    columns[row.names[c]] = name_of(row.kinds[c]);
   }
   return columns;
 }
@@ -160,8 +162,8 @@ Json node_times(const Simulation& s, const RunFacts& facts) {
   return times;
 }
 
-/// Which timers belong together, so that nobody has to know their names: those inside `dem_cycle`, and of
-/// them what the particles cost by themselves (all but the fluid's force on them).
+/// Which timers belong together, so that nobody has to know their names: those inside `dem_cycle`,
+/// and of them what the particles cost by themselves (all but the fluid's force on them).
 Json timer_groups(const Simulation& s) {
   Json cycle = Json::array(), particles = Json::array();
   for (const auto& node : s.dem_graph().timings()) {
@@ -310,6 +312,7 @@ Json record_json(const Simulation& s, const RunFacts& facts) {
   j["warnings"] = facts.warnings;
   j["frames"] = facts.frames;
   j["series"] = series_columns(s);
+  j["series_roles"] = series_roles(s);
   j["scenario_sha256"] = facts.scenario_sha256;
   j["state_sha256"] = s.state_digest();
   j["build"] = {{"compiler", k_compiler},
@@ -364,6 +367,11 @@ Json report_json(const Simulation& s, const RunFacts& facts, JsonReport& report)
 }
 
 }  // namespace
+
+const char* name_of(sdk::RowValue kind) {
+  static constexpr const char* k_names[] = {"instant", "mean", "total"};
+  return k_names[static_cast<int>(kind)];
+}
 
 SeriesRow series_row(const Simulation& s) {
   SeriesRow row;

@@ -41,6 +41,9 @@ struct SeriesRow {
 };
 SeriesRow series_row(const Simulation& simulation);
 
+/// What a column stands for, as files name it.
+const char* name_of(sdk::RowValue kind);
+
 /// Writes summary.json and report.json (what the report needs beyond the other files).
 void write_summary(const std::filesystem::path& folder, const Simulation& simulation,
                    const RunFacts& facts);

@@ -91,13 +91,16 @@ class AngleOfRepose final : public sdk::Sensor {
     curve_.add(world.time, values_[0]);
   }
 
-  void series(sdk::FigureSink& sink) const override { sink.figure("angle", values_[0], "deg"); }
+  void series(sdk::FigureSink& sink) const override {
+    sink.figure("angle", values_[0], "deg", sdk::Quantity::angle);
+  }
   void summary(sdk::FigureSink& sink) const override {
-    sink.figure("angle", values_[0], "deg", error_);
+    sink.figure("angle", values_[0], "deg", error_, sdk::detail(sdk::Quantity::angle));
     const double mean = means_.mean(0);
-    sink.figure("mean_angle", mean, "deg", mean > 0.0 ? means_.error(0) : -1.0);
-    sink.figure("residual", values_[1], "m");
-    sink.figure("surface_grains", values_[2], "1");
+    sink.figure("mean_angle", mean, "deg", mean > 0.0 ? means_.error(0) : -1.0,
+                sdk::detail(sdk::Quantity::angle));
+    sink.figure("residual", values_[1], "m", sdk::Quantity::length);
+    sink.figure("surface_grains", values_[2], "1", sdk::Quantity::number);
   }
   void report(sdk::ReportSink& sink) const override {
     sink.curve("Angle of repose", "time [s]", "angle [deg]", "fit", curve_.x(), curve_.y());

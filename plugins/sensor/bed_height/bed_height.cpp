@@ -75,7 +75,8 @@ class BedHeight final : public sdk::Sensor {
   Parameters p_;
   std::vector<double> heights_;
   std::vector<double> masses_;
-  sdk::SampledFigures figures_{{{"height", "m"}, {"twice_centre", "m"}}};
+  sdk::SampledFigures figures_{
+      {{"height", "m", sdk::Quantity::length}, {"twice_centre", "m", sdk::Quantity::length}}};
 };
 
 }  // namespace

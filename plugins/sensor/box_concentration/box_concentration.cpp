@@ -63,21 +63,26 @@ class BoxConcentration final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    sink.figure("mass_concentration", formula::concentration(values_[0], volume_), "kg/m3");
-    sink.figure("mass", values_[0], "kg");
-    sink.figure("number", values_[1], "1");
+    const sdk::FigureRole role = p_.sized(k_stock);
+    sink.figure("mass_concentration", formula::concentration(values_[0], volume_), "kg/m3", -1.0,
+                role.of(sdk::Quantity::mass_concentration));
+    sink.figure("mass", values_[0], "kg", -1.0, role.of(sdk::Quantity::mass));
+    sink.figure("number", values_[1], "1", -1.0, role.of(sdk::Quantity::number));
   }
 
   void summary(sdk::FigureSink& sink) const override {
-    figures_of("", 0, sink);
-    sink.figure("mass_at_end", values_[0], "kg");
+    const sdk::FigureRole role = p_.sized(k_stock);
+    figures_of("", 0, role, sink);
+    sink.figure("mass_at_end", values_[0], "kg", -1.0, role.of(sdk::Quantity::mass));
     // Grains come one by one: the mass present scatters like a sum of independent grains.
     const double scatter = values_[0] > 0.0 ? std::sqrt(squares_) : -1.0;
     sink.figure("grams_per_tonne", formula::grams_per_tonne(values_[0], emitted_mass_), "g/t",
-                scatter < 0.0 ? -1.0 : formula::grams_per_tonne(scatter, emitted_mass_));
+                scatter < 0.0 ? -1.0 : formula::grams_per_tonne(scatter, emitted_mass_),
+                role.of(sdk::Quantity::mass_per_load));
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (!p_.takes(classes_[c])) continue;
-      figures_of(sdk::class_name(classes_[c]) + "/", k_totals + k_per_class * c, sink);
+      figures_of(sdk::class_name(classes_[c]) + "/", k_totals + k_per_class * c,
+                 k_stock.sizes(classes_[c], classes_[c]), sink);
     }
   }
 
@@ -105,6 +110,7 @@ class BoxConcentration final : public sdk::Sensor {
   }
 
  private:
+  static constexpr sdk::FigureRole k_stock{.role = sdk::Role::stock};
   static constexpr std::size_t k_totals = 2;     ///< mass [kg], number
   static constexpr std::size_t k_per_class = 2;  ///< the same by class
 
@@ -113,14 +119,17 @@ class BoxConcentration final : public sdk::Sensor {
            g.z[i] >= p_.min.z && g.z[i] < p_.max.z;
   }
 
-  void figures_of(const std::string& prefix, std::size_t column, sdk::FigureSink& sink) const {
+  void figures_of(const std::string& prefix, std::size_t column, const sdk::FigureRole& role,
+                  sdk::FigureSink& sink) const {
     const double mass = means_.mean(column);
     const double error = mass > 0.0 ? means_.error(column) : -1.0;
     const double number_error = mass > 0.0 ? means_.error(column + 1) : -1.0;
     sink.figure(prefix + "mass_concentration", formula::concentration(mass, volume_), "kg/m3",
-                error < 0.0 ? -1.0 : formula::concentration(error, volume_));
+                error < 0.0 ? -1.0 : formula::concentration(error, volume_),
+                role.of(sdk::Quantity::mass_concentration));
     sink.figure(prefix + "number_concentration", means_.mean(column + 1) / volume_, "1/m3",
-                number_error < 0.0 ? -1.0 : number_error / volume_);
+                number_error < 0.0 ? -1.0 : number_error / volume_,
+                role.of(sdk::Quantity::number_concentration));
   }
 
   Parameters p_;

@@ -96,7 +96,9 @@ class Bubbles final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    for (std::size_t n = 0; n < k_columns; ++n) sink.figure(k_names[n], values_[n], k_units[n]);
+    for (std::size_t n = 0; n < k_columns; ++n) {
+      sink.figure(k_names[n], values_[n], k_units[n], k_quantities[n]);
+    }
   }
   void summary(sdk::FigureSink& sink) const override {
     const auto error = [&](std::size_t n) {
@@ -105,10 +107,10 @@ class Bubbles final : public sdk::Sensor {
     const auto ratio = [&](std::size_t above, std::size_t below) {
       return means_.mean(below) > 0.0 ? means_.mean(above) / means_.mean(below) : 0.0;
     };
-    sink.figure("number", means_.mean(0), "1", error(0));
-    sink.figure("volume_share", means_.mean(1), "1", error(1));
-    sink.figure("diameter", ratio(2, 0), "m");
-    sink.figure("rise_velocity", ratio(4, 3), "m/s");
+    sink.figure("number", means_.mean(0), "1", error(0), sdk::detail(k_quantities[0]));
+    sink.figure("volume_share", means_.mean(1), "1", error(1), sdk::detail(k_quantities[1]));
+    sink.figure("diameter", ratio(2, 0), "m", k_quantities[2]);
+    sink.figure("rise_velocity", ratio(4, 3), "m/s", k_quantities[3]);
   }
   void report(sdk::ReportSink& sink) const override {
     sink.curve("Bubbles", "time [s]", "share of the box [1]", "bubbles", curve_.x(), curve_.y());
@@ -252,6 +254,8 @@ class Bubbles final : public sdk::Sensor {
   static constexpr const char* k_names[k_columns] = {"number", "volume_share", "diameter",
                                                      "rise_velocity"};
   static constexpr const char* k_units[k_columns] = {"1", "1", "m", "m/s"};
+  static constexpr sdk::Quantity k_quantities[k_columns] = {
+      sdk::Quantity::number, sdk::Quantity::ratio, sdk::Quantity::length, sdk::Quantity::velocity};
 
   Parameters p_;
   int axis_ = 2;

@@ -81,14 +81,14 @@ class CarryBack final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    sink.figure("mass_flow", values_[0], "kg/s");
-    sink.figure("mass", values_[2], "kg");
+    sink.figure("mass_flow", values_[0], "kg/s", -1.0, k_flow.of(sdk::Quantity::mass_rate));
+    sink.figure("mass", values_[2], "kg", -1.0, k_stock.of(sdk::Quantity::mass));
   }
 
   void summary(sdk::FigureSink& sink) const override {
-    figures_of("", 0, sink);
+    figures_of("", 0, 0.0, sink);
     for (std::size_t c = 0; c < classes_.size(); ++c) {
-      figures_of(sdk::class_name(classes_[c]) + "/", c + 1, sink);
+      figures_of(sdk::class_name(classes_[c]) + "/", c + 1, classes_[c], sink);
     }
   }
 
@@ -117,6 +117,9 @@ class CarryBack final : public sdk::Sensor {
 
  private:
   static constexpr std::size_t k_columns = 4;  ///< mass flow, number flow, mass, number
+  static constexpr sdk::FigureRole k_flow{
+      .role = sdk::Role::passage, .direction = sdk::Direction::forward, .towards = "carry_back"};
+  static constexpr sdk::FigureRole k_stock{.role = sdk::Role::stock};
 
   [[nodiscard]] bool is_inside(sdk::Vec3 x) const {
     return x.x >= p_.min.x && x.x < p_.max.x && x.y >= p_.min.y && x.y < p_.max.y &&
@@ -136,23 +139,30 @@ class CarryBack final : public sdk::Sensor {
     return emitted_before_ < 0.0 ? 0.0 : emitted_mass_ - emitted_before_;
   }
 
-  void figures_of(const std::string& prefix, std::size_t group, sdk::FigureSink& sink) const {
+  /// `diameter` of the size class [m]; 0 = all.
+  void figures_of(const std::string& prefix, std::size_t group, double diameter,
+                  sdk::FigureSink& sink) const {
     static constexpr const char* k_names[k_columns] = {"mass_flow", "number_flow", "mean_mass",
                                                        "mean_number"};
     static constexpr const char* k_units[k_columns] = {"kg/s", "1/s", "kg", "1"};
+    static constexpr sdk::FigureRole k_roles[k_columns] = {
+        k_flow.of(sdk::Quantity::mass_rate), k_flow.of(sdk::Quantity::number_rate),
+        k_stock.of(sdk::Quantity::mass), k_stock.of(sdk::Quantity::number)};
     const std::size_t first = k_columns * group;
     const auto error = [&](std::size_t column) {
       return means_.mean(column) > 0.0 ? means_.error(column) : -1.0;
     };
     for (std::size_t q = 0; q < k_columns; ++q) {
-      sink.figure(prefix + k_names[q], means_.mean(first + q), k_units[q], error(first + q));
+      sink.figure(prefix + k_names[q], means_.mean(first + q), k_units[q], error(first + q),
+                  k_roles[q].sizes(diameter, diameter));
     }
     constexpr double k_grams_per_tonne = 1e6;
     const double per_flow =
         emitted() > 0.0 ? k_grams_per_tonne * means_.duration() / emitted() : 0.0;
     const double flow_error = error(first);
     sink.figure(prefix + "grams_per_tonne", means_.mean(first) * per_flow, "g/t",
-                flow_error < 0.0 ? -1.0 : flow_error * per_flow);
+                flow_error < 0.0 ? -1.0 : flow_error * per_flow,
+                k_flow.of(sdk::Quantity::mass_per_load).sizes(diameter, diameter));
   }
 
   Parameters p_;

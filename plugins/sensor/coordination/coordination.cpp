@@ -68,16 +68,17 @@ class Coordination final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    sink.figure("mean", values_[0], "1");
-    sink.figure("mechanical", values_[1], "1");
+    sink.figure("mean", values_[0], "1", sdk::Quantity::ratio);
+    sink.figure("mechanical", values_[1], "1", sdk::Quantity::ratio);
   }
   void summary(sdk::FigureSink& sink) const override {
     static constexpr const char* k_names[k_columns] = {"mean", "mechanical", "rattler_share",
                                                        "wall_contacts_per_grain"};
     for (std::size_t n = 0; n < k_columns; ++n) {
       const double mean = means_.mean(n);
-      sink.figure(k_names[n], mean, "1", mean > 0.0 ? means_.error(n) : -1.0);
-      sink.figure(std::string(k_names[n]) + "_at_end", values_[n], "1");
+      sink.figure(k_names[n], mean, "1", mean > 0.0 ? means_.error(n) : -1.0,
+                  sdk::detail(sdk::Quantity::ratio));
+      sink.figure(std::string(k_names[n]) + "_at_end", values_[n], "1", sdk::Quantity::ratio);
     }
   }
   void report(sdk::ReportSink& sink) const override {

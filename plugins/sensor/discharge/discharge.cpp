@@ -122,8 +122,8 @@ class Discharge final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    sink.figure("mass", sums_[k_mass], "kg");
-    sink.figure("number", sums_[k_number], "1");
+    sink.figure("mass", sums_[k_mass], "kg", -1.0, k_passage.of(sdk::Quantity::mass));
+    sink.figure("number", sums_[k_number], "1", -1.0, k_passage.of(sdk::Quantity::number));
   }
   [[nodiscard]] sdk::RowValue row_value(std::string_view) const override {
     return sdk::RowValue::total;
@@ -132,16 +132,20 @@ class Discharge final : public sdk::Sensor {
     const auto rate = formula::middle_rate(time_, mass_, p_.from_share, p_.to_share);
     const auto numbers = formula::middle_rate(time_, number_, p_.from_share, p_.to_share);
     const double expected = expected_rate();
-    sink.figure("mass", sums_[k_mass], "kg");
-    sink.figure("number", sums_[k_number], "1");
-    sink.figure("time", has_passed() ? sums_[k_last] - p_.opened_at : 0.0, "s");
-    sink.figure("duration", has_passed() ? sums_[k_last] - sums_[k_first] : 0.0, "s");
-    sink.figure("rate", rate.value, "kg/s", rate.error);
-    sink.figure("number_rate", numbers.value, "1/s", numbers.error);
-    sink.figure("beverloo_rate", expected, "kg/s");
+    sink.figure("mass", sums_[k_mass], "kg", -1.0, k_passage.of(sdk::Quantity::mass));
+    sink.figure("number", sums_[k_number], "1", -1.0, k_passage.of(sdk::Quantity::number));
+    sink.figure("time", has_passed() ? sums_[k_last] - p_.opened_at : 0.0, "s",
+                sdk::Quantity::time);
+    sink.figure("duration", has_passed() ? sums_[k_last] - sums_[k_first] : 0.0, "s",
+                sdk::Quantity::time);
+    sink.figure("rate", rate.value, "kg/s", rate.error, k_passage.of(sdk::Quantity::mass_rate));
+    sink.figure("number_rate", numbers.value, "1/s", numbers.error,
+                k_passage.of(sdk::Quantity::number_rate));
+    sink.figure("beverloo_rate", expected, "kg/s", sdk::Quantity::mass_rate);
     const bool is_comparable = expected > 0.0;
     sink.figure("rate_over_beverloo", is_comparable ? rate.value / expected : 0.0, "1",
-                is_comparable && rate.error >= 0.0 ? rate.error / expected : -1.0);
+                is_comparable && rate.error >= 0.0 ? rate.error / expected : -1.0,
+                sdk::detail(sdk::Quantity::ratio));
   }
   void report(sdk::ReportSink& sink) const override {
     sdk::ThinnedCurve curve;
@@ -165,6 +169,9 @@ class Discharge final : public sdk::Sensor {
   }
 
  private:
+  static constexpr sdk::FigureRole k_passage{
+      .role = sdk::Role::passage, .direction = sdk::Direction::forward, .towards = "discharge"};
+
   /// Net of what came back: mass [kg], number, mass times diameter, solid volume, last and first
   /// passage [s], the first below 0 while there is none.
   enum Sum { k_mass, k_number, k_moment, k_volume, k_last, k_first, k_sums };

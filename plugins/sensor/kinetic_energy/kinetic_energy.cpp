@@ -55,16 +55,18 @@ class KineticEnergy final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    for (std::size_t n = 0; n < k_columns; ++n) sink.figure(k_names[n], values_[n], k_units[n]);
+    for (std::size_t n = 0; n < k_columns; ++n)
+      sink.figure(k_names[n], values_[n], k_units[n], k_quantities[n]);
   }
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_columns; ++n) {
       const double mean = means_.mean(n);
-      sink.figure(k_names[n], mean, k_units[n], mean > 0.0 ? means_.error(n) : -1.0);
-      sink.figure(std::string(k_names[n]) + "_at_end", values_[n], k_units[n]);
+      sink.figure(k_names[n], mean, k_units[n], mean > 0.0 ? means_.error(n) : -1.0,
+                  sdk::detail(k_quantities[n]));
+      sink.figure(std::string(k_names[n]) + "_at_end", values_[n], k_units[n], k_quantities[n]);
     }
-    sink.figure("is_settled", is_settled_ ? 1.0 : 0.0, "1");
-    sink.figure("settled_at", is_settled_ ? settled_at_ : 0.0, "s");
+    sink.figure("is_settled", is_settled_ ? 1.0 : 0.0, "1", sdk::Quantity::number);
+    sink.figure("settled_at", is_settled_ ? settled_at_ : 0.0, "s", sdk::Quantity::time);
   }
   void report(sdk::ReportSink& sink) const override {
     sink.curve("Kinetic energy", "time [s]", "mean per grain [J]", "all grains", curve_.x(),
@@ -91,6 +93,9 @@ class KineticEnergy final : public sdk::Sensor {
   static constexpr const char* k_names[k_columns] = {"translation", "rotation", "mean_per_grain",
                                                      "granular_temperature"};
   static constexpr const char* k_units[k_columns] = {"J", "J", "J", "m2/s2"};
+  static constexpr sdk::Quantity k_quantities[k_columns] = {
+      sdk::Quantity::energy, sdk::Quantity::energy, sdk::Quantity::energy,
+      sdk::Quantity::granular_temperature};
 
   Parameters p_;
   std::vector<double> values_ = std::vector<double>(k_columns, 0.0);  ///< at the last sample

@@ -114,21 +114,24 @@ class LowPressure final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    sink.figure("lowest_pressure", lowest_, "Pa");
+    sink.figure("lowest_pressure", lowest_, "Pa", sdk::Quantity::pressure);
   }
 
   void summary(sdk::FigureSink& sink) const override {
     const std::vector<Place> places = find_places();
-    sink.figure("found", static_cast<double>(places.size()), "1");
+    sink.figure("found", static_cast<double>(places.size()), "1", sdk::Quantity::number);
     for (std::size_t n = 0; n < static_cast<std::size_t>(p_.count); ++n) {
       const Place place = n < places.size() ? places[n] : Place{};
       const std::string name = "place_" + std::to_string(n + 1) + "/";
-      sink.figure(name + "x", place.position.x, "m");
-      sink.figure(name + "y", place.position.y, "m");
-      sink.figure(name + "z", place.position.z, "m");
-      sink.figure(name + "depth", -place.pressure, "Pa", place.error);
+      const sdk::FigureRole role{.role = sdk::Role::low_pressure, .index = static_cast<int>(n) + 1};
+      sink.figure(name + "x", place.position.x, "m", -1.0, role.of(sdk::Quantity::x));
+      sink.figure(name + "y", place.position.y, "m", -1.0, role.of(sdk::Quantity::y));
+      sink.figure(name + "z", place.position.z, "m", -1.0, role.of(sdk::Quantity::z));
+      sink.figure(name + "depth", -place.pressure, "Pa", place.error,
+                  role.of(sdk::Quantity::depth_of_pressure));
       sink.figure(name + "pressure_over_density", density_ > 0.0 ? place.pressure / density_ : 0.0,
-                  "m2/s2", place.error < 0.0 || density_ <= 0.0 ? -1.0 : place.error / density_);
+                  "m2/s2", place.error < 0.0 || density_ <= 0.0 ? -1.0 : place.error / density_,
+                  role.of(sdk::Quantity::kinematic_pressure));
     }
   }
 

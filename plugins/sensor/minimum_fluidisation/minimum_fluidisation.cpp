@@ -76,9 +76,9 @@ class MinimumFluidisation final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    sink.figure("superficial_velocity", last_.velocity, "m/s");
-    sink.figure("pressure_drop", last_.pressure, "Pa");
-    sink.figure("height", last_.height, "m");
+    sink.figure("superficial_velocity", last_.velocity, "m/s", sdk::Quantity::velocity);
+    sink.figure("pressure_drop", last_.pressure, "Pa", sdk::Quantity::pressure);
+    sink.figure("height", last_.height, "m", sdk::Quantity::length);
   }
   void summary(sdk::FigureSink& sink) const override {
     const auto [rising, falling] = branches();
@@ -174,9 +174,11 @@ class MinimumFluidisation final : public sdk::Sensor {
     return b;
   }
   static void tell(sdk::FigureSink& sink, const std::string& name, const formula::Ramp& ramp) {
-    sink.figure(name + "by_pressure", ramp.by_pressure.velocity, "m/s", ramp.by_pressure.error);
-    sink.figure(name + "by_height", ramp.by_height.velocity, "m/s", ramp.by_height.error);
-    sink.figure(name + "plateau", ramp.plateau, "Pa");
+    sink.figure(name + "by_pressure", ramp.by_pressure.velocity, "m/s", ramp.by_pressure.error,
+                sdk::detail(sdk::Quantity::velocity));
+    sink.figure(name + "by_height", ramp.by_height.velocity, "m/s", ramp.by_height.error,
+                sdk::detail(sdk::Quantity::velocity));
+    sink.figure(name + "plateau", ramp.plateau, "Pa", sdk::Quantity::pressure);
   }
   static void draw(sdk::ReportSink& sink, const std::string& name,
                    const std::vector<Point>& points) {

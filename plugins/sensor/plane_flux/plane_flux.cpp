@@ -16,6 +16,8 @@ class PlaneFlux final : public sdk::Sensor {
     sdk::Vec3 normal;
     sdk::Vec3 min;
     sdk::Vec3 max;
+    std::string role = "passage";
+    std::string towards;
   };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
@@ -27,6 +29,15 @@ class PlaneFlux final : public sdk::Sensor {
              "Lower corner of the box that cuts the rectangle out of the plane.");
     s.vector(&Parameters::max, "max", sdk::dimension::length,
              "Upper corner of that box; may equal 'min' along the normal.");
+    s.text(&Parameters::role, "role",
+           "What the rectangle is: an opening, through which grains leave the plant, or a place "
+           "inside that they pass.")
+        .one_of({"passage", "opening"})
+        .optional();
+    s.text(&Parameters::towards, "towards",
+           "The total that its net figures are a part of, for example 'product'; of an opening "
+           "'emission' unless given.")
+        .optional();
     sdk::declare_selection(s);
     return s.build();
   }
@@ -46,6 +57,7 @@ class PlaneFlux final : public sdk::Sensor {
     if (!(extent.x >= 0.0 && extent.y >= 0.0 && extent.z >= 0.0)) {
       throw sdk::ParameterError("'max' must not lie below 'min'");
     }
+    if (p_.role == "opening" && p_.towards.empty()) p_.towards = "emission";
     // Rounding of the interpolated point must not throw a grain out of a box without thickness.
     tolerance_ = k_rounding * (norm(p.min) + norm(p.max) + norm(p.point));
   }
@@ -84,9 +96,9 @@ class PlaneFlux final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    sink.figure("net/mass_rate", row_.mean(0), "kg/s");
-    sink.figure("forward/mass", mass_so_far_[0], "kg");
-    sink.figure("backward/mass", mass_so_far_[1], "kg");
+    sink.figure("net/mass_rate", row_.mean(0), "kg/s", -1.0,
+                p_.sized(role_of(k_net).of(sdk::Quantity::mass_rate)));
+    masses_of(sink);
   }
   [[nodiscard]] sdk::RowValue row_value(std::string_view column) const override {
     return column == "net/mass_rate" ? sdk::RowValue::mean : sdk::RowValue::total;
@@ -94,13 +106,14 @@ class PlaneFlux final : public sdk::Sensor {
   void end_row() override { row_.end_row(); }
 
   void summary(sdk::FigureSink& sink) const override {
-    sink.figure("forward/mass", mass_so_far_[0], "kg");
-    sink.figure("backward/mass", mass_so_far_[1], "kg");
-    sink.figure("observed_time", means_.duration(), "s");
-    rates_of("", 0, sink);
+    masses_of(sink);
+    sink.figure(
+        "observed_time", means_.duration(), "s", -1.0,
+        {.role = sdk::Role::observed_time, .quantity = sdk::Quantity::time, .towards = p_.towards});
+    rates_of("", 0, p_.coarser_than, p_.finer_than, sink);
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (!p_.takes(classes_[c])) continue;
-      rates_of(sdk::class_name(classes_[c]) + "/", c + 1, sink);
+      rates_of(sdk::class_name(classes_[c]) + "/", c + 1, classes_[c], classes_[c], sink);
     }
   }
 
@@ -169,12 +182,34 @@ class PlaneFlux final : public sdk::Sensor {
     }
   }
 
-  void rates_of(const std::string& prefix, std::size_t group, sdk::FigureSink& sink) const {
+  /// Only what is left of both ways counts towards a total.
+  [[nodiscard]] sdk::FigureRole role_of(std::size_t way) const {
+    static constexpr sdk::Direction k_directions[k_ways] = {
+        sdk::Direction::forward, sdk::Direction::backward, sdk::Direction::net};
+    sdk::FigureRole role;
+    role.role = p_.role == "opening" ? sdk::Role::opening : sdk::Role::passage;
+    role.direction = k_directions[way];
+    if (way == k_net) role.towards = p_.towards;
+    return role;
+  }
+  void masses_of(sdk::FigureSink& sink) const {
+    sink.figure("forward/mass", mass_so_far_[0], "kg", -1.0,
+                p_.sized(role_of(0).of(sdk::Quantity::mass)));
+    sink.figure("backward/mass", mass_so_far_[1], "kg", -1.0,
+                p_.sized(role_of(1).of(sdk::Quantity::mass)));
+  }
+
+  /// `smallest` and `largest` diameter of the group [m].
+  void rates_of(const std::string& prefix, std::size_t group, double smallest, double largest,
+                sdk::FigureSink& sink) const {
     static constexpr const char* k_way_names[k_ways] = {"forward/", "backward/", "net/"};
     static constexpr const char* k_quantities[2] = {"number_rate", "mass_rate"};
     static constexpr const char* k_units[2] = {"1/s", "kg/s"};
+    static constexpr sdk::Quantity k_what[2] = {sdk::Quantity::number_rate,
+                                                sdk::Quantity::mass_rate};
     const double duration = means_.duration();
     for (std::size_t way = 0; way < k_ways; ++way) {
+      const sdk::FigureRole role = role_of(way).sizes(smallest, largest);
       for (std::size_t q = 0; q < 2; ++q) {
         const std::size_t first = k_columns * group + k_ways * q;
         // Both directions together tell how many grains a net rate rests on.
@@ -183,14 +218,15 @@ class PlaneFlux final : public sdk::Sensor {
         const double error = formula::rate_error(means_.error(first + way), counted * duration,
                                                  squares_[first + way], duration);
         sink.figure(prefix + k_way_names[way] + k_quantities[q], means_.mean(first + way),
-                    k_units[q], error);
+                    k_units[q], error, role.of(k_what[q]));
         if (q != k_mass) continue;
         const double emitted = emitted_before_ < 0.0 ? 0.0 : emitted_mass_ - emitted_before_;
         const double rate = formula::grams_per_tonne(means_.mean(first + way), duration, emitted);
         sink.figure(prefix + k_way_names[way] + "grams_per_tonne", rate, "g/t",
                     error < 0.0 || emitted <= 0.0
                         ? -1.0
-                        : formula::grams_per_tonne(error, duration, emitted));
+                        : formula::grams_per_tonne(error, duration, emitted),
+                    role.of(sdk::Quantity::mass_per_load));
       }
     }
   }

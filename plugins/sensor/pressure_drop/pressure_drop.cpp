@@ -81,7 +81,8 @@ class PressureDrop final : public sdk::Sensor {
  private:
   Parameters p_;
   int axis_;
-  sdk::SampledFigures figures_{{{"pressure_drop", "Pa"}, {"superficial_velocity", "m/s"}}};
+  sdk::SampledFigures figures_{{{"pressure_drop", "Pa", sdk::Quantity::pressure},
+                                {"superficial_velocity", "m/s", sdk::Quantity::velocity}}};
 };
 
 }  // namespace

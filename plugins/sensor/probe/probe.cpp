@@ -81,7 +81,8 @@ class Probe final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    for (std::size_t c = 0; c < k_columns; ++c) sink.figure(k_names[c], overall_[c], k_units[c]);
+    for (std::size_t c = 0; c < k_columns; ++c)
+      sink.figure(k_names[c], overall_[c], k_units[c], k_quantities[c]);
   }
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < places_.size(); ++n) {
@@ -89,7 +90,8 @@ class Probe final : public sdk::Sensor {
       for (std::size_t c = 0; c < k_columns; ++c) {
         const double mean = means_.mean(n * k_columns + c);
         sink.figure(place + k_names[c], mean, k_units[c],
-                    mean != 0.0 ? means_.error(n * k_columns + c) : -1.0);
+                    mean != 0.0 ? means_.error(n * k_columns + c) : -1.0,
+                    sdk::detail(k_quantities[c]));
       }
     }
   }
@@ -127,6 +129,9 @@ class Probe final : public sdk::Sensor {
   static constexpr const char* k_names[k_columns] = {"velocity_x", "velocity_y", "velocity_z",
                                                      "pressure", "void_fraction"};
   static constexpr const char* k_units[k_columns] = {"m/s", "m/s", "m/s", "Pa", "1"};
+  static constexpr sdk::Quantity k_quantities[k_columns] = {
+      sdk::Quantity::velocity, sdk::Quantity::velocity, sdk::Quantity::velocity,
+      sdk::Quantity::pressure, sdk::Quantity::ratio};
   static constexpr const char* k_titles[k_columns] = {"velocity", "velocity", "velocity",
                                                       "pressure", "void fraction"};
   static constexpr const char* k_axes[k_columns] = {

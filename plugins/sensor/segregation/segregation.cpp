@@ -106,8 +106,9 @@ class Segregation final : public sdk::Sensor {
 
   Parameters p_;
   std::array<std::size_t, 3> count_{1, 1, 1};
-  sdk::SampledFigures figures_{
-      {{"mixing_index", "1"}, {"centre_shift", "m"}, {"fine_number_fraction", "1"}}};
+  sdk::SampledFigures figures_{{{"mixing_index", "1", sdk::Quantity::ratio},
+                                {"centre_shift", "m", sdk::Quantity::length},
+                                {"fine_number_fraction", "1", sdk::Quantity::ratio}}};
 };
 
 }  // namespace

@@ -83,20 +83,21 @@ class SettlingVelocity final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    sink.figure("velocity", values_[0], "m/s");
-    sink.figure("height", values_[1], "m");
+    sink.figure("velocity", values_[0], "m/s", sdk::Quantity::velocity);
+    sink.figure("height", values_[1], "m", sdk::Quantity::length);
   }
   void summary(sdk::FigureSink& sink) const override {
     const double mean = means_.mean(0);
-    sink.figure("velocity", mean, "m/s", mean != 0.0 ? means_.error(0) : -1.0);
-    sink.figure("velocity_at_end", values_[0], "m/s");
-    sink.figure("height_at_end", values_[1], "m");
-    sink.figure("largest/velocity", largest_[0], "m/s");
-    sink.figure("largest/time", largest_[1], "s");
+    sink.figure("velocity", mean, "m/s", mean != 0.0 ? means_.error(0) : -1.0,
+                sdk::detail(sdk::Quantity::velocity));
+    sink.figure("velocity_at_end", values_[0], "m/s", sdk::Quantity::velocity);
+    sink.figure("height_at_end", values_[1], "m", sdk::Quantity::length);
+    sink.figure("largest/velocity", largest_[0], "m/s", sdk::Quantity::velocity);
+    sink.figure("largest/time", largest_[1], "s", sdk::Quantity::time);
     for (std::size_t n = 0; n < passages_.levels().size(); ++n) {
       const std::string name = "level_" + sdk::name_of(passages_.levels()[n] * 1e3) + "_mm/";
-      sink.figure(name + "time", passages_.times()[n], "s");
-      sink.figure(name + "velocity", passages_.velocities()[n], "m/s");
+      sink.figure(name + "time", passages_.times()[n], "s", sdk::Quantity::time);
+      sink.figure(name + "velocity", passages_.velocities()[n], "m/s", sdk::Quantity::velocity);
     }
   }
   void report(sdk::ReportSink& sink) const override {

@@ -80,16 +80,19 @@ class Sizes final : public sdk::Sensor {
 
   void series(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_means; ++n) {
-      sink.figure(k_names[n], values_.empty() ? 0.0 : values_[n], "m");
+      sink.figure(k_names[n], values_.empty() ? 0.0 : values_[n], "m", sdk::Quantity::length);
     }
   }
   void summary(sdk::FigureSink& sink) const override {
-    for (std::size_t n = 0; n < k_means; ++n) figure(sink, k_names[n], n, "m");
+    for (std::size_t n = 0; n < k_means; ++n) {
+      figure(sink, k_names[n], n, "m", sdk::detail(sdk::Quantity::length));
+    }
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (!p_.takes(classes_[c])) continue;
       const std::string prefix = sdk::class_name(classes_[c]) + "/";
-      figure(sink, prefix + "number_fraction", k_means + 2 * c, "1");
-      figure(sink, prefix + "mass_fraction", k_means + 2 * c + 1, "1");
+      const auto role = sdk::detail(sdk::Quantity::ratio).sizes(classes_[c], classes_[c]);
+      figure(sink, prefix + "number_fraction", k_means + 2 * c, "1", role);
+      figure(sink, prefix + "mass_fraction", k_means + 2 * c + 1, "1", role);
     }
   }
   void report(sdk::ReportSink& sink) const override {
@@ -117,10 +120,10 @@ class Sizes final : public sdk::Sensor {
   static constexpr double k_quantiles[3] = {0.1, 0.5, 0.9};
   static constexpr const char* k_names[k_means] = {"sauter_diameter", "d_10", "d_50", "d_90"};
 
-  void figure(sdk::FigureSink& sink, const std::string& name, std::size_t column,
-              const char* unit) const {
+  void figure(sdk::FigureSink& sink, const std::string& name, std::size_t column, const char* unit,
+              const sdk::FigureRole& role) const {
     const double mean = means_.mean(column);
-    sink.figure(name, mean, unit, mean > 0.0 ? means_.error(column) : -1.0);
+    sink.figure(name, mean, unit, mean > 0.0 ? means_.error(column) : -1.0, role);
   }
 
   Parameters p_;

@@ -74,20 +74,21 @@ class Stress final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    sink.figure("pressure", pressure(totals_.data()), "Pa");
-    sink.figure("xx", totals_[0], "Pa");
-    sink.figure("yy", totals_[1], "Pa");
-    sink.figure("zz", totals_[2], "Pa");
+    sink.figure("pressure", pressure(totals_.data()), "Pa", sdk::Quantity::pressure);
+    sink.figure("xx", totals_[0], "Pa", sdk::Quantity::pressure);
+    sink.figure("yy", totals_[1], "Pa", sdk::Quantity::pressure);
+    sink.figure("zz", totals_[2], "Pa", sdk::Quantity::pressure);
   }
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t f = 0; f < k_components; ++f) {
-      sink.figure(k_names[f], means_.mean(f), "Pa", error(f));
-      sink.figure(std::string(k_names[f]) + "_at_end", totals_[f], "Pa");
+      sink.figure(k_names[f], means_.mean(f), "Pa", error(f), sdk::detail(sdk::Quantity::pressure));
+      sink.figure(std::string(k_names[f]) + "_at_end", totals_[f], "Pa", sdk::Quantity::pressure);
     }
     double p = 0.0;
     for (std::size_t f = 0; f < 3; ++f) p += means_.mean(f) / 3.0;
-    sink.figure("pressure", p, "Pa");
-    sink.figure("bulk_density", means_.mean(k_density), "kg/m3", error(k_density));
+    sink.figure("pressure", p, "Pa", sdk::Quantity::pressure);
+    sink.figure("bulk_density", means_.mean(k_density), "kg/m3", error(k_density),
+                sdk::detail(sdk::Quantity::mass_concentration));
   }
   void report(sdk::ReportSink& sink) const override {
     sink.curve("Pressure of the grains", "time [s]", "pressure [Pa]", "whole box", curve_.x(),

@@ -139,8 +139,8 @@ class Trajectory final : public sdk::Sensor {
     for (std::size_t d = 0; d < levels_.size(); ++d) {
       const Crossings& level = levels_[d];
       const double mean = level.weight_sum > 0.0 ? level.moment / level.weight_sum : 0.0;
-      sink.figure(drop_name(d) + "/mean", mean, "m");
-      sink.figure(drop_name(d) + "/number", level.weight_sum, "1");
+      sink.figure(drop_name(d) + "/mean", mean, "m", sdk::Quantity::length);
+      sink.figure(drop_name(d) + "/number", level.weight_sum, "1", sdk::Quantity::number);
     }
   }
   [[nodiscard]] sdk::RowValue row_value(std::string_view) const override {
@@ -151,22 +151,31 @@ class Trajectory final : public sdk::Sensor {
     for (std::size_t d = 0; d < levels_.size(); ++d) {
       const Crossings& level = levels_[d];
       const std::string name = drop_name(d) + "/";
-      sink.figure(name + "crossings", static_cast<double>(level.place.size()), "1");
-      sink.figure(name + "number", level.weight_sum, "1");
+      sink.figure(name + "crossings", static_cast<double>(level.place.size()), "1",
+                  sdk::Quantity::number);
+      sink.figure(name + "number", level.weight_sum, "1", sdk::Quantity::number);
+      sdk::FigureRole role{.role = sdk::Role::stream_quantile,
+                           .quantity = sdk::Quantity::length,
+                           .drop = p_.drops[d]};
       for (const auto& [p, quantile] : k_quantiles) {
-        figure(sink, name + quantile, level, level.place, p, "m", -1);
+        figure(sink, name + quantile, sample_of(level, level.place, -1), p,
+               {"m", blocks_of(level), p_.sized(at(role, p))});
       }
-      figure(sink, name + "median_vertical_speed", level, level.speed, 0.5, "m/s", -1);
+      figure(sink, name + "median_vertical_speed", sample_of(level, level.speed, -1), 0.5,
+             {"m/s", blocks_of(level), sdk::detail(sdk::Quantity::velocity)});
       for (std::size_t c = 0; c < classes_.size(); ++c) {
         if (!p_.takes(classes_[c])) continue;
-        figure(sink, name + sdk::class_name(classes_[c]) + "/median", level, level.place, 0.5, "m",
-               static_cast<std::int64_t>(c));
+        figure(sink, name + sdk::class_name(classes_[c]) + "/median",
+               sample_of(level, level.place, static_cast<std::int64_t>(c)), 0.5,
+               {"m", blocks_of(level), at(role, 0.5).sizes(classes_[c], classes_[c])});
       }
     }
     std::vector<double> upright(at_a_.speed);
     for (double& v : upright) v = std::abs(v);
-    sink.figure("at_a/crossings", static_cast<double>(at_a_.place.size()), "1");
-    figure(sink, "at_a/median_vertical_speed", at_a_, upright, 0.5, "m/s", -1);
+    sink.figure("at_a/crossings", static_cast<double>(at_a_.place.size()), "1",
+                sdk::Quantity::number);
+    figure(sink, "at_a/median_vertical_speed", sample_of(at_a_, upright, -1), 0.5,
+           {"m/s", blocks_of(at_a_), sdk::detail(sdk::Quantity::velocity)});
   }
 
   void report(sdk::ReportSink& sink) const override {
@@ -237,12 +246,20 @@ class Trajectory final : public sdk::Sensor {
     return formula::sorted(chosen, weights, blocks);
   }
 
-  static void figure(sdk::FigureSink& sink, const std::string& name, const Crossings& level,
-                     std::span<const double> values, double p, const char* unit,
-                     std::int64_t size_class) {
-    const formula::SortedSample sample = sample_of(level, values, size_class);
-    sink.figure(name, formula::quantile(sample, p), unit,
-                formula::quantile_error(sample, p, blocks_of(level)));
+  /// What a quantile is, beside its name.
+  struct QuantileKind {
+    const char* unit;
+    std::size_t blocks;
+    sdk::FigureRole role;
+  };
+  static void figure(sdk::FigureSink& sink, const std::string& name,
+                     const formula::SortedSample& sample, double p, const QuantileKind& kind) {
+    sink.figure(name, formula::quantile(sample, p), kind.unit,
+                formula::quantile_error(sample, p, kind.blocks), kind.role);
+  }
+  static sdk::FigureRole at(sdk::FigureRole role, double probability) {
+    role.probability = probability;
+    return role;
   }
 
   Parameters p_;

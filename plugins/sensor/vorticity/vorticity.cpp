@@ -80,17 +80,19 @@ class Vorticity final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    for (std::size_t n = 0; n < k_columns; ++n) sink.figure(k_names[n], values_[n], "1/s");
+    for (std::size_t n = 0; n < k_columns; ++n)
+      sink.figure(k_names[n], values_[n], "1/s", sdk::Quantity::vorticity);
   }
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_columns; ++n) {
       const double mean = means_.mean(n);
-      sink.figure(k_names[n], mean, "1/s", mean != 0.0 ? means_.error(n) : -1.0);
+      sink.figure(k_names[n], mean, "1/s", mean != 0.0 ? means_.error(n) : -1.0,
+                  sdk::detail(sdk::Quantity::vorticity));
     }
-    sink.figure("fastest/x", place_.x, "m");
-    sink.figure("fastest/y", place_.y, "m");
-    sink.figure("fastest/z", place_.z, "m");
-    sink.figure("fastest/vorticity", fastest_, "1/s");
+    sink.figure("fastest/x", place_.x, "m", sdk::Quantity::x);
+    sink.figure("fastest/y", place_.y, "m", sdk::Quantity::y);
+    sink.figure("fastest/z", place_.z, "m", sdk::Quantity::z);
+    sink.figure("fastest/vorticity", fastest_, "1/s", sdk::Quantity::vorticity);
   }
   void report(sdk::ReportSink& sink) const override {
     sink.curve("Largest vorticity", "time [s]", "vorticity [1/s]", "open cells", curve_.x(),

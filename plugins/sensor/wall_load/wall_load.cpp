@@ -114,7 +114,7 @@ class WallLoad final : public sdk::Sensor {
 
   void series(sdk::FigureSink& sink) const override {
     for (std::size_t c = 0; c < k_columns; ++c) {
-      sink.figure(k_names[c], c < k_mass ? row_.mean(c) : values_[c], k_units[c]);
+      sink.figure(k_names[c], c < k_mass ? row_.mean(c) : values_[c], k_units[c], k_quantities[c]);
     }
   }
   [[nodiscard]] sdk::RowValue row_value(std::string_view column) const override {
@@ -125,17 +125,20 @@ class WallLoad final : public sdk::Sensor {
 
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t c = 0; c < k_columns; ++c) {
-      sink.figure(k_names[c], means_.mean(c), k_units[c], means_.error(c));
+      sink.figure(k_names[c], means_.mean(c), k_units[c], means_.error(c),
+                  sdk::detail(k_quantities[c]));
     }
     // Impacts come one by one: their number scatters like a Poisson count.
-    sink.figure("impacts", impacts_, "1", impacts_ > 0.0 ? std::sqrt(impacts_) : -1.0);
-    sink.figure("impact_energy_normal", impact_energy_[0], "J");
-    sink.figure("impact_energy_tangential", impact_energy_[1], "J");
-    sink.figure("impact_energy_largest", largest_, "J");
-    sink.figure("impact_energy_normal_median", bins_.median(normal_), "J");
+    sink.figure("impacts", impacts_, "1", impacts_ > 0.0 ? std::sqrt(impacts_) : -1.0,
+                sdk::detail(sdk::Quantity::number));
+    sink.figure("impact_energy_normal", impact_energy_[0], "J", sdk::Quantity::energy);
+    sink.figure("impact_energy_tangential", impact_energy_[1], "J", sdk::Quantity::energy);
+    sink.figure("impact_energy_largest", largest_, "J", sdk::Quantity::energy);
+    sink.figure("impact_energy_normal_median", bins_.median(normal_), "J", sdk::Quantity::energy);
     const double time = means_.duration();
     sink.figure("impact_rate", time > 0.0 ? impacts_ / time : 0.0, "1/s",
-                time > 0.0 && impacts_ > 0.0 ? std::sqrt(impacts_) / time : -1.0);
+                time > 0.0 && impacts_ > 0.0 ? std::sqrt(impacts_) / time : -1.0,
+                sdk::detail(sdk::Quantity::rate));
   }
 
   void report(sdk::ReportSink& sink) const override {
@@ -181,6 +184,10 @@ class WallLoad final : public sdk::Sensor {
                                                      "power",    "mass_in_contact", "contacts"};
   static constexpr const char* k_units[k_columns] = {"N",   "N", "N",  "N m", "N m",
                                                      "N m", "W", "kg", "1"};
+  static constexpr sdk::Quantity k_quantities[k_columns] = {
+      sdk::Quantity::force,  sdk::Quantity::force,  sdk::Quantity::force,
+      sdk::Quantity::torque, sdk::Quantity::torque, sdk::Quantity::torque,
+      sdk::Quantity::power,  sdk::Quantity::mass,   sdk::Quantity::number};
 
   Parameters p_;
   formula::Bins bins_;

@@ -86,8 +86,11 @@ class WallShear final : public sdk::Sensor {
  private:
   Parameters p_;
   int side_ = 0;
-  sdk::SampledFigures figures_{
-      {{"mean", "Pa"}, {"largest", "Pa"}, {"force_x", "N"}, {"force_y", "N"}, {"force_z", "N"}}};
+  sdk::SampledFigures figures_{{{"mean", "Pa", sdk::Quantity::pressure},
+                                {"largest", "Pa", sdk::Quantity::pressure},
+                                {"force_x", "N", sdk::Quantity::force},
+                                {"force_y", "N", sdk::Quantity::force},
+                                {"force_z", "N", sdk::Quantity::force}}};
 };
 
 }  // namespace

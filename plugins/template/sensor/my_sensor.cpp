@@ -64,16 +64,19 @@ class MySensor final : public sdk::Sensor {
 
   // 4. What it tells: a row of series.csv, figures with their errors, a section of the report,
   // fields of results.h5.
+  // Every figure says what it is: the report reads the role and never the name.
   void series(sdk::FigureSink& sink) const override {
-    sink.figure("mass", now_[0], "kg");
-    sink.figure("kinetic_energy", now_[1], "J");
+    sink.figure("mass", now_[0], "kg", -1.0, role_of(sdk::Quantity::mass));
+    sink.figure("kinetic_energy", now_[1], "J", -1.0, role_of(sdk::Quantity::energy));
   }
   void summary(sdk::FigureSink& sink) const override {
     const char* names[] = {"mass", "kinetic_energy"};
     const char* units[] = {"kg", "J"};
+    const sdk::Quantity quantities[] = {sdk::Quantity::mass, sdk::Quantity::energy};
     for (std::size_t n = 0; n < 2; ++n) {
       const double mean = means_.mean(n);
-      sink.figure(names[n], mean, units[n], mean > 0.0 ? means_.error(n) : -1.0);
+      sink.figure(names[n], mean, units[n], mean > 0.0 ? means_.error(n) : -1.0,
+                  role_of(quantities[n]));
     }
   }
   void report(sdk::ReportSink& sink) const override {
@@ -87,7 +90,9 @@ class MySensor final : public sdk::Sensor {
     sink.histogram("Energy per mass", "log10 of energy per mass in J/kg", "mass times time [kg s]",
                    "all grains", edges, mass_at_);
   }
-  void fields(sdk::FieldSink& sink) const override { sink.field("mass", "kg", grid_, mass_in_); }
+  void fields(sdk::FieldSink& sink) const override {
+    sink.field("mass", "kg", grid_, mass_in_, role_of(sdk::Quantity::mass));
+  }
 
   // 5. What a resumed run needs: everything that lives between two looks.
   void save(sdk::ArchiveWriter& archive) const override {
@@ -113,6 +118,12 @@ class MySensor final : public sdk::Sensor {
 
  private:
   static constexpr int k_cells = 8;  ///< of the field, per direction
+
+  /// What the whole domain holds of the sizes counted.
+  [[nodiscard]] sdk::FigureRole role_of(sdk::Quantity quantity) const {
+    return sdk::FigureRole{.role = sdk::Role::stock}.of(quantity).sizes(0.0, p_.finer_than);
+  }
+
   Parameters p_;
   std::vector<double> now_ = {0.0, 0.0};  ///< mass [kg], kinetic energy [J]
   sdk::GridShape grid_{{}, {}, {k_cells, k_cells, k_cells}};

@@ -341,6 +341,25 @@ struct Last final : sdk::Sensor {
   double looks = 0.0;
 };
 
+/// Calls a time a mass.
+struct Mislabelled final : sdk::Sensor {
+  void observe(const sdk::WorldView&) override {}
+  void series(sdk::FigureSink&) const override {}
+  void summary(sdk::FigureSink& sink) const override {
+    sink.figure("fed", 0.0, "s", sdk::Quantity::mass);
+  }
+};
+
+/// An opening of which nobody knows what it measures.
+struct Unspecified final : sdk::Sensor {
+  void observe(const sdk::WorldView&) override {}
+  void series(sdk::FigureSink&) const override {}
+  void summary(sdk::FigureSink& sink) const override {
+    sink.figure("out", 0.0, "kg", -1.0,
+                {.role = sdk::Role::opening, .direction = sdk::Direction::net});
+  }
+};
+
 struct Blind final : sdk::Sensor {
   void observe(const sdk::WorldView&) override {}
   void series(sdk::FigureSink&) const override {}
@@ -360,6 +379,10 @@ TEST_CASE("a sensor that is wrong shall be told by the rule it breaks") {
   CHECK(seen.broken(wrong::findings_on<Last>(), "between rows") ==
         "'looks' is 9 in a row for every 9 samples; the samples say 5");
   CHECK(seen.broken(wrong::findings_on<Blind>(), "sees something") == "its summary is empty");
+  CHECK(seen.broken(wrong::findings_on<Mislabelled>(), "its figures are") ==
+        "'fed' is said to be a mass, which has no unit s");
+  CHECK(seen.broken(wrong::findings_on<Unspecified>(), "its figures are") ==
+        "'out' has the role opening but no quantity");
   seen.check_complete();
 }
 

@@ -222,6 +222,8 @@ const std::vector<Subject>& subjects() {
         {"normal", Vec3{-1, 0, 0}},
         {"min", Vec3{0.15, 0.005, 0}},
         {"max", Vec3{0.15, 0.005, 0.35}},
+        {"role", std::string("opening")},
+        {"towards", std::string("product")},
         {"steady_after", 0.03},
         {"coarser_than", 100e-6},
         {"finer_than", 500e-6}}},

@@ -192,7 +192,8 @@ struct Sensor final : Trial<sdk::Sensor> {
 
 /// Remembers the names it is given.
 struct Names final : sdk::FigureSink, sdk::ReportSink, sdk::FieldSink {
-  void figure(std::string_view name, double, std::string_view, double) override {
+  void figure(std::string_view name, double, std::string_view, double,
+              const sdk::FigureRole&) override {
     text += std::string(name) + " ";
   }
   void section(std::string_view heading, std::string_view) override {
@@ -202,7 +203,7 @@ struct Names final : sdk::FigureSink, sdk::ReportSink, sdk::FieldSink {
              std::span<const double>, std::span<const double>) override {}
   void row(std::string_view, std::span<const std::string>, std::span<const double>) override {}
   void field(std::string_view name, std::string_view, const sdk::GridShape&,
-             std::span<const double>) override {
+             std::span<const double>, const sdk::FigureRole&) override {
     text += std::string(name) + " ";
   }
   std::string text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/dust_fractions.hpp"
+#include "report/facts/dust_fractions.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-using dust::io::aerodynamic_diameter;
-using dust::io::dust_fractions;
+using dust::report::aerodynamic_diameter;
+using dust::report::dust_fractions;
 
 namespace {
 

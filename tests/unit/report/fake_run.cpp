@@ -91,10 +91,25 @@ void put_air(hid_t file, int frame) {
 
 }  // namespace
 
+json fake_figure(double value, const char* unit, double error) {
+  return {{"value", value}, {"unit", unit}, {"uncertainty", error < 0.0 ? json() : json(error)}};
+}
+
+json with_role(json figure, const char* role, const char* quantity, const char* direction,
+               double diameter) {
+  figure["role"] = role;
+  figure["quantity"] = quantity;
+  if (*direction != '\0') figure["direction"] = direction;
+  if (diameter > 0.0) figure["diameters_m"] = {diameter, diameter};
+  return figure;
+}
+
 json fake_summary() {
-  const auto figure = [](double value, const char* unit, double error) {
-    return json{
-        {"value", value}, {"unit", unit}, {"uncertainty", error < 0.0 ? json() : json(error)}};
+  const auto quantile = [](double value, double error, double probability) {
+    json figure = with_role(fake_figure(value, "m", error), "stream_quantile", "length");
+    figure["probability"] = probability;
+    figure["drop_m"] = 0.14;
+    return figure;
   };
   return {
       {"scenario", "transfer_point"},
@@ -113,14 +128,18 @@ json fake_summary() {
       {"real_particles",
        {{"emitted", 90.5}, {"in_domain", 40.0}, {"left", 45.5}, {"removed", 5.0}}},
       {"mass_kg", {{"emitted", 0.25}, {"in_domain", 0.125}, {"left", 0.0625}, {"removed", 0.0625}}},
-      {"timers_s", {{"contact", 60.0}, {"fluid", 40.0}}},
+      {"timers_s", {{"contact", 60.0}, {"fluid", 40.0}, {"dem_cycle", 61.0}}},
+      {"timer_groups", {{"dem_cycle", {"contact"}}, {"particles", {"contact"}}}},
       {"state_sha256", "0123456789abcdef"},
       {"sensors",
-       {{"loose_dust", {{"liberated", figure(0.01372, "g/t", 0.0021)}, {"grains", 57}}},
+       {{"loose_dust",
+         {{"liberated",
+           with_role(fake_figure(0.01372, "g/t", 0.0021), "passage", "mass_per_load", "net")},
+          {"grains", 57}}},
         {"stream",
-         {{"drop_140_mm/median", figure(0.128404, "m", 0.0003)},
-          {"drop_140_mm/q05", figure(0.1172, "m", -1.0)},
-          {"drop_140_mm/q95", figure(0.1385, "m", -1.0)}}}}}};
+         {{"middle", quantile(0.128404, 0.0003, 0.5)},
+          {"near", quantile(0.1172, -1.0, 0.05)},
+          {"far", quantile(0.1385, -1.0, 0.95)}}}}}};
 }
 
 RunFolder::RunFolder() {

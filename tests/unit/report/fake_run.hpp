@@ -25,6 +25,14 @@ struct FakeGrain {
   double y = 0.0;                           ///< [m]
 };
 
+/// A figure of summary.json.
+[[nodiscard]] nlohmann::json fake_figure(double value, const char* unit, double error = -1.0);
+
+/// `figure` with a role; of one size class where `diameter` [m] is positive.
+[[nodiscard]] nlohmann::json with_role(nlohmann::json figure, const char* role,
+                                       const char* quantity, const char* direction = "",
+                                       double diameter = 0.0);
+
 /// The summary of a finished run with two sensors.
 [[nodiscard]] nlohmann::json fake_summary();
 

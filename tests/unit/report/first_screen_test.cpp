@@ -1,27 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fake_run.hpp"
-#include "io/report.hpp"
-#include "io/report_fast_dust.hpp"
+#include "report/facts/fast_dust.hpp"
+#include "report/run_document.hpp"
 
 #include <doctest/doctest.h>
 
-#include <regex>
+#include <algorithm>
 
+using dust::test::fake_figure;
 using dust::test::fake_summary;
 using dust::test::RunFolder;
+using dust::test::with_role;
 using nlohmann::json;
 
 namespace {
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-json figure(double value, const char* unit, double error = -1.0) {
-  json f = {{"value", value}, {"unit", unit}, {"uncertainty", nullptr}};
-  if (error >= 0.0) f["uncertainty"] = error;
-  return f;
-}
 
 /// Quartz of 10 um: 2650 pi / 6 (10 um)^3 [kg].
 constexpr double k_grain = 1.38754e-12;
@@ -30,58 +22,90 @@ constexpr double k_grain = 1.38754e-12;
 json run_with_openings() {
   json summary = fake_summary();
   const auto opening = [](double grams_per_tonne, double error, double rate) {
-    return json{{"observed_time", figure(0.19, "s")},
-                {"net/grams_per_tonne", figure(grams_per_tonne, "g/t", error)},
-                {"class_10_um/forward/number_rate", figure(rate, "1/s")},
-                {"class_10_um/forward/mass_rate", figure(rate * k_grain, "kg/s")},
-                {"class_10_um/net/grams_per_tonne", figure(grams_per_tonne, "g/t", error)}};
+    const json all = fake_figure(grams_per_tonne, "g/t", error);
+    return json{
+        {"a", with_role(fake_figure(0.19, "s"), "observed_time", "time")},
+        {"b", with_role(all, "opening", "mass_per_load", "net")},
+        {"c", with_role(fake_figure(rate, "1/s"), "opening", "number_rate", "forward", 10e-6)},
+        {"d",
+         with_role(fake_figure(rate * k_grain, "kg/s"), "opening", "mass_rate", "forward", 10e-6)},
+        {"e", with_role(all, "opening", "mass_per_load", "net", 10e-6)}};
   };
-  summary["sensors"] = {{"dust_out_left", opening(0.5, 0.03, 100.0)},
-                        {"dust_out_top", opening(0.1, 0.04, 20.0)},
+  const auto place = [](int index, const char* quantity, json figure) {
+    figure = with_role(std::move(figure), "low_pressure", quantity);
+    figure["index"] = index;
+    return figure;
+  };
+  summary["sensors"] = {{"x", opening(0.5, 0.03, 100.0)},
+                        {"top", opening(0.1, 0.04, 20.0)},
                         {"suction",
-                         {{"place_1/x", figure(0.9, "m")},
-                          {"place_1/z", figure(0.9, "m")},
-                          {"place_1/depth", figure(0.4, "Pa", 0.01)},
-                          {"place_2/x", figure(0.25, "m")},
-                          {"place_2/z", figure(0.75, "m")},
-                          {"place_2/depth", figure(0.3, "Pa", 0.01)}}}};
+                         {{"a", place(1, "x", fake_figure(0.9, "m"))},
+                          {"b", place(1, "z", fake_figure(0.9, "m"))},
+                          {"c", place(1, "depth_of_pressure", fake_figure(0.4, "Pa", 0.01))},
+                          {"d", place(2, "x", fake_figure(0.25, "m"))},
+                          {"e", place(2, "z", fake_figure(0.75, "m"))},
+                          {"f", place(2, "depth_of_pressure", fake_figure(0.3, "Pa", 0.01))}}}};
   summary["size_classes"] = {{{"diameter_m", 10e-6}, {"mass_kg", {{"emitted", 1e-9}}}},
                              {{"diameter_m", 500e-6}, {"mass_kg", {{"emitted", 1e-3 - 1e-9}}}}};
   return summary;
 }
 
-/// The part of the page before the first section below the header.
-std::string first_screen(const RunFolder& folder) {
-  dust::io::write_report(folder.path());
-  const std::string page = folder.read("report.html");
-  return page.substr(page.find("<header>"), page.find("</header>") - page.find("<header>"));
+/// What the page of the run is made of.
+json document_of(const RunFolder& folder) { return dust::report::run_document(folder.path()); }
+
+std::size_t touched(const json& document) {
+  const json& limits = document["limits"];
+  return static_cast<std::size_t>(std::count_if(
+      limits.begin(), limits.end(), [](const json& l) { return l["is_touched"] == true; }));
 }
 
 }  // namespace
+
+TEST_CASE("a sensor of any name with the role of an opening shall be in the headline") {
+  const RunFolder folder;
+  json summary = run_with_openings();
+  folder.write("summary.json", summary.dump());
+  const json dust = document_of(folder)["dust"];
+  CHECK(dust["spoken_of"] == "openings");
+  REQUIRE(dust["openings"].size() == 2);
+  CHECK(dust["openings"][0]["sensor"] == "x");
+  // The same figures without the role of an opening: the name alone says nothing.
+  summary["sensors"]["dust_out_left"] = summary["sensors"]["x"];
+  summary["sensors"].erase("x");
+  summary["sensors"].erase("top");
+  for (auto& entry : summary["sensors"]["dust_out_left"]) entry["role"] = "detail";
+  folder.write("summary.json", summary.dump());
+  CHECK(document_of(folder)["dust"].is_null());
+}
 
 TEST_CASE("the first screen shall tell how much, from where, how sure and where to extract") {
   const RunFolder folder;
   folder.write("summary.json", run_with_openings().dump());
   folder.write_h5({});
-  const std::string screen = first_screen(folder);
-  // Errors of independent counts add in squares: 0.05 of 0.6 g/t, 8.3 %.
-  CHECK(has(screen, "0.600\u00a0\u00b1\u00a00.050"));
-  CHECK(has(screen, "<em>left</em>"));
-  CHECK(has(screen, "<em>top</em>"));
-  CHECK(has(screen, "\u00b1\u202f8.3\u202f%"));
-  CHECK(has(screen, "22.8 real grains"));
+  const json document = document_of(folder);
+  const json& dust = document["dust"];
+  // Errors of independent counts add in squares: 0.05 of 0.6 g/t.
+  CHECK(dust["headline"]["value"].get<double>() == doctest::Approx(0.6));
+  CHECK(dust["headline"]["uncertainty"].get<double>() == doctest::Approx(0.05));
+  CHECK(dust["openings"][0]["sensor"] == "x");
+  CHECK(dust["openings"][1]["sensor"] == "top");
+  CHECK(dust["fed"].get<double>() == doctest::Approx(1.0));
+  CHECK(dust["observed_s"].get<double>() == doctest::Approx(0.19));
+  CHECK(dust["counted"].get<double>() == doctest::Approx(22.8));
   // 16.28 um aerodynamic: 0.5 (1 + exp(-0.9767)) = 68.8 %; of that 1 - F(ln(16.28 / 11.64) /
   // ln 1.5).
-  CHECK(has(screen, "69\u202f% inhalable, 14\u202f% thoracic"));
+  CHECK(dust["fractions"]["inhalable"].get<double>() == doctest::Approx(0.688).epsilon(1e-3));
+  CHECK(dust["fractions"]["thoracic"].get<double>() == doctest::Approx(0.14).epsilon(0.02));
+  REQUIRE(dust["classes"].size() == 1);
+  CHECK(dust["classes"][0]["out"]["value"].get<double>() == doctest::Approx(0.6));
+  CHECK(dust["classes"][0]["density"].get<double>() == doctest::Approx(2650).epsilon(1e-4));
   // The dust of the frames lies at (0.25, 0.75): ring 2, not the deepest.
-  CHECK(has(screen, "x\u202f250, z\u202f750"));
-  CHECK(has(screen, "100\u202f% of the dust"));
-  // Bars in shares of the 1 g/t that the load holds: 0.5 with 0.03, 0.1 with 0.04 to either side.
-  const std::string page = folder.read("report.html");
-  CHECK(has(page, "style=\"width:50.0%\"></i><s style=\"left:47.0%;width:6.0%\"></s>"));
-  CHECK(has(page, "style=\"width:10.0%\"></i><s style=\"left:6.0%;width:8.0%\"></s>"));
-  // The only size class gets out with 0.6, 0.05.
-  CHECK(has(page, "style=\"width:60.0%\"></i><s style=\"left:55.0%;width:10.0%\"></s>"));
+  const json& extraction = document["extraction"];
+  REQUIRE(extraction["places"].size() == 2);
+  CHECK(extraction["first"] == 1);
+  CHECK(extraction["places"][1]["name"] == "2");
+  CHECK(extraction["places"][1]["x"].get<double>() == doctest::Approx(0.25));
+  CHECK(extraction["places"][1]["dust_share"].get<double>() == doctest::Approx(1.0));
 }
 
 TEST_CASE("dust shall be told by where it parted from the coarse grains") {
@@ -101,13 +125,14 @@ TEST_CASE("dust shall be told by where it parted from the coarse grains") {
         {3, 500e-6, 0.6, 0.6}},
        {{1, 500e-6, 0.5, 0.1}, {2, 10e-6, 0.2, 0.4}, {3, 500e-6, 0.6, 0.6}, {4, 10e-6, 0.6, 0.6}}});
   folder.write("scenario.yaml", "domain: {min: [0, 0, 0], max: [1, 1, 1]}\n");
-  const std::string screen = first_screen(folder);
-  CHECK(has(screen, "near x\u202f310, z\u202f210\u202fmm: 100"));
-  // One grain of quartz in 1 g of load.
-  const std::string page = folder.read("report.html");
-  CHECK(has(page, "x\u202f300 to 320, z\u202f200 to 220\u202fmm"));
-  CHECK_FALSE(has(page, "x\u202f600 to 620"));
-  CHECK_FALSE(has(page, "x\u202f900 to 920"));
+  const json partings = document_of(folder)["dust"]["partings"];
+  REQUIRE(partings.size() == 1);
+  CHECK(partings[0]["x"].get<double>() == doctest::Approx(0.31));
+  CHECK(partings[0]["z"].get<double>() == doctest::Approx(0.21));
+  CHECK(partings[0]["share"].get<double>() == doctest::Approx(1.0));
+  // One grain of quartz in the load of 0.25 kg.
+  CHECK(partings[0]["amount"]["value"].get<double>() ==
+        doctest::Approx(1e6 * k_grain / 0.25).epsilon(1e-3));
 }
 
 TEST_CASE("a flux that is still changing shall be called so") {
@@ -121,7 +146,7 @@ TEST_CASE("a flux that is still changing shall be called so") {
   }
   const auto write = [&](const json& y) {
     folder.write("report.json", json{{"curves",
-                                      {{{"sensor", "dust_out_left"},
+                                      {{{"sensor", "x"},
                                         {"title", "Flux"},
                                         {"x_label", "time [s]"},
                                         {"y_label", "net mass rate [kg/s]"},
@@ -131,9 +156,10 @@ TEST_CASE("a flux that is still changing shall be called so") {
                                     .dump());
   };
   write(rates);
-  CHECK(has(first_screen(folder), "brought 3 times the first"));
+  CHECK(document_of(folder)["dust"]["later_over_earlier"].get<double>() ==
+        doctest::Approx(3.0).epsilon(0.1));
   write(same);
-  CHECK_FALSE(has(first_screen(folder), "Still changing"));
+  CHECK(document_of(folder)["dust"]["later_over_earlier"].get<double>() == doctest::Approx(1.0));
 }
 
 TEST_CASE("limits of validity that a run went beyond shall be counted") {
@@ -144,12 +170,13 @@ TEST_CASE("limits of validity that a run went beyond shall be counted") {
                        {"contacts_seen_late", 2},
                        {"largest_overlap_over_radius", 0.01}};
   folder.write("summary.json", summary.dump());
-  CHECK(has(first_screen(folder), "2 limits of validity touched"));
-  const std::string page = folder.read("report.html");
-  CHECK(has(page, "Contacts between grains that began unseen"));
+  const json document = document_of(folder);
+  CHECK(touched(document) == 2);
+  CHECK(document["limits"][0]["key"] == "largest_diameter_over_spacing");
+  CHECK(document["limits"][0]["value"] == 0.5);
   summary["health"] = {{"largest_diameter_over_spacing", 0.5}, {"contacts_seen_late", 0}};
   folder.write("summary.json", summary.dump());
-  CHECK(has(first_screen(folder), "No limit of validity touched"));
+  CHECK(touched(document_of(folder)) == 0);
 }
 
 TEST_CASE("overlaps of coarse and of fine grains shall be told apart") {
@@ -159,15 +186,14 @@ TEST_CASE("overlaps of coarse and of fine grains shall be told apart") {
                        {"largest_overlap_over_radius_coarse", 0.02},
                        {"largest_overlap_over_radius_fine", 0.0}};
   folder.write("summary.json", summary.dump());
-  CHECK(has(first_screen(folder), "No limit of validity touched"));
-  CHECK_FALSE(has(folder.read("report.html"), "smaller radius, fine grains"));
+  CHECK(touched(document_of(folder)) == 0);
+  CHECK(document_of(folder)["limits"].size() == 1);
   summary["health"]["largest_overlap_over_radius_fine"] = 1.4;
   folder.write("summary.json", summary.dump());
-  CHECK(has(first_screen(folder), "1 limit of validity touched"));
-  const std::string page = folder.read("report.html");
-  CHECK(has(page, "smaller radius, fine grains"));
-  CHECK(has(page, "What an overlap of 1.4 radii means."));
-  CHECK(has(page, "What it does to the dust figures:"));
+  const json document = document_of(folder);
+  CHECK(touched(document) == 1);
+  CHECK(document["limits"].back()["key"] == "largest_overlap_over_radius_fine");
+  CHECK(document["crushed"]["overlap"] == 1.4);
 }
 
 TEST_CASE("dust that was thrown shall be counted by what is faster than its carriers") {
@@ -176,17 +202,17 @@ TEST_CASE("dust that was thrown shall be counted by what is faster than its carr
   folder.write_tracks(
       {{{1, 500e-6, 0.1, 0.2, 2.0}, {2, 10e-6, 0.1, 0.2, 2.3}},
        {{1, 500e-6, 0.3, 0.2, 1.0}, {2, 10e-6, 0.3, 0.2, 9.0}, {3, 10e-6, 0.9, 0.9, 0.0}}});
-  const dust::io::H5Source source(folder.path() / "results.h5");
+  const dust::report::H5Source source(folder.path() / "results.h5");
   // 1.2 times the fastest coarse grain, 2 m/s; with faster air 1.2 times that.
-  const auto without_air = dust::io::fast_dust_of(source, 0.0);
+  const auto without_air = dust::report::fast_dust_of(source, 0.0);
   CHECK(without_air.limit == doctest::Approx(2.4));
   CHECK(without_air.fast == 1);
   CHECK(without_air.all == 3);
-  CHECK(dust::io::fast_dust_of(source, 8.0).fast == 0);
+  CHECK(dust::report::fast_dust_of(source, 8.0).fast == 0);
   // Stokes: 10 m/s for 2650 (10 um)^2 / (18 x 1.8e-5) s are 8.18 mm.
-  const std::string text = dust::io::crushed_dust_html(1.4, without_air, 10e-6, 2650.0, 1.8e-5);
-  CHECK(has(text, "within 8.179\u202f"));
-  CHECK(has(text, "1 of 3 dust grains"));
+  CHECK(dust::report::stopping_distance(10e-6, 2650.0, 1.8e-5) ==
+        doctest::Approx(8.179e-3).epsilon(1e-3));
+  CHECK(dust::report::stopping_distance(10e-6, 0.0, 1.8e-5) == 0.0);
 }
 
 TEST_CASE("a run without dust shall have no questions about it") {
@@ -194,10 +220,10 @@ TEST_CASE("a run without dust shall have no questions about it") {
   json summary = fake_summary();
   summary["sensors"] = json::object();
   folder.write("summary.json", summary.dump());
-  const std::string screen = first_screen(folder);
-  CHECK_FALSE(has(screen, "How much dust?"));
-  CHECK_FALSE(has(screen, "Where to extract?"));
-  CHECK(has(screen, "grains were released"));
+  const json document = document_of(folder);
+  CHECK(document["dust"].is_null());
+  CHECK(document["extraction"].is_null());
+  CHECK(document["summary"]["particles"]["emitted"] == 100);
 }
 
 TEST_CASE("published numbers shall stand beside those of the run") {
@@ -211,22 +237,12 @@ TEST_CASE("published numbers shall stand beside those of the run") {
                             {"uncertainty", 0.4},
                             {"source", "a <table>"}}};
   folder.write("summary.json", summary.dump());
-  dust::io::write_report(folder.path());
-  const std::string page = folder.read("report.html");
-  CHECK(has(page, "Beside published numbers"));
-  CHECK(has(page, "slope / mean angle"));
-  CHECK(has(page, "2.5\u202f%"));
-  CHECK(has(page, "<td class=\"n\">2</td>"));  // 1 deg over 0.5 deg
-  CHECK(has(page, "a &lt;table&gt;"));
-  // And first of all.
-  const std::string screen = first_screen(folder);
-  CHECK(has(screen, "Slope mean angle"));
-  CHECK(has(screen, "published 40.00\u00a0\u00b1\u00a00.40"));
-  // Without dust it is the headline.
-  summary["sensors"] = json::object();
+  const json references = document_of(folder)["references"];
+  REQUIRE(references.size() == 1);
+  CHECK(references[0]["difference_share"].get<double>() == doctest::Approx(0.025));
+  CHECK(references[0]["in_errors"].get<double>() == doctest::Approx(2.0));  // 1 deg over 0.5 deg
+  // Without their error that of the difference is not known.
+  summary["references"][0]["uncertainty"] = nullptr;
   folder.write("summary.json", summary.dump());
-  const std::string told = first_screen(folder);
-  CHECK(has(told, "<p class=\"lede\">Slope mean angle <strong>41.00\u00a0\u00b1\u00a00.30"));
-  CHECK(has(told, "published are 40.00\u00a0\u00b1\u00a00.40"));
-  CHECK_FALSE(has(told, "grains were released in"));
+  CHECK(document_of(folder)["references"][0]["in_errors"].is_null());
 }

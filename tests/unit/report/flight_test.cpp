@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/report_flight.hpp"
+#include "report/facts/flight.hpp"
 
 #include <doctest/doctest.h>
 
 #include <array>
 #include <cmath>
 
-using dust::io::lone_flight;
-using dust::io::LoneGrain;
-using dust::io::StillAir;
+using dust::report::lone_flight;
+using dust::report::LoneGrain;
+using dust::report::StillAir;
 
 namespace {
 constexpr double k_gravity = 9.81;

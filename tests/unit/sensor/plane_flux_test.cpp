@@ -197,3 +197,28 @@ TEST_CASE("dust through an opening shall count per tonne emitted in the same tim
     CHECK(name.find("class_300") == std::string::npos);
   }
 }
+
+TEST_CASE("an opening shall say so of its figures, whatever the sensor is called") {
+  auto parameters = k_lip;
+  parameters["role"] = std::string("opening");
+  parameters["finer_than"] = 100e-6;
+  SyntheticScene world;
+  const auto opening = kind().make(parameters);
+  step(*opening, world);
+  const Figures figures = summary_of(*opening);
+  const auto& net = figures.at("class_10_um/net/grams_per_tonne");
+  CHECK(net.role.role == sdk::Role::opening);
+  CHECK(net.role.quantity == sdk::Quantity::mass_per_load);
+  CHECK(net.role.direction == sdk::Direction::net);
+  CHECK(net.role.smallest == 10e-6);
+  CHECK(net.role.largest == 10e-6);
+  CHECK(net.towards == "emission");
+  // What goes to and fro counts towards nothing; the sum is of all sizes taken.
+  CHECK(figures.at("forward/grams_per_tonne").towards.empty());
+  CHECK(figures.at("net/grams_per_tonne").role.largest == 100e-6);
+  CHECK(figures.at("observed_time").role.role == sdk::Role::observed_time);
+  const auto passage = kind().make(k_lip);
+  step(*passage, world);
+  CHECK(summary_of(*passage).at("net/grams_per_tonne").role.role == sdk::Role::passage);
+  CHECK(summary_of(*passage).at("net/grams_per_tonne").towards.empty());
+}

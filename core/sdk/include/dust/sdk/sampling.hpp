@@ -41,6 +41,10 @@ struct SelectionParameters : SteadyParameters {
   [[nodiscard]] bool takes(double diameter) const {
     return diameter > coarser_than && (finer_than <= 0.0 || diameter < finer_than);
   }
+  /// `role` of a figure of all sizes taken.
+  [[nodiscard]] FigureRole sized(const FigureRole& role) const {
+    return role.sizes(coarser_than, finer_than);
+  }
 };
 template <class P>
 void declare_selection(SchemaOf<P>& s) {
@@ -344,6 +348,7 @@ class SampledFigures {
   struct Column {
     const char* name;
     const char* unit;
+    Quantity quantity = Quantity::unspecified;
   };
   explicit SampledFigures(std::vector<Column> columns)
       : columns_(std::move(columns)), values_(columns_.size(), 0.0), means_(columns_.size()) {}
@@ -356,15 +361,16 @@ class SampledFigures {
   }
   void series(FigureSink& sink) const {
     for (std::size_t n = 0; n < columns_.size(); ++n) {
-      sink.figure(columns_[n].name, values_[n], columns_[n].unit);
+      const auto& [name, unit, quantity] = columns_[n];
+      sink.figure(name, values_[n], unit, -1.0, detail(quantity));
     }
   }
   void summary(FigureSink& sink) const {
     for (std::size_t n = 0; n < columns_.size(); ++n) {
       const double mean = means_.mean(n);
-      const auto& [name, unit] = columns_[n];
-      sink.figure(name, mean, unit, mean != 0.0 ? means_.error(n) : -1.0);
-      sink.figure(std::string(name) + "_at_end", values_[n], unit);
+      const auto& [name, unit, quantity] = columns_[n];
+      sink.figure(name, mean, unit, mean != 0.0 ? means_.error(n) : -1.0, detail(quantity));
+      sink.figure(std::string(name) + "_at_end", values_[n], unit, -1.0, detail(quantity));
     }
   }
   [[nodiscard]] const ThinnedCurve& curve() const { return curve_; }

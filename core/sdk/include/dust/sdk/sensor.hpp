@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/figure_role.hpp"
 #include "dust/sdk/grid_shape.hpp"
 #include "dust/sdk/model.hpp"
 #include "dust/sdk/vec3.hpp"
@@ -93,9 +94,19 @@ struct WorldView {
 class FigureSink {
  public:
   virtual ~FigureSink() = default;
-  /// One figure of summary.json. `name` is a path of snake_case words, e.g. "drop_140_mm/median".
+  /// One figure of summary.json. `name` is a path of snake_case words, e.g. "drop_140_mm/median";
+  /// `role` says what the figure is: the report reads it and never the name.
   virtual void figure(std::string_view name, double value, std::string_view unit,
-                      double uncertainty = -1.0) = 0;
+                      double uncertainty, const FigureRole& role) = 0;
+  /// A detail of no quantity that the report knows.
+  void figure(std::string_view name, double value, std::string_view unit,
+              double uncertainty = -1.0) {
+    figure(name, value, unit, uncertainty, FigureRole{});
+  }
+  /// A detail of a quantity, without an error.
+  void figure(std::string_view name, double value, std::string_view unit, Quantity quantity) {
+    figure(name, value, unit, -1.0, detail(quantity));
+  }
 };
 
 /// Takes raw material of the report: a section of the sensor's own, curves, histograms and tables.
@@ -131,9 +142,14 @@ class FieldSink {
  public:
   virtual ~FieldSink() = default;
   /// One number per cell of a grid of the sensor's own, x fastest. It stands in results.h5 as
-  /// /sensors/<frame>/<sensor>/<name>. `name` is snake_case.
+  /// /sensors/<frame>/<sensor>/<name>, with `role` in its attributes. `name` is snake_case.
   virtual void field(std::string_view name, std::string_view unit, const GridShape& grid,
-                     std::span<const double> values) = 0;
+                     std::span<const double> values, const FigureRole& role) = 0;
+  /// A detail of no quantity that the report knows.
+  void field(std::string_view name, std::string_view unit, const GridShape& grid,
+             std::span<const double> values) {
+    field(name, unit, grid, values, FigureRole{});
+  }
 };
 
 /// What a column of series.csv stands for where a row is written every so many fluid steps only.

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/compare.hpp"
+
+#include "base/text.hpp"
+#include "report/highlights.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+
+namespace dust::report {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
+
+std::string words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string text_of(const YAML::Node& node) {
+  if (node.IsScalar()) return node.Scalar();
+  if (node.IsNull()) return "~";
+  std::string text;
+  for (const YAML::Node& part : node) text += (text.empty() ? "" : ", ") + text_of(part);
+  return "[" + text + "]";
+}
+
+void flatten(const YAML::Node& node, const std::string& path,
+             std::map<std::string, std::string>& keys) {
+  if (node.IsMap()) {
+    for (const auto& entry : node) {
+      const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : std::string("?");
+      flatten(entry.second, path.empty() ? key : path + "." + key, keys);
+    }
+    return;
+  }
+  const bool has_maps = node.IsSequence() && std::any_of(node.begin(), node.end(),
+                                                         [](const auto& n) { return n.IsMap(); });
+  if (!has_maps) {
+    keys[path] = text_of(node);
+    return;
+  }
+  for (std::size_t k = 0; k < node.size(); ++k) {
+    flatten(node[k], path + "[" + std::to_string(k) + "]", keys);
+  }
+}
+
+/// Pairs figures of both runs by sensor and name, in the order of the first run; what only the
+/// second has comes last.
+std::vector<QuantityPair> paired(const std::vector<Figure>& first,
+                                 const std::vector<Figure>& second) {
+  std::vector<QuantityPair> pairs;
+  std::map<std::pair<std::string, std::string>, std::size_t> places;
+  for (const Figure& f : first) {
+    places[{f.sensor, f.name}] = pairs.size();
+    pairs.push_back({f.sensor, f.name, f.unit, f.value, f.uncertainty, k_none, -1.0});
+  }
+  for (const Figure& f : second) {
+    const auto found = places.find({f.sensor, f.name});
+    if (found == places.end()) {
+      pairs.push_back({f.sensor, f.name, f.unit, k_none, -1.0, f.value, f.uncertainty});
+    } else {
+      pairs[found->second].second = f.value;
+      pairs[found->second].second_error = f.uncertainty;
+    }
+  }
+  return pairs;
+}
+
+/// The figures of the first screen under names that compare between runs.
+std::vector<Figure> told_first(const RunText& run) {
+  std::vector<Figure> list;
+  const Highlights highlights = highlights_of(run);
+  const auto add = [&](std::string group, std::string name, const Figure& figure) {
+    Figure told = figure;
+    told.sensor = std::move(group);
+    told.name = std::move(name);
+    list.push_back(std::move(told));
+  };
+  if (!highlights.openings.empty()) add("dust", "gets out", sum_of(highlights.openings));
+  for (const auto* figures : {&highlights.openings, &highlights.dust, &highlights.held}) {
+    for (const Figure& figure : *figures) {
+      const double diameter = highlights.classes.size() > 1 ? figure.size_class() : -1.0;
+      const std::string size =
+          diameter > 0.0 ? ", " + base::digits_text(diameter * 1e6, 6) + " um" : std::string();
+      add("dust", words(figure.sensor) + size, figure);
+    }
+  }
+  for (const StreamDrop& drop : highlights.stream) {
+    add("stream", "median at " + base::digits_text(drop.drop * 1e3, 6) + " mm drop", drop.median);
+  }
+  for (const LowPlace& place : highlights.places) {
+    add("low pressure", "place " + place.name + ", x", place.x);
+    add("low pressure", "place " + place.name + ", z", place.z);
+    add("low pressure", "place " + place.name + ", depth", place.depth);
+  }
+  const auto number = [&](const char* name, const json& object, const char* key, const char* unit) {
+    const auto value = number_at(object, key);
+    if (!value) return;
+    Figure told;
+    told.sensor = "run";
+    told.name = name;
+    told.value = *value;
+    told.unit = unit;
+    list.push_back(std::move(told));
+  };
+  number("grains released", object_at(run.summary, "particles"), "emitted", "1");
+  number("grains in the domain", object_at(run.summary, "particles"), "in_domain", "1");
+  number("mass released", object_at(run.summary, "mass_kg"), "emitted", "kg");
+  number("mass in the domain", object_at(run.summary, "mass_kg"), "in_domain", "kg");
+  number("simulated time", run.summary, "simulated_s", "s");
+  number("computing time", run.summary, "wall_s", "s");
+  return list;
+}
+
+/// "0.0292 +- 0.0106", as many digits as the error allows.
+std::string plain(double value, double error) {
+  if (!std::isfinite(value)) return "-";
+  if (!(error > 0.0) || !std::isfinite(error)) {
+    // Counts stay whole.
+    return base::digits_text(value, value == std::round(value) ? 12 : 5);
+  }
+  if (std::max(std::abs(value), error) < 1e-4) {
+    return base::digits_text(value, 3) + " +- " + base::digits_text(error, 2);
+  }
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12);
+  return base::fixed_text(value, decimals) + " +- " + base::fixed_text(error, decimals);
+}
+
+/// Characters, not bytes, so that columns stay in line.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  }));
+}
+
+}  // namespace
+
+double QuantityPair::in_errors() const {
+  if (!(first_error > 0.0) && !(second_error > 0.0)) return k_none;
+  return difference() / std::hypot(std::max(first_error, 0.0), std::max(second_error, 0.0));
+}
+
+std::vector<ScenarioDifference> scenario_differences(const std::string& first,
+                                                     const std::string& second) {
+  std::map<std::string, std::string> keys[2];
+  try {
+    flatten(YAML::Load(first), "", keys[0]);
+    flatten(YAML::Load(second), "", keys[1]);
+  } catch (const YAML::Exception&) {
+    return {};
+  }
+  std::map<std::string, ScenarioDifference> found;
+  for (const auto& [path, text] : keys[0]) found[path] = {path, text, ""};
+  for (const auto& [path, text] : keys[1]) {
+    found[path].path = path;
+    found[path].second = text;
+  }
+  std::vector<ScenarioDifference> list;
+  for (const auto& [path, entry] : found) {
+    if (entry.first != entry.second) list.push_back(entry);
+  }
+  return list;
+}
+
+Comparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second) {
+  Comparison c;
+  c.first = read_run_text(first);
+  c.second = read_run_text(second);
+  const auto name_of = [](const std::filesystem::path& folder) {
+    const auto path = std::filesystem::absolute(folder).lexically_normal();
+    return (path.has_filename() ? path.filename() : path.parent_path().filename()).string();
+  };
+  c.first_name = name_of(first);
+  c.second_name = name_of(second);
+  if (c.first_name == c.second_name) {
+    c.first_name = first.lexically_normal().string();
+    c.second_name = second.lexically_normal().string();
+  }
+  c.scenario = scenario_differences(c.first.scenario, c.second.scenario);
+  c.headline = paired(told_first(c.first), told_first(c.second));
+  c.quantities = paired(c.first.figures, c.second.figures);
+  const std::string state = text_at(c.first.summary, "state_sha256");
+  c.is_same_state = !state.empty() && state == text_at(c.second.summary, "state_sha256");
+  return c;
+}
+
+std::string comparison_text(const Comparison& c) {
+  constexpr std::size_t k_most_keys = 20;
+  std::vector<std::vector<std::string>> rows;
+  rows.push_back({"", "[unit]", c.first_name, c.second_name, "difference", "in errors"});
+  for (const QuantityPair& pair : c.headline) {
+    char difference[32] = "-", sigmas[32] = "-";
+    if (std::isfinite(pair.difference())) {
+      const bool is_count = pair.difference() == std::round(pair.difference());
+      std::snprintf(difference, sizeof difference, is_count ? "%+.12g" : "%+.4g",
+                    pair.difference());
+    }
+    if (std::isfinite(pair.in_errors())) {
+      std::snprintf(sigmas, sizeof sigmas, "%+.1f", pair.in_errors());
+    }
+    rows.push_back({pair.group + ": " + pair.name, "[" + pair.unit + "]",
+                    plain(pair.first, pair.first_error), plain(pair.second, pair.second_error),
+                    difference, sigmas});
+  }
+  std::vector<std::size_t> widths(rows[0].size(), 0);
+  for (const auto& row : rows) {
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], width_of(row[k]));
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const std::string space(widths[k] - width_of(row[k]), ' ');
+      text += (k == 0 ? "" : "  ") + (k < 2 ? row[k] + space : space + row[k]);
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += '\n';
+  }
+  if (c.is_same_state) text += "The end states are the same, bit for bit.\n";
+  text += c.scenario.empty() ? "The scenarios are the same.\n" : "The scenarios differ in:\n";
+  for (std::size_t k = 0; k < c.scenario.size() && k < k_most_keys; ++k) {
+    const ScenarioDifference& d = c.scenario[k];
+    text += "  " + d.path + ": " + (d.first.empty() ? "(none)" : d.first) + " | " +
+            (d.second.empty() ? "(none)" : d.second) + "\n";
+  }
+  if (c.scenario.size() > k_most_keys) {
+    text += "  and " + std::to_string(c.scenario.size() - k_most_keys) + " more keys\n";
+  }
+  return text;
+}
+
+}  // namespace dust::report

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/pictures/pictures.hpp"
+#include "report/run_text.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace dust::report {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t k_triangles = 20000;
+
+bool is_point(const json& value) {
+  return value.is_array() && value.size() == 2 && value[0].is_number() && value[1].is_number();
+}
+
+/// [[x, z], ...] or a list of such lists: always the latter comes back.
+json rings_of(const json& value) {
+  json rings = json::array();
+  if (value.empty()) return rings;
+  if (is_point(value[0])) {
+    if (std::all_of(value.begin(), value.end(), is_point)) rings.push_back(value);
+    return rings;
+  }
+  for (const json& ring : value) {
+    if (ring.is_array() && std::all_of(ring.begin(), ring.end(), is_point)) rings.push_back(ring);
+  }
+  return rings;
+}
+
+/// [x, z, x, z] or [[x, z], [x, z]] each, or one chain of points: flat quadruples come back.
+json segments_of(const json& value) {
+  json segments = json::array();
+  const auto is_number = [](const json& v) { return v.is_number(); };
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    const json& part = value[k];
+    if (is_point(part)) {
+      if (k + 1 < value.size() && is_point(value[k + 1])) {
+        segments.push_back({part[0], part[1], value[k + 1][0], value[k + 1][1]});
+      }
+    } else if (part.is_array() && part.size() == 2 && is_point(part[0]) && is_point(part[1])) {
+      segments.push_back({part[0][0], part[0][1], part[1][0], part[1][1]});
+    } else if (part.is_array() && part.size() == 4 &&
+               std::all_of(part.begin(), part.end(), is_number)) {
+      segments.push_back(part);
+    }
+  }
+  return segments;
+}
+
+/// A length as scenarios write it, in m: "0.35" or "350 mm"; NaN when it is neither.
+double length_of(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  std::string unit(end);
+  unit.erase(0, unit.find_first_not_of(' '));
+  for (const auto& [name, factor] :
+       {std::pair{"", 1.0}, {"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}}) {
+    if (end != text.c_str() && unit == name) return value * factor;
+  }
+  return std::nan("");
+}
+
+/// [x, y, z] in m; a unit on the last component alone holds for all. Empty when it is anything
+/// else.
+std::vector<double> corner_of(const YAML::Node& node) {
+  if (!node.IsSequence() || node.size() != 3) return {};
+  std::vector<std::string> texts;
+  for (const YAML::Node& part : node) {
+    if (!part.IsScalar()) return {};
+    texts.push_back(part.Scalar());
+  }
+  const auto at = texts[2].find_first_of("mcu");
+  for (std::size_t k = 0; k < 2 && at != std::string::npos; ++k) {
+    if (texts[k].find_first_of("mcu") == std::string::npos) texts[k] += " " + texts[2].substr(at);
+  }
+  std::vector<double> corner;
+  for (const std::string& text : texts) corner.push_back(length_of(text));
+  return corner;
+}
+
+/// The domain of scenario.yaml; empty when it cannot be read.
+View domain_of(const std::string& scenario) {
+  try {
+    const YAML::Node domain = YAML::Load(scenario)["domain"];
+    const auto low = corner_of(domain["min"]), high = corner_of(domain["max"]);
+    if (low.size() == 3 && high.size() == 3) return {low[0], low[2], high[0], high[2]};
+  } catch (const YAML::Exception&) {
+    // A report of a damaged scenario file shows what the grains span.
+  }
+  return {};
+}
+
+/// The newest wall surfaces seen along y: their triangles, projected, cover the silhouette.
+json walls_of(const H5Source& source) {
+  const auto names = source.frames("/walls");
+  if (names.empty()) return json::array();
+  const std::string frame = "/walls/" + names.back();
+  const auto points = source.floats(frame + "/points");
+  const auto corners = source.integers(frame + "/triangles");
+  json flat = json::array();
+  for (std::size_t k = 0; k + 2 < corners.size() && k < 3 * k_triangles; k += 3) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto at = static_cast<std::size_t>(corners[k + c]);
+      if (corners[k + c] < 0 || 3 * at + 2 >= points.size()) return json::array();
+      flat.push_back(points[3 * at]);
+      flat.push_back(points[3 * at + 2]);
+    }
+  }
+  if (flat.empty()) return json::array();
+  return json::array({{{"name", "walls"},
+                       {"polygons", json::array()},
+                       {"segments", json::array()},
+                       {"triangles", flat}}});
+}
+
+}  // namespace
+
+void View::add(double x, double z) {
+  if (!std::isfinite(x) || !std::isfinite(z)) return;
+  if (min_x == 0.0 && max_x == 0.0 && min_z == 0.0 && max_z == 0.0) {
+    *this = {x, z, x, z};
+    return;
+  }
+  min_x = std::min(min_x, x);
+  max_x = std::max(max_x, x);
+  min_z = std::min(min_z, z);
+  max_z = std::max(max_z, z);
+}
+
+View view_of(const H5Source& source, const json& bodies, const std::string& scenario) {
+  const auto origin = source.attribute("/fluid", "origin");
+  const auto spacing = source.attribute("/fluid", "spacing");
+  const auto count = source.attribute("/fluid", "count");
+  if (origin.size() == 3 && spacing.size() == 3 && count.size() == 3) {
+    const View view{origin[0], origin[2], origin[0] + spacing[0] * count[0],
+                    origin[2] + spacing[2] * count[2]};
+    if (!view.is_empty()) return view;
+  }
+  if (const View domain = domain_of(scenario); !domain.is_empty()) return domain;
+  View view;
+  for (const auto& name : source.frames("/particles")) {
+    const auto position = source.floats("/particles/" + name + "/position");
+    for (std::size_t k = 0; k + 2 < position.size(); k += 3) view.add(position[k], position[k + 2]);
+  }
+  for (const json& body : bodies) {
+    for (const json& ring : list_at(body, "polygons")) {
+      for (const json& point : ring) view.add(point[0].get<double>(), point[1].get<double>());
+    }
+    for (const json& part : list_at(body, "segments")) {
+      view.add(part[0].get<double>(), part[1].get<double>());
+      view.add(part[2].get<double>(), part[3].get<double>());
+    }
+  }
+  // A margin, and some width for a single grain.
+  const double size = std::max({view.max_x - view.min_x, view.max_z - view.min_z, 1e-3});
+  if (view.max_x - view.min_x == 0.0 && view.max_z - view.min_z == 0.0 && view.max_x == 0.0)
+    return {};
+  return {view.min_x - 0.04 * size, view.min_z - 0.04 * size, view.max_x + 0.04 * size,
+          view.max_z + 0.04 * size};
+}
+
+json bodies_of(const json& report, const H5Source& source) {
+  json bodies = json::array();
+  for (const json& part : list_at(report, "outline")) {
+    json polygons = rings_of(list_at(part, "polygons"));
+    json segments = segments_of(list_at(part, "segments"));
+    if (polygons.empty() && segments.empty()) continue;
+    bodies.push_back({{"name", text_at(part, "body")},
+                      {"polygons", std::move(polygons)},
+                      {"segments", std::move(segments)},
+                      {"triangles", json::array()}});
+  }
+  return bodies.empty() ? walls_of(source) : bodies;
+}
+
+}  // namespace dust::report

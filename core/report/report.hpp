@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "report/page.hpp"
+
+namespace dust::report {
+
+/// Writes DIR/report.json (all that the page shows) and DIR/report.html (the page, complete in
+/// itself) from the files in DIR alone: scenario.yaml, summary.json, series.csv, results.h5 and
+/// what the run left in report.json.
+void write_report(const std::filesystem::path& folder, const Templates& templates = Templates());
+
+}  // namespace dust::report

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace dust::report {
+
+/// All that the page of a run shows, as report.schema.json in tools/report describes it: numbers
+/// in SI units, names and texts from the run, and blobs of pictures. No markup, and no words of the
+/// page: those are of the templates.
+[[nodiscard]] nlohmann::json run_document(const std::filesystem::path& folder);
+
+}  // namespace dust::report

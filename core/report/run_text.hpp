@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "report/figure.hpp"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dust::report {
+
+/// One column of series.csv; a cell that is not a number is NaN.
+struct SeriesColumn {
+  std::string name;
+  std::string unit;
+  std::vector<double> values;
+};
+
+/// What a run folder says in text. Files that are missing or damaged leave their part empty and a
+/// line in `notes`; only a folder without summary.json is refused.
+struct RunText {
+  nlohmann::json summary;
+  nlohmann::json report;
+  std::string scenario;
+  std::vector<SeriesColumn> series;
+  std::vector<Figure> figures;
+  std::vector<std::string> notes;
+};
+
+/// Reads the text files of a run. Throws base::UserError with a remedy when it is not a run.
+[[nodiscard]] RunText read_run_text(const std::filesystem::path& folder);
+
+/// Numbers and strings of a JSON object that may lack them or hold something else.
+[[nodiscard]] std::optional<double> number_at(const nlohmann::json& object, const char* key);
+[[nodiscard]] std::string text_at(const nlohmann::json& object, const char* key);
+[[nodiscard]] const nlohmann::json& object_at(const nlohmann::json& object, const char* key);
+[[nodiscard]] const nlohmann::json& list_at(const nlohmann::json& object, const char* key);
+
+}  // namespace dust::report

@@ -1,0 +1,81 @@
+'use strict';
+// The page of a study: the answer of a calibration, expected signs, main effects, all points.
+(() => {
+  const {el, p, dash} = Dust;
+  const with_unit = (name, unit) => (Dust.is_bare(unit) ? Dust.words(name) : `${Dust.words(name)}, ${unit}`);
+  const amount = (value, error, unit) => Dust.value(value, error === null ? -1 : error) + (Dust.is_bare(unit) ? '' : '\u202f' + unit);
+
+  Dust.sections.header = ({facts}) => el('header', {}, ...Dust.heading({kind: 'Study', scenario: facts.name, status: facts.finished === facts.runs ? 'finished' : 'not finished', title: Dust.sentence(facts.name)}),
+    p({class: 'lede'}, facts.sentence || `Variations of ${facts.base}.`),
+    Dust.tiles([['Runs', Dust.count(facts.runs), `${Dust.plural(facts.inputs, 'input')}, ${Dust.plural(facts.outputs, 'output')}`],
+      ['Finished', `${Dust.count(facts.finished)} of ${Dust.count(facts.runs)}`, facts.failed === 0 ? 'none failed' : `${facts.failed} failed`],
+      ['Time of all runs', Dust.duration(facts.wall_s), 'one after the other'], ['Base', facts.base, facts.base_file]]));
+
+  Dust.sections.calibration = ({calibration: c}) => {
+    if (!c) return null;
+    if (!c.has_answer) return Dust.section('calibration', 'The answer', p({class: 'banner'}, 'Not enough runs finished for an answer.'));
+    const n = (title) => ({title, number: true});
+    const parts = [el('div', c.is_good ? {} : {class: 'banner'}, ...c.statements.map((text) => p({}, text))),
+      Dust.table([{title: 'Parameter'}, n('Likeliest'), n('Mean ± deviation'), n('Region from'), n('To'), {title: 'Pinned down'}],
+        c.estimates.map((e) => [with_unit(e.name, e.unit), Dust.number(e.best), Dust.value(e.mean, e.deviation), Dust.number(e.low), Dust.number(e.high), e.is_pinned ? 'yes' : Dust.strong('no')]), {look: 'narrow', label: 'Parameters'}),
+      Dust.table([{title: 'Target'}, n('Measured'), n('Expected at the likeliest values'), n('Scatter of single runs')],
+        c.targets.map((t) => [with_unit(t.name, t.unit), Dust.value(t.measured, t.measured_error), Dust.value(t.expected, t.expected_error), Dust.number(t.scatter, 2)]), {look: 'narrow', label: 'Targets'})];
+    if (c.curves) {
+      const grid = el('div', {class: 'grid'});
+      Dust.later.push(() => c.curves.forEach((q) => Dust.plot(grid, {title: q.goal, x_label: with_unit(q.parameter, q.parameter_unit), y_label: with_unit(q.goal, q.unit), unit: Dust.raise(q.unit),
+        note: 'Runs, the surrogate through them, and the target (dashed).', lines: [{name: 'surrogate', ...q.surrogate, width: 2}, {name: 'runs', kind: 'points', ...q.runs},
+          {name: 'target', kind: 'reference', x: [q.low, q.high], y: [q.value, q.value]}]})));
+      parts.push(grid);
+    }
+    if (c.crossing) parts.push(Dust.crossing(c.crossing, c.confidence));
+    parts.push(p({class: 'note'}, `${c.places} places were run, at most ${c.runs}; surrogate: ${Dust.words(c.surrogate)}. Region: the smallest that holds the parameters with the stated probability, if the targets' errors are normal and `
+      + 'independent and every value in the ranges is equally likely beforehand. It holds errors of targets and surrogate, not those of the model.'));
+    return Dust.section('calibration', 'The answer', parts);
+  };
+
+  Dust.sections.expectations = ({expectations}) => {
+    if (!expectations.length) return null;
+    const count = (kind) => expectations.filter((e) => e.verdict === kind).length;
+    const look = {as_expected: 'good', against: 'wrong'};
+    const rows = expectations.map((e) => [`${Dust.words(e.output)} ${e.then}`, e.from ? `from ${e.from} to ${e.to}` : `with ${e.input}`, look[e.verdict] ? Dust.strong(e.text, look[e.verdict]) : e.text, e.why]);
+    return Dust.section('expectations', 'Expected signs', p({}, `${count('as_expected')} of ${expectations.length} are as expected, ${count('against')} against. A change counts as told from noise when it exceeds twice its standard error.`),
+      Dust.table([{title: 'Expected'}, {title: 'When'}, {title: 'Found'}, {title: 'Why'}], rows, {label: 'Expected signs'}));
+  };
+
+  Dust.sections.effects = ({effects}) => {
+    if (!effects) return null;
+    const {columns, rows} = effects.table;
+    const table = columns.length ? [Dust.table([{title: 'Change of'}, ...columns.map((c) => ({number: true,
+      title: `over ${Dust.words(c.name)} ${Dust.number(c.from)} to ${Dust.number(c.to)}${Dust.is_bare(c.unit) ? '' : ' ' + c.unit}`}))],
+    rows.map((r) => [Dust.words(r.output), ...r.cells.map((cell) => (!cell ? dash : cell.is_clear ? Dust.strong(amount(cell.change, cell.error, r.unit)) : amount(cell.change, cell.error, r.unit)))]), {label: 'Main effects'}),
+    p({class: 'note'}, 'From the first level to the last, with one standard error; bold: more than twice that.')] : [];
+    const parts = effects.outputs.flatMap((output) => {
+      const grid = el('div', {class: 'grid'});
+      for (const r of output.rows) grid.append(row_figure(r));
+      Dust.later.push(() => output.plots.forEach((plot) => {
+        const over = plot.is_scattered ? 'the range (fitted line): ' : 'the levels: ';
+        Dust.readable_plot(grid, {...plot, note: `Change over ${over}${amount(plot.change, plot.change_error, plot.unit)}.`});
+      }));
+      return [el('h3', {}, Dust.words(output.name), el('small', {}, output.quantity + (output.minus ? ' − ' + output.minus : ''))), grid];
+    });
+    return Dust.section('effects', 'Main effects', p({}, 'Each mark is the mean over all finished runs with that level, whatever the other inputs were. Errors: from replicates where there are any, otherwise from what the sensors tell of themselves.'),
+      table, parts);
+  };
+  // Names beside means with their errors, as bars on one scale.
+  const row_figure = ({title, unit, input, rows}) => {
+    const largest = Math.max(...rows.map((r) => Math.abs(r.value) + (r.error || 0)), 1e-300);
+    return el('figure', {}, Dust.table([{title: Dust.words(input)}, {title: with_unit(title, unit), number: true}, {title: ''}],
+      rows.map((r) => [r.name, Dust.value(r.value, r.error === null ? -1 : r.error), Dust.error_bar(Math.abs(r.value) / largest, (r.error || 0) / largest, '')]), {look: 'bars', label: `${title} by ${input}`}),
+    el('figcaption', {}, el('b', {}, Dust.words(title)), ` against ${Dust.words(input)}.`));
+  };
+
+  Dust.sections.points = ({points}) => {
+    const n = (c) => ({title: with_unit(c.name, c.unit), number: true});
+    const rows = points.rows.map((r, k) => [r.status === 'finished' ? el('a', {href: `points/${r.hash}/report.html`}, String(k + 1)) : String(k + 1), ...r.inputs, String(r.seed),
+      ...r.outputs.map((o) => (o.value === null ? dash : o.error === null ? Dust.number(o.value, 5) : Dust.value(o.value, o.error))), r.status + (r.reason ? ': ' + r.reason : ''), r.wall_s === null ? '' : Dust.duration(r.wall_s)]);
+    return Dust.section('points', 'All points', Dust.table([{title: 'Point'}, ...points.inputs.map(n), {title: 'Seed', number: true}, ...points.outputs.map(n), {title: 'Status'}, {title: 'Time', number: true}], rows, {label: 'All points'}),
+      p({class: 'note'}, "The numbers lead to the runs' own reports. The same table stands in study.csv, and as columns in study.h5."));
+  };
+  Dust.sections.provenance = ({study_file}) => Dust.section('provenance', 'Provenance', p({}, 'Every run keeps its full scenario beside its results: points/HASH.yaml.'),
+    Dust.details('The study file', '', el('pre', {tabindex: 0}, study_file)));
+})();
