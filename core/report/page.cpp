@@ -123,12 +123,7 @@ std::string page_of(const Templates& templates, const std::string& name,
 }
 
 void write_page(const fs::path& target, const std::string& text) {
-  try {
-    io::write_text(target, text);
-  } catch (const base::RunError& problem) {
-    throw base::UserError("error: " + std::string(problem.what()) +
-                          "; make room on the disk or give yourself the right to write there");
-  }
+  io::write_text(target, text);
 }
 
 }  // namespace dust::report
