@@ -66,9 +66,12 @@ TEST_CASE("a strip beside the middle of a belt shall be off centre by what it li
 }
 
 TEST_CASE("samples without load shall not pull the place of the load to the middle") {
-  const auto sensor =
-      load_sensor("belt_load")
-          .make({{"from", Vec3{0, 0, 0}}, {"to", Vec3{1, 0, 0}}, {"width", 1.0}, {"height", 0.1}});
+  const auto sensor = load_sensor("belt_load")
+                          .make({{"point", Vec3{0, 0, 0}},
+                                 {"direction", Vec3{1, 0, 0}},
+                                 {"length", 1.0},
+                                 {"width", 1.0},
+                                 {"height", 0.1}});
   World world;
   for (int s = 0; s < 10; ++s) step(*sensor, world);
   world.grains = {at({0.5, 0.2, 0.05}, {1, 0, 0}, 3.0)};
