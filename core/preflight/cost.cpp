@@ -42,27 +42,27 @@ double extent_along(const DomainSpec& domain, sdk::Vec3 direction) {
 
 /// [s] that grains filled in loosely fall before they lie on each other: the top of the filling
 /// sinks by half its height. Nothing where they are few.
-double settling_time(const Setup& setup, double grains, const Derived& derived) {
+double settling_time(const Setup& setup, double volume) {
   constexpr double k_loose = 0.3;
   const double g = norm(setup.gravity);
   const double height = extent_along(setup.domain, setup.gravity / g);
   const sdk::Vec3 size = setup.domain.max - setup.domain.min;
-  const double volume = grains * sdk::sphere_volume(derived.steps.classes.back().diameter);
   const double filled = volume / (k_loose * size.x * size.y * size.z) * height;
   return std::sqrt(std::min(filled, height) / g);
 }
 
 /// Seconds for `grains` that are there at once: with gravity they fall, then lie.
-double seconds_at_once(const Setup& setup, double grains, const Derived& derived) {
+double seconds_at_once(const Setup& setup, double grains, double volume, const Derived& derived) {
   const double end = setup.time.end;
   const double steps = grains * end / derived.steps.coarse_step;
   if (derived.steps.classes.empty()) return steps / k_bed_steps_per_second;
   if (norm(setup.gravity) > 0.0) {
-    const double share = std::min(1.0, settling_time(setup, grains, derived) / end);
+    const double share = std::min(1.0, settling_time(setup, volume) / end);
     return steps * (share / k_gas_steps_per_second + (1.0 - share) / k_bed_steps_per_second);
   }
   const sdk::Vec3 size = setup.domain.max - setup.domain.min;
-  const double solids = grains * sdk::sphere_volume(derived.steps.classes.back().diameter);
+  const double most = grains * sdk::sphere_volume(derived.steps.classes.back().diameter);
+  const double solids = volume > 0.0 ? volume : most;
   return steps / (solids > k_dense * size.x * size.y * size.z ? k_bed_steps_per_second
                                                               : k_gas_steps_per_second);
 }
@@ -82,9 +82,11 @@ void estimate_cost(const scenario::Setup& setup, double body_speed, Derived& der
   if (speed > 0.0) derived.residence_time += std::max({size.x, size.y, size.z}) / speed;
   derived.residence_time = std::min(derived.residence_time, setup.time.end);
   double at_once = 0.0;
+  double volume_at_once = 0.0;
   double flowing = 0.0;
   for (const EmissionNumbers& e : derived.emissions) {
     at_once += e.at_once;
+    volume_at_once += e.volume_at_once;
     flowing += e.computed_per_second * derived.residence_time;
   }
   derived.grains_in_domain = at_once + flowing;
@@ -110,7 +112,7 @@ void estimate_cost(const scenario::Setup& setup, double body_speed, Derived& der
   if (cells > 0.0) derived.core_seconds += fluid_steps * k_seconds_per_fluid_step;
   if (derived.steps.coarse_step > 0.0) {
     derived.core_seconds +=
-        seconds_at_once(setup, at_once, derived) +
+        seconds_at_once(setup, at_once, volume_at_once, derived) +
         setup.time.end / derived.steps.coarse_step * mean_flowing / k_stream_steps_per_second;
   }
 }

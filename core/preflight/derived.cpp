@@ -110,12 +110,14 @@ EmissionNumbers count_grains(const Setup& setup, const EmitterSpec& spec, sdk::E
   numbers.emitter = spec.name;
   numbers.mass_flow = emitter.requested_mass_flow();
   const auto request = emitter.request();
-  const double mass = mean_mass(
-      request, setup.materials[static_cast<std::size_t>(spec.material)].properties.density);
+  const double density =
+      setup.materials[static_cast<std::size_t>(spec.material)].properties.density;
+  const double mass = mean_mass(request, density);
   if (!emitter.insertion_rule().waits &&
       (request.count > 0 || (request.mass > 0.0 && mass > 0.0))) {
     numbers.at_once =
         request.count > 0 ? static_cast<double>(request.count) : std::round(request.mass / mass);
+    numbers.volume_at_once = numbers.at_once * mass / density;
     return numbers;
   }
   const double per_second = mass > 0.0 ? request.mass_flow / mass : 0.0;

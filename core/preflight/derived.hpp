@@ -18,6 +18,7 @@ struct EmissionNumbers {
   double computed_per_second = 0.0;  ///< grains the engine follows
   double real_per_second = 0.0;      ///< the same, counted with their weights
   double at_once = 0.0;              ///< computed grains that come at one moment
+  double volume_at_once = 0.0;       ///< [m3] of them; 0 where their sizes are not known
 };
 
 /// Numbers that follow from a scenario and tell whether it is sensible, before it is run.

@@ -54,7 +54,9 @@ Node SetupReader::read_interaction(const Node& node, const std::string& path) {
     has_pair = false;
   }
   Node written = written_block<InteractionBlock>(values);
-  ReadModel contact = read_part(reader, "contact", true, written);
+  // A `like` that is left led nowhere: one mistake, told already.
+  const bool is_incomplete = reader.optional("like") != nullptr;
+  ReadModel contact = read_part(reader, "contact", !is_incomplete, written);
   ReadModel rolling = read_part(reader, "rolling", false, written);
   ReadModel cohesion = read_part(reader, "cohesion", false, written);
   reader.finish();

@@ -176,6 +176,22 @@ TEST_CASE("the graph shall be printed as DOT with the nodes of the cycle") {
   }
 }
 
+TEST_CASE(
+    "a feed shall be told to fall short where it is blocked, not where its last grains wait") {
+  const TemporaryFolder folder;
+  const auto run = [&](const std::string& name, const std::string& gravity) {
+    return engine({"run", k_scenario, "-o", folder / name, "--set", "time.end=0.03 s", "--set",
+                   "gravity=" + gravity, "--set", "fluid=none", "--quiet"});
+  };
+  const auto falling = run("falling", "[0, 0, -9.81]");
+  CHECK(falling.status == 0);
+  CHECK(falling.err.find("falls short") == std::string::npos);
+  CHECK(json_text(folder / "falling" / "summary.json", "waiting") != "0");
+  // What comes back upwards is in the way of what follows.
+  const auto rising = run("rising", "[0, 0, 20]");
+  CHECK(rising.err.find("'feed' falls short") != std::string::npos);
+}
+
 TEST_CASE("a scenario written by engine new shall be valid in any sizes, without a warning") {
   const TemporaryFolder folder;
   const std::vector<std::vector<std::string>> all = {

@@ -63,7 +63,7 @@ double waiting_mass_of(const Simulation& s, std::size_t e) {
 }
 
 /// A feed whose last grains wait for a fluid step has fallen short of nothing that anybody weighs.
-constexpr double k_smallest_shortfall = 1e-3;
+constexpr double k_smallest_shortfall = 1e-2;
 
 Json or_null(double value, bool is_given) { return is_given ? Json(value) : Json(nullptr); }
 

@@ -62,7 +62,6 @@ class Completion {
     const Entry* like = interaction.find("like");
     if (like == nullptr) return;
     const Entry taken = *like;
-    std::erase_if(interaction.entries, [](const Entry& e) { return e.key == "like"; });
     const Pair pair = pair_of(&taken.value);
     if (pair.first.empty()) {
       diagnostics_.error(taken.where,
@@ -86,6 +85,8 @@ class Completion {
     open_.push_back(&interaction);
     complete(*model);
     open_.pop_back();
+    if (model->find("like") != nullptr) return;  // told there
+    std::erase_if(interaction.entries, [](const Entry& e) { return e.key == "like"; });
     Node whole = *model;
     whole.where = interaction.where;
     merge_interaction(whole, std::move(interaction));

@@ -20,7 +20,8 @@ std::vector<std::string> pair_names(const Node& interactions);
 /// by key (a law under another `model` is replaced), others are added.
 void merge_pairs(Node& base, Node over);
 
-/// Fills in what `like: [sand, belt]` takes over from another pair; the own keys stay.
+/// Fills in what `like: [sand, belt]` takes over from another pair; the own keys stay. A `like`
+/// that leads nowhere is told and stays in its map, which is then incomplete.
 void complete_pairs(Node& interactions, Diagnostics& diagnostics);
 
 }  // namespace dust::scenario

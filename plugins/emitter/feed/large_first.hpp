@@ -39,9 +39,10 @@ struct Opening {
 };
 
 /// A stream of sizes so different that no large grain finds a place among small ones placed before
-/// it: every grain is placed before all smaller ones that it could touch. Grains of diameter d are
-/// placed as far as 2 d ahead of the opening. One that comes further ahead touches nothing nearer
-/// than 2 d - (d + e)/2, and grains of a diameter e <= d are placed up to 2 e, which is less.
+/// it: every grain is placed before all those that it could touch and that are of a smaller octave.
+/// Octaves end at D, D/2, D/4, ... for a largest diameter D. Grains of the octave up to b are
+/// placed as far as 2 b ahead of the opening; one that comes later is further ahead than 2 b and
+/// touches nothing nearer than 2 b - (b + b/2)/2 = 1.25 b, and smaller octaves are placed up to b.
 ///
 /// Each size is a stream of its own, one grain at a random instant of each interval 1/flow, so that
 /// what lies ahead can be told size by size.
@@ -74,7 +75,8 @@ class LargeFirst {
     });
     for (const std::size_t i : order) {
       if (!(sizes_[i].flow > 0.0)) continue;
-      const double horizon = std::min(last, end + 2.0 * sizes_[i].diameter / opening_.speed);
+      const double ahead = 2.0 * placed_.level_diameter(0.5 * sizes_[i].diameter);
+      const double horizon = std::min(last, end + ahead / opening_.speed);
       for (double time = time_of(i, first, random); time < horizon;
            time = time_of(i, first, random)) {
         place(i, time, random);

@@ -40,6 +40,11 @@ class PlacedStream {
     ++level.count;
   }
 
+  /// [m] Upper end of the sizes that share a grid with a sphere: its diameter and up to twice that.
+  [[nodiscard]] double level_diameter(double radius) const {
+    return levels_[level_of(radius)].edge;
+  }
+
   /// Whether the sphere touches none of those that are not of a smaller level than its own; `gap`
   /// [-] of the sum of the radii stays free.
   [[nodiscard]] bool is_free(sdk::Vec3 centre, double radius, double gap) const {

@@ -145,16 +145,16 @@ TEST_CASE("a bare number that was hardly meant in SI shall draw a warning with b
     REQUIRE(lines.size() == before + 1);
     return lines.back();
   };
-  // The belt's thickness and head, a plate's angle.
+  // A thickness, a place and an angle.
   CHECK(one("bodies.belt.thickness", "3")
             .find("bodies.belt.thickness: 3 has no unit and is read as 3 m: write 3 mm or 3 m") !=
         std::string::npos);
-  CHECK(one("bodies.belt.head", "[80, 0, 158]").find("158 has no unit and is read as") !=
+  CHECK(one("frames.conveyor.origin", "[80, 0, 200]").find("200 has no unit and is read as") !=
         std::string::npos);
   CHECK(one("frames.conveyor.angle", "16").find("write 16 deg or 16 rad") != std::string::npos);
   // Said, or likely.
   CHECK(warnings("bodies.belt.thickness", "3 m").size() == before);
   CHECK(warnings("bodies.belt.thickness", "0.003").size() == before);
-  CHECK(warnings("bodies.belt.head", "[0, 0, 0.158]").size() == before);
+  CHECK(warnings("frames.conveyor.origin", "[0.08, 0, 0.2]").size() == before);
   CHECK(warnings("frames.conveyor.angle", "0.2").size() == before);
 }

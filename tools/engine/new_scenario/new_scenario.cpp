@@ -18,6 +18,14 @@ constexpr double k_solids = 0.12;
 /// [m] as millimetres without a unit, rounded to a hundredth.
 std::string mm(double metres) { return base::digits_text(std::round(1e5 * metres) / 100.0, 8); }
 
+/// [s] The largest of 1, 0.5, 0.2 and 0.1 ms that is not above `limit`.
+double round_step(double limit) {
+  for (const double step : {1e-3, 5e-4, 2e-4}) {
+    if (step <= limit) return step;
+  }
+  return 1e-4;
+}
+
 std::string head_of(const std::string& name, double end, double fluid_step, const char* what) {
   std::ostringstream out;
   out << "# " << what << "\n# Change what is yours, then: engine check " << name
@@ -61,7 +69,7 @@ std::string write_transfer(const std::string& name, const std::vector<double>& s
   const double z = top + gap + margin;
   const double cell = 2.5 * grain;
   const double end = 2.0 * (head / speed + std::sqrt(2.0 * top / 9.81));
-  const double step = std::min(1e-3, 0.5 * grain / std::max(speed, 2.0));
+  const double step = round_step(0.5 * grain / std::max(speed, 2.0));
   const auto cells = [cell](double extent) {
     return std::to_string(std::max(1, static_cast<int>(extent / cell)));
   };
