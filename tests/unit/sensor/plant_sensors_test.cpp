@@ -24,7 +24,7 @@ Grain at(Vec3 place, Vec3 velocity, double mass = 1e-6) {
 }
 
 /// A world in which a grain goes by `interval` x velocity from sample to sample.
-void move_on(World& world) {
+void move_on(SyntheticScene& world) {
   for (Grain& g : world.grains) {
     g.before = g.now;
     g.now = g.now + world.interval * g.velocity;
@@ -44,7 +44,7 @@ TEST_CASE("a strip beside the middle of a belt shall be off centre by what it li
                                  {"width", 0.4},
                                  {"height", 0.1},
                                  {"belt_speed", 2.5}});
-  World world;
+  SyntheticScene world;
   for (int n = 0; n < 50; ++n) {
     for (const double aside : {0.03, 0.05}) {
       world.grains.push_back(
@@ -72,7 +72,7 @@ TEST_CASE("samples without load shall not pull the place of the load to the midd
                                  {"length", 1.0},
                                  {"width", 1.0},
                                  {"height", 0.1}});
-  World world;
+  SyntheticScene world;
   for (int s = 0; s < 10; ++s) step(*sensor, world);
   world.grains = {at({0.5, 0.2, 0.05}, {1, 0, 0}, 3.0)};
   for (int s = 0; s < 10; ++s) step(*sensor, world);
@@ -92,7 +92,7 @@ TEST_CASE("a stream through an opening shall have its velocity, angle, fill and 
                                  {"max", Vec3{0.33, 0.011, 0.1}},
                                  {"bulk_density", 1600.0},
                                  {"belt_velocity", Vec3{3.0, 0, 0}}});
-  World world;
+  SyntheticScene world;
   for (int layer = 0; layer < 60; ++layer) {
     for (int n = 0; n < 20; ++n) {
       world.grains.push_back(
@@ -120,7 +120,7 @@ TEST_CASE("what falls through the level shall count once, per hour and per tonne
       load_sensor("spillage")
           .make(
               {{"min", Vec3{0, 0, 0.1}}, {"max", Vec3{0.2, 0.011, 0.1}}, {"steady_after", 0.005}});
-  World world;
+  SyntheticScene world;
   // One grain of 1 g per millisecond; one rises, one falls beside.
   for (int n = 0; n < 20; ++n) {
     world.grains.push_back(at({0.1, 0.005, 0.1005 + 1e-3 * n}, {0, 0, -1}, 1e-3));
@@ -149,7 +149,7 @@ TEST_CASE("a block that slides on a liner shall wear it as Archard's closed form
                                                 {"cell", 0.01},
                                                 {"coefficient", k},
                                                 {"hardness", hardness}});
-  World world;
+  SyntheticScene world;
   // 30 N on a plate whose normal is (0.6, 0, 0.8): grain slides along (0.8, 0, -0.6) at 2 m/s and
   // turns so that its surface goes 0.5 m/s faster. Friction of 12 N against it.
   const Vec3 out{0.6, 0.0, 0.8};
