@@ -67,7 +67,7 @@ with tempfile.TemporaryDirectory() as folder:
             "include": [str(FOLDER / f"{name}.yaml")],
             "time": {"end": "1 s", "fluid_step": "1 ms", "output_every": "100 ms"},
             "gravity": [0, 0, -9.81], "fluid": "none",
-            "domain": {"min": [0, 0, 0], "max": [1, 1, 1], "boundaries": walls},
+            "domain": {"min": [0, 0, 0], "max": ["1 m", "1 m", "1 m"], "boundaries": walls},
             "emitters": {"bed": {"model": "fill", "material": name, "min": [0.1, 0.1, 0.1],
                                  "max": [0.9, 0.9, 0.9], "count": 100, "diameters": [0.03],
                                  "mass_fractions": [1]}}}))

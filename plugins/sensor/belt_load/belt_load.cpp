@@ -89,21 +89,25 @@ class BeltLoad final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    for (std::size_t c = 0; c < k_columns; ++c) sink.figure(k_names[c], values_[c], k_units[c]);
+    for (std::size_t c = 0; c < k_columns; ++c)
+      sink.figure(k_names[c], values_[c], k_units[c], -1.0, sdk::detail(k_quantities[c]));
   }
 
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t c = 0; c < k_off_centre; ++c) {
-      sink.figure(k_names[c], means_.mean(c), k_units[c], means_.error(c));
+      sink.figure(k_names[c], means_.mean(c), k_units[c], means_.error(c),
+                  sdk::detail(k_quantities[c]));
     }
     for (std::size_t c = k_off_centre; c < k_columns; ++c) {
       const std::size_t q = c - k_off_centre;
-      sink.figure(k_names[c], loaded_.mean(q), k_units[c], loaded_.error(q));
+      sink.figure(k_names[c], loaded_.mean(q), k_units[c], loaded_.error(q),
+                  sdk::detail(k_quantities[c]));
     }
     if (p_.belt_speed == 0.0) return;
     const double error = loaded_.error(2);
     sink.figure("speed_over_belt_speed", loaded_.mean(2) / p_.belt_speed, "1",
-                error < 0.0 ? -1.0 : error / std::abs(p_.belt_speed));
+                error < 0.0 ? -1.0 : error / std::abs(p_.belt_speed),
+                sdk::detail(sdk::Quantity::ratio));
   }
 
   void report(sdk::ReportSink& sink) const override {
@@ -131,6 +135,9 @@ class BeltLoad final : public sdk::Sensor {
   static constexpr const char* k_names[k_columns] = {"mass_per_length", "mass_flow", "off_centre",
                                                      "half_width", "speed"};
   static constexpr const char* k_units[k_columns] = {"kg/m", "kg/s", "m", "m", "m/s"};
+  static constexpr sdk::Quantity k_quantities[k_columns] = {
+      sdk::Quantity::mass_per_length, sdk::Quantity::mass_rate, sdk::Quantity::length,
+      sdk::Quantity::length, sdk::Quantity::velocity};
 
   Parameters p_;
   sdk::Vec3 along_, left_, up_;

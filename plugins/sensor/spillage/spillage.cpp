@@ -69,8 +69,8 @@ class Spillage final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    sink.figure("mass", mass_, "kg");
-    sink.figure("rate", row_.mean(0), "kg/h");
+    sink.figure("mass", mass_, "kg", -1.0, sdk::detail(sdk::Quantity::mass));
+    sink.figure("rate", row_.mean(0), "kg/h", -1.0, sdk::detail(sdk::Quantity::mass_rate));
   }
   [[nodiscard]] sdk::RowValue row_value(std::string_view column) const override {
     return column == "mass" ? sdk::RowValue::total : sdk::RowValue::mean;
@@ -83,11 +83,13 @@ class Spillage final : public sdk::Sensor {
     constexpr double k_grams_per_tonne = 1e6;
     const double per_mass = emitted > 0.0 ? k_grams_per_tonne / emitted : 0.0;
     sink.figure("rate", formula::per_hour(steady_, duration_), "kg/h",
-                error < 0.0 ? -1.0 : formula::per_hour(error, duration_));
+                error < 0.0 ? -1.0 : formula::per_hour(error, duration_),
+                sdk::detail(sdk::Quantity::mass_rate));
     sink.figure("grams_per_tonne", steady_ * per_mass, "g/t",
-                error < 0.0 || per_mass == 0.0 ? -1.0 : error * per_mass);
-    sink.figure("mass", mass_, "kg");
-    sink.figure("grains", count_, "1");
+                error < 0.0 || per_mass == 0.0 ? -1.0 : error * per_mass,
+                sdk::detail(sdk::Quantity::mass_per_load));
+    sink.figure("mass", mass_, "kg", -1.0, sdk::detail(sdk::Quantity::mass));
+    sink.figure("grains", count_, "1", -1.0, sdk::detail(sdk::Quantity::number));
   }
 
   void save(sdk::ArchiveWriter& a) const override {

@@ -86,7 +86,7 @@ class StreamSection final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    sink.figure("mass_flow", row_.mean(0), "kg/s");
+    sink.figure("mass_flow", row_.mean(0), "kg/s", -1.0, sdk::detail(sdk::Quantity::mass_rate));
   }
   [[nodiscard]] sdk::RowValue row_value(std::string_view) const override {
     return sdk::RowValue::mean;
@@ -96,19 +96,23 @@ class StreamSection final : public sdk::Sensor {
   void summary(sdk::FigureSink& sink) const override {
     const Stream s = stream();
     const double normal = dot(s.velocity, p_.normal);
-    sink.figure("mass_flow", s.mass_flow, "kg/s", means_.error(0));
-    sink.figure("velocity_x", s.velocity.x, "m/s");
-    sink.figure("velocity_y", s.velocity.y, "m/s");
-    sink.figure("velocity_z", s.velocity.z, "m/s");
-    sink.figure("speed", norm(s.velocity), "m/s");
-    sink.figure("angle", formula::angle(normal, norm(s.velocity - normal * p_.normal)), "rad");
-    sink.figure("fill_ratio", fill_ratio(s), "1");
-    sink.figure("impact_pressure", formula::impact_pressure(p_.bulk_density, normal), "Pa");
+    sink.figure("mass_flow", s.mass_flow, "kg/s", means_.error(0),
+                sdk::detail(sdk::Quantity::mass_rate));
+    sink.figure("velocity_x", s.velocity.x, "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
+    sink.figure("velocity_y", s.velocity.y, "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
+    sink.figure("velocity_z", s.velocity.z, "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
+    sink.figure("speed", norm(s.velocity), "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
+    sink.figure("angle", formula::angle(normal, norm(s.velocity - normal * p_.normal)), "rad", -1.0,
+                sdk::detail(sdk::Quantity::angle));
+    sink.figure("fill_ratio", fill_ratio(s), "1", -1.0, sdk::detail(sdk::Quantity::ratio));
+    sink.figure("impact_pressure", formula::impact_pressure(p_.bulk_density, normal), "Pa", -1.0,
+                sdk::detail(sdk::Quantity::pressure));
     const double belt = norm(p_.belt_velocity);
     if (belt == 0.0) return;
     const double along = dot(s.velocity, p_.belt_velocity) / belt;
-    sink.figure("speed_along_belt", along, "m/s");
-    sink.figure("speed_along_belt_over_belt_speed", along / belt, "1");
+    sink.figure("speed_along_belt", along, "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
+    sink.figure("speed_along_belt_over_belt_speed", along / belt, "1", -1.0,
+                sdk::detail(sdk::Quantity::ratio));
   }
 
   void save(sdk::ArchiveWriter& a) const override {

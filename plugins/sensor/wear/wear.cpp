@@ -90,7 +90,8 @@ class Wear final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    for (std::size_t c = 0; c < k_columns; ++c) sink.figure(k_names[c], row_.mean(c), k_units[c]);
+    for (std::size_t c = 0; c < k_columns; ++c)
+      sink.figure(k_names[c], row_.mean(c), k_units[c], -1.0, sdk::detail(k_quantities[c]));
   }
   [[nodiscard]] sdk::RowValue row_value(std::string_view) const override {
     return sdk::RowValue::mean;
@@ -99,13 +100,15 @@ class Wear final : public sdk::Sensor {
 
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t c = 0; c < k_columns; ++c) {
-      sink.figure(k_names[c], means_.mean(c), k_units[c], means_.error(c));
+      sink.figure(k_names[c], means_.mean(c), k_units[c], means_.error(c),
+                  sdk::detail(k_quantities[c]));
     }
-    sink.figure("volume", means_.mean(0) * duration_, "m3");
+    sink.figure("volume", means_.mean(0) * duration_, "m3", -1.0,
+                sdk::detail(sdk::Quantity::volume));
     const double area = p_.cell * p_.cell;
     const double per_time = duration_ > 0.0 ? 1.0 / (duration_ * area) : 0.0;
-    largest("depth_rate", "m/s", volume_, per_time, sink);
-    largest("pressure", "Pa", force_, per_time, sink);
+    largest("depth_rate", "m/s", sdk::Quantity::velocity, volume_, per_time, sink);
+    largest("pressure", "Pa", sdk::Quantity::pressure, force_, per_time, sink);
   }
 
   void fields(sdk::FieldSink& sink) const override {
@@ -113,10 +116,10 @@ class Wear final : public sdk::Sensor {
     std::vector<double> scaled(volume_.size());
     std::transform(volume_.begin(), volume_.end(), scaled.begin(),
                    [&](double v) { return v * per_time; });
-    sink.field("depth_rate", "m/s", grid_, scaled);
+    sink.field("depth_rate", "m/s", grid_, scaled, sdk::detail(sdk::Quantity::velocity));
     std::transform(force_.begin(), force_.end(), scaled.begin(),
                    [&](double v) { return v * per_time; });
-    sink.field("pressure", "Pa", grid_, scaled);
+    sink.field("pressure", "Pa", grid_, scaled, sdk::detail(sdk::Quantity::pressure));
   }
 
   void save(sdk::ArchiveWriter& a) const override {
@@ -141,6 +144,8 @@ class Wear final : public sdk::Sensor {
   static constexpr const char* k_names[k_columns] = {"volume_rate", "normal_force",
                                                      "friction_power"};
   static constexpr const char* k_units[k_columns] = {"m3/s", "N", "W"};
+  static constexpr sdk::Quantity k_quantities[k_columns] = {
+      sdk::Quantity::volume_rate, sdk::Quantity::force, sdk::Quantity::power};
 
   void look_at(const sdk::WorldView& world, std::size_t q, std::size_t i, bool is_steady) {
     const sdk::ContactColumns& c = world.contacts;
@@ -175,16 +180,18 @@ class Wear final : public sdk::Sensor {
   }
 
   /// The largest of all places and where it is.
-  void largest(const std::string& name, const char* unit, const std::vector<double>& sums,
-               double factor, sdk::FigureSink& sink) const {
+  void largest(const std::string& name, const char* unit, sdk::Quantity quantity,
+               const std::vector<double>& sums, double factor, sdk::FigureSink& sink) const {
     const auto most = std::max_element(sums.begin(), sums.end());
     auto index = static_cast<std::size_t>(most - sums.begin());
-    sink.figure(name + "_largest/value", *most * factor, unit);
+    sink.figure(name + "_largest/value", *most * factor, unit, -1.0, sdk::detail(quantity));
+    constexpr sdk::Quantity k_places[] = {sdk::Quantity::x, sdk::Quantity::y, sdk::Quantity::z};
     for (int d = 0; d < 3; ++d) {
       const auto count = static_cast<std::size_t>(grid_.count[d]);
       const double middle = p_.min[d] + (static_cast<double>(index % count) + 0.5) * p_.cell;
       index /= count;
-      sink.figure(name + "_largest/" + "xyz"[d], *most > 0.0 ? middle : 0.0, "m");
+      sink.figure(name + "_largest/" + "xyz"[d], *most > 0.0 ? middle : 0.0, "m", -1.0,
+                  sdk::detail(k_places[d]));
     }
   }
 

@@ -134,7 +134,8 @@ TEST_CASE("an unknown model shall be told with the nearest and all there are") {
         "s.yaml:38:15: error: drag.model: unknown drag model 'gidaspov'; did you mean 'gidaspow'? "
         "(drag models: gidaspow)");
   check("shape: plate", "shape: ball",
-        "s.yaml:24:34: error: bodies.plate.shape: unknown shape 'ball' (shapes: conveyor, plate, "
+        "s.yaml:24:34: error: bodies.plate.shape: unknown shape 'ball' (shapes: conveyor, "
+        "belt_conveyor, plate, "
         "plane, box, cylinder, frustum, cone, disc, "
         "container, mesh)");
   check(

@@ -64,7 +64,8 @@ void add_help(CLI::App& app, int&) {
   command->footer("Examples:\n  engine help\n  engine help study");
   command->callback([name, &app] {
     if (name->empty()) {
-      std::cout << app.help();
+      // Its own help(), were it asked, would be that of the command just given.
+      std::cout << app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal);
       return;
     }
     std::vector<std::string> names;

@@ -49,7 +49,10 @@ enum class Quantity {
   granular_temperature,
   angular_velocity,  ///< in rad/s
   vorticity,         ///< in 1/s
-  rate,              ///< anything else per time, in 1/s
+  volume,
+  volume_rate,
+  mass_per_length,  ///< load of a belt
+  rate,             ///< anything else per time, in 1/s
 };
 
 /// Of what passes a place.
@@ -129,6 +132,9 @@ constexpr QuantityInfo info_of(Quantity quantity) {
                                     {"granular_temperature", d::velocity * d::velocity},
                                     {"angular_velocity", d::angular_velocity},
                                     {"vorticity", d::frequency},
+                                    {"volume", d::volume},
+                                    {"volume_rate", d::volume / d::time},
+                                    {"mass_per_length", d::mass / d::length},
                                     {"rate", d::frequency}};
   return infos[static_cast<int>(quantity)];
 }
