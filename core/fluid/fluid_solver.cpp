@@ -149,6 +149,14 @@ const CellField& FluidSolver::pressure() const { return impl_->pressure(); }
 const CellField& FluidSolver::mean_pressure() const { return impl_->mean_pressure(); }
 const FaceField& FluidSolver::stress_divergence() const { return impl_->stress_divergence(); }
 const CellField& FluidSolver::open_fraction() const { return impl_->open_fraction(); }
+const FaceField& FluidSolver::open_area() const { return impl_->open_area(); }
+void FluidSolver::find_throughflow(FaceField& throughflow) const {
+  impl_->find_throughflow(throughflow);
+}
+void FluidSolver::each_sink(
+    const std::function<void(std::int32_t, double, std::int32_t)>& visit) const {
+  for (const Continuity::Sink& sink : impl_->sinks()) visit(sink.cell, sink.rate, sink.body);
+}
 const FluidReport& FluidSolver::report() const { return impl_->report(); }
 bool FluidSolver::has_moving_bodies() const { return impl_->has_movers(); }
 void FluidSolver::look_ahead(double time) { impl_->predict_open_fraction(time); }

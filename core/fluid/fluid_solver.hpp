@@ -9,6 +9,7 @@
 #include "setup/setup.hpp"
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -74,6 +75,13 @@ class FluidSolver {
   [[nodiscard]] const FaceField& stress_divergence() const;
   /// Share of a cell's volume outside all bodies, 0..1 (padded; halo cells as their neighbours).
   [[nodiscard]] const CellField& open_fraction() const;
+  /// Share of the faces' areas outside all bodies, mean over the last step (padded).
+  [[nodiscard]] const FaceField& open_area() const;
+  /// [m/s] What passed the faces at the end of the last step, over their whole area, as continuity
+  /// has it: with the void fraction `after` of that step.
+  void find_throughflow(FaceField& throughflow) const;
+  /// Calls visit(cell, rate [1/s] of the cell's volume, body) for what bodies draw out of cells.
+  void each_sink(const std::function<void(std::int32_t, double, std::int32_t)>& visit) const;
   [[nodiscard]] const FluidReport& report() const;
 
   /// Do bodies move through the grid, which is then cut anew in each step?

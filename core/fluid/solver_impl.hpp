@@ -45,6 +45,11 @@ class FluidSolver::Impl {
     return is_balanced_ ? mean_pressure_ : p_;
   }
   [[nodiscard]] const CellField& open_fraction() const { return cut_.open_fraction(); }
+  [[nodiscard]] const FaceField& open_area() const { return geometry().open_area; }
+  void find_throughflow(FaceField& throughflow) const {
+    continuity_.find_throughflow(u_, void_fraction_.field(), throughflow);
+  }
+  [[nodiscard]] const std::vector<Continuity::Sink>& sinks() const { return continuity_.sinks(); }
   [[nodiscard]] const FluidReport& report() const { return report_; }
   [[nodiscard]] const CellField* eddy_viscosity() const {
     return eddies_ ? &eddies_->eddy_viscosity() : nullptr;

@@ -94,6 +94,15 @@ void write_fluid(hid_t file, const sdk::FluidColumns& f, std::span<const float> 
               Storage::compressed, {"1", "share of the cell not inside a body"});
 }
 
+void write_more_of_fluid(hid_t file, const std::vector<SensorField>& fields) {
+  for (const SensorField& f : fields) {
+    const auto extent = [&](int d) { return static_cast<hsize_t>(f.grid.count[d]); };
+    write_array(file, ("fluid/" + f.name).c_str(), H5T_NATIVE_FLOAT, narrow(f.values).data(),
+                {extent(2), extent(1), extent(0)}, Storage::compressed,
+                {f.unit.c_str(), f.name.c_str()});
+  }
+}
+
 void write_fields(hid_t file, const std::vector<SensorField>& fields) {
   const Handle all = create_group(file, "sensors");
   std::map<std::string, Handle> groups;
@@ -192,6 +201,7 @@ FrameEntry write_frame(const fs::path& folder, const Frame& frame) {
   if (!layout_of(frame.world.fluid).is_empty()) {
     write_fluid(out.get(), frame.world.fluid, frame.momentum_exchange, frame.time,
                 frame.bodies != nullptr);
+    write_more_of_fluid(out.get(), frame.fluid_fields);
   }
   FrameEntry entry{frame.number, frame.time,
                    static_cast<std::int64_t>(frame.world.grains.id.size())};

@@ -36,6 +36,7 @@ struct Frame {
   /// Bodies that are not always where they were, to be written with the frame; null: they are.
   const bodies::BodySet* bodies = nullptr;
   std::vector<SensorField> fields;
+  std::vector<SensorField> fluid_fields;  ///< more of the fluid's cells, beside its own: no sensor
 };
 
 /// results.h5 and the three XDMF files. Every frame is complete on disk when append() returns: the
@@ -51,7 +52,8 @@ struct Frame {
 ///   /fluid               attributes origin, spacing, count (x, y, z), density, viscosity;
 ///                        open_fraction (nz, ny, nx) f32; none of them in runs without fluid
 ///   /fluid/<frame>       attribute time [s]; velocity, momentum_exchange (nz, ny, nx, 3) f32,
-///                        pressure, void_fraction (nz, ny, nx) f32
+///                        pressure, void_fraction (nz, ny, nx) f32; with a dust field
+///                        dust_<class> [kg/m3 of fluid], dust_deposit_<class> [kg] (nz, ny, nx) f32
 ///   /walls               attribute names, of the bodies
 ///   /walls/<frame>       points (m, 3) f32, triangles (t, 3) i32, body (t) i32
 ///   /sensors/<frame>     only where a sensor writes fields: <sensor>/<field> (nz, ny, nx) f32 with

@@ -3,6 +3,7 @@
 
 #include "bodies/body_set.hpp"
 #include "contact/aligned.hpp"
+#include "particles/openings/opening.hpp"
 #include "particles/pair_law_table.hpp"
 #include "particles/store/particle_domain.hpp"
 #include "particles/surfaces.hpp"
@@ -13,8 +14,8 @@
 
 namespace dust::particles {
 
-/// What particles meet. Fixed after construction, but for the time and where moving surfaces stand
-/// at it.
+/// What particles meet. Fixed before the first step, but for the time and where moving surfaces
+/// stand at it.
 struct Conditions {
   /// `fluid_density` > 0 [kg/m3] reduces gravity by the buoyancy of the hydrostatic pressure.
   Conditions(const scenario::Setup& setup, const bodies::BodySet& bodies,
@@ -24,6 +25,8 @@ struct Conditions {
   PairLawTable laws;
   std::vector<sdk::MaterialProperties> materials;
   std::vector<Surface> surfaces;
+  std::vector<Opening> openings;  ///< named by number in their surfaces
+  double opening_rounding = 0.0;  ///< [m]
   ParticleDomain domain;
   TimeSteps steps;
   contact::AlignedVector<double> gravity;  ///< four per material, reduced by buoyancy

@@ -10,6 +10,12 @@
 #include <utility>
 
 namespace dust::particles {
+namespace {
+
+/// Widening of an opening in diagonals of the domain.
+constexpr double k_opening_rounding = 1e-9;
+
+}  // namespace
 
 Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
                 std::vector<PairLaws> laws, const std::vector<double>& diameters,
@@ -32,24 +38,54 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
   outer.require(OuterList::Due::reorder);
 }
 
-void Dem::Impl::remove_escaped() {
+void Dem::Impl::draw_out_at(std::vector<Opening> openings) {
+  for (std::size_t o = 0; o < openings.size(); ++o) {
+    for (Surface& surface : conditions.surfaces) {
+      const bool is_body = surface.body != nullptr;
+      if (surface.name == openings[o].name && is_body == (openings[o].side < 0)) {
+        surface.opening = static_cast<int>(o);
+      }
+    }
+  }
+  const ParticleDomain& domain = conditions.domain;
+  conditions.opening_rounding = k_opening_rounding * norm(domain.max() - domain.min());
+  conditions.openings = std::move(openings);
+  store.set_openings(!conditions.openings.empty());
+  book.set_openings(conditions.openings.size());
+}
+
+bool Dem::Impl::leaves(std::size_t n) {
+  if (const int touched = store.touched_opening(n); touched >= 0) {
+    book.extract(store.population(n), static_cast<std::size_t>(touched));
+    return true;
+  }
+  const ParticleDomain::Place place = conditions.domain.place_of(store.position(n));
+  if (place.where == ParticleDomain::Where::lost) {
+    throw_particle_error(
+        contact_scene(), inner, n,
+        "left the domain through the wall '" + std::string(scenario::k_side_names[place.side]) +
+            "'",
+        "the time step is too long for the speed of the impact: give time.expected_speed or a "
+        "smaller time.dem_step");
+  }
+  if (place.where == ParticleDomain::Where::inside) return false;
+  const sdk::Vec3 position = vector_of(store.position(n));
+  for (std::size_t o = 0; o < conditions.openings.size(); ++o) {
+    const Opening& opening = conditions.openings[o];
+    if (opening.side != static_cast<int>(place.side)) continue;
+    if (!opening.holds(position, conditions.opening_rounding)) continue;
+    book.extract(store.population(n), o);
+    return true;
+  }
+  book.leave(store.population(n));
+  return true;
+}
+
+void Dem::Impl::remove_leavers() {
   std::vector<std::int32_t> keep;
   keep.reserve(store.size());
   for (std::size_t n = 0; n < store.size(); ++n) {
-    const ParticleDomain::Place place = conditions.domain.place_of(store.position(n));
-    if (place.where == ParticleDomain::Where::lost) {
-      throw_particle_error(
-          contact_scene(), inner, n,
-          "left the domain through the wall '" + std::string(scenario::k_side_names[place.side]) +
-              "'",
-          "the time step is too long for the speed of the impact: give time.expected_speed or a "
-          "smaller time.dem_step");
-    }
-    if (place.where == ParticleDomain::Where::escaped) {
-      book.leave(store.population(n));
-    } else {
-      keep.push_back(static_cast<std::int32_t>(n));
-    }
+    if (!leaves(n)) keep.push_back(static_cast<std::int32_t>(n));
   }
   if (keep.size() == store.size()) return;
   // Histories and deferred impulses of the others survive: contacts name the new rows from here on,
@@ -101,9 +137,11 @@ void Dem::insert(std::span<const NewGrain> grains) {
   impl_->synchronise();
   impl_->insert(grains);
 }
+void Dem::draw_out_at(std::vector<Opening> openings) { impl_->draw_out_at(std::move(openings)); }
+std::span<const Opening> Dem::openings() const { return impl_->conditions.openings; }
 void Dem::remove_leavers() {
   impl_->synchronise();
-  impl_->remove_escaped();
+  impl_->remove_leavers();
 }
 void Dem::neighbours() { impl_->update_pair_lists(); }
 void Dem::contact(double time, bool keeps_force) {

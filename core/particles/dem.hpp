@@ -6,6 +6,7 @@
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/sensor.hpp"
 #include "particles/grain_rows.hpp"
+#include "particles/openings/opening.hpp"
 #include "particles/pair_law_table.hpp"
 #include "setup/setup.hpp"
 
@@ -96,7 +97,10 @@ class Dem {
   [[nodiscard]] const TimeSteps& time_steps() const;
 
   void insert(std::span<const NewGrain> grains);
-  /// Books and drops grains beyond open sides. Call between coarse steps.
+  /// Particles that touch these openings are drawn out. Call before the first step.
+  void draw_out_at(std::vector<Opening> openings);
+  [[nodiscard]] std::span<const Opening> openings() const;
+  /// Books and drops grains beyond open sides and those drawn out. Call between coarse steps.
   void remove_leavers();
 
   void neighbours();

@@ -188,12 +188,18 @@ ContactScene Dem::Impl::contact_scene() const {
           .has_weights = has_weights};
 }
 
+OpeningMarks Dem::Impl::opening_marks() {
+  return {conditions.openings, conditions.opening_rounding, store.touched_openings()};
+}
+
 StepScene Dem::Impl::step_scene() {
+  ContactScene contacts = contact_scene();
+  contacts.opening_marks = opening_marks();
   return {.particles = store,
           .lists = inner,
           .impulses = fine_level.deferred(),
           .list_scene = list_scene(),
-          .contacts = contact_scene(),
+          .contacts = contacts,
           .motion = motion_rows()};
 }
 
@@ -209,6 +215,7 @@ FineScene Dem::Impl::fine_scene() {
           .contacts = inner.fine().view(),
           .time = conditions.time,
           .wall_loads = wall_loads,
+          .opening_marks = opening_marks(),
           .contact_force = tile_step.contact_force()};
 }
 

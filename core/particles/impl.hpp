@@ -39,7 +39,10 @@ class Dem::Impl {
 
   // dem.cpp
   void insert(std::span<const NewGrain> grains);
-  void remove_escaped();
+  void remove_leavers();
+  /// Whether a particle has left the domain or was drawn out; if so it is booked.
+  [[nodiscard]] bool leaves(std::size_t row);
+  void draw_out_at(std::vector<Opening> openings);
   void fill_last_force() const;
   void gather_wall_loads();
   void save(sdk::ArchiveWriter& archive) const;
@@ -54,6 +57,7 @@ class Dem::Impl {
   [[nodiscard]] MotionRows motion_rows() { return MotionRows::of(store, conditions.gravity); }
   [[nodiscard]] ListScene list_scene() const;
   [[nodiscard]] ContactScene contact_scene() const;
+  [[nodiscard]] OpeningMarks opening_marks();
   [[nodiscard]] StepScene step_scene();
   [[nodiscard]] FineScene fine_scene();
 

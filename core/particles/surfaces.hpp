@@ -24,10 +24,16 @@ struct Surface {
   double offset = 0.0;                 ///< [m] dot(normal, point of the plane)
   bodies::Placement place;             ///< of the body, at the time of the last move_to
   double displacing_speed = 0.0;       ///< [m/s] upper bound; 0 = stands
+  int opening = -1;                    ///< number of the opening in it; -1 = none
 
   /// Puts a body that moves to its place at `time` [s].
   void move_to(double time) {
     if (displacing_speed > 0.0) place = body->placement(time);
+  }
+  /// A point of the domain in the frame that openings are given in, as the surface stood at the
+  /// last move_to.
+  [[nodiscard]] sdk::Vec3 in_own_frame(sdk::Vec3 point) const {
+    return body != nullptr ? place.to_body(point) : point;
   }
   [[nodiscard]] bool is_removed() const { return body != nullptr && body->is_removed(); }
 

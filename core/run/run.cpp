@@ -275,6 +275,7 @@ class Run {
     frame.momentum_exchange = simulation_.momentum_exchange();
     if (simulation_.has_changing_walls()) frame.bodies = &simulation_.models().bodies;
     frame.fields = FieldsOfSensors(simulation_).take();
+    if (const DustStage* dust = simulation_.dust_stage()) frame.fluid_fields = dust->fields();
     results_->append(frame);
     ++frames_;
     times_.add_output(begin);
@@ -340,7 +341,8 @@ int run_scenario(const RunOptions& options) {
   OutputFolder output(options, read.setup.name);
   std::unique_ptr<Simulation> simulation;
   try {
-    simulation = std::make_unique<Simulation>(read.setup, make_models(read.setup, registry));
+    simulation =
+        std::make_unique<Simulation>(read.setup, make_models(read.setup, registry), 0, read.dust);
   } catch (const sdk::ModelError& e) {
     throw base::UserError(options.scenario.string() + ": error: " + e.what());
   }

@@ -2,10 +2,12 @@
 #include "run/simulation.hpp"
 
 #include "run/body_removal.hpp"
+#include "run/dust/hoods.hpp"
 #include "run/run_checks.hpp"
 #include "run/state_digest.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace dust::run {
 namespace {
@@ -17,8 +19,10 @@ bool wants_contacts(const Models& models) {
 
 }  // namespace
 
-Simulation::Simulation(const scenario::Setup& setup, Models models, int check_every)
+Simulation::Simulation(const scenario::Setup& setup, Models models, int check_every,
+                       scenario::DustSetup dust)
     : setup_(setup),
+      dust_setup_(std::move(dust)),
       models_(std::move(models)),
       clock_(setup_.time.fluid_step, setup_.time.end),
       snapshots_(wants_contacts(models_)) {
@@ -27,6 +31,11 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
     snapshots_.use_fluid(fluid_->grid(), *setup_.fluid, fluid_->solver().open_fraction());
   }
   make_particles();
+  dem_->draw_out_at(openings_of(setup_, dust_setup_));
+  if (dust_setup_.field) {
+    dust_ = std::make_unique<DustStage>(setup_, *dust_setup_.field, models_, *fluid_,
+                                        openings_of(setup_, dust_setup_));
+  }
   cycle_.emplace(clock_.fluid_step(), dem_->coarse_step());
   insertion_ = std::make_unique<Insertion>(setup_, models_);
   for (const auto& sensor : models_.sensors) wants_walls_ |= sensor->wants_walls();
@@ -71,6 +80,7 @@ void Simulation::start() {
     take_fluid_snapshot();
   }
   snapshots_.take(*dem_);
+  if (dust_) dust_->start();
 }
 
 void Simulation::step() {
@@ -88,6 +98,7 @@ void Simulation::remove_bodies() {
   if (!fluid_) return;
   fluid_->bodies_changed(time());
   snapshots_.set_open_fraction(fluid_->solver().open_fraction());
+  if (dust_) dust_->bodies_changed();
 }
 
 bool Simulation::has_changing_walls() const {
@@ -158,6 +169,7 @@ SaveParts Simulation::save_parts() const {
   parts.emplace_back("grains", [this](sdk::ArchiveWriter& a) { dem_->save(a); });
   parts.emplace_back("columns", [this](sdk::ArchiveWriter& a) { snapshots_.save(a); });
   if (fluid_) fluid_->add_parts(parts);
+  if (dust_) dust_->add_parts(parts);
   for (std::size_t n = 0; n < models_.emitters.size(); ++n) {
     parts.emplace_back("emitter." + setup_.emitters[n].name,
                        [this, n](sdk::ArchiveWriter& a) { models_.emitters[n]->save(a); });
@@ -195,6 +207,7 @@ LoadParts Simulation::load_parts() {
           take_fluid_snapshot();
         });
   }
+  if (dust_) dust_->add_parts(parts);
   // Last, so that the places of the last sample are those saved, not those just published.
   parts.emplace_back("columns", [this](sdk::ArchiveReader& a) {
     snapshots_.take(*dem_);

@@ -5,11 +5,13 @@
 #include "particles/dem.hpp"
 #include "run/archive_parts.hpp"
 #include "run/dem_cycle.hpp"
+#include "run/dust/dust_stage.hpp"
 #include "run/fluid_stage.hpp"
 #include "run/insertion/insertion.hpp"
 #include "run/models.hpp"
 #include "run/snapshots/snapshots.hpp"
 #include "run/step_clock.hpp"
+#include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
 
 #include <cstdint>
@@ -25,7 +27,8 @@ class Simulation {
  public:
   /// `check_every`, for tests, if not 0: the nodes of a grain step run one by one, and at one step
   /// in so many one that changes what it does not declare to write is a std::logic_error.
-  Simulation(const scenario::Setup& setup, Models models, int check_every = 0);
+  Simulation(const scenario::Setup& setup, Models models, int check_every = 0,
+             scenario::DustSetup dust = {});
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -41,11 +44,14 @@ class Simulation {
   [[nodiscard]] bool is_finished() const { return clock_.is_finished(); }
 
   [[nodiscard]] const scenario::Setup& setup() const { return setup_; }
+  [[nodiscard]] const scenario::DustSetup& dust_setup() const { return dust_setup_; }
   [[nodiscard]] const Models& models() const { return models_; }
   [[nodiscard]] const particles::Dem& dem() const { return *dem_; }
   [[nodiscard]] const Insertion& insertion() const { return *insertion_; }
   /// Null without a fluid.
   [[nodiscard]] const FluidStage* fluid_stage() const { return fluid_.get(); }
+  /// Null without a dust field.
+  [[nodiscard]] const DustStage* dust_stage() const { return dust_.get(); }
   [[nodiscard]] const fluid::FluidSolver* fluid() const;
   [[nodiscard]] const coupling::Coupling* coupling() const;
 
@@ -84,9 +90,11 @@ class Simulation {
   void load_clock(sdk::ArchiveReader& archive);
 
   scenario::Setup setup_;
+  scenario::DustSetup dust_setup_;
   Models models_;
   StepClock clock_;
   std::unique_ptr<FluidStage> fluid_;
+  std::unique_ptr<DustStage> dust_;
   std::unique_ptr<particles::Dem> dem_;
   std::optional<DemCycle> cycle_;  ///< within a fluid step
   std::unique_ptr<Insertion> insertion_;

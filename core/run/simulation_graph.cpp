@@ -88,8 +88,15 @@ void Simulation::add_tile_nodes() {
 void Simulation::build_step_graph() {
   step_graph_.given(
       {"emitter.state", "grain.state", "fluid.velocity", "fluid.exchange", "fluid.held"});
+  if (dust_) step_graph_.given({"dust.concentration"});
   add_first_nodes();
   if (fluid_) add_fluid_nodes();
+  if (dust_) {
+    step_graph_.add({"dust",
+                     {"fluid.velocity", "fluid.void_fraction", "dust.concentration"},
+                     {"dust.concentration"},
+                     [this] { dust_->advance(time()); }});
+  }
   add_particle_nodes();
   add_last_nodes();
   add_sensor_nodes();

@@ -197,6 +197,89 @@ const ParameterSchema& SensorBlock::schema() {
   return made;
 }
 
+const ParameterSchema& DustBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<DustBlock> s;
+    s.number(&DustBlock::finer_than, "finer_than", dimension::length,
+             "Grains of a smaller diameter are dust; of coarse-grained materials that of the "
+             "grains they stand for. 0 = any size.")
+        .symbol("d")
+        .at_least(0)
+        .optional();
+    s.numbers(&DustBlock::classes, "classes", dimension::length,
+              "Diameters that are dust; none given = all.")
+        .symbol("d")
+        .above(0)
+        .optional();
+    s.texts(&DustBlock::materials, "materials", "Materials that are dust; none given = all.")
+        .refers_to(sdk::Refers::material)
+        .optional();
+    s.texts(&DustBlock::openings, "openings",
+            "Sensors that count what gets out; none given: those with out or escape in their name.")
+        .optional();
+    s.texts(&DustBlock::hoods, "hoods",
+            "Bodies with suction and sides with a hood that are there to catch dust; none given = "
+            "all.")
+        .optional();
+    return s.build();
+  }();
+  return made;
+}
+
+const ParameterSchema& DustFieldBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<DustFieldBlock> s;
+    s.numbers(&DustFieldBlock::classes, "classes", dimension::length,
+              "Diameters of the dust, ascending; each is a concentration of its own.")
+        .symbol("d")
+        .above(0);
+    s.text(&DustFieldBlock::material, "material", "Material whose density the dust has.")
+        .refers_to(sdk::Refers::material);
+    s.number(&DustFieldBlock::schmidt_number, "schmidt_number", dimension::none,
+             "Eddy viscosity over the turbulent diffusivity of dust.")
+        .symbol("Sc")
+        .above(0)
+        .optional();
+    return s.build();
+  }();
+  return made;
+}
+
+const ParameterSchema& DustCloudBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<DustCloudBlock> s;
+    s.vector(&DustCloudBlock::min, "min", dimension::length, "Lower corner of the cloud.");
+    s.vector(&DustCloudBlock::max, "max", dimension::length, "Upper corner of the cloud.");
+    s.numbers(&DustCloudBlock::concentration, "concentration", dimension::density,
+              "Dust per volume of fluid at the start, one number per class.")
+        .symbol("c")
+        .at_least(0);
+    return s.build();
+  }();
+  return made;
+}
+
+const ParameterSchema& DustSourceBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<DustSourceBlock> s;
+    s.vector(&DustSourceBlock::min, "min", dimension::length,
+             "Lower corner of the box in which dust is set free.");
+    s.vector(&DustSourceBlock::max, "max", dimension::length, "Upper corner of the box.");
+    s.numbers(&DustSourceBlock::mass_flow, "mass_flow", dimension::mass_flow,
+              "Dust set free in the whole box, one number per class.")
+        .symbol("m")
+        .at_least(0);
+    s.number(&DustSourceBlock::begin, "begin", dimension::time, "Time from which it flows.")
+        .at_least(0)
+        .optional();
+    s.number(&DustSourceBlock::end, "end", dimension::time, "Time at which it ends.")
+        .at_least(0)
+        .optional();
+    return s.build();
+  }();
+  return made;
+}
+
 const ParameterSchema& ReferenceBlock::schema() {
   static const ParameterSchema made = [] {
     SchemaOf<ReferenceBlock> s;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
 
 #include "dust/sdk/parameter_schema.hpp"
@@ -99,6 +100,40 @@ struct SuctionBlock {
 
 struct SensorBlock {
   bool enabled = true;
+  static const sdk::ParameterSchema& schema();
+};
+
+/// What counts as dust.
+struct DustBlock {
+  double finer_than = 0.0;
+  std::vector<double> classes;
+  std::vector<std::string> materials;
+  std::vector<std::string> openings;
+  std::vector<std::string> hoods;
+  static const sdk::ParameterSchema& schema();
+};
+
+/// Dust as concentrations on the fluid's grid; clouds and sources are read apart.
+struct DustFieldBlock {
+  std::vector<double> classes;
+  std::string material;
+  double schmidt_number = DustFieldSpec{}.schmidt_number;
+  static const sdk::ParameterSchema& schema();
+};
+
+struct DustCloudBlock {
+  sdk::Vec3 min;
+  sdk::Vec3 max;
+  std::vector<double> concentration;
+  static const sdk::ParameterSchema& schema();
+};
+
+struct DustSourceBlock {
+  sdk::Vec3 min;
+  sdk::Vec3 max;
+  std::vector<double> mass_flow;
+  double begin = DustSourceSpec{}.begin;
+  double end = DustSourceSpec{}.end;
   static const sdk::ParameterSchema& schema();
 };
 

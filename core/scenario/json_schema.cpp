@@ -307,6 +307,11 @@ std::string json_schema(const registry::Registry& registry) {
   properties["voidage"] = {{"$ref", "#/definitions/voidage"}};
   properties["sensors"] =
       named(alternatives(block<SensorBlock>(), "model", choices(registry, "sensor")));
+  properties["dust"] = block<DustBlock>();
+  Json field = block<DustFieldBlock>();
+  field["properties"]["clouds"] = named(block<DustCloudBlock>());
+  field["properties"]["sources"] = named(block<DustSourceBlock>());
+  properties["dust"]["properties"]["field"] = field;
   properties["references"] = {
       {"type", "array"},
       {"items", reference_schema()},

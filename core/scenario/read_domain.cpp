@@ -98,6 +98,30 @@ Node SetupReader::read_sides(const Entry& entry) {
   return written;
 }
 
+/// An air condition with a volume flow through a box is an opening; what it draws out may be dust.
+void SetupReader::note_opening(int side, const std::optional<ModelChoice>& air) {
+  const registry::Entry* entry = air ? registry_.find(air->kind, air->name) : nullptr;
+  if (entry == nullptr) return;
+  const auto value_of = [&](const char* name, sdk::Dimension dimension) -> const sdk::Value* {
+    const auto& parameters = entry->info.parameters;
+    for (std::size_t n = 0; n < parameters.size() && n < air->values.size(); ++n) {
+      if (parameters[n].name == name && parameters[n].dimension == dimension) {
+        return &air->values[n];
+      }
+    }
+    return nullptr;
+  };
+  const sdk::Value* flow = value_of("flow", sdk::dimension::volume_flow);
+  const sdk::Value* min = value_of("min", sdk::dimension::length);
+  const sdk::Value* max = value_of("max", sdk::dimension::length);
+  if (flow == nullptr || min == nullptr || max == nullptr) return;
+  const auto* rate = std::get_if<double>(flow);
+  const auto* low = std::get_if<sdk::Vec3>(min);
+  const auto* high = std::get_if<sdk::Vec3>(max);
+  if (rate == nullptr || low == nullptr || high == nullptr || !(*rate > 0.0)) return;
+  dust_.openings.push_back({side, *low, *high});
+}
+
 Node SetupReader::read_side(const Entry& entry, std::size_t n, bool& is_read, bool& has_air,
                             bool& is_air_periodic) {
   SideSpec& side = setup_.domain.sides[n];
@@ -145,6 +169,7 @@ Node SetupReader::read_side(const Entry& entry, std::size_t n, bool& is_read, bo
     MapReader inner(air->value, reader.path_of("air"), air->where, diagnostics_);
     auto model = models_.read(inner, "model", "boundary");
     inner.finish();
+    note_opening(static_cast<int>(n), model.choice);
     Node map = Node::make_map();
     append(map, std::move(model.written));
     written.add("air", std::move(map));

@@ -44,8 +44,9 @@ void SetupReader::read() {
   read_drag_and_voidage(top);
   read_fluid_forces(top);
   read_sensors(top);
-  references_ = read_references(top, figures_, out_, diagnostics_);
-  reference_curves_ = read_reference_curves(top, figures_, out_, diagnostics_);
+  read_dust(top);
+  references_.numbers = read_references(top, figures_, out_, diagnostics_);
+  references_.curves = read_reference_curves(top, figures_, out_, diagnostics_);
   top.optional("include");
   top.finish();
   if (pairs_are_read_) {
@@ -152,6 +153,7 @@ std::optional<ReadResult> read_tree(const Node& root, const fs::path& file,
   if (diagnostics.has_errors()) return std::nullopt;
   ReadResult result;
   result.setup = reader.take_setup();
+  result.dust = reader.take_dust();
   result.references = reader.take_references();
   result.reference_curves = reader.take_reference_curves();
   result.resolved_yaml =

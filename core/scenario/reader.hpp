@@ -2,6 +2,7 @@
 #pragma once
 
 #include "registry/registry.hpp"
+#include "setup/dust_setup.hpp"
 #include "setup/reference_curve.hpp"
 #include "setup/reference_spec.hpp"
 #include "setup/setup.hpp"
@@ -22,6 +23,7 @@ struct Override {
 /// A scenario as it is written, with names and numbers checked.
 struct ReadResult {
   Setup setup;
+  DustSetup dust;
   std::vector<ReferenceSpec> references;         ///< of enabled sensors
   std::vector<ReferenceCurve> reference_curves;  ///< of enabled sensors
   std::string resolved_yaml;          ///< includes merged, overrides applied, defaults written out

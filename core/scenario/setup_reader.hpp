@@ -6,6 +6,7 @@
 #include "scenario/reference_curves.hpp"
 #include "scenario/references.hpp"
 #include "scenario/suggest.hpp"
+#include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
 
 #include <array>
@@ -39,8 +40,9 @@ class SetupReader {
 
   void read();
   Setup take_setup() { return std::move(setup_); }
-  std::vector<ReferenceSpec> take_references() { return std::move(references_); }
-  std::vector<ReferenceCurve> take_reference_curves() { return std::move(reference_curves_); }
+  DustSetup take_dust() { return std::move(dust_); }
+  std::vector<ReferenceSpec> take_references() { return std::move(references_.numbers); }
+  std::vector<ReferenceCurve> take_reference_curves() { return std::move(references_.curves); }
   [[nodiscard]] const Node& resolved() const { return out_; }
 
  private:
@@ -95,6 +97,8 @@ class SetupReader {
   Node read_side(const Entry& entry, std::size_t n, bool& is_read, bool& has_air,
                  bool& is_air_periodic);
 
+  void note_opening(int side, const std::optional<ModelChoice>& air);
+
   void read_materials(MapReader& top);
   void read_interactions(MapReader& top);
   Node read_interaction(const Node& node, const std::string& path);
@@ -130,6 +134,19 @@ class SetupReader {
   void check_voidage();
 
   void read_sensors(MapReader& top);
+  /// What counts as dust, by size and material, and through what it gets out.
+  void read_dust(MapReader& top);
+  DustSpec dust_spec_of(const Entry& entry, const DustBlock& read, bool has_field);
+  /// Of the sensors that `dust.openings` lists those that take part.
+  std::vector<std::string> enabled_openings(const Node& node,
+                                            const std::vector<std::string>& sensors);
+  std::vector<std::string> known_hoods(const Node& node, const std::vector<std::string>& hoods);
+  void check_dust_is_emitted(const Mark& where);
+  /// `dust.field`: concentrations on the fluid's grid.
+  void read_dust_field(MapReader& dust, Node& written);
+  Node read_clouds(MapReader& field, DustFieldSpec& spec);
+  Node read_dust_sources(MapReader& field, DustFieldSpec& spec);
+  void check_dust_field(const Node& node, const DustFieldSpec& spec);
   /// A part of a block that is a model of the kind of the part's name: `drag: {model: ...}`.
   ReadModel read_part(MapReader& reader, const std::string& key, bool is_required, Node& written);
   /// Some contradictions need the density of the grains: an empty interval makes emitters look.
@@ -148,9 +165,12 @@ class SetupReader {
   std::vector<std::unique_ptr<sdk::Model>> emitters_;
   std::unique_ptr<sdk::Model> voidage_;
   std::vector<SensorFigures> figures_;
-  std::vector<ReferenceSpec> references_;
-  std::vector<ReferenceCurve> reference_curves_;
+  struct {
+    std::vector<ReferenceSpec> numbers;
+    std::vector<ReferenceCurve> curves;
+  } references_;
   Setup setup_;
+  DustSetup dust_;
   Node out_ = Node::make_map();
 };
 

@@ -129,7 +129,8 @@ void BodySuction::set_sinks(std::vector<Continuity::Sink>& sinks, double time) c
   for (const Opening& opening : openings_) {
     const double flow = opening.flow * opening.over_time(time);
     for (std::size_t n = 0; n < opening.cell.size(); ++n) {
-      sinks.push_back({opening.cell[n], flow * opening.share[n]});
+      sinks.push_back(
+          {opening.cell[n], flow * opening.share[n], static_cast<std::int32_t>(opening.body)});
     }
   }
 }

@@ -171,6 +171,29 @@ void Continuity::find_divergence(const FaceField& v, const CellField& eps) {
   }
 }
 
+void Continuity::find_throughflow(const FaceField& v, const CellField& eps,
+                                  FaceField& throughflow) const {
+  for (int d = 0; d < 3; ++d) {
+    std::array<int, 3> n = grid_.count;
+    n[d] += 1;
+    const std::ptrdiff_t s = grid_.stride[d];
+    const auto& area = geometry_.open_area.component[d];
+    for_rows(n[0], n[1], n[2], [&](int j, int k) {
+      const std::ptrdiff_t o = grid_.index(0, j, k);
+      for (int i = 0; i < n[0]; ++i) {
+        throughflow.component[d][o + i] =
+            area[o + i] * 0.5 * (eps[o + i] + eps[o + i - s]) * v.component[d][o + i];
+      }
+    });
+    for (std::size_t m = 0; m < open_part_shift_[d].size(); ++m) {
+      const OpenPart& f = geometry_.open_part[d][m];
+      throughflow.component[d][f.at] +=
+          area[f.at] * 0.5 * (eps[f.at] + eps[f.at - s]) * open_part_shift_[d][m];
+    }
+    if (sides_.kinds().is_periodic[d]) wrap_last_face(grid_, d, throughflow.component[d]);
+  }
+}
+
 /// Coefficients of the pressure equation at present; docs/theory/fluid.md, eq. (5).
 void Continuity::prepare(const CellField& eps, double step, const FaceField& drag) {
   FaceField& k_field = solver_->coefficients();

@@ -40,6 +40,7 @@ class Continuity {
   struct Sink {
     std::int32_t cell = 0;
     double rate = 0.0;  ///< [1/s] of the cell's volume
+    std::int32_t body = -1;
   };
   [[nodiscard]] std::vector<Sink>& sinks() { return given_.sinks; }
 
@@ -52,6 +53,10 @@ class Continuity {
   [[nodiscard]] const CellField& increment() const { return increment_; }
   /// Coefficients of the last projection: positive where the increment drives a flow.
   [[nodiscard]] const FaceField& coefficients() const { return solver_->coefficients(); }
+  [[nodiscard]] const std::vector<Sink>& sinks() const { return given_.sinks; }
+  /// [m/s] What passes the faces over their whole area, a eps u, as the equation counts it; the
+  /// shift at cut faces is that of the last projection. Faces 0 to count of each row.
+  void find_throughflow(const FaceField& v, const CellField& eps, FaceField& throughflow) const;
   /// Largest |d(theta eps)/dt + div(eps u)| [1/s] over the open cells.
   [[nodiscard]] double largest_divergence(const FaceField& v, const CellField& eps);
 

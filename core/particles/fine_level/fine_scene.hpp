@@ -4,6 +4,7 @@
 #include "contact/batch_kernels.hpp"
 #include "dust/sdk/vec3.hpp"
 #include "particles/forces/wall_loads.hpp"
+#include "particles/openings/opening_marks.hpp"
 #include "particles/pair_law_table.hpp"
 #include "particles/store/particle_store.hpp"
 #include "particles/surfaces.hpp"
@@ -32,6 +33,7 @@ struct FineScene {
   contact::PairView contacts;
   double time = 0.0;  ///< [s] at the beginning of the step
   WallLoads& wall_loads;
+  OpeningMarks opening_marks = {};
   std::span<double> contact_force;  ///< [N] four per coarse particle, or empty: not kept
 
   [[nodiscard]] std::size_t fine_count() const { return particles.size() - coarse_count; }

@@ -125,8 +125,12 @@ bool SubCycle::load_pair(const CandidateContact& c) {
 
 bool SubCycle::load_surface(const CandidateContact& c) {
   const SubCycledParticle& i = particle(c);
-  const bodies::SurfacePoint s = scene_.surface(c.surface).contact_at(time_, i.position);
+  const Surface& surface = scene_.surface(c.surface);
+  const bodies::SurfacePoint s = surface.contact_at(time_, i.position);
   const double overlap = i.radius - s.distance;
+  if (surface.opening >= 0 && overlap > 0.0) {
+    scene_.opening_marks.note(surface, i.particle, i.position - s.distance * s.normal);
+  }
   if (!(overlap > -scene_.law(c.law).range)) return false;
   put_at_wall({.position = i.position,
                .velocity = i.velocity,

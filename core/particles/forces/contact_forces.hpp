@@ -5,6 +5,7 @@
 #include "dust/sdk/sensor.hpp"
 #include "particles/forces/wall_loads.hpp"
 #include "particles/neighbours/inner_list.hpp"
+#include "particles/openings/opening_marks.hpp"
 #include "particles/pair_law_table.hpp"
 #include "particles/store/particle_store.hpp"
 #include "particles/store/tile.hpp"
@@ -23,9 +24,10 @@ struct ContactScene {
   const PairLawTable& laws;
   std::span<const Surface> surfaces;
   const contact::Images& images;
-  double step = 0.0;         ///< [s]
-  double time = 0.0;         ///< [s] of the positions
-  bool has_weights = false;  ///< coarse particles of different statistical weights
+  double step = 0.0;                ///< [s]
+  double time = 0.0;                ///< [s] of the positions
+  bool has_weights = false;         ///< coarse particles of different statistical weights
+  OpeningMarks opening_marks = {};  ///< of scenes that forces are evaluated on
 
   [[nodiscard]] contact::RowView rows() const { return particles.contact_rows(); }
 };

@@ -84,6 +84,9 @@ struct ContactForces::WallBatch {
     local_rows[count] = row - first_row;
     const auto grain = GrainAtWall::from(scene.rows(), static_cast<std::size_t>(row));
     put_at_wall(grain, near, count, columns);
+    if (surface.opening >= 0 && overlap > 0.0) {
+      scene.opening_marks.note(surface, row, grain.position - near.distance * near.normal);
+    }
     tile.largest_overlap = std::max(tile.largest_overlap, overlap / grain.radius);
     if (++count == k_batch) evaluate();
   }

@@ -2,6 +2,7 @@
 #include "particles/store/balance_book.hpp"
 
 #include <algorithm>
+#include <string>
 
 namespace dust::particles {
 
@@ -28,6 +29,15 @@ void BalanceBook::leave(std::int32_t population) {
   Population& p = populations_[static_cast<std::size_t>(population)];
   --p.in_domain;
   ++p.left;
+}
+
+void BalanceBook::extract(std::int32_t population, std::size_t opening) {
+  const auto n = static_cast<std::size_t>(population);
+  --populations_[n].in_domain;
+  ++populations_[n].removed;
+  std::vector<std::int64_t>& counts = extracted_[opening];
+  if (counts.size() <= n) counts.resize(n + 1, 0);
+  ++counts[n];
 }
 
 void BalanceBook::close() {
@@ -69,6 +79,9 @@ void BalanceBook::save(sdk::ArchiveWriter& archive) const {
   }
   archive.numbers("population_numbers", numbers);
   archive.integers("population_counts", integers);
+  for (std::size_t opening = 0; opening < extracted_.size(); ++opening) {
+    archive.integers("extracted_" + std::to_string(opening), extracted_[opening]);
+  }
 }
 
 void BalanceBook::load(sdk::ArchiveReader& archive) {
@@ -87,6 +100,9 @@ void BalanceBook::load(sdk::ArchiveReader& archive) {
                             .removed = c[4]});
   }
   balance_.max = integers.at(0);
+  for (std::size_t opening = 0; opening < extracted_.size(); ++opening) {
+    extracted_[opening] = archive.integers("extracted_" + std::to_string(opening));
+  }
   close();
 }
 

@@ -3,7 +3,9 @@
 
 #include "particles/dem.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace dust::particles {
@@ -24,6 +26,8 @@ class BalanceBook {
   std::int32_t population(double diameter, double weight, std::int32_t material, double mass);
   void enter(std::int32_t population);
   void leave(std::int32_t population);
+  /// Drawn out through an opening: counts as removed.
+  void extract(std::int32_t population, std::size_t opening);
   [[nodiscard]] const Balance& balance() const { return balance_; }
   [[nodiscard]] const Population& operator[](std::int32_t n) const {
     return populations_[static_cast<std::size_t>(n)];
@@ -37,11 +41,20 @@ class BalanceBook {
   };
   [[nodiscard]] Masses masses_of(double diameter) const;
 
+  /// How many of each population an opening has drawn out; shorter than the populations where the
+  /// newest have none.
+  [[nodiscard]] std::span<const std::int64_t> extracted(std::size_t opening) const {
+    return extracted_[opening];
+  }
+  [[nodiscard]] std::span<const Population> populations() const { return populations_; }
+  void set_openings(std::size_t count) { extracted_.resize(count); }
+
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
 
  private:
   std::vector<Population> populations_;
+  std::vector<std::vector<std::int64_t>> extracted_;  ///< by opening and population
   Balance balance_;
 };
 

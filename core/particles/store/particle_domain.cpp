@@ -45,7 +45,7 @@ ParticleDomain::Place ParticleDomain::place_of(const double* p) const {
       const double depth = above ? p[d] - max_[d] : min_[d] - p[d];
       if (!(depth <= p[3])) return {Where::lost, side};
     }
-    if (sides_[side] == scenario::GrainSide::open) found.where = Where::escaped;
+    if (sides_[side] == scenario::GrainSide::open) found = {Where::escaped, side};
   }
   return found;
 }

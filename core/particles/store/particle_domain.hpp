@@ -17,6 +17,7 @@ class ParticleDomain {
   explicit ParticleDomain(const scenario::Setup& setup);
 
   [[nodiscard]] sdk::Vec3 min() const { return min_; }
+  [[nodiscard]] sdk::Vec3 max() const { return max_; }
   [[nodiscard]] const contact::Images& images() const { return images_; }
 
   /// Puts particles beyond a periodic side back to the other one.
@@ -36,7 +37,7 @@ class ParticleDomain {
   enum class Where { inside, escaped, lost };
   struct Place {
     Where where = Where::inside;
-    std::size_t side = 0;  ///< of one that is lost
+    std::size_t side = 0;  ///< that it is beyond, if not inside
   };
   /// One beyond an open side has escaped. One wholly beyond a wall is lost; dust squeezed against a
   /// wall by a coarse particle gets its centre into it and comes back out (the overlap is

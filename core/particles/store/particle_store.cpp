@@ -62,6 +62,7 @@ void ParticleStore::append(const NewGrain& g, double mass, std::int32_t populati
   material_.push_back(g.material);
   population_.push_back(population);
   weight_.push_back(g.weight);
+  if (has_openings_) touched_.push_back(-1);
 }
 
 void ParticleStore::reorder(std::span<const std::int32_t> order) {
@@ -76,6 +77,12 @@ void ParticleStore::reorder(std::span<const std::int32_t> order) {
   reorder_rows(material_, order, 1);
   reorder_rows(population_, order, 1);
   reorder_rows(weight_, order, 1);
+  if (has_openings_) reorder_rows(touched_, order, 1);
+}
+
+void ParticleStore::set_openings(bool has_openings) {
+  has_openings_ = has_openings;
+  touched_.assign(has_openings ? size() : 0, -1);
 }
 
 void ParticleStore::update_decay(double step) {
@@ -121,6 +128,7 @@ void ParticleStore::save(sdk::ArchiveWriter& archive) const {
   archive.integers("material", widened(material_));
   archive.integers("population", widened(population_));
   archive.numbers("weight", weight_);
+  if (has_openings_) archive.integers("touched_opening", widened(touched_));
 }
 
 void ParticleStore::load(sdk::ArchiveReader& archive, std::int64_t next_id, bool has_drag) {
@@ -140,6 +148,10 @@ void ParticleStore::load(sdk::ArchiveReader& archive, std::int64_t next_id, bool
   material_.assign(material.begin(), material.end());
   population_.assign(population.begin(), population.end());
   weight_ = archive.numbers("weight");
+  if (has_openings_) {
+    const auto touched = archive.integers("touched_opening");
+    touched_.assign(touched.begin(), touched.end());
+  }
 }
 
 }  // namespace dust::particles

@@ -72,6 +72,11 @@ class ParticleStore {
   [[nodiscard]] double* impulse(std::size_t row) { return impulse_.data() + 4 * row; }
   [[nodiscard]] const double* impulse(std::size_t row) const { return impulse_.data() + 4 * row; }
 
+  /// Number of the opening that it has touched, -1 = none.
+  [[nodiscard]] int touched_opening(std::size_t row) const {
+    return touched_.empty() ? -1 : touched_[row];
+  }
+
   // --- Views: rows as kernels and the coupling see them, valid until particles come or go.
   [[nodiscard]] contact::RowView contact_rows() const {
     return {position_.data(), motion_.data(), spin_.data()};
@@ -88,12 +93,16 @@ class ParticleStore {
     const std::int32_t* material;
   };
   [[nodiscard]] Motion motion();
+  /// One per particle, see touched_opening; empty without openings.
+  [[nodiscard]] std::span<std::int32_t> touched_openings() { return touched_; }
 
   // --- Particles come and go.
   /// At the end of the rows, with the next id. `mass` [kg] of a real particle.
   void append(const NewGrain& grain, double mass, std::int32_t population);
   /// Row n becomes what row order[n] was; rows not named are dropped.
   void reorder(std::span<const std::int32_t> order);
+  /// Whether there are openings that particles may touch.
+  void set_openings(bool has_openings);
   /// Drag has been rewritten: what it leaves over a step [s].
   void update_decay(double step);
   [[nodiscard]] bool has_drag() const { return has_drag_; }  ///< it acts on some
@@ -113,6 +122,7 @@ class ParticleStore {
  private:
   bool has_fluid_;
   bool has_drag_ = false;
+  bool has_openings_ = false;
   std::int64_t next_id_ = 0;
   contact::AlignedVector<double> position_;
   contact::AlignedVector<double> motion_;
@@ -124,6 +134,7 @@ class ParticleStore {
   std::vector<std::int32_t> material_;
   std::vector<std::int32_t> population_;  ///< index into the balance book
   std::vector<double> weight_;
+  std::vector<std::int32_t> touched_;  ///< number of an opening or -1; empty without openings
 };
 
 }  // namespace dust::particles

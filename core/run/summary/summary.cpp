@@ -9,6 +9,7 @@
 #include "particles/store/balance_book.hpp"
 #include "run/summary/figure_json.hpp"
 #include "run/summary/references.hpp"
+#include "run/summary/summary_dust.hpp"
 #include "run/summary/summary_emitters.hpp"
 #include "run/summary/summary_models.hpp"
 
@@ -21,6 +22,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -299,6 +301,8 @@ Json amounts_json(const Simulation& s) {
                   {"left", b.mass_left},
                   {"removed", b.mass_removed}};
   j["emitters"] = emitters_json(s);
+  if (!s.dem().openings().empty()) j["hoods"] = hoods_json(s);
+  if (s.dust_stage() != nullptr) j["dust_field"] = dust_field_json(s);
   j["size_classes"] = s.models().class_diameters.empty() ? Json::array() : class_steps(s.dem());
   return j;
 }
@@ -359,9 +363,11 @@ Json report_json(const Simulation& s, const RunFacts& facts, JsonReport& report)
   add_reference_curves(facts.reference_curves, r["curves"]);
   r["tables"] = report.take_tables();
   add_emitter_tables(s, r["tables"]);
+  add_hood_tables(s, r["tables"]);
   r["outline"] = outlines(s);
   r["classes"] = s.models().class_diameters;
   if (facts.registry != nullptr) r["setting"] = setting_json(s.setup(), *facts.registry);
+  if (s.dust_setup().given) r["dust"] = dust_rule_json(s);
   r["graph_dot"] = graph_dot(s);
   return r;
 }
@@ -404,6 +410,26 @@ SeriesRow series_row(const Simulation& s) {
   add("mass_in_domain [kg]", b.mass_in_domain);
   add("mass_left [kg]", b.mass_left, RowValue::total);
   add("mass_removed [kg]", b.mass_removed, RowValue::total);
+  for (std::size_t o = 0; o < s.dem().openings().size(); ++o) {
+    const Drawn drawn = drawn_by(s, o);
+    const std::string hood = "hoods/" + s.dem().openings()[o].name;
+    add((hood + "/mass [kg]").c_str(), drawn.mass, RowValue::total);
+    add((hood + "/dust [kg]").c_str(), drawn.dust, RowValue::total);
+  }
+  if (const DustStage* dust = s.dust_stage()) {
+    for (std::size_t n = 0; n < dust->field().classes(); ++n) {
+      const airborne::DustBalance balance = dust->field().balance(n);
+      const std::string of = "dust_field/" + dust->class_names()[n];
+      const auto sum = [](const auto& values) {
+        return std::accumulate(values.begin(), values.end(), 0.0);
+      };
+      add((of + "/released [kg]").c_str(), balance.released, RowValue::total);
+      add((of + "/airborne [kg]").c_str(), balance.airborne);
+      add((of + "/deposited [kg]").c_str(), sum(balance.surfaces), RowValue::total);
+      add((of + "/left [kg]").c_str(), sum(balance.left), RowValue::total);
+      add((of + "/hoods [kg]").c_str(), sum(balance.outlets), RowValue::total);
+    }
+  }
   for (std::size_t n = 0; n < s.models().sensors.size(); ++n) {
     const sdk::Sensor& sensor = *s.models().sensors[n];
     RowFigures sink(row, s.setup().sensors[n].name + "/", sensor);

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "airborne/dust_field.hpp"
+
+#include "dust/sdk/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace dust::airborne {
+namespace {
+
+/// Sum over the cells, row by row: less rounding than one long sum.
+double sum_of(const fluid::Grid& grid, const fluid::CellField& values) {
+  double sum = 0.0;
+  for (int k = 0; k < grid.count[2]; ++k) {
+    for (int j = 0; j < grid.count[1]; ++j) {
+      const std::ptrdiff_t o = grid.index(0, j, k);
+      sum += std::accumulate(values.begin() + o, values.begin() + o + grid.count[0], 0.0);
+    }
+  }
+  return sum;
+}
+
+[[noreturn]] void fail_as_empty(const std::string& what) {
+  throw sdk::ModelError("dust.field." + what +
+                        ": there is no fluid between min and max; give a box of the domain that "
+                        "is not all in bodies");
+}
+
+/// Length of what two stretches have in common.
+double overlap(double low, double high, double other_low, double other_high) {
+  return std::max(0.0, std::min(high, other_high) - std::max(low, other_low));
+}
+
+}  // namespace
+
+double DustBalance::error() const {
+  if (!(released > 0.0)) return 0.0;
+  const double gone = std::accumulate(left.begin(), left.end(), 0.0) +
+                      std::accumulate(outlets.begin(), outlets.end(), 0.0) +
+                      std::accumulate(surfaces.begin(), surfaces.end(), 0.0);
+  return (released - airborne - gone) / released;
+}
+
+DustField::DustField(const fluid::Grid& grid, const scenario::DustFieldSpec& spec, const Gas& gas,
+                     sdk::Vec3 gravity, Ends ends)
+    : grid_(grid), spec_(spec), transport_(grid), source_(grid.size, 0.0) {
+  for (const double diameter : spec.diameters) {
+    Class c;
+    c.dust = make_class(diameter, spec.density, gravity, gas);
+    c.mass.assign(grid.size, 0.0);
+    c.deposit.assign(grid.size, 0.0);
+    c.losses.outlets.assign(ends.outlets, 0.0);
+    c.surfaces.assign(ends.surfaces, 0.0);
+    classes_.push_back(std::move(c));
+  }
+}
+
+std::vector<DustField::Part> DustField::parts_of(sdk::Vec3 min, sdk::Vec3 max,
+                                                 const fluid::CellField& volume) const {
+  std::array<int, 3> first{};
+  std::array<int, 3> end{};
+  for (int d = 0; d < 3; ++d) {
+    const auto place = [&](double x) {
+      return static_cast<int>(std::floor((x - grid_.origin[d]) / grid_.spacing[d]));
+    };
+    const auto n = static_cast<std::size_t>(d);
+    first[n] = std::clamp(place(min[d]) - 1, 0, grid_.count[n]);
+    end[n] = std::clamp(place(max[d]) + 2, 0, grid_.count[n]);
+  }
+  std::vector<Part> parts;
+  for (int k = first[2]; k < end[2]; ++k) {
+    for (int j = first[1]; j < end[1]; ++j) {
+      for (int i = first[0]; i < end[0]; ++i) {
+        const auto cell = static_cast<std::size_t>(grid_.index(i, j, k));
+        const sdk::Vec3 centre = grid_.centre(i, j, k);
+        double gas = volume[cell];
+        for (int d = 0; d < 3; ++d) {
+          const double h = grid_.spacing[d];
+          const double low = centre[d] - 0.5 * h;
+          // A flat box lies in one layer of cells.
+          const bool is_flat = max[d] <= min[d];
+          gas *= is_flat ? (min[d] >= low && min[d] < low + h ? 1.0 : 0.0)
+                         : overlap(low, low + h, min[d], max[d]) / h;
+        }
+        if (gas > 0.0) parts.push_back({cell, gas});
+      }
+    }
+  }
+  return parts;
+}
+
+void DustField::start(const fluid::CellField& volume) {
+  for (const scenario::DustCloudSpec& cloud : spec_.clouds) {
+    const std::vector<Part> parts = parts_of(cloud.min, cloud.max, volume);
+    if (parts.empty()) fail_as_empty("clouds." + cloud.name);
+    for (std::size_t n = 0; n < classes_.size(); ++n) {
+      for (const Part& part : parts) {
+        classes_[n].mass[part.cell] += cloud.concentration[n] * part.gas;
+      }
+    }
+  }
+  for (Class& c : classes_) c.released = sum_of(grid_, c.mass) * grid_.cell_volume();
+}
+
+void DustField::find_sources(const fluid::CellField& volume) {
+  sources_.clear();
+  for (const scenario::DustSourceSpec& source : spec_.sources) {
+    std::vector<Part> parts = parts_of(source.min, source.max, volume);
+    if (parts.empty()) fail_as_empty("sources." + source.name);
+    double sum = 0.0;
+    for (const Part& part : parts) sum += part.gas;
+    for (Part& part : parts) part.gas /= sum;
+    sources_.push_back(std::move(parts));
+  }
+}
+
+/// Fills source_ with the mean over the step; false where no source is active.
+bool DustField::add_sources(std::size_t n, double time, double step) {
+  bool is_active = false;
+  for (std::size_t s = 0; s < sources_.size(); ++s) {
+    const scenario::DustSourceSpec& spec = spec_.sources[s];
+    const double duration = overlap(time, time + step, spec.begin, spec.end);
+    const double flow = spec.mass_flow[n] * duration / step;
+    if (!(flow > 0.0)) continue;
+    if (!is_active) std::fill(source_.begin(), source_.end(), 0.0);
+    is_active = true;
+    for (const Part& part : sources_[s]) {
+      source_[part.cell] += flow * part.gas / grid_.cell_volume();
+    }
+    classes_[n].released += flow * step;
+  }
+  return is_active;
+}
+
+/// What has settled in this step goes to its surface and cell.
+void DustField::add_deposits(Class& c, const Flow& flow) const {
+  for (std::size_t n = 0; n < flow.walls.size(); ++n) {
+    const double mass = c.losses.walls[n] * grid_.cell_volume();
+    c.surfaces[static_cast<std::size_t>(flow.walls[n].surface)] += mass;
+    c.deposit[static_cast<std::size_t>(flow.walls[n].cell)] += mass;
+  }
+  c.losses.walls.clear();
+}
+
+void DustField::advance(const Flow& flow, double time, double step) {
+  static const std::vector<double> k_no_source;
+  find_sources(flow.volume_after);
+  transport_.prepare(flow);
+  for (std::size_t n = 0; n < classes_.size(); ++n) {
+    Class& c = classes_[n];
+    const bool has_source = add_sources(n, time, step);
+    if (!(c.released > 0.0)) continue;  // there is none yet
+    sub_steps_ += transport_.advance(flow, c.dust, 1.0 / spec_.schmidt_number,
+                                     has_source ? source_ : k_no_source, step, c.mass, c.losses);
+    add_deposits(c, flow);
+  }
+}
+
+void DustField::release(std::size_t n, std::int32_t cell, double mass) {
+  classes_[n].mass[static_cast<std::size_t>(cell)] += mass / grid_.cell_volume();
+  classes_[n].released += mass;
+}
+
+void DustField::concentration(std::size_t n, const fluid::CellField& volume,
+                              fluid::CellField& c) const {
+  Transport::concentration(grid_, classes_[n].mass, volume, c);
+}
+
+DustBalance DustField::balance(std::size_t n) const {
+  const Class& c = classes_[n];
+  const double volume = grid_.cell_volume();
+  DustBalance balance;
+  balance.released = c.released;
+  balance.airborne = sum_of(grid_, c.mass) * volume;
+  for (std::size_t side = 0; side < 6; ++side) balance.left[side] = c.losses.sides[side] * volume;
+  for (const double drawn : c.losses.outlets) balance.outlets.push_back(drawn * volume);
+  balance.surfaces = c.surfaces;
+  return balance;
+}
+
+void DustField::save(sdk::ArchiveWriter& archive) const {
+  archive.integer("sub_steps", sub_steps_);
+  for (std::size_t n = 0; n < classes_.size(); ++n) {
+    const Class& c = classes_[n];
+    const std::string name = "class_" + std::to_string(n) + "_";
+    archive.numbers(name + "mass", c.mass);
+    archive.numbers(name + "deposit", c.deposit);
+    archive.number(name + "released", c.released);
+    archive.numbers(name + "sides", c.losses.sides);
+    archive.numbers(name + "outlets", c.losses.outlets);
+    archive.numbers(name + "surfaces", c.surfaces);
+  }
+}
+
+void DustField::load(sdk::ArchiveReader& archive) {
+  sub_steps_ = archive.integer("sub_steps");
+  for (std::size_t n = 0; n < classes_.size(); ++n) {
+    Class& c = classes_[n];
+    const std::string name = "class_" + std::to_string(n) + "_";
+    c.mass = archive.numbers(name + "mass");
+    c.deposit = archive.numbers(name + "deposit");
+    c.released = archive.number(name + "released");
+    const std::vector<double> sides = archive.numbers(name + "sides");
+    if (c.mass.size() != grid_.size || sides.size() != c.losses.sides.size()) {
+      throw sdk::ModelError("the checkpoint's dust belongs to another grid");
+    }
+    std::copy(sides.begin(), sides.end(), c.losses.sides.begin());
+    c.losses.outlets = archive.numbers(name + "outlets");
+    c.surfaces = archive.numbers(name + "surfaces");
+  }
+}
+
+}  // namespace dust::airborne

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "airborne/dust_class.hpp"
+#include "airborne/flow.hpp"
+#include "airborne/transport.hpp"
+#include "dust/sdk/archive.hpp"
+#include "fluid/grid.hpp"
+#include "setup/dust_setup.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace dust::airborne {
+
+/// What became of the dust of a class since the start [kg]: released = airborne + deposited + left
+/// + drawn out, to rounding.
+struct DustBalance {
+  double released = 0.0;  ///< what was there at the start included
+  double airborne = 0.0;
+  std::array<double, 6> left{};  ///< out through the sides
+  std::vector<double> outlets;   ///< by hood
+  std::vector<double> surfaces;  ///< deposited, by surface: the six sides, then the bodies
+  /// (released - all others) / released; 0 where nothing was.
+  [[nodiscard]] double error() const;
+};
+
+/// Dust as concentrations, one per size class, on the fluid's grid; docs/theory/dust.md.
+class DustField {
+ public:
+  /// How many hoods and surfaces (sides and bodies) dust may end at.
+  struct Ends {
+    std::size_t outlets = 0, surfaces = 0;
+  };
+  DustField(const fluid::Grid& grid, const scenario::DustFieldSpec& spec, const Gas& gas,
+            sdk::Vec3 gravity, Ends ends);
+
+  /// Puts the clouds of the start into the gas, `volume` [-] of each cell.
+  void start(const fluid::CellField& volume);
+  /// One fluid step from `time` [s], `step` [s] long. Throws sdk::ModelError for a source in no
+  /// gas.
+  void advance(const Flow& flow, double time, double step);
+  /// Dust set free in a cell at once [kg]; of the class `n`.
+  void release(std::size_t n, std::int32_t cell, double mass);
+
+  [[nodiscard]] std::size_t classes() const { return classes_.size(); }
+  [[nodiscard]] const DustClass& dust_class(std::size_t n) const { return classes_[n].dust; }
+  /// [kg/m3] of gas, in cells filled to `volume`.
+  void concentration(std::size_t n, const fluid::CellField& volume, fluid::CellField& c) const;
+  /// [kg] on surfaces in each cell.
+  [[nodiscard]] const fluid::CellField& deposit(std::size_t n) const { return classes_[n].deposit; }
+  [[nodiscard]] DustBalance balance(std::size_t n) const;
+  [[nodiscard]] std::int64_t sub_steps() const { return sub_steps_; }
+
+  void save(sdk::ArchiveWriter& archive) const;
+  void load(sdk::ArchiveReader& archive);
+
+ private:
+  struct Class {
+    DustClass dust;
+    fluid::CellField mass;         ///< [kg/m3] of whole cells
+    fluid::CellField deposit;      ///< [kg]
+    double released = 0.0;         ///< [kg]
+    Losses losses;                 ///< of sides and hoods since the start; of walls in this step
+    std::vector<double> surfaces;  ///< [kg]
+  };
+  /// A cell with what a box has of its gas, as a share of the cell; of sources, of the box's gas.
+  struct Part {
+    std::size_t cell;
+    double gas;
+  };
+  [[nodiscard]] std::vector<Part> parts_of(sdk::Vec3 min, sdk::Vec3 max,
+                                           const fluid::CellField& volume) const;
+  /// Anew in each step, for what gas a cell has changes with the grains in it.
+  void find_sources(const fluid::CellField& volume);
+  [[nodiscard]] bool add_sources(std::size_t n, double time, double step);
+  void add_deposits(Class& c, const Flow& flow) const;
+
+  fluid::Grid grid_;
+  scenario::DustFieldSpec spec_;
+  Transport transport_;
+  std::vector<Class> classes_;
+  std::vector<std::vector<Part>> sources_;  ///< by source, of this step
+  fluid::CellField source_;                 ///< [kg/(m3 s)]
+  std::int64_t sub_steps_ = 0;
+};
+
+}  // namespace dust::airborne

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fluid/grid.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace dust::airborne {
+
+/// Gas that is drawn out of a cell.
+struct Sink {
+  std::int32_t cell = 0;
+  double rate = 0.0;  ///< [1/s] of the cell's volume
+  int outlet = 0;     ///< number of the hood
+};
+
+/// A piece of a surface in a cell, seen from the gas: the part that dust of a given drift meets.
+struct WallPiece {
+  std::int32_t cell = 0;
+  std::int32_t surface = 0;  ///< number of the side or body
+  sdk::Vec3 area;            ///< [1/m] out of the gas, over the volume of the whole cell
+};
+
+/// What dust is told of the gas in a fluid step. Shares are of whole cells and faces.
+struct Flow {
+  fluid::CellField volume_before;     ///< [-] filled by gas: open share times void fraction, at the
+  fluid::CellField volume_after;      ///< beginning and at the end; 0 in bodies
+  fluid::FaceField throughflow;       ///< [m/s] volume flow of the gas over the area of the face
+  fluid::FaceField passage;           ///< [-] share of the face that gas fills; on sides that are
+                                      ///< walls 0
+  fluid::CellField eddy_diffusivity;  ///< [m2/s] empty: laminar
+  std::vector<Sink> sinks;
+  std::vector<WallPiece> walls;
+  /// By face of a side (side, second direction, third direction): the hood that draws there, -1.
+  std::array<std::vector<std::int32_t>, 6> side_outlet;
+
+  explicit Flow(const fluid::Grid& grid)
+      : volume_before(grid.size, 0.0),
+        volume_after(grid.size, 0.0),
+        throughflow(grid),
+        passage(grid) {}
+};
+
+}  // namespace dust::airborne

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+
+namespace dust::airborne {
+
+/// The slope of a cell from the steps to both neighbours, after van Leer (J. Comput. Phys. 14
+/// (1974) 361): their harmonic mean 2 a b / (a + b), 0 at an extremum. Never more than twice the
+/// smaller step, so that values on faces stay between those of the cells;
+/// docs/theory/dust.md, eq. (4).
+inline double limited_slope(double a, double b) {
+  const double product = a * b;
+  const double sum = a + b;
+  // Where both have one sign their sum has it, too, and is not zero.
+  return product > 0.0 ? 2.0 * product / sum : 0.0;
+}
+
+}  // namespace dust::airborne

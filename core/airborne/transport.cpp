@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "airborne/transport.hpp"
+
+#include "airborne/limiter.hpp"
+#include "fluid/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dust::airborne {
+namespace {
+
+using fluid::for_rows;
+using fluid::max_rows;
+
+/// Of a cell's gas, how much may leave in a stage: a limited slope makes a face's concentration up
+/// to twice the cell's, which largest_rate() counts.
+constexpr double k_largest_share = 0.95;
+constexpr double k_no_gas = 1e-12;
+
+std::size_t at(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
+
+}  // namespace
+
+Transport::Transport(const fluid::Grid& grid)
+    : grid_(grid),
+      c_(grid.size, 0.0),
+      first_(grid.size, 0.0),
+      volume_(grid.size, 0.0),
+      scratch_(grid.size, 0.0),
+      deposition_(grid.size, 0.0),
+      drive_(grid),
+      flux_(grid),
+      is_open_(grid) {
+  for (std::size_t d = 0; d < 3; ++d) {
+    is_still_[d] = grid.count[d] == 1 && grid.is_periodic[d];
+  }
+}
+
+void Transport::prepare(const Flow& flow) {
+  small_cells_.find(grid_, flow);
+  wall_rate_.assign(flow.walls.size(), 0.0);
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto n = faces(static_cast<int>(d));
+    for_rows(n[0], n[1], n[2], [&](int j, int k) {
+      const std::ptrdiff_t o = grid_.index(0, j, k);
+      for (int i = 0; i < n[0]; ++i) {
+        const bool is_side = !grid_.is_periodic[d] && ((d == 0 && (i == 0 || i == n[0] - 1)) ||
+                                                       (d == 1 && (j == 0 || j == n[1] - 1)) ||
+                                                       (d == 2 && (k == 0 || k == n[2] - 1)));
+        // Slopes look from cell to cell, not beyond a side.
+        is_open_.component[d][at(o + i)] =
+            !is_side && flow.passage.component[d][at(o + i)] > 0.0 ? 1.0 : 0.0;
+      }
+    });
+    if (grid_.is_periodic[d]) wrap_faces(d, is_open_.component[d]);
+  }
+}
+
+/// Gives a field on faces along d, periodic, one more face beyond either end.
+void Transport::wrap_faces(std::size_t d, std::vector<double>& values) const {
+  const std::ptrdiff_t s = grid_.stride[d];
+  const std::ptrdiff_t length = s * grid_.count[d];
+  for (int b = 0; b < grid_.count[(d + 2) % 3]; ++b) {
+    for (int a = 0; a < grid_.count[(d + 1) % 3]; ++a) {
+      const std::ptrdiff_t first =
+          grid_.index(0, 0, 0) + a * grid_.stride[(d + 1) % 3] + b * grid_.stride[(d + 2) % 3];
+      values[at(first - s)] = values[at(first + length - s)];
+      values[at(first + length + s)] = values[at(first + s)];
+    }
+  }
+}
+
+void Transport::set_volume(const Flow& flow, double share) {
+  for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
+    const std::ptrdiff_t o = grid_.index(0, j, k);
+    for (int i = 0; i < grid_.count[0]; ++i) {
+      volume_[at(o + i)] =
+          (1.0 - share) * flow.volume_before[at(o + i)] + share * flow.volume_after[at(o + i)];
+    }
+  });
+}
+
+void Transport::concentration(const fluid::Grid& grid, const fluid::CellField& mass,
+                              const fluid::CellField& volume, fluid::CellField& c) {
+  for_rows(grid.count[0], grid.count[1], grid.count[2], [&](int j, int k) {
+    const std::ptrdiff_t o = grid.index(0, j, k);
+    for (int i = 0; i < grid.count[0]; ++i) {
+      const double v = volume[at(o + i)];
+      c[at(o + i)] = v > k_no_gas ? mass[at(o + i)] / v : 0.0;
+    }
+  });
+}
+
+void Transport::find_drive(const Flow& flow, const DustClass& dust) {
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto n = faces(static_cast<int>(d));
+    const double w = dust.drift[static_cast<int>(d)];
+    for_rows(n[0], n[1], n[2], [&](int j, int k) {
+      const std::ptrdiff_t o = grid_.index(0, j, k);
+      for (int i = 0; i < n[0]; ++i) {
+        drive_.component[d][at(o + i)] =
+            flow.throughflow.component[d][at(o + i)] + w * flow.passage.component[d][at(o + i)];
+      }
+    });
+  }
+  std::fill(deposition_.begin(), deposition_.end(), 0.0);
+  for (std::size_t n = 0; n < flow.walls.size(); ++n) {
+    const WallPiece& piece = flow.walls[n];
+    wall_rate_[n] = std::max(0.0, dot(dust.drift, piece.area));
+    deposition_[at(piece.cell)] += wall_rate_[n];
+  }
+}
+
+/// [1/s] The largest share of its gas that a cell may give off per time, faces at twice the cell's
+/// concentration; docs/theory/dust.md, eq. (5).
+double Transport::largest_rate(const Flow& flow, const DustClass& dust) {
+  for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
+    const std::ptrdiff_t o = grid_.index(0, j, k);
+    for (int i = 0; i < grid_.count[0]; ++i) {
+      const std::size_t cell = at(o + i);
+      volume_[cell] = std::min(flow.volume_before[cell], flow.volume_after[cell]);
+      double out = deposition_[cell];
+      for (std::size_t d = 0; d < 3; ++d) {
+        if (is_still(static_cast<int>(d))) continue;
+        const std::size_t up = at(o + i + grid_.stride[d]);
+        const double h = 1.0 / grid_.spacing[static_cast<int>(d)];
+        const double low = -drive_.component[d][cell];
+        const double high = drive_.component[d][up];
+        out += 2.0 * h * (std::max(low, 0.0) + std::max(high, 0.0));
+        const double eddy =
+            flow.eddy_diffusivity.empty() ? 0.0 : turbulent_share_ * flow.eddy_diffusivity[cell];
+        // Neighbours may be more turbulent: twice the mean of both, at most.
+        out += 2.0 * h * h * (dust.diffusivity + eddy) *
+               (flow.passage.component[d][cell] + flow.passage.component[d][up]);
+      }
+      scratch_[cell] = out;
+    }
+  });
+  for (const Sink& sink : flow.sinks) scratch_[at(sink.cell)] += std::max(sink.rate, 0.0);
+  small_cells_.join_rates(scratch_, volume_);
+  return max_rows(grid_.count[0], grid_.count[1], grid_.count[2], partial_, [&](int j, int k) {
+    const std::ptrdiff_t o = grid_.index(0, j, k);
+    double largest = 0.0;
+    for (int i = 0; i < grid_.count[0]; ++i) {
+      const double v = volume_[at(o + i)];
+      if (v > k_no_gas) largest = std::max(largest, scratch_[at(o + i)] / v);
+    }
+    return largest;
+  });
+}
+
+void Transport::fill_halo() {
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!grid_.is_periodic[d] || is_still(static_cast<int>(d))) continue;
+    const std::size_t e = (d + 1) % 3;
+    const std::size_t f = (d + 2) % 3;
+    const std::ptrdiff_t s = grid_.stride[d];
+    const std::ptrdiff_t length = s * grid_.count[d];
+    const std::ptrdiff_t origin = grid_.index(0, 0, 0);
+    for (int b = 0; b < grid_.count[f]; ++b) {
+      for (int a = 0; a < grid_.count[e]; ++a) {
+        const std::ptrdiff_t first = origin + a * grid_.stride[e] + b * grid_.stride[f];
+        for (int h = 1; h <= 2; ++h) {
+          c_[at(first - h * s)] = c_[at(first + length - h * s)];
+          c_[at(first + length + (h - 1) * s)] = c_[at(first + (h - 1) * s)];
+        }
+      }
+    }
+  }
+}
+
+/// The fluxes [kg/(m2 s)] through the lower faces of a row.
+void Transport::flux_row(const Flow& flow, const DustClass& dust, int dir, int j, int k) {
+  const auto d = static_cast<std::size_t>(dir);
+  const std::ptrdiff_t o = grid_.index(0, j, k);
+  const std::ptrdiff_t s = grid_.stride[d];
+  const int n = faces(dir)[0];
+  const double inverse_h = 1.0 / grid_.spacing[dir];
+  const double* c = c_.data() + o;
+  const double* open = is_open_.component[d].data() + o;
+  const double* drive = drive_.component[d].data() + o;
+  const double* passage = flow.passage.component[d].data() + o;
+  const double* eddy = flow.eddy_diffusivity.empty() ? nullptr : flow.eddy_diffusivity.data() + o;
+  double* flux = flux_.component[d].data() + o;
+  for (int i = 0; i < n; ++i) {
+    const double below = c[i - s];
+    const double above = c[i];
+    const double step = open[i] * (above - below);
+    const double g = drive[i];
+    const double from_below =
+        below + 0.5 * limited_slope(open[i - s] * (below - c[i - 2 * s]), step);
+    const double from_above = above - 0.5 * limited_slope(step, open[i + s] * (c[i + s] - above));
+    // Not below zero but for rounding: the slope towards an empty cell takes all off the value.
+    const double carried = std::max(g > 0.0 ? from_below : from_above, 0.0);
+    const double turbulent =
+        eddy == nullptr ? 0.0 : 0.5 * turbulent_share_ * (eddy[i - s] + eddy[i]);
+    flux[i] = g * carried - passage[i] * inverse_h * (dust.diffusivity + turbulent) * step;
+  }
+}
+
+void Transport::find_fluxes(const Flow& flow, const DustClass& dust) {
+  fill_halo();
+  for (int d = 0; d < 3; ++d) {
+    if (is_still(d)) continue;
+    const auto n = faces(d);
+    for_rows(n[0], n[1], n[2], [&](int j, int k) { flux_row(flow, dust, d, j, k); });
+  }
+}
+
+/// Books what passes the sides in `amount` [s], and empties the fluxes that come in: clean gas.
+void Transport::take_from_sides(double amount, Losses& losses, const Flow& flow) const {
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (grid_.is_periodic[d]) continue;
+    const std::size_t e = (d + 1) % 3;
+    const std::size_t f = (d + 2) % 3;
+    for (int high = 0; high < 2; ++high) {
+      const std::size_t side = 2 * d + static_cast<std::size_t>(high);
+      const double sign = high != 0 ? 1.0 : -1.0;
+      const auto& outlet = flow.side_outlet[side];
+      const std::ptrdiff_t first =
+          grid_.index(0, 0, 0) + (high != 0 ? grid_.count[d] * grid_.stride[d] : 0);
+      const double scale = sign * amount / grid_.spacing[static_cast<int>(d)];
+      for (int b = 0; b < grid_.count[f]; ++b) {
+        for (int a = 0; a < grid_.count[e]; ++a) {
+          const std::ptrdiff_t face = first + a * grid_.stride[e] + b * grid_.stride[f];
+          const double left = scale * flux_.component[d][at(face)];
+          const std::size_t n = static_cast<std::size_t>(b) * grid_.count[e] + a;
+          const std::int32_t hood = outlet.empty() ? -1 : outlet[n];
+          (hood >= 0 ? losses.outlets[static_cast<std::size_t>(hood)] : losses.sides[side]) += left;
+        }
+      }
+    }
+  }
+}
+
+/// mass += dt L(c), with c of the present; books what leaves with `weight`.
+void Transport::euler(const Flow& flow, const std::vector<double>& source, double dt, double weight,
+                      fluid::CellField& mass, Losses& losses) {
+  take_from_sides(weight * dt, losses, flow);
+  for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
+    const std::ptrdiff_t o = grid_.index(0, j, k);
+    for (int i = 0; i < grid_.count[0]; ++i) {
+      const std::size_t cell = at(o + i);
+      double change = -deposition_[cell] * c_[cell];
+      for (std::size_t d = 0; d < 3; ++d) {
+        if (is_still(static_cast<int>(d))) continue;
+        const auto& flux = flux_.component[d];
+        change -=
+            (flux[at(o + i + grid_.stride[d])] - flux[cell]) / grid_.spacing[static_cast<int>(d)];
+      }
+      mass[cell] += dt * change;
+    }
+  });
+  for (const Sink& sink : flow.sinks) {
+    // A blown opening brings clean gas.
+    const double gone = dt * std::max(sink.rate, 0.0) * c_[at(sink.cell)];
+    mass[at(sink.cell)] -= gone;
+    losses.outlets[static_cast<std::size_t>(sink.outlet)] += weight * gone;
+  }
+  for (std::size_t n = 0; n < wall_rate_.size(); ++n) {
+    losses.walls[n] += weight * dt * wall_rate_[n] * c_[at(flow.walls[n].cell)];
+  }
+  if (source.empty()) return;
+  for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
+    const std::ptrdiff_t o = grid_.index(0, j, k);
+    for (int i = 0; i < grid_.count[0]; ++i) mass[at(o + i)] += dt * source[at(o + i)];
+  });
+}
+
+int Transport::advance(const Flow& flow, const DustClass& dust, double turbulent_share,
+                       const std::vector<double>& source, double step, fluid::CellField& mass,
+                       Losses& losses) {
+  turbulent_share_ = turbulent_share;
+  losses.walls.resize(flow.walls.size(), 0.0);
+  find_drive(flow, dust);
+  const int parts =
+      std::max(1, static_cast<int>(std::ceil(step * largest_rate(flow, dust) / k_largest_share)));
+  const double dt = step / parts;
+  for (int part = 0; part < parts; ++part) {
+    set_volume(flow, static_cast<double>(part) / parts);
+    small_cells_.mix(mass, volume_);
+    concentration(grid_, mass, volume_, c_);
+    find_fluxes(flow, dust);
+    first_ = mass;
+    euler(flow, source, dt, 0.5, mass, losses);
+    set_volume(flow, part + 1 == parts ? 1.0 : (part + 1.0) / parts);
+    small_cells_.mix(mass, volume_);
+    concentration(grid_, mass, volume_, c_);
+    find_fluxes(flow, dust);
+    euler(flow, source, dt, 0.5, mass, losses);
+    for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
+      const std::ptrdiff_t o = grid_.index(0, j, k);
+      for (int i = 0; i < grid_.count[0]; ++i) {
+        mass[at(o + i)] = 0.5 * (first_[at(o + i)] + mass[at(o + i)]);
+      }
+    });
+  }
+  small_cells_.mix(mass, flow.volume_after);
+  return parts;
+}
+
+}  // namespace dust::airborne

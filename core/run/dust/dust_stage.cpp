@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/dust/dust_stage.hpp"
+
+#include "dust/sdk/sampling.hpp"
+#include "fluid/geometry/body_field.hpp"
+#include "fluid/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dust::run {
+namespace {
+
+using fluid::for_rows;
+using fluid::Grid;
+
+std::size_t at(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
+
+}  // namespace
+
+DustStage::DustStage(const scenario::Setup& setup, const scenario::DustFieldSpec& spec,
+                     const Models& models, const FluidStage& fluid,
+                     std::vector<particles::Opening> openings)
+    : setup_(setup),
+      models_(models),
+      fluid_(fluid),
+      openings_(std::move(openings)),
+      flow_(fluid.grid()),
+      field_(fluid.grid(), spec, {setup.fluid->density, setup.fluid->viscosity}, setup.gravity,
+             {openings_.size(), 6 + setup.bodies.size()}) {
+  for (const double d : spec.diameters) names_.push_back(sdk::name_of(d * 1e6) + "_um");
+  mark_hoods();
+}
+
+void DustStage::mark_hoods() {
+  const Grid& grid = fluid_.grid();
+  for (std::size_t o = 0; o < openings_.size(); ++o) {
+    if (openings_[o].side < 0) continue;
+    const auto side = static_cast<std::size_t>(openings_[o].side);
+    const std::size_t d = side / 2;
+    // A side with an opening is a wall elsewhere: all that passes it goes through the opening.
+    flow_.side_outlet[side].assign(
+        static_cast<std::size_t>(grid.count[(d + 1) % 3]) * grid.count[(d + 2) % 3],
+        static_cast<std::int32_t>(o));
+  }
+}
+
+std::vector<std::string> DustStage::surface_names() const {
+  std::vector<std::string> names(scenario::k_side_names.begin(), scenario::k_side_names.end());
+  for (const scenario::BodySpec& body : setup_.bodies) names.push_back(body.name);
+  return names;
+}
+
+/// Surfaces in cells, as the open areas of the cell's faces leave them over.
+void DustStage::find_walls(double time) {
+  const Grid& grid = fluid_.grid();
+  const fluid::FaceField& open = fluid_.solver().open_area();
+  const fluid::CellField& share = fluid_.solver().open_fraction();
+  const fluid::BodyField bodies(grid, models_.bodies, time, fluid::BodyField::Which::all);
+  pieces_.clear();
+  for (int k = 0; k < grid.count[2]; ++k) {
+    for (int j = 0; j < grid.count[1]; ++j) {
+      for (int i = 0; i < grid.count[0]; ++i) {
+        const std::ptrdiff_t o = grid.index(i, j, k);
+        if (!(share[at(o)] > 0.0)) continue;
+        const int place[3] = {i, j, k};
+        sdk::Vec3 area;
+        for (std::size_t d = 0; d < 3; ++d) {
+          const int axis = static_cast<int>(d);
+          const double low = open.component[d][at(o)];
+          const double high = open.component[d][at(o + grid.stride[d])];
+          area[axis] = (low - high) / grid.spacing[axis];
+          if (grid.is_periodic[d]) continue;
+          for (int is_high = 0; is_high < 2; ++is_high) {
+            const std::size_t side = 2 * d + static_cast<std::size_t>(is_high);
+            if (place[d] != (is_high != 0 ? grid.count[d] - 1 : 0)) continue;
+            if (setup_.domain.sides[side].grains != scenario::GrainSide::wall) continue;
+            sdk::Vec3 normal;
+            normal[axis] = (is_high != 0 ? high : -low) / grid.spacing[axis];
+            pieces_.push_back(
+                {static_cast<std::int32_t>(o), static_cast<std::int32_t>(side), normal});
+          }
+        }
+        if (!(norm(area) * grid.spacing.x > 1e-9)) continue;
+        const auto hit = bodies.nearest(grid.centre(i, j, k));
+        if (hit.body < 0) continue;
+        pieces_.push_back({static_cast<std::int32_t>(o), 6 + hit.body, area});
+      }
+    }
+  }
+}
+
+/// Open share times void fraction.
+void DustStage::find_volume(fluid::CellField& volume) const {
+  const Grid& grid = fluid_.grid();
+  const fluid::CellField& open = fluid_.solver().open_fraction();
+  const fluid::CellField& eps = fluid_.void_fraction();
+  for_rows(grid.count[0], grid.count[1], grid.count[2], [&](int j, int k) {
+    const std::ptrdiff_t o = grid.index(0, j, k);
+    for (int i = 0; i < grid.count[0]; ++i) volume[at(o + i)] = open[at(o + i)] * eps[at(o + i)];
+  });
+}
+
+void DustStage::find_passage() {
+  const Grid& grid = fluid_.grid();
+  const fluid::FaceField& open = fluid_.solver().open_area();
+  const fluid::CellField& eps = fluid_.void_fraction();
+  for (std::size_t d = 0; d < 3; ++d) {
+    std::array<int, 3> n = grid.count;
+    n[d] += 1;
+    const std::ptrdiff_t s = grid.stride[d];
+    const auto is_wall = [&](std::size_t high) {
+      return setup_.domain.sides[2 * d + high].grains == scenario::GrainSide::wall;
+    };
+    const bool low_is_wall = is_wall(0), high_is_wall = is_wall(1);
+    for_rows(n[0], n[1], n[2], [&](int j, int k) {
+      const std::ptrdiff_t o = grid.index(0, j, k);
+      const int place[3] = {0, j, k};
+      for (int i = 0; i < n[0]; ++i) {
+        const int along = d == 0 ? i : place[d];
+        const bool is_low = along == 0;
+        const bool is_high = along == grid.count[d];
+        // Beyond a side there is the gas of the cell before it, or that of the other end.
+        const std::ptrdiff_t round = grid.is_periodic[d] ? s * grid.count[d] : s;
+        const std::ptrdiff_t face = o + i;
+        const double below = eps[at(is_low ? face - s + round : face - s)];
+        const double above = eps[at(is_high ? face - round : face)];
+        const bool is_wall_face =
+            !grid.is_periodic[d] && ((is_low && low_is_wall) || (is_high && high_is_wall));
+        flow_.passage.component[d][at(o + i)] =
+            is_wall_face ? 0.0 : open.component[d][at(o + i)] * 0.5 * (below + above);
+      }
+    });
+  }
+}
+
+void DustStage::find_outflows() {
+  flow_.sinks.clear();
+  fluid_.solver().each_sink([&](std::int32_t cell, double rate, std::int32_t body) {
+    for (std::size_t o = 0; o < openings_.size(); ++o) {
+      if (openings_[o].side < 0 &&
+          openings_[o].name == setup_.bodies[static_cast<std::size_t>(body)].name) {
+        flow_.sinks.push_back({cell, rate, static_cast<int>(o)});
+      }
+    }
+  });
+}
+
+void DustStage::start() {
+  find_volume(flow_.volume_after);
+  field_.start(flow_.volume_after);
+}
+
+void DustStage::advance(double time) {
+  const Grid& grid = fluid_.grid();
+  flow_.volume_before.swap(flow_.volume_after);
+  find_volume(flow_.volume_after);
+  fluid_.solver().find_throughflow(flow_.throughflow);
+  find_passage();
+  find_outflows();
+  if (must_find_walls_ || fluid_.solver().has_moving_bodies()) {
+    find_walls(time + setup_.time.fluid_step);
+    must_find_walls_ = false;
+  }
+  flow_.walls = pieces_;
+  for (airborne::WallPiece& piece : flow_.walls) {
+    piece.area = fluid_.void_fraction()[static_cast<std::size_t>(piece.cell)] * piece.area;
+  }
+  if (const fluid::CellField* eddies = fluid_.solver().eddy_viscosity()) {
+    flow_.eddy_diffusivity.resize(grid.size);
+    for (std::size_t n = 0; n < grid.size; ++n) {
+      flow_.eddy_diffusivity[n] = (*eddies)[n] / setup_.fluid->density;
+    }
+  }
+  field_.advance(flow_, time, setup_.time.fluid_step);
+}
+
+std::vector<io::SensorField> DustStage::fields() const {
+  const Grid& grid = fluid_.grid();
+  std::vector<io::SensorField> fields;
+  const auto add = [&](const std::string& name, const char* unit, const fluid::CellField& values) {
+    io::SensorField field{"", name, unit, grid.shape(), {}};
+    for (int k = 0; k < grid.count[2]; ++k) {
+      for (int j = 0; j < grid.count[1]; ++j) {
+        const auto row = values.begin() + grid.index(0, j, k);
+        field.values.insert(field.values.end(), row, row + grid.count[0]);
+      }
+    }
+    fields.push_back(std::move(field));
+  };
+  fluid::CellField concentration(grid.size, 0.0);
+  for (std::size_t n = 0; n < names_.size(); ++n) {
+    field_.concentration(n, flow_.volume_after, concentration);
+    add("dust_" + names_[n], "kg/m3", concentration);
+    add("dust_deposit_" + names_[n], "kg", field_.deposit(n));
+  }
+  return fields;
+}
+
+void DustStage::add_parts(SaveParts& parts) const {
+  parts.emplace_back("dust", [this](sdk::ArchiveWriter& a) {
+    field_.save(a);
+    a.numbers("volume", flow_.volume_after);
+  });
+}
+
+void DustStage::add_parts(LoadParts& parts) {
+  parts.emplace_back("dust", [this](sdk::ArchiveReader& a) {
+    field_.load(a);
+    flow_.volume_after = a.numbers("volume");
+  });
+}
+
+}  // namespace dust::run

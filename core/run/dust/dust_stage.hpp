@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "airborne/dust_field.hpp"
+#include "io/run_files.hpp"
+#include "particles/openings/opening.hpp"
+#include "run/archive_parts.hpp"
+#include "run/fluid_stage.hpp"
+#include "run/models.hpp"
+#include "setup/setup.hpp"
+
+#include <string>
+#include <vector>
+
+namespace dust::run {
+
+/// The airborne dust of a run: what it is told of the fluid, and what files are told of it.
+class DustStage {
+ public:
+  /// `setup` has a fluid; it, models and fluid are kept by reference. `openings`: see openings_of.
+  DustStage(const scenario::Setup& setup, const scenario::DustFieldSpec& spec, const Models& models,
+            const FluidStage& fluid, std::vector<particles::Opening> openings);
+
+  /// What is there at the start.
+  void start();
+  /// Goes with the fluid through the step from `time` [s] on, after the fluid.
+  void advance(double time);
+  /// Bodies were taken away.
+  void bodies_changed() { must_find_walls_ = true; }
+  [[nodiscard]] const airborne::DustField& field() const { return field_; }
+  /// "10_um": a class in names of figures and fields.
+  [[nodiscard]] const std::vector<std::string>& class_names() const { return names_; }
+  /// Names of the surfaces of DustBalance::surfaces.
+  [[nodiscard]] std::vector<std::string> surface_names() const;
+  [[nodiscard]] const std::vector<particles::Opening>& openings() const { return openings_; }
+
+  /// Concentrations and deposits for a frame.
+  [[nodiscard]] std::vector<io::SensorField> fields() const;
+
+  void add_parts(SaveParts& parts) const;
+  void add_parts(LoadParts& parts);
+
+ private:
+  void find_walls(double time);
+  void find_volume(fluid::CellField& volume) const;
+  void find_passage();
+  void find_outflows();
+  void mark_hoods();
+
+  const scenario::Setup& setup_;
+  const Models& models_;
+  const FluidStage& fluid_;
+  std::vector<particles::Opening> openings_;
+  airborne::Flow flow_;
+  bool must_find_walls_ = true;
+  std::vector<airborne::WallPiece>
+      pieces_;  ///< with the areas of surfaces, whatever is before them
+  airborne::DustField field_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace dust::run

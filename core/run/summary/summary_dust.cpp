@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/summary/summary_dust.hpp"
+
+#include "particles/store/balance_book.hpp"
+#include "setup/dust_rule.hpp"
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace dust::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct SizeClass {
+  double represented = 0.0;
+  bool is_dust = false;
+};
+
+/// Each diameter that emitters release; where one is dust in some materials only, it counts as
+/// dust, of the size it has in these.
+std::map<double, SizeClass> size_classes(const Simulation& s, const scenario::DustRule& rule) {
+  std::map<double, SizeClass> classes;
+  for (std::size_t e = 0; e < s.setup().emitters.size(); ++e) {
+    const scenario::EmitterSpec& spec = s.setup().emitters[e];
+    std::vector<int> materials = spec.more_materials;
+    materials.push_back(spec.material);
+    for (const double diameter : s.models().emitters[e]->diameters()) {
+      for (const int material : materials) {
+        const auto [at, is_new] = classes.try_emplace(diameter);
+        const bool is_dust = rule.is_dust(diameter, material);
+        if (!is_new && (at->second.is_dust || !is_dust)) continue;
+        at->second = {rule.represented(diameter, material), is_dust};
+      }
+    }
+  }
+  return classes;
+}
+
+}  // namespace
+
+Json dust_rule_json(const Simulation& s) {
+  if (!s.dust_setup().given) return Json::object();
+  const scenario::DustSpec& spec = *s.dust_setup().given;
+  const scenario::DustRule rule = s.dust_setup().rule();
+  Json j;
+  if (std::isfinite(spec.finer_than)) j["finer_than_m"] = spec.finer_than;
+  j["classes_m"] = spec.classes;
+  j["materials"] = spec.materials;
+  j["material_names"] = Json::array();
+  for (const int material : spec.materials) {
+    j["material_names"].push_back(s.setup().materials[static_cast<std::size_t>(material)].name);
+  }
+  j["coarse_graining"] =
+      std::vector<double>(rule.coarse_graining().begin(), rule.coarse_graining().end());
+  j["openings"] = spec.openings;
+  j["hoods"] = spec.hoods;
+  j["size_classes"] = Json::array();
+  for (const auto& [diameter, entry] : size_classes(s, rule)) {
+    j["size_classes"].push_back({{"diameter_m", diameter},
+                                 {"represented_diameter_m", entry.represented},
+                                 {"is_dust", entry.is_dust}});
+  }
+  return j;
+}
+
+Drawn drawn_by(const Simulation& s, std::size_t opening) {
+  const scenario::DustRule rule = s.dust_setup().rule();
+  const particles::BalanceBook& book = s.dem().book();
+  const auto counts = book.extracted(opening);
+  Drawn drawn;
+  for (std::size_t n = 0; n < counts.size(); ++n) {
+    const auto& population = book.populations()[n];
+    const auto count = static_cast<double>(counts[n]);
+    const double mass = count * population.weight * population.mass;
+    drawn.particles += count;
+    drawn.mass += mass;
+    if (rule.is_dust(population.diameter, population.material)) drawn.dust += mass;
+  }
+  return drawn;
+}
+
+Json hoods_json(const Simulation& s) {
+  constexpr double k_grams_per_tonne = 1e6;
+  constexpr double k_hour = 3600.0;  // s
+  const scenario::DustRule rule = s.dust_setup().rule();
+  double load = 0.0, dust = 0.0;
+  for (const auto& population : s.dem().book().populations()) {
+    const double mass =
+        static_cast<double>(population.emitted) * population.weight * population.mass;
+    load += mass;
+    if (rule.is_dust(population.diameter, population.material)) dust += mass;
+  }
+  const auto over = [](double amount, double whole) {
+    return whole > 0.0 ? Json(amount / whole) : Json(nullptr);
+  };
+  Json j = Json::object();
+  for (std::size_t o = 0; o < s.dem().openings().size(); ++o) {
+    const Drawn drawn = drawn_by(s, o);
+    j[s.dem().openings()[o].name] = {
+        {"particles", static_cast<std::int64_t>(drawn.particles)},
+        {"mass_kg", drawn.mass},
+        {"dust_kg", drawn.dust},
+        {"dust_g_per_tonne", over(k_grams_per_tonne * drawn.dust, load)},
+        {"dust_kg_per_h", over(k_hour * drawn.dust, s.time())},
+        {"share_of_dust", over(drawn.dust, dust)}};
+  }
+  return j;
+}
+
+Json dust_field_json(const Simulation& s) {
+  const DustStage& stage = *s.dust_stage();
+  const std::vector<std::string> surfaces = stage.surface_names();
+  Json classes = Json::object();
+  for (std::size_t n = 0; n < stage.field().classes(); ++n) {
+    const airborne::DustBalance balance = stage.field().balance(n);
+    Json deposited = Json::object(), left = Json::object(), hoods = Json::object();
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+      if (balance.surfaces[k] > 0.0) deposited[surfaces[k]] = balance.surfaces[k];
+    }
+    for (std::size_t side = 0; side < 6; ++side) {
+      if (balance.left[side] > 0.0) left[scenario::k_side_names[side]] = balance.left[side];
+    }
+    for (std::size_t o = 0; o < stage.openings().size(); ++o) {
+      hoods[stage.openings()[o].name] = balance.outlets[o];
+    }
+    const airborne::DustClass& dust = stage.field().dust_class(n);
+    classes[stage.class_names()[n]] = {{"diameter_m", dust.diameter},
+                                       {"settling_velocity_m_per_s", norm(dust.drift)},
+                                       {"released_kg", balance.released},
+                                       {"airborne_kg", balance.airborne},
+                                       {"deposited_kg", deposited},
+                                       {"left_kg", left},
+                                       {"hoods_kg", hoods},
+                                       {"balance_error", balance.error()}};
+  }
+  return {{"classes", classes}, {"sub_steps", stage.field().sub_steps()}};
+}
+
+void add_hood_tables(const Simulation& s, Json& tables) {
+  const particles::BalanceBook& book = s.dem().book();
+  for (std::size_t o = 0; o < s.dem().openings().size(); ++o) {
+    std::map<double, std::pair<double, double>> sizes;  // by diameter: particles, mass
+    const auto counts = book.extracted(o);
+    for (std::size_t n = 0; n < counts.size(); ++n) {
+      if (counts[n] == 0) continue;
+      const auto& population = book.populations()[n];
+      const auto count = static_cast<double>(counts[n]);
+      auto& [particles, mass] = sizes[population.diameter];
+      particles += count;
+      mass += count * population.weight * population.mass;
+    }
+    Json rows = Json::array();
+    for (const auto& [diameter, sums] : sizes) {
+      rows.push_back({1e6 * diameter, sums.first, 1e3 * sums.second});
+    }
+    if (rows.empty()) continue;
+    tables.push_back({{"sensor", s.dem().openings()[o].name},
+                      {"title", "Drawn out by the hood"},
+                      {"columns", {"diameter [um]", "computed grains", "mass [g]"}},
+                      {"rows", rows}});
+  }
+}
+
+}  // namespace dust::run

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "run/simulation.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace dust::run {
+
+/// The `dust:` block for the report, with numbers for materials and whether each size class of the
+/// emitters is dust: {"finer_than_m", "classes_m", "materials", "material_names",
+/// "coarse_graining" by material, "openings", "hoods", "size_classes": [{"diameter_m",
+/// "represented_diameter_m", "is_dust"}]}. Empty without the block.
+nlohmann::ordered_json dust_rule_json(const Simulation& s);
+
+/// What a hood has drawn out so far, computed grains with their weights.
+struct Drawn {
+  double particles = 0.0;  ///< computed ones
+  double mass = 0.0;       ///< [kg]
+  double dust = 0.0;       ///< [kg] of that, dust
+};
+Drawn drawn_by(const Simulation& s, std::size_t opening);
+
+/// By hood: {"particles", "mass_kg", "dust_kg", "dust_g_per_tonne" of all released,
+/// "dust_kg_per_h" over the whole run, "share_of_dust" released}; the last three null where nothing
+/// was.
+nlohmann::ordered_json hoods_json(const Simulation& s);
+
+/// What became of the airborne dust: by class {"released_kg", "airborne_kg", "deposited_kg" by
+/// surface, "left_kg" by side, "hoods_kg" by hood, "balance_error"} and "sub_steps".
+nlohmann::ordered_json dust_field_json(const Simulation& s);
+
+/// Tables for the report: what each hood has drawn out, by size.
+void add_hood_tables(const Simulation& s, nlohmann::ordered_json& tables);
+
+}  // namespace dust::run

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/vec3.hpp"
+#include "setup/dust_rule.hpp"
+#include "setup/mark.hpp"
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dust::scenario {
+
+/// Dust in the air at the start: a box of one concentration.
+struct DustCloudSpec {
+  std::string name;
+  sdk::Vec3 min;
+  sdk::Vec3 max;
+  std::vector<double> concentration;  ///< [kg/m3] by class
+};
+
+/// Dust that is set free in a box at a given rate.
+struct DustSourceSpec {
+  std::string name;
+  sdk::Vec3 min;
+  sdk::Vec3 max;
+  std::vector<double> mass_flow;                         ///< [kg/s] by class
+  double begin = 0.0;                                    ///< [s]
+  double end = std::numeric_limits<double>::infinity();  ///< [s]
+};
+
+/// Dust as concentrations on the fluid's grid.
+struct DustFieldSpec {
+  std::vector<double> diameters;  ///< [m] ascending, one class each
+  double density = 0.0;           ///< [kg/m3] of the dust itself
+  double schmidt_number = 0.7;    ///< [-] eddy viscosity over turbulent diffusivity
+  std::vector<DustCloudSpec> clouds;
+  std::vector<DustSourceSpec> sources;
+  Mark where;
+};
+
+/// A part of a side through which air is drawn out.
+struct SideOpeningSpec {
+  int side = 0;  ///< in the order of k_side_names
+  sdk::Vec3 min;
+  sdk::Vec3 max;
+};
+
+/// What a scenario says of dust, beside the Setup: only who books and carries dust asks.
+struct DustSetup {
+  std::optional<DustSpec> given;          ///< the block `dust:`
+  std::vector<double> coarse_graining;    ///< [-] by material
+  std::vector<SideOpeningSpec> openings;  ///< of the sides, whether there is a block or not
+  std::optional<DustFieldSpec> field;
+
+  /// Which grains are dust; the usual rule where the scenario says nothing.
+  [[nodiscard]] DustRule rule() const {
+    return given ? DustRule(*given, coarse_graining) : DustRule();
+  }
+};
+
+}  // namespace dust::scenario

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "unit/scenario/support.hpp"
+
+#include <doctest/doctest.h>
+
+using dust::scenario::DustRule;
+using dust::scenario::DustSpec;
+
+namespace {
+
+/// The small scenario with a block behind it, which begins in line 42.
+std::string with(const std::string& block) { return k_small + block; }
+
+dust::scenario::DustSetup dust_of(const std::string& text) {
+  const Folder folder;
+  return read(folder.write("s.yaml", text)).dust;
+}
+
+void check(const std::string& block, const std::string& expected) {
+  const Folder folder;
+  const std::string all = joined(problems(folder.write("s.yaml", with(block))));
+  CHECK_MESSAGE(all.find(expected) != std::string::npos, all);
+}
+
+}  // namespace
+
+TEST_CASE("a dust block shall say by size and material what is dust") {
+  const auto dust =
+      dust_of(with("dust: {finer_than: 400 um, materials: [sand], openings: [stream]}\n"));
+  REQUIRE(dust.given);
+  CHECK(dust.given->openings == std::vector<std::string>{"stream"});
+  const DustRule rule = dust.rule();
+  CHECK(rule.is_dust(300e-6, 0));
+  CHECK_FALSE(rule.is_dust(500e-6, 0));
+  CHECK_FALSE(rule.is_dust(300e-6, 1));
+}
+
+TEST_CASE("without a dust block all below 100 um shall be dust") {
+  const DustRule rule = dust_of(k_small).rule();
+  CHECK(rule.is_dust(99e-6, 0));
+  CHECK_FALSE(rule.is_dust(100e-6, 1));
+}
+
+TEST_CASE("grains that stand for smaller ones shall be dust by the size of these") {
+  // 300 um for 20 um: dust below 25 um.
+  const auto dust =
+      dust_of(changed(with("dust: {finer_than: 25 um}\n"), "poisson_ratio: 0.3}\n  glass",
+                      "poisson_ratio: 0.3, coarse_graining: 15}\n  glass"));
+  const DustRule rule = dust.rule();
+  CHECK(rule.represented(300e-6, 0) == doctest::Approx(20e-6));
+  CHECK(rule.is_dust(300e-6, 0));
+  CHECK_FALSE(rule.is_dust(500e-6, 0));
+  CHECK_FALSE(rule.is_dust(300e-6, 1));
+}
+
+TEST_CASE("listed classes alone shall be dust, to the rounding of single precision") {
+  DustSpec spec;
+  spec.classes = {10e-6, 40e-6};
+  const DustRule rule(spec, {1.0});
+  CHECK(rule.is_dust(static_cast<double>(10e-6F), 0));
+  CHECK_FALSE(rule.is_dust(20e-6, 0));
+}
+
+TEST_CASE("a dust block shall be written out so that it reads the same again") {
+  const Folder folder;
+  const auto first = read(folder.write("s.yaml", with("dust: {classes: [300, 500 um]}\n")));
+  const auto again = read(folder.write("t.yaml", first.resolved_yaml));
+  CHECK(again.resolved_yaml == first.resolved_yaml);
+  REQUIRE(again.dust.given);
+  CHECK(again.dust.given->classes == std::vector<double>{3e-4, 5e-4});
+}
+
+TEST_CASE("a dust block that says nothing shall be refused") {
+  check("dust: {openings: [stream]}\n", "says of no grain that it is dust: give finer_than");
+}
+
+TEST_CASE("openings and hoods that are none shall be told with what there is") {
+  check("dust: {finer_than: 1 mm, openings: [steam]}\n",
+        "dust.openings[0]: there is no sensor 'steam'; did you mean 'stream'?");
+  check("dust: {finer_than: 1 mm, hoods: [top]}\n",
+        "dust.hoods[0]: 'top' extracts nothing: a hood is a body with suction or a side whose air "
+        "draws out");
+  check("dust: {materials: [sans]}\n", "dust.materials[0]: there is no material 'sans'");
+}
+
+TEST_CASE("a rule that no grain meets shall be warned of") {
+  const Folder folder;
+  const auto result = read(folder.write("s.yaml", with("dust: {finer_than: 50 um}\n")));
+  CHECK(joined(result.warnings).find("no grain of any emitter is dust by this rule") !=
+        std::string::npos);
+}
+
+namespace {
+
+const std::string k_field =
+    "dust: {field: {classes: [5, 20 um], material: sand, "
+    "sources: {nozzle: {min: [1, 1, 1 mm], max: [5, 5, 5 mm], mass_flow: [1, 2 mg/s]}}}}\n";
+
+}  // namespace
+
+TEST_CASE("a dust field shall be read with its sources and written out the same") {
+  const Folder folder;
+  const auto first = read(folder.write("s.yaml", with(k_field)));
+  REQUIRE(first.dust.field);
+  CHECK(first.dust.field->diameters == std::vector<double>{5e-6, 20e-6});
+  CHECK(first.dust.field->density == 2650.0);
+  REQUIRE(first.dust.field->sources.size() == 1);
+  CHECK(first.dust.field->sources[0].mass_flow == std::vector<double>{1e-6, 2e-6});
+  CHECK(first.dust.rule().limit() == DustRule::k_usual_limit);
+  CHECK(read(folder.write("t.yaml", first.resolved_yaml)).resolved_yaml == first.resolved_yaml);
+}
+
+TEST_CASE("a dust field that cannot be shall be refused with a remedy") {
+  const auto field = [](const std::string& classes, const std::string& flows) {
+    return changed(changed(k_field, "[5, 20 um]", classes), "[1, 2 mg/s]", flows);
+  };
+  check(field("[20, 5 um]", "[1, 2 mg/s]"), "write them ascending, each once");
+  check(field("[5, 20 um]", "[1 mg/s]"), "1 numbers for 2 classes; give one for each");
+  check(field("[5, 40 um]", "[1, 2 mg/s]"), "is more than a tenth of the smallest grain");
+  check(field("[]", "[]"), "dust.field.classes");
+  const Folder folder;
+  std::string text = with(k_field);
+  const std::size_t fluid = text.find("fluid:");
+  text = text.substr(0, fluid) + "fluid: none\n" + text.substr(text.find("sensors:"));
+  const std::string all = joined(problems(folder.write("s.yaml", text)));
+  CHECK_MESSAGE(all.find("dust.field: there is no fluid that carries it") != std::string::npos,
+                all);
+}
