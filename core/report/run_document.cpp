@@ -175,6 +175,7 @@ json run_document(const std::filesystem::path& folder) {
   }
   data["title"] = text_at(run.report, "title");
   data["setting"] = object_at(run.report, "setting");
+  data["dust_rule"] = object_at(run.report, "dust_rule");
   data["outline"] = list_at(run.report, "outline");
   data["graph_dot"] = text_at(run.report, "graph_dot");
   data["summary"] = run.summary;

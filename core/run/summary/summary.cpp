@@ -367,7 +367,7 @@ Json report_json(const Simulation& s, const RunFacts& facts, JsonReport& report)
   r["outline"] = outlines(s);
   r["classes"] = s.models().class_diameters;
   if (facts.registry != nullptr) r["setting"] = setting_json(s.setup(), *facts.registry);
-  if (s.dust_setup().given) r["dust"] = dust_rule_json(s);
+  if (s.dust_setup().given) r["dust_rule"] = dust_rule_json(s);
   r["graph_dot"] = graph_dot(s);
   return r;
 }
