@@ -9,8 +9,8 @@
 namespace dust::preflight {
 namespace {
 
-// What things cost on one core of an idle virtual machine of 2026, by `tools/validation/run estimates`
-// and long runs. What this machine does differently is learnt: LearntCosts.
+// What things cost on one core of an idle virtual machine of 2026, by `tools/validation/run
+// estimates` and long runs. What this machine does differently is learnt: LearntCosts.
 constexpr double k_bytes_base = 3.5e7;
 constexpr double k_bytes_per_grain = 1500.0;  // with lists, and copies on their way to disk
 constexpr double k_bytes_per_cell = 900.0;

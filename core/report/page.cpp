@@ -122,8 +122,6 @@ std::string page_of(const Templates& templates, const std::string& name,
   return page;
 }
 
-void write_page(const fs::path& target, const std::string& text) {
-  io::write_text(target, text);
-}
+void write_page(const fs::path& target, const std::string& text) { io::write_text(target, text); }
 
 }  // namespace dust::report
