@@ -110,6 +110,7 @@ void Mesh::find_parts() {
     common[{pair.first, pair.second}] += r.length;
   }
   std::vector<std::pair<double, std::pair<std::int32_t, std::int32_t>>> longest;
+  longest.reserve(common.size());
   for (const auto& [pair, length] : common) longest.push_back({-length, pair});
   std::sort(longest.begin(), longest.end());
   for (const auto& [length, pair] : longest) {
