@@ -58,6 +58,12 @@ Json role_json(const sdk::FigureRole& role) {
 Json series_roles(const Simulation& s) {
   Json roles = Json::object();
   for (const auto& [column, role] : k_own) roles[column] = role_json(role);
+  // Hoods and the dust field, named by the scenario, give masses alone.
+  for (const std::string& column : series_row(s).names) {
+    if (column.starts_with("hoods/") || column.starts_with("dust_field/")) {
+      roles[column] = role_json(sdk::detail(sdk::Quantity::mass));
+    }
+  }
   RowRoles sink(roles);
   for (std::size_t n = 0; n < s.models().sensors.size(); ++n) {
     sink.begin(s.setup().sensors[n].name);
