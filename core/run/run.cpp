@@ -17,6 +17,7 @@
 #include "run/run_times.hpp"
 #include "run/simulation.hpp"
 #include "run/summary/figure_json.hpp"
+#include "run/summary/series_row.hpp"
 #include "run/summary/summary.hpp"
 #include "run/summary/summary_emitters.hpp"
 #include "scenario/units.hpp"

@@ -1,4 +1,4 @@
-"""What the pages written by record_* and by the benches say of the machine."""
+"""What the pages of tools/validation and of the benches say of the machine."""
 
 import platform
 

@@ -7,20 +7,16 @@ import datetime
 import fcntl
 import json
 import pathlib
-import platform
 import shlex
 import subprocess
+import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "tools/dev"))
+
+from machine import cpu_name  # noqa: E402,F401  for the pages too
+
 BITS = "tests/bits/recorded.json"
-
-
-def cpu_name():
-    with open("/proc/cpuinfo") as lines:
-        for line in lines:
-            if line.startswith("model name"):
-                return line.split(":")[1].strip()
-    return platform.machine()
 
 
 def git(*command):

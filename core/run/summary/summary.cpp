@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/summary/summary.hpp"
 
+#include "base/built_by.hpp"
 #include "base/log.hpp"
 #include "bodies/seen_edges.hpp"
 #include "dust/sdk/plugin.hpp"
@@ -9,6 +10,7 @@
 #include "particles/store/balance_book.hpp"
 #include "run/summary/figure_json.hpp"
 #include "run/summary/references.hpp"
+#include "run/summary/series_row.hpp"
 #include "run/summary/summary_dust.hpp"
 #include "run/summary/summary_emitters.hpp"
 #include "run/summary/summary_models.hpp"
@@ -22,7 +24,6 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -30,23 +31,6 @@ namespace dust::run {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr const char* k_compiler =
-#if defined(__clang__)
-    "clang " __clang_version__;
-#elif defined(__GNUC__)
-    "g++ " __VERSION__;
-#else
-    "unknown";
-#endif
-constexpr const char* k_processor =
-#if defined(__x86_64__)
-    "x86-64";
-#elif defined(__aarch64__)
-    "aarch64";
-#else
-    "unknown";
-#endif
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -67,30 +51,11 @@ class JsonFigures final : public sdk::FigureSink {
   Json json_ = Json::object();
 };
 
-class RowFigures final : public sdk::FigureSink {
- public:
-  RowFigures(SeriesRow& row, std::string prefix, const sdk::Sensor& sensor)
-      : row_(row), prefix_(std::move(prefix)), sensor_(sensor) {}
-  void figure(std::string_view name, double value, std::string_view unit, double,
-              const sdk::FigureRole&) override {
-    row_.names.push_back(prefix_ + std::string(name) + " [" + std::string(unit) + "]");
-    row_.values.push_back(value);
-    row_.kinds.push_back(sensor_.row_value(name));
-  }
-
- private:
-  SeriesRow& row_;
-  std::string prefix_;
-  const sdk::Sensor& sensor_;
-};
-
 /// What each column of series.csv stands for, however seldom rows are written.
 Json series_columns(const Simulation& s) {
-  const SeriesRow row = series_row(s);
   Json columns = Json::object();
-  for (std::size_t c = 0; c < row.names.size(); ++c) {
-    columns[row.names[c]] = name_of(row.kinds[c]);
-  }
+  for_series_columns(s, [&](const std::string& name, double, sdk::RowValue kind,
+                            const sdk::FigureRole&) { columns[name] = name_of(kind); });
   return columns;
 }
 
@@ -319,8 +284,8 @@ Json record_json(const Simulation& s, const RunFacts& facts) {
   j["series_roles"] = series_roles(s);
   j["scenario_sha256"] = facts.scenario_sha256;
   j["state_sha256"] = s.state_digest();
-  j["build"] = {{"compiler", k_compiler},
-                {"processor", k_processor},
+  j["build"] = {{"compiler", base::k_compiler},
+                {"processor", base::k_processor},
                 {"plugin_interface", sdk::k_interface_version}};
   if (facts.registry != nullptr) j["plugins"] = plugins_json(s.setup(), *facts.registry);
   return j;
@@ -373,70 +338,6 @@ Json report_json(const Simulation& s, const RunFacts& facts, JsonReport& report)
 }
 
 }  // namespace
-
-const char* name_of(sdk::RowValue kind) {
-  static constexpr const char* k_names[] = {"instant", "mean", "total"};
-  return k_names[static_cast<int>(kind)];
-}
-
-SeriesRow series_row(const Simulation& s) {
-  SeriesRow row;
-  using sdk::RowValue;
-  const auto add = [&row](const char* name, double value, RowValue kind = RowValue::instant) {
-    row.names.emplace_back(name);
-    row.values.push_back(value);
-    row.kinds.push_back(kind);
-  };
-  const auto c = s.world().grains;
-  double translation = 0.0;
-  double rotation = 0.0;
-  for (std::size_t n = 0; n < c.id.size(); ++n) {
-    const double m = c.weight[n] * c.mass[n];
-    const double r = 0.5 * c.diameter[n];
-    translation += 0.5 * m *
-                   (c.velocity_x[n] * c.velocity_x[n] + c.velocity_y[n] * c.velocity_y[n] +
-                    c.velocity_z[n] * c.velocity_z[n]);
-    rotation += 0.2 * m * r * r *
-                (c.angular_velocity_x[n] * c.angular_velocity_x[n] +
-                 c.angular_velocity_y[n] * c.angular_velocity_y[n] +
-                 c.angular_velocity_z[n] * c.angular_velocity_z[n]);
-  }
-  const auto& b = s.dem().balance();
-  add("time [s]", s.time());
-  add("kinetic_energy [J]", translation + rotation);
-  add("particles [1]", static_cast<double>(b.in_domain));
-  add("real_particles [1]", b.real_in_domain);
-  add("mass_emitted [kg]", b.mass_emitted, RowValue::total);
-  add("mass_in_domain [kg]", b.mass_in_domain);
-  add("mass_left [kg]", b.mass_left, RowValue::total);
-  add("mass_removed [kg]", b.mass_removed, RowValue::total);
-  for (std::size_t o = 0; o < s.dem().openings().size(); ++o) {
-    const Drawn drawn = drawn_by(s, o);
-    const std::string hood = "hoods/" + s.dem().openings()[o].name;
-    add((hood + "/mass [kg]").c_str(), drawn.mass, RowValue::total);
-    add((hood + "/dust [kg]").c_str(), drawn.dust, RowValue::total);
-  }
-  if (const DustStage* dust = s.dust_stage()) {
-    for (std::size_t n = 0; n < dust->field().classes(); ++n) {
-      const airborne::DustBalance balance = dust->field().balance(n);
-      const std::string of = "dust_field/" + dust->class_names()[n];
-      const auto sum = [](const auto& values) {
-        return std::accumulate(values.begin(), values.end(), 0.0);
-      };
-      add((of + "/released [kg]").c_str(), balance.released, RowValue::total);
-      add((of + "/airborne [kg]").c_str(), balance.airborne);
-      add((of + "/deposited [kg]").c_str(), sum(balance.surfaces), RowValue::total);
-      add((of + "/left [kg]").c_str(), sum(balance.left), RowValue::total);
-      add((of + "/hoods [kg]").c_str(), sum(balance.outlets), RowValue::total);
-    }
-  }
-  for (std::size_t n = 0; n < s.models().sensors.size(); ++n) {
-    const sdk::Sensor& sensor = *s.models().sensors[n];
-    RowFigures sink(row, s.setup().sensors[n].name + "/", sensor);
-    sensor.series(sink);
-  }
-  return row;
-}
 
 std::vector<double> node_seconds(const Simulation& simulation, const std::vector<double>& before) {
   std::vector<double> seconds;

@@ -33,17 +33,6 @@ struct RunFacts {
 /// the checkpoint it resumed from, or nothing.
 std::vector<double> node_seconds(const Simulation& simulation, const std::vector<double>& before);
 
-/// A row of series.csv.
-struct SeriesRow {
-  std::vector<std::string> names;  ///< "name [unit]"
-  std::vector<double> values;
-  std::vector<sdk::RowValue> kinds;  ///< what each column stands for
-};
-SeriesRow series_row(const Simulation& simulation);
-
-/// What a column stands for, as files name it.
-const char* name_of(sdk::RowValue kind);
-
 /// Writes summary.json and report.json (what the report needs beyond the other files).
 void write_summary(const std::filesystem::path& folder, const Simulation& simulation,
                    const RunFacts& facts);
