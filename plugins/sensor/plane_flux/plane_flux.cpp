@@ -2,6 +2,7 @@
 #include "plane_flux.hpp"
 
 #include <dust/sdk/plugin.hpp>
+#include <dust/sdk/rectangle.hpp>
 #include <dust/sdk/sampling.hpp>
 
 namespace {
@@ -49,17 +50,8 @@ class PlaneFlux final : public sdk::Sensor {
             .source = "own definition"};
   }
 
-  explicit PlaneFlux(const Parameters& p) : p_(p) {
-    const double length = norm(p.normal);
-    if (!(length > 0.0)) throw sdk::ParameterError("'normal' must not be zero");
-    p_.normal = p.normal / length;
-    const sdk::Vec3 extent = p.max - p.min;
-    if (!(extent.x >= 0.0 && extent.y >= 0.0 && extent.z >= 0.0)) {
-      throw sdk::ParameterError("'max' must not lie below 'min'");
-    }
+  explicit PlaneFlux(const Parameters& p) : p_(p), rectangle_(p.point, p.normal, p.min, p.max) {
     if (p_.role == "opening" && p_.towards.empty()) p_.towards = "emission";
-    // Rounding of the interpolated point must not throw a grain out of a box without thickness.
-    tolerance_ = k_rounding * (norm(p.min) + norm(p.max) + norm(p.point));
   }
 
   void observe(const sdk::WorldView& world) override {
@@ -73,7 +65,7 @@ class PlaneFlux final : public sdk::Sensor {
     const sdk::GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
       if (!p_.takes(g.diameter[i])) continue;
-      const int direction = passage_of(sdk::path_of(world, i));
+      const int direction = rectangle_.passage_of(sdk::path_of(world, i));
       if (direction == 0) continue;
       count(0, direction, g.weight[i], g.mass[i], is_steady);
       if (!classes_.empty()) {
@@ -145,7 +137,6 @@ class PlaneFlux final : public sdk::Sensor {
   }
 
  private:
-  static constexpr double k_rounding = 1e-12;
   // Columns of a group: number forward, backward, net; mass forward, backward, net.
   static constexpr std::size_t k_ways = 3;
   static constexpr std::size_t k_net = 2;
@@ -155,18 +146,6 @@ class PlaneFlux final : public sdk::Sensor {
   void resize(std::size_t groups) {
     means_ = sdk::BatchMeans(k_columns * groups);
     squares_.assign(k_columns * groups, 0.0);
-  }
-
-  /// +1 along the normal, -1 against it, 0: not through the rectangle.
-  [[nodiscard]] int passage_of(const sdk::Path& path) const {
-    const sdk::Passage p =
-        sdk::passage(dot(path.before - p_.point, p_.normal), dot(path.now - p_.point, p_.normal));
-    if (p.direction == 0) return 0;
-    const sdk::Vec3 x = path.at(p.fraction);
-    for (int d = 0; d < 3; ++d) {
-      if (x[d] < p_.min[d] - tolerance_ || x[d] > p_.max[d] + tolerance_) return 0;
-    }
-    return p.direction;
   }
 
   void count(std::size_t group, int direction, double weight, double mass, bool is_steady) {
@@ -232,7 +211,7 @@ class PlaneFlux final : public sdk::Sensor {
   }
 
   Parameters p_;
-  double tolerance_ = 0.0;
+  sdk::Rectangle rectangle_;
   std::vector<double> classes_;
   std::vector<double> values_;  ///< what passed during one sample; no state between calls
   std::vector<double> squares_ = std::vector<double>(k_columns, 0.0);

@@ -2,6 +2,7 @@
 #include "spillage.hpp"
 
 #include <dust/sdk/plugin.hpp>
+#include <dust/sdk/rectangle.hpp>
 #include <dust/sdk/sampling.hpp>
 
 namespace {
@@ -31,7 +32,7 @@ class Spillage final : public sdk::Sensor {
             .source = "own definition"};
   }
 
-  explicit Spillage(const Parameters& p) : p_(p) {
+  explicit Spillage(const Parameters& p) : p_(p), level_(p.min, {0.0, 0.0, 1.0}, p.min, p.max) {
     if (p.min.z != p.max.z) throw sdk::ParameterError("'min' and 'max' must agree in z: a level");
     if (!(p.max.x > p.min.x && p.max.y > p.min.y)) {
       throw sdk::ParameterError("'max' must lie above 'min' in x and y");
@@ -44,11 +45,7 @@ class Spillage final : public sdk::Sensor {
     double fell = 0.0;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
       if (!p_.takes(g.diameter[i])) continue;
-      const sdk::Path path = sdk::path_of(world, i);
-      const sdk::Passage passed = sdk::passage(path.before.z - p_.min.z, path.now.z - p_.min.z);
-      if (passed.direction >= 0) continue;
-      const sdk::Vec3 x = path.at(passed.fraction);
-      if (x.x < p_.min.x || x.x > p_.max.x || x.y < p_.min.y || x.y > p_.max.y) continue;
+      if (level_.passage_of(sdk::path_of(world, i)) >= 0) continue;
       const double mass = g.weight[i] * g.mass[i];
       fell += mass;
       if (!is_steady) continue;
@@ -107,6 +104,7 @@ class Spillage final : public sdk::Sensor {
 
  private:
   Parameters p_;
+  sdk::Rectangle level_;
   double mass_ = 0.0;            ///< [kg] since the start
   double count_ = 0.0;           ///< real grains while steady
   double steady_ = 0.0;          ///< [kg] while steady

@@ -2,6 +2,7 @@
 #include "stream_section.hpp"
 
 #include <dust/sdk/plugin.hpp>
+#include <dust/sdk/rectangle.hpp>
 #include <dust/sdk/sampling.hpp>
 
 #include <array>
@@ -50,31 +51,15 @@ class StreamSection final : public sdk::Sensor {
             .source = "own definition"};
   }
 
-  explicit StreamSection(const Parameters& p) : p_(p) {
-    const double length = norm(p.normal);
-    if (!(length > 0.0)) throw sdk::ParameterError("'normal' must not be zero");
-    p_.normal = p.normal / length;
-    const sdk::Vec3 extent = p.max - p.min;
-    int axis = -1;
-    for (int d = 0; d < 3; ++d) {
-      if (!(extent[d] >= 0.0)) throw sdk::ParameterError("'max' must not lie below 'min'");
-      if (std::abs(p_.normal[d]) > 1.0 - k_rounding) axis = d;
-    }
-    if (axis < 0) throw sdk::ParameterError("'normal' must lie along one axis");
-    area_ = extent[(axis + 1) % 3] * extent[(axis + 2) % 3];
-    if (!(area_ > 0.0)) throw sdk::ParameterError("the opening has no area");
-    tolerance_ = k_rounding * (norm(p.min) + norm(p.max) + norm(p.point));
-  }
+  explicit StreamSection(const Parameters& p)
+      : p_(p), rectangle_(p.point, p.normal, p.min, p.max), area_(rectangle_.area()) {}
 
   void observe(const sdk::WorldView& world) override {
     values_.fill(0.0);
     const sdk::GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size() && world.interval > 0.0; ++i) {
       if (!p_.takes(g.diameter[i])) continue;
-      const sdk::Path path = sdk::path_of(world, i);
-      const sdk::Passage passed =
-          sdk::passage(dot(path.before - p_.point, p_.normal), dot(path.now - p_.point, p_.normal));
-      if (passed.direction <= 0 || !is_in_opening(path.at(passed.fraction))) continue;
+      if (rectangle_.passage_of(sdk::path_of(world, i)) <= 0) continue;
       const double rate = g.weight[i] * g.mass[i] / world.interval;
       values_[0] += rate;
       values_[1] += rate * g.velocity_x[i];
@@ -95,15 +80,15 @@ class StreamSection final : public sdk::Sensor {
 
   void summary(sdk::FigureSink& sink) const override {
     const Stream s = stream();
-    const double normal = dot(s.velocity, p_.normal);
+    const double normal = dot(s.velocity, rectangle_.normal());
     sink.figure("mass_flow", s.mass_flow, "kg/s", means_.error(0),
                 sdk::detail(sdk::Quantity::mass_rate));
     sink.figure("velocity_x", s.velocity.x, "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
     sink.figure("velocity_y", s.velocity.y, "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
     sink.figure("velocity_z", s.velocity.z, "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
     sink.figure("speed", norm(s.velocity), "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
-    sink.figure("angle", formula::angle(normal, norm(s.velocity - normal * p_.normal)), "rad", -1.0,
-                sdk::detail(sdk::Quantity::angle));
+    sink.figure("angle", formula::angle(normal, norm(s.velocity - normal * rectangle_.normal())),
+                "rad", -1.0, sdk::detail(sdk::Quantity::angle));
     sink.figure("fill_ratio", fill_ratio(s), "1", -1.0, sdk::detail(sdk::Quantity::ratio));
     sink.figure("impact_pressure", formula::impact_pressure(p_.bulk_density, normal), "Pa", -1.0,
                 sdk::detail(sdk::Quantity::pressure));
@@ -125,7 +110,6 @@ class StreamSection final : public sdk::Sensor {
   }
 
  private:
-  static constexpr double k_rounding = 1e-12;
   static constexpr std::size_t k_columns = 4;  ///< mass flow, momentum flow
   struct Stream {
     double mass_flow = 0.0;  ///< [kg/s]
@@ -138,18 +122,13 @@ class StreamSection final : public sdk::Sensor {
     return {flow, sdk::Vec3{means_.mean(1), means_.mean(2), means_.mean(3)} / flow};
   }
   [[nodiscard]] double fill_ratio(const Stream& s) const {
-    return formula::fill_ratio(s.mass_flow, p_.bulk_density, dot(s.velocity, p_.normal), area_);
-  }
-  [[nodiscard]] bool is_in_opening(sdk::Vec3 x) const {
-    for (int d = 0; d < 3; ++d) {
-      if (x[d] < p_.min[d] - tolerance_ || x[d] > p_.max[d] + tolerance_) return false;
-    }
-    return true;
+    return formula::fill_ratio(s.mass_flow, p_.bulk_density, dot(s.velocity, rectangle_.normal()),
+                               area_);
   }
 
   Parameters p_;
-  double area_ = 0.0;  ///< [m2]
-  double tolerance_ = 0.0;
+  sdk::Rectangle rectangle_;
+  double area_;                             ///< [m2]
   std::array<double, k_columns> values_{};  ///< of one sample
   sdk::RowMeans row_{1};                    ///< of the mass flow
   sdk::BatchMeans means_{k_columns};

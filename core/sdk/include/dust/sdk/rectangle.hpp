@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/error.hpp"
+#include "dust/sdk/sampling.hpp"
+#include "dust/sdk/vec3.hpp"
+
+#include <cmath>
+
+namespace dust::sdk {
+
+/// A part of a plane that a box cuts out, and what passes through it.
+class Rectangle {
+ public:
+  /// `normal` need not have length 1; the box may have no thickness along it. ParameterError that
+  /// names 'normal' or 'max' where they are none.
+  Rectangle(Vec3 point, Vec3 normal, Vec3 min, Vec3 max)
+      : point_(point),
+        min_(min),
+        max_(max),
+        tolerance_(k_rounding * (norm(min) + norm(max) + norm(point))) {
+    const double length = norm(normal);
+    if (!(length > 0.0)) throw ParameterError("'normal' must not be zero");
+    normal_ = normal / length;
+    const Vec3 extent = max - min;
+    if (!(extent.x >= 0.0 && extent.y >= 0.0 && extent.z >= 0.0)) {
+      throw ParameterError("'max' must not lie below 'min'");
+    }
+  }
+
+  /// Of length 1.
+  [[nodiscard]] Vec3 normal() const { return normal_; }
+
+  /// [m2]; ParameterError where the normal lies along no axis or the box has no extent across it.
+  [[nodiscard]] double area() const {
+    for (int d = 0; d < 3; ++d) {
+      if (std::abs(normal_[d]) <= 1.0 - k_rounding) continue;
+      const Vec3 extent = max_ - min_;
+      const double area = extent[(d + 1) % 3] * extent[(d + 2) % 3];
+      if (!(area > 0.0)) throw ParameterError("the opening has no area");
+      return area;
+    }
+    throw ParameterError("'normal' must lie along one axis");
+  }
+
+  /// +1 along the normal, -1 against it, 0: not through the rectangle.
+  [[nodiscard]] int passage_of(const Path& path) const {
+    const Passage p = passage(dot(path.before - point_, normal_), dot(path.now - point_, normal_));
+    if (p.direction == 0) return 0;
+    const Vec3 x = path.at(p.fraction);
+    for (int d = 0; d < 3; ++d) {
+      if (x[d] < min_[d] - tolerance_ || x[d] > max_[d] + tolerance_) return 0;
+    }
+    return p.direction;
+  }
+
+ private:
+  static constexpr double k_rounding = 1e-12;
+  Vec3 point_, normal_, min_, max_;
+  /// Rounding of the interpolated point must not throw a grain out of a box without thickness.
+  double tolerance_;
+};
+
+}  // namespace dust::sdk
