@@ -95,15 +95,18 @@ void SmallCells::find(const fluid::Grid& grid, const Flow& flow) {
   begin_.push_back(static_cast<std::int32_t>(cell_.size()));
 }
 
+double SmallCells::sum(const fluid::CellField& field, std::size_t group) const {
+  double all = 0.0;
+  for (std::int32_t n = begin_[group]; n < begin_[group + 1]; ++n) {
+    all += field[static_cast<std::size_t>(cell_[static_cast<std::size_t>(n)])];
+  }
+  return all;
+}
+
 void SmallCells::mix(fluid::CellField& mass, const fluid::CellField& volume) const {
   for (std::size_t g = 0; g < groups(); ++g) {
-    double all = 0.0;
-    double room = 0.0;
-    for (std::int32_t n = begin_[g]; n < begin_[g + 1]; ++n) {
-      const auto cell = static_cast<std::size_t>(cell_[static_cast<std::size_t>(n)]);
-      all += mass[cell];
-      room += volume[cell];
-    }
+    const double all = sum(mass, g);
+    const double room = sum(volume, g);
     if (!(room > 0.0)) continue;
     // The host takes what rounding leaves over.
     double rest = all;
@@ -119,13 +122,8 @@ void SmallCells::mix(fluid::CellField& mass, const fluid::CellField& volume) con
 
 void SmallCells::join_rates(fluid::CellField& outflow, fluid::CellField& volume) const {
   for (std::size_t g = 0; g < groups(); ++g) {
-    double all = 0.0;
-    double room = 0.0;
-    for (std::int32_t n = begin_[g]; n < begin_[g + 1]; ++n) {
-      const auto cell = static_cast<std::size_t>(cell_[static_cast<std::size_t>(n)]);
-      all += outflow[cell];
-      room += volume[cell];
-    }
+    const double all = sum(outflow, g);
+    const double room = sum(volume, g);
     for (std::int32_t n = begin_[g]; n < begin_[g + 1]; ++n) {
       const auto cell = static_cast<std::size_t>(cell_[static_cast<std::size_t>(n)]);
       outflow[cell] = all;

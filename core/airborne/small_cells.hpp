@@ -26,6 +26,8 @@ class SmallCells {
   [[nodiscard]] std::size_t groups() const { return begin_.empty() ? 0 : begin_.size() - 1; }
 
  private:
+  [[nodiscard]] double sum(const fluid::CellField& field, std::size_t group) const;
+
   std::vector<std::int32_t> cell_;   ///< members, group by group, the host first
   std::vector<std::int32_t> begin_;  ///< of each group in `cell_`, and the end
 };
