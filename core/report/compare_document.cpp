@@ -137,7 +137,8 @@ json pictures_of(const std::filesystem::path& folder, const RunText& run, const 
   return {{"name", name},
           {"view", {view.min_x, view.min_z, view.max_x, view.max_z}},
           {"bodies", bodies},
-          {"grains", grains_of(source, view, list_at(run.report, "classes"))},
+          {"grains", grains_of(source, view, box_of(source, run.scenario), run.dust,
+                               list_at(run.report, "classes"))},
           {"air", air_of(source)}};
 }
 

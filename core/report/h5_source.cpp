@@ -102,6 +102,24 @@ std::vector<double> H5Source::attribute(const std::string& object, const std::st
   return values;
 }
 
+std::vector<std::string> H5Source::texts(const std::string& object, const std::string& name) const {
+  if (!is_open()) return {};
+  const Handle node(H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose);
+  if (node < 0) return {};
+  const Handle attribute(H5Aopen(node, name.c_str(), H5P_DEFAULT), H5Aclose);
+  if (attribute < 0) return {};
+  const Handle space(H5Aget_space(attribute), H5Sclose);
+  const Handle given(H5Aget_type(attribute), H5Tclose);
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  if (count <= 0 || H5Tget_class(given) != H5T_STRING || H5Tis_variable_str(given) <= 0) return {};
+  std::vector<char*> found(static_cast<std::size_t>(count), nullptr);
+  if (H5Aread(attribute, given, found.data()) < 0) return {};
+  std::vector<std::string> list;
+  for (const char* text : found) list.emplace_back(text == nullptr ? "" : text);
+  H5Dvlen_reclaim(given, space, H5P_DEFAULT, found.data());
+  return list;
+}
+
 std::vector<std::size_t> H5Source::shape(const std::string& dataset) const {
   if (!is_open()) return {};
   const Handle set(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);

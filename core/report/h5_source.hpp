@@ -25,6 +25,9 @@ class H5Source {
 
   [[nodiscard]] std::vector<double> attribute(const std::string& object,
                                               const std::string& name) const;
+  /// An attribute of texts.
+  [[nodiscard]] std::vector<std::string> texts(const std::string& object,
+                                               const std::string& name) const;
   [[nodiscard]] std::vector<std::size_t> shape(const std::string& dataset) const;
   [[nodiscard]] std::vector<float> floats(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::int64_t> integers(const std::string& dataset) const;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/highlights.hpp"
 
-#include "report/pictures/pictures.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -18,31 +16,33 @@ using nlohmann::json;
 /// Keeps what is dust: of a sensor that tells size classes apart only its fine classes; of one that
 /// adds up its classes the sum, if all of them are fine; one that does not say what sizes it counts
 /// is taken at its word.
-void keep_dust(std::vector<Figure>& figures, const std::vector<Figure>& all) {
+void keep_dust(std::vector<Figure>& figures, const std::vector<Figure>& all,
+               const DustSizes& dust) {
   std::set<std::string> with_classes, with_coarse;
   for (const Figure& figure : figures) {
     if (figure.is_of_class()) with_classes.insert(figure.sensor);
   }
   for (const Figure& figure : all) {
-    if (figure.size_class() >= k_dust_diameter) with_coarse.insert(figure.sensor);
+    if (figure.is_of_class() && !dust.is_dust(figure.size_class()))
+      with_coarse.insert(figure.sensor);
   }
   std::erase_if(figures, [&](const Figure& figure) {
-    if (figure.is_of_class()) return !figure.is_finer_than(k_dust_diameter);
+    if (figure.is_of_class()) return !dust.is_dust(figure.size_class());
     if (with_classes.count(figure.sensor) > 0) return true;
-    if (figure.largest > 0.0) return !figure.is_finer_than(k_dust_diameter);
+    if (figure.largest > 0.0) return !figure.is_finer_than(dust.limit());
     return with_coarse.count(figure.sensor) > 0;
   });
 }
 
 /// Dust in the load [g/t] by the books of the size classes; negative without them.
-double dust_fed(const nlohmann::json& summary) {
+double dust_fed(const nlohmann::json& summary, const DustSizes& sizes) {
   double dust = 0.0, all = 0.0;
   for (const auto& entry : list_at(summary, "size_classes")) {
     const auto mass = number_at(object_at(entry, "mass_kg"), "emitted");
     const auto diameter = number_at(entry, "diameter_m");
     if (!mass || !diameter) return -1.0;
     all += *mass;
-    if (*diameter < k_dust_diameter) dust += *mass;
+    if (sizes.is_dust(*diameter)) dust += *mass;
   }
   constexpr double k_grams_per_tonne = 1e6;
   return all > 0.0 ? k_grams_per_tonne * dust / all : -1.0;
@@ -94,7 +94,7 @@ std::vector<DustClass> classes_of(const RunText& run, const Highlights& highligh
   for (const json& entry : books) all += mass_of(entry);
   for (const json& entry : books) {
     const double diameter = number_at(entry, "diameter_m").value_or(1.0);
-    if (diameter < k_dust_diameter && all > 0.0) found(diameter).fed = 1e6 * mass_of(entry) / all;
+    if (run.dust.is_dust(diameter) && all > 0.0) found(diameter).fed = 1e6 * mass_of(entry) / all;
   }
   std::map<double, std::vector<Figure>> out;
   for (const Figure& figure : highlights.openings) {
@@ -103,7 +103,7 @@ std::vector<DustClass> classes_of(const RunText& run, const Highlights& highligh
   for (const auto& [diameter, list] : out) found(diameter).out = sum_of(list);
   for (const Figure& figure : run.figures) {
     const double diameter = figure.size_class();
-    if (!(diameter > 0.0 && diameter < k_dust_diameter)) continue;
+    if (!(diameter > 0.0 && run.dust.is_dust(diameter))) continue;
     DustClass& entry = found(diameter);
     if (entry.density < 0.0) entry.density = density_of(run, diameter);
   }
@@ -150,7 +150,7 @@ void watch_openings(const RunText& run, Highlights& highlights) {
   if (!(highlights.observed_time > 0.0)) return;
   highlights.counted = 0.0;
   for (const Figure& figure : run.figures) {
-    const bool is_dust = figure.is_of_class() && figure.is_finer_than(k_dust_diameter);
+    const bool is_dust = figure.is_of_class() && run.dust.is_dust(figure.size_class());
     if (sensors.count(figure.sensor) > 0 && is_dust && figure.quantity == "number_rate" &&
         figure.direction == "forward") {
       highlights.counted += figure.value * highlights.observed_time;
@@ -213,10 +213,10 @@ Highlights highlights_of(const RunText& run) {
      : figure.probability > 0.5 ? entry.high
                                 : entry.median) = figure;
   }
-  highlights.fed = dust_fed(run.summary);
-  keep_dust(highlights.openings, run.figures);
-  keep_dust(highlights.dust, run.figures);
-  keep_dust(highlights.held, run.figures);
+  highlights.fed = dust_fed(run.summary, run.dust);
+  keep_dust(highlights.openings, run.figures, run.dust);
+  keep_dust(highlights.dust, run.figures, run.dust);
+  keep_dust(highlights.held, run.figures, run.dust);
   const auto is_larger = [](const Figure& a, const Figure& b) { return a.value > b.value; };
   std::stable_sort(highlights.openings.begin(), highlights.openings.end(), is_larger);
   std::stable_sort(highlights.held.begin(), highlights.held.end(), is_larger);

@@ -45,7 +45,7 @@ struct Highlights {
   double observed_time = -1.0;   ///< [s] how long the openings were watched; negative: not known
   double counted = -1.0;         ///< real grains of dust seen to get out in that time
   double later_over_earlier = -1.0;  ///< flux out, second half of that time over the first
-  std::vector<DustClass> classes;    ///< ascending diameters below k_dust_diameter
+  std::vector<DustClass> classes;    ///< those that are dust, ascending
   std::vector<Parting> partings;     ///< the largest first
   std::vector<StreamDrop> stream;    ///< ascending drops
   std::vector<LowPlace> places;      ///< the deepest first

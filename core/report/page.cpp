@@ -66,6 +66,9 @@ class Filling {
       from = end + 2;
       if (place.starts_with("file:") && depth < k_deepest) {
         append(page, templates_.text(place.substr(5)), depth + 1);
+      } else if (place.starts_with("packed:")) {
+        const std::string whole = templates_.text(place.substr(7));
+        page += packed({reinterpret_cast<const std::uint8_t*>(whole.data()), whole.size()});
       } else if (place.starts_with("image:")) {
         page += image(place.substr(6));
       } else if (place == "data") {

@@ -25,6 +25,7 @@ class Templates {
 
 /// The page `name` (run.html) with `data` inside. In a template
 ///   {{file:NAME}}   stands for the text of another file,
+///   {{packed:NAME}} for that text as a zlib stream in base64, which a script unpacks when needed,
 ///   {{image:NAME}}  for a picture as a data URI, {{image:logo}} for logo.svg or logo.png,
 ///   {{version}}     for the version of the engine,
 ///   {{data}}        for the data as JSON that may stand inside a script element.

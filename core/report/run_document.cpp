@@ -8,6 +8,7 @@
 #include "report/facts/stream_document.hpp"
 #include "report/pictures/pictures.hpp"
 #include "report/run_text.hpp"
+#include "report/space/space.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -101,12 +102,13 @@ std::vector<Parting> partings_of(const std::vector<DustOrigin>& origins,
 }
 
 /// Asks the frames how much dust lies near each place, and where dust is at all.
-json look_for_dust(const H5Source& source, const View& view, Highlights& highlights) {
+json look_for_dust(const H5Source& source, const View& view, const DustSizes& dust,
+                   Highlights& highlights) {
   std::vector<DustPlace> places;
   for (const LowPlace& place : highlights.places) {
     places.push_back({place.x.value, place.z.value, k_reach, 0.0});
   }
-  const DustMap map = dust_map_of(source, view, places);
+  const DustMap map = dust_map_of(source, view, dust, places);
   if (!map.share.empty()) {
     for (std::size_t k = 0; k < places.size(); ++k) {
       highlights.places[k].dust_share = places[k].share;
@@ -116,10 +118,10 @@ json look_for_dust(const H5Source& source, const View& view, Highlights& highlig
 }
 
 /// What the frames tell of fine grains that overlap beyond their radius.
-json crushed_json(const H5Source& source, const json& air, const Highlights& highlights,
-                  double overlap) {
+json crushed_json(const H5Source& source, const DustSizes& dust, const json& air,
+                  const Highlights& highlights, double overlap) {
   const double air_speed = air.is_null() ? 0.0 : air["top_speed"].get<double>();
-  const FastDust fast = fast_dust_of(source, air_speed);
+  const FastDust fast = fast_dust_of(source, dust, air_speed);
   json crushed = {{"overlap", overlap},
                   {"thrown_speed", k_thrown},
                   {"fast", fast.fast},
@@ -148,16 +150,19 @@ json frames_json(const std::filesystem::path& folder, RunText& run, Highlights& 
   const View view = view_of(source, bodies, run.scenario);
   data["view"] = {view.min_x, view.min_z, view.max_x, view.max_z};
   data["bodies"] = bodies;
-  data["grains"] = grains_of(source, view, list_at(run.report, "classes"));
+  const Box box = box_of(source, run.scenario);
+  data["grains"] = grains_of(source, view, box, run.dust, list_at(run.report, "classes"));
+  data["space"] = space_of(source, box);
   data["air"] = air_of(source);
-  data["dust_map"] = look_for_dust(source, view, highlights);
+  data["dust_map"] = look_for_dust(source, view, run.dust, highlights);
   const double load = number_at(object_at(run.summary, "mass_kg"), "emitted").value_or(0.0);
   if (!view.is_empty()) {
-    highlights.partings = partings_of(dust_origins(source, view, k_parting_side), highlights, load);
+    highlights.partings =
+        partings_of(dust_origins(source, view, run.dust, k_parting_side), highlights, load);
   }
   const double overlap = crushed_overlap(run);
-  data["crushed"] =
-      overlap > 0.0 ? crushed_json(source, data["air"], highlights, overlap) : json(nullptr);
+  data["crushed"] = overlap > 0.0 ? crushed_json(source, run.dust, data["air"], highlights, overlap)
+                                  : json(nullptr);
   return data;
 }
 
@@ -181,11 +186,11 @@ json run_document(const std::filesystem::path& folder) {
   data["summary"] = run.summary;
   data["scenario"] = run.scenario;
   data["series"] = series_json(run.series, object_at(run.summary, "series"));
-  data["dust"] = dust_json(highlights);
+  data["dust"] = dust_json(highlights, run.dust);
   data["extraction"] = extraction_json(highlights);
   data["stream"] = stream_json(highlights);
-  data["flights"] =
-      flights_json(run.report, highlights.stream.empty() ? 0.0 : highlights.stream.back().drop);
+  data["flights"] = flights_json(run.report, run.dust,
+                                 highlights.stream.empty() ? 0.0 : highlights.stream.back().drop);
   data["references"] = references_json(run.summary);
   data["balance"] = balance_json(run.summary);
   data["cost"] = cost_json(run);

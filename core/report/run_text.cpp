@@ -138,6 +138,7 @@ RunText read_run_text(const std::filesystem::path& folder) {
   }
   if (const auto text = read_text(folder / "scenario.yaml")) run.scenario = *text;
   if (const auto text = read_text(folder / "series.csv")) run.series = parse_series(*text);
+  run.dust = DustSizes(object_at(run.report, "dust_rule"));
   run.figures = figures_of(object_at(run.summary, "sensors"));
   return run;
 }

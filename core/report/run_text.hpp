@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "report/dust_sizes.hpp"
 #include "report/figure.hpp"
 
 #include <filesystem>
@@ -26,6 +27,7 @@ struct RunText {
   std::string scenario;
   std::vector<SeriesColumn> series;
   std::vector<Figure> figures;
+  DustSizes dust;  ///< which sizes are dust
   std::vector<std::string> notes;
 };
 

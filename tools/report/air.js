@@ -173,5 +173,20 @@ Dust.air = (() => {
     if (current) paint_map(pen, picture, current.speed, tables.speed);
   };
   const paint_pressure = (pen, picture, frame) => paint_map(pen, picture, frame.pressure, tables.pressure);
-  return {times: set.frames.map((frame) => frame.t), show, load, paint_speed, paint_pressure};
+  // For the scene in three dimensions: the speed of the frame shown as a picture of the x-z plane.
+  const pixels = () => {
+    if (!current) return null;
+    const rgba = new Uint8Array(4 * cells);
+    for (let k = 0; k < cells; ++k) {
+      if (current.speed[k] === 255) continue;
+      rgba.set(tables.speed.subarray(4 * current.speed[k], 4 * current.speed[k] + 3), 4 * k);
+      rgba[4 * k + 3] = 215;
+    }
+    const velocity_at = ([x, , z]) => {
+      const v = velocity(x, z);
+      return v ? [v[0], 0, v[1]] : null;
+    };
+    return {pixels: rgba, width: set.nx, height: set.nz, velocity: velocity_at};
+  };
+  return {times: set.frames.map((frame) => frame.t), show, load, paint_speed, paint_pressure, pixels};
 })();

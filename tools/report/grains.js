@@ -4,7 +4,8 @@ Dust.grains = (() => {
   const set = Dust.data.grains;
   if (!set) return null;
   const [x0, z0, x1, z1] = Dust.data.view;
-  const coarse = set.classes.filter((d) => d >= set.dust_below);
+  const is_dust = (d) => set.is_dust[set.classes.indexOf(d)];
+  const coarse = set.classes.filter((d) => !is_dust(d));
   const span = coarse.length > 1 ? Math.log(coarse.at(-1) / coarse[0]) : 1;
   const tone = (d) => (coarse.length > 1 ? Math.log(d / coarse[0]) / span : 0.4);
   const cache = new Map();
@@ -20,7 +21,9 @@ Dust.grains = (() => {
           x: new Uint16Array(buffer, 4 * dust, n),
           z: new Uint16Array(buffer, 4 * dust + 2 * n, n),
           size: new Uint8Array(buffer, 4 * dust + 4 * n, n),
-          speed: new Uint8Array(buffer, 4 * dust + 5 * n, n)};
+          speed: new Uint8Array(buffer, 4 * dust + 5 * n, n),
+          depth: new Uint8Array(buffer, 4 * dust + 6 * n, n),
+          depth_low: new Uint8Array(buffer, 4 * dust + 7 * n, set.depth_bytes === 2 ? n : 0)};
       }));
     }
     return cache.get(index);
@@ -134,19 +137,23 @@ Dust.grains = (() => {
 
   const legend = document.getElementById('grains-legend');
   const scale = document.getElementById('grains-scale');
-  const draw_legend = () => {
-    scale.replaceChildren();
-    if (by_speed()) Dust.legend_strip(scale, Dust.grain_speed_colour, 0, 0, set.speed, 'm/s', Math.sqrt, false);
+  // Sizes with their colours; coarse ones have colours of their own only where size is shown.
+  const put_legend = (parent, is_by_speed) => {
     const length = (d) => (d < 1e-3 ? Dust.number(d * 1e6, 3) + ' µm' : Dust.number(d * 1e3, 3) + ' mm');
-    const classes = by_speed() ? set.classes.filter((d) => d < set.dust_below) : set.classes;
+    const classes = is_by_speed ? set.classes.filter(is_dust) : set.classes;
     const few = classes.length <= 10 ? classes
       : classes.filter((d, k) => k % Math.ceil(classes.length / 8) === 0 || k === classes.length - 1);
-    legend.replaceChildren(...[...few].reverse().map((d) => {
-      const dust = d < set.dust_below;
+    parent.replaceChildren(...[...few].reverse().map((d) => {
+      const dust = is_dust(d);
       const dot = Dust.el('i', {class: dust ? 'small' : ''});
       dot.style.background = dust ? Dust.colour('dust') : Dust.css(Dust.sand_colour(tone(d)));
       return Dust.el('span', {class: 'entry'}, dot, length(d) + (dust ? ', dust' : ''));
     }));
+  };
+  const draw_legend = () => {
+    scale.replaceChildren();
+    if (by_speed()) Dust.legend_strip(scale, Dust.grain_speed_colour, 0, 0, set.speed, 'm/s', Math.sqrt, false);
+    put_legend(legend, by_speed());
   };
   Dust.redraw.push(draw_legend);
   draw_legend();
@@ -175,10 +182,10 @@ Dust.grains = (() => {
         current = frames[0];
         before = frames.slice(1);
         count.textContent = `At ${Dust.number(current.t)} s: ${Dust.count(current.all)} computed ${current.all === 1 ? 'grain' : 'grains'}` +
-          (set.classes.some((d) => d < set.dust_below) ? `, of them ${Dust.count(current.dust)} dust grains shown.` : '.');
+          (set.is_dust.includes(true) ? `, of them ${Dust.count(current.dust)} dust grains shown.` : '.');
       },
       draw: () => picture.draw(),
     };
   };
-  return {times: set.frames.map((frame) => frame.t), show, paint_dust, has_dust: set.classes.some((d) => d < set.dust_below), draw: () => picture.draw()};
+  return {times: set.frames.map((frame) => frame.t), show, load, put_legend, paint_dust, has_dust: set.is_dust.includes(true), draw: () => picture.draw()};
 })();

@@ -1,6 +1,7 @@
 'use strict';
 // The run in pictures: the frames that grains.js and air.js draw into.
-Dust.sections.pictures = ({grains, air, extraction}) => {
+Dust.sections.pictures = (data) => {
+  const {grains, air, extraction} = data;
   if (!grains && !air) return null;
   const {el, p} = Dust;
   const has_places = Boolean(extraction);
@@ -8,7 +9,7 @@ Dust.sections.pictures = ({grains, air, extraction}) => {
   const box = (id, is_checked, text) => el('label', {class: 'screen'}, el('input', {type: 'checkbox', id, ...(is_checked ? {checked: ''} : {})}), ' ' + text);
 
   const grains_figure = () => {
-    const has_dust = grains.classes.some((d) => d < grains.dust_below);
+    const has_dust = grains.is_dust.includes(true);
     let note = '';
     if (grains.share < 1) note += ` One coarse grain in ${Dust.number(1 / grains.share, 3)} is shown (up to ${Dust.count(grains.most)} per frame were computed).`;
     if (grains.dust_share < 1) note += ` One dust grain in ${Dust.number(1 / grains.dust_share, 3)} is shown.`;
@@ -32,5 +33,7 @@ Dust.sections.pictures = ({grains, air, extraction}) => {
       + `Range over all frames: ${Dust.number(air.low, 3)}\u202fPa to ${Dust.number(air.high, 3)}\u202fPa.`);
     return el('div', {class: 'pair'}, speed, pressure);
   };
-  return Dust.section('pictures', 'The run in pictures', el('div', {id: 'clock', class: 'clock screen'}), grains ? grains_figure() : null, air ? air_figures() : null);
+  const space = Dust.space_figure(data);
+  return Dust.section('pictures', 'The run in pictures', el('div', {id: 'clock', class: 'clock screen'}), space ? Dust.space_switch(data) : null,
+    grains ? grains_figure() : null, space, air ? air_figures() : null);
 };

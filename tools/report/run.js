@@ -29,12 +29,25 @@
     const shows = [];
     if (Dust.grains) shows.push(Dust.grains.show(index));
     if (Dust.air) shows.push(Dust.air.show(nearest(Dust.air.times, times[index])));
+    if (Dust.space) shows.push(Dust.space.show(index, times[index]));
     const ready = await Promise.all(shows);
     if (wanted !== index) return;
     // Pictures show grains and air together: all take the new frame before any is drawn.
     for (const shown of ready) shown.take();
     for (const shown of ready) shown.draw();
   };
-  const asked = /^#(?:picture,)?frame=(\d+)$/.exec(location.hash);
-  Dust.clock(times, show, asked ? Math.min(+asked[1], times.length - 1) : times.length - 1);
+  // report.html#space, #side: opens with that view; #frame=12 and #space,frame=12 at that frame.
+  const asked = /^#(?:(?:picture|space|side),)?frame=(\d+)$/.exec(location.hash);
+  const view = /^#(space|side|picture)/.exec(location.hash);
+  const first = async (index) => {
+    await show(index);
+    if (Dust.space) await Dust.space.choose(view ? view[1] : Dust.space.first);
+  };
+  let is_first = true;
+  const shown = (index) => {
+    if (!is_first) return show(index);
+    is_first = false;
+    return first(index);
+  };
+  Dust.clock(times, shown, asked ? Math.min(+asked[1], times.length - 1) : times.length - 1);
 })();

@@ -88,14 +88,14 @@ json partings_json(const std::vector<Parting>& partings) {
 
 }  // namespace
 
-json dust_json(const Highlights& highlights) {
+json dust_json(const Highlights& highlights, const DustSizes& sizes) {
   if (!highlights.has_dust()) return nullptr;
   // The headline speaks of what gets out, or else of what passes most, or else of what is there.
   const bool has_openings = !highlights.openings.empty();
   const auto& list = has_openings              ? highlights.openings
                      : highlights.dust.empty() ? highlights.held
                                                : highlights.dust;
-  json dust = {{"limit_m", k_dust_diameter},
+  json dust = {{"limit_m", sizes.limit()},
                {"spoken_of", has_openings              ? "openings"
                              : highlights.dust.empty() ? "stocks"
                                                        : "passages"},

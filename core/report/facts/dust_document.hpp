@@ -12,7 +12,7 @@ constexpr double k_reach = 0.02;
 constexpr double k_parting_side = 0.02;
 
 /// What the run says of dust; null where it says nothing.
-[[nodiscard]] nlohmann::json dust_json(const Highlights& highlights);
+[[nodiscard]] nlohmann::json dust_json(const Highlights& highlights, const DustSizes& sizes);
 
 /// The places of low pressure and which of them to extract at first; null without places.
 [[nodiscard]] nlohmann::json extraction_json(const Highlights& highlights);

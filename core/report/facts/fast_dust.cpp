@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/facts/fast_dust.hpp"
 
-#include "report/pictures/pictures.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +12,7 @@ namespace {
 constexpr double k_room = 1.2;
 }  // namespace
 
-FastDust fast_dust_of(const H5Source& source, double air_speed) {
+FastDust fast_dust_of(const H5Source& source, const DustSizes& sizes, double air_speed) {
   FastDust found;
   std::vector<double> dust;
   double carried = air_speed;
@@ -25,7 +23,7 @@ FastDust fast_dust_of(const H5Source& source, double air_speed) {
     for (std::size_t k = 0; 3 * k + 2 < velocity.size() && k < diameter.size(); ++k) {
       const double speed = std::hypot(velocity[3 * k], velocity[3 * k + 1], velocity[3 * k + 2]);
       if (!std::isfinite(speed)) continue;
-      if (diameter[k] < k_dust_diameter) {
+      if (sizes.is_dust(diameter[k])) {
         dust.push_back(speed);
       } else {
         carried = std::max(carried, speed);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "report/dust_sizes.hpp"
 #include "report/h5_source.hpp"
 
 #include <cstddef>
@@ -17,7 +18,8 @@ struct FastDust {
 
 /// Looks through all frames; `air_speed` is the highest of the air [m/s], 0 without air. What is
 /// thrown and stopped between two frames is not seen.
-[[nodiscard]] FastDust fast_dust_of(const H5Source& source, double air_speed);
+[[nodiscard]] FastDust fast_dust_of(const H5Source& source, const DustSizes& sizes,
+                                    double air_speed);
 
 /// Speed of a fine grain set free by the elastic energy of coarse ones of the softness that such
 /// runs are made with [m/s]: the order of magnitude that core/particles/dem_step.cpp tells of.

@@ -2,7 +2,6 @@
 #include "report/facts/stream_document.hpp"
 
 #include "report/facts/flight.hpp"
-#include "report/pictures/pictures.hpp"
 
 #include <algorithm>
 
@@ -13,7 +12,8 @@ namespace {
 using nlohmann::json;
 
 /// Paths of single grains in still air, of the finest and the coarsest coarse class.
-json lone_json(const json& report, double speed, double gravity, double deepest) {
+json lone_json(const json& report, const DustSizes& dust, double speed, double gravity,
+               double deepest) {
   const json& setting = object_at(report, "setting");
   const auto air_density = number_at(object_at(setting, "fluid"), "density");
   const auto viscosity = number_at(object_at(setting, "fluid"), "viscosity");
@@ -26,7 +26,7 @@ json lone_json(const json& report, double speed, double gravity, double deepest)
   }
   std::vector<double> sizes;
   for (const json& diameter : list_at(report, "classes")) {
-    if (diameter.is_number() && diameter >= k_dust_diameter) sizes.push_back(diameter);
+    if (diameter.is_number() && !dust.is_dust(diameter.get<double>())) sizes.push_back(diameter);
   }
   json list = json::array();
   if (!air_density || !viscosity || !(density > 0.0) || sizes.empty()) return list;
@@ -64,7 +64,7 @@ json stream_json(const Highlights& highlights) {
 
 /// Only for belts so fast that grains leave at the top of the pulley, v^2 >= g R: from slower ones
 /// they slide off farther round, and no closed form without friction tells where.
-json flights_json(const json& report, double deepest) {
+json flights_json(const json& report, const DustSizes& dust, double deepest) {
   const json& setting = object_at(report, "setting");
   const json& gravity = list_at(setting, "gravity");
   json list = json::array();
@@ -79,7 +79,7 @@ json flights_json(const json& report, double deepest) {
       list.push_back({{"name", text_at(belt, "name")},
                       {"speed", *speed},
                       {"gravity", fall},
-                      {"lone", lone_json(report, *speed, fall, deepest)}});
+                      {"lone", lone_json(report, dust, *speed, fall, deepest)}});
     }
   }
   return list;

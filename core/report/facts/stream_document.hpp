@@ -10,6 +10,7 @@ namespace dust::report {
 
 /// Free flight without air from a level belt, x = v sqrt(2 h / g), the reference of the stream, and
 /// paths of single grains in still air down to `deepest` [m].
-[[nodiscard]] nlohmann::json flights_json(const nlohmann::json& report, double deepest);
+[[nodiscard]] nlohmann::json flights_json(const nlohmann::json& report, const DustSizes& dust,
+                                          double deepest);
 
 }  // namespace dust::report

@@ -17,7 +17,8 @@ constexpr double k_square_centimetre = 1e-4;
 
 }  // namespace
 
-DustMap dust_map_of(const H5Source& source, const View& view, std::vector<DustPlace>& places) {
+DustMap dust_map_of(const H5Source& source, const View& view, const DustSizes& dust,
+                    std::vector<DustPlace>& places) {
   DustMap map;
   const auto names = source.frames("/particles");
   if (names.empty() || view.is_empty()) return map;
@@ -39,7 +40,7 @@ DustMap dust_map_of(const H5Source& source, const View& view, std::vector<DustPl
     const auto diameter = source.floats(path + "/diameter");
     const auto weight = source.floats(path + "/weight");
     for (std::size_t k = 0; 3 * k + 2 < position.size() && k < diameter.size(); ++k) {
-      if (!(diameter[k] < k_dust_diameter)) continue;
+      if (!dust.is_dust(diameter[k])) continue;
       const double x = position[3 * k], z = position[3 * k + 2];
       if (!(x >= view.min_x && x <= view.max_x && z >= view.min_z && z <= view.max_z)) continue;
       // Shares need no density as long as dust is of one material.

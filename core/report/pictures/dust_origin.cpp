@@ -16,12 +16,13 @@ namespace {
 /// Coarse grains of a frame in cells of a uniform grid, to ask what is near a point.
 class Coarse {
  public:
-  Coarse(const std::vector<float>& position, const std::vector<float>& diameter) {
+  Coarse(const std::vector<float>& position, const std::vector<float>& diameter,
+         const DustSizes& dust) {
     for (const float d : diameter) {
-      if (!(d < k_dust_diameter)) cell_ = std::max(cell_, k_near_diameters * d);
+      if (!dust.is_dust(d)) cell_ = std::max(cell_, k_near_diameters * d);
     }
     for (std::size_t k = 0; k < diameter.size() && 3 * k + 2 < position.size(); ++k) {
-      if (diameter[k] < k_dust_diameter) continue;
+      if (dust.is_dust(diameter[k])) continue;
       const Grain grain{position[3 * k], position[3 * k + 1], position[3 * k + 2],
                         k_near_diameters * diameter[k]};
       cells_[base::cell_key(index(grain.x), index(grain.y), index(grain.z))].push_back(grain);
@@ -68,7 +69,8 @@ struct Track {
 
 }  // namespace
 
-std::vector<DustOrigin> dust_origins(const H5Source& source, const View& view, double side) {
+std::vector<DustOrigin> dust_origins(const H5Source& source, const View& view,
+                                     const DustSizes& dust, double side) {
   std::unordered_map<std::int64_t, Track> tracks;
   for (const std::string& name : source.frames("/particles")) {
     const std::string path = "/particles/" + name;
@@ -77,9 +79,9 @@ std::vector<DustOrigin> dust_origins(const H5Source& source, const View& view, d
     const auto weight = source.floats(path + "/weight");
     const auto id = source.integers(path + "/id");
     if (id.size() != diameter.size() || position.size() != 3 * id.size()) return {};
-    const Coarse coarse(position, diameter);
+    const Coarse coarse(position, diameter, dust);
     for (std::size_t k = 0; k < id.size(); ++k) {
-      if (!(diameter[k] < k_dust_diameter)) continue;
+      if (!dust.is_dust(diameter[k])) continue;
       Track& track = tracks[id[k]];
       const double x = position[3 * k], y = position[3 * k + 1], z = position[3 * k + 2];
       track.diameter = diameter[k];

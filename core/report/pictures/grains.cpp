@@ -77,11 +77,11 @@ struct Share {
 };
 
 /// The share of the grains a page can hold, one for coarse grains and one for dust.
-Share share_shown(const std::vector<std::vector<float>>& diameters) {
+Share share_shown(const std::vector<std::vector<float>>& diameters, const DustSizes& sizes) {
   std::size_t most_coarse = 0, most_dust = 0, all_coarse = 0, all_dust = 0;
   for (const auto& frame : diameters) {
     const auto dust = static_cast<std::size_t>(
-        std::count_if(frame.begin(), frame.end(), [](float d) { return d < k_dust_diameter; }));
+        std::count_if(frame.begin(), frame.end(), [&](float d) { return sizes.is_dust(d); }));
     most_dust = std::max(most_dust, dust);
     most_coarse = std::max(most_coarse, frame.size() - dust);
     all_dust += dust;
@@ -125,26 +125,34 @@ std::uint8_t speed_code(const std::vector<float>& velocity, std::size_t k, doubl
   return static_cast<std::uint8_t>(std::lround(255.0 * std::sqrt(std::min(speed / scale, 1.0))));
 }
 
+/// The depth y in 16 bits; the higher byte comes first, alone where the space is thin.
+std::uint32_t depth_code(double y, const Box& box) {
+  const double share = (y - box.min[1]) / (box.max[1] - box.min[1]);
+  return std::isfinite(share)
+             ? static_cast<std::uint32_t>(std::lround(65535.0 * std::clamp(share, 0.0, 1.0)))
+             : 0;
+}
+
 /// The grains of a frame in the order in which they are painted: the coarse ones from the back to
 /// the front in slabs, those of a class side by side within a slab; then the dust.
 std::vector<std::size_t> paint_order(const std::vector<float>& position,
                                      const std::vector<float>& diameter,
-                                     const std::vector<double>& classes, std::size_t count) {
+                                     const std::vector<double>& classes,
+                                     const std::vector<bool>& is_dust) {
   constexpr double k_slabs = 24.0;
   double front = std::numeric_limits<double>::infinity();
   double back = -front;
-  for (std::size_t k = 0; k < count; ++k) {
+  for (std::size_t k = 0; k < is_dust.size(); ++k) {
     front = std::min(front, static_cast<double>(position[3 * k + 1]));
     back = std::max(back, static_cast<double>(position[3 * k + 1]));
   }
   const double depth = std::max(back - front, 1e-30);
   std::vector<std::pair<int, std::size_t>> keys;
-  for (std::size_t k = 0; k < count; ++k) {
-    const bool is_dust = diameter[k] < k_dust_diameter;
+  for (std::size_t k = 0; k < is_dust.size(); ++k) {
     const double share = (back - static_cast<double>(position[3 * k + 1])) / depth;
     const int slab = std::isfinite(share) ? static_cast<int>(k_slabs * share) : 0;
     const int size = class_of(classes, diameter[k]);
-    keys.emplace_back(is_dust ? std::numeric_limits<int>::max() : 256 * slab + size, k);
+    keys.emplace_back(is_dust[k] ? std::numeric_limits<int>::max() : 256 * slab + size, k);
   }
   std::sort(keys.begin(), keys.end());
   std::vector<std::size_t> order;
@@ -152,76 +160,130 @@ std::vector<std::size_t> paint_order(const std::vector<float>& position,
   return order;
 }
 
+/// Puts frames into bytes: what all of them have in common stands here.
+class GrainFrames {
+ public:
+  GrainFrames(const H5Source& source, const View& view, const Box& box, const DustSizes& sizes)
+      : source_(source), view_(view), box_(box), sizes_(sizes) {}
+
+  /// Looks at the sizes and speeds of `frames` first.
+  void look_at(const std::vector<std::string>& frames, const json& given_classes) {
+    for (const auto& name : frames) {
+      diameters_.push_back(source_.floats("/particles/" + name + "/diameter"));
+    }
+    classes_ = legend_of(given_classes, diameters_);
+    share_ = share_shown(diameters_, sizes_);
+    fastest_ = speed_scale(source_, frames);
+  }
+
+  json frame(std::size_t f, const std::string& name) {
+    const std::string path = "/particles/" + name;
+    const auto position = source_.floats(path + "/position");
+    const auto velocity = source_.floats(path + "/velocity");
+    const auto id = source_.integers(path + "/id");
+    const auto& diameter = diameters_[f];
+    std::vector<bool> is_dust;
+    for (std::size_t k = 0; k < std::min(position.size() / 3, diameter.size()); ++k) {
+      is_dust.push_back(sizes_.is_dust(diameter[k]));
+    }
+    most_ = std::max(most_, is_dust.size());
+    Bytes bytes;
+    for (const std::size_t k : paint_order(position, diameter, classes_, is_dust)) {
+      const std::int64_t number = k < id.size() ? id[k] : static_cast<std::int64_t>(k);
+      const double limit = is_dust[k] ? share_.dust : share_.coarse;
+      if (limit < 1.0 && share_of(number) >= limit) continue;
+      if (!put_place(bytes, &position[3 * k])) continue;
+      bytes.size.push_back(class_of(classes_, diameter[k]));
+      bytes.speed.push_back(speed_code(velocity, k, fastest_));
+      if (is_dust[k]) put_number(bytes, number);
+    }
+    const auto time = source_.attribute(path, "time");
+    return {{"t", time.empty() ? static_cast<double>(f) : time[0]},
+            {"n", bytes.size.size()},
+            {"dust", bytes.number.size() / 4},
+            {"all", is_dust.size()},
+            {"data", packed(bytes.joined())}};
+  }
+
+  /// What the page has to know of all frames.
+  [[nodiscard]] json facts() const {
+    json dust = json::array();
+    for (const double d : classes_) dust.push_back(sizes_.is_dust(d));
+    return {{"classes", classes_},
+            {"is_dust", std::move(dust)},
+            {"dust_below", sizes_.limit()},
+            {"share", share_.coarse},
+            {"dust_share", share_.dust},
+            {"speed", fastest_},
+            {"most", most_},
+            {"depth_bytes", box_.is_thin() ? 1 : 2}};
+  }
+
+ private:
+  struct Bytes {
+    std::vector<std::uint8_t> number, x, z, size, speed, depth, depth_low;
+    /// The 4-byte numbers come first, so that typed views of the buffer stay aligned.
+    [[nodiscard]] std::vector<std::uint8_t> joined() const {
+      std::vector<std::uint8_t> all;
+      for (const auto* part : {&number, &x, &z, &size, &speed, &depth, &depth_low}) {
+        all.insert(all.end(), part->begin(), part->end());
+      }
+      return all;
+    }
+  };
+
+  /// False outside the view.
+  bool put_place(Bytes& bytes, const float* position) const {
+    const double across = (position[0] - view_.min_x) / (view_.max_x - view_.min_x);
+    const double up = (position[2] - view_.min_z) / (view_.max_z - view_.min_z);
+    if (!(across >= 0.0 && across <= 1.0 && up >= 0.0 && up <= 1.0)) return false;
+    put16(bytes.x, across);
+    put16(bytes.z, up);
+    const std::uint32_t y = depth_code(position[1], box_);
+    bytes.depth.push_back(static_cast<std::uint8_t>(y >> 8));
+    if (!box_.is_thin()) bytes.depth_low.push_back(static_cast<std::uint8_t>(y & 255));
+    return true;
+  }
+
+  void put_number(Bytes& bytes, std::int64_t id) {
+    const auto next = static_cast<std::uint32_t>(numbers_.size());
+    const std::uint32_t number = numbers_.try_emplace(id, next).first->second;
+    for (int byte = 0; byte < 4; ++byte) {
+      bytes.number.push_back(static_cast<std::uint8_t>(number >> (8 * byte)));
+    }
+  }
+
+  const H5Source& source_;
+  const View& view_;
+  const Box& box_;
+  const DustSizes& sizes_;
+  std::vector<std::vector<float>> diameters_;
+  std::vector<double> classes_;
+  Share share_;
+  double fastest_ = 0.0;
+  std::size_t most_ = 0;
+  std::map<std::int64_t, std::uint32_t> numbers_;  ///< short ones of the dust, for trails
+};
+
 }  // namespace
 
-json grains_of(const H5Source& source, const View& view, const json& given_classes) {
-  auto names = source.frames("/particles");
+json grains_of(const H5Source& source, const View& view, const Box& box, const DustSizes& dust,
+               const json& given_classes) {
+  const auto names = source.frames("/particles");
   if (names.empty() || view.is_empty()) return nullptr;
   const std::size_t stride = (names.size() + k_frames - 1) / k_frames;
-  const std::size_t frames_written = names.size();
   std::vector<std::string> kept;  // counted from the end, so that the last frame is always there
-  for (std::size_t k = names.size(); k-- > 0;) {
-    if ((names.size() - 1 - k) % stride == 0) kept.push_back(names[k]);
+  for (std::size_t k = (names.size() - 1) % stride; k < names.size(); k += stride) {
+    kept.push_back(names[k]);
   }
-  std::reverse(kept.begin(), kept.end());
-
-  std::vector<std::vector<float>> diameters;
-  for (const auto& name : kept)
-    diameters.push_back(source.floats("/particles/" + name + "/diameter"));
-  const auto classes = legend_of(given_classes, diameters);
-  const Share share = share_shown(diameters);
-  const double fastest = speed_scale(source, kept);
-
-  std::map<std::int64_t, std::uint32_t> dust_numbers;  // short numbers for trails
-  std::size_t most = 0;
-  json frames = json::array();
-  for (std::size_t f = 0; f < kept.size(); ++f) {
-    const std::string path = "/particles/" + kept[f];
-    const auto position = source.floats(path + "/position");
-    const auto velocity = source.floats(path + "/velocity");
-    const auto id = source.integers(path + "/id");
-    const auto& diameter = diameters[f];
-    const std::size_t count = std::min(position.size() / 3, diameter.size());
-    most = std::max(most, count);
-    std::vector<std::uint8_t> x, z, size, number, speed;
-    std::size_t dust = 0;
-    for (const std::size_t k : paint_order(position, diameter, classes, count)) {
-      const bool is_dust = diameter[k] < k_dust_diameter;
-      const std::int64_t name = k < id.size() ? id[k] : static_cast<std::int64_t>(k);
-      const double limit = is_dust ? share.dust : share.coarse;
-      if (limit < 1.0 && share_of(name) >= limit) continue;
-      const double across = (position[3 * k] - view.min_x) / (view.max_x - view.min_x);
-      const double up = (position[3 * k + 2] - view.min_z) / (view.max_z - view.min_z);
-      if (!(across >= 0.0 && across <= 1.0 && up >= 0.0 && up <= 1.0)) continue;
-      put16(x, across);
-      put16(z, up);
-      size.push_back(class_of(classes, diameter[k]));
-      speed.push_back(speed_code(velocity, k, fastest));
-      if (is_dust) {
-        const auto short_number =
-            dust_numbers.try_emplace(name, static_cast<std::uint32_t>(dust_numbers.size()))
-                .first->second;
-        for (int byte = 0; byte < 4; ++byte) {
-          number.push_back(static_cast<std::uint8_t>(short_number >> (8 * byte)));
-        }
-        ++dust;
-      }
-    }
-    const auto time = source.attribute(path, "time");
-    std::vector<std::uint8_t> bytes;
-    // The 4-byte numbers come first, so that typed views of the buffer stay aligned.
-    for (const auto* part : {&number, &x, &z, &size, &speed})
-      bytes.insert(bytes.end(), part->begin(), part->end());
-    frames.push_back({{"t", time.empty() ? static_cast<double>(f) : time[0]},
-                      {"n", size.size()},
-                      {"dust", dust},
-                      {"all", count},
-                      {"data", packed(bytes)}});
-  }
-  return {{"frames", frames},      {"classes", classes},
-          {"share", share.coarse}, {"dust_share", share.dust},
-          {"speed", fastest},      {"written", frames_written},
-          {"most", most},          {"dust_below", k_dust_diameter}};
+  GrainFrames frames(source, view, box, dust);
+  frames.look_at(kept, given_classes);
+  json list = json::array();
+  for (std::size_t f = 0; f < kept.size(); ++f) list.push_back(frames.frame(f, kept[f]));
+  json grains = frames.facts();
+  grains["frames"] = std::move(list);
+  grains["written"] = names.size();
+  return grains;
 }
 
 }  // namespace dust::report

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "report/dust_sizes.hpp"
 #include "report/h5_source.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace dust::report {
-
-/// Grains finer than this are called dust and drawn on top, larger than they are [m].
-constexpr double k_dust_diameter = 100e-6;
 
 /// The part of the x-z plane a picture shows [m].
 struct View {
@@ -20,6 +20,23 @@ struct View {
   [[nodiscard]] bool is_empty() const { return !(max_x > min_x && max_z > min_z); }
   void add(double x, double z);
 };
+
+/// The space a run takes place in [m].
+struct Box {
+  std::array<double, 3> min{}, max{};
+  [[nodiscard]] bool is_empty() const {
+    return !(max[0] > min[0] && max[1] > min[1] && max[2] > min[2]);
+  }
+  /// So shallow along y that the view from the side tells all.
+  [[nodiscard]] bool is_thin() const {
+    constexpr double k_thin = 0.15;
+    return max[1] - min[1] < k_thin * std::max(max[0] - min[0], max[2] - min[2]);
+  }
+};
+
+/// The space of a run: the fluid's grid, the domain of the scenario, or what surfaces and grains
+/// span.
+[[nodiscard]] Box box_of(const H5Source& source, const std::string& scenario);
 
 /// The view of a run: the fluid's grid, the domain of the scenario, or what grains and bodies span.
 [[nodiscard]] View view_of(const H5Source& source, const nlohmann::json& bodies,
@@ -33,9 +50,9 @@ struct View {
 /// The grains of every frame seen along y, quantised to 16 bits per coordinate and packed; null
 /// without frames. Thinned by a hash of the id when a frame or the whole would become too large, so
 /// that the grains shown stay the same from frame to frame; dust is thinned only on its own
-/// account.
-[[nodiscard]] nlohmann::json grains_of(const H5Source& source, const View& view,
-                                       const nlohmann::json& classes);
+/// account. The depth y has 16 bits as well, 8 where the space is thin.
+[[nodiscard]] nlohmann::json grains_of(const H5Source& source, const View& view, const Box& box,
+                                       const DustSizes& dust, const nlohmann::json& classes);
 
 /// Air speed, pressure and direction of at most 40 frames, averaged over the depth y, quantised to
 /// 8 bits and packed; null for runs without fluid.
@@ -55,7 +72,7 @@ struct DustMap {
   std::vector<double> share;
 };
 
-[[nodiscard]] DustMap dust_map_of(const H5Source& source, const View& view,
+[[nodiscard]] DustMap dust_map_of(const H5Source& source, const View& view, const DustSizes& dust,
                                   std::vector<DustPlace>& places);
 
 /// Dust within this many diameters of a coarse grain's centre is with the load: about the distance
@@ -74,7 +91,7 @@ struct DustOrigin {
 /// of all dust not near a coarse grain when last seen. As fine as the frames: what happens between
 /// two of them is not seen. Dust that was never seen near a coarse grain is not counted.
 [[nodiscard]] std::vector<DustOrigin> dust_origins(const H5Source& source, const View& view,
-                                                   double side);
+                                                   const DustSizes& dust, double side);
 
 /// A map for the page, logarithmic in 8 bits; null without dust.
 [[nodiscard]] nlohmann::json dust_map_json(const DustMap& map, const View& view);

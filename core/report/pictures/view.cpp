@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace dust::report {
 
@@ -86,15 +87,40 @@ std::vector<double> corner_of(const YAML::Node& node) {
 }
 
 /// The domain of scenario.yaml; empty when it cannot be read.
-View domain_of(const std::string& scenario) {
+Box domain_of(const std::string& scenario) {
   try {
     const YAML::Node domain = YAML::Load(scenario)["domain"];
     const auto low = corner_of(domain["min"]), high = corner_of(domain["max"]);
-    if (low.size() == 3 && high.size() == 3) return {low[0], low[2], high[0], high[2]};
+    if (low.size() == 3 && high.size() == 3) {
+      return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+    }
   } catch (const YAML::Exception&) {
     // A report of a damaged scenario file shows what the grains span.
   }
   return {};
+}
+
+/// The grid of the fluid; empty without one.
+Box grid_of(const H5Source& source) {
+  const auto origin = source.attribute("/fluid", "origin");
+  const auto spacing = source.attribute("/fluid", "spacing");
+  const auto count = source.attribute("/fluid", "count");
+  if (origin.size() != 3 || spacing.size() != 3 || count.size() != 3) return {};
+  Box box;
+  for (std::size_t d = 0; d < 3; ++d) {
+    box.min[d] = origin[d];
+    box.max[d] = origin[d] + spacing[d] * count[d];
+  }
+  return box;
+}
+
+void widen(Box& box, const std::vector<float>& points) {
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double value = points[k];
+    if (!std::isfinite(value)) continue;
+    box.min[k % 3] = std::min(box.min[k % 3], value);
+    box.max[k % 3] = std::max(box.max[k % 3], value);
+  }
 }
 
 /// The newest wall surfaces seen along y: their triangles, projected, cover the silhouette.
@@ -134,16 +160,34 @@ void View::add(double x, double z) {
   max_z = std::max(max_z, z);
 }
 
+Box box_of(const H5Source& source, const std::string& scenario) {
+  for (const Box& box : {grid_of(source), domain_of(scenario)}) {
+    if (!box.is_empty()) return box;
+  }
+  constexpr double k_far = std::numeric_limits<double>::infinity();
+  Box box{{k_far, k_far, k_far}, {-k_far, -k_far, -k_far}};
+  for (const char* group : {"/particles", "/walls"}) {
+    const char* points = group == std::string("/walls") ? "/points" : "/position";
+    for (const auto& name : source.frames(group)) {
+      widen(box, source.floats(std::string(group) + "/" + name + points));
+    }
+  }
+  if (!(box.max[0] >= box.min[0])) return {};
+  // A margin, and some depth for a single grain.
+  double size = 1e-3;
+  for (std::size_t d = 0; d < 3; ++d) size = std::max(size, box.max[d] - box.min[d]);
+  for (std::size_t d = 0; d < 3; ++d) {
+    box.min[d] -= 0.04 * size;
+    box.max[d] += 0.04 * size;
+  }
+  return box;
+}
+
 View view_of(const H5Source& source, const json& bodies, const std::string& scenario) {
-  const auto origin = source.attribute("/fluid", "origin");
-  const auto spacing = source.attribute("/fluid", "spacing");
-  const auto count = source.attribute("/fluid", "count");
-  if (origin.size() == 3 && spacing.size() == 3 && count.size() == 3) {
-    const View view{origin[0], origin[2], origin[0] + spacing[0] * count[0],
-                    origin[2] + spacing[2] * count[2]};
+  for (const Box& box : {grid_of(source), domain_of(scenario)}) {
+    const View view{box.min[0], box.min[2], box.max[0], box.max[2]};
     if (!view.is_empty()) return view;
   }
-  if (const View domain = domain_of(scenario); !domain.is_empty()) return domain;
   View view;
   for (const auto& name : source.frames("/particles")) {
     const auto position = source.floats("/particles/" + name + "/position");

@@ -43,6 +43,23 @@ void put_attribute(hid_t file, const std::string& group, const char* name,
   H5Oclose(node);
 }
 
+void put_texts(hid_t file, const std::string& group, const char* name,
+               const std::vector<std::string>& texts) {
+  std::vector<const char*> pointers;
+  for (const std::string& text : texts) pointers.push_back(text.c_str());
+  const hsize_t size = pointers.size();
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, H5T_VARIABLE);
+  const hid_t node = H5Oopen(file, group.c_str(), H5P_DEFAULT);
+  const hid_t space = H5Screate_simple(1, &size, nullptr);
+  const hid_t attribute = H5Acreate2(node, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+  H5Awrite(attribute, type, pointers.data());
+  H5Aclose(attribute);
+  H5Sclose(space);
+  H5Oclose(node);
+  H5Tclose(type);
+}
+
 std::string frame_name(const std::string& group, int number) {
   char name[16];
   std::snprintf(name, sizeof name, "%06d", number);
@@ -188,6 +205,25 @@ void RunFolder::write_tracks(const std::vector<std::vector<FakeGrain>>& frames) 
     put(file, path + "/id", H5T_NATIVE_INT64, {n}, id);
     put_attribute(file, path, "time", {0.1 * static_cast<double>(frame)});
   }
+  H5Fclose(file);
+}
+
+void RunFolder::write_surfaces(const std::vector<FakeSurface>& frames,
+                               const std::vector<std::string>& names) const {
+  const hid_t file =
+      H5Fcreate((path_ / "results.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+    const FakeSurface& surface = frames[frame];
+    const auto n = static_cast<int>(frame);
+    const std::string walls = frame_name("/walls", n), grains = frame_name("/particles", n);
+    put(file, walls + "/points", H5T_NATIVE_FLOAT, {surface.points.size() / 3, 3}, surface.points);
+    put(file, walls + "/triangles", H5T_NATIVE_INT, {surface.body.size(), 3}, surface.triangles);
+    put(file, walls + "/body", H5T_NATIVE_INT, {surface.body.size()}, surface.body);
+    put(file, grains + "/position", H5T_NATIVE_FLOAT, {0, 3}, std::vector<float>{});
+    put(file, grains + "/diameter", H5T_NATIVE_FLOAT, {0}, std::vector<float>{});
+    put_attribute(file, grains, "time", {0.1 * n});
+  }
+  put_texts(file, "/walls", "names", names);
   H5Fclose(file);
 }
 

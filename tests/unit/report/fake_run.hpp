@@ -25,6 +25,12 @@ struct FakeGrain {
   double y = 0.0;                           ///< [m]
 };
 
+/// Surfaces of a frame: corners x, y, z [m], three of them a triangle, the body of each triangle.
+struct FakeSurface {
+  std::vector<float> points;
+  std::vector<int> triangles, body;
+};
+
 /// A figure of summary.json.
 [[nodiscard]] nlohmann::json fake_figure(double value, const char* unit, double error = -1.0);
 
@@ -48,6 +54,9 @@ class RunFolder {
   void write_h5(const FakeRun& run) const;
   /// Frames of these grains, 0.1 s apart.
   void write_tracks(const std::vector<std::vector<FakeGrain>>& frames) const;
+  /// Frames of these surfaces, 0.1 s apart, without grains.
+  void write_surfaces(const std::vector<FakeSurface>& frames,
+                      const std::vector<std::string>& names) const;
   [[nodiscard]] std::string read(const std::string& name) const;
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 

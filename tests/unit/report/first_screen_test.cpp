@@ -204,11 +204,11 @@ TEST_CASE("dust that was thrown shall be counted by what is faster than its carr
        {{1, 500e-6, 0.3, 0.2, 1.0}, {2, 10e-6, 0.3, 0.2, 9.0}, {3, 10e-6, 0.9, 0.9, 0.0}}});
   const dust::report::H5Source source(folder.path() / "results.h5");
   // 1.2 times the fastest coarse grain, 2 m/s; with faster air 1.2 times that.
-  const auto without_air = dust::report::fast_dust_of(source, 0.0);
+  const auto without_air = dust::report::fast_dust_of(source, {}, 0.0);
   CHECK(without_air.limit == doctest::Approx(2.4));
   CHECK(without_air.fast == 1);
   CHECK(without_air.all == 3);
-  CHECK(dust::report::fast_dust_of(source, 8.0).fast == 0);
+  CHECK(dust::report::fast_dust_of(source, {}, 8.0).fast == 0);
   // Stokes: 10 m/s for 2650 (10 um)^2 / (18 x 1.8e-5) s are 8.18 mm.
   CHECK(dust::report::stopping_distance(10e-6, 2650.0, 1.8e-5) ==
         doctest::Approx(8.179e-3).epsilon(1e-3));

@@ -327,7 +327,7 @@ TEST_CASE("grains shall come back from the page where they were") {
   REQUIRE(frame["n"] == 45);
   REQUIRE(frame["dust"] == 5);
   const std::string bytes = unpacked(frame["data"]);
-  REQUIRE(bytes.size() == 5 * 4 + 45 * 6);
+  REQUIRE(bytes.size() == 5 * 4 + 45 * 8);
   const auto word = [&](std::size_t at) {
     return byte_at(bytes, at) + 256 * byte_at(bytes, at + 1);
   };

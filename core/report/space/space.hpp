@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "report/h5_source.hpp"
+#include "report/pictures/pictures.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace dust::report {
+
+/// What the page needs beyond the grains to show a run in three dimensions: {"min", "max",
+/// "is_thin", "surfaces", "air"}; null where nothing is known of the space.
+[[nodiscard]] nlohmann::json space_of(const H5Source& source, const Box& box);
+
+/// The surfaces of the bodies: {"names", "sets": [{"points", "triangles", "bodies": [[body, first,
+/// count], ..], "data"}], "times", "shown": [set of each time], "coarsened"}. Corners have 16 bits
+/// in `box`. A set of surfaces that stays from frame to frame is stored once; where bodies move,
+/// each of at most 60 frames has its own. Surfaces of more triangles than a page holds are
+/// coarsened by joining near corners. Null without surfaces.
+[[nodiscard]] nlohmann::json surfaces_of(const H5Source& source, const Box& box);
+
+/// The velocity of the air in blocks of cells, 8 bits per component (stored by the root, as in the
+/// maps), 255 inside bodies; null without fluid. In a thin domain the maps of the side view tell
+/// the same, so that there is none.
+[[nodiscard]] nlohmann::json air_field_of(const H5Source& source);
+
+}  // namespace dust::report
