@@ -137,6 +137,7 @@ FluidSolver::FluidSolver(const Grid& grid, const scenario::FluidSpec& fluid,
 FluidSolver::~FluidSolver() = default;
 
 void FluidSolver::use(const sdk::TurbulenceModel& turbulence) { impl_->use(turbulence); }
+void FluidSolver::use(VelocityForcing& forcing) { impl_->use(forcing); }
 const CellField* FluidSolver::eddy_viscosity() const { return impl_->eddy_viscosity(); }
 void FluidSolver::advance(double time, double step, const CellField& before, const CellField& after,
                           const Exchange& exchange) {

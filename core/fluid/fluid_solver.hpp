@@ -16,6 +16,8 @@
 
 namespace dust::fluid {
 
+class VelocityForcing;
+
 /// What the last call of `advance` did.
 struct FluidReport {
   int sub_steps = 0;
@@ -45,6 +47,8 @@ class FluidSolver {
 
   /// Optional, before the first step: closure of the motion smaller than a cell; kept by reference.
   void use(const sdk::TurbulenceModel& turbulence);
+  /// Optional, before the first step: forces that follow from the velocity; kept by reference.
+  void use(VelocityForcing& forcing);
   /// [Pa s] per cell, of the last sub-step; null for a laminar fluid.
   [[nodiscard]] const CellField* eddy_viscosity() const;
 

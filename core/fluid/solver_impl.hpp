@@ -11,6 +11,7 @@
 #include "fluid/pressure/continuity.hpp"
 #include "fluid/sides.hpp"
 #include "fluid/step_void_fraction.hpp"
+#include "fluid/velocity_forcing.hpp"
 
 #include <functional>
 #include <memory>
@@ -28,6 +29,7 @@ class FluidSolver::Impl {
        const Boundaries& boundaries);
 
   void use(const sdk::TurbulenceModel& turbulence);
+  void use(VelocityForcing& forcing) { forcing_ = &forcing; }
   void advance(double time, double step, const CellField& before, const CellField& after,
                const Exchange& exchange);
   void set_velocity(const std::function<sdk::Vec3(sdk::Vec3)>& velocity);
@@ -70,6 +72,7 @@ class FluidSolver::Impl {
     bool is_clean;     ///< no solids anywhere
     bool has_drag;     ///< the exchange has coefficients
     bool is_balanced;  ///< its momentum is kept book of
+    bool keeps_mean;   ///< the mean velocity of its stages is asked for
   };
   /// A part of it.
   struct SubStep {
@@ -78,6 +81,10 @@ class FluidSolver::Impl {
     double share;       ///< [-] of the fluid step
     double smoothness;  ///< [m2/s2] as Momentum::convection_row
   };
+  [[nodiscard]] ForcedFluid forced_fluid() const { return {geometry(), void_fraction_.field()}; }
+  [[nodiscard]] static ForcedPart forced(const StepState& s, const SubStep& part) {
+    return {part.time + part.step - s.time, part.step, part.share};
+  }
   /// Fields of the two stages.
   struct Stages {
     FaceField next, right, sum;
@@ -133,6 +140,7 @@ class FluidSolver::Impl {
   std::unique_ptr<MomentumBalance> balance_;  ///< once there were particles
   CellField mean_pressure_;                   ///< over the last step, if that was balanced
   std::unique_ptr<EddyStress> eddies_;        ///< null: laminar
+  VelocityForcing* forcing_ = nullptr;        ///< null: none
   Cached<FaceField> stress_;                  ///< of the last step
   Cached<Momentum::Rates> rates_;             ///< of u_
   FaceField zero_;                            ///< empty until it is needed

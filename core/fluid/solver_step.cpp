@@ -65,11 +65,13 @@ FluidSolver::Impl::StepState FluidSolver::Impl::begin_step(double time, double s
   const bool has_drag = has_coefficient(exchange);
   const bool is_clean = is_uniform(after, grid_.count, 1.0) &&
                         (&before == &after || is_uniform(before, grid_.count, 1.0));
-  drag_velocity_.begin(has_drag);
   // Where particles act on one fluid whose grid stays.
-  is_balanced_ = has_drag && !has_movers() && properties_.by_place().is_uniform();
+  is_balanced_ =
+      (has_drag || forcing_ != nullptr) && !has_movers() && properties_.by_place().is_uniform();
+  const bool keeps_mean = has_drag || is_balanced_;
+  drag_velocity_.begin(keeps_mean);
   if (has_movers()) rates_.invalidate();
-  return {time, step, before, after, exchange, is_clean, has_drag, is_balanced_};
+  return {time, step, before, after, exchange, is_clean, has_drag, is_balanced_, keeps_mean};
 }
 
 /// From the shares `begin` to `end` of a fluid step, between two cuts of the grid; returns the
@@ -190,7 +192,9 @@ void FluidSolver::Impl::sub_step(const StepState& s, const SubStep& part) {
   const double step = part.step;
   momentum_.prepare(k_gamma * step, s.exchange.coefficient, s.has_drag);
   const FaceField& given = s.is_balanced ? balance_->source() : s.exchange.source;
-  const FaceField& source = eddies_ ? eddies_->add_to(given, u_) : given;
+  const FaceField& stirred = eddies_ ? eddies_->add_to(given, u_) : given;
+  const FaceField& source =
+      forcing_ ? forcing_->add_to(stirred, forced_fluid(), forced(s, part)) : stirred;
   if (eddies_ && s.is_balanced) eddies_->add_to_mean(part.share, report_.sub_steps == 0);
 
   convect(s, part, u_, nullptr);
@@ -204,7 +208,7 @@ void FluidSolver::Impl::sub_step(const StepState& s, const SubStep& part) {
   });
   sides_.evaluate_velocity(part.time + k_gamma * step, void_fraction_.field());
   solve_stage();
-  if (s.has_drag) drag_velocity_.add_stage(geometry(), next, (1.0 - k_gamma) * part.share);
+  if (s.keeps_mean) drag_velocity_.add_stage(geometry(), next, (1.0 - k_gamma) * part.share);
   each_moving_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
     between_stages_row(n, grid_.stride[d], step, properties_.inertia(d, o), inverse_h,
                        &u_.component[d][o], &stages_.next.component[d][o],
@@ -214,8 +218,12 @@ void FluidSolver::Impl::sub_step(const StepState& s, const SubStep& part) {
   convect(s, part, next, &sum);
   sides_.evaluate_velocity(part.time + step, void_fraction_.field());
   solve_stage();
-  if (s.has_drag) drag_velocity_.add_stage(geometry(), next, k_gamma * part.share);
+  if (s.keeps_mean) drag_velocity_.add_stage(geometry(), next, k_gamma * part.share);
   std::swap(u_, next);
+  if (forcing_) {
+    forcing_->force(u_, forced_fluid(), forced(s, part));
+    fill_stage(u_);
+  }
   project(s, part);
 }
 
@@ -227,7 +235,7 @@ void FluidSolver::Impl::project(const StepState& s, const SubStep& part) {
       continuity_.project(u_, void_fraction_.field(), part.step, s.exchange.coefficient, is_plain,
                           fluid_.pressure_tolerance);
   fill_stage(u_);
-  if (s.has_drag) {
+  if (s.keeps_mean) {
     drag_velocity_.add_pressure(geometry(), continuity_, properties_, part.step,
                                 s.exchange.coefficient, part.share);
   }
@@ -286,14 +294,18 @@ void FluidSolver::Impl::end_step(const StepState& s, double last_share) {
   check_finite(s.time + s.step, rates);
   report_.largest_speed = rates.speed;
   report_.divergence = continuity_.largest_divergence(u_, void_fraction_.field());
-  if (s.has_drag) drag_velocity_.end(sides_);
+  if (s.keeps_mean) drag_velocity_.end(sides_);
   stress_.invalidate();
   if (!s.is_balanced) return;
   const FaceField& mean_velocity = drag_velocity_.field();
   FaceField& stress = stress_.write();
   find_stress(mean_velocity, mean_pressure_, stress, eddies_ ? &eddies_->mean_force() : nullptr);
   sides_.fill_pressure(p_, false);
-  balance_->end(u_, void_fraction_.field(), s.exchange, mean_velocity, stress, s.step, last_share);
+  const CellField& eps = void_fraction_.field();
+  const FaceField& given = s.exchange.source;
+  const FaceField& source = forcing_ ? forcing_->add_mean_to(given, eps) : given;
+  balance_->end(u_, eps, {source, s.exchange.coefficient}, mean_velocity, stress, s.step,
+                last_share);
 }
 
 void FluidSolver::Impl::begin_balance(const StepState& s) {

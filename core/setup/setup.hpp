@@ -6,6 +6,7 @@
 #include "dust/sdk/vec3.hpp"
 #include "setup/mark.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -145,7 +146,14 @@ struct FluidSpec {
   OwnDisturbance own_disturbance = OwnDisturbance::automatic;
   bool overlaps_grains = false;  ///< solved while the grains move in the fluid of the step before
   std::vector<FluidRegion> regions;  ///< the last one that holds a place counts
+  /// Materials whose grains the fluid meets with their surfaces, indices into Setup::materials.
+  std::vector<int> resolved;
+  Mark resolved_where;
   Mark where;
+
+  [[nodiscard]] bool resolves(int material) const {
+    return std::find(resolved.begin(), resolved.end(), material) != resolved.end();
+  }
 };
 
 /// A scenario with everything resolved: plain data, SI, names turned into indices. Disabled bodies,

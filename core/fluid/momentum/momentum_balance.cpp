@@ -120,14 +120,14 @@ void MomentumBalance::add_convection(int d, std::ptrdiff_t o, double time, const
                  &excess_.component[d][o]);
 }
 
-void MomentumBalance::end(const FaceField& u, const CellField& eps, const Exchange& exchange,
+void MomentumBalance::end(const FaceField& u, const CellField& eps, const Acted& acted,
                           const FaceField& drag_velocity, const FaceField& stress, double step,
                           double last) {
   each_row([&](int d, int j, int k, std::ptrdiff_t o, int n) {
     end_row(n, grid_.stride[d], properties_.density(),
             properties_.momentum_set() == MomentumSet::three, step, last, &geometry_.kind[d][o],
-            &eps[o], &eps_before_[o], &u.component[d][o], &exchange.source.component[d][o],
-            &exchange.coefficient.component[d][o], &drag_velocity.component[d][o],
+            &eps[o], &eps_before_[o], &u.component[d][o], &acted.source.component[d][o],
+            &acted.coefficient.component[d][o], &drag_velocity.component[d][o],
             &stress.component[d][o], &excess_.component[d][o], &owed_.component[d][o]);
     leave_out_sides(d, j, k);
   });

@@ -31,8 +31,13 @@ class MomentumBalance {
   /// through its control volumes, which acted for `time` [s].
   void add_convection(int d, std::ptrdiff_t o, double time, const double* u, const double* eps,
                       const double* convection, const RowFlux& flux);
-  /// At the end; `source` as begin() had it, `last` the share of the step of its last part.
-  void end(const FaceField& u, const CellField& eps, const Exchange& exchange,
+  /// What acted on the fluid.
+  struct Acted {
+    const FaceField& source;       ///< as begin() had it, and what was added since
+    const FaceField& coefficient;  ///< of drag
+  };
+  /// At the end; `last` the share of the step of its last part.
+  void end(const FaceField& u, const CellField& eps, const Acted& acted,
            const FaceField& drag_velocity, const FaceField& stress, double step, double last);
 
   void save(sdk::ArchiveWriter& archive) const;

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dust/sdk/vec3.hpp"
+
+#include <vector>
+
+namespace dust::resolved {
+
+/// Of a cell: how far inside the surface the markers stand, so that the fluid, which meets a layer
+/// as thick as the delta function, has the drag of the sphere itself; docs/theory/resolved.md,
+/// eq. (2). Breugem (2012) takes 0.3; found here with cubic arrays at 8 and 16 cells across.
+inline constexpr double k_retraction = 0.37;
+
+/// Markers of a sphere of so many `cells` across; docs/theory/resolved.md, eq. (3).
+[[nodiscard]] int marker_count(double cells);
+
+/// Markers on a sphere, spread so that each stands for the same area: the layer of the thickness of
+/// a cell around it, cut into pieces of about a cell's volume.
+struct MarkerLattice {
+  std::vector<sdk::Vec3> direction;  ///< unit vectors, in the axes of the domain
+  double radius = 0.0;               ///< [m] where they stand
+  double volume = 0.0;               ///< [m3] of a piece
+};
+
+/// Of a sphere of `diameter` [m] in cells of the edge `spacing` [m].
+[[nodiscard]] MarkerLattice make_lattice(double diameter, double spacing);
+
+}  // namespace dust::resolved
