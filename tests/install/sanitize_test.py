@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+"""sanitize_test.py ROOT: the page that tools/dev/sanitize writes of runs that ctest has recorded."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(sys.argv.pop(1))
+FAULT = "==7==ERROR: AddressSanitizer: heap-use-after-free on address 0x60"
+TESTS = f"""
+add_test("sums shall be right" "true")
+add_test("memory shall be kept" "sh" "-c" "echo '{FAULT}'; exit 1")
+add_test("a page shall open" "sh" "-c" "exit 77")
+set_tests_properties("a page shall open" PROPERTIES SKIP_RETURN_CODE 77)
+"""
+
+
+class Sanitize(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.page = pathlib.Path(self.folder.name) / "page.md"
+
+    def record(self, preset, *options):
+        folder = pathlib.Path(self.folder.name)
+        (folder / "CTestTestfile.cmake").write_text(TESTS)
+        results = folder / "tests.xml"
+        subprocess.run(["ctest", "--output-junit", results, *options], cwd=folder, capture_output=True)
+        return subprocess.run([ROOT / "tools/dev/sanitize", preset, "--results", results, "--record", "--page",
+                               self.page], text=True, capture_output=True)
+
+    def test_faults_failures_and_skips_stand_on_the_page(self):
+        done = self.record("asan-ubsan")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        text = self.page.read_text()
+        row = next(line for line in text.splitlines() if line.startswith("| asan-ubsan |"))
+        cells = [c.strip() for c in row.split("|")]
+        self.assertEqual(cells[4:8], ["2", "1", "1", "1"])
+        self.assertIn("* failed: memory shall be kept: `ERROR: AddressSanitizer: heap-use-after-free", text)
+        self.assertIn("* skipped: a page shall open", text)
+
+    def test_rows_of_before_stay_and_a_preset_has_one_last_run(self):
+        self.record("asan-ubsan")
+        self.assertEqual(self.record("asan-ubsan", "-R", "sums").returncode, 0)
+        self.record("tsan", "-R", "sums")
+        text = self.page.read_text()
+        self.assertEqual(text.count("\n| asan-ubsan |"), 2)
+        self.assertEqual(text.count("\n| tsan |"), 1)
+        self.assertEqual(text.count("## asan-ubsan: the last run"), 1)
+        self.assertNotIn("memory shall be kept", text)
+        self.assertEqual(text.count("no sanitizer reported anything"), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
