@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
+#include "base/write_error.hpp"
 #include "dust/sdk/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/run_files.hpp"
+#include "io/scenario_leaves.hpp"
+#include "io/stored_state.hpp"
 
-#include <yaml-cpp/yaml.h>
-
-#include <algorithm>
+#include <array>
+#include <memory>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace dust::io {
@@ -40,6 +44,14 @@ class GroupWriter final : public sdk::ArchiveWriter {
   std::string group_;
 };
 
+/// H5Lexists needs every group on the way to exist.
+bool has_dataset(hid_t file, const std::string& path) {
+  for (std::size_t cut = path.find('/'); cut != std::string::npos; cut = path.find('/', cut + 1)) {
+    if (H5Lexists(file, path.substr(0, cut).c_str(), H5P_DEFAULT) <= 0) return false;
+  }
+  return H5Lexists(file, path.c_str(), H5P_DEFAULT) > 0;
+}
+
 class GroupReader final : public sdk::ArchiveReader {
  public:
   GroupReader(hid_t file, std::string group) : file_(file), group_(std::move(group)) {}
@@ -54,7 +66,7 @@ class GroupReader final : public sdk::ArchiveReader {
   template <class T>
   std::vector<T> values(std::string_view name, hid_t type, H5T_class_t wanted) {
     const std::string path = in_part(group_, name);
-    if (!exists(path)) {
+    if (!has_dataset(file_, path)) {
       throw sdk::ModelError("the checkpoint holds no '" + std::string(name) + "' of " + group_ +
                             "; it was written by another version");
     }
@@ -70,57 +82,13 @@ class GroupReader final : public sdk::ArchiveReader {
     return result;
   }
 
-  /// H5Lexists needs every group on the way to exist.
-  [[nodiscard]] bool exists(const std::string& path) const {
-    for (std::size_t cut = path.find('/'); cut != std::string::npos;
-         cut = path.find('/', cut + 1)) {
-      if (H5Lexists(file_, path.substr(0, cut).c_str(), H5P_DEFAULT) <= 0) return false;
-    }
-    return H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0;
-  }
-
   hid_t file_;
   std::string group_;
 };
 
-/// The leaves of a scenario as "path: value" in the order of the document, without `time.end`.
-/// Leaves and not lines of text: the same settings may be broken into lines in another way.
-void collect(const YAML::Node& node, const std::string& path, std::vector<std::string>& leaves) {
-  if (path == "time.end") return;
-  if (node.IsMap() && node.size() > 0) {
-    for (const auto& entry : node) {
-      collect(entry.second, (path.empty() ? "" : path + ".") + entry.first.Scalar(), leaves);
-    }
-  } else if (node.IsSequence() && node.size() > 0) {
-    for (std::size_t i = 0; i < node.size(); ++i) {
-      collect(node[i], path + "[" + std::to_string(i) + "]", leaves);
-    }
-  } else {
-    leaves.push_back(path + ": " + (node.IsScalar() ? node.Scalar() : "nothing"));
-  }
-}
-
-std::vector<std::string> leaves_of(const std::string& yaml) {
-  std::vector<std::string> leaves;
-  try {
-    collect(YAML::Load(yaml), "", leaves);
-  } catch (const YAML::Exception& e) {
-    throw base::RunError(std::string("its scenario cannot be read: ") + e.what());
-  }
-  return leaves;
-}
-
-/// Empty when both describe the same run; otherwise the first difference.
-std::string first_difference(const std::string& stored, const std::string& given) {
-  const std::vector<std::string> a = leaves_of(stored);
-  const std::vector<std::string> b = leaves_of(given);
-  const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
-  if (in_a == a.end() && in_b == b.end()) return "";
-  const auto show = [](auto leaf, auto end) {
-    return leaf == end ? std::string("nothing more") : "'" + *leaf + "'";
-  };
-  return show(in_a, a.end()) + " in the checkpoint, " + show(in_b, b.end()) + " now";
-}
+/// What may change when a run is resumed: how long it goes on and what it writes on the way.
+constexpr std::array<std::string_view, 4> k_free_on_resume = {
+    "time.end", "time.output_every", "time.checkpoint_every", "time.keep_every"};
 
 std::string read_string(hid_t file, const std::string& name) {
   std::vector<char> bytes(extents_of(file, name).at(0));
@@ -147,36 +115,86 @@ void write_checkpoint(
   move_into_place(file, true);
 }
 
+struct StoredState::Open {
+  Handle file;
+};
+
+StoredState::StoredState(std::filesystem::path file, std::string remedy)
+    : file_(std::move(file)), remedy_(std::move(remedy)) {
+  const QuietHdf5 quiet;
+  try {
+    open_ = std::make_unique<Open>(Open{open_file(file_)});
+    const std::vector<double> format = read_attribute(open_->file.get(), k_format);
+    if (format.size() != 1 || format[0] != static_cast<double>(k_checkpoint_format)) {
+      refuse("a checkpoint of another version");
+    }
+    resolved_yaml_ = read_string(open_->file.get(), k_scenario);
+  } catch (const base::RunError& e) {
+    refuse(std::string("damaged checkpoint: ") + e.what());
+  }
+}
+
+StoredState::~StoredState() = default;
+
+bool StoredState::has(const std::string& part, const std::string& column) const {
+  const QuietHdf5 quiet;
+  return has_dataset(open_->file.get(), in_part(part, column));
+}
+
+void StoredState::read(const Parts& parts) const {
+  const QuietHdf5 quiet;
+  try {
+    for (const auto& [name, load] : parts) {
+      GroupReader reader(open_->file.get(), name);
+      load(reader);
+    }
+  } catch (const base::RunError& e) {
+    refuse(std::string("damaged checkpoint: ") + e.what());
+  } catch (const sdk::ModelError& e) {
+    refuse(e.what());
+  }
+}
+
+void StoredState::refuse(const std::string& problem) const {
+  throw base::UserError("error: " + file_.string() + ": " + problem + "; " + remedy_);
+}
+
+void keep_checkpoint(const std::filesystem::path& file, const std::filesystem::path& as) {
+  namespace fs = std::filesystem;
+  make_folder(as.parent_path());
+  const fs::path temporary = temporary_name(as);
+  std::error_code problem;
+  fs::remove(temporary, problem);
+  // The checkpoint is replaced and never changed: a second name for it takes no room.
+  fs::create_hard_link(file, temporary, problem);
+  if (problem) fs::copy_file(file, temporary, fs::copy_options::overwrite_existing, problem);
+  if (problem) throw base::WriteError(as, problem.value());
+  move_into_place(as, false);
+}
+
 void read_checkpoint(
     const std::filesystem::path& file, const std::string& resolved_yaml,
     const std::vector<std::pair<std::string, std::function<void(sdk::ArchiveReader&)>>>& parts) {
-  const QuietHdf5 quiet;
   const std::string start = "error: " + file.string();
   if (!std::filesystem::exists(file)) {
     throw base::UserError(start + ": no checkpoint to resume from; run without --resume");
   }
+  const std::string remedy = "start again with --force";
+  const StoredState state(file, remedy);
+  std::string difference;
   try {
-    const Handle in = open_file(file);
-    const std::vector<double> format = read_attribute(in.get(), k_format);
-    if (format.size() != 1 || format[0] != static_cast<double>(k_checkpoint_format)) {
-      throw base::UserError(start + ": a checkpoint of another version; start again with --force");
-    }
-    const std::string difference =
-        first_difference(read_string(in.get(), k_scenario), resolved_yaml);
-    if (!difference.empty()) {
-      throw base::UserError(start + " belongs to another scenario: " + difference +
-                            "; only time.end may change when a run is resumed");
-    }
-    for (const auto& [name, load] : parts) {
-      GroupReader reader(in.get(), name);
-      load(reader);
-    }
+    difference = ScenarioLeaves(state.resolved_yaml())
+                     .first_difference(ScenarioLeaves(resolved_yaml), k_free_on_resume);
   } catch (const base::RunError& e) {
-    throw base::UserError(start + ": damaged checkpoint: " + e.what() +
-                          "; start again with --force");
-  } catch (const sdk::ModelError& e) {
-    throw base::UserError(start + ": " + e.what() + "; start again with --force");
+    throw base::UserError(start + ": damaged checkpoint: " + e.what() + "; " + remedy);
   }
+  if (!difference.empty()) {
+    throw base::UserError(start + " belongs to another scenario: " + difference +
+                          "; only time.end and how often is written (time.output_every, "
+                          "checkpoint_every, keep_every) may change when a run is resumed; "
+                          "start_from takes the state into another scenario");
+  }
+  state.read(parts);
 }
 
 }  // namespace dust::io

@@ -99,7 +99,8 @@ void write_checkpoint(
     const std::vector<std::pair<std::string, std::function<void(sdk::ArchiveWriter&)>>>& parts);
 
 /// Reads a checkpoint; throws base::UserError when it is missing, damaged or of another scenario
-/// (`resolved_yaml` differs in anything but time.end; the message shows the first difference).
+/// (`resolved_yaml` differs in anything but time.end and how often is written; the message shows
+/// the first difference).
 void read_checkpoint(
     const std::filesystem::path& file, const std::string& resolved_yaml,
     const std::vector<std::pair<std::string, std::function<void(sdk::ArchiveReader&)>>>& parts);

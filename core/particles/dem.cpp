@@ -5,6 +5,7 @@
 #include "particles/forces/contact_snapshot.hpp"
 #include "particles/impl.hpp"
 #include "particles/particle_error.hpp"
+#include "particles/transfer/translation.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -103,6 +104,36 @@ void Dem::Impl::remove_leavers() {
 
 void Dem::Impl::gather_wall_loads() {
   if (wall_loads.is_on()) tile_step.contact_forces().give_wall_loads(wall_loads);
+}
+
+void Dem::Impl::move_to(double time) {
+  conditions.time = time;
+  for (Surface& s : conditions.surfaces) s.move_to(time);
+}
+
+TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTransfer> laws) {
+  const Translation names(other.conditions, conditions);
+  std::vector<double> density;
+  for (const auto& material : conditions.materials) density.push_back(material.density);
+  book.transfer_from(other.book, names.materials(), names.openings(), density);
+  store.transfer_from(other.store, names.materials(), names.openings(), book.masses());
+  store.update_decay(conditions.step());
+  fine_level.transfer_from(other.fine_level);
+
+  ContactTransfer transfer({other.conditions, other.store}, {conditions, store}, names, laws);
+  ContactList pairs(PartnerKind::particles, conditions.laws.history_stride());
+  ContactList walls(PartnerKind::surfaces, conditions.laws.history_stride());
+  for (std::size_t t = 0; t < other.inner.tiles(); ++t) {
+    pairs.append(transfer.translated(other.inner.contacts(t).pairs));
+    walls.append(transfer.translated(other.inner.contacts(t).walls));
+  }
+  inner.receive(std::move(pairs), std::move(walls), transfer.translated(other.inner.fine()));
+  tuner.restore(other.tuner.state());
+  outer.resize(store.size());
+  outer.require(OuterList::Due::reorder);
+  return {.particles = static_cast<std::int64_t>(store.size()),
+          .contacts = transfer.contacts(),
+          .without_past = transfer.without_past()};
 }
 
 void Dem::Impl::fill_last_force() const {
@@ -238,6 +269,18 @@ sdk::WallColumns Dem::close_wall_loads(double interval) {
 
 sdk::WallColumns Dem::wall_loads() const { return impl_->wall_loads.columns(); }
 
+TransferObstacles Dem::obstacles_to(const Dem& other, double time) {
+  impl_->move_to(time);
+  return find_obstacles({other.impl_->conditions, other.impl_->store}, impl_->conditions);
+}
+
+TransferReport Dem::transfer_from(const Dem& other, double time,
+                                  std::span<const LawTransfer> laws) {
+  other.impl_->synchronise();
+  impl_->move_to(time);
+  return impl_->transfer_from(*other.impl_, laws);
+}
+
 void Dem::save(sdk::ArchiveWriter& archive) const {
   impl_->synchronise();
   impl_->save(archive);
@@ -297,8 +340,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   inner.load(archive, tiles);
   fine_level.load(archive, state.at(10));
   book.load(archive);
-  conditions.time = archive.number("time");
-  for (Surface& s : conditions.surfaces) s.move_to(conditions.time);
+  move_to(archive.number("time"));
   has_weights = store.has_weights(tiling.coarse_count);
 }
 

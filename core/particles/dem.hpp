@@ -8,6 +8,7 @@
 #include "particles/grain_rows.hpp"
 #include "particles/openings/opening.hpp"
 #include "particles/pair_law_table.hpp"
+#include "particles/transfer/transfer.hpp"
 #include "setup/setup.hpp"
 
 #include <algorithm>
@@ -158,6 +159,14 @@ class Dem {
 
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
+
+  /// What stands in the way of another solver's particles at `time` [s].
+  [[nodiscard]] TransferObstacles obstacles_to(const Dem& other, double time);
+  /// Takes the particles of another solver, under whatever laws, materials and bodies it has, with
+  /// the histories of their contacts; materials, bodies and openings are known by their names.
+  /// `laws` by its number of a law. Call before the first step, and where nothing stands in the
+  /// way.
+  TransferReport transfer_from(const Dem& other, double time, std::span<const LawTransfer> laws);
 
  private:
   class Impl;

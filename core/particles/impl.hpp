@@ -43,6 +43,8 @@ class Dem::Impl {
   /// Whether a particle has left the domain or was drawn out; if so it is booked.
   [[nodiscard]] bool leaves(std::size_t row);
   void draw_out_at(std::vector<Opening> openings);
+  void move_to(double time);
+  TransferReport transfer_from(const Impl& other, std::span<const LawTransfer> laws);
   void fill_last_force() const;
   void gather_wall_loads();
   void save(sdk::ArchiveWriter& archive) const;

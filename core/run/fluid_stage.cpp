@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace dust::run {
 namespace {
@@ -103,6 +104,40 @@ void FluidStage::bodies_changed(double time) {
 const std::vector<float>& FluidStage::momentum_exchange() {
   if (coupling_) coupling_->momentum_exchange(momentum_exchange_);
   return momentum_exchange_;
+}
+
+void FluidStage::set_velocity(const fluid::FaceField& velocity) {
+  // The faces of each direction are asked for by their places.
+  solver_->set_velocity([&](sdk::Vec3 place) {
+    std::array<int, 3> face{}, cell{};
+    for (std::size_t d = 0; d < 3; ++d) {
+      const int axis = static_cast<int>(d);
+      const double at = (place[axis] - grid_.origin[axis]) / grid_.spacing[axis];
+      face[d] = std::clamp(static_cast<int>(std::lround(at)), 0, grid_.count[d]);
+      cell[d] = std::clamp(static_cast<int>(std::floor(at)), 0, grid_.count[d] - 1);
+    }
+    sdk::Vec3 u;
+    for (std::size_t d = 0; d < 3; ++d) {
+      std::array<int, 3> n = cell;
+      n[d] = face[d];
+      u[static_cast<int>(d)] =
+          velocity.component[d][static_cast<std::size_t>(grid_.index(n[0], n[1], n[2]))];
+    }
+    return u;
+  });
+}
+
+void FluidStage::load_velocity(sdk::ArchiveReader& archive) {
+  fluid::FaceField velocity;
+  for (std::size_t d = 0; d < 3; ++d) {
+    velocity.component[d] = archive.numbers(std::string("velocity_") + "xyz"[d]);
+  }
+  set_velocity(velocity);
+}
+
+void FluidStage::mend_velocity(double time) {
+  bodies_changed(time);
+  set_velocity(fluid::FaceField(solver_->velocity()));
 }
 
 template <class Fluid, class Visit>

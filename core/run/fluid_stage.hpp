@@ -56,6 +56,12 @@ class FluidStage {
     if (coupling_) coupling_->set_open_fraction(solver_->open_fraction());
   }
 
+  /// Of a state without what only other bodies make necessary: the velocity alone.
+  void load_velocity(sdk::ArchiveReader& archive);
+  /// Among bodies that are not those the velocity was computed with: it goes round them, and the
+  /// next step makes it consistent. At `time` [s].
+  void mend_velocity(double time);
+
   /// Momentum exchange per cell for a frame.
   [[nodiscard]] const std::vector<float>& momentum_exchange();
 
@@ -84,6 +90,7 @@ class FluidStage {
   template <class Fluid, class Visit>
   static void for_fields(Fluid& fluid, const Visit& visit);
   void make_coupling(const fluid::Boundaries& boundaries);
+  void set_velocity(const fluid::FaceField& velocity);
 
   const scenario::Setup& setup_;
   const Models& models_;

@@ -5,11 +5,13 @@
 #include "dust/sdk/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/run_files.hpp"
+#include "io/stored_state.hpp"
 #include "particles/time_steps.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/learnt_costs.hpp"
 #include "preflight/reader.hpp"
 #include "report/report.hpp"
+#include "run/branch/branch.hpp"
 #include "run/folder/log_header.hpp"
 #include "run/folder/output_folder.hpp"
 #include "run/progress.hpp"
@@ -20,6 +22,7 @@
 #include "run/summary/series_row.hpp"
 #include "run/summary/summary.hpp"
 #include "run/summary/summary_emitters.hpp"
+#include "scenario/diagnostics.hpp"
 #include "scenario/units.hpp"
 
 #include <oneapi/tbb/global_control.h>
@@ -74,20 +77,37 @@ class FieldsOfSensors final : public sdk::FieldSink {
   std::vector<io::SensorField> fields_;
 };
 
+/// Fluid steps from one thing that is written to the next.
+struct Intervals {
+  std::int64_t frame, checkpoint, row;
+  std::int64_t kept;  ///< checkpoint that stays; 0: none does
+
+  Intervals(const scenario::TimeSpec& time, double keep_every)
+      : frame(std::max<std::int64_t>(1, steps(time, time.output_every))),
+        checkpoint(time.checkpoint_every > 0.0
+                       ? std::max<std::int64_t>(1, steps(time, time.checkpoint_every))
+                       : frame),
+        row(std::max<std::int64_t>(1, frame / 20)),
+        kept(steps(time, keep_every)) {}
+
+  [[nodiscard]] bool is_kept(std::int64_t done) const { return kept > 0 && done % kept == 0; }
+
+ private:
+  static std::int64_t steps(const scenario::TimeSpec& time, double every) {
+    return std::llround(every / time.fluid_step);
+  }
+};
+
 /// The files of one run and the loop over fluid steps.
 class Run {
  public:
-  Run(Simulation& simulation, fs::path folder, std::string resolved, const RunOptions& options)
-      : simulation_(simulation), folder_(std::move(folder)), resolved_(std::move(resolved)) {
-    const auto& time = simulation_.setup().time;
-    steps_per_frame_ = std::max<std::int64_t>(1, std::llround(time.output_every / time.fluid_step));
-    steps_per_checkpoint_ =
-        time.checkpoint_every > 0.0
-            ? std::max<std::int64_t>(1, std::llround(time.checkpoint_every / time.fluid_step))
-            : steps_per_frame_;
-    steps_per_row_ = std::max<std::int64_t>(1, steps_per_frame_ / 20);
-    is_quiet_ = options.quiet;
-  }
+  Run(Simulation& simulation, fs::path folder, std::string resolved, double keep_every,
+      bool is_quiet)
+      : simulation_(simulation),
+        folder_(std::move(folder)),
+        resolved_(std::move(resolved)),
+        is_quiet_(is_quiet),
+        steps_per_(simulation_.setup().time, keep_every) {}
 
   void resume() {
     auto parts = simulation_.load_parts();
@@ -129,6 +149,7 @@ class Run {
                                                  simulation_.models().bodies, materials, domain.min,
                                                  domain.max);
     series_ = std::make_unique<io::SeriesFile>(folder_ / "series.csv", is_resumed_ ? rows_ : -1);
+    if (facts_.start) tell_start();
     if (is_resumed_) {
       base::log_info("resumed at " + std::to_string(simulation_.time()) + " s");
     } else {
@@ -137,7 +158,8 @@ class Run {
       write_frame();
       io::write_text(folder_ / "series.csv-metadata.json",
                      series_metadata(simulation_).dump(1) + "\n");
-      write_row();
+      // Means that sensors take over rows have not begun yet, or go on from another run's.
+      append_row();
       checkpoint();
     }
   }
@@ -159,6 +181,14 @@ class Run {
     }
   }
 
+  void tell_start() const {
+    const StartFacts& s = *facts_.start;
+    base::log_info("starts from " + s.state + " at " + scenario::number_text(s.time) + " s with " +
+                   std::to_string(s.particles) + " grains, " + std::to_string(s.contacts) +
+                   " contacts in touch" +
+                   (s.is_same ? "; the scenario is the same: the same bits as if not cut" : ""));
+  }
+
   /// As `engine check` tells them, every digit of them.
   void tell_steps() const {
     const particles::TimeSteps& steps = simulation_.dem().time_steps();
@@ -175,8 +205,8 @@ class Run {
     while (!simulation_.is_finished() && g_signal == 0) {
       simulation_.step();
       const std::int64_t done = simulation_.steps_done();
-      if (done % steps_per_row_ == 0) write_row();
-      if (done % steps_per_frame_ == 0) {
+      if (done % steps_per_.row == 0) write_row();
+      if (done % steps_per_.frame == 0) {
         write_frame();
         const auto& b = simulation_.dem().balance();
         char text[160];
@@ -187,7 +217,8 @@ class Run {
                       static_cast<long long>(b.removed));
         base::log_info(text);
       }
-      if (done % steps_per_checkpoint_ == 0 && !simulation_.is_finished()) checkpoint();
+      const bool is_due = done % steps_per_.checkpoint == 0 || steps_per_.is_kept(done);
+      if (is_due && !simulation_.is_finished()) checkpoint();
       progress.update(simulation_.time(), simulation_.dem().balance().in_domain);
     }
     if (!simulation_.is_finished()) facts_.status = "interrupted";
@@ -213,7 +244,7 @@ class Run {
     checkpoint();
     // What came after the last full interval counts, too. Not in the checkpoint: a run that is
     // continued to a later end has no such row.
-    if (facts_.status == "finished" && simulation_.steps_done() % steps_per_row_ != 0) write_row();
+    if (facts_.status == "finished" && simulation_.steps_done() % steps_per_.row != 0) write_row();
   }
 
   int close() {
@@ -282,9 +313,13 @@ class Run {
     times_.add_output(begin);
   }
 
-  void write_row() {
+  void append_row() {
     const auto row = series_row(simulation_);
     series_->append(row.names, row.values);
+  }
+
+  void write_row() {
+    append_row();
     for (const auto& sensor : simulation_.models().sensors) sensor->end_row();
   }
 
@@ -297,6 +332,9 @@ class Run {
       times_.save(a, node_seconds(simulation_, times_.nodes_before()));
     });
     io::write_checkpoint(folder_ / "checkpoint.h5", resolved_, parts);
+    if (steps_per_.is_kept(simulation_.steps_done())) {
+      io::keep_checkpoint(folder_ / "checkpoint.h5", kept_checkpoint(folder_, simulation_.time()));
+    }
     times_.add_output(begin);
   }
 
@@ -314,9 +352,7 @@ class Run {
   bool is_quiet_ = false;
   bool is_resumed_ = false;
   bool is_disk_bad_ = false;  ///< a file could not be written
-  std::int64_t steps_per_frame_ = 1;
-  std::int64_t steps_per_checkpoint_ = 1;
-  std::int64_t steps_per_row_ = 1;
+  Intervals steps_per_;
   std::int64_t frames_ = 0;
   std::int64_t rows_ = 0;
   RunTimes times_;
@@ -324,6 +360,62 @@ class Run {
   std::unique_ptr<io::SeriesFile> series_;
   RunFacts facts_;
 };
+
+/// The models of a scenario, with the sizes of grains that another run brings along.
+Models make_models_of(const scenario::ReadResult& read, const registry::Registry& registry,
+                      const Branch* branch, const std::optional<fs::path>& resumed) {
+  Models models = make_models(read.setup, registry);
+  if (branch != nullptr) branch->add_diameters(models.class_diameters);
+  if (read.start.from && resumed) {
+    const io::StoredState state(*resumed / "checkpoint.h5", "start again with --force");
+    models.class_diameters = class_diameters_of(state);
+  }
+  return models;
+}
+
+/// The state at the beginning: what the scenario lets in, or that of another run.
+void start(Simulation& simulation, Branch* branch) {
+  try {
+    if (branch != nullptr) {
+      branch->give_to(simulation);
+    } else {
+      simulation.start();
+    }
+  } catch (const sdk::ModelError& e) {
+    throw base::UserError(e.what());
+  }
+}
+
+StartFacts start_facts(const Branch& branch) {
+  return {.state = branch.origin().state().file().string(),
+          .time = branch.origin().time(),
+          .particles = branch.report().particles,
+          .contacts = branch.report().contacts,
+          .without_past = branch.report().without_past,
+          .is_same = branch.is_same()};
+}
+
+RunFacts facts_of(const scenario::ReadResult& read, const registry::Registry& registry,
+                  const RunOptions& options, int threads) {
+  RunFacts facts;
+  facts.threads = threads;
+  facts.warnings = read.warnings;
+  facts.references = read.references;
+  facts.reference_curves = read.reference_curves;
+  facts.registry = &registry;
+  io::Sha256 digest;
+  digest.update(read.resolved_yaml.data(), read.resolved_yaml.size());
+  facts.scenario_sha256 = digest.hex_digest();
+  facts.log_header = log_header(read.setup, registry, options, facts.scenario_sha256);
+  return facts;
+}
+
+void catch_signals() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  // A file beyond the limit of `ulimit -f` is an error like a full disk, not the program's end.
+  std::signal(SIGXFSZ, SIG_IGN);
+}
 
 }  // namespace
 
@@ -340,39 +432,32 @@ int run_scenario(const RunOptions& options) {
                                     static_cast<std::size_t>(threads));
 
   OutputFolder output(options, read.setup.name);
+  scenario::Diagnostics branching;
+  std::optional<Branch> branch;
+  if (read.start.from && !options.resume) branch.emplace(read, registry, branching);
+  branching.throw_errors();
+  Branch* const origin = branch ? &*branch : nullptr;
   std::unique_ptr<Simulation> simulation;
   try {
-    simulation =
-        std::make_unique<Simulation>(read.setup, make_models(read.setup, registry), 0, read.dust);
+    const auto resumed = options.resume ? std::optional(output.path()) : std::nullopt;
+    simulation = std::make_unique<Simulation>(
+        read.setup, make_models_of(read, registry, origin, resumed), 0, read.dust);
   } catch (const sdk::ModelError& e) {
     throw base::UserError(options.scenario.string() + ": error: " + e.what());
   }
-  if (!options.resume) {
-    try {
-      simulation->start();
-    } catch (const sdk::ModelError& e) {
-      throw base::UserError(e.what());
-    }
+  if (!options.resume) start(*simulation, origin);
+  RunFacts facts = facts_of(read, registry, options, threads);
+  for (const std::string& warning : branching.warning_lines()) {
+    base::log_warning(warning);
+    facts.warnings.push_back(warning);
   }
+  if (branch) facts.start = start_facts(*branch);
+  branch.reset();  // the other run's particles
   output.open();
   const fs::path folder = output.path();
-  Run run(*simulation, folder, read.resolved_yaml, options);
+  Run run(*simulation, folder, read.resolved_yaml, read.start.keep_every, options.quiet);
   if (options.resume) run.resume();
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  // A file beyond the limit of `ulimit -f` is an error like a full disk, not the program's end.
-  std::signal(SIGXFSZ, SIG_IGN);
-
-  RunFacts facts;
-  facts.threads = threads;
-  facts.warnings = read.warnings;
-  facts.references = read.references;
-  facts.reference_curves = read.reference_curves;
-  facts.registry = &registry;
-  io::Sha256 digest;
-  digest.update(read.resolved_yaml.data(), read.resolved_yaml.size());
-  facts.scenario_sha256 = digest.hex_digest();
-  facts.log_header = log_header(read.setup, registry, options, facts.scenario_sha256);
+  catch_signals();
   const int status = run.execute(std::move(facts));
   if (!options.quiet) std::printf("results: %s\n", folder.c_str());
   return status;

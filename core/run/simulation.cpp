@@ -19,6 +19,22 @@ bool wants_contacts(const Models& models) {
 
 }  // namespace
 
+std::unique_ptr<particles::Dem> make_particles(const scenario::Setup& setup, Models& models) {
+  // Buoyancy is part of the weight, unless a model gives it.
+  const bool has_buoyancy = setup.fluid && !coupling::takes_over_buoyancy(models.fluid_forces);
+  const double density = has_buoyancy ? setup.fluid->density : 0.0;
+  if (!models.class_diameters.empty()) {
+    return std::make_unique<particles::Dem>(setup, models.bodies, std::move(models.laws),
+                                            models.class_diameters, density);
+  }
+  // Nothing asks how large particles are that never come, and nothing shortens the step.
+  constexpr double k_any_diameter = 1e-3;
+  scenario::Setup empty = setup;
+  empty.time.dem_step = empty.time.fluid_step;
+  return std::make_unique<particles::Dem>(empty, models.bodies, std::move(models.laws),
+                                          std::vector<double>{k_any_diameter}, density);
+}
+
 Simulation::Simulation(const scenario::Setup& setup, Models models, int check_every,
                        scenario::DustSetup dust)
     : setup_(setup),
@@ -30,7 +46,7 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
     fluid_ = std::make_unique<FluidStage>(setup_, models_);
     snapshots_.use_fluid(fluid_->grid(), *setup_.fluid, fluid_->solver().open_fraction());
   }
-  make_particles();
+  dem_ = make_particles(setup_, models_);
   dem_->draw_out_at(openings_of(setup_, dust_setup_));
   if (dust_setup_.field) {
     dust_ = std::make_unique<DustStage>(setup_, *dust_setup_.field, models_, *fluid_,
@@ -48,23 +64,6 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
 
 Simulation::~Simulation() = default;
 
-void Simulation::make_particles() {
-  // Buoyancy is part of the weight, unless a model gives it.
-  const bool has_buoyancy = setup_.fluid && !coupling::takes_over_buoyancy(models_.fluid_forces);
-  const double density = has_buoyancy ? setup_.fluid->density : 0.0;
-  if (!models_.class_diameters.empty()) {
-    dem_ = std::make_unique<particles::Dem>(setup_, models_.bodies, std::move(models_.laws),
-                                            models_.class_diameters, density);
-    return;
-  }
-  // Nothing asks how large particles are that never come, and nothing shortens the step.
-  constexpr double k_any_diameter = 1e-3;
-  scenario::Setup empty = setup_;
-  empty.time.dem_step = empty.time.fluid_step;
-  dem_ = std::make_unique<particles::Dem>(empty, models_.bodies, std::move(models_.laws),
-                                          std::vector<double>{k_any_diameter}, density);
-}
-
 const fluid::FluidSolver* Simulation::fluid() const { return fluid_ ? &fluid_->solver() : nullptr; }
 const coupling::Coupling* Simulation::coupling() const {
   return fluid_ ? fluid_->coupling() : nullptr;
@@ -81,6 +80,12 @@ void Simulation::start() {
   }
   snapshots_.take(*dem_);
   if (dust_) dust_->start();
+}
+
+void Simulation::start_from(const std::function<void(const Owners&)>& give) {
+  give({models_, clock_, *dem_, *insertion_, snapshots_, fluid_.get(), dust_.get()});
+  if (fluid_) snapshots_.set_open_fraction(fluid_->solver().open_fraction());
+  take_fluid_snapshot();
 }
 
 void Simulation::step() {
@@ -160,6 +165,7 @@ SaveParts Simulation::save_parts() const {
     a.integer("fluid_sub_steps", fluid_ ? fluid_->sub_steps() : 0);
     a.integer("pressure_iterations", fluid_ ? fluid_->pressure_iterations() : 0);
     insertion_->save(a);
+    a.numbers("class_diameters", models_.class_diameters);
   });
   parts.emplace_back("bodies", [this](sdk::ArchiveWriter& a) {
     std::vector<double> removed_at;

@@ -15,12 +15,16 @@
 #include "setup/setup.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace dust::run {
+
+/// The particles of a scenario; takes the laws out of `models` and keeps its bodies by reference.
+std::unique_ptr<particles::Dem> make_particles(const scenario::Setup& setup, Models& models);
 
 /// Everything a run holds: models, particles, fluid, the two task graphs and the clock.
 class Simulation {
@@ -36,6 +40,18 @@ class Simulation {
   /// Lets in what is there before the first step. Not for a run that is resumed. Throws ModelError
   /// where that is impossible.
   void start();
+  /// Those who hold the state of a run.
+  struct Owners {
+    Models& models;
+    StepClock& clock;
+    particles::Dem& particles;
+    Insertion& insertion;
+    Snapshots& snapshots;
+    FluidStage* fluid;  ///< null without a fluid
+    DustStage* dust;    ///< null without a dust field
+  };
+  /// In place of start(): `give` gives them the state of another run.
+  void start_from(const std::function<void(const Owners&)>& give);
   /// One fluid step: one pass of the outer graph.
   void step();
 
@@ -70,7 +86,6 @@ class Simulation {
   [[nodiscard]] LoadParts load_parts();
 
  private:
-  void make_particles();
   void build_dem_graph(int check_every);
   void add_tile_nodes();
   void build_step_graph();

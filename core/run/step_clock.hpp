@@ -22,6 +22,9 @@ class StepClock {
   [[nodiscard]] bool is_finished() const { return steps_done_ >= steps_wanted_; }
   void advance() { ++steps_done_; }
 
+  /// Of a run that does not start at 0 s.
+  void start_at(std::int64_t steps) { steps_done_ = steps; }
+
   void save(sdk::ArchiveWriter& archive) const { archive.integer("steps_done", steps_done_); }
   void load(sdk::ArchiveReader& archive) { steps_done_ = archive.integer("steps_done"); }
 

@@ -35,6 +35,11 @@ const ParameterSchema& TimeBlock::schema() {
              "Time between checkpoints, a multiple of fluid_step; 0 writes one with every frame.")
         .at_least(0)
         .optional();
+    s.number(&TimeBlock::keep_every, "keep_every", dimension::time,
+             "Time between checkpoints that are kept for start_from, a multiple of fluid_step; 0 "
+             "keeps the newest alone.")
+        .at_least(0)
+        .optional();
     s.number(&TimeBlock::dem_step, "dem_step", dimension::time,
              "Fixed step of the grains; 0 derives one per size class.")
         .at_least(0)

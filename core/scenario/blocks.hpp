@@ -28,6 +28,7 @@ struct TimeBlock {
   double fluid_step = 0.0;
   double output_every = 0.0;
   double checkpoint_every = 0.0;
+  double keep_every = 0.0;
   double dem_step = 0.0;
   double expected_speed = 0.0;
   std::string rates = "several";

@@ -47,18 +47,20 @@ void check_sides(const DomainSpec& domain, const std::array<bool, 6>& is_read,
   }
 }
 
+void check_multiple(const char* path, double every, double fluid_step, const Mark& where,
+                    Diagnostics& diagnostics) {
+  if (!(every > 0.0) || !(fluid_step > 0.0) || is_multiple(every, fluid_step)) return;
+  diagnostics.error(where, std::string(path) + ": " + seconds(every) +
+                               " is not a multiple of fluid_step, " + seconds(fluid_step));
+}
+
 void check_time(const TimeSpec& time, const TimeMarks& where, Diagnostics& diagnostics) {
   if (!(time.fluid_step > 0.0)) return;
   const std::string step = seconds(time.fluid_step);
-  if (time.output_every > 0.0 && !is_multiple(time.output_every, time.fluid_step)) {
-    diagnostics.error(where.output_every, "time.output_every: " + seconds(time.output_every) +
-                                              " is not a multiple of fluid_step, " + step);
-  }
-  if (time.checkpoint_every > 0.0 && !is_multiple(time.checkpoint_every, time.fluid_step)) {
-    diagnostics.error(where.checkpoint_every,
-                      "time.checkpoint_every: " + seconds(time.checkpoint_every) +
-                          " is not a multiple of fluid_step, " + step);
-  }
+  check_multiple("time.output_every", time.output_every, time.fluid_step, where.output_every,
+                 diagnostics);
+  check_multiple("time.checkpoint_every", time.checkpoint_every, time.fluid_step,
+                 where.checkpoint_every, diagnostics);
   if (time.dem_step > time.fluid_step * (1.0 + k_rounding)) {
     diagnostics.error(where.dem_step, "time.dem_step: " + seconds(time.dem_step) +
                                           " is longer than fluid_step, " + step);

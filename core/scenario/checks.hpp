@@ -22,6 +22,10 @@ struct TimeMarks {
 };
 void check_time(const TimeSpec& time, const TimeMarks& where, Diagnostics& diagnostics);
 
+/// A time between two things, if any, is a multiple of the fluid step.
+void check_multiple(const char* path, double every, double fluid_step, const Mark& where,
+                    Diagnostics& diagnostics);
+
 /// Every pair of materials that can meet needs an interaction.
 void check_pairs(const Setup& setup, const Mark& where, Diagnostics& diagnostics);
 

@@ -284,6 +284,11 @@ std::string json_schema(const registry::Registry& registry) {
       {"description", "Files laid under this one, relative to it."},
       {"anyOf",
        Json::array({{{"type", "string"}}, {{"type", "array"}, {"items", {{"type", "string"}}}}})}};
+  properties["start_from"] = {
+      {"type", "string"},
+      {"description",
+       "Folder of another run's results, relative to this file, whose state this run starts from; "
+       "RUN@TIME takes a state that was kept (time.keep_every)."}};
   properties["time"] = block<TimeBlock>();
   properties["domain"] = domain["domain"];
   properties["materials"] = named(block<MaterialBlock>());

@@ -55,7 +55,16 @@ void SetupReader::read_time(MapReader& top) {
              {mark_of(map, "fluid_step"), mark_of(map, "output_every"),
               mark_of(map, "checkpoint_every"), mark_of(map, "dem_step"), mark_of(map, "end")},
              diagnostics_);
-  out_.add("time", written_block<TimeBlock>(values));
+  check_multiple("time.keep_every", time.keep_every, time.fluid_step, mark_of(map, "keep_every"),
+                 diagnostics_);
+  start_.keep_every = time.keep_every;
+  start_.end_where = mark_of(map, "end");
+  Node written = written_block<TimeBlock>(values);
+  // Left out where it says nothing: studies know their points by what is written.
+  if (!(time.keep_every > 0.0)) {
+    std::erase_if(written.entries, [](const Entry& e) { return e.key == "keep_every"; });
+  }
+  out_.add("time", std::move(written));
 }
 
 void SetupReader::read_domain(MapReader& top) {

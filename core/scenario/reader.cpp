@@ -31,6 +31,7 @@ bool is_name(const std::string& text) {
 void SetupReader::read() {
   MapReader top(root_, "", root_.where, diagnostics_);
   read_general(top);
+  read_start(top);
   read_time(top);
   out_.add("gravity", written_value(setup_.gravity));
   read_domain(top);
@@ -154,6 +155,7 @@ std::optional<ReadResult> read_tree(const Node& root, const fs::path& file,
   ReadResult result;
   result.setup = reader.take_setup();
   result.dust = reader.take_dust();
+  result.start = reader.take_start();
   result.references = reader.take_references();
   result.reference_curves = reader.take_reference_curves();
   result.resolved_yaml =

@@ -6,6 +6,7 @@
 #include "setup/reference_curve.hpp"
 #include "setup/reference_spec.hpp"
 #include "setup/setup.hpp"
+#include "setup/start_setup.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -24,6 +25,7 @@ struct Override {
 struct ReadResult {
   Setup setup;
   DustSetup dust;
+  StartSetup start;
   std::vector<ReferenceSpec> references;         ///< of enabled sensors
   std::vector<ReferenceCurve> reference_curves;  ///< of enabled sensors
   std::string resolved_yaml;          ///< includes merged, overrides applied, defaults written out

@@ -8,6 +8,7 @@
 #include "scenario/suggest.hpp"
 #include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
+#include "setup/start_setup.hpp"
 
 #include <array>
 #include <filesystem>
@@ -41,6 +42,7 @@ class SetupReader {
   void read();
   Setup take_setup() { return std::move(setup_); }
   DustSetup take_dust() { return std::move(dust_); }
+  StartSetup take_start() { return std::move(start_); }
   std::vector<ReferenceSpec> take_references() { return std::move(references_.numbers); }
   std::vector<ReferenceCurve> take_reference_curves() { return std::move(references_.curves); }
   [[nodiscard]] const Node& resolved() const { return out_; }
@@ -92,6 +94,7 @@ class SetupReader {
 
   void read_general(MapReader& top);
   void read_time(MapReader& top);
+  void read_start(MapReader& top);
   void read_domain(MapReader& top);
   Node read_sides(const Entry& entry);
   Node read_side(const Entry& entry, std::size_t n, bool& is_read, bool& has_air,
@@ -171,6 +174,7 @@ class SetupReader {
   } references_;
   Setup setup_;
   DustSetup dust_;
+  StartSetup start_;
   Node out_ = Node::make_map();
 };
 

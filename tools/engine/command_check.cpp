@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/text.hpp"
 #include "check_summary.hpp"
 #include "commands.hpp"
 #include "drawing.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/learnt_costs.hpp"
 #include "preflight/reader.hpp"
+#include "run/branch/preview.hpp"
+#include "scenario/diagnostics.hpp"
 
 #include <iostream>
 
@@ -33,11 +36,21 @@ void add_check(CLI::App& app, int&) {
     const auto registry = load_plugins(arguments->scenario.plugin_path);
     const auto result =
         preflight::read_scenario(options.scenario, options.overrides, *registry, options.set_files);
+    scenario::Diagnostics branching;
+    const auto start = run::preview_start(result, *registry, branching);
     for (const std::string& warning : result.warnings) std::cerr << warning << '\n';
+    for (const std::string& warning : branching.warning_lines()) std::cerr << warning << '\n';
+    branching.throw_errors();
     auto derived = preflight::derive(result.setup, *registry);
     const auto learnt = preflight::LearntCosts().factor_for(result.setup.name);
     derived.core_seconds *= learnt.value;
     std::cout << (arguments->as_json ? check_json : check_summary)(result.setup, derived, learnt);
+    if (start && !arguments->as_json) {
+      std::cout << "  start      from " << start->state << " at "
+                << base::digits_text(start->time, 6) << " s with " << start->particles << " grains"
+                << (start->is_same ? ", the same scenario: with the bits of an unbroken run" : "")
+                << '\n';
+    }
     if (!arguments->drawing.empty()) {
       write_file(arguments->drawing, draw_setup(result.setup, *registry));
       if (!arguments->as_json) std::cout << "drawn in " << arguments->drawing << '\n';

@@ -38,6 +38,9 @@ class FineLevel {
   [[nodiscard]] std::int64_t sub_steps() const { return sub_steps_; }  ///< summed over particles
   [[nodiscard]] double largest_overlap() const { return largest_overlap_; }  ///< [-] so far
 
+  /// Another solver's particles have come, with what acts in their next step.
+  void transfer_from(const FineLevel& other) { deferred_ = other.deferred_; }
+
   void save(sdk::ArchiveWriter& archive) const;
   /// The number of sub-steps stands among others of the solver.
   void load(sdk::ArchiveReader& archive, std::int64_t sub_steps);

@@ -119,6 +119,12 @@ void ContactList::push(std::int32_t i, std::int32_t j, const double* history,
   }
 }
 
+void ContactList::append(const ContactList& other) {
+  for (std::size_t q = 0; q < other.size(); ++q) {
+    push(other.a_[q], other.b_[q], other.history(q), other.is_touching_[q]);
+  }
+}
+
 /// Marks first, without branches on either, which no processor foretells; copies then.
 std::span<const std::int32_t> ContactList::prune(const PairList& outer,
                                                  std::span<const std::uint8_t> approach,

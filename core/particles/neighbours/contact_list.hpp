@@ -41,6 +41,8 @@ class ContactList {
   void clear();
   /// `history` of a contact whose `touching` is not 0, else null.
   void push(std::int32_t i, std::int32_t j, const double* history, std::uint8_t touching);
+  /// The entries of another list of the same kind behind these. Both without ranges.
+  void append(const ContactList& other);
   void set_ranges(std::vector<LawRange> ranges) { ranges_ = std::move(ranges); }
 
   /// Becomes the entries of `outer` that are in touch, with their histories, and those that may

@@ -243,6 +243,13 @@ void InnerList::adopt(const OuterList& outer, const ContactCarrier& contacts) {
   contacts.adopt(outer.fine(), fine_);
 }
 
+void InnerList::receive(ContactList pairs, ContactList walls, ContactList fine) {
+  set_tiles(1);
+  tiles_[0].contacts.pairs = std::move(pairs);
+  tiles_[0].contacts.walls = std::move(walls);
+  fine_ = std::move(fine);
+}
+
 void InnerList::renumber(std::span<const std::int32_t> new_row) {
   for (OfTile& t : tiles_) {
     t.contacts.pairs.renumber(new_row);

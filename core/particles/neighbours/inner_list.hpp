@@ -93,6 +93,8 @@ class InnerList {
   /// Those of them that a new outer list names.
   void adopt(const OuterList& outer, const ContactCarrier& contacts);
   void renumber(std::span<const std::int32_t> new_row);
+  /// Contacts in touch that another solver's lists held, until a new outer list names them.
+  void receive(ContactList pairs, ContactList walls, ContactList fine);
 
   void add_entries_to(base::Digest& digest) const;
   void add_histories_to(base::Digest& digest) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/store/balance_book.hpp"
 
+#include "dust/sdk/sphere.hpp"
+
 #include <algorithm>
 #include <string>
 
@@ -67,6 +69,29 @@ BalanceBook::Masses BalanceBook::masses_of(double diameter) const {
     masses.left += static_cast<double>(p.left) * unit;
     masses.removed += static_cast<double>(p.removed) * unit;
   }
+  return masses;
+}
+
+void BalanceBook::transfer_from(const BalanceBook& other, std::span<const std::int32_t> materials,
+                                std::span<const std::int32_t> openings,
+                                std::span<const double> density) {
+  populations_ = other.populations_;
+  for (Population& p : populations_) {
+    p.material = materials[static_cast<std::size_t>(p.material)];
+    // One whose grains are all gone may be of a material that is not known here.
+    if (p.material < 0) continue;
+    p.mass = density[static_cast<std::size_t>(p.material)] * sdk::sphere_volume(p.diameter);
+  }
+  for (std::size_t o = 0; o < openings.size(); ++o) {
+    if (openings[o] >= 0) extracted_[static_cast<std::size_t>(openings[o])] = other.extracted_[o];
+  }
+  balance_.max = other.balance_.max;
+  close();
+}
+
+std::vector<double> BalanceBook::masses() const {
+  std::vector<double> masses;
+  for (const Population& p : populations_) masses.push_back(p.mass);
   return masses;
 }
 

@@ -49,6 +49,14 @@ class BalanceBook {
   [[nodiscard]] std::span<const Population> populations() const { return populations_; }
   void set_openings(std::size_t count) { extracted_.resize(count); }
 
+  /// Goes on from another's books: what had come stays counted. Materials and openings have the
+  /// numbers here that are given by theirs (-1: none), a material its density [kg/m3] by the number
+  /// here. Populations keep their numbers.
+  void transfer_from(const BalanceBook& other, std::span<const std::int32_t> materials,
+                     std::span<const std::int32_t> openings, std::span<const double> density);
+  /// [kg] of one real grain, by population.
+  [[nodiscard]] std::vector<double> masses() const;
+
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
 

@@ -65,6 +65,39 @@ void ParticleStore::append(const NewGrain& g, double mass, std::int32_t populati
   if (has_openings_) touched_.push_back(-1);
 }
 
+void ParticleStore::transfer_from(const ParticleStore& other,
+                                  std::span<const std::int32_t> materials,
+                                  std::span<const std::int32_t> openings,
+                                  std::span<const double> mass) {
+  position_ = other.position_;
+  motion_ = other.motion_;
+  spin_ = other.spin_;
+  id_ = other.id_;
+  population_ = other.population_;
+  weight_ = other.weight_;
+  next_id_ = other.next_id_;
+  material_.clear();
+  for (const std::int32_t m : other.material_) {
+    material_.push_back(materials[static_cast<std::size_t>(m)]);
+  }
+  for (std::size_t n = 0; n < size(); ++n) {
+    velocity(n)[3] = 1.0 / mass[static_cast<std::size_t>(population_[n])];
+  }
+  if (has_fluid_ && other.has_fluid_) {
+    drag_ = other.drag_;
+    impulse_ = other.impulse_;
+    decay_ = other.decay_;
+  } else if (has_fluid_) {
+    drag_.assign(4 * size(), 0.0);
+    impulse_.assign(4 * size(), 0.0);
+    decay_.assign(2 * size(), 1.0);
+  }
+  set_openings(has_openings_);
+  for (std::size_t n = 0; n < touched_.size() && n < other.touched_.size(); ++n) {
+    if (other.touched_[n] >= 0) touched_[n] = openings[static_cast<std::size_t>(other.touched_[n])];
+  }
+}
+
 void ParticleStore::reorder(std::span<const std::int32_t> order) {
   reorder_rows(position_, order, 4);
   for (auto* rows : {&motion_, &spin_}) reorder_rows(*rows, order, k_motion_stride);

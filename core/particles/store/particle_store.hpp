@@ -99,6 +99,10 @@ class ParticleStore {
   // --- Particles come and go.
   /// At the end of the rows, with the next id. `mass` [kg] of a real particle.
   void append(const NewGrain& grain, double mass, std::int32_t population);
+  /// Becomes the particles of another store, row by row, whose materials and openings have the
+  /// numbers here that are given by theirs (-1: none); `mass` [kg] by population.
+  void transfer_from(const ParticleStore& other, std::span<const std::int32_t> materials,
+                     std::span<const std::int32_t> openings, std::span<const double> mass);
   /// Row n becomes what row order[n] was; rows not named are dropped.
   void reorder(std::span<const std::int32_t> order);
   /// Whether there are openings that particles may touch.

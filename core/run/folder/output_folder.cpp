@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 constexpr std::array k_run_files = {"scenario.yaml", "summary.json",   "series.csv",
                                     "results.h5",    "particles.xdmf", "fluid.xdmf",
                                     "walls.xdmf",    "checkpoint.h5",  "report.html",
-                                    "report.json",   "frames",         "series.csv-metadata.json"};
+                                    "report.json",   "frames",         "series.csv-metadata.json",
+                                    "checkpoints"};
 
 fs::path numbered(const std::string& name, int n) {
   return fs::path("results") / (n == 1 ? name : name + "-" + std::to_string(n));

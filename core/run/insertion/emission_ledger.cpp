@@ -25,6 +25,13 @@ EmissionLedger::Totals EmissionLedger::totals_of(std::size_t emitter) const {
   return t;
 }
 
+void EmissionLedger::transfer_from(const EmissionLedger& other,
+                                   std::span<const std::int32_t> emitters) {
+  for (std::size_t e = 0; e < emitters.size(); ++e) {
+    if (emitters[e] >= 0) lines_[static_cast<std::size_t>(emitters[e])] = other.lines_[e];
+  }
+}
+
 void EmissionLedger::save(sdk::ArchiveWriter& archive) const {
   std::vector<double> numbers;
   std::vector<std::int64_t> integers;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 namespace dust::run {
@@ -29,6 +30,9 @@ class EmissionLedger {
   /// Ascending by diameter.
   [[nodiscard]] std::vector<Line> lines_of(std::size_t emitter) const;
   [[nodiscard]] Totals totals_of(std::size_t emitter) const;
+
+  /// Goes on from another's: `emitters` are the numbers here of its own, -1 = not here.
+  void transfer_from(const EmissionLedger& other, std::span<const std::int32_t> emitters);
 
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);

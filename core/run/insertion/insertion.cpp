@@ -26,6 +26,14 @@ EntryScene entry_scene_of(const scenario::Setup& setup, const Models& models) {
   return scene;
 }
 
+/// Of the thing of this name, or -1.
+std::int32_t number_of(const auto& things, const std::string& name) {
+  for (std::size_t n = 0; n < things.size(); ++n) {
+    if (things[n].name == name) return static_cast<std::int32_t>(n);
+  }
+  return -1;
+}
+
 /// The turned frame of an emitter, if it has one.
 const scenario::FrameSpec* frame_of(const scenario::Setup& setup, std::size_t emitter) {
   const int frame = setup.emitters[emitter].frame;
@@ -46,7 +54,7 @@ void Insertion::propose(double time, const particles::GrainRows& rows) {
   }
 }
 
-void Insertion::propose(std::size_t n, double begin, double end, const particles::GrainRows& rows) {
+sdk::EmitterContext Insertion::context_of(std::size_t n, double begin, double end) const {
   const auto& spec = setup_.emitters[n];
   sdk::EmitterContext context;
   context.begin = begin;
@@ -55,6 +63,11 @@ void Insertion::propose(std::size_t n, double begin, double end, const particles
       setup_.materials[static_cast<std::size_t>(spec.material)].properties.density;
   context.gravity = setup_.gravity;
   context.random = sdk::Random(setup_.seed, sdk::stream_of(spec.name.c_str()));
+  return context;
+}
+
+void Insertion::propose(std::size_t n, double begin, double end, const particles::GrainRows& rows) {
+  sdk::EmitterContext context = context_of(n, begin, end);
   const LazySurroundings surroundings(scene_, rows, waiting_, models_.class_diameters.back(),
                                       frame_of(setup_, n));
   context.surroundings = &surroundings;
@@ -119,6 +132,32 @@ void Insertion::insert(double time, particles::Dem& dem) {
                   material.properties.density * sdk::sphere_volume(e.grain.diameter));
   }
   dem.insert(grains);
+}
+
+std::int64_t Insertion::transfer_from(const Insertion& other) {
+  std::vector<std::int32_t> emitters;
+  for (const auto& theirs : other.setup_.emitters) {
+    emitters.push_back(number_of(setup_.emitters, theirs.name));
+  }
+  ledger_.transfer_from(other.ledger_, emitters);
+  delayed_ = other.delayed_;
+  for (Entrant e : other.waiting_) {
+    e.emitter = emitters[static_cast<std::size_t>(e.emitter)];
+    const auto& material = other.setup_.materials[static_cast<std::size_t>(e.grain.material)];
+    e.grain.material = number_of(setup_.materials, material.name);
+    if (e.emitter >= 0 && e.grain.material >= 0) waiting_.push_back(e);
+  }
+  return static_cast<std::int64_t>(other.waiting_.size() - waiting_.size());
+}
+
+void Insertion::pass_time(std::size_t n, double time) {
+  if (!(time > 0.0)) return;
+  requests_.clear();
+  try {
+    models_.emitters[n]->propose(context_of(n, 0.0, time), requests_);
+  } catch (const std::exception& problem) {
+    throw sdk::ModelError(scene_.names[n] + ": " + problem.what());
+  }
 }
 
 void Insertion::save(sdk::ArchiveWriter& archive) const {

@@ -32,11 +32,19 @@ class Insertion {
   [[nodiscard]] const std::vector<Entrant>& waiting() const { return waiting_; }
   [[nodiscard]] const EmissionLedger& ledger() const { return ledger_; }
 
+  /// Goes on from that of another scenario, whose emitters and materials are known by their names.
+  /// Returns how many particles that wait for their place are given up, for theirs are not here.
+  std::int64_t transfer_from(const Insertion& other);
+  /// An emitter of its own passes the time up to `time` [s] as if nobody had looked: what it would
+  /// have released is not.
+  void pass_time(std::size_t emitter, double time);
+
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
 
  private:
   void insert(double time, particles::Dem& dem);
+  [[nodiscard]] sdk::EmitterContext context_of(std::size_t emitter, double begin, double end) const;
   void propose(double time, const particles::GrainRows& rows);
   void propose(std::size_t emitter, double begin, double end, const particles::GrainRows& rows);
   void add_waiting(std::size_t emitter, double begin, const sdk::InsertionRequest& request);

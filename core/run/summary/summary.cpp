@@ -235,6 +235,14 @@ Json run_json(const Simulation& s, const RunFacts& facts) {
   j["version"] = DUST_VERSION;
   j["status"] = facts.status;
   if (!facts.reason.empty()) j["reason"] = facts.reason;
+  if (facts.start) {
+    j["start_from"] = {{"state", facts.start->state},
+                       {"time_s", facts.start->time},
+                       {"grains", facts.start->particles},
+                       {"contacts", facts.start->contacts},
+                       {"contacts_without_past", facts.start->without_past},
+                       {"is_same_scenario", facts.start->is_same}};
+  }
   j["threads"] = facts.threads;
   j["wall_s"] = facts.wall_s;
   j["cpu_s"] = facts.cpu_s;

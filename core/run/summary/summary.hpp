@@ -6,10 +6,21 @@
 #include "setup/reference_spec.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace dust::run {
+
+/// The state that a run started from.
+struct StartFacts {
+  std::string state;              ///< the file
+  double time = 0.0;              ///< [s]
+  std::int64_t particles = 0;     ///< that came along
+  std::int64_t contacts = 0;      ///< of them, in touch
+  std::int64_t without_past = 0;  ///< contacts that began anew
+  bool is_same = false;           ///< the scenario says the same
+};
 
 /// What the run loop knows beside the simulation. Times include those before a resume.
 struct RunFacts {
@@ -26,6 +37,7 @@ struct RunFacts {
   std::vector<scenario::ReferenceCurve> reference_curves;
   const registry::Registry* registry = nullptr;  ///< where the models came from; null in tests
   std::string scenario_sha256;                   ///< of scenario.yaml as run
+  std::optional<StartFacts> start;               ///< nothing: at 0 s
   std::vector<std::string> log_header;           ///< the first lines of run.log
 };
 

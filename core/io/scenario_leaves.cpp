@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/scenario_leaves.hpp"
+
+#include "base/error.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace dust::io {
+namespace {
+
+template <class Visit>
+void each_leaf(const YAML::Node& node, const std::string& path, const Visit& visit) {
+  if (node.IsMap() && node.size() > 0) {
+    for (const auto& entry : node) {
+      each_leaf(entry.second, (path.empty() ? "" : path + ".") + entry.first.Scalar(), visit);
+    }
+  } else if (node.IsSequence() && node.size() > 0) {
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      each_leaf(node[i], path + "[" + std::to_string(i) + "]", visit);
+    }
+  } else {
+    visit(path, node.IsScalar() ? node.Scalar() : "nothing");
+  }
+}
+
+bool is_below(std::string_view path, std::string_view above) {
+  if (!path.starts_with(above)) return false;
+  return path.size() == above.size() || path[above.size()] == '.' || path[above.size()] == '[';
+}
+
+bool is_below_any(std::string_view path, std::span<const std::string_view> list) {
+  return std::any_of(list.begin(), list.end(),
+                     [&](std::string_view above) { return is_below(path, above); });
+}
+
+}  // namespace
+
+ScenarioLeaves::ScenarioLeaves(const std::string& resolved_yaml) {
+  try {
+    each_leaf(YAML::Load(resolved_yaml), "", [&](const std::string& path, std::string value) {
+      leaves_.push_back({path, std::move(value)});
+    });
+  } catch (const YAML::Exception& e) {
+    throw base::RunError(std::string("its scenario cannot be read: ") + e.what());
+  }
+}
+
+template <class Takes>
+std::vector<ScenarioLeaves::Leaf> ScenarioLeaves::chosen(const Takes& takes) const {
+  std::vector<Leaf> taken;
+  std::copy_if(leaves_.begin(), leaves_.end(), std::back_inserter(taken),
+               [&](const Leaf& leaf) { return takes(leaf.path); });
+  return taken;
+}
+
+std::string ScenarioLeaves::first_difference(const ScenarioLeaves& now,
+                                             std::span<const std::string_view> ignored) const {
+  const auto takes = [&](const std::string& path) { return !is_below_any(path, ignored); };
+  const std::vector<Leaf> a = chosen(takes);
+  const std::vector<Leaf> b = now.chosen(takes);
+  const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  if (in_a == a.end() && in_b == b.end()) return "";
+  const auto show = [](auto leaf, auto end) {
+    return leaf == end ? std::string("nothing more") : "'" + leaf->path + ": " + leaf->value + "'";
+  };
+  return show(in_a, a.end()) + " in the checkpoint, " + show(in_b, b.end()) + " now";
+}
+
+bool ScenarioLeaves::is_same_below(const std::string& path, const ScenarioLeaves& other,
+                                   std::span<const std::string_view> ignored) const {
+  const auto takes = [&](const std::string& leaf) {
+    return is_below(leaf, path) && !is_below_any(leaf, ignored);
+  };
+  return chosen(takes) == other.chosen(takes);
+}
+
+}  // namespace dust::io

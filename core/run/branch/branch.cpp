@@ -1,0 +1,466 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/branch/branch.hpp"
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "run/dust/hoods.hpp"
+#include "scenario/units.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace dust::run {
+namespace {
+
+using scenario::number_text;
+
+/// What the state does not depend on.
+constexpr std::array<std::string_view, 8> k_free = {"start_from",      "name",
+                                                    "time.end",        "time.output_every",
+                                                    "references",      "time.checkpoint_every",
+                                                    "time.keep_every", "reference_curves"};
+
+/// What lets things in and what looks at them: not part of the state of what is there.
+constexpr std::array<std::string_view, 10> k_outside_world = {
+    "start_from",      "name",
+    "time.end",        "time.output_every",
+    "references",      "time.checkpoint_every",
+    "time.keep_every", "reference_curves",
+    "sensors",         "emitters"};
+
+std::string seconds(double time) { return base::digits_text(time, 10) + " s"; }
+
+std::string place_text(const sdk::Vec3& p) {
+  return "(" + base::digits_text(p.x, 4) + ", " + base::digits_text(p.y, 4) + ", " +
+         base::digits_text(p.z, 4) + ") m";
+}
+
+std::string grains_text(std::int64_t count) {
+  return count == 1 ? "1 grain" : std::to_string(count) + " grains";
+}
+
+bool is_at(const auto& a, const auto& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+const auto* find_named(const auto& things, const std::string& name) {
+  const auto at = std::find_if(things.begin(), things.end(),
+                               [&](const auto& thing) { return thing.name == name; });
+  return at == things.end() ? nullptr : &*at;
+}
+
+std::pair<std::string, std::string> ordered(const std::string& a, const std::string& b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+std::pair<std::string, std::string> pair_names(const scenario::Setup& setup,
+                                               const scenario::InteractionSpec& pair) {
+  return ordered(setup.materials[static_cast<std::size_t>(pair.material_i)].name,
+                 setup.materials[static_cast<std::size_t>(pair.material_j)].name);
+}
+
+bool is_same_model(const std::optional<scenario::ModelChoice>& a,
+                   const std::optional<scenario::ModelChoice>& b) {
+  return a.has_value() == b.has_value() && (!a || a->name == b->name);
+}
+
+/// Reads a part as if its numbers had another name or length.
+class Changed final : public sdk::ArchiveReader {
+ public:
+  using Change = std::function<void(std::string_view name, std::vector<double>& values)>;
+  Changed(sdk::ArchiveReader& from, Change change) : from_(from), change_(std::move(change)) {}
+  std::vector<double> numbers(std::string_view name) override {
+    auto values = from_.numbers(name);
+    change_(name, values);
+    return values;
+  }
+  std::vector<std::int64_t> integers(std::string_view name) override {
+    return from_.integers(name);
+  }
+
+ private:
+  sdk::ArchiveReader& from_;
+  Change change_;
+};
+
+}  // namespace
+
+Branch::Branch(const scenario::ReadResult& now, const registry::Registry& registry,
+               scenario::Diagnostics& diagnostics)
+    : now_(now),
+      registry_(registry),
+      diagnostics_(diagnostics),
+      origin_(*now.start.from, registry),
+      leaves_(now.resolved_yaml),
+      is_same_(origin_.leaves().first_difference(leaves_, k_free).empty()),
+      is_same_world_(origin_.leaves().first_difference(leaves_, k_outside_world).empty()) {
+  check_time();
+  check_domain();
+}
+
+bool Branch::same(std::string_view path, std::span<const std::string_view> ignored) const {
+  return leaves_.is_same_below(std::string(path), origin_.leaves(), ignored);
+}
+
+void Branch::check_time() {
+  const double time = origin_.time();
+  const double step = now_.setup.time.fluid_step;
+  const double steps = time / step;
+  if (std::abs(steps - std::round(steps)) > 1e-6) {
+    error("its time, " + seconds(time) + ", is no multiple of time.fluid_step, " + seconds(step) +
+          ": give a step that divides it, or start from another time");
+  }
+  if (now_.setup.time.end <= time * (1.0 + 1e-9)) {
+    diagnostics_.error(now_.start.end_where,
+                       "time.end: " + seconds(now_.setup.time.end) +
+                           " is not after the time that the run starts from, " + seconds(time) +
+                           ": time goes on from there");
+  }
+}
+
+void Branch::check_domain() {
+  const auto& here = now_.setup.domain;
+  const auto& there = origin_.scenario().setup.domain;
+  if (is_at(here.min, there.min) && is_at(here.max, there.max)) return;
+  error("its domain reaches from " + place_text(there.min) + " to " + place_text(there.max) +
+        ", this one from " + place_text(here.min) + " to " + place_text(here.max) +
+        ": what comes along keeps its place; give the same domain");
+}
+
+std::int64_t Branch::particles_there() const {
+  std::int64_t count = 0;
+  origin_.state().read({{"grains", [&](sdk::ArchiveReader& a) {
+                           count = static_cast<std::int64_t>(a.integers("id").size());
+                         }}});
+  return count;
+}
+
+void Branch::add_diameters(std::vector<double>& diameters) const {
+  std::vector<double> more = origin_.class_diameters();
+  if (!is_same_) {
+    // Sizes that none is left of shall not shorten the step.
+    more.clear();
+    origin_.state().read({{"grains",
+                           [&](sdk::ArchiveReader& a) {
+                             const auto rows = a.numbers("position");
+                             for (std::size_t n = 3; n < rows.size(); n += 4) {
+                               more.push_back(2.0 * rows[n]);
+                             }
+                           }},
+                          {"clock", [&](sdk::ArchiveReader& a) {
+                             // A waiting grain: eleven numbers, the tenth its diameter.
+                             const auto rows = a.numbers("waiting");
+                             for (std::size_t n = 9; n < rows.size(); n += 11) {
+                               more.push_back(rows[n]);
+                             }
+                           }}});
+  }
+  diameters.insert(diameters.end(), more.begin(), more.end());
+  std::sort(diameters.begin(), diameters.end());
+  diameters.erase(std::unique(diameters.begin(), diameters.end()), diameters.end());
+}
+
+Models& Branch::their_models() {
+  if (their_models_) return *their_models_;
+  their_models_.emplace(make_models(origin_.scenario().setup, registry_));
+  Models& models = *their_models_;
+  if (!origin_.class_diameters().empty()) models.class_diameters = origin_.class_diameters();
+  origin_.state().read({{"bodies", [&](sdk::ArchiveReader& a) {
+                           const auto removed_at = a.numbers("removed_at");
+                           for (std::size_t b = 0; b < models.bodies.size(); ++b) {
+                             models.bodies[b].removed_at = removed_at.at(b);
+                           }
+                         }}});
+  return models;
+}
+
+/// The other run's particles, as it had them.
+particles::Dem& Branch::their_particles() {
+  if (their_particles_) return *their_particles_;
+  const scenario::Setup& setup = origin_.scenario().setup;
+  their_particles_ = make_particles(setup, their_models());
+  their_particles_->draw_out_at(openings_of(setup, origin_.scenario().dust));
+  origin_.state().read({{"grains", [&](sdk::ArchiveReader& a) { their_particles_->load(a); }}});
+  return *their_particles_;
+}
+
+void Branch::check(particles::Dem& particles) {
+  if (is_same_ || diagnostics_.has_errors()) return;
+  tell_obstacles(particles.obstacles_to(their_particles(), origin_.time()));
+}
+
+void Branch::tell_obstacles(const particles::TransferObstacles& found) {
+  for (const std::string& material : found.missing_materials) {
+    error("there are grains of the material '" + material +
+          "', which this scenario does not have: declare it under materials, with its "
+          "interactions");
+  }
+  for (const auto& blocked : found.blocked) {
+    const auto* body = find_named(now_.setup.bodies, blocked.surface);
+    const std::string what = grains_text(blocked.count) + " of the run in " +
+                             start().folder.string() + " lie in it, the first, number " +
+                             std::to_string(blocked.first_id) + ", at " +
+                             place_text(blocked.first_place) +
+                             ": move it, or start from a time at which its place is free";
+    if (body != nullptr) {
+      diagnostics_.error(body->where, "bodies." + blocked.surface + ": " + what);
+    } else {
+      error("domain.boundaries." + blocked.surface + ": " + what);
+    }
+  }
+  if (found.outside > 0) {
+    error(grains_text(found.outside) + " would be beyond the walls, the first at " +
+          place_text(found.first_outside) + ": give the sides that the run had");
+  }
+  if (found.missing_materials.empty()) check_pairs(found.materials);
+}
+
+/// What comes along may meet all that is here.
+void Branch::check_pairs(const std::vector<std::string>& materials) {
+  const scenario::Setup& setup = now_.setup;
+  std::vector<std::string> others = materials;
+  const auto add = [&](int material) {
+    if (material < 0) return;
+    const std::string& name = setup.materials[static_cast<std::size_t>(material)].name;
+    if (std::find(others.begin(), others.end(), name) == others.end()) others.push_back(name);
+  };
+  for (const auto& emitter : setup.emitters) add(emitter.material);
+  for (const auto& body : setup.bodies) add(body.material);
+  for (const auto& side : setup.domain.sides) {
+    if (side.grains == scenario::GrainSide::wall) add(side.material);
+  }
+  for (std::size_t a = 0; a < materials.size(); ++a) {
+    // Each pair of materials that come along once.
+    for (std::size_t b = a; b < others.size(); ++b) {
+      const auto is_pair = [&](const scenario::InteractionSpec& spec) {
+        return pair_names(setup, spec) == ordered(materials[a], others[b]);
+      };
+      if (std::any_of(setup.interactions.begin(), setup.interactions.end(), is_pair)) continue;
+      error("grains of " + materials[a] + " come along and may meet " + others[b] +
+            ": declare the pair under interactions");
+    }
+  }
+}
+
+/// Laws of the same materials; each number of a history means the same to the same model.
+std::vector<particles::LawTransfer> Branch::laws() const {
+  const scenario::Setup& here = now_.setup;
+  const scenario::Setup& there = origin_.scenario().setup;
+  std::vector<particles::LawTransfer> laws;
+  for (const scenario::InteractionSpec& theirs : there.interactions) {
+    particles::LawTransfer law;
+    for (std::size_t n = 0; n < here.interactions.size(); ++n) {
+      const scenario::InteractionSpec& ours = here.interactions[n];
+      if (pair_names(here, ours) != pair_names(there, theirs)) continue;
+      law = {.law = static_cast<int>(n),
+             .keeps_contact = ours.contact.name == theirs.contact.name,
+             .keeps_rolling = is_same_model(ours.rolling, theirs.rolling),
+             .keeps_cohesion = is_same_model(ours.cohesion, theirs.cohesion)};
+    }
+    laws.push_back(law);
+  }
+  return laws;
+}
+
+void Branch::give_to(Simulation& simulation) {
+  if (!is_same_) {
+    simulation.start_from([this](const Simulation::Owners& to) {
+      check(to.particles);
+      diagnostics_.throw_errors();
+      transfer(to);
+    });
+    return;
+  }
+  origin_.state().read(simulation.load_parts());
+  report_.particles = simulation.dem().balance().in_domain;
+  report_.contacts = simulation.dem().report().contacts;
+}
+
+void Branch::transfer(const Simulation::Owners& to) {
+  is_same_world_ = is_same_world_ && to.models.class_diameters == origin_.class_diameters();
+  const double steps = origin_.time() / now_.setup.time.fluid_step;
+  to.clock.start_at(std::llround(steps));
+  transfer_bodies(to.models);
+  transfer_particles(to);
+  transfer_insertion(to);
+  if (to.fluid != nullptr) transfer_fluid(to);
+  if (to.dust != nullptr) transfer_dust(to);
+  transfer_sensors(to.models);
+  // Last, so that the places of the last sample are those saved, not those just published.
+  origin_.state().read({{"columns", [&](sdk::ArchiveReader& a) {
+                           to.snapshots.take(to.particles);
+                           to.snapshots.load(a);
+                         }}});
+}
+
+/// Bodies that were taken away stay away.
+void Branch::transfer_bodies(Models& models) {
+  for (bodies::Body& body : models.bodies) {
+    const auto* theirs = find_named(their_models().bodies, body.name);
+    if (theirs != nullptr) body.removed_at = theirs->removed_at;
+  }
+}
+
+void Branch::transfer_particles(const Simulation::Owners& to) {
+  if (is_same_world_) {
+    origin_.state().read({{"grains", [&](sdk::ArchiveReader& a) { to.particles.load(a); }}});
+    report_.particles = to.particles.balance().in_domain;
+    report_.contacts = to.particles.report().contacts;
+    return;
+  }
+  const auto transfers = laws();
+  report_ = to.particles.transfer_from(their_particles(), origin_.time(), transfers);
+  if (report_.without_past == 0) return;
+  warn(std::to_string(report_.without_past) + " of " + std::to_string(report_.contacts) +
+       " contacts begin anew, without the springs of before: their laws keep other numbers");
+}
+
+void Branch::transfer_insertion(const Simulation::Owners& to) {
+  Insertion theirs(origin_.scenario().setup, their_models());
+  origin_.state().read({{"clock", [&](sdk::ArchiveReader& a) { theirs.load(a); }}});
+  if (const std::int64_t lost = to.insertion.transfer_from(theirs); lost > 0) {
+    warn(grains_text(lost) + " that waited for their place do not come: their emitters are gone");
+  }
+  for (std::size_t n = 0; n < now_.setup.emitters.size(); ++n) {
+    const std::string& name = now_.setup.emitters[n].name;
+    const bool was_there = find_named(origin_.scenario().setup.emitters, name) != nullptr;
+    if (was_there && same("emitters." + name) && same("frames") && same("seed")) {
+      origin_.state().read(
+          {{"emitter." + name, [&](sdk::ArchiveReader& a) { to.models.emitters[n]->load(a); }}});
+      continue;
+    }
+    to.insertion.pass_time(n, origin_.time());
+    if (!was_there) continue;
+    warn("emitters." + name + " is set otherwise: it goes on as if it had been so from the start");
+  }
+}
+
+bool Branch::is_same_grid() const {
+  const auto& here = now_.setup;
+  const auto& there = origin_.scenario().setup;
+  if (!here.fluid || !there.fluid || here.fluid->cells != there.fluid->cells) return false;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto is_periodic = [d](const scenario::Setup& s) {
+      return s.domain.sides[2 * d].grains == scenario::GrainSide::periodic;
+    };
+    if (is_periodic(here) != is_periodic(there)) return false;
+  }
+  return true;
+}
+
+void Branch::transfer_fluid(const Simulation::Owners& to) {
+  const io::StoredState& state = origin_.state();
+  FluidStage& fluid = *to.fluid;
+  const double time = origin_.time();
+  const bool has_grains = fluid.coupling() != nullptr;
+  if (!is_same_grid()) {
+    warn("the fluid has another grid, or there was none: it starts with fluid.initial_velocity");
+    if (has_grains) fluid.start(to.particles.rows());
+    return;
+  }
+  LoadParts parts;
+  fluid.add_parts(
+      parts, [time] { return time; }, [] {});
+  const bool had_movers = state.has("fluid", "open_cells");
+  static constexpr std::array<std::string_view, 4> k_ways = {"fluid_forces", "voidage", "drag",
+                                                             "coupling"};
+  const bool is_coupled_so =
+      state.has("coupling", "grain_ids") && same("materials") && same("fluid") &&
+      std::all_of(k_ways.begin(), k_ways.end(), [&](std::string_view way) { return same(way); });
+  for (const auto& [name, load] : parts) {
+    if (name == "fluid" && had_movers != fluid.solver().has_moving_bodies()) {
+      state.read({{name, [&](sdk::ArchiveReader& a) { fluid.load_velocity(a); }}});
+      continue;
+    }
+    if (name == "coupling" && !is_coupled_so) continue;
+    if (name == "held_fluid" && !state.has(name, "pressure")) continue;
+    state.read({{name, load}});
+  }
+  if (is_same_world_) return;
+  fluid.mend_velocity(time);
+  if (has_grains) fluid.start(to.particles.rows());
+  if (has_grains && !is_coupled_so && state.has("coupling", "grain_ids")) {
+    warn(
+        "fluid, drag, voidage or the other forces are set otherwise: what grains and fluid owe "
+        "each other from the step before is dropped");
+  }
+}
+
+void Branch::transfer_dust(const Simulation::Owners& to) {
+  const io::StoredState& state = origin_.state();
+  static constexpr std::array<std::string_view, 3> k_free_of_field = {
+      "dust.field.clouds", "dust.field.sources", "dust.field.schmidt_number"};
+  if (!is_same_grid() || !state.has("dust", "volume") || !same("dust.field", k_free_of_field)) {
+    warn(
+        "dust.field has another grid or other classes, or there was none: its air starts as "
+        "the scenario says");
+    to.dust->start();
+    return;
+  }
+  const auto theirs = origin_.scenario();
+  const auto openings_then = openings_of(theirs.setup, theirs.dust);
+  const auto openings_now = openings_of(now_.setup, now_.dust);
+  const auto change = [&](std::string_view name, std::vector<double>& values) {
+    if (name.ends_with("_surfaces")) {
+      constexpr std::size_t k_sides = 6;
+      std::vector<double> mine(k_sides + now_.setup.bodies.size(), 0.0);
+      for (std::size_t n = 0; n < values.size(); ++n) {
+        if (n < k_sides) {
+          mine[n] = values[n];
+        } else if (const auto* body =
+                       find_named(now_.setup.bodies, theirs.setup.bodies[n - k_sides].name)) {
+          mine[k_sides + static_cast<std::size_t>(body - now_.setup.bodies.data())] = values[n];
+        }
+      }
+      values = std::move(mine);
+    } else if (name.ends_with("_outlets")) {
+      std::vector<double> mine(openings_now.size(), 0.0);
+      for (std::size_t n = 0; n < values.size() && n < openings_then.size(); ++n) {
+        if (const auto* opening = find_named(openings_now, openings_then[n].name)) {
+          mine[static_cast<std::size_t>(opening - openings_now.data())] = values[n];
+        }
+      }
+      values = std::move(mine);
+    }
+  };
+  LoadParts parts;
+  to.dust->add_parts(parts);
+  for (const auto& part : parts) {
+    state.read({{part.first, [&](sdk::ArchiveReader& a) {
+                   Changed changed(a, change);
+                   part.second(changed);
+                 }}});
+  }
+}
+
+/// What a sensor has added up means the same to it.
+bool Branch::keeps_statistics(const std::string& name, const sdk::Sensor& model,
+                              const std::vector<double>& class_diameters) const {
+  if (class_diameters != origin_.class_diameters()) return false;
+  if (find_named(origin_.scenario().setup.sensors, name) == nullptr) return false;
+  if (!same("sensors." + name) || !same("dust") || !same("time.fluid_step")) return false;
+  const auto names = [](const auto& things) {
+    std::vector<std::string> all;
+    for (const auto& thing : things) all.push_back(thing.name);
+    return all;
+  };
+  const auto& theirs = origin_.scenario().setup;
+  if (names(theirs.materials) != names(now_.setup.materials)) return false;
+  return !model.wants_walls() || names(theirs.bodies) == names(now_.setup.bodies);
+}
+
+void Branch::transfer_sensors(Models& models) {
+  for (std::size_t n = 0; n < models.sensors.size(); ++n) {
+    const std::string& name = now_.setup.sensors[n].name;
+    sdk::Sensor& sensor = *models.sensors[n];
+    if (keeps_statistics(name, sensor, models.class_diameters)) {
+      origin_.state().read({{"sensor." + name, [&](sdk::ArchiveReader& a) { sensor.load(a); }}});
+    } else if (find_named(origin_.scenario().setup.sensors, name) != nullptr) {
+      warn("sensors." + name + " begins anew: it, or what it looks at, is set otherwise");
+    }
+  }
+}
+
+}  // namespace dust::run

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "particles/transfer/transfer.hpp"
+#include "registry/registry.hpp"
+#include "run/branch/origin.hpp"
+#include "run/models.hpp"
+#include "run/simulation.hpp"
+#include "scenario/diagnostics.hpp"
+#include "scenario/reader.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dust::run {
+
+/// A scenario that starts from the state of another run (docs/how_to/branch_a_run.md).
+///
+/// Where both scenarios say the same, all of the state is loaded, and the run goes on with the same
+/// bits as if it had not been cut. Where they differ, each owner takes what still means something
+/// to it: particles with the histories of their contacts, the fluid on the same grid, statistics of
+/// sensors that are the same. The rest is told.
+class Branch {
+ public:
+  /// Reads the other run's scenario; `now` and `registry` are kept by reference. What cannot be
+  /// goes to `diagnostics`.
+  Branch(const scenario::ReadResult& now, const registry::Registry& registry,
+         scenario::Diagnostics& diagnostics);
+
+  [[nodiscard]] const Origin& origin() const { return origin_; }
+  /// Whether the scenarios differ in nothing that the state depends on.
+  [[nodiscard]] bool is_same() const { return is_same_; }
+  /// How many particles the other run's state holds.
+  [[nodiscard]] std::int64_t particles_there() const;
+  /// Sizes of the particles that come along.
+  void add_diameters(std::vector<double>& class_diameters) const;
+  /// Looks for what is in the way of the other run's particles.
+  void check(particles::Dem& particles);
+  /// Gives the state to a simulation that has not started. Throws base::UserError with what is in
+  /// the way, before anything is given.
+  void give_to(Simulation& simulation);
+
+  /// What came along; after give_to().
+  [[nodiscard]] const particles::TransferReport& report() const { return report_; }
+
+ private:
+  using Leaves = io::ScenarioLeaves;
+
+  void check_time();
+  void check_domain();
+  void tell_obstacles(const particles::TransferObstacles& obstacles);
+  [[nodiscard]] bool same(std::string_view path,
+                          std::span<const std::string_view> ignored = {}) const;
+  [[nodiscard]] bool is_same_grid() const;
+  void error(const std::string& text) { diagnostics_.error(start().where, "start_from: " + text); }
+  void warn(const std::string& text) { diagnostics_.warning(start().where, "start_from: " + text); }
+  [[nodiscard]] const scenario::StartSpec& start() const { return *now_.start.from; }
+  [[nodiscard]] std::vector<particles::LawTransfer> laws() const;
+  void check_pairs(const std::vector<std::string>& materials);
+  Models& their_models();
+  particles::Dem& their_particles();
+
+  void transfer(const Simulation::Owners& to);
+  void transfer_bodies(Models& models);
+  void transfer_particles(const Simulation::Owners& to);
+  void transfer_insertion(const Simulation::Owners& to);
+  void transfer_fluid(const Simulation::Owners& to);
+  void transfer_dust(const Simulation::Owners& to);
+  void transfer_sensors(Models& models);
+  [[nodiscard]] bool keeps_statistics(const std::string& name, const sdk::Sensor& model,
+                                      const std::vector<double>& class_diameters) const;
+
+  const scenario::ReadResult& now_;
+  const registry::Registry& registry_;
+  scenario::Diagnostics& diagnostics_;
+  Origin origin_;
+  Leaves leaves_;
+  bool is_same_ = false;
+  bool is_same_world_ = false;  ///< but for what lets things in and what looks at them
+  std::optional<Models> their_models_;
+  std::unique_ptr<particles::Dem> their_particles_;
+  particles::TransferReport report_;
+};
+
+}  // namespace dust::run

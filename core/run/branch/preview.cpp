@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/branch/preview.hpp"
+
+#include "run/branch/branch.hpp"
+
+namespace dust::run {
+
+std::optional<StartFacts> preview_start(const scenario::ReadResult& read,
+                                        const registry::Registry& registry,
+                                        scenario::Diagnostics& diagnostics) {
+  if (!read.start.from) return std::nullopt;
+  const scenario::StartSpec& start = *read.start.from;
+  if (!has_origin(start)) {
+    diagnostics.warning(start.where, "start_from: " + start.folder.string() +
+                                         " holds no checkpoint.h5 yet: run that scenario first, "
+                                         "with -o " +
+                                         start.folder.string());
+    return std::nullopt;
+  }
+  Branch branch(read, registry, diagnostics);
+  Models models = make_models(read.setup, registry);
+  branch.add_diameters(models.class_diameters);
+  branch.check(*make_particles(read.setup, models));
+  return StartFacts{.state = branch.origin().state().file().string(),
+                    .time = branch.origin().time(),
+                    .particles = branch.particles_there(),
+                    .is_same = branch.is_same()};
+}
+
+}  // namespace dust::run
