@@ -205,6 +205,12 @@ GrainRows Dem::rows() {
   return impl_->store.rows();
 }
 
+void Dem::turn(std::size_t row, sdk::Vec3 change) {
+  for (double* spin : {impl_->store.rotation(row), impl_->store.half_rotation(row)}) {
+    for (int d = 0; d < 3; ++d) spin[d] += change[d];
+  }
+}
+
 std::span<const double> Dem::last_force() const {
   impl_->synchronise();
   impl_->fill_last_force();

@@ -130,6 +130,9 @@ class Dem {
   /// it, so that several may look at the same time.
   void land();
   [[nodiscard]] GrainRows rows();
+  /// Changes the angular velocity [rad/s] of a particle at once, as a torque that acted before
+  /// would have. Call between coarse steps.
+  void turn(std::size_t row, sdk::Vec3 change);
   /// Force [N] (contact + fluid + weight) of the last step, 4 per grain in row order; without the
   /// contacts of coarse grains where contact() did not keep them.
   [[nodiscard]] std::span<const double> last_force() const;

@@ -8,6 +8,7 @@
 #include "fluid/grid.hpp"
 #include "preflight/cost.hpp"
 #include "preflight/particle_models.hpp"
+#include "resolved/marker_lattice.hpp"
 #include "scenario/units.hpp"
 #include "setup/mark.hpp"
 
@@ -147,6 +148,22 @@ void derive_ratios(const Setup& setup, Derived& derived) {
       derived.expected_speed * setup.time.fluid_step / derived.smallest_spacing;
 }
 
+void derive_resolved(const Setup& setup, const ParticleModels& models, Derived& derived) {
+  if (!setup.fluid) return;
+  const sdk::Vec3 h =
+      fluid::Grid::make(setup.domain.min, setup.domain.max, setup.fluid->cells, {}).spacing;
+  for (std::size_t n = 0; n < models.emitters.size(); ++n) {
+    const EmitterSpec& emitter = setup.emitters[n];
+    const int material =
+        emitter.more_materials.empty() ? emitter.material : emitter.more_materials.front();
+    const auto diameters = models.emitters[n]->diameters();
+    if (!setup.fluid->resolves(material) || diameters.empty()) continue;
+    const double least = *std::min_element(diameters.begin(), diameters.end());
+    derived.resolved.push_back({emitter.name, least, least / std::max({h.x, h.y, h.z}),
+                                resolved::marker_count(least / derived.mean_spacing)});
+  }
+}
+
 }  // namespace
 
 particles::TimeSteps derive_steps(const Setup& setup, const registry::Registry& registry) {
@@ -188,6 +205,7 @@ Derived derive(const Setup& setup, const registry::Registry& registry) {
     derived.emissions.push_back(count_grains(setup, setup.emitters[n], *models.emitters[n]));
   }
   derive_ratios(setup, derived);
+  derive_resolved(setup, models, derived);
   estimate_cost(setup, body_speed, derived);
   return derived;
 }

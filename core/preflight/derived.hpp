@@ -21,11 +21,20 @@ struct EmissionNumbers {
   double volume_at_once = 0.0;       ///< [m3] of them; 0 where their sizes are not known
 };
 
+/// Spheres that the grid resolves.
+struct ResolvedNumbers {
+  std::string emitter;
+  double diameter = 0.0;  ///< [m] smallest of the emitter
+  double cells = 0.0;     ///< across it, of the longest edge
+  int markers = 0;        ///< on each
+};
+
 /// Numbers that follow from a scenario and tell whether it is sensible, before it is run.
 struct Derived {
   double expected_speed = 0.0;  ///< [m/s] of flow: given, or bodies, emitters and drops
   particles::TimeSteps steps;   ///< as the run takes them; without classes where no grains come
   std::vector<EmissionNumbers> emissions;
+  std::vector<ResolvedNumbers> resolved;
   double smallest_spacing = 0.0;       ///< [m] 0 without fluid
   double mean_spacing = 0.0;           ///< [m] edge of a cube of a cell's volume
   double diameter_over_spacing = 0.0;  ///< largest grain over smallest cell edge

@@ -113,6 +113,7 @@ void MarkerForcing::find_change(const fluid::FaceField& velocity, double step) {
   });
 }
 
+/// docs/theory/resolved.md, eq. (5), (7): the sums.
 void MarkerForcing::spread(Forces Marked::*forces) {
   each_part([&](std::size_t s, std::size_t d) {
     Marked& m = marked_[s];
@@ -163,6 +164,7 @@ void MarkerForcing::force(fluid::FaceField& velocity, const fluid::ForcedFluid& 
   }
 }
 
+/// docs/theory/resolved.md, eq. (8).
 const fluid::FaceField& MarkerForcing::add_mean_to(const fluid::FaceField& given,
                                                    const fluid::CellField& eps) {
   tbb::parallel_for(std::size_t{0}, std::size_t{3}, [&](std::size_t d) {

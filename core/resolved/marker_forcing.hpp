@@ -16,10 +16,10 @@ namespace dust::resolved {
 
 /// Drives the fluid at the markers of spheres to the velocity of their surfaces (direct forcing,
 /// Uhlmann 2005, 10.1016/j.jcp.2005.03.017, in several loops, Breugem 2012,
-/// 10.1016/j.jcp.2012.02.026): docs/theory/resolved.md, eq. (5) to (8). The forces of the part
-/// before act during the prediction, so that the implicit viscous step knows of the surface; only
-/// what is missing is given after it. Sums run in the order of the spheres and their markers: the
-/// same bits for any number of threads.
+/// 10.1016/j.jcp.2012.02.026): docs/theory/resolved.md, eq. (1). The forces of the part before act
+/// during the prediction, so that the implicit viscous step knows of the surface; only what is
+/// missing is given after it. Sums run in the order of the spheres and their markers: the same bits
+/// for any number of threads.
 class MarkerForcing final : public fluid::VelocityForcing {
  public:
   /// `density` [kg/m3] of the fluid; the grid is kept by reference.

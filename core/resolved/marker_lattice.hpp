@@ -8,8 +8,8 @@
 namespace dust::resolved {
 
 /// Of a cell: how far inside the surface the markers stand, so that the fluid, which meets a layer
-/// as thick as the delta function, has the drag of the sphere itself; docs/theory/resolved.md,
-/// eq. (2). Breugem (2012) takes 0.3; found here with cubic arrays at 8 and 16 cells across.
+/// as thick as the delta function, has the drag of the sphere itself: docs/theory/resolved.md, eq.
+/// (2). Breugem (2012) takes 0.3; found here with cubic arrays at 16 cells across.
 inline constexpr double k_retraction = 0.37;
 
 /// Markers of a sphere of so many `cells` across; docs/theory/resolved.md, eq. (3).

@@ -112,6 +112,7 @@ void ResolvedSpheres::evaluate(const fluid::FaceField& velocity) {
   report_.largest_slip = forcing_.largest_slip(velocity);
 }
 
+/// docs/theory/resolved.md, eq. (11).
 void ResolvedSpheres::act(const GrainRows& grains, const Turn& turn) {
   const double rate = k_relaxed / around_.step;
   const double relaxed = -std::expm1(-k_relaxed);

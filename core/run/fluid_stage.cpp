@@ -19,6 +19,15 @@ fluid::Grid grid_of(const scenario::Setup& setup) {
   return fluid::Grid::make(setup.domain.min, setup.domain.max, setup.fluid->cells, periodic);
 }
 
+/// Whether emitters give particles that a drag law is for.
+bool has_unresolved(const scenario::Setup& setup) {
+  return std::any_of(
+      setup.emitters.begin(), setup.emitters.end(), [&](const scenario::EmitterSpec& e) {
+        const int material = e.more_materials.empty() ? e.material : e.more_materials.front();
+        return !setup.fluid->resolves(material);
+      });
+}
+
 void copy(const std::vector<double>& from, std::vector<double>& to) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, from.size(), 1U << 15), [&](const auto& r) {
     std::copy_n(from.data() + r.begin(), r.size(), to.data() + r.begin());
@@ -35,7 +44,8 @@ FluidStage::FluidStage(const scenario::Setup& setup, const Models& models)
   const sdk::Vec3 initial = setup_.fluid->initial_velocity;
   solver_->set_velocity([initial](sdk::Vec3) { return initial; });
   if (models_.turbulence) solver_->use(*models_.turbulence);
-  if (models_.class_diameters.empty()) {
+  if (!setup_.fluid->resolved.empty()) make_resolved();
+  if (models_.class_diameters.empty() || (resolved_ && !has_unresolved(setup_))) {
     no_particles_ = std::make_unique<NoParticles>(NoParticles{
         fluid::CellField(grid_.size, 1.0), {fluid::FaceField(grid_), fluid::FaceField(grid_)}});
     momentum_exchange_.assign(
@@ -55,16 +65,39 @@ void FluidStage::make_coupling(const fluid::Boundaries& boundaries) {
       LaggedFluid{solver_->velocity(), fluid::FaceField(grid_), solver_->pressure()});
 }
 
+void FluidStage::make_resolved() {
+  resolved::Surroundings around{setup_.fluid->density, setup_.time.fluid_step, {}};
+  if (coupling::takes_over_buoyancy(models_.fluid_forces)) {
+    around.buoyancy = -setup_.fluid->density * setup_.gravity;
+  }
+  resolved_ = std::make_unique<resolved::ResolvedSpheres>(
+      grid_,
+      std::vector<std::int32_t>(setup_.fluid->resolved.begin(), setup_.fluid->resolved.end()),
+      around);
+  solver_->use(resolved_->forcing());
+}
+
+const particles::GrainRows& FluidStage::unresolved(const particles::GrainRows& rows) {
+  if (!resolved_) return rows;
+  return unresolved_.take(rows, [this](int material) { return resolved_->is_resolved(material); });
+}
+
+void FluidStage::give_back(const particles::GrainRows& rows) const {
+  if (resolved_) unresolved_.give_back(rows);
+}
+
 const fluid::CellField& FluidStage::void_fraction() const {
   return coupling_ ? coupling_->void_fraction() : no_particles_->void_fraction;
 }
 
 void FluidStage::begin_step(double time, const particles::GrainRows& rows) {
+  if (resolved_) resolved_->begin_step(rows, solver_->velocity());
+  if (!coupling_) return;
   if (solver_->has_moving_bodies()) {
     solver_->look_ahead(time + setup_.time.fluid_step);
     coupling_->set_open_fraction(solver_->open_fraction());
   }
-  coupling_->begin_step(rows, setup_.time.fluid_step);
+  coupling_->begin_step(unresolved(rows), setup_.time.fluid_step);
 }
 
 void FluidStage::advance(double time) {
@@ -72,11 +105,13 @@ void FluidStage::advance(double time) {
       coupling_ ? coupling_->void_fraction_before() : no_particles_->void_fraction;
   const fluid::Exchange& exchange = coupling_ ? coupling_->exchange() : no_particles_->exchange;
   solver_->advance(time, setup_.time.fluid_step, before, void_fraction(), exchange);
+  if (resolved_) resolved_->evaluate(solver_->velocity());
   sub_steps_ += solver_->report().sub_steps;
   pressure_iterations_ += solver_->report().pressure_iterations;
 }
 
-void FluidStage::refresh(const particles::GrainRows& rows, double now, double held) {
+void FluidStage::refresh(const particles::GrainRows& all, double now, double held) {
+  const particles::GrainRows& rows = unresolved(all);
   if (lagged_) {
     coupling_->refresh(
         rows, {lagged_->velocity, lagged_->stress_divergence, &lagged_->pressure, now, held});
@@ -84,6 +119,14 @@ void FluidStage::refresh(const particles::GrainRows& rows, double now, double he
     coupling_->refresh(rows, {solver_->velocity(), solver_->stress_divergence(),
                               &solver_->mean_pressure(), now, held});
   }
+  give_back(all);
+}
+
+void FluidStage::end_step(const particles::GrainRows& rows) {
+  if (resolved_) resolved_->end_step(rows);
+  if (!coupling_) return;
+  coupling_->end_step(unresolved(rows), setup_.time.fluid_step);
+  give_back(rows);
 }
 
 void FluidStage::keep_for_particles() {
@@ -155,6 +198,9 @@ void FluidStage::add_parts(SaveParts& parts) const {
   if (coupling_) {
     parts.emplace_back("coupling", [this](sdk::ArchiveWriter& a) { coupling_->save(a); });
   }
+  if (resolved_) {
+    parts.emplace_back("resolved", [this](sdk::ArchiveWriter& a) { resolved_->save(a); });
+  }
   if (!lagged_) return;
   parts.emplace_back("held_fluid", [this](sdk::ArchiveWriter& a) {
     for_fields(*lagged_,
@@ -174,6 +220,9 @@ void FluidStage::add_parts(LoadParts& parts, const std::function<double()>& time
       coupling_->load(a);
       loaded();
     });
+  }
+  if (resolved_) {
+    parts.emplace_back("resolved", [this](sdk::ArchiveReader& a) { resolved_->load(a); });
   }
   if (!lagged_) return;
   parts.emplace_back("held_fluid", [this](sdk::ArchiveReader& a) {

@@ -3,6 +3,8 @@
 
 #include "coupling/coupling.hpp"
 #include "fluid/fluid_solver.hpp"
+#include "resolved/resolved_spheres.hpp"
+#include "resolved/unresolved_rows.hpp"
 #include "run/archive_parts.hpp"
 #include "run/models.hpp"
 #include "setup/setup.hpp"
@@ -24,7 +26,11 @@ class FluidStage {
 
   [[nodiscard]] const fluid::Grid& grid() const { return grid_; }
   [[nodiscard]] const fluid::FluidSolver& solver() const { return *solver_; }
+  /// Null without particles that a drag law is for.
   [[nodiscard]] const coupling::Coupling* coupling() const { return coupling_.get(); }
+  /// Null without particles whose surfaces the fluid meets.
+  [[nodiscard]] const resolved::ResolvedSpheres* resolved() const { return resolved_.get(); }
+  [[nodiscard]] bool has_particles() const { return coupling_ || resolved_; }
   /// Whether particles see the fluid of the step before, while the next is solved.
   [[nodiscard]] bool is_lagged() const { return lagged_ != nullptr; }
   [[nodiscard]] const fluid::CellField& void_fraction() const;
@@ -32,20 +38,23 @@ class FluidStage {
   [[nodiscard]] std::int64_t pressure_iterations() const { return pressure_iterations_; }
 
   /// The void fraction of particles that are there at the start.
-  void start(const particles::GrainRows& rows) { coupling_->start(rows); }
-  /// Void fraction and drag of the particles for the step from `time` [s] on.
+  void start(const particles::GrainRows& rows) { coupling_->start(unresolved(rows)); }
+  /// Void fraction and drag of the particles, or their surfaces, for the step from `time` [s] on.
   void begin_step(double time, const particles::GrainRows& rows);
   /// Solves for the fluid.
   void advance(double time);
   /// The impulses that the fluid took in advance().
   void evaluate_drag(const particles::GrainRows& rows) {
-    coupling_->evaluate(rows, solver_->drag_velocity());
+    if (coupling_) coupling_->evaluate(unresolved(rows), solver_->drag_velocity());
+  }
+  /// Before the particles move: the fluid's action on those that are resolved, and what it turns
+  /// them by.
+  void act(const particles::GrainRows& rows, const resolved::ResolvedSpheres::Turn& turn) {
+    resolved_->act(rows, turn);
   }
   /// The fluid's action on the particles at `now` [s], for `held` [s].
   void refresh(const particles::GrainRows& rows, double now, double held);
-  void end_step(const particles::GrainRows& rows) {
-    coupling_->end_step(rows, setup_.time.fluid_step);
-  }
+  void end_step(const particles::GrainRows& rows);
   /// Keeps the fluid as it is for the particles of the next step, where it is lagged.
   void keep_for_particles();
 
@@ -91,13 +100,19 @@ class FluidStage {
   static void for_fields(Fluid& fluid, const Visit& visit);
   void make_coupling(const fluid::Boundaries& boundaries);
   void set_velocity(const fluid::FaceField& velocity);
+  void make_resolved();
+  /// Of all rows those that a drag law is for; given back to them by give_back().
+  const particles::GrainRows& unresolved(const particles::GrainRows& rows);
+  void give_back(const particles::GrainRows& rows) const;
 
   const scenario::Setup& setup_;
   const Models& models_;
   fluid::Grid grid_;
   std::unique_ptr<fluid::FluidSolver> solver_;
   std::unique_ptr<coupling::Coupling> coupling_;
-  std::unique_ptr<NoParticles> no_particles_;  ///< only for a fluid alone
+  std::unique_ptr<resolved::ResolvedSpheres> resolved_;
+  resolved::UnresolvedRows unresolved_;
+  std::unique_ptr<NoParticles> no_particles_;  ///< only without coupling
   std::unique_ptr<LaggedFluid> lagged_;        ///< only where fluid and particles overlap
   std::int64_t sub_steps_ = 0;
   std::int64_t pressure_iterations_ = 0;

@@ -116,6 +116,7 @@ bool Simulation::has_changing_walls() const {
 
 void Simulation::run_dem_cycle() {
   if (models_.class_diameters.empty()) return;
+  if (fluid_ && fluid_->resolved() != nullptr) act_on_resolved();
   if (coupling() != nullptr) {
     cycle_->begin(coupling()->refresh_interval());
   } else {
@@ -123,6 +124,11 @@ void Simulation::run_dem_cycle() {
   }
   for (; !cycle_->is_done(); cycle_->advance()) dem_graph_.run();
   dem_->land();
+}
+
+void Simulation::act_on_resolved() {
+  fluid_->act(dem_->rows(), [this](std::size_t row, sdk::Vec3 change) { dem_->turn(row, change); });
+  dem_->fluid_action_changed();
 }
 
 void Simulation::refresh_drag() {

@@ -101,6 +101,7 @@ class Simulation {
   void remove_bodies();
   void run_dem_cycle();
   void refresh_drag();
+  void act_on_resolved();
   void take_fluid_snapshot();
   void load_clock(sdk::ArchiveReader& archive);
 

@@ -118,7 +118,7 @@ void Simulation::add_first_nodes() {
 }
 
 void Simulation::add_fluid_nodes() {
-  if (coupling() == nullptr) {
+  if (!fluid_->has_particles()) {
     step_graph_.add(
         {"fluid", {"fluid.velocity"}, {"fluid.velocity", "fluid.void_fraction"}, [this] {
            fluid_->advance(time());
@@ -147,14 +147,15 @@ void Simulation::add_fluid_nodes() {
 
 void Simulation::add_particle_nodes() {
   std::vector<std::string> seen_by_grains{"grain.state"};
-  if (coupling() != nullptr) {
+  const bool has_exchange = fluid_ && fluid_->has_particles();
+  if (has_exchange) {
     seen_by_grains.push_back(fluid_seen());
     seen_by_grains.emplace_back("fluid.void_fraction");
   }
   step_graph_.add({"dem_cycle", seen_by_grains, {"grain.state", "grain.fluid_impulse"}, [this] {
                      run_dem_cycle();
                    }});
-  if (coupling() != nullptr) {
+  if (has_exchange) {
     step_graph_.add(
         {"collect",
          {"grain.state", "grain.fluid_impulse", "fluid.void_fraction", "fluid.velocity"},

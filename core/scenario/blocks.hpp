@@ -177,6 +177,7 @@ struct CouplingBlock {
   std::string self_disturbance = "auto";
   bool correct_own_disturbance = false;
   bool overlap = false;
+  std::vector<std::string> resolved;
   static const sdk::ParameterSchema& schema();
 };
 

@@ -99,6 +99,8 @@ void SetupReader::read_coupling(MapReader& top) {
                    diagnostics_);
   std::vector<sdk::Value> values;
   auto coupling = block<CouplingBlock>(reader, &values);
+  const bool is_known =
+      !reader.is_good() || models_.check_references(reader, CouplingBlock::schema(), values, true);
   reader.finish();
   const Node& given = entry ? entry->value : empty;
   if (given.find("correct_own_disturbance") != nullptr &&
@@ -119,6 +121,7 @@ void SetupReader::read_coupling(MapReader& top) {
     setup_.fluid->overlaps_grains = coupling.overlap;
     if (is_on) check_own_disturbance(entry->where);
   }
+  if (is_known) read_resolved(coupling, entry);
   out_.add("coupling", written_block<CouplingBlock>(values));
 }
 
@@ -136,8 +139,9 @@ void SetupReader::check_own_disturbance(Mark where) {
 }
 
 void SetupReader::read_drag_and_voidage(MapReader& top) {
-  const bool is_needed = has_fluid_ && !names_.emitters.all.empty() &&
-                         names_.emitters.disabled.size() < names_.emitters.all.size();
+  const bool is_needed =
+      has_fluid_ && std::any_of(setup_.emitters.begin(), setup_.emitters.end(),
+                                [this](const EmitterSpec& e) { return !is_resolved(e); });
   ReadModel drag = read_part(top, "drag", is_needed, out_);
   ReadModel voidage = read_part(top, "voidage", is_needed, out_);
   if (!has_fluid_) return;
@@ -184,8 +188,9 @@ void SetupReader::check_voidage() {
     spacing = std::min(spacing, width / setup_.fluid->cells[static_cast<std::size_t>(d)]);
   }
   double largest = 0.0;
-  for (const auto& emitter : emitters_) {
-    const auto diameters = static_cast<const sdk::Emitter&>(*emitter).diameters();
+  for (std::size_t n = 0; n < emitters_.size(); ++n) {
+    if (is_resolved(setup_.emitters[n])) continue;
+    const auto diameters = static_cast<const sdk::Emitter&>(*emitters_[n]).diameters();
     for (const double d : diameters) largest = std::max(largest, d);
   }
   const double limit =

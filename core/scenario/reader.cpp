@@ -55,6 +55,7 @@ void SetupReader::read() {
     check_pairs(setup_, interactions ? interactions->where : root_.where, diagnostics_);
   }
   check_voidage();
+  check_resolved();
   check_emitters();
   check_periods();
   if (setup_.emitters.empty() && !setup_.fluid) {

@@ -131,6 +131,10 @@ class SetupReader {
   void check_region(const Entry& entry, const std::string& path, const RegionBlock& region);
   void read_coupling(MapReader& top);
   void check_own_disturbance(Mark where);
+  /// `coupling.resolved`: spheres whose flow the grid resolves.
+  void read_resolved(const CouplingBlock& coupling, const Entry* entry);
+  void check_resolved();
+  [[nodiscard]] bool is_resolved(const EmitterSpec& emitter) const;
   void read_drag_and_voidage(MapReader& top);
   void read_fluid_forces(MapReader& top);
   /// A rule of the void fraction is valid up to a size of grains relative to the cells.

@@ -73,6 +73,12 @@ constexpr Named k_with_coupling[] = {
     {"health.limit_of_diameter_over_spacing", "1"},
     {"health.largest_momentum_imbalance", "1"},
 };
+constexpr Named k_with_resolved[] = {
+    {"health.resolved_spheres", "1"},
+    {"health.resolved_markers", "1"},
+    {"health.resolved_least_cells_across", "1"},
+    {"health.resolved_largest_slip_m_per_s", "m/s"},
+};
 constexpr Named k_of_emitter[] = {
     {"achieved.mass_kg", "kg"}, {"achieved.computed", "1"}, {"achieved.real", "1"},
     {"waiting", "1"},           {"number_of_sizes", "1"},
@@ -136,6 +142,7 @@ std::vector<Quantity> quantities_of(const scenario::Setup& setup,
   add(k_always);
   if (setup.fluid) add(k_with_fluid);
   if (setup.drag && setup.voidage) add(k_with_coupling);
+  if (setup.fluid && !setup.fluid->resolved.empty()) add(k_with_resolved);
   for (const auto& emitter : setup.emitters) add(k_of_emitter, "emitters." + emitter.name + ".");
 
   const std::vector<double> classes = diameters_of(setup, registry);

@@ -149,6 +149,16 @@ void tell_fluid(std::ostream& out, const Setup& setup, const Derived& derived) {
   out << '\n';
 }
 
+void add_resolved(std::ostream& out, const Derived& derived) {
+  const char* head = "  resolved   ";
+  for (const auto& r : derived.resolved) {
+    out << head << r.emitter << ": spheres of " << engineering(r.diameter, "m") << " are "
+        << digits(r.cells) << " cells across, " << counted(r.markers)
+        << " markers each, without a drag law\n";
+    head = "             ";
+  }
+}
+
 /// Whether fine grains may be stepped more often than the others.
 bool has_two_steps(const TimeSteps& steps) { return !steps.is_coarse(steps.classes.front()); }
 
@@ -303,6 +313,15 @@ std::string check_json(const Setup& setup, const Derived& derived,
                                  {"level", c.level}});
   }
   j["diameter_over_spacing"] = derived.diameter_over_spacing;
+  if (!derived.resolved.empty()) {
+    j["resolved"] = nlohmann::ordered_json::array();
+    for (const auto& r : derived.resolved) {
+      j["resolved"].push_back({{"emitter", r.emitter},
+                               {"diameter_m", r.diameter},
+                               {"cells_per_diameter", r.cells},
+                               {"markers", r.markers}});
+    }
+  }
   j["width_over_diameter"] = derived.width_over_diameter;
   j["courant_number"] = derived.courant_number;
   j["grains"] = derived.grains_in_domain;
@@ -325,6 +344,7 @@ std::string check_summary(const Setup& setup, const Derived& derived,
   tell_domain(out, setup);
   tell_things(out, setup, derived);
   tell_fluid(out, setup, derived);
+  add_resolved(out, derived);
   tell_steps(out, setup, derived);
   tell_cost(out, derived, learnt);
   return out.str();

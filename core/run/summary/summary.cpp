@@ -178,6 +178,13 @@ Json health(const Simulation& s) {
     h["limit_of_diameter_over_spacing"] = s.models().voidage->largest_diameter_over_spacing();
     h["largest_momentum_imbalance"] = c.largest_imbalance;
   }
+  if (s.fluid() != nullptr && s.fluid_stage()->resolved() != nullptr) {
+    const auto& r = s.fluid_stage()->resolved()->report();
+    h["resolved_spheres"] = r.spheres;
+    h["resolved_markers"] = r.markers;
+    h["resolved_least_cells_across"] = r.least_cells_per_diameter;
+    h["resolved_largest_slip_m_per_s"] = r.largest_slip;
+  }
   if (s.fluid() != nullptr) {
     h["last_divergence_per_s"] = s.fluid()->report().divergence;
     h["last_courant_number"] = s.fluid()->report().courant_number;

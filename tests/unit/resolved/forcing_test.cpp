@@ -5,41 +5,11 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace dust::test {
-namespace {
-
-/// Drag on a sphere of a cubic array over that of a lone one in the same superficial flow.
-double array_drag(int cells, double solids) {
-  const double edge = std::cbrt(std::numbers::pi / 6.0 / solids);
-  auto box = cubic_array(cells, edge);
-  const double h = edge / cells;
-  box->step = 1.5 * h * h;
-  box->is_held = true;
-  const double speed = 1e-3;
-  box->grains.add({0.5 * edge, 0.5 * edge, 0.5 * edge}, 1.0, 1.0);
-  box->begin();
-  box->solver->set_velocity([&](Vec3) { return Vec3{speed, 0.0, 0.0}; });
-  double drag = 0.0;
-  for (int n = 0; n < 300; ++n) {
-    box->one_step();
-    // The flow through the box keeps its mean.
-    const double force = box->mean_force[0].x;
-    box->set_source({force / std::pow(edge, 3), 0.0, 0.0});
-    const double next = force / (3.0 * std::numbers::pi * speed);
-    const bool is_steady = n > 60 && std::abs(next - drag) < 1e-4 * next;
-    drag = next;
-    if (is_steady) break;
-  }
-  const double mean = box->fluid_momentum().x / std::pow(edge, 3);
-  return drag * speed / mean;
-}
-
-}  // namespace
-
 TEST_CASE("resolved: drag of a cubic array of spheres, coarse (Zick and Homsy 1982)") {
   // 8 cells across, the fewest that are allowed; 16 are held to 3 % (tests/verification/resolved).
   const double drag = array_drag(16, 0.064);

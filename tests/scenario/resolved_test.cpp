@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/engine.hpp"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+using dust::test::engine;
+using dust::test::json_text;
+using dust::test::read_file;
+using dust::test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string k_scenario = DUST_SOURCE "/tests/scenario/resolved_sphere.yaml";
+
+/// What `engine check` says of the scenario with a change.
+std::string checked(const std::vector<std::string>& settings, int status) {
+  std::vector<std::string> arguments{"check", k_scenario};
+  for (const std::string& setting : settings) {
+    arguments.insert(arguments.end(), {"--set", setting});
+  }
+  const auto done = engine(arguments);
+  INFO(done.err);
+  CHECK(done.status == status);
+  return done.out + done.err;
+}
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a resolved sphere beside grains shall give the same bits on any threads and after a resume") {
+  const TemporaryFolder folder;
+  const auto run = [&](const std::string& name, const std::string& end, const std::string& threads,
+                       std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"run",         k_scenario, "-o",
+                                       folder / name, "--set",    "time.end=" + end,
+                                       "--threads",   threads,    "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto done = engine(arguments);
+    INFO(done.err);
+    REQUIRE(done.status == 0);
+    return json_text(folder / name / "summary.json", "state_sha256");
+  };
+  const auto whole = run("whole", "10 ms", "1");
+  CHECK(run("threads", "10 ms", "2") == whole);
+  run("parts", "6 ms", "2");
+  CHECK(run("parts", "10 ms", "2", {"--resume"}) == whole);
+  CHECK(json_text(folder / "whole" / "summary.json", "resolved_spheres") == "1");
+  CHECK(std::stod(json_text(folder / "whole" / "summary.json", "resolved_least_cells_across")) ==
+        doctest::Approx(8.4));
+  // The drag law's grains did not count it in.
+  CHECK(std::stod(json_text(folder / "whole" / "summary.json", "smallest_void_fraction")) > 0.9);
+}
+
+TEST_CASE("engine check shall tell of resolved spheres how many cells and markers they have") {
+  const std::string told = checked({}, 0);
+  CHECK_MESSAGE(holds(told, "sphere: spheres of 8.4 mm are 8.4 cells across, 223 markers each"),
+                told);
+}
+
+TEST_CASE("engine check shall refuse spheres that the grid does not resolve, and say what would") {
+  const std::string coarse = checked({"fluid.cells=[24, 24, 24]"}, 1);
+  CHECK_MESSAGE(holds(coarse, "resolved_sphere.yaml:40:"), coarse);
+  CHECK_MESSAGE(
+      holds(coarse, "7.75 cells across, and 8 are the fewest: cells of at most 0.00105 m"), coarse);
+  const std::string dry = checked({"fluid=none"}, 1);
+  CHECK_MESSAGE(holds(dry, "resolved by the grid of a fluid, and fluid is none"), dry);
+  CHECK_MESSAGE(holds(dry, "resolved_sphere.yaml:40:"), dry);
+  const std::string late = checked({"coupling.overlap=true"}, 1);
+  CHECK_MESSAGE(holds(late, "does not go with coupling.overlap"), late);
+  const std::string light = checked({"materials.nylon.density=500"}, 1);
+  CHECK_MESSAGE(holds(light, "0.5 of the fluid's density"), light);
+}

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "unit/resolved/resolved_box.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace dust::test {
+
+TEST_CASE(
+    "V-ARRAY: Stokes drag of cubic arrays of spheres, 16 cells across (Zick and Homsy 1982)") {
+  struct Known {
+    double solids, drag;
+  };
+  for (const Known known : {Known{0.027, 2.008}, Known{0.064, 2.810}, Known{0.125, 4.292},
+                            Known{0.216, 7.442}, Known{0.343, 15.4}}) {
+    const double edge = std::cbrt(std::numbers::pi / 6.0 / known.solids);
+    // Even numbers of cells, which the multigrid halves.
+    const int cells = 2 * static_cast<int>(std::lround(8.0 * edge));
+    const double drag = array_drag(cells, known.solids);
+    MESSAGE(known.solids << ": " << drag << " of " << known.drag);
+    CHECK(drag == doctest::Approx(known.drag).epsilon(0.03));
+  }
+}
+
+}  // namespace dust::test
