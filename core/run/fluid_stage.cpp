@@ -178,7 +178,7 @@ void FluidStage::load_velocity(sdk::ArchiveReader& archive) {
   set_velocity(velocity);
 }
 
-void FluidStage::mend_velocity(double time) {
+void FluidStage::adapt_velocity(double time) {
   bodies_changed(time);
   set_velocity(fluid::FaceField(solver_->velocity()));
 }

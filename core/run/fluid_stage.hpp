@@ -69,7 +69,7 @@ class FluidStage {
   void load_velocity(sdk::ArchiveReader& archive);
   /// Among bodies that are not those the velocity was computed with: it goes round them, and the
   /// next step makes it consistent. At `time` [s].
-  void mend_velocity(double time);
+  void adapt_velocity(double time);
 
   /// Momentum exchange per cell for a frame.
   [[nodiscard]] const std::vector<float>& momentum_exchange();

@@ -149,7 +149,7 @@ class Run {
                                                  simulation_.models().bodies, materials, domain.min,
                                                  domain.max);
     series_ = std::make_unique<io::SeriesFile>(folder_ / "series.csv", is_resumed_ ? rows_ : -1);
-    if (facts_.start) tell_start();
+    if (facts_.start) log_start();
     if (is_resumed_) {
       base::log_info("resumed at " + std::to_string(simulation_.time()) + " s");
     } else {
@@ -181,7 +181,7 @@ class Run {
     }
   }
 
-  void tell_start() const {
+  void log_start() const {
     const StartFacts& s = *facts_.start;
     base::log_info("starts from " + s.state + " at " + scenario::number_text(s.time) + " s with " +
                    std::to_string(s.particles) + " grains, " + std::to_string(s.contacts) +

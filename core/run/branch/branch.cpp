@@ -188,10 +188,10 @@ particles::Dem& Branch::their_particles() {
 
 void Branch::check(particles::Dem& particles) {
   if (is_same_ || diagnostics_.has_errors()) return;
-  tell_obstacles(particles.obstacles_to(their_particles(), origin_.time()));
+  report_obstacles(particles.obstacles_to(their_particles(), origin_.time()));
 }
 
-void Branch::tell_obstacles(const particles::TransferObstacles& found) {
+void Branch::report_obstacles(const particles::TransferObstacles& found) {
   for (const std::string& material : found.missing_materials) {
     error("there are grains of the material '" + material +
           "', which this scenario does not have: declare it under materials, with its "
@@ -363,14 +363,14 @@ void Branch::transfer_fluid(const Simulation::Owners& to) {
   LoadParts parts;
   fluid.add_parts(
       parts, [time] { return time; }, [] {});
-  const bool had_movers = state.has("fluid", "open_cells");
+  const bool had_moving_bodies = state.has("fluid", "open_cells");
   static constexpr std::array<std::string_view, 4> k_ways = {"fluid_forces", "voidage", "drag",
                                                              "coupling"};
   const bool is_coupled_so =
       state.has("coupling", "grain_ids") && same("materials") && same("fluid") &&
       std::all_of(k_ways.begin(), k_ways.end(), [&](std::string_view way) { return same(way); });
   for (const auto& [name, load] : parts) {
-    if (name == "fluid" && had_movers != fluid.solver().has_moving_bodies()) {
+    if (name == "fluid" && had_moving_bodies != fluid.solver().has_moving_bodies()) {
       state.read({{name, [&](sdk::ArchiveReader& a) { fluid.load_velocity(a); }}});
       continue;
     }
@@ -379,7 +379,7 @@ void Branch::transfer_fluid(const Simulation::Owners& to) {
     state.read({{name, load}});
   }
   if (is_same_world_) return;
-  fluid.mend_velocity(time);
+  fluid.adapt_velocity(time);
   if (has_grains) fluid.start(to.particles.rows());
   if (has_grains && !is_coupled_so && state.has("coupling", "grain_ids")) {
     warn(

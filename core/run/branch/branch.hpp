@@ -52,7 +52,7 @@ class Branch {
 
   void check_time();
   void check_domain();
-  void tell_obstacles(const particles::TransferObstacles& obstacles);
+  void report_obstacles(const particles::TransferObstacles& obstacles);
   [[nodiscard]] bool same(std::string_view path,
                           std::span<const std::string_view> ignored = {}) const;
   [[nodiscard]] bool is_same_grid() const;
