@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -73,12 +72,8 @@ struct Coupling::Impl {
   RefreshSchedule schedule;
   std::unique_ptr<ForceModels> forces;            ///< null without forces besides drag
   std::unique_ptr<StressBalance> stress_balance;  ///< null where both do not see one stress
-  /// Of the particles where the fluid is looked at.
-  FaceStencils stencils;
-  /// Of those that the fluid was given drag for, until its impulses are evaluated; and their
-  /// storage where the particles move on meanwhile.
-  std::optional<FaceStencils> assembled;
-  FaceStencils storage;
+  /// Memory for the next step's AssembledDrag.
+  FaceStencils assembled_storage, sampled_storage;
   CouplingReport report;
   bool is_one_way;
   bool is_overlapped;  ///< the particles move while the fluid that they were mapped for is solved
@@ -103,7 +98,7 @@ Coupling::Impl::Impl(const scenario::Setup& setup, const scenario::FluidSpec& fl
       relaxation(drag, self, states, setup.gravity),
       schedule(setup.time.fluid_step, least_edge(grid)),
       is_one_way(fluid.is_one_way),
-      is_overlapped(fluid.overlaps_grains) {
+      is_overlapped(fluid.overlaps_grains && !fluid.is_one_way) {
   // Where the air overlaps, the stress that particles see is a step older than that of the air: as
   // a residual it would rock a dense bed.
   if (!is_one_way && !drag.is_set_three() && !is_overlapped && drag.properties().is_uniform()) {
@@ -192,17 +187,14 @@ void Coupling::deposit(const particles::GrainRows& grains) {
   s.face_void.update(s.void_fraction.after(), s.void_fraction.filled_cells());
 }
 
-void Coupling::begin_step(const particles::GrainRows& grains, double fluid_step) {
+AssembledDrag Coupling::begin_step(const particles::GrainRows& grains, double fluid_step) {
   Impl& s = *impl_;
   s.states.align(grains);
   s.schedule.begin_step(fluid_step, s.drag.fastest_relaxation(grains));
   if (s.drag.needs_size_ratio()) s.size_ratios.find(grains, s.drag.graining(), s.states);
-  FaceStencils here = std::move(s.is_overlapped ? s.storage : s.stencils);
+  FaceStencils here = std::move(s.assembled_storage);
   here.sort(s.lattice.grid(), grains, s.states.order());
-  if (s.is_one_way) {
-    s.stencils = std::move(here);
-    return;
-  }
+  if (s.is_one_way) return {{}, std::move(here)};
   deposit(grains);
   const fluid::CellField& eps = s.void_fraction.after();
   s.exchange.resize(here.size());
@@ -214,8 +206,10 @@ void Coupling::begin_step(const particles::GrainRows& grains, double fluid_step)
   });
   s.report.unpaired_forces +=
       s.exchange.scatter(here, s.states, eps, fluid_step, s.stress_balance.get());
-  if (s.is_overlapped) s.stencils = here;
-  s.assembled = std::move(here);
+  if (!s.is_overlapped) return {std::move(here), {}};
+  FaceStencils sampled = std::move(s.sampled_storage);
+  sampled = here;
+  return {std::move(here), std::move(sampled)};
 }
 
 const fluid::CellField& Coupling::void_fraction_before() const {
@@ -224,12 +218,12 @@ const fluid::CellField& Coupling::void_fraction_before() const {
 const fluid::CellField& Coupling::void_fraction() const { return impl_->void_fraction.after(); }
 const fluid::Exchange& Coupling::exchange() const { return impl_->exchange.exchange(); }
 
-void Coupling::evaluate(const particles::GrainRows& grains, const fluid::FaceField& velocity) {
+EvaluatedDrag Coupling::evaluate(AssembledDrag drag, const particles::GrainRows& grains,
+                                 const fluid::FaceField& velocity) {
   Impl& s = *impl_;
   s.states.align(grains);
-  if (s.is_one_way) return;
-  if (!s.assembled) throw std::logic_error("Coupling::evaluate() without begin_step()");
-  FaceStencils there = *std::exchange(s.assembled, std::nullopt);
+  if (s.is_one_way) return EvaluatedDrag(std::move(drag.sampled_));
+  FaceStencils there = std::move(drag.assembled_);
   const std::vector<std::int32_t> now = s.states.rows_now(there.order(), there.rows());
   const FaceStencils::Rows rows = now.empty() ? there.rows() : FaceStencils::Rows(now);
   const double step = s.schedule.fluid_step();
@@ -237,34 +231,50 @@ void Coupling::evaluate(const particles::GrainRows& grains, const fluid::FaceFie
       s.exchange.evaluate(there, rows, s.states, s.void_fraction.after(), velocity, step);
   s.report.largest_imbalance = std::max(s.report.largest_imbalance, imbalance);
   s.self.end_step(step);
-  (s.is_overlapped ? s.storage : s.stencils) = std::move(there);
+  // The fluid is first sampled where the drag was assembled.
+  if (!s.is_overlapped) return EvaluatedDrag(std::move(there));
+  s.assembled_storage = std::move(there);
+  return EvaluatedDrag(std::move(drag.sampled_));
 }
 
-void Coupling::refresh(const particles::GrainRows& grains, const fluid::FaceField& velocity,
-                       const fluid::FaceField& stress_divergence) {
-  refresh(grains, FluidState{velocity, stress_divergence});
-}
-
-void Coupling::refresh(const particles::GrainRows& grains, const FluidState& fluid) {
+void Coupling::refresh(EvaluatedDrag& drag, const particles::GrainRows& grains,
+                       const FluidState& fluid) {
   Impl& s = *impl_;
   s.states.align(grains);
-  if (s.assembled && !s.is_overlapped) evaluate(grains, fluid.velocity);
+  if (!drag.sampled_.are_in_order(s.states.order(), grains.count)) {
+    drag.sampled_.sort(s.lattice.grid(), grains, s.states.order());
+    s.states.number(drag.sampled_.rows());
+  }
+  relax(drag.sampled_, grains, fluid);
+}
+
+/// The numbers of the particles stay those of the drag that is still to be evaluated.
+void Coupling::refresh(AssembledDrag& drag, const particles::GrainRows& grains,
+                       const FluidState& fluid) {
+  Impl& s = *impl_;
+  s.states.align(grains);
+  if (!drag.sampled_.are_in_order(s.states.order(), grains.count)) {
+    drag.sampled_.sort(s.lattice.grid(), grains, s.states.order());
+  }
+  relax(drag.sampled_, grains, fluid);
+}
+
+/// The action of the fluid, sampled at the stencils, on the particles until the next refresh.
+void Coupling::relax(FaceStencils& stencils, const particles::GrainRows& grains,
+                     const FluidState& fluid) {
+  Impl& s = *impl_;
   const bool is_first = s.schedule.is_first();
   const double held = fluid.held > 0.0 ? fluid.held : s.schedule.interval();
   const double last_held = s.schedule.last_held();
   if (s.forces) s.forces->begin(fluid, s.schedule.fluid_step(), is_first);
-  if (!s.stencils.are_in_order(s.states.order(), grains.count)) {
-    s.stencils.sort(s.lattice.grid(), grains, s.states.order());
-    if (!s.assembled) s.states.number(s.stencils.rows());
-  }
   if (s.stress_balance && is_first) {
     s.stress_balance->leave(s.void_fraction.after(), fluid.stress_divergence,
                             s.schedule.fluid_step());
   }
-  s.stencils.for_batches([&](std::size_t batch, FaceStencils::Rows rows) {
+  stencils.for_batches([&](std::size_t batch, FaceStencils::Rows rows) {
     s.relaxation.fetch(grains, rows);
     // Half way through the interval that the action holds for.
-    const StencilBatch& here = s.stencils.locate(s.lattice, grains, batch, 0.5 * held);
+    const StencilBatch& here = stencils.locate(s.lattice, grains, batch, 0.5 * held);
     SampledFlow flow;
     DragColumns columns;
     s.sampler.sample(grains, rows, here, fluid, flow, columns);
@@ -276,9 +286,8 @@ void Coupling::refresh(const particles::GrainRows& grains, const FluidState& flu
 
 double Coupling::refresh_interval() const { return impl_->schedule.interval(); }
 
-void Coupling::end_step(const particles::GrainRows& grains, double fluid_step) {
+void Coupling::end_step(EvaluatedDrag drag, const particles::GrainRows& grains, double fluid_step) {
   Impl& s = *impl_;
-  if (s.assembled) throw std::logic_error("Coupling::end_step() before evaluate()");
   s.states.align(grains);
   const double interval = s.schedule.mean_interval(fluid_step);
   std::span<Triple> stress;
@@ -303,11 +312,13 @@ void Coupling::end_step(const particles::GrainRows& grains, double fluid_step) {
       }
     }
   });
-  if (!s.stress_balance) return;
-  // In the cells where they were looked at, however the rows were reordered since.
-  const std::vector<std::int32_t> now = s.states.rows_now(s.stencils.order(), s.stencils.rows());
-  s.stress_balance->receive(s.stencils, now.empty() ? s.stencils.rows() : FaceStencils::Rows(now),
-                            stress);
+  if (s.stress_balance) {
+    // In the cells where the fluid was sampled, however the particles were reordered since.
+    const FaceStencils& there = drag.sampled_;
+    const std::vector<std::int32_t> now = s.states.rows_now(there.order(), there.rows());
+    s.stress_balance->receive(there, now.empty() ? there.rows() : FaceStencils::Rows(now), stress);
+  }
+  (s.is_overlapped ? s.sampled_storage : s.assembled_storage) = std::move(drag.sampled_);
 }
 
 void Coupling::momentum_exchange(std::vector<float>& per_cell) const {

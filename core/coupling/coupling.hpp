@@ -3,6 +3,7 @@
 
 #include "coupling/coupling_report.hpp"
 #include "coupling/fluid_state.hpp"
+#include "coupling/step_drag.hpp"
 #include "dust/sdk/archive.hpp"
 #include "dust/sdk/boundary_condition.hpp"
 #include "dust/sdk/drag_law.hpp"
@@ -26,10 +27,11 @@ namespace dust::coupling {
 ///   (the fluid solver advances with exchange())
 ///   evaluate()    the impulse that each grain's drag took from the fluid
 ///   refresh()     several times during the DEM cycle: target velocity and rate of each grain from
-///                 the fluid at its place; grains integrate drag exactly in between
+///                 the fluid at its position; grains integrate drag exactly in between
 ///   end_step()    what the grains really received; the difference to what the fluid was given is
-///                 handed to the next fluid step, so that the sum over time is exact.
-/// The equations and their derivation: docs/theory/coupling.md.
+///                 given to the fluid in the next step, so that the sum over time is exact.
+/// Each stage takes what the one before it returns. The equations and their derivation:
+/// docs/theory/coupling.md.
 ///
 /// Where the scenario lets both overlap, the fluid advances while the grains go through their cycle
 /// in the fluid of the step before (a copy that the caller keeps); evaluate() follows both.
@@ -70,28 +72,25 @@ class Coupling {
   /// start. They push nothing aside in the first fluid step. Throws as begin_step() does.
   void start(const particles::GrainRows& grains);
   /// Throws sdk::ModelError if a grain is too large for the grid.
-  void begin_step(const particles::GrainRows& grains, double fluid_step);
+  [[nodiscard]] AssembledDrag begin_step(const particles::GrainRows& grains, double fluid_step);
   [[nodiscard]] const fluid::CellField& void_fraction_before() const;
   [[nodiscard]] const fluid::CellField& void_fraction() const;
   [[nodiscard]] const fluid::Exchange& exchange() const;
 
   /// `velocity`: what Exchange::coefficient was multiplied by during the fluid step
-  /// (FluidSolver::drag_velocity: the mean over sub-steps and stages). Once per begin_step(); where
-  /// both overlap after the last refresh(), else before the first one, which otherwise takes its
-  /// own velocity: that is exact only for a fluid that takes drag fully implicitly in one step.
-  /// Throws std::logic_error where there is nothing to evaluate.
-  void evaluate(const particles::GrainRows& grains, const fluid::FaceField& velocity);
-  /// `velocity` and `stress_divergence` as FluidSolver gives them. Halo faces next to the domain
-  /// are read.
-  void refresh(const particles::GrainRows& grains, const fluid::FaceField& velocity,
-               const fluid::FaceField& stress_divergence);
-  /// The same with what forces besides drag look at.
-  void refresh(const particles::GrainRows& grains, const FluidState& fluid);
+  /// (FluidSolver::drag_velocity: the mean over sub-steps and stages). `drag` of the last
+  /// begin_step(); where both overlap after the last refresh(), else before the first one.
+  [[nodiscard]] EvaluatedDrag evaluate(AssembledDrag drag, const particles::GrainRows& grains,
+                                       const fluid::FaceField& velocity);
+  /// `fluid` as FluidSolver gives it. Halo faces next to the domain are read.
+  void refresh(EvaluatedDrag& drag, const particles::GrainRows& grains, const FluidState& fluid);
+  /// The same before the fluid has taken its drag: where both overlap.
+  void refresh(AssembledDrag& drag, const particles::GrainRows& grains, const FluidState& fluid);
   /// Interval [s] after which refresh() is due again: the fluid step divided by a whole number
   /// (RefreshSchedule). Ask after each begin_step().
   [[nodiscard]] double refresh_interval() const;
-  /// Reads fluid_impulse and sets it to zero. Throws std::logic_error before evaluate().
-  void end_step(const particles::GrainRows& grains, double fluid_step);
+  /// Reads fluid_impulse and sets it to zero.
+  void end_step(EvaluatedDrag drag, const particles::GrainRows& grains, double fluid_step);
 
   /// Momentum exchange per cell [N/m3], the force on the fluid, 3 per interior cell (x fastest).
   void momentum_exchange(std::vector<float>& per_cell) const;
@@ -103,6 +102,7 @@ class Coupling {
 
  private:
   void deposit(const particles::GrainRows& grains);
+  void relax(FaceStencils& stencils, const particles::GrainRows& grains, const FluidState& fluid);
 
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace dust::run {
 namespace {
@@ -97,7 +98,7 @@ void FluidStage::begin_step(double time, const particles::GrainRows& rows) {
     solver_->look_ahead(time + setup_.time.fluid_step);
     coupling_->set_open_fraction(solver_->open_fraction());
   }
-  coupling_->begin_step(unresolved(rows), setup_.time.fluid_step);
+  assembled_ = coupling_->begin_step(unresolved(rows), setup_.time.fluid_step);
 }
 
 void FluidStage::advance(double time) {
@@ -110,14 +111,23 @@ void FluidStage::advance(double time) {
   pressure_iterations_ += solver_->report().pressure_iterations;
 }
 
+void FluidStage::evaluate_drag(const particles::GrainRows& rows) {
+  if (!coupling_) return;
+  evaluated_ = coupling_->evaluate(std::move(assembled_).value(), unresolved(rows),
+                                   solver_->drag_velocity());
+  assembled_.reset();
+}
+
 void FluidStage::refresh(const particles::GrainRows& all, double now, double held) {
   const particles::GrainRows& rows = unresolved(all);
   if (lagged_) {
     coupling_->refresh(
-        rows, {lagged_->velocity, lagged_->stress_divergence, &lagged_->pressure, now, held});
+        assembled_.value(), rows,
+        {lagged_->velocity, lagged_->stress_divergence, &lagged_->pressure, now, held});
   } else {
-    coupling_->refresh(rows, {solver_->velocity(), solver_->stress_divergence(),
-                              &solver_->mean_pressure(), now, held});
+    coupling_->refresh(
+        evaluated_.value(), rows,
+        {solver_->velocity(), solver_->stress_divergence(), &solver_->mean_pressure(), now, held});
   }
   give_back(all);
 }
@@ -125,7 +135,8 @@ void FluidStage::refresh(const particles::GrainRows& all, double now, double hel
 void FluidStage::end_step(const particles::GrainRows& rows) {
   if (resolved_) resolved_->end_step(rows);
   if (!coupling_) return;
-  coupling_->end_step(unresolved(rows), setup_.time.fluid_step);
+  coupling_->end_step(std::move(evaluated_).value(), unresolved(rows), setup_.time.fluid_step);
+  evaluated_.reset();
   give_back(rows);
 }
 

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,9 +45,7 @@ class FluidStage {
   /// Solves for the fluid.
   void advance(double time);
   /// The impulses that the fluid took in advance().
-  void evaluate_drag(const particles::GrainRows& rows) {
-    if (coupling_) coupling_->evaluate(unresolved(rows), solver_->drag_velocity());
-  }
+  void evaluate_drag(const particles::GrainRows& rows);
   /// Before the particles move: the fluid's action on those that are resolved, and what it turns
   /// them by.
   void act(const particles::GrainRows& rows, const resolved::ResolvedSpheres::Turn& turn) {
@@ -110,6 +109,9 @@ class FluidStage {
   fluid::Grid grid_;
   std::unique_ptr<fluid::FluidSolver> solver_;
   std::unique_ptr<coupling::Coupling> coupling_;
+  /// Of the present step: what one node of the graph leaves to the next.
+  std::optional<coupling::AssembledDrag> assembled_;
+  std::optional<coupling::EvaluatedDrag> evaluated_;
   std::unique_ptr<resolved::ResolvedSpheres> resolved_;
   resolved::UnresolvedRows unresolved_;
   std::unique_ptr<NoParticles> no_particles_;  ///< only without coupling

@@ -34,9 +34,9 @@ void exchange(benchmark::State& state, double diameter, int cells) {
   World world(bed(cells));
   fill(world, diameter);
   for (auto _ : state) {
-    world.coupling->begin_step(world.grains.rows(), 1e-3);
-    world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
-    world.coupling->end_step(world.grains.rows(), 1e-3);
+    world.begin_step(1e-3);
+    world.refresh();
+    world.end_step(1e-3);
   }
   state.counters["us_per_grain"] =
       benchmark::Counter(20000e-6 * static_cast<double>(state.iterations()),
@@ -48,9 +48,9 @@ void refresh(benchmark::State& state, double diameter, int cells) {
                                   static_cast<std::size_t>(state.range(0)));
   World world(bed(cells));
   fill(world, diameter);
-  world.coupling->begin_step(world.grains.rows(), 1e-3);
+  world.begin_step(1e-3);
   for (auto _ : state) {
-    world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
+    world.refresh();
   }
   state.counters["us_per_grain"] =
       benchmark::Counter(20000e-6 * static_cast<double>(state.iterations()),
@@ -62,7 +62,7 @@ void map(benchmark::State& state, double diameter, int cells) {
                                   static_cast<std::size_t>(state.range(0)));
   World world(bed(cells));
   fill(world, diameter);
-  for (auto _ : state) world.coupling->begin_step(world.grains.rows(), 1e-3);
+  for (auto _ : state) world.begin_step(1e-3);
   state.counters["us_per_grain"] =
       benchmark::Counter(20000e-6 * static_cast<double>(state.iterations()),
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);

@@ -40,7 +40,7 @@ TEST_CASE("the mapped volume shall be that of the grains, at walls, corners and 
       }
       world.grains.add({0, 0, 0}, {}, 5e-4);
       world.grains.add({0.01, 0.012, 0.014}, {}, 5e-4);
-      world.coupling->begin_step(world.grains.rows(), 1e-3);
+      world.begin_step(1e-3);
       CHECK(mapped_volume(world) == doctest::Approx(world.grains.solid_volume()).epsilon(k_sum));
       CHECK(world.coupling->report().moved_shares > 0);
       CHECK(world.coupling->report().unplaced_grains == 0);
@@ -58,7 +58,7 @@ TEST_CASE("wide grains shall keep their volume in a domain thinner than themselv
     World world(choice);
     world.grains.add({0.010, 0.0003, 0.012}, {}, 4e-3, 2650, 0.2);
     world.grains.add({0.0005, 0.0013, 0.019}, {}, 3e-3, 2650, 0.2);
-    world.coupling->begin_step(world.grains.rows(), 1e-3);
+    world.begin_step(1e-3);
     CHECK(mapped_volume(world) == doctest::Approx(world.grains.solid_volume()).epsilon(k_sum));
     CHECK(world.coupling->report().unplaced_grains == 0);
     CHECK(world.coupling->report().largest_diameter_over_spacing == doctest::Approx(4.0));
@@ -73,8 +73,8 @@ TEST_CASE("a grain across a periodic side shall be mapped as the same grain insi
   World across(choice);
   inside.grains.add({0.26, 0.51, 0.49}, {}, 0.06);
   across.grains.add({0.01, 0.01, 0.99}, {}, 0.06);
-  inside.coupling->begin_step(inside.grains.rows(), 1e-3);
-  across.coupling->begin_step(across.grains.rows(), 1e-3);
+  inside.begin_step(1e-3);
+  across.begin_step(1e-3);
   int cells = 0;
   inside.for_cells([&](int i, int j, int k) {
     const double a = inside.coupling->void_fraction()[inside.grid.index(i, j, k)];
@@ -106,7 +106,7 @@ TEST_CASE("closed cells shall hold no grain volume and cut cells only beside the
           {random.between(0, 0.01), random.between(0, 0.01), random.between(0.00395, 0.0045)}, {},
           3e-4);
     }
-    world.coupling->begin_step(world.grains.rows(), 1e-3);
+    world.begin_step(1e-3);
     CHECK(mapped_volume(world) == doctest::Approx(world.grains.solid_volume()).epsilon(k_sum));
     CHECK(world.coupling->report().moved_shares > 0);
     double smallest = 1.0;
@@ -126,7 +126,7 @@ TEST_CASE("an overfull cell shall give its excess to the cells around it, and co
   World world(choice);
   // 12 grains of 0.0654 of a cell each in one cell: 0.785 of it.
   for (int g = 0; g < 12; ++g) world.grains.add({0.0055, 0.0055, 0.0055}, {}, 5e-4);
-  world.coupling->begin_step(world.grains.rows(), 1e-3);
+  world.begin_step(1e-3);
   const double eps = world.coupling->void_fraction()[world.grid.index(5, 5, 5)];
   CHECK(eps == doctest::Approx(0.30).epsilon(1e-9));
   CHECK(world.coupling->report().relieved_cells == 1);
@@ -136,12 +136,12 @@ TEST_CASE("an overfull cell shall give its excess to the cells around it, and co
 TEST_CASE("the void fraction of the last step shall be kept") {
   World world({});
   world.grains.add({0.4, 0.4, 0.4}, {}, 0.1);
-  world.coupling->begin_step(world.grains.rows(), 1e-3);
+  world.begin_step(1e-3);
   CHECK(*std::min_element(world.coupling->void_fraction_before().begin(),
                           world.coupling->void_fraction_before().end()) == 1.0);
   const fluid::CellField first = world.coupling->void_fraction();
   world.grains.position[0] = 0.9;
-  world.coupling->begin_step(world.grains.rows(), 1e-3);
+  world.begin_step(1e-3);
   CHECK(world.coupling->void_fraction_before() == first);
   CHECK(world.coupling->void_fraction() != first);
 }
@@ -151,8 +151,8 @@ TEST_CASE("grains too large for the cells shall be refused with a number") {
   choice.cells = {10, 10, 10};
   World world(choice);
   world.grains.add({0.5, 0.5, 0.5}, {}, 0.051);
-  CHECK_THROWS_WITH_AS(world.coupling->begin_step(world.grains.rows(), 1e-3),
-                       doctest::Contains("D/dx up to 0.5"), sdk::ModelError);
+  CHECK_THROWS_WITH_AS(world.begin_step(1e-3), doctest::Contains("D/dx up to 0.5"),
+                       sdk::ModelError);
   const std::array<double, 2> sizes{0.05, 0.051};
   CHECK_NOTHROW(world.coupling->check_diameters({sizes.data(), 1}));
   CHECK_THROWS_WITH_AS(world.coupling->check_diameters(sizes), doctest::Contains("use fewer"),

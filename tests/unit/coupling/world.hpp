@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dust::test {
@@ -159,7 +160,34 @@ struct World {
     restart();
   }
   void restart() {
+    assembled.reset();
+    evaluated.reset();
     coupling = std::make_unique<coupling::Coupling>(setup, grid, open, *voidage, *drag);
+  }
+
+  // The stages of an exchange: each takes what the one before has left.
+  void begin_step(double step) {
+    evaluated.reset();
+    assembled = coupling->begin_step(grains.rows(), step);
+  }
+  void evaluate(const fluid::FaceField& drag_velocity) {
+    evaluated = coupling->evaluate(std::move(assembled).value(), grains.rows(), drag_velocity);
+    assembled.reset();
+  }
+  /// A fluid that was not evaluated is prescribed: drag acted on the velocity that it has.
+  void refresh(const coupling::FluidState& fluid) {
+    if (assembled && !choice.overlaps) evaluate(fluid.velocity);
+    if (assembled) {
+      coupling->refresh(*assembled, grains.rows(), fluid);
+    } else {
+      coupling->refresh(evaluated.value(), grains.rows(), fluid);
+    }
+  }
+  void refresh() { refresh({velocity, stress}); }
+  void end_step(double step) {
+    if (assembled) evaluate(velocity);
+    coupling->end_step(std::move(evaluated).value(), grains.rows(), step);
+    evaluated.reset();
   }
 
   template <class Work>
@@ -227,6 +255,8 @@ struct World {
   std::unique_ptr<sdk::VoidageRule> voidage;
   std::unique_ptr<sdk::DragLaw> drag;
   std::unique_ptr<coupling::Coupling> coupling;
+  std::optional<coupling::AssembledDrag> assembled;
+  std::optional<coupling::EvaluatedDrag> evaluated;
   Grains grains;
 };
 

@@ -79,12 +79,12 @@ double pressure_drop(const World& world) {
 /// The bed held in place for some fluid steps of plug flow, up to the exchange of the last step.
 void run_held(World& world, int steps) {
   for (int step = 1; step <= steps; ++step) {
-    world.coupling->begin_step(world.grains.rows(), k_step);
+    world.begin_step(k_step);
     set_plug_flow(world);
-    world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
+    world.refresh();
     if (step == steps) return;
     world.grains.hold(k_step);
-    world.coupling->end_step(world.grains.rows(), k_step);
+    world.end_step(k_step);
   }
 }
 
@@ -140,7 +140,7 @@ TEST_CASE("the grains of a bed shall carry the whole pressure drop, in the air a
                                            world.velocity.component[2][f] -
                                        world.coupling->exchange().source.component[2][f];
       }
-      world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
+      world.refresh();
       double force = 0.0;
       for (std::size_t g = 0; g < world.grains.count(); ++g) {
         force += world.grains.action[4 * g + 3] * world.grains.action[4 * g + 2] /
@@ -166,13 +166,13 @@ TEST_CASE("a moving bed in a moving stream shall have the pressure drop of its s
     moving.grains.velocity[4 * g + 2] = k_speed;
   }
   for (int step = 1; step <= k_steps_to_steady; ++step) {
-    moving.coupling->begin_step(moving.grains.rows(), k_step);
+    moving.begin_step(k_step);
     set_plug_flow(moving);
     for (double& u : moving.velocity.component[2]) u += k_speed;
-    moving.coupling->refresh(moving.grains.rows(), moving.velocity, moving.stress);
+    moving.refresh();
     if (step == k_steps_to_steady) break;
     moving.grains.hold(k_step);
-    moving.coupling->end_step(moving.grains.rows(), k_step);
+    moving.end_step(k_step);
   }
   CHECK(pressure_drop(moving) == doctest::Approx(at_rest).epsilon(1e-9));
 }

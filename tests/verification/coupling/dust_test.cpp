@@ -16,7 +16,7 @@ double stokes(double, double) { return 1.0; }
 void move(World& world, sdk::Vec3 gravity) {
   const int refreshes = static_cast<int>(std::lround(k_step / world.coupling->refresh_interval()));
   for (int n = 0; n < refreshes; ++n) {
-    world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
+    world.refresh();
     world.grains.move(k_step / refreshes, gravity);
   }
 }
@@ -40,9 +40,9 @@ TEST_CASE("dust in a Couette layer shall settle and lag the air as tabulated") {
   int step = 0;
   for (const Row& row : rows) {
     for (; step < std::lround(row.time / k_step); ++step) {
-      world.coupling->begin_step(world.grains.rows(), k_step);
+      world.begin_step(k_step);
       move(world, {0, -9.81 * (1 - test::k_air / test::k_sand), 0});
-      world.coupling->end_step(world.grains.rows(), k_step);
+      world.end_step(k_step);
     }
     CHECK(world.grains.position[1] == doctest::Approx(row.y).epsilon(1e-3));
     CHECK(world.grains.position[0] == doctest::Approx(row.x).epsilon(1e-3));
@@ -107,10 +107,10 @@ TEST_CASE(
       world.set(world.velocity, [](sdk::Vec3) { return sdk::Vec3{1, 0, 0}; });
       double largest = 0.0;
       for (int step = 0; step < 60; ++step) {
-        world.coupling->begin_step(world.grains.rows(), k_step);
+        world.begin_step(k_step);
         push_air(world, {});
         move(world, {});
-        world.coupling->end_step(world.grains.rows(), k_step);
+        world.end_step(k_step);
         largest =
             std::max(largest, std::abs(world.velocity.component[0][world.grid.index(1, 1, 1)]));
       }
@@ -133,15 +133,15 @@ TEST_CASE("air pushed through held dust shall reach the speed of the balance") {
       fill(world, diameter, solids, {});
       const double push = 1e4;
       for (int step = 0; step < 100; ++step) {
-        world.coupling->begin_step(world.grains.rows(), k_step);
+        world.begin_step(k_step);
         push_air(world, {push, 0, 0});
         const int refreshes =
             static_cast<int>(std::lround(k_step / world.coupling->refresh_interval()));
         for (int n = 0; n < refreshes; ++n) {
-          world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
+          world.refresh();
           world.grains.hold(k_step / refreshes);
         }
-        world.coupling->end_step(world.grains.rows(), k_step);
+        world.end_step(k_step);
       }
       // push = n K u / eps: the drag per grain at that speed balances its part of the push.
       const double u = world.velocity.component[0][world.grid.index(2, 2, 2)];

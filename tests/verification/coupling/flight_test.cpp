@@ -29,10 +29,9 @@ struct Flight {
   }
   /// One interval between two refreshes, never longer than `longest`.
   double advance(double longest, sdk::Vec3 gravity) {
-    if (elapsed_ == 0) world.coupling->begin_step(world.grains.rows(), world.choice.fluid_step);
+    if (elapsed_ == 0) world.begin_step(world.choice.fluid_step);
     const double step = std::min(longest, world.coupling->refresh_interval());
-    world.coupling->refresh(world.grains.rows(),
-                            {world.velocity, world.stress, nullptr, 0.0, step});
+    world.refresh({world.velocity, world.stress, nullptr, 0.0, step});
     world.grains.move(step, gravity);
     elapsed_ = 1;
     return step;
@@ -207,7 +206,7 @@ Flown fly(const std::string& law, double diameter, double fluid_step, double tim
   const sdk::Vec3 start{0.8, 0, 0};
   world.grains.add({}, start, diameter);
   const sdk::Vec3 gravity = reduced_gravity(9.81, test::k_air, test::k_sand);
-  world.coupling->begin_step(world.grains.rows(), fluid_step);
+  world.begin_step(fluid_step);
   const double interval = world.coupling->refresh_interval();
   const int steps = static_cast<int>(std::lround(time / interval));
   for (int n = 0; n < steps; ++n) flight.advance(interval, gravity);
@@ -261,10 +260,10 @@ TEST_CASE("drag on a grain that is held shall be that of the slip there is") {
   World& world = flight.world;
   world.set(world.velocity, [](sdk::Vec3) { return sdk::Vec3{0, 0, 0.4}; });
   world.grains.add({0, 0, 0}, {}, 1e-4);
-  world.coupling->begin_step(world.grains.rows(), choice.fluid_step);
+  world.begin_step(choice.fluid_step);
   double rate = 0.0;
   for (int n = 0; n < 3; ++n) {
-    world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
+    world.refresh();
     world.grains.hold(choice.fluid_step);
     rate = world.grains.action[3];
   }

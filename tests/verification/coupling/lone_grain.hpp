@@ -181,20 +181,20 @@ inline LoneGrain::Error LoneGrain::error() const {
   Error error;
   int count = 0;
   for (int n = 0; n < steps; ++n) {
-    if (n == 0) coupling.begin_step(grains.rows(), step);
-    coupling.begin_step(grains.rows(), step);
+    if (n == 0) run.world.begin_step(step);
+    run.world.begin_step(step);
     run.solver->advance(run.time, step, coupling.void_fraction_before(), coupling.void_fraction(),
                         coupling.exchange());
     run.time += step;
     const auto settle = [&] {
-      coupling.evaluate(grains.rows(), run.solver->drag_velocity());
+      run.world.evaluate(run.solver->drag_velocity());
       run.hold_fluid();
     };
     if (!overlaps) settle();
     const int refreshes = static_cast<int>(std::lround(step / coupling.refresh_interval()));
     double force = 0.0;
     for (int r = 0; r < refreshes; ++r) {
-      coupling.refresh(grains.rows(), run.world.velocity, run.world.stress);
+      run.world.refresh();
       const double before = grains.impulse[static_cast<std::size_t>(d)];
       if (motion == Motion::free) {
         grains.move(step / refreshes, gravity);
@@ -207,7 +207,7 @@ inline LoneGrain::Error LoneGrain::error() const {
       force += (grains.impulse[static_cast<std::size_t>(d)] - before) / step;
     }
     if (overlaps) settle();
-    coupling.end_step(grains.rows(), step);
+    run.world.end_step(step);
     if (3 * n < 2 * steps) continue;
     const double own = grains.velocity[static_cast<std::size_t>(d)];
     double found = 0.0;

@@ -86,7 +86,7 @@ double drop(const std::vector<Size>& sizes, double velocity) {
   double sum = 0.0;
   // The first steps do not know the slip yet and pay debts.
   for (int step = 0; step < 5; ++step) {
-    world.coupling->begin_step(world.grains.rows(), k_step);
+    world.begin_step(k_step);
     for (int k = -1; k <= choice.cells[2] + 1; ++k) {
       for (int j = -1; j <= choice.cells[1]; ++j) {
         for (int i = -1; i <= choice.cells[0]; ++i) {
@@ -95,7 +95,7 @@ double drop(const std::vector<Size>& sizes, double velocity) {
         }
       }
     }
-    world.coupling->refresh(world.grains.rows(), world.velocity, world.stress);
+    world.refresh();
     sum = 0.0;
     world.for_cells([&](int i, int j, int k) {
       const std::ptrdiff_t f = world.grid.index(i, j, k);
@@ -104,7 +104,7 @@ double drop(const std::vector<Size>& sizes, double velocity) {
           world.coupling->exchange().source.component[2][f];
     });
     world.grains.hold(k_step);
-    world.coupling->end_step(world.grains.rows(), k_step);
+    world.end_step(k_step);
   }
   return sum * world.grid.spacing.z / (choice.cells[0] * choice.cells[1]) / height * k_height;
 }

@@ -48,25 +48,25 @@ struct Cloud {
     coupling::Coupling& coupling = *world.coupling;
     const bool overlaps = world.choice.overlaps;
     if (overlaps && time == 0.0) hold_air();
-    coupling.begin_step(world.grains.rows(), k_fluid_step);
+    world.begin_step(k_fluid_step);
     air->advance(time, k_fluid_step, coupling.void_fraction_before(), coupling.void_fraction(),
                  coupling.exchange());
     time += k_fluid_step;
     if (!overlaps) {
-      if (is_settled) coupling.evaluate(world.grains.rows(), air->drag_velocity());
+      if (is_settled) world.evaluate(air->drag_velocity());
       hold_air();
     }
     const int refreshes = static_cast<int>(std::lround(k_fluid_step / coupling.refresh_interval()));
     for (int n = 0; n < refreshes; ++n) {
-      coupling.refresh(world.grains.rows(), world.velocity, world.stress);
+      world.refresh();
       world.grains.move(k_fluid_step / refreshes, {});
       if (collides) collide();
     }
     if (overlaps) {
-      coupling.evaluate(world.grains.rows(), air->drag_velocity());
+      world.evaluate(air->drag_velocity());
       hold_air();
     }
-    coupling.end_step(world.grains.rows(), k_fluid_step);
+    world.end_step(k_fluid_step);
   }
   void hold_air() {
     world.velocity = world.choice.overlaps ? air->mean_velocity() : air->velocity();
@@ -148,7 +148,7 @@ Drift drift_of(Cloud& cloud, bool is_settled, int steps = k_steps) {
   const double air = k_side * k_side * k_side - cloud.world.grains.solid_volume();
   const sdk::Vec3 start{test::k_air * air * k_air_speed, 0, 0};
   // As a run begins: their volume is not pushed out of the box in the first step.
-  cloud.world.coupling->begin_step(cloud.world.grains.rows(), k_fluid_step);
+  cloud.world.begin_step(k_fluid_step);
   Drift drift;
   for (int step = 0; step < steps; ++step) {
     cloud.step(is_settled);
@@ -239,7 +239,7 @@ struct Kept {
 };
 Kept kept_over(Cloud& cloud, int steps) {
   // They are there before; then a step that makes a flow of the initial velocity, which is none.
-  cloud.world.coupling->begin_step(cloud.world.grains.rows(), k_fluid_step);
+  cloud.world.begin_step(k_fluid_step);
   cloud.step(true);
   const sdk::Vec3 start = cloud.air_momentum() + cloud.grain_momentum() + cloud.on_the_way();
   double size = size_of(cloud);

@@ -37,19 +37,19 @@ struct TwoWay {
     coupling::Coupling& coupling = *world.coupling;
     const double length = world.choice.fluid_step;
     // The grains were there before: the first step must not push their volume of fluid aside.
-    if (time == 0.0) coupling.begin_step(world.grains.rows(), length);
+    if (time == 0.0) world.begin_step(length);
     const bool overlaps = world.choice.overlaps;
-    coupling.begin_step(world.grains.rows(), length);
+    world.begin_step(length);
     solver->advance(time, length, coupling.void_fraction_before(), coupling.void_fraction(),
                     driven(coupling.exchange()));
     time += length;
     if (!overlaps) {
-      coupling.evaluate(world.grains.rows(), solver->drag_velocity());
+      world.evaluate(solver->drag_velocity());
       hold_fluid();
     }
     const int refreshes = static_cast<int>(std::lround(length / coupling.refresh_interval()));
     for (int n = 0; n < refreshes; ++n) {
-      coupling.refresh(world.grains.rows(), world.velocity, world.stress);
+      world.refresh();
       if (is_held) {
         world.grains.hold(length / refreshes);
       } else {
@@ -57,10 +57,10 @@ struct TwoWay {
       }
     }
     if (overlaps) {
-      coupling.evaluate(world.grains.rows(), solver->drag_velocity());
+      world.evaluate(solver->drag_velocity());
       hold_fluid();
     }
-    coupling.end_step(world.grains.rows(), length);
+    world.end_step(length);
   }
   /// What the grains see from now on.
   void hold_fluid() {

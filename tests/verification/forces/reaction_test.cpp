@@ -69,18 +69,17 @@ struct Cloud {
   }
   void step() {
     coupling::Coupling& coupling = *world.coupling;
-    coupling.begin_step(world.grains.rows(), k_step);
+    world.begin_step(k_step);
     liquid->advance(time, k_step, coupling.void_fraction_before(), coupling.void_fraction(),
                     coupling.exchange());
     time += k_step;
-    coupling.evaluate(world.grains.rows(), liquid->drag_velocity());
+    world.evaluate(liquid->drag_velocity());
     const int refreshes = static_cast<int>(std::lround(k_step / coupling.refresh_interval()));
     for (int n = 0; n < refreshes; ++n) {
-      coupling.refresh(world.grains.rows(),
-                       {liquid->velocity(), liquid->stress_divergence(), &liquid->mean_pressure()});
+      world.refresh({liquid->velocity(), liquid->stress_divergence(), &liquid->mean_pressure()});
       world.grains.move(k_step / refreshes, {});
     }
-    coupling.end_step(world.grains.rows(), k_step);
+    world.end_step(k_step);
   }
   [[nodiscard]] sdk::Vec3 momentum() {
     sdk::Vec3 sum;

@@ -54,10 +54,9 @@ struct Still {
     }
     return f;
   }
-  void map() { world.coupling->begin_step(world.grains.rows(), world.choice.fluid_step); }
+  void map() { world.begin_step(world.choice.fluid_step); }
   void refresh(double held) {
-    world.coupling->refresh(world.grains.rows(),
-                            {world.velocity, world.stress, &pressure, time, held});
+    world.refresh({world.velocity, world.stress, &pressure, time, held});
   }
   /// One fluid step of `count` refreshes.
   void step(int count, sdk::Vec3 dem_gravity) {
@@ -68,7 +67,7 @@ struct Still {
       world.grains.move(held, dem_gravity);
       time += held;
     }
-    world.coupling->end_step(world.grains.rows(), world.choice.fluid_step);
+    world.end_step(world.choice.fluid_step);
   }
 
   World world;
