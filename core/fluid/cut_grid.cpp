@@ -26,10 +26,10 @@ CutGrid::CutGrid(const Grid& grid, const bodies::BodySet& bodies, const Sides& s
       suction_(bodies) {}
 
 std::unique_ptr<Geometry> CutGrid::static_part() const {
-  const bool has_movers = std::any_of(bodies_.begin(), bodies_.end(), [](const bodies::Body& b) {
-    return !b.is_removed() && b.displaces();
-  });
-  if (!has_movers) return nullptr;
+  const bool has_moving_bodies =
+      std::any_of(bodies_.begin(), bodies_.end(),
+                  [](const bodies::Body& b) { return !b.is_removed() && b.displaces(); });
+  if (!has_moving_bodies) return nullptr;
   return std::make_unique<Geometry>(
       build_static_geometry(grid_, bodies_, sides_.kinds(), properties_));
 }
@@ -49,7 +49,7 @@ void CutGrid::evaluate_walls(double time) {
 }
 
 void CutGrid::set_deep_ghosts(FaceField& u, FaceField& next) {
-  if (!have_walls_changed_ && !has_movers()) return;
+  if (!have_walls_changed_ && !has_moving_bodies()) return;
   have_walls_changed_ = false;
   for (int d = 0; d < 3; ++d) {
     const auto& ghosts = geometry_.ghost[d];
@@ -70,14 +70,14 @@ void CutGrid::cut(double begin, double end) {
 }
 
 void CutGrid::predict(double time) {
-  if (!has_movers()) return;
+  if (!has_moving_bodies()) return;
   open_ahead_ =
       open_fractions(grid_, bodies_, sides_.kinds(), properties_, time, *static_geometry_);
   sides_.fill_cells(open_ahead_);
 }
 
 int CutGrid::intervals(double step) const {
-  if (!has_movers()) return 1;
+  if (!has_moving_bodies()) return 1;
   double speed = 0.0;
   for (const auto& body : bodies_) {
     if (!body.is_removed()) speed = std::max(speed, body.largest_displacing_speed());
@@ -103,7 +103,7 @@ void CutGrid::set_static_rate(const CellField& before, const CellField& after, d
 void CutGrid::set_rate(const CellField& before, const CellField& after, double from, double to,
                        double step, Continuity& continuity) const {
   CellField& rate = continuity.rate();
-  if (!has_movers()) {
+  if (!has_moving_bodies()) {
     set_static_rate(before, after, step, rate);
     return;
   }

@@ -25,7 +25,7 @@ class CutGrid {
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
   [[nodiscard]] const bodies::BodySet& bodies() const { return bodies_; }
   /// Do bodies move through the grid, which is then cut anew in each step?
-  [[nodiscard]] bool has_movers() const { return static_geometry_ != nullptr; }
+  [[nodiscard]] bool has_moving_bodies() const { return static_geometry_ != nullptr; }
   /// Share of the cells outside bodies, as it will be once predict() was called.
   [[nodiscard]] const CellField& open_fraction() const { return open_ahead_; }
   /// Intervals in which the grid is cut anew over `step` [s].

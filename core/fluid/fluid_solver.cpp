@@ -15,24 +15,24 @@ using Ghosts = Momentum::Ghosts;
 FluidSolver::Impl::Impl(const Grid& grid, const scenario::FluidSpec& fluid,
                         const bodies::BodySet& bodies, const Boundaries& boundaries)
     : grid_(grid),
-      fluid_(fluid),
       sides_(grid_, boundaries),
-      properties_(grid_, fluid_),
+      properties_(grid_, fluid),
       cut_(grid_, bodies, sides_, properties_),
       momentum_(grid_, geometry(), sides_, properties_),
-      continuity_(grid_, geometry(), sides_, properties_, momentum_),
+      projection_(grid_, cut_, sides_, properties_, momentum_, fluid.pressure_tolerance),
       u_(grid_),
-      p_(grid_.size, 0.0),
-      stages_{FaceField(grid_), FaceField(grid_), FaceField(grid_)},
+      stages_(grid_, geometry(), sides_, properties_, momentum_),
       void_fraction_(grid_),
       drag_velocity_(grid_),
-      stress_(FaceField(grid_)) {
+      balance_(grid_, geometry(), properties_),
+      stress_(grid_, geometry(), sides_, momentum_),
+      limits_(grid_, geometry(), momentum_, fluid.largest_cfl) {
   cut_.complete(0.0);
   sides_.set_flow_data(geometry().open_area, properties_.by_place());
   sides_.evaluate_velocity(0.0, void_fraction_.field());
   sides_.evaluate_pressure(0.0);
   for (int d = 0; d < 3; ++d) {
-    std::fill(u_.component[d].begin(), u_.component[d].end(), fluid_.initial_velocity[d]);
+    std::fill(u_.component[d].begin(), u_.component[d].end(), fluid.initial_velocity[d]);
   }
   momentum_.extend(u_, Ghosts::all);
   sides_.fill_velocity(u_);
@@ -48,7 +48,7 @@ void FluidSolver::Impl::recut(double begin, double end) {
   cut_.cut(begin, end);
   momentum_.geometry_changed();
   cut_.complete(end);
-  continuity_.geometry_changed(p_);
+  projection_.geometry_changed();
   if (eddies_) eddies_->bodies_moved(cut_.bodies(), end);
 }
 
@@ -57,7 +57,7 @@ void FluidSolver::Impl::bodies_changed(double time) {
   recut(time, time);
   momentum_.extend(u_, Ghosts::all);
   sides_.fill_velocity(u_);
-  rates_.invalidate();
+  limits_.velocity_changed();
 }
 
 void FluidSolver::Impl::set_velocity(const std::function<Vec3(Vec3)>& velocity) {
@@ -73,14 +73,8 @@ void FluidSolver::Impl::set_velocity(const std::function<Vec3(Vec3)>& velocity) 
   }
   momentum_.extend(u_, Ghosts::all);
   sides_.fill_velocity(u_);
-  is_consistent_ = false;
-  rates_.invalidate();
-}
-
-const FaceField& FluidSolver::Impl::stress_divergence() {
-  return stress_.get([this](FaceField& stress) {
-    find_stress(u_, p_, stress, eddies_ ? &eddies_->force() : nullptr);
-  });
+  projection_.set_consistent(false);
+  limits_.velocity_changed();
 }
 
 void FluidSolver::Impl::save(sdk::ArchiveWriter& archive) {
@@ -88,23 +82,22 @@ void FluidSolver::Impl::save(sdk::ArchiveWriter& archive) {
   archive.numbers("velocity_x", u_.component[0]);
   archive.numbers("velocity_y", u_.component[1]);
   archive.numbers("velocity_z", u_.component[2]);
-  archive.numbers("pressure", p_);
+  archive.numbers("pressure", pressure());
   archive.numbers("stress_x", stress.component[0]);
   archive.numbers("stress_y", stress.component[1]);
   archive.numbers("stress_z", stress.component[2]);
-  archive.integer("is_consistent", is_consistent_ ? 1 : 0);
-  if (has_movers()) archive.integers("open_cells", continuity_.open_cells());
-  archive.integer("has_book", balance_ ? 1 : 0);
-  if (balance_) balance_->save(archive);
+  archive.integer("is_consistent", projection_.is_consistent() ? 1 : 0);
+  if (has_moving_bodies()) archive.integers("open_cells", projection_.continuity().open_cells());
+  balance_.save(archive);
 }
 
 void FluidSolver::Impl::load(sdk::ArchiveReader& archive, double time) {
   // The bodies may have moved or gone since the start.
   const bool has_changed =
-      has_movers() || std::any_of(cut_.bodies().begin(), cut_.bodies().end(),
-                                  [](const bodies::Body& b) { return b.is_removed(); });
+      has_moving_bodies() || std::any_of(cut_.bodies().begin(), cut_.bodies().end(),
+                                         [](const bodies::Body& b) { return b.is_removed(); });
   if (has_changed) bodies_changed(time);
-  if (has_movers()) continuity_.was_open(archive.integers("open_cells"));
+  if (has_moving_bodies()) projection_.continuity().was_open(archive.integers("open_cells"));
   const auto take = [&](const char* name, std::vector<double>& into) {
     auto values = archive.numbers(name);
     if (values.size() != grid_.size) {
@@ -116,18 +109,14 @@ void FluidSolver::Impl::load(sdk::ArchiveReader& archive, double time) {
   take("velocity_x", u_.component[0]);
   take("velocity_y", u_.component[1]);
   take("velocity_z", u_.component[2]);
-  take("pressure", p_);
+  take("pressure", projection_.pressure());
   FaceField& stress = stress_.write();
   take("stress_x", stress.component[0]);
   take("stress_y", stress.component[1]);
   take("stress_z", stress.component[2]);
-  is_consistent_ = archive.integer("is_consistent") != 0;
-  if (archive.integer("has_book") != 0) {
-    balance_ = std::make_unique<MomentumBalance>(grid_, geometry(), properties_);
-    balance_->load(archive);
-    mean_pressure_.assign(grid_.size, 0.0);
-  }
-  rates_.invalidate();
+  projection_.set_consistent(archive.integer("is_consistent") != 0);
+  balance_.load(archive);
+  limits_.velocity_changed();
   cut_.walls_have_changed();
 }
 
@@ -159,7 +148,7 @@ void FluidSolver::each_sink(
   for (const Continuity::Sink& sink : impl_->sinks()) visit(sink.cell, sink.rate, sink.body);
 }
 const FluidReport& FluidSolver::report() const { return impl_->report(); }
-bool FluidSolver::has_moving_bodies() const { return impl_->has_movers(); }
+bool FluidSolver::has_moving_bodies() const { return impl_->has_moving_bodies(); }
 void FluidSolver::look_ahead(double time) { impl_->predict_open_fraction(time); }
 void FluidSolver::bodies_changed(double time) { impl_->bodies_changed(time); }
 void FluidSolver::set_velocity(const std::function<Vec3(Vec3)>& velocity) {

@@ -192,12 +192,12 @@ void Sides::evaluate_velocity(double time, const CellField& eps) {
   for (int side = 0; side < 6; ++side) {
     for (int c = 0; c < 3; ++c) evaluate_at(side, c, time, &eps);
   }
-  blew_ = blows_;
+  had_inflow_ = has_inflow_;
   for (int d = 0; d < 3; ++d) {
     if (!is_idle_[d]) continue;
-    blows_[d] = false;
+    has_inflow_[d] = false;
     for (int side = 2 * d; side < 2 * d + 2; ++side) {
-      for (const double v : values_[side].velocity[d]) blows_[d] = blows_[d] || v != 0.0;
+      for (const double v : values_[side].velocity[d]) has_inflow_[d] = has_inflow_[d] || v != 0.0;
     }
   }
 }
@@ -223,7 +223,7 @@ void Sides::fill_component(std::vector<double>& v, int d, int direction, bool fo
   for (int high = 0; high < 2; ++high) {
     const int side = 2 * direction + high;
     const auto size = plane_size(side, d);
-    const Beyond beyond = dust::fluid::beyond(kinds_, d, direction, high);
+    const GhostRule ghost_rule = dust::fluid::ghost_rule(kinds_, d, direction, high);
     const std::ptrdiff_t out = high ? s : -s;
     // First number outside for tangential components, the side's own face for the normal one.
     const std::ptrdiff_t edge = d == direction ? (high ? n * s : 0) : (high ? (n - 1) * s : 0);
@@ -231,7 +231,7 @@ void Sides::fill_component(std::vector<double>& v, int d, int direction, bool fo
     const std::ptrdiff_t third = n > 1 ? edge - 2 * out : second;
     // In y and z the halo has no room for a second face beyond the last one.
     const std::ptrdiff_t further = d == direction && high && d != 0 ? edge + out : edge + 2 * out;
-    if (beyond == Beyond::gradient) {
+    if (ghost_rule == GhostRule::gradient) {
       const std::ptrdiff_t mirrored = d == direction ? edge : second;
       for_plane(grid_, direction,
                 [p = v.data(), edge, out, further, mirrored](int, int, std::ptrdiff_t o) {
@@ -270,7 +270,8 @@ bool Sides::find_idle(int direction) const {
   if (grid_.count[direction] > 1 || kinds_.is_periodic[direction]) return false;
   for (int high = 0; high < 2; ++high) {
     if (is_pressure_side(kinds_, direction, high)) return false;
-    if (beyond(kinds_, (direction + 1) % 3, direction, high) != Beyond::gradient) return false;
+    if (ghost_rule(kinds_, (direction + 1) % 3, direction, high) != GhostRule::gradient)
+      return false;
   }
   return true;
 }

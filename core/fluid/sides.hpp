@@ -42,7 +42,7 @@ class Sides {
   [[nodiscard]] bool is_idle(int direction) const { return is_idle_[direction]; }
   /// Is the velocity along an idle direction 0, now and at the last evaluation?
   [[nodiscard]] bool is_still(int direction) const {
-    return is_idle_[direction] && !blows_[direction] && !blew_[direction];
+    return is_idle_[direction] && !has_inflow_[direction] && !had_inflow_[direction];
   }
   /// Is the kinetic energy of entering fluid paid by the pressure (total pressure)?
   [[nodiscard]] bool is_total_pressure(int side) const {
@@ -76,8 +76,8 @@ class Sides {
   SideKinds kinds_;
   std::array<Values, 6> values_;
   std::array<bool, 3> is_idle_{};
-  std::array<bool, 3> blows_{true, true, true};
-  std::array<bool, 3> blew_{true, true, true};
+  std::array<bool, 3> has_inflow_{true, true, true};
+  std::array<bool, 3> had_inflow_{true, true, true};
 };
 
 }  // namespace dust::fluid

@@ -13,7 +13,7 @@ using sdk::Vec3;
 /// A point this close to a surface (in cells) counts as being on it, so inside the body.
 constexpr double k_on_surface = 1e-6;
 /// Openings smaller than this are closed, larger than one minus this are whole.
-constexpr double k_least_opening = 1e-4;
+constexpr double k_min_opening = 1e-4;
 /// Sub-boxes per direction in which an open share is measured.
 constexpr int k_sub_boxes = 8;
 /// Distance from a surface (in cells) of the points that stand for cells with their centre inside.
@@ -21,7 +21,7 @@ constexpr double k_beside = 1e-3;
 /// Share of the distance that a step goes: a sheet is met on the side one comes from.
 constexpr double k_stride = 0.99;
 /// Steps after which the way along a surface counts as free: each is as long as the distance.
-constexpr int k_most_steps = 200;
+constexpr int k_max_steps = 200;
 
 }  // namespace
 
@@ -34,19 +34,19 @@ BodyField::BodyField(const Grid& grid, const bodies::BodySet& bodies, double tim
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const bodies::Body& body = bodies[b];
     if (body.is_removed()) continue;
-    const bool is_mover = body.displaces();
-    if (is_mover && which == Which::standing) continue;
+    const bool is_moving = body.displaces();
+    if (is_moving && which == Which::static_bodies) continue;
     // A surface that only moves along itself stays where the scenario puts it, to the last bit.
     const auto at =
-        is_mover ? body.placement(time)
-                 : bodies::Placement::turned(body.frame_origin, body.frame_axis, body.frame_angle);
-    (is_mover ? movers_ : standing_).push_back({&body, static_cast<int>(b), at});
+        is_moving ? body.placement(time)
+                  : bodies::Placement::turned(body.frame_origin, body.frame_axis, body.frame_angle);
+    (is_moving ? moving_bodies_ : static_bodies_).push_back({&body, static_cast<int>(b), at});
   }
 }
 
 BodyField::Hit BodyField::nearest(Vec3 p) const {
   Hit hit;
-  for (const auto* list : {&standing_, &movers_}) {
+  for (const auto* list : {&static_bodies_, &moving_bodies_}) {
     for (const Placed& b : *list) {
       const auto s = b.body->nearest(p, b.at);
       if (s.distance < hit.distance) hit = {s.distance, s.normal, b.number};
@@ -55,9 +55,9 @@ BodyField::Hit BodyField::nearest(Vec3 p) const {
   return hit;
 }
 
-double BodyField::distance_to_movers(Vec3 p) const {
+double BodyField::distance_to_moving_bodies(Vec3 p) const {
   double least = std::numeric_limits<double>::max();
-  for (const Placed& b : movers_) least = std::min(least, b.body->nearest(p, b.at).distance);
+  for (const Placed& b : moving_bodies_) least = std::min(least, b.body->nearest(p, b.at).distance);
   return least;
 }
 
@@ -68,7 +68,7 @@ double BodyField::open_share(Vec3 centre, Vec3 size, Vec3* middle, double smear)
   const Hit at_centre = nearest(centre);
   const auto own_way = [&](const Hit& hit, Vec3 p) {
     if (smear == 0.0) return 0.0;
-    for (const Placed& b : movers_) {
+    for (const Placed& b : moving_bodies_) {
       if (b.number == hit.body) return smear * std::abs(dot(b.at.velocity_at(p), hit.normal));
     }
     return 0.0;
@@ -100,8 +100,8 @@ double BodyField::open_share(Vec3 centre, Vec3 size, Vec3* middle, double smear)
   }
   if (middle != nullptr && sum > 0.0) *middle = centre + moment / sum;
   const double share = sum / (n[0] * n[1] * n[2]);
-  if (share < k_least_opening) return 0.0;
-  return share > 1.0 - k_least_opening ? 1.0 : share;
+  if (share < k_min_opening) return 0.0;
+  return share > 1.0 - k_min_opening ? 1.0 : share;
 }
 
 double BodyField::wall_distance(Vec3 from, Vec3 to) const {
@@ -125,7 +125,7 @@ std::optional<Vec3> BodyField::outside(Vec3 centre) const {
 
 bool BodyField::meets(Vec3 from, Vec3 along, double length, double& way, Hit& hit) const {
   way = 0.0;
-  for (int step = 0; step < k_most_steps && way < length; ++step) {
+  for (int step = 0; step < k_max_steps && way < length; ++step) {
     hit = nearest(from + way * along);
     if (hit.distance <= 0.1 * k_beside * smallest_) return true;
     way += k_stride * hit.distance;

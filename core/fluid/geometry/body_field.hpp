@@ -19,14 +19,14 @@ class BodyField {
     sdk::Vec3 normal;
     int body = -1;
   };
-  enum class Which { all, standing };  ///< standing: those that never change their place
+  enum class Which { all, static_bodies };  ///< standing: those that never change their place
 
   BodyField(const Grid& grid, const bodies::BodySet& bodies, double time, Which which);
 
-  [[nodiscard]] bool is_empty() const { return standing_.empty() && movers_.empty(); }
-  [[nodiscard]] bool has_movers() const { return !movers_.empty(); }
+  [[nodiscard]] bool is_empty() const { return static_bodies_.empty() && moving_bodies_.empty(); }
+  [[nodiscard]] bool has_moving_bodies() const { return !moving_bodies_.empty(); }
   [[nodiscard]] Hit nearest(sdk::Vec3 p) const;
-  [[nodiscard]] double distance_to_movers(sdk::Vec3 p) const;
+  [[nodiscard]] double distance_to_moving_bodies(sdk::Vec3 p) const;
   [[nodiscard]] bool is_inside(sdk::Vec3 p) const;
 
   /// Share of the box (edges `size`, 0 = flat) outside all bodies. Within a sub-box the surface is
@@ -55,8 +55,8 @@ class BodyField {
   [[nodiscard]] bool meets(sdk::Vec3 from, sdk::Vec3 along, double length, double& way,
                            Hit& hit) const;
 
-  std::vector<Placed> standing_;
-  std::vector<Placed> movers_;
+  std::vector<Placed> static_bodies_;
+  std::vector<Placed> moving_bodies_;
   double smallest_ = 0.0;  ///< [m] spacing that lengths are compared with
 };
 

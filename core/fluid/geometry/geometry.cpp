@@ -23,20 +23,23 @@ void evaluate(WallPoints& wall, const bodies::BodySet& bodies, double time) {
 
 Geometry build_geometry(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
                         const FaceProperties& properties, TimeInterval interval,
-                        const Geometry* standing) {
-  return GeometryBuilder(grid, bodies, sides, properties, interval, standing, BodyField::Which::all)
+                        const Geometry* static_geometry) {
+  return GeometryBuilder(grid, bodies, sides, properties, interval, static_geometry,
+                         BodyField::Which::all)
       .build();
 }
 
 Geometry build_static_geometry(const Grid& grid, const bodies::BodySet& bodies,
                                const SideKinds& sides, const FaceProperties& properties) {
-  return GeometryBuilder(grid, bodies, sides, properties, {}, nullptr, BodyField::Which::standing)
+  return GeometryBuilder(grid, bodies, sides, properties, {}, nullptr,
+                         BodyField::Which::static_geometry)
       .build();
 }
 
 CellField open_fractions(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
-                         const FaceProperties& properties, double time, const Geometry& standing) {
-  GeometryBuilder builder(grid, bodies, sides, properties, {time, time}, &standing,
+                         const FaceProperties& properties, double time,
+                         const Geometry& static_geometry) {
+  GeometryBuilder builder(grid, bodies, sides, properties, {time, time}, &static_geometry,
                           BodyField::Which::all);
   builder.measure_cells();
   return builder.take_open_fraction();

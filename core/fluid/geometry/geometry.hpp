@@ -13,7 +13,7 @@
 namespace dust::fluid {
 
 /// How one component of the velocity behaves beyond a side of the domain.
-enum class Beyond { fixed, gradient, periodic };
+enum class GhostRule { fixed, gradient, periodic };
 
 /// What geometry and viscous stencils need to know of the six sides.
 struct SideKinds {
@@ -21,12 +21,12 @@ struct SideKinds {
   std::array<bool, 3> is_periodic{false, false, false};
 };
 
-[[nodiscard]] inline Beyond beyond(const SideKinds& sides, int component, int direction,
-                                   int is_high) {
-  if (sides.is_periodic[direction]) return Beyond::periodic;
+[[nodiscard]] inline GhostRule ghost_rule(const SideKinds& sides, int component, int direction,
+                                          int is_high) {
+  if (sides.is_periodic[direction]) return GhostRule::periodic;
   const auto& r = sides.rules[2 * direction + is_high];
   const auto rule = component == direction ? r.normal_velocity : r.tangential_velocity;
-  return rule == sdk::SideRule::fixed ? Beyond::fixed : Beyond::gradient;
+  return rule == sdk::SideRule::fixed ? GhostRule::fixed : GhostRule::gradient;
 }
 /// Is the velocity through this side an unknown, driven by a pressure given outside?
 [[nodiscard]] inline bool is_pressure_side(const SideKinds& sides, int direction, int is_high) {
@@ -71,9 +71,9 @@ struct GhostFace {
   std::int32_t at = 0;
   std::int32_t wall_point = 0;
   double factor = 0.0;  ///< 0 deep inside
-  bool is_crossed =
+  bool is_partly_open =
       false;  ///< part of the face is open: fluid passes, continuity has the last word
-  bool is_parted = false;
+  bool is_blocked = false;
   std::array<std::int32_t, 8> node{};
   std::array<double, 8> weight{};
 };
@@ -137,12 +137,12 @@ struct Geometry {
   std::array<std::vector<OpenPart>, 3> open_part;
   /// Faces between cells that a body thinner than their distance keeps apart: no fluid passes, but
   /// a body that moves shoves fluid through.
-  std::array<std::vector<std::int32_t>, 3> parted;
+  std::array<std::vector<std::int32_t>, 3> blocked;
   std::array<std::vector<SkewFace>, 3> skew;            ///< in the order of rows
   std::array<std::vector<std::int32_t>, 3> skew_begin;  ///< as cut_begin
   std::array<std::vector<SkewNode>, 3> skew_node;
   WallPoints wall;
-  long close_distances = 0;  ///< wall distances that were raised to k_least_distance
+  long close_distances = 0;  ///< wall distances that were raised to k_min_distance
 };
 
 /// [s]
@@ -154,16 +154,17 @@ struct TimeInterval {
 /// take theirs from it.
 Geometry build_geometry(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
                         const FaceProperties& properties, TimeInterval interval,
-                        const Geometry* standing);
+                        const Geometry* static_geometry);
 /// The geometry without the bodies that move.
 Geometry build_static_geometry(const Grid& grid, const bodies::BodySet& bodies,
                                const SideKinds& sides, const FaceProperties& properties);
 /// Only the open fractions at `time`.
 CellField open_fractions(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
-                         const FaceProperties& properties, double time, const Geometry& standing);
+                         const FaceProperties& properties, double time,
+                         const Geometry& static_geometry);
 
 /// Least distance of a face's point from a surface along the grid, in cells: bounds the viscous
 /// weight. The surface is met at a place wrong by at most this share of a cell.
-inline constexpr double k_least_distance = 1e-3;
+inline constexpr double k_min_distance = 1e-3;
 
 }  // namespace dust::fluid

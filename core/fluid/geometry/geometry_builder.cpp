@@ -18,15 +18,15 @@ constexpr double k_near = 1.8;
 
 GeometryBuilder::GeometryBuilder(const Grid& grid, const bodies::BodySet& bodies,
                                  const SideKinds& sides, const FaceProperties& properties,
-                                 TimeInterval interval, const Geometry* standing,
+                                 TimeInterval interval, const Geometry* static_geometry,
                                  BodyField::Which which)
     : grid_(grid),
       bodies_(bodies),
       sides_(sides),
       properties_(properties),
-      standing_(standing),
+      static_geometry_(static_geometry),
       field_(grid, bodies, interval.end, which) {
-  if (field_.has_movers()) {
+  if (field_.has_moving_bodies()) {
     smear_ = (interval.end - interval.begin) / k_instants;
     for (int n = 0; n < k_instants; ++n) {
       instants_.emplace_back(grid, bodies, interval.begin + (n + 0.5) * smear_, which);
@@ -40,7 +40,7 @@ GeometryBuilder::GeometryBuilder(const Grid& grid, const bodies::BodySet& bodies
 Geometry GeometryBuilder::build() {
   measure_cells();
   for (int d = 0; d < 3; ++d) measure_faces(d);
-  for (int d = 0; d < 3; ++d) find_parted(d);
+  for (int d = 0; d < 3; ++d) find_blocked(d);
   for (int d = 0; d < 3; ++d) find_unknowns(d);
   for (int d = 0; d < 3; ++d) {
     const auto& kind = g_.kind[d];
@@ -66,8 +66,8 @@ void GeometryBuilder::measure_cells() {
       const std::ptrdiff_t o = grid_.index(i, j, k);
       const Vec3 centre = grid_.centre(i, j, k);
       distance_[o] = field_.nearest(centre).distance;
-      g_.open_fraction[o] = is_as_standing(field_, centre, reach)
-                                ? standing_->open_fraction[o]
+      g_.open_fraction[o] = is_as_static(field_, centre, reach)
+                                ? static_geometry_->open_fraction[o]
                                 : field_.open_share(centre, grid_.spacing);
     }
   });
@@ -90,12 +90,12 @@ void GeometryBuilder::measure_faces(int d) {
       const Vec3 centre = grid_.face(d, i, j, k);
       bool is_still = true;
       for (const BodyField& instant : instants_) {
-        is_still = is_still && is_as_standing(instant, centre, reach);
+        is_still = is_still && is_as_static(instant, centre, reach);
       }
-      is_still = is_still && (instants_.empty() || is_as_standing(field_, centre, reach));
+      is_still = is_still && (instants_.empty() || is_as_static(field_, centre, reach));
       double now = 1.0;
-      if (is_still && standing_ != nullptr) {
-        now = area[o] = standing_->open_area.component[d][o];
+      if (is_still && static_geometry_ != nullptr) {
+        now = area[o] = static_geometry_->open_area.component[d][o];
       } else if (!field_.is_empty()) {
         now = area[o] = field_.open_share(centre, size);
         if (!instants_.empty() && smear_ > 0.0) {
@@ -132,7 +132,7 @@ bool GeometryBuilder::is_near(int d, const std::array<int, 3>& c, std::ptrdiff_t
   return std::min(a, b) < near_;
 }
 
-void GeometryBuilder::find_parted(int d) {
+void GeometryBuilder::find_blocked(int d) {
   if (field_.is_empty() || grid_.count[d] == 1) return;
   const auto& n = grid_.count;
   for (int k = 0; k < n[2]; ++k) {
@@ -148,7 +148,7 @@ void GeometryBuilder::find_parted(int d) {
         const auto from = field_.outside(lower);
         const auto to = field_.outside(upper);
         if (!from || !to || !field_.passes_through(*from, *to)) continue;
-        g_.parted[d].push_back(static_cast<std::int32_t>(o));
+        g_.blocked[d].push_back(static_cast<std::int32_t>(o));
         closed_[d][o] = 2;
       }
     }

@@ -17,8 +17,8 @@ namespace dust::fluid {
 class GeometryBuilder {
  public:
   GeometryBuilder(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
-                  const FaceProperties& properties, TimeInterval interval, const Geometry* standing,
-                  BodyField::Which which);
+                  const FaceProperties& properties, TimeInterval interval,
+                  const Geometry* static_geometry, BodyField::Which which);
 
   Geometry build();
   void measure_cells();
@@ -36,8 +36,8 @@ class GeometryBuilder {
     return field_.wall_distance(from, to);
   }
   /// Are the movers so far that what lies within `reach` of the point is as without them?
-  [[nodiscard]] bool is_as_standing(const BodyField& field, Vec3 p, double reach) const {
-    return standing_ != nullptr && field.distance_to_movers(p) > reach;
+  [[nodiscard]] bool is_as_static(const BodyField& field, Vec3 p, double reach) const {
+    return static_geometry_ != nullptr && field.distance_to_moving_bodies(p) > reach;
   }
   void measure_faces(int d);
   /// Is a surface so near to the face's cells that something may lie between them?
@@ -45,7 +45,7 @@ class GeometryBuilder {
   /// Cells whose points in the fluid have a thin body between them have nothing to do with each
   /// other. A way through the grid from one side of the body to the other crosses it somewhere, and
   /// there it meets such a face: nothing leaks.
-  void find_parted(int d);
+  void find_blocked(int d);
   void find_unknowns(int d);
   std::int32_t add_wall_point(Vec3 near) {
     const Hit hit = nearest(near);
@@ -67,7 +67,8 @@ class GeometryBuilder {
   bool meet_boundary(int d, int dir, int side, double h, CutFace& face, StencilSide& here) const;
   void find_open_parts(int d);
   [[nodiscard]] bool has_fixed(int d, int dir) const {
-    return beyond(sides_, d, dir, 0) == Beyond::fixed || beyond(sides_, d, dir, 1) == Beyond::fixed;
+    return ghost_rule(sides_, d, dir, 0) == GhostRule::fixed ||
+           ghost_rule(sides_, d, dir, 1) == GhostRule::fixed;
   }
   [[nodiscard]] std::ptrdiff_t wrapped(std::ptrdiff_t o, int dir, int c, int step) const;
   void find_ghosts(int d);
@@ -82,7 +83,7 @@ class GeometryBuilder {
   const bodies::BodySet& bodies_;
   const SideKinds& sides_;
   const FaceProperties& properties_;
-  const Geometry* standing_;
+  const Geometry* static_geometry_;
   BodyField field_;                                  ///< at the end of the interval
   std::vector<BodyField> instants_;                  ///< if bodies move
   double smear_ = 0.0;                               ///< [s]

@@ -24,11 +24,11 @@ constexpr double k_largest_exponent = 3.9;
 /// Faces nearer to the surface (in cells, to both sides) put a point of it into the fit.
 constexpr double k_at_surface = 0.71;
 /// Least product of the normals of two neighbours: the surface bends by 37 degrees at most.
-constexpr double k_least_alignment = 0.8;
+constexpr double k_min_alignment = 0.8;
 /// Component of a normal below which it lies in a plane of the grid, or along the grid.
 constexpr double k_along_grid = 1e-3;
 /// Neighbours needed for the six coefficients of a fit.
-constexpr std::size_t k_least_nodes = 10;
+constexpr std::size_t k_min_nodes = 10;
 /// Largest speed x cell / kinematic viscosity: a layer of less than a tenth of a cell (after the
 /// way of a cell) is nothing to be resolved, and the dissipation of the plain scheme is what such
 /// flows need. Runs were stable up to three times this.
@@ -38,13 +38,9 @@ constexpr double k_largest_weights = 20.0;
 
 }  // namespace
 
-SkewStencils::SkewStencils(const Surroundings& surroundings, Geometry& geometry,
+SkewStencils::SkewStencils(const SolverParts& parts, Geometry& geometry,
                            std::vector<SurfacePoint>& points)
-    : around_(surroundings),
-      grid_(surroundings.grid),
-      sides_(surroundings.sides),
-      g_(geometry),
-      points_(points) {}
+    : around_(parts), grid_(parts.grid), sides_(parts.sides), g_(geometry), points_(points) {}
 
 bool SkewStencils::is_turning(int body) const {
   const bodies::Body& b = around_.bodies[static_cast<std::size_t>(body)];
@@ -187,13 +183,13 @@ bool SkewStencils::gather(int d, const std::array<int, 3>& c, const Frame& f, bo
       // Only along one smooth surface.
       const Vec3 n = beside.hit.normal;
       if (!beside.is_usable || beside.hit.body != f.hit.body ||
-          dot(n, f.hit.normal) < k_least_alignment || std::abs(n[f.along]) > k_along_grid) {
+          dot(n, f.hit.normal) < k_min_alignment || std::abs(n[f.along]) > k_along_grid) {
         return false;
       }
       is_askew = is_askew || std::min(std::abs(n[a]), std::abs(n[b])) > k_along_grid;
     }
   }
-  return patch_.size() >= k_least_nodes;
+  return patch_.size() >= k_min_nodes;
 }
 
 bool SkewStencils::fit(int d, const std::array<int, 3>& c, const Frame& frame, std::ptrdiff_t self,

@@ -30,7 +30,7 @@ struct SurfacePoint {
 class SkewStencils {
  public:
   /// What is known of grid and bodies by then; kept by reference.
-  struct Surroundings {
+  struct SolverParts {
     const Grid& grid;
     const bodies::BodySet& bodies;
     const SideKinds& sides;
@@ -40,8 +40,7 @@ class SkewStencils {
     const std::array<std::vector<std::uint8_t>, 3>& closed;  ///< of faces, 2 = parted
   };
   /// Adds to `geometry`, whose faces have their kinds, and to `points`.
-  SkewStencils(const Surroundings& surroundings, Geometry& geometry,
-               std::vector<SurfacePoint>& points);
+  SkewStencils(const SolverParts& parts, Geometry& geometry, std::vector<SurfacePoint>& points);
   void find();
 
  private:
@@ -73,7 +72,7 @@ class SkewStencils {
   bool fit(int d, const std::array<int, 3>& c, const Frame& frame, std::ptrdiff_t self,
            std::vector<SkewNode>& nodes, bool& is_askew);
 
-  Surroundings around_;
+  SolverParts around_;
   const Grid& grid_;
   const SideKinds& sides_;
   Geometry& g_;

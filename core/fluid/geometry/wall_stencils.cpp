@@ -64,7 +64,7 @@ void GeometryBuilder::set_weights(const std::array<StencilSide, 2>& sides, doubl
 /// A side of the domain beside the face; true if its stencil is not the plain one.
 bool GeometryBuilder::meet_boundary(int d, int dir, int side, double h, CutFace& face,
                                     StencilSide& here) const {
-  if (dir != d && beyond(sides_, d, dir, side) == Beyond::fixed) {
+  if (dir != d && ghost_rule(sides_, d, dir, side) == GhostRule::fixed) {
     here.distance = 0.5 * h;
     face.wall_point[2 * dir + side] = CutFace::k_side;
   } else {
@@ -82,7 +82,7 @@ bool GeometryBuilder::stencil(int d, int dir, const std::array<int, 3>& c, std::
   std::array<StencilSide, 2> sides{StencilSide{h}, StencilSide{h}};
   bool is_irregular = false;
   const Vec3 here = grid_.face(d, c[0], c[1], c[2]);
-  const bool may_be_parted = is_near(d, c, o);
+  const bool may_be_blocked = is_near(d, c, o);
   for (int side = 0; side < 2; ++side) {
     StencilSide& own_side = sides[static_cast<std::size_t>(side)];
     const int edge = side == 0 ? 0 : g_.extent[d][dir] - 1;
@@ -96,7 +96,7 @@ bool GeometryBuilder::stencil(int d, int dir, const std::array<int, 3>& c, std::
     const bool is_closed = g_.kind[d][q] == FaceKind::inside;
     const bool is_solid = is_closed && is_inside(there);
     std::optional<double> thin;
-    if (!is_solid && may_be_parted) thin = field_.passes_through(here, there);
+    if (!is_solid && may_be_blocked) thin = field_.passes_through(here, there);
     if (!is_solid && !thin) {
       if (is_closed) continue;  // its point is still in the open
       // The shear stress between two layers is that of both in a row: harmonic mean.
@@ -109,8 +109,8 @@ bool GeometryBuilder::stencil(int d, int dir, const std::array<int, 3>& c, std::
       continue;
     }
     double s = thin ? *thin : wall_distance(here, there);
-    if (s < k_least_distance * h) {
-      s = k_least_distance * h;
+    if (s < k_min_distance * h) {
+      s = k_min_distance * h;
       ++g_.close_distances;
     }
     own_side.distance = s;
@@ -146,8 +146,8 @@ void GeometryBuilder::find_ghosts(int d) {
         GhostFace ghost;
         ghost.at = static_cast<std::int32_t>(o);
         ghost.wall_point = static_cast<std::int32_t>(points_.size());
-        ghost.is_parted = closed_[d][o] == 2;
-        ghost.is_crossed = g_.open_area.component[d][o] > 0.0 && !ghost.is_parted;
+        ghost.is_blocked = closed_[d][o] == 2;
+        ghost.is_partly_open = g_.open_area.component[d][o] > 0.0 && !ghost.is_blocked;
         points_.push_back({p - hit.distance * hit.normal, hit.normal, hit.body});
         const double depth = std::max(0.0, -hit.distance);
         const double scale = spacing_along(grid_, hit.normal);
@@ -158,7 +158,7 @@ void GeometryBuilder::find_ghosts(int d) {
   }
   const auto deep = std::stable_partition(
       g_.ghost[d].begin(), g_.ghost[d].end(),
-      [](const GhostFace& g) { return g.factor > 0.0 || g.is_crossed || g.is_parted; });
+      [](const GhostFace& g) { return g.factor > 0.0 || g.is_partly_open || g.is_blocked; });
   g_.deep_ghosts_begin[d] = static_cast<std::size_t>(deep - g_.ghost[d].begin());
 }
 

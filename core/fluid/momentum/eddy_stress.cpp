@@ -62,7 +62,7 @@ void EddyStress::find_walls(const FaceField& start) {
     const int high = side % 2;
     const int e = (d + 1) % 3;
     const int f = (d + 2) % 3;
-    is_wall_[side] = beyond(sides_.kinds(), e, d, high) == Beyond::fixed;
+    is_wall_[side] = ghost_rule(sides_.kinds(), e, d, high) == GhostRule::fixed;
     for (int a = 0; a < grid_.count[e] && is_wall_[side]; ++a) {
       for (int b = 0; b < grid_.count[f]; ++b) {
         const std::ptrdiff_t o = grid_.index(0, 0, 0) + a * grid_.stride[e] + b * grid_.stride[f] +

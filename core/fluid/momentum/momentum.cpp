@@ -14,7 +14,7 @@ namespace {
 
 /// The error of the implicit solve, relative to the change over the step.
 constexpr double k_sweep_tolerance = 1e-6;
-constexpr int k_most_sweeps = 400;
+constexpr int k_max_sweeps = 400;
 
 }  // namespace
 
@@ -85,8 +85,8 @@ void Momentum::convection_row(const FaceField& u, const CellField& eps, double s
 bool Momentum::is_even(int d, int e) const {
   const auto& kinds = sides_.kinds();
   return grid_.count[e] == 1 &&
-         (kinds.is_periodic[e] || (e != d && beyond(kinds, d, e, 0) == Beyond::gradient &&
-                                   beyond(kinds, d, e, 1) == Beyond::gradient));
+         (kinds.is_periodic[e] || (e != d && ghost_rule(kinds, d, e, 0) == GhostRule::gradient &&
+                                   ghost_rule(kinds, d, e, 1) == GhostRule::gradient));
 }
 
 void Momentum::skew_row(const FaceField& u, const CellField& eps, double smoothness, int d, int j,
@@ -157,7 +157,8 @@ Momentum::RowWeights Momentum::row_weights(int d, int j, int k) const {
       if (grid_.count[e] == 1 && sides_.kinds().is_periodic[e]) weight = 0.0;
       const int edge = high ? geometry_.extent[d][e] - 1 : 0;
       if (sides_.kinds().is_periodic[e] || c[e] != edge) continue;
-      weight = d != e && beyond(sides_.kinds(), d, e, high) == Beyond::fixed ? 2.0 * plain : 0.0;
+      weight =
+          d != e && ghost_rule(sides_.kinds(), d, e, high) == GhostRule::fixed ? 2.0 * plain : 0.0;
     }
     (e == 1 ? w.y_low : w.z_low) = side_weight[0];
     (e == 1 ? w.y_high : w.z_high) = side_weight[1];
@@ -187,7 +188,7 @@ void Momentum::prepare(double implicit, const FaceField& coefficient, bool has_d
     sweeps_ += static_cast<int>(std::ceil(std::log(k_sweep_tolerance) / std::log(rate)));
   }
   // Where a step is many viscous times long the rest of the error decays over the next steps.
-  sweeps_ = std::min(sweeps_, k_most_sweeps);
+  sweeps_ = std::min(sweeps_, k_max_sweeps);
 
   const double ax = grid_.count[0] == 1 && sides_.kinds().is_periodic[0]
                         ? 0.0
@@ -344,8 +345,8 @@ void Momentum::extend(FaceField& u, Ghosts which) const {
     for_rows(64, (count + 63) / 64, 1, [&](int block, int) {
       for (int n = block * 64; n < std::min(count, (block + 1) * 64); ++n) {
         const GhostFace& g = ghosts[n];
-        if (!all && g.is_crossed) continue;
-        if (g.is_parted) {  // docs/theory/fluid.md, eq. (14)
+        if (!all && g.is_partly_open) continue;
+        if (g.is_blocked) {  // docs/theory/fluid.md, eq. (14)
           v[g.at] = normal_part(geometry_.wall, d, static_cast<std::size_t>(g.wall_point));
           continue;
         }

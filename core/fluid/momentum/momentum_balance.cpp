@@ -12,13 +12,13 @@ namespace dust::fluid {
 namespace {
 
 DUST_KERNEL void begin_row(int n, std::ptrdiff_t s, double density, bool is_whole, double step,
-                           const double* eps, const double* u, const double* owed,
-                           const double* source, double* excess, double* with_debt) {
+                           const double* eps, const double* u, const double* deferred,
+                           const double* source, double* excess, double* with_deferred) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const double share = 0.5 * (eps[i] + eps[i - s]);
     excess[i] -= density * share * u[i];
-    with_debt[i] = source[i] - owed[i] / ((is_whole ? 1.0 : share) * step);
+    with_deferred[i] = source[i] - deferred[i] / ((is_whole ? 1.0 : share) * step);
   }
 }
 
@@ -50,7 +50,8 @@ DUST_KERNEL void convection_row(int n, double mass, const RowFlux& flux, const d
 DUST_KERNEL void end_row(int n, std::ptrdiff_t s, double density, bool is_whole, double step,
                          double last, const FaceKind* kind, const double* eps, const double* before,
                          const double* u, const double* source, const double* coefficient,
-                         const double* drag, const double* stress, double* excess, double* owed) {
+                         const double* drag, const double* stress, double* excess,
+                         double* deferred) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const double share = 0.5 * (eps[i] + eps[i - s]);
@@ -58,11 +59,11 @@ DUST_KERNEL void end_row(int n, std::ptrdiff_t s, double density, bool is_whole,
     const double force = source[i] - coefficient[i] * drag[i] + stress[i];
     const double now = excess[i] + density * share * u[i] - (is_whole ? 1.0 : share) * step * force;
     excess[i] = now;
-    owed[i] = now - density * change * last * u[i];
+    deferred[i] = now - density * change * last * u[i];
   }
   // In loops of their own, which a vector of bytes does not hold up.
   for (int i = 0; i < n; ++i) excess[i] = kind[i] == FaceKind::plain ? excess[i] : 0.0;
-  for (int i = 0; i < n; ++i) owed[i] = kind[i] == FaceKind::plain ? owed[i] : 0.0;
+  for (int i = 0; i < n; ++i) deferred[i] = kind[i] == FaceKind::plain ? deferred[i] : 0.0;
 }
 
 }  // namespace
@@ -73,7 +74,7 @@ MomentumBalance::MomentumBalance(const Grid& grid, const Geometry& geometry,
       geometry_(geometry),
       properties_(properties),
       excess_(grid),
-      owed_(grid),
+      deferred_(grid),
       source_(grid),
       eps_before_(grid.size, 1.0) {}
 
@@ -91,7 +92,7 @@ void MomentumBalance::leave_out_sides(int d, int j, int k) {
   const int n = geometry_.extent[d][0];
   const int at = d == 1 ? j : k;
   const std::ptrdiff_t o = grid_.index(0, j, k);
-  for (auto* field : {&excess_, &owed_}) {
+  for (auto* field : {&excess_, &deferred_}) {
     double* row = &field->component[d][o];
     if (d == 0) {
       row[0] = row[grid_.count[0]] = 0.0;
@@ -107,7 +108,7 @@ void MomentumBalance::begin(const FaceField& u, StepVoidFraction& void_fraction,
   each_row([&](int d, int, int, std::ptrdiff_t o, int n) {
     begin_row(n, grid_.stride[d], properties_.density(),
               properties_.momentum_set() == MomentumSet::three, step, &eps[o], &u.component[d][o],
-              &owed_.component[d][o], &source.component[d][o], &excess_.component[d][o],
+              &deferred_.component[d][o], &source.component[d][o], &excess_.component[d][o],
               &source_.component[d][o]);
   });
   void_fraction.give_away(eps_before_);
@@ -128,7 +129,7 @@ void MomentumBalance::end(const FaceField& u, const CellField& eps, const Acted&
             properties_.momentum_set() == MomentumSet::three, step, last, &geometry_.kind[d][o],
             &eps[o], &eps_before_[o], &u.component[d][o], &acted.source.component[d][o],
             &acted.coefficient.component[d][o], &drag_velocity.component[d][o],
-            &stress.component[d][o], &excess_.component[d][o], &owed_.component[d][o]);
+            &stress.component[d][o], &excess_.component[d][o], &deferred_.component[d][o]);
     leave_out_sides(d, j, k);
   });
 }
@@ -137,15 +138,15 @@ void MomentumBalance::save(sdk::ArchiveWriter& archive) const {
   for (std::size_t d = 0; d < 3; ++d) {
     const std::string axis(1, "xyz"[d]);
     archive.numbers("excess_" + axis, excess_.component[d]);
-    archive.numbers("owed_" + axis, owed_.component[d]);
+    archive.numbers("owed_" + axis, deferred_.component[d]);
   }
 }
 
 void MomentumBalance::load(sdk::ArchiveReader& archive) {
   for (std::size_t d = 0; d < 3; ++d) {
     const std::string axis(1, "xyz"[d]);
-    for (auto* field : {&excess_, &owed_}) {
-      auto values = archive.numbers((field == &owed_ ? "owed_" : "excess_") + axis);
+    for (auto* field : {&excess_, &deferred_}) {
+      auto values = archive.numbers((field == &deferred_ ? "owed_" : "excess_") + axis);
       if (values.size() != grid_.size) {
         throw sdk::ModelError("the checkpoint's momentum book belongs to another grid");
       }

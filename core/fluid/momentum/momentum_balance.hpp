@@ -6,7 +6,7 @@
 #include "fluid/geometry/geometry.hpp"
 #include "fluid/grid.hpp"
 #include "fluid/momentum/momentum.hpp"
-#include "fluid/step_void_fraction.hpp"
+#include "fluid/step/step_void_fraction.hpp"
 
 namespace dust::fluid {
 
@@ -55,7 +55,7 @@ class MomentumBalance {
   FaceField excess_;
   /// Of the excess, what is to be taken back. The rest is the momentum of the fluid that the last
   /// change of the void fraction has yet to push aside: convection reckons with the change before.
-  FaceField owed_;
+  FaceField deferred_;
   FaceField source_;
   CellField eps_before_;
 };

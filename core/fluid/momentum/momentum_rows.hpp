@@ -98,16 +98,16 @@ DUST_KERNEL void inverse_row_each(int n, double implicit, double sum, const doub
 
 /// Numbers of a row that are found first and then put in, every other one. In one go, each next to
 /// those that its neighbours read, the loop would have to go number by number.
-constexpr int k_chunk = 256;
+constexpr int k_block = 256;
 
 /// u += omega (t - u) at every other number of a row, t = value(i) reading neighbours along x.
 template <class Value>
 inline __attribute__((always_inline)) void sweep(int n, int parity, double omega,
                                                  const double* inverse, double* u,
                                                  const Value& value) {
-  alignas(64) double next[k_chunk];
-  for (int first = 0; first < n; first += k_chunk) {
-    const int count = std::min(k_chunk, n - first);
+  alignas(64) double next[k_block];
+  for (int first = 0; first < n; first += k_block) {
+    const int count = std::min(k_block, n - first);
 #pragma GCC ivdep
     for (int q = 0; q < count; ++q) {
       const double old = u[first + q];

@@ -3,7 +3,7 @@
 
 #include "dust/sdk/error.hpp"
 #include "fluid/parallel.hpp"
-#include "fluid/step_rows.hpp"
+#include "fluid/step/step_rows.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -47,7 +47,7 @@ FaceField Continuity::find_pattern() const {
   FaceField open = geometry_.open_area;
   for (int d = 0; d < 3; ++d) {
     auto& faces = open.component[d];
-    for (const std::int32_t o : geometry_.parted[d]) faces[o] = 0.0;
+    for (const std::int32_t o : geometry_.blocked[d]) faces[o] = 0.0;
     const int e = (d + 1) % 3;
     const int f = (d + 2) % 3;
     const bool is_joined = sides_.kinds().is_periodic[d] && grid_.count[d] > 1;
@@ -298,17 +298,17 @@ void Continuity::check_balance(const FaceField& v, const CellField& eps) const {
       }
     }
   }
-  double sunk = 0.0;
-  for (const Sink& sink : given_.sinks) sunk += sink.rate * grid_.cell_volume();
-  net -= given_.net + sunk;
-  gross += given_.gross + std::abs(sunk);
+  double extracted = 0.0;
+  for (const Sink& sink : given_.sinks) extracted += sink.rate * grid_.cell_volume();
+  net -= given_.net + extracted;
+  gross += given_.gross + std::abs(extracted);
   const double allowed = given_.gross > 0.0 ? k_moving_balance : k_flux_balance;
   if (std::abs(net) <= allowed * gross) return;
   char text[240];
   std::snprintf(text, sizeof text,
                 "the sides%s let %.4g m3/s more air in than out and none of them gives way; make "
                 "one a total_pressure or zero_gradient side",
-                given_.gross > 0.0 || sunk != 0.0 ? " and bodies" : "", net);
+                given_.gross > 0.0 || extracted != 0.0 ? " and bodies" : "", net);
   throw sdk::ModelError(text);
 }
 

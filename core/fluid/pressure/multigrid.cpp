@@ -20,14 +20,14 @@ constexpr double k_same_spacing = 1.5;
 
 /// Numbers of a row that are found first and then put in, every other one. In one go, each next to
 /// those that its neighbours read, the loop would have to go number by number.
-constexpr int k_chunk = 512;
+constexpr int k_block = 512;
 
 DUST_KERNEL void smooth_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, int parity, bool has_y,
                             const float* ax, const float* ay, const float* az, const float* inverse,
                             const float* b, float* x) {
-  alignas(64) float next[k_chunk];
-  for (int first = 0; first < n; first += k_chunk) {
-    const int end = std::min(first + k_chunk, n);
+  alignas(64) float next[k_block];
+  for (int first = 0; first < n; first += k_block) {
+    const int end = std::min(first + k_block, n);
     float* const found = next - first;
     if (has_y) {
 #pragma GCC ivdep

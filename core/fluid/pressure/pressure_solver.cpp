@@ -12,7 +12,7 @@
 namespace dust::fluid {
 namespace {
 
-constexpr int k_most_iterations = 200;
+constexpr int k_max_iterations = 200;
 /// Rounding of a mean over a million cells and more.
 constexpr double k_rounding = 1e-12;
 
@@ -276,9 +276,9 @@ PressureSolver::Result PressureSolver::solve(CellField& b, double tolerance, Cel
   double rz = 0.0;
   double rr = bb;
   while (rr > tolerance * tolerance * bb) {
-    if (result.iterations == k_most_iterations) {
+    if (result.iterations == k_max_iterations) {
       throw sdk::ModelError("the pressure equation did not converge in " +
-                            std::to_string(k_most_iterations) + " iterations, residual " +
+                            std::to_string(k_max_iterations) + " iterations, residual " +
                             std::to_string(std::sqrt(rr / bb)) +
                             " of the right side; a larger fluid.pressure_tolerance or fewer "
                             "cells of very different openness may help");

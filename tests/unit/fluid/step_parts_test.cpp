@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dust/sdk/error.hpp"
 #include "fluid/cached.hpp"
 #include "fluid/cut_grid.hpp"
-#include "fluid/drag_velocity.hpp"
-#include "fluid/step_void_fraction.hpp"
+#include "fluid/pressure/projection.hpp"
+#include "fluid/step/drag_velocity.hpp"
+#include "fluid/step/flow_limits.hpp"
+#include "fluid/step/step_balance.hpp"
+#include "fluid/step/step_void_fraction.hpp"
+#include "fluid/step/stress_field.hpp"
+#include "fluid/step/two_stages.hpp"
 #include "fluid_case.hpp"
 #include "test_bodies.hpp"
 
 #include <doctest/doctest.h>
+
+#include <functional>
+#include <limits>
 
 using namespace dust;
 using namespace dust::test;
@@ -122,7 +131,7 @@ TEST_CASE("a grid whose bodies stand shall be cut once, and its cells gain what 
   parts.bodies.push_back(body(std::make_unique<HalfSpace>(Vec3{0, 0, 1.5}, Vec3{0, 0, 1}), 0.0));
   fluid::CutGrid cut(parts.grid, parts.bodies, sides, properties);
   cut.complete(0.0);
-  CHECK_FALSE(cut.has_movers());
+  CHECK_FALSE(cut.has_moving_bodies());
   CHECK(cut.intervals(1e3) == 1);
   CHECK(cut.open_fraction()[parts.grid.index(1, 1, 0)] == 0.0);
   CHECK(cut.open_fraction()[parts.grid.index(1, 1, 1)] == doctest::Approx(0.5).epsilon(1e-6));
@@ -136,4 +145,188 @@ TEST_CASE("a grid whose bodies stand shall be cut once, and its cells gain what 
   CHECK(continuity.rate()[parts.grid.index(1, 1, 0)] == 0.0);
   CHECK(continuity.rate()[parts.grid.index(1, 1, 1)] == doctest::Approx(1.0).epsilon(1e-6));
   CHECK(continuity.rate()[parts.grid.index(1, 1, 2)] == doctest::Approx(2.0).epsilon(1e-12));
+}
+
+namespace {
+
+/// What the parts of a step refer to: a fluid of density 2 between slip walls, without bodies.
+struct Flow {
+  explicit Flow(Parts& p)
+      : parts(p),
+        sides(p.grid, p.conditions),
+        properties(p.grid, p.spec),
+        cut(p.grid, p.bodies, sides, properties),
+        momentum(p.grid, cut.geometry(), sides, properties) {
+    cut.complete(0.0);
+    sides.set_flow_data(cut.geometry().open_area, properties.by_place());
+    sides.evaluate_velocity(0.0, eps);
+    sides.evaluate_pressure(0.0);
+  }
+  /// Sets component d of a field to a function of place, halos included.
+  void set(fluid::FaceField& field, int d, const std::function<double(Vec3)>& value) const {
+    const auto& n = parts.grid.count;
+    for (int k = -2; k < n[2] + 2; ++k) {
+      for (int j = -2; j < n[1] + 2; ++j) {
+        for (int i = -2; i < n[0] + 2; ++i) {
+          field.component[d][parts.grid.index(i, j, k)] = value(parts.grid.face(d, i, j, k));
+        }
+      }
+    }
+  }
+
+  Parts& parts;
+  fluid::Sides sides;
+  fluid::FaceProperties properties;
+  fluid::CutGrid cut;
+  fluid::Momentum momentum;
+  fluid::CellField eps = fluid::CellField(parts.grid.size, 1.0);
+};
+
+}  // namespace
+
+TEST_CASE("sub-steps shall follow the Courant number, and a flow without bounds be told") {
+  Parts parts;
+  Flow flow(parts);
+  fluid::FlowLimits limits(parts.grid, flow.cut.geometry(), flow.momentum, 0.5);
+  fluid::FaceField u(parts.grid);
+  flow.set(u, 0, [](Vec3) { return 3.0; });
+  const fluid::Momentum::Rates rates = limits.find(u, 0.0);
+  CHECK(rates.speed == 3.0);
+  CHECK(rates.courant == doctest::Approx(3.0));  // cells of 1 m
+  CHECK(limits.sub_steps(0.1, rates, 0, 0.0) == 1);
+  CHECK(limits.sub_steps(1.0, rates, 0, 0.0) == 6);
+  CHECK_THROWS_WITH_AS(limits.sub_steps(1.0, rates, 195, 0.25),
+                       "the fluid needs more than 200 sub-steps in the step from t = 0.25 s: "
+                       "largest speed 3 m/s; it is diverging, or time.fluid_step is far too long",
+                       sdk::ModelError);
+  // Asked again it is the same, until it is told of a change.
+  flow.set(u, 0, [](Vec3) { return std::numeric_limits<double>::quiet_NaN(); });
+  CHECK(limits.find(u, 0.0).speed == 3.0);
+  limits.velocity_changed();
+  CHECK_THROWS_AS(limits.find(u, 0.0), sdk::ModelError);
+}
+
+TEST_CASE("a projection shall take the divergence, and the pressure gain what did it") {
+  Parts parts;
+  Flow flow(parts);
+  fluid::Projection projection(parts.grid, flow.cut, flow.sides, flow.properties, flow.momentum,
+                               1e-12);
+  fluid::FaceField u(parts.grid);
+  flow.set(u, 2, [](Vec3 p) { return p.z * (5.0 - p.z); });
+  const fluid::FaceField none(parts.grid);
+  const double before = projection.continuity().largest_divergence(u, flow.eps);
+  projection.begin_step();
+  projection.project(u, flow.eps, none, true, 0.1, 0.1);
+  CHECK(projection.iterations() > 0);
+  CHECK(before > 1.0);
+  CHECK(projection.continuity().largest_divergence(u, flow.eps) < 1e-9 * before);
+  // Between walls all of it was a gradient: rho u = step dp.
+  const auto p = [&](int k) { return projection.pressure()[parts.grid.index(1, 1, k)]; };
+  for (int k = 1; k < 5; ++k) {
+    CHECK(p(k) - p(k - 1) == doctest::Approx(2.0 * k * (5.0 - k) / 0.1).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("the first pressure shall hold a source that acts on a fluid at rest") {
+  Parts parts;
+  Flow flow(parts);
+  fluid::Projection projection(parts.grid, flow.cut, flow.sides, flow.properties, flow.momentum,
+                               1e-12);
+  fluid::FaceField u(parts.grid);
+  fluid::FaceField scratch(parts.grid);
+  fluid::FaceField source(parts.grid);
+  flow.set(source, 2, [](Vec3) { return -20.0; });
+  CHECK_FALSE(projection.is_consistent());
+  projection.make_consistent(u, scratch, flow.eps, source, 0.1, 0.0);
+  CHECK(projection.is_consistent());
+  for (int k = 1; k < 5; ++k) {
+    const double* p = projection.pressure().data();
+    CHECK(p[parts.grid.index(1, 1, k)] - p[parts.grid.index(1, 1, k - 1)] ==
+          doctest::Approx(-20.0).epsilon(1e-9));
+    CHECK(u.component[2][parts.grid.index(1, 1, k)] == 0.0);
+  }
+}
+
+TEST_CASE("two stages shall give a free stream its force, and drag what it takes in the mean") {
+  Parts parts;
+  parts.grid = fluid::Grid::make({0, 0, 0}, {4, 3, 5}, {4, 3, 5}, {true, true, true});
+  parts.conditions = {};
+  Flow flow(parts);
+  fluid::TwoStages stages(parts.grid, flow.cut.geometry(), flow.sides, flow.properties,
+                          flow.momentum);
+  fluid::CellField pressure(parts.grid.size, 0.0);
+  fluid::FaceField source(parts.grid);
+  fluid::FaceField drag(parts.grid);
+  flow.set(source, 0, [](Vec3) { return 6.0; });
+  fluid::FaceField u(parts.grid);
+  flow.set(u, 0, [](Vec3) { return 1.0; });
+  const double step = 0.1;
+  const std::ptrdiff_t face = parts.grid.index(2, 1, 2);
+  stages.advance({0.0, step, 1.0, 1e-30, source, drag, nullptr, nullptr}, flow.eps, false, pressure,
+                 u);
+  CHECK(u.component[0][face] == doctest::Approx(1.0 + step * 6.0 / 2.0).epsilon(1e-13));
+
+  flow.set(drag, 0, [](Vec3) { return 5.0; });
+  fluid::DragVelocity taken(parts.grid);
+  taken.begin(true);
+  const double before = u.component[0][face];
+  stages.advance({step, step, 1.0, 1e-30, source, drag, &taken, nullptr}, flow.eps, false, pressure,
+                 u);
+  const double mean = taken.field().component[0][face];
+  CHECK(mean < before);  // it comes to 6 / 5
+  CHECK(mean > 1.2);
+  CHECK(2.0 * (u.component[0][face] - before) ==
+        doctest::Approx(step * (6.0 - 5.0 * mean)).epsilon(1e-9));
+}
+
+TEST_CASE("the mean pressure shall weigh the sub-steps of one step, and no other") {
+  Parts parts;
+  Flow flow(parts);
+  fluid::StepBalance balance(parts.grid, flow.cut.geometry(), flow.properties);
+  CHECK_FALSE(balance.is_kept());
+  CHECK(balance.kept() == nullptr);
+  fluid::StepVoidFraction eps(parts.grid);
+  const fluid::FaceField rest(parts.grid);
+  for (int step = 0; step < 2; ++step) {
+    balance.begin_step(true);
+    balance.begin(rest, eps, rest, 0.1);
+    CHECK(balance.kept() != nullptr);
+    balance.add_pressure(fluid::CellField(parts.grid.size, 8.0), 0.25, true);
+    balance.add_pressure(fluid::CellField(parts.grid.size, 4.0), 0.75, false);
+    CHECK(balance.mean_pressure()[parts.grid.index(1, 1, 1)] == 5.0);
+  }
+  balance.begin_step(false);
+  CHECK(balance.kept() == nullptr);
+  MemoryArchive archive;
+  balance.save(archive);
+  fluid::StepBalance loaded(parts.grid, flow.cut.geometry(), flow.properties);
+  loaded.load(archive);
+  CHECK(loaded.mean_pressure().size() == parts.grid.size);
+}
+
+TEST_CASE("the force of the stress shall be found once for a flow, and follow the pressure") {
+  Parts parts;
+  Flow flow(parts);
+  fluid::StressField stress(parts.grid, flow.cut.geometry(), flow.sides, flow.momentum);
+  const fluid::FaceField rest(parts.grid);
+  fluid::CellField pressure(parts.grid.size, 0.0);
+  const auto set_gradient = [&](double gradient) {
+    for (int k = 0; k < 5; ++k) {
+      for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 4; ++i) pressure[parts.grid.index(i, j, k)] = gradient * k;
+      }
+    }
+  };
+  const std::ptrdiff_t face = parts.grid.index(1, 1, 2);
+  const auto force = [&] { return stress.of_flow(rest, pressure, nullptr).component[2][face]; };
+  stress.flow_changed();
+  set_gradient(3.0);
+  CHECK(force() == -3.0);
+  set_gradient(7.0);
+  CHECK(force() == -3.0);
+  stress.flow_changed();
+  CHECK(force() == -7.0);
+  fluid::CellField mean(parts.grid.size, 1.0);
+  CHECK(stress.of_mean(rest, mean, nullptr).component[2][face] == 0.0);
+  CHECK(force() == 0.0);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fluid/drag_velocity.hpp"
+#include "fluid/step/drag_velocity.hpp"
 
 #include "fluid/parallel.hpp"
-#include "fluid/step_rows.hpp"
+#include "fluid/step/step_rows.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fluid/step_rows.hpp"
+#include "fluid/step/step_rows.hpp"
 
 #include "dust/sdk/plugin.hpp"
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fluid/cached.hpp"
+#include "fluid/geometry/geometry.hpp"
+#include "fluid/grid.hpp"
+#include "fluid/momentum/momentum.hpp"
+
+namespace dust::fluid {
+
+/// How far a velocity may be advanced at once, and whether it is one at all.
+class FlowLimits {
+ public:
+  using Rates = Momentum::Rates;
+
+  /// References are kept.
+  FlowLimits(const Grid& grid, const Geometry& geometry, Momentum& momentum, double largest_cfl)
+      : grid_(grid), geometry_(geometry), momentum_(momentum), largest_cfl_(largest_cfl) {}
+
+  /// The velocity or the grid is another.
+  void velocity_changed() { rates_.invalidate(); }
+  /// Rates of the velocity `u` at `time` [s]. Throws sdk::ModelError where it has diverged.
+  const Rates& find(const FaceField& u, double time);
+  /// Sub-steps for `left` [s] of the fluid step from `begin` [s] on, of which `done` were made.
+  /// Throws sdk::ModelError where they are too many.
+  [[nodiscard]] int sub_steps(double left, const Rates& rates, int done, double begin) const;
+
+ private:
+  void check_finite(const FaceField& u, double time, const Rates& rates) const;
+
+  const Grid& grid_;
+  const Geometry& geometry_;
+  Momentum& momentum_;
+  double largest_cfl_;
+  Cached<Rates> rates_;
+};
+
+}  // namespace dust::fluid
