@@ -52,19 +52,19 @@ SurfacePoint Body::contact(int part, Vec3 point, double reach, const Placement& 
   return s;
 }
 
-void Body::touch(int part, const Touches& all, const Placement& at) const {
+void Body::touch(int part, const ClosestPoints& all, const Placement& at) const {
   double centre[3][k_block];
   for (std::size_t first = 0; first < all.count; first += k_block) {
-    const Touches t{.count = std::min(k_block, all.count - first),
-                    .x = centre[0],
-                    .y = centre[1],
-                    .z = centre[2],
-                    .reach = all.reach + first,
-                    .hint = all.hint + first,
-                    .distance = all.distance + first,
-                    .normal_x = all.normal_x + first,
-                    .normal_y = all.normal_y + first,
-                    .normal_z = all.normal_z + first};
+    const ClosestPoints t{.count = std::min(k_block, all.count - first),
+                          .x = centre[0],
+                          .y = centre[1],
+                          .z = centre[2],
+                          .reach = all.reach + first,
+                          .hint = all.hint + first,
+                          .distance = all.distance + first,
+                          .normal_x = all.normal_x + first,
+                          .normal_y = all.normal_y + first,
+                          .normal_z = all.normal_z + first};
     for (std::size_t n = 0; n < t.count; ++n) {
       const Vec3 q = at.to_body({all.x[first + n], all.y[first + n], all.z[first + n]});
       for (int d = 0; d < 3; ++d) centre[d][n] = q[d];
@@ -133,7 +133,8 @@ double Body::largest_speed() const {
   double speed = 0.0;
   for (std::size_t n = 0; n < motions.size(); ++n) {
     speed += motions[n]->largest_speed();
-    if (n < arms.size()) speed += arms[n] * motions[n]->largest_angular_velocity();
+    if (n < axis_distances.size())
+      speed += axis_distances[n] * motions[n]->largest_angular_velocity();
   }
   return speed;
 }
@@ -144,7 +145,8 @@ double Body::largest_displacing_speed() const {
   for (std::size_t n = 0; n < motions.size(); ++n) {
     if (!motions[n]->moves_body()) continue;
     speed += motions[n]->largest_speed();
-    if (n < arms.size()) speed += arms[n] * motions[n]->largest_angular_velocity();
+    if (n < axis_distances.size())
+      speed += axis_distances[n] * motions[n]->largest_angular_velocity();
   }
   return speed;
 }
@@ -192,7 +194,7 @@ Body make_body(const scenario::Setup& setup, const scenario::BodySpec& spec,
       }
       if (body.motions.size() > 1) arm += norm(size);
     }
-    body.arms.push_back(arm);
+    body.axis_distances.push_back(arm);
   }
   return body;
 }

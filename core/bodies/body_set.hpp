@@ -27,7 +27,7 @@ struct Body {
   sdk::Vec3 frame_axis{0, 1, 0};
   double frame_angle = 0.0;
   /// [m] Farthest point of the surface from the axis of each motion that turns the body.
-  std::vector<double> arms;
+  std::vector<double> axis_distances;
   std::optional<scenario::SuctionSpec> suction;
   /// [s] When it was taken away.
   double removed_at = std::numeric_limits<double>::infinity();
@@ -46,7 +46,7 @@ struct Body {
   /// The same for a part, see Shape::contact, touch and is_within.
   [[nodiscard]] SurfacePoint contact(int part, sdk::Vec3 point, double reach,
                                      const Placement& at) const;
-  void touch(int part, const Touches& spheres, const Placement& at) const;
+  void touch(int part, const ClosestPoints& spheres, const Placement& at) const;
   [[nodiscard]] bool is_within(int part, sdk::Vec3 point, double reach, const Placement& at) const {
     return shape->is_within(part, at.to_body(point), reach);
   }

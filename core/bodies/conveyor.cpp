@@ -36,7 +36,7 @@ inline SurfacePoint nearest_of(const Outline& o, double x, double z) {
           {is_off_axis ? dx / divisor : -o.back.z, 0.0, is_off_axis ? dz / divisor : o.back.x}};
 }
 
-DUST_KERNEL void touch_all(const Outline& outline, const Touches& t) {
+DUST_KERNEL void touch_all(const Outline& outline, const ClosestPoints& t) {
   const Outline o = outline;
   const double *x = t.x, *z = t.z;
   double *distance = t.distance, *nx = t.normal_x, *ny = t.normal_y, *nz = t.normal_z;
@@ -86,7 +86,9 @@ class Conveyor final : public Shape {
   [[nodiscard]] SurfacePoint nearest(Vec3 point) const override {
     return nearest_of(belt_, point.x, point.z);
   }
-  void touch(int /*part*/, const Touches& spheres) const override { touch_all(belt_, spheres); }
+  void touch(int /*part*/, const ClosestPoints& spheres) const override {
+    touch_all(belt_, spheres);
+  }
   [[nodiscard]] Vec3 lateral_axis() const override { return {0, 1, 0}; }
   [[nodiscard]] Triangles triangles(Vec3 min, Vec3 max, double edge) const override {
     // Outline, starting where the return run leaves the head pulley.

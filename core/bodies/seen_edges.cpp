@@ -39,7 +39,8 @@ bool is_seen(const Edge& edge, int depth) {
 
 }  // namespace
 
-std::vector<std::pair<Vec3, Vec3>> seen_edges(const Triangles& triangles, int depth, double size) {
+std::vector<std::pair<Vec3, Vec3>> visible_edges(const Triangles& triangles, int depth,
+                                                 double size) {
   std::map<std::pair<Key, Key>, Edge> edges;
   for (std::size_t n = 0; n + 2 < triangles.size(); n += 3) {
     const Vec3 normal = cross(triangles[n + 1] - triangles[n], triangles[n + 2] - triangles[n]);

@@ -25,7 +25,7 @@ struct SurfacePoint {
 using Triangles = std::vector<sdk::Vec3>;
 
 /// Spheres and where they touch, in columns: one part, many grains, no call per grain.
-struct Touches {
+struct ClosestPoints {
   std::size_t count = 0;
   const double* x = nullptr;  ///< [m] centres
   const double* y = nullptr;
@@ -64,7 +64,7 @@ class Shape {
     return nearest(point);
   }
   /// `contact` of many spheres.
-  virtual void touch(int part, const Touches& spheres) const = 0;
+  virtual void touch(int part, const ClosestPoints& spheres) const = 0;
   /// Whether the part is nearer than `reach` [m], so that a sphere may come to touch it: for lists.
   [[nodiscard]] virtual bool is_within(int /*part*/, sdk::Vec3 point, double reach) const {
     return nearest(point).distance < reach;
@@ -72,7 +72,7 @@ class Shape {
   /// Whether it has an inside, so that the air can be cut by it.
   [[nodiscard]] virtual bool is_solid() const { return true; }
   /// What to tell of it in the log, and what the user should look at.
-  [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
+  [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
   [[nodiscard]] virtual std::vector<std::string> warnings() const { return {}; }
   /// [m] Shortest edge of a mesh, 0 for exact surfaces.
   [[nodiscard]] virtual double shortest_edge() const { return 0.0; }
@@ -89,7 +89,7 @@ class Shape {
 template <class S>
 class OnePart : public Shape {
  public:
-  void touch(int /*part*/, const Touches& spheres) const final {
+  void touch(int /*part*/, const ClosestPoints& spheres) const final {
     const S& shape = static_cast<const S&>(*this);
     for (std::size_t n = 0; n < spheres.count; ++n) {
       spheres.put(n, shape.S::nearest({spheres.x[n], spheres.y[n], spheres.z[n]}));

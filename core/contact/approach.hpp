@@ -9,17 +9,17 @@
 namespace dust::contact {
 
 /// Grains on straight courses, each to be found within its allowance of it.
-struct Courses {
-  const double* position = nullptr;   ///< rows: x, y, z, radius
-  const double* velocity = nullptr;   ///< rows, k_motion_stride apart
-  const double* allowance = nullptr;  ///< [m] one per grain
+struct Trajectories {
+  const double* position = nullptr;  ///< rows: x, y, z, radius
+  const double* velocity = nullptr;  ///< rows, k_motion_stride apart
+  const double* skin = nullptr;      ///< [m] one per grain
 };
 
 /// What is looked for: who may come closer than touch + `range` [m] within `horizon` [s], and who
 /// has overlapped for longer than `behind` [s].
-struct Outlook {
+struct ContactPrediction {
   double range = 0.0;
-  double horizon = 0.0;
+  double lifetime = 0.0;
   double behind = 0.0;
 };
 
@@ -31,8 +31,8 @@ enum Approach : std::uint8_t {
 };
 
 /// For grains a[q] and b[q], of `count` pairs: k_may_meet, with k_overlaps or without, or 0.
-void mark_approaching(const Courses& courses, const Images& images, const Outlook& outlook,
-                      const std::int32_t* a, const std::int32_t* b, std::size_t count,
-                      std::uint8_t* approach);
+void mark_approaching(const Trajectories& trajectories, const Images& images,
+                      const ContactPrediction& prediction, const std::int32_t* a,
+                      const std::int32_t* b, std::size_t count, std::uint8_t* approach);
 
 }  // namespace dust::contact

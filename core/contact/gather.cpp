@@ -210,7 +210,7 @@ __attribute__((always_inline)) inline void load_motions(const RowView& rows, con
 }
 
 template <bool is_periodic>
-__attribute__((always_inline)) inline std::size_t load_standing(
+__attribute__((always_inline)) inline std::size_t load_persistent(
     const RowView& rows, const Images& images, const PairView& pairs, std::size_t first,
     std::size_t count, double range, BatchColumns& columns) {
   using B = BatchColumns;
@@ -241,15 +241,16 @@ __attribute__((always_inline)) inline std::size_t load_standing(
   return near;
 }
 
-DUST_KERNEL std::size_t standing_open(const RowView& rows, const Images& images,
-                                      const PairView& pairs, std::size_t first, std::size_t count,
-                                      double range, BatchColumns& columns) {
-  return load_standing<false>(rows, images, pairs, first, count, range, columns);
+DUST_KERNEL std::size_t persistent_open(const RowView& rows, const Images& images,
+                                        const PairView& pairs, std::size_t first, std::size_t count,
+                                        double range, BatchColumns& columns) {
+  return load_persistent<false>(rows, images, pairs, first, count, range, columns);
 }
-DUST_KERNEL std::size_t standing_periodic(const RowView& rows, const Images& images,
-                                          const PairView& pairs, std::size_t first,
-                                          std::size_t count, double range, BatchColumns& columns) {
-  return load_standing<true>(rows, images, pairs, first, count, range, columns);
+DUST_KERNEL std::size_t persistent_periodic(const RowView& rows, const Images& images,
+                                            const PairView& pairs, std::size_t first,
+                                            std::size_t count, double range,
+                                            BatchColumns& columns) {
+  return load_persistent<true>(rows, images, pairs, first, count, range, columns);
 }
 
 [[nodiscard]] bool has_images(const Images& images) {
@@ -290,11 +291,11 @@ std::size_t gather_touching(const RowView& rows, const Images& images, const Pai
                                                               contacts, columns);
 }
 
-std::size_t gather_standing(const RowView& rows, const Images& images, const PairView& pairs,
-                            std::size_t first, std::size_t count, double range,
-                            BatchColumns& columns) {
-  return (has_images(images) ? standing_periodic : standing_open)(rows, images, pairs, first, count,
-                                                                  range, columns);
+std::size_t gather_persistent(const RowView& rows, const Images& images, const PairView& pairs,
+                              std::size_t first, std::size_t count, double range,
+                              BatchColumns& columns) {
+  return (has_images(images) ? persistent_periodic : persistent_open)(rows, images, pairs, first,
+                                                                      count, range, columns);
 }
 
 DUST_KERNEL void load_history(const PairView& pairs, const std::int32_t* contacts,

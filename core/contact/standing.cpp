@@ -56,7 +56,7 @@ void columns_to_rows(double* block, std::size_t count, std::size_t stride) {
   turn(block, stride, count);
 }
 
-void hold_apart(const std::uint8_t* is_touching, std::size_t count, BatchColumns& columns) {
+void mask_separated(const std::uint8_t* is_touching, std::size_t count, BatchColumns& columns) {
   using B = BatchColumns;
   each_apart(is_touching, count, [&](std::size_t q) {
     for (const int c : {B::overlap, B::velocity_x, B::velocity_y, B::velocity_z, B::displacement_x,
@@ -66,8 +66,8 @@ void hold_apart(const std::uint8_t* is_touching, std::size_t count, BatchColumns
   });
 }
 
-void forget_apart(const std::uint8_t* is_touching, std::size_t count, std::size_t stride,
-                  BatchColumns& columns) {
+void clear_separated(const std::uint8_t* is_touching, std::size_t count, std::size_t stride,
+                     BatchColumns& columns) {
   using B = BatchColumns;
   each_apart(is_touching, count, [&](std::size_t q) {
     for (int d = 0; d < 3; ++d) {

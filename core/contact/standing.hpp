@@ -13,15 +13,15 @@ void columns_to_rows(double* block, std::size_t count, std::size_t stride);
 /// Loads pairs [first, first + count) into the first columns and tells in `is_touching` which are
 /// closer than touch + `range` [m]. Returns how many are. `count` as above. Brings near what the
 /// pairs further on want.
-std::size_t gather_standing(const RowView& rows, const Images& images, const PairView& pairs,
-                            std::size_t first, std::size_t count, double range,
-                            BatchColumns& columns);
+std::size_t gather_persistent(const RowView& rows, const Images& images, const PairView& pairs,
+                              std::size_t first, std::size_t count, double range,
+                              BatchColumns& columns);
 
 /// Pairs that have parted are shown to the laws without overlap or motion: none has to expect what
 /// lies beyond its range.
-void hold_apart(const std::uint8_t* is_touching, std::size_t count, BatchColumns& columns);
+void mask_separated(const std::uint8_t* is_touching, std::size_t count, BatchColumns& columns);
 /// And whatever a law said of them is taken back, the history with it.
-void forget_apart(const std::uint8_t* is_touching, std::size_t count, std::size_t stride,
-                  BatchColumns& columns);
+void clear_separated(const std::uint8_t* is_touching, std::size_t count, std::size_t stride,
+                     BatchColumns& columns);
 
 }  // namespace dust::contact

@@ -87,8 +87,8 @@ Coupling::Impl::Impl(const scenario::Setup& setup, const scenario::FluidSpec& fl
       voidage(rule),
       void_fraction(lattice, rule),
       face_void(lattice),
-      self(fluid.is_one_way ? scenario::OwnDisturbance::felt : fluid.own_disturbance, lattice, rule,
-           drag, face_void, void_fraction, states),
+      self(fluid.is_one_way ? scenario::DisturbanceCorrection::felt : fluid.disturbance_correction,
+           lattice, rule, drag, face_void, void_fraction, states),
       size_ratios(lattice),
       linearisation(lattice, rule, drag, void_fraction, self, states,
                     {fluid.initial_velocity.x, fluid.initial_velocity.y, fluid.initial_velocity.z},
@@ -172,7 +172,7 @@ void Coupling::deposit(const particles::GrainRows& grains) {
   }
   CouplingReport& report = s.report;
   report.moved_shares += counts.moved_shares;
-  report.relieved_cells += counts.limited_cells;
+  report.limited_cells += counts.limited_cells;
   report.unplaced_grains += counts.unplaced_grains;
   report.smallest_void_fraction = std::min(report.smallest_void_fraction, counts.smallest);
   report.largest_diameter_over_spacing =
@@ -183,7 +183,7 @@ void Coupling::deposit(const particles::GrainRows& grains) {
              " of its open volume and no cell around has room; use fewer cells, or look for grains "
              "that overlap or lie inside bodies"));
   }
-  if (s.states.has_own_flow()) s.self.spread_solids(grains);
+  if (s.states.has_self_flow()) s.self.spread_solids(grains);
   s.face_void.update(s.void_fraction.after(), s.void_fraction.filled_cells());
 }
 
@@ -304,7 +304,7 @@ void Coupling::end_step(EvaluatedDrag drag, const particles::GrainRows& grains, 
       for (int d = 0; d < 3; ++d) {
         const double drag_impulse = received[d] - interval * r.stress_impulse[d];
         if (!s.is_one_way && r.is_paired[d]) {
-          r.owed[d] += r.given[d] - grains.weight[row] * drag_impulse;
+          r.deferred[d] += r.given[d] - grains.weight[row] * drag_impulse;
         }
         r.place[d] = grains.position[4 * row + d];
         r.stress_impulse[d] = 0.0;

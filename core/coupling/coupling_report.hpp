@@ -9,8 +9,8 @@ namespace dust::coupling {
 
 /// Limiters and checks, counted since the start; none of them is silent.
 struct CouplingReport {
-  std::int64_t moved_shares = 0;    ///< shares of grain volume given to a neighbour (body, side)
-  std::int64_t relieved_cells = 0;  ///< times a cell gave volume away at the smallest void fraction
+  std::int64_t moved_shares = 0;   ///< shares of grain volume given to a neighbour (body, side)
+  std::int64_t limited_cells = 0;  ///< times a cell gave volume away at the smallest void fraction
   std::int64_t unplaced_grains =
       0;  ///< grains with no open cell in reach: their volume is not mapped
   std::int64_t unpaired_forces = 0;   ///< force components with no open face around the grain: the

@@ -43,14 +43,14 @@ void FlowSampler::sample(const particles::GrainRows& grains, std::span<const std
                   flux.data(), slip, ratio);
     if (set_ == fluid::MomentumSet::three) std::fill_n(ratio, rows.size(), 1.0);
   }
-  if (states_.has_own_flow()) self_.sample(here, rows, state, needs_stress_, v, flow, columns);
+  if (states_.has_self_flow()) self_.sample(here, rows, state, needs_stress_, v, flow, columns);
 }
 
 /// Void fraction and stress of the cells that the particles of a batch are in; returns whether some
 /// of them are larger than a cell.
 bool FlowSampler::sample_cells(const StencilBatch& here, std::size_t count, const FluidState& state,
                                SampledFlow& flow, DragColumns& columns) const {
-  WideKernel wide(lattice_, voidage_);
+  MultiCellKernel wide(lattice_, voidage_);
   bool has_wide = false;
   // Particles of one cell come one after another.
   std::ptrdiff_t last_cell = -1;
@@ -59,10 +59,10 @@ bool FlowSampler::sample_cells(const StencilBatch& here, std::size_t count, cons
   for (std::size_t q = 0; q < count; ++q) {
     const double* position = &here.position[4 * q];
     const std::ptrdiff_t cell = cell_of(here, q);
-    const bool is_wide = wide.takes(position[3]);
-    has_wide = has_wide || is_wide;
-    if (cell != last_cell || is_wide) {
-      last_cell = is_wide ? -1 : cell;
+    const bool is_multi_cell = wide.takes(position[3]);
+    has_wide = has_wide || is_multi_cell;
+    if (cell != last_cell || is_multi_cell) {
+      last_cell = is_multi_cell ? -1 : cell;
       eps = void_fraction_.around(position, cell, wide);
       for (int d = 0; needs_stress_ && d < 3; ++d) {
         stress[d] = lattice_.face_mean(d, cell, cell + here.face_step[d][q],
@@ -81,7 +81,7 @@ void FlowSampler::sample_wide(const StencilBatch& here, int d, const FluidState&
                               double* stress) const {
   const std::vector<double>& u = state.velocity.component[d];
   const std::vector<double>& push = state.stress_divergence.component[d];
-  WideKernel wide(lattice_, voidage_);
+  MultiCellKernel wide(lattice_, voidage_);
   WideStencil many;
   for (std::size_t q = 0; q < here.count; ++q) {
     const double* position = &here.position[4 * q];
@@ -90,11 +90,11 @@ void FlowSampler::sample_wide(const StencilBatch& here, int d, const FluidState&
     wide.stencil(d, void_fraction_.after(), many);
     sums.open[q] = sums.fluid[q] = flux[q] = stress[q] = 0.0;
     for (std::size_t n = 0; n < size(many); ++n) {
-      flux[q] += many.weight[n] * many.void_fraction[n] * (u[many.home[n]] - v[q]);
+      flux[q] += many.weight[n] * many.void_fraction[n] * (u[many.storage[n]] - v[q]);
       const double part = many.weight[n] * many.open[n];
       sums.open[q] += part;
       sums.fluid[q] += part * many.void_fraction[n];
-      if (needs_stress_ && many.open[n] > 0.0) stress[q] += many.weight[n] * push[many.home[n]];
+      if (needs_stress_ && many.open[n] > 0.0) stress[q] += many.weight[n] * push[many.storage[n]];
     }
   }
 }

@@ -94,7 +94,7 @@ sdk::Vec3 ForceModels::velocity_at(sdk::Vec3 place, const fluid::FaceField& u) c
   Stencil s;
   for (int d = 0; d < 3; ++d) {
     lattice_.faces(d, p, s);
-    for (std::size_t n = 0; n < 8; ++n) velocity[d] += s.weight[n] * u.component[d][s.home[n]];
+    for (std::size_t n = 0; n < 8; ++n) velocity[d] += s.weight[n] * u.component[d][s.storage[n]];
   }
   return velocity;
 }

@@ -9,8 +9,8 @@ namespace {
 /// Numbers of a ParticleState that outlive a fluid step: velocity of the fluid, place, debt, own
 /// velocity.
 constexpr std::size_t k_saved = 13;
-/// Numbers of an OwnFlow that do: the flow.
-constexpr std::size_t k_saved_flow = 3 * own_disturbance::k_groups;
+/// Numbers of an SelfFlow that do: the flow.
+constexpr std::size_t k_saved_flow = 3 * self_disturbance::k_groups;
 
 }  // namespace
 
@@ -24,24 +24,24 @@ void ParticleStates::align(const particles::GrainRows& grains) {
   std::vector<char> is_here(ids_.size(), 0);
   std::vector<ParticleState> rows(grains.count);
   std::vector<double> columns(width_ * grains.count, 0.0);
-  std::vector<OwnFlow> own_flow(has_own_flow_ ? grains.count : 0);
+  std::vector<SelfFlow> self_flow(has_self_flow_ ? grains.count : 0);
   for (std::size_t row = 0; row < grains.count; ++row) {
     const auto found =
         std::lower_bound(known.begin(), known.end(), std::pair{grains.id[row], std::size_t{0}});
     if (found == known.end() || found->first != grains.id[row]) continue;
     rows[row] = rows_[found->second];
-    if (has_own_flow_) own_flow[row] = own_flow_[found->second];
+    if (has_self_flow_) self_flow[row] = self_flow_[found->second];
     std::copy_n(columns_.data() + width_ * found->second, width_, columns.data() + width_ * row);
     is_here[found->second] = 1;
   }
   for (const auto& [id, row] : known) {
-    if (is_here[row] == 0 && rows_[row].owed != Triple{}) {
-      escaped_.push_back({rows_[row].place, rows_[row].owed});
+    if (is_here[row] == 0 && rows_[row].deferred != Triple{}) {
+      escaped_.push_back({rows_[row].place, rows_[row].deferred});
     }
   }
   rows_ = std::move(rows);
   columns_ = std::move(columns);
-  own_flow_ = std::move(own_flow);
+  self_flow_ = std::move(self_flow);
   ids_.assign(grains.id, grains.id + grains.count);
 }
 
@@ -69,37 +69,37 @@ void ParticleStates::save(sdk::ArchiveWriter& archive) const {
     const ParticleState& r = rows_[row];
     numbers.insert(numbers.end(), r.fluid_velocity.begin(), r.fluid_velocity.end());
     numbers.insert(numbers.end(), r.place.begin(), r.place.end());
-    numbers.insert(numbers.end(), r.owed.begin(), r.owed.end());
+    numbers.insert(numbers.end(), r.deferred.begin(), r.deferred.end());
     numbers.push_back(r.has_velocity ? 1.0 : 0.0);
     numbers.insert(numbers.end(), r.velocity.begin(), r.velocity.end());
   }
   std::vector<double> gone;
   for (const EscapedParticle& l : escaped_) {
     gone.insert(gone.end(), l.place.begin(), l.place.end());
-    gone.insert(gone.end(), l.owed.begin(), l.owed.end());
+    gone.insert(gone.end(), l.deferred.begin(), l.deferred.end());
   }
   archive.integers("grain_ids", ids_);
   archive.numbers("grains", numbers);
   archive.numbers("leavers", gone);
   if (width_ > 0) archive.numbers("kept", columns_);
-  save_own_flow(archive);
+  save_self_flow(archive);
 }
 
-void ParticleStates::save_own_flow(sdk::ArchiveWriter& archive) const {
+void ParticleStates::save_self_flow(sdk::ArchiveWriter& archive) const {
   std::vector<double> flows;
-  flows.reserve(k_saved_flow * own_flow_.size());
-  for (const OwnFlow& own : own_flow_) {
+  flows.reserve(k_saved_flow * self_flow_.size());
+  for (const SelfFlow& own : self_flow_) {
     for (const Triple& part : own.flow) flows.insert(flows.end(), part.begin(), part.end());
   }
   archive.numbers("own_flow", flows);
 }
 
-void ParticleStates::load_own_flow(sdk::ArchiveReader& archive) {
+void ParticleStates::load_self_flow(sdk::ArchiveReader& archive) {
   const std::vector<double> flows = archive.numbers("own_flow");
-  has_own_flow_ = !flows.empty();
-  own_flow_.assign(flows.size() / k_saved_flow, {});
+  has_self_flow_ = !flows.empty();
+  self_flow_.assign(flows.size() / k_saved_flow, {});
   const double* n = flows.data();
-  for (OwnFlow& own : own_flow_) {
+  for (SelfFlow& own : self_flow_) {
     for (Triple& part : own.flow) {
       std::copy_n(n, 3, part.begin());
       // A flow is forgotten when its grain is no longer alone: the next map() has to know of it.
@@ -120,7 +120,7 @@ void ParticleStates::load(sdk::ArchiveReader& archive) {
     ParticleState& r = rows_[row];
     std::copy_n(n, 3, r.fluid_velocity.begin());
     std::copy_n(n + 3, 3, r.place.begin());
-    std::copy_n(n + 6, 3, r.owed.begin());
+    std::copy_n(n + 6, 3, r.deferred.begin());
     r.has_velocity = n[9] != 0.0;
     std::copy_n(n + 10, 3, r.velocity.begin());
     n += k_saved;
@@ -128,9 +128,9 @@ void ParticleStates::load(sdk::ArchiveReader& archive) {
   escaped_.assign(gone.size() / 6, {});
   for (std::size_t l = 0; l < escaped_.size(); ++l) {
     std::copy_n(gone.data() + 6 * l, 3, escaped_[l].place.begin());
-    std::copy_n(gone.data() + 6 * l + 3, 3, escaped_[l].owed.begin());
+    std::copy_n(gone.data() + 6 * l + 3, 3, escaped_[l].deferred.begin());
   }
-  load_own_flow(archive);
+  load_self_flow(archive);
 }
 
 }  // namespace dust::coupling

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coupling/self_disturbance/own_disturbance.hpp"
+#include "coupling/self_disturbance/disturbance_formulas.hpp"
 #include "dust/sdk/archive.hpp"
 #include "particles/grain_rows.hpp"
 
@@ -25,24 +25,24 @@ struct ParticleState {
   bool has_velocity = false;
   std::array<bool, 3> is_paired{};  ///< the component's force found open faces at map()
   std::int32_t stencil =
-      -1;          ///< its number in the order of the cells, as last numbered; -1: was not there
-  Triple given{};  ///< [N s] drag that the fluid was told to balance, weight included
-  Triple place{};  ///< [m] at collect()
-  Triple owed{};   ///< [N s] impulse the fluid has still to receive, weight included
+      -1;             ///< its number in the order of the cells, as last numbered; -1: was not there
+  Triple given{};     ///< [N s] drag that the fluid was told to balance, weight included
+  Triple place{};     ///< [m] at collect()
+  Triple deferred{};  ///< [N s] impulse the fluid has still to receive, weight included
 };
 
 /// What a grain does to the fluid by itself, while that is taken off.
-struct OwnFlow {
-  using Groups = std::array<double, own_disturbance::k_groups>;
+struct SelfFlow {
+  using Groups = std::array<double, self_disturbance::k_groups>;
 
   bool is_smooth =
       false;  ///< coupled through a SmoothKernel since map(); else nothing is taken off
-  bool is_beside = false;                                ///< a side of the domain cuts its kernel
-  std::array<Triple, own_disturbance::k_groups> flow{};  ///< [m/s] by the drag it has received
+  bool is_beside = false;                                 ///< a side of the domain cuts its kernel
+  std::array<Triple, self_disturbance::k_groups> flow{};  ///< [m/s] by the drag it has received
   Groups kept{};  ///< [-] share of the flow that is left after a fluid step
   /// [s/kg] flow that a fluid step adds along each axis, per force on the grain
-  std::array<Triple, own_disturbance::k_groups> gained{};
-  Triple paid{};             ///< [N s] owed before map(), which the fluid receives in this step
+  std::array<Triple, self_disturbance::k_groups> gained{};
+  Triple released{};         ///< [N s] owed before map(), which the fluid receives in this step
   double spread = 0.0;       ///< [-] of its solids, by the SmoothKernel and not by the voidage rule
   double excess = 0.0;       ///< [-] of its own solids and flow, over those of a lone grain
   Triple solids{};           ///< [-] its own at the faces of each component
@@ -62,25 +62,25 @@ struct OwnFlow {
 };
 
 /// Component d of what is taken off the fluid's velocity [m/s], to be added to the slip.
-[[nodiscard]] inline double disturbance(const OwnFlow& own, std::size_t d) {
+[[nodiscard]] inline double disturbance(const SelfFlow& own, std::size_t d) {
   double sum = 0.0;
   for (const Triple& part : own.flow) sum += part[d];
   return own.excess * sum;
 }
 /// Its own share of the solids at faces of the mean void fraction `eps`: no more than there are.
-[[nodiscard]] inline double solids_at(const OwnFlow& own, std::size_t d, double eps) {
+[[nodiscard]] inline double solids_at(const SelfFlow& own, std::size_t d, double eps) {
   return std::min(own.solids[d], 1.0 - eps);
 }
 /// Void fraction that turns the flux through those faces into the slip: that of the others, and
 /// for what flows round its own solids (docs/theory/own_disturbance.md).
-[[nodiscard]] inline double void_of_flux(const OwnFlow& own, std::size_t d, double eps) {
+[[nodiscard]] inline double void_of_flux(const SelfFlow& own, std::size_t d, double eps) {
   return eps + own.excess * solids_at(own, d, eps) * (1.0 / 3.0);
 }
 
 /// Impulse owed to the fluid [N s] for a grain that is gone, at the place where it was last [m].
 struct EscapedParticle {
   Triple place{};
-  Triple owed{};
+  Triple deferred{};
 };
 
 /// Remembers grains across calls by their id, however the rows are reordered in between.
@@ -101,16 +101,16 @@ class ParticleStates {
                                                    std::span<const std::int32_t> then) const;
 
   /// Keeps what each grain does to the fluid by itself, from now on.
-  void keep_own_flow() {
-    has_own_flow_ = true;
-    own_flow_.resize(rows_.size());
+  void keep_self_flow() {
+    has_self_flow_ = true;
+    self_flow_.resize(rows_.size());
   }
-  [[nodiscard]] bool has_own_flow() const { return has_own_flow_; }
-  OwnFlow& own_flow(std::size_t row) { return own_flow_[row]; }
-  [[nodiscard]] const OwnFlow& own_flow(std::size_t row) const { return own_flow_[row]; }
+  [[nodiscard]] bool has_self_flow() const { return has_self_flow_; }
+  SelfFlow& self_flow(std::size_t row) { return self_flow_[row]; }
+  [[nodiscard]] const SelfFlow& self_flow(std::size_t row) const { return self_flow_[row]; }
   /// Whether the grain is coupled through a SmoothKernel.
   [[nodiscard]] bool is_smooth(std::size_t row) const {
-    return has_own_flow_ && own_flow_[row].is_smooth;
+    return has_self_flow_ && self_flow_[row].is_smooth;
   }
 
   /// Keeps `width` further numbers per particle, zero for new ones; before the first align().
@@ -132,14 +132,14 @@ class ParticleStates {
   void load(sdk::ArchiveReader& archive);
 
  private:
-  void save_own_flow(sdk::ArchiveWriter& archive) const;
-  void load_own_flow(sdk::ArchiveReader& archive);
+  void save_self_flow(sdk::ArchiveWriter& archive) const;
+  void load_self_flow(sdk::ArchiveReader& archive);
 
   std::vector<std::int64_t> ids_;
   std::uint64_t order_ = 0;
   std::vector<ParticleState> rows_;
-  std::vector<OwnFlow> own_flow_;  ///< empty until kept
-  bool has_own_flow_ = false;
+  std::vector<SelfFlow> self_flow_;  ///< empty until kept
+  bool has_self_flow_ = false;
   std::vector<EscapedParticle> escaped_;
   std::size_t width_ = 0;
   std::vector<double> columns_;  ///< width_ per row

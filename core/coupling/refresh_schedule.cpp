@@ -19,8 +19,8 @@ double RefreshSchedule::refreshes_for(double fluid_step, double fastest) const {
   const double relaxing = k_steps_per_relaxation * fluid_step * fastest;
   const double crossing = k_refreshes_per_cell * k_crossing_speed * fluid_step / least_spacing_;
   // The allowance keeps rounding of a whole number from costing one more refresh.
-  constexpr double k_allowance = 1e-9;
-  const double wanted = std::ceil(std::max(relaxing, crossing) * (1.0 - k_allowance));
+  constexpr double k_rounding = 1e-9;
+  const double wanted = std::ceil(std::max(relaxing, crossing) * (1.0 - k_rounding));
   return std::clamp(wanted, 1.0, k_max_refreshes);
 }
 

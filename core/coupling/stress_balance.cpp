@@ -12,7 +12,7 @@ namespace dust::coupling {
 
 StressBalance::StressBalance(const Lattice& lattice, const sdk::VoidageRule& rule)
     : lattice_(lattice), rule_(rule) {
-  for (auto& component : owed_) component.assign(lattice.grid().size, 0.0);
+  for (auto& component : deferred_) component.assign(lattice.grid().size, 0.0);
 }
 
 void StressBalance::leave(const fluid::CellField& eps, const fluid::FaceField& stress,
@@ -23,9 +23,10 @@ void StressBalance::leave(const fluid::CellField& eps, const fluid::FaceField& s
     if (solids == 0.0) return;
     for (int d = 0; d < 3; ++d) {
       const auto c = static_cast<std::size_t>(d);
-      const std::ptrdiff_t low = lattice_.face(d, i, j, k, 0).home;
-      const std::ptrdiff_t high = lattice_.face(d, i, j, k, 1).home;
-      owed_[c][cell] += impulse * solids * lattice_.face_mean(d, low, high, stress.component[c]);
+      const std::ptrdiff_t low = lattice_.face(d, i, j, k, 0).storage;
+      const std::ptrdiff_t high = lattice_.face(d, i, j, k, 1).storage;
+      deferred_[c][cell] +=
+          impulse * solids * lattice_.face_mean(d, low, high, stress.component[c]);
     }
   });
 }
@@ -45,13 +46,14 @@ void StressBalance::receive(const FaceStencils& stencils, FaceStencils::Rows now
 /// The components from `first` to `end`.
 void StressBalance::receive(const FaceStencils& stencils, FaceStencils::Rows now,
                             std::span<const Triple> impulse, std::size_t first, std::size_t end) {
-  WideKernel wide(lattice_, rule_);
+  MultiCellKernel wide(lattice_, rule_);
   // Particles of one cell come one after another: what it is owed stays in the registers meanwhile.
   std::ptrdiff_t cell = -1;
-  Triple owed{};
+  Triple deferred{};
   const auto put_back = [&] {
     if (cell < 0) return;
-    for (std::size_t d = first; d < end; ++d) owed_[d][static_cast<std::size_t>(cell)] = owed[d];
+    for (std::size_t d = first; d < end; ++d)
+      deferred_[d][static_cast<std::size_t>(cell)] = deferred[d];
   };
   for (std::size_t b = 0; b < stencils.size(); ++b) {
     const StencilBatch& batch = stencils[b];
@@ -64,9 +66,9 @@ void StressBalance::receive(const FaceStencils& stencils, FaceStencils::Rows now
         put_back();
         cell = -1;
         wide.set(position, position[3]);
-        for (const WideKernel::Share& share : wide.shares()) {
+        for (const MultiCellKernel::Share& share : wide.shares()) {
           for (std::size_t d = first; d < end; ++d) {
-            owed_[d][share.cell] -= share.weight * received[d];
+            deferred_[d][share.cell] -= share.weight * received[d];
           }
         }
         continue;
@@ -75,10 +77,10 @@ void StressBalance::receive(const FaceStencils& stencils, FaceStencils::Rows now
         put_back();
         cell = own;
         for (std::size_t d = first; d < end; ++d) {
-          owed[d] = owed_[d][static_cast<std::size_t>(cell)];
+          deferred[d] = deferred_[d][static_cast<std::size_t>(cell)];
         }
       }
-      for (std::size_t d = first; d < end; ++d) owed[d] -= received[d];
+      for (std::size_t d = first; d < end; ++d) deferred[d] -= received[d];
     }
   }
   put_back();
@@ -86,17 +88,17 @@ void StressBalance::receive(const FaceStencils& stencils, FaceStencils::Rows now
 
 void StressBalance::save(sdk::ArchiveWriter& archive) const {
   for (std::size_t d = 0; d < 3; ++d) {
-    archive.numbers(std::string("stress_owed_") + "xyz"[d], owed_[d]);
+    archive.numbers(std::string("stress_owed_") + "xyz"[d], deferred_[d]);
   }
 }
 
 void StressBalance::load(sdk::ArchiveReader& archive) {
   for (std::size_t d = 0; d < 3; ++d) {
     auto values = archive.numbers(std::string("stress_owed_") + "xyz"[d]);
-    if (values.size() != owed_[d].size()) {
+    if (values.size() != deferred_[d].size()) {
       throw sdk::ModelError("the checkpoint's stress book belongs to another grid");
     }
-    owed_[d] = std::move(values);
+    deferred_[d] = std::move(values);
   }
 }
 

@@ -4,7 +4,7 @@
 #include "coupling/particle_states.hpp"
 #include "coupling/stencils/face_stencils.hpp"
 #include "coupling/stencils/lattice.hpp"
-#include "coupling/stencils/wide_kernel.hpp"
+#include "coupling/stencils/multi_cell_kernel.hpp"
 #include "dust/sdk/archive.hpp"
 
 #include <array>
@@ -33,7 +33,9 @@ class StressBalance {
   void receive(const FaceStencils& stencils, FaceStencils::Rows now,
                std::span<const Triple> impulse);
   /// Owed to the fluid [N s], component d, per padded cell.
-  [[nodiscard]] std::vector<double>& owed(int d) { return owed_[static_cast<std::size_t>(d)]; }
+  [[nodiscard]] std::vector<double>& deferred(int d) {
+    return deferred_[static_cast<std::size_t>(d)];
+  }
 
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
@@ -44,7 +46,7 @@ class StressBalance {
 
   const Lattice& lattice_;
   const sdk::VoidageRule& rule_;
-  std::array<std::vector<double>, 3> owed_;
+  std::array<std::vector<double>, 3> deferred_;
   std::vector<Triple> received_;  ///< [N s] storage of room_for()
 };
 

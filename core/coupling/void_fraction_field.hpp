@@ -2,7 +2,7 @@
 #pragma once
 
 #include "coupling/stencils/lattice.hpp"
-#include "coupling/stencils/wide_kernel.hpp"
+#include "coupling/stencils/multi_cell_kernel.hpp"
 #include "dust/sdk/voidage_rule.hpp"
 #include "particles/grain_rows.hpp"
 
@@ -39,7 +39,8 @@ class VoidFractionField {
   [[nodiscard]] const fluid::CellField& after() const { return after_.eps; }
   /// Void fraction that a particle in the cell `own` has around it; sets `wide` for one larger
   /// than a cell.
-  [[nodiscard]] double around(const double* position, std::ptrdiff_t own, WideKernel& wide) const {
+  [[nodiscard]] double around(const double* position, std::ptrdiff_t own,
+                              MultiCellKernel& wide) const {
     if (!wide.takes(position[3])) return after()[lattice_.host_cell(own, position)];
     wide.set(position, position[3]);
     return wide.mean(after());

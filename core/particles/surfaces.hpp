@@ -45,7 +45,7 @@ struct Surface {
     return {dot(normal, point) - offset, normal};
   }
   /// The same of many spheres.
-  void touch(const bodies::Touches& spheres) const {
+  void touch(const bodies::ClosestPoints& spheres) const {
     if (body != nullptr) {
       body->touch(part, spheres, place);
       return;

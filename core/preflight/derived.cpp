@@ -19,7 +19,7 @@ namespace dust::preflight {
 namespace {
 
 // Below this many steps a collision is missed or throws the grains apart.
-constexpr double k_fewest_steps_per_collision = 3.0;
+constexpr double k_min_steps_per_collision = 3.0;
 
 using Emitters = std::vector<std::unique_ptr<sdk::Emitter>>;
 using scenario::EmitterSpec;
@@ -69,12 +69,12 @@ double mean_mass(const sdk::EmitterRequest& request, double density) {
 void count_stream(const Setup& setup, const EmitterSpec& spec, double step,
                   const sdk::EmitterRequest& request, sdk::Emitter& emitter,
                   EmissionNumbers& numbers) {
-  constexpr int k_most_steps = 50;
+  constexpr int k_max_steps = 50;
   constexpr std::size_t k_enough = 20000;
   std::vector<sdk::InsertionRequest> requests;
   const double end = std::min(setup.time.end, request.end);
   double time = request.begin;
-  const double stop = std::min(end, time + k_most_steps * setup.time.fluid_step);
+  const double stop = std::min(end, time + k_max_steps * setup.time.fluid_step);
   while (time < stop && requests.size() < k_enough) {
     sdk::EmitterContext context;
     context.begin = time;
@@ -179,7 +179,7 @@ void check_fixed_step(const Setup& setup, const registry::Registry& registry,
   if (deciding == nullptr) return;
   if (step <= deciding->stable_step) return;
   const bool is_hopeless =
-      step > deciding->rayleigh_time || k_fewest_steps_per_collision * step > deciding->hertz_time;
+      step > deciding->rayleigh_time || k_min_steps_per_collision * step > deciding->hertz_time;
   const std::string text =
       "time.dem_step: " + number_text(step) + " s is longer than the stable step of grains of " +
       short_number(deciding->diameter) + " m, " + short_number(deciding->stable_step) +

@@ -32,7 +32,7 @@ constexpr double k_balance = 1e-6;
 /// Times of the run at which flows are looked at, the end included.
 constexpr int k_times = 16;
 /// Sides with more faces than this are left to the run: a check shall not need its memory.
-constexpr std::size_t k_most_faces = 4'000'000;
+constexpr std::size_t k_max_faces = 4'000'000;
 /// Ratio of the edges of a cell from which it is called far from cubic.
 constexpr double k_far_from_cubic = 4.0;
 
@@ -207,8 +207,8 @@ Balance balance_of(const Setup& setup, const std::array<double, 6>& flows, doubl
 }
 
 /// Names every flow at the place of the first that is not none.
-void tell_imbalance(const Setup& setup, const std::array<double, 6>& flows, double time, double net,
-                    Diagnostics& diagnostics) {
+void report_imbalance(const Setup& setup, const std::array<double, 6>& flows, double time,
+                      double net, Diagnostics& diagnostics) {
   std::string which;
   std::size_t first = 6;
   for (std::size_t n = 0; n < 6; ++n) {
@@ -237,7 +237,7 @@ void check_flow(const Setup& setup, const SideModels& sides, Diagnostics& diagno
   check_cells(setup, diagnostics);
   if (!check_rules(setup, sides, diagnostics)) return;
   for (std::size_t n = 0; n < 6; ++n) {
-    if (sides[n] != nullptr && Faces::count_of(setup, n) > k_most_faces) return;
+    if (sides[n] != nullptr && Faces::count_of(setup, n) > k_max_faces) return;
   }
   const bool is_open = gives_way(sides);
   AllFaces all;
@@ -249,7 +249,7 @@ void check_flow(const Setup& setup, const SideModels& sides, Diagnostics& diagno
     const Balance b = balance_of(setup, flows, time);
     const bool is_certain = setup.bodies.empty() || std::abs(b.net) >= b.gross * (1.0 - k_balance);
     if (!is_certain || std::abs(b.net) <= k_balance * b.gross) continue;
-    tell_imbalance(setup, flows, time, b.net, diagnostics);
+    report_imbalance(setup, flows, time, b.net, diagnostics);
     return;
   }
 }

@@ -76,14 +76,14 @@ std::vector<QuantityPair> paired(const std::vector<Figure>& first,
 }
 
 /// The figures of the first screen under names that compare between runs.
-std::vector<Figure> told_first(const RunText& run) {
+std::vector<Figure> reported_first(const RunText& run) {
   std::vector<Figure> list;
   const Highlights highlights = highlights_of(run);
   const auto add = [&](std::string group, std::string name, const Figure& figure) {
-    Figure told = figure;
-    told.sensor = std::move(group);
-    told.name = std::move(name);
-    list.push_back(std::move(told));
+    Figure reported = figure;
+    reported.sensor = std::move(group);
+    reported.name = std::move(name);
+    list.push_back(std::move(reported));
   };
   if (!highlights.openings.empty()) add("dust", "gets out", sum_of(highlights.openings));
   for (const auto* figures : {&highlights.openings, &highlights.dust, &highlights.held}) {
@@ -105,12 +105,12 @@ std::vector<Figure> told_first(const RunText& run) {
   const auto number = [&](const char* name, const json& object, const char* key, const char* unit) {
     const auto value = number_at(object, key);
     if (!value) return;
-    Figure told;
-    told.sensor = "run";
-    told.name = name;
-    told.value = *value;
-    told.unit = unit;
-    list.push_back(std::move(told));
+    Figure reported;
+    reported.sensor = "run";
+    reported.name = name;
+    reported.value = *value;
+    reported.unit = unit;
+    list.push_back(std::move(reported));
   };
   number("grains released", object_at(run.summary, "particles"), "emitted", "1");
   number("grains in the domain", object_at(run.summary, "particles"), "in_domain", "1");
@@ -186,7 +186,7 @@ Comparison compare_runs(const std::filesystem::path& first, const std::filesyste
     c.second_name = second.lexically_normal().string();
   }
   c.scenario = scenario_differences(c.first.scenario, c.second.scenario);
-  c.headline = paired(told_first(c.first), told_first(c.second));
+  c.headline = paired(reported_first(c.first), reported_first(c.second));
   c.quantities = paired(c.first.figures, c.second.figures);
   const std::string state = text_at(c.first.summary, "state_sha256");
   c.is_same_state = !state.empty() && state == text_at(c.second.summary, "state_sha256");
@@ -194,7 +194,7 @@ Comparison compare_runs(const std::filesystem::path& first, const std::filesyste
 }
 
 std::string comparison_text(const Comparison& c) {
-  constexpr std::size_t k_most_keys = 20;
+  constexpr std::size_t k_max_keys = 20;
   std::vector<std::vector<std::string>> rows;
   rows.push_back({"", "[unit]", c.first_name, c.second_name, "difference", "in errors"});
   for (const QuantityPair& pair : c.headline) {
@@ -226,13 +226,13 @@ std::string comparison_text(const Comparison& c) {
   }
   if (c.is_same_state) text += "The end states are the same, bit for bit.\n";
   text += c.scenario.empty() ? "The scenarios are the same.\n" : "The scenarios differ in:\n";
-  for (std::size_t k = 0; k < c.scenario.size() && k < k_most_keys; ++k) {
+  for (std::size_t k = 0; k < c.scenario.size() && k < k_max_keys; ++k) {
     const ScenarioDifference& d = c.scenario[k];
     text += "  " + d.path + ": " + (d.first.empty() ? "(none)" : d.first) + " | " +
             (d.second.empty() ? "(none)" : d.second) + "\n";
   }
-  if (c.scenario.size() > k_most_keys) {
-    text += "  and " + std::to_string(c.scenario.size() - k_most_keys) + " more keys\n";
+  if (c.scenario.size() > k_max_keys) {
+    text += "  and " + std::to_string(c.scenario.size() - k_max_keys) + " more keys\n";
   }
   return text;
 }

@@ -154,7 +154,7 @@ class Run {
       base::log_info("resumed at " + std::to_string(simulation_.time()) + " s");
     } else {
       tell_bodies();
-      tell_steps();
+      print_steps();
       write_frame();
       io::write_text(folder_ / "series.csv-metadata.json",
                      series_metadata(simulation_).dump(1) + "\n");
@@ -168,7 +168,7 @@ class Run {
   void tell_bodies() const {
     const auto& diameters = simulation_.models().class_diameters;
     for (const auto& body : simulation_.models().bodies) {
-      for (const std::string& remark : body.shape->remarks()) {
+      for (const std::string& remark : body.shape->notes()) {
         base::log_info("body " + body.name + ": " + remark);
       }
       const double edge = body.shape->shortest_edge();
@@ -190,7 +190,7 @@ class Run {
   }
 
   /// As `engine check` tells them, every digit of them.
-  void tell_steps() const {
+  void print_steps() const {
     const particles::TimeSteps& steps = simulation_.dem().time_steps();
     base::log_info("time step " + scenario::number_text(steps.coarse_step) + " s");
     if (simulation_.models().class_diameters.empty()) return;

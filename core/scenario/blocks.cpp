@@ -371,7 +371,7 @@ const ParameterSchema& CouplingBlock::schema() {
            "all grains (on), for none (off).")
         .one_of({"auto", "on", "off"})
         .optional();
-    s.boolean(&CouplingBlock::correct_own_disturbance, "correct_own_disturbance",
+    s.boolean(&CouplingBlock::correct_disturbance_correction, "correct_own_disturbance",
               "Older name: true is `self_disturbance: on`, false `off`. Without effect beside it.")
         .optional();
     s.boolean(&CouplingBlock::overlap, "overlap",

@@ -175,7 +175,7 @@ struct RegionBlock {
 struct CouplingBlock {
   bool one_way = false;
   std::string self_disturbance = "auto";
-  bool correct_own_disturbance = false;
+  bool correct_disturbance_correction = false;
   bool overlap = false;
   std::vector<std::string> resolved;
   static const sdk::ParameterSchema& schema();

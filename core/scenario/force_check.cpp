@@ -26,15 +26,15 @@ void check_forces(const Setup& setup, std::span<const sdk::FluidForce* const> mo
       const int number = choices[m].where.line;
       return choices[m].path + (number > 0 ? " in line " + std::to_string(number) : "");
     };
-    bool is_told = false;
-    for (std::size_t m = 0; m < n && !is_told; ++m) {
+    bool is_reported = false;
+    for (std::size_t m = 0; m < n && !is_reported; ++m) {
       if (choices[m].name != choices[n].name) continue;
       diagnostics.error(choices[n].where, choices[n].path + ": '" + choices[n].name +
                                               "' is given already by " + line(m) +
                                               ": remove one of the two");
-      is_told = true;
+      is_reported = true;
     }
-    if (models[n] == nullptr || is_told) continue;
+    if (models[n] == nullptr || is_reported) continue;
     for (const MaterialSpec& material : setup.materials) {
       if (material.coarse_graining == 1.0 || !(models[n]->needs().wall_reach > 0.0)) continue;
       diagnostics.error(choices[n].where,

@@ -56,7 +56,7 @@ class IncludeReader {
                          from ? "include: " + shown + " " + why : why);
       return std::nullopt;
     }
-    if (++files_read_ > k_most_files) {
+    if (++files_read_ > k_max_files) {
       diagnostics_.error(from ? *from : Mark{shown, 0, 0}, "include: too many files");
       return std::nullopt;
     }
@@ -85,7 +85,7 @@ class IncludeReader {
   }
 
  private:
-  static constexpr int k_most_files = 200;
+  static constexpr int k_max_files = 200;
 
   static fs::path identity(const fs::path& file) {
     std::error_code code;
@@ -134,8 +134,8 @@ std::optional<std::vector<Step>> parse_path(const std::string& path) {
     if (path[at] == '[') {
       const std::size_t end = path.find(']', at);
       const std::string digits = path.substr(at + 1, end == std::string::npos ? 0 : end - at - 1);
-      constexpr std::size_t k_most_digits = 6;
-      if (steps.empty() || digits.empty() || digits.size() > k_most_digits ||
+      constexpr std::size_t k_max_digits = 6;
+      if (steps.empty() || digits.empty() || digits.size() > k_max_digits ||
           digits.find_first_not_of("0123456789") != std::string::npos) {
         return std::nullopt;
       }

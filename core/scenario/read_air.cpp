@@ -13,7 +13,7 @@ namespace dust::scenario {
 namespace {
 
 /// Cells and faces are counted in 32 bits, several per cell.
-constexpr double k_most_cells = 2e8;
+constexpr double k_max_cells = 2e8;
 
 }  // namespace
 
@@ -46,9 +46,9 @@ void SetupReader::read_fluid(MapReader& top) {
     error(mark_of(entry->value, "cells"),
           "fluid.cells: " + number_text(fluid.cells[d]) + " is not a whole number of cells");
   }
-  if (const double count = fluid.cells.x * fluid.cells.y * fluid.cells.z; count > k_most_cells) {
+  if (const double count = fluid.cells.x * fluid.cells.y * fluid.cells.z; count > k_max_cells) {
     error(mark_of(entry->value, "cells"), "fluid.cells: " + number_text(count) +
-                                              " cells; at most " + number_text(k_most_cells) +
+                                              " cells; at most " + number_text(k_max_cells) +
                                               " can be counted");
   }
   spec.density = fluid.density;
@@ -105,7 +105,7 @@ void SetupReader::read_coupling(MapReader& top) {
   const Node& given = entry ? entry->value : empty;
   if (given.find("correct_own_disturbance") != nullptr &&
       given.find("self_disturbance") == nullptr) {
-    coupling.self_disturbance = coupling.correct_own_disturbance ? "on" : "off";
+    coupling.self_disturbance = coupling.correct_disturbance_correction ? "on" : "off";
     for (std::size_t n = 0; n < values.size(); ++n) {
       const bool is_it = CouplingBlock::schema()[n].name == "self_disturbance";
       if (is_it) values[n] = coupling.self_disturbance;
@@ -114,12 +114,12 @@ void SetupReader::read_coupling(MapReader& top) {
   if (setup_.fluid) {
     setup_.fluid->is_one_way = coupling.one_way;
     const bool is_on = coupling.self_disturbance == "on";
-    setup_.fluid->own_disturbance = is_on ? OwnDisturbance::taken_off
-                                    : coupling.self_disturbance == "off"
-                                        ? OwnDisturbance::felt
-                                        : OwnDisturbance::automatic;
+    setup_.fluid->disturbance_correction = is_on ? DisturbanceCorrection::taken_off
+                                           : coupling.self_disturbance == "off"
+                                               ? DisturbanceCorrection::felt
+                                               : DisturbanceCorrection::automatic;
     setup_.fluid->overlaps_grains = coupling.overlap;
-    if (is_on) check_own_disturbance(entry->where);
+    if (is_on) check_disturbance_correction(entry->where);
   }
   if (is_known) read_resolved(coupling, entry);
   out_.add("coupling", written_block<CouplingBlock>(values));
@@ -127,10 +127,10 @@ void SetupReader::read_coupling(MapReader& top) {
 
 /// The closed forms are those of an open flow in three directions. Without it nothing is taken off
 /// by itself; who asks for it is told.
-void SetupReader::check_own_disturbance(Mark where) {
-  constexpr int k_fewest = 4;
+void SetupReader::check_disturbance_correction(Mark where) {
+  constexpr int k_min = 4;
   for (int d = 0; d < 3; ++d) {
-    if (setup_.fluid->cells[static_cast<std::size_t>(d)] >= k_fewest) continue;
+    if (setup_.fluid->cells[static_cast<std::size_t>(d)] >= k_min) continue;
     error(where,
           "coupling.self_disturbance: the flow around a grain is only known in three "
           "directions, and fluid.cells has fewer than 4 along " +

@@ -130,7 +130,7 @@ class SetupReader {
   Node read_region(const Entry& entry, const std::string& path, FluidSpec& spec);
   void check_region(const Entry& entry, const std::string& path, const RegionBlock& region);
   void read_coupling(MapReader& top);
-  void check_own_disturbance(Mark where);
+  void check_disturbance_correction(Mark where);
   /// `coupling.resolved`: spheres whose flow the grid resolves.
   void read_resolved(const CouplingBlock& coupling, const Entry* entry);
   void check_resolved();

@@ -14,7 +14,7 @@ namespace dust::scenario {
 namespace {
 
 /// Largest number of pieces of one scenario: aliases of aliases would otherwise fill the memory.
-constexpr std::size_t k_most_nodes = 200000;
+constexpr std::size_t k_max_nodes = 200000;
 /// Deepest nesting, far above what a scenario needs and far below what the stack holds.
 constexpr std::size_t k_deepest = 64;
 
@@ -116,7 +116,7 @@ class TreeBuilder final : public YAML::EventHandler {
   }
   void put(Node node, YAML::anchor_t anchor) {
     nodes_ += count_nodes(node);
-    if (nodes_ > k_most_nodes) {
+    if (nodes_ > k_max_nodes) {
       diagnostics_.error(node.where, "the scenario is too large (aliases that multiply?)");
       throw Stop{};
     }

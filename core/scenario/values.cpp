@@ -388,7 +388,7 @@ void MapReader::warn_of_bare_numbers(const sdk::ParameterSchema& schema) {
   }
 }
 
-/// Told where another vector of the same map has a unit.
+/// Reported where another vector of the same map has a unit.
 bool MapReader::warn_of_bare_neighbour(const sdk::ParameterSchema& schema,
                                        const Parameter& parameter) {
   const std::string si = si_unit(parameter.dimension);

@@ -132,7 +132,7 @@ struct FluidRegion {
 
 /// Whether grains feel what they do to the fluid by themselves: not where they are alone and it
 /// counts, always, or never more than the fluid shows.
-enum class OwnDisturbance { automatic, felt, taken_off };
+enum class DisturbanceCorrection { automatic, felt, taken_off };
 
 struct FluidSpec {
   std::array<int, 3> cells{1, 1, 1};
@@ -143,7 +143,7 @@ struct FluidSpec {
   double pressure_tolerance = 1e-4;  ///< residual of the pressure solve relative to its right side
   double largest_cfl = 1.0;          ///< sub-steps keep the Courant number below
   bool is_one_way = false;           ///< grains feel the fluid, the fluid does not feel the grains
-  OwnDisturbance own_disturbance = OwnDisturbance::automatic;
+  DisturbanceCorrection disturbance_correction = DisturbanceCorrection::automatic;
   bool overlaps_grains = false;  ///< solved while the grains move in the fluid of the step before
   std::vector<FluidRegion> regions;  ///< the last one that holds a place counts
   /// Materials whose grains the fluid meets with their surfaces, indices into Setup::materials.

@@ -109,7 +109,7 @@ std::string amount_text(double value, double error, const std::string& unit) {
 std::optional<double> noise_of(const Results& results, std::size_t output) {
   std::map<std::vector<std::size_t>, std::vector<double>> groups;
   double squares = 0.0;
-  std::size_t told = 0;
+  std::size_t reported = 0;
   for (std::size_t n = 0; n < results.plan.points.size(); ++n) {
     const auto value = value_of(results, n, output);
     if (!value) continue;
@@ -117,7 +117,7 @@ std::optional<double> noise_of(const Results& results, std::size_t output) {
     const double error = results.outcomes[n].outputs[output].error;
     if (error < 0.0) continue;
     squares += error * error;
-    ++told;
+    ++reported;
   }
   double scatter = 0.0;
   std::size_t freedom = 0;
@@ -128,7 +128,7 @@ std::optional<double> noise_of(const Results& results, std::size_t output) {
     freedom += values.size() - 1;
   }
   if (freedom > 0) return std::sqrt(scatter / static_cast<double>(freedom));
-  if (told > 0) return std::sqrt(squares / static_cast<double>(told));
+  if (reported > 0) return std::sqrt(squares / static_cast<double>(reported));
   return std::nullopt;
 }
 
@@ -155,7 +155,7 @@ std::vector<MainEffect> main_effects(const Spec& spec, const Results& results) {
   return effects;
 }
 
-Verdict judge(const Expectation& e, const Spec& spec, const Results& results) {
+Verdict assess(const Expectation& e, const Spec& spec, const Results& results) {
   Verdict verdict;
   const auto effects = main_effects(spec, results);
   const auto found = std::find_if(effects.begin(), effects.end(), [&](const MainEffect& m) {

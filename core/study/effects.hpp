@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "study/spec.hpp"
+#include "study/spec/spec.hpp"
 #include "study/table.hpp"
 
 #include <optional>
@@ -50,6 +50,6 @@ struct Verdict {
 };
 
 /// An effect is told from noise when it exceeds twice its standard error.
-Verdict judge(const Expectation& expectation, const Spec& spec, const Results& results);
+Verdict assess(const Expectation& expectation, const Spec& spec, const Results& results);
 
 }  // namespace dust::study

@@ -17,7 +17,7 @@ void MeasureCheck::see(const std::vector<Quantity>& known) {
 
 void MeasureCheck::check(const Measure& measure, const std::string& quantity,
                          const std::vector<Quantity>& known) {
-  if (find_quantity(known, quantity) != nullptr || !told_.insert(measure.name).second) return;
+  if (find_quantity(known, quantity) != nullptr || !reported_.insert(measure.name).second) return;
   const bool is_sometimes = find_quantity(first_, quantity) != nullptr;
   diagnostics_.error(measure.where, printable(measure.name) + ": '" + printable(quantity) +
                                         (is_sometimes ? "' is no quantity of every point"

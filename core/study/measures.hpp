@@ -28,7 +28,7 @@ class MeasureCheck {
   const Spec& spec_;
   scenario::Diagnostics& diagnostics_;
   std::vector<Quantity> first_;  ///< of the first point
-  std::set<std::string> told_;
+  std::set<std::string> reported_;
 };
 
 }  // namespace dust::study

@@ -23,7 +23,7 @@ using scenario::Diagnostics;
 using scenario::Mark;
 using scenario::Node;
 
-constexpr std::size_t k_most_points = 10000;
+constexpr std::size_t k_max_points = 10000;
 constexpr std::size_t k_hash_digits = 16;
 
 /// A value on one line, as it is written.
@@ -105,9 +105,9 @@ struct Planner::Impl {
   std::optional<Node> base;
   std::uint64_t base_seed = 1;
   MeasureCheck measures;
-  std::set<std::string> told;  ///< error lines
+  std::set<std::string> reported;  ///< error lines
   std::vector<std::set<std::pair<int, int>>> axis_marks;
-  std::set<std::size_t> told_axes;
+  std::set<std::size_t> reported_axes;
   std::map<std::string, sdk::Dimension> dimensions;
 
   void read_base() {
@@ -143,11 +143,11 @@ struct Planner::Impl {
   }
 
   /// Problems of one point, without those that are only the same thing said for another level.
-  void tell(const Diagnostics& own) {
+  void print(const Diagnostics& own) {
     for (const Diagnostics::Problem& problem : own.errors()) {
       const std::size_t axis = axis_of(problem.where);
-      if (axis < axis_marks.size() && !told_axes.insert(axis).second) continue;
-      if (!told.insert(scenario::place(problem.where) + problem.text).second) continue;
+      if (axis < axis_marks.size() && !reported_axes.insert(axis).second) continue;
+      if (!reported.insert(scenario::place(problem.where) + problem.text).second) continue;
       diagnostics.error(problem.where, problem.text);
     }
   }
@@ -168,7 +168,7 @@ struct Planner::Impl {
     const auto read = preflight::read_tree(root, spec.base, registry, own);
     for (const auto& [path, dimension] : own.dimensions()) dimensions[path] = dimension;
     if (!read) {
-      tell(own);
+      print(own);
       return std::nullopt;
     }
     Point point;
@@ -196,7 +196,7 @@ struct Planner::Impl {
       const Level& level = spec.axes[a].levels[second.levels[a]];
       where = level.where;
       const std::string line = scenario::place(where) + "twin";
-      if (!told.insert(line).second) return;
+      if (!reported.insert(line).second) return;
       const Level& other = spec.axes[a].levels[first.levels[a]];
       const auto name = [](const Level& l) {
         return l.label.empty() ? text_of(l.settings.front().value) : l.label;
@@ -216,9 +216,9 @@ Planner::Planner(const Spec& spec, const registry::Registry& registry, Diagnosti
                      .diagnostics = diagnostics,
                      .base = {},
                      .measures = MeasureCheck(spec, diagnostics),
-                     .told = {},
+                     .reported = {},
                      .axis_marks = {},
-                     .told_axes = {},
+                     .reported_axes = {},
                      .dimensions = {}}) {
   impl_->read_base();
 }
@@ -231,12 +231,12 @@ Plan Planner::plan() {
   std::size_t combinations = 1;
   for (const Axis& axis : axes) {
     combinations *= axis.levels.size();
-    if (combinations > k_most_points) break;
+    if (combinations > k_max_points) break;
   }
   const auto replicates = static_cast<std::size_t>(impl_->spec.replicates);
-  if (combinations * replicates > k_most_points) {
+  if (combinations * replicates > k_max_points) {
     impl_->diagnostics.error(axes.empty() ? impl_->spec.where : axes.front().where,
-                             "the study has more than " + std::to_string(k_most_points) +
+                             "the study has more than " + std::to_string(k_max_points) +
                                  " points: take fewer levels, or sample");
     return plan;
   }
@@ -255,7 +255,7 @@ Plan Planner::plan() {
       Impl::set_all(root, axes[a].levels[levels[a]].settings, own);
     }
     if (own.has_errors()) {
-      impl_->tell(own);
+      impl_->print(own);
       continue;
     }
     for (std::size_t r = 1; r <= replicates; ++r) {
@@ -304,7 +304,7 @@ Plan Planner::calibration_columns() {
       for (const std::string& path : p.paths) scenario::set_path(root, path, value, p.where, own);
     }
     if (own.has_errors()) {
-      impl_->tell(own);
+      impl_->print(own);
       return plan;
     }
     if (!impl_->resolve(root, impl_->seed_of(1))) return plan;

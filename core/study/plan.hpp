@@ -2,7 +2,7 @@
 #pragma once
 
 #include "registry/registry.hpp"
-#include "study/spec.hpp"
+#include "study/spec/spec.hpp"
 
 #include <cstdint>
 #include <map>

@@ -123,7 +123,7 @@ void PointStore::note_failure(const Point& point, const std::string& fallback) c
   io::write_text(failure_of(point), failure.dump() + "\n");
 }
 
-void PointStore::forget_failure(const Point& point) const {
+void PointStore::discard_failure(const Point& point) const {
   std::error_code ignored;
   fs::remove(failure_of(point), ignored);
 }

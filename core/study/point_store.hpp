@@ -46,7 +46,7 @@ class PointStore {
 
   /// Notes that the point failed; the reason is the run's own, or `fallback`.
   void note_failure(const Point& point, const std::string& fallback) const;
-  void forget_failure(const Point& point) const;
+  void discard_failure(const Point& point) const;
 
  private:
   [[nodiscard]] std::filesystem::path failure_of(const Point& point) const;

@@ -14,7 +14,7 @@ std::string short_number(double value) { return base::digits_text(value, 4); }
 Runner::Runner(Plan& plan, const PointStore& store, Launcher& launcher, Settings settings)
     : plan_(plan), store_(store), launcher_(launcher), settings_(settings), results_{plan, {}} {}
 
-void Runner::recall() {
+void Runner::load_finished() {
   for (std::size_t n = results_.outcomes.size(); n < plan_.points.size(); ++n) {
     results_.outcomes.push_back(store_.read(plan_.points[n], plan_.outputs));
     has_run_.push_back(false);
@@ -23,24 +23,24 @@ void Runner::recall() {
 }
 
 int Runner::run() {
-  recall();
-  std::vector<Point> left_over;
+  load_finished();
+  std::vector<Point> pending;
   std::vector<std::size_t> place;
   for (std::size_t n = 0; n < plan_.points.size(); ++n) {
     if (results_.outcomes[n].status == Status::finished || has_run_[n]) continue;
-    store_.forget_failure(plan_.points[n]);
+    store_.discard_failure(plan_.points[n]);
     results_.outcomes[n] = {};
-    left_over.push_back(plan_.points[n]);
+    pending.push_back(plan_.points[n]);
     place.push_back(n);
   }
   write_table();
-  if (left_over.empty()) return 0;
-  return launcher_.run(left_over, [&](const Ending& ending) {
-    const std::size_t n = place[ending.job];
+  if (pending.empty()) return 0;
+  return launcher_.run(pending, [&](const JobResult& result) {
+    const std::size_t n = place[result.job];
     const Point& point = plan_.points[n];
     Outcome outcome = store_.read(point, plan_.outputs);
-    if (!ending.is_good || outcome.status != Status::finished) {
-      store_.note_failure(point, ending.reason.empty() ? "the run left no results" : ending.reason);
+    if (!result.is_good || outcome.status != Status::finished) {
+      store_.note_failure(point, result.reason.empty() ? "the run left no results" : result.reason);
       outcome = store_.read(point, plan_.outputs);
     }
     results_.outcomes[n] = std::move(outcome);
@@ -48,7 +48,7 @@ int Runner::run() {
     ++ended_;
     estimate_done_ += point.core_seconds;
     write_table();
-    tell(n);
+    print(n);
     const bool goes_on = !settings_.fail_fast || results_.outcomes[n].status == Status::finished;
     was_stopped_ = was_stopped_ || !goes_on;
     return goes_on;
@@ -95,7 +95,7 @@ std::string Runner::remaining() const {
   return "; about " + base::estimated_duration_text(left * elapsed / estimate_done_) + " left";
 }
 
-void Runner::tell(std::size_t n) {
+void Runner::print(std::size_t n) {
   if (settings_.quiet) return;
   const Outcome& outcome = results_.outcomes[n];
   const std::size_t total = std::max(settings_.expected_points, plan_.points.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "study/launcher.hpp"
+#include "study/launchers/launcher.hpp"
 #include "study/table.hpp"
 
 #include <chrono>
@@ -19,7 +19,7 @@ class Runner {
   Runner(Plan& plan, const PointStore& store, Launcher& launcher, Settings settings);
 
   /// Reads what is there already; points that the plan gained since are waiting.
-  void recall();
+  void load_finished();
   /// Runs the waiting points and, once more, those that failed before this program was started.
   /// Returns the signal that interrupted it, or 0.
   int run();
@@ -30,7 +30,7 @@ class Runner {
   [[nodiscard]] bool was_stopped() const { return was_stopped_; }
 
  private:
-  void tell(std::size_t point);
+  void print(std::size_t point);
   [[nodiscard]] std::string remaining() const;
   [[nodiscard]] std::string described(std::size_t point) const;
 

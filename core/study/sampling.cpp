@@ -21,7 +21,7 @@ struct Direction {
   std::uint32_t coefficients;
   std::array<std::uint32_t, 5> first;
 };
-constexpr std::array<Direction, k_most_sobol_dimensions - 1> k_directions = {{
+constexpr std::array<Direction, k_max_sobol_dimensions - 1> k_directions = {{
     {1, 0, {1}},
     {2, 1, {1, 3}},
     {3, 1, {1, 3, 1}},
@@ -74,7 +74,7 @@ Sample latin_hypercube(std::size_t count, std::size_t dimensions, std::uint64_t 
 }
 
 Sample sobol(std::size_t count, std::size_t dimensions, std::uint64_t seed) {
-  if (dimensions > k_most_sobol_dimensions) throw std::logic_error("too many Sobol directions");
+  if (dimensions > k_max_sobol_dimensions) throw std::logic_error("too many Sobol directions");
   const sdk::Random random(seed, sdk::stream_of("sobol"));
   Sample sample(count, std::vector<double>(dimensions));
   for (std::size_t d = 0; d < dimensions; ++d) {

@@ -15,7 +15,7 @@ using Sample = std::vector<std::vector<double>>;
 Sample latin_hypercube(std::size_t count, std::size_t dimensions, std::uint64_t seed);
 
 /// Most directions of sobol().
-inline constexpr std::size_t k_most_sobol_dimensions = 10;
+inline constexpr std::size_t k_max_sobol_dimensions = 10;
 
 /// First `count` points of the Sobol sequence with a random digital shift (direction numbers of Joe
 /// and Kuo 2008, doi:10.1137/070709359). A longer sample begins with the shorter one, so that a

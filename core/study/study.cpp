@@ -5,7 +5,7 @@
 #include "base/text.hpp"
 #include "io/atomic_file.hpp"
 #include "registry/registry.hpp"
-#include "study/calibrate_runs.hpp"
+#include "study/calibration/calibrate_runs.hpp"
 #include "study/effects.hpp"
 #include "study/runner.hpp"
 #include "study/study_folder.hpp"
@@ -49,7 +49,7 @@ std::unique_ptr<Launcher> make_launcher(const StudyOptions& options, const Spec&
 }
 
 /// Says so where memory, not cores, bounds how many points run at a time.
-void tell_memory(double largest, const Resources& resources) {
+void print_memory(double largest, const Resources& resources) {
   constexpr double k_megabyte = 1e6;
   const double budget = resources.memory_bytes;
   if (largest * resources.jobs <= budget || resources.jobs < 2) return;
@@ -61,7 +61,7 @@ void tell_memory(double largest, const Resources& resources) {
       largest / k_megabyte, budget / k_megabyte, together);
 }
 
-void tell_plan(const Plan& plan, const PointStore& store, const Resources& resources) {
+void print_plan(const Plan& plan, const PointStore& store, const Resources& resources) {
   double core_seconds = 0.0;
   double largest = 0.0;
   std::size_t done = 0;
@@ -90,7 +90,7 @@ void tell_plan(const Plan& plan, const PointStore& store, const Resources& resou
       "this machine (rough)\n",
       plan.points.size(), done, resources.jobs, resources.threads, largest / k_megabyte,
       base::estimated_duration_text(core_seconds / (resources.jobs * resources.threads)).c_str());
-  tell_memory(largest, resources);
+  print_memory(largest, resources);
 }
 
 void copy_study(const fs::path& from, const fs::path& folder) {
@@ -101,8 +101,8 @@ void copy_study(const fs::path& from, const fs::path& folder) {
 }
 
 /// What a calibration will do, before it knows where its points lie.
-void tell_calibration(const Spec& spec, const Plan& plan, const std::vector<Point>& samples,
-                      const Resources& resources) {
+void print_calibration(const Spec& spec, const Plan& plan, const std::vector<Point>& samples,
+                       const Resources& resources) {
   const CalibrationSpec& c = *spec.calibration;
   double seconds = 0.0;
   for (const Point& p : samples) {
@@ -122,11 +122,11 @@ void tell_calibration(const Spec& spec, const Plan& plan, const std::vector<Poin
               runs, base::duration_text(seconds).c_str(), resources.jobs, resources.threads);
 }
 
-void tell_expectations(const Spec& spec, const Results& results) {
+void print_expectations(const Spec& spec, const Results& results) {
   for (const Expectation& e : spec.expectations) {
     const std::string what = e.from.empty() ? "with " + e.input : "from " + e.from + " to " + e.to;
     std::printf("%s %s %s: %s\n", e.output.c_str(), e.then.c_str(), what.c_str(),
-                judge(e, spec, results).text.c_str());
+                assess(e, spec, results).text.c_str());
   }
 }
 
@@ -148,9 +148,9 @@ class Study {
     const Resources resources = resources_of(options_, spec_.execution, at_once);
     if (options_.dry_run) {
       if (is_calibration) {
-        tell_calibration(spec_, plan_, ends(), resources);
+        print_calibration(spec_, plan_, ends(), resources);
       } else {
-        tell_plan(plan_, store, resources);
+        print_plan(plan_, store, resources);
       }
       return 0;
     }
@@ -158,7 +158,7 @@ class Study {
     const FolderLock lock(folder);
     if (options_.force) clear_study_folder(folder);
     copy_study(options_.file, folder);
-    const SignalWatch watch;
+    const SignalGuard signals;
     const auto launcher = make_launcher(options_, spec_, store, resources);
     Runner runner(
         plan_, store, *launcher,
@@ -209,7 +209,7 @@ class Study {
       return 128 + signal;
     }
     if (!options_.quiet) {
-      tell_expectations(spec_, runner.results());
+      print_expectations(spec_, runner.results());
       if (answer) {
         for (const std::string& line : answer->calibration.statements) {
           std::printf("%s\n", line.c_str());

@@ -26,7 +26,7 @@ std::string short_name(const std::string& path) {
 }
 
 /// A name zipped with a number, which tells the levels better: an opening with its mass flow.
-bool is_told_by_number(const Plan& plan, std::size_t input) {
+bool is_given_by_number(const Plan& plan, std::size_t input) {
   const auto is_twin = [&](const InputColumn& c) {
     return c.axis == plan.inputs[input].axis && !c.is_text;
   };
@@ -60,7 +60,7 @@ Json facts_json(const Spec& spec, const Results& results) {
 Json expectations_json(const Spec& spec, const Results& results) {
   Json list = Json::array();
   for (const Expectation& e : spec.expectations) {
-    const Verdict verdict = judge(e, spec, results);
+    const Verdict verdict = assess(e, spec, results);
     const bool is_good = verdict.kind == Verdict::Kind::as_expected;
     const bool is_bad = verdict.kind == Verdict::Kind::against;
     list.push_back({{"output", e.output},
@@ -95,7 +95,7 @@ std::string others_of(const Results& results, const Point& point, std::size_t ax
   std::string text;
   for (std::size_t k = 0; k < results.plan.inputs.size(); ++k) {
     const InputColumn& c = results.plan.inputs[k];
-    if (c.axis == axis || is_told_by_number(results.plan, k)) continue;
+    if (c.axis == axis || is_given_by_number(results.plan, k)) continue;
     text += (text.empty() ? "" : ", ") + short_name(c.name) + " " + point.inputs[k].text +
             (c.unit.empty() || c.unit == "1" ? "" : " " + c.unit);
   }
@@ -105,7 +105,7 @@ std::string others_of(const Results& results, const Point& point, std::size_t ax
 /// One line per combination of the other inputs, means of replicates: shows whether they matter.
 /// Empty where there is one combination only, or more than a reader tells apart.
 Json lines_of_others(const MainEffect& effect, const Results& results) {
-  constexpr std::size_t k_most = 5;
+  constexpr std::size_t k_max = 5;
   const std::size_t axis = results.plan.inputs[effect.input].axis;
   struct Sum {
     double sum = 0.0, count = 0.0;
@@ -124,7 +124,7 @@ Json lines_of_others(const MainEffect& effect, const Results& results) {
     at.count += 1.0;
   }
   Json lines = Json::array();
-  if (groups.size() < 2 || groups.size() > k_most) return lines;
+  if (groups.size() < 2 || groups.size() > k_max) return lines;
   for (const auto& [key, group] : groups) {
     Json line = {{"name", group.first}, {"x", Json::array()}, {"y", Json::array()}};
     for (const auto& [x, sum] : group.second) {
@@ -223,7 +223,7 @@ Json effects_json(const Spec& spec, const Results& results) {
     Json plots = Json::array();
     Json rows = Json::array();
     for (const MainEffect& e : effects) {
-      if (e.output != o || is_told_by_number(results.plan, e.input)) continue;
+      if (e.output != o || is_given_by_number(results.plan, e.input)) continue;
       if (results.plan.inputs[e.input].is_text) {
         rows.push_back(rows_json(e, results));
       } else {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "study/calibration.hpp"
-#include "study/spec.hpp"
+#include "study/calibration/calibration.hpp"
+#include "study/spec/spec.hpp"
 #include "study/table.hpp"
 
 #include <filesystem>

@@ -5,7 +5,7 @@
 #include "io/hdf5_file.hpp"
 #include "io/run_files.hpp"
 #include "scenario/units.hpp"
-#include "study/calibration_h5.hpp"
+#include "study/calibration/calibration_h5.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drag.hpp"
 
-void a_function_nobody_defines();
+void an_undefined_function();
 
 DUST_PLUGIN(registrar) {
-  a_function_nobody_defines();
+  an_undefined_function();
   registrar.add<Drag>();
 }

@@ -2,7 +2,7 @@
 // Any bytes as a mesh (STL, text or binary) and as a list of grains (CSV): read, or refused with a
 // line; never a crash, a hang or a leak. Linked with libFuzzer (tools/dev/fuzz) or with
 // generate.cpp (the tests).
-#include "bodies/mesh.hpp"
+#include "bodies/mesh/mesh.hpp"
 #include "dust/sdk/error.hpp"
 #include "emitter/file/grain_table.hpp"
 #include "fuzz/patience.hpp"

@@ -207,20 +207,21 @@ TEST_CASE("check shall refuse a body that sucks what no side gives") {
 }
 
 TEST_CASE("check shall tell what an air condition refuses, at its place") {
-  const auto told = [](const std::string& left, const std::string& expected) {
+  const auto reported = [](const std::string& left, const std::string& expected) {
     const std::string text =
         checked(box_of_air(left, "static_pressure, pressure: 0 Pa", "no_slip"), 2);
     CHECK_MESSAGE(text.starts_with(":8:"), text);
     CHECK_MESSAGE(text.find(expected) != std::string::npos, text);
   };
-  told("velocity_inlet, speed: 1 m/s", "missing key 'measure'");
-  told("velocity_inlet, speed: 1 m/s, measure: total", "measure");
-  told("velocity_inlet, speed: 1 m/s, measure: interstitial, profile: parabolic", "needs across");
-  told("velocity_inlet, speed: 1 m/s, measure: interstitial, profile: parabolic, across: [x]",
-       "across names x, the normal of the side");
-  told("hood, flow: 1 l/min, min: [0, 0, 0], max: [0, 30, 10 mm]",
-       "the opening reaches beyond the side along y");
-  told("volume_flow, flow: 1 l/min, times: [0, 1 s], factors: [1]", "differ in length");
+  reported("velocity_inlet, speed: 1 m/s", "missing key 'measure'");
+  reported("velocity_inlet, speed: 1 m/s, measure: total", "measure");
+  reported("velocity_inlet, speed: 1 m/s, measure: interstitial, profile: parabolic",
+           "needs across");
+  reported("velocity_inlet, speed: 1 m/s, measure: interstitial, profile: parabolic, across: [x]",
+           "across names x, the normal of the side");
+  reported("hood, flow: 1 l/min, min: [0, 0, 0], max: [0, 30, 10 mm]",
+           "the opening reaches beyond the side along y");
+  reported("volume_flow, flow: 1 l/min, times: [0, 1 s], factors: [1]", "differ in length");
 }
 
 TEST_CASE("check shall warn of cells far from cubic and of momentum set III") {

@@ -63,10 +63,10 @@ const registry::Registry& shipped() {
   return registry;
 }
 
-struct Told {
+struct Reported {
   std::vector<std::string> errors, warnings;
 };
-Told told(const std::string& from = "", const std::string& to = "") {
+Reported reported(const std::string& from = "", const std::string& to = "") {
   std::string text = k_scenario;
   if (!from.empty()) {
     const auto at = text.find(from);
@@ -76,7 +76,7 @@ Told told(const std::string& from = "", const std::string& to = "") {
   const fs::path folder = fs::temp_directory_path() / ("dust_laws_" + std::to_string(::getpid()));
   fs::create_directories(folder);
   std::ofstream(folder / "s.yaml", std::ios::binary) << text;
-  Told out;
+  Reported out;
   try {
     out.warnings = preflight::read_scenario(folder / "s.yaml", {}, shipped(), {}).warnings;
   } catch (const base::UserError& problem) {
@@ -105,7 +105,7 @@ scenario::Setup read_again() {
 }
 
 void check(const std::string& from, const std::string& to, const std::string& expected) {
-  const Told t = told(from, to);
+  const Reported t = reported(from, to);
   REQUIRE(t.errors.size() == 1);
   CHECK(t.errors[0] == expected);
 }
@@ -113,7 +113,7 @@ void check(const std::string& from, const std::string& to, const std::string& ex
 }  // namespace
 
 TEST_CASE("a scenario with every kind of law shall be well") {
-  const Told t = told();
+  const Reported t = reported();
   CHECK(t.errors.empty());
   CHECK(t.warnings.empty());
 }
@@ -178,21 +178,21 @@ TEST_CASE("an unknown cohesion shall be told with all there are") {
 }
 
 TEST_CASE("a corner without a unit beside one in mm shall be asked about") {
-  const Told wide = told("min: [0, 0, 0]", "min: [-10, 0, 0]");
+  const Reported wide = reported("min: [0, 0, 0]", "min: [-10, 0, 0]");
   CHECK(wide.errors.empty());
   REQUIRE(wide.warnings.size() == 1);
   CHECK(wide.warnings[0] ==
         "s.yaml:5:8: warning: domain.min: has no unit and is read in m, while domain.max is in mm: "
         "write mm or m behind its last number");
   // Nothing to ask: the same unit, metres said, nothing but zeros, another dimension (velocity).
-  CHECK(told("min: [0, 0, 0]", "min: [-10, 0, 0 mm]").warnings.empty());
-  CHECK(told("max: [10, 10, 50 mm]", "max: [0.01, 0.01, 0.05 m]").warnings.empty());
-  CHECK(told().warnings.empty());
+  CHECK(reported("min: [0, 0, 0]", "min: [-10, 0, 0 mm]").warnings.empty());
+  CHECK(reported("max: [10, 10, 50 mm]", "max: [0.01, 0.01, 0.05 m]").warnings.empty());
+  CHECK(reported().warnings.empty());
 }
 
 TEST_CASE("a fixed step above the stable one shall be told: warned of, or refused") {
-  CHECK(told("output_every: 1 ms", "output_every: 1 ms, dem_step: 0.5 us").warnings.empty());
-  const Told longer = told("output_every: 1 ms", "output_every: 1 ms, dem_step: 2.5 us");
+  CHECK(reported("output_every: 1 ms", "output_every: 1 ms, dem_step: 0.5 us").warnings.empty());
+  const Reported longer = reported("output_every: 1 ms", "output_every: 1 ms, dem_step: 2.5 us");
   CHECK(longer.errors.empty());
   REQUIRE(longer.warnings.size() == 1);
   CHECK(longer.warnings[0].starts_with(
@@ -200,7 +200,7 @@ TEST_CASE("a fixed step above the stable one shall be told: warned of, or refuse
       "0.0003 m, "));
   CHECK(longer.warnings[0].ends_with(
       "collisions lose their accuracy; leave dem_step out or give at most that"));
-  const Told hopeless = told("output_every: 1 ms", "output_every: 1 ms, dem_step: 20 us");
+  const Reported hopeless = reported("output_every: 1 ms", "output_every: 1 ms, dem_step: 20 us");
   REQUIRE(hopeless.errors.size() == 1);
   CHECK(hopeless.errors[0].starts_with(
       "s.yaml:2:68: error: time.dem_step: 2e-05 s is longer than the stable step of grains of "

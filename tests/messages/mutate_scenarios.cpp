@@ -157,16 +157,17 @@ class Mutator {
     ++mistakes_;
     ++counts_[mistake.what];
     try {
-      const auto told = problems(file);
-      judge(place, mistake, told);
-      if (!told.empty() && ++refused_ % k_program_every == 1) ask_program(file, place, mistake);
+      const auto reported = problems(file);
+      assess(place, mistake, reported);
+      if (!reported.empty() && ++refused_ % k_program_every == 1) ask_program(file, place, mistake);
     } catch (const std::exception& problem) {
       fail(place, mistake, std::string("ends the program with: ") + problem.what());
     }
   }
 
-  void judge(const Place& place, const Mistake& mistake, const std::vector<std::string>& told) {
-    if (told.empty()) {
+  void assess(const Place& place, const Mistake& mistake,
+              const std::vector<std::string>& reported) {
+    if (reported.empty()) {
       if (mistake.must_be_refused) return fail(place, mistake, "is accepted");
       ++allowed_;
       return;
@@ -177,17 +178,17 @@ class Mutator {
     };
     // The second of two keys is told; in a block it has a line of its own.
     const bool is_twice = mistake.what == "a key given twice";
-    bool is_told = false;
-    for (const std::string& one : told) {
+    bool is_reported = false;
+    for (const std::string& one : reported) {
       if (!std::regex_match(one, form)) return fail(place, mistake, "no place in: " + one);
-      is_told = is_told || one.starts_with(begin(place.where.line)) ||
-                (is_twice && one.starts_with(begin(place.where.line + 1)));
+      is_reported = is_reported || one.starts_with(begin(place.where.line)) ||
+                    (is_twice && one.starts_with(begin(place.where.line + 1)));
     }
     // A name that is changed is missed where it is used; values that contradict each other are told
     // at one of them; the YAML parser sees an unclosed bracket lines later.
     const bool is_local =
         mistake.must_be_refused && place.kind != Place::Kind::list && mistake.what != "garbage";
-    if (is_local && !is_told) fail(place, mistake, "is told elsewhere: " + told.front());
+    if (is_local && !is_reported) fail(place, mistake, "is told elsewhere: " + reported.front());
   }
 
   /// `engine run`: exit status 2, nothing on standard output, no folder of results.

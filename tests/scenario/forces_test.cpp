@@ -107,10 +107,10 @@ TEST_CASE("a run without the grains' own disturbance shall differ, and go on fro
 TEST_CASE("coarse grains shall be told of, and be moved as what they stand for") {
   const TemporaryFolder folder;
   const std::vector<std::string> coarse{"fluid_forces=[]", "materials.sand.coarse_graining=2"};
-  const auto told = engine({"check", k_scenario, "--set", coarse[0], "--set", coarse[1]});
-  CHECK(told.status == 0);
-  CHECK(
-      holds(told.out, "drop: sand, 3 grains at once, each for 8 of 1/2 of its size in the fluid"));
+  const auto reported = engine({"check", k_scenario, "--set", coarse[0], "--set", coarse[1]});
+  CHECK(reported.status == 0);
+  CHECK(holds(reported.out,
+              "drop: sand, 3 grains at once, each for 8 of 1/2 of its size in the fluid"));
   CHECK(digest(folder, "coarse", coarse) != digest(folder, "plain", {coarse[0]}));
   CHECK(holds(read_file(folder / "coarse" / "report.json"), "\"stands_for\":8.0"));
   CHECK(!holds(read_file(folder / "plain" / "report.json"), "stands_for"));

@@ -174,9 +174,9 @@ TEST_CASE("a folder that a run writes to shall be refused to another one") {
       CHECK(other.err.find(in_use) != std::string::npos);
       CHECK(other.err.find("run.log") != std::string::npos);
     }
-    const auto watched = engine({"watch", out, "--once"});
-    CHECK(watched.status == 0);
-    CHECK(watched.out.find(" of 0.06 s, ") != std::string::npos);
+    const auto monitored = engine({"watch", out, "--once"});
+    CHECK(monitored.status == 0);
+    CHECK(monitored.out.find(" of 0.06 s, ") != std::string::npos);
     is_asked = true;
     return true;
   };

@@ -26,12 +26,12 @@ std::string message_of(const std::string& text) {
   CHECK(run.status == 2);
   CHECK(run.out.empty());
   CHECK_FALSE(fs::exists(folder / "out"));
-  std::string told = run.err;
+  std::string reported = run.err;
   const std::string stem = file.substr(0, file.size() - std::string("s.yaml").size());
-  for (auto at = told.find(stem); at != std::string::npos; at = told.find(stem)) {
-    told.erase(at, stem.size());
+  for (auto at = reported.find(stem); at != std::string::npos; at = reported.find(stem)) {
+    reported.erase(at, stem.size());
   }
-  return told;
+  return reported;
 }
 
 void check_message(const std::string& text, const std::string& expected) {

@@ -49,12 +49,12 @@ TEST_CASE("the quantities known before a run shall be those it tells") {
     const auto run = test::engine(arguments);
     INFO(run.err);
     REQUIRE(run.status == 0);
-    std::set<std::string> told;
+    std::set<std::string> reported;
     for (const auto& [path, figure] : study::read_figures(folder / "out" / "summary.json")) {
-      if (is_named(path)) told.insert(path);
+      if (is_named(path)) reported.insert(path);
     }
-    for (const std::string& path : told) CHECK_MESSAGE(known.contains(path), path);
-    for (const std::string& path : known) CHECK_MESSAGE(told.contains(path), path);
+    for (const std::string& path : reported) CHECK_MESSAGE(known.contains(path), path);
+    for (const std::string& path : known) CHECK_MESSAGE(reported.contains(path), path);
   }
 }
 

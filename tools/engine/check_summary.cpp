@@ -2,7 +2,7 @@
 #include "check_summary.hpp"
 
 #include "base/text.hpp"
-#include "coupling/self_disturbance/own_disturbance.hpp"
+#include "coupling/self_disturbance/disturbance_formulas.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -59,7 +59,7 @@ const std::string& material_name(const Setup& setup, int material) {
   return setup.materials[static_cast<std::size_t>(material)].name;
 }
 
-void tell_domain(std::ostream& out, const Setup& setup) {
+void print_domain(std::ostream& out, const Setup& setup) {
   const auto& domain = setup.domain;
   out << "  domain     " << millimetres(domain.max - domain.min) << ", gravity "
       << digits(norm(setup.gravity)) << " m/s2\n";
@@ -92,7 +92,7 @@ std::string moved_by(const scenario::BodySpec& body) {
   return text;
 }
 
-void tell_things(std::ostream& out, const Setup& setup, const Derived& derived) {
+void print_things(std::ostream& out, const Setup& setup, const Derived& derived) {
   const char* head = "  bodies     ";
   for (const auto& body : setup.bodies) {
     out << head << body.name << ": " << body.shape.name << " of "
@@ -128,7 +128,7 @@ void tell_things(std::ostream& out, const Setup& setup, const Derived& derived) 
   }
 }
 
-void tell_fluid(std::ostream& out, const Setup& setup, const Derived& derived) {
+void print_fluid(std::ostream& out, const Setup& setup, const Derived& derived) {
   if (!setup.fluid) {
     out << "  fluid      none: grains alone\n";
     return;
@@ -184,12 +184,13 @@ std::string partners(const Setup& setup, const particles::ClassStep& size) {
 }
 
 /// Which sizes of grains do not feel what they do to the fluid by themselves.
-void tell_own_disturbance(std::ostream& out, const Setup& setup, const Derived& derived) {
+void print_disturbance_correction(std::ostream& out, const Setup& setup, const Derived& derived) {
   const auto& classes = derived.steps.classes;
   if (!setup.fluid || setup.fluid->is_one_way || classes.empty()) return;
-  namespace own = coupling::own_disturbance;
-  const bool is_asked = setup.fluid->own_disturbance == scenario::OwnDisturbance::taken_off;
-  const bool is_off = setup.fluid->own_disturbance == scenario::OwnDisturbance::felt;
+  namespace own = coupling::disturbance_correction;
+  const bool is_asked =
+      setup.fluid->disturbance_correction == scenario::DisturbanceCorrection::taken_off;
+  const bool is_off = setup.fluid->disturbance_correction == scenario::DisturbanceCorrection::felt;
   double finest = 0.0;
   double coarsest = 0.0;
   for (const auto& size : classes) {
@@ -214,7 +215,7 @@ void tell_own_disturbance(std::ostream& out, const Setup& setup, const Derived& 
 }
 
 /// The step of those at the coarse rate and, where there are finer grains, theirs.
-void tell_step(std::ostream& out, const Setup& setup, const TimeSteps& steps) {
+void print_step(std::ostream& out, const Setup& setup, const TimeSteps& steps) {
   if (setup.time.dem_step > 0.0) {
     const auto& deciding = *steps.deciding();
     out << "             one fixed step of " << engineering(steps.coarse_step, "s") << " = "
@@ -233,10 +234,10 @@ void tell_step(std::ostream& out, const Setup& setup, const TimeSteps& steps) {
   out << '\n';
 }
 
-void tell_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
+void print_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
   const TimeSteps& steps = derived.steps;
   if (steps.classes.empty()) return;
-  const auto tell_row = [&](const char* head, const std::array<std::string, 6>& cells) {
+  const auto print_row = [&](const char* head, const std::array<std::string, 6>& cells) {
     std::array<char, 240> row{};
     std::snprintf(row.data(), row.size(), "%-13s%-11s%-12s%-26s%-14s%-10s%s", head,
                   cells[0].c_str(), cells[1].c_str(), cells[2].c_str(), cells[3].c_str(),
@@ -245,21 +246,22 @@ void tell_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
     text.erase(text.find_last_not_of(' ') + 1);
     out << text << '\n';
   };
-  tell_row("  grains", {"diameter", "Rayleigh", "Hertz at " + digits(steps.expected_speed) + " m/s",
-                        "stable step", "step", ""});
+  print_row("  grains",
+            {"diameter", "Rayleigh", "Hertz at " + digits(steps.expected_speed) + " m/s",
+             "stable step", "step", ""});
   for (const auto& size : steps.classes) {
-    tell_row("", {engineering(size.diameter, "m"), engineering(size.rayleigh_time, "s"),
-                  engineering(size.hertz_time, "s") + " (" + partners(setup, size) + ")",
-                  engineering(size.stable_step, "s"), engineering(steps.step_of(size), "s"),
-                  step_note(steps, size)});
+    print_row("", {engineering(size.diameter, "m"), engineering(size.rayleigh_time, "s"),
+                   engineering(size.hertz_time, "s") + " (" + partners(setup, size) + ")",
+                   engineering(size.stable_step, "s"), engineering(steps.step_of(size), "s"),
+                   step_note(steps, size)});
   }
-  tell_step(out, setup, steps);
+  print_step(out, setup, steps);
   out << "             narrowest extent / largest grain W/D = "
       << digits(derived.width_over_diameter);
   if (derived.diameter_over_spacing > 0.0) {
     out << ", largest grain / smallest cell edge D/dx = " << digits(derived.diameter_over_spacing);
   }
-  tell_own_disturbance(out, setup, derived);
+  print_disturbance_correction(out, setup, derived);
   // A bed has no wake that walls could hold up; a lone grain has.
   constexpr double k_wake = 10.0;
   if (derived.diameter_over_spacing > 0.0 && derived.width_over_diameter < k_wake) {
@@ -275,8 +277,8 @@ std::string basis_text(const preflight::LearntCosts::Factor& learnt) {
          (learnt.is_of_scenario ? " of it" : " of others") + " on this machine";
 }
 
-void tell_cost(std::ostream& out, const Derived& derived,
-               const preflight::LearntCosts::Factor& learnt) {
+void print_cost(std::ostream& out, const Derived& derived,
+                const preflight::LearntCosts::Factor& learnt) {
   constexpr double k_megabyte = 1e6;
   // Measured on two cores: 95 % of the time of both is used.
   constexpr double k_shared = 0.95;
@@ -341,12 +343,12 @@ std::string check_summary(const Setup& setup, const Derived& derived,
       << counted(std::ceil(time.end / time.fluid_step - 1e-9)) << " steps of "
       << engineering(time.fluid_step, "s") << ", a frame every "
       << engineering(time.output_every, "s") << '\n';
-  tell_domain(out, setup);
-  tell_things(out, setup, derived);
-  tell_fluid(out, setup, derived);
+  print_domain(out, setup);
+  print_things(out, setup, derived);
+  print_fluid(out, setup, derived);
   add_resolved(out, derived);
-  tell_steps(out, setup, derived);
-  tell_cost(out, derived, learnt);
+  print_steps(out, setup, derived);
+  print_cost(out, derived, learnt);
   return out.str();
 }
 

@@ -2,7 +2,7 @@
 #include "base/text.hpp"
 #include "check_summary.hpp"
 #include "commands.hpp"
-#include "drawing.hpp"
+#include "drawing/drawing.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/learnt_costs.hpp"
 #include "preflight/reader.hpp"

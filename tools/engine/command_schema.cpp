@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands.hpp"
 #include "scenario/reader.hpp"
-#include "study/spec.hpp"
+#include "study/spec/spec.hpp"
 
 #include <iostream>
 

@@ -2,7 +2,7 @@
 #include "base/error.hpp"
 #include "commands.hpp"
 #include "contract/contract.hpp"
-#include "counting_new.hpp"
+#include "memory/counting_new.hpp"
 #include "registry/library.hpp"
 #include "scenario/suggest.hpp"
 #include "scenario/tree.hpp"

@@ -2,7 +2,7 @@
 #include "about/version.hpp"
 #include "base/error.hpp"
 #include "commands.hpp"
-#include "huge_pages.hpp"
+#include "memory/huge_pages.hpp"
 #include "program/program.hpp"
 #include "scenario/suggest.hpp"
 

@@ -26,7 +26,7 @@ struct Pairs {
   double largest = 0.0;
   double time_step = 0.0;
   explicit Pairs(const Units& units) : time_step(1e-6 * units.time) {
-    for (const Touch& t : standard_touches(0.0, 0)) {
+    for (const Touch& t : standard_contacts(0.0, 0)) {
       radii.push_back(t.radius * units.length);
       overlaps.push_back(t.overlap * units.length);
       masses.push_back(t.mass * units.mass);
@@ -274,11 +274,11 @@ void check_rest(const Maker& make) {
     const double middle = 0.5 * (low + high);
     (pair.force(middle) < 0.0 ? low : high) = middle;
   }
-  const double told = law->resting_overlap(k_radius);
+  const double reported = law->resting_overlap(k_radius);
   // The stiffness there, which sets the time step, goes with the root of the overlap.
   constexpr double k_close = 0.2;
-  require(std::abs(told - pair.seen()) <= k_close * pair.seen(),
-          "resting_overlap() says " + shown(told) + " m; with Hertz contacts a pair rests at " +
+  require(std::abs(reported - pair.seen()) <= k_close * pair.seen(),
+          "resting_overlap() says " + shown(reported) + " m; with Hertz contacts a pair rests at " +
               shown(pair.seen()) + " m");
 }
 

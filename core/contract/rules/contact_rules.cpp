@@ -29,7 +29,7 @@ std::unique_ptr<sdk::ContactLaw> make_law(const Maker& make, const Units& units 
 /// A step [s] that resolves the stiffest of the standard contacts.
 double small_step(const sdk::ContactLaw& law, const Units& units) {
   double step = std::numeric_limits<double>::infinity();
-  for (const Touch& t : standard_touches(0.0, 0)) {
+  for (const Touch& t : standard_contacts(0.0, 0)) {
     step = std::min(step, law.half_period(t.radius * units.length, t.mass * units.mass,
                                           t.overlap * units.length));
   }
@@ -40,14 +40,14 @@ double small_step(const sdk::ContactLaw& law, const Units& units) {
 Observations observe(const Maker& make, const TestVariant& variant) {
   const auto law = make_law(make, variant.units);
   const double step = small_step(*law, variant.units);
-  ContactBench bench(standard_touches(0.0, 0).size(), law->history_size());
+  ContactBench bench(standard_contacts(0.0, 0).size(), law->history_size());
   Observations observations;
   const auto add = [&](const std::string& name, double value, sdk::Dimension dimension,
                        bool has_dimension = true) {
     observations.push_back({name, value, dimension, has_dimension});
   };
   for (int look = 0; look < 3; ++look) {
-    bench.show(standard_touches(law->range() / variant.units.length, look), step, variant.units,
+    bench.show(standard_contacts(law->range() / variant.units.length, look), step, variant.units,
                false);
     bench.evaluate(
         [&](const sdk::ContactBatch& batch) { call_hot(variant, [&] { law->evaluate(batch); }); },
@@ -68,7 +68,7 @@ Observations observe(const Maker& make, const TestVariant& variant) {
       }
     }
   }
-  for (const Touch& t : standard_touches(0.0, 0)) {
+  for (const Touch& t : standard_contacts(0.0, 0)) {
     const double radius = t.radius * variant.units.length;
     const double mass = t.mass * variant.units.mass;
     add("half_period", law->half_period(radius, mass, t.overlap * variant.units.length),
@@ -84,10 +84,10 @@ Observations observe(const Maker& make, const TestVariant& variant) {
 std::vector<Vec3> forces(const Maker& make, bool is_swapped,
                          const std::function<std::vector<Touch>(std::vector<Touch>)>& change) {
   const auto law = make_law(make, {}, is_swapped);
-  ContactBench bench(standard_touches(0.0, 0).size(), law->history_size());
+  ContactBench bench(standard_contacts(0.0, 0).size(), law->history_size());
   const double step = small_step(*law, {});
   for (int look = 0; look < 3; ++look) {
-    bench.show(change(standard_touches(law->range(), look)), step, {}, false);
+    bench.show(change(standard_contacts(law->range(), look)), step, {}, false);
     bench.evaluate([&](const sdk::ContactBatch& batch) { law->evaluate(batch); }, 0);
   }
   std::vector<Vec3> result;
@@ -212,7 +212,7 @@ Rest at_rest(const sdk::ContactLaw& law, double radius, double mass, double over
 /// Rolling laws and the core read the secant stiffness.
 void check_stiffness(const Maker& make) {
   const auto law = make_law(make);
-  for (const Touch& t : standard_touches(0.0, 0)) {
+  for (const Touch& t : standard_contacts(0.0, 0)) {
     const Rest rest = at_rest(*law, t.radius, t.mass, t.overlap);
     // An elastic force at rest over its overlap; nothing is integrated.
     constexpr double k_rounding = 1e-6;
@@ -229,12 +229,13 @@ void check_times(const Maker& make, const ModelUnderTest& model_under_test) {
   const double mass = 2500.0 * sdk::sphere_volume(2.0 * k_radius);
   const Impact impact = run_impact(*law, 0.5, 0.0, -1.0);
   if (!impact.has_ended) throw Remark("the grains stick");
-  const double told = law->collision_time(k_radius, mass, 0.5);
+  const double reported = law->collision_time(k_radius, mass, 0.5);
   // Damping lengthens a collision; the elastic time is told.
   const double* e = model_under_test.number("restitution");
   const double damped = e != nullptr ? 1.0 + 0.5 * std::abs(std::log(*e)) : 2.0;
-  require(impact.duration >= 0.9 * told && impact.duration <= 1.1 * damped * told,
-          "a collision lasts " + shown(impact.duration) + " s, collision_time says " + shown(told));
+  require(
+      impact.duration >= 0.9 * reported && impact.duration <= 1.1 * damped * reported,
+      "a collision lasts " + shown(impact.duration) + " s, collision_time says " + shown(reported));
   // Stiffness from two fresh contacts at rest, 1 % of the radius deep.
   const double depth = 0.01 * k_radius;
   const auto force_at = [&](double overlap) {
@@ -308,7 +309,7 @@ void check_step(const Maker& make) {
 }
 
 void rules(const Maker& make, const ModelUnderTest& model_under_test, RuleRunner& runner) {
-  judge_symmetry(runner, "force", [&](bool is_swapped, const auto& change) {
+  check_symmetry(runner, "force", [&](bool is_swapped, const auto& change) {
     return forces(make, is_swapped, change);
   });
   runner.rule("declared restitution = realised restitution",

@@ -75,10 +75,10 @@ void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
   });
   runner.rule("is Stokes's law for a lone slow grain: F(0, 1) = 1", [&] {
     const Columns c = evaluate(make, {});
-    const double lone = c.factor[c.factor.size() - k_per_void_fraction + 1];
+    const double isolated = c.factor[c.factor.size() - k_per_void_fraction + 1];
     // At Re = 1e-6 the usual inertial corrections are below 1e-4.
-    if (std::abs(lone - 1.0) > 1e-3) {
-      throw Remark("F = " + shown(lone) + ": meant for crowds only? Its limits should say so");
+    if (std::abs(isolated - 1.0) > 1e-3) {
+      throw Remark("F = " + shown(isolated) + ": meant for crowds only? Its limits should say so");
     }
   });
 }

@@ -104,13 +104,13 @@ void check_pose(const Maker& make) {
     const sdk::RigidPose b = motion->pose(time + k_step);
     const Vec3 went = (b.shift - a.shift) / k_step;
     const double turned = (b.angle - a.angle) / k_step;
-    const Vec3 told = 0.5 * (a.velocity + b.velocity);
+    const Vec3 reported = 0.5 * (a.velocity + b.velocity);
     const double spun = 0.5 * (a.angular_velocity + b.angular_velocity);
     // Differences of numbers of about 1 lose ten digits.
     const double size = motion->largest_speed() + 1e-6;
     const double rate = motion->largest_angular_velocity() + 1e-6;
     // A motion may set off or stop at once, within one of the steps.
-    if (norm(went - told) > 1e-3 * size || std::abs(turned - spun) > 1e-3 * rate) ++jumps;
+    if (norm(went - reported) > 1e-3 * size || std::abs(turned - spun) > 1e-3 * rate) ++jumps;
   }
   constexpr int k_stops = 4;
   require(jumps <= k_stops, "in " + std::to_string(jumps) +

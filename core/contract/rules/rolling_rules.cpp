@@ -29,10 +29,10 @@ std::unique_ptr<sdk::RollingLaw> make_law(const Maker& make, const Units& units 
 
 Observations observe(const Maker& make, const TestVariant& variant) {
   const auto law = make_law(make, variant.units);
-  ContactBench bench(standard_touches(0.0, 0).size(), law->history_size());
+  ContactBench bench(standard_contacts(0.0, 0).size(), law->history_size());
   Observations observations;
   for (int look = 0; look < 3; ++look) {
-    bench.show(standard_touches(0.0, look), k_step, variant.units, true);
+    bench.show(standard_contacts(0.0, look), k_step, variant.units, true);
     bench.evaluate(
         [&](const sdk::ContactBatch& batch) { call_hot(variant, [&] { law->evaluate(batch); }); },
         variant.batch);
@@ -54,9 +54,9 @@ Observations observe(const Maker& make, const TestVariant& variant) {
 std::vector<Vec3> couples(const Maker& make, bool is_swapped,
                           const std::function<std::vector<Touch>(std::vector<Touch>)>& change) {
   const auto law = make_law(make, {}, is_swapped);
-  ContactBench bench(standard_touches(0.0, 0).size(), law->history_size());
+  ContactBench bench(standard_contacts(0.0, 0).size(), law->history_size());
   for (int look = 0; look < 3; ++look) {
-    bench.show(change(standard_touches(0.0, look)), k_step, {}, true);
+    bench.show(change(standard_contacts(0.0, look)), k_step, {}, true);
     bench.evaluate([&](const sdk::ContactBatch& batch) { law->evaluate(batch); }, 0);
   }
   std::vector<Vec3> result;
@@ -68,28 +68,28 @@ std::vector<Vec3> couples(const Maker& make, bool is_swapped,
 
 void check_brakes(const Maker& make) {
   const auto law = make_law(make);
-  const std::vector<Touch> touches = standard_touches(0.0, 0);
-  ContactBench bench(touches.size(), law->history_size());
-  bench.show(touches, k_step, {}, true);
+  const std::vector<Touch> contacts = standard_contacts(0.0, 0);
+  ContactBench bench(contacts.size(), law->history_size());
+  bench.show(contacts, k_step, {}, true);
   bench.evaluate([&](const sdk::ContactBatch& batch) { law->evaluate(batch); }, 0);
-  for (std::size_t n = 0; n < touches.size(); ++n) {
+  for (std::size_t n = 0; n < contacts.size(); ++n) {
     const Vec3 torque = bench.vector(ContactBench::torque, n);
-    require(dot(torque, touches[n].angular_velocity) <=
-                1e-12 * norm(torque) * norm(touches[n].angular_velocity),
+    require(dot(torque, contacts[n].angular_velocity) <=
+                1e-12 * norm(torque) * norm(contacts[n].angular_velocity),
             "a contact that begins is driven, not braked");
   }
 }
 
 void check_rest(const Maker& make) {
   const auto law = make_law(make);
-  std::vector<Touch> touches = standard_touches(0.0, 0);
-  for (Touch& t : touches) t.angular_velocity = {};
-  ContactBench bench(touches.size(), law->history_size());
+  std::vector<Touch> contacts = standard_contacts(0.0, 0);
+  for (Touch& t : contacts) t.angular_velocity = {};
+  ContactBench bench(contacts.size(), law->history_size());
   for (int look = 0; look < 3; ++look) {
-    bench.show(touches, k_step, {}, true);
+    bench.show(contacts, k_step, {}, true);
     bench.evaluate([&](const sdk::ContactBatch& batch) { law->evaluate(batch); }, 0);
   }
-  for (std::size_t n = 0; n < touches.size(); ++n) {
+  for (std::size_t n = 0; n < contacts.size(); ++n) {
     require(norm(bench.vector(ContactBench::torque, n)) == 0.0,
             "contact " + std::to_string(n) + " feels a couple without any rotation");
   }
@@ -182,7 +182,7 @@ void check_step(const Maker& make) {
 }
 
 void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
-  judge_symmetry(runner, "couple", [&](bool is_swapped, const auto& change) {
+  check_symmetry(runner, "couple", [&](bool is_swapped, const auto& change) {
     return couples(make, is_swapped, change);
   });
   runner.rule("brakes a rotation that begins", [&] { check_brakes(make); });

@@ -22,7 +22,7 @@ void check_close(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const s
 
 }  // namespace
 
-void judge_symmetry(RuleRunner& runner, const std::string& what, const ShowTouches& show) {
+void check_symmetry(RuleRunner& runner, const std::string& what, const ShowContacts& show) {
   const auto same = [](std::vector<Touch> t) { return t; };
   runner.rule("treats both sides alike: action = reaction", [&] {
     std::vector<Vec3> other = show(true, [](auto t) { return swapped(std::move(t)); });

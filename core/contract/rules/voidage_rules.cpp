@@ -123,14 +123,14 @@ void check_shares(const Maker& make) {
           g * static_cast<std::size_t>(s.capacity) + static_cast<std::size_t>(n);
       sum += s.weight[row];
       require(s.weight[row] >= 0.0, "a share is negative: " + shown(s.weight[row]));
-      const auto touches = [&](double at, int d, int cell) {
+      const auto is_touching = [&](double at, int d, int cell) {
         const double low = grid.origin[d] + cell * grid.spacing[d];
         const double rounding = 1e-12;
         return at + s.grains.radius[g] >= low - rounding &&
                at - s.grains.radius[g] <= low + grid.spacing[d] + rounding;
       };
-      require(touches(s.grains.x[g], 0, s.i[row]) && touches(s.grains.y[g], 1, s.j[row]) &&
-                  touches(s.grains.z[g], 2, s.k[row]),
+      require(is_touching(s.grains.x[g], 0, s.i[row]) && is_touching(s.grains.y[g], 1, s.j[row]) &&
+                  is_touching(s.grains.z[g], 2, s.k[row]),
               "grain " + std::to_string(g) + " has a share in a cell it does not touch");
     }
     require(std::abs(sum - 1.0) <= k_rounding, "the shares of a grain sum to 1 " +

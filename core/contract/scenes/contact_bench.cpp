@@ -13,7 +13,7 @@ namespace {
 
 using sdk::Vec3;
 
-constexpr std::uint32_t k_touches = 64;
+constexpr std::uint32_t k_contacts = 64;
 constexpr double k_guard_value = -7.25e77;
 const Vec3 k_axis = Vec3{1.0, 2.0, -0.5} / norm(Vec3{1.0, 2.0, -0.5});
 constexpr double k_angle = 0.7;
@@ -45,10 +45,10 @@ constexpr const char* k_names[] = {"overlap",
 
 }  // namespace
 
-std::vector<Touch> standard_touches(double range, int look) {
-  std::vector<Touch> touches;
+std::vector<Touch> standard_contacts(double range, int look) {
+  std::vector<Touch> contacts;
   const sdk::Random random(5, sdk::stream_of("touches"));
-  for (std::uint32_t n = 0; n < k_touches; ++n) {
+  for (std::uint32_t n = 0; n < k_contacts; ++n) {
     const auto draw = [&](std::uint32_t slot) { return random.uniform(n, 0, slot); };
     const auto direction = [&](std::uint32_t slot) {
       const double z = 2.0 * draw(slot) - 1.0;
@@ -67,29 +67,29 @@ std::vector<Touch> standard_touches(double range, int look) {
     t.angular_velocity = 100.0 * direction(9);
     t.normal_force = (n % 8 == 1 ? -1.0 : 1.0) * 1e-3 * draw(11);
     t.stiffness = 1000.0 * draw(12);
-    touches.push_back(t);
+    contacts.push_back(t);
   }
-  return touches;
+  return contacts;
 }
 
-std::vector<Touch> swapped(std::vector<Touch> touches) {
-  for (Touch& t : touches) {
+std::vector<Touch> swapped(std::vector<Touch> contacts) {
+  for (Touch& t : contacts) {
     t.normal = -t.normal;
     t.velocity = -t.velocity;
     t.angular_velocity = -t.angular_velocity;
   }
-  return touches;
+  return contacts;
 }
 
 Vec3 turned(Vec3 v) { return rotate(v, k_axis, k_angle); }
 
-std::vector<Touch> turned(std::vector<Touch> touches) {
-  for (Touch& t : touches) {
+std::vector<Touch> turned(std::vector<Touch> contacts) {
+  for (Touch& t : contacts) {
     t.normal = turned(t.normal);
     t.velocity = turned(t.velocity);
     t.angular_velocity = turned(t.angular_velocity);
   }
-  return touches;
+  return contacts;
 }
 
 ContactBench::ContactBench(std::size_t count, int history)
@@ -104,7 +104,7 @@ ContactBench::ContactBench(std::size_t count, int history)
   }
 }
 
-void ContactBench::show(const std::vector<Touch>& touches, double time_step, const Units& units,
+void ContactBench::show(const std::vector<Touch>& contacts, double time_step, const Units& units,
                         bool is_rolling) {
   const double length = units.length;
   const double speed = units.of(sdk::dimension::velocity);
@@ -112,7 +112,7 @@ void ContactBench::show(const std::vector<Touch>& touches, double time_step, con
   time_step_ = time_step * units.time;
   is_rolling_ = is_rolling;
   for (std::size_t n = 0; n < count_; ++n) {
-    const Touch& t = touches[n % touches.size()];
+    const Touch& t = contacts[n % contacts.size()];
     const Vec3 displacement = t.displacement.value_or(time_step * t.velocity);
     const Vec3 angle = t.angle.value_or(time_step * t.angular_velocity);
     const double row[k_inputs] = {t.overlap * length,

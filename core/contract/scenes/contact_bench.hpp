@@ -32,12 +32,12 @@ struct Touch {
 
 /// Contacts of all directions, speeds and sizes, always the same ones. Overlaps reach from
 /// `-range` to 3 % of the radius; the second look at a contact is turned and pressed a little on.
-std::vector<Touch> standard_touches(double range, int look);
+std::vector<Touch> standard_contacts(double range, int look);
 
 /// The same contacts seen from side j.
-std::vector<Touch> swapped(std::vector<Touch> touches);
+std::vector<Touch> swapped(std::vector<Touch> contacts);
 /// The same contacts in a turned world, and a vector turned alike.
-std::vector<Touch> turned(std::vector<Touch> touches);
+std::vector<Touch> turned(std::vector<Touch> contacts);
 sdk::Vec3 turned(sdk::Vec3 v);
 
 /// Columns with guards behind every one of them, history included; tells who writes where.
@@ -56,7 +56,7 @@ class ContactBench {
 
   /// Fills the inputs (SI times `units`) and forgets the outputs, not the history. For the rolling
   /// stage normal force and stiffness are inputs.
-  void show(const std::vector<Touch>& touches, double time_step, const Units& units,
+  void show(const std::vector<Touch>& contacts, double time_step, const Units& units,
             bool is_rolling);
   /// Calls `evaluate` in batches of `size` rows (0 = all); Violation where a guard or an input was
   /// overwritten.

@@ -12,13 +12,13 @@ namespace dust::coupling {
 namespace {
 
 /// Weight of open faces below which a force component finds no fluid to act on.
-constexpr double k_least_weight = 1e-6;
+constexpr double k_min_weight = 1e-6;
 
 /// Part of what is owed to a cell that is paid at once. The pressure answers it, and with that what
 /// is owed next: all at once would rock a bed in which the fluid is the smaller part.
-constexpr double k_paid_share = 0.5;
+constexpr double k_released_share = 0.5;
 /// [N s] Less than this is paid off.
-constexpr double k_nothing_owed = 1e-60;
+constexpr double k_nothing_deferred = 1e-60;
 
 /// Sums over the eight faces of a grain.
 struct FaceSums {
@@ -75,9 +75,9 @@ void DragExchange::assemble(const particles::GrainRows& grains, const FaceStenci
   if (batch.has_smooth) assemble_smooth(rows, here, drag, states, inputs, batch);
   const bool is_density = set_ == fluid::MomentumSet::three;
   for (int d = 0; d < 3; ++d) {
-    find_contributions(rows.size(), inputs[d], k_least_weight, is_density, batch.component[d]);
+    find_contributions(rows.size(), inputs[d], k_min_weight, is_density, batch.component[d]);
   }
-  pay(rows, inputs, states, batch);
+  release(rows, inputs, states, batch);
 }
 
 /// The drag of each particle per cell volume, what its slip before takes back, and its residual.
@@ -89,42 +89,43 @@ void DragExchange::begin_batch(const particles::GrainRows& grains,
                                BatchContributions& batch) const {
   const double per_volume = 1.0 / lattice_.cell_volume();
   const double per_volume_and_step = per_volume / step;
-  const WideKernel wide(lattice_, rule_);
+  const MultiCellKernel wide(lattice_, rule_);
   batch.is_smooth = drag.is_smooth;
   batch.unpaired = 0;
   batch.has_wide = batch.has_smooth = false;
-  batch.paid = batch.given = batch.size = {};
+  batch.released = batch.given = batch.size = {};
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
-    const double lone = drag.void_fraction[q];
+    const double isolated = drag.void_fraction[q];
     const double slope = 1.0 + drag.slope[q];
-    coefficient[q] = grains.weight[row] * drag.coefficient[q] * slope * per_volume / (lone * lone);
-    const double back = lone * drag.slope[q] / slope;
+    coefficient[q] =
+        grains.weight[row] * drag.coefficient[q] * slope * per_volume / (isolated * isolated);
+    const double back = isolated * drag.slope[q] / slope;
     const bool is_smooth = drag.is_smooth[q] != 0;
     batch.has_smooth = batch.has_smooth || is_smooth;
     batch.has_wide = batch.has_wide || (!is_smooth && wide.takes(here.position[4 * q + 3]));
     for (std::size_t d = 0; d < 3; ++d) {
       const double v = grains.velocity_of(row)[d];
       batch.component[d].velocity[q] = v;
-      batch.component[d].lag[q] = back * (v - states[row].fluid_velocity[d]);
-      inputs[d].owed[q] = states[row].owed[d] * per_volume_and_step;
+      batch.component[d].flux_difference[q] = back * (v - states[row].fluid_velocity[d]);
+      inputs[d].deferred[q] = states[row].deferred[d] * per_volume_and_step;
       inputs[d].gain[q] = 1.0;
     }
   }
 }
 
 /// The residuals that find open faces are in the source now.
-void DragExchange::pay(std::span<const std::int32_t> rows,
-                       const std::array<ContributionInputs, 3>& inputs, ParticleStates& states,
-                       BatchContributions& batch) const {
+void DragExchange::release(std::span<const std::int32_t> rows,
+                           const std::array<ContributionInputs, 3>& inputs, ParticleStates& states,
+                           BatchContributions& batch) const {
   for (std::size_t q = 0; q < rows.size(); ++q) {
     ParticleState& r = states[static_cast<std::size_t>(rows[q])];
     for (std::size_t d = 0; d < 3; ++d) {
-      r.is_paired[d] = inputs[d].open[q] > k_least_weight;
+      r.is_paired[d] = inputs[d].open[q] > k_min_weight;
       batch.unpaired += r.is_paired[d] ? 0 : 1;
       if (!r.is_paired[d]) continue;
-      batch.paid[d] += r.owed[d];
-      r.owed[d] = 0.0;
+      batch.released[d] += r.deferred[d];
+      r.deferred[d] = 0.0;
     }
   }
 }
@@ -132,7 +133,7 @@ void DragExchange::pay(std::span<const std::int32_t> rows,
 /// The sums over the faces of the grains that are larger than a cell.
 void DragExchange::sum_wide(const StencilBatch& stencils, int d, const fluid::CellField& eps,
                             ContributionInputs& input) const {
-  WideKernel wide(lattice_, rule_);
+  MultiCellKernel wide(lattice_, rule_);
   WideStencil many;
   for (std::size_t q = 0; q < stencils.count; ++q) {
     const double* position = &stencils.position[4 * q];
@@ -146,7 +147,7 @@ void DragExchange::sum_wide(const StencilBatch& stencils, int d, const fluid::Ce
 }
 
 /// What changes for the grains with a SmoothKernel: the void fraction that makes a slip of the flux
-/// is that of OwnFlow, their own flow is no part of the slip, and the drag is spread such that its
+/// is that of SelfFlow, their own flow is no part of the slip, and the drag is spread such that its
 /// sum is K times that slip; docs/theory/own_disturbance.md, eq. (6).
 void DragExchange::assemble_smooth(std::span<const std::int32_t> rows, const StencilBatch& here,
                                    const LinearisedDrag& drag, const ParticleStates& states,
@@ -155,21 +156,21 @@ void DragExchange::assemble_smooth(std::span<const std::int32_t> rows, const Ste
   SmoothKernel kernel(lattice_);
   for (std::size_t q = 0; q < rows.size(); ++q) {
     if (drag.is_smooth[q] == 0) continue;
-    const OwnFlow& own = states.own_flow(static_cast<std::size_t>(rows[q]));
+    const SelfFlow& own = states.self_flow(static_cast<std::size_t>(rows[q]));
     const double* position = &here.position[4 * q];
     kernel.set(position, 2.0 * position[3]);
-    const double lone = drag.void_fraction[q];
+    const double isolated = drag.void_fraction[q];
     for (int d = 0; d < 3; ++d) {
       const auto c = static_cast<std::size_t>(d);
       const FaceColumns columns = face_void_.columns(d);
       const auto [open, fluid] = kernel.sum_faces(d, columns);
       const double of_flux = void_of_flux(own, c, fluid / open);
-      double& lag = batch.component[c].lag[q];
+      double& flux_difference = batch.component[c].flux_difference[q];
       inputs[c].open[q] = open;
       inputs[c].fluid[q] = fluid;
       inputs[c].gain[q] =
-          lone / of_flux * (set_ == fluid::MomentumSet::three ? 1.0 : lone * open / fluid);
-      lag = of_flux * (lag / lone + disturbance(own, c));
+          isolated / of_flux * (set_ == fluid::MomentumSet::three ? 1.0 : isolated * open / fluid);
+      flux_difference = of_flux * (flux_difference / isolated + disturbance(own, c));
     }
   }
 }
@@ -191,7 +192,7 @@ void DragExchange::scatter_one(int d, const Faces& faces, const Contribution& co
   for (std::size_t n = 0; n < size(faces); ++n) {
     const double w = faces.weight[n];
     if (faces.open[n] == 0.0 || w == 0.0) continue;
-    add(d, faces.home[n], faces.open[n], faces.void_fraction[n],
+    add(d, faces.storage[n], faces.open[n], faces.void_fraction[n],
         {w * contribution.drag, w * contribution.push, w * contribution.extra});
   }
 }
@@ -230,7 +231,7 @@ void DragExchange::scatter_groups(int d, const StencilBatch& stencils,
 void DragExchange::scatter_component(int d, const FaceStencils& stencils,
                                      const fluid::CellField& eps) {
   const FaceColumns columns = face_void_.columns(d);
-  WideKernel wide(lattice_, rule_);
+  MultiCellKernel wide(lattice_, rule_);
   WideStencil many;
   SmoothKernel smooth(lattice_);
   for (std::size_t b = 0; b < stencils.size(); ++b) {
@@ -269,37 +270,37 @@ void DragExchange::scatter_component(int d, const FaceStencils& stencils,
 }
 
 /// The debts of grains that are gone; returns how many find no open face.
-std::int64_t DragExchange::pay_escaped(int d, ParticleStates& memory, double step) {
+std::int64_t DragExchange::release_escaped(int d, ParticleStates& memory, double step) {
   const double volume = lattice_.cell_volume();
   std::int64_t unpaired = 0;
   Stencil s;
   for (const EscapedParticle& l : memory.escaped()) {
-    if (l.owed[d] == 0.0) continue;
+    if (l.deferred[d] == 0.0) continue;
     face_void_.stencil(d, lattice_.place(l.place.data()), s);
     const FaceSums sums = sums_of(s);
-    if (sums.open <= k_least_weight) {
+    if (sums.open <= k_min_weight) {
       ++unpaired;
       continue;
     }
     const double received = set_ == fluid::MomentumSet::three ? sums.open : sums.fluid;
-    scatter_one(d, s, {0.0, 0.0, l.owed[d] / (received * volume * step)});
-    paid_[d] += l.owed[d];
+    scatter_one(d, s, {0.0, 0.0, l.deferred[d] / (received * volume * step)});
+    released_[d] += l.deferred[d];
   }
   return unpaired;
 }
 
 /// Debts of cells: to either face along the component the half, all to one if the other is closed.
-void DragExchange::pay_cells(int d, std::vector<double>& owed, double step) {
+void DragExchange::release_cells(int d, std::vector<double>& deferred, double step) {
   const FaceColumns columns = face_void_.columns(d);
   const fluid::Grid& grid = lattice_.grid();
   const double impulse = step * lattice_.cell_volume();
   for (int k = 0; k < grid.count[2]; ++k) {
     for (int j = 0; j < grid.count[1]; ++j) {
       for (int i = 0; i < grid.count[0]; ++i) {
-        double& debt = owed[static_cast<std::size_t>(grid.index(i, j, k))];
-        if (debt == 0.0) continue;
-        const std::array<std::ptrdiff_t, 2> faces{lattice_.face(d, i, j, k, 0).home,
-                                                  lattice_.face(d, i, j, k, 1).home};
+        double& deferred = deferred[static_cast<std::size_t>(grid.index(i, j, k))];
+        if (deferred == 0.0) continue;
+        const std::array<std::ptrdiff_t, 2> faces{lattice_.face(d, i, j, k, 0).storage,
+                                                  lattice_.face(d, i, j, k, 1).storage};
         std::array<double, 2> fluid{};
         double open = 0.0;
         for (std::size_t n = 0; n < 2; ++n) {
@@ -308,13 +309,14 @@ void DragExchange::pay_cells(int d, std::vector<double>& owed, double step) {
           open += part > 0.0 ? 1.0 : 0.0;
         }
         if (open == 0.0) continue;
-        const double paid = std::abs(debt) < k_nothing_owed ? debt : k_paid_share * debt;
-        debt -= paid;
-        paid_[d] += paid;
+        const double released =
+            std::abs(deferred) < k_nothing_deferred ? deferred : k_released_share * deferred;
+        deferred -= released;
+        released_[d] += released;
         for (std::size_t n = 0; n < 2; ++n) {
           if (!(fluid[n] > 0.0)) continue;
           add(d, faces[n], columns.open[faces[n]], columns.void_fraction[faces[n]],
-              {0.0, 0.0, paid / (open * fluid[n] * impulse)});
+              {0.0, 0.0, released / (open * fluid[n] * impulse)});
         }
       }
     }
@@ -327,11 +329,11 @@ std::int64_t DragExchange::scatter(const FaceStencils& stencils, ParticleStates&
   std::array<std::int64_t, 3> unpaired{};
   tbb::parallel_for(0, 3, [&](int d) {
     clear(d);
-    paid_[d] = 0.0;
-    for (const BatchContributions& batch : batches_) paid_[d] += batch.paid[d];
+    released_[d] = 0.0;
+    for (const BatchContributions& batch : batches_) released_[d] += batch.released[d];
     scatter_component(d, stencils, eps);
-    unpaired[d] = pay_escaped(d, states, step);
-    if (stress != nullptr) pay_cells(d, stress->owed(d), step);
+    unpaired[d] = release_escaped(d, states, step);
+    if (stress != nullptr) release_cells(d, stress->deferred(d), step);
     lattice_.close_periodic(d, exchange_.coefficient.component[d]);
     lattice_.close_periodic(d, exchange_.source.component[d]);
   });
@@ -344,13 +346,13 @@ std::int64_t DragExchange::scatter(const FaceStencils& stencils, ParticleStates&
 /// Component d of what a grain's drag has given to the fluid, over its contribution and a cell's
 /// volume.
 double DragExchange::drag_through(int d, const SmoothKernel& kernel, const std::vector<double>& u,
-                                  double velocity, double lag) const {
+                                  double velocity, double flux_difference) const {
   const FaceColumns columns = face_void_.columns(d);
   double sum = 0.0;
   kernel.for_faces(d, [&](std::ptrdiff_t face, double w) {
     const double eps = columns.void_fraction[face];
     const double fluid = fluid::fluid_fraction(set_, eps);
-    sum += w * columns.open[face] * fluid * (eps * (u[face] - velocity) + lag);
+    sum += w * columns.open[face] * fluid * (eps * (u[face] - velocity) + flux_difference);
   });
   return sum;
 }
@@ -387,7 +389,8 @@ void DragExchange::evaluate_batch(const StencilBatch& here, const fluid::CellFie
     for (std::size_t q = 0; batch.has_smooth && q < here.count; ++q) {
       if (batch.is_smooth[q] == 0) continue;
       smooth.set(&here.position[4 * q], 2.0 * here.position[4 * q + 3]);
-      given[d][q] = impulse * own.drag[q] * drag_through(d, smooth, u, own.velocity[q], own.lag[q]);
+      given[d][q] = impulse * own.drag[q] *
+                    drag_through(d, smooth, u, own.velocity[q], own.flux_difference[q]);
     }
     for (std::size_t q = 0; q < here.count; ++q) {
       batch.given[d] += given[d][q];
@@ -401,7 +404,7 @@ void DragExchange::evaluate_wide(const StencilBatch& here, int d, const fluid::C
                                  const std::vector<double>& u, double impulse,
                                  const BatchContributions& batch, Impulses& given) const {
   const FaceContributions& own = batch.component[d];
-  WideKernel wide(lattice_, rule_);
+  MultiCellKernel wide(lattice_, rule_);
   WideStencil many;
   for (std::size_t q = 0; q < here.count; ++q) {
     const double radius = here.position[4 * q + 3];
@@ -411,8 +414,8 @@ void DragExchange::evaluate_wide(const StencilBatch& here, int d, const fluid::C
     double sum = 0.0;
     for (std::size_t n = 0; n < size(many); ++n) {
       const double fluid = fluid::fluid_fraction(set_, many.void_fraction[n]);
-      const double slip = many.void_fraction[n] * (u[many.home[n]] - own.velocity[q]);
-      sum += many.weight[n] * many.open[n] * fluid * (slip + own.lag[q]);
+      const double slip = many.void_fraction[n] * (u[many.storage[n]] - own.velocity[q]);
+      sum += many.weight[n] * many.open[n] * fluid * (slip + own.flux_difference[q]);
     }
     given[d][q] = impulse * own.drag[q] * sum;
   }
@@ -423,8 +426,8 @@ double DragExchange::imbalance(const fluid::FaceField& velocity, double step) {
   std::array<double, 3> difference{};
   std::array<double, 3> scale{};
   tbb::parallel_for(0, 3, [&](int d) {
-    double on_grains = -paid_[d];
-    double size = std::abs(paid_[d]);
+    double on_grains = -released_[d];
+    double size = std::abs(released_[d]);
     for (const BatchContributions& batch : batches_) {
       on_grains += batch.given[d];
       size += batch.size[d];

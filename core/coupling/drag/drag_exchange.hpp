@@ -6,8 +6,8 @@
 #include "coupling/stencils/face_stencils.hpp"
 #include "coupling/stencils/face_void_fraction.hpp"
 #include "coupling/stencils/lattice.hpp"
+#include "coupling/stencils/multi_cell_kernel.hpp"
 #include "coupling/stencils/smooth_kernel.hpp"
-#include "coupling/stencils/wide_kernel.hpp"
 #include "fluid/momentum_set.hpp"
 
 #include <array>
@@ -76,7 +76,7 @@ class DragExchange {
     std::int64_t unpaired = 0;
     bool has_wide = false;    ///< particles larger than a cell
     bool has_smooth = false;  ///< particles with a SmoothKernel
-    Triple paid{};
+    Triple released{};
     Triple given{};  ///< [N s] weight included
     Triple size{};   ///< [N s] sum of the magnitudes
   };
@@ -91,15 +91,15 @@ class DragExchange {
   void assemble_smooth(std::span<const std::int32_t> rows, const StencilBatch& here,
                        const LinearisedDrag& drag, const ParticleStates& states,
                        std::array<ContributionInputs, 3>& inputs, BatchContributions& batch) const;
-  void pay(std::span<const std::int32_t> rows, const std::array<ContributionInputs, 3>& inputs,
-           ParticleStates& states, BatchContributions& batch) const;
+  void release(std::span<const std::int32_t> rows, const std::array<ContributionInputs, 3>& inputs,
+               ParticleStates& states, BatchContributions& batch) const;
   void scatter_component(int d, const FaceStencils& stencils, const fluid::CellField& eps);
   void scatter_smooth(int d, const SmoothKernel& kernel, const Contribution& c);
   void scatter_groups(int d, const StencilBatch& stencils, const FaceContributions& contributions);
   template <class Faces>
   void scatter_one(int d, const Faces& faces, const Contribution& c);
-  std::int64_t pay_escaped(int d, ParticleStates& states, double step);
-  void pay_cells(int d, std::vector<double>& owed, double step);
+  std::int64_t release_escaped(int d, ParticleStates& states, double step);
+  void release_cells(int d, std::vector<double>& deferred, double step);
   void evaluate_batch(const StencilBatch& here, const fluid::CellField& eps,
                       const fluid::FaceField& velocity, double impulse, BatchContributions& batch,
                       Impulses& given) const;
@@ -107,7 +107,7 @@ class DragExchange {
                      const std::vector<double>& u, double impulse, const BatchContributions& batch,
                      Impulses& given) const;
   [[nodiscard]] double drag_through(int d, const SmoothKernel& kernel, const std::vector<double>& u,
-                                    double velocity, double lag) const;
+                                    double velocity, double flux_difference) const;
   [[nodiscard]] double imbalance(const fluid::FaceField& velocity, double step);
   /// Adds to one face of this open share and void fraction what is weighted already.
   void add(int d, std::ptrdiff_t face, double open, double eps, const Contribution& weighted);
@@ -120,7 +120,7 @@ class DragExchange {
   fluid::Exchange exchange_;
   std::array<std::vector<ActiveFace>, 3> active_;
   std::vector<BatchContributions> batches_;
-  Triple paid_{};  ///< [N s] residuals in the source
+  Triple released_{};  ///< [N s] residuals in the source
 };
 
 }  // namespace dust::coupling

@@ -12,7 +12,7 @@ namespace {
 /// neighbours feels it in full, and what the fluid was not given comes one step late. That is
 /// stable only if the late part is the smaller one: the part must exceed 1/2, and 2/3 where the
 /// fluid takes many sub-steps.
-constexpr double k_least_implicit = 0.7;
+constexpr double k_min_implicit = 0.7;
 
 /// The same where the particles' cycle overlaps the fluid's step. What particles receive is then
 /// that of the step before: errors of a held one follow h x^2 - h x + 1 = 0, |x|^2 = 1/h, so that
@@ -39,7 +39,7 @@ DragLinearisation::DragLinearisation(const Lattice& lattice, const sdk::VoidageR
 /// drag by docs/theory/coupling.md, eq. (13), (14), `relaxations` = K step / m.
 double DragLinearisation::implicit_factor(double relaxations) const {
   const double mean = -std::expm1(-relaxations) / relaxations;
-  return order_ == Order::overlapped ? k_overlapped_implicit : std::max(mean, k_least_implicit);
+  return order_ == Order::overlapped ? k_overlapped_implicit : std::max(mean, k_min_implicit);
 }
 
 /// The slip of each particle with the fluid last seen at it (the initial velocity for a new one).
@@ -47,7 +47,7 @@ void DragLinearisation::find_slips(const particles::GrainRows& grains,
                                    std::span<const std::int32_t> rows, const StencilBatch& here,
                                    std::size_t number, double step, LinearisedDrag& drag,
                                    DragColumns& columns) {
-  WideKernel wide(lattice_, voidage_);
+  MultiCellKernel wide(lattice_, voidage_);
   SmoothKernel smooth(lattice_);
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
@@ -64,7 +64,7 @@ void DragLinearisation::find_slips(const particles::GrainRows& grains,
     double& around = drag.void_fraction[q];
     around = void_fraction_.around(position, cell_of(here, q), wide);
     drag.is_smooth[q] = 0;
-    if (states_.has_own_flow()) {
+    if (states_.has_self_flow()) {
       drag.is_smooth[q] = self_.begin_step(grains, row, slip, step, smooth, around) ? 1 : 0;
     }
     columns.void_fraction[q] = around;

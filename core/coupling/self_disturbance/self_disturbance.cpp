@@ -57,7 +57,7 @@ void set_shares(const sdk::VoidageRule& rule, const sdk::GridShape& shape, const
 
 /// Void fraction [-] for the law: of its faces, `of_faces` by component, without the grain's own
 /// solids as far as these are in excess.
-double void_of_others(const OwnFlow& own, const Triple& of_faces) {
+double void_of_others(const SelfFlow& own, const Triple& of_faces) {
   double sum = 0.0;
   for (std::size_t d = 0; d < 3; ++d) {
     sum += of_faces[d] + own.excess * solids_at(own, d, of_faces[d]);
@@ -67,7 +67,7 @@ double void_of_others(const OwnFlow& own, const Triple& of_faces) {
 
 }  // namespace
 
-SelfDisturbance::SelfDisturbance(scenario::OwnDisturbance mode, const Lattice& lattice,
+SelfDisturbance::SelfDisturbance(scenario::DisturbanceCorrection mode, const Lattice& lattice,
                                  const sdk::VoidageRule& voidage, const DragModel& drag,
                                  const FaceVoidFraction& face_void,
                                  VoidFractionField& void_fraction, ParticleStates& states)
@@ -78,7 +78,7 @@ SelfDisturbance::SelfDisturbance(scenario::OwnDisturbance mode, const Lattice& l
       face_void_(face_void),
       void_fraction_(void_fraction),
       states_(states) {
-  sides_.fill(own_disturbance::Side::wall);
+  sides_.fill(self_disturbance::Side::wall);
   const sdk::Vec3& spacing = lattice_.grid().spacing;
   least_spacing_ = std::min({spacing.x, spacing.y, spacing.z});
   mean_spacing_ = std::cbrt(lattice_.cell_volume());
@@ -86,7 +86,7 @@ SelfDisturbance::SelfDisturbance(scenario::OwnDisturbance mode, const Lattice& l
 
 void SelfDisturbance::use_boundaries(
     const std::array<const sdk::BoundaryCondition*, 6>& boundaries) {
-  using own_disturbance::Side;
+  using self_disturbance::Side;
   for (std::size_t n = 0; n < boundaries.size(); ++n) {
     if (boundaries[n] == nullptr) continue;
     const sdk::SideRules rules = boundaries[n]->rules();
@@ -100,8 +100,8 @@ void SelfDisturbance::use_boundaries(
 }
 
 void SelfDisturbance::prepare(const particles::GrainRows& grains) {
-  if (mode_ == scenario::OwnDisturbance::felt || states_.has_own_flow()) return;
-  if (has_candidates(grains)) states_.keep_own_flow();
+  if (mode_ == scenario::DisturbanceCorrection::felt || states_.has_self_flow()) return;
+  if (has_candidates(grains)) states_.keep_self_flow();
 }
 
 /// Whether some grain may be worth it by its size alone: what it makes is most in slow flow.
@@ -122,15 +122,15 @@ double SelfDisturbance::own_weight(const particles::GrainRows& grains, std::size
 
 bool SelfDisturbance::is_candidate(const particles::GrainRows& grains, std::size_t row) const {
   const double diameter = 2.0 * grains.position[4 * row + 3];
-  return own_disturbance::may_be_taken_off(diameter, mean_spacing_, least_spacing_,
-                                           own_weight(grains, row), worth());
+  return self_disturbance::may_be_taken_off(diameter, mean_spacing_, least_spacing_,
+                                            own_weight(grains, row), worth());
 }
 
 /// What the grain would make of a fluid with its eight faces, and its own solids of its drag, over
 /// its slip or drag [-]; `eps` of its cell; docs/theory/own_disturbance.md, eq. (8).
 double SelfDisturbance::own_part(const particles::GrainRows& grains, std::size_t row, double eps,
                                  double slip) const {
-  namespace own = own_disturbance;
+  namespace own = self_disturbance;
   const double* position = grains.position + 4 * row;
   const DragModel::Fluid fluid = drag_.fluid_at(position);
   const double volume = grains.weight[row] * sdk::sphere_volume(2.0 * position[3]);
@@ -153,7 +153,7 @@ double SelfDisturbance::own_part(const particles::GrainRows& grains, std::size_t
 /// `eps` is the void fraction of its cell, and becomes that of the others around it.
 bool SelfDisturbance::begin_step(const particles::GrainRows& grains, std::size_t row, double slip,
                                  double step, SmoothKernel& kernel, double& eps) {
-  OwnFlow& own = states_.own_flow(row);
+  SelfFlow& own = states_.self_flow(row);
   const double* position = grains.position + 4 * row;
   const bool is_worth =
       own.spread > 0.0 || (is_candidate(grains, row) && own_part(grains, row, eps, slip) > worth());
@@ -167,7 +167,7 @@ bool SelfDisturbance::begin_step(const particles::GrainRows& grains, std::size_t
   own.is_beside = room == SmoothKernel::Room::beside;
   own.seen.is_valid = false;
   own.is_smooth = true;
-  own.paid = states_[row].owed;
+  own.released = states_[row].deferred;
   find_own_solids(grains, row, kernel);
   Triple of_faces;
   for (int d = 0; d < 3; ++d) {
@@ -176,10 +176,10 @@ bool SelfDisturbance::begin_step(const particles::GrainRows& grains, std::size_t
     of_faces[static_cast<std::size_t>(d)] = sums.fluid / sums.open;
   }
   own.excess = 1.0;
-  own.excess = own_disturbance::excess_of_one(1.0 - void_of_others(own, of_faces)) *
+  own.excess = self_disturbance::excess_of_one(1.0 - void_of_others(own, of_faces)) *
                own_weight(grains, row) / grains.weight[row];
   eps = void_of_others(own, of_faces);
-  find_own_flow(grains, row, kernel, (of_faces[0] + of_faces[1] + of_faces[2]) / 3.0, slip, step);
+  find_self_flow(grains, row, kernel, (of_faces[0] + of_faces[1] + of_faces[2]) / 3.0, slip, step);
   return true;
 }
 
@@ -192,7 +192,7 @@ double SelfDisturbance::crowding(const particles::GrainRows& grains, std::size_t
   const Place p = lattice_.place(position);
   const std::ptrdiff_t here = lattice_.cell(p);
   const double at_least = 1.0 - void_fraction_.after()[here] -
-                          solids / std::max(k_least_open, lattice_.open_fraction(here));
+                          solids / std::max(k_min_open, lattice_.open_fraction(here));
   if (at_least >= k_crowded) return at_least;  // as in most of a packing
   set_shares(voidage_, lattice_.grid().shape(), position, shares);
   double most = 0.0;
@@ -225,7 +225,7 @@ void SelfDisturbance::spread_solids(const particles::GrainRows& grains) {
   for (std::size_t row = 0; row < grains.count; ++row) {
     const double* position = grains.position + 4 * row;
     if (2.0 * position[3] <= k_sharp * least_spacing_ || !is_candidate(grains, row)) continue;
-    OwnFlow& own = states_.own_flow(row);
+    SelfFlow& own = states_.self_flow(row);
     own.spread = 0.0;
     const double volume = grains.weight[row] * sdk::sphere_volume(2.0 * position[3]);
     const double others = crowding(grains, row);
@@ -252,7 +252,7 @@ void SelfDisturbance::find_own_solids(const particles::GrainRows& grains, std::s
   static thread_local Shares shares;
   const double* position = grains.position + 4 * row;
   set_shares(voidage_, lattice_.grid().shape(), position, shares);
-  OwnFlow& own = states_.own_flow(row);
+  SelfFlow& own = states_.self_flow(row);
   const double solids =
       grains.weight[row] * sdk::sphere_volume(2.0 * position[3]) / lattice_.cell_volume();
   for (int d = 0; d < 3; ++d) {
@@ -271,22 +271,22 @@ void SelfDisturbance::find_own_solids(const particles::GrainRows& grains, std::s
 }
 
 /// How its flow grows and fades in a fluid step, and what its stress does; `eps` at its faces.
-void SelfDisturbance::find_own_flow(const particles::GrainRows& grains, std::size_t row,
-                                    const SmoothKernel& kernel, double eps, double slip,
-                                    double step) {
+void SelfDisturbance::find_self_flow(const particles::GrainRows& grains, std::size_t row,
+                                     const SmoothKernel& kernel, double eps, double slip,
+                                     double step) {
   const double* position = grains.position + 4 * row;
-  OwnFlow& own = states_.own_flow(row);
+  SelfFlow& own = states_.self_flow(row);
   const DragModel::Fluid fluid = drag_.fluid_at(position);
   // The stream that carries the flow away is slowed by it.
   double own_speed = 0.0;
   for (std::size_t d = 0; d < 3; ++d) own_speed += disturbance(own, d) * disturbance(own, d);
   const double stream = std::max(0.0, slip - k_slowing * std::sqrt(own_speed));
-  const own_disturbance::Response response =
-      own_disturbance::response(kernel.width(), fluid.viscosity, fluid.density, stream);
-  for (std::size_t n = 0; n < own_disturbance::k_groups; ++n) {
+  const self_disturbance::Response response =
+      self_disturbance::response(kernel.width(), fluid.viscosity, fluid.density, stream);
+  for (std::size_t n = 0; n < self_disturbance::k_groups; ++n) {
     own.kept[n] = std::exp(-response.rate[n] * step);
     const double gained = -std::expm1(-response.rate[n] * step) * response.mobility[n];
-    const double k = own_disturbance::k_waves[n] / kernel.width();
+    const double k = self_disturbance::k_waves[n] / kernel.width();
     for (int d = 0; d < 3; ++d) {
       own.gained[n][static_cast<std::size_t>(d)] = gained * beside_sides(position, d, k);
     }
@@ -307,21 +307,21 @@ double SelfDisturbance::beside_sides(const double* position, int d, double k) co
     const double above = position[axis] - grid.origin[axis];
     const double below = grid.count[a] * grid.spacing[axis] - above;
     const bool is_across = axis == d;
-    factor *= own_disturbance::beside_side(sides_[2 * a], is_across, k, std::max(above, 0.0)) *
-              own_disturbance::beside_side(sides_[2 * a + 1], is_across, k, std::max(below, 0.0));
+    factor *= self_disturbance::beside_side(sides_[2 * a], is_across, k, std::max(above, 0.0)) *
+              self_disturbance::beside_side(sides_[2 * a + 1], is_across, k, std::max(below, 0.0));
   }
   return factor;
 }
 
 /// The flow that a fluid step has left of what there was, and what it added.
 void SelfDisturbance::end_step(double step) {
-  if (!states_.has_own_flow()) return;
+  if (!states_.has_self_flow()) return;
   for (std::size_t row = 0; row < states_.size(); ++row) {
-    OwnFlow& own = states_.own_flow(row);
+    SelfFlow& own = states_.self_flow(row);
     if (!own.is_smooth) continue;
     for (std::size_t d = 0; d < 3; ++d) {
-      const double force = (states_[row].given[d] - own.paid[d]) / step;
-      for (std::size_t n = 0; n < own_disturbance::k_groups; ++n) {
+      const double force = (states_[row].given[d] - own.released[d]) / step;
+      for (std::size_t n = 0; n < self_disturbance::k_groups; ++n) {
         own.flow[n][d] = own.kept[n] * own.flow[n][d] + own.gained[n][d] * force;
       }
     }
@@ -331,7 +331,7 @@ void SelfDisturbance::end_step(double step) {
 /// Looks at the faces of a grain with a SmoothKernel.
 void SelfDisturbance::look_at_kernel(const double* position, const SmoothKernel& kernel,
                                      const FluidState& state, bool needs_stress,
-                                     OwnFlow::Seen& seen) const {
+                                     SelfFlow::Seen& seen) const {
   for (int d = 0; d < 3; ++d) {
     const FaceColumns columns = face_void_.columns(d);
     const double* u = state.velocity.component[d].data();
@@ -370,7 +370,7 @@ void SelfDisturbance::sample(const StencilBatch& here, std::span<const std::int3
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
     if (!states_.is_smooth(row)) continue;
-    OwnFlow& own = states_.own_flow(row);
+    SelfFlow& own = states_.self_flow(row);
     const double* position = &here.position[4 * q];
     double way = 0.0;
     for (std::size_t d = 0; d < 3; ++d) {

@@ -4,7 +4,7 @@
 #include "coupling/drag/drag_model.hpp"
 #include "coupling/fluid_state.hpp"
 #include "coupling/particle_states.hpp"
-#include "coupling/self_disturbance/own_disturbance.hpp"
+#include "coupling/self_disturbance/disturbance_formulas.hpp"
 #include "coupling/stencils/face_void_fraction.hpp"
 #include "coupling/stencils/smooth_kernel.hpp"
 #include "coupling/void_fraction_field.hpp"
@@ -23,7 +23,7 @@ namespace dust::coupling {
 class SelfDisturbance {
  public:
   /// All are kept by reference.
-  SelfDisturbance(scenario::OwnDisturbance mode, const Lattice& lattice,
+  SelfDisturbance(scenario::DisturbanceCorrection mode, const Lattice& lattice,
                   const sdk::VoidageRule& voidage, const DragModel& drag,
                   const FaceVoidFraction& face_void, VoidFractionField& void_fraction,
                   ParticleStates& states);
@@ -51,13 +51,13 @@ class SelfDisturbance {
 
   /// Drag with the stress of the own drag; docs/theory/own_disturbance.md, eq. (7).
   [[nodiscard]] double stress_factor(std::size_t row) const {
-    return states_.is_smooth(row) ? 1.0 + states_.own_flow(row).self_stress : 1.0;
+    return states_.is_smooth(row) ? 1.0 + states_.self_flow(row).self_stress : 1.0;
   }
 
  private:
   /// Part of the slip from which on what a particle makes is taken off [-].
   [[nodiscard]] double worth() const {
-    return mode_ == scenario::OwnDisturbance::taken_off ? 0.0 : own_disturbance::k_worth;
+    return mode_ == scenario::DisturbanceCorrection::taken_off ? 0.0 : self_disturbance::k_worth;
   }
   [[nodiscard]] bool has_candidates(const particles::GrainRows& grains) const;
   [[nodiscard]] bool is_candidate(const particles::GrainRows& grains, std::size_t row) const;
@@ -67,13 +67,13 @@ class SelfDisturbance {
   [[nodiscard]] double crowding(const particles::GrainRows& grains, std::size_t row) const;
   void find_own_solids(const particles::GrainRows& grains, std::size_t row,
                        const SmoothKernel& kernel);
-  void find_own_flow(const particles::GrainRows& grains, std::size_t row,
-                     const SmoothKernel& kernel, double eps, double slip, double step);
+  void find_self_flow(const particles::GrainRows& grains, std::size_t row,
+                      const SmoothKernel& kernel, double eps, double slip, double step);
   void look_at_kernel(const double* position, const SmoothKernel& kernel, const FluidState& fluid,
-                      bool needs_stress, OwnFlow::Seen& seen) const;
+                      bool needs_stress, SelfFlow::Seen& seen) const;
   [[nodiscard]] double beside_sides(const double* position, int d, double k) const;
 
-  scenario::OwnDisturbance mode_;
+  scenario::DisturbanceCorrection mode_;
   const Lattice& lattice_;
   const sdk::VoidageRule& voidage_;
   const DragModel& drag_;
@@ -81,7 +81,7 @@ class SelfDisturbance {
   VoidFractionField& void_fraction_;
   ParticleStates& states_;
   /// What the boundaries of the domain are to a particle's own flow, where not periodic.
-  std::array<own_disturbance::Side, 6> sides_;
+  std::array<self_disturbance::Side, 6> sides_;
   double least_spacing_;  ///< [m]
   double mean_spacing_;   ///< [m] edge of the cube of a cell's volume
 };

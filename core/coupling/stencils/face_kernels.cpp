@@ -136,13 +136,13 @@ __attribute__((always_inline)) inline void add(FluxSum<T>& sum, const std::type_
 template <class T>
 struct DragSum {
   bool is_density = false;
-  T v{}, lag{};
+  T v{}, flux_difference{};
   T drag{};
 };
 template <class T>
 __attribute__((always_inline)) inline void add(DragSum<T>& sum, const std::type_identity_t<T>& w,
                                                double a, double eps, double u) {
-  sum.drag += w * (a * (sum.is_density ? 1.0 : eps)) * (eps * (u - sum.v) + sum.lag);
+  sum.drag += w * (a * (sum.is_density ? 1.0 : eps)) * (eps * (u - sum.v) + sum.flux_difference);
 }
 
 }  // namespace
@@ -154,7 +154,7 @@ DUST_KERNEL void place_along(const AxisView& axis, const double* position, int d
   const double n = axis.count;
   const int last = axis.count - 1;
   const bool is_periodic = axis.is_periodic;
-  const std::int32_t* homes = axis.homes + 2;
+  const std::int32_t* storages = axis.storages + 2;
   double* face_part = stencils.face_part[d].data();
   double* middle_part = stencils.middle_part[d].data();
   std::int32_t* face = stencils.face[d].data();
@@ -176,10 +176,10 @@ DUST_KERNEL void place_along(const AxisView& axis, const double* position, int d
     const int low = cell - (is_lower_half ? 1 : 0);
     face_part[q] = part;
     middle_part[q] = part + (is_lower_half ? 0.5 : -0.5);
-    face[q] = homes[cell];
-    face_step[q] = homes[cell + 1] - homes[cell];
-    middle[q] = homes[low];
-    middle_step[q] = homes[low + 1] - homes[low];
+    face[q] = storages[cell];
+    face_step[q] = storages[cell + 1] - storages[cell];
+    middle[q] = storages[low];
+    middle_step[q] = storages[low + 1] - storages[low];
   }
 }
 
@@ -251,7 +251,8 @@ DUST_KERNEL void find_contributions(std::size_t count, const ContributionInputs&
     // One division for both reciprocals.
     const double inverse = 1.0 / (is_paired ? open * received : 1.0);
     const double drag = input.coefficient[q] * input.gain[q] * (inverse * received);
-    const double extra = input.owed[q] * (inverse * open) - drag * contributions.lag[q];
+    const double extra =
+        input.deferred[q] * (inverse * open) - drag * contributions.flux_difference[q];
     contributions.drag[q] = is_paired ? drag : 0.0;
     contributions.extra[q] = is_paired ? extra : 0.0;
   }
@@ -261,14 +262,14 @@ DUST_KERNEL void evaluate_faces(const StencilBatch& stencils, int d, const FaceC
                                 const double* u, const FaceContributions& contributions,
                                 double scale, bool is_density, double* given) {
   const double* v = contributions.velocity.data();
-  const double* lag = contributions.lag.data();
+  const double* flux_difference = contributions.flux_difference.data();
   const double* drag = contributions.drag.data();
   for_faces<DragSum>(
       stencils, d, faces, u,
       [&](std::size_t q, auto& sum) __attribute__((always_inline)) {
         sum.is_density = is_density;
         get(v, q, sum.v);
-        get(lag, q, sum.lag);
+        get(flux_difference, q, sum.flux_difference);
       },
       [&](std::size_t q, auto& sum) __attribute__((always_inline)) {
         auto own = sum.drag;

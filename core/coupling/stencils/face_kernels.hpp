@@ -85,7 +85,7 @@ struct AxisView {
   double inverse_spacing = 0.0;  ///< [1/m]
   int count = 1;
   bool is_periodic = false;
-  const std::int32_t* homes = nullptr;  ///< by index + 2
+  const std::int32_t* storages = nullptr;  ///< by index + 2
 };
 
 /// What is looked up at faces: void fraction and open share.
@@ -108,12 +108,12 @@ struct FaceContributions {
   StencilBatch::Reals extra;     ///< [N/m3] to the source, times w
   /// [m/s] slip besides that of the faces, times eps around the grain: what the grain makes itself,
   /// less the part of the slip before that the tangent of its drag takes back.
-  StencilBatch::Reals lag;
+  StencilBatch::Reals flux_difference;
 };
 /// What the contributions are made of; `coefficient` is the same for all components.
 struct ContributionInputs {
   const double* coefficient;        ///< [kg/(m3 s)] W K / (eps^2 V)
-  StencilBatch::Reals owed;         ///< [N/m3] debt per cell volume and step
+  StencilBatch::Reals deferred;     ///< [N/m3] debt per cell volume and step
   StencilBatch::Reals gain;         ///< [-] of the drag, by the grain's own solids at the faces
   StencilBatch::Reals open, fluid;  ///< sums over the faces
 };

@@ -12,7 +12,7 @@ FaceVoidFraction::FaceVoidFraction(const Lattice& lattice) : lattice_(lattice) {
 void FaceVoidFraction::update(const fluid::CellField& eps,
                               const std::vector<std::ptrdiff_t>& active) {
   tbb::parallel_for(0, 3, [&](int d) {
-    for (const std::ptrdiff_t home : is_not_one_[d]) value_[d][home] = 1.0;
+    for (const std::ptrdiff_t storage : is_not_one_[d]) value_[d][storage] = 1.0;
     is_not_one_[d].clear();
     for (const std::ptrdiff_t cell : active) set_faces(d, lattice_.indices(cell), eps);
   });
@@ -44,9 +44,9 @@ void FaceVoidFraction::set_faces(int d, std::array<int, 3> cell, const fluid::Ce
     const double mean = 0.5 * (eps[below] + eps[above]);
     for (at[e] = first(e); at[e] <= last(e); ++at[e]) {
       for (at[f] = first(f); at[f] <= last(f); ++at[f]) {
-        const std::ptrdiff_t home = lattice_.home(at[0], at[1], at[2]);
-        value_[a][home] = mean;
-        is_not_one_[a].push_back(home);
+        const std::ptrdiff_t storage = lattice_.storage(at[0], at[1], at[2]);
+        value_[a][storage] = mean;
+        is_not_one_[a].push_back(storage);
       }
     }
   }

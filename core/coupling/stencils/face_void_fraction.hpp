@@ -23,8 +23,8 @@ class FaceVoidFraction {
     const double* eps = value_[d].data();
     const float* open = lattice_.open_shares(d);
     for (std::size_t n = 0; n < size(s); ++n) {
-      s.void_fraction[n] = eps[s.home[n]];
-      s.open[n] = open[s.home[n]];
+      s.void_fraction[n] = eps[s.storage[n]];
+      s.open[n] = open[s.storage[n]];
     }
   }
 

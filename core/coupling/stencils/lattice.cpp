@@ -73,7 +73,7 @@ std::ptrdiff_t Lattice::open_image(int i, int j, int k) const {
   }
   const std::ptrdiff_t c =
       grid_.index(wrap(i, grid_.count[0]), wrap(j, grid_.count[1]), wrap(k, grid_.count[2]));
-  return open_cell_[c] >= k_least_open ? c : -1;
+  return open_cell_[c] >= k_min_open ? c : -1;
 }
 
 std::ptrdiff_t Lattice::nearest_open_cell(const double* position) const {

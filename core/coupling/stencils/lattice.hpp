@@ -16,7 +16,7 @@ namespace dust::coupling {
 /// Share of a cell outside all bodies below which the cell counts as closed: it holds no grain
 /// volume. A grain pressed against a body then shares its volume among the open cells around, and
 /// the void fraction of a sliver does not jump with each grain.
-inline constexpr double k_least_open = 0.1;
+inline constexpr double k_min_open = 0.1;
 
 /// Distance from the sides, in cells, at which points on or beyond them are taken to be.
 inline constexpr double k_off_side = 1e-5;
@@ -32,9 +32,9 @@ using Place = std::array<AxisPlace, 3>;
 
 /// The eight faces of one component around a point, and what the exchange needs to know of them.
 struct Stencil {
-  std::array<std::ptrdiff_t, 8> home;   ///< where the face is accounted (periodic images wrapped)
-  std::array<double, 8> weight;         ///< trilinear, sum 1
-  std::array<double, 8> void_fraction;  ///< at the face: mean of its two cells
+  std::array<std::ptrdiff_t, 8> storage;  ///< where the face is accounted (periodic images wrapped)
+  std::array<double, 8> weight;           ///< trilinear, sum 1
+  std::array<double, 8> void_fraction;    ///< at the face: mean of its two cells
   std::array<double, 8> open;  ///< open share of the face's control volume, 0 = takes nothing
 };
 [[nodiscard]] constexpr std::size_t size(const Stencil&) { return 8; }
@@ -60,7 +60,7 @@ class Lattice {
     return offset(cells_[0], i) + offset(cells_[1], j) + offset(cells_[2], k);
   }
   /// Padded index at which a face is accounted: periodic images wrapped, others where they lie.
-  [[nodiscard]] std::ptrdiff_t home(int i, int j, int k) const {
+  [[nodiscard]] std::ptrdiff_t storage(int i, int j, int k) const {
     return offset(storage_[0], i) + offset(storage_[1], j) + offset(storage_[2], k);
   }
   /// What an index along one axis adds to the padded index of a cell or the home of a face,
@@ -84,7 +84,7 @@ class Lattice {
   [[nodiscard]] std::ptrdiff_t open_cell(int i, int j, int k) const {
     if (is_inside(0, i) && is_inside(1, j) && is_inside(2, k)) {
       const std::ptrdiff_t c = grid_.index(i, j, k);
-      return open_cell_[c] >= k_least_open ? c : -1;
+      return open_cell_[c] >= k_min_open ? c : -1;
     }
     return open_image(i, j, k);
   }
@@ -116,8 +116,8 @@ class Lattice {
     const std::array<double, 2> part_f{1.0 - p[f].middle_part, p[f].middle_part};
     for (std::size_t n = 0; n < 4; ++n) {
       const double across = part_e[n & 1] * part_f[n >> 1];
-      s.home[2 * n] = column[n & 1] + row[n >> 1];
-      s.home[2 * n + 1] = s.home[2 * n] + step;
+      s.storage[2 * n] = column[n & 1] + row[n >> 1];
+      s.storage[2 * n + 1] = s.storage[2 * n] + step;
       s.weight[2 * n] = across * (1.0 - p[d].face_part);
       s.weight[2 * n + 1] = across * p[d].face_part;
     }
@@ -136,22 +136,22 @@ class Lattice {
       const double own = eps[along[1] + column];
       s.void_fraction[2 * n] = 0.5 * (eps[along[0] + column] + own);
       s.void_fraction[2 * n + 1] = 0.5 * (own + eps[along[2] + column]);
-      s.open[2 * n] = open_face_[d][s.home[2 * n]];
-      s.open[2 * n + 1] = open_face_[d][s.home[2 * n + 1]];
+      s.open[2 * n] = open_face_[d][s.storage[2 * n]];
+      s.open[2 * n + 1] = open_face_[d][s.storage[2 * n + 1]];
     }
   }
   /// The face below (side 0) or above (1) a cell of the domain along d.
   struct Face {
-    std::ptrdiff_t home;   ///< where it is accounted
-    std::ptrdiff_t below;  ///< padded indices of its cells
+    std::ptrdiff_t storage;  ///< where it is accounted
+    std::ptrdiff_t below;    ///< padded indices of its cells
     std::ptrdiff_t above;
   };
   [[nodiscard]] Face face(int d, int i, int j, int k, int side) const {
     std::array<int, 3> at{i, j, k};
     at[static_cast<std::size_t>(d)] += side;
     const std::ptrdiff_t above = cell(at[0], at[1], at[2]);
-    return {home(at[0], at[1], at[2]), cell(at[0] - (d == 0), at[1] - (d == 1), at[2] - (d == 2)),
-            above};
+    return {storage(at[0], at[1], at[2]),
+            cell(at[0] - (d == 0), at[1] - (d == 1), at[2] - (d == 2)), above};
   }
 
   /// Slope [1/m] of a cell field along d at `p`, the mean over the same two faces, weighted by
@@ -160,9 +160,9 @@ class Lattice {
     const int e = (d + 1) % 3;
     const int f = (d + 2) % 3;
     const std::ptrdiff_t column = offset(cells_[e], p[e].cell) + offset(cells_[f], p[f].cell);
-    const std::ptrdiff_t home = offset(storage_[e], p[e].cell) + offset(storage_[f], p[f].cell);
-    const double share_low = open_face_[d][offset(storage_[d], p[d].cell) + home];
-    const double share_high = open_face_[d][offset(storage_[d], p[d].cell + 1) + home];
+    const std::ptrdiff_t storage = offset(storage_[e], p[e].cell) + offset(storage_[f], p[f].cell);
+    const double share_low = open_face_[d][offset(storage_[d], p[d].cell) + storage];
+    const double share_high = open_face_[d][offset(storage_[d], p[d].cell + 1) + storage];
     const double sum = share_low + share_high;
     if (!(sum > 0.0)) return 0.0;
     const double below = field[offset(cells_[d], p[d].cell - 1) + column];
@@ -179,7 +179,7 @@ class Lattice {
   /// The cell whose void fraction a grain in the cell `own` has: that, or an open neighbour's if it
   /// is closed.
   [[nodiscard]] std::ptrdiff_t host_cell(std::ptrdiff_t own, const double* position) const {
-    if (open_cell_[own] >= k_least_open) return own;
+    if (open_cell_[own] >= k_min_open) return own;
     const std::ptrdiff_t other = nearest_open_cell(position);
     return other >= 0 ? other : own;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coupling/stencils/smooth_kernel.hpp"
 
-#include "coupling/self_disturbance/own_disturbance.hpp"
+#include "coupling/self_disturbance/disturbance_formulas.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,7 @@ void SmoothKernel::meet(int axis, double place, double knots, bool is_of_faces,
 }
 
 SmoothKernel::Room SmoothKernel::set(const double* position, double diameter) {
-  constexpr int k_fewest = 4;  // cells between sides: the flow around a grain is one in space
+  constexpr int k_min = 4;  // cells between sides: the flow around a grain is one in space
   const fluid::Grid& grid = lattice_.grid();
   Room room = Room::open;
   double volume = 1.0;
@@ -63,7 +63,7 @@ SmoothKernel::Room SmoothKernel::set(const double* position, double diameter) {
     const auto axis = static_cast<std::size_t>(d);
     const double h = grid.spacing[d];
     const int n = grid.count[axis];
-    double knots = std::max(diameter / h, own_disturbance::k_least_knots);
+    double knots = std::max(diameter / h, self_disturbance::k_min_knots);
     double place = (position[d] - grid.origin[d]) / h;
     if (grid.is_periodic[axis]) {
       if (4.0 * knots > n) room = Room::none;
@@ -72,12 +72,12 @@ SmoothKernel::Room SmoothKernel::set(const double* position, double diameter) {
       const double side = std::min(place, n - place);
       // Two cells of the halo, and half a cell to the next point.
       if (2.0 * knots > side - 0.5 && room == Room::open) room = Room::beside;
-      if (n < k_fewest) room = Room::none;
+      if (n < k_min) room = Room::none;
       knots = std::min(knots, 0.5 * (side + 2.5));
     }
     meet(d, place, knots, true, faces_[axis]);
     meet(d, place, knots, false, middles_[axis]);
-    volume *= own_disturbance::kernel_width(knots * h, h);
+    volume *= self_disturbance::kernel_width(knots * h, h);
   }
   width_ = std::cbrt(volume);
   if (room != Room::none && lattice_.has_bodies() && !is_clear()) room = Room::none;

@@ -24,7 +24,7 @@ class SmoothKernel {
   /// the halo beyond, which holds the mirrored velocity.
   Room set(const double* position, double diameter);
 
-  /// Standard deviation [m] of the Gaussian that the grid answers like (own_disturbance), the
+  /// Standard deviation [m] of the Gaussian that the grid answers like (self_disturbance), the
   /// geometric mean of the axes.
   [[nodiscard]] double width() const { return width_; }
   /// Share of the weights of component d inside the domain, faces on the sides not counted [-].

@@ -69,14 +69,14 @@ void ContactForces::persistent_pairs(const ContactScene& scene, const LawRange& 
   for (auto p = static_cast<std::size_t>(range.begin); p < end; p += k_batch) {
     const std::size_t count = std::min(k_batch, end - p);
     const std::size_t near =
-        contact::gather_standing(scene.rows(), scene.images, pairs, p, count, law.range, columns);
+        contact::gather_persistent(scene.rows(), scene.images, pairs, p, count, law.range, columns);
     columns.keep_history_at(pairs.history + p * stride, count);
     const bool has_scales = find_weight_ratios(scene, pairs, nullptr, p, count, columns);
     const double overlap = contact::derive_pair_columns(columns, count);
     tile.largest_overlap = std::max(tile.largest_overlap, overlap);
-    if (near < count) contact::hold_apart(pairs.is_touching + p, count, columns);
+    if (near < count) contact::mask_separated(pairs.is_touching + p, count, columns);
     evaluate_laws(law, columns, count, scene.step);
-    if (near < count) contact::forget_apart(pairs.is_touching + p, count, stride, columns);
+    if (near < count) contact::clear_separated(pairs.is_touching + p, count, stride, columns);
     tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(near);
     contact::scatter_pairs(contacts.slots.data() + p, count, has_scales, columns, force);
   }

@@ -111,9 +111,9 @@ std::vector<ContactList> by_law(const ContactScene& scene, const ContactList& li
     if (b < 0) continue;
     const auto law = laws.index(scene.particles.material(static_cast<std::size_t>(a)),
                                 scene.particles.material(static_cast<std::size_t>(b)));
-    const bool touches = list.touching()[q] != 0;
-    lists[static_cast<std::size_t>(law)].push(a, b, touches ? list.history(q) : nullptr,
-                                              touches ? 1 : 0);
+    const bool is_touching = list.touching()[q] != 0;
+    lists[static_cast<std::size_t>(law)].push(a, b, is_touching ? list.history(q) : nullptr,
+                                              is_touching ? 1 : 0);
   }
   return lists;
 }

@@ -9,14 +9,14 @@ namespace dust::particles {
 namespace {
 
 /// What the kernel works on.
-struct FlyingRows {
+struct FlightRows {
   MotionRows rows;
   const std::uint8_t* activity = nullptr;
   std::size_t begin = 0;
   std::size_t end = 0;
 };
 
-DUST_KERNEL void fly_rows(const FlyingRows& f, double step, std::int64_t count) {
+DUST_KERNEL void advance_rows(const FlightRows& f, double step, std::int64_t count) {
   using lanes::Lanes;
   const MotionRows& r = f.rows;
   const auto row_of = [](double* p, std::size_t n) __attribute__((always_inline))->Lanes& {
@@ -65,7 +65,8 @@ DUST_KERNEL void fly_rows(const FlyingRows& f, double step, std::int64_t count) 
 
 void advance_free_flight(const MotionRows& rows, std::span<const std::uint8_t> activity,
                          std::size_t begin, std::size_t end, double step, std::int64_t count) {
-  fly_rows({.rows = rows, .activity = activity.data(), .begin = begin, .end = end}, step, count);
+  advance_rows({.rows = rows, .activity = activity.data(), .begin = begin, .end = end}, step,
+               count);
 }
 
 }  // namespace dust::particles

@@ -54,10 +54,10 @@ __attribute__((always_inline)) inline void step_row(const MotionRows& r, double 
   take_fourth(position, radius);
   Lanes kick = Lanes{} + step;
   Lanes ahead = Lanes{} + 0.5;  // what is left of the step after the kick, in kicks
-  const double lag = motion[1][3];
-  const bool is_new = lag != half_step;
+  const double since_kick = motion[1][3];
+  const bool is_new = since_kick != half_step;
   if (is_new) [[unlikely]] {
-    kick = Lanes{} + (lag + half_step);
+    kick = Lanes{} + (since_kick + half_step);
     ahead = half_step / kick;
   }
   const Lanes acceleration = force * inverse_mass + lanes::row(r.gravity, r.material[n]);

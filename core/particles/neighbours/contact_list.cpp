@@ -139,23 +139,23 @@ std::span<const std::int32_t> ContactList::prune(const PairList& outer,
   for (const LawRange& range : outer.ranges()) {
     known.turn_to(range);
     Choice* const touching = scratch.touching.data();
-    Choice* touches = touching;
+    Choice* touching_end = touching;
     Choice* approaches = scratch.apart.data();
     for (auto q = static_cast<std::size_t>(range.begin); q < static_cast<std::size_t>(range.end);
          ++q) {
       const std::int32_t contact = known.find(a[q], b[q]);
-      *touches = *approaches = {static_cast<std::int32_t>(q), contact};
-      touches += contact >= 0 ? 1 : 0;
+      *touching_end = *approaches = {static_cast<std::int32_t>(q), contact};
+      touching_end += contact >= 0 ? 1 : 0;
       approaches += (contact < 0) & (approach[q] != 0) ? 1 : 0;
       if ((contact < 0) & (approach[q] > contact::k_may_meet)) [[unlikely]] {
         scratch.unseen.push_back(static_cast<std::int32_t>(q));
       }
     }
     LawRange part{range.law, range.surface, number(), 0, 0};
-    const std::ptrdiff_t persistent = may_persist ? (touches - touching) / 8 * 8 : 0;
+    const std::ptrdiff_t persistent = may_persist ? (touching_end - touching) / 8 * 8 : 0;
     end = std::copy_n(touching, persistent, end);
     part.persistent_end = number();
-    end = std::merge(touching + persistent, touches, scratch.apart.data(), approaches, end,
+    end = std::merge(touching + persistent, touching_end, scratch.apart.data(), approaches, end,
                      [](const Choice& x, const Choice& y) { return x.entry < y.entry; });
     part.end = number();
     if (part.end > part.begin) scratch.ranges.push_back(part);

@@ -49,7 +49,7 @@ std::int64_t InnerList::prune(const PruneInput& in, GhostExchange& ghosts) {
                   .trajectories = {rows.position, rows.motion, skin_.data()},
                   // Two steps: the velocities at hand are not quite those of the step behind.
                   .look_ahead = {.range = scene.laws.largest_range(),
-                                 .horizon = duration,
+                                 .lifetime = duration,
                                  .behind = 2.0 * scene.step},
                   .duration = duration};
   ghosts.restart(tiles_.size(), scene.tiling.tile_size, scene.tiling.coarse_count);

@@ -25,8 +25,9 @@ namespace dust::particles {
 struct TileContacts {
   ContactList pairs;
   ContactList walls;
-  /// Per entry of `walls`: the closest-triangle cache, see bodies::Touches. Forgotten when the list
-  /// is pruned, so that a run that goes on from a checkpoint finds what an unbroken one finds.
+  /// Per entry of `walls`: the closest-triangle cache, see bodies::ClosestPoints. Forgotten when
+  /// the list is pruned, so that a run that goes on from a checkpoint finds what an unbroken one
+  /// finds.
   std::vector<std::int32_t> nearest_triangles;
   std::vector<contact::Places> slots;  ///< per entry of `pairs`: rows of a ForceBuffer
 };
@@ -117,8 +118,8 @@ class InnerList {
   /// What pairs are pruned by.
   struct Pruning {
     const PruneInput& in;
-    contact::Courses trajectories;
-    contact::Outlook look_ahead;
+    contact::Trajectories trajectories;
+    contact::ContactPrediction look_ahead;
     double duration = 0.0;  ///< [s]
   };
 

@@ -16,7 +16,7 @@ constexpr std::int64_t k_longest_inner_in_bed = 256;
 
 constexpr std::int64_t k_shortest_outer = 16;
 constexpr std::int64_t k_longest_outer = 4096;
-constexpr double k_most_flight_steps = 1e6;
+constexpr double k_max_flight_steps = 1e6;
 
 /// The least skin in diameters, and what one level more adds.
 constexpr double k_skin = 0.15;
@@ -42,7 +42,7 @@ void ListTuner::record(const InnerStatistics& s) {
 }
 
 std::int64_t ListTuner::begin_outer(double flight_steps) {
-  const auto most = static_cast<std::int64_t>(std::min(flight_steps, k_most_flight_steps));
+  const auto most = static_cast<std::int64_t>(std::min(flight_steps, k_max_flight_steps));
   outer_lifetime_ = std::min(next_outer_lifetime_, std::max(k_shortest_outer, most));
   return outer_lifetime_;
 }

@@ -60,8 +60,8 @@ OuterList::Shares OuterList::share_pairs(const ListScene& scene,
   in.position = scene.particles.contact_rows().position;
   in.velocity = scene.particles.contact_rows().motion;
   in.velocity_stride = ParticleStore::k_motion_stride;
-  in.allowance = trajectories_.rows();
-  in.horizon = scene.time_of(lifetime_);
+  in.skin = trajectories_.rows();
+  in.lifetime = scene.time_of(lifetime_);
   in.range = scene.laws.largest_range();
   for (int d = 0; d < 3; ++d) {
     in.origin[d] = scene.origin[d];

@@ -91,9 +91,9 @@ bool OuterList::come_near(const ListScene& scene, std::size_t i, std::size_t j) 
                        trajectories_.skin(j) + scene.laws.largest_range();
   const sdk::Vec3 xi = trajectories_.position(i, t);
   const sdk::Vec3 xj = trajectories_.position(j, t);
-  return passes_within(contact::nearest_image(scene.images, &xj.x, &xi.x),
-                       trajectories_.velocity(i) - trajectories_.velocity(j), remaining(scene),
-                       limit);
+  return approach_is_within(contact::nearest_image(scene.images, &xj.x, &xi.x),
+                            trajectories_.velocity(i) - trajectories_.velocity(j), remaining(scene),
+                            limit);
 }
 
 /// The pairs that the new trajectories bring near, by the list they belong to: of each tile, of the

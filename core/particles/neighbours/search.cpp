@@ -265,7 +265,7 @@ class Level {
 };
 
 /// Whether two grains come nearer than `limit` within the horizon, going straight on.
-bool comes_near(const SearchInput& in, std::int32_t i, std::int32_t j, double limit) {
+bool can_approach(const SearchInput& in, std::int32_t i, std::int32_t j, double limit) {
   const double* pi = in.position + 4 * static_cast<std::ptrdiff_t>(i);
   const double* pj = in.position + 4 * static_cast<std::ptrdiff_t>(j);
   const double* vi = in.velocity + in.velocity_stride * static_cast<std::size_t>(i);
@@ -278,7 +278,7 @@ bool comes_near(const SearchInput& in, std::int32_t i, std::int32_t j, double li
     if (in.period[d] > 0.0) x[d] = base::nearest_image(x[d], in.period[d]);
     v[d] = vi[d] - vj[d];
   }
-  return passes_within(x, v, in.horizon, limit);
+  return approach_is_within(x, v, in.lifetime, limit);
 }
 
 /// Particles by size. Level l holds radii in [largest / 2^(l+1), largest / 2^l); the very bound
@@ -298,9 +298,9 @@ std::vector<Level> levels_of(const SearchInput& in, std::vector<Ball>& balls) {
     if (members.size() <= static_cast<std::size_t>(level))
       members.resize(static_cast<std::size_t>(level) + 1);
     members[static_cast<std::size_t>(level)].push_back(static_cast<std::int32_t>(n));
-    const double way = 0.5 * in.horizon;
+    const double way = 0.5 * in.lifetime;
     balls[n] = {p[0] + way * v[0], p[1] + way * v[1], p[2] + way * v[2],
-                p[3] + in.allowance[4 * n + 3] + 0.5 * in.range +
+                p[3] + in.skin[4 * n + 3] + 0.5 * in.range +
                     way * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])};
   }
   std::vector<Level> levels;
@@ -332,7 +332,7 @@ std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_
     for (std::size_t place = blocks[b].begin; place < blocks[b].end; ++place) {
       const std::int32_t i = own.row(place);
       const auto n = 4 * static_cast<std::size_t>(i);
-      const double reach = in.position[n + 3] + in.allowance[n + 3] + in.range;
+      const double reach = in.position[n + 3] + in.skin[n + 3] + in.range;
       for (std::size_t l = 0; l <= blocks[b].level; ++l) {
         // Of its own level a particle looks at those behind it: each pair is found once.
         const bool is_own = l == blocks[b].level;
@@ -342,7 +342,7 @@ std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_
         for (std::size_t k = 0; k < count; ++k) {
           const std::int32_t j = level.row(static_cast<std::size_t>(close[k]));
           const auto m = 4 * static_cast<std::size_t>(j);
-          if (comes_near(in, i, j, reach + in.position[m + 3] + in.allowance[m + 3])) {
+          if (can_approach(in, i, j, reach + in.position[m + 3] + in.skin[m + 3])) {
             out.push_back({i, j});
           }
         }

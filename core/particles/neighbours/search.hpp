@@ -17,20 +17,21 @@ struct SearchInput {
   std::size_t count = 0;
   const double* position = nullptr;  ///< x, y, z, radius
   const double* velocity = nullptr;
-  std::size_t velocity_stride = 4;    ///< doubles from one grain's to the next
-  const double* allowance = nullptr;  ///< fourth column of rows: allowed deviation [m]
-  double horizon = 0.0;               ///< [s] for how long the list is to hold
-  double range = 0.0;                 ///< [m] beyond touch
+  std::size_t velocity_stride = 4;  ///< doubles from one grain's to the next
+  const double* skin = nullptr;     ///< fourth column of rows: allowed deviation [m]
+  double lifetime = 0.0;            ///< [s] for how long the list is to hold
+  double range = 0.0;               ///< [m] beyond touch
   double origin[3] = {0, 0, 0};
   double period[3] = {0, 0, 0};  ///< [m] 0 = not periodic
 };
 
 /// Whether two grains, apart by `x` [m] and going on at the relative velocity `v` [m/s], come
 /// nearer than `limit` [m] within `horizon` [s].
-inline bool passes_within(const sdk::Vec3& x, const sdk::Vec3& v, double horizon, double limit) {
+inline bool approach_is_within(const sdk::Vec3& x, const sdk::Vec3& v, double lifetime,
+                               double limit) {
   const double xv = dot(x, v);
   const double vv = dot(v, v);
-  const double t = std::clamp(-xv / std::max(vv, 1e-300), 0.0, horizon);
+  const double t = std::clamp(-xv / std::max(vv, 1e-300), 0.0, lifetime);
   return dot(x, x) + t * (2.0 * xv + t * vv) < limit * limit;
 }
 

@@ -16,11 +16,11 @@ namespace {
 /// Skin of a fine particle that stands alone, in diameters of the largest; in a crowd it is half
 /// the mean distance, so that a pocket of dust does not list its far neighbours, but no less than
 /// this share of its own diameter.
-constexpr double k_lone_skin = 0.3;
-constexpr double k_crowd_skin = 0.15;
+constexpr double k_isolated_skin = 0.3;
+constexpr double k_dense_skin = 0.15;
 /// Edge of the cells in which a crowd is counted, in diameters of the largest particle: small, so
 /// that the empty space round a pocket does not thin it out.
-constexpr double k_crowd_edge = 0.2;
+constexpr double k_dense_edge = 0.2;
 
 }  // namespace
 
@@ -29,23 +29,24 @@ void choose_skins(const SkinInput& in, ReferenceTrajectories& trajectories) {
     trajectories.set_skin(n, in.skin_in_diameters * 2.0 * in.position[4 * n + 3]);
   }
   if (in.coarse_count == in.count) return;
-  const double lone = k_lone_skin * in.largest_diameter;
-  const double edge = k_crowd_edge * in.largest_diameter;
-  std::unordered_map<std::uint64_t, std::int32_t> crowd;
+  const double isolated = k_isolated_skin * in.largest_diameter;
+  const double edge = k_dense_edge * in.largest_diameter;
+  std::unordered_map<std::uint64_t, std::int32_t> dense;
   std::vector<std::uint64_t> key_of(in.count - in.coarse_count);
   for (std::size_t n = in.coarse_count; n < in.count; ++n) {
     const double* p = in.position + 4 * n;
     const auto cell = [&](int d) { return base::cell_index((p[d] - in.origin[d]) / edge); };
     const std::uint64_t key = base::cell_key(cell(0), cell(1), cell(2));
     key_of[n - in.coarse_count] = key;
-    ++crowd[key];
+    ++dense[key];
   }
   for (std::size_t n = in.coarse_count; n < in.count; ++n) {
     const double diameter = 2.0 * in.position[4 * n + 3];
-    const std::int32_t here = crowd[key_of[n - in.coarse_count]];
+    const std::int32_t here = dense[key_of[n - in.coarse_count]];
     const double spacing = edge / std::cbrt(static_cast<double>(here));
     trajectories.set_skin(
-        n, here == 1 ? lone : std::max(k_crowd_skin * diameter, std::min(lone, 0.5 * spacing)));
+        n, here == 1 ? isolated
+                     : std::max(k_dense_skin * diameter, std::min(isolated, 0.5 * spacing)));
   }
 }
 

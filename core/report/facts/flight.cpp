@@ -19,8 +19,8 @@ State moved(const State& s, const State& rate, double step) {
 
 }  // namespace
 
-std::vector<double> lone_flight(const LoneGrain& grain, const StillAir& air, double gravity,
-                                std::span<const double> drops) {
+std::vector<double> isolated_flight(const IsolatedGrain& grain, const StillAir& air, double gravity,
+                                    std::span<const double> drops) {
   std::vector<double> places;
   if (drops.empty() || !(grain.density > air.density) || !(gravity > 0.0)) return places;
   const double stokes = 18.0 * air.viscosity / (grain.density * grain.diameter * grain.diameter);

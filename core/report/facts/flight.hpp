@@ -7,7 +7,7 @@
 namespace dust::report {
 
 /// A grain by itself, thrown level.
-struct LoneGrain {
+struct IsolatedGrain {
   double diameter = 0.0;  ///< [m]
   double density = 0.0;   ///< [kg/m3]
   double speed = 0.0;     ///< [m/s] level, at the start
@@ -24,7 +24,7 @@ struct StillAir {
 /// (Schiller and Naumann 1935, good to 5 % up to Re 800), by Runge and Kutta's fourth order; the
 /// step is 1/50 of the response time rho_p d^2 / (18 mu), so that its error is far below a um. A
 /// stream drags the air along and flies farther than a grain of it would alone. `gravity` [m/s2].
-[[nodiscard]] std::vector<double> lone_flight(const LoneGrain& grain, const StillAir& air,
-                                              double gravity, std::span<const double> drops);
+[[nodiscard]] std::vector<double> isolated_flight(const IsolatedGrain& grain, const StillAir& air,
+                                                  double gravity, std::span<const double> drops);
 
 }  // namespace dust::report

@@ -38,7 +38,7 @@ json lone_json(const json& report, const DustSizes& dust, double speed, double g
   for (int k = 0; k <= k_points; ++k) drops.push_back(deepest * (k * k) / (k_points * k_points));
   for (const double size : sizes) {
     const auto places =
-        lone_flight({size, density, speed}, {*air_density, *viscosity}, gravity, drops);
+        isolated_flight({size, density, speed}, {*air_density, *viscosity}, gravity, drops);
     if (places.empty()) continue;
     list.push_back({{"diameter", size}, {"x", places}, {"drop", drops}});
   }

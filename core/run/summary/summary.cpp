@@ -170,7 +170,7 @@ Json health(const Simulation& s) {
   if (s.coupling() != nullptr) {
     const auto& c = s.coupling()->report();
     h["voidage_shares_moved_to_open_cells"] = c.moved_shares;
-    h["voidage_cells_relieved"] = c.relieved_cells;
+    h["voidage_cells_relieved"] = c.limited_cells;
     h["grains_without_open_cell"] = c.unplaced_grains;
     h["drag_components_without_open_face"] = c.unpaired_forces;
     h["smallest_void_fraction"] = c.smallest_void_fraction;
@@ -206,7 +206,7 @@ Json outlines(const Simulation& s) {
     const auto t = body.triangles(domain.min - more, domain.max + more, longest / k_pieces);
     // Front and back edges lie on each other: one is enough.
     std::set<std::array<double, 4>> lines;
-    for (const auto& [a, b] : bodies::seen_edges(t, 1, longest)) {
+    for (const auto& [a, b] : bodies::visible_edges(t, 1, longest)) {
       const auto rounded = [&](double v) { return 1e-6 * longest * std::round(1e6 * v / longest); };
       std::array<double, 4> line{rounded(a.x), rounded(a.z), rounded(b.x), rounded(b.z)};
       if (std::pair(line[2], line[3]) < std::pair(line[0], line[1])) {

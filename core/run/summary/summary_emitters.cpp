@@ -68,7 +68,7 @@ constexpr double k_smallest_shortfall = 1e-2;
 Json or_null(double value, bool is_given) { return is_given ? Json(value) : Json(nullptr); }
 
 /// Many sizes of a file would drown the summary; their number is told.
-constexpr std::size_t k_most_rows = 200;
+constexpr std::size_t k_max_rows = 200;
 
 }  // namespace
 
@@ -88,7 +88,7 @@ Json emitters_json(const Simulation& s) {
     j["waiting"] = waiting_of(s, e);
     const auto rows = size_rows(s, e);
     Json sizes = Json::array();
-    for (std::size_t n = 0; n < rows.size() && rows.size() <= k_most_rows; ++n) {
+    for (std::size_t n = 0; n < rows.size() && rows.size() <= k_max_rows; ++n) {
       const SizeRow& row = rows[n];
       const bool is_asked = row.asked_number >= 0.0;
       sizes.push_back({{"diameter_m", row.diameter},
@@ -108,7 +108,7 @@ void add_emitter_tables(const Simulation& s, Json& tables) {
   for (std::size_t e = 0; e < s.models().emitters.size(); ++e) {
     const auto came = s.insertion().ledger().totals_of(e);
     const auto rows = size_rows(s, e);
-    if (came.computed == 0 || rows.size() > k_most_rows) continue;
+    if (came.computed == 0 || rows.size() > k_max_rows) continue;
     Json cells = Json::array();
     for (const SizeRow& row : rows) {
       const bool is_asked = row.asked_mass >= 0.0;

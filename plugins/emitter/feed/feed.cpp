@@ -36,7 +36,7 @@ class Feed final : public sdk::Emitter {
     Vec3 max;
     Vec3 velocity;
     double rare_below = 0.0;
-    std::int64_t copies_of_rare = 20;
+    std::int64_t samples_per_particle = 20;
     double begin = 0.0;
     double end = std::numeric_limits<double>::infinity();
   };
@@ -56,7 +56,7 @@ class Feed final : public sdk::Emitter {
              "Smaller grains are released as copies_of_rare copies of weight 1 / copies_of_rare.")
         .at_least(0)
         .optional();
-    s.integer(&Parameters::copies_of_rare, "copies_of_rare", "Copies of each rare grain.")
+    s.integer(&Parameters::samples_per_particle, "copies_of_rare", "Copies of each rare grain.")
         .symbol("k")
         .at_least(1)
         .optional();
@@ -208,7 +208,7 @@ class Feed final : public sdk::Emitter {
 
   /// Computed grains of size i per second.
   [[nodiscard]] double flow_of(std::size_t i, double density) const {
-    return rate(i, density) * (is_rare(i) ? static_cast<double>(p_.copies_of_rare) : 1.0);
+    return rate(i, density) * (is_rare(i) ? static_cast<double>(p_.samples_per_particle) : 1.0);
   }
 
   /// In order of time where that leads on, for it keeps the mass to within one grain; large ones
@@ -252,7 +252,7 @@ class Feed final : public sdk::Emitter {
             .position = x + (is_rare(size) ? in_front : -behind) * p_.velocity,
             .velocity = p_.velocity,
             .diameter = sizes_.diameters()[size],
-            .weight = is_rare(size) ? 1.0 / static_cast<double>(p_.copies_of_rare) : 1.0};
+            .weight = is_rare(size) ? 1.0 / static_cast<double>(p_.samples_per_particle) : 1.0};
   }
 
   [[nodiscard]] bool is_rare(std::size_t i) const { return sizes_.diameters()[i] < p_.rare_below; }
@@ -292,7 +292,8 @@ class Feed final : public sdk::Emitter {
   /// The next copy of a rare size: one at a random instant of each interval 1 / (k rate).
   [[nodiscard]] Event next_rare(std::size_t i, const sdk::EmitterContext& context) const {
     if (!is_rare(i) || sizes_.fractions()[i] == 0.0) return {};
-    const double copies = rate(i, context.grain_density) * static_cast<double>(p_.copies_of_rare);
+    const double copies =
+        rate(i, context.grain_density) * static_cast<double>(p_.samples_per_particle);
     const auto n = static_cast<std::uint64_t>(released_[i]);
     Event e;
     e.size = i;

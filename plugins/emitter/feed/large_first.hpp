@@ -76,8 +76,8 @@ class LargeFirst {
     for (const std::size_t i : order) {
       if (!(sizes_[i].flow > 0.0)) continue;
       const double ahead = 2.0 * placed_.level_diameter(0.5 * sizes_[i].diameter);
-      const double horizon = std::min(last, end + ahead / opening_.speed);
-      for (double time = time_of(i, first, random); time < horizon;
+      const double until = std::min(last, end + ahead / opening_.speed);
+      for (double time = time_of(i, first, random); time < until;
            time = time_of(i, first, random)) {
         place(i, time, random);
         ++next_[i];

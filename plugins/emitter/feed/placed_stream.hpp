@@ -103,11 +103,12 @@ class PlacedStream {
 
   /// Both radii are at most half an edge: neighbouring cells hold all that can touch.
   static bool is_free_in(const Level& level, sdk::Vec3 centre, double radius, double gap) {
-    const Cell home = cell_of(centre, level.edge);
+    const Cell centre_cell = cell_of(centre, level.edge);
     for (std::int64_t k = -1; k <= 1; ++k) {
       for (std::int64_t j = -1; j <= 1; ++j) {
         for (std::int64_t i = -1; i <= 1; ++i) {
-          const auto found = level.cells.find(key_of({home[0] + i, home[1] + j, home[2] + k}));
+          const auto found = level.cells.find(
+              key_of({centre_cell[0] + i, centre_cell[1] + j, centre_cell[2] + k}));
           if (found == level.cells.end()) continue;
           for (const StreamGrain& g : found->second) {
             const sdk::Vec3 apart = centre - g.centre;

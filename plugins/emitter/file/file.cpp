@@ -17,10 +17,10 @@ namespace sdk = dust::sdk;
 using sdk::Vec3;
 
 /// Up to so many different diameters each is a size class of its own.
-constexpr std::size_t k_most_classes = 24;
+constexpr std::size_t k_max_classes = 24;
 
-bool ends_with(const std::string& text, const std::string& ending) {
-  return text.size() >= ending.size() && text.ends_with(ending);
+bool ends_with(const std::string& text, const std::string& extension) {
+  return text.size() >= extension.size() && text.ends_with(extension);
 }
 
 class File final : public sdk::PlacedEmitter {
@@ -85,13 +85,13 @@ class File final : public sdk::PlacedEmitter {
     std::vector<double> d = table_.diameter;
     std::sort(d.begin(), d.end());
     d.erase(std::unique(d.begin(), d.end()), d.end());
-    if (d.size() <= k_most_classes) return d;
+    if (d.size() <= k_max_classes) return d;
     // Many sizes: classes of equal width in ln d stand for them; both ends are exact.
     const double low = d.front();
     const double high = d.back();
     std::vector<double> classes{low};
-    for (std::size_t n = 1; n + 1 < k_most_classes; ++n) {
-      classes.push_back(low * std::pow(high / low, static_cast<double>(n) / (k_most_classes - 1)));
+    for (std::size_t n = 1; n + 1 < k_max_classes; ++n) {
+      classes.push_back(low * std::pow(high / low, static_cast<double>(n) / (k_max_classes - 1)));
     }
     classes.push_back(high);
     return classes;

@@ -101,16 +101,16 @@ inline std::size_t column_of(std::string_view cell, const std::string& place) {
 class Complaints {
  public:
   void add(const std::string& text) {
-    if (++count_ <= k_told) text_ += (text_.empty() ? "" : "; ") + text;
+    if (++count_ <= k_reported) text_ += (text_.empty() ? "" : "; ") + text;
   }
   void throw_if_any() const {
     if (count_ == 0) return;
-    const std::size_t more = count_ > k_told ? count_ - k_told : 0;
+    const std::size_t more = count_ > k_reported ? count_ - k_reported : 0;
     throw TableError(text_ + (more > 0 ? "; and " + std::to_string(more) + " more" : ""));
   }
 
  private:
-  static constexpr std::size_t k_told = 5;
+  static constexpr std::size_t k_reported = 5;
   std::size_t count_ = 0;
   std::string text_;
 };

@@ -131,7 +131,7 @@ class Fill final : public sdk::PlacedEmitter {
       for (std::int64_t n = 0; n < wanted[i]; ++n, ++number) {
         Vec3 x;
         if (!find_place(number, radius, context, placed, tries_left, x)) {
-          tell_shortfall(number, all, radius, requests, context);
+          report_shortfall(number, all, radius, requests, context);
         }
         placed.add({x.x, x.y, x.z}, radius);
         requests.push_back(
@@ -224,9 +224,9 @@ class Fill final : public sdk::PlacedEmitter {
     return false;
   }
 
-  [[noreturn]] void tell_shortfall(std::uint64_t number, std::int64_t all, double radius,
-                                   const std::vector<sdk::InsertionRequest>& requests,
-                                   const sdk::EmitterContext& context) const {
+  [[noreturn]] void report_shortfall(std::uint64_t number, std::int64_t all, double radius,
+                                     const std::vector<sdk::InsertionRequest>& requests,
+                                     const sdk::EmitterContext& context) const {
     const double wanted = solids_volume(numbers(context.grain_density));
     double placed = 0.0;
     for (auto s = requests.end() - static_cast<std::ptrdiff_t>(number); s != requests.end(); ++s) {

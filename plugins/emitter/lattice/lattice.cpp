@@ -22,7 +22,7 @@ constexpr std::uint32_t k_jitter = 1;
 constexpr std::uint32_t k_speed = 2;
 
 /// More grains than any machine runs: a slip of the unit, told before the memory is full.
-constexpr double k_most_sites = 5e7;
+constexpr double k_max_sites = 5e7;
 
 class Lattice final : public sdk::PlacedEmitter {
  public:
@@ -87,9 +87,9 @@ class Lattice final : public sdk::PlacedEmitter {
     const formula::Point high{p.max.x, p.max.y, p.max.z};
     const bool is_face_centred = p.arrangement == "face_centred";
     const double sites = formula::count_sites(low, high, p.spacing, is_face_centred);
-    if (sites > k_most_sites) {
+    if (sites > k_max_sites) {
       std::ostringstream text;
-      text << "the box from min to max has " << sites << " sites, and at most " << k_most_sites
+      text << "the box from min to max has " << sites << " sites, and at most " << k_max_sites
            << " are placed: make it smaller or spacing wider";
       throw sdk::ParameterError(text.str());
     }

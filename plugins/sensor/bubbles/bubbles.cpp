@@ -147,7 +147,7 @@ class Bubbles final : public sdk::Sensor {
   };
 
   /// Change of volume between two samples beyond which a bubble has merged or split.
-  static constexpr double k_most_growth = 1.5;
+  static constexpr double k_max_growth = 1.5;
 
   void find_axis(const sdk::WorldView& world) {
     const sdk::Vec3 up = norm(p_.direction) > 0.0 ? p_.direction : -world.gravity;
@@ -244,7 +244,7 @@ class Bubbles final : public sdk::Sensor {
       const auto b = static_cast<std::size_t>(best[0] - 1);
       if (!counts(found[a]) || !counts(last_[b])) continue;
       const double growth = found[a].volume / last_[b].volume;
-      if (growth > k_most_growth || growth * k_most_growth < 1.0) continue;
+      if (growth > k_max_growth || growth * k_max_growth < 1.0) continue;
       pairs.push_back({a, b});
     }
     return pairs;

@@ -59,9 +59,9 @@ class Coordination final : public sdk::Sensor {
     values_ = {z.mean, z.mechanical, z.rattlers,
                chosen > 0 ? walls / static_cast<double>(chosen) : 0.0};
     if (sdk::is_after(world, p_.steady_after)) means_.add(values_, world.interval);
-    shares_.assign(k_most + 1, 0.0);
+    shares_.assign(k_max + 1, 0.0);
     for (const std::int32_t n : count) {
-      shares_[static_cast<std::size_t>(std::min<std::int32_t>(n, k_most))] +=
+      shares_[static_cast<std::size_t>(std::min<std::int32_t>(n, k_max))] +=
           1.0 / static_cast<double>(chosen);
     }
     curve_.add(world.time, z.mean);
@@ -85,7 +85,7 @@ class Coordination final : public sdk::Sensor {
     sink.curve("Coordination number", "time [s]", "contacts per grain [1]", "mean", curve_.x(),
                curve_.y());
     std::vector<double> contacts;
-    for (std::int32_t n = 0; n <= k_most; ++n) contacts.push_back(n);
+    for (std::int32_t n = 0; n <= k_max; ++n) contacts.push_back(n);
     sink.curve("Numbers of contacts at the end", "contacts [1]", "share of grains [1]",
                "all grains", contacts, shares_);
   }
@@ -105,11 +105,11 @@ class Coordination final : public sdk::Sensor {
 
  private:
   static constexpr std::size_t k_columns = 4;
-  static constexpr std::int32_t k_most = 16;  ///< more contacts are counted as so many
+  static constexpr std::int32_t k_max = 16;  ///< more contacts are counted as so many
 
   Parameters p_;
   std::vector<double> values_ = std::vector<double>(k_columns, 0.0);  ///< at the last sample
-  std::vector<double> shares_ = std::vector<double>(k_most + 1, 0.0);
+  std::vector<double> shares_ = std::vector<double>(k_max + 1, 0.0);
   sdk::BatchMeans means_{k_columns};
   sdk::ThinnedCurve curve_;
 };

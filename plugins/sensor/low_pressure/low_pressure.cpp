@@ -12,7 +12,7 @@ namespace formula = dust::model::low_pressure;
 namespace sdk = dust::sdk;
 
 /// Cells with less room than this are taken for solid.
-constexpr float k_least_open = 0.5f;
+constexpr float k_min_open = 0.5f;
 
 /// Adds pressure * duration to `sum` and returns the lowest pressure of the open cells.
 DUST_KERNEL float accumulate(std::size_t n, const float* __restrict pressure,
@@ -22,7 +22,7 @@ DUST_KERNEL float accumulate(std::size_t n, const float* __restrict pressure,
 #pragma omp simd reduction(min : lowest)
   for (std::size_t i = 0; i < n; ++i) {
     sum[i] += duration * static_cast<double>(pressure[i]);
-    const float p = open_fraction[i] >= k_least_open ? pressure[i] : FLT_MAX;
+    const float p = open_fraction[i] >= k_min_open ? pressure[i] : FLT_MAX;
     lowest = p < lowest ? p : lowest;
   }
   return lowest;
@@ -185,7 +185,7 @@ class LowPressure final : public sdk::Sensor {
     double error = -1.0;    ///< [Pa]
   };
 
-  static constexpr std::int64_t k_fewest_blocks = 4;
+  static constexpr std::int64_t k_min_blocks = 4;
 
   void start(const sdk::FluidColumns& f) {
     for (int d = 0; d < 3; ++d) cells_.count[d] = f.count[d];
@@ -196,8 +196,7 @@ class LowPressure final : public sdk::Sensor {
     total_ = block_;
     squares_ = block_;
     is_open_.resize(block_.size());
-    for (std::size_t i = 0; i < block_.size(); ++i)
-      is_open_[i] = f.open_fraction[i] >= k_least_open;
+    for (std::size_t i = 0; i < block_.size(); ++i) is_open_[i] = f.open_fraction[i] >= k_min_open;
     blocks_ = 0;
     block_duration_ = 0.0;
   }
@@ -225,12 +224,12 @@ class LowPressure final : public sdk::Sensor {
     formula::Cells cells;
     sdk::Vec3 spacing;
     std::vector<double> pressure;
-    std::vector<double> error;  ///< empty below `k_fewest_blocks`
+    std::vector<double> error;  ///< empty below `k_min_blocks`
     std::vector<char> is_open;
   };
   [[nodiscard]] Field mean_field() const {
     Field field{cells_, spacing_, mean_pressure(), {}, is_open_};
-    if (blocks_ >= k_fewest_blocks) {
+    if (blocks_ >= k_min_blocks) {
       field.error.resize(block_.size());
       for (std::size_t i = 0; i < block_.size(); ++i) field.error[i] = cell_error(i);
     }

@@ -82,8 +82,8 @@ class MinimumFluidisation final : public sdk::Sensor {
   }
   void summary(sdk::FigureSink& sink) const override {
     const auto [rising, falling] = branches();
-    tell(sink, "rising/", formula::evaluate(rising, p_.fixed_share, p_.fluid_factor));
-    tell(sink, "falling/", formula::evaluate(falling, p_.fixed_share, p_.fluid_factor));
+    write(sink, "rising/", formula::evaluate(rising, p_.fixed_share, p_.fluid_factor));
+    write(sink, "falling/", formula::evaluate(falling, p_.fixed_share, p_.fluid_factor));
   }
   void report(sdk::ReportSink& sink) const override {
     const auto [rising, falling] = branches();
@@ -118,7 +118,7 @@ class MinimumFluidisation final : public sdk::Sensor {
   }
 
  private:
-  static constexpr std::size_t k_most_points = 2048;
+  static constexpr std::size_t k_max_points = 2048;
 
   /// Centre of mass of the grains along the axis [m].
   [[nodiscard]] double centre(const sdk::GrainColumns& g) const {
@@ -142,14 +142,14 @@ class MinimumFluidisation final : public sdk::Sensor {
     points_.push_back({sum_.velocity / n, sum_.pressure / n, sum_.height / n});
     sum_ = {};
     samples_ = 0;
-    if (points_.size() < k_most_points) return;
-    for (std::size_t i = 0; i < k_most_points / 2; ++i) {
+    if (points_.size() < k_max_points) return;
+    for (std::size_t i = 0; i < k_max_points / 2; ++i) {
       const Point& a = points_[2 * i];
       const Point& b = points_[2 * i + 1];
       points_[i] = {0.5 * (a.velocity + b.velocity), 0.5 * (a.pressure + b.pressure),
                     0.5 * (a.height + b.height)};
     }
-    points_.resize(k_most_points / 2);
+    points_.resize(k_max_points / 2);
     samples_per_point_ *= 2;
   }
 
@@ -173,7 +173,7 @@ class MinimumFluidisation final : public sdk::Sensor {
     }
     return b;
   }
-  static void tell(sdk::FigureSink& sink, const std::string& name, const formula::Ramp& ramp) {
+  static void write(sdk::FigureSink& sink, const std::string& name, const formula::Ramp& ramp) {
     sink.figure(name + "by_pressure", ramp.by_pressure.velocity, "m/s", ramp.by_pressure.error,
                 sdk::detail(sdk::Quantity::velocity));
     sink.figure(name + "by_height", ramp.by_height.velocity, "m/s", ramp.by_height.error,

@@ -60,10 +60,10 @@ struct Crossing {
   double error = -1.0;    ///< [m/s] one standard error
 };
 
-constexpr std::size_t k_fewest = 5;  ///< points of a line
+constexpr std::size_t k_min = 5;  ///< points of a line
 
 inline Crossing crossing(const Line& low, const Line& high) {
-  if (low.count < k_fewest || high.count < k_fewest || low.slope == high.slope) return {};
+  if (low.count < k_min || high.count < k_min || low.slope == high.slope) return {};
   if (!(low.spread > 0.0) || !(high.spread > 0.0)) return {};
   const double velocity = (high.at(0.0) - low.at(0.0)) / (low.slope - high.slope);
   if (!std::isfinite(velocity) || !(velocity > 0.0)) return {};
@@ -100,7 +100,7 @@ inline std::vector<Point> slow_points(std::vector<Point> points, double pressure
 /// plateau is first guessed by the median over the fastest fifth of the ramp.
 inline Ramp evaluate(const std::vector<Point>& points, double fixed_share, double fluid_factor) {
   Ramp ramp;
-  if (points.size() < 2 * k_fewest) return ramp;
+  if (points.size() < 2 * k_min) return ramp;
   double slowest = points.front().velocity;
   double fastest = slowest;
   for (const Point& p : points) {
@@ -119,7 +119,7 @@ inline Ramp evaluate(const std::vector<Point>& points, double fixed_share, doubl
   const auto height = [](const Point& p) { return p.height; };
   std::vector<Point> packed = slow_points(points, fixed_share * guess);
   const Line rough = fit(packed, pressure);
-  if (packed.size() < k_fewest || !(rough.slope > 0.0)) return ramp;
+  if (packed.size() < k_min || !(rough.slope > 0.0)) return ramp;
   const double first = rough.middle + (guess - rough.mean) / rough.slope;
   // Chosen by velocity: a choice by a pressure that swings would leave out the upper swings.
   packed.clear();

@@ -49,10 +49,10 @@ class Probe final : public sdk::Sensor {
 
   explicit Probe(const Parameters& p)
       : p_(p), places_(formula::lattice(p.from, p.to, p.count, p.across, p.count_across)) {
-    constexpr std::size_t k_most = 2000;
-    if (places_.size() > k_most) {
+    constexpr std::size_t k_max = 2000;
+    if (places_.size() > k_max) {
       throw sdk::ParameterError("count times count_across are " + std::to_string(places_.size()) +
-                                " places; at most " + std::to_string(k_most) + " are kept");
+                                " places; at most " + std::to_string(k_max) + " are kept");
     }
     if (p.count_across > 1 && !(norm(p.across) > 0.0)) {
       throw sdk::ParameterError(

@@ -94,7 +94,7 @@ class Stress final : public sdk::Sensor {
     sink.curve("Pressure of the grains", "time [s]", "pressure [Pa]", "whole box", curve_.x(),
                curve_.y());
     const double time = means_.duration();
-    if (cells_.size() > k_most_rows || !(time > 0.0)) return;
+    if (cells_.size() > k_max_rows || !(time > 0.0)) return;
     const std::vector<std::string> columns = {
         "x [mm]",  "y [mm]",  "z [mm]",  "density [kg/m3]", "v_x [m/s]", "v_y [m/s]", "v_z [m/s]",
         "xx [Pa]", "yy [Pa]", "zz [Pa]", "xy [Pa]",         "xz [Pa]",   "yz [Pa]"};
@@ -136,7 +136,7 @@ class Stress final : public sdk::Sensor {
   static constexpr std::size_t k_components = 6;
   static constexpr std::size_t k_density = 6;
   static constexpr std::size_t k_fields = 10;
-  static constexpr std::size_t k_most_rows = 2000;
+  static constexpr std::size_t k_max_rows = 2000;
   static constexpr const char* k_names[k_components] = {"xx", "yy", "zz", "xy", "xz", "yz"};
 
   static double pressure(const double* f) { return (f[0] + f[1] + f[2]) / 3.0; }

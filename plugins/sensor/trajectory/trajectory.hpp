@@ -68,8 +68,8 @@ inline double quantile(const SortedSample& s, double p) {
 /// are not taken for independent ones.
 /// @param blocks  number B of time blocks; -1 is returned below 8
 inline double share_error(const SortedSample& s, double q, double p, std::size_t blocks) {
-  constexpr std::size_t k_fewest_blocks = 8;
-  if (blocks < k_fewest_blocks || s.total_weight <= 0.0) return -1.0;
+  constexpr std::size_t k_min_blocks = 8;
+  if (blocks < k_min_blocks || s.total_weight <= 0.0) return -1.0;
   std::vector<double> sums(blocks, 0.0);
   for (std::size_t i = 0; i < s.value.size(); ++i) {
     sums[s.block[i]] += s.weight[i] * ((s.value[i] <= q ? 1.0 : 0.0) - p);
@@ -86,8 +86,8 @@ inline double share_error(const SortedSample& s, double q, double p, std::size_t
 /// @return -1 for fewer than 10 values or without an error of the share
 /// Source: Woodruff (1952), doi:10.1080/01621459.1952.10483443.
 inline double quantile_error(const SortedSample& s, double p, std::size_t blocks) {
-  constexpr std::size_t k_fewest_values = 10;
-  if (s.value.size() < k_fewest_values) return -1.0;
+  constexpr std::size_t k_min_values = 10;
+  if (s.value.size() < k_min_values) return -1.0;
   const double share = share_error(s, quantile(s, p), p, blocks);
   if (share < 0.0) return -1.0;
   return 0.5 * (quantile(s, std::min(p + share, 1.0)) - quantile(s, std::max(p - share, 0.0)));

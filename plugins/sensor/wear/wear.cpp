@@ -60,7 +60,7 @@ class Wear final : public sdk::Sensor {
         throw sdk::ParameterError("'max' must lie above 'min' in x, y and z");
       }
       const double cells = std::ceil((p.max[d] - p.min[d]) / p.cell - 1e-9);
-      if (cells > k_most_cells) throw sdk::ParameterError("'cell' makes too many places");
+      if (cells > k_max_cells) throw sdk::ParameterError("'cell' makes too many places");
       grid_.count[d] = std::max(1, static_cast<int>(cells));
       grid_.spacing[d] = p.cell;
     }
@@ -139,7 +139,7 @@ class Wear final : public sdk::Sensor {
   }
 
  private:
-  static constexpr double k_most_cells = 500.0;  ///< per direction
+  static constexpr double k_max_cells = 500.0;  ///< per direction
   static constexpr std::size_t k_columns = 3;
   static constexpr const char* k_names[k_columns] = {"volume_rate", "normal_force",
                                                      "friction_power"};

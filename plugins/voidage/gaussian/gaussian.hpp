@@ -11,11 +11,11 @@ namespace dust::model::gaussian {
 /// Standard deviations at which the kernel ends along each axis [-].
 inline constexpr double k_reach = 3.0;
 /// Least standard deviation in cells: below it the kernel is narrower than the grid can show.
-inline constexpr double k_least_cells = 0.5;
+inline constexpr double k_min_cells = 0.5;
 
 /// Standard deviation [m] along one axis: `width` over the diameter, at least half a cell.
 inline double deviation(double width, double diameter, double spacing) {
-  return std::max(width * diameter, k_least_cells * spacing);
+  return std::max(width * diameter, k_min_cells * spacing);
 }
 
 /// Shares of the cells along one axis of a truncated Gaussian; they sum to 1.

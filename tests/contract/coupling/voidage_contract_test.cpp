@@ -101,14 +101,14 @@ TEST_CASE("the shares of a grain shall sum to 1 and lie in the cells it touches"
         sum += s.weight[row];
         least = std::min(least, s.weight[row]);
         const sdk::Vec3 reach = rule.model->reach(k_grid, c.radius[g]);
-        const auto touches = [&](double at, int d, int cell) {
+        const auto is_touching = [&](double at, int d, int cell) {
           const double low = k_grid.origin[d] + cell * k_grid.spacing[d];
           const double rounding = 1e-12;
           return at + reach[d] >= low - rounding &&
                  at - reach[d] <= low + k_grid.spacing[d] + rounding;
         };
-        is_near &= touches(c.x[g], 0, s.i[row]) && touches(c.y[g], 1, s.j[row]) &&
-                   touches(c.z[g], 2, s.k[row]);
+        is_near &= is_touching(c.x[g], 0, s.i[row]) && is_touching(c.y[g], 1, s.j[row]) &&
+                   is_touching(c.z[g], 2, s.k[row]);
       }
       REQUIRE(least >= 0.0);
       REQUIRE(is_near);

@@ -2,7 +2,7 @@
 // Every shipped model against the rules of its kind, the same as `engine test-plugin` applies.
 #include "contract/contract.hpp"
 #include "dust/sdk/vec3.hpp"
-#include "engine/counting_new.hpp"
+#include "engine/memory/counting_new.hpp"
 
 #include <doctest/doctest.h>
 
@@ -100,7 +100,7 @@ const std::map<std::string, std::vector<Values>>& sets_of_values() {
   return list;
 }
 
-std::vector<contract::RuleResult> findings_of(const registry::Entry& entry) {
+std::vector<contract::RuleResult> rule_results_of(const registry::Entry& entry) {
   contract::Options options;
   const auto sets = sets_of_values().find(full_name(entry.info));
   if (sets != sets_of_values().end()) {
@@ -112,7 +112,7 @@ std::vector<contract::RuleResult> findings_of(const registry::Entry& entry) {
 }
 
 Verdict verdict(const std::string& kind, const std::string& name, const std::string& rule) {
-  for (const auto& result : findings_of(*shipped().find(kind, name))) {
+  for (const auto& result : rule_results_of(*shipped().find(kind, name))) {
     if (result.rule.find(rule) != std::string::npos) return result.verdict;
   }
   FAIL("no such rule: " << rule);
@@ -135,7 +135,7 @@ TEST_CASE("every shipped model shall keep the rules of its kind") {
     const bool is_general = entry.info.kind != "sensor";  // placed in contract/sensor
     if (!is_general || judged_elsewhere().contains(full_name(entry.info))) continue;
     ++judged;
-    const auto results = findings_of(entry);
+    const auto results = rule_results_of(entry);
     CHECK(results.size() >= 5);
     for (const auto& result : results) {
       CAPTURE(result.rule);

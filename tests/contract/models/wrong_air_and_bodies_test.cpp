@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-using wrong::findings_on;
+using wrong::rule_results_on;
 using wrong::Seen;
 using namespace dust::sdk;
 
@@ -48,18 +48,18 @@ struct Rolling final : RollingLaw {
 
 TEST_CASE("a rolling law that is wrong shall be told by the rule it breaks") {
   Seen seen;
-  CHECK(seen.broken(findings_on<Rolling>(Rolling::none), "brakes").empty());
-  CHECK(seen.broken(findings_on<Rolling>(Rolling::one_sided), "both sides")
+  CHECK(seen.broken(rule_results_on<Rolling>(Rolling::none), "brakes").empty());
+  CHECK(seen.broken(rule_results_on<Rolling>(Rolling::one_sided), "both sides")
             .find("seen from the other side the couple differs") == 0);
-  CHECK(seen.broken(findings_on<Rolling>(Rolling::along_x), "direction")
+  CHECK(seen.broken(rule_results_on<Rolling>(Rolling::along_x), "direction")
             .find("in a turned world the couple differs") == 0);
-  CHECK(seen.broken(findings_on<Rolling>(Rolling::drives), "brakes") ==
+  CHECK(seen.broken(rule_results_on<Rolling>(Rolling::drives), "brakes") ==
         "a contact that begins is driven, not braked");
-  CHECK(seen.broken(findings_on<Rolling>(Rolling::restless), "does not rotate") ==
+  CHECK(seen.broken(rule_results_on<Rolling>(Rolling::restless), "does not rotate") ==
         "contact 0 feels a couple without any rotation");
-  CHECK(seen.broken(findings_on<Rolling>(Rolling::drives), "energy")
+  CHECK(seen.broken(rule_results_on<Rolling>(Rolling::drives), "energy")
             .find("a rolling grain gets faster: ") == 0);
-  CHECK(seen.broken(findings_on<Rolling>(Rolling::moves_by_rotation), "second order")
+  CHECK(seen.broken(rule_results_on<Rolling>(Rolling::moves_by_rotation), "second order")
             .find("a grain that rocks keeps ") == 0);
   seen.check_complete();
 }
@@ -91,10 +91,10 @@ struct Centre final : VoidageRule {
 
 TEST_CASE("a rule of voidage that is wrong shall be told by the rule it breaks") {
   Seen seen;
-  CHECK(seen.broken(findings_on<Centre>(Centre::none), "volume").empty());
-  CHECK(seen.broken(findings_on<Centre>(Centre::loses), "volume") ==
+  CHECK(seen.broken(rule_results_on<Centre>(Centre::none), "volume").empty());
+  CHECK(seen.broken(rule_results_on<Centre>(Centre::loses), "volume") ==
         "the shares of a grain sum to 1 - 0.25");
-  CHECK(seen.broken(findings_on<Centre>(Centre::next_door), "volume")
+  CHECK(seen.broken(rule_results_on<Centre>(Centre::next_door), "volume")
             .find("has a share in a cell it does not touch") != std::string::npos);
   seen.check_complete();
 }
@@ -118,16 +118,17 @@ struct Side final : BoundaryCondition {
 TEST_CASE("a boundary that is wrong shall be told by the rule it breaks") {
   Seen seen;
   const std::string rule = "determines the flow";
-  CHECK(seen.broken(findings_on<Side>(SideRules{}), rule).empty());
+  CHECK(seen.broken(rule_results_on<Side>(SideRules{}), rule).empty());
   // Velocity and pressure both given, neither, a pressure's rule for a velocity.
   for (const SideRules rules :
        {SideRules{SideRule::fixed, SideRule::fixed, SideRule::fixed},
         SideRules{SideRule::gradient, SideRule::fixed, SideRule::gradient},
         SideRules{SideRule::pressure, SideRule::fixed, SideRule::gradient}}) {
-    CHECK(seen.broken(findings_on<Side>(rules), rule).find("normal velocity and pressure must") ==
-          0);
+    CHECK(
+        seen.broken(rule_results_on<Side>(rules), rule).find("normal velocity and pressure must") ==
+        0);
   }
-  CHECK(seen.broken(findings_on<Side>(
+  CHECK(seen.broken(rule_results_on<Side>(
                         SideRules{SideRule::fixed, SideRule::periodic, SideRule::gradient}),
                     rule)
             .find("the tangential velocity must") == 0);
@@ -159,12 +160,12 @@ struct Slide final : Motion {
 
 TEST_CASE("a motion that is wrong shall be told by the rule it breaks") {
   Seen seen;
-  CHECK(seen.broken(findings_on<Slide>(Slide::none), "velocity takes it").empty());
-  CHECK(seen.broken(findings_on<Slide>(Slide::elsewhere), "velocity takes it")
+  CHECK(seen.broken(rule_results_on<Slide>(Slide::none), "velocity takes it").empty());
+  CHECK(seen.broken(rule_results_on<Slide>(Slide::elsewhere), "velocity takes it")
             .find("in 1000 of 1000 short times the body goes elsewhere") == 0);
-  CHECK(seen.broken(findings_on<Slide>(Slide::faster), "largest speed")
+  CHECK(seen.broken(rule_results_on<Slide>(Slide::faster), "largest speed")
             .find("the body is faster at 0 s than the largest speed told") == 0);
-  CHECK(seen.broken(findings_on<Slide>(Slide::surface_faster), "largest speed") ==
+  CHECK(seen.broken(rule_results_on<Slide>(Slide::surface_faster), "largest speed") ==
         "3 m/s at 0 s, told are 1 m/s");
   seen.check_complete();
 }
@@ -199,21 +200,21 @@ struct Push final : FluidForce {
 
 TEST_CASE("a force of the fluid that is wrong shall be told by the rule it breaks") {
   Seen seen;
-  for (const auto& result : findings_on<Push>(Push::none)) {
+  for (const auto& result : rule_results_on<Push>(Push::none)) {
     INFO(result.rule);
     CHECK_MESSAGE(result.verdict != wrong::Verdict::fail, result.why);
   }
-  CHECK(seen.broken(findings_on<Push>(Push::always), "uniform stream").find(" N on grain 0") !=
+  CHECK(seen.broken(rule_results_on<Push>(Push::always), "uniform stream").find(" N on grain 0") !=
         std::string::npos);
-  CHECK(seen.broken(findings_on<Push>(Push::along_x), "turns with the frame")
+  CHECK(seen.broken(rule_results_on<Push>(Push::along_x), "turns with the frame")
             .find("the force on grain 0 differs when the axes are exchanged") == 0);
-  CHECK(seen.broken(findings_on<Push>(Push::negative_mass), "negative added mass")
+  CHECK(seen.broken(rule_results_on<Push>(Push::negative_mass), "negative added mass")
             .find("added mass -") == 0);
-  CHECK(seen.broken(findings_on<Push>(Push::far_resistance), "negative added mass")
+  CHECK(seen.broken(rule_results_on<Push>(Push::far_resistance), "negative added mass")
             .find("kg/s where no wall is near") != std::string::npos);
-  CHECK(seen.broken(findings_on<Push>(Push::twice), "takes over") ==
+  CHECK(seen.broken(rule_results_on<Push>(Push::twice), "takes over") ==
         "the fluid would get it a second time");
-  CHECK(seen.broken(findings_on<Push>(Push::nowhere), "takes over") ==
+  CHECK(seen.broken(rule_results_on<Push>(Push::nowhere), "takes over") ==
         "no part of the fluid's equation holds it");
   seen.check_complete();
 }
@@ -237,11 +238,11 @@ struct Eddies final : TurbulenceModel {
 
 TEST_CASE("a turbulence model that is wrong shall be told by the rule it breaks") {
   Seen seen;
-  CHECK(seen.broken(findings_on<Eddies>(Eddies::of_all_sizes), "no negative").empty());
-  CHECK(seen.broken(findings_on<Eddies>(Eddies::negative), "no negative").find("-") == 0);
-  CHECK(seen.broken(findings_on<Eddies>(Eddies::always), "no negative") ==
+  CHECK(seen.broken(rule_results_on<Eddies>(Eddies::of_all_sizes), "no negative").empty());
+  CHECK(seen.broken(rule_results_on<Eddies>(Eddies::negative), "no negative").find("-") == 0);
+  CHECK(seen.broken(rule_results_on<Eddies>(Eddies::always), "no negative") ==
         "1 Pa s without any shear");
-  CHECK(seen.remarked(findings_on<Eddies>(Eddies::of_all_sizes), "cells become small")
+  CHECK(seen.remarked(rule_results_on<Eddies>(Eddies::of_all_sizes), "cells become small")
             .find("cells 10,000 times smaller still have ") == 0);
   seen.check_complete();
 }

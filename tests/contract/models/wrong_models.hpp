@@ -3,7 +3,7 @@
 
 #include "contract/contract.hpp"
 #include "dust/sdk/model.hpp"
-#include "engine/counting_new.hpp"
+#include "engine/memory/counting_new.hpp"
 
 #include <doctest/doctest.h>
 
@@ -30,7 +30,7 @@ inline sdk::ModelInfo described(const char* kind, sdk::ParameterSchema schema = 
 }
 
 /// The findings on a model made by `make` from its values.
-inline std::vector<RuleResult> findings_of(sdk::ModelInfo info, sdk::ModelFactory make) {
+inline std::vector<RuleResult> rule_results_of(sdk::ModelInfo info, sdk::ModelFactory make) {
   dust::contract::Options options;
   options.allocations = dust::engine::allocations_so_far;
   return dust::contract::check_model({std::move(info), std::move(make), {}}, options);
@@ -38,8 +38,8 @@ inline std::vector<RuleResult> findings_of(sdk::ModelInfo info, sdk::ModelFactor
 
 /// The findings on a model without parameters.
 template <class Model, class... Arguments>
-std::vector<RuleResult> findings_on(Arguments... arguments) {
-  return findings_of(described(Model::k_kind), [=](std::span<const sdk::Value>) {
+std::vector<RuleResult> rule_results_on(Arguments... arguments) {
+  return rule_results_of(described(Model::k_kind), [=](std::span<const sdk::Value>) {
     return std::make_unique<Model>(arguments...);
   });
 }
@@ -49,11 +49,11 @@ class Seen {
  public:
   /// What the rule whose sentence holds `rule` says; "" if it is kept.
   std::string broken(const std::vector<RuleResult>& results, const std::string& rule) {
-    return told(results, rule, Verdict::fail);
+    return reported(results, rule, Verdict::fail);
   }
   /// The same of a rule that remarks and does not fail.
   std::string remarked(const std::vector<RuleResult>& results, const std::string& rule) {
-    return told(results, rule, Verdict::remark);
+    return reported(results, rule, Verdict::remark);
   }
   /// No rule is left that no model has broken. Rules that are one and the same for all kinds are
   /// broken by drag laws (`also_common`).
@@ -74,8 +74,8 @@ class Seen {
   }
 
  private:
-  std::string told(const std::vector<RuleResult>& results, const std::string& rule,
-                   Verdict verdict) {
+  std::string reported(const std::vector<RuleResult>& results, const std::string& rule,
+                       Verdict verdict) {
     std::string why;
     bool is_there = false;
     for (const RuleResult& result : results) {

@@ -14,7 +14,7 @@
 
 using namespace dust;
 using wrong::described;
-using wrong::findings_of;
+using wrong::rule_results_of;
 using wrong::Seen;
 using wrong::Verdict;
 
@@ -36,9 +36,10 @@ std::vector<contract::RuleResult> drag(const Evaluate& evaluate) {
   };
   sdk::SchemaOf<P> s;
   s.number(&P::size, "size", sdk::dimension::length, "A size.").above(0);
-  return findings_of(described("drag", s.build()), [evaluate](std::span<const sdk::Value> values) {
-    return std::make_unique<Drag>(evaluate, std::get<double>(values[0]));
-  });
+  return rule_results_of(described("drag", s.build()),
+                         [evaluate](std::span<const sdk::Value> values) {
+                           return std::make_unique<Drag>(evaluate, std::get<double>(values[0]));
+                         });
 }
 
 void each(const sdk::DragBatch& b, const std::function<double(std::size_t)>& factor) {
@@ -89,10 +90,10 @@ TEST_CASE("a drag law that is wrong shall be told by the rule it breaks") {
         "F = 2: meant for crowds only? Its limits should say so");
   sdk::ModelInfo silent = described("drag");
   silent.source.clear();
-  CHECK(seen.broken(findings_of(std::move(silent),
-                                [](std::span<const sdk::Value>) {
-                                  return std::make_unique<Drag>([](auto&, double) {}, 0.0);
-                                }),
+  CHECK(seen.broken(rule_results_of(std::move(silent),
+                                    [](std::span<const sdk::Value>) {
+                                      return std::make_unique<Drag>([](auto&, double) {}, 0.0);
+                                    }),
                     "says what it is") == "it has no source: author, year, or \"own definition\"");
   seen.check_complete(true);
 }
@@ -168,7 +169,7 @@ std::vector<contract::RuleResult> spring(Spring::Fault fault) {
   s.number(&Spring::P::restitution, "restitution", sdk::dimension::none, "Restitution.")
       .above(0)
       .at_most(1);
-  return findings_of(
+  return rule_results_of(
       described("contact", s.build()), [fault, schema = s.build()](std::span<const sdk::Value> v) {
         return std::make_unique<Spring>(sdk::parameters_from<Spring::P>(schema, v), fault);
       });
@@ -251,7 +252,7 @@ struct Sticky final : sdk::CohesionLaw {
 };
 
 std::vector<contract::RuleResult> sticky(Sticky::Fault fault) {
-  return findings_of(described("cohesion", {}), [fault](std::span<const sdk::Value>) {
+  return rule_results_of(described("cohesion", {}), [fault](std::span<const sdk::Value>) {
     return std::make_unique<Sticky>(fault);
   });
 }
@@ -310,7 +311,7 @@ struct Drip final : sdk::Emitter {
 
 TEST_CASE("an emitter that is wrong shall be told by the rule it breaks") {
   Seen seen;
-  const auto results = findings_of(described("emitter"), [](std::span<const sdk::Value>) {
+  const auto results = rule_results_of(described("emitter"), [](std::span<const sdk::Value>) {
     return std::make_unique<Drip>(0.8);
   });
   CHECK(seen.broken(results, "mass").find("kg came in") != std::string::npos);
@@ -370,18 +371,18 @@ struct Blind final : sdk::Sensor {
 
 TEST_CASE("a sensor that is wrong shall be told by the rule it breaks") {
   Seen seen;
-  const auto results = findings_of(
+  const auto results = rule_results_of(
       described("sensor"), [](std::span<const sdk::Value>) { return std::make_unique<Counter>(); });
   CHECK(seen.broken(results, "names") == "'Looks' is not a path of snake_case words");
   CHECK(seen.broken(results, "zeros") == "'looks' is 90 in an empty domain");
   CHECK(seen.broken(results, "saved and loaded").find("after 1 samples 'looks' differs") !=
         std::string::npos);
-  CHECK(seen.broken(wrong::findings_on<Last>(), "between rows") ==
+  CHECK(seen.broken(wrong::rule_results_on<Last>(), "between rows") ==
         "'looks' is 9 in a row for every 9 samples; the samples say 5");
-  CHECK(seen.broken(wrong::findings_on<Blind>(), "sees something") == "its summary is empty");
-  CHECK(seen.broken(wrong::findings_on<Mislabelled>(), "its figures are") ==
+  CHECK(seen.broken(wrong::rule_results_on<Blind>(), "sees something") == "its summary is empty");
+  CHECK(seen.broken(wrong::rule_results_on<Mislabelled>(), "its figures are") ==
         "'fed' is said to be a mass, which has no unit s");
-  CHECK(seen.broken(wrong::findings_on<Unspecified>(), "its figures are") ==
+  CHECK(seen.broken(wrong::rule_results_on<Unspecified>(), "its figures are") ==
         "'out' has the role opening but no quantity");
   seen.check_complete();
 }

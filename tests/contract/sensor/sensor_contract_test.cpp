@@ -276,12 +276,12 @@ TEST_CASE("every sensor shall keep the rules of sensors") {
       CAPTURE(p.name);
       REQUIRE(subject.others.contains(p.name));
     }
-    const auto findings = contract::check_model(
+    const auto rule_results = contract::check_model(
         *entry, {.given = subject.parameters, .also_given = {}, .others = subject.others});
-    CHECK(findings.size() >= 9);
-    for (const contract::RuleResult& finding : findings) {
-      CAPTURE(finding.rule);
-      CHECK_MESSAGE(finding.verdict == contract::Verdict::pass, finding.why);
+    CHECK(rule_results.size() >= 9);
+    for (const contract::RuleResult& rule_result : rule_results) {
+      CAPTURE(rule_result.rule);
+      CHECK_MESSAGE(rule_result.verdict == contract::Verdict::pass, rule_result.why);
     }
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bodies/mesh.hpp"
+#include "bodies/mesh/mesh.hpp"
 #include "dust/sdk/error.hpp"
 #include "unit/bodies/meshes.hpp"
 #include "unit/bodies/shapes.hpp"
@@ -202,10 +202,10 @@ TEST_CASE("binary and text STL files shall give the same part, in the unit and p
     CHECK(part->nearest({-0.010, 0.005, 0.131}).distance == doctest::Approx(1e-3).epsilon(1e-9));
     CHECK(part->nearest({0.002, 0.005, 0.110}).distance == doctest::Approx(2e-3).epsilon(1e-9));
     CHECK(part->nearest({-0.010, 0.005, 0.11}).distance == doctest::Approx(-5e-3).epsilon(1e-9));
-    REQUIRE(part->remarks().size() == 1);
-    CHECK(part->remarks()[0].find("12 triangles, 8 points, 1 shell, closed, volume 6 cm3, area 22 "
-                                  "cm2, 1 parts that a grain can touch at once; edges 10 mm to "
-                                  "36.06 mm") != std::string::npos);
+    REQUIRE(part->notes().size() == 1);
+    CHECK(part->notes()[0].find("12 triangles, 8 points, 1 shell, closed, volume 6 cm3, area 22 "
+                                "cm2, 1 parts that a grain can touch at once; edges 10 mm to "
+                                "36.06 mm") != std::string::npos);
     CHECK(part->warnings().empty());
   }
 }

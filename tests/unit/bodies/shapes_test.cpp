@@ -219,8 +219,9 @@ TEST_CASE("many spheres shall touch each part where one after the other would") 
         hint[n] = -1;
       }
       column[0][0] = 0.4, column[2][0] = 0.1;  // on the axis of the belt's pulley
-      const dust::bodies::Touches spheres{k_spheres, column[0], column[1], column[2], column[3],
-                                          hint,      column[4], column[5], column[6], column[7]};
+      const dust::bodies::ClosestPoints spheres{k_spheres, column[0], column[1], column[2],
+                                                column[3], hint,      column[4], column[5],
+                                                column[6], column[7]};
       // A second look has the memory of the first, and the same answer.
       for (int look = 0; look < 2; ++look) {
         d.shape->touch(part, spheres);
@@ -293,7 +294,7 @@ TEST_CASE("written surfaces shall lie on the shapes and look outwards") {
 
 TEST_CASE("a drawing shall show rims and bends of a surface, not its triangles") {
   const auto count = [](const Shape& shape, int depth) {
-    return dust::bodies::seen_edges(shape.triangles({-1, -1, -1}, {1, 1, 1}, 0.02), depth, 2.0)
+    return dust::bodies::visible_edges(shape.triangles({-1, -1, -1}, {1, 1, 1}, 0.02), depth, 2.0)
         .size();
   };
   CHECK(count(*make_shape("box", {{"min", Vec3{-0.5, -0.4, -0.3}}, {"max", Vec3{0.5, 0.4, 0.3}}}),
@@ -301,14 +302,14 @@ TEST_CASE("a drawing shall show rims and bends of a surface, not its triangles")
   const auto disc = make_shape(
       "disc", {{"centre", Vec3{}}, {"axis", Vec3{0, 1, 0}}, {"radius", 0.6}, {"thickness", 0.1}});
   const auto t = disc->triangles({-1, -1, -1}, {1, 1, 1}, 0.02);
-  const auto along = dust::bodies::seen_edges(t, 1, 2.0);
+  const auto along = dust::bodies::visible_edges(t, 1, 2.0);
   CHECK(along.size() > 40);
   for (const auto& [a, b] : along) {
     CHECK(std::hypot(a.x, a.z) == doctest::Approx(0.6));
     CHECK(std::hypot(b.x, b.z) == doctest::Approx(0.6));
   }
   // From the side two lines more, where the round turns from the eye.
-  CHECK(dust::bodies::seen_edges(t, 0, 2.0).size() == along.size() + 2);
+  CHECK(dust::bodies::visible_edges(t, 0, 2.0).size() == along.size() + 2);
 }
 
 TEST_CASE("a round shape shall know what turning leaves it as it is") {

@@ -61,7 +61,7 @@ constexpr Way k_ways[] = {{false, false, false},
                           {true, true, true}};
 World::Choice box(const Way& way) {
   World::Choice choice = box(way.with_body);
-  if (way.corrects) choice.own_disturbance = scenario::OwnDisturbance::taken_off;
+  if (way.corrects) choice.disturbance_correction = scenario::DisturbanceCorrection::taken_off;
   if (way.with_large) choice.voidage = "big_particle";
   return choice;
 }
@@ -108,13 +108,13 @@ TEST_CASE("the sums over time of what grains received and the fluid got shall be
     double scale = 0.0;
     // Of the pressure gradient the fluid leaves to the grains what they take up in the cells;
     // grains that cross cells take up another part, and the difference is exchanged, too.
-    const auto owed_to_cells = [&] {
+    const auto deferred_in_cells = [&] {
       MemoryArchive archive;
       world.coupling->save(archive);
       sdk::Vec3 sum;
       for (int d = 0; d < 3; ++d) {
-        for (const double owed : archive.numbers(std::string("stress_owed_") + "xyz"[d])) {
-          sum[d] += owed;
+        for (const double deferred : archive.numbers(std::string("stress_owed_") + "xyz"[d])) {
+          sum[d] += deferred;
         }
       }
       return sum;
@@ -157,7 +157,7 @@ TEST_CASE("the sums over time of what grains received and the fluid got shall be
     static_cast<void>(world.coupling->begin_step({}, k_step));
     give();
     REQUIRE(scale > 0.0);
-    CHECK(norm(on_grains + on_fluid + owed_to_cells()) < k_sum * scale);
+    CHECK(norm(on_grains + on_fluid + deferred_in_cells()) < k_sum * scale);
     CHECK(norm(on_grains) > 1e-3 * scale);
     CHECK(world.coupling->report().unpaired_forces == 0);
   }
@@ -193,11 +193,11 @@ TEST_CASE("rows reordered between map and refresh shall change nothing for any g
 std::array<std::vector<double>, 3> stress_residuals(const World& world) {
   MemoryArchive archive;
   world.coupling->save(archive);
-  std::array<std::vector<double>, 3> owed;
+  std::array<std::vector<double>, 3> deferred;
   for (std::size_t d = 0; d < 3; ++d) {
-    owed[d] = archive.numbers(std::string("stress_owed_") + "xyz"[d]);
+    deferred[d] = archive.numbers(std::string("stress_owed_") + "xyz"[d]);
   }
-  return owed;
+  return deferred;
 }
 
 TEST_CASE(
@@ -224,15 +224,15 @@ TEST_CASE(
   const auto plain = residuals_after(Fate::none);
   double scale = 0.0;
   for (const auto& component : plain) {
-    for (const double owed : component) scale = std::max(scale, std::abs(owed));
+    for (const double deferred : component) scale = std::max(scale, std::abs(deferred));
   }
   REQUIRE(scale > 0.0);
   for (const Fate fate : {Fate::after, Fate::twice, Fate::gone}) {
-    const auto owed = residuals_after(fate);
+    const auto deferred = residuals_after(fate);
     for (std::size_t d = 0; d < 3; ++d) {
       int others = 0;
-      for (std::size_t cell = 0; cell < owed[d].size(); ++cell) {
-        others += std::abs(owed[d][cell] - plain[d][cell]) > k_sum * scale ? 1 : 0;
+      for (std::size_t cell = 0; cell < deferred[d].size(); ++cell) {
+        others += std::abs(deferred[d][cell] - plain[d][cell]) > k_sum * scale ? 1 : 0;
       }
       // What the one that is gone took along is missing in the cell that it was in.
       CHECK(others == (fate == Fate::gone ? 1 : 0));
@@ -333,7 +333,7 @@ TEST_CASE("one and two threads shall give the same bits") {
   for (const std::size_t threads : {1, 2}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     World::Choice choice = box(true);
-    choice.own_disturbance = scenario::OwnDisturbance::taken_off;
+    choice.disturbance_correction = scenario::DisturbanceCorrection::taken_off;
     World world(choice);
     world.set(world.velocity, swirl);
     scatter(world, 5000);
@@ -350,7 +350,7 @@ TEST_CASE("one and two threads shall give the same bits") {
 
 TEST_CASE("a coupling resumed from an archive shall give the same bits") {
   World::Choice choice = box(true);
-  choice.own_disturbance = scenario::OwnDisturbance::taken_off;
+  choice.disturbance_correction = scenario::DisturbanceCorrection::taken_off;
   World world(choice);
   world.set(world.velocity, swirl);
   scatter(world, 600);

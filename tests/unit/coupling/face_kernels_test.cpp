@@ -127,7 +127,7 @@ TEST_CASE("batches of grains shall see at their faces what each sees by itself")
       for (std::size_t q = 0; q < Faces::k_count; ++q) {
         v[q] = contributions->velocity[q] = f.random.next();
         contributions->drag[q] = f.random.next();
-        contributions->lag[q] = f.random.next();
+        contributions->flux_difference[q] = f.random.next();
         contributions->extra[q] = f.random.next();
       }
       for (int d = 0; d < 3; ++d) {
@@ -146,14 +146,14 @@ TEST_CASE("batches of grains shall see at their faces what each sees by itself")
           double sums[4] = {};
           for (std::size_t n = 0; n < coupling::size(s); ++n) {
             const double part = s.weight[n] * s.open[n];
-            const double slip_at = s.void_fraction[n] * (f.u[s.home[n]] - v[q]);
+            const double slip_at = s.void_fraction[n] * (f.u[s.storage[n]] - v[q]);
             sums[0] += part;
             sums[1] += part * s.void_fraction[n];
             sums[2] += s.weight[n] * slip_at;
-            sums[3] += part * s.void_fraction[n] * (slip_at + contributions->lag[q]);
-            drag[s.home[n]] += s.weight[n] * contributions->drag[q];
-            push[s.home[n]] += s.weight[n] * contributions->drag[q] * v[q];
-            extra[s.home[n]] += s.weight[n] * contributions->extra[q];
+            sums[3] += part * s.void_fraction[n] * (slip_at + contributions->flux_difference[q]);
+            drag[s.storage[n]] += s.weight[n] * contributions->drag[q];
+            push[s.storage[n]] += s.weight[n] * contributions->drag[q] * v[q];
+            extra[s.storage[n]] += s.weight[n] * contributions->extra[q];
           }
           CHECK(open[q] == doctest::Approx(sums[0]).epsilon(1e-12));
           CHECK(fluid[q] == doctest::Approx(sums[1]).epsilon(1e-12));

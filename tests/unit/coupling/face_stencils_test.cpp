@@ -73,15 +73,15 @@ TEST_CASE("what grains receive of the stress shall be taken off what the fluid l
   const double cell = world.grid.cell_volume();
   const double diameter = 0.03;
   world.grains.add({0.6, 0.6, 0.6}, {0, 0, 0}, diameter);
-  const std::ptrdiff_t home = world.grid.index(2, 2, 2);
+  const std::ptrdiff_t storage = world.grid.index(2, 2, 2);
   fluid::CellField eps(world.grid.size, 1.0);
-  eps[home] = 0.9;
+  eps[storage] = 0.9;
   const sdk::Vec3 stress{3.0, -2.0, 0.5};
   world.set(world.stress, [&](sdk::Vec3) { return stress; });
   constexpr double k_step = 1e-3;
   balance.leave(eps, world.stress, k_step);
   for (int d = 0; d < 3; ++d) {
-    CHECK(balance.owed(d)[static_cast<std::size_t>(home)] ==
+    CHECK(balance.deferred(d)[static_cast<std::size_t>(storage)] ==
           doctest::Approx(k_step * cell * 0.1 * stress[d]).epsilon(1e-12));
   }
   FaceStencils stencils;
@@ -93,6 +93,6 @@ TEST_CASE("what grains receive of the stress shall be taken off what the fluid l
   }
   balance.receive(stencils, stencils.rows(), received);
   for (int d = 0; d < 3; ++d) {
-    for (const double owed : balance.owed(d)) CHECK(std::abs(owed) < 1e-18);
+    for (const double deferred : balance.deferred(d)) CHECK(std::abs(deferred) < 1e-18);
   }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coupling/self_disturbance/own_disturbance.hpp"
+#include "coupling/self_disturbance/disturbance_formulas.hpp"
 
+#include "coupling/stencils/multi_cell_kernel.hpp"
 #include "coupling/stencils/smooth_kernel.hpp"
-#include "coupling/stencils/wide_kernel.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
@@ -15,7 +15,7 @@
 namespace {
 
 using namespace dust;
-namespace own = coupling::own_disturbance;
+namespace own = coupling::disturbance_correction;
 using test::World;
 constexpr double k_pi = std::numbers::pi;
 
@@ -140,14 +140,14 @@ TEST_CASE("the excess around a grain shall be the compressibility of hard sphere
   }
 }
 
-World::Choice lone(const std::string& voidage) {
+World::Choice isolated(const std::string& voidage) {
   World::Choice choice;
   choice.max = {0.032, 0.032, 0.032};
   choice.cells = {16, 16, 16};
   choice.voidage = voidage;
   choice.density = 1000.0;
   choice.viscosity = 1e-3;
-  choice.own_disturbance = scenario::OwnDisturbance::taken_off;
+  choice.disturbance_correction = scenario::DisturbanceCorrection::taken_off;
   return choice;
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("a lone grain shall see the void fraction and the slip of the empty fl
       CAPTURE(std::string(size.voidage));
       CAPTURE(at);
       double seen = 0.0;
-      World::Choice choice = lone(size.voidage);
+      World::Choice choice = isolated(size.voidage);
       choice.factor = [&](double, double eps) { return seen = eps, 1.0; };
       World world(choice);
       world.grains.add({at, 0.0163, 0.0159}, {}, size.diameter);
@@ -176,7 +176,7 @@ TEST_CASE("a lone grain shall see the void fraction and the slip of the empty fl
 }
 
 TEST_CASE("the smooth kernel shall sum to one about the grain, and know what is in its way") {
-  World::Choice choice = lone("divided");
+  World::Choice choice = isolated("divided");
   choice.open = [](int i, int, int) { return i == 9 ? 0.4 : 1.0; };
   const World world(choice);
   const coupling::Lattice lattice(world.grid, world.open);
@@ -203,9 +203,9 @@ TEST_CASE("the smooth kernel shall sum to one about the grain, and know what is 
 }
 
 TEST_CASE("grains larger than a cell shall be coupled over all their cells") {
-  const World world(lone("big_particle"));
+  const World world(isolated("big_particle"));
   const coupling::Lattice lattice(world.grid, world.open);
-  coupling::WideKernel kernel(lattice, *world.voidage);
+  coupling::MultiCellKernel kernel(lattice, *world.voidage);
   CHECK_FALSE(kernel.takes(1e-3));
   CHECK(kernel.takes(1.01e-3));
   const double place[] = {0.0101, 0.0094, 0.0107};

@@ -49,7 +49,7 @@ TEST_CASE("the residual of a grain that is gone shall be kept at the place where
   test::Grains grains = three_grains();
   ParticleStates states;
   states.align(grains.rows());
-  states[2].owed = {1.0, -2.0, 0.5};
+  states[2].deferred = {1.0, -2.0, 0.5};
   states[2].place = {0.2, 0.0, 0.0};
   states[2].stencil = 1;
   states[0].stencil = 0;
@@ -58,7 +58,7 @@ TEST_CASE("the residual of a grain that is gone shall be kept at the place where
   grains.remove_last();  // this one has no residual
   states.align(grains.rows());
   REQUIRE(states.escaped().size() == 1);
-  CHECK(states.escaped()[0].owed == coupling::Triple{1.0, -2.0, 0.5});
+  CHECK(states.escaped()[0].deferred == coupling::Triple{1.0, -2.0, 0.5});
   CHECK(states.escaped()[0].place == coupling::Triple{0.2, 0.0, 0.0});
   CHECK(states.rows_now(order, std::vector<std::int32_t>{0, 2}) ==
         std::vector<std::int32_t>{0, -1});

@@ -129,7 +129,7 @@ TEST_CASE("an overfull cell shall give its excess to the cells around it, and co
   world.begin_step(1e-3);
   const double eps = world.coupling->void_fraction()[world.grid.index(5, 5, 5)];
   CHECK(eps == doctest::Approx(0.30).epsilon(1e-9));
-  CHECK(world.coupling->report().relieved_cells == 1);
+  CHECK(world.coupling->report().limited_cells == 1);
   CHECK(mapped_volume(world) == doctest::Approx(world.grains.solid_volume()).epsilon(k_sum));
 }
 

@@ -128,7 +128,7 @@ struct World {
     double viscosity = k_air_viscosity;
     bool is_one_way = false;
     /// In a prescribed fluid grains feel what that shows; where it is solved, as by default.
-    std::optional<scenario::OwnDisturbance> own_disturbance;
+    std::optional<scenario::DisturbanceCorrection> disturbance_correction;
     bool overlaps = false;
     std::vector<double> coarse_graining{1.0};   ///< by material
     std::function<double(int, int, int)> open;  ///< open fraction of a cell; null = 1 everywhere
@@ -151,7 +151,8 @@ struct World {
     setup.fluid->viscosity = c.viscosity;
     setup.fluid->momentum_set = c.momentum_set;
     setup.fluid->is_one_way = c.is_one_way;
-    setup.fluid->own_disturbance = c.own_disturbance.value_or(scenario::OwnDisturbance::felt);
+    setup.fluid->disturbance_correction =
+        c.disturbance_correction.value_or(scenario::DisturbanceCorrection::felt);
     setup.fluid->overlaps_grains = c.overlaps;
     for (const double ratio : c.coarse_graining) setup.materials.push_back({"sand", {}, ratio});
     if (c.open) {

@@ -262,16 +262,16 @@ TEST_CASE("two stages shall give a free stream its force, and drag what it takes
   flow.set(u, 0, [](Vec3) { return 1.0; });
   const double step = 0.1;
   const std::ptrdiff_t face = parts.grid.index(2, 1, 2);
-  stages.advance({0.0, step, 1.0, 1e-30, source, drag, nullptr, nullptr}, flow.eps, false, pressure,
-                 u);
+  stages.advance({0.0, step, 1.0, 1e-30, source, drag, false, nullptr, nullptr}, flow.eps, false,
+                 pressure, u);
   CHECK(u.component[0][face] == doctest::Approx(1.0 + step * 6.0 / 2.0).epsilon(1e-13));
 
   flow.set(drag, 0, [](Vec3) { return 5.0; });
   fluid::DragVelocity taken(parts.grid);
   taken.begin(true);
   const double before = u.component[0][face];
-  stages.advance({step, step, 1.0, 1e-30, source, drag, &taken, nullptr}, flow.eps, false, pressure,
-                 u);
+  stages.advance({step, step, 1.0, 1e-30, source, drag, true, &taken, nullptr}, flow.eps, false,
+                 pressure, u);
   const double mean = taken.field().component[0][face];
   CHECK(mean < before);  // it comes to 6 / 5
   CHECK(mean > 1.2);

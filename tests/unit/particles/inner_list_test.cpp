@@ -222,9 +222,9 @@ TEST_CASE("particles with partners shall be active, and what other tiles look at
   }
   for (const std::int32_t row : lists.inner.fine_active().all()) active.insert(row);
   for (const std::int32_t row : partners) CHECK(active.contains(row));
-  const auto flying = static_cast<std::int64_t>(lists.cloud.particles.size() - active.size());
-  CHECK(lists.inner.ballistic_count() == flying);
-  CHECK(flying > 20);
+  const auto ballistic = static_cast<std::int64_t>(lists.cloud.particles.size() - active.size());
+  CHECK(lists.inner.ballistic_count() == ballistic);
+  CHECK(ballistic > 20);
 }
 
 TEST_CASE("contacts released shall be adopted by the next lists, wherever their particles stand") {

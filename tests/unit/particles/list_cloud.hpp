@@ -76,9 +76,9 @@ class ListCloud {
     const particles::ListScene s = scene();
     const double* vi = particles.velocity(i);
     const double* vj = particles.velocity(j);
-    return particles::passes_within(contact::nearest_image(images_, s.position(j), s.position(i)),
-                                    {vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]}, duration,
-                                    s.radius(i) + s.radius(j));
+    return particles::approach_is_within(
+        contact::nearest_image(images_, s.position(j), s.position(i)),
+        {vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]}, duration, s.radius(i) + s.radius(j));
   }
 
   particles::ParticleStore particles;

@@ -17,7 +17,7 @@ using namespace dust::particles;
 namespace {
 
 struct Flock {
-  std::vector<double> position, velocity, allowance;
+  std::vector<double> position, velocity, skin;
   SearchInput in;
 
   /// `count` grains in a box of `size` [m], some ten times finer, with speeds up to `speed` [m/s].
@@ -27,17 +27,17 @@ struct Flock {
       for (std::uint64_t d = 0; d < 3; ++d) {
         position.push_back(size[d] * random.uniform(n, d));
         velocity.push_back(speed * (2.0 * random.uniform(n, 4 + d) - 1.0));
-        allowance.push_back(0.0);
+        skin.push_back(0.0);
       }
       position.push_back(n % 3 == 0 ? 30e-6 : 250e-6 + 50e-6 * random.uniform(n, 8));
       velocity.push_back(0.0);
-      allowance.push_back(n % 3 == 0 ? 20e-6 : 90e-6);
+      skin.push_back(n % 3 == 0 ? 20e-6 : 90e-6);
     }
     in.count = count;
     in.position = position.data();
     in.velocity = velocity.data();
-    in.allowance = allowance.data();
-    in.horizon = 1e-4;
+    in.skin = skin.data();
+    in.lifetime = 1e-4;
     in.range = 5e-6;
   }
 
@@ -49,7 +49,7 @@ struct Flock {
       for (std::size_t d = 0; d < 3; ++d) {
         double x = position[4 * i + d] - position[4 * j + d];
         if (in.period[d] > 0.0) x = dust::base::nearest_image_of_any(x, in.period[d]);
-        x += 1e-4 * s * in.horizon * (velocity[4 * i + d] - velocity[4 * j + d]);
+        x += 1e-4 * s * in.lifetime * (velocity[4 * i + d] - velocity[4 * j + d]);
         sum += x * x;
       }
       least = std::min(least, sum);
@@ -79,9 +79,9 @@ void check(const Flock& flock, std::size_t at_least) {
   for (std::size_t i = 0; i < flock.in.count; ++i) {
     for (std::size_t j = i + 1; j < flock.in.count; ++j) {
       const double reach = flock.position[4 * i + 3] + flock.position[4 * j + 3] +
-                           flock.allowance[4 * i + 3] + flock.allowance[4 * j + 3] + flock.in.range;
+                           flock.skin[4 * i + 3] + flock.skin[4 * j + 3] + flock.in.range;
       // Most pairs are too far apart for a look at every instant.
-      const double fast = 4.0 * flock.in.horizon;
+      const double fast = 4.0 * flock.in.lifetime;
       double far = 0.0;
       for (std::size_t d = 0; d < 3; ++d) {
         double x = flock.position[4 * i + d] - flock.position[4 * j + d];

@@ -68,20 +68,20 @@ TEST_CASE("a pair that has parted shall feel nothing and remember nothing") {
   for (int c = 0; c < BatchColumns::first_history; ++c) {
     std::fill_n(columns.column(c), k_count, 7.0);
   }
-  dust::contact::hold_apart(is_touching.data(), k_count, columns);
-  dust::contact::forget_apart(is_touching.data(), k_count, k_stride, columns);
+  dust::contact::mask_separated(is_touching.data(), k_count, columns);
+  dust::contact::clear_separated(is_touching.data(), k_count, k_stride, columns);
   dust::contact::columns_to_rows(block.data(), k_count, k_stride);
   for (std::size_t q = 0; q < k_count; ++q) {
     CAPTURE(q);
-    const bool touches = is_touching[q] != 0;
+    const bool has_touched = is_touching[q] != 0;
     for (const int c :
          {BatchColumns::overlap, BatchColumns::velocity_y, BatchColumns::force_x,
           BatchColumns::force_z, BatchColumns::torque_i_y, BatchColumns::torque_j_z}) {
-      CHECK(columns.column(c)[q] == (touches ? 7.0 : 0.0));
+      CHECK(columns.column(c)[q] == (has_touched ? 7.0 : 0.0));
     }
     for (std::size_t h = 0; h < k_stride; ++h) {
       CHECK(block[q * k_stride + h] ==
-            (touches ? 1.0 + static_cast<double>(q * k_stride + h) : 0.0));
+            (has_touched ? 1.0 + static_cast<double>(q * k_stride + h) : 0.0));
     }
   }
 }

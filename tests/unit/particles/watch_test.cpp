@@ -106,23 +106,23 @@ TEST_CASE("no contact shall be missed by the grains that are left to fly") {
   for (const double dust_share : {0.0, 0.8}) {
     CAPTURE(dust_share);
     constexpr std::int64_t k_count = 150;
-    auto watched = cloud(k_count, dust_share, 0.5);
+    auto monitored = cloud(k_count, dust_share, 0.5);
     auto every_step = cloud(k_count, dust_share, 0.5);
-    blow(*watched, {0.1, 0.0, 0.0});
+    blow(*monitored, {0.1, 0.0, 0.0});
     blow(*every_step, {0.1, 0.0, 0.0});
-    Stepper a(*watched);
+    Stepper a(*monitored);
     Stepper b(*every_step);
     for (int n = 0; n < 1500; ++n) {
       a.step();
       b.step();
       every_step->land();  // a watch of one step: everyone near anyone is looked at
     }
-    CHECK(watched->report().flown_steps > watched->report().particle_steps / 4);
-    CHECK(watched->report().largest_overlap > 1e-3);
-    CHECK(watched->report().contacts_seen_late == 0);
+    CHECK(monitored->report().flown_steps > monitored->report().particle_steps / 4);
+    CHECK(monitored->report().largest_overlap > 1e-3);
+    CHECK(monitored->report().contacts_seen_late == 0);
     // Rounding, enlarged by the few collisions a grain has in this time; one missed collision
     // would move its grains by whole diameters.
-    CHECK(largest_difference(*watched, *every_step, k_count) < 1e-9);
+    CHECK(largest_difference(*monitored, *every_step, k_count) < 1e-9);
   }
 }
 

@@ -85,8 +85,8 @@ TEST_CASE("the estimates shall be within a factor of two of what the transfer po
     const auto file = std::string(DUST_SOURCE) + "/scenarios/transfer_point.yaml";
     return preflight::derive(preflight::read_scenario(file, set, shipped).setup, shipped);
   };
-  const auto is_near = [](double told, double measured) {
-    return told > 0.5 * measured && told < 2.0 * measured;
+  const auto is_near = [](double reported, double measured) {
+    return reported > 0.5 * measured && reported < 2.0 * measured;
   };
   // Measured on 2 cores of 2026: processor time, peak memory, size of the folder, grains at the
   // end.

@@ -49,7 +49,7 @@ std::vector<fs::path> shipped_scenarios() {
 }
 
 /// What `engine check` says of a scenario.
-Json told(const fs::path& file, const std::vector<std::string>& settings = {}) {
+Json reported(const fs::path& file, const std::vector<std::string>& settings = {}) {
   std::vector<std::string> arguments = {"check", file.string(), "--json"};
   for (const std::string& s : settings) arguments.insert(arguments.end(), {"--set", s});
   const auto outcome = engine(arguments);
@@ -116,7 +116,7 @@ TEST_CASE("steps told before a run shall be those of its summary, for every ship
 
 TEST_CASE("a size of two materials shall be told the step of the one that needs the shorter") {
   // The 4 mm grains of the drum are stepped as the stiffest pair of grains that come to it needs.
-  const Json check = told(DUST_SOURCE "/scenarios/thesis/dosta_drum.yaml");
+  const Json check = reported(DUST_SOURCE "/scenarios/thesis/dosta_drum.yaml");
   const double step = check["size_classes"].back()["stable_step_s"];
   CHECK(step == doctest::Approx(4.4e-6).epsilon(0.02));
 }
@@ -133,7 +133,7 @@ TEST_CASE("check, log and summary of a run shall hold the same steps, to the las
     const auto outcome = engine(arguments);
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
-    const Json check = told(k_small, settings);
+    const Json check = reported(k_small, settings);
     compare(check, read_json(folder / "out" / "summary.json"));
 
     const std::string log = test::read_file(folder / "out" / "run.log");

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-using dust::report::lone_flight;
-using dust::report::LoneGrain;
+using dust::report::isolated_flight;
+using dust::report::IsolatedGrain;
 using dust::report::StillAir;
 
 namespace {
@@ -17,7 +17,7 @@ constexpr std::array k_drops{0.02, 0.05, 0.1, 0.14};
 }  // namespace
 
 TEST_CASE("without air the flight shall be the parabola") {
-  const auto x = lone_flight({600e-6, 2650.0, 0.8}, {}, k_gravity, k_drops);
+  const auto x = isolated_flight({600e-6, 2650.0, 0.8}, {}, k_gravity, k_drops);
   REQUIRE(x.size() == k_drops.size());
   for (std::size_t k = 0; k < x.size(); ++k) {
     // Between steps of 1 ms the path is taken as straight: off by g step^2 / 8 v / v_z, below 5 um.
@@ -35,7 +35,7 @@ TEST_CASE("in still air lone grains shall fall as far as an independent solution
                         Case{300e-6, 3000.0, 0.116928}}) {
     CAPTURE(c.diameter);
     CAPTURE(c.density);
-    const auto x = lone_flight({c.diameter, c.density, 0.8}, k_air, k_gravity, k_drops);
+    const auto x = isolated_flight({c.diameter, c.density, 0.8}, k_air, k_gravity, k_drops);
     // 0.1 %: the density and viscosity of the air there are those of the scenario to that order.
     CHECK(x.back() == doctest::Approx(c.forward).epsilon(1e-3));
     CHECK(x[0] < x[1]);
@@ -43,6 +43,6 @@ TEST_CASE("in still air lone grains shall fall as far as an independent solution
 }
 
 TEST_CASE("what does not sink has no path") {
-  CHECK(lone_flight({1e-3, 1.0, 0.8}, k_air, k_gravity, k_drops).empty());
-  CHECK(lone_flight({1e-3, 2650.0, 0.8}, k_air, 0.0, k_drops).empty());
+  CHECK(isolated_flight({1e-3, 1.0, 0.8}, k_air, k_gravity, k_drops).empty());
+  CHECK(isolated_flight({1e-3, 2650.0, 0.8}, k_air, 0.0, k_drops).empty());
 }

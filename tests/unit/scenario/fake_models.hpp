@@ -176,7 +176,7 @@ struct Feed final : Emitter {
     Vec3 min, max, velocity;
     std::vector<double> diameters, number_fractions;
     double rare_below = 0.0;
-    std::int64_t copies_of_rare = 1;
+    std::int64_t samples_per_particle = 1;
   };
   static ModelInfo describe() { return info<Feed>("feed"); }
   static ParameterSchema schema() {
@@ -189,7 +189,9 @@ struct Feed final : Emitter {
     s.numbers(&Parameters::number_fractions, "number_fractions", dimension::none, "Shares.")
         .at_least(0);
     s.number(&Parameters::rare_below, "rare_below", dimension::length, "Rare sizes.").optional();
-    s.integer(&Parameters::copies_of_rare, "copies_of_rare", "Copies.").at_least(1).optional();
+    s.integer(&Parameters::samples_per_particle, "copies_of_rare", "Copies.")
+        .at_least(1)
+        .optional();
     return s.build();
   }
   explicit Feed(const Parameters& p) : parameters(p) {

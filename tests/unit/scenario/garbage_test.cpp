@@ -8,9 +8,9 @@ namespace {
 
 void check_refused(const std::string& text) {
   const Folder folder;
-  const auto told = problems(folder.write("g.yaml", text));
-  REQUIRE_FALSE(told.empty());
-  for (const std::string& line : told) {
+  const auto reported = problems(folder.write("g.yaml", text));
+  REQUIRE_FALSE(reported.empty());
+  for (const std::string& line : reported) {
     CHECK(line.starts_with("g.yaml:"));
     CHECK(line.find("error: ") != std::string::npos);
     CHECK(line.find('\n') == std::string::npos);
@@ -131,7 +131,7 @@ TEST_CASE("random changes of a scenario shall never end the program") {
       };
       mutant.replace(draw(0, mutant.size()), draw(1, 4), pieces[draw(2, std::size(pieces))]);
     }
-    const auto told = problems(folder.write("r.yaml", mutant));
-    for (const std::string& line : told) CHECK(line.find("error: ") != std::string::npos);
+    const auto reported = problems(folder.write("r.yaml", mutant));
+    for (const std::string& line : reported) CHECK(line.find("error: ") != std::string::npos);
   }
 }

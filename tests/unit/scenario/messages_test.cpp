@@ -381,12 +381,12 @@ TEST_CASE("all problems shall be told at once, in the order of the file") {
 
 TEST_CASE("names with control characters shall not break the line that tells of them") {
   const Folder folder;
-  const auto told =
+  const auto reported =
       problems(folder.write("c.yaml", changed(k_small, "sensors:\n",
                                               "frames:\n  \"con\\tvey\\nor\": {origin: [0, 0]}\n"
                                               "sensors:\n")));
-  REQUIRE_FALSE(told.empty());
-  for (const std::string& line : told) {
+  REQUIRE_FALSE(reported.empty());
+  for (const std::string& line : reported) {
     for (const char c : line) CHECK(static_cast<unsigned char>(c) >= 0x20);
   }
 }

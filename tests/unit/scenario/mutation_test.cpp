@@ -52,9 +52,9 @@ TEST_CASE("every key written wrong and every value replaced by nonsense shall be
     if (name != "name") mutants.push_back(indent + name + ": '@@nonsense@@'");
     mutants.push_back(indent + name + ": [[{a: [b]}]]");
     for (const std::string& mutant : mutants) {
-      const auto told = problems(folder.write("m.yaml", with_line(lines, n, mutant)));
-      CHECK_MESSAGE(!told.empty(), mutant);
-      for (const std::string& line : told) CHECK_MESSAGE(is_diagnostic(line), line);
+      const auto reported = problems(folder.write("m.yaml", with_line(lines, n, mutant)));
+      CHECK_MESSAGE(!reported.empty(), mutant);
+      for (const std::string& line : reported) CHECK_MESSAGE(is_diagnostic(line), line);
       ++checked;
     }
   }
@@ -74,9 +74,9 @@ TEST_CASE("every number with a unit of another dimension shall be explained") {
     if (text.substr(line + 1, begin - line).find('#') != std::string::npos) continue;
     std::string mutant = text;
     mutant.replace(begin, static_cast<std::size_t>(at->length(1)), "K");
-    const auto told = problems(folder.write("m.yaml", mutant));
-    CHECK_MESSAGE(!told.empty(), at->str());
-    for (const std::string& one : told) {
+    const auto reported = problems(folder.write("m.yaml", mutant));
+    CHECK_MESSAGE(!reported.empty(), at->str());
+    for (const std::string& one : reported) {
       CHECK_MESSAGE(is_diagnostic(one), one);
       CHECK_MESSAGE(one.find("'K' is the unit of a temperature") != std::string::npos, one);
     }
@@ -90,7 +90,7 @@ TEST_CASE("a scenario cut off anywhere shall be explained or read, never end the
   const std::string text = text_of(transfer_point());
   constexpr std::size_t k_stride = 61;
   for (std::size_t size = 0; size < text.size(); size += k_stride) {
-    const auto told = problems(folder.write("m.yaml", text.substr(0, size)));
-    for (const std::string& one : told) CHECK_MESSAGE(is_diagnostic(one), one);
+    const auto reported = problems(folder.write("m.yaml", text.substr(0, size)));
+    for (const std::string& one : reported) CHECK_MESSAGE(is_diagnostic(one), one);
   }
 }

@@ -100,7 +100,7 @@ void check_same(const Setup& a, const Setup& b) {
     CHECK(a.fluid->pressure_tolerance == b.fluid->pressure_tolerance);
     CHECK(a.fluid->largest_cfl == b.fluid->largest_cfl);
     CHECK(a.fluid->is_one_way == b.fluid->is_one_way);
-    CHECK(a.fluid->own_disturbance == b.fluid->own_disturbance);
+    CHECK(a.fluid->disturbance_correction == b.fluid->disturbance_correction);
     CHECK(a.fluid->overlaps_grains == b.fluid->overlaps_grains);
   }
   check_same(a.drag, b.drag);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/calibration.hpp"
-#include "study/landscape.hpp"
+#include "study/calibration/calibration.hpp"
+#include "study/calibration/landscape.hpp"
 
 #include "dust/sdk/random.hpp"
 
@@ -132,9 +132,10 @@ TEST_CASE("parameters that only count together shall be told as tied") {
   Formula formula([](const std::vector<double>& x) { return std::vector{x[0] + x[1]}; }, {0.0}, 1);
   const Calibration c = calibrate(settings, formula);
   CHECK(c.correlation[0][1] < -0.95);
-  bool is_told = false;
-  for (const auto& s : c.statements) is_told = is_told || s.find("tied") != std::string::npos;
-  CHECK(is_told);
+  bool is_reported = false;
+  for (const auto& s : c.statements)
+    is_reported = is_reported || s.find("tied") != std::string::npos;
+  CHECK(is_reported);
 }
 
 TEST_CASE("targets that no values meet shall be told with what comes nearest") {

@@ -80,23 +80,23 @@ TEST_CASE("expectations shall be judged by sign and noise") {
   e.output = "x";
   e.input = "belt.speed";
   e.then = "rises";
-  CHECK(judge(e, made.spec, made.results()).kind == Verdict::Kind::as_expected);
+  CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::as_expected);
   e.then = "falls";
-  CHECK(judge(e, made.spec, made.results()).kind == Verdict::Kind::against);
+  CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::against);
   e.input = "case";
   e.from = "b";
   e.to = "a";
-  CHECK(judge(e, made.spec, made.results()).kind == Verdict::Kind::as_expected);
-  CHECK(judge(e, made.spec, made.results()).change == doctest::Approx(-3.0));
+  CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::as_expected);
+  CHECK(assess(e, made.spec, made.results()).change == doctest::Approx(-3.0));
   // Errors so large that 3 mm could be chance.
   for (Outcome& o : made.outcomes) o.outputs[0].error = 5.0;
-  CHECK(judge(e, made.spec, made.results()).kind == Verdict::Kind::unresolved);
+  CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::unresolved);
   // Sensors that have seen nothing yet say 0: that is no verdict against anything.
   for (Outcome& o : made.outcomes) o.outputs[0] = {0.0, -1.0};
-  CHECK(judge(e, made.spec, made.results()).kind == Verdict::Kind::unresolved);
-  CHECK(judge(e, made.spec, made.results()).text.starts_with("no change"));
+  CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::unresolved);
+  CHECK(assess(e, made.spec, made.results()).text.starts_with("no change"));
   for (Outcome& o : made.outcomes) o = {};
-  CHECK(judge(e, made.spec, made.results()).kind == Verdict::Kind::unknown);
+  CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::unknown);
 }
 
 TEST_CASE("amounts shall be cut where their error allows") {

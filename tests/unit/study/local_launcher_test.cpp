@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/launcher.hpp"
+#include "study/launchers/launcher.hpp"
 
 #include <doctest/doctest.h>
 
@@ -53,8 +53,8 @@ class Bench {
     const auto launcher =
         study::make_local_launcher(store, {folder_ / "engine", {}, jobs, 1, budget});
     std::size_t ended = 0;
-    const int signal = launcher->run(points, [&](const study::Ending& ending) {
-      CHECK_MESSAGE(ending.is_good, ending.reason);
+    const int signal = launcher->run(points, [&](const study::JobResult& result) {
+      CHECK_MESSAGE(result.is_good, result.reason);
       ++ended;
       return true;
     });

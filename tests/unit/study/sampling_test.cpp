@@ -38,7 +38,7 @@ TEST_CASE("a latin hypercube shall hold one point in every interval of every dir
 TEST_CASE("powers of two Sobol points shall be latin in every direction, whatever the shift") {
   for (const std::uint64_t seed : {0u, 1u, 99u}) {
     for (const std::size_t count : {2u, 16u, 256u}) {
-      CHECK(is_latin(sobol(count, k_most_sobol_dimensions, seed)));
+      CHECK(is_latin(sobol(count, k_max_sobol_dimensions, seed)));
     }
   }
 }

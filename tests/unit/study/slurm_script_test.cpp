@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/slurm_script.hpp"
+#include "study/launchers/slurm_script.hpp"
 
 #include <doctest/doctest.h>
 

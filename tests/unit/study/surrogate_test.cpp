@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/surrogate.hpp"
+#include "study/calibration/surrogate.hpp"
 #include "base/error.hpp"
 #include "study/sampling.hpp"
 
@@ -65,7 +65,7 @@ TEST_CASE("what is taken for granted shall narrow the variance and leave the mea
   process->fit(places, values_of(places));
   const std::vector<double> there = {0.93, 0.07};
   const Prediction before = process->at(there);
-  process->believe(there);
+  process->add_virtual_run(there);
   const Prediction after = process->at(there);
   CHECK(after.mean == doctest::Approx(before.mean).epsilon(1e-6));
   CHECK(after.variance < 0.2 * before.variance);

@@ -43,9 +43,9 @@ std::vector<GrainState> collide(const Material& m, std::vector<NewGrain> grains,
   bool has_touched = false;
   for (int n = 0; n < 40000; ++n) {
     stepper.step();
-    const bool touches = dem->report().contacts > 0;
-    if (has_touched && !touches) break;
-    has_touched = has_touched || touches;
+    const bool is_touching = dem->report().contacts > 0;
+    if (has_touched && !is_touching) break;
+    has_touched = has_touched || is_touching;
   }
   REQUIRE(has_touched);
   stepper.step(3);

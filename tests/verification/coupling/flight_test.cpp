@@ -190,12 +190,12 @@ struct Reference {
 };
 
 /// A flight with a refresh in every fluid step at least, and its error.
-struct Flown {
+struct FlightResult {
   double interval;  ///< [s] between refreshes
   double error;     ///< of the place at the end, over the way
 };
-Flown fly(const std::string& law, double diameter, double fluid_step, double time,
-          const std::array<sdk::Vec3, 4>& flow) {
+FlightResult run_flight(const std::string& law, double diameter, double fluid_step, double time,
+                        const std::array<sdk::Vec3, 4>& flow) {
   World::Choice choice;
   choice.drag = law;
   choice.fluid_step = fluid_step;
@@ -233,10 +233,10 @@ TEST_CASE("a flight in still or sheared air shall be right to second order in th
         CAPTURE(grain.diameter);
         CAPTURE(law);
         CAPTURE(norm(flow[1]));
-        Flown last{};
+        FlightResult last{};
         for (const double fluid_step : {1e-3, 5e-4, 2.5e-4, 1.25e-4}) {
           CAPTURE(fluid_step);
-          const Flown now = fly(law, grain.diameter, fluid_step, grain.time, flow);
+          const FlightResult now = run_flight(law, grain.diameter, fluid_step, grain.time, flow);
           if (fluid_step == 1e-3) CHECK(now.error < 1e-3);
           // Below this the reference and rounding have a say.
           constexpr double k_exact = 2e-8;

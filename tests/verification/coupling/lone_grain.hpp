@@ -11,37 +11,37 @@
 
 namespace dust::test {
 
-struct LoneFluid {
+struct TestFluid {
   const char* name;
   double density, viscosity;
 };
-inline constexpr LoneFluid k_lone_air{"air", k_air, k_air_viscosity};
-inline constexpr LoneFluid k_lone_water{"water", 998.2, 0.998e-3};
+inline constexpr TestFluid k_test_air{"air", k_air, k_air_viscosity};
+inline constexpr TestFluid k_test_water{"water", 998.2, 0.998e-3};
 
 /// Drag [N] of one sphere after Schiller and Naumann (1935), to which wen_yu tends without others.
-inline double lone_drag(double diameter, const LoneFluid& fluid, double slip) {
+inline double isolated_drag(double diameter, const TestFluid& fluid, double slip) {
   const double re = fluid.density * slip * diameter / fluid.viscosity;
   const double factor = re < 1000.0 ? 1.0 + 0.15 * std::pow(re, 0.687) : 0.44 / 24.0 * re;
   return 3.0 * std::numbers::pi * fluid.viscosity * diameter * factor * slip;
 }
 /// Slip [m/s] at which that drag is `force`.
-inline double lone_slip(double diameter, const LoneFluid& fluid, double force) {
+inline double isolated_slip(double diameter, const TestFluid& fluid, double force) {
   double low = 0.0;
   double high = 100.0;
   for (int n = 0; n < 100; ++n) {
     const double middle = 0.5 * (low + high);
-    (lone_drag(diameter, fluid, middle) < force ? low : high) = middle;
+    (isolated_drag(diameter, fluid, middle) < force ? low : high) = middle;
   }
   return low;
 }
-inline double lone_weight(double diameter, const LoneFluid& fluid) {
+inline double isolated_weight(double diameter, const TestFluid& fluid) {
   return (k_sand - fluid.density) * TwoWay::k_gravity * sdk::sphere_volume(diameter);
 }
 
 /// Velocity [m/s] per force [N] that the images of a force in a periodic box take from the one at
 /// its place after the time t: Oseen's unsteady flow in free space less that in the box. The width
 /// of the force hardly matters, for all short waves are in both.
-inline double part_of_images(const LoneFluid& fluid, double side, double speed, double width,
+inline double part_of_images(const TestFluid& fluid, double side, double speed, double width,
                              double time) {
   const double nu = fluid.viscosity / fluid.density;
   const auto built_up = [&](double k2, double along) {
@@ -84,15 +84,16 @@ inline double part_of_images(const LoneFluid& fluid, double side, double speed, 
 }
 
 /// One grain in an otherwise empty fluid.
-struct LoneGrain {
+struct IsolatedGrain {
   enum class Motion { held, towed, free };  ///< in a stream; or through still fluid against z
 
   double diameter;  ///< [m]
   double ratio;     ///< D/dx
-  LoneFluid fluid;
+  TestFluid fluid;
   sdk::Vec3 place{0.21, 0.37, 0.68};  ///< in the cell, 0..1
   Motion motion = Motion::held;
-  scenario::OwnDisturbance own_disturbance = scenario::OwnDisturbance::automatic;
+  scenario::DisturbanceCorrection disturbance_correction =
+      scenario::DisturbanceCorrection::automatic;
   std::string set = "I";
   bool overlaps = false;
   double beside = 0.0;          ///< cells to a side in y, 0 = periodic there
@@ -112,7 +113,7 @@ struct LoneGrain {
   static constexpr int k_cells = 20;
   [[nodiscard]] double cell() const { return diameter / ratio; }
   [[nodiscard]] double terminal() const {
-    return lone_slip(diameter, fluid, lone_weight(diameter, fluid));
+    return isolated_slip(diameter, fluid, isolated_weight(diameter, fluid));
   }
   [[nodiscard]] double duration() const;
   [[nodiscard]] World::Choice choice() const;
@@ -121,14 +122,14 @@ struct LoneGrain {
 
 /// Until the flow around it is built up, but before the grain meets its own wake; when free, until
 /// it has its speed.
-inline double LoneGrain::duration() const {
+inline double IsolatedGrain::duration() const {
   constexpr double k_width = 0.7;  // cells
   const double nu = fluid.viscosity / fluid.density;
   const double built_up = (beside > 0.0 ? 120.0 : 30.0) * std::pow(k_width * cell(), 2) / nu;
   const double relaxing = motion == Motion::free ? 5.0 * terminal() / TwoWay::k_gravity : 0.0;
   return std::max(relaxing, std::min(0.8 * k_cells * cell() / terminal(), built_up));
 }
-inline World::Choice LoneGrain::choice() const {
+inline World::Choice IsolatedGrain::choice() const {
   const double side = k_cells * cell();
   World::Choice c;
   c.max = {side, side, side};
@@ -139,13 +140,13 @@ inline World::Choice LoneGrain::choice() const {
   c.momentum_set = set;
   c.density = fluid.density;
   c.viscosity = fluid.viscosity;
-  c.own_disturbance = own_disturbance;
+  c.disturbance_correction = disturbance_correction;
   c.overlaps = overlaps;
   const double fastest = terminal() * duration() / (cells_per_step * cell());
   c.fluid_step = duration() / std::max(40.0, std::ceil(fastest));
   return c;
 }
-inline TwoWay::Sides LoneGrain::sides() const {
+inline TwoWay::Sides IsolatedGrain::sides() const {
   TwoWay::Sides all;
   const auto side = [&] { return is_beside_slip ? slip() : wall(); };
   if (beside > 0.0) {
@@ -160,7 +161,7 @@ inline TwoWay::Sides LoneGrain::sides() const {
   return all;
 }
 
-inline LoneGrain::Error LoneGrain::error() const {
+inline IsolatedGrain::Error IsolatedGrain::error() const {
   const double length = k_cells * cell();
   const double speed = terminal();
   TwoWay run(choice(), sides(), {}, 1e-6);
@@ -176,7 +177,7 @@ inline LoneGrain::Error LoneGrain::error() const {
   if (motion != Motion::free && !is_in_stream) velocity[d] = -speed;
   grains.add(at, velocity, diameter);
   if (is_in_stream) run.solver->set_velocity([&](sdk::Vec3) { return sdk::Vec3{0, 0, speed}; });
-  const sdk::Vec3 gravity{0, 0, -lone_weight(diameter, fluid) * grains.velocity[3]};
+  const sdk::Vec3 gravity{0, 0, -isolated_weight(diameter, fluid) * grains.velocity[3]};
   const int steps = static_cast<int>(std::lround(duration() / step));
   Error error;
   int count = 0;
@@ -186,11 +187,11 @@ inline LoneGrain::Error LoneGrain::error() const {
     run.solver->advance(run.time, step, coupling.void_fraction_before(), coupling.void_fraction(),
                         coupling.exchange());
     run.time += step;
-    const auto settle = [&] {
+    const auto evaluate_drag = [&] {
       run.world.evaluate(run.solver->drag_velocity());
       run.hold_fluid();
     };
-    if (!overlaps) settle();
+    if (!overlaps) evaluate_drag();
     const int refreshes = static_cast<int>(std::lround(step / coupling.refresh_interval()));
     double force = 0.0;
     for (int r = 0; r < refreshes; ++r) {
@@ -206,14 +207,14 @@ inline LoneGrain::Error LoneGrain::error() const {
       }
       force += (grains.impulse[static_cast<std::size_t>(d)] - before) / step;
     }
-    if (overlaps) settle();
+    if (overlaps) evaluate_drag();
     run.world.end_step(step);
     if (3 * n < 2 * steps) continue;
     const double own = grains.velocity[static_cast<std::size_t>(d)];
     double found = 0.0;
     if (beside > 0.0) {
       // A grain at rest in still fluid of a box with walls: what its images far away do is left in.
-      found = force / lone_drag(diameter, fluid, speed) - 1.0;
+      found = force / isolated_drag(diameter, fluid, speed) - 1.0;
     } else {
       // The fluid of a closed box comes back somewhere.
       double mean = 0.0;
@@ -223,8 +224,8 @@ inline LoneGrain::Error LoneGrain::error() const {
       });
       const double slip = mean / std::pow(k_cells, 3) - own;
       const double images = force * part_of_images(fluid, length, speed, 0.7 * cell(), run.time);
-      found = motion == Motion::free ? (slip + images) / lone_slip(diameter, fluid, force) - 1.0
-                                     : force / lone_drag(diameter, fluid, slip + images) - 1.0;
+      found = motion == Motion::free ? (slip + images) / isolated_slip(diameter, fluid, force) - 1.0
+                                     : force / isolated_drag(diameter, fluid, slip + images) - 1.0;
     }
     error.least = std::min(error.least, found);
     error.largest = std::max(error.largest, found);

@@ -9,29 +9,29 @@
 namespace {
 
 using namespace dust;
-using test::LoneGrain;
+using test::IsolatedGrain;
 
 /// Asked for is 3 % of the speed; a drag of 3.5 % is 2 to 3 % of the speed.
 constexpr double k_law = 0.035;
 
-std::string of_places(double diameter, double ratio, const test::LoneFluid& fluid,
-                      scenario::OwnDisturbance own_disturbance, bool is_gated) {
+std::string of_places(double diameter, double ratio, const test::TestFluid& fluid,
+                      scenario::DisturbanceCorrection disturbance_correction, bool is_gated) {
   const sdk::Vec3 places[] = {{0.5, 0.5, 0.5}, {0.5, 0.5, 0.0}, {0.0, 0.5, 0.5},
                               {0.0, 0.0, 0.5}, {0.0, 0.0, 0.0}, {0.21, 0.37, 0.68}};
   std::string line;
   std::array<char, 40> number{};
   for (const sdk::Vec3& place : places) {
-    LoneGrain grain{diameter, ratio, fluid, place};
-    grain.own_disturbance = own_disturbance;
+    IsolatedGrain grain{diameter, ratio, fluid, place};
+    grain.disturbance_correction = disturbance_correction;
     const double error = grain.error().largest;
     std::snprintf(number.data(), number.size(), " %+5.1f", 100.0 * error);
     line += number.data();
     if (is_gated) CHECK(std::abs(error) < k_law);
   }
-  LoneGrain grain{diameter, ratio, fluid};
-  grain.own_disturbance = own_disturbance;
-  grain.motion = LoneGrain::Motion::towed;
-  const LoneGrain::Error error = grain.error();
+  IsolatedGrain grain{diameter, ratio, fluid};
+  grain.disturbance_correction = disturbance_correction;
+  grain.motion = IsolatedGrain::Motion::towed;
+  const IsolatedGrain::Error error = grain.error();
   if (is_gated) CHECK(std::abs(error.mean) < k_law);
   std::snprintf(number.data(), number.size(), " | %+.1f..%+.1f", 100.0 * error.least,
                 100.0 * error.largest);
@@ -39,13 +39,13 @@ std::string of_places(double diameter, double ratio, const test::LoneFluid& flui
 }
 
 TEST_CASE("the drag of a lone grain: sizes, cells, places") {
-  for (const test::LoneFluid& fluid : {test::k_lone_air, test::k_lone_water}) {
+  for (const test::TestFluid& fluid : {test::k_test_air, test::k_test_water}) {
     for (const double diameter : {20e-6, 100e-6, 300e-6, 1e-3, 3e-3}) {
       for (const double ratio : {0.05, 0.1, 0.25, 0.5, 1.0, 2.0}) {
         const std::string with =
-            of_places(diameter, ratio, fluid, scenario::OwnDisturbance::automatic, true);
+            of_places(diameter, ratio, fluid, scenario::DisturbanceCorrection::automatic, true);
         const std::string without =
-            of_places(diameter, ratio, fluid, scenario::OwnDisturbance::felt, false);
+            of_places(diameter, ratio, fluid, scenario::DisturbanceCorrection::felt, false);
         MESSAGE(std::string(fluid.name) << ", " << 1e6 * diameter << " um, D/dx " << ratio
                                         << ": felt" << without << "; taken off" << with);
       }

@@ -9,9 +9,9 @@
 namespace {
 
 using namespace dust;
-using test::k_lone_air;
-using test::k_lone_water;
-using test::LoneGrain;
+using test::IsolatedGrain;
+using test::k_test_air;
+using test::k_test_water;
 
 /// What is asked for, and what one sees: 2 % at most, -1.9 with 100 um in water at D/dx 2.
 constexpr double k_law = 0.03;
@@ -23,18 +23,19 @@ constexpr sdk::Vec3 k_some{0.21, 0.37, 0.68};
 
 TEST_CASE("a lone grain shall feel the law's drag in cells of any size, anywhere in one") {
   struct Size {
-    test::LoneFluid fluid;
+    test::TestFluid fluid;
     double diameter;
   };
   // Reynolds numbers of 0.007, 0.04, 3.9, 47, 476 and 1150.
-  const Size sizes[] = {{k_lone_water, 20e-6}, {k_lone_air, 20e-6}, {k_lone_air, 100e-6},
-                        {k_lone_air, 300e-6},  {k_lone_air, 1e-3},  {k_lone_water, 3e-3}};
+  const Size sizes[] = {{k_test_water, 20e-6}, {k_test_air, 20e-6}, {k_test_air, 100e-6},
+                        {k_test_air, 300e-6},  {k_test_air, 1e-3},  {k_test_water, 3e-3}};
   for (const Size& size : sizes) {
     for (const double ratio : {0.05, 0.25, 0.5, 1.0, 2.0}) {
       double least = 1e9;
       double largest = -1e9;
       for (const sdk::Vec3& place : {k_middle, k_on_face, k_some}) {
-        const LoneGrain::Error error = LoneGrain{size.diameter, ratio, size.fluid, place}.error();
+        const IsolatedGrain::Error error =
+            IsolatedGrain{size.diameter, ratio, size.fluid, place}.error();
         least = std::min(least, error.least);
         largest = std::max(largest, error.largest);
       }
@@ -51,8 +52,8 @@ TEST_CASE("a lone grain shall feel the law's drag in cells of any size, anywhere
 
 TEST_CASE("without the correction a lone grain shall feel what it does by itself") {
   for (const double ratio : {0.25, 1.0}) {
-    LoneGrain grain{20e-6, ratio, k_lone_air, k_on_face};
-    grain.own_disturbance = scenario::OwnDisturbance::felt;
+    IsolatedGrain grain{20e-6, ratio, k_test_air, k_on_face};
+    grain.disturbance_correction = scenario::DisturbanceCorrection::felt;
     CHECK(grain.error().largest < -0.2);
   }
 }
@@ -65,9 +66,9 @@ TEST_CASE("a lone grain shall feel the law's drag while it goes through the cell
   // %.
   for (const Way& way : {Way{20e-6, 0.25, 0.01}, Way{20e-6, 1.0, 0.02}, Way{100e-6, 0.5, 0.01},
                          Way{300e-6, 1.0, 0.02}, Way{1e-3, 0.5, 0.02}, Way{1e-3, 2.0, k_law}}) {
-    LoneGrain grain{way.diameter, way.ratio, k_lone_air};
-    grain.motion = LoneGrain::Motion::towed;
-    const LoneGrain::Error error = grain.error();
+    IsolatedGrain grain{way.diameter, way.ratio, k_test_air};
+    grain.motion = IsolatedGrain::Motion::towed;
+    const IsolatedGrain::Error error = grain.error();
     MESSAGE("" << 1e6 * way.diameter << " um, D/dx " << way.ratio << ": " << 100.0 * error.least
                << " to " << 100.0 * error.largest << " % of the drag");
     CHECK(error.least > -way.gate);
@@ -80,11 +81,11 @@ TEST_CASE(
   for (const double ratio : {0.25, 0.5, 1.0}) {
     for (const std::string set : {"I", "III"}) {
       for (const bool overlaps : {false, true}) {
-        LoneGrain grain{20e-6, ratio, k_lone_air};
-        grain.motion = LoneGrain::Motion::free;
+        IsolatedGrain grain{20e-6, ratio, k_test_air};
+        grain.motion = IsolatedGrain::Motion::free;
         grain.set = set;
         grain.overlaps = overlaps;
-        const LoneGrain::Error error = grain.error();
+        const IsolatedGrain::Error error = grain.error();
         MESSAGE("D/dx " << ratio << ", set " << set
                         << std::string(overlaps ? ", overlapped: " : ": ") << 100.0 * error.least
                         << " to " << 100.0 * error.largest << " % of the speed");
@@ -103,10 +104,10 @@ TEST_CASE("a lone grain shall feel the law's drag beside a wall, along it and ac
   for (const bool is_across : {false, true}) {
     for (const double ratio : {0.1, 0.5, 1.0}) {
       for (const double beside : {0.5, 1.0, 2.0, 3.0}) {
-        LoneGrain grain{20e-6, ratio, k_lone_water};
+        IsolatedGrain grain{20e-6, ratio, k_test_water};
         grain.beside = beside;
         grain.is_across = is_across;
-        const LoneGrain::Error error = grain.error();
+        const IsolatedGrain::Error error = grain.error();
         MESSAGE("D/dx " << ratio << ", " << beside << " cells from the wall, "
                         << std::string(is_across ? "across: " : "along: ") << 100.0 * error.largest
                         << " %");

@@ -119,11 +119,11 @@ struct Cloud {
     for (int d = 0; d < 3; ++d) {
       const std::string axis(1, "xyz"[d]);
       const std::vector<double> excess = archive.numbers("excess_" + axis);
-      const std::vector<double> owed =
+      const std::vector<double> deferred =
           has_cells ? archive.numbers("stress_owed_" + axis) : std::vector<double>(excess.size());
       world.for_cells([&](int i, int j, int k) {
         const auto c = static_cast<std::size_t>(world.grid.index(i, j, k));
-        sum[d] += owed[c] - excess[c] * world.grid.cell_volume();
+        sum[d] += deferred[c] - excess[c] * world.grid.cell_volume();
       });
     }
     return sum;
@@ -267,10 +267,10 @@ World::Choice scattered_box(const std::string& law, const std::string& rule,
 
 /// A share of the volume in grains of weight 1, or in 300 of larger weight.
 void scatter(World& world, double diameter, double solids) {
-  constexpr int k_most = 300;
+  constexpr int k_max = 300;
   const double side = world.choice.max.x;
   const double all = solids * side * side * side / sdk::sphere_volume(diameter);
-  const int count = std::min(k_most, static_cast<int>(all));
+  const int count = std::min(k_max, static_cast<int>(all));
   test::Numbers random;
   for (int n = 0; n < count; ++n) {
     world.grains.add({side * random.next(), side * random.next(), side * random.next()}, {},

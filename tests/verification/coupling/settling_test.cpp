@@ -35,8 +35,8 @@ double settling_speed(double ratio, bool is_one_way, const std::string& set,
   choice.density = k_water;
   choice.viscosity = k_water_viscosity;
   choice.is_one_way = is_one_way;
-  choice.own_disturbance =
-      is_corrected ? scenario::OwnDisturbance::automatic : scenario::OwnDisturbance::felt;
+  choice.disturbance_correction = is_corrected ? scenario::DisturbanceCorrection::automatic
+                                               : scenario::DisturbanceCorrection::felt;
   choice.momentum_set = set;
   TwoWay::Sides sides;
   sides[4] = test::wall();
@@ -207,8 +207,8 @@ Fall fall_into_water(double cell, bool is_corrected) {
   choice.drag = "schiller_naumann";
   choice.density = k_air;
   choice.viscosity = 1.84e-5;
-  choice.own_disturbance =
-      is_corrected ? scenario::OwnDisturbance::automatic : scenario::OwnDisturbance::felt;
+  choice.disturbance_correction = is_corrected ? scenario::DisturbanceCorrection::automatic
+                                               : scenario::DisturbanceCorrection::felt;
   TwoWay::Sides sides;
   for (int s = 0; s < 5; ++s) sides[s] = test::wall();
   sides[5] = test::open_side(0.0, true);

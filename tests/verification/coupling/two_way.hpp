@@ -24,7 +24,8 @@ struct TwoWay {
     fluid.pressure_tolerance = tolerance;
     fluid.regions = std::move(regions);
     world.setup.gravity = {0, 0, -k_gravity};
-    fluid.own_disturbance = choice.own_disturbance.value_or(scenario::OwnDisturbance::automatic);
+    fluid.disturbance_correction =
+        choice.disturbance_correction.value_or(scenario::DisturbanceCorrection::automatic);
     world.restart();
     fluid::Boundaries pointers{};
     for (std::size_t n = 0; n < 6; ++n) pointers[n] = sides[n].get();

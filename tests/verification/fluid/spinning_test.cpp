@@ -206,7 +206,7 @@ Deviation spin(double speed, double cell, int axis = 1, int depth = 1) {
   return deviation(c, speed, axis);
 }
 
-void tell(double speed, double cell, const Deviation& e) {
+void report(double speed, double cell, const Deviation& e) {
   MESSAGE("speed " << speed << " m/s, cells " << 1e3 * cell << " mm: carried " << 100 * e.carried
                    << " % too much, rms " << e.rms << ", through the surface " << e.normal);
 }
@@ -223,12 +223,12 @@ TEST_CASE("a spinning cylinder shall carry the air that diffusion gives it, at a
   constexpr double k_through = 0.01;
   for (const double speed : {0.008, 0.2, 0.8, 2.0}) {
     const Deviation e = spin(speed, 1.25e-3);
-    tell(speed, 1.25e-3, e);
+    report(speed, 1.25e-3, e);
     CHECK(std::abs(e.carried) < k_coarse);
     CHECK(e.normal < k_through);
   }
   const Deviation fine = spin(2.0, 0.625e-3);
-  tell(2.0, 0.625e-3, fine);
+  report(2.0, 0.625e-3, fine);
   CHECK(std::abs(fine.carried) < k_fine);
 }
 

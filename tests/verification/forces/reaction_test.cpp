@@ -106,11 +106,11 @@ struct Cloud {
     for (int d = 0; d < 3; ++d) {
       const std::string axis(1, "xyz"[d]);
       const std::vector<double> excess = archive.numbers("excess_" + axis);
-      std::vector<double> owed(excess.size());
-      if (forces.empty()) owed = archive.numbers("stress_owed_" + axis);
+      std::vector<double> deferred(excess.size());
+      if (forces.empty()) deferred = archive.numbers("stress_owed_" + axis);
       world.for_cells([&](int i, int j, int k) {
         const auto c = static_cast<std::size_t>(world.grid.index(i, j, k));
-        sum[d] += owed[c] - excess[c] * world.grid.cell_volume();
+        sum[d] += deferred[c] - excess[c] * world.grid.cell_volume();
       });
     }
     return sum;

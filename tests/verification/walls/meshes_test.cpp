@@ -114,7 +114,7 @@ TEST_CASE("an impact on a face, an edge or a point of a flat mesh shall be that 
 }
 
 TEST_CASE("a grain in the corner of a vessel shall rest as between three walls of the domain") {
-  const auto settle = [](bool is_vessel) {
+  const auto come_to_rest = [](bool is_vessel) {
     WallRig rig(0.3, 0.4, k_diameter);
     rig.setup.domain.min = is_vessel ? Vec3{-0.01, -0.01, -0.01} : Vec3{};
     rig.setup.domain.max = {0.02, 0.02, 0.02};
@@ -133,8 +133,8 @@ TEST_CASE("a grain in the corner of a vessel shall rest as between three walls o
     CHECK(dem->report().contacts == 3);
     return grain(*dem, 0);
   };
-  const GrainState walls = settle(false);
-  const GrainState vessel = settle(true);
+  const GrainState walls = come_to_rest(false);
+  const GrainState vessel = come_to_rest(true);
   CHECK(norm(walls.position - vessel.position) < 1e-10);
   CHECK(norm(vessel.velocity) < 1e-5);
   CHECK(vessel.position.x < 0.5 * k_diameter);

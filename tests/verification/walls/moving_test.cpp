@@ -62,11 +62,11 @@ TEST_CASE("a wall that sweeps through resting grains shall do what grains do tha
     return states;
   };
   const auto moving = run(true);
-  const auto standing = run(false);
+  const auto static_pile = run(false);
   for (std::size_t n = 0; n < moving.size(); ++n) {
-    CHECK(standing[n].velocity.x > 0.5);  // all were met
-    CHECK(norm(moving[n].position - standing[n].position) < 1e-9);
-    CHECK(norm(moving[n].velocity - standing[n].velocity) < 1e-7);
+    CHECK(static_pile[n].velocity.x > 0.5);  // all were met
+    CHECK(norm(moving[n].position - static_pile[n].position) < 1e-9);
+    CHECK(norm(moving[n].velocity - static_pile[n].velocity) < 1e-7);
   }
 }
 

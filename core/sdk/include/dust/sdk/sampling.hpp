@@ -154,7 +154,7 @@ class BatchMeans {
     closed_.insert(closed_.end(), open_.begin(), open_.end());
     durations_.push_back(open_duration_);
     clear_open();
-    if (durations_.size() == k_most_batches) merge();
+    if (durations_.size() == k_max_batches) merge();
   }
 
   /// [s] observed.
@@ -173,7 +173,7 @@ class BatchMeans {
   /// Standard error of the mean; -1 below 8 batches.
   [[nodiscard]] double error(std::size_t column) const {
     const std::size_t n = durations_.size();
-    if (n < k_fewest_batches) return -1.0;
+    if (n < k_min_batches) return -1.0;
     double mean_of_batches = 0.0;
     for (std::size_t b = 0; b < n; ++b) mean_of_batches += batch_mean(b, column) / n;
     double squares = 0.0;
@@ -186,7 +186,7 @@ class BatchMeans {
       last = deviation;
     }
     const double variance = squares / static_cast<double>(n * (n - 1));
-    const double memory = squares > 0.0 ? std::min(products / squares, k_most_memory) : 0.0;
+    const double memory = squares > 0.0 ? std::min(products / squares, k_max_memory) : 0.0;
     const bool has_memory = memory > 2.0 / std::sqrt(static_cast<double>(n));
     return std::sqrt(has_memory ? variance * (1.0 + memory) / (1.0 - memory) : variance);
   }
@@ -216,9 +216,9 @@ class BatchMeans {
   }
 
  private:
-  static constexpr std::size_t k_most_batches = 32;
-  static constexpr std::size_t k_fewest_batches = 8;
-  static constexpr double k_most_memory = 0.9;  ///< 32 batches cannot tell more
+  static constexpr std::size_t k_max_batches = 32;
+  static constexpr std::size_t k_min_batches = 8;
+  static constexpr double k_max_memory = 0.9;  ///< 32 batches cannot tell more
 
   [[nodiscard]] double batch_mean(std::size_t batch, std::size_t column) const {
     return closed_[batch * columns_ + column] / durations_[batch];
@@ -229,15 +229,15 @@ class BatchMeans {
     open_samples_ = 0;
   }
   void merge() {
-    for (std::size_t b = 0; b < k_most_batches / 2; ++b) {
+    for (std::size_t b = 0; b < k_max_batches / 2; ++b) {
       for (std::size_t c = 0; c < columns_; ++c) {
         closed_[b * columns_ + c] =
             closed_[2 * b * columns_ + c] + closed_[(2 * b + 1) * columns_ + c];
       }
       durations_[b] = durations_[2 * b] + durations_[2 * b + 1];
     }
-    closed_.resize(k_most_batches / 2 * columns_);
-    durations_.resize(k_most_batches / 2);
+    closed_.resize(k_max_batches / 2 * columns_);
+    durations_.resize(k_max_batches / 2);
     samples_per_batch_ *= 2;
   }
 
@@ -300,13 +300,13 @@ class ThinnedCurve {
     y_.push_back(sum_y_ / static_cast<double>(samples_));
     sum_x_ = sum_y_ = 0.0;
     samples_ = 0;
-    if (x_.size() < k_most_points) return;
-    for (std::size_t i = 0; i < k_most_points / 2; ++i) {
+    if (x_.size() < k_max_points) return;
+    for (std::size_t i = 0; i < k_max_points / 2; ++i) {
       x_[i] = 0.5 * (x_[2 * i] + x_[2 * i + 1]);
       y_[i] = 0.5 * (y_[2 * i] + y_[2 * i + 1]);
     }
-    x_.resize(k_most_points / 2);
-    y_.resize(k_most_points / 2);
+    x_.resize(k_max_points / 2);
+    y_.resize(k_max_points / 2);
     samples_per_point_ *= 2;
   }
   [[nodiscard]] std::span<const double> x() const { return x_; }
@@ -332,7 +332,7 @@ class ThinnedCurve {
   }
 
  private:
-  static constexpr std::size_t k_most_points = 2048;
+  static constexpr std::size_t k_max_points = 2048;
   std::vector<double> x_;
   std::vector<double> y_;
   double sum_x_ = 0.0;

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dust::study {
+
+/// What a surrogate says of a place: its mean and the variance of that mean (without the scatter of
+/// single runs).
+struct Prediction {
+  double mean = 0.0;
+  double variance = 0.0;
+};
+
+/// Stands in for runs between those that were made. Places are in the unit cube.
+class Surrogate {
+ public:
+  virtual ~Surrogate() = default;
+  /// Learns from `values` at `places`; throws base::RunError with too few of them.
+  virtual void fit(const std::vector<std::vector<double>>& places,
+                   const std::vector<double>& values) = 0;
+  [[nodiscard]] virtual Prediction at(const std::vector<double>& place) const = 0;
+  /// Takes a run at `place` for granted that gives what is expected there: only variances change.
+  /// So that several places are chosen at a time.
+  virtual void add_virtual_run(const std::vector<double>& place) = 0;
+  /// Standard deviation of a single run about the mean, as learnt.
+  [[nodiscard]] virtual double scatter() const = 0;
+  /// Fewest runs it can learn from.
+  [[nodiscard]] virtual std::size_t fewest(std::size_t dimensions) const = 0;
+};
+
+/// Gaussian process on a linear trend,
+/// \f$ y = h(x)^T b + z(x) + e \f$, \f$ \mathrm{cov}(z) = s^2 \prod_d k(|x_d - x'_d| / l_d) \f$
+/// with the Matern function of order 5/2; b and s^2 by generalised least squares, lengths and
+/// scatter by the largest restricted likelihood with a weak prior on them (Rasmussen and Williams
+/// 2006, chapters 2.7, 4.2 and 5.4).
+std::unique_ptr<Surrogate> make_gaussian_process();
+
+/// Full quadratic polynomial by least squares (a response surface, Box and Wilson 1951); its
+/// variance takes the misfit for scatter.
+std::unique_ptr<Surrogate> make_quadratic();
+
+/// By the name of the scenario key: gaussian_process, quadratic.
+std::unique_ptr<Surrogate> make_surrogate(const std::string& name);
+
+}  // namespace dust::study

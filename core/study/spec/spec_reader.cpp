@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/spec/axes.hpp"
+#include "study/spec/spec.hpp"
+
+#include "dust/sdk/parameter_schema.hpp"
+#include "scenario/overlay.hpp"
+#include "scenario/suggest.hpp"
+#include "scenario/units.hpp"
+#include "scenario/values.hpp"
+
+#include <algorithm>
+
+namespace dust::study {
+namespace {
+
+using scenario::Entry;
+using scenario::MapReader;
+using scenario::Node;
+using scenario::printable;
+using sdk::SchemaOf;
+
+struct GeneralBlock {
+  std::string name;
+  std::string title;
+  std::string base;
+  std::int64_t replicates = 1;
+  std::int64_t seed = -1;
+  static const sdk::ParameterSchema& schema() {
+    static const sdk::ParameterSchema made = [] {
+      SchemaOf<GeneralBlock> s;
+      s.text(&GeneralBlock::name, "name", "Name of the study and of its folder.").optional();
+      s.text(&GeneralBlock::title, "title", "One sentence for the report.").optional();
+      s.text(&GeneralBlock::base, "base", "The scenario that is varied, relative to this file.");
+      s.integer(&GeneralBlock::replicates, "replicates",
+                "Runs of every point, each with a seed of its own.")
+          .at_least(1)
+          .at_most(1000)
+          .optional();
+      s.integer(&GeneralBlock::seed, "seed",
+                "Seed of the first replicate; the next ones count on. -1 takes the scenario's.")
+          .at_least(-1)
+          .optional();
+      return s.build();
+    }();
+    return made;
+  }
+};
+
+template <class Block>
+Block read_block(MapReader& reader) {
+  return sdk::parameters_from<Block>(Block::schema(), reader.values(Block::schema()));
+}
+
+/// Reads the tree of a study file.
+class SpecReader {
+ public:
+  SpecReader(const Node& root, const std::filesystem::path& file,
+             scenario::Diagnostics& diagnostics)
+      : root_(root), diagnostics_(diagnostics) {
+    spec_.file = file;
+    spec_.where = root.where;
+  }
+
+  Spec read() {
+    MapReader top(root_, "", root_.where, diagnostics_, "the study");
+    read_general(top);
+    if (const Entry* set = top.optional("set")) spec_.settings = read_settings(*set, "set");
+    AxisReader axes(diagnostics_);
+    if (const Entry* vary = top.optional("vary")) axes.read_values(*vary, spec_.axes);
+    if (const Entry* zip = top.optional("zip")) axes.read_zip(*zip, spec_.axes);
+    if (const Entry* cases = top.optional("cases")) axes.read_cases(*cases, spec_.axes);
+    if (const Entry* sample = top.optional("sample")) axes.read_sample(*sample, spec_.axes);
+    check_paths();
+    const Entry* calibrate = top.optional("calibrate");
+    if (calibrate != nullptr) read_calibration(*calibrate);
+    const Entry* measure =
+        calibrate == nullptr
+            ? top.required("measure", "what is taken from every run: NAME: sensors.SENSOR.FIGURE")
+            : top.optional("measure");
+    if (measure != nullptr) read_measures(*measure);
+    if (const Entry* expect = top.optional("expect")) read_expectations(*expect);
+    if (const Entry* run = top.optional("run")) {
+      MapReader reader(run->value, "run", run->where, diagnostics_);
+      spec_.execution = read_block<Execution>(reader);
+      reader.finish();
+    }
+    if (const Entry* slurm = top.optional("slurm")) {
+      MapReader reader(slurm->value, "slurm", slurm->where, diagnostics_);
+      spec_.slurm = read_block<SlurmSpec>(reader);
+      reader.finish();
+    }
+    top.finish();
+    const bool varies = !spec_.axes.empty() || spec_.replicates > 1;
+    if (calibrate != nullptr && !spec_.axes.empty()) {
+      error(calibrate->where,
+            "calibrate: the parameters are varied by the calibration itself: "
+            "take vary, zip, cases and sample out, or calibrate");
+    } else if (calibrate == nullptr && !varies && !diagnostics_.has_errors()) {
+      error(root_.where, "nothing is varied: give vary, zip, cases, sample or replicates");
+    }
+    return std::move(spec_);
+  }
+
+ private:
+  void error(const scenario::Mark& where, const std::string& text) {
+    diagnostics_.error(where, text);
+  }
+
+  void read_general(MapReader& top) {
+    const auto general = read_block<GeneralBlock>(top);
+    spec_.name = general.name.empty() ? spec_.file.stem().string() : general.name;
+    const bool is_folder_name =
+        !spec_.name.empty() && std::all_of(spec_.name.begin(), spec_.name.end(), [](char c) {
+          return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+        });
+    if (!is_folder_name) {
+      const Entry* name = root_.find("name");
+      error(name != nullptr ? name->value.where : root_.where,
+            "name: '" + printable(spec_.name) +
+                "' is also a folder's name: use letters, digits, '_' and '-'");
+    }
+    spec_.title = general.title;
+    spec_.replicates = general.replicates;
+    spec_.seed = general.seed;
+    const Entry* base = root_.find("base");
+    if (base == nullptr || !base->value.is_text()) return;
+    spec_.base = (spec_.file.parent_path() / general.base).lexically_normal();
+    spec_.base_where = base->value.where;
+    if (!std::filesystem::is_regular_file(spec_.base)) {
+      error(base->value.where, "base: there is no file " + spec_.base.generic_string());
+    }
+  }
+
+  std::vector<Setting> read_settings(const Entry& entry, const std::string& path) {
+    std::vector<Setting> settings;
+    if (!entry.value.is_map()) {
+      error(entry.value.where, path + ": a map of paths and values is expected, not " +
+                                   scenario::kind_text(entry.value));
+      return settings;
+    }
+    for (const Entry& one : entry.value.entries) {
+      settings.push_back({one.key, one.value, one.where});
+    }
+    return settings;
+  }
+
+  /// Two axes that set the same key would make the later one win in silence.
+  void check_paths() {
+    std::vector<std::string> seen;
+    for (const Axis& axis : spec_.axes) {
+      std::vector<std::string> own = axis.paths;
+      for (const Level& level : axis.levels) {
+        if (axis.kind != AxisKind::cases) break;
+        for (const Setting& s : level.settings) own.push_back(s.path);
+      }
+      std::sort(own.begin(), own.end());
+      own.erase(std::unique(own.begin(), own.end()), own.end());
+      for (const std::string& path : own) {
+        if (std::find(seen.begin(), seen.end(), path) != seen.end()) {
+          error(axis.where, printable(path) +
+                                " is varied twice: by this and by another part of "
+                                "the study");
+        }
+        seen.push_back(path);
+      }
+    }
+  }
+
+  std::optional<Measure> read_measure(const Entry& entry, const std::string& path) {
+    Measure measure{
+        .name = entry.key, .quantity = {}, .minus = {}, .unit = {}, .where = entry.value.where};
+    if (entry.value.is_text()) {
+      measure.quantity = entry.value.text;
+      return measure;
+    }
+    MapReader reader(entry.value, path, entry.where, diagnostics_);
+    if (!entry.value.is_map()) return std::nullopt;
+    const Entry* quantity = reader.required("quantity", "sensors.SENSOR.FIGURE");
+    const Entry* unit = reader.optional("unit");
+    const Entry* minus = reader.optional("minus");
+    reader.finish();
+    if (quantity == nullptr) return std::nullopt;
+    if (minus != nullptr) measure.minus = minus->value.text;
+    measure.quantity = quantity->value.text;
+    measure.where = quantity->value.where;
+    if (unit != nullptr) measure.unit = unit->value.text;
+    return measure;
+  }
+
+  void read_measures(const Entry& entry) {
+    if (!entry.value.is_map() || entry.value.entries.empty()) {
+      error(entry.value.where,
+            "measure: a map of names and quantities is expected, like "
+            "dust: sensors.out.forward.grams_per_tonne");
+      return;
+    }
+    for (const Entry& one : entry.value.entries) {
+      const auto measure = read_measure(one, "measure." + printable(one.key));
+      if (!measure) continue;
+      const bool is_target = std::any_of(spec_.measures.begin(), spec_.measures.end(),
+                                         [&](const Measure& m) { return m.name == measure->name; });
+      if (is_target) {
+        error(one.where, "measure." + printable(one.key) + ": a target has this name already");
+        continue;
+      }
+      spec_.measures.push_back(*measure);
+    }
+  }
+
+  std::string text_of(MapReader& reader, const std::string& key, bool is_required,
+                      const std::string& what) {
+    const Entry* entry = is_required ? reader.required(key, what) : reader.optional(key);
+    if (entry == nullptr) return {};
+    if (entry->value.is_text()) return entry->value.text;
+    error(entry->value.where,
+          reader.path_of(key) + ": a text is expected, not " + scenario::kind_text(entry->value));
+    return {};
+  }
+
+  void read_expectations(const Entry& entry) {
+    if (!entry.value.is_list()) {
+      error(entry.value.where,
+            "expect: a list of {output: ..., input: ..., then: rises} is "
+            "expected, not " +
+                scenario::kind_text(entry.value));
+      return;
+    }
+    for (std::size_t n = 0; n < entry.value.items.size(); ++n) {
+      const Node& item = entry.value.items[n];
+      MapReader reader(item, "expect[" + std::to_string(n) + "]", item.where, diagnostics_);
+      if (!item.is_map()) continue;
+      Expectation e;
+      e.where = item.where;
+      e.output = text_of(reader, "output", true, "the name of a measure");
+      e.input = text_of(reader, "input", true, "the path of what is varied, or case");
+      e.then = text_of(reader, "then", true, "rises or falls");
+      e.from = text_of(reader, "from", false, "");
+      e.to = text_of(reader, "to", false, "");
+      e.why = text_of(reader, "why", false, "");
+      reader.finish();
+      check_expectation(item, e, n);
+      spec_.expectations.push_back(std::move(e));
+    }
+  }
+
+  void check_expectation(const Node& item, const Expectation& e, std::size_t n) {
+    const std::string path = "expect[" + std::to_string(n) + "]";
+    const auto where = [&](const char* key) {
+      const Entry* entry = item.find(key);
+      return entry != nullptr ? entry->value.where : item.where;
+    };
+    std::vector<std::string> outputs;
+    for (const Measure& m : spec_.measures) outputs.push_back(m.name);
+    if (!e.output.empty() && std::find(outputs.begin(), outputs.end(), e.output) == outputs.end()) {
+      error(where("output"), path + ".output: there is no measure '" + printable(e.output) + "'" +
+                                 scenario::suggestion(e.output, outputs, "there are"));
+    }
+    std::vector<std::string> inputs;
+    const Axis* chosen = nullptr;
+    for (const Axis& axis : spec_.axes) {
+      std::vector<std::string> own = axis.paths;
+      if (axis.kind == AxisKind::cases) own = {"case"};
+      for (const std::string& name : own) {
+        inputs.push_back(name);
+        if (name == e.input) chosen = &axis;
+      }
+    }
+    if (!e.input.empty() && chosen == nullptr) {
+      error(where("input"), path + ".input: '" + printable(e.input) + "' is not varied" +
+                                scenario::suggestion(e.input, inputs, "there are"));
+    }
+    if (!e.then.empty() && e.then != "rises" && e.then != "falls") {
+      error(where("then"), path + ".then: '" + printable(e.then) + "' is none of rises, falls");
+    }
+    if (chosen == nullptr) return;
+    const bool is_case = chosen->kind == AxisKind::cases;
+    if (!is_case && !(e.from.empty() && e.to.empty())) {
+      error(item.where, path + ": from and to name cases; other inputs count upwards");
+    }
+    if (!is_case) return;
+    std::vector<std::string> labels;
+    for (const Level& level : chosen->levels) labels.push_back(level.label);
+    for (const auto& [key, name] : {std::pair{"from", e.from}, std::pair{"to", e.to}}) {
+      if (std::find(labels.begin(), labels.end(), name) != labels.end()) continue;
+      error(where(key), path + "." + key + ": there is no case '" + printable(name) + "'" +
+                            scenario::suggestion(name, labels, "there are"));
+    }
+  }
+
+  void read_calibration(const Entry& entry) {
+    MapReader reader(entry.value, "calibrate", entry.where, diagnostics_);
+    if (!entry.value.is_map()) return;
+    CalibrationSpec calibration = read_block<CalibrationSpec>(reader);
+    calibration.where = entry.where;
+    const Entry* targets =
+        reader.required("targets", "NAME: {quantity: ..., value: 41.6, error: 1.1}");
+    const Entry* parameters =
+        reader.required("parameters", "NAME: {path: ..., from: 0.2, to: 0.7}");
+    reader.finish();
+    if (targets != nullptr) read_targets(*targets, calibration);
+    if (parameters != nullptr) read_parameters(*parameters, calibration);
+    if (calibration.parameters.size() > 4) {
+      error(parameters->where, "calibrate.parameters: at most 4 can be found at a time");
+    }
+    spec_.calibration = std::move(calibration);
+  }
+
+  /// Value and unit of a number; the problem is told.
+  std::optional<scenario::WrittenNumber> number_of(const Entry* entry, const std::string& path) {
+    if (entry == nullptr) return std::nullopt;
+    std::string why = "a number is expected, not " + scenario::kind_text(entry->value);
+    std::optional<scenario::WrittenNumber> number;
+    if (entry->value.is_text()) number = scenario::split_number(entry->value.text, why);
+    if (!number) error(entry->value.where, path + ": " + why);
+    return number;
+  }
+
+  void read_targets(const Entry& entry, CalibrationSpec& calibration) {
+    if (!entry.value.is_map() || entry.value.entries.empty()) {
+      error(entry.value.where, "calibrate.targets: at least one is needed");
+      return;
+    }
+    for (const Entry& one : entry.value.entries) {
+      const std::string path = "calibrate.targets." + printable(one.key);
+      MapReader reader(one.value, path, one.where, diagnostics_);
+      if (!one.value.is_map()) continue;
+      const Entry* quantity = reader.required("quantity", "sensors.SENSOR.FIGURE");
+      const Entry* value = reader.required("value", "as measured, with its unit");
+      const Entry* uncertainty = reader.required("error", "one standard error, with its unit");
+      reader.finish();
+      const auto v = number_of(value, path + ".value");
+      const auto e = number_of(uncertainty, path + ".error");
+      if (quantity == nullptr || !v || !e) continue;
+      if (!(e->number > 0.0)) {
+        error(uncertainty->value.where, path + ".error: must be above 0");
+      }
+      if (!e->unit.empty() && e->unit != v->unit) {
+        error(uncertainty->value.where, path + ".error: write it in the unit of the value");
+      }
+      Target target{{one.key, quantity->value.text, {}, v->unit, quantity->value.where},
+                    v->number,
+                    e->number};
+      spec_.measures.push_back(target.measure);
+      calibration.targets.push_back(std::move(target));
+    }
+  }
+
+  void read_parameters(const Entry& entry, CalibrationSpec& calibration) {
+    if (!entry.value.is_map() || entry.value.entries.empty()) {
+      error(entry.value.where, "calibrate.parameters: at least one is needed");
+      return;
+    }
+    for (const Entry& one : entry.value.entries) {
+      const std::string path = "calibrate.parameters." + printable(one.key);
+      MapReader reader(one.value, path, one.where, diagnostics_);
+      if (!one.value.is_map()) continue;
+      FreeParameter parameter{.name = one.key, .paths = {}, .unit = {}, .where = one.where};
+      if (const Entry* at = reader.required("path", "where it stands; or a list of such paths")) {
+        std::vector<Node> nodes{at->value};
+        if (at->value.is_list()) nodes = at->value.items;
+        for (const Node& node : nodes) parameter.paths.push_back(node.text);
+      }
+      const auto low = number_of(reader.required("from", "lower end"), path + ".from");
+      const Entry* to = reader.required("to", "upper end");
+      const auto high = number_of(to, path + ".to");
+      reader.finish();
+      if (!low || !high) continue;
+      parameter.low = low->number;
+      parameter.high = high->number;
+      parameter.unit = high->unit;
+      if (!low->unit.empty() && low->unit != high->unit) {
+        error(to->value.where, path + ": write both ends in one unit");
+      } else if (!(high->number > low->number)) {
+        error(to->value.where, path + ".to: must be above from");
+      }
+      calibration.parameters.push_back(std::move(parameter));
+    }
+  }
+
+  const Node& root_;
+  scenario::Diagnostics& diagnostics_;
+  Spec spec_;
+};
+
+}  // namespace
+
+std::optional<Spec> read_spec(const std::filesystem::path& file,
+                              scenario::Diagnostics& diagnostics) {
+  auto root = scenario::read_with_includes(file, diagnostics);
+  if (!root) return std::nullopt;
+  if (root->where.line == 0) root->where = {file.generic_string(), 1, 1};
+  return SpecReader(*root, file, diagnostics).read();
+}
+
+}  // namespace dust::study

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/spec/spec.hpp"
+
+#include "scenario/values.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace dust::study {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json described(Json json, const std::string& description) {
+  json["description"] = description;
+  return json;
+}
+
+Json object(const Json& properties, const Json& required = Json::array()) {
+  Json made = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  if (!required.empty()) made["required"] = required;
+  return made;
+}
+
+Json map_of(const Json& value) {
+  return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", value}};
+}
+
+Json value_of(const sdk::Parameter& p) {
+  Json json;
+  switch (p.type) {
+    case sdk::ParameterType::integer:
+      json = {{"type", "integer"}};
+      break;
+    case sdk::ParameterType::texts:
+      json = {{"type", "array"}, {"items", {{"type", "string"}}}};
+      break;
+    case sdk::ParameterType::text:
+      json = {{"type", "string"}};
+      break;
+    default:
+      json = {{"type", "number"}};
+      break;
+  }
+  if (!p.options.empty()) json["enum"] = p.options;
+  if (std::isfinite(p.range.low)) {
+    json[p.range.low_is_open ? "exclusiveMinimum" : "minimum"] = p.range.low;
+  }
+  if (std::isfinite(p.range.high)) {
+    json[p.range.high_is_open ? "exclusiveMaximum" : "maximum"] = p.range.high;
+  }
+  const std::string standard = scenario::default_text(p);
+  return described(json, p.sentence + (standard.empty() ? "" : " (default " + standard + ")"));
+}
+
+Json properties_of(const sdk::ParameterSchema& schema) {
+  Json properties = Json::object();
+  for (const sdk::Parameter& p : schema) properties[p.name] = value_of(p);
+  return properties;
+}
+
+const Json k_number = {{"type", {"number", "string"}}};
+const Json k_text = {{"type", "string"}};
+
+Json interval(bool has_count) {
+  Json properties = {
+      {"from", k_number}, {"to", k_number}, {"spacing", {{"enum", {"linear", "log"}}}}};
+  Json required = {"from", "to"};
+  if (has_count) {
+    properties["count"] = {{"type", "integer"}, {"minimum", 1}};
+    required.push_back("count");
+  }
+  return object(properties, required);
+}
+
+Json levels() {
+  return {{"anyOf", Json::array({{{"type", "array"}, {"minItems", 1}}, interval(true)})}};
+}
+
+Json calibration() {
+  Json properties = {
+      {"targets",
+       described(map_of(object({{"quantity", k_text}, {"value", k_number}, {"error", k_number}},
+                               {"quantity", "value", "error"})),
+                 "Measured values with their standard errors.")},
+      {"parameters",
+       described(
+           map_of(object(
+               {{"path", {{"type", {"string", "array"}}}}, {"from", k_number}, {"to", k_number}},
+               {"path", "from", "to"})),
+           "What is to be found, where it stands in the scenario, and its interval.")}};
+  const Json declared = properties_of(CalibrationSpec::schema());
+  for (const auto& [key, value] : declared.items()) properties[key] = value;
+  return object(properties, {"targets", "parameters"});
+}
+
+Json sample() {
+  return object({{"method", {{"enum", {"latin_hypercube", "sobol"}}}},
+                 {"count", {{"type", "integer"}, {"minimum", 1}}},
+                 {"seed", {{"type", "integer"}, {"minimum", 0}}},
+                 {"over", map_of(interval(false))}},
+                {"method", "count", "over"});
+}
+
+}  // namespace
+
+std::string study_schema() {
+  const Json one_case = map_of(Json::object());
+  const Json measure = {
+      {"anyOf",
+       Json::array({k_text, object({{"quantity", k_text}, {"minus", k_text}, {"unit", k_text}},
+                                   {"quantity"})})}};
+  const Json expectation = object({{"output", k_text},
+                                   {"input", k_text},
+                                   {"then", {{"enum", {"rises", "falls"}}}},
+                                   {"from", k_text},
+                                   {"to", k_text},
+                                   {"why", k_text}},
+                                  {"output", "input", "then"});
+  const Json zip = map_of(levels());
+  Json properties = {
+      {"include", {{"type", {"string", "array"}}}},
+      {"name",
+       described(k_text, "Name of the study and of its folder (default: the file's stem).")},
+      {"title", described(k_text, "One sentence for the report.")},
+      {"base", described(k_text, "The scenario that is varied, relative to this file.")},
+      {"set", described(map_of(Json::object()),
+                        "Dotted paths and what they are set to in every "
+                        "point, as for --set.")},
+      {"vary", described(map_of(levels()),
+                         "Dotted paths and their levels: a list, or {from, to, "
+                         "count}. All combinations are run.")},
+      {"zip", described({{"anyOf", Json::array({zip, {{"type", "array"}, {"items", zip}}})}},
+                        "Paths whose levels go together, first with first; combined with the "
+                        "rest.")},
+      {"cases",
+       described({{"anyOf", Json::array({map_of({{"type", {"object", "null"}}}),
+                                         {{"type", "array"},
+                                          {"items", object({{"name", k_text}, {"set", one_case}},
+                                                           Json::array({"name"}))}}})}},
+                 "Named points, each with the paths it sets; combined with the rest.")},
+      {"sample", described(sample(), "Points spread over intervals; combined with the rest.")},
+      {"replicates", described({{"type", "integer"}, {"minimum", 1}, {"maximum", 1000}},
+                               "Runs of every point, each with a seed of its own (default 1).")},
+      {"seed", described({{"type", "integer"}, {"minimum", -1}},
+                         "Seed of the first replicate; the next ones count on (default: the "
+                         "scenario's).")},
+      {"measure", described(map_of(measure),
+                            "Names and what is taken from every run: "
+                            "sensors.SENSOR.FIGURE or a figure of summary.json, "
+                            "with another unit if wanted.")},
+      {"expect", described({{"type", "array"}, {"items", expectation}},
+                           "Signs of effects stated before the runs, checked in the report.")},
+      {"run", described(object(properties_of(Execution::schema())), "How many runs at a time.")},
+      {"slurm", described(object(properties_of(SlurmSpec::schema())),
+                          "What a cluster is asked for with --launcher slurm.")},
+      {"calibrate", described(calibration(), "Finds parameters that meet targets.")}};
+  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                 {"title", "Study of the dust engine"}};
+  const Json whole = object(properties, Json::array({"base"}));
+  for (const auto& [key, value] : whole.items()) schema[key] = value;
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace dust::study
