@@ -23,7 +23,7 @@ inline double damping(double restitution) {
   return -log_e / std::sqrt(std::numbers::pi * std::numbers::pi + log_e * log_e);
 }
 
-/// Duration [s] of an elastic collision of effective mass m* [kg]: half a swing of the spring,
+/// Duration [s] of an elastic collision of effective mass m* [kg]: half a period of the spring,
 /// \f$ \pi \sqrt{m^*/k} \f$, whatever the speed.
 inline double collision_time(double stiffness, double mass) {
   return std::numbers::pi * std::sqrt(mass / stiffness);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-// A head-on collision of unit mass on a unit spring: half a swing, and the restitution asked for.
+// A head-on collision of unit mass on a unit spring: half a period, and the restitution asked for.
 int main() {
   my_contact::Constants k;
   k.stiffness = 1.0;

@@ -17,7 +17,7 @@ class MyDrag final : public sdk::DragLaw {
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
     s.number(&Parameters::exponent, "exponent", sdk::dimension::none,
-             "How fast the drag grows as grains crowd.")
+             "How fast the drag grows as the grains get denser.")
         .symbol("n")
         .at_least(0)
         .optional();
@@ -27,7 +27,7 @@ class MyDrag final : public sdk::DragLaw {
   static sdk::ModelInfo describe() {
     return {.name = "my_drag",
             .version = "1.0",
-            .summary = "Drag of a lone sphere times a power of the void fraction.",
+            .summary = "Drag of an isolated sphere times a power of the void fraction.",
             .equation = "F = (1 + 0.15 Re^{0.687}) \\varepsilon^{-n}",
             .source = "Schiller, Naumann, VDI-Z. 77 (1935) 318"};
   }

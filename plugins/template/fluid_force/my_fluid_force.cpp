@@ -17,7 +17,7 @@ class MyFluidForce final : public sdk::FluidForce {
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
     s.number(&Parameters::coefficient, "coefficient", sdk::dimension::none,
-             "Strength of the lift; 0.5 for a lone sphere.")
+             "Strength of the lift; 0.5 for an isolated sphere.")
         .symbol("C_L")
         .at_least(0)
         .optional();

@@ -62,7 +62,7 @@ class MySensor final : public sdk::Sensor {
     curve_.add(world.time, now_[1]);
   }
 
-  // 4. What it tells: a row of series.csv, figures with their errors, a section of the report,
+  // 4. What it reports: a row of series.csv, figures with their errors, a section of the report,
   // fields of results.h5.
   // Every figure says what it is: the report reads the role and never the name.
   void series(sdk::FigureSink& sink) const override {
