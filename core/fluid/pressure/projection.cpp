@@ -7,7 +7,7 @@ namespace dust::fluid {
 
 using Ghosts = Momentum::Ghosts;
 
-Projection::Projection(const Grid& grid, const CutGrid& cut, const Sides& sides,
+Projection::Projection(const Grid& grid, const CutGrid& cut, Sides& sides,
                        const FaceProperties& properties, const Momentum& momentum, double tolerance)
     : grid_(grid),
       cut_(cut),

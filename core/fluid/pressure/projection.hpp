@@ -15,8 +15,8 @@ namespace dust::fluid {
 class Projection {
  public:
   /// References are kept.
-  Projection(const Grid& grid, const CutGrid& cut, const Sides& sides,
-             const FaceProperties& properties, const Momentum& momentum, double tolerance);
+  Projection(const Grid& grid, const CutGrid& cut, Sides& sides, const FaceProperties& properties,
+             const Momentum& momentum, double tolerance);
 
   [[nodiscard]] CellField& pressure() { return p_; }
   [[nodiscard]] const CellField& pressure() const { return p_; }
@@ -50,7 +50,7 @@ class Projection {
 
   const Grid& grid_;
   const CutGrid& cut_;
-  const Sides& sides_;
+  Sides& sides_;
   const FaceProperties& properties_;
   const Momentum& momentum_;
   double tolerance_;
