@@ -27,14 +27,15 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
   double *fx = b.force.x, *fy = b.force.y, *fz = b.force.z;
   alignas(64) double contact_radius[k_block], keep[k_block], compliance[k_block], total[k_block];
   alignas(64) double dx[k_block], dy[k_block], dz[k_block], vn[k_block];
+  alignas(64) double edge[k_block];
+  std::size_t ending[k_block];
+  double change[k_block];
+  std::size_t endings = 0;
   const std::size_t count = end - first;
-  // Overlaps less the way of a step: below zero where a contact begins or ends.
-  double least = 0.0;
-#pragma omp simd reduction(min : least)
+#pragma omp simd
   for (std::size_t q = first; q < end; ++q) {
     contact_radius[q - first] = formula::squared_contact_radius(overlap[q], radius[q]);
     vn[q - first] = vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q];
-    least = std::min(least, overlap[q] - std::abs(vn[q - first]) * time_step);
   }
   sdk::take_square_roots(contact_radius, count);
 #pragma omp simd
@@ -50,7 +51,8 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
     compliance[q - first] = c.compliance;
   }
   sdk::take_square_roots(keep, count);
-#pragma omp simd
+  double least = 0.0;
+#pragma omp simd reduction(min : least)
   for (std::size_t q = first; q < end; ++q) {
     formula::Contact c{};
     c.overlap = overlap[q];
@@ -71,22 +73,27 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
     kt[q] = c.stiffness;
     fn[q] = c.normal_force;
     kn[q] = c.normal_stiffness;
+    edge[q - first] = formula::distance_from_edge(time_step, c);
+    least = std::min(least, edge[q - first]);
   }
-  if (least < 0.0) {
-#pragma omp simd
-    for (std::size_t q = first; q < end; ++q) {
-      formula::Contact c{};
-      c.overlap = overlap[q];
-      c.vn = vn[q - first];
-      c.normal_force = fn[q];
-      c.normal_stiffness = kn[q];
-      c.fx = fx[q], c.fy = fy[q], c.fz = fz[q];
-      c.total = total[q - first];
-      formula::weigh_edge(time_step, c);
-      fn[q] = c.normal_force;
-      fx[q] = c.fx, fy[q] = c.fy, fz[q] = c.fz;
-      total[q - first] = c.total;
-    }
+  // Few contacts begin or end, and only those are looked at.
+  for (std::size_t q = first; least < 0.0 && q < end; ++q) {
+    if (!(edge[q - first] < 0.0)) continue;
+    formula::Contact c{};
+    c.overlap = overlap[q];
+    c.vn = vn[q - first];
+    c.normal_force = fn[q];
+    c.normal_stiffness = kn[q];
+    c.fx = fx[q], c.fy = fy[q], c.fz = fz[q];
+    c.mass = mass[q];
+    c.total = total[q - first];
+    const double by = formula::weigh_edge(k.friction, time_step, c);
+    fn[q] = c.normal_force;
+    fx[q] = c.fx, fy[q] = c.fy, fz[q] = c.fz;
+    total[q - first] = c.total;
+    if (by == 1.0) continue;
+    ending[endings] = q;
+    change[endings++] = by;
   }
   sdk::take_square_roots(total, count);
 #pragma omp simd
@@ -102,6 +109,13 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
     formula::slide(k, c);
     sx[q] = c.sx, sy[q] = c.sy, sz[q] = c.sz;
     fx[q] = c.fx, fy[q] = c.fy, fz[q] = c.fz;
+  }
+  for (std::size_t n = 0; n < endings; ++n) {
+    const std::size_t q = ending[n];
+    const double less = 1.0 - change[n];
+    fx[q] -= less * (fx[q] - fn[q] * nx[q]);
+    fy[q] -= less * (fy[q] - fn[q] * ny[q]);
+    fz[q] -= less * (fz[q] - fn[q] * nz[q]);
   }
 }
 

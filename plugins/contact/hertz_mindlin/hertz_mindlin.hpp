@@ -19,6 +19,14 @@ struct Constants {
   double friction = 0.0;         ///< [-] mu_s
 };
 
+/// Of \f$ h = \frac{1}{12} \omega^2 dt^2 \f$ of the contact point, \f$ \omega^2 = \frac72 k_t / m^*
+/// \f$ for any pair of solid spheres: what the leapfrog makes too much of a oscillation, and by
+/// what a velocity that is predicted over half a step is ahead of it; docs/theory/grains.md, eq.
+/// (17).
+inline constexpr double k_phase_excess = 3.5 / 12.0;  ///< h in k_t dt^2 / m*
+inline constexpr double k_max_phase_excess = 0.1;     ///< [-] h where steps are too long for it
+inline constexpr double k_damper_lead = 5.5;          ///< [h]
+
 /// Largest tangential damper [m*/dt]. Its spin damps a grain at the rate 2.5 sum(gamma_t) / m, and
 /// a velocity that is predicted over half a step (Adams-Bashforth) is stable below 1/dt: enough for
 /// ten equal neighbours. Beyond it a bed of low restitution would keep on shivering.
@@ -97,6 +105,58 @@ inline constexpr double k_tiny = 1e-140;
   return x < 1.0 ? 0.62 + x * (0.45 + 0.25 * x) + 0.0075 * way * way * inverse : 1.0;
 }
 
+/// The tangential force over the last steps of a contact, x steps before its end. Spring and damper
+/// go like \f$ A x^{1/4} \f$, the normal force like \f$ K (x^{3/2} - u_e x^{1/4}) \f$, u_e by its
+/// damper: the limit falls to zero within a step or so and cuts off a force that may be anything.
+/// One that is looked at once per step does not see it fall; what the last two looks give in place
+/// of it adds up to the integral; docs/theory/grains.md, eq. (15).
+class ForceToTheEnd {
+ public:
+  /// At x = `steps`: spring and damper `total`, its limit `elastic_limit` without and `limit` with
+  /// the normal damper, all [N].
+  ForceToTheEnd(double steps, double total, double elastic_limit, double limit) {
+    const double root = fourth_root(steps);
+    const double u = steps * root;
+    slope_ = elastic_limit / (u * root);
+    size_ = total / root;
+    end_ = u * std::max(elastic_limit - limit, 0.0) / elastic_limit;
+    cut_ = end_ + size_ / slope_;
+  }
+  /// The limit [N] at x.
+  [[nodiscard]] double limit(double x) const {
+    const double root = fourth_root(x);
+    return slope_ * root * std::max(x * root - end_, 0.0);
+  }
+  /// \f$ \int_{x_e}^{x + 1/2} \f$ of the smaller of force and limit [N], steps being the unit.
+  [[nodiscard]] double integral(double x) const {
+    const double begin = std::max(x + 0.5, 0.0);
+    const double u = begin * fourth_root(begin);
+    if (cut_ <= u) return size_ * (0.8 * u - 0.4 * (end_ + cut_));
+    const double part = std::max(u - end_, 0.0);
+    return 0.4 * slope_ * part * part;
+  }
+  /// What is given at x as the last force. The last but one gives the rest. It fades where the end
+  /// is less than 0.4 steps away: whether there is one more look hangs on the last digits there.
+  [[nodiscard]] double last(double x) const {
+    const double root = fourth_root(x);
+    const double left = std::max(x * root - end_, 0.0) / std::max(1.25 * root, k_tiny);
+    return std::min(std::min(1.0, 2.5 * left) * integral(x), limit(x));
+  }
+  [[nodiscard]] double last_but_one(double x) const {
+    return std::clamp(integral(x) - last(x - 1.0), 0.0, limit(x));
+  }
+  /// Does the contact still hold at x?
+  [[nodiscard]] bool holds(double x) const { return x > 0.0 && x * fourth_root(x) > end_; }
+
+ private:
+  static double fourth_root(double x) { return std::sqrt(std::sqrt(std::max(x, 0.0))); }
+
+  double slope_;  ///< [N] mu K
+  double size_;   ///< [N] A
+  double end_;    ///< u_e = x_e^{5/4}: here the normal force is zero
+  double cut_;    ///< u_c = x_c^{5/4}: here the limit is reached
+};
+
 /// \f$ a^2 = R^* d \f$ [m2].
 [[gnu::always_inline]] inline double squared_contact_radius(double overlap, double radius) {
   return radius * std::max(overlap, 0.0);
@@ -128,16 +188,21 @@ inline constexpr double k_tiny = 1e-140;
   // Both dampers grow with the fourth root of R d: one root does for two. It stays here, where the
   // divider has nothing else to do.
   const double shared = std::sqrt(c.contact_radius * c.mass);
+  const double excess =
+      std::min(k_phase_excess * time_step * time_step * kt / c.mass, k_max_phase_excess);
   const double gn = k.damping * k.normal_root * shared;
-  const double gt = std::min(k.damping * k.tangential_root * shared,
-                             c.mass * (k_most_tangential_damping / time_step));
+  const double gt =
+      std::min(k.damping * k.tangential_root * shared * (1.0 - k_damper_lead * excess),
+               c.mass * (k_most_tangential_damping / time_step));
   const double tx = c.vx - c.vn * c.nx;
   const double ty = c.vy - c.vn * c.ny;
   const double tz = c.vz - c.vn * c.nz;
-  // sqrt(k_t) over the step in mean, in its value at the end: it begins like the fourth root of the
-  // overlap. `keep` holds the restored length as well, which differs from 1 by the square of the
-  // angle turned: of third order here.
-  const double mean = c.keep > 0.0 ? 0.5 + 0.5 * c.keep : 0.8;
+  // sqrt(k_t) over the step in mean, in its value at the end, for an overlap that changes evenly:
+  // 0.8 (1 - r^5) / (1 - r^4) with the fourth root r of the ratio of overlaps, within 0.03; 0.8 of
+  // a contact that has just begun. `keep` holds the restored length as well, which differs from 1
+  // by the square of the angle turned: of third order here.
+  const double bent = std::min(c.keep, 1.5);
+  const double mean = (0.8 + bent * (0.3 * bent - 0.1) + 0.8 * (c.keep - bent)) * (1.0 - excess);
   const double un = c.ux * c.nx + c.uy * c.ny + c.uz * c.nz;
   c.sx = c.keep * c.sx + mean * (c.ux - un * c.nx);
   c.sy = c.keep * c.sy + mean * (c.uy - un * c.ny);
@@ -154,16 +219,37 @@ inline constexpr double k_tiny = 1e-140;
   c.normal_stiffness = kn;
 }
 
-/// Where a contact begins or ends within a step: all but the elastic normal force gets its weight.
-[[gnu::always_inline]] inline void weigh_edge(double time_step, Contact& c) {
-  const double d = std::max(c.overlap, 0.0);
-  const double edge = edge_weight(d, std::abs(c.vn) * time_step);
+/// Below zero where a contact begins or ends within a step, and where it may end within two.
+[[gnu::always_inline]] inline double distance_from_edge(double time_step, const Contact& c) {
+  const double way = c.vn * time_step;
+  return std::min(c.overlap - std::abs(way), c.normal_force - 2.5 * c.normal_stiffness * way);
+}
+
+/// Where a contact begins or ends within a step all but the elastic normal force gets its weight.
+/// Returns by what the tangential force of the last two steps is to be multiplied after slide().
+inline double weigh_edge(double friction, double time_step, Contact& c) {
+  const double d = c.overlap;
+  if (!(d > 0.0)) return 1.0;
   const double elastic = c.normal_stiffness * d;
-  c.normal_force = elastic + edge * (c.normal_force - elastic);
-  c.fx *= edge;
-  c.fy *= edge;
-  c.fz *= edge;
-  c.total *= edge * edge;
+  const double damped = c.normal_force;
+  const double edge = edge_weight(d, std::abs(c.vn) * time_step);
+  c.normal_force = elastic + edge * (damped - elastic);
+  if (c.vn <= 0.0) {
+    c.fx *= edge;
+    c.fy *= edge;
+    c.fz *= edge;
+    c.total *= edge * edge;
+    return 1.0;
+  }
+  const double limit = friction * std::max(c.normal_force, 0.0);
+  const double speed = c.vn + 0.5 * damped / c.mass * time_step;
+  if (!(speed > 0.0 && limit > 0.0 && c.total > 0.0)) return 1.0;
+  const double total = std::sqrt(c.total);
+  const double steps = d / (speed * time_step);
+  const ForceToTheEnd force(steps, total, friction * elastic, friction * damped);
+  if (force.holds(steps - 2.0)) return 1.0;
+  const double given = force.holds(steps - 1.0) ? force.last_but_one(steps) : force.last(steps);
+  return std::min(given, limit) / std::min(total, limit);
 }
 
 /// Coulomb: spring and damper share the limit.

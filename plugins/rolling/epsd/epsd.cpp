@@ -2,15 +2,23 @@
 #include "epsd.hpp"
 
 #include "../friction.hpp"
+#include "../last_steps.hpp"
 
 #include <dust/sdk/plugin.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace {
 
 namespace formula = dust::model::epsd;
 namespace sdk = dust::sdk;
 
-DUST_KERNEL void evaluate_batch(const formula::Constants& constants, const sdk::ContactBatch& b) {
+/// Contacts at a time: what is kept of them stays in the first-level cache.
+constexpr std::size_t k_block = 64;
+
+DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::ContactBatch& b,
+                                std::size_t first, std::size_t end) {
   const formula::Constants k = constants;
   const double *nx = b.normal.x, *ny = b.normal.y, *nz = b.normal.z;
   const double *wx = b.angular_velocity.x, *wy = b.angular_velocity.y, *wz = b.angular_velocity.z;
@@ -18,11 +26,17 @@ DUST_KERNEL void evaluate_batch(const formula::Constants& constants, const sdk::
   const double *radius = b.effective_radius, *mass = b.effective_mass;
   const double *fn = b.normal_force, *kn = b.normal_stiffness;
   double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2], *last = b.history[3];
+  const double *vx = b.velocity.x, *vy = b.velocity.y, *vz = b.velocity.z, *overlap = b.overlap;
   double *tx = b.torque.x, *ty = b.torque.y, *tz = b.torque.z;
-#pragma omp simd
-  for (std::size_t q = 0; q < b.count; ++q) {
-    formula::Rolling c{nx[q],   ny[q], nz[q], wx[q],   wy[q], wz[q], ax[q], ay[q], az[q], radius[q],
-                       mass[q], fn[q], kn[q], last[q], sx[q], sy[q], sz[q], 0.0,   0.0,   0.0};
+  alignas(64) double before[k_block], total[k_block], limit[k_block];
+  // Overlaps less the way of two steps: below zero where a contact ends.
+  double least = 0.0;
+#pragma omp simd reduction(min : least)
+  for (std::size_t q = first; q < end; ++q) {
+    const double way = (vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q]) * b.time_step;
+    formula::Rolling c{nx[q], ny[q],     nz[q],   wx[q], wy[q], wz[q],   ax[q], ay[q],
+                       az[q], radius[q], mass[q], fn[q], kn[q], last[q], way,   sx[q],
+                       sy[q], sz[q],     0.0,     0.0,   0.0,   0.0,     0.0,   0.0};
     formula::evaluate(k, c);
     last[q] = c.last_stiffness;
     sx[q] = c.sx;
@@ -31,6 +45,31 @@ DUST_KERNEL void evaluate_batch(const formula::Constants& constants, const sdk::
     tx[q] = c.mx;
     ty[q] = c.my;
     tz[q] = c.mz;
+    before[q - first] = c.before;
+    total[q - first] = c.total;
+    limit[q - first] = c.limit;
+    least = std::min(least, overlap[q] - 2.0 * way);
+  }
+  for (std::size_t q = first; least < 0.0 && q < end; ++q) {
+    const double speed = vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q];
+    const double most = limit[q - first];
+    const double whole = total[q - first];
+    if (!(overlap[q] < 2.0 * speed * b.time_step)) continue;
+    // Of the way to the end: still pushed apart.
+    const double pushed = speed + 0.5 * b.time_step * fn[q] / mass[q];
+    const double share = dust::model::share_of_couple(whole, before[q - first], most, overlap[q],
+                                                      pushed, b.time_step);
+    if (share < 0.0) continue;
+    const double change = std::min(share * whole, most) / std::min(whole, most);
+    tx[q] *= change;
+    ty[q] *= change;
+    tz[q] *= change;
+  }
+}
+
+void evaluate_batch(const formula::Constants& constants, const sdk::ContactBatch& b) {
+  for (std::size_t first = 0; first < b.count; first += k_block) {
+    evaluate_block(constants, b, first, std::min(first + k_block, b.count));
   }
 }
 

@@ -23,10 +23,27 @@ struct Rolling {
   double mass;            ///< [kg] m*
   double normal_force;    ///< [N]
   double stiffness;       ///< [N/m] k_n
-  double last_stiffness;  ///< [N/m] k_n at the last look, in and out
+  double last_stiffness;  ///< [N/m] k_n at the last look, below 0 if at the limit, in and out
+  double way;             ///< [m] by which the two part in a step
   double sx, sy, sz;
   double mx, my, mz;
+  double before;  ///< [N m] size of the spring's couple at the last look, out
+  double total;   ///< [N m] size of spring and dashpot together without limit, out
+  double limit;   ///< [N m] out
 };
+
+/// Part of the step around a look during which the spring is below its limit: `above_before` and
+/// `above` [N m] it was and is; where it was at it (`is_mobilised`) none is left. The dashpot ends
+/// there with a jump: told by the looks alone, it would act up to half a step too long or too
+/// short.
+[[gnu::always_inline]] inline double part_below_limit(double above_before, double above,
+                                                      bool is_mobilised) {
+  const double change = std::max(above - above_before, 1e-290);
+  if (above > 0.0) {
+    return is_mobilised ? 0.0 : std::clamp(-above_before / change - 0.5, 0.0, 0.5);
+  }
+  return std::min(1.0, 0.5 - above / change);
+}
 
 /// Couple of an elastic-plastic spring with a dashpot below full mobilisation:
 /// \f$ \Delta M_s = -k_r \Delta\theta_r,\; k_r = 2.25 k_n \mu_r^2 R^{*2},\;
@@ -46,13 +63,12 @@ struct Rolling {
   const double keep = std::sqrt(spring.squared_before / std::max(spring.squared, k_tiny));
   const double reach = k.friction * c.radius;
   const double kr = 2.25 * c.stiffness * reach * reach;
-  const double last = c.last_stiffness > 0.0 ? c.last_stiffness : c.stiffness;
+  const double last = c.last_stiffness != 0.0 ? std::abs(c.last_stiffness) : c.stiffness;
   const double mean = 2.25 * 0.5 * (last + c.stiffness) * reach * reach;
   const double an = c.ax * c.nx + c.ay * c.ny + c.az * c.nz;
   const double sx = keep * spring.part.x - mean * (c.ax - an * c.nx);
   const double sy = keep * spring.part.y - mean * (c.ay - an * c.ny);
   const double sz = keep * spring.part.z - mean * (c.az - an * c.nz);
-  c.last_stiffness = c.stiffness;
   const double size = std::sqrt(sx * sx + sy * sy + sz * sz);
   const double limit = reach * std::abs(c.normal_force);
   const double cut = std::min(1.0, limit / std::max(size, k_tiny));
@@ -60,7 +76,11 @@ struct Rolling {
   c.sy = cut * sy;
   c.sz = cut * sz;
   const double inertia = 1.4 * c.mass * c.radius * c.radius;
-  const double damping = cut < 1.0 ? 0.0 : 2.0 * k.damping_ratio * std::sqrt(inertia * kr);
+  const double above_before =
+      std::sqrt(spring.squared_before) - limit - 1.5 * reach * c.stiffness * c.way;
+  const double damped = part_below_limit(above_before, size - limit, c.last_stiffness < 0.0);
+  const double damping = damped * 2.0 * k.damping_ratio * std::sqrt(inertia * kr);
+  c.last_stiffness = cut < 1.0 ? -c.stiffness : c.stiffness;
   const double mx = c.sx - damping * rx;
   const double my = c.sy - damping * ry;
   const double mz = c.sz - damping * rz;
@@ -69,6 +89,9 @@ struct Rolling {
   c.mx = cap * mx;
   c.my = cap * my;
   c.mz = cap * mz;
+  c.before = std::sqrt(spring.squared_before);
+  c.total = total;
+  c.limit = limit;
 }
 
 }  // namespace dust::model::epsd

@@ -2,11 +2,13 @@
 #include "epsd2.hpp"
 
 #include "../friction.hpp"
+#include "../last_steps.hpp"
 
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/square_roots.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace {
 
@@ -20,10 +22,12 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
                                 std::size_t end) {
   const double *nx = b.normal.x, *ny = b.normal.y, *nz = b.normal.z;
   const double *ax = b.angle.x, *ay = b.angle.y, *az = b.angle.z;
-  const double *radius = b.effective_radius, *fn = b.normal_force, *kt = b.tangential_stiffness;
+  const double *vx = b.velocity.x, *vy = b.velocity.y, *vz = b.velocity.z, *overlap = b.overlap;
+  const double *mass = b.effective_mass, *radius = b.effective_radius, *fn = b.normal_force,
+               *kt = b.tangential_stiffness;
   double *mx = b.history[0], *my = b.history[1], *mz = b.history[2], *last = b.history[3];
   double *tx = b.torque.x, *ty = b.torque.y, *tz = b.torque.z;
-  alignas(64) double keep[k_block], size[k_block];
+  alignas(64) double keep[k_block], size[k_block], share[k_block];
 #pragma omp simd
   for (std::size_t q = first; q < end; ++q) {
     formula::Rolling c{};
@@ -34,7 +38,9 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     keep[q - first] = c.keep;
   }
   sdk::take_square_roots(keep, end - first);
-#pragma omp simd
+  // Overlaps less the way of two steps: below zero where a contact ends.
+  double least = 0.0;
+#pragma omp simd reduction(min : least)
   for (std::size_t q = first; q < end; ++q) {
     formula::Rolling c{};
     c.nx = nx[q], c.ny = ny[q], c.nz = nz[q];
@@ -48,8 +54,21 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     tx[q] = c.mx, ty[q] = c.my, tz[q] = c.mz;
     last[q] = kt[q];
     size[q - first] = c.size;
+    const double way = (vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q]) * b.time_step;
+    share[q - first] = -1.0;
+    least = std::min(least, overlap[q] - 2.0 * way);
   }
   sdk::take_square_roots(size, end - first);
+  for (std::size_t q = first; least < 0.0 && q < end; ++q) {
+    const double speed = vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q];
+    if (!(overlap[q] < 2.0 * speed * b.time_step)) continue;
+    const double before = std::sqrt(mx[q] * mx[q] + my[q] * my[q] + mz[q] * mz[q]);
+    const double limit = friction * radius[q] * std::abs(fn[q]);
+    // Of the way to the end: still pushed apart.
+    const double pushed = speed + 0.5 * b.time_step * fn[q] / mass[q];
+    share[q - first] = dust::model::share_of_couple(size[q - first], before, limit, overlap[q],
+                                                    pushed, b.time_step);
+  }
 #pragma omp simd
   for (std::size_t q = first; q < end; ++q) {
     formula::Rolling c{};
@@ -57,9 +76,9 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     c.normal_force = fn[q];
     c.mx = tx[q], c.my = ty[q], c.mz = tz[q];
     c.size = size[q - first];
-    formula::limit(friction, c);
+    formula::limit(friction, share[q - first], c);
     mx[q] = c.mx, my[q] = c.my, mz[q] = c.mz;
-    tx[q] = c.mx, ty[q] = c.my, tz[q] = c.mz;
+    tx[q] = c.tx, ty[q] = c.ty, tz[q] = c.tz;
   }
 }
 

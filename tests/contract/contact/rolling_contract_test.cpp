@@ -93,8 +93,10 @@ TEST_CASE("a rolling law shall give the opposite couple from the other side and 
     auto turned = rolling_rows();
     for (std::size_t q = 0; q < plain.size(); ++q) {
       swapped[q].normal = -1.0 * swapped[q].normal;
+      swapped[q].velocity = -1.0 * swapped[q].velocity;
       swapped[q].rotation = -1.0 * swapped[q].rotation;
       turned[q].normal = rotate(turned[q].normal, axis, 1.1);
+      turned[q].velocity = rotate(turned[q].velocity, axis, 1.1);
       turned[q].rotation = rotate(turned[q].rotation, axis, 1.1);
     }
     const auto from_j = history_of(*made(law), swapped);

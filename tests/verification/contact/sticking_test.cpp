@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 using dust::particles::NewGrain;
@@ -118,14 +119,15 @@ Answer run(const StickCase& c, const Setting& s, double start) {
 struct Errors {
   double patch = 0.0;      ///< [-] of the patch speed, in tangential speeds before the impact
   double energy = 0.0;     ///< [-] of the tangential energy, in its value before
-  double root_mean = 0.0;  ///< [-] root mean square of the patch speed's
+  double mean = 0.0;       ///< [-] mean of the patch speed's
+  double root_mean = 0.0;  ///< [-] root mean square of it
 };
 
-Errors errors(const StickCase& c, const Setting& s) {
+Errors errors(const StickCase& c, const Setting& s, int starts = k_starts) {
   StickResult exact = integrate(c);
   Errors e;
-  for (int n = 0; n < k_starts; ++n) {
-    const auto [r, touch] = run(c, s, 1.0 + (n + 0.5) / k_starts);
+  for (int n = 0; n < starts; ++n) {
+    const auto [r, touch] = run(c, s, 1.0 + (n + 0.5) / starts);
     if (s.amplitude > 0.0) {
       StickCase swinging = c;
       const double rate = 2.0 * std::numbers::pi * s.frequency;
@@ -136,7 +138,8 @@ Errors errors(const StickCase& c, const Setting& s) {
     e.patch = std::max(e.patch, std::abs(patch));
     e.energy =
         std::max(e.energy, std::abs(r.energy() - exact.energy()) / c.tangential / c.tangential);
-    e.root_mean += patch * patch / k_starts;
+    e.mean += patch / starts;
+    e.root_mean += patch * patch / starts;
   }
   e.root_mean = std::sqrt(e.root_mean);
   return e;
@@ -147,7 +150,7 @@ struct Named {
   StickCase c;
   Setting s;
   /// Largest errors at the default step, and the least order of convergence.
-  double patch = 0.02, energy = 0.01, order = 1.8;
+  double patch = 0.02, energy = 0.01, order = 1.7;
 };
 
 std::vector<Named> cases() {
@@ -158,10 +161,11 @@ std::vector<Named> cases() {
     change(c);
     return all.emplace_back(Named{name, c, setting});
   };
-  // Where something gives way at an instant within a step - a damped contact lets go when it begins
-  // to pull, a couple reaches its limit - the step it happens in is in error by a part of the force
-  // for a part of the step: of first order, and of either sign.
-  const auto gives_way = [](Named& n) { n.patch = 0.05, n.energy = 0.02, n.order = 1.0; };
+  // On a plane the tangential and the rolling spring swing together 2.4 times as fast as sqrt(k_t /
+  // m), with 0.46 rad per default step. What the leapfrog turns too far of that is taken off for
+  // the tangential spring alone, which knows nothing of the rolling one; docs/theory/grains.md, eq.
+  // (17). Of the rest some 2 % of the patch speed are left, of second order.
+  const auto swings_fast = [](Named& n) { n.patch = 0.04, n.energy = 0.02, n.order = 1.6; };
   add("hertz_mindlin", [](StickCase&) {});
   // Half a swing per contact, at most as fast as the grain.
   add("hertz_mindlin, on a wall that swings", [](StickCase&) {},
@@ -171,16 +175,30 @@ std::vector<Named> cases() {
   add("hertz_mindlin, epsd2, sub-stepped on a wall that swings",
       [](StickCase& c) { c.rolling = StickCase::Rolling::epsd2; },
       {.amplitude = 4e-6, .frequency = 4000.0, .largest_diameter = 5e-3});
-  gives_way(all.back());
+  swings_fast(all.back());
   all.back().order = 0.0;
   // 2 pi gamma R*: some fifth of the largest force of the impact.
   add("hertz_mindlin, dmt",
       [](StickCase& c) { c.attraction = 2.0 * std::numbers::pi * 0.2 * c.radius; },
       {.cohesion = {"dmt", {{"surface_energy", 0.2}}}});
-  gives_way(add("hertz_mindlin, damped", [](StickCase& c) { c.restitution = 0.8; }));
-  gives_way(
-      add("hertz_mindlin, epsd2", [](StickCase& c) { c.rolling = StickCase::Rolling::epsd2; }));
-  gives_way(add("hertz_mindlin, epsd", [](StickCase& c) { c.rolling = StickCase::Rolling::epsd; }));
+  // A damped contact begins to pull before it ends; then friction has no limit left to hold by.
+  for (const double restitution : {0.9, 0.8}) {
+    add("hertz_mindlin, restitution " + std::to_string(restitution).substr(0, 3),
+        [&](StickCase& c) { c.restitution = restitution; });
+  }
+  // The slower the grain rolls, the later does the limit cut its couple off.
+  for (const double tangential : {0.1, 0.05, 0.02}) {
+    swings_fast(
+        add("hertz_mindlin, epsd2, along " + std::to_string(tangential).substr(0, 4) + " m/s",
+            [&](StickCase& c) {
+              c.rolling = StickCase::Rolling::epsd2;
+              c.tangential = tangential;
+            }));
+  }
+  // From step to step the limit cuts off now more, now less.
+  all.back().order = 1.0;
+  swings_fast(
+      add("hertz_mindlin, epsd", [](StickCase& c) { c.rolling = StickCase::Rolling::epsd; }));
   add("hooke", [](StickCase& c) { c.normal = StickCase::Normal::hooke; });
   add("hooke, damped", [](StickCase& c) {
     c.normal = StickCase::Normal::hooke;
@@ -189,7 +207,7 @@ std::vector<Named> cases() {
   add("hooke, epsd2", [](StickCase& c) {
     c.normal = StickCase::Normal::hooke;
     c.rolling = StickCase::Rolling::epsd2;
-  });
+  }).order = 1.6;
   return all;
 }
 
@@ -203,6 +221,22 @@ TEST_CASE("an impact that sticks shall end as the law says at the default step")
                    << 100.0 * e.energy << " %");
     CHECK(e.patch < n.patch);
     CHECK(e.energy < n.energy);
+  }
+}
+
+TEST_CASE("no start within a step shall make an impact that sticks end otherwise") {
+  // Sixteen starts miss the worst: that an evaluation comes a hair before the end, or does not.
+  // With plain last evaluations it was 4 to 24 % of the patch speed.
+  constexpr int k_many = 200;
+  for (const Named& n : cases()) {
+    if (n.s.largest_diameter > 0.0 || n.s.amplitude > 0.0) continue;
+    if (n.c.normal == StickCase::Normal::hooke) continue;
+    CAPTURE(n.name);
+    const Errors e = errors(n.c, n.s, k_many);
+    MESSAGE(n.name << ": worst of " << k_many << " starts " << 100.0 * e.patch << " %, mean "
+                   << 100.0 * e.mean << " % of the patch speed");
+    CHECK(e.patch < 1.1 * n.patch);
+    CHECK(std::abs(e.mean) < 0.75 * n.patch);
   }
 }
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace dust::model {
+
+/// The couple over the last steps of a contact, x steps before its end. Its spring weakens like the
+/// root of the overlap, so it goes like \f$ M_e + c x^{3/2} \f$ until its limit, which goes like
+/// the normal force, \f$ L x^{3/2} \f$, cuts it off. That takes a step or so, and one that is
+/// looked at once per step does not see it; what the last two looks give in place of the couple
+/// adds up to the integral; docs/theory/grains.md, eq. (16).
+class CoupleToTheEnd {
+ public:
+  /// At x = `steps`: the couple without limit [N m], what it has grown by in the last step, and
+  /// the limit.
+  CoupleToTheEnd(double steps, double couple, double growth, double limit) {
+    const double power = steps * std::sqrt(steps);
+    slope_ = limit / power;
+    change_ = -growth / (1.5 * std::sqrt(steps + 0.5));
+    change_ = std::clamp(change_, -slope_, 0.9 * std::min(slope_, couple / power));
+    left_ = couple - change_ * power;
+    const double root = std::cbrt(left_ / (slope_ - change_));
+    cut_ = root * root;
+  }
+  /// What is given at x as the last one or the last but one.
+  [[nodiscard]] double at(double x) const {
+    if (x <= 1.0) return last(x);
+    return std::clamp(integral(x) - last(x - 1.0), 0.0, limit(x));
+  }
+
+ private:
+  [[nodiscard]] double limit(double x) const { return slope_ * x * std::sqrt(x); }
+  /// It fades where the end is near: whether there is one more look hangs on the last digits there.
+  [[nodiscard]] double last(double x) const {
+    return std::min(std::min(1.0, x / 0.7) * integral(x), limit(x));
+  }
+  /// From the end to half a step before x, steps being the unit.
+  [[nodiscard]] double integral(double x) const {
+    const double begin = x + 0.5;
+    const double from = std::min(cut_, begin);
+    const auto power = [](double y) { return 0.4 * y * y * std::sqrt(y); };
+    return slope_ * power(from) + left_ * (begin - from) + change_ * (power(begin) - power(from));
+  }
+
+  double slope_;   ///< [N m] L
+  double change_;  ///< [N m] c
+  double left_;    ///< [N m] M_e
+  double cut_;     ///< here the limit is reached
+};
+
+/// Share of a couple of the size `couple` without limit that acts at `overlap`, parting with
+/// `speed`; `before` it had that size. Below 0 if the contact does not end within two steps.
+inline double share_of_couple(double couple, double before, double limit, double overlap,
+                              double speed, double time_step) {
+  const double steps = overlap / (speed * time_step);
+  if (!(steps > 0.0 && steps < 2.0 && couple > 0.0 && limit > 0.0)) return -1.0;
+  const CoupleToTheEnd end(steps, couple, couple - before, limit);
+  return end.at(steps) / couple;
+}
+
+}  // namespace dust::model
