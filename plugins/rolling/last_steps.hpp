@@ -21,8 +21,6 @@ class CoupleToTheEnd {
     change_ = -growth / (1.5 * std::sqrt(steps + 0.5));
     change_ = std::clamp(change_, -slope_, 0.9 * std::min(slope_, couple / power));
     left_ = couple - change_ * power;
-    const double root = std::cbrt(left_ / (slope_ - change_));
-    cut_ = root * root;
   }
   /// What is given at x as the last one or the last but one.
   [[nodiscard]] double at(double x) const {
@@ -39,7 +37,12 @@ class CoupleToTheEnd {
   /// From the end to half a step before x, steps being the unit.
   [[nodiscard]] double integral(double x) const {
     const double begin = x + 0.5;
-    const double from = std::min(cut_, begin);
+    // The limit is reached at x_c, if it is not yet.
+    double from = begin;
+    if (left_ < (slope_ - change_) * begin * std::sqrt(begin)) {
+      const double root = std::cbrt(left_ / (slope_ - change_));
+      from = root * root;
+    }
     const auto power = [](double y) { return 0.4 * y * y * std::sqrt(y); };
     return slope_ * power(from) + left_ * (begin - from) + change_ * (power(begin) - power(from));
   }
@@ -47,7 +50,6 @@ class CoupleToTheEnd {
   double slope_;   ///< [N m] L
   double change_;  ///< [N m] c
   double left_;    ///< [N m] M_e
-  double cut_;     ///< here the limit is reached
 };
 
 /// Share of a couple of the size `couple` without limit that acts at `overlap`, parting with

@@ -27,7 +27,10 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
                *kt = b.tangential_stiffness;
   double *mx = b.history[0], *my = b.history[1], *mz = b.history[2], *last = b.history[3];
   double *tx = b.torque.x, *ty = b.torque.y, *tz = b.torque.z;
-  alignas(64) double keep[k_block], size[k_block], share[k_block];
+  alignas(64) double keep[k_block], size[k_block], edge[k_block];
+  std::size_t ending[k_block];
+  double change[k_block];
+  std::size_t endings = 0;
 #pragma omp simd
   for (std::size_t q = first; q < end; ++q) {
     formula::Rolling c{};
@@ -55,19 +58,24 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     last[q] = kt[q];
     size[q - first] = c.size;
     const double way = (vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q]) * b.time_step;
-    share[q - first] = -1.0;
-    least = std::min(least, overlap[q] - 2.0 * way);
+    edge[q - first] = overlap[q] - 2.0 * way;
+    least = std::min(least, edge[q - first]);
   }
   sdk::take_square_roots(size, end - first);
+  // Few contacts end, and only those are looked at.
   for (std::size_t q = first; least < 0.0 && q < end; ++q) {
+    if (!(edge[q - first] < 0.0)) continue;
     const double speed = vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q];
-    if (!(overlap[q] < 2.0 * speed * b.time_step)) continue;
     const double before = std::sqrt(mx[q] * mx[q] + my[q] * my[q] + mz[q] * mz[q]);
     const double limit = friction * radius[q] * std::abs(fn[q]);
     // Of the way to the end: still pushed apart.
     const double pushed = speed + 0.5 * b.time_step * fn[q] / mass[q];
-    share[q - first] = dust::model::share_of_couple(size[q - first], before, limit, overlap[q],
-                                                    pushed, b.time_step);
+    const double whole = size[q - first];
+    const double share =
+        dust::model::share_of_couple(whole, before, limit, overlap[q], pushed, b.time_step);
+    if (share < 0.0) continue;
+    ending[endings] = q;
+    change[endings++] = std::min(share * whole, limit) / std::min(whole, limit);
   }
 #pragma omp simd
   for (std::size_t q = first; q < end; ++q) {
@@ -76,9 +84,13 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     c.normal_force = fn[q];
     c.mx = tx[q], c.my = ty[q], c.mz = tz[q];
     c.size = size[q - first];
-    formula::limit(friction, share[q - first], c);
+    formula::limit(friction, c);
     mx[q] = c.mx, my[q] = c.my, mz[q] = c.mz;
-    tx[q] = c.tx, ty[q] = c.ty, tz[q] = c.tz;
+    tx[q] = c.mx, ty[q] = c.my, tz[q] = c.mz;
+  }
+  for (std::size_t n = 0; n < endings; ++n) {
+    const std::size_t q = ending[n];
+    tx[q] *= change[n], ty[q] *= change[n], tz[q] *= change[n];
   }
 }
 

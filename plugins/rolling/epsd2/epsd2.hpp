@@ -9,7 +9,7 @@
 namespace dust::model::epsd2 {
 
 /// One contact. n: unit normal, a: rotation of i relative to j since the last look [rad], m: couple
-/// of the spring on i [N m], in and out.
+/// on i [N m], in and out.
 struct Rolling {
   double nx, ny, nz, ax, ay, az;
   double radius;          ///< [m] R*
@@ -17,7 +17,6 @@ struct Rolling {
   double stiffness;       ///< [N/m] k_t
   double last_stiffness;  ///< [N/m] k_t at the last look; 0 of a contact that has just begun
   double mx, my, mz;
-  double tx, ty, tz;  ///< [N m] on i, out
 
   // Handed from stage to stage.
   double keep;  ///< [-] what the couple's part across the new normal is stretched by
@@ -56,15 +55,9 @@ inline constexpr double k_tiny = 1e-290;
   c.size = c.mx * c.mx + c.my * c.my + c.mz * c.mz;
 }
 
-/// `size` without limit; `share` of it acts near the end of a contact, all where that is below 0.
-[[gnu::always_inline]] inline void limit(double friction, double share, Rolling& c) {
+[[gnu::always_inline]] inline void limit(double friction, Rolling& c) {
   const double most = friction * c.radius * std::abs(c.normal_force);
-  const double within = most / std::max(c.size, k_tiny);
-  const double cut = std::min(1.0, within);
-  const double part = share < 0.0 ? cut : std::min(share, within);
-  c.tx = part * c.mx;
-  c.ty = part * c.my;
-  c.tz = part * c.mz;
+  const double cut = std::min(1.0, most / std::max(c.size, k_tiny));
   c.mx = cut * c.mx;
   c.my = cut * c.my;
   c.mz = cut * c.mz;
