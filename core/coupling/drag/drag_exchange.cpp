@@ -290,14 +290,14 @@ std::int64_t DragExchange::release_escaped(int d, ParticleStates& memory, double
 }
 
 /// Debts of cells: to either face along the component the half, all to one if the other is closed.
-void DragExchange::release_cells(int d, std::vector<double>& deferred, double step) {
+void DragExchange::release_cells(int d, std::vector<double>& per_cell, double step) {
   const FaceColumns columns = face_void_.columns(d);
   const fluid::Grid& grid = lattice_.grid();
   const double impulse = step * lattice_.cell_volume();
   for (int k = 0; k < grid.count[2]; ++k) {
     for (int j = 0; j < grid.count[1]; ++j) {
       for (int i = 0; i < grid.count[0]; ++i) {
-        double& deferred = deferred[static_cast<std::size_t>(grid.index(i, j, k))];
+        double& deferred = per_cell[static_cast<std::size_t>(grid.index(i, j, k))];
         if (deferred == 0.0) continue;
         const std::array<std::ptrdiff_t, 2> faces{lattice_.face(d, i, j, k, 0).storage,
                                                   lattice_.face(d, i, j, k, 1).storage};

@@ -32,7 +32,7 @@ Geometry build_geometry(const Grid& grid, const bodies::BodySet& bodies, const S
 Geometry build_static_geometry(const Grid& grid, const bodies::BodySet& bodies,
                                const SideKinds& sides, const FaceProperties& properties) {
   return GeometryBuilder(grid, bodies, sides, properties, {}, nullptr,
-                         BodyField::Which::static_geometry)
+                         BodyField::Which::static_bodies)
       .build();
 }
 
