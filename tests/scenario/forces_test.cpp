@@ -104,6 +104,15 @@ TEST_CASE("a run without the grains' own disturbance shall differ, and go on fro
               "correction out"));
 }
 
+TEST_CASE("where a lone grain's own disturbance is left shall be told before the run") {
+  const std::string transfer = DUST_SOURCE "/scenarios/transfer_point.yaml";
+  const std::string beside_bodies = "felt within 2.5 cells of bodies that cut cells";
+  CHECK(engine({"check", transfer}).out.find(beside_bodies) != std::string::npos);
+  const auto off = engine({"check", transfer, "--set", "coupling.self_disturbance=off"});
+  REQUIRE(off.status == 0);
+  CHECK(off.out.find(beside_bodies) == std::string::npos);
+}
+
 TEST_CASE("coarse grains shall be told of, and be moved as what they stand for") {
   const TemporaryFolder folder;
   const std::vector<std::string> coarse{"fluid_forces=[]", "materials.sand.coarse_graining=2"};

@@ -183,6 +183,23 @@ std::string partners(const Setup& setup, const particles::ClassStep& size) {
   return is_one_kind ? partner : material_name(setup, size.material) + " on " + partner;
 }
 
+/// Where the own disturbance of grains up to `coarsest` [m] is not taken off, or not well; limits
+/// of docs/theory/own_disturbance.md.
+void print_uncorrected(std::ostream& out, const Setup& setup, double coarsest,
+                       const Derived& derived) {
+  namespace own = coupling::own_disturbance;
+  if (!setup.bodies.empty()) {
+    const double felt = std::min(own::most_of_slip(coarsest, derived.mean_spacing), 1.0);
+    out << ",\n             but felt within 2.5 cells of bodies that cut cells: up to "
+        << digits(100.0 * felt) << " % of a lone one's slip";
+  }
+  constexpr double k_known_beside_walls = 0.75;  // D/dx from which on drag is more than 3 % off
+  if (coarsest > k_known_beside_walls * derived.smallest_spacing) {
+    out << ",\n             within 2.5 cells of the domain's walls its drag is up to "
+        << (coarsest > 1.5 * derived.smallest_spacing ? "12" : "6") << " % high";
+  }
+}
+
 /// Which sizes of grains do not feel what they do to the fluid by themselves.
 void print_disturbance_correction(std::ostream& out, const Setup& setup, const Derived& derived) {
   const auto& classes = derived.steps.classes;
@@ -206,6 +223,7 @@ void print_disturbance_correction(std::ostream& out, const Setup& setup, const D
     out << ",\n             own disturbance taken off for lone grains of "
         << engineering(finest, "m");
     if (coarsest > finest) out << " to " << engineering(coarsest, "m");
+    print_uncorrected(out, setup, coarsest, derived);
   }
   const double felt = own::most_of_slip(largest, derived.mean_spacing);
   if (coarsest < largest && felt > own::k_worth) {

@@ -102,8 +102,9 @@ TEST_CASE(
 TEST_CASE("a lone grain shall feel the law's drag beside a wall, along it and across") {
   // Images of the box far away are left in the figures: up to 2 %.
   for (const bool is_across : {false, true}) {
-    for (const double ratio : {0.1, 0.5, 1.0}) {
+    for (const double ratio : {0.1, 0.5, 1.0, 2.0}) {
       for (const double beside : {0.5, 1.0, 2.0, 3.0}) {
+        if (beside < 0.5 * ratio) continue;  // in the wall
         IsolatedGrain grain{20e-6, ratio, k_test_water};
         grain.beside = beside;
         grain.is_across = is_across;
@@ -111,8 +112,9 @@ TEST_CASE("a lone grain shall feel the law's drag beside a wall, along it and ac
         MESSAGE("D/dx " << ratio << ", " << beside << " cells from the wall, "
                         << std::string(is_across ? "across: " : "along: ") << 100.0 * error.largest
                         << " %");
-        // Next to a wall the flow of a grain as large as a cell is known less well.
-        const double gate = ratio < 1.0 ? k_law : 0.065;
+        // Next to a wall the flow of a grain as large as a cell is known less well: `engine check`
+        // says so.
+        const double gate = ratio < 1.0 ? k_law : ratio < 2.0 ? 0.065 : 0.13;
         CHECK(error.least > -gate);
         CHECK(error.largest < gate);
       }
