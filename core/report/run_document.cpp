@@ -166,10 +166,7 @@ json frames_json(const std::filesystem::path& folder, RunText& run, Highlights& 
   return data;
 }
 
-}  // namespace
-
-json run_document(const std::filesystem::path& folder) {
-  RunText run = read_run_text(folder);
+json document_of(const std::filesystem::path& folder, RunText run) {
   Highlights highlights = highlights_of(run);
   json data = frames_json(folder, run, highlights);
   data["schema"] = "dust.report/1";
@@ -197,6 +194,16 @@ json run_document(const std::filesystem::path& folder) {
   data["limits"] = limits_json(run);
   data["notes"] = run.notes;
   return data;
+}
+
+}  // namespace
+
+json run_document(const std::filesystem::path& folder) {
+  return document_of(folder, read_run_text(folder));
+}
+
+json run_document(const std::filesystem::path& folder, const json& summary, const json& report) {
+  return document_of(folder, read_run_text(folder, summary, report));
 }
 
 }  // namespace dust::report

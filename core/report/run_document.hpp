@@ -11,4 +11,10 @@ namespace dust::report {
 /// page: those are of the templates.
 [[nodiscard]] nlohmann::json run_document(const std::filesystem::path& folder);
 
+/// The same of a run that goes on: `summary` and `report` stand for the files summary.json and
+/// report.json that it has not written yet.
+[[nodiscard]] nlohmann::json run_document(const std::filesystem::path& folder,
+                                          const nlohmann::json& summary,
+                                          const nlohmann::json& report);
+
 }  // namespace dust::report

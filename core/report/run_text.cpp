@@ -121,20 +121,24 @@ RunText read_run_text(const std::filesystem::path& folder) {
                           " is not the output folder of a run: it has no summary.json; give the "
                           "folder that 'engine run' named, or run the scenario first");
   }
-  RunText run;
-  run.summary = json::parse(*summary, nullptr, false);
-  if (!run.summary.is_object()) {
+  json parsed = json::parse(*summary, nullptr, false);
+  if (!parsed.is_object()) {
     throw base::UserError("error: " + (folder / "summary.json").string() +
                           " is damaged (not a JSON object); run the scenario again, or go on from "
                           "its checkpoint with 'engine run SCENARIO --resume'");
   }
-  if (const auto text = read_text(folder / "report.json")) {
-    run.report = json::parse(*text, nullptr, false);
-    if (!run.report.is_object()) {
-      run.report = json::object();
-      run.notes.emplace_back(
-          "report.json is damaged: curves, tables and body outlines are missing.");
-    }
+  const auto report = read_text(folder / "report.json");
+  return read_run_text(folder, std::move(parsed),
+                       report ? json::parse(*report, nullptr, false) : json::object());
+}
+
+RunText read_run_text(const std::filesystem::path& folder, json summary, json report) {
+  RunText run;
+  run.summary = std::move(summary);
+  run.report = std::move(report);
+  if (!run.report.is_object()) {
+    run.report = json::object();
+    run.notes.emplace_back("report.json is damaged: curves, tables and body outlines are missing.");
   }
   if (const auto text = read_text(folder / "scenario.yaml")) run.scenario = *text;
   if (const auto text = read_text(folder / "series.csv")) run.series = parse_series(*text);

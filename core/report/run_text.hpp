@@ -33,6 +33,9 @@ struct RunText {
 
 /// Reads the text files of a run. Throws base::UserError with a remedy when it is not a run.
 [[nodiscard]] RunText read_run_text(const std::filesystem::path& folder);
+/// The same of a run that goes on, whose summary.json and report.json are given.
+[[nodiscard]] RunText read_run_text(const std::filesystem::path& folder, nlohmann::json summary,
+                                    nlohmann::json report);
 
 /// Numbers and strings of a JSON object that may lack them or hold something else.
 [[nodiscard]] std::optional<double> number_at(const nlohmann::json& object, const char* key);

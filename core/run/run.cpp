@@ -14,7 +14,8 @@
 #include "run/branch/branch.hpp"
 #include "run/folder/log_header.hpp"
 #include "run/folder/output_folder.hpp"
-#include "run/progress.hpp"
+#include "run/progress/live_report.hpp"
+#include "run/progress/progress.hpp"
 #include "run/run_options.hpp"
 #include "run/run_times.hpp"
 #include "run/simulation.hpp"
@@ -101,12 +102,10 @@ struct Intervals {
 /// The files of one run and the loop over fluid steps.
 class Run {
  public:
-  Run(Simulation& simulation, fs::path folder, std::string resolved, double keep_every,
-      bool is_quiet)
+  Run(Simulation& simulation, fs::path folder, std::string resolved, double keep_every)
       : simulation_(simulation),
         folder_(std::move(folder)),
         resolved_(std::move(resolved)),
-        is_quiet_(is_quiet),
         steps_per_(simulation_.setup().time, keep_every) {}
 
   void resume() {
@@ -120,13 +119,14 @@ class Run {
     is_resumed_ = true;
   }
 
-  int execute(RunFacts facts) {
+  /// `live` may be null.
+  int execute(RunFacts facts, Progress& progress, LiveReport* live) {
     times_.start();
     facts_ = std::move(facts);
-    facts_.status = "finished";
+    facts_.status = "running";
+    live_ = live;
     // What is wrong in the scenario or the folder is the caller's.
     if (!survives_writing([this] { open_files(); })) return close();
-    Progress progress(is_quiet_, simulation_.setup().time.end, simulation_.time());
     try {
       if (survives_writing([&] { loop(progress); })) survives_writing([this] { end_files(); });
     } catch (const std::exception& e) {
@@ -202,6 +202,7 @@ class Run {
   }
 
   void loop(Progress& progress) {
+    Pace pace(simulation_.time());
     while (!simulation_.is_finished() && g_signal == 0) {
       simulation_.step();
       const std::int64_t done = simulation_.steps_done();
@@ -219,9 +220,11 @@ class Run {
       }
       const bool is_due = done % steps_per_.checkpoint == 0 || steps_per_.is_kept(done);
       if (is_due && !simulation_.is_finished()) checkpoint();
-      progress.update(simulation_.time(), simulation_.dem().balance().in_domain);
+      pace.update(simulation_.time());
+      progress.update(simulation_.time(), simulation_.dem().balance().in_domain, pace);
+      if (live_) live_->publish_progress(simulation_, facts_, pace);
     }
-    if (!simulation_.is_finished()) facts_.status = "interrupted";
+    facts_.status = simulation_.is_finished() ? "finished" : "interrupted";
   }
 
   /// Does `work`; false when a file could not be written, which ends the run.
@@ -254,6 +257,7 @@ class Run {
       facts_.warnings.push_back(text);
     }
     survives_writing([this] { write_summary(folder_, simulation_, facts_); });
+    if (live_ != nullptr) live_->publish_progress(simulation_, facts_, Pace(simulation_.time()));
     base::log_info("status: " + facts_.status);
     base::log_flush();
     results_.reset();
@@ -310,7 +314,15 @@ class Run {
     if (const DustStage* dust = simulation_.dust_stage()) frame.fluid_fields = dust->fields();
     results_->append(frame);
     ++frames_;
+    if (live_) publish_live();
     times_.add_output(begin);
+  }
+
+  /// The report so far, as if the run ended here.
+  void publish_live() {
+    take_times();
+    live_->publish_state(simulation_, facts_);
+    live_->publish_progress(simulation_, facts_, Pace(simulation_.time()));
   }
 
   void append_row() {
@@ -349,7 +361,6 @@ class Run {
   Simulation& simulation_;
   fs::path folder_;
   std::string resolved_;
-  bool is_quiet_ = false;
   bool is_resumed_ = false;
   bool is_disk_bad_ = false;  ///< a file could not be written
   Intervals steps_per_;
@@ -359,6 +370,7 @@ class Run {
   std::unique_ptr<io::ResultsFile> results_;
   std::unique_ptr<io::SeriesFile> series_;
   RunFacts facts_;
+  LiveReport* live_ = nullptr;
 };
 
 /// The models of a scenario, with the sizes of grains that another run brings along.
@@ -432,6 +444,8 @@ int run_scenario(const RunOptions& options) {
                                     static_cast<std::size_t>(threads));
 
   OutputFolder output(options, read.setup.name);
+  std::optional<LiveReport> live;
+  if (options.live_port) live.emplace(*options.live_port);
   scenario::Diagnostics branching;
   std::optional<Branch> branch;
   if (read.start.from && !options.resume) branch.emplace(read, registry, branching);
@@ -455,10 +469,17 @@ int run_scenario(const RunOptions& options) {
   branch.reset();  // the other run's particles
   output.open();
   const fs::path folder = output.path();
-  Run run(*simulation, folder, read.resolved_yaml, read.start.keep_every, options.quiet);
+  Run run(*simulation, folder, read.resolved_yaml, read.start.keep_every);
   if (options.resume) run.resume();
   catch_signals();
-  const int status = run.execute(std::move(facts));
+  if (live) {
+    live->begin(folder);
+    facts.log_header.push_back("live at " + live->address());
+    if (!options.quiet) std::printf("live: %s\n", live->address().c_str());
+    std::fflush(stdout);
+  }
+  Progress progress(options.quiet, read.setup.time.end);
+  const int status = run.execute(std::move(facts), progress, live ? &*live : nullptr);
   if (!options.quiet) std::printf("results: %s\n", folder.c_str());
   return status;
 }

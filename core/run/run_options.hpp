@@ -19,7 +19,8 @@ struct RunOptions {
   bool resume = false;
   bool quiet = false;
   bool verbose = false;
-  int threads = 0;  ///< 0 = all cores
+  int threads = 0;               ///< 0 = all cores
+  std::optional<int> live_port;  ///< serve the growing report there; 0 = any free port
   std::vector<std::filesystem::path> plugin_path;
   std::string command;  ///< as typed, for run.log
   std::string program;  ///< version, commit and compiler, for run.log

@@ -12,6 +12,8 @@ void add_run(CLI::App& app, int& status, const std::string& command_line) {
     bool resume = false;
     bool quiet = false;
     bool verbose = false;
+    bool live = false;
+    int live_port = 0;
     int threads = 0;
   };
   auto arguments = std::make_shared<Arguments>();
@@ -31,6 +33,13 @@ void add_run(CLI::App& app, int& status, const std::string& command_line) {
                    "Number of threads (default: all cores); the results do not depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
+  auto* live = command->add_flag(
+      "--live", arguments->live,
+      "Show the growing report to browsers of this machine; the address is printed");
+  command->add_option("--live-port", arguments->live_port, "Port of --live (default: any free one)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 65535))
+      ->needs(live);
   auto* quiet = command->add_flag("--quiet", arguments->quiet, "Print problems only");
   command->add_flag("--verbose", arguments->verbose, "Print what is logged")->excludes(quiet);
   command->footer(
@@ -46,6 +55,7 @@ void add_run(CLI::App& app, int& status, const std::string& command_line) {
     options.quiet = arguments->quiet;
     options.verbose = arguments->verbose;
     options.threads = arguments->threads;
+    if (arguments->live) options.live_port = arguments->live_port;
     options.command = command_line;
     options.program = program_text();
     status = run::run_scenario(options);

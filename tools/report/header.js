@@ -14,6 +14,7 @@ Dust.sections.header = (data) => {
     const status = text_of(summary.status);
     if (!status || status === 'finished') return '';
     const at = Number.isFinite(summary.simulated_s) ? ` at ${Dust.number(summary.simulated_s)}\u202fs of simulated time` : '';
+    if (status === 'running') return p({class: 'banner going', role: 'status'}, Dust.strong(`This run goes on; it stands${at}.`), ' Everything below is what it has reached.');
     const way_on = status === 'failed'
       ? ['The last good state is kept in ', el('code', {}, 'checkpoint.h5'), ', the cause stands at the end of ', el('code', {}, 'run.log'), '.']
       : [el('code', {}, 'engine run scenario.yaml --resume'), ' goes on from its checkpoint.'];

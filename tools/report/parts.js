@@ -55,7 +55,7 @@ Dust.heading = ({kind, scenario, status, title}) => {
   document.title = `${title} – ${kind.toLowerCase()}`;
   return [Dust.el('p', {class: 'eyebrow'}, Dust.el('img', {class: 'logo', src: document.getElementById('logo').content, alt: ''}),
     Dust.el('span', {}, kind), scenario ? Dust.el('span', {}, scenario) : '',
-    status ? Dust.el('span', {class: 'status ' + (status === 'finished' ? 'good' : 'bad')}, status) : '',
+    status ? Dust.el('span', {class: 'status ' + (status === 'finished' || status === 'running' ? 'good' : 'bad')}, status) : '',
     Dust.el('button', {type: 'button', id: 'theme', hidden: ''}, 'Dark')),
   Dust.el('h1', {}, title)];
 };

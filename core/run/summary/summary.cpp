@@ -361,17 +361,25 @@ std::vector<double> node_seconds(const Simulation& simulation, const std::vector
   return seconds;
 }
 
-void write_summary(const std::filesystem::path& folder, const Simulation& s,
-                   const RunFacts& facts) {
+RunRecord record_of(const Simulation& s, const RunFacts& facts) {
   JsonReport report;
   Json summary = run_json(s, facts);
   summary.update(amounts_json(s));
   summary.update(record_json(s, facts));
   summary["sensors"] = sensors_json(s, report);
   summary["references"] = references_json(facts.references, summary["sensors"]);
-  for (const std::string& line : reference_lines(summary["references"])) base::log_info(line);
-  io::write_text(folder / "summary.json", summary.dump(2) + "\n");
-  io::write_text(folder / "report.json", report_json(s, facts, report).dump() + "\n");
+  Json rest = report_json(s, facts, report);
+  return {std::move(summary), std::move(rest)};
+}
+
+void write_summary(const std::filesystem::path& folder, const Simulation& s,
+                   const RunFacts& facts) {
+  const RunRecord record = record_of(s, facts);
+  for (const std::string& line : reference_lines(record.summary["references"])) {
+    base::log_info(line);
+  }
+  io::write_text(folder / "summary.json", record.summary.dump(2) + "\n");
+  io::write_text(folder / "report.json", record.report.dump() + "\n");
 }
 
 std::string graph_dot(const Simulation& s) {

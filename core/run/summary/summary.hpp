@@ -6,6 +6,7 @@
 #include "setup/reference_spec.hpp"
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,12 @@ struct RunFacts {
 /// Seconds in each node of the two graphs, in a fixed order; `before` holds those of the run up to
 /// the checkpoint it resumed from, or nothing.
 std::vector<double> node_seconds(const Simulation& simulation, const std::vector<double>& before);
+
+/// summary.json and report.json (what the report needs beyond the other files) as they are now.
+struct RunRecord {
+  nlohmann::ordered_json summary, report;
+};
+RunRecord record_of(const Simulation& simulation, const RunFacts& facts);
 
 /// Writes summary.json and report.json (what the report needs beyond the other files).
 void write_summary(const std::filesystem::path& folder, const Simulation& simulation,
