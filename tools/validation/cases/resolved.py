@@ -9,12 +9,12 @@ BITS = ("settling_a1",)
 
 
 def plans():
-    return [Plan(f"settling_b{number}_resolved", f"thesis/settling_b{number}_resolved.yaml") for number in TEN_CATE]
+    return [Plan(f"resolved_b{number}", f"thesis/settling_b{number}_resolved.yaml") for number in TEN_CATE]
 
 
 def fill(page, runs):
     for number, (infinite, share) in TEN_CATE.items():
-        run = runs[f"settling_b{number}_resolved"]
+        run = runs[f"resolved_b{number}"]
         largest = share * infinite
         page.add(f"B{number}: largest velocity [m/s]", run.figure("fall", "largest/velocity"), f"{largest:.4f} (measured)",
                  low=0.95 * largest, high=1.05 * largest, band="within 5 % of the measured one")
@@ -31,7 +31,7 @@ def fill(page, runs):
 def draw(page, runs):
     curves = []
     for number, (infinite, share) in TEN_CATE.items():
-        run = runs[f"settling_b{number}_resolved"]
+        run = runs[f"resolved_b{number}"]
         column = next((c for c in (run.series() or [{}])[0] if "velocity" in c and c.startswith("fall/")), None)
         if column:
             curves.append(Curve(f"B{number}", *run.curve(column)))
