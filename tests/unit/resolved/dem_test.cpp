@@ -66,7 +66,8 @@ TEST_CASE("resolved: a sphere of the DEM receives what the fluid gives, its mome
     // Its velocity is the one predicted half a step ahead; that which moves it balances to
     // rounding.
     if (n > 0) CHECK(norm(now - before) < largest / steps);
-    CHECK(norm(spheres.owed()) < 1e-3 * largest);
+    // One that has just come makes its first kick over half a step only.
+    CHECK(norm(spheres.owed()) < (n == 0 ? 0.6 / steps : 1e-3) * largest);
     before = now;
   }
   // The fluid turns against the spin.
