@@ -36,18 +36,22 @@ def run(*command):
     return done.stdout
 
 
-def drawn(chromium, page, profile):
+SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]
+
+
+def drawn(chromium, page, profile, graphics=("--disable-gpu",)):
     """The page's document after its scripts have run. Every name resolves to nothing: no request can
     succeed, and the log would tell of one that was tried."""
     profile.mkdir(exist_ok=True)
     log = profile / "log"
-    command = [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    command = [chromium, "--headless", "--no-sandbox", *graphics, "--disable-quic", "--no-first-run",
                "--disable-background-networking", "--disable-component-update", "--disable-sync",
                "--host-resolver-rules=MAP * ~NOTFOUND", f"--user-data-dir={profile}", "--enable-logging=stderr",
                "--virtual-time-budget=20000", "--window-size=1280,4000", "--dump-dom", page.as_uri()]
     with open(log, "w") as err:
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=err, text=True, timeout=240)
-    console = [line for line in log.read_text(errors="replace").splitlines() if "CONSOLE" in line]
+    # What the browser's software graphics say of their own speed is no matter of the page.
+    console = [line for line in log.read_text(errors="replace").splitlines() if "CONSOLE" in line and "WebGL" not in line]
     return done.stdout, console
 
 
@@ -134,13 +138,62 @@ def check_access(chromium, page, source, theme):
     with tempfile.TemporaryDirectory() as folder:
         copy = pathlib.Path(folder) / "audit.html"
         copy.write_text(page.read_text().replace("</body>", AUDIT.format(axe=axe, theme=theme)))
-        text, _ = drawn(chromium, copy, pathlib.Path(folder) / "profile")
+        text, _ = drawn(chromium, copy, pathlib.Path(folder) / "profile", SOFTWARE_GL)
     document = Document()
     document.feed(text)
     found = document.root.get("data-violations")
     name = f"{page.parent.name}/{page.name}, {theme}"
     check(found is not None, f"{name}: the audit did not come to its end")
     check(json.loads(found) == [], f"{name}: {found}")
+
+
+# Looks at the picture in three dimensions before and after keys: how many pixels are painted, how many changed.
+PROBE = """<script>
+(async () => {
+  const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+  for (let k = 0; k < 40 && document.documentElement.dataset.drawn !== 'yes'; ++k) await wait(100);
+  const figure = document.getElementById('space'), first = !figure.hidden;
+  await Dust.space.choose('space');
+  const canvas = figure.querySelector('canvas');
+  const pixels = () => {
+    const copy = Dust.el('canvas', {width: canvas.width, height: canvas.height}), pen = copy.getContext('2d');
+    pen.drawImage(canvas, 0, 0);
+    return pen.getImageData(0, 0, copy.width, copy.height).data;
+  };
+  const differing = (a, b) => a.reduce((n, v, k) => n + (v !== b[k]), 0);
+  const before = pixels(), seen = {first, painted: before.filter((v, k) => k % 4 === 3 && v > 0).length, label: canvas.getAttribute('aria-label')};
+  for (const key of ['ArrowLeft', '+', 'Home']) {
+    const last = pixels();
+    canvas.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true}));
+    seen[key] = differing(last, pixels());
+  }
+  seen.whole = differing(before, pixels());
+  const cut = document.getElementById('space-cut'), last = pixels();
+  cut.value = 'all';
+  cut.dispatchEvent(new Event('input'));
+  seen.cut = differing(last, pixels());
+  document.documentElement.dataset.space = JSON.stringify(seen);
+})();
+</script></body>"""
+
+
+def check_space(chromium, page, is_first):
+    """In three dimensions something is painted, keys turn and look closer, Home goes back, the cut takes away."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy = pathlib.Path(folder) / "space.html"
+        copy.write_text(page.read_text().replace("</body>", PROBE))
+        text, console = drawn(chromium, copy, pathlib.Path(folder) / "profile", SOFTWARE_GL)
+    document = Document()
+    document.feed(text)
+    name = f"{page.parent.name}/{page.name} in three dimensions"
+    check("data-errors" not in document.root, f"{name}: {document.root.get('data-errors')}")
+    check("data-space" in document.root, f"{name}: the probe did not come to its end; the console says {console}")
+    seen = json.loads(document.root["data-space"])
+    check(seen["first"] == is_first, f"{name}: {'not ' if is_first else ''}shown first")
+    check(seen["painted"] > 2000, f"{name}: {seen['painted']} pixels are painted")
+    check(all(seen[key] > 500 for key in ("ArrowLeft", "+", "Home", "cut")), f"{name}: keys and cut change {seen}")
+    check(seen["whole"] == 0, f"{name}: Home does not go back")
+    check("grains" in seen["label"] and "seen from" in seen["label"], f"{name}: says only '{seen['label']}'")
 
 
 def check_document(folder, source):
@@ -214,8 +267,11 @@ def main():
             check("<canvas" in text, f"{name}: no picture was drawn")
             check(("line dashed" in text) == (name == "settling"), f"{name}: curves from elsewhere")
             print(f"{name}: {(folder / name / 'report.html').stat().st_size} bytes, {len(document.rows)} rows")
+        check_space(chromium, folder / "transfer" / "report.html", False)
+        check_space(chromium, folder / "grains" / "report.html", True)
         for theme in ("light", "dark"):
             check_access(chromium, folder / "transfer" / "report.html", source, theme)
+        check_access(chromium, folder / "grains" / "report.html", source, "light")  # in three dimensions
         both = folder / "both" / "compare.html"
         both.parent.mkdir()
         table = run(engine, "compare", folder / "transfer", folder / "air", "-o", both)

@@ -17,6 +17,7 @@
     const legend = document.getElementById('grains-legend');
     if (legend) document.getElementById('grains-picture').after(legend);
   }
+  if (/^#scene/.test(location.hash)) document.documentElement.dataset.view = 'scene';
   const times = (Dust.grains || Dust.air || {times: []}).times;
   if (!times.length) {
     document.documentElement.dataset.drawn = 'yes';
@@ -36,12 +37,13 @@
     for (const shown of ready) shown.take();
     for (const shown of ready) shown.draw();
   };
-  // report.html#space, #side: opens with that view; #frame=12 and #space,frame=12 at that frame.
-  const asked = /^#(?:(?:picture|space|side),)?frame=(\d+)$/.exec(location.hash);
-  const view = /^#(space|side|picture)/.exec(location.hash);
+  // report.html#space, #side: opens with that view; #frame=12 and #space,frame=12 at that frame. #scene: nothing
+  // but the picture in three dimensions, for documents.
+  const asked = /^#(?:(?:picture|scene|space|side),)?frame=(\d+)$/.exec(location.hash);
+  const view = /^#(scene|space|side|picture)/.exec(location.hash);
   const first = async (index) => {
     await show(index);
-    if (Dust.space) await Dust.space.choose(view ? view[1] : Dust.space.first);
+    if (Dust.space) await Dust.space.choose(!view ? Dust.space.first : view[1] === 'scene' ? 'space' : view[1]);
   };
   let is_first = true;
   const shown = (index) => {
