@@ -187,9 +187,9 @@ std::string partners(const Setup& setup, const particles::ClassStep& size) {
 /// of docs/theory/own_disturbance.md.
 void print_uncorrected(std::ostream& out, const Setup& setup, double coarsest,
                        const Derived& derived) {
-  namespace own = coupling::own_disturbance;
+  namespace disturbance = coupling::self_disturbance;
   if (!setup.bodies.empty()) {
-    const double felt = std::min(own::most_of_slip(coarsest, derived.mean_spacing), 1.0);
+    const double felt = std::min(disturbance::most_of_slip(coarsest, derived.mean_spacing), 1.0);
     out << ",\n             but felt within 2.5 cells of bodies that cut cells: up to "
         << digits(100.0 * felt) << " % of a lone one's slip";
   }
@@ -204,7 +204,7 @@ void print_uncorrected(std::ostream& out, const Setup& setup, double coarsest,
 void print_disturbance_correction(std::ostream& out, const Setup& setup, const Derived& derived) {
   const auto& classes = derived.steps.classes;
   if (!setup.fluid || setup.fluid->is_one_way || classes.empty()) return;
-  namespace own = coupling::disturbance_correction;
+  namespace disturbance = coupling::self_disturbance;
   const bool is_asked =
       setup.fluid->disturbance_correction == scenario::DisturbanceCorrection::taken_off;
   const bool is_off = setup.fluid->disturbance_correction == scenario::DisturbanceCorrection::felt;
@@ -212,8 +212,8 @@ void print_disturbance_correction(std::ostream& out, const Setup& setup, const D
   double coarsest = 0.0;
   for (const auto& size : classes) {
     const bool may_be =
-        own::may_be_taken_off(size.diameter, derived.mean_spacing, derived.smallest_spacing, 1.0,
-                              is_asked ? 0.0 : own::k_worth);
+        disturbance::may_be_taken_off(size.diameter, derived.mean_spacing, derived.smallest_spacing,
+                                      1.0, is_asked ? 0.0 : disturbance::k_worth);
     if (is_off || !may_be) continue;
     if (finest == 0.0) finest = size.diameter;
     coarsest = size.diameter;
@@ -225,8 +225,8 @@ void print_disturbance_correction(std::ostream& out, const Setup& setup, const D
     if (coarsest > finest) out << " to " << engineering(coarsest, "m");
     print_uncorrected(out, setup, coarsest, derived);
   }
-  const double felt = own::most_of_slip(largest, derived.mean_spacing);
-  if (coarsest < largest && felt > own::k_worth) {
+  const double felt = disturbance::most_of_slip(largest, derived.mean_spacing);
+  if (coarsest < largest && felt > disturbance::k_worth) {
     out << ",\n             own disturbance felt by grains of " << engineering(largest, "m")
         << ": up to " << digits(100.0 * std::min(felt, 1.0)) << " % of a lone one's slip";
   }
