@@ -15,7 +15,7 @@
 namespace {
 
 using namespace dust;
-namespace own = coupling::disturbance_correction;
+namespace disturbance = coupling::self_disturbance;
 using test::World;
 constexpr double k_pi = std::numbers::pi;
 
@@ -78,7 +78,8 @@ TEST_CASE("a grid shall answer to the smooth kernel as a Gaussian does, anywhere
       // Twice the grid halves the part of the images: linear in 1/n.
       const double limit =
           2.0 * discrete_stokes(48, place, knots) - discrete_stokes(24, place, knots);
-      const double formula = own::still_mobility(own::kernel_width(knots, 1.0), 1.0);
+      const double formula =
+          disturbance::still_mobility(disturbance::kernel_width(knots, 1.0), 1.0);
       CHECK(formula == doctest::Approx(limit).epsilon(k_answer));
     }
   }
@@ -104,11 +105,11 @@ double oseen(double speed) {
 }
 
 TEST_CASE("the groups of waves shall build up as a force in a Gaussian does") {
-  const own::Response r = own::response(1.0, 1.0, 1.0, 0.0);
-  const double still = own::still_mobility(1.0, 1.0);
+  const disturbance::Response r = disturbance::response(1.0, 1.0, 1.0, 0.0);
+  const double still = disturbance::still_mobility(1.0, 1.0);
   for (const double time : {0.01, 0.1, 1.0, 10.0, 100.0, 1000.0}) {
     double built = 0.0;
-    for (std::size_t n = 0; n < own::k_groups; ++n) {
+    for (std::size_t n = 0; n < disturbance::k_groups; ++n) {
       built += r.mobility[n] / still * (1.0 - std::exp(-r.rate[n] * time));
     }
     CHECK(std::abs(built - (1.0 - 1.0 / std::sqrt(1.0 + time))) < 0.024);
@@ -117,10 +118,10 @@ TEST_CASE("the groups of waves shall build up as a force in a Gaussian does") {
 }
 
 TEST_CASE("the groups of waves shall be carried away by a stream as in Oseen's flow") {
-  const double still = own::still_mobility(1.0, 1.0);
+  const double still = disturbance::still_mobility(1.0, 1.0);
   for (const double speed : {0.01, 0.1, 1.0, 3.0, 10.0, 100.0}) {
     CAPTURE(speed);
-    const own::Response r = own::response(1.0, 1.0, 1.0, speed);
+    const disturbance::Response r = disturbance::response(1.0, 1.0, 1.0, speed);
     double sum = 0.0;
     for (const double part : r.mobility) sum += part / still;
     // Above 10 it is 4 % of little.
@@ -132,11 +133,11 @@ TEST_CASE("the excess around a grain shall be the compressibility of hard sphere
   const auto pressure = [](double phi) {  // phi Z, Carnahan and Starling
     return phi * (1 + phi + phi * phi - phi * phi * phi) / std::pow(1 - phi, 3);
   };
-  CHECK(own::excess_of_one(0.0) == 1.0);
+  CHECK(disturbance::excess_of_one(0.0) == 1.0);
   for (const double phi : {0.01, 0.1, 0.3, 0.5, 0.6}) {
     constexpr double k_change = 1e-6;
     const double slope = (pressure(phi + k_change) - pressure(phi - k_change)) / (2 * k_change);
-    CHECK(own::excess_of_one(phi) == doctest::Approx(1.0 / slope).epsilon(1e-6));
+    CHECK(disturbance::excess_of_one(phi) == doctest::Approx(1.0 / slope).epsilon(1e-6));
   }
 }
 
