@@ -31,7 +31,7 @@ class FluidSolver::Impl {
        const Boundaries& boundaries);
 
   void use(const sdk::TurbulenceModel& turbulence);
-  void use(VelocityForcing& forcing) { forcing_ = &forcing; }
+  void use(VelocityForcing& forcing) { stages_.use(forcing); }
   void advance(double time, double step, const CellField& before, const CellField& after,
                const Exchange& exchange);
   void set_velocity(const std::function<sdk::Vec3(sdk::Vec3)>& velocity);
@@ -106,7 +106,6 @@ class FluidSolver::Impl {
   DragVelocity drag_velocity_;
   StepBalance balance_;
   std::unique_ptr<EddyStress> eddies_;  ///< null: laminar
-  VelocityForcing* forcing_ = nullptr;  ///< null: none
   StressField stress_;                  ///< of the last step
   FlowLimits limits_;
   FluidReport report_;

@@ -54,7 +54,7 @@ FluidSolver::Impl::StepState FluidSolver::Impl::begin_step(double time, double s
   const bool is_clean = is_uniform(grid_, after, grid_.count, 1.0) &&
                         (&before == &after || is_uniform(grid_, before, grid_.count, 1.0));
   // Where particles act on one fluid whose grid stays.
-  balance_.begin_step((has_drag || forcing_ != nullptr) && !has_moving_bodies() &&
+  balance_.begin_step((has_drag || stages_.forcing() != nullptr) && !has_moving_bodies() &&
                       properties_.by_place().is_uniform());
   const bool keeps_mean = has_drag || balance_.is_kept();
   drag_velocity_.begin(keeps_mean);
@@ -125,9 +125,10 @@ void FluidSolver::Impl::sub_step(const StepState& s, double time, double step, d
   MomentumBalance* balance = balance_.kept();
   const FaceField& given = balance != nullptr ? balance->source() : s.exchange.source;
   const FaceField& stirred = eddies_ ? eddies_->add_to(given, u_) : given;
+  VelocityForcing* const forcing = stages_.forcing();
   const ForcedPart forced{time + step - s.time, step, share};
   const FaceField& source =
-      forcing_ != nullptr ? forcing_->add_to(stirred, forced_fluid(), forced) : stirred;
+      forcing != nullptr ? forcing->add_to(stirred, forced_fluid(), forced) : stirred;
   if (eddies_ && balance != nullptr) eddies_->add_to_mean(share, is_first);
 
   const FaceField& drag = s.exchange.coefficient;
@@ -136,8 +137,8 @@ void FluidSolver::Impl::sub_step(const StepState& s, double time, double step, d
   stages_.advance({time, step, share, smoothness, source, drag, s.has_drag,
                    s.keeps_mean ? &drag_velocity_ : nullptr, balance},
                   eps, fills_halos, projection_.pressure(), u_);
-  if (forcing_ != nullptr) {
-    forcing_->force(u_, forced_fluid(), forced);
+  if (forcing != nullptr) {
+    forcing->force(u_, forced_fluid(), forced);
     stages_.fill(u_, fills_halos);
   }
 
@@ -164,7 +165,8 @@ void FluidSolver::Impl::end_step(const StepState& s, double last_share) {
   const FaceField& stress = stress_.of_mean(mean_velocity, balance_.mean_pressure(), eddies_.get());
   sides_.fill_pressure(projection_.pressure(), false);
   const FaceField& given = s.exchange.source;
-  const FaceField& source = forcing_ != nullptr ? forcing_->add_mean_to(given, eps) : given;
+  VelocityForcing* const forcing = stages_.forcing();
+  const FaceField& source = forcing != nullptr ? forcing->add_mean_to(given, eps) : given;
   balance_.kept()->end(u_, eps, {source, s.exchange.coefficient}, mean_velocity, stress, s.step,
                        last_share);
 }

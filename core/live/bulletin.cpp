@@ -20,20 +20,20 @@ constexpr double k_rest = 5.0;  ///< rest between two pages, in times that one t
 }  // namespace
 
 void Bulletin::publish_progress(nlohmann::json progress) {
-  const std::lock_guard lock(told_);
+  const std::lock_guard lock(mutex_);
   progress["states"] = state_;
   progress_ = std::move(progress);
 }
 
 void Bulletin::publish_state(nlohmann::json summary, nlohmann::json report) {
-  const std::lock_guard lock(told_);
+  const std::lock_guard lock(mutex_);
   summary_ = std::move(summary);
   report_ = std::move(report);
   progress_["states"] = ++state_;
 }
 
 nlohmann::json Bulletin::progress() const {
-  const std::lock_guard lock(told_);
+  const std::lock_guard lock(mutex_);
   return progress_;
 }
 
@@ -50,7 +50,7 @@ std::string Bulletin::document() {
 }
 
 void Bulletin::renew() {
-  std::unique_lock lock(told_);
+  std::unique_lock lock(mutex_);
   if (state_ == 0 || state_ == made_.state) return;
   const bool is_first = made_.state == 0;
   if (!is_first && now() - made_.at < k_rest * made_.seconds) return;

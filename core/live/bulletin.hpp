@@ -38,7 +38,7 @@ class Bulletin {
   void renew();
 
   std::filesystem::path folder_;
-  mutable std::mutex told_;  ///< guards the three
+  mutable std::mutex mutex_;  ///< guards the three
   nlohmann::json progress_ = nlohmann::json::object();
   nlohmann::json summary_, report_;
   std::int64_t state_ = 0;

@@ -26,11 +26,11 @@ Vec3 vector_of(const double* p) { return {p[0], p[1], p[2]}; }
 }  // namespace
 
 ResolvedSpheres::ResolvedSpheres(const fluid::Grid& grid, std::vector<std::int32_t> materials,
-                                 const Surroundings& surroundings)
+                                 const FluidAround& around)
     : grid_(grid),
       materials_(std::move(materials)),
-      around_(surroundings),
-      forcing_(grid, surroundings.density) {}
+      around_(around),
+      forcing_(grid, around.density) {}
 
 bool ResolvedSpheres::is_resolved(std::int32_t material) const {
   return std::find(materials_.begin(), materials_.end(), material) != materials_.end();
@@ -105,7 +105,7 @@ void ResolvedSpheres::evaluate(const fluid::FaceField& velocity) {
     state.due -= state.inner;
     state.due -= forcing_.given(n);
     state.due.linear += around_.step * sdk::sphere_volume(2.0 * sphere.radius) * around_.buoyancy;
-    state.due.linear += state.owed;
+    state.due.linear += state.deferred;
     state.inner = inner;
     state.forces = forcing_.forces(n);
   }
@@ -133,7 +133,7 @@ void ResolvedSpheres::end_step(const GrainRows& grains) {
   each_row(grains, [&](std::size_t row, State& state, std::size_t) {
     double* received = grains.fluid_impulse + 4 * row;
     for (int d = 0; d < 3; ++d) {
-      state.owed[d] = state.due.linear[d] - received[d];
+      state.deferred[d] = state.due.linear[d] - received[d];
       received[d] = 0.0;
     }
   });
@@ -145,9 +145,9 @@ Vec3 ResolvedSpheres::inner_momentum() const {
   return sum;
 }
 
-Vec3 ResolvedSpheres::owed() const {
+Vec3 ResolvedSpheres::deferred() const {
   Vec3 sum;
-  for (const State& s : states_) sum += s.owed;
+  for (const State& s : states_) sum += s.deferred;
   return sum;
 }
 
@@ -160,12 +160,12 @@ void ResolvedSpheres::save(sdk::ArchiveWriter& archive) const {
   for (const State& s : states_) {
     ids.push_back(s.id);
     counts.push_back(static_cast<std::int64_t>(s.forces.size()));
-    for (const Vec3& v : {s.inner.linear, s.inner.angular, s.owed}) put(numbers, v);
+    for (const Vec3& v : {s.inner.linear, s.inner.angular, s.deferred}) put(numbers, v);
     for (const Vec3& v : s.forces) put(forces, v);
   }
   archive.integers("ids", ids);
   archive.integers("markers", counts);
-  archive.numbers("inner_and_owed", numbers);
+  archive.numbers("inner_and_deferred", numbers);
   archive.numbers("forces", forces);
   archive.number("least_cells_per_diameter", report_.least_cells_per_diameter);
   archive.number("largest_slip", report_.largest_slip);
@@ -174,7 +174,7 @@ void ResolvedSpheres::save(sdk::ArchiveWriter& archive) const {
 void ResolvedSpheres::load(sdk::ArchiveReader& archive) {
   const auto ids = archive.integers("ids");
   const auto counts = archive.integers("markers");
-  const auto numbers = archive.numbers("inner_and_owed");
+  const auto numbers = archive.numbers("inner_and_deferred");
   const auto forces = archive.numbers("forces");
   if (counts.size() != ids.size() || numbers.size() != 9 * ids.size()) {
     throw sdk::ModelError("the checkpoint's resolved spheres are not whole");
@@ -186,7 +186,7 @@ void ResolvedSpheres::load(sdk::ArchiveReader& archive) {
     State state;
     state.id = ids[n];
     state.inner = {vector_of(&numbers[9 * n]), vector_of(&numbers[9 * n + 3])};
-    state.owed = vector_of(&numbers[9 * n + 6]);
+    state.deferred = vector_of(&numbers[9 * n + 6]);
     for (std::int64_t l = 0; l < counts[n]; ++l, at += 3) {
       state.forces.push_back(vector_of(&forces.at(at)));
     }

@@ -16,7 +16,7 @@
 namespace dust::resolved {
 
 /// What they meet.
-struct Surroundings {
+struct FluidAround {
   double density = 0.0;  ///< [kg/m3] of the fluid
   double step = 0.0;     ///< [s] of the fluid
   sdk::Vec3 buoyancy;    ///< [N/m3] that the weight of the grains has not been reduced by
@@ -42,7 +42,7 @@ class ResolvedSpheres {
  public:
   /// `materials`: indices of those whose grains are resolved. The grid is kept by reference.
   ResolvedSpheres(const fluid::Grid& grid, std::vector<std::int32_t> materials,
-                  const Surroundings& surroundings);
+                  const FluidAround& around);
 
   [[nodiscard]] MarkerForcing& forcing() { return forcing_; }
   [[nodiscard]] const MarkerForcing& forcing() const { return forcing_; }
@@ -61,7 +61,7 @@ class ResolvedSpheres {
   [[nodiscard]] const ResolvedReport& report() const { return report_; }
   /// [N s] of the fluid inside the spheres, and of what they have yet to receive.
   [[nodiscard]] sdk::Vec3 inner_momentum() const;
-  [[nodiscard]] sdk::Vec3 owed() const;
+  [[nodiscard]] sdk::Vec3 deferred() const;
 
   /// Between end_step() and begin_step().
   void save(sdk::ArchiveWriter& archive) const;
@@ -73,7 +73,7 @@ class ResolvedSpheres {
     std::int64_t id = -1;
     Impulse inner;                 ///< of the fluid inside
     Impulse due;                   ///< to be received in this step
-    sdk::Vec3 owed;                ///< [N s] not yet received
+    sdk::Vec3 deferred;            ///< [N s] not yet received
     MarkerForcing::Forces forces;  ///< at the end of the step before
   };
   [[nodiscard]] std::vector<std::pair<std::int64_t, std::size_t>> rows_of(
@@ -84,7 +84,7 @@ class ResolvedSpheres {
 
   const fluid::Grid& grid_;
   std::vector<std::int32_t> materials_;
-  Surroundings around_;
+  FluidAround around_;
   MarkerForcing forcing_;
   std::vector<State> states_;  ///< in the order of the ids, as forcing_ has them
   ResolvedReport report_;

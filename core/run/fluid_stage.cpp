@@ -67,7 +67,7 @@ void FluidStage::make_coupling(const fluid::Boundaries& boundaries) {
 }
 
 void FluidStage::make_resolved() {
-  resolved::Surroundings around{setup_.fluid->density, setup_.time.fluid_step, {}};
+  resolved::FluidAround around{setup_.fluid->density, setup_.time.fluid_step, {}};
   if (coupling::takes_over_buoyancy(models_.fluid_forces)) {
     around.buoyancy = -setup_.fluid->density * setup_.gravity;
   }

@@ -80,7 +80,7 @@ def recipes():
     found = set(re.findall(r"find_package\((\w[\w-]*)", text("CMakeLists.txt") + text("core/io/CMakeLists.txt")))
     recipe = text("tools/packaging/spack/package.py")
     compile(recipe, "package.py", "exec")
-    for package in found - {"benchmark", "Python3"}:
+    for package in found - {"benchmark", "Python3", "Threads"}:
         check(f'depends_on("{SPACK[package]}' in recipe, "package.py", f"does not depend on {package}")
     for file in ("Containerfile", "tools/packaging/apptainer/dust.def"):
         check(". tools/dev/prepare" in text(file), file, "names packages of its own")

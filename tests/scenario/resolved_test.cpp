@@ -61,21 +61,21 @@ TEST_CASE(
 }
 
 TEST_CASE("engine check shall tell of resolved spheres how many cells and markers they have") {
-  const std::string told = checked({}, 0);
-  CHECK_MESSAGE(holds(told, "sphere: spheres of 8.4 mm are 8.4 cells across, 223 markers each"),
-                told);
+  const std::string output = checked({}, 0);
+  CHECK_MESSAGE(holds(output, "sphere: spheres of 8.4 mm are 8.4 cells across, 223 markers each"),
+                output);
 }
 
 TEST_CASE("engine check shall refuse spheres that the grid does not resolve, and say what would") {
-  const std::string coarse = checked({"fluid.cells=[24, 24, 24]"}, 1);
+  const std::string coarse = checked({"fluid.cells=[24, 24, 24]"}, 2);
   CHECK_MESSAGE(holds(coarse, "resolved_sphere.yaml:40:"), coarse);
-  CHECK_MESSAGE(
-      holds(coarse, "7.75 cells across, and 8 are the fewest: cells of at most 0.00105 m"), coarse);
-  const std::string dry = checked({"fluid=none"}, 1);
+  CHECK_MESSAGE(holds(coarse, "7.75 cells across, and 8 are the fewest: cells of at most 1.05 mm"),
+                coarse);
+  const std::string dry = checked({"fluid=none"}, 2);
   CHECK_MESSAGE(holds(dry, "resolved by the grid of a fluid, and fluid is none"), dry);
   CHECK_MESSAGE(holds(dry, "resolved_sphere.yaml:40:"), dry);
-  const std::string late = checked({"coupling.overlap=true"}, 1);
+  const std::string late = checked({"coupling.overlap=true"}, 2);
   CHECK_MESSAGE(holds(late, "does not go with coupling.overlap"), late);
-  const std::string light = checked({"materials.nylon.density=500"}, 1);
+  const std::string light = checked({"materials.nylon.density=500"}, 2);
   CHECK_MESSAGE(holds(light, "0.5 of the fluid's density"), light);
 }

@@ -8,6 +8,7 @@
 #include "fluid/momentum/momentum_balance.hpp"
 #include "fluid/sides.hpp"
 #include "fluid/step/drag_velocity.hpp"
+#include "fluid/velocity_forcing.hpp"
 
 namespace dust::fluid {
 
@@ -40,6 +41,9 @@ class TwoStages {
   void fill(FaceField& u, bool fills_halos) const {
     fills_halos ? sides_.fill_velocity(u) : sides_.fill_varying(u);
   }
+  /// Forces on what the stages predict; null: none.
+  void use(VelocityForcing& forcing) { forcing_ = &forcing; }
+  [[nodiscard]] VelocityForcing* forcing() { return forcing_; }
   /// The field that takes turns with the velocity; free between two calls.
   [[nodiscard]] FaceField& other() { return next_; }
 
@@ -60,6 +64,7 @@ class TwoStages {
   const FaceProperties& properties_;
   Momentum& momentum_;
   FaceField next_, right_, sum_;
+  VelocityForcing* forcing_ = nullptr;
 };
 
 }  // namespace dust::fluid

@@ -10,6 +10,9 @@
 namespace dust::scenario {
 namespace {
 
+/// To three decimals, for messages; `length` [m].
+double rounded_mm(double length) { return std::round(1e6 * length) / 1e3; }
+
 /// Below this the delta function of the markers, three cells wide, is no longer thin.
 constexpr double k_min_cells_per_diameter = 8.0;
 /// Fluid over grain density from which on the force of a step, which follows the velocity of the
@@ -95,11 +98,12 @@ void SetupReader::check_resolved() {
     for (const double d : static_cast<const sdk::Emitter&>(*emitters_[n]).diameters()) {
       if (d >= (k_min_cells_per_diameter - 1e-9) * spacing) continue;
       error(fluid.resolved_where,
-            "coupling.resolved: grains of " + number_text(d) + " m from " + emitter.name + " are " +
-                number_text(std::round(100 * d / spacing) / 100) + " cells across, and " +
-                number_text(k_min_cells_per_diameter) + " are the fewest: cells of at most " +
-                number_text(d / k_min_cells_per_diameter) +
-                " m are needed, or take the material out of resolved");
+            "coupling.resolved: grains of " + number_text(rounded_mm(d)) + " mm from " +
+                emitter.name + " are " + number_text(std::round(100 * d / spacing) / 100) +
+                " cells across, and " + number_text(k_min_cells_per_diameter) +
+                " are the fewest: cells of at most " +
+                number_text(rounded_mm(d / k_min_cells_per_diameter)) +
+                " mm are needed, or take the material out of resolved");
       break;
     }
   }

@@ -28,9 +28,9 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
   alignas(64) double contact_radius[k_block], keep[k_block], compliance[k_block], total[k_block];
   alignas(64) double dx[k_block], dy[k_block], dz[k_block], vn[k_block];
   alignas(64) double edge[k_block];
-  std::size_t ending[k_block];
+  std::size_t in_last_step[k_block];
   double change[k_block];
-  std::size_t endings = 0;
+  std::size_t last_steps = 0;
   const std::size_t count = end - first;
 #pragma omp simd
   for (std::size_t q = first; q < end; ++q) {
@@ -92,8 +92,8 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
     fx[q] = c.fx, fy[q] = c.fy, fz[q] = c.fz;
     total[q - first] = c.total;
     if (by == 1.0) continue;
-    ending[endings] = q;
-    change[endings++] = by;
+    in_last_step[last_steps] = q;
+    change[last_steps++] = by;
   }
   sdk::take_square_roots(total, count);
 #pragma omp simd
@@ -110,8 +110,8 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
     sx[q] = c.sx, sy[q] = c.sy, sz[q] = c.sz;
     fx[q] = c.fx, fy[q] = c.fy, fz[q] = c.fz;
   }
-  for (std::size_t n = 0; n < endings; ++n) {
-    const std::size_t q = ending[n];
+  for (std::size_t n = 0; n < last_steps; ++n) {
+    const std::size_t q = in_last_step[n];
     const double less = 1.0 - change[n];
     fx[q] -= less * (fx[q] - fn[q] * nx[q]);
     fy[q] -= less * (fy[q] - fn[q] * ny[q]);

@@ -37,7 +37,7 @@ TEST_CASE("resolved: a sphere of the DEM receives what the fluid gives, its mome
   const auto total = [&] {
     const auto rows = dem->rows();
     const double* v = rows.velocity_of(0);
-    return Vec3{v[0], v[1], v[2]} / v[3] + spheres.owed() - spheres.inner_momentum() +
+    return Vec3{v[0], v[1], v[2]} / v[3] + spheres.deferred() - spheres.inner_momentum() +
            box->fluid_momentum() - box->excess_momentum();
   };
   Vec3 before;
@@ -67,7 +67,7 @@ TEST_CASE("resolved: a sphere of the DEM receives what the fluid gives, its mome
     // rounding.
     if (n > 0) CHECK(norm(now - before) < largest / steps);
     // One that has just come makes its first kick over half a step only.
-    CHECK(norm(spheres.owed()) < (n == 0 ? 0.6 / steps : 1e-3) * largest);
+    CHECK(norm(spheres.deferred()) < (n == 0 ? 0.6 / steps : 1e-3) * largest);
     before = now;
   }
   // The fluid turns against the spin.

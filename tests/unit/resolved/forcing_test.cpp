@@ -25,7 +25,7 @@ TEST_CASE("resolved: momentum of sphere and fluid in a periodic box") {
   box->grains.add({1.53, 1.41, 1.47}, 1.0, 2.5, {0.8, -0.2, 0.1});
   box->begin();
   const auto total = [&] {
-    return box->grains.momentum() + box->spheres->owed() - box->spheres->inner_momentum() +
+    return box->grains.momentum() + box->spheres->deferred() - box->spheres->inner_momentum() +
            box->fluid_momentum() - box->excess_momentum();
   };
   const double scale = norm(box->grains.momentum());

@@ -87,7 +87,7 @@ struct ResolvedBox : Case {
   void begin() {
     start();
     spheres = std::make_unique<resolved::ResolvedSpheres>(
-        grid, std::vector<std::int32_t>{0}, resolved::Surroundings{fluid.density, step, {}});
+        grid, std::vector<std::int32_t>{0}, resolved::FluidAround{fluid.density, step, {}});
     solver->use(spheres->forcing());
   }
   void one_step() {
