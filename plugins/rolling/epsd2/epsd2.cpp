@@ -28,9 +28,9 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
   double *mx = b.history[0], *my = b.history[1], *mz = b.history[2], *last = b.history[3];
   double *tx = b.torque.x, *ty = b.torque.y, *tz = b.torque.z;
   alignas(64) double keep[k_block], size[k_block], edge[k_block];
-  std::size_t ending[k_block];
+  std::size_t in_last_step[k_block];
   double change[k_block];
-  std::size_t endings = 0;
+  std::size_t last_steps = 0;
 #pragma omp simd
   for (std::size_t q = first; q < end; ++q) {
     formula::Rolling c{};
@@ -74,8 +74,8 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     const double share =
         dust::model::share_of_couple(whole, before, limit, overlap[q], pushed, b.time_step);
     if (share < 0.0) continue;
-    ending[endings] = q;
-    change[endings++] = std::min(share * whole, limit) / std::min(whole, limit);
+    in_last_step[last_steps] = q;
+    change[last_steps++] = std::min(share * whole, limit) / std::min(whole, limit);
   }
 #pragma omp simd
   for (std::size_t q = first; q < end; ++q) {
@@ -88,8 +88,8 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     mx[q] = c.mx, my[q] = c.my, mz[q] = c.mz;
     tx[q] = c.mx, ty[q] = c.my, tz[q] = c.mz;
   }
-  for (std::size_t n = 0; n < endings; ++n) {
-    const std::size_t q = ending[n];
+  for (std::size_t n = 0; n < last_steps; ++n) {
+    const std::size_t q = in_last_step[n];
     tx[q] *= change[n], ty[q] *= change[n], tz[q] *= change[n];
   }
 }

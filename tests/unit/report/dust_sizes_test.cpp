@@ -57,10 +57,10 @@ TEST_CASE("pictures and headline shall call dust what the scenario calls so") {
   const json usual = document(json::object());
   CHECK(usual["grains"]["frames"][0]["dust"] == 0);
   CHECK(usual["grains"]["is_dust"] == json{false, false});
-  const json told = document({{"dust_rule", {{"finer_than_m", 1e-3}}}});
-  CHECK(told["grains"]["frames"][0]["dust"] == 1);
-  CHECK(told["grains"]["is_dust"] == json{true, false});
-  CHECK(told["grains"]["dust_below"] == 1e-3);
-  CHECK(told["dust"]["limit_m"] == 1e-3);
-  CHECK(told["dust"]["fed"].get<double>() == doctest::Approx(250000.0));
+  const json stated = document({{"dust_rule", {{"finer_than_m", 1e-3}}}});
+  CHECK(stated["grains"]["frames"][0]["dust"] == 1);
+  CHECK(stated["grains"]["is_dust"] == json{true, false});
+  CHECK(stated["grains"]["dust_below"] == 1e-3);
+  CHECK(stated["dust"]["limit_m"] == 1e-3);
+  CHECK(stated["dust"]["fed"].get<double>() == doctest::Approx(250000.0));
 }
