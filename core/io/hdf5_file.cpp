@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "io/hdf5/output_driver.hpp"
+#include "io/run_files.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -99,6 +100,11 @@ Handle create_file(const std::filesystem::path& file, bool with_checked_metadata
     H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110);
   }
   return {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose, what};
+}
+
+bool may_read_while_writing() {
+  hbool_t is_safe = false;
+  return H5is_library_threadsafe(&is_safe) >= 0 && is_safe;
 }
 
 Handle open_file(const std::filesystem::path& file) {

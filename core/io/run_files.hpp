@@ -15,6 +15,10 @@
 
 namespace dust::io {
 
+/// Whether files may be read in one thread while another writes (HDF5 built thread-safe, as Debian
+/// does).
+[[nodiscard]] bool may_read_while_writing();
+
 /// A field of a sensor, as it is written with a frame.
 struct SensorField {
   std::string sensor;

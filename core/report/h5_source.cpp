@@ -29,6 +29,12 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
+/// Below zero where there is none.
+Handle attribute_of(hid_t file, const std::string& object, const std::string& name) {
+  const Handle node(file < 0 ? -1 : H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose);
+  return {node < 0 ? -1 : H5Aopen(node, name.c_str(), H5P_DEFAULT), H5Aclose};
+}
+
 std::vector<hsize_t> extents(hid_t space) {
   const int rank = H5Sget_simple_extent_ndims(space);
   if (rank <= 0) return {};
@@ -89,10 +95,7 @@ std::vector<std::string> H5Source::frames(const std::string& group) const {
 }
 
 std::vector<double> H5Source::attribute(const std::string& object, const std::string& name) const {
-  if (!is_open()) return {};
-  const Handle node(H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose);
-  if (node < 0) return {};
-  const Handle attribute(H5Aopen(node, name.c_str(), H5P_DEFAULT), H5Aclose);
+  const Handle attribute = attribute_of(file_, object, name);
   if (attribute < 0) return {};
   const Handle space(H5Aget_space(attribute), H5Sclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
@@ -103,10 +106,7 @@ std::vector<double> H5Source::attribute(const std::string& object, const std::st
 }
 
 std::vector<std::string> H5Source::texts(const std::string& object, const std::string& name) const {
-  if (!is_open()) return {};
-  const Handle node(H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose);
-  if (node < 0) return {};
-  const Handle attribute(H5Aopen(node, name.c_str(), H5P_DEFAULT), H5Aclose);
+  const Handle attribute = attribute_of(file_, object, name);
   if (attribute < 0) return {};
   const Handle space(H5Aget_space(attribute), H5Sclose);
   const Handle given(H5Aget_type(attribute), H5Tclose);

@@ -422,6 +422,18 @@ RunFacts facts_of(const scenario::ReadResult& read, const registry::Registry& re
   return facts;
 }
 
+/// The port of --live, before anything is written.
+void take_port(const RunOptions& options, std::optional<LiveReport>& live) {
+  if (!options.live_port) return;
+  if (!io::may_read_while_writing()) {
+    throw base::UserError(
+        "error: --live: the HDF5 library of this machine is not built thread-safe, so no page can "
+        "be "
+        "made while the run writes: leave --live out, or install a thread-safe one (Debian's is)");
+  }
+  live.emplace(*options.live_port);
+}
+
 void catch_signals() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
@@ -445,7 +457,7 @@ int run_scenario(const RunOptions& options) {
 
   OutputFolder output(options, read.setup.name);
   std::optional<LiveReport> live;
-  if (options.live_port) live.emplace(*options.live_port);
+  take_port(options, live);
   scenario::Diagnostics branching;
   std::optional<Branch> branch;
   if (read.start.from && !options.resume) branch.emplace(read, registry, branching);

@@ -52,14 +52,27 @@ class CoupleToTheEnd {
   double left_;    ///< [N m] M_e
 };
 
-/// Share of a couple of the size `couple` without limit that acts at `overlap`, parting with
-/// `speed`; `before` it had that size. Below 0 if the contact does not end within two steps.
-inline double share_of_couple(double couple, double before, double limit, double overlap,
-                              double speed, double time_step) {
-  const double steps = overlap / (speed * time_step);
-  if (!(steps > 0.0 && steps < 2.0 && couple > 0.0 && limit > 0.0)) return -1.0;
-  const CoupleToTheEnd end(steps, couple, couple - before, limit);
-  return end.at(steps) / couple;
+/// A contact of a rolling law.
+struct PartingContact {
+  double couple;        ///< [N m] without its limit
+  double before;        ///< [N m] a step ago
+  double limit;         ///< [N m]
+  double overlap;       ///< [m]
+  double speed;         ///< [m/s] of parting, half a step ago
+  double normal_force;  ///< [N]
+  double mass;          ///< [kg] effective
+};
+
+/// What the limited couple is to be multiplied by; 1 unless the contact ends within two steps.
+inline double change_at_the_end(const PartingContact& c, double time_step) {
+  // Of the way to the end: still pushed apart.
+  const double speed = c.speed + 0.5 * time_step * c.normal_force / c.mass;
+  const double steps = c.overlap / (speed * time_step);
+  if (!(steps > 0.0 && steps < 2.0 && c.couple > 0.0 && c.limit > 0.0)) return 1.0;
+  const CoupleToTheEnd end(steps, c.couple, c.couple - c.before, c.limit);
+  const double share = end.at(steps) / c.couple;
+  if (share < 0.0) return 1.0;
+  return std::min(share * c.couple, c.limit) / std::min(c.couple, c.limit);
 }
 
 }  // namespace dust::model

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/blob.hpp"
+#include "report/fluid_grid.hpp"
 #include "report/pictures/pictures.hpp"
 
 #include <algorithm>
@@ -202,18 +203,12 @@ Plane mean_of(const std::vector<Plane>& maps, const std::vector<double>& times, 
 
 json air_of(const H5Source& source) {
   const auto names = source.frames("/fluid");
-  const auto origin = source.attribute("/fluid", "origin");
-  const auto spacing = source.attribute("/fluid", "spacing");
-  const auto count = source.attribute("/fluid", "count");
-  if (names.empty() || origin.size() != 3 || spacing.size() != 3 || count.size() != 3)
-    return nullptr;
+  const auto fluid = fluid_grid_of(source);
+  if (names.empty() || !fluid) return nullptr;
   Grid grid;
-  for (const double n : count) {
-    if (!(n >= 1.0 && n < 1e6)) return nullptr;
-  }
-  grid.nx = static_cast<std::size_t>(count[0]);
-  grid.ny = static_cast<std::size_t>(count[1]);
-  grid.nz = static_cast<std::size_t>(count[2]);
+  grid.nx = fluid->count[0];
+  grid.ny = fluid->count[1];
+  grid.nz = fluid->count[2];
   grid.is_middle_plane = 3 * grid.nx * grid.ny * grid.nz > k_whole_field;
 
   const std::size_t stride = (names.size() + k_frames - 1) / k_frames;
@@ -245,14 +240,14 @@ json air_of(const H5Source& source) {
   }
   const double half = 0.5 * times.back();
   const Plane mean = mean_of(maps, times, half);
-  const double width = static_cast<double>(fx) * spacing[0],
-               height = static_cast<double>(fz) * spacing[2];
+  const double width = static_cast<double>(fx) * fluid->spacing[0],
+               height = static_cast<double>(fz) * fluid->spacing[2];
   return {{"nx", maps[0].nx},
           {"nz", maps[0].nz},
           {"ax", ax},
           {"az", az},
-          {"x0", origin[0]},
-          {"z0", origin[2]},
+          {"x0", fluid->origin[0]},
+          {"z0", fluid->origin[2]},
           {"dx", width},
           {"dz", height},
           {"adx", width * static_cast<double>(block)},

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/fluid_grid.hpp"
 #include "report/pictures/pictures.hpp"
 #include "report/run_text.hpp"
 
@@ -102,14 +103,12 @@ Box domain_of(const std::string& scenario) {
 
 /// The grid of the fluid; empty without one.
 Box grid_of(const H5Source& source) {
-  const auto origin = source.attribute("/fluid", "origin");
-  const auto spacing = source.attribute("/fluid", "spacing");
-  const auto count = source.attribute("/fluid", "count");
-  if (origin.size() != 3 || spacing.size() != 3 || count.size() != 3) return {};
+  const auto grid = fluid_grid_of(source);
+  if (!grid) return {};
   Box box;
   for (std::size_t d = 0; d < 3; ++d) {
-    box.min[d] = origin[d];
-    box.max[d] = origin[d] + spacing[d] * count[d];
+    box.min[d] = grid->origin[d];
+    box.max[d] = grid->origin[d] + grid->spacing[d] * static_cast<double>(grid->count[d]);
   }
   return box;
 }

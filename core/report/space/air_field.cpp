@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/blob.hpp"
+#include "report/fluid_grid.hpp"
 #include "report/space/space.hpp"
 
 #include <algorithm>
@@ -116,20 +117,10 @@ json encoded(const Field& field, double scale) {
 
 json air_field_of(const H5Source& source) {
   const auto names = source.frames("/fluid");
-  const auto origin = source.attribute("/fluid", "origin");
-  const auto spacing = source.attribute("/fluid", "spacing");
-  const auto given = source.attribute("/fluid", "count");
-  const bool is_grid =
-      origin.size() == 3 && spacing.size() == 3 && given.size() == 3 &&
-      std::all_of(given.begin(), given.end(), [](double n) { return n >= 1.0 && n < 1e6; }) &&
-      std::all_of(spacing.begin(), spacing.end(), [](double h) { return h > 0; });
-  if (names.empty() || !is_grid) return nullptr;
-  Count cells{};
-  std::array<double, 3> edge{};
-  for (std::size_t d = 0; d < 3; ++d) {
-    cells[d] = static_cast<std::size_t>(given[d]);
-    edge[d] = spacing[d];
-  }
+  const auto grid = fluid_grid_of(source);
+  if (names.empty() || !grid) return nullptr;
+  const Count& cells = grid->count;
+  const std::array<double, 3>& edge = grid->spacing;
   if (3 * product(cells) > k_largest_field) return nullptr;
   const std::size_t stride = (names.size() + k_frames - 1) / k_frames;
   const Count size = blocks_of(cells, edge, (names.size() + stride - 1) / stride);
@@ -153,7 +144,7 @@ json air_field_of(const H5Source& source) {
   json step = json::array();
   for (std::size_t d = 0; d < 3; ++d) step.push_back(edge[d] * static_cast<double>(size[d]));
   return {{"frames", std::move(frames)},
-          {"origin", origin},
+          {"origin", grid->origin},
           {"step", std::move(step)},
           {"count", count},
           {"speed", scale},

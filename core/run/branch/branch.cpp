@@ -4,12 +4,14 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "run/dust/hoods.hpp"
+#include "run/insertion/entry.hpp"
 #include "scenario/units.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -18,19 +20,19 @@ namespace {
 
 using scenario::number_text;
 
-/// What the state does not depend on.
-constexpr std::array<std::string_view, 8> k_free = {"start_from",      "name",
-                                                    "time.end",        "time.output_every",
-                                                    "references",      "time.checkpoint_every",
-                                                    "time.keep_every", "reference_curves"};
-
-/// What lets things in and what looks at them: not part of the state of what is there.
-constexpr std::array<std::string_view, 10> k_outside_world = {
-    "start_from",      "name",
-    "time.end",        "time.output_every",
-    "references",      "time.checkpoint_every",
-    "time.keep_every", "reference_curves",
-    "sensors",         "emitters"};
+/// Settings that what is there does not depend on; the last two are what lets things in and what
+/// looks at them, and whole states do depend on those.
+constexpr std::array<std::string_view, 10> k_outside_world = {"start_from",
+                                                              "name",
+                                                              "time.end",
+                                                              "time.output_every",
+                                                              "time.checkpoint_every",
+                                                              "references",
+                                                              "time.keep_every",
+                                                              "reference_curves",
+                                                              "sensors",
+                                                              "emitters"};
+constexpr std::span k_free = std::span(k_outside_world).first<8>();
 
 std::string seconds(double time) { return base::digits_text(time, 10) + " s"; }
 
@@ -150,11 +152,9 @@ void Branch::add_diameters(std::vector<double>& diameters) const {
                              }
                            }},
                           {"clock", [&](sdk::ArchiveReader& a) {
-                             // A waiting grain: eleven numbers, the tenth its diameter.
-                             const auto rows = a.numbers("waiting");
-                             for (std::size_t n = 9; n < rows.size(); n += 11) {
-                               more.push_back(rows[n]);
-                             }
+                             std::vector<Entrant> waiting;
+                             load_waiting(waiting, a);
+                             for (const Entrant& e : waiting) more.push_back(e.grain.diameter);
                            }}});
   }
   diameters.insert(diameters.end(), more.begin(), more.end());

@@ -7,7 +7,6 @@
 #include <dust/sdk/plugin.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace {
 
@@ -52,15 +51,10 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
   }
   for (std::size_t q = first; least < 0.0 && q < end; ++q) {
     const double speed = vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q];
-    const double most = limit[q - first];
-    const double whole = total[q - first];
     if (!(overlap[q] < 2.0 * speed * b.time_step)) continue;
-    // Of the way to the end: still pushed apart.
-    const double pushed = speed + 0.5 * b.time_step * fn[q] / mass[q];
-    const double share = dust::model::share_of_couple(whole, before[q - first], most, overlap[q],
-                                                      pushed, b.time_step);
-    if (share < 0.0) continue;
-    const double change = std::min(share * whole, most) / std::min(whole, most);
+    const double change = dust::model::change_at_the_end(
+        {total[q - first], before[q - first], limit[q - first], overlap[q], speed, fn[q], mass[q]},
+        b.time_step);
     tx[q] *= change;
     ty[q] *= change;
     tz[q] *= change;

@@ -68,14 +68,11 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     const double speed = vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q];
     const double before = std::sqrt(mx[q] * mx[q] + my[q] * my[q] + mz[q] * mz[q]);
     const double limit = friction * radius[q] * std::abs(fn[q]);
-    // Of the way to the end: still pushed apart.
-    const double pushed = speed + 0.5 * b.time_step * fn[q] / mass[q];
-    const double whole = size[q - first];
-    const double share =
-        dust::model::share_of_couple(whole, before, limit, overlap[q], pushed, b.time_step);
-    if (share < 0.0) continue;
+    const double by = dust::model::change_at_the_end(
+        {size[q - first], before, limit, overlap[q], speed, fn[q], mass[q]}, b.time_step);
+    if (by == 1.0) continue;
     in_last_step[last_steps] = q;
-    change[last_steps++] = std::min(share * whole, limit) / std::min(whole, limit);
+    change[last_steps++] = by;
   }
 #pragma omp simd
   for (std::size_t q = first; q < end; ++q) {
