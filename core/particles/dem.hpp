@@ -9,6 +9,8 @@
 #include "particles/openings/opening.hpp"
 #include "particles/pair_law_table.hpp"
 #include "particles/transfer/transfer.hpp"
+#include "particles/work/contact_work.hpp"
+#include "particles/work/dust_loads.hpp"
 #include "setup/setup.hpp"
 
 #include <algorithm>
@@ -86,9 +88,11 @@ struct ContactRecord {
 class Dem {
  public:
   /// `class_diameters`: all diameters that may come, ascending. `fluid_density` > 0 reduces gravity
-  /// by the buoyancy of the hydrostatic pressure.
+  /// by the buoyancy of the hydrostatic pressure. `dust_shares`: kg of dust per kg of grain, by
+  /// material and class; empty: none carries any.
   Dem(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vector<PairLaws> laws,
-      std::vector<double> class_diameters, double fluid_density);
+      std::vector<double> class_diameters, double fluid_density,
+      std::vector<std::vector<double>> dust_shares = {});
   ~Dem();
   Dem(const Dem&) = delete;
   Dem& operator=(const Dem&) = delete;
@@ -143,6 +147,16 @@ class Dem {
   [[nodiscard]] DemReport report() const;
   /// Tells that fluid_action was rewritten (the DEM derives its decay factors from it).
   void fluid_action_changed();
+  /// What contacts have dissipated since clear_contact_work(); kept where grains carry dust.
+  [[nodiscard]] const ContactWork& contact_work() const;
+  /// Names of its walls.
+  [[nodiscard]] std::vector<std::string> wall_names() const;
+  void clear_contact_work();
+  /// [kg] by class on a real particle.
+  [[nodiscard]] std::span<const double> dust_load(std::size_t row) const;
+  /// `mass` [kg] of a class comes off a real particle. Call between coarse steps.
+  void set_dust_free(std::size_t row, std::size_t n, double mass);
+  [[nodiscard]] DustLoads::Balance dust_balance(std::size_t n) const;
   /// Keeps what grains do to walls from now on.
   void watch_walls();
   /// Ends the interval [s] of the wall loads; nothing unless they are watched. Call between coarse

@@ -121,6 +121,8 @@ void Dem::Impl::reorder_if_due(ContactCarrier& contacts) {
                    conditions.largest_diameter(), conditions.steps.coarse_limit);
   tiling = Tiling::of(sorted.coarse_count);
   store.reorder(sorted.order);
+  work.reorder(sorted.order);
+  loads.reorder(sorted.order);
   outer.reorder(sorted.order);
   contacts.renumber(sorted.order);
   if (fine_level.deferred().all().empty()) return;
@@ -195,6 +197,7 @@ OpeningMarks Dem::Impl::opening_marks() {
 StepScene Dem::Impl::step_scene() {
   ContactScene contacts = contact_scene();
   contacts.opening_marks = opening_marks();
+  if (work.is_on()) contacts.work = &work;
   return {.particles = store,
           .lists = inner,
           .impulses = fine_level.deferred(),
@@ -216,6 +219,7 @@ FineScene Dem::Impl::fine_scene() {
           .time = conditions.time,
           .wall_loads = wall_loads,
           .opening_marks = opening_marks(),
+          .work = work.is_on() ? &work : nullptr,
           .contact_force = tile_step.contact_force()};
 }
 

@@ -12,6 +12,8 @@
 #include "particles/store/particle_store.hpp"
 #include "particles/store/tile.hpp"
 #include "particles/tile_step.hpp"
+#include "particles/work/contact_work.hpp"
+#include "particles/work/dust_loads.hpp"
 
 #include <cstdint>
 #include <span>
@@ -24,7 +26,7 @@ namespace dust::particles {
 class Dem::Impl {
  public:
   Impl(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vector<PairLaws> laws,
-       const std::vector<double>& diameters, double fluid_density);
+       const std::vector<double>& diameters, double fluid_density, DustLoads loads);
 
   // dem_step.cpp
   void update_pair_lists();
@@ -74,6 +76,8 @@ class Dem::Impl {
   TileStep tile_step;
   FineLevel fine_level;
   WallLoads wall_loads;  ///< empty between fluid steps, so that nothing of it is saved
+  DustLoads loads;       ///< empty where none carries dust
+  ContactWork work;      ///< kept where some do
   DemReport counters;
   mutable contact::AlignedVector<double> last_force;
 };

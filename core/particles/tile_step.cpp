@@ -77,11 +77,30 @@ void TileStep::apply_impulses(const StepScene& scene, Tile tile, Selection selec
   }
 }
 
+/// Takes what contacts have dissipated out of rows of forces that are complete: where particles
+/// move, the fourth and eighth numbers are zero. Rows of `force` stand by particle from `first` on,
+/// or, if that is negative, in the order of `particles`.
+void TileStep::take_work(const StepScene& scene, std::span<const std::int32_t> particles,
+                         double* force, std::int32_t first) {
+  ContactWork* const work = scene.contacts.work;
+  if (work == nullptr) return;
+  for (std::size_t k = 0; k < particles.size(); ++k) {
+    const auto row = static_cast<std::size_t>(particles[k]);
+    double* f =
+        force + k_force_row * (first < 0 ? k : static_cast<std::size_t>(particles[k] - first));
+    work->add_with_particles(row, f[3], f[7]);
+    f[3] = f[7] = 0.0;
+    work->note_acceleration(row,
+                            norm(sdk::Vec3{f[0], f[1], f[2]}) * scene.particles.inverse_mass(row));
+  }
+}
+
 /// All active particles move at once, while the rows and forces are in the cache.
 void TileStep::move_all(const StepScene& scene, Tile tile, ForceBuffer& force) {
   const ActiveSet& active = active_of(scene, tile);
   apply_impulses(scene, tile, Selection::all);
   deferred_.clear(tile.index);
+  take_work(scene, active.all(), force.rows(), tile.begin);
   if (active.size() == tile.size()) {
     integrate_tile(scene.motion, tile, force.rows(), scene.step());
   } else {
@@ -94,6 +113,7 @@ void TileStep::move_all(const StepScene& scene, Tile tile, ForceBuffer& force) {
 void TileStep::move_unshared(const StepScene& scene, Tile tile, ForceBuffer& force) {
   const ActiveSet& active = active_of(scene, tile);
   apply_impulses(scene, tile, Selection::unshared);
+  take_work(scene, active.unshared(), force.rows(), tile.begin);
   integrate_in_tile(scene.motion, tile, active.unshared(), force.rows(), scene.step());
   deferred_.keep(tile, active.all(), active.unshared_count(), force);
 }
@@ -102,6 +122,7 @@ void TileStep::move_deferred(const StepScene& scene, Tile tile) {
   const ActiveSet& active = active_of(scene, tile);
   const std::size_t moved = deferred_.moved(tile.index);
   apply_impulses(scene, tile, moved == 0 ? Selection::all : Selection::shared);
+  take_work(scene, active.all().subspan(moved), deferred_.rows(tile.index).data(), -1);
   integrate_in_order(scene.motion, active.all().subspan(moved), deferred_.rows(tile.index).data(),
                      scene.step());
   deferred_.clear(tile.index);

@@ -376,7 +376,7 @@ class Run {
 /// The models of a scenario, with the sizes of grains that another run brings along.
 Models make_models_of(const scenario::ReadResult& read, const registry::Registry& registry,
                       const Branch* branch, const std::optional<fs::path>& resumed) {
-  Models models = make_models(read.setup, registry);
+  Models models = make_models(read.setup, registry, read.dust);
   if (branch != nullptr) branch->add_diameters(models.class_diameters);
   if (read.start.from && resumed) {
     const io::StoredState state(*resumed / "checkpoint.h5", "start again with --force");

@@ -98,6 +98,12 @@ void Simulation::build_step_graph() {
                      [this] { dust_->advance(time()); }});
   }
   add_particle_nodes();
+  if (liberation_) {
+    step_graph_.add({"liberation",
+                     {"grain.state", "fluid.void_fraction", "dust.concentration"},
+                     {"grain.state", "dust.concentration"},
+                     [this] { liberation_->advance(clock_.fluid_step()); }});
+  }
   add_last_nodes();
   add_sensor_nodes();
   step_graph_.build();

@@ -102,6 +102,19 @@ const ParameterSchema& MaterialBlock::schema() {
         .symbol("l")
         .at_least(1)
         .optional();
+    s.numbers(&MaterialBlock::dust_load, "dust_load", dimension::none,
+              "Dust that grains bring along, part of their mass: a share for each class of "
+              "dust.field.")
+        .symbol("s")
+        .at_least(0)
+        .at_most(1)
+        .optional();
+    s.number(&MaterialBlock::moisture, "moisture", dimension::none,
+             "Water over dry solids, by mass: binds the dust as the law of dust.liberation says.")
+        .symbol("M")
+        .at_least(0)
+        .at_most(1)
+        .optional();
     return s.build();
   }();
   return made;

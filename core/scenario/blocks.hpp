@@ -52,6 +52,8 @@ struct MaterialBlock {
   double young_modulus = 0.0;
   double poisson_ratio = 0.0;
   double coarse_graining = MaterialSpec{}.coarse_graining;
+  std::vector<double> dust_load;
+  double moisture = 0.0;
   static const sdk::ParameterSchema& schema();
 };
 

@@ -3,6 +3,7 @@
 
 #include "contact/standing.hpp"
 #include "particles/forces/law_stages.hpp"
+#include "particles/work/dissipation.hpp"
 
 #include <algorithm>
 
@@ -57,6 +58,15 @@ bool ContactForces::find_weight_ratios(const ContactScene& scene, const contact:
   return has_scales;
 }
 
+/// What a batch dissipates, beside the forces that it brings; histories stand in the columns.
+void ContactForces::note_work(const ContactScene& scene, const PairLaws& law,
+                              const contact::Places* places, const std::int32_t* contacts,
+                              std::size_t count, BatchColumns& columns, double* force) {
+  Dissipation lost;
+  find_dissipation(law, columns, count, scene.step, scene.laws.work_column(), lost);
+  scatter_dissipation(lost, places, contacts, count, force);
+}
+
 /// Contacts that touched when the list was pruned: nearly all still do, so that none is sorted out,
 /// and their histories stand where the laws look for them.
 void ContactForces::persistent_pairs(const ContactScene& scene, const LawRange& range,
@@ -78,6 +88,9 @@ void ContactForces::persistent_pairs(const ContactScene& scene, const LawRange& 
     evaluate_laws(law, columns, count, scene.step);
     if (near < count) contact::clear_separated(pairs.is_touching + p, count, stride, columns);
     tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(near);
+    if (scene.work != nullptr) {
+      note_work(scene, law, contacts.slots.data() + p, nullptr, count, columns, force);
+    }
     contact::scatter_pairs(contacts.slots.data() + p, count, has_scales, columns, force);
   }
   columns.keep_history_here();
@@ -104,6 +117,9 @@ void ContactForces::new_pairs(const ContactScene& scene, const LawRange& range,
     tile.largest_overlap = std::max(tile.largest_overlap, overlap);
     evaluate_laws(law, columns, count, scene.step);
     tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(count);
+    if (scene.work != nullptr) {
+      note_work(scene, law, contacts.slots.data(), touching, count, columns, force);
+    }
     contact::store_history(pairs, touching, count, groups, columns);
     contact::scatter_pairs(contacts.slots.data(), touching, count, has_scales, columns, force);
   }

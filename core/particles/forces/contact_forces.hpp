@@ -10,6 +10,7 @@
 #include "particles/store/particle_store.hpp"
 #include "particles/store/tile.hpp"
 #include "particles/surfaces.hpp"
+#include "particles/work/contact_work.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,6 +29,7 @@ struct ContactScene {
   double time = 0.0;                ///< [s] of the positions
   bool has_weights = false;         ///< coarse particles of different statistical weights
   OpeningMarks opening_marks = {};  ///< of scenes that forces are evaluated on
+  ContactWork* work = nullptr;      ///< of the same, if it is kept
 
   [[nodiscard]] contact::RowView rows() const { return particles.contact_rows(); }
 };
@@ -68,6 +70,9 @@ class ContactForces {
                                  contact::BatchColumns& columns);
   void persistent_pairs(const ContactScene& scene, const LawRange& range, TileContacts& contacts,
                         OfTile& tile, double* force);
+  static void note_work(const ContactScene& scene, const PairLaws& law,
+                        const contact::Places* places, const std::int32_t* contacts,
+                        std::size_t count, contact::BatchColumns& columns, double* force);
   void new_pairs(const ContactScene& scene, const LawRange& range, TileContacts& contacts,
                  OfTile& tile, double* force);
   // wall_forces.cpp

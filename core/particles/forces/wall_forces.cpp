@@ -2,6 +2,7 @@
 #include "particles/forces/contact_forces.hpp"
 #include "particles/forces/law_stages.hpp"
 #include "particles/forces/wall_contacts.hpp"
+#include "particles/work/dissipation.hpp"
 
 #include <algorithm>
 
@@ -96,6 +97,7 @@ struct ContactForces::WallBatch {
     derive_wall_columns(surface, scene.time, scene.step, count, columns);
     contact::load_history(list, contacts, count, groups, columns);
     evaluate_laws(law, columns, count, scene.step);
+    if (scene.work != nullptr) note_work();
     contact::store_history(list, contacts, count, groups, columns);
     if (!tile.wall_sums.empty()) {
       note_wall_loads(scene, tile, surface, {rows, count}, is_new, columns);
@@ -103,6 +105,15 @@ struct ContactForces::WallBatch {
     contact::scatter_single(local_rows, count, columns, force);
     tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(count);
     count = 0;
+  }
+  void note_work() {
+    Dissipation lost;
+    find_dissipation(law, columns, count, scene.step, scene.laws.work_column(), lost);
+    for (std::size_t q = 0; q < count; ++q) {
+      scene.work->add_with_wall(static_cast<std::size_t>(rows[q]),
+                                static_cast<std::size_t>(surface.wall), lost.normal[q],
+                                lost.tangential[q]);
+    }
   }
 };
 

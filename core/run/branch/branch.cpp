@@ -180,7 +180,7 @@ Models& Branch::their_models() {
 particles::Dem& Branch::their_particles() {
   if (their_particles_) return *their_particles_;
   const scenario::Setup& setup = origin_.scenario().setup;
-  their_particles_ = make_particles(setup, their_models());
+  their_particles_ = make_particles(setup, their_models(), origin_.scenario().dust);
   their_particles_->draw_out_at(openings_of(setup, origin_.scenario().dust));
   origin_.state().read({{"grains", [&](sdk::ArchiveReader& a) { their_particles_->load(a); }}});
   return *their_particles_;

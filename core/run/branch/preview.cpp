@@ -20,7 +20,7 @@ std::optional<StartFacts> preview_start(const scenario::ReadResult& read,
   Branch branch(read, registry, diagnostics);
   Models models = make_models(read.setup, registry);
   branch.add_diameters(models.class_diameters);
-  branch.check(*make_particles(read.setup, models));
+  branch.check(*make_particles(read.setup, models, read.dust));
   return StartFacts{.state = branch.origin().state().file().string(),
                     .time = branch.origin().time(),
                     .particles = branch.particles_there(),

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dust::run {
 namespace {
@@ -173,6 +174,51 @@ void DustStage::advance(double time) {
     }
   }
   field_.advance(flow_, time, setup_.time.fluid_step);
+}
+
+/// The one that is nearest for a place beyond the grid.
+std::array<int, 3> DustStage::cell_at(sdk::Vec3 place) const {
+  const Grid& grid = fluid_.grid();
+  std::array<int, 3> at{};
+  for (int d = 0; d < 3; ++d) {
+    const auto n = static_cast<std::size_t>(d);
+    const double x = std::floor((place[d] - grid.origin[d]) / grid.spacing[d]);
+    at[n] = std::clamp(static_cast<int>(x), 0, grid.count[n] - 1);
+  }
+  return at;
+}
+
+double DustStage::void_fraction_at(sdk::Vec3 place) const {
+  const auto [i, j, k] = cell_at(place);
+  return fluid_.void_fraction()[static_cast<std::size_t>(fluid_.grid().index(i, j, k))];
+}
+
+std::int32_t DustStage::cell_with_gas(sdk::Vec3 place) const {
+  constexpr int k_reach = 2;  // cells
+  const Grid& grid = fluid_.grid();
+  const std::array<int, 3> at = cell_at(place);
+  const std::ptrdiff_t own = grid.index(at[0], at[1], at[2]);
+  if (flow_.volume_after[static_cast<std::size_t>(own)] > 0.0) {
+    return static_cast<std::int32_t>(own);
+  }
+  std::int32_t best = -1;
+  double nearest = std::numeric_limits<double>::infinity();
+  const auto first = [&](std::size_t d) { return std::max(0, at[d] - k_reach); };
+  const auto last = [&](std::size_t d) { return std::min(grid.count[d] - 1, at[d] + k_reach); };
+  for (int k = first(2); k <= last(2); ++k) {
+    for (int j = first(1); j <= last(1); ++j) {
+      for (int i = first(0); i <= last(0); ++i) {
+        const std::ptrdiff_t cell = grid.index(i, j, k);
+        const double distance = norm(grid.centre(i, j, k) - place);
+        if (!(flow_.volume_after[static_cast<std::size_t>(cell)] > 0.0) || distance >= nearest) {
+          continue;
+        }
+        nearest = distance;
+        best = static_cast<std::int32_t>(cell);
+      }
+    }
+  }
+  return best;
 }
 
 std::vector<io::SensorField> DustStage::fields() const {

@@ -9,6 +9,7 @@
 #include "run/models.hpp"
 #include "setup/setup.hpp"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,12 @@ class DustStage {
   void advance(double time);
   /// Bodies were taken away.
   void bodies_changed() { must_find_walls_ = true; }
+  /// The cell at a place that a grain takes, or the nearest of those around it with gas; -1: none.
+  [[nodiscard]] std::int32_t cell_with_gas(sdk::Vec3 place) const;
+  /// [-] of the cell at a place that a grain takes.
+  [[nodiscard]] double void_fraction_at(sdk::Vec3 place) const;
+  /// Dust set free in a cell at once [kg]; of the class `n`.
+  void release(std::size_t n, std::int32_t cell, double mass) { field_.release(n, cell, mass); }
   [[nodiscard]] const airborne::DustField& field() const { return field_; }
   /// "10_um": a class in names of figures and fields.
   [[nodiscard]] const std::vector<std::string>& class_names() const { return names_; }
@@ -41,6 +48,7 @@ class DustStage {
   void add_parts(LoadParts& parts);
 
  private:
+  [[nodiscard]] std::array<int, 3> cell_at(sdk::Vec3 place) const;
   void find_walls(double time);
   void find_volume(fluid::CellField& volume) const;
   void find_passage();

@@ -283,6 +283,7 @@ Json amounts_json(const Simulation& s) {
   j["emitters"] = emitters_json(s);
   if (!s.dem().openings().empty()) j["hoods"] = hoods_json(s);
   if (s.dust_stage() != nullptr) j["dust_field"] = dust_field_json(s);
+  if (s.liberation() != nullptr) j["dust_on_grains"] = dust_on_grains_json(s);
   j["size_classes"] = s.models().class_diameters.empty() ? Json::array() : class_steps(s.dem());
   return j;
 }

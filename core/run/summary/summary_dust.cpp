@@ -138,6 +138,32 @@ Json dust_field_json(const Simulation& s) {
   return {{"classes", classes}, {"sub_steps", stage.field().sub_steps()}};
 }
 
+Json dust_on_grains_json(const Simulation& s) {
+  constexpr double k_grams_per_tonne = 1e6;
+  constexpr double k_hour = 3600.0;  // s
+  const LiberationStage& stage = *s.liberation();
+  const std::vector<std::string>& classes = s.dust_stage()->class_names();
+  const double load = s.dem().balance().mass_emitted;
+  Json j = Json::object();
+  for (std::size_t n = 0; n < classes.size(); ++n) {
+    const particles::DustLoads::Balance balance = s.dem().dust_balance(n);
+    Json causes = Json::object();
+    for (std::size_t c = 0; c < stage.causes().size(); ++c) {
+      const double mass = stage.set_free(c, n);
+      if (!(mass > 0.0)) continue;
+      causes[stage.causes()[c]] = {{"kg", mass},
+                                   {"kg_per_h", k_hour * mass / s.time()},
+                                   {"g_per_tonne", k_grams_per_tonne * mass / load}};
+    }
+    j[classes[n]] = {
+        {"entered_kg", balance.entered},       {"on_grains_kg", balance.on_grains},
+        {"set_free_kg", balance.set_free},     {"set_free_by", causes},
+        {"left_with_grains_kg", balance.left}, {"drawn_out_with_grains_kg", balance.drawn_out},
+        {"balance_error", balance.error()}};
+  }
+  return {{"classes", j}, {"kept_back_kg", stage.kept_back()}};
+}
+
 void add_hood_tables(const Simulation& s, Json& tables) {
   const particles::BalanceBook& book = s.dem().book();
   for (std::size_t o = 0; o < s.dem().openings().size(); ++o) {

@@ -154,6 +154,10 @@ class SetupReader {
   Node read_clouds(MapReader& field, DustFieldSpec& spec);
   Node read_dust_sources(MapReader& field, DustFieldSpec& spec);
   void check_dust_field(const Node& node, const DustFieldSpec& spec);
+  /// `dust.liberation`: how the dust on grains becomes airborne.
+  void read_liberation(MapReader& dust, Node& written);
+  /// `dust_load` and `moisture` of materials, against field and law.
+  void check_dust_loads(const sdk::Model* law);
   /// A part of a block that is a model of the kind of the part's name: `drag: {model: ...}`.
   ReadModel read_part(MapReader& reader, const std::string& key, bool is_required, Node& written);
   /// Some contradictions need the density of the grains: an empty interval makes emitters look.
