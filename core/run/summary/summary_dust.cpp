@@ -164,6 +164,31 @@ Json dust_on_grains_json(const Simulation& s) {
   return {{"classes", j}, {"kept_back_kg", stage.kept_back()}};
 }
 
+void add_liberation_table(const Simulation& s, Json& tables) {
+  if (s.liberation() == nullptr) return;
+  constexpr double k_grams_per_tonne = 1e6;
+  const LiberationStage& stage = *s.liberation();
+  const std::vector<std::string>& classes = s.dust_stage()->class_names();
+  const double load = s.dem().balance().mass_emitted;
+  std::vector<std::string> columns{"set free by"};
+  for (const std::string& name : classes) columns.push_back(name + " [g per tonne]");
+  Json rows = Json::array();
+  for (std::size_t c = 0; c < stage.causes().size(); ++c) {
+    Json cells = Json::array({stage.causes()[c]});
+    double whole = 0.0;
+    for (std::size_t n = 0; n < classes.size(); ++n) {
+      whole += stage.set_free(c, n);
+      cells.push_back(k_grams_per_tonne * stage.set_free(c, n) / load);
+    }
+    if (whole > 0.0) rows.push_back(cells);
+  }
+  if (rows.empty()) return;
+  tables.push_back({{"sensor", "dust_on_grains"},
+                    {"title", "Dust set free from grains"},
+                    {"columns", columns},
+                    {"rows", rows}});
+}
+
 void add_hood_tables(const Simulation& s, Json& tables) {
   const particles::BalanceBook& book = s.dem().book();
   for (std::size_t o = 0; o < s.dem().openings().size(); ++o) {

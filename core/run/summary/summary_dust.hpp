@@ -36,6 +36,9 @@ nlohmann::ordered_json dust_field_json(const Simulation& s);
 /// "kept_back_kg".
 nlohmann::ordered_json dust_on_grains_json(const Simulation& s);
 
+/// A table for the report: what came off grains, by cause and class; nothing without loads.
+void add_liberation_table(const Simulation& s, nlohmann::ordered_json& tables);
+
 /// Tables for the report: what each hood has drawn out, by size.
 void add_hood_tables(const Simulation& s, nlohmann::ordered_json& tables);
 
