@@ -127,13 +127,14 @@ void Dem::Impl::move_to(double time) {
   for (Surface& s : conditions.surfaces) s.move_to(time);
 }
 
-TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTransfer> laws) {
+TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTransfer> laws,
+                                        bool keeps_dust) {
   const Translation names(other.conditions, conditions);
   std::vector<double> density;
   for (const auto& material : conditions.materials) density.push_back(material.density);
   book.transfer_from(other.book, names.materials(), names.openings(), density);
   store.transfer_from(other.store, names.materials(), names.openings(), book.masses());
-  loads.transfer_from(other.loads, store);
+  loads.transfer_from(other.loads, store, keeps_dust);
   work.resize(store.size());
   store.update_decay(conditions.step());
   fine_level.transfer_from(other.fine_level);
@@ -313,11 +314,11 @@ TransferObstacles Dem::obstacles_to(const Dem& other, double time) {
   return find_obstacles({other.impl_->conditions, other.impl_->store}, impl_->conditions);
 }
 
-TransferReport Dem::transfer_from(const Dem& other, double time,
-                                  std::span<const LawTransfer> laws) {
+TransferReport Dem::transfer_from(const Dem& other, double time, std::span<const LawTransfer> laws,
+                                  bool keeps_dust) {
   other.impl_->synchronise();
   impl_->move_to(time);
-  return impl_->transfer_from(*other.impl_, laws);
+  return impl_->transfer_from(*other.impl_, laws, keeps_dust);
 }
 
 void Dem::save(sdk::ArchiveWriter& archive) const {

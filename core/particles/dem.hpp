@@ -181,9 +181,11 @@ class Dem {
   [[nodiscard]] TransferObstacles obstacles_to(const Dem& other, double time);
   /// Takes the particles of another solver, under whatever laws, materials and bodies it has, with
   /// the histories of their contacts; materials, bodies and openings are known by their names.
-  /// `laws` by its number of a law. Call before the first step, and where nothing stands in the
-  /// way.
-  TransferReport transfer_from(const Dem& other, double time, std::span<const LawTransfer> laws);
+  /// `laws` by its number of a law. `keeps_dust`: its classes of dust are those here; else each
+  /// particle carries what its material brings here. Call before the first step, and where nothing
+  /// stands in the way.
+  TransferReport transfer_from(const Dem& other, double time, std::span<const LawTransfer> laws,
+                               bool keeps_dust = true);
 
  private:
   class Impl;

@@ -46,7 +46,8 @@ class Dem::Impl {
   [[nodiscard]] bool leaves(std::size_t row);
   void draw_out_at(std::vector<Opening> openings);
   void move_to(double time);
-  TransferReport transfer_from(const Impl& other, std::span<const LawTransfer> laws);
+  TransferReport transfer_from(const Impl& other, std::span<const LawTransfer> laws,
+                               bool keeps_dust);
   void fill_last_force() const;
   void gather_wall_loads();
   void save(sdk::ArchiveWriter& archive) const;

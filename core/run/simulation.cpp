@@ -90,7 +90,8 @@ void Simulation::start() {
 }
 
 void Simulation::start_from(const std::function<void(const Owners&)>& give) {
-  give({models_, clock_, *dem_, *insertion_, snapshots_, fluid_.get(), dust_.get()});
+  give({models_, clock_, *dem_, *insertion_, snapshots_, fluid_.get(), dust_.get(),
+        liberation_.get()});
   if (fluid_) snapshots_.set_open_fraction(fluid_->solver().open_fraction());
   take_fluid_snapshot();
 }

@@ -49,8 +49,9 @@ class Simulation {
     particles::Dem& particles;
     Insertion& insertion;
     Snapshots& snapshots;
-    FluidStage* fluid;  ///< null without a fluid
-    DustStage* dust;    ///< null without a dust field
+    FluidStage* fluid;            ///< null without a fluid
+    DustStage* dust;              ///< null without a dust field
+    LiberationStage* liberation;  ///< null where no dust comes off grains
   };
   /// In place of start(): `give` gives them the state of another run.
   void start_from(const std::function<void(const Owners&)>& give);

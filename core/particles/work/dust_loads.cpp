@@ -69,9 +69,10 @@ DustLoads::Balance DustLoads::balance(const ParticleStore& particles, std::size_
           drawn_out_[n].value()};
 }
 
-void DustLoads::transfer_from(const DustLoads& other, const ParticleStore& particles) {
+void DustLoads::transfer_from(const DustLoads& other, const ParticleStore& particles,
+                              bool is_kept) {
   if (!is_on()) return;
-  if (other.classes() == classes()) {
+  if (is_kept && other.classes() == classes()) {
     load_ = other.load_;
     entered_ = other.entered_;
     set_free_ = other.set_free_;

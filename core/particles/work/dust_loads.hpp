@@ -42,9 +42,9 @@ class DustLoads {
   };
   [[nodiscard]] Balance balance(const ParticleStore& particles, std::size_t n) const;
 
-  /// Goes on from another's books; particles that carried nothing get what their materials bring
-  /// here.
-  void transfer_from(const DustLoads& other, const ParticleStore& particles);
+  /// Goes on from another's loads and books, if they are kept and there are any; else the particles
+  /// get what their materials bring here.
+  void transfer_from(const DustLoads& other, const ParticleStore& particles, bool is_kept);
 
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);

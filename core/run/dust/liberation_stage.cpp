@@ -18,6 +18,13 @@ namespace {
 /// Grains per call of a law, and from one class's column to the next within a call.
 constexpr std::size_t k_rows_per_call = 256;
 
+std::vector<std::string> causes_of(const std::vector<std::string>& walls, bool has_wind) {
+  std::vector<std::string> causes{"grains"};
+  causes.insert(causes.end(), walls.begin(), walls.end());
+  if (has_wind) causes.emplace_back("wind");
+  return causes;
+}
+
 std::size_t padded(std::size_t rows) {
   return (rows + k_rows_per_call - 1) / k_rows_per_call * k_rows_per_call;
 }
@@ -41,9 +48,7 @@ LiberationStage::LiberationStage(const scenario::Setup& setup,
                  .gas_density = setup.fluid->density,
                  .gas_viscosity = setup.fluid->viscosity,
                  .gravity = norm(setup.gravity)});
-  causes_.emplace_back("grains");
-  for (const std::string& wall : particles_.wall_names()) causes_.push_back(wall);
-  if (law_->needs_wind()) causes_.emplace_back("wind");
+  causes_ = causes_of(particles_.wall_names(), law_->needs_wind());
   set_free_.resize(causes_.size() * classes_);
 }
 
@@ -215,6 +220,20 @@ void LiberationStage::advance(double step) {
                    .void_fraction = columns_.void_fraction.data() + first});
   });
   give_to_air(true);
+}
+
+void LiberationStage::transfer_from(sdk::ArchiveReader& archive,
+                                    const std::vector<std::string>& walls) {
+  const auto numbers = archive.numbers("set_free");
+  std::vector<std::string> causes = causes_of(walls, true);
+  kept_back_ = {numbers.at(0), numbers.at(1)};
+  for (std::size_t n = 0; 2 * n + 3 < numbers.size(); ++n) {
+    const auto cause = std::find(causes_.begin(), causes_.end(), causes.at(n / classes_));
+    // What is gone here, or cannot be a cause, counts with the grains: nothing gets lost.
+    const auto at = cause == causes_.end() ? 0 : static_cast<std::size_t>(cause - causes_.begin());
+    set_free_[at * classes_ + n % classes_] += numbers[2 * n + 2];
+    set_free_[at * classes_ + n % classes_] += numbers[2 * n + 3];
+  }
 }
 
 void LiberationStage::add_parts(SaveParts& parts) const {

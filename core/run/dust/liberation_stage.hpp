@@ -39,6 +39,9 @@ class LiberationStage {
   /// [kg] that would have come off where there was no gas to take it, and stayed on its grain.
   [[nodiscard]] double kept_back() const { return kept_back_.value(); }
 
+  /// Goes on from what came off in another run with the same classes and these walls.
+  void transfer_from(sdk::ArchiveReader& archive, const std::vector<std::string>& walls);
+
   void add_parts(SaveParts& parts) const;
   void add_parts(LoadParts& parts);
 
