@@ -15,15 +15,17 @@ namespace sdk = dust::sdk;
 class Shear final : public sdk::LiberationLaw {
  public:
   struct Parameters {
-    double emission_coefficient = 1e-5;
+    double emission_coefficient = 1e-3;
     double cohesion = 3e-4;
     double held_moisture = 0.005;
   };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
-    s.number(&Parameters::emission_coefficient, "emission_coefficient", sdk::dimension::none,
-             "Dust flux off a surface far above the threshold over rho_f u^3 / g.")
-        .symbol("C")
+    s.number(&Parameters::emission_coefficient, "emission_coefficient",
+             sdk::dimension::none / sdk::dimension::length,
+             "Dust that leaves a surface per area over what the wind drives along it per width: "
+             "1e-4 to 0.1 per metre for soils.")
+        .symbol("alpha")
         .above(0)
         .optional();
     s.number(&Parameters::cohesion, "cohesion", sdk::dimension::surface_energy,
@@ -43,13 +45,14 @@ class Shear final : public sdk::LiberationLaw {
     return {.name = "shear",
             .version = "1.0",
             .summary = "Wind over grains takes dust off above a threshold of its shear.",
-            .equation = R"(F = C \frac{\rho_f}{g} u_*^3 \left(1 - u_{*t}^2/u_*^2\right),\ )"
+            .equation = R"(F = \alpha \frac{\rho_f}{g} u_*^3 \left(1 - u_{*t}^2/u_*^2\right),\ )"
                         R"(u_{*t}^2 = 0.0123 \left(\frac{\rho_p}{\rho_f} g d + )"
                         R"(\frac{\gamma}{\rho_f d}\right)\left(1 + 1.21 (w - w')^{0.68}\right))",
             .source =
                 "Shao and Lu, J. Geophys. Res. 105 (2000) 22437, "
                 "doi:10.1029/2000JD900304; Fecan, Marticorena and Bergametti, Ann. "
-                "Geophysicae 17 (1999) 149, doi:10.1007/s00585-999-0149-7"};
+                "Geophysicae 17 (1999) 149, doi:10.1007/s00585-999-0149-7; Marticorena and "
+                "Bergametti, J. Geophys. Res. 100 (1995) 16415, doi:10.1029/95JD00690"};
   }
   explicit Shear(const Parameters& p) : p_(p) {}
 

@@ -27,7 +27,10 @@ inline double raised_by_moisture(double moisture, double held_moisture) {
 }
 
 /// Flux [kg/(m2 s)] off a surface at the friction velocity u [m/s] above the threshold u_t,
-///   F = C rho_f/g u^3 (1 - u_t^2/u^2); 0 below. docs/theory/dust.md, eq. (14).
+///   F = alpha rho_f/g u^3 (1 - u_t^2/u^2); 0 below,
+/// alpha [1/m] times what the wind drives along per width, in the usual form; of that and alpha:
+/// Marticorena and Bergametti, J. Geophys. Res. 100 (1995) 16415, doi:10.1029/95JD00690;
+/// docs/theory/dust.md, eq. (14).
 inline double flux(double friction_velocity, double threshold_velocity, double gas_density,
                    double coefficient, double gravity) {
   const double u = friction_velocity;
