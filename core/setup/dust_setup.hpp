@@ -54,7 +54,7 @@ struct DustLoadSpec {
   double moisture = 0.0;      ///< [-] water over dry solids, by mass
 };
 
-/// What a scenario says of dust, beside the Setup: only who books and carries dust asks.
+/// What a scenario says of dust, beside the Setup: only who counts and carries dust asks.
 struct DustSetup {
   std::optional<DustSpec> given;          ///< the block `dust:`
   std::vector<double> coarse_graining;    ///< [-] by material

@@ -87,7 +87,7 @@ void LiberationStage::find_wind() {
     column->resize(padded(rows_.size()));
   }
   for (std::size_t row = 0; row < grains.count; ++row) {
-    const double* to = grains.fluid_action + 4 * row;
+    const double* to = grains.drag_relaxation + 4 * row;
     const double* v = grains.velocity_of(row);
     const double* x = grains.position + 4 * row;
     const double slip =

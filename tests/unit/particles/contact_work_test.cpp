@@ -49,7 +49,7 @@ std::size_t row_of(particles::Dem& dem, std::int64_t id) {
 void run(particles::Dem& dem, double duration) {
   Stepper stepper(dem);
   stepper.step(std::lround(duration / dem.coarse_step()));
-  dem.land();
+  dem.synchronise();
 }
 
 }  // namespace
@@ -137,7 +137,7 @@ TEST_CASE("a grain that slides on a wall shall hand out friction times its way w
   const double before = energy(at_start);
   Stepper stepper(*dem);
   stepper.step(std::lround(20e-3 / dem->coarse_step()));
-  dem->land();
+  dem->synchronise();
   const GrainState now = grain(*dem, 0);
   const auto work = dem->contact_work().with_wall(row_of(*dem, 0), 0);
   // It still slides: its spin has not caught up.
@@ -207,7 +207,7 @@ TEST_CASE("dust on grains shall be booked from its coming to its leaving") {
   CHECK(dem->dust_load(0)[0] == doctest::Approx(0.01 * mass).epsilon(1e-14));
   dem->set_dust_free(2, 1, 0.5 * dem->dust_load(2)[1]);
   run(*dem, 2e-3);
-  dem->remove_leavers();
+  dem->remove_escaped();
   const auto coarse = dem->dust_balance(0);
   const auto fine = dem->dust_balance(1);
   CHECK(coarse.entered == doctest::Approx(0.01 * 2.25 * mass).epsilon(1e-14));
