@@ -418,7 +418,7 @@ RunFacts facts_of(const scenario::ReadResult& read, const registry::Registry& re
   io::Sha256 digest;
   digest.update(read.resolved_yaml.data(), read.resolved_yaml.size());
   facts.scenario_sha256 = digest.hex_digest();
-  facts.log_header = log_header(read.setup, registry, options, facts.scenario_sha256);
+  facts.log_header = log_header(read.setup, read.dust, registry, options, facts.scenario_sha256);
   return facts;
 }
 

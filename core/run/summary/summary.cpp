@@ -303,7 +303,8 @@ Json record_json(const Simulation& s, const RunFacts& facts) {
   j["build"] = {{"compiler", base::k_compiler},
                 {"processor", base::k_processor},
                 {"plugin_interface", sdk::k_interface_version}};
-  if (facts.registry != nullptr) j["plugins"] = plugins_json(s.setup(), *facts.registry);
+  if (facts.registry != nullptr)
+    j["plugins"] = plugins_json(s.setup(), s.dust_setup(), *facts.registry);
   return j;
 }
 
