@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/text.hpp"
 #include "dust/sdk/liberation_law.hpp"
 #include "scenario/reading/setup_reader.hpp"
 #include "scenario/text/units.hpp"
@@ -13,7 +14,7 @@ void SetupReader::read_liberation(MapReader& dust, Node& written) {
   const Entry* entry = dust.optional("liberation");
   ReadModel law;
   if (entry != nullptr) law = read_part(dust, "liberation", false, written);
-  check_dust_loads(law.model.get());
+  check_dust_loads(law.model.get(), entry == nullptr || law.model != nullptr);
   if (!law.choice) return;
   const Mark where = law.choice->where;
   if (entry != nullptr && !dust_.field && has_fluid_) {
@@ -31,7 +32,7 @@ void SetupReader::read_liberation(MapReader& dust, Node& written) {
   dust_.liberation = std::move(law.choice);
 }
 
-void SetupReader::check_dust_loads(const sdk::Model* law) {
+void SetupReader::check_dust_loads(const sdk::Model* law, bool is_law_read) {
   const Entry* materials = root_.find("materials");
   if (materials == nullptr || !materials->value.is_map()) return;
   const bool binds = law != nullptr && static_cast<const sdk::LiberationLaw*>(law)->uses_moisture();
@@ -39,7 +40,7 @@ void SetupReader::check_dust_loads(const sdk::Model* law) {
     const Entry& material = materials->value.entries[m];
     const std::string path = "materials." + material.key;
     const DustLoadSpec& load = dust_.loads[m];
-    if (load.moisture > 0.0 && !binds) {
+    if (load.moisture > 0.0 && !binds && is_law_read) {
       error(mark_of(material.value, "moisture"),
             path + ".moisture: " +
                 (law == nullptr ? "there is no dust.liberation that makes anything"
@@ -50,7 +51,8 @@ void SetupReader::check_dust_loads(const sdk::Model* law) {
     const Mark where = mark_of(material.value, "dust_load");
     const double sum = std::accumulate(load.share.begin(), load.share.end(), 0.0);
     if (sum > 1.0) {
-      error(where, path + ".dust_load: the shares of the classes make " + number_text(100.0 * sum) +
+      error(where, path + ".dust_load: the shares of the classes make " +
+                       base::digits_text(100.0 * sum, 4) +
                        " % of the grain; they are part of its mass: give at most 100 %");
     }
     if (!has_fluid_) {
@@ -66,7 +68,7 @@ void SetupReader::check_dust_loads(const sdk::Model* law) {
       error(where, path + ".dust_load: " + std::to_string(load.share.size()) + " numbers for " +
                        std::to_string(dust_.field->diameters.size()) +
                        " classes of dust.field; give one for each");
-    } else if (law == nullptr) {
+    } else if (law == nullptr && is_law_read) {
       diagnostics_.warning(where, path +
                                       ".dust_load: stays on the grains: give dust: {liberation: "
                                       "{model: energy, ...}} for it to come off");

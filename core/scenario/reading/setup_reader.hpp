@@ -156,8 +156,9 @@ class SetupReader {
   void check_dust_field(const Node& node, const DustFieldSpec& spec);
   /// `dust.liberation`: how the dust on grains becomes airborne.
   void read_liberation(MapReader& dust, Node& written);
-  /// `dust_load` and `moisture` of materials, against field and law.
-  void check_dust_loads(const sdk::Model* law);
+  /// `dust_load` and `moisture` of materials, against field and law; of a law that could not be
+  /// read all is told already.
+  void check_dust_loads(const sdk::Model* law, bool is_law_read = true);
   /// A part of a block that is a model of the kind of the part's name: `drag: {model: ...}`.
   ReadModel read_part(MapReader& reader, const std::string& key, bool is_required, Node& written);
   /// Some contradictions need the density of the grains: an empty interval makes emitters look.
