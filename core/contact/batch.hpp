@@ -26,12 +26,13 @@ class BatchColumns {
     separation_x,  ///< [m] centre of i minus centre of j
     separation_y,
     separation_z,
-    radius_i,    ///< [m]
-    radius_j,    ///< [m] 0 for a surface
-    velocity_x,  ///< [m/s] of the centres, later of the contact point
+    radius_i,        ///< [m]
+    radius_j,        ///< [m] that of the grain for a surface
+    inverse_mass_i,  ///< [1/kg]
+    inverse_mass_j,  ///< [1/kg] 0 for a surface
+    velocity_x,      ///< [m/s] of the centres, later of the contact point
     velocity_y,
     velocity_z,
-    inverse_mass,    ///< [1/kg] sum of both sides
     displacement_x,  ///< [m] of the centres since the last look, later of the contact point
     displacement_y,
     displacement_z,

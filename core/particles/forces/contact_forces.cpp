@@ -51,8 +51,8 @@ bool ContactForces::find_weight_ratios(const ContactScene& scene, const contact:
     const auto inverse_mass = [&](std::int32_t row) {
       return particles.inverse_mass(static_cast<std::size_t>(row));
     };
-    columns.column(BatchColumns::inverse_mass)[q] =
-        scale_i[q] * inverse_mass(pairs.a[entry]) + scale_j[q] * inverse_mass(pairs.b[entry]);
+    columns.column(BatchColumns::inverse_mass_i)[q] = scale_i[q] * inverse_mass(pairs.a[entry]);
+    columns.column(BatchColumns::inverse_mass_j)[q] = scale_j[q] * inverse_mass(pairs.b[entry]);
   }
   return has_scales;
 }

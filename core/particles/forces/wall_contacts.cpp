@@ -48,7 +48,7 @@ void derive_wall_columns(const Surface& surface, double time, double since, std:
   surface_velocities(surface, time - 0.5 * since, count, point, normal, mean_velocity);
   take_off(columns, count, B::velocity_x, B::separation_x, nullptr);
   take_off(columns, count, B::displacement_x, k_mean_velocity, columns.column(k_wall_since));
-  repeat_last(columns, count, B::velocity_x, B::velocity_z);
+  repeat_last(columns, count, B::radius_i, B::velocity_z);
   repeat_last(columns, count, B::displacement_x, B::displacement_z);
   repeat_last(columns, count, B::overlap, B::lever_j);
   contact::cut_first_displacements(columns, count);

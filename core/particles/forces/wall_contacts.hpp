@@ -57,6 +57,10 @@ inline void put_at_wall(const GrainAtWall& g, const bodies::SurfacePoint& near, 
   put(B::overlap, overlap);
   put(B::lever_i, lever);
   put(B::lever_j, 0.0);
+  put(B::radius_i, g.radius);
+  put(B::radius_j, g.radius);
+  put(B::inverse_mass_i, g.inverse_mass);
+  put(B::inverse_mass_j, 0.0);
   put(B::effective_radius, g.radius);
   put(B::effective_mass, 1.0 / g.inverse_mass);
   put(k_wall_since, g.since);

@@ -24,7 +24,10 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
   const double *ax = b.angle.x, *ay = b.angle.y, *az = b.angle.z;
   const double *vx = b.velocity.x, *vy = b.velocity.y, *vz = b.velocity.z, *overlap = b.overlap;
   const double *mass = b.effective_mass, *radius = b.effective_radius, *fn = b.normal_force,
-               *kt = b.tangential_stiffness;
+               *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
+  const double *ri = b.radius_i, *rj = b.radius_j;
+  const double *inverse_i = b.inverse_mass_i, *inverse_j = b.inverse_mass_j;
+  const double *fx = b.force.x, *fy = b.force.y, *fz = b.force.z;
   double *mx = b.history[0], *my = b.history[1], *mz = b.history[2], *last = b.history[3];
   double *tx = b.torque.x, *ty = b.torque.y, *tz = b.torque.z;
   alignas(64) double keep[k_block], size[k_block], edge[k_block];
@@ -53,11 +56,14 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     c.last_stiffness = last[q];
     c.mx = tx[q], c.my = ty[q], c.mz = tz[q];
     c.keep = keep[q - first];
-    formula::roll(c);
+    const double way = (vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q]) * b.time_step;
+    c.normal_force = fn[q];
+    c.normal_stiffness = kn[q];
+    c.way = way;
+    formula::roll(b.time_step, {ri[q], rj[q], inverse_i[q], inverse_j[q]}, c);
     tx[q] = c.mx, ty[q] = c.my, tz[q] = c.mz;
     last[q] = kt[q];
     size[q - first] = c.size;
-    const double way = (vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q]) * b.time_step;
     edge[q - first] = overlap[q] - 2.0 * way;
     least = std::min(least, edge[q - first]);
   }
@@ -83,7 +89,13 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     c.size = size[q - first];
     formula::limit(friction, c);
     mx[q] = c.mx, my[q] = c.my, mz[q] = c.mz;
-    tx[q] = c.mx, ty[q] = c.my, tz[q] = c.mz;
+    const dust::model::TurningSides sides(ri[q], rj[q], inverse_i[q], inverse_j[q]);
+    const double excess = dust::model::phase_excess(kt[q] * radius[q] * radius[q], b.time_step,
+                                                    sides.inverse_inertia);
+    const dust::model::Couple by_force =
+        dust::model::couple_of_force(excess, sides, {nx[q], ny[q], nz[q]}, {fx[q], fy[q], fz[q]},
+                                     c.size, friction * radius[q] * std::abs(fn[q]));
+    tx[q] = c.mx + by_force.x, ty[q] = c.my + by_force.y, tz[q] = c.mz + by_force.z;
   }
   for (std::size_t n = 0; n < last_steps; ++n) {
     const std::size_t q = in_last_step[n];
@@ -113,6 +125,7 @@ class Epsd2 final : public dust::model::RollingFriction {
 
   explicit Epsd2(const Parameters& p) : RollingFriction(p) {}
   [[nodiscard]] int history_size() const override { return 4; }
+  [[nodiscard]] int couple_column() const override { return 0; }
   void evaluate(const sdk::ContactBatch& batch) const override {
     for (std::size_t first = 0; first < batch.count; first += k_block) {
       evaluate_block(friction(), batch, first, std::min(first + k_block, batch.count));
