@@ -178,7 +178,7 @@ class HertzMindlin final : public sdk::ContactLaw {
   }
   static sdk::ModelInfo describe() {
     return {.name = "hertz_mindlin",
-            .version = "2.0",
+            .version = "2.1",
             .summary =
                 "Hertz normal and energy-conserving Mindlin tangential contact with viscous "
                 "damping and strict Coulomb friction.",

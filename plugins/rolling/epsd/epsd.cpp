@@ -97,7 +97,7 @@ class Epsd final : public sdk::RollingLaw {
   }
   static sdk::ModelInfo describe() {
     return {.name = "epsd",
-            .version = "2.0",
+            .version = "2.1",
             .summary = "Elastic-plastic rolling spring with a dashpot below full mobilisation.",
             .equation =
                 "\\Delta M_s = -2.25 k_n \\mu_r^2 R^{*2} \\Delta\\theta_r,\\quad "

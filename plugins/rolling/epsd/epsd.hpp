@@ -72,11 +72,10 @@ struct Rolling {
 /// |M_s| \le \mu_r R^* |F_n| \f$, k_n being the mean over the step (second order); \f$ M_d = -2
 /// \eta_r \sqrt{I_r k_r}\, \omega_r \f$ while \f$ |M_s| \f$ is below its limit, else 0; the limit
 /// holds for the sum, too. \f$ \omega_r \f$ is the relative angular velocity without its part about
-/// the normal, \f$ I_r = \tfrac75 m^* R^{*2} \f$: the inertia of a sphere about its contact with a
-/// wall. M_s turns with the contact and keeps its length. A damped contact pulls before it ends:
-/// where F_n goes through zero, so does M_s, which begins anew. Source: model C of Ai, Chen,
-/// Rotter, Ooi, Powder Technol. 206 (2011) 269, doi:10.1016/j.powtec.2010.09.030; I_r of a pair:
-/// own choice.
+/// the normal, \f$ I_r \f$ that of the two about their contact, \f$ 1/I_r = 5/(7 m_i R_i^2) +
+/// 5/(7 m_j R_j^2) \f$. M_s turns with the contact and keeps its length. A damped contact pulls
+/// before it ends: where F_n goes through zero, so does M_s, which begins anew. Source: model C of
+/// Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269, doi:10.1016/j.powtec.2010.09.030.
 [[gnu::always_inline]] inline void evaluate(const Constants& k, double time_step,
                                             const TurningSides& sides, Rolling& c) {
   constexpr double k_tiny = 1e-290;
@@ -101,7 +100,7 @@ struct Rolling {
   c.sx = cut * sx;
   c.sy = cut * sy;
   c.sz = cut * sz;
-  const double inertia = 1.4 * c.mass * c.radius * c.radius;
+  const double inertia = 3.5 / sides.inverse_inertia;
   const double above_before = std::sqrt(spring.squared_before) - limit - reach * fall;
   const double damped = part_below_limit(above_before, size - limit, c.last_stiffness < 0.0);
   const double damping = damped * 2.0 * k.damping_ratio * std::sqrt(inertia * kr);

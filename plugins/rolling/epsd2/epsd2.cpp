@@ -112,7 +112,7 @@ class Epsd2 final : public dust::model::RollingFriction {
   }
   static sdk::ModelInfo describe() {
     return {.name = "epsd2",
-            .version = "2.0",
+            .version = "2.1",
             .summary = "Elastic-plastic rolling spring without dashpot.",
             .equation =
                 "\\Delta M = -k_t R^{*2} \\Delta\\theta_r,\\quad "
