@@ -13,8 +13,8 @@ namespace dust::contact {
 inline constexpr std::size_t k_batch = 64;
 /// Column stride; not a power of two, which would alias the columns in the first-level cache.
 inline constexpr std::size_t k_stride = k_batch + 8;
-/// Largest history of a contact (contact, rolling and cohesion stage) in columns.
-inline constexpr int k_max_history = 16;
+/// Largest history of a contact (contact, rolling and cohesion stage, accounts) in columns.
+inline constexpr int k_max_history = 24;
 
 /// Number of rows a law sees for `count` contacts: the next multiple of eight.
 constexpr std::size_t padded(std::size_t count) { return (count + 7) / 8 * 8; }

@@ -23,7 +23,11 @@ Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
                 double fluid_density)
     : conditions(setup, bodies, std::move(laws), diameters, fluid_density),
       store(setup.fluid.has_value()),
-      inner(conditions.laws.history_stride()) {}
+      inner(conditions.laws.history_stride()) {
+  if (!setup.audit.energy) return;
+  energy.begin();
+  inner.let_all_step();
+}
 
 void Dem::Impl::insert(std::span<const NewGrain> grains) {
   if (grains.empty()) return;
@@ -32,6 +36,7 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
     const double mass = material.density * sdk::sphere_volume(g.diameter);
     const std::int32_t population = book.population(g.diameter, g.weight, g.material, mass);
     store.append(g, mass, population);
+    energy.enter(store, store.size() - 1);
     book.enter(population);
   }
   outer.resize(store.size());
@@ -86,7 +91,11 @@ void Dem::Impl::remove_leavers() {
   std::vector<std::int32_t> keep;
   keep.reserve(store.size());
   for (std::size_t n = 0; n < store.size(); ++n) {
-    if (!leaves(n)) keep.push_back(static_cast<std::int32_t>(n));
+    if (!leaves(n)) {
+      keep.push_back(static_cast<std::int32_t>(n));
+    } else {
+      energy.leave(store, n, conditions.gravity.data(), conditions.step());
+    }
   }
   if (keep.size() == store.size()) return;
   // Histories and deferred impulses of the others survive: contacts name the new rows from here on,
@@ -118,6 +127,7 @@ TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTr
   book.transfer_from(other.book, names.materials(), names.openings(), density);
   store.transfer_from(other.store, names.materials(), names.openings(), book.masses());
   store.update_decay(conditions.step());
+  for (std::size_t n = 0; n < store.size(); ++n) energy.enter(store, n);
   fine_level.transfer_from(other.fine_level);
 
   ContactTransfer transfer({other.conditions, other.store}, {conditions, store}, names, laws);
@@ -224,6 +234,7 @@ std::vector<ContactRecord> Dem::contacts() const {
   return contact_snapshot(impl_->contact_scene(), impl_->inner);
 }
 
+EnergyBalance Dem::energy() const { return impl_->energy.balance(); }
 const BalanceBook& Dem::book() const { return impl_->book; }
 const Balance& Dem::balance() const { return impl_->book.balance(); }
 
@@ -300,6 +311,7 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   tile_step.save(archive, tiling);
   fine_level.save(archive);
   book.save(archive);
+  energy.save(archive);
   archive.number("time", conditions.time);
   const ListTuner::State lifetimes = tuner.state();
   const OuterList::State list = outer.state();
@@ -346,6 +358,8 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   inner.load(archive, tiles);
   fine_level.load(archive, state.at(10));
   book.load(archive);
+  energy.restart(tiles);
+  energy.load(archive);
   move_to(archive.number("time"));
   has_weights = store.has_weights(tiling.coarse_count);
 }

@@ -5,6 +5,7 @@
 #include "dust/sdk/archive.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/sensor.hpp"
+#include "particles/energy/energy_balance.hpp"
 #include "particles/grain_rows.hpp"
 #include "particles/openings/opening.hpp"
 #include "particles/pair_law_table.hpp"
@@ -140,6 +141,8 @@ class Dem {
   [[nodiscard]] std::vector<ContactRecord> contacts() const;
   [[nodiscard]] const Balance& balance() const;
   [[nodiscard]] const BalanceBook& book() const;
+  /// Zeros unless the scenario asks for it (Setup::audit).
+  [[nodiscard]] EnergyBalance energy() const;
   [[nodiscard]] DemReport report() const;
   /// Tells that fluid_action was rewritten (the DEM derives its decay factors from it).
   void fluid_action_changed();

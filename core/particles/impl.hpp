@@ -3,6 +3,7 @@
 
 #include "particles/conditions.hpp"
 #include "particles/dem.hpp"
+#include "particles/energy/energy_account.hpp"
 #include "particles/fine_level/fine_level.hpp"
 #include "particles/forces/wall_loads.hpp"
 #include "particles/neighbours/inner_list.hpp"
@@ -73,6 +74,7 @@ class Dem::Impl {
   InnerList inner;
   TileStep tile_step;
   FineLevel fine_level;
+  EnergyAccount energy;
   WallLoads wall_loads;  ///< empty between fluid steps, so that nothing of it is saved
   DemReport counters;
   mutable contact::AlignedVector<double> last_force;

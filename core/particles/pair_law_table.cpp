@@ -9,7 +9,7 @@
 namespace dust::particles {
 
 PairLawTable::PairLawTable(std::vector<PairLaws> laws, std::vector<std::string> material_names,
-                           double largest_diameter)
+                           double largest_diameter, int account_columns)
     : laws_(std::move(laws)),
       material_names_(std::move(material_names)),
       index_(material_names_.size() * material_names_.size(), -1) {
@@ -25,6 +25,8 @@ PairLawTable::PairLawTable(std::vector<PairLaws> laws, std::vector<std::string> 
     law.range = law.range_of(0.5 * largest_diameter);
     largest_range_ = std::max(largest_range_, law.range);
   }
+  account_column_ = columns;
+  columns += account_columns;
   if (columns > contact::k_max_history) {
     throw sdk::ParameterError("contact, rolling and cohesion law together keep " +
                               std::to_string(columns) + " numbers per contact; at most " +

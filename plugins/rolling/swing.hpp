@@ -42,16 +42,19 @@ struct Couple {
   double x, y, z;
 };
 
-/// What the tangential part of `force` [N] on i adds to the couple of a spring of this excess: the
-/// couple as it will be, \f$ M + \tfrac{1}{12} dt^2 \ddot M \f$, by the force's part of
-/// \f$ \ddot M \f$, \f$ k_r (R_i/I_i - R_j/I_j)\, n \times F \f$. None where it could pass the
-/// limit: there the spring does not swing.
-[[gnu::always_inline]] inline Couple couple_of_force(double excess, const TurningSides& sides,
-                                                     sdk::Vec3 n, sdk::Vec3 force, double size,
-                                                     double limit) {
-  const double by = excess * sides.turning / sides.inverse_inertia;
-  const Couple c{by * (n.y * force.z - n.z * force.y), by * (n.z * force.x - n.x * force.z),
-                 by * (n.x * force.y - n.y * force.x)};
+/// What a force tangential to a contact, turned by a right angle, adds to the couple of a spring of
+/// this excess: \f$ \tfrac{1}{12} dt^2 k_r (R_i/I_i - R_j/I_j) \f$ [m].
+[[gnu::always_inline]] inline double lever_of_force(double excess, const TurningSides& sides) {
+  return excess * sides.turning / sides.inverse_inertia;
+}
+
+/// What the tangential part of `force` [N] on i adds to the couple of a spring: the couple as it
+/// will be, \f$ M + \tfrac{1}{12} dt^2 \ddot M \f$, by the force's part of \f$ \ddot M \f$. None
+/// where it could pass the limit: there the spring does not swing.
+[[gnu::always_inline]] inline Couple couple_of_force(double lever, sdk::Vec3 n, sdk::Vec3 force,
+                                                     double size, double limit) {
+  const Couple c{lever * (n.y * force.z - n.z * force.y), lever * (n.z * force.x - n.x * force.z),
+                 lever * (n.x * force.y - n.y * force.x)};
   const double most = size + std::abs(c.x) + std::abs(c.y) + std::abs(c.z);
   const double given = most < limit ? 1.0 : 0.0;
   return {given * c.x, given * c.y, given * c.z};

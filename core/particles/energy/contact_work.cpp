@@ -16,6 +16,11 @@ Vec3 vector_of(BatchColumns& columns, int name, std::size_t q) {
 
 }  // namespace
 
+ContactMotion& thread_motion() {
+  thread_local ContactMotion motion;
+  return motion;
+}
+
 void ContactMotion::take_pairs(BatchColumns& columns, std::size_t count) {
   for (std::size_t q = 0; q < count; ++q) {
     displacement_[q] = vector_of(columns, B::displacement_x, q);
@@ -48,8 +53,8 @@ void book_work(const WorkingContact& c, double* history, std::size_t stride, Ene
   sums.normal -= half * (normal_before + normal) * c.approach;
   sums.tangential += half * dot(tangential_before + tangential, c.slip);
   sums.rolling += half * dot(couple_before + c.couple, c.turn);
-  sums.walls += half * dot((normal_before + normal) * c.normal + tangential_before + tangential,
-                           c.wall);
+  sums.walls +=
+      half * dot((normal_before + normal) * c.normal + tangential_before + tangential, c.wall);
   old(0) = normal;
   for (std::size_t d = 0; d < 3; ++d) {
     old(1 + d) = tangential[static_cast<int>(d)];

@@ -37,15 +37,18 @@ class ContactMotion {
   sdk::Vec3 wall_[contact::k_batch];  ///< displacement of the wall
 };
 
+/// Of the calling thread, filled only where an account is kept.
+ContactMotion& thread_motion();
+
 /// A contact of which the account has something to say.
 struct WorkingContact {
   sdk::Vec3 normal;
-  double approach;           ///< [m] by which the overlap has grown in the step
-  sdk::Vec3 slip;            ///< [m] displacement of the contact point
-  sdk::Vec3 turn;            ///< [rad] relative rotation
-  sdk::Vec3 wall;            ///< [m] displacement of the wall
-  sdk::Vec3 force, couple;   ///< [N], [N m] on i, now
-  double weight;             ///< statistical
+  double approach;          ///< [m] by which the overlap has grown in the step
+  sdk::Vec3 slip;           ///< [m] displacement of the contact point
+  sdk::Vec3 turn;           ///< [rad] relative rotation
+  sdk::Vec3 wall;           ///< [m] displacement of the wall
+  sdk::Vec3 force, couple;  ///< [N], [N m] on i, now
+  double weight;            ///< statistical
 };
 
 /// Books the work of a contact over the last step by the means of the forces at its two ends, and

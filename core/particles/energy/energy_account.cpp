@@ -61,8 +61,8 @@ void EnergyAccount::enter(const ParticleStore& particles, std::size_t row) {
 void EnergyAccount::leave(const ParticleStore& particles, std::size_t row, const double* gravity,
                           double step) {
   if (!is_on_) return;
-  const Vec3 then =
-      vector_at(particles.half_velocity(row)) - (0.5 * step) * vector_at(gravity);
+  const double* g = gravity + 4 * static_cast<std::ptrdiff_t>(particles.material(row));
+  const Vec3 then = vector_at(particles.half_velocity(row)) - (0.5 * step) * vector_at(g);
   left_ += kinetic(particles, row, then);
 }
 
@@ -88,9 +88,9 @@ EnergyBalance EnergyAccount::balance() const {
 void EnergyAccount::save(sdk::ArchiveWriter& archive) const {
   if (!is_on_) return;
   const EnergySums s = sum();
-  const double numbers[] = {s.translation, s.rotation, s.elastic_normal, s.elastic_friction,
-                            s.normal,      s.tangential, s.rolling,      s.walls,
-                            s.gravity,     s.fluid,    entered_,         left_};
+  const double numbers[] = {s.translation, s.rotation,   s.elastic_normal, s.elastic_friction,
+                            s.normal,      s.tangential, s.rolling,        s.walls,
+                            s.gravity,     s.fluid,      entered_,         left_};
   archive.numbers("energy", numbers);
 }
 

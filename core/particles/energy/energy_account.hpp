@@ -34,7 +34,8 @@ class EnergyAccount {
   void restart(std::size_t tiles);
   [[nodiscard]] EnergySums& tile(std::size_t index) { return tiles_[index]; }
 
-  /// A particle has come, or goes between two steps; `gravity` [m/s2] acts on it, `step` [s].
+  /// A particle has come, or goes between two steps; `gravity` [m/s2], four per material, `step`
+  /// [s].
   void enter(const ParticleStore& particles, std::size_t row);
   void leave(const ParticleStore& particles, std::size_t row, const double* gravity, double step);
 

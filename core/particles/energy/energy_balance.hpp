@@ -9,7 +9,7 @@ namespace dust::particles {
 /// statistical weight; docs/theory/energy.md.
 struct EnergyBalance {
   // At this instant.
-  double translation = 0.0, rotation = 0.0;           ///< kinetic
+  double translation = 0.0, rotation = 0.0;             ///< kinetic
   double elastic_normal = 0.0, elastic_friction = 0.0;  ///< in the springs of the contacts
   // Since the start.
   double entered = 0.0, left = 0.0;  ///< kinetic energy of particles that came and went
@@ -27,8 +27,8 @@ struct EnergyBalance {
   }
   /// The energy that has been turned over: all that came in, and all that was lost.
   [[nodiscard]] double turned_over() const {
-    return entered + std::abs(gravity) + std::abs(walls) + std::abs(fluid) +
-           std::abs(lost_normal) + std::abs(lost_friction) + std::abs(lost_rolling);
+    return entered + std::abs(gravity) + std::abs(walls) + std::abs(fluid) + std::abs(lost_normal) +
+           std::abs(lost_friction) + std::abs(lost_rolling);
   }
   /// error() / turned_over(); 0 where nothing was.
   [[nodiscard]] double relative_error() const {

@@ -3,6 +3,7 @@
 
 #include "contact/batch_kernels.hpp"
 #include "dust/sdk/sensor.hpp"
+#include "particles/energy/contact_work.hpp"
 #include "particles/forces/wall_loads.hpp"
 #include "particles/neighbours/inner_list.hpp"
 #include "particles/openings/opening_marks.hpp"
@@ -28,6 +29,7 @@ struct ContactScene {
   double time = 0.0;                ///< [s] of the positions
   bool has_weights = false;         ///< coarse particles of different statistical weights
   OpeningMarks opening_marks = {};  ///< of scenes that forces are evaluated on
+  EnergyAccount* energy = nullptr;  ///< of the same, if it is kept
 
   [[nodiscard]] contact::RowView rows() const { return particles.contact_rows(); }
 };
@@ -58,6 +60,7 @@ class ContactForces {
     double largest_overlap = 0.0;
     std::vector<double> wall_sums;              ///< WallLoads::k_sums per wall, if kept
     std::vector<sdk::WallImpact> wall_impacts;  ///< in the order of the contacts
+    EnergySums* energy = nullptr;               ///< of the step at hand, if an account is kept
   };
   /// One batch of contacts with a surface.
   struct WallBatch;
@@ -70,6 +73,13 @@ class ContactForces {
                         OfTile& tile, double* force);
   void new_pairs(const ContactScene& scene, const LawRange& range, TileContacts& contacts,
                  OfTile& tile, double* force);
+  // pair_work.cpp
+  static void book_pairs(const ContactScene& scene, const PairLaws& law,
+                         const contact::PairView& pairs, const std::int32_t* contacts,
+                         std::size_t first, std::size_t count, contact::BatchColumns& columns,
+                         EnergySums& sums);
+  static void book_parted(const ContactScene& scene, const LawRange& range,
+                          const contact::PairView& pairs, EnergySums& sums);
   // wall_forces.cpp
   void walls(const ContactScene& scene, Tile range, TileContacts& contacts, OfTile& tile,
              double* force);

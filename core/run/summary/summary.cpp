@@ -13,6 +13,7 @@
 #include "run/summary/series_row.hpp"
 #include "run/summary/summary_dust.hpp"
 #include "run/summary/summary_emitters.hpp"
+#include "run/summary/summary_energy.hpp"
 #include "run/summary/summary_models.hpp"
 
 #include <nlohmann/json.hpp>
@@ -283,6 +284,7 @@ Json amounts_json(const Simulation& s) {
   j["emitters"] = emitters_json(s);
   if (!s.dem().openings().empty()) j["hoods"] = hoods_json(s);
   if (s.dust_stage() != nullptr) j["dust_field"] = dust_field_json(s);
+  if (s.setup().audit.energy) j["energy"] = energy_json(s);
   j["size_classes"] = s.models().class_diameters.empty() ? Json::array() : class_steps(s.dem());
   return j;
 }

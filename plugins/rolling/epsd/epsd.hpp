@@ -106,8 +106,8 @@ struct Rolling {
   const double damping = damped * 2.0 * k.damping_ratio * std::sqrt(inertia * kr);
   c.last_stiffness = cut < 1.0 ? -c.stiffness : c.stiffness;
   const sdk::Vec3 w = rolling_velocity(time_step, excess, sides, c);
-  const Couple by_force =
-      couple_of_force(excess, sides, {c.nx, c.ny, c.nz}, {c.fx, c.fy, c.fz}, size, limit);
+  const Couple by_force = couple_of_force(lever_of_force(excess, sides), {c.nx, c.ny, c.nz},
+                                          {c.fx, c.fy, c.fz}, size, limit);
   const double mx = c.sx - damping * w.x + by_force.x;
   const double my = c.sy - damping * w.y + by_force.y;
   const double mz = c.sz - damping * w.z + by_force.z;

@@ -30,7 +30,7 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
   const double *fx = b.force.x, *fy = b.force.y, *fz = b.force.z;
   double *mx = b.history[0], *my = b.history[1], *mz = b.history[2], *last = b.history[3];
   double *tx = b.torque.x, *ty = b.torque.y, *tz = b.torque.z;
-  alignas(64) double keep[k_block], size[k_block], edge[k_block];
+  alignas(64) double keep[k_block], size[k_block], edge[k_block], lever[k_block];
   std::size_t in_last_step[k_block];
   double change[k_block];
   std::size_t last_steps = 0;
@@ -64,6 +64,7 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     tx[q] = c.mx, ty[q] = c.my, tz[q] = c.mz;
     last[q] = kt[q];
     size[q - first] = c.size;
+    lever[q - first] = c.lever;
     edge[q - first] = overlap[q] - 2.0 * way;
     least = std::min(least, edge[q - first]);
   }
@@ -89,11 +90,8 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     c.size = size[q - first];
     formula::limit(friction, c);
     mx[q] = c.mx, my[q] = c.my, mz[q] = c.mz;
-    const dust::model::TurningSides sides(ri[q], rj[q], inverse_i[q], inverse_j[q]);
-    const double excess = dust::model::phase_excess(kt[q] * radius[q] * radius[q], b.time_step,
-                                                    sides.inverse_inertia);
     const dust::model::Couple by_force =
-        dust::model::couple_of_force(excess, sides, {nx[q], ny[q], nz[q]}, {fx[q], fy[q], fz[q]},
+        dust::model::couple_of_force(lever[q - first], {nx[q], ny[q], nz[q]}, {fx[q], fy[q], fz[q]},
                                      c.size, friction * radius[q] * std::abs(fn[q]));
     tx[q] = c.mx + by_force.x, ty[q] = c.my + by_force.y, tz[q] = c.mz + by_force.z;
   }

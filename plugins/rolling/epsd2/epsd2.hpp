@@ -24,8 +24,9 @@ struct Rolling {
   double mx, my, mz;
 
   // Handed from stage to stage.
-  double keep;  ///< [-] what the couple's part across the new normal is stretched by
-  double size;  ///< [N m] of the couple without limit
+  double keep;   ///< [-] what the couple's part across the new normal is stretched by
+  double size;   ///< [N m] of the couple without limit
+  double lever;  ///< [m] of what the tangential force adds to it
 };
 
 // Couple of an elastic-plastic spring without dashpot:
@@ -56,6 +57,7 @@ inline constexpr double k_tiny = 1e-290;
   const double last = c.last_stiffness > 0.0 ? c.last_stiffness : c.stiffness;
   const double excess =
       phase_excess(c.stiffness * c.radius * c.radius, time_step, sides.inverse_inertia);
+  c.lever = lever_of_force(excess, sides);
   const SpringPart pulling = part_since_pulling(c.normal_force, 1.5 * c.normal_stiffness * c.way);
   const double kr =
       0.5 * (last + c.stiffness) * c.radius * c.radius * (1.0 - excess) * pulling.of_step;

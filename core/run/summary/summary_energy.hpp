@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "run/simulation.hpp"
+#include "run/summary/series_row.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace dust::run {
+
+/// The energy account of the grains, where the scenario asks for it (`audit: {energy: true}`);
+/// docs/theory/energy.md.
+void visit_energy(const Simulation& s, const ColumnVisitor& visit);
+[[nodiscard]] nlohmann::ordered_json energy_json(const Simulation& s);
+
+}  // namespace dust::run
