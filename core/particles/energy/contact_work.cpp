@@ -42,7 +42,7 @@ void ContactMotion::take_walls(BatchColumns& columns, std::size_t count) {
   }
 }
 
-void book_work(const WorkingContact& c, double* history, std::size_t stride, EnergySums& sums) {
+void add_work(const WorkingContact& c, double* history, std::size_t stride, EnergySums& sums) {
   const auto old = [&](std::size_t n) -> double& { return history[n * stride]; };
   const double normal = dot(c.force, c.normal);
   const Vec3 tangential = c.force - normal * c.normal;

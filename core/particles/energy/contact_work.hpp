@@ -51,9 +51,9 @@ struct WorkingContact {
   double weight;            ///< statistical
 };
 
-/// Books the work of a contact over the last step by the means of the forces at its two ends, and
+/// Adds the work of a contact over the last step by the means of the forces at its two ends, and
 /// keeps the new ones in `history`, `stride` apart; docs/theory/energy.md, eq. (3), (4).
-void book_work(const WorkingContact& c, double* history, std::size_t stride, EnergySums& sums);
+void add_work(const WorkingContact& c, double* history, std::size_t stride, EnergySums& sums);
 
 /// Elastic energy of the contacts that touch now, from their last force, overlap and stiffness.
 struct ElasticEnergy {

@@ -20,31 +20,34 @@ double kinetic(const ParticleStore& particles, std::size_t row, Vec3 velocity) {
           0.5 * sdk::sphere_inertia(mass, particles.radius(row)) * dot(spin, spin));
 }
 
-}  // namespace
-
-EnergySums& EnergySums::operator+=(const EnergySums& other) {
-  translation += other.translation;
-  rotation += other.rotation;
-  elastic_normal += other.elastic_normal;
-  elastic_friction += other.elastic_friction;
-  normal += other.normal;
-  tangential += other.tangential;
-  rolling += other.rolling;
-  walls += other.walls;
-  gravity += other.gravity;
-  fluid += other.fluid;
-  return *this;
+void begin_step(EnergySums& sums) {
+  sums.translation = sums.rotation = sums.elastic_normal = sums.elastic_friction = 0.0;
 }
+
+void add(EnergySums& to, const EnergySums& more) {
+  to.translation += more.translation;
+  to.rotation += more.rotation;
+  to.elastic_normal += more.elastic_normal;
+  to.elastic_friction += more.elastic_friction;
+  to.normal += more.normal;
+  to.tangential += more.tangential;
+  to.rolling += more.rolling;
+  to.walls += more.walls;
+  to.gravity += more.gravity;
+  to.fluid += more.fluid;
+}
+
+}  // namespace
 
 EnergySums EnergyAccount::sum() const {
   EnergySums all = before_;
-  for (const EnergySums& tile : tiles_) all += tile;
+  for (const EnergySums& tile : tiles_) add(all, tile);
   return all;
 }
 
 void EnergyAccount::begin_step() {
-  before_.begin_step();
-  for (EnergySums& tile : tiles_) tile.begin_step();
+  particles::begin_step(before_);
+  for (EnergySums& tile : tiles_) particles::begin_step(tile);
 }
 
 void EnergyAccount::restart(std::size_t tiles) {

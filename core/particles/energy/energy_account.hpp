@@ -16,9 +16,6 @@ struct EnergySums {
   double translation = 0.0, rotation = 0.0, elastic_normal = 0.0, elastic_friction = 0.0;
   // Added up: work of contacts on their two sides by its part, of walls, gravity and fluid.
   double normal = 0.0, tangential = 0.0, rolling = 0.0, walls = 0.0, gravity = 0.0, fluid = 0.0;
-
-  void begin_step() { translation = rotation = elastic_normal = elastic_friction = 0.0; }
-  EnergySums& operator+=(const EnergySums& other);
 };
 
 /// The energy account of a run, kept only where it is asked for. Sums are made tile by tile, in the

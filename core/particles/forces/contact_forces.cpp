@@ -3,6 +3,7 @@
 
 #include "contact/standing.hpp"
 #include "particles/forces/law_stages.hpp"
+#include "particles/forces/pair_work.hpp"
 
 #include <algorithm>
 
@@ -81,7 +82,7 @@ void ContactForces::persistent_pairs(const ContactScene& scene, const LawRange& 
     if (near < count) contact::mask_separated(pairs.is_touching + p, count, columns);
     evaluate_laws(law, columns, count, scene.step);
     if (tile.energy != nullptr) {
-      book_pairs(scene, law, pairs, nullptr, p, count, columns, *tile.energy);
+      record_work(scene, law, pairs, nullptr, p, count, columns, *tile.energy);
     }
     if (near < count) contact::clear_separated(pairs.is_touching + p, count, stride, columns);
     tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(near);
@@ -101,7 +102,7 @@ void ContactForces::new_pairs(const ContactScene& scene, const LawRange& range,
   const PairLaws& law = scene.laws[static_cast<std::size_t>(range.law)];
   auto next = static_cast<std::size_t>(range.persistent_end);
   const auto end = static_cast<std::size_t>(range.end);
-  if (tile.energy != nullptr) book_parted(scene, range, pairs, *tile.energy);
+  if (tile.energy != nullptr) record_separated(scene, range, pairs, *tile.energy);
   while (next < end) {
     const std::size_t count = contact::gather_touching(rows, scene.images, pairs, next, end,
                                                        law.range, touching, columns);
@@ -114,7 +115,7 @@ void ContactForces::new_pairs(const ContactScene& scene, const LawRange& range,
     evaluate_laws(law, columns, count, scene.step);
     tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(count);
     if (tile.energy != nullptr) {
-      book_pairs(scene, law, pairs, touching, 0, count, columns, *tile.energy);
+      record_work(scene, law, pairs, touching, 0, count, columns, *tile.energy);
     }
     contact::store_history(pairs, touching, count, groups, columns);
     contact::scatter_pairs(contacts.slots.data(), touching, count, has_scales, columns, force);

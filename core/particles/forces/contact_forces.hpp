@@ -73,13 +73,6 @@ class ContactForces {
                         OfTile& tile, double* force);
   void new_pairs(const ContactScene& scene, const LawRange& range, TileContacts& contacts,
                  OfTile& tile, double* force);
-  // pair_work.cpp
-  static void book_pairs(const ContactScene& scene, const PairLaws& law,
-                         const contact::PairView& pairs, const std::int32_t* contacts,
-                         std::size_t first, std::size_t count, contact::BatchColumns& columns,
-                         EnergySums& sums);
-  static void book_parted(const ContactScene& scene, const LawRange& range,
-                          const contact::PairView& pairs, EnergySums& sums);
   // wall_forces.cpp
   void walls(const ContactScene& scene, Tile range, TileContacts& contacts, OfTile& tile,
              double* force);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "particles/forces/pair_work.hpp"
+
 #include "contact/nearest_image.hpp"
-#include "particles/forces/contact_forces.hpp"
 
 #include <algorithm>
 
-/// The energy account of contacts between particles.
 namespace dust::particles {
 namespace {
 
@@ -31,11 +31,9 @@ WorkingContact moved_pair(Vec3 separation, Vec3 displacement, Vec3 angle_i, Vec3
 
 }  // namespace
 
-/// After the laws. The histories stand in the columns.
-void ContactForces::book_pairs(const ContactScene& scene, const PairLaws& law,
-                               const contact::PairView& pairs, const std::int32_t* contacts,
-                               std::size_t first, std::size_t count, BatchColumns& columns,
-                               EnergySums& sums) {
+void record_work(const ContactScene& scene, const PairLaws& law, const contact::PairView& pairs,
+                 const std::int32_t* contacts, std::size_t first, std::size_t count,
+                 BatchColumns& columns, EnergySums& sums) {
   const ContactMotion& motion = thread_motion();
   double* const* history = columns.history() + scene.laws.account_column();
   const std::ptrdiff_t stride = columns.history()[1] - columns.history()[0];
@@ -54,13 +52,12 @@ void ContactForces::book_pairs(const ContactScene& scene, const PairLaws& law,
       sums.elastic_normal += c.weight * elastic.normal;
       sums.elastic_friction += c.weight * elastic.friction;
     }
-    book_work(c, history[0] + q, static_cast<std::size_t>(stride), sums);
+    add_work(c, history[0] + q, static_cast<std::size_t>(stride), sums);
   }
 }
 
-/// Pairs that part in this step: the search for those that touch clears their histories.
-void ContactForces::book_parted(const ContactScene& scene, const LawRange& range,
-                                const contact::PairView& pairs, EnergySums& sums) {
+void record_separated(const ContactScene& scene, const LawRange& range,
+                      const contact::PairView& pairs, EnergySums& sums) {
   const ParticleStore& particles = scene.particles;
   const double reach = scene.laws[static_cast<std::size_t>(range.law)].range;
   for (auto p = static_cast<std::size_t>(range.persistent_end);
@@ -84,7 +81,7 @@ void ContactForces::book_parted(const ContactScene& scene, const LawRange& range
                                   displaced(particles.half_rotation(j), since_j),
                                   particles.radius(i), particles.radius(j));
     c.weight = std::min(particles.weight(i), particles.weight(j));
-    book_work(c, pairs.history + p * pairs.history_stride + scene.laws.account_column(), 1, sums);
+    add_work(c, pairs.history + p * pairs.history_stride + scene.laws.account_column(), 1, sums);
   }
 }
 

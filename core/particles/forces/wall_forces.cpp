@@ -106,8 +106,8 @@ struct ContactForces::WallBatch {
     tile.largest_overlap = std::max(tile.largest_overlap, overlap / grain.radius);
     if (++count == k_batch) evaluate();
   }
-  void book();
-  void book_parted(std::size_t entry);
+  void record_work();
+  void record_separated(std::size_t entry);
   void evaluate() {
     if (count == 0) return;
     const int groups = static_cast<int>(list.history_stride / 4);
@@ -115,7 +115,7 @@ struct ContactForces::WallBatch {
     contact::load_history(list, contacts, count, groups, columns);
     if (tile.energy != nullptr) thread_motion().take_walls(columns, count);
     evaluate_laws(law, columns, count, scene.step);
-    if (tile.energy != nullptr) book();
+    if (tile.energy != nullptr) record_work();
     contact::store_history(list, contacts, count, groups, columns);
     if (!tile.wall_sums.empty()) {
       note_wall_loads(scene, tile, surface, {rows, count}, is_new, columns);
@@ -127,7 +127,7 @@ struct ContactForces::WallBatch {
 };
 
 /// The energy account of the batch.
-void ContactForces::WallBatch::book() {
+void ContactForces::WallBatch::record_work() {
   using B = BatchColumns;
   const auto get = [&](int name, std::size_t q) {
     return sdk::Vec3{columns.column(name)[q], columns.column(name + 1)[q],
@@ -145,20 +145,20 @@ void ContactForces::WallBatch::book() {
     const ElasticEnergy elastic = elastic_energy(law, columns, q);
     tile.energy->elastic_normal += c.weight * elastic.normal;
     tile.energy->elastic_friction += c.weight * elastic.friction;
-    book_work(c, history + q, stride, *tile.energy);
+    add_work(c, history + q, stride, *tile.energy);
   }
 }
 
 /// One that has parted from the surface in this step: its history is about to be cleared.
-void ContactForces::WallBatch::book_parted(std::size_t entry) {
+void ContactForces::WallBatch::record_separated(std::size_t entry) {
   const auto row = static_cast<std::size_t>(list.a[entry]);
   const auto grain = GrainAtWall::from(scene.rows(), row);
   const bodies::SurfacePoint near = surface.contact(grain.position, 2.0 * grain.radius + law.range);
   if (!std::isfinite(near.distance)) return;
   WorkingContact c = moved_at_wall(grain.displacement, grain.angle, {}, near.normal, grain.radius);
   c.weight = scene.particles.weight(row);
-  book_work(c, list.history + entry * list.history_stride + scene.laws.account_column(), 1,
-            *tile.energy);
+  add_work(c, list.history + entry * list.history_stride + scene.laws.account_column(), 1,
+           *tile.energy);
 }
 
 void ContactForces::walls(const ContactScene& scene, Tile range, TileContacts& contacts,
@@ -184,7 +184,7 @@ void ContactForces::walls(const ContactScene& scene, Tile range, TileContacts& c
       if (overlap > -law.range) {
         batch.add(q, overlap, near.point(n));
       } else if (list.is_touching[u] != 0) {
-        if (tile.energy != nullptr) batch.book_parted(u);
+        if (tile.energy != nullptr) batch.record_separated(u);
         list.is_touching[u] = 0;
         std::fill_n(list.history + u * list.history_stride, list.history_stride, 0.0);
       }

@@ -145,8 +145,8 @@ inline StickResult integrate(const StickCase& c) {
     const Springs k = springs(t, x);
     const double most = c.rolling_friction * std::abs(k.normal);
     x[5] = std::clamp(x[5], -most, most);
-    const double beyond = k.force - std::clamp(k.force, -k.limit, k.limit);
-    if (k.kt > 0.0) x[4] -= beyond / std::sqrt(k.kt);
+    const double excess = k.force - std::clamp(k.force, -k.limit, k.limit);
+    if (k.kt > 0.0) x[4] -= excess / std::sqrt(k.kt);
   } while (x[0] > c.tear);
   return {-x[1], x[2], x[3]};
 }
