@@ -158,8 +158,8 @@ TEST_CASE("drag shall take from a falling grain what gravity gives and its speed
   a.rig.has_fluid = true;
   a.begin({at({0, 0, 0.9})});
   const auto rows = a.dem->rows();
-  rows.fluid_action[3] = k_rate;
-  a.dem->fluid_action_changed();
+  rows.drag_relaxation[3] = k_rate;
+  a.dem->drag_relaxation_changed();
   const EnergyBalance b = a.until(0.2);
   // v = g/k (1 - exp(-k t)), s = g/k (t - v/g); all at the time of the last positions.
   const double time = a.stepper->time() - a.dem->coarse_step();
