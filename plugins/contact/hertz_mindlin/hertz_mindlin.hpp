@@ -122,8 +122,10 @@ class ForceToTheEnd {
     const double root = fourth_root(steps);
     const double u = steps * root;
     slope_ = elastic_limit / (u * root);
-    growth_ = std::max(0.8 * growth / (root * root), -0.9 * slope_);
-    size_ = total / root + growth_ * u;
+    // Not so that the force would change sign.
+    const double size = total / root;
+    growth_ = std::max(0.8 * growth / (root * root), -0.9 * std::min(slope_, size / u));
+    size_ = size + growth_ * u;
     end_ = u * std::max(elastic_limit - limit, 0.0) / elastic_limit;
     cut_ = (size_ + slope_ * end_) / (slope_ + growth_);
   }
