@@ -346,6 +346,7 @@ Json report_json(const Simulation& s, const RunFacts& facts, JsonReport& report)
   r["tables"] = report.take_tables();
   add_emitter_tables(s, r["tables"]);
   add_hood_tables(s, r["tables"]);
+  add_energy_table(s, r["tables"]);
   r["outline"] = outlines(s);
   r["classes"] = s.models().class_diameters;
   if (facts.registry != nullptr) r["setting"] = setting_json(s.setup(), *facts.registry);

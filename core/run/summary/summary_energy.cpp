@@ -42,4 +42,30 @@ nlohmann::ordered_json energy_json(const Simulation& s) {
           {"relative_error", b.relative_error()}};
 }
 
+void add_energy_table(const Simulation& s, nlohmann::ordered_json& tables) {
+  if (!s.setup().audit.energy) return;
+  const particles::EnergyBalance b = s.dem().energy();
+  nlohmann::ordered_json columns = nlohmann::ordered_json::array();
+  nlohmann::ordered_json row = nlohmann::ordered_json::array();
+  const auto add = [&](const char* name, double value) {
+    columns.push_back(std::string(name) + " [J]");
+    row.push_back(value);
+  };
+  add("came with grains", b.entered);
+  add("went with grains", b.left);
+  add("gravity", b.gravity);
+  add("walls", b.walls);
+  add("fluid", b.fluid);
+  add("lost by damping", b.lost_normal);
+  add("by friction", b.lost_friction);
+  add("by rolling", b.lost_rolling);
+  add("kinetic", b.translation + b.rotation);
+  add("elastic", b.elastic_normal + b.elastic_friction);
+  add("missed", b.error());
+  tables.push_back({{"sensor", "energy"},
+                    {"title", "Energy of the grains"},
+                    {"columns", columns},
+                    {"rows", nlohmann::ordered_json::array({row})}});
+}
+
 }  // namespace dust::run

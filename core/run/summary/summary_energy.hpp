@@ -12,5 +12,7 @@ namespace dust::run {
 /// docs/theory/energy.md.
 void visit_energy(const Simulation& s, const ColumnVisitor& visit);
 [[nodiscard]] nlohmann::ordered_json energy_json(const Simulation& s);
+/// A table for the report.
+void add_energy_table(const Simulation& s, nlohmann::ordered_json& tables);
 
 }  // namespace dust::run
