@@ -300,15 +300,21 @@ void SelfDisturbance::find_self_flow(const particles::GrainRows& grains, std::si
 /// What the sides make of a group of waves of a force along d.
 double SelfDisturbance::beside_sides(const double* position, int d, double k) const {
   const fluid::Grid& grid = lattice_.grid();
+  const double diameter = 2.0 * position[3];
   double factor = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     if (grid.is_periodic[a]) continue;
+    const double cell = grid.spacing[axis];
+    const double knots = std::max(diameter, self_disturbance::k_min_knots * cell);
     const double above = position[axis] - grid.origin[axis];
-    const double below = grid.count[a] * grid.spacing[axis] - above;
+    const double below = grid.count[a] * cell - above;
     const bool is_across = axis == d;
-    factor *= self_disturbance::beside_side(sides_[2 * a], is_across, k, std::max(above, 0.0)) *
-              self_disturbance::beside_side(sides_[2 * a + 1], is_across, k, std::max(below, 0.0));
+    for (const int high : {0, 1}) {
+      const double distance = std::max(high == 0 ? above : below, 0.0);
+      factor *= self_disturbance::beside_side(sides_[2 * a + static_cast<std::size_t>(high)],
+                                              is_across, k, {distance, knots, cell});
+    }
   }
   return factor;
 }
