@@ -61,16 +61,16 @@ TEST_CASE("a run shall give a study of hoods, and the study what each hood captu
   const auto study = engine({"study", file, "-o", results, "--quiet"});
   INFO(study.err);
   REQUIRE(study.status == 0);
-  const auto told = engine({"suggest-hoods", results, "--capture", "10 %"});
-  INFO(told.out);
-  REQUIRE(told.status == 0);
-  CHECK(holds(told.out, "plain"));
-  CHECK(holds(told.out, "6 l/min"));
-  CHECK(holds(told.out, "60 l/min"));
-  CHECK(holds(told.out, "Smallest flow that captures 10 % of the dust:"));
+  const auto answer = engine({"suggest-hoods", results, "--capture", "10 %"});
+  INFO(answer.out);
+  REQUIRE(answer.status == 0);
+  CHECK(holds(answer.out, "plain"));
+  CHECK(holds(answer.out, "6 l/min"));
+  CHECK(holds(answer.out, "60 l/min"));
+  CHECK(holds(answer.out, "Smallest flow that captures 10 % of the dust:"));
   // 1 l/s through an opening of 20 x 10 mm draws more than the dust that passes 1 cm above it.
-  CHECK(holds(told.out, "place_1: "));
-  CHECK(!holds(told.out, "not reached"));
+  CHECK(holds(answer.out, "place_1: "));
+  CHECK(!holds(answer.out, "not reached"));
   // A study with a point missing says which line of the table it is.
   const std::string table = read_file(fs::path(results) / "study.csv");
   std::string broken = table;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 namespace dust::model::box_concentration {
 
 /// Mass concentration of weighted grains in a box.
@@ -18,6 +20,20 @@ inline double concentration(double weighted_mass, double volume) { return weight
 inline double grams_per_tonne(double mass, double emitted_mass) {
   constexpr double k_grams_per_tonne = 1e6;
   return emitted_mass > 0.0 ? k_grams_per_tonne * mass / emitted_mass : 0.0;
+}
+
+/// Standard error of the mass present at one moment, taken for its mean over time.
+///
+/// \f$ \sigma = \sqrt{s_b^2 + \sum (w m)^2} \f$: what comes and goes with the flow, by the
+/// deviation \f$ s_b \f$ of means over stretches of time, and the counting of what is there. Dust
+/// that an eddy brings in one lump is no sum of independent grains: counting alone promises too
+/// much.
+/// @param deviation  [kg] of batch means; negative = none
+/// @param squares    [kg2] sum of (w m)^2 of the grains present
+/// @return [kg]; `deviation` where it is negative
+/// Own definition.
+inline double moment_error(double deviation, double squares) {
+  return deviation < 0.0 ? deviation : std::hypot(deviation, std::sqrt(squares));
 }
 
 }  // namespace dust::model::box_concentration
