@@ -190,7 +190,8 @@ void print_uncorrected(std::ostream& out, const Setup& setup, double coarsest,
   namespace disturbance = coupling::self_disturbance;
   if (!setup.bodies.empty()) {
     const double felt = std::min(disturbance::most_of_slip(coarsest, derived.mean_spacing), 1.0);
-    out << ",\n             but felt within 2.5 cells of bodies that cut cells: up to "
+    out << ",\n             but felt within 2.5 cells of edges, thin sheets and moving bodies: up "
+           "to "
         << digits(100.0 * felt) << " % of a lone one's slip";
   }
 }

@@ -5,7 +5,7 @@
 
 Solves the steady discrete Stokes flow of the staggered grid (edge 1, viscosity 1) between two walls, periodic along
 them: the force is spread by the smooth kernel over the faces inside, the velocity gathered with its mirrored values
-beyond the wall (core/coupling/stencils/smooth_kernel.hpp). Prints G over G_0 without a wall, and beside it eq. (4) of
+beyond the wall (core/coupling/stencils/smooth_kernel.hpp). Prints G over G_0 without a wall, and beside it eqs. (4) and (5) of
 docs/theory/own_disturbance.md with what its h leaves of the drag. Needs NumPy."""
 
 import sys
@@ -119,7 +119,7 @@ def mobility(is_across, diameter, distance, cells, channel):
 
 
 def by_formula(is_across, diameter, distance, sigma):
-    """Eq. (4)."""
+    """Eqs. (4) and (5)."""
     knots = max(diameter, LEAST_KNOTS)
     reach = distance / knots
     if is_across:

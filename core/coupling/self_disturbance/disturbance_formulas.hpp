@@ -9,7 +9,7 @@
 namespace dust::coupling {
 
 /// Closed forms for what a single grain does to the fluid it is coupled to, so that it can be taken
-/// off again. Figures and limits: docs/theory/own_disturbance.md, eq. (1), (2), (3), (4), (5), (9).
+/// off again. Figures and limits: docs/theory/own_disturbance.md, eq. (1), (2), (3), (4), (5), (6).
 namespace self_disturbance {
 
 /// Share of the slip from which on what a grain makes by itself is taken off: below it the eight
@@ -64,7 +64,7 @@ struct Beside {
   double knots;
   double cell;
 };
-/// Part of the way to a wall that counts near it [-], h of eq. (4): the kernel is as wide as the
+/// Part of the way to a wall that counts near it [-], h of eq. (5): the kernel is as wide as the
 /// way and does not reach beyond. 1 far away. Fitted to the discrete Stokes flow of the staggered
 /// grid between two walls, which tools/validation/wall_mobility.py solves, for D/dx to 2.5.
 inline double way_that_counts(const Beside& at, bool is_across) {
