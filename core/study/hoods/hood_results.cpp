@@ -64,7 +64,7 @@ class Growth {
   }
   /// The sum of the columns that `takes` chooses by name, per second.
   template <class Takes>
-  [[nodiscard]] Estimate of(const Takes& takes) const {
+  [[nodiscard]] Uncertain of(const Takes& takes) const {
     if (time_ == nullptr) return {};
     const std::size_t rows = time_->values.size();
     std::vector<double> total(rows, 0.0);
@@ -108,7 +108,7 @@ double mass_of_drawn(const report::RunText& run) {
   return count > 0.0 ? mass / count : 0.0;
 }
 
-Estimate sum(const Estimate& a, const Estimate& b) {
+Uncertain sum(const Uncertain& a, const Uncertain& b) {
   if (a.error < 0.0) return {a.value + b.value, b.error};
   if (b.error < 0.0) return {a.value + b.value, a.error};
   return {a.value + b.value, std::hypot(a.error, b.error)};
@@ -122,8 +122,8 @@ HoodTrial trial_of(const report::RunText& run, double flow) {
   };
   HoodTrial trial{.flow = flow};
   trial.load = growth.of([](const std::string& name) { return name == "mass_emitted"; }).value;
-  Estimate grains = growth.of([&](const std::string& name) { return name == hood; });
-  const Estimate field =
+  Uncertain grains = growth.of([&](const std::string& name) { return name == hood; });
+  const Uncertain field =
       growth.of([&](const std::string& name) { return is_field(name, "/hoods"); });
   if (const double mass = mass_of_drawn(run); mass > 0.0) {
     trial.computed = grains.value * growth.duration() / mass;
@@ -137,7 +137,8 @@ HoodTrial trial_of(const report::RunText& run, double flow) {
   trial.drawn = sum(grains, field);
   const report::Figure out = report::sum_of(report::highlights_of(run).openings);
   const double per_tonne = trial.load / k_grams_per_tonne;
-  const Estimate left = growth.of([&](const std::string& name) { return is_field(name, "/left"); });
+  const Uncertain left =
+      growth.of([&](const std::string& name) { return is_field(name, "/left"); });
   trial.escaping = sum(
       {out.value * per_tonne, out.uncertainty > 0.0 ? out.uncertainty * per_tonne : -1.0}, left);
   return trial;
@@ -199,10 +200,10 @@ std::vector<fs::path> finished_points(const fs::path& study) {
 
 bool is_study(const fs::path& folder) { return fs::exists(folder / "study.csv"); }
 
-std::optional<Estimate> HoodTrial::capture() const {
+std::optional<Uncertain> HoodTrial::capture() const {
   const double d = drawn.value, e = escaping.value;
   if (!(d + e > 0.0)) return std::nullopt;
-  Estimate capture{d / (d + e), -1.0};
+  Uncertain capture{d / (d + e), -1.0};
   if (drawn.error < 0.0 && escaping.error < 0.0) return capture;
   // Errors of the two add in squares, each by its derivative.
   const double of_drawn = e * std::max(drawn.error, 0.0);

@@ -9,22 +9,7 @@
 namespace dust::study {
 namespace {
 
-/// Fewer grains say how many they are instead of an error.
-constexpr double k_few = 20.0;
-
 using Row = std::array<std::string, 5>;
-
-/// How amounts of dust are told: per tonne of load, or per hour where nothing is loaded.
-struct Scale {
-  bool is_per_load = true;
-  [[nodiscard]] std::string unit() const { return is_per_load ? "g/t" : "g/h"; }
-  [[nodiscard]] double factor(const HoodTrial& trial) const {
-    constexpr double k_grams_per_tonne = 1e6;
-    constexpr double k_grams_per_hour = 3.6e6;  // of 1 kg/s
-    if (!is_per_load) return k_grams_per_hour;
-    return trial.load > 0.0 ? k_grams_per_tonne / trial.load : 0.0;
-  }
-};
 
 std::string flow_text(double flow) {
   constexpr double k_large = 1.0 / 60.0;  // m3/s
@@ -33,7 +18,7 @@ std::string flow_text(double flow) {
 }
 
 /// "0.12 ± 0.03", both to the second digit of the error.
-std::string estimate_text(const Estimate& estimate, double factor) {
+std::string estimate_text(const Uncertain& estimate, double factor) {
   const double value = factor * estimate.value;
   const double error = factor * estimate.error;
   if (!(estimate.error > 0.0)) return base::digits_text(value, 3);
@@ -46,7 +31,7 @@ std::string estimate_text(const Estimate& estimate, double factor) {
 std::string capture_text(const HoodTrial& trial) {
   const auto capture = trial.capture();
   if (!capture) return "no dust seen";
-  const bool is_few = trial.computed >= 0.0 && trial.computed < k_few;
+  const bool is_few = trial.computed >= 0.0 && trial.computed < k_few_drawn;
   if (is_few && trial.computed > 0.0) {
     const auto grains = static_cast<int>(std::lround(trial.computed));
     return base::digits_text(100.0 * capture->value, 2) + " % (by " + std::to_string(grains) +
@@ -96,11 +81,7 @@ std::string needed_text(const HoodPlace& place, double wanted) {
 }  // namespace
 
 std::string hood_table(const HoodResults& results, double wanted) {
-  Scale scale;
-  scale.is_per_load = std::any_of(results.places.begin(), results.places.end(), [](const auto& p) {
-    return std::any_of(p.trials.begin(), p.trials.end(),
-                       [](const HoodTrial& trial) { return trial.load > 0.0; });
-  });
+  const HoodScale scale(results);
   std::vector<Row> rows = {{"place", "flow", "drawn out [" + scale.unit() + "]",
                             "escapes [" + scale.unit() + "]", "capture"}};
   if (results.plain) {
