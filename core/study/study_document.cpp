@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/page.hpp"
 #include "study/effects.hpp"
-#include "study/runner.hpp"
-#include "study/study_report.hpp"
-
 #include "study/hoods/hood_results.hpp"
 #include "study/hoods/hood_study.hpp"
+#include "study/runner.hpp"
+#include "study/study_report.hpp"
 
 #include <algorithm>
 #include <cmath>
