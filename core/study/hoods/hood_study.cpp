@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "preflight/derived.hpp"
 #include "report/highlights.hpp"
 #include "scenario/diagnostics.hpp"
 #include "scenario/reader.hpp"
@@ -186,7 +187,10 @@ void write_head(std::ostringstream& out, const FinishedRun& run, const HoodStudy
   }
 }
 
-void write_cases(std::ostringstream& out, const HoodStudy& study, const std::string& material) {
+/// `expected_speed` [m/s]: what the run's steps are made for; a hood that draws faster says so.
+void write_cases(std::ostringstream& out, const HoodStudy& study, const std::string& material,
+                 double expected_speed) {
+  constexpr double k_at_edge = 2.0;  // of the mean speed in the opening
   out << "cases:\n  plain: {}\n";
   for (const HoodSite& site : study.sites) {
     for (const HoodFlow& flow : study.flows) {
@@ -195,6 +199,9 @@ void write_cases(std::ostringstream& out, const HoodStudy& study, const std::str
           << site.place << ", " << box_text(site.body_min, site.body_max)
           << ",\n      suction: {flow: " << flow.text << ", "
           << box_text(site.opening_min, site.opening_max) << "}}\n";
+      const double speed = k_at_edge * flow.value / site.area();
+      if (speed <= expected_speed) continue;
+      out << "    time.expected_speed: " << base::digits_text(speed, 3) << " m/s\n";
     }
   }
 }
@@ -288,7 +295,8 @@ HoodStudy hood_study(const fs::path& folder, const HoodStudyOptions& options,
   study.duration = span.end - span.begin;
   std::ostringstream out;
   write_head(out, run, study, options);
-  write_cases(out, study, material_of(run.scenario.setup));
+  write_cases(out, study, material_of(run.scenario.setup),
+              preflight::derive(run.scenario.setup, registry).expected_speed);
   write_measures(out, run);
   study.text = out.str();
   return study;

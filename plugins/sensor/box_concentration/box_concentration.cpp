@@ -44,7 +44,7 @@ class BoxConcentration final : public sdk::Sensor {
     if (classes_.empty() && !world.class_diameters.empty()) {
       classes_.assign(world.class_diameters.begin(), world.class_diameters.end());
       means_ = sdk::BatchMeans(k_totals + k_per_class * classes_.size());
-      seen_.assign(1 + classes_.size(), 0.0);
+      seen_.assign(1 + classes_.size(), {});
     }
     const bool is_steady = sdk::is_after(world, p_.steady_after);
     const bool is_first = is_steady && means_.duration() == 0.0;
@@ -60,11 +60,10 @@ class BoxConcentration final : public sdk::Sensor {
       squares_ += mass * mass;
       newest = std::max(newest, g.id[i]);
       const bool has_come = is_first || g.id[i] > newest_ || !was_inside(g, i);
-      const double seen = is_steady && has_come ? 1.0 : 0.0;
-      seen_[0] += seen;
+      if (is_steady) seen_[0].add(has_come, world.interval);
       if (classes_.empty()) continue;
       const std::size_t c = sdk::nearest_class(g.diameter[i], classes_);
-      seen_[1 + c] += seen;
+      if (is_steady) seen_[1 + c].add(has_come, world.interval);
       values_[k_totals + k_per_class * c] += mass;
       values_[k_totals + k_per_class * c + 1] += g.weight[i];
     }
@@ -110,7 +109,9 @@ class BoxConcentration final : public sdk::Sensor {
     a.numbers("classes", classes_);
     a.numbers("values", values_);
     a.numbers("last", last);
-    a.numbers("seen", seen_);
+    std::vector<double> seen;
+    for (const Seen& s : seen_) seen.insert(seen.end(), {s.grains, s.stay});
+    a.numbers("seen", seen);
     const std::int64_t newest[] = {newest_};
     a.integers("newest", newest);
     means_.save(a, "means");
@@ -122,7 +123,9 @@ class BoxConcentration final : public sdk::Sensor {
     const std::vector<double> last = a.numbers("last");
     squares_ = last.at(0);
     emitted_mass_ = last.at(1);
-    seen_ = a.numbers("seen");
+    const std::vector<double> seen = a.numbers("seen");
+    seen_.resize(seen.size() / 2);
+    for (std::size_t n = 0; n < seen_.size(); ++n) seen_[n] = {seen.at(2 * n), seen.at(2 * n + 1)};
     newest_ = a.integers("newest").at(0);
     means_.load(a, "means");
     curve_.load(a, "curve");
@@ -141,15 +144,28 @@ class BoxConcentration final : public sdk::Sensor {
     return sdk::is_in_box({g.x_before[i], g.y_before[i], g.z_before[i]}, p_.min, p_.max);
   }
 
-  /// `error` of a figure, unless its mean, of error `of_mean`, has not settled or it rests on few
-  /// of the grains `seen`.
-  [[nodiscard]] static double error_of(double error, double of_mean, double seen) {
+  /// The computed grains that were in the box since `steady_after`.
+  struct Seen {
+    double grains = 0.0;
+    double stay = 0.0;  ///< [s] that all of them together were there
+    void add(bool has_come, double interval) {
+      if (has_come) grains += 1.0;
+      stay += interval;
+    }
+  };
+
+  /// `error` of a figure, unless its mean, of error `of_mean`, has not settled, it rests on few
+  /// grains, or on hardly more than one population of them.
+  [[nodiscard]] double error_of(double error, double of_mean, const Seen& seen) const {
     if (error < 0.0) return error;
-    if (seen < sdk::k_min_grains) return sdk::k_few_grains;
-    return of_mean == sdk::k_not_steady ? sdk::k_not_steady : error;
+    if (seen.grains < sdk::k_min_grains) return sdk::k_few_grains;
+    if (of_mean == sdk::k_not_steady) return sdk::k_not_steady;
+    const bool is_renewed =
+        formula::renewals(seen.grains, seen.stay, means_.duration()) >= formula::k_min_renewals;
+    return is_renewed || error == 0.0 ? error : sdk::k_not_steady;
   }
 
-  void figures_of(const std::string& prefix, std::size_t column, double seen,
+  void figures_of(const std::string& prefix, std::size_t column, const Seen& seen,
                   const sdk::FigureRole& role, sdk::FigureSink& sink) const {
     const double mass = means_.mean(column);
     const auto checked = [&](double error) {
@@ -169,10 +185,10 @@ class BoxConcentration final : public sdk::Sensor {
   double volume_ = 1.0;
   std::vector<double> classes_;
   std::vector<double> values_ = std::vector<double>(k_totals, 0.0);  ///< at the last sample
-  double squares_ = 0.0;              ///< [kg2] sum of (w m)^2 at the last sample
-  double emitted_mass_ = 0.0;         ///< [kg]
-  std::vector<double> seen_ = {0.0};  ///< computed grains that were there: all, then by class
-  std::int64_t newest_ = -1;          ///< the largest id in the box so far
+  double squares_ = 0.0;           ///< [kg2] sum of (w m)^2 at the last sample
+  double emitted_mass_ = 0.0;      ///< [kg]
+  std::vector<Seen> seen_ = {{}};  ///< all, then by class
+  std::int64_t newest_ = -1;       ///< the largest id in the box so far
   sdk::BatchMeans means_{k_totals};
   sdk::ThinnedCurve curve_;
 };

@@ -36,4 +36,15 @@ inline double moment_error(double deviation, double squares) {
   return deviation < 0.0 ? deviation : std::hypot(deviation, std::sqrt(squares));
 }
 
+/// How often what is in the box has been renewed: \f$ N T / \sum t \f$, the grains seen over those
+/// present in the mean. Below `k_min_renewals` the means over time are those of one population, and
+/// their scatter says nothing of another one.
+/// @param grains    that were there
+/// @param stay      [s] that all of them together were there
+/// @param duration  [s] observed
+inline double renewals(double grains, double stay, double duration) {
+  return stay > 0.0 ? grains * duration / stay : 0.0;
+}
+constexpr double k_min_renewals = 3.0;
+
 }  // namespace dust::model::box_concentration

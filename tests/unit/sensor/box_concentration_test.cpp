@@ -147,6 +147,25 @@ TEST_CASE("a box shall say that it has seen too few grains, or that it still fil
   }
   CHECK(summary_of(*filling).at("mass_concentration").uncertainty == sdk::k_not_steady);
   CHECK(summary_of(*filling).at("grams_per_tonne").uncertainty == sdk::k_not_steady);
+  // Forty grains of which one is exchanged in every eighth sample: half of them in all.
+  const auto slow = kind().make(k_box);
+  const auto quick = kind().make(k_box);
+  world.time = 0.0;
+  Dice dice(1);
+  for (int sample = 0; sample < 160; ++sample) {
+    const auto look = [&](sdk::Sensor& sensor, int exchanged) {
+      world.grains.assign(40, at({0.015, 0.005, 0.02}, 10e-6, 1e-12, 1.0));
+      for (Grain& grain : world.grains) grain.mass *= 1.0 + 0.3 * dice.uniform();
+      for (int n = 0; n < exchanged; ++n) {
+        world.grains[static_cast<std::size_t>(n)].before = {0, 0, 0};
+      }
+      step(sensor, world);
+    };
+    look(*slow, sample % 8 == 0 ? 1 : 0);
+    look(*quick, 1);
+  }
+  CHECK(summary_of(*slow).at("mass_concentration").uncertainty == sdk::k_not_steady);
+  CHECK(summary_of(*quick).at("mass_concentration").uncertainty > 0.0);
 }
 
 TEST_CASE("a box without volume shall be refused") {
