@@ -133,7 +133,7 @@ TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTr
   outer.require(OuterList::Due::reorder);
   const auto inside = find_inside_hoods({other.conditions, other.store}, conditions, names);
   for (const auto& [row, opening] : inside) store.touched_openings()[row] = opening;
-  if (!inside.empty()) remove_leavers();
+  if (!inside.empty()) remove_escaped();
   return {.particles = static_cast<std::int64_t>(store.size()),
           .contacts = transfer.contacts(),
           .without_past = transfer.without_past(),
