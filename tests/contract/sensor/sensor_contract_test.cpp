@@ -27,9 +27,9 @@ struct Subject {
 const std::vector<Subject>& subjects() {
   static const std::vector<Subject> list = {
       {"box_concentration",
-       {{"min", Vec3{0.1, 0, 0.02}}, {"max", Vec3{0.2, 0.011, 0.2}}},
-       {{"min", Vec3{0.12, 0, 0.02}},
-        {"max", Vec3{0.17, 0.011, 0.2}},
+       {{"min", Vec3{0.1, 0, 0.15}}, {"max", Vec3{0.2, 0.011, 0.17}}},
+       {{"min", Vec3{0.145, 0, 0.15}},
+        {"max", Vec3{0.145, 0.011, 0.17}},
         {"steady_after", 0.03},
         {"coarser_than", 100e-6},
         {"finer_than", 500e-6}}},
