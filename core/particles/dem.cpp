@@ -159,9 +159,13 @@ TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTr
   tuner.restore(other.tuner.state());
   outer.resize(store.size());
   outer.require(OuterList::Due::reorder);
+  const auto inside = find_inside_hoods({other.conditions, other.store}, conditions, names);
+  for (const auto& [row, opening] : inside) store.touched_openings()[row] = opening;
+  if (!inside.empty()) remove_escaped();
   return {.particles = static_cast<std::int64_t>(store.size()),
           .contacts = transfer.contacts(),
-          .without_past = transfer.without_past()};
+          .without_past = transfer.without_past(),
+          .drawn_out = static_cast<std::int64_t>(inside.size())};
 }
 
 void Dem::Impl::fill_last_force() const {

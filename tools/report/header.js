@@ -79,8 +79,9 @@ Dust.sections.header = (data) => {
     const from = dust.observed_s > 0 ? `, from ${Dust.quantity(dust.observed_s, -1, 's')} after start-up${counted}` : '';
     const steady = 1.5, change = dust.later_over_earlier;  // a factor between both halves that a short count may have
     const touched = data.limits.filter((l) => l.is_touched).length;
-    return answer('How sure?', is_known ? `±\u202f${Dust.number(100 * uncertainty / value, 2)}\u202f%` : 'no estimate',
-      p({}, (is_known ? 'one standard error' : 'no standard error is known') + from),
+    const why = {'few grains': 'fewer than 20 grains were counted at an opening', 'not steady': 'the amount has not settled in the time observed'}[dust.headline.no_error];
+    return answer('How sure?', is_known ? `±\u202f${Dust.number(100 * uncertainty / value, 2)}\u202f%` : dust.headline.no_error || 'no estimate',
+      p({}, (is_known ? 'one standard error' : why || 'no standard error is known') + from),
       change !== null && (change > steady || change < 1 / steady)
         && p({class: 'caution'}, `Still changing: the second half of that time brought ${Dust.number(change, 2)} times the first.`),
       touched === 0 ? p({}, el('a', {href: '#health'}, 'No limit of validity touched'))

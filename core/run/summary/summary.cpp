@@ -44,6 +44,9 @@ class JsonFigures final : public sdk::FigureSink {
     entry = {{"value", number(value)},
              {"unit", unit},
              {"uncertainty", uncertainty < 0.0 ? Json(nullptr) : number(uncertainty)}};
+    if (const auto reason = sdk::reason_without_error(uncertainty); !reason.empty()) {
+      entry["no_error"] = reason;
+    }
     entry.update(role_json(role));
   }
   [[nodiscard]] const Json& json() const { return json_; }
