@@ -2,6 +2,7 @@
 #include "check_summary.hpp"
 
 #include "base/text.hpp"
+#include "check_bodies.hpp"
 #include "coupling/self_disturbance/disturbance_formulas.hpp"
 
 #include <nlohmann/json.hpp>
@@ -319,6 +320,7 @@ void print_cost(std::ostream& out, const Derived& derived,
 }  // namespace
 
 std::string check_json(const Setup& setup, const Derived& derived,
+                       const preflight::BodySurvey& survey,
                        const preflight::LearntCosts::Factor& learnt) {
   nlohmann::ordered_json j;
   j["name"] = setup.name;
@@ -345,6 +347,7 @@ std::string check_json(const Setup& setup, const Derived& derived,
                                {"markers", r.markers}});
     }
   }
+  add_bodies_json(survey, j);
   j["width_over_diameter"] = derived.width_over_diameter;
   j["courant_number"] = derived.courant_number;
   j["grains"] = derived.grains_in_domain;
@@ -356,6 +359,7 @@ std::string check_json(const Setup& setup, const Derived& derived,
 }
 
 std::string check_summary(const Setup& setup, const Derived& derived,
+                          const preflight::BodySurvey& survey,
                           const preflight::LearntCosts::Factor& learnt) {
   std::ostringstream out;
   const auto& time = setup.time;
@@ -366,6 +370,7 @@ std::string check_summary(const Setup& setup, const Derived& derived,
       << engineering(time.output_every, "s") << '\n';
   print_domain(out, setup);
   print_things(out, setup, derived);
+  out << bodies_text(survey);
   print_fluid(out, setup, derived);
   add_resolved(out, derived);
   print_steps(out, setup, derived);

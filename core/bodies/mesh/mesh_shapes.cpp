@@ -46,6 +46,11 @@ class MeshShape : public Shape {
   [[nodiscard]] Triangles triangles(Vec3, Vec3, double) const override { return mesh_.triangles(); }
 
  protected:
+  /// [m] Of a sheet its thickness.
+  [[nodiscard]] double mesh_wall() const {
+    return sides_ == Mesh::Sides::both ? 2.0 * half_ : mesh_.thinnest_wall();
+  }
+
   Mesh mesh_;
 
  private:
@@ -159,6 +164,7 @@ class StlMesh final : public MeshShape {
     return all;
   }
   [[nodiscard]] double shortest_edge() const override { return mesh_.health().shortest_edge; }
+  [[nodiscard]] double thinnest_wall() const override { return mesh_wall(); }
 
  private:
   static std::vector<Vec3> placed(const Parameters& p) {
