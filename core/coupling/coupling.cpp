@@ -120,8 +120,9 @@ Coupling::~Coupling() = default;
 
 void Coupling::use(std::span<const std::unique_ptr<sdk::FluidForce>> forces,
                    std::vector<particles::Surface> surfaces) {
-  if (forces.empty()) return;
   Impl& s = *impl_;
+  s.lattice.walls().use(surfaces);
+  if (forces.empty()) return;
   s.forces = std::make_unique<ForceModels>(forces, std::move(surfaces), s.lattice,
                                            s.drag.properties(), s.relaxation.gravity(),
                                            s.drag.momentum_set(), s.drag.graining());

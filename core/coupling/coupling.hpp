@@ -52,8 +52,9 @@ class Coupling {
   Coupling& operator=(const Coupling&) = delete;
 
   /// Optional, before the first begin_step(): forces besides drag, and the walls that some of them
-  /// act at. The models are kept by reference. With buoyancy among what they take over, the DEM
-  /// must not reduce gravity (takes_over_buoyancy).
+  /// act at, beside which a grain's own flow is another, too. The models are kept by reference.
+  /// With buoyancy among what they take over, the DEM must not reduce gravity
+  /// (takes_over_buoyancy).
   void use(std::span<const std::unique_ptr<sdk::FluidForce>> forces,
            std::vector<particles::Surface> surfaces);
 

@@ -9,7 +9,7 @@
 #include "preflight/cost.hpp"
 #include "preflight/particle_models.hpp"
 #include "resolved/marker_lattice.hpp"
-#include "scenario/units.hpp"
+#include "scenario/text/units.hpp"
 #include "setup/mark.hpp"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/table.hpp"
 #include "fluid/sides.hpp"
-#include "scenario/units.hpp"
+#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <cmath>

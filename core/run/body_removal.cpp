@@ -2,7 +2,7 @@
 #include "run/body_removal.hpp"
 
 #include "base/log.hpp"
-#include "scenario/units.hpp"
+#include "scenario/text/units.hpp"
 
 #include <limits>
 #include <string>

@@ -24,7 +24,7 @@
 #include "run/summary/summary.hpp"
 #include "run/summary/summary_emitters.hpp"
 #include "scenario/diagnostics.hpp"
-#include "scenario/units.hpp"
+#include "scenario/text/units.hpp"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario/checks.hpp"
 
-#include "scenario/units.hpp"
+#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario/tree.hpp"
+#include "scenario/text/tree.hpp"
 
 namespace dust::scenario {
 namespace {

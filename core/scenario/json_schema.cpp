@@ -2,8 +2,8 @@
 #include "bodies/shape.hpp"
 #include "scenario/blocks.hpp"
 #include "scenario/reader.hpp"
-#include "scenario/units.hpp"
-#include "scenario/values.hpp"
+#include "scenario/text/units.hpp"
+#include "scenario/text/values.hpp"
 
 #include <nlohmann/json.hpp>
 

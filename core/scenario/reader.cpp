@@ -3,9 +3,9 @@
 
 #include "dust/sdk/emitter.hpp"
 #include "scenario/checks.hpp"
-#include "scenario/overlay.hpp"
-#include "scenario/setup_reader.hpp"
-#include "scenario/units.hpp"
+#include "scenario/reading/setup_reader.hpp"
+#include "scenario/text/overlay.hpp"
+#include "scenario/text/units.hpp"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 #include "scenario/reference_curves.hpp"
 
 #include "scenario/blocks.hpp"
-#include "scenario/suggest.hpp"
-#include "scenario/units.hpp"
+#include "scenario/text/suggest.hpp"
+#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <functional>

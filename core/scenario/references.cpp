@@ -3,8 +3,8 @@
 
 #include "dust/sdk/sensor.hpp"
 #include "scenario/blocks.hpp"
-#include "scenario/suggest.hpp"
-#include "scenario/units.hpp"
+#include "scenario/text/suggest.hpp"
+#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <optional>

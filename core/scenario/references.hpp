@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dust/sdk/model.hpp"
-#include "scenario/values.hpp"
+#include "scenario/text/values.hpp"
 #include "setup/reference_curve.hpp"
 #include "setup/reference_spec.hpp"
 

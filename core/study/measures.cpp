@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/measures.hpp"
 
-#include "scenario/suggest.hpp"
+#include "scenario/text/suggest.hpp"
 
 namespace dust::study {
 

@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
-#include "scenario/suggest.hpp"
+#include "scenario/text/suggest.hpp"
 #include "study/quantities.hpp"
 
 #include <nlohmann/json.hpp>

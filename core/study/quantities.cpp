@@ -4,8 +4,8 @@
 #include "base/error.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/sensor.hpp"
-#include "scenario/suggest.hpp"
-#include "scenario/units.hpp"
+#include "scenario/text/suggest.hpp"
+#include "scenario/text/units.hpp"
 
 #include <nlohmann/json.hpp>
 

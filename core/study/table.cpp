@@ -4,7 +4,7 @@
 #include "io/atomic_file.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/run_files.hpp"
-#include "scenario/units.hpp"
+#include "scenario/text/units.hpp"
 #include "study/calibration/calibration_h5.hpp"
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 #include "messages/places.hpp"
 #include "preflight/reader.hpp"
 #include "scenario/diagnostics.hpp"
-#include "scenario/overlay.hpp"
+#include "scenario/text/overlay.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>

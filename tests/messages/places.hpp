@@ -3,7 +3,7 @@
 
 #include "dust/sdk/parameter_schema.hpp"
 #include "registry/registry.hpp"
-#include "scenario/tree.hpp"
+#include "scenario/text/tree.hpp"
 
 #include <cstddef>
 #include <filesystem>

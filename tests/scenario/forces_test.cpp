@@ -106,7 +106,7 @@ TEST_CASE("a run without the grains' own disturbance shall differ, and go on fro
 
 TEST_CASE("where a lone grain's own disturbance is left shall be told before the run") {
   const std::string transfer = DUST_SOURCE "/scenarios/transfer_point.yaml";
-  const std::string beside_bodies = "felt within 2.5 cells of bodies that cut cells";
+  const std::string beside_bodies = "felt within 2.5 cells of edges, thin sheets and moving bodies";
   CHECK(engine({"check", transfer}).out.find(beside_bodies) != std::string::npos);
   const auto off = engine({"check", transfer, "--set", "coupling.self_disturbance=off"});
   REQUIRE(off.status == 0);

@@ -187,20 +187,16 @@ std::string partners(const Setup& setup, const particles::ClassStep& size) {
   return is_one_kind ? partner : material_name(setup, size.material) + " on " + partner;
 }
 
-/// Where the own disturbance of grains up to `coarsest` [m] is not taken off, or not well; limits
-/// of docs/theory/own_disturbance.md.
+/// Where the own disturbance of grains up to `coarsest` [m] is not taken off; limits of
+/// docs/theory/own_disturbance.md.
 void print_uncorrected(std::ostream& out, const Setup& setup, double coarsest,
                        const Derived& derived) {
   namespace disturbance = coupling::self_disturbance;
   if (!setup.bodies.empty()) {
     const double felt = std::min(disturbance::most_of_slip(coarsest, derived.mean_spacing), 1.0);
-    out << ",\n             but felt within 2.5 cells of bodies that cut cells: up to "
+    out << ",\n             but felt within 2.5 cells of edges, thin sheets and moving bodies: up "
+           "to "
         << digits(100.0 * felt) << " % of a lone one's slip";
-  }
-  constexpr double k_known_beside_walls = 0.75;  // D/dx from which on drag is more than 3 % off
-  if (coarsest > k_known_beside_walls * derived.smallest_spacing) {
-    out << ",\n             within 2.5 cells of the domain's walls its drag is up to "
-        << (coarsest > 1.5 * derived.smallest_spacing ? "12" : "6") << " % high";
   }
 }
 

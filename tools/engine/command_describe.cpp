@@ -2,9 +2,9 @@
 #include "base/error.hpp"
 #include "catalogue/catalogue.hpp"
 #include "commands.hpp"
-#include "scenario/suggest.hpp"
-#include "scenario/units.hpp"
-#include "scenario/values.hpp"
+#include "scenario/text/suggest.hpp"
+#include "scenario/text/units.hpp"
+#include "scenario/text/values.hpp"
 
 #include <nlohmann/json.hpp>
 

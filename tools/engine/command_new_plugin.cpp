@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
 #include "commands.hpp"
-#include "scenario/suggest.hpp"
+#include "scenario/text/suggest.hpp"
 
 #include <boost/dll/runtime_symbol_info.hpp>
 

@@ -4,9 +4,9 @@
 #include "contract/contract.hpp"
 #include "memory/counting_new.hpp"
 #include "registry/library.hpp"
-#include "scenario/suggest.hpp"
-#include "scenario/tree.hpp"
-#include "scenario/values.hpp"
+#include "scenario/text/suggest.hpp"
+#include "scenario/text/tree.hpp"
+#include "scenario/text/values.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -4,7 +4,7 @@
 #include "commands.hpp"
 #include "memory/huge_pages.hpp"
 #include "program/program.hpp"
-#include "scenario/suggest.hpp"
+#include "scenario/text/suggest.hpp"
 
 #include <algorithm>
 #include <filesystem>

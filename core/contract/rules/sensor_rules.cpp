@@ -5,7 +5,7 @@
 #include "contract/memory_archive.hpp"
 #include "contract/rule_runner.hpp"
 #include "contract/scenes/sensor_stream.hpp"
-#include "scenario/units.hpp"
+#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <cmath>

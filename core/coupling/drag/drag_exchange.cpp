@@ -148,7 +148,7 @@ void DragExchange::sum_wide(const StencilBatch& stencils, int d, const fluid::Ce
 
 /// What changes for the grains with a SmoothKernel: the void fraction that makes a slip of the flux
 /// is that of SelfFlow, their own flow is no part of the slip, and the drag is spread such that its
-/// sum is K times that slip; docs/theory/own_disturbance.md, eq. (6).
+/// sum is K times that slip; docs/theory/own_disturbance.md, eq. (7).
 void DragExchange::assemble_smooth(std::span<const std::int32_t> rows, const StencilBatch& here,
                                    const LinearisedDrag& drag, const ParticleStates& states,
                                    std::array<ContributionInputs, 3>& inputs,

@@ -9,7 +9,7 @@
 namespace dust::coupling {
 
 /// Closed forms for what a single grain does to the fluid it is coupled to, so that it can be taken
-/// off again. Figures and limits: docs/theory/own_disturbance.md, eq. (1), (2), (3), (4), (5).
+/// off again. Figures and limits: docs/theory/own_disturbance.md, eq. (1), (2), (3), (4), (5), (6).
 namespace self_disturbance {
 
 /// Share of the slip from which on what a grain makes by itself is taken off: below it the eight
@@ -57,21 +57,38 @@ inline double left_by_stream(double p) {
 
 /// What the sides of the domain are to the flow that a grain makes.
 enum class Side { open, wall, slip };
-/// Factor [-] on a group of waves of wave number k for a force at the distance y [m] from a side,
-/// along it or across: \f$ 1 \mp e^{-c k y} \f$, with c such that far away the flow is that of the
-/// image of a point force (Lorentz 1896; Blake 1971, doi:10.1017/S0305004100049902: 9/16 and 9/8 of
-/// R/y, beside a plane without friction -3/8 and 3/4), and on the side none or twice as much.
-inline double beside_side(Side side, bool is_across, double k, double distance) {
+/// A side as a grain has it: `distance` y, `knots` b of the kernel far from sides and `cell` dx,
+/// all across the side [m].
+struct Beside {
+  double distance;
+  double knots;
+  double cell;
+};
+/// Part of the way to a wall that counts near it [-], h of eq. (5): the kernel is as wide as the
+/// way and does not reach beyond. 1 far away. Fitted to the discrete Stokes flow of the staggered
+/// grid between two walls, which tools/validation/wall_mobility.py solves, for D/dx to 2.5.
+inline double way_that_counts(const Beside& at, bool is_across) {
+  const double reach = at.distance / at.knots;
+  const double cells = at.cell / at.knots;
+  if (is_across) return 1.0 - 1.3 * std::exp(-0.78 * reach) + 1.6 * cells * std::exp(-1.75 * reach);
+  return 1.0 - 0.15 * std::exp(-0.55 * reach) - 0.5 * cells * std::exp(-1.4 * reach);
+}
+/// Factor [-] on a group of waves of wave number k for a force beside a side, along it or across:
+/// \f$ 1 \mp e^{-c h k y} \f$, with c such that far away the flow is that of the image of a point
+/// force (Lorentz 1896; Blake 1971, doi:10.1017/S0305004100049902: 9/16 and 9/8 of R/y, beside a
+/// plane without friction -3/8 and 3/4), and on the side none or twice as much.
+inline double beside_side(Side side, bool is_across, double k, const Beside& at) {
   if (side == Side::open) return 1.0;
   constexpr double k_along_wall = 32.0 / (9.0 * std::numbers::pi);
   constexpr double k_across_wall = 16.0 / (9.0 * std::numbers::pi);
   constexpr double k_along_slip = 16.0 / (3.0 * std::numbers::pi);
   constexpr double k_across_slip = 8.0 / (3.0 * std::numbers::pi);
+  const double way = k * at.distance;
   if (side == Side::wall) {
-    return -std::expm1(-(is_across ? k_across_wall : k_along_wall) * k * distance);
+    const double far = is_across ? k_across_wall : k_along_wall;
+    return -std::expm1(-far * way_that_counts(at, is_across) * way);
   }
-  return is_across ? -std::expm1(-k_across_slip * k * distance)
-                   : 1.0 + std::exp(-k_along_slip * k * distance);
+  return is_across ? -std::expm1(-k_across_slip * way) : 1.0 + std::exp(-k_along_slip * way);
 }
 
 /// Flow at a grain by its own force, group by group.

@@ -23,6 +23,10 @@ constexpr double k_slowing = 0.7;
 /// Part of a cell that a grain goes on before its faces are looked at again within a fluid step:
 /// the kernel is some cells wide, so that what it shows changes little over it.
 constexpr double k_look_again = 0.25;
+/// Cells within which a body is a wall to a grain's own flow, and over how many of them it becomes
+/// one: what is left out is 3 % of the drag of a grain as large as a cell.
+constexpr double k_wall_reach = 12.0;
+constexpr double k_wall_fade = 4.0;
 /// Share of solids of others in one of the cells around from which on a grain is one of many: it
 /// keeps its eight faces, so that a bed has the ends that its cells give it.
 constexpr double k_crowded = 0.1;
@@ -127,7 +131,7 @@ bool SelfDisturbance::is_candidate(const particles::GrainRows& grains, std::size
 }
 
 /// What the grain would make of a fluid with its eight faces, and its own solids of its drag, over
-/// its slip or drag [-]; `eps` of its cell; docs/theory/own_disturbance.md, eq. (8).
+/// its slip or drag [-]; `eps` of its cell; docs/theory/own_disturbance.md, eq. (9).
 double SelfDisturbance::own_part(const particles::GrainRows& grains, std::size_t row, double eps,
                                  double slip) const {
   namespace own = self_disturbance;
@@ -240,7 +244,9 @@ void SelfDisturbance::spread_solids(const particles::GrainRows& grains) {
     }
     const double put = own.spread * volume / kernel.inside();
     kernel.for_cells([&](std::ptrdiff_t to, double w) {
-      if (w > 0.0 && lattice_.is_in_domain(to)) moves.push_back({to, put * w});
+      if (!(w > 0.0) || !lattice_.is_in_domain(to)) return;
+      const double room = kernel.room_in(to);
+      if (room > 0.0) moves.push_back({to, put * w * room});
     });
   }
   for (const Move& move : moves) void_fraction_.add_after(move.cell, move.volume);
@@ -283,12 +289,15 @@ void SelfDisturbance::find_self_flow(const particles::GrainRows& grains, std::si
   const double stream = std::max(0.0, slip - k_slowing * std::sqrt(own_speed));
   const self_disturbance::Response response =
       self_disturbance::response(kernel.width(), fluid.viscosity, fluid.density, stream);
+  const sdk::Vec3 place{position[0], position[1], position[2]};
+  const auto wall = lattice_.walls().nearest(place, k_wall_reach * mean_spacing_);
   for (std::size_t n = 0; n < self_disturbance::k_groups; ++n) {
     own.kept[n] = std::exp(-response.rate[n] * step);
     const double gained = -std::expm1(-response.rate[n] * step) * response.mobility[n];
     const double k = self_disturbance::k_waves[n] / kernel.width();
     for (int d = 0; d < 3; ++d) {
-      own.gained[n][static_cast<std::size_t>(d)] = gained * beside_sides(position, d, k);
+      own.gained[n][static_cast<std::size_t>(d)] =
+          gained * beside_walls(position, wall ? &*wall : nullptr, d, k);
     }
   }
   const double density = kernel.concentration(0) / (eps * lattice_.cell_volume());
@@ -297,20 +306,37 @@ void SelfDisturbance::find_self_flow(const particles::GrainRows& grains, std::si
                                                density * sdk::sphere_volume(2.0 * position[3]);
 }
 
-/// What the sides make of a group of waves of a force along d.
-double SelfDisturbance::beside_sides(const double* position, int d, double k) const {
+/// What sides and bodies make of a group of waves of a force along d.
+double SelfDisturbance::beside_walls(const double* position, const NearWalls::Wall* wall, int d,
+                                     double k) const {
+  namespace own = self_disturbance;
   const fluid::Grid& grid = lattice_.grid();
+  const auto knots_in = [&](double cell) {
+    return std::max(2.0 * position[3], own::k_min_knots * cell);
+  };
   double factor = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     if (grid.is_periodic[a]) continue;
+    const double cell = grid.spacing[axis];
     const double above = position[axis] - grid.origin[axis];
-    const double below = grid.count[a] * grid.spacing[axis] - above;
-    const bool is_across = axis == d;
-    factor *= self_disturbance::beside_side(sides_[2 * a], is_across, k, std::max(above, 0.0)) *
-              self_disturbance::beside_side(sides_[2 * a + 1], is_across, k, std::max(below, 0.0));
+    const double below = grid.count[a] * cell - above;
+    for (const int high : {0, 1}) {
+      const double distance = std::max(high == 0 ? above : below, 0.0);
+      factor *= own::beside_side(sides_[2 * a + static_cast<std::size_t>(high)], axis == d, k,
+                                 {distance, knots_in(cell), cell});
+    }
   }
-  return factor;
+  if (wall == nullptr) return factor;
+  const own::Beside at{std::max(wall->distance, 0.0), knots_in(mean_spacing_), mean_spacing_};
+  // A force askew to the wall is one along it and one across it.
+  const double across = wall->normal[d] * wall->normal[d];
+  const double left = (1.0 - across) * own::beside_side(own::Side::wall, false, k, at) +
+                      across * own::beside_side(own::Side::wall, true, k, at);
+  // Nothing jumps where a wall comes into reach.
+  const double near =
+      std::clamp((k_wall_reach - at.distance / mean_spacing_) / k_wall_fade, 0.0, 1.0);
+  return factor * (1.0 - near * (1.0 - left));
 }
 
 /// The flow that a fluid step has left of what there was, and what it added.

@@ -49,7 +49,7 @@ class SelfDisturbance {
   /// The flows at the end of the fluid step: what is left of them, and what was added.
   void end_step(double step);
 
-  /// Drag with the stress of the own drag; docs/theory/own_disturbance.md, eq. (7).
+  /// Drag with the stress of the own drag; docs/theory/own_disturbance.md, eq. (8).
   [[nodiscard]] double stress_factor(std::size_t row) const {
     return states_.is_smooth(row) ? 1.0 + states_.self_flow(row).self_stress : 1.0;
   }
@@ -71,7 +71,8 @@ class SelfDisturbance {
                       const SmoothKernel& kernel, double eps, double slip, double step);
   void look_at_kernel(const double* position, const SmoothKernel& kernel, const FluidState& fluid,
                       bool needs_stress, SelfFlow::Seen& seen) const;
-  [[nodiscard]] double beside_sides(const double* position, int d, double k) const;
+  [[nodiscard]] double beside_walls(const double* position, const NearWalls::Wall* wall, int d,
+                                    double k) const;
 
   scenario::DisturbanceCorrection mode_;
   const Lattice& lattice_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "coupling/stencils/face_kernels.hpp"
+#include "coupling/stencils/near_walls.hpp"
 #include "fluid/grid.hpp"
 #include "fluid/parallel.hpp"
 
@@ -77,6 +78,9 @@ class Lattice {
   }
   /// Whether a body takes part of a cell.
   [[nodiscard]] bool has_bodies() const { return has_bodies_; }
+  /// The surfaces of the bodies that do, as far as they were given.
+  [[nodiscard]] NearWalls& walls() { return walls_; }
+  [[nodiscard]] const NearWalls& walls() const { return walls_; }
   /// Open shares of the faces of component d, by home.
   [[nodiscard]] const float* open_shares(int d) const { return open_face_[d].data(); }
 
@@ -230,6 +234,7 @@ class Lattice {
   sdk::Vec3 inverse_spacing_;
   fluid::CellField open_cell_;
   bool has_bodies_ = false;
+  NearWalls walls_;
   std::array<std::vector<float>, 3> open_face_;
   std::array<Offsets, 3> cells_;    ///< wrapped or clamped
   std::array<Offsets, 3> padded_;   ///< where the array holds it

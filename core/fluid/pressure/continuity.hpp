@@ -51,6 +51,8 @@ class Continuity {
               double tolerance);
   /// [Pa] of the last projection; docs/theory/fluid.md, eq. (6).
   [[nodiscard]] const CellField& increment() const { return increment_; }
+  /// Faces that fluid may pass and whose flux the pressure can change.
+  [[nodiscard]] const FaceField& pattern() const { return pattern_; }
   /// Coefficients of the last projection: positive where the increment drives a flow.
   [[nodiscard]] const FaceField& coefficients() const { return solver_->coefficients(); }
   [[nodiscard]] const std::vector<Sink>& sinks() const { return given_.sinks; }

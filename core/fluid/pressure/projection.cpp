@@ -16,7 +16,9 @@ Projection::Projection(const Grid& grid, const CutGrid& cut, Sides& sides,
       momentum_(momentum),
       tolerance_(tolerance),
       continuity_(grid, cut.geometry(), sides, properties, momentum),
-      p_(grid.size, 0.0) {}
+      p_(grid.size, 0.0) {
+  ghost_pressure_.find(grid, cut.geometry(), continuity_.pattern());
+}
 
 void Projection::project(FaceField& u, const CellField& eps, const FaceField& drag, bool is_plain,
                          double step, double time) {
@@ -27,6 +29,7 @@ void Projection::project(FaceField& u, const CellField& eps, const FaceField& dr
     const std::ptrdiff_t o = grid_.index(0, j, k);
     for (int i = 0; i < grid_.count[0]; ++i) p_[o + i] += phi[o + i];
   });
+  ghost_pressure_.fill(p_);
 }
 
 /// Without drag and without a change of the pressure.
@@ -70,6 +73,7 @@ void Projection::find_first_pressure(const FaceField& u, FaceField& next, const 
   correct(next, eps, step);
   const CellField& phi = continuity_.increment();
   for (std::size_t o = 0; o < grid_.size; ++o) p_[o] += phi[o];
+  ghost_pressure_.fill(p_);
 }
 
 }  // namespace dust::fluid

@@ -6,6 +6,7 @@
 #include "fluid/grid.hpp"
 #include "fluid/momentum/momentum.hpp"
 #include "fluid/pressure/continuity.hpp"
+#include "fluid/pressure/ghost_pressure.hpp"
 #include "fluid/sides.hpp"
 
 namespace dust::fluid {
@@ -23,7 +24,10 @@ class Projection {
   [[nodiscard]] Continuity& continuity() { return continuity_; }
   [[nodiscard]] const Continuity& continuity() const { return continuity_; }
   /// After the grid was cut anew.
-  void geometry_changed() { continuity_.geometry_changed(p_); }
+  void geometry_changed() {
+    continuity_.geometry_changed(p_);
+    ghost_pressure_.find(grid_, cut_.geometry(), continuity_.pattern());
+  }
 
   /// Of the solver, since begin_step().
   [[nodiscard]] int iterations() const { return iterations_; }
@@ -55,6 +59,7 @@ class Projection {
   const Momentum& momentum_;
   double tolerance_;
   Continuity continuity_;
+  GhostPressure ghost_pressure_;
   CellField p_;     ///< [Pa]
   FaceField zero_;  ///< no drag; empty until it is needed
   int iterations_ = 0;

@@ -5,7 +5,7 @@
 #include "base/text.hpp"
 #include "run/dust/hoods.hpp"
 #include "run/insertion/entry.hpp"
-#include "scenario/units.hpp"
+#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "scenario/diagnostics.hpp"
-#include "scenario/tree.hpp"
+#include "scenario/text/tree.hpp"
 #include "setup/mark.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario/interactions/pair_list.hpp"
 
-#include "scenario/overlay.hpp"
-#include "scenario/suggest.hpp"
+#include "scenario/text/overlay.hpp"
+#include "scenario/text/suggest.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scenario/tree.hpp"
+#include "scenario/text/tree.hpp"
 
 #include <string>
 #include <vector>

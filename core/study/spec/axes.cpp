@@ -3,9 +3,9 @@
 
 #include "base/text.hpp"
 #include "dust/sdk/parameter_schema.hpp"
-#include "scenario/suggest.hpp"
-#include "scenario/units.hpp"
-#include "scenario/values.hpp"
+#include "scenario/text/suggest.hpp"
+#include "scenario/text/units.hpp"
+#include "scenario/text/values.hpp"
 #include "study/sampling.hpp"
 
 #include <algorithm>

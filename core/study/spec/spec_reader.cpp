@@ -3,10 +3,10 @@
 #include "study/spec/spec.hpp"
 
 #include "dust/sdk/parameter_schema.hpp"
-#include "scenario/overlay.hpp"
-#include "scenario/suggest.hpp"
-#include "scenario/units.hpp"
-#include "scenario/values.hpp"
+#include "scenario/text/overlay.hpp"
+#include "scenario/text/suggest.hpp"
+#include "scenario/text/units.hpp"
+#include "scenario/text/values.hpp"
 
 #include <algorithm>
 

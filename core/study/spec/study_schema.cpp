@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/spec/spec.hpp"
 
-#include "scenario/values.hpp"
+#include "scenario/text/values.hpp"
 
 #include <nlohmann/json.hpp>
 

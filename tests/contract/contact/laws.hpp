@@ -5,7 +5,7 @@
 #include "contact/batch_kernels.hpp"
 #include "contract/coupling/models.hpp"
 #include "dust/sdk/random.hpp"
-#include "scenario/units.hpp"
+#include "scenario/text/units.hpp"
 
 #include <doctest/doctest.h>
 

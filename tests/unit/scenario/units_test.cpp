@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario/units.hpp"
+#include "scenario/text/units.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "two_way.hpp"
+#include "verification/fluid/test_bodies.hpp"
 
 #include <algorithm>
 #include <array>
@@ -99,6 +100,8 @@ struct IsolatedGrain {
   double beside = 0.0;          ///< cells to a side in y, 0 = periodic there
   bool is_across = false;       ///< moves to the side, not along it
   bool is_beside_slip = false;  ///< the side has no friction
+  double floor = 0.0;           ///< cells to the top of a body over that side, 0 = none
+  double tilt = 0.0;            ///< [rad] of the body's surface about x, the grain goes along z
   double cells_per_step = 0.3;  ///< way of the grain in a fluid step at most
 
   /// Of the drag, in the last third of the run; of the speed with Motion::free.
@@ -118,6 +121,19 @@ struct IsolatedGrain {
   [[nodiscard]] double duration() const;
   [[nodiscard]] World::Choice choice() const;
   [[nodiscard]] TwoWay::Sides sides() const;
+  /// The body's surface: its normal, and the point of it that the grain is beside.
+  [[nodiscard]] sdk::Vec3 normal() const { return {0.0, std::cos(tilt), std::sin(tilt)}; }
+  [[nodiscard]] sdk::Vec3 foot() const {
+    const sdk::Vec3 middle{0.5 * k_cells + place.x, floor, 0.5 * k_cells + place.z};
+    return cell() * middle;
+  }
+  [[nodiscard]] bodies::BodySet solids() const {
+    bodies::BodySet all;
+    if (floor > 0.0) {
+      all.push_back(body(std::make_unique<HalfSpace>(foot(), normal()), 0.0));
+    }
+    return all;
+  }
 };
 
 /// Until the flow around it is built up, but before the grain meets its own wake; when free, until
@@ -164,7 +180,7 @@ inline TwoWay::Sides IsolatedGrain::sides() const {
 inline IsolatedGrain::Error IsolatedGrain::error() const {
   const double length = k_cells * cell();
   const double speed = terminal();
-  TwoWay run(choice(), sides(), {}, 1e-6);
+  TwoWay run(choice(), sides(), {}, 1e-6, solids());
   Grains& grains = run.world.grains;
   coupling::Coupling& coupling = *run.world.coupling;
   const double step = run.world.choice.fluid_step;
@@ -172,6 +188,7 @@ inline IsolatedGrain::Error IsolatedGrain::error() const {
   sdk::Vec3 at = place;
   for (int axis = 0; axis < 3; ++axis) at[axis] = (k_cells / 2 - 1 + at[axis]) * cell();
   if (beside > 0.0) at.y = beside * cell();
+  if (floor > 0.0) at = foot() + beside * cell() * normal();
   sdk::Vec3 velocity;
   const bool is_in_stream = motion == Motion::held && beside == 0.0;
   if (motion != Motion::free && !is_in_stream) velocity[d] = -speed;

@@ -18,18 +18,21 @@ struct TwoWay {
   using Sides = std::array<std::unique_ptr<TestSide>, 6>;
 
   TwoWay(const World::Choice& choice, Sides boundaries,
-         std::vector<scenario::FluidRegion> regions = {}, double tolerance = 1e-8)
-      : sides(std::move(boundaries)), world(choice) {
+         std::vector<scenario::FluidRegion> regions = {}, double tolerance = 1e-8,
+         bodies::BodySet solids = {})
+      : sides(std::move(boundaries)), world(choice), bodies(std::move(solids)) {
     scenario::FluidSpec& fluid = *world.setup.fluid;
     fluid.pressure_tolerance = tolerance;
     fluid.regions = std::move(regions);
     world.setup.gravity = {0, 0, -k_gravity};
     fluid.disturbance_correction =
         choice.disturbance_correction.value_or(scenario::DisturbanceCorrection::automatic);
-    world.restart();
     fluid::Boundaries pointers{};
     for (std::size_t n = 0; n < 6; ++n) pointers[n] = sides[n].get();
     solver = std::make_unique<fluid::FluidSolver>(world.grid, fluid, bodies, pointers);
+    world.open = solver->open_fraction();
+    world.restart();
+    world.coupling->use({}, particles::surfaces_of(world.setup, bodies));
     world.coupling->use_boundaries(pointers);
   }
 

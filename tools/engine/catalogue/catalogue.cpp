@@ -2,8 +2,8 @@
 #include "catalogue/catalogue.hpp"
 
 #include "bodies/shape.hpp"
-#include "scenario/units.hpp"
-#include "scenario/values.hpp"
+#include "scenario/text/units.hpp"
+#include "scenario/text/values.hpp"
 
 #include <algorithm>
 #include <iomanip>

@@ -2,7 +2,7 @@
 #include "base/error.hpp"
 #include "catalogue/catalogue.hpp"
 #include "commands.hpp"
-#include "scenario/suggest.hpp"
+#include "scenario/text/suggest.hpp"
 
 #include <algorithm>
 #include <iomanip>

@@ -2,8 +2,8 @@
 #include "base/error.hpp"
 #include "commands.hpp"
 #include "new_scenario/new_scenario.hpp"
-#include "scenario/suggest.hpp"
-#include "scenario/units.hpp"
+#include "scenario/text/suggest.hpp"
+#include "scenario/text/units.hpp"
 
 #include <filesystem>
 #include <iostream>

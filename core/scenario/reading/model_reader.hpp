@@ -3,7 +3,7 @@
 
 #include "dust/sdk/model.hpp"
 #include "registry/registry.hpp"
-#include "scenario/values.hpp"
+#include "scenario/text/values.hpp"
 
 #include <memory>
 #include <optional>

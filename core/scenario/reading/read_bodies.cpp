@@ -3,8 +3,8 @@
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/motion.hpp"
 #include "dust/sdk/table.hpp"
-#include "scenario/setup_reader.hpp"
-#include "scenario/suggest.hpp"
+#include "scenario/reading/setup_reader.hpp"
+#include "scenario/text/suggest.hpp"
 
 #include <utility>
 

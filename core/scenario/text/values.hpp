@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dust/sdk/parameter_schema.hpp"
-#include "scenario/tree.hpp"
+#include "scenario/text/tree.hpp"
 
 #include <optional>
 #include <string>

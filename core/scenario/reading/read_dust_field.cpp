@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/emitter.hpp"
-#include "scenario/setup_reader.hpp"
-#include "scenario/units.hpp"
+#include "scenario/reading/setup_reader.hpp"
+#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <limits>

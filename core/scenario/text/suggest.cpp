@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario/suggest.hpp"
+#include "scenario/text/suggest.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -2,8 +2,8 @@
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/voidage_rule.hpp"
 #include "scenario/force_check.hpp"
-#include "scenario/setup_reader.hpp"
-#include "scenario/units.hpp"
+#include "scenario/reading/setup_reader.hpp"
+#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "dust/sdk/emitter.hpp"
 #include "scenario/checks.hpp"
 #include "scenario/interactions/pair_list.hpp"
-#include "scenario/setup_reader.hpp"
+#include "scenario/reading/setup_reader.hpp"
 
 namespace dust::scenario {
 

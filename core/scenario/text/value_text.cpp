@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario/units.hpp"
-#include "scenario/values.hpp"
+#include "scenario/text/units.hpp"
+#include "scenario/text/values.hpp"
 
 #include <algorithm>
 #include <cmath>

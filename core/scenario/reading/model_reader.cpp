@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario/model_reader.hpp"
+#include "scenario/reading/model_reader.hpp"
 
 #include "bodies/shape.hpp"
-#include "scenario/suggest.hpp"
+#include "scenario/text/suggest.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenario/reader.hpp"
-#include "scenario/tree.hpp"
+#include "scenario/text/tree.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario/units.hpp"
+#include "scenario/text/units.hpp"
 
-#include "scenario/suggest.hpp"
+#include "scenario/text/suggest.hpp"
 
 #include <array>
 #include <cctype>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario/tree.hpp"
+#include "scenario/text/tree.hpp"
 
-#include "scenario/suggest.hpp"
+#include "scenario/text/suggest.hpp"
 
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>

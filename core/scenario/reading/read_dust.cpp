@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/emitter.hpp"
-#include "scenario/setup_reader.hpp"
-#include "scenario/suggest.hpp"
-#include "scenario/units.hpp"
+#include "scenario/reading/setup_reader.hpp"
+#include "scenario/text/suggest.hpp"
+#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "scenario/blocks.hpp"
-#include "scenario/model_reader.hpp"
+#include "scenario/reading/model_reader.hpp"
 #include "scenario/reference_curves.hpp"
 #include "scenario/references.hpp"
-#include "scenario/suggest.hpp"
+#include "scenario/text/suggest.hpp"
 #include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
 #include "setup/start_setup.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario/values.hpp"
+#include "scenario/text/values.hpp"
 
-#include "scenario/suggest.hpp"
-#include "scenario/units.hpp"
+#include "scenario/text/suggest.hpp"
+#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <array>
