@@ -82,7 +82,7 @@ def show_bodies(view):
     shown.DiffuseColor = shown.AmbientColor = [0.55, 0.58, 0.62]
     shown.Opacity = 0.35
     # Surfaces that stand on edge are seen by their outlines alone.
-    outlines = simple.FeatureEdges(Input=bodies)
+    outlines = simple.FeatureEdges(Input=simple.ExtractSurface(Input=bodies))
     simple.RenameSource("outlines of bodies", outlines)
     lines = simple.Show(outlines, view)
     lines.ColorArrayName = ["POINTS", ""]

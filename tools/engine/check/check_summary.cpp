@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "check_summary.hpp"
+#include "check/check_summary.hpp"
 
 #include "base/text.hpp"
-#include "check_bodies.hpp"
+#include "check/check_bodies.hpp"
 #include "coupling/self_disturbance/disturbance_formulas.hpp"
 
 #include <nlohmann/json.hpp>

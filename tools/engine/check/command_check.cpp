@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/text.hpp"
-#include "check_summary.hpp"
+#include "check/check_summary.hpp"
 #include "commands.hpp"
 #include "drawing/drawing.hpp"
 #include "preflight/body_survey.hpp"

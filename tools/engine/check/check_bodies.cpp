@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "check_bodies.hpp"
+#include "check/check_bodies.hpp"
 
 #include "base/text.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 using preflight::BodySurvey;
 using preflight::GapNumbers;
 
-constexpr std::size_t k_most_gaps = 8;
+constexpr std::size_t k_max_gaps = 8;
 
 std::string two_digits(double value) { return base::digits_text(value, 2); }
 
@@ -41,7 +41,7 @@ std::string consequence(double width, const BodySurvey& s) {
 
 void print_gaps(std::ostream& out, const BodySurvey& s) {
   const char* head = "  gaps       ";
-  const std::size_t shown = std::min(s.gaps.size(), k_most_gaps);
+  const std::size_t shown = std::min(s.gaps.size(), k_max_gaps);
   for (std::size_t n = 0; n < shown; ++n) {
     const GapNumbers& g = s.gaps[n];
     out << head << g.first << " - " << g.second << ": " << (g.is_whole ? "" : "at most ")
