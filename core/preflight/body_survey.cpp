@@ -15,8 +15,8 @@ using scenario::Setup;
 /// Below two cells a gap is resolved coarsely: docs/theory/fluid.md, limits.
 constexpr double k_coarse_gap = 2.0;
 /// Nearest points for all pairs and for one: about a microsecond each.
-constexpr std::size_t k_work = 600'000;
-constexpr std::size_t k_work_of_pair = 60'000;
+constexpr std::size_t k_work = 200'000;
+constexpr std::size_t k_work_of_pair = 40'000;
 
 void find_gaps(const Setup& setup, const bodies::BodySet& all, BodySurvey& survey) {
   bodies::GapSearch search{setup.domain.min, setup.domain.max, survey.limit, 0};

@@ -192,7 +192,8 @@ TEST_CASE("a region that keeps every fourth grain shall be told to fill by a qua
   CHECK(figures["growth_over_inflow"] == doctest::Approx(0.25).epsilon(0.01));
   CHECK(figures["is_filling"] == 1.0);
   REQUIRE(!above_limit.empty());
-  CHECK(figures["first_beyond_largest_mass"] == doctest::Approx(above_limit.front()).epsilon(1e-12));
+  CHECK(figures["first_beyond_largest_mass"] ==
+        doctest::Approx(above_limit.front()).epsilon(1e-12));
   CHECK(figures["time_beyond_largest_mass"] ==
         doctest::Approx(1e-3 * static_cast<double>(above_limit.size())).epsilon(1e-9));
   // The grains come and go in groups of four.
