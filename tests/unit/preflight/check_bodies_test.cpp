@@ -46,7 +46,7 @@ fs::path write_scenario(const TemporaryFolder& folder, double size, const std::s
          "bodies:\n"
          "  floor: {shape: box, material: sand, min: [0, 0, 0], max: [0.1, 0.1, "
          "0.01]}\n"
-         "  step: {shape: box, material: sand, min: [0.02, 0.02, 18 mm], max: "
+         "  step: {shape: box, material: sand, min: [0.02, 0.02, 0.018], max: "
          "[0.04, 0.04, 0.05]}\n"
          "  post: {shape: box, material: sand, min: [0.06, 0.02, 0.01], max: "
          "[0.08, 0.04, 0.05]}\n"
@@ -97,9 +97,9 @@ TEST_CASE("flows and extents shall be spoken of in the units of their size") {
   const std::string small = text_of(write_scenario(folder, 0.1, "1 g/s"));
   CHECK(small.find("domain     100 x 100 x 100 mm") != std::string::npos);
   CHECK(small.find("feed: sand, 1 g/s") != std::string::npos);
-  const std::string plant = text_of(write_scenario(folder, 3.0, "250 t/h"));
+  const std::string plant = text_of(write_scenario(folder, 3.0, "18 t/h"));
   CHECK(plant.find("domain     3 x 3 x 3 m") != std::string::npos);
-  CHECK(plant.find("feed: sand, 250 t/h (69.4 kg/s)") != std::string::npos);
+  CHECK(plant.find("feed: sand, 18 t/h (5 kg/s)") != std::string::npos);
   CHECK(plant.find("e+0") == std::string::npos);
 }
 
