@@ -93,8 +93,12 @@ class Blockage final : public sdk::Sensor {
     const double share_error =
         means_.mean(1) > 0.0 && growth.error >= 0.0 ? growth.error / means_.mean(1) : -1.0;
     sink.figure("growth_over_inflow", share, "1", share_error, sdk::detail(sdk::Quantity::ratio));
+    sink.figure("growth_over_allowed", p_.largest_growth > 0.0 ? share / p_.largest_growth : 0.0,
+                "1", -1.0, sdk::detail(sdk::Quantity::ratio));
     sink.figure("is_filling", is_filling(growth) ? 1.0 : 0.0, "1", -1.0,
                 sdk::detail(sdk::Quantity::number));
+    sink.figure("mass_over_largest_mass", p_.largest_mass > 0.0 ? largest_ / p_.largest_mass : 0.0,
+                "1", -1.0, sdk::detail(sdk::Quantity::ratio));
     sink.figure("time_beyond_largest_mass", time_beyond_, "s", -1.0,
                 sdk::detail(sdk::Quantity::time));
     sink.figure("first_beyond_largest_mass", first_beyond_, "s", -1.0,

@@ -96,8 +96,10 @@ class Distribution {
 
  private:
   static constexpr double k_per_octave = 64.0;
-  static constexpr double k_octaves_below = 10.0;  ///< the first class ends there below the unit
-  static constexpr std::size_t k_bins = 64 * 34;   ///< up to 2^24 units
+  /// The first class ends there below the unit. Not a whole number: times of whole units, as of
+  /// grains that begin with a step, then lie inside classes and not on their edges.
+  static constexpr double k_octaves_below = 10.3;
+  static constexpr std::size_t k_bins = 64 * 34;  ///< up to 2^24 units
 
   [[nodiscard]] std::size_t bin_of(double time) const {
     const double place =
