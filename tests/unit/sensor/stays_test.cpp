@@ -225,9 +225,9 @@ TEST_CASE("the error of a trend shall cover the truth as often as it says") {
     std::vector<double> t(400);
     std::iota(t.begin(), t.end(), 0.0);
     std::vector<double> y;
-    double memory = 0.0;  // noise that lasts three samples, a seventh of a block
+    double memory = 0.0;  // noise that lasts a few samples, a tenth of a block
     for (const double time : t) {
-      memory = 0.7 * memory + dice.normal();
+      memory = 0.5 * memory + dice.normal();
       y.push_back(5.0 + k_slope * time + 20.0 * memory);
     }
     const auto trend = model::blockage::trend(t, y, 0.0);
