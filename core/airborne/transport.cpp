@@ -234,7 +234,7 @@ void Transport::take_from_sides(double amount, Losses& losses, const Flow& flow)
   }
 }
 
-/// mass += dt L(c), with c of the present; books what leaves with `weight`.
+/// mass += dt L(c), with c of the present; counts what leaves with `weight`.
 void Transport::euler(const Flow& flow, const std::vector<double>& source, double dt, double weight,
                       fluid::CellField& mass, Losses& losses) {
   take_from_sides(weight * dt, losses, flow);

@@ -25,7 +25,7 @@ struct Losses {
 /// with v the gas-filled share of a cell, G the volume flow of the gas plus the drift through what
 /// the gas fills, p that share of a face. Upwind with van Leer's slopes in space, two stages in
 /// time (Shu and Osher 1988): second order where smooth, no value below zero, and none above the
-/// largest at the start where G closes up to the change of v. What leaves is booked to the last
+/// largest at the start where G closes up to the change of v. What leaves is counted to the last
 /// digit.
 class Transport {
  public:

@@ -96,7 +96,7 @@ void StressBalance::load(sdk::ArchiveReader& archive) {
   for (std::size_t d = 0; d < 3; ++d) {
     auto values = archive.numbers(std::string("stress_owed_") + "xyz"[d]);
     if (values.size() != deferred_[d].size()) {
-      throw sdk::ModelError("the checkpoint's stress book belongs to another grid");
+      throw sdk::ModelError("the checkpoint's stress balance belongs to another grid");
     }
     deferred_[d] = std::move(values);
   }

@@ -30,12 +30,12 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
   for (const NewGrain& g : grains) {
     const auto& material = conditions.materials[static_cast<std::size_t>(g.material)];
     const double mass = material.density * sdk::sphere_volume(g.diameter);
-    const std::int32_t population = book.population(g.diameter, g.weight, g.material, mass);
+    const std::int32_t population = ledger.population(g.diameter, g.weight, g.material, mass);
     store.append(g, mass, population);
-    book.enter(population);
+    ledger.enter(population);
   }
   outer.resize(store.size());
-  book.close();
+  ledger.close();
   outer.require(OuterList::Due::reorder);
 }
 
@@ -52,12 +52,12 @@ void Dem::Impl::draw_out_at(std::vector<Opening> openings) {
   conditions.opening_rounding = k_opening_rounding * norm(domain.max() - domain.min());
   conditions.openings = std::move(openings);
   store.set_openings(!conditions.openings.empty());
-  book.set_openings(conditions.openings.size());
+  ledger.set_openings(conditions.openings.size());
 }
 
 bool Dem::Impl::leaves(std::size_t n) {
   if (const int touched = store.touched_opening(n); touched >= 0) {
-    book.extract(store.population(n), static_cast<std::size_t>(touched));
+    ledger.extract(store.population(n), static_cast<std::size_t>(touched));
     return true;
   }
   const ParticleDomain::Place place = conditions.domain.place_of(store.position(n));
@@ -75,14 +75,14 @@ bool Dem::Impl::leaves(std::size_t n) {
     const Opening& opening = conditions.openings[o];
     if (opening.side != static_cast<int>(place.side)) continue;
     if (!opening.holds(position, conditions.opening_rounding)) continue;
-    book.extract(store.population(n), o);
+    ledger.extract(store.population(n), o);
     return true;
   }
-  book.leave(store.population(n));
+  ledger.leave(store.population(n));
   return true;
 }
 
-void Dem::Impl::remove_leavers() {
+void Dem::Impl::remove_escaped() {
   std::vector<std::int32_t> keep;
   keep.reserve(store.size());
   for (std::size_t n = 0; n < store.size(); ++n) {
@@ -98,7 +98,7 @@ void Dem::Impl::remove_leavers() {
   fine_level.renumber(new_row);
   store.reorder(keep);
   outer.reorder(keep);
-  book.close();
+  ledger.close();
   outer.require(OuterList::Due::reorder);
 }
 
@@ -115,8 +115,8 @@ TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTr
   const Translation names(other.conditions, conditions);
   std::vector<double> density;
   for (const auto& material : conditions.materials) density.push_back(material.density);
-  book.transfer_from(other.book, names.materials(), names.openings(), density);
-  store.transfer_from(other.store, names.materials(), names.openings(), book.masses());
+  ledger.transfer_from(other.ledger, names.materials(), names.openings(), density);
+  store.transfer_from(other.store, names.materials(), names.openings(), ledger.masses());
   store.update_decay(conditions.step());
   fine_level.transfer_from(other.fine_level);
 
@@ -170,9 +170,9 @@ void Dem::insert(std::span<const NewGrain> grains) {
 }
 void Dem::draw_out_at(std::vector<Opening> openings) { impl_->draw_out_at(std::move(openings)); }
 std::span<const Opening> Dem::openings() const { return impl_->conditions.openings; }
-void Dem::remove_leavers() {
+void Dem::remove_escaped() {
   impl_->synchronise();
-  impl_->remove_leavers();
+  impl_->remove_escaped();
 }
 void Dem::neighbours() { impl_->update_pair_lists(); }
 void Dem::contact(double time, bool keeps_force) {
@@ -196,10 +196,10 @@ void Dem::add_force(const std::function<sdk::Vec3(std::size_t)>& force) {
 void Dem::let_all_step() { impl_->inner.let_all_step(); }
 
 std::array<double, 3> Dem::phase_shares() const { return impl_->tile_step.phase_shares(); }
-void Dem::fluid_action_changed() { impl_->store.update_decay(impl_->conditions.step()); }
+void Dem::drag_relaxation_changed() { impl_->store.update_decay(impl_->conditions.step()); }
 void Dem::bodies_changed() { impl_->outer.require(OuterList::Due::rebuild); }
 
-void Dem::land() { impl_->synchronise(); }
+void Dem::synchronise() { impl_->synchronise(); }
 GrainRows Dem::rows() {
   impl_->synchronise();
   return impl_->store.rows();
@@ -224,8 +224,8 @@ std::vector<ContactRecord> Dem::contacts() const {
   return contact_snapshot(impl_->contact_scene(), impl_->inner);
 }
 
-const BalanceBook& Dem::book() const { return impl_->book; }
-const Balance& Dem::balance() const { return impl_->book.balance(); }
+const BalanceLedger& Dem::ledger() const { return impl_->ledger; }
+const Balance& Dem::balance() const { return impl_->ledger.balance(); }
 
 DemReport Dem::report() const {
   DemReport out = impl_->counters;
@@ -257,7 +257,7 @@ std::vector<std::pair<std::int64_t, std::int64_t>> Dem::listed_pairs() const {
   return out;
 }
 
-void Dem::watch_walls() {
+void Dem::record_wall_loads() {
   std::size_t walls = 0;
   for (const Surface& s : impl_->conditions.surfaces)
     walls = std::max<std::size_t>(walls, s.wall + 1u);
@@ -299,7 +299,7 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   inner.save(archive);
   tile_step.save(archive, tiling);
   fine_level.save(archive);
-  book.save(archive);
+  ledger.save(archive);
   archive.number("time", conditions.time);
   const ListTuner::State lifetimes = tuner.state();
   const OuterList::State list = outer.state();
@@ -315,8 +315,8 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
                                 counters.particle_steps,
                                 fine_level.sub_steps(),
                                 counters.rebuilds,
-                                counters.contacts_seen_late,
-                                counters.flown_steps,
+                                counters.missed_contact_onsets,
+                                counters.free_flight_steps,
                                 lifetimes.skin_level,
                                 lifetimes.inner_lifetime,
                                 list.due == OuterList::Due::update,
@@ -331,8 +331,8 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   counters.steps = state.at(8);
   counters.particle_steps = state.at(9);
   counters.rebuilds = state.at(11);
-  counters.contacts_seen_late = state.at(12);
-  counters.flown_steps = state.at(13);
+  counters.missed_contact_onsets = state.at(12);
+  counters.free_flight_steps = state.at(13);
   counters.mends = state.at(18);
   tuner.restore({state.at(3), state.at(4), state.at(14), state.at(15)});
   OuterList::Due due = OuterList::Due::nothing;
@@ -345,7 +345,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
              {.age = state.at(2), .updated = state.at(17), .due = due});
   inner.load(archive, tiles);
   fine_level.load(archive, state.at(10));
-  book.load(archive);
+  ledger.load(archive);
   move_to(archive.number("time"));
   has_weights = store.has_weights(tiling.coarse_count);
 }

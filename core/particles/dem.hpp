@@ -23,7 +23,7 @@
 
 namespace dust::particles {
 
-class BalanceBook;
+class BalanceLedger;
 struct TimeSteps;
 
 /// A grain to insert; the DEM gives the id.
@@ -60,13 +60,15 @@ struct DemReport {
   std::int64_t particle_steps = 0;  ///< sum over coarse steps of grains integrated
   std::int64_t fine_steps = 0;      ///< sub-steps of fine grains, summed over grains
   std::int64_t rebuilds = 0;
-  std::int64_t mends = 0;        ///< of the lists, for single grains off their course
-  std::int64_t flown_steps = 0;  ///< of particle_steps, those made many at once in free flight
+  std::int64_t mends = 0;  ///< of the lists, for single grains off their course
+  std::int64_t free_flight_steps =
+      0;                         ///< of particle_steps, those made many at once in free flight
   double largest_overlap = 0.0;  ///< [-] overlap / smaller radius, since the start
   double largest_coarse_overlap = 0.0;  ///< [-] of that, between grains on coarse steps and walls
   double largest_fine_overlap = 0.0;    ///< [-] of that, where a sub-stepped grain takes part
   std::int64_t contacts = 0;            ///< in touch at the last step
-  std::int64_t contacts_seen_late = 0;  ///< between grains, begun while no watch looked at them
+  std::int64_t missed_contact_onsets =
+      0;  ///< between grains, begun while the inner list had not got them
 };
 
 /// A contact as sensors see it.
@@ -101,8 +103,8 @@ class Dem {
   /// Particles that touch these openings are drawn out. Call before the first step.
   void draw_out_at(std::vector<Opening> openings);
   [[nodiscard]] std::span<const Opening> openings() const;
-  /// Books and drops grains beyond open sides and those drawn out. Call between coarse steps.
-  void remove_leavers();
+  /// Counts and drops grains beyond open sides and those drawn out. Call between coarse steps.
+  void remove_escaped();
 
   void neighbours();
   /// The phases of a step at `time` [s], each over all tiles. `keeps_force`: last_force() is asked
@@ -128,7 +130,7 @@ class Dem {
   /// Ends the inner pair list and brings all grains to the present time: those in free flight make
   /// many steps at once. Whatever looks at the grains below does it first; end a run of steps with
   /// it, so that several may look at the same time.
-  void land();
+  void synchronise();
   [[nodiscard]] GrainRows rows();
   /// Changes the angular velocity [rad/s] of a particle at once, as a torque that acted before
   /// would have. Call between coarse steps.
@@ -139,12 +141,12 @@ class Dem {
   /// The contacts of this moment; costs a pass over all of them, so only for those who ask.
   [[nodiscard]] std::vector<ContactRecord> contacts() const;
   [[nodiscard]] const Balance& balance() const;
-  [[nodiscard]] const BalanceBook& book() const;
+  [[nodiscard]] const BalanceLedger& ledger() const;
   [[nodiscard]] DemReport report() const;
-  /// Tells that fluid_action was rewritten (the DEM derives its decay factors from it).
-  void fluid_action_changed();
+  /// Tells that drag_relaxation was rewritten (the DEM derives its decay factors from it).
+  void drag_relaxation_changed();
   /// Keeps what grains do to walls from now on.
-  void watch_walls();
+  void record_wall_loads();
   /// Ends the interval [s] of the wall loads; nothing unless they are watched. Call between coarse
   /// steps.
   sdk::WallColumns close_wall_loads(double interval);

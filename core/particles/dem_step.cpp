@@ -38,11 +38,11 @@ void Dem::Impl::update_pair_lists() {
 
 void Dem::Impl::prune() {
   fine_level.clear_force(store.size() - tiling.coarse_count);
-  counters.contacts_seen_late += inner.prune({.scene = list_scene(),
-                                              .outer = outer,
-                                              .lifetime = tuner.inner_lifetime(),
-                                              .impulses = fine_level.deferred().all()},
-                                             tile_step.ghosts());
+  counters.missed_contact_onsets += inner.prune({.scene = list_scene(),
+                                                 .outer = outer,
+                                                 .lifetime = tuner.inner_lifetime(),
+                                                 .impulses = fine_level.deferred().all()},
+                                                tile_step.ghosts());
   tile_step.begin_list(inner.tiles());
 }
 
@@ -58,7 +58,7 @@ void Dem::Impl::synchronise() {
                                           .steps = steps_made,
                                           .entries = inner.entries(),
                                           .contacts = tile_step.contact_forces().contacts()});
-  counters.flown_steps += inner.ballistic_count() * steps_made;
+  counters.free_flight_steps += inner.ballistic_count() * steps_made;
   const std::size_t blocks = (store.size() + k_block - 1) / k_block;
   std::vector<OuterList::Due> due(blocks, OuterList::Due::nothing);
   oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
@@ -147,7 +147,7 @@ void Dem::Impl::end_step() {
 /// The particles of the finer rates make their sub-steps.
 void Dem::Impl::advance_fine() {
   if (tiling.coarse_count == store.size()) {
-    fine_level.forget_deferred();
+    fine_level.clear_deferred();
     return;
   }
   const FineScene scene = fine_scene();

@@ -29,7 +29,7 @@ Dem::Digests Dem::digests() const {
   return {
       {"grain.position", [dem] { return dem->store.position_digest(); }},
       {"grain.velocity", [dem] { return dem->store.motion_digest(); }},
-      {"grain.fluid_action", [dem] { return dem->store.drag_digest(); }},
+      {"grain.drag_relaxation", [dem] { return dem->store.drag_digest(); }},
       {"grain.fluid_impulse", [dem] { return dem->store.impulse_digest(); }},
       {"contact.list", [dem] { return lists(dem->outer, dem->inner); }},
       {"contact.history", [dem] { return histories(dem->inner); }},

@@ -20,9 +20,9 @@ struct GrainRows {
   /// Null where no fluid is declared. Written by the coupling at each refresh: the grain's velocity
   /// relaxes towards (x, y, z) [m/s] at the rate in the fourth column [1/s]: dv/dt = rate (target -
   /// v) + contact + g'.
-  double* fluid_action = nullptr;
-  /// Impulse [N s] a computed grain has received through fluid_action since the coupling last set
-  /// it to zero: x, y, z, unused. Exactly what changed the grain's momentum.
+  double* drag_relaxation = nullptr;
+  /// Impulse [N s] a computed grain has received through drag_relaxation since the coupling last
+  /// set it to zero: x, y, z, unused. Exactly what changed the grain's momentum.
   double* fluid_impulse = nullptr;
 
   /// Doubles from one grain's velocity, or rotation, to the next's.

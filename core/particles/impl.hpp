@@ -8,7 +8,7 @@
 #include "particles/neighbours/inner_list.hpp"
 #include "particles/neighbours/list_tuner.hpp"
 #include "particles/neighbours/outer_list.hpp"
-#include "particles/store/balance_book.hpp"
+#include "particles/store/balance_ledger.hpp"
 #include "particles/store/particle_store.hpp"
 #include "particles/store/tile.hpp"
 #include "particles/tile_step.hpp"
@@ -39,8 +39,8 @@ class Dem::Impl {
 
   // dem.cpp
   void insert(std::span<const NewGrain> grains);
-  void remove_leavers();
-  /// Whether a particle has left the domain or was drawn out; if so it is booked.
+  void remove_escaped();
+  /// Whether a particle has left the domain or was drawn out; if so it is counted.
   [[nodiscard]] bool leaves(std::size_t row);
   void draw_out_at(std::vector<Opening> openings);
   void move_to(double time);
@@ -65,7 +65,7 @@ class Dem::Impl {
 
   Conditions conditions;
   ParticleStore store;
-  BalanceBook book;
+  BalanceLedger ledger;
   Tiling tiling;
   bool has_weights = false;  ///< coarse particles of different statistical weights
   ListTuner tuner;

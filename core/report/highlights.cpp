@@ -34,7 +34,7 @@ void keep_dust(std::vector<Figure>& figures, const std::vector<Figure>& all,
   });
 }
 
-/// Dust in the load [g/t] by the books of the size classes; negative without them.
+/// Dust in the load [g/t] by the balance of the size classes; negative without them.
 double dust_fed(const nlohmann::json& summary, const DustSizes& sizes) {
   double dust = 0.0, all = 0.0;
   for (const auto& entry : list_at(summary, "size_classes")) {
@@ -79,7 +79,7 @@ double density_of(const RunText& run, double diameter) {
 std::vector<DustClass> classes_of(const RunText& run, const Highlights& highlights) {
   std::map<double, DustClass> classes;
   const auto found = [&](double diameter) -> DustClass& {
-    // Diameters come from names and from the books: equal but for rounding.
+    // Diameters come from names and from the balance: equal but for rounding.
     for (auto& [key, entry] : classes) {
       if (std::abs(key - diameter) <= 1e-6 * diameter) return entry;
     }
@@ -87,12 +87,12 @@ std::vector<DustClass> classes_of(const RunText& run, const Highlights& highligh
     return classes[diameter];
   };
   double all = 0.0;
-  const json& books = list_at(run.summary, "size_classes");
+  const json& size_classes = list_at(run.summary, "size_classes");
   const auto mass_of = [](const json& entry) {
     return number_at(object_at(entry, "mass_kg"), "emitted").value_or(0.0);
   };
-  for (const json& entry : books) all += mass_of(entry);
-  for (const json& entry : books) {
+  for (const json& entry : size_classes) all += mass_of(entry);
+  for (const json& entry : size_classes) {
     const double diameter = number_at(entry, "diameter_m").value_or(1.0);
     if (run.dust.is_dust(diameter) && all > 0.0) found(diameter).fed = 1e6 * mass_of(entry) / all;
   }
@@ -139,7 +139,7 @@ Halves halves_of(const json& curve, double duration) {
 
 /// How long the openings were watched, on how many grains their sum rests, and whether it was
 /// still changing.
-void watch_openings(const RunText& run, Highlights& highlights) {
+void find_observed_time(const RunText& run, Highlights& highlights) {
   std::set<std::string> sensors;
   for (const Figure& figure : highlights.openings) sensors.insert(figure.sensor);
   for (const Figure& figure : run.figures) {
@@ -240,7 +240,7 @@ Highlights highlights_of(const RunText& run) {
       highlights.places.begin(), highlights.places.end(),
       [](const LowPlace& a, const LowPlace& b) { return a.depth.value > b.depth.value; });
   highlights.classes = classes_of(run, highlights);
-  watch_openings(run, highlights);
+  find_observed_time(run, highlights);
   return highlights;
 }
 

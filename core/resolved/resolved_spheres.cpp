@@ -119,7 +119,7 @@ void ResolvedSpheres::act(const GrainRows& grains, const Turn& turn) {
   each_row(grains, [&](std::size_t row, const State& state, std::size_t) {
     const double* velocity = grains.velocity_of(row);
     const double inverse_mass = velocity[3];
-    double* action = grains.fluid_action + 4 * row;
+    double* action = grains.drag_relaxation + 4 * row;
     for (int d = 0; d < 3; ++d) {
       action[d] = velocity[d] + state.due.linear[d] * inverse_mass / relaxed;
     }

@@ -52,7 +52,8 @@ class ResolvedSpheres {
   /// several.
   void begin_step(const particles::GrainRows& grains, const fluid::FaceField& velocity);
   void evaluate(const fluid::FaceField& velocity);
-  /// Writes fluid_action of the spheres. Calls turn(row, change of the angular velocity [rad/s]).
+  /// Writes drag_relaxation of the spheres. Calls turn(row, change of the angular velocity
+  /// [rad/s]).
   using Turn = std::function<void(std::size_t, sdk::Vec3)>;
   void act(const particles::GrainRows& grains, const Turn& turn);
   /// Reads fluid_impulse of the spheres and sets it to zero.

@@ -29,7 +29,7 @@ const GrainRows& UnresolvedRows::take(const GrainRows& all,
     append(position_, all.position + 4 * n);
     append(velocity_, all.velocity_of(n));
     append(rotation_, all.rotation_of(n));
-    append(action_, all.fluid_action + 4 * n);
+    append(action_, all.drag_relaxation + 4 * n);
     append(impulse_, all.fluid_impulse + 4 * n);
     weight_.push_back(all.weight[n]);
     id_.push_back(all.id[n]);
@@ -42,14 +42,14 @@ const GrainRows& UnresolvedRows::take(const GrainRows& all,
            .id = id_.data(),
            .material = material_.data(),
            .weight = weight_.data(),
-           .fluid_action = action_.data(),
+           .drag_relaxation = action_.data(),
            .fluid_impulse = impulse_.data()};
   return rows_;
 }
 
 void UnresolvedRows::give_back(const GrainRows& all) const {
   for (std::size_t n = 0; n < row_.size(); ++n) {
-    std::copy_n(&action_[4 * n], 4, all.fluid_action + 4 * row_[n]);
+    std::copy_n(&action_[4 * n], 4, all.drag_relaxation + 4 * row_[n]);
     std::copy_n(&impulse_[4 * n], 4, all.fluid_impulse + 4 * row_[n]);
   }
 }

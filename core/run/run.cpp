@@ -153,7 +153,7 @@ class Run {
     if (is_resumed_) {
       base::log_info("resumed at " + std::to_string(simulation_.time()) + " s");
     } else {
-      tell_bodies();
+      print_bodies();
       print_steps();
       write_frame();
       io::write_text(folder_ / "series.csv-metadata.json",
@@ -165,7 +165,7 @@ class Run {
   }
 
   /// What meshes say of themselves, and how fine they are beside the grains.
-  void tell_bodies() const {
+  void print_bodies() const {
     const auto& diameters = simulation_.models().class_diameters;
     for (const auto& body : simulation_.models().bodies) {
       for (const std::string& remark : body.shape->notes()) {

@@ -55,7 +55,7 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
   cycle_.emplace(clock_.fluid_step(), dem_->coarse_step());
   insertion_ = std::make_unique<Insertion>(setup_, models_);
   for (const auto& sensor : models_.sensors) wants_walls_ |= sensor->wants_walls();
-  if (wants_walls_) dem_->watch_walls();
+  if (wants_walls_) dem_->record_wall_loads();
   build_dem_graph(check_every);
   build_step_graph();
   snapshots_.take(*dem_);
@@ -71,7 +71,7 @@ const coupling::Coupling* Simulation::coupling() const {
 
 void Simulation::start() {
   insertion_->start(*dem_);
-  snapshots_.note_births(dem_->rows());
+  snapshots_.note_insertions(dem_->rows());
   // Particles that are there at the start do not push their volume out of the air in the first
   // step, and the first frame shows the air between them.
   if (coupling() != nullptr && dem_->rows().count > 0) {
@@ -94,7 +94,7 @@ void Simulation::step() {
 }
 
 void Simulation::insert() {
-  if (insertion_->run(time(), *dem_)) snapshots_.note_births(dem_->rows());
+  if (insertion_->run(time(), *dem_)) snapshots_.note_insertions(dem_->rows());
 }
 
 void Simulation::remove_bodies() {
@@ -123,18 +123,18 @@ void Simulation::run_dem_cycle() {
     cycle_->begin();
   }
   for (; !cycle_->is_done(); cycle_->advance()) dem_graph_.run();
-  dem_->land();
+  dem_->synchronise();
 }
 
 void Simulation::act_on_resolved() {
   fluid_->act(dem_->rows(), [this](std::size_t row, sdk::Vec3 change) { dem_->turn(row, change); });
-  dem_->fluid_action_changed();
+  dem_->drag_relaxation_changed();
 }
 
 void Simulation::refresh_drag() {
   if (!cycle_->is_refresh_due()) return;
   fluid_->refresh(dem_->rows(), time() + cycle_->time(), cycle_->refresh_held());
-  dem_->fluid_action_changed();
+  dem_->drag_relaxation_changed();
 }
 
 void Simulation::take_fluid_snapshot() {

@@ -11,7 +11,7 @@ namespace {
 
 /// What a sort of the rows, or grains that have flown, change; and more.
 std::vector<std::string> grains_and(std::initializer_list<const char*> more) {
-  std::vector<std::string> names{"grain.position", "grain.velocity", "grain.fluid_action",
+  std::vector<std::string> names{"grain.position", "grain.velocity", "grain.drag_relaxation",
                                  "grain.fluid_impulse"};
   names.insert(names.end(), more.begin(), more.end());
   return names;
@@ -35,11 +35,11 @@ void Simulation::build_dem_graph(int check_every) {
                     grains_and({"contact.list", "contact.history"}),
                     {"grain.position", "grain.velocity", "grain.fluid_impulse", "contact.history"},
                     [this] {
-                      if (cycle_->is_refresh_due()) dem_->land();
+                      if (cycle_->is_refresh_due()) dem_->synchronise();
                     }});
     dem_graph_.add({"drag",
                     {"grain.position", "grain.velocity", seen_air, "fluid.void_fraction"},
-                    {"grain.fluid_action"},
+                    {"grain.drag_relaxation"},
                     [this] { refresh_drag(); }});
   }
   dem_graph_.add(

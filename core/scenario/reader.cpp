@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 /// Least distance of periodic sides in diameters of the largest grain: above 2, a pair of grains
 /// can touch through one side only; the rest is what neighbour lists look ahead.
-constexpr double k_least_period = 3.0;
+constexpr double k_min_period = 3.0;
 
 }  // namespace
 
@@ -106,11 +106,11 @@ void SetupReader::check_periods() {
   for (int d = 0; d < 3; ++d) {
     const SideSpec& side = setup_.domain.sides[static_cast<std::size_t>(2 * d)];
     const double extent = setup_.domain.max[d] - setup_.domain.min[d];
-    if (side.grains != GrainSide::periodic || extent > k_least_period * largest) continue;
+    if (side.grains != GrainSide::periodic || extent > k_min_period * largest) continue;
     error(side.where, "domain: " + number_text(extent) + " m between the periodic sides " +
                           k_side_names[static_cast<std::size_t>(2 * d)] + " and " +
                           k_side_names[static_cast<std::size_t>(2 * d + 1)] + " are less than " +
-                          number_text(k_least_period) + " diameters of the largest grain, " +
+                          number_text(k_min_period) + " diameters of the largest grain, " +
                           number_text(largest) +
                           " m: grains would touch each other on both sides; widen the domain");
   }

@@ -47,7 +47,7 @@ struct SideOpeningSpec {
   sdk::Vec3 max;
 };
 
-/// What a scenario says of dust, beside the Setup: only who books and carries dust asks.
+/// What a scenario says of dust, beside the Setup: only who counts and carries dust asks.
 struct DustSetup {
   std::optional<DustSpec> given;          ///< the block `dust:`
   std::vector<double> coarse_graining;    ///< [-] by material

@@ -108,7 +108,8 @@ void check_mass(const Maker& make) {
     }
     time = (n + 1) * k_interval;
   }
-  // Independent draws scatter with the root of their number; streams that keep books do better.
+  // Independent draws scatter with the root of their number; streams that carry remainders do
+  // better.
   const double scatter = 5.0 * largest * std::sqrt(static_cast<double>(count)) + largest;
   const double tolerance = std::min(scatter, std::max(0.02 * asked * time, 2.0 * largest));
   require(std::abs(mass - asked * time) <= tolerance,

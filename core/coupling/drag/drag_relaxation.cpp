@@ -31,7 +31,7 @@ DragRelaxation::DragRelaxation(const DragModel& drag, const SelfDisturbance& sel
 void DragRelaxation::fetch(const particles::GrainRows& grains, Rows rows) const {
   for (const std::int32_t row : rows) {
     states_.prefetch(static_cast<std::size_t>(row));
-    __builtin_prefetch(grains.fluid_action + 4 * static_cast<std::size_t>(row));
+    __builtin_prefetch(grains.drag_relaxation + 4 * static_cast<std::size_t>(row));
   }
 }
 
@@ -54,7 +54,7 @@ void DragRelaxation::begin(const particles::GrainRows& grains, Rows rows, const 
     if (!is_new(rows[q])) continue;
     const auto row = static_cast<std::size_t>(rows[q]);
     const double* v = grains.velocity_of(row);
-    double* action = grains.fluid_action + 4 * row;
+    double* action = grains.drag_relaxation + 4 * row;
     for (std::size_t d = 0; d < 3; ++d) action[d] = v[d] + flow.slip[d][q];
     action[3] = drag_.coefficient(grains, row, columns.factor[q]) * v[3];
   }
@@ -70,7 +70,7 @@ void DragRelaxation::look_ahead(const particles::GrainRows& grains, Rows rows, d
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
     const double* v = grains.velocity_of(row);
-    const double* action = grains.fluid_action + 4 * row;
+    const double* action = grains.drag_relaxation + 4 * row;
     ParticleState& r = states_[row];
     const bool is_known = r.has_velocity && before > 0.0;
     ahead.rate[q] = action[3];
@@ -115,7 +115,7 @@ void DragRelaxation::relax_by_drag(const particles::GrainRows& grains, Rows rows
     const auto row = static_cast<std::size_t>(rows[q]);
     const double diameter = 2.0 * grains.position[4 * row + 3];
     const double* v = grains.velocity_of(row);
-    double* action = grains.fluid_action + 4 * row;
+    double* action = grains.drag_relaxation + 4 * row;
     ParticleState& r = states_[row];
     const DragModel::Fluid fluid = drag_.fluid_at(grains.position + 4 * row);
     const double drag = drag_coefficient(grains, row, columns, q);
@@ -157,7 +157,7 @@ void DragRelaxation::act(const particles::GrainRows& grains, std::size_t row, st
                          double drag_coefficient, const Triple& relative, double held,
                          const ForceModels::Sums& sums) {
   const double* v = grains.velocity_of(row);
-  double* action = grains.fluid_action + 4 * row;
+  double* action = grains.drag_relaxation + 4 * row;
   ParticleState& r = states_[row];
   const double mass = 1.0 / v[3];
   const double moved = mass + sums.added_mass[n];

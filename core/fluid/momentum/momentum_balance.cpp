@@ -46,7 +46,7 @@ DUST_KERNEL void convection_row(int n, double mass, const RowFlux& flux, const d
   }
 }
 
-/// Faces in or next to bodies are not booked.
+/// Faces in or next to bodies are not counted.
 DUST_KERNEL void end_row(int n, std::ptrdiff_t s, double density, bool is_whole, double step,
                          double last, const FaceKind* kind, const double* eps, const double* before,
                          const double* u, const double* source, const double* coefficient,
@@ -86,7 +86,7 @@ void MomentumBalance::each_row(const Work& work) const {
   }
 }
 
-/// Faces on sides are not booked.
+/// Faces on sides are not counted.
 void MomentumBalance::leave_out_sides(int d, int j, int k) {
   if (grid_.is_periodic[d]) return;
   const int n = geometry_.extent[d][0];
@@ -148,7 +148,7 @@ void MomentumBalance::load(sdk::ArchiveReader& archive) {
     for (auto* field : {&excess_, &deferred_}) {
       auto values = archive.numbers((field == &deferred_ ? "owed_" : "excess_") + axis);
       if (values.size() != grid_.size) {
-        throw sdk::ModelError("the checkpoint's momentum book belongs to another grid");
+        throw sdk::ModelError("the checkpoint's momentum balance belongs to another grid");
       }
       field->component[d] = std::move(values);
     }

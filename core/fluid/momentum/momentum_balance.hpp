@@ -17,7 +17,7 @@ namespace dust::fluid {
 ///            + dt (rho sum F u_f - w (source - coefficient u_drag - grad p + div tau)) ,
 /// F the fluxes that carried the momentum, p and tau means over the step, w = eps (set III: 1).
 /// Sums of F u_f, grad p and div tau over a domain without sides vanish. Faces next to bodies and
-/// on sides are not booked.
+/// on sides are not counted.
 class MomentumBalance {
  public:
   MomentumBalance(const Grid& grid, const Geometry& geometry, const FaceProperties& properties);

@@ -26,7 +26,7 @@ class FineLevel {
   /// each act once, before the particle's kick; the next sub_cycle() makes them new.
   [[nodiscard]] const DeferredImpulses& deferred() const { return deferred_; }
   /// No fine particles are left that could make them new.
-  void forget_deferred() { deferred_.clear(); }
+  void clear_deferred() { deferred_.clear(); }
   /// Particle n is new_index[n] from now on, or gone where that is negative.
   void renumber(std::span<const std::int32_t> new_index) { deferred_.renumber(new_index); }
 

@@ -19,7 +19,7 @@ constexpr double k_skin_share = 1.0 / 6.0;
 constexpr double k_reach_steps = 16.0;
 constexpr double k_fast = 4.0;
 /// [-] and no less than this share of a diameter.
-constexpr double k_least_reach = 0.004;
+constexpr double k_min_reach = 0.004;
 
 /// Those of `unseen` entries whose particles have both made steps: the others came so.
 std::int64_t count_missed(const ListScene& scene, const PairList& outer,
@@ -83,7 +83,7 @@ std::int64_t InnerList::prune(const PruneInput& in, GhostExchange& ghosts) {
 void InnerList::choose_skins(const PruneInput& in) {
   const ListScene& scene = in.scene;
   const double fast = std::min(scene.fastest_speed(), k_fast * scene.typical_speed());
-  const double least = k_least_reach * scene.largest_diameter;
+  const double least = k_min_reach * scene.largest_diameter;
   skin_.resize(scene.particles.size());
   oneapi::tbb::parallel_for(std::size_t{0}, scene.blocks(), [&](std::size_t b) {
     const std::size_t end = std::min(scene.particles.size(), (b + 1) * k_block);

@@ -11,7 +11,7 @@ namespace dust::particles {
 /// An inner list holds who may touch while every particle goes on along its straight trajectory,
 /// give or take its skin. is_over() is asked before every coarse step; once it says so the
 /// particles in free flight catch up and a new list is pruned from the outer one. Beside that,
-/// whoever looks at or changes particles ends a list (Dem::land()).
+/// whoever looks at or changes particles ends a list (Dem::synchronise()).
 ///
 /// To end lists by another criterion: let the life know what it needs - count_step() is called once
 /// per step, note() after every look at a tile's active particles (ActiveSet::check) - keep it

@@ -34,7 +34,7 @@ GrainRows ParticleStore::rows() {
           .id = id_.data(),
           .material = material_.data(),
           .weight = weight_.data(),
-          .fluid_action = drag_.data(),
+          .drag_relaxation = drag_.data(),
           .fluid_impulse = impulse_.data(),
           .motion_stride = k_motion_stride};
 }

@@ -136,7 +136,7 @@ class ParticleStore {
   contact::AlignedVector<double> decay_;
   std::vector<std::int64_t> id_;
   std::vector<std::int32_t> material_;
-  std::vector<std::int32_t> population_;  ///< index into the balance book
+  std::vector<std::int32_t> population_;  ///< index into the balance ledger
   std::vector<double> weight_;
   std::vector<std::int32_t> touched_;  ///< number of an opening or -1; empty without openings
 };

@@ -8,7 +8,7 @@
 
 namespace dust::report {
 
-/// The limits of validity that the books of a run can tell, beside what it reached; those whose
+/// The limits of validity that the balance of a run tells, beside what it reached; those whose
 /// number is missing are left out: [{"key", "reached", "bound": "at_most" | "at_least", "value",
 /// "is_touched"}]. The key is that of "health" in summary.json.
 [[nodiscard]] nlohmann::json limits_json(const RunText& run);

@@ -12,8 +12,8 @@ namespace {
 using nlohmann::json;
 
 /// Paths of single grains in still air, of the finest and the coarsest coarse class.
-json lone_json(const json& report, const DustSizes& dust, double speed, double gravity,
-               double deepest) {
+json isolated_json(const json& report, const DustSizes& dust, double speed, double gravity,
+                   double deepest) {
   const json& setting = object_at(report, "setting");
   const auto air_density = number_at(object_at(setting, "fluid"), "density");
   const auto viscosity = number_at(object_at(setting, "fluid"), "viscosity");
@@ -79,7 +79,7 @@ json flights_json(const json& report, const DustSizes& dust, double deepest) {
       list.push_back({{"name", text_at(belt, "name")},
                       {"speed", *speed},
                       {"gravity", fall},
-                      {"lone", lone_json(report, dust, *speed, fall, deepest)}});
+                      {"lone", isolated_json(report, dust, *speed, fall, deepest)}});
     }
   }
   return list;

@@ -152,9 +152,10 @@ void Branch::add_diameters(std::vector<double>& diameters) const {
                              }
                            }},
                           {"clock", [&](sdk::ArchiveReader& a) {
-                             std::vector<Entrant> waiting;
+                             std::vector<InsertionCandidate> waiting;
                              load_waiting(waiting, a);
-                             for (const Entrant& e : waiting) more.push_back(e.grain.diameter);
+                             for (const InsertionCandidate& e : waiting)
+                               more.push_back(e.grain.diameter);
                            }}});
   }
   diameters.insert(diameters.end(), more.begin(), more.end());

@@ -28,16 +28,17 @@ std::string place_text(Vec3 x) {
   return text.str();
 }
 
-std::string grain_text(const Entrant& e) {
+std::string grain_text(const InsertionCandidate& e) {
   std::ostringstream text;
   text << "a grain of " << e.grain.diameter << " m at " << place_text(e.grain.position);
   if (e.line > 0) text << " (line " << e.line << ")";
   return text.str();
 }
 
-double largest_diameter(const std::vector<Entrant>& waiting, const particles::GrainRows& rows) {
+double largest_diameter(const std::vector<InsertionCandidate>& waiting,
+                        const particles::GrainRows& rows) {
   double largest = 0.0;
-  for (const Entrant& e : waiting) largest = std::max(largest, e.grain.diameter);
+  for (const InsertionCandidate& e : waiting) largest = std::max(largest, e.grain.diameter);
   for (std::size_t n = 0; n < rows.count; ++n) {
     largest = std::max(largest, 2.0 * rows.position[4 * n + 3]);
   }
@@ -45,18 +46,20 @@ double largest_diameter(const std::vector<Entrant>& waiting, const particles::Gr
 }
 
 /// A negative label names a waiting grain, -1 - its index; others are ids.
-std::string partner_text(const SphereGrid::Sphere& s, const std::vector<Entrant>& waiting) {
+std::string partner_text(const SphereGrid::Sphere& s,
+                         const std::vector<InsertionCandidate>& waiting) {
   if (s.label < 0) return grain_text(waiting[static_cast<std::size_t>(-1 - s.label)]);
   return "grain " + std::to_string(s.label) + " in the domain, at " + place_text(s.centre);
 }
 
-[[noreturn]] void refuse(const EntryScene& scene, const Entrant& e, const std::string& what) {
+[[noreturn]] void refuse(const EntryScene& scene, const InsertionCandidate& e,
+                         const std::string& what) {
   throw sdk::ModelError(scene.names[static_cast<std::size_t>(e.emitter)] + ": " + grain_text(e) +
                         " " + what);
 }
 
 /// Of an emitter whose grains do not wait: inside the domain, clear of bodies and walls.
-void check_place(const EntryScene& scene, const Entrant& e, double allowed) {
+void check_place(const EntryScene& scene, const InsertionCandidate& e, double allowed) {
   const Vec3 x = e.grain.position;
   const double radius = 0.5 * e.grain.diameter;
   for (int d = 0; d < 3; ++d) {
@@ -147,8 +150,9 @@ const SphereGrid::Sphere* SphereGrid::overlapping(Vec3 centre, double radius,
   return nullptr;
 }
 
-std::vector<Entrant> take_free_places(std::vector<Entrant>& waiting,
-                                      const particles::GrainRows& rows, const EntryScene& scene) {
+std::vector<InsertionCandidate> take_without_overlap(std::vector<InsertionCandidate>& waiting,
+                                                     const particles::GrainRows& rows,
+                                                     const EntryScene& scene) {
   if (waiting.empty()) return {};
   const double largest = largest_diameter(waiting, rows);
   SphereGrid grid(scene, largest);
@@ -156,7 +160,7 @@ std::vector<Entrant> take_free_places(std::vector<Entrant>& waiting,
   // periodic side leads round the box, so that there all grains do.
   Vec3 low = waiting.front().grain.position;
   Vec3 high = low;
-  for (const Entrant& e : waiting) {
+  for (const InsertionCandidate& e : waiting) {
     for (int d = 0; d < 3; ++d) {
       low[d] = std::min(low[d], e.grain.position[d] - largest);
       high[d] = std::max(high[d], e.grain.position[d] + largest);
@@ -171,10 +175,10 @@ std::vector<Entrant> take_free_places(std::vector<Entrant>& waiting,
     }
     if (is_near) grid.add({{p[0], p[1], p[2]}, p[3], rows.id != nullptr ? rows.id[n] : 0});
   }
-  std::vector<Entrant> free;
-  std::vector<Entrant> blocked;
+  std::vector<InsertionCandidate> free;
+  std::vector<InsertionCandidate> blocked;
   for (std::size_t n = 0; n < waiting.size(); ++n) {
-    const Entrant& e = waiting[n];
+    const InsertionCandidate& e = waiting[n];
     const auto emitter = static_cast<std::size_t>(e.emitter);
     const sdk::InsertionRule rule =
         emitter < scene.rules.size() ? scene.rules[emitter] : sdk::InsertionRule{};
@@ -207,7 +211,8 @@ bool LazySurroundings::is_free(Vec3 centre, double radius) const {
       const double* p = rows_.position + 4 * n;
       grid_->add({{p[0], p[1], p[2]}, p[3], rows_.id[n]});
     }
-    for (const Entrant& e : waiting_) grid_->add({e.grain.position, 0.5 * e.grain.diameter, -1});
+    for (const InsertionCandidate& e : waiting_)
+      grid_->add({e.grain.position, 0.5 * e.grain.diameter, -1});
   }
   const Vec3 x = frame_ != nullptr ? turned(centre, *frame_) : centre;
   for (int d = 0; d < 3; ++d) {
@@ -225,10 +230,10 @@ Vec3 turned(Vec3 point, const scenario::FrameSpec& frame) {
   return frame.origin + rotate(point - frame.origin, axis, frame.angle);
 }
 
-void save_waiting(const std::vector<Entrant>& waiting, sdk::ArchiveWriter& archive) {
+void save_waiting(const std::vector<InsertionCandidate>& waiting, sdk::ArchiveWriter& archive) {
   std::vector<double> rows;
   std::vector<std::int64_t> integers;
-  for (const Entrant& e : waiting) {
+  for (const InsertionCandidate& e : waiting) {
     const particles::NewGrain& g = e.grain;
     rows.insert(rows.end(),
                 {g.position.x, g.position.y, g.position.z, g.velocity.x, g.velocity.y, g.velocity.z,
@@ -239,13 +244,13 @@ void save_waiting(const std::vector<Entrant>& waiting, sdk::ArchiveWriter& archi
   archive.integers("waiting_from", integers);
 }
 
-void load_waiting(std::vector<Entrant>& waiting, sdk::ArchiveReader& archive) {
+void load_waiting(std::vector<InsertionCandidate>& waiting, sdk::ArchiveReader& archive) {
   const auto rows = archive.numbers("waiting");
   const auto integers = archive.integers("waiting_from");
   waiting.clear();
   for (std::size_t n = 0; 3 * n + 2 < integers.size(); ++n) {
     const double* r = rows.data() + 11 * n;
-    Entrant e;
+    InsertionCandidate e;
     e.grain.position = {r[0], r[1], r[2]};
     e.grain.velocity = {r[3], r[4], r[5]};
     e.grain.rotation = {r[6], r[7], r[8]};

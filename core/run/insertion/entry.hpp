@@ -16,7 +16,7 @@
 namespace dust::run {
 
 /// A grain on its way in.
-struct Entrant {
+struct InsertionCandidate {
   particles::NewGrain grain;
   std::int32_t emitter = 0;  ///< index into Setup::emitters
   std::int64_t line = 0;     ///< of the file it was read from; 0 = none
@@ -70,8 +70,9 @@ class SphereGrid {
 /// their emitter lets them wait: an overlap at entry would be an explosion, and moving either grain
 /// aside would be made up. A grain that may not wait must lie in the domain, clear of bodies and
 /// walls, too; throws ModelError that names both sides.
-std::vector<Entrant> take_free_places(std::vector<Entrant>& waiting,
-                                      const particles::GrainRows& rows, const EntryScene& scene);
+std::vector<InsertionCandidate> take_without_overlap(std::vector<InsertionCandidate>& waiting,
+                                                     const particles::GrainRows& rows,
+                                                     const EntryScene& scene);
 
 /// The grains (in the domain and about to enter), bodies and walls, for emitters that look for
 /// places; sorted into cells when first asked, because most emitters never ask. In a frame, points
@@ -79,7 +80,7 @@ std::vector<Entrant> take_free_places(std::vector<Entrant>& waiting,
 class LazySurroundings final : public sdk::Surroundings {
  public:
   LazySurroundings(const EntryScene& scene, const particles::GrainRows& rows,
-                   const std::vector<Entrant>& waiting, double largest,
+                   const std::vector<InsertionCandidate>& waiting, double largest,
                    const scenario::FrameSpec* frame)
       : scene_(scene), rows_(rows), waiting_(waiting), largest_(largest), frame_(frame) {}
   [[nodiscard]] bool is_free(sdk::Vec3 centre, double radius) const override;
@@ -87,7 +88,7 @@ class LazySurroundings final : public sdk::Surroundings {
  private:
   const EntryScene& scene_;
   particles::GrainRows rows_;
-  const std::vector<Entrant>& waiting_;
+  const std::vector<InsertionCandidate>& waiting_;
   double largest_;  ///< [m] diameter
   const scenario::FrameSpec* frame_;
   mutable std::optional<SphereGrid> grid_;
@@ -96,7 +97,7 @@ class LazySurroundings final : public sdk::Surroundings {
 /// A point of a turned frame in the domain's frame.
 sdk::Vec3 turned(sdk::Vec3 point, const scenario::FrameSpec& frame);
 
-void save_waiting(const std::vector<Entrant>& waiting, sdk::ArchiveWriter& archive);
-void load_waiting(std::vector<Entrant>& waiting, sdk::ArchiveReader& archive);
+void save_waiting(const std::vector<InsertionCandidate>& waiting, sdk::ArchiveWriter& archive);
+void load_waiting(std::vector<InsertionCandidate>& waiting, sdk::ArchiveReader& archive);
 
 }  // namespace dust::run

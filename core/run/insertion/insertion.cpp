@@ -84,7 +84,7 @@ void Insertion::add_waiting(std::size_t n, double begin, const sdk::InsertionReq
   const auto& spec = setup_.emitters[n];
   const scenario::FrameSpec* frame = frame_of(setup_, n);
   // Carried back to the beginning of the interval; inside the feed nothing but the feed acts.
-  Entrant e;
+  InsertionCandidate e;
   e.emitter = static_cast<std::int32_t>(n);
   e.line = request.line;
   particles::NewGrain& grain = e.grain;
@@ -119,13 +119,13 @@ bool Insertion::run(double time, particles::Dem& dem) {
 void Insertion::insert(double time, particles::Dem& dem) {
   scene_.time = time;
   propose(time, dem.rows());
-  dem.remove_leavers();
-  const auto entering = take_free_places(waiting_, dem.rows(), scene_);
+  dem.remove_escaped();
+  const auto entering = take_without_overlap(waiting_, dem.rows(), scene_);
   delayed_ += static_cast<std::int64_t>(waiting_.size());
   if (entering.empty()) return;
   std::vector<particles::NewGrain> grains;
   grains.reserve(entering.size());
-  for (const Entrant& e : entering) {
+  for (const InsertionCandidate& e : entering) {
     grains.push_back(e.grain);
     const auto& material = setup_.materials[static_cast<std::size_t>(e.grain.material)];
     ledger_.enter(static_cast<std::size_t>(e.emitter), e.grain.diameter, e.grain.weight,
@@ -141,7 +141,7 @@ std::int64_t Insertion::transfer_from(const Insertion& other) {
   }
   ledger_.transfer_from(other.ledger_, emitters);
   delayed_ = other.delayed_;
-  for (Entrant e : other.waiting_) {
+  for (InsertionCandidate e : other.waiting_) {
     e.emitter = emitters[static_cast<std::size_t>(e.emitter)];
     const auto& material = other.setup_.materials[static_cast<std::size_t>(e.grain.material)];
     e.grain.material = number_of(setup_.materials, material.name);

@@ -29,7 +29,7 @@ class Insertion {
   /// Particles that had to wait a fluid step or more because their place was taken, and those
   /// waiting.
   [[nodiscard]] std::int64_t delayed() const { return delayed_; }
-  [[nodiscard]] const std::vector<Entrant>& waiting() const { return waiting_; }
+  [[nodiscard]] const std::vector<InsertionCandidate>& waiting() const { return waiting_; }
   [[nodiscard]] const EmissionLedger& ledger() const { return ledger_; }
 
   /// Goes on from that of another scenario, whose emitters and materials are known by their names.
@@ -54,7 +54,7 @@ class Insertion {
   EntryScene scene_;
   EmissionLedger ledger_;
   std::vector<sdk::InsertionRequest> requests_;  ///< storage of what one emitter proposes
-  std::vector<Entrant> waiting_;                 ///< proposed, not yet in the domain
+  std::vector<InsertionCandidate> waiting_;      ///< proposed, not yet in the domain
   std::int64_t delayed_ = 0;
   bool is_started_ = false;  ///< the first step's particles are in already
 };

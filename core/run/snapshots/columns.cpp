@@ -32,18 +32,18 @@ enum Column {
 
 }  // namespace
 
-void GrainTable::note_births(const particles::GrainRows& rows) {
-  births_.clear();
+void GrainTable::note_insertions(const particles::GrainRows& rows) {
+  insertions_.clear();
   const std::int64_t newest = before_.empty() ? -1 : before_.back().id;
   for (std::size_t n = 0; n < rows.count; ++n) {
     // Ids grow with time of entry, so an id beyond the newest of the last sample came in since.
     if (rows.id[n] > newest) {
-      births_.push_back(
+      insertions_.push_back(
           {rows.id[n], rows.position[4 * n], rows.position[4 * n + 1], rows.position[4 * n + 2]});
     }
   }
   const auto by_id = [](const Place& a, const Place& b) { return a.id < b.id; };
-  std::sort(births_.begin(), births_.end(), by_id);
+  std::sort(insertions_.begin(), insertions_.end(), by_id);
 }
 
 void GrainTable::publish(const particles::GrainRows& rows, std::span<const double> force) {
@@ -76,14 +76,14 @@ void GrainTable::publish(const particles::GrainRows& rows, std::span<const doubl
 void GrainTable::take_places_before() {
   const std::size_t count = id_.size();
   auto known = before_.begin();
-  auto born = births_.begin();
+  auto born = insertions_.begin();
   for (std::size_t n = 0; n < count; ++n) {
     while (known != before_.end() && known->id < id_[n]) ++known;
-    while (born != births_.end() && born->id < id_[n]) ++born;
+    while (born != insertions_.end() && born->id < id_[n]) ++born;
     Place from{id_[n], number_[k_x][n], number_[k_y][n], number_[k_z][n]};
     if (known != before_.end() && known->id == id_[n]) {
       from = *known;
-    } else if (born != births_.end() && born->id == id_[n]) {
+    } else if (born != insertions_.end() && born->id == id_[n]) {
       from = *born;
     }
     number_[k_x_before][n] = from.x;
@@ -94,7 +94,7 @@ void GrainTable::take_places_before() {
   for (std::size_t n = 0; n < count; ++n) {
     before_[n] = {id_[n], number_[k_x][n], number_[k_y][n], number_[k_z][n]};
   }
-  births_.clear();
+  insertions_.clear();
 }
 
 sdk::GrainColumns GrainTable::columns() const {

@@ -17,7 +17,7 @@ namespace dust::run {
 class GrainTable {
  public:
   /// Notes where grains came in: every row with an id not seen at the last sample.
-  void note_births(const particles::GrainRows& rows);
+  void note_insertions(const particles::GrainRows& rows);
   void publish(const particles::GrainRows& rows, std::span<const double> force);
   [[nodiscard]] sdk::GrainColumns columns() const;
   /// The row of each published grain.
@@ -36,8 +36,8 @@ class GrainTable {
   std::vector<std::int64_t> id_;
   std::vector<std::int32_t> material_;
   std::vector<double> number_[20];
-  std::vector<Place> before_;  ///< of the last sample, by id
-  std::vector<Place> births_;  ///< since the last sample, by id
+  std::vector<Place> before_;      ///< of the last sample, by id
+  std::vector<Place> insertions_;  ///< since the last sample, by id
   std::vector<std::size_t> order_;
 };
 

@@ -27,7 +27,7 @@ class Snapshots {
   }
 
   /// Notes where particles came in since the last copy.
-  void note_births(const particles::GrainRows& rows) { particles_.note_births(rows); }
+  void note_insertions(const particles::GrainRows& rows) { particles_.note_insertions(rows); }
   void take(particles::Dem& dem);
   void take(const fluid::FluidSolver& fluid, const fluid::CellField& void_fraction) {
     fluid_->publish(fluid, void_fraction);

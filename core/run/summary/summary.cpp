@@ -7,7 +7,7 @@
 #include "dust/sdk/plugin.hpp"
 #include "io/atomic_file.hpp"
 #include "io/run_files.hpp"
-#include "particles/store/balance_book.hpp"
+#include "particles/store/balance_ledger.hpp"
 #include "run/summary/figure_json.hpp"
 #include "run/summary/references.hpp"
 #include "run/summary/series_row.hpp"
@@ -143,7 +143,7 @@ Json timer_groups(const Simulation& s) {
 Json class_steps(const particles::Dem& dem) {
   Json rows = Json::array();
   for (const auto& c : dem.class_steps()) {
-    const auto m = dem.book().masses_of(c.diameter);
+    const auto m = dem.ledger().masses_of(c.diameter);
     rows.push_back({{"diameter_m", c.diameter},
                     {"rayleigh_time_s", c.rayleigh_time},
                     {"hertz_time_s", c.hertz_time},
@@ -162,7 +162,7 @@ Json health(const Simulation& s) {
   Json h = Json::object();
   h["entries_delayed"] = s.insertion().delayed();
   h["entries_waiting"] = s.insertion().waiting().size();
-  h["contacts_seen_late"] = s.dem().report().contacts_seen_late;
+  h["contacts_seen_late"] = s.dem().report().missed_contact_onsets;
   const auto overlaps = s.dem().report();
   h["largest_overlap_over_radius"] = overlaps.largest_overlap;
   h["largest_overlap_over_radius_coarse"] = overlaps.largest_coarse_overlap;

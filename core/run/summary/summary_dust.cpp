@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/summary/summary_dust.hpp"
 
-#include "particles/store/balance_book.hpp"
+#include "particles/store/balance_ledger.hpp"
 #include "setup/dust_rule.hpp"
 
 #include <cmath>
@@ -67,11 +67,11 @@ Json dust_rule_json(const Simulation& s) {
 
 Drawn drawn_by(const Simulation& s, std::size_t opening) {
   const scenario::DustRule rule = s.dust_setup().rule();
-  const particles::BalanceBook& book = s.dem().book();
-  const auto counts = book.extracted(opening);
+  const particles::BalanceLedger& ledger = s.dem().ledger();
+  const auto counts = ledger.extracted(opening);
   Drawn drawn;
   for (std::size_t n = 0; n < counts.size(); ++n) {
-    const auto& population = book.populations()[n];
+    const auto& population = ledger.populations()[n];
     const auto count = static_cast<double>(counts[n]);
     const double mass = count * population.weight * population.mass;
     drawn.particles += count;
@@ -86,7 +86,7 @@ Json hoods_json(const Simulation& s) {
   constexpr double k_hour = 3600.0;  // s
   const scenario::DustRule rule = s.dust_setup().rule();
   double load = 0.0, dust = 0.0;
-  for (const auto& population : s.dem().book().populations()) {
+  for (const auto& population : s.dem().ledger().populations()) {
     const double mass =
         static_cast<double>(population.emitted) * population.weight * population.mass;
     load += mass;
@@ -139,13 +139,13 @@ Json dust_field_json(const Simulation& s) {
 }
 
 void add_hood_tables(const Simulation& s, Json& tables) {
-  const particles::BalanceBook& book = s.dem().book();
+  const particles::BalanceLedger& ledger = s.dem().ledger();
   for (std::size_t o = 0; o < s.dem().openings().size(); ++o) {
     std::map<double, std::pair<double, double>> sizes;  // by diameter: particles, mass
-    const auto counts = book.extracted(o);
+    const auto counts = ledger.extracted(o);
     for (std::size_t n = 0; n < counts.size(); ++n) {
       if (counts[n] == 0) continue;
-      const auto& population = book.populations()[n];
+      const auto& population = ledger.populations()[n];
       const auto count = static_cast<double>(counts[n]);
       auto& [particles, mass] = sizes[population.diameter];
       particles += count;

@@ -48,14 +48,15 @@ double requested_stream(const Simulation& s, const sdk::EmitterRequest& r) {
 }
 
 std::int64_t waiting_of(const Simulation& s, std::size_t e) {
-  return std::count_if(s.insertion().waiting().begin(), s.insertion().waiting().end(),
-                       [e](const Entrant& w) { return static_cast<std::size_t>(w.emitter) == e; });
+  return std::count_if(
+      s.insertion().waiting().begin(), s.insertion().waiting().end(),
+      [e](const InsertionCandidate& w) { return static_cast<std::size_t>(w.emitter) == e; });
 }
 
 /// [kg] of them, with their weights.
 double waiting_mass_of(const Simulation& s, std::size_t e) {
   double mass = 0.0;
-  for (const Entrant& w : s.insertion().waiting()) {
+  for (const InsertionCandidate& w : s.insertion().waiting()) {
     if (static_cast<std::size_t>(w.emitter) != e) continue;
     const auto& material = s.setup().materials[static_cast<std::size_t>(w.grain.material)];
     mass += w.grain.weight * material.properties.density * sdk::sphere_volume(w.grain.diameter);

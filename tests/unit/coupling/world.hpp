@@ -24,8 +24,8 @@ inline constexpr double k_sand = 2650.0;           // kg/m3
 inline constexpr double k_air = 1.2139;            // kg/m3
 inline constexpr double k_air_viscosity = 1.8e-5;  // Pa s
 
-/// Grains by hand, with the columns the DEM would hold, and a motion that obeys fluid_action to the
-/// letter: dv/dt = rate (target - v) + g, integrated exactly while the action is constant.
+/// Grains by hand, with the columns the DEM would hold, and a motion that obeys drag_relaxation to
+/// the letter: dv/dt = rate (target - v) + g, integrated exactly while the action is constant.
 struct Grains {
   std::vector<double> position, velocity, rotation, action, impulse, weight;
   std::vector<std::int64_t> id;

@@ -97,7 +97,7 @@ TEST_CASE("a grain that passes a periodic side shall come back on the other, and
   Stepper stepper(*dem);
   while (stepper.time() < 0.05) {
     stepper.step(20);
-    dem->remove_leavers();
+    dem->remove_escaped();
   }
   CHECK(dem->balance().in_domain == 1);
   const Vec3 off = grain(*dem, 0).position - Vec3{4e-3, 4e-3, 4e-3} - stepper.time() * velocity;
@@ -118,7 +118,7 @@ TEST_CASE("what leaves through any open side shall be booked, with its mass") {
     Stepper stepper(*dem);
     while (stepper.time() < 5e-3) {
       stepper.step(10);
-      dem->remove_leavers();
+      dem->remove_escaped();
     }
     const auto& b = dem->balance();
     CHECK(b.emitted == 2);
@@ -144,7 +144,7 @@ TEST_CASE("a lost grain shall be told with id, place, velocity and its last cont
   }
   std::string text;
   try {
-    dem->remove_leavers();
+    dem->remove_escaped();
   } catch (const sdk::ModelError& e) {
     text = e.what();
   }
@@ -211,7 +211,7 @@ TEST_CASE("looking at contacts shall not change the run") {
       if (looks)
         CHECK(dem->contacts().size() <= 200);
       else
-        dem->land();  // a look brings all grains to the present time, as every sample does
+        dem->synchronise();  // a look brings all grains to the present time, as every sample does
     }
     Vec3 sum;
     for (int n = 0; n < 27; ++n) sum += (n + 1.0) * grain(*dem, n).position;

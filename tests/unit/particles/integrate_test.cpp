@@ -46,11 +46,11 @@ std::unique_ptr<dust::particles::Dem> hundred_pairs(bool has_flyer, bool has_air
   if (has_air) {
     const auto rows = dem->rows();
     for (std::size_t n = 0; n < rows.count; ++n) {
-      double* action = rows.fluid_action + 4 * n;
+      double* action = rows.drag_relaxation + 4 * n;
       action[0] = 0.3, action[1] = -0.2, action[2] = 0.1;
       action[3] = 3e-3 / rows.position[4 * n + 3];
     }
-    dem->fluid_action_changed();
+    dem->drag_relaxation_changed();
   }
   return dem;
 }
@@ -65,12 +65,12 @@ TEST_CASE("grains moved two rows at a time shall move by the bits of those moved
     auto in_twos = hundred_pairs(false, has_air);
     auto one_by_one = hundred_pairs(true, has_air);
     Stepper(*in_twos).step(k_steps);
-    const auto slept = one_by_one->report().flown_steps;
+    const auto slept = one_by_one->report().free_flight_steps;
     Stepper(*one_by_one).step(k_steps);
-    one_by_one->land();
-    in_twos->land();
-    CHECK(in_twos->report().flown_steps == 0);
-    CHECK(one_by_one->report().flown_steps >= slept + k_steps);
+    one_by_one->synchronise();
+    in_twos->synchronise();
+    CHECK(in_twos->report().free_flight_steps == 0);
+    CHECK(one_by_one->report().free_flight_steps >= slept + k_steps);
     for (std::int64_t id = 0; id < 201; ++id) {
       CAPTURE(id);
       const GrainState a = grain(*in_twos, id);

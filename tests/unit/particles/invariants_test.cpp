@@ -177,7 +177,7 @@ TEST_CASE("a free grain shall fly the exact parabola and an open side shall book
   CHECK(grain(*dem, 0).position.z == doctest::Approx(-0.5 * 9.81 * t * t).epsilon(1e-9));
   CHECK(grain(*dem, 0).velocity.z == doctest::Approx(-9.81 * t).epsilon(1e-9));
   while (grain(*dem, 0).position.z > -0.01) stepper.step(500);
-  dem->remove_leavers();
+  dem->remove_escaped();
   const auto& b = dem->balance();
   CHECK(b.emitted == 2);
   CHECK(b.left == 1);
@@ -202,10 +202,10 @@ TEST_CASE("buoyancy shall reduce the weight and drag shall be integrated exactly
   auto rows = dem->rows();
   const double rate = 1.0 / 0.82e-3;
   for (std::size_t n = 0; n < 2; ++n) {
-    rows.fluid_action[4 * n] = 0.3;
-    rows.fluid_action[4 * n + 3] = rate;
+    rows.drag_relaxation[4 * n] = 0.3;
+    rows.drag_relaxation[4 * n + 3] = rate;
   }
-  dem->fluid_action_changed();
+  dem->drag_relaxation_changed();
   Stepper stepper(*dem);
   stepper.step(1000);
   const double t = stepper.time();
@@ -236,14 +236,14 @@ TEST_CASE("dust pressed into a wall shall come back out, and be lost only when w
     dem->insert(std::vector<NewGrain>{{.position = {0, -1.0 - depth, 0}, .diameter = 10e-6}});
     CAPTURE(depth);
     if (depth > 5e-6) {
-      CHECK_THROWS_WITH_AS(dem->remove_leavers(), doctest::Contains("through the wall 'front'"),
+      CHECK_THROWS_WITH_AS(dem->remove_escaped(), doctest::Contains("through the wall 'front'"),
                            dust::sdk::ModelError);
       continue;
     }
-    dem->remove_leavers();
+    dem->remove_escaped();
     Stepper stepper(*dem);
     stepper.step(200);
-    dem->remove_leavers();
+    dem->remove_escaped();
     CHECK(grain(*dem, 0).position.y > -1.0 + 5e-6);
     CHECK(dem->report().largest_overlap > 1.0);
     CHECK(dem->balance().in_domain == 1);

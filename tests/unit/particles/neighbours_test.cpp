@@ -149,7 +149,7 @@ void look_for_missed_contacts(bool is_periodic, bool has_two_sizes) {
   }
   CHECK(seen > 100);
   CHECK(dem->rows().count == 343);
-  CHECK(dem->report().contacts_seen_late == 0);
+  CHECK(dem->report().missed_contact_onsets == 0);
   CHECK(dem->report().rebuilds > 5);
   CHECK(dem->report().rebuilds < 200);
 }
@@ -214,7 +214,7 @@ TEST_CASE("no contact shall be missed where a few fast grains run through a crow
     }
     CHECK(unlisted == 0);
     // Dust between grains that collide is kicked out of its allowance in a step, and counted.
-    CHECK(dem->report().contacts_seen_late == 0);
+    CHECK(dem->report().missed_contact_onsets == 0);
     CHECK(dem->rows().count == count);
     CHECK(dem->report().mends > 20);
     CHECK(dem->report().mends > dem->report().rebuilds);

@@ -43,8 +43,8 @@ std::vector<NewGrain> load(double height) {
 
 void drag(dust::particles::Dem& dem) {
   const auto rows = dem.rows();
-  for (std::size_t n = 0; n < rows.count; ++n) rows.fluid_action[4 * n + 3] = 3.0;
-  dem.fluid_action_changed();
+  for (std::size_t n = 0; n < rows.count; ++n) rows.drag_relaxation[4 * n + 3] = 3.0;
+  dem.drag_relaxation_changed();
 }
 
 std::vector<double> rows_of(dust::particles::Dem& dem) {
@@ -82,7 +82,7 @@ TEST_CASE("a resumed DEM shall give the same bits as one that went on") {
       auto& dem = s == &stepper ? *first : *second;
       s->step(300);
       dem.insert(load(8e-3));
-      dem.remove_leavers();
+      dem.remove_escaped();
       s->step(200);
     }
     CHECK(first->report().contacts > 0);

@@ -47,7 +47,7 @@ struct World {
     for (int n = 0; n < 400; ++n) {
       stepper.step();
       most_contacts = std::max(most_contacts, dem->report().contacts);
-      if (n % 10 == 9) dem->land();  // so that watches begin amid the collisions
+      if (n % 10 == 9) dem->synchronise();  // so that watches begin amid the collisions
     }
   }
 };

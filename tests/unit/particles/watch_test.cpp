@@ -50,11 +50,11 @@ std::unique_ptr<dust::particles::Dem> cloud(std::size_t count, double dust_share
 void blow(dust::particles::Dem& dem, Vec3 air) {
   const auto rows = dem.rows();
   for (std::size_t n = 0; n < rows.count; ++n) {
-    double* action = rows.fluid_action + 4 * n;
+    double* action = rows.drag_relaxation + 4 * n;
     action[0] = air.x, action[1] = air.y, action[2] = air.z;
     action[3] = 3e-3 / rows.position[4 * n + 3];
   }
-  dem.fluid_action_changed();
+  dem.drag_relaxation_changed();
 }
 
 double largest_difference(dust::particles::Dem& one, dust::particles::Dem& other,
@@ -83,10 +83,10 @@ TEST_CASE("many steps of a flight at once shall equal the same steps one by one"
     free.step(301);
     for (int n = 0; n < 301; ++n) {
       landing.step();
-      one_by_one->land();
+      one_by_one->synchronise();
     }
     // The first step of a new grain is made awake; the rest of the first watch with it.
-    CHECK(at_once->report().flown_steps > 2 * 250);
+    CHECK(at_once->report().free_flight_steps > 2 * 250);
     for (std::int64_t id = 0; id < 2; ++id) {
       const GrainState a = grain(*at_once, id);
       const GrainState b = grain(*one_by_one, id);
@@ -115,11 +115,11 @@ TEST_CASE("no contact shall be missed by the grains that are left to fly") {
     for (int n = 0; n < 1500; ++n) {
       a.step();
       b.step();
-      every_step->land();  // a watch of one step: everyone near anyone is looked at
+      every_step->synchronise();  // a watch of one step: everyone near anyone is looked at
     }
-    CHECK(monitored->report().flown_steps > monitored->report().particle_steps / 4);
+    CHECK(monitored->report().free_flight_steps > monitored->report().particle_steps / 4);
     CHECK(monitored->report().largest_overlap > 1e-3);
-    CHECK(monitored->report().contacts_seen_late == 0);
+    CHECK(monitored->report().missed_contact_onsets == 0);
     // Rounding, enlarged by the few collisions a grain has in this time; one missed collision
     // would move its grains by whole diameters.
     CHECK(largest_difference(*monitored, *every_step, k_count) < 1e-9);
@@ -145,7 +145,7 @@ TEST_CASE("a contact that begins while nobody looks shall be counted") {
     Stepper steps(*dem);
     steps.step(100);
     CHECK(grain(*dem, 2).velocity.x < 0.0);  // B was hit
-    return dem->report().contacts_seen_late;
+    return dem->report().missed_contact_onsets;
   };
   CHECK(count_late(0.2e-3) == 1);
   // Slow enough for the looks in between: A is on the list before it comes. Nor does the overlap

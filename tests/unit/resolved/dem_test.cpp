@@ -50,13 +50,13 @@ TEST_CASE("resolved: a sphere of the DEM receives what the fluid gives, its mome
     spheres.evaluate(box->solver->velocity());
     const double speed = dem->rows().velocity_of(0)[0];
     spheres.act(dem->rows(), [&](std::size_t row, Vec3 change) { dem->turn(row, change); });
-    dem->fluid_action_changed();
+    dem->drag_relaxation_changed();
     for (int k = 0; k < steps; ++k) {
       dem->neighbours();
       dem->step_tiles(k * dem->coarse_step());
       dem->advance_fine();
     }
-    dem->land();
+    dem->synchronise();
     const double received = (dem->rows().velocity_of(0)[0] - speed) / dem->rows().velocity_of(0)[3];
     spheres.end_step(dem->rows());
     const Vec3 now = total();

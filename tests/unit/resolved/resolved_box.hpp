@@ -36,7 +36,7 @@ class FreeGrains {
             .id = id_.data(),
             .material = material_.data(),
             .weight = weight_.data(),
-            .fluid_action = action_.data(),
+            .drag_relaxation = action_.data(),
             .fluid_impulse = impulse_.data()};
   }
   void turn(std::size_t n, Vec3 change) {

@@ -13,12 +13,12 @@
 namespace {
 
 using namespace dust;
-using run::Entrant;
+using run::InsertionCandidate;
 
 constexpr double k_diameter = 4e-4;  // [m]
 
-Entrant grain(double x, double diameter = k_diameter) {
-  Entrant e;
+InsertionCandidate grain(double x, double diameter = k_diameter) {
+  InsertionCandidate e;
   e.grain.position = {x, 0.0, 0.0};
   e.grain.velocity = {0.0, 0.0, -0.15};
   e.grain.diameter = diameter;
@@ -35,10 +35,10 @@ run::EntryScene scene() {
   return s;
 }
 
-std::string refusal(const run::EntryScene& s, std::vector<Entrant> waiting,
+std::string refusal(const run::EntryScene& s, std::vector<InsertionCandidate> waiting,
                     const particles::GrainRows& rows = {}) {
   try {
-    run::take_free_places(waiting, rows, s);
+    run::take_without_overlap(waiting, rows, s);
   } catch (const sdk::ModelError& e) {
     return e.what();
   }
@@ -62,8 +62,8 @@ struct Present {
 }  // namespace
 
 TEST_CASE("grains shall enter in their order where nothing is in the way") {
-  std::vector<Entrant> waiting{grain(2e-3), grain(0.0), grain(1e-3)};
-  const auto entering = run::take_free_places(waiting, {}, scene());
+  std::vector<InsertionCandidate> waiting{grain(2e-3), grain(0.0), grain(1e-3)};
+  const auto entering = run::take_without_overlap(waiting, {}, scene());
   REQUIRE(entering.size() == 3);
   CHECK(entering[0].grain.position.x == 2e-3);
   CHECK(entering[1].grain.position.x == 0.0);
@@ -71,23 +71,23 @@ TEST_CASE("grains shall enter in their order where nothing is in the way") {
 }
 
 TEST_CASE("a grain shall wait for as long as one in the domain touches its place") {
-  std::vector<Entrant> waiting{grain(0.0), grain(1e-3)};
+  std::vector<InsertionCandidate> waiting{grain(0.0), grain(1e-3)};
   Present present;
   present.add(0.99 * k_diameter);
-  auto entering = run::take_free_places(waiting, present.rows(), scene());
+  auto entering = run::take_without_overlap(waiting, present.rows(), scene());
   REQUIRE(entering.size() == 1);
   CHECK(entering[0].grain.position.x == 1e-3);
   REQUIRE(waiting.size() == 1);
   present.position[0] = 1.01 * k_diameter;
-  entering = run::take_free_places(waiting, present.rows(), scene());
+  entering = run::take_without_overlap(waiting, present.rows(), scene());
   REQUIRE(entering.size() == 1);
   CHECK(entering[0].grain.position.x == 0.0);
   CHECK(waiting.empty());
 }
 
 TEST_CASE("of two entering grains that touch the first shall enter and the second wait") {
-  std::vector<Entrant> waiting{grain(0.0), grain(0.9 * k_diameter)};
-  const auto entering = run::take_free_places(waiting, {}, scene());
+  std::vector<InsertionCandidate> waiting{grain(0.0), grain(0.9 * k_diameter)};
+  const auto entering = run::take_without_overlap(waiting, {}, scene());
   REQUIRE(entering.size() == 1);
   CHECK(entering[0].grain.position.x == 0.0);
   REQUIRE(waiting.size() == 1);
@@ -95,15 +95,15 @@ TEST_CASE("of two entering grains that touch the first shall enter and the secon
 }
 
 TEST_CASE("a large grain beyond the box of the waiting centres shall be seen") {
-  std::vector<Entrant> waiting{grain(0.0, 1e-5)};
+  std::vector<InsertionCandidate> waiting{grain(0.0, 1e-5)};
   Present present;
   present.add(9e-4, 2e-3);
-  CHECK(run::take_free_places(waiting, present.rows(), scene()).empty());
+  CHECK(run::take_without_overlap(waiting, present.rows(), scene()).empty());
   CHECK(waiting.size() == 1);
 }
 
 TEST_CASE("waiting grains shall come back from a checkpoint as they were") {
-  std::vector<Entrant> waiting{grain(0.0), grain(1e-3, 1e-5)};
+  std::vector<InsertionCandidate> waiting{grain(0.0), grain(1e-3, 1e-5)};
   waiting[1].grain.weight = 0.05;
   waiting[1].grain.material = 2;
   waiting[1].grain.rotation = {1, 2, 3};
@@ -111,7 +111,7 @@ TEST_CASE("waiting grains shall come back from a checkpoint as they were") {
   waiting[1].line = 17;
   test::MemoryArchive archive;
   run::save_waiting(waiting, archive);
-  std::vector<Entrant> loaded{grain(7.0)};
+  std::vector<InsertionCandidate> loaded{grain(7.0)};
   run::load_waiting(loaded, archive);
   REQUIRE(loaded.size() == 2);
   for (std::size_t n = 0; n < 2; ++n) {
@@ -129,14 +129,14 @@ TEST_CASE("waiting grains shall come back from a checkpoint as they were") {
 TEST_CASE("a grain shall wait for one that touches its place through a periodic side") {
   auto s = scene();
   s.is_periodic = {true, true, false};
-  Entrant e = grain(0.9999);
+  InsertionCandidate e = grain(0.9999);
   e.grain.position.y = -0.9999;
-  std::vector<Entrant> waiting{e};
+  std::vector<InsertionCandidate> waiting{e};
   Present present;
   present.position = {-0.9999, 0.9999, 0.0, 0.5 * k_diameter};  // 0.2 mm off in x and in y
-  CHECK(run::take_free_places(waiting, present.rows(), s).empty());
+  CHECK(run::take_without_overlap(waiting, present.rows(), s).empty());
   s.is_periodic = {true, false, false};
-  CHECK(run::take_free_places(waiting, present.rows(), s).size() == 1);
+  CHECK(run::take_without_overlap(waiting, present.rows(), s).size() == 1);
 }
 
 TEST_CASE("grains that may not wait shall be refused with both sides named") {
@@ -183,7 +183,7 @@ TEST_CASE("grains that touch each other or a wall exactly shall come in, an over
     CAPTURE(tenths);
     const double diameter = 1e-3 * (0.1 * tenths);
     const double radius = 0.5 * diameter;
-    std::vector<Entrant> row;
+    std::vector<InsertionCandidate> row;
     for (int n = 0; n < 40; ++n) {
       row.push_back(grain(1e-3 * (-300.0 + 0.1 * tenths * (n + 0.5)), diameter));
       row.push_back(grain(0.1 + n * diameter, diameter));
@@ -199,7 +199,7 @@ TEST_CASE("grains that touch each other or a wall exactly shall come in, an over
     const std::vector<std::int64_t> ids{1, 2};
     auto rows = present.rows();
     rows.id = ids.data();
-    const std::vector<Entrant> none;
+    const std::vector<InsertionCandidate> none;
     const run::LazySurroundings around(s, rows, none, diameter, nullptr);
     CHECK(around.is_free({-0.3 + 1.5 * diameter, 0, 0}, radius));
     CHECK_FALSE(around.is_free({-0.3 + 1.5 * diameter, 0, 0}, radius + k_overlap));
@@ -210,8 +210,8 @@ TEST_CASE("a bed pressed by its weight may overlap as much as is allowed and no 
   auto s = scene();
   s.rules[0] = {.waits = false, .allowed_overlap = 0.01};
   // 0.8 % and 1.2 % of the radius.
-  std::vector<Entrant> fine{grain(0.0), grain(k_diameter * (1 - 0.004))};
-  CHECK(run::take_free_places(fine, {}, s).size() == 2);
+  std::vector<InsertionCandidate> fine{grain(0.0), grain(k_diameter * (1 - 0.004))};
+  CHECK(run::take_without_overlap(fine, {}, s).size() == 2);
   CHECK(refusal(s, {grain(0.0), grain(k_diameter * (1 - 0.006))}) != "not refused");
 }
 
@@ -221,18 +221,18 @@ TEST_CASE("places shall be found as by brute force, with any sizes and periodic 
   s.min = {0, 0, 0};
   s.max = {0.01, 0.006, 0.02};
   s.is_periodic = {true, true, false};
-  std::vector<Entrant> waiting;
+  std::vector<InsertionCandidate> waiting;
   for (std::uint64_t n = 0; n < 1500; ++n) {
-    Entrant e = grain(0.0, n % 4 == 0 ? 1e-3 : 2e-4);
+    InsertionCandidate e = grain(0.0, n % 4 == 0 ? 1e-3 : 2e-4);
     for (int d = 0; d < 3; ++d) {
       e.grain.position[d] = s.max[d] * random.uniform(n, 0, static_cast<std::uint32_t>(d));
     }
     waiting.push_back(e);
   }
-  std::vector<Entrant> expected;
-  for (const Entrant& e : waiting) {
+  std::vector<InsertionCandidate> expected;
+  for (const InsertionCandidate& e : waiting) {
     bool is_free = true;
-    for (const Entrant& other : expected) {
+    for (const InsertionCandidate& other : expected) {
       sdk::Vec3 apart = e.grain.position - other.grain.position;
       apart.x -= 0.01 * std::round(apart.x / 0.01);
       apart.y -= 0.006 * std::round(apart.y / 0.006);
@@ -240,7 +240,7 @@ TEST_CASE("places shall be found as by brute force, with any sizes and periodic 
     }
     if (is_free) expected.push_back(e);
   }
-  const auto entering = run::take_free_places(waiting, {}, s);
+  const auto entering = run::take_without_overlap(waiting, {}, s);
   REQUIRE(entering.size() == expected.size());
   CHECK(entering.size() < 1400);  // some were in the way of others
   for (std::size_t n = 0; n < entering.size(); ++n) {

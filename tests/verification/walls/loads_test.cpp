@@ -19,7 +19,7 @@ TEST_CASE("a wall shall carry the weight of what rests on it, at its place") {
   rig.setup.gravity = {0, 0, -k_g};
   rig.body("plane", {{"point", Vec3{}}, {"normal", Vec3{0, 0, 1}}}).group = "floor";
   auto dem = rig.make();
-  dem->watch_walls();
+  dem->record_wall_loads();
   const double rest = 0.5 * k_diameter - rig.resting_overlap();
   // Of weight 0.5 the second: half a real grain.
   dem->insert(std::vector<NewGrain>{
@@ -50,7 +50,7 @@ TEST_CASE("an impact shall give a wall the momentum it takes from the grain, and
   WallRig rig(0.5, 0.3, k_diameter);
   rig.body("box", {{"min", Vec3{-0.05, -0.05, -0.05}}, {"max", Vec3{0.05, 0.05, 0}}});
   auto dem = rig.make();
-  dem->watch_walls();
+  dem->record_wall_loads();
   const Vec3 before{0.8, 0, -1.0};
   dem->insert(std::vector<NewGrain>{{.position = {0.002, 0.001, 5.1e-4},
                                      .velocity = before,
@@ -91,7 +91,7 @@ TEST_CASE("a floor that lifts a grain shall spend its weight times the speed") {
   rig.body("plane", {{"point", Vec3{}}, {"normal", Vec3{0, 0, 1}}},
            rig.motion("translate", {{"velocity", Vec3{0, 0, 0.2}}}));
   auto dem = rig.make();
-  dem->watch_walls();
+  dem->record_wall_loads();
   dem->insert(std::vector<NewGrain>{{.position = {0, 0, 0.5 * k_diameter - rig.resting_overlap()},
                                      .velocity = {0, 0, 0.2},
                                      .diameter = k_diameter}});
@@ -112,7 +112,7 @@ TEST_CASE("a belt that takes a grain along shall spend what the grain gains and 
            {{"head", Vec3{0.2, 0, -0.01}}, {"tail", Vec3{-0.2, 0, -0.01}}, {"radius", 0.01}},
            rig.motion("belt", {{"speed", speed}}));
   auto dem = rig.make();
-  dem->watch_walls();
+  dem->record_wall_loads();
   dem->insert(std::vector<NewGrain>{
       {.position = {0, 0, 0.5 * k_diameter - rig.resting_overlap()}, .diameter = k_diameter}});
   Stepper stepper(*dem);
@@ -128,7 +128,7 @@ TEST_CASE("a grain in a corner of a vessel shall count once for the vessel") {
   rig.setup.gravity = {-4, -3, -8};
   rig.body("container", {{"min", Vec3{}}, {"max", Vec3{0.02, 0.02, 0.02}}, {"thickness", 1e-3}});
   auto dem = rig.make();
-  dem->watch_walls();
+  dem->record_wall_loads();
   dem->insert(
       std::vector<NewGrain>{{.position = {5.1e-4, 5.1e-4, 5.1e-4}, .diameter = k_diameter}});
   Stepper stepper(*dem);

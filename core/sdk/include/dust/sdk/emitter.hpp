@@ -64,7 +64,7 @@ struct InsertionRule {
 };
 
 /// Proposes grains; the core inserts them at the beginning of the interval, carried back along
-/// their velocity, gives ids and books mass. A request that would touch a grain is treated by
+/// their velocity, gives ids and counts mass. A request that would touch a grain is treated by
 /// insertion_rule(). Calls come with consecutive intervals from one thread; what a later call needs
 /// is state, saved by save/load. A call with an empty interval asks for no requests, only for a
 /// check. Positions and directions given as parameters are in the emitter's own frame = the

@@ -10,9 +10,9 @@
 
 namespace dust::particles {
 
-/// Whole-number books per population (diameter, weight, material): masses and real counts are
+/// Whole-number counts per population (diameter, weight, material): masses and real counts are
 /// products of whole numbers, so that emitted = in the domain + left + removed to rounding.
-class BalanceBook {
+class BalanceLedger {
  public:
   struct Population {
     double diameter = 0.0;
@@ -32,7 +32,7 @@ class BalanceBook {
   [[nodiscard]] const Population& operator[](std::int32_t n) const {
     return populations_[static_cast<std::size_t>(n)];
   }
-  /// Brings balance() up to date with the books.
+  /// Brings balance() up to date with the counts.
   void close();
 
   /// What was released of one diameter, in all materials and weights, and what became of it [kg].
@@ -49,10 +49,10 @@ class BalanceBook {
   [[nodiscard]] std::span<const Population> populations() const { return populations_; }
   void set_openings(std::size_t count) { extracted_.resize(count); }
 
-  /// Goes on from another's books: what had come stays counted. Materials and openings have the
+  /// Goes on from another ledger: what had come stays counted. Materials and openings have the
   /// numbers here that are given by theirs (-1: none), a material its density [kg/m3] by the number
   /// here. Populations keep their numbers.
-  void transfer_from(const BalanceBook& other, std::span<const std::int32_t> materials,
+  void transfer_from(const BalanceLedger& other, std::span<const std::int32_t> materials,
                      std::span<const std::int32_t> openings, std::span<const double> density);
   /// [kg] of one real grain, by population.
   [[nodiscard]] std::vector<double> masses() const;

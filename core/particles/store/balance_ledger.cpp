@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "particles/store/balance_book.hpp"
+#include "particles/store/balance_ledger.hpp"
 
 #include "dust/sdk/sphere.hpp"
 
@@ -8,8 +8,8 @@
 
 namespace dust::particles {
 
-std::int32_t BalanceBook::population(double diameter, double weight, std::int32_t material,
-                                     double mass) {
+std::int32_t BalanceLedger::population(double diameter, double weight, std::int32_t material,
+                                       double mass) {
   for (std::size_t n = 0; n < populations_.size(); ++n) {
     const Population& p = populations_[n];
     if (p.diameter == diameter && p.weight == weight && p.material == material) {
@@ -21,19 +21,19 @@ std::int32_t BalanceBook::population(double diameter, double weight, std::int32_
   return static_cast<std::int32_t>(populations_.size() - 1);
 }
 
-void BalanceBook::enter(std::int32_t population) {
+void BalanceLedger::enter(std::int32_t population) {
   Population& p = populations_[static_cast<std::size_t>(population)];
   ++p.emitted;
   ++p.in_domain;
 }
 
-void BalanceBook::leave(std::int32_t population) {
+void BalanceLedger::leave(std::int32_t population) {
   Population& p = populations_[static_cast<std::size_t>(population)];
   --p.in_domain;
   ++p.left;
 }
 
-void BalanceBook::extract(std::int32_t population, std::size_t opening) {
+void BalanceLedger::extract(std::int32_t population, std::size_t opening) {
   const auto n = static_cast<std::size_t>(population);
   --populations_[n].in_domain;
   ++populations_[n].removed;
@@ -42,24 +42,24 @@ void BalanceBook::extract(std::int32_t population, std::size_t opening) {
   ++counts[n];
 }
 
-void BalanceBook::close() {
+void BalanceLedger::close() {
   const std::int64_t largest = balance_.max;
   balance_ = {};
   for (const Population& p : populations_) {
-    const auto book = [&](std::int64_t count, std::int64_t& sum, double& real, double& mass) {
+    const auto add = [&](std::int64_t count, std::int64_t& sum, double& real, double& mass) {
       sum += count;
       real += static_cast<double>(count) * p.weight;
       mass += static_cast<double>(count) * p.weight * p.mass;
     };
-    book(p.emitted, balance_.emitted, balance_.real_emitted, balance_.mass_emitted);
-    book(p.in_domain, balance_.in_domain, balance_.real_in_domain, balance_.mass_in_domain);
-    book(p.left, balance_.left, balance_.real_left, balance_.mass_left);
-    book(p.removed, balance_.removed, balance_.real_removed, balance_.mass_removed);
+    add(p.emitted, balance_.emitted, balance_.real_emitted, balance_.mass_emitted);
+    add(p.in_domain, balance_.in_domain, balance_.real_in_domain, balance_.mass_in_domain);
+    add(p.left, balance_.left, balance_.real_left, balance_.mass_left);
+    add(p.removed, balance_.removed, balance_.real_removed, balance_.mass_removed);
   }
   balance_.max = std::max(largest, balance_.in_domain);
 }
 
-BalanceBook::Masses BalanceBook::masses_of(double diameter) const {
+BalanceLedger::Masses BalanceLedger::masses_of(double diameter) const {
   Masses masses;
   for (const Population& p : populations_) {
     if (p.diameter != diameter) continue;
@@ -72,9 +72,10 @@ BalanceBook::Masses BalanceBook::masses_of(double diameter) const {
   return masses;
 }
 
-void BalanceBook::transfer_from(const BalanceBook& other, std::span<const std::int32_t> materials,
-                                std::span<const std::int32_t> openings,
-                                std::span<const double> density) {
+void BalanceLedger::transfer_from(const BalanceLedger& other,
+                                  std::span<const std::int32_t> materials,
+                                  std::span<const std::int32_t> openings,
+                                  std::span<const double> density) {
   populations_ = other.populations_;
   for (Population& p : populations_) {
     p.material = materials[static_cast<std::size_t>(p.material)];
@@ -89,13 +90,13 @@ void BalanceBook::transfer_from(const BalanceBook& other, std::span<const std::i
   close();
 }
 
-std::vector<double> BalanceBook::masses() const {
+std::vector<double> BalanceLedger::masses() const {
   std::vector<double> masses;
   for (const Population& p : populations_) masses.push_back(p.mass);
   return masses;
 }
 
-void BalanceBook::save(sdk::ArchiveWriter& archive) const {
+void BalanceLedger::save(sdk::ArchiveWriter& archive) const {
   std::vector<double> numbers;
   std::vector<std::int64_t> integers{balance_.max};
   for (const Population& p : populations_) {
@@ -109,7 +110,7 @@ void BalanceBook::save(sdk::ArchiveWriter& archive) const {
   }
 }
 
-void BalanceBook::load(sdk::ArchiveReader& archive) {
+void BalanceLedger::load(sdk::ArchiveReader& archive) {
   const auto numbers = archive.numbers("population_numbers");
   const auto integers = archive.integers("population_counts");
   populations_.clear();
