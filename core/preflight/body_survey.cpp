@@ -30,6 +30,7 @@ void find_gaps(const Setup& setup, const bodies::BodySet& all, BodySurvey& surve
       }
       const bodies::Gap gap = bodies::smallest_gap(all[i], all[j], search);
       left -= std::min(left, gap.work);
+      if (gap.width == 0.0) survey.touching.push_back({all[i].name, all[j].name, gap.place});
       if (gap.width == 0.0 || gap.width > survey.limit) continue;
       survey.gaps.push_back(
           {all[i].name, all[j].name, setup.bodies[j].where, gap.width, gap.place, gap.is_whole});

@@ -18,6 +18,12 @@ struct GapNumbers {
   bool is_whole = true;  ///< false: a narrower one may have been missed
 };
 
+/// Two bodies that touch or overlap.
+struct TouchNumbers {
+  std::string first, second;
+  sdk::Vec3 place;  ///< [m] where that was found
+};
+
 /// What is known of a body drawn elsewhere.
 struct MeshNumbers {
   std::string body;
@@ -33,6 +39,7 @@ struct BodySurvey {
   double largest_grain = 0.0;    ///< [m]
   double limit = 0.0;            ///< [m] gaps below it are listed
   std::vector<GapNumbers> gaps;  ///< narrowest first; bodies that touch have none
+  std::vector<TouchNumbers> touching;
   std::vector<MeshNumbers> meshes;
   std::vector<std::string> unseen;  ///< pairs of bodies that the work was not enough for
 };

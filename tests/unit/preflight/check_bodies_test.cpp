@@ -78,13 +78,16 @@ std::string text_of(const fs::path& file) {
 TEST_CASE("a check shall name narrow gaps with both bodies, the place and the line") {
   const TemporaryFolder folder;
   const fs::path file = write_scenario(folder, 0.1, "1 g/s");
-  const Json gaps = numbers_of(file)["gaps"];
+  const Json numbers = numbers_of(file);
+  const Json& gaps = numbers["gaps"];
   // The post stands on the floor: no gap; post and step are 20 mm apart, more than a grain.
   REQUIRE(gaps.size() == 1);
   CHECK(gaps[0]["bodies"] == Json({"floor", "step"}));
   CHECK(gaps[0]["width_m"].get<double>() == doctest::Approx(0.008).epsilon(1e-6));
   CHECK(gaps[0]["place_m"][0].get<double>() >= 0.02 - 1e-9);
   CHECK(gaps[0]["place_m"][0].get<double>() <= 0.04 + 1e-9);
+  REQUIRE(numbers["touching"].size() == 1);
+  CHECK(numbers["touching"][0]["bodies"] == Json({"floor", "post"}));
   const std::string text = text_of(file);
   CHECK(text.find("floor - step: 8 mm at") != std::string::npos);
   CHECK(text.find("0.67 of the largest grain; grains above 8 mm do not go through") !=

@@ -66,6 +66,18 @@ void print_gaps(std::ostream& out, const BodySurvey& s) {
   }
 }
 
+void print_touching(std::ostream& out, const BodySurvey& s) {
+  const std::size_t shown = std::min(s.touching.size(), k_max_gaps);
+  for (std::size_t n = 0; n < shown; ++n) {
+    const auto& t = s.touching[n];
+    out << (n == 0 ? "  touching   " : "             ") << t.first << " - " << t.second << " at "
+        << place_text(t.place) << '\n';
+  }
+  if (s.touching.size() > shown) {
+    out << "             and " << s.touching.size() - shown << " more pairs\n";
+  }
+}
+
 }  // namespace
 
 std::string bodies_text(const BodySurvey& s) {
@@ -81,6 +93,7 @@ std::string bodies_text(const BodySurvey& s) {
           << ratios(mesh.thinnest, s) << '\n';
     }
   }
+  print_touching(out, s);
   print_gaps(out, s);
   return out.str();
 }
@@ -90,6 +103,11 @@ void add_bodies_json(const BodySurvey& s, nlohmann::ordered_json& json) {
   for (const auto& mesh : s.meshes) {
     json["meshes"].push_back(
         {{"body", mesh.body}, {"notes", mesh.notes}, {"thinnest_wall_m", mesh.thinnest}});
+  }
+  if (!s.touching.empty()) json["touching"] = nlohmann::ordered_json::array();
+  for (const auto& t : s.touching) {
+    json["touching"].push_back(
+        {{"bodies", {t.first, t.second}}, {"place_m", {t.place.x, t.place.y, t.place.z}}});
   }
   if (!s.gaps.empty()) json["gaps"] = nlohmann::ordered_json::array();
   for (const GapNumbers& g : s.gaps) {
