@@ -42,7 +42,8 @@ RECORD_HEAD = """# What ParaView reads
 
 Written by `tools/dev/check_paraview.py DIR --record`, newest entry last: the three XDMF files of a
 run, opened with Debian's ParaView (reader "XDMF Reader"), every frame loaded, every array present,
-with its components, and finite. A run without fluid has empty frames in `fluid.xdmf`.
+with its components, and finite. A run without fluid has empty frames in `fluid.xdmf`. Then the run's
+`paraview_state.py`, as *Load State* runs it: grains shown as spheres of their size, bodies, a flat slice of the air.
 
 | date | ParaView | run | state (SHA-256) | file | frames | in the last frame | result |
 | --- | --- | --- | --- | --- | --- | --- | --- |
