@@ -51,6 +51,7 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
   if (dust_setup_.field) {
     dust_ = std::make_unique<DustStage>(setup_, *dust_setup_.field, models_, *fluid_,
                                         openings_of(setup_, dust_setup_));
+    fluid_->use(dust_->weight());
   }
   cycle_.emplace(clock_.fluid_step(), dem_->coarse_step());
   insertion_ = std::make_unique<Insertion>(setup_, models_);
