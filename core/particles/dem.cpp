@@ -32,6 +32,9 @@ Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
       inner(conditions.laws.history_stride()),
       loads(std::move(dust)) {
   if (loads.is_on()) work.begin(wall_count(conditions.surfaces), 0);
+  if (!setup.audit.energy) return;
+  energy.begin();
+  inner.let_all_step();
 }
 
 void Dem::Impl::insert(std::span<const NewGrain> grains) {
@@ -42,6 +45,7 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
     const std::int32_t population = ledger.population(g.diameter, g.weight, g.material, mass);
     store.append(g, mass, population);
     loads.enter(static_cast<std::size_t>(g.material), mass, g.weight);
+    energy.enter(store, store.size() - 1);
     ledger.enter(population);
   }
   outer.resize(store.size());
@@ -100,7 +104,11 @@ void Dem::Impl::remove_escaped() {
   std::vector<std::int32_t> keep;
   keep.reserve(store.size());
   for (std::size_t n = 0; n < store.size(); ++n) {
-    if (!leaves(n)) keep.push_back(static_cast<std::int32_t>(n));
+    if (!leaves(n)) {
+      keep.push_back(static_cast<std::int32_t>(n));
+    } else {
+      energy.leave(store, n, conditions.gravity.data(), conditions.step());
+    }
   }
   if (keep.size() == store.size()) return;
   // Histories and deferred impulses of the others survive: contacts name the new rows from here on,
@@ -137,6 +145,7 @@ TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTr
   loads.transfer_from(other.loads, store, keeps_dust);
   work.resize(store.size());
   store.update_decay(conditions.step());
+  for (std::size_t n = 0; n < store.size(); ++n) energy.enter(store, n);
   fine_level.transfer_from(other.fine_level);
 
   ContactTransfer transfer({other.conditions, other.store}, {conditions, store}, names, laws);
@@ -150,9 +159,13 @@ TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTr
   tuner.restore(other.tuner.state());
   outer.resize(store.size());
   outer.require(OuterList::Due::reorder);
+  const auto inside = find_inside_hoods({other.conditions, other.store}, conditions, names);
+  for (const auto& [row, opening] : inside) store.touched_openings()[row] = opening;
+  if (!inside.empty()) remove_escaped();
   return {.particles = static_cast<std::int64_t>(store.size()),
           .contacts = transfer.contacts(),
-          .without_past = transfer.without_past()};
+          .without_past = transfer.without_past(),
+          .drawn_out = static_cast<std::int64_t>(inside.size())};
 }
 
 void Dem::Impl::fill_last_force() const {
@@ -244,6 +257,7 @@ std::vector<ContactRecord> Dem::contacts() const {
   return contact_snapshot(impl_->contact_scene(), impl_->inner);
 }
 
+EnergyBalance Dem::energy() const { return impl_->energy.balance(); }
 const BalanceLedger& Dem::ledger() const { return impl_->ledger; }
 const Balance& Dem::balance() const { return impl_->ledger.balance(); }
 
@@ -335,6 +349,7 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   fine_level.save(archive);
   ledger.save(archive);
   loads.save(archive);
+  energy.save(archive);
   archive.number("time", conditions.time);
   const ListTuner::State lifetimes = tuner.state();
   const OuterList::State list = outer.state();
@@ -383,6 +398,8 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   ledger.load(archive);
   loads.load(archive);
   work.resize(store.size());
+  energy.restart(tiles);
+  energy.load(archive);
   move_to(archive.number("time"));
   has_weights = store.has_weights(tiling.coarse_count);
 }

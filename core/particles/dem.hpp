@@ -5,6 +5,7 @@
 #include "dust/sdk/archive.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/sensor.hpp"
+#include "particles/energy/energy_balance.hpp"
 #include "particles/grain_rows.hpp"
 #include "particles/openings/opening.hpp"
 #include "particles/pair_law_table.hpp"
@@ -146,6 +147,8 @@ class Dem {
   [[nodiscard]] std::vector<ContactRecord> contacts() const;
   [[nodiscard]] const Balance& balance() const;
   [[nodiscard]] const BalanceLedger& ledger() const;
+  /// Zeros unless the scenario asks for it (Setup::audit).
+  [[nodiscard]] EnergyBalance energy() const;
   [[nodiscard]] DemReport report() const;
   /// Tells that drag_relaxation was rewritten (the DEM derives its decay factors from it).
   void drag_relaxation_changed();

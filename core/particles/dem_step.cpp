@@ -111,6 +111,7 @@ void Dem::Impl::rebuild() {
   outer.build(list_scene(), tuner);
   inner.adopt(outer, contacts);
   tile_step.restart(outer.tiles(), wall_loads.walls());
+  energy.restart(outer.tiles());
   fine_level.clear_force(store.size() - tiling.coarse_count);
 }
 
@@ -137,6 +138,7 @@ void Dem::Impl::begin_step(double now, bool keeps_force) {
   conditions.time = now;
   for (Surface& s : conditions.surfaces) s.move_to(now);
   tile_step.begin(tiling.coarse_count, keeps_force);
+  energy.begin_step();
 }
 
 void Dem::Impl::end_step() {
@@ -198,6 +200,7 @@ StepScene Dem::Impl::step_scene() {
   ContactScene contacts = contact_scene();
   contacts.opening_marks = opening_marks();
   if (work.is_on()) contacts.work = &work;
+  if (energy.is_on()) contacts.energy = &energy;
   return {.particles = store,
           .lists = inner,
           .impulses = fine_level.deferred(),

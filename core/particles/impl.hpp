@@ -3,6 +3,7 @@
 
 #include "particles/conditions.hpp"
 #include "particles/dem.hpp"
+#include "particles/energy/energy_account.hpp"
 #include "particles/fine_level/fine_level.hpp"
 #include "particles/forces/wall_loads.hpp"
 #include "particles/neighbours/inner_list.hpp"
@@ -76,6 +77,7 @@ class Dem::Impl {
   InnerList inner;
   TileStep tile_step;
   FineLevel fine_level;
+  EnergyAccount energy;
   WallLoads wall_loads;  ///< empty between fluid steps, so that nothing of it is saved
   DustLoads loads;       ///< empty where none carries dust
   ContactWork work;      ///< kept where some do

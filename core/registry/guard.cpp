@@ -88,6 +88,9 @@ class Contact final : public PairLaw<sdk::ContactLaw> {
 class Rolling final : public PairLaw<sdk::RollingLaw> {
  public:
   using PairLaw::PairLaw;
+  [[nodiscard]] int couple_column() const override {
+    return get("couple_column", &sdk::RollingLaw::couple_column);
+  }
   void evaluate(const sdk::ContactBatch& b) const override {
     ask("evaluate", "a couple for every contact of the batch", &sdk::RollingLaw::evaluate, b);
     const GuardReport::Inputs seen = {{"normal_force", b.normal_force},

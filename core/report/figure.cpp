@@ -17,6 +17,7 @@ Figure figure_at(const std::string& sensor, const std::string& path, const json&
   figure.value = number_at(entry, "value").value_or(std::nan(""));
   figure.unit = text_at(entry, "unit");
   figure.uncertainty = number_at(entry, "uncertainty").value_or(-1.0);
+  figure.no_error = text_at(entry, "no_error");
   figure.role = text_at(entry, "role");
   figure.quantity = text_at(entry, "quantity");
   figure.direction = text_at(entry, "direction");

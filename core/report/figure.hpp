@@ -16,6 +16,7 @@ struct Figure {
   double value = 0.0;
   std::string unit;
   double uncertainty = -1.0;  ///< one standard error; negative: none given
+  std::string no_error;       ///< why there is none: "few grains", "not steady"; "" = not said
   std::string role;
   std::string quantity;
   std::string direction;

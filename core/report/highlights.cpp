@@ -187,9 +187,10 @@ Figure sum_of(const std::vector<Figure>& figures) {
   for (const Figure& figure : figures) {
     sum.value += figure.value;
     if (figure.uncertainty > 0.0) squares += figure.uncertainty * figure.uncertainty;
+    if (figure.value != 0.0 && !figure.no_error.empty()) sum.no_error = figure.no_error;
   }
   sum.unit = figures.empty() ? "" : figures.front().unit;
-  sum.uncertainty = squares > 0.0 ? std::sqrt(squares) : -1.0;
+  sum.uncertainty = squares > 0.0 && sum.no_error.empty() ? std::sqrt(squares) : -1.0;
   return sum;
 }
 

@@ -58,7 +58,7 @@ struct Highlights {
 [[nodiscard]] Highlights highlights_of(const RunText& run);
 
 /// Sums of what independent sensors count; errors add in squares. A figure that counted nothing has
-/// no error and adds none.
+/// no error and adds none; where one says that it has none for a reason, the sum has none either.
 [[nodiscard]] Figure sum_of(const std::vector<Figure>& figures);
 
 /// The place to extract first: of those with some dust near by and a pressure surely below zero,

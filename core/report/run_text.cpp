@@ -23,8 +23,44 @@ std::optional<std::string> read_text(const std::filesystem::path& file) {
   return text.str();
 }
 
-/// Cells of a line of series.csv; a quoted cell may hold commas, a doubled quote stands for one.
-std::vector<std::string> cells_of(const std::string& line) {
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::vector<SeriesColumn> parse_series(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  std::vector<SeriesColumn> columns;
+  if (!std::getline(lines, line)) return columns;
+  for (const std::string& cell : csv_cells(line)) {
+    SeriesColumn column;
+    const auto open = cell.rfind('[');
+    const auto close = cell.rfind(']');
+    if (open != std::string::npos && close != std::string::npos && close > open) {
+      column.unit = cell.substr(open + 1, close - open - 1);
+      column.name = trimmed(cell.substr(0, open));
+    } else {
+      column.name = trimmed(cell);
+    }
+    columns.push_back(std::move(column));
+  }
+  while (std::getline(lines, line)) {
+    const auto cells = csv_cells(line);
+    if (cells.size() != columns.size()) continue;  // the row being written when the run stopped
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      char* end = nullptr;
+      const double value = std::strtod(cells[k].c_str(), &end);
+      columns[k].values.push_back(end == cells[k].c_str() ? std::nan("") : value);
+    }
+  }
+  return columns;
+}
+
+}  // namespace
+
+std::vector<std::string> csv_cells(const std::string& line) {
   std::vector<std::string> cells(1);
   bool is_quoted = false;
   for (std::size_t k = 0; k < line.size(); ++k) {
@@ -42,43 +78,6 @@ std::vector<std::string> cells_of(const std::string& line) {
   }
   return cells;
 }
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-std::vector<SeriesColumn> parse_series(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line;
-  std::vector<SeriesColumn> columns;
-  if (!std::getline(lines, line)) return columns;
-  for (const std::string& cell : cells_of(line)) {
-    SeriesColumn column;
-    const auto open = cell.rfind('[');
-    const auto close = cell.rfind(']');
-    if (open != std::string::npos && close != std::string::npos && close > open) {
-      column.unit = cell.substr(open + 1, close - open - 1);
-      column.name = trimmed(cell.substr(0, open));
-    } else {
-      column.name = trimmed(cell);
-    }
-    columns.push_back(std::move(column));
-  }
-  while (std::getline(lines, line)) {
-    const auto cells = cells_of(line);
-    if (cells.size() != columns.size()) continue;  // the row being written when the run stopped
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-      char* end = nullptr;
-      const double value = std::strtod(cells[k].c_str(), &end);
-      columns[k].values.push_back(end == cells[k].c_str() ? std::nan("") : value);
-    }
-  }
-  return columns;
-}
-
-}  // namespace
 
 std::optional<double> number_at(const json& object, const char* key) {
   if (!object.is_object()) return std::nullopt;

@@ -37,6 +37,9 @@ struct RunText {
 [[nodiscard]] RunText read_run_text(const std::filesystem::path& folder, nlohmann::json summary,
                                     nlohmann::json report);
 
+/// Cells of a line of a CSV file; a quoted cell may hold commas, a doubled quote stands for one.
+[[nodiscard]] std::vector<std::string> csv_cells(const std::string& line);
+
 /// Numbers and strings of a JSON object that may lack them or hold something else.
 [[nodiscard]] std::optional<double> number_at(const nlohmann::json& object, const char* key);
 [[nodiscard]] std::string text_at(const nlohmann::json& object, const char* key);

@@ -54,6 +54,7 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
   if (dust_setup_.field) {
     dust_ = std::make_unique<DustStage>(setup_, *dust_setup_.field, models_, *fluid_,
                                         openings_of(setup_, dust_setup_));
+    fluid_->use(dust_->weight());
   }
   if (dust_ && models_.liberation) {
     liberation_ = std::make_unique<LiberationStage>(setup_, dust_setup_,

@@ -215,6 +215,18 @@ const ParameterSchema& SensorBlock::schema() {
   return made;
 }
 
+const ParameterSchema& AuditBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<AuditBlock> s;
+    s.boolean(&AuditBlock::energy, "energy",
+              "Keeps account of the energy of the grains: kinetic, elastic, work of gravity, walls "
+              "and fluid, losses by damping, friction and rolling. Needs time.rates: single.")
+        .optional();
+    return s.build();
+  }();
+  return made;
+}
+
 const ParameterSchema& DustBlock::schema() {
   static const ParameterSchema made = [] {
     SchemaOf<DustBlock> s;

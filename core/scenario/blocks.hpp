@@ -116,6 +116,12 @@ struct DustBlock {
   static const sdk::ParameterSchema& schema();
 };
 
+/// Accounts that a run keeps.
+struct AuditBlock {
+  bool energy = false;
+  static const sdk::ParameterSchema& schema();
+};
+
 /// Dust as concentrations on the fluid's grid; clouds and sources are read apart.
 struct DustFieldBlock {
   std::vector<double> classes;

@@ -312,6 +312,7 @@ std::string json_schema(const registry::Registry& registry) {
   properties["voidage"] = {{"$ref", "#/definitions/voidage"}};
   properties["sensors"] =
       named(alternatives(block<SensorBlock>(), "model", choices(registry, "sensor")));
+  properties["audit"] = block<AuditBlock>();
   properties["dust"] = block<DustBlock>();
   Json field = block<DustFieldBlock>();
   field["properties"]["clouds"] = named(block<DustCloudBlock>());

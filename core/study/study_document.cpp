@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/page.hpp"
 #include "study/effects.hpp"
+#include "study/hoods/hood_results.hpp"
+#include "study/hoods/hood_study.hpp"
 #include "study/runner.hpp"
 #include "study/study_report.hpp"
 
@@ -277,6 +279,20 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+/// Whether it is a study of suggested hoods, all points of which have finished.
+bool has_hoods(const Spec& spec, const Results& results) {
+  const std::string hood = std::string("bodies.") + k_hood_body;
+  const bool is_finished =
+      std::all_of(results.outcomes.begin(), results.outcomes.end(),
+                  [](const Outcome& outcome) { return outcome.status == Status::finished; });
+  return is_finished && std::any_of(spec.axes.begin(), spec.axes.end(), [&](const Axis& axis) {
+           return std::any_of(axis.levels.begin(), axis.levels.end(), [&](const Level& level) {
+             return std::any_of(level.settings.begin(), level.settings.end(),
+                                [&](const Setting& setting) { return setting.path == hood; });
+           });
+         });
+}
+
 }  // namespace
 
 std::string with_true_signs(std::string text) {
@@ -305,8 +321,11 @@ Json study_document(const Spec& spec, const Results& results, const CalibrationA
 
 void write_study_report(const std::filesystem::path& file, const Spec& spec, const Results& results,
                         const CalibrationAnswer* answer) {
-  report::write_page(file, report::page_of(report::Templates(), "study.html",
-                                           study_document(spec, results, answer)));
+  Json document = study_document(spec, results, answer);
+  if (has_hoods(spec, results)) {
+    document["hoods"] = hoods_json(hood_results(file.parent_path()));
+  }
+  report::write_page(file, report::page_of(report::Templates(), "study.html", document));
 }
 
 }  // namespace dust::study

@@ -26,6 +26,7 @@ void add_help(CLI::App& app, int& status);
 void add_schema(CLI::App& app, int& status);
 void add_graph(CLI::App& app, int& status);
 void add_study(CLI::App& app, int& status);
+void add_suggest_hoods(CLI::App& app, int& status);
 void add_report(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_new_plugin(CLI::App& app, int& status);

@@ -80,6 +80,7 @@ int engine_main(int argc, char** argv) {
   engine::add_schema(app, status);
   engine::add_graph(app, status);
   engine::add_study(app, status);
+  engine::add_suggest_hoods(app, status);
   engine::add_follow(app, status);
   engine::add_report(app, status);
   engine::add_compare(app, status);

@@ -108,7 +108,7 @@ Dust.sections.figures = ({summary, sections, tables}) => {
     const figures = leaves(values, '');
     if (!figures.length) return null;
     return Dust.details(Dust.words(sensor), Dust.plural(figures.length, 'figure'), Dust.table([{title: 'Quantity'}, {title: 'Value ± standard error', number: true}, {title: 'SI value', number: true}],
-      figures.map((f) => [Dust.words(f.name).replace(/\//g, ' / ').replace(/ {2,}/g, ' '), Dust.quantity(f.value, f.uncertainty, f.unit || ''),
+      figures.map((f) => [Dust.words(f.name).replace(/\//g, ' / ').replace(/ {2,}/g, ' '), Dust.quantity(f.value, f.uncertainty, f.unit || '') + Dust.why_no_error(f),
         Dust.el('span', {class: 'raw'}, Number.isFinite(f.value) ? String(+f.value.toPrecision(9)) + (Dust.is_bare(f.unit) ? '' : ' ' + f.unit) : '')]), {label: 'Figures of ' + Dust.words(sensor)}));
   }).filter(Boolean);
   const has_own = new Set(sections.map((s) => s.sensor));
@@ -117,7 +117,7 @@ Dust.sections.figures = ({summary, sections, tables}) => {
     parts.push(Dust.details(table.title, 'table of ' + Dust.words(table.sensor || ''), Dust.plain_table(table)));
   }
   if (!parts.length) return null;
-  return Dust.section('figures', 'All figures', Dust.p({}, "Every sensor's figures of this run. The error is one standard error; where none stands, the sensor makes no estimate."), parts);
+  return Dust.section('figures', 'All figures', Dust.p({}, "Every sensor's figures of this run. The error is one standard error; where none stands, the sensor makes no estimate: '(few grains)' rests on fewer than 20, '(not steady)' has not settled in the time observed."), parts);
 };
 
 Dust.sections.provenance = ({summary, scenario}) => {

@@ -70,7 +70,7 @@ Dust.sections.header = (data) => {
     const first = dust.partings[0];
     return answer('From where?', has_counted ? place(top) : 'nowhere yet', el('ul', {class: 'ranks'}, ...rows),
       passing && p({}, Dust.amount(passing) + ' pass ', place(passing)),
-      first && p({}, el('a', {href: '#dust'}, 'Parted from the load'), ` most near x\u202f${Dust.number(first.x * 1e3, 3)}, z\u202f${Dust.number(first.z * 1e3, 3)}\u202fmm: `
+      first && p({}, el('a', {href: '#dust'}, 'Parted from the load'), ` most near ${Dust.place_xz(first)}: `
         + `${Dust.value(100 * first.share, 100 * first.share_error)}\u202f%`));
   };
   const how_sure = () => {
@@ -79,8 +79,9 @@ Dust.sections.header = (data) => {
     const from = dust.observed_s > 0 ? `, from ${Dust.quantity(dust.observed_s, -1, 's')} after start-up${counted}` : '';
     const steady = 1.5, change = dust.later_over_earlier;  // a factor between both halves that a short count may have
     const touched = data.limits.filter((l) => l.is_touched).length;
-    return answer('How sure?', is_known ? `±\u202f${Dust.number(100 * uncertainty / value, 2)}\u202f%` : 'no estimate',
-      p({}, (is_known ? 'one standard error' : 'no standard error is known') + from),
+    const why = {'few grains': 'fewer than 20 grains were counted at an opening', 'not steady': 'the amount has not settled in the time observed'}[dust.headline.no_error];
+    return answer('How sure?', is_known ? `±\u202f${Dust.number(100 * uncertainty / value, 2)}\u202f%` : dust.headline.no_error || 'no estimate',
+      p({}, (is_known ? 'one standard error' : why || 'no standard error is known') + from),
       change !== null && (change > steady || change < 1 / steady)
         && p({class: 'caution'}, `Still changing: the second half of that time brought ${Dust.number(change, 2)} times the first.`),
       touched === 0 ? p({}, el('a', {href: '#health'}, 'No limit of validity touched'))
@@ -88,7 +89,7 @@ Dust.sections.header = (data) => {
   };
   const where_to_extract = () => {
     const {places, first, reach_m} = data.extraction, best = places[first];
-    const at = (place) => `x\u202f${Dust.number(place.x * 1e3, 3)}, z\u202f${Dust.number(place.z * 1e3, 3)}\u202fmm`;
+    const at = Dust.place_xz;
     const others = places.filter((_, k) => k !== first).slice(0, 2);
     return answer('Where to extract?', at(best),
       p({}, Dust.depth(best) + ' in the mean' + (best.dust_share > 0 ? `; ${Dust.percent(best.dust_share)} of the dust lies within ${Dust.quantity(reach_m, -1, 'm')}` : '')),

@@ -48,7 +48,9 @@ Dust.error_bar = (share, error, look) => {
     Dust.el('s', {style: `left:${Dust.width(low)};width:${Dust.width(high - low)}`}));
 };
 // A figure of summary.json or of the document: {value, uncertainty, unit}.
-Dust.amount = (figure, none = Dust.dash) => (figure ? Dust.quantity(figure.value, figure.uncertainty, figure.unit) : none);
+// Why a figure has no error stands in its place.
+Dust.why_no_error = (figure) => (figure.no_error && figure.value !== 0 ? ` (${figure.no_error})` : '');
+Dust.amount = (figure, none = Dust.dash) => (figure ? Dust.quantity(figure.value, figure.uncertainty, figure.unit) + Dust.why_no_error(figure) : none);
 
 // The top of a page: kind, scenario, status, the switch of the theme and the title.
 Dust.heading = ({kind, scenario, status, title}) => {

@@ -11,6 +11,24 @@
       ['Finished', `${Dust.count(facts.finished)} of ${Dust.count(facts.runs)}`, facts.failed === 0 ? 'none failed' : `${facts.failed} failed`],
       ['Time of all runs', Dust.duration(facts.wall_s), 'one after the other'], ['Base', facts.base, facts.base_file]]));
 
+  // Places of hoods against their flows: what is drawn out, what still escapes, the capture.
+  Dust.sections.hoods = ({hoods}) => {
+    if (!hoods) return null;
+    const flow = (f) => (f > 1 / 60 ? Dust.number(3600 * f, 3) + '\u202fm³/h' : Dust.number(6e4 * f, 3) + '\u202fl/min');
+    const cell = (v, factor = 1) => (v === null ? dash : Dust.value(factor * v.value, v.error === null ? -1 : factor * v.error));
+    const rows = [...(hoods.plain ? [['plain', dash, dash, cell(hoods.plain), dash]] : []), ...hoods.places.flatMap((place) => place.trials.map((t) => [Dust.words(place.name), flow(t.flow_m3_per_s),
+      cell(t.drawn), cell(t.escapes), cell(t.is_few && t.capture ? {value: t.capture.value, error: null} : t.capture, 100) + (t.is_few ? ' (few grains)' : '')]))];
+    const grid = el('div', {class: 'grid'});
+    Dust.later.push(() => Dust.plot(grid, {title: 'Capture', x_label: 'flow, l/min', y_label: 'of the dust, %', lines: hoods.places.map((place) => {
+      const seen = place.trials.filter((t) => t.capture), error = (t) => (t.capture.error || 0);
+      return {name: Dust.words(place.name), x: seen.map((t) => 6e4 * t.flow_m3_per_s), y: seen.map((t) => 100 * t.capture.value),
+        low: seen.map((t) => 100 * (t.capture.value - error(t))), high: seen.map((t) => 100 * (t.capture.value + error(t)))};
+    })}));
+    const n = (title) => ({title, number: true});
+    return Dust.section('hoods', 'What the hoods capture', Dust.table([{title: 'Place'}, n('Flow'), n(`Drawn out, ${hoods.unit}`), n(`Escapes, ${hoods.unit}`), n('Capture, %')], rows, {label: 'Hoods'}), grid,
+      p({class: 'note'}, 'Capture: what the hood draws out over that and what still escapes through the openings that are watched, after the flow of the hood has come about; with one standard error.'));
+  };
+
   Dust.sections.calibration = ({calibration: c}) => {
     if (!c) return null;
     if (!c.has_answer) return Dust.section('calibration', 'The answer', p({class: 'banner'}, 'Not enough runs finished for an answer.'));

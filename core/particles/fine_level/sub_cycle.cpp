@@ -122,8 +122,8 @@ bool SubCycle::load_pair(const CandidateContact& c) {
   columns_.column(B::radius_i)[count_] = i.radius;
   columns_.column(B::radius_j)[count_] = j.radius;
   // How the two answer a force, see apply(); docs/theory/rare_grains.md, eq. (2).
-  columns_.column(B::inverse_mass)[count_] = felt_share(i.weight, j.weight) * i.inverse_mass +
-                                             felt_share(j.weight, i.weight) * j.inverse_mass;
+  columns_.column(B::inverse_mass_i)[count_] = felt_share(i.weight, j.weight) * i.inverse_mass;
+  columns_.column(B::inverse_mass_j)[count_] = felt_share(j.weight, i.weight) * j.inverse_mass;
   return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include "contact/batch_kernels.hpp"
 #include "dust/sdk/sensor.hpp"
+#include "particles/energy/contact_work.hpp"
 #include "particles/forces/wall_loads.hpp"
 #include "particles/neighbours/inner_list.hpp"
 #include "particles/openings/opening_marks.hpp"
@@ -30,6 +31,7 @@ struct ContactScene {
   bool has_weights = false;         ///< coarse particles of different statistical weights
   OpeningMarks opening_marks = {};  ///< of scenes that forces are evaluated on
   ContactWork* work = nullptr;      ///< of the same, if it is kept
+  EnergyAccount* energy = nullptr;  ///< of the same, if it is kept
 
   [[nodiscard]] contact::RowView rows() const { return particles.contact_rows(); }
 };
@@ -60,6 +62,7 @@ class ContactForces {
     double largest_overlap = 0.0;
     std::vector<double> wall_sums;              ///< WallLoads::k_sums per wall, if kept
     std::vector<sdk::WallImpact> wall_impacts;  ///< in the order of the contacts
+    EnergySums* energy = nullptr;               ///< of the step at hand, if an account is kept
   };
   /// One batch of contacts with a surface.
   struct WallBatch;

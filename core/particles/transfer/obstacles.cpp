@@ -17,19 +17,49 @@ double overlap_of(const Conditions& conditions, std::size_t surface, const doubl
          s.contact_at(conditions.time, {position[0], position[1], position[2]}).distance;
 }
 
+/// Which particles of another solver lie in a surface that was not there before, or deeper.
+class NewOverlaps {
+ public:
+  NewOverlaps(const Conditions& from, const Conditions& to, const Translation& names)
+      : from_(from), to_(to), before_(to.surfaces.size(), -1) {
+    for (std::size_t s = 0; s < names.surfaces().size(); ++s) {
+      const std::int32_t here = names.surfaces()[s];
+      if (here >= 0) before_[static_cast<std::size_t>(here)] = static_cast<std::int32_t>(s);
+    }
+  }
+  /// `position`: x, y, z, radius [m].
+  [[nodiscard]] bool lies_in(const double* position, std::size_t surface) const {
+    const double overlap = overlap_of(to_, surface, position);
+    if (overlap <= k_touch * position[3]) return false;
+    if (before_[surface] < 0) return true;
+    // What is pressed into a surface already, stays so.
+    const auto then = static_cast<std::size_t>(before_[surface]);
+    return overlap > 2.0 * overlap_of(from_, then, position);
+  }
+
+ private:
+  const Conditions& from_;
+  const Conditions& to_;
+  std::vector<std::int32_t> before_;  ///< the other's number of each surface, -1: it had none
+};
+
 void note_name(std::vector<std::string>& names, const std::string& name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-void note_blocked(std::vector<TransferObstacles::Blocked>& blocked, const std::string& surface,
+void note_blocked(std::vector<TransferObstacles::Blocked>& blocked, const Surface& surface,
                   std::int64_t id, const double* position) {
   auto at = std::find_if(blocked.begin(), blocked.end(),
-                         [&](const auto& b) { return b.surface == surface; });
+                         [&](const auto& b) { return b.surface == surface.name; });
   if (at == blocked.end()) {
-    blocked.push_back({surface, 0, id, {position[0], position[1], position[2]}});
+    blocked.push_back({.surface = surface.name,
+                       .first_id = id,
+                       .first_place = {position[0], position[1], position[2]},
+                       .is_hood = surface.opening >= 0 && surface.body != nullptr});
     at = blocked.end() - 1;
   }
   ++at->count;
+  at->largest_diameter = std::max(at->largest_diameter, 2.0 * position[3]);
 }
 
 }  // namespace
@@ -37,12 +67,7 @@ void note_blocked(std::vector<TransferObstacles::Blocked>& blocked, const std::s
 TransferObstacles find_obstacles(ContactTransfer::Side from, const Conditions& to) {
   TransferObstacles found;
   const Translation names(from.conditions, to);
-  std::vector<std::int32_t> before(to.surfaces.size(), -1);
-  for (std::size_t s = 0; s < names.surfaces().size(); ++s) {
-    if (names.surfaces()[s] >= 0) {
-      before[static_cast<std::size_t>(names.surfaces()[s])] = static_cast<std::int32_t>(s);
-    }
-  }
+  const NewOverlaps overlaps(from.conditions, to, names);
   for (std::size_t n = 0; n < from.particles.size(); ++n) {
     const double* p = from.particles.position(n);
     const std::int32_t material = from.particles.material(n);
@@ -56,14 +81,23 @@ TransferObstacles find_obstacles(ContactTransfer::Side from, const Conditions& t
       continue;
     }
     for (std::size_t s = 0; s < to.surfaces.size(); ++s) {
-      const double overlap = overlap_of(to, s, p);
-      if (overlap <= k_touch * p[3]) continue;
-      // What is pressed into a surface already, stays so.
-      if (before[s] >= 0 &&
-          overlap <= 2.0 * overlap_of(from.conditions, static_cast<std::size_t>(before[s]), p)) {
-        continue;
-      }
-      note_blocked(found.blocked, to.surfaces[s].name, from.particles.id(n), p);
+      if (overlaps.lies_in(p, s))
+        note_blocked(found.blocked, to.surfaces[s], from.particles.id(n), p);
+    }
+  }
+  return found;
+}
+
+std::vector<std::pair<std::size_t, int>> find_inside_hoods(ContactTransfer::Side from,
+                                                           const Conditions& to,
+                                                           const Translation& names) {
+  std::vector<std::pair<std::size_t, int>> found;
+  const NewOverlaps overlaps(from.conditions, to, names);
+  for (std::size_t s = 0; s < to.surfaces.size(); ++s) {
+    const Surface& surface = to.surfaces[s];
+    if (surface.opening < 0 || surface.body == nullptr) continue;
+    for (std::size_t n = 0; n < from.particles.size(); ++n) {
+      if (overlaps.lies_in(from.particles.position(n), s)) found.emplace_back(n, surface.opening);
     }
   }
   return found;

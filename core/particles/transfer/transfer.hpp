@@ -23,7 +23,9 @@ struct TransferObstacles {
     std::string surface;
     std::int64_t count = 0;
     std::int64_t first_id = 0;
-    sdk::Vec3 first_place;  ///< [m]
+    sdk::Vec3 first_place;          ///< [m]
+    double largest_diameter = 0.0;  ///< [m]
+    bool is_hood = false;           ///< its opening draws out what touches it
   };
   std::vector<Blocked> blocked;
   std::vector<std::string> materials;          ///< of particles that are there
@@ -41,6 +43,7 @@ struct TransferReport {
   std::int64_t particles = 0;
   std::int64_t contacts = 0;      ///< in touch, of surfaces that are still there
   std::int64_t without_past = 0;  ///< of these, whose history or part of it begins anew
+  std::int64_t drawn_out = 0;     ///< particles that lay in a new hood and are gone
 };
 
 }  // namespace dust::particles

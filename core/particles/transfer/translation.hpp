@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace dust::particles {
@@ -57,5 +58,10 @@ class ContactTransfer {
 
 /// See TransferObstacles.
 TransferObstacles find_obstacles(ContactTransfer::Side from, const Conditions& to);
+
+/// Rows of particles that lie in the body of a new hood, with the number of its opening.
+std::vector<std::pair<std::size_t, int>> find_inside_hoods(ContactTransfer::Side from,
+                                                           const Conditions& to,
+                                                           const Translation& names);
 
 }  // namespace dust::particles

@@ -15,9 +15,12 @@ json known(double value) { return value >= 0.0 ? json(value) : json(nullptr); }
 
 json amount_json(const Figure& figure) {
   if (figure.unit.empty()) return nullptr;
-  return {{"value", figure.value},
-          {"uncertainty", figure.uncertainty > 0.0 ? json(figure.uncertainty) : json(nullptr)},
-          {"unit", figure.unit}};
+  json amount = {
+      {"value", figure.value},
+      {"uncertainty", figure.uncertainty > 0.0 ? json(figure.uncertainty) : json(nullptr)},
+      {"unit", figure.unit}};
+  if (!figure.no_error.empty()) amount["no_error"] = figure.no_error;
+  return amount;
 }
 
 json figures_json(const std::vector<Figure>& figures) {

@@ -200,6 +200,12 @@ void Branch::report_obstacles(const particles::TransferObstacles& found) {
   }
   for (const auto& blocked : found.blocked) {
     const auto* body = find_named(now_.setup.bodies, blocked.surface);
+    if (blocked.is_hood && now_.dust.rule().is_dust(blocked.largest_diameter)) {
+      diagnostics_.warning(body->where, "bodies." + blocked.surface + ": " +
+                                            grains_text(blocked.count) +
+                                            " of dust lie in it and count as drawn out by it");
+      continue;
+    }
     const std::string what = grains_text(blocked.count) + " of the run in " +
                              start().folder.string() + " lie in it, the first, number " +
                              std::to_string(blocked.first_id) + ", at " +

@@ -2,6 +2,7 @@
 #include "run/branch/preview.hpp"
 
 #include "run/branch/branch.hpp"
+#include "run/dust/hoods.hpp"
 
 namespace dust::run {
 
@@ -20,7 +21,9 @@ std::optional<StartFacts> preview_start(const scenario::ReadResult& read,
   Branch branch(read, registry, diagnostics);
   Models models = make_models(read.setup, registry);
   branch.add_diameters(models.class_diameters);
-  branch.check(*make_particles(read.setup, models, read.dust));
+  const auto particles = make_particles(read.setup, models, read.dust);
+  particles->draw_out_at(openings_of(read.setup, read.dust));
+  branch.check(*particles);
   return StartFacts{.state = branch.origin().state().file().string(),
                     .time = branch.origin().time(),
                     .particles = branch.particles_there(),

@@ -28,7 +28,8 @@ DustStage::DustStage(const scenario::Setup& setup, const scenario::DustFieldSpec
       openings_(std::move(openings)),
       flow_(fluid.grid()),
       field_(fluid.grid(), spec, {setup.fluid->density, setup.fluid->viscosity}, setup.gravity,
-             {openings_.size(), 6 + setup.bodies.size()}) {
+             {openings_.size(), 6 + setup.bodies.size()}),
+      weight_(fluid.grid(), setup.gravity, spec.density, setup.fluid->density) {
   for (const double d : spec.diameters) names_.push_back(sdk::name_of(d * 1e6) + "_um");
   mark_hoods();
 }
@@ -150,6 +151,7 @@ void DustStage::find_outflows() {
 void DustStage::start() {
   find_volume(flow_.volume_after);
   field_.start(flow_.volume_after);
+  weight_.find(field_, flow_.volume_after);
 }
 
 void DustStage::advance(double time) {
@@ -174,6 +176,7 @@ void DustStage::advance(double time) {
     }
   }
   field_.advance(flow_, time, setup_.time.fluid_step);
+  weight_.find(field_, flow_.volume_after);
 }
 
 /// The one that is nearest for a place beyond the grid.
@@ -254,6 +257,7 @@ void DustStage::add_parts(LoadParts& parts) {
   parts.emplace_back("dust", [this](sdk::ArchiveReader& a) {
     field_.load(a);
     flow_.volume_after = a.numbers("volume");
+    weight_.find(field_, flow_.volume_after);
   });
 }
 

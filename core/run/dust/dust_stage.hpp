@@ -2,6 +2,7 @@
 #pragma once
 
 #include "airborne/dust_field.hpp"
+#include "airborne/dust_weight.hpp"
 #include "io/run_files.hpp"
 #include "particles/openings/opening.hpp"
 #include "run/archive_parts.hpp"
@@ -35,6 +36,8 @@ class DustStage {
   /// Dust set free in a cell at once [kg]; of the class `n`.
   void release(std::size_t n, std::int32_t cell, double mass) { field_.release(n, cell, mass); }
   [[nodiscard]] const airborne::DustField& field() const { return field_; }
+  /// [N/m3] on the fluid in the next step.
+  [[nodiscard]] const fluid::FaceField& weight() const { return weight_.force(); }
   /// "10_um": a class in names of figures and fields.
   [[nodiscard]] const std::vector<std::string>& class_names() const { return names_; }
   /// Names of the surfaces of DustBalance::surfaces.
@@ -64,6 +67,7 @@ class DustStage {
   std::vector<airborne::WallPiece>
       pieces_;  ///< with the areas of surfaces, whatever is before them
   airborne::DustField field_;
+  airborne::DustWeight weight_;
   std::vector<std::string> names_;
 };
 

@@ -2,6 +2,7 @@
 #include "run/summary/series_row.hpp"
 
 #include "run/summary/summary_dust.hpp"
+#include "run/summary/summary_energy.hpp"
 
 #include <numeric>
 #include <utility>
@@ -107,6 +108,7 @@ void for_series_columns(const Simulation& s, const ColumnVisitor& visit) {
   visit_hoods(s, visit);
   visit_dust_field(s, visit);
   visit_dust_on_grains(s, visit);
+  visit_energy(s, visit);
   for (std::size_t n = 0; n < s.models().sensors.size(); ++n) {
     const sdk::Sensor& sensor = *s.models().sensors[n];
     SensorColumns sink(sensor, s.setup().sensors[n].name + "/", visit);

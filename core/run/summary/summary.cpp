@@ -13,6 +13,7 @@
 #include "run/summary/series_row.hpp"
 #include "run/summary/summary_dust.hpp"
 #include "run/summary/summary_emitters.hpp"
+#include "run/summary/summary_energy.hpp"
 #include "run/summary/summary_models.hpp"
 
 #include <nlohmann/json.hpp>
@@ -43,6 +44,9 @@ class JsonFigures final : public sdk::FigureSink {
     entry = {{"value", number(value)},
              {"unit", unit},
              {"uncertainty", uncertainty < 0.0 ? Json(nullptr) : number(uncertainty)}};
+    if (const auto reason = sdk::reason_without_error(uncertainty); !reason.empty()) {
+      entry["no_error"] = reason;
+    }
     entry.update(role_json(role));
   }
   [[nodiscard]] const Json& json() const { return json_; }
@@ -284,6 +288,7 @@ Json amounts_json(const Simulation& s) {
   if (!s.dem().openings().empty()) j["hoods"] = hoods_json(s);
   if (s.dust_stage() != nullptr) j["dust_field"] = dust_field_json(s);
   if (s.liberation() != nullptr) j["dust_on_grains"] = dust_on_grains_json(s);
+  if (s.setup().audit.energy) j["energy"] = energy_json(s);
   j["size_classes"] = s.models().class_diameters.empty() ? Json::array() : class_steps(s.dem());
   return j;
 }
@@ -347,6 +352,7 @@ Json report_json(const Simulation& s, const RunFacts& facts, JsonReport& report)
   add_emitter_tables(s, r["tables"]);
   add_hood_tables(s, r["tables"]);
   add_liberation_table(s, r["tables"]);
+  add_energy_table(s, r["tables"]);
   r["outline"] = outlines(s);
   r["classes"] = s.models().class_diameters;
   if (facts.registry != nullptr) r["setting"] = setting_json(s.setup(), *facts.registry);

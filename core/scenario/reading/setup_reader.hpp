@@ -141,6 +141,9 @@ class SetupReader {
   void check_voidage();
 
   void read_sensors(MapReader& top);
+  /// Accounts that the run keeps.
+  void read_audit(MapReader& top);
+  void check_audit();
   /// What counts as dust, by size and material, and through what it gets out.
   void read_dust(MapReader& top);
   DustSpec dust_spec_of(const Entry& entry, const DustBlock& read, bool has_field);

@@ -4,6 +4,8 @@
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
+#include <algorithm>
+
 namespace {
 
 namespace formula = dust::model::box_concentration;
@@ -42,7 +44,11 @@ class BoxConcentration final : public sdk::Sensor {
     if (classes_.empty() && !world.class_diameters.empty()) {
       classes_.assign(world.class_diameters.begin(), world.class_diameters.end());
       means_ = sdk::BatchMeans(k_totals + k_per_class * classes_.size());
+      seen_.assign(1 + classes_.size(), {});
     }
+    const bool is_steady = sdk::is_after(world, p_.steady_after);
+    const bool is_first = is_steady && means_.duration() == 0.0;
+    std::int64_t newest = newest_;
     values_.assign(means_.columns(), 0.0);
     squares_ = 0.0;
     const sdk::GrainColumns& g = world.grains;
@@ -52,13 +58,18 @@ class BoxConcentration final : public sdk::Sensor {
       values_[0] += mass;
       values_[1] += g.weight[i];
       squares_ += mass * mass;
+      newest = std::max(newest, g.id[i]);
+      const bool has_come = is_first || g.id[i] > newest_ || !was_inside(g, i);
+      if (is_steady) seen_[0].add(has_come, world.interval);
       if (classes_.empty()) continue;
       const std::size_t c = sdk::nearest_class(g.diameter[i], classes_);
+      if (is_steady) seen_[1 + c].add(has_come, world.interval);
       values_[k_totals + k_per_class * c] += mass;
       values_[k_totals + k_per_class * c + 1] += g.weight[i];
     }
     emitted_mass_ = world.emitted_mass;
-    if (sdk::is_after(world, p_.steady_after)) means_.add(values_, world.interval);
+    newest_ = newest;
+    if (is_steady) means_.add(values_, world.interval);
     curve_.add(world.time, formula::concentration(values_[0], volume_));
   }
 
@@ -72,16 +83,18 @@ class BoxConcentration final : public sdk::Sensor {
 
   void summary(sdk::FigureSink& sink) const override {
     const sdk::FigureRole role = p_.sized(k_stock);
-    figures_of("", 0, role, sink);
+    figures_of("", 0, seen_[0], role, sink);
     sink.figure("mass_at_end", values_[0], "kg", -1.0, role.of(sdk::Quantity::mass));
-    // Grains come one by one: the mass present scatters like a sum of independent grains.
-    const double scatter = values_[0] > 0.0 ? std::sqrt(squares_) : -1.0;
+    const double error =
+        error_of(values_[0] > 0.0 ? formula::moment_error(means_.deviation(0), squares_)
+                                  : sdk::k_no_estimate,
+                 means_.error(0), seen_[0]);
     sink.figure("grams_per_tonne", formula::grams_per_tonne(values_[0], emitted_mass_), "g/t",
-                scatter < 0.0 ? -1.0 : formula::grams_per_tonne(scatter, emitted_mass_),
+                error < 0.0 ? error : formula::grams_per_tonne(error, emitted_mass_),
                 role.of(sdk::Quantity::mass_per_load));
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (!p_.takes(classes_[c])) continue;
-      figures_of(sdk::class_name(classes_[c]) + "/", k_totals + k_per_class * c,
+      figures_of(sdk::class_name(classes_[c]) + "/", k_totals + k_per_class * c, seen_[1 + c],
                  k_stock.sizes(classes_[c], classes_[c]), sink);
     }
   }
@@ -96,6 +109,11 @@ class BoxConcentration final : public sdk::Sensor {
     a.numbers("classes", classes_);
     a.numbers("values", values_);
     a.numbers("last", last);
+    std::vector<double> seen;
+    for (const Seen& s : seen_) seen.insert(seen.end(), {s.grains, s.stay});
+    a.numbers("seen", seen);
+    const std::int64_t newest[] = {newest_};
+    a.integers("newest", newest);
     means_.save(a, "means");
     curve_.save(a, "curve");
   }
@@ -105,6 +123,10 @@ class BoxConcentration final : public sdk::Sensor {
     const std::vector<double> last = a.numbers("last");
     squares_ = last.at(0);
     emitted_mass_ = last.at(1);
+    const std::vector<double> seen = a.numbers("seen");
+    seen_.resize(seen.size() / 2);
+    for (std::size_t n = 0; n < seen_.size(); ++n) seen_[n] = {seen.at(2 * n), seen.at(2 * n + 1)};
+    newest_ = a.integers("newest").at(0);
     means_.load(a, "means");
     curve_.load(a, "curve");
   }
@@ -115,20 +137,47 @@ class BoxConcentration final : public sdk::Sensor {
   static constexpr std::size_t k_per_class = 2;  ///< the same by class
 
   [[nodiscard]] bool is_inside(const sdk::GrainColumns& g, std::size_t i) const {
-    return g.x[i] >= p_.min.x && g.x[i] < p_.max.x && g.y[i] >= p_.min.y && g.y[i] < p_.max.y &&
-           g.z[i] >= p_.min.z && g.z[i] < p_.max.z;
+    return sdk::is_in_box({g.x[i], g.y[i], g.z[i]}, p_.min, p_.max);
   }
 
-  void figures_of(const std::string& prefix, std::size_t column, const sdk::FigureRole& role,
-                  sdk::FigureSink& sink) const {
+  [[nodiscard]] bool was_inside(const sdk::GrainColumns& g, std::size_t i) const {
+    return sdk::is_in_box({g.x_before[i], g.y_before[i], g.z_before[i]}, p_.min, p_.max);
+  }
+
+  /// The computed grains that were in the box since `steady_after`.
+  struct Seen {
+    double grains = 0.0;
+    double stay = 0.0;  ///< [s] that all of them together were there
+    void add(bool has_come, double interval) {
+      if (has_come) grains += 1.0;
+      stay += interval;
+    }
+  };
+
+  /// `error` of a figure, unless its mean, of error `of_mean`, has not settled, it rests on few
+  /// grains, or on hardly more than one population of them.
+  [[nodiscard]] double error_of(double error, double of_mean, const Seen& seen) const {
+    if (error < 0.0) return error;
+    if (seen.grains < sdk::k_min_grains) return sdk::k_few_grains;
+    if (of_mean == sdk::k_not_steady) return sdk::k_not_steady;
+    const bool is_renewed =
+        formula::renewals(seen.grains, seen.stay, means_.duration()) >= formula::k_min_renewals;
+    return is_renewed || error == 0.0 ? error : sdk::k_not_steady;
+  }
+
+  void figures_of(const std::string& prefix, std::size_t column, const Seen& seen,
+                  const sdk::FigureRole& role, sdk::FigureSink& sink) const {
     const double mass = means_.mean(column);
-    const double error = mass > 0.0 ? means_.error(column) : -1.0;
-    const double number_error = mass > 0.0 ? means_.error(column + 1) : -1.0;
+    const auto checked = [&](double error) {
+      return mass > 0.0 ? error_of(error, error, seen) : sdk::k_no_estimate;
+    };
+    const double error = checked(means_.error(column));
+    const double number_error = checked(means_.error(column + 1));
     sink.figure(prefix + "mass_concentration", formula::concentration(mass, volume_), "kg/m3",
-                error < 0.0 ? -1.0 : formula::concentration(error, volume_),
+                error < 0.0 ? error : formula::concentration(error, volume_),
                 role.of(sdk::Quantity::mass_concentration));
     sink.figure(prefix + "number_concentration", means_.mean(column + 1) / volume_, "1/m3",
-                number_error < 0.0 ? -1.0 : number_error / volume_,
+                number_error < 0.0 ? number_error : number_error / volume_,
                 role.of(sdk::Quantity::number_concentration));
   }
 
@@ -136,8 +185,10 @@ class BoxConcentration final : public sdk::Sensor {
   double volume_ = 1.0;
   std::vector<double> classes_;
   std::vector<double> values_ = std::vector<double>(k_totals, 0.0);  ///< at the last sample
-  double squares_ = 0.0;       ///< [kg2] sum of (w m)^2 at the last sample
-  double emitted_mass_ = 0.0;  ///< [kg]
+  double squares_ = 0.0;           ///< [kg2] sum of (w m)^2 at the last sample
+  double emitted_mass_ = 0.0;      ///< [kg]
+  std::vector<Seen> seen_ = {{}};  ///< all, then by class
+  std::int64_t newest_ = -1;       ///< the largest id in the box so far
   sdk::BatchMeans means_{k_totals};
   sdk::ThinnedCurve curve_;
 };

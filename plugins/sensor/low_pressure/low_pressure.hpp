@@ -96,6 +96,60 @@ inline RowMeans averaged_along(const Cells& cells, int direction, const std::vec
   return result;
 }
 
+/// How many cells [cell widths `spacing`, m] a distance [m] reaches along each direction: at least
+/// one where it is above 0. A distance that is a whole number of cells but for rounding takes
+/// these.
+inline std::array<int, 3> cells_within(double distance, std::array<double, 3> spacing) {
+  constexpr double k_rounding = 1e-6;
+  std::array<int, 3> reach{0, 0, 0};
+  if (distance <= 0.0) return reach;
+  for (std::size_t d = 0; d < 3; ++d) {
+    reach[d] = std::max(1, static_cast<int>(std::ceil(distance / spacing[d] - k_rounding)));
+  }
+  return reach;
+}
+
+/// Marks every cell that lies at most `reach` cells from a marked one along each direction, the
+/// corners of that box included. Three passes, one per direction.
+inline std::vector<char> grown(const Cells& cells, std::vector<char> marked,
+                               std::array<int, 3> reach) {
+  const std::array<std::size_t, 3> stride{
+      1, static_cast<std::size_t>(cells.count[0]),
+      static_cast<std::size_t>(cells.count[0]) * static_cast<std::size_t>(cells.count[1])};
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (reach[d] == 0) continue;
+    const std::vector<char> before = marked;
+    const auto length = static_cast<std::size_t>(cells.count[d]);
+    const auto far = static_cast<std::size_t>(reach[d]);
+    for (std::size_t c = 0; c < marked.size(); ++c) {
+      if (before[c] == 0) continue;
+      const std::size_t at = c / stride[d] % length;
+      const std::size_t first = c - std::min(at, far) * stride[d];
+      const std::size_t last = c + std::min(length - 1 - at, far) * stride[d];
+      for (std::size_t n = first; n <= last; n += stride[d]) marked[n] = 1;
+    }
+  }
+  return marked;
+}
+
+/// Rows along a direction with a marked cell, by `collapsed` cell.
+inline std::vector<char> any_along(const Cells& cells, int direction,
+                                   const std::vector<char>& marked) {
+  const Cells rows = collapsed(cells, direction);
+  std::vector<char> result(rows.size(), 0);
+  for (int k = 0; k < cells.count[2]; ++k) {
+    for (int j = 0; j < cells.count[1]; ++j) {
+      for (int i = 0; i < cells.count[0]; ++i) {
+        if (marked[cells.index(i, j, k)] == 0) continue;
+        std::array<int, 3> cell{i, j, k};
+        cell[static_cast<std::size_t>(direction)] = 0;
+        result[rows.index(cell[0], cell[1], cell[2])] = 1;
+      }
+    }
+  }
+  return result;
+}
+
 struct Minimum {
   std::array<int, 3> cell{0, 0, 0};
   double value = 0.0;
@@ -103,12 +157,13 @@ struct Minimum {
 
 /// The deepest local minima below zero of a field, at most `count`, at least `separation` apart.
 ///
-/// A cell is a local minimum when no open neighbour of its 26 is lower (of equals, the first one
-/// counts). They are taken from the deepest up; one nearer than `separation` [m] to a deeper one
-/// belongs to the same place.
-/// @param spacing  [m] of the cells per direction
+/// A cell is a local minimum when no eligible neighbour of its 26 is lower (of equals, the first
+/// one counts). They are taken from the deepest up; one nearer than `separation` [m] to a deeper
+/// one belongs to the same place.
+/// @param is_eligible  1 where a minimum may lie
+/// @param spacing      [m] of the cells per direction
 inline std::vector<Minimum> deepest_minima(const Cells& cells, const std::vector<double>& field,
-                                           const std::vector<char>& is_open,
+                                           const std::vector<char>& is_eligible,
                                            std::array<double, 3> spacing, double separation,
                                            std::size_t count) {
   std::vector<Minimum> found;
@@ -116,10 +171,10 @@ inline std::vector<Minimum> deepest_minima(const Cells& cells, const std::vector
     for (int j = 0; j < cells.count[1]; ++j) {
       for (int i = 0; i < cells.count[0]; ++i) {
         const std::size_t c = cells.index(i, j, k);
-        if (is_open[c] == 0 || !(field[c] < 0.0)) continue;
+        if (is_eligible[c] == 0 || !(field[c] < 0.0)) continue;
         bool is_lowest = true;
         cells.for_neighbourhood(i, j, k, [&](std::size_t n) {
-          if (is_open[n] == 0 || n == c) return;
+          if (is_eligible[n] == 0 || n == c) return;
           if (field[n] < field[c] || (field[n] == field[c] && n < c)) is_lowest = false;
         });
         if (is_lowest) found.push_back({{i, j, k}, field[c]});

@@ -202,9 +202,9 @@ class PlaneFlux final : public sdk::Sensor {
         const double emitted = emitted_before_ < 0.0 ? 0.0 : emitted_mass_ - emitted_before_;
         const double rate = formula::grams_per_tonne(means_.mean(first + way), duration, emitted);
         sink.figure(prefix + k_way_names[way] + "grams_per_tonne", rate, "g/t",
-                    error < 0.0 || emitted <= 0.0
-                        ? -1.0
-                        : formula::grams_per_tonne(error, duration, emitted),
+                    error < 0.0     ? error
+                    : emitted > 0.0 ? formula::grams_per_tonne(error, duration, emitted)
+                                    : sdk::k_no_estimate,
                     role.of(sdk::Quantity::mass_per_load));
       }
     }

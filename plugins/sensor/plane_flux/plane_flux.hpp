@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/sensor.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,12 +18,15 @@ namespace dust::model::plane_flux {
 /// @param sum          sum of the weights (or weighted masses) of the passages
 /// @param squares      sum of their squares
 /// @param duration     [s] counted
-/// @return one standard error; -1 without a passage
+/// @return one standard error; negative where there is none: without a passage, with fewer than 20
+///   independent grains, where the rate has not settled
 inline double rate_error(double batch_error, double sum, double squares, double duration) {
   constexpr double k_many = 100.0;  // effective number from which batch means are trusted alone
-  if (squares <= 0.0 || duration <= 0.0) return -1.0;
+  if (squares <= 0.0 || duration <= 0.0) return sdk::k_no_estimate;
   const double poisson = std::sqrt(squares) / duration;
   const double effective_number = sum * sum / squares;
+  if (effective_number < sdk::k_min_grains) return sdk::k_few_grains;
+  if (batch_error == sdk::k_not_steady) return sdk::k_not_steady;
   if (batch_error >= 0.0 && effective_number >= k_many) return batch_error;
   return std::max(batch_error, poisson);
 }

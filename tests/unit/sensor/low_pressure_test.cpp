@@ -166,3 +166,85 @@ TEST_CASE("a level flow shall have one place per eddy, at half its depth, howeve
 TEST_CASE("averaging along more than one axis shall be refused") {
   CHECK_THROWS(kind().make({{"average_along", Vec3{1, 1, 0}}}));
 }
+
+TEST_CASE("no place shall lie nearer than its clearance to a body") {
+  SyntheticScene world;
+  set_cells(world, 60, 3, 40);
+  // The deeper well is 8 cells of 1 mm above a body whose uppermost cells are k = 9.
+  dig(world, {{15, 1, 18, 0.5}, {45, 1, 30, 0.3}});
+  for (int k = 0; k < 10; ++k) {
+    for (int j = 0; j < 3; ++j) {
+      for (int i = 0; i < 60; ++i) world.open_fraction[cell_at(world, i, j, k)] = 0.0f;
+    }
+  }
+  const auto first_height = [&world](double clearance) {
+    const auto sensor = kind().make({{"count", std::int64_t{5}}, {"clearance", clearance}});
+    world.time = 0.0;
+    step(*sensor, world);
+    return summary_of(*sensor)["place_1/z"];
+  };
+  // Up to 8 mm the well itself; then the pressure still falls towards the body, and the place lies
+  // at the edge of what is left.
+  CHECK(first_height(0.0) == doctest::Approx(18.5e-3));
+  CHECK(first_height(8e-3) == doctest::Approx(18.5e-3));
+  CHECK(first_height(9e-3) == doctest::Approx(19.5e-3));
+  CHECK(first_height(11e-3) == doctest::Approx(21.5e-3));
+  // Far above the deeper well the other one is the deepest that is left.
+  CHECK(first_height(18e-3) == doctest::Approx(30.5e-3));
+  // Less than a cell is a cell.
+  CHECK(first_height(1e-5) == doctest::Approx(18.5e-3));
+}
+
+TEST_CASE("no place shall lie in the stream, judged by its mean solids fraction") {
+  SyntheticScene world;
+  set_cells(world, 60, 3, 40);
+  dig(world, {{15, 1, 18, 0.5}, {45, 1, 30, 0.3}});
+  const auto fill = [&world](float void_fraction) {
+    for (int k = 0; k < 40; ++k) {
+      for (int i = 13; i < 18; ++i) world.void_fraction[cell_at(world, i, 1, k)] = void_fraction;
+    }
+  };
+  const auto first_x = [&](double limit) {
+    const auto sensor = kind().make(
+        {{"count", std::int64_t{1}}, {"clearance", 1e-3}, {"largest_solids_fraction", limit}});
+    world.time = 0.0;
+    // A tenth of the time 0.2 of solids: 0.02 in the mean.
+    for (int s = 0; s < 50; ++s) {
+      fill(s % 10 == 0 ? 0.8f : 1.0f);
+      step(*sensor, world);
+    }
+    return summary_of(*sensor)["place_1/x"];
+  };
+  CHECK(first_x(0.021) == doctest::Approx(15.5e-3));
+  // The stream takes cells 13 to 17, its clearance one more on either side.
+  const double beside = first_x(0.019);
+  CHECK((beside == doctest::Approx(11.5e-3) || beside == doctest::Approx(19.5e-3)));
+}
+
+TEST_CASE("places shall lie in the box that was asked for, in rows by their middle") {
+  SyntheticScene world;
+  set_cells(world, 60, 4, 40);
+  dig(world, {{15, 1, 18, 0.5}, {45, 1, 30, 0.3}});
+  const Vec3 min{30e-3, 0, 0}, max{50e-3, 4e-3, 40e-3};
+  const auto cells = kind().make({{"count", std::int64_t{1}}, {"min", min}, {"max", max}});
+  step(*cells, world);
+  CHECK(summary_of(*cells)["place_1/x"] == doctest::Approx(45.5e-3));
+  const auto rows = kind().make({{"count", std::int64_t{1}},
+                                 {"average_along", Vec3{0, 1, 0}},
+                                 {"min", Vec3{30e-3, 1e-3, 0}},
+                                 {"max", max}});
+  step(*rows, world);
+  CHECK(summary_of(*rows)["place_1/x"] == doctest::Approx(45.5e-3));
+  CHECK_THROWS(kind().make({{"min", max}, {"max", min}}));
+}
+
+TEST_CASE("a body in a part of the depth shall take the whole row") {
+  SyntheticScene world;
+  set_cells(world, 60, 4, 40);
+  dig(world, {{15, 1, 18, 0.5}, {45, 1, 30, 0.3}});
+  world.open_fraction[cell_at(world, 15, 3, 18)] = 0.0f;
+  const auto sensor = kind().make(
+      {{"count", std::int64_t{1}}, {"average_along", Vec3{0, 1, 0}}, {"clearance", 20e-3}});
+  step(*sensor, world);
+  CHECK(summary_of(*sensor)["place_1/x"] == doctest::Approx(45.5e-3));
+}

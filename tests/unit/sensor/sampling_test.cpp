@@ -53,7 +53,8 @@ TEST_CASE("batch means shall give the exact mean and the error of the scatter") 
   CHECK(coverage.one() > test::k_one_low);
   CHECK(coverage.one() < test::k_one_high);
   CHECK(coverage.two() > test::k_two_low);
-  CHECK(mean_error == doctest::Approx(1.0 / std::sqrt(k_samples)).epsilon(0.05));
+  // One in six series looks as if it remembered, by chance, and has a wider error: 6 % in the mean.
+  CHECK(mean_error == doctest::Approx(1.0 / std::sqrt(k_samples)).epsilon(0.1));
 }
 
 TEST_CASE("batch means shall see that neighbouring samples remember each other") {
@@ -90,9 +91,42 @@ TEST_CASE("memory longer than a batch shall widen the error of the mean") {
     }
     coverage.add({means.mean(0), "", means.error(0)}, 0.0);
   }
-  MESSAGE("within one standard error: " << coverage.one() << ", two: " << coverage.two());
-  CHECK(coverage.one() > 0.5);
-  CHECK(coverage.two() > 0.8);
+  const int with_error = coverage.runs - coverage.without_error;
+  const double one = static_cast<double>(coverage.within_one) / with_error;
+  const double two = static_cast<double>(coverage.within_two) / with_error;
+  MESSAGE("within one standard error: " << one << ", two: " << two << ", of " << with_error);
+  // A tenth looks like a drift and has none.
+  CHECK(with_error > 0.8 * coverage.runs);
+  CHECK(one > test::k_one_low);
+  CHECK(two > test::k_two_low);
+}
+
+TEST_CASE("a mean that drifts, or rests on one lump, shall say that it has not settled") {
+  constexpr int k_samples = 1000;
+  int drifting = 0, lumped = 0;
+  for (int run = 0; run < 100; ++run) {
+    Dice dice(run);
+    sdk::BatchMeans drift(1), lump(1);
+    for (int i = 0; i < k_samples; ++i) {
+      const double noise = 0.1 * dice.normal();
+      const double rising = noise + static_cast<double>(i) / k_samples;
+      const double once = noise + (i >= 700 && i < 900 ? 1.0 : 0.0);
+      drift.add({&rising, 1}, 0.001);
+      lump.add({&once, 1}, 0.001);
+    }
+    drifting += drift.error(0) == sdk::k_not_steady;
+    lumped += lump.error(0) == sdk::k_not_steady;
+  }
+  CHECK(drifting == 100);
+  CHECK(lumped == 100);
+  // A drift below 1 % of the mean is an error: 0.5 % over the time has a deviation of 0.5 /
+  // sqrt(12).
+  sdk::BatchMeans small(1);
+  for (int i = 0; i < 1024; ++i) {
+    const double value = 1.0 + 5e-3 * static_cast<double>(i) / 1024.0;
+    small.add({&value, 1}, 0.001);
+  }
+  CHECK(small.error(0) == doctest::Approx(5e-3 / std::sqrt(12.0)).epsilon(0.05));
 }
 
 TEST_CASE("few samples shall give no error rather than a wrong one") {

@@ -137,10 +137,14 @@ inline Passage passage(double height_before, double height_now) {
 /// doi:10.1002/9780470172445.ch7). Memory does not grow: full storage merges neighbouring batches.
 ///
 /// Where neighbouring batches still remember each other (lag-1 correlation \f$ r \f$ of the batch
-/// means above \f$ 2/\sqrt{n} \f$, what chance gives in one case of forty), the variance of the
-/// mean is \f$ (1+r)/(1-r) \f$ times larger, as for a first-order autoregression (Bayley and
-/// Hammersley 1946, doi:10.2307/2983560). Limits: a run shorter than a few memories of the flow has
-/// no honest error, nor has a drift; below 8 samples there is no error.
+/// means above \f$ 1/\sqrt{n} \f$), the \f$ n \f$ batches count as
+/// \f$ n_e = n (1-r)/(1+r) \f$ independent ones, as in a first-order autoregression (Bayley and
+/// Hammersley 1946, doi:10.2307/2983560), with \f$ r \f$ freed of the bias \f$ -(1+3r)/n \f$ of
+/// short series (Marriott and Pope 1954, doi:10.2307/2332719). The error is then wide enough that
+/// 1.96 of it hold 95 % by Student's t. With fewer than 3 independent batches the mean has not
+/// settled: there is no error but `k_not_steady`, unless the batches scatter by less than 1 % of
+/// the mean, which then is the error. Limits: a run shorter than the memory of the flow may look
+/// steady and even; below 8 samples there is no error.
 class BatchMeans {
  public:
   explicit BatchMeans(std::size_t columns = 0) : columns_(columns), open_(columns, 0.0) {}
@@ -170,25 +174,30 @@ class BatchMeans {
     const double time = duration();
     return time > 0.0 ? sum / time : 0.0;
   }
-  /// Standard error of the mean; -1 below 8 batches.
+  /// Standard error of the mean; k_no_estimate below 8 batches, k_not_steady where the batches
+  /// remember each other too long.
   [[nodiscard]] double error(std::size_t column) const {
-    const std::size_t n = durations_.size();
-    if (n < k_min_batches) return -1.0;
-    double mean_of_batches = 0.0;
-    for (std::size_t b = 0; b < n; ++b) mean_of_batches += batch_mean(b, column) / n;
-    double squares = 0.0;
-    double products = 0.0;
-    double last = 0.0;
-    for (std::size_t b = 0; b < n; ++b) {
-      const double deviation = batch_mean(b, column) - mean_of_batches;
-      squares += deviation * deviation;
-      products += deviation * last;
-      last = deviation;
+    const std::size_t batches = durations_.size();
+    if (batches < k_min_batches) return k_no_estimate;
+    const auto n = static_cast<double>(batches);
+    const Spread spread = spread_of(column);
+    const double variance = spread.squares / (n * (n - 1.0));
+    if (spread.correlation <= 1.0 / std::sqrt(n)) return std::sqrt(variance);
+    const double memory =
+        std::min(spread.correlation + (1.0 + 3.0 * spread.correlation) / n, k_max_memory);
+    const double independent = n * (1.0 - memory) / (1.0 + memory);
+    if (independent < k_min_independent) {
+      const double drift = deviation(column);
+      return drift <= k_small_drift * std::abs(mean(column)) ? drift : k_not_steady;
     }
-    const double variance = squares / static_cast<double>(n * (n - 1));
-    const double memory = squares > 0.0 ? std::min(products / squares, k_max_memory) : 0.0;
-    const bool has_memory = memory > 2.0 / std::sqrt(static_cast<double>(n));
-    return std::sqrt(has_memory ? variance * (1.0 + memory) / (1.0 - memory) : variance);
+    return std::sqrt(variance * n / independent) * widening(independent - 1.0);
+  }
+  /// How far a single batch lies from the mean of all, one standard deviation; k_no_estimate below
+  /// 8 batches.
+  [[nodiscard]] double deviation(std::size_t column) const {
+    const std::size_t batches = durations_.size();
+    if (batches < k_min_batches) return k_no_estimate;
+    return std::sqrt(spread_of(column).squares / (static_cast<double>(batches) - 1.0));
   }
 
   void save(ArchiveWriter& archive, const std::string& name) const {
@@ -218,7 +227,44 @@ class BatchMeans {
  private:
   static constexpr std::size_t k_max_batches = 32;
   static constexpr std::size_t k_min_batches = 8;
-  static constexpr double k_max_memory = 0.9;  ///< 32 batches cannot tell more
+  static constexpr double k_max_memory = 0.97;      ///< 32 batches cannot tell more
+  static constexpr double k_min_independent = 3.0;  ///< batches
+  static constexpr double k_small_drift = 0.01;     ///< of the mean: what batches scatter by then
+
+  /// Sum of the squares of the batches' deviations, and the lag-1 correlation of them.
+  struct Spread {
+    double squares = 0.0;
+    double correlation = 0.0;
+  };
+  [[nodiscard]] Spread spread_of(std::size_t column) const {
+    const std::size_t n = durations_.size();
+    double mean_of_batches = 0.0;
+    for (std::size_t b = 0; b < n; ++b) {
+      mean_of_batches += batch_mean(b, column) / static_cast<double>(n);
+    }
+    Spread spread;
+    double products = 0.0;
+    double last = 0.0;
+    for (std::size_t b = 0; b < n; ++b) {
+      const double deviation = batch_mean(b, column) - mean_of_batches;
+      spread.squares += deviation * deviation;
+      products += deviation * last;
+      last = deviation;
+    }
+    if (spread.squares > 0.0) spread.correlation = products / spread.squares;
+    return spread;
+  }
+  /// The 97.5 % quantile of Student's t over that of the normal law, by the expansion in 1/degrees
+  /// (Abramowitz and Stegun 1964, 26.7.5); within 3 % from 2 degrees of freedom on.
+  static double widening(double degrees) {
+    constexpr double z = 1.959964;
+    constexpr double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
+    const double first = (z3 + z) / 4.0;
+    const double second = (5.0 * z5 + 16.0 * z3 + 3.0 * z) / 96.0;
+    const double third = (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / 384.0;
+    const double f = 1.0 / degrees;
+    return (z + f * (first + f * (second + f * third))) / z;
+  }
 
   [[nodiscard]] double batch_mean(std::size_t batch, std::size_t column) const {
     return closed_[batch * columns_ + column] / durations_[batch];

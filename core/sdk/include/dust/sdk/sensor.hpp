@@ -89,8 +89,22 @@ struct WorldView {
   double emitted_mass = 0.0;                ///< [kg] so far, weighted
 };
 
+/// What stands in place of a figure's standard error where there is none.
+inline constexpr double k_no_estimate = -1.0;  ///< the sensor's README says why
+inline constexpr double k_few_grains = -2.0;   ///< it rests on fewer than k_min_grains
+inline constexpr double k_not_steady = -3.0;   ///< it has not settled in the time observed
+
+/// Fewer independent grains tell no error.
+inline constexpr double k_min_grains = 20.0;
+
+/// The reason as files give it: "few grains", "not steady", "" for none in particular.
+constexpr std::string_view reason_without_error(double uncertainty) {
+  if (uncertainty == k_few_grains) return "few grains";
+  return uncertainty == k_not_steady ? "not steady" : "";
+}
+
 /// Takes the figures of a sensor. `uncertainty` is one standard error in the same unit; a negative
-/// number means "no estimate", and the sensor's README says why.
+/// number means that there is none (k_no_estimate, k_few_grains, k_not_steady).
 class FigureSink {
  public:
   virtual ~FigureSink() = default;

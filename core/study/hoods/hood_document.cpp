@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/hoods/hood_results.hpp"
+
+#include <algorithm>
+
+namespace dust::study {
+namespace {
+
+using Json = nlohmann::json;
+
+Json estimate_json(const Uncertain& estimate, double factor) {
+  return {{"value", factor * estimate.value},
+          {"error", estimate.error > 0.0 ? Json(factor * estimate.error) : Json(nullptr)}};
+}
+
+}  // namespace
+
+HoodScale::HoodScale(const HoodResults& results)
+    : is_per_load(std::any_of(results.places.begin(), results.places.end(), [](const auto& place) {
+        return std::any_of(place.trials.begin(), place.trials.end(),
+                           [](const HoodTrial& trial) { return trial.load > 0.0; });
+      })) {}
+
+double HoodScale::factor(const HoodTrial& trial) const {
+  constexpr double k_grams_per_tonne = 1e6;
+  constexpr double k_grams_per_hour = 3.6e6;  // of 1 kg/s
+  if (!is_per_load) return k_grams_per_hour;
+  return trial.load > 0.0 ? k_grams_per_tonne / trial.load : 0.0;
+}
+
+Json hoods_json(const HoodResults& results) {
+  const HoodScale scale(results);
+  Json places = Json::array();
+  for (const HoodPlace& place : results.places) {
+    Json trials = Json::array();
+    for (const HoodTrial& trial : place.trials) {
+      const double factor = scale.factor(trial);
+      const auto capture = trial.capture();
+      const bool is_few = trial.computed >= 0.0 && trial.computed < k_few_drawn;
+      trials.push_back({{"flow_m3_per_s", trial.flow},
+                        {"drawn", estimate_json(trial.drawn, factor)},
+                        {"escapes", estimate_json(trial.escaping, factor)},
+                        {"capture", capture ? estimate_json(*capture, 1.0) : Json(nullptr)},
+                        {"is_few", is_few}});
+    }
+    places.push_back({{"name", place.name}, {"trials", trials}});
+  }
+  return {
+      {"unit", scale.unit()},
+      {"plain", results.plain ? estimate_json(results.plain->escaping, scale.factor(*results.plain))
+                              : Json(nullptr)},
+      {"places", places}};
+}
+
+}  // namespace dust::study

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/hoods/hood_results.hpp"
+
+#include "base/error.hpp"
+#include "dust/sdk/sampling.hpp"
+#include "report/highlights.hpp"
+#include "report/run_text.hpp"
+#include "scenario/text/tree.hpp"
+#include "scenario/text/units.hpp"
+#include "study/hoods/hood_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+
+namespace dust::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double k_grams_per_tonne = 1e6;
+
+/// The hood of a point: the group of its body, and its flow.
+struct Hood {
+  std::string place;
+  double flow = 0.0;  ///< [m3/s]
+};
+
+std::optional<Hood> hood_of(const std::string& scenario_text, const std::string& file) {
+  scenario::Diagnostics diagnostics;
+  const auto root = scenario::parse_yaml(scenario_text, file, false, diagnostics);
+  const auto child = [](const scenario::Node* node, const char* key) -> const scenario::Node* {
+    const scenario::Entry* entry = node != nullptr ? node->find(key) : nullptr;
+    return entry != nullptr ? &entry->value : nullptr;
+  };
+  const scenario::Node* body = child(child(root ? &*root : nullptr, "bodies"), k_hood_body);
+  const scenario::Node* flow = child(child(body, "suction"), "flow");
+  const scenario::Node* group = child(body, "group");
+  if (flow == nullptr || group == nullptr) return std::nullopt;
+  std::string error;
+  const auto written = scenario::split_number(flow->text, error);
+  if (!written) return std::nullopt;
+  const auto value = scenario::to_si(*written, sdk::dimension::volume_flow, error);
+  if (!value) return std::nullopt;
+  return Hood{group->text, *value};
+}
+
+/// A column of series.csv by name; null where there is none.
+const report::SeriesColumn* column_of(const report::RunText& run, const std::string& name) {
+  const auto at = std::find_if(run.series.begin(), run.series.end(),
+                               [&](const auto& column) { return column.name == name; });
+  return at == run.series.end() ? nullptr : &*at;
+}
+
+/// How fast totals of series.csv grow after the time at which counting begins.
+class Growth {
+ public:
+  explicit Growth(const report::RunText& run) : run_(run), time_(column_of(run, "time")) {
+    if (time_ == nullptr || time_->values.empty()) return;
+    const double first = report::number_at(report::object_at(run.summary, "start_from"), "time_s")
+                             .value_or(time_->values.front());
+    begin_ = first + k_settling * (time_->values.back() - first);
+  }
+  /// The sum of the columns that `takes` chooses by name, per second.
+  template <class Takes>
+  [[nodiscard]] Uncertain of(const Takes& takes) const {
+    if (time_ == nullptr) return {};
+    const std::size_t rows = time_->values.size();
+    std::vector<double> total(rows, 0.0);
+    for (const report::SeriesColumn& column : run_.series) {
+      if (!takes(column.name) || column.values.size() != rows) continue;
+      for (std::size_t n = 0; n < rows; ++n) total[n] += column.values[n];
+    }
+    sdk::BatchMeans means(1);
+    for (std::size_t n = 1; n < rows; ++n) {
+      const double duration = time_->values[n] - time_->values[n - 1];
+      if (time_->values[n - 1] < begin_ - 1e-9 || !(duration > 0.0)) continue;
+      const double rate = (total[n] - total[n - 1]) / duration;
+      means.add({&rate, 1}, duration);
+    }
+    return {means.mean(0), means.error(0)};
+  }
+  /// [s] counted.
+  [[nodiscard]] double duration() const {
+    return time_ == nullptr || time_->values.empty() ? 0.0 : time_->values.back() - begin_;
+  }
+
+ private:
+  const report::RunText& run_;
+  const report::SeriesColumn* time_;
+  double begin_ = 0.0;
+};
+
+/// [kg] of a computed grain of dust in the mean over those that the hood has drawn; 0 without any.
+double mass_of_drawn(const report::RunText& run) {
+  double count = 0.0, mass = 0.0;
+  for (const auto& table : report::list_at(run.report, "tables")) {
+    if (report::text_at(table, "sensor") != k_hood_body) continue;
+    for (const auto& row : report::list_at(table, "rows")) {
+      if (!row.is_array() || row.size() != 3 || !run.dust.is_dust(1e-6 * row[0].get<double>())) {
+        continue;
+      }
+      count += row[1].get<double>();
+      mass += 1e-3 * row[2].get<double>();
+    }
+  }
+  return count > 0.0 ? mass / count : 0.0;
+}
+
+Uncertain sum(const Uncertain& a, const Uncertain& b) {
+  if (a.error < 0.0) return {a.value + b.value, b.error};
+  if (b.error < 0.0) return {a.value + b.value, a.error};
+  return {a.value + b.value, std::hypot(a.error, b.error)};
+}
+
+HoodTrial trial_of(const report::RunText& run, double flow) {
+  const Growth growth(run);
+  const std::string hood = std::string("hoods/") + k_hood_body + "/dust";
+  const auto is_field = [](const std::string& name, const char* end) {
+    return name.starts_with("dust_field/") && name.ends_with(end);
+  };
+  HoodTrial trial{.flow = flow};
+  trial.load = growth.of([](const std::string& name) { return name == "mass_emitted"; }).value;
+  Uncertain grains = growth.of([&](const std::string& name) { return name == hood; });
+  const Uncertain field =
+      growth.of([&](const std::string& name) { return is_field(name, "/hoods"); });
+  if (const double mass = mass_of_drawn(run); mass > 0.0) {
+    trial.computed = grains.value * growth.duration() / mass;
+    // What few grains tell is known no better than by counting.
+    const double counting = mass * std::sqrt(trial.computed) / growth.duration();
+    if (trial.computed > 0.0) grains.error = std::max(grains.error, counting);
+  } else if (field.value == 0.0) {
+    trial.computed = 0.0;
+  }
+  if (grains.value == 0.0) grains.error = -1.0;
+  trial.drawn = sum(grains, field);
+  const report::Figure out = report::sum_of(report::highlights_of(run).openings);
+  const double per_tonne = trial.load / k_grams_per_tonne;
+  const Uncertain left =
+      growth.of([&](const std::string& name) { return is_field(name, "/left"); });
+  trial.escaping = sum(
+      {out.value * per_tonne, out.uncertainty > 0.0 ? out.uncertainty * per_tonne : -1.0}, left);
+  return trial;
+}
+
+/// The mean of trials with other seeds.
+HoodTrial mean_of(const std::vector<HoodTrial>& trials) {
+  HoodTrial mean{.flow = trials.front().flow, .replicas = trials.size()};
+  const auto count = static_cast<double>(trials.size());
+  mean.computed = 0.0;
+  double drawn = 0.0, escaping = 0.0;
+  for (const HoodTrial& trial : trials) {
+    mean.drawn.value += trial.drawn.value / count;
+    mean.escaping.value += trial.escaping.value / count;
+    mean.load += trial.load / count;
+    mean.computed += trial.computed;
+    drawn += std::pow(std::max(trial.drawn.error, 0.0) / count, 2);
+    escaping += std::pow(std::max(trial.escaping.error, 0.0) / count, 2);
+  }
+  if (drawn > 0.0) mean.drawn.error = std::sqrt(drawn);
+  if (escaping > 0.0) mean.escaping.error = std::sqrt(escaping);
+  if (trials.size() == 1) mean.computed = trials.front().computed;
+  return mean;
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Folders of the points of a study, all of them finished.
+std::vector<fs::path> finished_points(const fs::path& study) {
+  const fs::path table = study / "study.csv";
+  std::ifstream stream(table, std::ios::binary);
+  std::string line;
+  std::getline(stream, line);
+  const auto head = report::csv_cells(line);
+  const auto status = std::find(head.begin(), head.end(), "status") - head.begin();
+  const auto hash = std::find(head.begin(), head.end(), "hash") - head.begin();
+  std::vector<fs::path> folders;
+  std::size_t first_missing = 0, missing = 0;
+  for (std::size_t row = 2; std::getline(stream, line); ++row) {
+    const auto cells = report::csv_cells(line);
+    if (cells.size() != head.size()) continue;
+    folders.push_back(study / "points" / cells[static_cast<std::size_t>(hash)]);
+    if (cells[static_cast<std::size_t>(status)] == "finished") continue;
+    if (missing++ == 0) first_missing = row;
+  }
+  if (missing > 0) {
+    throw base::UserError(table.string() + ":" + std::to_string(first_missing) + ": error: " +
+                          std::to_string(missing) + " of " + std::to_string(folders.size()) +
+                          " points have not finished: engine study " +
+                          (study / "study.yaml").string() + " -o " + study.string() + " --resume");
+  }
+  return folders;
+}
+
+}  // namespace
+
+bool is_study(const fs::path& folder) { return fs::exists(folder / "study.csv"); }
+
+std::optional<Uncertain> HoodTrial::capture() const {
+  const double d = drawn.value, e = escaping.value;
+  if (!(d + e > 0.0)) return std::nullopt;
+  Uncertain capture{d / (d + e), -1.0};
+  if (drawn.error < 0.0 && escaping.error < 0.0) return capture;
+  // Errors of the two add in squares, each by its derivative.
+  const double of_drawn = e * std::max(drawn.error, 0.0);
+  const double of_escaping = d * std::max(escaping.error, 0.0);
+  capture.error = std::hypot(of_drawn, of_escaping) / ((d + e) * (d + e));
+  return capture;
+}
+
+HoodResults hood_results(const fs::path& study) {
+  std::map<std::string, std::map<double, std::vector<HoodTrial>>> trials;
+  std::vector<HoodTrial> plain;
+  for (const fs::path& folder : finished_points(study)) {
+    const report::RunText run = report::read_run_text(folder);
+    const std::string file = (folder / "scenario.yaml").string();
+    if (const auto hood = hood_of(text_of(file), file)) {
+      trials[hood->place][hood->flow].push_back(trial_of(run, hood->flow));
+    } else {
+      plain.push_back(trial_of(run, 0.0));
+    }
+  }
+  if (trials.empty()) {
+    throw base::UserError(
+        (study / "study.yaml").string() +
+        ":1: error: none of its points has a hood that was suggested: give a "
+        "study that engine suggest-hoods RUN has written, or the folder of a run");
+  }
+  HoodResults results;
+  for (const auto& [name, flows] : trials) {
+    HoodPlace place{name, {}};
+    for (const auto& [flow, replicas] : flows) place.trials.push_back(mean_of(replicas));
+    results.places.push_back(std::move(place));
+  }
+  if (!plain.empty()) results.plain = mean_of(plain);
+  return results;
+}
+
+std::optional<NeededFlow> needed_flow(const HoodPlace& place, double wanted) {
+  const HoodTrial* before = nullptr;
+  double lower = 0.0;
+  for (const HoodTrial& trial : place.trials) {
+    const auto capture = trial.capture();
+    if (!capture) continue;
+    if (capture->value >= wanted) {
+      if (before == nullptr) return NeededFlow{trial.flow, true};
+      const double part = (wanted - lower) / (capture->value - lower);
+      return NeededFlow{before->flow + part * (trial.flow - before->flow), false};
+    }
+    before = &trial;
+    lower = capture->value;
+  }
+  return std::nullopt;
+}
+
+}  // namespace dust::study

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dust::study {
+
+/// A mean with its standard error; negative: none.
+struct Uncertain {
+  double value = 0.0;
+  double error = -1.0;
+};
+
+/// What a hood did at one flow, over the time after its flow had come about. Rates are of dust.
+struct HoodTrial {
+  double flow = 0.0;         ///< [m3/s]
+  Uncertain drawn;           ///< [kg/s] through the hood
+  Uncertain escaping;        ///< [kg/s] through the openings and open sides that are watched
+  double load = 0.0;         ///< [kg/s] released, dust and all; 0 without grains
+  double computed = -1.0;    ///< computed grains of dust that the hood has drawn; negative: a field
+  std::size_t replicas = 1;  ///< runs that it is the mean of
+
+  /// Drawn over drawn and escaping; nothing where neither was seen.
+  [[nodiscard]] std::optional<Uncertain> capture() const;
+};
+
+/// A place with the trials of its flows, ascending.
+struct HoodPlace {
+  std::string name;  ///< "place_1"
+  std::vector<HoodTrial> trials;
+};
+
+/// A finished study of hoods.
+struct HoodResults {
+  std::vector<HoodPlace> places;
+  std::optional<HoodTrial> plain;  ///< without a hood
+};
+
+/// How amounts of dust are given: per tonne of load, or per hour where nothing is loaded.
+struct HoodScale {
+  bool is_per_load = true;
+
+  explicit HoodScale(const HoodResults& results);
+  [[nodiscard]] std::string unit() const { return is_per_load ? "g/t" : "g/h"; }
+  /// By which a rate of the trial in kg/s is multiplied.
+  [[nodiscard]] double factor(const HoodTrial& trial) const;
+};
+
+/// A hood that has drawn fewer computed grains says how many instead of an error.
+inline constexpr double k_few_drawn = 20.0;
+
+/// Reads the points of a study that hood_study wrote. Throws base::UserError with a remedy where
+/// points are missing or have not finished, or where it is another study.
+[[nodiscard]] HoodResults hood_results(const std::filesystem::path& study);
+
+/// Whether the folder holds a study, finished or not.
+[[nodiscard]] bool is_study(const std::filesystem::path& folder);
+
+/// The smallest flow [m3/s] at which a place captures `wanted` (0 to 1), between two trials on a
+/// straight line; nothing where no trial reaches it, or the smallest is above it already and
+/// `is_bound` is set: then the flow is an upper bound.
+struct NeededFlow {
+  double flow = 0.0;
+  bool is_bound = false;
+};
+[[nodiscard]] std::optional<NeededFlow> needed_flow(const HoodPlace& place, double wanted);
+
+/// What the page of the study shows (tools/report/report.schema.json, hoods).
+[[nodiscard]] nlohmann::json hoods_json(const HoodResults& results);
+
+/// The table and the flows needed for `wanted`, for a terminal.
+[[nodiscard]] std::string hood_table(const HoodResults& results, double wanted);
+
+}  // namespace dust::study

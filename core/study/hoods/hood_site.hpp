@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "study/hoods/hood_scene.hpp"
+
+#include <optional>
+
+namespace dust::study {
+
+/// A hood that fits at a place: a duct of rectangular section whose end is the opening.
+struct HoodSite {
+  int place = 0;          ///< number of the place of low pressure
+  sdk::Vec3 body_min;     ///< [m] the duct
+  sdk::Vec3 body_max;     ///< [m]
+  sdk::Vec3 opening_min;  ///< [m] its open end, flat
+  sdk::Vec3 opening_max;  ///< [m]
+  int axis = 0;           ///< 0, 1, 2: along which it draws
+  double moved = 0.0;     ///< [m] from the place to the middle of the opening
+
+  /// [m2] of the opening.
+  [[nodiscard]] double area() const;
+};
+
+/// [m] An opening that suits the grid and the domain: four cells at least, a sixteenth of the
+/// longest side of the domain or more.
+[[nodiscard]] double usual_opening(const HoodScene& scene);
+
+/// The duct of `opening` [m] times `opening`, and half as long, whose open end is nearest to the
+/// place and that is clear of bodies, the stream and the walls; in front of the end two cells are
+/// clear too. Of those at the same distance the one with most dust before its opening, then the one
+/// that looks to the stream. A domain narrower than one and a half openings is spanned. Nothing
+/// where none fits within one opening of the place.
+[[nodiscard]] std::optional<HoodSite> site_at(const LowPressurePlace& place, double opening,
+                                              const HoodScene& scene);
+
+}  // namespace dust::study

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/hoods/hood_study.hpp"
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "preflight/derived.hpp"
+#include "report/highlights.hpp"
+#include "scenario/diagnostics.hpp"
+#include "scenario/reader.hpp"
+#include "scenario/text/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace dust::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What is known of the run that the points go on from.
+struct FinishedRun {
+  fs::path folder;
+  report::RunText text;
+  scenario::ReadResult scenario;
+  std::vector<LowPressurePlace> places;
+};
+
+std::string mm(double metres) { return base::digits_text(std::round(1e6 * metres) / 1000.0, 8); }
+
+std::string box_text(const sdk::Vec3& low, const sdk::Vec3& high) {
+  const auto corner = [](const sdk::Vec3& p) {
+    return "[" + mm(p.x) + ", " + mm(p.y) + ", " + mm(p.z) + " mm]";
+  };
+  return "min: " + corner(low) + ", max: " + corner(high);
+}
+
+/// "60 l/min" as a part of a name.
+std::string word_of(std::string text) {
+  std::string word;
+  for (const char c : text) {
+    const bool is_plain =
+        (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (is_plain) {
+      word += c;
+    } else if (!word.empty() && word.back() != '_') {
+      word += '_';
+    }
+  }
+  return word;
+}
+
+[[noreturn]] void refuse(const std::string& where, const std::string& what) {
+  throw base::UserError(where + ": error: " + what);
+}
+
+/// The state to go on from has to be there, whole.
+void check_state(const FinishedRun& run) {
+  const std::string folder = run.folder.string();
+  const std::string summary = (run.folder / "summary.json").string();
+  if (report::text_at(run.text.summary, "status") != "finished") {
+    refuse(summary + ":1",
+           "the run has not finished, and what a hood catches is tried from its last state: engine "
+           "run " +
+               (run.folder / "scenario.yaml").string() + " -o " + folder + " --resume");
+  }
+  if (fs::exists(run.folder / "checkpoint.h5")) return;
+  refuse((run.folder / "checkpoint.h5").string() + ":1",
+         "is not there, and the points of the study go on from it: run the scenario again into a "
+         "folder that is kept whole");
+}
+
+/// Dust and places have to be there; the messages stand where they could be declared.
+void check_subject(const FinishedRun& run) {
+  const auto& setup = run.scenario.setup;
+  const std::string file = (run.folder / "scenario.yaml").string();
+  const auto place_of = [&](const auto& things, const auto& mark) {
+    return things.empty() ? file + ":1" : scenario::place(mark(things.front()));
+  };
+  if (!setup.fluid) {
+    refuse(file + ":1", "fluid: none has no air that a hood could draw in: give the fluid's cells");
+  }
+  if (!has_dust(run.text)) {
+    refuse(
+        place_of(setup.emitters, [](const auto& e) { return e.model.where; }),
+        "the run has no dust: nothing that is released is as fine as the dust: block says (finer "
+        "than 100 um unless given); add a fine size to an emitter, or dust.field");
+  }
+  const bool has_opening =
+      !setup.sensors.empty() && std::any_of(run.text.figures.begin(), run.text.figures.end(),
+                                            [](const auto& f) { return f.role == "opening"; });
+  if (!has_opening && !run.scenario.dust.field) {
+    refuse(place_of(setup.sensors, [](const auto& s) { return s.model.where; }),
+           "no sensor watches an opening, so that what escapes beside a hood is not known: give a "
+           "plane_flux with role: opening where dust gets out, and run again");
+  }
+  if (!run.places.empty()) return;
+  const auto figure = std::find_if(run.text.figures.begin(), run.text.figures.end(),
+                                   [](const auto& f) { return f.role == "low_pressure"; });
+  const auto mark = [](const auto& s) { return s.model.where; };
+  if (figure == run.text.figures.end()) {
+    refuse(place_of(setup.sensors, mark),
+           "no sensor looks for places of low pressure: add sensors: {suction: {model: "
+           "low_pressure}} and run again");
+  }
+  const auto sensor = std::find_if(setup.sensors.begin(), setup.sensors.end(),
+                                   [&](const auto& s) { return s.name == figure->sensor; });
+  refuse(sensor == setup.sensors.end() ? file + ":1" : scenario::place(mark(*sensor)),
+         "sensors." + figure->sensor +
+             " has found no place of low pressure: average longer, or allow it more: a smaller "
+             "clearance, a larger box");
+}
+
+FinishedRun read_run(const fs::path& folder, const registry::Registry& registry) {
+  FinishedRun run{folder, report::read_run_text(folder), {}, {}};
+  check_state(run);
+  scenario::Diagnostics diagnostics;
+  auto scenario = scenario::read_file(folder / "scenario.yaml", {}, registry, {}, diagnostics);
+  diagnostics.throw_errors();
+  run.scenario = std::move(*scenario);
+  run.places = places_of(run.text);
+  check_subject(run);
+  return run;
+}
+
+/// What the hood is made of: as the bodies are, or the walls, or else the grains.
+std::string material_of(const scenario::Setup& setup) {
+  int material = setup.materials.empty() ? -1 : 0;
+  if (!setup.emitters.empty()) material = setup.emitters.front().material;
+  for (const auto& side : setup.domain.sides) {
+    if (side.grains == scenario::GrainSide::wall && side.material >= 0) material = side.material;
+  }
+  if (!setup.bodies.empty()) material = setup.bodies.front().material;
+  return material < 0 ? std::string() : setup.materials[static_cast<std::size_t>(material)].name;
+}
+
+/// Sensors that watch openings begin anew once the flow of the hood has come about.
+std::set<std::string> openings_of(const report::RunText& run) {
+  std::set<std::string> names;
+  for (const report::Figure& figure : run.figures) {
+    if (figure.role == "opening") names.insert(figure.sensor);
+  }
+  return names;
+}
+
+/// When a point begins and ends, on whole fluid steps [s].
+struct Span {
+  double begin = 0.0, end = 0.0, output_every = 0.0;
+};
+
+Span span_of(const FinishedRun& run, double duration) {
+  constexpr double k_min_steps = 60.0;  // as many rows of series.csv, for an error
+  constexpr double k_frames = 5.0;
+  const double step = run.scenario.setup.time.fluid_step;
+  Span span;
+  span.begin = report::number_at(run.text.summary, "simulated_s").value_or(0.0);
+  const double wanted = duration > 0.0 ? duration : 0.5 * span.begin;
+  const double steps = std::max(k_min_steps, std::round(wanted / step));
+  span.end = span.begin + steps * step;
+  span.output_every = step * std::max(1.0, std::floor(steps / k_frames));
+  return span;
+}
+
+std::string time_text(double seconds) { return base::digits_text(seconds, 10) + " s"; }
+
+void write_head(std::ostringstream& out, const FinishedRun& run, const HoodStudy& study,
+                const HoodStudyOptions& options) {
+  const fs::path beside = fs::absolute(options.file).parent_path();
+  const fs::path folder = fs::proximate(fs::absolute(run.folder), beside);
+  const std::string name = options.file.stem().string();
+  const Span span = span_of(run, options.duration);
+  out << "# Hoods tried from the last state of " << run.text.summary.value("scenario", "a run")
+      << ", at its places of low pressure, and the plain run beside them.\n# engine study "
+      << options.file.string() << " -o results/" << name << ", then: engine suggest-hoods results/"
+      << name << "\nname: " << name << "\ntitle: Hoods at " << study.sites.size()
+      << (study.sites.size() == 1 ? " place" : " places") << " of low pressure, with "
+      << study.flows.size() << (study.flows.size() == 1 ? " flow" : " flows")
+      << " each\nbase: " << (folder / "scenario.yaml").generic_string()
+      << "\nset:\n  start_from: " << folder.generic_string()
+      << "\n  time.end: " << time_text(span.end)
+      << "\n  time.output_every: " << time_text(span.output_every) << '\n';
+  const double steady = span.begin + k_settling * (span.end - span.begin);
+  for (const std::string& sensor : openings_of(run.text)) {
+    out << "  sensors." << sensor << ".steady_after: " << time_text(steady) << '\n';
+  }
+}
+
+/// `expected_speed` [m/s]: what the run's steps are made for; a hood that draws faster says so.
+void write_cases(std::ostringstream& out, const HoodStudy& study, const std::string& material,
+                 double expected_speed) {
+  constexpr double k_at_edge = 2.0;  // of the mean speed in the opening
+  out << "cases:\n  plain: {}\n";
+  for (const HoodSite& site : study.sites) {
+    for (const HoodFlow& flow : study.flows) {
+      out << "  place_" << site.place << "_at_" << word_of(flow.text) << ":\n    bodies."
+          << k_hood_body << ": {shape: box, material: " << material << ", group: place_"
+          << site.place << ", " << box_text(site.body_min, site.body_max)
+          << ",\n      suction: {flow: " << flow.text << ", "
+          << box_text(site.opening_min, site.opening_max) << "}}\n";
+      const double speed = k_at_edge * flow.value / site.area();
+      if (speed <= expected_speed) continue;
+      out << "    time.expected_speed: " << base::digits_text(speed, 3) << " m/s\n";
+    }
+  }
+}
+
+void write_measures(std::ostringstream& out, const FinishedRun& run) {
+  out << "measure:\n  drawn_out: {quantity: mass_kg.removed, unit: mg}\n";
+  for (const report::Figure& opening : report::highlights_of(run.text).openings) {
+    std::string quantity = "sensors." + opening.sensor + "." + opening.name;
+    std::replace(quantity.begin(), quantity.end(), '/', '.');
+    std::string name = opening.sensor;
+    if (opening.is_of_class()) name += "_" + base::digits_text(1e6 * opening.largest, 6) + "_um";
+    out << "  " << name << ": {quantity: " << quantity << ", unit: g/t}\n";
+  }
+}
+
+}  // namespace
+
+std::vector<HoodFlow> flows_of(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ',') {
+      parts.emplace_back();
+    } else if (c != ' ' || !parts.back().empty()) {
+      parts.back() += c;
+    }
+  }
+  const std::string place = "engine suggest-hoods: error: --flows: ";
+  std::vector<scenario::WrittenNumber> written;
+  for (const std::string& part : parts) {
+    std::string error;
+    const auto number = scenario::split_number(part, error);
+    if (!number) throw base::UserError(place + error);
+    written.push_back(*number);
+  }
+  std::vector<HoodFlow> flows;
+  for (scenario::WrittenNumber& number : written) {
+    if (number.unit.empty()) number.unit = written.back().unit;
+    std::string error;
+    const auto value = scenario::to_si(number, sdk::dimension::volume_flow, error);
+    if (!value) throw base::UserError(place + error);
+    if (!(*value > 0.0)) {
+      throw base::UserError(place + "above 0 is expected, not " + text +
+                            ": the plain run is there by itself");
+    }
+    const std::string unit = number.unit.empty() ? "m3/s" : number.unit;
+    flows.push_back({*value, base::digits_text(number.number, 8) + " " + unit});
+  }
+  std::sort(flows.begin(), flows.end(),
+            [](const HoodFlow& a, const HoodFlow& b) { return a.value < b.value; });
+  return flows;
+}
+
+std::vector<HoodFlow> usual_flows(double area) {
+  constexpr double k_litres_per_minute = 6e4;
+  constexpr double k_cubic_metres_per_hour = 3600.0;
+  constexpr double k_large = 1.0 / 60.0;  // m3/s: above 1000 l/min in m3/h
+  std::vector<HoodFlow> flows;
+  for (const double speed : {0.5, 1.0, 2.0, 4.0}) {
+    const double flow = speed * area;
+    const bool is_large = flow > k_large;
+    const double factor = is_large ? k_cubic_metres_per_hour : k_litres_per_minute;
+    const std::string number = base::digits_text(factor * flow, 2);
+    flows.push_back({std::stod(number) / factor,
+                     base::digits_text(std::stod(number), 8) + (is_large ? " m3/h" : " l/min")});
+  }
+  return flows;
+}
+
+HoodStudy hood_study(const fs::path& folder, const HoodStudyOptions& options,
+                     const registry::Registry& registry) {
+  const FinishedRun run = read_run(folder, registry);
+  const HoodScene scene(folder, run.text);
+  HoodStudy study;
+  study.opening = options.opening > 0.0 ? options.opening : usual_opening(scene);
+  for (const LowPressurePlace& place : run.places) {
+    if (study.sites.size() == options.places) break;
+    if (const auto site = site_at(place, study.opening, scene)) {
+      study.sites.push_back(*site);
+    } else {
+      study.without_room.push_back(place.number);
+    }
+  }
+  if (study.sites.empty()) {
+    refuse((folder / "summary.json").string() + ":1",
+           "at none of its " + std::to_string(run.places.size()) +
+               " places of low pressure there is room for a hood of " + mm(study.opening) +
+               " mm clear of bodies and the stream: give a smaller --opening");
+  }
+  study.flows = options.flows.empty() ? usual_flows(study.sites.front().area()) : options.flows;
+  const Span span = span_of(run, options.duration);
+  study.duration = span.end - span.begin;
+  std::ostringstream out;
+  write_head(out, run, study, options);
+  write_cases(out, study, material_of(run.scenario.setup),
+              preflight::derive(run.scenario.setup, registry).expected_speed);
+  write_measures(out, run);
+  study.text = out.str();
+  return study;
+}
+
+}  // namespace dust::study

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/text.hpp"
+#include "study/hoods/hood_results.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dust::study {
+namespace {
+
+using Row = std::array<std::string, 5>;
+
+std::string flow_text(double flow) {
+  constexpr double k_large = 1.0 / 60.0;  // m3/s
+  return flow > k_large ? base::digits_text(3600.0 * flow, 3) + " m3/h"
+                        : base::digits_text(6e4 * flow, 3) + " l/min";
+}
+
+/// "0.12 ± 0.03", both to the second digit of the error.
+std::string estimate_text(const Uncertain& estimate, double factor) {
+  const double value = factor * estimate.value;
+  const double error = factor * estimate.error;
+  if (!(estimate.error > 0.0)) return base::digits_text(value, 3);
+  const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(error))));
+  return decimals > 6
+             ? base::digits_text(value, 3) + " ± " + base::digits_text(error, 2)
+             : base::fixed_text(value, decimals) + " ± " + base::fixed_text(error, decimals);
+}
+
+std::string capture_text(const HoodTrial& trial) {
+  const auto capture = trial.capture();
+  if (!capture) return "no dust seen";
+  const bool is_few = trial.computed >= 0.0 && trial.computed < k_few_drawn;
+  if (is_few && trial.computed > 0.0) {
+    const auto grains = static_cast<int>(std::lround(trial.computed));
+    return base::digits_text(100.0 * capture->value, 2) + " % (by " + std::to_string(grains) +
+           (grains == 1 ? " grain)" : " grains)");
+  }
+  return estimate_text(*capture, 100.0) + " %";
+}
+
+/// Characters, not bytes: the sign of an error has two.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  }));
+}
+
+std::string aligned(const std::vector<Row>& rows) {
+  std::array<std::size_t, 5> widths{};
+  for (const Row& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], width_of(row[c]));
+  }
+  std::string text;
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      line += row[c];
+      if (c + 1 < row.size()) line.append(widths[c] - width_of(row[c]) + 2, ' ');
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+  }
+  return text;
+}
+
+std::string needed_text(const HoodPlace& place, double wanted) {
+  const auto needed = needed_flow(place, wanted);
+  if (needed && needed->is_bound) return place.name + ": " + flow_text(needed->flow) + " or less";
+  if (needed) return place.name + ": " + flow_text(needed->flow);
+  const HoodTrial* best = nullptr;
+  for (const HoodTrial& trial : place.trials) {
+    const auto capture = trial.capture();
+    if (capture && (best == nullptr || capture->value > best->capture()->value)) best = &trial;
+  }
+  if (best == nullptr) return place.name + ": no dust was seen";
+  return place.name + ": not reached (at most " + capture_text(*best) + ", at " +
+         flow_text(best->flow) + ")";
+}
+
+}  // namespace
+
+std::string hood_table(const HoodResults& results, double wanted) {
+  const HoodScale scale(results);
+  std::vector<Row> rows = {{"place", "flow", "drawn out [" + scale.unit() + "]",
+                            "escapes [" + scale.unit() + "]", "capture"}};
+  if (results.plain) {
+    rows.push_back({"plain", "-", "-",
+                    estimate_text(results.plain->escaping, scale.factor(*results.plain)), "-"});
+  }
+  for (const HoodPlace& place : results.places) {
+    for (const HoodTrial& trial : place.trials) {
+      const double factor = scale.factor(trial);
+      rows.push_back({place.name, flow_text(trial.flow), estimate_text(trial.drawn, factor),
+                      estimate_text(trial.escaping, factor), capture_text(trial)});
+    }
+  }
+  std::string text = aligned(rows) + "\nSmallest flow that captures " +
+                     base::digits_text(100.0 * wanted, 4) + " % of the dust:\n";
+  for (const HoodPlace& place : results.places) text += "  " + needed_text(place, wanted) + '\n';
+  return text;
+}
+
+}  // namespace dust::study

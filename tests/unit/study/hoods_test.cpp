@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/error.hpp"
+#include "study/hoods/hood_results.hpp"
+#include "study/hoods/hood_site.hpp"
+#include "study/hoods/hood_study.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace dust;
+using sdk::Vec3;
+
+namespace {
+
+constexpr double k_cell = 5e-3;  // m
+
+/// 200 x 10 x 100 mm in cells of 5 mm.
+const report::FluidGrid k_grid{{0, 0, 0}, {k_cell, k_cell, k_cell}, {40, 2, 20}};
+
+/// Marks the cells of a box of whole cells.
+void take(std::vector<char>& taken, std::array<int, 3> low, std::array<int, 3> high) {
+  for (int k = low[2]; k < high[2]; ++k) {
+    for (int j = low[1]; j < high[1]; ++j) {
+      for (int i = low[0]; i < high[0]; ++i) {
+        taken[static_cast<std::size_t>(i + 40 * (j + 2 * k))] = 1;
+      }
+    }
+  }
+}
+
+study::HoodTrial trial(double flow, double drawn, double escaping) {
+  return {.flow = flow, .drawn = {drawn, 0.1 * drawn}, .escaping = {escaping, 0.2 * escaping}};
+}
+
+}  // namespace
+
+TEST_CASE("a hood shall stand at its place, span a narrow domain and open towards the dust") {
+  const std::vector<char> taken(40 * 2 * 20, 0);
+  // Dust on the right of the place.
+  const study::HoodScene scene(k_grid, taken, {{{0.13, 5e-3, 0.05}, 1e-9}}, {});
+  const auto site = study::site_at({1, {0.1, 5e-3, 0.05}, 0.4}, 0.02, scene);
+  REQUIRE(site.has_value());
+  CHECK(site->moved == 0.0);
+  CHECK(site->axis == 0);
+  // Spanned along y; the duct lies on the left of its opening.
+  CHECK(site->opening_min.x == doctest::Approx(0.1));
+  CHECK(site->opening_max.x == doctest::Approx(0.1));
+  CHECK(site->opening_min.z == doctest::Approx(0.04));
+  CHECK(site->opening_max.z == doctest::Approx(0.06));
+  CHECK(site->body_min.x == doctest::Approx(0.09));
+  CHECK(site->body_max.x == doctest::Approx(0.1));
+  CHECK(site->body_min.y == 0.0);
+  CHECK(site->body_max.y == doctest::Approx(0.01));
+  CHECK(site->area() == doctest::Approx(0.02 * 0.01));
+  // With the dust above, the opening looks up.
+  const study::HoodScene above(k_grid, taken, {{{0.1, 5e-3, 0.08}, 1e-9}}, {});
+  const auto up = study::site_at({1, {0.1, 5e-3, 0.05}, 0.4}, 0.02, above);
+  REQUIRE(up.has_value());
+  CHECK(up->axis == 2);
+  CHECK(up->body_max.z == doctest::Approx(0.05));
+}
+
+TEST_CASE("a hood shall be moved clear of bodies and the stream, or be left out") {
+  std::vector<char> taken(40 * 2 * 20, 0);
+  take(taken, {0, 0, 0}, {40, 2, 8});  // a bed up to z = 40 mm
+  const study::LowPressurePlace place{2, {0.1, 5e-3, 0.0475}, 0.4};
+  const study::HoodScene scene(k_grid, taken, {}, {});
+  const auto site = study::site_at(place, 0.02, scene);
+  REQUIRE(site.has_value());
+  CHECK(site->place == 2);
+  CHECK(site->moved > 0.0);
+  // A cell stays clear beside the duct, two before its opening.
+  CHECK(site->body_min.z > 0.045 - 1e-9);
+  // Too wide for what is left between bed and lid.
+  CHECK_FALSE(study::site_at(place, 0.07, scene).has_value());
+  // A coarse grain that lies there at the end has to be avoided as well, dust has not.
+  const Vec3 middle = 0.5 * (site->body_min + site->body_max);
+  const study::HoodScene with_grain(k_grid, taken, {}, {{middle, 1e-3}});
+  const auto other = study::site_at(place, 0.02, with_grain);
+  REQUIRE(other.has_value());
+  CHECK_FALSE(with_grain.is_clear(site->body_min, site->body_max));
+  CHECK(with_grain.is_clear(other->body_min, other->body_max));
+  const study::HoodScene with_dust(k_grid, taken, {{middle, 1e-12}}, {});
+  CHECK(with_dust.is_clear(site->body_min, site->body_max));
+}
+
+TEST_CASE("flows shall be read with a unit that holds for all, and wrong ones be refused") {
+  const auto flows = study::flows_of("120, 20, 60 l/min");
+  REQUIRE(flows.size() == 3);
+  CHECK(flows[0].text == "20 l/min");
+  CHECK(flows[2].value == doctest::Approx(2e-3));
+  CHECK(study::flows_of("1 m3/h, 60 l/min")[0].text == "1 m3/h");
+  const auto message = [](const std::string& text) {
+    try {
+      static_cast<void>(study::flows_of(text));
+    } catch (const base::UserError& error) {
+      return error.lines().front();
+    }
+    return std::string();
+  };
+  CHECK(message("20, 60 mm").find("--flows: 'mm' is the unit of a length") != std::string::npos);
+  CHECK(message("20, , 60 l/min").find("--flows: ") != std::string::npos);
+  CHECK(message("0, 60 l/min").find("above 0 is expected") != std::string::npos);
+  // 2 cm2: 0.5 m/s is 6 l/min; 1 m2: 1800 m3/h.
+  CHECK(study::usual_flows(2e-4).front().text == "6 l/min");
+  CHECK(study::usual_flows(1.0).front().text == "1800 m3/h");
+  CHECK(study::usual_flows(1.0).back().text == "14000 m3/h");
+}
+
+TEST_CASE("capture shall be what is drawn over all that gets loose, with the errors of both") {
+  const auto capture = trial(1.0, 3.0, 1.0).capture();
+  REQUIRE(capture.has_value());
+  CHECK(capture->value == doctest::Approx(0.75));
+  // c = d / (d + e): by differences of both, as if of independent counts.
+  const auto share = [](double d, double e) { return d / (d + e); };
+  const double h = 1e-6;
+  const double of_drawn = 0.3 * (share(3.0 + h, 1.0) - share(3.0 - h, 1.0)) / (2.0 * h);
+  const double of_escaping = 0.2 * (share(3.0, 1.0 + h) - share(3.0, 1.0 - h)) / (2.0 * h);
+  CHECK(capture->error == doctest::Approx(std::hypot(of_drawn, of_escaping)).epsilon(1e-6));
+  CHECK_FALSE(trial(1.0, 0.0, 0.0).capture().has_value());
+}
+
+TEST_CASE("the flow needed shall lie between two trials, be a bound, or not be reached") {
+  const study::HoodPlace place{
+      "place_1", {trial(1e-3, 1.0, 3.0), trial(2e-3, 3.0, 1.0), trial(4e-3, 9.0, 1.0)}};
+  const auto half = study::needed_flow(place, 0.5);
+  REQUIRE(half.has_value());
+  CHECK(half->flow == doctest::Approx(1.5e-3));
+  CHECK_FALSE(half->is_bound);
+  const auto little = study::needed_flow(place, 0.2);
+  REQUIRE(little.has_value());
+  CHECK(little->flow == doctest::Approx(1e-3));
+  CHECK(little->is_bound);
+  CHECK_FALSE(study::needed_flow(place, 0.95).has_value());
+  // A flow at which nothing was seen tells nothing.
+  study::HoodPlace gap = place;
+  gap.trials[1] = trial(2e-3, 0.0, 0.0);
+  CHECK(study::needed_flow(gap, 0.5)->flow == doctest::Approx(1e-3 + 3e-3 * 0.25 / 0.65));
+}
+
+TEST_CASE("the table shall say what few grains tell, and where the capture is not reached") {
+  study::HoodResults results;
+  results.plain = {.escaping = {2e-9, 1e-9}, .load = 1e-3, .computed = 0.0};
+  study::HoodTrial few = trial(1e-3, 1e-9, 1e-9);
+  few.load = 1e-3;
+  few.computed = 7.0;
+  study::HoodTrial many = trial(2e-3, 3e-9, 1e-9);
+  many.load = 1e-3;
+  many.computed = 900.0;
+  results.places.push_back({"place_1", {few, many}});
+  const std::string text = study::hood_table(results, 0.9);
+  INFO(text);
+  CHECK(text.find("plain") != std::string::npos);
+  CHECK(text.find("2.0 ± 1.0") != std::string::npos);  // g/t: 2e-9 of 1e-3 kg/s
+  CHECK(text.find("50 % (by 7 grains)") != std::string::npos);
+  CHECK(text.find("75.0 ± 4.2 %") != std::string::npos);
+  CHECK(text.find("place_1: not reached (at most 75.0 ± 4.2 %, at 120 l/min)") !=
+        std::string::npos);
+  CHECK(study::hood_table(results, 0.6).find("place_1: 84 l/min") != std::string::npos);
+}
