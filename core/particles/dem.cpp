@@ -29,9 +29,9 @@ Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
                 double fluid_density, DustLoads dust)
     : conditions(setup, bodies, std::move(laws), diameters, fluid_density, dust.is_on()),
       store(setup.fluid.has_value()),
-      inner(conditions.laws.history_stride()),
-      loads(std::move(dust)) {
-  if (loads.is_on()) work.begin(wall_count(conditions.surfaces), 0);
+      inner(conditions.laws.history_stride()) {
+  dusty.loads = std::move(dust);
+  if (dusty.loads.is_on()) dusty.work.begin(wall_count(conditions.surfaces), 0);
   if (!setup.audit.energy) return;
   energy.begin();
   inner.let_all_step();
@@ -44,12 +44,12 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
     const double mass = material.density * sdk::sphere_volume(g.diameter);
     const std::int32_t population = ledger.population(g.diameter, g.weight, g.material, mass);
     store.append(g, mass, population);
-    loads.enter(static_cast<std::size_t>(g.material), mass, g.weight);
+    dusty.loads.enter(static_cast<std::size_t>(g.material), mass, g.weight);
     energy.enter(store, store.size() - 1);
     ledger.enter(population);
   }
   outer.resize(store.size());
-  work.resize(store.size());
+  dusty.work.resize(store.size());
   ledger.close();
   outer.require(OuterList::Due::reorder);
 }
@@ -73,7 +73,7 @@ void Dem::Impl::draw_out_at(std::vector<Opening> openings) {
 bool Dem::Impl::leaves(std::size_t n) {
   if (const int touched = store.touched_opening(n); touched >= 0) {
     ledger.extract(store.population(n), static_cast<std::size_t>(touched));
-    loads.leave(store, n, true);
+    dusty.loads.leave(store, n, true);
     return true;
   }
   const ParticleDomain::Place place = conditions.domain.place_of(store.position(n));
@@ -92,11 +92,11 @@ bool Dem::Impl::leaves(std::size_t n) {
     if (opening.side != static_cast<int>(place.side)) continue;
     if (!opening.holds(position, conditions.opening_rounding)) continue;
     ledger.extract(store.population(n), o);
-    loads.leave(store, n, true);
+    dusty.loads.leave(store, n, true);
     return true;
   }
   ledger.leave(store.population(n));
-  loads.leave(store, n, false);
+  dusty.loads.leave(store, n, false);
   return true;
 }
 
@@ -119,8 +119,8 @@ void Dem::Impl::remove_escaped() {
   inner.renumber(new_row);
   fine_level.renumber(new_row);
   store.reorder(keep);
-  work.reorder(keep);
-  loads.reorder(keep);
+  dusty.work.reorder(keep);
+  dusty.loads.reorder(keep);
   outer.reorder(keep);
   ledger.close();
   outer.require(OuterList::Due::reorder);
@@ -142,8 +142,8 @@ TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTr
   for (const auto& material : conditions.materials) density.push_back(material.density);
   ledger.transfer_from(other.ledger, names.materials(), names.openings(), density);
   store.transfer_from(other.store, names.materials(), names.openings(), ledger.masses());
-  loads.transfer_from(other.loads, store, keeps_dust);
-  work.resize(store.size());
+  dusty.loads.transfer_from(other.dusty.loads, store, keeps_dust);
+  dusty.work.resize(store.size());
   store.update_decay(conditions.step());
   for (std::size_t n = 0; n < store.size(); ++n) energy.enter(store, n);
   fine_level.transfer_from(other.fine_level);
@@ -291,7 +291,7 @@ std::vector<std::pair<std::int64_t, std::int64_t>> Dem::listed_pairs() const {
   return out;
 }
 
-const ContactWork& Dem::contact_work() const { return impl_->work; }
+const ContactWork& Dem::contact_work() const { return impl_->dusty.work; }
 std::vector<std::string> Dem::wall_names() const {
   std::vector<std::string> names(wall_count(impl_->conditions.surfaces));
   for (const Surface& s : impl_->conditions.surfaces) {
@@ -299,13 +299,13 @@ std::vector<std::string> Dem::wall_names() const {
   }
   return names;
 }
-void Dem::clear_contact_work() { impl_->work.clear(); }
-std::span<const double> Dem::dust_load(std::size_t row) const { return impl_->loads.on(row); }
+void Dem::clear_contact_work() { impl_->dusty.work.clear(); }
+std::span<const double> Dem::dust_load(std::size_t row) const { return impl_->dusty.loads.on(row); }
 void Dem::set_dust_free(std::size_t row, std::size_t n, double mass) {
-  impl_->loads.set_free(impl_->store, row, n, mass);
+  impl_->dusty.loads.set_free(impl_->store, row, n, mass);
 }
 DustLoads::Balance Dem::dust_balance(std::size_t n) const {
-  return impl_->loads.balance(impl_->store, n);
+  return impl_->dusty.loads.balance(impl_->store, n);
 }
 
 void Dem::record_wall_loads() {
@@ -348,7 +348,7 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   tile_step.save(archive, tiling);
   fine_level.save(archive);
   ledger.save(archive);
-  loads.save(archive);
+  dusty.loads.save(archive);
   energy.save(archive);
   archive.number("time", conditions.time);
   const ListTuner::State lifetimes = tuner.state();
@@ -396,8 +396,8 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   inner.load(archive, tiles);
   fine_level.load(archive, state.at(10));
   ledger.load(archive);
-  loads.load(archive);
-  work.resize(store.size());
+  dusty.loads.load(archive);
+  dusty.work.resize(store.size());
   energy.restart(tiles);
   energy.load(archive);
   move_to(archive.number("time"));

@@ -122,8 +122,8 @@ void Dem::Impl::reorder_if_due(ContactCarrier& contacts) {
                    conditions.largest_diameter(), conditions.steps.coarse_limit);
   tiling = Tiling::of(sorted.coarse_count);
   store.reorder(sorted.order);
-  work.reorder(sorted.order);
-  loads.reorder(sorted.order);
+  dusty.work.reorder(sorted.order);
+  dusty.loads.reorder(sorted.order);
   outer.reorder(sorted.order);
   contacts.renumber(sorted.order);
   if (fine_level.deferred().all().empty()) return;
@@ -199,7 +199,7 @@ OpeningMarks Dem::Impl::opening_marks() {
 StepScene Dem::Impl::step_scene() {
   ContactScene contacts = contact_scene();
   contacts.opening_marks = opening_marks();
-  if (work.is_on()) contacts.work = &work;
+  if (dusty.work.is_on()) contacts.work = &dusty.work;
   if (energy.is_on()) contacts.energy = &energy;
   return {.particles = store,
           .lists = inner,
@@ -222,7 +222,7 @@ FineScene Dem::Impl::fine_scene() {
           .time = conditions.time,
           .wall_loads = wall_loads,
           .opening_marks = opening_marks(),
-          .work = work.is_on() ? &work : nullptr,
+          .work = dusty.work.is_on() ? &dusty.work : nullptr,
           .contact_force = tile_step.contact_force()};
 }
 

@@ -79,8 +79,11 @@ class Dem::Impl {
   FineLevel fine_level;
   EnergyAccount energy;
   WallLoads wall_loads;  ///< empty between fluid steps, so that nothing of it is saved
-  DustLoads loads;       ///< empty where none carries dust
-  ContactWork work;      ///< kept where some do
+  /// Of particles that carry dust: empty where none does.
+  struct {
+    DustLoads loads;
+    ContactWork work;
+  } dusty;
   DemReport counters;
   mutable contact::AlignedVector<double> last_force;
 };
