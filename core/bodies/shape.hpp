@@ -76,6 +76,8 @@ class Shape {
   [[nodiscard]] virtual std::vector<std::string> warnings() const { return {}; }
   /// [m] Shortest edge of a mesh, 0 for exact surfaces.
   [[nodiscard]] virtual double shortest_edge() const { return 0.0; }
+  /// [m] Thinnest wall of a mesh, thickness of a sheet; 0 for exact surfaces and sheets without.
+  [[nodiscard]] virtual double thinnest_wall() const { return 0.0; }
   /// The surface as triangles inside the box [min, max], curved parts with at most `edge` [m].
   [[nodiscard]] virtual Triangles triangles(sdk::Vec3 min, sdk::Vec3 max, double edge) const = 0;
   /// Lateral axis (unit): the pulley's axis of a conveyor, the width of a plate.

@@ -13,8 +13,8 @@ namespace dust::contact {
 inline constexpr std::size_t k_batch = 64;
 /// Column stride; not a power of two, which would alias the columns in the first-level cache.
 inline constexpr std::size_t k_stride = k_batch + 8;
-/// Largest history of a contact (contact, rolling and cohesion stage) in columns.
-inline constexpr int k_max_history = 16;
+/// Largest history of a contact (contact, rolling and cohesion stage, accounts) in columns.
+inline constexpr int k_max_history = 24;
 
 /// Number of rows a law sees for `count` contacts: the next multiple of eight.
 constexpr std::size_t padded(std::size_t count) { return (count + 7) / 8 * 8; }
@@ -26,12 +26,13 @@ class BatchColumns {
     separation_x,  ///< [m] centre of i minus centre of j
     separation_y,
     separation_z,
-    radius_i,    ///< [m]
-    radius_j,    ///< [m] 0 for a surface
-    velocity_x,  ///< [m/s] of the centres, later of the contact point
+    radius_i,        ///< [m]
+    radius_j,        ///< [m] that of the grain for a surface
+    inverse_mass_i,  ///< [1/kg]
+    inverse_mass_j,  ///< [1/kg] 0 for a surface
+    velocity_x,      ///< [m/s] of the centres, later of the contact point
     velocity_y,
     velocity_z,
-    inverse_mass,    ///< [1/kg] sum of both sides
     displacement_x,  ///< [m] of the centres since the last look, later of the contact point
     displacement_y,
     displacement_z,

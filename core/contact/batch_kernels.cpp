@@ -40,6 +40,10 @@ sdk::ContactBatch BatchColumns::view(std::size_t count, double time_step,
   b.torque.y = column(torque_y);
   b.torque.z = column(torque_z);
   b.history = history_.data() + first_history_column;
+  b.radius_i = column(radius_i);
+  b.radius_j = column(radius_j);
+  b.inverse_mass_i = column(inverse_mass_i);
+  b.inverse_mass_j = column(inverse_mass_j);
   return b;
 }
 
@@ -91,7 +95,8 @@ DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count)
   const double* sz = columns.column(B::separation_z);
   const double* ri = columns.column(B::radius_i);
   const double* rj = columns.column(B::radius_j);
-  const double* im = columns.column(B::inverse_mass);
+  const double* inverse_i = columns.column(B::inverse_mass_i);
+  const double* inverse_j = columns.column(B::inverse_mass_j);
   const double* aix = columns.column(B::rotation_i_x);
   const double* aiy = columns.column(B::rotation_i_y);
   const double* aiz = columns.column(B::rotation_i_z);
@@ -139,7 +144,8 @@ DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count)
     const double radii = ri[q] + rj[q];
     const double smaller = std::min(ri[q], rj[q]);
     const double by_radii = radii * distance;
-    const double by_mass = im[q] * smaller;
+    const double inverse_mass = inverse_i[q] + inverse_j[q];
+    const double by_mass = inverse_mass * smaller;
     const double all = 1.0 / (by_radii * by_mass);
     const double inverse = all * by_mass * radii;
     const double d = radii - distance;
@@ -177,7 +183,7 @@ DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count)
     lj[q] = arm_j;
     radius[q] = ri[q] * rj[q] * (all * by_mass * distance);
     mass[q] = all * by_radii * smaller;
-    largest = std::max(largest, d * (all * by_radii * im[q]));
+    largest = std::max(largest, d * (all * by_radii * inverse_mass));
   }
   // Few batches have one.
   if (shallowest < 0.0) cut_first_displacements(columns, count);

@@ -159,7 +159,8 @@ __attribute__((always_inline)) inline void load_motion(const RowView& rows, cons
   load_columns(rows.motion, a, i);
   load_columns(rows.motion, b, j);
   for (int d = 0; d < 3; ++d) put(B::velocity_x + d, i[d] - j[d]);
-  put(B::inverse_mass, i[3] + j[3]);
+  put(B::inverse_mass_i, i[3]);
+  put(B::inverse_mass_j, j[3]);
   load_columns(rows.spin, a, i);
   load_columns(rows.spin, b, j);
   for (int d = 0; d < 3; ++d) {

@@ -29,17 +29,13 @@ std::uint64_t RuleRunner::allocations(const std::function<void()>& call) const {
 }
 
 const Kind* find_kind(const std::string& name) {
-  static const std::map<std::string, Kind> kinds = {{"contact", contact_kind()},
-                                                    {"rolling", rolling_kind()},
-                                                    {"cohesion", cohesion_kind()},
-                                                    {"drag", drag_kind()},
-                                                    {"fluid_force", fluid_force_kind()},
-                                                    {"voidage", voidage_kind()},
-                                                    {"boundary", boundary_kind()},
-                                                    {"turbulence", turbulence_kind()},
-                                                    {"emitter", emitter_kind()},
-                                                    {"motion", motion_kind()},
-                                                    {"sensor", sensor_kind()}};
+  static const std::map<std::string, Kind> kinds = {
+      {"contact", contact_kind()},         {"rolling", rolling_kind()},
+      {"cohesion", cohesion_kind()},       {"drag", drag_kind()},
+      {"fluid_force", fluid_force_kind()}, {"voidage", voidage_kind()},
+      {"boundary", boundary_kind()},       {"turbulence", turbulence_kind()},
+      {"liberation", liberation_kind()},   {"emitter", emitter_kind()},
+      {"motion", motion_kind()},           {"sensor", sensor_kind()}};
   const auto found = kinds.find(name);
   return found == kinds.end() ? nullptr : &found->second;
 }

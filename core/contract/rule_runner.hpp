@@ -88,5 +88,6 @@ Kind emitter_kind();
 Kind motion_kind();
 Kind sensor_kind();
 Kind turbulence_kind();
+Kind liberation_kind();
 
 }  // namespace dust::contract

@@ -3,6 +3,7 @@
 #include "io/atomic_file.hpp"
 #include "io/frame_file.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/paraview/paraview_state.hpp"
 #include "io/run_files.hpp"
 #include "io/xdmf.hpp"
 
@@ -115,6 +116,8 @@ ResultsFile::ResultsFile(fs::path folder, std::int64_t resume_frames, const bodi
   impl_->read_frames(kept);
   if (kept == 0) impl_->fluid = {};
   impl_->walls = write_walls(impl_->folder, bodies, domain_min, domain_max);
+  write_text(impl_->folder / k_paraview_state,
+             paraview_state(impl_->folder, domain_min, domain_max));
   // The index first: it never names a frame that is gone.
   impl_->write_index();
   impl_->drop_frames(kept);

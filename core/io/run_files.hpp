@@ -43,8 +43,9 @@ struct Frame {
   std::vector<SensorField> fluid_fields;  ///< more of the fluid's cells, beside its own: no sensor
 };
 
-/// results.h5 and the three XDMF files. Every frame is complete on disk when append() returns: the
-/// HDF5 file is closed and the XDMF files are renamed into place.
+/// results.h5, the three XDMF files and a script that opens them in ParaView. Every frame is
+/// complete on disk when append() returns: the HDF5 file is closed and the XDMF files are renamed
+/// into place.
 ///
 /// Layout, as seen through results.h5; n grains, cells (nz, ny, nx), m points, t triangles; every
 /// dataset has the attributes `units` and `long_name`; <frame> has six digits:

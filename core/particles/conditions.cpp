@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/conditions.hpp"
 
+#include "particles/energy/contact_work.hpp"
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -22,8 +24,9 @@ double largest_of(const std::vector<double>& diameters) {
 
 Conditions::Conditions(const scenario::Setup& setup, const bodies::BodySet& bodies,
                        std::vector<PairLaws> pair_laws, const std::vector<double>& diameters,
-                       double fluid_density)
-    : laws(std::move(pair_laws), names_of(setup.materials), largest_of(diameters)),
+                       double fluid_density, bool keeps_work)
+    : laws(std::move(pair_laws), names_of(setup.materials), largest_of(diameters), keeps_work,
+           setup.audit.energy ? k_energy_columns : 0),
       surfaces(surfaces_of(setup, bodies)),
       domain(setup),
       steps(time_steps(setup, bodies, laws.all(), diameters)) {

@@ -18,9 +18,10 @@ namespace dust::particles {
 /// stand at it.
 struct Conditions {
   /// `fluid_density` > 0 [kg/m3] reduces gravity by the buoyancy of the hydrostatic pressure.
+  /// `keeps_work`: the work of contacts is kept (ContactWork).
   Conditions(const scenario::Setup& setup, const bodies::BodySet& bodies,
-             std::vector<PairLaws> laws, const std::vector<double>& diameters,
-             double fluid_density);
+             std::vector<PairLaws> laws, const std::vector<double>& diameters, double fluid_density,
+             bool keeps_work = false);
 
   PairLawTable laws;
   std::vector<sdk::MaterialProperties> materials;

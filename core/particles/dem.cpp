@@ -13,6 +13,12 @@
 namespace dust::particles {
 namespace {
 
+std::size_t wall_count(const std::vector<Surface>& surfaces) {
+  std::size_t walls = 0;
+  for (const Surface& s : surfaces) walls = std::max<std::size_t>(walls, s.wall + 1u);
+  return walls;
+}
+
 /// Widening of an opening in diagonals of the domain.
 constexpr double k_opening_rounding = 1e-9;
 
@@ -20,10 +26,16 @@ constexpr double k_opening_rounding = 1e-9;
 
 Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
                 std::vector<PairLaws> laws, const std::vector<double>& diameters,
-                double fluid_density)
-    : conditions(setup, bodies, std::move(laws), diameters, fluid_density),
+                double fluid_density, DustLoads dust)
+    : conditions(setup, bodies, std::move(laws), diameters, fluid_density, dust.is_on()),
       store(setup.fluid.has_value()),
-      inner(conditions.laws.history_stride()) {}
+      inner(conditions.laws.history_stride()),
+      loads(std::move(dust)) {
+  if (loads.is_on()) work.begin(wall_count(conditions.surfaces), 0);
+  if (!setup.audit.energy) return;
+  energy.begin();
+  inner.let_all_step();
+}
 
 void Dem::Impl::insert(std::span<const NewGrain> grains) {
   if (grains.empty()) return;
@@ -32,9 +44,12 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
     const double mass = material.density * sdk::sphere_volume(g.diameter);
     const std::int32_t population = ledger.population(g.diameter, g.weight, g.material, mass);
     store.append(g, mass, population);
+    loads.enter(static_cast<std::size_t>(g.material), mass, g.weight);
+    energy.enter(store, store.size() - 1);
     ledger.enter(population);
   }
   outer.resize(store.size());
+  work.resize(store.size());
   ledger.close();
   outer.require(OuterList::Due::reorder);
 }
@@ -58,6 +73,7 @@ void Dem::Impl::draw_out_at(std::vector<Opening> openings) {
 bool Dem::Impl::leaves(std::size_t n) {
   if (const int touched = store.touched_opening(n); touched >= 0) {
     ledger.extract(store.population(n), static_cast<std::size_t>(touched));
+    loads.leave(store, n, true);
     return true;
   }
   const ParticleDomain::Place place = conditions.domain.place_of(store.position(n));
@@ -76,9 +92,11 @@ bool Dem::Impl::leaves(std::size_t n) {
     if (opening.side != static_cast<int>(place.side)) continue;
     if (!opening.holds(position, conditions.opening_rounding)) continue;
     ledger.extract(store.population(n), o);
+    loads.leave(store, n, true);
     return true;
   }
   ledger.leave(store.population(n));
+  loads.leave(store, n, false);
   return true;
 }
 
@@ -86,7 +104,11 @@ void Dem::Impl::remove_escaped() {
   std::vector<std::int32_t> keep;
   keep.reserve(store.size());
   for (std::size_t n = 0; n < store.size(); ++n) {
-    if (!leaves(n)) keep.push_back(static_cast<std::int32_t>(n));
+    if (!leaves(n)) {
+      keep.push_back(static_cast<std::int32_t>(n));
+    } else {
+      energy.leave(store, n, conditions.gravity.data(), conditions.step());
+    }
   }
   if (keep.size() == store.size()) return;
   // Histories and deferred impulses of the others survive: contacts name the new rows from here on,
@@ -97,6 +119,8 @@ void Dem::Impl::remove_escaped() {
   inner.renumber(new_row);
   fine_level.renumber(new_row);
   store.reorder(keep);
+  work.reorder(keep);
+  loads.reorder(keep);
   outer.reorder(keep);
   ledger.close();
   outer.require(OuterList::Due::reorder);
@@ -111,13 +135,17 @@ void Dem::Impl::move_to(double time) {
   for (Surface& s : conditions.surfaces) s.move_to(time);
 }
 
-TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTransfer> laws) {
+TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTransfer> laws,
+                                        bool keeps_dust) {
   const Translation names(other.conditions, conditions);
   std::vector<double> density;
   for (const auto& material : conditions.materials) density.push_back(material.density);
   ledger.transfer_from(other.ledger, names.materials(), names.openings(), density);
   store.transfer_from(other.store, names.materials(), names.openings(), ledger.masses());
+  loads.transfer_from(other.loads, store, keeps_dust);
+  work.resize(store.size());
   store.update_decay(conditions.step());
+  for (std::size_t n = 0; n < store.size(); ++n) energy.enter(store, n);
   fine_level.transfer_from(other.fine_level);
 
   ContactTransfer transfer({other.conditions, other.store}, {conditions, store}, names, laws);
@@ -160,9 +188,10 @@ void Dem::Impl::fill_last_force() const {
 }
 
 Dem::Dem(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vector<PairLaws> laws,
-         std::vector<double> class_diameters, double fluid_density)
+         std::vector<double> class_diameters, double fluid_density,
+         std::vector<std::vector<double>> dust_shares)
     : impl_(std::make_unique<Impl>(setup, bodies, std::move(laws), std::move(class_diameters),
-                                   fluid_density)) {}
+                                   fluid_density, DustLoads(std::move(dust_shares)))) {}
 Dem::~Dem() = default;
 
 double Dem::coarse_step() const { return impl_->conditions.step(); }
@@ -228,6 +257,7 @@ std::vector<ContactRecord> Dem::contacts() const {
   return contact_snapshot(impl_->contact_scene(), impl_->inner);
 }
 
+EnergyBalance Dem::energy() const { return impl_->energy.balance(); }
 const BalanceLedger& Dem::ledger() const { return impl_->ledger; }
 const Balance& Dem::balance() const { return impl_->ledger.balance(); }
 
@@ -261,11 +291,25 @@ std::vector<std::pair<std::int64_t, std::int64_t>> Dem::listed_pairs() const {
   return out;
 }
 
+const ContactWork& Dem::contact_work() const { return impl_->work; }
+std::vector<std::string> Dem::wall_names() const {
+  std::vector<std::string> names(wall_count(impl_->conditions.surfaces));
+  for (const Surface& s : impl_->conditions.surfaces) {
+    names[static_cast<std::size_t>(s.wall)] = s.name;
+  }
+  return names;
+}
+void Dem::clear_contact_work() { impl_->work.clear(); }
+std::span<const double> Dem::dust_load(std::size_t row) const { return impl_->loads.on(row); }
+void Dem::set_dust_free(std::size_t row, std::size_t n, double mass) {
+  impl_->loads.set_free(impl_->store, row, n, mass);
+}
+DustLoads::Balance Dem::dust_balance(std::size_t n) const {
+  return impl_->loads.balance(impl_->store, n);
+}
+
 void Dem::record_wall_loads() {
-  std::size_t walls = 0;
-  for (const Surface& s : impl_->conditions.surfaces)
-    walls = std::max<std::size_t>(walls, s.wall + 1u);
-  impl_->wall_loads.begin(impl_->conditions.surfaces, walls);
+  impl_->wall_loads.begin(impl_->conditions.surfaces, wall_count(impl_->conditions.surfaces));
   impl_->outer.require(OuterList::Due::rebuild);
 }
 
@@ -284,11 +328,11 @@ TransferObstacles Dem::obstacles_to(const Dem& other, double time) {
   return find_obstacles({other.impl_->conditions, other.impl_->store}, impl_->conditions);
 }
 
-TransferReport Dem::transfer_from(const Dem& other, double time,
-                                  std::span<const LawTransfer> laws) {
+TransferReport Dem::transfer_from(const Dem& other, double time, std::span<const LawTransfer> laws,
+                                  bool keeps_dust) {
   other.impl_->synchronise();
   impl_->move_to(time);
-  return impl_->transfer_from(*other.impl_, laws);
+  return impl_->transfer_from(*other.impl_, laws, keeps_dust);
 }
 
 void Dem::save(sdk::ArchiveWriter& archive) const {
@@ -304,6 +348,8 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   tile_step.save(archive, tiling);
   fine_level.save(archive);
   ledger.save(archive);
+  loads.save(archive);
+  energy.save(archive);
   archive.number("time", conditions.time);
   const ListTuner::State lifetimes = tuner.state();
   const OuterList::State list = outer.state();
@@ -350,6 +396,10 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   inner.load(archive, tiles);
   fine_level.load(archive, state.at(10));
   ledger.load(archive);
+  loads.load(archive);
+  work.resize(store.size());
+  energy.restart(tiles);
+  energy.load(archive);
   move_to(archive.number("time"));
   has_weights = store.has_weights(tiling.coarse_count);
 }

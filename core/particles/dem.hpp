@@ -5,10 +5,13 @@
 #include "dust/sdk/archive.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/sensor.hpp"
+#include "particles/energy/energy_balance.hpp"
 #include "particles/grain_rows.hpp"
 #include "particles/openings/opening.hpp"
 #include "particles/pair_law_table.hpp"
 #include "particles/transfer/transfer.hpp"
+#include "particles/work/contact_work.hpp"
+#include "particles/work/dust_loads.hpp"
 #include "setup/setup.hpp"
 
 #include <algorithm>
@@ -88,9 +91,11 @@ struct ContactRecord {
 class Dem {
  public:
   /// `class_diameters`: all diameters that may come, ascending. `fluid_density` > 0 reduces gravity
-  /// by the buoyancy of the hydrostatic pressure.
+  /// by the buoyancy of the hydrostatic pressure. `dust_shares`: kg of dust per kg of grain, by
+  /// material and class; empty: none carries any.
   Dem(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vector<PairLaws> laws,
-      std::vector<double> class_diameters, double fluid_density);
+      std::vector<double> class_diameters, double fluid_density,
+      std::vector<std::vector<double>> dust_shares = {});
   ~Dem();
   Dem(const Dem&) = delete;
   Dem& operator=(const Dem&) = delete;
@@ -142,9 +147,21 @@ class Dem {
   [[nodiscard]] std::vector<ContactRecord> contacts() const;
   [[nodiscard]] const Balance& balance() const;
   [[nodiscard]] const BalanceLedger& ledger() const;
+  /// Zeros unless the scenario asks for it (Setup::audit).
+  [[nodiscard]] EnergyBalance energy() const;
   [[nodiscard]] DemReport report() const;
   /// Tells that drag_relaxation was rewritten (the DEM derives its decay factors from it).
   void drag_relaxation_changed();
+  /// What contacts have dissipated since clear_contact_work(); kept where grains carry dust.
+  [[nodiscard]] const ContactWork& contact_work() const;
+  /// Names of its walls.
+  [[nodiscard]] std::vector<std::string> wall_names() const;
+  void clear_contact_work();
+  /// [kg] by class on a real particle.
+  [[nodiscard]] std::span<const double> dust_load(std::size_t row) const;
+  /// `mass` [kg] of a class comes off a real particle. Call between coarse steps.
+  void set_dust_free(std::size_t row, std::size_t n, double mass);
+  [[nodiscard]] DustLoads::Balance dust_balance(std::size_t n) const;
   /// Keeps what grains do to walls from now on.
   void record_wall_loads();
   /// Ends the interval [s] of the wall loads; nothing unless they are watched. Call between coarse
@@ -169,9 +186,11 @@ class Dem {
   [[nodiscard]] TransferObstacles obstacles_to(const Dem& other, double time);
   /// Takes the particles of another solver, under whatever laws, materials and bodies it has, with
   /// the histories of their contacts; materials, bodies and openings are known by their names.
-  /// `laws` by its number of a law. Call before the first step, and where nothing stands in the
-  /// way.
-  TransferReport transfer_from(const Dem& other, double time, std::span<const LawTransfer> laws);
+  /// `laws` by its number of a law. `keeps_dust`: its classes of dust are those here; else each
+  /// particle carries what its material brings here. Call before the first step, and where nothing
+  /// stands in the way.
+  TransferReport transfer_from(const Dem& other, double time, std::span<const LawTransfer> laws,
+                               bool keeps_dust = true);
 
  private:
   class Impl;

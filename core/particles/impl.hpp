@@ -3,6 +3,7 @@
 
 #include "particles/conditions.hpp"
 #include "particles/dem.hpp"
+#include "particles/energy/energy_account.hpp"
 #include "particles/fine_level/fine_level.hpp"
 #include "particles/forces/wall_loads.hpp"
 #include "particles/neighbours/inner_list.hpp"
@@ -12,6 +13,8 @@
 #include "particles/store/particle_store.hpp"
 #include "particles/store/tile.hpp"
 #include "particles/tile_step.hpp"
+#include "particles/work/contact_work.hpp"
+#include "particles/work/dust_loads.hpp"
 
 #include <cstdint>
 #include <span>
@@ -24,7 +27,7 @@ namespace dust::particles {
 class Dem::Impl {
  public:
   Impl(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vector<PairLaws> laws,
-       const std::vector<double>& diameters, double fluid_density);
+       const std::vector<double>& diameters, double fluid_density, DustLoads loads);
 
   // dem_step.cpp
   void update_pair_lists();
@@ -44,7 +47,8 @@ class Dem::Impl {
   [[nodiscard]] bool leaves(std::size_t row);
   void draw_out_at(std::vector<Opening> openings);
   void move_to(double time);
-  TransferReport transfer_from(const Impl& other, std::span<const LawTransfer> laws);
+  TransferReport transfer_from(const Impl& other, std::span<const LawTransfer> laws,
+                               bool keeps_dust);
   void fill_last_force() const;
   void gather_wall_loads();
   void save(sdk::ArchiveWriter& archive) const;
@@ -73,7 +77,10 @@ class Dem::Impl {
   InnerList inner;
   TileStep tile_step;
   FineLevel fine_level;
+  EnergyAccount energy;
   WallLoads wall_loads;  ///< empty between fluid steps, so that nothing of it is saved
+  DustLoads loads;       ///< empty where none carries dust
+  ContactWork work;      ///< kept where some do
   DemReport counters;
   mutable contact::AlignedVector<double> last_force;
 };

@@ -9,7 +9,7 @@
 namespace dust::particles {
 
 PairLawTable::PairLawTable(std::vector<PairLaws> laws, std::vector<std::string> material_names,
-                           double largest_diameter)
+                           double largest_diameter, bool keeps_work, int account_columns)
     : laws_(std::move(laws)),
       material_names_(std::move(material_names)),
       index_(material_names_.size() * material_names_.size(), -1) {
@@ -25,9 +25,16 @@ PairLawTable::PairLawTable(std::vector<PairLaws> laws, std::vector<std::string> 
     law.range = law.range_of(0.5 * largest_diameter);
     largest_range_ = std::max(largest_range_, law.range);
   }
+  work_column_ = static_cast<std::size_t>(columns);
+  if (keeps_work) columns += k_work_columns;
+  account_column_ = columns;
+  columns += account_columns;
   if (columns > contact::k_max_history) {
-    throw sdk::ParameterError("contact, rolling and cohesion law together keep " +
-                              std::to_string(columns) + " numbers per contact; at most " +
+    throw sdk::ParameterError("contact, rolling and cohesion law" +
+                              std::string(keeps_work ? " and what sets dust free" : "") +
+                              (account_columns > 0 ? " and the energy account" : "") +
+                              " together keep " + std::to_string(columns) +
+                              " numbers per contact; at most " +
                               std::to_string(contact::k_max_history) + " are possible");
   }
   history_stride_ = static_cast<std::size_t>(std::max(4, (columns + 3) / 4 * 4));

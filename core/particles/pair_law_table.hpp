@@ -38,9 +38,10 @@ struct PairLaws {
 /// The laws of all pairs of materials, by number.
 class PairLawTable {
  public:
-  /// `largest_diameter` [m] of the particles that may come.
+  /// `largest_diameter` [m] of the particles that may come. Kept per contact besides the numbers of
+  /// the laws: its work, with `keeps_work`, and `account_columns` of the energy account.
   PairLawTable(std::vector<PairLaws> laws, std::vector<std::string> material_names,
-               double largest_diameter);
+               double largest_diameter, bool keeps_work = false, int account_columns = 0);
 
   [[nodiscard]] std::size_t size() const { return laws_.size(); }
   [[nodiscard]] const PairLaws& operator[](std::size_t law) const { return laws_[law]; }
@@ -54,8 +55,16 @@ class PairLawTable {
   [[nodiscard]] double largest_range() const { return largest_range_; }
   /// Numbers kept per contact, a multiple of four.
   [[nodiscard]] std::size_t history_stride() const { return history_stride_; }
+  /// The first of the two columns that hold work (find_dissipation): behind those of the laws.
+  [[nodiscard]] std::size_t work_column() const { return work_column_; }
+  /// The first of the account's columns.
+  [[nodiscard]] int account_column() const { return account_column_; }
 
  private:
+  static constexpr int k_work_columns = 2;
+
+  std::size_t work_column_ = 0;
+  int account_column_ = 0;
   std::vector<PairLaws> laws_;
   std::vector<std::string> material_names_;
   std::vector<std::int32_t> index_;  ///< by both materials; -1: none

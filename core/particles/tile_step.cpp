@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/tile_step.hpp"
 
+#include "particles/energy/motion_energy.hpp"
 #include "particles/motion/integrate.hpp"
 #include "particles/particle_error.hpp"
 
@@ -77,16 +78,51 @@ void TileStep::apply_impulses(const StepScene& scene, Tile tile, Selection selec
   }
 }
 
+/// Takes what contacts have dissipated out of rows of forces that are complete: where particles
+/// move, the fourth and eighth numbers are zero. Rows of `force` stand by particle from `first` on,
+/// or, if that is negative, in the order of `particles`.
+void TileStep::take_work(const StepScene& scene, std::span<const std::int32_t> particles,
+                         double* force, std::int32_t first) {
+  ContactWork* const work = scene.contacts.work;
+  if (work == nullptr) return;
+  for (std::size_t k = 0; k < particles.size(); ++k) {
+    const auto row = static_cast<std::size_t>(particles[k]);
+    double* f =
+        force + k_force_row * (first < 0 ? k : static_cast<std::size_t>(particles[k] - first));
+    work->add_with_particles(row, f[3], f[7]);
+    f[3] = f[7] = 0.0;
+    work->note_acceleration(row,
+                            norm(sdk::Vec3{f[0], f[1], f[2]}) * scene.particles.inverse_mass(row));
+  }
+}
+
+/// Lets particles move; their energy is booked where a run keeps account of it.
+template <class Move>
+void TileStep::with_energy(const StepScene& scene, Tile tile, std::span<const std::int32_t> rows,
+                           Move&& move) {
+  EnergyAccount* const account = scene.contacts.energy;
+  if (account == nullptr) {
+    move();
+    return;
+  }
+  const MotionEnergy energy(scene.particles, rows);
+  move();
+  energy.add_to(account->tile(static_cast<std::size_t>(tile.index)), scene.motion.gravity);
+}
+
 /// All active particles move at once, while the rows and forces are in the cache.
 void TileStep::move_all(const StepScene& scene, Tile tile, ForceBuffer& force) {
   const ActiveSet& active = active_of(scene, tile);
   apply_impulses(scene, tile, Selection::all);
   deferred_.clear(tile.index);
-  if (active.size() == tile.size()) {
-    integrate_tile(scene.motion, tile, force.rows(), scene.step());
-  } else {
-    integrate_in_tile(scene.motion, tile, active.all(), force.rows(), scene.step());
-  }
+  take_work(scene, active.all(), force.rows(), tile.begin);
+  with_energy(scene, tile, active.all(), [&] {
+    if (active.size() == tile.size()) {
+      integrate_tile(scene.motion, tile, force.rows(), scene.step());
+    } else {
+      integrate_in_tile(scene.motion, tile, active.all(), force.rows(), scene.step());
+    }
+  });
   check(scene, tile);
 }
 
@@ -94,7 +130,10 @@ void TileStep::move_all(const StepScene& scene, Tile tile, ForceBuffer& force) {
 void TileStep::move_unshared(const StepScene& scene, Tile tile, ForceBuffer& force) {
   const ActiveSet& active = active_of(scene, tile);
   apply_impulses(scene, tile, Selection::unshared);
-  integrate_in_tile(scene.motion, tile, active.unshared(), force.rows(), scene.step());
+  take_work(scene, active.unshared(), force.rows(), tile.begin);
+  with_energy(scene, tile, active.unshared(), [&] {
+    integrate_in_tile(scene.motion, tile, active.unshared(), force.rows(), scene.step());
+  });
   deferred_.keep(tile, active.all(), active.unshared_count(), force);
 }
 
@@ -102,8 +141,11 @@ void TileStep::move_deferred(const StepScene& scene, Tile tile) {
   const ActiveSet& active = active_of(scene, tile);
   const std::size_t moved = deferred_.moved(tile.index);
   apply_impulses(scene, tile, moved == 0 ? Selection::all : Selection::shared);
-  integrate_in_order(scene.motion, active.all().subspan(moved), deferred_.rows(tile.index).data(),
-                     scene.step());
+  const std::span<const std::int32_t> rows = active.all().subspan(moved);
+  take_work(scene, rows, deferred_.rows(tile.index).data(), -1);
+  with_energy(scene, tile, rows, [&] {
+    integrate_in_order(scene.motion, rows, deferred_.rows(tile.index).data(), scene.step());
+  });
   deferred_.clear(tile.index);
   check(scene, tile);
 }

@@ -81,6 +81,11 @@ class TileStep {
   void move_all(const StepScene& scene, Tile tile, ForceBuffer& force);
   void move_unshared(const StepScene& scene, Tile tile, ForceBuffer& force);
   void move_deferred(const StepScene& scene, Tile tile);
+  static void take_work(const StepScene& scene, std::span<const std::int32_t> particles,
+                        double* force, std::int32_t first);
+  template <class Move>
+  static void with_energy(const StepScene& scene, Tile tile, std::span<const std::int32_t> rows,
+                          Move&& move);
   static void check(const StepScene& scene, Tile tile);
   static const ActiveSet& active_of(const StepScene& scene, Tile tile) {
     return scene.lists.active(static_cast<std::size_t>(tile.index));

@@ -88,6 +88,9 @@ class Contact final : public PairLaw<sdk::ContactLaw> {
 class Rolling final : public PairLaw<sdk::RollingLaw> {
  public:
   using PairLaw::PairLaw;
+  [[nodiscard]] int couple_column() const override {
+    return get("couple_column", &sdk::RollingLaw::couple_column);
+  }
   void evaluate(const sdk::ContactBatch& b) const override {
     ask("evaluate", "a couple for every contact of the batch", &sdk::RollingLaw::evaluate, b);
     const GuardReport::Inputs seen = {{"normal_force", b.normal_force},
@@ -237,6 +240,39 @@ class Turbulence final : public Guarded<sdk::TurbulenceModel> {
   }
 };
 
+class Liberation final : public Guarded<sdk::LiberationLaw> {
+ public:
+  using Guarded::Guarded;
+  void prepare(const sdk::DustProperties& dust) override {
+    ask("prepare", "classes of dust taken, or a ParameterError", &sdk::LiberationLaw::prepare,
+        dust);
+  }
+  void in_contacts(const sdk::GrainImpacts& b) const override {
+    ask("in_contacts", "what comes off each grain of the batch", &sdk::LiberationLaw::in_contacts,
+        b);
+    check(b.grains, {{"normal_energy", b.normal_energy},
+                     {"tangential_energy", b.tangential_energy},
+                     {"acceleration", b.acceleration}});
+  }
+  void in_wind(const sdk::GrainWind& b) const override {
+    ask("in_wind", "what comes off each grain of the batch", &sdk::LiberationLaw::in_wind, b);
+    check(b.grains, {{"slip", b.slip}, {"shear", b.shear}, {"void_fraction", b.void_fraction}});
+  }
+  [[nodiscard]] bool needs_wind() const override {
+    return get("needs_wind", &sdk::LiberationLaw::needs_wind);
+  }
+  [[nodiscard]] bool uses_moisture() const override {
+    return get("uses_moisture", &sdk::LiberationLaw::uses_moisture);
+  }
+
+ private:
+  void check(const sdk::DustyGrains& g, GuardReport::Inputs seen) const {
+    for (std::size_t k = 0; k < g.classes; ++k) {
+      faults().check(g.count, "released", g.released + k * g.stride, seen);
+    }
+  }
+};
+
 class Emitter final : public Guarded<sdk::Emitter> {
  public:
   using Guarded::Guarded;
@@ -359,6 +395,7 @@ std::unique_ptr<sdk::Model> guarded(std::unique_ptr<sdk::Model> model, const Ent
       {sdk::VoidageRule::k_kind, make<Voidage>},
       {sdk::BoundaryCondition::k_kind, make<Boundary>},
       {sdk::TurbulenceModel::k_kind, make<Turbulence>},
+      {sdk::LiberationLaw::k_kind, make<Liberation>},
       {sdk::Emitter::k_kind, make<Emitter>},
       {sdk::Motion::k_kind, make<Motion>},
       {sdk::Sensor::k_kind, make<Sensor>}};

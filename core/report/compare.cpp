@@ -90,12 +90,12 @@ std::vector<Figure> reported_first(const RunText& run) {
     for (const Figure& figure : *figures) {
       const double diameter = highlights.classes.size() > 1 ? figure.size_class() : -1.0;
       const std::string size =
-          diameter > 0.0 ? ", " + base::digits_text(diameter * 1e6, 6) + " um" : std::string();
+          diameter > 0.0 ? ", " + base::length_text(diameter, 6) : std::string();
       add("dust", words(figure.sensor) + size, figure);
     }
   }
   for (const StreamDrop& drop : highlights.stream) {
-    add("stream", "median at " + base::digits_text(drop.drop * 1e3, 6) + " mm drop", drop.median);
+    add("stream", "median at " + base::length_text(drop.drop, 6) + " drop", drop.median);
   }
   for (const LowPlace& place : highlights.places) {
     add("low pressure", "place " + place.name + ", x", place.x);

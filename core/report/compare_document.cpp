@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/text.hpp"
 #include "report/compare.hpp"
 #include "report/pictures/pictures.hpp"
 
@@ -29,6 +30,23 @@ json block_means(const json& list, std::size_t stride) {
     }
   }
   return means;
+}
+
+/// Turns places [m] on the x axis into mm, unless they reach across a plant; how the axis says it.
+const char* scale_places(json& lines) {
+  double farthest = 0.0;
+  for (const json& line : lines) {
+    for (const json& x : line["x"]) {
+      if (x.is_number()) farthest = std::max(farthest, std::abs(x.get<double>()));
+    }
+  }
+  if (farthest >= base::k_plant_extent) return ", m";
+  for (json& line : lines) {
+    for (json& x : line["x"]) {
+      if (x.is_number()) x = 1e3 * x.get<double>();
+    }
+  }
+  return ", mm";
 }
 
 /// Curves of the sensors that both runs have, over each other.
@@ -71,12 +89,7 @@ json curve_plots(const Comparison& c) {
       const bool has_unit = open != std::string::npos && close != std::string::npos && close > open;
       std::string x_label = text_at(a, "x_label");
       if (const auto at = x_label.find(" [m]"); at != std::string::npos) {
-        x_label.replace(at, 4, ", mm");
-        for (json& line : lines) {
-          for (json& x : line["x"]) {
-            if (x.is_number()) x = 1e3 * x.get<double>();
-          }
-        }
+        x_label.replace(at, 4, scale_places(lines));
       } else if (x_label.ends_with(" [s]")) {
         x_label.replace(x_label.size() - 4, 4, ", s");
       }

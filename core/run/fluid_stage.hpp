@@ -42,6 +42,9 @@ class FluidStage {
   void start(const particles::GrainRows& rows) { coupling_->start(unresolved(rows)); }
   /// Void fraction and drag of the particles, or their surfaces, for the step from `time` [s] on.
   void begin_step(double time, const particles::GrainRows& rows);
+  /// Optional, before advance(): a force on the fluid besides those of particles [N/m3], kept by
+  /// reference.
+  void use(const fluid::FaceField& force) { force_ = &force; }
   /// Solves for the fluid.
   void advance(double time);
   /// The impulses that the fluid took in advance().
@@ -98,6 +101,7 @@ class FluidStage {
   template <class Fluid, class Visit>
   static void for_fields(Fluid& fluid, const Visit& visit);
   void make_coupling(const fluid::Boundaries& boundaries);
+  [[nodiscard]] const fluid::Exchange& exchange();
   void set_velocity(const fluid::FaceField& velocity);
   void make_resolved();
   /// Of all rows those that a drag law is for; given back to them by give_back().
@@ -116,6 +120,8 @@ class FluidStage {
   resolved::UnresolvedRows unresolved_;
   std::unique_ptr<NoParticles> no_particles_;  ///< only without coupling
   std::unique_ptr<LaggedFluid> lagged_;        ///< only where fluid and particles overlap
+  const fluid::FaceField* force_ = nullptr;    ///< besides those of particles
+  std::unique_ptr<fluid::Exchange> forced_;    ///< of the present step, with that force
   std::int64_t sub_steps_ = 0;
   std::int64_t pressure_iterations_ = 0;
   std::vector<float> momentum_exchange_;

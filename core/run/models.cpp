@@ -3,7 +3,8 @@
 
 namespace dust::run {
 
-Models make_models(const scenario::Setup& setup, const registry::Registry& registry) {
+Models make_models(const scenario::Setup& setup, const registry::Registry& registry,
+                   const scenario::DustSetup& dust) {
   Models m;
   static_cast<preflight::ParticleModels&>(m) = preflight::make_particle_models(setup, registry);
   for (const auto& spec : setup.sensors) {
@@ -23,6 +24,9 @@ Models make_models(const scenario::Setup& setup, const registry::Registry& regis
       m.turbulence = registry.create_as<sdk::TurbulenceModel>(*setup.turbulence);
     }
     if (setup.voidage) m.voidage = registry.create_as<sdk::VoidageRule>(*setup.voidage);
+  }
+  if (dust.liberation) {
+    m.liberation = registry.create_as<sdk::LiberationLaw>(*dust.liberation);
   }
   return m;
 }

@@ -27,7 +27,8 @@ int print_graph(const RunOptions& options, const std::optional<std::filesystem::
   registry.load(registry::Registry::search_path(options.plugin_path));
   const auto read =
       preflight::read_scenario(options.scenario, options.overrides, registry, options.set_files);
-  const Simulation simulation(read.setup, make_models(read.setup, registry));
+  const Simulation simulation(read.setup, make_models(read.setup, registry, read.dust), 0,
+                              read.dust);
   std::fputs(graph_dot(simulation).c_str(), stdout);
   return 0;
 }

@@ -376,7 +376,7 @@ class Run {
 /// The models of a scenario, with the sizes of grains that another run brings along.
 Models make_models_of(const scenario::ReadResult& read, const registry::Registry& registry,
                       const Branch* branch, const std::optional<fs::path>& resumed) {
-  Models models = make_models(read.setup, registry);
+  Models models = make_models(read.setup, registry, read.dust);
   if (branch != nullptr) branch->add_diameters(models.class_diameters);
   if (read.start.from && resumed) {
     const io::StoredState state(*resumed / "checkpoint.h5", "start again with --force");
@@ -418,7 +418,7 @@ RunFacts facts_of(const scenario::ReadResult& read, const registry::Registry& re
   io::Sha256 digest;
   digest.update(read.resolved_yaml.data(), read.resolved_yaml.size());
   facts.scenario_sha256 = digest.hex_digest();
-  facts.log_header = log_header(read.setup, registry, options, facts.scenario_sha256);
+  facts.log_header = log_header(read.setup, read.dust, registry, options, facts.scenario_sha256);
   return facts;
 }
 

@@ -19,20 +19,23 @@ bool wants_contacts(const Models& models) {
 
 }  // namespace
 
-std::unique_ptr<particles::Dem> make_particles(const scenario::Setup& setup, Models& models) {
+std::unique_ptr<particles::Dem> make_particles(const scenario::Setup& setup, Models& models,
+                                               const scenario::DustSetup& dust) {
   // Buoyancy is part of the weight, unless a model gives it.
   const bool has_buoyancy = setup.fluid && !coupling::takes_over_buoyancy(models.fluid_forces);
   const double density = has_buoyancy ? setup.fluid->density : 0.0;
   if (!models.class_diameters.empty()) {
     return std::make_unique<particles::Dem>(setup, models.bodies, std::move(models.laws),
-                                            models.class_diameters, density);
+                                            models.class_diameters, density,
+                                            dust.shares_on_grains());
   }
   // Nothing asks how large particles are that never come, and nothing shortens the step.
   constexpr double k_any_diameter = 1e-3;
   scenario::Setup empty = setup;
   empty.time.dem_step = empty.time.fluid_step;
   return std::make_unique<particles::Dem>(empty, models.bodies, std::move(models.laws),
-                                          std::vector<double>{k_any_diameter}, density);
+                                          std::vector<double>{k_any_diameter}, density,
+                                          dust.shares_on_grains());
 }
 
 Simulation::Simulation(const scenario::Setup& setup, Models models, int check_every,
@@ -46,11 +49,16 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
     fluid_ = std::make_unique<FluidStage>(setup_, models_);
     snapshots_.use_fluid(fluid_->grid(), *setup_.fluid, fluid_->solver().open_fraction());
   }
-  dem_ = make_particles(setup_, models_);
+  dem_ = make_particles(setup_, models_, dust_setup_);
   dem_->draw_out_at(openings_of(setup_, dust_setup_));
   if (dust_setup_.field) {
     dust_ = std::make_unique<DustStage>(setup_, *dust_setup_.field, models_, *fluid_,
                                         openings_of(setup_, dust_setup_));
+    fluid_->use(dust_->weight());
+  }
+  if (dust_ && models_.liberation) {
+    liberation_ = std::make_unique<LiberationStage>(setup_, dust_setup_,
+                                                    std::move(models_.liberation), *dust_, *dem_);
   }
   cycle_.emplace(clock_.fluid_step(), dem_->coarse_step());
   insertion_ = std::make_unique<Insertion>(setup_, models_);
@@ -83,7 +91,8 @@ void Simulation::start() {
 }
 
 void Simulation::start_from(const std::function<void(const Owners&)>& give) {
-  give({models_, clock_, *dem_, *insertion_, snapshots_, fluid_.get(), dust_.get()});
+  give({models_, clock_, *dem_, *insertion_, snapshots_, fluid_.get(), dust_.get(),
+        liberation_.get()});
   if (fluid_) snapshots_.set_open_fraction(fluid_->solver().open_fraction());
   take_fluid_snapshot();
 }
@@ -182,6 +191,7 @@ SaveParts Simulation::save_parts() const {
   parts.emplace_back("columns", [this](sdk::ArchiveWriter& a) { snapshots_.save(a); });
   if (fluid_) fluid_->add_parts(parts);
   if (dust_) dust_->add_parts(parts);
+  if (liberation_) std::as_const(*liberation_).add_parts(parts);
   for (std::size_t n = 0; n < models_.emitters.size(); ++n) {
     parts.emplace_back("emitter." + setup_.emitters[n].name,
                        [this, n](sdk::ArchiveWriter& a) { models_.emitters[n]->save(a); });
@@ -220,6 +230,7 @@ LoadParts Simulation::load_parts() {
         });
   }
   if (dust_) dust_->add_parts(parts);
+  if (liberation_) liberation_->add_parts(parts);
   // Last, so that the places of the last sample are those saved, not those just published.
   parts.emplace_back("columns", [this](sdk::ArchiveReader& a) {
     snapshots_.take(*dem_);

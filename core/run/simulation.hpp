@@ -6,6 +6,7 @@
 #include "run/archive_parts.hpp"
 #include "run/dem_cycle.hpp"
 #include "run/dust/dust_stage.hpp"
+#include "run/dust/liberation_stage.hpp"
 #include "run/fluid_stage.hpp"
 #include "run/insertion/insertion.hpp"
 #include "run/models.hpp"
@@ -24,7 +25,8 @@
 namespace dust::run {
 
 /// The particles of a scenario; takes the laws out of `models` and keeps its bodies by reference.
-std::unique_ptr<particles::Dem> make_particles(const scenario::Setup& setup, Models& models);
+std::unique_ptr<particles::Dem> make_particles(const scenario::Setup& setup, Models& models,
+                                               const scenario::DustSetup& dust = {});
 
 /// Everything a run holds: models, particles, fluid, the two task graphs and the clock.
 class Simulation {
@@ -47,8 +49,9 @@ class Simulation {
     particles::Dem& particles;
     Insertion& insertion;
     Snapshots& snapshots;
-    FluidStage* fluid;  ///< null without a fluid
-    DustStage* dust;    ///< null without a dust field
+    FluidStage* fluid;            ///< null without a fluid
+    DustStage* dust;              ///< null without a dust field
+    LiberationStage* liberation;  ///< null where no dust comes off grains
   };
   /// In place of start(): `give` gives them the state of another run.
   void start_from(const std::function<void(const Owners&)>& give);
@@ -68,6 +71,8 @@ class Simulation {
   [[nodiscard]] const FluidStage* fluid_stage() const { return fluid_.get(); }
   /// Null without a dust field.
   [[nodiscard]] const DustStage* dust_stage() const { return dust_.get(); }
+  /// Null where no dust comes off grains.
+  [[nodiscard]] const LiberationStage* liberation() const { return liberation_.get(); }
   [[nodiscard]] const fluid::FluidSolver* fluid() const;
   [[nodiscard]] const coupling::Coupling* coupling() const;
 
@@ -112,6 +117,7 @@ class Simulation {
   std::unique_ptr<FluidStage> fluid_;
   std::unique_ptr<DustStage> dust_;
   std::unique_ptr<particles::Dem> dem_;
+  std::unique_ptr<LiberationStage> liberation_;
   std::optional<DemCycle> cycle_;  ///< within a fluid step
   std::unique_ptr<Insertion> insertion_;
   Snapshots snapshots_;

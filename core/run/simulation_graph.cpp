@@ -98,6 +98,12 @@ void Simulation::build_step_graph() {
                      [this] { dust_->advance(time()); }});
   }
   add_particle_nodes();
+  if (liberation_) {
+    step_graph_.add({"liberation",
+                     {"grain.state", "fluid.void_fraction", "dust.concentration"},
+                     {"grain.state", "dust.concentration"},
+                     [this] { liberation_->advance(clock_.fluid_step()); }});
+  }
   add_last_nodes();
   add_sensor_nodes();
   step_graph_.build();
@@ -118,9 +124,14 @@ void Simulation::add_first_nodes() {
 }
 
 void Simulation::add_fluid_nodes() {
+  // The dust's weight is that of the concentrations of the step before.
+  const auto and_dust = [this](std::vector<std::string> reads) {
+    if (dust_) reads.emplace_back("dust.concentration");
+    return reads;
+  };
   if (!fluid_->has_particles()) {
     step_graph_.add(
-        {"fluid", {"fluid.velocity"}, {"fluid.velocity", "fluid.void_fraction"}, [this] {
+        {"fluid", and_dust({"fluid.velocity"}), {"fluid.velocity", "fluid.void_fraction"}, [this] {
            fluid_->advance(time());
          }});
     return;
@@ -131,18 +142,19 @@ void Simulation::add_fluid_nodes() {
                    [this] { fluid_->begin_step(time(), dem_->rows()); }});
   if (fluid_->is_lagged()) {
     step_graph_.add({"fluid",
-                     {"fluid.void_fraction", "fluid.exchange", "fluid.velocity"},
+                     and_dust({"fluid.void_fraction", "fluid.exchange", "fluid.velocity"}),
                      {"fluid.velocity"},
                      [this] { fluid_->advance(time()); }});
     return;
   }
-  step_graph_.add({"fluid",
-                   {"fluid.void_fraction", "fluid.exchange", "fluid.velocity", "grain.state"},
-                   {"fluid.velocity", "fluid.exchange"},
-                   [this] {
-                     fluid_->advance(time());
-                     fluid_->evaluate_drag(dem_->rows());
-                   }});
+  step_graph_.add(
+      {"fluid",
+       and_dust({"fluid.void_fraction", "fluid.exchange", "fluid.velocity", "grain.state"}),
+       {"fluid.velocity", "fluid.exchange"},
+       [this] {
+         fluid_->advance(time());
+         fluid_->evaluate_drag(dem_->rows());
+       }});
 }
 
 void Simulation::add_particle_nodes() {

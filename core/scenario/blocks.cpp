@@ -102,6 +102,19 @@ const ParameterSchema& MaterialBlock::schema() {
         .symbol("l")
         .at_least(1)
         .optional();
+    s.numbers(&MaterialBlock::dust_load, "dust_load", dimension::none,
+              "Dust that grains bring along, part of their mass: a share for each class of "
+              "dust.field.")
+        .symbol("s")
+        .at_least(0)
+        .at_most(1)
+        .optional();
+    s.number(&MaterialBlock::moisture, "moisture", dimension::none,
+             "Water over dry solids, by mass: binds the dust as the law of dust.liberation says.")
+        .symbol("M")
+        .at_least(0)
+        .at_most(1)
+        .optional();
     return s.build();
   }();
   return made;
@@ -196,6 +209,18 @@ const ParameterSchema& SensorBlock::schema() {
   static const ParameterSchema made = [] {
     SchemaOf<SensorBlock> s;
     s.boolean(&SensorBlock::enabled, "enabled", "Whether it takes part; it is checked anyway.")
+        .optional();
+    return s.build();
+  }();
+  return made;
+}
+
+const ParameterSchema& AuditBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<AuditBlock> s;
+    s.boolean(&AuditBlock::energy, "energy",
+              "Keeps account of the energy of the grains: kinetic, elastic, work of gravity, walls "
+              "and fluid, losses by damping, friction and rolling. Needs time.rates: single.")
         .optional();
     return s.build();
   }();

@@ -52,6 +52,8 @@ struct MaterialBlock {
   double young_modulus = 0.0;
   double poisson_ratio = 0.0;
   double coarse_graining = MaterialSpec{}.coarse_graining;
+  std::vector<double> dust_load;
+  double moisture = 0.0;
   static const sdk::ParameterSchema& schema();
 };
 
@@ -111,6 +113,12 @@ struct DustBlock {
   std::vector<std::string> materials;
   std::vector<std::string> openings;
   std::vector<std::string> hoods;
+  static const sdk::ParameterSchema& schema();
+};
+
+/// Accounts that a run keeps.
+struct AuditBlock {
+  bool energy = false;
   static const sdk::ParameterSchema& schema();
 };
 

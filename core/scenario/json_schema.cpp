@@ -274,7 +274,7 @@ std::string json_schema(const registry::Registry& registry) {
       {"description", "Another pair of materials, from which all that is not given is taken."}};
   Json definitions = {{"side", domain["side"]}};
   for (const char* kind : {"contact", "rolling", "cohesion", "boundary", "drag", "fluid_force",
-                           "voidage", "turbulence", "motion"}) {
+                           "voidage", "turbulence", "motion", "liberation"}) {
     definitions[kind] = model(registry, kind);
   }
 
@@ -312,11 +312,13 @@ std::string json_schema(const registry::Registry& registry) {
   properties["voidage"] = {{"$ref", "#/definitions/voidage"}};
   properties["sensors"] =
       named(alternatives(block<SensorBlock>(), "model", choices(registry, "sensor")));
+  properties["audit"] = block<AuditBlock>();
   properties["dust"] = block<DustBlock>();
   Json field = block<DustFieldBlock>();
   field["properties"]["clouds"] = named(block<DustCloudBlock>());
   field["properties"]["sources"] = named(block<DustSourceBlock>());
   properties["dust"]["properties"]["field"] = field;
+  properties["dust"]["properties"]["liberation"] = {{"$ref", "#/definitions/liberation"}};
   properties["references"] = {
       {"type", "array"},
       {"items", reference_schema()},

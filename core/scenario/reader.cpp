@@ -46,6 +46,7 @@ void SetupReader::read() {
   read_fluid_forces(top);
   read_sensors(top);
   read_dust(top);
+  read_audit(top);
   references_.numbers = read_references(top, figures_, out_, diagnostics_);
   references_.curves = read_reference_curves(top, figures_, out_, diagnostics_);
   top.optional("include");
@@ -56,6 +57,7 @@ void SetupReader::read() {
   }
   check_voidage();
   check_resolved();
+  check_audit();
   check_emitters();
   check_periods();
   if (setup_.emitters.empty() && !setup_.fluid) {

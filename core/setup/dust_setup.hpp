@@ -4,6 +4,7 @@
 #include "dust/sdk/vec3.hpp"
 #include "setup/dust_rule.hpp"
 #include "setup/mark.hpp"
+#include "setup/setup.hpp"
 
 #include <limits>
 #include <optional>
@@ -47,12 +48,28 @@ struct SideOpeningSpec {
   sdk::Vec3 max;
 };
 
+/// The dust that grains of a material bring along.
+struct DustLoadSpec {
+  std::vector<double> share;  ///< [-] kg per kg of grain, by class; empty: none
+  double moisture = 0.0;      ///< [-] water over dry solids, by mass
+};
+
 /// What a scenario says of dust, beside the Setup: only who counts and carries dust asks.
 struct DustSetup {
   std::optional<DustSpec> given;          ///< the block `dust:`
   std::vector<double> coarse_graining;    ///< [-] by material
   std::vector<SideOpeningSpec> openings;  ///< of the sides, whether there is a block or not
   std::optional<DustFieldSpec> field;
+  std::vector<DustLoadSpec> loads;        ///< by material
+  std::optional<ModelChoice> liberation;  ///< how loads become airborne
+
+  /// By material and class, as particles take them; empty where no load ever becomes airborne.
+  [[nodiscard]] std::vector<std::vector<double>> shares_on_grains() const {
+    std::vector<std::vector<double>> shares;
+    if (!liberation || !field) return shares;
+    for (const DustLoadSpec& load : loads) shares.push_back(load.share);
+    return shares;
+  }
 
   /// Which grains are dust; the usual rule where the scenario says nothing.
   [[nodiscard]] DustRule rule() const {

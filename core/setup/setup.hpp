@@ -156,6 +156,12 @@ struct FluidSpec {
   }
 };
 
+/// What a run keeps account of besides its masses.
+struct AuditSpec {
+  bool energy = false;
+  Mark where;
+};
+
 /// A scenario with everything resolved: plain data, SI, names turned into indices. Disabled bodies,
 /// emitters and sensors are not in it.
 struct Setup {
@@ -175,6 +181,7 @@ struct Setup {
   std::vector<ModelChoice> fluid_forces;  ///< besides drag
   std::optional<ModelChoice> voidage;
   std::optional<ModelChoice> turbulence;  ///< nothing: laminar
+  AuditSpec audit;
 };
 
 }  // namespace dust::scenario

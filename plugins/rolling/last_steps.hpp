@@ -52,6 +52,19 @@ class CoupleToTheEnd {
   double left_;    ///< [N m] M_e
 };
 
+/// What is left of a rolling spring in a step, and the part of the step that turns it.
+struct SpringPart {
+  double kept, of_step;
+};
+
+/// A damped contact pulls before it ends. Where its normal force goes through zero, so does the
+/// limit of the couple: the spring begins anew. `normal_force` [N] now, `fall` [N] by how much it
+/// has fallen in the step.
+[[gnu::always_inline]] inline SpringPart part_since_pulling(double normal_force, double fall) {
+  const bool begins = normal_force < 0.0 && normal_force + fall > 0.0;
+  return {begins ? 0.0 : 1.0, begins ? -normal_force / std::max(fall, 1e-290) : 1.0};
+}
+
 /// A contact of a rolling law.
 struct PartingContact {
   double couple;        ///< [N m] without its limit

@@ -15,6 +15,17 @@ assert.strictEqual(N.quantity(0, -1, 'g/t'), '0');
 assert.strictEqual(N.quantity(null, null, 'm'), '–');
 assert.strictEqual(N.quantity(41, 0.3, 'deg'), '41.00\u00a0±\u00a00.30\u202fdeg');
 assert.strictEqual(N.quantity(12, -1, '1'), '12');
+assert.strictEqual(N.quantity(2.5, -1, 'kg/s'), '2.5\u202fkg/s');
+assert.strictEqual(N.quantity(1.25, -1, 'm3/s'), '4500\u202fm³/h');
+assert.strictEqual(N.quantity(1e-12, -1, 'm3/s'), '3.6\u202fmm³/h');
+assert.strictEqual(N.quantity(1800, -1, 'kg'), '1.8\u202ft');
+// In a domain of a plant's size flows from 1 t/h on are t/h, and places m.
+N.set_extent(3.4);
+assert.strictEqual(N.quantity(138.9, 1.4, 'kg/s'), '500.0\u00a0±\u00a05.0\u202ft/h');
+assert.strictEqual(N.quantity(0.006, -1, 'kg/s'), '6\u202fg/s');
+N.set_extent(0.34);
+assert.strictEqual(N.quantity(138.9, -1, 'kg/s'), '138.9\u202fkg/s');
+assert.deepStrictEqual([3.4, 0.34, 5e-4].map((extent) => N.place_unit(extent).unit), ['m', 'mm', 'µm']);
 assert.strictEqual(N.number(1104.2, 3), '1\u202f104');
 assert.strictEqual(N.number(-1.5e-6), '−1.5\u202f×\u202f10⁻⁶');
 assert.strictEqual(N.number(99.97, 2), '100');

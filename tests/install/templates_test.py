@@ -9,8 +9,8 @@ from prefix import Prefix, arguments, check
 with Prefix(arguments()) as prefix:
     template = prefix.path / "share/dust/plugin_template"
     kinds = sorted(p.name for p in template.iterdir() if p.is_dir())
-    check(kinds == ["boundary", "cohesion", "contact", "drag", "emitter", "fluid_force", "motion",
-                    "rolling", "sensor", "turbulence", "voidage"], f"templates for {kinds}")
+    check(kinds == ["boundary", "cohesion", "contact", "drag", "emitter", "fluid_force",
+                    "liberation", "motion", "rolling", "sensor", "turbulence", "voidage"], f"templates for {kinds}")
     for kind in kinds:
         page = pathlib.Path(prefix.options.source) / f"docs/how_to/write_a_{kind}.md"
         check(f"engine new-plugin {kind} my_{kind}" in page.read_text(), f"{page} does not begin")

@@ -64,7 +64,8 @@ struct DemRig {
   std::vector<particles::PairLaws> laws;
   std::vector<double> diameters;
   double fluid_density = 0.0;
-  bool has_fluid = false;  ///< room for what a fluid does to the grains
+  bool has_fluid = false;                        ///< room for what a fluid does to the grains
+  std::vector<std::vector<double>> dust_shares;  ///< by material and class
 
   DemRig() {
     setup.domain.min = {-1, -1, -1};
@@ -118,7 +119,7 @@ struct DemRig {
   std::unique_ptr<particles::Dem> make() {
     if (has_fluid) setup.fluid.emplace();
     return std::make_unique<particles::Dem>(setup, bodies, std::move(laws), diameters,
-                                            fluid_density);
+                                            fluid_density, dust_shares);
   }
 };
 

@@ -1,11 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Opens the three XDMF files of a run folder in ParaView as a user would and says what is in them.
+"""Opens the three XDMF files of a run folder in ParaView as a user would and says what is in them;
+then the run's paraview_state.py, as Load State does.
 
-usage: xvfb-run -a pvpython tools/dev/check_paraview.py DIR [--frames N] [--picture OUT.png] [--record]
+usage: xvfb-run -a -s "-screen 0 1600x1200x24 -noreset" pvpython tools/dev/check_paraview.py DIR
+           [--frames N] [--picture OUT.png] [--state-picture OUT.png] [--record]
+
+Without -noreset the X server starts anew when ParaView lets go of it for a moment, and is not there.
 
 Prints times, array names, counts and ranges of every frame. Exit status 1 when a file is missing,
 ParaView reports an error, a frame lacks an array or holds a number that is not finite. Each file is
 opened in a process of its own, because this reader ends the process on some broken files.
+
+The state has to show the grains as spheres as wide as the grains, the bodies, and a slice of the air
+that is one cell thick, each where there is something to show; --state-picture keeps what it shows.
 
 --picture renders the last frame: grains as spheres coloured by diameter, air speed in the middle
 plane, the walls. --record adds the result to docs/validation/paraview.md.
@@ -28,13 +35,15 @@ EXPECTED = {
     "walls": ("cell", {"body": 1}),
 }
 DUST_DIAMETER = 100e-6
+STATE = "paraview_state.py"
 RECORD = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "validation",
                       "paraview.md")
 RECORD_HEAD = """# What ParaView reads
 
 Written by `tools/dev/check_paraview.py DIR --record`, newest entry last: the three XDMF files of a
 run, opened with Debian's ParaView (reader "XDMF Reader"), every frame loaded, every array present,
-with its components, and finite. A run without fluid has empty frames in `fluid.xdmf`.
+with its components, and finite. A run without fluid has empty frames in `fluid.xdmf`. Then the run's
+`paraview_state.py`, as *Load State* runs it: grains shown as spheres of their size, bodies, a flat slice of the air.
 
 | date | ParaView | run | state (SHA-256) | file | frames | in the last frame | result |
 | --- | --- | --- | --- | --- | --- | --- | --- |
@@ -95,6 +104,62 @@ def check_file(path, frames_wanted):
     print(f"result {kind} | {len(times)} | {cells:,} "
           + ("grains" if where == "point" else "cells" if kind == "fluid" else "triangles"))
     return 1 if problems else 0
+
+
+def check_state(folder, picture):
+    """Runs the state script and looks at what it shows."""
+    from paraview import simple
+
+    path = os.path.join(folder, STATE)
+    with open(path, encoding="utf-8") as file:
+        exec(compile(file.read(), path, "exec"), {"__file__": path, "__name__": "__main__"})
+    view = simple.GetActiveView()
+    sources = {name: source for (name, _), source in simple.GetSources().items()}
+    problems = []
+
+    def count_of(name):
+        if name not in sources:
+            return 0
+        sources[name].UpdatePipeline(view.ViewTime)
+        return sources[name].GetDataInformation().GetNumberOfCells()
+
+    def shown(name):
+        """Its bounds where it is shown with something in it."""
+        source = sources.get(name)
+        if count_of(name) == 0 or not simple.GetRepresentation(source, view).Visibility:
+            problems.append(f"{name}: not shown")
+            return None
+        return source.GetDataInformation().GetBounds()
+
+    counts = []
+    if count_of("grains"):
+        spheres = shown("grains as spheres")
+        grains = sources["grains"].GetDataInformation()
+        largest = grains.GetPointDataInformation().GetArrayInformation("diameter")
+        widest = largest.GetComponentRange(0)[1]
+        if spheres:
+            # Spheres reach beyond the centres by at most the largest radius; nothing is larger.
+            beyond = max(abs(a - b) for a, b in zip(spheres, grains.GetBounds()))
+            if not 0.0 < beyond <= 0.501 * widest:
+                problems.append(f"spheres reach {beyond:g} m beyond the centres of grains of {widest:g} m")
+        counts.append(f"{grains.GetNumberOfPoints():,} spheres")
+    if count_of("bodies"):
+        shown("bodies")
+        counts.append(f"{count_of('bodies'):,} triangles")
+    if count_of("air"):
+        cut = shown("air outside bodies")
+        if cut and min(cut[1] - cut[0], cut[3] - cut[2]) > 1e-6 * (cut[5] - cut[4]):
+            problems.append("the slice of the air is not flat")
+        counts.append(f"{count_of('air outside bodies'):,} cells of the slice")
+    if not counts:
+        problems.append("nothing is shown")
+    if picture:
+        view.ViewSize = [1400, 1000]
+        simple.SaveScreenshot(os.path.abspath(picture), view, ImageResolution=[1400, 1000])
+    for problem in problems:
+        print(f"FAIL {STATE}: {problem}", file=sys.stderr)
+    print(f"result {STATE} | 1 | " + ", ".join(counts), flush=True)
+    os._exit(1 if problems else 0)  # as below
 
 
 def render(folder, picture):
@@ -223,8 +288,9 @@ def record(folder, results):
         if is_new:
             file.write(RECORD_HEAD)
         for kind, (facts, verdict) in results.items():
+            name = STATE if kind == "state" else kind + ".xdmf"
             file.write(f"| {datetime.date.today()} | {version} | {run} | "
-                       f"`{summary['state_sha256'][:12]}` | {kind}.xdmf | {facts} | {verdict} |\n")
+                       f"`{summary['state_sha256'][:12]}` | {name} | {facts} | {verdict} |\n")
 
 
 def main():
@@ -233,11 +299,14 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("--frames", type=int, help="how many frames there must be")
     parser.add_argument("--picture", help="render the last frame into this PNG")
+    parser.add_argument("--state-picture", help="keep what the state shows in this PNG")
     parser.add_argument("--record", action="store_true",
                         help="add the result to docs/validation/paraview.md")
-    parser.add_argument("--only", choices=sorted(EXPECTED) + ["picture"], help=argparse.SUPPRESS)
+    parser.add_argument("--only", choices=sorted(EXPECTED) + ["picture", "state"], help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     folder = os.path.abspath(arguments.folder)
+    if arguments.only == "state":
+        check_state(folder, arguments.state_picture)
     if arguments.only == "picture":
         render(folder, arguments.picture)
     if arguments.only:
@@ -268,6 +337,8 @@ def main():
             results[kind] = ("0 | no file", "fails")
             continue
         run_part(kind, [] if arguments.frames is None else ["--frames", str(arguments.frames)])
+    picture = ["--state-picture", arguments.state_picture] if arguments.state_picture else []
+    run_part("state", picture)
     if arguments.record:
         record(folder, results)
     if arguments.picture:
@@ -275,7 +346,7 @@ def main():
         if not os.path.exists(arguments.picture):
             print("FAIL picture: not written", file=sys.stderr)
             failed.append("picture")
-    print("failed: " + ", ".join(failed) if failed else "ok: ParaView reads all three files")
+    print("failed: " + ", ".join(failed) if failed else "ok: ParaView reads all three files and the state")
     sys.exit(1 if failed else 0)
 
 

@@ -40,6 +40,20 @@ Dust.set_theme = (theme) => {
 
 Object.assign(Dust, Numbers);
 
+// The unit of all places of the page: one that suits the largest domain shown.
+Dust.places = (() => {
+  const domain = (Dust.data.setting || {}).domain || {};
+  const edges = domain.min && domain.max ? domain.max.map((v, d) => v - domain.min[d]) : [];
+  for (const {view} of [Dust.data, ...(Dust.data.runs || [])]) if (view) edges.push(view[2] - view[0], view[3] - view[1]);
+  const extent = Math.max(0, ...edges.filter(Number.isFinite));
+  Dust.set_extent(extent);
+  return Dust.place_unit(extent);
+})();
+// A place [m] in that unit, without and with its name.
+Dust.place_number = (metres, digits = 3) => Dust.number(metres / Dust.places.factor, digits);
+Dust.place_text = (metres, digits = 3) => Dust.place_number(metres, digits) + '\u202f' + Dust.places.unit;
+Dust.place_xz = ({x, z}) => `x\u202f${Dust.place_number(x)}, z\u202f${Dust.place_text(z)}`;
+
 // Round steps for about `wanted` ticks in [low, high].
 Dust.ticks = (low, high, wanted) => {
   const rough = (high - low) / Math.max(wanted, 1);

@@ -24,8 +24,8 @@ Dust.sections.dust = ({dust}) => {
   };
   const by_origin = () => {
     const most = 8, shown = dust.partings.slice(0, most), rest = dust.partings.slice(most);
-    const range = (middle, side) => `${Dust.number((middle - side / 2) * 1e3)} to ${Dust.number((middle + side / 2) * 1e3)}`;
-    const rows = shown.map((p) => [`x\u202f${range(p.x, p.side)}, z\u202f${range(p.z, p.side)}\u202fmm`, Dust.amount(p.amount),
+    const range = (middle, side) => `${Dust.place_number(middle - side / 2, 4)} to ${Dust.place_number(middle + side / 2, 4)}`;
+    const rows = shown.map((p) => [`x\u202f${range(p.x, p.side)}, z\u202f${range(p.z, p.side)}\u202f${Dust.places.unit}`, Dust.amount(p.amount),
       `${Dust.value(100 * p.share, 100 * p.share_error)}\u202f%`, Dust.error_bar(p.share, p.share_error, 'dustbar')]);
     const sum = rest.reduce((a, p) => a + p.share, 0);
     if (sum > 0) rows.push([`${rest.length} other places`, Dust.dash, Dust.percent(sum), Dust.bar(sum, 'dustbar')]);

@@ -70,7 +70,7 @@ Dust.sections.header = (data) => {
     const first = dust.partings[0];
     return answer('From where?', has_counted ? place(top) : 'nowhere yet', el('ul', {class: 'ranks'}, ...rows),
       passing && p({}, Dust.amount(passing) + ' pass ', place(passing)),
-      first && p({}, el('a', {href: '#dust'}, 'Parted from the load'), ` most near x\u202f${Dust.number(first.x * 1e3, 3)}, z\u202f${Dust.number(first.z * 1e3, 3)}\u202fmm: `
+      first && p({}, el('a', {href: '#dust'}, 'Parted from the load'), ` most near ${Dust.place_xz(first)}: `
         + `${Dust.value(100 * first.share, 100 * first.share_error)}\u202f%`));
   };
   const how_sure = () => {
@@ -89,7 +89,7 @@ Dust.sections.header = (data) => {
   };
   const where_to_extract = () => {
     const {places, first, reach_m} = data.extraction, best = places[first];
-    const at = (place) => `x\u202f${Dust.number(place.x * 1e3, 3)}, z\u202f${Dust.number(place.z * 1e3, 3)}\u202fmm`;
+    const at = Dust.place_xz;
     const others = places.filter((_, k) => k !== first).slice(0, 2);
     return answer('Where to extract?', at(best),
       p({}, Dust.depth(best) + ' in the mean' + (best.dust_share > 0 ? `; ${Dust.percent(best.dust_share)} of the dust lies within ${Dust.quantity(reach_m, -1, 'm')}` : '')),

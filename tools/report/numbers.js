@@ -35,13 +35,21 @@ const Numbers = (() => {
     return fixed(mean, -place) + plus_minus + fixed(error, -place);
   };
 
+  // From this extent [m] on a domain is a plant's: places in m, flows in t/h.
+  const plant_extent = 2;
+  let is_plant = false;
+  const set_extent = (extent) => { is_plant = extent >= plant_extent; };
+  // The one unit of all places of a domain, so that they compare.
+  const place_unit = (extent) => (extent >= plant_extent ? {unit: 'm', factor: 1} : extent >= 1e-3 || !(extent > 0) ? {unit: 'mm', factor: 1e-3} : {unit: 'µm', factor: 1e-6});
+
   // The scales of a unit, largest first. Amounts per tonne in two steps only: rows shall compare.
   const ladders = {
     'm': [['m', 1], ['mm', 1e-3], ['µm', 1e-6]],
     's': [['s', 1], ['ms', 1e-3], ['µs', 1e-6]],
-    'kg': [['kg', 1], ['g', 1e-3], ['mg', 1e-6], ['µg', 1e-9], ['ng', 1e-12]],
+    'kg': [['t', 1e3], ['kg', 1], ['g', 1e-3], ['mg', 1e-6], ['µg', 1e-9], ['ng', 1e-12]],
     'kg/s': [['kg/s', 1], ['g/s', 1e-3], ['mg/s', 1e-6], ['µg/s', 1e-9], ['ng/s', 1e-12]],
     'kg/m3': [['kg/m³', 1], ['g/m³', 1e-3], ['mg/m³', 1e-6], ['µg/m³', 1e-9], ['ng/m³', 1e-12]],
+    'm3/s': [['m³/h', 1 / 3600], ['l/min', 1 / 6e4], ['l/h', 1e-3 / 3600], ['cm³/h', 1e-6 / 3600], ['mm³/h', 1e-9 / 3600]],
     'kg/(m2 s)': [['kg/(m² s)', 1], ['g/(m² s)', 1e-3], ['mg/(m² s)', 1e-6]],
     'g/t': [['g/t', 1], ['mg/t', 1e-3]],
     'J': [['J', 1], ['mJ', 1e-3], ['µJ', 1e-6], ['nJ', 1e-9]],
@@ -49,6 +57,8 @@ const Numbers = (() => {
   const is_bare = (unit) => !unit || unit === '1' || unit === '-';
   const raise = (unit) => (is_bare(unit) ? '' : unit.replace(/m3/g, 'm³').replace(/m2/g, 'm²').replace(/s2/g, 's²'));
   const scale = (unit, largest) => {
+    const tonne_per_hour = 1 / 3.6;  // [kg/s]
+    if (is_plant && unit === 'kg/s' && largest >= tonne_per_hour) return {factor: tonne_per_hour, unit: 't/h'};
     const ladder = ladders[unit];
     if (!ladder) return {factor: 1, unit: raise(unit)};
     const [name, factor] = ladder.find((step) => largest >= step[1]) || (largest > 0 ? ladder.at(-1) : ladder[0]);
@@ -77,6 +87,6 @@ const Numbers = (() => {
   const words = (name) => String(name).replace(/_/g, ' ').replace(/ um(?=$|\W)/g, ' µm').replace(/(\w)\/([a-z]{3,})/g, '$1 / $2');  // m/s stays
   const sentence = (name) => words(name).replace(/^./, (c) => c.toUpperCase());
   const plural = (n, one, many = one + 's') => `${count(n)} ${n === 1 ? one : many}`;
-  return {number, count, value, quantity, scale, raise, is_bare, duration, percent, width, words, sentence, plural, thin, dash};
+  return {set_extent, place_unit, number, count, value, quantity, scale, raise, is_bare, duration, percent, width, words, sentence, plural, thin, dash};
 })();
 if (typeof module !== 'undefined') module.exports = Numbers;

@@ -1,5 +1,5 @@
 'use strict';
-// A canvas true to scale over a part of the x-z plane, with axes in mm. `paint(pen)` draws inside.
+// A canvas true to scale over a part of the x-z plane, with axes in the unit of places. `paint(pen)` draws inside.
 Dust.Picture = class {
   constructor(parent, label, paint, scene = Dust.data) {
     this.paint = paint;
@@ -56,21 +56,22 @@ Dust.Picture = class {
     pen.font = '11px ' + Dust.colour('sans');
     pen.textAlign = 'center';
     pen.textBaseline = 'top';
-    for (const x of Dust.ticks(x0 * 1e3, x1 * 1e3, inner / 70)) {
-      const at = this.x(x / 1e3);
+    const {unit, factor} = Dust.places;
+    for (const x of Dust.ticks(x0 / factor, x1 / factor, inner / 70)) {
+      const at = this.x(x * factor);
       pen.fillRect(at - 0.5, top + height, 1, 4);
       if (at < left + inner - 48) pen.fillText(Dust.number(x), at, top + height + 7);
     }
     pen.textAlign = 'right';
-    pen.fillText('x, mm', left + inner, top + height + 7);
+    pen.fillText('x, ' + unit, left + inner, top + height + 7);
     pen.textBaseline = 'middle';
-    for (const z of Dust.ticks(z0 * 1e3, z1 * 1e3, height / 60)) {
-      const at = this.z(z / 1e3);
+    for (const z of Dust.ticks(z0 / factor, z1 / factor, height / 60)) {
+      const at = this.z(z * factor);
       pen.fillRect(left - 5, at - 0.5, 4, 1);
       if (at > top + 24) pen.fillText(Dust.number(z), left - 8, Math.min(at, top + height - 5));
     }
     pen.textBaseline = 'top';
-    pen.fillText('z, mm', left - 8, top);
+    pen.fillText('z, ' + unit, left - 8, top);
   }
   bodies(pen) {
     pen.fillStyle = Dust.colour('body');

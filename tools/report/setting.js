@@ -4,7 +4,7 @@ Dust.sections.setting = ({setting, bodies}) => {
   const {el} = Dust;
   const min = (setting.domain || {}).min, max = (setting.domain || {}).max;
   if (!min || !max || !(max[0] > min[0] && max[2] > min[2])) return null;
-  const mm = (d) => Dust.number((max[d] - min[d]) * 1e3, 4);
+  const edge = (d) => Dust.place_number(max[d] - min[d], 4);
   const marks = [], keys = [];
   for (const [list, look] of [['emitters', 'emitter'], ['sensors', 'sensor']]) {
     for (const thing of setting[list] || []) {
@@ -71,5 +71,5 @@ Dust.sections.setting = ({setting, bodies}) => {
   const sides = Dust.table([{title: 'Side'}, {title: 'Grains'}, {title: 'Air'}], (setting.sides || []).map((side) => [side.name, Dust.words(side.grains || ''), side.air ? Dust.words(side.air) : Dust.dash]),
     {look: 'tight', label: 'Sides of the domain'});
   return Dust.section('setting', 'The set-up', el('figure', {class: 'side'}, holder, el('div', {},
-    el('figcaption', {}, el('b', {}, 'Seen along y.'), ` Domain ${mm(0)} × ${mm(1)} × ${mm(2)}\u202fmm.`), keys.length ? el('ul', {class: 'keys'}, ...keys) : '', sides || '')));
+    el('figcaption', {}, el('b', {}, 'Seen along y.'), ` Domain ${edge(0)} × ${edge(1)} × ${edge(2)}\u202f${Dust.places.unit}.`), keys.length ? el('ul', {class: 'keys'}, ...keys) : '', sides || '')));
 };

@@ -280,7 +280,7 @@ Dust.space = (() => {
   };
   const fill_slice = () => {
     const {T, slice, threads, rim} = stage, {axis, u, v, at} = plane_of(), has_air = by_id('air') && by_id('air').checked;
-    by_id('at').textContent = `${'xyz'[axis]} = ${Dust.quantity(at, -1, 'm')}`;
+    by_id('at').textContent = `${'xyz'[axis]} = ${Dust.place_text(at)}`;
     by_id('place').setAttribute('aria-valuetext', by_id('at').textContent);
     const corners = [];
     for (const [a, b] of [[0, 0], [1, 0], [1, 1], [0, 1]]) {

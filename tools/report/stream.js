@@ -60,21 +60,22 @@
     const inner = document.documentElement.clientWidth < 600 ? 250 : 420, scale = inner / (right - left);
     const height = Math.min(deepest * scale, 620);
     const down = height / deepest;
+    const {unit, factor} = Dust.places;
     const x = (v) => pad.left + (v - left) * scale, y = (v) => pad.top + v * down;
     const total = [inner + pad.left + pad.right, height + pad.top + pad.bottom];
     const svg = svg_el('svg', {viewBox: `0 0 ${total[0]} ${total[1]}`, role: 'img', 'aria-label': 'Path of the stream',
       style: `width:100%;max-width:${total[0]}px;height:auto;display:block`});
     const line = (a, b, c, d, style) => svg.append(svg_el('line', {x1: a, y1: b, x2: c, y2: d, style}));
-    for (const v of Dust.ticks(left * 1e3, right * 1e3, 8)) {
-      line(x(v / 1e3), pad.top, x(v / 1e3), pad.top + height, 'stroke:var(--line)');
-      if (v !== 0) svg.append(svg_el('text', {x: x(v / 1e3), y: pad.top - 8, 'text-anchor': 'middle'}, Dust.number(v)));
+    for (const v of Dust.ticks(left / factor, right / factor, 8)) {
+      line(x(v * factor), pad.top, x(v * factor), pad.top + height, 'stroke:var(--line)');
+      if (v !== 0) svg.append(svg_el('text', {x: x(v * factor), y: pad.top - 8, 'text-anchor': 'middle'}, Dust.number(v)));
     }
-    svg.append(svg_el('text', {x: total[0], y: pad.top - 8, 'text-anchor': 'end'}, 'forward, mm'));
-    for (const v of Dust.ticks(0, deepest * 1e3, 6)) {
-      line(pad.left, y(v / 1e3), pad.left + inner, y(v / 1e3), 'stroke:var(--line)');
-      svg.append(svg_el('text', {x: pad.left - 8, y: y(v / 1e3) + 4, 'text-anchor': 'end'}, Dust.number(v)));
+    svg.append(svg_el('text', {x: total[0], y: pad.top - 8, 'text-anchor': 'end'}, 'forward, ' + unit));
+    for (const v of Dust.ticks(0, deepest / factor, 6)) {
+      line(pad.left, y(v * factor), pad.left + inner, y(v * factor), 'stroke:var(--line)');
+      svg.append(svg_el('text', {x: pad.left - 8, y: y(v * factor) + 4, 'text-anchor': 'end'}, Dust.number(v)));
     }
-    svg.append(svg_el('text', {x: pad.left - 8, y: pad.top - 8, 'text-anchor': 'end'}, 'drop, mm'));
+    svg.append(svg_el('text', {x: pad.left - 8, y: pad.top - 8, 'text-anchor': 'end'}, 'drop, ' + unit));
     const low = group.lines.find((l) => l.kind === 'low'), high = group.lines.find((l) => l.kind === 'high');
     if (low && high) {
       const ring = [...low.points, ...[...high.points].reverse()].map((p) => `${x(p[0])},${y(p[1])}`).join(' ');
@@ -121,7 +122,7 @@
     // The table stands beside the first picture.
     const tables = group === groups[0] ? [...section.querySelectorAll('.scroll')] : [];
     const caption = Dust.el('figcaption', {}, Dust.el('b', {}, group.title ? Dust.sentence(group.title) + '.' : 'Path of the stream.'),
-      ' Distance forward against the drop, both from the start of the stream, in mm',
+      ' Distance forward against the drop, both from the start of the stream, in ' + Dust.places.unit,
       group.lines.some((l) => l.kind) ? '; the band holds the grains between the 5 and 95 % quantiles, the heavy line is the median; bars are standard errors.' : '.',
       Dust.data.flights.length ? ` Dashed: free flight without air at the speed of the belt, ${Dust.number(Dust.data.flights[0].speed)} m/s.` : '',
       Dust.data.flights.some((flight) => (flight.lone || []).length) ? ' Dotted: single grains thrown level into still air at that speed (drag of Schiller and Naumann); a stream takes the air along and outruns them.' : '');

@@ -47,6 +47,9 @@ class Mesh {
 
   [[nodiscard]] const MeshHealth& health() const { return health_; }
   [[nodiscard]] int parts() const { return static_cast<int>(trees_.size()); }
+  /// [m] Least distance straight through the solid between two faces that look away from each
+  /// other, measured in the middle of triangles; 0 where there are no such faces, or no inside.
+  [[nodiscard]] double thinnest_wall() const;
 
   /// Nearest point of everything; the distance is negative inside (sides: one).
   [[nodiscard]] SurfacePoint nearest(sdk::Vec3 point) const;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace dust::bodies {
 namespace {
@@ -15,6 +16,16 @@ using sdk::Vec3;
 namespace dimension = sdk::dimension;
 
 std::string millimetres(double metres) { return base::digits_text(1e3 * metres, 4) + " mm"; }
+/// "1.25 m2" from 1000 cm2 on.
+std::string area_text(double area) {
+  return area >= 0.1 ? base::digits_text(area, 4) + " m2"
+                     : base::digits_text(1e4 * area, 4) + " cm2";
+}
+/// "0.125 m3" from 10 litres on.
+std::string volume_text(double volume) {
+  return std::abs(volume) >= 0.01 ? base::digits_text(volume, 4) + " m3"
+                                  : base::digits_text(1e6 * volume, 4) + " cm3";
+}
 std::string place_of(Vec3 p) {
   return "(" + millimetres(p.x) + ", " + millimetres(p.y) + ", " + millimetres(p.z) + ")";
 }
@@ -46,6 +57,11 @@ class MeshShape : public Shape {
   [[nodiscard]] Triangles triangles(Vec3, Vec3, double) const override { return mesh_.triangles(); }
 
  protected:
+  /// [m] Of a sheet its thickness.
+  [[nodiscard]] double mesh_wall() const {
+    return sides_ == Mesh::Sides::both ? 2.0 * half_ : mesh_.thinnest_wall();
+  }
+
   Mesh mesh_;
 
  private:
@@ -137,14 +153,15 @@ class StlMesh final : public MeshShape {
   [[nodiscard]] std::vector<std::string> notes() const override {
     const MeshHealth& h = mesh_.health();
     std::vector<std::string> all;
-    all.push_back(
-        file_ + ": " + std::to_string(h.triangles) + " triangles, " + std::to_string(h.vertices) +
-        " points, " + std::to_string(h.shells) + (h.shells == 1 ? " shell, " : " shells, ") +
-        (h.is_closed() ? "closed, volume " + base::digits_text(1e6 * h.volume, 4) + " cm3"
-                       : std::to_string(h.open_edges) + " open edges") +
-        ", area " + base::digits_text(1e4 * h.area, 4) + " cm2, " + std::to_string(mesh_.parts()) +
-        " parts that a grain can touch at once; edges " + millimetres(h.shortest_edge) + " to " +
-        millimetres(h.longest_edge) + ", median " + millimetres(h.median_edge));
+    all.push_back(file_ + ": " + std::to_string(h.triangles) + " triangles, " +
+                  std::to_string(h.vertices) + " points, " + std::to_string(h.shells) +
+                  (h.shells == 1 ? " shell, " : " shells, ") +
+                  (h.is_closed() ? "closed, volume " + volume_text(h.volume)
+                                 : std::to_string(h.open_edges) + " open edges") +
+                  ", area " + area_text(h.area) + ", " + std::to_string(mesh_.parts()) +
+                  " parts that a grain can touch at once; edges " +
+                  base::length_text(h.shortest_edge) + " to " + base::length_text(h.longest_edge) +
+                  ", median " + base::length_text(h.median_edge));
     return all;
   }
   [[nodiscard]] std::vector<std::string> warnings() const override {
@@ -159,6 +176,7 @@ class StlMesh final : public MeshShape {
     return all;
   }
   [[nodiscard]] double shortest_edge() const override { return mesh_.health().shortest_edge; }
+  [[nodiscard]] double thinnest_wall() const override { return mesh_wall(); }
 
  private:
   static std::vector<Vec3> placed(const Parameters& p) {

@@ -41,7 +41,11 @@ constexpr const char* k_names[] = {"overlap",
                                    "angle.y",
                                    "angle.z",
                                    "effective_radius",
-                                   "effective_mass"};
+                                   "effective_mass",
+                                   "radius_i",
+                                   "radius_j",
+                                   "inverse_mass_i",
+                                   "inverse_mass_j"};
 
 }  // namespace
 
@@ -115,24 +119,15 @@ void ContactBench::show(const std::vector<Touch>& contacts, double time_step, co
     const Touch& t = contacts[n % contacts.size()];
     const Vec3 displacement = t.displacement.value_or(time_step * t.velocity);
     const Vec3 angle = t.angle.value_or(time_step * t.angular_velocity);
-    const double row[k_inputs] = {t.overlap * length,
-                                  t.normal.x,
-                                  t.normal.y,
-                                  t.normal.z,
-                                  t.velocity.x * speed,
-                                  t.velocity.y * speed,
-                                  t.velocity.z * speed,
-                                  t.angular_velocity.x * turning,
-                                  t.angular_velocity.y * turning,
-                                  t.angular_velocity.z * turning,
-                                  displacement.x * length,
-                                  displacement.y * length,
-                                  displacement.z * length,
-                                  angle.x,
-                                  angle.y,
-                                  angle.z,
-                                  t.radius * length,
-                                  t.mass * units.mass};
+    const double row[k_inputs] = {t.overlap * length, t.normal.x, t.normal.y, t.normal.z,
+                                  t.velocity.x * speed, t.velocity.y * speed, t.velocity.z * speed,
+                                  t.angular_velocity.x * turning, t.angular_velocity.y * turning,
+                                  t.angular_velocity.z * turning, displacement.x * length,
+                                  displacement.y * length, displacement.z * length, angle.x,
+                                  angle.y, angle.z, t.radius * length, t.mass * units.mass,
+                                  // Two equal ones.
+                                  2.0 * t.radius * length, 2.0 * t.radius * length,
+                                  0.5 / (t.mass * units.mass), 0.5 / (t.mass * units.mass)};
     for (int c = 0; c < k_inputs; ++c) column(c)[n] = row[c];
     for (int c = 0; c < k_outputs; ++c) {
       column(k_inputs + c)[n] = std::numeric_limits<double>::quiet_NaN();
@@ -142,6 +137,10 @@ void ContactBench::show(const std::vector<Touch>& contacts, double time_step, co
     column(k_inputs + normal_force)[n] = t.normal_force * units.of(sdk::dimension::force);
     column(k_inputs + normal_stiffness)[n] = stiffness;
     column(k_inputs + tangential_stiffness)[n] = stiffness;
+    const Vec3 pushed = t.normal_force * t.normal;
+    for (int d = 0; d < 3; ++d) {
+      column(k_inputs + force + d)[n] = pushed[d] * units.of(sdk::dimension::force);
+    }
   }
   before_ = data_;
 }
@@ -171,7 +170,11 @@ void ContactBench::evaluate(const std::function<void(const sdk::ContactBatch&)>&
                                        &b.angle.y,
                                        &b.angle.z,
                                        &b.effective_radius,
-                                       &b.effective_mass};
+                                       &b.effective_mass,
+                                       &b.radius_i,
+                                       &b.radius_j,
+                                       &b.inverse_mass_i,
+                                       &b.inverse_mass_j};
     for (int c = 0; c < k_inputs; ++c) *inputs[c] = column(c) + first;
     double* outputs[k_outputs];
     for (int c = 0; c < k_outputs; ++c) outputs[c] = column(k_inputs + c) + first;

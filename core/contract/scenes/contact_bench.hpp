@@ -55,7 +55,7 @@ class ContactBench {
   ContactBench(std::size_t count, int history);
 
   /// Fills the inputs (SI times `units`) and forgets the outputs, not the history. For the rolling
-  /// stage normal force and stiffness are inputs.
+  /// stage force and stiffness are inputs.
   void show(const std::vector<Touch>& contacts, double time_step, const Units& units,
             bool is_rolling);
   /// Calls `evaluate` in batches of `size` rows (0 = all); Violation where a guard or an input was
@@ -74,7 +74,7 @@ class ContactBench {
   [[nodiscard]] std::size_t count() const { return count_; }
 
  private:
-  static constexpr int k_inputs = 18;
+  static constexpr int k_inputs = 22;
   static constexpr std::size_t k_guard = 8;
   [[nodiscard]] double at(int column, std::size_t row) const {
     return data_[offset_ + static_cast<std::size_t>(column) * stride_ + row];

@@ -21,6 +21,20 @@ struct CandidateContact {
   std::int32_t law = 0;
 };
 
+/// What contacts with other particles have dissipated at a particle of a block in a coarse step;
+/// see ContactWork.
+struct BlockWork {
+  double normal = 0.0, tangential = 0.0;  ///< [J]
+  double acceleration = 0.0;              ///< [m/s2] largest
+};
+
+/// The same with a wall in a sub-step.
+struct BlockWallWork {
+  std::int32_t particle = 0;  ///< index in the block
+  std::int32_t wall = 0;
+  double normal = 0.0, tangential = 0.0;  ///< [J]
+};
+
 /// Clusters of one level that step together.
 struct Block {
   std::vector<SubCycledParticle> particles;
@@ -30,6 +44,8 @@ struct Block {
   double largest_overlap = 0.0;
   std::vector<double> wall_sums;  ///< WallLoads::k_sums per wall, if watched
   std::vector<sdk::WallImpact> wall_impacts;
+  std::vector<BlockWork> work;  ///< by particle, if it is kept
+  std::vector<BlockWallWork> wall_work;
 
   void clear(int next_level);
 };

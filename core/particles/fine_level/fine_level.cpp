@@ -28,6 +28,8 @@ void FineLevel::sub_cycle(const FineScene& scene) {
                        return std::tie(x.law, x.surface) < std::tie(y.law, y.surface);
                      });
     block.wall_sums.assign(WallLoads::k_sums * scene.wall_loads.walls(), 0.0);
+    block.work.assign(scene.work != nullptr ? block.particles.size() : 0, {});
+    block.wall_work.clear();
     particles::sub_cycle(scene, block);
     for (const SubCycledParticle& p : block.particles) {
       if (p.is_coarse) continue;
@@ -44,8 +46,24 @@ void FineLevel::count(const FineScene& scene) {
                 static_cast<std::int64_t>(clusters_.sub_cycled().size());
   for (Block& block : blocks_.all()) {
     if (scene.wall_loads.is_on()) scene.wall_loads.take(block.wall_sums, block.wall_impacts);
+    if (scene.work != nullptr) give_work(scene, block);
     sub_steps_ += block.fine_count << block.level;
     largest_overlap_ = std::max(largest_overlap_, block.largest_overlap);
+  }
+}
+
+/// Block by block: a coarse particle may be in several.
+void FineLevel::give_work(const FineScene& scene, const Block& block) {
+  const auto row = [&](std::size_t n) {
+    return static_cast<std::size_t>(block.particles[n].particle);
+  };
+  for (std::size_t n = 0; n < block.work.size(); ++n) {
+    scene.work->add_with_particles(row(n), block.work[n].normal, block.work[n].tangential);
+    scene.work->note_acceleration(row(n), block.work[n].acceleration);
+  }
+  for (const BlockWallWork& w : block.wall_work) {
+    scene.work->add_with_wall(row(static_cast<std::size_t>(w.particle)),
+                              static_cast<std::size_t>(w.wall), w.normal, w.tangential);
   }
 }
 

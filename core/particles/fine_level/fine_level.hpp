@@ -47,6 +47,7 @@ class FineLevel {
 
  private:
   void count(const FineScene& scene);
+  static void give_work(const FineScene& scene, const Block& block);
   void return_to_coarse(const FineScene& scene);
 
   Clusters clusters_;

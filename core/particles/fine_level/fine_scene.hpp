@@ -9,6 +9,7 @@
 #include "particles/store/particle_store.hpp"
 #include "particles/surfaces.hpp"
 #include "particles/time_steps.hpp"
+#include "particles/work/contact_work.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -34,6 +35,7 @@ struct FineScene {
   double time = 0.0;  ///< [s] at the beginning of the step
   WallLoads& wall_loads;
   OpeningMarks opening_marks = {};
+  ContactWork* work = nullptr;      ///< null: not kept
   std::span<double> contact_force;  ///< [N] four per coarse particle, or empty: not kept
 
   [[nodiscard]] std::size_t fine_count() const { return particles.size() - coarse_count; }

@@ -4,6 +4,7 @@
 #include "contact/nearest_image.hpp"
 #include "particles/forces/law_stages.hpp"
 #include "particles/forces/wall_contacts.hpp"
+#include "particles/work/dissipation.hpp"
 
 #include <algorithm>
 
@@ -28,6 +29,7 @@ class SubCycle {
       slow_fraction_ = 0.5 - static_cast<double>(m) / count;
       is_first_ = m == 0;
       evaluate();
+      if (scene_.work != nullptr) note_accelerations();
       for (SubCycledParticle& p : block_.particles) p.advance(sub_step_);
     }
   }
@@ -57,6 +59,8 @@ class SubCycle {
   void flush(const CandidateContact& open);
   void derive_pairs();
   void derive_walls(const Surface& surface);
+  void note_work(const CandidateContact& open);
+  void note_accelerations();
   void apply(const CandidateContact& c, std::size_t q);
   void apply_to_wall(const CandidateContact& c, std::size_t q);
 
@@ -118,8 +122,8 @@ bool SubCycle::load_pair(const CandidateContact& c) {
   columns_.column(B::radius_i)[count_] = i.radius;
   columns_.column(B::radius_j)[count_] = j.radius;
   // How the two answer a force, see apply(); docs/theory/rare_grains.md, eq. (2).
-  columns_.column(B::inverse_mass)[count_] = felt_share(i.weight, j.weight) * i.inverse_mass +
-                                             felt_share(j.weight, i.weight) * j.inverse_mass;
+  columns_.column(B::inverse_mass_i)[count_] = felt_share(i.weight, j.weight) * i.inverse_mass;
+  columns_.column(B::inverse_mass_j)[count_] = felt_share(j.weight, i.weight) * j.inverse_mass;
   return true;
 }
 
@@ -179,6 +183,7 @@ void SubCycle::flush(const CandidateContact& open) {
     derive_walls(scene_.surface(open.surface));
   }
   evaluate_laws(scene_.law(open.law), columns_, count_, sub_step_);
+  if (scene_.work != nullptr) note_work(open);
   for (std::size_t q = 0; q < count_; ++q) {
     const CandidateContact& c = *in_batch_[q];
     double* h = history(c);
@@ -190,6 +195,35 @@ void SubCycle::flush(const CandidateContact& open) {
     }
   }
   count_ = 0;
+}
+
+/// What the batch dissipates: half of it at either particle, all of it at the particle of a wall.
+void SubCycle::note_work(const CandidateContact& open) {
+  Dissipation lost;
+  find_dissipation(scene_.law(open.law), columns_, count_, sub_step_, scene_.laws.work_column(),
+                   lost);
+  for (std::size_t q = 0; q < count_; ++q) {
+    const CandidateContact& c = *in_batch_[q];
+    if (c.surface >= 0) {
+      block_.wall_work.push_back(
+          {c.particle, scene_.surface(c.surface).wall, lost.normal[q], lost.tangential[q]});
+      continue;
+    }
+    for (const std::int32_t side : {c.particle, c.partner}) {
+      BlockWork& work = block_.work[static_cast<std::size_t>(side)];
+      work.normal += 0.5 * lost.normal[q];
+      work.tangential += 0.5 * lost.tangential[q];
+    }
+  }
+}
+
+void SubCycle::note_accelerations() {
+  for (std::size_t n = 0; n < block_.particles.size(); ++n) {
+    const SubCycledParticle& p = block_.particles[n];
+    const double kick = p.since_kick + 0.5 * sub_step_;
+    double& largest = block_.work[n].acceleration;
+    largest = std::max(largest, norm(p.impulse) * p.inverse_mass / kick);
+  }
 }
 
 void SubCycle::apply(const CandidateContact& c, std::size_t q) {

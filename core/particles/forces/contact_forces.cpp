@@ -3,6 +3,8 @@
 
 #include "contact/standing.hpp"
 #include "particles/forces/law_stages.hpp"
+#include "particles/forces/pair_work.hpp"
+#include "particles/work/dissipation.hpp"
 
 #include <algorithm>
 
@@ -21,6 +23,9 @@ void ContactForces::evaluate(const ContactScene& scene, Tile range, TileContacts
                              double* force) {
   OfTile& tile = tiles_[static_cast<std::size_t>(range.index)];
   tile.contacts = 0;
+  tile.energy = scene.energy == nullptr
+                    ? nullptr
+                    : &scene.energy->tile(static_cast<std::size_t>(range.index));
   contacts.pairs.histories_to_columns();
   for (const LawRange& r : contacts.pairs.ranges()) {
     persistent_pairs(scene, r, contacts, tile, force);
@@ -51,10 +56,19 @@ bool ContactForces::find_weight_ratios(const ContactScene& scene, const contact:
     const auto inverse_mass = [&](std::int32_t row) {
       return particles.inverse_mass(static_cast<std::size_t>(row));
     };
-    columns.column(BatchColumns::inverse_mass)[q] =
-        scale_i[q] * inverse_mass(pairs.a[entry]) + scale_j[q] * inverse_mass(pairs.b[entry]);
+    columns.column(BatchColumns::inverse_mass_i)[q] = scale_i[q] * inverse_mass(pairs.a[entry]);
+    columns.column(BatchColumns::inverse_mass_j)[q] = scale_j[q] * inverse_mass(pairs.b[entry]);
   }
   return has_scales;
+}
+
+/// What a batch dissipates, beside the forces that it brings; histories stand in the columns.
+void ContactForces::note_work(const ContactScene& scene, const PairLaws& law,
+                              const contact::Places* places, const std::int32_t* contacts,
+                              std::size_t count, BatchColumns& columns, double* force) {
+  Dissipation lost;
+  find_dissipation(law, columns, count, scene.step, scene.laws.work_column(), lost);
+  scatter_dissipation(lost, places, contacts, count, force);
 }
 
 /// Contacts that touched when the list was pruned: nearly all still do, so that none is sorted out,
@@ -70,14 +84,21 @@ void ContactForces::persistent_pairs(const ContactScene& scene, const LawRange& 
     const std::size_t count = std::min(k_batch, end - p);
     const std::size_t near =
         contact::gather_persistent(scene.rows(), scene.images, pairs, p, count, law.range, columns);
+    if (tile.energy != nullptr) thread_motion().take_pairs(columns, count);
     columns.keep_history_at(pairs.history + p * stride, count);
     const bool has_scales = find_weight_ratios(scene, pairs, nullptr, p, count, columns);
     const double overlap = contact::derive_pair_columns(columns, count);
     tile.largest_overlap = std::max(tile.largest_overlap, overlap);
     if (near < count) contact::mask_separated(pairs.is_touching + p, count, columns);
     evaluate_laws(law, columns, count, scene.step);
+    if (tile.energy != nullptr) {
+      record_work(scene, law, pairs, nullptr, p, count, columns, *tile.energy);
+    }
     if (near < count) contact::clear_separated(pairs.is_touching + p, count, stride, columns);
     tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(near);
+    if (scene.work != nullptr) {
+      note_work(scene, law, contacts.slots.data() + p, nullptr, count, columns, force);
+    }
     contact::scatter_pairs(contacts.slots.data() + p, count, has_scales, columns, force);
   }
   columns.keep_history_here();
@@ -94,16 +115,24 @@ void ContactForces::new_pairs(const ContactScene& scene, const LawRange& range,
   const PairLaws& law = scene.laws[static_cast<std::size_t>(range.law)];
   auto next = static_cast<std::size_t>(range.persistent_end);
   const auto end = static_cast<std::size_t>(range.end);
+  if (tile.energy != nullptr) record_separated(scene, range, pairs, *tile.energy);
   while (next < end) {
     const std::size_t count = contact::gather_touching(rows, scene.images, pairs, next, end,
                                                        law.range, touching, columns);
     if (count == 0) continue;
+    if (tile.energy != nullptr) thread_motion().take_pairs(columns, count);
     contact::load_history(pairs, touching, count, groups, columns);
     const bool has_scales = find_weight_ratios(scene, pairs, touching, 0, count, columns);
     const double overlap = contact::derive_pair_columns(columns, count);
     tile.largest_overlap = std::max(tile.largest_overlap, overlap);
     evaluate_laws(law, columns, count, scene.step);
     tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(count);
+    if (tile.energy != nullptr) {
+      record_work(scene, law, pairs, touching, 0, count, columns, *tile.energy);
+    }
+    if (scene.work != nullptr) {
+      note_work(scene, law, contacts.slots.data(), touching, count, columns, force);
+    }
     contact::store_history(pairs, touching, count, groups, columns);
     contact::scatter_pairs(contacts.slots.data(), touching, count, has_scales, columns, force);
   }

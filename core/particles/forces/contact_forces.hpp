@@ -3,6 +3,7 @@
 
 #include "contact/batch_kernels.hpp"
 #include "dust/sdk/sensor.hpp"
+#include "particles/energy/contact_work.hpp"
 #include "particles/forces/wall_loads.hpp"
 #include "particles/neighbours/inner_list.hpp"
 #include "particles/openings/opening_marks.hpp"
@@ -10,6 +11,7 @@
 #include "particles/store/particle_store.hpp"
 #include "particles/store/tile.hpp"
 #include "particles/surfaces.hpp"
+#include "particles/work/contact_work.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,6 +30,8 @@ struct ContactScene {
   double time = 0.0;                ///< [s] of the positions
   bool has_weights = false;         ///< coarse particles of different statistical weights
   OpeningMarks opening_marks = {};  ///< of scenes that forces are evaluated on
+  ContactWork* work = nullptr;      ///< of the same, if it is kept
+  EnergyAccount* energy = nullptr;  ///< of the same, if it is kept
 
   [[nodiscard]] contact::RowView rows() const { return particles.contact_rows(); }
 };
@@ -58,6 +62,7 @@ class ContactForces {
     double largest_overlap = 0.0;
     std::vector<double> wall_sums;              ///< WallLoads::k_sums per wall, if kept
     std::vector<sdk::WallImpact> wall_impacts;  ///< in the order of the contacts
+    EnergySums* energy = nullptr;               ///< of the step at hand, if an account is kept
   };
   /// One batch of contacts with a surface.
   struct WallBatch;
@@ -68,6 +73,9 @@ class ContactForces {
                                  contact::BatchColumns& columns);
   void persistent_pairs(const ContactScene& scene, const LawRange& range, TileContacts& contacts,
                         OfTile& tile, double* force);
+  static void note_work(const ContactScene& scene, const PairLaws& law,
+                        const contact::Places* places, const std::int32_t* contacts,
+                        std::size_t count, contact::BatchColumns& columns, double* force);
   void new_pairs(const ContactScene& scene, const LawRange& range, TileContacts& contacts,
                  OfTile& tile, double* force);
   // wall_forces.cpp

@@ -29,6 +29,12 @@ void evaluate_laws(const PairLaws& law, BatchColumns& columns, std::size_t count
     law.cohesion->evaluate(columns.cohesion_view(count, time_step, first));
     batch.overlap = columns.column(BatchColumns::contact_overlap);
   }
+  if (const int couple = law.rolling ? law.rolling->couple_column() : -1; couple >= 0) {
+    double* const* history = columns.history() + first_rolling + couple;
+    batch.couple.x = history[0];
+    batch.couple.y = history[1];
+    batch.couple.z = history[2];
+  }
   law.contact->evaluate(batch);
   if (law.cohesion) contact::subtract_attraction(columns, count);
   if (law.rolling) law.rolling->evaluate(columns.view(count, time_step, first_rolling));

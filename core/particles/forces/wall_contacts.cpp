@@ -9,9 +9,6 @@ namespace {
 using contact::BatchColumns;
 using B = contact::BatchColumns;
 
-/// The velocity of the surface half way back to the last look stands where a pair's angles would.
-constexpr int k_mean_velocity = B::angle_i_x;
-
 void repeat_last(BatchColumns& columns, std::size_t count, int first, int last) {
   for (int c = first; c <= last; ++c) {
     double* column = columns.column(c);
@@ -42,13 +39,13 @@ void derive_wall_columns(const Surface& surface, double time, double since, std:
     point[d] = columns.column(k_wall_point + d);
     normal[d] = columns.column(B::normal_x + d);
     velocity[d] = columns.column(B::separation_x + d);
-    mean_velocity[d] = columns.column(k_mean_velocity + d);
+    mean_velocity[d] = columns.column(k_wall_mean_velocity + d);
   }
   surface_velocities(surface, time, count, point, normal, velocity);
   surface_velocities(surface, time - 0.5 * since, count, point, normal, mean_velocity);
   take_off(columns, count, B::velocity_x, B::separation_x, nullptr);
-  take_off(columns, count, B::displacement_x, k_mean_velocity, columns.column(k_wall_since));
-  repeat_last(columns, count, B::velocity_x, B::velocity_z);
+  take_off(columns, count, B::displacement_x, k_wall_mean_velocity, columns.column(k_wall_since));
+  repeat_last(columns, count, B::radius_i, B::velocity_z);
   repeat_last(columns, count, B::displacement_x, B::displacement_z);
   repeat_last(columns, count, B::overlap, B::lever_j);
   contact::cut_first_displacements(columns, count);

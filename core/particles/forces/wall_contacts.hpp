@@ -26,6 +26,9 @@ struct GrainAtWall {
 inline constexpr int k_wall_point = contact::BatchColumns::rotation_j_x;
 inline constexpr int k_wall_since = contact::BatchColumns::angle_j_x;
 
+/// The velocity of the surface half way back to the last look, until the laws have been asked.
+inline constexpr int k_wall_mean_velocity = contact::BatchColumns::angle_i_x;
+
 inline GrainAtWall GrainAtWall::from(const contact::RowView& rows, std::size_t row) {
   const auto vec = [](const double* p) { return sdk::Vec3{p[0], p[1], p[2]}; };
   const double* motion = rows.motion + contact::k_motion_stride * row;
@@ -57,6 +60,10 @@ inline void put_at_wall(const GrainAtWall& g, const bodies::SurfacePoint& near, 
   put(B::overlap, overlap);
   put(B::lever_i, lever);
   put(B::lever_j, 0.0);
+  put(B::radius_i, g.radius);
+  put(B::radius_j, g.radius);
+  put(B::inverse_mass_i, g.inverse_mass);
+  put(B::inverse_mass_j, 0.0);
   put(B::effective_radius, g.radius);
   put(B::effective_mass, 1.0 / g.inverse_mass);
   put(k_wall_since, g.since);

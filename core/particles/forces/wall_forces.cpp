@@ -2,8 +2,10 @@
 #include "particles/forces/contact_forces.hpp"
 #include "particles/forces/law_stages.hpp"
 #include "particles/forces/wall_contacts.hpp"
+#include "particles/work/dissipation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 /// Contacts of a tile's particles with surfaces.
 namespace dust::particles {
@@ -42,6 +44,18 @@ struct SurfacePoints {
                    .normal_z = normal[2]});
   }
 };
+
+/// Of a particle at a wall that has moved by `wall`.
+WorkingContact moved_at_wall(sdk::Vec3 displacement, sdk::Vec3 angle, sdk::Vec3 wall,
+                             sdk::Vec3 normal, double lever) {
+  WorkingContact c{};
+  c.normal = normal;
+  c.approach = -dot(displacement - wall, normal);
+  c.slip = displacement - wall - lever * cross(angle, normal);
+  c.turn = angle;
+  c.wall = wall;
+  return c;
+}
 
 }  // namespace
 
@@ -84,18 +98,26 @@ struct ContactForces::WallBatch {
     local_rows[count] = row - first_row;
     const auto grain = GrainAtWall::from(scene.rows(), static_cast<std::size_t>(row));
     put_at_wall(grain, near, count, columns);
+    if (tile.energy != nullptr) {
+      thread_motion().set_particle(count, grain.displacement, grain.angle);
+    }
     if (surface.opening >= 0 && overlap > 0.0) {
       scene.opening_marks.note(surface, row, grain.position - near.distance * near.normal);
     }
     tile.largest_overlap = std::max(tile.largest_overlap, overlap / grain.radius);
     if (++count == k_batch) evaluate();
   }
+  void record_work();
+  void record_separated(std::size_t entry);
   void evaluate() {
     if (count == 0) return;
     const int groups = static_cast<int>(list.history_stride / 4);
     derive_wall_columns(surface, scene.time, scene.step, count, columns);
     contact::load_history(list, contacts, count, groups, columns);
+    if (tile.energy != nullptr) thread_motion().take_walls(columns, count);
     evaluate_laws(law, columns, count, scene.step);
+    if (scene.work != nullptr) note_work();
+    if (tile.energy != nullptr) record_work();
     contact::store_history(list, contacts, count, groups, columns);
     if (!tile.wall_sums.empty()) {
       note_wall_loads(scene, tile, surface, {rows, count}, is_new, columns);
@@ -104,7 +126,51 @@ struct ContactForces::WallBatch {
     tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(count);
     count = 0;
   }
+  void note_work() {
+    Dissipation lost;
+    find_dissipation(law, columns, count, scene.step, scene.laws.work_column(), lost);
+    for (std::size_t q = 0; q < count; ++q) {
+      scene.work->add_with_wall(static_cast<std::size_t>(rows[q]),
+                                static_cast<std::size_t>(surface.wall), lost.normal[q],
+                                lost.tangential[q]);
+    }
+  }
 };
+
+/// The energy account of the batch.
+void ContactForces::WallBatch::record_work() {
+  using B = BatchColumns;
+  const auto get = [&](int name, std::size_t q) {
+    return sdk::Vec3{columns.column(name)[q], columns.column(name + 1)[q],
+                     columns.column(name + 2)[q]};
+  };
+  const ContactMotion& motion = thread_motion();
+  double* const history = columns.history()[scene.laws.account_column()];
+  const auto stride = static_cast<std::size_t>(columns.history()[1] - columns.history()[0]);
+  for (std::size_t q = 0; q < count; ++q) {
+    WorkingContact c = moved_at_wall(motion.displacement(q), motion.angle_i(q), motion.wall(q),
+                                     get(B::normal_x, q), columns.column(B::lever_i)[q]);
+    c.weight = scene.particles.weight(static_cast<std::size_t>(rows[q]));
+    c.force = get(B::force_x, q);
+    if (law.rolling) c.couple = get(B::torque_x, q);
+    const ElasticEnergy elastic = elastic_energy(law, columns, q);
+    tile.energy->elastic_normal += c.weight * elastic.normal;
+    tile.energy->elastic_friction += c.weight * elastic.friction;
+    add_work(c, history + q, stride, *tile.energy);
+  }
+}
+
+/// One that has parted from the surface in this step: its history is about to be cleared.
+void ContactForces::WallBatch::record_separated(std::size_t entry) {
+  const auto row = static_cast<std::size_t>(list.a[entry]);
+  const auto grain = GrainAtWall::from(scene.rows(), row);
+  const bodies::SurfacePoint near = surface.contact(grain.position, 2.0 * grain.radius + law.range);
+  if (!std::isfinite(near.distance)) return;
+  WorkingContact c = moved_at_wall(grain.displacement, grain.angle, {}, near.normal, grain.radius);
+  c.weight = scene.particles.weight(row);
+  add_work(c, list.history + entry * list.history_stride + scene.laws.account_column(), 1,
+           *tile.energy);
+}
 
 void ContactForces::walls(const ContactScene& scene, Tile range, TileContacts& contacts,
                           OfTile& tile, double* force) {
@@ -129,6 +195,7 @@ void ContactForces::walls(const ContactScene& scene, Tile range, TileContacts& c
       if (overlap > -law.range) {
         batch.add(q, overlap, near.point(n));
       } else if (list.is_touching[u] != 0) {
+        if (tile.energy != nullptr) batch.record_separated(u);
         list.is_touching[u] = 0;
         std::fill_n(list.history + u * list.history_stride, list.history_stride, 0.0);
       }

@@ -181,7 +181,7 @@ Models& Branch::their_models() {
 particles::Dem& Branch::their_particles() {
   if (their_particles_) return *their_particles_;
   const scenario::Setup& setup = origin_.scenario().setup;
-  their_particles_ = make_particles(setup, their_models());
+  their_particles_ = make_particles(setup, their_models(), origin_.scenario().dust);
   their_particles_->draw_out_at(openings_of(setup, origin_.scenario().dust));
   origin_.state().read({{"grains", [&](sdk::ArchiveReader& a) { their_particles_->load(a); }}});
   return *their_particles_;
@@ -294,6 +294,7 @@ void Branch::transfer(const Simulation::Owners& to) {
   transfer_insertion(to);
   if (to.fluid != nullptr) transfer_fluid(to);
   if (to.dust != nullptr) transfer_dust(to);
+  if (to.liberation != nullptr) transfer_liberation(to);
   transfer_sensors(to.models);
   // Last, so that the places of the last sample are those saved, not those just published.
   origin_.state().read({{"columns", [&](sdk::ArchiveReader& a) {
@@ -318,7 +319,8 @@ void Branch::transfer_particles(const Simulation::Owners& to) {
     return;
   }
   const auto transfers = laws();
-  report_ = to.particles.transfer_from(their_particles(), origin_.time(), transfers);
+  report_ = to.particles.transfer_from(their_particles(), origin_.time(), transfers,
+                                       same("dust.field.classes"));
   if (report_.without_past == 0) return;
   warn(std::to_string(report_.without_past) + " of " + std::to_string(report_.contacts) +
        " contacts begin anew, without the springs of before: their laws keep other numbers");
@@ -440,6 +442,17 @@ void Branch::transfer_dust(const Simulation::Owners& to) {
                    part.second(changed);
                  }}});
   }
+}
+
+/// What came off so far, by the names of its causes.
+void Branch::transfer_liberation(const Simulation::Owners& to) {
+  if (!origin_.state().has("liberation", "set_free") || !same("dust.field.classes")) {
+    warn("grains carried no dust, or dust of other classes: they carry what materials say");
+    return;
+  }
+  const std::vector<std::string> walls = their_particles().wall_names();
+  origin_.state().read(
+      {{"liberation", [&](sdk::ArchiveReader& a) { to.liberation->transfer_from(a, walls); }}});
 }
 
 /// What a sensor has added up means the same to it.

@@ -70,6 +70,7 @@ class Branch {
   void transfer_insertion(const Simulation::Owners& to);
   void transfer_fluid(const Simulation::Owners& to);
   void transfer_dust(const Simulation::Owners& to);
+  void transfer_liberation(const Simulation::Owners& to);
   void transfer_sensors(Models& models);
   [[nodiscard]] bool keeps_statistics(const std::string& name, const sdk::Sensor& model,
                                       const std::vector<double>& class_diameters) const;

@@ -21,7 +21,7 @@ std::optional<StartFacts> preview_start(const scenario::ReadResult& read,
   Branch branch(read, registry, diagnostics);
   Models models = make_models(read.setup, registry);
   branch.add_diameters(models.class_diameters);
-  const auto particles = make_particles(read.setup, models);
+  const auto particles = make_particles(read.setup, models, read.dust);
   particles->draw_out_at(openings_of(read.setup, read.dust));
   branch.check(*particles);
   return StartFacts{.state = branch.origin().state().file().string(),

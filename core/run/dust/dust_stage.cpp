@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dust::run {
 namespace {
@@ -27,7 +28,8 @@ DustStage::DustStage(const scenario::Setup& setup, const scenario::DustFieldSpec
       openings_(std::move(openings)),
       flow_(fluid.grid()),
       field_(fluid.grid(), spec, {setup.fluid->density, setup.fluid->viscosity}, setup.gravity,
-             {openings_.size(), 6 + setup.bodies.size()}) {
+             {openings_.size(), 6 + setup.bodies.size()}),
+      weight_(fluid.grid(), setup.gravity, spec.density, setup.fluid->density) {
   for (const double d : spec.diameters) names_.push_back(sdk::name_of(d * 1e6) + "_um");
   mark_hoods();
 }
@@ -149,6 +151,7 @@ void DustStage::find_outflows() {
 void DustStage::start() {
   find_volume(flow_.volume_after);
   field_.start(flow_.volume_after);
+  weight_.find(field_, flow_.volume_after);
 }
 
 void DustStage::advance(double time) {
@@ -173,6 +176,52 @@ void DustStage::advance(double time) {
     }
   }
   field_.advance(flow_, time, setup_.time.fluid_step);
+  weight_.find(field_, flow_.volume_after);
+}
+
+/// The one that is nearest for a place beyond the grid.
+std::array<int, 3> DustStage::cell_at(sdk::Vec3 place) const {
+  const Grid& grid = fluid_.grid();
+  std::array<int, 3> at{};
+  for (int d = 0; d < 3; ++d) {
+    const auto n = static_cast<std::size_t>(d);
+    const double x = std::floor((place[d] - grid.origin[d]) / grid.spacing[d]);
+    at[n] = std::clamp(static_cast<int>(x), 0, grid.count[n] - 1);
+  }
+  return at;
+}
+
+double DustStage::void_fraction_at(sdk::Vec3 place) const {
+  const auto [i, j, k] = cell_at(place);
+  return fluid_.void_fraction()[static_cast<std::size_t>(fluid_.grid().index(i, j, k))];
+}
+
+std::int32_t DustStage::cell_with_gas(sdk::Vec3 place) const {
+  constexpr int k_reach = 2;  // cells
+  const Grid& grid = fluid_.grid();
+  const std::array<int, 3> at = cell_at(place);
+  const std::ptrdiff_t own = grid.index(at[0], at[1], at[2]);
+  if (flow_.volume_after[static_cast<std::size_t>(own)] > 0.0) {
+    return static_cast<std::int32_t>(own);
+  }
+  std::int32_t best = -1;
+  double nearest = std::numeric_limits<double>::infinity();
+  const auto first = [&](std::size_t d) { return std::max(0, at[d] - k_reach); };
+  const auto last = [&](std::size_t d) { return std::min(grid.count[d] - 1, at[d] + k_reach); };
+  for (int k = first(2); k <= last(2); ++k) {
+    for (int j = first(1); j <= last(1); ++j) {
+      for (int i = first(0); i <= last(0); ++i) {
+        const std::ptrdiff_t cell = grid.index(i, j, k);
+        const double distance = norm(grid.centre(i, j, k) - place);
+        if (!(flow_.volume_after[static_cast<std::size_t>(cell)] > 0.0) || distance >= nearest) {
+          continue;
+        }
+        nearest = distance;
+        best = static_cast<std::int32_t>(cell);
+      }
+    }
+  }
+  return best;
 }
 
 std::vector<io::SensorField> DustStage::fields() const {
@@ -208,6 +257,7 @@ void DustStage::add_parts(LoadParts& parts) {
   parts.emplace_back("dust", [this](sdk::ArchiveReader& a) {
     field_.load(a);
     flow_.volume_after = a.numbers("volume");
+    weight_.find(field_, flow_.volume_after);
   });
 }
 

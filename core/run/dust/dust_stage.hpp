@@ -2,6 +2,7 @@
 #pragma once
 
 #include "airborne/dust_field.hpp"
+#include "airborne/dust_weight.hpp"
 #include "io/run_files.hpp"
 #include "particles/openings/opening.hpp"
 #include "run/archive_parts.hpp"
@@ -9,6 +10,7 @@
 #include "run/models.hpp"
 #include "setup/setup.hpp"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -27,7 +29,15 @@ class DustStage {
   void advance(double time);
   /// Bodies were taken away.
   void bodies_changed() { must_find_walls_ = true; }
+  /// The cell at a place that a grain takes, or the nearest of those around it with gas; -1: none.
+  [[nodiscard]] std::int32_t cell_with_gas(sdk::Vec3 place) const;
+  /// [-] of the cell at a place that a grain takes.
+  [[nodiscard]] double void_fraction_at(sdk::Vec3 place) const;
+  /// Dust set free in a cell at once [kg]; of the class `n`.
+  void release(std::size_t n, std::int32_t cell, double mass) { field_.release(n, cell, mass); }
   [[nodiscard]] const airborne::DustField& field() const { return field_; }
+  /// [N/m3] on the fluid in the next step.
+  [[nodiscard]] const fluid::FaceField& weight() const { return weight_.force(); }
   /// "10_um": a class in names of figures and fields.
   [[nodiscard]] const std::vector<std::string>& class_names() const { return names_; }
   /// Names of the surfaces of DustBalance::surfaces.
@@ -41,6 +51,7 @@ class DustStage {
   void add_parts(LoadParts& parts);
 
  private:
+  [[nodiscard]] std::array<int, 3> cell_at(sdk::Vec3 place) const;
   void find_walls(double time);
   void find_volume(fluid::CellField& volume) const;
   void find_passage();
@@ -56,6 +67,7 @@ class DustStage {
   std::vector<airborne::WallPiece>
       pieces_;  ///< with the areas of surfaces, whatever is before them
   airborne::DustField field_;
+  airborne::DustWeight weight_;
   std::vector<std::string> names_;
 };
 

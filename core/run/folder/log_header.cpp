@@ -50,7 +50,7 @@ std::string machine_text() {
 
 }  // namespace
 
-std::vector<std::string> log_header(const scenario::Setup& setup,
+std::vector<std::string> log_header(const scenario::Setup& setup, const scenario::DustSetup& dust,
                                     const registry::Registry& registry, const RunOptions& options,
                                     const std::string& scenario_sha256) {
   std::error_code ignored;
@@ -61,7 +61,7 @@ std::vector<std::string> log_header(const scenario::Setup& setup,
                   std::filesystem::current_path(ignored).string());
   if (!options.command.empty()) lines.push_back("command: " + options.command);
   lines.push_back("scenario: " + setup.name + ", sha256 " + scenario_sha256);
-  for (const auto& used : plugins_json(setup, registry)) {
+  for (const auto& used : plugins_json(setup, dust, registry)) {
     const std::string kind = used.at("kind");
     const std::string name = used.at("name");
     const std::string version = used.at("version");

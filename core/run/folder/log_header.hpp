@@ -3,6 +3,7 @@
 
 #include "registry/registry.hpp"
 #include "run/run_options.hpp"
+#include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
 
 #include <string>
@@ -12,7 +13,7 @@ namespace dust::run {
 
 /// By what, where and from what a run is made: the first lines of run.log, so that it can be
 /// repeated years later.
-std::vector<std::string> log_header(const scenario::Setup& setup,
+std::vector<std::string> log_header(const scenario::Setup& setup, const scenario::DustSetup& dust,
                                     const registry::Registry& registry, const RunOptions& options,
                                     const std::string& scenario_sha256);
 

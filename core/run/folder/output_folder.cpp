@@ -21,11 +21,11 @@ namespace fs = std::filesystem;
 
 /// Everything a run writes; --force clears these and nothing else. run.log carries the lock and is
 /// emptied by the log itself.
-constexpr std::array k_run_files = {"scenario.yaml", "summary.json",   "series.csv",
-                                    "results.h5",    "particles.xdmf", "fluid.xdmf",
-                                    "walls.xdmf",    "checkpoint.h5",  "report.html",
-                                    "report.json",   "frames",         "series.csv-metadata.json",
-                                    "checkpoints"};
+constexpr std::array k_run_files = {"scenario.yaml", "summary.json",     "series.csv",
+                                    "results.h5",    "particles.xdmf",   "fluid.xdmf",
+                                    "walls.xdmf",    "checkpoint.h5",    "report.html",
+                                    "report.json",   "frames",           "series.csv-metadata.json",
+                                    "checkpoints",   "paraview_state.py"};
 
 fs::path numbered(const std::string& name, int n) {
   return fs::path("results") / (n == 1 ? name : name + "-" + std::to_string(n));

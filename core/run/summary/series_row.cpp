@@ -2,6 +2,7 @@
 #include "run/summary/series_row.hpp"
 
 #include "run/summary/summary_dust.hpp"
+#include "run/summary/summary_energy.hpp"
 
 #include <numeric>
 #include <utility>
@@ -72,6 +73,17 @@ void visit_dust_field(const Simulation& s, const ColumnVisitor& visit) {
   }
 }
 
+void visit_dust_on_grains(const Simulation& s, const ColumnVisitor& visit) {
+  if (s.liberation() == nullptr) return;
+  const std::vector<std::string>& classes = s.dust_stage()->class_names();
+  for (std::size_t n = 0; n < classes.size(); ++n) {
+    const particles::DustLoads::Balance balance = s.dem().dust_balance(n);
+    const std::string of = "dust_on_grains/" + classes[n];
+    visit(of + "/on_grains [kg]", balance.on_grains, RowValue::instant, k_mass);
+    visit(of + "/set_free [kg]", balance.set_free, RowValue::total, k_mass);
+  }
+}
+
 /// Passes on the columns of one sensor.
 class SensorColumns final : public sdk::FigureSink {
  public:
@@ -95,6 +107,8 @@ void for_series_columns(const Simulation& s, const ColumnVisitor& visit) {
   visit_own(s, visit);
   visit_hoods(s, visit);
   visit_dust_field(s, visit);
+  visit_dust_on_grains(s, visit);
+  visit_energy(s, visit);
   for (std::size_t n = 0; n < s.models().sensors.size(); ++n) {
     const sdk::Sensor& sensor = *s.models().sensors[n];
     SensorColumns sink(sensor, s.setup().sensors[n].name + "/", visit);

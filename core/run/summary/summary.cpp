@@ -13,6 +13,7 @@
 #include "run/summary/series_row.hpp"
 #include "run/summary/summary_dust.hpp"
 #include "run/summary/summary_emitters.hpp"
+#include "run/summary/summary_energy.hpp"
 #include "run/summary/summary_models.hpp"
 
 #include <nlohmann/json.hpp>
@@ -286,6 +287,8 @@ Json amounts_json(const Simulation& s) {
   j["emitters"] = emitters_json(s);
   if (!s.dem().openings().empty()) j["hoods"] = hoods_json(s);
   if (s.dust_stage() != nullptr) j["dust_field"] = dust_field_json(s);
+  if (s.liberation() != nullptr) j["dust_on_grains"] = dust_on_grains_json(s);
+  if (s.setup().audit.energy) j["energy"] = energy_json(s);
   j["size_classes"] = s.models().class_diameters.empty() ? Json::array() : class_steps(s.dem());
   return j;
 }
@@ -305,7 +308,8 @@ Json record_json(const Simulation& s, const RunFacts& facts) {
   j["build"] = {{"compiler", base::k_compiler},
                 {"processor", base::k_processor},
                 {"plugin_interface", sdk::k_interface_version}};
-  if (facts.registry != nullptr) j["plugins"] = plugins_json(s.setup(), *facts.registry);
+  if (facts.registry != nullptr)
+    j["plugins"] = plugins_json(s.setup(), s.dust_setup(), *facts.registry);
   return j;
 }
 
@@ -347,6 +351,8 @@ Json report_json(const Simulation& s, const RunFacts& facts, JsonReport& report)
   r["tables"] = report.take_tables();
   add_emitter_tables(s, r["tables"]);
   add_hood_tables(s, r["tables"]);
+  add_liberation_table(s, r["tables"]);
+  add_energy_table(s, r["tables"]);
   r["outline"] = outlines(s);
   r["classes"] = s.models().class_diameters;
   if (facts.registry != nullptr) r["setting"] = setting_json(s.setup(), *facts.registry);

@@ -138,6 +138,57 @@ Json dust_field_json(const Simulation& s) {
   return {{"classes", classes}, {"sub_steps", stage.field().sub_steps()}};
 }
 
+Json dust_on_grains_json(const Simulation& s) {
+  constexpr double k_grams_per_tonne = 1e6;
+  constexpr double k_hour = 3600.0;  // s
+  const LiberationStage& stage = *s.liberation();
+  const std::vector<std::string>& classes = s.dust_stage()->class_names();
+  const double load = s.dem().balance().mass_emitted;
+  Json j = Json::object();
+  for (std::size_t n = 0; n < classes.size(); ++n) {
+    const particles::DustLoads::Balance balance = s.dem().dust_balance(n);
+    Json causes = Json::object();
+    for (std::size_t c = 0; c < stage.causes().size(); ++c) {
+      const double mass = stage.set_free(c, n);
+      if (!(mass > 0.0)) continue;
+      causes[stage.causes()[c]] = {{"kg", mass},
+                                   {"kg_per_h", k_hour * mass / s.time()},
+                                   {"g_per_tonne", k_grams_per_tonne * mass / load}};
+    }
+    j[classes[n]] = {
+        {"entered_kg", balance.entered},       {"on_grains_kg", balance.on_grains},
+        {"set_free_kg", balance.set_free},     {"set_free_by", causes},
+        {"left_with_grains_kg", balance.left}, {"drawn_out_with_grains_kg", balance.drawn_out},
+        {"balance_error", balance.error()}};
+  }
+  return {{"classes", j}, {"kept_back_kg", stage.kept_back()}};
+}
+
+void add_liberation_table(const Simulation& s, Json& tables) {
+  if (s.liberation() == nullptr) return;
+  constexpr double k_grams_per_tonne = 1e6;
+  const LiberationStage& stage = *s.liberation();
+  const std::vector<std::string>& classes = s.dust_stage()->class_names();
+  const double load = s.dem().balance().mass_emitted;
+  std::vector<std::string> columns{"set free by"};
+  for (const std::string& name : classes) columns.push_back(name + " [g per tonne]");
+  Json rows = Json::array();
+  for (std::size_t c = 0; c < stage.causes().size(); ++c) {
+    Json cells = Json::array({stage.causes()[c]});
+    double whole = 0.0;
+    for (std::size_t n = 0; n < classes.size(); ++n) {
+      whole += stage.set_free(c, n);
+      cells.push_back(k_grams_per_tonne * stage.set_free(c, n) / load);
+    }
+    if (whole > 0.0) rows.push_back(cells);
+  }
+  if (rows.empty()) return;
+  tables.push_back({{"sensor", "dust_on_grains"},
+                    {"title", "Dust set free from grains"},
+                    {"columns", columns},
+                    {"rows", rows}});
+}
+
 void add_hood_tables(const Simulation& s, Json& tables) {
   const particles::BalanceLedger& ledger = s.dem().ledger();
   for (std::size_t o = 0; o < s.dem().openings().size(); ++o) {

@@ -30,6 +30,15 @@ nlohmann::ordered_json hoods_json(const Simulation& s);
 /// surface, "left_kg" by side, "hoods_kg" by hood, "balance_error"} and "sub_steps".
 nlohmann::ordered_json dust_field_json(const Simulation& s);
 
+/// What grains carry, what of it came off and by what, for a run with loads: by class
+/// {"entered_kg", "on_grains_kg", "set_free_kg", "set_free_by" cause {"kg", "kg_per_h",
+/// "g_per_tonne"}, "left_with_grains_kg", "drawn_out_with_grains_kg", "balance_error"}, and
+/// "kept_back_kg".
+nlohmann::ordered_json dust_on_grains_json(const Simulation& s);
+
+/// A table for the report: what came off grains, by cause and class; nothing without loads.
+void add_liberation_table(const Simulation& s, nlohmann::ordered_json& tables);
+
 /// Tables for the report: what each hood has drawn out, by size.
 void add_hood_tables(const Simulation& s, nlohmann::ordered_json& tables);
 

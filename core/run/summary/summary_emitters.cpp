@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/summary/summary_emitters.hpp"
 
+#include "base/text.hpp"
 #include "dust/sdk/sphere.hpp"
 
 #include <algorithm>
@@ -134,8 +135,8 @@ std::vector<std::string> shortfalls(const Simulation& s) {
     if (waiting_mass_of(s, e) <= k_smallest_shortfall * requested_stream(s, r)) continue;
     std::ostringstream text;
     text << "emitter '" << s.setup().emitters[e].name
-         << "' falls short: " << s.insertion().ledger().totals_of(e).mass << " kg of "
-         << requested_stream(s, r) << " kg came in; " << waiting
+         << "' falls short: " << base::mass_text(s.insertion().ledger().totals_of(e).mass, 4)
+         << " of " << base::mass_text(requested_stream(s, r), 4) << " came in; " << waiting
          << " grains wait because grains in the domain take their "
          << "places: make room in front of the emitter or reduce its flow";
     all.push_back(text.str());

@@ -115,7 +115,7 @@ const char* word_of(scenario::GrainSide side) {
 
 }  // namespace
 
-nlohmann::ordered_json plugins_json(const scenario::Setup& setup,
+nlohmann::ordered_json plugins_json(const scenario::Setup& setup, const scenario::DustSetup& dust,
                                     const registry::Registry& registry) {
   std::set<std::tuple<std::string, std::string, std::string>> used;
   const auto add = [&](const ModelChoice& choice) {
@@ -142,6 +142,7 @@ nlohmann::ordered_json plugins_json(const scenario::Setup& setup,
   for (const auto& force : setup.fluid_forces) add(force);
   add_if(setup.voidage);
   add_if(setup.turbulence);
+  add_if(dust.liberation);
   Json list = Json::array();
   for (const auto& [kind, name, version] : used) {
     list.push_back({{"kind", kind}, {"name", name}, {"version", version}});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "registry/registry.hpp"
+#include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
 
 #include <nlohmann/json.hpp>
@@ -10,7 +11,7 @@ namespace dust::run {
 
 /// The models a scenario uses, each once, with the version it gives itself: [{"kind", "name",
 /// "version"}], sorted.
-nlohmann::ordered_json plugins_json(const scenario::Setup& setup,
+nlohmann::ordered_json plugins_json(const scenario::Setup& setup, const scenario::DustSetup& dust,
                                     const registry::Registry& registry);
 
 /// Where things are, for pictures: {"domain": {"min", "max"}, "sides": [{"name", "grains", "air"}],

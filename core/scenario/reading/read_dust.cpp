@@ -28,7 +28,10 @@ void SetupReader::read_dust(MapReader& top) {
     dust_.coarse_graining.push_back(material.coarse_graining);
   }
   const Entry* entry = top.optional("dust");
-  if (entry == nullptr) return;
+  if (entry == nullptr) {
+    check_dust_loads(nullptr);
+    return;
+  }
   MapReader reader(entry->value, "dust", entry->where, diagnostics_);
   if (!entry->value.is_map()) return;
   std::vector<sdk::Value> values;
@@ -38,6 +41,7 @@ void SetupReader::read_dust(MapReader& top) {
   if (reader.is_good() && is_good) dust_.given = dust_spec_of(*entry, read, has_field);
   Node written = written_block<DustBlock>(values);
   read_dust_field(reader, written);
+  read_liberation(reader, written);
   reader.finish();
   out_.add("dust", std::move(written));
   if (dust_.given && !has_field && !diagnostics_.has_errors()) check_dust_is_emitted(entry->where);

@@ -16,7 +16,16 @@ void SetupReader::read_materials(MapReader& top) {
     setup_.materials.push_back({entry.key,
                                 {material.density, material.young_modulus, material.poisson_ratio},
                                 material.coarse_graining});
-    written.add(entry.key, written_block<MaterialBlock>(values));
+    dust_.loads.push_back({material.dust_load, material.moisture});
+    Node block = written_block<MaterialBlock>(values);
+    // What only dust asks for is not written where there is none.
+    if (material.dust_load.empty()) {
+      std::erase_if(block.entries, [](const Entry& e) { return e.key == "dust_load"; });
+    }
+    if (!(material.moisture > 0.0)) {
+      std::erase_if(block.entries, [](const Entry& e) { return e.key == "moisture"; });
+    }
+    written.add(entry.key, std::move(block));
   });
   if (!written.entries.empty()) out_.add("materials", std::move(written));
 }

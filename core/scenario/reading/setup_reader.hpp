@@ -141,6 +141,9 @@ class SetupReader {
   void check_voidage();
 
   void read_sensors(MapReader& top);
+  /// Accounts that the run keeps.
+  void read_audit(MapReader& top);
+  void check_audit();
   /// What counts as dust, by size and material, and through what it gets out.
   void read_dust(MapReader& top);
   DustSpec dust_spec_of(const Entry& entry, const DustBlock& read, bool has_field);
@@ -154,6 +157,11 @@ class SetupReader {
   Node read_clouds(MapReader& field, DustFieldSpec& spec);
   Node read_dust_sources(MapReader& field, DustFieldSpec& spec);
   void check_dust_field(const Node& node, const DustFieldSpec& spec);
+  /// `dust.liberation`: how the dust on grains becomes airborne.
+  void read_liberation(MapReader& dust, Node& written);
+  /// `dust_load` and `moisture` of materials, against field and law; of a law that could not be
+  /// read all is told already.
+  void check_dust_loads(const sdk::Model* law, bool is_law_read = true);
   /// A part of a block that is a model of the kind of the part's name: `drag: {model: ...}`.
   ReadModel read_part(MapReader& reader, const std::string& key, bool is_required, Node& written);
   /// Some contradictions need the density of the grains: an empty interval makes emitters look.

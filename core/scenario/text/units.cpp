@@ -92,6 +92,7 @@ constexpr std::array k_named = {
     Named{dim::mass_flow, "a mass flow", "kg/s, g/s, t/h"},
     Named{dim::volume_flow, "a volume flow", "m3/s, l/min, m3/h"},
     Named{dim::energy, "an energy", "J, mJ"},
+    Named{dim::specific_energy, "an energy per mass", "J/kg, kJ/kg"},
     Named{dim::energy / dim::time, "a power", "W, mW"},
     Named{dim::stiffness, "a stiffness or surface energy", "N/m, J/m2, mJ/m2"},
 };

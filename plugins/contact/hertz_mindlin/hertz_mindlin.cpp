@@ -14,6 +14,32 @@ namespace sdk = dust::sdk;
 /// Contacts from one root to the next: what the stages hand on stays in the first-level cache.
 constexpr std::size_t k_block = 64;
 
+/// Adds to the tangential forces [first, end) what the couples of their rolling springs make of
+/// them.
+DUST_KERNEL void add_rolling(const sdk::ContactBatch& b, std::size_t first, std::size_t end,
+                             double* total) {
+  const double time_step = b.time_step;
+  const double *nx = b.normal.x, *ny = b.normal.y, *nz = b.normal.z;
+  const double *mx = b.couple.x, *my = b.couple.y, *mz = b.couple.z;
+  const double *mass = b.effective_mass, *kt = b.tangential_stiffness;
+  const double *ri = b.radius_i, *rj = b.radius_j;
+  const double *inverse_i = b.inverse_mass_i, *inverse_j = b.inverse_mass_j;
+  double *fx = b.force.x, *fy = b.force.y, *fz = b.force.z;
+#pragma omp simd
+  for (std::size_t q = first; q < end; ++q) {
+    formula::Contact c{};
+    c.nx = nx[q], c.ny = ny[q], c.nz = nz[q];
+    c.mx = mx[q], c.my = my[q], c.mz = mz[q];
+    c.fx = fx[q], c.fy = fy[q], c.fz = fz[q];
+    c.mass = mass[q];
+    c.stiffness = kt[q];
+    c.turning = 2.5 * (inverse_i[q] * rj[q] - inverse_j[q] * ri[q]) / (ri[q] * rj[q]);
+    formula::add_rolling(time_step, c);
+    fx[q] = c.fx, fy[q] = c.fy, fz[q] = c.fz;
+    total[q - first] = c.total;
+  }
+}
+
 DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::ContactBatch& b,
                                 std::size_t first, std::size_t end) {
   const formula::Constants k = constants;
@@ -76,12 +102,17 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
     edge[q - first] = formula::distance_from_edge(time_step, c);
     least = std::min(least, edge[q - first]);
   }
+  if (b.couple.x != nullptr) add_rolling(b, first, end, total);
   // Few contacts begin or end, and only those are looked at.
   for (std::size_t q = first; least < 0.0 && q < end; ++q) {
     if (!(edge[q - first] < 0.0)) continue;
     formula::Contact c{};
     c.overlap = overlap[q];
+    c.nx = nx[q], c.ny = ny[q], c.nz = nz[q];
+    c.vx = vx[q], c.vy = vy[q], c.vz = vz[q];
+    c.dx = dx[q - first], c.dy = dy[q - first], c.dz = dz[q - first];
     c.vn = vn[q - first];
+    c.stiffness = stiffness[q];
     c.normal_force = fn[q];
     c.normal_stiffness = kn[q];
     c.fx = fx[q], c.fy = fy[q], c.fz = fz[q];
@@ -147,7 +178,7 @@ class HertzMindlin final : public sdk::ContactLaw {
   }
   static sdk::ModelInfo describe() {
     return {.name = "hertz_mindlin",
-            .version = "2.0",
+            .version = "2.1",
             .summary =
                 "Hertz normal and energy-conserving Mindlin tangential contact with viscous "
                 "damping and strict Coulomb friction.",

@@ -59,6 +59,8 @@ inline double half_period(double young, double radius, double mass, double overl
 /// relative to j at the contact point, u their displacement since the last look [m]. SI.
 struct Contact {
   double overlap, nx, ny, nz, vx, vy, vz, ux, uy, uz, radius, mass;
+  double mx, my, mz;        ///< [N m] couple of the rolling spring on i a step ago
+  double turning;           ///< [1/(kg m)] R_i/I_i - R_j/I_j
   double sx, sy, sz;        ///< [m] tangential displacement, in and out
   double stiffness;         ///< [N/m] k_t of the last step in, of this one out
   double normal_force;      ///< [N] out
@@ -91,9 +93,10 @@ struct Contact {
 
 inline constexpr double k_tiny = 1e-140;
 
-/// Weight of a step's force that begins or ends like the fourth root of the overlap, as dampers and
-/// the tangential spring do, where touching or parting is less than a step off: x = `overlap` /
-/// `flight`, the way along the normal in a step [m]. Held for the whole step it would be in error
+/// Weight of a step's force that begins or ends like the fourth root of the overlap, as dampers do,
+/// where touching or parting is less than a step off: x = `overlap` / `flight`, the way along the
+/// normal in a step [m]. The tangential spring ends like that, too, but begins like x^{3/2}: there
+/// it needs no weight. Held for the whole step it would be in error
 /// by half of it, to first order. \f$ -\zeta(-\tfrac14, 1 + x) / x^{1/4} \f$ makes the sum over
 /// looks at x, x + 1, ... the integral (Euler-Maclaurin for an algebraic end: Navot, J. Math. Phys.
 /// 40 (1961) 271, doi:10.1002/sapm1961401271); this is within 0.04 of it for 0.001 < x < 1.
@@ -106,21 +109,25 @@ inline constexpr double k_tiny = 1e-140;
 }
 
 /// The tangential force over the last steps of a contact, x steps before its end. Spring and damper
-/// go like \f$ A x^{1/4} \f$, the normal force like \f$ K (x^{3/2} - u_e x^{1/4}) \f$, u_e by its
-/// damper: the limit falls to zero within a step or so and cuts off a force that may be anything.
+/// go like \f$ x^{1/4} (A + B (x_0^{5/4} - x^{5/4})) \f$, B by the slip at x_0, the normal force
+/// like \f$ K (x^{3/2} - u_e x^{1/4}) \f$, u_e by its damper: the limit falls to zero within a step
+/// or so and cuts off a force that may be anything.
 /// One that is looked at once per step does not see it fall; what the last two looks give in place
 /// of it adds up to the integral; docs/theory/grains.md, eq. (15).
 class ForceToTheEnd {
  public:
-  /// At x = `steps`: spring and damper `total`, its limit `elastic_limit` without and `limit` with
-  /// the normal damper, all [N].
-  ForceToTheEnd(double steps, double total, double elastic_limit, double limit) {
+  /// At x_0 = `steps`: spring and damper `total`, by how much the slip lets it grow in a step
+  /// there, its limit `elastic_limit` without and `limit` with the normal damper, all [N].
+  ForceToTheEnd(double steps, double total, double growth, double elastic_limit, double limit) {
     const double root = fourth_root(steps);
     const double u = steps * root;
     slope_ = elastic_limit / (u * root);
-    size_ = total / root;
+    // Not so that the force would change sign.
+    const double size = total / root;
+    growth_ = std::max(0.8 * growth / (root * root), -0.9 * std::min(slope_, size / u));
+    size_ = size + growth_ * u;
     end_ = u * std::max(elastic_limit - limit, 0.0) / elastic_limit;
-    cut_ = end_ + size_ / slope_;
+    cut_ = (size_ + slope_ * end_) / (slope_ + growth_);
   }
   /// The limit [N] at x.
   [[nodiscard]] double limit(double x) const {
@@ -131,9 +138,10 @@ class ForceToTheEnd {
   [[nodiscard]] double integral(double x) const {
     const double begin = std::max(x + 0.5, 0.0);
     const double u = begin * fourth_root(begin);
-    if (cut_ <= u) return size_ * (0.8 * u - 0.4 * (end_ + cut_));
-    const double part = std::max(u - end_, 0.0);
-    return 0.4 * slope_ * part * part;
+    const double limited = std::max(std::min(u, cut_) - end_, 0.0);
+    const double to_the_cut = 0.4 * slope_ * limited * limited;
+    if (u < cut_) return to_the_cut;
+    return to_the_cut + (u - cut_) * (0.8 * size_ - 0.4 * growth_ * (u + cut_));
   }
   /// What is given at x as the last force. The last but one gives the rest. It fades where the end
   /// is less than 0.4 steps away: whether there is one more look hangs on the last digits there.
@@ -151,10 +159,11 @@ class ForceToTheEnd {
  private:
   static double fourth_root(double x) { return std::sqrt(std::sqrt(std::max(x, 0.0))); }
 
-  double slope_;  ///< [N] mu K
-  double size_;   ///< [N] A
-  double end_;    ///< u_e = x_e^{5/4}: here the normal force is zero
-  double cut_;    ///< u_c = x_c^{5/4}: here the limit is reached
+  double slope_;   ///< [N] mu K
+  double growth_;  ///< [N] B
+  double size_;    ///< [N] A + B x_0^{5/4}
+  double end_;     ///< u_e = x_e^{5/4}: here the normal force is zero
+  double cut_;     ///< u_c = x_c^{5/4}: here the limit is reached
 };
 
 /// \f$ a^2 = R^* d \f$ [m2].
@@ -219,14 +228,27 @@ class ForceToTheEnd {
   c.normal_stiffness = kn;
 }
 
+/// What the leapfrog makes of the swing that tangential and rolling spring have together: the force
+/// as it will be, \f$ F + \tfrac{1}{12} dt^2 \ddot F \f$, by the couple's part of \f$ \ddot F
+/// \f$, \f$ k_t (R_i/I_i - R_j/I_j)\, M \times n \f$; docs/theory/grains.md, eq. (18). The couple
+/// is that of a step ago: of an order higher.
+[[gnu::always_inline]] inline void add_rolling(double time_step, Contact& c) {
+  const double most = c.mass * (k_max_phase_excess / k_phase_excess);
+  const double by = std::min(c.stiffness * time_step * time_step, most) * (1.0 / 12.0) * c.turning;
+  c.fx += by * (c.my * c.nz - c.mz * c.ny);
+  c.fy += by * (c.mz * c.nx - c.mx * c.nz);
+  c.fz += by * (c.mx * c.ny - c.my * c.nx);
+  c.total = c.fx * c.fx + c.fy * c.fy + c.fz * c.fz;
+}
+
 /// Below zero where a contact begins or ends within a step, and where it may end within two.
 [[gnu::always_inline]] inline double distance_from_edge(double time_step, const Contact& c) {
   const double way = c.vn * time_step;
   return std::min(c.overlap - std::abs(way), c.normal_force - 2.5 * c.normal_stiffness * way);
 }
 
-/// Where a contact begins or ends within a step all but the elastic normal force gets its weight.
-/// Returns by what the tangential force of the last two steps is to be multiplied after slide().
+/// Where a contact begins or ends within a step, dampers and what ends get their weight. Returns by
+/// what the tangential force of the last two steps is to be multiplied after slide().
 inline double weigh_edge(double friction, double time_step, Contact& c) {
   const double d = c.overlap;
   if (!(d > 0.0)) return 1.0;
@@ -235,10 +257,10 @@ inline double weigh_edge(double friction, double time_step, Contact& c) {
   const double edge = edge_weight(d, std::abs(c.vn) * time_step);
   c.normal_force = elastic + edge * (damped - elastic);
   if (c.vn <= 0.0) {
-    c.fx *= edge;
-    c.fy *= edge;
-    c.fz *= edge;
-    c.total *= edge * edge;
+    c.fx += (1.0 - edge) * c.dx;
+    c.fy += (1.0 - edge) * c.dy;
+    c.fz += (1.0 - edge) * c.dz;
+    c.total = c.fx * c.fx + c.fy * c.fy + c.fz * c.fz;
     return 1.0;
   }
   const double limit = friction * std::max(c.normal_force, 0.0);
@@ -246,7 +268,11 @@ inline double weigh_edge(double friction, double time_step, Contact& c) {
   if (!(speed > 0.0 && limit > 0.0 && c.total > 0.0)) return 1.0;
   const double total = std::sqrt(c.total);
   const double steps = d / (speed * time_step);
-  const ForceToTheEnd force(steps, total, friction * elastic, friction * damped);
+  // The spring's growth is along the tangential part of the velocity alone; the force has no other.
+  const double slip =
+      (c.vx - c.vn * c.nx) * c.fx + (c.vy - c.vn * c.ny) * c.fy + (c.vz - c.vn * c.nz) * c.fz;
+  const double growth = -c.stiffness * time_step * slip / total;
+  const ForceToTheEnd force(steps, total, growth, friction * elastic, friction * damped);
   if (force.holds(steps - 2.0)) return 1.0;
   const double given = force.holds(steps - 1.0) ? force.last_but_one(steps) : force.last(steps);
   return std::min(given, limit) / std::min(total, limit);

@@ -23,7 +23,10 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
   const double *wx = b.angular_velocity.x, *wy = b.angular_velocity.y, *wz = b.angular_velocity.z;
   const double *ax = b.angle.x, *ay = b.angle.y, *az = b.angle.z;
   const double *radius = b.effective_radius, *mass = b.effective_mass;
-  const double *fn = b.normal_force, *kn = b.normal_stiffness;
+  const double *fn = b.normal_force, *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
+  const double *fx = b.force.x, *fy = b.force.y, *fz = b.force.z;
+  const double *ri = b.radius_i, *rj = b.radius_j;
+  const double *inverse_i = b.inverse_mass_i, *inverse_j = b.inverse_mass_j;
   double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2], *last = b.history[3];
   const double *vx = b.velocity.x, *vy = b.velocity.y, *vz = b.velocity.z, *overlap = b.overlap;
   double *tx = b.torque.x, *ty = b.torque.y, *tz = b.torque.z;
@@ -33,10 +36,18 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
 #pragma omp simd reduction(min : least)
   for (std::size_t q = first; q < end; ++q) {
     const double way = (vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q]) * b.time_step;
-    formula::Rolling c{nx[q], ny[q],     nz[q],   wx[q], wy[q], wz[q],   ax[q], ay[q],
-                       az[q], radius[q], mass[q], fn[q], kn[q], last[q], way,   sx[q],
-                       sy[q], sz[q],     0.0,     0.0,   0.0,   0.0,     0.0,   0.0};
-    formula::evaluate(k, c);
+    formula::Rolling c{};
+    c.nx = nx[q], c.ny = ny[q], c.nz = nz[q];
+    c.wx = wx[q], c.wy = wy[q], c.wz = wz[q];
+    c.ax = ax[q], c.ay = ay[q], c.az = az[q];
+    c.vx = vx[q], c.vy = vy[q], c.vz = vz[q];
+    c.fx = fx[q], c.fy = fy[q], c.fz = fz[q];
+    c.radius = radius[q], c.mass = mass[q];
+    c.normal_force = fn[q], c.stiffness = kn[q], c.tangential_stiffness = kt[q];
+    c.last_stiffness = last[q];
+    c.way = way;
+    c.sx = sx[q], c.sy = sy[q], c.sz = sz[q];
+    formula::evaluate(k, b.time_step, {ri[q], rj[q], inverse_i[q], inverse_j[q]}, c);
     last[q] = c.last_stiffness;
     sx[q] = c.sx;
     sy[q] = c.sy;
@@ -86,7 +97,7 @@ class Epsd final : public sdk::RollingLaw {
   }
   static sdk::ModelInfo describe() {
     return {.name = "epsd",
-            .version = "2.0",
+            .version = "2.1",
             .summary = "Elastic-plastic rolling spring with a dashpot below full mobilisation.",
             .equation =
                 "\\Delta M_s = -2.25 k_n \\mu_r^2 R^{*2} \\Delta\\theta_r,\\quad "
@@ -100,6 +111,7 @@ class Epsd final : public sdk::RollingLaw {
   explicit Epsd(const Parameters& p) : constants_{p.friction, p.damping_ratio} {}
   void prepare(const sdk::MaterialProperties&, const sdk::MaterialProperties&) override {}
   [[nodiscard]] int history_size() const override { return 4; }
+  [[nodiscard]] int couple_column() const override { return 0; }
   void evaluate(const sdk::ContactBatch& batch) const override {
     evaluate_batch(constants_, batch);
   }

@@ -24,10 +24,13 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
   const double *ax = b.angle.x, *ay = b.angle.y, *az = b.angle.z;
   const double *vx = b.velocity.x, *vy = b.velocity.y, *vz = b.velocity.z, *overlap = b.overlap;
   const double *mass = b.effective_mass, *radius = b.effective_radius, *fn = b.normal_force,
-               *kt = b.tangential_stiffness;
+               *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
+  const double *ri = b.radius_i, *rj = b.radius_j;
+  const double *inverse_i = b.inverse_mass_i, *inverse_j = b.inverse_mass_j;
+  const double *fx = b.force.x, *fy = b.force.y, *fz = b.force.z;
   double *mx = b.history[0], *my = b.history[1], *mz = b.history[2], *last = b.history[3];
   double *tx = b.torque.x, *ty = b.torque.y, *tz = b.torque.z;
-  alignas(64) double keep[k_block], size[k_block], edge[k_block];
+  alignas(64) double keep[k_block], size[k_block], edge[k_block], lever[k_block];
   std::size_t in_last_step[k_block];
   double change[k_block];
   std::size_t last_steps = 0;
@@ -53,11 +56,15 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     c.last_stiffness = last[q];
     c.mx = tx[q], c.my = ty[q], c.mz = tz[q];
     c.keep = keep[q - first];
-    formula::roll(c);
+    const double way = (vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q]) * b.time_step;
+    c.normal_force = fn[q];
+    c.normal_stiffness = kn[q];
+    c.way = way;
+    formula::roll(b.time_step, {ri[q], rj[q], inverse_i[q], inverse_j[q]}, c);
     tx[q] = c.mx, ty[q] = c.my, tz[q] = c.mz;
     last[q] = kt[q];
     size[q - first] = c.size;
-    const double way = (vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q]) * b.time_step;
+    lever[q - first] = c.lever;
     edge[q - first] = overlap[q] - 2.0 * way;
     least = std::min(least, edge[q - first]);
   }
@@ -83,7 +90,10 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     c.size = size[q - first];
     formula::limit(friction, c);
     mx[q] = c.mx, my[q] = c.my, mz[q] = c.mz;
-    tx[q] = c.mx, ty[q] = c.my, tz[q] = c.mz;
+    const dust::model::Couple by_force =
+        dust::model::couple_of_force(lever[q - first], {nx[q], ny[q], nz[q]}, {fx[q], fy[q], fz[q]},
+                                     c.size, friction * radius[q] * std::abs(fn[q]));
+    tx[q] = c.mx + by_force.x, ty[q] = c.my + by_force.y, tz[q] = c.mz + by_force.z;
   }
   for (std::size_t n = 0; n < last_steps; ++n) {
     const std::size_t q = in_last_step[n];
@@ -100,7 +110,7 @@ class Epsd2 final : public dust::model::RollingFriction {
   }
   static sdk::ModelInfo describe() {
     return {.name = "epsd2",
-            .version = "2.0",
+            .version = "2.1",
             .summary = "Elastic-plastic rolling spring without dashpot.",
             .equation =
                 "\\Delta M = -k_t R^{*2} \\Delta\\theta_r,\\quad "
@@ -113,6 +123,7 @@ class Epsd2 final : public dust::model::RollingFriction {
 
   explicit Epsd2(const Parameters& p) : RollingFriction(p) {}
   [[nodiscard]] int history_size() const override { return 4; }
+  [[nodiscard]] int couple_column() const override { return 0; }
   void evaluate(const sdk::ContactBatch& batch) const override {
     for (std::size_t first = 0; first < batch.count; first += k_block) {
       evaluate_block(friction(), batch, first, std::min(first + k_block, batch.count));

@@ -206,6 +206,9 @@ class LawBench {
       columns_.column(B::overlap)[q] = r.overlap;
       columns_.column(B::effective_radius)[q] = r.radius;
       columns_.column(B::effective_mass)[q] = r.mass;
+      // Two equal ones.
+      columns_.column(B::radius_i)[q] = columns_.column(B::radius_j)[q] = 2.0 * r.radius;
+      columns_.column(B::inverse_mass_i)[q] = columns_.column(B::inverse_mass_j)[q] = 0.5 / r.mass;
       for (int d = 0; d < 3; ++d) {
         columns_.column(B::normal_x + d)[q] = r.normal[d];
         columns_.column(B::velocity_x + d)[q] = r.velocity[d];
@@ -240,6 +243,10 @@ class LawBench {
                                     &b.angle.z,
                                     &b.effective_radius,
                                     &b.effective_mass,
+                                    &b.radius_i,
+                                    &b.radius_j,
+                                    &b.inverse_mass_i,
+                                    &b.inverse_mass_j,
                                     &c.overlap,
                                     &c.effective_radius,
                                     &c.effective_mass,

@@ -159,7 +159,8 @@ TEST_CASE("every shipped model shall have a page with its limits and an example 
     const std::map<std::string, std::string> keys = {{"drag", "drag: {"},
                                                      {"voidage", "voidage: {"},
                                                      {"fluid_force", "fluid_forces: [{"},
-                                                     {"turbulence", "turbulence: {"}};
+                                                     {"turbulence", "turbulence: {"},
+                                                     {"liberation", "liberation: {"}};
     if (!keys.contains(kind)) continue;
     CAPTURE(entry.info.name);
     const std::string readme = readme_of(entry.info);

@@ -4,6 +4,7 @@
 #include "dust/sdk/boundary_condition.hpp"
 #include "dust/sdk/contact_law.hpp"
 #include "dust/sdk/fluid_force.hpp"
+#include "dust/sdk/liberation_law.hpp"
 #include "dust/sdk/motion.hpp"
 #include "dust/sdk/turbulence_model.hpp"
 #include "dust/sdk/voidage_rule.hpp"
@@ -244,5 +245,72 @@ TEST_CASE("a turbulence model that is wrong shall be told by the rule it breaks"
         "1 Pa s without any shear");
   CHECK(seen.remarked(rule_results_on<Eddies>(Eddies::of_all_sizes), "cells become small")
             .find("cells 10,000 times smaller still have ") == 0);
+  seen.check_complete();
+}
+
+namespace {
+
+/// A share of the load by the energy, or something that is none.
+struct Liberation final : LiberationLaw {
+  enum Fault {
+    none,
+    too_much,
+    negative,
+    from_nothing,
+    less_from_more,
+    hides_moisture,
+    bound_by_dryness,
+    by_step,
+    idle
+  };
+  explicit Liberation(Fault f) : fault(f) {}
+  void prepare(const DustProperties&) override {}
+  [[nodiscard]] bool uses_moisture() const override { return fault == bound_by_dryness; }
+  void in_contacts(const GrainImpacts& b) const override {
+    const DustyGrains& g = b.grains;
+    for (std::size_t q = 0; q < g.count; ++q) {
+      double x = 1e3 * (b.normal_energy[q] + b.tangential_energy[q]);
+      if (fault == less_from_more) x = x > 1.0 ? 0.1 : x;
+      if (fault == hides_moisture) x /= 1.0 + g.moisture[q];
+      if (fault == bound_by_dryness) x *= 1.0 + g.moisture[q];
+      if (fault == from_nothing) x += 1e-9;
+      double share = fault == by_step ? x / (1.0 + x) : -std::expm1(-x);
+      if (fault == too_much) share *= 1.5;
+      if (fault == negative) share = -share;
+      if (fault == idle) share = 0.0;
+      for (std::size_t k = 0; k < g.classes; ++k) {
+        g.released[k * g.stride + q] = share * g.load[k * g.stride + q];
+      }
+    }
+  }
+  Fault fault;
+};
+
+}  // namespace
+
+TEST_CASE("a liberation law that is wrong shall be told by the rule it breaks") {
+  using L = Liberation;
+  Seen seen;
+  for (const auto& result : rule_results_on<L>(L::none)) {
+    INFO(result.rule);
+    // It knows no units: 1000 per joule.
+    if (result.rule.find("homogeneous") != std::string::npos) continue;
+    CHECK_MESSAGE(result.verdict != wrong::Verdict::fail, result.why);
+  }
+  CHECK(seen.broken(rule_results_on<L>(L::too_much), "no more than there is").find(" kg of ") !=
+        std::string::npos);
+  CHECK(seen.broken(rule_results_on<L>(L::negative), "nothing negative").find("-") == 0);
+  CHECK(seen.broken(rule_results_on<L>(L::from_nothing), "nothing has happened")
+            .find("that nothing has touched") != std::string::npos);
+  CHECK(seen.broken(rule_results_on<L>(L::less_from_more), "more has happened")
+            .find("where less has happened") != std::string::npos);
+  CHECK(seen.broken(rule_results_on<L>(L::hides_moisture), "moisture") ==
+        "it reads the moisture and says that it does not: uses_moisture()");
+  CHECK(seen.broken(rule_results_on<L>(L::bound_by_dryness), "moisture")
+            .find("of the same grain that is drier") != std::string::npos);
+  CHECK(seen.remarked(rule_results_on<L>(L::by_step), "two halves")
+            .find("an impact in two halves sets free ") == 0);
+  CHECK(seen.broken(rule_results_on<L>(L::idle), "something free") ==
+        "nothing comes off in the strongest impact or wind");
   seen.check_complete();
 }

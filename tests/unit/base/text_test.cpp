@@ -58,3 +58,37 @@ TEST_CASE("Estimated durations: two digits of one unit") {
   CHECK(estimated_duration_text(100.0 * 60.0) == "1.7 h");
   CHECK(estimated_duration_text(123.0 * 3600.0) == "123 h");
 }
+
+TEST_CASE("Lengths, masses and flows in the unit people of their size use") {
+  CHECK(length_text(0.35) == "350 mm");
+  CHECK(length_text(1.2) == "1.2 m");
+  CHECK(length_text(60e-6) == "60 um");
+  CHECK(length_text(0.99999) == "1 m");
+  CHECK(length_text(0.0) == "0 m");
+  CHECK(length_text(2e-9) == "0.002 um");
+  CHECK(mass_text(1234.0) == "1.23 t");
+  CHECK(mass_text(0.15) == "150 g");
+  CHECK(mass_text(-3.0) == "-3 kg");
+  CHECK(mass_text(0.0) == "0 kg");
+  CHECK(volume_flow_text(4500.0 / 3600.0) == "4500 m3/h");
+  CHECK(volume_flow_text(123456.0 / 3600.0) == "123456 m3/h");
+  CHECK(volume_flow_text(12.0 / 6e4) == "12 l/min");
+}
+
+TEST_CASE("Edges share the unit of the longest") {
+  CHECK(extent_text({0.34, 0.02, 0.33}) == "340 x 20 x 330 mm");
+  CHECK(extent_text({3.4, 2.6, 3.0}) == "3.4 x 2.6 x 3 m");
+  CHECK(extent_text({1.2, 0.02, 0.5}) == "1200 x 20 x 500 mm");
+  CHECK(extent_text({4e-4, 3e-4, 5e-4}) == "400 x 300 x 500 um");
+}
+
+TEST_CASE("Mass flows are t/h where the domain is a plant, kg/s and below elsewhere") {
+  CHECK(mass_flow_text(250.0 / 3.6, 3.4) == "250 t/h (69.4 kg/s)");
+  CHECK(mass_flow_text(5000.0 / 3.6, 30.0) == "5000 t/h (1389 kg/s)");
+  CHECK(mass_flow_text(0.2, 3.4) == "200 g/s");
+  CHECK(mass_flow_text(0.006, 0.34) == "6 g/s");
+  CHECK(mass_flow_text(2.5, 0.34) == "2.5 kg/s");
+  CHECK(mass_flow_text(1.0 / 3.6, 3.4) == "1 t/h (278 g/s)");
+  CHECK(mass_flow_text(3e-6, 0.34) == "3 mg/s");
+  CHECK(mass_flow_text(0.0, 3.4) == "0 kg/s");
+}

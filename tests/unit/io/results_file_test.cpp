@@ -119,6 +119,14 @@ TEST_CASE("the XDMF files shall name every frame with its time and number of gra
   CHECK(count_in(text_of(folder.path() / "walls.xdmf"), "TopologyType=\"Triangle\"") == 3);
 }
 
+TEST_CASE("the script for ParaView shall stand beside the files it opens and know its folder") {
+  const TemporaryFolder folder;
+  open_results(folder.path(), -1, one_body());
+  const std::string state = text_of(folder.path() / "paraview_state.py");
+  CHECK(count_in(state, "\nFOLDER = \"" + folder.path().string() + "\"\n") == 1);
+  CHECK(count_in(state, "\nMIN, MAX = [") == 1);
+}
+
 TEST_CASE("sets that are empty shall still give one valid grid") {
   const TemporaryFolder folder;
   const auto results = open_results(folder.path(), -1);

@@ -142,6 +142,17 @@ struct Turbulence final : Trial<sdk::TurbulenceModel> {
   }
 };
 
+struct Liberation final : Trial<sdk::LiberationLaw> {
+  using Trial::Trial;
+  void prepare(const sdk::DustProperties&) override {}
+  void in_contacts(const sdk::GrainImpacts& b) const override {
+    b.grains.released[b.grains.stride] = deed(what, 1.0);
+  }
+  void in_wind(const sdk::GrainWind& b) const override { b.grains.released[0] = deed(what, 1.0); }
+  bool needs_wind() const override { return true; }
+  bool uses_moisture() const override { return true; }
+};
+
 struct Emitter final : Trial<sdk::Emitter> {
   using Trial::Trial;
   void propose(const sdk::EmitterContext&, std::vector<sdk::InsertionRequest>& requests) override {
@@ -331,6 +342,23 @@ TEST_CASE("guarded models of the air shall answer as themselves and be told from
   CHECK(said([&] { guard<Turbulence>(Deed::no_number)->evaluate(cells); }) ==
         "turbulence/trial (/x/trial.so) gives eddy_viscosity = nan in row 1 of 1 of a batch "
         "(strain_rate = 1.5); expected: a finite number");
+}
+
+TEST_CASE("a guarded liberation law shall be passed on and looked after in every class") {
+  double energy[] = {0.25}, released[2] = {};
+  const sdk::DustyGrains grains{.count = 1, .classes = 2, .stride = 1, .released = released};
+  const auto law = guard<Liberation>();
+  CHECK(said([&] { law->in_contacts({.grains = grains, .normal_energy = energy}); }).empty());
+  CHECK(released[1] == 1.0);
+  CHECK(law->needs_wind());
+  CHECK(law->uses_moisture());
+  const auto bad = guard<Liberation>(Deed::no_number);
+  CHECK(said([&] { bad->in_contacts({.grains = grains, .normal_energy = energy}); }) ==
+        "liberation/trial (/x/trial.so) gives released = nan in row 1 of 1 of a batch "
+        "(normal_energy = 0.25); expected: a finite number");
+  CHECK(said([&] { bad->in_wind({.grains = grains, .slip = energy}); }) ==
+        "liberation/trial (/x/trial.so) gives released = nan in row 1 of 1 of a batch "
+        "(slip = 0.25); expected: a finite number");
 }
 
 TEST_CASE("a guarded rule of voidage shall keep within its own capacity") {

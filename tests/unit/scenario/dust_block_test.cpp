@@ -126,3 +126,72 @@ TEST_CASE("a dust field that cannot be shall be refused with a remedy") {
   CHECK_MESSAGE(all.find("dust.field: there is no fluid that carries it") != std::string::npos,
                 all);
 }
+
+namespace {
+
+const std::string k_liberation =
+    "dust: {field: {classes: [5, 20 um], material: sand}, "
+    "liberation: {model: energy, binding_energy: 2 MJ/kg}}\n";
+
+/// The scenario with more in its first material and other dust.
+std::string dusty(const std::string& material, const std::string& dust = k_liberation) {
+  return changed(with(dust), "sand: {", "sand: {" + material + ", ");
+}
+
+void check_text(const std::string& text, const std::string& expected) {
+  const Folder folder;
+  const std::string all = joined(problems(folder.write("s.yaml", text)));
+  CHECK_MESSAGE(all.find(expected) != std::string::npos, all);
+}
+
+}  // namespace
+
+TEST_CASE("loads and their law shall be read and written out the same") {
+  const Folder folder;
+  const auto first =
+      read(folder.write("s.yaml", dusty("dust_load: [0.1 %, 0.4 %], moisture: 2 %")));
+  REQUIRE(first.dust.liberation);
+  CHECK(first.dust.liberation->name == "energy");
+  CHECK(first.dust.loads[0].share == std::vector<double>{0.001, 0.004});
+  CHECK(first.dust.loads[0].moisture == 0.02);
+  CHECK(first.dust.shares_on_grains()[0] == first.dust.loads[0].share);
+  CHECK(read(folder.write("t.yaml", first.resolved_yaml)).resolved_yaml == first.resolved_yaml);
+  // Runs without dust do not hear of it.
+  CHECK(read(folder.write("u.yaml", with(k_field))).resolved_yaml.find("dust_load") ==
+        std::string::npos);
+}
+
+TEST_CASE("loads that cannot come off shall be refused with a remedy") {
+  check_text(dusty("dust_load: [0.6, 0.5]"),
+             "materials.sand.dust_load: the shares of the classes make 110 % of the grain");
+  check_text(dusty("dust_load: [1 %]"),
+             "materials.sand.dust_load: 1 numbers for 2 classes of dust.field; give one for each");
+  check_text(with(k_liberation),
+             "dust.liberation: no material has a dust_load that could come off");
+  check_text(dusty("dust_load: [1 %]", ""), "there is no dust.field whose classes it could mean");
+  check_text(dusty("dust_load: [1 %]",
+                   "dust: {finer_than: 50 um, liberation: {model: energy, "
+                   "binding_energy: 2 MJ/kg}}\n"),
+             "dust.liberation: there is no dust.field that takes up what comes off");
+  check_text(dusty("dust_load: [1 %, 0], moisture: 3 %",
+                   changed(k_liberation, "model: energy, binding_energy: 2 MJ/kg",
+                           "model: given, emission: 3 g/t")),
+             "materials.sand.moisture: the law of dust.liberation makes nothing of it");
+  check_text(dusty("moisture: 3 %", ""),
+             "materials.sand.moisture: there is no dust.liberation that makes anything of it");
+  std::string text = dusty("dust_load: [1 %, 1 %]");
+  const std::size_t fluid = text.find("fluid:");
+  text = text.substr(0, fluid) + "fluid: none\n" + text.substr(text.find("sensors:"));
+  check_text(text, "materials.sand.dust_load: there is no fluid that takes dust up");
+}
+
+TEST_CASE("loads without a law shall be told to stay") {
+  const Folder folder;
+  const auto result =
+      read(folder.write("s.yaml", dusty("dust_load: [1 %, 0]",
+                                        "dust: {field: {classes: [5, 20 um], material: "
+                                        "sand}}\n")));
+  CHECK(joined(result.warnings).find("materials.sand.dust_load: stays on the grains") !=
+        std::string::npos);
+  CHECK(result.dust.shares_on_grains().empty());
+}

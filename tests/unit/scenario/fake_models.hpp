@@ -78,6 +78,26 @@ struct Gidaspow final : DragLaw {
   void evaluate(const DragBatch&) const override {}
 };
 
+/// Reads the moisture, or a measured number that has it in it.
+template <bool reads_moisture>
+struct AnyLiberation final : LiberationLaw {
+  struct Parameters {
+    double number = 0.0;
+  };
+  static ModelInfo describe() { return info<AnyLiberation>(reads_moisture ? "energy" : "given"); }
+  static ParameterSchema schema() {
+    SchemaOf<Parameters> s;
+    s.number(&Parameters::number, reads_moisture ? "binding_energy" : "emission",
+             reads_moisture ? dimension::specific_energy : dimension::none, "Any number.")
+        .above(0);
+    return s.build();
+  }
+  explicit AnyLiberation(const Parameters&) {}
+  void prepare(const DustProperties&) override {}
+  void in_contacts(const GrainImpacts&) const override {}
+  [[nodiscard]] bool uses_moisture() const override { return reads_moisture; }
+};
+
 struct Divided final : VoidageRule {
   struct Parameters {};
   static ModelInfo describe() { return info<Divided>("divided"); }
@@ -263,6 +283,8 @@ inline void add_all(Registrar& registrar) {
   registrar.add<Epsd2>();
   registrar.add<Gidaspow>();
   registrar.add<Divided>();
+  registrar.add<AnyLiberation<true>>();
+  registrar.add<AnyLiberation<false>>();
   registrar.add<TotalPressure>();
   registrar.add<MovingWall>();
   registrar.add<Slip>();

@@ -338,6 +338,14 @@ TEST_CASE("a domain or steps that contradict each other shall be told") {
         "'divided' is valid up to 1: take fewer cells or another rule");
 }
 
+TEST_CASE("an account that a run cannot keep shall be told with what to change") {
+  check("gravity: [0, 0, -9.81]\n", "gravity: [0, 0, -9.81]\naudit: {energy: true}\n",
+        "s.yaml:4:17: error: audit.energy: grains on finer time steps exchange impulses that the "
+        "account of a step does not hold; give `time: {rates: single}` or leave the account out");
+  check("gravity: [0, 0, -9.81]\n", "gravity: [0, 0, -9.81]\naudit: {enrgy: true}\n",
+        "s.yaml:4:9: error: unknown key 'enrgy' in audit; did you mean 'energy'?");
+}
+
 TEST_CASE("regions of the fluid that cannot be shall be told") {
   const std::string line = "  density: 1.2 kg/m3\n";
   check(line,

@@ -9,9 +9,10 @@
 
 namespace dust::test {
 
-/// A sphere that meets a plane and sticks to it (friction has no limit but that a contact which
-/// pulls does not hold), with one tangential direction: the laws' own differential equations, for
-/// an integration of fourth order.
+/// A sphere that meets a plane and sticks to it, with one tangential direction: the laws' own
+/// differential equations, for an integration of fourth order. Friction is so high that its limit
+/// is met in the last instants of the contact alone; without it there 0.2 % of the patch speed
+/// would be missed.
 struct StickCase {
   enum class Normal { hertz, hooke };
   enum class Rolling { none, epsd2, epsd };
@@ -22,9 +23,15 @@ struct StickCase {
   double radius = 0.0, density = 0.0;
   double speed = 0.0;       ///< [m/s] towards the plane
   double tangential = 0.0;  ///< [m/s] of the centre along it
-  double restitution = 1.0;
+  double restitution = 1.0, friction = 100.0;
   double rolling_friction = 0.8, rolling_damping = 0.1;  ///< mu_r; eta_r of epsd
-  double attraction = 0.0;                               ///< [N] while in touch
+  /// What cohesion makes of an overlap [m].
+  struct Adhesion {
+    double contact_overlap;  ///< [m] that the contact law sees
+    double attraction;       ///< [N]
+  };
+  std::function<Adhesion(double)> adhesion = [](double d) { return Adhesion{d, 0.0}; };
+  double tear = 0.0;  ///< [m] overlap at which the contact ends
   /// [m/s] of the plane along itself at a time [s] after the first touch.
   std::function<double(double)> wall = [](double) { return 0.0; };
 
@@ -67,25 +74,35 @@ inline StickResult integrate(const StickCase& c) {
   const double r = c.radius;
   const double damping = c.damping();
   const bool is_hertz = c.normal == StickCase::Normal::hertz;
+  struct Springs {
+    double kn, kt, normal, slip, force, limit;
+  };
+  const auto springs = [&](double t, const State& x) -> Springs {
+    const auto [overlap, u, v, s, y, couple] = x;
+    const double d = c.adhesion(overlap).contact_overlap;
+    Springs k{};
+    double gt = 0.0;
+    if (is_hertz) {
+      const double a = std::sqrt(r * std::max(d, 0.0));
+      k.kn = 4.0 / 3.0 * c.effective_young * a;
+      k.kt = 8.0 * c.effective_shear * a;
+      gt = damping * std::sqrt(5.0 / 6.0) * std::sqrt(k.kt * m);
+    } else if (d >= 0.0) {
+      k.kn = c.normal_stiffness;
+      k.kt = c.stiffness_ratio * k.kn;
+      gt = damping * std::sqrt(k.kt * (2.0 / 7.0) * m);
+    }
+    k.normal = c.normal_force(d, u);
+    k.slip = v + (1.0 - 0.5 * overlap / r) * s - c.wall(t);
+    k.force = std::sqrt(k.kt) * y + gt * k.slip;
+    k.limit = c.friction * std::max(k.normal, 0.0);
+    return k;
+  };
   const auto rate = [&](double t, const State& x) -> State {
     const auto [d, u, v, s, y, couple] = x;
-    const double depth = std::max(d, 0.0);
-    double kn = 0.0, kt = 0.0, gt = 0.0;
-    if (is_hertz) {
-      const double a = std::sqrt(r * depth);
-      kn = 4.0 / 3.0 * c.effective_young * a;
-      kt = 8.0 * c.effective_shear * a;
-      gt = damping * std::sqrt(5.0 / 6.0) * std::sqrt(kt * m);
-    } else if (d >= 0.0) {
-      kn = c.normal_stiffness;
-      kt = c.stiffness_ratio * kn;
-      gt = damping * std::sqrt(kt * (2.0 / 7.0) * m);
-    }
-    const double normal = c.normal_force(d, u);
+    const auto [kn, kt, normal, slip, total, limit] = springs(t, x);
     const double lever = 1.0 - 0.5 * d / r;
-    const double slip = v + lever * s - c.wall(t);
-    const bool holds = normal > 0.0;
-    const double force = holds ? std::sqrt(kt) * y + gt * slip : 0.0;
+    const double force = std::clamp(total, -limit, limit);
     double turning = 0.0, brake = 0.0;  // rate of the couple, dashpot, both over R
     if (c.rolling == StickCase::Rolling::epsd2) turning = -kt * s;
     if (c.rolling == StickCase::Rolling::epsd) {
@@ -98,10 +115,10 @@ inline StickResult integrate(const StickCase& c) {
       }
     }
     return {u,
-            (c.attraction - normal) / m,
+            (c.adhesion(d).attraction - normal) / m,
             -force / m,
             (-2.5 * lever * force + 2.5 * (couple + brake)) / m,
-            holds ? std::sqrt(kt) * slip : 0.0,
+            std::sqrt(kt) * slip,
             turning};
   };
   const double contact =
@@ -124,9 +141,13 @@ inline StickResult integrate(const StickCase& c) {
       x[k] += dt / 6.0 * (k1[k] + 2.0 * k2[k] + 2.0 * k3[k] + k4[k]);
     }
     t += dt;
-    const double most = c.rolling_friction * std::abs(c.normal_force(x[0], x[1]));
+    // While it slides, the spring holds what the limit leaves beside the damper.
+    const Springs k = springs(t, x);
+    const double most = c.rolling_friction * std::abs(k.normal);
     x[5] = std::clamp(x[5], -most, most);
-  } while (x[0] > 0.0);
+    const double excess = k.force - std::clamp(k.force, -k.limit, k.limit);
+    if (k.kt > 0.0) x[4] -= excess / std::sqrt(k.kt);
+  } while (x[0] > c.tear);
   return {-x[1], x[2], x[3]};
 }
 

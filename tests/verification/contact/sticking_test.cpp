@@ -24,8 +24,6 @@ constexpr double k_young = 50e6;
 constexpr double k_poisson = 0.3;
 constexpr double k_speed = 0.5;
 constexpr double k_tangential = 0.1;
-/// No contact slides.
-constexpr double k_friction = 100.0;
 /// Where in a step the contact begins decides on a part of the error: so many starts are tried.
 constexpr int k_starts = 16;
 
@@ -62,11 +60,11 @@ Answer run(const StickCase& c, const Setting& s, double start) {
   DemRig rig;
   const int sand = rig.material(k_density, k_young, k_poisson);
   DemRig::Choice contact{"hertz_mindlin",
-                         {{"restitution", c.restitution}, {"friction", k_friction}}};
+                         {{"restitution", c.restitution}, {"friction", c.friction}}};
   if (c.normal == StickCase::Normal::hooke) {
     contact = {"hooke",
                {{"restitution", c.restitution},
-                {"friction", k_friction},
+                {"friction", c.friction},
                 {"normal_stiffness", c.normal_stiffness},
                 {"tangential_stiffness_ratio", c.stiffness_ratio}}};
   }
@@ -153,6 +151,27 @@ struct Named {
   double patch = 0.02, energy = 0.01, order = 1.7;
 };
 
+/// Johnson, Kendall, Roberts (1971): with L^3 = 2 pi gamma R^2 / E*, a = L b^2 and d = D L^2 / R,
+/// D = b^4 - b, attraction 4 pi gamma R b^3; the neck tears where dD/db = 0, at b^3 = 1/4.
+void make_jkr(StickCase& c, double surface_energy) {
+  const double r = c.radius;
+  const double length =
+      std::cbrt(2.0 * std::numbers::pi * surface_energy * r * r / c.effective_young);
+  const double unit = length * length / r;
+  const double smallest = std::cbrt(0.25);
+  c.tear = unit * (std::pow(smallest, 4) - smallest);
+  c.adhesion = [=](double d) {
+    double low = smallest;
+    double high = 10.0;
+    for (int n = 0; n < 60; ++n) {
+      const double b = 0.5 * (low + high);
+      (b * (b * b * b - 1.0) * unit < d ? low : high) = b;
+    }
+    return StickCase::Adhesion{unit * std::pow(low, 4),
+                               4.0 * std::numbers::pi * surface_energy * r * low * low * low};
+  };
+}
+
 std::vector<Named> cases() {
   std::vector<Named> all;
   const auto add = [&](const std::string& name, auto&& change,
@@ -161,11 +180,6 @@ std::vector<Named> cases() {
     change(c);
     return all.emplace_back(Named{name, c, setting});
   };
-  // On a plane the tangential and the rolling spring swing together 2.4 times as fast as sqrt(k_t /
-  // m), with 0.46 rad per default step. What the leapfrog turns too far of that is taken off for
-  // the tangential spring alone, which knows nothing of the rolling one; docs/theory/grains.md, eq.
-  // (17). Of the rest some 2 % of the patch speed are left, of second order.
-  const auto swings_fast = [](Named& n) { n.patch = 0.04, n.energy = 0.02, n.order = 1.6; };
   add("hertz_mindlin", [](StickCase&) {});
   // Half a swing per contact, at most as fast as the grain.
   add("hertz_mindlin, on a wall that swings", [](StickCase&) {},
@@ -175,30 +189,64 @@ std::vector<Named> cases() {
   add("hertz_mindlin, epsd2, sub-stepped on a wall that swings",
       [](StickCase& c) { c.rolling = StickCase::Rolling::epsd2; },
       {.amplitude = 4e-6, .frequency = 4000.0, .largest_diameter = 5e-3});
-  swings_fast(all.back());
   all.back().order = 0.0;
   // 2 pi gamma R*: some fifth of the largest force of the impact.
   add("hertz_mindlin, dmt",
-      [](StickCase& c) { c.attraction = 2.0 * std::numbers::pi * 0.2 * c.radius; },
+      [](StickCase& c) {
+        const double pull = 2.0 * std::numbers::pi * 0.2 * c.radius;
+        c.adhesion = [pull](double d) { return StickCase::Adhesion{d, pull}; };
+      },
       {.cohesion = {"dmt", {{"surface_energy", 0.2}}}});
+  // In touch a bridge attracts with 4 pi R* gamma; what it does beyond touch turns nothing.
+  add("hertz_mindlin, liquid_bridge",
+      [](StickCase& c) {
+        const double pull = 4.0 * std::numbers::pi * 0.07 * c.radius;
+        c.adhesion = [pull](double d) { return StickCase::Adhesion{d, pull}; };
+      },
+      {.cohesion = {"liquid_bridge", {{"surface_tension", 0.07}, {"relative_volume", 1e-3}}}});
+  add("hertz_mindlin, sjkr",
+      [](StickCase& c) {
+        const double slope = 1e5 * 2.0 * std::numbers::pi * c.radius;
+        c.adhesion = [slope](double d) { return StickCase::Adhesion{d, slope * std::max(d, 0.0)}; };
+      },
+      {.cohesion = {"sjkr", {{"energy_density", 1e5}}}});
+  // JKR's contact begins and ends with a jump of its radius.
+  Named& jkr = add("hertz_mindlin, jkr", [](StickCase& c) { make_jkr(c, 0.2); },
+                   {.cohesion = {"jkr", {{"surface_energy", 0.2}}}});
+  jkr.patch = 0.05, jkr.energy = 0.03, jkr.order = 0.9;
   // A damped contact begins to pull before it ends; then friction has no limit left to hold by.
-  for (const double restitution : {0.9, 0.8}) {
+  for (const double restitution : {0.9, 0.8, 0.5, 0.3}) {
     add("hertz_mindlin, restitution " + std::to_string(restitution).substr(0, 3),
         [&](StickCase& c) { c.restitution = restitution; });
+    // The tangential damper is at its bound, 0.05 m* / dt, for most of the contact.
+    if (restitution < 0.6) all.back().patch = 0.1;
   }
   // The slower the grain rolls, the later does the limit cut its couple off.
   for (const double tangential : {0.1, 0.05, 0.02}) {
-    swings_fast(
-        add("hertz_mindlin, epsd2, along " + std::to_string(tangential).substr(0, 4) + " m/s",
-            [&](StickCase& c) {
-              c.rolling = StickCase::Rolling::epsd2;
-              c.tangential = tangential;
-            }));
+    add("hertz_mindlin, epsd2, along " + std::to_string(tangential).substr(0, 4) + " m/s",
+        [&](StickCase& c) {
+          c.rolling = StickCase::Rolling::epsd2;
+          c.tangential = tangential;
+        });
   }
   // From step to step the limit cuts off now more, now less.
   all.back().order = 1.0;
-  swings_fast(
-      add("hertz_mindlin, epsd", [](StickCase& c) { c.rolling = StickCase::Rolling::epsd; }));
+  add("hertz_mindlin, epsd", [](StickCase& c) { c.rolling = StickCase::Rolling::epsd; });
+  for (const auto rolling : {StickCase::Rolling::epsd2, StickCase::Rolling::epsd}) {
+    for (const double restitution : {0.9, 0.6}) {
+      const std::string name = rolling == StickCase::Rolling::epsd ? "epsd" : "epsd2";
+      add("hertz_mindlin, " + name + ", mu_r 0.3, restitution " +
+              std::to_string(restitution).substr(0, 3),
+          [&](StickCase& c) {
+            c.rolling = rolling;
+            c.rolling_friction = 0.3;
+            c.restitution = restitution;
+          });
+      // The couple falls to zero, and begins anew, within a step.
+      if (restitution < 0.9) all.back().patch = 0.06, all.back().order = 1.3;
+      if (restitution > 0.8) all.back().patch = 0.025;
+    }
+  }
   add("hooke", [](StickCase& c) { c.normal = StickCase::Normal::hooke; });
   add("hooke, damped", [](StickCase& c) {
     c.normal = StickCase::Normal::hooke;
@@ -230,11 +278,11 @@ TEST_CASE("no start within a step shall make an impact that sticks end otherwise
   constexpr int k_many = 200;
   for (const Named& n : cases()) {
     if (n.s.largest_diameter > 0.0 || n.s.amplitude > 0.0) continue;
-    if (n.c.normal == StickCase::Normal::hooke) continue;
     CAPTURE(n.name);
     const Errors e = errors(n.c, n.s, k_many);
     MESSAGE(n.name << ": worst of " << k_many << " starts " << 100.0 * e.patch << " %, mean "
-                   << 100.0 * e.mean << " % of the patch speed");
+                   << 100.0 * e.mean << " % of the patch speed, energy " << 100.0 * e.energy
+                   << " %");
     CHECK(e.patch < 1.1 * n.patch);
     CHECK(std::abs(e.mean) < 0.75 * n.patch);
   }
@@ -250,8 +298,9 @@ TEST_CASE("impacts that stick shall converge to second order in the step") {
     s.steps_per_contact = 60.0;
     const double fine = errors(n.c, s).root_mean;
     const double order = 0.5 * std::log2(coarse / fine);
-    MESSAGE(n.name << ": order " << order);
-    CHECK(order > n.order);
+    MESSAGE(n.name << ": order " << order << ", fine " << 100.0 * fine << " %");
+    // What is left within a thousandth has no order to speak of: its parts are of either sign.
+    CHECK((order > n.order || fine < 1e-3));
   }
 }
 
@@ -262,7 +311,7 @@ TEST_CASE("a grain that rocks on its springs shall neither be braked nor driven 
   constexpr double k_kept = 0.01;
   DemRig rig;
   const int sand = rig.material(k_density, k_young, k_poisson);
-  rig.law(sand, sand, 1.0, k_friction, k_friction);
+  rig.law(sand, sand, 1.0, base().friction, base().friction);
   rig.diameters = {2.0 * k_radius};
   rig.setup.time.expected_speed = k_speed;
   rig.setup.gravity = {-9.81, 0, 0};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drawing/drawing.hpp"
 
+#include "base/text.hpp"
 #include "drawing/drawing_body.hpp"
 #include "drawing/drawing_view.hpp"
 
@@ -288,7 +289,7 @@ class Drawing {
          << px(y - 4) << "v8M" << px(x) << ' ' << px(y) << "h" << px(view_.scale() * length)
          << "m0 -4v8\"/>\n";
     std::ostringstream text;
-    text << 1e3 * length << " mm ("
+    text << base::length_text(length) << " ("
          << "xyz"[view_.across()] << " to the right, "
          << "xyz"[view_.up()] << (view_.is_flipped() ? " down)" : " up)");
     words(x, y + 20, "black", text.str());
@@ -296,8 +297,7 @@ class Drawing {
   void draw_head() {
     const Vec3 size = setup_.domain.max - setup_.domain.min;
     std::ostringstream text;
-    text << 1e3 * size.x << " x " << 1e3 * size.y << " x " << 1e3 * size.z << " mm, "
-         << setup_.time.end << " s";
+    text << base::extent_text({size.x, size.y, size.z}) << ", " << setup_.time.end << " s";
     words(SideView::k_margin, 34.0, "black", setup_.name, " font-size=\"18\" font-weight=\"bold\"");
     words(SideView::k_margin, 56.0, "#555", text.str());
     if (setup_.fluid) {

@@ -64,6 +64,16 @@ struct ContactBatch {
   /// History columns of the stage being run, as many as it declared; zero when a contact begins.
   /// Vectors kept here are in the domain's frame; the law turns them with the normal.
   double* const* history = nullptr;
+
+  // The two sides one by one, written by the core. A wall has the radius of the grain and no
+  // inverse mass.
+  const double* radius_i = nullptr;        ///< [m]
+  const double* radius_j = nullptr;        ///< [m]
+  const double* inverse_mass_i = nullptr;  ///< [1/kg] as the contact feels it
+  const double* inverse_mass_j = nullptr;  ///< [1/kg]
+  /// [N m] For the contact stage: the couple on i that the rolling law's spring held at the last
+  /// look; null where there is none (RollingLaw::couple_column()).
+  VectorColumns couple;
 };
 
 /// Contact stage: normal and tangential force.
@@ -93,7 +103,8 @@ class ContactLaw : public Model {
   [[nodiscard]] virtual bool has_hertz_force() const { return false; }
 };
 
-/// Rolling stage: couple against relative rotation, after the contact stage of the same batch.
+/// Rolling stage: couple against relative rotation, after the contact stage of the same batch,
+/// whose outputs it may read.
 class RollingLaw : public Model {
  public:
   static constexpr const char* k_kind = "rolling";
@@ -101,6 +112,10 @@ class RollingLaw : public Model {
   virtual void prepare(const MaterialProperties& i, const MaterialProperties& j) = 0;
   [[nodiscard]] virtual int history_size() const = 0;
   virtual void evaluate(const ContactBatch& batch) const = 0;
+
+  /// The first of the three history columns that hold the couple of the law's spring on i [N m];
+  /// below 0 without a spring. The contact law of the next step is shown them.
+  [[nodiscard]] virtual int couple_column() const { return -1; }
 };
 
 }  // namespace dust::sdk

@@ -49,6 +49,7 @@ inline constexpr Dimension mass_flow = mass / time;
 inline constexpr Dimension volume_flow = volume / time;
 inline constexpr Dimension energy = force * length;
 inline constexpr Dimension surface_energy = energy / area;
+inline constexpr Dimension specific_energy = energy / mass;
 inline constexpr Dimension stiffness = force / length;
 }  // namespace dimension
 

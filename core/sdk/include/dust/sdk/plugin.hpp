@@ -9,6 +9,7 @@
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/fluid_force.hpp"
 #include "dust/sdk/kernel.hpp"
+#include "dust/sdk/liberation_law.hpp"
 #include "dust/sdk/motion.hpp"
 #include "dust/sdk/sensor.hpp"
 #include "dust/sdk/turbulence_model.hpp"
@@ -19,14 +20,14 @@
 namespace dust::sdk {
 
 /// Raised with every change of a struct or virtual function in this folder.
-inline constexpr std::uint32_t k_interface_version = 8;
+inline constexpr std::uint32_t k_interface_version = 9;
 
 /// What both sides of the plugin boundary must agree on, compared before any virtual call.
 struct Handshake {
   std::uint32_t interface_version;
   std::uint32_t compiler_major;
-  std::uint32_t size_of[11];
-  std::uint32_t alignment_of[11];
+  std::uint32_t size_of[13];
+  std::uint32_t alignment_of[13];
   std::uint32_t standard_library_abi;
 };
 
@@ -36,10 +37,12 @@ constexpr Handshake make_handshake() {
           __GNUC__,
           {sizeof(ContactBatch), sizeof(DragBatch), sizeof(VoidageBatch), sizeof(SideBatch),
            sizeof(SurfaceBatch), sizeof(InsertionRequest), sizeof(WorldView), sizeof(Parameter),
-           sizeof(CohesionBatch), sizeof(FluidForceBatch), sizeof(TurbulenceBatch)},
+           sizeof(CohesionBatch), sizeof(FluidForceBatch), sizeof(TurbulenceBatch),
+           sizeof(GrainImpacts), sizeof(GrainWind)},
           {alignof(ContactBatch), alignof(DragBatch), alignof(VoidageBatch), alignof(SideBatch),
            alignof(SurfaceBatch), alignof(InsertionRequest), alignof(WorldView), alignof(Parameter),
-           alignof(CohesionBatch), alignof(FluidForceBatch), alignof(TurbulenceBatch)},
+           alignof(CohesionBatch), alignof(FluidForceBatch), alignof(TurbulenceBatch),
+           alignof(GrainImpacts), alignof(GrainWind)},
 #ifdef _GLIBCXX_USE_CXX11_ABI
           _GLIBCXX_USE_CXX11_ABI
 #else

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "check_summary.hpp"
+#include "check/check_summary.hpp"
 
 #include "base/text.hpp"
+#include "check/check_bodies.hpp"
 #include "coupling/self_disturbance/disturbance_formulas.hpp"
 
 #include <nlohmann/json.hpp>
@@ -42,8 +43,10 @@ std::string engineering(double value, const char* unit) {
   return digits(value) + " " + unit;
 }
 
-std::string millimetres(sdk::Vec3 v) {
-  return digits(1e3 * v.x, 5) + " x " + digits(1e3 * v.y, 5) + " x " + digits(1e3 * v.z, 5) + " mm";
+/// [m] Longest edge of the domain: what units suit it.
+double extent_of(const Setup& setup) {
+  const sdk::Vec3 edges = setup.domain.max - setup.domain.min;
+  return std::max({edges.x, edges.y, edges.z});
 }
 
 /// "12,345"
@@ -61,7 +64,8 @@ const std::string& material_name(const Setup& setup, int material) {
 
 void print_domain(std::ostream& out, const Setup& setup) {
   const auto& domain = setup.domain;
-  out << "  domain     " << millimetres(domain.max - domain.min) << ", gravity "
+  const sdk::Vec3 edges = domain.max - domain.min;
+  out << "  domain     " << base::extent_text({edges.x, edges.y, edges.z}) << ", gravity "
       << digits(norm(setup.gravity)) << " m/s2\n";
   for (std::size_t n = 0; n < 6; ++n) {
     const auto& side = domain.sides[n];
@@ -88,7 +92,7 @@ std::string moved_by(const scenario::BodySpec& body) {
     text += (text.empty() ? ", moved by " : ", ") + motion.name;
   if (text.empty()) text = ", at rest";
   if (body.removal) text += ", taken away later";
-  if (body.suction) text += ", sucks " + digits(6e4 * body.suction->flow, 3) + " l/min";
+  if (body.suction) text += ", sucks " + base::volume_flow_text(body.suction->flow);
   return text;
 }
 
@@ -103,7 +107,7 @@ void print_things(std::ostream& out, const Setup& setup, const Derived& derived)
   for (std::size_t n = 0; n < setup.emitters.size(); ++n) {
     const auto& e = derived.emissions[n];
     out << head << e.emitter << ": " << material_name(setup, setup.emitters[n].material);
-    if (e.mass_flow > 0.0) out << ", " << digits(1e3 * e.mass_flow) << " g/s";
+    if (e.mass_flow > 0.0) out << ", " << base::mass_flow_text(e.mass_flow, extent_of(setup));
     if (e.at_once > 0.0) {
       out << ", " << counted(e.at_once) << " grains at once";
     } else {
@@ -312,6 +316,7 @@ void print_cost(std::ostream& out, const Derived& derived,
 }  // namespace
 
 std::string check_json(const Setup& setup, const Derived& derived,
+                       const preflight::BodySurvey& survey,
                        const preflight::LearntCosts::Factor& learnt) {
   nlohmann::ordered_json j;
   j["name"] = setup.name;
@@ -338,6 +343,7 @@ std::string check_json(const Setup& setup, const Derived& derived,
                                {"markers", r.markers}});
     }
   }
+  add_bodies_json(survey, j);
   j["width_over_diameter"] = derived.width_over_diameter;
   j["courant_number"] = derived.courant_number;
   j["grains"] = derived.grains_in_domain;
@@ -349,6 +355,7 @@ std::string check_json(const Setup& setup, const Derived& derived,
 }
 
 std::string check_summary(const Setup& setup, const Derived& derived,
+                          const preflight::BodySurvey& survey,
                           const preflight::LearntCosts::Factor& learnt) {
   std::ostringstream out;
   const auto& time = setup.time;
@@ -359,6 +366,7 @@ std::string check_summary(const Setup& setup, const Derived& derived,
       << engineering(time.output_every, "s") << '\n';
   print_domain(out, setup);
   print_things(out, setup, derived);
+  out << bodies_text(survey);
   print_fluid(out, setup, derived);
   add_resolved(out, derived);
   print_steps(out, setup, derived);

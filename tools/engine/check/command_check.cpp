@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/text.hpp"
-#include "check_summary.hpp"
+#include "check/check_summary.hpp"
 #include "commands.hpp"
 #include "drawing/drawing.hpp"
+#include "preflight/body_survey.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/learnt_costs.hpp"
 #include "preflight/reader.hpp"
@@ -42,9 +43,11 @@ void add_check(CLI::App& app, int&) {
     for (const std::string& warning : branching.warning_lines()) std::cerr << warning << '\n';
     branching.throw_errors();
     auto derived = preflight::derive(result.setup, *registry);
+    const auto survey = preflight::survey_bodies(result.setup, *registry);
     const auto learnt = preflight::LearntCosts().factor_for(result.setup.name);
     derived.core_seconds *= learnt.value;
-    std::cout << (arguments->as_json ? check_json : check_summary)(result.setup, derived, learnt);
+    std::cout << (arguments->as_json ? check_json : check_summary)(result.setup, derived, survey,
+                                                                   learnt);
     if (start && !arguments->as_json) {
       std::cout << "  start      from " << start->state << " at "
                 << base::digits_text(start->time, 6) << " s with " << start->particles << " grains"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "preflight/body_survey.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/learnt_costs.hpp"
 #include "setup/setup.hpp"
@@ -12,10 +13,12 @@ namespace dust::engine {
 /// What a scenario will do, for a person to read before it is run. `learnt` has been applied to the
 /// times of `derived`.
 std::string check_summary(const scenario::Setup& setup, const preflight::Derived& derived,
+                          const preflight::BodySurvey& survey,
                           const preflight::LearntCosts::Factor& learnt);
 
 /// The numbers of it, for programs; times on one core.
 std::string check_json(const scenario::Setup& setup, const preflight::Derived& derived,
+                       const preflight::BodySurvey& survey,
                        const preflight::LearntCosts::Factor& learnt);
 
 }  // namespace dust::engine

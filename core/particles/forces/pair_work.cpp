@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "particles/forces/pair_work.hpp"
+
+#include "contact/nearest_image.hpp"
+
+#include <algorithm>
+
+namespace dust::particles {
+namespace {
+
+using contact::BatchColumns;
+using B = BatchColumns;
+using sdk::Vec3;
+
+Vec3 vector_of(BatchColumns& columns, int name, std::size_t q) {
+  return {columns.column(name)[q], columns.column(name + 1)[q], columns.column(name + 2)[q]};
+}
+
+/// Of a pair whose centres are `separation` apart and have moved by `displacement` relative to each
+/// other, each having turned by its angle.
+WorkingContact moved_pair(Vec3 separation, Vec3 displacement, Vec3 angle_i, Vec3 angle_j,
+                          double lever_i, double lever_j) {
+  WorkingContact c{};
+  const double distance = norm(separation);
+  c.normal = separation / distance;
+  c.approach = norm(separation - displacement) - distance;
+  c.slip = displacement - cross(lever_i * angle_i + lever_j * angle_j, c.normal);
+  c.turn = angle_i - angle_j;
+  return c;
+}
+
+}  // namespace
+
+void record_work(const ContactScene& scene, const PairLaws& law, const contact::PairView& pairs,
+                 const std::int32_t* contacts, std::size_t first, std::size_t count,
+                 BatchColumns& columns, EnergySums& sums) {
+  const ContactMotion& motion = thread_motion();
+  double* const* history = columns.history() + scene.laws.account_column();
+  const std::ptrdiff_t stride = columns.history()[1] - columns.history()[0];
+  for (std::size_t q = 0; q < count; ++q) {
+    const std::size_t entry =
+        contacts == nullptr ? first + q : static_cast<std::size_t>(contacts[q]);
+    WorkingContact c = moved_pair(vector_of(columns, B::separation_x, q), motion.displacement(q),
+                                  motion.angle_i(q), motion.angle_j(q),
+                                  columns.column(B::lever_i)[q], columns.column(B::lever_j)[q]);
+    c.weight = std::min(scene.particles.weight(static_cast<std::size_t>(pairs.a[entry])),
+                        scene.particles.weight(static_cast<std::size_t>(pairs.b[entry])));
+    if (pairs.is_touching[entry] != 0) {
+      c.force = vector_of(columns, B::force_x, q);
+      if (law.rolling) c.couple = vector_of(columns, B::torque_x, q);
+      const ElasticEnergy elastic = elastic_energy(law, columns, q);
+      sums.elastic_normal += c.weight * elastic.normal;
+      sums.elastic_friction += c.weight * elastic.friction;
+    }
+    add_work(c, history[0] + q, static_cast<std::size_t>(stride), sums);
+  }
+}
+
+void record_separated(const ContactScene& scene, const LawRange& range,
+                      const contact::PairView& pairs, EnergySums& sums) {
+  const ParticleStore& particles = scene.particles;
+  const double reach = scene.laws[static_cast<std::size_t>(range.law)].range;
+  for (auto p = static_cast<std::size_t>(range.persistent_end);
+       p < static_cast<std::size_t>(range.end); ++p) {
+    if (pairs.is_touching[p] == 0) continue;
+    const auto i = static_cast<std::size_t>(pairs.a[p]);
+    const auto j = static_cast<std::size_t>(pairs.b[p]);
+    const Vec3 separation =
+        contact::nearest_image(scene.images, particles.position(j), particles.position(i));
+    const double radii = particles.radius(i) + particles.radius(j) + reach;
+    if (dot(separation, separation) < radii * radii) continue;
+    const auto displaced = [](const double* half, double since) {
+      return (2.0 * since) * Vec3{half[0], half[1], half[2]};
+    };
+    const double since_i = particles.time_since_kick(i);
+    const double since_j = particles.time_since_kick(j);
+    WorkingContact c = moved_pair(separation,
+                                  displaced(particles.half_velocity(i), since_i) -
+                                      displaced(particles.half_velocity(j), since_j),
+                                  displaced(particles.half_rotation(i), since_i),
+                                  displaced(particles.half_rotation(j), since_j),
+                                  particles.radius(i), particles.radius(j));
+    c.weight = std::min(particles.weight(i), particles.weight(j));
+    add_work(c, pairs.history + p * pairs.history_stride + scene.laws.account_column(), 1, sums);
+  }
+}
+
+}  // namespace dust::particles

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/dust/liberation_stage.hpp"
+
+#include "base/text.hpp"
+#include "dust/sdk/error.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+namespace dust::run {
+namespace {
+
+/// Grains per call of a law, and from one class's column to the next within a call.
+constexpr std::size_t k_rows_per_call = 256;
+
+std::vector<std::string> causes_of(const std::vector<std::string>& walls, bool has_wind) {
+  std::vector<std::string> causes{"grains"};
+  causes.insert(causes.end(), walls.begin(), walls.end());
+  if (has_wind) causes.emplace_back("wind");
+  return causes;
+}
+
+std::size_t padded(std::size_t rows) {
+  return (rows + k_rows_per_call - 1) / k_rows_per_call * k_rows_per_call;
+}
+
+}  // namespace
+
+LiberationStage::LiberationStage(const scenario::Setup& setup,
+                                 const scenario::DustSetup& dust_setup,
+                                 std::unique_ptr<sdk::LiberationLaw> law, DustStage& dust,
+                                 particles::Dem& particles)
+    : particles_(particles),
+      dust_(dust),
+      law_(std::move(law)),
+      law_name_(dust_setup.liberation->name),
+      classes_(dust_setup.field->diameters.size()),
+      loads_(dust_setup.loads) {
+  for (scenario::DustLoadSpec& load : loads_) load.share.resize(classes_, 0.0);
+  law_->prepare({.classes = classes_,
+                 .diameter = dust_setup.field->diameters.data(),
+                 .density = dust_setup.field->density,
+                 .gas_density = setup.fluid->density,
+                 .gas_viscosity = setup.fluid->viscosity,
+                 .gravity = norm(setup.gravity)});
+  causes_ = causes_of(particles_.wall_names(), law_->needs_wind());
+  set_free_.resize(causes_.size() * classes_);
+}
+
+/// Rows that contacts have done something to, and what.
+void LiberationStage::find_impacts() {
+  const particles::ContactWork& work = particles_.contact_work();
+  const std::size_t count = particles_.rows().count;
+  rows_.clear();
+  for (std::size_t row = 0; row < count; ++row) {
+    if (work.sum(row).sum() > 0.0 || work.acceleration(row) > 0.0) {
+      rows_.push_back(static_cast<std::int32_t>(row));
+    }
+  }
+  load_columns();
+  auto& c = columns_;
+  for (Column* column : {&c.normal, &c.tangential, &c.acceleration}) {
+    column->resize(padded(rows_.size()));
+  }
+  for (std::size_t q = 0; q < rows_.size(); ++q) {
+    const auto row = static_cast<std::size_t>(rows_[q]);
+    const particles::ContactWork::Energy energy = work.sum(row);
+    c.normal[q] = energy.normal;
+    c.tangential[q] = energy.tangential;
+    c.acceleration[q] = work.acceleration(row);
+  }
+}
+
+/// All rows, and the wind at them: what their drag relaxes to, less their own velocity.
+void LiberationStage::find_wind() {
+  const particles::GrainRows grains = particles_.rows();
+  rows_.resize(grains.count);
+  std::iota(rows_.begin(), rows_.end(), 0);
+  load_columns();
+  auto& c = columns_;
+  for (Column* column : {&c.slip, &c.shear, &c.void_fraction}) {
+    column->resize(padded(rows_.size()));
+  }
+  for (std::size_t row = 0; row < grains.count; ++row) {
+    const double* to = grains.drag_relaxation + 4 * row;
+    const double* v = grains.velocity_of(row);
+    const double* x = grains.position + 4 * row;
+    const double slip =
+        to[3] > 0.0 ? norm(sdk::Vec3{to[0] - v[0], to[1] - v[1], to[2] - v[2]}) : 0.0;
+    c.slip[row] = slip;
+    c.shear[row] =
+        c.mass[row] * to[3] * slip / (std::numbers::pi * c.diameter[row] * c.diameter[row]);
+    c.void_fraction[row] = dust_.void_fraction_at({x[0], x[1], x[2]});
+  }
+}
+
+void LiberationStage::load_columns() {
+  const particles::GrainRows grains = particles_.rows();
+  const std::size_t size = padded(rows_.size());
+  auto& c = columns_;
+  for (Column* column : {&c.diameter, &c.mass, &c.moisture}) column->resize(size);
+  for (Column* column : {&c.load, &c.fresh}) column->resize(classes_ * size);
+  c.released.assign(classes_ * size, 0.0);
+  for (std::size_t q = 0; q < rows_.size(); ++q) {
+    const auto row = static_cast<std::size_t>(rows_[q]);
+    const scenario::DustLoadSpec& fresh = loads_[static_cast<std::size_t>(grains.material[row])];
+    const auto load = particles_.dust_load(row);
+    c.diameter[q] = 2.0 * grains.position[4 * row + 3];
+    c.mass[q] = 1.0 / grains.velocity_of(row)[3];
+    c.moisture[q] = fresh.moisture;
+    for (std::size_t n = 0; n < classes_; ++n) {
+      c.load[place(q, n)] = load[n];
+      c.fresh[place(q, n)] = fresh.share[n] * c.mass[q];
+    }
+  }
+}
+
+/// Of a class of a row: each call has its own columns.
+std::size_t LiberationStage::place(std::size_t q, std::size_t n) const {
+  const std::size_t call = q / k_rows_per_call * k_rows_per_call;
+  return classes_ * call + n * k_rows_per_call + (q - call);
+}
+
+sdk::DustyGrains LiberationStage::grains(std::size_t first, std::size_t count, double step) {
+  auto& c = columns_;
+  return {.count = count,
+          .classes = classes_,
+          .stride = k_rows_per_call,
+          .time_step = step,
+          .diameter = c.diameter.data() + first,
+          .mass = c.mass.data() + first,
+          .moisture = c.moisture.data() + first,
+          .load = c.load.data() + classes_ * first,
+          .fresh = c.fresh.data() + classes_ * first,
+          .released = c.released.data() + classes_ * first};
+}
+
+void LiberationStage::ask_law(
+    double step, const std::function<void(std::size_t, const sdk::DustyGrains&)>& ask) {
+  const std::size_t calls = padded(rows_.size()) / k_rows_per_call;
+  oneapi::tbb::parallel_for(std::size_t{0}, calls, [&](std::size_t call) {
+    const std::size_t first = call * k_rows_per_call;
+    ask(first, grains(first, std::min(k_rows_per_call, rows_.size() - first), step));
+  });
+}
+
+/// In the order of rows: sums of many small numbers.
+void LiberationStage::give_to_air(bool is_by_wind) {
+  const particles::GrainRows grains = particles_.rows();
+  for (std::size_t q = 0; q < rows_.size(); ++q) {
+    const auto row = static_cast<std::size_t>(rows_[q]);
+    const double* x = grains.position + 4 * row;
+    const double weight = grains.weight[row];
+    std::int32_t cell = -1;
+    for (std::size_t n = 0; n < classes_; ++n) {
+      const double mass = columns_.released[place(q, n)];
+      if (mass == 0.0) continue;
+      const double load = columns_.load[place(q, n)];
+      if (!(mass > 0.0 && mass <= load)) fail(row, mass, load);
+      if (cell < 0) cell = dust_.cell_with_gas({x[0], x[1], x[2]});
+      if (cell < 0) {
+        kept_back_ += weight * mass;
+        continue;
+      }
+      particles_.set_dust_free(row, n, mass);
+      dust_.release(n, cell, weight * mass);
+      if (is_by_wind) {
+        set_free_[(causes_.size() - 1) * classes_ + n] += weight * mass;
+      } else {
+        share_by_cause(row, n, weight * mass);
+      }
+    }
+  }
+}
+
+/// Shared among the causes as they have dissipated energy.
+void LiberationStage::share_by_cause(std::size_t row, std::size_t n, double mass) {
+  const particles::ContactWork& work = particles_.contact_work();
+  const double whole = work.sum(row).sum();
+  if (!(whole > 0.0)) {
+    set_free_[n] += mass;
+    return;
+  }
+  set_free_[n] += mass * (work.with_particles(row).sum() / whole);
+  for (std::size_t wall = 0; wall < work.walls(); ++wall) {
+    const double share = work.with_wall(row, wall).sum() / whole;
+    if (share > 0.0) set_free_[(1 + wall) * classes_ + n] += mass * share;
+  }
+}
+
+void LiberationStage::fail(std::size_t row, double released, double load) const {
+  throw sdk::ModelError("liberation law '" + law_name_ + "': grain " +
+                        std::to_string(particles_.rows().id[row]) + " carries " +
+                        base::digits_text(load, 6) + " kg of dust and is to lose " +
+                        base::digits_text(released, 6) +
+                        " kg: what comes off lies between 0 and the load; mend the law");
+}
+
+void LiberationStage::advance(double step) {
+  find_impacts();
+  ask_law(step, [&](std::size_t first, const sdk::DustyGrains& grains) {
+    law_->in_contacts({.grains = grains,
+                       .normal_energy = columns_.normal.data() + first,
+                       .tangential_energy = columns_.tangential.data() + first,
+                       .acceleration = columns_.acceleration.data() + first});
+  });
+  give_to_air(false);
+  particles_.clear_contact_work();
+  if (!law_->needs_wind()) return;
+  find_wind();
+  ask_law(step, [&](std::size_t first, const sdk::DustyGrains& grains) {
+    law_->in_wind({.grains = grains,
+                   .slip = columns_.slip.data() + first,
+                   .shear = columns_.shear.data() + first,
+                   .void_fraction = columns_.void_fraction.data() + first});
+  });
+  give_to_air(true);
+}
+
+void LiberationStage::transfer_from(sdk::ArchiveReader& archive,
+                                    const std::vector<std::string>& walls) {
+  const auto numbers = archive.numbers("set_free");
+  std::vector<std::string> causes = causes_of(walls, true);
+  kept_back_ = {numbers.at(0), numbers.at(1)};
+  for (std::size_t n = 0; 2 * n + 3 < numbers.size(); ++n) {
+    const auto cause = std::find(causes_.begin(), causes_.end(), causes.at(n / classes_));
+    // What is gone here, or cannot be a cause, counts with the grains: nothing gets lost.
+    const auto at = cause == causes_.end() ? 0 : static_cast<std::size_t>(cause - causes_.begin());
+    set_free_[at * classes_ + n % classes_] += numbers[2 * n + 2];
+    set_free_[at * classes_ + n % classes_] += numbers[2 * n + 3];
+  }
+}
+
+void LiberationStage::add_parts(SaveParts& parts) const {
+  parts.emplace_back("liberation", [this](sdk::ArchiveWriter& a) {
+    std::vector<double> numbers{kept_back_.sum(), kept_back_.lost()};
+    for (const base::ExactSum& s : set_free_) numbers.insert(numbers.end(), {s.sum(), s.lost()});
+    a.numbers("set_free", numbers);
+  });
+}
+
+void LiberationStage::add_parts(LoadParts& parts) {
+  parts.emplace_back("liberation", [this](sdk::ArchiveReader& a) {
+    const auto numbers = a.numbers("set_free");
+    kept_back_ = {numbers.at(0), numbers.at(1)};
+    for (std::size_t n = 0; n < set_free_.size(); ++n) {
+      set_free_[n] = {numbers.at(2 + 2 * n), numbers.at(3 + 2 * n)};
+    }
+  });
+}
+
+}  // namespace dust::run

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bodies/survey/gap.hpp"
+#include "bodies/mesh/mesh.hpp"
+#include "unit/bodies/meshes.hpp"
+#include "unit/bodies/shapes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace {
+
+using dust::bodies::Body;
+using dust::bodies::Gap;
+using dust::bodies::GapSearch;
+using dust::bodies::Mesh;
+using dust::sdk::Value;
+using dust::sdk::Vec3;
+using namespace dust::test;
+
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+constexpr GapSearch k_search{{-1, -1, -1}, {1, 1, 1}, 0.06, 60'000};  // limit 60 mm
+
+Body body_of(const std::string& shape, const std::map<std::string, Value>& values) {
+  Body body;
+  body.shape = make_shape(shape, values);
+  return body;
+}
+Body box(Vec3 min, Vec3 max) { return body_of("box", {{"min", min}, {"max", max}}); }
+Body cylinder(Vec3 base, Vec3 axis, double length, double radius) {
+  return body_of("cylinder",
+                 {{"base", base}, {"axis", axis}, {"length", length}, {"radius", radius}});
+}
+
+/// The gap is the same whichever body is looked at first.
+Gap both_ways(const Body& a, const Body& b, const GapSearch& search = k_search) {
+  const Gap there = smallest_gap(a, b, search);
+  const Gap back = smallest_gap(b, a, search);
+  if (there.width == k_infinity) {
+    CHECK(back.width == k_infinity);
+  } else {
+    CHECK(there.width == doctest::Approx(back.width).epsilon(1e-6));
+  }
+  return there;
+}
+
+}  // namespace
+
+TEST_CASE("the gap between bodies shall be the distance of their closest points") {
+  SUBCASE("level faces, one small before one large") {
+    const Body floor = box({-0.9, -0.9, -0.9}, {0.9, 0.9, -0.5});
+    const Body foot = box({0.31, 0.2, -0.492}, {0.35, 0.25, 0.0});
+    const Gap gap = both_ways(floor, foot);
+    CHECK(gap.width == doctest::Approx(0.008).epsilon(1e-9));
+    CHECK(gap.is_whole);
+    CHECK(gap.place.x == doctest::Approx(0.33).epsilon(0.07));
+  }
+  SUBCASE("an edge over a face, askew") {
+    Body wedge = box({-0.2, -0.01, 0.0}, {0.2, 0.01, 0.2});
+    wedge.frame_axis = {0, 1, 0};
+    wedge.frame_angle = 0.3;  // its corner edge goes down to -0.2 sin(0.3)
+    const double lowest = -0.2 * std::sin(0.3);
+    const Body floor = box({-0.9, -0.9, -0.5}, {0.9, 0.9, lowest - 0.0125});
+    CHECK(both_ways(wedge, floor).width == doctest::Approx(0.0125).epsilon(1e-6));
+  }
+  SUBCASE("two cylinders across each other") {
+    const Body one = cylinder({-0.5, 0, 0}, {1, 0, 0}, 1.0, 0.1);
+    const Body other = cylinder({0, -0.5, 0.25}, {0, 1, 0}, 1.0, 0.13);
+    const Gap gap = both_ways(one, other);
+    CHECK(gap.width == doctest::Approx(0.02).epsilon(1e-6));
+    CHECK(std::hypot(gap.place.x, gap.place.y) < 2e-3);  // flat there: the place is loose
+  }
+}
+
+TEST_CASE("bodies that touch, overlap or are far apart shall have no gap") {
+  const Body floor = box({-0.9, -0.9, -0.9}, {0.9, 0.9, -0.5});
+  CHECK(both_ways(floor, box({0, 0, -0.5}, {0.1, 0.1, 0.0})).width == 0.0);
+  CHECK(both_ways(floor, box({0, 0, -0.6}, {0.1, 0.1, 0.0})).width == 0.0);
+  CHECK(both_ways(floor, box({0, 0, -0.43}, {0.1, 0.1, 0.0})).width == k_infinity);
+}
+
+TEST_CASE("gaps outside the box shall not count") {
+  const Body floor = box({-3, -3, -0.9}, {3, 3, -0.5});
+  const Body near_outside = box({1.5, 0, -0.49}, {1.6, 0.1, 0});
+  CHECK(both_ways(floor, near_outside).width == k_infinity);
+}
+
+TEST_CASE("a sheet shall be nearer by half its thickness") {
+  const TemporaryFolder folder;
+  Corners sheet;
+  add_quad(sheet, {-0.3, -0.3, 0}, {0.3, -0.3, 0}, {0.3, 0.3, 0}, {-0.3, 0.3, 0});
+  const std::string file = write_binary_stl(folder.path / "sheet.stl", sheet);
+  const Body body = body_of(
+      "mesh",
+      {{"file", file}, {"unit", 1.0}, {"open", std::string("allowed")}, {"thickness", 0.012}});
+  const Body foot = box({0.05, 0.05, 0.03}, {0.1, 0.1, 0.5});
+  CHECK(both_ways(body, foot).width == doctest::Approx(0.024).epsilon(1e-6));
+  CHECK(body.shape->thinnest_wall() == doctest::Approx(0.012));
+}
+
+TEST_CASE("a search whose work ends shall say so") {
+  const Body floor = box({-0.9, -0.9, -0.9}, {0.9, 0.9, -0.5});
+  const Body roof = box({-0.9, -0.9, -0.48}, {0.9, 0.9, 0.0});
+  GapSearch search = k_search;
+  search.work = 200;
+  const Gap gap = smallest_gap(floor, roof, search);
+  CHECK_FALSE(gap.is_whole);
+  CHECK(gap.width == doctest::Approx(0.02));
+  CHECK(gap.work < 200 + 2 * 16 * 40 + 10);  // and the projections from the best places
+}
+
+TEST_CASE("the thinnest wall of a mesh shall be measured straight through") {
+  const auto wall = [](const Corners& corners) {
+    return Mesh(corners, Mesh::Sides::one).thinnest_wall();
+  };
+  CHECK(wall(box_mesh({0, 0, 0}, {0.1, 0.05, 0.003}, 3)) == doctest::Approx(0.003).epsilon(1e-4));
+  // Floor 1 high, wall 1 wide.
+  CHECK(wall(corner_mesh()) == doctest::Approx(1.0).epsilon(1e-4));
+  // A ring of 12 facets across: twice the distance of the facets from the middle.
+  const double flat = 2.0 * 0.2 * std::cos(std::numbers::pi / 12);
+  CHECK(wall(torus_mesh(1.0, 0.2, 48, 12)) == doctest::Approx(flat).epsilon(0.02));
+  CHECK(Mesh(box_mesh({0, 0, 0}, {1, 1, 1}), Mesh::Sides::both).thinnest_wall() == 0.0);
+}

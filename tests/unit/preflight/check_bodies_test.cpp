@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `engine check` says of meshes, gaps and flows.
+#include "support/engine.hpp"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <fstream>
+#include <string>
+#include <vector>
+
+using dust::test::engine;
+using dust::test::TemporaryFolder;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// A domain of `size` m with a feed; two boxes 8 mm apart (lines 20 and 21) and one that touches.
+fs::path write_scenario(const TemporaryFolder& folder, double size, const std::string& flow) {
+  const fs::path file = folder / "gap.yaml";
+  const std::string s = std::to_string(size);
+  std::ofstream(file)
+      << "name: gap\n"
+         "time: {end: 10 ms, fluid_step: 1 ms, output_every: 10 ms}\n"
+         "gravity: [0, 0, -9.81]\n"
+         "domain:\n"
+         "  min: [0, 0, 0]\n"
+         "  max: ["
+      << s << ", " << s << ", " << s
+      << "]\n"
+         "  boundaries:\n"
+         "    left: {grains: open}\n"
+         "    right: {grains: open}\n"
+         "    front: {grains: open}\n"
+         "    back: {grains: open}\n"
+         "    bottom: {grains: open}\n"
+         "    top: {grains: open}\n"
+         "materials:\n"
+         "  sand: {density: 2650, young_modulus: 5 MPa, poisson_ratio: 0.3}\n"
+         "interactions:\n"
+         "  - {between: [sand, sand], contact: {model: hertz_mindlin, restitution: 0.9, "
+         "friction: 0.5}}\n"
+         "bodies:\n"
+         "  floor: {shape: box, material: sand, min: [0, 0, 0], max: [0.1, 0.1, "
+         "0.01]}\n"
+         "  step: {shape: box, material: sand, min: [0.02, 0.02, 0.018], max: "
+         "[0.04, 0.04, 0.05]}\n"
+         "  post: {shape: box, material: sand, min: [0.06, 0.02, 0.01], max: "
+         "[0.08, 0.04, 0.05]}\n"
+         "emitters:\n"
+         "  feed: {model: feed, material: sand, mass_flow: "
+      << flow
+      << ", min: [0.01, 0.01, 0.09], max: [0.09, 0.09, 0.09], velocity: [0, 0, "
+         "-1 m/s], diameters: [5, 12 mm], number_fractions: [0.5, 0.5]}\n"
+         "fluid: none\n";
+  return file;
+}
+
+Json numbers_of(const fs::path& file) {
+  const auto outcome = engine({"check", file.string(), "--json"});
+  INFO(outcome.err);
+  REQUIRE(outcome.status == 0);
+  return Json::parse(outcome.out);
+}
+
+std::string text_of(const fs::path& file) {
+  const auto outcome = engine({"check", file.string()});
+  INFO(outcome.err);
+  REQUIRE(outcome.status == 0);
+  return outcome.out;
+}
+
+}  // namespace
+
+TEST_CASE("a check shall name narrow gaps with both bodies, the place and the line") {
+  const TemporaryFolder folder;
+  const fs::path file = write_scenario(folder, 0.1, "1 g/s");
+  const Json numbers = numbers_of(file);
+  const Json& gaps = numbers["gaps"];
+  // The post stands on the floor: no gap; post and step are 20 mm apart, more than a grain.
+  REQUIRE(gaps.size() == 1);
+  CHECK(gaps[0]["bodies"] == Json({"floor", "step"}));
+  CHECK(gaps[0]["width_m"].get<double>() == doctest::Approx(0.008).epsilon(1e-6));
+  CHECK(gaps[0]["place_m"][0].get<double>() >= 0.02 - 1e-9);
+  CHECK(gaps[0]["place_m"][0].get<double>() <= 0.04 + 1e-9);
+  REQUIRE(numbers["touching"].size() == 1);
+  CHECK(numbers["touching"][0]["bodies"] == Json({"floor", "post"}));
+  const std::string text = text_of(file);
+  CHECK(text.find("floor - step: 8 mm at") != std::string::npos);
+  CHECK(text.find("0.67 of the largest grain; grains above 8 mm do not go through") !=
+        std::string::npos);
+  CHECK(text.find("gap.yaml:20:") != std::string::npos);
+}
+
+TEST_CASE("flows and extents shall be spoken of in the units of their size") {
+  const TemporaryFolder folder;
+  const std::string small = text_of(write_scenario(folder, 0.1, "1 g/s"));
+  CHECK(small.find("domain     100 x 100 x 100 mm") != std::string::npos);
+  CHECK(small.find("feed: sand, 1 g/s") != std::string::npos);
+  const std::string plant = text_of(write_scenario(folder, 3.0, "18 t/h"));
+  CHECK(plant.find("domain     3 x 3 x 3 m") != std::string::npos);
+  CHECK(plant.find("feed: sand, 18 t/h (5 kg/s)") != std::string::npos);
+  CHECK(plant.find("e+0") == std::string::npos);
+}
+
+TEST_CASE("a plant with meshes shall be checked within seconds, its sheets beside the cell") {
+  const auto begin = std::chrono::steady_clock::now();
+  const Json j = numbers_of(DUST_SOURCE "/scenarios/plant/transfer_open.yaml");
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  // Generous: a second of search beside reading everything, on a machine that does other things.
+  CHECK(took.count() < 15.0);
+  REQUIRE(j["meshes"].size() == 2);
+  for (const Json& mesh : j["meshes"]) {
+    CHECK(mesh["thinnest_wall_m"].get<double>() == doctest::Approx(0.012));
+    CHECK(mesh["notes"][0].get<std::string>().find("open edges") != std::string::npos);
+  }
+}
