@@ -29,11 +29,11 @@ Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
                 double fluid_density, DustLoads dust)
     : conditions(setup, bodies, std::move(laws), diameters, fluid_density, dust.is_on()),
       store(setup.fluid.has_value()),
-      inner(conditions.laws.history_stride()) {
-  dusty.loads = std::move(dust);
-  if (dusty.loads.is_on()) dusty.work.begin(wall_count(conditions.surfaces), 0);
+      inner(conditions.laws.history_stride()),
+      loads(std::move(dust)) {
+  if (loads.is_on()) accounts.work.begin(wall_count(conditions.surfaces), 0);
   if (!setup.audit.energy) return;
-  energy.begin();
+  accounts.energy.begin();
   inner.let_all_step();
 }
 
@@ -44,12 +44,12 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
     const double mass = material.density * sdk::sphere_volume(g.diameter);
     const std::int32_t population = ledger.population(g.diameter, g.weight, g.material, mass);
     store.append(g, mass, population);
-    dusty.loads.enter(static_cast<std::size_t>(g.material), mass, g.weight);
-    energy.enter(store, store.size() - 1);
+    loads.enter(static_cast<std::size_t>(g.material), mass, g.weight);
+    accounts.energy.enter(store, store.size() - 1);
     ledger.enter(population);
   }
   outer.resize(store.size());
-  dusty.work.resize(store.size());
+  accounts.work.resize(store.size());
   ledger.close();
   outer.require(OuterList::Due::reorder);
 }
@@ -73,7 +73,7 @@ void Dem::Impl::draw_out_at(std::vector<Opening> openings) {
 bool Dem::Impl::leaves(std::size_t n) {
   if (const int touched = store.touched_opening(n); touched >= 0) {
     ledger.extract(store.population(n), static_cast<std::size_t>(touched));
-    dusty.loads.leave(store, n, true);
+    loads.leave(store, n, true);
     return true;
   }
   const ParticleDomain::Place place = conditions.domain.place_of(store.position(n));
@@ -92,11 +92,11 @@ bool Dem::Impl::leaves(std::size_t n) {
     if (opening.side != static_cast<int>(place.side)) continue;
     if (!opening.holds(position, conditions.opening_rounding)) continue;
     ledger.extract(store.population(n), o);
-    dusty.loads.leave(store, n, true);
+    loads.leave(store, n, true);
     return true;
   }
   ledger.leave(store.population(n));
-  dusty.loads.leave(store, n, false);
+  loads.leave(store, n, false);
   return true;
 }
 
@@ -107,7 +107,7 @@ void Dem::Impl::remove_escaped() {
     if (!leaves(n)) {
       keep.push_back(static_cast<std::int32_t>(n));
     } else {
-      energy.leave(store, n, conditions.gravity.data(), conditions.step());
+      accounts.energy.leave(store, n, conditions.gravity.data(), conditions.step());
     }
   }
   if (keep.size() == store.size()) return;
@@ -119,8 +119,8 @@ void Dem::Impl::remove_escaped() {
   inner.renumber(new_row);
   fine_level.renumber(new_row);
   store.reorder(keep);
-  dusty.work.reorder(keep);
-  dusty.loads.reorder(keep);
+  accounts.work.reorder(keep);
+  loads.reorder(keep);
   outer.reorder(keep);
   ledger.close();
   outer.require(OuterList::Due::reorder);
@@ -142,10 +142,10 @@ TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTr
   for (const auto& material : conditions.materials) density.push_back(material.density);
   ledger.transfer_from(other.ledger, names.materials(), names.openings(), density);
   store.transfer_from(other.store, names.materials(), names.openings(), ledger.masses());
-  dusty.loads.transfer_from(other.dusty.loads, store, keeps_dust);
-  dusty.work.resize(store.size());
+  loads.transfer_from(other.loads, store, keeps_dust);
+  accounts.work.resize(store.size());
   store.update_decay(conditions.step());
-  for (std::size_t n = 0; n < store.size(); ++n) energy.enter(store, n);
+  for (std::size_t n = 0; n < store.size(); ++n) accounts.energy.enter(store, n);
   fine_level.transfer_from(other.fine_level);
 
   ContactTransfer transfer({other.conditions, other.store}, {conditions, store}, names, laws);
@@ -257,7 +257,7 @@ std::vector<ContactRecord> Dem::contacts() const {
   return contact_snapshot(impl_->contact_scene(), impl_->inner);
 }
 
-EnergyBalance Dem::energy() const { return impl_->energy.balance(); }
+EnergyBalance Dem::energy() const { return impl_->accounts.energy.balance(); }
 const BalanceLedger& Dem::ledger() const { return impl_->ledger; }
 const Balance& Dem::balance() const { return impl_->ledger.balance(); }
 
@@ -291,7 +291,7 @@ std::vector<std::pair<std::int64_t, std::int64_t>> Dem::listed_pairs() const {
   return out;
 }
 
-const ContactWork& Dem::contact_work() const { return impl_->dusty.work; }
+const ContactWork& Dem::contact_work() const { return impl_->accounts.work; }
 std::vector<std::string> Dem::wall_names() const {
   std::vector<std::string> names(wall_count(impl_->conditions.surfaces));
   for (const Surface& s : impl_->conditions.surfaces) {
@@ -299,13 +299,13 @@ std::vector<std::string> Dem::wall_names() const {
   }
   return names;
 }
-void Dem::clear_contact_work() { impl_->dusty.work.clear(); }
-std::span<const double> Dem::dust_load(std::size_t row) const { return impl_->dusty.loads.on(row); }
+void Dem::clear_contact_work() { impl_->accounts.work.clear(); }
+std::span<const double> Dem::dust_load(std::size_t row) const { return impl_->loads.on(row); }
 void Dem::set_dust_free(std::size_t row, std::size_t n, double mass) {
-  impl_->dusty.loads.set_free(impl_->store, row, n, mass);
+  impl_->loads.set_free(impl_->store, row, n, mass);
 }
 DustLoads::Balance Dem::dust_balance(std::size_t n) const {
-  return impl_->dusty.loads.balance(impl_->store, n);
+  return impl_->loads.balance(impl_->store, n);
 }
 
 void Dem::record_wall_loads() {
@@ -348,8 +348,8 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   tile_step.save(archive, tiling);
   fine_level.save(archive);
   ledger.save(archive);
-  dusty.loads.save(archive);
-  energy.save(archive);
+  loads.save(archive);
+  accounts.energy.save(archive);
   archive.number("time", conditions.time);
   const ListTuner::State lifetimes = tuner.state();
   const OuterList::State list = outer.state();
@@ -396,10 +396,10 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   inner.load(archive, tiles);
   fine_level.load(archive, state.at(10));
   ledger.load(archive);
-  dusty.loads.load(archive);
-  dusty.work.resize(store.size());
-  energy.restart(tiles);
-  energy.load(archive);
+  loads.load(archive);
+  accounts.work.resize(store.size());
+  accounts.energy.restart(tiles);
+  accounts.energy.load(archive);
   move_to(archive.number("time"));
   has_weights = store.has_weights(tiling.coarse_count);
 }

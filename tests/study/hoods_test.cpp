@@ -113,12 +113,13 @@ TEST_CASE("dust that lies where a new hood stands shall count as drawn out by it
     return engine({"run", k_scenario, "-o", out, "--set", "time.end=0.22 s", "--set",
                    "start_from=" + (folder / "wake").string(), "--set", "bodies.hood=" + body});
   };
-  const std::string box = "shape: box, material: steel, min: [20, 0, 28 mm], max: [80, 10, 40 mm]";
+  const std::string box =
+      "shape: box, material: steel, min: [100, 0, 20 mm], max: [140, 10, 40 mm]";
   const auto solid = with("{" + box + "}", folder / "solid");
   CHECK(solid.status == 2);
   CHECK(holds(solid.err, "lie in it, the first, number"));
   const auto hood =
-      with("{" + box + ", suction: {flow: 6 l/min, min: [80, 0, 28 mm], max: [80, 10, 40 mm]}}",
+      with("{" + box + ", suction: {flow: 6 l/min, min: [100, 0, 20 mm], max: [100, 10, 40 mm]}}",
            folder / "hood");
   INFO(hood.err);
   REQUIRE(hood.status == 0);
