@@ -7,7 +7,7 @@
 namespace dust::airborne {
 
 /// Force [N/m3] of the dust on the gas it is in, at the faces: the weight that drag hands over,
-/// less what the gas that the dust displaces weighs; docs/theory/dust.md, eq. (6).
+/// less what the gas that the dust displaces weighs; docs/theory/dust.md, eq. (16).
 class DustWeight {
  public:
   DustWeight(const fluid::Grid& grid, sdk::Vec3 gravity, double dust_density, double gas_density);

@@ -31,9 +31,9 @@ Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
       store(setup.fluid.has_value()),
       inner(conditions.laws.history_stride()),
       loads(std::move(dust)) {
-  if (loads.is_on()) work.begin(wall_count(conditions.surfaces), 0);
+  if (loads.is_on()) accounts.work.begin(wall_count(conditions.surfaces), 0);
   if (!setup.audit.energy) return;
-  energy.begin();
+  accounts.energy.begin();
   inner.let_all_step();
 }
 
@@ -45,11 +45,11 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
     const std::int32_t population = ledger.population(g.diameter, g.weight, g.material, mass);
     store.append(g, mass, population);
     loads.enter(static_cast<std::size_t>(g.material), mass, g.weight);
-    energy.enter(store, store.size() - 1);
+    accounts.energy.enter(store, store.size() - 1);
     ledger.enter(population);
   }
   outer.resize(store.size());
-  work.resize(store.size());
+  accounts.work.resize(store.size());
   ledger.close();
   outer.require(OuterList::Due::reorder);
 }
@@ -107,7 +107,7 @@ void Dem::Impl::remove_escaped() {
     if (!leaves(n)) {
       keep.push_back(static_cast<std::int32_t>(n));
     } else {
-      energy.leave(store, n, conditions.gravity.data(), conditions.step());
+      accounts.energy.leave(store, n, conditions.gravity.data(), conditions.step());
     }
   }
   if (keep.size() == store.size()) return;
@@ -119,7 +119,7 @@ void Dem::Impl::remove_escaped() {
   inner.renumber(new_row);
   fine_level.renumber(new_row);
   store.reorder(keep);
-  work.reorder(keep);
+  accounts.work.reorder(keep);
   loads.reorder(keep);
   outer.reorder(keep);
   ledger.close();
@@ -143,9 +143,9 @@ TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTr
   ledger.transfer_from(other.ledger, names.materials(), names.openings(), density);
   store.transfer_from(other.store, names.materials(), names.openings(), ledger.masses());
   loads.transfer_from(other.loads, store, keeps_dust);
-  work.resize(store.size());
+  accounts.work.resize(store.size());
   store.update_decay(conditions.step());
-  for (std::size_t n = 0; n < store.size(); ++n) energy.enter(store, n);
+  for (std::size_t n = 0; n < store.size(); ++n) accounts.energy.enter(store, n);
   fine_level.transfer_from(other.fine_level);
 
   ContactTransfer transfer({other.conditions, other.store}, {conditions, store}, names, laws);
@@ -257,7 +257,7 @@ std::vector<ContactRecord> Dem::contacts() const {
   return contact_snapshot(impl_->contact_scene(), impl_->inner);
 }
 
-EnergyBalance Dem::energy() const { return impl_->energy.balance(); }
+EnergyBalance Dem::energy() const { return impl_->accounts.energy.balance(); }
 const BalanceLedger& Dem::ledger() const { return impl_->ledger; }
 const Balance& Dem::balance() const { return impl_->ledger.balance(); }
 
@@ -291,7 +291,7 @@ std::vector<std::pair<std::int64_t, std::int64_t>> Dem::listed_pairs() const {
   return out;
 }
 
-const ContactWork& Dem::contact_work() const { return impl_->work; }
+const ContactWork& Dem::contact_work() const { return impl_->accounts.work; }
 std::vector<std::string> Dem::wall_names() const {
   std::vector<std::string> names(wall_count(impl_->conditions.surfaces));
   for (const Surface& s : impl_->conditions.surfaces) {
@@ -299,7 +299,7 @@ std::vector<std::string> Dem::wall_names() const {
   }
   return names;
 }
-void Dem::clear_contact_work() { impl_->work.clear(); }
+void Dem::clear_contact_work() { impl_->accounts.work.clear(); }
 std::span<const double> Dem::dust_load(std::size_t row) const { return impl_->loads.on(row); }
 void Dem::set_dust_free(std::size_t row, std::size_t n, double mass) {
   impl_->loads.set_free(impl_->store, row, n, mass);
@@ -349,7 +349,7 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   fine_level.save(archive);
   ledger.save(archive);
   loads.save(archive);
-  energy.save(archive);
+  accounts.energy.save(archive);
   archive.number("time", conditions.time);
   const ListTuner::State lifetimes = tuner.state();
   const OuterList::State list = outer.state();
@@ -397,9 +397,9 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   fine_level.load(archive, state.at(10));
   ledger.load(archive);
   loads.load(archive);
-  work.resize(store.size());
-  energy.restart(tiles);
-  energy.load(archive);
+  accounts.work.resize(store.size());
+  accounts.energy.restart(tiles);
+  accounts.energy.load(archive);
   move_to(archive.number("time"));
   has_weights = store.has_weights(tiling.coarse_count);
 }

@@ -111,7 +111,7 @@ void Dem::Impl::rebuild() {
   outer.build(list_scene(), tuner);
   inner.adopt(outer, contacts);
   tile_step.restart(outer.tiles(), wall_loads.walls());
-  energy.restart(outer.tiles());
+  accounts.energy.restart(outer.tiles());
   fine_level.clear_force(store.size() - tiling.coarse_count);
 }
 
@@ -122,7 +122,7 @@ void Dem::Impl::reorder_if_due(ContactCarrier& contacts) {
                    conditions.largest_diameter(), conditions.steps.coarse_limit);
   tiling = Tiling::of(sorted.coarse_count);
   store.reorder(sorted.order);
-  work.reorder(sorted.order);
+  accounts.work.reorder(sorted.order);
   loads.reorder(sorted.order);
   outer.reorder(sorted.order);
   contacts.renumber(sorted.order);
@@ -138,7 +138,7 @@ void Dem::Impl::begin_step(double now, bool keeps_force) {
   conditions.time = now;
   for (Surface& s : conditions.surfaces) s.move_to(now);
   tile_step.begin(tiling.coarse_count, keeps_force);
-  energy.begin_step();
+  accounts.energy.begin_step();
 }
 
 void Dem::Impl::end_step() {
@@ -199,8 +199,8 @@ OpeningMarks Dem::Impl::opening_marks() {
 StepScene Dem::Impl::step_scene() {
   ContactScene contacts = contact_scene();
   contacts.opening_marks = opening_marks();
-  if (work.is_on()) contacts.work = &work;
-  if (energy.is_on()) contacts.energy = &energy;
+  if (accounts.work.is_on()) contacts.work = &accounts.work;
+  if (accounts.energy.is_on()) contacts.energy = &accounts.energy;
   return {.particles = store,
           .lists = inner,
           .impulses = fine_level.deferred(),
@@ -222,7 +222,7 @@ FineScene Dem::Impl::fine_scene() {
           .time = conditions.time,
           .wall_loads = wall_loads,
           .opening_marks = opening_marks(),
-          .work = work.is_on() ? &work : nullptr,
+          .work = accounts.work.is_on() ? &accounts.work : nullptr,
           .contact_force = tile_step.contact_force()};
 }
 

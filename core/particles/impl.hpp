@@ -67,6 +67,12 @@ class Dem::Impl {
   [[nodiscard]] StepScene step_scene();
   [[nodiscard]] FineScene fine_scene();
 
+  /// What contacts and motion give and take, where a run keeps account of it.
+  struct Accounts {
+    EnergyAccount energy;
+    ContactWork work;  ///< where particles carry dust
+  };
+
   Conditions conditions;
   ParticleStore store;
   BalanceLedger ledger;
@@ -77,10 +83,9 @@ class Dem::Impl {
   InnerList inner;
   TileStep tile_step;
   FineLevel fine_level;
-  EnergyAccount energy;
+  Accounts accounts;
   WallLoads wall_loads;  ///< empty between fluid steps, so that nothing of it is saved
   DustLoads loads;       ///< empty where none carries dust
-  ContactWork work;      ///< kept where some do
   DemReport counters;
   mutable contact::AlignedVector<double> last_force;
 };

@@ -104,21 +104,21 @@ void FluidStage::begin_step(double time, const particles::GrainRows& rows) {
 /// What particles do to the fluid, and the force besides.
 const fluid::Exchange& FluidStage::exchange() {
   const fluid::Exchange& of_particles = coupling_ ? coupling_->exchange() : no_particles_->exchange;
-  if (force_ == nullptr) return of_particles;
-  if (!forced_) {
-    forced_ = std::make_unique<fluid::Exchange>(
+  if (other_.force == nullptr) return of_particles;
+  if (!other_.exchange) {
+    other_.exchange = std::make_unique<fluid::Exchange>(
         fluid::Exchange{fluid::FaceField(grid_), fluid::FaceField(grid_)});
   }
   for (std::size_t d = 0; d < 3; ++d) {
-    copy(of_particles.coefficient.component[d], forced_->coefficient.component[d]);
+    copy(of_particles.coefficient.component[d], other_.exchange->coefficient.component[d]);
     const double* given = of_particles.source.component[d].data();
-    const double* more = force_->component[d].data();
-    double* sum = forced_->source.component[d].data();
+    const double* more = other_.force->component[d].data();
+    double* sum = other_.exchange->source.component[d].data();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid_.size, 1U << 15), [&](const auto& r) {
       for (std::size_t n = r.begin(); n < r.end(); ++n) sum[n] = given[n] + more[n];
     });
   }
-  return *forced_;
+  return *other_.exchange;
 }
 
 void FluidStage::advance(double time) {

@@ -44,7 +44,7 @@ class FluidStage {
   void begin_step(double time, const particles::GrainRows& rows);
   /// Optional, before advance(): a force on the fluid besides those of particles [N/m3], kept by
   /// reference.
-  void use(const fluid::FaceField& force) { force_ = &force; }
+  void use(const fluid::FaceField& force) { other_.force = &force; }
   /// Solves for the fluid.
   void advance(double time);
   /// The impulses that the fluid took in advance().
@@ -97,6 +97,11 @@ class FluidStage {
     fluid::FaceField velocity, stress_divergence;
     fluid::CellField pressure;
   };
+  /// A force on the fluid besides those of particles.
+  struct OtherForce {
+    const fluid::FaceField* force = nullptr;
+    std::unique_ptr<fluid::Exchange> exchange;  ///< of the present step, with it
+  };
   /// Visits the fields of a lagged fluid with their names in a checkpoint.
   template <class Fluid, class Visit>
   static void for_fields(Fluid& fluid, const Visit& visit);
@@ -120,8 +125,7 @@ class FluidStage {
   resolved::UnresolvedRows unresolved_;
   std::unique_ptr<NoParticles> no_particles_;  ///< only without coupling
   std::unique_ptr<LaggedFluid> lagged_;        ///< only where fluid and particles overlap
-  const fluid::FaceField* force_ = nullptr;    ///< besides those of particles
-  std::unique_ptr<fluid::Exchange> forced_;    ///< of the present step, with that force
+  OtherForce other_;
   std::int64_t sub_steps_ = 0;
   std::int64_t pressure_iterations_ = 0;
   std::vector<float> momentum_exchange_;

@@ -6,7 +6,7 @@
 namespace dust::particles {
 
 /// Where the energy of the particles is and where it has gone [J], each particle with its
-/// statistical weight; docs/theory/energy.md.
+/// statistical weight; docs/theory/energy.md, eq. (1).
 struct EnergyBalance {
   // At this instant.
   double translation = 0.0, rotation = 0.0;             ///< kinetic

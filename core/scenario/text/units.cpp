@@ -337,7 +337,9 @@ std::optional<double> to_si(const WrittenNumber& written, Dimension dimension, s
                  : dimension_name(dimension) + " is expected (" + example_units(dimension) + ")";
     return std::nullopt;
   }
-  if (dimension == dim::none && !unit->is_share) {
+  // A ratio of like quantities is a bare number: 3.6 g/t.
+  const bool is_ratio = unit->dimension == dim::none && written.unit.find('/') != std::string::npos;
+  if (dimension == dim::none && !unit->is_share && !is_ratio) {
     error = "'" + shown + "' does not belong here: a bare number is expected, without a unit";
     return std::nullopt;
   }

@@ -83,6 +83,7 @@ TEST_CASE("compound units, exponents and brackets shall be understood") {
   CHECK(value("60 rpm", dim::angular_velocity) ==
         doctest::Approx(2 * std::numbers::pi).epsilon(k_two_roundings));
   CHECK(value("55 %", dim::none) == 0.55);
+  CHECK(value("3.6 g/t", dim::none) == doctest::Approx(3.6e-6).epsilon(1e-15));
   CHECK(value("1e-3", dim::length) == 1e-3);
   CHECK(value("-.5e1", dim::none) == -5);
 }
