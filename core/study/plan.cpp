@@ -30,7 +30,7 @@ constexpr std::size_t k_hash_digits = 16;
 std::string text_of(const Node& node) {
   if (node.is_text()) return node.text;
   Node map = Node::make_map();
-  map.add("v", node);
+  add(map, "v", node);
   std::string text = scenario::emit_yaml(map);
   text = text.substr(2);
   std::replace(text.begin(), text.end(), '\n', ' ');

@@ -30,8 +30,6 @@ struct Block {
   double largest_overlap = 0.0;
   std::vector<double> wall_sums;  ///< WallLoads::k_sums per wall, if watched
   std::vector<sdk::WallImpact> wall_impacts;
-
-  void clear(int next_level);
 };
 
 /// The clusters of a step in blocks, with copies of their particles. Memory is kept from step to
@@ -44,6 +42,8 @@ class Blocks {
   [[nodiscard]] std::span<Block> all() { return {blocks_.data(), count_}; }
 
  private:
+  /// The next block, empty; with the memory of a step before, if there was one.
+  void open(int level);
   void load_partners(const FineScene& scene, std::span<const CoarsePartner> partners,
                      const DeferredImpulses& deferred, std::int32_t cluster);
   void list_candidates(const FineScene& scene, const Clusters& clusters);
