@@ -73,6 +73,15 @@ void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
                                                   " at void fraction " + shown(c.void_fraction[n]));
     }
   });
+  // The engine divides by it where it follows the law's growth with the slip.
+  runner.rule("is above 0 without slip", [&] {
+    const Columns c = evaluate(make, {});
+    for (std::size_t n = 0; n < c.factor.size(); n += k_per_void_fraction) {
+      require(c.factor[n] > 0.0 && std::isfinite(c.factor[n]),
+              "F = " + shown(c.factor[n]) + " at Re 0, void fraction " + shown(c.void_fraction[n]) +
+                  "; the engine divides by it: give the creeping limit");
+    }
+  });
   runner.rule("is Stokes's law for a lone slow grain: F(0, 1) = 1", [&] {
     const Columns c = evaluate(make, {});
     const double isolated = c.factor[c.factor.size() - k_per_void_fraction + 1];
