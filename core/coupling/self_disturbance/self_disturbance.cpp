@@ -300,10 +300,27 @@ void SelfDisturbance::find_self_flow(const particles::GrainRows& grains, std::si
           gained * beside_walls(position, wall ? &*wall : nullptr, d, k);
     }
   }
-  const double density = kernel.concentration(0) / (eps * lattice_.cell_volume());
+  const double density = concentration_seen(position, own, kernel) / (eps * lattice_.cell_volume());
   own.self_stress = drag_.is_set_three() ? 0.0
                                          : own.excess * grains.weight[row] * response.stress *
                                                density * sdk::sphere_volume(2.0 * position[3]);
+}
+
+/// Share of its force per cell that a grain sees of the stress that balances it [-]: through its
+/// kernel, or beside a wall as all others do, at the faces of its cell. One larger than a cell sees
+/// it over its cells, about as wide as its kernel.
+double SelfDisturbance::concentration_seen(const double* position, const SelfFlow& own,
+                                           const SmoothKernel& kernel) const {
+  if (!own.is_beside || 2.0 * position[3] > least_spacing_) return kernel.concentration(0);
+  const Place here = lattice_.place(position);
+  double sum = 0.0;
+  for (int d = 0; d < 3; ++d) {
+    for (const int side : {0, 1}) {
+      const Lattice::Face face = lattice_.face(d, here[0].cell, here[1].cell, here[2].cell, side);
+      sum += 0.5 * kernel.weight_at_storage(d, face.storage) / kernel.inside(d);
+    }
+  }
+  return sum / 3.0;
 }
 
 /// What sides and bodies make of a group of waves of a force along d.

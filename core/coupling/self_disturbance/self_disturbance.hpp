@@ -71,6 +71,8 @@ class SelfDisturbance {
                       const SmoothKernel& kernel, double eps, double slip, double step);
   void look_at_kernel(const double* position, const SmoothKernel& kernel, const FluidState& fluid,
                       bool needs_stress, SelfFlow::Seen& seen) const;
+  [[nodiscard]] double concentration_seen(const double* position, const SelfFlow& own,
+                                          const SmoothKernel& kernel) const;
   [[nodiscard]] double beside_walls(const double* position, const NearWalls::Wall* wall, int d,
                                     double k) const;
 

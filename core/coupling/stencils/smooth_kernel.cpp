@@ -196,6 +196,17 @@ double SmoothKernel::weight(int d, std::array<int, 3> face) const {
          (d == k_cells ? room_in(accounted_at(face)) : lattice_.open_share(d, accounted_at(face)));
 }
 
+double SmoothKernel::weight_at_storage(int d, std::ptrdiff_t storage) const {
+  std::array<int, 3> at = lattice_.indices(storage);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!lattice_.grid().is_periodic[axis]) continue;
+    const int first = points(d, static_cast<int>(axis)).first;
+    const int n = lattice_.grid().count[axis];
+    at[axis] = first + (((at[axis] - first) % n) + n) % n;  // the image that the kernel may meet
+  }
+  return weight(d, at);
+}
+
 double SmoothKernel::plain_weight(int d, std::array<int, 3> face) const {
   double product = 1.0;
   for (int axis = 0; axis < 3; ++axis) {

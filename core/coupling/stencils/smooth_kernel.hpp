@@ -53,6 +53,8 @@ class SmoothKernel {
   /// Weight of the face of component d below the cell (i, j, k), the part outside bodies; indices
   /// may lie beyond a period.
   [[nodiscard]] double weight(int d, std::array<int, 3> face) const;
+  /// The same of the face accounted at the padded index `storage`.
+  [[nodiscard]] double weight_at_storage(int d, std::ptrdiff_t storage) const;
   /// Weight of a cell.
   [[nodiscard]] double weight(std::array<int, 3> cell) const { return weight(k_cells, cell); }
 

@@ -102,6 +102,7 @@ struct IsolatedGrain {
   bool is_beside_slip = false;  ///< the side has no friction
   double floor = 0.0;           ///< cells to the top of a body over that side, 0 = none
   double tilt = 0.0;            ///< [rad] of the body's surface about x, the grain goes along z
+  int box = 20;                 ///< cells of the fluid along each axis
   double cells_per_step = 0.3;  ///< way of the grain in a fluid step at most
 
   /// Of the drag, in the last third of the run; of the speed with Motion::free.
@@ -113,7 +114,6 @@ struct IsolatedGrain {
   [[nodiscard]] Error error() const;
 
  private:
-  static constexpr int k_cells = 20;
   [[nodiscard]] double cell() const { return diameter / ratio; }
   [[nodiscard]] double terminal() const {
     return isolated_slip(diameter, fluid, isolated_weight(diameter, fluid));
@@ -124,7 +124,7 @@ struct IsolatedGrain {
   /// The body's surface: its normal, and the point of it that the grain is beside.
   [[nodiscard]] sdk::Vec3 normal() const { return {0.0, std::cos(tilt), std::sin(tilt)}; }
   [[nodiscard]] sdk::Vec3 foot() const {
-    const sdk::Vec3 middle{0.5 * k_cells + place.x, floor, 0.5 * k_cells + place.z};
+    const sdk::Vec3 middle{0.5 * box + place.x, floor, 0.5 * box + place.z};
     return cell() * middle;
   }
   [[nodiscard]] bodies::BodySet solids() const {
@@ -143,13 +143,13 @@ inline double IsolatedGrain::duration() const {
   const double nu = fluid.viscosity / fluid.density;
   const double built_up = (beside > 0.0 ? 120.0 : 30.0) * std::pow(k_width * cell(), 2) / nu;
   const double relaxing = motion == Motion::free ? 5.0 * terminal() / TwoWay::k_gravity : 0.0;
-  return std::max(relaxing, std::min(0.8 * k_cells * cell() / terminal(), built_up));
+  return std::max(relaxing, std::min(0.8 * box * cell() / terminal(), built_up));
 }
 inline World::Choice IsolatedGrain::choice() const {
-  const double side = k_cells * cell();
+  const double side = box * cell();
   World::Choice c;
   c.max = {side, side, side};
-  c.cells = {k_cells, k_cells, k_cells};
+  c.cells = {box, box, box};
   c.periodic = {true, beside == 0.0, !is_across};
   c.drag = "wen_yu";
   c.voidage = ratio > 0.5 ? "big_particle" : "divided";
@@ -178,7 +178,7 @@ inline TwoWay::Sides IsolatedGrain::sides() const {
 }
 
 inline IsolatedGrain::Error IsolatedGrain::error() const {
-  const double length = k_cells * cell();
+  const double length = box * cell();
   const double speed = terminal();
   TwoWay run(choice(), sides(), {}, 1e-6, solids());
   Grains& grains = run.world.grains;
@@ -186,7 +186,7 @@ inline IsolatedGrain::Error IsolatedGrain::error() const {
   const double step = run.world.choice.fluid_step;
   const int d = is_across ? 1 : 2;
   sdk::Vec3 at = place;
-  for (int axis = 0; axis < 3; ++axis) at[axis] = (k_cells / 2 - 1 + at[axis]) * cell();
+  for (int axis = 0; axis < 3; ++axis) at[axis] = (box / 2 - 1 + at[axis]) * cell();
   if (beside > 0.0) at.y = beside * cell();
   if (floor > 0.0) at = foot() + beside * cell() * normal();
   sdk::Vec3 velocity;
@@ -239,7 +239,7 @@ inline IsolatedGrain::Error IsolatedGrain::error() const {
         mean += run.world.face_void_fraction(d, i, j, k) *
                 run.world.velocity.component[d][run.world.grid.index(i, j, k)];
       });
-      const double slip = mean / std::pow(k_cells, 3) - own;
+      const double slip = mean / std::pow(box, 3) - own;
       const double images = force * part_of_images(fluid, length, speed, 0.7 * cell(), run.time);
       found = motion == Motion::free ? (slip + images) / isolated_slip(diameter, fluid, force) - 1.0
                                      : force / isolated_drag(diameter, fluid, slip + images) - 1.0;
