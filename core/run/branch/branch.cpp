@@ -17,7 +17,6 @@
 namespace dust::run {
 namespace {
 
-
 /// Settings that what is there does not depend on; the last two are what lets things in and what
 /// looks at them, and whole states do depend on those.
 constexpr std::array<std::string_view, 10> k_outside_world = {"start_from",
