@@ -223,7 +223,7 @@ void SubCycle::note_accelerations() {
     const SubCycledParticle& p = block_.particles[n];
     const double kick = p.since_kick + 0.5 * sub_step_;
     double& largest = block_.work[n].acceleration;
-    largest = std::max(largest, norm(p.impulse) * p.inverse_mass / kick);
+    largest = std::max(largest, norm(p.impulse.linear) * p.inverse_mass / kick);
   }
 }
 
