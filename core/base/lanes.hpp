@@ -15,14 +15,25 @@ typedef long long LaneMask __attribute__((vector_size(32)));
 
 /// Rows of four become columns of four, and back.
 __attribute__((always_inline)) inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
-  const Lanes ab_even = __builtin_shuffle(a, b, LaneMask{0, 4, 2, 6});
-  const Lanes ab_odd = __builtin_shuffle(a, b, LaneMask{1, 5, 3, 7});
-  const Lanes cd_even = __builtin_shuffle(c, d, LaneMask{0, 4, 2, 6});
-  const Lanes cd_odd = __builtin_shuffle(c, d, LaneMask{1, 5, 3, 7});
-  a = __builtin_shuffle(ab_even, cd_even, LaneMask{0, 1, 4, 5});
-  b = __builtin_shuffle(ab_odd, cd_odd, LaneMask{0, 1, 4, 5});
-  c = __builtin_shuffle(ab_even, cd_even, LaneMask{2, 3, 6, 7});
-  d = __builtin_shuffle(ab_odd, cd_odd, LaneMask{2, 3, 6, 7});
+  const Lanes ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Lanes ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Lanes cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const Lanes cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  a = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
+  b = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
+  c = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);
+  d = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
+}
+
+/// The lanes of `v` in the order of their numbers in `order`.
+__attribute__((always_inline)) inline void permute(const Lanes& v, const LaneMask& order,
+                                                   Lanes& result) {
+#ifdef __clang__  // which has no shuffle by a mask that is known at run time only
+  const Lanes from = v;
+  for (int l = 0; l < 4; ++l) result[l] = from[order[l]];
+#else
+  result = __builtin_shuffle(v, order);
+#endif
 }
 
 /// Row n of rows of four.

@@ -36,7 +36,7 @@ struct PairView {
   std::size_t count = 0;
 };
 
-/// Rows of a chunk's force buffer where what a pair does to its two sides is gathered.
+/// Rows of a tile's force buffer where what a pair does to its two sides is gathered.
 struct Places {
   std::int32_t a = 0;
   std::int32_t b = 0;

@@ -65,33 +65,47 @@ class Separation {
   const Lanes length_, half_;
 };
 
-/// The pairs from `next` on that are near enough, until a batch is full: their separations and
-/// numbers. Brings near what the contacts further on want. Looks at positions alone: many of a
-/// watch's pairs do not touch, and their velocities would be loaded for nothing.
-template <bool is_periodic>
-__attribute__((always_inline)) inline std::size_t find_near(
-    const RowView& rows, const Images& images, const PairView& pairs, std::size_t& next,
-    std::size_t end, double range, std::int32_t* contacts, BatchColumns& columns) {
-  using B = BatchColumns;
-  // Copies: the bytes of is_touching may alias whatever stands in memory.
-  const double* const position = rows.position;
-  const double* const motion = rows.motion;
-  const double* const spin = rows.spin;
-  const std::int32_t* const pa = pairs.a;
-  const std::int32_t* const pb = pairs.b;
-  std::uint8_t* const is_touching = pairs.is_touching;
-  double* const history = pairs.history;
-  const std::size_t history_stride = pairs.history_stride;
-  const std::size_t last_four = pairs.count < 4 ? 0 : pairs.count - 4;
-  double* const separation_x = columns.column(B::separation_x);
-  double* const separation_y = columns.column(B::separation_y);
-  double* const separation_z = columns.column(B::separation_z);
-  const Separation<is_periodic> separate(images);
-  std::size_t found = 0;
-  const auto look_at = [&](std::size_t p, const std::int32_t* a, const std::int32_t* b,
-                           std::size_t lanes) __attribute__((always_inline)) {
-    Lanes x[4];
-    const unsigned touch = separate(position, a, b, range, x) & ((1u << lanes) - 1u);
+/// The columns of a search for near pairs: copies, because the bytes of is_touching may alias
+/// whatever stands in memory.
+struct PairSearch {
+  const double* position;
+  const double* motion;
+  const double* spin;
+  const std::int32_t* a;
+  const std::int32_t* b;
+  std::uint8_t* is_touching;
+  double* history;
+  std::size_t history_stride;
+
+  __attribute__((always_inline)) PairSearch(const RowView& rows, const PairView& pairs)
+      : position(rows.position),
+        motion(rows.motion),
+        spin(rows.spin),
+        a(pairs.a),
+        b(pairs.b),
+        is_touching(pairs.is_touching),
+        history(pairs.history),
+        history_stride(pairs.history_stride) {}
+
+  /// Brings near what the four pairs from `later` on want, while those from `p` on are at work.
+  __attribute__((always_inline)) void expect_pairs(const RowView& rows, std::size_t later,
+                                                   std::size_t p) const {
+    for (std::size_t l = 0; l < 4; ++l) {
+      expect(rows, a[later + l]);
+      const auto ahead = static_cast<std::size_t>(b[later + l]);
+      __builtin_prefetch(position + 4 * ahead);
+      __builtin_prefetch(motion + k_motion_stride * ahead);
+      __builtin_prefetch(spin + k_motion_stride * ahead);
+      // Most that touch have touched before; of the others the history is not wanted.
+      const std::size_t entry = later + l;
+      __builtin_prefetch(history + (is_touching[entry] != 0 ? entry : p) * history_stride, 1);
+    }
+  }
+
+  /// Notes which of the `lanes` pairs from p on touch (bits of `touch`); the history of one that
+  /// has parted is cleared.
+  __attribute__((always_inline)) void note_touch(std::size_t p, std::size_t lanes,
+                                                 unsigned touch) const {
     std::uint32_t before = 0;
     const std::uint32_t now = k_bytes[touch];
     std::memcpy(&before, is_touching + p, lanes);
@@ -102,36 +116,50 @@ __attribute__((always_inline)) inline std::size_t find_near(
         std::memset(history + (p + l) * history_stride, 0, history_stride * sizeof(double));
       }
     }
+  }
+};
+
+/// The pairs from `next` on that are near enough, until a batch is full: their separations and
+/// numbers. Brings near what the contacts further on want. Looks at positions alone: many of a
+/// list's pairs do not touch, and their velocities would be loaded for nothing.
+template <bool is_periodic>
+__attribute__((always_inline)) inline std::size_t find_near(
+    const RowView& rows, const Images& images, const PairView& pairs, std::size_t& next,
+    std::size_t end, double range, std::int32_t* contacts, BatchColumns& columns) {
+  using B = BatchColumns;
+  const PairSearch search(rows, pairs);
+  const std::size_t last_four = pairs.count < 4 ? 0 : pairs.count - 4;
+  double* const separation_x = columns.column(B::separation_x);
+  double* const separation_y = columns.column(B::separation_y);
+  double* const separation_z = columns.column(B::separation_z);
+  const Separation<is_periodic> separate(images);
+  std::size_t found = 0;
+  const auto look_at = [&](std::size_t p, const std::int32_t* a, const std::int32_t* b,
+                           std::size_t lanes) __attribute__((always_inline)) {
+    Lanes x[4];
+    const unsigned touch = separate(search.position, a, b, range, x) & ((1u << lanes) - 1u);
+    search.note_touch(p, lanes, touch);
     // Those in touch to the front; what is written beyond them is overwritten by the next.
     const LaneMask pack = k_pack[touch];
-    store(separation_x + found, __builtin_shuffle(x[0], pack));
-    store(separation_y + found, __builtin_shuffle(x[1], pack));
-    store(separation_z + found, __builtin_shuffle(x[2], pack));
+    for (int d = 0; d < 3; ++d) permute(x[d], pack, x[d]);
+    store(separation_x + found, x[0]);
+    store(separation_y + found, x[1]);
+    store(separation_z + found, x[2]);
     const Numbers numbers = __builtin_convertvector(pack, Numbers) + static_cast<std::int32_t>(p);
     std::memcpy(contacts + found, &numbers, sizeof numbers);
     found += static_cast<std::size_t>(__builtin_popcount(touch));
   };
   std::size_t p = next;
   for (; p + 4 <= end && found + 4 <= k_batch; p += 4) {
-    const std::size_t later = std::min(p + k_ahead, last_four);
-    for (std::size_t l = 0; l < 4; ++l) {
-      expect(rows, pa[later + l]);
-      const auto ahead = static_cast<std::size_t>(pb[later + l]);
-      __builtin_prefetch(position + 4 * ahead);
-      __builtin_prefetch(motion + k_motion_stride * ahead);
-      __builtin_prefetch(spin + k_motion_stride * ahead);
-      // Most that touch have touched before; of the others the history is not wanted.
-      const std::size_t entry = later + l;
-      __builtin_prefetch(history + (is_touching[entry] != 0 ? entry : p) * history_stride, 1);
-    }
-    look_at(p, pa + p, pb + p, 4);
+    search.expect_pairs(rows, std::min(p + k_ahead, last_four), p);
+    look_at(p, search.a + p, search.b + p, 4);
   }
   if (p < end && p + 4 > end && found + 4 <= k_batch) {
     std::int32_t a[4];
     std::int32_t b[4];
     for (std::size_t l = 0; l < 4; ++l) {
-      a[l] = pa[std::min(p + l, end - 1)];
-      b[l] = pb[std::min(p + l, end - 1)];
+      a[l] = search.a[std::min(p + l, end - 1)];
+      b[l] = search.b[std::min(p + l, end - 1)];
     }
     look_at(p, a, b, end - p);
     p = end;

@@ -209,7 +209,8 @@ std::vector<RuleResult> check_model(const registry::Entry& entry, const Options&
   for (const auto* values : named) {
     for (const auto& [name, value] : *values) {
       const auto& all = entry.info.parameters;
-      if (std::any_of(all.begin(), all.end(), [&](const auto& p) { return p.name == name; })) {
+      const std::string& wanted = name;
+      if (std::any_of(all.begin(), all.end(), [&](const auto& p) { return p.name == wanted; })) {
         continue;
       }
       throw base::UserError("error: " + entry.info.kind + "/" + entry.info.name +

@@ -79,7 +79,7 @@ void ForceModels::begin(const FluidState& fluid, double step, bool is_first) {
   step_ = step;
   is_first_ = is_first;
   if (needs_.wall_reach > 0.0) {
-    for (particles::Surface& s : surfaces_) s.move_to(fluid.time);
+    particles::move_to(fluid.time, surfaces_);
   }
 }
 

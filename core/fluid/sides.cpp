@@ -12,7 +12,6 @@ namespace dust::fluid {
 namespace {
 
 using sdk::SideRule;
-using sdk::Vec3;
 
 constexpr int k_pressure = 3;  ///< "component" of the pressure in evaluate_at
 

@@ -132,7 +132,7 @@ void Dem::Impl::gather_wall_loads() {
 
 void Dem::Impl::move_to(double time) {
   conditions.time = time;
-  for (Surface& s : conditions.surfaces) s.move_to(time);
+  particles::move_to(time, conditions.surfaces);
 }
 
 TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTransfer> laws,

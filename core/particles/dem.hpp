@@ -83,7 +83,7 @@ struct ContactRecord {
   double overlap = 0.0;    ///< [m] < 0 within a law's range
 };
 
-/// Discrete elements: rows in Morton order in fixed chunks, Verlet lists from a hierarchical grid,
+/// Discrete elements: rows in Morton order in fixed tiles, Verlet lists from a hierarchical grid,
 /// contact laws in batches, several rates. Deterministic for any number of threads.
 ///
 /// One coarse step is: neighbours() (does something only when a grain moved skin/2 or grains came

@@ -136,7 +136,7 @@ void Dem::Impl::reorder_if_due(ContactCarrier& contacts) {
 
 void Dem::Impl::begin_step(double now, bool keeps_force) {
   conditions.time = now;
-  for (Surface& s : conditions.surfaces) s.move_to(now);
+  particles::move_to(now, conditions.surfaces);
   tile_step.begin(tiling.coarse_count, keeps_force);
   accounts.energy.begin_step();
 }

@@ -5,6 +5,10 @@
 
 namespace dust::particles {
 
+void move_to(double time, std::span<Surface> surfaces) {
+  for (Surface& s : surfaces) s.place = s.placement(time);
+}
+
 std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::BodySet& bodies) {
   std::vector<Surface> out;
   int walls = 0;

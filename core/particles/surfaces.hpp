@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,16 +23,16 @@ struct Surface {
   int part = 0;                        ///< of the body's shape
   sdk::Vec3 normal;                    ///< into the domain
   double offset = 0.0;                 ///< [m] dot(normal, point of the plane)
-  bodies::Placement place;             ///< of the body, at the time of the last move_to
+  bodies::Placement place;             ///< of the body, at the time of the last move_to()
   double displacing_speed = 0.0;       ///< [m/s] upper bound; 0 = stands
   int opening = -1;                    ///< number of the opening in it; -1 = none
 
-  /// Puts a body that moves to its place at `time` [s].
-  void move_to(double time) {
-    if (displacing_speed > 0.0) place = body->placement(time);
+  /// `place` at `time` [s].
+  [[nodiscard]] bodies::Placement placement(double time) const {
+    return displacing_speed > 0.0 ? body->placement(time) : place;
   }
   /// A point of the domain in the frame that openings are given in, as the surface stood at the
-  /// last move_to.
+  /// last move_to().
   [[nodiscard]] sdk::Vec3 in_own_frame(sdk::Vec3 point) const {
     return body != nullptr ? place.to_body(point) : point;
   }
@@ -54,14 +55,14 @@ struct Surface {
       spheres.put(n, {dot(normal, {spheres.x[n], spheres.y[n], spheres.z[n]}) - offset, normal});
     }
   }
-  /// The same at another time [s] than that of the last move_to.
+  /// The same at another time [s] than that of the last move_to().
   [[nodiscard]] bodies::SurfacePoint contact_at(
       double time, sdk::Vec3 point, double reach = std::numeric_limits<double>::infinity()) const {
-    if (displacing_speed > 0.0) return body->contact(part, point, reach, body->placement(time));
+    if (body != nullptr) return body->contact(part, point, reach, placement(time));
     return contact(point, reach);
   }
   /// Whether a sphere that moves by at most `reach` [m], its radius included, may touch the surface
-  /// within `duration` [s] after the last move_to, however the surface moves.
+  /// within `duration` [s] after the last move_to(), however the surface moves.
   [[nodiscard]] bool may_touch(sdk::Vec3 point, double reach, double duration) const {
     if (is_removed()) return false;
     reach += displacing_speed * duration;
@@ -69,6 +70,9 @@ struct Surface {
     return dot(normal, point) - offset < reach;
   }
 };
+
+/// Puts bodies that move to their place at `time` [s].
+void move_to(double time, std::span<Surface> surfaces);
 
 std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::BodySet& bodies);
 

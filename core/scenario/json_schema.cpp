@@ -256,41 +256,69 @@ Json addition(const Json& full, const Json& definitions) {
   return part;
 }
 
-}  // namespace
-
-std::string json_schema(const registry::Registry& registry) {
-  const Json domain = domain_schema();
+/// Of the interactions of a whole file; in one laid over others a pair may lack both of `anyOf`.
+Json interaction_schema() {
   Json interaction = block<InteractionBlock>();
-  interaction["properties"]["between"]["minItems"] = 2;
-  interaction["properties"]["between"]["maxItems"] = 2;
-  interaction["properties"]["contact"] = {{"$ref", "#/definitions/contact"}};
-  interaction["properties"]["rolling"] = {{"$ref", "#/definitions/rolling"}};
-  interaction["properties"]["cohesion"] = {{"$ref", "#/definitions/cohesion"}};
-  interaction["properties"]["like"] = {
+  Json& properties = interaction["properties"];
+  properties["between"]["minItems"] = 2;
+  properties["between"]["maxItems"] = 2;
+  properties["contact"] = {{"$ref", "#/definitions/contact"}};
+  properties["rolling"] = {{"$ref", "#/definitions/rolling"}};
+  properties["cohesion"] = {{"$ref", "#/definitions/cohesion"}};
+  properties["like"] = {
       {"type", "array"},
       {"items", {{"type", "string"}}},
       {"minItems", 2},
       {"maxItems", 2},
       {"description", "Another pair of materials, from which all that is not given is taken."}};
-  Json definitions = {{"side", domain["side"]}};
-  for (const char* kind : {"contact", "rolling", "cohesion", "boundary", "drag", "fluid_force",
-                           "voidage", "turbulence", "motion", "liberation"}) {
-    definitions[kind] = model(registry, kind);
-  }
+  return interaction;
+}
 
-  Json root = block<GeneralBlock>();
-  Json& properties = root["properties"];
-  properties["include"] = {
-      {"description", "Files laid under this one, relative to it."},
-      {"anyOf",
-       Json::array({{{"type", "string"}}, {{"type", "array"}, {"items", {{"type", "string"}}}}})}};
-  properties["start_from"] = {
+Json include_schema() {
+  return {{"description", "Files laid under this one, relative to it."},
+          {"anyOf", Json::array({{{"type", "string"}},
+                                 {{"type", "array"}, {"items", {{"type", "string"}}}}})}};
+}
+
+Json start_schema() {
+  return {
       {"type", "string"},
       {"description",
        "Folder of another run's results, relative to this file, whose state this run starts from; "
        "RUN@TIME takes a state that was kept (time.keep_every)."}};
+}
+
+Json fluid_schema() {
+  Json fluid = block<FluidBlock>();
+  fluid["properties"]["regions"] = named(block<RegionBlock>());
+  fluid["properties"]["turbulence"] = {{"$ref", "#/definitions/turbulence"}};
+  return {{"anyOf", Json::array({fluid, {{"const", "none"}}})},
+          {"description", "The fluid around the grains; none runs grains alone."}};
+}
+
+Json dust_schema() {
+  Json dust = block<DustBlock>();
+  Json field = block<DustFieldBlock>();
+  field["properties"]["clouds"] = named(block<DustCloudBlock>());
+  field["properties"]["sources"] = named(block<DustSourceBlock>());
+  dust["properties"]["field"] = field;
+  dust["properties"]["liberation"] = {{"$ref", "#/definitions/liberation"}};
+  return dust;
+}
+
+Json list_schema(const Json& item, const char* sentence) {
+  return {{"type", "array"}, {"items", item}, {"description", sentence}};
+}
+
+/// Of a whole scenario; `interaction` of one of its pairs.
+Json scenario_schema(const registry::Registry& registry, const Json& domain,
+                     const Json& interaction) {
+  Json root = block<GeneralBlock>();
+  Json& properties = root["properties"];
+  properties["include"] = include_schema();
+  properties["start_from"] = start_schema();
   properties["time"] = block<TimeBlock>();
-  properties["domain"] = domain["domain"];
+  properties["domain"] = domain;
   properties["materials"] = named(block<MaterialBlock>());
   Json whole_interaction = interaction;
   whole_interaction["anyOf"] = {{{"required", {"contact"}}}, {{"required", {"like"}}}};
@@ -299,35 +327,36 @@ std::string json_schema(const registry::Registry& registry) {
   properties["bodies"] = named(body_schema(registry));
   properties["emitters"] =
       named(alternatives(block<PlacedBlock>(), "model", choices(registry, "emitter")));
-  Json fluid = block<FluidBlock>();
-  fluid["properties"]["regions"] = named(block<RegionBlock>());
-  fluid["properties"]["turbulence"] = {{"$ref", "#/definitions/turbulence"}};
-  properties["fluid"] = {{"anyOf", Json::array({fluid, {{"const", "none"}}})},
-                         {"description", "The fluid around the grains; none runs grains alone."}};
+  properties["fluid"] = fluid_schema();
   properties["coupling"] = block<CouplingBlock>();
   properties["drag"] = {{"$ref", "#/definitions/drag"}};
-  properties["fluid_forces"] = {{"type", "array"},
-                                {"items", {{"$ref", "#/definitions/fluid_force"}}},
-                                {"description", "Forces of the fluid on grains besides drag."}};
+  properties["fluid_forces"] = list_schema({{"$ref", "#/definitions/fluid_force"}},
+                                           "Forces of the fluid on grains besides drag.");
   properties["voidage"] = {{"$ref", "#/definitions/voidage"}};
   properties["sensors"] =
       named(alternatives(block<SensorBlock>(), "model", choices(registry, "sensor")));
   properties["audit"] = block<AuditBlock>();
-  properties["dust"] = block<DustBlock>();
-  Json field = block<DustFieldBlock>();
-  field["properties"]["clouds"] = named(block<DustCloudBlock>());
-  field["properties"]["sources"] = named(block<DustSourceBlock>());
-  properties["dust"]["properties"]["field"] = field;
-  properties["dust"]["properties"]["liberation"] = {{"$ref", "#/definitions/liberation"}};
-  properties["references"] = {
-      {"type", "array"},
-      {"items", reference_schema()},
-      {"description", "Numbers from elsewhere that stand beside ours in the summary and report."}};
-  properties["reference_curves"] = {
-      {"type", "array"},
-      {"items", reference_curve_schema()},
-      {"description", "Curves from elsewhere that are drawn behind ours in the report."}};
+  properties["dust"] = dust_schema();
+  properties["references"] =
+      list_schema(reference_schema(),
+                  "Numbers from elsewhere that stand beside ours in the summary and report.");
+  properties["reference_curves"] = list_schema(
+      reference_curve_schema(), "Curves from elsewhere that are drawn behind ours in the report.");
   root["required"] = {"time", "gravity", "domain", "fluid"};
+  return root;
+}
+
+}  // namespace
+
+std::string json_schema(const registry::Registry& registry) {
+  const Json domain = domain_schema();
+  const Json interaction = interaction_schema();
+  Json definitions = {{"side", domain["side"]}};
+  for (const char* kind : {"contact", "rolling", "cohesion", "boundary", "drag", "fluid_force",
+                           "voidage", "turbulence", "motion", "liberation"}) {
+    definitions[kind] = model(registry, kind);
+  }
+  const Json root = scenario_schema(registry, domain["domain"], interaction);
   definitions["scenario"] = root;
   definitions["addition"] = addition(root, definitions);
   Json more_of_pair = addition(interaction, definitions);

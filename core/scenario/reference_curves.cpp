@@ -170,10 +170,10 @@ class CurveReader {
       return node;
     };
     Node map = Node::make_map();
-    map.add("sensor", written_value(block.sensor));
-    map.add("x", list(curve.x, unit_of(curve.axes.x_label)));
-    map.add("y", list(curve.y, unit_of(curve.axes.y_label)));
-    map.add("source", written_value(block.source));
+    add(map, "sensor", written_value(block.sensor));
+    add(map, "x", list(curve.x, unit_of(curve.axes.x_label)));
+    add(map, "y", list(curve.y, unit_of(curve.axes.y_label)));
+    add(map, "source", written_value(block.source));
     return map;
   }
 
@@ -205,7 +205,7 @@ std::vector<ReferenceCurve> read_reference_curves(MapReader& top,
     if (written.is_map()) list.items.push_back(std::move(written));
     if (curve) found.push_back(std::move(*curve));
   }
-  if (!list.items.empty()) resolved.add("reference_curves", std::move(list));
+  if (!list.items.empty()) add(resolved, "reference_curves", std::move(list));
   return found;
 }
 

@@ -161,10 +161,10 @@ class ReferenceReader {
                      : Node::make_text(number_text(value) + " " + spec.unit, true);
     };
     Node map = Node::make_map();
-    map.add("quantity", written_value(block.quantity));
-    map.add("value", number(spec.value));
-    if (spec.uncertainty >= 0.0) map.add("uncertainty", number(spec.uncertainty));
-    map.add("source", written_value(block.source));
+    add(map, "quantity", written_value(block.quantity));
+    add(map, "value", number(spec.value));
+    if (spec.uncertainty >= 0.0) add(map, "uncertainty", number(spec.uncertainty));
+    add(map, "source", written_value(block.source));
     return map;
   }
 
@@ -208,7 +208,7 @@ std::vector<ReferenceSpec> read_references(MapReader& top,
     if (written.is_map()) list.items.push_back(std::move(written));
     if (spec) found.push_back(std::move(*spec));
   }
-  if (!list.items.empty()) resolved.add("references", std::move(list));
+  if (!list.items.empty()) add(resolved, "references", std::move(list));
   return found;
 }
 

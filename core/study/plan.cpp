@@ -30,7 +30,7 @@ constexpr std::size_t k_hash_digits = 16;
 std::string text_of(const Node& node) {
   if (node.is_text()) return node.text;
   Node map = Node::make_map();
-  map.add("v", node);
+  add(map, "v", node);
   std::string text = scenario::emit_yaml(map);
   text = text.substr(2);
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -189,6 +189,11 @@ struct Planner::Impl {
     return first + static_cast<std::uint64_t>(replicate - 1);
   }
 
+  [[nodiscard]] std::optional<std::size_t> count_combinations() const;
+  [[nodiscard]] std::vector<std::size_t> levels_of(std::size_t n) const;
+  [[nodiscard]] std::optional<Node> combined(const std::vector<std::size_t>& levels);
+  void add_inputs(std::size_t a, Plan& plan) const;
+
   void refuse_twin(const Point& first, const Point& second) {
     Mark where = spec.where;
     for (std::size_t a = 0; a < spec.axes.size(); ++a) {
@@ -224,45 +229,76 @@ Planner::Planner(const Spec& spec, const registry::Registry& registry, Diagnosti
 }
 Planner::~Planner() = default;
 
-Plan Planner::plan() {
-  Plan plan;
-  if (impl_->diagnostics.has_errors()) return plan;
-  const auto& axes = impl_->spec.axes;
+/// How many combinations of levels there are; nothing where their runs are too many.
+std::optional<std::size_t> Planner::Impl::count_combinations() const {
   std::size_t combinations = 1;
-  for (const Axis& axis : axes) {
+  for (const Axis& axis : spec.axes) {
     combinations *= axis.levels.size();
     if (combinations > k_max_points) break;
   }
-  const auto replicates = static_cast<std::size_t>(impl_->spec.replicates);
-  if (combinations * replicates > k_max_points) {
-    impl_->diagnostics.error(axes.empty() ? impl_->spec.where : axes.front().where,
-                             "the study has more than " + std::to_string(k_max_points) +
-                                 " points: take fewer levels, or sample");
-    return plan;
+  if (combinations * static_cast<std::size_t>(spec.replicates) <= k_max_points) return combinations;
+  diagnostics.error(spec.axes.empty() ? spec.where : spec.axes.front().where,
+                    "the study has more than " + std::to_string(k_max_points) +
+                        " points: take fewer levels, or sample");
+  return std::nullopt;
+}
+
+/// The level of each axis in the n-th combination; the last axis turns fastest.
+std::vector<std::size_t> Planner::Impl::levels_of(std::size_t n) const {
+  std::vector<std::size_t> levels(spec.axes.size());
+  for (std::size_t a = spec.axes.size(); a-- > 0;) {
+    levels[a] = n % spec.axes[a].levels.size();
+    n /= spec.axes[a].levels.size();
   }
+  return levels;
+}
+
+/// The scenario of a combination; nothing where it has problems, which are told.
+std::optional<Node> Planner::Impl::combined(const std::vector<std::size_t>& levels) {
+  Node root = *base;
+  Diagnostics own;
+  own.add_file(spec.file.generic_string());
+  for (std::size_t a = 0; a < levels.size(); ++a) {
+    set_all(root, spec.axes[a].levels[levels[a]].settings, own);
+  }
+  if (!own.has_errors()) return root;
+  print(own);
+  return std::nullopt;
+}
+
+/// The columns of an axis in the table of points, filled for all of them.
+void Planner::Impl::add_inputs(std::size_t a, Plan& plan) const {
+  const Axis& axis = spec.axes[a];
+  std::vector<Column> columns;
+  for (std::size_t s = 0; s < axis.paths.size(); ++s) {
+    columns.push_back(column_of(axis, a, s, dimensions));
+  }
+  if (axis.kind == AxisKind::cases) {
+    Column column{{"case", "", true, a}, {}};
+    for (const Level& level : axis.levels) column.values.push_back({0.0, level.label});
+    columns.push_back(std::move(column));
+  }
+  for (const Column& column : columns) {
+    plan.inputs.push_back(column.head);
+    for (Point& point : plan.points) point.inputs.push_back(column.values[point.levels[a]]);
+  }
+}
+
+Plan Planner::plan() {
+  Plan plan;
+  if (impl_->diagnostics.has_errors()) return plan;
+  const auto combinations = impl_->count_combinations();
+  if (!combinations) return plan;
   std::map<std::string, std::size_t> by_hash;
-  for (std::size_t n = 0; n < combinations; ++n) {
-    std::vector<std::size_t> levels(axes.size());
-    std::size_t rest = n;
-    for (std::size_t a = axes.size(); a-- > 0;) {  // the last axis turns fastest
-      levels[a] = rest % axes[a].levels.size();
-      rest /= axes[a].levels.size();
-    }
-    Node root = *impl_->base;
-    Diagnostics own;
-    own.add_file(impl_->spec.file.generic_string());
-    for (std::size_t a = 0; a < axes.size(); ++a) {
-      Impl::set_all(root, axes[a].levels[levels[a]].settings, own);
-    }
-    if (own.has_errors()) {
-      impl_->print(own);
-      continue;
-    }
-    for (std::size_t r = 1; r <= replicates; ++r) {
-      auto point = impl_->resolve(root, impl_->seed_of(static_cast<std::int64_t>(r)));
+  for (std::size_t n = 0; n < *combinations; ++n) {
+    const std::vector<std::size_t> levels = impl_->levels_of(n);
+    const std::optional<Node> root = impl_->combined(levels);
+    if (!root) continue;
+    for (std::int64_t r = 1; r <= impl_->spec.replicates; ++r) {
+      auto point = impl_->resolve(*root, impl_->seed_of(r));
       if (!point) break;
       point->levels = levels;
-      point->replicate = static_cast<std::int64_t>(r);
+      point->replicate = r;
       const auto [at, is_new] = by_hash.try_emplace(point->hash, plan.points.size());
       if (!is_new) impl_->refuse_twin(plan.points[at->second], *point);
       plan.points.push_back(std::move(*point));
@@ -270,21 +306,7 @@ Plan Planner::plan() {
   }
   plan.outputs = impl_->measures.columns();
   if (impl_->diagnostics.has_errors()) return plan;
-  for (std::size_t a = 0; a < axes.size(); ++a) {
-    std::vector<Column> columns;
-    for (std::size_t s = 0; s < axes[a].paths.size(); ++s) {
-      columns.push_back(column_of(axes[a], a, s, impl_->dimensions));
-    }
-    if (axes[a].kind == AxisKind::cases) {
-      Column column{{"case", "", true, a}, {}};
-      for (const Level& level : axes[a].levels) column.values.push_back({0.0, level.label});
-      columns.push_back(std::move(column));
-    }
-    for (const Column& column : columns) {
-      plan.inputs.push_back(column.head);
-      for (Point& point : plan.points) point.inputs.push_back(column.values[point.levels[a]]);
-    }
-  }
+  for (std::size_t a = 0; a < impl_->spec.axes.size(); ++a) impl_->add_inputs(a, plan);
   return plan;
 }
 

@@ -82,6 +82,17 @@ TEST_CASE("each force and the turbulence shall change the run, those of the set 
         plain);
 }
 
+TEST_CASE("a drag law and its parameter shall change the run, its default said aloud shall not") {
+  const TemporaryFolder folder;
+  const auto with = [&](const std::string& name, const std::string& drag) {
+    return digest(folder, name, {"drag={model: " + drag + "}"});
+  };
+  const std::string plain = with("plain", "beetstra");
+  CHECK(with("other", "stokes") != plain);
+  CHECK(with("default", "beetstra, polydisperse: false") == plain);
+  CHECK(with("polydisperse", "beetstra, polydisperse: true") != plain);
+}
+
 TEST_CASE("a run without the grains' own disturbance shall differ, and go on from a checkpoint") {
   const TemporaryFolder folder;
   const std::string setting = "coupling.self_disturbance=on";

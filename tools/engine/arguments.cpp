@@ -15,23 +15,23 @@ void add_plugin_path(CLI::App& command, std::vector<std::string>& folders) {
 }
 
 void ScenarioArguments::add_to(CLI::App& command, bool is_scenario_required) {
-  auto* option = command.add_option("SCENARIO", scenario, "Scenario file (YAML)");
+  auto* option = command.add_option("SCENARIO", scenario_, "Scenario file (YAML)");
   if (is_scenario_required) option->required();
   command
-      .add_option("--set", settings, "Set one key, for example --set bodies.belt.speed='0.4 m/s'")
+      .add_option("--set", settings_, "Set one key, for example --set bodies.belt.speed='0.4 m/s'")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--set-file", set_files, "Lay the keys of another file over the scenario")
+  command.add_option("--set-file", set_files_, "Lay the keys of another file over the scenario")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  add_plugin_path(command, plugin_path);
+  add_plugin_path(command, plugin_path_);
 }
 
 run::RunOptions ScenarioArguments::options() const {
   run::RunOptions options;
-  options.scenario = scenario;
+  options.scenario = scenario_;
   std::vector<std::string> problems;
-  for (const std::string& setting : settings) {
+  for (const std::string& setting : settings_) {
     const std::size_t sign = setting.find('=');
     if (sign == std::string::npos || sign == 0) {
       problems.push_back("--set " + setting + ": error: write --set path=value");
@@ -40,8 +40,8 @@ run::RunOptions ScenarioArguments::options() const {
     options.overrides.push_back({setting.substr(0, sign), setting.substr(sign + 1)});
   }
   if (!problems.empty()) throw base::UserError(problems);
-  options.set_files.assign(set_files.begin(), set_files.end());
-  options.plugin_path.assign(plugin_path.begin(), plugin_path.end());
+  options.set_files.assign(set_files_.begin(), set_files_.end());
+  options.plugin_path.assign(plugin_path_.begin(), plugin_path_.end());
   return options;
 }
 

@@ -37,15 +37,19 @@ void add_man(CLI::App& app, int& status);
 void add_completion(CLI::App& app, int& status);
 
 /// Options that name a scenario and change it: SCENARIO, --set, --set-file, --plugin-path.
-struct ScenarioArguments {
-  std::string scenario;
-  std::vector<std::string> settings;
-  std::vector<std::string> set_files;
-  std::vector<std::string> plugin_path;
-
+class ScenarioArguments {
+ public:
+  /// Adds the options to a command; they are read to this object when the command is.
   void add_to(CLI::App& command, bool is_scenario_required = true);
-  /// The same as options of a run; throws base::UserError for a `--set` without '='.
+  /// What was given, as options of a run; throws base::UserError for a `--set` without '='.
   [[nodiscard]] run::RunOptions options() const;
+  [[nodiscard]] const std::vector<std::string>& plugin_path() const { return plugin_path_; }
+
+ private:
+  std::string scenario_;
+  std::vector<std::string> settings_;
+  std::vector<std::string> set_files_;
+  std::vector<std::string> plugin_path_;
 };
 
 void add_plugin_path(CLI::App& command, std::vector<std::string>& folders);

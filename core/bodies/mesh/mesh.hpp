@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "bodies/mesh/triangle_surface.hpp"
 #include "bodies/shape.hpp"
 
 #include <array>
@@ -10,27 +11,6 @@
 #include <vector>
 
 namespace dust::bodies {
-
-/// What was found in a mesh as given.
-struct MeshHealth {
-  std::size_t triangles = 0;       ///< kept
-  std::size_t vertices = 0;        ///< after points closer than the tolerance became one
-  std::size_t shells = 0;          ///< connected pieces
-  std::size_t collapsed = 0;       ///< left out: two corners are one point
-  std::size_t slivers = 0;         ///< without area, kept for the connection only
-  std::size_t duplicates = 0;      ///< left out: given before
-  std::size_t open_edges = 0;      ///< with one triangle
-  std::size_t crowded_edges = 0;   ///< with more than two
-  std::size_t opposing_edges = 0;  ///< whose two triangles look to different sides
-  std::size_t inside_out = 0;      ///< shells with negative volume that are not a cavity
-  double volume = 0.0;             ///< [m3]
-  double area = 0.0;               ///< [m2]
-  double shortest_edge = 0.0, median_edge = 0.0, longest_edge = 0.0;  ///< [m]
-  sdk::Vec3 open_place;      ///< [m] middle of an open edge
-  sdk::Vec3 opposing_place;  ///< [m] middle of an edge whose triangles disagree
-
-  [[nodiscard]] bool is_closed() const { return open_edges == 0 && crowded_edges == 0; }
-};
 
 /// A surface of triangles with an exact nearest point. It is cut into parts along edges where it
 /// folds towards the grains, so that a sphere in a corner touches each side of it, while on a part
@@ -45,7 +25,7 @@ class Mesh {
   /// Three corners per triangle [m], anticlockwise seen from outside.
   Mesh(const std::vector<sdk::Vec3>& corners, Sides sides);
 
-  [[nodiscard]] const MeshHealth& health() const { return health_; }
+  [[nodiscard]] const MeshHealth& health() const { return surface_.health; }
   [[nodiscard]] int parts() const { return static_cast<int>(trees_.size()); }
   /// [m] Least distance straight through the solid between two faces that look away from each
   /// other, measured in the middle of triangles; 0 where there are no such faces, or no inside.
@@ -72,36 +52,12 @@ class Mesh {
     Feature feature = Feature::face;
     int corner = 0;  ///< of the vertex, or where the edge begins
   };
-  struct Triangle {
-    std::int32_t corner[3] = {0, 0, 0};
-    std::int32_t edge[3] = {0, 0, 0};  ///< edge k runs from corner k to corner k + 1
-    sdk::Vec3 normal;
-    std::int32_t part = 0;
-    bool is_sliver = false;
-  };
-  struct Edge {
-    std::int32_t from = 0, to = 0;     ///< vertices, from < to
-    std::int32_t first = 0, last = 0;  ///< its triangles in edge_triangle_
-    sdk::Vec3 normal;                  ///< mean of its triangles'
-    bool is_border = false;            ///< between parts
-  };
   struct Node {
     sdk::Vec3 low, high;
     std::int32_t first = 0, count = 0;  ///< triangles of a leaf; count 0: the second child is first
   };
   using Tree = std::vector<Node>;
 
-  // mesh.cpp
-  std::vector<std::int32_t> weld(const std::vector<sdk::Vec3>& corners);
-  void add_triangles(const std::vector<std::int32_t>& index);
-  void connect_edges();
-  void connect_vertices();
-  void find_shells();
-  void measure();
-  // mesh_parts.cpp
-  void find_parts();
-  void mark_borders();
-  // mesh_query.cpp
   void grow_trees();
   void grow(Tree& tree, std::int32_t begin, std::int32_t end);
   void descend(const Tree& tree, sdk::Vec3 point, Foot& best) const;
@@ -110,20 +66,8 @@ class Mesh {
   [[nodiscard]] bool belongs_to_other(const Foot& foot, int part, sdk::Vec3 point) const;
   [[nodiscard]] SurfacePoint surface_point(const Foot& foot, sdk::Vec3 point) const;
 
-  [[nodiscard]] sdk::Vec3 at(const Triangle& t, int corner) const {
-    return vertex_[static_cast<std::size_t>(t.corner[corner % 3])];
-  }
-
   Sides sides_;
-  double tolerance_ = 0.0;  ///< [m] points closer than this are one
-  MeshHealth health_;
-  std::vector<sdk::Vec3> vertex_;
-  std::vector<sdk::Vec3> vertex_normal_;
-  std::vector<std::uint8_t> vertex_is_border_;
-  std::vector<Triangle> triangle_;
-  std::vector<Edge> edge_;
-  std::vector<std::int32_t> edge_triangle_;
-  std::vector<std::int32_t> vertex_begin_, vertex_triangle_;
+  TriangleSurface surface_;
   std::vector<std::int32_t> order_;  ///< triangles by part and tree
   std::vector<Tree> trees_;          ///< one per part
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bodies/mesh/mesh.hpp"
+#include "bodies/mesh/triangle_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -61,12 +61,10 @@ class Sets {
   std::vector<std::set<std::int32_t>> apart_;
 };
 
-}  // namespace
-
 /// Smooth faces first; then faces that meet at edges which stand out join too, the longest common
 /// edges first, as long as no fold towards the grains comes to lie inside a part.
-void Mesh::find_parts() {
-  Sets sets(triangle_.size());
+void find_parts(TriangleSurface& surface, bool is_sheet) {
+  Sets sets(surface.triangles.size());
   struct Ridge {
     std::int32_t a = 0, b = 0;
     double length = 0.0;
@@ -76,26 +74,27 @@ void Mesh::find_parts() {
   };
   std::vector<Ridge> ridges;
   std::vector<Fold> folds;
-  for (const Edge& e : edge_) {
+  for (const SurfaceEdge& e : surface.edges) {
     for (std::int32_t p = e.first; p < e.last; ++p) {
       for (std::int32_t q = p + 1; q < e.last; ++q) {
-        const std::int32_t a = edge_triangle_[static_cast<std::size_t>(p)];
-        const std::int32_t b = edge_triangle_[static_cast<std::size_t>(q)];
-        const Triangle& s = triangle_[static_cast<std::size_t>(a)];
-        const Triangle& t = triangle_[static_cast<std::size_t>(b)];
+        const std::int32_t a = surface.edge_triangles[static_cast<std::size_t>(p)];
+        const std::int32_t b = surface.edge_triangles[static_cast<std::size_t>(q)];
+        const SurfaceTriangle& s = surface.triangles[static_cast<std::size_t>(a)];
+        const SurfaceTriangle& t = surface.triangles[static_cast<std::size_t>(b)];
         const bool is_pair = e.last - e.first == 2;
         if (s.is_sliver || t.is_sliver || (is_pair && dot(s.normal, t.normal) >= k_smooth)) {
           sets.join(a, b);
           continue;
         }
         // The far corner of t, seen from s: before its face, the surface folds towards the grains.
-        const Vec3 from = vertex_[static_cast<std::size_t>(e.from)];
+        const Vec3 from = surface.vertices[static_cast<std::size_t>(e.from)];
         double height = 0.0;
         for (int k = 0; k < 3; ++k) {
-          if (t.corner[k] != e.from && t.corner[k] != e.to) height = dot(at(t, k) - from, s.normal);
+          if (t.corner[k] != e.from && t.corner[k] != e.to)
+            height = dot(surface.at(t, k) - from, s.normal);
         }
-        const double length = norm(vertex_[static_cast<std::size_t>(e.to)] - from);
-        if (sides_ == Sides::both || height > 0.0 || !is_pair) {
+        const double length = norm(surface.vertices[static_cast<std::size_t>(e.to)] - from);
+        if (is_sheet || height > 0.0 || !is_pair) {
           folds.push_back({a, b});
         } else {
           ridges.push_back({a, b, length});
@@ -117,34 +116,45 @@ void Mesh::find_parts() {
     if (sets.may_join(pair.first, pair.second)) sets.join(pair.first, pair.second);
   }
   std::map<std::int32_t, std::int32_t> number;
-  for (std::size_t n = 0; n < triangle_.size(); ++n) {
+  for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
     const std::int32_t set = sets.root(static_cast<std::int32_t>(n));
-    triangle_[n].part = number.emplace(set, static_cast<std::int32_t>(number.size())).first->second;
+    surface.triangles[n].part =
+        number.emplace(set, static_cast<std::int32_t>(number.size())).first->second;
   }
-  trees_.resize(number.size());
+  surface.parts = static_cast<int>(number.size());
 }
 
-void Mesh::mark_borders() {
-  vertex_is_border_.assign(vertex_.size(), 0);
-  for (Edge& e : edge_) {
+void mark_borders(TriangleSurface& surface) {
+  surface.vertex_is_border.assign(surface.vertices.size(), 0);
+  for (SurfaceEdge& e : surface.edges) {
     for (std::int32_t q = e.first; q < e.last; ++q) {
       const auto part = [&](std::int32_t place) {
-        return triangle_[static_cast<std::size_t>(edge_triangle_[static_cast<std::size_t>(place)])]
+        return surface
+            .triangles[static_cast<std::size_t>(
+                surface.edge_triangles[static_cast<std::size_t>(place)])]
             .part;
       };
       e.is_border = e.is_border || part(q) != part(e.first);
     }
   }
-  for (std::size_t v = 0; v < vertex_.size(); ++v) {
-    for (std::int32_t q = vertex_begin_[v]; q < vertex_begin_[v + 1]; ++q) {
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+    for (std::int32_t q = surface.vertex_begin[v]; q < surface.vertex_begin[v + 1]; ++q) {
       const auto part = [&](std::int32_t place) {
-        return triangle_[static_cast<std::size_t>(
-                             vertex_triangle_[static_cast<std::size_t>(place)])]
+        return surface
+            .triangles[static_cast<std::size_t>(
+                surface.vertex_triangles[static_cast<std::size_t>(place)])]
             .part;
       };
-      if (part(q) != part(vertex_begin_[v])) vertex_is_border_[v] = 1;
+      if (part(q) != part(surface.vertex_begin[v])) surface.vertex_is_border[v] = 1;
     }
   }
+}
+
+}  // namespace
+
+void divide_into_parts(TriangleSurface& surface, bool is_sheet) {
+  find_parts(surface, is_sheet);
+  mark_borders(surface);
 }
 
 }  // namespace dust::bodies

@@ -23,12 +23,12 @@ constexpr int k_max_steps = 200;
 double Mesh::thinnest_wall() const {
   if (sides_ == Sides::both) return 0.0;
   double thinnest = std::numeric_limits<double>::infinity();
-  const std::size_t stride = 1 + triangle_.size() / k_max_triangles;
-  for (std::size_t n = 0; n < triangle_.size(); n += stride) {
-    const Triangle& t = triangle_[n];
+  const std::size_t stride = 1 + surface_.triangles.size() / k_max_triangles;
+  for (std::size_t n = 0; n < surface_.triangles.size(); n += stride) {
+    const SurfaceTriangle& t = surface_.triangles[n];
     if (t.is_sliver) continue;
-    const Vec3 start = (at(t, 0) + at(t, 1) + at(t, 2)) / 3.0;
-    const double least = 4.0 * tolerance_;
+    const Vec3 start = (surface_.at(t, 0) + surface_.at(t, 1) + surface_.at(t, 2)) / 3.0;
+    const double least = 4.0 * surface_.tolerance;
     double depth = least;
     for (int step = 0; step < k_max_steps && depth < thinnest; ++step) {
       const SurfacePoint s = nearest(start - depth * t.normal);

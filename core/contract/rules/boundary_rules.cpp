@@ -14,7 +14,6 @@ namespace dust::contract {
 namespace {
 
 using sdk::SideRule;
-using sdk::Vec3;
 
 /// Points on a side of a cube, and times, in SI.
 constexpr std::size_t k_points = 24;

@@ -73,6 +73,16 @@ void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
                                                   " at void fraction " + shown(c.void_fraction[n]));
     }
   });
+  // The growth with the slip is taken relative to it. Laws of beds may end at 0 where no grain is.
+  runner.rule("is above 0 among grains without slip", [&] {
+    const Columns c = evaluate(make, {});
+    for (std::size_t n = 0; n < c.factor.size(); n += k_per_void_fraction) {
+      if (c.void_fraction[n] == 1.0) continue;
+      require(c.factor[n] > 0.0 && std::isfinite(c.factor[n]),
+              "F = " + shown(c.factor[n]) + " at Re 0, void fraction " + shown(c.void_fraction[n]) +
+                  ": a slow grain has a drag; give the law its creeping limit");
+    }
+  });
   runner.rule("is Stokes's law for a lone slow grain: F(0, 1) = 1", [&] {
     const Columns c = evaluate(make, {});
     const double isolated = c.factor[c.factor.size() - k_per_void_fraction + 1];

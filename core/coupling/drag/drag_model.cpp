@@ -28,7 +28,8 @@ void DragModel::find_slope(DragColumns& columns, std::size_t count, double* slop
   }
   evaluate(columns, count);
   for (std::size_t q = 0; q < count; ++q) {
-    const double growth = columns.factor[q] / factor[q] - 1.0;
+    // A law of beds may end at 0 for a grain at rest that is alone in its cell.
+    const double growth = factor[q] > 0.0 ? columns.factor[q] / factor[q] - 1.0 : 0.0;
     slope[q] = std::clamp(growth * (1.0 / k_reynolds_change), 0.0, 1.0);
   }
 }

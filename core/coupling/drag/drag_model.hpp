@@ -64,7 +64,7 @@ class DragModel {
                    columns.factor.data(), needs_size_ratio_ ? columns.size_ratio.data() : nullptr});
   }
   /// Logarithmic slope d ln F / d ln Re at the present factors: 0 for a viscous drag, 1 for one of
-  /// inertia. Overwrites factors and Reynolds numbers.
+  /// inertia; 0 where there is no drag. Overwrites factors and Reynolds numbers.
   void find_slope(DragColumns& columns, std::size_t count, double* slope) const;
   /// Largest rate of relaxation [1/s] of the particles in Stokes's drag, 3 pi mu D / m.
   [[nodiscard]] double fastest_relaxation(const particles::GrainRows& grains) const;

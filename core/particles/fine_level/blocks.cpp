@@ -24,12 +24,14 @@ std::size_t first_partner(Partners partners, std::int32_t cluster, std::int32_t 
 
 }  // namespace
 
-void Block::clear(int next_level) {
-  particles.clear();
-  candidates.clear();
-  level = next_level;
-  fine_count = 0;
-  largest_overlap = 0.0;
+void Blocks::open(int level) {
+  if (count_++ == blocks_.size()) blocks_.emplace_back();
+  Block& block = blocks_[count_ - 1];
+  block.particles.clear();
+  block.candidates.clear();
+  block.level = level;
+  block.fine_count = 0;
+  block.largest_overlap = 0.0;
 }
 
 void Blocks::load(const FineScene& scene, const Clusters& clusters,
@@ -43,8 +45,7 @@ void Blocks::load(const FineScene& scene, const Clusters& clusters,
     const int level = clusters.level_of(cluster);
     if (count_ == 0 || blocks_[count_ - 1].level != level ||
         (cluster != last_cluster && blocks_[count_ - 1].particles.size() >= k_block_particles)) {
-      if (count_++ == blocks_.size()) blocks_.emplace_back();
-      blocks_[count_ - 1].clear(level);
+      open(level);
     }
     if (cluster != last_cluster) {
       load_partners(scene, clusters.coarse_partners(), deferred, cluster);

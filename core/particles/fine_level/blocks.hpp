@@ -46,8 +46,6 @@ struct Block {
   std::vector<sdk::WallImpact> wall_impacts;
   std::vector<BlockWork> work;  ///< by particle, if it is kept
   std::vector<BlockWallWork> wall_work;
-
-  void clear(int next_level);
 };
 
 /// The clusters of a step in blocks, with copies of their particles. Memory is kept from step to
@@ -60,6 +58,8 @@ class Blocks {
   [[nodiscard]] std::span<Block> all() { return {blocks_.data(), count_}; }
 
  private:
+  /// The next block, empty; with the memory of a step before, if there was one.
+  void open(int level);
   void load_partners(const FineScene& scene, std::span<const CoarsePartner> partners,
                      const DeferredImpulses& deferred, std::int32_t cluster);
   void list_candidates(const FineScene& scene, const Clusters& clusters);

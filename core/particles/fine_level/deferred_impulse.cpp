@@ -16,11 +16,12 @@ bool is_earlier(const DeferredImpulse& a, const DeferredImpulse& b) {
 
 }  // namespace
 
-void DeferredImpulse::add(const DeferredImpulse& other) {
+DeferredImpulse& DeferredImpulse::operator+=(const DeferredImpulse& other) {
   velocity += other.velocity;
   angular_velocity += other.angular_velocity;
   predicted_velocity += other.predicted_velocity;
   predicted_angular_velocity += other.predicted_angular_velocity;
+  return *this;
 }
 
 void DeferredImpulse::act_on(ParticleStore& particles) const {
@@ -36,7 +37,7 @@ void DeferredImpulses::merge() {
   std::size_t kept = 0;
   for (std::size_t n = 0; n < impulses_.size(); ++n) {
     if (n > 0 && impulses_[kept - 1].particle == impulses_[n].particle) {
-      impulses_[kept - 1].add(impulses_[n]);
+      impulses_[kept - 1] += impulses_[n];
     } else {
       impulses_[kept++] = impulses_[n];
     }

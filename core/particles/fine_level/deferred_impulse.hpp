@@ -21,7 +21,7 @@ struct DeferredImpulse {
   /// Half of the last kick: predicted to the instant of the position, less that at the end.
   sdk::Vec3 predicted_velocity, predicted_angular_velocity;
 
-  void add(const DeferredImpulse& other);
+  DeferredImpulse& operator+=(const DeferredImpulse& other);
   /// Before the particle's next kick.
   void act_on(ParticleStore& particles) const;
 };

@@ -30,7 +30,7 @@ class SubCycle {
       is_first_ = m == 0;
       evaluate();
       if (scene_.work != nullptr) note_accelerations();
-      for (SubCycledParticle& p : block_.particles) p.advance(sub_step_);
+      for (SubCycledParticle& p : block_.particles) advance(p, sub_step_);
     }
   }
 
@@ -106,18 +106,19 @@ bool SubCycle::load_pair(const CandidateContact& c) {
   if (!(dot(d, d) < reach * reach)) return false;
   set(B::separation_x, d);
   // A coarse particle's own step is a straight line; its velocity changes along it.
-  set(B::velocity_x, i.velocity - j.velocity + slow_fraction_ * j.slow_kick);
-  set(B::rotation_i_x, i.angular_velocity);
-  set(B::rotation_j_x, j.angular_velocity - slow_fraction_ * j.slow_angular_kick);
-  set(B::angle_i_x, i.angle);
+  set(B::velocity_x, i.velocity.linear - j.velocity.linear + slow_fraction_ * j.coarse.kick.linear);
+  set(B::rotation_i_x, i.velocity.angular);
+  set(B::rotation_j_x, j.velocity.angular - slow_fraction_ * j.coarse.kick.angular);
+  set(B::angle_i_x, i.displacement.angular);
   if (j.is_coarse && is_first_) {
     // The contact was last evaluated in the coarse step before, on the line of then.
     const double since = 2.0 * i.since_kick;
-    set(B::displacement_x, i.displacement - since * (j.step_velocity - j.slow_kick));
-    set(B::angle_j_x, since * (j.step_angular_velocity - j.slow_angular_kick));
+    set(B::displacement_x,
+        i.displacement.linear - since * (j.coarse.velocity.linear - j.coarse.kick.linear));
+    set(B::angle_j_x, since * (j.coarse.velocity.angular - j.coarse.kick.angular));
   } else {
-    set(B::displacement_x, i.displacement - j.displacement);
-    set(B::angle_j_x, j.angle);
+    set(B::displacement_x, i.displacement.linear - j.displacement.linear);
+    set(B::angle_j_x, j.displacement.angular);
   }
   columns_.column(B::radius_i)[count_] = i.radius;
   columns_.column(B::radius_j)[count_] = j.radius;
@@ -137,12 +138,12 @@ bool SubCycle::load_surface(const CandidateContact& c) {
   }
   if (!(overlap > -scene_.law(c.law).range)) return false;
   put_at_wall({.position = i.position,
-               .velocity = i.velocity,
-               .rotation = i.angular_velocity,
+               .velocity = i.velocity.linear,
+               .rotation = i.velocity.angular,
                .radius = i.radius,
                .inverse_mass = i.inverse_mass,
-               .displacement = i.displacement,
-               .angle = i.angle,
+               .displacement = i.displacement.linear,
+               .angle = i.displacement.angular,
                .since = 2.0 * i.since_kick},
               s, count_, columns_);
   block_.largest_overlap = std::max(block_.largest_overlap, overlap / i.radius);
@@ -222,7 +223,7 @@ void SubCycle::note_accelerations() {
     const SubCycledParticle& p = block_.particles[n];
     const double kick = p.since_kick + 0.5 * sub_step_;
     double& largest = block_.work[n].acceleration;
-    largest = std::max(largest, norm(p.impulse) * p.inverse_mass / kick);
+    largest = std::max(largest, norm(p.impulse.linear) * p.inverse_mass / kick);
   }
 }
 
@@ -236,10 +237,10 @@ void SubCycle::apply(const CandidateContact& c, std::size_t q) {
   if (!j.is_coarse) duration = 0.5 * (duration + j.since_kick + 0.5 * sub_step_);
   const double share_i = felt_share(i.weight, j.weight);
   const double share_j = felt_share(j.weight, i.weight);
-  i.impulse += (share_i * duration) * force;
-  i.angular_impulse += (share_i * duration) * get(B::torque_i_x, q);
-  j.impulse -= (share_j * duration) * force;
-  j.angular_impulse += (share_j * duration) * get(B::torque_j_x, q);
+  i.impulse.linear += (share_i * duration) * force;
+  i.impulse.angular += (share_i * duration) * get(B::torque_i_x, q);
+  j.impulse.linear -= (share_j * duration) * force;
+  j.impulse.angular += (share_j * duration) * get(B::torque_j_x, q);
 }
 
 void SubCycle::apply_to_wall(const CandidateContact& c, std::size_t q) {
@@ -247,8 +248,8 @@ void SubCycle::apply_to_wall(const CandidateContact& c, std::size_t q) {
   const Vec3 force = get(B::force_x, q);
   const Vec3 torque = get(B::torque_i_x, q);
   const double duration = i.since_kick + 0.5 * sub_step_;
-  i.impulse += duration * force;
-  i.angular_impulse += duration * torque;
+  i.impulse.linear += duration * force;
+  i.impulse.angular += duration * torque;
   if (block_.wall_sums.empty()) return;
   const auto wall = static_cast<std::size_t>(scene_.surface(c.surface).wall);
   add_load(block_.wall_sums.data() + WallLoads::k_sums * wall, i.position, force, torque,

@@ -5,35 +5,37 @@ namespace dust::particles {
 
 using sdk::Vec3;
 
-void SubCycledParticle::advance(double sub_step) {
-  const double kick = since_kick + 0.5 * sub_step;
-  if (kick != relaxed_over) {
-    relaxed_over = kick;
-    relaxation = leapfrog::relaxation(relaxation_rate, kick);
+void advance(SubCycledParticle& p, double sub_step) {
+  const double kick = p.since_kick + 0.5 * sub_step;
+  if (kick != p.drag.over) {
+    p.drag.over = kick;
+    p.drag.factors = leapfrog::relaxation(p.drag.rate, kick);
   }
-  const Vec3 old = half_velocity;
-  const Vec3 push = kick * gravity + inverse_mass * impulse;
-  leapfrog::kick(old, push, target, relaxation.decay, relaxation.mean, half_velocity);
+  const leapfrog::Relaxation& relaxation = p.drag.factors;
+  LinearAngular& half = p.half_velocity;
+  const Vec3 old = half.linear;
+  const Vec3 push = kick * p.gravity + p.inverse_mass * p.impulse.linear;
+  leapfrog::kick(old, push, p.drag.target, relaxation.decay, relaxation.mean, half.linear);
   Vec3 by_drag;
-  leapfrog::drag_impulse(half_velocity, old, push, inverse_mass, by_drag);
-  received += by_drag;
+  leapfrog::drag_impulse(half.linear, old, push, p.inverse_mass, by_drag);
+  p.drag.received += by_drag;
   const double ahead = 0.5 * sub_step / kick;
-  leapfrog::predict(half_velocity, old, ahead * relaxation.decay, velocity);
-  displacement = sub_step * half_velocity;
-  position += displacement;
+  leapfrog::predict(half.linear, old, ahead * relaxation.decay, p.velocity.linear);
+  p.displacement.linear = sub_step * half.linear;
+  p.position += p.displacement.linear;
   double inverse_inertia = 0.0;
-  leapfrog::inverse_inertia(inverse_mass, radius, inverse_inertia);
-  const Vec3 angular_kick = inverse_inertia * angular_impulse;
-  half_angular_velocity += angular_kick;
-  angular_velocity = half_angular_velocity + ahead * angular_kick;
-  angle = sub_step * half_angular_velocity;
-  if (is_coarse) {
-    added_displacement += sub_step * (half_velocity - step_velocity);
-    added_angle += sub_step * (half_angular_velocity - step_angular_velocity);
+  leapfrog::inverse_inertia(p.inverse_mass, p.radius, inverse_inertia);
+  const Vec3 angular_kick = inverse_inertia * p.impulse.angular;
+  half.angular += angular_kick;
+  p.velocity.angular = half.angular + ahead * angular_kick;
+  p.displacement.angular = sub_step * half.angular;
+  if (p.is_coarse) {
+    p.coarse.added.linear += sub_step * (half.linear - p.coarse.velocity.linear);
+    p.coarse.added.angular += sub_step * (half.angular - p.coarse.velocity.angular);
   }
-  force = impulse / kick;
-  since_kick = 0.5 * sub_step;
-  impulse = angular_impulse = {};
+  p.force = p.impulse.linear / kick;
+  p.since_kick = 0.5 * sub_step;
+  p.impulse = {};
 }
 
 SubCycledParticle load_fine(const FineScene& scene, std::int32_t particle) {
@@ -45,18 +47,16 @@ SubCycledParticle load_fine(const FineScene& scene, std::int32_t particle) {
   p.radius = s.radius(n);
   p.inverse_mass = s.inverse_mass(n);
   p.weight = s.weight(n);
-  p.relaxation_rate = drag[3];
+  p.drag.rate = drag[3];
   p.position = vector_of(s.position(n));
-  p.velocity = vector_of(s.velocity(n));
-  p.angular_velocity = vector_of(s.rotation(n));
-  p.half_velocity = vector_of(s.half_velocity(n));
-  p.half_angular_velocity = vector_of(s.half_rotation(n));
+  p.velocity = {vector_of(s.velocity(n)), vector_of(s.rotation(n))};
+  p.half_velocity = {vector_of(s.half_velocity(n)), vector_of(s.half_rotation(n))};
   p.since_kick = s.time_since_kick(n);
-  p.displacement = 2.0 * p.since_kick * p.half_velocity;
-  p.angle = 2.0 * p.since_kick * p.half_angular_velocity;
-  p.target = vector_of(drag);
+  p.displacement = {2.0 * p.since_kick * p.half_velocity.linear,
+                    2.0 * p.since_kick * p.half_velocity.angular};
+  p.drag.target = vector_of(drag);
   p.gravity = vector_of(scene.gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material(n)));
-  if (s.has_fluid()) p.received = vector_of(s.impulse(n));
+  if (s.has_fluid()) p.drag.received = vector_of(s.impulse(n));
   return p;
 }
 
@@ -70,18 +70,17 @@ SubCycledParticle load_coarse(const FineScene& scene, const DeferredImpulses& de
   p.radius = s.radius(n);
   p.inverse_mass = s.inverse_mass(n);
   p.weight = s.weight(n);
-  p.step_velocity = p.velocity = p.half_velocity = vector_of(s.half_velocity(n));
-  p.step_angular_velocity = p.angular_velocity = p.half_angular_velocity =
-      vector_of(s.half_rotation(n));
-  p.position = vector_of(s.position(n)) - scene.steps.coarse_step * p.step_velocity;
+  p.half_velocity = {vector_of(s.half_velocity(n)), vector_of(s.half_rotation(n))};
+  p.coarse.velocity = p.velocity = p.half_velocity;
+  p.position = vector_of(s.position(n)) - scene.steps.coarse_step * p.coarse.velocity.linear;
   p.since_kick = 0.5 * sub_step;
   // The step has left a velocity predicted from the kick, half of it less what drag takes.
   const double drag = s.decay(n);
-  p.slow_kick = (2.0 / drag) * (vector_of(s.velocity(n)) - p.step_velocity);
-  p.slow_angular_kick = 2.0 * (vector_of(s.rotation(n)) - p.step_angular_velocity);
+  p.coarse.kick.linear = (2.0 / drag) * (vector_of(s.velocity(n)) - p.coarse.velocity.linear);
+  p.coarse.kick.angular = 2.0 * (vector_of(s.rotation(n)) - p.coarse.velocity.angular);
   if (const DeferredImpulse* before = deferred.find(particle)) {
-    p.velocity += before->predicted_velocity;
-    p.angular_velocity += before->predicted_angular_velocity;
+    p.velocity.linear += before->predicted_velocity;
+    p.velocity.angular += before->predicted_angular_velocity;
   }
   return p;
 }
@@ -90,21 +89,21 @@ void store_fine(const SubCycledParticle& p, ParticleStore& s, double* force) {
   const auto n = static_cast<std::size_t>(p.particle);
   for (int d = 0; d < 3; ++d) {
     s.position(n)[d] = p.position[d];
-    s.velocity(n)[d] = p.velocity[d];
-    s.rotation(n)[d] = p.angular_velocity[d];
-    s.half_velocity(n)[d] = p.half_velocity[d];
-    s.half_rotation(n)[d] = p.half_angular_velocity[d];
-    if (s.has_fluid()) s.impulse(n)[d] = p.received[d];
+    s.velocity(n)[d] = p.velocity.linear[d];
+    s.rotation(n)[d] = p.velocity.angular[d];
+    s.half_velocity(n)[d] = p.half_velocity.linear[d];
+    s.half_rotation(n)[d] = p.half_velocity.angular[d];
+    if (s.has_fluid()) s.impulse(n)[d] = p.drag.received[d];
     force[d] = p.force[d];
   }
   s.half_velocity(n)[3] = p.since_kick;
 }
 
 bool store_coarse(const SubCycledParticle& p, const FineScene& scene, DeferredImpulse& deferred) {
-  const Vec3 gain = p.half_velocity - p.step_velocity;
-  const Vec3 spin = p.half_angular_velocity - p.step_angular_velocity;
-  if (dot(gain, gain) + dot(p.added_displacement, p.added_displacement) + dot(spin, spin) +
-          dot(p.added_angle, p.added_angle) ==
+  const Vec3 gain = p.half_velocity.linear - p.coarse.velocity.linear;
+  const Vec3 spin = p.half_velocity.angular - p.coarse.velocity.angular;
+  if (dot(gain, gain) + dot(p.coarse.added.linear, p.coarse.added.linear) + dot(spin, spin) +
+          dot(p.coarse.added.angular, p.coarse.added.angular) ==
       0.0) {
     return false;
   }
@@ -114,17 +113,17 @@ bool store_coarse(const SubCycledParticle& p, const FineScene& scene, DeferredIm
   deferred.particle = p.particle;
   for (int d = 0; d < 3; ++d) {
     const auto k = 4 * n + static_cast<std::size_t>(d);
-    const double mean = inverse_step * p.added_displacement[d];
-    const double mean_spin = inverse_step * p.added_angle[d];
-    s.position(n)[d] += p.added_displacement[d];
-    s.velocity(n)[d] += p.velocity[d] - p.step_velocity[d];
-    s.rotation(n)[d] += p.angular_velocity[d] - p.step_angular_velocity[d];
+    const double mean = inverse_step * p.coarse.added.linear[d];
+    const double mean_spin = inverse_step * p.coarse.added.angular[d];
+    s.position(n)[d] += p.coarse.added.linear[d];
+    s.velocity(n)[d] += p.velocity.linear[d] - p.coarse.velocity.linear[d];
+    s.rotation(n)[d] += p.velocity.angular[d] - p.coarse.velocity.angular[d];
     s.half_velocity(n)[d] += mean;
     s.half_rotation(n)[d] += mean_spin;
     deferred.velocity[d] = gain[d] - mean;
     deferred.angular_velocity[d] = spin[d] - mean_spin;
-    deferred.predicted_velocity[d] = p.velocity[d] - p.half_velocity[d];
-    deferred.predicted_angular_velocity[d] = p.angular_velocity[d] - p.half_angular_velocity[d];
+    deferred.predicted_velocity[d] = p.velocity.linear[d] - p.half_velocity.linear[d];
+    deferred.predicted_angular_velocity[d] = p.velocity.angular[d] - p.half_velocity.angular[d];
     if (!scene.contact_force.empty()) {
       scene.contact_force[k] += inverse_step * gain[d] / p.inverse_mass;
     }

@@ -10,30 +10,48 @@
 
 namespace dust::particles {
 
+/// A vector of the translation and one of the rotation: velocities [m/s], [rad/s], displacements
+/// [m], [rad], or impulses [N s], [N m s].
+struct LinearAngular {
+  sdk::Vec3 linear, angular;
+};
+
+/// Drag on a sub-cycled particle: it relaxes towards `target` at `rate`.
+struct SubCycledDrag {
+  double rate = 0.0;   ///< [1/s]
+  sdk::Vec3 target;    ///< [m/s]
+  sdk::Vec3 received;  ///< [N s] impulse so far
+  double over = -1.0;  ///< [s] that `factors` are of
+  leapfrog::Relaxation factors;
+};
+
+/// A coarse particle that is sub-cycled: its own step without fine particles, and what those have
+/// added to it.
+struct CoarseMotion {
+  LinearAngular velocity;  ///< over the step
+  LinearAngular kick;      ///< what the step has added to the velocity
+  LinearAngular added;     ///< displacement by fine particles
+};
+
 /// A particle while it is sub-cycled: a fine one, or a coarse one that a cluster is near, which has
 /// made its coarse step and is followed along it with impulses; docs/theory/grains.md, eq. (12).
 struct SubCycledParticle {
   std::int32_t particle = 0;
   bool is_coarse = false;
-  double radius = 0.0, inverse_mass = 0.0, weight = 1.0, relaxation_rate = 0.0;
-  sdk::Vec3 position, velocity, angular_velocity, half_velocity, half_angular_velocity;
-  sdk::Vec3 target, gravity, received;
-  double since_kick = 0.0;             ///< [s]
-  sdk::Vec3 displacement, angle;       ///< [m], [rad] of the last sub-step
-  sdk::Vec3 impulse, angular_impulse;  ///< of the contacts in this sub-step
-  double relaxed_over = -1.0;          ///< [s] that `relaxation` is of
-  leapfrog::Relaxation relaxation;
-  sdk::Vec3 force;  ///< [N] mean over the last sub-step
-
-  // Of a coarse one: its own step without fine particles,
-  sdk::Vec3 step_velocity, step_angular_velocity;  ///< [m/s], [rad/s] over the step
-  sdk::Vec3 slow_kick, slow_angular_kick;          ///< what the step has added to them
-  // and what fine particles have added to that.
-  sdk::Vec3 added_displacement, added_angle;  ///< [m], [rad]
-
-  /// One sub-step: kick by the impulses with exact drag, drift, prediction.
-  void advance(double sub_step);
+  double radius = 0.0, inverse_mass = 0.0, weight = 1.0;
+  sdk::Vec3 position, gravity;
+  LinearAngular velocity;       ///< predicted to the instant of the position
+  LinearAngular half_velocity;  ///< after the last kick
+  double since_kick = 0.0;      ///< [s]
+  LinearAngular displacement;   ///< of the last sub-step
+  LinearAngular impulse;        ///< of the contacts in this sub-step
+  sdk::Vec3 force;              ///< [N] mean over the last sub-step
+  SubCycledDrag drag;           ///< of a fine one
+  CoarseMotion coarse;          ///< of a coarse one
 };
+
+/// One sub-step [s]: kick by the impulses with exact drag, drift, prediction.
+void advance(SubCycledParticle& p, double sub_step);
 
 /// A fine particle as it stands; the index is among all particles.
 SubCycledParticle load_fine(const FineScene& scene, std::int32_t particle);

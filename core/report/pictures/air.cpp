@@ -199,53 +199,64 @@ Plane mean_of(const std::vector<Plane>& maps, const std::vector<double>& times, 
   return mean;
 }
 
+/// The frames of a run as maps seen along y.
+struct Maps {
+  std::vector<Plane> planes;
+  std::vector<double> times;   ///< [s]
+  std::size_t fx = 1, fz = 1;  ///< cells of the grid in one of the maps
+};
+
+/// At most k_frames, evenly over the run, with the last.
+Maps maps_of(const H5Source& source, const std::vector<std::string>& names, const Grid& grid) {
+  Maps maps;
+  maps.fx = (grid.nx + k_map_x - 1) / k_map_x;
+  maps.fz = (grid.nz + k_map_z - 1) / k_map_z;
+  const std::size_t stride = (names.size() + k_frames - 1) / k_frames;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if ((names.size() - 1 - k) % stride != 0) continue;
+    const std::string frame = "/fluid/" + names[k];
+    Plane mean;
+    if (!read_plane(source, frame, grid, mean)) continue;
+    maps.planes.push_back(coarsened(mean, maps.fx, maps.fz));
+    const auto time = source.attribute(frame, "time");
+    maps.times.push_back(time.empty() ? static_cast<double>(k) : time[0]);
+  }
+  return maps;
+}
+
+Grid grid_of(const FluidGrid& fluid) {
+  Grid grid{.nx = fluid.count[0], .ny = fluid.count[1], .nz = fluid.count[2]};
+  grid.is_middle_plane = 3 * grid.nx * grid.ny * grid.nz > k_whole_field;
+  return grid;
+}
+
 }  // namespace
 
 json air_of(const H5Source& source) {
   const auto names = source.frames("/fluid");
   const auto fluid = fluid_grid_of(source);
   if (names.empty() || !fluid) return nullptr;
-  Grid grid;
-  grid.nx = fluid->count[0];
-  grid.ny = fluid->count[1];
-  grid.nz = fluid->count[2];
-  grid.is_middle_plane = 3 * grid.nx * grid.ny * grid.nz > k_whole_field;
+  const Grid grid = grid_of(*fluid);
+  const Maps maps = maps_of(source, names, grid);
+  if (maps.planes.empty()) return nullptr;
 
-  const std::size_t stride = (names.size() + k_frames - 1) / k_frames;
-  const std::size_t fx = (grid.nx + k_map_x - 1) / k_map_x;
-  const std::size_t fz = (grid.nz + k_map_z - 1) / k_map_z;
-  std::vector<Plane> maps;
-  std::vector<double> times;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    if ((names.size() - 1 - k) % stride != 0) continue;
-    const std::string frame = "/fluid/" + names[k];
-    Plane mean;
-    if (!read_plane(source, frame, grid, mean)) continue;
-    maps.push_back(coarsened(mean, fx, fz));
-    const auto time = source.attribute(frame, "time");
-    times.push_back(time.empty() ? static_cast<double>(k) : time[0]);
-  }
-  if (maps.empty()) return nullptr;
-
-  const Range range = range_of(maps);
-  const std::size_t longest = std::max(maps[0].nx, maps[0].nz);
-  const std::size_t block = (longest + k_arrows - 1) / k_arrows;
+  const Range range = range_of(maps.planes);
+  const Plane& first = maps.planes.front();
+  const std::size_t block = (std::max(first.nx, first.nz) + k_arrows - 1) / k_arrows;
   json frames = json::array();
-  std::size_t ax = 0, az = 0;
-  for (std::size_t k = 0; k < maps.size(); ++k) {
-    const Plane arrows = coarsened(maps[k], block, block);
-    ax = arrows.nx;
-    az = arrows.nz;
-    frames.push_back(encoded(maps[k], arrows, range, times[k]));
+  for (std::size_t k = 0; k < maps.planes.size(); ++k) {
+    const Plane& map = maps.planes[k];
+    frames.push_back(encoded(map, coarsened(map, block, block), range, maps.times[k]));
   }
-  const double half = 0.5 * times.back();
-  const Plane mean = mean_of(maps, times, half);
-  const double width = static_cast<double>(fx) * fluid->spacing[0],
-               height = static_cast<double>(fz) * fluid->spacing[2];
-  return {{"nx", maps[0].nx},
-          {"nz", maps[0].nz},
-          {"ax", ax},
-          {"az", az},
+  const double half = 0.5 * maps.times.back();
+  const Plane mean = mean_of(maps.planes, maps.times, half);
+  const Plane mean_arrows = coarsened(mean, block, block);
+  const double width = static_cast<double>(maps.fx) * fluid->spacing[0];
+  const double height = static_cast<double>(maps.fz) * fluid->spacing[2];
+  return {{"nx", first.nx},
+          {"nz", first.nz},
+          {"ax", mean_arrows.nx},
+          {"az", mean_arrows.nz},
           {"x0", fluid->origin[0]},
           {"z0", fluid->origin[2]},
           {"dx", width},
@@ -259,7 +270,7 @@ json air_of(const H5Source& source) {
           {"high", range.high},
           {"written", names.size()},
           {"middle", grid.is_middle_plane},
-          {"mean", encoded(mean, coarsened(mean, block, block), range, half)},
+          {"mean", encoded(mean, mean_arrows, range, half)},
           {"frames", frames}};
 }
 

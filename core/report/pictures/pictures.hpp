@@ -18,7 +18,8 @@ namespace dust::report {
 struct View {
   double min_x = 0.0, min_z = 0.0, max_x = 0.0, max_z = 0.0;
   [[nodiscard]] bool is_empty() const { return !(max_x > min_x && max_z > min_z); }
-  void add(double x, double z);
+  /// Widened so far that the point lies in it.
+  [[nodiscard]] View with(double x, double z) const;
 };
 
 /// The space a run takes place in [m].

@@ -147,16 +147,10 @@ json walls_of(const H5Source& source) {
 
 }  // namespace
 
-void View::add(double x, double z) {
-  if (!std::isfinite(x) || !std::isfinite(z)) return;
-  if (min_x == 0.0 && max_x == 0.0 && min_z == 0.0 && max_z == 0.0) {
-    *this = {x, z, x, z};
-    return;
-  }
-  min_x = std::min(min_x, x);
-  max_x = std::max(max_x, x);
-  min_z = std::min(min_z, z);
-  max_z = std::max(max_z, z);
+View View::with(double x, double z) const {
+  if (!std::isfinite(x) || !std::isfinite(z)) return *this;
+  if (min_x == 0.0 && max_x == 0.0 && min_z == 0.0 && max_z == 0.0) return {x, z, x, z};
+  return {std::min(min_x, x), std::min(min_z, z), std::max(max_x, x), std::max(max_z, z)};
 }
 
 Box box_of(const H5Source& source, const std::string& scenario) {
@@ -190,15 +184,19 @@ View view_of(const H5Source& source, const json& bodies, const std::string& scen
   View view;
   for (const auto& name : source.frames("/particles")) {
     const auto position = source.floats("/particles/" + name + "/position");
-    for (std::size_t k = 0; k + 2 < position.size(); k += 3) view.add(position[k], position[k + 2]);
+    for (std::size_t k = 0; k + 2 < position.size(); k += 3) {
+      view = view.with(position[k], position[k + 2]);
+    }
   }
   for (const json& body : bodies) {
     for (const json& ring : list_at(body, "polygons")) {
-      for (const json& point : ring) view.add(point[0].get<double>(), point[1].get<double>());
+      for (const json& point : ring) {
+        view = view.with(point[0].get<double>(), point[1].get<double>());
+      }
     }
     for (const json& part : list_at(body, "segments")) {
-      view.add(part[0].get<double>(), part[1].get<double>());
-      view.add(part[2].get<double>(), part[3].get<double>());
+      view = view.with(part[0].get<double>(), part[1].get<double>());
+      view = view.with(part[2].get<double>(), part[3].get<double>());
     }
   }
   // A margin, and some width for a single grain.

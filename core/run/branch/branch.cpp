@@ -5,7 +5,6 @@
 #include "base/text.hpp"
 #include "run/dust/hoods.hpp"
 #include "run/insertion/entry.hpp"
-#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,8 +16,6 @@
 
 namespace dust::run {
 namespace {
-
-using scenario::number_text;
 
 /// Settings that what is there does not depend on; the last two are what lets things in and what
 /// looks at them, and whole states do depend on those.

@@ -255,7 +255,7 @@ void DustStage::add_parts(LoadParts& parts) {
   parts.emplace_back("dust", [this](sdk::ArchiveReader& a) {
     field_.load(a);
     flow_.volume_after = a.numbers("volume");
-    });
+  });
 }
 
 }  // namespace dust::run

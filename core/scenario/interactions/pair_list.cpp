@@ -35,7 +35,7 @@ std::string model_of(const Node& law) {
 /// As merge(), but a law under another name takes no parameters of the one before.
 void merge_interaction(Node& base, Node over) {
   for (Entry& entry : over.entries) {
-    Entry* same = base.find(entry.key);
+    Entry* same = find(base, entry.key);
     const std::string model = model_of(entry.value);
     if (same != nullptr && !model.empty() && model != model_of(same->value)) {
       same->value = Node::make_map();

@@ -3,90 +3,52 @@
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/motion.hpp"
 #include "dust/sdk/table.hpp"
-#include "scenario/reading/setup_reader.hpp"
+#include "scenario/reading/block_readers.hpp"
+#include "scenario/reading/reading.hpp"
 #include "scenario/text/suggest.hpp"
 
 #include <utility>
 
 namespace dust::scenario {
+namespace {
 
-void SetupReader::read_frames(MapReader& top) {
-  Node written = Node::make_map();
-  for_each_named(top, "frames", [&](const Entry& entry, const std::string& path) {
-    MapReader reader(entry.value, path, entry.where, diagnostics_);
-    std::vector<sdk::Value> values;
-    const auto frame = block<FrameBlock>(reader, &values);
-    if (reader.is_good() && !(norm(frame.axis) > 0.0)) {
-      error(mark_of(entry.value, "axis"), path + ".axis: the axis has no direction");
-    }
-    reader.finish();
-    setup_.frames.push_back({entry.key, frame.origin, frame.axis, frame.angle});
-    written.add(entry.key, written_block<FrameBlock>(values));
-  });
-  if (!written.entries.empty()) out_.add("frames", std::move(written));
-}
-
-SetupReader::Placed SetupReader::read_placed(MapReader& reader) {
-  std::vector<sdk::Value> values;
-  const auto read = block<PlacedBlock>(reader, &values);
-  Placed placed;
-  placed.is_enabled = read.enabled;
-  placed.written.add("enabled", written_value(read.enabled));
-  if (read.frame.empty() && reader.node().find("frame") != nullptr && reader.is_good()) {
-    error(mark_of(reader.node(), "frame"), reader.path_of("frame") + ": is empty");
-  }
-  if (!read.frame.empty()) {
-    placed.frame = names_.frames.index(read.frame);
-    if (placed.frame < 0) {
-      error(mark_of(reader.node(), "frame"),
-            reader.path_of("frame") + ": there is no frame '" + printable(read.frame) + "'" +
-                suggestion(read.frame, names_.frames.all, "there are"));
-    }
-    placed.written.add("frame", written_value(read.frame));
-  }
-  models_.check_references(reader, PlacedBlock::schema(), values, true);
-  placed.material = names_.materials.index(read.material);
-  if (placed.material < 0) pairs_are_read_ = false;
-  placed.written.add("material", written_value(read.material));
-  return placed;
-}
-
-std::vector<ReadModel> SetupReader::read_motions(MapReader& reader, Node& written) {
+/// `motion: NAME` with its parameters beside it, or `motions:` with a list of models.
+std::vector<ReadModel> read_motions(Reading& reading, MapReader& reader, Node& written) {
   std::vector<ReadModel> all;
   const Entry* list = reader.optional("motions");
   if (reader.node().find("motion") != nullptr || list == nullptr) {
-    ReadModel motion = models_.read_optional(reader, "motion", "motion");
+    ReadModel motion = reading.models.read_optional(reader, "motion", "motion");
     if (motion.choice) all.push_back(std::move(motion));
     if (list != nullptr) {
-      error(list->where, reader.path() + ": give motion or motions, not both");
+      reading.error(list->where, reader.path() + ": give motion or motions, not both");
     }
     return all;
   }
   if (!list->value.is_list()) {
-    error(list->value.where, reader.path_of("motions") + ": a list of '- model: ...' is " +
-                                 "expected, not " + kind_text(list->value));
+    reading.error(list->value.where, reader.path_of("motions") + ": a list of '- model: ...' is " +
+                                         "expected, not " + kind_text(list->value));
     return all;
   }
   Node items = Node::make_list();
   for (std::size_t n = 0; n < list->value.items.size(); ++n) {
     const Node& item = list->value.items[n];
     MapReader inner(item, reader.path_of("motions") + "[" + std::to_string(n) + "]", item.where,
-                    diagnostics_);
+                    reading.diagnostics);
     if (!item.is_map()) continue;
-    all.push_back(models_.read(inner, "model", "motion"));
+    all.push_back(reading.models.read(inner, "model", "motion"));
     inner.finish();
     Node map = Node::make_map();
     append(map, std::exchange(all.back().written, {}));
     items.items.push_back(std::move(map));
   }
-  written.add("motions", std::move(items));
+  add(written, "motions", std::move(items));
   return all;
 }
 
-std::optional<RemovalSpec> SetupReader::read_removal(MapReader& reader, Node& written) {
+std::optional<RemovalSpec> read_removal(Reading& reading, MapReader& reader, Node& written) {
   const Entry* entry = reader.optional("remove");
   if (entry == nullptr) return std::nullopt;
-  MapReader inner(entry->value, reader.path_of("remove"), entry->where, diagnostics_);
+  MapReader inner(entry->value, reader.path_of("remove"), entry->where, reading.diagnostics);
   if (!entry->value.is_map()) return std::nullopt;
   std::vector<sdk::Value> values;
   const auto read = block<RemovalBlock>(inner, &values);
@@ -94,30 +56,32 @@ std::optional<RemovalSpec> SetupReader::read_removal(MapReader& reader, Node& wr
   const bool has_time = entry->value.find("at") != nullptr;
   const bool has_energy = entry->value.find("when_kinetic_energy_per_grain_below") != nullptr;
   if (inner.is_good() && has_time == has_energy) {
-    error(entry->where, reader.path_of("remove") + ": give at or " +
-                            "when_kinetic_energy_per_grain_below" + (has_time ? ", not both" : ""));
+    reading.error(entry->where, reader.path_of("remove") + ": give at or " +
+                                    "when_kinetic_energy_per_grain_below" +
+                                    (has_time ? ", not both" : ""));
   } else if (inner.is_good() && has_energy && !(read.kinetic_energy_per_grain > 0.0)) {
     // Zero stands for "not given" and is let through by the block itself.
-    error(mark_of(entry->value, "when_kinetic_energy_per_grain_below"),
-          reader.path_of("remove") + ".when_kinetic_energy_per_grain_below: 0 is never reached; " +
-              "give an energy above 0 J");
+    reading.error(mark_of(entry->value, "when_kinetic_energy_per_grain_below"),
+                  reader.path_of("remove") +
+                      ".when_kinetic_energy_per_grain_below: 0 is never reached; " +
+                      "give an energy above 0 J");
   } else if (has_time && entry->value.find("after") != nullptr) {
-    error(entry->where, reader.path_of("remove") + ": after belongs to " +
-                            "when_kinetic_energy_per_grain_below, not to at");
+    reading.error(entry->where, reader.path_of("remove") + ": after belongs to " +
+                                    "when_kinetic_energy_per_grain_below, not to at");
   }
   Node map = Node::make_map();
   for (std::size_t n = 0; n < values.size(); ++n) {
     const std::string& name = RemovalBlock::schema()[n].name;
-    if (entry->value.find(name) != nullptr) map.add(name, written_value(values[n]));
+    if (entry->value.find(name) != nullptr) add(map, name, written_value(values[n]));
   }
-  written.add("remove", std::move(map));
+  add(written, "remove", std::move(map));
   return RemovalSpec{read.at, read.kinetic_energy_per_grain, read.after};
 }
 
-std::optional<SuctionSpec> SetupReader::read_suction(MapReader& reader, Node& written) {
+std::optional<SuctionSpec> read_suction(Reading& reading, MapReader& reader, Node& written) {
   const Entry* entry = reader.optional("suction");
   if (entry == nullptr) return std::nullopt;
-  MapReader inner(entry->value, reader.path_of("suction"), entry->where, diagnostics_);
+  MapReader inner(entry->value, reader.path_of("suction"), entry->where, reading.diagnostics);
   if (!entry->value.is_map()) return std::nullopt;
   std::vector<sdk::Value> values;
   const auto read = block<SuctionBlock>(inner, &values);
@@ -125,45 +89,89 @@ std::optional<SuctionSpec> SetupReader::read_suction(MapReader& reader, Node& wr
   if (inner.is_good()) {
     for (int d = 0; d < 3; ++d) {
       if (read.max[d] >= read.min[d]) continue;
-      error(mark_of(entry->value, "max"),
-            reader.path_of("suction") + ".max: " + "xyz"[d] + " is below that of min");
+      reading.error(mark_of(entry->value, "max"),
+                    reader.path_of("suction") + ".max: " + "xyz"[d] + " is below that of min");
     }
     try {
       static_cast<void>(sdk::Table(read.times, read.factors, "times", "factors"));
     } catch (const sdk::ParameterError& e) {
-      error(entry->where, reader.path_of("suction") + ": " + e.what());
+      reading.error(entry->where, reader.path_of("suction") + ": " + e.what());
     }
   }
-  written.add("suction", written_block<SuctionBlock>(values));
+  add(written, "suction", written_block<SuctionBlock>(values));
   return SuctionSpec{read.flow, read.min, read.max, read.times, read.factors};
 }
 
-void SetupReader::check_body(const BodySpec& spec, std::vector<ReadModel> motions) {
+/// What only the made body knows.
+void check_body(Reading& reading, const BodySpec& spec, std::vector<ReadModel> motions) {
   std::vector<std::unique_ptr<sdk::Motion>> made;
   for (ReadModel& motion : motions) {
     made.emplace_back(static_cast<sdk::Motion*>(motion.model.release()));
   }
-  const bodies::Body body = bodies::make_body(setup_, spec, std::move(made));
+  const bodies::Body body = bodies::make_body(reading.setup, spec, std::move(made));
   const std::string path = "bodies." + spec.name;
   for (const std::string& warning : body.shape->warnings()) {
-    diagnostics_.warning(spec.shape.where, path + ": " + warning);
+    reading.diagnostics.warning(spec.shape.where, path + ": " + warning);
   }
 }
 
-void SetupReader::read_bodies(MapReader& top) {
+}  // namespace
+
+void read_frames(Reading& reading, MapReader& top) {
   Node written = Node::make_map();
-  for_each_named(top, "bodies", [&](const Entry& entry, const std::string& path) {
-    MapReader reader(entry.value, path, entry.where, diagnostics_);
+  for_each_named(reading, top, "frames", [&](const Entry& entry, const std::string& path) {
+    MapReader reader(entry.value, path, entry.where, reading.diagnostics);
+    std::vector<sdk::Value> values;
+    const auto frame = block<FrameBlock>(reader, &values);
+    if (reader.is_good() && !(norm(frame.axis) > 0.0)) {
+      reading.error(mark_of(entry.value, "axis"), path + ".axis: the axis has no direction");
+    }
+    reader.finish();
+    reading.setup.frames.push_back({entry.key, frame.origin, frame.axis, frame.angle});
+    add(written, entry.key, written_block<FrameBlock>(values));
+  });
+  if (!written.entries.empty()) add(reading.written, "frames", std::move(written));
+}
+
+Placed read_placed(Reading& reading, MapReader& reader) {
+  std::vector<sdk::Value> values;
+  const auto read = block<PlacedBlock>(reader, &values);
+  Placed placed;
+  placed.is_enabled = read.enabled;
+  add(placed.written, "enabled", written_value(read.enabled));
+  if (read.frame.empty() && reader.node().find("frame") != nullptr && reader.is_good()) {
+    reading.error(mark_of(reader.node(), "frame"), reader.path_of("frame") + ": is empty");
+  }
+  if (!read.frame.empty()) {
+    placed.frame = reading.names.frames.index(read.frame);
+    if (placed.frame < 0) {
+      reading.error(mark_of(reader.node(), "frame"),
+                    reader.path_of("frame") + ": there is no frame '" + printable(read.frame) +
+                        "'" + suggestion(read.frame, reading.names.frames.all, "there are"));
+    }
+    add(placed.written, "frame", written_value(read.frame));
+  }
+  reading.models.check_references(reader, PlacedBlock::schema(), values, true);
+  placed.material = reading.names.materials.index(read.material);
+  if (placed.material < 0) reading.pairs_are_read = false;
+  add(placed.written, "material", written_value(read.material));
+  return placed;
+}
+
+void read_bodies(Reading& reading, MapReader& top) {
+  Node written = Node::make_map();
+  for_each_named(reading, top, "bodies", [&](const Entry& entry, const std::string& path) {
+    MapReader reader(entry.value, path, entry.where, reading.diagnostics);
     if (!entry.value.is_map()) return;
-    const std::size_t errors_before = diagnostics_.error_count();
-    Placed placed = read_placed(reader);
+    const std::size_t errors_before = reading.diagnostics.error_count();
+    Placed placed = read_placed(reading, reader);
     const auto own = block<BodyBlock>(reader);
-    if (!own.group.empty()) placed.written.add("group", written_value(own.group));
-    ReadModel shape = models_.read(reader, "shape", "shape");
+    if (!own.group.empty()) add(placed.written, "group", written_value(own.group));
+    ReadModel shape = reading.models.read(reader, "shape", "shape");
     append(placed.written, shape.written);
-    std::vector<ReadModel> motions = read_motions(reader, placed.written);
-    const auto removal = read_removal(reader, placed.written);
-    const auto suction = read_suction(reader, placed.written);
+    std::vector<ReadModel> motions = read_motions(reading, reader, placed.written);
+    const auto removal = read_removal(reading, reader, placed.written);
+    const auto suction = read_suction(reading, reader, placed.written);
     reader.finish();
     BodySpec spec{.name = entry.key,
                   .shape = shape.choice.value_or(ModelChoice{}),
@@ -178,19 +186,21 @@ void SetupReader::read_bodies(MapReader& top) {
       for (const Entry& a : shape.written) {
         for (const Entry& b : motion.written) {
           if (a.key != b.key) continue;
-          error(entry.where, path + ": the key '" + a.key + "' belongs to the shape and to the " +
-                                 "motion: give the motion as motions: [{model: ...}]");
+          reading.error(entry.where, path + ": the key '" + a.key +
+                                         "' belongs to the shape and to the " +
+                                         "motion: give the motion as motions: [{model: ...}]");
         }
       }
       append(placed.written, std::move(motion.written));
       if (motion.choice) spec.motions.push_back(*motion.choice);
     }
-    written.add(entry.key, std::move(placed.written));
+    add(written, entry.key, std::move(placed.written));
     if (!placed.is_enabled) return;
-    if (diagnostics_.error_count() == errors_before) check_body(spec, std::move(motions));
-    setup_.bodies.push_back(std::move(spec));
+    if (reading.diagnostics.error_count() == errors_before)
+      check_body(reading, spec, std::move(motions));
+    reading.setup.bodies.push_back(std::move(spec));
   });
-  if (!written.entries.empty()) out_.add("bodies", std::move(written));
+  if (!written.entries.empty()) add(reading.written, "bodies", std::move(written));
 }
 
 }  // namespace dust::scenario

@@ -2,21 +2,91 @@
 #include "dust/sdk/emitter.hpp"
 #include "scenario/checks.hpp"
 #include "scenario/interactions/pair_list.hpp"
-#include "scenario/reading/setup_reader.hpp"
+#include "scenario/reading/block_readers.hpp"
+#include "scenario/reading/reading.hpp"
 
 namespace dust::scenario {
+namespace {
 
-void SetupReader::read_materials(MapReader& top) {
+/// Does the cohesive law fit the materials and the contact law?
+void check_laws(Reading& reading, const InteractionSpec& spec, const ReadModel& contact,
+                const ReadModel& cohesion) {
+  if (!contact.model || !cohesion.model) return;
+  const auto& i = reading.setup.materials[static_cast<std::size_t>(spec.material_i)].properties;
+  const auto& j = reading.setup.materials[static_cast<std::size_t>(spec.material_j)].properties;
+  if (!(i.young_modulus > 0.0 && j.young_modulus > 0.0)) return;  // told where it stands
+  auto& law = static_cast<sdk::CohesionLaw&>(*cohesion.model);
+  const ModelChoice& choice = *cohesion.choice;
+  if (law.needs_hertz_force() && !static_cast<sdk::ContactLaw&>(*contact.model).has_hertz_force()) {
+    reading.error(choice.where,
+                  choice.path + ": '" + choice.name +
+                      "' replaces the Hertz force, which the contact law '" + contact.choice->name +
+                      "' does not have: choose another contact law or another cohesion");
+  }
+  try {
+    law.prepare(i, j);
+  } catch (const sdk::ParameterError& problem) {
+    reading.error(choice.where, choice.path + ": " + problem.what());
+  }
+}
+
+Node read_interaction(Reading& reading, const Node& node, const std::string& path) {
+  MapReader reader(node, path, node.where, reading.diagnostics);
+  std::vector<sdk::Value> values;
+  const auto read = block<InteractionBlock>(reader, &values);
+  InteractionSpec spec;
+  spec.where = node.where;
+  bool has_pair = reader.is_good() &&
+                  reading.models.check_references(reader, InteractionBlock::schema(), values, true);
+  if (reader.is_good() && read.between.size() != 2) {
+    reading.error(mark_of(node, "between"), path + ".between: two materials are expected, not " +
+                                                std::to_string(read.between.size()));
+    has_pair = false;
+  }
+  Node written = written_block<InteractionBlock>(values);
+  // A `like` that is left led nowhere: one mistake, told already.
+  const bool is_incomplete = reader.optional("like") != nullptr;
+  ReadModel contact = read_part(reading, reader, "contact", !is_incomplete, written);
+  ReadModel rolling = read_part(reading, reader, "rolling", false, written);
+  ReadModel cohesion = read_part(reading, reader, "cohesion", false, written);
+  reader.finish();
+  if (!has_pair) {
+    reading.pairs_are_read = false;
+    return written;
+  }
+  spec.material_i = reading.names.materials.index(read.between[0]);
+  spec.material_j = reading.names.materials.index(read.between[1]);
+  for (const InteractionSpec& other : reading.setup.interactions) {
+    const bool is_same = std::minmax(other.material_i, other.material_j) ==
+                         std::minmax(spec.material_i, spec.material_j);
+    if (is_same) {
+      reading.error(node.where, path + ": the pair [" + read.between[0] + ", " + read.between[1] +
+                                    "] is already given in line " +
+                                    std::to_string(other.where.line));
+    }
+  }
+  spec.contact = contact.choice.value_or(ModelChoice{});
+  check_laws(reading, spec, contact, cohesion);
+  spec.rolling = std::move(rolling.choice);
+  spec.cohesion = std::move(cohesion.choice);
+  reading.setup.interactions.push_back(std::move(spec));
+  return written;
+}
+
+}  // namespace
+
+void read_materials(Reading& reading, MapReader& top) {
   Node written = Node::make_map();
-  for_each_named(top, "materials", [&](const Entry& entry, const std::string& path) {
-    MapReader reader(entry.value, path, entry.where, diagnostics_);
+  for_each_named(reading, top, "materials", [&](const Entry& entry, const std::string& path) {
+    MapReader reader(entry.value, path, entry.where, reading.diagnostics);
     std::vector<sdk::Value> values;
     const auto material = block<MaterialBlock>(reader, &values);
     reader.finish();
-    setup_.materials.push_back({entry.key,
-                                {material.density, material.young_modulus, material.poisson_ratio},
-                                material.coarse_graining});
-    dust_.loads.push_back({material.dust_load, material.moisture});
+    reading.setup.materials.push_back(
+        {entry.key,
+         {material.density, material.young_modulus, material.poisson_ratio},
+         material.coarse_graining});
+    reading.dust.loads.push_back({material.dust_load, material.moisture});
     Node block = written_block<MaterialBlock>(values);
     // What only dust asks for is not written where there is none.
     if (material.dust_load.empty()) {
@@ -25,118 +95,56 @@ void SetupReader::read_materials(MapReader& top) {
     if (!(material.moisture > 0.0)) {
       std::erase_if(block.entries, [](const Entry& e) { return e.key == "moisture"; });
     }
-    written.add(entry.key, std::move(block));
+    add(written, entry.key, std::move(block));
   });
-  if (!written.entries.empty()) out_.add("materials", std::move(written));
+  if (!written.entries.empty()) add(reading.written, "materials", std::move(written));
 }
 
-void SetupReader::read_interactions(MapReader& top) {
+void read_interactions(Reading& reading, MapReader& top) {
   const Entry* entry = top.optional("interactions");
   if (entry == nullptr) return;
   if (!entry->value.is_list()) {
-    pairs_are_read_ = false;
-    error(entry->value.where, "interactions: a list of '- between: [a, b]' is expected, not " +
-                                  kind_text(entry->value));
+    reading.pairs_are_read = false;
+    reading.error(
+        entry->value.where,
+        "interactions: a list of '- between: [a, b]' is expected, not " + kind_text(entry->value));
     return;
   }
   Node list = entry->value;
-  complete_pairs(list, diagnostics_);
+  complete_pairs(list, reading.diagnostics);
   Node written = Node::make_list();
   for (std::size_t n = 0; n < list.items.size(); ++n) {
     written.items.push_back(
-        read_interaction(list.items[n], "interactions[" + std::to_string(n) + "]"));
+        read_interaction(reading, list.items[n], "interactions[" + std::to_string(n) + "]"));
   }
-  out_.add("interactions", std::move(written));
+  add(reading.written, "interactions", std::move(written));
 }
 
-Node SetupReader::read_interaction(const Node& node, const std::string& path) {
-  MapReader reader(node, path, node.where, diagnostics_);
-  std::vector<sdk::Value> values;
-  const auto read = block<InteractionBlock>(reader, &values);
-  InteractionSpec spec;
-  spec.where = node.where;
-  bool has_pair = reader.is_good() &&
-                  models_.check_references(reader, InteractionBlock::schema(), values, true);
-  if (reader.is_good() && read.between.size() != 2) {
-    error(mark_of(node, "between"), path + ".between: two materials are expected, not " +
-                                        std::to_string(read.between.size()));
-    has_pair = false;
-  }
-  Node written = written_block<InteractionBlock>(values);
-  // A `like` that is left led nowhere: one mistake, told already.
-  const bool is_incomplete = reader.optional("like") != nullptr;
-  ReadModel contact = read_part(reader, "contact", !is_incomplete, written);
-  ReadModel rolling = read_part(reader, "rolling", false, written);
-  ReadModel cohesion = read_part(reader, "cohesion", false, written);
-  reader.finish();
-  if (!has_pair) {
-    pairs_are_read_ = false;
-    return written;
-  }
-  spec.material_i = names_.materials.index(read.between[0]);
-  spec.material_j = names_.materials.index(read.between[1]);
-  for (const InteractionSpec& other : setup_.interactions) {
-    const bool is_same = std::minmax(other.material_i, other.material_j) ==
-                         std::minmax(spec.material_i, spec.material_j);
-    if (is_same) {
-      error(node.where, path + ": the pair [" + read.between[0] + ", " + read.between[1] +
-                            "] is already given in line " + std::to_string(other.where.line));
-    }
-  }
-  spec.contact = contact.choice.value_or(ModelChoice{});
-  check_laws(spec, contact, cohesion);
-  spec.rolling = std::move(rolling.choice);
-  spec.cohesion = std::move(cohesion.choice);
-  setup_.interactions.push_back(std::move(spec));
-  return written;
-}
-
-void SetupReader::check_laws(const InteractionSpec& spec, const ReadModel& contact,
-                             const ReadModel& cohesion) {
-  if (!contact.model || !cohesion.model) return;
-  const auto& i = setup_.materials[static_cast<std::size_t>(spec.material_i)].properties;
-  const auto& j = setup_.materials[static_cast<std::size_t>(spec.material_j)].properties;
-  if (!(i.young_modulus > 0.0 && j.young_modulus > 0.0)) return;  // told where it stands
-  auto& law = static_cast<sdk::CohesionLaw&>(*cohesion.model);
-  const ModelChoice& choice = *cohesion.choice;
-  if (law.needs_hertz_force() && !static_cast<sdk::ContactLaw&>(*contact.model).has_hertz_force()) {
-    error(choice.where, choice.path + ": '" + choice.name +
-                            "' replaces the Hertz force, which the contact law '" +
-                            contact.choice->name +
-                            "' does not have: choose another contact law or another cohesion");
-  }
-  try {
-    law.prepare(i, j);
-  } catch (const sdk::ParameterError& problem) {
-    error(choice.where, choice.path + ": " + problem.what());
-  }
-}
-
-void SetupReader::read_emitters(MapReader& top) {
+void read_emitters(Reading& reading, MapReader& top) {
   Node written = Node::make_map();
-  for_each_named(top, "emitters", [&](const Entry& entry, const std::string& path) {
-    MapReader reader(entry.value, path, entry.where, diagnostics_);
+  for_each_named(reading, top, "emitters", [&](const Entry& entry, const std::string& path) {
+    MapReader reader(entry.value, path, entry.where, reading.diagnostics);
     if (!entry.value.is_map()) return;
-    Placed placed = read_placed(reader);
-    ReadModel model = models_.read(reader, "model", "emitter", placed.is_enabled);
+    Placed placed = read_placed(reading, reader);
+    ReadModel model = reading.models.read(reader, "model", "emitter", placed.is_enabled);
     reader.finish();
     append(placed.written, std::move(model.written));
-    written.add(entry.key, std::move(placed.written));
+    add(written, entry.key, std::move(placed.written));
     if (!placed.is_enabled) return;
     std::vector<int> more;
     if (model.model) {
       for (const auto& name : static_cast<const sdk::Emitter&>(*model.model).materials()) {
-        more.push_back(names_.materials.index(name));
+        more.push_back(reading.names.materials.index(name));
       }
-      emitters_.push_back(std::move(model.model));
+      reading.emitters.push_back(std::move(model.model));
     }
-    setup_.emitters.push_back({.name = entry.key,
-                               .model = model.choice.value_or(ModelChoice{}),
-                               .material = placed.material,
-                               .frame = placed.frame,
-                               .more_materials = std::move(more)});
+    reading.setup.emitters.push_back({.name = entry.key,
+                                      .model = model.choice.value_or(ModelChoice{}),
+                                      .material = placed.material,
+                                      .frame = placed.frame,
+                                      .more_materials = std::move(more)});
   });
-  if (!written.entries.empty()) out_.add("emitters", std::move(written));
+  if (!written.entries.empty()) add(reading.written, "emitters", std::move(written));
 }
 
 }  // namespace dust::scenario

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/text.hpp"
 #include "dust/sdk/liberation_law.hpp"
-#include "scenario/reading/setup_reader.hpp"
+#include "scenario/reading/block_readers.hpp"
+#include "scenario/reading/reading.hpp"
 #include "scenario/text/units.hpp"
 
 #include <algorithm>
@@ -10,66 +11,72 @@
 
 namespace dust::scenario {
 
-void SetupReader::read_liberation(MapReader& dust, Node& written) {
+void read_liberation(Reading& reading, MapReader& dust, Node& written) {
   const Entry* entry = dust.optional("liberation");
   ReadModel law;
-  if (entry != nullptr) law = read_part(dust, "liberation", false, written);
-  check_dust_loads(law.model.get(), entry == nullptr || law.model != nullptr);
+  if (entry != nullptr) law = read_part(reading, dust, "liberation", false, written);
+  check_dust_loads(reading, law.model.get(), entry == nullptr || law.model != nullptr);
   if (!law.choice) return;
   const Mark where = law.choice->where;
-  if (entry != nullptr && !dust_.field && has_fluid_) {
-    error(where,
-          "dust.liberation: there is no dust.field that takes up what comes off: give "
-          "dust: {field: {classes: [...], material: ...}}");
+  if (entry != nullptr && !reading.dust.field && reading.has_fluid) {
+    reading.error(where,
+                  "dust.liberation: there is no dust.field that takes up what comes off: give "
+                  "dust: {field: {classes: [...], material: ...}}");
   }
-  const bool has_load = std::any_of(dust_.loads.begin(), dust_.loads.end(),
+  const bool has_load = std::any_of(reading.dust.loads.begin(), reading.dust.loads.end(),
                                     [](const DustLoadSpec& load) { return !load.share.empty(); });
   if (!has_load) {
-    error(where,
-          "dust.liberation: no material has a dust_load that could come off: give "
-          "materials: {...: {dust_load: [...]}}, or take dust.liberation out");
+    reading.error(where,
+                  "dust.liberation: no material has a dust_load that could come off: give "
+                  "materials: {...: {dust_load: [...]}}, or take dust.liberation out");
   }
-  dust_.liberation = std::move(law.choice);
+  reading.dust.liberation = std::move(law.choice);
 }
 
-void SetupReader::check_dust_loads(const sdk::Model* law, bool is_law_read) {
-  const Entry* materials = root_.find("materials");
+void check_dust_loads(Reading& reading, const sdk::Model* law, bool is_law_read) {
+  const Entry* materials = reading.root.find("materials");
   if (materials == nullptr || !materials->value.is_map()) return;
   const bool binds = law != nullptr && static_cast<const sdk::LiberationLaw*>(law)->uses_moisture();
-  for (std::size_t m = 0; m < dust_.loads.size() && m < materials->value.entries.size(); ++m) {
+  for (std::size_t m = 0; m < reading.dust.loads.size() && m < materials->value.entries.size();
+       ++m) {
     const Entry& material = materials->value.entries[m];
     const std::string path = "materials." + material.key;
-    const DustLoadSpec& load = dust_.loads[m];
+    const DustLoadSpec& load = reading.dust.loads[m];
     if (load.moisture > 0.0 && !binds && is_law_read) {
-      error(mark_of(material.value, "moisture"),
-            path + ".moisture: " +
-                (law == nullptr ? "there is no dust.liberation that makes anything"
-                                : "the law of dust.liberation makes nothing") +
-                " of it: give a law that binds dust by moisture (energy), or take moisture out");
+      reading.error(
+          mark_of(material.value, "moisture"),
+          path + ".moisture: " +
+              (law == nullptr ? "there is no dust.liberation that makes anything"
+                              : "the law of dust.liberation makes nothing") +
+              " of it: give a law that binds dust by moisture (energy), or take moisture out");
     }
     if (load.share.empty()) continue;
     const Mark where = mark_of(material.value, "dust_load");
     const double sum = std::accumulate(load.share.begin(), load.share.end(), 0.0);
     if (sum > 1.0) {
-      error(where, path + ".dust_load: the shares of the classes make " +
-                       base::digits_text(100.0 * sum, 4) +
-                       " % of the grain; they are part of its mass: give at most 100 %");
+      reading.error(where, path + ".dust_load: the shares of the classes make " +
+                               base::digits_text(100.0 * sum, 4) +
+                               " % of the grain; they are part of its mass: give at most 100 %");
     }
-    if (!has_fluid_) {
-      error(where, path +
-                       ".dust_load: there is no fluid that takes dust up: give fluid: {cells: "
-                       "...} instead of none, or take dust_load out");
-    } else if (!dust_.field) {
-      error(where, path +
-                       ".dust_load: there is no dust.field whose classes it could mean: give "
-                       "dust: {field: {classes: [...], material: ...}, liberation: {model: "
-                       "energy, ...}}, or take dust_load out");
-    } else if (load.share.size() != dust_.field->diameters.size()) {
-      error(where, path + ".dust_load: " + std::to_string(load.share.size()) + " numbers for " +
-                       std::to_string(dust_.field->diameters.size()) +
-                       " classes of dust.field; give one for each");
+    if (!reading.has_fluid) {
+      reading.error(where,
+                    path +
+                        ".dust_load: there is no fluid that takes dust up: give fluid: {cells: "
+                        "...} instead of none, or take dust_load out");
+    } else if (!reading.dust.field) {
+      reading.error(where,
+                    path +
+                        ".dust_load: there is no dust.field whose classes it could mean: give "
+                        "dust: {field: {classes: [...], material: ...}, liberation: {model: "
+                        "energy, ...}}, or take dust_load out");
+    } else if (load.share.size() != reading.dust.field->diameters.size()) {
+      reading.error(where, path + ".dust_load: " + std::to_string(load.share.size()) +
+                               " numbers for " +
+                               std::to_string(reading.dust.field->diameters.size()) +
+                               " classes of dust.field; give one for each");
     } else if (law == nullptr && is_law_read) {
-      diagnostics_.warning(where, path +
+      reading.diagnostics.warning(where,
+                                  path +
                                       ".dust_load: stays on the grains: give dust: {liberation: "
                                       "{model: energy, ...}} for it to come off");
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/emitter.hpp"
-#include "scenario/reading/setup_reader.hpp"
+#include "scenario/reading/block_readers.hpp"
+#include "scenario/reading/reading.hpp"
 #include "scenario/text/units.hpp"
 
 #include <algorithm>
@@ -27,33 +28,34 @@ std::vector<int> materials_of(const EmitterSpec& emitter) {
 
 }  // namespace
 
-bool SetupReader::is_resolved(const EmitterSpec& emitter) const {
+bool is_resolved(const Reading& reading, const EmitterSpec& emitter) {
   const std::vector<int> all = materials_of(emitter);
-  return setup_.fluid && std::any_of(all.begin(), all.end(), [this](int material) {
-           return setup_.fluid->resolves(material);
+  return reading.setup.fluid && std::any_of(all.begin(), all.end(), [&](int material) {
+           return reading.setup.fluid->resolves(material);
          });
 }
 
-void SetupReader::read_resolved(const CouplingBlock& coupling, const Entry* entry) {
+void read_resolved(Reading& reading, const CouplingBlock& coupling, const Entry* entry) {
   if (coupling.resolved.empty()) return;
   const Mark where = mark_of(entry->value, "resolved");
-  if (!setup_.fluid) {
-    if (!has_fluid_) {
-      error(where,
-            "coupling.resolved: spheres are resolved by the grid of a fluid, and fluid is none: "
-            "declare a fluid, or leave resolved out");
+  if (!reading.setup.fluid) {
+    if (!reading.has_fluid) {
+      reading.error(
+          where,
+          "coupling.resolved: spheres are resolved by the grid of a fluid, and fluid is none: "
+          "declare a fluid, or leave resolved out");
     }
     return;
   }
-  FluidSpec& fluid = *setup_.fluid;
+  FluidSpec& fluid = *reading.setup.fluid;
   fluid.resolved_where = where;
   for (const std::string& name : coupling.resolved) {
-    fluid.resolved.push_back(names_.materials.index(name));
+    fluid.resolved.push_back(reading.names.materials.index(name));
   }
   const auto refuse = [&](bool is_there, const char* what) {
     if (!is_there) return;
-    error(where,
-          std::string("coupling.resolved: does not go with ") + what + ": leave one of both out");
+    reading.error(where, std::string("coupling.resolved: does not go with ") + what +
+                             ": leave one of both out");
   };
   refuse(coupling.one_way, "coupling.one_way, where the fluid does not feel the grains");
   refuse(coupling.overlap, "coupling.overlap, where grains see the fluid of the step before");
@@ -62,48 +64,53 @@ void SetupReader::read_resolved(const CouplingBlock& coupling, const Entry* entr
 }
 
 /// Sizes and densities of the grains that are to be resolved.
-void SetupReader::check_resolved() {
-  if (!setup_.fluid || setup_.fluid->resolved.empty() || diagnostics_.has_errors()) return;
-  const FluidSpec& fluid = *setup_.fluid;
+void check_resolved(Reading& reading) {
+  if (!reading.setup.fluid || reading.setup.fluid->resolved.empty() ||
+      reading.diagnostics.has_errors())
+    return;
+  const FluidSpec& fluid = *reading.setup.fluid;
   double spacing = 0.0;
   for (int d = 0; d < 3; ++d) {
-    const double width = setup_.domain.max[d] - setup_.domain.min[d];
+    const double width = reading.setup.domain.max[d] - reading.setup.domain.min[d];
     spacing = std::max(spacing, width / fluid.cells[static_cast<std::size_t>(d)]);
   }
   for (const int material : fluid.resolved) {
-    const MaterialSpec& m = setup_.materials[static_cast<std::size_t>(material)];
+    const MaterialSpec& m = reading.setup.materials[static_cast<std::size_t>(material)];
     if (m.coarse_graining != 1.0) {
-      error(fluid.resolved_where, "coupling.resolved: grains of '" + m.name +
-                                      "' stand for smaller ones (coarse_graining); a resolved "
-                                      "sphere is itself: leave one of both out");
+      reading.error(fluid.resolved_where,
+                    "coupling.resolved: grains of '" + m.name +
+                        "' stand for smaller ones (coarse_graining); a resolved "
+                        "sphere is itself: leave one of both out");
     }
     if (m.properties.density < k_lightest * fluid.density) {
-      error(fluid.resolved_where,
-            "coupling.resolved: '" + m.name + "' has " +
-                number_text(m.properties.density / fluid.density) +
-                " of the fluid's density; below " + number_text(k_lightest) +
-                " the sphere and the fluid that it shoves would drive each other to and fro: take "
-                "the material out of resolved");
+      reading.error(
+          fluid.resolved_where,
+          "coupling.resolved: '" + m.name + "' has " +
+              number_text(m.properties.density / fluid.density) +
+              " of the fluid's density; below " + number_text(k_lightest) +
+              " the sphere and the fluid that it shoves would drive each other to and fro: take "
+              "the material out of resolved");
     }
   }
-  for (std::size_t n = 0; n < emitters_.size(); ++n) {
-    const EmitterSpec& emitter = setup_.emitters[n];
-    if (!is_resolved(emitter)) continue;
+  for (std::size_t n = 0; n < reading.emitters.size(); ++n) {
+    const EmitterSpec& emitter = reading.setup.emitters[n];
+    if (!is_resolved(reading, emitter)) continue;
     const std::vector<int> all = materials_of(emitter);
     if (!std::all_of(all.begin(), all.end(), [&](int m) { return fluid.resolves(m); })) {
-      error(emitter.model.where, emitter.model.path +
-                                     ": gives grains of materials that are resolved and of others: "
-                                     "use an emitter for each");
+      reading.error(emitter.model.where,
+                    emitter.model.path +
+                        ": gives grains of materials that are resolved and of others: "
+                        "use an emitter for each");
     }
-    for (const double d : static_cast<const sdk::Emitter&>(*emitters_[n]).diameters()) {
+    for (const double d : static_cast<const sdk::Emitter&>(*reading.emitters[n]).diameters()) {
       if (d >= (k_min_cells_per_diameter - 1e-9) * spacing) continue;
-      error(fluid.resolved_where,
-            "coupling.resolved: grains of " + number_text(rounded_mm(d)) + " mm from " +
-                emitter.name + " are " + number_text(std::round(100 * d / spacing) / 100) +
-                " cells across, and " + number_text(k_min_cells_per_diameter) +
-                " are the fewest: cells of at most " +
-                number_text(rounded_mm(d / k_min_cells_per_diameter)) +
-                " mm are needed, or take the material out of resolved");
+      reading.error(fluid.resolved_where,
+                    "coupling.resolved: grains of " + number_text(rounded_mm(d)) + " mm from " +
+                        emitter.name + " are " + number_text(std::round(100 * d / spacing) / 100) +
+                        " cells across, and " + number_text(k_min_cells_per_diameter) +
+                        " are the fewest: cells of at most " +
+                        number_text(rounded_mm(d / k_min_cells_per_diameter)) +
+                        " mm are needed, or take the material out of resolved");
       break;
     }
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario/reading/setup_reader.hpp"
+#include "scenario/reading/block_readers.hpp"
+#include "scenario/reading/reading.hpp"
 #include "scenario/text/units.hpp"
 #include "scenario/text/values.hpp"
 
@@ -24,15 +25,15 @@ fs::path seen_from(const Mark& where, const std::string& path) {
 
 /// `start_from: RUN` or `start_from: RUN@TIME`. Whether there is such a run, whoever runs the
 /// scenario finds out: it may be still to come.
-void SetupReader::read_start(MapReader& top) {
+void read_start(Reading& reading, MapReader& top) {
   const Entry* entry = top.optional("start_from");
   if (entry == nullptr) return;
   const Node& value = entry->value;
   if (!value.is_text() || value.text.empty() || value.text.front() == k_at) {
-    error(value.where,
-          "start_from: the folder of a run's results is expected, like results/steady or "
-          "'results/steady@0.5 s', not " +
-              kind_text(value));
+    reading.error(value.where,
+                  "start_from: the folder of a run's results is expected, like results/steady or "
+                  "'results/steady@0.5 s', not " +
+                      kind_text(value));
     return;
   }
   StartSpec start{.folder = {}, .time = {}, .where = value.where};
@@ -46,9 +47,9 @@ void SetupReader::read_start(MapReader& top) {
     const auto written = split_number(std::string_view(path).substr(at + 1), problem);
     if (written) start.time = to_si(*written, sdk::dimension::time, problem);
     if (!start.time) {
-      error(value.where, "start_from: '" + printable(path.substr(at + 1)) +
-                             "' behind the @ is no time, like 0.5 s" +
-                             (problem.empty() ? "" : ": " + problem));
+      reading.error(value.where, "start_from: '" + printable(path.substr(at + 1)) +
+                                     "' behind the @ is no time, like 0.5 s" +
+                                     (problem.empty() ? "" : ": " + problem));
       return;
     }
     path.resize(at);
@@ -56,8 +57,8 @@ void SetupReader::read_start(MapReader& top) {
   start.folder = seen_from(value.where, path);
   std::string written = start.folder.string();
   if (start.time) written += k_at + number_text(*start.time) + " s";
-  out_.add("start_from", written_value(written));
-  start_.from = std::move(start);
+  add(reading.written, "start_from", written_value(written));
+  reading.start.from = std::move(start);
 }
 
 }  // namespace dust::scenario

@@ -203,7 +203,7 @@ void merge(Node& base, Node over) {
     return;
   }
   for (Entry& entry : over.entries) {
-    if (Entry* same = base.find(entry.key)) {
+    if (Entry* same = find(base, entry.key)) {
       if (!same->value.is_map() || !entry.value.is_map()) same->where = entry.where;
       merge(same->value, std::move(entry.value));
     } else {
@@ -214,8 +214,8 @@ void merge(Node& base, Node over) {
 }
 
 void merge_scenario(Node& base, Node over) {
-  Entry* below = base.is_map() ? base.find("interactions") : nullptr;
-  Entry* above = over.is_map() ? over.find("interactions") : nullptr;
+  Entry* below = base.is_map() ? find(base, "interactions") : nullptr;
+  Entry* above = over.is_map() ? find(over, "interactions") : nullptr;
   if (below != nullptr && above != nullptr && below->value.is_list() && above->value.is_list()) {
     below->where = above->where;
     merge_pairs(below->value, std::move(above->value));
@@ -263,7 +263,7 @@ void set_path(Node& root, const std::string& path, Node value, const Mark& here,
                                   printable(step.key) + "'");
       return;
     }
-    Entry* entry = node->find(step.key);
+    Entry* entry = find(*node, step.key);
     const bool is_last = n + 1 == steps->size();
     if (entry == nullptr) {
       const char* thing = n == 1 ? thing_in(steps->front().key) : nullptr;

@@ -146,7 +146,7 @@ class TreeBuilder final : public YAML::EventHandler {
       diagnostics_.error(node.where, "a key must be a word, not " + kind_text(node));
       return;
     }
-    if (const Entry* first = std::as_const(parent.node).find(parent.key)) {
+    if (const Entry* first = parent.node.find(parent.key)) {
       parent.is_key_usable = false;
       std::string text = "duplicate key '" + printable(parent.key) + "'";
       if (first->where.line > 0)
@@ -224,8 +224,8 @@ Node Node::make_text(std::string text, bool is_quoted) {
   return node;
 }
 
-void Node::add(std::string key, Node value) {
-  entries.push_back({std::move(key), {}, std::move(value)});
+void add(Node& map, std::string key, Node value) {
+  map.entries.push_back({std::move(key), {}, std::move(value)});
 }
 
 bool Node::is_word(std::string_view word) const {
@@ -239,8 +239,8 @@ const Entry* Node::find(std::string_view key) const {
   return nullptr;
 }
 
-Entry* Node::find(std::string_view key) {
-  return const_cast<Entry*>(std::as_const(*this).find(key));
+Entry* find(Node& map, std::string_view key) {
+  return const_cast<Entry*>(std::as_const(map).find(key));
 }
 
 std::string kind_text(const Node& node) {

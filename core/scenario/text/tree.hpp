@@ -29,12 +29,10 @@ struct Node {
   /// Text without quotes that is `word`.
   [[nodiscard]] bool is_word(std::string_view word) const;
   [[nodiscard]] const Entry* find(std::string_view key) const;
-  [[nodiscard]] Entry* find(std::string_view key);
 
   static Node make_map();
   static Node make_list();
   static Node make_text(std::string text, bool is_quoted = false);
-  void add(std::string key, Node value);
 };
 
 struct Entry {
@@ -42,6 +40,9 @@ struct Entry {
   Mark where;
   Node value;
 };
+
+[[nodiscard]] Entry* find(Node& map, std::string_view key);
+void add(Node& map, std::string key, Node value);
 
 /// "a map of keys", "a list", "text", "nothing": what a node is, for messages.
 std::string kind_text(const Node& node);

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <istream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -66,6 +67,7 @@ inline constexpr std::array<ColumnName, 11> k_columns = {{{"diameter", "m"},
                                                           {"rotation_y", "rad/s"},
                                                           {"rotation_z", "rad/s"},
                                                           {"material", ""}}};
+inline constexpr std::size_t k_velocity = 4, k_rotation = 7;  ///< their first components
 inline constexpr std::size_t k_numbers = 10;
 inline constexpr std::size_t k_material = 10;
 
@@ -115,6 +117,82 @@ class Complaints {
   std::string text_;
 };
 
+/// The columns of a file, in its order and by their number in k_columns.
+class Columns {
+ public:
+  /// Of the cells of the head line, which stands at `place` for messages.
+  Columns(const std::vector<std::string_view>& cells, const std::string& place) {
+    place_of_.fill(-1);
+    for (const auto cell : cells) {
+      const std::size_t column = column_of(cell, place);
+      if (has(column)) {
+        throw TableError(place + "the column '" + std::string(cell) + "' is there twice");
+      }
+      place_of_[column] = static_cast<std::ptrdiff_t>(order_.size());
+      order_.push_back(column);
+    }
+    for (std::size_t c = 0; c < 4; ++c) {
+      if (!has(c)) {
+        throw TableError(place + "the column '" + k_columns[c].name +
+                         "' is missing; diameter, x, y and z must be there");
+      }
+    }
+    for (const std::size_t group : {k_velocity, k_rotation}) {
+      const int given = has(group) + has(group + 1) + has(group + 2);
+      if (given == 1 || given == 2) {
+        throw TableError(place + "give all of " + k_columns[group].name + ", " +
+                         k_columns[group + 1].name + " and " + k_columns[group + 2].name +
+                         ", or none");
+      }
+    }
+  }
+  [[nodiscard]] bool has(std::size_t column) const { return place_of_[column] >= 0; }
+  [[nodiscard]] std::size_t size() const { return order_.size(); }
+  /// Number of the n-th column of the file.
+  [[nodiscard]] std::size_t operator[](std::size_t n) const { return order_[n]; }
+  /// What a line has in a column that the file has.
+  [[nodiscard]] std::string_view cell(const std::vector<std::string_view>& cells,
+                                      std::size_t column) const {
+    return cells[static_cast<std::size_t>(place_of_[column])];
+  }
+
+ private:
+  std::vector<std::size_t> order_;
+  std::array<std::ptrdiff_t, k_columns.size()> place_of_{};
+};
+
+/// The numbers of a line by column; nothing where something is wrong with them, which is added to
+/// `complaints`.
+inline std::optional<std::array<double, k_numbers>> numbers_of(
+    const Columns& columns, const std::vector<std::string_view>& cells, const std::string& place,
+    Complaints& complaints) {
+  if (cells.size() != columns.size()) {
+    complaints.add(place + std::to_string(cells.size()) + " values for " +
+                   std::to_string(columns.size()) + " columns");
+    return std::nullopt;
+  }
+  std::array<double, k_numbers> values{};
+  bool is_good = true;
+  for (std::size_t n = 0; n < cells.size(); ++n) {
+    if (columns[n] == k_material) continue;
+    double& v = values[columns[n]];
+    const char* end = cells[n].data() + cells[n].size();
+    const auto read = std::from_chars(cells[n].data(), end, v);
+    const bool is_number = read.ec == std::errc{} && read.ptr == end && std::isfinite(v);
+    if (!is_number) {
+      complaints.add(place + k_columns[columns[n]].name + ": a number is expected, not '" +
+                     std::string(cells[n]) + "'");
+      is_good = false;
+    }
+  }
+  if (is_good && !(values[0] > 0.0)) {
+    complaints.add(place + "diameter: " + std::string(columns.cell(cells, 0)) + " is not above 0");
+    is_good = false;
+  }
+  if (!is_good) return std::nullopt;
+  return values;
+}
+
 }  // namespace detail
 
 /// Reads grains from comma-separated values: a head line with the names of the columns, then one
@@ -123,9 +201,7 @@ class Complaints {
 /// "bed.csv:17: ...". Throws TableError.
 inline GrainTable read_csv(std::istream& in, const std::string& name) {
   GrainTable table;
-  std::vector<std::size_t> columns;
-  std::array<std::ptrdiff_t, detail::k_columns.size()> place_of{};
-  place_of.fill(-1);
+  std::optional<detail::Columns> columns;
   detail::Complaints complaints;
   std::string line;
   std::int64_t number = 0;
@@ -135,71 +211,29 @@ inline GrainTable read_csv(std::istream& in, const std::string& name) {
     if (text.empty() || text.front() == '#') continue;
     const std::string place = name + ":" + std::to_string(number) + ": ";
     const auto cells = detail::cells_of(text);
-    if (columns.empty()) {
-      for (const auto cell : cells) {
-        const std::size_t column = detail::column_of(cell, place);
-        if (place_of[column] >= 0) {
-          throw TableError(place + "the column '" + std::string(cell) + "' is there twice");
-        }
-        place_of[column] = static_cast<std::ptrdiff_t>(columns.size());
-        columns.push_back(column);
-      }
-      for (std::size_t c = 0; c < 4; ++c) {
-        if (place_of[c] < 0) {
-          throw TableError(place + "the column '" + detail::k_columns[c].name +
-                           "' is missing; diameter, x, y and z must be there");
-        }
-      }
-      for (const std::size_t group : {std::size_t{4}, std::size_t{7}}) {
-        const int given =
-            (place_of[group] >= 0) + (place_of[group + 1] >= 0) + (place_of[group + 2] >= 0);
-        if (given == 1 || given == 2) {
-          throw TableError(place + "give all of " + detail::k_columns[group].name + ", " +
-                           detail::k_columns[group + 1].name + " and " +
-                           detail::k_columns[group + 2].name + ", or none");
-        }
-      }
+    if (!columns) {
+      columns.emplace(cells, place);
       continue;
     }
-    if (cells.size() != columns.size()) {
-      complaints.add(place + std::to_string(cells.size()) + " values for " +
-                     std::to_string(columns.size()) + " columns");
-      continue;
-    }
-    std::array<double, detail::k_numbers> values{};
-    bool is_good = true;
-    for (std::size_t n = 0; n < cells.size(); ++n) {
-      if (columns[n] == detail::k_material) continue;
-      double& v = values[columns[n]];
-      const char* end = cells[n].data() + cells[n].size();
-      const auto read = std::from_chars(cells[n].data(), end, v);
-      const bool is_number = read.ec == std::errc{} && read.ptr == end && std::isfinite(v);
-      if (!is_number) {
-        complaints.add(place + detail::k_columns[columns[n]].name +
-                       ": a number is expected, not '" + std::string(cells[n]) + "'");
-        is_good = false;
-      }
-    }
-    if (is_good && !(values[0] > 0.0)) {
-      complaints.add(place + "diameter: " +
-                     std::string(cells[static_cast<std::size_t>(place_of[0])]) + " is not above 0");
-      is_good = false;
-    }
-    if (!is_good) continue;
+    const auto values = detail::numbers_of(*columns, cells, place, complaints);
+    if (!values) continue;
     table.line.push_back(number);
-    table.diameter.push_back(values[0]);
+    table.diameter.push_back((*values)[0]);
     for (std::size_t d = 0; d < 3; ++d) {
-      table.centre[d].push_back(values[1 + d]);
-      if (place_of[4] >= 0) table.velocity[d].push_back(values[4 + d]);
-      if (place_of[7] >= 0) table.rotation[d].push_back(values[7 + d]);
+      table.centre[d].push_back((*values)[1 + d]);
+      if (columns->has(detail::k_velocity)) {
+        table.velocity[d].push_back((*values)[detail::k_velocity + d]);
+      }
+      if (columns->has(detail::k_rotation)) {
+        table.rotation[d].push_back((*values)[detail::k_rotation + d]);
+      }
     }
-    if (place_of[detail::k_material] >= 0) {
-      table.material.emplace_back(cells[static_cast<std::size_t>(place_of[detail::k_material])]);
+    if (columns->has(detail::k_material)) {
+      table.material.emplace_back(columns->cell(cells, detail::k_material));
     }
   }
   complaints.throw_if_any();
-  if (columns.empty())
-    throw TableError(name + " is empty: a head line with the columns is expected");
+  if (!columns) throw TableError(name + " is empty: a head line with the columns is expected");
   if (table.diameter.empty()) throw TableError(name + " lists no grains");
   return table;
 }

@@ -74,8 +74,8 @@ class BeltLoad final : public sdk::Sensor {
       const double z = dot(q, up_);
       if (x < 0.0 || x >= p_.length || std::abs(y) > 0.5 * p_.width || z < 0.0 || z >= p_.height)
         continue;
-      sums.add(g.weight[i] * g.mass[i], y,
-               dot({g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]}, along_));
+      const double speed = dot({g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]}, along_);
+      sums += formula::Sums::of_grain(g.weight[i] * g.mass[i], y, speed);
     }
     values_ = {sums.mass / p_.length, sums.along / p_.length, formula::off_centre(sums),
                formula::half_width(sums), formula::speed(sums)};

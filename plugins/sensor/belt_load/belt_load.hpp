@@ -13,11 +13,16 @@ struct Sums {
   double spread = 0.0;  ///< [kg m2] mass times its square
   double along = 0.0;   ///< [kg m/s] mass times velocity along the belt
 
-  constexpr void add(double m, double y, double v) {
-    mass += m;
-    aside += m * y;
-    spread += m * y * y;
-    along += m * v;
+  /// Those of one grain: mass [kg], distance from the middle [m], velocity along the belt [m/s].
+  static constexpr Sums of_grain(double m, double y, double v) {
+    return {.mass = m, .aside = m * y, .spread = m * y * y, .along = m * v};
+  }
+  constexpr Sums& operator+=(const Sums& other) {
+    mass += other.mass;
+    aside += other.aside;
+    spread += other.spread;
+    along += other.along;
+    return *this;
   }
 };
 

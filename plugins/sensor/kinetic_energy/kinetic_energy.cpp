@@ -41,9 +41,10 @@ class KineticEnergy final : public sdk::Sensor {
     const sdk::GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
       if (!p_.takes(g.diameter[i])) continue;
-      sums.add(g.weight[i], g.mass[i], 0.5 * g.diameter[i],
-               {g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]},
-               {g.angular_velocity_x[i], g.angular_velocity_y[i], g.angular_velocity_z[i]});
+      sums += formula::Sums::of_grain(
+          g.weight[i], g.mass[i], 0.5 * g.diameter[i],
+          {g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]},
+          {g.angular_velocity_x[i], g.angular_velocity_y[i], g.angular_velocity_z[i]});
     }
     values_ = {sums.translation, sums.rotation, sums.mean_per_grain(), sums.temperature()};
     if (sdk::is_after(world, p_.steady_after)) means_.add(values_, world.interval);

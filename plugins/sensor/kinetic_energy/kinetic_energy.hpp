@@ -13,14 +13,24 @@ struct Sums {
   double mass = 0.0;               ///< [kg]
   double momentum[3] = {0, 0, 0};  ///< [kg m/s]
 
-  void add(double weight, double grain_mass, double radius, const double (&v)[3],
-           const double (&w)[3]) {
+  /// Those of one grain of statistical weight `weight`, with velocity `v` [m/s] and angular
+  /// velocity `w` [rad/s].
+  static Sums of_grain(double weight, double grain_mass, double radius, const double (&v)[3],
+                       const double (&w)[3]) {
     const double m = weight * grain_mass;
-    translation += 0.5 * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    rotation += 0.2 * m * radius * radius * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
-    number += weight;
-    mass += m;
-    for (std::size_t d = 0; d < 3; ++d) momentum[d] += m * v[d];
+    return {.translation = 0.5 * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]),
+            .rotation = 0.2 * m * radius * radius * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]),
+            .number = weight,
+            .mass = m,
+            .momentum = {m * v[0], m * v[1], m * v[2]}};
+  }
+  Sums& operator+=(const Sums& other) {
+    translation += other.translation;
+    rotation += other.rotation;
+    number += other.number;
+    mass += other.mass;
+    for (std::size_t d = 0; d < 3; ++d) momentum[d] += other.momentum[d];
+    return *this;
   }
   [[nodiscard]] double mean_per_grain() const {
     return number > 0.0 ? (translation + rotation) / number : 0.0;

@@ -64,9 +64,9 @@ class BigParticle final : public sdk::VoidageRule {
       planes[1].set(batch.position.y[g], grid.origin.y, grid.spacing.y, radius);
       planes[2].set(batch.position.z[g], grid.origin.z, grid.spacing.z, radius);
       beyond.clear();
-      for (const double c : planes[2].place) {
-        for (const double b : planes[1].place) {
-          for (const double a : planes[0].place) {
+      for (const double c : planes[2].distances()) {
+        for (const double b : planes[1].distances()) {
+          for (const double a : planes[0].distances()) {
             beyond.push_back(sdk::sphere_parts::any_corner(a, b, c));
           }
         }
@@ -81,8 +81,8 @@ class BigParticle final : public sdk::VoidageRule {
                          const std::array<formula::Planes, 3>& planes,
                          const std::vector<double>& beyond) {
     dust::model::SharesOfGrain out(batch, g);
-    const std::size_t row = planes[0].place.size();
-    const std::size_t layer = row * planes[1].place.size();
+    const std::size_t row = planes[0].distances().size();
+    const std::size_t layer = row * planes[1].distances().size();
     for (std::size_t k = 0; k < planes[2].cells(); ++k) {
       for (std::size_t j = 0; j < planes[1].cells(); ++j) {
         for (std::size_t i = 0; i < planes[0].cells(); ++i) {
@@ -91,8 +91,8 @@ class BigParticle final : public sdk::VoidageRule {
           const double high = (at[layer] - at[layer + 1]) - (at[layer + row] - at[layer + row + 1]);
           const double weight = low - high;
           if (weight <= k_nothing) continue;
-          out.add(planes[0].first + static_cast<int>(i), planes[1].first + static_cast<int>(j),
-                  planes[2].first + static_cast<int>(k), weight);
+          out.add(planes[0].first() + static_cast<int>(i), planes[1].first() + static_cast<int>(j),
+                  planes[2].first() + static_cast<int>(k), weight);
         }
       }
     }

@@ -17,22 +17,27 @@ inline double enlargement(double inner_void_fraction) {
 
 /// Border planes of the cells that a sphere may meet along one axis, as distances from its centre
 /// over its radius.
-struct Planes {
-  int first = 0;              ///< cell above the lowest plane
-  std::vector<double> place;  ///< one more than cells
-
+class Planes {
+ public:
+  /// Those round a sphere at `centre` [m]; cells of `spacing` [m] begin at `origin` [m].
   void set(double centre, double origin, double spacing, double radius) {
-    first = static_cast<int>(std::floor((centre - radius - origin) / spacing));
+    first_ = static_cast<int>(std::floor((centre - radius - origin) / spacing));
     const int last = static_cast<int>(std::floor((centre + radius - origin) / spacing));
-    place.clear();
-    for (int i = first; i <= last + 1; ++i) {
-      place.push_back((origin + i * spacing - centre) / radius);
+    distances_.clear();
+    for (int i = first_; i <= last + 1; ++i) {
+      distances_.push_back((origin + i * spacing - centre) / radius);
     }
     // The whole sphere lies between the outer planes; rounding must not cut it off.
-    place.front() = -1.0;
-    place.back() = 1.0;
+    distances_.front() = -1.0;
+    distances_.back() = 1.0;
   }
-  [[nodiscard]] std::size_t cells() const { return place.size() - 1; }
+  [[nodiscard]] int first() const { return first_; }  ///< cell above the lowest plane
+  [[nodiscard]] const std::vector<double>& distances() const { return distances_; }
+  [[nodiscard]] std::size_t cells() const { return distances_.size() - 1; }
+
+ private:
+  int first_ = 0;
+  std::vector<double> distances_;  ///< one more than cells
 };
 
 }  // namespace dust::model::big_particle

@@ -73,13 +73,14 @@ class Gaussian final : public sdk::VoidageRule {
   static void spread_one(const sdk::VoidageBatch& batch, std::size_t g,
                          const std::array<formula::Shares, 3>& shares) {
     dust::model::SharesOfGrain out(batch, g);
-    for (std::size_t k = 0; k < shares[2].weight.size(); ++k) {
-      for (std::size_t j = 0; j < shares[1].weight.size(); ++j) {
-        for (std::size_t i = 0; i < shares[0].weight.size(); ++i) {
-          const double weight = shares[0].weight[i] * shares[1].weight[j] * shares[2].weight[k];
+    const auto& [x, y, z] = shares;
+    for (std::size_t k = 0; k < z.weights().size(); ++k) {
+      for (std::size_t j = 0; j < y.weights().size(); ++j) {
+        for (std::size_t i = 0; i < x.weights().size(); ++i) {
+          const double weight = x.weights()[i] * y.weights()[j] * z.weights()[k];
           if (weight <= 0.0) continue;
-          out.add(shares[0].first + static_cast<int>(i), shares[1].first + static_cast<int>(j),
-                  shares[2].first + static_cast<int>(k), weight);
+          out.add(x.first() + static_cast<int>(i), y.first() + static_cast<int>(j),
+                  z.first() + static_cast<int>(k), weight);
         }
       }
     }

@@ -19,25 +19,30 @@ inline double deviation(double width, double diameter, double spacing) {
 }
 
 /// Shares of the cells along one axis of a truncated Gaussian; they sum to 1.
-struct Shares {
-  int first = 0;
-  std::vector<double> weight;
-
+class Shares {
+ public:
+  /// Those of a kernel round `centre` [m] with the standard deviation `sigma` [m].
   void set(double centre, double origin, double spacing, double sigma) {
     const double end = k_reach * sigma;
-    first = static_cast<int>(std::floor((centre - end - origin) / spacing));
+    first_ = static_cast<int>(std::floor((centre - end - origin) / spacing));
     const int last = static_cast<int>(std::floor((centre + end - origin) / spacing));
     const double scale = 1.0 / (std::numbers::sqrt2 * sigma);
     const double whole = 2.0 * std::erf(k_reach / std::numbers::sqrt2);
-    weight.clear();
+    weights_.clear();
     double below = -std::erf(k_reach / std::numbers::sqrt2);
-    for (int i = first; i <= last; ++i) {
+    for (int i = first_; i <= last; ++i) {
       const double edge = std::min(origin + (i + 1) * spacing - centre, end);
       const double above = std::erf(edge * scale);
-      weight.push_back((above - below) / whole);
+      weights_.push_back((above - below) / whole);
       below = above;
     }
   }
+  [[nodiscard]] int first() const { return first_; }  ///< cell of the first share
+  [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
+
+ private:
+  int first_ = 0;
+  std::vector<double> weights_;
 };
 
 }  // namespace dust::model::gaussian

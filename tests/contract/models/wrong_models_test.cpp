@@ -75,6 +75,11 @@ TEST_CASE("a drag law that is wrong shall be told by the rule it breaks") {
                 drag([](auto& b, double) { each(b, [&](auto n) { return 1e9 - b.reynolds[n]; }); }),
                 "negative")
             .find("F falls between Re 0 and 1e-06") != std::string::npos);
+  // A coefficient of form drag alone, Re F ~ Re^2: never negative, growing, and nothing at rest.
+  CHECK(seen.broken(drag([](auto& b, double) { each(b, [&](auto n) { return b.reynolds[n]; }); }),
+                    "without slip") ==
+        "F = 0 at Re 0, void fraction 0.3: a slow grain has a drag; "
+        "give the law its creeping limit");
   CHECK(seen.broken(drag([](auto& b, double) {
                       const std::vector<double> copy(b.count, 1.0);
                       each(b, [&](auto n) { return copy[n]; });

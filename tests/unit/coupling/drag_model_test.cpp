@@ -68,6 +68,21 @@ TEST_CASE("the slope of a power law shall be its exponent, at most that of inert
   }
 }
 
+TEST_CASE("a law that ends at 0 shall have a slope there, as Ergun's for a lone grain at rest") {
+  World::Choice choice;
+  choice.drag = "ergun";
+  const World world(choice);
+  const coupling::DragModel model = model_of(world);
+  auto columns = std::make_unique<coupling::DragColumns>();
+  columns->reynolds[0] = 0.0;
+  columns->void_fraction[0] = 1.0;
+  double slope = -1.0;
+  model.evaluate(*columns, 1);
+  REQUIRE(columns->factor[0] == 0.0);
+  model.find_slope(*columns, 1, &slope);
+  CHECK(slope == 0.0);
+}
+
 TEST_CASE("set III shall have the pressure's part in the drag, and act on the whole volume") {
   using fluid::MomentumSet;
   CHECK(fluid::momentum_set_of("I") == MomentumSet::one);

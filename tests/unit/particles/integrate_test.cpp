@@ -15,7 +15,7 @@ using namespace dust::test;
 namespace {
 
 /// A hundred pairs that touch, spin and part, and a grain on its own: an odd number. With a flyer
-/// far off, which came earlier and sleeps, not all of the chunk is awake.
+/// far off, which came earlier and sleeps, not all of the tile is active.
 std::unique_ptr<dust::particles::Dem> hundred_pairs(bool has_flyer, bool has_air) {
   DemRig rig;
   const int sand = rig.material(2650, 50e6, 0.3);

@@ -34,7 +34,7 @@ void add_check(CLI::App& app, int&) {
       "--set bodies.plate.enabled=true");
   command->callback([arguments] {
     const run::RunOptions options = arguments->scenario.options();
-    const auto registry = load_plugins(arguments->scenario.plugin_path);
+    const auto registry = load_plugins(arguments->scenario.plugin_path());
     const auto result =
         preflight::read_scenario(options.scenario, options.overrides, *registry, options.set_files);
     scenario::Diagnostics branching;

@@ -19,8 +19,10 @@ struct DragBatch {
 };
 
 /// Drag closure. The one convention: \f$ f_d = 3 \pi \mu D F(Re, \varepsilon) w \f$ [N] on one
-/// grain, w = u_f - u_p the interstitial slip [m/s], Re with the superficial slip. Must not: clamp,
-/// scale, log, know the grid, keep state. Called from several threads at once.
+/// grain, w = u_f - u_p the interstitial slip [m/s], Re with the superficial slip. F is finite and
+/// above 0, at Re = 0 too: its growth with the slip is taken relative to it (a law of beds may end
+/// at 0 where eps = 1). Must not: clamp, scale, log, know the grid,
+/// keep state. Called from several threads at once.
 class DragLaw : public Model {
  public:
   static constexpr const char* k_kind = "drag";

@@ -228,7 +228,7 @@ class SizeDistribution {
     for (double& f : fractions_) f /= sum;
   }
 
-  void from_law(const SizeParameters& p) {
+  static void check_law(const SizeParameters& p) {
     const bool is_lognormal = p.distribution == "lognormal";
     const bool is_rosin_rammler = p.distribution == "rosin_rammler";
     only_for(!p.diameters.empty(), "diameters", "table");
@@ -252,25 +252,46 @@ class SizeDistribution {
     if (is_rosin_rammler && !(p.exponent > 0.0)) {
       refuse("distribution: rosin_rammler needs exponent");
     }
-    // Share below d, and share per width in ln d.
-    const auto below = [&](double d) {
-      if (is_lognormal) return normal(std::log(d / p.median) / std::log(p.spread));
-      if (is_rosin_rammler)
-        return -std::expm1(-std::pow(d / p.characteristic_diameter, p.exponent));
-      return (d - p.smallest) / (p.largest - p.smallest);
-    };
-    const auto density = [&](double d) {
-      if (is_lognormal) {
-        const double z = std::log(d / p.median) / std::log(p.spread);
-        return std::exp(-0.5 * z * z) / (std::sqrt(2.0 * std::numbers::pi) * std::log(p.spread));
-      }
-      if (is_rosin_rammler) {
-        const double t = std::pow(d / p.characteristic_diameter, p.exponent);
-        return p.exponent * t * std::exp(-t);
-      }
-      return d / (p.largest - p.smallest);
-    };
-    const double power = p.by == "mass" ? -3.0 : 3.0;
+  }
+
+  /// Fraction Q(d) of a law that is finer than `d` [m].
+  static double finer_than(const SizeParameters& p, double d) {
+    if (p.distribution == "lognormal") return normal(std::log(d / p.median) / std::log(p.spread));
+    if (p.distribution == "rosin_rammler") {
+      return -std::expm1(-std::pow(d / p.characteristic_diameter, p.exponent));
+    }
+    return (d - p.smallest) / (p.largest - p.smallest);
+  }
+
+  /// Its density in ln d at `d` [m]: dQ / d ln d.
+  static double log_density(const SizeParameters& p, double d) {
+    if (p.distribution == "lognormal") {
+      const double z = std::log(d / p.median) / std::log(p.spread);
+      return std::exp(-0.5 * z * z) / (std::sqrt(2.0 * std::numbers::pi) * std::log(p.spread));
+    }
+    if (p.distribution == "rosin_rammler") {
+      const double t = std::pow(d / p.characteristic_diameter, p.exponent);
+      return p.exponent * t * std::exp(-t);
+    }
+    return d / (p.largest - p.smallest);
+  }
+
+  /// Integral of q d^power over the class from `low` [m] on that is `width` wide in ln d; Simpson's
+  /// rule: 64 steps leave less than 1e-9 of it.
+  static double moment(const SizeParameters& p, double low, double width, double power) {
+    constexpr int k_steps = 64;
+    double sum = 0.0;
+    for (int k = 0; k <= k_steps; ++k) {
+      const double d = low * std::exp(width * k / k_steps);
+      const double factor = k == 0 || k == k_steps ? 1.0 : k % 2 == 1 ? 4.0 : 2.0;
+      sum += factor * log_density(p, d) * std::pow(d, power);
+    }
+    return sum * (width / (3.0 * k_steps));
+  }
+
+  void from_law(const SizeParameters& p) {
+    check_law(p);
+    const bool is_by_mass = p.by == "mass";
     const auto classes = static_cast<std::size_t>(p.size_classes);
     const double width = std::log(p.largest / p.smallest) / static_cast<double>(classes);
     const auto edge = [&](std::size_t i) {
@@ -278,19 +299,12 @@ class SizeDistribution {
     };
     for (std::size_t i = 0; i < classes; ++i) {
       const double low = edge(i);
-      const double own = below(edge(i + 1)) - below(low);
-      // Simpson's rule for the share in the other measure; 64 steps leave less than 1e-9 of it.
-      constexpr int k_steps = 64;
-      double other = 0.0;
-      for (int k = 0; k <= k_steps; ++k) {
-        const double d = low * std::exp(width * k / k_steps);
-        const double factor = k == 0 || k == k_steps ? 1.0 : k % 2 == 1 ? 4.0 : 2.0;
-        other += factor * density(d) * std::pow(d, power);
-      }
-      other *= width / (3.0 * k_steps);
+      // The class in the law's own measure and in the other one.
+      const double own = finer_than(p, edge(i + 1)) - finer_than(p, low);
+      const double other = moment(p, low, width, is_by_mass ? -3.0 : 3.0);
       if (!(own > 0.0) || !(other > 0.0)) continue;  // no grain of the law is that small or large
-      const double number = p.by == "mass" ? other : own;
-      const double cubes = p.by == "mass" ? own : other;
+      const double number = is_by_mass ? other : own;
+      const double cubes = is_by_mass ? own : other;
       diameters_.push_back(std::cbrt(cubes / number));
       fractions_.push_back(number);
     }

@@ -13,8 +13,8 @@ using dust::particles::NewGrain;
 using dust::sdk::Vec3;
 using namespace dust::test;
 
-TEST_CASE("a contact across chunks shall act once on each of its grains") {
-  // 14^3 grains of 1 mm, 0.5 % closer than touch: six chunks of 512 rows, hundreds of contacts
+TEST_CASE("a contact across tiles shall act once on each of its grains") {
+  // 14^3 grains of 1 mm, 0.5 % closer than touch: six tiles of 512 rows, hundreds of contacts
   // between them. No gravity, so that the forces are those of the contacts.
   DemRig rig;
   const int sand = rig.material(2650, 5e6, 0.3);
