@@ -88,7 +88,7 @@ class BoxConcentration final : public sdk::Sensor {
     const double error =
         error_of(values_[0] > 0.0 ? formula::moment_error(means_.deviation(0), squares_)
                                   : sdk::k_no_estimate,
-                 means_.error(0), seen_[0]);
+                 means_.error(0, renewals_of(seen_[0])), seen_[0]);
     sink.figure("grams_per_tonne", formula::grams_per_tonne(values_[0], emitted_mass_), "g/t",
                 error < 0.0 ? error : formula::grams_per_tonne(error, emitted_mass_),
                 role.of(sdk::Quantity::mass_per_load));
@@ -160,9 +160,10 @@ class BoxConcentration final : public sdk::Sensor {
     if (error < 0.0) return error;
     if (seen.grains < sdk::k_min_grains) return sdk::k_few_grains;
     if (of_mean == sdk::k_not_steady) return sdk::k_not_steady;
-    const bool is_renewed =
-        formula::renewals(seen.grains, seen.stay, means_.duration()) >= formula::k_min_renewals;
-    return is_renewed || error == 0.0 ? error : sdk::k_not_steady;
+    return renewals_of(seen) >= formula::k_min_renewals || error == 0.0 ? error : sdk::k_not_steady;
+  }
+  [[nodiscard]] double renewals_of(const Seen& seen) const {
+    return formula::renewals(seen.grains, seen.stay, means_.duration());
   }
 
   void figures_of(const std::string& prefix, std::size_t column, const Seen& seen,
@@ -171,8 +172,8 @@ class BoxConcentration final : public sdk::Sensor {
     const auto checked = [&](double error) {
       return mass > 0.0 ? error_of(error, error, seen) : sdk::k_no_estimate;
     };
-    const double error = checked(means_.error(column));
-    const double number_error = checked(means_.error(column + 1));
+    const double error = checked(means_.error(column, renewals_of(seen)));
+    const double number_error = checked(means_.error(column + 1, renewals_of(seen)));
     sink.figure(prefix + "mass_concentration", formula::concentration(mass, volume_), "kg/m3",
                 error < 0.0 ? error : formula::concentration(error, volume_),
                 role.of(sdk::Quantity::mass_concentration));

@@ -127,6 +127,42 @@ TEST_CASE("what is in a box at the end shall have the error of lumps that come a
   CHECK(error > 3.0 * counting);
 }
 
+TEST_CASE("the error in a box shall cover the truth where each grain stays for a while") {
+  // Grains come one by one, at random, and stay for 25 of 400 samples: 16 populations. The
+  // samples of one are alike, though batches of 13 to 25 samples do not look it.
+  int covered = 0, with_error = 0;
+  constexpr int k_stay = 25, k_samples = 400;
+  for (int run = 0; run < k_runs; ++run) {
+    Dice dice(run);
+    const auto sensor = kind().make(k_box);
+    SyntheticScene world;
+    std::vector<int> left;  // samples that each grain still stays
+    const auto come = [&](int samples) {
+      for (int n = dice.poisson(1.0); n > 0; --n) left.push_back(samples);
+    };
+    for (int n = 1; n < k_stay; ++n) come(n);
+    for (int sample = 0; sample < k_samples; ++sample) {
+      come(k_stay);
+      world.grains.assign(left.size(), at({0.015, 0.005, 0.02}, 10e-6, 1e-12, 1.0));
+      for (std::size_t n = 0; n < left.size(); ++n) {
+        if (left[n] == k_stay) world.grains[n].before = {0, 0, 0};
+      }
+      step(*sensor, world);
+      for (int& samples : left) --samples;
+      std::erase(left, 0);
+    }
+    const Figure figure = summary_of(*sensor).at("number_concentration");
+    if (figure.uncertainty < 0.0) continue;
+    ++with_error;
+    covered += std::abs(figure.value - k_stay / k_volume) <= 1.96 * figure.uncertainty;
+  }
+  const double share = static_cast<double>(covered) / with_error;
+  MESSAGE("95 % intervals cover " << share << " of " << with_error);
+  CHECK(with_error > 0.5 * k_runs);
+  CHECK(share > 0.88);
+  CHECK(share <= 0.99);
+}
+
 TEST_CASE("a box shall say that it has seen too few grains, or that it still fills up") {
   SyntheticScene world;
   const auto few = kind().make(k_box);

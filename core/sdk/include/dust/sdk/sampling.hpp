@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -175,17 +176,23 @@ class BatchMeans {
     return time > 0.0 ? sum / time : 0.0;
   }
   /// Standard error of the mean; k_no_estimate below 8 batches, k_not_steady where the batches
-  /// remember each other too long.
-  [[nodiscard]] double error(std::size_t column) const {
+  /// remember each other too long. `most_independent`: how many independent stretches the time can
+  /// hold at most, where more is known of the memory than the batches tell.
+  [[nodiscard]] double error(
+      std::size_t column, double most_independent = std::numeric_limits<double>::infinity()) const {
     const std::size_t batches = durations_.size();
     if (batches < k_min_batches) return k_no_estimate;
     const auto n = static_cast<double>(batches);
     const Spread spread = spread_of(column);
     const double variance = spread.squares / (n * (n - 1.0));
-    if (spread.correlation <= 1.0 / std::sqrt(n)) return std::sqrt(variance);
-    const double memory =
-        std::min(spread.correlation + (1.0 + 3.0 * spread.correlation) / n, k_max_memory);
-    const double independent = n * (1.0 - memory) / (1.0 + memory);
+    double independent = n;
+    if (spread.correlation > 1.0 / std::sqrt(n)) {
+      const double memory =
+          std::min(spread.correlation + (1.0 + 3.0 * spread.correlation) / n, k_max_memory);
+      independent *= (1.0 - memory) / (1.0 + memory);
+    }
+    independent = std::min(independent, most_independent);
+    if (independent >= n) return std::sqrt(variance);
     if (independent < k_min_independent) {
       const double drift = deviation(column);
       return drift <= k_small_drift * std::abs(mean(column)) ? drift : k_not_steady;
