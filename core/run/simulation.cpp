@@ -123,6 +123,11 @@ bool Simulation::has_changing_walls() const {
   return is_changing;
 }
 
+void Simulation::advance_fluid() {
+  if (dust_) dust_->weigh();
+  fluid_->advance(time());
+}
+
 void Simulation::run_dem_cycle() {
   if (models_.class_diameters.empty()) return;
   if (fluid_ && fluid_->resolved() != nullptr) act_on_resolved();

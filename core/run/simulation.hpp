@@ -104,6 +104,8 @@ class Simulation {
 
   void insert();
   void remove_bodies();
+  /// With what the dust in it weighs.
+  void advance_fluid();
   void run_dem_cycle();
   void refresh_drag();
   void act_on_resolved();

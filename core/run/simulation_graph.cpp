@@ -124,7 +124,7 @@ void Simulation::add_first_nodes() {
 }
 
 void Simulation::add_fluid_nodes() {
-  // The dust's weight is that of the concentrations of the step before.
+  // The weight of what dust there is.
   const auto and_dust = [this](std::vector<std::string> reads) {
     if (dust_) reads.emplace_back("dust.concentration");
     return reads;
@@ -132,7 +132,7 @@ void Simulation::add_fluid_nodes() {
   if (!fluid_->has_particles()) {
     step_graph_.add(
         {"fluid", and_dust({"fluid.velocity"}), {"fluid.velocity", "fluid.void_fraction"}, [this] {
-           fluid_->advance(time());
+           advance_fluid();
          }});
     return;
   }
@@ -144,7 +144,7 @@ void Simulation::add_fluid_nodes() {
     step_graph_.add({"fluid",
                      and_dust({"fluid.void_fraction", "fluid.exchange", "fluid.velocity"}),
                      {"fluid.velocity"},
-                     [this] { fluid_->advance(time()); }});
+                     [this] { advance_fluid(); }});
     return;
   }
   step_graph_.add(
@@ -152,7 +152,7 @@ void Simulation::add_fluid_nodes() {
        and_dust({"fluid.void_fraction", "fluid.exchange", "fluid.velocity", "grain.state"}),
        {"fluid.velocity", "fluid.exchange"},
        [this] {
-         fluid_->advance(time());
+         advance_fluid();
          fluid_->evaluate_drag(dem_->rows());
        }});
 }

@@ -252,7 +252,7 @@ TEST_CASE("check shall draw the set-up") {
 TEST_CASE("plugins shall list kind, name, version and file") {
   const Outcome o = engine("plugins");
   CHECK(o.status == 0);
-  CHECK(o.out.find("contact   hertz_mindlin      1.0  " PREFIX "/lib/dust/plugins") !=
+  CHECK(o.out.find("contact     hertz_mindlin      1.0  " PREFIX "/lib/dust/plugins") !=
         std::string::npos);
 }
 

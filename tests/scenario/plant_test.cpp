@@ -56,23 +56,52 @@ emitters:
 fluid: none
 sensors:
   liner: {model: wear, min: [0, 0, -5 mm], max: [1, 0.4, 0.005 m], cell: 50 mm, coefficient: 2e-3, hardness: 4 GPa}
+  stay: {model: residence_time, min: [0.1, 0, 0 m], max: [0.4, 0.4, 0.3 m]}
+  age: {model: residence_time, from: birth, min: [0.1, 0, 0 m], max: [0.4, 0.4, 0.3 m]}
+  chute: {model: blockage, min: [0.1, 0, 0 m], max: [0.4, 0.4, 0.3 m], largest_mass: 0.5 kg}
 )";
 
-}  // namespace
-
-TEST_CASE("blocks that slide down a liner shall wear it by Archard's law within one per cent") {
-  const TemporaryFolder folder;
+/// The scenario's run; its summary.json.
+std::string slide(const TemporaryFolder& folder) {
   const fs::path scenario = folder / "slide.yaml";
   std::ofstream(scenario) << k_slide;
   const fs::path out = folder / "out";
   const auto run = engine({"run", scenario, "-o", out, "--quiet"});
   INFO(run.err);
   REQUIRE(run.status == 0);
-  const std::string summary = read_file(out / "summary.json");
-  const double mass = 2700 * std::numbers::pi / 6 * std::pow(0.06, 3);
-  const double press = mass * 8.495709211;
-  const double way = 0.5 * (4.905 - 0.3 * 8.495709211) * 0.6 * 0.6;
+  return read_file(out / "summary.json");
+}
+
+constexpr double k_acceleration = 4.905 - 0.3 * 8.495709211;            ///< [m/s2] down the plate
+const double k_mass = 2700 * std::numbers::pi / 6 * std::pow(0.06, 3);  ///< [kg] of a block
+
+}  // namespace
+
+TEST_CASE("blocks that slide down a liner shall wear it by Archard's law within one per cent") {
+  const TemporaryFolder folder;
+  const std::string summary = slide(folder);
+  const double press = k_mass * 8.495709211;
+  const double way = 0.5 * k_acceleration * 0.6 * 0.6;
   const double worn = 3 * 2e-3 * press * way / 4e9;
   CHECK(figure(summary, "liner", "volume") == doctest::Approx(worn).epsilon(0.01));
   CHECK(figure(summary, "liner", "normal_force") == doctest::Approx(3 * press).epsilon(0.01));
+}
+
+TEST_CASE("blocks that slide shall stay in a box as long as uniform acceleration says") {
+  const TemporaryFolder folder;
+  const std::string summary = slide(folder);
+  // Their centres start at 0.05 m; faces at 0.1 and 0.4 m.
+  const double in = std::sqrt(2.0 * 0.05 / k_acceleration);
+  const double out = std::sqrt(2.0 * 0.35 / k_acceleration);
+  CHECK(figure(summary, "stay", "grains") == 3.0);
+  CHECK(figure(summary, "stay", "mean") == doctest::Approx(out - in).epsilon(0.005));
+  CHECK(figure(summary, "age", "mean") == doctest::Approx(out).epsilon(0.005));
+  // Three come in and go out; in between more than half a kilogram is in the region.
+  CHECK(figure(summary, "chute", "inflow") == doctest::Approx(3.0 * k_mass / 0.6).epsilon(1e-9));
+  CHECK(figure(summary, "chute", "outflow") == doctest::Approx(3.0 * k_mass / 0.6).epsilon(1e-9));
+  CHECK(figure(summary, "chute", "mass_held_at_end") == 0.0);
+  CHECK(figure(summary, "chute", "mass_held_largest") == doctest::Approx(3.0 * k_mass));
+  CHECK(figure(summary, "chute", "first_beyond_largest_mass") == doctest::Approx(in).epsilon(0.01));
+  CHECK(figure(summary, "chute", "time_beyond_largest_mass") ==
+        doctest::Approx(out - in).epsilon(0.01));
 }

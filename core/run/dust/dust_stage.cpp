@@ -151,7 +151,6 @@ void DustStage::find_outflows() {
 void DustStage::start() {
   find_volume(flow_.volume_after);
   field_.start(flow_.volume_after);
-  find_weight();
 }
 
 void DustStage::advance(double time) {
@@ -176,7 +175,6 @@ void DustStage::advance(double time) {
     }
   }
   field_.advance(flow_, time, setup_.time.fluid_step);
-  find_weight();
 }
 
 /// The one that is nearest for a place beyond the grid.
@@ -257,7 +255,6 @@ void DustStage::add_parts(LoadParts& parts) {
   parts.emplace_back("dust", [this](sdk::ArchiveReader& a) {
     field_.load(a);
     flow_.volume_after = a.numbers("volume");
-    find_weight();
   });
 }
 

@@ -35,10 +35,10 @@ class DustStage {
   [[nodiscard]] double void_fraction_at(sdk::Vec3 place) const;
   /// Dust set free in a cell at once [kg]; of the class `n`.
   void release(std::size_t n, std::int32_t cell, double mass) { field_.release(n, cell, mass); }
-  /// After dust was released: its weight is that of all that is in the air.
-  void find_weight() { weight_.find(field_, flow_.volume_after); }
   [[nodiscard]] const airborne::DustField& field() const { return field_; }
-  /// [N/m3] on the fluid in the next step.
+  /// Finds what the dust there is weighs, before the fluid's step.
+  void weigh() { weight_.find(field_, flow_.volume_after); }
+  /// [N/m3] on the fluid, as it was found last.
   [[nodiscard]] const fluid::FaceField& weight() const { return weight_.force(); }
   /// "10_um": a class in names of figures and fields.
   [[nodiscard]] const std::vector<std::string>& class_names() const { return names_; }

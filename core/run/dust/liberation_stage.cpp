@@ -211,11 +211,7 @@ void LiberationStage::advance(double step) {
   });
   give_to_air(false);
   particles_.clear_contact_work();
-  if (law_->needs_wind()) take_off_by_wind(step);
-  dust_.find_weight();
-}
-
-void LiberationStage::take_off_by_wind(double step) {
+  if (!law_->needs_wind()) return;
   find_wind();
   ask_law(step, [&](std::size_t first, const sdk::DustyGrains& grains) {
     law_->in_wind({.grains = grains,

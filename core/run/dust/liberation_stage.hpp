@@ -55,7 +55,6 @@ class LiberationStage {
   [[nodiscard]] sdk::DustyGrains grains(std::size_t first, std::size_t count, double step);
   /// `ask`(first, grains) for all calls, several at once.
   void ask_law(double step, const std::function<void(std::size_t, const sdk::DustyGrains&)>& ask);
-  void take_off_by_wind(double step);
   void give_to_air(bool is_by_wind);
   void share_by_cause(std::size_t row, std::size_t n, double mass);
   [[noreturn]] void fail(std::size_t row, double released, double load) const;

@@ -106,8 +106,8 @@ class Blockage final : public sdk::Sensor {
   }
 
   void report(sdk::ReportSink& sink) const override {
-    sink.section(is_filling(trend()) || time_beyond_ > 0.0 ? "The chute fills" : "The chute flows",
-                 verdict());
+    if (!(means_.mean(1) > 0.0)) return;  // nothing came yet
+    sink.section("Does it fill?", verdict());
     sink.curve("Mass held", "time [s]", "mass held [kg]", "in the region", curve_.x(), curve_.y());
   }
 
@@ -153,13 +153,14 @@ class Blockage final : public sdk::Sensor {
                   k_tonnes_per_hour * means_.mean(1), k_tonnes_per_hour * means_.mean(2),
                   means_.mean(0), growth.slope < 0.0 ? "falls" : "grows",
                   k_tonnes_per_hour * std::abs(growth.slope));
-    std::string all = text;
+    std::string all = is_filling(growth) || time_beyond_ > 0.0 ? "Yes: " : "No: ";
+    all += text;
     if (growth.error >= 0.0) {
       std::snprintf(text, sizeof text, " with a standard error of %.2g",
                     k_tonnes_per_hour * growth.error);
       all += text;
     }
-    all += is_filling(growth) ? ": it fills." : ".";
+    all += '.';
     if (p_.largest_mass <= 0.0) return all;
     if (time_beyond_ == 0.0) {
       std::snprintf(text, sizeof text, " It never held more than %.3g kg.", p_.largest_mass);

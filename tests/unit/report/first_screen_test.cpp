@@ -108,6 +108,22 @@ TEST_CASE("the first screen shall tell how much, from where, how sure and where 
   CHECK(extraction["places"][1]["dust_share"].get<double>() == doctest::Approx(1.0));
 }
 
+TEST_CASE("an amount that rests on few grains or is not steady shall say so instead of an error") {
+  const RunFolder folder;
+  json summary = run_with_openings();
+  for (const char* name : {"b", "e"}) {
+    summary["sensors"]["top"][name]["uncertainty"] = nullptr;
+    summary["sensors"]["top"][name]["no_error"] = "not steady";
+  }
+  folder.write("summary.json", summary.dump());
+  const json dust = document_of(folder)["dust"];
+  CHECK(dust["headline"]["value"].get<double>() == doctest::Approx(0.6));
+  CHECK(dust["headline"]["uncertainty"].is_null());
+  CHECK(dust["headline"]["no_error"] == "not steady");
+  CHECK(dust["openings"][1]["no_error"] == "not steady");
+  CHECK(!dust["openings"][0].contains("no_error"));
+}
+
 TEST_CASE("dust shall be told by where it parted from the coarse grains") {
   const RunFolder folder;
   folder.write("summary.json", run_with_openings().dump());

@@ -148,7 +148,7 @@ struct Named {
   StickCase c;
   Setting s;
   /// Largest errors at the default step, and the least order of convergence.
-  double patch = 0.02, energy = 0.01, order = 1.7;
+  double patch = 0.01, energy = 0.005, order = 1.7;
 };
 
 /// Johnson, Kendall, Roberts (1971): with L^3 = 2 pi gamma R^2 / E*, a = L b^2 and d = D L^2 / R,
@@ -180,6 +180,9 @@ std::vector<Named> cases() {
     change(c);
     return all.emplace_back(Named{name, c, setting});
   };
+  // Tangential and rolling spring swing together, up to 2.4 times as fast as sqrt(k_t / m), with
+  // 0.46 rad per default step; docs/theory/grains.md, eq. (18).
+  const auto rolls = [](Named& n) { n.patch = 0.02, n.energy = 0.012; };
   add("hertz_mindlin", [](StickCase&) {});
   // Half a swing per contact, at most as fast as the grain.
   add("hertz_mindlin, on a wall that swings", [](StickCase&) {},
@@ -189,7 +192,8 @@ std::vector<Named> cases() {
   add("hertz_mindlin, epsd2, sub-stepped on a wall that swings",
       [](StickCase& c) { c.rolling = StickCase::Rolling::epsd2; },
       {.amplitude = 4e-6, .frequency = 4000.0, .largest_diameter = 5e-3});
-  all.back().order = 0.0;
+  rolls(all.back());
+  all.back().patch = 0.025, all.back().order = 0.0;
   // 2 pi gamma R*: some fifth of the largest force of the impact.
   add("hertz_mindlin, dmt",
       [](StickCase& c) {
@@ -213,7 +217,7 @@ std::vector<Named> cases() {
   // JKR's contact begins and ends with a jump of its radius.
   Named& jkr = add("hertz_mindlin, jkr", [](StickCase& c) { make_jkr(c, 0.2); },
                    {.cohesion = {"jkr", {{"surface_energy", 0.2}}}});
-  jkr.patch = 0.05, jkr.energy = 0.03, jkr.order = 0.9;
+  jkr.patch = 0.02, jkr.energy = 0.01, jkr.order = 0.8;
   // A damped contact begins to pull before it ends; then friction has no limit left to hold by.
   for (const double restitution : {0.9, 0.8, 0.5, 0.3}) {
     add("hertz_mindlin, restitution " + std::to_string(restitution).substr(0, 3),
@@ -228,10 +232,11 @@ std::vector<Named> cases() {
           c.rolling = StickCase::Rolling::epsd2;
           c.tangential = tangential;
         });
+    rolls(all.back());
   }
   // From step to step the limit cuts off now more, now less.
   all.back().order = 1.0;
-  add("hertz_mindlin, epsd", [](StickCase& c) { c.rolling = StickCase::Rolling::epsd; });
+  rolls(add("hertz_mindlin, epsd", [](StickCase& c) { c.rolling = StickCase::Rolling::epsd; }));
   for (const auto rolling : {StickCase::Rolling::epsd2, StickCase::Rolling::epsd}) {
     for (const double restitution : {0.9, 0.6}) {
       const std::string name = rolling == StickCase::Rolling::epsd ? "epsd" : "epsd2";
@@ -243,8 +248,8 @@ std::vector<Named> cases() {
             c.restitution = restitution;
           });
       // The couple falls to zero, and begins anew, within a step.
-      if (restitution < 0.9) all.back().patch = 0.06, all.back().order = 1.3;
-      if (restitution > 0.8) all.back().patch = 0.025;
+      rolls(all.back());
+      if (restitution < 0.9) all.back().patch = 0.05, all.back().order = 1.3;
     }
   }
   add("hooke", [](StickCase& c) { c.normal = StickCase::Normal::hooke; });
@@ -255,7 +260,9 @@ std::vector<Named> cases() {
   add("hooke, epsd2", [](StickCase& c) {
     c.normal = StickCase::Normal::hooke;
     c.rolling = StickCase::Rolling::epsd2;
-  }).order = 1.6;
+  });
+  rolls(all.back());
+  all.back().order = 1.6;
   return all;
 }
 
@@ -307,8 +314,9 @@ TEST_CASE("impacts that stick shall converge to second order in the step") {
 TEST_CASE("a grain that rocks on its springs shall neither be braked nor driven by the step") {
   // Elastic, no limit reached: tangential and rolling spring exchange energy for ever. A spring
   // that follows the velocity at the end of the step loses a twentieth of its amplitude in each
-  // period.
-  constexpr double k_kept = 0.01;
+  // period. What is left, a ten-thousandth, comes from the couple of the step before that the
+  // contact law is shown: of third order in the step.
+  constexpr double k_kept = 0.05;  // over 400 periods
   DemRig rig;
   const int sand = rig.material(k_density, k_young, k_poisson);
   rig.law(sand, sand, 1.0, base().friction, base().friction);

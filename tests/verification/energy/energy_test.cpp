@@ -21,8 +21,8 @@ constexpr double k_g = 9.81;
 constexpr double k_radius = 3e-4;
 constexpr double k_density = 2650;
 constexpr double k_mass = k_density * 4.0 / 3.0 * std::numbers::pi * k_radius * k_radius * k_radius;
-/// Least part of what was turned over that an account may miss.
-constexpr double k_closure = 1e-3;
+/// Part of what was turned over that an account may miss.
+constexpr double k_closure = 1e-4;
 
 /// Grains on the plane z = 0, with an account.
 struct Audited {
@@ -188,7 +188,7 @@ struct Bed : Audited {
     const dust::sdk::Random random(7, dust::sdk::stream_of("bed"));
     for (std::uint32_t n = 0; n < 160; ++n) {
       const auto draw = [&](std::uint32_t slot) {
-        return 2e-4 * random.uniform(n, 0, slot) - 1e-4;
+        return 8e-5 * random.uniform(n, 0, slot) - 4e-5;
       };
       grains.push_back(at({5e-4 + 7e-4 * (n % 4) + draw(0), 5e-4 + 7e-4 * (n / 4 % 4) + draw(1),
                            5e-4 + 8e-4 * (n / 16) + draw(2)}));
