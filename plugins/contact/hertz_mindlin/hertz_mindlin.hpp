@@ -30,7 +30,7 @@ inline constexpr double k_damper_lead = 5.5;          ///< [h]
 /// Largest tangential damper [m*/dt]. Its spin damps a grain at the rate 2.5 sum(gamma_t) / m, and
 /// a velocity that is predicted over half a step (Adams-Bashforth) is stable below 1/dt: enough for
 /// ten equal neighbours. Beyond it a bed of low restitution would keep on shivering.
-inline constexpr double k_most_tangential_damping = 0.05;
+inline constexpr double k_max_tangential_damping = 0.05;
 
 /// Damping number: \f$ -2 \beta \sqrt{5/6} \f$ with \f$ \beta = \ln e / \sqrt{\ln^2 e + \pi^2} \f$,
 /// 0 < e <= 1. Exact as long as the normal force may attract while the contact opens.
@@ -202,7 +202,7 @@ class ForceToTheEnd {
   const double gn = k.damping * k.normal_root * shared;
   const double gt =
       std::min(k.damping * k.tangential_root * shared * (1.0 - k_damper_lead * excess),
-               c.mass * (k_most_tangential_damping / time_step));
+               c.mass * (k_max_tangential_damping / time_step));
   const double tx = c.vx - c.vn * c.nx;
   const double ty = c.vy - c.vn * c.ny;
   const double tz = c.vz - c.vn * c.nz;
