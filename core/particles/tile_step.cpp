@@ -217,12 +217,12 @@ void TileStep::save(sdk::ArchiveWriter& archive, const Tiling& tiling) const {
     const Tile tile = tiling.tile(t);
     bounds.insert(bounds.end(), {tile.begin, tile.end, contact_forces_.contacts(t)});
   }
-  archive.integers("chunks", bounds);
+  archive.integers("tiles", bounds);
   archive.number("largest_coarse_overlap", contact_forces_.largest_overlap());
 }
 
 std::size_t TileStep::load(sdk::ArchiveReader& archive, std::size_t walls) {
-  const auto bounds = archive.integers("chunks");
+  const auto bounds = archive.integers("tiles");
   const std::size_t tiles = bounds.size() / 3;
   restart(tiles, walls);
   for (std::size_t t = 0; t < tiles; ++t) contact_forces_.set_contacts(t, bounds[3 * t + 2]);
