@@ -164,6 +164,11 @@ void DustField::release(std::size_t n, std::int32_t cell, double mass) {
   classes_[n].released += mass;
 }
 
+bool DustField::is_empty() const {
+  return std::none_of(classes_.begin(), classes_.end(),
+                      [](const Class& c) { return c.released > 0.0; });
+}
+
 void DustField::concentration(std::size_t n, const fluid::CellField& volume,
                               fluid::CellField& c) const {
   Transport::concentration(grid_, classes_[n].mass, volume, c);

@@ -46,6 +46,8 @@ class DustField {
   void release(std::size_t n, std::int32_t cell, double mass);
 
   [[nodiscard]] std::size_t classes() const { return classes_.size(); }
+  /// Has no dust been released yet?
+  [[nodiscard]] bool is_empty() const;
   [[nodiscard]] const DustClass& dust_class(std::size_t n) const { return classes_[n].dust; }
   /// [kg/m3] of gas, in cells filled to `volume`.
   void concentration(std::size_t n, const fluid::CellField& volume, fluid::CellField& c) const;

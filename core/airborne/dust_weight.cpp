@@ -3,6 +3,8 @@
 
 #include "fluid/parallel.hpp"
 
+#include <algorithm>
+
 namespace dust::airborne {
 
 DustWeight::DustWeight(const fluid::Grid& grid, sdk::Vec3 gravity, double dust_density,
@@ -13,7 +15,7 @@ DustWeight::DustWeight(const fluid::Grid& grid, sdk::Vec3 gravity, double dust_d
       one_(grid.size, 0.0),
       force_(grid) {}
 
-void DustWeight::find(const DustField& field, const fluid::CellField& volume) {
+const fluid::FaceField& DustWeight::find(const DustField& field, const fluid::CellField& volume) {
   const auto& n = grid_.count;
   std::fill(sum_.begin(), sum_.end(), 0.0);
   for (std::size_t c = 0; c < field.classes(); ++c) {
@@ -44,6 +46,7 @@ void DustWeight::find(const DustField& field, const fluid::CellField& volume) {
       }
     });
   }
+  return force_;
 }
 
 }  // namespace dust::airborne

@@ -12,9 +12,8 @@ class DustWeight {
  public:
   DustWeight(const fluid::Grid& grid, sdk::Vec3 gravity, double dust_density, double gas_density);
 
-  /// From the concentrations in cells filled by gas to `volume` [-].
-  void find(const DustField& field, const fluid::CellField& volume);
-  [[nodiscard]] const fluid::FaceField& force() const { return force_; }
+  /// From the concentrations in cells filled by gas to `volume` [-]; kept until the next call.
+  const fluid::FaceField& find(const DustField& field, const fluid::CellField& volume);
 
  private:
   fluid::Grid grid_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/conditions.hpp"
 
-#include "particles/energy/contact_work.hpp"
+#include "particles/energy/working_contact.hpp"
 
 #include <algorithm>
 #include <string>

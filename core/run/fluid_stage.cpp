@@ -101,30 +101,30 @@ void FluidStage::begin_step(double time, const particles::GrainRows& rows) {
   assembled_ = coupling_->begin_step(unresolved(rows), setup_.time.fluid_step);
 }
 
-/// What particles do to the fluid, and the force besides.
-const fluid::Exchange& FluidStage::exchange() {
+/// What particles do to the fluid, and a force besides.
+const fluid::Exchange& FluidStage::exchange(const fluid::FaceField* force) {
   const fluid::Exchange& of_particles = coupling_ ? coupling_->exchange() : no_particles_->exchange;
-  if (other_.force == nullptr) return of_particles;
-  if (!other_.exchange) {
-    other_.exchange = std::make_unique<fluid::Exchange>(
+  if (force == nullptr) return of_particles;
+  if (!forced_) {
+    forced_ = std::make_unique<fluid::Exchange>(
         fluid::Exchange{fluid::FaceField(grid_), fluid::FaceField(grid_)});
   }
   for (std::size_t d = 0; d < 3; ++d) {
-    copy(of_particles.coefficient.component[d], other_.exchange->coefficient.component[d]);
+    copy(of_particles.coefficient.component[d], forced_->coefficient.component[d]);
     const double* given = of_particles.source.component[d].data();
-    const double* more = other_.force->component[d].data();
-    double* sum = other_.exchange->source.component[d].data();
+    const double* more = force->component[d].data();
+    double* sum = forced_->source.component[d].data();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid_.size, 1U << 15), [&](const auto& r) {
       for (std::size_t n = r.begin(); n < r.end(); ++n) sum[n] = given[n] + more[n];
     });
   }
-  return *other_.exchange;
+  return *forced_;
 }
 
-void FluidStage::advance(double time) {
+void FluidStage::advance(double time, const fluid::FaceField* force) {
   const fluid::CellField& before =
       coupling_ ? coupling_->void_fraction_before() : no_particles_->void_fraction;
-  solver_->advance(time, setup_.time.fluid_step, before, void_fraction(), exchange());
+  solver_->advance(time, setup_.time.fluid_step, before, void_fraction(), exchange(force));
   if (resolved_) resolved_->evaluate(solver_->velocity());
   sub_steps_ += solver_->report().sub_steps;
   pressure_iterations_ += solver_->report().pressure_iterations;

@@ -42,11 +42,8 @@ class FluidStage {
   void start(const particles::GrainRows& rows) { coupling_->start(unresolved(rows)); }
   /// Void fraction and drag of the particles, or their surfaces, for the step from `time` [s] on.
   void begin_step(double time, const particles::GrainRows& rows);
-  /// Optional, before advance(): a force on the fluid besides those of particles [N/m3], kept by
-  /// reference.
-  void use(const fluid::FaceField& force) { other_.force = &force; }
-  /// Solves for the fluid.
-  void advance(double time);
+  /// Solves for the fluid; `force` [N/m3] acts on it besides those of particles, null: none.
+  void advance(double time, const fluid::FaceField* force);
   /// The impulses that the fluid took in advance().
   void evaluate_drag(const particles::GrainRows& rows);
   /// Before the particles move: the fluid's action on those that are resolved, and what it turns
@@ -97,16 +94,11 @@ class FluidStage {
     fluid::FaceField velocity, stress_divergence;
     fluid::CellField pressure;
   };
-  /// A force on the fluid besides those of particles.
-  struct OtherForce {
-    const fluid::FaceField* force = nullptr;
-    std::unique_ptr<fluid::Exchange> exchange;  ///< of the present step, with it
-  };
   /// Visits the fields of a lagged fluid with their names in a checkpoint.
   template <class Fluid, class Visit>
   static void for_fields(Fluid& fluid, const Visit& visit);
   void make_coupling(const fluid::Boundaries& boundaries);
-  [[nodiscard]] const fluid::Exchange& exchange();
+  [[nodiscard]] const fluid::Exchange& exchange(const fluid::FaceField* force);
   void set_velocity(const fluid::FaceField& velocity);
   void make_resolved();
   /// Of all rows those that a drag law is for; given back to them by give_back().
@@ -125,7 +117,7 @@ class FluidStage {
   resolved::UnresolvedRows unresolved_;
   std::unique_ptr<NoParticles> no_particles_;  ///< only without coupling
   std::unique_ptr<LaggedFluid> lagged_;        ///< only where fluid and particles overlap
-  OtherForce other_;
+  std::unique_ptr<fluid::Exchange> forced_;    ///< of a step with a force besides
   std::int64_t sub_steps_ = 0;
   std::int64_t pressure_iterations_ = 0;
   std::vector<float> momentum_exchange_;

@@ -54,7 +54,6 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
   if (dust_setup_.field) {
     dust_ = std::make_unique<DustStage>(setup_, *dust_setup_.field, models_, *fluid_,
                                         openings_of(setup_, dust_setup_));
-    fluid_->use(dust_->weight());
   }
   if (dust_ && models_.liberation) {
     liberation_ = std::make_unique<LiberationStage>(setup_, dust_setup_,
@@ -123,10 +122,7 @@ bool Simulation::has_changing_walls() const {
   return is_changing;
 }
 
-void Simulation::advance_fluid() {
-  if (dust_) dust_->weigh();
-  fluid_->advance(time());
-}
+void Simulation::advance_fluid() { fluid_->advance(time(), dust_ ? dust_->weigh() : nullptr); }
 
 void Simulation::run_dem_cycle() {
   if (models_.class_diameters.empty()) return;

@@ -1,9 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/parameter_schema.hpp>
+
 #include <cmath>
+#include <string>
 
 namespace dust::model {
+
+/// Declares the two parameters of binding_by_moisture(); `bound` is what is given at the reference
+/// moisture.
+template <class Parameters>
+void add_moisture(sdk::SchemaOf<Parameters>& schema, const std::string& bound) {
+  schema
+      .number(&Parameters::reference_moisture, "reference_moisture", sdk::dimension::none,
+              "Moisture of the material that the " + bound + " is given for.")
+      .symbol("M_0")
+      .at_least(0)
+      .at_most(1)
+      .optional();
+  schema
+      .number(&Parameters::moisture_scale, "moisture_scale", sdk::dimension::none,
+              "Moisture that binds ten times as strongly; 0: by the power 1.4 of the moisture as "
+              "AP-42 has it.")
+      .symbol("M_1")
+      .at_least(0)
+      .at_most(1)
+      .optional();
+}
 
 /// How much stronger moisture binds dust than at the reference moisture, in [0, inf);
 /// docs/theory/dust.md, eq. (10):

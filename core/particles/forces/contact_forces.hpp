@@ -3,7 +3,7 @@
 
 #include "contact/batch_kernels.hpp"
 #include "dust/sdk/sensor.hpp"
-#include "particles/energy/contact_work.hpp"
+#include "particles/energy/working_contact.hpp"
 #include "particles/forces/wall_loads.hpp"
 #include "particles/neighbours/inner_list.hpp"
 #include "particles/openings/opening_marks.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/forces/pair_work.hpp"
+#include "particles/energy/elastic_energy.hpp"
 
 #include "contact/nearest_image.hpp"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "particles/energy/elastic_energy.hpp"
 #include "particles/forces/contact_forces.hpp"
 #include "particles/forces/law_stages.hpp"
 #include "particles/forces/wall_contacts.hpp"

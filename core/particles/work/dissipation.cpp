@@ -2,6 +2,7 @@
 #include "particles/work/dissipation.hpp"
 
 #include "dust/sdk/vec3.hpp"
+#include "particles/energy/elastic_energy.hpp"
 #include "particles/forces/force_buffer.hpp"
 
 #include <algorithm>
@@ -24,8 +25,6 @@ double hand_out(double& work, double stored) {
 void find_dissipation(const PairLaws& law, BatchColumns& columns, std::size_t count, double step,
                       std::size_t first, Dissipation& out) {
   using B = BatchColumns;
-  const double stored_share = law.contact->has_hertz_force() ? 0.4 : 0.5;  // 1 / (p + 1)
-  const double* overlap = columns.column(law.cohesion ? B::contact_overlap : B::overlap);
   double* const normal_work = columns.history()[first];
   double* const tangential_work = columns.history()[first + 1];
   for (std::size_t q = 0; q < count; ++q) {
@@ -40,12 +39,9 @@ void find_dissipation(const PairLaws& law, BatchColumns& columns, std::size_t co
     normal_work[q] -= step * normal_force * dot(velocity, n);
     tangential_work[q] -= step * dot(friction, velocity);
     if (law.rolling) tangential_work[q] -= step * dot(get(B::torque_x), get(B::rotation_x));
-    const double d = std::max(0.0, overlap[q]);
-    const double k_t = columns.column(B::tangential_stiffness)[q];
-    out.normal[q] =
-        hand_out(normal_work[q], stored_share * columns.column(B::normal_stiffness)[q] * d * d);
-    out.tangential[q] =
-        hand_out(tangential_work[q], k_t > 0.0 ? 0.5 * dot(friction, friction) / k_t : 0.0);
+    const ElasticEnergy stored = elastic_energy(law, columns, q);
+    out.normal[q] = hand_out(normal_work[q], stored.normal);
+    out.tangential[q] = hand_out(tangential_work[q], stored.friction);
   }
 }
 

@@ -16,12 +16,10 @@ struct Dissipation {
 };
 
 /// From a batch whose laws have been evaluated: the work that the contact does on its sides, less
-/// what is stored in it,
-///   D = -int F.v dt - U,   U_n = F_el d / (p + 1),   U_t = F_t^2 / (2 k_t),
-/// F_el the elastic force k_n d of the overlap d, p = 3/2 for Hertz and 1 else: dissipated is what
-/// the contact cannot give back. What D has grown by is handed out, so that a whole collision hands
-/// out the kinetic energy that it has cost. Work that is not handed out yet stands in the history
-/// of the contact, in columns `first` and the next. docs/theory/dust.md, eq. (6), (7).
+/// what is stored in it (elastic_energy), D = -int F.v dt - U: dissipated is what the contact
+/// cannot give back. What D has grown by is handed out, so that a whole collision hands out the
+/// kinetic energy that it has cost. Work that is not handed out yet stands in the history of the
+/// contact, in columns `first` and the next. docs/theory/dust.md, eq. (6), (7).
 void find_dissipation(const PairLaws& law, contact::BatchColumns& columns, std::size_t count,
                       double step, std::size_t first, Dissipation& out);
 

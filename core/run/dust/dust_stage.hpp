@@ -36,10 +36,11 @@ class DustStage {
   /// Dust set free in a cell at once [kg]; of the class `n`.
   void release(std::size_t n, std::int32_t cell, double mass) { field_.release(n, cell, mass); }
   [[nodiscard]] const airborne::DustField& field() const { return field_; }
-  /// Finds what the dust there is weighs, before the fluid's step.
-  void weigh() { weight_.find(field_, flow_.volume_after); }
-  /// [N/m3] on the fluid, as it was found last.
-  [[nodiscard]] const fluid::FaceField& weight() const { return weight_.force(); }
+  /// Force [N/m3] of the dust that is there on the fluid, before its step; null where there has
+  /// been none yet.
+  [[nodiscard]] const fluid::FaceField* weigh() {
+    return field_.is_empty() ? nullptr : &weight_.find(field_, flow_.volume_after);
+  }
   /// "10_um": a class in names of figures and fields.
   [[nodiscard]] const std::vector<std::string>& class_names() const { return names_; }
   /// Names of the surfaces of DustBalance::surfaces.

@@ -47,19 +47,7 @@ class Energy final : public sdk::LiberationLaw {
         .at_least(0)
         .at_most(1)
         .optional();
-    s.number(&Parameters::reference_moisture, "reference_moisture", sdk::dimension::none,
-             "Moisture of the material that the binding energy is given for.")
-        .symbol("M_0")
-        .at_least(0)
-        .at_most(1)
-        .optional();
-    s.number(&Parameters::moisture_scale, "moisture_scale", sdk::dimension::none,
-             "Moisture that binds ten times as strongly; 0: by the power 1.4 of the moisture as "
-             "AP-42 has it.")
-        .symbol("M_1")
-        .at_least(0)
-        .at_most(1)
-        .optional();
+    dust::model::add_moisture(s, "binding energy");
     return s.build();
   }
   static sdk::ModelInfo describe() {
@@ -91,8 +79,7 @@ class Energy final : public sdk::LiberationLaw {
           impacts.normal_energy[q] + p_.sliding_share * impacts.tangential_energy[q];
       const double binds =
           dust::model::binding_by_moisture(g.moisture[q], p_.reference_moisture, p_.moisture_scale);
-      double fresh = 0.0;
-      for (std::size_t k = 0; k < g.classes; ++k) fresh += g.fresh[k * g.stride + q];
+      const double fresh = g.fresh_sum(q);
       for (std::size_t k = 0; k < g.classes; ++k) {
         const std::size_t at = k * g.stride + q;
         g.released[at] = formula::released(g.load[at], fresh, energy, binding_[k] * binds);

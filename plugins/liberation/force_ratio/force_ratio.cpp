@@ -38,19 +38,7 @@ class ForceRatio final : public sdk::LiberationLaw {
         .symbol("sigma")
         .above(1)
         .optional();
-    s.number(&Parameters::reference_moisture, "reference_moisture", sdk::dimension::none,
-             "Moisture of the material that the binding force is given for.")
-        .symbol("M_0")
-        .at_least(0)
-        .at_most(1)
-        .optional();
-    s.number(&Parameters::moisture_scale, "moisture_scale", sdk::dimension::none,
-             "Moisture that binds ten times as strongly; 0: by the power 1.4 of the moisture as "
-             "AP-42 has it.")
-        .symbol("M_1")
-        .at_least(0)
-        .at_most(1)
-        .optional();
+    dust::model::add_moisture(s, "binding force");
     return s.build();
   }
   static sdk::ModelInfo describe() {

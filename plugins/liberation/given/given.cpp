@@ -50,8 +50,7 @@ class Given final : public sdk::LiberationLaw {
     const sdk::DustyGrains& g = impacts.grains;
     for (std::size_t q = 0; q < g.count; ++q) {
       const double energy = impacts.normal_energy[q] + impacts.tangential_energy[q];
-      double fresh = 0.0;
-      for (std::size_t k = 0; k < g.classes; ++k) fresh += g.fresh[k * g.stride + q];
+      const double fresh = g.fresh_sum(q);
       for (std::size_t k = 0; k < g.classes; ++k) {
         const std::size_t at = k * g.stride + q;
         const double share = fresh > 0.0 ? g.fresh[at] / fresh : 0.0;

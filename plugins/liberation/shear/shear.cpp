@@ -85,8 +85,7 @@ class Shear final : public sdk::LiberationLaw {
       const double friction_velocity = std::sqrt(wind.shear[q] / gas_density_);
       const double raised = formula::raised_by_moisture(g.moisture[q], p_.held_moisture);
       const double area = std::numbers::pi * g.diameter[q] * g.diameter[q];
-      double fresh = 0.0;
-      for (std::size_t k = 0; k < g.classes; ++k) fresh += g.fresh[k * g.stride + q];
+      const double fresh = g.fresh_sum(q);
       for (std::size_t k = 0; k < g.classes; ++k) {
         const std::size_t at = k * g.stride + q;
         const double flux = formula::flux(friction_velocity, raised * threshold_[k], gas_density_,

@@ -54,10 +54,9 @@ struct DustyCase {
     weight =
         std::make_unique<airborne::DustWeight>(air.grid, gravity, spec.density, air.fluid.density);
     field->start(flow->volume_after);
-    weight->find(*field, flow->volume_after);
   }
   void advance(double step) {
-    air.exchange.source = weight->force();
+    air.exchange.source = weight->find(*field, flow->volume_after);
     air.advance(step);
     air.solver->find_throughflow(flow->throughflow);
     if (const fluid::CellField* eddies = air.solver->eddy_viscosity()) {
@@ -65,7 +64,6 @@ struct DustyCase {
       for (double& d : flow->eddy_diffusivity) d /= air.fluid.density;
     }
     field->advance(*flow, air.time - step, step);
-    weight->find(*field, flow->volume_after);
   }
 };
 

@@ -30,6 +30,13 @@ struct DustyGrains {
   const double* load = nullptr;      ///< [kg] of dust on the grain, by class
   const double* fresh = nullptr;     ///< [kg] of dust that it came with, by class
   double* released = nullptr;        ///< [kg] out, by class: at least 0, at most the load
+
+  /// [kg] of dust of all classes that grain q came with.
+  [[nodiscard]] double fresh_sum(std::size_t q) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < classes; ++k) sum += fresh[k * stride + q];
+    return sum;
+  }
 };
 
 /// What the contacts of each grain have done to it in the time step. A grain takes half of what a

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "particles/energy/contact_work.hpp"
+#include "particles/energy/working_contact.hpp"
 
 #include "particles/forces/wall_contacts.hpp"
 
@@ -60,18 +60,6 @@ void add_work(const WorkingContact& c, double* history, std::size_t stride, Ener
     old(1 + d) = tangential[static_cast<int>(d)];
     old(4 + d) = c.couple[static_cast<int>(d)];
   }
-}
-
-ElasticEnergy elastic_energy(const PairLaws& law, BatchColumns& columns, std::size_t q) {
-  const double overlap = columns.column(law.cohesion ? B::contact_overlap : B::overlap)[q];
-  if (!(overlap > 0.0)) return {0.0, 0.0};
-  const double normal = columns.column(B::normal_stiffness)[q] * overlap * overlap;
-  const Vec3 n = vector_of(columns, B::normal_x, q);
-  const Vec3 force = vector_of(columns, B::force_x, q);
-  const Vec3 tangential = force - dot(force, n) * n;
-  const double stiffness = columns.column(B::tangential_stiffness)[q];
-  return {(law.contact->has_hertz_force() ? 0.4 : 0.5) * normal,
-          stiffness > 0.0 ? 0.5 * dot(tangential, tangential) / stiffness : 0.0};
 }
 
 }  // namespace dust::particles

@@ -4,7 +4,6 @@
 #include "contact/batch.hpp"
 #include "dust/sdk/vec3.hpp"
 #include "particles/energy/energy_account.hpp"
-#include "particles/pair_law_table.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -54,11 +53,5 @@ struct WorkingContact {
 /// Adds the work of a contact over the last step by the means of the forces at its two ends, and
 /// keeps the new ones in `history`, `stride` apart; docs/theory/energy.md, eq. (3), (4).
 void add_work(const WorkingContact& c, double* history, std::size_t stride, EnergySums& sums);
-
-/// Elastic energy of the contacts that touch now, from their last force, overlap and stiffness.
-struct ElasticEnergy {
-  double normal, friction;
-};
-ElasticEnergy elastic_energy(const PairLaws& law, contact::BatchColumns& columns, std::size_t q);
 
 }  // namespace dust::particles
