@@ -51,6 +51,8 @@ class DustField {
   [[nodiscard]] const DustClass& dust_class(std::size_t n) const { return classes_[n].dust; }
   /// [kg/m3] of gas, in cells filled to `volume`.
   void concentration(std::size_t n, const fluid::CellField& volume, fluid::CellField& c) const;
+  /// [kg/m3] of whole cells.
+  [[nodiscard]] const fluid::CellField& mass(std::size_t n) const { return classes_[n].mass; }
   /// [kg] on surfaces in each cell.
   [[nodiscard]] const fluid::CellField& deposit(std::size_t n) const { return classes_[n].deposit; }
   [[nodiscard]] DustBalance balance(std::size_t n) const;

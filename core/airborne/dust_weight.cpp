@@ -4,6 +4,7 @@
 #include "fluid/parallel.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace dust::airborne {
 
@@ -11,18 +12,17 @@ DustWeight::DustWeight(const fluid::Grid& grid, sdk::Vec3 gravity, double dust_d
                        double gas_density)
     : grid_(grid),
       immersed_gravity_((1.0 - gas_density / dust_density) * gravity),
-      sum_(grid.size, 0.0),
-      one_(grid.size, 0.0),
+      mass_(grid.size, 0.0),
       force_(grid) {}
 
 const fluid::FaceField& DustWeight::find(const DustField& field, const fluid::CellField& volume) {
   const auto& n = grid_.count;
-  std::fill(sum_.begin(), sum_.end(), 0.0);
+  std::fill(mass_.begin(), mass_.end(), 0.0);
   for (std::size_t c = 0; c < field.classes(); ++c) {
-    field.concentration(c, volume, one_);
+    const fluid::CellField& of_class = field.mass(c);
     fluid::for_rows(n[0], n[1], n[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid_.index(0, j, k);
-      for (int i = 0; i < n[0]; ++i) sum_[o + i] += one_[o + i];
+      for (int i = 0; i < n[0]; ++i) mass_[o + i] += of_class[o + i];
     });
   }
   for (int d = 0; d < 3; ++d) {
@@ -39,10 +39,11 @@ const fluid::FaceField& DustWeight::find(const DustField& field, const fluid::Ce
         const std::ptrdiff_t face = o + i;
         // Beyond a side there is what the cell before it holds, or the other end.
         const std::ptrdiff_t round = is_periodic ? last * s : s;
-        const double below = sum_[along == 0 ? face - s + round : face - s];
-        const double above = sum_[along == last ? face - round : face];
+        const std::ptrdiff_t below = along == 0 ? face - s + round : face - s;
+        const std::ptrdiff_t above = along == last ? face - round : face;
+        const double gas = volume[below] + volume[above];
         force_.component[static_cast<std::size_t>(d)][face] =
-            immersed_gravity_[d] * 0.5 * (below + above);
+            gas > 0.0 ? immersed_gravity_[d] * (mass_[below] + mass_[above]) / gas : 0.0;
       }
     });
   }

@@ -12,13 +12,15 @@ class DustWeight {
  public:
   DustWeight(const fluid::Grid& grid, sdk::Vec3 gravity, double dust_density, double gas_density);
 
-  /// From the concentrations in cells filled by gas to `volume` [-]; kept until the next call.
+  /// In cells filled by gas to `volume` [-]; kept until the next call. A face has the dust and the
+  /// gas of both its cells: what has come off in a sliver weighs what it weighs, not what a whole
+  /// cell of that concentration would.
   const fluid::FaceField& find(const DustField& field, const fluid::CellField& volume);
 
  private:
   fluid::Grid grid_;
   sdk::Vec3 immersed_gravity_;  ///< [m/s2]
-  fluid::CellField sum_, one_;  ///< [kg/m3] of gas, of all classes and of one
+  fluid::CellField mass_;       ///< [kg/m3] of whole cells, of all classes
   fluid::FaceField force_;
 };
 

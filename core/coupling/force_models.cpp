@@ -126,17 +126,7 @@ void ForceModels::find_wall(sdk::Vec3 centre, double radius, double time, std::s
   c.gap[n] = std::numeric_limits<double>::infinity();
   set(c.wall_normal, n, sdk::Vec3{});
   set(c.wall_velocity, n, sdk::Vec3{});
-  const particles::Surface* nearest = nullptr;
-  bodies::SurfacePoint point;
-  for (const particles::Surface& s : surfaces_) {
-    if (!s.may_touch(centre, reach, 0.0)) continue;
-    const bodies::SurfacePoint found = s.contact(centre, reach);
-    if (found.distance >= reach || (nearest != nullptr && found.distance >= point.distance)) {
-      continue;
-    }
-    nearest = &s;
-    point = found;
-  }
+  const auto [nearest, point] = particles::nearest_surface(surfaces_, centre, reach);
   // In touch, the contact law carries the force.
   if (nearest == nullptr || point.distance <= radius) return;
   c.gap[n] = point.distance - radius;

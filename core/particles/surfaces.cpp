@@ -9,6 +9,18 @@ void move_to(double time, std::span<Surface> surfaces) {
   for (Surface& s : surfaces) s.place = s.placement(time);
 }
 
+NearestSurface nearest_surface(std::span<const Surface> surfaces, sdk::Vec3 point, double reach) {
+  NearestSurface nearest;
+  for (const Surface& s : surfaces) {
+    if (!s.may_touch(point, reach, 0.0)) continue;
+    const bodies::SurfacePoint found = s.contact(point, reach);
+    if (!(found.distance < reach)) continue;
+    if (nearest.surface != nullptr && found.distance >= nearest.point.distance) continue;
+    nearest = {&s, found};
+  }
+  return nearest;
+}
+
 std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::BodySet& bodies) {
   std::vector<Surface> out;
   int walls = 0;

@@ -74,6 +74,14 @@ struct Surface {
 /// Puts bodies that move to their place at `time` [s].
 void move_to(double time, std::span<Surface> surfaces);
 
+/// A surface and what of it is nearest to a point.
+struct NearestSurface {
+  const Surface* surface = nullptr;  ///< null: none within reach
+  bodies::SurfacePoint point;
+};
+/// The surface nearest to `point` within `reach` [m], as they stood at their last move_to.
+NearestSurface nearest_surface(std::span<const Surface> surfaces, sdk::Vec3 point, double reach);
+
 std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::BodySet& bodies);
 
 /// Surface velocities of `count` columns of points and normals at `time` [s].

@@ -386,12 +386,18 @@ void DragExchange::evaluate_batch(const StencilBatch& here, const fluid::CellFie
     evaluate_faces(here, d, face_void_.columns(d), u.data(), own, impulse, is_density,
                    given[d].data());
     if (batch.has_wide) evaluate_wide(here, d, eps, u, impulse, batch, given);
-    for (std::size_t q = 0; batch.has_smooth && q < here.count; ++q) {
-      if (batch.is_smooth[q] == 0) continue;
-      smooth.set(&here.position[4 * q], 2.0 * here.position[4 * q + 3]);
-      given[d][q] = impulse * own.drag[q] *
-                    drag_through(d, smooth, u, own.velocity[q], own.flux_difference[q]);
+  }
+  for (std::size_t q = 0; batch.has_smooth && q < here.count; ++q) {
+    if (batch.is_smooth[q] == 0) continue;
+    smooth.set(&here.position[4 * q], 2.0 * here.position[4 * q + 3]);
+    for (int d = 0; d < 3; ++d) {
+      const FaceContributions& own = batch.component[d];
+      given[d][q] =
+          impulse * own.drag[q] *
+          drag_through(d, smooth, velocity.component[d], own.velocity[q], own.flux_difference[q]);
     }
+  }
+  for (int d = 0; d < 3; ++d) {
     for (std::size_t q = 0; q < here.count; ++q) {
       batch.given[d] += given[d][q];
       batch.size[d] += std::abs(given[d][q]);

@@ -264,14 +264,16 @@ void SelfDisturbance::find_own_solids(const particles::GrainRows& grains, std::s
   for (int d = 0; d < 3; ++d) {
     own.solids[static_cast<std::size_t>(d)] = own.spread * solids * kernel.overlap(d);
   }
-  for (std::size_t n = 0; own.spread < 1.0 && n < shares.used; ++n) {
+  if (!(own.spread < 1.0)) return;
+  const Triple inside{kernel.inside(0), kernel.inside(1), kernel.inside(2)};
+  for (std::size_t n = 0; n < shares.used; ++n) {
     const std::array<int, 3> cell{shares.i[n], shares.j[n], shares.k[n]};
     for (int d = 0; d < 3; ++d) {
       std::array<int, 3> above = cell;
       above[static_cast<std::size_t>(d)] += 1;
       own.solids[static_cast<std::size_t>(d)] +=
           (1.0 - own.spread) * solids * shares.weight[n] * 0.5 *
-          (kernel.weight(d, cell) + kernel.weight(d, above)) / kernel.inside(d);
+          (kernel.weight(d, cell) + kernel.weight(d, above)) / inside[static_cast<std::size_t>(d)];
     }
   }
 }
@@ -315,9 +317,10 @@ double SelfDisturbance::concentration_seen(const double* position, const SelfFlo
   const Place here = lattice_.place(position);
   double sum = 0.0;
   for (int d = 0; d < 3; ++d) {
+    const double inside = kernel.inside(d);
     for (const int side : {0, 1}) {
       const Lattice::Face face = lattice_.face(d, here[0].cell, here[1].cell, here[2].cell, side);
-      sum += 0.5 * kernel.weight_at_storage(d, face.storage) / kernel.inside(d);
+      sum += 0.5 * kernel.weight_at_storage(d, face.storage) / inside;
     }
   }
   return sum / 3.0;

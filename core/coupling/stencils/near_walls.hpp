@@ -13,12 +13,12 @@ namespace dust::coupling {
 class NearWalls {
  public:
   struct Wall {
-    double distance;    ///< [m] of the point
-    sdk::Vec3 normal;   ///< from the surface to the point
-    bool is_displaced;  ///< the surface goes to other places
+    double distance;   ///< [m] of the point
+    sdk::Vec3 normal;  ///< from the surface to the point
   };
 
-  /// Takes the parts of bodies; sides of the domain are left out.
+  /// Takes the parts of bodies; sides of the domain are left out, and bodies that go to other
+  /// places.
   void use(std::vector<particles::Surface> surfaces);
   /// The surface nearest to `point` within `reach` [m]; a body that was removed is none.
   [[nodiscard]] std::optional<Wall> nearest(sdk::Vec3 point, double reach) const;

@@ -68,7 +68,7 @@ SmoothKernel::Room SmoothKernel::set(const double* position, double diameter) {
   const fluid::Grid& grid = lattice_.grid();
   const double knots = std::max(diameter, self_disturbance::k_min_knots * grid.largest_spacing());
   const auto wall = lattice_.walls().nearest(place, 4.0 * knots);
-  if (!wall || wall->is_displaced) return Room::none;
+  if (!wall) return Room::none;
   sdk::Vec3 most_knots;
   for (int d = 0; d < 3; ++d) {
     const double slope = std::max(std::abs(wall->normal[d]), 1e-3);

@@ -204,12 +204,18 @@ std::int32_t DustStage::cell_with_gas(sdk::Vec3 place) const {
   }
   std::int32_t best = -1;
   double nearest = std::numeric_limits<double>::infinity();
-  const auto first = [&](std::size_t d) { return std::max(0, at[d] - k_reach); };
-  const auto last = [&](std::size_t d) { return std::min(grid.count[d] - 1, at[d] + k_reach); };
-  for (int k = first(2); k <= last(2); ++k) {
-    for (int j = first(1); j <= last(1); ++j) {
-      for (int i = first(0); i <= last(0); ++i) {
-        const std::ptrdiff_t cell = grid.index(i, j, k);
+  for (int k = at[2] - k_reach; k <= at[2] + k_reach; ++k) {
+    for (int j = at[1] - k_reach; j <= at[1] + k_reach; ++j) {
+      for (int i = at[0] - k_reach; i <= at[0] + k_reach; ++i) {
+        std::array<int, 3> inside{i, j, k};
+        bool is_there = true;
+        for (std::size_t d = 0; d < 3; ++d) {
+          const int n = grid.count[d];
+          if (grid.is_periodic[d]) inside[d] = (inside[d] % n + n) % n;
+          is_there = is_there && inside[d] >= 0 && inside[d] < n;
+        }
+        if (!is_there) continue;
+        const std::ptrdiff_t cell = grid.index(inside[0], inside[1], inside[2]);
         const double distance = norm(grid.centre(i, j, k) - place);
         if (!(flow_.volume_after[static_cast<std::size_t>(cell)] > 0.0) || distance >= nearest) {
           continue;

@@ -57,23 +57,21 @@ void LiberationStage::find_impacts() {
   const particles::ContactWork& work = particles_.contact_work();
   const std::size_t count = particles_.rows().count;
   rows_.clear();
-  for (std::size_t row = 0; row < count; ++row) {
-    if (work.sum(row).sum() > 0.0 || work.acceleration(row) > 0.0) {
-      rows_.push_back(static_cast<std::int32_t>(row));
-    }
-  }
-  load_columns();
   auto& c = columns_;
+  for (Column* column : {&c.normal, &c.tangential, &c.acceleration}) column->clear();
+  for (std::size_t row = 0; row < count; ++row) {
+    const particles::ContactWork::Energy energy = work.sum(row);
+    const double acceleration = work.acceleration(row);
+    if (!(energy.sum() > 0.0 || acceleration > 0.0)) continue;
+    rows_.push_back(static_cast<std::int32_t>(row));
+    c.normal.push_back(energy.normal);
+    c.tangential.push_back(energy.tangential);
+    c.acceleration.push_back(acceleration);
+  }
   for (Column* column : {&c.normal, &c.tangential, &c.acceleration}) {
     column->resize(padded(rows_.size()));
   }
-  for (std::size_t q = 0; q < rows_.size(); ++q) {
-    const auto row = static_cast<std::size_t>(rows_[q]);
-    const particles::ContactWork::Energy energy = work.sum(row);
-    c.normal[q] = energy.normal;
-    c.tangential[q] = energy.tangential;
-    c.acceleration[q] = work.acceleration(row);
-  }
+  load_columns();
 }
 
 /// All rows, and the wind at them: what their drag relaxes to, less their own velocity.

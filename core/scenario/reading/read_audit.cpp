@@ -2,8 +2,6 @@
 #include "scenario/reading/block_readers.hpp"
 #include "scenario/reading/reading.hpp"
 
-#include <utility>
-
 namespace dust::scenario {
 
 /// `audit: {energy: true}`. Written out where it is given: runs without it stay as they are.

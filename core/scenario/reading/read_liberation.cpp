@@ -3,7 +3,6 @@
 #include "dust/sdk/liberation_law.hpp"
 #include "scenario/reading/block_readers.hpp"
 #include "scenario/reading/reading.hpp"
-#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -18,7 +17,7 @@ void read_liberation(Reading& reading, MapReader& dust, Node& written) {
   check_dust_loads(reading, law.model.get(), entry == nullptr || law.model != nullptr);
   if (!law.choice) return;
   const Mark where = law.choice->where;
-  if (entry != nullptr && !reading.dust.field && reading.has_fluid) {
+  if (!reading.dust.field && reading.has_fluid) {
     reading.error(where,
                   "dust.liberation: there is no dust.field that takes up what comes off: give "
                   "dust: {field: {classes: [...], material: ...}}");
@@ -43,12 +42,12 @@ void check_dust_loads(Reading& reading, const sdk::Model* law, bool is_law_read)
     const std::string path = "materials." + material.key;
     const DustLoadSpec& load = reading.dust.loads[m];
     if (load.moisture > 0.0 && !binds && is_law_read) {
-      reading.error(
-          mark_of(material.value, "moisture"),
-          path + ".moisture: " +
-              (law == nullptr ? "there is no dust.liberation that makes anything"
-                              : "the law of dust.liberation makes nothing") +
-              " of it: give a law that binds dust by moisture (energy), or take moisture out");
+      reading.error(mark_of(material.value, "moisture"),
+                    path + ".moisture: " +
+                        (law == nullptr ? "there is no dust.liberation that makes anything"
+                                        : "the law of dust.liberation makes nothing") +
+                        " of it: give a law that reads it (energy, force_ratio, shear), or take "
+                        "moisture out");
     }
     if (load.share.empty()) continue;
     const Mark where = mark_of(material.value, "dust_load");

@@ -234,8 +234,8 @@ TEST_CASE("a spinning cylinder shall carry the air that diffusion gives it, at a
 
 TEST_CASE("the pressure beside a spinning cylinder shall be the flow's, in slivers of cells too") {
   // Cells open by some per cent have ghost faces only; each step added the same increment to their
-  // pressure, 0.45 Pa here after 20 ms and 0.72 Pa after 100 ms, thousands in a chute. The flow's
-  // own falls while the layer grows.
+  // pressure, 0.45 Pa here after 20 ms and 0.72 Pa after 100 ms. The flow's own falls while the
+  // layer grows.
   constexpr double k_speed = 0.8;
   Case c = spinning(k_speed, 1.25e-3, k_viscosity, 1, 1);
   c.start();
