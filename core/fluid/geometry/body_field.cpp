@@ -51,18 +51,18 @@ BodyField::BodyField(const Grid& grid, const bodies::BodySet& bodies, double tim
 class BodyField::Near {
  public:
   Near(const BodyField& field, Vec3 p, double reach) : field_(field) {
-    std::array<Seen, k_most> seen;
+    std::array<Seen, k_max> seen;
     std::size_t count = 0;
     for (const auto* list : {&field.static_bodies_, &field.moving_bodies_}) {
       for (const Placed& b : *list) {
         const auto s = b.body->nearest(p, b.at);
         if (s.distance < hit_.distance) hit_ = {s.distance, s.normal, b.number};
-        if (count < k_most) seen[count] = {&b, s.distance};
+        if (count < k_max) seen[count] = {&b, s.distance};
         ++count;
       }
     }
-    is_crowd_ = count > k_most;
-    if (is_crowd_) return;
+    has_many_ = count > k_max;
+    if (has_many_) return;
     // A distance changes by no more than one goes. The half more covers shapes whose distance is
     // not quite one.
     const double limit = hit_.distance + 3.0 * reach;
@@ -73,7 +73,7 @@ class BodyField::Near {
   /// At p itself.
   [[nodiscard]] const Hit& hit() const { return hit_; }
   [[nodiscard]] Hit nearest(Vec3 q) const {
-    if (is_crowd_) return field_.nearest(q);
+    if (has_many_) return field_.nearest(q);
     Hit hit;
     for (std::size_t n = 0; n < count_; ++n) {
       const Placed& b = *bodies_[n];
@@ -84,15 +84,15 @@ class BodyField::Near {
   }
 
  private:
-  static constexpr std::size_t k_most = 32;
+  static constexpr std::size_t k_max = 32;
   struct Seen {
     const Placed* body;
     double distance;
   };
   const BodyField& field_;
   Hit hit_;
-  bool is_crowd_ = false;
-  std::array<const Placed*, k_most> bodies_{};
+  bool has_many_ = false;
+  std::array<const Placed*, k_max> bodies_{};
   std::size_t count_ = 0;
 };
 

@@ -57,8 +57,8 @@ class BodyField {
   /// Share of the sub-box of edges `size` round p that is open, by the plane of the surface at
   /// hand.
   [[nodiscard]] double open_part(const Hit& hit, sdk::Vec3 p, sdk::Vec3 size, double smear) const;
-  /// The bodies that may be nearest to a point within `reach` of p, in the order of nearest(); of a
-  /// crowd all of them.
+  /// The bodies that may be nearest to a point within `reach` of p, in the order of nearest(): of
+  /// many, all of them.
   class Near;
   [[nodiscard]] bool meets(const Near& near, sdk::Vec3 from, sdk::Vec3 along, double length,
                            double& way, Hit& hit) const;
