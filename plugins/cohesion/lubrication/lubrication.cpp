@@ -42,9 +42,9 @@ class Lubrication final : public sdk::CohesionLaw {
         .at_most(0.1)
         .optional();
     s.number(&Parameters::reach, "reach", sdk::dimension::none,
-             "Gap over R* beyond which it does not act.")
+             "Gap over R* beyond which it does not act; above smallest_gap.")
         .symbol("\\delta_r")
-        .above(0.1)
+        .above(0.001)
         .at_most(10)
         .optional();
     return s.build();
@@ -61,7 +61,11 @@ class Lubrication final : public sdk::CohesionLaw {
                 "doi:10.1017/S0022112084000355"};
   }
 
-  explicit Lubrication(const Parameters& p) : constants_{p.viscosity, p.smallest_gap, p.reach} {}
+  explicit Lubrication(const Parameters& p) : constants_{p.viscosity, p.smallest_gap, p.reach} {
+    if (!(p.reach > p.smallest_gap)) {
+      throw sdk::ParameterError("reach must lie above smallest_gap");
+    }
+  }
   void prepare(const sdk::MaterialProperties&, const sdk::MaterialProperties&) override {}
   [[nodiscard]] int history_size() const override { return 0; }
   void evaluate(const sdk::CohesionBatch& batch) const override {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hertz_mindlin.hpp"
 
+#include "liggghts.hpp"
+
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/square_roots.hpp>
 
 #include <algorithm>
+#include <string>
 
 namespace {
 
@@ -156,11 +159,37 @@ void evaluate_batch(const formula::Constants& constants, const sdk::ContactBatch
   }
 }
 
+DUST_KERNEL void evaluate_liggghts(const formula::Constants& constants,
+                                   const sdk::ContactBatch& b) {
+  const formula::Constants k = constants;
+  const double *overlap = b.overlap, *nx = b.normal.x, *ny = b.normal.y, *nz = b.normal.z;
+  const double *vx = b.velocity.x, *vy = b.velocity.y, *vz = b.velocity.z;
+  const double *ux = b.displacement.x, *uy = b.displacement.y, *uz = b.displacement.z;
+  const double *radius = b.effective_radius, *mass = b.effective_mass;
+  double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2];
+  double *fn = b.normal_force, *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
+  double *fx = b.force.x, *fy = b.force.y, *fz = b.force.z;
+#pragma omp simd
+  for (std::size_t q = 0; q < b.count; ++q) {
+    formula::Contact c{};
+    c.overlap = overlap[q], c.radius = radius[q], c.mass = mass[q];
+    c.nx = nx[q], c.ny = ny[q], c.nz = nz[q];
+    c.vx = vx[q], c.vy = vy[q], c.vz = vz[q];
+    c.ux = ux[q], c.uy = uy[q], c.uz = uz[q];
+    c.sx = sx[q], c.sy = sy[q], c.sz = sz[q];
+    formula::evaluate_liggghts(k, c);
+    sx[q] = c.sx, sy[q] = c.sy, sz[q] = c.sz;
+    fn[q] = c.normal_force, kn[q] = c.normal_stiffness, kt[q] = c.stiffness;
+    fx[q] = c.fx, fy[q] = c.fy, fz[q] = c.fz;
+  }
+}
+
 class HertzMindlin final : public sdk::ContactLaw {
  public:
   struct Parameters {
     double restitution = 0.0;
     double friction = 0.0;
+    std::string tangential = "rescaled";
   };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
@@ -174,6 +203,11 @@ class HertzMindlin final : public sdk::ContactLaw {
              "Coefficient of sliding friction; limits spring and damper together.")
         .symbol("\\mu_s")
         .at_least(0);
+    s.text(&Parameters::tangential, "tangential",
+           "Conventions of spring, damper and slip limit: those of this law, or those of LIGGGHTS "
+           "for parameters that were calibrated there.")
+        .one_of({"rescaled", "liggghts"})
+        .optional();
     return s.build();
   }
   static sdk::ModelInfo describe() {
@@ -190,7 +224,7 @@ class HertzMindlin final : public sdk::ContactLaw {
                 "doi:10.1016/0032-5910(92)88030-L; rescaled tangential spring: own derivation"};
   }
 
-  explicit HertzMindlin(const Parameters& p) {
+  explicit HertzMindlin(const Parameters& p) : is_liggghts_(p.tangential == "liggghts") {
     constants_.damping = formula::damping(p.restitution);
     constants_.friction = p.friction;
   }
@@ -208,7 +242,7 @@ class HertzMindlin final : public sdk::ContactLaw {
   [[nodiscard]] bool has_hertz_force() const override { return true; }
 
   void evaluate(const sdk::ContactBatch& batch) const override {
-    evaluate_batch(constants_, batch);
+    is_liggghts_ ? evaluate_liggghts(constants_, batch) : evaluate_batch(constants_, batch);
   }
 
   [[nodiscard]] double collision_time(double radius, double mass, double speed) const override {
@@ -220,6 +254,7 @@ class HertzMindlin final : public sdk::ContactLaw {
 
  private:
   formula::Constants constants_;
+  bool is_liggghts_;
 };
 
 }  // namespace

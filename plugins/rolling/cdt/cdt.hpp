@@ -6,6 +6,12 @@
 
 namespace dust::model::cdt {
 
+/// What the relative rotation is divided by to give the couple's direction.
+enum class NormalisedBy {
+  rolling,  ///< the part across the normal: the couple has its full size
+  rotation  ///< the whole, with its part about the normal: the couple is smaller
+};
+
 /// One contact. n: unit normal, w: angular velocity of i relative to j [rad/s], m: couple on i [N
 /// m], out.
 struct Rolling {
@@ -29,13 +35,20 @@ struct Rolling {
 /// Source: model A of Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269,
 /// doi:10.1016/j.powtec.2010.09.030; Zhou, Wright, Yang, Xu, Yu, Physica A 269 (1999) 536,
 /// doi:10.1016/S0378-4371(99)00183-1.
+///
+/// With NormalisedBy::rotation as in LIGGGHTS (`rolling_friction cdt`), which normalises the
+/// relative rotation first and takes its part about the normal away then: \f$ |M| = \mu_r R^* |F_n|
+/// \sin\alpha \f$, alpha between the rotation and the normal. The bound is the same.
+template <NormalisedBy by = NormalisedBy::rolling>
 [[gnu::always_inline]] inline void evaluate(double friction, double time_step, Rolling& c) {
   constexpr double k_tiny = 1e-290;
   const double wn = c.wx * c.nx + c.wy * c.ny + c.wz * c.nz;
   const double rx = c.wx - wn * c.nx;
   const double ry = c.wy - wn * c.ny;
   const double rz = c.wz - wn * c.nz;
-  const double speed = std::sqrt(rx * rx + ry * ry + rz * rz);
+  constexpr bool k_is_whole = by == NormalisedBy::rotation;
+  const double speed = k_is_whole ? std::sqrt(c.wx * c.wx + c.wy * c.wy + c.wz * c.wz)
+                                  : std::sqrt(rx * rx + ry * ry + rz * rz);
   const double limit = friction * c.radius * std::abs(c.normal_force);
   const double stop = 0.2 * c.mass * c.radius * c.radius / time_step;
   // Zero without load, also for a grain that turns.

@@ -78,7 +78,7 @@ TEST_CASE("a contact law shall answer alike in other units") {
   const test::Scale s;
   const double force = s.of(sdk::dimension::force);
   const double stiffness = s.of(sdk::dimension::stiffness);
-  for (const auto& law : test::all_laws("contact")) {
+  for (const auto& law : test::with_choices(test::all_laws("contact"))) {
     CAPTURE(law.offer.info.name);
     const auto plain = history_of(*made(law), test::sample_rows());
     auto other = law.make<sdk::ContactLaw>(test::scaled_values(law, s));
@@ -101,7 +101,7 @@ TEST_CASE("a contact law shall answer alike in other units") {
 }
 
 TEST_CASE("a contact law shall give the same bits however its batch is split") {
-  for (const auto& law : test::all_laws("contact")) {
+  for (const auto& law : test::with_choices(test::all_laws("contact"))) {
     CAPTURE(law.offer.info.name);
     const auto whole = history_of(*made(law), test::sample_rows());
     for (const std::size_t split : {8, 24}) {
@@ -111,7 +111,7 @@ TEST_CASE("a contact law shall give the same bits however its batch is split") {
 }
 
 TEST_CASE("seen from the other side a contact's force shall be the opposite") {
-  for (const auto& law : test::all_laws("contact")) {
+  for (const auto& law : test::with_choices(test::all_laws("contact"))) {
     CAPTURE(law.offer.info.name);
     const auto plain = history_of(*made(law), test::sample_rows());
     auto rows = test::sample_rows();
@@ -129,7 +129,7 @@ TEST_CASE("seen from the other side a contact's force shall be the opposite") {
 
 TEST_CASE("a turned contact shall have a turned force") {
   const Vec3 axis = Vec3{1, 2, -0.5} / norm(Vec3{1, 2, -0.5});
-  for (const auto& law : test::all_laws("contact")) {
+  for (const auto& law : test::with_choices(test::all_laws("contact"))) {
     CAPTURE(law.offer.info.name);
     const auto plain = history_of(*made(law), test::sample_rows());
     auto rows = test::sample_rows();
@@ -146,7 +146,7 @@ TEST_CASE("a turned contact shall have a turned force") {
 }
 
 TEST_CASE("without touch a contact law shall give nothing and forget its spring") {
-  for (const auto& law : test::all_laws("contact")) {
+  for (const auto& law : test::with_choices(test::all_laws("contact"))) {
     CAPTURE(law.offer.info.name);
     const auto model = made(law);
     LawBench bench(test::sample_rows());

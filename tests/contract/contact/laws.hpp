@@ -266,8 +266,27 @@ class LawBench {
   contact::BatchColumns columns_;
 };
 
-/// The example's value moved a little, within its range; a switch is not a number.
-inline double perturbed(const Law& law, const sdk::Parameter& p) {
+/// The laws, and besides each with every other choice that it offers.
+inline std::vector<Law> with_choices(std::vector<Law> laws) {
+  const std::size_t plain = laws.size();
+  for (std::size_t n = 0; n < plain; ++n) {
+    const Law law = laws[n];  // the list grows
+    for (const sdk::Parameter& p : law.offer.info.parameters) {
+      for (const std::string& option : p.options) {
+        Law other = law;
+        other.values[p.name] = option;
+        laws.push_back(std::move(other));
+      }
+    }
+  }
+  return laws;
+}
+
+/// Another of the choices, or the example's value moved a little, within its range.
+inline sdk::Value perturbed(const Law& law, const sdk::Parameter& p) {
+  if (!p.options.empty()) {
+    return p.options[p.options[0] == std::get<std::string>(p.default_value) ? 1 : 0];
+  }
   const double value = law.number(p);
   if (value == 0.0) return std::isfinite(p.range.high) ? 0.1 * p.range.high : 1e-3;
   return p.range.contains(1.1 * value) ? 1.1 * value : 0.9 * value;
@@ -277,7 +296,10 @@ inline double perturbed(const Law& law, const sdk::Parameter& p) {
 inline std::map<std::string, sdk::Value> scaled_values(const Law& law, const Scale& s) {
   std::map<std::string, sdk::Value> values;
   for (const sdk::Parameter& p : law.offer.info.parameters) {
-    values[p.name] = law.number(p) * s.of(p.dimension);
+    const auto given = law.values.find(p.name);
+    values[p.name] = p.options.empty()           ? sdk::Value(law.number(p) * s.of(p.dimension))
+                     : given != law.values.end() ? given->second
+                                                 : p.default_value;
   }
   return values;
 }
@@ -305,7 +327,8 @@ inline void check_described(const Law& law) {
     CAPTURE(p.name);
     CHECK_FALSE(p.sentence.empty());
     CHECK(p.sentence.ends_with('.'));
-    CHECK_FALSE(p.range.contains(-1e-300));  // nothing of a contact can be negative
+    // No number of a contact can be negative.
+    if (p.options.empty()) CHECK_FALSE(p.range.contains(-1e-300));
   }
 }
 

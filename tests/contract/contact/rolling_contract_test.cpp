@@ -61,7 +61,7 @@ TEST_CASE("every parameter of a rolling law shall matter") {
 
 TEST_CASE("a rolling law shall answer alike in other units") {
   const test::Scale s;
-  for (const auto& law : test::all_laws("rolling")) {
+  for (const auto& law : test::with_choices(test::all_laws("rolling"))) {
     CAPTURE(law.offer.info.name);
     const auto plain = history_of(*made(law), rolling_rows());
     auto other = law.make<sdk::RollingLaw>(test::scaled_values(law, s));
@@ -75,7 +75,7 @@ TEST_CASE("a rolling law shall answer alike in other units") {
 }
 
 TEST_CASE("a rolling law shall give the same bits however its batch is split") {
-  for (const auto& law : test::all_laws("rolling")) {
+  for (const auto& law : test::with_choices(test::all_laws("rolling"))) {
     CAPTURE(law.offer.info.name);
     const auto whole = history_of(*made(law), rolling_rows());
     for (const std::size_t split : {8, 24}) {

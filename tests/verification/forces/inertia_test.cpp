@@ -156,6 +156,69 @@ TEST_CASE("a light sphere let go shall rise as its drag, virtual mass and memory
   CHECK(run(false, 30) > 1.2 * run(true, 30));
 }
 
+TEST_CASE(
+    "a fall without drag shall slow down as the virtual mass grows with the acceleration number") {
+  // (m + C_A(A_c) m_f) v' = (m - m_f) g with A_c = v^2 / (D v'): v' by repeated insertion, v by
+  // Euler's rule in steps so small that they do not show.
+  constexpr double k_density = 2650.0;
+  constexpr double k_diameter = 1e-3;
+  constexpr double k_time = 0.05;
+  const auto acceleration = [](double v, double guess) {
+    for (int n = 0; n < 50; ++n) {
+      const double number = v * v / (k_diameter * guess);
+      const double c_a = 1.05 - 0.066 / (number * number + 0.12);
+      guess = (k_density - k_water) * k_g / (k_density + c_a * k_water);
+    }
+    return guess;
+  };
+  double speed = 0.0;
+  double rate = k_g;
+  constexpr int k_fine = 50000;
+  for (int n = 0; n < k_fine; ++n) {
+    rate = acceleration(speed, rate);
+    speed += rate * k_time / k_fine;
+  }
+  const auto fall = [&](const char* kind, double step) {
+    Still still(without_drag(step), {{"virtual_mass", {{"acceleration", std::string(kind)}}}},
+                {0, 0, -k_g});
+    still.world.grains.add({0, 0, 0}, {}, k_diameter, k_density);
+    const int steps = static_cast<int>(std::lround(k_time / step));
+    for (int n = 0; n < steps; ++n) still.step(1, still.weight(k_density));
+    return -still.world.grains.velocity[2];
+  };
+  CHECK(fall("odar_hamilton", 1e-4) == doctest::Approx(speed).epsilon(2e-3));
+  const double plain = (k_density - k_water) * k_g / (k_density + 0.5 * k_water) * k_time;
+  CHECK(fall("any", 1e-4) == doctest::Approx(plain).epsilon(1e-5));
+  CHECK(plain > 1.05 * speed);
+}
+
+TEST_CASE(
+    "the memory of a stream that gains speed evenly shall fall with the acceleration number") {
+  // A sphere too heavy to follow, u = a t: the force is C_H(A_c) / 6 of C 2 a sqrt(t), A_c = a t^2
+  // / D.
+  constexpr double k_step = 1e-3;
+  constexpr double k_rate = 0.5;  // m/s2
+  constexpr double k_diameter = 2e-3;
+  Still still(without_drag(k_step), {{"basset", {{"acceleration", std::string("odar_hamilton")}}}});
+  still.world.grains.add({0, 0, 0}, {}, k_diameter, 1e7);
+  const double c =
+      1.5 * k_diameter * k_diameter * std::sqrt(std::numbers::pi * k_water * k_viscosity);
+  for (int n = 0; n <= 100; ++n) {
+    const double time = n * k_step;
+    still.world.set(still.world.velocity, [&](sdk::Vec3) {
+      return sdk::Vec3{k_rate * time, 0, 0};
+    });
+    still.step(1, {});
+    if (n != 40 && n != 100) continue;
+    const double number = k_rate * time * time / k_diameter;
+    const double plain = c * 2.0 * k_rate * std::sqrt(time + 0.5 * k_step);
+    const double expected = (2.88 + 3.12 / std::pow(1.0 + number, 3)) / 6.0 * plain;
+    MESSAGE("A_c " << number << ": " << still.force().x / plain << " of Basset's force");
+    CHECK(still.force().x == doctest::Approx(expected).epsilon(0.03));
+    CHECK(plain > 1.2 * expected);
+  }
+}
+
 TEST_CASE("the memory of a grain shall survive a restart and a new order of rows") {
   const auto make = [] {
     auto still = std::make_unique<Still>(water(1e-3),
