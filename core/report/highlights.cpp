@@ -116,25 +116,41 @@ struct Halves {
   double earlier = 0.0, later = 0.0;  ///< means
 };
 
-/// The means of a curve against time over both halves of its last `duration`.
-Halves halves_of(const json& curve, double duration) {
-  const json& times = list_at(curve, "x");
-  const json& rates = list_at(curve, "y");
+/// The means of a rate over both halves of the last `duration`. A row holds the mean over the time
+/// since the row before.
+Halves halves_of(const std::vector<double>& times, const std::vector<double>& rates,
+                 double duration) {
   Halves halves;
-  if (times.empty() || times.size() != rates.size() || !times.back().is_number()) return halves;
-  const double end = times.back().get<double>();
-  double sums[2] = {0.0, 0.0}, counts[2] = {0.0, 0.0};
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    if (!times[k].is_number() || !rates[k].is_number()) continue;
-    const double before_end = end - times[k].get<double>();
-    if (before_end >= duration) continue;
+  if (times.empty() || times.size() != rates.size()) return halves;
+  double sums[2] = {0.0, 0.0}, spans[2] = {0.0, 0.0};
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    const double before_end = times.back() - times[k];
+    if (before_end >= duration || !std::isfinite(rates[k])) continue;
     const std::size_t half = before_end < 0.5 * duration ? 1 : 0;
-    sums[half] += rates[k].get<double>();
-    counts[half] += 1.0;
+    sums[half] += rates[k] * (times[k] - times[k - 1]);
+    spans[half] += times[k] - times[k - 1];
   }
-  if (counts[0] > 0.0) halves.earlier = sums[0] / counts[0];
-  if (counts[1] > 0.0) halves.later = sums[1] / counts[1];
+  if (spans[0] > 0.0) halves.earlier = sums[0] / spans[0];
+  if (spans[1] > 0.0) halves.later = sums[1] / spans[1];
   return halves;
+}
+
+/// What all openings let out over both halves of the last `duration` [kg/s], by the columns of
+/// series.csv whose roles say so.
+Halves rates_out(const RunText& run, double duration) {
+  Halves all;
+  const json& roles = object_at(run.summary, "series_roles");
+  for (const SeriesColumn& column : run.series) {
+    const json& role = object_at(roles, (column.name + " [" + column.unit + "]").c_str());
+    const bool is_out = text_at(role, "role") == "opening" &&
+                        text_at(role, "quantity") == "mass_rate" &&
+                        text_at(role, "direction") == "net";
+    if (!is_out) continue;
+    const Halves part = halves_of(run.series.front().values, column.values, duration);
+    all.earlier += part.earlier;
+    all.later += part.later;
+  }
+  return all;
 }
 
 /// How long the openings were watched, on how many grains their sum rests, and whether it was
@@ -156,7 +172,7 @@ void find_observed_time(const RunText& run, Highlights& highlights) {
       highlights.counted += figure.value * highlights.observed_time;
     }
   }
-  // A curve tells of all grains of its sensor: of dust alone only where nothing else passes.
+  // A rate is that of all grains of its sensor: of dust alone only where nothing else passes.
   for (const Figure& figure : run.figures) {
     if (sensors.count(figure.sensor) == 0 || figure.role != "opening") continue;
     if (!figure.is_per_load() || figure.is_of_class()) continue;
@@ -166,16 +182,7 @@ void find_observed_time(const RunText& run, Highlights& highlights) {
     }
     if (std::abs(figure.value - dust) > 1e-6 * std::abs(figure.value)) return;
   }
-  Halves all;
-  for (const json& curve : list_at(run.report, "curves")) {
-    const bool is_rate = text_at(curve, "y_label").ends_with("[kg/s]");
-    if (!is_rate || text_at(curve, "kind") == "reference" ||
-        sensors.count(text_at(curve, "sensor")) == 0)
-      continue;
-    const Halves part = halves_of(curve, highlights.observed_time);
-    all.earlier += part.earlier;
-    all.later += part.later;
-  }
+  const Halves all = rates_out(run, highlights.observed_time);
   if (all.earlier > 0.0) highlights.later_over_earlier = all.later / all.earlier;
 }
 

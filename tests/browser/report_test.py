@@ -65,6 +65,7 @@ class Document(html.parser.HTMLParser):
         self.cells, self.in_cell = None, False
         self.text, self.empty, self.silent = "", [], None
         self.section, self.in_heading = None, False  # section: [name, has content]
+        self.canvases, self.has_svg = {}, False
 
     def handle_starttag(self, tag, attributes):
         attributes = dict(attributes)
@@ -76,8 +77,12 @@ class Document(html.parser.HTMLParser):
             self.section = [attributes.get("id", "?"), False]
         if tag == "h2":
             self.in_heading = True
-        if tag in ("canvas", "path", "rect", "circle") and self.section:
+        if tag == "canvas" and self.section:
             self.section[1] = True
+            self.canvases.setdefault(self.section[0], 0)
+            self.canvases[self.section[0]] += 1
+        if tag == "svg":
+            self.has_svg = True
         if "id" in attributes:
             self.ids.add(attributes["id"])
         for key in ("src", "href", "data", "poster", "srcset"):
@@ -125,7 +130,9 @@ AUDIT = """<script>{axe}</script><script>
   await new Promise((done) => setTimeout(done, 2000));
   if ('{theme}' === 'dark') Dust.set_theme('dark');
   for (const part of document.querySelectorAll('details')) part.open = true;
-  await new Promise((done) => setTimeout(done, 500));
+  await new Promise((done) => setTimeout(done, 1500));
+  const graph = document.querySelector('#graph-picture');
+  if (graph) document.documentElement.dataset.graph = graph.querySelectorAll('canvas').length;
   const {{violations}} = await axe.run(document, {{resultTypes: ['violations']}});
   document.documentElement.dataset.violations = JSON.stringify(violations.map((v) => [v.id, v.help, v.nodes[0].html.slice(0, 120)]));
 }})();
@@ -145,6 +152,8 @@ def check_access(chromium, page, source, theme):
     name = f"{page.parent.name}/{page.name}, {theme}"
     check(found is not None, f"{name}: the audit did not come to its end")
     check(json.loads(found) == [], f"{name}: {found}")
+    check("data-errors" not in document.root, f"{name}: {document.root.get('data-errors')}")
+    check(document.root.get("data-graph", "1") == "1", f"{name}: the task graph is not drawn when it is opened")
 
 
 # Looks at the picture in three dimensions before and after keys: how many pixels are painted, how many changed.
@@ -169,7 +178,7 @@ PROBE = """<script>
   }
   seen.whole = differing(before, pixels());
   const cut = document.getElementById('space-cut'), last = pixels();
-  cut.value = 'all';
+  cut.value = cut.querySelector('[value=all]') ? 'all' : 'bodies';
   cut.dispatchEvent(new Event('input'));
   seen.cut = differing(last, pixels());
   document.documentElement.dataset.space = JSON.stringify(seen);
@@ -193,7 +202,22 @@ def check_space(chromium, page, is_first):
     check(seen["painted"] > 2000, f"{name}: {seen['painted']} pixels are painted")
     check(all(seen[key] > 500 for key in ("ArrowLeft", "+", "Home", "cut")), f"{name}: keys and cut change {seen}")
     check(seen["whole"] == 0, f"{name}: Home does not go back")
-    check("grains" in seen["label"] and "seen from" in seen["label"], f"{name}: says only '{seen['label']}'")
+    check("seen from" in seen["label"] and ("grains" in seen["label"] or "set-up" in seen["label"]), f"{name}: says only '{seen['label']}'")
+
+
+def check_stream(chromium, run_folder, source):
+    """Quantiles of a stream are drawn as its path: a canvas with its numbers and picture to take away."""
+    data = json.loads((run_folder / "report.json").read_text())
+    part = lambda value: {"value": value, "error": 0.001}
+    data["stream"] = [{"drop": h, "low": part(0.7 * h ** 0.5 - 0.01), "median": part(0.7 * h ** 0.5), "high": part(0.7 * h ** 0.5 + 0.01)} for h in (0.02, 0.05, 0.1)]
+    folder = run_folder.parent / "stream"
+    folder.mkdir()
+    (folder / "report.json").write_text(json.dumps(data))
+    subprocess.run([source / "tools/report/watch", folder, "--once", folder / "report.html"], check=True)
+    _, document = check_page(chromium, folder / "report.html")
+    check(document.canvases.get("stream", 0) == 1, "the path of the stream is not drawn")
+    check("5\u202f%" in document.text and "free flight" in document.text, "the path of the stream has no key")
+    check_access(chromium, folder / "report.html", source, "light")
 
 
 def check_document(folder, source):
@@ -221,6 +245,7 @@ def check_page(chromium, page):
     check(not document.empty, f"{name}: nothing in the sections {document.empty}")
     odd = re.search(r".{0,40}\b(nan|NaN|undefined|null|Infinity)\b.{0,40}", document.text)
     check(not odd, f"{name} says '{odd.group(0) if odd else ''}'")
+    check(not document.has_svg, f"{name} draws SVG by hand")
     check(page.stat().st_size < MOST_BYTES, f"{name} has {page.stat().st_size} bytes")
     return text, document
 
@@ -272,6 +297,16 @@ def main():
         for theme in ("light", "dark"):
             check_access(chromium, folder / "transfer" / "report.html", source, theme)
         check_access(chromium, folder / "grains" / "report.html", source, "light")  # in three dimensions
+        check_stream(chromium, folder / "transfer", source)
+        setup = folder / "setup" / "setup.html"
+        setup.parent.mkdir()
+        run(engine, "check", transfer, "-o", setup)
+        text, document = check_page(chromium, setup)
+        check(document.canvases.get("setting", 0) == 1 and document.canvases.get("space-section", 0) == 1, f"the set-up is not drawn: {document.canvases}")
+        check("conveyor of belt" in document.text, "the set-up does not tell what its bodies are")
+        check_space(chromium, setup, True)
+        for theme in ("light", "dark"):
+            check_access(chromium, setup, source, theme)
         both = folder / "both" / "compare.html"
         both.parent.mkdir()
         table = run(engine, "compare", folder / "transfer", folder / "air", "-o", both)

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdlib>
 #include <filesystem>
@@ -234,19 +235,27 @@ TEST_CASE("check shall warn of cells far from cubic and of momentum set III") {
 }
 
 TEST_CASE("check shall draw the set-up") {
-  const fs::path file = fs::temp_directory_path() / "dust_setup.svg";
+  const fs::path file = fs::temp_directory_path() / "dust_setup.html";
   fs::remove(file);
   CHECK(engine("check " + k_scenario + " -o " + file.string()).status == 0);
-  const std::string svg = text_of(file);
+  const std::string page = text_of(file);
   fs::remove(file);
-  CHECK(svg.starts_with("<svg "));
-  CHECK(svg.find(">belt</tspan>") != std::string::npos);
-  CHECK(svg.find(">feed</tspan>") != std::string::npos);
-  CHECK(svg.find(">stream</tspan>") != std::string::npos);   // a sensor that is a point
-  CHECK(svg.find("fill=\"#c4c4c4\"") != std::string::npos);  // the belt is solid inside
-  CHECK(svg.find("wall of glass, air: slip") != std::string::npos);
-  CHECK(svg.find(">50 mm (") != std::string::npos);
-  CHECK(engine("check " + k_scenario + " -o /not/there.svg").status == 2);
+  const std::string head = "id=\"run-data\">";
+  const auto at = page.find(head) + head.size();
+  const auto data = nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at));
+  CHECK(data["kind"] == "setup");
+  CHECK(data["bodies"][0]["name"] == "belt");
+  CHECK(data["bodies"][0]["segments"].size() > 10);  // its pulley is round
+  CHECK(data["bodies"][0]["section"].size() > 10);   // the belt is solid inside
+  CHECK(data["space"]["surfaces"]["names"][0] == "belt");
+  CHECK(data["setting"]["emitters"][0]["name"] == "feed");
+  CHECK(data["setting"]["sensors"][0]["name"] == "stream");
+  CHECK(data["setting"]["sides"][2]["material"] == "glass");
+  CHECK(data["check"]["grains"].get<double>() > 0.0);
+  CHECK(engine("check " + k_scenario + " -o /not/there.html").status == 2);
+  const Outcome picture = engine("check " + k_scenario + " -o setup.svg");
+  CHECK(picture.status == 2);
+  CHECK(picture.err.find("give it a name that ends with .html") != std::string::npos);
 }
 
 TEST_CASE("plugins shall list kind, name, version and file") {

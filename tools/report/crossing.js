@@ -10,6 +10,9 @@ Dust.crossing = ({axes, per_direction: n, fields, region, points}, confidence) =
   const label = (axis) => (Dust.is_bare(axis.unit) ? Dust.words(axis.name) : `${Dust.words(axis.name)}, ${axis.unit}`);
   const lines = (values, level) => d3.contours().size([n, n]).thresholds([level])(values)[0].coordinates.flat();
   const colours = ['plot2', 'plot3', 'plot5', 'plot4', 'plot6'];
+  const with_unit = (value, unit) => Dust.number(value) + (Dust.is_bare(unit) ? '' : '\u202f' + unit);
+  const reading = el('span', {class: 'reading'});
+  let place_of = () => null;
   const draw = () => {
     const width = holder.clientWidth, ratio = Math.min(devicePixelRatio || 1, 3);
     if (width < 80) return;
@@ -80,17 +83,38 @@ Dust.crossing = ({axes, per_direction: n, fields, region, points}, confidence) =
     pen.textAlign = 'center';
     pen.fillText(label(y), 0, 0);
     pen.restore();
+    place_of = (event) => {
+      const box = canvas.getBoundingClientRect();
+      const a = (event.clientX - box.left - left) / inner, b = 1 - (event.clientY - box.top - top) / height;
+      return a >= 0 && a <= 1 && b >= 0 && b <= 1 ? [a, b] : null;
+    };
     key.replaceChildren(...fields.map((field, k) => {
       const mark = el('i', {class: 'line'});
       mark.style.background = Dust.colour(colours[k % colours.length]);
-      return el('span', {}, mark, `${Dust.words(field.name)} = ${Dust.number(field.level)}${Dust.is_bare(field.unit) ? '' : ' ' + field.unit}`);
-    }));
+      return el('span', {}, mark, `${Dust.words(field.name)} = ${with_unit(field.level, field.unit)}`);
+    }), reading);
   };
+  // The values of the surrogate under the pointer.
+  canvas.addEventListener('pointermove', (event) => {
+    const at = place_of(event);
+    if (!at) return void (reading.textContent = '');
+    const [i, j] = at.map((share) => Math.round(share * (n - 1)));
+    const here = [x, y].map((axis, d) => `${Dust.words(axis.name)} ${with_unit(axis.low + at[d] * (axis.high - axis.low), axis.unit)}`);
+    reading.textContent = [...here, ...fields.map((field) => `${Dust.words(field.name)} ${with_unit(field.values[j * n + i], field.unit)}`)].join(', ');
+  });
+  canvas.addEventListener('pointerleave', () => { reading.textContent = ''; });
   new ResizeObserver(() => requestAnimationFrame(draw)).observe(holder);
   Dust.redraw.push(draw);
   const as_png = el('button', {type: 'button', 'aria-label': 'Crossing of the contours as PNG'}, 'PNG');
   as_png.addEventListener('click', () => Dust.save_canvas('crossing.png', canvas));
+  // The lattice of the surrogate, row by row.
+  const as_csv = el('button', {type: 'button', 'aria-label': 'Numbers of the crossing of the contours as CSV'}, 'CSV');
+  as_csv.addEventListener('click', () => {
+    const at = (axis, k) => axis.low + k / (n - 1) * (axis.high - axis.low), cells = Array.from({length: n * n}, (_, k) => k);
+    Dust.save('crossing.csv', new Blob([Dust.csv([label(x), label(y), ...fields.map((f) => label(f))],
+      [cells.map((k) => at(x, k % n)), cells.map((k) => at(y, Math.floor(k / n))), ...fields.map((f) => f.values)])], {type: 'text/csv'}));
+  });
   return el('figure', {style: 'max-width:640px;margin-top:28px'}, holder, key, el('figcaption', {}, el('b', {}, 'Where the contours cross.'),
     ` Thick: where the surrogate meets a target; thin: one standard error to either side. Shaded: the confidence region of ${Dust.number(100 * confidence)}\u202f%. Dots: runs; cross: the likeliest values.`),
-  el('div', {class: 'downloads screen'}, as_png));
+  el('div', {class: 'downloads screen'}, as_csv, as_png));
 };

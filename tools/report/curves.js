@@ -1,8 +1,6 @@
 'use strict';
 // Which plots a run gets: curves of the sensors, then the columns of series.csv.
 (() => {
-  const k_error = /[ _/.]*(uncertainty|standard_error|error|sigma)$/i;
-
   const grid_of = (id) => {
     const section = document.getElementById(id);
     section.hidden = false;
@@ -30,25 +28,6 @@
       groups.get(key).push(item);
     }
     return [...groups.values()];
-  };
-  // Lower and upper bounds are series of their own; "x error" or "x low"/"x high" become the band of x.
-  const with_bands = (lines) => {
-    const find = (pattern, name) => lines.find((l) => pattern.test(l.name) && l.name.replace(pattern, '') === name);
-    const taken = new Set();
-    for (const line of lines) {
-      const error = find(k_error, line.name), low = find(/[ _/.]*(low|lower)$/i, line.name), high = find(/[ _/.]*(high|upper)$/i, line.name);
-      const usable = (l) => l && l !== line && l.y.length === line.y.length;
-      if (usable(error)) {
-        line.low = line.y.map((v, k) => (v === null || error.y[k] === null ? null : v - error.y[k]));
-        line.high = line.y.map((v, k) => (v === null || error.y[k] === null ? null : v + error.y[k]));
-        taken.add(error);
-      } else if (usable(low) && usable(high)) {
-        line.low = low.y;
-        line.high = high.y;
-        taken.add(low).add(high);
-      }
-    }
-    return lines.filter((line) => !taken.has(line));
   };
   const in_chunks = (lines, title, draw) => {
     const size = 6;
@@ -91,33 +70,33 @@
   };
 
   // Curves of the sensors.
-  const shown = Dust.data.curves.filter((c) => !Dust.is_stream_curve(c) && Array.isArray(c.x) && Array.isArray(c.y) && c.x.length > 1);
+  const shown = Dust.data.curves.filter((c) => !Dust.is_stream(c.sensor) && Array.isArray(c.x) && Array.isArray(c.y) && c.x.length > 1);
   for (const whole of by(shown, (c) => [is_dust(c.sensor) ? 'dust' : c.sensor, c.title, c.x_label, c.y_label].join('\n'))) {
     const group = whole.filter((c) => !is_zero(c.y));
     for (const c of whole) (is_zero(c.y) ? zeros : drawn).add(c.sensor);
     if (!group.length) continue;
     const x_label = split_label(group[0].x_label), y_label = split_label(group[0].y_label);
-    const is_time = /^time/i.test(x_label.name), has_many = new Set(group.map((c) => c.sensor)).size > 1;
+    const is_time = x_label.unit === 's', has_many = new Set(group.map((c) => c.sensor)).size > 1;
     // Our own first: of them the mean over blocks is told.
     group.sort((a, b) => (a.kind === 'reference') - (b.kind === 'reference'));
     const sx = is_time ? {factor: 1, unit: x_label.unit} : Dust.scale(x_label.unit, largest(group.map((c) => c.x))), sy = Dust.scale(y_label.unit, largest(group.map((c) => c.y)));
-    let lines = with_bands(group.map((c) => {
+    let lines = group.map((c) => {
       const n = Math.min(c.x.length, c.y.length);
       const order = Array.from({length: n}, (_, k) => k).filter((k) => Number.isFinite(c.x[k]));
       if (!ascending(c.x)) order.sort((a, b) => c.x[a] - c.x[b]);
       const is_reference = c.kind === 'reference';
       return {name: has_many && !is_reference ? c.sensor : String(c.series || ''), kind: is_reference ? 'reference' : undefined, x: order.map((k) => c.x[k] / sx.factor),
         y: order.map((k) => (Number.isFinite(c.y[k]) ? c.y[k] / sy.factor : null))};
-    }));
+    });
     let note = '';
-    if (is_time && sy.unit.endsWith('/s') && !lines.some((l) => l.low) && lines[0].x.length > 3 * k_points) {
+    if (is_time && sy.unit.endsWith('/s') && lines[0].x.length > 3 * k_points) {
       const before = lines[0].x;
       const width = (before.at(-1) - before[0]) / (before.length - 1) * Math.ceil(before.length / k_points);
       lines = lines.map((line) => (line.kind === 'reference' ? line : in_blocks(line)));
       note = ` Means over ${Dust.number(width * 1e3, 2)} ms.`;
     }
     // What goes to and fro along x: means over neighbours.
-    if (group.some((c) => c.kind !== 'reference' && !ascending(c.x)) && lines.every((l) => !l.low) && lines[0].x.length > 3 * k_points) {
+    if (group.some((c) => c.kind !== 'reference' && !ascending(c.x)) && lines[0].x.length > 3 * k_points) {
       lines = lines.map((line) => (line.kind === 'reference' ? line : in_blocks(line)));
       note = ` Means over ${k_points} parts of the samples, in the order of x.`;
     }
@@ -128,19 +107,16 @@
 
   // Columns of series.csv: one plot per sensor and unit.
   const columns = Dust.data.series;
-  const clock = columns.find((c) => /^(t|time)$/i.test(c.name)) || columns[0];
+  const clock = columns[0];  // the time comes first
   if (!clock || clock.values.length < 2 || !ascending(clock.values)) return say_zeros();
-  const sensors = Object.keys(Dust.data.summary.sensors || {}).sort((a, b) => b.length - a.length);
-  const sensor_of = (name) => sensors.find((s) => name.startsWith(s) && /^[ /._:]/.test(name.slice(s.length))) || '';
   // A sensor's own curve against time already tells what its column of the same unit repeats.
-  const told_by_curve = new Set(shown.filter((c) => /^time/i.test(c.x_label || '')).map((c) => c.sensor + '\n' + split_label(c.y_label).unit));
-  const of_stream = new Set(Object.entries(Dust.data.summary.sensors || {}).filter(([, figures]) => Object.values(figures || {}).some((f) => f && f.role === 'stream_quantile')).map(([sensor]) => sensor));
+  const told_by_curve = new Set(shown.filter((c) => split_label(c.x_label).unit === 's').map((c) => c.sensor + '\n' + split_label(c.y_label).unit));
   const told = columns.filter((c) => c !== clock).map((c) => {
-    const sensor = sensor_of(c.name);
+    const head = c.name.split('/')[0], sensor = head in (Dust.data.summary.sensors || {}) ? head : '';  // SENSOR/figure
     return {...c, sensor, short: sensor ? c.name.slice(sensor.length + 1) : c.name};
   }).filter((c) => {
     // What the path of the stream already shows, as running means.
-    if (of_stream.has(c.sensor)) return false;
+    if (Dust.is_stream(c.sensor)) return false;
     if (c.sensor && is_zero(c.values)) {
       zeros.add(c.sensor);
       return false;
@@ -152,8 +128,8 @@
     const has_many = new Set(group.map((c) => c.sensor)).size > 1;
     const {unit} = group[0], sensor = has_many ? 'dust' : group[0].sensor;
     const scale = Dust.scale(unit, largest(group.map((c) => c.values)));
-    const lines = with_bands(group.map((c) => ({name: has_many ? c.sensor + ', ' + c.short : c.short, x: clock.values,
-      y: c.values.map((v) => (v === null ? null : v / scale.factor))})));
+    const lines = group.map((c) => ({name: has_many ? c.sensor + ', ' + c.short : c.short, x: clock.values,
+      y: c.values.map((v) => (v === null ? null : v / scale.factor))}));
     const title = lines.length === 1 ? (sensor ? sensor + ', ' : '') + lines[0].name : sensor || {kg: 'Mass', J: 'Energy', '-': 'Counts', '1': 'Counts', '': 'Counts'}[unit] || 'Quantities';
     const bare = scale.unit === '-' || scale.unit === '1' || scale.unit === '';
     in_chunks(lines, title.charAt(0).toUpperCase() + title.slice(1), (part, name) => Dust.plot(grid_of(sensor ? place_of(sensor) : 'series'), {title: name, x_label: 'time, s',

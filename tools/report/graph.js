@@ -1,5 +1,5 @@
 'use strict';
-// The task graph as a picture: nodes in the layer of their longest way from a start, edges downward.
+// The task graph, drawn by nomnoml from the run's DOT text once somebody opens it.
 (() => {
   const text = Dust.data.graph_dot, place = document.getElementById('graph-picture');
   if (!text || !place) return;
@@ -7,51 +7,60 @@
   const bare = (quoted) => quoted.replace(/^"|"$/g, '').replace(/\\(.)/g, '$1');
   const nodes = new Map(), edges = [];
   const node = (id) => {
-    if (!nodes.has(id)) nodes.set(id, {id, label: id, layer: 0});
+    if (!nodes.has(id)) nodes.set(id, {id, lines: [id], from: new Set(), to: new Set()});
     return nodes.get(id);
   };
   for (const line of text.split(/[;\n]/)) {
     const edge = new RegExp(`^\\s*${name}\\s*->\\s*${name}`).exec(line);
     const labelled = new RegExp(`^\\s*${name}\\s*\\[.*?label\\s*=\\s*${name}`).exec(line);
-    if (edge) edges.push([node(bare(edge[1])), node(bare(edge[2]))]);
-    else if (labelled && !/^\s*(graph|node|edge)\b/.test(line)) node(bare(labelled[1])).label = labelled[2].replace(/^"|"$/g, '');
-  }
-  if (!edges.length || nodes.size > 80) return;
-  // Repeated as often as there are nodes; a cycle, which a task graph has not, would only stop it.
-  for (let k = 0; k < nodes.size; ++k) for (const [from, to] of edges) to.layer = Math.min(Math.max(to.layer, from.layer + 1), nodes.size);
-  const layers = [];
-  for (const n of nodes.values()) (layers[n.layer] ||= []).push(n);
-  const rows = layers.filter(Boolean);
-  const lines_of = (n) => n.label.split(/\\[nlr]|\n/).filter(Boolean);
-  const width = (n) => Math.max(...lines_of(n).map((l) => l.length), 4) * 7 + 22;
-  const step = 74, gap = 22;
-  const total = Math.max(...rows.map((row) => row.reduce((sum, n) => sum + width(n) + gap, -gap)));
-  const svg = (tag, attributes, content) => {
-    const item = document.createElementNS('http://www.w3.org/2000/svg', tag);
-    for (const [key, value] of Object.entries(attributes)) item.setAttribute(key, value);
-    if (content !== undefined) item.textContent = content;
-    return item;
-  };
-  const root = svg('svg', {viewBox: `-4 -4 ${total + 8} ${rows.length * step - 20}`, role: 'img', 'aria-label': 'The task graph',
-    style: `display:block;width:${total + 8}px;max-width:none;margin:14px 0`});
-  rows.forEach((row, r) => {
-    let x = (total - row.reduce((sum, n) => sum + width(n) + gap, -gap)) / 2;
-    for (const n of row) {
-      n.x = x;
-      n.y = r * step;
-      x += width(n) + gap;
+    if (edge) {
+      const [a, b] = [node(bare(edge[1])), node(bare(edge[2]))];
+      edges.push([a, b, /style=dashed/.test(line)]);
+      a.to.add(b.id);
+      b.from.add(a.id);
+    } else if (labelled && !/^\s*(graph|node|edge)\b/.test(line)) {
+      node(bare(labelled[1])).lines = labelled[2].replace(/^"|"$/g, '').split(/\\[nlr]/).filter(Boolean);
     }
-  });
-  for (const [from, to] of edges) {
-    const a = from.x + width(from) / 2, b = to.x + width(to) / 2, y0 = from.y + 42, y1 = to.y, mid = (y0 + y1) / 2;
-    root.append(svg('path', {d: `M${a},${y0}C${a},${mid} ${b},${mid} ${b},${y1}`, style: 'fill:none;stroke:var(--body-line);stroke-width:1'}));
-    root.append(svg('path', {d: `M${b - 3.5},${y1 - 6}L${b},${y1}L${b + 3.5},${y1 - 6}`, style: 'fill:none;stroke:var(--body-line);stroke-width:1'}));
   }
+  if (!edges.length) return;
+
+  // Nodes that wait for the same and that nothing waits for, sensors as a rule, share a box.
+  const shared = new Map();
   for (const n of nodes.values()) {
-    root.append(svg('rect', {x: n.x, y: n.y, width: width(n), height: 42, rx: 6, style: 'fill:var(--raised);stroke:var(--line)'}));
-    const lines = lines_of(n).slice(0, 2);
-    lines.forEach((line, k) => root.append(svg('text', {x: n.x + width(n) / 2, y: n.y + (lines.length === 1 ? 26 : 18 + 16 * k), 'text-anchor': 'middle',
-      style: k ? '' : 'fill:var(--ink)'}, line)));
+    const key = n.to.size ? n.id : 'after\n' + [...n.from].sort().join('\n');
+    if (!shared.has(key)) shared.set(key, []);
+    shared.get(key).push(n);
   }
-  place.append(root);
+  const heads = new Map();  // of each node, the one whose box it is in
+  for (const group of shared.values()) for (const n of group) heads.set(n.id, group[0]);
+  const plain = (line) => Dust.words(line).replace(/[[\]|;\\<>#]/g, ' ');
+  const box = (n) => `[<task id=${[...nodes.keys()].indexOf(n.id)}>`;
+  const full = (group) => {
+    if (group.length === 1) return box(group[0]) + group[0].lines.map(plain).join('|') + ']';
+    return box(group[0]) + Dust.plural(group.length, 'node') + '|' + group.map((n) => n.lines.map(plain).join(', ')).join('\n') + ']';
+  };
+  const arrows = new Set(edges.map(([a, b, is_dashed]) => `${box(heads.get(a.id))}] ${is_dashed ? '-->' : '->'} ${box(heads.get(b.id))}]`));
+  const source = () => [`#direction: down`, `#font: ${Dust.colour('sans').split(',')[0].replace(/["']/g, '')}`, '#fontSize: 11', '#lineWidth: 1', '#arrowSize: 0.7', '#padding: 6',
+    '#spacing: 26', '#gutter: 6', `#stroke: ${Dust.colour('ink')}`, `#.task: fill=${Dust.colour('raised')} stroke=${Dust.colour('soft')} title=bold,center body=center`,
+    ...[...shared.values()].map(full), ...arrows].join('\n');
+
+  const library = async () => {
+    for (const name of ['graphre', 'nomnoml']) {
+      if (!window[name]) document.head.append(Dust.el('script', {}, new TextDecoder().decode(await Dust.unpack(document.getElementById('code-' + name).textContent))));
+    }
+    return window.nomnoml;
+  };
+  const canvas = Dust.el('canvas', {role: 'img', 'aria-label': `The task graph: ${Dust.plural(nodes.size, 'node')}; as text below`});
+  const as_png = Dust.el('button', {type: 'button', 'aria-label': 'The task graph as PNG'}, 'PNG');
+  as_png.addEventListener('click', () => Dust.save_canvas('task_graph.png', canvas));
+  const details = place.closest('details');
+  const draw = async () => {
+    if (!details.open) return;
+    const ratio = Math.min(window.devicePixelRatio || 1, 3);
+    (await library()).draw(canvas, source(), ratio);
+    canvas.style.cssText = `display:block;max-width:none;width:${canvas.width / ratio}px;height:auto`;
+    if (!canvas.isConnected) place.append(canvas, Dust.el('div', {class: 'downloads screen'}, as_png));
+  };
+  details.addEventListener('toggle', draw);
+  Dust.redraw.push(draw);
 })();

@@ -79,6 +79,10 @@ Dust.Picture = class {
     pen.lineWidth = 1.2;
     pen.lineJoin = 'round';
     for (const body of this.scene.bodies) {
+      // One path: no seams between the rows.
+      pen.beginPath();
+      for (const [x0, z0, x1, z1] of body.section || []) pen.rect(this.x(x0), this.z(z1), this.x(x1) - this.x(x0), this.z(z0) - this.z(z1));
+      pen.fill();
       for (const ring of body.polygons) {
         pen.beginPath();
         ring.forEach(([x, z], k) => (k ? pen.lineTo(this.x(x), this.z(z)) : pen.moveTo(this.x(x), this.z(z))));

@@ -1,36 +1,74 @@
 'use strict';
 // Plots with uPlot, for any page. `Dust.plot(parent, {title, sensor, x_label, y_label, unit, note, lines})` adds one
-// figure; lines: [{name, x, y, low, high, kind}] with x ascending, null for a gap. `low` and `high` are a band, or
-// bars where the kind is 'points'; a 'reference' is dashed and stands behind. `Dust.readable_plot` takes numbers in SI
-// units and shows them in the unit that reads best.
+// figure; lines: [{name, x, y, low, high, kind, bars, colour, dash, width}] with x ascending, null for a gap. `low` and
+// `high` are a band, or bars with `bars` or where the kind is 'points'; a 'reference' is dashed and stands behind.
+// `band: [n, m]` fills between two of the lines. `path: true` lets x run down and y to the right, both in `unit` and true
+// to scale; `caption` and `beside` (nodes) then stand at its side. `Dust.readable_plot` takes numbers in SI units and
+// shows them in the unit that reads best.
 (() => {
   const ink_of = (k) => Dust.colour('plot' + (k % 6 + 1));
   const capital = (text) => text.replace(/^./, (c) => c.toUpperCase());
-  const height = 246;
+  const flat_height = 246;
+  const has_bars = (line) => Boolean(line.low) && (line.bars || line.kind === 'points');
 
-  const bars_hook = (bars) => (u) => {
+  const bars_hook = (bars, is_path) => (u) => {
     const pen = u.ctx;
     for (const {at, colour} of bars) {
       pen.strokeStyle = colour;
-      pen.lineWidth = 1.4 * devicePixelRatio;
+      pen.lineWidth = (is_path ? 3 : 1.4) * devicePixelRatio;
       pen.beginPath();
       for (let k = 0; k < u.data[0].length; ++k) {
         const low = u.data[at + 1][k], high = u.data[at + 2][k];
         if (low === null || low === undefined || high === null || high === undefined) continue;
-        const x = u.valToPos(u.data[0][k], 'x', true);
-        pen.moveTo(x, u.valToPos(low, 'y', true));
-        pen.lineTo(x, u.valToPos(high, 'y', true));
+        const along = u.valToPos(u.data[0][k], 'x', true), from = u.valToPos(low, 'y', true), to = u.valToPos(high, 'y', true);
+        pen.moveTo(...(is_path ? [from, along] : [along, from]));
+        pen.lineTo(...(is_path ? [to, along] : [along, to]));
       }
       pen.stroke();
     }
   };
 
-  Dust.plot = (parent, {title = '', sensor = '', x_label = '', y_label = '', unit = '', note = '', lines}) => {
+  // What uPlot needs of the lines: series with their bands and bars, and an entry of the key for each.
+  const dressed = (lines, band) => {
+    const series = [{}], bands = [], bars = [], keys = [], places = [];
+    let inks = 0;
+    for (const line of lines) {
+      const is_reference = line.kind === 'reference', is_points = line.kind === 'points';
+      const colour = line.colour ? Dust.colour(line.colour) : is_reference ? Dust.colour('soft') : ink_of(inks++);
+      const few = line.x.length < 40, dash = line.dash || (is_reference ? [6, 4] : undefined);
+      const at = series.length;
+      places.push(at);
+      series.push({label: line.name, stroke: colour, width: is_points ? 0 : line.width || 1.6, spanGaps: false,
+        dash, points: {show: is_points || (few && !is_reference), size: is_points ? 7 : 5, fill: colour}});
+      if (line.low) {
+        series.push({stroke: 'transparent', width: 0, points: {show: false}}, {stroke: 'transparent', width: 0, points: {show: false}});
+        if (has_bars(line)) bars.push({at, colour: line.bars ? colour + '99' : colour});
+        else bands.push({series: [at + 2, at + 1], fill: colour + '33'});
+      }
+      const swatch = Dust.el('i', {class: 'line' + (dash ? ' dashed' : '')});
+      swatch.style.background = dash ? `repeating-linear-gradient(90deg, ${colour} 0 ${dash[0]}px, transparent ${dash[0]}px ${dash[0] + dash[1]}px)` : colour;
+      keys.push(Dust.el('span', {}, swatch, Dust.words(line.name)));
+    }
+    if (band) bands.push({series: [places[band[1]], places[band[0]]], fill: Dust.colour('tone1') + '47'});
+    return {series, bands, bars, keys};
+  };
+
+  // Size of a path true to scale in the room there is, and its scales.
+  const path_layout = (lines, room) => {
+    const numbers = (key) => lines.flatMap((line) => line[key]).filter(Number.isFinite);
+    const deepest = Math.max(...numbers('x')) * 1.06, left = Math.min(0, ...numbers('y')), right = Math.max(...numbers('y'), 1e-9) * 1.06;
+    const sides = 66 + 18, ends = 46 + 10, tallest = 620;
+    const inner = Math.min(room - sides, tallest * (right - left) / deepest);
+    return {width: inner + sides, height: inner * deepest / (right - left) + ends, x: [0, deepest], y: [left, right]};
+  };
+
+  Dust.plot = (parent, {title = '', sensor = '', x_label: named_x = '', y_label = '', unit = '', note = '', lines, band = null, path = false, caption = null, beside = []}) => {
+    const x_label = Dust.words(named_x);
     const holder = Dust.el('div', {class: 'plot', role: 'img', 'aria-label': `${Dust.sentence(title)}: ${y_label} against ${x_label}`});
-    const caption = Dust.el('figcaption', {}, Dust.el('b', {}, Dust.sentence(title) + '.'),
-      ` ${capital(y_label)}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '', note ? ' ' + note.trim() : '');
-    if (lines.some((line) => line.low && line.kind !== 'points')) caption.append(' Band: one standard error to either side.');
-    if (lines.some((line) => line.low && line.kind === 'points')) caption.append(' Bars: one standard error to either side.');
+    const words = Dust.el('figcaption', {}, Dust.el('b', {}, Dust.sentence(title) + '.'), ...(caption || [
+      ` ${capital(y_label)}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '', note ? ' ' + note.trim() : '']));
+    if (lines.some((line) => line.low && !has_bars(line))) words.append(' Band: one standard error to either side.');
+    if (lines.some(has_bars)) words.append(' Bars: one standard error to either side.');
     const key = Dust.el('div', {class: 'legend', 'aria-hidden': lines.length > 1 ? 'false' : 'true'});
     const file = Dust.file_name(sensor + ' ' + title);
     const as_csv = Dust.el('button', {type: 'button', 'aria-label': `Numbers of ${Dust.sentence(title)} as CSV`}, 'CSV');
@@ -43,38 +81,26 @@
     const as_png = Dust.el('button', {type: 'button', 'aria-label': `Picture of ${Dust.sentence(title)} as PNG`}, 'PNG');
     as_png.addEventListener('click', () => Dust.save_canvas(file + '.png', holder.querySelector('canvas')));
     const downloads = Dust.el('div', {class: 'downloads screen'}, as_csv, as_png);
-    parent.append(Dust.el('figure', {}, Dust.el('div', {class: 'axis-unit'}, unit), holder, key, caption, downloads));
+    parent.append(path ? Dust.el('figure', {class: 'side'}, Dust.el('div', {}, holder, key, downloads), Dust.el('div', {}, words, ...beside))
+      : Dust.el('figure', {}, Dust.el('div', {class: 'axis-unit'}, unit), holder, key, words, downloads));
 
     const data = uPlot.join(lines.map((line) => [line.x, line.y, ...(line.low ? [line.low, line.high] : [])]));
+    const size_of = () => (path ? path_layout(lines, Math.max(holder.clientWidth, 200)) : {width: Math.max(holder.clientWidth, 200), height: flat_height});
     const make = () => {
       const axis = {stroke: Dust.colour('soft'), grid: {stroke: Dust.colour('faint'), width: 1},
         ticks: {stroke: Dust.colour('line'), width: 1, size: 5}, font: '11px ' + Dust.colour('sans'),
         values: (u, splits) => splits.map((v) => (v === null ? '' : Dust.number(v)))};
-      const series = [{}], bands = [], bars = [], keys = [];
-      let inks = 0;
-      for (const line of lines) {
-        const is_reference = line.kind === 'reference', is_points = line.kind === 'points';
-        const colour = is_reference ? Dust.colour('soft') : ink_of(inks++);
-        const few = line.x.length < 40;
-        const at = series.length;
-        series.push({label: line.name, stroke: colour, width: is_points ? 0 : line.width || 1.6, spanGaps: false,
-          dash: is_reference ? [6, 4] : undefined, points: {show: is_points || (few && !is_reference), size: is_points ? 7 : 5, fill: colour}});
-        if (line.low) {
-          series.push({stroke: 'transparent', width: 0, points: {show: false}}, {stroke: 'transparent', width: 0, points: {show: false}});
-          if (is_points) bars.push({at, colour});
-          else bands.push({series: [at + 2, at + 1], fill: colour + '33'});
-        }
-        const swatch = Dust.el('i', {class: 'line' + (is_reference ? ' dashed' : '')});
-        swatch.style.background = is_reference ? `repeating-linear-gradient(90deg, ${colour} 0 5px, transparent 5px 8px)` : colour;
-        keys.push(Dust.el('span', {}, swatch, Dust.words(line.name)));
-      }
+      const named = {...axis, labelSize: 18, labelGap: 0, labelFont: axis.font};
+      const {series, bands, bars, keys} = dressed(lines, band), size = size_of();
       const reading = Dust.el('span', {class: 'reading'});
       key.replaceChildren(...keys, reading);
       holder.replaceChildren();
-      return new uPlot({width: Math.max(holder.clientWidth, 200), height, series, bands, padding: [10, 18, 0, 0],
-        legend: {show: false}, cursor: {points: {show: false}, drag: {x: true, y: false}}, scales: {x: {time: false}},
-        axes: [{...axis, size: 28, label: x_label, labelSize: 18, labelGap: 0, labelFont: axis.font}, {...axis, size: 58}],
-        hooks: {draw: [bars_hook(bars)], setCursor: [(u) => {
+      const scales = path ? {x: {time: false, ori: 1, dir: -1, range: size.x}, y: {ori: 0, dir: 1, range: size.y}} : {x: {time: false}};
+      const axes = path ? [{...named, scale: 'x', side: 3, size: 48, label: x_label}, {...named, scale: 'y', side: 0, size: 28, label: y_label}]
+        : [{...named, size: 28, label: x_label}, {...axis, size: 58}];
+      return new uPlot({width: size.width, height: size.height, series, bands, padding: path ? [0, 18, 10, 0] : [10, 18, 0, 0],
+        legend: {show: false}, cursor: {points: {show: false}, drag: {x: !path, y: false}}, scales, axes,
+        hooks: {draw: [bars_hook(bars, path)], setCursor: [(u) => {
           const k = u.cursor.idx;
           reading.textContent = k === null || k === undefined ? '' : `at ${Dust.number(u.data[0][k])} (${x_label})`;
           if (k === null || k === undefined) return;
@@ -92,7 +118,9 @@
       drawn = make();
     });
     const fit = () => {
-      if (holder.clientWidth && Math.abs(holder.clientWidth - drawn.width) > 1) drawn.setSize({width: holder.clientWidth, height});
+      if (!holder.clientWidth) return;
+      const size = size_of();
+      if (Math.abs(size.width - drawn.width) > 1) drawn.setSize(size);
     };
     new ResizeObserver(() => requestAnimationFrame(fit)).observe(holder);
   };

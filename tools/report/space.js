@@ -1,7 +1,7 @@
 'use strict';
 // The run in three dimensions: the figure, its controls and the switch between it and the side view. space_scene.js
 // draws into it once it is shown.
-Dust.space_figure = ({space, grains, air}) => {
+Dust.space_figure = ({space, grains, air, kind}) => {
   if (!space || !(grains || space.surfaces)) return null;
   const {el} = Dust;
   const option = (value, text, is_chosen) => el('option', {value, ...(is_chosen ? {selected: ''} : {})}, text);
@@ -11,8 +11,8 @@ Dust.space_figure = ({space, grains, air}) => {
   const thinned = grains && (grains.share < 1 || grains.dust_share < 1);
   const blocks = space.air ? space.air.cells_per_block : [1, 1, 1];
   const notes = [
-    'True to scale. Coarse grains are spheres of their size class',
-    grains && grains.is_dust.includes(true) ? ', dust is drawn larger than it is.' : '.',
+    'True to scale.',
+    grains ? ' Coarse grains are spheres of their size class' + (grains.is_dust.includes(true) ? ', dust is drawn larger than it is.' : '.') : '',
     thinned ? ' Not all grains are shown, see the side view.' : '',
     has_air ? ` Colours in the plane: speed of the air${space.air ? '' : ' averaged over the depth'}; threads follow the air within the plane.` : '',
     blocks.some((n) => n > 1) ? ` The air is shown in blocks of ${blocks.join(' × ')} cells.` : '',
@@ -23,13 +23,13 @@ Dust.space_figure = ({space, grains, air}) => {
     el('label', {}, 'Plane across ', el('select', {id: 'space-axis'}, option('0', 'x'), option('1', 'y', true), option('2', 'z'))),
     el('label', {class: 'wide'}, 'Place ', el('input', {type: 'range', id: 'space-place', min: 0, max: 1, step: 0.005, value: 0.5})),
     el('output', {id: 'space-at'}),
-    el('label', {}, 'Cut away in front ', el('select', {id: 'space-cut'}, option('none', 'nothing'),
-      option('bodies', 'bodies', true), option('all', 'bodies and grains'))),
+    el('label', {}, 'Cut away in front ', el('select', {id: 'space-cut'}, option('none', 'nothing', kind === 'setup'),
+      option('bodies', 'bodies', kind !== 'setup'), grains ? option('all', 'bodies and grains') : '')),
     has_air ? el('label', {}, el('input', {type: 'checkbox', id: 'space-air', checked: ''}), ' air in the plane') : '');
   const looks = el('span', {class: 'choices screen', role: 'group', 'aria-label': 'What is shown and from where'},
     grains ? el('label', {}, 'Colour of the grains ', el('select', {id: 'space-colour'}, option('size', 'diameter', true),
       grains.speed > 0 ? option('speed', 'speed') : '')) : '',
-    el('label', {class: 'wide'}, 'Bodies ', el('input', {type: 'range', id: 'space-bodies', min: 0, max: 1, step: 0.05, value: 0.45, 'aria-label': 'How solid bodies look'})),
+    el('label', {class: 'wide'}, 'Bodies ', el('input', {type: 'range', id: 'space-bodies', min: 0, max: 1, step: 0.05, value: kind === 'setup' ? 0.75 : 0.45, 'aria-label': 'How solid bodies look'})),
     button('slant', 'At a slant'), button('side', 'Side'), button('front', 'Front'), button('top', 'Top'),
     button('nearer', '+', 'Nearer'), button('farther', '−', 'Farther'));
   return el('figure', {id: 'space', hidden: ''}, el('div', {class: 'picture', id: 'space-picture'}), plane, looks,

@@ -398,7 +398,8 @@ Dust.space = (() => {
     const {canvas, eye} = stage, degrees = (v) => Math.round(v * 180 / Math.PI);
     const names = data.surfaces ? [...new Set(current.surfaces.bodies.map(([body]) => Dust.words((data.surfaces.names || [])[body] || '')))].filter(Boolean) : [];
     const g = current.grains;
-    canvas.setAttribute('aria-label', `The run in three dimensions at ${Dust.number(current.t)} s: ` + [
+    const what = Dust.data.kind === 'setup' ? 'The set-up in three dimensions: ' : `The run in three dimensions at ${Dust.number(current.t)} s: `;
+    canvas.setAttribute('aria-label', what + [
       names.length ? `bodies ${names.join(', ')}` : '', g ? `${Dust.count(g.n - g.dust)} coarse grains` + (g.dust ? ` and ${Dust.count(g.dust)} of dust` : '') : '',
       `plane ${by_id('at').textContent}`, `seen from ${degrees(eye.up)}° above, ${((degrees(eye.around) % 360) + 360) % 360}° around z from x`].filter(Boolean).join('; '));
   };
@@ -419,6 +420,8 @@ Dust.space = (() => {
   };
 
   // ---- the switch ---------------------------------------------------------
+  // A page of one view has none.
+  const switches = document.getElementById('view-side') ? {side: document.getElementById('view-side'), space: document.getElementById('view-space')} : null;
   const take = async (t, index) => ({t, index, surfaces: await surfaces_at(t), air: await air_at(t),
     grains: set && Dust.grains ? await Dust.grains.load(index) : null});
   const start = async () => {
@@ -428,8 +431,9 @@ Dust.space = (() => {
       stage = build(T);
     } catch (error) {
       // Without WebGL the side view is what there is.
-      document.getElementById('view-space').disabled = true;
-      document.getElementById('view-space').title = 'This browser draws nothing in three dimensions (no WebGL).';
+      const text = 'This browser draws nothing in three dimensions (no WebGL).';
+      if (switches) Object.assign(switches.space, {disabled: true, title: text});
+      else figure.before(Dust.p({class: 'note'}, text));
       return false;
     }
     const {eye} = stage;
@@ -444,8 +448,7 @@ Dust.space = (() => {
     const side = document.getElementById('grains'), is_space = view === 'space' && await start();
     figure.hidden = !is_space;
     if (side) side.hidden = is_space;
-    document.getElementById('view-side').setAttribute('aria-pressed', String(!is_space));
-    document.getElementById('view-space').setAttribute('aria-pressed', String(is_space));
+    if (switches) for (const name of ['side', 'space']) switches[name].setAttribute('aria-pressed', String(is_space === (name === 'space')));
     if (!is_space || !wanted) return;
     const is_first = !current;
     current = await take(...wanted);
@@ -461,6 +464,6 @@ Dust.space = (() => {
     const next = await take(t, index);
     return {take: () => { current = next; }, draw: () => { fill(); draw(); }};
   };
-  for (const view of ['side', 'space']) document.getElementById('view-' + view).addEventListener('click', () => choose(view));
-  return {show, choose, first: document.querySelector('.views').dataset.first};
+  if (switches) for (const view of ['side', 'space']) switches[view].addEventListener('click', () => choose(view));
+  return {show, choose, first: switches ? document.querySelector('.views').dataset.first : 'space'};
 })();

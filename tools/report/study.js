@@ -14,14 +14,17 @@
   // Places of hoods against their flows: what is drawn out, what still escapes, the capture.
   Dust.sections.hoods = ({hoods}) => {
     if (!hoods) return null;
-    const flow = (f) => (f > 1 / 60 ? Dust.number(3600 * f, 3) + '\u202fm³/h' : Dust.number(6e4 * f, 3) + '\u202fl/min');
+    // One unit for all flows: they compare.
+    const most = Math.max(...hoods.places.flatMap((place) => place.trials.map((t) => t.flow_m3_per_s)), 0);
+    const [per_s, flow_unit] = most > 1 / 60 ? [3600, 'm³/h'] : [6e4, 'l/min'];
+    const flow = (f) => Dust.number(per_s * f, 3) + '\u202f' + flow_unit;
     const cell = (v, factor = 1) => (v === null ? dash : Dust.value(factor * v.value, v.error === null ? -1 : factor * v.error));
     const rows = [...(hoods.plain ? [['plain', dash, dash, cell(hoods.plain), dash]] : []), ...hoods.places.flatMap((place) => place.trials.map((t) => [Dust.words(place.name), flow(t.flow_m3_per_s),
       cell(t.drawn), cell(t.escapes), cell(t.is_few && t.capture ? {value: t.capture.value, error: null} : t.capture, 100) + (t.is_few ? ' (few grains)' : '')]))];
     const grid = el('div', {class: 'grid'});
-    Dust.later.push(() => Dust.plot(grid, {title: 'Capture', x_label: 'flow, l/min', y_label: 'of the dust, %', lines: hoods.places.map((place) => {
+    Dust.later.push(() => Dust.plot(grid, {title: 'Capture', x_label: 'flow, ' + flow_unit, y_label: 'of the dust, %', unit: '%', lines: hoods.places.map((place) => {
       const seen = place.trials.filter((t) => t.capture), error = (t) => (t.capture.error || 0);
-      return {name: Dust.words(place.name), x: seen.map((t) => 6e4 * t.flow_m3_per_s), y: seen.map((t) => 100 * t.capture.value),
+      return {name: Dust.words(place.name), x: seen.map((t) => per_s * t.flow_m3_per_s), y: seen.map((t) => 100 * t.capture.value),
         low: seen.map((t) => 100 * (t.capture.value - error(t))), high: seen.map((t) => 100 * (t.capture.value + error(t)))};
     })}));
     const n = (title) => ({title, number: true});
@@ -84,7 +87,7 @@
     const largest = Math.max(...rows.map((r) => Math.abs(r.value) + (r.error || 0)), 1e-300);
     return el('figure', {}, Dust.table([{title: Dust.words(input)}, {title: with_unit(title, unit), number: true}, {title: ''}],
       rows.map((r) => [r.name, Dust.value(r.value, r.error === null ? -1 : r.error), Dust.error_bar(Math.abs(r.value) / largest, (r.error || 0) / largest, '')]), {look: 'bars', label: `${title} by ${input}`}),
-    el('figcaption', {}, el('b', {}, Dust.words(title)), ` against ${Dust.words(input)}.`));
+    el('figcaption', {}, el('b', {}, Dust.sentence(title) + '.'), ` Mean against ${Dust.words(input)}.`));
   };
 
   Dust.sections.points = ({points}) => {

@@ -18,6 +18,6 @@
     Dust.on_paper = false;
     Dust.set_theme(chosen || of_system());
   });
-  // Pages without a clock have nothing else to wait for.
-  if (!document.getElementById('clock')) document.documentElement.dataset.drawn = 'yes';
+  // Pages without a clock have nothing else to wait for, unless they say so.
+  if (!document.getElementById('clock') && !Dust.is_drawing) document.documentElement.dataset.drawn = 'yes';
 })();

@@ -6,7 +6,20 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
 namespace dust::report {
+
+/// Triangles of bodies: coordinates of corners [m], three corners of each triangle, whose it is.
+struct Surfaces {
+  std::vector<float> points;
+  std::vector<std::int64_t> corners, body;
+
+  [[nodiscard]] bool is_whole() const;
+  bool operator==(const Surfaces&) const = default;
+};
 
 /// What the page needs beyond the grains to show a run in three dimensions: {"min", "max",
 /// "is_thin", "surfaces", "air"}; null where nothing is known of the space.
@@ -18,6 +31,10 @@ namespace dust::report {
 /// each of at most 60 frames has its own. Surfaces of more triangles than a page holds are
 /// coarsened by joining near corners. Null without surfaces.
 [[nodiscard]] nlohmann::json surfaces_of(const H5Source& source, const Box& box);
+
+/// The same of bodies that stand where `surfaces` says, `names` in their order.
+[[nodiscard]] nlohmann::json surfaces_json(const std::vector<std::string>& names,
+                                           const Surfaces& surfaces, const Box& box);
 
 /// The velocity of the air in blocks of cells, 8 bits per component (stored by the root, as in the
 /// maps), 255 inside bodies; null without fluid. In a thin domain the maps of the side view tell

@@ -22,19 +22,6 @@ constexpr std::size_t k_all_triangles = 400000;  ///< of all sets: 9 bytes each 
 constexpr double k_codes = 65535.0;
 
 /// Triangles of a frame as they are in the file.
-struct Surfaces {
-  std::vector<float> points;
-  std::vector<std::int64_t> corners, body;
-
-  [[nodiscard]] bool is_whole() const {
-    const auto count = static_cast<std::int64_t>(points.size() / 3);
-    return corners.size() == 3 * body.size() &&
-           std::all_of(corners.begin(), corners.end(),
-                       [&](std::int64_t c) { return c >= 0 && c < count; });
-  }
-  bool operator==(const Surfaces&) const = default;
-};
-
 Surfaces read(const H5Source& source, const std::string& frame) {
   const std::string path = "/walls/" + frame;
   return {source.floats(path + "/points"), source.integers(path + "/triangles"),
@@ -82,6 +69,18 @@ Coded coded(const Surfaces& surfaces, const Box& box, unsigned step) {
   return result;
 }
 
+/// As fine as a page holds.
+Coded fitted(const Surfaces& surfaces, const Box& box, bool& is_coarsened) {
+  unsigned step = 1;
+  Coded set = coded(surfaces, box, step);
+  while (set.triangles.size() > k_triangles && step < 4096) {
+    step *= 2;
+    set = coded(surfaces, box, step);
+  }
+  is_coarsened = is_coarsened || step > 1;
+  return set;
+}
+
 void put(std::vector<std::uint8_t>& bytes, std::uint32_t value, int width) {
   for (int k = 0; k < width; ++k) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * k)));
 }
@@ -103,6 +102,25 @@ json packed_set(const Coded& set) {
 
 }  // namespace
 
+bool Surfaces::is_whole() const {
+  const auto count = static_cast<std::int64_t>(points.size() / 3);
+  return corners.size() == 3 * body.size() &&
+         std::all_of(corners.begin(), corners.end(),
+                     [&](std::int64_t c) { return c >= 0 && c < count; });
+}
+
+json surfaces_json(const std::vector<std::string>& names, const Surfaces& surfaces,
+                   const Box& box) {
+  if (surfaces.body.empty()) return nullptr;
+  bool is_coarsened = false;
+  const json set = packed_set(fitted(surfaces, box, is_coarsened));
+  return {{"names", names},
+          {"sets", json::array({set})},
+          {"times", json::array({0.0})},
+          {"shown", json::array({0})},
+          {"coarsened", is_coarsened}};
+}
+
 json surfaces_of(const H5Source& source, const Box& box) {
   const auto names = source.frames("/walls");
   if (names.empty()) return nullptr;
@@ -115,13 +133,7 @@ json surfaces_of(const H5Source& source, const Box& box) {
     Surfaces now = read(source, names[k]);
     if (!now.is_whole()) continue;
     if (sets.empty() || !(now == last)) {
-      unsigned step = 1;
-      Coded set = coded(now, box, step);
-      while (set.triangles.size() > k_triangles && step < 4096) {
-        step *= 2;
-        set = coded(now, box, step);
-      }
-      is_coarsened = is_coarsened || step > 1;
+      const Coded set = fitted(now, box, is_coarsened);
       all += set.triangles.size();
       if (!sets.empty() && all > k_all_triangles) break;  // what is there stays
       sets.push_back(packed_set(set));

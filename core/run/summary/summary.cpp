@@ -3,11 +3,11 @@
 
 #include "base/built_by.hpp"
 #include "base/log.hpp"
-#include "bodies/seen_edges.hpp"
 #include "dust/sdk/plugin.hpp"
 #include "io/atomic_file.hpp"
 #include "io/run_files.hpp"
 #include "particles/store/balance_ledger.hpp"
+#include "report/pictures/outline.hpp"
 #include "run/summary/figure_json.hpp"
 #include "run/summary/references.hpp"
 #include "run/summary/series_row.hpp"
@@ -21,11 +21,9 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <set>
 #include <utility>
 
 namespace dust::run {
@@ -198,34 +196,6 @@ Json health(const Simulation& s) {
   return h;
 }
 
-Json outlines(const Simulation& s) {
-  Json all = Json::array();
-  const auto& domain = s.setup().domain;
-  const sdk::Vec3 size = domain.max - domain.min;
-  const double longest = std::max({size.x, size.y, size.z});
-  constexpr double k_pieces = 100.0;  // of what is round, along the longest side
-  for (const auto& body : s.models().bodies) {
-    // A turned body is cut in its own frame: a larger box, the picture clips.
-    const sdk::Vec3 more = body.frame_angle != 0.0 ? size : sdk::Vec3{};
-    const auto t = body.triangles(domain.min - more, domain.max + more, longest / k_pieces);
-    // Front and back edges lie on each other: one is enough.
-    std::set<std::array<double, 4>> lines;
-    for (const auto& [a, b] : bodies::visible_edges(t, 1, longest)) {
-      const auto rounded = [&](double v) { return 1e-6 * longest * std::round(1e6 * v / longest); };
-      std::array<double, 4> line{rounded(a.x), rounded(a.z), rounded(b.x), rounded(b.z)};
-      if (std::pair(line[2], line[3]) < std::pair(line[0], line[1])) {
-        line = {line[2], line[3], line[0], line[1]};
-      }
-      // An edge along y is seen from its end.
-      if (line[0] != line[2] || line[1] != line[3]) lines.insert(line);
-    }
-    Json segments = Json::array();
-    for (const auto& l : lines) segments.push_back({{l[0], l[1]}, {l[2], l[3]}});
-    all.push_back({{"body", body.name}, {"segments", segments}});
-  }
-  return all;
-}
-
 /// Of the memory held now, what stands in pages of 2 MB; 0 where nobody tells.
 std::int64_t huge_page_bytes() {
   std::ifstream file("/proc/self/smaps_rollup");
@@ -353,7 +323,7 @@ Json report_json(const Simulation& s, const RunFacts& facts, JsonReport& report)
   add_hood_tables(s, r["tables"]);
   add_liberation_table(s, r["tables"]);
   add_energy_table(s, r["tables"]);
-  r["outline"] = outlines(s);
+  r["outline"] = report::outline_of(s.setup().domain, s.models().bodies);
   r["classes"] = s.models().class_diameters;
   if (facts.registry != nullptr) r["setting"] = setting_json(s.setup(), *facts.registry);
   if (s.dust_setup().given) r["dust_rule"] = dust_rule_json(s);

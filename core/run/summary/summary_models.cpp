@@ -4,6 +4,7 @@
 #include "base/finite.hpp"
 #include "bodies/shape.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -113,6 +114,22 @@ const char* word_of(scenario::GrainSide side) {
   return "";
 }
 
+/// Boxes of other fluids, as far as they lie in the domain.
+Json regions_json(const scenario::Setup& setup) {
+  Json list = Json::array();
+  if (!setup.fluid) return list;
+  for (const auto& region : setup.fluid->regions) {
+    Vec3 low = region.min;
+    Vec3 high = region.max;
+    for (int d = 0; d < 3; ++d) {
+      low[d] = std::max(low[d], setup.domain.min[d]);
+      high[d] = std::min(high[d], setup.domain.max[d]);
+    }
+    list.push_back({{"min", vector_json(low)}, {"max", vector_json(high)}});
+  }
+  return list;
+}
+
 }  // namespace
 
 nlohmann::ordered_json plugins_json(const scenario::Setup& setup, const scenario::DustSetup& dust,
@@ -161,7 +178,21 @@ nlohmann::ordered_json setting_json(const scenario::Setup& setup,
     j["sides"].push_back({{"name", scenario::k_side_names[n]},
                           {"grains", word_of(side.grains)},
                           {"air", side.air ? side.air->name : ""}});
+    if (side.grains == scenario::GrainSide::wall) {
+      j["sides"].back()["material"] = setup.materials[static_cast<std::size_t>(side.material)].name;
+    }
   }
+  j["bodies"] = Json::array();
+  for (const auto& body : setup.bodies) {
+    Json motions = Json::array();
+    for (const auto& motion : body.motions) motions.push_back(motion.name);
+    j["bodies"].push_back(
+        {{"name", body.name},
+         {"shape", body.shape.name},
+         {"motions", motions},
+         {"material", setup.materials[static_cast<std::size_t>(body.material)].name}});
+  }
+  j["regions"] = regions_json(setup);
   j["belts"] = belts_json(setup, registry);
   j["emitters"] = Json::array();
   for (const auto& e : setup.emitters) {

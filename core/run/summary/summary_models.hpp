@@ -14,10 +14,11 @@ namespace dust::run {
 nlohmann::ordered_json plugins_json(const scenario::Setup& setup, const scenario::DustSetup& dust,
                                     const registry::Registry& registry);
 
-/// Where things are, for pictures: {"domain": {"min", "max"}, "sides": [{"name", "grains", "air"}],
-/// "belts": level bodies with a surface speed [{"name", "speed", "radius" of a pulley}],
-/// "emitters" and "sensors": [{"name", "model", "what", "min", "max" | "at"}]}, in m and in the
-/// domain's frame. A model without a place has neither.
+/// Where things are, for pictures: {"domain": {"min", "max"}, "sides": [{"name", "grains",
+/// "material" of a wall, "air"}], "bodies": [{"name", "shape", "motions", "material"}], "regions"
+/// of other fluids: [{"min", "max"}], "belts": level bodies with a surface speed [{"name", "speed",
+/// "radius" of a pulley}], "emitters" and "sensors": [{"name", "model", "what", "min", "max" |
+/// "at"}]}, in m and in the domain's frame. A model without a place has neither.
 nlohmann::ordered_json setting_json(const scenario::Setup& setup,
                                     const registry::Registry& registry);
 

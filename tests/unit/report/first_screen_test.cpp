@@ -153,28 +153,25 @@ TEST_CASE("dust shall be told by where it parted from the coarse grains") {
 
 TEST_CASE("a flux that is still changing shall be called so") {
   const RunFolder folder;
-  folder.write("summary.json", run_with_openings().dump());
-  json times = json::array(), rates = json::array(), same = json::array();
-  for (int k = 0; k <= 100; ++k) {
-    times.push_back(0.01 * k);
-    rates.push_back(k > 90 ? 3e-10 : 1e-10);
-    same.push_back(1e-10);
-  }
-  const auto write = [&](const json& y) {
-    folder.write("report.json", json{{"curves",
-                                      {{{"sensor", "x"},
-                                        {"title", "Flux"},
-                                        {"x_label", "time [s]"},
-                                        {"y_label", "net mass rate [kg/s]"},
-                                        {"series", "all"},
-                                        {"x", times},
-                                        {"y", y}}}}}
-                                    .dump());
+  json summary = run_with_openings();
+  summary["series_roles"] = {
+      {"x/net/mass_rate [kg/s]",
+       {{"role", "opening"}, {"quantity", "mass_rate"}, {"direction", "net"}}},
+      {"inside/net/mass_rate [kg/s]",
+       {{"role", "passage"}, {"quantity", "mass_rate"}, {"direction", "net"}}}};
+  folder.write("summary.json", summary.dump());
+  const auto write = [&](double last_tenth) {
+    std::string rows = "time [s],x/net/mass_rate [kg/s],inside/net/mass_rate [kg/s]\n";
+    for (int k = 0; k <= 100; ++k) {
+      rows +=
+          std::to_string(0.01 * k) + (k > 90 ? "," + std::to_string(last_tenth) : ",1") + ",7\n";
+    }
+    folder.write("series.csv", rows);
   };
-  write(rates);
+  write(3.0);
   CHECK(document_of(folder)["dust"]["later_over_earlier"].get<double>() ==
         doctest::Approx(3.0).epsilon(0.1));
-  write(same);
+  write(1.0);
   CHECK(document_of(folder)["dust"]["later_over_earlier"].get<double>() == doctest::Approx(1.0));
 }
 

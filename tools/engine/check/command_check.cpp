@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/text.hpp"
 #include "check/check_summary.hpp"
+#include "check/setup_page.hpp"
 #include "commands.hpp"
-#include "drawing/drawing.hpp"
 #include "preflight/body_survey.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/learnt_costs.hpp"
@@ -13,24 +13,36 @@
 #include <iostream>
 
 namespace dust::engine {
+namespace {
+
+/// A page under the name of a picture would open in nothing.
+std::string is_page_name(const std::string& name) {
+  if (name.ends_with(".html") || name.ends_with(".htm")) return {};
+  return name + ": the set-up is drawn as a page; give it a name that ends with .html";
+}
+
+}  // namespace
 
 void add_check(CLI::App& app, int&) {
   struct Arguments {
     ScenarioArguments scenario;
-    std::string drawing;
+    std::string page;
     bool as_json = false;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "check", "Check a scenario and tell what it will do; runs nothing, writes nothing but -o");
   arguments->scenario.add_to(*command);
-  command->add_option("-o,--output", arguments->drawing, "Draw the set-up from the side")
-      ->type_name("SETUP.svg");
+  command
+      ->add_option("-o,--output", arguments->page,
+                   "The page of the set-up: from the side and in three dimensions")
+      ->type_name("SETUP.html")
+      ->check(is_page_name);
   command->add_flag("--json", arguments->as_json, "Steps, sizes and cost as JSON");
   command->footer(
       "Examples:\n"
       "  engine check scenarios/transfer_point.yaml\n"
-      "  engine check scenarios/transfer_point.yaml -o setup.svg "
+      "  engine check scenarios/transfer_point.yaml -o setup.html "
       "--set bodies.plate.enabled=true");
   command->callback([arguments] {
     const run::RunOptions options = arguments->scenario.options();
@@ -54,9 +66,10 @@ void add_check(CLI::App& app, int&) {
                 << (start->is_same ? ", the same scenario: with the bits of an unbroken run" : "")
                 << '\n';
     }
-    if (!arguments->drawing.empty()) {
-      write_file(arguments->drawing, draw_setup(result.setup, *registry));
-      if (!arguments->as_json) std::cout << "drawn in " << arguments->drawing << '\n';
+    if (!arguments->page.empty()) {
+      const std::string numbers = check_json(result.setup, derived, survey, learnt);
+      write_file(arguments->page, setup_page(result.setup, *registry, numbers));
+      if (!arguments->as_json) std::cout << "drawn in " << arguments->page << '\n';
     }
   });
 }
