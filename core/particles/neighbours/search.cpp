@@ -39,7 +39,6 @@ class Level {
     }
     const double edge = std::max(2.0 * reach_, 1e-12);
     lay_out(in, rows, balls, edge);
-    for (int d = 0; d < 3; ++d) period_[d] = in.period[d];
     std::vector<std::int32_t> cell_of(rows.size());
     is_table_ = static_cast<double>(count_[0]) * static_cast<double>(count_[1]) *
                     static_cast<double>(count_[2]) <=
@@ -49,6 +48,7 @@ class Level {
     } else {
       fill_slots(rows, balls, cell_of);
     }
+    for (int d = 0; d < 3; ++d) period_[d] = in.period[d];
     is_periodic_ = period_[0] + period_[1] + period_[2] > 0.0;
   }
 
@@ -169,7 +169,7 @@ class Level {
     for (std::size_t n = 0; n < rows.size(); ++n) {
       const std::size_t to = place_of(n);
       rows_[to] = rows[n];
-      balls_[to] = inside(balls[static_cast<std::size_t>(rows[n])]);
+      balls_[to] = balls[static_cast<std::size_t>(rows[n])];
     }
   }
 
@@ -231,19 +231,6 @@ class Level {
 
   [[nodiscard]] std::int64_t cell(double x, int d) const {
     return base::cell_index((x - origin_[d]) * inverse_[d]);
-  }
-  /// The ball with its centre in the cell that it is filed under: a trajectory may lead out of a
-  /// periodic side.
-  [[nodiscard]] Ball inside(Ball ball) const {
-    const auto in_period = [&](double x, int d) {
-      const std::int64_t c = cell(x, d);
-      const std::int64_t away = c - wrap(c, d);
-      return away == 0 ? x : x - static_cast<double>(away / count_[d]) * period_[d];
-    };
-    ball.x = in_period(ball.x, 0);
-    ball.y = in_period(ball.y, 1);
-    ball.z = in_period(ball.z, 2);
-    return ball;
   }
   [[nodiscard]] std::int64_t wrap(std::int64_t c, int d) const {
     return wraps_[d] ? base::wrapped_cell(c, count_[d]) : c;
