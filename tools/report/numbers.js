@@ -34,6 +34,7 @@ const Numbers = (() => {
       const exponent = Math.floor(Math.log10(size)), unit = 10 ** exponent;
       return `(${fixed(mean / unit, exponent - place)}${plus_minus}${fixed(error / unit, exponent - place)})${thin}×${thin}10${raised(exponent)}`;
     }
+    if (place < -8) return number(mean, 9) + plus_minus + number(error, 2);  // an error of rounding
     return fixed(mean, -place) + plus_minus + fixed(error, -place);
   };
 
