@@ -180,7 +180,7 @@ struct Planner::Impl {
     const auto derived = preflight::derive(read->setup, registry);
     point.core_seconds = derived.core_seconds;
     point.memory_bytes = derived.memory_bytes;
-    measures.see(quantities_of(read->setup, registry));
+    measures.see(quantities_of(read->setup, read->dust, registry));
     return point;
   }
 

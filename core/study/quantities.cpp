@@ -84,6 +84,33 @@ constexpr Named k_of_emitter[] = {
     {"waiting", "1"},           {"number_of_sizes", "1"},
 };
 
+/// Of each way that dust has out of the air; in mg per kg of the material that was brought in.
+constexpr Named k_of_outflow[] = {
+    {"kg", "kg"},
+    {"inhalable_kg", "kg"},
+    {"thoracic_kg", "kg"},
+    {"respirable_kg", "kg"},
+    {"inhalable_mg_per_kg", "1"},
+    {"thoracic_mg_per_kg", "1"},
+    {"respirable_mg_per_kg", "1"},
+};
+
+/// Hoods, and sides that are open to grains.
+std::vector<std::string> ways_out(const scenario::Setup& setup, const scenario::DustSetup& dust) {
+  std::vector<std::string> ways;
+  for (const scenario::BodySpec& body : setup.bodies) {
+    if (body.suction && body.suction->flow > 0.0) ways.push_back(body.name);
+  }
+  for (std::size_t side = 0; side < scenario::k_side_names.size(); ++side) {
+    const bool has_hood =
+        std::any_of(dust.openings.begin(), dust.openings.end(),
+                    [&](const auto& opening) { return opening.side == static_cast<int>(side); });
+    const bool is_open = setup.domain.sides[side].grains == scenario::GrainSide::open;
+    if (has_hood || is_open) ways.emplace_back(scenario::k_side_names[side]);
+  }
+  return ways;
+}
+
 std::string dotted(std::string path) {
   std::replace(path.begin(), path.end(), '/', '.');
   return path;
@@ -133,7 +160,7 @@ std::optional<scenario::Unit> unit_of(const std::string& text) {
 
 }  // namespace
 
-std::vector<Quantity> quantities_of(const scenario::Setup& setup,
+std::vector<Quantity> quantities_of(const scenario::Setup& setup, const scenario::DustSetup& dust,
                                     const registry::Registry& registry) {
   std::vector<Quantity> all;
   const auto add = [&](const auto& names, const std::string& prefix = {}) {
@@ -144,6 +171,10 @@ std::vector<Quantity> quantities_of(const scenario::Setup& setup,
   if (setup.drag && setup.voidage) add(k_with_coupling);
   if (setup.fluid && !setup.fluid->resolved.empty()) add(k_with_resolved);
   for (const auto& emitter : setup.emitters) add(k_of_emitter, "emitters." + emitter.name + ".");
+  if (dust.field && setup.fluid) {
+    for (const std::string& way : ways_out(setup, dust))
+      add(k_of_outflow, "dust_outflow." + way + ".");
+  }
 
   const std::vector<double> classes = diameters_of(setup, registry);
   sdk::WorldView world;

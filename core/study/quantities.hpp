@@ -2,6 +2,7 @@
 #pragma once
 
 #include "registry/registry.hpp"
+#include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
 
 #include <filesystem>
@@ -20,8 +21,9 @@ struct Quantity {
 };
 
 /// Every quantity a run of `setup` will tell, known before it is run: those of summary.json, and
-/// the figures its sensors name when they look at a domain without grains.
-std::vector<Quantity> quantities_of(const scenario::Setup& setup,
+/// the figures its sensors name when they look at a domain without grains. `dust` is what the
+/// scenario says of dust.
+std::vector<Quantity> quantities_of(const scenario::Setup& setup, const scenario::DustSetup& dust,
                                     const registry::Registry& registry);
 
 /// The quantity at `path`, where '/' stands for '.' as well; null where there is none.

@@ -45,7 +45,8 @@ TEST_CASE("the quantities known before a run shall be those it tells") {
     }
     const auto read = preflight::read_scenario(one.file, overrides, registry);
     std::set<std::string> known;
-    for (const auto& q : study::quantities_of(read.setup, registry)) known.insert(q.path);
+    for (const auto& q : study::quantities_of(read.setup, read.dust, registry))
+      known.insert(q.path);
     const auto run = test::engine(arguments);
     INFO(run.err);
     REQUIRE(run.status == 0);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace dust::fluid {
 namespace {
@@ -20,6 +21,8 @@ constexpr int k_sub_boxes = 8;
 constexpr double k_beside = 1e-3;
 /// Share of the distance that a step goes: a sheet is met on the side one comes from.
 constexpr double k_stride = 0.99;
+/// Whether a block of sub-boxes is all of one kind.
+enum class Whole : std::uint8_t { no, open, closed };
 /// Steps after which the way along a surface counts as free: each is as long as the distance.
 constexpr int k_max_steps = 200;
 
@@ -41,8 +44,57 @@ BodyField::BodyField(const Grid& grid, const bodies::BodySet& bodies, double tim
         is_moving ? body.placement(time)
                   : bodies::Placement::turned(body.frame_origin, body.frame_axis, body.frame_angle);
     (is_moving ? moving_bodies_ : static_bodies_).push_back({&body, static_cast<int>(b), at});
+    if (is_moving) largest_speed_ = std::max(largest_speed_, body.largest_displacing_speed());
   }
 }
+
+class BodyField::Near {
+ public:
+  Near(const BodyField& field, Vec3 p, double reach) : field_(field) {
+    std::array<Seen, k_max> seen;
+    std::size_t count = 0;
+    for (const auto* list : {&field.static_bodies_, &field.moving_bodies_}) {
+      for (const Placed& b : *list) {
+        const auto s = b.body->nearest(p, b.at);
+        if (s.distance < hit_.distance) hit_ = {s.distance, s.normal, b.number};
+        if (count < k_max) seen[count] = {&b, s.distance};
+        ++count;
+      }
+    }
+    has_many_ = count > k_max;
+    if (has_many_) return;
+    // A distance changes by no more than one goes. The half more covers shapes whose distance is
+    // not quite one.
+    const double limit = hit_.distance + 3.0 * reach;
+    for (std::size_t n = 0; n < count; ++n) {
+      if (seen[n].distance <= limit) bodies_[count_++] = seen[n].body;
+    }
+  }
+  /// At p itself.
+  [[nodiscard]] const Hit& hit() const { return hit_; }
+  [[nodiscard]] Hit nearest(Vec3 q) const {
+    if (has_many_) return field_.nearest(q);
+    Hit hit;
+    for (std::size_t n = 0; n < count_; ++n) {
+      const Placed& b = *bodies_[n];
+      const auto s = b.body->nearest(q, b.at);
+      if (s.distance < hit.distance) hit = {s.distance, s.normal, b.number};
+    }
+    return hit;
+  }
+
+ private:
+  static constexpr std::size_t k_max = 32;
+  struct Seen {
+    const Placed* body;
+    double distance;
+  };
+  const BodyField& field_;
+  Hit hit_;
+  bool has_many_ = false;
+  std::array<const Placed*, k_max> bodies_{};
+  std::size_t count_ = 0;
+};
 
 BodyField::Hit BodyField::nearest(Vec3 p) const {
   Hit hit;
@@ -63,36 +115,65 @@ double BodyField::distance_to_moving_bodies(Vec3 p) const {
 
 bool BodyField::is_inside(Vec3 p) const { return nearest(p).distance <= k_on_surface * smallest_; }
 
+double BodyField::own_way(const Hit& hit, Vec3 p, double smear) const {
+  if (smear == 0.0) return 0.0;
+  for (const Placed& b : moving_bodies_) {
+    if (b.number == hit.body) return smear * std::abs(dot(b.at.velocity_at(p), hit.normal));
+  }
+  return 0.0;
+}
+
+double BodyField::open_part(const Hit& hit, Vec3 p, Vec3 size, double smear) const {
+  double width = own_way(hit, p, smear);
+  for (int d = 0; d < 3; ++d) width += std::abs(hit.normal[d]) * size[d];
+  if (width > k_on_surface * smallest_) return std::clamp(0.5 + hit.distance / width, 0.0, 1.0);
+  return hit.distance > k_on_surface * smallest_ ? 1.0 : 0.0;
+}
+
 double BodyField::open_share(Vec3 centre, Vec3 size, Vec3* middle, double smear) const {
   const double reach = 0.5 * norm(size);
-  const Hit at_centre = nearest(centre);
-  const auto own_way = [&](const Hit& hit, Vec3 p) {
-    if (smear == 0.0) return 0.0;
-    for (const Placed& b : moving_bodies_) {
-      if (b.number == hit.body) return smear * std::abs(dot(b.at.velocity_at(p), hit.normal));
-    }
-    return 0.0;
-  };
-  const double far = reach + 0.5 * own_way(at_centre, centre);
+  const Near near(*this, centre, reach);
+  const Hit& at_centre = near.hit();
+  const double far = reach + 0.5 * own_way(at_centre, centre, smear);
   if (at_centre.distance >= far) return 1.0;
   if (at_centre.distance <= -far) return 0.0;
   std::array<int, 3> n{};
-  for (int d = 0; d < 3; ++d) n[d] = size[d] > 0.0 ? k_sub_boxes : 1;
+  Vec3 sub_box;
+  for (int d = 0; d < 3; ++d) {
+    n[d] = size[d] > 0.0 ? k_sub_boxes : 1;
+    sub_box[d] = size[d] / n[d];
+  }
+  const auto point = [&](double a, double b, double c) {
+    return Vec3{centre.x + ((a + 0.5) / n[0] - 0.5) * size.x,
+                centre.y + ((b + 0.5) / n[1] - 0.5) * size.y,
+                centre.z + ((c + 0.5) / n[2] - 0.5) * size.z};
+  };
+  // Blocks of sub-boxes that no surface comes near are as open as their middle.
+  constexpr int k_block = k_sub_boxes / 2;
+  std::array<Whole, 8> blocks{};
+  const double block_reach = 0.25 * norm(size) + 0.5 * norm(sub_box);
+  for (int block = 0; block < 8; ++block) {
+    const auto middle_of = [&](int d) {
+      return n[d] == 1 ? 0.0 : ((block >> d) % 2) * k_block + 0.5 * (k_block - 1);
+    };
+    const Vec3 p = point(middle_of(0), middle_of(1), middle_of(2));
+    const Hit hit = near.nearest(p);
+    const double clear = block_reach + smear * largest_speed_;
+    blocks[static_cast<std::size_t>(block)] = hit.distance > clear    ? Whole::open
+                                              : hit.distance < -clear ? Whole::closed
+                                                                      : Whole::no;
+  }
   double sum = 0.0;
   Vec3 moment;
   for (int c = 0; c < n[2]; ++c) {
     for (int b = 0; b < n[1]; ++b) {
       for (int a = 0; a < n[0]; ++a) {
-        const Vec3 p{centre.x + ((a + 0.5) / n[0] - 0.5) * size.x,
-                     centre.y + ((b + 0.5) / n[1] - 0.5) * size.y,
-                     centre.z + ((c + 0.5) / n[2] - 0.5) * size.z};
-        const Hit hit = nearest(p);
-        double width = own_way(hit, p);
-        for (int d = 0; d < 3; ++d) width += std::abs(hit.normal[d]) * size[d] / n[d];
-        double part = hit.distance > k_on_surface * smallest_ ? 1.0 : 0.0;
-        if (width > k_on_surface * smallest_) {
-          part = std::clamp(0.5 + hit.distance / width, 0.0, 1.0);
-        }
+        const Whole whole =
+            blocks[static_cast<std::size_t>(a / k_block + 2 * (b / k_block) + 4 * (c / k_block))];
+        if (whole == Whole::closed) continue;
+        const Vec3 p = point(a, b, c);
+        const double part =
+            whole == Whole::open ? 1.0 : open_part(near.nearest(p), p, sub_box, smear);
         sum += part;
         moment += part * (p - centre);
       }
@@ -105,11 +186,12 @@ double BodyField::open_share(Vec3 centre, Vec3 size, Vec3* middle, double smear)
 }
 
 double BodyField::wall_distance(Vec3 from, Vec3 to) const {
+  const Near near(*this, 0.5 * (from + to), 0.5 * norm(to - from));
   double low = 0.0;
   double high = 1.0;
   for (int step = 0; step < 50; ++step) {
     const double mid = 0.5 * (low + high);
-    (nearest(from + mid * (to - from)).distance > 0.0 ? low : high) = mid;
+    (near.nearest(from + mid * (to - from)).distance > 0.0 ? low : high) = mid;
   }
   return high * norm(to - from);
 }
@@ -123,10 +205,11 @@ std::optional<Vec3> BodyField::outside(Vec3 centre) const {
   return p;
 }
 
-bool BodyField::meets(Vec3 from, Vec3 along, double length, double& way, Hit& hit) const {
+bool BodyField::meets(const Near& near, Vec3 from, Vec3 along, double length, double& way,
+                      Hit& hit) const {
   way = 0.0;
   for (int step = 0; step < k_max_steps && way < length; ++step) {
-    hit = nearest(from + way * along);
+    hit = near.nearest(from + way * along);
     if (hit.distance <= 0.1 * k_beside * smallest_) return true;
     way += k_stride * hit.distance;
   }
@@ -137,12 +220,13 @@ std::optional<double> BodyField::passes_through(Vec3 from, Vec3 to) const {
   const double length = norm(to - from);
   if (!(length > 0.0)) return std::nullopt;
   const Vec3 along = (to - from) / length;
+  const Near near(*this, 0.5 * (from + to), 0.5 * length);
   double way = 0.0;
   double way_back = 0.0;
   Hit in;
   Hit out;
-  if (!meets(from, along, length, way, in)) return std::nullopt;
-  if (!meets(to, -along, length, way_back, out)) return std::nullopt;
+  if (!meets(near, from, along, length, way, in)) return std::nullopt;
+  if (!meets(near, to, -along, length, way_back, out)) return std::nullopt;
   // Through a thin body the two surfaces look away from each other; a chord's look the same way.
   if (dot(in.normal, out.normal) >= 0.0) return std::nullopt;
   return way;

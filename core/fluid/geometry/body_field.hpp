@@ -52,12 +52,21 @@ class BodyField {
     int number;
     bodies::Placement at;
   };
-  [[nodiscard]] bool meets(sdk::Vec3 from, sdk::Vec3 along, double length, double& way,
-                           Hit& hit) const;
+  /// How far the surface goes along its normal in `smear` [s].
+  [[nodiscard]] double own_way(const Hit& hit, sdk::Vec3 p, double smear) const;
+  /// Share of the sub-box of edges `size` round p that is open, by the plane of the surface at
+  /// hand.
+  [[nodiscard]] double open_part(const Hit& hit, sdk::Vec3 p, sdk::Vec3 size, double smear) const;
+  /// The bodies that may be nearest to a point within `reach` of p, in the order of nearest(): of
+  /// many, all of them.
+  class Near;
+  [[nodiscard]] bool meets(const Near& near, sdk::Vec3 from, sdk::Vec3 along, double length,
+                           double& way, Hit& hit) const;
 
   std::vector<Placed> static_bodies_;
   std::vector<Placed> moving_bodies_;
-  double smallest_ = 0.0;  ///< [m] spacing that lengths are compared with
+  double smallest_ = 0.0;       ///< [m] spacing that lengths are compared with
+  double largest_speed_ = 0.0;  ///< [m/s] of the surfaces that go to other places
 };
 
 }  // namespace dust::fluid

@@ -13,6 +13,9 @@ namespace {
 
 /// Distance from the surfaces (in cells) beyond which no thin body can come between two neighbours.
 constexpr double k_near = 1.8;
+/// Distance of a body (in diagonals of a cell or face) beyond which it has no part in what is open
+/// of it: half a diagonal to the corner, and half the width of a sub-box and of its way there.
+constexpr double k_apart = 0.7;
 
 }  // namespace
 
@@ -60,7 +63,7 @@ void GeometryBuilder::measure_cells() {
   g_.open_fraction.assign(grid_.size, 1.0);
   if (field_.is_empty()) return;
   distance_.assign(grid_.size, 0.0);
-  const double reach = norm(grid_.spacing);
+  const double reach = k_apart * norm(grid_.spacing);
   for_rows(n[0] * 100, n[1], n[2], [&](int j, int k) {
     for (int i = 0; i < n[0]; ++i) {
       const std::ptrdiff_t o = grid_.index(i, j, k);
@@ -84,6 +87,11 @@ void GeometryBuilder::measure_faces(int d) {
   Vec3 size = grid_.spacing;
   size[d] = 0.0;
   const double reach = norm(grid_.spacing);
+  const double apart = k_apart * norm(size);
+  const auto open_share = [&](const BodyField& field, Vec3 centre, std::ptrdiff_t o, double smear) {
+    if (is_as_static(field, centre, apart)) return static_geometry_->open_area.component[d][o];
+    return field.open_share(centre, size, nullptr, smear);
+  };
   for_rows(e[0] * 100, e[1], e[2], [&](int j, int k) {
     for (int i = 0; i < e[0]; ++i) {
       const std::ptrdiff_t o = grid_.index(i, j, k);
@@ -97,11 +105,11 @@ void GeometryBuilder::measure_faces(int d) {
       if (is_still && static_geometry_ != nullptr) {
         now = area[o] = static_geometry_->open_area.component[d][o];
       } else if (!field_.is_empty()) {
-        now = area[o] = field_.open_share(centre, size);
+        now = area[o] = open_share(field_, centre, o, 0.0);
         if (!instants_.empty() && smear_ > 0.0) {
           double sum = 0.0;
           for (const BodyField& instant : instants_) {
-            sum += instant.open_share(centre, size, nullptr, smear_);
+            sum += open_share(instant, centre, o, smear_);
           }
           area[o] = sum / k_instants;
         }

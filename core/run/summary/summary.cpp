@@ -8,6 +8,7 @@
 #include "io/run_files.hpp"
 #include "particles/store/balance_ledger.hpp"
 #include "report/pictures/outline.hpp"
+#include "run/summary/dust_outflow.hpp"
 #include "run/summary/figure_json.hpp"
 #include "run/summary/references.hpp"
 #include "run/summary/series_row.hpp"
@@ -256,7 +257,10 @@ Json amounts_json(const Simulation& s) {
                   {"removed", b.mass_removed}};
   j["emitters"] = emitters_json(s);
   if (!s.dem().openings().empty()) j["hoods"] = hoods_json(s);
-  if (s.dust_stage() != nullptr) j["dust_field"] = dust_field_json(s);
+  if (s.dust_stage() != nullptr) {
+    j["dust_field"] = dust_field_json(s);
+    j["dust_outflow"] = dust_outflow_json(s);
+  }
   if (s.liberation() != nullptr) j["dust_on_grains"] = dust_on_grains_json(s);
   if (s.setup().audit.energy) j["energy"] = energy_json(s);
   j["size_classes"] = s.models().class_diameters.empty() ? Json::array() : class_steps(s.dem());

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/summary/dust_outflow.hpp"
+
+#include "report/facts/dust_fractions.hpp"
+
+#include <functional>
+
+namespace dust::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// `mass_of`(balance) is what of a class went this way [kg].
+Json sampled(const Simulation& s,
+             const std::function<double(const airborne::DustBalance&)>& mass_of) {
+  constexpr double k_milligrams = 1e6;  // per kg
+  const airborne::DustField& field = s.dust_stage()->field();
+  double whole = 0.0;
+  report::DustFractions parts;
+  for (std::size_t n = 0; n < field.classes(); ++n) {
+    const double mass = mass_of(field.balance(n));
+    const report::DustFractions shares = report::dust_fractions(
+        report::aerodynamic_diameter(field.dust_class(n).diameter, s.dust_setup().field->density));
+    whole += mass;
+    parts.inhalable += mass * shares.inhalable;
+    parts.thoracic += mass * shares.thoracic;
+    parts.respirable += mass * shares.respirable;
+  }
+  Json j = {{"kg", whole},
+            {"inhalable_kg", parts.inhalable},
+            {"thoracic_kg", parts.thoracic},
+            {"respirable_kg", parts.respirable}};
+  const double material = s.dem().balance().mass_emitted;
+  if (material > 0.0) {
+    j["inhalable_mg_per_kg"] = k_milligrams * parts.inhalable / material;
+    j["thoracic_mg_per_kg"] = k_milligrams * parts.thoracic / material;
+    j["respirable_mg_per_kg"] = k_milligrams * parts.respirable / material;
+  }
+  return j;
+}
+
+}  // namespace
+
+Json dust_outflow_json(const Simulation& s) {
+  const std::vector<particles::Opening>& openings = s.dust_stage()->openings();
+  Json j = Json::object();
+  for (std::size_t o = 0; o < openings.size(); ++o) {
+    j[openings[o].name] =
+        sampled(s, [&](const airborne::DustBalance& balance) { return balance.outlets[o]; });
+  }
+  for (std::size_t side = 0; side < 6; ++side) {
+    const bool is_open = s.setup().domain.sides[side].grains == scenario::GrainSide::open;
+    // A side with a hood: all of it went there.
+    if (!is_open || j.contains(scenario::k_side_names[side])) continue;
+    j[scenario::k_side_names[side]] =
+        sampled(s, [&](const airborne::DustBalance& balance) { return balance.left[side]; });
+  }
+  return j;
+}
+
+}  // namespace dust::run

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "run/simulation.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace dust::run {
+
+/// What got out of the air of a run as a sampler there would find it: by hood and by side that is
+/// open to grains {"kg", "inhalable_kg", "thoracic_kg", "respirable_kg"}, and where material was
+/// brought in the three also in mg per kg of it: the dustiness of EN 15051. Shares by the
+/// conventions of EN 481, each class at its aerodynamic diameter.
+nlohmann::ordered_json dust_outflow_json(const Simulation& s);
+
+}  // namespace dust::run
