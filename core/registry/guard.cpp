@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "registry/guard.hpp"
 
+#include "dust/sdk/airborne_dust.hpp"
 #include "registry/guard_report.hpp"
 
 #include <algorithm>
@@ -347,7 +348,7 @@ class Motion final : public Guarded<sdk::Motion> {
 };
 
 /// Figures may be "no number yet": only what a sensor throws is looked after.
-class Sensor final : public Guarded<sdk::Sensor> {
+class Sensor : public Guarded<sdk::Sensor> {
  public:
   using Guarded::Guarded;
   void observe(const sdk::WorldView& world) override {
@@ -377,9 +378,25 @@ class Sensor final : public Guarded<sdk::Sensor> {
   }
 };
 
+/// A sensor that looks at airborne dust too.
+class DustSensor final : public Sensor, public sdk::DustObserver {
+ public:
+  using Sensor::Sensor;
+  void observe_dust(const sdk::WorldView& world, const sdk::DustColumns& dust) override {
+    faults().call("observe_dust", "a look at the dust",
+                  [&] { dynamic_cast<sdk::DustObserver&>(model()).observe_dust(world, dust); });
+  }
+};
+
 template <class Guard>
 std::unique_ptr<sdk::Model> make(std::unique_ptr<sdk::Model> model, GuardReport faults) {
   return std::make_unique<Guard>(std::move(model), std::move(faults));
+}
+
+std::unique_ptr<sdk::Model> make_sensor(std::unique_ptr<sdk::Model> model, GuardReport faults) {
+  const bool sees_dust = dynamic_cast<sdk::DustObserver*>(model.get()) != nullptr;
+  return sees_dust ? make<DustSensor>(std::move(model), std::move(faults))
+                   : make<Sensor>(std::move(model), std::move(faults));
 }
 
 }  // namespace
@@ -398,7 +415,7 @@ std::unique_ptr<sdk::Model> guarded(std::unique_ptr<sdk::Model> model, const Ent
       {sdk::LiberationLaw::k_kind, make<Liberation>},
       {sdk::Emitter::k_kind, make<Emitter>},
       {sdk::Motion::k_kind, make<Motion>},
-      {sdk::Sensor::k_kind, make<Sensor>}};
+      {sdk::Sensor::k_kind, make_sensor}};
   const auto found = std::find_if(std::begin(makers), std::end(makers),
                                   [&](const auto& m) { return entry.info.kind == m.first; });
   if (found == std::end(makers)) return model;
