@@ -89,9 +89,9 @@ class BatchColumns {
     angle_j_z
   };
 
-  BatchColumns() : data_(static_cast<std::size_t>(k_columns) * k_stride, 0.0) {
-    keep_history_here();
-  }
+  BatchColumns();
+  BatchColumns(const BatchColumns&) = delete;
+  BatchColumns& operator=(const BatchColumns&) = delete;
   [[nodiscard]] double* column(int name) {
     return data_.data() + static_cast<std::size_t>(name) * k_stride;
   }
@@ -104,13 +104,14 @@ class BatchColumns {
 
   /// The batch a law sees. `first_history_column` skips the columns of other stages.
   [[nodiscard]] sdk::ContactBatch view(std::size_t count, double time_step,
-                                       int first_history_column);
+                                       int first_history_column) const;
   [[nodiscard]] sdk::CohesionBatch cohesion_view(std::size_t count, double time_step,
                                                  int first_history_column);
 
  private:
   AlignedVector<double> data_;
   std::array<double*, k_max_history> history_{};
+  sdk::ContactBatch batch_;  ///< where the columns stand: small batches would spend long on it
 };
 
 }  // namespace dust::contact

@@ -7,11 +7,10 @@
 #include <algorithm>
 
 namespace dust::contact {
-sdk::ContactBatch BatchColumns::view(std::size_t count, double time_step,
-                                     int first_history_column) {
-  sdk::ContactBatch b;
-  b.count = padded(count);
-  b.time_step = time_step;
+
+BatchColumns::BatchColumns() : data_(static_cast<std::size_t>(k_columns) * k_stride, 0.0) {
+  keep_history_here();
+  sdk::ContactBatch& b = batch_;
   b.overlap = column(overlap);
   b.normal.x = column(normal_x);
   b.normal.y = column(normal_y);
@@ -39,11 +38,18 @@ sdk::ContactBatch BatchColumns::view(std::size_t count, double time_step,
   b.torque.x = column(torque_x);
   b.torque.y = column(torque_y);
   b.torque.z = column(torque_z);
-  b.history = history_.data() + first_history_column;
   b.radius_i = column(radius_i);
   b.radius_j = column(radius_j);
   b.inverse_mass_i = column(inverse_mass_i);
   b.inverse_mass_j = column(inverse_mass_j);
+}
+
+sdk::ContactBatch BatchColumns::view(std::size_t count, double time_step,
+                                     int first_history_column) const {
+  sdk::ContactBatch b = batch_;
+  b.count = padded(count);
+  b.time_step = time_step;
+  b.history = history_.data() + first_history_column;
   return b;
 }
 
@@ -60,6 +66,13 @@ sdk::CohesionBatch BatchColumns::cohesion_view(std::size_t count, double time_st
   b.attraction = column(attraction);
   b.history = history_.data() + first_history_column;
   return b;
+}
+
+void repeat_last(BatchColumns& columns, std::size_t count, int first, int last) {
+  for (int c = first; c <= last; ++c) {
+    double* column = columns.column(c);
+    std::fill(column + count, column + padded(count), column[count - 1]);
+  }
 }
 
 DUST_KERNEL void cut_first_displacements(BatchColumns& columns, std::size_t count) {

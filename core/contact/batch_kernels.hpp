@@ -42,6 +42,9 @@ struct Places {
   std::int32_t b = 0;
 };
 
+/// Rows up to the padded count repeat the last one, in the columns from `first` to `last`.
+void repeat_last(BatchColumns& columns, std::size_t count, int first, int last);
+
 /// Finds pairs from entry `next` up to `end` that are closer than touch + `range` [m] until a batch
 /// is full, loads them into the first columns and writes their numbers to `contacts` (k_batch of
 /// them); rows up to the padded count repeat the last one. Moves `next` on and returns how many. A

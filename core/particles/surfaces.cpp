@@ -6,7 +6,9 @@
 namespace dust::particles {
 
 void move_to(double time, std::span<Surface> surfaces) {
-  for (Surface& s : surfaces) s.place = s.placement(time);
+  for (Surface& s : surfaces) {
+    if (s.is_displaced()) s.place = s.body->placement(time);
+  }
 }
 
 NearestSurface nearest_surface(std::span<const Surface> surfaces, sdk::Vec3 point, double reach) {

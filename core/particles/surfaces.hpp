@@ -27,10 +27,7 @@ struct Surface {
   double displacing_speed = 0.0;       ///< [m/s] upper bound; 0 = stands
   int opening = -1;                    ///< number of the opening in it; -1 = none
 
-  /// `place` at `time` [s].
-  [[nodiscard]] bodies::Placement placement(double time) const {
-    return displacing_speed > 0.0 ? body->placement(time) : place;
-  }
+  [[nodiscard]] bool is_displaced() const { return displacing_speed > 0.0; }
   /// A point of the domain in the frame that openings are given in, as the surface stood at the
   /// last move_to().
   [[nodiscard]] sdk::Vec3 in_own_frame(sdk::Vec3 point) const {
@@ -58,8 +55,8 @@ struct Surface {
   /// The same at another time [s] than that of the last move_to().
   [[nodiscard]] bodies::SurfacePoint contact_at(
       double time, sdk::Vec3 point, double reach = std::numeric_limits<double>::infinity()) const {
-    if (body != nullptr) return body->contact(part, point, reach, placement(time));
-    return contact(point, reach);
+    if (!is_displaced()) return contact(point, reach);
+    return body->contact(part, point, reach, body->placement(time));
   }
   /// Whether a sphere that moves by at most `reach` [m], its radius included, may touch the surface
   /// within `duration` [s] after the last move_to(), however the surface moves.

@@ -18,7 +18,7 @@ inline double acceleration_number(double diameter, sdk::Vec3 slip, sdk::Vec3 rat
 
 /// Virtual mass over that of a motion that has just begun, [-] from 1 to 2.1:
 /// \f$ \frac{C_A(A_c)}{C_A(0)} = 2.1 - \frac{0.132}{A_c^2 + 0.12} \f$, C_A(0) = 0.5.
-/// Measured for 0 < A_c < 5 or so and Re < 62. Source: as above.
+/// Measured on spheres that swing in oil, Re below 62. Source: as above.
 inline double virtual_mass_factor(double acceleration_number) {
   return 2.1 - 0.132 / (acceleration_number * acceleration_number + 0.12);
 }

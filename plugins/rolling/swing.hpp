@@ -12,15 +12,19 @@ namespace dust::model {
 /// mass.
 struct TurningSides {
   double inverse_inertia;  ///< [1/(kg m2)] 1/I_i + 1/I_j
+  double inertia;          ///< [kg m2] its reciprocal
   double turning;          ///< [1/(kg m)] R_i/I_i - R_j/I_j: what a couple does to the slip
 
   [[gnu::always_inline]] TurningSides(double radius_i, double radius_j, double inverse_mass_i,
                                       double inverse_mass_j) {
-    const double inverse = 1.0 / (radius_i * radius_j);
-    const double i = inverse_mass_i * radius_j * inverse;
-    const double j = inverse_mass_j * radius_i * inverse;
-    inverse_inertia = 2.5 * inverse * (i * radius_j + j * radius_i);
-    turning = 2.5 * (i - j);
+    const double radii = radius_i * radius_j;
+    const double both = inverse_mass_i * radius_j * radius_j + inverse_mass_j * radius_i * radius_i;
+    // One division for both reciprocals.
+    const double all = 1.0 / (radii * both);
+    const double inverse = all * both;
+    inverse_inertia = 2.5 * both * inverse * inverse;
+    inertia = 0.4 * radii * radii * radii * all;
+    turning = 2.5 * inverse * (inverse_mass_i * radius_j - inverse_mass_j * radius_i);
   }
 };
 
@@ -45,7 +49,7 @@ struct Couple {
 /// What a force tangential to a contact, turned by a right angle, adds to the couple of a spring of
 /// this excess: \f$ \tfrac{1}{12} dt^2 k_r (R_i/I_i - R_j/I_j) \f$ [m].
 [[gnu::always_inline]] inline double lever_of_force(double excess, const TurningSides& sides) {
-  return excess * sides.turning / sides.inverse_inertia;
+  return excess * sides.turning * sides.inertia;
 }
 
 /// What the tangential part of `force` [N] on i adds to the couple of a spring: the couple as it

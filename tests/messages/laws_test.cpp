@@ -167,6 +167,16 @@ TEST_CASE("a cohesion that does not fit its contact law or materials shall be to
   check("volume: 1e-13", "volume: 0",
         "s.yaml:25:23: error: interactions[1].cohesion: a bridge needs its liquid: give volume or "
         "relative_volume, one of both");
+  check("{model: jkr, surface_energy: 20 mJ/m2}",
+        "{model: lubrication, viscosity: 1 Pa s, smallest_gap: 0.05, reach: 0.04}",
+        "s.yaml:21:23: error: interactions[0].cohesion: reach must lie above smallest_gap, for the "
+        "film acts between the two: give less of the one or more of the other");
+}
+
+TEST_CASE("a convention that a law does not have shall be told with those it has") {
+  check("contact: {model: hertz_mindlin, ", "contact: {model: hertz_mindlin, tangential: ligghts, ",
+        "s.yaml:19:49: error: interactions[0].contact.tangential: 'ligghts' is none of rescaled, "
+        "liggghts; did you mean 'liggghts'?");
 }
 
 TEST_CASE("an unknown cohesion shall be told with all there are") {

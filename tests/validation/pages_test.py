@@ -11,6 +11,7 @@ import package  # noqa: F401
 
 import bed
 import cases
+import kept
 import page
 import runs
 import stale
@@ -52,8 +53,8 @@ class AnyRun(runs.Run):
 
     def series(self):
         return [AnyFigures({"time [s]": 0.01 * n, "fall/velocity [m/s]": 0.1, "outlet/number [1]": 1000.0 * n,
-                             "drop/superficial_velocity [m/s]": 0.00556 * (n % 100)})
-                for n in range(620)]
+                             "drop/superficial_velocity [m/s]": 0.00556 * (n % 101)})
+                for n in range(730)]
 
     def stiffness(self):
         return "sand 5 MPa"
@@ -65,6 +66,44 @@ class AllRuns(runs.Runs):
         self._runs = {plan.name: AnyRun(plan, "/nowhere") for plan in case.plans()}
         if hasattr(case, "later"):
             self._runs |= {plan.name: AnyRun(plan, "/nowhere") for plan in case.later(self)}
+
+
+class KeptPages(unittest.TestCase):
+    """With --keep a page goes on saying what it says of runs whose folders are gone, and no more."""
+
+    def written(self, folder, values, before):
+        """The page of two runs, of which those in `values` have a folder, as lines."""
+        plans = [runs.Plan(name, "verification/box.yaml", {"seed": name[-1]}) for name in ("run_1", "run_2")]
+        for name, value in values.items():
+            finished_run(folder, name, {"s": {"f": (value, None)}}, {"commits": [f"of_{name}"], "date": "2026-01-02", "bits": [{"box": name}]})
+        found = runs.Runs(plans, folder, None, before)
+        text = page.Page("case", before)
+        for plan in plans:
+            text.add(f"figure of {plan.name}", found[plan.name].figure("s", "f"), "1", 0.5, 1.5)
+        return text.text("Case", found, "how")
+
+    def test_rows_runs_and_commands_stay_until_they_are_made_anew(self):
+        with tempfile.TemporaryDirectory() as first, tempfile.TemporaryDirectory() as second:
+            file = pathlib.Path(first) / "case.md"
+            file.write_text(self.written(first, {"run_1": 1.25}, kept.Kept()))
+            text = self.written(second, {"run_2": 1.0}, kept.Kept(file))
+            for part in ("| figure of run_1 | 1.25 |", "| figure of run_2 | 1 |", "| run_1 | of_run_1 |", "| run_2 | of_run_2 |",
+                         "commit of_run_1, of_run_2", "--set seed=1", "<!-- bits box=run_1 -->", "<!-- bits box=run_2 -->"):
+                self.assertIn(part, text)
+            self.assertIn("## What has not been run\n\nNothing.", text)
+            # Without --keep it is not there, and a run that is made again says what it gave.
+            self.assertIn("| figure of run_1 | not run to its end |", self.written(second, {}, kept.Kept()))
+            file.write_text(text)
+            with tempfile.TemporaryDirectory() as third:
+                again = self.written(third, {"run_1": 1.1}, kept.Kept(file))
+                self.assertIn("| figure of run_1 | 1.1 |", again)
+                self.assertEqual(1, again.count("| run_1 |"))
+
+    def test_a_row_that_was_open_is_not_kept(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "case.md"
+            file.write_text(self.written(folder, {}, kept.Kept()))
+            self.assertIsNone(kept.Kept(file).row("figure of run_1"))
 
 
 class ThesisRows(unittest.TestCase):

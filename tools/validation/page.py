@@ -3,6 +3,7 @@
 import datetime
 
 import chart
+from kept import Kept
 from runs import ROOT, cpu_name
 
 FOLDER = ROOT / "docs" / "validation"
@@ -21,8 +22,8 @@ def with_error(ours, unit=""):
 
 
 class Page:
-    def __init__(self, name):
-        self.name = name
+    def __init__(self, name, kept=None):
+        self.name, self._kept = name, kept or Kept()
         self._rows, self._notes, self._charts, self._body = [], [], [], []
 
     def add(self, what, ours, published, low=None, high=None, unit="", band=None, why=None):
@@ -33,6 +34,10 @@ class Page:
         if band is None and is_judged:
             band = (f"{low:g} to {high:g}" if low is not None and high is not None
                     else f"above {low:g}" if high is None else f"below {high:g}")
+        before = self._kept.row(what) if ours is None else None
+        if before:
+            self._rows.append(tuple(before))
+            return
         if ours is None:
             shown, verdict = NOT_RUN, "open"
         else:
@@ -52,7 +57,9 @@ class Page:
         if any(c.is_ours for c in curves):
             file = f"{self.name}_{len(self._charts) + 1}.svg"
             self._charts.append((file, title, text))
-            chart.draw(FOLDER / "pictures" / file, title, across, up, curves)
+            # A picture of curves that are gone stays.
+            if not (self._kept.bits() and (FOLDER / "pictures" / file).exists()):
+                chart.draw(FOLDER / "pictures" / file, title, across, up, curves)
 
     def body(self, lines):
         """Lines of a page that is not a table of figures."""
@@ -79,15 +86,15 @@ class Page:
         return ("\n".join(out + runs_section(runs)) + "\n").replace(f"{runs.folder}/", "")
 
     def _not_run(self, runs):
-        missing = [f"- `{run.plan.shown()}`" + hours_text(runs, run) for run in runs if not run.is_finished()]
+        missing = [f"- `{run.plan.shown()}`" + hours_text(runs, run) for run in runs if not runs.is_done(run)]
         return missing or self._left("open")
 
     def _origin(self, runs):
         finished = [run for run in runs if run.is_finished()]
-        commits = sorted({c for run in finished for c in run.note().get("commits", ["not noted"])})
-        if not finished:
+        commits = sorted({c for run in finished for c in run.note().get("commits", ["not noted"])} | runs.kept.commits())
+        if not commits:
             return ""
-        dates = sorted({run.note().get("date", "?") for run in finished})
+        dates = sorted({run.note().get("date", "?") for run in finished} | runs.kept.dates())
         return f"Runs of commit {', '.join(commits)}, " + " to ".join(sorted({dates[0], dates[-1]})) + "."
 
     def write(self, title, runs, how):
@@ -105,8 +112,9 @@ def hours_text(runs, run):
 
 def runs_section(runs):
     """The runs of a page, with what they cost, and their commands."""
-    runs = [run for run in runs if run.is_finished()]
-    if not runs:
+    kept, runs = runs.kept, [run for run in runs if run.is_finished()]
+    before = kept.run_lines({run.name for run in runs})
+    if not runs and not before:
         return ["<!-- bits none -->"]
     out = ["## Runs", "", "| run | commit | grains | simulated [s] | DEM step [s] | stiffness | fluid steps | "
            "grain-steps | CPU [s] | state |", "| --- |" + " --- |" * 9]
@@ -115,7 +123,8 @@ def runs_section(runs):
         out.append(f"| {run.name} | {', '.join(run.note().get('commits', ['?']))} | {s['particles']['max']} | "
                    f"{s['simulated_s']:.3g} | {s['dem_step_s']:.3g} | {run.stiffness()} | {s['fluid_steps']} | "
                    f"{s['particle_steps']:.3g} | {s['cpu_s']:.0f} | `{s['state_sha256'][:12]}` |")
-    return out + ["", "```", *dict.fromkeys(run.plan.shown() for run in runs), "```", "", *bits_lines(runs)]
+    commands = dict.fromkeys([*(kept.commands() if before else []), *(run.plan.shown() for run in runs)])
+    return out + before + ["", "```", *commands, "```", "", *dict.fromkeys([*kept.bits(), *bits_lines(runs)])]
 
 
 def bits_lines(runs):

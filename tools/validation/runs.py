@@ -14,6 +14,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "tools/dev"))
 
+from kept import Kept  # noqa: E402
 from machine import cpu_name  # noqa: E402,F401  for the pages too
 
 BITS = "tests/bits/recorded.json"
@@ -236,8 +237,8 @@ class Run:
 class Runs:
     """The runs of a case in one folder, begun or not."""
 
-    def __init__(self, plans, folder, engine):
-        self.folder, self.engine = pathlib.Path(folder), engine
+    def __init__(self, plans, folder, engine, kept=None):
+        self.folder, self.engine, self.kept = pathlib.Path(folder), engine, kept or Kept()
         self._runs = {plan.name: Run(plan, self.folder / plan.name) for plan in plans}
 
     def __getitem__(self, name):
@@ -245,6 +246,10 @@ class Runs:
 
     def __iter__(self):
         return iter(self._runs.values())
+
+    def is_done(self, run):
+        """Finished, or on the page from before."""
+        return run.is_finished() or self.kept.has(run)
 
     def do(self, run):
         """Brings a run to its end, unless it is there."""

@@ -151,10 +151,9 @@ bool SubCycle::load_surface(const CandidateContact& c) {
 }
 
 void SubCycle::derive_pairs() {
-  for (int c = 0; c <= B::torque_j_z; ++c) {
-    double* column = columns_.column(c);
-    for (std::size_t q = count_; q < contact::padded(count_); ++q) column[q] = column[count_ - 1];
-  }
+  contact::repeat_last(columns_, count_, B::separation_x, B::displacement_z);
+  contact::repeat_last(columns_, count_, B::rotation_i_x, B::rotation_j_z);
+  contact::repeat_last(columns_, count_, B::angle_i_x, B::angle_j_z);
   block_.largest_overlap =
       std::max(block_.largest_overlap, contact::derive_pair_columns(columns_, count_));
 }

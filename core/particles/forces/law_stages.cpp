@@ -37,7 +37,11 @@ void evaluate_laws(const PairLaws& law, BatchColumns& columns, std::size_t count
   }
   law.contact->evaluate(batch);
   if (law.cohesion) contact::subtract_attraction(columns, count);
-  if (law.rolling) law.rolling->evaluate(columns.view(count, time_step, first_rolling));
+  if (law.rolling) {
+    batch.overlap = columns.column(BatchColumns::overlap);
+    batch.history += first_rolling;
+    law.rolling->evaluate(batch);
+  }
   contact::derive_torques(columns, count, law.rolling != nullptr);
 }
 

@@ -9,13 +9,6 @@ namespace {
 using contact::BatchColumns;
 using B = contact::BatchColumns;
 
-void repeat_last(BatchColumns& columns, std::size_t count, int first, int last) {
-  for (int c = first; c <= last; ++c) {
-    double* column = columns.column(c);
-    for (std::size_t q = count; q < contact::padded(count); ++q) column[q] = column[count - 1];
-  }
-}
-
 /// Takes the wall's velocity [m/s], times the share of the contact [s] if given, off three columns.
 /// Contact by contact on purpose: the columns have just been written one number at a time, and
 /// reading them four at a time would wait for that.
@@ -45,9 +38,9 @@ void derive_wall_columns(const Surface& surface, double time, double since, std:
   surface_velocities(surface, time - 0.5 * since, count, point, normal, mean_velocity);
   take_off(columns, count, B::velocity_x, B::separation_x, nullptr);
   take_off(columns, count, B::displacement_x, k_wall_mean_velocity, columns.column(k_wall_since));
-  repeat_last(columns, count, B::radius_i, B::velocity_z);
-  repeat_last(columns, count, B::displacement_x, B::displacement_z);
-  repeat_last(columns, count, B::overlap, B::lever_j);
+  contact::repeat_last(columns, count, B::radius_i, B::velocity_z);
+  contact::repeat_last(columns, count, B::displacement_x, B::displacement_z);
+  contact::repeat_last(columns, count, B::overlap, B::lever_j);
   contact::cut_first_displacements(columns, count);
 }
 

@@ -63,7 +63,9 @@ class Lubrication final : public sdk::CohesionLaw {
 
   explicit Lubrication(const Parameters& p) : constants_{p.viscosity, p.smallest_gap, p.reach} {
     if (!(p.reach > p.smallest_gap)) {
-      throw sdk::ParameterError("reach must lie above smallest_gap");
+      throw sdk::ParameterError(
+          "reach must lie above smallest_gap, for the film acts between the two: give less of the "
+          "one or more of the other");
     }
   }
   void prepare(const sdk::MaterialProperties&, const sdk::MaterialProperties&) override {}

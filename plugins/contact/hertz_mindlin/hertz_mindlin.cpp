@@ -17,32 +17,6 @@ namespace sdk = dust::sdk;
 /// Contacts from one root to the next: what the stages hand on stays in the first-level cache.
 constexpr std::size_t k_block = 64;
 
-/// Adds to the tangential forces [first, end) what the couples of their rolling springs make of
-/// them.
-DUST_KERNEL void add_rolling(const sdk::ContactBatch& b, std::size_t first, std::size_t end,
-                             double* total) {
-  const double time_step = b.time_step;
-  const double *nx = b.normal.x, *ny = b.normal.y, *nz = b.normal.z;
-  const double *mx = b.couple.x, *my = b.couple.y, *mz = b.couple.z;
-  const double *mass = b.effective_mass, *kt = b.tangential_stiffness;
-  const double *ri = b.radius_i, *rj = b.radius_j;
-  const double *inverse_i = b.inverse_mass_i, *inverse_j = b.inverse_mass_j;
-  double *fx = b.force.x, *fy = b.force.y, *fz = b.force.z;
-#pragma omp simd
-  for (std::size_t q = first; q < end; ++q) {
-    formula::Contact c{};
-    c.nx = nx[q], c.ny = ny[q], c.nz = nz[q];
-    c.mx = mx[q], c.my = my[q], c.mz = mz[q];
-    c.fx = fx[q], c.fy = fy[q], c.fz = fz[q];
-    c.mass = mass[q];
-    c.stiffness = kt[q];
-    c.turning = 2.5 * (inverse_i[q] * rj[q] - inverse_j[q] * ri[q]) / (ri[q] * rj[q]);
-    formula::add_rolling(time_step, c);
-    fx[q] = c.fx, fy[q] = c.fy, fz[q] = c.fz;
-    total[q - first] = c.total;
-  }
-}
-
 DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::ContactBatch& b,
                                 std::size_t first, std::size_t end) {
   const formula::Constants k = constants;
@@ -51,6 +25,13 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
   const double *vx = b.velocity.x, *vy = b.velocity.y, *vz = b.velocity.z;
   const double *ux = b.displacement.x, *uy = b.displacement.y, *uz = b.displacement.z;
   const double *radius = b.effective_radius, *mass = b.effective_mass;
+  const double *ri = b.radius_i, *rj = b.radius_j;
+  const double *inverse_i = b.inverse_mass_i, *inverse_j = b.inverse_mass_j;
+  // Any column will do where no rolling spring has a couple: its part is multiplied by zero.
+  const bool has_couple = b.couple.x != nullptr;
+  const double *mx = has_couple ? b.couple.x : nx, *my = has_couple ? b.couple.y : ny,
+               *mz = has_couple ? b.couple.z : nz;
+  const double turning = has_couple ? 2.5 : 0.0;
   double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2], *stiffness = b.history[3];
   double *fn = b.normal_force, *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
   double *fx = b.force.x, *fy = b.force.y, *fz = b.force.z;
@@ -88,12 +69,16 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
     c.nx = nx[q], c.ny = ny[q], c.nz = nz[q];
     c.vx = vx[q], c.vy = vy[q], c.vz = vz[q];
     c.ux = ux[q], c.uy = uy[q], c.uz = uz[q];
+    c.mx = mx[q], c.my = my[q], c.mz = mz[q];
     c.mass = mass[q];
+    c.inverse_mass = inverse_i[q] + inverse_j[q];
+    c.turning = turning * (inverse_i[q] * rj[q] - inverse_j[q] * ri[q]) / (ri[q] * rj[q]);
     c.sx = sx[q], c.sy = sy[q], c.sz = sz[q];
     c.contact_radius = contact_radius[q - first];
     c.keep = keep[q - first];
     c.vn = vn[q - first];
     formula::load(k, time_step, c);
+    formula::add_rolling(time_step, c);
     sx[q] = c.sx, sy[q] = c.sy, sz[q] = c.sz;
     fx[q] = c.fx, fy[q] = c.fy, fz[q] = c.fz;
     dx[q - first] = c.dx, dy[q - first] = c.dy, dz[q - first] = c.dz;
@@ -105,7 +90,6 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
     edge[q - first] = formula::distance_from_edge(time_step, c);
     least = std::min(least, edge[q - first]);
   }
-  if (b.couple.x != nullptr) add_rolling(b, first, end, total);
   // Few contacts begin or end, and only those are looked at.
   for (std::size_t q = first; least < 0.0 && q < end; ++q) {
     if (!(edge[q - first] < 0.0)) continue;

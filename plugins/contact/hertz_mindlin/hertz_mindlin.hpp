@@ -59,6 +59,7 @@ inline double half_period(double young, double radius, double mass, double overl
 /// relative to j at the contact point, u their displacement since the last look [m]. SI.
 struct Contact {
   double overlap, nx, ny, nz, vx, vy, vz, ux, uy, uz, radius, mass;
+  double inverse_mass;      ///< [1/kg] 1 / m*
   double mx, my, mz;        ///< [N m] couple of the rolling spring on i a step ago
   double turning;           ///< [1/(kg m)] R_i/I_i - R_j/I_j
   double sx, sy, sz;        ///< [m] tangential displacement, in and out
@@ -198,7 +199,7 @@ class ForceToTheEnd {
   // divider has nothing else to do.
   const double shared = std::sqrt(c.contact_radius * c.mass);
   const double excess =
-      std::min(k_phase_excess * time_step * time_step * kt / c.mass, k_max_phase_excess);
+      std::min(k_phase_excess * time_step * time_step * kt * c.inverse_mass, k_max_phase_excess);
   const double gn = k.damping * k.normal_root * shared;
   const double gt =
       std::min(k.damping * k.tangential_root * shared * (1.0 - k_damper_lead * excess),

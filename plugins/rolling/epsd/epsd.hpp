@@ -100,7 +100,7 @@ struct Rolling {
   c.sx = cut * sx;
   c.sy = cut * sy;
   c.sz = cut * sz;
-  const double inertia = 3.5 / sides.inverse_inertia;
+  const double inertia = 3.5 * sides.inertia;
   const double above_before = std::sqrt(spring.squared_before) - limit - reach * fall;
   const double damped = part_below_limit(above_before, size - limit, c.last_stiffness < 0.0);
   const double damping = damped * 2.0 * k.damping_ratio * std::sqrt(inertia * kr);

@@ -12,7 +12,7 @@ STUDIES = ("fluidised_bed_cells", "fluidised_bed_restitution", "fluidised_bed_dr
 
 
 def plans():
-    return [Plan("fluidised_bed_150mm_5", "thesis/fluidised_bed_150mm.yaml", SOFT),
+    return [*(Plan(f"fluidised_bed_{height}mm_5", f"thesis/fluidised_bed_{height}mm.yaml", SOFT) for height in (150, 200, 250)),
             Plan("fluidised_bed_ramp_5", "thesis/fluidised_bed_ramp.yaml", SOFT),
             *(plan for study in STUDIES for plan in study_points.plans(study, SOFT))]
 

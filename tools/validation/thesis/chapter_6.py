@@ -1,5 +1,7 @@
 """Chapter 6: the stream off the belt and its dust; the thesis shows signs, and hardly a number."""
 
+import math
+
 import study_points
 from cases import belt
 from thesis.row import Row, Sign
@@ -15,7 +17,7 @@ def rows(runs):
     for study, extra in (*((s, belt.TO_ONE_SECOND) for s in belt.STUDIES), ("dust_4s", None)):
         for expectation in study_points.read(study).get("expect", []):
             out.append(sign(runs, study, expectation, extra))
-    return [flight(runs), *edges(runs), low_pressure(runs), *out]
+    return [flight(runs), *edges(runs), low_pressure(runs), *carried_back(runs), *out, *loose_dust(runs)]
 
 
 def flight(runs):
@@ -48,6 +50,30 @@ def low_pressure(runs):
     ours = run.figure("suction", "place_1/pressure_over_density")
     return Row("6.5", "lowest pressure beside the stream, p/rho [m2/s2]", (run.name,), ours, thesis=-0.4,
                why="a model's value, of a picture", differs=FEED)
+
+
+def carried_back(runs):
+    """The thesis's pictures show 10 um grains that follow the returning belt, and no coarse ones among them."""
+    run, out = base_of(runs), []
+    for size in (10, 300, 420, 500, 600):
+        ours = run.figure("carry_back", f"class_{size}_um/grams_per_tonne")
+        out.append(Row("6.5", f"{size} um grains that ride back below the belt [g/t]", (run.name,), ours,
+                       why="the thesis shows a picture: dust alone", differs=FEED))
+    return out
+
+
+def loose_dust(runs):
+    """Dust off the stream after 4 s, each case as the mean over its seeds."""
+    text, found = study_points.read("dust_4s"), {}
+    for label, plan in study_points.labelled("dust_4s"):
+        found.setdefault(label.split(" ")[0], []).append(runs[plan.name])
+    out = []
+    for case, seeds in found.items():
+        each = [study_points.measured(run, text["measure"]["loose"]) for run in seeds]
+        ours = None if None in each else (1e6 * sum(v for v, _ in each) / len(each), 1e6 * math.sqrt(sum(e * e for _, e in each)) / len(each))
+        out.append(Row("Figures 6.28 to 6.33", f"dust off the stream, {case} [mg/m3]", tuple(run.name for run in seeds[:1]) + (f"... {len(seeds)} runs",),
+                       ours, why="the thesis shows pictures", differs=FEED))
+    return out
 
 
 def sign(runs, study, expectation, extra):

@@ -1,0 +1,50 @@
+"""What a page says already of runs whose folders are gone: with --keep it stays as it is."""
+
+import re
+
+EMPTY_CELLS = ("not run", "not run to its end", "open")
+
+
+def cells_of(line):
+    return [cell.strip() for cell in line.strip().strip("|").split(" | ")]
+
+
+class Kept:
+    """The lines of a page that was written before; none of a page that is not there, or without --keep."""
+
+    def __init__(self, file=None):
+        lines = file.read_text().splitlines() if file and file.exists() else []
+        begin = lines.index("## Runs") if "## Runs" in lines else len(lines)
+        self._rows = [line for line in lines[:begin] if line.startswith("| ")]
+        self._runs = {cells_of(line)[0]: line for line in lines[begin:] if line.startswith("| ") and "`" in line}
+        self._commands = [line for line in lines[begin:] if line.startswith("engine run ")]
+        self._bits = [line for line in lines if line.startswith("<!-- bits ")]
+        date = re.search(r"Runs of commit .*?(\d{4}-\d\d-\d\d)", "\n".join(lines[:6]))
+        self._date = date.group(1) if date else None
+
+    def row(self, *begin, among=""):
+        """The cells of the row that begins like this and holds a figure, or None; `among`: a cell that it has besides."""
+        for line in self._rows:
+            cells = cells_of(line)
+            if cells[:len(begin)] == list(begin) and (not among or among in cells) and not any(cell in EMPTY_CELLS for cell in cells):
+                return cells
+        return None
+
+    def has(self, run):
+        return run.name in self._runs
+
+    def run_lines(self, besides):
+        """Lines of the table of runs but of those named, which are there anew."""
+        return [line for name, line in self._runs.items() if name not in besides]
+
+    def commands(self):
+        return self._commands
+
+    def bits(self):
+        return self._bits if self._runs else []
+
+    def commits(self):
+        return {cells_of(line)[1] for line in self._runs.values()}
+
+    def dates(self):
+        return {self._date} if self._date and self._runs else set()
