@@ -393,15 +393,13 @@ std::unique_ptr<sdk::Model> make(std::unique_ptr<sdk::Model> model, GuardReport 
   return std::make_unique<Guard>(std::move(model), std::move(faults));
 }
 
-std::unique_ptr<sdk::Model> make_sensor(std::unique_ptr<sdk::Model> model, GuardReport faults) {
-  const bool sees_dust = dynamic_cast<sdk::DustObserver*>(model.get()) != nullptr;
-  return sees_dust ? make<DustSensor>(std::move(model), std::move(faults))
-                   : make<Sensor>(std::move(model), std::move(faults));
-}
-
 }  // namespace
 
 std::unique_ptr<sdk::Model> guarded(std::unique_ptr<sdk::Model> model, const Entry& entry) {
+  if (entry.info.kind == sdk::Sensor::k_kind &&
+      dynamic_cast<sdk::DustObserver*>(model.get()) != nullptr) {
+    return make<DustSensor>(std::move(model), GuardReport(entry));
+  }
   using Make = std::unique_ptr<sdk::Model> (*)(std::unique_ptr<sdk::Model>, GuardReport);
   static const std::pair<const char*, Make> makers[] = {
       {sdk::ContactLaw::k_kind, make<Contact>},
@@ -415,7 +413,7 @@ std::unique_ptr<sdk::Model> guarded(std::unique_ptr<sdk::Model> model, const Ent
       {sdk::LiberationLaw::k_kind, make<Liberation>},
       {sdk::Emitter::k_kind, make<Emitter>},
       {sdk::Motion::k_kind, make<Motion>},
-      {sdk::Sensor::k_kind, make_sensor}};
+      {sdk::Sensor::k_kind, make<Sensor>}};
   const auto found = std::find_if(std::begin(makers), std::end(makers),
                                   [&](const auto& m) { return entry.info.kind == m.first; });
   if (found == std::end(makers)) return model;
