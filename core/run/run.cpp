@@ -318,6 +318,11 @@ class Run {
     if (simulation_.has_changing_walls()) frame.bodies = &simulation_.models().bodies;
     frame.fields = FieldsOfSensors(simulation_).take();
     if (const DustStage* dust = simulation_.dust_stage()) frame.fluid_fields = dust->fields();
+    if (const LiberationStage* liberation = simulation_.liberation()) {
+      for (io::SensorField& field : liberation->fields()) {
+        frame.fluid_fields.push_back(std::move(field));
+      }
+    }
     results_->append(frame);
     ++frames_;
     if (live_) publish_live();
