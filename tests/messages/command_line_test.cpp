@@ -251,7 +251,8 @@ TEST_CASE("check shall draw the set-up") {
   CHECK(data["setting"]["emitters"][0]["name"] == "feed");
   CHECK(data["setting"]["sensors"][0]["name"] == "stream");
   CHECK(data["setting"]["sides"][2]["material"] == "glass");
-  CHECK(data["check"]["grains"].get<double>() > 0.0);
+  CHECK(data["check"]["grains"].is_number());
+  CHECK(data["check"]["smallest_step_s"].get<double>() > 0.0);
   CHECK(engine("check " + k_scenario + " -o /not/there.html").status == 2);
   const Outcome picture = engine("check " + k_scenario + " -o setup.svg");
   CHECK(picture.status == 2);
