@@ -59,19 +59,12 @@ class Level {
   /// Writes the places from `first` on whose balls overlap `ball`, each once, and returns how many.
   std::size_t near(const Ball& ball, std::size_t first, std::vector<std::int32_t>& found) const {
     std::size_t count = 0;
-    // Where no cell is reached round a periodic side from both ends, the table knows which image of
-    // its grains is the nearest.
-    bool is_image_known = !is_periodic_ || is_table_;
-    const auto look = [&](std::size_t begin, std::size_t end, const sdk::Vec3& shift) {
+    const auto look = [&](std::size_t begin, std::size_t end) {
       begin = std::max(begin, first);
       if (begin >= end) return;
       if (found.size() < count + (end - begin)) found.resize(2 * (count + (end - begin)));
-      if (is_image_known) {
-        const Ball image{ball.x - shift.x, ball.y - shift.y, ball.z - shift.z, ball.reach};
-        count = take_close<false>(image, begin, end, found.data(), count);
-      } else {
-        count = take_close<true>(ball, begin, end, found.data(), count);
-      }
+      count = is_periodic_ ? take_close<true>(ball, begin, end, found.data(), count)
+                           : take_close<false>(ball, begin, end, found.data(), count);
     };
     const double half = ball.reach + reach_;
     const double centre[3] = {ball.x, ball.y, ball.z};
@@ -82,7 +75,6 @@ class Level {
       high[d] = cell(centre[d] + half, d);
       if (wraps_[d]) {
         // Once round a periodic side is enough.
-        is_image_known = is_image_known && high[d] - low[d] < count_[d];
         high[d] = std::min(high[d], low[d] + count_[d] - 1);
       } else {
         low[d] = std::max<std::int64_t>(low[d], 0);
@@ -186,18 +178,15 @@ class Level {
     const std::int64_t first = wrap(low[0], 0);
     const std::int64_t last = first + high[0] - low[0];
     for (std::int64_t z = low[2]; z <= high[2]; ++z) {
-      const std::int64_t layer = wrap(z, 2);
       for (std::int64_t y = low[1]; y <= high[1]; ++y) {
-        const std::int64_t row = wrap(y, 1);
-        const std::int64_t begin = index(0, row, layer);
-        const auto cells = [&](std::int64_t from, std::int64_t to, std::int64_t unwrapped) {
+        const std::int64_t row = index(0, wrap(y, 1), wrap(z, 2));
+        const auto cells = [&](std::int64_t from, std::int64_t to) {
           if (from > to) return;
-          look(static_cast<std::size_t>(begin_[static_cast<std::size_t>(begin + from)]),
-               static_cast<std::size_t>(begin_[static_cast<std::size_t>(begin + to) + 1]),
-               {image(unwrapped, from, 0), image(y, row, 1), image(z, layer, 2)});
+          look(static_cast<std::size_t>(begin_[static_cast<std::size_t>(row + from)]),
+               static_cast<std::size_t>(begin_[static_cast<std::size_t>(row + to) + 1]));
         };
-        cells(first, std::min(last, count_[0] - 1), low[0]);
-        if (last >= count_[0]) cells(0, last - count_[0], low[0] + count_[0] - first);
+        cells(first, std::min(last, count_[0] - 1));
+        if (last >= count_[0]) cells(0, last - count_[0]);
       }
     }
   }
@@ -207,7 +196,7 @@ class Level {
     double boxes = 1.0;
     for (int d = 0; d < 3; ++d) boxes *= static_cast<double>(high[d] - low[d] + 1);
     if (boxes > static_cast<double>(slots_.size())) {
-      look(0, rows_.size(), {});
+      look(0, rows_.size());
       return;
     }
     for (std::int64_t z = low[2]; z <= high[2]; ++z) {
@@ -215,7 +204,7 @@ class Level {
         for (std::int64_t x = low[0]; x <= high[0]; ++x) {
           const Slot& s = slots_[slot(key(wrap(x, 0), wrap(y, 1), wrap(z, 2)))];
           const auto begin = static_cast<std::size_t>(s.begin);
-          look(begin, begin + static_cast<std::size_t>(s.count), {});
+          look(begin, begin + static_cast<std::size_t>(s.count));
         }
       }
     }
@@ -245,10 +234,6 @@ class Level {
   }
   [[nodiscard]] std::int64_t wrap(std::int64_t c, int d) const {
     return wraps_[d] ? base::wrapped_cell(c, count_[d]) : c;
-  }
-  /// How far [m] cell c is from the one it wraps to: a number of periods.
-  [[nodiscard]] double image(std::int64_t c, std::int64_t wrapped, int d) const {
-    return c == wrapped ? 0.0 : c < wrapped ? -period_[d] : period_[d];
   }
   [[nodiscard]] std::int64_t index(std::int64_t x, std::int64_t y, std::int64_t z) const {
     return (z * count_[1] + y) * count_[0] + x;
