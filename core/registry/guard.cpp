@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "registry/guard.hpp"
 
+#include "dust/sdk/airborne_dust.hpp"
 #include "registry/guard_report.hpp"
 
 #include <algorithm>
@@ -347,7 +348,7 @@ class Motion final : public Guarded<sdk::Motion> {
 };
 
 /// Figures may be "no number yet": only what a sensor throws is looked after.
-class Sensor final : public Guarded<sdk::Sensor> {
+class Sensor : public Guarded<sdk::Sensor> {
  public:
   using Guarded::Guarded;
   void observe(const sdk::WorldView& world) override {
@@ -377,6 +378,16 @@ class Sensor final : public Guarded<sdk::Sensor> {
   }
 };
 
+/// A sensor that looks at airborne dust too.
+class DustSensor final : public Sensor, public sdk::DustObserver {
+ public:
+  using Sensor::Sensor;
+  void observe_dust(const sdk::WorldView& world, const sdk::DustColumns& dust) override {
+    faults().call("observe_dust", "a look at the dust",
+                  [&] { dynamic_cast<sdk::DustObserver&>(model()).observe_dust(world, dust); });
+  }
+};
+
 template <class Guard>
 std::unique_ptr<sdk::Model> make(std::unique_ptr<sdk::Model> model, GuardReport faults) {
   return std::make_unique<Guard>(std::move(model), std::move(faults));
@@ -385,6 +396,10 @@ std::unique_ptr<sdk::Model> make(std::unique_ptr<sdk::Model> model, GuardReport 
 }  // namespace
 
 std::unique_ptr<sdk::Model> guarded(std::unique_ptr<sdk::Model> model, const Entry& entry) {
+  if (entry.info.kind == sdk::Sensor::k_kind &&
+      dynamic_cast<sdk::DustObserver*>(model.get()) != nullptr) {
+    return make<DustSensor>(std::move(model), GuardReport(entry));
+  }
   using Make = std::unique_ptr<sdk::Model> (*)(std::unique_ptr<sdk::Model>, GuardReport);
   static const std::pair<const char*, Make> makers[] = {
       {sdk::ContactLaw::k_kind, make<Contact>},

@@ -155,6 +155,7 @@ json frames_json(const std::filesystem::path& folder, RunText& run, Highlights& 
   data["space"] = space_of(source, box);
   data["air"] = air_of(source);
   data["dust_map"] = look_for_dust(source, view, run.dust, highlights);
+  data["release_map"] = release_map_of(source);
   const double load = number_at(object_at(run.summary, "mass_kg"), "emitted").value_or(0.0);
   if (!view.is_empty()) {
     highlights.partings =

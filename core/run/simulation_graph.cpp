@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dust/sdk/airborne_dust.hpp"
 #include "run/run_checks.hpp"
 #include "run/simulation.hpp"
 
@@ -205,14 +206,27 @@ void Simulation::add_last_nodes() {
 void Simulation::add_sensor_nodes() {
   std::vector<std::string> reads{"grain.columns"};
   if (fluid_) reads.push_back("fluid.columns");
+  const auto as_observer = [this](std::size_t n) {
+    return dust_ ? dynamic_cast<sdk::DustObserver*>(models_.sensors[n].get()) : nullptr;
+  };
+  bool wants_dust = false;
+  for (std::size_t n = 0; n < models_.sensors.size(); ++n) wants_dust |= as_observer(n) != nullptr;
+  if (wants_dust) {
+    step_graph_.add({"publish_dust", {"dust.concentration"}, {"dust.columns"}, [this] {
+                       dust_->take_columns();
+                     }});
+    reads.push_back("dust.columns");
+  }
   for (std::size_t n = 0; n < models_.sensors.size(); ++n) {
     const std::string& name = setup_.sensors[n].name;
-    step_graph_.add({"sensor " + name, reads, {"sensor." + name}, [this, n] {
-                       sdk::WorldView view = world();
-                       // The clock moves on after the graph: sensors see the end of this step.
-                       view.time += setup_.time.fluid_step;
-                       models_.sensors[n]->observe(view);
-                     }});
+    step_graph_.add(
+        {"sensor " + name, reads, {"sensor." + name}, [this, n, observer = as_observer(n)] {
+           sdk::WorldView view = world();
+           // The clock moves on after the graph: sensors see the end of this step.
+           view.time += setup_.time.fluid_step;
+           models_.sensors[n]->observe(view);
+           if (observer != nullptr) observer->observe_dust(view, dust_->columns());
+         }});
   }
 }
 

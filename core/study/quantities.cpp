@@ -87,6 +87,8 @@ constexpr Named k_of_emitter[] = {
 /// Of each way that dust has out of the air; in mg per kg of the material that was brought in.
 constexpr Named k_of_outflow[] = {
     {"kg", "kg"},
+    {"kg_per_h", "kg/h"},
+    {"g_per_tonne", "g/t"},
     {"inhalable_kg", "kg"},
     {"thoracic_kg", "kg"},
     {"respirable_kg", "kg"},

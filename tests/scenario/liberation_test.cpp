@@ -173,6 +173,42 @@ TEST_CASE("what comes off shall be the same on any threads and after a resume") 
   }
 }
 
+TEST_CASE("wind shall take dust off as its shear over the threshold asks for") {
+  const TemporaryFolder folder;
+  const auto blow = [&](const std::string& speed) {
+    return run(DUST_SOURCE "/tests/scenario/grain_in_wind.yaml", folder / speed,
+               {"--set", "domain.boundaries.left.air.speed=" + speed + " m/s", "--set",
+                "fluid.initial_velocity=[" + speed + ", 0, 0 m/s]"});
+  };
+  // Friction velocity of a drag coefficient of 0.44, spread over the sphere; its threshold after
+  // Shao and Lu; eq. (14), (15) of docs/theory/dust.md.
+  const auto expected = [](double speed, double diameter) {
+    const double u2 = 0.44 * speed * speed / 8.0;
+    const double threshold2 = 0.0123 * (3000.0 / 1.2 * 9.81 * diameter + 3e-4 / (1.2 * diameter));
+    const double flux = 1e-3 * 1.2 / 9.81 * std::pow(u2, 1.5) * (1.0 - threshold2 / u2);
+    const double area = std::numbers::pi * 6e-3 * 6e-3;
+    return -std::expm1(-flux * area * 20e-3 / (k_load * k_mass));
+  };
+  double before = 0.0;
+  for (const std::string speed : {"3", "5", "9"}) {
+    CAPTURE(speed);
+    const json summary = blow(speed);
+    check_balances(summary);
+    const json& classes = summary["dust_on_grains"]["classes"];
+    const double fine = classes["10_um"]["set_free_kg"].get<double>();
+    const double coarse = classes["40_um"]["set_free_kg"].get<double>();
+    CHECK(fine ==
+          doctest::Approx(0.004 * k_mass * expected(std::stod(speed), 10e-6)).epsilon(0.002));
+    CHECK(coarse ==
+          doctest::Approx(0.006 * k_mass * expected(std::stod(speed), 40e-6)).epsilon(0.002));
+    CHECK(classes["40_um"]["set_free_by"]["wind"]["kg"].get<double>() ==
+          doctest::Approx(coarse).epsilon(1e-12));
+    CHECK(coarse > before);
+    before = coarse;
+  }
+  CHECK(set_free(blow("1")) == 0.0);
+}
+
 TEST_CASE("a run that starts from another shall go on with its loads and with what came off") {
   const TemporaryFolder folder;
   const json first = run(k_bounce, folder / "first", {"--set", "time.end=6 ms"});

@@ -2,6 +2,7 @@
 // A line of contents below the first screen, and the pictures of a run under one clock.
 (() => {
   Dust.draw_extraction();
+  Dust.draw_liberation();
   if (Dust.draw_setting) Dust.draw_setting();
   const header = document.querySelector('main > header');
   const links = [...document.querySelectorAll('main > section[id]:not([hidden])')].flatMap((section) => {

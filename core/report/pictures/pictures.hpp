@@ -94,6 +94,11 @@ struct DustOrigin {
 [[nodiscard]] std::vector<DustOrigin> dust_origins(const H5Source& source, const View& view,
                                                    const DustSizes& dust, double side);
 
+/// Where dust came off the grains until the last frame, by kind of cause, summed over the depth,
+/// logarithmic in 8 bits, one scale for all: {"nx", "nz", "x0", "z0", "dx", "dz" [m], "decades",
+/// "most" [kg per cm2], "kinds": [{"title", "kg", "data"}]}; null where none did.
+[[nodiscard]] nlohmann::json release_map_of(const H5Source& source);
+
 /// A map for the page, logarithmic in 8 bits; null without dust.
 [[nodiscard]] nlohmann::json dust_map_json(const DustMap& map, const View& view);
 

@@ -29,7 +29,8 @@ DustStage::DustStage(const scenario::Setup& setup, const scenario::DustFieldSpec
       flow_(fluid.grid()),
       field_(fluid.grid(), spec, {setup.fluid->density, setup.fluid->viscosity}, setup.gravity,
              {openings_.size(), 6 + setup.bodies.size()}),
-      weight_(fluid.grid(), setup.gravity, spec.density, setup.fluid->density) {
+      weight_(fluid.grid(), setup.gravity, spec.density, setup.fluid->density),
+      table_(fluid.grid(), spec.diameters, spec.density) {
   for (const double d : spec.diameters) names_.push_back(sdk::name_of(d * 1e6) + "_um");
   mark_hoods();
 }
@@ -228,24 +229,26 @@ std::int32_t DustStage::cell_with_gas(sdk::Vec3 place) const {
   return best;
 }
 
-std::vector<io::SensorField> DustStage::fields() const {
+io::SensorField DustStage::cell_field(const std::string& name, const char* unit,
+                                      const fluid::CellField& values) const {
   const Grid& grid = fluid_.grid();
-  std::vector<io::SensorField> fields;
-  const auto add = [&](const std::string& name, const char* unit, const fluid::CellField& values) {
-    io::SensorField field{"", name, unit, grid.shape(), {}};
-    for (int k = 0; k < grid.count[2]; ++k) {
-      for (int j = 0; j < grid.count[1]; ++j) {
-        const auto row = values.begin() + grid.index(0, j, k);
-        field.values.insert(field.values.end(), row, row + grid.count[0]);
-      }
+  io::SensorField field{"", name, unit, grid.shape(), {}};
+  for (int k = 0; k < grid.count[2]; ++k) {
+    for (int j = 0; j < grid.count[1]; ++j) {
+      const auto row = values.begin() + grid.index(0, j, k);
+      field.values.insert(field.values.end(), row, row + grid.count[0]);
     }
-    fields.push_back(std::move(field));
-  };
-  fluid::CellField concentration(grid.size, 0.0);
+  }
+  return field;
+}
+
+std::vector<io::SensorField> DustStage::fields() const {
+  std::vector<io::SensorField> fields;
+  fluid::CellField concentration(fluid_.grid().size, 0.0);
   for (std::size_t n = 0; n < names_.size(); ++n) {
     field_.concentration(n, flow_.volume_after, concentration);
-    add("dust_" + names_[n], "kg/m3", concentration);
-    add("dust_deposit_" + names_[n], "kg", field_.deposit(n));
+    fields.push_back(cell_field("dust_" + names_[n], "kg/m3", concentration));
+    fields.push_back(cell_field("dust_deposit_" + names_[n], "kg", field_.deposit(n)));
   }
   return fields;
 }

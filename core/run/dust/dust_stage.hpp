@@ -6,6 +6,7 @@
 #include "io/run_files.hpp"
 #include "particles/openings/opening.hpp"
 #include "run/archive_parts.hpp"
+#include "run/dust/dust_table.hpp"
 #include "run/fluid_stage.hpp"
 #include "run/models.hpp"
 #include "setup/setup.hpp"
@@ -47,6 +48,15 @@ class DustStage {
   [[nodiscard]] std::vector<std::string> surface_names() const;
   [[nodiscard]] const std::vector<particles::Opening>& openings() const { return openings_; }
 
+  /// Copies what sensors of dust see.
+  void take_columns() { table_.take(field_, flow_.volume_after); }
+  [[nodiscard]] sdk::DustColumns columns() const { return table_.columns(); }
+
+  /// Of the grid, with its ghosts: the length of a CellField.
+  [[nodiscard]] std::size_t cells() const { return fluid_.grid().size; }
+  /// Numbers of cells for a frame.
+  [[nodiscard]] io::SensorField cell_field(const std::string& name, const char* unit,
+                                           const fluid::CellField& values) const;
   /// Concentrations and deposits for a frame.
   [[nodiscard]] std::vector<io::SensorField> fields() const;
 
@@ -71,6 +81,7 @@ class DustStage {
       pieces_;  ///< with the areas of surfaces, whatever is before them
   airborne::DustField field_;
   airborne::DustWeight weight_;
+  DustTable table_;
   std::vector<std::string> names_;
 };
 

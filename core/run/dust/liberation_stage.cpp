@@ -50,6 +50,9 @@ LiberationStage::LiberationStage(const scenario::Setup& setup,
                  .gravity = norm(setup.gravity)});
   causes_ = causes_of(particles_.wall_names(), law_->needs_wind());
   set_free_.resize(causes_.size() * classes_);
+  for (std::size_t kind = 0; kind < k_kinds; ++kind) {
+    if (kind != by_wind || law_->needs_wind()) places_[kind].assign(dust_.cells(), 0.0);
+  }
 }
 
 /// Rows that contacts have done something to, and what.
@@ -169,25 +172,28 @@ void LiberationStage::give_to_air(bool is_by_wind) {
       dust_.release(n, cell, weight * mass);
       if (is_by_wind) {
         set_free_[(causes_.size() - 1) * classes_ + n] += weight * mass;
+        places_[by_wind][static_cast<std::size_t>(cell)] += weight * mass;
       } else {
-        share_by_cause(row, n, weight * mass);
+        share_by_cause(row, n, weight * mass, static_cast<std::size_t>(cell));
       }
     }
   }
 }
 
 /// Shared among the causes as they have dissipated energy.
-void LiberationStage::share_by_cause(std::size_t row, std::size_t n, double mass) {
+void LiberationStage::share_by_cause(std::size_t row, std::size_t n, double mass,
+                                     std::size_t cell) {
   const particles::ContactWork& work = particles_.contact_work();
   const double whole = work.sum(row).sum();
-  if (!(whole > 0.0)) {
-    set_free_[n] += mass;
-    return;
-  }
-  set_free_[n] += mass * (work.with_particles(row).sum() / whole);
+  const double by_others = whole > 0.0 ? work.with_particles(row).sum() / whole : 1.0;
+  set_free_[n] += mass * by_others;
+  places_[by_grains][cell] += mass * by_others;
+  if (!(whole > 0.0)) return;
   for (std::size_t wall = 0; wall < work.walls(); ++wall) {
     const double share = work.with_wall(row, wall).sum() / whole;
-    if (share > 0.0) set_free_[(1 + wall) * classes_ + n] += mass * share;
+    if (!(share > 0.0)) continue;
+    set_free_[(1 + wall) * classes_ + n] += mass * share;
+    places_[by_walls][cell] += mass * share;
   }
 }
 
@@ -220,6 +226,16 @@ void LiberationStage::advance(double step) {
   give_to_air(true);
 }
 
+std::vector<io::SensorField> LiberationStage::fields() const {
+  std::vector<io::SensorField> fields;
+  for (std::size_t kind = 0; kind < k_kinds; ++kind) {
+    if (places_[kind].empty()) continue;
+    fields.push_back(dust_.cell_field(std::string("dust_set_free_by_") + k_kind_names[kind], "kg",
+                                      places_[kind]));
+  }
+  return fields;
+}
+
 void LiberationStage::transfer_from(sdk::ArchiveReader& archive,
                                     const std::vector<std::string>& walls) {
   const auto numbers = archive.numbers("set_free");
@@ -232,6 +248,11 @@ void LiberationStage::transfer_from(sdk::ArchiveReader& archive,
     set_free_[at * classes_ + n % classes_] += numbers[2 * n + 2];
     set_free_[at * classes_ + n % classes_] += numbers[2 * n + 3];
   }
+  const bool had_wind = numbers.size() == 2 + 2 * classes_ * causes.size();
+  for (std::size_t kind = 0; kind < k_kinds; ++kind) {
+    if (places_[kind].empty() || (kind == by_wind && !had_wind)) continue;
+    places_[kind] = archive.numbers(k_kind_names[kind]);
+  }
 }
 
 void LiberationStage::add_parts(SaveParts& parts) const {
@@ -239,6 +260,9 @@ void LiberationStage::add_parts(SaveParts& parts) const {
     std::vector<double> numbers{kept_back_.sum(), kept_back_.lost()};
     for (const base::ExactSum& s : set_free_) numbers.insert(numbers.end(), {s.sum(), s.lost()});
     a.numbers("set_free", numbers);
+    for (std::size_t kind = 0; kind < k_kinds; ++kind) {
+      if (!places_[kind].empty()) a.numbers(k_kind_names[kind], places_[kind]);
+    }
   });
 }
 
@@ -248,6 +272,9 @@ void LiberationStage::add_parts(LoadParts& parts) {
     kept_back_ = {numbers.at(0), numbers.at(1)};
     for (std::size_t n = 0; n < set_free_.size(); ++n) {
       set_free_[n] = {numbers.at(2 + 2 * n), numbers.at(3 + 2 * n)};
+    }
+    for (std::size_t kind = 0; kind < k_kinds; ++kind) {
+      if (!places_[kind].empty()) places_[kind] = a.numbers(k_kind_names[kind]);
     }
   });
 }

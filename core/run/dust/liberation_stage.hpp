@@ -3,12 +3,14 @@
 
 #include "base/exact_sum.hpp"
 #include "dust/sdk/liberation_law.hpp"
+#include "io/run_files.hpp"
 #include "particles/dem.hpp"
 #include "run/archive_parts.hpp"
 #include "run/dust/dust_stage.hpp"
 #include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -36,6 +38,9 @@ class LiberationStage {
   [[nodiscard]] double set_free(std::size_t cause, std::size_t n) const {
     return set_free_[cause * classes_ + n].value();
   }
+  /// Where dust came off: [kg] of all classes in each cell since the start, one field for each kind
+  /// of cause, for a frame.
+  [[nodiscard]] std::vector<io::SensorField> fields() const;
   /// [kg] that would have come off where there was no gas to take it, and stayed on its grain.
   [[nodiscard]] double kept_back() const { return kept_back_.value(); }
 
@@ -47,6 +52,10 @@ class LiberationStage {
 
  private:
   using Column = std::vector<double>;
+  /// Kinds of causes, as the map by place tells them apart.
+  enum Kind : std::size_t { by_grains, by_walls, by_wind };
+  static constexpr std::size_t k_kinds = 3;
+  static constexpr std::array<const char*, k_kinds> k_kind_names = {"grains", "walls", "wind"};
 
   void find_impacts();
   void find_wind();
@@ -56,7 +65,7 @@ class LiberationStage {
   /// `ask`(first, grains) for all calls, several at once.
   void ask_law(double step, const std::function<void(std::size_t, const sdk::DustyGrains&)>& ask);
   void give_to_air(bool is_by_wind);
-  void share_by_cause(std::size_t row, std::size_t n, double mass);
+  void share_by_cause(std::size_t row, std::size_t n, double mass, std::size_t cell);
   [[noreturn]] void fail(std::size_t row, double released, double load) const;
 
   particles::Dem& particles_;
@@ -72,7 +81,8 @@ class LiberationStage {
     Column normal, tangential, acceleration;  ///< of impacts
     Column slip, shear, void_fraction;        ///< of wind
   } columns_;
-  std::vector<base::ExactSum> set_free_;  ///< by cause and class
+  std::vector<base::ExactSum> set_free_;          ///< by cause and class
+  std::array<fluid::CellField, k_kinds> places_;  ///< [kg] by kind of cause; empty: not asked for
   base::ExactSum kept_back_;
 };
 

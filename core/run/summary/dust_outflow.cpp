@@ -13,7 +13,8 @@ using Json = nlohmann::ordered_json;
 /// `mass_of`(balance) is what of a class went this way [kg].
 Json sampled(const Simulation& s,
              const std::function<double(const airborne::DustBalance&)>& mass_of) {
-  constexpr double k_milligrams = 1e6;  // per kg
+  constexpr double k_milligrams = 1e6;  // per kg, as grams per tonne
+  constexpr double k_hour = 3600.0;     // s
   const airborne::DustField& field = s.dust_stage()->field();
   double whole = 0.0;
   report::DustFractions parts;
@@ -27,11 +28,13 @@ Json sampled(const Simulation& s,
     parts.respirable += mass * shares.respirable;
   }
   Json j = {{"kg", whole},
+            {"kg_per_h", s.time() > 0.0 ? k_hour * whole / s.time() : 0.0},
             {"inhalable_kg", parts.inhalable},
             {"thoracic_kg", parts.thoracic},
             {"respirable_kg", parts.respirable}};
   const double material = s.dem().balance().mass_emitted;
   if (material > 0.0) {
+    j["g_per_tonne"] = k_milligrams * whole / material;
     j["inhalable_mg_per_kg"] = k_milligrams * parts.inhalable / material;
     j["thoracic_mg_per_kg"] = k_milligrams * parts.thoracic / material;
     j["respirable_mg_per_kg"] = k_milligrams * parts.respirable / material;
