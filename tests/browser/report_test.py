@@ -290,6 +290,8 @@ def main():
             check_document(folder / name, source)
             check(("speed-picture" in document.ids) == (name != "grains"), f"{name}: the map of the air")
             check("<canvas" in text, f"{name}: no picture was drawn")
+            # The side view and the maps of speed and pressure give their numbers.
+            check(text.count(' as CSV"') >= (1 if name == "grains" else 2), f"{name}: pictures without their numbers")
             check(("line dashed" in text) == (name == "settling"), f"{name}: curves from elsewhere")
             print(f"{name}: {(folder / name / 'report.html').stat().st_size} bytes, {len(document.rows)} rows")
         check_space(chromium, folder / "transfer" / "report.html", False)

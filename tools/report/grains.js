@@ -133,6 +133,24 @@ Dust.grains = (() => {
   const picture = new Dust.Picture(document.getElementById('grains-picture'),
     'Side view of the grains and the air', paint);
   picture.make_zoomable();
+  const speed_of = (k) => (current.speed[k] / 255) ** 2 * set.speed;  // stored by its root
+  // The grain under the pointer, the front one of several: the last that is drawn there.
+  const read = (x, z) => {
+    const least = 2.5 / picture.place.scale;
+    for (let k = current ? current.n - 1 : -1; k >= 0; --k) {
+      const reach = Math.max(set.classes[current.size[k]] / 2, least);
+      if (Math.abs(x_of(current, k) - x) > reach || Math.abs(z_of(current, k) - z) > reach) continue;
+      return `${Dust.place_xz({x, z})}: grain of ${Dust.quantity(set.classes[current.size[k]], -1, 'm')}` + (set.speed > 0 ? `, ${Dust.number(speed_of(k), 2)}\u202fm/s` : '');
+    }
+    return '';
+  };
+  const table = () => {
+    const all = Array.from({length: current ? current.n : 0}, (_, k) => k), {unit, factor} = Dust.places;
+    const place = (of) => all.map((k) => +(of(current, k) / factor).toPrecision(6));
+    return [[`x, ${unit}`, `z, ${unit}`, 'diameter, µm', 'speed, m/s'], [place(x_of), place(z_of), all.map((k) => +(1e6 * set.classes[current.size[k]]).toPrecision(6)),
+      all.map((k) => +speed_of(k).toPrecision(3))]];
+  };
+  picture.tell(read, table);
   document.getElementById('grains-whole').addEventListener('click', () => picture.whole_view());
 
   const legend = document.getElementById('grains-legend');
