@@ -2,6 +2,7 @@
 #include "preflight/cost.hpp"
 
 #include "dust/sdk/sphere.hpp"
+#include "preflight/journey.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,25 +10,60 @@
 namespace dust::preflight {
 namespace {
 
-// What things cost on one core of an idle virtual machine of 2026, by `tools/validation/run
-// estimates` and long runs. What this machine does differently is learnt: LearntCosts.
+// What things cost on one core of a virtual machine of 2026, by `tools/validation/run estimates`
+// and long runs. What this machine does differently is learnt: LearntCosts.
+
 constexpr double k_bytes_base = 3.5e7;
-constexpr double k_bytes_per_grain = 1500.0;  // with lists, and copies on their way to disk
-constexpr double k_bytes_per_cell = 900.0;
-constexpr double k_disk_base = 4e5;               // report, series, scenario, summary
-constexpr double k_frame_bytes_per_grain = 48.0;  // packed
-constexpr double k_frame_bytes_per_cell = 11.0;
-constexpr double k_checkpoint_bytes_per_grain = 480.0;
+constexpr double k_bytes_fluid = 1.5e7;               // more, where there is a fluid
+constexpr double k_bytes_per_grain = 1500.0;          // with lists, and copies for the disk
+constexpr double k_bytes_per_coupled_grain = 1500.0;  // more, in a fluid
+constexpr double k_bytes_per_cell = 1150.0;
+constexpr double k_disk_base = 1e6;  // report, series, scenario, summary
+constexpr double k_disk_fluid = 2.5e6;
+constexpr double k_frame_bytes_per_grain = 52.0;  // packed
+constexpr double k_frame_bytes_per_cell = 22.0;
+constexpr double k_checkpoint_bytes_per_grain = 600.0;
 constexpr double k_checkpoint_bytes_per_cell = 120.0;
-// Steps of grains per second: those at rest in a bed have six contacts each, those of a stream meet
-// now and then, those of a gas fly from one collision to the next.
-constexpr double k_bed_steps_per_second = 1.1e7;
-constexpr double k_stream_steps_per_second = 1.6e7;
-constexpr double k_gas_steps_per_second = 7e7;
-constexpr double k_cell_steps_per_second = 2.2e6;
-constexpr double k_start_seconds = 0.3;
-constexpr double k_seconds_per_fluid_step = 7e-4;  // however few the cells
-constexpr double k_seconds_per_frame = 0.03;
+
+// [s] A step of a grain: in a bed it has contacts all the time; before a filling has settled it
+// meets others now and then; in a gas it flies from one collision to the next. In a stream its
+// lists are made anew often, and what it touches costs more the deeper the load is.
+constexpr double k_bed_step = 7.5e-8;
+constexpr double k_settling_step = 2e-8;
+constexpr double k_gas_step = 7.5e-9;
+constexpr double k_thin_stream_step = 1.8e-8;
+constexpr double k_stream_contact = 1.6e-7;
+/// A step at a finer rate, over one at the coarse rate of the same stream: clusters are found and
+/// their rows are fetched for it.
+constexpr double k_fine_factor = 4.5;
+constexpr double k_contacts_in_bed = 2.5;
+/// Layers up to which a load lies side by side, for it spreads.
+constexpr double k_single_layer = 1.2;
+/// Share of its fine steps that a lone grain makes, and that one in a deep load makes: without
+/// others in reach it flies at the coarse rate.
+constexpr double k_fine_isolated = 0.045;
+constexpr double k_fine_carried = 0.65;
+
+constexpr double k_cell_step = 4.2e-7;
+constexpr double k_fluid_step = 7e-4;  // however few the cells
+
+// Exchange with the fluid, in each of its steps: the void fraction, and each refresh of the drag.
+constexpr double k_voidage_per_grain = 2.5e-6;    // of a stream: its cells and faces are anywhere
+constexpr double k_voidage_per_bed_grain = 4e-7;  // of a bed: those of its neighbours
+constexpr double k_voidage_per_cell = 2e-8;
+constexpr double k_refresh_per_grain = 2.2e-7;
+/// Refreshes follow the time in which a grain of 2 m/s crosses 1/8 of a cell (RefreshSchedule).
+constexpr double k_refresh_way = 1.0 / 16.0;  // [s/m] times the edge of a cell
+constexpr double k_max_refreshes = 64.0;
+
+constexpr double k_frame = 0.01;
+constexpr double k_frame_per_grain = 3e-6;
+constexpr double k_frame_per_cell = 9e-7;
+// Snapshots, checks and sensors, in each fluid step.
+constexpr double k_rest = 5e-5;
+constexpr double k_rest_per_grain = 2.5e-7;
+constexpr double k_rest_per_cell = 1e-8;
+
 // Solid share above which grains without gravity press on each other.
 constexpr double k_dense = 0.2;
 
@@ -51,20 +87,149 @@ double settling_time(const Setup& setup, double volume) {
   return std::sqrt(std::min(filled, height) / g);
 }
 
-/// Seconds for `grains` that are there at once: with gravity they fall, then lie.
-double seconds_at_once(const Setup& setup, double grains, double volume, const Derived& derived) {
-  const double end = setup.time.end;
-  const double steps = grains * end / derived.steps.coarse_step;
-  if (derived.steps.classes.empty()) return steps / k_bed_steps_per_second;
+/// [s] Mean cost of a step of grains that are there at once: with gravity they fall, then lie.
+double step_at_once(const Setup& setup, const EmissionNumbers& e) {
   if (norm(setup.gravity) > 0.0) {
-    const double share = std::min(1.0, settling_time(setup, volume) / end);
-    return steps * (share / k_gas_steps_per_second + (1.0 - share) / k_bed_steps_per_second);
+    const double time = std::max(setup.time.end - e.begin, setup.time.fluid_step);
+    const double share = std::min(1.0, settling_time(setup, e.volume_at_once) / time);
+    return share * k_settling_step + (1.0 - share) * k_bed_step;
   }
   const sdk::Vec3 size = setup.domain.max - setup.domain.min;
-  const double most = grains * sdk::sphere_volume(derived.steps.classes.back().diameter);
-  const double solids = volume > 0.0 ? volume : most;
-  return steps / (solids > k_dense * size.x * size.y * size.z ? k_bed_steps_per_second
-                                                              : k_gas_steps_per_second);
+  const double most =
+      e.sizes.empty() ? 0.0 : e.at_once * sdk::sphere_volume(e.sizes.back().diameter);
+  const double solids = e.volume_at_once > 0.0 ? e.volume_at_once : most;
+  return solids > k_dense * size.x * size.y * size.z ? k_bed_step : k_gas_step;
+}
+
+/// Sub-steps per coarse step that the fine ones of these grains make when all are near others,
+/// per grain of any size.
+double fine_sub_steps(const particles::TimeSteps& steps, const EmissionNumbers& e) {
+  double sum = 0.0;
+  for (const EmissionNumbers::Size& size : e.sizes) {
+    for (const particles::ClassStep& c : steps.classes) {
+      if (c.diameter != size.diameter || steps.is_coarse(c)) continue;
+      sum += size.share * steps.coarse_step / steps.step_of(c);
+      break;
+    }
+  }
+  return sum;
+}
+
+/// Grains of all emitters over the run.
+struct GrainTotals {
+  double most = 0.0;            ///< at a time
+  double seconds = 0.0;         ///< [s] integral of their number
+  double stream_seconds = 0.0;  ///< [s] of that, of streams
+  double layers = 0.0;          ///< of all that is carried, for it is carried together
+};
+
+/// Adds the work of an emitter's grains.
+void add_grains(const Setup& setup, const EmissionNumbers& e, Derived& derived,
+                GrainTotals& totals) {
+  const double end = setup.time.end;
+  double stream_seconds = 0.0;
+  for (const double stay : e.stays) {
+    const double each = e.computed_per_second / static_cast<double>(e.stays.size());
+    stream_seconds += each * grain_seconds(e.begin, e.end, stay, end);
+    totals.most += each * most_grains(e.begin, e.end, stay, end);
+  }
+  const double filled_seconds = e.at_once * std::max(0.0, end - e.begin);
+  totals.most += e.at_once;
+  totals.seconds += stream_seconds + filled_seconds;
+  totals.stream_seconds += stream_seconds;
+  const particles::TimeSteps& steps = derived.steps;
+  if (steps.classes.empty() || !(steps.coarse_step > 0.0)) return;
+  const auto add = [&](double seconds, double each, double near_share) {
+    const double count = seconds / steps.coarse_step;
+    derived.cost.terms[CostTerm::grains].amount += count;
+    derived.cost.terms[CostTerm::grains].seconds += count * each;
+    const double fine = count * near_share * fine_sub_steps(steps, e);
+    derived.cost.terms[CostTerm::fine_grains].amount += fine;
+    derived.cost.terms[CostTerm::fine_grains].seconds += fine * k_fine_factor * each;
+  };
+  add(filled_seconds, step_at_once(setup, e), 1.0);
+  const double contacts = e.carried_share * carried_contacts(totals.layers);
+  const double crowding = std::min(1.0, contacts);
+  add(stream_seconds, k_thin_stream_step + k_stream_contact * contacts,
+      k_fine_isolated + (k_fine_carried - k_fine_isolated) * crowding);
+}
+
+/// Streams that are carried lie on each other: their thickness over the mean size of all.
+double all_layers(const Derived& derived) {
+  double thickness = 0.0;
+  double cubes = 0.0;
+  double grains = 0.0;
+  for (const EmissionNumbers& e : derived.emissions) {
+    if (!(e.thickness > 0.0)) continue;
+    thickness += e.thickness;
+    for (const EmissionNumbers::Size& size : e.sizes) {
+      // That of the mean volume: rare dust among sand makes no layers.
+      cubes += e.computed_per_second * size.share * std::pow(size.diameter, 3);
+      grains += e.computed_per_second * size.share;
+    }
+  }
+  return cubes > 0.0 ? thickness / std::cbrt(cubes / grains) : 0.0;
+}
+
+/// [s] that grains of streams stay, on average over those that leave in time.
+double mean_stay(const Setup& setup, const Derived& derived) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const EmissionNumbers& e : derived.emissions) {
+    for (const double stay : e.stays) {
+      const double each = e.computed_per_second / static_cast<double>(e.stays.size());
+      sum += each * std::min(stay, setup.time.end);
+      count += each;
+    }
+  }
+  return count > 0.0 ? sum / count : setup.time.end;
+}
+
+double cell_count(const Setup& setup) {
+  if (!setup.fluid) return 0.0;
+  const auto& n = setup.fluid->cells;
+  return static_cast<double>(n[0]) * n[1] * n[2];
+}
+
+void add_fluid(const Setup& setup, const GrainTotals& totals, Derived& derived) {
+  const double cells = cell_count(setup);
+  if (!(cells > 0.0)) return;
+  const double step = setup.time.fluid_step;
+  const double courant = derived.air_speed * step / derived.smallest_spacing;
+  const double sub_steps =
+      setup.time.end / step * std::max(1.0, courant / setup.fluid->largest_cfl);
+  derived.cost.terms[CostTerm::fluid] = {sub_steps * cells,
+                                         sub_steps * (k_fluid_step + cells * k_cell_step)};
+  if (derived.emissions.empty()) return;
+  const double refreshes = std::clamp(std::ceil(step / (k_refresh_way * derived.smallest_spacing)),
+                                      1.0, k_max_refreshes);
+  const double bed_seconds = totals.seconds - totals.stream_seconds;
+  const double steps = setup.time.end / step;
+  derived.cost.terms[CostTerm::exchange] = {
+      totals.seconds / step + steps * cells,
+      (totals.stream_seconds * k_voidage_per_grain + bed_seconds * k_voidage_per_bed_grain +
+       totals.seconds * refreshes * k_refresh_per_grain) /
+              step +
+          steps * cells * k_voidage_per_cell};
+}
+
+void add_records(const Setup& setup, const GrainTotals& totals, Derived& derived) {
+  const double cells = cell_count(setup);
+  const double mean = totals.seconds / setup.time.end;
+  const double frames = std::floor(setup.time.end / setup.time.output_every + 1e-9) + 1.0;
+  derived.cost.terms[CostTerm::output] = {
+      frames, frames * (k_frame + mean * k_frame_per_grain + cells * k_frame_per_cell)};
+  const double steps = setup.time.end / setup.time.fluid_step;
+  derived.cost.terms[CostTerm::rest] = {
+      steps, steps * (k_rest + mean * k_rest_per_grain + cells * k_rest_per_cell)};
+  derived.cost.memory_bytes =
+      k_bytes_base + k_bytes_per_grain * totals.most + k_bytes_per_cell * cells;
+  derived.cost.disk_bytes =
+      k_disk_base + frames * (k_frame_bytes_per_grain * mean + k_frame_bytes_per_cell * cells) +
+      k_checkpoint_bytes_per_grain * totals.most + k_checkpoint_bytes_per_cell * cells;
+  if (!(cells > 0.0)) return;
+  derived.cost.memory_bytes += k_bytes_fluid + k_bytes_per_coupled_grain * totals.most;
+  derived.cost.disk_bytes += k_disk_fluid;
 }
 
 }  // namespace
@@ -74,47 +239,18 @@ double fall_height(const scenario::Setup& setup) {
   return g > 0.0 ? extent_along(setup.domain, setup.gravity / g) : 0.0;
 }
 
-void estimate_cost(const scenario::Setup& setup, double body_speed, Derived& derived) {
-  const double g = norm(setup.gravity);
-  const sdk::Vec3 size = setup.domain.max - setup.domain.min;
-  const double speed = body_speed > 0.0 ? body_speed : derived.expected_speed;
-  if (g > 0.0) derived.residence_time += std::sqrt(2.0 * fall_height(setup) / g);
-  if (speed > 0.0) derived.residence_time += std::max({size.x, size.y, size.z}) / speed;
-  derived.residence_time = std::min(derived.residence_time, setup.time.end);
-  double at_once = 0.0;
-  double volume_at_once = 0.0;
-  double flowing = 0.0;
-  for (const EmissionNumbers& e : derived.emissions) {
-    at_once += e.at_once;
-    volume_at_once += e.volume_at_once;
-    flowing += e.computed_per_second * derived.residence_time;
-  }
-  derived.grains_in_domain = at_once + flowing;
-  // The domain fills during one residence time.
-  const double mean_flowing = flowing * (1.0 - 0.5 * derived.residence_time / setup.time.end);
-  double cells = 0.0;
-  if (setup.fluid) {
-    const auto& n = setup.fluid->cells;
-    cells = static_cast<double>(n[0]) * n[1] * n[2];
-  }
-  derived.memory_bytes =
-      k_bytes_base + k_bytes_per_grain * derived.grains_in_domain + k_bytes_per_cell * cells;
-  const double frames = std::floor(setup.time.end / setup.time.output_every + 1e-9) + 1.0;
-  derived.disk_bytes =
-      k_disk_base +
-      frames *
-          (k_frame_bytes_per_grain * (at_once + mean_flowing) + k_frame_bytes_per_cell * cells) +
-      k_checkpoint_bytes_per_grain * derived.grains_in_domain + k_checkpoint_bytes_per_cell * cells;
-  const double fluid_steps =
-      setup.time.end / setup.time.fluid_step * std::max(1.0, std::ceil(derived.courant_number));
-  derived.core_seconds = k_start_seconds + cells * fluid_steps / k_cell_steps_per_second +
-                         frames * k_seconds_per_frame;
-  if (cells > 0.0) derived.core_seconds += fluid_steps * k_seconds_per_fluid_step;
-  if (derived.steps.coarse_step > 0.0) {
-    derived.core_seconds +=
-        seconds_at_once(setup, at_once, volume_at_once, derived) +
-        setup.time.end / derived.steps.coarse_step * mean_flowing / k_stream_steps_per_second;
-  }
+double carried_contacts(double layers) {
+  return layers > k_single_layer ? k_contacts_in_bed * (1.0 - k_single_layer / layers) : 0.0;
+}
+
+void estimate_cost(const Setup& setup, Derived& derived) {
+  GrainTotals totals;
+  totals.layers = all_layers(derived);
+  for (const EmissionNumbers& e : derived.emissions) add_grains(setup, e, derived, totals);
+  derived.residence_time = mean_stay(setup, derived);
+  derived.grains_in_domain = totals.most;
+  add_fluid(setup, totals, derived);
+  add_records(setup, totals, derived);
 }
 
 }  // namespace dust::preflight

@@ -9,8 +9,13 @@ namespace dust::preflight {
 double fall_height(const scenario::Setup& setup);
 
 /// Estimates grains, memory, disk and time of a run from its steps, emissions and cells; writes the
-/// last fields of `derived`. Meant to be within a factor of two for the shipped scenarios
-/// (docs/validation/estimates.md). `body_speed` [m/s] carries the grains out, where there is one.
-void estimate_cost(const scenario::Setup& setup, double body_speed, Derived& derived);
+/// last fields of `derived`. Time is told term by term, each an amount of work at a rate of its
+/// own, so that what runs on this machine took can correct each (LearntCosts). Held against runs in
+/// docs/validation/estimates.md.
+void estimate_cost(const scenario::Setup& setup, Derived& derived);
+
+/// Contacts between grains, per grain, in a load of `layers` diameters of solids that a body
+/// carries: none where they lie side by side, those of a bed in a deep load.
+double carried_contacts(double layers);
 
 }  // namespace dust::preflight

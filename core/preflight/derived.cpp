@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/derived.hpp"
 
-#include "base/error.hpp"
 #include "base/text.hpp"
-#include "dust/sdk/random.hpp"
-#include "dust/sdk/sphere.hpp"
 #include "fluid/grid.hpp"
 #include "preflight/cost.hpp"
+#include "preflight/emissions.hpp"
 #include "preflight/particle_models.hpp"
 #include "resolved/marker_lattice.hpp"
 #include "scenario/text/units.hpp"
@@ -20,6 +18,9 @@ namespace {
 
 // Below this many steps a collision is missed or throws the grains apart.
 constexpr double k_min_steps_per_collision = 3.0;
+
+// Share of a free fall's speed that falling grains give the fluid.
+constexpr double k_dragged_share = 0.5;
 
 using Emitters = std::vector<std::unique_ptr<sdk::Emitter>>;
 using scenario::EmitterSpec;
@@ -53,84 +54,13 @@ double expected_speed(const Setup& setup, const Emitters& emitters, double body_
   return std::sqrt(speed * speed + 2.0 * norm(setup.gravity) * fall_height(setup));
 }
 
-/// [kg] of a grain on average; 0 where the emitter does not say which sizes come.
-double mean_mass(const sdk::EmitterRequest& request, double density) {
-  double mass = 0.0;
-  double all = 0.0;
-  for (const auto& share : request.shares) {
-    mass += share.number_fraction * density * sdk::sphere_volume(share.diameter);
-    all += share.number_fraction;
-  }
-  return all > 0.0 ? mass / all : 0.0;
-}
-
-/// Lets a fresh emitter propose the grains of a short time from `request.begin` on; `step` [s] at a
-/// time.
-void count_stream(const Setup& setup, const EmitterSpec& spec, double step,
-                  const sdk::EmitterRequest& request, sdk::Emitter& emitter,
-                  EmissionNumbers& numbers) {
-  constexpr int k_max_steps = 50;
-  constexpr std::size_t k_enough = 20000;
-  std::vector<sdk::InsertionRequest> requests;
-  const double end = std::min(setup.time.end, request.end);
-  double time = request.begin;
-  const double stop = std::min(end, time + k_max_steps * setup.time.fluid_step);
-  while (time < stop && requests.size() < k_enough) {
-    sdk::EmitterContext context;
-    context.begin = time;
-    context.end = time + step;
-    context.grain_density =
-        setup.materials[static_cast<std::size_t>(spec.material)].properties.density;
-    context.gravity = setup.gravity;
-    context.random = sdk::Random(setup.seed, sdk::stream_of(spec.name.c_str()));
-    try {
-      emitter.propose(context, requests);
-    } catch (const std::exception& e) {
-      throw base::UserError(scenario::place(spec.model.where) + ": error: " + spec.model.path +
-                            ": " + e.what());
-    }
-    time = context.end;
-  }
-  const double duration = time - request.begin;
-  if (!(duration > 0.0)) return;
-  if (!emitter.insertion_rule().waits) {
-    numbers.at_once = static_cast<double>(requests.size());
-    return;
-  }
-  for (const sdk::InsertionRequest& one : requests) numbers.real_per_second += one.weight;
-  numbers.real_per_second /= duration;
-  numbers.computed_per_second = static_cast<double>(requests.size()) / duration;
-}
-
-/// From what the emitter says of itself, where that is enough; else from what it proposes.
-EmissionNumbers count_grains(const Setup& setup, const EmitterSpec& spec, sdk::Emitter& emitter) {
-  // More grains per fluid step than any run can follow: counted by shares alone.
-  constexpr double k_too_many = 2e5;
-  constexpr double k_at_a_time = 5000.0;
-  EmissionNumbers numbers;
-  numbers.emitter = spec.name;
-  numbers.mass_flow = emitter.requested_mass_flow();
-  const auto request = emitter.request();
-  const double density =
-      setup.materials[static_cast<std::size_t>(spec.material)].properties.density;
-  const double mass = mean_mass(request, density);
-  if (!emitter.insertion_rule().waits &&
-      (request.count > 0 || (request.mass > 0.0 && mass > 0.0))) {
-    numbers.at_once =
-        request.count > 0 ? static_cast<double>(request.count) : std::round(request.mass / mass);
-    numbers.volume_at_once = numbers.at_once * mass / density;
-    return numbers;
-  }
-  const double per_second = mass > 0.0 ? request.mass_flow / mass : 0.0;
-  if (per_second * setup.time.fluid_step > k_too_many) {
-    numbers.real_per_second = per_second;
-    numbers.computed_per_second = per_second;
-    return numbers;
-  }
-  const double step = per_second > 0.0 ? std::min(setup.time.fluid_step, k_at_a_time / per_second)
-                                       : setup.time.fluid_step;
-  count_stream(setup, spec, step, request, emitter, numbers);
-  return numbers;
+/// [m/s] of the fluid where it is fast, for the number of its sub-steps.
+double air_speed(const Setup& setup, const Emitters& emitters, double body_speed) {
+  if (setup.time.expected_speed > 0.0) return setup.time.expected_speed;
+  double speed = body_speed;
+  for (const auto& emitter : emitters) speed = std::max(speed, emitter->largest_speed());
+  const double fall = emitters.empty() ? 0.0 : k_dragged_share * k_dragged_share;
+  return std::sqrt(speed * speed + fall * 2.0 * norm(setup.gravity) * fall_height(setup));
 }
 
 void derive_ratios(const Setup& setup, Derived& derived) {
@@ -202,11 +132,13 @@ Derived derive(const Setup& setup, const registry::Registry& registry) {
   derived.expected_speed = expected_speed(setup, models.emitters, body_speed);
   derived.steps = derive_steps(setup, models);
   for (std::size_t n = 0; n < models.emitters.size(); ++n) {
-    derived.emissions.push_back(count_grains(setup, setup.emitters[n], *models.emitters[n]));
+    derived.emissions.push_back(
+        count_grains(setup, models.bodies, setup.emitters[n], *models.emitters[n]));
   }
   derive_ratios(setup, derived);
   derive_resolved(setup, models, derived);
-  estimate_cost(setup, body_speed, derived);
+  derived.air_speed = air_speed(setup, models.emitters, body_speed);
+  estimate_cost(setup, derived);
   return derived;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "particles/time_steps.hpp"
+#include "preflight/emissions.hpp"
+#include "preflight/run_cost.hpp"
 #include "registry/registry.hpp"
 #include "scenario/diagnostics.hpp"
 #include "setup/setup.hpp"
@@ -10,16 +12,6 @@
 #include <vector>
 
 namespace dust::preflight {
-
-/// What an emitter sends.
-struct EmissionNumbers {
-  std::string emitter;
-  double mass_flow = 0.0;            ///< [kg/s] as asked for
-  double computed_per_second = 0.0;  ///< grains the engine follows
-  double real_per_second = 0.0;      ///< the same, counted with their weights
-  double at_once = 0.0;              ///< computed grains that come at one moment
-  double volume_at_once = 0.0;       ///< [m3] of them; 0 where their sizes are not known
-};
 
 /// Spheres that the grid resolves.
 struct ResolvedNumbers {
@@ -40,11 +32,10 @@ struct Derived {
   double diameter_over_spacing = 0.0;  ///< largest grain over smallest cell edge
   double width_over_diameter = 0.0;    ///< narrowest extent over largest grain
   double courant_number = 0.0;         ///< at the expected speed with the fluid's step
-  double residence_time = 0.0;         ///< [s] rough: fall plus transport through the domain
-  double grains_in_domain = 0.0;       ///< rough
-  double memory_bytes = 0.0;           ///< rough
-  double disk_bytes = 0.0;             ///< rough: frames and checkpoint
-  double core_seconds = 0.0;           ///< [s] rough: wall time on one core
+  double air_speed = 0.0;              ///< [m/s] rough: of the fluid where it is fast
+  double residence_time = 0.0;         ///< [s] rough: mean of the streams' grains
+  double grains_in_domain = 0.0;       ///< rough: at most
+  RunCost cost;                        ///< rough: on one processor, idle but for it
 };
 
 /// The steps that a run will take.

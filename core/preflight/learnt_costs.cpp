@@ -19,6 +19,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t k_max_runs = 200;
 /// Of one scenario: the newest, for the engine and the machine change.
 constexpr std::size_t k_recent = 5;
+/// [s] A term that took less says nothing of its rate.
+constexpr double k_enough = 0.5;
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -52,6 +54,41 @@ double chain_of_contacts() {
   return force.back();
 }
 
+/// A file's line of a run: for each term what was told and taken, amount and seconds; memory and
+/// disk alike; then its name.
+void write_numbers(const RunCost& cost, std::ostream& out) {
+  for (std::size_t n = 0; n < k_cost_terms; ++n) {
+    const Spent& term = cost.terms[n];
+    out << term.amount << ' ' << term.seconds << ' ';
+  }
+  out << cost.memory_bytes << ' ' << cost.disk_bytes << ' ';
+}
+
+bool read_numbers(std::istream& in, RunCost& cost) {
+  const auto read = [&in](double& value) {
+    return static_cast<bool>(in >> value) && std::isfinite(value) && value >= 0.0;
+  };
+  for (std::size_t n = 0; n < k_cost_terms; ++n) {
+    Spent& term = cost.terms[n];
+    if (!read(term.amount) || !read(term.seconds)) return false;
+  }
+  return read(cost.memory_bytes) && read(cost.disk_bytes);
+}
+
+/// Collects quotients; those of nothing by something are none.
+class Quotients {
+ public:
+  void add(double taken, double estimated) {
+    if (taken > 0.0 && estimated > 0.0) values_.push_back(taken / estimated);
+  }
+  [[nodiscard]] double middle(double otherwise) const {
+    return values_.empty() ? otherwise : median(values_);
+  }
+
+ private:
+  std::vector<double> values_;
+};
+
 }  // namespace
 
 fs::path LearntCosts::default_file() {
@@ -61,36 +98,80 @@ fs::path LearntCosts::default_file() {
   };
   fs::path cache = folder("XDG_CACHE_HOME");
   if (!cache.is_absolute()) cache = folder("HOME").is_absolute() ? folder("HOME") / ".cache" : "";
-  return cache.empty() ? fs::path() : cache / "dust" / "costs";
+  return cache.empty() ? fs::path() : cache / "dust" / "costs_by_term";
 }
 
-LearntCosts::LearntCosts(fs::path file) : file_(std::move(file)) {
+LearntCosts::LearntCosts(fs::path file, std::function<double()> slowness)
+    : file_(std::move(file)), slowness_(std::move(slowness)) {
   std::ifstream in(file_);
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);
     Run run;
-    if (!(words >> run.factor >> std::ws) || !std::getline(words, run.scenario)) continue;
-    if (std::isfinite(run.factor) && run.factor > 0.0) runs_.push_back(std::move(run));
+    if (!read_numbers(words, run.estimated) || !read_numbers(words, run.taken)) continue;
+    if (!std::getline(words >> std::ws, run.scenario) || !(run.taken.terms.seconds() > 0.0))
+      continue;
+    runs_.push_back(std::move(run));
   }
 }
 
-LearntCosts::Factor LearntCosts::factor_for(const std::string& scenario) const {
-  std::vector<double> same;
-  std::vector<double> all;
-  for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {
-    if (run->scenario == scenario && same.size() < k_recent) same.push_back(run->factor);
-    all.push_back(run->factor);
+LearntCosts::Expected LearntCosts::expect(const std::string& scenario,
+                                          const RunCost& estimated) const {
+  std::vector<const Run*> same;
+  for (auto run = runs_.rbegin(); run != runs_.rend() && same.size() < k_recent; ++run) {
+    if (run->scenario == scenario) same.push_back(&*run);
   }
-  if (!same.empty()) return {median(same), static_cast<int>(same.size()), true};
-  if (!all.empty()) return {median(all), static_cast<int>(all.size()), false};
-  return {measured_slowness(), 0, false};
+  return same.empty() ? from_others(estimated) : from_same(same, estimated);
 }
 
-void LearntCosts::add(const std::string& scenario, double estimated_seconds,
-                      double processor_seconds) {
-  if (!(estimated_seconds > 0.0 && processor_seconds > 0.0)) return;
-  runs_.push_back({scenario, processor_seconds / estimated_seconds});
-  if (file_.empty()) return;
+LearntCosts::Expected LearntCosts::from_same(const std::vector<const Run*>& runs,
+                                             const RunCost& estimated) {
+  Expected expected{estimated, static_cast<int>(runs.size()), true};
+  for (std::size_t n = 0; n < k_cost_terms; ++n) {
+    Quotients work;
+    Quotients time;
+    for (const Run* run : runs) {
+      work.add(run->taken.terms[n].amount, run->estimated.terms[n].amount);
+      time.add(run->taken.terms[n].seconds, run->estimated.terms[n].seconds);
+    }
+    expected.cost.terms[n].amount *= work.middle(1.0);
+    expected.cost.terms[n].seconds *= time.middle(1.0);
+  }
+  Quotients memory;
+  Quotients disk;
+  for (const Run* run : runs) {
+    memory.add(run->taken.memory_bytes, run->estimated.memory_bytes);
+    disk.add(run->taken.disk_bytes, run->estimated.disk_bytes);
+  }
+  expected.cost.memory_bytes *= memory.middle(1.0);
+  expected.cost.disk_bytes *= disk.middle(1.0);
+  return expected;
+}
+
+LearntCosts::Expected LearntCosts::from_others(const RunCost& estimated) const {
+  Expected expected{estimated, static_cast<int>(runs_.size()), false};
+  const double slowness = slowness_();
+  for (std::size_t n = 0; n < k_cost_terms; ++n) {
+    // The measurement counts as one run: a single one of another kind says little.
+    Quotients rate;
+    rate.add(slowness, 1.0);
+    for (const Run& run : runs_) {
+      const Spent& said = run.estimated.terms[n];
+      const Spent& was = run.taken.terms[n];
+      if (was.seconds < k_enough || !(said.amount > 0.0 && was.amount > 0.0)) continue;
+      rate.add(was.seconds / was.amount, said.seconds / said.amount);
+    }
+    expected.cost.terms[n].seconds *= rate.middle(slowness);
+  }
+  return expected;
+}
+
+void LearntCosts::add(const std::string& scenario, const RunCost& estimated, const RunCost& taken) {
+  if (!(estimated.terms.seconds() > 0.0 && taken.terms.seconds() > 0.0)) return;
+  runs_.push_back({scenario, estimated, taken});
+  if (!file_.empty()) write();
+}
+
+void LearntCosts::write() const {
   std::error_code ignored;
   fs::create_directories(file_.parent_path(), ignored);
   const fs::path part = file_.string() + ".part";
@@ -98,7 +179,9 @@ void LearntCosts::add(const std::string& scenario, double estimated_seconds,
     std::ofstream out(part);
     const std::size_t first = runs_.size() > k_max_runs ? runs_.size() - k_max_runs : 0;
     for (std::size_t n = first; n < runs_.size(); ++n) {
-      out << runs_[n].factor << ' ' << runs_[n].scenario << '\n';
+      write_numbers(runs_[n].estimated, out);
+      write_numbers(runs_[n].taken, out);
+      out << runs_[n].scenario << '\n';
     }
     out.close();
     if (!out) return;
@@ -108,10 +191,10 @@ void LearntCosts::add(const std::string& scenario, double estimated_seconds,
 
 double measured_slowness() {
   // Of the machine that cost.cpp's constants belong to, idle.
-  constexpr double k_there = 0.0052;
+  constexpr double k_there = 0.0045;
   double least = std::numeric_limits<double>::infinity();
   double sum = 0.0;
-  for (int trial = 0; trial < 3; ++trial) {
+  for (int trial = 0; trial < 8; ++trial) {
     const double begin = processor_seconds();
     sum += chain_of_contacts();
     least = std::min(least, processor_seconds() - begin);

@@ -2,6 +2,7 @@
 #include "preflight/reader.hpp"
 
 #include "preflight/derived.hpp"
+#include "preflight/dust_check.hpp"
 #include "preflight/flow_check.hpp"
 #include "scenario/diagnostics.hpp"
 
@@ -32,6 +33,10 @@ Result checked(Result read, const registry::Registry& registry,
   if (!read) return read;
   check_sides(read->setup, registry, diagnostics);
   check_fixed_step(read->setup, registry, diagnostics);
+  if (!diagnostics.has_errors()) {
+    check_openings(read->setup, read->dust, registry, diagnostics);
+    check_drift(read->setup, read->dust, registry, diagnostics);
+  }
   if (diagnostics.has_errors()) return std::nullopt;
   read->warnings = diagnostics.warning_lines();
   return read;

@@ -22,7 +22,9 @@
 #include "run/summary/figure_json.hpp"
 #include "run/summary/series_row.hpp"
 #include "run/summary/summary.hpp"
+#include "run/summary/summary_audit.hpp"
 #include "run/summary/summary_emitters.hpp"
+#include "run/summary/taken_cost.hpp"
 #include "scenario/diagnostics.hpp"
 #include "scenario/text/units.hpp"
 
@@ -112,6 +114,7 @@ class Run {
     auto parts = simulation_.load_parts();
     parts.emplace_back("files", [this](sdk::ArchiveReader& a) {
       frames_ = a.integer("frames");
+      forces_.load(a);
       rows_ = a.integer("rows");
       times_.load(a);
     });
@@ -256,6 +259,7 @@ class Run {
       base::log_warning(text);
       facts_.warnings.push_back(text);
     }
+    for (const std::string& text : audit_lines(simulation_, forces_)) base::log_info(text);
     survives_writing([this] { write_summary(folder_, simulation_, facts_); });
     if (live_ != nullptr) live_->publish_progress(simulation_, facts_, Pace(simulation_.time()));
     base::log_info("status: " + facts_.status);
@@ -283,7 +287,8 @@ class Run {
       return;
     }
     const auto derived = preflight::derive(simulation_.setup(), *facts_.registry);
-    preflight::LearntCosts().add(simulation_.setup().name, derived.core_seconds, facts_.cpu_s);
+    preflight::LearntCosts().add(simulation_.setup().name, derived.cost,
+                                 taken_cost(simulation_, facts_, folder_));
   }
 
   void log_failure() const {
@@ -305,6 +310,7 @@ class Run {
   void write_frame() {
     const auto begin = Clock::now();
     io::Frame frame;
+    if (simulation_.steps_done() > 0) simulation_.sample_forces(forces_);
     frame.number = frames_;
     frame.time = simulation_.time();
     frame.world = simulation_.world();
@@ -345,6 +351,7 @@ class Run {
     auto parts = simulation_.save_parts();
     parts.emplace_back("files", [this](sdk::ArchiveWriter& a) {
       a.integer("frames", frames_);
+      forces_.save(a);
       a.integer("rows", series_->rows());
       times_.save(a, node_seconds(simulation_, times_.nodes_before()));
     });
@@ -361,6 +368,7 @@ class Run {
     facts_.node_s = node_seconds(simulation_, times_.nodes_before());
     facts_.output_s = times_.output();
     facts_.frames = frames_;
+    facts_.forces = forces_;
   }
 
   Simulation& simulation_;
@@ -371,6 +379,7 @@ class Run {
   Intervals steps_per_;
   std::int64_t frames_ = 0;
   std::int64_t rows_ = 0;
+  ForceShares forces_;
   RunTimes times_;
   std::unique_ptr<io::ResultsFile> results_;
   std::unique_ptr<io::SeriesFile> series_;

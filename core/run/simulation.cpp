@@ -101,6 +101,19 @@ void Simulation::step() {
   clock_.advance();
 }
 
+void Simulation::sample_forces(ForceShares& shares) {
+  ForceShares::Surroundings in{.gravity = setup_.gravity};
+  if (setup_.fluid && !coupling::takes_over_buoyancy(models_.fluid_forces)) {
+    in.fluid_density = setup_.fluid->density;
+  }
+  // Set III has the pressure in its drag.
+  if (coupling() != nullptr &&
+      fluid::momentum_set_of(setup_.fluid->momentum_set) != fluid::MomentumSet::three) {
+    in.fluid = world().fluid;
+  }
+  shares.sample(dem_->rows(), dem_->contacts(), in);
+}
+
 void Simulation::insert() {
   if (insertion_->run(time(), *dem_)) snapshots_.note_insertions(dem_->rows());
 }

@@ -4,6 +4,7 @@
 #include "graph/task_graph.hpp"
 #include "particles/dem.hpp"
 #include "run/archive_parts.hpp"
+#include "run/audit/force_shares.hpp"
 #include "run/dem_cycle.hpp"
 #include "run/dust/dust_stage.hpp"
 #include "run/dust/liberation_stage.hpp"
@@ -78,6 +79,8 @@ class Simulation {
 
   /// The world as of the last step; spans stay valid until the next.
   [[nodiscard]] sdk::WorldView world() const;
+  /// Adds the forces on the grains at the end of the last step.
+  void sample_forces(ForceShares& shares);
   /// Momentum exchange per cell for a frame.
   [[nodiscard]] const std::vector<float>& momentum_exchange();
   /// Whether bodies move or are taken away.

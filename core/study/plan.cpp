@@ -178,8 +178,8 @@ struct Planner::Impl {
     digest.update(read->resolved_yaml.data(), read->resolved_yaml.size());
     point.hash = digest.hex_digest().substr(0, k_hash_digits);
     const auto derived = preflight::derive(read->setup, registry);
-    point.core_seconds = derived.core_seconds;
-    point.memory_bytes = derived.memory_bytes;
+    point.core_seconds = derived.cost.terms.seconds();
+    point.memory_bytes = derived.cost.memory_bytes;
     measures.see(quantities_of(read->setup, read->dust, registry));
     return point;
   }

@@ -7,6 +7,8 @@ const N = require(path.resolve(process.argv[2], 'tools/report/numbers.js'));
 
 assert.strictEqual(N.value(0.128404, 0.00031), '0.12840\u00a0±\u00a00.00031');
 assert.strictEqual(N.value(128.404, 31), '128\u00a0±\u00a031');
+assert.strictEqual(N.value(422535, 72252), '423\u202f000\u00a0±\u00a072\u202f000');
+assert.strictEqual(N.value(36, 4.3e-10), '36\u00a0±\u00a04.3\u202f×\u202f10⁻¹⁰');
 assert.strictEqual(N.value(-2.5, -1), '−2.5');
 assert.strictEqual(N.value(3.1e7, 4.2e6), '(3.10\u00a0±\u00a00.42)\u202f×\u202f10⁷');
 assert.strictEqual(N.quantity(3.1e-7, 4.2e-8, 'kg/m3'), '310\u00a0±\u00a042\u202fµg/m³');

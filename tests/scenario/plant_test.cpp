@@ -9,6 +9,7 @@
 #include <fstream>
 #include <numbers>
 #include <string>
+#include <vector>
 
 using dust::test::engine;
 using dust::test::read_file;
@@ -25,6 +26,17 @@ double figure(const std::string& summary, const std::string& sensor, const std::
     REQUIRE(at != std::string::npos);
   }
   return std::stod(summary.substr(summary.find(':', at) + 1));
+}
+
+/// The number behind a chain of keys, each looked for behind the one before.
+double number_at(const std::string& summary, const std::vector<std::string>& keys) {
+  std::size_t at = 0;
+  for (const std::string& key : keys) {
+    at = summary.find("\"" + key + "\":", at);
+    REQUIRE(at != std::string::npos);
+    at += key.size() + 3;
+  }
+  return std::stod(summary.substr(summary.find_first_of("-0123456789", at)));
 }
 
 /// Three blocks (spheres that cannot roll) that slide down a plate at 30 degrees.
@@ -62,11 +74,11 @@ sensors:
 )";
 
 /// The scenario's run; its summary.json.
-std::string slide(const TemporaryFolder& folder) {
+std::string slide(const TemporaryFolder& folder, const std::string& end = "0.6 s") {
   const fs::path scenario = folder / "slide.yaml";
   std::ofstream(scenario) << k_slide;
   const fs::path out = folder / "out";
-  const auto run = engine({"run", scenario, "-o", out, "--quiet"});
+  const auto run = engine({"run", scenario, "-o", out, "--quiet", "--set", "time.end=" + end});
   INFO(run.err);
   REQUIRE(run.status == 0);
   return read_file(out / "summary.json");
@@ -85,6 +97,42 @@ TEST_CASE("blocks that slide down a liner shall wear it by Archard's law within 
   const double worn = 3 * 2e-3 * press * way / 4e9;
   CHECK(figure(summary, "liner", "volume") == doctest::Approx(worn).epsilon(0.01));
   CHECK(figure(summary, "liner", "normal_force") == doctest::Approx(3 * press).epsilon(0.01));
+}
+
+TEST_CASE("the forces on blocks that slide shall have the shares of a slope with friction") {
+  const TemporaryFolder folder;
+  const std::string summary = slide(folder);
+  const auto over_weight = [&](const char* kind) {
+    return number_at(summary, {"forces", "kinds", kind, "over_weight"});
+  };
+  const double cosine = 8.495709211 / 9.81;
+  CHECK(over_weight("gravity") == doctest::Approx(1.0));
+  CHECK(over_weight("contact_normal") == doctest::Approx(cosine).epsilon(0.01));
+  CHECK(over_weight("contact_tangential") == doctest::Approx(0.3 * cosine).epsilon(0.01));
+  CHECK(number_at(summary, {"forces", "kinds", "contact_tangential", "share"}) ==
+        doctest::Approx(0.3 * cosine / (1.0 + 1.3 * cosine)).epsilon(0.01));
+  CHECK(over_weight("drag") == 0.0);
+  CHECK(summary.find("contact hertz_mindlin (limestone, steel)") != std::string::npos);
+}
+
+TEST_CASE("blocks that have slid off the end shall be named with place and step") {
+  const TemporaryFolder folder;
+  const std::string summary = slide(folder, "1 s");
+  // Found at the end of the fluid step in which they pass 1 m.
+  const double time = std::sqrt(2.0 * 0.95 / k_acceleration);
+  CHECK(number_at(summary, {"grains_left", "right", "count"}) == 3.0);
+  CHECK(number_at(summary, {"grains_left", "right", "mass_kg"}) == doctest::Approx(3.0 * k_mass));
+  CHECK(number_at(summary, {"grains_left", "right", "place_m"}) ==
+        doctest::Approx(1.0).epsilon(0.01));
+  const double seen = number_at(summary, {"grains_left", "right", "time_s"});
+  CHECK(seen == doctest::Approx(time).epsilon(0.005));
+  CHECK(number_at(summary, {"grains_left", "right", "step"}) ==
+        doctest::Approx(seen / number_at(summary, {"dem_step_s"})).epsilon(1e-6));
+  CHECK(number_at(summary, {"particles", "left"}) == 3.0);
+  const std::string log = read_file(folder / "out" / "run.log");
+  CHECK(log.find("left by the side 'right': 3 grains") != std::string::npos);
+  CHECK(log.find("forces that act: gravity, contact hertz_mindlin (limestone, limestone)") !=
+        std::string::npos);
 }
 
 TEST_CASE("blocks that slide shall stay in a box as long as uniform acceleration says") {

@@ -11,6 +11,7 @@ import package  # noqa: F401
 
 import bed
 import cases
+import index
 import kept
 import page
 import runs
@@ -176,6 +177,13 @@ class Stale(unittest.TestCase):
         self.assertTrue(stale.why("# A page\n", ("box",), {"box": "1"}))
         self.assertTrue(stale.why("<!-- bits unknown -->", ("box",), {"box": "1"}))
 
+    def test_a_page_says_its_age_below_its_title(self):
+        line = stale.MARK + " (2026-01-01: bits have changed in box).*"
+        self.assertEqual(stale.said(stale.marked("# A page\n\nText.\n", line)), line)
+        self.assertEqual(stale.said("# A page\n\nText.\n"), "")
+        self.assertEqual(index.age_of(stale.marked("# A page\n\nText.\n" + self.TEXT, line)), "older")
+        self.assertEqual(index.age_of("# A page\n\nText.\n" + self.TEXT), "today's bits")
+        self.assertEqual(index.age_of("# A page\n\nText.\n"), "-")
 
     def test_a_page_is_marked_once_and_unmarked(self):
         once = stale.marked("# Title\n\ntext\n", stale.MARK + " (why).*")

@@ -142,6 +142,11 @@ Dust.air = (() => {
     picture.bodies(pen);
     paint_lowest(pen, picture);
   });
+  const grid = {nx: set.nx, nz: set.nz, x0: set.x0, z0: set.z0, dx: set.dx, dz: set.dz};
+  const pressure_of = (frame) => (k) => (!frame || frame.pressure[k] === 255 ? null : (frame.pressure[k] / 127 - 1) * set.pressure);
+  // The speed is stored by its root.
+  speed.tell_values('speed of the air', 'm/s', grid, (k) => (!current || current.speed[k] === 255 ? null : (current.speed[k] / 254) ** 2 * set.speed));
+  pressure.tell_values('pressure', 'Pa', grid, (k) => pressure_of(current)(k));
   checkbox.addEventListener('change', () => speed.draw());
   const mean_box = document.getElementById('air-mean');
   let last = 0;
@@ -188,5 +193,5 @@ Dust.air = (() => {
     };
     return {pixels: rgba, width: set.nx, height: set.nz, velocity: velocity_at};
   };
-  return {times: set.frames.map((frame) => frame.t), show, load, paint_speed, paint_pressure, pixels};
+  return {times: set.frames.map((frame) => frame.t), show, load, paint_speed, paint_pressure, pressure_of, grid, pixels};
 })();

@@ -62,6 +62,10 @@
       if (shown && shown.grains) paint_grains(pen, self);
     }, run);
     picture.make_zoomable();
+    if (air) {
+      const grid = {nx: air.nx, nz: air.nz, x0: air.x0, z0: air.z0, dx: air.dx, dz: air.dz};
+      picture.tell_values('speed of the air', 'm/s', grid, (k) => (!shown || !shown.air || shown.air[k] === 255 ? null : (shown.air[k] / 254) ** 2 * air.speed));
+    }
     return async (t) => {
       const next = {};
       if (grains) {

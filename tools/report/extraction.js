@@ -65,6 +65,7 @@ Dust.draw_extraction = () => {
       rings(pen, self);
     });
     Dust.legend_strip(document.getElementById('mean-pressure-legend'), Dust.pressure_colour, -1, -set.pressure, set.pressure, 'Pa');
+    picture.tell_values('mean pressure', 'Pa', Dust.air.grid, (k) => Dust.air.pressure_of(frame)(k));
     Dust.air.load('mean').then((mean) => {
       frame = mean;
       picture.draw();
@@ -99,6 +100,8 @@ Dust.draw_extraction = () => {
     squares(pen, self);
     rings(pen, self);
   });
+  picture.tell_values('share of the dust', '%/cm²', {nx: set.nx, nz: set.nz, x0: set.x0, z0: set.z0, dx: set.cell, dz: set.cell},
+    (k) => (codes && codes[k] ? 100 * set.most * 10 ** (set.decades * ((codes[k] - 1) / 253 - 1)) : null));
   Dust.unpack(set.data).then((bytes) => {
     codes = bytes;
     picture.draw();

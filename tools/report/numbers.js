@@ -27,11 +27,14 @@ const Numbers = (() => {
     if (!(error > 0) || !Number.isFinite(error) || !Number.isFinite(mean)) return number(mean);
     const place = Math.floor(Math.log10(error)) - 1;
     const size = Math.max(Math.abs(mean), error);
-    const fixed = (v, decimals) => signed(v.toFixed(Math.min(Math.max(decimals, 0), 8)));
+    // Digits that the error does not bear out are zeros.
+    const whole = (v) => count(Math.round(v / 10 ** place) * 10 ** place);
+    const fixed = (v, decimals) => (decimals < 0 ? whole(v) : signed(v.toFixed(Math.min(decimals, 8))));
     if (size >= 1e6 || size < 1e-3) {
       const exponent = Math.floor(Math.log10(size)), unit = 10 ** exponent;
       return `(${fixed(mean / unit, exponent - place)}${plus_minus}${fixed(error / unit, exponent - place)})${thin}×${thin}10${raised(exponent)}`;
     }
+    if (place < -8) return number(mean, 9) + plus_minus + number(error, 2);  // an error of rounding
     return fixed(mean, -place) + plus_minus + fixed(error, -place);
   };
 

@@ -9,7 +9,9 @@ Dust.Picture = class {
     this.canvas = Dust.el('canvas', {role: 'img', 'aria-label': label});
     const as_png = Dust.el('button', {type: 'button', 'aria-label': `${label} as PNG`}, 'PNG');
     as_png.addEventListener('click', () => Dust.save_canvas(Dust.file_name(label).slice(0, 60) + '.png', this.canvas));
-    parent.append(this.canvas, Dust.el('div', {class: 'downloads screen'}, as_png));
+    this.label = label;
+    this.downloads = Dust.el('div', {class: 'downloads screen'}, as_png);
+    parent.append(this.canvas, this.downloads);
     this.parent = parent;
     // Drawn in the next frame: a canvas that changes its own box must not do so inside the observer.
     new ResizeObserver(() => requestAnimationFrame(() => this.draw())).observe(parent);
@@ -106,6 +108,31 @@ Dust.Picture = class {
       }
       if (flat.length) pen.fill();
     }
+  }
+  // The values of a map under the pointer and as a file. `grid`: {nx, nz, x0, z0, dx, dz}; `value(k)` of its cell k, rows
+  // of x from below, or null where there is none.
+  tell_values(name, unit, grid, value) {
+    const reading = Dust.el('span', {class: 'reading'});
+    const as_csv = Dust.el('button', {type: 'button', 'aria-label': `${this.label} as CSV`}, 'CSV');
+    as_csv.addEventListener('click', () => {
+      const cells = Array.from({length: grid.nx * grid.nz}, (_, k) => k).filter((k) => value(k) !== null), places = Dust.places;
+      const place = (first, step) => (n) => +((first + (n + 0.5) * step) / places.factor).toPrecision(6);
+      const x = place(grid.x0, grid.dx), z = place(grid.z0, grid.dz);
+      Dust.save(Dust.file_name(this.label).slice(0, 60) + '.csv', new Blob([Dust.csv([`x, ${places.unit}`, `z, ${places.unit}`, `${name}, ${unit}`],
+        [cells.map((k) => x(k % grid.nx)), cells.map((k) => z(Math.floor(k / grid.nx))), cells.map((k) => +value(k).toPrecision(3))])], {type: 'text/csv'}));
+    });
+    this.downloads.prepend(as_csv);
+    this.downloads.append(reading);
+    this.canvas.addEventListener('pointermove', (event) => {
+      const box = this.canvas.getBoundingClientRect(), {left, top, inner, height, scale} = this.place;
+      const across = event.clientX - box.left - left, down = event.clientY - box.top - top;
+      const x = this.view[0] + across / scale, z = this.view[3] - down / scale;
+      const i = Math.floor((x - grid.x0) / grid.dx), j = Math.floor((z - grid.z0) / grid.dz);
+      const is_inside = across >= 0 && down >= 0 && across <= inner && down <= height && i >= 0 && j >= 0 && i < grid.nx && j < grid.nz;
+      const here = is_inside ? value(j * grid.nx + i) : null;
+      reading.textContent = here === null ? '' : `${Dust.place_xz({x, z})}: ${Dust.number(here, 2)}\u202f${unit}`;
+    });
+    this.canvas.addEventListener('pointerleave', () => { reading.textContent = ''; });
   }
   // Double-click or + looks closer, dragging or the arrow keys move; `whole_view` undoes both.
   make_zoomable() {

@@ -63,7 +63,7 @@
   };
 
   Dust.plot = (parent, {title = '', sensor = '', x_label: named_x = '', y_label = '', unit = '', note = '', lines, band = null, path = false, caption = null, beside = []}) => {
-    const x_label = Dust.words(named_x);
+    const x_label = named_x.replace(/^[^,]*/, Dust.words);  // the unit behind the comma stays
     const holder = Dust.el('div', {class: 'plot', role: 'img', 'aria-label': `${Dust.sentence(title)}: ${y_label} against ${x_label}`});
     const words = Dust.el('figcaption', {}, Dust.el('b', {}, Dust.sentence(title) + '.'), ...(caption || [
       ` ${capital(y_label)}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '', note ? ' ' + note.trim() : '']));

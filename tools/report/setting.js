@@ -49,7 +49,8 @@ Dust.sections.setting = ({setting, bodies}) => {
       pen.fillRect(x, z, width, height);
       pen.globalAlpha = 1;
       pen.strokeRect(x, z, width, height);
-      return [x + width / 2, z + height / 2];
+      // A number inside a small one would hide it.
+      return Math.max(width, height) < 40 ? [x + width + 11, z - 11] : [x + width / 2, z + height / 2];
     }
     const x = picture.x(thing.at[0]), z = picture.z(thing.at[2]);
     pen.setLineDash([]);

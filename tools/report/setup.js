@@ -27,6 +27,9 @@ Dust.sections.bodies = ({check}) => {
   return Dust.section('bodies', 'Gaps between bodies', Dust.table([{title: 'Bodies'}, {title: 'Gap', number: true}, {title: 'At x, y, z', number: true}], rows, {look: 'narrow', label: 'Gaps between bodies'}));
 };
 
+// setup.html#setting: the side view and its key and nothing else, for documents.
+if (location.hash === '#setting') document.documentElement.dataset.view = 'setting';
+
 Dust.show_setup = async () => {
   Dust.is_drawing = true;
   if (Dust.draw_setting) Dust.draw_setting();

@@ -3,6 +3,7 @@
 (() => {
   const {el, p, dash} = Dust;
   const with_unit = (name, unit) => (Dust.is_bare(unit) ? Dust.words(name) : `${Dust.words(name)}, ${unit}`);
+  const plain = (text) => String(text).replace(/_/g, ' ');  // names of cases; units stay
   const amount = (value, error, unit) => Dust.value(value, error === null ? -1 : error) + (Dust.is_bare(unit) ? '' : '\u202f' + unit);
 
   Dust.sections.header = ({facts}) => el('header', {}, ...Dust.heading({kind: 'Study', scenario: facts.name, status: facts.finished === facts.runs ? 'finished' : 'not finished', title: Dust.sentence(facts.name)}),
@@ -18,18 +19,30 @@
     const most = Math.max(...hoods.places.flatMap((place) => place.trials.map((t) => t.flow_m3_per_s)), 0);
     const [per_s, flow_unit] = most > 1 / 60 ? [3600, 'm³/h'] : [6e4, 'l/min'];
     const flow = (f) => Dust.number(per_s * f, 3) + '\u202f' + flow_unit;
+    const percent = (share) => Dust.number(100 * share, 2) + '\u202f%';
+    const at = (place) => (place.opening ? place.opening.map((v) => Dust.number(1e3 * v, 3)).join(', ') + '\u202fmm' : dash);
+    const best_of = (place) => Math.max(...place.trials.map((t) => (t.capture ? t.capture.value : 0)), 0);
+    const needed = (place) => (place.needed ? flow(place.needed.flow_m3_per_s) + (place.needed.is_bound ? ' or less' : '') : `not reached, at most ${percent(best_of(place))} captured`);
+    const reaching = hoods.places.filter((place) => place.needed).sort((a, b) => a.needed.flow_m3_per_s - b.needed.flow_m3_per_s)[0];
+    const answer = reaching ? [`${percent(hoods.wanted)} of the dust `, 'is captured by ', Dust.strong(needed(reaching)), ' at ', Dust.strong(Dust.words(reaching.name)), reaching.opening ? `, opening at ${at(reaching)}.` : '.']
+      : [`No hood that was tried captures ${percent(hoods.wanted)} of the dust.`];
+    const n = (title) => ({title, number: true});
+    const places = Dust.table([{title: 'Place'}, {title: 'Middle of the opening, x, y, z'}, n(`Smallest flow for ${percent(hoods.wanted)}`)], hoods.places.map((place) => [Dust.words(place.name), at(place), needed(place)]), {look: 'narrow', label: 'Places'});
+
     const cell = (v, factor = 1) => (v === null ? dash : Dust.value(factor * v.value, v.error === null ? -1 : factor * v.error));
-    const rows = [...(hoods.plain ? [['plain', dash, dash, cell(hoods.plain), dash]] : []), ...hoods.places.flatMap((place) => place.trials.map((t) => [Dust.words(place.name), flow(t.flow_m3_per_s),
-      cell(t.drawn), cell(t.escapes), cell(t.is_few && t.capture ? {value: t.capture.value, error: null} : t.capture, 100) + (t.is_few ? ' (few grains)' : '')]))];
+    const capture = (t) => (t.capture === null ? dash : t.is_few ? Dust.number(100 * t.capture.value, 2) + ' (few grains)' : cell(t.capture, 100));
+    const rows = [...(hoods.plain ? [['no hood', dash, dash, cell(hoods.plain), dash]] : []),
+      ...hoods.places.flatMap((place) => place.trials.map((t) => [Dust.words(place.name), flow(t.flow_m3_per_s), cell(t.drawn), cell(t.escapes), capture(t)]))];
     const grid = el('div', {class: 'grid'});
     Dust.later.push(() => Dust.plot(grid, {title: 'Capture', x_label: 'flow, ' + flow_unit, y_label: 'of the dust, %', unit: '%', lines: hoods.places.map((place) => {
       const seen = place.trials.filter((t) => t.capture), error = (t) => (t.capture.error || 0);
-      return {name: Dust.words(place.name), x: seen.map((t) => per_s * t.flow_m3_per_s), y: seen.map((t) => 100 * t.capture.value),
+      return {name: place.name, x: seen.map((t) => per_s * t.flow_m3_per_s), y: seen.map((t) => 100 * t.capture.value),
         low: seen.map((t) => 100 * (t.capture.value - error(t))), high: seen.map((t) => 100 * (t.capture.value + error(t)))};
     })}));
-    const n = (title) => ({title, number: true});
-    return Dust.section('hoods', 'What the hoods capture', Dust.table([{title: 'Place'}, n('Flow'), n(`Drawn out, ${hoods.unit}`), n(`Escapes, ${hoods.unit}`), n('Capture, %')], rows, {label: 'Hoods'}), grid,
-      p({class: 'note'}, 'Capture: what the hood draws out over that and what still escapes through the openings that are watched, after the flow of the hood has come about; with one standard error.'));
+    return Dust.section('hoods', 'What the hoods capture', p({class: 'lede'}, ...answer), places,
+      Dust.table([{title: 'Place'}, n('Flow'), n(`Drawn out, ${hoods.unit}`), n(`Escapes, ${hoods.unit}`), n('Capture, %')], rows, {label: 'Hoods'}), grid,
+      p({class: 'note'}, 'Capture: what the hood draws out over that and what still escapes through the openings that are watched, after the flow of the hood has come about; with one standard error. '
+        + 'The smallest flow lies on a straight line between two that were tried; for another fraction: engine suggest-hoods DIR --capture.'));
   };
 
   Dust.sections.calibration = ({calibration: c}) => {
@@ -86,15 +99,17 @@
   const row_figure = ({title, unit, input, rows}) => {
     const largest = Math.max(...rows.map((r) => Math.abs(r.value) + (r.error || 0)), 1e-300);
     return el('figure', {}, Dust.table([{title: Dust.words(input)}, {title: with_unit(title, unit), number: true}, {title: ''}],
-      rows.map((r) => [r.name, Dust.value(r.value, r.error === null ? -1 : r.error), Dust.error_bar(Math.abs(r.value) / largest, (r.error || 0) / largest, '')]), {look: 'bars', label: `${title} by ${input}`}),
+      rows.map((r) => [plain(r.name), Dust.value(r.value, r.error === null ? -1 : r.error), Dust.error_bar(Math.abs(r.value) / largest, (r.error || 0) / largest, '')]), {look: 'bars', label: `${title} by ${input}`}),
     el('figcaption', {}, el('b', {}, Dust.sentence(title) + '.'), ` Mean against ${Dust.words(input)}.`));
   };
 
   Dust.sections.points = ({points}) => {
     const n = (c) => ({title: with_unit(c.name, c.unit), number: true});
-    const rows = points.rows.map((r, k) => [r.status === 'finished' ? el('a', {href: `points/${r.hash}/report.html`}, String(k + 1)) : String(k + 1), ...r.inputs, String(r.seed),
+    const is_text = (k) => points.rows.some((r) => /[a-z]/i.test(String(r.inputs[k]).replace(/e[+-]?\d/i, '')));
+    const input = (c, k) => ({...n(c), number: !is_text(k)});
+    const rows = points.rows.map((r, k) => [r.status === 'finished' ? el('a', {href: `points/${r.hash}/report.html`}, String(k + 1)) : String(k + 1), ...r.inputs.map(plain), String(r.seed),
       ...r.outputs.map((o) => (o.value === null ? dash : o.error === null ? Dust.number(o.value, 5) : Dust.value(o.value, o.error))), r.status + (r.reason ? ': ' + r.reason : ''), r.wall_s === null ? '' : Dust.duration(r.wall_s)]);
-    return Dust.section('points', 'All points', Dust.table([{title: 'Point'}, ...points.inputs.map(n), {title: 'Seed', number: true}, ...points.outputs.map(n), {title: 'Status'}, {title: 'Time', number: true}], rows, {label: 'All points'}),
+    return Dust.section('points', 'All points', Dust.table([{title: 'Point'}, ...points.inputs.map(input), {title: 'Seed', number: true}, ...points.outputs.map(n), {title: 'Status'}, {title: 'Time', number: true}], rows, {label: 'All points'}),
       p({class: 'note'}, "The numbers lead to the runs' own reports. The same table stands in study.csv, and as columns in study.h5."));
   };
   Dust.sections.provenance = ({study_file}) => Dust.section('provenance', 'Provenance', p({}, 'Every run keeps its full scenario beside its results: points/HASH.yaml.'),

@@ -1,7 +1,9 @@
 """docs/validation/README.md: every page there with what it says, and all figures that do not
 pass or have not been run."""
 
+import stale
 from page import FOLDER
+
 JUDGED = ["figure", "ours", "published", "pass band", "verdict"]
 
 
@@ -32,7 +34,7 @@ def index():
         rows = rows_of(text)
         count = {v: sum(r[-1] == v for r in rows) for v in ("pass", "FAIL", "open")}
         judged = " ".join(f"{n} {v}" for v, n in count.items() if n) or "-"
-        table.append(f"| [{title}]({page.name}) | {len(rows) or '-'} | {judged} |")
+        table.append(f"| [{title}]({page.name}) | {len(rows) or '-'} | {judged} | {age_of(text)} |")
         failed += [f"| [{page.stem}]({page.name}) | {r[0]} | {r[1]} | {r[3]} |" for r in rows if r[-1] == "FAIL"]
         if count["open"]:
             left.append(f"| [{page.stem}]({page.name}#what-has-not-been-run) | {count['open']} |")
@@ -40,12 +42,19 @@ def index():
              "Written by `tools/validation/run --index` from the pages of this folder, which `tools/validation/run CASE` wrote when "
              "the runs had ended. Each page names its commands; `tools/validation/run --stale` says which are of an engine "
              "whose bits have changed since. Closed forms and invariants are tests (`tests/verification`), not pages.", "",
-             "| page | figures beside published ones | with a pass band |", "| --- | --- | --- |", *table, ""]
+             "| page | figures beside published ones | with a pass band | engine |", "| --- | --- | --- | --- |", *table, ""]
     lines += ["## What does not pass", "", "Why, where it is known, stands on the page; experiments to it: `tools/validation/run experiments`.", "",
               *table_of("| page | figure | ours | pass band |", failed)]
     lines += ["## What has not been run", "", "What each run would cost stands on the page.", "",
               *table_of("| page | figures left |", left)]
     return "\n".join(lines)
+
+
+def age_of(text):
+    """Whether the runs of a page are of an engine with today's bits, as the page says."""
+    if stale.said(text):
+        return "older"
+    return "today's bits" if stale.LINE.search(text) and stale.NO_RUN not in text else "-"
 
 
 def table_of(head, rows):

@@ -82,6 +82,9 @@ class Engine:
     def path(self):
         return str(self._file)
 
+    def exists(self):
+        return self._file.exists()
+
     def bits(self):
         """State at the end of each case of tools/dev/check_bits, as recorded at the engine's commit."""
         return bits_at(self._commit)

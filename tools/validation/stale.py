@@ -54,6 +54,21 @@ def tell():
     return 1 if count else 0
 
 
+def said(text):
+    """What a page says of its engine's age: the line below its title; empty where it says nothing."""
+    lines = text.splitlines()
+    return lines[2] if len(lines) > 2 and lines[2].startswith(MARK) else ""
+
+
+def unsaid():
+    """Tells the pages that are stale and do not say so, or say so and are not; status 1 if any."""
+    wrong = [(case, reason) for case, file, reason in pages() if reason is not None and bool(reason) != bool(said(file.read_text()))]
+    for case, reason in wrong:
+        print(f"docs/validation/{case}.md: " + (f"does not say that it is stale ({reason})" if reason else "says that it is stale, and is not") +
+              ": run tools/validation/run --stale --mark")
+    return 1 if wrong else 0
+
+
 def marked(text, line):
     """The page with `line` below its title, in place of an earlier one; with an empty line without it."""
     title, *rest = text.splitlines()
@@ -67,8 +82,11 @@ def mark(engine, today):
     for case, file, reason in pages():
         if reason is None:
             continue
-        hours = [engine.hours(plan) or 0.0 for plan in cases.load(case).plans()] if reason else []
+        before = file.read_text()
+        if reason and f": {reason})" in said(before):
+            continue  # said already, with its day
+        hours = [engine.hours(plan) or 0.0 for plan in cases.load(case).plans()] if reason and engine.exists() else []
         total = sum(hours)
-        cost = f": about {total:.0f} hours of one core" if total > 10 else f": about {60 * total:.0f} min of one core" if hours else ""
+        cost = f": about {total:.0f} hours of one core" if total > 10 else f": about {max(60 * total, 1):.0f} min of one core" if hours else ""
         line = f"{MARK} ({today}: {reason}). Anew by `tools/validation/run {case}`{cost}.*" if reason else ""
-        file.write_text(marked(file.read_text(), line))
+        file.write_text(marked(before, line))

@@ -2,7 +2,9 @@
 #include "particles/neighbours/search.hpp"
 
 #include "base/cells.hpp"
+#include "base/lanes.hpp"
 #include "base/periodic.hpp"
+#include "dust/sdk/kernel.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -27,6 +29,57 @@ struct Slot {
   std::int32_t count = 0;
 };
 
+/// Sides of the domain along which separations are folded.
+struct Folding {
+  double length[4] = {0.0, 0.0, 0.0, 0.0};
+  double half[4] = {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL};
+};
+
+/// Appends to `found` the numbers of the balls [begin, end) that overlap `ball`, from `count` on,
+/// and returns how many there are. Four at a time, without branches on what is found: half of the
+/// balls looked at are near. Writes up to three numbers beyond.
+template <bool is_periodic>
+__attribute__((always_inline)) inline std::size_t take_close(const Ball* balls, std::size_t begin,
+                                                             std::size_t end, const Ball& ball,
+                                                             const Folding& folding,
+                                                             std::int32_t* found,
+                                                             std::size_t count) {
+  constexpr lanes::LaneMask k_bits{1, 2, 4, 8};
+  // x, y, z become differences, the fourth column the sum of the reaches.
+  const lanes::Lanes middle{-ball.x, -ball.y, -ball.z, ball.reach};
+  lanes::Lanes length;
+  lanes::Lanes half;
+  lanes::load(folding.length, length);
+  lanes::load(folding.half, half);
+  for (std::size_t n = begin; n < end; n += 4) {
+    lanes::Lanes x[4];
+    for (std::size_t l = 0; l < 4; ++l) {
+      lanes::load(&balls[std::min(n + l, end - 1)].x, x[l]);
+      x[l] += middle;
+      if constexpr (is_periodic) lanes::fold(x[l], length, half);
+    }
+    lanes::transpose(x[0], x[1], x[2], x[3]);
+    const lanes::LaneMask near = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < x[3] * x[3]) & k_bits;
+    const auto bits = static_cast<unsigned>(near[0] | near[1] | near[2] | near[3]) &
+                      (end - n < 4 ? (1u << (end - n)) - 1u : 15u);
+    for (unsigned l = 0; l < 4; ++l) {
+      found[count] = static_cast<std::int32_t>(n + l);
+      count += bits >> l & 1u;
+    }
+  }
+  return count;
+}
+DUST_KERNEL std::size_t take_close_open(const Ball* balls, std::size_t begin, std::size_t end,
+                                        const Ball& ball, const Folding& folding,
+                                        std::int32_t* found, std::size_t count) {
+  return take_close<false>(balls, begin, end, ball, folding, found, count);
+}
+DUST_KERNEL std::size_t take_close_periodic(const Ball* balls, std::size_t begin, std::size_t end,
+                                            const Ball& ball, const Folding& folding,
+                                            std::int32_t* found, std::size_t count) {
+  return take_close<true>(balls, begin, end, ball, folding, found, count);
+}
+
 /// Grains of one size level, ordered by cells of one edge. Cells of a row along x stand side by
 /// side where there is a table of all of them.
 class Level {
@@ -48,8 +101,12 @@ class Level {
     } else {
       fill_slots(rows, balls, cell_of);
     }
-    for (int d = 0; d < 3; ++d) period_[d] = in.period[d];
-    is_periodic_ = period_[0] + period_[1] + period_[2] > 0.0;
+    for (int d = 0; d < 3; ++d) {
+      if (!(in.period[d] > 0.0)) continue;
+      folding_.length[d] = in.period[d];
+      folding_.half[d] = 0.5 * in.period[d];
+      is_periodic_ = true;
+    }
   }
 
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
@@ -62,9 +119,10 @@ class Level {
     const auto look = [&](std::size_t begin, std::size_t end) {
       begin = std::max(begin, first);
       if (begin >= end) return;
-      if (found.size() < count + (end - begin)) found.resize(2 * (count + (end - begin)));
-      count = is_periodic_ ? take_close<true>(ball, begin, end, found.data(), count)
-                           : take_close<false>(ball, begin, end, found.data(), count);
+      const std::size_t most = count + (end - begin) + 3;
+      if (found.size() < most) found.resize(2 * most);
+      count = (is_periodic_ ? take_close_periodic : take_close_open)(
+          balls_.data(), begin, end, ball, folding_, found.data(), count);
     };
     const double half = ball.reach + reach_;
     const double centre[3] = {ball.x, ball.y, ball.z};
@@ -210,25 +268,6 @@ class Level {
     }
   }
 
-  /// Without branches on what is found: half of the grains looked at are near.
-  template <bool is_periodic>
-  std::size_t take_close(const Ball& ball, std::size_t begin, std::size_t end, std::int32_t* found,
-                         std::size_t count) const {
-    for (std::size_t n = begin; n < end; ++n) {
-      const Ball& other = balls_[n];
-      double apart[3] = {other.x - ball.x, other.y - ball.y, other.z - ball.z};
-      if constexpr (is_periodic) {
-        for (int d = 0; d < 3; ++d) apart[d] = base::nearest_image(apart[d], period_[d]);
-      }
-      const double limit = ball.reach + other.reach;
-      found[count] = static_cast<std::int32_t>(n);
-      count += apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2] < limit * limit
-                   ? std::size_t{1}
-                   : std::size_t{0};
-    }
-    return count;
-  }
-
   [[nodiscard]] std::int64_t cell(double x, int d) const {
     return base::cell_index((x - origin_[d]) * inverse_[d]);
   }
@@ -260,7 +299,7 @@ class Level {
   std::vector<Slot> slots_;
   std::vector<std::int32_t> rows_;  ///< by place
   std::vector<Ball> balls_;
-  double period_[3] = {0, 0, 0};
+  Folding folding_;
   bool is_periodic_ = false;
 };
 

@@ -46,7 +46,8 @@ Insertion::Insertion(const scenario::Setup& setup, const Models& models)
     : setup_(setup),
       models_(models),
       scene_(entry_scene_of(setup, models)),
-      ledger_(models.emitters.size()) {}
+      ledger_(models.emitters.size()),
+      departures_(setup.domain) {}
 
 void Insertion::propose(double time, const particles::GrainRows& rows) {
   for (std::size_t n = 0; n < models_.emitters.size(); ++n) {
@@ -119,6 +120,8 @@ bool Insertion::run(double time, particles::Dem& dem) {
 void Insertion::insert(double time, particles::Dem& dem) {
   scene_.time = time;
   propose(time, dem.rows());
+  const particles::GrainRows rows = dem.rows();
+  departures_.note(rows, dem.openings(), rounding(scene_), {dem.report().steps, time});
   dem.remove_escaped();
   const auto entering = take_without_overlap(waiting_, dem.rows(), scene_);
   delayed_ += static_cast<std::int64_t>(waiting_.size());
@@ -165,6 +168,7 @@ void Insertion::save(sdk::ArchiveWriter& archive) const {
   archive.integer("is_started", is_started_ ? 1 : 0);
   save_waiting(waiting_, archive);
   ledger_.save(archive);
+  departures_.save(archive);
 }
 
 void Insertion::load(sdk::ArchiveReader& archive) {
@@ -172,6 +176,7 @@ void Insertion::load(sdk::ArchiveReader& archive) {
   is_started_ = archive.integer("is_started") != 0;
   load_waiting(waiting_, archive);
   ledger_.load(archive);
+  departures_.load(archive);
 }
 
 }  // namespace dust::run

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dust/sdk/archive.hpp"
+#include "run/audit/departures.hpp"
 #include "run/insertion/emission_ledger.hpp"
 #include "run/insertion/entry.hpp"
 #include "run/models.hpp"
@@ -31,6 +32,8 @@ class Insertion {
   [[nodiscard]] std::int64_t delayed() const { return delayed_; }
   [[nodiscard]] const std::vector<InsertionCandidate>& waiting() const { return waiting_; }
   [[nodiscard]] const EmissionLedger& ledger() const { return ledger_; }
+  /// Those that have left through open sides.
+  [[nodiscard]] const Departures& departures() const { return departures_; }
 
   /// Goes on from that of another scenario, whose emitters and materials are known by their names.
   /// Returns how many particles that wait for their place are given up, for theirs are not here.
@@ -53,6 +56,7 @@ class Insertion {
   const Models& models_;
   EntryScene scene_;
   EmissionLedger ledger_;
+  Departures departures_;
   std::vector<sdk::InsertionRequest> requests_;  ///< storage of what one emitter proposes
   std::vector<InsertionCandidate> waiting_;      ///< proposed, not yet in the domain
   std::int64_t delayed_ = 0;

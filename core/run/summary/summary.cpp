@@ -12,6 +12,7 @@
 #include "run/summary/figure_json.hpp"
 #include "run/summary/references.hpp"
 #include "run/summary/series_row.hpp"
+#include "run/summary/summary_audit.hpp"
 #include "run/summary/summary_dust.hpp"
 #include "run/summary/summary_emitters.hpp"
 #include "run/summary/summary_energy.hpp"
@@ -116,13 +117,6 @@ Json counts(const particles::Balance& b) {
           {"max", b.max}};
 }
 
-std::vector<graph::NodeTiming> node_timings(const Simulation& s) {
-  auto nodes = s.dem_graph().timings();
-  const auto more = s.step_graph().timings();
-  nodes.insert(nodes.end(), more.begin(), more.end());
-  return nodes;
-}
-
 Json node_times(const Simulation& s, const RunFacts& facts) {
   Json times = Json::object();
   const auto nodes = node_timings(s);
@@ -163,6 +157,7 @@ Json class_steps(const particles::Dem& dem) {
 
 Json health(const Simulation& s) {
   Json h = Json::object();
+  h["grains_left"] = departures_json(s.insertion().departures());
   h["entries_delayed"] = s.insertion().delayed();
   h["entries_waiting"] = s.insertion().waiting().size();
   h["contacts_seen_late"] = s.dem().report().missed_contact_onsets;
@@ -234,7 +229,7 @@ Json run_json(const Simulation& s, const RunFacts& facts) {
 }
 
 /// What was computed: time, steps, particles and their masses.
-Json amounts_json(const Simulation& s) {
+Json amounts_json(const Simulation& s, const RunFacts& facts) {
   const auto& b = s.dem().balance();
   const auto dem = s.dem().report();
   Json j;
@@ -263,6 +258,7 @@ Json amounts_json(const Simulation& s) {
   }
   if (s.liberation() != nullptr) j["dust_on_grains"] = dust_on_grains_json(s);
   if (s.setup().audit.energy) j["energy"] = energy_json(s);
+  if (facts.forces.samples() > 0) j["forces"] = forces_json(s.setup(), facts.forces);
   j["size_classes"] = s.models().class_diameters.empty() ? Json::array() : class_steps(s.dem());
   return j;
 }
@@ -327,6 +323,7 @@ Json report_json(const Simulation& s, const RunFacts& facts, JsonReport& report)
   add_hood_tables(s, r["tables"]);
   add_liberation_table(s, r["tables"]);
   add_energy_table(s, r["tables"]);
+  add_force_table(facts.forces, r["tables"]);
   r["outline"] = report::outline_of(s.setup().domain, s.models().bodies);
   r["classes"] = s.models().class_diameters;
   if (facts.registry != nullptr) r["setting"] = setting_json(s.setup(), *facts.registry);
@@ -336,6 +333,13 @@ Json report_json(const Simulation& s, const RunFacts& facts, JsonReport& report)
 }
 
 }  // namespace
+
+std::vector<graph::NodeTiming> node_timings(const Simulation& s) {
+  auto nodes = s.dem_graph().timings();
+  const auto more = s.step_graph().timings();
+  nodes.insert(nodes.end(), more.begin(), more.end());
+  return nodes;
+}
 
 std::vector<double> node_seconds(const Simulation& simulation, const std::vector<double>& before) {
   std::vector<double> seconds;
@@ -347,7 +351,7 @@ std::vector<double> node_seconds(const Simulation& simulation, const std::vector
 RunRecord record_of(const Simulation& s, const RunFacts& facts) {
   JsonReport report;
   Json summary = run_json(s, facts);
-  summary.update(amounts_json(s));
+  summary.update(amounts_json(s, facts));
   summary.update(record_json(s, facts));
   summary["sensors"] = sensors_json(s, report);
   summary["references"] = references_json(facts.references, summary["sensors"]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "run/audit/force_shares.hpp"
 #include "run/simulation.hpp"
 #include "setup/reference_curve.hpp"
 #include "setup/reference_spec.hpp"
@@ -33,6 +34,7 @@ struct RunFacts {
   double output_s = 0.0;
   std::vector<double> node_s;  ///< node_seconds, from the very start of the run
   std::int64_t frames = 0;
+  ForceShares forces;  ///< sampled at frames
   std::vector<std::string> warnings;
   std::vector<scenario::ReferenceSpec> references;
   std::vector<scenario::ReferenceCurve> reference_curves;
@@ -42,7 +44,11 @@ struct RunFacts {
   std::vector<std::string> log_header;           ///< the first lines of run.log
 };
 
-/// Seconds in each node of the two graphs, in a fixed order; `before` holds those of the run up to
+/// The nodes of the two graphs, those of a grain step first, with their times since the last
+/// resume.
+std::vector<graph::NodeTiming> node_timings(const Simulation& simulation);
+
+/// Seconds in each of them; `before` holds those of the run up to
 /// the checkpoint it resumed from, or nothing.
 std::vector<double> node_seconds(const Simulation& simulation, const std::vector<double>& before);
 

@@ -8,6 +8,9 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// The fraction of the dust that the page asks of a hood: the default of `engine suggest-hoods`.
+constexpr double k_wanted = 0.9;
+
 Json estimate_json(const Uncertain& estimate, double factor) {
   return {{"value", factor * estimate.value},
           {"error", estimate.error > 0.0 ? Json(factor * estimate.error) : Json(nullptr)}};
@@ -43,12 +46,18 @@ Json hoods_json(const HoodResults& results) {
                         {"capture", capture ? estimate_json(*capture, 1.0) : Json(nullptr)},
                         {"is_few", is_few}});
     }
-    places.push_back({{"name", place.name}, {"trials", trials}});
+    const auto needed = needed_flow(place, k_wanted);
+    Json entry = {
+        {"name", place.name}, {"trials", trials}, {"opening", nullptr}, {"needed", nullptr}};
+    if (place.opening) entry["opening"] = {place.opening->x, place.opening->y, place.opening->z};
+    if (needed) entry["needed"] = {{"flow_m3_per_s", needed->flow}, {"is_bound", needed->is_bound}};
+    places.push_back(std::move(entry));
   }
   return {
       {"unit", scale.unit()},
       {"plain", results.plain ? estimate_json(results.plain->escaping, scale.factor(*results.plain))
                               : Json(nullptr)},
+      {"wanted", k_wanted},
       {"places", places}};
 }
 

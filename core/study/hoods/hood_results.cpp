@@ -24,8 +24,32 @@ constexpr double k_grams_per_tonne = 1e6;
 /// The hood of a point: the group of its body, and its flow.
 struct Hood {
   std::string place;
-  double flow = 0.0;  ///< [m3/s]
+  double flow = 0.0;                 ///< [m3/s]
+  std::optional<sdk::Vec3> opening;  ///< [m] its middle
 };
+
+/// A quantity of a scenario in SI.
+std::optional<double> si_of(const scenario::Node& node, sdk::Dimension dimension) {
+  std::string error;
+  const auto written = scenario::split_number(node.text, error);
+  return written ? scenario::to_si(*written, dimension, error) : std::nullopt;
+}
+
+/// The middle of two corners [m].
+std::optional<sdk::Vec3> middle_of(const scenario::Node* min, const scenario::Node* max) {
+  if (min == nullptr || max == nullptr || min->items.size() != 3 || max->items.size() != 3) {
+    return std::nullopt;
+  }
+  sdk::Vec3 middle;
+  for (int d = 0; d < 3; ++d) {
+    const auto n = static_cast<std::size_t>(d);
+    const auto low = si_of(min->items[n], sdk::dimension::length);
+    const auto high = si_of(max->items[n], sdk::dimension::length);
+    if (!low || !high) return std::nullopt;
+    middle[d] = 0.5 * (*low + *high);
+  }
+  return middle;
+}
 
 std::optional<Hood> hood_of(const std::string& scenario_text, const std::string& file) {
   scenario::Diagnostics diagnostics;
@@ -38,12 +62,10 @@ std::optional<Hood> hood_of(const std::string& scenario_text, const std::string&
   const scenario::Node* flow = child(child(body, "suction"), "flow");
   const scenario::Node* group = child(body, "group");
   if (flow == nullptr || group == nullptr) return std::nullopt;
-  std::string error;
-  const auto written = scenario::split_number(flow->text, error);
-  if (!written) return std::nullopt;
-  const auto value = scenario::to_si(*written, sdk::dimension::volume_flow, error);
+  const auto value = si_of(*flow, sdk::dimension::volume_flow);
   if (!value) return std::nullopt;
-  return Hood{group->text, *value};
+  const scenario::Node* suction = child(body, "suction");
+  return Hood{group->text, *value, middle_of(child(suction, "min"), child(suction, "max"))};
 }
 
 /// A column of series.csv by name; null where there is none.
@@ -214,12 +236,14 @@ std::optional<Uncertain> HoodTrial::capture() const {
 
 HoodResults hood_results(const fs::path& study) {
   std::map<std::string, std::map<double, std::vector<HoodTrial>>> trials;
+  std::map<std::string, std::optional<sdk::Vec3>> openings;
   std::vector<HoodTrial> plain;
   for (const fs::path& folder : finished_points(study)) {
     const report::RunText run = report::read_run_text(folder);
     const std::string file = (folder / "scenario.yaml").string();
     if (const auto hood = hood_of(text_of(file), file)) {
       trials[hood->place][hood->flow].push_back(trial_of(run, hood->flow));
+      openings[hood->place] = hood->opening;
     } else {
       plain.push_back(trial_of(run, 0.0));
     }
@@ -232,7 +256,7 @@ HoodResults hood_results(const fs::path& study) {
   }
   HoodResults results;
   for (const auto& [name, flows] : trials) {
-    HoodPlace place{name, {}};
+    HoodPlace place{name, {}, openings[name]};
     for (const auto& [flow, replicas] : flows) place.trials.push_back(mean_of(replicas));
     results.places.push_back(std::move(place));
   }

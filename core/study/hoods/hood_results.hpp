@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/vec3.hpp"
+
 #include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -33,6 +35,8 @@ struct HoodTrial {
 struct HoodPlace {
   std::string name;  ///< "place_1"
   std::vector<HoodTrial> trials;
+  std::optional<sdk::Vec3> opening =
+      std::nullopt;  ///< [m] the middle of the hood's opening, where it is known
 };
 
 /// A finished study of hoods.

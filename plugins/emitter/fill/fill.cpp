@@ -93,6 +93,7 @@ class Fill final : public sdk::PlacedEmitter {
   [[nodiscard]] double largest_speed() const override { return norm(p_.velocity); }
   [[nodiscard]] sdk::EmitterRequest request() const override {
     sdk::EmitterRequest r;
+    r.begin = p_.time;
     r.mass = p_.mass;
     r.count = p_.count;
     r.shares = sdk::shares_of(sizes_);

@@ -127,5 +127,18 @@ TEST_CASE("the search shall find what comes near within the horizon, and nothing
     for (double& v : flock.velocity) v *= 0.05;
     check(flock, 500);
   }
+  SUBCASE("periodic, with grains that have left the period and have not been put back") {
+    Flock flock(400, {4e-3, 4e-3, 4e-3}, 2.0);
+    for (double& v : flock.velocity) v *= 0.05;
+    for (std::size_t d = 0; d < 3; ++d) {
+      flock.in.period[d] = 4e-3;
+      for (std::size_t n = 0; n < 400; ++n) {
+        double& x = flock.position[4 * n + d];
+        if (x > 3.7e-3) x -= 4e-3;
+        if (n % 2 == 0 && x >= 0.0 && x < 0.3e-3) x += 4e-3;
+      }
+    }
+    check(flock, 500);
+  }
   SUBCASE("at rest") { check({300, {4e-3, 3e-3, 3e-3}, 0.0}, 500); }
 }

@@ -9,37 +9,111 @@
 #include <fstream>
 
 using namespace dust;
+using preflight::CostTerm;
 using preflight::LearntCosts;
 
-TEST_CASE("what runs cost shall be learnt by scenario, the newest five of it, else by all others") {
+namespace {
+
+/// Of one term alone.
+preflight::RunCost one(CostTerm term, double amount, double seconds) {
+  preflight::RunCost cost;
+  cost.terms[term] = {amount, seconds};
+  return cost;
+}
+
+double as_measured() { return 2.0; }
+
+}  // namespace
+
+TEST_CASE("a scenario's own runs shall tell its time, the newest five of them") {
   const Folder folder;
   const auto file = folder.path() / "cache" / "costs";
-  LearntCosts(file).add("hopper", 100.0, 20.0);
-  LearntCosts(file).add("chute", 10.0, 30.0);
-  LearntCosts(file).add("my chute", 10.0, 10.0);
-  const LearntCosts costs(file);
-  CHECK(costs.factor_for("hopper").value == doctest::Approx(0.2));
-  CHECK(costs.factor_for("hopper").is_of_scenario);
-  CHECK(costs.factor_for("my chute").value == doctest::Approx(1.0));
-  // The median of 0.2, 1 and 3.
-  CHECK(costs.factor_for("belt").value == doctest::Approx(1.0));
-  CHECK(costs.factor_for("belt").runs == 3);
-  CHECK_FALSE(costs.factor_for("belt").is_of_scenario);
-  for (int n = 0; n < 5; ++n) LearntCosts(file).add("hopper", 10.0, 10.0 * (n + 1));
-  CHECK(LearntCosts(file).factor_for("hopper").value == doctest::Approx(3.0));
-  CHECK(LearntCosts(file).factor_for("hopper").runs == 5);
+  // Twice the steps at three times the cost of each.
+  LearntCosts(file, as_measured)
+      .add("hopper", one(CostTerm::grains, 100.0, 10.0), one(CostTerm::grains, 200.0, 60.0));
+  const auto estimated = one(CostTerm::grains, 50.0, 5.0);
+  const auto first = LearntCosts(file, as_measured).expect("hopper", estimated);
+  CHECK(first.is_of_scenario);
+  CHECK(first.runs == 1);
+  CHECK(first.cost.terms[CostTerm::grains].amount == doctest::Approx(100.0));
+  CHECK(first.cost.terms[CostTerm::grains].seconds == doctest::Approx(30.0));
+  for (int n = 1; n <= 5; ++n) {
+    LearntCosts(file, as_measured)
+        .add("hopper", one(CostTerm::grains, 10.0, 10.0), one(CostTerm::grains, 10.0, 10.0 * n));
+  }
+  const auto last = LearntCosts(file, as_measured).expect("hopper", estimated);
+  CHECK(last.runs == 5);
+  CHECK(last.cost.terms[CostTerm::grains].seconds == doctest::Approx(3.0 * 5.0));
+}
+
+TEST_CASE("other scenarios shall tell the rate of each term, not how much work there is") {
+  const Folder folder;
+  const auto file = folder.path() / "costs";
+  LearntCosts costs(file, as_measured);
+  // Ten times the steps that were estimated, at half the estimated cost of each; the fluid four
+  // times as slow.
+  preflight::RunCost estimated = one(CostTerm::grains, 100.0, 10.0);
+  estimated.terms[CostTerm::fluid] = {1000.0, 1.0};
+  preflight::RunCost taken = one(CostTerm::grains, 1000.0, 50.0);
+  taken.terms[CostTerm::fluid] = {1000.0, 4.0};
+  for (int n = 0; n < 3; ++n) costs.add("belt", estimated, taken);
+  preflight::RunCost other = one(CostTerm::grains, 10.0, 8.0);
+  other.terms[CostTerm::fluid] = {10.0, 3.0};
+  other.terms[CostTerm::output] = {10.0, 1.0};
+  const auto expected = costs.expect("chute", other);
+  CHECK_FALSE(expected.is_of_scenario);
+  CHECK(expected.runs == 3);
+  // Medians of three runs and the measurement's 2: (0.5, 0.5, 0.5, 2) and (2, 4, 4, 4).
+  CHECK(expected.cost.terms[CostTerm::grains].seconds == doctest::Approx(0.5 * 8.0));
+  CHECK(expected.cost.terms[CostTerm::grains].amount == doctest::Approx(10.0));
+  CHECK(expected.cost.terms[CostTerm::fluid].seconds == doctest::Approx(4.0 * 3.0));
+  // No run has written files for long enough to tell.
+  CHECK(expected.cost.terms[CostTerm::output].seconds == doctest::Approx(2.0 * 1.0));
+}
+
+TEST_CASE("memory and disk shall be learnt from a scenario's own runs alone") {
+  LearntCosts costs({}, as_measured);
+  preflight::RunCost estimated = one(CostTerm::grains, 1.0, 1.0);
+  estimated.memory_bytes = 100.0;
+  estimated.disk_bytes = 10.0;
+  preflight::RunCost taken = estimated;
+  taken.memory_bytes = 150.0;
+  taken.disk_bytes = 5.0;
+  costs.add("belt", estimated, taken);
+  CHECK(costs.expect("belt", estimated).cost.memory_bytes == doctest::Approx(150.0));
+  CHECK(costs.expect("belt", estimated).cost.disk_bytes == doctest::Approx(5.0));
+  CHECK(costs.expect("chute", estimated).cost.memory_bytes == 100.0);
 }
 
 TEST_CASE("a machine without runs shall be measured, and a spoilt cache shall not matter") {
   const Folder folder;
-  const auto file = folder.write("costs", "nonsense\n-1 hopper\n0.5 chute\n\n");
-  CHECK(LearntCosts(file).factor_for("hopper").value == doctest::Approx(0.5));
-  const auto measured = LearntCosts(folder.path() / "none").factor_for("hopper");
-  CHECK(measured.runs == 0);
-  CHECK(measured.value > 0.1);
-  CHECK(measured.value < 10.0);
+  const auto file = folder.write("costs", "nonsense\n0.5 chute\n\n-1 2 3 hopper\n");
+  const auto estimated = one(CostTerm::grains, 10.0, 10.0);
+  const auto spoilt = LearntCosts(file, as_measured).expect("hopper", estimated);
+  CHECK(spoilt.runs == 0);
+  CHECK(spoilt.cost.terms.seconds() == doctest::Approx(20.0));
+  const double slowness = preflight::measured_slowness();
+  CHECK(slowness > 0.1);
+  CHECK(slowness < 10.0);
   // A cache that cannot be written is none.
-  LearntCosts(folder.path() / "costs" / "below").add("hopper", 1.0, 1.0);
+  LearntCosts(file / "below", as_measured).add("hopper", estimated, estimated);
+}
+
+TEST_CASE("what is written of a run shall be read as it was") {
+  const Folder folder;
+  const auto file = folder.path() / "costs";
+  preflight::RunCost estimated;
+  for (std::size_t n = 0; n < preflight::k_cost_terms; ++n) {
+    estimated.terms[n] = {1.0 + static_cast<double>(n), 3.0 + static_cast<double>(n)};
+  }
+  estimated.memory_bytes = 7.0;
+  estimated.disk_bytes = 9.0;
+  LearntCosts(file, as_measured).add("my chute", estimated, estimated);
+  const auto expected = LearntCosts(file, as_measured).expect("my chute", estimated);
+  REQUIRE(expected.is_of_scenario);
+  CHECK(expected.cost.terms.seconds() == doctest::Approx(estimated.terms.seconds()));
+  CHECK(expected.cost.memory_bytes == 7.0);
+  CHECK(expected.cost.disk_bytes == 9.0);
 }
 
 TEST_CASE("an estimate shall come within a second where no run could follow the grains") {

@@ -141,6 +141,22 @@ TEST_CASE("the flow needed shall lie between two trials, be a bound, or not be r
   CHECK(study::needed_flow(gap, 0.5)->flow == doctest::Approx(1e-3 + 3e-3 * 0.25 / 0.65));
 }
 
+TEST_CASE("the page of a study of hoods shall get the answer: where, and from which flow on") {
+  study::HoodResults results;
+  results.places.push_back({"place_1",
+                            {trial(1e-3, 1.0, 1.0), trial(2e-3, 9.5, 0.5)},
+                            dust::sdk::Vec3{0.1, 0.005, 0.02}});
+  results.places.push_back({"place_2", {trial(1e-3, 1.0, 3.0)}});
+  const auto json = study::hoods_json(results);
+  CHECK(json["wanted"] == 0.9);
+  // From a half to 0.95: 8/9 of the way.
+  CHECK(json["places"][0]["needed"]["flow_m3_per_s"].get<double>() ==
+        doctest::Approx(1e-3 + 1e-3 * 0.4 / 0.45));
+  CHECK(json["places"][0]["opening"][0] == 0.1);
+  CHECK(json["places"][1]["needed"].is_null());
+  CHECK(json["places"][1]["opening"].is_null());
+}
+
 TEST_CASE("the table shall say what few grains tell, and where the capture is not reached") {
   study::HoodResults results;
   results.plain = {.escaping = {2e-9, 1e-9}, .load = 1e-3, .computed = 0.0};

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <sstream>
 #include <thread>
 
@@ -289,35 +290,66 @@ void print_steps(std::ostream& out, const Setup& setup, const Derived& derived) 
 }
 
 /// What the times rest on.
-std::string basis_text(const preflight::LearntCosts::Factor& learnt) {
-  if (learnt.runs == 0) return "rough: no run on this machine yet to learn from";
-  return "learnt from " + std::to_string(learnt.runs) + (learnt.runs == 1 ? " run" : " runs") +
-         (learnt.is_of_scenario ? " of it" : " of others") + " on this machine";
+std::string basis_text(const preflight::LearntCosts::Expected& cost) {
+  if (cost.runs == 0) return "rough: no run on this machine yet to learn from";
+  return "learnt from " + std::to_string(cost.runs) + (cost.runs == 1 ? " run" : " runs") +
+         (cost.is_of_scenario ? " of it" : " of others") + " on this machine";
+}
+
+/// What most of the time goes to, largest first.
+std::string share_text(const preflight::RunCost& cost) {
+  constexpr double k_min_share = 0.05;
+  constexpr std::array<const char*, preflight::k_cost_terms> k_words = {
+      "steps of grains", "finer steps of grains", "fluid", "exchange with the fluid",
+      "files",           "sensors and checks"};
+  std::array<std::size_t, preflight::k_cost_terms> order{};
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return cost.terms[a].seconds > cost.terms[b].seconds;
+  });
+  std::string text;
+  for (const std::size_t n : order) {
+    const double share = cost.terms[n].seconds / cost.terms.seconds();
+    if (!(share >= k_min_share)) continue;
+    text += (text.empty() ? "" : ", ") + base::fixed_text(100.0 * share, 0) + " % " + k_words[n];
+  }
+  return text;
 }
 
 void print_cost(std::ostream& out, const Derived& derived,
-                const preflight::LearntCosts::Factor& learnt) {
+                const preflight::LearntCosts::Expected& expected) {
   constexpr double k_megabyte = 1e6;
   // Measured on two cores: 95 % of the time of both is used.
   constexpr double k_shared = 0.95;
+  const preflight::RunCost& cost = expected.cost;
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
   out << "  cost       about " << counted(derived.grains_in_domain)
       << " grains at a time (each stays about " << engineering(derived.residence_time, "s") << "), "
-      << counted(derived.memory_bytes / k_megabyte) << " MB of memory, "
-      << counted(derived.disk_bytes / k_megabyte) << " MB on disk\n             "
-      << base::estimated_duration_text(derived.core_seconds) << " on one core";
+      << counted(cost.memory_bytes / k_megabyte) << " MB of memory, "
+      << counted(cost.disk_bytes / k_megabyte) << " MB on disk\n             "
+      << base::estimated_duration_text(cost.terms.seconds()) << " on one core";
   if (cores > 1) {
-    out << ", " << base::estimated_duration_text(derived.core_seconds / (k_shared * cores))
+    out << ", " << base::estimated_duration_text(cost.terms.seconds() / (k_shared * cores))
         << " on the " << cores << " of this machine";
   }
-  out << " (" << basis_text(learnt) << ")\n";
+  out << " (" << basis_text(expected) << "),\n             of that " << share_text(cost) << '\n';
+}
+
+nlohmann::ordered_json terms_json(const preflight::RunCost& cost) {
+  nlohmann::ordered_json terms = nlohmann::ordered_json::object();
+  for (std::size_t n = 0; n < preflight::k_cost_terms; ++n) {
+    terms[preflight::k_cost_term_texts[n].name] = {{"amount", cost.terms[n].amount},
+                                                   {"of", preflight::k_cost_term_texts[n].counts},
+                                                   {"core_s", cost.terms[n].seconds}};
+  }
+  return terms;
 }
 
 }  // namespace
 
 std::string check_json(const Setup& setup, const Derived& derived,
                        const preflight::BodySurvey& survey,
-                       const preflight::LearntCosts::Factor& learnt) {
+                       const preflight::LearntCosts::Expected& cost) {
   nlohmann::ordered_json j;
   j["name"] = setup.name;
   j["end_s"] = setup.time.end;
@@ -347,16 +379,17 @@ std::string check_json(const Setup& setup, const Derived& derived,
   j["width_over_diameter"] = derived.width_over_diameter;
   j["courant_number"] = derived.courant_number;
   j["grains"] = derived.grains_in_domain;
-  j["memory_bytes"] = derived.memory_bytes;
-  j["disk_bytes"] = derived.disk_bytes;
-  j["core_s"] = derived.core_seconds;
-  j["core_s_basis"] = basis_text(learnt);
+  j["memory_bytes"] = cost.cost.memory_bytes;
+  j["disk_bytes"] = cost.cost.disk_bytes;
+  j["core_s"] = cost.cost.terms.seconds();
+  j["core_s_basis"] = basis_text(cost);
+  j["core_s_terms"] = terms_json(cost.cost);
   return j.dump(2) + "\n";
 }
 
 std::string check_summary(const Setup& setup, const Derived& derived,
                           const preflight::BodySurvey& survey,
-                          const preflight::LearntCosts::Factor& learnt) {
+                          const preflight::LearntCosts::Expected& cost) {
   std::ostringstream out;
   const auto& time = setup.time;
   out << setup.name << ": the scenario is valid\n";
@@ -370,7 +403,7 @@ std::string check_summary(const Setup& setup, const Derived& derived,
   print_fluid(out, setup, derived);
   add_resolved(out, derived);
   print_steps(out, setup, derived);
-  print_cost(out, derived, learnt);
+  print_cost(out, derived, cost);
   return out.str();
 }
 

@@ -10,15 +10,15 @@
 
 namespace dust::engine {
 
-/// What a scenario will do, for a person to read before it is run. `learnt` has been applied to the
-/// times of `derived`.
+/// What a scenario will do, for a person to read before it is run. `cost` is that of `derived` as
+/// runs on this machine have corrected it.
 std::string check_summary(const scenario::Setup& setup, const preflight::Derived& derived,
                           const preflight::BodySurvey& survey,
-                          const preflight::LearntCosts::Factor& learnt);
+                          const preflight::LearntCosts::Expected& cost);
 
 /// The numbers of it, for programs; times on one core.
 std::string check_json(const scenario::Setup& setup, const preflight::Derived& derived,
                        const preflight::BodySurvey& survey,
-                       const preflight::LearntCosts::Factor& learnt);
+                       const preflight::LearntCosts::Expected& cost);
 
 }  // namespace dust::engine

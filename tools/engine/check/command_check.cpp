@@ -54,10 +54,9 @@ void add_check(CLI::App& app, int&) {
     for (const std::string& warning : result.warnings) std::cerr << warning << '\n';
     for (const std::string& warning : branching.warning_lines()) std::cerr << warning << '\n';
     branching.throw_errors();
-    auto derived = preflight::derive(result.setup, *registry);
+    const auto derived = preflight::derive(result.setup, *registry);
     const auto survey = preflight::survey_bodies(result.setup, *registry);
-    const auto learnt = preflight::LearntCosts().factor_for(result.setup.name);
-    derived.core_seconds *= learnt.value;
+    const auto learnt = preflight::LearntCosts().expect(result.setup.name, derived.cost);
     std::cout << (arguments->as_json ? check_json : check_summary)(result.setup, derived, survey,
                                                                    learnt);
     if (start && !arguments->as_json) {

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preflight/dust_check.hpp"
+
+#include "base/text.hpp"
+#include "bodies/placement.hpp"
+#include "fluid/grid.hpp"
+#include "preflight/emissions.hpp"
+#include "preflight/particle_models.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace dust::preflight {
+namespace {
+
+using scenario::BodySpec;
+using scenario::DustSetup;
+using scenario::EmitterSpec;
+using scenario::Setup;
+using sdk::Vec3;
+
+/// Cells across the narrowest turn that a grid resolves well.
+constexpr double k_turn_cells = 4.0;
+/// A fill of more grains than this is not placed for a look.
+constexpr std::int64_t k_max_placed = 5000;
+
+bool is_in_box(Vec3 p, Vec3 min, Vec3 max, double more, int without = -1) {
+  for (int d = 0; d < 3; ++d) {
+    if (d == without) continue;
+    if (p[d] < min[d] - more || p[d] > max[d] + more) return false;
+  }
+  return true;
+}
+
+/// Something that draws out what touches it, and where its opening is.
+struct Taker {
+  std::string path;
+  const bodies::Body* body = nullptr;  ///< null: a side
+  int side = -1;
+  Vec3 min, max;
+
+  [[nodiscard]] bool takes(const Setup& setup, const sdk::InsertionRequest& grain) const {
+    const double radius = 0.5 * grain.diameter;
+    const Vec3 x = grain.position;
+    if (body != nullptr) {
+      const bodies::Placement at = body->placement(0.0);
+      return is_in_box(at.to_body(x), min, max, radius) && body->nearest(x, at).distance <= radius;
+    }
+    const int d = side / 2;
+    const double wall = side % 2 == 1 ? setup.domain.max[d] : setup.domain.min[d];
+    return std::abs(x[d] - wall) <= radius && is_in_box(x, min, max, 0.0, d);
+  }
+};
+
+std::vector<Taker> takers(const Setup& setup, const DustSetup& dust,
+                          const bodies::BodySet& bodies) {
+  std::vector<Taker> all;
+  for (std::size_t n = 0; n < setup.bodies.size(); ++n) {
+    const auto& suction = setup.bodies[n].suction;
+    if (!suction || !(suction->flow > 0.0)) continue;
+    all.push_back({"bodies." + setup.bodies[n].name + ".suction", &bodies[n], -1, suction->min,
+                   suction->max});
+  }
+  for (const scenario::SideOpeningSpec& o : dust.openings) {
+    all.push_back({std::string("domain.boundaries.") +
+                       scenario::k_side_names[static_cast<std::size_t>(o.side)] + ".air",
+                   nullptr, o.side, o.min, o.max});
+  }
+  return all;
+}
+
+bool may_be_asked(const sdk::Emitter& emitter) {
+  if (emitter.insertion_rule().waits) return true;
+  const sdk::EmitterRequest request = emitter.request();
+  return request.mass == 0.0 && request.count <= k_max_placed;
+}
+
+void look_at(const Setup& setup, const EmitterSpec& spec, const std::vector<Taker>& all,
+             const std::vector<sdk::InsertionRequest>& grains, scenario::Diagnostics& diagnostics) {
+  for (const Taker& taker : all) {
+    const auto count = std::count_if(grains.begin(), grains.end(),
+                                     [&](const auto& g) { return taker.takes(setup, g); });
+    if (count == 0) continue;
+    const bool is_all = static_cast<std::size_t>(count) == grains.size();
+    const std::string text =
+        spec.model.path + ": " + taker.path + " lies over it and draws out " +
+        (is_all ? "all grains"
+                : std::to_string(count) + " of " + std::to_string(grains.size()) + " grains") +
+        " as they come in: move the emitter or the opening (min, max)";
+    if (is_all) {
+      diagnostics.error(spec.model.where, text);
+    } else {
+      diagnostics.warning(spec.model.where, text);
+    }
+  }
+}
+
+}  // namespace
+
+void check_openings(const Setup& setup, const DustSetup& dust, const registry::Registry& registry,
+                    scenario::Diagnostics& diagnostics) {
+  const bool has_suction = std::any_of(setup.bodies.begin(), setup.bodies.end(),
+                                       [](const BodySpec& b) { return b.suction.has_value(); });
+  if (!setup.fluid || setup.emitters.empty() || !(has_suction || !dust.openings.empty())) return;
+  const ParticleModels models = make_particle_models(setup, registry);
+  const std::vector<Taker> all = takers(setup, dust, models.bodies);
+  for (std::size_t n = 0; n < models.emitters.size(); ++n) {
+    if (!may_be_asked(*models.emitters[n])) continue;
+    look_at(setup, setup.emitters[n], all, proposals(setup, setup.emitters[n], *models.emitters[n]),
+            diagnostics);
+  }
+}
+
+double narrowest_turn(double diameter, double density, double viscosity, double speed) {
+  const double relaxation = density * diameter * diameter / (18.0 * viscosity);
+  return relaxation * speed / k_largest_stokes_number;
+}
+
+void check_drift(const Setup& setup, const DustSetup& dust, const registry::Registry& registry,
+                 scenario::Diagnostics& diagnostics) {
+  if (!setup.fluid || !dust.field || !(setup.fluid->viscosity > 0.0)) return;
+  const ParticleModels models = make_particle_models(setup, registry);
+  double speed = 0.0;
+  for (const auto& body : models.bodies) speed = std::max(speed, body.largest_speed());
+  for (const auto& emitter : models.emitters) speed = std::max(speed, emitter->largest_speed());
+  const Vec3 h =
+      fluid::Grid::make(setup.domain.min, setup.domain.max, setup.fluid->cells, {}).spacing;
+  const double resolved = k_turn_cells * std::min({h.x, h.y, h.z});
+  for (const double diameter : dust.field->diameters) {
+    const double turn =
+        narrowest_turn(diameter, dust.field->density, setup.fluid->viscosity, speed);
+    if (!(turn > resolved)) continue;
+    diagnostics.warning(
+        dust.field->where,
+        "dust.field.classes: at " + base::digits_text(speed, 2) + " m/s dust of " +
+            base::length_text(diameter, 3) + " follows the fluid round turns wider than " +
+            base::length_text(turn, 2) + " only, and cells of " +
+            base::length_text(resolved / k_turn_cells, 2) +
+            " resolve narrower ones: its drift by inertia is left out, so that less of it is "
+            "deposited than would be; leave the class out, or let it be grains");
+  }
+}
+
+}  // namespace dust::preflight

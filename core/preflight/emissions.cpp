@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preflight/emissions.hpp"
+
+#include "base/error.hpp"
+#include "dust/sdk/random.hpp"
+#include "dust/sdk/sphere.hpp"
+#include "preflight/journey.hpp"
+#include "setup/mark.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace dust::preflight {
+namespace {
+
+/// Grains of a stream that are followed through the domain.
+constexpr std::size_t k_followed = 12;
+
+using scenario::EmitterSpec;
+using scenario::Setup;
+using Requests = std::vector<sdk::InsertionRequest>;
+
+double density_of(const Setup& setup, const EmitterSpec& spec) {
+  return setup.materials[static_cast<std::size_t>(spec.material)].properties.density;
+}
+
+/// [kg] of a grain on average; 0 where the emitter does not say which sizes come.
+double mean_mass(const sdk::EmitterRequest& request, double density) {
+  double mass = 0.0;
+  double all = 0.0;
+  for (const auto& share : request.shares) {
+    mass += share.number_fraction * density * sdk::sphere_volume(share.diameter);
+    all += share.number_fraction;
+  }
+  return all > 0.0 ? mass / all : 0.0;
+}
+
+/// In the domain's frame.
+sdk::InsertionRequest placed(const Setup& setup, const EmitterSpec& spec,
+                             sdk::InsertionRequest grain) {
+  if (spec.frame < 0) return grain;
+  const scenario::FrameSpec& frame = setup.frames[static_cast<std::size_t>(spec.frame)];
+  const sdk::Vec3 axis = frame.axis / norm(frame.axis);
+  grain.position = frame.origin + rotate(grain.position - frame.origin, axis, frame.angle);
+  grain.velocity = rotate(grain.velocity, axis, frame.angle);
+  return grain;
+}
+
+/// [m] Largest horizontal spread of where grains come in, square to their way; 0 for a point.
+double width_of(const Setup& setup, const Requests& requests) {
+  const double g = norm(setup.gravity);
+  const sdk::Vec3 up = g > 0.0 ? -setup.gravity / g : sdk::Vec3{0, 0, 1};
+  double width = 0.0;
+  for (int d = 0; d < 3; ++d) {
+    sdk::Vec3 axis;
+    axis[d] = 1.0;
+    if (std::abs(dot(axis, up)) > 0.7) continue;
+    const sdk::Vec3 v = requests.front().velocity;
+    if (std::abs(dot(axis, v)) > 0.7 * norm(v) && norm(v) > 0.0) continue;
+    const auto [least, most] = std::minmax_element(
+        requests.begin(), requests.end(),
+        [d](const auto& a, const auto& b) { return a.position[d] < b.position[d]; });
+    width = std::max(width, most->position[d] - least->position[d]);
+  }
+  return width;
+}
+
+void count_sizes(const Requests& requests, EmissionNumbers& numbers) {
+  std::map<double, double> shares;
+  for (const auto& one : requests) shares[one.diameter] += 1.0;
+  for (const auto& [diameter, count] : shares) {
+    numbers.sizes.push_back({diameter, count / static_cast<double>(requests.size())});
+  }
+}
+
+/// How long grains stay, and how thick they lie where they are carried.
+void follow_some(const Setup& setup, const bodies::BodySet& bodies, const EmitterSpec& spec,
+                 const Requests& requests, EmissionNumbers& numbers) {
+  double moving = 0.0;
+  double carried = 0.0;
+  double way = 0.0;
+  const std::size_t count = std::min(k_followed, requests.size());
+  for (std::size_t n = 0; n < count; ++n) {
+    const auto& grain = requests[n * requests.size() / count];
+    const Journey j =
+        follow_grain(setup, bodies, placed(setup, spec, grain), setup.time.end - numbers.begin);
+    numbers.stays.push_back(j.duration);
+    moving += std::isfinite(j.duration) ? j.duration : j.carried;
+    carried += j.carried;
+    way += j.carried_way;
+  }
+  if (moving > 0.0) numbers.carried_share = carried / moving;
+  const double width = width_of(setup, requests);
+  if (!(way > 0.0 && width > 0.0)) return;
+  const double speed = way / carried;
+  numbers.thickness = numbers.mass_flow / density_of(setup, spec) / (speed * width);
+}
+
+/// Lets a fresh emitter propose the grains of a short time from `request.begin` on; `step` [s] at a
+/// time.
+double propose(const Setup& setup, const EmitterSpec& spec, double step,
+               const sdk::EmitterRequest& request, sdk::Emitter& emitter, Requests& requests) {
+  constexpr int k_max_steps = 50;
+  constexpr std::size_t k_enough = 20000;
+  const double end = std::min(setup.time.end, request.end);
+  double time = request.begin;
+  const double stop = std::min(end, time + k_max_steps * setup.time.fluid_step);
+  while (time < stop && requests.size() < k_enough) {
+    sdk::EmitterContext context;
+    context.begin = time;
+    context.end = time + step;
+    context.grain_density = density_of(setup, spec);
+    context.gravity = setup.gravity;
+    context.random = sdk::Random(setup.seed, sdk::stream_of(spec.name.c_str()));
+    try {
+      emitter.propose(context, requests);
+    } catch (const std::exception& e) {
+      throw base::UserError(scenario::place(spec.model.where) + ": error: " + spec.model.path +
+                            ": " + e.what());
+    }
+    time = context.end;
+  }
+  return time - request.begin;
+}
+
+/// [s] In which a stream brings no more grains than can be placed quickly.
+double step_of(const Setup& setup, const EmitterSpec& spec, const sdk::EmitterRequest& request) {
+  constexpr double k_at_a_time = 5000.0;
+  const double mass = mean_mass(request, density_of(setup, spec));
+  const double per_second = mass > 0.0 ? request.mass_flow / mass : 0.0;
+  return per_second > 0.0 ? std::min(setup.time.fluid_step, k_at_a_time / per_second)
+                          : setup.time.fluid_step;
+}
+
+void take_sizes(const sdk::EmitterRequest& request, EmissionNumbers& numbers) {
+  double all = 0.0;
+  for (const auto& share : request.shares) all += share.number_fraction;
+  for (const auto& share : request.shares) {
+    numbers.sizes.push_back({share.diameter, share.number_fraction / all});
+  }
+}
+
+}  // namespace
+
+std::vector<sdk::InsertionRequest> proposals(const Setup& setup, const EmitterSpec& spec,
+                                             sdk::Emitter& emitter) {
+  const auto request = emitter.request();
+  Requests requests;
+  propose(setup, spec, step_of(setup, spec, request), request, emitter, requests);
+  for (auto& one : requests) one = placed(setup, spec, one);
+  return requests;
+}
+
+EmissionNumbers count_grains(const Setup& setup, const bodies::BodySet& bodies,
+                             const EmitterSpec& spec, sdk::Emitter& emitter) {
+  // More grains per fluid step than any run can follow: counted by shares alone.
+  constexpr double k_too_many = 2e5;
+  EmissionNumbers numbers;
+  numbers.emitter = spec.name;
+  numbers.mass_flow = emitter.requested_mass_flow();
+  const auto request = emitter.request();
+  numbers.begin = request.begin;
+  numbers.end = request.end;
+  const double mass = mean_mass(request, density_of(setup, spec));
+  if (!emitter.insertion_rule().waits &&
+      (request.count > 0 || (request.mass > 0.0 && mass > 0.0))) {
+    numbers.at_once =
+        request.count > 0 ? static_cast<double>(request.count) : std::round(request.mass / mass);
+    numbers.volume_at_once = numbers.at_once * mass / density_of(setup, spec);
+    take_sizes(request, numbers);
+    return numbers;
+  }
+  const double per_second = mass > 0.0 ? request.mass_flow / mass : 0.0;
+  if (per_second * setup.time.fluid_step > k_too_many) {
+    numbers.real_per_second = per_second;
+    numbers.computed_per_second = per_second;
+    take_sizes(request, numbers);
+    numbers.stays = {std::numeric_limits<double>::infinity()};
+    return numbers;
+  }
+  Requests requests;
+  const double duration =
+      propose(setup, spec, step_of(setup, spec, request), request, emitter, requests);
+  if (!(duration > 0.0) || requests.empty()) return numbers;
+  count_sizes(requests, numbers);
+  if (!emitter.insertion_rule().waits) {
+    numbers.at_once = static_cast<double>(requests.size());
+    return numbers;
+  }
+  for (const sdk::InsertionRequest& one : requests) numbers.real_per_second += one.weight;
+  numbers.real_per_second /= duration;
+  numbers.computed_per_second = static_cast<double>(requests.size()) / duration;
+  follow_some(setup, bodies, spec, requests, numbers);
+  return numbers;
+}
+
+}  // namespace dust::preflight

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bodies/body_set.hpp"
+#include "dust/sdk/emitter.hpp"
+#include "setup/setup.hpp"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace dust::preflight {
+
+/// What an emitter sends.
+struct EmissionNumbers {
+  /// Computed grains of one size.
+  struct Size {
+    double diameter = 0.0;  ///< [m]
+    double share = 0.0;     ///< of their number
+  };
+  std::string emitter;
+  double mass_flow = 0.0;            ///< [kg/s] as asked for
+  double computed_per_second = 0.0;  ///< grains the engine follows
+  double real_per_second = 0.0;      ///< the same, counted with their weights
+  double at_once = 0.0;              ///< computed grains that come at one moment
+  double volume_at_once = 0.0;       ///< [m3] of them; 0 where their sizes are not known
+  std::vector<Size> sizes;           ///< ascending; empty where they are not known
+  double begin = 0.0;                ///< [s] of a stream, or when those at once come
+  double end = std::numeric_limits<double>::infinity();
+  /// [s] that grains of a stream stay, of a sample of them; infinite for those that never leave.
+  std::vector<double> stays;
+  double carried_share = 0.0;  ///< of the time they move, on bodies and walls
+  double thickness = 0.0;      ///< [m] of the solids where they are carried, without pores
+};
+
+/// Grains that a fresh emitter proposes in the first steps of its stream, or at once, where they
+/// come in, in the domain's frame.
+std::vector<sdk::InsertionRequest> proposals(const scenario::Setup& setup,
+                                             const scenario::EmitterSpec& spec,
+                                             sdk::Emitter& emitter);
+
+/// Counts what an emitter sends: from what it says of itself, where that is enough, else from what
+/// it proposes. `bodies` carry the grains.
+EmissionNumbers count_grains(const scenario::Setup& setup, const bodies::BodySet& bodies,
+                             const scenario::EmitterSpec& spec, sdk::Emitter& emitter);
+
+}  // namespace dust::preflight

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/summary/taken_cost.hpp"
+
+#include <sys/resource.h>
+
+#include <string_view>
+#include <system_error>
+
+namespace dust::run {
+namespace {
+
+namespace fs = std::filesystem;
+using preflight::CostTerm;
+
+double folder_bytes(const fs::path& folder) {
+  double bytes = 0.0;
+  std::error_code error;
+  for (fs::recursive_directory_iterator file(folder, error), end; !error && file != end;
+       file.increment(error)) {
+    std::error_code ignored;
+    if (file->is_regular_file(ignored)) bytes += static_cast<double>(file->file_size(ignored));
+  }
+  return bytes;
+}
+
+CostTerm term_of(std::string_view node) {
+  for (const std::string_view name :
+       {"synchronise", "neighbour", "contact", "force", "integration"})
+    if (node == name) return CostTerm::grains;
+  if (node == "fine_level") return CostTerm::fine_grains;
+  if (node == "fluid") return CostTerm::fluid;
+  for (const std::string_view name : {"voidage", "drag", "collect"}) {
+    if (node == name) return CostTerm::exchange;
+  }
+  return CostTerm::rest;
+}
+
+double cell_count(const Simulation& s) {
+  if (s.fluid() == nullptr) return 0.0;
+  const auto& n = s.setup().fluid->cells;
+  return static_cast<double>(n[0]) * n[1] * n[2];
+}
+
+}  // namespace
+
+preflight::RunCost taken_cost(const Simulation& s, const RunFacts& facts, const fs::path& folder) {
+  preflight::RunCost cost;
+  const auto nodes = node_timings(s);
+  double sum = facts.output_s;
+  for (std::size_t n = 0; n < nodes.size() && n < facts.node_s.size(); ++n) {
+    // It holds the nodes of the grains' steps.
+    if (nodes[n].name == "dem_cycle") continue;
+    cost.terms[term_of(nodes[n].name)].seconds += facts.node_s[n];
+    sum += facts.node_s[n];
+  }
+  cost.terms[CostTerm::output].seconds = facts.output_s;
+  const double processors = sum > 0.0 ? facts.cpu_s / sum : 0.0;
+  for (std::size_t n = 0; n < preflight::k_cost_terms; ++n) cost.terms[n].seconds *= processors;
+
+  const auto dem = s.dem().report();
+  const auto steps = static_cast<double>(s.steps_done());
+  const double cells = cell_count(s);
+  const auto grain_steps = static_cast<double>(dem.particle_steps);
+  cost.terms[CostTerm::grains].amount = grain_steps;
+  cost.terms[CostTerm::fine_grains].amount = static_cast<double>(dem.fine_steps);
+  if (s.fluid() != nullptr) {
+    cost.terms[CostTerm::fluid].amount = cells * static_cast<double>(s.fluid_stage()->sub_steps());
+    cost.terms[CostTerm::exchange].amount =
+        grain_steps * s.dem().coarse_step() / s.setup().time.fluid_step + cells * steps;
+  }
+  cost.terms[CostTerm::output].amount = static_cast<double>(facts.frames);
+  cost.terms[CostTerm::rest].amount = steps;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  cost.memory_bytes = static_cast<double>(usage.ru_maxrss) * 1024.0;
+  cost.disk_bytes = folder_bytes(folder);
+  return cost;
+}
+
+}  // namespace dust::run

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preflight/dust_check.hpp"
+#include "base/error.hpp"
+#include "unit/scenario/support.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+using namespace dust;
+
+namespace {
+
+/// A box of 1 x 0.2 x 1 m in cells of 0.1 m; a hood with its opening at z = 0.7 m from x = 0.3 to
+/// 0.7 m; a feed of 10 mm below it.
+const std::string k_text = R"(
+name: hood
+time: {end: 0.1 s, fluid_step: 1 ms, output_every: 0.1 s}
+gravity: [0, 0, -9.81]
+domain:
+  min: [0, 0, 0 m]
+  max: [1, 0.2, 1 m]
+  boundaries:
+    left: {grains: open, air: {model: total_pressure}}
+    right: {grains: open, air: {model: total_pressure}}
+    front: {grains: wall, material: steel, air: {model: slip}}
+    back: {grains: wall, material: steel, air: {model: slip}}
+    bottom: {grains: wall, material: steel, air: {model: no_slip}}
+    top: {grains: wall, material: steel, air: {model: slip}}
+materials:
+  sand: {density: 2500, young_modulus: 5 MPa, poisson_ratio: 0.3}
+  steel: {density: 7800, young_modulus: 5 MPa, poisson_ratio: 0.3}
+interactions:
+  - between: [sand, sand]
+    contact: {model: hertz_mindlin, restitution: 0.5, friction: 0.5}
+  - between: [sand, steel]
+    contact: {model: hertz_mindlin, restitution: 0.5, friction: 0.5}
+bodies:
+  hood: {shape: box, material: steel, min: [0.2, 0, 0.7 m], max: [0.8, 0.2, 0.8 m],
+    suction: {flow: 10 l/s, min: [0.3, 0, 0.7 m], max: [0.7, 0.2, 0.7 m]}}
+emitters:
+  feed: {model: feed, material: sand, mass_flow: 10 kg/s, min: [0.4, 0.05, 0.5 m], max: [0.6, 0.15, 0.5 m], velocity: [0, 0, -2 m/s], diameters: [10 mm], mass_fractions: [1]}
+fluid: {cells: [10, 2, 10], density: 1.2, viscosity: 2e-5, momentum_set: I, initial_velocity: [0, 0, 0 m/s]}
+drag: {model: gidaspow}
+voidage: {model: centre}
+)";
+
+const registry::Registry& shipped() {
+  static const registry::Registry& all = []() -> const registry::Registry& {
+    static registry::Registry made;
+    made.load({DUST_TEST_PLUGINS});
+    return made;
+  }();
+  return all;
+}
+
+std::vector<std::string> warnings(const std::vector<scenario::Override>& set) {
+  const Folder folder;
+  return preflight::read_scenario(folder.write("hood.yaml", k_text), set, shipped()).warnings;
+}
+
+bool has(const std::vector<std::string>& lines, const std::string& text) {
+  return std::any_of(lines.begin(), lines.end(),
+                     [&](const auto& line) { return line.find(text) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("an opening that lies over an emitter shall be told, with file and line") {
+  CHECK_FALSE(has(warnings({}), "lies over it"));
+  // Half of the feed's width below the hood's opening, 4 mm from it: a radius is 5 mm.
+  const auto half = warnings({{"emitters.feed.min", "[0.5, 0.05, 0.696 m]"},
+                              {"emitters.feed.max", "[0.9, 0.15, 0.696 m]"}});
+  CHECK(has(half, "hood.yaml"));
+  CHECK(has(half, "emitters.feed: bodies.hood.suction lies over it and draws out "));
+  // Beside the opening, at the same height, nothing is drawn out.
+  CHECK_FALSE(has(warnings({{"emitters.feed.min", "[0.82, 0.05, 0.696 m]"},
+                            {"emitters.feed.max", "[0.9, 0.15, 0.696 m]"}}),
+                  "lies over it"));
+}
+
+TEST_CASE("an emitter that an opening takes everything of shall be refused") {
+  CHECK_THROWS_WITH_AS(warnings({{"emitters.feed.min", "[0.4, 0.05, 0.696 m]"},
+                                 {"emitters.feed.max", "[0.6, 0.15, 0.696 m]"}}),
+                       doctest::Contains("draws out all grains as they come in"), base::UserError);
+}
+
+TEST_CASE("a hood in a side of the domain shall be looked at as well") {
+  const std::vector<scenario::Override> hood = {
+      {"bodies", "{}"},
+      {"domain.boundaries.top",
+       "{grains: wall, material: steel, air: {model: hood, flow: 10 l/s, min: [0.4, 0, 1 m], max: "
+       "[0.6, 0.2, 1 m]}}"}};
+  auto set = hood;
+  set.push_back({"emitters.feed.min", "[0.3, 0.05, 0.996 m]"});
+  set.push_back({"emitters.feed.max", "[0.7, 0.15, 0.996 m]"});
+  CHECK(has(warnings(set), "domain.boundaries.top.air lies over it"));
+  CHECK_FALSE(has(warnings(hood), "lies over it"));
+}
+
+TEST_CASE("the narrowest turn that dust follows shall be that of Stokes number 0.2") {
+  // tau = 2500 * 1e-10 / (18 * 2e-5) = 0.694 ms; at 4 m/s: 0.694e-3 * 4 / 0.2 = 13.9 mm.
+  CHECK(preflight::narrowest_turn(10e-6, 2500, 2e-5, 4.0) ==
+        doctest::Approx(0.0138889).epsilon(1e-5));
+}
+
+TEST_CASE("a class of dust that does not follow the resolved fluid shall be told") {
+  // The feed's 2 m/s and cells of 0.1 m: 0.2 m is the turn of 54 um, four cells that of 76 um.
+  CHECK_FALSE(has(warnings({{"dust", "{field: {classes: [10, 70 um], material: sand}}"}}),
+                  "drift by inertia"));
+  const auto coarse = warnings({{"dust", "{field: {classes: [10, 80 um], material: sand}}"}});
+  CHECK(has(coarse, "dust.field.classes: at 2 m/s dust of 80 um follows the fluid round turns"));
+  CHECK_FALSE(has(coarse, "dust of 10 um"));
+}
