@@ -258,7 +258,7 @@ Json amounts_json(const Simulation& s, const RunFacts& facts) {
   }
   if (s.liberation() != nullptr) j["dust_on_grains"] = dust_on_grains_json(s);
   if (s.setup().audit.energy) j["energy"] = energy_json(s);
-  if (facts.forces.samples() > 0) j["forces"] = forces_json(s.setup(), facts.forces);
+  j["forces"] = forces_json(s.setup(), facts.forces);
   j["size_classes"] = s.models().class_diameters.empty() ? Json::array() : class_steps(s.dem());
   return j;
 }
