@@ -105,6 +105,7 @@ std::optional<SuctionSpec> read_suction(Reading& reading, MapReader& reader, Nod
 /// What only the made body knows.
 void check_body(Reading& reading, const BodySpec& spec, std::vector<ReadModel> motions) {
   std::vector<std::unique_ptr<sdk::Motion>> made;
+  made.reserve(motions.size());
   for (ReadModel& motion : motions) {
     made.emplace_back(static_cast<sdk::Motion*>(motion.model.release()));
   }
