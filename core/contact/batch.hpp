@@ -102,9 +102,9 @@ class BatchColumns {
   }
   void keep_history_here() { keep_history_at(column(first_history), k_stride); }
 
-  /// The batch a law sees. `first_history_column` skips the columns of other stages.
-  [[nodiscard]] sdk::ContactBatch view(std::size_t count, double time_step,
-                                       int first_history_column) const;
+  /// The batch that contact and rolling law see.
+  [[nodiscard]] sdk::ContactBatch view(std::size_t count, double time_step) const;
+  /// That of the cohesion; `first_history_column` skips the columns of the other two.
   [[nodiscard]] sdk::CohesionBatch cohesion_view(std::size_t count, double time_step,
                                                  int first_history_column);
 

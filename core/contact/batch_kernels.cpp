@@ -44,12 +44,11 @@ BatchColumns::BatchColumns() : data_(static_cast<std::size_t>(k_columns) * k_str
   b.inverse_mass_j = column(inverse_mass_j);
 }
 
-sdk::ContactBatch BatchColumns::view(std::size_t count, double time_step,
-                                     int first_history_column) const {
+sdk::ContactBatch BatchColumns::view(std::size_t count, double time_step) const {
   sdk::ContactBatch b = batch_;
   b.count = padded(count);
   b.time_step = time_step;
-  b.history = history_.data() + first_history_column;
+  b.history = history_.data();
   return b;
 }
 

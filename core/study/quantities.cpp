@@ -6,6 +6,7 @@
 #include "dust/sdk/sensor.hpp"
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
+#include "setup/force_kinds.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -58,10 +59,7 @@ constexpr Named k_always[] = {
     {"frames", "1"},
     {"forces.samples", "1"},
 };
-/// Kinds of forces on grains, and what is told of each.
-constexpr const char* k_force_kinds[] = {
-    "gravity",           "buoyancy", "contact_normal", "contact_tangential", "attraction",
-    "pressure_gradient", "drag"};
+/// Of each kind of forces on grains.
 constexpr Named k_of_force[] = {{"share", "1"}, {"over_weight", "1"}};
 constexpr Named k_with_fluid[] = {
     {"health.last_divergence_per_s", "1/s"},
@@ -175,7 +173,8 @@ std::vector<Quantity> quantities_of(const scenario::Setup& setup, const scenario
     for (const Named& n : names) all.push_back({prefix + n.path, n.unit, false});
   };
   add(k_always);
-  for (const char* kind : k_force_kinds) add(k_of_force, std::string("forces.kinds.") + kind + ".");
+  for (const char* kind : scenario::k_force_names)
+    add(k_of_force, std::string("forces.kinds.") + kind + ".");
   if (setup.fluid) add(k_with_fluid);
   if (setup.drag && setup.voidage) add(k_with_coupling);
   if (setup.fluid && !setup.fluid->resolved.empty()) add(k_with_resolved);

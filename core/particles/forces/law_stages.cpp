@@ -21,7 +21,7 @@ contact::BatchColumns& thread_columns() {
 
 void evaluate_laws(const PairLaws& law, BatchColumns& columns, std::size_t count,
                    double time_step) {
-  sdk::ContactBatch batch = columns.view(count, time_step, 0);
+  sdk::ContactBatch batch = columns.view(count, time_step);
   const int first_rolling = law.contact->history_size();
   if (law.cohesion) {
     const int first = first_rolling + (law.rolling ? law.rolling->history_size() : 0);

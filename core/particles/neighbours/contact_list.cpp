@@ -17,40 +17,92 @@ struct Run {
   std::size_t end = 0;
 };
 
+/// Contacts in touch of one run of a list, found in the order of the pair list it came from.
+class KnownContacts {
+ public:
+  /// Those in touch among entries [begin, end), which are not looked at again.
+  void take(const ContactList& contacts, std::size_t begin, std::size_t end) {
+    if (entries_.size() <= end - begin) entries_.resize(end - begin + 1);
+    std::size_t found = 0;
+    for (std::size_t u = begin; u < end; ++u) {
+      entries_[found] = static_cast<std::int32_t>(u);
+      found += contacts.touching()[u] != 0 ? 1 : 0;
+    }
+    next_ = 0;
+    count_ = found;
+  }
+  /// The contact between a and b, if it is the next, or -1.
+  [[nodiscard]] std::int32_t find(const ContactList& contacts, std::int32_t a, std::int32_t b) {
+    if (next_ >= count_) return -1;
+    const std::int32_t entry = entries_[next_];
+    const auto u = static_cast<std::size_t>(entry);
+    const bool is_it = (contacts.a()[u] == a) & (contacts.b()[u] == b);
+    next_ += is_it ? 1 : 0;
+    return is_it ? entry : -1;
+  }
+  [[nodiscard]] bool is_used_up() const { return next_ >= count_; }
+
+ private:
+  std::vector<std::int32_t> entries_;
+  std::size_t next_ = 0;
+  std::size_t count_ = 0;
+};
+
 /// Finds the contacts of a list in the order of the pair list it came from: both runs of a range
 /// stand in that order.
 class HistoryCursor {
  public:
-  explicit HistoryCursor(const ContactList& contacts)
-      : contacts_(contacts), rest_{0, contacts.ranges().empty() ? contacts.size() : 0} {}
-
+  void begin(const ContactList& contacts) {
+    contacts_ = &contacts;
+    persistent_.take(contacts, 0, 0);
+    rest_.take(contacts, 0, contacts.ranges().empty() ? contacts.size() : 0);
+    is_all_found_ = true;
+  }
   /// To the contacts of another range. After a rebuild there is one run of all.
   void turn_to(const LawRange& range) {
-    if (contacts_.ranges().empty()) return;
-    persistent_ = rest_ = {};
-    for (const LawRange& r : contacts_.ranges()) {
+    if (contacts_->ranges().empty()) return;
+    is_all_found_ = is_all_found();
+    persistent_.take(*contacts_, 0, 0), rest_.take(*contacts_, 0, 0);
+    for (const LawRange& r : contacts_->ranges()) {
       if (r.law != range.law || r.surface != range.surface) continue;
-      persistent_ = {static_cast<std::size_t>(r.begin), static_cast<std::size_t>(r.persistent_end)};
-      rest_ = {static_cast<std::size_t>(r.persistent_end), static_cast<std::size_t>(r.end)};
+      const auto middle = static_cast<std::size_t>(r.persistent_end);
+      persistent_.take(*contacts_, static_cast<std::size_t>(r.begin), middle);
+      rest_.take(*contacts_, middle, static_cast<std::size_t>(r.end));
       return;
     }
   }
-  /// The contact of the next entry of the range, in touch, or -1.
+  /// The contact in touch of a later entry of the range than that asked for before, or -1.
   [[nodiscard]] std::int32_t find(std::int32_t a, std::int32_t b) {
-    return std::max(find_in(persistent_, a, b), find_in(rest_, a, b));
+    return std::max(persistent_.find(*contacts_, a, b), rest_.find(*contacts_, a, b));
+  }
+  /// Whether each contact of the ranges turned to has been found.
+  [[nodiscard]] bool is_all_found() const {
+    return is_all_found_ && persistent_.is_used_up() && rest_.is_used_up();
   }
 
  private:
-  std::int32_t find_in(Run& run, std::int32_t a, std::int32_t b) const {
-    if (run.next >= run.end) return -1;
-    const std::size_t u = run.next;
-    const bool is_it = (contacts_.a()[u] == a) & (contacts_.b()[u] == b);
-    run.next += is_it ? 1 : 0;
-    return is_it & (contacts_.touching()[u] != 0) ? static_cast<std::int32_t>(u) : -1;
-  }
-  const ContactList& contacts_;
-  Run persistent_, rest_;
+  const ContactList* contacts_ = nullptr;
+  KnownContacts persistent_, rest_;
+  bool is_all_found_ = true;
 };
+
+/// The entries of a range that are marked, in their order: nearly all are not.
+std::size_t find_marked(std::span<const std::uint8_t> marks, std::size_t begin, std::size_t end,
+                        std::int32_t* marked) {
+  std::int32_t* to = marked;
+  const auto take = [&](std::size_t q) {
+    *to = static_cast<std::int32_t>(q);
+    to += marks[q] != 0 ? 1 : 0;
+  };
+  std::size_t q = begin;
+  for (std::uint64_t eight = 0; q + sizeof(eight) <= end; q += sizeof(eight)) {
+    std::memcpy(&eight, marks.data() + q, sizeof(eight));
+    if (eight == 0) continue;
+    for (std::size_t k = 0; k < sizeof(eight); ++k) take(q + k);
+  }
+  for (; q < end; ++q) take(q);
+  return static_cast<std::size_t>(to - marked);
+}
 
 /// Visits the blocks of a list whose histories stand in columns: where one begins, how many rows.
 template <class Visit>
@@ -86,6 +138,9 @@ struct ContactList::Choice {
 /// Working space of a thread, never given back: for lists made again and again.
 struct ContactList::Scratch {
   std::vector<Choice> touching, apart, chosen;
+  std::size_t chosen_count = 0;
+  HistoryCursor known;
+  std::vector<std::int32_t> marked;
   std::vector<std::int32_t> a, b;
   std::vector<std::uint8_t> is_touching;
   contact::AlignedVector<double> history;
@@ -96,6 +151,7 @@ struct ContactList::Scratch {
     for (auto* v : {&touching, &apart, &chosen}) {
       if (v->size() <= entries) v->resize(entries + 1);
     }
+    if (marked.size() <= entries) marked.resize(entries + 1);
     ranges.clear();
     unseen.clear();
   }
@@ -125,30 +181,37 @@ void ContactList::append(const ContactList& other) {
   }
 }
 
-/// Marks first, without branches on either, which no processor foretells; copies then.
-std::span<const std::int32_t> ContactList::prune(const PairList& outer,
-                                                 std::span<const std::uint8_t> approach,
-                                                 bool may_persist) {
-  thread_local Scratch scratch;
+/// Sorts entries of the pair list into those in touch and those that only approach, without
+/// branches on either, which no processor foretells. `is_marked_only`: looks at those with a mark
+/// alone. Returns whether every contact in touch was found.
+bool ContactList::choose(const PairList& outer, std::span<const std::uint8_t> approach,
+                         bool is_marked_only, bool may_persist, Scratch& scratch) const {
   scratch.expect(outer.size());
   const std::int32_t* const a = outer.a().data();
   const std::int32_t* const b = outer.b().data();
   Choice* end = scratch.chosen.data();
   const auto number = [&] { return static_cast<std::int32_t>(end - scratch.chosen.data()); };
-  HistoryCursor known(*this);
+  HistoryCursor& known = scratch.known;
+  known.begin(*this);
   for (const LawRange& range : outer.ranges()) {
     known.turn_to(range);
     Choice* const touching = scratch.touching.data();
     Choice* touching_end = touching;
     Choice* approaches = scratch.apart.data();
-    for (auto q = static_cast<std::size_t>(range.begin); q < static_cast<std::size_t>(range.end);
-         ++q) {
+    const auto first = static_cast<std::size_t>(range.begin);
+    const auto last = static_cast<std::size_t>(range.end);
+    std::size_t looked_at = last - first;
+    if (is_marked_only) looked_at = find_marked(approach, first, last, scratch.marked.data());
+    for (std::size_t k = 0; k < looked_at; ++k) {
+      const std::int32_t entry =
+          is_marked_only ? scratch.marked[k] : static_cast<std::int32_t>(first + k);
+      const auto q = static_cast<std::size_t>(entry);
       const std::int32_t contact = known.find(a[q], b[q]);
-      *touching_end = *approaches = {static_cast<std::int32_t>(q), contact};
+      *touching_end = *approaches = {entry, contact};
       touching_end += contact >= 0 ? 1 : 0;
       approaches += (contact < 0) & (approach[q] != 0) ? 1 : 0;
       if ((contact < 0) & (approach[q] > contact::k_may_meet)) [[unlikely]] {
-        scratch.unseen.push_back(static_cast<std::int32_t>(q));
+        scratch.unseen.push_back(entry);
       }
     }
     LawRange part{range.law, range.surface, number(), 0, 0};
@@ -160,7 +223,22 @@ std::span<const std::int32_t> ContactList::prune(const PairList& outer,
     part.end = number();
     if (part.end > part.begin) scratch.ranges.push_back(part);
   }
-  const auto count = static_cast<std::size_t>(number());
+  scratch.chosen_count = static_cast<std::size_t>(number());
+  return known.is_all_found();
+}
+
+/// Chooses first and copies then. What is in touch is near, and so has a mark; a law that holds on
+/// farther than that (a bridge that is stretched) has every entry looked at.
+std::span<const std::int32_t> ContactList::prune(const PairList& outer,
+                                                 std::span<const std::uint8_t> approach,
+                                                 bool may_persist) {
+  thread_local Scratch scratch;
+  if (!choose(outer, approach, true, may_persist, scratch)) {
+    choose(outer, approach, false, may_persist, scratch);
+  }
+  const std::int32_t* const a = outer.a().data();
+  const std::int32_t* const b = outer.b().data();
+  const std::size_t count = scratch.chosen_count;
   scratch.make_room(count, stride_);
   alignas(32) static constexpr double k_new[contact::k_max_history] = {};
   const double* const history = history_.data();

@@ -68,6 +68,8 @@ class ContactList {
  private:
   struct Scratch;
   struct Choice;
+  bool choose(const PairList& outer, std::span<const std::uint8_t> approach, bool is_marked_only,
+              bool may_persist, Scratch& scratch) const;
   void take(const Scratch& scratch, std::size_t count);
 
   PartnerKind partners_;

@@ -5,6 +5,7 @@
 #include "dust/sdk/sensor.hpp"
 #include "dust/sdk/vec3.hpp"
 #include "particles/dem.hpp"
+#include "setup/force_kinds.hpp"
 
 #include <array>
 #include <cstdint>
@@ -12,20 +13,9 @@
 
 namespace dust::run {
 
-/// The kinds of forces on grains that a run tells apart.
-enum class ForceKind : std::size_t {
-  gravity,
-  buoyancy,        ///< of the hydrostatic pressure
-  contact_normal,  ///< what grains and walls press
-  contact_tangential,
-  attraction,         ///< what holds them together: contacts that pull
-  pressure_gradient,  ///< of the fluid's own pressure, in the cell of the grain
-  drag                ///< all else that the fluid does
-};
-inline constexpr std::size_t k_force_kinds = 7;
-inline constexpr std::array<const char*, k_force_kinds> k_force_names = {
-    "gravity",           "buoyancy", "contact_normal", "contact_tangential", "attraction",
-    "pressure_gradient", "drag"};
+using scenario::ForceKind;
+using scenario::k_force_kinds;
+using scenario::k_force_names;
 
 /// How large the forces on grains are beside each other. At each sample the forces of a kind are
 /// added up on each grain, \f$ \vec F_{k,i} \f$; kept is \f$ S_k = \sum w_i |\vec F_{k,i}| \f$ over

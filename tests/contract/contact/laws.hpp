@@ -220,7 +220,7 @@ class LawBench {
     contact::derive_normal_velocity(columns_, count);
     for (std::size_t first = 0; first < count; first += split) {
       const std::size_t n = std::min(split, count - first);
-      sdk::ContactBatch b = columns_.view(n, 0.0, 0);
+      sdk::ContactBatch b = columns_.view(n, 0.0);
       sdk::CohesionBatch c = columns_.cohesion_view(n, 0.0, 0);
       std::array<double*, contact::k_max_history> history{};
       for (std::size_t h = 0; h < history.size(); ++h) history[h] = columns_.history()[h] + first;

@@ -80,9 +80,16 @@ TEST_CASE("a pruned list shall hold what touches, with its history, and what may
     const double history[k_stride] = {mark, 2 * mark, 3 * mark, 4 * mark};
     if (outer.a()[q] % 3 == 0) list.push(outer.a()[q], outer.b()[q], history, 1);
   }
+  // What is in touch has a mark, but where a law reaches farther than its range.
+  std::int32_t marks_every = 0;
+  SUBCASE("contacts in touch have a mark") { marks_every = 1; }
+  SUBCASE("one in seven has none") { marks_every = 7; }
+  SUBCASE("none has a mark") {}
   std::vector<std::uint8_t> approach(outer.size());
   for (std::size_t q = 0; q < outer.size(); ++q) {
-    approach[q] = outer.a()[q] % 3 == 1 ? dust::contact::k_may_meet : 0;
+    const std::int32_t a = outer.a()[q];
+    const bool has_mark = marks_every == 1 || (marks_every > 1 && a % marks_every != 0);
+    approach[q] = a % 3 == 1 || (a % 3 == 0 && has_mark) ? dust::contact::k_may_meet : 0;
     if (outer.a()[q] == 7) approach[q] |= dust::contact::k_overlaps;
   }
   // Once as after a rebuild, then from a pruned list.
