@@ -47,9 +47,14 @@ const GrainRows& UnresolvedRows::take(const GrainRows& all,
   return rows_;
 }
 
-void UnresolvedRows::give_back(const GrainRows& all) const {
+void UnresolvedRows::give_back_drag(const GrainRows& all) const {
   for (std::size_t n = 0; n < row_.size(); ++n) {
     std::copy_n(&action_[4 * n], 4, all.drag_relaxation + 4 * row_[n]);
+  }
+}
+
+void UnresolvedRows::give_back_impulses(const GrainRows& all) const {
+  for (std::size_t n = 0; n < row_.size(); ++n) {
     std::copy_n(&impulse_[4 * n], 4, all.fluid_impulse + 4 * row_[n]);
   }
 }

@@ -18,8 +18,10 @@ class UnresolvedRows {
   /// Reads the rows; valid until they change.
   const particles::GrainRows& take(const particles::GrainRows& all,
                                    const std::function<bool(std::int32_t)>& is_resolved);
-  /// Writes back what the fluid does to the grains, and the impulses that were read.
-  void give_back(const particles::GrainRows& all) const;
+  /// Writes back what the fluid does to the grains.
+  void give_back_drag(const particles::GrainRows& all) const;
+  /// Writes back the impulses, which who reads them sets to zero.
+  void give_back_impulses(const particles::GrainRows& all) const;
 
  private:
   std::vector<std::size_t> row_;  ///< in all rows

@@ -83,10 +83,6 @@ const particles::GrainRows& FluidStage::unresolved(const particles::GrainRows& r
   return unresolved_.take(rows, [this](int material) { return resolved_->is_resolved(material); });
 }
 
-void FluidStage::give_back(const particles::GrainRows& rows) const {
-  if (resolved_) unresolved_.give_back(rows);
-}
-
 const fluid::CellField& FluidStage::void_fraction() const {
   return coupling_ ? coupling_->void_fraction() : no_particles_->void_fraction;
 }
@@ -148,7 +144,7 @@ void FluidStage::refresh(const particles::GrainRows& all, double now, double hel
         evaluated_.value(), rows,
         {solver_->velocity(), solver_->stress_divergence(), &solver_->mean_pressure(), now, held});
   }
-  give_back(all);
+  if (resolved_) unresolved_.give_back_drag(all);
 }
 
 void FluidStage::end_step(const particles::GrainRows& rows) {
@@ -156,7 +152,7 @@ void FluidStage::end_step(const particles::GrainRows& rows) {
   if (!coupling_) return;
   coupling_->end_step(std::move(evaluated_).value(), unresolved(rows), setup_.time.fluid_step);
   evaluated_.reset();
-  give_back(rows);
+  if (resolved_) unresolved_.give_back_impulses(rows);
 }
 
 void FluidStage::keep_for_particles() {

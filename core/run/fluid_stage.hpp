@@ -101,9 +101,9 @@ class FluidStage {
   [[nodiscard]] const fluid::Exchange& exchange(const fluid::FaceField* force);
   void set_velocity(const fluid::FaceField& velocity);
   void make_resolved();
-  /// Of all rows those that a drag law is for; given back to them by give_back().
+  /// Of all rows those that a drag law is for; given back to them where
+  /// they are copies.
   const particles::GrainRows& unresolved(const particles::GrainRows& rows);
-  void give_back(const particles::GrainRows& rows) const;
 
   const scenario::Setup& setup_;
   const Models& models_;

@@ -172,7 +172,7 @@ void Simulation::add_particle_nodes() {
     step_graph_.add(
         {"collect",
          {"grain.state", "grain.fluid_impulse", "fluid.void_fraction", "fluid.velocity"},
-         {"fluid.exchange"},
+         {"fluid.exchange", "grain.fluid_impulse"},
          [this] {
            if (fluid_->is_lagged()) fluid_->evaluate_drag(dem_->rows());
            fluid_->end_step(dem_->rows());
