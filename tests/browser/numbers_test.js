@@ -20,6 +20,12 @@ assert.strictEqual(N.quantity(12, -1, '1'), '12');
 assert.strictEqual(N.quantity(2.5, -1, 'kg/s'), '2.5\u202fkg/s');
 assert.strictEqual(N.quantity(1.25, -1, 'm3/s'), '4500\u202fm³/h');
 assert.strictEqual(N.quantity(1e-12, -1, 'm3/s'), '3.6\u202fmm³/h');
+assert.strictEqual(N.quantity(0.8202, -1, 'rad'), '46.99°');
+assert.strictEqual(N.quantity(24634, -1, 'Pa'), '24.63\u202fkPa');
+assert.strictEqual(N.quantity(0.02, -1, 'Pa'), '0.02\u202fPa');
+assert.strictEqual(N.quantity(0.02, -1, 'm/s'), '0.02\u202fm/s');
+assert.strictEqual(N.quantity(1.5e-9, -1, 'm/s'), '5.4\u202fµm/h');
+assert.strictEqual(N.quantity(10.5, 4.4, 'kg/h'), '10.5\u00a0±\u00a04.4\u202fkg/h');
 assert.strictEqual(N.quantity(1800, -1, 'kg'), '1.8\u202ft');
 // In a domain of a plant's size flows from 1 t/h on are t/h, and places m.
 N.set_extent(3.4);
