@@ -36,6 +36,11 @@ Placement Body::placement(double time) const {
   return Placement::turned(frame_origin, frame_axis, frame_angle).after(at);
 }
 
+bool Body::is_carried() const {
+  return std::any_of(motions.begin(), motions.end(),
+                     [](const auto& motion) { return motion->moves_body(); });
+}
+
 SurfacePoint Body::nearest(Vec3 point) const {
   return nearest(point, Placement::turned(frame_origin, frame_axis, frame_angle));
 }
@@ -78,13 +83,16 @@ void Body::touch(int part, const ClosestPoints& all, const Placement& at) const 
 }
 
 void Body::surface_velocities(const sdk::SurfaceBatch& all) const {
+  surface_velocities(all, placement(all.time));
+}
+
+void Body::surface_velocities(const sdk::SurfaceBatch& all, const Placement& at) const {
   std::fill_n(all.velocity.x, all.count, 0.0);
   std::fill_n(all.velocity.y, all.count, 0.0);
   std::fill_n(all.velocity.z, all.count, 0.0);
   if (motions.empty()) return;
-  const Placement at = placement(all.time);
   const Vec3 axis = at.turn(shape->lateral_axis());
-  const auto* const local = dynamic_cast<const LocalAxes*>(shape.get());
+  const auto* const local = shape->local_axes();
   const std::size_t block = local != nullptr ? 1 : k_block;
   double run[3][k_block];
   for (std::size_t first = 0; first < all.count; first += block) {

@@ -39,6 +39,9 @@ struct Body {
   /// not: only its surface velocity counts.
   [[nodiscard]] bool displaces() const;
   [[nodiscard]] Placement placement(double time) const;
+  /// Whether a motion carries or turns it, be it in its own place; if not, its placement is always
+  /// the same.
+  [[nodiscard]] bool is_carried() const;
 
   /// Nearest surface point in the domain's frame, as the scenario puts the body or at a placement.
   [[nodiscard]] SurfacePoint nearest(sdk::Vec3 point) const;
@@ -52,6 +55,8 @@ struct Body {
   }
   /// Velocities [m/s] of surface points at batch.time; batch.axis is not read.
   void surface_velocities(const sdk::SurfaceBatch& batch) const;
+  /// The same of a placement that is known, that at batch.time.
+  void surface_velocities(const sdk::SurfaceBatch& batch, const Placement& at) const;
   /// The same at one point (for set-up and tests).
   [[nodiscard]] sdk::Vec3 surface_velocity(sdk::Vec3 point, sdk::Vec3 normal, double time) const;
   /// Upper bound [m/s] of the speed of any point of the surface at any time.

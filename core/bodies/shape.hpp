@@ -14,6 +14,8 @@
 
 namespace dust::bodies {
 
+class LocalAxes;
+
 /// The point of a surface nearest to a given point.
 struct SurfacePoint {
   double distance = 0.0;  ///< [m] signed: negative inside the solid
@@ -82,6 +84,8 @@ class Shape {
   [[nodiscard]] virtual Triangles triangles(sdk::Vec3 min, sdk::Vec3 max, double edge) const = 0;
   /// Lateral axis (unit): the pulley's axis of a conveyor, the width of a plate.
   [[nodiscard]] virtual sdk::Vec3 lateral_axis() const = 0;
+  /// Where that differs from place to place; else null.
+  [[nodiscard]] virtual const LocalAxes* local_axes() const { return nullptr; }
   /// Whether the shape stays where it is when it turns about the line through `point` along the
   /// unit vector `axis`: a drum about its own axis.
   [[nodiscard]] virtual bool is_unchanged_by_turning(sdk::Vec3, sdk::Vec3) const { return false; }

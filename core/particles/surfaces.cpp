@@ -45,6 +45,7 @@ std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::Bod
     s.body = &body;
     s.displacing_speed = body.largest_displacing_speed();
     s.place = body.placement(0.0);
+    s.is_carried = body.is_carried();
     s.wall = walls++;
     for (s.part = 0; s.part < body.shape->parts(); ++s.part) out.push_back(s);
   }
@@ -58,12 +59,14 @@ void surface_velocities(const Surface& surface, double time, std::size_t count,
     for (int d = 0; d < 3; ++d) std::fill_n(velocity[d], count, 0.0);
     return;
   }
-  surface.body->surface_velocities({.count = count,
-                                    .time = time,
-                                    .axis = {},
-                                    .position = {point[0], point[1], point[2]},
-                                    .normal = {normal[0], normal[1], normal[2]},
-                                    .velocity = {velocity[0], velocity[1], velocity[2]}});
+  const sdk::SurfaceBatch batch{.count = count,
+                                .time = time,
+                                .axis = {},
+                                .position = {point[0], point[1], point[2]},
+                                .normal = {normal[0], normal[1], normal[2]},
+                                .velocity = {velocity[0], velocity[1], velocity[2]}};
+  surface.body->surface_velocities(
+      batch, surface.is_carried ? surface.body->placement(time) : surface.place);
 }
 
 }  // namespace dust::particles

@@ -24,6 +24,7 @@ struct Surface {
   sdk::Vec3 normal;                    ///< into the domain
   double offset = 0.0;                 ///< [m] dot(normal, point of the plane)
   bodies::Placement place;             ///< of the body, at the time of the last move_to()
+  bool is_carried = false;             ///< the body's placement is not always the same
   double displacing_speed = 0.0;       ///< [m/s] upper bound; 0 = stands
   int opening = -1;                    ///< number of the opening in it; -1 = none
 

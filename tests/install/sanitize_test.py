@@ -23,13 +23,29 @@ class Sanitize(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
         self.page = pathlib.Path(self.folder.name) / "page.md"
 
-    def record(self, preset, *options):
+    def results(self, name, tests, *options):
         folder = pathlib.Path(self.folder.name)
-        (folder / "CTestTestfile.cmake").write_text(TESTS)
-        results = folder / "tests.xml"
-        subprocess.run(["ctest", "--output-junit", results, *options], cwd=folder, capture_output=True)
-        return subprocess.run([ROOT / "tools/dev/sanitize", preset, "--results", results, "--record", "--page",
+        (folder / "CTestTestfile.cmake").write_text(tests)
+        subprocess.run(["ctest", "--output-junit", folder / name, *options], cwd=folder, capture_output=True)
+        return folder / name
+
+    def write(self, preset, *results):
+        return subprocess.run([ROOT / "tools/dev/sanitize", preset, "--results", *results, "--record", "--page",
                                self.page], text=True, capture_output=True)
+
+    def record(self, preset, *options):
+        return self.write(preset, self.results("tests.xml", TESTS, *options))
+
+    def test_a_test_that_ran_again_after_a_mend_counts_once_and_is_told(self):
+        mended = TESTS.replace("exit 1", "exit 0").replace("ERROR: AddressSanitizer", "was")
+        self.assertNotEqual(mended, TESTS)
+        done = self.write("asan-ubsan", self.results("first.xml", TESTS),
+                          self.results("again.xml", mended, "-R", "memory"))
+        self.assertEqual(done.returncode, 0, done.stdout)
+        text = self.page.read_text()
+        row = next(line for line in text.splitlines() if line.startswith("| asan-ubsan |"))
+        self.assertEqual([c.strip() for c in row.split("|")][4:8], ["2", "0", "nothing", "1"])
+        self.assertIn("* run again after a mend: memory shall be kept", text)
 
     def test_faults_failures_and_skips_stand_on_the_page(self):
         done = self.record("asan-ubsan")

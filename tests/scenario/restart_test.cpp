@@ -188,12 +188,13 @@ TEST_CASE("a folder that a run writes to shall be refused to another one") {
   const auto stopped = engine({"watch", out});
   CHECK(stopped.status == 1);
   CHECK(stopped.out.find("stopped at t = ") == 0);
-  const auto next = engine({"run", k_scenario, "-o", out, "--set", k_short, "--resume", "--quiet"});
+  // To its own end: how far it had come hangs on the machine.
+  const auto next = engine({"run", k_scenario, "-o", out, "--resume", "--quiet"});
   INFO(next.err);
   CHECK(next.status == 0);
   const auto finished = engine({"watch", out});
   CHECK(finished.status == 0);
-  CHECK(finished.out.find("finished: t = 0.024 of 0.024 s, 100.0 %, ") == 0);
+  CHECK(finished.out.find("finished: t = 0.06 of 0.06 s, 100.0 %, ") == 0);
 }
 
 TEST_CASE("run.log shall begin with what the run is made by, where and from what") {

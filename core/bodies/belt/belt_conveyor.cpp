@@ -142,6 +142,7 @@ class BeltConveyor final : public OnePart<BeltConveyor>, public LocalAxes {
     return {n.distance, from_belt(n.normal)};
   }
   [[nodiscard]] Vec3 lateral_axis() const override { return across_; }
+  [[nodiscard]] const LocalAxes* local_axes() const override { return this; }
   [[nodiscard]] Vec3 lateral_axis_at(Vec3 point, Vec3 normal) const override {
     // The point of the middle surface below: nothing has to be searched for.
     const Vec3 n{dot(normal, along_), dot(normal, across_), dot(normal, up_)};

@@ -6,7 +6,8 @@
 namespace dust::bodies {
 
 /// A shape whose lateral axis is another from place to place, as that of the rolls of a trough is,
-/// derives from this too.
+/// derives from this too,
+/// and is its own Shape::local_axes().
 class LocalAxes {
  public:
   virtual ~LocalAxes() = default;

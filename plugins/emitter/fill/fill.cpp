@@ -102,7 +102,10 @@ class Fill final : public sdk::PlacedEmitter {
 
  protected:
   void check(const sdk::EmitterContext& context) const override {
-    const double solids = solids_volume(numbers(context.grain_density)) / volume_;
+    // Of a mass without numbers: there may be more grains of it than can be counted.
+    const double solids = (p_.mass > 0.0 ? p_.mass / context.grain_density
+                                         : solids_volume(sizes_.for_count(p_.count))) /
+                          volume_;
     if (solids <= k_densest) return;
     std::ostringstream text;
     text << "the region cannot hold the grains: they would take up " << solids << " of its "

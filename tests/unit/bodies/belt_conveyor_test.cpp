@@ -124,8 +124,7 @@ TEST_CASE("a belt shall run along itself at its speed on every face, in any dire
   const auto direction = [&](Vec3 local) {
     const Vec3 p = head + local.x * along + local.y * aside + Vec3{0, 0, local.z};
     const SurfacePoint s = belt->nearest(p);
-    const Vec3 axis = dynamic_cast<const dust::bodies::LocalAxes&>(*belt).lateral_axis_at(
-        p - s.distance * s.normal, s.normal);
+    const Vec3 axis = belt->local_axes()->lateral_axis_at(p - s.distance * s.normal, s.normal);
     const Vec3 c = cross(axis, s.normal);  // where motion: belt runs to
     CHECK(norm(c) == doctest::Approx(1.0).epsilon(1e-9));
     CHECK(std::abs(dot(c, s.normal)) < 1e-9);

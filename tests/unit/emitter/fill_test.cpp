@@ -112,6 +112,9 @@ TEST_CASE("a region that cannot hold its grains shall be refused with the volume
   });
   CHECK(at_reading.find("the region cannot hold the grains: they would take up ") == 0);
   CHECK(at_reading.find("give a region of at least 1.74545 cm3") != std::string::npos);
+  // More grains than a whole number can tell.
+  const auto absurd = emitter("fill", with(sand(1e30), k_box));
+  CHECK(refusal([&] { requests_of(*absurd); }).find("the region cannot hold the grains") == 0);
   // Equal spheres jam at 0.38: 0.45 runs out while placing.
   const auto jammed = emitter("fill", {{"count", std::int64_t{430}},
                                        {"diameters", std::vector<double>{1e-3}},

@@ -151,6 +151,9 @@ TEST_CASE("a table by mass shall give the numbers of grains that the masses need
   std::int64_t thousand = 0;
   for (const auto n : s.for_count(1000)) thousand += n;
   CHECK(thousand == 1000);
+  CHECK_THROWS_WITH_AS(static_cast<void>(s.for_mass(1e15, 2653.0)),
+                       "so much mass of so small grains is more than 1e15 grains",
+                       sdk::ParameterError);
 }
 
 TEST_CASE("sizes that contradict each other shall be refused with the reason") {

@@ -152,9 +152,11 @@ class SizeDistribution {
   }
 
   /// Numbers of each size for `mass` [kg] of grains of `density` [kg/m3]: each size within one
-  /// grain of its share, the mass within half of the largest grain's.
+  /// grain of its share, the mass within half of the largest grain's. Throws ParameterError above
+  /// 1e15 grains.
   [[nodiscard]] std::vector<std::int64_t> for_mass(double mass, double density) const {
     const double count = mass / (density * mean_volume());
+    if (!(count <= 1e15)) refuse("so much mass of so small grains is more than 1e15 grains");
     std::vector<std::int64_t> numbers(size());
     std::vector<std::size_t> coarse_first(size());
     double left = mass;
