@@ -52,6 +52,9 @@ assert.ok(answers[0].startsWith('How much dust?|4\u202fg/t|4\u202fg/h set free')
 assert.ok(answers[0].includes('1\u202fg/t get out with the air (1\u202fg/h)'), answers[0]);
 assert.ok(answers.at(-1).startsWith('Where to extract?|60\u202f% caught|'), answers.at(-1));  // 1.5 of 2.5 g
 assert.strictEqual(Dust.load_dust({summary: {}}), null);
+const limit = (is_touched) => ({key: 'smallest_void_fraction', is_touched});
+assert.strictEqual(text(Dust.limits_text({limits: [limit(false)]})), 'No limit of validity touched|');
+assert.strictEqual(text(Dust.limits_text({limits: [limit(true), limit(false)]})), '1 limit of validity touched|: smallest void fraction|');
 
 // Silence is not taken for none.
 const coarse = {grains: {classes: [0.008, 0.06], is_dust: [false, false]}, summary: {}, dust: null};

@@ -115,7 +115,7 @@ Dust.sections.header = (data) => {
   const words = lede();
   const answers = [...(dust ? [how_much(), from_where(), how_sure()] : []), ...Dust.load_dust_answers(data), ...(data.extraction ? [where_to_extract()] : [])].filter(Boolean);
   const plant = Dust.overview_answers(data);
-  if (plant.length && !answers.length) plant.unshift(Dust.no_dust_answer(data));
+  if (plant.length && !answers.length) plant.unshift(Dust.no_dust_answer(data), Dust.overview_sure_answer(data));
   return el('header', {}, ...Dust.heading({kind: 'Run report', scenario: text_of(summary.scenario), status: text_of(summary.status), title: title()}),
     banner(), words ? p({class: 'lede'}, words) : '', answers.length ? el('div', {class: 'answers' + (answers.length > 4 ? ' many' : '')}, ...answers) : '',
     plant.length ? el('div', {class: 'answers'}, ...plant.filter(Boolean)) : '', tiles() || '');

@@ -46,9 +46,18 @@ Dust.load_dust_answers = (data) => {
     dust.sides.length > 0 && dust.sides[0].kg > negligible && p({}, `Most gets out at ${Dust.words(dust.sides[0].name)} (${rate(dust.sides[0].kg)})`));
   const sure = answer('How sure?', 'one run, no error known', p({}, `Means over the whole ${Dust.number(summary.simulated_s, 3)}\u202fs, with its start-up, in which less comes off.`),
     p({}, `${share(dust.airborne)} of the dust is still in the air: ${dust.airborne > 0.5 * dust.free ? 'the run is too short to tell where it goes' : 'where it goes has settled'}.`),
-    p({}, `The dust's mass closes to ${Dust.number(dust.error, 1)} of it; what binds it to the load is measured, not known.`));
+    p({}, `The dust's mass closes to ${Dust.number(dust.error, 1)} of it; what binds it to the load is measured, not known.`), Dust.limits_text(data));
   return [how_much, from_where, answer('Where does it go?', fates.length ? Dust.sentence(fates.reduce((a, b) => (b.kg > a.kg ? b : a)).title) : Dust.dash, ranks(fates, share)), sure, where];
 };
+
+// Whether a limit of validity was touched.
+Dust.limits_text = ({limits}) => {
+  const touched = (limits || []).filter((l) => l.is_touched), link = (text) => Dust.el('a', {href: '#health'}, text);
+  if (!touched.length) return Dust.p({}, link('No limit of validity touched'));
+  const names = touched.map((l) => ((Dust.limit_texts || {})[l.key] || [Dust.words(l.key)])[0].replace(/^./, (c) => c.toLowerCase()));
+  return Dust.p({class: 'caution'}, link(Dust.plural(touched.length, 'limit') + ' of validity touched'), `: ${names.join('; ')}`);
+};
+Dust.overview_sure_answer = (data) => Dust.plant_answer('How sure?', '± one standard error', Dust.p({}, 'where one is given: the scatter of this run alone, after its start-up.'), Dust.limits_text(data));
 
 // Of a run that computes no dust at all, so that nobody takes silence for none.
 Dust.no_dust_answer = ({grains, summary, dust}) => {

@@ -63,8 +63,8 @@ Dust.space_files = (space, shown) => {
   };
   const short = (v) => +v.toPrecision(6);
   const files = [];
-  if (set) files.push(button('CSV of the grains', 'The grains of the picture in three dimensions as CSV', 'grains_in_three_dimensions.csv', ({t, grains}) => Dust.space_tables.grains(set, Dust.data.view, space, t, grains)));
-  else if (space.surfaces) files.push(button('CSV of the bodies', 'The bodies of the picture in three dimensions as CSV', 'bodies_in_three_dimensions.csv', ({surfaces}) => {
+  if (set) files.push(button('CSV of the grains', 'CSV of the grains in three dimensions', 'grains_in_three_dimensions.csv', ({t, grains}) => Dust.space_tables.grains(set, Dust.data.view, space, t, grains)));
+  else if (space.surfaces) files.push(button('CSV of the bodies', 'CSV of the bodies in three dimensions', 'bodies_in_three_dimensions.csv', ({surfaces}) => {
     const columns = [[], [], [], []], middle = space.max.map((v, d) => (v + space.min[d]) / 2);
     for (const [body, first, count] of surfaces.bodies) {
       for (let k = 3 * first; k < 3 * (first + count); ++k) {
@@ -74,7 +74,7 @@ Dust.space_files = (space, shown) => {
     }
     return [['body', 'x [m]', 'y [m]', 'z [m]'], columns];
   }));
-  if (space.air) files.push(button('CSV of the plane', 'Air and dust in the plane of the picture in three dimensions as CSV', 'plane_in_three_dimensions.csv', (now) => Dust.space_tables.plane(space, now)));
+  if (space.air) files.push(button('CSV of the plane', 'CSV of the plane in three dimensions: air and dust', 'plane_in_three_dimensions.csv', (now) => Dust.space_tables.plane(space, now)));
   return files;
 };
 
