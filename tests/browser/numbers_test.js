@@ -45,3 +45,7 @@ assert.strictEqual(N.percent(0.6881), '69\u202f%');
 assert.strictEqual(N.percent(1e-6), '<\u202f0.01\u202f%');
 assert.strictEqual(N.words('class_10_um/sum_of_lumps'), 'class 10 µm / sum of lumps');
 assert.strictEqual(N.plural(1, 'limit'), '1 limit');
+assert.ok(N.is_geometric([1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1]));
+assert.ok(!N.is_geometric([0, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1]));
+assert.ok(!N.is_geometric([1e-6, 1e-5, 1e-4, 1e-3, 2e-3, 1e-1]));
+assert.ok(!N.is_geometric(Array.from({length: 2000}, (_, k) => 0.003 + 0.004 * k)));

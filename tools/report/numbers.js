@@ -92,9 +92,16 @@ const Numbers = (() => {
   const percent = (share, digits = 2) => (share > 0 && share < 1e-4 ? `<${thin}0.01` : number(100 * share, digits)) + thin + '%';
   const width = (share) => (100 * Math.min(Math.max(share, 0), 1)).toFixed(1) + '%';
 
+  // Positive numbers that grow by about the same factor each time, over three powers of ten and more.
+  const is_geometric = (list) => {
+    const n = list.length;
+    if (n < 6 || !(list[0] > 0) || !(list[n - 1] / list[0] >= 1e3)) return false;
+    const step = Math.log(list[n - 1] / list[0]) / (n - 1);
+    return list.every((v, k) => k === 0 || Math.abs(Math.log(v / list[k - 1]) - step) < 0.2 * step);
+  };
   const words = (name) => String(name).replace(/_/g, ' ').replace(/ um(?=$|\W)/g, ' µm').replace(/(\w)\/([a-z]{3,})/g, '$1 / $2');  // m/s stays
   const sentence = (name) => words(name).replace(/^./, (c) => c.toUpperCase());
   const plural = (n, one, many = one + 's') => `${count(n)} ${n === 1 ? one : many}`;
-  return {set_extent, place_unit, number, count, value, quantity, scale, raise, is_bare, duration, percent, width, words, sentence, plural, thin, dash};
+  return {is_geometric, set_extent, place_unit, number, count, value, quantity, scale, raise, is_bare, duration, percent, width, words, sentence, plural, thin, dash};
 })();
 if (typeof module !== 'undefined') module.exports = Numbers;
