@@ -69,8 +69,9 @@
     const holder = Dust.el('div', {class: 'plot', role: 'img', 'aria-label': `${Dust.sentence(title)}: ${y_label} against ${x_label}`});
     const words = Dust.el('figcaption', {}, Dust.el('b', {}, Dust.sentence(title) + '.'), ...(caption || [
       ` ${capital(y_label)}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '', note ? ' ' + note.trim() : '']));
-    if (lines.some((line) => line.low && !has_bars(line))) words.append(' Band: one standard error to either side.');
-    if (lines.some(has_bars)) words.append(' Bars: one standard error to either side.');
+    const has_errors = (line) => Boolean(line.low) && line.low.some((v, k) => Number.isFinite(v) && v !== line.y[k]);
+    if (lines.some((line) => has_errors(line) && !has_bars(line))) words.append(' Band: one standard error to either side.');
+    if (lines.some((line) => has_errors(line) && has_bars(line))) words.append(' Bars: one standard error to either side.');
     const key = Dust.el('div', {class: 'legend', 'aria-hidden': lines.length > 1 ? 'false' : 'true'});
     const file = Dust.file_name(sensor + ' ' + title);
     const as_csv = Dust.el('button', {type: 'button', 'aria-label': `Numbers of ${Dust.sentence(title)} as CSV`}, 'CSV');
