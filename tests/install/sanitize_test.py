@@ -68,6 +68,22 @@ class Sanitize(unittest.TestCase):
         self.assertNotIn("memory shall be kept", text)
         self.assertEqual(text.count("no sanitizer reported anything"), 2)
 
+    def test_what_a_stopped_ctest_printed_counts_too(self):
+        log = pathlib.Path(self.folder.name) / "suite.log"
+        log.write_text("""      Start  1: sums shall be right
+ 1/4 Test   #1: sums shall be right .............   Passed    0.11 sec
+ 2/4 Test   #2: memory shall be kept ............***Failed    1.50 sec
+WARNING: ThreadSanitizer: data race (pid=7)
+ 3/4 Test  #12: a page shall open ...............***Skipped   0.02 sec
+      Start  3: a test that was stopped
+""")
+        self.assertEqual(self.write("tsan", log).returncode, 1)
+        text = self.page.read_text()
+        row = next(line for line in text.splitlines() if line.startswith("| tsan |"))
+        self.assertEqual([c.strip() for c in row.split("|")][4:8], ["2", "1", "1", "1"])
+        self.assertIn("* failed: memory shall be kept: `WARNING: ThreadSanitizer: data race", text)
+        self.assertNotIn("a test that was stopped", text.split("not run")[0])
+
 
 if __name__ == "__main__":
     unittest.main()
