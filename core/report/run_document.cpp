@@ -152,7 +152,10 @@ json frames_json(const std::filesystem::path& folder, RunText& run, Highlights& 
   data["bodies"] = bodies;
   const Box box = box_of(source, run.scenario);
   data["grains"] = grains_of(source, view, box, run.dust, list_at(run.report, "classes"));
-  data["space"] = space_of(source, box);
+  std::vector<std::string> airborne;
+  const json airborne_classes = object_at(object_at(run.summary, "dust_field"), "classes");
+  for (const auto& entry : airborne_classes.items()) airborne.push_back(entry.key());
+  data["space"] = space_of(source, box, airborne);
   data["air"] = air_of(source);
   data["dust_map"] = look_for_dust(source, view, run.dust, highlights);
   data["release_map"] = release_map_of(source);

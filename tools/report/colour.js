@@ -41,6 +41,12 @@ Dust.sand_colour = (t) => (Dust.theme() === 'dark' ? Dust.oklch(0.9 - 0.36 * t, 
 Dust.grain_speed_colour = (t) => (Dust.theme() === 'dark' ? Dust.oklch(0.5 + 0.42 * t, 0.17, 300 + 150 * t)
   : Dust.oklch(0.36 + 0.42 * t, 0.17, 300 + 130 * t));
 
+// Amounts of dust, and of dust that comes off the load; both logarithmic.
+Dust.dust_colour = (t) => (Dust.theme() === 'dark' ? Dust.oklch(0.24 + 0.6 * t, 0.03 + 0.17 * t, 350 - 20 * t)
+  : Dust.oklch(0.97 - 0.55 * t, 0.015 + 0.2 * t, 350 + 10 * t));
+Dust.release_colour = (t) => (Dust.theme() === 'dark' ? Dust.oklch(0.24 + 0.6 * t, 0.03 + 0.15 * t, 60 - 20 * t)
+  : Dust.oklch(0.97 - 0.5 * t, 0.015 + 0.16 * t, 70 - 30 * t));
+
 Dust.css = (rgb) => `rgb(${rgb[0]},${rgb[1]},${rgb[2]})`;
 
 // The 256 colours of a map as RGBA bytes; 255 is a masked cell and stays clear.

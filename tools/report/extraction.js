@@ -75,8 +75,7 @@ Dust.draw_extraction = () => {
   const dust = document.getElementById('dust-map-picture');
   const set = Dust.data.dust_map;
   if (!dust || !set) return;
-  const colour_of = (t) => (Dust.theme() === 'dark' ? Dust.oklch(0.24 + 0.6 * t, 0.03 + 0.17 * t, 350 - 20 * t)
-    : Dust.oklch(0.97 - 0.55 * t, 0.015 + 0.2 * t, 350 + 10 * t));
+  const colour_of = Dust.dust_colour;
   const buffer = document.createElement('canvas');
   buffer.width = set.nx;
   buffer.height = set.nz;

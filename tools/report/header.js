@@ -44,6 +44,11 @@ Dust.sections.header = (data) => {
       const where = dust.spoken_of === 'openings' ? ['get out'] : ['is found at ', place(spoken[0])];
       return [Dust.strong(amount), ' of load ', ...where, share + '.'];
     }
+    const loaded = Dust.load_dust(data), load = (summary.mass_kg || {}).emitted;
+    if (loaded && load > 0) {
+      return [Dust.strong(`${Dust.quantity(1e6 * loaded.free / load, -1, 'g/t')} of dust`), ' come off the load',
+        ...(loaded.causes.length ? [', most by ', el('em', {}, loaded.causes[0].name === 'grains' ? 'grains on grains' : Dust.words(loaded.causes[0].name))] : []), '.'];
+    }
     if (published.length) return [published[0].name + ' ', Dust.strong(published[0].ours), `; published are ${published[0].theirs}.`];
     const emitted = (summary.particles || {}).emitted;
     if (!Number.isFinite(emitted)) return null;
@@ -108,9 +113,12 @@ Dust.sections.header = (data) => {
   };
 
   const words = lede();
-  const answers = [...(dust ? [how_much(), from_where(), how_sure()] : []), ...(data.extraction ? [where_to_extract()] : [])];
+  const answers = [...(dust ? [how_much(), from_where(), how_sure()] : []), ...Dust.load_dust_answers(data), ...(data.extraction ? [where_to_extract()] : [])].filter(Boolean);
+  const plant = Dust.overview_answers(data);
+  if (plant.length && !answers.length) plant.unshift(Dust.no_dust_answer(data), Dust.overview_sure_answer(data));
   return el('header', {}, ...Dust.heading({kind: 'Run report', scenario: text_of(summary.scenario), status: text_of(summary.status), title: title()}),
-    banner(), words ? p({class: 'lede'}, words) : '', answers.length ? el('div', {class: 'answers'}, ...answers) : '', tiles() || '');
+    banner(), words ? p({class: 'lede'}, words) : '', answers.length ? el('div', {class: 'answers' + (answers.length > 4 ? ' many' : '')}, ...answers) : '',
+    plant.length ? el('div', {class: 'answers'}, ...plant.filter(Boolean)) : '', tiles() || '');
 };
 
 // The mean pressure of a place; three digits where no error tells how many count.

@@ -7,7 +7,7 @@ Dust.limit_texts = {
   largest_overlap_over_radius: ['Largest overlap over the smaller radius',
     "Contact laws hold for small overlaps: grains are softer here than real ones, and a small grain pressed by a large one sinks in. Raise the Young's modulus, or check what the smallest class does in contact."],
   largest_overlap_over_radius_coarse: ['Largest overlap over the smaller radius, coarse grains',
-    "Contact laws hold for small overlaps, and grains are softer here than real ones: raise the Young's modulus, or see that the speeds met are those expected."],
+    "Contact laws hold for small overlaps, and grains are softer here than real ones: raise the Young's modulus, or see that the speeds met are those expected. A small grain caught between a lump and a wall or another grain is pressed in by the lump's energy; its overlap falls by the 0.4 power of the Young's modulus only."],
   largest_overlap_over_radius_fine: ['Largest overlap over the smaller radius, fine grains', 'Fine grains are crushed between coarse ones: see below what that does.'],
   contacts_seen_late: ['Contacts between grains that began unseen',
     'A grain was thrown farther off its course than the lists foresee, and its first overlap counted from the step it was seen at. Shorten the DEM step.'],

@@ -13,8 +13,7 @@ Dust.sections.liberation = ({release_map}) => {
 Dust.draw_liberation = () => {
   const set = Dust.data.release_map;
   if (!set || !document.getElementById('release-0-picture')) return;
-  const colour_of = (t) => (Dust.theme() === 'dark' ? Dust.oklch(0.24 + 0.6 * t, 0.03 + 0.15 * t, 60 - 20 * t)
-    : Dust.oklch(0.97 - 0.5 * t, 0.015 + 0.16 * t, 70 - 30 * t));
+  const colour_of = Dust.release_colour;
   set.kinds.forEach((kind, k) => {
     const buffer = document.createElement('canvas');
     buffer.width = set.nx;

@@ -55,6 +55,11 @@ const Numbers = (() => {
     'm3/s': [['m³/h', 1 / 3600], ['l/min', 1 / 6e4], ['l/h', 1e-3 / 3600], ['cm³/h', 1e-6 / 3600], ['mm³/h', 1e-9 / 3600]],
     'kg/(m2 s)': [['kg/(m² s)', 1], ['g/(m² s)', 1e-3], ['mg/(m² s)', 1e-6]],
     'g/t': [['g/t', 1], ['mg/t', 1e-3]],
+    'kg/h': [['t/h', 1e3], ['kg/h', 1], ['g/h', 1e-3], ['mg/h', 1e-6], ['µg/h', 1e-9]],
+    'rad': [['°', Math.PI / 180]],
+    // A pressure of the air stays in Pa; a third number is from where on a unit is used.
+    'Pa': [['GPa', 1e9], ['MPa', 1e6], ['kPa', 1e3], ['Pa', 1, 0]],
+    'm/s': [['m/s', 1, 1e-3], ['mm/s', 1e-3, 1e-6], ['µm/h', 1e-6 / 3600, 0]],
     'J': [['J', 1], ['mJ', 1e-3], ['µJ', 1e-6], ['nJ', 1e-9]],
   };
   const is_bare = (unit) => !unit || unit === '1' || unit === '-';
@@ -64,7 +69,7 @@ const Numbers = (() => {
     if (is_plant && unit === 'kg/s' && largest >= tonne_per_hour) return {factor: tonne_per_hour, unit: 't/h'};
     const ladder = ladders[unit];
     if (!ladder) return {factor: 1, unit: raise(unit)};
-    const [name, factor] = ladder.find((step) => largest >= step[1]) || (largest > 0 ? ladder.at(-1) : ladder[0]);
+    const [name, factor] = ladder.find((step) => largest >= (step[2] ?? step[1])) || (largest > 0 ? ladder.at(-1) : ladder[0]);
     return {factor, unit: name};
   };
   const quantity = (mean, error, unit) => {
@@ -73,7 +78,7 @@ const Numbers = (() => {
     if (mean === 0 && !(error > 0) && ladders[unit]) return '0';
     const best = scale(unit, Math.max(Math.abs(mean), error > 0 ? error : 0));
     const text = value(mean / best.factor, error > 0 ? error / best.factor : -1);
-    return best.unit ? text + thin + best.unit : text;
+    return best.unit === '°' ? text + '°' : best.unit ? text + thin + best.unit : text;
   };
   const duration = (seconds) => {
     if (!Number.isFinite(seconds) || seconds < 0) return dash;
@@ -87,9 +92,16 @@ const Numbers = (() => {
   const percent = (share, digits = 2) => (share > 0 && share < 1e-4 ? `<${thin}0.01` : number(100 * share, digits)) + thin + '%';
   const width = (share) => (100 * Math.min(Math.max(share, 0), 1)).toFixed(1) + '%';
 
+  // Positive numbers that grow by about the same factor each time, over three powers of ten and more.
+  const is_geometric = (list) => {
+    const n = list.length;
+    if (n < 6 || !(list[0] > 0) || !(list[n - 1] / list[0] >= 1e3)) return false;
+    const step = Math.log(list[n - 1] / list[0]) / (n - 1);
+    return list.every((v, k) => k === 0 || Math.abs(Math.log(v / list[k - 1]) - step) < 0.2 * step);
+  };
   const words = (name) => String(name).replace(/_/g, ' ').replace(/ um(?=$|\W)/g, ' µm').replace(/(\w)\/([a-z]{3,})/g, '$1 / $2');  // m/s stays
   const sentence = (name) => words(name).replace(/^./, (c) => c.toUpperCase());
   const plural = (n, one, many = one + 's') => `${count(n)} ${n === 1 ? one : many}`;
-  return {set_extent, place_unit, number, count, value, quantity, scale, raise, is_bare, duration, percent, width, words, sentence, plural, thin, dash};
+  return {is_geometric, set_extent, place_unit, number, count, value, quantity, scale, raise, is_bare, duration, percent, width, words, sentence, plural, thin, dash};
 })();
 if (typeof module !== 'undefined') module.exports = Numbers;

@@ -9,6 +9,8 @@
   const ink_of = (k) => Dust.colour('plot' + (k % 6 + 1));
   const capital = (text) => text.replace(/^./, (c) => c.toUpperCase());
   const flat_height = 246;
+  // Labels of an axis of decades: the powers of ten.
+  const decades = (u, splits) => splits.map((v) => (v > 0 && Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-6 ? Dust.number(v) : ''));
   const has_bars = (line) => Boolean(line.low) && (line.bars || line.kind === 'points');
 
   const bars_hook = (bars, is_path) => (u) => {
@@ -67,8 +69,9 @@
     const holder = Dust.el('div', {class: 'plot', role: 'img', 'aria-label': `${Dust.sentence(title)}: ${y_label} against ${x_label}`});
     const words = Dust.el('figcaption', {}, Dust.el('b', {}, Dust.sentence(title) + '.'), ...(caption || [
       ` ${capital(y_label)}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '', note ? ' ' + note.trim() : '']));
-    if (lines.some((line) => line.low && !has_bars(line))) words.append(' Band: one standard error to either side.');
-    if (lines.some(has_bars)) words.append(' Bars: one standard error to either side.');
+    const has_errors = (line) => Boolean(line.low) && line.low.some((v, k) => Number.isFinite(v) && v !== line.y[k]);
+    if (lines.some((line) => has_errors(line) && !has_bars(line))) words.append(' Band: one standard error to either side.');
+    if (lines.some((line) => has_errors(line) && has_bars(line))) words.append(' Bars: one standard error to either side.');
     const key = Dust.el('div', {class: 'legend', 'aria-hidden': lines.length > 1 ? 'false' : 'true'});
     const file = Dust.file_name(sensor + ' ' + title);
     const as_csv = Dust.el('button', {type: 'button', 'aria-label': `Numbers of ${Dust.sentence(title)} as CSV`}, 'CSV');
@@ -82,9 +85,10 @@
     as_png.addEventListener('click', () => Dust.save_canvas(file + '.png', holder.querySelector('canvas')));
     const downloads = Dust.el('div', {class: 'downloads screen'}, as_csv, as_png);
     parent.append(path ? Dust.el('figure', {class: 'side'}, Dust.el('div', {}, holder, key, downloads), Dust.el('div', {}, words, ...beside))
-      : Dust.el('figure', {}, Dust.el('div', {class: 'axis-unit'}, unit), holder, key, words, downloads));
+      : Dust.el('figure', {}, Dust.el('div', {class: 'axis-unit'}, Dust.el('bdi', {}, unit)), holder, key, words, downloads));
 
     const data = uPlot.join(lines.map((line) => [line.x, line.y, ...(line.low ? [line.low, line.high] : [])]));
+    const is_geometric = !path && lines.every((line) => Dust.is_geometric(line.x));  // classes of equal ratio: an axis of decades
     const size_of = () => (path ? path_layout(lines, Math.max(holder.clientWidth, 200)) : {width: Math.max(holder.clientWidth, 200), height: flat_height});
     const make = () => {
       const axis = {stroke: Dust.colour('soft'), grid: {stroke: Dust.colour('faint'), width: 1},
@@ -95,9 +99,9 @@
       const reading = Dust.el('span', {class: 'reading'});
       key.replaceChildren(...keys, reading);
       holder.replaceChildren();
-      const scales = path ? {x: {time: false, ori: 1, dir: -1, range: size.x}, y: {ori: 0, dir: 1, range: size.y}} : {x: {time: false}};
+      const scales = path ? {x: {time: false, ori: 1, dir: -1, range: size.x}, y: {ori: 0, dir: 1, range: size.y}} : {x: is_geometric ? {time: false, distr: 3, log: 10} : {time: false}};
       const axes = path ? [{...named, scale: 'x', side: 3, size: 48, label: x_label}, {...named, scale: 'y', side: 0, size: 28, label: y_label}]
-        : [{...named, size: 28, label: x_label}, {...axis, size: 58}];
+        : [{...named, size: 28, label: x_label, ...(is_geometric ? {values: decades} : {})}, {...axis, size: 58}];
       return new uPlot({width: size.width, height: size.height, series, bands, padding: path ? [0, 18, 10, 0] : [10, 18, 0, 0],
         legend: {show: false}, cursor: {points: {show: false}, drag: {x: !path, y: false}}, scales, axes,
         hooks: {draw: [bars_hook(bars, path)], setCursor: [(u) => {

@@ -113,14 +113,16 @@ Dust.space = (() => {
     const frame = new T.LineSegments(new T.EdgesGeometry(new T.BoxGeometry(...size)), new T.LineBasicMaterial({}));
     const rim = new T.LineSegments(new T.EdgesGeometry(new T.PlaneGeometry(1, 1)), new T.LineBasicMaterial({}));
     // Bodies shimmer through the plane: it is painted after them.
+    const load_dust = Dust.space_dust, cloud = load_dust ? load_dust.cloud(T) : null, origin = load_dust ? load_dust.cloud(T) : null;
     slice.renderOrder = 2;
     threads.renderOrder = 3;
-    scene.add(bodies, grains, dust, slice, threads, frame, rim);
+    const axes = Dust.space_axes(T, data);
+    scene.add(bodies, grains, dust, slice, threads, frame, rim, axes.group, ...(cloud ? [cloud, origin] : []));
     by_id('picture').append(canvas);
     const as_png = Dust.el('button', {type: 'button', 'aria-label': 'The picture in three dimensions as PNG'}, 'PNG');
     as_png.addEventListener('click', () => { draw(); Dust.save_canvas('three_dimensions.png', canvas); });
-    by_id('picture').append(Dust.el('div', {class: 'downloads screen'}, as_png));
-    return {T, canvas, renderer, scene, camera, bodies, grains, dust, cut, slice, threads, frame, rim, labels: new T.Group(),
+    by_id('picture').append(Dust.el('div', {class: 'downloads screen'}, ...Dust.space_files(data, () => ({...current, plane: plane_of()})), as_png));
+    return {T, canvas, renderer, scene, camera, bodies, grains, dust, cut, slice, threads, frame, rim, axes, cloud, origin,
       eye: {around: 0, up: 0, far: 0, at: new T.Vector3()}};
   };
 
@@ -200,7 +202,7 @@ Dust.space = (() => {
       event.preventDefault();
       nearer(1.1 ** (-event.deltaY / 100));
     }, {passive: false});
-    for (const id of ['axis', 'place', 'cut', 'air', 'colour', 'bodies']) {
+    for (const id of ['axis', 'place', 'cut', 'air', 'colour', 'bodies', 'cloud', 'origin']) {
       const part = by_id(id);
       if (part) part.addEventListener('input', () => { fill(); draw(); });
     }
@@ -279,7 +281,7 @@ Dust.space = (() => {
     return {axis, u, v, at: data.min[axis] + share * size[axis]};
   };
   const fill_slice = () => {
-    const {T, slice, threads, rim} = stage, {axis, u, v, at} = plane_of(), has_air = by_id('air') && by_id('air').checked;
+    const {T, slice, threads, rim} = stage, {axis, u, v, at} = plane_of(), shown = by_id('air') ? by_id('air').value : 'none', has_air = shown === 'air';
     by_id('at').textContent = `${'xyz'[axis]} = ${Dust.place_text(at)}`;
     by_id('place').setAttribute('aria-valuetext', by_id('at').textContent);
     const corners = [];
@@ -295,7 +297,8 @@ Dust.space = (() => {
     rim.geometry.setAttribute('position', new T.Float32BufferAttribute([a, b, b, c, c, d, d, a].flat(), 3));
     slice.geometry.computeBoundingSphere();
     rim.geometry.computeBoundingSphere();
-    const look = has_air ? (data.air ? slice_of_field(u, v, axis, at) : axis === 1 ? Dust.air && Dust.air.pixels() : null) : null;
+    const look = has_air ? (data.air ? slice_of_field(u, v, axis, at) : axis === 1 ? Dust.air && Dust.air.pixels() : null)
+      : shown === 'dust' && current.dust ? Dust.space_dust.slice(current.dust, u, v, axis, at) : null;
     slice.visible = threads.visible = Boolean(look);
     if (!look) return;
     if (slice.material.map) slice.material.map.dispose();
@@ -303,6 +306,8 @@ Dust.space = (() => {
     texture.magFilter = texture.minFilter = T.LinearFilter;
     texture.needsUpdate = true;
     slice.material.map = texture;
+    // What lies behind the plane shines through where nothing is cut away.
+    slice.material.opacity = by_id('cut').value === 'none' && !data.is_thin ? 0.62 : 1;
     slice.material.needsUpdate = true;
     fill_threads(look.velocity, {axis, u, v, at});
   };
@@ -359,12 +364,21 @@ Dust.space = (() => {
     fill_bodies();
     fill_grains();
     fill_slice();
+    fill_dust();
+  };
+  const fill_dust = () => {
+    const {T, cloud, origin} = stage;
+    if (!cloud) return;
+    cloud.visible = by_id('cloud').checked && Boolean(current.dust);
+    if (cloud.visible) Dust.space_dust.fill(T, cloud, current.dust, Dust.dust_colour, 0.5);
+    origin.visible = Boolean(by_id('origin') && by_id('origin').checked && current.set_free);
+    if (origin.visible) Dust.space_dust.fill(T, origin, current.set_free, Dust.release_colour, 0.75);
   };
 
   // ---- drawing ------------------------------------------------------------
   const draw = () => {
     if (!stage || !current || figure.hidden) return;
-    const {T, canvas, renderer, camera, eye, cut, grains, dust, frame, rim} = stage;
+    const {T, canvas, renderer, camera, eye, cut, grains, dust, frame, rim, cloud, origin} = stage;
     const width = by_id('picture').clientWidth;
     if (width < 80) return;
     const height = Math.round(Math.min(Math.max(width * 0.62, 280), 0.85 * window.innerHeight, 760));
@@ -382,7 +396,7 @@ Dust.space = (() => {
     const {axis, at} = plane_of(), side = stage_side(axis), local = at - middle[axis];
     cut.normal.set(0, 0, 0).setComponent(axis, -side);
     cut.constant = side * local + 1e-5 * whole;
-    for (const points of [grains, dust]) {
+    for (const points of [grains, dust, cloud, origin].filter(Boolean)) {
       const plane = points.material.uniforms.plane.value;
       if (by_id('cut').value === 'all') plane.set(0, 0, 0, side * local).setComponent(axis, side);
       else plane.set(0, 0, 0, 1);
@@ -390,6 +404,7 @@ Dust.space = (() => {
     }
     frame.material.color = rgb(Dust.colour('line'));
     rim.material.color = rgb(Dust.colour('accent'));
+    stage.axes.paint(height);
     renderer.render(stage.scene, camera);
     tell();
   };
@@ -411,18 +426,23 @@ Dust.space = (() => {
       Dust.grains.put_legend(by_id('legend'), by_speed);
     }
     const end = data.air ? data.air.speed : Dust.data.air ? Dust.data.air.speed : 0;
-    const strip = by_id('air-scale'), is_on = by_id('air') && by_id('air').checked;
+    const strip = by_id('air-scale'), in_plane = by_id('air') ? by_id('air').value : 'none', is_on = in_plane === 'air';
     strip.replaceChildren();
     if (is_on && end > 0) {
       Dust.legend_strip(strip, Dust.speed_colour, 0, 0, end, 'm/s', Math.sqrt, false);
       strip.prepend('Speed of the air');
     }
+    const amounts = by_id('dust-scale'), dust = Dust.space_dust;
+    amounts.replaceChildren();
+    if (dust && (in_plane === 'dust' || by_id('cloud').checked)) dust.legend(amounts, 'Dust in the air', Dust.dust_colour, dust.most);
+    if (dust && by_id('origin') && by_id('origin').checked) dust.legend(amounts, 'Dust that came off the load since the start, per volume of space', Dust.release_colour, dust.set_free_most);
   };
 
   // ---- the switch ---------------------------------------------------------
   // A page of one view has none.
   const switches = document.getElementById('view-side') ? {side: document.getElementById('view-side'), space: document.getElementById('view-space')} : null;
   const take = async (t, index) => ({t, index, surfaces: await surfaces_at(t), air: await air_at(t),
+    dust: Dust.space_dust ? await Dust.space_dust.at(t) : null, set_free: Dust.space_dust ? await Dust.space_dust.set_free() : null, velocity_of,
     grains: set && Dust.grains ? await Dust.grains.load(index) : null});
   const start = async () => {
     if (stage) return true;
@@ -441,7 +461,7 @@ Dust.space = (() => {
     listen();
     new ResizeObserver(() => requestAnimationFrame(draw)).observe(by_id('picture'));
     Dust.redraw.push(() => { fill(); draw(); draw_legends(); });
-    for (const id of ['colour', 'air']) if (by_id(id)) by_id(id).addEventListener('input', draw_legends);
+    for (const id of ['colour', 'air', 'cloud', 'origin']) if (by_id(id)) by_id(id).addEventListener('input', draw_legends);
     return true;
   };
   const choose = async (view) => {

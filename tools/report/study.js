@@ -6,8 +6,8 @@
   const plain = (text) => String(text).replace(/_/g, ' ');  // names of cases; units stay
   const amount = (value, error, unit) => Dust.value(value, error === null ? -1 : error) + (Dust.is_bare(unit) ? '' : '\u202f' + unit);
 
-  Dust.sections.header = ({facts}) => el('header', {}, ...Dust.heading({kind: 'Study', scenario: facts.name, status: facts.finished === facts.runs ? 'finished' : 'not finished', title: Dust.sentence(facts.name)}),
-    p({class: 'lede'}, facts.sentence || `Variations of ${facts.base}.`),
+  Dust.sections.header = ({facts, calibration}) => el('header', {}, ...Dust.heading({kind: 'Study', scenario: facts.name, status: facts.finished === facts.runs ? 'finished' : 'not finished', title: Dust.sentence(facts.name)}),
+    p({class: 'lede'}, facts.sentence || (calibration ? `Calibration of ${facts.base}.` : `Variations of ${facts.base}.`)),
     Dust.tiles([['Runs', Dust.count(facts.runs), `${Dust.plural(facts.inputs, 'input')}, ${Dust.plural(facts.outputs, 'output')}`],
       ['Finished', `${Dust.count(facts.finished)} of ${Dust.count(facts.runs)}`, facts.failed === 0 ? 'none failed' : `${facts.failed} failed`],
       ['Time of all runs', Dust.duration(facts.wall_s), 'one after the other'], ['Base', facts.base, facts.base_file]]));

@@ -113,7 +113,7 @@ json surfaces_json(const std::vector<std::string>& names, const Surfaces& surfac
                    const Box& box) {
   if (surfaces.body.empty()) return nullptr;
   bool is_coarsened = false;
-  const json set = packed_set(fitted(surfaces, box, is_coarsened));
+  const json set = packed_set(fitted(clipped(surfaces, box), box, is_coarsened));
   return {{"names", names},
           {"sets", json::array({set})},
           {"times", json::array({0.0})},
@@ -133,7 +133,7 @@ json surfaces_of(const H5Source& source, const Box& box) {
     Surfaces now = read(source, names[k]);
     if (!now.is_whole()) continue;
     if (sets.empty() || !(now == last)) {
-      const Coded set = fitted(now, box, is_coarsened);
+      const Coded set = fitted(clipped(now, box), box, is_coarsened);
       all += set.triangles.size();
       if (!sets.empty() && all > k_all_triangles) break;  // what is there stays
       sets.push_back(packed_set(set));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "belt_load.hpp"
 
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -96,18 +97,18 @@ class BeltLoad final : public sdk::Sensor {
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t c = 0; c < k_off_centre; ++c) {
       sink.figure(k_names[c], means_.mean(c), k_units[c], means_.error(c),
-                  sdk::detail(k_quantities[c]));
+                  sdk::overview(k_quantities[c], c == 0 ? 2 : 1));
     }
     for (std::size_t c = k_off_centre; c < k_columns; ++c) {
       const std::size_t q = c - k_off_centre;
       sink.figure(k_names[c], loaded_.mean(q), k_units[c], loaded_.error(q),
-                  sdk::detail(k_quantities[c]));
+                  q == 0 ? sdk::overview(k_quantities[c], 3) : sdk::detail(k_quantities[c]));
     }
     if (p_.belt_speed == 0.0) return;
     const double error = loaded_.error(2);
     sink.figure("speed_over_belt_speed", loaded_.mean(2) / p_.belt_speed, "1",
                 error < 0.0 ? -1.0 : error / std::abs(p_.belt_speed),
-                sdk::detail(sdk::Quantity::ratio));
+                sdk::overview(sdk::Quantity::ratio, 4));
   }
 
   void report(sdk::ReportSink& sink) const override {

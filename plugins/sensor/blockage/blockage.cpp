@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "blockage.hpp"
 
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/stays.hpp>
 
@@ -83,12 +84,17 @@ class Blockage final : public sdk::Sensor {
 
   void summary(sdk::FigureSink& sink) const override {
     const formula::Trend growth = trend();
-    sink.figure("mass_held", means_.mean(0), "kg", means_.error(0), stock());
+    sdk::FigureRole held = stock();
+    const sdk::FigureRole first = sdk::overview(sdk::Quantity::mass, 1);
+    held.towards = first.towards;
+    held.index = first.index;
+    sink.figure("mass_held", means_.mean(0), "kg", means_.error(0), held);
     sink.figure("mass_held_at_end", values_[0], "kg", -1.0, stock());
     sink.figure("mass_held_largest", largest_, "kg", -1.0, stock());
     sink.figure("inflow", means_.mean(1), "kg/s", means_.error(1), k_flow);
     sink.figure("outflow", means_.mean(2), "kg/s", means_.error(2), k_flow);
-    sink.figure("growth", growth.slope, "kg/s", growth.error, k_flow);
+    sink.figure("growth", growth.slope, "kg/s", growth.error,
+                sdk::overview(sdk::Quantity::mass_rate, 2));
     const double share = means_.mean(1) > 0.0 ? growth.slope / means_.mean(1) : 0.0;
     const double share_error =
         means_.mean(1) > 0.0 && growth.error >= 0.0 ? growth.error / means_.mean(1) : -1.0;

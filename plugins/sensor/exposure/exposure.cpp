@@ -3,6 +3,7 @@
 
 #include <dust/sdk/airborne_dust.hpp>
 #include <dust/sdk/fluid_cells.hpp>
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -70,8 +71,9 @@ class Exposure final : public sdk::Sensor, public sdk::DustObserver {
       for (std::size_t j = 0; j < k_parts; ++j) {
         const double mean = means_.mean(n * k_parts + j);
         const double error = mean > 0.0 ? means_.error(n * k_parts + j) : sdk::k_no_estimate;
-        sink.figure(name_of(n, j), k_milligrams * mean, k_unit,
-                    error < 0.0 ? error : k_milligrams * error, sdk::detail(k_quantity));
+        sink.figure(
+            name_of(n, j), k_milligrams * mean, k_unit, error < 0.0 ? error : k_milligrams * error,
+            j == 0 ? sdk::overview(k_quantity, static_cast<int>(n) + 1) : sdk::detail(k_quantity));
       }
       sink.figure(point_of(n) + "highest_inhalable", k_milligrams * highest_[n], k_unit,
                   k_quantity);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "residence_time.hpp"
 
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/stays.hpp>
 
@@ -90,7 +91,8 @@ class ResidenceTime final : public sdk::Sensor {
 
   void summary(sdk::FigureSink& sink) const override {
     const sdk::FigureRole time = sdk::detail(sdk::Quantity::time);
-    sink.figure("mean", times_.mean(), "s", times_.mean_error(), time);
+    sink.figure("mean", times_.mean(), "s", times_.mean_error(),
+                sdk::overview(sdk::Quantity::time, 1));
     sink.figure("standard_deviation", times_.deviation(), "s", -1.0, time);
     constexpr std::array k_quantiles = {std::pair{"fastest_5_percent", 0.05},
                                         std::pair{"median", 0.5}, std::pair{"percent_95", 0.95}};

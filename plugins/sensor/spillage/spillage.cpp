@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spillage.hpp"
 
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/rectangle.hpp>
 #include <dust/sdk/sampling.hpp>
@@ -81,10 +82,10 @@ class Spillage final : public sdk::Sensor {
     const double per_mass = emitted > 0.0 ? k_grams_per_tonne / emitted : 0.0;
     sink.figure("rate", formula::per_hour(steady_, duration_), "kg/h",
                 error < 0.0 ? -1.0 : formula::per_hour(error, duration_),
-                sdk::detail(sdk::Quantity::mass_rate));
+                sdk::overview(sdk::Quantity::mass_rate, 1));
     sink.figure("grams_per_tonne", steady_ * per_mass, "g/t",
                 error < 0.0 || per_mass == 0.0 ? -1.0 : error * per_mass,
-                sdk::detail(sdk::Quantity::mass_per_load));
+                sdk::overview(sdk::Quantity::mass_per_load, 2));
     sink.figure("mass", mass_, "kg", -1.0, sdk::detail(sdk::Quantity::mass));
     sink.figure("grains", count_, "1", -1.0, sdk::detail(sdk::Quantity::number));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stream_section.hpp"
 
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/rectangle.hpp>
 #include <dust/sdk/sampling.hpp>
@@ -82,22 +83,22 @@ class StreamSection final : public sdk::Sensor {
     const Stream s = stream();
     const double normal = dot(s.velocity, rectangle_.normal());
     sink.figure("mass_flow", s.mass_flow, "kg/s", means_.error(0),
-                sdk::detail(sdk::Quantity::mass_rate));
+                sdk::overview(sdk::Quantity::mass_rate, 1));
     sink.figure("velocity_x", s.velocity.x, "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
     sink.figure("velocity_y", s.velocity.y, "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
     sink.figure("velocity_z", s.velocity.z, "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
-    sink.figure("speed", norm(s.velocity), "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
+    sink.figure("speed", norm(s.velocity), "m/s", -1.0, sdk::overview(sdk::Quantity::velocity, 2));
     sink.figure("angle", formula::angle(normal, norm(s.velocity - normal * rectangle_.normal())),
-                "rad", -1.0, sdk::detail(sdk::Quantity::angle));
-    sink.figure("fill_ratio", fill_ratio(s), "1", -1.0, sdk::detail(sdk::Quantity::ratio));
+                "rad", -1.0, sdk::overview(sdk::Quantity::angle, 3));
+    sink.figure("fill_ratio", fill_ratio(s), "1", -1.0, sdk::overview(sdk::Quantity::ratio, 4));
     sink.figure("impact_pressure", formula::impact_pressure(p_.bulk_density, normal), "Pa", -1.0,
-                sdk::detail(sdk::Quantity::pressure));
+                sdk::overview(sdk::Quantity::pressure, 5));
     const double belt = norm(p_.belt_velocity);
     if (belt == 0.0) return;
     const double along = dot(s.velocity, p_.belt_velocity) / belt;
     sink.figure("speed_along_belt", along, "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
     sink.figure("speed_along_belt_over_belt_speed", along / belt, "1", -1.0,
-                sdk::detail(sdk::Quantity::ratio));
+                sdk::overview(sdk::Quantity::ratio, 6));
   }
 
   void save(sdk::ArchiveWriter& a) const override {

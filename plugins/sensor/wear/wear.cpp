@@ -2,6 +2,7 @@
 #include "wear.hpp"
 
 #include <dust/sdk/grid_shape.hpp>
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -184,7 +185,8 @@ class Wear final : public sdk::Sensor {
                const std::vector<double>& sums, double factor, sdk::FigureSink& sink) const {
     const auto most = std::max_element(sums.begin(), sums.end());
     auto index = static_cast<std::size_t>(most - sums.begin());
-    sink.figure(name + "_largest/value", *most * factor, unit, -1.0, sdk::detail(quantity));
+    sink.figure(name + "_largest/value", *most * factor, unit, -1.0,
+                sdk::overview(quantity, quantity == sdk::Quantity::pressure ? 2 : 1));
     constexpr sdk::Quantity k_places[] = {sdk::Quantity::x, sdk::Quantity::y, sdk::Quantity::z};
     for (int d = 0; d < 3; ++d) {
       const auto count = static_cast<std::size_t>(grid_.count[d]);

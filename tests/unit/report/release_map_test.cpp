@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The map of where dust comes off, from a results.h5 written by hand.
+// Where dust comes off and where it is in the air, seen from the side and in three dimensions, from
+// a results.h5 written by hand.
 #include "fake_run.hpp"
 #include "report/pictures/pictures.hpp"
+#include "report/space/space.hpp"
 
 #include <doctest/doctest.h>
 #include <hdf5.h>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 using namespace dust;
@@ -103,4 +106,62 @@ TEST_CASE("a run whose grains carry no dust shall have no map of where it comes 
     results.frame("000000");
   }
   CHECK(report::release_map_of(report::H5Source(folder.path() / "results.h5")).is_null());
+}
+
+TEST_CASE("dust in the air shall come back from the page in kg/m3, and where it came off") {
+  const RunFolder folder;
+  {
+    const Results results(folder);
+    results.frame("000000");
+    // Two classes: 1e-3 kg/m3 in the third cell of the first row, a hundredth of it in the fourth
+    // cell, a millionth in the fifth: less than four decades hold.
+    results.field("/fluid/000000/dust_5_um", {0, 0, 4e-4F, 1e-5F, 1e-9F, 0, 0, 0, 0, 0, 0, 0});
+    results.field("/fluid/000000/dust_50_um", {0, 0, 6e-4F, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    results.field("/fluid/000000/dust_set_free_by_walls", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 3e-6F});
+    results.field("/fluid/000000/dust_set_free_by_wind", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1e-6F});
+  }
+  const report::H5Source source(folder.path() / "results.h5");
+  const nlohmann::json air = {
+      {"cells_per_block", {1, 1, 1}}, {"count", {3, 2, 2}}, {"frames", {nlohmann::json::object()}}};
+  CHECK(report::dust_field_of(source, {}, air).is_null());
+  CHECK(report::dust_field_of(source, {"5_um"}, nullptr).is_null());
+  const nlohmann::json dust = report::dust_field_of(source, {"5_um", "50_um"}, air);
+  REQUIRE(dust.is_object());
+  CHECK(dust["most"].get<double>() == doctest::Approx(1e-3));
+  const auto codes = [](const nlohmann::json& data) {
+    std::string bytes = test::unpacked(data);
+    for (std::size_t k = 1; k < bytes.size(); ++k)
+      bytes[k] = static_cast<char>(bytes[k] + bytes[k - 1]);
+    return std::vector<unsigned char>(bytes.begin(), bytes.end());
+  };
+  const auto concentration = codes(dust["frames"][0]["data"]);
+  REQUIRE(concentration.size() == 12);
+  CHECK(concentration[2] == 254);
+  CHECK(std::abs(concentration[3] - 127.5) < 1.0);  // two of four decades below
+  CHECK(concentration[4] == 0);
+  CHECK(concentration[0] == 0);
+  const nlohmann::json& set_free = dust["set_free"];
+  CHECK(set_free["kg"].get<double>() == doctest::Approx(4e-6));
+  CHECK(set_free["most"].get<double>() == doctest::Approx(4e-6 / 2e-6));  // in 2 cm3
+  CHECK(codes(set_free["data"])[11] == 254);
+}
+
+TEST_CASE(
+    "blocks of several cells shall hold the mean over their air and the sum of what came off") {
+  const RunFolder folder;
+  {
+    const Results results(folder);
+    results.frame("000000");
+    results.field("/fluid/open_fraction", {1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, 1});
+    results.field("/fluid/000000/dust_5_um", {3e-3F, 0, 0, 9, 0, 0, 0, 0, 0, 0, 0, 0});
+    results.field("/fluid/000000/dust_set_free_by_grains",
+                  {2e-6F, 2e-6F, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  }
+  const report::H5Source source(folder.path() / "results.h5");
+  const nlohmann::json air = {
+      {"cells_per_block", {2, 2, 1}}, {"count", {2, 1, 2}}, {"frames", {nlohmann::json::object()}}};
+  const nlohmann::json dust = report::dust_field_of(source, {"5_um"}, air);
+  REQUIRE(dust.is_object());
+  CHECK(dust["most"].get<double>() == doctest::Approx(1e-3));  // three cells of air of four
+  CHECK(dust["set_free"]["most"].get<double>() == doctest::Approx(4e-6 / 8e-6));
 }

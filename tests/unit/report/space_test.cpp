@@ -105,6 +105,28 @@ TEST_CASE("surfaces shall come back from the page where they were, body by body"
   CHECK(std::abs(corners[5][2] - 0.25) <= k_step);
 }
 
+TEST_CASE(
+    "surfaces that reach out of the domain shall end at its sides and not be pressed flat there") {
+  const RunFolder folder;
+  fill(folder);
+  // A strip along x from 1 m inside the box (2, 1, 1) m to far outside, and one wholly below it.
+  const FakeSurface strips = {{1.0F, 0.2F, 0.5F, 5.0F, 0.2F, 0.5F, 5.0F, 0.8F, 2.5F,  //
+                               0.0F, 0.0F, -0.3F, 1.0F, 0.0F, -0.3F, 1.0F, 1.0F, -0.1F},
+                              {0, 1, 2, 3, 4, 5},
+                              {0, 1}};
+  folder.write_surfaces({strips}, {"belt", "return_run"});
+  const json set = document_of(folder)["space"]["surfaces"]["sets"][0];
+  REQUIRE(set["bodies"].size() == 1);
+  CHECK(set["bodies"][0][0] == 0);
+  bool reaches_side = false;
+  for (const auto& corner : corners_of(set)) {
+    // The plane of the strip: z - 0.5 = (y - 0.2) 2 / 0.6 [m]; x, y, z are shares of 2, 1 and 1 m.
+    CHECK(corner[2] - 0.5 == doctest::Approx((corner[1] - 0.2) * 2.0 / 0.6).epsilon(1e-3));
+    reaches_side = reaches_side || corner[0] == 1.0;
+  }
+  CHECK(reaches_side);
+}
+
 TEST_CASE("surfaces that stay shall be stored once, those that move frame by frame") {
   const RunFolder folder;
   fill(folder);

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The first screen of a plant and the tables of the picture in three dimensions, without a page: node plant_test.js SOURCE
+'use strict';
+const assert = require('node:assert');
+const fs = require('node:fs');
+const path = require('node:path');
+const folder = path.resolve(process.argv[2], 'tools/report');
+const Numbers = require(path.join(folder, 'numbers.js'));
+
+// Elements as lists of their children: only the texts count.
+const Dust = {...Numbers, data: {}, el: (tag, attributes, ...children) => ({tag, attributes, children})};
+Dust.p = (attributes, ...children) => Dust.el('p', attributes, ...children.flat());
+Dust.bar = () => '';
+const text = (node) => (node === null || node === undefined || node === false ? '' : typeof node === 'string' ? node + '|' : node.children.map(text).join(''));
+for (const name of ['plant.js', 'space_axes.js']) new Function('Dust', fs.readFileSync(path.join(folder, name), 'utf8'))(Dust);
+
+// Details that sensors mark stand in the order of the scenario and of their rank, whatever their names.
+Numbers.set_extent(3);
+const marked = (value, unit, index, more = {}) => ({value, unit, uncertainty: null, towards: 'overview', index, ...more});
+const cards = Dust.overview_answers({
+  summary: {sensors: {
+    a: {zeta: marked(0.5, '1', 2), alpha: marked(100, 'kg/s', 1), other: {value: 7, unit: '1', uncertainty: null}},
+    b: {mean: marked(2, 's', 1, {quantity: 'time'})},
+    c: {other: {value: 7, unit: '1', uncertainty: null}},
+    d: {rate: marked(0, 'kg/h', 1)},
+  }},
+  setting: {sensors: [{name: 'b', what: 'How long.'}, {name: 'a'}, {name: 'd'}]},
+});
+assert.deepStrictEqual(cards.map(text), ['B|2\u202fs|mean time|', 'A|360\u202ft/h|alpha|zeta|0.5|',
+  'Nothing counted|1 sensor|d: nothing came by, or their start-up had not passed.|']);
+
+// Dust that the load carries: sums over the classes; what settles, leaves and is drawn out are told apart.
+const dusty = {
+  simulated_s: 3600, mass_kg: {emitted: 1000},
+  dust_on_grains: {classes: {
+    x: {entered_kg: 1, set_free_kg: 0.003, set_free_by: {grains: {kg: 0.001}, spoon: {kg: 0.002}}, balance_error: 1e-16},
+    y: {entered_kg: 2, set_free_kg: 0.001, set_free_by: {grains: {kg: 0.001}}, balance_error: -2e-16},
+  }},
+  dust_field: {classes: {
+    x: {airborne_kg: 0.0005, deposited_kg: {belt: 0.0005}, left_kg: {left: 0.0005}, hoods_kg: {top: 0.0015}, balance_error: 0},
+    y: {airborne_kg: 0, deposited_kg: {belt: 0.0005}, left_kg: {left: 0.0005}, hoods_kg: {}, balance_error: 0},
+  }},
+};
+const sums = Dust.load_dust({summary: dusty});
+assert.strictEqual(sums.fed, 3);
+assert.ok(Math.abs(sums.free - 0.004) < 1e-15);
+assert.strictEqual(sums.causes[0].name, 'grains');  // 2 g of two classes; the spoon's 2 g are of one
+assert.ok(Math.abs(sums.airborne + sums.settled + sums.out + sums.drawn - sums.free) < 1e-15);
+assert.strictEqual(sums.error, 2e-16);
+const answers = Dust.load_dust_answers({summary: dusty, release_map: null, extraction: null}).map(text);
+assert.ok(answers[0].startsWith('How much dust?|4\u202fg/t|4\u202fg/h set free'), answers[0]);
+assert.ok(answers[0].includes('1\u202fg/t get out with the air (1\u202fg/h)'), answers[0]);
+assert.ok(answers.at(-1).startsWith('Where to extract?|60\u202f% caught|'), answers.at(-1));  // 1.5 of 2.5 g
+assert.strictEqual(Dust.load_dust({summary: {}}), null);
+const limit = (is_touched) => ({key: 'smallest_void_fraction', is_touched});
+assert.strictEqual(text(Dust.limits_text({limits: [limit(false)]})), 'No limit of validity touched|');
+assert.strictEqual(text(Dust.limits_text({limits: [limit(true), limit(false)]})), '1 limit of validity touched|: smallest void fraction|');
+
+// Silence is not taken for none.
+const coarse = {grains: {classes: [0.008, 0.06], is_dust: [false, false]}, summary: {}, dust: null};
+assert.ok(text(Dust.no_dust_answer(coarse)).includes('not computed|The finest grains here are 8\u202fmm'));
+assert.strictEqual(Dust.no_dust_answer({...coarse, grains: {classes: [1e-5, 0.06], is_dust: [true, false]}}), null);
+assert.strictEqual(Dust.no_dust_answer({...coarse, summary: dusty}), null);
+
+// Grains as the picture has them: codes of 16 bits between the view's ends, speed by its root.
+const space = {min: [0, -1, 0], max: [2, 1, 1], air: {origin: [0, -1, 0], step: [1, 1, 1], count: [2, 2, 1], speed: 4}};
+const frame = {n: 1, x: [65535], z: [0], size: [1], speed: [51], depth: [255], depth_low: [255]};
+const [heads, columns] = Dust.space_tables.grains({classes: [0.01, 0.02], speed: 5, depth_bytes: 2}, [0, 0.5, 2, 1], space, 1.5, frame);
+assert.deepStrictEqual([...heads], ['time [s]', 'x [m]', 'y [m]', 'z [m]', 'diameter [m]', 'speed [m/s]']);
+assert.deepStrictEqual(columns.map((c) => c[0]), [1.5, 2, 1, 0.5, 0.02, 0.2]);
+// The plane across y at its upper end: the blocks of the second row; a body has neither air nor dust.
+Dust.space_dust = {block: (p) => Math.floor(p[0]), value: (code) => (code === 255 ? null : code * 1e-6)};
+const plane = Dust.space_tables.plane(space, {t: 2, air: {}, dust: [3, 255], plane: {axis: 1, u: 0, v: 2, at: 1},
+  velocity_of: () => (p) => (p[0] < 1 && p[1] > 0 && p[1] < 1 ? [0.5, 0, -0.25] : null)});
+assert.deepStrictEqual(plane[1].map((c) => c[0]), [2, 0.5, 1, 0.5, 2, 0, -1, 3]);
+assert.deepStrictEqual(plane[1].map((c) => c[1]), [2, 1.5, 1, 0.5, null, null, null, null]);
