@@ -74,7 +74,8 @@ TEST_CASE("pages of 2 MB shall be asked for where one has to ask, and change no 
   const fs::path small = run("small");
   unsetenv("GLIBC_TUNABLES");
   CHECK(json_text(large, "state_sha256") == json_text(small, "state_sha256"));
-#ifndef __SANITIZE_ADDRESS__  // which brings an allocator of its own
+// Sanitizers bring an allocator of their own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   if (read_file("/sys/kernel/mm/transparent_hugepage/enabled").find("[madvise]") !=
       std::string::npos) {
     CHECK(std::stoll(json_text(large, "huge_page_bytes")) > 0);
