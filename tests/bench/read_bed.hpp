@@ -30,7 +30,10 @@ inline Bed read_bed(const std::string& file) {
     std::replace(line.begin(), line.end(), ',', ' ');
     std::istringstream text(line);
     particles::NewGrain g;
-    text >> g.diameter >> g.position.x >> g.position.y >> g.position.z;
+    if (!(text >> g.diameter >> g.position.x >> g.position.y >> g.position.z)) {
+      throw std::runtime_error(file + ": line " + std::to_string(bed.grains.size() + 2) +
+                               " is not diameter, x, y, z; unpack a packed file first");
+    }
     for (int d = 0; d < 3; ++d) {
       if (d < 2) bed.low[d] = std::min(bed.low[d], g.position[d] - 0.5 * g.diameter);
       bed.high[d] = std::max(bed.high[d], g.position[d] + 0.5 * g.diameter);
