@@ -161,7 +161,7 @@ void check_parameters(const Kind& kind, const registry::Entry& entry,
     const Observations base = kind.observe(make, {});
     const bool is_nothing =
         std::none_of(base.begin(), base.end(), [](const Observation& r) { return r.value > 0.0; });
-    if (is_nothing) {
+    if (is_nothing || (kind.is_met && !kind.is_met(make))) {
       throw Remark("the model gives nothing here to tell by; place it with --set PARAMETER=VALUE");
     }
   }

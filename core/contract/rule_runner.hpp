@@ -70,6 +70,8 @@ struct Kind {
   std::vector<std::size_t> batches;  ///< ways to split; empty = the kind has no batches
   Units other_units;                 ///< in which the model must give the same quantities
   bool is_hot = false;               ///< the call must not allocate
+  /// Whether the standard scene comes to where the model looks; empty = every scene does.
+  std::function<bool(const Maker&)> is_met;
   /// Rules of this kind alone.
   std::function<void(const Maker&, const ModelUnderTest&, RuleRunner&)> rules;
 };

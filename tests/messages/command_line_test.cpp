@@ -67,6 +67,12 @@ TEST_CASE("a bad command line shall exit with 2 and a hint") {
   CHECK(engine("").status == 2);
 }
 
+TEST_CASE("describe shall take a model by its name alone where one kind has it") {
+  const Outcome whole = engine("describe drag/gidaspow");
+  CHECK_MESSAGE(whole.status == 0, whole.err);
+  CHECK(engine("describe gidaspow").out == whole.out);
+}
+
 TEST_CASE("folders that are no runs shall be refused with a remedy") {
   check_refused("compare nowhere elsewhere",
                 "error: nowhere is not a folder; give the output folder of a run, for example "

@@ -31,7 +31,7 @@ json turn_drum(const fs::path& out, const std::string& moisture) {
 /// hood.
 json drop_into_chute(const fs::path& out) {
   std::vector<std::string> arguments{
-      "run", DUST_SOURCE "/scenarios/plant/dusty_chute.yaml", "-o", out, "--quiet", "--threads",
+      "run", DUST_SOURCE "/scenarios/plant/transfer_chute.yaml", "-o", out, "--quiet", "--threads",
       "1"};
   for (const char* setting :
        {"time.end=1.2 s", "time.fluid_step=10 ms", "time.output_every=0.6 s",

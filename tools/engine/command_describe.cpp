@@ -16,13 +16,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// A model by kind and name, or by a name that one kind alone has.
 Subject find_subject(const registry::Registry& registry, const std::string& wanted) {
   std::vector<std::string> names;
+  std::vector<Subject> of_that_name;
   for (Subject& subject : subjects(registry)) {
     const std::string name = subject.info.kind + "/" + subject.info.name;
     if (name == wanted) return std::move(subject);
     names.push_back(name);
+    if (subject.info.name == wanted) of_that_name.push_back(std::move(subject));
   }
+  if (of_that_name.size() == 1) return std::move(of_that_name.front());
   throw base::UserError("engine describe: error: there is no '" + scenario::printable(wanted) +
                         "'" + scenario::suggestion(wanted, names, "there are"));
 }
@@ -116,7 +120,8 @@ void add_describe(CLI::App& app, int&) {
       "describe", "Tell a model's parameters: type, unit, default, range, equation, source");
   command
       ->add_option("KIND/NAME", arguments->subject,
-                   "A model, for example drag/gidaspow; a kind alone: all of its models in short")
+                   "A model, for example drag/gidaspow or gidaspow; a kind alone: all of its models in "
+                   "short")
       ->required();
   auto* markdown = command->add_flag("--markdown", arguments->as_markdown, "Print as Markdown");
   command->add_flag("--json", arguments->as_json, "Print as JSON")->excludes(markdown);

@@ -60,6 +60,11 @@ Vec3 corner(bool is_upper, int flat) {
   return at;
 }
 
+/// A corner of a box, by its name.
+bool is_corner(const Parameter& p) {
+  return p.dimension == sdk::dimension::length && (p.name == "min" || p.name == "max");
+}
+
 /// Which of the lists that may be left out are there, as bits: none, one, two that belong together
 /// (times and factors, diameters and fractions), all. Lists are guessed with one length.
 constexpr unsigned k_lists[] = {0b0000, 0b0001, 0b0010, 0b0100, 0b1000, 0b0011,
@@ -103,10 +108,8 @@ std::optional<Value> guess(const Parameter& p, int attempt, int list) {
       if (!p.options.empty()) return std::vector<std::string>{p.options.front()};
       return std::vector<std::string>{};
     case ParameterType::vector:
-      if (p.dimension == sdk::dimension::length) {
-        if (p.name == "min" || p.name == "max") return corner(p.name == "max", flat);
-        return Vec3{0.15, 0.005, 0.1};
-      }
+      if (is_corner(p)) return corner(p.name == "max", flat);
+      if (p.dimension == sdk::dimension::length) return Vec3{0.15, 0.005, 0.1};
       if (p.dimension == sdk::dimension::none) return Vec3{1.0, 0.0, 0.0};
       return Vec3{0.0, 0.0, -typical(p.dimension).front()};
     case ParameterType::numbers:
@@ -185,6 +188,9 @@ std::vector<Value> other_values(const Parameter& p, const Value& value) {
       if (option != *text) others.emplace_back(option);
     }
   } else if (const auto* vector = std::get_if<Vec3>(&value)) {
+    if (is_corner(p) && *vector != corner(p.name == "max", 3)) {
+      others.emplace_back(corner(p.name == "max", 3));
+    }
     others.emplace_back(-*vector);
     const bool is_direction = p.dimension == sdk::dimension::none;
     for (const double step : is_direction ? std::vector<double>{1.0} : typical(p.dimension)) {

@@ -3,6 +3,7 @@
 
 #include "base/text.hpp"
 #include "check/check_bodies.hpp"
+#include "check/check_dust.hpp"
 #include "coupling/self_disturbance/disturbance_formulas.hpp"
 
 #include <nlohmann/json.hpp>
@@ -20,6 +21,7 @@ namespace {
 
 using particles::TimeSteps;
 using preflight::Derived;
+using scenario::DustSetup;
 using scenario::Setup;
 
 std::string digits(double value, int significant = 3) {
@@ -347,7 +349,7 @@ nlohmann::ordered_json terms_json(const preflight::RunCost& cost) {
 
 }  // namespace
 
-std::string check_json(const Setup& setup, const Derived& derived,
+std::string check_json(const Setup& setup, const DustSetup& dust, const Derived& derived,
                        const preflight::BodySurvey& survey,
                        const preflight::LearntCosts::Expected& cost) {
   nlohmann::ordered_json j;
@@ -376,6 +378,7 @@ std::string check_json(const Setup& setup, const Derived& derived,
     }
   }
   add_bodies_json(survey, j);
+  add_dust_json(setup, dust, derived.emissions, j);
   j["width_over_diameter"] = derived.width_over_diameter;
   j["courant_number"] = derived.courant_number;
   j["grains"] = derived.grains_in_domain;
@@ -387,7 +390,7 @@ std::string check_json(const Setup& setup, const Derived& derived,
   return j.dump(2) + "\n";
 }
 
-std::string check_summary(const Setup& setup, const Derived& derived,
+std::string check_summary(const Setup& setup, const DustSetup& dust, const Derived& derived,
                           const preflight::BodySurvey& survey,
                           const preflight::LearntCosts::Expected& cost) {
   std::ostringstream out;
@@ -401,6 +404,7 @@ std::string check_summary(const Setup& setup, const Derived& derived,
   print_things(out, setup, derived);
   out << bodies_text(survey);
   print_fluid(out, setup, derived);
+  out << dust_text(setup, dust, derived.emissions);
   add_resolved(out, derived);
   print_steps(out, setup, derived);
   print_cost(out, derived, cost);

@@ -57,8 +57,8 @@ void add_check(CLI::App& app, int&) {
     const auto derived = preflight::derive(result.setup, *registry);
     const auto survey = preflight::survey_bodies(result.setup, *registry);
     const auto learnt = preflight::LearntCosts().expect(result.setup.name, derived.cost);
-    std::cout << (arguments->as_json ? check_json : check_summary)(result.setup, derived, survey,
-                                                                   learnt);
+    std::cout << (arguments->as_json ? check_json : check_summary)(result.setup, result.dust,
+                                                                   derived, survey, learnt);
     if (start && !arguments->as_json) {
       std::cout << "  start      from " << start->state << " at "
                 << base::digits_text(start->time, 6) << " s with " << start->particles << " grains"
@@ -66,7 +66,7 @@ void add_check(CLI::App& app, int&) {
                 << '\n';
     }
     if (!arguments->page.empty()) {
-      const std::string numbers = check_json(result.setup, derived, survey, learnt);
+      const std::string numbers = check_json(result.setup, result.dust, derived, survey, learnt);
       write_file(arguments->page, setup_page(result.setup, *registry, numbers));
       if (!arguments->as_json) std::cout << "drawn in " << arguments->page << '\n';
     }

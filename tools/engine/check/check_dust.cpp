@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/check_dust.hpp"
+
+#include "base/text.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+namespace dust::engine {
+namespace {
+
+using preflight::EmissionNumbers;
+using scenario::DustSetup;
+using scenario::Setup;
+
+/// "0.1, 0.3 and 0.5"
+template <class Values, class Text>
+std::string listed(const Values& values, Text text) {
+  std::string all;
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const char* gap = n == 0 ? "" : n + 1 == values.size() ? " and " : ", ";
+    all += gap + text(values[n]);
+  }
+  return all;
+}
+
+std::string as_it_is(const std::string& text) { return text; }
+
+std::string percent(double share) { return base::digits_text(100.0 * share, 3); }
+
+/// [kg/s] of each class that streams of a material bring along.
+std::vector<double> brought(const Setup& setup, const DustSetup& dust,
+                            std::span<const EmissionNumbers> emissions, std::size_t material) {
+  std::vector<double> flow(dust.loads[material].share);
+  double solids = 0.0;
+  for (std::size_t n = 0; n < emissions.size(); ++n) {
+    if (static_cast<std::size_t>(setup.emitters[n].material) == material) {
+      solids += emissions[n].mass_flow;
+    }
+  }
+  for (double& class_flow : flow) class_flow *= solids;
+  return flow;
+}
+
+void print_loads(std::ostream& out, const Setup& setup, const DustSetup& dust,
+                 std::span<const EmissionNumbers> emissions) {
+  const sdk::Vec3 edges = setup.domain.max - setup.domain.min;
+  for (std::size_t m = 0; m < dust.loads.size(); ++m) {
+    const auto& load = dust.loads[m];
+    if (load.share.empty()) continue;
+    const double all = std::accumulate(load.share.begin(), load.share.end(), 0.0);
+    out << "             " << setup.materials[m].name << " carries " << percent(all) << " % of it";
+    if (load.share.size() > 1) out << " (" << listed(load.share, percent) << " %)";
+    if (load.moisture > 0.0) out << " at " << percent(load.moisture) << " % of moisture";
+    const auto flow = brought(setup, dust, emissions, m);
+    const double sum = std::accumulate(flow.begin(), flow.end(), 0.0);
+    if (sum > 0.0) {
+      out << ": " << base::mass_flow_text(sum, std::max({edges.x, edges.y, edges.z}));
+    }
+    out << '\n';
+  }
+}
+
+}  // namespace
+
+std::string dust_text(const Setup& setup, const DustSetup& dust,
+                      std::span<const EmissionNumbers> emissions) {
+  if (!dust.field) return {};
+  std::ostringstream out;
+  const auto& sizes = dust.field->diameters;
+  out << "  dust       a field of "
+      << listed(sizes, [](double d) { return base::length_text(d, 3); }) << ", "
+      << base::digits_text(dust.field->density, 4) << " kg/m3\n";
+  print_loads(out, setup, dust, emissions);
+  if (dust.liberation) out << "             set free by " << dust.liberation->name << '\n';
+  if (dust.given && !dust.given->hoods.empty()) {
+    out << "             caught by " << listed(dust.given->hoods, as_it_is) << '\n';
+  }
+  return out.str();
+}
+
+void add_dust_json(const Setup& setup, const DustSetup& dust,
+                   std::span<const EmissionNumbers> emissions, nlohmann::ordered_json& json) {
+  if (!dust.field) return;
+  json["dust"] = {{"classes_m", dust.field->diameters}};
+  for (std::size_t m = 0; m < dust.loads.size(); ++m) {
+    if (dust.loads[m].share.empty()) continue;
+    json["dust"]["brought_kg_per_s"][setup.materials[m].name] = brought(setup, dust, emissions, m);
+  }
+}
+
+}  // namespace dust::engine
