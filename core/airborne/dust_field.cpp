@@ -102,7 +102,7 @@ void DustField::start(const fluid::CellField& volume) {
       }
     }
   }
-  for (Class& c : classes_) c.released = sum_of(grid_, c.mass) * grid_.cell_volume();
+  for (Class& c : classes_) c.released = {sum_of(grid_, c.mass) * grid_.cell_volume(), 0.0};
 }
 
 void DustField::find_sources(const fluid::CellField& volume) {
@@ -137,11 +137,14 @@ bool DustField::add_sources(std::size_t n, double time, double step) {
 
 /// What has settled in this step goes to its surface and cell.
 void DustField::add_deposits(Class& c, const Flow& flow) const {
+  // The step's sums by themselves: totals that grow piece by piece round far more often.
+  std::vector<double> settled(c.surfaces.size(), 0.0);
   for (std::size_t n = 0; n < flow.walls.size(); ++n) {
     const double mass = c.losses.walls[n] * grid_.cell_volume();
-    c.surfaces[static_cast<std::size_t>(flow.walls[n].surface)] += mass;
+    settled[static_cast<std::size_t>(flow.walls[n].surface)] += mass;
     c.deposit[static_cast<std::size_t>(flow.walls[n].cell)] += mass;
   }
+  for (std::size_t n = 0; n < settled.size(); ++n) c.surfaces[n] += settled[n];
   c.losses.walls.clear();
 }
 
@@ -152,7 +155,7 @@ void DustField::advance(const Flow& flow, double time, double step) {
   for (std::size_t n = 0; n < classes_.size(); ++n) {
     Class& c = classes_[n];
     const bool has_source = add_sources(n, time, step);
-    if (!(c.released > 0.0)) continue;  // there is none yet
+    if (!(c.released.value() > 0.0)) continue;  // there is none yet
     sub_steps_ += transport_.advance(flow, c.dust, 1.0 / spec_.schmidt_number,
                                      has_source ? source_ : k_no_source, step, c.mass, c.losses);
     add_deposits(c, flow);
@@ -166,7 +169,7 @@ void DustField::release(std::size_t n, std::int32_t cell, double mass) {
 
 bool DustField::is_empty() const {
   return std::none_of(classes_.begin(), classes_.end(),
-                      [](const Class& c) { return c.released > 0.0; });
+                      [](const Class& c) { return c.released.value() > 0.0; });
 }
 
 void DustField::concentration(std::size_t n, const fluid::CellField& volume,
@@ -178,7 +181,7 @@ DustBalance DustField::balance(std::size_t n) const {
   const Class& c = classes_[n];
   const double volume = grid_.cell_volume();
   DustBalance balance;
-  balance.released = c.released;
+  balance.released = c.released.value();
   balance.airborne = sum_of(grid_, c.mass) * volume;
   for (std::size_t side = 0; side < 6; ++side) balance.left[side] = c.losses.sides[side] * volume;
   for (const double drawn : c.losses.outlets) balance.outlets.push_back(drawn * volume);
@@ -193,7 +196,8 @@ void DustField::save(sdk::ArchiveWriter& archive) const {
     const std::string name = "class_" + std::to_string(n) + "_";
     archive.numbers(name + "mass", c.mass);
     archive.numbers(name + "deposit", c.deposit);
-    archive.number(name + "released", c.released);
+    archive.number(name + "released", c.released.sum());
+    archive.number(name + "released_lost", c.released.lost());
     archive.numbers(name + "sides", c.losses.sides);
     archive.numbers(name + "outlets", c.losses.outlets);
     archive.numbers(name + "surfaces", c.surfaces);
@@ -207,7 +211,8 @@ void DustField::load(sdk::ArchiveReader& archive) {
     const std::string name = "class_" + std::to_string(n) + "_";
     c.mass = archive.numbers(name + "mass");
     c.deposit = archive.numbers(name + "deposit");
-    c.released = archive.number(name + "released");
+    const double released = archive.number(name + "released");
+    c.released = {released, archive.number(name + "released_lost")};
     const std::vector<double> sides = archive.numbers(name + "sides");
     if (c.mass.size() != grid_.size || sides.size() != c.losses.sides.size()) {
       throw sdk::ModelError("the checkpoint's dust belongs to another grid");

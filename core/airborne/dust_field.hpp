@@ -4,6 +4,7 @@
 #include "airborne/dust_class.hpp"
 #include "airborne/flow.hpp"
 #include "airborne/transport.hpp"
+#include "base/exact_sum.hpp"
 #include "dust/sdk/archive.hpp"
 #include "fluid/grid.hpp"
 #include "setup/dust_setup.hpp"
@@ -66,7 +67,7 @@ class DustField {
     DustClass dust;
     fluid::CellField mass;         ///< [kg/m3] of whole cells
     fluid::CellField deposit;      ///< [kg]
-    double released = 0.0;         ///< [kg]
+    base::ExactSum released;       ///< [kg], grain by grain
     Losses losses;                 ///< of sides and hoods since the start; of walls in this step
     std::vector<double> surfaces;  ///< [kg]
   };

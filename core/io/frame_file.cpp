@@ -97,7 +97,7 @@ void write_fluid(hid_t file, const sdk::FluidColumns& f, std::span<const float> 
 void write_more_of_fluid(hid_t file, const std::vector<SensorField>& fields) {
   for (const SensorField& f : fields) {
     const auto extent = [&](int d) { return static_cast<hsize_t>(f.grid.count[d]); };
-    write_array(file, ("fluid/" + f.name).c_str(), H5T_NATIVE_FLOAT, narrow(f.values).data(),
+    write_array(file, "fluid/" + f.name, H5T_NATIVE_FLOAT, narrow(f.values).data(),
                 {extent(2), extent(1), extent(0)}, Storage::compressed,
                 {f.unit.c_str(), f.name.c_str()});
   }

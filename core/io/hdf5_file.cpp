@@ -192,6 +192,7 @@ void write_attribute(hid_t object, const std::string& name,
                      const std::vector<std::string>& values) {
   const Handle type = text_type(true, 0);
   std::vector<const char*> pointers;
+  pointers.reserve(values.size());
   for (const std::string& value : values) pointers.push_back(value.c_str());
   write_numeric_attribute(object, name, type.get(), pointers.data(), pointers.size(), false);
 }

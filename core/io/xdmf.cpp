@@ -68,7 +68,7 @@ std::string grid_start(const char* name, double time) {
 }  // namespace
 
 std::string particles_xdmf(const std::vector<FrameEntry>& frames, sdk::Vec3 corner) {
-  const std::vector<FieldInfo> all = particle_fields();
+  const std::vector<FieldInfo>& all = particle_fields();
   const std::vector<FieldInfo> attributes(all.begin() + 1, all.end());
   const auto empty = [&](double time) {
     return empty_grid("particles", "Polyvertex", attributes, corner, time);

@@ -12,6 +12,7 @@ namespace {
 
 std::vector<std::string> names_of(const auto& materials) {
   std::vector<std::string> names;
+  names.reserve(materials.size());
   for (const auto& m : materials) names.push_back(m.name);
   return names;
 }

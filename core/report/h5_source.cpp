@@ -115,6 +115,7 @@ std::vector<std::string> H5Source::texts(const std::string& object, const std::s
   std::vector<char*> found(static_cast<std::size_t>(count), nullptr);
   if (H5Aread(attribute, given, found.data()) < 0) return {};
   std::vector<std::string> list;
+  list.reserve(found.size());
   for (const char* text : found) list.emplace_back(text == nullptr ? "" : text);
   H5Dvlen_reclaim(given, space, H5P_DEFAULT, found.data());
   return list;

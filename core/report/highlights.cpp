@@ -108,6 +108,7 @@ std::vector<DustClass> classes_of(const RunText& run, const Highlights& highligh
     if (entry.density < 0.0) entry.density = density_of(run, diameter);
   }
   std::vector<DustClass> list;
+  list.reserve(classes.size());
   for (const auto& [key, entry] : classes) list.push_back(entry);
   return list;
 }

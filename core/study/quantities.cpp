@@ -210,6 +210,7 @@ const Quantity* find_quantity(const std::vector<Quantity>& all, const std::strin
 std::string quantity_hint(const std::vector<Quantity>& all, const std::string& path) {
   const std::string wanted = dotted(path);
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const Quantity& q : all) names.push_back(q.path);
   const std::string near = scenario::nearest(wanted, names);
   if (!near.empty()) return "; did you mean '" + near + "'?";

@@ -6,9 +6,6 @@
 #include <cmath>
 
 namespace dust::fluid {
-
-using sdk::Vec3;
-
 namespace {
 
 /// Distance from the surfaces (in cells) beyond which no thin body can come between two neighbours.

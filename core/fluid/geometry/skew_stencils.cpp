@@ -8,8 +8,6 @@
 namespace dust::fluid {
 namespace {
 
-using sdk::Vec3;
-
 /// Cells from a surface within which convection runs along it: what its layer needs to come to
 /// some cells of thickness. Two let twice the error in, four bring nothing more.
 constexpr double k_skew_reach = 3.0;

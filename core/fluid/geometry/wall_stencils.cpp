@@ -8,8 +8,6 @@
 namespace dust::fluid {
 namespace {
 
-using sdk::Vec3;
-
 /// Faces deeper inside a body (in cells) take the surface velocity itself.
 constexpr double k_ghost_depth = 2.6;
 

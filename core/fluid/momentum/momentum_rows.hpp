@@ -10,6 +10,7 @@
 
 /// Loops of the momentum equation over rows of faces: the inside of momentum.cpp, which alone
 /// includes this. Internal linkage, so that each kernel's versions stay next to its calls.
+// NOLINTBEGIN(misc-definitions-in-headers)
 namespace dust::fluid {
 namespace {
 
@@ -213,3 +214,4 @@ RowRates largest_of(int n, const double* courant, const double* speed, const dou
 
 }  // namespace
 }  // namespace dust::fluid
+// NOLINTEND(misc-definitions-in-headers)

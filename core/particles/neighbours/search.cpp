@@ -343,6 +343,7 @@ std::vector<Level> levels_of(const SearchInput& in, std::vector<Ball>& balls) {
                     way * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])};
   }
   std::vector<Level> levels;
+  levels.reserve(members.size());
   for (const auto& rows : members) levels.emplace_back(in, rows, balls);
   return levels;
 }

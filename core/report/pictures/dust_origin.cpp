@@ -111,6 +111,7 @@ std::vector<DustOrigin> dust_origins(const H5Source& source, const View& view,
     ++origin.grains;
   }
   std::vector<DustOrigin> list;
+  list.reserve(squares.size());
   for (const auto& [place, origin] : squares) list.push_back(origin);
   return list;
 }

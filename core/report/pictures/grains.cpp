@@ -156,6 +156,7 @@ std::vector<std::size_t> paint_order(const std::vector<float>& position,
   }
   std::sort(keys.begin(), keys.end());
   std::vector<std::size_t> order;
+  order.reserve(keys.size());
   for (const auto& [key, k] : keys) order.push_back(k);
   return order;
 }

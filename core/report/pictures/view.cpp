@@ -83,6 +83,7 @@ std::vector<double> corner_of(const YAML::Node& node) {
     if (texts[k].find_first_of("mcu") == std::string::npos) texts[k] += " " + texts[2].substr(at);
   }
   std::vector<double> corner;
+  corner.reserve(texts.size());
   for (const std::string& text : texts) corner.push_back(length_of(text));
   return corner;
 }

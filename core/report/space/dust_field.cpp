@@ -118,6 +118,7 @@ json dust_field_of(const H5Source& source, const std::vector<std::string>& class
   const auto grid = fluid_grid_of(source);
   if (frames.empty() || !grid || !air.is_object() || classes.empty()) return nullptr;
   std::vector<std::string> names;
+  names.reserve(classes.size());
   for (const std::string& name : classes) names.push_back("dust_" + name);
   Blocks blocks{grid->count, air["cells_per_block"].get<Count>(), air["count"].get<Count>(),
                 source.floats("/fluid/open_fraction")};

@@ -460,6 +460,7 @@ bool Branch::keeps_statistics(const std::string& name, const sdk::Sensor& model,
   if (!same("sensors." + name) || !same("dust") || !same("time.fluid_step")) return false;
   const auto names = [](const auto& things) {
     std::vector<std::string> all;
+    all.reserve(things.size());
     for (const auto& thing : things) all.push_back(thing.name);
     return all;
   };

@@ -40,7 +40,8 @@ class EmissionLedger {
  private:
   struct Key {
     double diameter, weight, grain_mass;
-    auto operator<=>(const Key&) const = default;
+    // clang-tidy 14 takes the zero that <=> is compared with for a pointer.
+    auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr)
   };
   std::vector<std::map<Key, std::int64_t>> lines_;
 };

@@ -16,8 +16,8 @@ std::string LiveReport::address() const {
 }
 
 void LiveReport::publish_state(const Simulation& simulation, const RunFacts& facts) {
-  RunRecord record = record_of(simulation, facts);
-  bulletin_->publish_state(std::move(record.summary), std::move(record.report));
+  const RunRecord record = record_of(simulation, facts);
+  bulletin_->publish_state(record.summary, record.report);
 }
 
 void LiveReport::publish_progress(const Simulation& simulation, const RunFacts& facts,

@@ -23,6 +23,7 @@ struct SizeRow {
 std::vector<SizeRow> size_rows(const Simulation& s, std::size_t e) {
   std::vector<SizeRow> rows;
   const auto shares = s.models().emitters[e]->request().shares;
+  rows.reserve(shares.size());
   double cubes = 0.0;
   for (const auto& share : shares) cubes += share.number_fraction * std::pow(share.diameter, 3);
   for (const auto& share : shares) {

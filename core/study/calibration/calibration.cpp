@@ -190,6 +190,7 @@ bool is_in_region(const Calibration& calibration, const CalibrationSettings& set
   const auto share = share_of(settings, values);
   const auto surrogates = learn(settings, calibration);
   std::vector<Prediction> predictions;
+  predictions.reserve(surrogates.size());
   for (const auto& s : surrogates) predictions.push_back(s->at(share));
   // The landscape counts from the density of its best place.
   const double least = fit_of(settings, calibration.at_best).minus_log;

@@ -206,8 +206,26 @@ void write_cases(std::ostringstream& out, const HoodStudy& study, const std::str
   }
 }
 
+/// What of a dust field gets out by each side; as in summary.json, means since the first run began.
+void write_field_measures(std::ostringstream& out, const FinishedRun& run) {
+  const auto& given = run.scenario.dust.given;
+  const nlohmann::json ways = report::object_at(run.text.summary, "dust_outflow");
+  for (const auto& item : ways.items()) {
+    const bool is_hood = given && std::find(given->hoods.begin(), given->hoods.end(),
+                                            item.key()) != given->hoods.end();
+    if (is_hood) continue;
+    out << "  out_" << item.key() << ": {quantity: dust_outflow." << item.key()
+        << ".kg_per_h, unit: kg/h}\n";
+  }
+}
+
 void write_measures(std::ostringstream& out, const FinishedRun& run) {
-  out << "measure:\n  drawn_out: {quantity: mass_kg.removed, unit: mg}\n";
+  out << "measure:\n";
+  if (run.scenario.dust.field) {
+    write_field_measures(out, run);
+  } else {
+    out << "  drawn_out: {quantity: mass_kg.removed, unit: mg}\n";
+  }
   for (const report::Figure& opening : report::highlights_of(run.text).openings) {
     std::string quantity = "sensors." + opening.sensor + "." + opening.name;
     std::replace(quantity.begin(), quantity.end(), '/', '.');

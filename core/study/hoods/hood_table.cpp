@@ -13,8 +13,10 @@ using Row = std::array<std::string, 5>;
 
 std::string flow_text(double flow) {
   constexpr double k_large = 1.0 / 60.0;  // m3/s
-  return flow > k_large ? base::digits_text(3600.0 * flow, 3) + " m3/h"
-                        : base::digits_text(6e4 * flow, 3) + " l/min";
+  if (flow <= k_large) return base::digits_text(6e4 * flow, 3) + " l/min";
+  const double per_hour = 3600.0 * flow;
+  return (per_hour < 100.0 ? base::digits_text(per_hour, 3) : base::fixed_text(per_hour, 0)) +
+         " m3/h";
 }
 
 /// "0.12 ± 0.03", both to the second digit of the error.

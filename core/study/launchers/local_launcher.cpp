@@ -69,6 +69,7 @@ class LocalLauncher final : public Launcher {
     store_.prepare(point);
     std::vector<std::string> words = run_arguments(store_, resources_, point);
     std::vector<char*> argv;
+    argv.reserve(words.size() + 1);
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     const std::string log = store_.log_of(point).string();
