@@ -221,7 +221,8 @@ void Transport::take_from_sides(double amount, Losses& losses, const Flow& flow)
       const std::ptrdiff_t first =
           grid_.index(0, 0, 0) + (high != 0 ? grid_.count[d] * grid_.stride[d] : 0);
       const double scale = sign * amount / grid_.spacing[static_cast<int>(d)];
-      // The stage's sum by itself: a total that grows face by face rounds a thousand times as often.
+      // The stage's sum by itself: a total that grows face by face rounds a thousand times as
+      // often.
       double through_side = 0.0;
       for (int b = 0; b < grid_.count[f]; ++b) {
         for (int a = 0; a < grid_.count[e]; ++a) {

@@ -54,6 +54,7 @@ void collect_place(const Figure& figure, std::map<std::pair<std::string, int>, L
   LowPlace& place = places[{figure.sensor, figure.index}];
   place.name = std::to_string(figure.index);
   if (figure.quantity == "x") place.x = figure;
+  if (figure.quantity == "y") place.y = figure;
   if (figure.quantity == "z") place.z = figure;
   if (figure.quantity == "depth_of_pressure") place.depth = figure;
 }

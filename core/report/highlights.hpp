@@ -17,7 +17,7 @@ struct StreamDrop {
 /// A place of low mean pressure.
 struct LowPlace {
   std::string name;
-  Figure x, z, depth;        ///< [m], [m], [Pa]
+  Figure x, y, z, depth;     ///< [m], [m], [m], [Pa]
   double dust_share = -1.0;  ///< of the dust in the domain, within k_reach; negative: not known
 };
 

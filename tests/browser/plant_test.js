@@ -51,6 +51,15 @@ const answers = Dust.load_dust_answers({summary: dusty, release_map: null, extra
 assert.ok(answers[0].startsWith('How much dust?|4\u202fg/t|4\u202fg/h set free'), answers[0]);
 assert.ok(answers[0].includes('1\u202fg/t get out with the air (1\u202fg/h)'), answers[0]);
 assert.ok(answers.at(-1).startsWith('Where to extract?|60\u202f% caught|'), answers.at(-1));  // 1.5 of 2.5 g
+// The hood's flow, and places of low pressure to try.
+Dust.place_xyz = ({x, y, z}) => [x, y, z].join(' ');
+Dust.depth = (place) => place.depth.value + ' Pa';
+const places = [{x: 1, y: 2, z: 3, depth: {value: -4}}];
+const where = text(Dust.load_dust_answers({summary: dusty, release_map: null, extraction: {places},
+  setting: {sides: [{name: 'left'}, {name: 'top', flow_m3_per_s: 1.25}], bodies: []}}).at(-1));
+assert.ok(where.includes('top (4500\u202fm³/h) extracts|'), where);
+assert.ok(where.includes('Low pressure|, to be tried:|1 2 3|-4 Pa|'), where);
+assert.ok(Dust.has_hoods_for_load_dust({summary: dusty}) && !Dust.has_hoods_for_load_dust({summary: {}}));
 assert.strictEqual(Dust.load_dust({summary: {}}), null);
 const limit = (is_touched) => ({key: 'smallest_void_fraction', is_touched});
 assert.strictEqual(text(Dust.limits_text({limits: [limit(false)]})), 'No limit of validity touched|');

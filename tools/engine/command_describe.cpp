@@ -119,9 +119,10 @@ void add_describe(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand(
       "describe", "Tell a model's parameters: type, unit, default, range, equation, source");
   command
-      ->add_option("KIND/NAME", arguments->subject,
-                   "A model, for example drag/gidaspow or gidaspow; a kind alone: all of its models in "
-                   "short")
+      ->add_option(
+          "KIND/NAME", arguments->subject,
+          "A model, for example drag/gidaspow or gidaspow; a kind alone: all of its models in "
+          "short")
       ->required();
   auto* markdown = command->add_flag("--markdown", arguments->as_markdown, "Print as Markdown");
   command->add_flag("--json", arguments->as_json, "Print as JSON")->excludes(markdown);

@@ -52,6 +52,9 @@ Dust.places = (() => {
 // A place [m] in that unit, without and with its name.
 Dust.place_number = (metres, digits = 3) => Dust.number(metres / Dust.places.factor, digits);
 Dust.place_text = (metres, digits = 3) => Dust.place_number(metres, digits) + '\u202f' + Dust.places.unit;
+// With its depth where the domain is deep.
+Dust.is_deep = () => Boolean(Dust.data.space && !Dust.data.space.is_thin);
+Dust.place_xyz = ({x, y, z}) => (Dust.is_deep() && Number.isFinite(y) ? `x\u202f${Dust.place_number(x)}, y\u202f${Dust.place_number(y)}, z\u202f${Dust.place_text(z)}` : Dust.place_xz({x, z}));
 Dust.place_xz = ({x, z}) => `x\u202f${Dust.place_number(x)}, z\u202f${Dust.place_text(z)}`;
 
 // Round steps for about `wanted` ticks in [low, high].

@@ -4,9 +4,9 @@ Dust.sections.extraction = ({extraction, air, dust_map, dust}) => {
   if (!extraction) return null;
   const {places, first, reach_m} = extraction, {el} = Dust;
   const has_shares = places.some((place) => place.dust_share !== null);
-  const columns = [{title: 'Ring'}, {title: 'x', number: true}, {title: 'z', number: true}, {title: 'Mean pressure', number: true},
+  const columns = [{title: 'Ring'}, {title: 'x', number: true}, ...(Dust.is_deep() ? [{title: 'y', number: true}] : []), {title: 'z', number: true}, {title: 'Mean pressure', number: true},
     ...(has_shares ? [{title: `Dust within ${Dust.quantity(reach_m, -1, 'm')}`, number: true}] : []), {title: ''}];
-  const rows = places.map((place, k) => [place.name, Dust.place_text(place.x), Dust.place_text(place.z), Dust.depth(place),
+  const rows = places.map((place, k) => [place.name, Dust.place_text(place.x), ...(Dust.is_deep() ? [Dust.place_text(place.y)] : []), Dust.place_text(place.z), Dust.depth(place),
     ...(has_shares ? [place.dust_share === null ? Dust.dash : Dust.percent(place.dust_share)] : []),
     k === first && place.dust_share > 0 ? Dust.strong('extract here first') : '']);
   const map = (id, title, text) => el('figure', {}, el('div', {class: 'picture', id: id + '-picture'}), el('div', {id: id + '-legend', class: 'key'}),

@@ -94,7 +94,7 @@ Dust.sections.header = (data) => {
   };
   const where_to_extract = () => {
     const {places, first, reach_m} = data.extraction, best = places[first];
-    const at = Dust.place_xz;
+    const at = Dust.place_xyz;
     const others = places.filter((_, k) => k !== first).slice(0, 2);
     return answer('Where to extract?', at(best),
       p({}, Dust.depth(best) + ' in the mean' + (best.dust_share > 0 ? `; ${Dust.percent(best.dust_share)} of the dust lies within ${Dust.quantity(reach_m, -1, 'm')}` : '')),
@@ -113,7 +113,7 @@ Dust.sections.header = (data) => {
   };
 
   const words = lede();
-  const answers = [...(dust ? [how_much(), from_where(), how_sure()] : []), ...Dust.load_dust_answers(data), ...(data.extraction ? [where_to_extract()] : [])].filter(Boolean);
+  const answers = [...(dust ? [how_much(), from_where(), how_sure()] : []), ...Dust.load_dust_answers(data), ...(data.extraction && !Dust.has_hoods_for_load_dust(data) ? [where_to_extract()] : [])].filter(Boolean);
   const plant = Dust.overview_answers(data);
   if (plant.length && !answers.length) plant.unshift(Dust.no_dust_answer(data), Dust.overview_sure_answer(data));
   return el('header', {}, ...Dust.heading({kind: 'Run report', scenario: text_of(summary.scenario), status: text_of(summary.status), title: title()}),

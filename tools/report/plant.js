@@ -21,6 +21,14 @@ Dust.load_dust = ({summary}) => {
     error: Math.max(...loads.map((c) => Math.abs(c.balance_error || 0)), ...field.map((c) => Math.abs(c.balance_error || 0)))};
 };
 
+// Where hoods extract what the load gives off, the answer to where to extract begins with what they catch.
+Dust.has_hoods_for_load_dust = (data) => ((Dust.load_dust(data) || {}).hoods || []).length > 0;
+// A hood by name with the flow it draws: 'top (4500 m3/h)'.
+Dust.hood_text = ({setting}, name) => {
+  const things = [...((setting || {}).sides || []), ...((setting || {}).bodies || [])], flow = (things.find((thing) => thing.name === name) || {}).flow_m3_per_s;
+  return Dust.words(name) + (flow > 0 ? ` (${Dust.quantity(flow, -1, 'm3/s')})` : '');
+};
+
 Dust.load_dust_answers = (data) => {
   const dust = Dust.load_dust(data), {summary} = data, {el, p} = Dust;
   if (!dust) return [];
@@ -41,9 +49,12 @@ Dust.load_dust_answers = (data) => {
     ...dust.sides.map((s) => ({...s, title: `out at ${Dust.words(s.name)}`}))].filter((f) => f.kg > negligible);
   // What has left the air's domain tells of the extraction only once it is steady; the page says both.
   const left = dust.out + dust.drawn, catches = left > 1e-2 * dust.free ? dust.drawn / left : null;
-  const where = dust.hoods.length > 0 && !data.extraction && answer('Where to extract?', catches === null ? 'too early to tell' : `${Dust.percent(catches)} caught`,
-    p({}, catches === null ? 'Hardly any dust has left with the air yet.' : `of the dust that left with the air; ${dust.hoods.map((h) => Dust.words(h.name)).join(', ')} extracts`),
-    dust.sides.length > 0 && dust.sides[0].kg > negligible && p({}, `Most gets out at ${Dust.words(dust.sides[0].name)} (${rate(dust.sides[0].kg)})`));
+  const tried = data.extraction ? data.extraction.places.slice(0, 3) : [];
+  const where = dust.hoods.length > 0 && answer('Where to extract?', catches === null ? 'too early to tell' : `${Dust.percent(catches)} caught`,
+    p({}, catches === null ? 'Hardly any dust has left with the air yet.' : `of the dust that left with the air; ${dust.hoods.map((h) => Dust.hood_text(data, h.name)).join(', ')} extracts`),
+    dust.sides.length > 0 && dust.sides[0].kg > negligible && p({}, `Most gets out at ${Dust.words(dust.sides[0].name)} (${rate(dust.sides[0].kg)})`),
+    tried.length > 0 && [p({}, el('a', {href: '#extraction'}, 'Low pressure'), ', to be tried:'),
+      el('ul', {class: 'ranks'}, ...tried.map((o) => el('li', {}, el('span', {}, Dust.place_xyz(o)), el('span', {}, Dust.depth(o)))))]);
   const sure = answer('How sure?', 'one run, no error known', p({}, `Means over the whole ${Dust.number(summary.simulated_s, 3)}\u202fs, with its start-up, in which less comes off.`),
     p({}, `${share(dust.airborne)} of the dust is still in the air: ${dust.airborne > 0.5 * dust.free ? 'the run is too short to tell where it goes' : 'where it goes has settled'}.`),
     p({}, `The dust's mass closes to ${Dust.number(dust.error, 1)} of it; what binds it to the load is measured, not known.`), Dust.limits_text(data));

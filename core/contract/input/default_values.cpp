@@ -128,6 +128,24 @@ std::optional<Value> guess(const Parameter& p, int attempt, int list) {
   return std::nullopt;
 }
 
+/// Another corner of a box; the other way round; moved along each axis.
+void add_other_vectors(const Parameter& p, Vec3 vector, std::vector<Value>& others) {
+  if (is_corner(p) && vector != corner(p.name == "max", 3)) {
+    others.emplace_back(corner(p.name == "max", 3));
+  }
+  others.emplace_back(-vector);
+  const bool is_direction = p.dimension == sdk::dimension::none;
+  for (const double step : is_direction ? std::vector<double>{1.0} : typical(p.dimension)) {
+    for (int d = 0; d < 3; ++d) {
+      for (const double sign : {1.0, -1.0}) {
+        Vec3 moved = vector;
+        moved[d] += sign * step;
+        others.emplace_back(moved);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Value> default_values(const sdk::ModelInfo& info, const sdk::ModelFactory& factory,
@@ -188,20 +206,7 @@ std::vector<Value> other_values(const Parameter& p, const Value& value) {
       if (option != *text) others.emplace_back(option);
     }
   } else if (const auto* vector = std::get_if<Vec3>(&value)) {
-    if (is_corner(p) && *vector != corner(p.name == "max", 3)) {
-      others.emplace_back(corner(p.name == "max", 3));
-    }
-    others.emplace_back(-*vector);
-    const bool is_direction = p.dimension == sdk::dimension::none;
-    for (const double step : is_direction ? std::vector<double>{1.0} : typical(p.dimension)) {
-      for (int d = 0; d < 3; ++d) {
-        for (const double sign : {1.0, -1.0}) {
-          Vec3 moved = *vector;
-          moved[d] += sign * step;
-          others.emplace_back(moved);
-        }
-      }
-    }
+    add_other_vectors(p, *vector, others);
   } else if (const auto* vectors = std::get_if<std::vector<Vec3>>(&value)) {
     if (!vectors->empty()) {
       std::vector<Vec3> changed = *vectors;

@@ -123,6 +123,7 @@ json extraction_json(const Highlights& highlights) {
   for (const LowPlace& place : highlights.places) {
     places.push_back({{"name", place.name},
                       {"x", place.x.value},
+                      {"y", place.y.value},
                       {"z", place.z.value},
                       {"depth", amount_json(place.depth)},
                       {"dust_share", known(place.dust_share)}});

@@ -211,8 +211,8 @@ void write_field_measures(std::ostringstream& out, const FinishedRun& run) {
   const auto& given = run.scenario.dust.given;
   const nlohmann::json ways = report::object_at(run.text.summary, "dust_outflow");
   for (const auto& item : ways.items()) {
-    const bool is_hood = given && std::find(given->hoods.begin(), given->hoods.end(),
-                                            item.key()) != given->hoods.end();
+    const bool is_hood = given && std::find(given->hoods.begin(), given->hoods.end(), item.key()) !=
+                                      given->hoods.end();
     if (is_hood) continue;
     out << "  out_" << item.key() << ": {quantity: dust_outflow." << item.key()
         << ".kg_per_h, unit: kg/h}\n";

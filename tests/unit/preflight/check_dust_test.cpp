@@ -18,22 +18,22 @@ const std::string k_plant = DUST_SOURCE "/scenarios/plant/transfer_chute.yaml";
 }  // namespace
 
 TEST_CASE("a check shall say what dust the load carries, what sets it free and who catches it") {
-  const auto told = engine({"check", k_plant});
-  REQUIRE_MESSAGE(told.status == 0, told.err);
-  CHECK(told.out.find("  dust       a field of 2.5 um, 10 um and 30 um, 2650 kg/m3\n") !=
+  const auto outcome = engine({"check", k_plant});
+  REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  CHECK(outcome.out.find("  dust       a field of 2.5 um, 10 um and 30 um, 2650 kg/m3\n") !=
         std::string::npos);
   // 0.9 % of 500 t/h.
-  CHECK(told.out.find("limestone carries 0.9 % of it (0.1, 0.3 and 0.5 %) at 1 % of moisture: "
-                      "4.5 t/h") != std::string::npos);
-  CHECK(told.out.find("set free by energy\n") != std::string::npos);
-  CHECK(told.out.find("caught by top\n") != std::string::npos);
+  CHECK(outcome.out.find("limestone carries 0.9 % of it (0.1, 0.3 and 0.5 %) at 1 % of moisture: "
+                         "4.5 t/h") != std::string::npos);
+  CHECK(outcome.out.find("set free by energy\n") != std::string::npos);
+  CHECK(outcome.out.find("caught by top\n") != std::string::npos);
 }
 
 TEST_CASE("the numbers of a check shall hold the flow of dust by class") {
-  const auto told = engine(
+  const auto outcome = engine(
       {"check", k_plant, "--json", "--set", "materials.limestone.dust_load=[0.2 %, 0.3 %, 0.6 %]"});
-  REQUIRE_MESSAGE(told.status == 0, told.err);
-  const Json dust = Json::parse(told.out)["dust"];
+  REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const Json dust = Json::parse(outcome.out)["dust"];
   CHECK(dust["classes_m"] == Json({2.5e-6, 10e-6, 30e-6}));
   const std::vector<double> share{0.002, 0.003, 0.006};
   for (std::size_t n = 0; n < share.size(); ++n) {
@@ -43,7 +43,7 @@ TEST_CASE("the numbers of a check shall hold the flow of dust by class") {
 }
 
 TEST_CASE("a scenario without a dust field shall not be told of one") {
-  const auto told = engine({"check", DUST_SOURCE "/scenarios/transfer_point.yaml"});
-  REQUIRE_MESSAGE(told.status == 0, told.err);
-  CHECK(told.out.find("\n  dust ") == std::string::npos);
+  const auto outcome = engine({"check", DUST_SOURCE "/scenarios/transfer_point.yaml"});
+  REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  CHECK(outcome.out.find("\n  dust ") == std::string::npos);
 }
