@@ -51,7 +51,7 @@ Dust.load_dust_answers = (data) => {
   const left = dust.out + dust.drawn, catches = left > 1e-2 * dust.free ? dust.drawn / left : null;
   const tried = data.extraction ? data.extraction.places.slice(0, 3) : [];
   const where = dust.hoods.length > 0 && answer('Where to extract?', catches === null ? 'too early to tell' : `${Dust.percent(catches)} caught`,
-    p({}, catches === null ? 'Hardly any dust has left with the air yet.' : `of the dust that left with the air; ${dust.hoods.map((h) => Dust.hood_text(data, h.name)).join(', ')} extracts`),
+    p({}, catches === null ? 'Hardly any dust has left with the air yet.' : `of the dust that left with the air; ${dust.hoods.map((h) => Dust.hood_text(data, h.name)).join(', ')} ${dust.hoods.length > 1 ? 'extract' : 'extracts'}`),
     dust.sides.length > 0 && dust.sides[0].kg > negligible && p({}, `Most gets out at ${Dust.words(dust.sides[0].name)} (${rate(dust.sides[0].kg)})`),
     tried.length > 0 && [p({}, el('a', {href: '#extraction'}, 'Low pressure'), ', to be tried:'),
       el('ul', {class: 'ranks'}, ...tried.map((o) => el('li', {}, el('span', {}, Dust.place_xyz(o)), el('span', {}, Dust.depth(o)))))]);
