@@ -2,6 +2,7 @@
 #include "airborne/transport.hpp"
 
 #include "airborne/limiter.hpp"
+#include "dust/sdk/kernel.hpp"
 #include "fluid/parallel.hpp"
 
 #include <algorithm>
@@ -19,6 +20,51 @@ constexpr double k_largest_share = 0.95;
 constexpr double k_no_gas = 1e-12;
 
 std::size_t at(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
+
+/// A row of faces for the kernels below.
+struct FluxRow {
+  int faces = 0;
+  std::ptrdiff_t stride = 0;  ///< from cell to cell across the faces
+  double inverse_h = 0.0;
+  double diffusivity = 0.0;
+  double half_turbulent_share = 0.0;
+  const double* c = nullptr;
+  const double* open = nullptr;
+  const double* drive = nullptr;
+  const double* passage = nullptr;
+};
+
+/// docs/theory/dust.md, eq. (1) and (4). `eddy` may be null without `has_eddies`.
+template <bool has_eddies>
+inline __attribute__((always_inline)) void flux_of_row(const FluxRow& row, const double* eddy,
+                                                       double* flux) {
+  const std::ptrdiff_t s = row.stride;
+  const double *c = row.c, *open = row.open, *drive = row.drive, *passage = row.passage;
+  const double inverse_h = row.inverse_h, diffusivity = row.diffusivity;
+  const double half_share = row.half_turbulent_share;
+#pragma GCC ivdep
+  for (int i = 0; i < row.faces; ++i) {
+    const double below = c[i - s];
+    const double above = c[i];
+    const double step = open[i] * (above - below);
+    const double behind = open[i - s] * (below - c[i - 2 * s]);
+    const double ahead = open[i + s] * (c[i + s] - above);
+    const double g = drive[i];
+    const bool is_up = g > 0.0;
+    const double slope = limited_slope(is_up ? behind : ahead, step);
+    const double face = (is_up ? below : above) + (is_up ? 0.5 : -0.5) * slope;
+    // Not below zero but for rounding: the slope towards an empty cell takes all off the value.
+    const double carried = face < 0.0 ? 0.0 : face;
+    const double turbulent = has_eddies ? half_share * (eddy[i - s] + eddy[i]) : 0.0;
+    flux[i] = g * carried - passage[i] * inverse_h * (diffusivity + turbulent) * step;
+  }
+}
+DUST_KERNEL void fluxes(const FluxRow& row, double* flux) {
+  flux_of_row<false>(row, nullptr, flux);
+}
+DUST_KERNEL void fluxes_with_eddies(const FluxRow& row, const double* eddy, double* flux) {
+  flux_of_row<true>(row, eddy, flux);
+}
 
 }  // namespace
 
@@ -174,28 +220,20 @@ void Transport::fill_halo() {
 void Transport::flux_row(const Flow& flow, const DustClass& dust, int dir, int j, int k) {
   const auto d = static_cast<std::size_t>(dir);
   const std::ptrdiff_t o = grid_.index(0, j, k);
-  const std::ptrdiff_t s = grid_.stride[d];
-  const int n = faces(dir)[0];
-  const double inverse_h = 1.0 / grid_.spacing[dir];
-  const double* c = c_.data() + o;
-  const double* open = is_open_.component[d].data() + o;
-  const double* drive = drive_.component[d].data() + o;
-  const double* passage = flow.passage.component[d].data() + o;
-  const double* eddy = flow.eddy_diffusivity.empty() ? nullptr : flow.eddy_diffusivity.data() + o;
+  const FluxRow row{.faces = faces(dir)[0],
+                    .stride = grid_.stride[d],
+                    .inverse_h = 1.0 / grid_.spacing[dir],
+                    .diffusivity = dust.diffusivity,
+                    .half_turbulent_share = 0.5 * turbulent_share_,
+                    .c = c_.data() + o,
+                    .open = is_open_.component[d].data() + o,
+                    .drive = drive_.component[d].data() + o,
+                    .passage = flow.passage.component[d].data() + o};
   double* flux = flux_.component[d].data() + o;
-  for (int i = 0; i < n; ++i) {
-    const double below = c[i - s];
-    const double above = c[i];
-    const double step = open[i] * (above - below);
-    const double g = drive[i];
-    const double from_below =
-        below + 0.5 * limited_slope(open[i - s] * (below - c[i - 2 * s]), step);
-    const double from_above = above - 0.5 * limited_slope(step, open[i + s] * (c[i + s] - above));
-    // Not below zero but for rounding: the slope towards an empty cell takes all off the value.
-    const double carried = std::max(g > 0.0 ? from_below : from_above, 0.0);
-    const double turbulent =
-        eddy == nullptr ? 0.0 : 0.5 * turbulent_share_ * (eddy[i - s] + eddy[i]);
-    flux[i] = g * carried - passage[i] * inverse_h * (dust.diffusivity + turbulent) * step;
+  if (flow.eddy_diffusivity.empty()) {
+    fluxes(row, flux);
+  } else {
+    fluxes_with_eddies(row, flow.eddy_diffusivity.data() + o, flux);
   }
 }
 
