@@ -46,6 +46,7 @@ struct SideOpeningSpec {
   int side = 0;  ///< in the order of k_side_names
   sdk::Vec3 min;
   sdk::Vec3 max;
+  double flow = 0.0;  ///< [m3/s] as given, without its course over time
 };
 
 /// The dust that grains of a material bring along.

@@ -27,6 +27,12 @@ Subject find_subject(const registry::Registry& registry, const std::string& want
     if (subject.info.name == wanted) of_that_name.push_back(std::move(subject));
   }
   if (of_that_name.size() == 1) return std::move(of_that_name.front());
+  if (!of_that_name.empty()) {
+    std::vector<std::string> whole;
+    for (const Subject& s : of_that_name) whole.push_back(s.info.kind + "/" + s.info.name);
+    throw base::UserError("engine describe: error: several kinds have a '" + wanted +
+                          "': write one of " + scenario::listed(whole));
+  }
   throw base::UserError("engine describe: error: there is no '" + scenario::printable(wanted) +
                         "'" + scenario::suggestion(wanted, names, "there are"));
 }

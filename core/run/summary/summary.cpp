@@ -326,7 +326,8 @@ Json report_json(const Simulation& s, const RunFacts& facts, JsonReport& report)
   add_force_table(facts.forces, r["tables"]);
   r["outline"] = report::outline_of(s.setup().domain, s.models().bodies);
   r["classes"] = s.models().class_diameters;
-  if (facts.registry != nullptr) r["setting"] = setting_json(s.setup(), *facts.registry);
+  if (facts.registry != nullptr)
+    r["setting"] = setting_json(s.setup(), s.dust_setup(), *facts.registry);
   if (s.dust_setup().given) r["dust_rule"] = dust_rule_json(s);
   r["graph_dot"] = graph_dot(s);
   return r;

@@ -102,19 +102,6 @@ Json belts_json(const scenario::Setup& setup, const registry::Registry& registry
   return list;
 }
 
-/// [m3/s] drawn out by a condition of a side; nothing where it has no volume flow.
-std::optional<double> flow_out(const ModelChoice& air, const registry::Registry& registry) {
-  const registry::Entry* entry = registry.find(air.kind, air.name);
-  if (entry == nullptr) return std::nullopt;
-  for (std::size_t n = 0; n < air.values.size() && n < entry->info.parameters.size(); ++n) {
-    const auto& p = entry->info.parameters[n];
-    const auto* flow = std::get_if<double>(&air.values[n]);
-    const bool is_flow = p.name == "flow" && p.dimension == sdk::dimension::volume_flow;
-    if (is_flow && flow != nullptr) return *flow;
-  }
-  return std::nullopt;
-}
-
 const char* word_of(scenario::GrainSide side) {
   switch (side) {
     case scenario::GrainSide::open:
@@ -180,7 +167,7 @@ nlohmann::ordered_json plugins_json(const scenario::Setup& setup, const scenario
   return list;
 }
 
-nlohmann::ordered_json setting_json(const scenario::Setup& setup,
+nlohmann::ordered_json setting_json(const scenario::Setup& setup, const scenario::DustSetup& dust,
                                     const registry::Registry& registry) {
   Json j;
   j["domain"] = {{"min", vector_json(setup.domain.min)}, {"max", vector_json(setup.domain.max)}};
@@ -191,14 +178,12 @@ nlohmann::ordered_json setting_json(const scenario::Setup& setup,
     j["sides"].push_back({{"name", scenario::k_side_names[n]},
                           {"grains", word_of(side.grains)},
                           {"air", side.air ? side.air->name : ""}});
-    if (side.air && side.air->name == "hood") {
-      if (const auto flow = flow_out(*side.air, registry)) {
-        j["sides"].back()["flow_m3_per_s"] = *flow;
-      }
-    }
     if (side.grains == scenario::GrainSide::wall) {
       j["sides"].back()["material"] = setup.materials[static_cast<std::size_t>(side.material)].name;
     }
+  }
+  for (const scenario::SideOpeningSpec& opening : dust.openings) {
+    j["sides"][static_cast<std::size_t>(opening.side)]["flow_m3_per_s"] = opening.flow;
   }
   j["bodies"] = Json::array();
   for (const auto& body : setup.bodies) {

@@ -39,7 +39,7 @@ void note_opening(Reading& reading, int side, const std::optional<ModelChoice>& 
   const auto* low = std::get_if<sdk::Vec3>(min);
   const auto* high = std::get_if<sdk::Vec3>(max);
   if (rate == nullptr || low == nullptr || high == nullptr || !(*rate > 0.0)) return;
-  reading.dust.openings.push_back({side, *low, *high});
+  reading.dust.openings.push_back({side, *low, *high, *rate});
 }
 
 Node read_side(Reading& reading, const Entry& entry, std::size_t n, bool& is_read, bool& has_air,

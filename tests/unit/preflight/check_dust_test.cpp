@@ -20,10 +20,10 @@ const std::string k_plant = DUST_SOURCE "/scenarios/plant/transfer_chute.yaml";
 TEST_CASE("a check shall say what dust the load carries, what sets it free and who catches it") {
   const auto outcome = engine({"check", k_plant});
   REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-  CHECK(outcome.out.find("  dust       a field of 2.5 um, 10 um and 30 um, 2650 kg/m3\n") !=
+  CHECK(outcome.out.find("  dust       a field of 2.5 um, 10 um, 30 um, 2650 kg/m3\n") !=
         std::string::npos);
   // 0.9 % of 500 t/h.
-  CHECK(outcome.out.find("limestone carries 0.9 % of it (0.1, 0.3 and 0.5 %) at 1 % of moisture: "
+  CHECK(outcome.out.find("limestone carries 0.9 % of it (0.1, 0.3, 0.5 %) at 1 % of moisture: "
                          "4.5 t/h") != std::string::npos);
   CHECK(outcome.out.find("set free by energy\n") != std::string::npos);
   CHECK(outcome.out.find("caught by top\n") != std::string::npos);

@@ -2,6 +2,7 @@
 #include "check/check_dust.hpp"
 
 #include "base/text.hpp"
+#include "scenario/text/suggest.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -16,18 +17,13 @@ using preflight::EmissionNumbers;
 using scenario::DustSetup;
 using scenario::Setup;
 
-/// "0.1, 0.3 and 0.5"
-template <class Values, class Text>
-std::string listed(const Values& values, Text text) {
-  std::string all;
-  for (std::size_t n = 0; n < values.size(); ++n) {
-    const char* gap = n == 0 ? "" : n + 1 == values.size() ? " and " : ", ";
-    all += gap + text(values[n]);
-  }
-  return all;
+/// "0.1, 0.3, 0.5"
+template <class Text>
+std::string texts_of(const std::vector<double>& values, Text text) {
+  std::vector<std::string> words(values.size());
+  std::transform(values.begin(), values.end(), words.begin(), text);
+  return scenario::listed(words);
 }
-
-std::string as_it_is(const std::string& text) { return text; }
 
 std::string percent(double share) { return base::digits_text(100.0 * share, 3); }
 
@@ -53,7 +49,7 @@ void print_loads(std::ostream& out, const Setup& setup, const DustSetup& dust,
     if (load.share.empty()) continue;
     const double all = std::accumulate(load.share.begin(), load.share.end(), 0.0);
     out << "             " << setup.materials[m].name << " carries " << percent(all) << " % of it";
-    if (load.share.size() > 1) out << " (" << listed(load.share, percent) << " %)";
+    if (load.share.size() > 1) out << " (" << texts_of(load.share, percent) << " %)";
     if (load.moisture > 0.0) out << " at " << percent(load.moisture) << " % of moisture";
     const auto flow = brought(setup, dust, emissions, m);
     const double sum = std::accumulate(flow.begin(), flow.end(), 0.0);
@@ -72,12 +68,12 @@ std::string dust_text(const Setup& setup, const DustSetup& dust,
   std::ostringstream out;
   const auto& sizes = dust.field->diameters;
   out << "  dust       a field of "
-      << listed(sizes, [](double d) { return base::length_text(d, 3); }) << ", "
+      << texts_of(sizes, [](double d) { return base::length_text(d, 3); }) << ", "
       << base::digits_text(dust.field->density, 4) << " kg/m3\n";
   print_loads(out, setup, dust, emissions);
   if (dust.liberation) out << "             set free by " << dust.liberation->name << '\n';
   if (dust.given && !dust.given->hoods.empty()) {
-    out << "             caught by " << listed(dust.given->hoods, as_it_is) << '\n';
+    out << "             caught by " << scenario::listed(dust.given->hoods) << '\n';
   }
   return out.str();
 }

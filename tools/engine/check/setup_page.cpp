@@ -10,12 +10,12 @@
 
 namespace dust::engine {
 
-std::string setup_page(const scenario::Setup& setup, const registry::Registry& registry,
-                       const std::string& check) {
+std::string setup_page(const scenario::Setup& setup, const scenario::DustSetup& dust,
+                       const registry::Registry& registry, const std::string& check) {
   bodies::BodySet bodies;
   for (const auto& spec : setup.bodies) bodies.push_back(bodies::make_body(setup, spec, nullptr));
-  const auto document = report::setup_document(setup, bodies, run::setting_json(setup, registry),
-                                               nlohmann::json::parse(check));
+  const auto document = report::setup_document(
+      setup, bodies, run::setting_json(setup, dust, registry), nlohmann::json::parse(check));
   return report::page_of(report::Templates(), "setup.html", document);
 }
 
