@@ -43,7 +43,9 @@ def findings(root, checker):
     problems = [text for path, kind in found if kind == "python" and (text := compiles(path))]
     shell = [path for path, kind in found if kind == "shell"]
     if checker and shell:
-        done = subprocess.run([checker, "--format=gcc", *shell], text=True, capture_output=True)
+        # With what they source, which they name from the root.
+        names = [path.relative_to(root) for path in shell]
+        done = subprocess.run([checker, "--external-sources", "--format=gcc", *names], cwd=root, text=True, capture_output=True)
         problems += done.stdout.splitlines()
     return len(shell), len(found) - len(shell), problems
 
