@@ -17,7 +17,7 @@ Dust.load_dust = ({summary}) => {
   const settled = named(field, (c) => c.deposited_kg), sides = named(field, (c) => c.left_kg), hoods = named(field, (c) => c.hoods_kg);
   const all = (list) => list.reduce((sum, part) => sum + part.kg, 0);
   return {fed: total(loads, (c) => c.entered_kg), free: total(loads, (c) => c.set_free_kg), causes: named(loads, (c) => c.set_free_by),
-    airborne: total(field, (c) => c.airborne_kg), settled: all(settled), sides, hoods, out: all(sides), drawn: all(hoods),
+    airborne: total(field, (c) => c.airborne_kg), settled: all(settled), caught: total(field, (c) => c.caught_by_grains_kg), sides, hoods, out: all(sides), drawn: all(hoods),
     error: Math.max(...loads.map((c) => Math.abs(c.balance_error || 0)), ...field.map((c) => Math.abs(c.balance_error || 0)))};
 };
 
@@ -45,7 +45,7 @@ Dust.load_dust_answers = (data) => {
     dust.out > negligible && p({}, `${per_load(dust.out)} get out with the air (${rate(dust.out)})`));
   const from_where = answer('From where?', causes.length ? Dust.sentence(causes[0].title) : 'nowhere yet', causes.length ? ranks(causes.slice(0, 4), share) : null,
     data.release_map ? p({}, el('a', {href: '#liberation'}, 'Where it comes off')) : null);
-  const fates = [{title: 'still in the air', kg: dust.airborne}, {title: 'settled', kg: dust.settled}, ...dust.hoods.map((h) => ({...h, title: `drawn out at ${Dust.words(h.name)}`})),
+  const fates = [{title: 'still in the air', kg: dust.airborne}, {title: 'settled', kg: dust.settled}, {title: 'caught by grains', kg: dust.caught}, ...dust.hoods.map((h) => ({...h, title: `drawn out at ${Dust.words(h.name)}`})),
     ...dust.sides.map((s) => ({...s, title: `out at ${Dust.words(s.name)}`}))].filter((f) => f.kg > negligible);
   // What has left the air's domain tells of the extraction only once it is steady; the page says both.
   const left = dust.out + dust.drawn, catches = left > 1e-2 * dust.free ? dust.drawn / left : null;
