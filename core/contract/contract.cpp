@@ -65,6 +65,16 @@ void check_units(const Kind& kind, const Maker& make) {
   }
 }
 
+/// What the model gives in the kind's scene with these values.
+Observations observe_with(const Kind& kind, const registry::Entry& entry,
+                          const std::vector<Value>& values) {
+  return kind.observe(
+      [&](const Units& units) {
+        return entry.factory(in_units(units, entry.info.parameters, values));
+      },
+      {});
+}
+
 /// Tries other values of the parameters of one model.
 class Variation {
  public:
@@ -99,6 +109,19 @@ class Variation {
     }
     return false;
   }
+  /// Why no other value of parameter n is accepted by itself; empty where one is.
+  [[nodiscard]] std::string refusal(std::size_t n) const {
+    std::string why;
+    for (const Value& other : others_[n]) {
+      try {
+        (void)observe_with(kind_, entry_, with(values_, n, other));
+        return {};
+      } catch (const std::exception& problem) {
+        if (why.empty()) why = problem.what();
+      }
+    }
+    return why;
+  }
   /// Whether another whole set of values, with another value of parameter n, gives something else:
   /// the only way to try a choice that brings parameters of its own.
   [[nodiscard]] bool matters_beside(const Variation& other, std::size_t n) const {
@@ -112,11 +135,7 @@ class Variation {
   /// Nothing where the values contradict each other.
   [[nodiscard]] std::optional<Observations> observe(const std::vector<Value>& values) const {
     try {
-      return kind_.observe(
-          [&](const Units& units) {
-            return entry_.factory(in_units(units, entry_.info.parameters, values));
-          },
-          {});
+      return observe_with(kind_, entry_, values);
     } catch (const std::exception&) {
       return std::nullopt;
     }
@@ -137,14 +156,29 @@ class Variation {
   std::vector<std::vector<Value>> others_;
 };
 
+/// The values that a model is tried with: usable in the kind's scene, where some are.
+std::vector<Value> values_in_scene(const registry::Entry& entry, const Kind* kind,
+                                   const std::map<std::string, Value>& given) {
+  return default_values(entry.info, entry.factory, given, [&](const std::vector<Value>& values) {
+    if (kind == nullptr) return true;
+    try {
+      (void)observe_with(*kind, entry, values);
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
+  });
+}
+
 void check_parameters(const Kind& kind, const registry::Entry& entry,
                       const std::vector<Value>& values, const Maker& make, const Options& options) {
   std::vector<Variation> variations{{kind, entry, values, options}};
   for (const auto& given : options.also_given) {
-    variations.emplace_back(kind, entry, default_values(entry.info, entry.factory, given), options);
+    variations.emplace_back(kind, entry, values_in_scene(entry, &kind, given), options);
   }
   std::string idle;
   std::string unknown;
+  std::string refused;
   for (std::size_t n = 0; n < values.size(); ++n) {
     const auto is_open = [&](const Variation& v) { return v.is_open(n); };
     const auto matters = [&](const Variation& v) {
@@ -154,10 +188,11 @@ void check_parameters(const Kind& kind, const registry::Entry& entry,
     if (std::none_of(variations.begin(), variations.end(), is_open)) {
       unknown += name;
     } else if (std::none_of(variations.begin(), variations.end(), matters)) {
-      idle += name;
+      const std::string why = variations.front().refusal(n);
+      (why.empty() ? idle : refused) += name + (why.empty() ? "" : " (" + why + ")");
     }
   }
-  if (!idle.empty()) {
+  if (!idle.empty() && refused.empty()) {
     const Observations base = kind.observe(make, {});
     const bool is_nothing =
         std::none_of(base.begin(), base.end(), [](const Observation& r) { return r.value > 0.0; });
@@ -165,7 +200,15 @@ void check_parameters(const Kind& kind, const registry::Entry& entry,
       throw Remark("the model gives nothing here to tell by; place it with --set PARAMETER=VALUE");
     }
   }
-  require(idle.empty(), "no other value changes anything:" + idle);
+  // What does nothing by itself may do something beside what could not be tried.
+  if (refused.empty()) require(idle.empty(), "no other value changes anything:" + idle);
+  refused += idle;
+  if (!refused.empty()) {
+    throw Remark(
+        "no other value is accepted beside the rest, give some with --set "
+        "PARAMETER=VALUE:" +
+        refused);
+  }
   if (!unknown.empty()) throw Remark("no other value could be guessed:" + unknown);
 }
 
@@ -217,15 +260,14 @@ std::vector<RuleResult> check_model(const registry::Entry& entry, const Options&
                             ": there is no parameter '" + name + "'");
     }
   }
-  const ModelUnderTest model_under_test{entry.info,
-                                        default_values(entry.info, entry.factory, options.given)};
+  const Kind* kind = find_kind(entry.info.kind);
+  const ModelUnderTest model_under_test{entry.info, values_in_scene(entry, kind, options.given)};
   const Maker make = [&](const Units& units) {
     return entry.factory(in_units(units, entry.info.parameters, model_under_test.values));
   };
   RuleRunner runner(options.allocations);
   runner.rule("says what it is: equation, source, parameters",
               [&] { check_description(entry.info); });
-  const Kind* kind = find_kind(entry.info.kind);
   if (kind == nullptr) {
     runner.rule("keeps the rules of its kind", [&] {
       throw Remark("this engine has no rules for the kind '" + entry.info.kind + "'");

@@ -16,7 +16,9 @@ class Kept:
         lines = file.read_text().splitlines() if file and file.exists() else []
         begin = lines.index("## Runs") if "## Runs" in lines else len(lines)
         self._rows = [line for line in lines[:begin] if line.startswith("| ")]
-        self._runs = {cells_of(line)[0]: line for line in lines[begin:] if line.startswith("| ") and "`" in line}
+        header = next((cells_of(line) for line in lines[begin:] if line.startswith("| run | ")), [])
+        self._runs = {cells_of(line)[0]: dict(zip(header, cells_of(line)))
+                      for line in lines[begin:] if line.startswith("| ") and "`" in line}
         self._commands = [line for line in lines[begin:] if line.startswith("engine run ")]
         self._bits = [line for line in lines if line.startswith("<!-- bits ")]
         date = re.search(r"Runs of commit .*?(\d{4}-\d\d-\d\d)", "\n".join(lines[:6]))
@@ -33,9 +35,9 @@ class Kept:
     def has(self, run):
         return run.name in self._runs
 
-    def run_lines(self, besides):
-        """Lines of the table of runs but of those named, which are there anew."""
-        return [line for name, line in self._runs.items() if name not in besides]
+    def run_rows(self, columns, besides):
+        """Rows of the table of runs but of those named, which are there anew; what the page did not tell is `-`."""
+        return [[cells.get(column, "-") for column in columns] for name, cells in self._runs.items() if name not in besides]
 
     def commands(self):
         return self._commands
@@ -44,7 +46,7 @@ class Kept:
         return self._bits if self._runs else []
 
     def commits(self):
-        return {cells_of(line)[1] for line in self._runs.values()}
+        return {cells.get("commit", "not noted") for cells in self._runs.values()}
 
     def dates(self):
         return {self._date} if self._date and self._runs else set()

@@ -110,21 +110,25 @@ def hours_text(runs, run):
         f"; stopped at {begun:.3g} s" if begun else "")
 
 
+RUN_COLUMNS = ("run", "commit", "grains", "simulated [s]", "DEM step [s]", "stiffness", "fluid steps", "grain-steps",
+               "CPU [s]", "state")
+
+
 def runs_section(runs):
     """The runs of a page, with what they cost, and their commands."""
     kept, runs = runs.kept, [run for run in runs if run.is_finished()]
-    before = kept.run_lines({run.name for run in runs})
+    before = kept.run_rows(RUN_COLUMNS, {run.name for run in runs})
     if not runs and not before:
         return ["<!-- bits none -->"]
-    out = ["## Runs", "", "| run | commit | grains | simulated [s] | DEM step [s] | stiffness | fluid steps | "
-           "grain-steps | CPU [s] | state |", "| --- |" + " --- |" * 9]
+    out = ["## Runs", "", f"| {' | '.join(RUN_COLUMNS)} |", "|" + " --- |" * len(RUN_COLUMNS)]
     for run in runs:
         s = run.summary
         out.append(f"| {run.name} | {', '.join(run.note().get('commits', ['?']))} | {s['particles']['max']} | "
                    f"{s['simulated_s']:.3g} | {s['dem_step_s']:.3g} | {run.stiffness()} | {s['fluid_steps']} | "
                    f"{s['particle_steps']:.3g} | {s['cpu_s']:.0f} | `{s['state_sha256'][:12]}` |")
     commands = dict.fromkeys([*(kept.commands() if before else []), *(run.plan.shown() for run in runs)])
-    return out + before + ["", "```", *commands, "```", "", *dict.fromkeys([*kept.bits(), *bits_lines(runs)])]
+    out += [f"| {' | '.join(row)} |" for row in before]
+    return out + ["", "```", *commands, "```", "", *dict.fromkeys([*kept.bits(), *bits_lines(runs)])]
 
 
 def bits_lines(runs):

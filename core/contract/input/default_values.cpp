@@ -26,6 +26,7 @@ std::vector<double> typical(sdk::Dimension d) {
   if (d == dim::frequency) return {50.0, 5.0};
   if (d == dim::mass_flow) return {1e-3, 2e-3, 1e-4};
   if (d == dim::mass) return {1e-4, 1e-5};
+  if (d == dim::volume) return {1e-13, 1e-12};
   if (d == dim::stiffness) return {1e3, 1e4, 1e2};
   if (d == dim::angle) return {0.2, 1.0};
   if (d == dim::angular_velocity) return {10.0, 100.0, 1000.0};
@@ -53,8 +54,13 @@ std::vector<double> allowed_numbers(const Parameter& p) {
   return numbers;
 }
 
-/// Corners of a box in the standard scene, flat along `flat` (3 = full).
+/// The middle of a cube's sides, where openings of sides are shown.
+constexpr int k_cube = 4;
+
+/// Corners of a box in the standard scene, flat along `flat` (3 = full), or in the middle of a
+/// cube.
 Vec3 corner(bool is_upper, int flat) {
+  if (flat == k_cube) return is_upper ? Vec3{0.2, 0.2, 0.2} : Vec3{0.1, 0.1, 0.1};
   Vec3 at = is_upper ? Vec3{0.2, 0.011, 0.2} : Vec3{0.1, 0.0, 0.02};
   if (flat < 3) at[flat] = Vec3{0.15, 0.005, 0.1}[flat];
   return at;
@@ -70,7 +76,7 @@ bool is_corner(const Parameter& p) {
 constexpr unsigned k_lists[] = {0b0000, 0b0001, 0b0010, 0b0100, 0b1000, 0b0011,
                                 0b0101, 0b0110, 0b1001, 0b1010, 0b1100, 0b1111};
 constexpr int k_list_choices = static_cast<int>(std::size(k_lists));
-constexpr int k_boxes = 4;
+constexpr int k_boxes = 5;
 constexpr int k_sizes = 3;
 constexpr int k_attempts = k_sizes * k_list_choices * k_boxes;
 
@@ -79,15 +85,16 @@ bool is_list(const Parameter& p) {
 }
 
 /// One guess; attempts differ in the shape of boxes, in which of the lists that may be left out are
-/// there (`list` counts them from 1), in sizes.
-std::optional<Value> guess(const Parameter& p, int attempt, int list) {
+/// there (`list` counts them from 1), in sizes; of numbers that may be left out one `is_filled`.
+std::optional<Value> guess(const Parameter& p, int attempt, int list, bool is_filled) {
   const int flat = (attempt + 3) % k_boxes;
   const bool fills_list =
       list > 0 && (k_lists[attempt / k_boxes % k_list_choices] >> (list - 1)) & 1u;
   const auto size = static_cast<std::size_t>(attempt / (k_boxes * k_list_choices));
   const std::vector<double> numbers = allowed_numbers(p);
   if (!p.is_required) {
-    if (!(is_list(p) && fills_list) || numbers.empty()) {
+    const bool is_given = is_list(p) ? fills_list : is_filled;
+    if (!is_given || numbers.empty()) {
       return p.default_value;
     }
   }
@@ -128,6 +135,28 @@ std::optional<Value> guess(const Parameter& p, int attempt, int list) {
   return std::nullopt;
 }
 
+struct Guess {
+  std::vector<Value> values;
+  std::string missing;  ///< names for which nothing can be guessed
+};
+Guess guess_all(const sdk::ModelInfo& info, const std::map<std::string, Value>& given, int attempt,
+                int filled) {
+  Guess all;
+  int list = 0;
+  for (const Parameter& p : info.parameters) {
+    const bool is_filled =
+        filled == static_cast<int>(all.values.size()) && p.type == ParameterType::number;
+    const bool may_be_empty = is_list(p) && !p.is_required;
+    if (may_be_empty) ++list;
+    const auto one = given.find(p.name);
+    const auto value = one != given.end() ? std::optional<Value>(one->second)
+                                          : guess(p, attempt, may_be_empty ? list : 0, is_filled);
+    if (!value) all.missing += (all.missing.empty() ? "" : ", ") + p.name;
+    all.values.push_back(value.value_or(Value{}));
+  }
+  return all;
+}
+
 /// Another corner of a box; the other way round; moved along each axis.
 void add_other_vectors(const Parameter& p, Vec3 vector, std::vector<Value>& others) {
   if (is_corner(p) && vector != corner(p.name == "max", 3)) {
@@ -149,36 +178,38 @@ void add_other_vectors(const Parameter& p, Vec3 vector, std::vector<Value>& othe
 }  // namespace
 
 std::vector<Value> default_values(const sdk::ModelInfo& info, const sdk::ModelFactory& factory,
-                                  const std::map<std::string, Value>& given) {
+                                  const std::map<std::string, Value>& given,
+                                  const std::function<bool(const std::vector<Value>&)>& is_usable) {
+  // Showing the scene takes longer than making a model; boxes of every shape are among the first.
+  constexpr int k_shown = 3 * k_boxes;
+  std::vector<Value> accepted;
   std::string refusal;
-  std::string missing;
-  for (int attempt = 0; attempt < k_attempts; ++attempt) {
-    std::vector<Value> values;
-    missing.clear();
-    int list = 0;
-    for (const Parameter& p : info.parameters) {
-      const bool may_be_empty = is_list(p) && !p.is_required;
-      if (may_be_empty) ++list;
-      const auto one = given.find(p.name);
-      const auto value = one != given.end() ? std::optional<Value>(one->second)
-                                            : guess(p, attempt, may_be_empty ? list : 0);
-      if (!value) missing += (missing.empty() ? "" : ", ") + p.name;
-      values.push_back(value.value_or(Value{}));
+  // First with no number that may be left out, then with one of them at a time (a bridge needs its
+  // liquid, by volume or by share).
+  const int one_filled = static_cast<int>(info.parameters.size());
+  for (int n = 0; n < k_attempts * (1 + one_filled); ++n) {
+    if (!accepted.empty() && n >= k_shown) break;
+    const Guess one = guess_all(info, given, n % k_attempts, n / k_attempts - 1);
+    if (!one.missing.empty()) {
+      throw base::UserError("error: " + info.kind + "/" + info.name +
+                            ": no value can be guessed for " + one.missing +
+                            "; give it: --set PARAMETER=VALUE");
     }
-    if (!missing.empty()) break;
     try {
-      if (factory(values)) return values;
-      refusal = "the factory gives nothing";
+      if (!factory(one.values)) {
+        refusal = "the factory gives nothing";
+        continue;
+      }
     } catch (const std::exception& problem) {
       if (refusal.empty()) refusal = problem.what();
+      continue;
     }
+    if (is_usable(one.values)) return one.values;
+    if (accepted.empty()) accepted = one.values;
   }
-  const std::string model = info.kind + "/" + info.name;
-  if (!missing.empty()) {
-    throw base::UserError("error: " + model + ": no value can be guessed for " + missing +
-                          "; give it: --set PARAMETER=VALUE");
-  }
-  throw base::UserError("error: " + model + ": accepts no values that were tried (" + refusal +
+  if (!accepted.empty()) return accepted;
+  throw base::UserError("error: " + info.kind + "/" + info.name +
+                        ": accepts no values that were tried (" + refusal +
                         "); give some: --set PARAMETER=VALUE");
 }
 

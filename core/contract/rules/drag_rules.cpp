@@ -14,6 +14,9 @@ namespace {
 const double k_void_fractions[] = {0.3, 0.36, 0.5, 0.8, 0.81, 0.95, 1.0};
 const double k_reynolds[] = {0.0, 1e-6, 1e-2, 1.0, 33.0, 999.0, 1001.0, 1e5};
 constexpr std::size_t k_per_void_fraction = std::size(k_reynolds);
+/// What a printed law may step down where two fits meet, in parts of the force: Abraham's does by
+/// 9 % at Re 1000, from 0.484 to 0.44.
+constexpr double k_step_of_fits = 0.1;
 
 struct Columns {
   std::vector<double> reynolds, void_fraction, factor;
@@ -63,15 +66,22 @@ Observations observe(const Maker& make, const TestVariant& variant) {
 }
 
 void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
-  runner.rule("is never negative and grows with the slip", [&] {
+  runner.rule("is never negative, and its force grows with the slip", [&] {
     const Columns c = evaluate(make, {});
+    std::string falls;
     for (std::size_t n = 0; n < c.factor.size(); ++n) {
       require(c.factor[n] >= 0.0, "F = " + shown(c.factor[n]) + " at Re " + shown(c.reynolds[n]));
       if (n % k_per_void_fraction == 0) continue;
-      require(c.factor[n] >= c.factor[n - 1], "F falls between Re " + shown(c.reynolds[n - 1]) +
-                                                  " and " + shown(c.reynolds[n]) +
-                                                  " at void fraction " + shown(c.void_fraction[n]));
+      const std::string where = " between Re " + shown(c.reynolds[n - 1]) + " and " +
+                                shown(c.reynolds[n]) + " at void fraction " +
+                                shown(c.void_fraction[n]);
+      const double growth = c.reynolds[n] / c.reynolds[n - 1];
+      // A force that falls drives grains apart. Printed laws have steps where two fits meet.
+      require(!(c.factor[n] * growth < (1.0 - k_step_of_fits) * c.factor[n - 1]),
+              "the force falls" + where);
+      if (c.factor[n] < c.factor[n - 1] && falls.empty()) falls = where;
     }
+    if (!falls.empty()) throw Remark("F, the force over Stokes's, falls" + falls);
   });
   // The growth with the slip is taken relative to it. Laws of beds may end at 0 where no grain is.
   runner.rule("is above 0 among grains without slip", [&] {

@@ -3,6 +3,7 @@
 
 #include "dust/sdk/plugin.hpp"
 #include "fluid/geometry/geometry.hpp"
+#include "fluid/one_colour.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -106,6 +107,12 @@ template <class Value>
 inline __attribute__((always_inline)) void sweep(int n, int parity, double omega,
                                                  const double* inverse, double* u,
                                                  const Value& value) {
+  if constexpr (k_visits_one_colour) {
+    for (int i = parity; i < n; i += 2) {
+      if (inverse[i] > 0.0) u[i] += omega * (value(i) * inverse[i] - u[i]);
+    }
+    return;
+  }
   alignas(64) double next[k_block];
   for (int first = 0; first < n; first += k_block) {
     const int count = std::min(k_block, n - first);

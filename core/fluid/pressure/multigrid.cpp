@@ -2,6 +2,7 @@
 #include "fluid/pressure/multigrid.hpp"
 
 #include "dust/sdk/plugin.hpp"
+#include "fluid/one_colour.hpp"
 #include "fluid/parallel.hpp"
 
 #include <cstdint>
@@ -25,6 +26,14 @@ constexpr int k_block = 512;
 DUST_KERNEL void smooth_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, int parity, bool has_y,
                             const float* ax, const float* ay, const float* az, const float* inverse,
                             const float* b, float* x) {
+  if constexpr (k_visits_one_colour) {
+    for (int i = parity; i < n; i += 2) {
+      float sum = b[i] + ax[i] * x[i - 1] + ax[i + 1] * x[i + 1];
+      if (has_y) sum = sum + ay[i] * x[i - sy] + ay[i + sy] * x[i + sy];
+      x[i] = (sum + az[i] * x[i - sz] + az[i + sz] * x[i + sz]) * inverse[i];
+    }
+    return;
+  }
   alignas(64) float next[k_block];
   for (int first = 0; first < n; first += k_block) {
     const int end = std::min(first + k_block, n);

@@ -96,7 +96,7 @@ TEST_CASE("a rule of voidage that is wrong shall be told by the rule it breaks")
   CHECK(seen.broken(rule_results_on<Centre>(Centre::loses), "volume") ==
         "the shares of a grain sum to 1 - 0.25");
   CHECK(seen.broken(rule_results_on<Centre>(Centre::next_door), "volume")
-            .find("has a share in a cell it does not touch") != std::string::npos);
+            .find("has a share in a cell beyond reach()") != std::string::npos);
   seen.check_complete();
 }
 
