@@ -140,16 +140,16 @@ TEST_CASE("resuspension and deposition shall be read, and refused where they say
   CHECK(first.dust.field->resuspension->emission_coefficient == 1e-3);
   CHECK(first.dust.field->has_smooth_walls);
   CHECK(read(folder.write("t.yaml", first.resolved_yaml)).resolved_yaml == first.resolved_yaml);
-  check(field("cohesion: 2e-4 N/m"),
-        "dust.field.cohesion: nothing takes dust off walls: give resuspension: true, or take "
-        "cohesion out");
-  check(field("deposition: turbulent"), "deposition");
-  std::string text =
+  const std::string text =
       changed(with(field("resuspension: true")), "gravity: [0, 0, -9.81]", "gravity: [0, 0, 0]");
   const std::string all = joined(problems(folder.write("v.yaml", text)));
   CHECK_MESSAGE(all.find("dust.field.resuspension: its threshold is not known without gravity") !=
                     std::string::npos,
                 all);
+  check(field("cohesion: 2e-4 N/m"),
+        "dust.field.cohesion: nothing takes dust off walls: give resuspension: true, or take "
+        "cohesion out");
+  check(field("deposition: turbulent"), "deposition");
 }
 
 TEST_CASE("scavenging shall be read, and refused where no grain could catch dust") {
