@@ -18,7 +18,8 @@ constexpr double k_bytes_fluid = 1.5e7;               // more, where there is a 
 constexpr double k_bytes_per_grain = 1500.0;          // with lists, and copies for the disk
 constexpr double k_bytes_per_coupled_grain = 1500.0;  // more, in a fluid
 constexpr double k_bytes_per_cell = 1150.0;
-constexpr double k_disk_base = 1e6;  // report, series, scenario, summary
+constexpr double k_bytes_per_dust_cell = 250.0;  // of each class
+constexpr double k_disk_base = 1e6;              // report, series, scenario, summary
 constexpr double k_disk_fluid = 2.5e6;
 constexpr double k_frame_bytes_per_grain = 52.0;  // packed
 constexpr double k_frame_bytes_per_cell = 22.0;
@@ -32,7 +33,7 @@ constexpr double k_bed_step = 7.5e-8;
 constexpr double k_settling_step = 2e-8;
 constexpr double k_gas_step = 7.5e-9;
 constexpr double k_thin_stream_step = 1.8e-8;
-constexpr double k_stream_contact = 1.6e-7;
+constexpr double k_stream_contact = 7e-8;
 /// A step at a finer rate, over one at the coarse rate of the same stream: clusters are found and
 /// their rows are fetched for it.
 constexpr double k_fine_factor = 4.5;
@@ -45,6 +46,8 @@ constexpr double k_fine_isolated = 0.045;
 constexpr double k_fine_carried = 0.65;
 
 constexpr double k_cell_step = 4.2e-7;
+/// A cell of one class of dust, once its transport has begun.
+constexpr double k_dust_cell = 7e-8;
 constexpr double k_fluid_step = 7e-4;  // however few the cells
 
 // Exchange with the fluid, in each of its steps: the void fraction, and each refresh of the drag.
@@ -123,6 +126,24 @@ struct GrainTotals {
   double layers = 0.0;          ///< of all that is carried, for it is carried together
 };
 
+/// [s] Mean cost of finding where a grain of a stream touches bodies, in each of its steps: of a
+/// deep load only the lowest layer does.
+double touch_step(const BodyWork& bodies, const EmissionNumbers& e, double layers) {
+  double sum = 0.0;
+  for (std::size_t b = 0; b < e.on_body.size(); ++b) sum += e.on_body[b] * bodies.touch[b];
+  return sum / std::max(1.0, layers);
+}
+
+/// [s] The same of grains that are there at once: those at the surface of a compact heap touch one
+/// of the bodies.
+double touch_step(const BodyWork& bodies, double grains) {
+  if (bodies.touch.empty() || !(grains > 0.0)) return 0.0;
+  double sum = 0.0;
+  for (const double touch : bodies.touch) sum += touch;
+  const double outer_share = std::min(1.0, 1.5 / std::cbrt(grains));
+  return outer_share * sum / static_cast<double>(bodies.touch.size());
+}
+
 /// Adds the work of an emitter's grains.
 void add_grains(const Setup& setup, const EmissionNumbers& e, Derived& derived,
                 GrainTotals& totals) {
@@ -142,15 +163,17 @@ void add_grains(const Setup& setup, const EmissionNumbers& e, Derived& derived,
   const auto add = [&](double seconds, double each, double near_share) {
     const double count = seconds / steps.coarse_step;
     derived.cost.terms[CostTerm::grains].amount += count;
-    derived.cost.terms[CostTerm::grains].seconds += count * each;
+    derived.cost.terms[CostTerm::grains].seconds += count * (each + derived.bodies.search);
     const double fine = count * near_share * fine_sub_steps(steps, e);
     derived.cost.terms[CostTerm::fine_grains].amount += fine;
     derived.cost.terms[CostTerm::fine_grains].seconds += fine * k_fine_factor * each;
   };
-  add(filled_seconds, step_at_once(setup, e), 1.0);
+  add(filled_seconds, step_at_once(setup, e) + touch_step(derived.bodies, e.at_once), 1.0);
   const double contacts = e.carried_share * carried_contacts(totals.layers);
   const double crowding = std::min(1.0, contacts);
-  add(stream_seconds, k_thin_stream_step + k_stream_contact * contacts,
+  add(stream_seconds,
+      k_thin_stream_step + k_stream_contact * contacts +
+          touch_step(derived.bodies, e, totals.layers),
       k_fine_isolated + (k_fine_carried - k_fine_isolated) * crowding);
 }
 
@@ -198,22 +221,26 @@ void add_fluid(const Setup& setup, const GrainTotals& totals, Derived& derived) 
   const double courant = derived.air_speed * step / derived.smallest_spacing;
   const double sub_steps =
       setup.time.end / step * std::max(1.0, courant / setup.fluid->largest_cfl);
-  derived.cost.terms[CostTerm::fluid] = {sub_steps * cells,
-                                         sub_steps * (k_fluid_step + cells * k_cell_step)};
+  const double steps = setup.time.end / step;
+  derived.cost.terms[CostTerm::fluid] = {
+      sub_steps * cells,
+      sub_steps * (k_fluid_step + cells * k_cell_step) + steps * derived.bodies.cut};
+  const double dust_cells = derived.dust_classes * sub_steps * cells;
+  derived.cost.terms[CostTerm::dust] = {dust_cells, dust_cells * k_dust_cell};
   if (derived.emissions.empty()) return;
   const double refreshes = std::clamp(std::ceil(step / (k_refresh_way * derived.smallest_spacing)),
                                       1.0, k_max_refreshes);
   const double bed_seconds = totals.seconds - totals.stream_seconds;
-  const double steps = setup.time.end / step;
   derived.cost.terms[CostTerm::exchange] = {
       totals.seconds / step + steps * cells,
       (totals.stream_seconds * k_voidage_per_grain + bed_seconds * k_voidage_per_bed_grain +
        totals.seconds * refreshes * k_refresh_per_grain) /
               step +
-          steps * cells * k_voidage_per_cell};
+          steps * (cells * k_voidage_per_cell + derived.bodies.predict)};
 }
 
-void add_records(const Setup& setup, const GrainTotals& totals, Derived& derived) {
+/// Returns the size of its frames [B].
+double add_records(const Setup& setup, const GrainTotals& totals, Derived& derived) {
   const double cells = cell_count(setup);
   const double mean = totals.seconds / setup.time.end;
   const double frames = std::floor(setup.time.end / setup.time.output_every + 1e-9) + 1.0;
@@ -224,12 +251,26 @@ void add_records(const Setup& setup, const GrainTotals& totals, Derived& derived
       steps, steps * (k_rest + mean * k_rest_per_grain + cells * k_rest_per_cell)};
   derived.cost.memory_bytes =
       k_bytes_base + k_bytes_per_grain * totals.most + k_bytes_per_cell * cells;
-  derived.cost.disk_bytes =
-      k_disk_base + frames * (k_frame_bytes_per_grain * mean + k_frame_bytes_per_cell * cells) +
-      k_checkpoint_bytes_per_grain * totals.most + k_checkpoint_bytes_per_cell * cells;
-  if (!(cells > 0.0)) return;
-  derived.cost.memory_bytes += k_bytes_fluid + k_bytes_per_coupled_grain * totals.most;
+  const double frame_bytes =
+      frames * (k_frame_bytes_per_grain * mean + k_frame_bytes_per_cell * cells);
+  derived.cost.disk_bytes = k_disk_base + frame_bytes + k_checkpoint_bytes_per_grain * totals.most +
+                            k_checkpoint_bytes_per_cell * cells;
+  if (!(cells > 0.0)) return frame_bytes;
+  derived.cost.memory_bytes += k_bytes_fluid + k_bytes_per_coupled_grain * totals.most +
+                               k_bytes_per_dust_cell * derived.dust_classes * cells;
   derived.cost.disk_bytes += k_disk_fluid;
+  return frame_bytes;
+}
+
+/// The cost of a run from 0 s to its end; returns the size of its frames [B].
+double estimate_whole(const Setup& setup, Derived& derived) {
+  GrainTotals totals;
+  totals.layers = all_layers(derived);
+  for (const EmissionNumbers& e : derived.emissions) add_grains(setup, e, derived, totals);
+  derived.residence_time = mean_stay(setup, derived);
+  derived.grains_in_domain = totals.most;
+  add_fluid(setup, totals, derived);
+  return add_records(setup, totals, derived);
 }
 
 }  // namespace
@@ -243,14 +284,19 @@ double carried_contacts(double layers) {
   return layers > k_single_layer ? k_contacts_in_bed * (1.0 - k_single_layer / layers) : 0.0;
 }
 
-void estimate_cost(const Setup& setup, Derived& derived) {
-  GrainTotals totals;
-  totals.layers = all_layers(derived);
-  for (const EmissionNumbers& e : derived.emissions) add_grains(setup, e, derived, totals);
-  derived.residence_time = mean_stay(setup, derived);
-  derived.grains_in_domain = totals.most;
-  add_fluid(setup, totals, derived);
-  add_records(setup, totals, derived);
+void estimate_cost(const Setup& setup, Derived& derived, double begin) {
+  estimate_whole(setup, derived);
+  if (!(begin > 0.0)) return;
+  Setup before = setup;
+  before.time.end = std::min(begin, setup.time.end);
+  Derived done = derived;
+  done.cost = {};
+  derived.cost.disk_bytes -= estimate_whole(before, done);
+  for (std::size_t n = 0; n < k_cost_terms; ++n) {
+    Spent& term = derived.cost.terms[n];
+    term.amount = std::max(0.0, term.amount - done.cost.terms[n].amount);
+    term.seconds = std::max(0.0, term.seconds - done.cost.terms[n].seconds);
+  }
 }
 
 }  // namespace dust::preflight

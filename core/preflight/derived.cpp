@@ -54,13 +54,47 @@ double expected_speed(const Setup& setup, const Emitters& emitters, double body_
   return std::sqrt(speed * speed + 2.0 * norm(setup.gravity) * fall_height(setup));
 }
 
+/// [m/s] at which a lone sphere settles in the fluid, with the drag of Schiller and Naumann (1935):
+/// \f$ v^2 = 4 d g |\rho_s / \rho_f - 1| / (3 C_D) \f$.
+double settling_speed(const Setup& setup, double diameter, double density) {
+  constexpr int k_rounds = 60;
+  const scenario::FluidSpec& fluid = *setup.fluid;
+  const double pull =
+      4.0 / 3.0 * diameter * norm(setup.gravity) * std::abs(density / fluid.density - 1.0);
+  double speed = std::sqrt(pull);
+  for (int n = 0; n < k_rounds && speed > 0.0; ++n) {
+    const double re = fluid.density * speed * diameter / fluid.viscosity;
+    const double drag = re < 1000.0 ? 24.0 / re * (1.0 + 0.15 * std::pow(re, 0.687)) : 0.44;
+    speed = std::sqrt(speed * std::sqrt(pull / drag));
+  }
+  return speed;
+}
+
+/// [m/s] What falling grains give the fluid: streams a share of their own speed; spheres that the
+/// grid resolves are few, and no faster than one alone.
+double fall_speed(const Setup& setup, const Emitters& emitters) {
+  double speed = 0.0;
+  const double free = std::sqrt(2.0 * norm(setup.gravity) * fall_height(setup));
+  for (std::size_t n = 0; n < emitters.size(); ++n) {
+    double own = k_dragged_share * free;
+    const int material = setup.emitters[n].material;
+    const auto diameters = emitters[n]->diameters();
+    if (setup.fluid && setup.fluid->resolves(material) && !diameters.empty()) {
+      const double density = setup.materials[static_cast<std::size_t>(material)].properties.density;
+      const double largest = *std::max_element(diameters.begin(), diameters.end());
+      own = std::min(free, settling_speed(setup, largest, density));
+    }
+    speed = std::max(speed, own);
+  }
+  return speed;
+}
+
 /// [m/s] of the fluid where it is fast, for the number of its sub-steps.
 double air_speed(const Setup& setup, const Emitters& emitters, double body_speed) {
   if (setup.time.expected_speed > 0.0) return setup.time.expected_speed;
   double speed = body_speed;
   for (const auto& emitter : emitters) speed = std::max(speed, emitter->largest_speed());
-  const double fall = emitters.empty() ? 0.0 : k_dragged_share * k_dragged_share;
-  return std::sqrt(speed * speed + fall * 2.0 * norm(setup.gravity) * fall_height(setup));
+  return std::hypot(speed, fall_speed(setup, emitters));
 }
 
 void derive_ratios(const Setup& setup, Derived& derived) {
@@ -125,7 +159,8 @@ void check_fixed_step(const Setup& setup, const registry::Registry& registry,
   }
 }
 
-Derived derive(const Setup& setup, const registry::Registry& registry) {
+Derived derive(const Setup& setup, const registry::Registry& registry,
+               const scenario::DustSetup& dust, double begin) {
   const ParticleModels models = make_particle_models(setup, registry);
   const double body_speed = largest_speed(models.bodies);
   Derived derived;
@@ -138,7 +173,9 @@ Derived derive(const Setup& setup, const registry::Registry& registry) {
   derive_ratios(setup, derived);
   derive_resolved(setup, models, derived);
   derived.air_speed = air_speed(setup, models.emitters, body_speed);
-  estimate_cost(setup, derived);
+  derived.bodies = body_work(setup, models.bodies);
+  if (dust.field) derived.dust_classes = static_cast<int>(dust.field->diameters.size());
+  estimate_cost(setup, derived, begin);
   return derived;
 }
 

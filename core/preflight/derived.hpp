@@ -2,10 +2,12 @@
 #pragma once
 
 #include "particles/time_steps.hpp"
+#include "preflight/body_work.hpp"
 #include "preflight/emissions.hpp"
 #include "preflight/run_cost.hpp"
 #include "registry/registry.hpp"
 #include "scenario/diagnostics.hpp"
+#include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
 
 #include <string>
@@ -27,6 +29,8 @@ struct Derived {
   particles::TimeSteps steps;   ///< as the run takes them; without classes where no grains come
   std::vector<EmissionNumbers> emissions;
   std::vector<ResolvedNumbers> resolved;
+  BodyWork bodies;
+  int dust_classes = 0;                ///< that the fluid carries as concentrations
   double smallest_spacing = 0.0;       ///< [m] 0 without fluid
   double mean_spacing = 0.0;           ///< [m] edge of a cube of a cell's volume
   double diameter_over_spacing = 0.0;  ///< largest grain over smallest cell edge
@@ -46,7 +50,9 @@ particles::TimeSteps derive_steps(const scenario::Setup& setup, const registry::
 void check_fixed_step(const scenario::Setup& setup, const registry::Registry& registry,
                       scenario::Diagnostics& diagnostics);
 
-/// Derives all numbers; makes the models it needs.
-Derived derive(const scenario::Setup& setup, const registry::Registry& registry);
+/// Derives all numbers; makes the models it needs. `dust`: what the scenario says of it;
+/// `begin` [s]: of the state of another run that it starts from.
+Derived derive(const scenario::Setup& setup, const registry::Registry& registry,
+               const scenario::DustSetup& dust = {}, double begin = 0.0);
 
 }  // namespace dust::preflight

@@ -80,6 +80,7 @@ void follow_some(const Setup& setup, const bodies::BodySet& bodies, const Emitte
   double moving = 0.0;
   double carried = 0.0;
   double way = 0.0;
+  numbers.on_body.assign(bodies.size(), 0.0);
   const std::size_t count = std::min(k_followed, requests.size());
   for (std::size_t n = 0; n < count; ++n) {
     const auto& grain = requests[n * requests.size() / count];
@@ -89,8 +90,10 @@ void follow_some(const Setup& setup, const bodies::BodySet& bodies, const Emitte
     moving += std::isfinite(j.duration) ? j.duration : j.carried;
     carried += j.carried;
     way += j.carried_way;
+    for (std::size_t b = 0; b < bodies.size(); ++b) numbers.on_body[b] += j.on_body[b];
   }
   if (moving > 0.0) numbers.carried_share = carried / moving;
+  for (double& share : numbers.on_body) share = moving > 0.0 ? share / moving : 0.0;
   const double width = width_of(setup, requests);
   if (!(way > 0.0 && width > 0.0)) return;
   const double speed = way / carried;

@@ -29,8 +29,9 @@ struct EmissionNumbers {
   double end = std::numeric_limits<double>::infinity();
   /// [s] that grains of a stream stay, of a sample of them; infinite for those that never leave.
   std::vector<double> stays;
-  double carried_share = 0.0;  ///< of the time they move, on bodies and walls
-  double thickness = 0.0;      ///< [m] of the solids where they are carried, without pores
+  double carried_share = 0.0;   ///< of the time they move, on bodies and walls
+  std::vector<double> on_body;  ///< share of that time on each body
+  double thickness = 0.0;       ///< [m] of the solids where they are carried, without pores
 };
 
 /// Grains that a fresh emitter proposes in the first steps of its stream, or at once, where they

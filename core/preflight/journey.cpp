@@ -39,6 +39,7 @@ class Traveller {
 
   Journey follow(double longest) {
     Journey j;
+    j.on_body.assign(bodies_.size(), 0.0);
     int rested = 0;
     for (int n = 0; n < k_max_steps && j.duration < longest; ++n) {
       const double step = k_step_share * radius_ / std::max(norm(v_), slow_);
@@ -46,7 +47,9 @@ class Traveller {
       x_ += step * v_;
       is_carried_ = false;
       if (is_out()) return j;
-      for (const bodies::Body& body : bodies_) meet(body, j.duration);
+      for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        if (meet(bodies_[b], j.duration)) j.on_body[b] += step;
+      }
       j.duration += step;
       if (!is_carried_) continue;
       j.carried += step;
@@ -82,13 +85,14 @@ class Traveller {
     return false;
   }
 
-  void meet(const bodies::Body& body, double time) {
-    if (body.is_removed()) return;
+  bool meet(const bodies::Body& body, double time) {
+    if (body.is_removed()) return false;
     const bodies::SurfacePoint near =
         body.displaces() ? body.nearest(x_, body.placement(time)) : body.nearest(x_);
-    if (!(near.distance < radius_)) return;
+    if (!(near.distance < radius_)) return false;
     const Vec3 foot = x_ - near.distance * near.normal;
     touch(near.normal, radius_ - near.distance, body.surface_velocity(foot, near.normal, time));
+    return true;
   }
 
   void touch(Vec3 normal, double overlap, Vec3 surface) {

@@ -5,13 +5,16 @@
 #include "dust/sdk/emitter.hpp"
 #include "setup/setup.hpp"
 
+#include <vector>
+
 namespace dust::preflight {
 
 /// What becomes of a lone grain.
 struct Journey {
-  double duration = 0.0;     ///< [s] until it is out of the domain; infinite where it stays
-  double carried = 0.0;      ///< [s] of that on bodies and walls, until it rests
-  double carried_way = 0.0;  ///< [m] it goes in that time
+  double duration = 0.0;        ///< [s] until it is out of the domain; infinite where it stays
+  double carried = 0.0;         ///< [s] of that on bodies and walls, until it rests
+  double carried_way = 0.0;     ///< [m] it goes in that time
+  std::vector<double> on_body;  ///< [s] of `carried` on each body
 };
 
 /// Follows a grain that an emitter proposes, for `longest` [s] at most: it falls freely, loses the

@@ -7,8 +7,8 @@
 namespace dust::preflight {
 
 /// What the time of a run goes to.
-enum class CostTerm : std::size_t { grains, fine_grains, fluid, exchange, output, rest };
-inline constexpr std::size_t k_cost_terms = 6;
+enum class CostTerm : std::size_t { grains, fine_grains, fluid, exchange, dust, output, rest };
+inline constexpr std::size_t k_cost_terms = 7;
 
 /// A term as people and files name it, and what its amount counts.
 struct CostTermText {
@@ -20,6 +20,7 @@ inline constexpr std::array<CostTermText, k_cost_terms> k_cost_term_texts = {{
     {"fine_grains", "steps of grains at finer rates"},
     {"fluid", "sub-steps of cells"},
     {"exchange", "fluid steps of grains and of the cells they share their volume with"},
+    {"dust", "sub-steps of cells, for each class of dust in the air"},
     {"output", "frames"},
     {"rest", "fluid steps"},
 }};

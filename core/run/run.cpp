@@ -286,7 +286,9 @@ class Run {
     if (facts_.status != "finished" || facts_.cpu_s < k_shortest || facts_.registry == nullptr) {
       return;
     }
-    const auto derived = preflight::derive(simulation_.setup(), *facts_.registry);
+    const auto derived =
+        preflight::derive(simulation_.setup(), *facts_.registry, simulation_.dust_setup(),
+                          facts_.start ? facts_.start->time : 0.0);
     preflight::LearntCosts().add(simulation_.setup().name, derived.cost,
                                  taken_cost(simulation_, facts_, folder_));
   }

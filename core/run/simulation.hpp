@@ -6,6 +6,7 @@
 #include "run/archive_parts.hpp"
 #include "run/audit/force_shares.hpp"
 #include "run/dem_cycle.hpp"
+#include "run/dust/dust_rates.hpp"
 #include "run/dust/dust_stage.hpp"
 #include "run/dust/liberation_stage.hpp"
 #include "run/fluid_stage.hpp"
@@ -74,6 +75,8 @@ class Simulation {
   [[nodiscard]] const DustStage* dust_stage() const { return dust_.get(); }
   /// Null where no dust comes off grains.
   [[nodiscard]] const LiberationStage* liberation() const { return liberation_.get(); }
+  /// Null without a dust field.
+  [[nodiscard]] const DustRates* dust_rates() const { return dust_rates_.get(); }
   [[nodiscard]] const fluid::FluidSolver* fluid() const;
   [[nodiscard]] const coupling::Coupling* coupling() const;
 
@@ -123,10 +126,10 @@ class Simulation {
   std::unique_ptr<DustStage> dust_;
   std::unique_ptr<particles::Dem> dem_;
   std::unique_ptr<LiberationStage> liberation_;
+  std::unique_ptr<DustRates> dust_rates_;
   std::optional<DemCycle> cycle_;  ///< within a fluid step
   std::unique_ptr<Insertion> insertion_;
   Snapshots snapshots_;
-  std::vector<float> no_exchange_;  ///< of a run without fluid
   bool wants_walls_ = false;
   graph::TaskGraph step_graph_{"fluid_step"};
   graph::TaskGraph dem_graph_{"dem_step"};

@@ -111,6 +111,11 @@ void Simulation::build_step_graph() {
                      {"grain.state", "dust.concentration"},
                      [this] { liberation_->advance(clock_.fluid_step()); }});
   }
+  if (dust_rates_) {
+    step_graph_.add({"dust_rates", {"grain.state", "dust.concentration"}, {"dust.rates"}, [this] {
+                       dust_rates_->sample(time() + clock_.fluid_step(), clock_.fluid_step());
+                     }});
+  }
   add_last_nodes();
   add_sensor_nodes();
   step_graph_.build();

@@ -251,6 +251,11 @@ const ParameterSchema& DustBlock::schema() {
             "Bodies with suction and sides with a hood that are there to catch dust; none given = "
             "all.")
         .optional();
+    s.number(&DustBlock::steady_after, "steady_after", dimension::time,
+             "Time from which the rates of the dust field are means, when the stream has become "
+             "steady; 0 = half of time.end.")
+        .at_least(0)
+        .optional();
     return s.build();
   }();
   return made;

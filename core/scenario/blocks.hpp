@@ -114,6 +114,7 @@ struct DustBlock {
   std::vector<std::string> materials;
   std::vector<std::string> openings;
   std::vector<std::string> hoods;
+  double steady_after = 0.0;
   static const sdk::ParameterSchema& schema();
 };
 

@@ -16,6 +16,7 @@ struct DustSpec {
   std::vector<int> materials;         ///< indices into Setup::materials; empty = all
   std::vector<std::string> openings;  ///< sensors through whose openings dust gets out
   std::vector<std::string> hoods;     ///< bodies with suction and sides that extract
+  double steady_after = 0.0;          ///< [s] from which rates are means; 0 = half of time.end
 };
 
 /// Which grains are dust: judged by the diameter of the grains that one stands for, which is its

@@ -177,7 +177,7 @@ struct Planner::Impl {
     io::Sha256 digest;
     digest.update(read->resolved_yaml.data(), read->resolved_yaml.size());
     point.hash = digest.hex_digest().substr(0, k_hash_digits);
-    const auto derived = preflight::derive(read->setup, registry);
+    const auto derived = preflight::derive(read->setup, registry, read->dust);
     point.core_seconds = derived.cost.terms.seconds();
     point.memory_bytes = derived.cost.memory_bytes;
     measures.see(quantities_of(read->setup, read->dust, registry));

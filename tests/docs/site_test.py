@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""site_test.py ROOT: the site that tools/dev/build_site makes: search, formulas, links that lead somewhere."""
+"""site_test.py ROOT: the site that tools/dev/build_site makes: search, formulas, the API, links that lead somewhere."""
 
 import html.parser
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -31,13 +32,34 @@ class Links(html.parser.HTMLParser):
 
 def links(site):
     for page in sorted(site.rglob("*.html")):
-        if "assets" in page.relative_to(site).parts or page.name == "404.html":
+        # Pages of the API have no article: Doxygen links them.
+        if {"assets", "api"} & set(page.relative_to(site).parts) or page.name == "404.html":
             continue
         for link in Links(page.read_text()).found:
             target = urllib.parse.unquote(link.split("#")[0])
             if not target or "://" in target or target.startswith(("mailto:", "data:")):
                 continue
             yield page.parent.joinpath(target), f"{page.relative_to(site)}: {link}"
+
+
+def api_problems(site):
+    """What a reader of the API would miss: the models' base classes, their formulas, the way there."""
+    api = site / "api"
+    if "api/index.html" not in (site / "index.html").read_text():
+        yield "index.html does not lead to the API"
+    for name, words in (("classdust_1_1sdk_1_1DragLaw.html", ("Public Member Functions", "DragLaw")),
+                        ("classdust_1_1sdk_1_1ContactLaw.html", ("Public Member Functions",)),
+                        ("classdust_1_1fluid_1_1FluidSolver.html", ("FluidSolver",))):
+        text = (api / name).read_text() if (api / name).exists() else ""
+        if missing := [word for word in words if word not in text]:
+            yield f"api/{name} lacks {', '.join(missing)}"
+    formulas = [page for page in api.glob("*.html") if "\\(" in page.read_text(errors="replace")]
+    if not formulas:
+        yield "no page of the API has a formula"
+    for page in formulas[:1]:
+        script = re.search(r'src="([^"]*MathJax\.js)', page.read_text(errors="replace"))
+        if not script or not (api / script[1]).exists():
+            yield f"api/{page.name}: its formulas have no MathJax"
 
 
 def main():
@@ -52,6 +74,7 @@ def main():
         entries = json.loads((site / "search" / "search_index.json").read_text())["docs"]
         if not any("Janssen" in entry["text"] for entry in entries):
             problems.append("a search for Janssen would find nothing")
+        problems += api_problems(site)
         if "arithmatex" not in (site / "docs" / "theory" / "fluid.html").read_text():
             problems.append("docs/theory/fluid.html has no formulas")
         print(f"{len(entries)} entries to search, {len(found)} links, {len(problems)} problems")

@@ -2,6 +2,7 @@
 """The gates of the style find what they are for: each is tried on sources that break its rule."""
 
 import pathlib
+import shutil
 import sys
 import unittest
 
@@ -10,6 +11,7 @@ import allow_list
 import folders_gate
 import format_gate
 import functions_gate
+import scripts_gate
 import test_names_gate
 import tree_of_files  # noqa: E402
 import types_gate
@@ -43,6 +45,23 @@ class Words(tree_of_files.Tree):
     def test_a_word_is_right_in_its_own_folder(self):
         self.assertEqual(self.found("int chunk;", "core/io/a.cpp"), set())
         self.assertEqual(self.found("int chunk;", "core/run/a.cpp"), {"chunk"})
+
+
+class Scripts(tree_of_files.Tree):
+    def test_scripts_are_found_by_their_first_line_and_python_that_does_not_compile(self):
+        self.write("tools/run", "#!/bin/sh\necho\n")
+        self.write("tools/dev/fuzz", "#!/usr/bin/env python3\nif x\n")
+        self.write("tools/page.py", "x = 1\n")
+        self.write("tools/README.md", "# a page\n")
+        shell, python, problems = scripts_gate.findings(self.root, None)
+        self.assertEqual((shell, python), (1, 2))
+        self.assertEqual(len(problems), 1)
+        self.assertIn("fuzz:2", problems[0])
+
+    @unittest.skipUnless(shutil.which("shellcheck"), "needs shellcheck")
+    def test_what_shellcheck_finds_is_told(self):
+        self.write("tools/run", "#!/bin/sh\nrm $1\n")
+        self.assertIn("SC2086", "".join(scripts_gate.findings(self.root, "shellcheck")[2]))
 
 
 class Functions(tree_of_files.Tree):

@@ -256,6 +256,11 @@ Json amounts_json(const Simulation& s, const RunFacts& facts) {
     j["dust_field"] = dust_field_json(s);
     j["dust_outflow"] = dust_outflow_json(s);
   }
+  if (s.dust_rates() != nullptr) {
+    JsonFigures figures;
+    s.dust_rates()->report(figures);
+    j["dust_rates"] = figures.json();
+  }
   if (s.liberation() != nullptr) j["dust_on_grains"] = dust_on_grains_json(s);
   if (s.setup().audit.energy) j["energy"] = energy_json(s);
   j["forces"] = forces_json(s.setup(), facts.forces);

@@ -3,6 +3,7 @@
 
 #include <sys/resource.h>
 
+#include <cmath>
 #include <string_view>
 #include <system_error>
 
@@ -32,6 +33,9 @@ CostTerm term_of(std::string_view node) {
   for (const std::string_view name : {"voidage", "drag", "collect"}) {
     if (node == name) return CostTerm::exchange;
   }
+  for (const std::string_view name : {"dust", "liberation"}) {
+    if (node == name) return CostTerm::dust;
+  }
   return CostTerm::rest;
 }
 
@@ -58,7 +62,9 @@ preflight::RunCost taken_cost(const Simulation& s, const RunFacts& facts, const 
   for (std::size_t n = 0; n < preflight::k_cost_terms; ++n) cost.terms[n].seconds *= processors;
 
   const auto dem = s.dem().report();
-  const auto steps = static_cast<double>(s.steps_done());
+  const double begin = facts.start ? facts.start->time : 0.0;
+  const double steps =
+      static_cast<double>(s.steps_done()) - std::round(begin / s.setup().time.fluid_step);
   const double cells = cell_count(s);
   const auto grain_steps = static_cast<double>(dem.particle_steps);
   cost.terms[CostTerm::grains].amount = grain_steps;
@@ -67,6 +73,10 @@ preflight::RunCost taken_cost(const Simulation& s, const RunFacts& facts, const 
     cost.terms[CostTerm::fluid].amount = cells * static_cast<double>(s.fluid_stage()->sub_steps());
     cost.terms[CostTerm::exchange].amount =
         grain_steps * s.dem().coarse_step() / s.setup().time.fluid_step + cells * steps;
+  }
+  if (s.dust_stage() != nullptr) {
+    cost.terms[CostTerm::dust].amount =
+        cells * static_cast<double>(s.dust_stage()->field().sub_steps());
   }
   cost.terms[CostTerm::output].amount = static_cast<double>(facts.frames);
   cost.terms[CostTerm::rest].amount = steps;

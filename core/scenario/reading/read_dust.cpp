@@ -86,6 +86,7 @@ DustSpec dust_spec_of(Reading& reading, const Entry& entry, const DustBlock& rea
   }
   spec.openings = enabled_openings(reading, entry.value, read.openings);
   spec.hoods = known_hoods(reading, entry.value, read.hoods);
+  spec.steady_after = read.steady_after;
   return spec;
 }
 

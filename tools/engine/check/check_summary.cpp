@@ -302,8 +302,9 @@ std::string basis_text(const preflight::LearntCosts::Expected& cost) {
 std::string share_text(const preflight::RunCost& cost) {
   constexpr double k_min_share = 0.05;
   constexpr std::array<const char*, preflight::k_cost_terms> k_words = {
-      "steps of grains", "finer steps of grains", "fluid", "exchange with the fluid",
-      "files",           "sensors and checks"};
+      "steps of grains",         "finer steps of grains", "fluid",
+      "exchange with the fluid", "dust in the air",       "files",
+      "sensors and checks"};
   std::array<std::size_t, preflight::k_cost_terms> order{};
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

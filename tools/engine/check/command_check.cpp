@@ -54,7 +54,8 @@ void add_check(CLI::App& app, int&) {
     for (const std::string& warning : result.warnings) std::cerr << warning << '\n';
     for (const std::string& warning : branching.warning_lines()) std::cerr << warning << '\n';
     branching.throw_errors();
-    const auto derived = preflight::derive(result.setup, *registry);
+    const auto derived =
+        preflight::derive(result.setup, *registry, result.dust, start ? start->time : 0.0);
     const auto survey = preflight::survey_bodies(result.setup, *registry);
     const auto learnt = preflight::LearntCosts().expect(result.setup.name, derived.cost);
     std::cout << (arguments->as_json ? check_json : check_summary)(result.setup, result.dust,

@@ -73,7 +73,8 @@ def recorded(engine, folder):
 
 
 NODES = {"grains": ("synchronise", "neighbour", "contact", "force", "integration"), "fine_grains": ("fine_level",),
-         "fluid": ("fluid",), "exchange": ("voidage", "drag", "collect"), "output": ("output",)}
+         "fluid": ("fluid",), "exchange": ("voidage", "drag", "collect"), "dust": ("dust", "liberation"),
+         "output": ("output",)}
 
 
 def parts(told, summary):

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/engine.hpp"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+using dust::test::engine;
+using dust::test::read_file;
+using dust::test::TemporaryFolder;
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double k_kg_per_h = 3600.0 * 1e-6;  // of 1 mg/s
+
+json run(const fs::path& out, const std::vector<std::string>& settings,
+         const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments{"run", DUST_SOURCE "/tests/scenario/dust_in_duct.yaml", "-o",
+                                     out, "--quiet"};
+  for (const std::string& setting : settings) {
+    arguments.insert(arguments.end(), {"--set", setting});
+  }
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const auto done = engine(arguments);
+  INFO(done.err);
+  REQUIRE(done.status == 0);
+  return json::parse(read_file(out / "summary.json"));
+}
+
+}  // namespace
+
+TEST_CASE("the rate of dust that leaves a steady stream shall be that of its source, and certain") {
+  const TemporaryFolder folder;
+  const json summary = run(folder / "out", {});
+  const json& rates = summary["dust_rates"];
+  CHECK(rates["observed"]["value"].get<double>() == doctest::Approx(0.5).epsilon(1e-9));
+  const json& out = rates["left/right/rate"];
+  // It takes 0.16 s through the duct; what lags behind at the edges of the jet has gone by 0.5 s.
+  CHECK(out["value"].get<double>() == doctest::Approx(3.0 * k_kg_per_h).epsilon(1e-6));
+  CHECK(out["uncertainty"].get<double>() < 1e-6 * k_kg_per_h);
+  CHECK(out["unit"] == "kg/h");
+  CHECK(rates["left/all/rate"]["value"] == out["value"]);
+  CHECK(rates["left/right/class/3_um/rate"]["value"].get<double>() ==
+        doctest::Approx(k_kg_per_h).epsilon(1e-6));
+  CHECK(rates["left/right/class/10_um/rate"]["value"].get<double>() ==
+        doctest::Approx(2.0 * k_kg_per_h).epsilon(1e-6));
+  // Nothing is fed, so there is no tonne to refer to; over the whole run less has left.
+  CHECK_FALSE(rates.contains("left/right/per_load"));
+  CHECK(summary["dust_outflow"]["right"]["kg_per_h"].get<double>() <
+        0.9 * out["value"].get<double>());
+}
+
+TEST_CASE("a rate of dust taken while the stream begins shall say that it is not steady") {
+  const TemporaryFolder folder;
+  const json rates =
+      run(folder / "out", {"dust.steady_after=5 ms", "time.end=0.2 s"})["dust_rates"];
+  CHECK(rates["left/right/rate"]["uncertainty"].is_null());
+  CHECK(rates["left/right/rate"]["no_error"] == "not steady");
+}
+
+TEST_CASE("rates of dust shall be the same bits on any threads and through a resume") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> from{"dust.steady_after=0.3 s"};
+  const auto until = [&](const char* end) {
+    std::vector<std::string> settings = from;
+    settings.push_back(std::string("time.end=") + end);
+    return settings;
+  };
+  const json whole = run(folder / "whole", until("0.6 s"), {"--threads", "1"});
+  run(folder / "parts", until("0.4 s"), {"--threads", "2"});
+  const json resumed = run(folder / "parts", until("0.6 s"), {"--threads", "1", "--resume"});
+  CHECK(whole["dust_rates"]["left/right/rate"]["value"].get<double>() > 0.0);
+  CHECK(resumed["dust_rates"] == whole["dust_rates"]);
+}
