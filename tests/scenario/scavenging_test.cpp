@@ -72,6 +72,11 @@ TEST_CASE("a rain of grains shall clear a still cloud as its impaction asks for"
         doctest::Approx(expected_share(40e-6, 2e-3, 1)).epsilon(3e-3));
   CHECK(airborne_share(summary, "40_um") < 0.7);
   CHECK_FALSE(summary.contains("dust_on_grains"));
+  // Between 0.1 and 0.2 s.
+  const double share = expected_share(40e-6, 2e-3, 1);
+  const double released = summary["dust_field"]["classes"]["40_um"]["released_kg"].get<double>();
+  CHECK(summary["dust_rates"]["caught/grains/class/40_um/rate"]["value"].get<double>() ==
+        doctest::Approx(3600.0 / 0.1 * released * (std::sqrt(share) - share)).epsilon(0.01));
   check_balances(summary);
 }
 
