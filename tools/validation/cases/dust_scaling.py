@@ -1,14 +1,18 @@
 """Scalings that a model of dust is held against: plume, enclosed chute, drop through wind."""
 
+import fnmatch
 import math
 
 import study_points
 from chart import Curve, published
 from induced_air import SIDE, anderson, balance
-from runs import Plan
+from kept import Kept
+from page import FOLDER, Page
+from runs import Plan, Runs
 
 TITLE = "Scalings of dust and of the air that it moves with"
 BITS = ("mixer", "small_hopper")
+TAKES_FINISHED_RUNS = True
 
 CHUTE = "chute_air"
 LEVELS = {"load R": {"load_3_kg_s": 3, "base": 10, "load_30_kg_s": 30}, "fall S": {"fall_1_m": 1, "base": 2, "fall_4_m": 4},
@@ -218,8 +222,14 @@ less per tonne the thicker the stream is, and what gets out no longer rises. Dus
 left out, and so is a stream that lands on its own heap."""
 
 
-def fill(page, runs):
-    add_plume(page, runs)
-    add_wind(page, runs)
-    add_drop(page, runs)
-    add_chute(page, runs)
+def write(args):
+    """Not `fill`: the figures come from summaries and frames, not from sensors alone."""
+    kept = Kept(FOLDER / "dust_scaling.md") if args.keep else Kept()
+    runs = Runs(plans(), args.runs, args.engine, kept)
+    for run in runs:
+        if not args.no_run and any(fnmatch.fnmatch(run.name, pattern) for pattern in args.only):
+            runs.do(run)
+    page = Page("dust_scaling", kept)
+    for add in (add_plume, add_wind, add_drop, add_chute):
+        add(page, runs)
+    page.write(TITLE, runs, "tools/validation/run dust_scaling")
