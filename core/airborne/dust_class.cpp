@@ -42,6 +42,8 @@ DustClass make_class(double diameter, double density, sdk::Vec3 gravity, const G
   DustClass made;
   made.diameter = diameter;
   made.diffusivity = brownian_diffusivity(diameter, gas);
+  made.response_time =
+      density * diameter * diameter * slip_correction(diameter) / (18.0 * gas.viscosity);
   const double g = norm(gravity);
   if (!(g > 0.0)) return made;
   // Dust lighter than the gas rises.

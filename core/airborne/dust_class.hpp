@@ -28,9 +28,10 @@ struct Gas {
 
 /// A size class of airborne dust: what moves it besides the gas.
 struct DustClass {
-  double diameter = 0.0;     ///< [m]
-  sdk::Vec3 drift;           ///< [m/s] of settling
-  double diffusivity = 0.0;  ///< [m2/s] Brownian
+  double diameter = 0.0;       ///< [m]
+  sdk::Vec3 drift;             ///< [m/s] of settling
+  double diffusivity = 0.0;    ///< [m2/s] Brownian
+  double response_time = 0.0;  ///< [s] rho_p d^2 C_c / (18 mu), after Stokes
 };
 
 /// `gravity` [m/s2], `density` [kg/m3] of the dust itself.

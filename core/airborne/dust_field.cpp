@@ -41,12 +41,17 @@ double DustBalance::error() const {
   const double gone = std::accumulate(left.begin(), left.end(), 0.0) +
                       std::accumulate(outlets.begin(), outlets.end(), 0.0) +
                       std::accumulate(surfaces.begin(), surfaces.end(), 0.0);
-  return (released - airborne - gone) / released;
+  return (released - airborne - gone - caught) / released;
 }
 
 DustField::DustField(const fluid::Grid& grid, const scenario::DustFieldSpec& spec, const Gas& gas,
                      sdk::Vec3 gravity, Ends ends)
-    : grid_(grid), spec_(spec), transport_(grid), source_(grid.size, 0.0) {
+    : grid_(grid),
+      spec_(spec),
+      transport_(grid),
+      source_(grid.size, 0.0),
+      layers_(spec.diameters.size()) {
+  if (spec.resuspension) resuspension_.emplace(spec, gas, norm(gravity));
   for (const double diameter : spec.diameters) {
     Class c;
     c.dust = make_class(diameter, spec.density, gravity, gas);
@@ -136,35 +141,77 @@ bool DustField::add_sources(std::size_t n, double time, double step) {
 }
 
 /// What has settled in this step goes to its surface and cell.
-void DustField::add_deposits(Class& c, const Flow& flow) const {
+void DustField::add_deposits(std::size_t of_class, const Flow& flow) {
+  Class& c = classes_[of_class];
   // The step's sums by themselves: totals that grow piece by piece round far more often.
   std::vector<double> settled(c.surfaces.size(), 0.0);
   for (std::size_t n = 0; n < flow.walls.size(); ++n) {
     const double mass = c.losses.walls[n] * grid_.cell_volume();
     settled[static_cast<std::size_t>(flow.walls[n].surface)] += mass;
     c.deposit[static_cast<std::size_t>(flow.walls[n].cell)] += mass;
+    if (resuspension_) layers_.add(flow.walls[n], of_class, mass);
   }
   for (std::size_t n = 0; n < settled.size(); ++n) c.surfaces[n] += settled[n];
   c.losses.walls.clear();
+}
+
+void DustField::resuspend(const Flow& flow, double step) {
+  // The step's sums by themselves, as of deposits.
+  std::vector<std::vector<double>> gone(classes_.size());
+  for (std::size_t n = 0; n < classes_.size(); ++n) gone[n].resize(classes_[n].surfaces.size());
+  std::vector<double> before(classes_.size());
+  for (std::size_t w = 0; w < flow.walls.size(); ++w) {
+    const WallPiece& piece = flow.walls[w];
+    const auto cell = static_cast<std::size_t>(piece.cell);
+    const std::span<double> layer = layers_.on(piece);
+    if (layer.empty() || !(flow.volume_before[cell] > 0.0)) continue;
+    const double area = norm(piece.area) * grid_.cell_volume();
+    before.assign(layer.begin(), layer.end());
+    for (std::size_t n = 0; n < classes_.size(); ++n) {
+      const double taken = resuspension_->taken(before, n, flow.friction_velocity[w], area, step);
+      if (!(taken > 0.0)) continue;
+      Class& c = classes_[n];
+      layer[n] -= taken;
+      // Of several pieces in a cell the field knows the sum.
+      c.deposit[cell] = std::max(0.0, c.deposit[cell] - taken);
+      c.mass[cell] += taken / grid_.cell_volume();
+      c.resuspended += taken;
+      gone[n][static_cast<std::size_t>(piece.surface)] += taken;
+    }
+  }
+  for (std::size_t n = 0; n < classes_.size(); ++n) {
+    std::vector<double>& surfaces = classes_[n].surfaces;
+    for (std::size_t s = 0; s < surfaces.size(); ++s) surfaces[s] -= gone[n][s];
+  }
 }
 
 void DustField::advance(const Flow& flow, double time, double step) {
   static const std::vector<double> k_no_source;
   find_sources(flow.volume_after);
   transport_.prepare(flow);
+  if (resuspension_) resuspend(flow, step);
   for (std::size_t n = 0; n < classes_.size(); ++n) {
     Class& c = classes_[n];
     const bool has_source = add_sources(n, time, step);
     if (!(c.released.value() > 0.0)) continue;  // there is none yet
     sub_steps_ += transport_.advance(flow, c.dust, 1.0 / spec_.schmidt_number,
                                      has_source ? source_ : k_no_source, step, c.mass, c.losses);
-    add_deposits(c, flow);
+    add_deposits(n, flow);
   }
 }
 
 void DustField::release(std::size_t n, std::int32_t cell, double mass) {
   classes_[n].mass[static_cast<std::size_t>(cell)] += mass / grid_.cell_volume();
   classes_[n].released += mass;
+}
+
+double DustField::catch_in(std::size_t n, std::int32_t cell, double share) {
+  double& mass = classes_[n].mass[static_cast<std::size_t>(cell)];
+  const double rest = mass * (1.0 - share);
+  const double caught = (mass - rest) * grid_.cell_volume();
+  mass = rest;
+  classes_[n].caught += caught;
+  return caught;
 }
 
 bool DustField::is_empty() const {
@@ -186,11 +233,14 @@ DustBalance DustField::balance(std::size_t n) const {
   for (std::size_t side = 0; side < 6; ++side) balance.left[side] = c.losses.sides[side] * volume;
   for (const double drawn : c.losses.outlets) balance.outlets.push_back(drawn * volume);
   balance.surfaces = c.surfaces;
+  balance.caught = c.caught.value();
+  balance.resuspended = c.resuspended.value();
   return balance;
 }
 
 void DustField::save(sdk::ArchiveWriter& archive) const {
   archive.integer("sub_steps", sub_steps_);
+  if (resuspension_) layers_.save(archive);
   for (std::size_t n = 0; n < classes_.size(); ++n) {
     const Class& c = classes_[n];
     const std::string name = "class_" + std::to_string(n) + "_";
@@ -201,11 +251,18 @@ void DustField::save(sdk::ArchiveWriter& archive) const {
     archive.numbers(name + "sides", c.losses.sides);
     archive.numbers(name + "outlets", c.losses.outlets);
     archive.numbers(name + "surfaces", c.surfaces);
+    if (spec_.scavenging) {
+      archive.numbers(name + "caught", std::array{c.caught.sum(), c.caught.lost()});
+    }
+    if (resuspension_) {
+      archive.numbers(name + "resuspended", std::array{c.resuspended.sum(), c.resuspended.lost()});
+    }
   }
 }
 
 void DustField::load(sdk::ArchiveReader& archive) {
   sub_steps_ = archive.integer("sub_steps");
+  if (resuspension_) layers_.load(archive);
   for (std::size_t n = 0; n < classes_.size(); ++n) {
     Class& c = classes_[n];
     const std::string name = "class_" + std::to_string(n) + "_";
@@ -220,6 +277,14 @@ void DustField::load(sdk::ArchiveReader& archive) {
     std::copy(sides.begin(), sides.end(), c.losses.sides.begin());
     c.losses.outlets = archive.numbers(name + "outlets");
     c.surfaces = archive.numbers(name + "surfaces");
+    if (spec_.scavenging) {
+      const std::vector<double> caught = archive.numbers(name + "caught");
+      c.caught = {caught.at(0), caught.at(1)};
+    }
+    if (resuspension_) {
+      const std::vector<double> resuspended = archive.numbers(name + "resuspended");
+      c.resuspended = {resuspended.at(0), resuspended.at(1)};
+    }
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include "airborne/dust_class.hpp"
 #include "airborne/flow.hpp"
+#include "airborne/layers.hpp"
+#include "airborne/resuspension.hpp"
 #include "airborne/transport.hpp"
 #include "base/exact_sum.hpp"
 #include "dust/sdk/archive.hpp"
@@ -12,18 +14,22 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace dust::airborne {
 
-/// What became of the dust of a class since the start [kg]: released = airborne + deposited + left
-/// + drawn out, to rounding.
+/// What became of the dust of a class since the start [kg]: released = airborne + deposited +
+/// caught
+/// + left + drawn out, to rounding.
 struct DustBalance {
   double released = 0.0;  ///< what was there at the start included
   double airborne = 0.0;
   std::array<double, 6> left{};  ///< out through the sides
   std::vector<double> outlets;   ///< by hood
   std::vector<double> surfaces;  ///< deposited, by surface: the six sides, then the bodies
+  double caught = 0.0;           ///< by grains that pass through
+  double resuspended = 0.0;      ///< of what had been deposited, airborne since
   /// (released - all others) / released; 0 where nothing was.
   [[nodiscard]] double error() const;
 };
@@ -45,6 +51,8 @@ class DustField {
   void advance(const Flow& flow, double time, double step);
   /// Dust set free in a cell at once [kg]; of the class `n`.
   void release(std::size_t n, std::int32_t cell, double mass);
+  /// Grains take this share [-] of what is airborne in a cell. Returns its mass [kg].
+  double catch_in(std::size_t n, std::int32_t cell, double share);
 
   [[nodiscard]] std::size_t classes() const { return classes_.size(); }
   /// Has no dust been released yet?
@@ -58,6 +66,10 @@ class DustField {
   [[nodiscard]] const fluid::CellField& deposit(std::size_t n) const { return classes_[n].deposit; }
   [[nodiscard]] DustBalance balance(std::size_t n) const;
   [[nodiscard]] std::int64_t sub_steps() const { return sub_steps_; }
+  /// Do grains catch dust in this run?
+  [[nodiscard]] bool has_scavenging() const { return spec_.scavenging; }
+  /// Does the gas take dust off surfaces again?
+  [[nodiscard]] bool has_resuspension() const { return resuspension_.has_value(); }
 
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
@@ -68,6 +80,8 @@ class DustField {
     fluid::CellField mass;         ///< [kg/m3] of whole cells
     fluid::CellField deposit;      ///< [kg]
     base::ExactSum released;       ///< [kg], grain by grain
+    base::ExactSum caught;         ///< [kg], cell by cell
+    base::ExactSum resuspended;    ///< [kg], piece by piece
     Losses losses;                 ///< of sides and hoods since the start; of walls in this step
     std::vector<double> surfaces;  ///< [kg]
   };
@@ -81,7 +95,9 @@ class DustField {
   /// Anew in each step, for what gas a cell has changes with the grains in it.
   void find_sources(const fluid::CellField& volume);
   [[nodiscard]] bool add_sources(std::size_t n, double time, double step);
-  void add_deposits(Class& c, const Flow& flow) const;
+  void add_deposits(std::size_t of_class, const Flow& flow);
+  /// Before transport: what the gas takes off surfaces in the step is in it from its beginning.
+  void resuspend(const Flow& flow, double step);
 
   fluid::Grid grid_;
   scenario::DustFieldSpec spec_;
@@ -89,6 +105,8 @@ class DustField {
   std::vector<Class> classes_;
   std::vector<std::vector<Part>> sources_;  ///< by source, of this step
   fluid::CellField source_;                 ///< [kg/(m3 s)]
+  std::optional<Resuspension> resuspension_;
+  Layers layers_;  ///< kept for resuspension alone
   std::int64_t sub_steps_ = 0;
 };
 

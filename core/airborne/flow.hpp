@@ -33,6 +33,9 @@ struct Flow {
   fluid::CellField eddy_diffusivity;  ///< [m2/s] empty: laminar
   std::vector<Sink> sinks;
   std::vector<WallPiece> walls;
+  std::vector<double> friction_velocity;  ///< [m/s] by piece of wall; empty: nobody asks
+  /// [m2/s] Kinematic, of the gas at smooth walls, to which turbulence brings dust; 0: none does.
+  double smooth_wall_viscosity = 0.0;
   /// By face of a side (side, second direction, third direction): the hood that draws there, -1.
   std::array<std::vector<std::int32_t>, 6> side_outlet;
 

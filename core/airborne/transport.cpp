@@ -2,6 +2,7 @@
 #include "airborne/transport.hpp"
 
 #include "airborne/limiter.hpp"
+#include "airborne/near_wall.hpp"
 #include "dust/sdk/kernel.hpp"
 #include "fluid/parallel.hpp"
 
@@ -154,6 +155,12 @@ void Transport::find_drive(const Flow& flow, const DustClass& dust) {
   for (std::size_t n = 0; n < flow.walls.size(); ++n) {
     const WallPiece& piece = flow.walls[n];
     wall_rate_[n] = std::max(0.0, dot(dust.drift, piece.area));
+    const double area = norm(piece.area);
+    if (flow.smooth_wall_viscosity > 0.0 && area > 0.0) {
+      wall_rate_[n] =
+          area * deposition_velocity(dust, dot(dust.drift, piece.area) / area,
+                                     flow.friction_velocity[n], flow.smooth_wall_viscosity);
+    }
     deposition_[at(piece.cell)] += wall_rate_[n];
   }
 }

@@ -161,6 +161,10 @@ class Dem {
   [[nodiscard]] std::span<const double> dust_load(std::size_t row) const;
   /// `mass` [kg] of a class comes off a real particle. Call between coarse steps.
   void set_dust_free(std::size_t row, std::size_t n, double mass);
+  /// See DustLoads: particles may catch dust; a real one catches `mass` [kg] of a class. Call
+  /// between coarse steps.
+  void let_catch_dust();
+  void take_up_dust(std::size_t row, std::size_t n, double mass);
   [[nodiscard]] DustLoads::Balance dust_balance(std::size_t n) const;
   /// Keeps what grains do to walls from now on.
   void record_wall_loads();

@@ -25,9 +25,11 @@ std::unique_ptr<particles::Dem> make_particles(const scenario::Setup& setup, Mod
   const bool has_buoyancy = setup.fluid && !coupling::takes_over_buoyancy(models.fluid_forces);
   const double density = has_buoyancy ? setup.fluid->density : 0.0;
   if (!models.class_diameters.empty()) {
-    return std::make_unique<particles::Dem>(setup, models.bodies, std::move(models.laws),
-                                            models.class_diameters, density,
-                                            dust.shares_on_grains());
+    auto made =
+        std::make_unique<particles::Dem>(setup, models.bodies, std::move(models.laws),
+                                         models.class_diameters, density, dust.shares_on_grains());
+    if (dust.field && dust.field->scavenging) made->let_catch_dust();
+    return made;
   }
   // Nothing asks how large particles are that never come, and nothing shortens the step.
   constexpr double k_any_diameter = 1e-3;

@@ -99,6 +99,12 @@ void Simulation::build_step_graph() {
                      [this] { dust_->advance(time()); }});
   }
   add_particle_nodes();
+  if (dust_ && dust_->has_scavenging()) {
+    step_graph_.add({"scavenging",
+                     {"grain.state", "fluid.velocity", "fluid.void_fraction", "dust.concentration"},
+                     {"grain.state", "dust.concentration"},
+                     [this] { dust_->scavenge(*dem_); }});
+  }
   if (liberation_) {
     step_graph_.add({"liberation",
                      {"grain.state", "fluid.void_fraction", "dust.concentration"},

@@ -275,6 +275,20 @@ const ParameterSchema& DustFieldBlock::schema() {
         .symbol("Sc")
         .above(0)
         .optional();
+    s.boolean(&DustFieldBlock::scavenging, "scavenging",
+              "Whether grains catch the dust that they meet on their way: all that hits them stays "
+              "on them.")
+        .optional();
+    s.boolean(&DustFieldBlock::resuspension, "resuspension",
+              "Whether the wind takes dust off walls and bodies again where its shear is above the "
+              "threshold.")
+        .optional();
+    sdk::declare_wind_erosion(s);
+    s.text(&DustFieldBlock::deposition, "deposition",
+           "What brings dust to walls and bodies: settling alone, or turbulence, too, as to smooth "
+           "walls after Lai and Nazaroff.")
+        .one_of({"settling", "lai_nazaroff"})
+        .optional();
     return s.build();
   }();
   return made;

@@ -6,6 +6,7 @@
 
 #include "dust/sdk/parameter_schema.hpp"
 #include "dust/sdk/vec3.hpp"
+#include "dust/sdk/wind_erosion.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -124,10 +125,13 @@ struct AuditBlock {
 };
 
 /// Dust as concentrations on the fluid's grid; clouds and sources are read apart.
-struct DustFieldBlock {
+struct DustFieldBlock : sdk::WindErosion {
   std::vector<double> classes;
   std::string material;
   double schmidt_number = DustFieldSpec{}.schmidt_number;
+  bool scavenging = DustFieldSpec{}.scavenging;
+  bool resuspension = false;
+  std::string deposition = "settling";
   static const sdk::ParameterSchema& schema();
 };
 

@@ -31,11 +31,20 @@ struct DustSourceSpec {
   double end = std::numeric_limits<double>::infinity();  ///< [s]
 };
 
+/// Dust that the wind takes off walls and bodies again; sdk::WindErosion.
+struct ResuspensionSpec {
+  double emission_coefficient = 0.0;  ///< [1/m]
+  double cohesion = 0.0;              ///< [kg/s2]
+};
+
 /// Dust as concentrations on the fluid's grid.
 struct DustFieldSpec {
   std::vector<double> diameters;  ///< [m] ascending, one class each
   double density = 0.0;           ///< [kg/m3] of the dust itself
   double schmidt_number = 0.7;    ///< [-] eddy viscosity over turbulent diffusivity
+  bool scavenging = false;        ///< grains catch the dust that they meet
+  std::optional<ResuspensionSpec> resuspension;
+  bool has_smooth_walls = false;  ///< turbulence brings dust to them, not settling alone
   std::vector<DustCloudSpec> clouds;
   std::vector<DustSourceSpec> sources;
   Mark where;

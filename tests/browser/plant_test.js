@@ -47,6 +47,12 @@ assert.ok(Math.abs(sums.free - 0.004) < 1e-15);
 assert.strictEqual(sums.causes[0].name, 'grains');  // 2 g of two classes; the spoon's 2 g are of one
 assert.ok(Math.abs(sums.airborne + sums.settled + sums.out + sums.drawn - sums.free) < 1e-15);
 assert.strictEqual(sums.error, 2e-16);
+assert.strictEqual(sums.caught, 0);  // of a run without scavenging
+const {classes: {x, y}} = dusty.dust_field;
+const raining = {...dusty, dust_field: {classes: {x: {...x, airborne_kg: 0.0002, caught_by_grains_kg: 0.0003}, y}}};
+assert.strictEqual(Dust.load_dust({summary: raining}).caught, 0.0003);
+assert.ok(Dust.load_dust_answers({summary: raining, release_map: null, extraction: null}).map(text).some((a) => a.includes('caught by grains|7.5\u202f%')));
+assert.ok(!Dust.load_dust_answers({summary: dusty, release_map: null, extraction: null}).map(text).some((a) => a.includes('caught by grains')));
 const answers = Dust.load_dust_answers({summary: dusty, release_map: null, extraction: null}).map(text);
 assert.ok(answers[0].startsWith('How much dust?|4\u202fg/t|4\u202fg/h set free'), answers[0]);
 assert.ok(answers[0].includes('1\u202fg/t get out with the air (1\u202fg/h)'), answers[0]);

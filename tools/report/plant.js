@@ -17,7 +17,7 @@ Dust.load_dust = ({summary}) => {
   const settled = named(field, (c) => c.deposited_kg), sides = named(field, (c) => c.left_kg), hoods = named(field, (c) => c.hoods_kg);
   const all = (list) => list.reduce((sum, part) => sum + part.kg, 0);
   return {fed: total(loads, (c) => c.entered_kg), free: total(loads, (c) => c.set_free_kg), causes: named(loads, (c) => c.set_free_by),
-    airborne: total(field, (c) => c.airborne_kg), settled: all(settled), sides, hoods, out: all(sides), drawn: all(hoods),
+    airborne: total(field, (c) => c.airborne_kg), settled: all(settled), caught: total(field, (c) => c.caught_by_grains_kg), sides, hoods, out: all(sides), drawn: all(hoods),
     error: Math.max(...loads.map((c) => Math.abs(c.balance_error || 0)), ...field.map((c) => Math.abs(c.balance_error || 0)))};
 };
 
@@ -29,7 +29,7 @@ Dust.hood_text = ({setting}, name) => {
   return Dust.words(name) + (flow > 0 ? ` (${Dust.quantity(flow, -1, 'm3/s')})` : '');
 };
 
-// The same in the steady stream, as rates: {free, causes, sides, hoods, out, drawn, settled, airborne, observed}, each part {name, rate, load}, figures
+// The same in the steady stream, as rates: {free, causes, sides, hoods, out, drawn, settled, caught, airborne, observed}, each part {name, rate, load}, figures
 // in kg/h and g/t with their errors. Where a run tells no rates, means over the whole of it, without errors, and `observed` is 0.
 Dust.dust_stream = (data) => {
   const dust = Dust.load_dust(data), {summary} = data, figures = summary.dust_rates || {};
@@ -40,14 +40,14 @@ Dust.dust_stream = (data) => {
     const part = ({name, kg}) => ({name, rate: figure(hours > 0 ? kg / hours : NaN), load: figure(load > 0 ? 1e6 * kg / load : NaN)});
     const whole = (kg) => part({name: 'all', kg});
     return {observed, free: whole(dust.free), causes: dust.causes.map(part), sides: dust.sides.map(part), hoods: dust.hoods.map(part), out: whole(dust.out), drawn: whole(dust.drawn),
-      settled: whole(dust.settled), airborne: whole(dust.airborne)};
+      settled: whole(dust.settled), caught: whole(dust.caught), airborne: whole(dust.airborne)};
   }
   const none = {value: 0, uncertainty: null}, part = (way, name) => ({name, rate: figures[`${way}/${name}/rate`] || none, load: figures[`${way}/${name}/per_load`] || none});
   const names = (way) => Object.keys(figures).map((key) => key.split('/')).filter(([w, name, last]) => w === way && name !== 'all' && last === 'rate').map(([, name]) => name);
   const parts = (way) => names(way).map((name) => part(way, name)).sort((a, b) => b.rate.value - a.rate.value);
-  const [free, out, drawn, settled] = ['set_free', 'left', 'drawn_out', 'deposited'].map((way) => part(way, 'all'));
-  const rest = (of) => ({value: free[of].value - out[of].value - drawn[of].value - settled[of].value, uncertainty: null});
-  return {observed, free, causes: parts('set_free'), sides: parts('left'), hoods: parts('drawn_out'), out, drawn, settled, airborne: {name: 'airborne', rate: rest('rate'), load: rest('load')}};
+  const [free, out, drawn, settled, caught] = ['set_free', 'left', 'drawn_out', 'deposited', 'caught'].map((way) => part(way, 'all'));
+  const rest = (of) => ({value: free[of].value - out[of].value - drawn[of].value - settled[of].value - caught[of].value, uncertainty: null});
+  return {observed, free, causes: parts('set_free'), sides: parts('left'), hoods: parts('drawn_out'), out, drawn, settled, caught, airborne: {name: 'airborne', rate: rest('rate'), load: rest('load')}};
 };
 Dust.dust_surety = (data, stream) => {
   const dust = Dust.load_dust(data), {p} = Dust, end = data.summary.simulated_s, {uncertainty, no_error} = stream.free.rate;
@@ -78,7 +78,7 @@ Dust.load_dust_answers = (data) => {
     counts(stream.out) && p({}, `${said(stream.out.load, 'g/t')} get out with the air (${said(stream.out.rate, 'kg/h')})`));
   const from_where = answer('From where?', causes.length ? Dust.sentence(causes[0].title) : 'nowhere yet', causes.length ? ranks(causes.slice(0, 4)) : null,
     data.release_map ? p({}, el('a', {href: '#liberation'}, 'Where it comes off')) : null);
-  const fates = [{...stream.airborne, title: 'still in the air'}, {...stream.settled, title: 'settled'}, ...stream.hoods.map((h) => ({...h, title: `drawn out at ${Dust.words(h.name)}`})),
+  const fates = [{...stream.airborne, title: 'still in the air'}, {...stream.settled, title: 'settled'}, {...stream.caught, title: 'caught by grains'}, ...stream.hoods.map((h) => ({...h, title: `drawn out at ${Dust.words(h.name)}`})),
     ...stream.sides.map((s) => ({...s, title: `out at ${Dust.words(s.name)}`}))].filter(counts);
   // What has left the air's domain tells of the extraction only once it is steady; the page says both.
   const left = stream.out.rate.value + stream.drawn.rate.value, catches = left > 1e-2 * free.rate.value ? stream.drawn.rate.value / left : null;

@@ -56,8 +56,21 @@ void DustLoads::set_free(const ParticleStore& particles, std::size_t row, std::s
   load = rest;
 }
 
+void DustLoads::take_up(const ParticleStore& particles, std::size_t row, std::size_t n,
+                        double mass) {
+  if (caught_.empty()) return;
+  const auto& brought = shares_[static_cast<std::size_t>(particles.material(row))];
+  if (std::none_of(brought.begin(), brought.end(), [](double share) { return share > 0.0; }))
+    return;
+  double& load = load_[classes() * row + n];
+  const double more = load + mass;
+  caught_[n] += particles.weight(row) * (more - load);
+  load = more;
+}
+
 double DustLoads::Balance::error() const {
-  return entered > 0.0 ? (entered - on_grains - set_free - left - drawn_out) / entered : 0.0;
+  const double come = entered + caught;
+  return come > 0.0 ? (come - on_grains - set_free - left - drawn_out) / come : 0.0;
 }
 
 DustLoads::Balance DustLoads::balance(const ParticleStore& particles, std::size_t n) const {
@@ -65,8 +78,8 @@ DustLoads::Balance DustLoads::balance(const ParticleStore& particles, std::size_
   for (std::size_t row = 0; row < particles.size(); ++row) {
     on_grains += particles.weight(row) * on(row)[n];
   }
-  return {entered_[n].value(), on_grains.value(), set_free_[n].value(), left_[n].value(),
-          drawn_out_[n].value()};
+  return {entered_[n].value(), on_grains.value(),     set_free_[n].value(),
+          left_[n].value(),    drawn_out_[n].value(), caught_.empty() ? 0.0 : caught_[n].value()};
 }
 
 void DustLoads::transfer_from(const DustLoads& other, const ParticleStore& particles,
@@ -78,6 +91,10 @@ void DustLoads::transfer_from(const DustLoads& other, const ParticleStore& parti
     set_free_ = other.set_free_;
     left_ = other.left_;
     drawn_out_ = other.drawn_out_;
+    for (std::size_t n = 0; n < other.caught_.size(); ++n) {
+      // Of particles that catch nothing any more it is what they came with.
+      (caught_.empty() ? entered_[n] : caught_[n]) += other.caught_[n].value();
+    }
     return;
   }
   for (std::size_t row = 0; row < particles.size(); ++row) {
@@ -97,6 +114,7 @@ void DustLoads::save(sdk::ArchiveWriter& archive) const {
   save_sums(archive, "dust_set_free", set_free_);
   save_sums(archive, "dust_left", left_);
   save_sums(archive, "dust_drawn_out", drawn_out_);
+  if (!caught_.empty()) save_sums(archive, "dust_caught", caught_);
 }
 
 void DustLoads::load(sdk::ArchiveReader& archive) {
@@ -106,6 +124,7 @@ void DustLoads::load(sdk::ArchiveReader& archive) {
   load_sums(archive, "dust_set_free", set_free_);
   load_sums(archive, "dust_left", left_);
   load_sums(archive, "dust_drawn_out", drawn_out_);
+  if (!caught_.empty()) load_sums(archive, "dust_caught", caught_);
 }
 
 }  // namespace dust::particles

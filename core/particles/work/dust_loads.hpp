@@ -13,7 +13,8 @@
 namespace dust::particles {
 
 /// The dust that particles bring along, by class: how much each carries, row by row, and the books
-/// of it: entered = on the particles + set free + left + drawn out with particles, to rounding.
+/// of it: entered + caught = on the particles + set free + left + drawn out with particles, to
+/// rounding.
 class DustLoads {
  public:
   DustLoads() = default;
@@ -32,12 +33,18 @@ class DustLoads {
   void leave(const ParticleStore& particles, std::size_t row, bool is_drawn_out);
   /// `mass` [kg] of a class comes off a real particle.
   void set_free(const ParticleStore& particles, std::size_t row, std::size_t n, double mass);
+  /// Particles may catch dust out of the air from now on; before the first load() or save().
+  void let_catch() { caught_.resize(classes()); }
+  /// A real particle catches `mass` [kg] of a class. One whose material brings no dust along keeps
+  /// it for good and carries nothing: what comes off is asked of what a particle came with.
+  void take_up(const ParticleStore& particles, std::size_t row, std::size_t n, double mass);
   void reorder(std::span<const std::int32_t> order);
 
   /// [kg] since the start.
   struct Balance {
     double entered = 0.0, on_grains = 0.0, set_free = 0.0, left = 0.0, drawn_out = 0.0;
-    /// (entered - all others) / entered; 0 where nothing was.
+    double caught = 0.0;
+    /// (entered + caught - all others) / (entered + caught); 0 where nothing was.
     [[nodiscard]] double error() const;
   };
   [[nodiscard]] Balance balance(const ParticleStore& particles, std::size_t n) const;
@@ -53,6 +60,7 @@ class DustLoads {
   std::vector<std::vector<double>> shares_;
   std::vector<double> load_;  ///< [kg] by row and class
   std::vector<base::ExactSum> entered_, set_free_, left_, drawn_out_;
+  std::vector<base::ExactSum> caught_;  ///< empty: they catch nothing
 };
 
 }  // namespace dust::particles

@@ -396,12 +396,18 @@ void Branch::transfer_fluid(const Simulation::Owners& to) {
 
 void Branch::transfer_dust(const Simulation::Owners& to) {
   const io::StoredState& state = origin_.state();
-  static constexpr std::array<std::string_view, 3> k_free_of_field = {
-      "dust.field.clouds", "dust.field.sources", "dust.field.schmidt_number"};
-  if (!is_same_grid() || !state.has("dust", "volume") || !same("dust.field", k_free_of_field)) {
+  static constexpr std::array<std::string_view, 6> k_free_of_field = {
+      "dust.field.clouds",     "dust.field.sources",
+      "dust.field.cohesion",   "dust.field.emission_coefficient",
+      "dust.field.deposition", "dust.field.schmidt_number"};
+  // Layers are kept by the number of the body.
+  const bool keeps_layers = now_.dust.field && now_.dust.field->resuspension;
+  if (!is_same_grid() || !state.has("dust", "volume") || !same("dust.field", k_free_of_field) ||
+      (keeps_layers && !same("bodies"))) {
     warn(
-        "dust.field has another grid or other classes, or there was none: its air starts as "
-        "the scenario says");
+        "dust.field has another grid or other classes, other bodies that dust lies on, or there "
+        "was "
+        "none: its air starts as the scenario says");
     to.dust->start();
     return;
   }

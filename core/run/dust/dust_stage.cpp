@@ -32,6 +32,11 @@ DustStage::DustStage(const scenario::Setup& setup, const scenario::DustFieldSpec
       weight_(fluid.grid(), setup.gravity, spec.density, setup.fluid->density),
       table_(fluid.grid(), spec.diameters, spec.density) {
   for (const double d : spec.diameters) names_.push_back(sdk::name_of(d * 1e6) + "_um");
+  if (spec.scavenging) scavenging_.emplace(setup, fluid.grid().size);
+  if (spec.resuspension || spec.has_smooth_walls) {
+    wall_shear_.emplace(fluid.grid(), setup.fluid->viscosity / setup.fluid->density);
+  }
+  if (spec.has_smooth_walls) flow_.smooth_wall_viscosity = wall_shear_->viscosity();
   mark_hoods();
 }
 
@@ -61,6 +66,7 @@ void DustStage::find_walls(double time) {
   const fluid::CellField& share = fluid_.solver().open_fraction();
   const fluid::BodyField bodies(grid, models_.bodies, time, fluid::BodyField::Which::all);
   pieces_.clear();
+  if (wall_shear_) wall_shear_->clear();
   for (int k = 0; k < grid.count[2]; ++k) {
     for (int j = 0; j < grid.count[1]; ++j) {
       for (int i = 0; i < grid.count[0]; ++i) {
@@ -82,12 +88,16 @@ void DustStage::find_walls(double time) {
             normal[axis] = (is_high != 0 ? high : -low) / grid.spacing[axis];
             pieces_.push_back(
                 {static_cast<std::int32_t>(o), static_cast<std::int32_t>(side), normal});
+            if (wall_shear_) wall_shear_->add_side({i, j, k}, axis, is_high != 0 ? -1.0 : 1.0);
           }
         }
         if (!(norm(area) * grid.spacing.x > 1e-9)) continue;
         const auto hit = bodies.nearest(grid.centre(i, j, k));
         if (hit.body < 0) continue;
         pieces_.push_back({static_cast<std::int32_t>(o), 6 + hit.body, area});
+        if (!wall_shear_) continue;
+        wall_shear_->add_body(grid.centre(i, j, k), hit,
+                              models_.bodies[static_cast<std::size_t>(hit.body)], time);
       }
     }
   }
@@ -169,6 +179,7 @@ void DustStage::advance(double time) {
   for (airborne::WallPiece& piece : flow_.walls) {
     piece.area = fluid_.void_fraction()[static_cast<std::size_t>(piece.cell)] * piece.area;
   }
+  if (wall_shear_) wall_shear_->find(fluid_.solver().velocity(), flow_.friction_velocity);
   if (const fluid::CellField* eddies = fluid_.solver().eddy_viscosity()) {
     flow_.eddy_diffusivity.resize(grid.size);
     for (std::size_t n = 0; n < grid.size; ++n) {
@@ -193,6 +204,26 @@ std::array<int, 3> DustStage::cell_at(sdk::Vec3 place) const {
 double DustStage::void_fraction_at(sdk::Vec3 place) const {
   const auto [i, j, k] = cell_at(place);
   return fluid_.void_fraction()[static_cast<std::size_t>(fluid_.grid().index(i, j, k))];
+}
+
+void DustStage::scavenge(particles::Dem& particles) {
+  scavenging_->advance(setup_.time.fluid_step, *this, particles);
+}
+
+sdk::Vec3 DustStage::gas_velocity(std::int32_t cell) const {
+  const fluid::FaceField& u = fluid_.solver().velocity();
+  const auto low = static_cast<std::size_t>(cell);
+  sdk::Vec3 mean;
+  for (int d = 0; d < 3; ++d) {
+    const std::vector<double>& faces = u.component[static_cast<std::size_t>(d)];
+    const std::ptrdiff_t high = cell + fluid_.grid().stride[static_cast<std::size_t>(d)];
+    mean[d] = 0.5 * (faces[low] + faces[at(high)]);
+  }
+  return mean;
+}
+
+double DustStage::gas_volume(std::int32_t cell) const {
+  return flow_.volume_after[static_cast<std::size_t>(cell)] * fluid_.grid().cell_volume();
 }
 
 std::int32_t DustStage::cell_with_gas(sdk::Vec3 place) const {

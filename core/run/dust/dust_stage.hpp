@@ -7,11 +7,14 @@
 #include "particles/openings/opening.hpp"
 #include "run/archive_parts.hpp"
 #include "run/dust/dust_table.hpp"
+#include "run/dust/scavenging.hpp"
+#include "run/dust/wall_shear.hpp"
 #include "run/fluid_stage.hpp"
 #include "run/models.hpp"
 #include "setup/setup.hpp"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,12 +31,24 @@ class DustStage {
   void start();
   /// Goes with the fluid through the step from `time` [s] on, after the fluid.
   void advance(double time);
+  /// Do grains catch dust?
+  [[nodiscard]] bool has_scavenging() const { return scavenging_.has_value(); }
+  /// Grains catch dust, where they are after a fluid step.
+  void scavenge(particles::Dem& particles);
   /// Bodies were taken away.
   void bodies_changed() { must_find_walls_ = true; }
   /// The cell at a place that a grain takes, or the nearest of those around it with gas; -1: none.
   [[nodiscard]] std::int32_t cell_with_gas(sdk::Vec3 place) const;
   /// [-] of the cell at a place that a grain takes.
   [[nodiscard]] double void_fraction_at(sdk::Vec3 place) const;
+  /// [m/s] mean over the faces of a cell.
+  [[nodiscard]] sdk::Vec3 gas_velocity(std::int32_t cell) const;
+  /// [m3] of gas in a cell.
+  [[nodiscard]] double gas_volume(std::int32_t cell) const;
+  /// See airborne::DustField.
+  double catch_in(std::size_t n, std::int32_t cell, double share) {
+    return field_.catch_in(n, cell, share);
+  }
   /// Dust set free in a cell at once [kg]; of the class `n`.
   void release(std::size_t n, std::int32_t cell, double mass) { field_.release(n, cell, mass); }
   [[nodiscard]] const airborne::DustField& field() const { return field_; }
@@ -82,6 +97,8 @@ class DustStage {
   airborne::DustField field_;
   airborne::DustWeight weight_;
   DustTable table_;
+  std::optional<Scavenging> scavenging_;
+  std::optional<WallShear> wall_shear_;  ///< of pieces_; where somebody asks
   std::vector<std::string> names_;
 };
 

@@ -70,6 +70,10 @@ void visit_dust_field(const Simulation& s, const ColumnVisitor& visit) {
     visit(of + "/deposited [kg]", sum(balance.surfaces), RowValue::total, k_mass);
     visit(of + "/left [kg]", sum(balance.left), RowValue::total, k_mass);
     visit(of + "/hoods [kg]", sum(balance.outlets), RowValue::total, k_mass);
+    if (dust->field().has_resuspension()) {
+      visit(of + "/resuspended [kg]", balance.resuspended, RowValue::total, k_mass);
+    }
+    if (dust->has_scavenging()) visit(of + "/caught [kg]", balance.caught, RowValue::total, k_mass);
   }
 }
 

@@ -134,6 +134,12 @@ Json dust_field_json(const Simulation& s) {
                                        {"left_kg", left},
                                        {"hoods_kg", hoods},
                                        {"balance_error", balance.error()}};
+    if (stage.field().has_scavenging()) {
+      classes[stage.class_names()[n]]["caught_by_grains_kg"] = balance.caught;
+    }
+    if (stage.field().has_resuspension()) {
+      classes[stage.class_names()[n]]["resuspended_kg"] = balance.resuspended;
+    }
   }
   return {{"classes", classes}, {"sub_steps", stage.field().sub_steps()}};
 }
@@ -160,6 +166,7 @@ Json dust_on_grains_json(const Simulation& s) {
         {"set_free_kg", balance.set_free},     {"set_free_by", causes},
         {"left_with_grains_kg", balance.left}, {"drawn_out_with_grains_kg", balance.drawn_out},
         {"balance_error", balance.error()}};
+    if (s.dust_stage()->has_scavenging()) j[classes[n]]["caught_kg"] = balance.caught;
   }
   return {{"classes", j}, {"kept_back_kg", stage.kept_back()}};
 }

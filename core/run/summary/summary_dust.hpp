@@ -27,13 +27,14 @@ Drawn drawn_by(const Simulation& s, std::size_t opening);
 nlohmann::ordered_json hoods_json(const Simulation& s);
 
 /// What became of the airborne dust: by class {"released_kg", "airborne_kg", "deposited_kg" by
-/// surface, "left_kg" by side, "hoods_kg" by hood, "balance_error"} and "sub_steps".
+/// surface, "left_kg" by side, "hoods_kg" by hood, "balance_error", with scavenging
+/// "caught_by_grains_kg", with resuspension "resuspended_kg"} and "sub_steps".
 nlohmann::ordered_json dust_field_json(const Simulation& s);
 
 /// What grains carry, what of it came off and by what, for a run with loads: by class
 /// {"entered_kg", "on_grains_kg", "set_free_kg", "set_free_by" cause {"kg", "kg_per_h",
-/// "g_per_tonne"}, "left_with_grains_kg", "drawn_out_with_grains_kg", "balance_error"}, and
-/// "kept_back_kg".
+/// "g_per_tonne"}, "left_with_grains_kg", "drawn_out_with_grains_kg", "balance_error", with
+/// scavenging "caught_kg"}, and "kept_back_kg".
 nlohmann::ordered_json dust_on_grains_json(const Simulation& s);
 
 /// A table for the report: what came off grains, by cause and class; nothing without loads.

@@ -5,14 +5,19 @@
 #include "scenario/text/units.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
+#include <string_view>
 
 namespace dust::scenario {
 namespace {
 
 /// Dust finer than this share of the smallest grain moves between grains as if they were walls.
 constexpr double k_largest_share = 0.1;
+/// Of what walls and grains do to dust beyond settling.
+constexpr std::array<std::string_view, 5> k_unasked = {
+    "scavenging", "resuspension", "emission_coefficient", "cohesion", "deposition"};
 
 Node read_clouds(Reading& reading, MapReader& field, DustFieldSpec& spec) {
   Node written = Node::make_map();
@@ -62,6 +67,14 @@ Node read_dust_sources(Reading& reading, MapReader& field, DustFieldSpec& spec) 
   return written;
 }
 
+/// Sinks and sources that a scenario does not name are not written out either.
+void leave_out_unasked(const Node& given, Node& written) {
+  std::erase_if(written.entries, [&](const Entry& e) {
+    return std::find(k_unasked.begin(), k_unasked.end(), e.key) != k_unasked.end() &&
+           given.find(e.key) == nullptr;
+  });
+}
+
 void check_dust_field(Reading& reading, const Node& node, const DustFieldSpec& spec) {
   if (spec.diameters.empty()) {
     reading.error(mark_of(node, "classes"),
@@ -95,6 +108,29 @@ void check_dust_field(Reading& reading, const Node& node, const DustFieldSpec& s
   }
 }
 
+/// What grains and walls do to dust beyond settling, where it cannot be.
+void check_exchange(Reading& reading, const Node& node, const DustFieldSpec& spec) {
+  if (spec.scavenging && reading.emitters.empty()) {
+    reading.error(
+        mark_of(node, "scavenging"),
+        "dust.field.scavenging: there are no grains that could catch dust: give emitters, "
+        "or take scavenging out");
+  }
+  if (spec.resuspension && !(norm(reading.setup.gravity) > 0.0)) {
+    reading.error(mark_of(node, "resuspension"),
+                  "dust.field.resuspension: its threshold is not known without gravity; give "
+                  "gravity, or take resuspension out");
+  }
+  if (spec.resuspension) return;
+  for (const char* key : {"emission_coefficient", "cohesion"}) {
+    if (node.find(key) == nullptr) continue;
+    reading.error(mark_of(node, key), std::string("dust.field.") + key +
+                                          ": nothing takes dust off walls: give resuspension: "
+                                          "true, or take " +
+                                          key + " out");
+  }
+}
+
 }  // namespace
 
 void read_dust_field(Reading& reading, MapReader& dust, Node& written) {
@@ -113,8 +149,12 @@ void read_dust_field(Reading& reading, MapReader& dust, Node& written) {
     spec.density = reading.setup.materials[static_cast<std::size_t>(material)].properties.density;
   }
   spec.schmidt_number = read.schmidt_number;
+  spec.scavenging = read.scavenging;
+  if (read.resuspension) spec.resuspension = {read.emission_coefficient, read.cohesion};
+  spec.has_smooth_walls = read.deposition == "lai_nazaroff";
   spec.where = entry->where;
   Node map = written_block<DustFieldBlock>(values);
+  leave_out_unasked(entry->value, map);
   add(map, "clouds", read_clouds(reading, reader, spec));
   add(map, "sources", read_dust_sources(reading, reader, spec));
   reader.finish();
@@ -128,6 +168,7 @@ void read_dust_field(Reading& reading, MapReader& dust, Node& written) {
         "none, or take dust.field out");
   }
   if (reader.is_good() && is_good) check_dust_field(reading, entry->value, spec);
+  check_exchange(reading, entry->value, spec);
   if (reading.has_fluid && spec.density > 0.0) reading.dust.field = std::move(spec);
 }
 

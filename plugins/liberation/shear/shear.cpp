@@ -14,25 +14,12 @@ namespace sdk = dust::sdk;
 
 class Shear final : public sdk::LiberationLaw {
  public:
-  struct Parameters {
-    double emission_coefficient = 1e-3;
-    double cohesion = 3e-4;
+  struct Parameters : sdk::WindErosion {
     double held_moisture = 0.005;
   };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
-    s.number(&Parameters::emission_coefficient, "emission_coefficient",
-             sdk::dimension::none / sdk::dimension::length,
-             "Dust that leaves a surface per area over what the wind drives along it per width: "
-             "1e-4 to 0.1 per metre for soils.")
-        .symbol("alpha")
-        .above(0)
-        .optional();
-    s.number(&Parameters::cohesion, "cohesion", sdk::dimension::surface_energy,
-             "Of dust to its grain in the threshold: 1.65e-4 to 5e-4 kg/s2 for dry soils.")
-        .symbol("gamma")
-        .at_least(0)
-        .optional();
+    sdk::declare_wind_erosion(s);
     s.number(&Parameters::held_moisture, "held_moisture", sdk::dimension::none,
              "Moisture that pores and clay hold without binding the dust.")
         .symbol("w'")

@@ -127,6 +127,52 @@ TEST_CASE("a dust field that cannot be shall be refused with a remedy") {
                 all);
 }
 
+TEST_CASE("resuspension and deposition shall be read, and refused where they say nothing") {
+  const Folder folder;
+  const auto field = [](const std::string& more) {
+    return changed(k_field, "material: sand,", "material: sand, " + more + ",");
+  };
+  const auto first = read(folder.write(
+      "s.yaml", with(field("resuspension: true, cohesion: 2e-4 N/m, deposition: lai_nazaroff"))));
+  REQUIRE(first.dust.field);
+  REQUIRE(first.dust.field->resuspension);
+  CHECK(first.dust.field->resuspension->cohesion == 2e-4);
+  CHECK(first.dust.field->resuspension->emission_coefficient == 1e-3);
+  CHECK(first.dust.field->has_smooth_walls);
+  CHECK(read(folder.write("t.yaml", first.resolved_yaml)).resolved_yaml == first.resolved_yaml);
+  const std::string text =
+      changed(with(field("resuspension: true")), "gravity: [0, 0, -9.81]", "gravity: [0, 0, 0]");
+  const std::string all = joined(problems(folder.write("v.yaml", text)));
+  CHECK_MESSAGE(all.find("dust.field.resuspension: its threshold is not known without gravity") !=
+                    std::string::npos,
+                all);
+  check(field("cohesion: 2e-4 N/m"),
+        "dust.field.cohesion: nothing takes dust off walls: give resuspension: true, or take "
+        "cohesion out");
+  check(field("deposition: turbulent"), "deposition");
+}
+
+TEST_CASE("scavenging shall be read, and refused where no grain could catch dust") {
+  const Folder folder;
+  const std::string block =
+      changed(k_field, "material: sand,", "material: sand, scavenging: true,");
+  const auto first = read(folder.write("s.yaml", with(block)));
+  REQUIRE(first.dust.field);
+  CHECK(first.dust.field->scavenging);
+  CHECK(read(folder.write("t.yaml", first.resolved_yaml)).dust.field->scavenging);
+  // Where it is not asked for, nothing is written of it.
+  const auto without = read(folder.write("u.yaml", with(k_field)));
+  CHECK_FALSE(without.dust.field->scavenging);
+  CHECK(without.resolved_yaml.find("scavenging") == std::string::npos);
+  std::string text = with(block);
+  const std::size_t emitters = text.find("emitters:");
+  text = text.substr(0, emitters) + text.substr(text.find("fluid:"));
+  const std::string all = joined(problems(folder.write("v.yaml", text)));
+  CHECK_MESSAGE(all.find("dust.field.scavenging: there are no grains that could catch dust: give "
+                         "emitters, or take scavenging out") != std::string::npos,
+                all);
+}
+
 namespace {
 
 const std::string k_liberation =
