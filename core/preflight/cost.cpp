@@ -23,8 +23,10 @@ constexpr double k_disk_base = 1e6;              // report, series, scenario, su
 constexpr double k_disk_fluid = 2.5e6;
 constexpr double k_frame_bytes_per_grain = 52.0;  // packed
 constexpr double k_frame_bytes_per_cell = 22.0;
+constexpr double k_frame_bytes_per_dust_cell = 8.0;  // of each class
 constexpr double k_checkpoint_bytes_per_grain = 600.0;
 constexpr double k_checkpoint_bytes_per_cell = 120.0;
+constexpr double k_checkpoint_bytes_per_dust_cell = 25.0;
 
 // [s] A step of a grain: in a bed it has contacts all the time; before a filling has settled it
 // meets others now and then; in a gas it flies from one collision to the next. In a stream its
@@ -251,13 +253,16 @@ double add_records(const Setup& setup, const GrainTotals& totals, Derived& deriv
       steps, steps * (k_rest + mean * k_rest_per_grain + cells * k_rest_per_cell)};
   derived.cost.memory_bytes =
       k_bytes_base + k_bytes_per_grain * totals.most + k_bytes_per_cell * cells;
+  const double dust_cells = derived.dust_classes * cells;
   const double frame_bytes =
-      frames * (k_frame_bytes_per_grain * mean + k_frame_bytes_per_cell * cells);
+      frames * (k_frame_bytes_per_grain * mean + k_frame_bytes_per_cell * cells +
+                k_frame_bytes_per_dust_cell * dust_cells);
   derived.cost.disk_bytes = k_disk_base + frame_bytes + k_checkpoint_bytes_per_grain * totals.most +
-                            k_checkpoint_bytes_per_cell * cells;
+                            k_checkpoint_bytes_per_cell * cells +
+                            k_checkpoint_bytes_per_dust_cell * dust_cells;
   if (!(cells > 0.0)) return frame_bytes;
-  derived.cost.memory_bytes += k_bytes_fluid + k_bytes_per_coupled_grain * totals.most +
-                               k_bytes_per_dust_cell * derived.dust_classes * cells;
+  derived.cost.memory_bytes +=
+      k_bytes_fluid + k_bytes_per_coupled_grain * totals.most + k_bytes_per_dust_cell * dust_cells;
   derived.cost.disk_bytes += k_disk_fluid;
   return frame_bytes;
 }

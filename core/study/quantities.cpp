@@ -96,10 +96,13 @@ constexpr Named k_of_outflow[] = {
     {"inhalable_kg", "kg"},
     {"thoracic_kg", "kg"},
     {"respirable_kg", "kg"},
-    {"inhalable_mg_per_kg", "1"},
-    {"thoracic_mg_per_kg", "1"},
-    {"respirable_mg_per_kg", "1"},
+    {"inhalable_mg_per_kg", "mg/kg"},
+    {"thoracic_mg_per_kg", "mg/kg"},
+    {"respirable_mg_per_kg", "mg/kg"},
 };
+
+/// Of each way of the dust in the steady stream (run::DustRates).
+constexpr Named k_of_rate[] = {{"rate", "kg/h"}, {"per_load", "g/t"}};
 
 /// Hoods, and sides that are open to grains.
 std::vector<std::string> ways_out(const scenario::Setup& setup, const scenario::DustSetup& dust) {
@@ -114,6 +117,27 @@ std::vector<std::string> ways_out(const scenario::Setup& setup, const scenario::
     const bool is_open = setup.domain.sides[side].grains == scenario::GrainSide::open;
     if (has_hood || is_open) ways.emplace_back(scenario::k_side_names[side]);
   }
+  return ways;
+}
+
+/// With errors; by way all of it, and what goes out by each hood and each side open to grains.
+std::vector<std::string> steady_ways(const scenario::Setup& setup,
+                                     const scenario::DustSetup& dust) {
+  std::vector<std::string> ways{"left.all", "deposited.all"};
+  if (dust.liberation) ways.emplace_back("set_free.all");
+  for (const scenario::BodySpec& body : setup.bodies) {
+    if (body.suction && body.suction->flow > 0.0) ways.push_back("drawn_out." + body.name);
+  }
+  for (const auto& opening : dust.openings) {
+    ways.push_back(std::string("drawn_out.") + scenario::k_side_names[opening.side]);
+  }
+  for (std::size_t side = 0; side < scenario::k_side_names.size(); ++side) {
+    if (setup.domain.sides[side].grains != scenario::GrainSide::open) continue;
+    ways.push_back(std::string("left.") + scenario::k_side_names[side]);
+  }
+  const bool has_hoods = std::any_of(ways.begin(), ways.end(),
+                                     [](const auto& way) { return way.starts_with("drawn_out."); });
+  if (has_hoods) ways.emplace_back("drawn_out.all");
   return ways;
 }
 
@@ -182,6 +206,8 @@ std::vector<Quantity> quantities_of(const scenario::Setup& setup, const scenario
   if (dust.field && setup.fluid) {
     for (const std::string& way : ways_out(setup, dust))
       add(k_of_outflow, "dust_outflow." + way + ".");
+    for (const std::string& way : steady_ways(setup, dust))
+      add(k_of_rate, "dust_rates." + way + ".");
   }
 
   const std::vector<double> classes = diameters_of(setup, registry);
@@ -249,19 +275,26 @@ std::map<std::string, Figure> read_figures(const std::filesystem::path& summary)
     throw base::RunError(summary.string() + " cannot be read");
   }
   std::map<std::string, Figure> figures;
+  const auto take = [&](const std::string& prefix, const nlohmann::json& of) {
+    for (const auto& one : of.items()) {
+      const nlohmann::json& f = one.value();
+      if (!f.is_object() || !f.contains("value") || !f["value"].is_number()) continue;
+      Figure figure{f["value"].get<double>(), -1.0, f.value("unit", "")};
+      if (f.contains("uncertainty") && f["uncertainty"].is_number()) {
+        figure.error = f["uncertainty"].get<double>();
+      }
+      figures[prefix + dotted(one.key())] = figure;
+    }
+  };
   if (json.contains("sensors") && json["sensors"].is_object()) {
     for (const auto& sensor : json["sensors"].items()) {
-      for (const auto& one : sensor.value().items()) {
-        const nlohmann::json& f = one.value();
-        if (!f.is_object() || !f.contains("value") || !f["value"].is_number()) continue;
-        Figure figure{f["value"].get<double>(), -1.0, f.value("unit", "")};
-        if (f.contains("uncertainty") && f["uncertainty"].is_number()) {
-          figure.error = f["uncertainty"].get<double>();
-        }
-        figures["sensors." + sensor.key() + "." + dotted(one.key())] = figure;
-      }
+      take("sensors." + sensor.key() + ".", sensor.value());
     }
     json.erase("sensors");
+  }
+  if (json.contains("dust_rates")) {
+    take("dust_rates.", json["dust_rates"]);
+    json.erase("dust_rates");
   }
   collect(json, {}, figures);
   return figures;

@@ -57,6 +57,27 @@ const answers = Dust.load_dust_answers({summary: dusty, release_map: null, extra
 assert.ok(answers[0].startsWith('How much dust?|4\u202fg/t|4\u202fg/h set free'), answers[0]);
 assert.ok(answers[0].includes('1\u202fg/t get out with the air (1\u202fg/h)'), answers[0]);
 assert.ok(answers.at(-1).startsWith('Where to extract?|60\u202f% caught|'), answers.at(-1));  // 1.5 of 2.5 g
+assert.ok(answers[3].startsWith('How sure?|no error known|Means over the whole 3'), answers[3]);
+// With rates of the steady stream these are told, with their errors; the sums of the whole run are not.
+const rate = (value, uncertainty, more = {}) => ({value, unit: 'kg/h', uncertainty, ...more});
+const steady = {...dusty, dust_rates: {
+  observed: {value: 1800, unit: 's'},
+  'set_free/all/rate': rate(10, 0.5), 'set_free/all/per_load': rate(20, 1), 'set_free/grains/rate': rate(3, 0.1), 'set_free/spoon/rate': rate(7, 0.4),
+  'set_free/spoon/class/x/rate': rate(7, 0.4), 'left/all/rate': rate(2, null, {no_error: 'not steady'}), 'left/all/per_load': rate(4, null),
+  'left/left/rate': rate(2, null, {no_error: 'not steady'}), 'drawn_out/all/rate': rate(6, 0.3), 'drawn_out/top/rate': rate(6, 0.3), 'deposited/all/rate': rate(1, 0.1),
+}};
+// What grains catch in it is not in the air any more.
+const caught_rate = {...steady, dust_rates: {...steady.dust_rates, 'caught/all/rate': rate(0.5, 0.1)}};
+assert.ok(Math.abs(Dust.dust_stream({summary: caught_rate}).airborne.rate.value - 0.5) < 1e-12);
+assert.ok(Math.abs(Dust.dust_stream({summary: steady}).airborne.rate.value - 1) < 1e-12);
+const told = Dust.load_dust_answers({summary: steady, release_map: null, extraction: null}).map(text);
+assert.ok(told[0].startsWith('How much dust?|20.0\u00a0±\u00a01.0\u202fg/t|10.00\u00a0±\u00a00.50\u202fkg/h set free'), told[0]);
+assert.ok(told[0].includes('4\u202fg/t get out with the air (2\u202fkg/h)'), told[0]);
+assert.ok(told[1].startsWith('From where?|Spoon|spoon|70\u202f%||grains on grains|30'), told[1]);
+assert.ok(told[2].includes('still in the air|10\u202f%|'), told[2]);
+assert.ok(told[3].startsWith('How sure?|± one standard error|Means over the last 1'), told[3]);
+assert.ok(told[3].includes('Not steady yet: what goes out at left.'), told[3]);
+assert.ok(told[4].startsWith('Where to extract?|75\u202f% caught|'), told[4]);
 // The hood's flow, and places of low pressure to try.
 Dust.place_xyz = ({x, y, z}) => [x, y, z].join(' ');
 Dust.depth = (place) => place.depth.value + ' Pa';

@@ -193,6 +193,17 @@ TEST_CASE(
   CHECK(rising.err.find("'feed' falls short") != std::string::npos);
 }
 
+TEST_CASE("the load of a scenario written by engine new shall leave its feed free") {
+  const TemporaryFolder folder;
+  const auto file = folder / "mine.yaml";
+  REQUIRE(engine({"new", "transfer", "-o", file}).status == 0);
+  const auto run = engine({"run", file, "-o", folder / "out", "--quiet", "--set", "time.end=0.2 s",
+                           "--set", "fluid.cells=[30, 1, 16]"});
+  INFO(run.err);
+  CHECK(run.status == 0);
+  CHECK(run.err.find("falls short") == std::string::npos);
+}
+
 TEST_CASE("a scenario written by engine new shall be valid in any sizes, without a warning") {
   const TemporaryFolder folder;
   const std::vector<std::vector<std::string>> all = {

@@ -60,6 +60,31 @@ TEST_CASE("the quantities known before a run shall be those it tells") {
   }
 }
 
+TEST_CASE("rates of dust shall be quantities of a study, with their errors") {
+  registry::Registry registry;
+  registry.load({DUST_TEST_PLUGINS});
+  const TemporaryFolder folder;
+  const std::string file = DUST_SOURCE "/tests/scenario/dust_in_duct.yaml";
+  const auto run = test::engine({"run", file, "-o", folder / "out", "--quiet"});
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const auto figures = study::read_figures(folder / "out" / "summary.json");
+  const auto read = preflight::read_scenario(file, {}, registry);
+  std::size_t rates = 0;
+  for (const auto& q : study::quantities_of(read.setup, read.dust, registry)) {
+    if (!q.path.starts_with("dust_")) continue;
+    // Nothing is fed here: no tonne, no kg.
+    if (q.path.find("per_load") != std::string::npos) continue;
+    if (q.path.find("_per_kg") != std::string::npos || q.path.ends_with("g_per_tonne")) continue;
+    CHECK_MESSAGE(figures.contains(q.path), q.path);
+    if (q.path.ends_with(".rate")) ++rates;
+  }
+  // All that leaves, all that settles; both open sides.
+  CHECK(rates == 4);
+  CHECK(figures.at("dust_rates.left.right.rate").error >= 0.0);
+  CHECK(study::unit_factor("mg/kg", "g/kg").value() == doctest::Approx(1e-3));
+}
+
 TEST_CASE("units of quantities shall be converted where they measure the same") {
   CHECK(study::unit_factor("m", "mm").value() == doctest::Approx(1000.0));
   CHECK(study::unit_factor("deg", "deg").value() == 1.0);

@@ -44,10 +44,11 @@ Dust.sections.header = (data) => {
       const where = dust.spoken_of === 'openings' ? ['get out'] : ['is found at ', place(spoken[0])];
       return [Dust.strong(amount), ' of load ', ...where, share + '.'];
     }
-    const loaded = Dust.load_dust(data), load = (summary.mass_kg || {}).emitted;
-    if (loaded && load > 0) {
-      return [Dust.strong(`${Dust.quantity(1e6 * loaded.free / load, -1, 'g/t')} of dust`), ' come off the load',
-        ...(loaded.causes.length ? [', most by ', el('em', {}, loaded.causes[0].name === 'grains' ? 'grains on grains' : Dust.words(loaded.causes[0].name))] : []), '.'];
+    const stream = Dust.dust_stream(data);
+    if (stream && Number.isFinite(stream.free.load.value)) {
+      const {load} = stream.free;
+      return [Dust.strong(`${Dust.quantity(load.value, load.uncertainty ?? -1, 'g/t')} of dust`), ' come off the load',
+        ...(stream.causes.length ? [', most by ', el('em', {}, stream.causes[0].name === 'grains' ? 'grains on grains' : Dust.words(stream.causes[0].name))] : []), '.'];
     }
     if (published.length) return [published[0].name + ' ', Dust.strong(published[0].ours), `; published are ${published[0].theirs}.`];
     const emitted = (summary.particles || {}).emitted;

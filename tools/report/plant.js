@@ -29,36 +29,67 @@ Dust.hood_text = ({setting}, name) => {
   return Dust.words(name) + (flow > 0 ? ` (${Dust.quantity(flow, -1, 'm3/s')})` : '');
 };
 
+// The same in the steady stream, as rates: {free, causes, sides, hoods, out, drawn, settled, caught, airborne, observed}, each part {name, rate, load}, figures
+// in kg/h and g/t with their errors. Where a run tells no rates, means over the whole of it, without errors, and `observed` is 0.
+Dust.dust_stream = (data) => {
+  const dust = Dust.load_dust(data), {summary} = data, figures = summary.dust_rates || {};
+  if (!dust) return null;
+  const observed = (figures['set_free/all/rate'] || {}).value > 0 ? figures.observed.value : 0;
+  if (!observed) {
+    const load = (summary.mass_kg || {}).emitted, hours = summary.simulated_s / 3600, figure = (value) => ({value, uncertainty: null});
+    const part = ({name, kg}) => ({name, rate: figure(hours > 0 ? kg / hours : NaN), load: figure(load > 0 ? 1e6 * kg / load : NaN)});
+    const whole = (kg) => part({name: 'all', kg});
+    return {observed, free: whole(dust.free), causes: dust.causes.map(part), sides: dust.sides.map(part), hoods: dust.hoods.map(part), out: whole(dust.out), drawn: whole(dust.drawn),
+      settled: whole(dust.settled), caught: whole(dust.caught), airborne: whole(dust.airborne)};
+  }
+  const none = {value: 0, uncertainty: null}, part = (way, name) => ({name, rate: figures[`${way}/${name}/rate`] || none, load: figures[`${way}/${name}/per_load`] || none});
+  const names = (way) => Object.keys(figures).map((key) => key.split('/')).filter(([w, name, last]) => w === way && name !== 'all' && last === 'rate').map(([, name]) => name);
+  const parts = (way) => names(way).map((name) => part(way, name)).sort((a, b) => b.rate.value - a.rate.value);
+  const [free, out, drawn, settled, caught] = ['set_free', 'left', 'drawn_out', 'deposited', 'caught'].map((way) => part(way, 'all'));
+  const rest = (of) => ({value: free[of].value - out[of].value - drawn[of].value - settled[of].value - caught[of].value, uncertainty: null});
+  return {observed, free, causes: parts('set_free'), sides: parts('left'), hoods: parts('drawn_out'), out, drawn, settled, caught, airborne: {name: 'airborne', rate: rest('rate'), load: rest('load')}};
+};
+Dust.dust_surety = (data, stream) => {
+  const dust = Dust.load_dust(data), {p} = Dust, end = data.summary.simulated_s, {uncertainty, no_error} = stream.free.rate;
+  const said = stream.observed === 0 ? 'no error known' : Number.isFinite(uncertainty) ? '± one standard error' : no_error === 'not steady' ? 'not steady yet' : 'too short to tell an error';
+  const kept = stream.free.rate.value > 0 ? stream.airborne.rate.value / stream.free.rate.value : 0;
+  const restless = stream.observed > 0 && [...stream.hoods, ...stream.sides].filter((part) => part.rate.no_error === 'not steady' && part.rate.value > 0.01 * stream.free.rate.value);
+  return Dust.plant_answer('How sure?', said,
+    p({}, stream.observed > 0 ? `Means over the last ${Dust.number(stream.observed, 2)}\u202fs, without the start-up; the error is the scatter of this run alone.`
+      : `Means over the whole ${Dust.number(end, 3)}\u202fs, with its start-up, in which less comes off.`),
+    p({}, `${Dust.percent(Math.max(kept, 0))} of what comes off stays in the air: ${kept > 0.5 ? 'the run is too short to tell where it goes' : 'where it goes has settled'}.`),
+    restless && restless.length > 0 && p({class: 'caution'}, `Not steady yet: what goes out at ${restless.map((part) => Dust.words(part.name)).join(', ')}.`),
+    p({}, `The dust's mass closes to ${Dust.number(dust.error, 1)} of it; what binds it to the load is measured, not known.`), Dust.limits_text(data));
+};
+
 Dust.load_dust_answers = (data) => {
-  const dust = Dust.load_dust(data), {summary} = data, {el, p} = Dust;
+  const dust = Dust.load_dust(data), stream = Dust.dust_stream(data), {summary} = data, {el, p} = Dust;
   if (!dust) return [];
-  const load = (summary.mass_kg || {}).emitted, hours = summary.simulated_s / 3600;
-  const per_load = (kg) => (load > 0 ? Dust.quantity(1e6 * kg / load, -1, 'g/t') : Dust.dash);
-  const rate = (kg) => (hours > 0 ? Dust.quantity(kg / hours, -1, 'kg/h') : Dust.dash);
-  const share = (kg) => (dust.free > 0 ? Dust.percent(kg / dust.free) : Dust.dash);
-  const ranks = (list, text) => el('ul', {class: 'ranks'}, ...list.map((part) => el('li', {}, el('span', {}, part.title || Dust.words(part.name)), el('span', {}, text(part.kg)),
-    Dust.bar(dust.free > 0 ? part.kg / dust.free : 0, 'dustbar'))));
-  const answer = Dust.plant_answer;
-  const causes = dust.causes.filter((c) => c.kg > 0).map((c) => ({...c, title: c.name === 'grains' ? 'grains on grains' : Dust.words(c.name)}));
-  const negligible = 1e-4 * dust.free;
-  const how_much = answer('How much dust?', dust.free > 0 ? per_load(dust.free) : 'none', p({}, `${rate(dust.free)} set free from the load, which carries ${per_load(dust.fed)}`),
-    dust.out > negligible && p({}, `${per_load(dust.out)} get out with the air (${rate(dust.out)})`));
-  const from_where = answer('From where?', causes.length ? Dust.sentence(causes[0].title) : 'nowhere yet', causes.length ? ranks(causes.slice(0, 4), share) : null,
+  const {free} = stream, fed = (summary.mass_kg || {}).emitted > 0 ? Dust.quantity(1e6 * dust.fed / summary.mass_kg.emitted, -1, 'g/t') : Dust.dash;
+  // Two digits where nobody knows how many are true.
+  const said = ({value, uncertainty}, unit) => (!Number.isFinite(value) ? Dust.dash
+    : Number.isFinite(uncertainty) ? Dust.quantity(value, uncertainty, unit) : Dust.quantity(Number(value.toPrecision(2)), -1, unit));
+  const share = ({rate}) => (free.rate.value > 0 ? rate.value / free.rate.value : 0), percent = (part) => (free.rate.value > 0 ? Dust.percent(share(part)) : Dust.dash);
+  const ranks = (list) => el('ul', {class: 'ranks'}, ...list.map((part) => el('li', {}, el('span', {}, part.title || Dust.words(part.name)), el('span', {}, percent(part)),
+    Dust.bar(Math.max(share(part), 0), 'dustbar'))));
+  const answer = Dust.plant_answer, counts = (part) => part.rate.value > 1e-4 * free.rate.value;
+  const causes = stream.causes.filter((c) => c.rate.value > 0).map((c) => ({...c, title: c.name === 'grains' ? 'grains on grains' : Dust.words(c.name)}));
+  const how_much = answer('How much dust?', free.rate.value > 0 ? said(free.load, 'g/t') : 'none', p({}, `${said(free.rate, 'kg/h')} set free from the load, which carries ${fed}`),
+    counts(stream.out) && p({}, `${said(stream.out.load, 'g/t')} get out with the air (${said(stream.out.rate, 'kg/h')})`));
+  const from_where = answer('From where?', causes.length ? Dust.sentence(causes[0].title) : 'nowhere yet', causes.length ? ranks(causes.slice(0, 4)) : null,
     data.release_map ? p({}, el('a', {href: '#liberation'}, 'Where it comes off')) : null);
-  const fates = [{title: 'still in the air', kg: dust.airborne}, {title: 'settled', kg: dust.settled}, {title: 'caught by grains', kg: dust.caught}, ...dust.hoods.map((h) => ({...h, title: `drawn out at ${Dust.words(h.name)}`})),
-    ...dust.sides.map((s) => ({...s, title: `out at ${Dust.words(s.name)}`}))].filter((f) => f.kg > negligible);
+  const fates = [{...stream.airborne, title: 'still in the air'}, {...stream.settled, title: 'settled'}, {...stream.caught, title: 'caught by grains'}, ...stream.hoods.map((h) => ({...h, title: `drawn out at ${Dust.words(h.name)}`})),
+    ...stream.sides.map((s) => ({...s, title: `out at ${Dust.words(s.name)}`}))].filter(counts);
   // What has left the air's domain tells of the extraction only once it is steady; the page says both.
-  const left = dust.out + dust.drawn, catches = left > 1e-2 * dust.free ? dust.drawn / left : null;
-  const tried = data.extraction ? data.extraction.places.slice(0, 3) : [];
-  const where = dust.hoods.length > 0 && answer('Where to extract?', catches === null ? 'too early to tell' : `${Dust.percent(catches)} caught`,
-    p({}, catches === null ? 'Hardly any dust has left with the air yet.' : `of the dust that left with the air; ${dust.hoods.map((h) => Dust.hood_text(data, h.name)).join(', ')} ${dust.hoods.length > 1 ? 'extract' : 'extracts'}`),
-    dust.sides.length > 0 && dust.sides[0].kg > negligible && p({}, `Most gets out at ${Dust.words(dust.sides[0].name)} (${rate(dust.sides[0].kg)})`),
+  const left = stream.out.rate.value + stream.drawn.rate.value, catches = left > 1e-2 * free.rate.value ? stream.drawn.rate.value / left : null;
+  const tried = data.extraction ? data.extraction.places.slice(0, 3) : [], hoods = dust.hoods;
+  const where = hoods.length > 0 && answer('Where to extract?', catches === null ? 'too early to tell' : `${Dust.percent(catches)} caught`,
+    p({}, catches === null ? 'Hardly any dust has left with the air yet.' : `of the dust that left with the air; ${hoods.map((h) => Dust.hood_text(data, h.name)).join(', ')} ${hoods.length > 1 ? 'extract' : 'extracts'}`),
+    stream.sides.length > 0 && counts(stream.sides[0]) && p({}, `Most gets out at ${Dust.words(stream.sides[0].name)} (${said(stream.sides[0].rate, 'kg/h')})`),
     tried.length > 0 && [p({}, el('a', {href: '#extraction'}, 'Low pressure'), ', to be tried:'),
       el('ul', {class: 'ranks'}, ...tried.map((o) => el('li', {}, el('span', {}, Dust.place_xyz(o)), el('span', {}, Dust.depth(o)))))]);
-  const sure = answer('How sure?', 'one run, no error known', p({}, `Means over the whole ${Dust.number(summary.simulated_s, 3)}\u202fs, with its start-up, in which less comes off.`),
-    p({}, `${share(dust.airborne)} of the dust is still in the air: ${dust.airborne > 0.5 * dust.free ? 'the run is too short to tell where it goes' : 'where it goes has settled'}.`),
-    p({}, `The dust's mass closes to ${Dust.number(dust.error, 1)} of it; what binds it to the load is measured, not known.`), Dust.limits_text(data));
-  return [how_much, from_where, answer('Where does it go?', fates.length ? Dust.sentence(fates.reduce((a, b) => (b.kg > a.kg ? b : a)).title) : Dust.dash, ranks(fates, share)), sure, where];
+  const goes = fates.length ? Dust.sentence(fates.reduce((a, b) => (b.rate.value > a.rate.value ? b : a)).title) : Dust.dash;
+  return [how_much, from_where, answer('Where does it go?', goes, ranks(fates)), Dust.dust_surety(data, stream), where];
 };
 
 // Whether a limit of validity was touched.

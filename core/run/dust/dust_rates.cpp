@@ -123,7 +123,9 @@ void DustRates::report(sdk::FigureSink& sink) const {
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     const std::size_t first = 1 + p * (1 + classes.size());
     const std::string name = parts_[p].way + "/" + parts_[p].name;
-    if (parts_[p].total && !(means_.mean(first) > 0.0)) continue;  // a surface without dust
+    // Surfaces that no dust meets are left out; a way out without dust is an answer.
+    const bool is_way_out = parts_[p].way == k_left || parts_[p].way == k_drawn_out;
+    if (parts_[p].total && !is_way_out && !(means_.mean(first) > 0.0)) continue;
     report_part(sink, name, first);
     for (std::size_t n = 0; n < classes.size(); ++n) {
       report_part(sink, name + "/class/" + classes[n], first + 1 + n);

@@ -14,6 +14,8 @@ namespace {
 constexpr double k_density = 2650.0;
 /// Solids in the opening of a feed; 0.35 is the most that can be placed.
 constexpr double k_solids = 0.12;
+/// Solids in a load that lies on a belt.
+constexpr double k_load_solids = 0.55;
 
 /// [m] as millimetres without a unit, rounded to a hundredth.
 std::string mm(double metres) { return base::digits_text(std::round(1e5 * metres) / 100.0, 8); }
@@ -56,8 +58,10 @@ std::string write_transfer(const std::string& name, const std::vector<double>& s
   const double width = s[3];
   const double grain = s[4];
   const double margin = 0.1;
-  const double gap = 4.0 * grain;  // the feed above the belt
-  const double fall = 0.5;         // [m/s] of the feed
+  // The feed stands clear of the load, which it gives the belt's speed: what slides first piles up.
+  const double load = flow / (k_density * k_load_solids * speed * width);
+  const double gap = 4.0 * grain + 1.5 * load;
+  const double fall = 0.5;  // [m/s] of the feed
   const double inset = 0.25 * grain;
   const double length =
       std::max(3.0 * grain, flow / (k_density * k_solids * fall * (width - 2.0 * inset)));
@@ -91,8 +95,9 @@ std::string write_transfer(const std::string& name, const std::vector<double>& s
       << " m/s\n\nemitters:\n  feed:\n    model: feed\n    material: sand\n    mass_flow: "
       << base::digits_text(flow, 6) << " kg/s\n    min: [" << mm(margin) << ", " << mm(inset)
       << ", " << mm(top + gap) << " mm]\n    max: [" << mm(margin + length) << ", "
-      << mm(width - inset) << ", " << mm(top + gap) << " mm]\n    velocity: [0, 0, -"
-      << base::digits_text(fall, 3) << " m/s]\n    diameters: [" << mm(grain)
+      << mm(width - inset) << ", " << mm(top + gap) << " mm]\n    velocity: ["
+      << base::digits_text(speed, 6) << ", 0, -" << base::digits_text(fall, 3)
+      << " m/s]\n    diameters: [" << mm(grain)
       << " mm]\n    number_fractions: [1]\n\nfluid: {cells: [" << cells(x) << ", " << cells(width)
       << ", " << cells(z) << "], density: 1.2 kg/m3, viscosity: 1.8e-5 Pa s, momentum_set: I}\n"
       << "drag: {model: gidaspow}\nvoidage: {model: divided}\n\nsensors:\n"
