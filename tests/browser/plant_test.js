@@ -66,6 +66,10 @@ const steady = {...dusty, dust_rates: {
   'set_free/spoon/class/x/rate': rate(7, 0.4), 'left/all/rate': rate(2, null, {no_error: 'not steady'}), 'left/all/per_load': rate(4, null),
   'left/left/rate': rate(2, null, {no_error: 'not steady'}), 'drawn_out/all/rate': rate(6, 0.3), 'drawn_out/top/rate': rate(6, 0.3), 'deposited/all/rate': rate(1, 0.1),
 }};
+// What grains catch in it is not in the air any more.
+const caught_rate = {...steady, dust_rates: {...steady.dust_rates, 'caught/all/rate': rate(0.5, 0.1)}};
+assert.ok(Math.abs(Dust.dust_stream({summary: caught_rate}).airborne.rate.value - 0.5) < 1e-12);
+assert.ok(Math.abs(Dust.dust_stream({summary: steady}).airborne.rate.value - 1) < 1e-12);
 const told = Dust.load_dust_answers({summary: steady, release_map: null, extraction: null}).map(text);
 assert.ok(told[0].startsWith('How much dust?|20.0\u00a0±\u00a01.0\u202fg/t|10.00\u00a0±\u00a00.50\u202fkg/h set free'), told[0]);
 assert.ok(told[0].includes('4\u202fg/t get out with the air (2\u202fkg/h)'), told[0]);
