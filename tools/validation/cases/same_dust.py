@@ -7,7 +7,7 @@ from runs import Plan
 TITLE = "The same dust twice: free grains of 10 um and a field of 10 um"
 BITS = ("transfer_point", "rare_sizes")
 # Planes that the grains pass on their way out, and the side of the domain behind each.
-WAYS = {"left": ("dust_out_below_belt", "dust_out_above_belt"), "right": ("dust_out_right",), "bottom": ("dust_kept_in_stream",)}
+WAYS = {"left": ("dust_out_below_belt", "dust_out_above_belt"), "right": ("dust_out_right",)}
 
 
 def plans():
@@ -42,7 +42,10 @@ def fill(page, runs):
         error = math.sqrt(max(grains * (1 - grains), 1 / number) / number)
         page.add(f"{what}: grains", (grains, error), f"{field:.4g} as a field", why="the next row judges it")
         page.add(f"{what}: field less grains, in standard errors of the grains", (field - grains) / error, "0", -3, 3)
-    page.note("10 um of sand are set free from 0.35 to 0.7 s in a box of one cell's height between head pulley and stream: 20,000 grains a second, each "
-              "tracked, and as much as a concentration. The standard error is that of so many independent grains; in one and the same air they are not quite "
-              "that. Grains leave at planes 2 mm (5 mm above the bottom) before the sides. Both are carried by the same air; the field has no inertia, "
-              "does not bounce, and is smeared over its cells.")
+    page.note("10 um of sand are set free from 0.35 to 0.7 s in a box of one cell's height below the return run of the belt: 20,000 grains a second, "
+              "each tracked, and as much as a concentration. The standard error is that of so many independent grains. They leave at planes 2 mm before "
+              "the sides. Both are carried by the same air; the field has no inertia, does not bounce, and is smeared over its cells.")
+    page.note("Set free between head pulley and stream instead, at x 130 to 150 mm and z 100 mm, both are alike until the stream takes them up (at 0.7 s, in "
+              "tenths of the length of the domain: grains 0.203, 0.388, 0.191, 0.210 of what was set free, the field 0.205, 0.389, 0.187, 0.159 and 0.058 in "
+              "the next). In the stream the grains are hit by sand and taken down with it, the field is not: 45 % of the grains and 61 % of the field are "
+              "still in the domain at 1 s. `scavenging: true` of a dust field is there for that.")
