@@ -18,7 +18,7 @@ set(CPACK_DEBIAN_DUST_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DUST-DEV_PACKAGE_NAME dust-dev)
 set(CPACK_DEBIAN_DUST-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DUST-DEV_PACKAGE_DEPENDS
-  "dust (= ${PROJECT_VERSION}), cmake (>= 3.25), g++-${DUST_COMPILER_MAJOR}, g++, make | ninja-build")
+  "dust (= ${PROJECT_VERSION}), cmake (>= 3.25), g++-${DUST_COMPILER_MAJOR}, g++, make")
 set(CPACK_DEBIAN_DUST-DEV_PACKAGE_RECOMMENDS "python3-h5py, python3-matplotlib")
 set(CPACK_COMPONENT_DUST_DESCRIPTION "The engine with its models and scenarios.")
 set(CPACK_COMPONENT_DUST-DEV_DESCRIPTION
