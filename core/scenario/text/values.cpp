@@ -164,6 +164,21 @@ class ValueReader {
     return node.text;
   }
 
+  /// Where units are missing in a list: the first component with a unit where few have one, else
+  /// the first without. Zeros need none.
+  static std::optional<std::size_t> odd_one_out(const std::vector<WrittenNumber>& all,
+                                                std::size_t with_unit) {
+    const auto lacks = [](const WrittenNumber& w) { return w.unit.empty() && w.number != 0.0; };
+    const auto lacking = static_cast<std::size_t>(std::count_if(all.begin(), all.end(), lacks));
+    if (lacking == 0) return std::nullopt;
+    // Of three, two without a unit may be either mistake; of many, a few with one are the odd ones.
+    const bool is_unit_odd = with_unit * 3 < lacking;
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      if (is_unit_odd ? !all[n].unit.empty() : lacks(all[n])) return n;
+    }
+    return std::nullopt;
+  }
+
   /// Components of a list in SI. A unit on the last one alone holds for all.
   std::optional<std::vector<double>> components(const Node& node) {
     std::vector<WrittenNumber> all;
@@ -179,11 +194,12 @@ class ValueReader {
     if (with_unit == 1 && !all.back().unit.empty()) {
       for (WrittenNumber& w : all) w.unit = all.back().unit;
     } else if (with_unit > 0 && with_unit < all.size()) {
-      for (std::size_t n = 0; n < all.size(); ++n) {
-        if (!all[n].unit.empty() || all[n].number == 0.0) continue;
-        return fail(node.items[n], "'" + printable(node.items[n].text) +
-                                       "' has no unit but others have: give each one its unit, or "
-                                       "the last alone one for all");
+      if (const auto odd = odd_one_out(all, with_unit)) {
+        return fail(node.items[*odd],
+                    "'" + printable(node.items[*odd].text) +
+                        (all[*odd].unit.empty() ? "' has no unit but others have"
+                                                : "' has a unit but most others have none") +
+                        ": give each one its unit, or the last alone one for all");
       }
     }
     std::vector<double> values;
