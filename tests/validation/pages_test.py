@@ -42,13 +42,24 @@ class AnyFigures(dict):
         return 50.0 * self["time [s]"] + 1.0
 
 
+class AnyRate(dict):
+    """Rates of dust of any name."""
+
+    def __missing__(self, name):
+        return {"value": 4.0, "uncertainty": 0.1}
+
+    def get(self, name, default=None):
+        return self[name]
+
+
 class AnyRun(runs.Run):
     """A finished run whose sensors have every figure."""
 
     summary = {"status": "finished", "sensors": {}, "cpu_s": 3600.0, "mass_kg": {"in_domain": 1.0}, "particles": {"max": 1},
                "simulated_s": 1.0, "dem_step_s": 1e-5, "fluid_steps": 0, "particle_steps": 1.0, "state_sha256": 64 * "0",
                "size_classes": [{"hertz_time_s": 1e-4}], "emitters": {"free": {"achieved": {"mass_kg": 4.0, "computed": 7000}}},
-               "dust_field": {"classes": {"10_um": {"released_kg": 4.0, "left_kg": {"left": 1.0, "right": 0.5}}}}}
+               "dust_field": {"classes": {"10_um": {"released_kg": 4.0, "left_kg": {"left": 1.0, "right": 0.5}, "balance_error": 1e-16}}},
+               "dust_on_grains": {"classes": {}}, "wall_s": 1000.0, "dust_rates": AnyRate()}
 
     def figure(self, sensor, name):
         return 1.0 + 1e-3 * len(self.name), 0.01

@@ -57,7 +57,7 @@ Dust.dust_surety = (data, stream) => {
   return Dust.plant_answer('How sure?', said,
     p({}, stream.observed > 0 ? `Means over the last ${Dust.number(stream.observed, 2)}\u202fs, without the start-up; the error is the scatter of this run alone.`
       : `Means over the whole ${Dust.number(end, 3)}\u202fs, with its start-up, in which less comes off.`),
-    p({}, `${Dust.percent(Math.max(kept, 0))} of what comes off stays in the air: ${kept > 0.5 ? 'the run is too short to tell where it goes' : 'where it goes has settled'}.`),
+    p({}, `${Dust.percent(Math.max(kept, 0))} of what comes off stays in the air: ${kept > 0.5 ? 'the run is too short to tell where it goes' : kept > 0.1 ? 'its cloud still grows' : 'where it goes has settled'}.`),
     restless && restless.length > 0 && p({class: 'caution'}, `Not steady yet: what goes out at ${restless.map((part) => Dust.words(part.name)).join(', ')}.`),
     p({}, `The dust's mass closes to ${Dust.number(dust.error, 1)} of it; what binds it to the load is measured, not known.`), Dust.limits_text(data));
 };
