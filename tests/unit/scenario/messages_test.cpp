@@ -371,6 +371,10 @@ TEST_CASE("a unit on some components only shall be told") {
   check("min: [1, 1, 40 mm]", "min: [1, 1 mm, 40 mm]",
         "s.yaml:30:11: error: emitters.feed.min: '1' has no unit but others have: give each one "
         "its unit, or the last alone one for all");
+  // Of many, the few with a unit are the odd ones.
+  check("number_fractions: [0.5, 0.5]", "number_fractions: [0.5, 0.5, 1 K, 0.5, 0.5]",
+        "s.yaml:33:34: error: emitters.feed.number_fractions: '1 K' has a unit but most others "
+        "have none: give each one its unit, or the last alone one for all");
 }
 
 TEST_CASE("all problems shall be told at once, in the order of the file") {

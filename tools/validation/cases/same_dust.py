@@ -42,7 +42,7 @@ def fill(page, runs):
         error = math.sqrt(max(grains * (1 - grains), 1 / number) / number)
         page.add(f"{what}: grains", (grains, error), f"{field:.4g} as a field", why="the next row judges it")
         page.add(f"{what}: field less grains, in standard errors of the grains", (field - grains) / error, "0", -3, 3)
-    page.note("10 um of sand are set free from 0.35 to 0.7 s in a box of one cell's height below the return run of the belt: 20,000 grains a second, "
+    page.note("10 um of sand are set free from 0.35 to 0.7 s in a box of one cell's height, 1 to 3.5 mm below the return run of the belt: 20,000 grains a second, "
               "each tracked, and as much as a concentration. The standard error is that of so many independent grains. They leave at planes 2 mm before "
               "the sides. Both are carried by the same air; the field has no inertia, does not bounce, and is smeared over its cells.")
     page.note("Set free between head pulley and stream instead, at x 130 to 150 mm and z 100 mm, both are alike until the stream takes them up (at 0.7 s, in "
