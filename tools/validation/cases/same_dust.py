@@ -75,7 +75,8 @@ def add_all(page, runs):
     page.note("10 um of sand are set free from 0.35 to 0.7 s in a box 2.5 mm high, 1 mm below the return run of the belt: 20,000 grains a second, each tracked, "
               "and as much as a concentration. The standard error is that of so many independent grains. Both are carried by the same air; the field has no "
               "inertia, does not bounce off the belt, and is smeared over its cells, of which the belt's layer has one or two: a few hundredths of the dust "
-              "leave later or earlier for that, more than 7,000 grains scatter.")
+              "leave later or earlier for that, more than 7,000 grains scatter. The grains come from five planes over the height of the source: all from its "
+              "middle they were up to 0.043 (at 0.6 s) apart from the field, and in cells of 1.25 mm 0.066 (at 0.7 s), for the air's speed halves over its height.")
     page.note("Set free between head pulley and stream instead, at x 130 to 150 mm and z 100 mm, both are alike until the stream takes them up (at 0.7 s, in "
               "tenths of the length of the domain: grains 0.203, 0.388, 0.191, 0.210 of what was set free, the field 0.205, 0.389, 0.187, 0.159 and 0.058 in "
               "the next). In the stream the grains are hit by sand and taken down with it, the field is not: 45 % of the grains and 61 % of the field are "
