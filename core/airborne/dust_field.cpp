@@ -225,11 +225,16 @@ void DustField::concentration(std::size_t n, const fluid::CellField& volume,
 }
 
 DustBalance DustField::balance(std::size_t n) const {
+  DustBalance balance = gone(n);
+  balance.airborne = sum_of(grid_, classes_[n].mass) * grid_.cell_volume();
+  return balance;
+}
+
+DustBalance DustField::gone(std::size_t n) const {
   const Class& c = classes_[n];
   const double volume = grid_.cell_volume();
   DustBalance balance;
   balance.released = c.released.value();
-  balance.airborne = sum_of(grid_, c.mass) * volume;
   for (std::size_t side = 0; side < 6; ++side) balance.left[side] = c.losses.sides[side] * volume;
   for (const double drawn : c.losses.outlets) balance.outlets.push_back(drawn * volume);
   balance.surfaces = c.surfaces;

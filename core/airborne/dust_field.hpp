@@ -19,9 +19,8 @@
 
 namespace dust::airborne {
 
-/// What became of the dust of a class since the start [kg]: released = airborne + deposited +
-/// caught
-/// + left + drawn out, to rounding.
+/// What became of the dust of a class since the start [kg]: released = airborne + deposited
+/// + caught + left + drawn out, to rounding.
 struct DustBalance {
   double released = 0.0;  ///< what was there at the start included
   double airborne = 0.0;
@@ -65,6 +64,8 @@ class DustField {
   /// [kg] on surfaces in each cell.
   [[nodiscard]] const fluid::CellField& deposit(std::size_t n) const { return classes_[n].deposit; }
   [[nodiscard]] DustBalance balance(std::size_t n) const;
+  /// The same without what is airborne, which would take a sum over all cells: for each step.
+  [[nodiscard]] DustBalance gone(std::size_t n) const;
   [[nodiscard]] std::int64_t sub_steps() const { return sub_steps_; }
   /// Do grains catch dust in this run?
   [[nodiscard]] bool has_scavenging() const { return spec_.scavenging; }

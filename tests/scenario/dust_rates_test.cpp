@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/engine.hpp"
+#include "support/run_summary.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-using dust::test::engine;
-using dust::test::read_file;
 using dust::test::TemporaryFolder;
 using nlohmann::json;
 namespace fs = std::filesystem;
@@ -19,16 +17,11 @@ constexpr double k_kg_per_h = 3600.0 * 1e-6;  // of 1 mg/s
 
 json run(const fs::path& out, const std::vector<std::string>& settings,
          const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments{"run", DUST_SOURCE "/tests/scenario/dust_in_duct.yaml", "-o",
-                                     out, "--quiet"};
+  std::vector<std::string> arguments = more;
   for (const std::string& setting : settings) {
     arguments.insert(arguments.end(), {"--set", setting});
   }
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  const auto done = engine(arguments);
-  INFO(done.err);
-  REQUIRE(done.status == 0);
-  return json::parse(read_file(out / "summary.json"));
+  return dust::test::run_summary(DUST_SOURCE "/tests/scenario/dust_in_duct.yaml", out, arguments);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/engine.hpp"
+#include "support/run_summary.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-using dust::test::engine;
 using dust::test::read_file;
 using dust::test::TemporaryFolder;
 using nlohmann::json;
@@ -20,13 +19,8 @@ namespace {
 const std::string k_scenario = DUST_SOURCE "/tests/scenario/dust_at_hood.yaml";
 
 /// Runs the scenario into a folder and returns its summary.
-json run(const fs::path& out, std::vector<std::string> more) {
-  std::vector<std::string> arguments{"run", k_scenario, "-o", out, "--quiet"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  const auto done = engine(arguments);
-  INFO(done.err);
-  REQUIRE(done.status == 0);
-  return json::parse(read_file(out / "summary.json"));
+json run(const fs::path& out, const std::vector<std::string>& more) {
+  return dust::test::run_summary(k_scenario, out, more);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/engine.hpp"
+#include "support/run_summary.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-using dust::test::engine;
 using dust::test::read_file;
+using dust::test::run_summary;
 using dust::test::TemporaryFolder;
 using nlohmann::json;
 namespace fs = std::filesystem;
@@ -24,15 +24,6 @@ const std::string k_bounce = DUST_SOURCE "/tests/scenario/dusty_bounce.yaml";
 constexpr double k_binding = 100.0;  // J/kg
 constexpr double k_load = 0.01;      // kg/kg, both classes
 const double k_mass = 3000.0 * std::numbers::pi / 6.0 * std::pow(6e-3, 3);
-
-json run(const std::string& scenario, const fs::path& out, std::vector<std::string> more) {
-  std::vector<std::string> arguments{"run", scenario, "-o", out, "--quiet"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  const auto done = engine(arguments);
-  INFO(done.err);
-  REQUIRE(done.status == 0);
-  return json::parse(read_file(out / "summary.json"));
-}
 
 double sum_of(const json& classes, const char* key) {
   double sum = 0.0;
@@ -82,8 +73,8 @@ TEST_CASE("a bounce shall set free what the energy that it dissipates asks for")
   for (const std::string restitution : {"0.3", "0.5", "0.7", "0.9"}) {
     CAPTURE(restitution);
     const json summary =
-        run(k_bounce, folder / ("e" + restitution),
-            {"--set", "interactions.ore-steel.contact.restitution=" + restitution});
+        run_summary(k_bounce, folder / ("e" + restitution),
+                    {"--set", "interactions.ore-steel.contact.restitution=" + restitution});
     const double e = std::stod(restitution);
     // 7 mm of fall before the plate.
     const double speed2 = 4.0 + 2.0 * 9.81 * 7e-3;
@@ -105,9 +96,9 @@ TEST_CASE("many bounces shall set free as one that dissipates as much, whatever 
   const TemporaryFolder folder;
   for (const std::string step : {"0.2 ms", "2 ms"}) {
     CAPTURE(step);
-    const json summary = run(k_bounce, folder / step,
-                             {"--set", "time.end=0.4 s", "--set", "time.output_every=0.1 s",
-                              "--set", "time.fluid_step=" + step});
+    const json summary = run_summary(k_bounce, folder / step,
+                                     {"--set", "time.end=0.4 s", "--set", "time.output_every=0.1 s",
+                                      "--set", "time.fluid_step=" + step});
     // At rest in the end: all of its energy has been dissipated.
     const double energy = 0.5 * 4.0 + 9.81 * 7e-3;
     CHECK(set_free(summary) ==
@@ -119,9 +110,9 @@ TEST_CASE("many bounces shall set free as one that dissipates as much, whatever 
 TEST_CASE("a small energy shall set free the same from any load") {
   const TemporaryFolder folder;
   const auto freed = [&](const std::string& load) {
-    return set_free(run(k_bounce, folder / ("load" + load),
-                        {"--set", "materials.ore.dust_load=[" + load + ", 0]", "--set",
-                         "dust.liberation.binding_energy=1 MJ/kg"}));
+    return set_free(run_summary(k_bounce, folder / ("load" + load),
+                                {"--set", "materials.ore.dust_load=[" + load + ", 0]", "--set",
+                                 "dust.liberation.binding_energy=1 MJ/kg"}));
   };
   const double energy = 0.75 * 0.5 * (4.0 + 2.0 * 9.81 * 7e-3) * k_mass;
   CHECK(freed("0.01") == doctest::Approx(energy / 1e6).epsilon(0.01));
@@ -132,7 +123,7 @@ TEST_CASE("moisture shall bind as the law says") {
   const TemporaryFolder folder;
   const auto freed = [&](const std::string& name, std::vector<std::string> more) {
     more.insert(more.end(), {"--set", "dust.liberation.binding_energy=1 MJ/kg"});
-    return set_free(run(k_bounce, folder / name, more));
+    return set_free(run_summary(k_bounce, folder / name, more));
   };
   const double dry = freed("dry", {});
   // AP-42: the power -1.4; a drum test: ten times at 3 % more.
@@ -156,11 +147,11 @@ TEST_CASE("what comes off shall be the same on any threads and after a resume") 
     more.insert(more.end(), {"--set", std::string("time.end=") + end});
     return more;
   };
-  const json whole = run(k_bounce, folder / "whole", with({"--threads", "1"}, "120 ms"));
-  const json other = run(k_bounce, folder / "threads", with({"--threads", "2"}, "120 ms"));
-  run(k_bounce, folder / "parts", with({"--threads", "2"}, "48 ms"));
+  const json whole = run_summary(k_bounce, folder / "whole", with({"--threads", "1"}, "120 ms"));
+  const json other = run_summary(k_bounce, folder / "threads", with({"--threads", "2"}, "120 ms"));
+  run_summary(k_bounce, folder / "parts", with({"--threads", "2"}, "48 ms"));
   const json resumed =
-      run(k_bounce, folder / "parts", with({"--threads", "1", "--resume"}, "120 ms"));
+      run_summary(k_bounce, folder / "parts", with({"--threads", "1", "--resume"}, "120 ms"));
   check_balances(whole);
   const json& coarse = whole["dust_on_grains"]["classes"]["20_um"];
   CHECK(coarse["left_with_grains_kg"].get<double>() > 0.0);
@@ -176,9 +167,9 @@ TEST_CASE("what comes off shall be the same on any threads and after a resume") 
 TEST_CASE("wind shall take dust off as its shear over the threshold asks for") {
   const TemporaryFolder folder;
   const auto blow = [&](const std::string& speed) {
-    return run(DUST_SOURCE "/tests/scenario/grain_in_wind.yaml", folder / speed,
-               {"--set", "domain.boundaries.left.air.speed=" + speed + " m/s", "--set",
-                "fluid.initial_velocity=[" + speed + ", 0, 0 m/s]"});
+    return run_summary(DUST_SOURCE "/tests/scenario/grain_in_wind.yaml", folder / speed,
+                       {"--set", "domain.boundaries.left.air.speed=" + speed + " m/s", "--set",
+                        "fluid.initial_velocity=[" + speed + ", 0, 0 m/s]"});
   };
   // Friction velocity of a drag coefficient of 0.44, spread over the sphere; its threshold after
   // Shao and Lu; eq. (14), (15) of docs/theory/dust.md.
@@ -211,15 +202,15 @@ TEST_CASE("wind shall take dust off as its shear over the threshold asks for") {
 
 TEST_CASE("a run that starts from another shall go on with its loads and with what came off") {
   const TemporaryFolder folder;
-  const json first = run(k_bounce, folder / "first", {"--set", "time.end=6 ms"});
+  const json first = run_summary(k_bounce, folder / "first", {"--set", "time.end=6 ms"});
   const fs::path variant = folder / "variant.yaml";
   std::ofstream(variant) << "include: " << k_bounce
                          << "\nstart_from: " << (folder / "first").string()
                          << "\ntime: {end: 12 ms}\nbodies: {shelf: {shape: box, material: steel, "
                             "min: [0, 0, 30 mm], max: [4, 4, 31 mm]}}\n";
-  const json second = run(variant, folder / "second", {});
+  const json second = run_summary(variant, folder / "second", {});
   check_balances(second);
-  const json whole = run(k_bounce, folder / "whole", {});
+  const json whole = run_summary(k_bounce, folder / "whole", {});
   CHECK(set_free(first) > 0.0);
   CHECK(set_free(second) >= set_free(first));
   // The shelf is out of the way: what came off is what would have come off without it.
@@ -232,7 +223,7 @@ TEST_CASE("a run whose grains carry no dust shall keep its bits") {
   const TemporaryFolder folder;
   // The work of contacts is kept beside the forces, never in them. So wet that nothing comes off:
   // dust in the air would weigh on it.
-  const json with = run(
+  const json with = run_summary(
       k_bounce, folder / "with",
       {"--set", "materials.ore.moisture=90 %", "--set", "dust.liberation.moisture_scale=0.01 %"});
   REQUIRE(with["dust_on_grains"]["classes"]["10_um"]["set_free_kg"].get<double>() == 0.0);
@@ -241,5 +232,5 @@ TEST_CASE("a run whose grains carry no dust shall keep its bits") {
                                   {", dust_load: [0.4 %, 0.6 %], moisture: 1 %",
                                    "  liberation: {model: energy, binding_energy: 100 J/kg, "
                                    "size_exponent: 0}\n"});
-  CHECK(with["state_sha256"] == run(plain, folder / "without", {})["state_sha256"]);
+  CHECK(with["state_sha256"] == run_summary(plain, folder / "without", {})["state_sha256"]);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/engine.hpp"
+#include "support/run_summary.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-using dust::test::engine;
 using dust::test::read_file;
 using dust::test::TemporaryFolder;
 using nlohmann::json;
@@ -21,13 +20,8 @@ const std::string k_shear = DUST_SOURCE "/tests/scenario/dust_under_shear.yaml";
 const std::vector<std::string> k_plate{
     "--set", "bodies.plate={shape: box, material: steel, min: [0, 0, 0], max: [4, 4, 3.5 mm]}"};
 
-json run(const fs::path& out, std::vector<std::string> more) {
-  std::vector<std::string> arguments{"run", k_shear, "-o", out, "--quiet"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  const auto done = engine(arguments);
-  INFO(done.err);
-  REQUIRE(done.status == 0);
-  const json summary = json::parse(read_file(out / "summary.json"));
+json run(const fs::path& out, const std::vector<std::string>& more) {
+  const json summary = dust::test::run_summary(k_shear, out, more);
   CHECK(std::abs(summary["dust_field"]["classes"]["20_um"]["balance_error"].get<double>()) < 1e-12);
   return summary;
 }

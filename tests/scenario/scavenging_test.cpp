@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/engine.hpp"
+#include "support/run_summary.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-using dust::test::engine;
 using dust::test::read_file;
+using dust::test::run_summary;
 using dust::test::TemporaryFolder;
 using nlohmann::json;
 namespace fs = std::filesystem;
@@ -20,15 +20,6 @@ namespace {
 
 const std::string k_rain = DUST_SOURCE "/tests/scenario/rain_through_cloud.yaml";
 const std::string k_bounce = DUST_SOURCE "/tests/scenario/dusty_bounce.yaml";
-
-json run(const std::string& scenario, const fs::path& out, std::vector<std::string> more) {
-  std::vector<std::string> arguments{"run", scenario, "-o", out, "--quiet"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  const auto done = engine(arguments);
-  INFO(done.err);
-  REQUIRE(done.status == 0);
-  return json::parse(read_file(out / "summary.json"));
-}
 
 /// What is left of a cloud of dust of this diameter [m] after 0.2 s, one grain of `grain` [m] at 5
 /// m/s in each cell of 20 mm, `count` of them: eq. (17), (18) of docs/theory/dust.md.
@@ -63,7 +54,7 @@ void check_balances(const json& summary) {
 
 TEST_CASE("a rain of grains shall clear a still cloud as its impaction asks for") {
   const TemporaryFolder folder;
-  const json summary = run(k_rain, folder / "out", {});
+  const json summary = run_summary(k_rain, folder / "out", {});
   REQUIRE(summary["particles"]["in_domain"] == 16);
   // 0.15 % for what the gas slows the grains.
   CHECK(airborne_share(summary, "5_um") ==
@@ -82,7 +73,8 @@ TEST_CASE("a rain of grains shall clear a still cloud as its impaction asks for"
 
 TEST_CASE("coarse grains shall catch what those that they stand for would") {
   const TemporaryFolder folder;
-  const json summary = run(k_rain, folder / "out", {"--set", "materials.ore.coarse_graining=4"});
+  const json summary =
+      run_summary(k_rain, folder / "out", {"--set", "materials.ore.coarse_graining=4"});
   CHECK(airborne_share(summary, "5_um") ==
         doctest::Approx(expected_share(5e-6, 0.5e-3, 64)).epsilon(5e-3));
 }
@@ -94,7 +86,7 @@ TEST_CASE("grains that carry dust shall take up what they catch, whatever the fl
   const auto with_step = [&](const std::string& step) {
     std::vector<std::string> more = dusty;
     more.insert(more.end(), {"--set", "time.fluid_step=" + step});
-    return run(k_rain, folder / step, more);
+    return run_summary(k_rain, folder / step, more);
   };
   const json summary = with_step("1 ms");
   check_balances(summary);
@@ -121,11 +113,11 @@ TEST_CASE("what grains catch shall be the same on any threads and after a resume
     more.insert(more.end(), {"--set", std::string("time.end=") + end});
     return more;
   };
-  const json whole = run(k_bounce, folder / "whole", with({"--threads", "1"}, "80 ms"));
-  const json other = run(k_bounce, folder / "threads", with({"--threads", "2"}, "80 ms"));
-  run(k_bounce, folder / "parts", with({"--threads", "2"}, "36 ms"));
+  const json whole = run_summary(k_bounce, folder / "whole", with({"--threads", "1"}, "80 ms"));
+  const json other = run_summary(k_bounce, folder / "threads", with({"--threads", "2"}, "80 ms"));
+  run_summary(k_bounce, folder / "parts", with({"--threads", "2"}, "36 ms"));
   const json resumed =
-      run(k_bounce, folder / "parts", with({"--threads", "1", "--resume"}, "80 ms"));
+      run_summary(k_bounce, folder / "parts", with({"--threads", "1", "--resume"}, "80 ms"));
   check_balances(whole);
   CHECK(whole["dust_on_grains"]["classes"]["20_um"]["caught_kg"].get<double>() > 0.0);
   for (const json& again : {other, resumed}) {

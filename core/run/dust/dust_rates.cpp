@@ -92,7 +92,7 @@ void DustRates::sample(double time, double step) {
   constexpr double k_rounding = 0.01;
   const double begin = time - step;
   if (time < steady_after_ - k_rounding * step) return;
-  for (std::size_t n = 0; n < balances_.size(); ++n) balances_[n] = dust_.field().balance(n);
+  for (std::size_t n = 0; n < balances_.size(); ++n) balances_[n] = dust_.field().gone(n);
   find_totals(now_);
   if (begin >= steady_after_ - k_rounding * step) {
     for (std::size_t c = 0; c < now_.size(); ++c) before_[c] = (now_[c] - before_[c]) / step;

@@ -1,17 +1,15 @@
 """Scalings that a model of dust is held against: plume, enclosed chute, drop through wind."""
 
-import fnmatch
 import math
 
 import study_points
 from chart import Curve, published
 from induced_air import SIDE, anderson, balance
-from kept import Kept
-from page import FOLDER, Page
-from runs import Plan, Runs
+from runs import Plan
 
 TITLE = "Scalings of dust and of the air that it moves with"
 BITS = ("mixer", "small_hopper")
+READS_FRAMES = True
 TAKES_FINISHED_RUNS = True
 
 CHUTE = "chute_air"
@@ -146,8 +144,7 @@ PLUME_NOTE = f"""**Plume.** B = g m'/rho_f, z from the source, means from {STEAD
 where the speed of the field's plume in the middle comes to fluctuate by a quarter. Above, the stream contracts to seven cells across and is smooth. What
 fails is the length that it stays smooth over: its flow grows with a power of 0.6 there (the sand, down to 2 m), of 1.6 to 2 once it has turned
 turbulent (from {FAR:g} m on), and what it did not draw in above lowers C. A plume that turns turbulent within a width of its source wants several times
-as many cells across its neck than these seven. How the source is stirred counts as well: with half the flow in the corner, half as often, a run of 15 s
-had the exponent 1.51 and C 0.112. The model's eddy viscosity takes 0.13 of the exponent
+as many cells across its neck than these seven. The model's eddy viscosity takes 0.13 of the exponent
 (over the same time until 9.6 s the plume with it has 1.42)."""
 
 
@@ -224,14 +221,6 @@ less per tonne the thicker the stream is, and what gets out no longer rises. Dus
 left out, and so is a stream that lands on its own heap."""
 
 
-def write(args):
-    """Not `fill`: the figures come from summaries and frames, not from sensors alone."""
-    kept = Kept(FOLDER / "dust_scaling.md") if args.keep else Kept()
-    runs = Runs(plans(), args.runs, args.engine, kept)
-    for run in runs:
-        if not args.no_run and any(fnmatch.fnmatch(run.name, pattern) for pattern in args.only):
-            runs.do(run)
-    page = Page("dust_scaling", kept)
+def fill(page, runs):
     for add in (add_plume, add_wind, add_drop, add_chute):
         add(page, runs)
-    page.write(TITLE, runs, "tools/validation/run dust_scaling")

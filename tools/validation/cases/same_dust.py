@@ -1,17 +1,14 @@
 """The same dust as grains and as a field, set free at one place of the thesis's transfer point."""
 
-import fnmatch
 import math
 import sys
 
 from chart import Curve
-from kept import Kept
-from page import FOLDER, Page
-from runs import ROOT, Plan, Runs
+from runs import ROOT, Plan
 
 TITLE = "The same dust twice: free grains of 10 um and a field of 10 um"
 BITS = ("transfer_point", "rare_sizes")
-CELLS = {"same_dust": "cells of 2.5 mm"}
+READS_FRAMES = True
 TIMES = (0.5, 0.6, 0.7)  # s
 FREED = 27.75e-9         # kg/s of each, as the scenario says
 BEGIN, END = 0.35, 0.7   # s
@@ -41,43 +38,28 @@ def left_over(run):
     return rows
 
 
-def write(args):
-    """Not `fill`: the figures come from frames, not from sensors alone."""
-    kept = Kept(FOLDER / "same_dust.md") if args.keep else Kept()
-    runs = Runs(plans(), args.runs, args.engine, kept)
-    for run in runs:
-        if not args.no_run and any(fnmatch.fnmatch(run.name, pattern) for pattern in args.only):
-            runs.do(run)
-    page = Page("same_dust", kept)
-    add_all(page, runs)
-    page.write(TITLE, runs, "tools/validation/run same_dust")
-
-
-def add_all(page, runs):
-    for name, cells in CELLS.items():
-        run = runs[name]
-        rows = left_over(run) if run.is_finished() else []
-        for time in TIMES:
-            what = f"{cells}: share still inside at {time} s"
-            row = next((r for r in rows if abs(r[0] - time) < 1e-6), None)
-            if row is None:
-                page.add(f"{what}, grains", None, "-", why="the field's is judged by it")
-                page.add(f"{what}, field less grains, in standard errors of the grains", None, "0", -3, 3)
-                continue
-            _, grains, field, number = row
-            error = math.sqrt(max(grains * (1 - grains), 1 / number) / number)
-            page.add(f"{what}, grains", (grains, error), f"{field:.4f} as a field", why="the next row judges it")
-            page.add(f"{what}, field less grains, in standard errors of the grains", (field - grains) / error, "0", -3, 3)
-        if rows:
-            page.chart(f"Dust still inside, {cells}", "time [s]", "share of what was set free [-]",
-                       [Curve("grains", [r[0] for r in rows], [r[1] for r in rows]), Curve("field", [r[0] for r in rows], [r[2] for r in rows])],
-                       "Set free below the return run from 0.35 to 0.7 s; the belt carries it out at the left.")
+def fill(page, runs):
+    run = runs["same_dust"]
+    rows = left_over(run) if run.is_finished() else []
+    for time in TIMES:
+        what = f"share still inside at {time} s"
+        row = next((r for r in rows if abs(r[0] - time) < 1e-6), None)
+        if row is None:
+            page.add(f"{what}, grains", None, "-", why="the field's is judged by it")
+            page.add(f"{what}, field less grains, in standard errors of the grains", None, "0", -3, 3)
+            continue
+        _, grains, field, number = row
+        error = math.sqrt(max(grains * (1 - grains), 1 / number) / number)
+        page.add(f"{what}, grains", (grains, error), f"{field:.4f} as a field", why="the next row judges it")
+        page.add(f"{what}, field less grains, in standard errors of the grains", (field - grains) / error, "0", -3, 3)
+    if rows:
+        page.chart("Dust still inside", "time [s]", "share of what was set free [-]",
+                   [Curve("grains", [r[0] for r in rows], [r[1] for r in rows]), Curve("field", [r[0] for r in rows], [r[2] for r in rows])],
+                   "Set free below the return run from 0.35 to 0.7 s; the belt carries it out at the left.")
     page.note("10 um of sand are set free from 0.35 to 0.7 s in a box 2.5 mm high, 1 mm below the return run of the belt: 20,000 grains a second, each tracked, "
               "and as much as a concentration. The standard error is that of so many independent grains. Both are carried by the same air; the field has no "
-              "inertia, does not bounce off the belt, and is smeared over its cells, of which the belt's layer has one or two: a few hundredths of the dust "
-              "leave later or earlier for that, more than 7,000 grains scatter. The grains come from five planes over the height of the source: all from its "
-              "middle they were up to 0.043 (at 0.6 s) apart from the field, and in cells of 1.25 mm 0.066 (at 0.7 s), for the air's speed halves over its height.")
-    page.note("Set free between head pulley and stream instead, at x 130 to 150 mm and z 100 mm, both are alike until the stream takes them up (at 0.7 s, in "
-              "tenths of the length of the domain: grains 0.203, 0.388, 0.191, 0.210 of what was set free, the field 0.205, 0.389, 0.187, 0.159 and 0.058 in "
-              "the next). In the stream the grains are hit by sand and taken down with it, the field is not: 45 % of the grains and 61 % of the field are "
-              "still in the domain at 1 s. `scavenging: true` of a dust field is there for that.")
+              "inertia, does not bounce off the belt, and is smeared over its cells of 2.5 mm, of which the belt's layer has one or two: a few hundredths of the dust "
+              "leave later or earlier for that, more than 7,000 grains scatter. The grains come from five planes over the height of the source, for the "
+              "air's speed falls over it.")
+    page.note("It is set free where no sand falls: in the stream grains are hit by sand and taken down with it, a field is not (`scavenging: true` "
+              "is there for that).")
