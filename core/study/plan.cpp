@@ -5,6 +5,7 @@
 #include "io/run_files.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/reader.hpp"
+#include "run/branch/origin.hpp"
 #include "scenario/text/overlay.hpp"
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
@@ -25,6 +26,14 @@ using scenario::Node;
 
 constexpr std::size_t k_max_points = 10000;
 constexpr std::size_t k_hash_digits = 16;
+
+/// [s] Time of the state that a run starts from. Of a run that is still to come, as it is asked
+/// for.
+double begin_of(const scenario::StartSetup& start, const registry::Registry& registry) {
+  if (!start.from) return 0.0;
+  if (start.from->time || !run::has_origin(*start.from)) return start.from->time.value_or(0.0);
+  return run::Origin(*start.from, registry).time();
+}
 
 /// A value on one line, as it is written.
 std::string text_of(const Node& node) {
@@ -177,7 +186,8 @@ struct Planner::Impl {
     io::Sha256 digest;
     digest.update(read->resolved_yaml.data(), read->resolved_yaml.size());
     point.hash = digest.hex_digest().substr(0, k_hash_digits);
-    const auto derived = preflight::derive(read->setup, registry, read->dust);
+    const auto derived =
+        preflight::derive(read->setup, registry, read->dust, begin_of(read->start, registry));
     point.core_seconds = derived.cost.terms.seconds();
     point.memory_bytes = derived.cost.memory_bytes;
     measures.see(quantities_of(read->setup, read->dust, registry));

@@ -168,6 +168,33 @@ TEST_CASE("a dry run shall list the points and write nothing") {
   CHECK_FALSE(fs::exists(folder / "out"));
 }
 
+/// [s] of all points by a dry run of the study.
+double planned_seconds(const fs::path& study, const std::string& text) {
+  std::ofstream(study) << text;
+  const auto run = engine({"study", study, "-o", study.parent_path() / "out", "--dry-run"});
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const std::string lead = "MB each; about ";
+  std::istringstream words(run.out.substr(run.out.find(lead) + lead.size()));
+  double value = 0.0;
+  std::string unit;
+  words >> value >> unit;
+  return value * (unit == "h" ? 3600.0 : unit == "min" ? 60.0 : 1.0);
+}
+
+TEST_CASE("a dry run shall tell of a branch what is left of it") {
+  const TemporaryFolder folder;
+  const std::string text = "name: branch\nbase: " + (k_here / "drop.yaml").string() +
+                           "\nvary: {emitters.feed.mass_flow: [1 g/s]}\n"
+                           "measure: {emitted: particles.emitted}\nset:\n  time.end: 4000 s\n";
+  const double whole = planned_seconds(folder / "study.yaml", text);
+  const double branch =
+      planned_seconds(folder / "study.yaml", text + "  start_from: yonder@3000 s\n");
+  REQUIRE(whole > 60.0);
+  // Two digits are told.
+  CHECK(branch / whole == doctest::Approx(0.25).epsilon(0.1));
+}
+
 TEST_CASE("a folder that holds a study shall be kept unless told otherwise") {
   const TemporaryFolder folder;
   fs::create_directories(folder / "out");
