@@ -46,6 +46,11 @@ std::vector<const ParameterSchema*> blocks_of(const std::vector<std::string>& ke
   return {};
 }
 
+bool reads_as_number(const std::string& text) {
+  return !text.empty() && text.find_first_of("0123456789") != std::string::npos &&
+         text.find_first_not_of("0123456789.+-eE") == std::string::npos;
+}
+
 class Walk {
  public:
   explicit Walk(const registry::Registry& registry) : registry_(registry) {}
@@ -60,10 +65,11 @@ class Walk {
                          .text = entry.key,
                          .is_quoted = false,
                          .is_in_list = false,
+                         .has_unit_of_last = false,
                          .parameter = nullptr});
       const Parameter* parameter = is_name ? nullptr : declared(node, entry.key);
       keys_.push_back(entry.key);
-      value(entry.value, inner, parameter, false);
+      value(entry.value, inner, parameter);
       keys_.pop_back();
     }
   }
@@ -79,19 +85,21 @@ class Walk {
     return keys_.size() == 2 && keys_[0] == "fluid" && keys_[1] == "regions";
   }
   void value(const Node& node, const std::string& path, const Parameter* parameter,
-             bool is_in_list) {
+             const Node* list = nullptr) {
     Place place{.kind = Place::Kind::text,
                 .path = path,
                 .where = node.where,
                 .text = node.text,
                 .is_quoted = node.is_quoted,
-                .is_in_list = is_in_list,
+                .is_in_list = list != nullptr,
+                .has_unit_of_last = list != nullptr && &list->items.back() != &node &&
+                                    !reads_as_number(list->items.back().text),
                 .parameter = parameter};
     if (node.is_list()) place.kind = Place::Kind::list;
     if (node.is_map()) place.kind = Place::Kind::map;
     if (node.kind != Node::Kind::nothing) places_.push_back(place);
     for (std::size_t n = 0; n < node.items.size(); ++n) {
-      value(node.items[n], path + "[" + std::to_string(n) + "]", parameter, true);
+      value(node.items[n], path + "[" + std::to_string(n) + "]", parameter, &node);
     }
     if (node.is_map()) map(node, path);
   }
@@ -142,11 +150,6 @@ bool is_number(const Parameter& p) {
          p.type == ParameterType::vectors;
 }
 
-bool reads_as_number(const std::string& text) {
-  return !text.empty() && text.find_first_of("0123456789") != std::string::npos &&
-         text.find_first_not_of("0123456789.+-eE") == std::string::npos;
-}
-
 /// "3 mm" in a list of numbers gives its unit to all: only the last one may hold a unit.
 std::vector<Mistake> wrong_numbers(const Place& place) {
   std::vector<Mistake> all{{"a word for a number", "many"},
@@ -161,7 +164,8 @@ std::vector<Mistake> wrong_numbers(const Place& place) {
   all.push_back({"a wrong dimension", is_kelvin ? "1 s" : "1 K"});
   if (place.parameter == nullptr) return all;
   for (const std::string& text : outside(*place.parameter)) {
-    all.push_back({"a value out of range", text});
+    // 2 is out of a range of shares, 2 % is not.
+    all.push_back({"a value out of range", text, !place.has_unit_of_last});
   }
   for (const char* text : {"0", "-1", "1e-300", "1e12", "-1e300"}) {
     all.push_back({"a number that is hardly meant", text, false});

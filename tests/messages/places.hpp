@@ -16,11 +16,12 @@ namespace dust::test {
 struct Place {
   enum class Kind { key, name_of_user, text, list, map };
   Kind kind = Kind::text;
-  std::string path;         ///< dotted, for messages
-  scenario::Mark where;     ///< of the key or the value
-  std::string text;         ///< of a key or a value
-  bool is_quoted = false;   ///< the value is written in quotes
-  bool is_in_list = false;  ///< one component of a vector or list
+  std::string path;               ///< dotted, for messages
+  scenario::Mark where;           ///< of the key or the value
+  std::string text;               ///< of a key or a value
+  bool is_quoted = false;         ///< the value is written in quotes
+  bool is_in_list = false;        ///< one component of a vector or list
+  bool has_unit_of_last = false;  ///< a component whose unit the last one of its list gives
   /// The declaration of a value's key; nothing for keys that no schema declares.
   const sdk::Parameter* parameter = nullptr;
 };

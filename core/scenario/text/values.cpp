@@ -204,7 +204,7 @@ class ValueReader {
     }
     std::vector<double> values;
     for (std::size_t n = 0; n < all.size(); ++n) {
-      const auto value = si(node.items[n], all[n]);
+      const auto value = si(with_unit == 1 ? node.items.back() : node.items[n], all[n]);
       is_good = is_good && value;
       // One wrong unit on the last component is one mistake, not three.
       if (!value && with_unit == 1) return std::nullopt;

@@ -377,6 +377,12 @@ TEST_CASE("a unit on some components only shall be told") {
         "have none: give each one its unit, or the last alone one for all");
 }
 
+TEST_CASE("a wrong unit that the last component gives to all shall be told where it is written") {
+  check("min: [1, 1, 40 mm]", "min: [1, 1,\n      40 furlong]",
+        "s.yaml:31:7: error: emitters.feed.min: unknown unit 'furlong': a length is expected (m, "
+        "mm, um)");
+}
+
 TEST_CASE("all problems shall be told at once, in the order of the file") {
   const Folder folder;
   auto text = changed(k_small, "end: 1 s", "end: 1 m");
