@@ -308,6 +308,18 @@ const ParameterSchema& DustCloudBlock::schema() {
   return made;
 }
 
+const ParameterSchema& FeedZoneBlock::schema() {
+  static const ParameterSchema made = [] {
+    SchemaOf<FeedZoneBlock> s;
+    s.vector(&FeedZoneBlock::min, "min", dimension::length,
+             "Lower corner of the box in which nothing comes off grains, for what they fall there "
+             "is the scenario's feed and no part of the plant.");
+    s.vector(&FeedZoneBlock::max, "max", dimension::length, "Upper corner of the box.");
+    return s.build();
+  }();
+  return made;
+}
+
 const ParameterSchema& DustSourceBlock::schema() {
   static const ParameterSchema made = [] {
     SchemaOf<DustSourceBlock> s;

@@ -151,6 +151,13 @@ struct DustSourceBlock {
   static const sdk::ParameterSchema& schema();
 };
 
+/// A box in which grains keep their dust.
+struct FeedZoneBlock {
+  sdk::Vec3 min;
+  sdk::Vec3 max;
+  static const sdk::ParameterSchema& schema();
+};
+
 /// A number from elsewhere beside a figure of ours; value and uncertainty bring their units along
 /// and are read apart.
 struct ReferenceBlock {

@@ -302,6 +302,7 @@ Json dust_schema() {
   field["properties"]["clouds"] = named(block<DustCloudBlock>());
   field["properties"]["sources"] = named(block<DustSourceBlock>());
   dust["properties"]["field"] = field;
+  dust["properties"]["feed_zones"] = named(block<FeedZoneBlock>());
   dust["properties"]["liberation"] = {{"$ref", "#/definitions/liberation"}};
   return dust;
 }

@@ -64,6 +64,13 @@ struct DustLoadSpec {
   double moisture = 0.0;      ///< [-] water over dry solids, by mass
 };
 
+/// A box in which grains keep their dust: where a scenario feeds them, not where its plant does.
+struct FeedZoneSpec {
+  std::string name;
+  sdk::Vec3 min;
+  sdk::Vec3 max;
+};
+
 /// What a scenario says of dust, beside the Setup: only who counts and carries dust asks.
 struct DustSetup {
   std::optional<DustSpec> given;          ///< the block `dust:`
@@ -72,6 +79,7 @@ struct DustSetup {
   std::optional<DustFieldSpec> field;
   std::vector<DustLoadSpec> loads;        ///< by material
   std::optional<ModelChoice> liberation;  ///< how loads become airborne
+  std::vector<FeedZoneSpec> feed_zones;   ///< where they do not
 
   /// By material and class, as particles take them; empty where no load ever becomes airborne.
   [[nodiscard]] std::vector<std::vector<double>> shares_on_grains() const {

@@ -200,6 +200,30 @@ TEST_CASE("wind shall take dust off as its shear over the threshold asks for") {
   CHECK(set_free(blow("1")) == 0.0);
 }
 
+TEST_CASE("grains shall keep their dust in a feed zone, and lose it elsewhere as without one") {
+  const TemporaryFolder folder;
+  const std::string wind = DUST_SOURCE "/tests/scenario/grain_in_wind.yaml";
+  const auto zone = [](const char* corners) {
+    return std::vector<std::string>{"--set",
+                                    std::string("dust.feed_zones={feed: ") + corners + "}"};
+  };
+  for (const std::string& file : {k_bounce, wind}) {
+    CAPTURE(file);
+    const std::string name = file == wind ? "wind" : "bounce";
+    const json none = run_summary(file, folder / (name + "_none"), {});
+    const json over = run_summary(file, folder / (name + "_over"),
+                                  zone("{min: [0, 0, 8], max: [40, 40, 40 mm]}"));
+    const json here =
+        run_summary(file, folder / (name + "_here"), zone("{min: [0, 0, 0], max: [99, 99, 8 mm]}"));
+    CHECK(set_free(none) > 0.0);
+    // It bounces below 8 mm.
+    CHECK(set_free(over) == set_free(none));
+    CHECK(set_free(here) == 0.0);
+    check_balances(here);
+    CHECK(sum_of(here["dust_on_grains"]["classes"], "entered_kg") > 0.0);
+  }
+}
+
 TEST_CASE("a run that starts from another shall go on with its loads and with what came off") {
   const TemporaryFolder folder;
   const json first = run_summary(k_bounce, folder / "first", {"--set", "time.end=6 ms"});

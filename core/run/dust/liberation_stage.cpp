@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 namespace dust::run {
@@ -40,7 +39,8 @@ LiberationStage::LiberationStage(const scenario::Setup& setup,
       law_(std::move(law)),
       law_name_(dust_setup.liberation->name),
       classes_(dust_setup.field->diameters.size()),
-      loads_(dust_setup.loads) {
+      loads_(dust_setup.loads),
+      feed_zones_(dust_setup.feed_zones) {
   for (scenario::DustLoadSpec& load : loads_) load.share.resize(classes_, 0.0);
   law_->prepare({.classes = classes_,
                  .diameter = dust_setup.field->diameters.data(),
@@ -55,6 +55,14 @@ LiberationStage::LiberationStage(const scenario::Setup& setup,
   }
 }
 
+bool LiberationStage::is_in_feed_zone(std::size_t row) const {
+  const double* x = particles_.rows().position + 4 * row;
+  return std::any_of(feed_zones_.begin(), feed_zones_.end(), [&](const scenario::FeedZoneSpec& z) {
+    return x[0] >= z.min.x && x[0] <= z.max.x && x[1] >= z.min.y && x[1] <= z.max.y &&
+           x[2] >= z.min.z && x[2] <= z.max.z;
+  });
+}
+
 /// Rows that contacts have done something to, and what.
 void LiberationStage::find_impacts() {
   const particles::ContactWork& work = particles_.contact_work();
@@ -65,7 +73,7 @@ void LiberationStage::find_impacts() {
   for (std::size_t row = 0; row < count; ++row) {
     const particles::ContactWork::Energy energy = work.sum(row);
     const double acceleration = work.acceleration(row);
-    if (!(energy.sum() > 0.0 || acceleration > 0.0)) continue;
+    if (!(energy.sum() > 0.0 || acceleration > 0.0) || is_in_feed_zone(row)) continue;
     rows_.push_back(static_cast<std::int32_t>(row));
     c.normal.push_back(energy.normal);
     c.tangential.push_back(energy.tangential);
@@ -77,26 +85,29 @@ void LiberationStage::find_impacts() {
   load_columns();
 }
 
-/// All rows, and the wind at them: what their drag relaxes to, less their own velocity.
+/// All rows but those that are fed, and the wind at them: what their drag relaxes to, less their
+/// own velocity.
 void LiberationStage::find_wind() {
   const particles::GrainRows grains = particles_.rows();
-  rows_.resize(grains.count);
-  std::iota(rows_.begin(), rows_.end(), 0);
+  rows_.clear();
+  for (std::size_t row = 0; row < grains.count; ++row) {
+    if (!is_in_feed_zone(row)) rows_.push_back(static_cast<std::int32_t>(row));
+  }
   load_columns();
   auto& c = columns_;
   for (Column* column : {&c.slip, &c.shear, &c.void_fraction}) {
     column->resize(padded(rows_.size()));
   }
-  for (std::size_t row = 0; row < grains.count; ++row) {
+  for (std::size_t q = 0; q < rows_.size(); ++q) {
+    const auto row = static_cast<std::size_t>(rows_[q]);
     const double* to = grains.drag_relaxation + 4 * row;
     const double* v = grains.velocity_of(row);
     const double* x = grains.position + 4 * row;
     const double slip =
         to[3] > 0.0 ? norm(sdk::Vec3{to[0] - v[0], to[1] - v[1], to[2] - v[2]}) : 0.0;
-    c.slip[row] = slip;
-    c.shear[row] =
-        c.mass[row] * to[3] * slip / (std::numbers::pi * c.diameter[row] * c.diameter[row]);
-    c.void_fraction[row] = dust_.void_fraction_at({x[0], x[1], x[2]});
+    c.slip[q] = slip;
+    c.shear[q] = c.mass[q] * to[3] * slip / (std::numbers::pi * c.diameter[q] * c.diameter[q]);
+    c.void_fraction[q] = dust_.void_fraction_at({x[0], x[1], x[2]});
   }
 }
 

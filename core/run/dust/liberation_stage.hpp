@@ -57,6 +57,7 @@ class LiberationStage {
   static constexpr std::size_t k_kinds = 3;
   static constexpr std::array<const char*, k_kinds> k_kind_names = {"grains", "walls", "wind"};
 
+  [[nodiscard]] bool is_in_feed_zone(std::size_t row) const;
   void find_impacts();
   void find_wind();
   void load_columns();
@@ -74,6 +75,7 @@ class LiberationStage {
   std::string law_name_;
   std::size_t classes_;
   std::vector<scenario::DustLoadSpec> loads_;  ///< by material
+  std::vector<scenario::FeedZoneSpec> feed_zones_;
   std::vector<std::string> causes_;
   std::vector<std::int32_t> rows_;  ///< that the law is asked about
   struct {

@@ -10,8 +10,48 @@
 
 namespace dust::scenario {
 
+namespace {
+
+/// Whether the box has a volume and part of it lies in the domain.
+bool is_box_in_domain(const scenario::FeedZoneSpec& zone, const DomainSpec& domain) {
+  const auto overlaps = [](double low, double high, double from, double to) {
+    return low < high && low < to && high > from;
+  };
+  return overlaps(zone.min.x, zone.max.x, domain.min.x, domain.max.x) &&
+         overlaps(zone.min.y, zone.max.y, domain.min.y, domain.max.y) &&
+         overlaps(zone.min.z, zone.max.z, domain.min.z, domain.max.z);
+}
+
+void read_feed_zones(Reading& reading, MapReader& dust, Node& written) {
+  Node zones = Node::make_map();
+  for_each_named(reading, dust, "feed_zones", [&](const Entry& entry, const std::string& path) {
+    MapReader reader(entry.value, "dust." + path, entry.where, reading.diagnostics);
+    if (!entry.value.is_map()) return;
+    std::vector<sdk::Value> values;
+    const auto read = block<FeedZoneBlock>(reader, &values);
+    reader.finish();
+    const FeedZoneSpec zone{entry.key, read.min, read.max};
+    if (reader.is_good() && !is_box_in_domain(zone, reading.setup.domain)) {
+      reading.error(entry.where, "dust." + path +
+                                     ": no part of the box lies in the domain; min is its lower "
+                                     "corner, max its upper one");
+    }
+    reading.dust.feed_zones.push_back(zone);
+    add(zones, entry.key, written_block<FeedZoneBlock>(values));
+  });
+  if (!zones.entries.empty()) add(written, "feed_zones", std::move(zones));
+}
+
+}  // namespace
+
 void read_liberation(Reading& reading, MapReader& dust, Node& written) {
+  read_feed_zones(reading, dust, written);
   const Entry* entry = dust.optional("liberation");
+  if (const Entry* zones = dust.optional("feed_zones"); zones != nullptr && entry == nullptr) {
+    reading.error(zones->where,
+                  "dust.feed_zones: nothing comes off grains anywhere: give dust: {liberation: "
+                  "{model: energy, ...}}, or take feed_zones out");
+  }
   ReadModel law;
   if (entry != nullptr) law = read_part(reading, dust, "liberation", false, written);
   check_dust_loads(reading, law.model.get(), entry == nullptr || law.model != nullptr);

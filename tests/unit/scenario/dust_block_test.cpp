@@ -231,6 +231,28 @@ TEST_CASE("loads that cannot come off shall be refused with a remedy") {
   check_text(text, "materials.sand.dust_load: there is no fluid that takes dust up");
 }
 
+TEST_CASE(
+    "feed zones shall be read and written out the same, and refused where they mean nothing") {
+  const auto zoned = [](const std::string& box) {
+    return dusty("dust_load: [0.1 %, 0.4 %]",
+                 changed(k_liberation, "dust: {", "dust: {feed_zones: {belt: " + box + "}, "));
+  };
+  const Folder folder;
+  const auto first = read(folder.write("s.yaml", zoned("{min: [0, 0, 1 mm], max: [1, 1, 2 mm]}")));
+  REQUIRE(first.dust.feed_zones.size() == 1);
+  CHECK(first.dust.feed_zones[0].name == "belt");
+  CHECK(first.dust.feed_zones[0].min.z == 1e-3);
+  CHECK(read(folder.write("t.yaml", first.resolved_yaml)).resolved_yaml == first.resolved_yaml);
+  check_text(zoned("{min: [1, 1, 2 mm], max: [0, 0, 1 mm]}"),
+             "dust.feed_zones.belt: no part of the box lies in the domain; min is its lower");
+  check_text(zoned("{min: [0, 0, -2 m], max: [1, 1, -1 m]}"),
+             "dust.feed_zones.belt: no part of the box lies in the domain");
+  check_text(zoned("{min: [0, 0, 1 mm]}"), "missing key 'max'");
+  check_text(with("dust: {finer_than: 50 um, feed_zones: {belt: {min: [0, 0, 1 mm], max: [1, 1, 2 "
+                  "mm]}}}\n"),
+             "dust.feed_zones: nothing comes off grains anywhere: give dust: {liberation:");
+}
+
 TEST_CASE("loads without a law shall be told to stay") {
   const Folder folder;
   const auto result =

@@ -71,7 +71,13 @@ std::string dust_text(const Setup& setup, const DustSetup& dust,
       << texts_of(sizes, [](double d) { return base::length_text(d, 3); }) << ", "
       << base::digits_text(dust.field->density, 4) << " kg/m3\n";
   print_loads(out, setup, dust, emissions);
-  if (dust.liberation) out << "             set free by " << dust.liberation->name << '\n';
+  if (dust.liberation) {
+    out << "             set free by " << dust.liberation->name;
+    std::vector<std::string> zones;
+    for (const scenario::FeedZoneSpec& zone : dust.feed_zones) zones.push_back(zone.name);
+    if (!zones.empty()) out << ", but not in " << scenario::listed(zones);
+    out << '\n';
+  }
   if (dust.given && !dust.given->hoods.empty()) {
     out << "             caught by " << scenario::listed(dust.given->hoods) << '\n';
   }
