@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,11 @@ struct HoodTrial {
   double load = 0.0;         ///< [kg/s] released, dust and all; 0 without grains
   double computed = -1.0;    ///< computed grains of dust that the hood has drawn; negative: a field
   std::size_t replicas = 1;  ///< runs that it is the mean of
+  double capture_error = -1.0;  ///< [-] by the scatter of three replicas or more; negative: by the
+                                ///< errors of both rates
 
-  /// Drawn over drawn and escaping; nothing where neither was seen.
+  /// Drawn over drawn and escaping; nothing where neither was seen. Without an error where one of
+  /// the two rates has none: it has not settled.
   [[nodiscard]] std::optional<Uncertain> capture() const;
 };
 
@@ -44,6 +48,10 @@ struct HoodResults {
   std::vector<HoodPlace> places;
   std::optional<HoodTrial> plain;  ///< without a hood
 };
+
+/// The mean of trials of one hood with other seeds. Of three or more the scatter tells the errors,
+/// \f$ s / \sqrt{n} \f$: of rates that have not settled, too, as they are in the time observed.
+[[nodiscard]] HoodTrial mean_of(std::span<const HoodTrial> trials);
 
 /// How amounts of dust are given: per tonne of load, or per hour where nothing is loaded.
 struct HoodScale {
