@@ -101,7 +101,9 @@ class Growth {
       const double rate = (total[n] - total[n - 1]) / duration;
       means.add({&rate, 1}, duration);
     }
-    return {means.mean(0), means.error(0)};
+    // A rate that still changes is known to what its batches scatter.
+    const double error = means.error(0);
+    return {means.mean(0), error == sdk::k_not_steady ? means.deviation(0) : error};
   }
   /// [s] counted.
   [[nodiscard]] double duration() const {
@@ -171,23 +173,25 @@ HoodTrial trial_of(const report::RunText& run, double flow) {
 /// From here on the scatter of runs with other seeds tells the error of their mean.
 constexpr std::size_t k_min_replicas = 3;
 
-/// The mean of runs with other seeds, with its standard error \f$ s / \sqrt{n} \f$ by their scatter
-/// \f$ s \f$; of two runs by their own errors, where both have one.
+/// The mean of runs with other seeds. They begin with the same state, so that their own errors are
+/// not independent: its error is theirs in the mean or, of three and more, that of their scatter
+/// \f$ s / \sqrt{n} \f$, whichever is larger.
 Uncertain mean_of_replicas(std::span<const Uncertain> runs) {
   const auto count = static_cast<double>(runs.size());
   Uncertain mean;
   for (const Uncertain& run : runs) mean.value += run.value / count;
-  double squares = 0.0;
-  if (runs.size() < k_min_replicas) {
-    for (const Uncertain& run : runs) {
-      if (run.value != 0.0 && run.error < 0.0) return mean;
-      squares += std::pow(std::max(run.error, 0.0) / count, 2);
-    }
-  } else {
-    for (const Uncertain& run : runs) squares += std::pow(run.value - mean.value, 2);
-    squares /= count * (count - 1.0);
+  double own = 0.0, squares = 0.0;
+  bool is_open = false;
+  for (const Uncertain& run : runs) {
+    own += std::max(run.error, 0.0) / count;
+    squares += std::pow(run.value - mean.value, 2);
+    is_open = is_open || (run.value != 0.0 && run.error < 0.0);
   }
-  if (squares > 0.0) mean.error = std::sqrt(squares);
+  if (is_open) return mean;
+  const bool has_scatter = runs.size() >= k_min_replicas;
+  const double error =
+      std::max(own, has_scatter ? std::sqrt(squares / (count * (count - 1.0))) : 0.0);
+  if (error > 0.0) mean.error = error;
   return mean;
 }
 

@@ -119,8 +119,8 @@ void add_study_options(CLI::App& command, Arguments& arguments) {
       ->type_name("TIME");
   command
       .add_option("--replicates", arguments.replicates,
-                  "Runs of each point with other seeds: from 3 on their scatter tells the error of "
-                  "what a hood captures, whether its rates have settled or not")
+                  "Runs of each point with other seeds: from 3 on their scatter counts where it is "
+                  "larger than the error that each run tells")
       ->type_name("N")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

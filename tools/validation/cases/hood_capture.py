@@ -95,6 +95,6 @@ def write(args):
         page.body(["## What was promised", "", "```", *table.splitlines(), "```", ""])
     page.note(f"The plant's transfer point in lumps of 30 and 60 mm and cells of 100 mm. A run of {FIRST:g} s finds the place; `engine suggest-hoods` "
               f"tries {FLOW} there from its last state, {len(SEEDS)} seeds, and counts from {COUNTED:g} to {FIRST + DURATION:g} s. Then the plant "
-              f"starts with that hood, {len(SEEDS)} other seeds, and is looked at over the same time. Errors are standard errors by the scatter of seeds; "
-              "those of the promise share the state that they begin with.")
+              f"starts with that hood, {len(SEEDS)} other seeds, and is looked at over the same time. The error of what is caught is "
+              "that of the scatter of seeds; the promise's is no smaller than what each of its runs tells, for they share the state that they begin with.")
     page.write(TITLE, runs, "tools/validation/run hood_capture")
