@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace dust::preflight {
 namespace {
@@ -23,6 +24,27 @@ using Requests = std::vector<sdk::InsertionRequest>;
 
 double density_of(const Setup& setup, const EmitterSpec& spec) {
   return setup.materials[static_cast<std::size_t>(spec.material)].properties.density;
+}
+
+/// [kg] of real grains, by material.
+std::vector<double> masses_of(const Setup& setup, const EmitterSpec& spec,
+                              const Requests& requests) {
+  std::vector<double> masses(setup.materials.size(), 0.0);
+  for (const sdk::InsertionRequest& one : requests) {
+    const int own = one.material < 0
+                        ? spec.material
+                        : spec.more_materials.at(static_cast<std::size_t>(one.material));
+    const auto m = static_cast<std::size_t>(own);
+    masses[m] +=
+        one.weight * setup.materials[m].properties.density * sdk::sphere_volume(one.diameter);
+  }
+  return masses;
+}
+
+std::vector<double> shares_of(std::vector<double> masses) {
+  const double all = std::accumulate(masses.begin(), masses.end(), 0.0);
+  for (double& mass : masses) mass = all > 0.0 ? mass / all : 0.0;
+  return masses;
 }
 
 /// [kg] of a grain on average; 0 where the emitter does not say which sizes come.
@@ -136,6 +158,17 @@ double step_of(const Setup& setup, const EmitterSpec& spec, const sdk::EmitterRe
                           : setup.time.fluid_step;
 }
 
+/// [kg] by material of grains at once whose sizes the emitter does not say; of very many, none.
+std::vector<double> masses_seen(const Setup& setup, const EmitterSpec& spec,
+                                const sdk::EmitterRequest& request, sdk::Emitter& emitter) {
+  constexpr std::int64_t k_few = 5000;
+  Requests requests;
+  if (request.count <= k_few) {
+    propose(setup, spec, step_of(setup, spec, request), request, emitter, requests);
+  }
+  return masses_of(setup, spec, requests);
+}
+
 void take_sizes(const sdk::EmitterRequest& request, EmissionNumbers& numbers) {
   double all = 0.0;
   for (const auto& share : request.shares) all += share.number_fraction;
@@ -166,11 +199,18 @@ EmissionNumbers count_grains(const Setup& setup, const bodies::BodySet& bodies,
   numbers.begin = request.begin;
   numbers.end = request.end;
   const double mass = mean_mass(request, density_of(setup, spec));
-  if (!emitter.insertion_rule().waits &&
+  const auto own = static_cast<std::size_t>(spec.material);
+  numbers.mass_at_once.assign(setup.materials.size(), 0.0);
+  numbers.stream_shares.assign(setup.materials.size(), 0.0);
+  numbers.stream_shares[own] = 1.0;
+  // Grains of several materials have to be seen one by one.
+  if (!emitter.insertion_rule().waits && spec.more_materials.empty() &&
       (request.count > 0 || (request.mass > 0.0 && mass > 0.0))) {
     numbers.at_once =
         request.count > 0 ? static_cast<double>(request.count) : std::round(request.mass / mass);
     numbers.volume_at_once = numbers.at_once * mass / density_of(setup, spec);
+    numbers.mass_at_once[own] = numbers.at_once * mass;
+    if (!(mass > 0.0)) numbers.mass_at_once = masses_seen(setup, spec, request, emitter);
     take_sizes(request, numbers);
     return numbers;
   }
@@ -187,10 +227,16 @@ EmissionNumbers count_grains(const Setup& setup, const bodies::BodySet& bodies,
       propose(setup, spec, step_of(setup, spec, request), request, emitter, requests);
   if (!(duration > 0.0) || requests.empty()) return numbers;
   count_sizes(requests, numbers);
+  std::vector<double> masses = masses_of(setup, spec, requests);
   if (!emitter.insertion_rule().waits) {
     numbers.at_once = static_cast<double>(requests.size());
+    for (std::size_t m = 0; m < masses.size() && !spec.more_materials.empty(); ++m) {
+      numbers.volume_at_once += masses[m] / setup.materials[m].properties.density;
+    }
+    numbers.mass_at_once = std::move(masses);
     return numbers;
   }
+  numbers.stream_shares = shares_of(std::move(masses));
   for (const sdk::InsertionRequest& one : requests) numbers.real_per_second += one.weight;
   numbers.real_per_second /= duration;
   numbers.computed_per_second = static_cast<double>(requests.size()) / duration;

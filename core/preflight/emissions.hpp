@@ -24,8 +24,10 @@ struct EmissionNumbers {
   double real_per_second = 0.0;      ///< the same, counted with their weights
   double at_once = 0.0;              ///< computed grains that come at one moment
   double volume_at_once = 0.0;       ///< [m3] of them; 0 where their sizes are not known
-  std::vector<Size> sizes;           ///< ascending; empty where they are not known
-  double begin = 0.0;                ///< [s] of a stream, or when those at once come
+  /// [kg] of them, and of the stream its share by mass [-]: by index into Setup::materials.
+  std::vector<double> mass_at_once, stream_shares;
+  std::vector<Size> sizes;  ///< ascending; empty where they are not known
+  double begin = 0.0;       ///< [s] of a stream, or when those at once come
   double end = std::numeric_limits<double>::infinity();
   /// [s] that grains of a stream stay, of a sample of them; infinite for those that never leave.
   std::vector<double> stays;

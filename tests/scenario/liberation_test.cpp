@@ -9,6 +9,7 @@
 #include <fstream>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 using dust::test::read_file;
@@ -121,6 +122,15 @@ TEST_CASE("a small energy shall set free the same from any load") {
 
 TEST_CASE("moisture shall bind as the law says") {
   const TemporaryFolder folder;
+  // AP-42's example: 3 m/s and 0.7 % of moisture give 3.6 g/t finer than 10 um, 0.35 of 0.74.
+  const json dry_ore =
+      run_summary(k_bounce, folder / "ore", {"--set", "materials.ore.moisture=0.7 %"});
+  const json& estimate = dry_ore["dust_estimates"]["ap42_drop"]["ore"];
+  const double at_three = 3.6 * 0.74 / 0.35;
+  for (const auto& [key, wind] : {std::pair{"least_g_per_tonne", 0.6}, {"most_g_per_tonne", 6.7}}) {
+    CHECK(estimate[key].get<double>() ==
+          doctest::Approx(at_three * std::pow(wind / 3.0, 1.3)).epsilon(0.02));
+  }
   const auto freed = [&](const std::string& name, std::vector<std::string> more) {
     more.insert(more.end(), {"--set", "dust.liberation.binding_energy=1 MJ/kg"});
     return set_free(run_summary(k_bounce, folder / name, more));

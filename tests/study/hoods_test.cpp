@@ -57,6 +57,15 @@ TEST_CASE("a run shall give a study of hoods, and the study what each hood captu
   CHECK(holds(text, "start_from: wake"));
   CHECK(holds(text, "sensors.exit.steady_after: 0.48 s"));
   CHECK(holds(text, "place_1_at_6_l_min:"));
+  const std::string often = folder / "often.yaml";
+  const auto repeated =
+      engine({"suggest-hoods", folder / "wake", "--flows", "6, 30 l/min", "--places", "1",
+              "--duration", "0.24 s", "--replicates", "3", "-o", often});
+  CHECK(holds(repeated.out, "9 points of 0.24 s"));
+  const auto plan = engine({"study", often, "--dry-run"});
+  INFO(plan.err);
+  CHECK(plan.status == 0);
+  CHECK(holds(plan.out, "seed 3"));
   const std::string results = folder / "study";
   const auto study = engine({"study", file, "-o", results, "--quiet"});
   INFO(study.err);

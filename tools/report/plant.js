@@ -62,6 +62,12 @@ Dust.dust_surety = (data, stream) => {
     p({}, `The dust's mass closes to ${Dust.number(dust.error, 1)} of it; what binds it to the load is measured, not known.`), Dust.limits_text(data));
 };
 
+// What practice expects of one drop, named as what it is; nothing where the load's moisture is not known.
+Dust.drop_estimate = ({dust_estimates}) => {
+  const [first] = Object.values((dust_estimates || {}).ap42_drop || {}), digits = (value) => Dust.number(Number(value.toPrecision(2)), 2);
+  return first && Dust.p({}, `Order of magnitude, AP-42 for one drop in the open: ${digits(first.least_g_per_tonne)} to ${digits(first.most_g_per_tonne)}\u202fg/t finer than 30\u202fµm in winds of 0.6 to 6.7\u202fm/s`);
+};
+
 Dust.load_dust_answers = (data) => {
   const dust = Dust.load_dust(data), stream = Dust.dust_stream(data), {summary} = data, {el, p} = Dust;
   if (!dust) return [];
@@ -75,7 +81,7 @@ Dust.load_dust_answers = (data) => {
   const answer = Dust.plant_answer, counts = (part) => part.rate.value > 1e-4 * free.rate.value;
   const causes = stream.causes.filter((c) => c.rate.value > 0).map((c) => ({...c, title: c.name === 'grains' ? 'grains on grains' : Dust.words(c.name)}));
   const how_much = answer('How much dust?', free.rate.value > 0 ? said(free.load, 'g/t') : 'none', p({}, `${said(free.rate, 'kg/h')} set free from the load, which carries ${fed}`),
-    counts(stream.out) && p({}, `${said(stream.out.load, 'g/t')} get out with the air (${said(stream.out.rate, 'kg/h')})`));
+    counts(stream.out) && p({}, `${said(stream.out.load, 'g/t')} get out with the air (${said(stream.out.rate, 'kg/h')})`), Dust.drop_estimate(summary));
   const from_where = answer('From where?', causes.length ? Dust.sentence(causes[0].title) : 'nowhere yet', causes.length ? ranks(causes.slice(0, 4)) : null,
     data.release_map ? p({}, el('a', {href: '#liberation'}, 'Where it comes off')) : null);
   const fates = [{...stream.airborne, title: 'still in the air'}, {...stream.settled, title: 'settled'}, {...stream.caught, title: 'caught by grains'}, ...stream.hoods.map((h) => ({...h, title: `drawn out at ${Dust.words(h.name)}`})),

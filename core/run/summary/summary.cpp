@@ -261,7 +261,10 @@ Json amounts_json(const Simulation& s, const RunFacts& facts) {
     s.dust_rates()->report(figures);
     j["dust_rates"] = figures.json();
   }
-  if (s.liberation() != nullptr) j["dust_on_grains"] = dust_on_grains_json(s);
+  if (s.liberation() != nullptr) {
+    j["dust_on_grains"] = dust_on_grains_json(s);
+    j["dust_estimates"] = dust_estimates_json(s);
+  }
   if (s.setup().audit.energy) j["energy"] = energy_json(s);
   j["forces"] = forces_json(s.setup(), facts.forces);
   j["size_classes"] = s.models().class_diameters.empty() ? Json::array() : class_steps(s.dem());

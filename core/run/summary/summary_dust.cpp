@@ -38,6 +38,16 @@ std::map<double, SizeClass> size_classes(const Simulation& s, const scenario::Du
   return classes;
 }
 
+/// Dust finer than 30 um that a drop of material gives off [g/t] in a wind of `speed` [m/s], of the
+/// moisture `moisture` [-]: 1000 k 0.0016 (U/2.2)^1.3 / (M/2 %)^1.4 with k = 0.74 (AP-42, 13.2.4,
+/// 2006).
+double drop_emission(double speed, double moisture) {
+  constexpr double k_below_30_um = 0.74;
+  constexpr double k_grams_per_kilogram = 1e3;
+  return k_grams_per_kilogram * k_below_30_um * 0.0016 * std::pow(speed / 2.2, 1.3) /
+         std::pow(moisture / 0.02, 1.4);
+}
+
 }  // namespace
 
 Json dust_rule_json(const Simulation& s) {
@@ -169,6 +179,20 @@ Json dust_on_grains_json(const Simulation& s) {
     if (s.dust_stage()->has_scavenging()) j[classes[n]]["caught_kg"] = balance.caught;
   }
   return {{"classes", j}, {"kept_back_kg", stage.kept_back()}};
+}
+
+Json dust_estimates_json(const Simulation& s) {
+  constexpr double k_calm = 0.6, k_windy = 6.7;  // m/s
+  Json by_material = Json::object();
+  for (std::size_t m = 0; m < s.dust_setup().loads.size(); ++m) {
+    const scenario::DustLoadSpec& load = s.dust_setup().loads[m];
+    if (load.share.empty() || !(load.moisture > 0.0)) continue;
+    by_material[s.setup().materials[m].name] = {
+        {"moisture", load.moisture},
+        {"least_g_per_tonne", drop_emission(k_calm, load.moisture)},
+        {"most_g_per_tonne", drop_emission(k_windy, load.moisture)}};
+  }
+  return {{"ap42_drop", by_material}};
 }
 
 void add_liberation_table(const Simulation& s, Json& tables) {

@@ -101,7 +101,9 @@ class Growth {
       const double rate = (total[n] - total[n - 1]) / duration;
       means.add({&rate, 1}, duration);
     }
-    return {means.mean(0), means.error(0)};
+    // A rate that still changes is known to what its batches scatter.
+    const double error = means.error(0);
+    return {means.mean(0), error == sdk::k_not_steady ? means.deviation(0) : error};
   }
   /// [s] counted.
   [[nodiscard]] double duration() const {
@@ -130,9 +132,11 @@ double mass_of_drawn(const report::RunText& run) {
   return count > 0.0 ? mass / count : 0.0;
 }
 
+/// A part without an error leaves the sum without one; a part that is not there does not.
 Uncertain sum(const Uncertain& a, const Uncertain& b) {
-  if (a.error < 0.0) return {a.value + b.value, b.error};
-  if (b.error < 0.0) return {a.value + b.value, a.error};
+  if (a.value == 0.0) return b;
+  if (b.value == 0.0) return a;
+  if (a.error < 0.0 || b.error < 0.0) return {a.value + b.value, -1.0};
   return {a.value + b.value, std::hypot(a.error, b.error)};
 }
 
@@ -166,23 +170,28 @@ HoodTrial trial_of(const report::RunText& run, double flow) {
   return trial;
 }
 
-/// The mean of trials with other seeds.
-HoodTrial mean_of(const std::vector<HoodTrial>& trials) {
-  HoodTrial mean{.flow = trials.front().flow, .replicas = trials.size()};
-  const auto count = static_cast<double>(trials.size());
-  mean.computed = 0.0;
-  double drawn = 0.0, escaping = 0.0;
-  for (const HoodTrial& trial : trials) {
-    mean.drawn.value += trial.drawn.value / count;
-    mean.escaping.value += trial.escaping.value / count;
-    mean.load += trial.load / count;
-    mean.computed += trial.computed;
-    drawn += std::pow(std::max(trial.drawn.error, 0.0) / count, 2);
-    escaping += std::pow(std::max(trial.escaping.error, 0.0) / count, 2);
+/// From here on the scatter of runs with other seeds tells the error of their mean.
+constexpr std::size_t k_min_replicas = 3;
+
+/// The mean of runs with other seeds. They begin with the same state, so that their own errors are
+/// not independent: its error is theirs in the mean or, of three and more, that of their scatter
+/// \f$ s / \sqrt{n} \f$, whichever is larger.
+Uncertain mean_of_replicas(std::span<const Uncertain> runs) {
+  const auto count = static_cast<double>(runs.size());
+  Uncertain mean;
+  for (const Uncertain& run : runs) mean.value += run.value / count;
+  double own = 0.0, squares = 0.0;
+  bool is_open = false;
+  for (const Uncertain& run : runs) {
+    own += std::max(run.error, 0.0) / count;
+    squares += std::pow(run.value - mean.value, 2);
+    is_open = is_open || (run.value != 0.0 && run.error < 0.0);
   }
-  if (drawn > 0.0) mean.drawn.error = std::sqrt(drawn);
-  if (escaping > 0.0) mean.escaping.error = std::sqrt(escaping);
-  if (trials.size() == 1) mean.computed = trials.front().computed;
+  if (is_open) return mean;
+  const bool has_scatter = runs.size() >= k_min_replicas;
+  const double error =
+      std::max(own, has_scatter ? std::sqrt(squares / (count * (count - 1.0))) : 0.0);
+  if (error > 0.0) mean.error = error;
   return mean;
 }
 
@@ -226,12 +235,34 @@ std::optional<Uncertain> HoodTrial::capture() const {
   const double d = drawn.value, e = escaping.value;
   if (!(d + e > 0.0)) return std::nullopt;
   Uncertain capture{d / (d + e), -1.0};
-  if (drawn.error < 0.0 && escaping.error < 0.0) return capture;
+  if (capture_error >= 0.0) {
+    capture.error = capture_error;
+    return capture;
+  }
+  const bool is_open = (d > 0.0 && drawn.error < 0.0) || (e > 0.0 && escaping.error < 0.0);
+  if (is_open || (drawn.error < 0.0 && escaping.error < 0.0)) return capture;
   // Errors of the two add in squares, each by its derivative.
   const double of_drawn = e * std::max(drawn.error, 0.0);
   const double of_escaping = d * std::max(escaping.error, 0.0);
   capture.error = std::hypot(of_drawn, of_escaping) / ((d + e) * (d + e));
   return capture;
+}
+
+HoodTrial mean_of(std::span<const HoodTrial> trials) {
+  if (trials.size() == 1) return trials.front();
+  HoodTrial mean{.flow = trials.front().flow, .computed = 0.0, .replicas = trials.size()};
+  std::vector<Uncertain> drawn, escaping, captures;
+  for (const HoodTrial& trial : trials) {
+    drawn.push_back(trial.drawn);
+    escaping.push_back(trial.escaping);
+    if (const auto capture = trial.capture()) captures.push_back(*capture);
+    mean.load += trial.load / static_cast<double>(trials.size());
+    mean.computed += trial.computed;
+  }
+  mean.drawn = mean_of_replicas(drawn);
+  mean.escaping = mean_of_replicas(escaping);
+  if (captures.size() >= k_min_replicas) mean.capture_error = mean_of_replicas(captures).error;
+  return mean;
 }
 
 HoodResults hood_results(const fs::path& study) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct Uncertain {
   double error = -1.0;
 };
 
-/// What a hood did at one flow, over the time after its flow had come about. Rates are of dust.
+/// What a hood did at one flow, over the time after its flow had come about. Rates are of dust; one
+/// that still changes has as its error how far stretches of the time lie from the mean.
 struct HoodTrial {
   double flow = 0.0;         ///< [m3/s]
   Uncertain drawn;           ///< [kg/s] through the hood
@@ -26,8 +28,10 @@ struct HoodTrial {
   double load = 0.0;         ///< [kg/s] released, dust and all; 0 without grains
   double computed = -1.0;    ///< computed grains of dust that the hood has drawn; negative: a field
   std::size_t replicas = 1;  ///< runs that it is the mean of
+  double capture_error = -1.0;  ///< [-] of three replicas or more; negative: that of both rates
 
-  /// Drawn over drawn and escaping; nothing where neither was seen.
+  /// Drawn over drawn and escaping; nothing where neither was seen. Without an error where one of
+  /// the two rates has none.
   [[nodiscard]] std::optional<Uncertain> capture() const;
 };
 
@@ -44,6 +48,11 @@ struct HoodResults {
   std::vector<HoodPlace> places;
   std::optional<HoodTrial> plain;  ///< without a hood
 };
+
+/// The mean of trials of one hood with other seeds. Its errors are those of the trials in the mean,
+/// for all begin with the same state, or, of three and more, that of their scatter, whichever is
+/// larger.
+[[nodiscard]] HoodTrial mean_of(std::span<const HoodTrial> trials);
 
 /// How amounts of dust are given: per tonne of load, or per hour where nothing is loaded.
 struct HoodScale {

@@ -177,8 +177,9 @@ void write_head(std::ostringstream& out, const FinishedRun& run, const HoodStudy
       << name << "\nname: " << name << "\ntitle: Hoods at " << study.sites.size()
       << (study.sites.size() == 1 ? " place" : " places") << " of low pressure, with "
       << study.flows.size() << (study.flows.size() == 1 ? " flow" : " flows")
-      << " each\nbase: " << (folder / "scenario.yaml").generic_string()
-      << "\nset:\n  start_from: " << folder.generic_string()
+      << " each\nbase: " << (folder / "scenario.yaml").generic_string() << "\n"
+      << (study.replicates > 1 ? "replicates: " + std::to_string(study.replicates) + "\n" : "")
+      << "set:\n  start_from: " << folder.generic_string()
       << "\n  time.end: " << time_text(span.end)
       << "\n  time.output_every: " << time_text(span.output_every) << '\n';
   const double steady = span.begin + k_settling * (span.end - span.begin);
@@ -311,6 +312,7 @@ HoodStudy hood_study(const fs::path& folder, const HoodStudyOptions& options,
   study.flows = options.flows.empty() ? usual_flows(study.sites.front().area()) : options.flows;
   const Span span = span_of(run, options.duration);
   study.duration = span.end - span.begin;
+  study.replicates = options.replicates;
   std::ostringstream out;
   write_head(out, run, study, options);
   write_cases(out, study, material_of(run.scenario.setup),

@@ -37,6 +37,7 @@ struct HoodStudyOptions {
   std::size_t places = 3;       ///< of the deepest
   double opening = 0.0;         ///< [m] 0: usual_opening
   double duration = 0.0;        ///< [s] of each point; 0: half of what the run took
+  std::size_t replicates = 1;   ///< of each point, with other seeds
   std::filesystem::path file;   ///< that it will be written to: paths are seen from there
 };
 
@@ -48,7 +49,10 @@ struct HoodStudy {
   std::vector<int> without_room;  ///< numbers of places where no hood fits
   double opening = 0.0;           ///< [m]
   double duration = 0.0;          ///< [s] of each point
-  [[nodiscard]] std::size_t points() const { return 1 + sites.size() * flows.size(); }
+  std::size_t replicates = 1;     ///< of each point
+  [[nodiscard]] std::size_t points() const {
+    return replicates * (1 + sites.size() * flows.size());
+  }
 };
 
 /// Writes a study of hoods for a finished run: each point goes on from the run's last state with a

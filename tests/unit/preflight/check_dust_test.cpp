@@ -5,6 +5,9 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <fstream>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -40,6 +43,47 @@ TEST_CASE("the numbers of a check shall hold the flow of dust by class") {
     CHECK(dust["brought_kg_per_s"]["limestone"][n].get<double>() ==
           doctest::Approx(share[n] * 500e3 / 3600.0).epsilon(1e-9));
   }
+}
+
+TEST_CASE("the dust of grains that come at once shall be told by the material of each") {
+  const dust::test::TemporaryFolder folder;
+  std::ofstream(folder / "grains.csv") << "diameter,x,y,z,material\n"
+                                          "0.006,0.008,0.008,0.02,ore\n"
+                                          "0.004,0.03,0.03,0.02,shale\n"
+                                          "0.006,0.03,0.008,0.02,shale\n";
+  std::ofstream(folder / "s.yaml")
+      << "include: " DUST_SOURCE
+         "/tests/scenario/dusty_bounce.yaml\n"
+         "materials:\n"
+         "  shale: {density: 2000, young_modulus: 20 MPa, poisson_ratio: 0.3, "
+         "dust_load: [0.2 %, 0.3 %], moisture: 1 %}\n"
+         "interactions:\n"
+         "  - between: [ore, ore]\n"
+         "    contact: {model: hertz_mindlin, restitution: 0.5, friction: 0.4}\n"
+         "  - {between: [ore, steel], like: [ore, ore]}\n"
+         "  - {between: [ore, shale], like: [ore, ore]}\n"
+         "  - {between: [shale, shale], like: [ore, ore]}\n"
+         "  - {between: [shale, steel], like: [ore, ore]}\n"
+         "emitters:\n"
+         "  bed: {model: file, material: ore, materials: [shale], file: grains.csv}\n";
+  const auto outcome = engine({"check", folder / "s.yaml", "--json"});
+  REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const Json dust = Json::parse(outcome.out)["dust"];
+  const auto volume = [](double diameter) {
+    return std::numbers::pi / 6.0 * std::pow(diameter, 3);
+  };
+  // With the grain of 6 mm that dusty_bounce drops.
+  const double ore = 3000.0 * 2.0 * volume(6e-3);
+  const double shale = 2000.0 * (volume(4e-3) + volume(6e-3));
+  const Json& at_once = dust["brought_at_once_kg"];
+  CHECK(at_once["ore"][0].get<double>() == doctest::Approx(0.004 * ore).epsilon(1e-9));
+  CHECK(at_once["ore"][1].get<double>() == doctest::Approx(0.006 * ore).epsilon(1e-9));
+  CHECK(at_once["shale"][0].get<double>() == doctest::Approx(0.002 * shale).epsilon(1e-9));
+  CHECK(at_once["shale"][1].get<double>() == doctest::Approx(0.003 * shale).epsilon(1e-9));
+  CHECK(dust["brought_kg_per_s"]["ore"] == Json({0.0, 0.0}));
+  const auto text = engine({"check", folder / "s.yaml"});
+  CHECK(text.out.find("ore carries 1 % of it (0.4, 0.6 %) at 1 % of moisture: 6.79 mg at once\n") !=
+        std::string::npos);
 }
 
 TEST_CASE("a scenario without a dust field shall not be told of one") {

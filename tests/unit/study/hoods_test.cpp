@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -121,6 +122,43 @@ TEST_CASE("capture shall be what is drawn over all that gets loose, with the err
   const double of_escaping = 0.2 * (share(3.0, 1.0 + h) - share(3.0, 1.0 - h)) / (2.0 * h);
   CHECK(capture->error == doctest::Approx(std::hypot(of_drawn, of_escaping)).epsilon(1e-6));
   CHECK_FALSE(trial(1.0, 0.0, 0.0).capture().has_value());
+}
+
+TEST_CASE("capture shall have no error where one of its rates has none") {
+  study::HoodTrial unsettled = trial(1.0, 3.0, 1.0);
+  unsettled.drawn.error = -1.0;
+  CHECK(unsettled.capture()->value == doctest::Approx(0.75));
+  CHECK(unsettled.capture()->error < 0.0);
+  unsettled = trial(1.0, 3.0, 1.0);
+  unsettled.escaping.error = -1.0;
+  CHECK(unsettled.capture()->error < 0.0);
+  // Of what is not there nothing has to settle.
+  unsettled.escaping.value = 0.0;
+  CHECK(unsettled.capture()->error == 0.0);
+}
+
+TEST_CASE("replicas shall be known to their scatter, and no better than each by itself") {
+  std::vector<study::HoodTrial> trials;
+  for (const double drawn : {3.0, 4.0, 5.0}) {
+    trials.push_back({.flow = 1.0, .drawn = {drawn, 0.1}, .escaping = {1.0, 0.02}, .load = 2.0});
+  }
+  const study::HoodTrial mean = study::mean_of(trials);
+  CHECK(mean.replicas == 3);
+  CHECK(mean.load == doctest::Approx(2.0));
+  CHECK(mean.drawn.value == doctest::Approx(4.0));
+  // Deviations of -1, 0 and 1: s = 1.
+  CHECK(mean.drawn.error == doctest::Approx(1.0 / std::sqrt(3.0)));
+  // They escape at one rate: none knows it better than to 0.02.
+  CHECK(mean.escaping.error == doctest::Approx(0.02));
+  const double a = 3.0 / 4.0, b = 4.0 / 5.0, c = 5.0 / 6.0, m = (a + b + c) / 3.0;
+  const double squares = (a - m) * (a - m) + (b - m) * (b - m) + (c - m) * (c - m);
+  CHECK(mean.capture()->value == doctest::Approx(0.8));
+  CHECK(mean.capture()->error == doctest::Approx(std::sqrt(squares / 6.0)));
+  // Two alone scatter by chance: their own errors count.
+  CHECK(study::mean_of(std::span(trials).first(2)).drawn.error == doctest::Approx(0.1));
+  trials[1].drawn.error = -1.0;
+  CHECK(study::mean_of(trials).drawn.error < 0.0);
+  CHECK(study::mean_of(trials).capture()->error < 0.0);
 }
 
 TEST_CASE("the flow needed shall lie between two trials, be a bound, or not be reached") {

@@ -27,18 +27,26 @@ std::string texts_of(const std::vector<double>& values, Text text) {
 
 std::string percent(double share) { return base::digits_text(100.0 * share, 3); }
 
-/// [kg/s] of each class that streams of a material bring along.
-std::vector<double> brought(const Setup& setup, const DustSetup& dust,
-                            std::span<const EmissionNumbers> emissions, std::size_t material) {
-  std::vector<double> flow(dust.loads[material].share);
-  double solids = 0.0;
-  for (std::size_t n = 0; n < emissions.size(); ++n) {
-    if (static_cast<std::size_t>(setup.emitters[n].material) == material) {
-      solids += emissions[n].mass_flow;
+/// [kg/s] that streams have of a material, and [kg] that comes at once.
+struct Amounts {
+  double flow = 0.0, at_once = 0.0;
+};
+Amounts amounts_of(std::span<const EmissionNumbers> emissions, std::size_t material) {
+  Amounts amounts;
+  for (const EmissionNumbers& e : emissions) {
+    if (material < e.stream_shares.size()) {
+      amounts.flow += e.mass_flow * e.stream_shares[material];
+      amounts.at_once += e.mass_at_once[material];
     }
   }
-  for (double& class_flow : flow) class_flow *= solids;
-  return flow;
+  return amounts;
+}
+
+/// Of each class.
+std::vector<double> brought(const scenario::DustLoadSpec& load, double solids) {
+  std::vector<double> dust(load.share);
+  for (double& of_class : dust) of_class *= solids;
+  return dust;
 }
 
 void print_loads(std::ostream& out, const Setup& setup, const DustSetup& dust,
@@ -51,10 +59,15 @@ void print_loads(std::ostream& out, const Setup& setup, const DustSetup& dust,
     out << "             " << setup.materials[m].name << " carries " << percent(all) << " % of it";
     if (load.share.size() > 1) out << " (" << texts_of(load.share, percent) << " %)";
     if (load.moisture > 0.0) out << " at " << percent(load.moisture) << " % of moisture";
-    const auto flow = brought(setup, dust, emissions, m);
-    const double sum = std::accumulate(flow.begin(), flow.end(), 0.0);
-    if (sum > 0.0) {
-      out << ": " << base::mass_flow_text(sum, std::max({edges.x, edges.y, edges.z}));
+    const Amounts solids = amounts_of(emissions, m);
+    const char* before = ": ";
+    if (solids.flow > 0.0) {
+      out << before
+          << base::mass_flow_text(all * solids.flow, std::max({edges.x, edges.y, edges.z}));
+      before = ", ";
+    }
+    if (solids.at_once > 0.0) {
+      out << before << base::mass_text(all * solids.at_once) << " at once";
     }
     out << '\n';
   }
@@ -90,7 +103,10 @@ void add_dust_json(const Setup& setup, const DustSetup& dust,
   json["dust"] = {{"classes_m", dust.field->diameters}};
   for (std::size_t m = 0; m < dust.loads.size(); ++m) {
     if (dust.loads[m].share.empty()) continue;
-    json["dust"]["brought_kg_per_s"][setup.materials[m].name] = brought(setup, dust, emissions, m);
+    const Amounts solids = amounts_of(emissions, m);
+    const std::string& name = setup.materials[m].name;
+    json["dust"]["brought_kg_per_s"][name] = brought(dust.loads[m], solids.flow);
+    json["dust"]["brought_at_once_kg"][name] = brought(dust.loads[m], solids.at_once);
   }
 }
 

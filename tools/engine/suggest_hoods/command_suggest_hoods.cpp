@@ -21,6 +21,7 @@ struct Arguments {
   std::size_t places = 3;
   std::string opening;
   std::string duration;
+  std::size_t replicates = 1;
   std::string capture = "90 %";
   std::string output;
   std::vector<std::string> plugin_path;
@@ -73,6 +74,7 @@ void write_study(const Arguments& given) {
   if (!given.duration.empty()) {
     options.duration = in_si("--duration", given.duration, sdk::dimension::time);
   }
+  options.replicates = given.replicates;
   const fs::path folder = fs::path(given.folder).lexically_normal();
   const fs::path named =
       folder.has_filename() ? folder.filename() : folder.parent_path().filename();
@@ -92,6 +94,38 @@ void write_study(const Arguments& given) {
             << ", then: engine suggest-hoods results/" << options.file.stem().string() << '\n';
 }
 
+/// Options of the study that is written.
+void add_study_options(CLI::App& command, Arguments& arguments) {
+  command
+      .add_option("--flows", arguments.flows,
+                  "Flows tried at each place, e.g. '20, 60, 120 l/min' (default: 0.5, 1, 2 and 4 "
+                  "m/s through the opening)")
+      ->type_name("FLOWS");
+  command
+      .add_option("--places", arguments.places,
+                  "How many places of low pressure are tried, from the deepest on")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  command
+      .add_option("--opening", arguments.opening,
+                  "Side of the opening (default: 4 cells or a sixteenth of the domain's longest "
+                  "side)")
+      ->type_name("SIZE");
+  command
+      .add_option("--duration", arguments.duration,
+                  "Time that each point simulates; its first third is not counted (default: half "
+                  "of what the run took)")
+      ->type_name("TIME");
+  command
+      .add_option("--replicates", arguments.replicates,
+                  "Runs of each point with other seeds: from 3 on their scatter counts where it is "
+                  "larger than the error that each run tells")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_suggest_hoods(CLI::App& app, int&) {
@@ -104,27 +138,7 @@ void add_suggest_hoods(CLI::App& app, int&) {
       ->add_option("FOLDER", arguments->folder,
                    "Results of a finished run, or of a study that this command wrote")
       ->required();
-  command
-      ->add_option("--flows", arguments->flows,
-                   "Flows tried at each place, e.g. '20, 60, 120 l/min' (default: 0.5, 1, 2 and 4 "
-                   "m/s through the opening)")
-      ->type_name("FLOWS");
-  command
-      ->add_option("--places", arguments->places,
-                   "How many places of low pressure are tried, from the deepest on")
-      ->type_name("N")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
-  command
-      ->add_option("--opening", arguments->opening,
-                   "Side of the opening (default: 4 cells or a sixteenth of the domain's longest "
-                   "side)")
-      ->type_name("SIZE");
-  command
-      ->add_option("--duration", arguments->duration,
-                   "Time that each point simulates; its first third is not counted (default: half "
-                   "of what the run took)")
-      ->type_name("TIME");
+  add_study_options(*command, *arguments);
   command
       ->add_option("--capture", arguments->capture,
                    "Of a study: fraction of the dust that a hood shall capture")
