@@ -237,3 +237,65 @@ TEST_CASE("motions that contradict themselves shall be refused") {
                               {"along", std::vector<Vec3>{{0, 0, 3}}}}) ==
         "amplitude and frequency differ in length");
 }
+
+TEST_CASE("a cleat shall go round with its belt: places in closed form, speed, and a full round") {
+  using std::numbers::pi;
+  constexpr double k_radius = 0.31;  // of the belt's middle surface
+  constexpr double k_length = 5.0;
+  const Vec3 tail{-4, 1, 2};
+  const Vec3 along{0.8, 0.6, 0};
+  const auto circulate = [&](double ahead) {
+    return motion("circulate", {{"head", tail + k_length * along},
+                                {"tail", tail},
+                                {"radius", k_radius},
+                                {"speed", 2.0},
+                                {"ahead", ahead}});
+  };
+  Body cleat = box_with(list(circulate(0.0)));
+  Body belt;
+  belt.shape = make_shape("belt_conveyor", {{"head", tail + k_length * along},
+                                            {"tail", tail},
+                                            {"radius", 0.3},
+                                            {"thickness", 0.02},
+                                            {"width", 1.0}});
+  const Vec3 up{0, 0, 1};
+  const Vec3 foot = tail + k_radius * up;
+  const Vec3 tip = foot + 0.1 * up;
+  const double half = pi * k_radius;
+
+  CHECK(norm(carried(cleat, tip, 1.0) - (tip + 2.0 * along)) < 1e-12);
+  const double over_head = (k_length + 0.5 * half) / 2.0;  // a quarter of the way round
+  CHECK(norm(carried(cleat, tip, over_head) - (tail + (k_length + 0.41) * along)) < 1e-12);
+  const double back = (1.5 * k_length + half) / 2.0;
+  CHECK(norm(carried(cleat, tip, back) - (tail + 2.5 * along - 0.41 * up)) < 1e-12);
+  const double at_tail = (2 * k_length + 1.5 * half) / 2.0;
+  CHECK(norm(carried(cleat, tip, at_tail) - (tail - 0.41 * along)) < 1e-12);
+  const double round = k_length + half;
+  CHECK(norm(carried(cleat, tip, round + 1.0) - carried(cleat, tip, 1.0)) < 1e-11);
+  // One drawn farther ahead, or behind, is where the other will be, or was.
+  Body other = box_with(list(circulate(1.2 - 4 * round)));
+  CHECK(norm(carried(other, tip, 0.5) - carried(cleat, tip, 1.1)) < 1e-11);
+
+  for (double time = 0.05; time < 1.1 * round; time += 0.173) {
+    CAPTURE(time);
+    const Vec3 now = carried(cleat, foot, time);
+    // Half the thickness below the belt's surface, all the way round.
+    CHECK(belt.nearest(now, belt.placement(0)).distance == doctest::Approx(-0.01).epsilon(1e-9));
+    CHECK(norm(cleat.surface_velocity(now, up, time)) == doctest::Approx(2.0).epsilon(1e-12));
+    constexpr double h = 1e-5;
+    const Vec3 rate = (carried(cleat, tip, time + h) - carried(cleat, tip, time - h)) / (2 * h);
+    CHECK(norm(cleat.surface_velocity(carried(cleat, tip, time), up, time) - rate) < 1e-6);
+  }
+}
+
+TEST_CASE("a cleat whose path is none shall be refused") {
+  const std::map<std::string, Value> good = {
+      {"head", Vec3{1, 0, 0}}, {"tail", Vec3{}}, {"radius", 0.1}, {"speed", 1.0}};
+  CHECK(problem("circulate", good).empty());
+  auto bad = good;
+  bad["head"] = Vec3{};
+  CHECK(problem("circulate", bad) == "head and tail are the same point");
+  bad = good;
+  bad["up"] = Vec3{2, 0, 0};
+  CHECK(problem("circulate", bad) == "up is along the belt");
+}

@@ -219,3 +219,49 @@ TEST_CASE("a fast belt shall throw a lump from the tangent line along a parabola
     CHECK(g.position.y == doctest::Approx(y).epsilon(1e-6).scale(1.0));
   }
 }
+
+TEST_CASE("a sphere that a smooth steep belt lets slide down shall ride up on a cleat") {
+  constexpr double k_angle = k_pi / 6;
+  constexpr double k_speed = 1.0;
+  const Vec3 e{std::cos(k_angle), 0, std::sin(k_angle)};
+  const Vec3 n{-std::sin(k_angle), 0, std::cos(k_angle)};
+  const auto ride = [&](bool with_cleat) {
+    WallRig rig(0.3, 0.0, 2 * k_lump);
+    rig.setup.gravity = {0, 0, -k_g};
+    rig.setup.domain.min = {-10, -10, -10};
+    rig.setup.domain.max = {10, 10, 10};
+    const std::map<std::string, Value> pulleys = {{"head", Vec3{5, 0, 0}}, {"tail", Vec3{}}};
+    // Both are drawn level and turned up in their frame about the tail.
+    const auto turn_up = [&](dust::bodies::Body& body) {
+      body.frame_axis = {0, 1, 0};
+      body.frame_angle = -k_angle;
+    };
+    auto belt = pulleys;
+    belt.insert({{"radius", k_pulley}, {"thickness", k_thickness}, {"width", 1.0}});
+    turn_up(rig.body("belt_conveyor", belt, WallRig::motion("belt", {{"speed", k_speed}})));
+    if (with_cleat) {
+      auto path = pulleys;
+      path.insert({{"radius", k_pulley + 0.5 * k_thickness}, {"speed", k_speed}, {"ahead", 1.0}});
+      turn_up(rig.body("box",
+                       {{"min", Vec3{-0.01, -0.4, k_pulley + 0.5 * k_thickness}},
+                        {"max", Vec3{0.0, 0.4, k_pulley + k_thickness + 0.08}}},
+                       WallRig::motion("circulate", path)));
+    }
+    auto dem = rig.make();
+    dem->insert(std::vector<NewGrain>{
+        {.position = (1.0 + 2 * k_lump) * e + (k_pulley + k_thickness + k_lump) * n,
+         .velocity = k_speed * e,
+         .diameter = 2 * k_lump}});
+    Stepper stepper(*dem);
+    while (stepper.time() < 1.5) stepper.step();
+    return grain(*dem, 0);
+  };
+  // Without friction: s = s_0 + U t - g sin(a) t^2 / 2, less what the start on the belt takes.
+  const double slid = 1.0 + 2 * k_lump + 1.5 * k_speed - 0.5 * k_g * std::sin(k_angle) * 2.25;
+  CHECK(dot(ride(false).position, e) == doctest::Approx(slid).epsilon(1e-3));
+  const GrainState g = ride(true);
+  CHECK(norm(g.velocity - k_speed * e) < 1e-3 * k_speed);
+  // It lies in the corner: overlaps of a resting lump are some 10 um.
+  CHECK(dot(g.position, e) == doctest::Approx(1.0 + 1.5 * k_speed + k_lump).epsilon(1e-4));
+  CHECK(dot(g.position, n) == doctest::Approx(k_pulley + k_thickness + k_lump).epsilon(1e-3));
+}
