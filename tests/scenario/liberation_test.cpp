@@ -222,7 +222,7 @@ TEST_CASE("grains shall keep their dust in a feed zone, and lose it elsewhere as
     const std::string name = file == wind ? "wind" : "bounce";
     const json none = run_summary(file, folder / (name + "_none"), {});
     const json over = run_summary(file, folder / (name + "_over"),
-                                  zone("{min: [0, 0, 8], max: [40, 40, 40 mm]}"));
+                                  zone("{min: [0, 0, 8 mm], max: [40, 40, 40 mm]}"));
     const json here =
         run_summary(file, folder / (name + "_here"), zone("{min: [0, 0, 0], max: [99, 99, 8 mm]}"));
     CHECK(set_free(none) > 0.0);
