@@ -56,10 +56,10 @@ double normal_speed(const Body& body, const Placement& at, Vec3 point, Vec3 norm
   const RunningParts* const parts = running_parts(body);
   if (parts == nullptr) return dot(at.velocity_at(point), normal);
   const double run = run_at(body, *parts, at);
-  const auto course = parts->course_after(run, at.to_body(point) + run * parts->running_direction(),
-                                          turned_back(at, normal));
+  const auto query = parts->velocity_query_after(
+      run, at.to_body(point) + run * parts->running_direction(), turned_back(at, normal));
   const double speed = dot(at.velocity, at.turn(parts->running_direction()));
-  return course.factor * speed * dot(at.turn(cross(course.axis, course.normal)), normal);
+  return query.factor * speed * dot(at.turn(cross(query.axis, query.normal)), normal);
 }
 
 std::string motion_conflict(const Body& body) {
@@ -187,13 +187,13 @@ void Body::surface_velocities(const sdk::SurfaceBatch& all, const Placement& at)
     double factor = 1.0;
     Vec3 asked;
     if (parts != nullptr) {
-      const auto course =
-          parts->course_after(way, at.to_body(b.position[0]) + way * parts->running_direction(),
-                              turned_back(at, b.normal[0]));
-      b.axis = at.turn(course.axis);
-      asked = at.turn(course.normal);
+      const auto query = parts->velocity_query_after(
+          way, at.to_body(b.position[0]) + way * parts->running_direction(),
+          turned_back(at, b.normal[0]));
+      b.axis = at.turn(query.axis);
+      asked = at.turn(query.normal);
       b.normal = {&asked.x, &asked.y, &asked.z};
-      factor = course.factor;
+      factor = query.factor;
     } else if (local != nullptr) {
       const Vec3 own = turned_back(at, b.normal[0]);
       b.axis = at.turn(local->lateral_axis_at(at.to_body(b.position[0]), own));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/text.hpp"
 #include "bodies/belt/cleats.hpp"
 #include "bodies/belt/local_axes.hpp"
 #include "bodies/belt/running_parts.hpp"
@@ -207,8 +208,8 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
   }
   [[nodiscard]] std::vector<std::string> notes() const override {
     if (!cleats_) return {};
-    return {std::to_string(cleats_->count()) + " cleats, " +
-            std::to_string(1e3 * cleats_->spacing()) + " mm apart: a whole number round the belt"};
+    return {std::to_string(cleats_->count()) + " cleats, " + base::length_text(cleats_->spacing()) +
+            " apart: a whole number round the belt"};
   }
   [[nodiscard]] Vec3 lateral_axis() const override { return across_; }
   [[nodiscard]] const LocalAxes* local_axes() const override { return this; }
@@ -251,7 +252,8 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
   }
   [[nodiscard]] Triangles triangles_after(double run, Vec3 min, Vec3 max,
                                           double edge) const override;
-  [[nodiscard]] Course course_after(double run, Vec3 point, Vec3 normal) const override {
+  [[nodiscard]] VelocityQuery velocity_query_after(double run, Vec3 point,
+                                                   Vec3 normal) const override {
     const Vec3 q = to_belt(point);
     const auto cleat = cleats_->nearest(run, q);
     if (std::abs(cleat.point.distance) < std::abs(nearest_face(q).distance)) {

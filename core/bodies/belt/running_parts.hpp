@@ -15,7 +15,7 @@ namespace dust::bodies {
 class RunningParts {
  public:
   /// What a motion has to be asked for the velocity of a point: `factor` times its answer.
-  struct Course {
+  struct VelocityQuery {
     sdk::Vec3 axis;
     sdk::Vec3 normal;
     double factor = 1.0;
@@ -31,8 +31,8 @@ class RunningParts {
   [[nodiscard]] virtual Triangles triangles_after(double run, sdk::Vec3 min, sdk::Vec3 max,
                                                   double edge) const = 0;
   /// Of a point of the surface with its normal.
-  [[nodiscard]] virtual Course course_after(double run, sdk::Vec3 point,
-                                            sdk::Vec3 normal) const = 0;
+  [[nodiscard]] virtual VelocityQuery velocity_query_after(double run, sdk::Vec3 point,
+                                                           sdk::Vec3 normal) const = 0;
 };
 
 /// Those of a body, null if none. Its placement is that of its parts on the carrying run: shifted

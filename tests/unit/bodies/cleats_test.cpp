@@ -155,14 +155,14 @@ TEST_CASE("a face shall move along its normal as fast as the distance to it fall
   body.frame_axis = {0, 1, 0};
   body.frame_angle = -0.6;
   constexpr double k_step = 1e-6;
-  const auto home = body.placement(0.0);
+  const auto at_rest = body.placement(0.0);
   int moved = 0;
   for (const double time : {0.11, 0.2, 0.27}) {
     for (int n = 0; n < 400; ++n) {
       const double a = 0.1 * n;
       const Vec3 local{-2.0 + 2.5 * std::fmod(0.37 * n, 1.0), 0.3 * std::sin(a),
                        0.42 * std::cos(7 * a)};
-      const Vec3 p = home.to_domain(local);
+      const Vec3 p = at_rest.to_domain(local);
       const auto s = body.nearest(p, body.placement(time));
       if (!(s.distance > 1e-3)) continue;
       const double later = body.nearest(p, body.placement(time + k_step)).distance;
