@@ -241,9 +241,11 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
   [[nodiscard]] Vec3 running_direction() const override { return along_; }
   [[nodiscard]] double largest_factor() const override { return cleats_->tip_radius() / reach_; }
   [[nodiscard]] SurfacePoint nearest_after(double run, Vec3 point) const override {
-    const SurfacePoint belt = nearest_of_belt(point);
-    const SurfacePoint cleat = contact_after(run, 1, point);
-    return cleat.distance < belt.distance ? cleat : belt;
+    const Vec3 q = to_belt(point);
+    SurfacePoint s = nearest_face(q);
+    const SurfacePoint cleat = cleats_->nearest(run, q, s.distance).point;
+    if (cleat.distance < s.distance) s = cleat;
+    return {s.distance, from_belt(s.normal)};
   }
   [[nodiscard]] SurfacePoint contact_after(double run, int part, Vec3 point) const override {
     if (part == 0) return nearest_of_belt(point);
@@ -303,6 +305,11 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
 
   [[nodiscard]] SurfacePoint carrying(Vec3 q) const {
     const Vec3 p{q.x, q.y, q.z - reach_};
+    if (cleats_) {
+      // The run is flat.
+      return sheet(
+          p, {std::clamp(p.x, -length_, 0.0), std::clamp(p.y, -half_width_, half_width_), 0.0});
+    }
     const Vec3 foot = trough_.foot(p);
     return sheet(p, foot);
   }

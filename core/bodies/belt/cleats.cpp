@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace dust::bodies {
@@ -63,24 +62,33 @@ SurfacePoint Cleats::box(const Stand& stand, Vec3 q) const {
   return s;
 }
 
-Cleats::Nearest Cleats::nearest(double run, Vec3 q) const {
+Cleats::Nearest Cleats::nearest(double run, Vec3 q, double limit) const {
   Nearest best;
-  best.point.distance = std::numeric_limits<double>::infinity();
-  // Of equal boxes in a row or round an axis the nearest is one of the two beside the point.
-  const auto look = [&](double way) {
-    const double before = std::floor((way - run) / spacing_);
-    for (const double k : {before, before + 1.0}) {
+  best.point.distance = limit;
+  // Of equal boxes in a row or round an axis the nearest is the one whose middle is, beside a
+  // tangent line one of the two next to the point. `from` to `to` is the way of a run or of
+  // a pulley.
+  const auto look = [&](double way, double from, double to) {
+    const double place = (way - run) / spacing_;
+    const bool is_inner = way - from > spacing_ && to - way > spacing_;
+    const double first = is_inner ? std::round(place) : std::floor(place);
+    for (double k = first; k <= (is_inner ? first : first + 1.0); k += 1.0) {
       const Stand stand = stand_at(k * spacing_ + run);
       const SurfacePoint s = box(stand, q);
       if (s.distance < best.point.distance) best = {s, stand};
     }
   };
   const double x = std::clamp(q.x, -p_.length, 0.0);
-  look(lap_ + x);
-  if (q.z + p_.reach < best.point.distance) look(half_round_ - x);
-  if (q.x > 0.0) look(p_.reach * std::atan2(q.x, q.z));
+  const double back = half_round_ + p_.length;  // where the return run ends
+  const double high = std::max(q.z - p_.reach - p_.top, p_.reach - q.z);
+  if (high < best.point.distance) look(lap_ + x, back + half_round_, lap_);
+  const double low = std::max(-q.z - p_.reach - p_.top, q.z + p_.reach);
+  if (low < best.point.distance) look(half_round_ - x, half_round_, back);
+  if (q.x > 0.0) look(p_.reach * std::atan2(q.x, q.z), 0.0, half_round_);
   const double behind = -p_.length - q.x;
-  if (behind > 0.0) look(half_round_ + p_.length + p_.reach * std::atan2(behind, -q.z));
+  if (behind > 0.0) {
+    look(back + p_.reach * std::atan2(behind, -q.z), back, back + half_round_);
+  }
   return best;
 }
 

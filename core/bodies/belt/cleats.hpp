@@ -4,6 +4,8 @@
 #include "bodies/shape.hpp"
 #include "dust/sdk/vec3.hpp"
 
+#include <limits>
+
 namespace dust::bodies {
 
 /// All lengths in m.
@@ -43,7 +45,9 @@ class Cleats {
     SurfacePoint point;
     Stand stand;
   };
-  [[nodiscard]] Nearest nearest(double run, sdk::Vec3 q) const;
+  /// Those that are not nearer than `limit` [m] may be left out: then the distance is `limit`.
+  [[nodiscard]] Nearest nearest(double run, sdk::Vec3 q,
+                                double limit = std::numeric_limits<double>::infinity()) const;
   /// Of those between two places along the belt.
   [[nodiscard]] Triangles triangles(double run, double from, double to) const;
 
