@@ -296,8 +296,9 @@ TEST_CASE("motions and removals that contradict themselves shall be told") {
   check_body(cleated + ", cleat_spacing: 5 mm, motion: belt, speed: 1}",
              "bodies.lid: cleat_spacing is not longer than cleat_thickness");
   check_body(cleated + ", cleat_spacing: 100 mm, motion: belt, speed: 1}", "");
-  check_body(cleated + ", cleat_spacing: 100 mm, motion: lift, velocity: [0, 0, 1 mm/s]}",
-             "bodies.lid: cleats run on a belt that stays where it is: motion: belt alone");
+  check_body(
+      cleated + ", cleat_spacing: 100 mm, motions: [{model: lift, velocity: [0, 0, 1 mm/s]}]}",
+      "bodies.lid: cleats run on a belt that stays where it is: motion: belt alone");
   check_body(plane + ", motions: {model: belt, speed: 1}}",
              "bodies.lid.motions: a list of '- model: ...' is expected, not a map", false);
   check_body(plane + ", motions: [{model: belt, sped: 1}]}", "did you mean 'speed'?", false);
