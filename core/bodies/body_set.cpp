@@ -2,8 +2,10 @@
 #include "bodies/body_set.hpp"
 
 #include "bodies/belt/local_axes.hpp"
+#include "bodies/belt/running_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace dust::bodies {
@@ -15,9 +17,64 @@ namespace {
 /// Points at which motions are asked for surface velocities at once.
 constexpr std::size_t k_block = 128;
 
+Vec3 turned_back(const Placement& at, Vec3 v) {
+  return at.is_turned ? Vec3{dot(v, at.column[0]), dot(v, at.column[1]), dot(v, at.column[2])} : v;
+}
+
+/// The placement of running parts before the frame turns it.
+Placement placement_of(const RunningParts& parts,
+                       const std::vector<std::unique_ptr<sdk::Motion>>& motions, double time) {
+  double run = 0.0;
+  double speed = 0.0;
+  for (const auto& motion : motions) {
+    const sdk::RigidPose pose = motion->pose(time);
+    run += pose.shift.x;
+    speed += pose.velocity.x;
+  }
+  run = std::fmod(run, parts.spacing());
+  if (run < 0.0) run += parts.spacing();
+  Placement at;
+  at.shift = run * parts.running_direction();
+  at.velocity = speed * parts.running_direction();
+  return at;
+}
+
 }  // namespace
 
+const RunningParts* running_parts(const Body& body) {
+  const LocalAxes* const local = body.shape->local_axes();
+  return local != nullptr ? local->running_parts() : nullptr;
+}
+
+double run_at(const Body& body, const RunningParts& parts, const Placement& at) {
+  const Vec3 shift =
+      at.is_turned ? at.shift - body.frame_origin + at.turn(body.frame_origin) : at.shift;
+  return dot(shift, at.turn(parts.running_direction()));
+}
+
+double normal_speed(const Body& body, const Placement& at, Vec3 point, Vec3 normal) {
+  const RunningParts* const parts = running_parts(body);
+  if (parts == nullptr) return dot(at.velocity_at(point), normal);
+  const double run = run_at(body, *parts, at);
+  const auto query = parts->velocity_query_after(
+      run, at.to_body(point) + run * parts->running_direction(), turned_back(at, normal));
+  const double speed = dot(at.velocity, at.turn(parts->running_direction()));
+  return query.factor * speed * dot(at.turn(cross(query.axis, query.normal)), normal);
+}
+
+std::string motion_conflict(const Body& body) {
+  if (running_parts(body) == nullptr) return {};
+  for (const auto& motion : body.motions) {
+    if (motion->moves_body()) {
+      return "cleats run on a belt that stays where it is: motion: belt alone, without motions "
+             "that move the body";
+    }
+  }
+  return {};
+}
+
 bool Body::displaces() const {
+  if (running_parts(*this) != nullptr) return is_carried();
   for (const auto& motion : motions) {
     if (!motion->moves_body()) continue;
     const sdk::RigidPose pose = motion->pose(0.0);
@@ -30,13 +87,18 @@ bool Body::displaces() const {
 
 Placement Body::placement(double time) const {
   Placement at;
-  for (const auto& motion : motions) {
-    if (motion->moves_body()) at = Placement::of(motion->pose(time)).after(at);
+  if (const RunningParts* const parts = running_parts(*this)) {
+    at = placement_of(*parts, motions, time);
+  } else {
+    for (const auto& motion : motions) {
+      if (motion->moves_body()) at = Placement::of(motion->pose(time)).after(at);
+    }
   }
   return Placement::turned(frame_origin, frame_axis, frame_angle).after(at);
 }
 
 bool Body::is_carried() const {
+  if (running_parts(*this) != nullptr) return !motions.empty();
   return std::any_of(motions.begin(), motions.end(),
                      [](const auto& motion) { return motion->moves_body(); });
 }
@@ -46,18 +108,36 @@ SurfacePoint Body::nearest(Vec3 point) const {
 }
 
 SurfacePoint Body::nearest(Vec3 point, const Placement& at) const {
-  SurfacePoint s = shape->nearest(at.to_body(point));
+  SurfacePoint s;
+  if (const RunningParts* const parts = running_parts(*this)) {
+    const double run = run_at(*this, *parts, at);
+    s = parts->nearest_after(run, at.to_body(point) + run * parts->running_direction());
+  } else {
+    s = shape->nearest(at.to_body(point));
+  }
   s.normal = at.turn(s.normal);
   return s;
 }
 
 SurfacePoint Body::contact(int part, Vec3 point, double reach, const Placement& at) const {
-  SurfacePoint s = shape->contact(part, at.to_body(point), reach);
+  SurfacePoint s;
+  if (const RunningParts* const parts = running_parts(*this)) {
+    const double run = run_at(*this, *parts, at);
+    s = parts->contact_after(run, part, at.to_body(point) + run * parts->running_direction());
+  } else {
+    s = shape->contact(part, at.to_body(point), reach);
+  }
   s.normal = at.turn(s.normal);
   return s;
 }
 
 void Body::touch(int part, const ClosestPoints& all, const Placement& at) const {
+  if (running_parts(*this) != nullptr) {
+    for (std::size_t n = 0; n < all.count; ++n) {
+      all.put(n, contact(part, {all.x[n], all.y[n], all.z[n]}, all.reach[n], at));
+    }
+    return;
+  }
   double centre[3][k_block];
   for (std::size_t first = 0; first < all.count; first += k_block) {
     const ClosestPoints t{.count = std::min(k_block, all.count - first),
@@ -93,6 +173,8 @@ void Body::surface_velocities(const sdk::SurfaceBatch& all, const Placement& at)
   if (motions.empty()) return;
   const Vec3 axis = at.turn(shape->lateral_axis());
   const auto* const local = shape->local_axes();
+  const RunningParts* const parts = running_parts(*this);
+  const double way = parts != nullptr ? run_at(*this, *parts, at) : 0.0;
   const std::size_t block = local != nullptr ? 1 : k_block;
   double run[3][k_block];
   for (std::size_t first = 0; first < all.count; first += block) {
@@ -102,21 +184,30 @@ void Body::surface_velocities(const sdk::SurfaceBatch& all, const Placement& at)
                         .position = all.position.from(first),
                         .normal = all.normal.from(first),
                         .velocity = {run[0], run[1], run[2]}};
-    if (local != nullptr) {
-      const Vec3 n = b.normal[0];
-      const Vec3 own =
-          at.is_turned ? Vec3{dot(n, at.column[0]), dot(n, at.column[1]), dot(n, at.column[2])} : n;
+    double factor = 1.0;
+    Vec3 asked;
+    if (parts != nullptr) {
+      const auto query = parts->velocity_query_after(
+          way, at.to_body(b.position[0]) + way * parts->running_direction(),
+          turned_back(at, b.normal[0]));
+      b.axis = at.turn(query.axis);
+      asked = at.turn(query.normal);
+      b.normal = {&asked.x, &asked.y, &asked.z};
+      factor = query.factor;
+    } else if (local != nullptr) {
+      const Vec3 own = turned_back(at, b.normal[0]);
       b.axis = at.turn(local->lateral_axis_at(at.to_body(b.position[0]), own));
     }
     for (const auto& motion : motions) {
       if (motion->moves_body()) continue;
       motion->surface_velocity(b);
       for (std::size_t q = 0; q < b.count; ++q) {
-        all.velocity.x[first + q] += run[0][q];
-        all.velocity.y[first + q] += run[1][q];
-        all.velocity.z[first + q] += run[2][q];
+        all.velocity.x[first + q] += factor * run[0][q];
+        all.velocity.y[first + q] += factor * run[1][q];
+        all.velocity.z[first + q] += factor * run[2][q];
       }
     }
+    if (parts != nullptr) continue;  // the placement is that of what runs, not of the body
     for (std::size_t q = first; q < first + b.count; ++q) {
       const Vec3 v = at.velocity_at(all.position[q]);
       all.velocity.x[q] += v.x;
@@ -144,11 +235,13 @@ double Body::largest_speed() const {
     if (n < axis_distances.size())
       speed += axis_distances[n] * motions[n]->largest_angular_velocity();
   }
-  return speed;
+  const RunningParts* const parts = running_parts(*this);
+  return parts != nullptr ? parts->largest_factor() * speed : speed;
 }
 
 double Body::largest_displacing_speed() const {
   if (!displaces()) return 0.0;
+  if (running_parts(*this) != nullptr) return largest_speed();
   double speed = 0.0;
   for (std::size_t n = 0; n < motions.size(); ++n) {
     if (!motions[n]->moves_body()) continue;
@@ -165,7 +258,14 @@ Triangles Body::triangles(Vec3 min, Vec3 max, double edge) const {
 
 Triangles Body::triangles(Vec3 min, Vec3 max, double edge, const Placement& at) const {
   // The shape clips in its own frame: give it a box that holds the domain in any orientation.
-  Triangles t = shape->triangles(min, max, edge);
+  Triangles t;
+  if (const RunningParts* const parts = running_parts(*this)) {
+    const double run = run_at(*this, *parts, at);
+    t = parts->triangles_after(run, min, max, edge);
+    for (Vec3& p : t) p -= run * parts->running_direction();
+  } else {
+    t = shape->triangles(min, max, edge);
+  }
   for (Vec3& p : t) p = at.to_domain(p);
   return t;
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/text.hpp"
+#include "bodies/belt/cleats.hpp"
 #include "bodies/belt/local_axes.hpp"
+#include "bodies/belt/running_parts.hpp"
 #include "bodies/belt/trough.hpp"
 #include "bodies/shape_kinds.hpp"
 #include "dust/sdk/error.hpp"
@@ -7,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace dust::bodies {
@@ -30,6 +35,9 @@ struct Parameters {
   double pulley_rise = 0.0;
   double idler_spacing = 0.0;
   double sag = 0.0;
+  double cleat_height = 0.0;
+  double cleat_thickness = 0.0;
+  double cleat_spacing = 0.0;
   Vec3 up{0, 0, 1};
 };
 
@@ -77,6 +85,41 @@ void declare_trough(SchemaOf<Parameters>& s) {
                   "Distance between idlers, counted from the head pulley; for the sag.");
 }
 
+void declare_cleats(SchemaOf<Parameters>& s) {
+  const auto length = [&s](double Parameters::*member, const char* name, const char* sentence) {
+    s.number(member, name, dimension::length, sentence).at_least(0).optional();
+  };
+  length(&Parameters::cleat_height, "cleat_height",
+         "Height over the belt of crossbars as wide as it that run with it; 0 = a plain belt. They "
+         "stand on a flat belt only.");
+  length(&Parameters::cleat_thickness, "cleat_thickness", "Of the crossbars, along the belt.");
+  length(&Parameters::cleat_spacing, "cleat_spacing",
+         "From one crossbar to the next; a whole number goes round the belt, the spacing nearest "
+         "to this. At time 0 one is over the head pulley's axis.");
+}
+
+std::optional<Cleats> cleats_of(const Parameters& p) {
+  const double h = p.cleat_height;
+  const double t = p.cleat_thickness;
+  const double s = p.cleat_spacing;
+  if (h == 0.0 && t == 0.0 && s == 0.0) return std::nullopt;
+  const auto refuse = [](const char* why) { throw sdk::ParameterError(why); };
+  if (h == 0.0) refuse("cleat_height is 0: cleats need a height");
+  if (t == 0.0) refuse("cleat_thickness is 0: cleats need a thickness");
+  if (s == 0.0) refuse("cleat_spacing is 0: cleats need a spacing");
+  if (p.trough_angle > 0.0 || p.pulley_rise > 0.0 || p.sag > 0.0) {
+    refuse("cleats stand on a flat belt only: leave out trough_angle, pulley_rise and sag");
+  }
+  const Cleats cleats({.length = norm(p.head - p.tail),
+                       .reach = p.radius + 0.5 * p.thickness,
+                       .half_width = 0.5 * p.width,
+                       .top = 0.5 * p.thickness + h,
+                       .thickness = t,
+                       .spacing = s});
+  if (s <= t || cleats.spacing() <= t) refuse("cleat_spacing is not longer than cleat_thickness");
+  return cleats;
+}
+
 TroughParameters trough_of(const Parameters& p) {
   TroughParameters t;
   t.length = norm(p.head - p.tail);
@@ -110,21 +153,23 @@ TroughParameters trough_of(const Parameters& p) {
 
 /// Belt of finite width round two equal pulleys: all points within half a thickness of the belt's
 /// middle surface, and the pulleys. Nothing of it is made of facets: the carrying run is a Trough,
-/// the rest cylinders and planes; they meet smoothly.
-class BeltConveyor final : public OnePart<BeltConveyor>, public LocalAxes {
+/// the rest cylinders and planes; they meet smoothly. Cleats are a second part.
+class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
  public:
   using Parameters = bodies::Parameters;
   static sdk::ParameterSchema schema() {
     SchemaOf<Parameters> s;
     declare_belt(s);
     declare_trough(s);
+    declare_cleats(s);
     s.vector(&Parameters::up, "up", dimension::none,
              "Direction towards the carrying side; its length does not matter.")
         .optional();
     return s.build();
   }
 
-  explicit BeltConveyor(const Parameters& p) : head_(p.head), trough_(direct(p)) {
+  explicit BeltConveyor(const Parameters& p)
+      : head_(p.head), trough_(direct(p)), cleats_(cleats_of(p)) {
     half_thickness_ = 0.5 * p.thickness;
     reach_ = p.radius + half_thickness_;
     half_width_ = 0.5 * p.width;
@@ -134,12 +179,37 @@ class BeltConveyor final : public OnePart<BeltConveyor>, public LocalAxes {
     if (!(norm(across_) > 1e-3)) throw sdk::ParameterError("up is along the belt");
     across_ = across_ / norm(across_);
     up_ = cross(along_, across_);
+    if (cleats_) farthest_tip_ = cleats_->tip_radius() - reach_ - half_thickness_;
   }
 
   [[nodiscard]] SurfacePoint nearest(Vec3 point) const override {
+    return cleats_ ? nearest_after(0.0, point) : nearest_of_belt(point);
+  }
+  [[nodiscard]] int parts() const override { return cleats_ ? 2 : 1; }
+  [[nodiscard]] SurfacePoint contact(int part, Vec3 point, double /*reach*/) const override {
+    return contact_after(0.0, part, point);
+  }
+  void touch(int part, const ClosestPoints& t) const override {
+    for (std::size_t n = 0; n < t.count; ++n) {
+      t.put(n, contact_after(0.0, part, {t.x[n], t.y[n], t.z[n]}));
+    }
+  }
+  /// However far the cleats have run, and for a point that is up to their spacing behind its place.
+  [[nodiscard]] bool is_within(int part, Vec3 point, double reach) const override {
+    if (!cleats_) return nearest_of_belt(point).distance < reach;
+    if (part == 1) reach += farthest_tip_;
     const Vec3 q = to_belt(point);
-    const SurfacePoint n = nearest_face(q);
-    return {n.distance, from_belt(n.normal)};
+    const double spacing = cleats_->spacing();
+    // Over the carrying run it is as far from the belt wherever it is.
+    const bool is_over = q.x > -length_ && q.x + spacing < 0.0 && q.z > reach_;
+    const Vec3 middle = q + Vec3{0.5 * spacing, 0.0, 0.0};
+    return is_over ? carrying(q).distance < reach
+                   : nearest_face(middle).distance < reach + 0.5 * spacing;
+  }
+  [[nodiscard]] std::vector<std::string> notes() const override {
+    if (!cleats_) return {};
+    return {std::to_string(cleats_->count()) + " cleats, " + base::length_text(cleats_->spacing()) +
+            " apart: a whole number round the belt"};
   }
   [[nodiscard]] Vec3 lateral_axis() const override { return across_; }
   [[nodiscard]] const LocalAxes* local_axes() const override { return this; }
@@ -160,9 +230,47 @@ class BeltConveyor final : public OnePart<BeltConveyor>, public LocalAxes {
     const double length = norm(direction);
     return length > 1e-6 ? cross(normal, direction / length) : Vec3{};
   }
-  [[nodiscard]] Triangles triangles(Vec3 min, Vec3 max, double edge) const override;
+  [[nodiscard]] Triangles triangles(Vec3 min, Vec3 max, double edge) const override {
+    return triangles_after(0.0, min, max, edge);
+  }
+
+  [[nodiscard]] const RunningParts* running_parts() const override {
+    return cleats_ ? this : nullptr;
+  }
+  [[nodiscard]] double spacing() const override { return cleats_->spacing(); }
+  [[nodiscard]] Vec3 running_direction() const override { return along_; }
+  [[nodiscard]] double largest_factor() const override { return cleats_->tip_radius() / reach_; }
+  [[nodiscard]] SurfacePoint nearest_after(double run, Vec3 point) const override {
+    const Vec3 q = to_belt(point);
+    SurfacePoint s = nearest_face(q);
+    const SurfacePoint cleat = cleats_->nearest(run, q, s.distance).point;
+    if (cleat.distance < s.distance) s = cleat;
+    return {s.distance, from_belt(s.normal)};
+  }
+  [[nodiscard]] SurfacePoint contact_after(double run, int part, Vec3 point) const override {
+    if (part == 0) return nearest_of_belt(point);
+    const SurfacePoint s = cleats_->nearest(run, to_belt(point)).point;
+    return {s.distance, from_belt(s.normal)};
+  }
+  [[nodiscard]] Triangles triangles_after(double run, Vec3 min, Vec3 max,
+                                          double edge) const override;
+  [[nodiscard]] VelocityQuery velocity_query_after(double run, Vec3 point,
+                                                   Vec3 normal) const override {
+    const Vec3 q = to_belt(point);
+    const auto cleat = cleats_->nearest(run, q);
+    if (std::abs(cleat.point.distance) < std::abs(nearest_face(q).distance)) {
+      if (!cleat.stand.is_on_pulley) return {across_, from_belt(cleat.stand.out), 1.0};
+      const Vec3 arm{q.x - cleat.stand.pulley, 0.0, q.z};
+      return {across_, from_belt(arm / norm(arm)), norm(arm) / reach_};
+    }
+    return {lateral_axis_at(point, normal), normal, 1.0};
+  }
 
  private:
+  [[nodiscard]] SurfacePoint nearest_of_belt(Vec3 point) const {
+    const SurfacePoint n = nearest_face(to_belt(point));
+    return {n.distance, from_belt(n.normal)};
+  }
   static TroughParameters direct(const Parameters& p) {
     if (!(norm(p.head - p.tail) > 0.0)) {
       throw sdk::ParameterError("head and tail are the same point");
@@ -197,6 +305,11 @@ class BeltConveyor final : public OnePart<BeltConveyor>, public LocalAxes {
 
   [[nodiscard]] SurfacePoint carrying(Vec3 q) const {
     const Vec3 p{q.x, q.y, q.z - reach_};
+    if (cleats_) {
+      // The run is flat.
+      return sheet(
+          p, {std::clamp(p.x, -length_, 0.0), std::clamp(p.y, -half_width_, half_width_), 0.0});
+    }
     const Vec3 foot = trough_.foot(p);
     return sheet(p, foot);
   }
@@ -228,11 +341,13 @@ class BeltConveyor final : public OnePart<BeltConveyor>, public LocalAxes {
 
   Vec3 head_;
   Trough trough_;
+  std::optional<Cleats> cleats_;
   Vec3 along_, across_, up_;
   double length_ = 0.0;
   double reach_ = 0.0;  ///< [m] of the middle surface, from the pulley's axis
   double half_thickness_ = 0.0;
   double half_width_ = 0.0;
+  double farthest_tip_ = 0.0;  ///< [m] of a cleat from the belt's face
 };
 
 /// Stations along the middle surface, one after the other: points and normals from edge to edge.
@@ -321,7 +436,7 @@ void BeltConveyor::add_pulley(Triangles& t, double x, double sign, double edge,
   }
 }
 
-Triangles BeltConveyor::triangles(Vec3 min, Vec3 max, double edge) const {
+Triangles BeltConveyor::triangles_after(double run, Vec3 min, Vec3 max, double edge) const {
   std::vector<double> widths;
   const int across = std::clamp(static_cast<int>(std::ceil(2.0 * half_width_ / edge)), 12, 48);
   for (int n = 0; n <= across; ++n) widths.push_back((2.0 * n / across - 1.0) * half_width_);
@@ -347,6 +462,9 @@ Triangles BeltConveyor::triangles(Vec3 min, Vec3 max, double edge) const {
   add_faces(t, back, true);
   if (to == 0.0) add_pulley(t, 0.0, 1.0, edge, widths);
   if (from == -length_) add_pulley(t, -length_, -1.0, edge, widths);
+  if (cleats_) {
+    for (const Vec3& p : cleats_->triangles(run, from, to)) t.push_back(head_ + from_belt(p));
+  }
   return t;
 }
 
@@ -356,7 +474,7 @@ ShapeKind belt_conveyor_kind() {
   return make_kind<BeltConveyor>(
       "belt_conveyor",
       "Belt of finite width round a head and a tail pulley, in any direction, flat or troughed on "
-      "three rolls.");
+      "three rolls, plain or with cleats.");
 }
 
 }  // namespace dust::bodies

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluid/geometry/body_field.hpp"
 
+#include "bodies/belt/running_parts.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -118,7 +120,8 @@ bool BodyField::is_inside(Vec3 p) const { return nearest(p).distance <= k_on_sur
 double BodyField::own_way(const Hit& hit, Vec3 p, double smear) const {
   if (smear == 0.0) return 0.0;
   for (const Placed& b : moving_bodies_) {
-    if (b.number == hit.body) return smear * std::abs(dot(b.at.velocity_at(p), hit.normal));
+    if (b.number == hit.body)
+      return smear * std::abs(bodies::normal_speed(*b.body, b.at, p, hit.normal));
   }
   return 0.0;
 }

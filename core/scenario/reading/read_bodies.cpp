@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "bodies/belt/running_parts.hpp"
 #include "bodies/body_set.hpp"
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/motion.hpp"
@@ -111,6 +112,9 @@ void check_body(Reading& reading, const BodySpec& spec, std::vector<ReadModel> m
   }
   const bodies::Body body = bodies::make_body(reading.setup, spec, std::move(made));
   const std::string path = "bodies." + spec.name;
+  if (const std::string conflict = bodies::motion_conflict(body); !conflict.empty()) {
+    reading.error(spec.shape.where, path + ": " + conflict);
+  }
   for (const std::string& warning : body.shape->warnings()) {
     reading.diagnostics.warning(spec.shape.where, path + ": " + warning);
   }

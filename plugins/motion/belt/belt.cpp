@@ -43,6 +43,13 @@ class Belt final : public sdk::Motion {
     }
   }
   [[nodiscard]] double largest_speed() const override { return std::abs(p_.speed); }
+  /// Of the surface, not of the body: how far it has run along itself, and how fast it runs, as x.
+  [[nodiscard]] sdk::RigidPose pose(double time) const override {
+    sdk::RigidPose run;
+    run.shift.x = formula::run_at(p_.speed, p_.start, p_.ramp, time);
+    run.velocity.x = formula::speed_at(p_.speed, p_.start, p_.ramp, time);
+    return run;
+  }
 
  private:
   Parameters p_;

@@ -32,4 +32,11 @@ constexpr double speed_at(double speed, double start, double ramp, double time) 
   return time - start < ramp ? speed * (time - start) / ramp : speed;
 }
 
+/// How far [m] it has run at `time`: the integral of speed_at.
+constexpr double run_at(double speed, double start, double ramp, double time) {
+  if (time < start) return 0.0;
+  const double since = time - start;
+  return since < ramp ? 0.5 * speed * since * since / ramp : speed * (since - 0.5 * ramp);
+}
+
 }  // namespace dust::model::belt

@@ -290,6 +290,15 @@ TEST_CASE("motions and removals that contradict themselves shall be told") {
              "'s' is the unit of a time: an energy is expected", false);
   check_body(plane + ", motion: belt, speed: 1, motions: [{model: belt, speed: 1}]}",
              "bodies.lid: give motion or motions, not both", false);
+  const std::string cleated =
+      "lid: {shape: belt_conveyor, material: glass, head: [0, 0, 0], tail: [-1, 0, 0 m], radius: "
+      "50 mm, thickness: 5 mm, width: 200 mm, cleat_height: 20 mm, cleat_thickness: 5 mm";
+  check_body(cleated + ", cleat_spacing: 5 mm, motion: belt, speed: 1}",
+             "bodies.lid: cleat_spacing is not longer than cleat_thickness");
+  check_body(cleated + ", cleat_spacing: 100 mm, motion: belt, speed: 1}", "");
+  check_body(
+      cleated + ", cleat_spacing: 100 mm, motions: [{model: lift, velocity: [0, 0, 1 mm/s]}]}",
+      "bodies.lid: cleats run on a belt that stays where it is: motion: belt alone");
   check_body(plane + ", motions: {model: belt, speed: 1}}",
              "bodies.lid.motions: a list of '- model: ...' is expected, not a map", false);
   check_body(plane + ", motions: [{model: belt, sped: 1}]}", "did you mean 'speed'?", false);

@@ -265,3 +265,43 @@ TEST_CASE("a sphere that a smooth steep belt lets slide down shall ride up on a 
   CHECK(dot(g.position, e) == doctest::Approx(1.0 + 1.5 * k_speed + k_lump).epsilon(1e-4));
   CHECK(dot(g.position, n) == doctest::Approx(k_pulley + k_thickness + k_lump).epsilon(1e-3));
 }
+
+TEST_CASE("cleats shall carry a lump up an incline that it slides down without them") {
+  constexpr double k_incline = 35.0 * k_pi / 180.0;
+  constexpr double k_friction = 0.4;  // below tan(35 degrees)
+  constexpr double speed = 1.0;
+  const Vec3 along{std::cos(k_incline), 0.0, std::sin(k_incline)};
+  const Vec3 up{-std::sin(k_incline), 0.0, std::cos(k_incline)};
+  for (const double height : {0.0, 0.08}) {
+    CAPTURE(height);
+    WallRig rig(0.3, k_friction, 2 * k_lump, 20.0);
+    rig.setup.gravity = {0, 0, -k_g};
+    rig.setup.domain.min = {-10, -10, -10};
+    rig.setup.domain.max = {10, 10, 10};
+    rig.setup.time.expected_speed = 5.0;
+    std::map<std::string, Value> belt{{"head", Vec3{}},     {"tail", -8.0 * along},
+                                      {"radius", k_pulley}, {"thickness", k_thickness},
+                                      {"width", 1.0},       {"cleat_height", height}};
+    if (height > 0.0) belt.insert({{"cleat_thickness", 0.03}, {"cleat_spacing", 0.5}});
+    rig.body("belt_conveyor", belt, WallRig::motion("belt", {{"speed", speed}}));
+    const auto dem = rig.make();
+    const Vec3 start = -4.2 * along + (k_pulley + k_thickness + k_lump) * up;
+    dem->insert(std::vector<NewGrain>{{.position = start, .velocity = {}, .diameter = 2 * k_lump}});
+    Stepper stepper(*dem);
+    while (stepper.time() < 1.0) stepper.step(20);
+    const GrainState before = grain(*dem, 0);
+    if (height == 0.0) {
+      // Friction drives it up, its weight down: g (sin - mu cos), as long as it slips.
+      const double pull = k_g * (std::sin(k_incline) - k_friction * std::cos(k_incline));
+      CHECK(dot(before.velocity, along) == doctest::Approx(-pull).epsilon(0.01));
+      continue;
+    }
+    while (stepper.time() < 3.0) stepper.step(20);
+    const GrainState after = grain(*dem, 0);
+    const double gone = dot(after.position - before.position, along);
+    // It lies in the corner of belt and cleat: as fast as the belt.
+    CHECK(gone == doctest::Approx(2.0 * speed).epsilon(1e-3));
+    CHECK(norm(after.velocity - speed * along) < 2e-3 * speed);
+    CHECK(norm(after.position - before.position - gone * along) < 1e-4);
+  }
+}

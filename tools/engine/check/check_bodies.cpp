@@ -82,7 +82,7 @@ void print_touching(std::ostream& out, const BodySurvey& s) {
 
 std::string bodies_text(const BodySurvey& s) {
   std::ostringstream out;
-  const char* head = "  meshes     ";
+  const char* head = "  shapes     ";
   for (const auto& mesh : s.meshes) {
     for (const std::string& note : mesh.notes) {
       out << head << mesh.body << ": " << note << '\n';
