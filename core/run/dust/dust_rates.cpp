@@ -2,6 +2,7 @@
 #include "run/dust/dust_rates.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace dust::run {
@@ -94,11 +95,13 @@ void DustRates::sample(double time, double step) {
   if (time < steady_after_ - k_rounding * step) return;
   for (std::size_t n = 0; n < balances_.size(); ++n) balances_[n] = dust_.field().gone(n);
   find_totals(now_);
-  if (begin >= steady_after_ - k_rounding * step) {
+  const bool is_known = std::abs(before_time_.value_or(begin) - begin) < k_rounding * step;
+  if (is_known && begin >= steady_after_ - k_rounding * step) {
     for (std::size_t c = 0; c < now_.size(); ++c) before_[c] = (now_[c] - before_[c]) / step;
     means_.add(before_, step);
   }
   before_ = now_;
+  before_time_ = time;
 }
 
 void DustRates::report_part(sdk::FigureSink& sink, const std::string& name,
@@ -143,6 +146,7 @@ void DustRates::add_parts(SaveParts& parts) const {
 void DustRates::add_parts(LoadParts& parts) {
   parts.emplace_back("dust_rates", [this](sdk::ArchiveReader& a) {
     before_ = a.numbers("before");
+    before_time_.reset();
     means_.load(a, "means");
     if (before_.size() != now_.size() || means_.columns() != now_.size()) {
       throw sdk::ModelError("the saved rates of dust do not fit together");

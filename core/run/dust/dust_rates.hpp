@@ -10,6 +10,7 @@
 #include "setup/setup.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,9 @@ class DustRates {
   /// all classes, then each.
   std::vector<double> before_;
   std::vector<double> now_;
+  /// [s] of `before_`; nothing: that of the checkpoint it comes from. A run that starts from
+  /// another inherits totals of which it has no earlier ones.
+  std::optional<double> before_time_ = 0.0;
   sdk::BatchMeans means_;  ///< [kg/s] of the columns of `now_`
 };
 
