@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dust::scenario {
@@ -96,7 +97,12 @@ Json object() {
 void add_parameters(Json& object, const ParameterSchema& schema) {
   for (const Parameter& p : schema) {
     object["properties"][p.name] = value_schema(p);
-    if (p.is_required) object["required"].push_back(p.name);
+    if (!p.is_required) continue;
+    Json& required = object["required"];
+    // A motion may ask for what its body's shape asks for as well: the path of a belt.
+    if (std::find(required.begin(), required.end(), p.name) == required.end()) {
+      required.push_back(p.name);
+    }
   }
 }
 
