@@ -123,7 +123,8 @@ SurfacePoint Body::contact(int part, Vec3 point, double reach, const Placement& 
   SurfacePoint s;
   if (const RunningParts* const parts = running_parts(*this)) {
     const double run = run_at(*this, *parts, at);
-    s = parts->contact_after(run, part, at.to_body(point) + run * parts->running_direction());
+    s = parts->contact_after(run, part, at.to_body(point) + run * parts->running_direction(),
+                             reach);
   } else {
     s = shape->contact(part, at.to_body(point), reach);
   }

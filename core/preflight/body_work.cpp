@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/body_work.hpp"
 
+#include "bodies/belt/running_parts.hpp"
 #include "fluid/grid.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 namespace dust::preflight {
@@ -44,14 +46,24 @@ const SurfaceRate& rate_of(const scenario::BodySpec& spec) {
   return spec.shape.name == k_trough.shape ? k_trough : k_plain;
 }
 
-/// [m2] of the surface within the domain.
-double area_of(const bodies::Body& body, const scenario::DomainSpec& domain) {
+/// [m2] Within the domain, of the surface that goes to other places: of a cleated belt its cleats.
+double displacing_area(const bodies::Body& body, const scenario::DomainSpec& domain) {
   constexpr double k_edges = 20.0;
+  constexpr double k_on_surface = 1e-6;  // [m]
+  constexpr double k_anywhere = std::numeric_limits<double>::infinity();
   const sdk::Vec3 size = domain.max - domain.min;
+  const bodies::Placement at = body.placement(0.0);
   const auto surface =
-      body.triangles(domain.min, domain.max, std::max({size.x, size.y, size.z}) / k_edges);
+      body.triangles(domain.min, domain.max, std::max({size.x, size.y, size.z}) / k_edges, at);
+  const bool has_standing_part = bodies::running_parts(body) != nullptr;
+  const auto stands = [&](sdk::Vec3 p) {
+    const auto s = body.contact(bodies::RunningParts::k_standing, p, k_anywhere, at);
+    return s.distance < k_on_surface;
+  };
   double area = 0.0;
   for (std::size_t n = 0; n + 2 < surface.size(); n += 3) {
+    const sdk::Vec3 middle = (surface[n] + surface[n + 1] + surface[n + 2]) / 3.0;
+    if (has_standing_part && stands(middle)) continue;
     area += 0.5 * sdk::norm(sdk::cross(surface[n + 1] - surface[n], surface[n + 2] - surface[n]));
   }
   return area;
@@ -66,7 +78,7 @@ void add_cutting(const scenario::Setup& setup, const bodies::BodySet& bodies, do
   for (std::size_t n = 0; n < bodies.size(); ++n) {
     if (!bodies[n].displaces()) continue;
     displacing_nearest += rate_of(setup.bodies[n]).nearest;
-    area += area_of(bodies[n], setup.domain);
+    area += displacing_area(bodies[n], setup.domain);
     speed = std::max(speed, bodies[n].largest_displacing_speed());
   }
   if (!(displacing_nearest > 0.0)) return;

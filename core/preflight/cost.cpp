@@ -31,7 +31,7 @@ constexpr double k_checkpoint_bytes_per_dust_cell = 25.0;
 // [s] A step of a grain: in a bed it has contacts all the time; before a filling has settled it
 // meets others now and then; in a gas it flies from one collision to the next. In a stream its
 // lists are made anew often, and what it touches costs more the deeper the load is.
-constexpr double k_bed_step = 7.5e-8;
+constexpr double k_bed_step = 7e-8;
 constexpr double k_settling_step = 2e-8;
 constexpr double k_gas_step = 7.5e-9;
 constexpr double k_thin_stream_step = 1.8e-8;
@@ -47,7 +47,7 @@ constexpr double k_single_layer = 1.2;
 constexpr double k_fine_isolated = 0.045;
 constexpr double k_fine_carried = 0.65;
 
-constexpr double k_cell_step = 4.2e-7;
+constexpr double k_cell_step = 3.9e-7;
 /// A cell of one class of dust, once its transport has begun.
 constexpr double k_dust_cell = 7e-8;
 constexpr double k_fluid_step = 7e-4;  // however few the cells

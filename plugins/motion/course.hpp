@@ -12,7 +12,8 @@ namespace dust::model {
 
 /// A speed that is reached in a straight ramp, held, and lost at once at a time or after a way:
 /// with \f$ \tau = t - t_0 \f$ the way is \f$ u \tau^2 / (2 r) \f$ while \f$ \tau < r \f$ and
-/// \f$ u (\tau - r/2) \f$ afterwards. `speed` > 0; way and speed in any consistent unit.
+/// \f$ u (\tau - r/2) \f$ afterwards. `speed` > 0, or of either sign
+/// without a `limit`; way and speed in any consistent unit.
 struct Course {
   double speed = 0.0;
   double start = 0.0;                                      ///< [s]
@@ -22,6 +23,7 @@ struct Course {
 
   /// Time [s] at which the motion ends.
   [[nodiscard]] double end() const {
+    if (limit == std::numeric_limits<double>::infinity()) return stop;
     const double on_ramp = 0.5 * speed * ramp;
     const double lasts =
         limit < on_ramp ? std::sqrt(2.0 * limit * ramp / speed) : limit / speed + 0.5 * ramp;

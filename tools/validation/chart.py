@@ -22,7 +22,7 @@ def published(name, x, y, errors=None, is_points=True):
     return Curve(name, list(x), list(y), errors, is_ours=False, is_points=is_points)
 
 
-def draw(file, title, across, up, curves):
+def pyplot_for(file):
     try:
         import matplotlib
     except ImportError:
@@ -31,6 +31,34 @@ def draw(file, title, across, up, curves):
     # The same numbers give the same file: no date, no random names; letters stay letters.
     matplotlib.rcParams.update({"svg.hashsalt": file.name, "svg.fonttype": "none", "font.size": 10})
     from matplotlib import pyplot
+    return pyplot
+
+
+def save(figure, file, pyplot):
+    file.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(file, metadata={"Date": None})
+    pyplot.close(figure)
+
+
+def draw_bars(file, title, along, labels, series):
+    """Bars side by side for each label: `series` holds {name: values}; a missing value is None."""
+    pyplot = pyplot_for(file)
+    figure, axes = pyplot.subplots(figsize=(7.2, 1.2 + 0.25 * len(labels) * (len(series) + 0.6)), layout="constrained")
+    height = 0.8 / len(series)
+    for n, ((name, values), colour) in enumerate(zip(series.items(), OURS)):
+        places = [label + (n + 0.5) * height - 0.4 for label in range(len(labels))]
+        axes.barh(places, [value or 0.0 for value in values], height, color=colour, label=name)
+    axes.set_yticks(range(len(labels)), labels)
+    axes.invert_yaxis()
+    axes.set(title=title, xlabel=along)
+    axes.grid(alpha=0.3, axis="x")
+    if len(series) > 1:
+        axes.legend(fontsize=9)
+    save(figure, file, pyplot)
+
+
+def draw(file, title, across, up, curves):
+    pyplot = pyplot_for(file)
     figure, axes = pyplot.subplots(figsize=(7.2, 4.2), layout="constrained")
     colours = {True: iter(OURS * 4), False: iter(THEIRS * 4)}
     for curve in curves:
@@ -43,6 +71,4 @@ def draw(file, title, across, up, curves):
     axes.set(title=title, xlabel=across, ylabel=up)
     axes.grid(alpha=0.3)
     axes.legend(fontsize=9)
-    file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, metadata={"Date": None})
-    pyplot.close(figure)
+    save(figure, file, pyplot)

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -186,12 +187,12 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
     return cleats_ ? nearest_after(0.0, point) : nearest_of_belt(point);
   }
   [[nodiscard]] int parts() const override { return cleats_ ? 2 : 1; }
-  [[nodiscard]] SurfacePoint contact(int part, Vec3 point, double /*reach*/) const override {
-    return contact_after(0.0, part, point);
+  [[nodiscard]] SurfacePoint contact(int part, Vec3 point, double reach) const override {
+    return contact_after(0.0, part, point, reach);
   }
   void touch(int part, const ClosestPoints& t) const override {
     for (std::size_t n = 0; n < t.count; ++n) {
-      t.put(n, contact_after(0.0, part, {t.x[n], t.y[n], t.z[n]}));
+      t.put(n, contact_after(0.0, part, {t.x[n], t.y[n], t.z[n]}, t.reach[n]));
     }
   }
   /// However far the cleats have run, and for a point that is up to their spacing behind its place.
@@ -247,9 +248,11 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
     if (cleat.distance < s.distance) s = cleat;
     return {s.distance, from_belt(s.normal)};
   }
-  [[nodiscard]] SurfacePoint contact_after(double run, int part, Vec3 point) const override {
-    if (part == 0) return nearest_of_belt(point);
-    const SurfacePoint s = cleats_->nearest(run, to_belt(point)).point;
+  [[nodiscard]] SurfacePoint contact_after(double run, int part, Vec3 point,
+                                           double reach) const override {
+    if (part == k_standing) return nearest_of_belt(point);
+    const SurfacePoint s = cleats_->nearest(run, to_belt(point), reach).point;
+    if (!(s.distance < reach)) return {std::numeric_limits<double>::infinity(), {}};
     return {s.distance, from_belt(s.normal)};
   }
   [[nodiscard]] Triangles triangles_after(double run, Vec3 min, Vec3 max,

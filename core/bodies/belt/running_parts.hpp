@@ -11,9 +11,12 @@ namespace dust::bodies {
 
 /// A shape of which a part runs with its surface, as the cleats of a belt do: another solid at each
 /// instant, the same again whenever the surface has run on by spacing(). `run` [m] is how far it
-/// has run, from 0 to spacing(); all points are in the shape's frame.
+/// has run, from 0 to spacing(); all points are in the shape's frame. Of the shape's two parts the
+/// first stays in its place and the second goes to others.
 class RunningParts {
  public:
+  static constexpr int k_standing = 0;  ///< part of Shape::contact
+  static constexpr int k_running = 1;
   /// What a motion has to be asked for the velocity of a point: `factor` times its answer.
   struct VelocityQuery {
     sdk::Vec3 axis;
@@ -27,7 +30,8 @@ class RunningParts {
   [[nodiscard]] virtual double largest_factor() const = 0;
   /// As of Shape.
   [[nodiscard]] virtual SurfacePoint nearest_after(double run, sdk::Vec3 point) const = 0;
-  [[nodiscard]] virtual SurfacePoint contact_after(double run, int part, sdk::Vec3 point) const = 0;
+  [[nodiscard]] virtual SurfacePoint contact_after(double run, int part, sdk::Vec3 point,
+                                                   double reach) const = 0;
   [[nodiscard]] virtual Triangles triangles_after(double run, sdk::Vec3 min, sdk::Vec3 max,
                                                   double edge) const = 0;
   /// Of a point of the surface with its normal.

@@ -58,14 +58,15 @@ struct IsFarther {
 
 class Search {
  public:
-  Search(const Body& a, const Body& b, const GapSearch& search) : a_(a), b_(b), search_(search) {}
+  Search(const Body& a, const Body& b, const GapSearch& search)
+      : a_(a), b_(b), at_a_(a.placement(0.0)), at_b_(b.placement(0.0)), search_(search) {}
 
   Gap run() {
     // Finer than what a person can see of a curve, coarse enough for long conveyors.
     const double edge = std::max(search_.limit, norm(search_.max - search_.min) / 100.0);
-    const Triangles of_a = a_.triangles(search_.min, search_.max, edge);
+    const Triangles of_a = a_.triangles(search_.min, search_.max, edge, at_a_);
     const Bounds box_a(of_a);
-    const Bounds box_b(b_.triangles(search_.min, search_.max, edge));
+    const Bounds box_b(b_.triangles(search_.min, search_.max, edge, at_b_));
     if (apart(box_a.low, box_a.high, box_b.low, box_b.high) > search_.limit + edge) return gap_;
     for (std::size_t n = 0; n + 2 < of_a.size() && !is_done(); n += 3) {
       look_at({{of_a[n], of_a[n + 1], of_a[n + 2]}});
@@ -90,7 +91,7 @@ class Search {
   /// surface, curved faces by chords: as deep as the point lies in the first body it is nearer.
   double width_at(Vec3 point) {
     work_ += 2;
-    return b_.nearest(point).distance + std::min(a_.nearest(point).distance, 0.0);
+    return b_.nearest(point, at_b_).distance + std::min(a_.nearest(point, at_a_).distance, 0.0);
   }
 
   void look_at(Piece piece) {
@@ -144,9 +145,9 @@ class Search {
       Vec3 on_a = start;
       double last = width;
       for (int n = 0; n < k_projections && gap_.width > 0.0; ++n) {
-        const SurfacePoint to_b = b_.nearest(on_a);
+        const SurfacePoint to_b = b_.nearest(on_a, at_b_);
         const Vec3 on_b = on_a - to_b.distance * to_b.normal;
-        const SurfacePoint to_a = a_.nearest(on_b);
+        const SurfacePoint to_a = a_.nearest(on_b, at_a_);
         on_a = on_b - to_a.distance * to_a.normal;
         work_ += 2;
         if (apart(on_b, on_b, search_.min, search_.max) > 0.0) break;
@@ -163,6 +164,8 @@ class Search {
 
   const Body& a_;
   const Body& b_;
+  Placement at_a_;
+  Placement at_b_;
   GapSearch search_;
   Gap gap_;
   std::size_t work_ = 0;

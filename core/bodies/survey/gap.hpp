@@ -16,7 +16,7 @@ struct GapSearch {
   std::size_t work = 0;  ///< nearest points that may be asked for
 };
 
-/// The narrowest place between two bodies as the scenario puts them.
+/// The narrowest place between two bodies where they are as the run begins.
 struct Gap {
   /// [m] 0 where they touch or overlap, infinite where they are farther apart than the limit.
   double width = std::numeric_limits<double>::infinity();

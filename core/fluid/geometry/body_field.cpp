@@ -27,6 +27,7 @@ constexpr double k_stride = 0.99;
 enum class Whole : std::uint8_t { no, open, closed };
 /// Steps after which the way along a surface counts as free: each is as long as the distance.
 constexpr int k_max_steps = 200;
+constexpr double k_far = std::numeric_limits<double>::max();
 
 }  // namespace
 
@@ -40,14 +41,24 @@ BodyField::BodyField(const Grid& grid, const bodies::BodySet& bodies, double tim
     const bodies::Body& body = bodies[b];
     if (body.is_removed()) continue;
     const bool is_moving = body.displaces();
-    if (is_moving && which == Which::static_bodies) continue;
-    // A surface that only moves along itself stays where the scenario puts it, to the last bit.
-    const auto at =
-        is_moving ? body.placement(time)
-                  : bodies::Placement::turned(body.frame_origin, body.frame_axis, body.frame_angle);
-    (is_moving ? moving_bodies_ : static_bodies_).push_back({&body, static_cast<int>(b), at});
-    if (is_moving) largest_speed_ = std::max(largest_speed_, body.largest_displacing_speed());
+    const bool has_standing_part = is_moving && bodies::running_parts(body) != nullptr;
+    const int number = static_cast<int>(b);
+    if (!is_moving || has_standing_part) {
+      // A surface that only moves along itself stays where the scenario puts it, to the last bit.
+      const int part = has_standing_part ? bodies::RunningParts::k_standing : k_whole;
+      static_bodies_.push_back(
+          {&body, number,
+           bodies::Placement::turned(body.frame_origin, body.frame_axis, body.frame_angle), part});
+    }
+    if (!is_moving || which == Which::static_bodies) continue;
+    const int part = has_standing_part ? bodies::RunningParts::k_running : k_whole;
+    moving_bodies_.push_back({&body, number, body.placement(time), part});
+    largest_speed_ = std::max(largest_speed_, body.largest_displacing_speed());
   }
+}
+
+bodies::SurfacePoint BodyField::Placed::nearest(Vec3 p, double limit) const {
+  return part == k_whole ? body->nearest(p, at) : body->contact(part, p, limit, at);
 }
 
 class BodyField::Near {
@@ -57,7 +68,7 @@ class BodyField::Near {
     std::size_t count = 0;
     for (const auto* list : {&field.static_bodies_, &field.moving_bodies_}) {
       for (const Placed& b : *list) {
-        const auto s = b.body->nearest(p, b.at);
+        const auto s = b.nearest(p, hit_.distance + 3.0 * reach);
         if (s.distance < hit_.distance) hit_ = {s.distance, s.normal, b.number};
         if (count < k_max) seen[count] = {&b, s.distance};
         ++count;
@@ -79,7 +90,7 @@ class BodyField::Near {
     Hit hit;
     for (std::size_t n = 0; n < count_; ++n) {
       const Placed& b = *bodies_[n];
-      const auto s = b.body->nearest(q, b.at);
+      const auto s = b.nearest(q, hit.distance);
       if (s.distance < hit.distance) hit = {s.distance, s.normal, b.number};
     }
     return hit;
@@ -102,17 +113,17 @@ BodyField::Hit BodyField::nearest(Vec3 p) const {
   Hit hit;
   for (const auto* list : {&static_bodies_, &moving_bodies_}) {
     for (const Placed& b : *list) {
-      const auto s = b.body->nearest(p, b.at);
+      const auto s = b.nearest(p, hit.distance);
       if (s.distance < hit.distance) hit = {s.distance, s.normal, b.number};
     }
   }
   return hit;
 }
 
-double BodyField::distance_to_moving_bodies(Vec3 p) const {
-  double least = std::numeric_limits<double>::max();
-  for (const Placed& b : moving_bodies_) least = std::min(least, b.body->nearest(p, b.at).distance);
-  return least;
+bool BodyField::is_far_from_moving_bodies(Vec3 p, double reach) const {
+  return std::all_of(moving_bodies_.begin(), moving_bodies_.end(), [&](const Placed& b) {
+    return b.nearest(p, std::nextafter(reach, k_far)).distance > reach;
+  });
 }
 
 bool BodyField::is_inside(Vec3 p) const { return nearest(p).distance <= k_on_surface * smallest_; }

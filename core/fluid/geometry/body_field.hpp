@@ -26,7 +26,8 @@ class BodyField {
   [[nodiscard]] bool is_empty() const { return static_bodies_.empty() && moving_bodies_.empty(); }
   [[nodiscard]] bool has_moving_bodies() const { return !moving_bodies_.empty(); }
   [[nodiscard]] Hit nearest(sdk::Vec3 p) const;
-  [[nodiscard]] double distance_to_moving_bodies(sdk::Vec3 p) const;
+  /// Whether all that moves is farther from p than `reach` [m].
+  [[nodiscard]] bool is_far_from_moving_bodies(sdk::Vec3 p, double reach) const;
   [[nodiscard]] bool is_inside(sdk::Vec3 p) const;
 
   /// Share of the box (edges `size`, 0 = flat) outside all bodies. Within a sub-box the surface is
@@ -47,11 +48,16 @@ class BodyField {
   [[nodiscard]] std::optional<double> passes_through(sdk::Vec3 from, sdk::Vec3 to) const;
 
  private:
+  /// A body, or a part of one that moves in part alone.
   struct Placed {
     const bodies::Body* body;
     int number;
     bodies::Placement at;
+    int part = k_whole;
+    /// A part that is not nearer than `limit` [m] may be told as infinitely far.
+    [[nodiscard]] bodies::SurfacePoint nearest(sdk::Vec3 p, double limit) const;
   };
+  static constexpr int k_whole = -1;
   /// How far the surface goes along its normal in `smear` [s].
   [[nodiscard]] double own_way(const Hit& hit, sdk::Vec3 p, double smear) const;
   /// Share of the sub-box of edges `size` round p that is open, by the plane of the surface at

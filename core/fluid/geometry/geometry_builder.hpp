@@ -37,7 +37,7 @@ class GeometryBuilder {
   }
   /// Are the movers so far that what lies within `reach` of the point is as without them?
   [[nodiscard]] bool is_as_static(const BodyField& field, Vec3 p, double reach) const {
-    return static_geometry_ != nullptr && field.distance_to_moving_bodies(p) > reach;
+    return static_geometry_ != nullptr && field.is_far_from_moving_bodies(p, reach);
   }
   void measure_faces(int d);
   /// Is a surface so near to the face's cells that something may lie between them?

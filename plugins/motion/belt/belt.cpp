@@ -33,26 +33,27 @@ class Belt final : public sdk::Motion {
             .source = "kinematics of an inextensible belt; own derivation"};
   }
 
-  explicit Belt(const Parameters& p) : p_(p) {}
+  explicit Belt(const Parameters& p)
+      : course_{.speed = p.speed, .start = p.start, .ramp = p.ramp} {}
   void surface_velocity(const sdk::SurfaceBatch& b) const override {
-    const double speed = formula::speed_at(p_.speed, p_.start, p_.ramp, b.time);
+    const double speed = course_.speed_at(b.time);
     for (std::size_t q = 0; q < b.count; ++q) {
       const auto v = formula::velocity(speed, b.axis.x, b.axis.y, b.axis.z, b.normal.x[q],
                                        b.normal.y[q], b.normal.z[q]);
       b.velocity.set(q, {v.x, v.y, v.z});
     }
   }
-  [[nodiscard]] double largest_speed() const override { return std::abs(p_.speed); }
+  [[nodiscard]] double largest_speed() const override { return std::abs(course_.speed); }
   /// Of the surface, not of the body: how far it has run along itself, and how fast it runs, as x.
   [[nodiscard]] sdk::RigidPose pose(double time) const override {
     sdk::RigidPose run;
-    run.shift.x = formula::run_at(p_.speed, p_.start, p_.ramp, time);
-    run.velocity.x = formula::speed_at(p_.speed, p_.start, p_.ramp, time);
+    run.shift.x = course_.way(time);
+    run.velocity.x = course_.speed_at(time);
     return run;
   }
 
  private:
-  Parameters p_;
+  dust::model::Course course_;
 };
 
 }  // namespace

@@ -25,18 +25,4 @@ inline Velocity velocity(double speed, double ax, double ay, double az, double n
   return {u * (ay * nz - az * ny), u * (az * nx - ax * nz), u * (ax * ny - ay * nx)};
 }
 
-/// Speed at `time` [s] of a belt that sets off at `start` [s] and gathers speed evenly for `ramp`
-/// [s].
-constexpr double speed_at(double speed, double start, double ramp, double time) {
-  if (time < start) return 0.0;
-  return time - start < ramp ? speed * (time - start) / ramp : speed;
-}
-
-/// How far [m] it has run at `time`: the integral of speed_at.
-constexpr double run_at(double speed, double start, double ramp, double time) {
-  if (time < start) return 0.0;
-  const double since = time - start;
-  return since < ramp ? 0.5 * speed * since * since / ramp : speed * (since - 0.5 * ramp);
-}
-
 }  // namespace dust::model::belt

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies/survey/gap.hpp"
 #include "bodies/mesh/mesh.hpp"
+#include "support/dem_rig.hpp"
 #include "unit/bodies/meshes.hpp"
 #include "unit/bodies/shapes.hpp"
 
@@ -122,4 +123,22 @@ TEST_CASE("the thinnest wall of a mesh shall be measured straight through") {
   const double flat = 2.0 * 0.2 * std::cos(std::numbers::pi / 12);
   CHECK(wall(torus_mesh(1.0, 0.2, 48, 12)) == doctest::Approx(flat).epsilon(0.02));
   CHECK(Mesh(box_mesh({0, 0, 0}, {1, 1, 1}), Mesh::Sides::both).thinnest_wall() == 0.0);
+}
+
+TEST_CASE("bodies that their motions take to other places shall be looked at where they begin") {
+  const auto rib = [](double ahead) {
+    Body body = box({-0.01, -0.2, 0.1}, {0.01, 0.2, 0.15});
+    body.motions.push_back(
+        dust::test::ModelLoader::make<dust::sdk::Motion>("motion", "circulate",
+                                                         {{"head", Vec3{0.5, 0, 0}},
+                                                          {"tail", Vec3{-0.5, 0, 0}},
+                                                          {"radius", 0.1},
+                                                          {"speed", 1.0},
+                                                          {"ahead", ahead}}));
+    return body;
+  };
+  // Drawn at one place over the belt: of 20 mm each, apart by their way along it less that.
+  CHECK(both_ways(rib(0.5), rib(0.55)).width == doctest::Approx(0.03).epsilon(1e-9));
+  CHECK(both_ways(rib(0.5), rib(0.8)).width == k_infinity);
+  CHECK(both_ways(rib(0.5), rib(0.51)).width == 0.0);
 }

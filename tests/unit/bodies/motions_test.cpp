@@ -129,10 +129,14 @@ TEST_CASE("an oscillation shall start where the body stands and stop where it is
 }
 
 TEST_CASE("a belt shall gather speed evenly, and shake when it is told to") {
-  using dust::model::belt::speed_at;
-  CHECK(speed_at(0.8, 0.1, 0.5, 0.05) == 0.0);
-  CHECK(speed_at(0.8, 0.1, 0.5, 0.35) == doctest::Approx(0.4).epsilon(1e-14));
-  CHECK(speed_at(0.8, 0.1, 0.5, 0.7) == 0.8);
+  for (const double speed : {0.8, -0.8}) {  // backwards too
+    const auto belt = motion("belt", {{"speed", speed}, {"start", 0.1}, {"ramp", 0.5}});
+    CHECK(belt->pose(0.05).velocity.x == 0.0);
+    CHECK(belt->pose(0.35).velocity.x == doctest::Approx(0.5 * speed).epsilon(1e-14));
+    CHECK(belt->pose(0.7).velocity.x == speed);
+    CHECK(belt->pose(0.05).shift.x == 0.0);
+    CHECK(belt->pose(0.7).shift.x == doctest::Approx(speed * (0.25 + 0.1)).epsilon(1e-14));
+  }
   Body body;
   body.shape =
       make_shape("conveyor", {{"head", Vec3{1, 0, 0}}, {"tail", Vec3{-1, 0, 0}}, {"radius", 0.1}});

@@ -1,0 +1,94 @@
+"""What the thesis names in 7.2 as still to be done, each as a study of a scenario at the plant's size, with what comes out."""
+
+import dataclasses
+
+import chart
+import study_runs
+from cases.hood_capture import COARSE
+from page import FOLDER
+from runs import ROOT
+
+TITLE = "The thesis's outlook, 7.2, at the size of a plant"
+BITS = ("coarse_transfer", "mixer")
+PLANT = ROOT / "scenarios/plant"
+CHUTE = {**COARSE, "time.end": "5.3 s"}
+
+
+@dataclasses.dataclass
+class Part:
+    number: str
+    title: str
+    study: str        # of scenarios/plant
+    figures: tuple    # outputs that are drawn; of one unit
+    along: str        # what they are, with their unit
+    settings: dict    # on top of the study's own
+    text: str
+
+
+PARTS = (
+    Part("7.2.1", "Wind from any side at real size", "chamber_wind", ("set_free", "out_all"), "dust [g/t]", CHUTE,
+         "500 t/h fall from belt 1 through hood and spoon onto belt 2 in an open chamber; what a wind of 2 or 4 m/s takes along by its direction."),
+    Part("7.2.4", "Belt scraper", "scraper_or_none", (), "", {}, ""),
+    Part("7.2.5", "Belt surface: cleats", "cleats_or_none", ("carried",), "carried up [kg]", {},
+         "A belt of 30 degrees with crossbars of 80 mm and without: what passes 1.3 m beyond the feed."),
+    Part("7.2.7", "Places for extraction", "receiving_belt", ("load",), "load [kg/m]", CHUTE,
+         "The transfer chute over the speed of the receiving belt and the flow drawn out of its roof."),
+)
+
+
+def plans():
+    return []
+
+
+def study_of(part, folder):
+    """The study on absolute paths, with the part's settings in every point."""
+    import yaml
+
+    study = yaml.safe_load((PLANT / f"{part.study}.yaml").read_text())
+    study["base"] = str(PLANT / study["base"])
+    study["set"] = {**study.get("set", {}), **{path: yaml.safe_load(value) for path, value in part.settings.items()}}
+    folder.mkdir(parents=True, exist_ok=True)
+    file = folder / f"{part.study}.yaml"
+    file.write_text(yaml.safe_dump(study, sort_keys=False))
+    return file
+
+
+def name_of(row):
+    """What tells a row of a study's table from the others."""
+    inputs = [value for column, value in row.items() if column == "case" or "." in column.split(" ")[0]]
+    return ", ".join(inputs)
+
+
+def figure_of(row, output):
+    column = next((c for c in row if c.split(" ")[0] == output), None)
+    try:
+        return float(row[column])
+    except (KeyError, ValueError, TypeError):
+        return None
+
+
+def section(args, part, number):
+    file = study_of(part, args.runs / "outlook")
+    folder = args.runs / f"outlook_{part.study}"
+    told, _ = study_runs.run(args, file, "-o", folder, *(["--resume"] if folder.exists() else []), allowed=(0, 1))
+    rows = study_runs.table(folder)
+    out = [f"## {part.number} {part.title}", "", part.text, ""]
+    picture = FOLDER / "pictures" / f"outlook_{number}.svg"
+    chart.draw_bars(picture, part.title, part.along, [name_of(r) for r in rows], {f: [figure_of(r, f) for r in rows] for f in part.figures})
+    out += [f"![{part.title}](pictures/{picture.name})", ""]
+    keep = [c for c in rows[0] if c not in ("replicate", "seed", "hash") and (c != "reason" or any(r["reason"] for r in rows))]
+    out += ["| " + " | ".join(keep) + " |", "|" + " --- |" * len(keep)]
+    out += ["| " + " | ".join(study_runs.rounded(r[c]) for c in keep) + " |" for r in rows]
+    verdicts = [line for line in told if study_runs.verdict_of(line)]
+    settings = "".join(f" `{path}: {value}`" for path, value in part.settings.items())
+    return out + [""] + [f"- {line}" for line in verdicts] + ["", f"`engine study scenarios/plant/{part.study}.yaml`" + (f", each point with{settings}" if settings else "") + ".", ""]
+
+
+def write(args):
+    out = [f"# {TITLE}", "", study_runs.written_by("outlook", args.engine), "",
+           "Section 7.2 of the thesis names what a table-top transfer point could not tell. Each part below is a scenario and a study that "
+           "runs in minutes; the transfer chute itself, in full, is in [plant_chute](plant_chute.md) (7.2.3: enclosed), a hood where "
+           "`engine suggest-hoods` puts it in [hood_capture](hood_capture.md) (7.2.7).", ""]
+    for number, part in enumerate(PARTS, 1):
+        out += section(args, part, number)
+    study_runs.write_page("outlook", [*out, study_runs.bits_line(args.engine)])
