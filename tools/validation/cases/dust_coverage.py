@@ -57,7 +57,7 @@ def fill(page, runs):
         if with_error:
             page.add(f"{name}: share of the runs whose 95 % interval covers the mean of the others", 100 * covered / with_error, "95 %",
                      100 * LEAST_OF_20 / len(SEEDS), unit="%")
-            page.add(f"{name}: error that the runs give, over their standard deviation", error / deviation, "1",
+            page.add(f"{name}: error that the runs give, over their standard deviation", error / deviation if deviation else 0.0, "1",
                      why="above 1: wider than the scatter of the seeds asks for")
         else:
             page.add(f"{name}: runs that say not steady yet", len(values), "0", why="a figure without an error covers nothing")
