@@ -63,8 +63,8 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
   }
   if (dust_) {
     const double given = dust_setup_.given ? dust_setup_.given->steady_after : 0.0;
-    dust_rates_ = std::make_unique<DustRates>(setup_, *dust_, liberation_.get(), *dem_,
-                                              given > 0.0 ? given : 0.5 * setup_.time.end);
+    dust_figures_ =
+        std::make_unique<DustFigures>(*this, given > 0.0 ? given : 0.5 * setup_.time.end);
   }
   cycle_.emplace(clock_.fluid_step(), dem_->coarse_step());
   insertion_ = std::make_unique<Insertion>(setup_, models_);
@@ -214,7 +214,10 @@ SaveParts Simulation::save_parts() const {
   if (fluid_) fluid_->add_parts(parts);
   if (dust_) dust_->add_parts(parts);
   if (liberation_) std::as_const(*liberation_).add_parts(parts);
-  if (dust_rates_) std::as_const(*dust_rates_).add_parts(parts);
+  if (dust_figures_) {
+    dust_rates()->add_parts(parts);
+    stream_indices()->add_parts(parts);
+  }
   for (std::size_t n = 0; n < models_.emitters.size(); ++n) {
     parts.emplace_back("emitter." + setup_.emitters[n].name,
                        [this, n](sdk::ArchiveWriter& a) { models_.emitters[n]->save(a); });
@@ -254,7 +257,10 @@ LoadParts Simulation::load_parts() {
   }
   if (dust_) dust_->add_parts(parts);
   if (liberation_) liberation_->add_parts(parts);
-  if (dust_rates_) dust_rates_->add_parts(parts);
+  if (dust_figures_) {
+    dust_figures_->rates.add_parts(parts);
+    dust_figures_->indices.add_parts(parts);
+  }
   // Last, so that the places of the last sample are those saved, not those just published.
   parts.emplace_back("columns", [this](sdk::ArchiveReader& a) {
     snapshots_.take(*dem_);

@@ -9,6 +9,7 @@
 #include "run/dust/dust_rates.hpp"
 #include "run/dust/dust_stage.hpp"
 #include "run/dust/liberation_stage.hpp"
+#include "run/dust/stream_indices.hpp"
 #include "run/fluid_stage.hpp"
 #include "run/insertion/insertion.hpp"
 #include "run/models.hpp"
@@ -76,7 +77,13 @@ class Simulation {
   /// Null where no dust comes off grains.
   [[nodiscard]] const LiberationStage* liberation() const { return liberation_.get(); }
   /// Null without a dust field.
-  [[nodiscard]] const DustRates* dust_rates() const { return dust_rates_.get(); }
+  [[nodiscard]] const DustRates* dust_rates() const {
+    return dust_figures_ ? &dust_figures_->rates : nullptr;
+  }
+  /// Null without a dust field.
+  [[nodiscard]] const StreamIndices* stream_indices() const {
+    return dust_figures_ ? &dust_figures_->indices : nullptr;
+  }
   [[nodiscard]] const fluid::FluidSolver* fluid() const;
   [[nodiscard]] const coupling::Coupling* coupling() const;
 
@@ -97,6 +104,15 @@ class Simulation {
   [[nodiscard]] LoadParts load_parts();
 
  private:
+  /// What is told of the dust of a steady stream.
+  struct DustFigures {
+    /// In place: both are referred to by what they hold.
+    DustFigures(const Simulation& s, double steady_after)
+        : rates(s.setup_, *s.dust_, s.liberation_.get(), *s.dem_, steady_after),
+          indices(s.setup_, *s.fluid_, *s.dust_, s.liberation_.get(), *s.dem_, steady_after) {}
+    DustRates rates;
+    StreamIndices indices;
+  };
   void build_dem_graph(int check_every);
   void add_tile_nodes();
   void build_step_graph();
@@ -126,7 +142,7 @@ class Simulation {
   std::unique_ptr<DustStage> dust_;
   std::unique_ptr<particles::Dem> dem_;
   std::unique_ptr<LiberationStage> liberation_;
-  std::unique_ptr<DustRates> dust_rates_;
+  std::unique_ptr<DustFigures> dust_figures_;
   std::optional<DemCycle> cycle_;  ///< within a fluid step
   std::unique_ptr<Insertion> insertion_;
   Snapshots snapshots_;

@@ -111,9 +111,17 @@ void Simulation::build_step_graph() {
                      {"grain.state", "dust.concentration"},
                      [this] { liberation_->advance(clock_.fluid_step()); }});
   }
-  if (dust_rates_) {
+  if (dust_figures_) {
     step_graph_.add({"dust_rates", {"grain.state", "dust.concentration"}, {"dust.rates"}, [this] {
-                       dust_rates_->sample(time() + clock_.fluid_step(), clock_.fluid_step());
+                       dust_figures_->rates.sample(time() + clock_.fluid_step(),
+                                                   clock_.fluid_step());
+                     }});
+    step_graph_.add({"stream_indices",
+                     {"grain.state", "fluid.velocity", "fluid.void_fraction", "dust.concentration"},
+                     {"dust.indices"},
+                     [this] {
+                       dust_figures_->indices.sample(time() + clock_.fluid_step(),
+                                                     clock_.fluid_step());
                      }});
   }
   add_last_nodes();

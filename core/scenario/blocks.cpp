@@ -256,6 +256,18 @@ const ParameterSchema& DustBlock::schema() {
              "steady; 0 = half of time.end.")
         .at_least(0)
         .optional();
+    s.number(&DustBlock::fall_height, "fall_height", dimension::length,
+             "Height that the load falls from, for the rules of practice beside the results "
+             "(VDI 3790-3, induced air), which need it; 0 = not known.")
+        .symbol("H")
+        .at_least(0)
+        .optional();
+    s.number(&DustBlock::open_area, "open_area", dimension::area,
+             "Open area at the upstream end of a chute, through which a falling load draws air "
+             "in, for the rule of induced air; needs fall_height; 0 = not known.")
+        .symbol("A")
+        .at_least(0)
+        .optional();
     return s.build();
   }();
   return made;

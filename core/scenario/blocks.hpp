@@ -115,6 +115,8 @@ struct DustBlock {
   std::vector<std::string> openings;
   std::vector<std::string> hoods;
   double steady_after = 0.0;
+  double fall_height = 0.0;
+  double open_area = 0.0;
   static const sdk::ParameterSchema& schema();
 };
 

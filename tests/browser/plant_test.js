@@ -78,6 +78,22 @@ assert.ok(told[2].includes('still in the air|10\u202f%|'), told[2]);
 assert.ok(told[3].startsWith('How sure?|± one standard error|Means over the last 1'), told[3]);
 assert.ok(told[3].includes('Not steady yet: what goes out at left.'), told[3]);
 assert.ok(told[4].startsWith('Where to extract?|75\u202f% caught|'), told[4]);
+// Rules and indices of practice, each where its inputs are known.
+const ranked = {...steady, dust_estimates: {ap42_drop: {}, vdi_3790_3: {fall_height_m: 4, over_2_m: 2.3784}, induced_air: {air_m3_per_s: 0.13551, air_m3_per_tonne: 13.551}}, stream_indices: {
+  observed: {value: 2, unit: 's'}, 'impact/all/power': {value: 200, unit: 'W', uncertainty: null}, 'impact/all/per_load': {value: 20, unit: 'J/kg', uncertainty: null},
+  'impact/spoon/power': {value: 150, unit: 'W', uncertainty: 5}, 'impact/grains/power': {value: 50, unit: 'W', uncertainty: 2},
+  'entrained_air/flow': {value: 0.2, unit: 'm3/s', uncertainty: 0.01}, 'entrained_air/per_load': {value: 20, unit: 'm3/t', uncertainty: 1},
+  'looseness/void_fraction': {value: 0.98, unit: '1'}, 'looseness/densest_void_fraction': {value: 0.5, unit: '1'},
+}};
+const practice = Dust.load_dust_answers({summary: ranked, release_map: null, extraction: null}).map(text);
+assert.ok(practice[0].includes('VDI 3790-3: 2.4'), practice[0]);
+assert.ok(practice[0].includes('Anderson\'s rule: '), practice[0]);
+assert.ok(practice[3].startsWith('By the indices of practice?|20\u202fJ/kg|Impacts dissipate it: spoon 150'), practice[3]);
+assert.ok(practice[3].includes('Looseness: 98\u202f% of the stream is air where it is loosest, 50\u202f%'), practice[3]);
+assert.ok(!told.some((a) => a.includes('indices of practice') || a.includes('VDI') || a.includes('Anderson')));
+const unfed = {...steady, stream_indices: {observed: {value: 2, unit: 's'}, 'impact/all/power': {value: 200, unit: 'W', uncertainty: null}}};
+assert.ok(text(Dust.indices_answer({summary: unfed})).startsWith('By the indices of practice?|200\u202fW|'));
+
 // The hood's flow, and places of low pressure to try.
 Dust.place_xyz = ({x, y, z}) => [x, y, z].join(' ');
 Dust.depth = (place) => place.depth.value + ' Pa';

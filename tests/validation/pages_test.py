@@ -47,7 +47,8 @@ class AnyRun(runs.Run):
 
     summary = {"status": "finished", "sensors": {}, "cpu_s": 3600.0, "mass_kg": {"in_domain": 1.0}, "particles": {"max": 1},
                "simulated_s": 1.0, "dem_step_s": 1e-5, "fluid_steps": 0, "particle_steps": 1.0, "state_sha256": 64 * "0",
-               "size_classes": [{"hertz_time_s": 1e-4}]}
+               "size_classes": [{"hertz_time_s": 1e-4}],
+               "dust_rates": {"left/right/rate": {"value": 1.0, "uncertainty": 0.01}}}
 
     def figure(self, sensor, name):
         return 1.0 + 1e-3 * len(self.name), 0.01

@@ -68,6 +68,26 @@ Dust.drop_estimate = ({dust_estimates}) => {
   return first && Dust.p({}, `Order of magnitude, AP-42 for one drop in the open: ${digits(first.least_g_per_tonne)} to ${digits(first.most_g_per_tonne)}\u202fg/t finer than 30\u202fµm in winds of 0.6 to 6.7\u202fm/s`);
 };
 
+// Rules of practice that need the height of the fall; nothing where the scenario does not say it. Two digits: they are no better.
+Dust.fall_estimates = ({dust_estimates}) => {
+  const {vdi_3790_3: drop, induced_air: air} = dust_estimates || {}, rough = (value, unit) => Dust.quantity(Number(value.toPrecision(2)), -1, unit);
+  return [drop && Dust.p({}, `Order of magnitude, VDI 3790-3: ${rough(drop.over_2_m, '')} times what a drop of 2\u202fm gives off per tonne`),
+    air && Dust.p({}, `Order of magnitude, Anderson's rule: ${rough(air.air_m3_per_s, 'm3/s')} of air drawn in (${rough(air.air_m3_per_tonne, 'm3/t')})`)];
+};
+
+// The three indices by which practice ranks transfer points: null where there is none of them.
+Dust.indices_answer = ({summary}) => {
+  const figures = summary.stream_indices || {}, said = (name) => Dust.quantity(figures[name].value, Number.isFinite(figures[name].uncertainty) ? figures[name].uncertainty : -1, figures[name].unit);
+  const impact = ['impact/all/per_load', 'impact/all/power'].find((name) => figures[name] && figures[name].value > 0), air = figures['entrained_air/flow'], loose = figures['looseness/void_fraction'];
+  if (!impact && !air && !loose) return null;
+  const causes = Object.entries(figures).filter(([name]) => /^impact\/.*\/power$/.test(name) && name !== 'impact/all/power').sort(([, a], [, b]) => b.value - a.value)
+    .map(([name]) => `${name.split('/')[1] === 'grains' ? 'grains on grains' : Dust.words(name.split('/')[1])} ${said(name)}`);
+  return Dust.plant_answer('By the indices of practice?', impact ? said(impact) : air ? said('entrained_air/flow') : Dust.percent(loose.value),
+    impact && Dust.p({}, `Impacts dissipate it: ${causes.slice(0, 3).join(', ')}`),
+    air && Dust.p({}, `Entrained air: the stream takes ${said('entrained_air/flow')} down with it (${said('entrained_air/per_load')})`),
+    loose && Dust.p({}, `Looseness: ${Dust.percent(loose.value)} of the stream is air where it is loosest, ${Dust.percent(figures['looseness/densest_void_fraction'].value)} where it is densest`));
+};
+
 Dust.load_dust_answers = (data) => {
   const dust = Dust.load_dust(data), stream = Dust.dust_stream(data), {summary} = data, {el, p} = Dust;
   if (!dust) return [];
@@ -81,7 +101,7 @@ Dust.load_dust_answers = (data) => {
   const answer = Dust.plant_answer, counts = (part) => part.rate.value > 1e-4 * free.rate.value;
   const causes = stream.causes.filter((c) => c.rate.value > 0).map((c) => ({...c, title: c.name === 'grains' ? 'grains on grains' : Dust.words(c.name)}));
   const how_much = answer('How much dust?', free.rate.value > 0 ? said(free.load, 'g/t') : 'none', p({}, `${said(free.rate, 'kg/h')} set free from the load, which carries ${fed}`),
-    counts(stream.out) && p({}, `${said(stream.out.load, 'g/t')} get out with the air (${said(stream.out.rate, 'kg/h')})`), Dust.drop_estimate(summary));
+    counts(stream.out) && p({}, `${said(stream.out.load, 'g/t')} get out with the air (${said(stream.out.rate, 'kg/h')})`), Dust.drop_estimate(summary), Dust.fall_estimates(summary));
   const from_where = answer('From where?', causes.length ? Dust.sentence(causes[0].title) : 'nowhere yet', causes.length ? ranks(causes.slice(0, 4)) : null,
     data.release_map ? p({}, el('a', {href: '#liberation'}, 'Where it comes off')) : null);
   const fates = [{...stream.airborne, title: 'still in the air'}, {...stream.settled, title: 'settled'}, {...stream.caught, title: 'caught by grains'}, ...stream.hoods.map((h) => ({...h, title: `drawn out at ${Dust.words(h.name)}`})),
@@ -95,7 +115,7 @@ Dust.load_dust_answers = (data) => {
     tried.length > 0 && [p({}, el('a', {href: '#extraction'}, 'Low pressure'), ', to be tried:'),
       el('ul', {class: 'ranks'}, ...tried.map((o) => el('li', {}, el('span', {}, Dust.place_xyz(o)), el('span', {}, Dust.depth(o)))))]);
   const goes = fates.length ? Dust.sentence(fates.reduce((a, b) => (b.rate.value > a.rate.value ? b : a)).title) : Dust.dash;
-  return [how_much, from_where, answer('Where does it go?', goes, ranks(fates)), Dust.dust_surety(data, stream), where];
+  return [how_much, from_where, answer('Where does it go?', goes, ranks(fates)), Dust.indices_answer(data), Dust.dust_surety(data, stream), where].filter((part) => part !== null);
 };
 
 // Whether a limit of validity was touched.

@@ -50,6 +50,7 @@ LiberationStage::LiberationStage(const scenario::Setup& setup,
                  .gravity = norm(setup.gravity)});
   causes_ = causes_of(particles_.wall_names(), law_->needs_wind());
   set_free_.resize(causes_.size() * classes_);
+  impact_energy_.resize(1 + particles_.wall_names().size());
   for (std::size_t kind = 0; kind < k_kinds; ++kind) {
     if (kind != by_wind || law_->needs_wind()) places_[kind].assign(dust_.cells(), 0.0);
   }
@@ -68,12 +69,14 @@ void LiberationStage::find_impacts() {
   const particles::ContactWork& work = particles_.contact_work();
   const std::size_t count = particles_.rows().count;
   rows_.clear();
+  impact_energy_.assign(impact_energy_.size(), {});
   auto& c = columns_;
   for (Column* column : {&c.normal, &c.tangential, &c.acceleration}) column->clear();
   for (std::size_t row = 0; row < count; ++row) {
     const particles::ContactWork::Energy energy = work.sum(row);
     const double acceleration = work.acceleration(row);
     if (!(energy.sum() > 0.0 || acceleration > 0.0) || is_in_feed_zone(row)) continue;
+    if (energy.sum() > 0.0) add_impact_energy(row);
     rows_.push_back(static_cast<std::int32_t>(row));
     c.normal.push_back(energy.normal);
     c.tangential.push_back(energy.tangential);
@@ -83,6 +86,17 @@ void LiberationStage::find_impacts() {
     column->resize(padded(rows_.size()));
   }
   load_columns();
+}
+
+/// In the order of rows.
+void LiberationStage::add_impact_energy(std::size_t row) {
+  const particles::ContactWork& work = particles_.contact_work();
+  const double weight = particles_.rows().weight[row];
+  impact_energy_[0] += weight * work.with_particles(row).sum();
+  for (std::size_t wall = 0; wall < work.walls(); ++wall) {
+    const double energy = work.with_wall(row, wall).sum();
+    if (energy > 0.0) impact_energy_[1 + wall] += weight * energy;
+  }
 }
 
 /// All rows but those that are fed, and the wind at them: what their drag relaxes to, less their

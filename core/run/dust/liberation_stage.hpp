@@ -34,6 +34,12 @@ class LiberationStage {
 
   /// What sets dust free: other grains, then the walls by name, then the wind if the law wants it.
   [[nodiscard]] const std::vector<std::string>& causes() const { return causes_; }
+  /// Of `causes`, the first: those that are impacts.
+  [[nodiscard]] std::size_t impact_causes() const { return impact_energy_.size(); }
+  /// [J] dissipated in contacts in the last fluid step, weights counted, feed zones left out.
+  [[nodiscard]] double impact_energy(std::size_t cause) const {
+    return impact_energy_[cause].value();
+  }
   /// [kg] of class `n` since the start.
   [[nodiscard]] double set_free(std::size_t cause, std::size_t n) const {
     return set_free_[cause * classes_ + n].value();
@@ -59,6 +65,7 @@ class LiberationStage {
 
   [[nodiscard]] bool is_in_feed_zone(std::size_t row) const;
   void find_impacts();
+  void add_impact_energy(std::size_t row);
   void find_wind();
   void load_columns();
   [[nodiscard]] std::size_t place(std::size_t q, std::size_t n) const;
@@ -83,6 +90,7 @@ class LiberationStage {
     Column normal, tangential, acceleration;  ///< of impacts
     Column slip, shear, void_fraction;        ///< of wind
   } columns_;
+  std::vector<base::ExactSum> impact_energy_;     ///< [J] by cause, of this step
   std::vector<base::ExactSum> set_free_;          ///< by cause and class
   std::array<fluid::CellField, k_kinds> places_;  ///< [kg] by kind of cause; empty: not asked for
   base::ExactSum kept_back_;

@@ -260,9 +260,15 @@ Json amounts_json(const Simulation& s, const RunFacts& facts) {
     JsonFigures figures;
     s.dust_rates()->report(figures);
     j["dust_rates"] = figures.json();
+    JsonFigures indices;
+    s.stream_indices()->report(indices);
+    j["stream_indices"] = indices.json();
   }
   if (s.liberation() != nullptr) {
     j["dust_on_grains"] = dust_on_grains_json(s);
+  }
+  if (s.liberation() != nullptr ||
+      (s.dust_setup().given && s.dust_setup().given->fall_height > 0.0)) {
     j["dust_estimates"] = dust_estimates_json(s);
   }
   if (s.setup().audit.energy) j["energy"] = energy_json(s);

@@ -2,6 +2,7 @@
 #include "run/summary/summary_dust.hpp"
 
 #include "particles/store/balance_ledger.hpp"
+#include "run/summary/practice_rules.hpp"
 #include "setup/dust_rule.hpp"
 
 #include <cmath>
@@ -38,14 +39,32 @@ std::map<double, SizeClass> size_classes(const Simulation& s, const scenario::Du
   return classes;
 }
 
-/// Dust finer than 30 um that a drop of material gives off [g/t] in a wind of `speed` [m/s], of the
-/// moisture `moisture` [-]: 1000 k 0.0016 (U/2.2)^1.3 / (M/2 %)^1.4 with k = 0.74 (AP-42, 13.2.4,
-/// 2006).
-double drop_emission(double speed, double moisture) {
-  constexpr double k_below_30_um = 0.74;
-  constexpr double k_grams_per_kilogram = 1e3;
-  return k_grams_per_kilogram * k_below_30_um * 0.0016 * std::pow(speed / 2.2, 1.3) /
-         std::pow(moisture / 0.02, 1.4);
+/// [m] mean by mass of all that was released, of the grains that computed ones stand for; 0: none.
+double mean_size(const Simulation& s, const scenario::DustRule& rule) {
+  double mass = 0.0, moment = 0.0;
+  for (const auto& p : s.dem().ledger().populations()) {
+    const double released = static_cast<double>(p.emitted) * p.weight * p.mass;
+    mass += released;
+    moment += released * rule.represented(p.diameter, p.material);
+  }
+  return mass > 0.0 ? moment / mass : 0.0;
+}
+
+/// Anderson's rule for the stream of this run, with what went into it; empty where something that
+/// it takes is not known.
+Json induced_air_json(const Simulation& s) {
+  constexpr double k_tonne = 1e3;  // kg
+  if (!s.dust_setup().given || s.stream_indices() == nullptr) return Json::object();
+  const scenario::DustSpec& spec = *s.dust_setup().given;
+  const double load = s.stream_indices()->load();
+  const double size = mean_size(s, s.dust_setup().rule());
+  if (!(spec.open_area > 0.0 && spec.fall_height > 0.0 && load > 0.0 && size > 0.0)) {
+    return Json::object();
+  }
+  const double air = induced_air(load, spec.fall_height, size, spec.open_area);
+  return {{"load_kg_per_s", load}, {"fall_height_m", spec.fall_height},
+          {"mean_size_m", size},   {"open_area_m2", spec.open_area},
+          {"air_m3_per_s", air},   {"air_m3_per_tonne", k_tonne * air / load}};
 }
 
 }  // namespace
@@ -192,7 +211,14 @@ Json dust_estimates_json(const Simulation& s) {
         {"least_g_per_tonne", drop_emission(k_calm, load.moisture)},
         {"most_g_per_tonne", drop_emission(k_windy, load.moisture)}};
   }
-  return {{"ap42_drop", by_material}};
+  Json estimates{{"ap42_drop", by_material}};
+  if (s.dust_setup().given && s.dust_setup().given->fall_height > 0.0) {
+    const double height = s.dust_setup().given->fall_height;
+    estimates["vdi_3790_3"] = {{"fall_height_m", height}, {"over_2_m", drop_height_factor(height)}};
+  }
+  const Json air = induced_air_json(s);
+  if (!air.empty()) estimates["induced_air"] = air;
+  return estimates;
 }
 
 void add_liberation_table(const Simulation& s, Json& tables) {

@@ -37,9 +37,11 @@ nlohmann::ordered_json dust_field_json(const Simulation& s);
 /// scavenging "caught_kg"}, and "kept_back_kg".
 nlohmann::ordered_json dust_on_grains_json(const Simulation& s);
 
-/// What practice expects of a drop, an order of magnitude beside ours: by "ap42_drop" and material
+/// What practice expects, orders of magnitude beside ours: by "ap42_drop" and material
 /// {"moisture", "least_g_per_tonne", "most_g_per_tonne"} finer than 30 um, over the winds 0.6 to
-/// 6.7 m/s of the measurements (AP-42, 13.2.4). Materials without a moisture are left out.
+/// 6.7 m/s of the measurements (AP-42, 13.2.4), materials without a moisture left out; with
+/// `dust.fall_height` "vdi_3790_3", how much more than from 2 m; with `dust.open_area` and a load
+/// that is fed also "induced_air", Anderson's rule, with what went into it.
 nlohmann::ordered_json dust_estimates_json(const Simulation& s);
 
 /// A table for the report: what came off grains, by cause and class; nothing without loads.

@@ -87,6 +87,13 @@ DustSpec dust_spec_of(Reading& reading, const Entry& entry, const DustBlock& rea
   spec.openings = enabled_openings(reading, entry.value, read.openings);
   spec.hoods = known_hoods(reading, entry.value, read.hoods);
   spec.steady_after = read.steady_after;
+  spec.fall_height = read.fall_height;
+  spec.open_area = read.open_area;
+  if (spec.open_area > 0.0 && !(spec.fall_height > 0.0)) {
+    reading.error(entry.where,
+                  "dust.open_area: the rule of induced air takes the height of fall too: give "
+                  "fall_height, or take open_area out");
+  }
   return spec;
 }
 

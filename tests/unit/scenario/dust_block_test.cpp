@@ -35,6 +35,16 @@ TEST_CASE("a dust block shall say by size and material what is dust") {
   CHECK_FALSE(rule.is_dust(300e-6, 1));
 }
 
+TEST_CASE("rules of practice shall have the height and area they take, or be refused") {
+  const auto dust =
+      dust_of(with("dust: {finer_than: 400 um, fall_height: 2 m, open_area: 900 cm2}\n"));
+  CHECK(dust.given->fall_height == doctest::Approx(2.0));
+  CHECK(dust.given->open_area == doctest::Approx(0.09));
+  check("dust: {finer_than: 400 um, open_area: 900 cm2}\n",
+        "dust.open_area: the rule of induced air takes the height of fall too: give fall_height");
+  check("dust: {finer_than: 400 um, fall_height: -1 m}\n", "fall_height");
+}
+
 TEST_CASE("without a dust block all below 100 um shall be dust") {
   const DustRule rule = dust_of(k_small).rule();
   CHECK(rule.is_dust(99e-6, 0));

@@ -11,8 +11,8 @@ BITS = ()
 TAKES_FINISHED_RUNS = True
 TARGET = ROOT / "docs" / "performance.md"
 NEIGHBOURS = ("Beside the peers, in one run each: [grains](performance_grains.md), [air](performance_air.md), "
-              "[both](performance_coupled.md). Several time rates beside one: [rates](performance_rates.md). Air and grains at the "
-              "same time: [overlap](performance_overlap.md).")
+              "[both](performance_coupled.md). Several time rates beside one: [rates](performance_rates.md). A class of dust "
+              "beside the air: [dust](performance_dust.md). Air and grains at the same time: [overlap](performance_overlap.md).")
 EXPLAINED = ("DEM rate: million grain-steps per second of the time in the particles' nodes (`timer_groups.particles` of "
              "`summary.json`), dust and its sub-steps included in the time, not in the steps. Processor time far below threads x "
              "wall time: the machine had other work beside the run.")
