@@ -55,15 +55,15 @@ double displacing_area(const bodies::Body& body, const scenario::DomainSpec& dom
   const bodies::Placement at = body.placement(0.0);
   const auto surface =
       body.triangles(domain.min, domain.max, std::max({size.x, size.y, size.z}) / k_edges, at);
-  const bool has_standing_part = bodies::running_parts(body) != nullptr;
+  const bool has_static_part = bodies::running_parts(body) != nullptr;
   const auto stands = [&](sdk::Vec3 p) {
-    const auto s = body.contact(bodies::RunningParts::k_standing, p, k_anywhere, at);
+    const auto s = body.contact(bodies::RunningParts::k_static, p, k_anywhere, at);
     return s.distance < k_on_surface;
   };
   double area = 0.0;
   for (std::size_t n = 0; n + 2 < surface.size(); n += 3) {
     const sdk::Vec3 middle = (surface[n] + surface[n + 1] + surface[n + 2]) / 3.0;
-    if (has_standing_part && stands(middle)) continue;
+    if (has_static_part && stands(middle)) continue;
     area += 0.5 * sdk::norm(sdk::cross(surface[n + 1] - surface[n], surface[n + 2] - surface[n]));
   }
   return area;

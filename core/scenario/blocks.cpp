@@ -109,8 +109,10 @@ const ParameterSchema& MaterialBlock::schema() {
         .at_least(0)
         .at_most(1)
         .optional();
-    s.number(&MaterialBlock::moisture, "moisture", dimension::none,
-             "Water over dry solids, by mass: binds the dust as the law of dust.liberation says.")
+    s.number(
+         &MaterialBlock::moisture, "moisture", dimension::none,
+         "Water over dry solids, by mass: binds the dust as the law of dust.liberation says, and "
+         "is the liquid of a liquid_bridge that gives no volume of its own.")
         .symbol("M")
         .at_least(0)
         .at_most(1)

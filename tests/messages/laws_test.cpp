@@ -165,12 +165,63 @@ TEST_CASE("a cohesion that does not fit its contact law or materials shall be to
         "grains more than a tenth of R* into each other: at most 1.84356e+06 Pa goes with these "
         "materials (0.067 of their effective Young's modulus)");
   check("volume: 1e-13", "volume: 0",
-        "s.yaml:25:23: error: interactions[1].cohesion: a bridge needs its liquid: give volume or "
-        "relative_volume, one of both");
+        "s.yaml:25:23: error: interactions[1].cohesion: a bridge needs its liquid: give volume, "
+        "relative_volume or moisture (of the law or of the materials), one of the three");
   check("{model: jkr, surface_energy: 20 mJ/m2}",
         "{model: lubrication, viscosity: 1 Pa s, smallest_gap: 0.05, reach: 0.04}",
         "s.yaml:21:23: error: interactions[0].cohesion: reach must lie above smallest_gap, for the "
         "film acts between the two: give less of the one or more of the other");
+}
+
+TEST_CASE("moisture of a material that makes liquid bridges shall be told where it cannot") {
+  const std::string whole =
+      "{model: liquid_bridge, surface_tension: 72 mN/m, contact_angle: 10 deg, volume: 1e-13}";
+  const std::string at = "s.yaml:25:23: error: interactions[1].cohesion: ";
+  check(
+      whole, "{model: liquid_bridge, surface_tension: 72 mN/m, volume: 1e-13, moisture: [1 %, 0]}",
+      at + "a bridge needs its liquid: give volume, relative_volume or moisture (of the law or of "
+           "the materials), one of the three");
+  check(
+      whole, "{model: liquid_bridge, surface_tension: 72 mN/m, moisture: [1 %]}",
+      at + "moisture: two numbers are expected, of the two materials in the order of between, like "
+           "[2 %, 0]");
+  // 4 pi / 3 of 0.9 times the solid's 2.65 and over: a wall's eighth of it is beyond 0.1.
+  const Reported wet =
+      reported(whole, "{model: liquid_bridge, surface_tension: 72 mN/m, moisture: [90 %, 0]}");
+  REQUIRE(wet.errors.size() == 1);
+  CHECK(
+      wet.errors[0].find("of liquid into a bridge; bridges are small and apart from each other up "
+                         "to 0.1: give at most ") != std::string::npos);
+}
+
+TEST_CASE("a bridge that is told no liquid shall take the moisture of its materials") {
+  const auto resolved = [](const std::string& material, const std::string& law) {
+    std::string text = k_scenario;
+    const std::string whole =
+        "{model: liquid_bridge, surface_tension: 72 mN/m, contact_angle: 10 deg, volume: 1e-13}";
+    text.replace(text.find(whole), whole.size(), law);
+    const auto sand = text.find("sand: {density");
+    REQUIRE(sand != std::string::npos);
+    text.insert(sand + std::string("sand: {").size(), material);
+    const fs::path folder = fs::temp_directory_path() / ("dust_wet_" + std::to_string(::getpid()));
+    fs::create_directories(folder);
+    std::ofstream(folder / "s.yaml", std::ios::binary) << text;
+    const auto read = preflight::read_scenario(folder / "s.yaml", {}, shipped(), {});
+    fs::remove_all(folder);
+    return std::get<std::vector<double>>(read.setup.interactions[1].cohesion->values.at(4));
+  };
+  const std::string law = "{model: liquid_bridge, surface_tension: 72 mN/m}";
+  CHECK(resolved("moisture: 1 %, ", law) == std::vector<double>{0.01, 0.0});
+  CHECK(resolved("moisture: 0, ", law) == std::vector<double>{0.0, 0.0});
+  // As a run's own scenario.yaml says it, with both.
+  CHECK(resolved("moisture: 1 %, ",
+                 "{model: liquid_bridge, surface_tension: 72 mN/m, moisture: [1 %, 0]}") ==
+        std::vector<double>{0.01, 0.0});
+  // A liquid of its own stays; moisture that nothing reads is refused.
+  CHECK_THROWS(resolved("moisture: 1 %, ",
+                        "{model: liquid_bridge, surface_tension: 72 mN/m, moisture: [2 %, 0]}"));
+  CHECK_THROWS(resolved("moisture: 1 %, ",
+                        "{model: liquid_bridge, surface_tension: 72 mN/m, relative_volume: 0.01}"));
 }
 
 TEST_CASE("a convention that a law does not have shall be told with those it has") {

@@ -250,7 +250,7 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
   }
   [[nodiscard]] SurfacePoint contact_after(double run, int part, Vec3 point,
                                            double reach) const override {
-    if (part == k_standing) return nearest_of_belt(point);
+    if (part == k_static) return nearest_of_belt(point);
     const SurfacePoint s = cleats_->nearest(run, to_belt(point), reach).point;
     if (!(s.distance < reach)) return {std::numeric_limits<double>::infinity(), {}};
     return {s.distance, from_belt(s.normal)};

@@ -15,7 +15,7 @@ namespace dust::bodies {
 /// first stays in its place and the second goes to others.
 class RunningParts {
  public:
-  static constexpr int k_standing = 0;  ///< part of Shape::contact
+  static constexpr int k_static = 0;  ///< part of Shape::contact
   static constexpr int k_running = 1;
   /// What a motion has to be asked for the velocity of a point: `factor` times its answer.
   struct VelocityQuery {

@@ -41,17 +41,17 @@ BodyField::BodyField(const Grid& grid, const bodies::BodySet& bodies, double tim
     const bodies::Body& body = bodies[b];
     if (body.is_removed()) continue;
     const bool is_moving = body.displaces();
-    const bool has_standing_part = is_moving && bodies::running_parts(body) != nullptr;
+    const bool has_static_part = is_moving && bodies::running_parts(body) != nullptr;
     const int number = static_cast<int>(b);
-    if (!is_moving || has_standing_part) {
+    if (!is_moving || has_static_part) {
       // A surface that only moves along itself stays where the scenario puts it, to the last bit.
-      const int part = has_standing_part ? bodies::RunningParts::k_standing : k_whole;
+      const int part = has_static_part ? bodies::RunningParts::k_static : k_whole;
       static_bodies_.push_back(
           {&body, number,
            bodies::Placement::turned(body.frame_origin, body.frame_axis, body.frame_angle), part});
     }
     if (!is_moving || which == Which::static_bodies) continue;
-    const int part = has_standing_part ? bodies::RunningParts::k_running : k_whole;
+    const int part = has_static_part ? bodies::RunningParts::k_running : k_whole;
     moving_bodies_.push_back({&body, number, body.placement(time), part});
     largest_speed_ = std::max(largest_speed_, body.largest_displacing_speed());
   }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dust/sdk/cohesion_law.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "scenario/checks.hpp"
 #include "scenario/interactions/pair_list.hpp"
 #include "scenario/reading/block_readers.hpp"
 #include "scenario/reading/reading.hpp"
+
+#include <algorithm>
 
 namespace dust::scenario {
 namespace {
@@ -28,6 +31,60 @@ void check_laws(Reading& reading, const InteractionSpec& spec, const ReadModel& 
   } catch (const sdk::ParameterError& problem) {
     reading.error(choice.where, choice.path + ": " + problem.what());
   }
+}
+
+/// The number of a material's block as written; "0" where there is none.
+Node moisture_of(const Reading& reading, const std::string& material) {
+  const Entry* materials = reading.root.find("materials");
+  const Entry* block = materials == nullptr ? nullptr : materials->value.find(material);
+  const Entry* moisture = block == nullptr ? nullptr : block->value.find("moisture");
+  return moisture == nullptr ? Node::make_text("0") : moisture->value;
+}
+
+/// Whether the cohesive law `name` has a parameter `moisture`.
+bool bridges_by_moisture(const Reading& reading, const Node& name) {
+  const auto* law = reading.registry.find(sdk::CohesionLaw::k_kind, name.text);
+  if (law == nullptr) return false;
+  const sdk::ParameterSchema& all = law->info.parameters;
+  return std::any_of(all.begin(), all.end(),
+                     [](const sdk::Parameter& one) { return one.name == "moisture"; });
+}
+
+/// A law that makes bridges of moisture and is given no liquid takes that of its two materials; one
+/// that is given their moisture reads it too.
+void take_moisture(Reading& reading, Node& interaction) {
+  const Entry* between = interaction.find("between");
+  Entry* cohesion = interaction.is_map() ? find(interaction, "cohesion") : nullptr;
+  if (between == nullptr || between->value.items.size() != 2 || cohesion == nullptr) return;
+  const Entry* model = cohesion->value.find("model");
+  if (model == nullptr || !bridges_by_moisture(reading, model->value)) return;
+  if (const Entry* given = cohesion->value.find("moisture")) {
+    // A run's own scenario.yaml has both.
+    for (std::size_t n = 0; n < std::min<std::size_t>(2, given->value.items.size()); ++n) {
+      const std::string& material = between->value.items[n].text;
+      if (given->value.items[n].text == moisture_of(reading, material).text) {
+        reading.bridging.push_back(material);
+      }
+    }
+    return;
+  }
+  for (const char* given : {"volume", "relative_volume"}) {
+    if (cohesion->value.find(given) != nullptr) return;
+  }
+  Node both = Node::make_list();
+  both.where = cohesion->where;
+  bool is_given = false;
+  for (const Node& material : between->value.items) {
+    const Entry* materials = reading.root.find("materials");
+    const Entry* block = materials == nullptr ? nullptr : materials->value.find(material.text);
+    if (block != nullptr && block->value.find("moisture") != nullptr) {
+      is_given = true;
+      reading.bridging.push_back(material.text);
+    }
+    both.items.push_back(moisture_of(reading, material.text));
+  }
+  if (!is_given) return;  // the law says what it needs
+  add(cohesion->value, "moisture", std::move(both));
 }
 
 Node read_interaction(Reading& reading, const Node& node, const std::string& path) {
@@ -112,6 +169,7 @@ void read_interactions(Reading& reading, MapReader& top) {
   }
   Node list = entry->value;
   complete_pairs(list, reading.diagnostics);
+  for (Node& interaction : list.items) take_moisture(reading, interaction);
   Node written = Node::make_list();
   for (std::size_t n = 0; n < list.items.size(); ++n) {
     written.items.push_back(

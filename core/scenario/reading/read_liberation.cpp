@@ -81,13 +81,16 @@ void check_dust_loads(Reading& reading, const sdk::Model* law, bool is_law_read)
     const Entry& material = materials->value.entries[m];
     const std::string path = "materials." + material.key;
     const DustLoadSpec& load = reading.dust.loads[m];
-    if (load.moisture > 0.0 && !binds && is_law_read) {
+    const bool bridges = std::find(reading.bridging.begin(), reading.bridging.end(),
+                                   material.key) != reading.bridging.end();
+    if (load.moisture > 0.0 && !binds && !bridges && is_law_read) {
       reading.error(mark_of(material.value, "moisture"),
                     path + ".moisture: " +
                         (law == nullptr ? "there is no dust.liberation that makes anything"
                                         : "the law of dust.liberation makes nothing") +
-                        " of it: give a law that reads it (energy, force_ratio, shear), or take "
-                        "moisture out");
+                        " of it: give a law that reads it (energy, force_ratio, shear), or an "
+                        "interaction with cohesion: {model: liquid_bridge, ...} that gives no "
+                        "volume of its own, or take moisture out");
     }
     if (load.share.empty()) continue;
     const Mark where = mark_of(material.value, "dust_load");

@@ -37,8 +37,9 @@ struct Reading {
   Diagnostics& diagnostics;
   ScenarioNames names;
   ModelReader models;
-  bool has_fluid = false;      ///< the scenario asks for one
-  bool pairs_are_read = true;  ///< all that is said of pairs of materials is understood
+  bool has_fluid = false;             ///< the scenario asks for one
+  bool pairs_are_read = true;         ///< all that is said of pairs of materials is understood
+  std::vector<std::string> bridging;  ///< materials whose moisture makes liquid bridges
 
   // Models that later blocks ask.
   std::vector<std::unique_ptr<sdk::Model>> emitters;

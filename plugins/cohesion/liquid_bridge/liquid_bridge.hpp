@@ -18,6 +18,24 @@ struct Constants {
   double relative_root = 0.0;    ///< [-]
 };
 
+/// The largest volume over (2 R*)^3 of a bridge that is still small and pendular: that of
+/// evaluate().
+inline constexpr double k_largest_relative_volume = 0.1;
+
+/// Volume over (2 R*)^3 [-] of a bridge between two moist grains: each puts the liquid that it
+/// carries, \f$ M (\rho/\rho_l) (4/3) \pi R^3 \f$, into its k bridges in equal parts, so that
+/// \f$ V^* = (4 \pi / 3)(M_i \rho_i + M_j \rho_j) / (k \rho_l) \f$ for two equal grains, R = 2 R*.
+/// Where one of the two is dry it is a wall, R = R*, and the part of the other is an eighth of
+/// that. `liquid` [kg/m3] is M rho of either. Source: own balance; k, 6 in a dense packing of wet
+/// spheres: Kohonen, Geromichalos, Scheel, Schier, Herminghaus, Physica A 339 (2004) 7,
+/// doi:10.1016/j.physa.2004.03.047.
+inline double relative_volume(double liquid_i, double liquid_j, double liquid_density,
+                              double coordination) {
+  const double shared =
+      4.0 / 3.0 * std::numbers::pi * (liquid_i + liquid_j) / (coordination * liquid_density);
+  return liquid_i > 0.0 && liquid_j > 0.0 ? shared : 0.125 * shared;
+}
+
 /// Distance [m] at which a bridge breaks: \f$ (1 + \theta/2) V^{1/3} \f$.
 /// Source: Lian, Thornton, Adams, J. Colloid Interface Sci. 161 (1993) 138,
 /// doi:10.1006/jcis.1993.1452.

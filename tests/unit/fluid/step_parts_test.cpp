@@ -350,18 +350,18 @@ TEST_CASE("a belt whose cleats alone are cut anew shall be as one that is cut in
       ModelLoader::make<sdk::Motion>("motion", "belt", {{"speed", 1.0}}));
   const fluid::Sides sides(parts.grid, parts.conditions);
   const fluid::FaceProperties properties(parts.grid, parts.spec);
-  const fluid::Geometry standing =
+  const fluid::Geometry at_rest =
       fluid::build_static_geometry(parts.grid, parts.bodies, sides.kinds(), properties);
   const auto cut = [&](const fluid::Geometry* known) {
     return fluid::build_geometry(parts.grid, parts.bodies, sides.kinds(), properties, {0.1, 0.12},
                                  known);
   };
   const fluid::Geometry whole = cut(nullptr);
-  const fluid::Geometry anew = cut(&standing);
+  const fluid::Geometry anew = cut(&at_rest);
   CHECK(whole.open_fraction == anew.open_fraction);
-  CHECK(whole.open_fraction != standing.open_fraction);  // the cleats are there
+  CHECK(whole.open_fraction != at_rest.open_fraction);  // the cleats are there
   // The belt itself: its lower 10 mm of a cell of 50 mm.
-  CHECK(standing.open_fraction[parts.grid.index(8, 6, 3)] == doctest::Approx(0.8).epsilon(1e-9));
+  CHECK(at_rest.open_fraction[parts.grid.index(8, 6, 3)] == doctest::Approx(0.8).epsilon(1e-9));
   for (int d = 0; d < 3; ++d) {
     // To rounding: shares of a face are means over instants where something moves.
     const auto& area = whole.open_area.component[d];

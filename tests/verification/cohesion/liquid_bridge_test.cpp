@@ -88,6 +88,34 @@ TEST_CASE("a bridge shall pull with the closed form of its gap and break at its 
   CHECK(p.pull() == 0.0);
 }
 
+TEST_CASE("moisture shall put the liquid of two grains into their bridges") {
+  const auto wet_by = [](std::vector<double> moisture) {
+    return std::move(
+        Sticky({"liquid_bridge", {{"surface_tension", k_tension}, {"moisture", moisture}}}, 0.9,
+               0.5)
+            .rig.laws[0]
+            .cohesion);
+  };
+  // By hand: 1 % of 2650 kg/m3 in six bridges is V = 2 (4 pi / 3) 0.0265 / 6 R^3 = 0.0370010 R^3
+  // for two grains of radius R; they part at the cube root of it, 0.333225 R.
+  CHECK(wet_by({0.01, 0.01})->range(0.5 * k_r) == doctest::Approx(0.333225 * k_r).epsilon(1e-5));
+  // At a wall a sixth of one grain's liquid: 0.0185005 R^3.
+  CHECK(wet_by({0.01, 0.0})->range(k_r) == doctest::Approx(0.264481 * k_r).epsilon(1e-5));
+  CHECK(wet_by({0.0, 0.01})->range(k_r) == doctest::Approx(0.264481 * k_r).epsilon(1e-5));
+  // The force of that volume in a gap of R / 10: s = 0.1 / sqrt(0.0370010), 1.05 s + 2.5 s^2.
+  const double s = 0.1 / std::sqrt(0.0370010);
+  const double force = 2.0 * k_pi * k_r * k_tension / (1.0 + 1.05 * s + 2.5 * s * s);
+  const double young = Sticky::young;
+  CHECK(-force_at(*wet_by({0.01, 0.01}), 0.5 * k_r, young, -0.1 * k_r) ==
+        doctest::Approx(force).epsilon(1e-5));
+  // Dry: the contact alone.
+  const auto dry = wet_by({0.0, 0.0});
+  CHECK(dry->range(k_r) == 0.0);
+  CHECK(dry->resting_overlap(k_r) == 0.0);
+  CHECK(force_at(*dry, k_r, young, 1e-7) == hertz(1e-7, k_r, young));
+  CHECK(force_at(*dry, k_r, young, -1e-7) == 0.0);
+}
+
 TEST_CASE("grains that pass without touching shall not form a bridge") {
   Pair p(0.1 * k_break, -0.0);
   p.stepper->step(2000);

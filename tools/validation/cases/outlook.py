@@ -10,7 +10,7 @@ from runs import ROOT
 
 TITLE = "The thesis's outlook, 7.2, at the size of a plant"
 BITS = ("coarse_transfer", "mixer")
-PLANT = ROOT / "scenarios/plant"
+SCENARIOS = ROOT / "scenarios"
 CHUTE = {**COARSE, "time.end": "5.3 s"}
 
 
@@ -18,7 +18,7 @@ CHUTE = {**COARSE, "time.end": "5.3 s"}
 class Part:
     number: str
     title: str
-    study: str        # of scenarios/plant
+    study: str        # in scenarios/
     figures: tuple    # outputs that are drawn; of one unit
     along: str        # what they are, with their unit
     settings: dict    # on top of the study's own
@@ -26,12 +26,18 @@ class Part:
 
 
 PARTS = (
-    Part("7.2.1", "Wind from any side at real size", "chamber_wind", ("set_free", "out_all"), "dust [g/t]", CHUTE,
-         "500 t/h fall from belt 1 through hood and spoon onto belt 2 in an open chamber; what a wind of 2 or 4 m/s takes along by its direction."),
-    Part("7.2.4", "Belt scraper", "scraper_or_none", (), "", {}, ""),
-    Part("7.2.5", "Belt surface: cleats", "cleats_or_none", ("carried",), "carried up [kg]", {},
+    Part("7.2.1", "Wind from any side at real size", "plant/chamber_wind", ("set_free", "out_all"), "dust [g/t]", CHUTE,
+         "500 t/h fall from belt 1 through hood and spoon onto belt 2 in an open chamber: what is set free, and what a wind of 2 or 4 m/s takes "
+         "out of the domain, by its direction."),
+    Part("7.2.2", "Idlers that vibrate", "plant/idlers_shake", ("fines_up",), "middle of the fines above that of the lumps [mm]", {},
+         "A piece of belt and load, shaken by 1 mm at 25 Hz or not: the fines sink."),
+    Part("7.2.4", "Belt scraper", "plant/scraper_or_none", ("carried_back",), "carried back [g/t]", {},
+         "Moist fines of 3 mm stick to the belt behind the head pulley; a blade takes them off."),
+    Part("7.2.5", "Belt surface: cleats", "plant/cleats_or_none", ("carried",), "carried up [kg]", {},
          "A belt of 30 degrees with crossbars of 80 mm and without: what passes 1.3 m beyond the feed."),
-    Part("7.2.7", "Places for extraction", "receiving_belt", ("load",), "load [kg/m]", CHUTE,
+    Part("7.2.6", "Cohesive material: moisture", "studies/wet_slope", ("angle",), "slope that stays [deg]", {},
+         "Grains of 6 mm in a box whose bottom opens at a slot; their moisture makes liquid bridges."),
+    Part("7.2.7", "Extraction and the receiving belt", "plant/receiving_belt", ("load",), "load [kg/m]", CHUTE,
          "The transfer chute over the speed of the receiving belt and the flow drawn out of its roof."),
 )
 
@@ -44,44 +50,58 @@ def study_of(part, folder):
     """The study on absolute paths, with the part's settings in every point."""
     import yaml
 
-    study = yaml.safe_load((PLANT / f"{part.study}.yaml").read_text())
-    study["base"] = str(PLANT / study["base"])
+    shipped = SCENARIOS / f"{part.study}.yaml"
+    study = yaml.safe_load(shipped.read_text())
+    study["base"] = str(shipped.parent / study["base"])
     study["set"] = {**study.get("set", {}), **{path: yaml.safe_load(value) for path, value in part.settings.items()}}
     folder.mkdir(parents=True, exist_ok=True)
-    file = folder / f"{part.study}.yaml"
+    file = folder / shipped.name
     file.write_text(yaml.safe_dump(study, sort_keys=False))
     return file
 
 
+def inputs_of(row):
+    """Columns of what is varied: all between the point's number and the replicate's."""
+    columns = list(row)
+    return columns[columns.index("point") + 1:columns.index("replicate")]
+
+
 def name_of(row):
-    """What tells a row of a study's table from the others."""
-    inputs = [value for column, value in row.items() if column == "case" or "." in column.split(" ")[0]]
-    return ", ".join(inputs)
+    """What tells a row of a study's table from the others, with the last part of each input's name where there are several."""
+    inputs = inputs_of(row)
+    if len(inputs) == 1:
+        return row[inputs[0]]
+    return ", ".join(f"{column.split(' ')[0].rsplit('.', 1)[-1]} {row[column]}" for column in inputs)
 
 
-def figure_of(row, output):
-    column = next((c for c in row if c.split(" ")[0] == output), None)
+def mean_of(rows, output):
+    """Mean of a figure over the replicates of a point; None where one is missing."""
+    column = next((c for c in rows[0] if c.split(" ")[0] == output and "error" not in c), None)
     try:
-        return float(row[column])
-    except (KeyError, ValueError, TypeError):
+        values = [float(row[column]) for row in rows]
+    except (KeyError, ValueError):
         return None
+    return sum(values) / len(values)
 
 
 def section(args, part, number):
     file = study_of(part, args.runs / "outlook")
-    folder = args.runs / f"outlook_{part.study}"
+    folder = args.runs / f"outlook_{file.stem}"
     told, _ = study_runs.run(args, file, "-o", folder, *(["--resume"] if folder.exists() else []), allowed=(0, 1))
     rows = study_runs.table(folder)
     out = [f"## {part.number} {part.title}", "", part.text, ""]
     picture = FOLDER / "pictures" / f"outlook_{number}.svg"
-    chart.draw_bars(picture, part.title, part.along, [name_of(r) for r in rows], {f: [figure_of(r, f) for r in rows] for f in part.figures})
+    points = {}
+    for row in rows:
+        points.setdefault(name_of(row), []).append(row)
+    chart.draw_bars(picture, part.title, part.along, list(points), {f: [mean_of(p, f) for p in points.values()] for f in part.figures})
     out += [f"![{part.title}](pictures/{picture.name})", ""]
-    keep = [c for c in rows[0] if c not in ("replicate", "seed", "hash") and (c != "reason" or any(r["reason"] for r in rows))]
+    keep = [c for c in rows[0] if c not in ("point", "replicate", "hash", "status") and (c != "reason" or any(r["reason"] for r in rows))]
     out += ["| " + " | ".join(keep) + " |", "|" + " --- |" * len(keep)]
     out += ["| " + " | ".join(study_runs.rounded(r[c]) for c in keep) + " |" for r in rows]
     verdicts = [line for line in told if study_runs.verdict_of(line)]
     settings = "".join(f" `{path}: {value}`" for path, value in part.settings.items())
-    return out + [""] + [f"- {line}" for line in verdicts] + ["", f"`engine study scenarios/plant/{part.study}.yaml`" + (f", each point with{settings}" if settings else "") + ".", ""]
+    return out + [""] + [f"- {line}" for line in verdicts] + ["", f"`engine study scenarios/{part.study}.yaml`" + (f", each point with{settings}" if settings else "") + ".", ""]
 
 
 def write(args):
