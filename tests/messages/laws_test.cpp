@@ -185,9 +185,9 @@ TEST_CASE("moisture of a material that makes liquid bridges shall be told where 
       whole, "{model: liquid_bridge, surface_tension: 72 mN/m, moisture: [1 %]}",
       at + "moisture: two numbers are expected, of the two materials in the order of between, like "
            "[2 %, 0]");
-  // 4 pi / 3 of 0.9 times the solid's 2.65 and over: a wall's eighth of it is beyond 0.1.
+  // 4 pi / 3 of 0.09 times the densities of both over that of six times the water: beyond 0.1.
   const Reported wet =
-      reported(whole, "{model: liquid_bridge, surface_tension: 72 mN/m, moisture: [90 %, 0]}");
+      reported(whole, "{model: liquid_bridge, surface_tension: 72 mN/m, moisture: [9 %, 9 %]}");
   REQUIRE(wet.errors.size() == 1);
   CHECK(
       wet.errors[0].find("of liquid into a bridge; bridges are small and apart from each other up "

@@ -67,7 +67,7 @@ class LiquidBridge final : public sdk::CohesionLaw {
          "part; a dry one is taken for a wall.")
         .symbol("M")
         .at_least(0)
-        .at_most(1)
+        .at_most(formula::k_largest_moisture)
         .optional();
     s.number(&Parameters::liquid_density, "liquid_density", sdk::dimension::density,
              "Density of the liquid, for moisture.")

@@ -21,6 +21,8 @@ struct Constants {
 /// The largest volume over (2 R*)^3 of a bridge that is still small and pendular: that of
 /// evaluate().
 inline constexpr double k_largest_relative_volume = 0.1;
+/// Beyond this moisture only two grains below 800 kg/m3 are still so, each in six bridges.
+inline constexpr double k_largest_moisture = 0.09;
 
 /// Volume over (2 R*)^3 [-] of a bridge between two moist grains: each puts the liquid that it
 /// carries, \f$ M (\rho/\rho_l) (4/3) \pi R^3 \f$, into its k bridges in equal parts, so that

@@ -287,6 +287,7 @@ inline sdk::Value perturbed(const Law& law, const sdk::Parameter& p) {
   if (!p.options.empty()) {
     return p.options[p.options[0] == std::get<std::string>(p.default_value) ? 1 : 0];
   }
+  if (p.type == sdk::ParameterType::numbers) return std::vector<double>{0.01, 0.01};
   const double value = law.number(p);
   if (value == 0.0) return std::isfinite(p.range.high) ? 0.1 * p.range.high : 1e-3;
   return p.range.contains(1.1 * value) ? 1.1 * value : 0.9 * value;
@@ -297,7 +298,8 @@ inline std::map<std::string, sdk::Value> scaled_values(const Law& law, const Sca
   std::map<std::string, sdk::Value> values;
   for (const sdk::Parameter& p : law.offer.info.parameters) {
     const auto given = law.values.find(p.name);
-    values[p.name] = p.options.empty()           ? sdk::Value(law.number(p) * s.of(p.dimension))
+    const bool is_number = p.options.empty() && p.type == sdk::ParameterType::number;
+    values[p.name] = is_number                   ? sdk::Value(law.number(p) * s.of(p.dimension))
                      : given != law.values.end() ? given->second
                                                  : p.default_value;
   }

@@ -1,6 +1,7 @@
 """What the thesis names in 7.2 as still to be done, each as a study of a scenario at the plant's size, with what comes out."""
 
 import dataclasses
+import fnmatch
 
 import chart
 import study_runs
@@ -101,7 +102,11 @@ def section(args, part, number):
     out += ["| " + " | ".join(study_runs.rounded(r[c]) for c in keep) + " |" for r in rows]
     verdicts = [line for line in told if study_runs.verdict_of(line)]
     settings = "".join(f" `{path}: {value}`" for path, value in part.settings.items())
-    return out + [""] + [f"- {line}" for line in verdicts] + ["", f"`engine study scenarios/{part.study}.yaml`" + (f", each point with{settings}" if settings else "") + ".", ""]
+    return [*out, "", *(f"- {line}" for line in verdicts), "", f"`{command(part)}`" + (f", each point with{settings}" if settings else "") + ".", ""]
+
+
+def command(part):
+    return f"engine study scenarios/{part.study}.yaml"
 
 
 def write(args):
@@ -110,5 +115,6 @@ def write(args):
            "runs in minutes; the transfer chute itself, in full, is in [plant_chute](plant_chute.md) (7.2.3: enclosed), a hood where "
            "`engine suggest-hoods` puts it in [hood_capture](hood_capture.md) (7.2.7).", ""]
     for number, part in enumerate(PARTS, 1):
-        out += section(args, part, number)
+        is_wanted = any(fnmatch.fnmatch(part.study.split("/")[-1], pattern) for pattern in args.only)
+        out += section(args, part, number) if is_wanted else [f"## {part.number} {part.title}", "", part.text + f" Not run: `{command(part)}`.", ""]
     study_runs.write_page("outlook", [*out, study_runs.bits_line(args.engine)])
