@@ -68,8 +68,9 @@ def caught(run):
 
 
 def mean_of(values):
-    """(mean, standard error by the scatter); None where a value is missing."""
-    if None in values or len(values) < 3:
+    """(mean, standard error by the scatter) of the runs that are there; None of fewer than three."""
+    values = [value for value in values if value is not None]
+    if len(values) < 3:
         return None
     mean = sum(values) / len(values)
     return mean, math.sqrt(sum((v - mean) ** 2 for v in values) / (len(values) * (len(values) - 1)))
@@ -92,7 +93,8 @@ def write(args):
             runs.do(run)
     table = told(args, folder) if (folder / "study.csv").exists() else ""
     page = Page("hood_capture")
-    ours, theirs = mean_of([caught(runs[plan.name]) for plan in confirming]), promised(table)
+    shares = [caught(runs[plan.name]) for plan in confirming]
+    ours, theirs = mean_of(shares), promised(table)
     error = math.hypot(ours[1], theirs[1]) if ours and theirs and theirs[1] else None
     page.add("caught with the hood from the start [%]", ours, f"{theirs[0]} ± {theirs[1]} promised" if theirs else "-", why="the next rows judge it")
     page.add("standard error of caught less promised [%]", error, "small, or the next row says nothing", high=3)
@@ -105,6 +107,6 @@ def write(args):
         page.body(["## What was promised", "", "```", *table.splitlines(), "```", ""])
     page.note(f"The plant's transfer point in lumps of 30 and 60 mm and cells of 100 mm. A run of {FIRST:g} s finds the place; `engine suggest-hoods` "
               f"tries {FLOW} there from its last state, {len(SEEDS)} seeds, and counts from {COUNTED:g} to {FIRST + DURATION:g} s. Then the plant "
-              f"starts with that hood, {len(SEEDS)} other seeds, and is looked at over the same time; once more without it. The error of what is caught is "
+              f"starts with that hood, {sum(share is not None for share in shares)} other seeds, and is looked at over the same time; once more without it. The error of what is caught is "
               "that of the scatter of seeds; the promise's is no smaller than what each of its runs tells, for they share the state that they begin with.")
     page.write(TITLE, runs, "tools/validation/run hood_capture")
