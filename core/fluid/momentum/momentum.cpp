@@ -89,6 +89,10 @@ bool Momentum::is_even(int d, int e) const {
                                    ghost_rule(kinds, d, e, 1) == GhostRule::gradient));
 }
 
+double Momentum::neighbour_weight(double viscosity, int d, int e) const {
+  return is_even(d, e) ? 0.0 : viscosity / (grid_.spacing[e] * grid_.spacing[e]);
+}
+
 void Momentum::skew_row(const FaceField& u, const CellField& eps, double smoothness, int d, int j,
                         int k, double* out) const {
   const std::size_t row = static_cast<std::size_t>(k) * geometry_.extent[d][1] + j;
@@ -149,15 +153,13 @@ Momentum::RowWeights Momentum::row_weights(int d, int j, int k) const {
   RowWeights w{};
   const std::array<int, 3> c = {0, j, k};
   for (int e = 1; e < 3; ++e) {
-    const double plain = 1.0 / (grid_.spacing[e] * grid_.spacing[e]);
+    const double plain = neighbour_weight(1.0, d, e);
     double side_weight[2];
     for (int high = 0; high < 2; ++high) {
-      double& weight = side_weight[high];
-      weight = plain;
-      if (grid_.count[e] == 1 && sides_.kinds().is_periodic[e]) weight = 0.0;
+      side_weight[high] = plain;
       const int edge = high ? geometry_.extent[d][e] - 1 : 0;
       if (sides_.kinds().is_periodic[e] || c[e] != edge) continue;
-      weight =
+      side_weight[high] =
           d != e && ghost_rule(sides_.kinds(), d, e, high) == GhostRule::fixed ? 2.0 * plain : 0.0;
     }
     (e == 1 ? w.y_low : w.z_low) = side_weight[0];
@@ -190,10 +192,8 @@ void Momentum::prepare(double implicit, const FaceField& coefficient, bool has_d
   // Where a step is many viscous times long the rest of the error decays over the next steps.
   sweeps_ = std::min(sweeps_, k_max_sweeps);
 
-  const double ax = grid_.count[0] == 1 && sides_.kinds().is_periodic[0]
-                        ? 0.0
-                        : 1.0 / (grid_.spacing[0] * grid_.spacing[0]);
   for (int d = 0; d < 3; ++d) {
+    const double ax = neighbour_weight(1.0, d, 0);
     const auto& e = geometry_.extent[d];
     for_rows(e[0], e[1], e[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid_.index(0, j, k);
@@ -232,12 +232,10 @@ void Momentum::solve(const FaceField& right, FaceField& u) {
   const double a = properties_.is_varying()
                        ? implicit_
                        : implicit_ * properties_.viscosity() / properties_.density();
-  const double ax = grid_.count[0] == 1 && sides_.kinds().is_periodic[0]
-                        ? 0.0
-                        : a / (grid_.spacing[0] * grid_.spacing[0]);
   for (int d = 0; d < 3; ++d) {
     if (!geometry_.has_unknown[d]) continue;
-    const HalfSweep sweep{d, a, ax, right.component[d].data(), u.component[d].data()};
+    const HalfSweep sweep{d, a, neighbour_weight(a, d, 0), right.component[d].data(),
+                          u.component[d].data()};
     const auto& e = geometry_.extent[d];
     const int halves = 2 * sweeps_;
     if (!sides_.is_any_periodic()) {
@@ -295,18 +293,14 @@ void Momentum::sweep_row_and_cuts(const HalfSweep& s, int half, int j, int k) co
 }
 
 void Momentum::viscous_force(const FaceField& u, FaceField& out) const {
-  double a[3];
-  for (int e = 0; e < 3; ++e) {
-    a[e] = grid_.count[e] == 1 && sides_.kinds().is_periodic[e]
-               ? 0.0
-               : (properties_.is_varying() ? 1.0 : properties_.viscosity()) /
-                     (grid_.spacing[e] * grid_.spacing[e]);
-  }
+  const double viscosity = properties_.is_varying() ? 1.0 : properties_.viscosity();
   const std::ptrdiff_t offset[6] = {
       -1, 1, -grid_.stride[1], grid_.stride[1], -grid_.stride[2], grid_.stride[2]};
   for (int d = 0; d < 3; ++d) {
     const auto& e = geometry_.extent[d];
     const auto& v = u.component[d];
+    const double a[3] = {neighbour_weight(viscosity, d, 0), neighbour_weight(viscosity, d, 1),
+                         neighbour_weight(viscosity, d, 2)};
     for_rows(e[0], e[1], e[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid_.index(0, j, k);
       laplace_row(e[0], grid_.stride[1], grid_.stride[2], a[0], a[1], a[2], &v[o],

@@ -77,6 +77,9 @@ class Momentum {
   void sweep_row_and_cuts(const HalfSweep& s, int half, int j, int k) const;
   /// Nothing of component d varies along e.
   [[nodiscard]] bool is_even(int d, int e) const;
+  /// viscosity / h^2 of a neighbour of component d along e; 0 where nothing varies: what lies there
+  /// beyond the sides is not kept up to date.
+  [[nodiscard]] double neighbour_weight(double viscosity, int d, int e) const;
   /// Puts convection along the surface in the place of that along the grid where SkewFace says so.
   void skew_row(const FaceField& u, const CellField& eps, double smoothness, int d, int j, int k,
                 double* out) const;

@@ -139,6 +139,30 @@ TEST_CASE("a thin direction shall not change a flow that does not vary along it"
   CHECK(off < 5e-3);  // the pressure is solved to 1e-4 in both, on different grids
 }
 
+TEST_CASE("a slippery column one cell across shall have no friction, along any axis") {
+  const double drop = 10.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    CAPTURE(axis);
+    Case c;
+    c.max = {0.02, 0.02, 0.02};
+    c.max[axis] = 0.1;
+    c.cells[axis] = 10;
+    c.fluid.density = 1000.0;
+    c.fluid.viscosity = 1.0;  // times 2 / h^2: 5 1/s of drag, had it walls
+    c.fluid.pressure_tolerance = 1e-12;
+    for (auto& s : c.sides) s = slip();
+    c.sides[2 * axis] = open_side(drop, false);
+    c.sides[2 * axis + 1] = open_side(0.0, false);
+    c.start();
+    c.advance_to(0.1, 1e-3);
+    const double expected = drop / (c.fluid.density * c.max[axis]) * c.time;
+    std::array<int, 3> at{};
+    for (at[axis] = 0; at[axis] <= 10; ++at[axis]) {
+      CHECK(c.u(axis, at[0], at[1], at[2]) == doctest::Approx(expected).epsilon(1e-9));
+    }
+  }
+}
+
 TEST_CASE("sides that cannot be solved shall be refused") {
   Case c;
   c.fluid.density = 1;
