@@ -17,7 +17,8 @@ TITLE = "What a run is told to cost, and what it costs"
 # Costs, no figures of what runs compute.
 BITS = ()
 TAKES_FINISHED_RUNS = True
-LONGEST = 60.0  # [s], estimate of one run
+LONGEST = 60.0     # [s], estimate of one run
+WORTH_IT = 3600.0  # [s], of a whole run: longer ones are left out, their length says enough
 RECORD = ROOT / "docs" / "validation" / "estimates.md"
 SHIPPED = [p for p in sorted((ROOT / "scenarios").rglob("*.yaml"))
            if not re.search(r"^base:", p.read_text(), re.M) and p.parent.name != "materials"]
@@ -135,7 +136,7 @@ def record(rows, commit):
              "| scenario | run | most grains | memory | disk | processor time | told over taken | largest part |",
              "|---|---|---|---|---|---|---|---|",
              *(kept[n] for n in names if n in kept), "",
-             "Not run for this page: " + ", ".join(f"`{n}`" for n in names if n not in kept) + ".", "",
+             f"Not run for this page (those told to take more than {WORTH_IT / 3600:g} h are left out): " + ", ".join(f"`{n}`" for n in names if n not in kept) + ".", "",
              f"**!** marks what is beyond a factor of {FACTOR:g}; memory below {SMALL['memory'] / 1e6:.0f} MB, disk below "
              f"{SMALL['disk'] / 1e6:.0f} MB and times below {SMALL['time']:.0f} s do not count.", ""]
     RECORD.write_text("\n".join(lines))
@@ -157,7 +158,8 @@ def write(args):
         done = [(scenario_named(json.loads((f / "summary.json").read_text())["scenario"]), f) for f in finished_runs(args.runs)]
         results = ((scenario, recorded(engine, folder)) for scenario, folder in done)
     else:
-        results = ((scenario, measure(engine, scenario, LONGEST)) for scenario in SHIPPED)
+        short = (scenario for scenario in SHIPPED if estimate(engine, scenario, [])["core_s"] <= WORTH_IT)
+        results = ((scenario, measure(engine, scenario, LONGEST)) for scenario in short)
     for scenario, result in results:
         rows[str(scenario.relative_to(ROOT / "scenarios"))] = row(scenario, result)
         print(row(scenario, result), flush=True)
