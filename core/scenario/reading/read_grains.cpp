@@ -33,12 +33,11 @@ void check_laws(Reading& reading, const InteractionSpec& spec, const ReadModel& 
   }
 }
 
-/// The number of a material's block as written; "0" where there is none.
-Node moisture_of(const Reading& reading, const std::string& material) {
+/// The moisture of a material's block as written; null where there is none.
+const Entry* moisture_of(const Reading& reading, const std::string& material) {
   const Entry* materials = reading.root.find("materials");
   const Entry* block = materials == nullptr ? nullptr : materials->value.find(material);
-  const Entry* moisture = block == nullptr ? nullptr : block->value.find("moisture");
-  return moisture == nullptr ? Node::make_text("0") : moisture->value;
+  return block == nullptr ? nullptr : block->value.find("moisture");
 }
 
 /// Whether the cohesive law `name` has a parameter `moisture`.
@@ -62,7 +61,8 @@ void take_moisture(Reading& reading, Node& interaction) {
     // A run's own scenario.yaml has both.
     for (std::size_t n = 0; n < std::min<std::size_t>(2, given->value.items.size()); ++n) {
       const std::string& material = between->value.items[n].text;
-      if (given->value.items[n].text == moisture_of(reading, material).text) {
+      const Entry* own = moisture_of(reading, material);
+      if (given->value.items[n].text == (own == nullptr ? "0" : own->value.text)) {
         reading.bridging.push_back(material);
       }
     }
@@ -75,13 +75,12 @@ void take_moisture(Reading& reading, Node& interaction) {
   both.where = cohesion->where;
   bool is_given = false;
   for (const Node& material : between->value.items) {
-    const Entry* materials = reading.root.find("materials");
-    const Entry* block = materials == nullptr ? nullptr : materials->value.find(material.text);
-    if (block != nullptr && block->value.find("moisture") != nullptr) {
+    const Entry* own = moisture_of(reading, material.text);
+    if (own != nullptr) {
       is_given = true;
       reading.bridging.push_back(material.text);
     }
-    both.items.push_back(moisture_of(reading, material.text));
+    both.items.push_back(own == nullptr ? Node::make_text("0") : own->value);
   }
   if (!is_given) return;  // the law says what it needs
   add(cohesion->value, "moisture", std::move(both));
