@@ -66,7 +66,8 @@ const registry::Registry& shipped() {
 struct Reported {
   std::vector<std::string> errors, warnings;
 };
-Reported reported(const std::string& from = "", const std::string& to = "") {
+Reported reported(const std::string& from = "", const std::string& to = "",
+                  const std::vector<scenario::Override>& set = {}) {
   std::string text = k_scenario;
   if (!from.empty()) {
     const auto at = text.find(from);
@@ -78,7 +79,7 @@ Reported reported(const std::string& from = "", const std::string& to = "") {
   std::ofstream(folder / "s.yaml", std::ios::binary) << text;
   Reported out;
   try {
-    out.warnings = preflight::read_scenario(folder / "s.yaml", {}, shipped(), {}).warnings;
+    out.warnings = preflight::read_scenario(folder / "s.yaml", set, shipped(), {}).warnings;
   } catch (const base::UserError& problem) {
     out.errors = problem.lines();
   }
@@ -151,6 +152,17 @@ TEST_CASE("a missing pair of materials shall be told with who meets") {
   check("[sand, glass]", "[glass, glass]",
         "s.yaml:17:1: error: interactions: missing pair [sand, glass]: grains of emitter 'feed' "
         "meet the wall 'bottom'");
+}
+
+TEST_CASE(
+    "a moisture that cannot be read shall be told at the material alone, not by its bridges") {
+  for (const char* wrong : {"1 furlong", "1 K", "1 2"}) {
+    CAPTURE(wrong);
+    const Reported t = reported(", contact_angle: 10 deg, volume: 1e-13", "",
+                                {{"materials.sand.moisture", wrong}});
+    REQUIRE(t.errors.size() == 1);
+    CHECK(t.errors[0].find("error: materials.sand.moisture: ") != std::string::npos);
+  }
 }
 
 TEST_CASE("a cohesion that does not fit its contact law or materials shall be told at its place") {

@@ -82,7 +82,12 @@ class Walk {
         if (keys_.front() == block) return true;
       }
     }
-    return keys_.size() == 2 && keys_[0] == "fluid" && keys_[1] == "regions";
+    if (keys_.size() == 2) {
+      return (keys_[0] == "fluid" && keys_[1] == "regions") ||
+             (keys_[0] == "dust" && keys_[1] == "feed_zones");
+    }
+    return keys_.size() == 3 && keys_[0] == "dust" && keys_[1] == "field" &&
+           (keys_[2] == "clouds" || keys_[2] == "sources");
   }
   void value(const Node& node, const std::string& path, const Parameter* parameter,
              const Node* list = nullptr) {

@@ -40,6 +40,15 @@ const Entry* moisture_of(const Reading& reading, const std::string& material) {
   return block == nullptr ? nullptr : block->value.find("moisture");
 }
 
+/// One that cannot be read is the material's mistake, told there once.
+bool is_moisture(const Node& written) {
+  Diagnostics elsewhere;
+  for (const sdk::Parameter& one : MaterialBlock::schema()) {
+    if (one.name == "moisture") return read_value(written, one, "", elsewhere).has_value();
+  }
+  return false;
+}
+
 /// Whether the cohesive law `name` has a parameter `moisture`.
 bool bridges_by_moisture(const Reading& reading, const Node& name) {
   const auto* law = reading.registry.find(sdk::CohesionLaw::k_kind, name.text);
@@ -80,7 +89,8 @@ void take_moisture(Reading& reading, Node& interaction) {
       is_given = true;
       reading.bridging.push_back(material.text);
     }
-    both.items.push_back(own == nullptr ? Node::make_text("0") : own->value);
+    both.items.push_back(own != nullptr && is_moisture(own->value) ? own->value
+                                                                   : Node::make_text("0"));
   }
   if (!is_given) return;  // the law says what it needs
   add(cohesion->value, "moisture", std::move(both));
