@@ -5,6 +5,10 @@
 
 namespace dust::airborne {
 
+/// Stokes number up to which the drift by inertia is that of a short response time; from there on
+/// each of its components stays at this share of the gas's speed (docs/theory/dust.md, section 1).
+inline constexpr double k_largest_stokes_number = 0.2;
+
 /// The gas that dust hangs in.
 struct Gas {
   double density = 0.0;    ///< [kg/m3]
@@ -32,6 +36,8 @@ struct DustClass {
   sdk::Vec3 drift;             ///< [m/s] of settling
   double diffusivity = 0.0;    ///< [m2/s] Brownian
   double response_time = 0.0;  ///< [s] rho_p d^2 C_c / (18 mu), after Stokes
+  /// [s] Of the drift by inertia: settling velocity over gravity; 0: dust turns with the gas.
+  double inertia_time = 0.0;
 };
 
 /// `gravity` [m/s2], `density` [kg/m3] of the dust itself.

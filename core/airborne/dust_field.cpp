@@ -52,9 +52,15 @@ DustField::DustField(const fluid::Grid& grid, const scenario::DustFieldSpec& spe
       source_(grid.size, 0.0),
       layers_(spec.diameters.size()) {
   if (spec.resuspension) resuspension_.emplace(spec, gas, norm(gravity));
+  if (spec.inertia) acceleration_.emplace(grid);
   for (const double diameter : spec.diameters) {
     Class c;
     c.dust = make_class(diameter, spec.density, gravity, gas);
+    if (spec.inertia) {
+      const double g = norm(gravity);
+      c.dust.inertia_time = g > 0.0 ? norm(c.dust.drift) / g
+                                    : c.dust.response_time * (1.0 - gas.density / spec.density);
+    }
     c.mass.assign(grid.size, 0.0);
     c.deposit.assign(grid.size, 0.0);
     c.losses.outlets.assign(ends.outlets, 0.0);
@@ -188,7 +194,8 @@ void DustField::resuspend(const Flow& flow, double step) {
 void DustField::advance(const Flow& flow, double time, double step) {
   static const std::vector<double> k_no_source;
   find_sources(flow.volume_after);
-  transport_.prepare(flow);
+  if (acceleration_) acceleration_->find(flow, step);
+  transport_.prepare(flow, acceleration_ ? &*acceleration_ : nullptr);
   if (resuspension_) resuspend(flow, step);
   for (std::size_t n = 0; n < classes_.size(); ++n) {
     Class& c = classes_[n];
@@ -197,7 +204,34 @@ void DustField::advance(const Flow& flow, double time, double step) {
     sub_steps_ += transport_.advance(flow, c.dust, 1.0 / spec_.schmidt_number,
                                      has_source ? source_ : k_no_source, step, c.mass, c.losses);
     add_deposits(n, flow);
+    if (acceleration_) count_limited(c, step);
   }
+}
+
+void DustField::count_limited(Class& c, double step) const {
+  const std::vector<float>& limited = transport_.limited();
+  double airborne = 0.0;
+  double there = 0.0;
+  for (int k = 0; k < grid_.count[2]; ++k) {
+    for (int j = 0; j < grid_.count[1]; ++j) {
+      const auto o = static_cast<std::size_t>(grid_.index(0, j, k));
+      double row = 0.0;
+      double limited_row = 0.0;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(grid_.count[0]); ++i) {
+        row += c.mass[o + i];
+        limited_row += static_cast<double>(limited[o + i]) * c.mass[o + i];
+      }
+      airborne += row;
+      there += limited_row;
+    }
+  }
+  c.airborne_time += airborne * step * grid_.cell_volume();
+  c.limited_time += there * step * grid_.cell_volume();
+}
+
+double DustField::limited_share(std::size_t n) const {
+  const Class& c = classes_[n];
+  return c.airborne_time > 0.0 ? c.limited_time / c.airborne_time : 0.0;
 }
 
 void DustField::release(std::size_t n, std::int32_t cell, double mass) {
@@ -246,6 +280,7 @@ DustBalance DustField::gone(std::size_t n) const {
 void DustField::save(sdk::ArchiveWriter& archive) const {
   archive.integer("sub_steps", sub_steps_);
   if (resuspension_) layers_.save(archive);
+  if (acceleration_) acceleration_->save(archive);
   for (std::size_t n = 0; n < classes_.size(); ++n) {
     const Class& c = classes_[n];
     const std::string name = "class_" + std::to_string(n) + "_";
@@ -262,12 +297,16 @@ void DustField::save(sdk::ArchiveWriter& archive) const {
     if (resuspension_) {
       archive.numbers(name + "resuspended", std::array{c.resuspended.sum(), c.resuspended.lost()});
     }
+    if (acceleration_) {
+      archive.numbers(name + "limited", std::array{c.airborne_time, c.limited_time});
+    }
   }
 }
 
 void DustField::load(sdk::ArchiveReader& archive) {
   sub_steps_ = archive.integer("sub_steps");
   if (resuspension_) layers_.load(archive);
+  if (acceleration_) acceleration_->load(archive);
   for (std::size_t n = 0; n < classes_.size(); ++n) {
     Class& c = classes_[n];
     const std::string name = "class_" + std::to_string(n) + "_";
@@ -289,6 +328,11 @@ void DustField::load(sdk::ArchiveReader& archive) {
     if (resuspension_) {
       const std::vector<double> resuspended = archive.numbers(name + "resuspended");
       c.resuspended = {resuspended.at(0), resuspended.at(1)};
+    }
+    if (acceleration_) {
+      const std::vector<double> limited = archive.numbers(name + "limited");
+      c.airborne_time = limited.at(0);
+      c.limited_time = limited.at(1);
     }
   }
 }

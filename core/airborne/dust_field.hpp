@@ -3,6 +3,7 @@
 
 #include "airborne/dust_class.hpp"
 #include "airborne/flow.hpp"
+#include "airborne/gas_acceleration.hpp"
 #include "airborne/layers.hpp"
 #include "airborne/resuspension.hpp"
 #include "airborne/transport.hpp"
@@ -72,6 +73,12 @@ class DustField {
   /// Does the gas take dust off surfaces again?
   [[nodiscard]] bool has_resuspension() const { return resuspension_.has_value(); }
 
+  /// Does dust drift off where the gas turns?
+  [[nodiscard]] bool has_inertia() const { return acceleration_.has_value(); }
+  /// Share [-] of the airborne dust, in the mean over time, whose drift by inertia was limited, for
+  /// the gas turned faster than the expansion for short response times allows.
+  [[nodiscard]] double limited_share(std::size_t n) const;
+
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
 
@@ -85,6 +92,8 @@ class DustField {
     base::ExactSum resuspended;    ///< [kg], piece by piece
     Losses losses;                 ///< of sides and hoods since the start; of walls in this step
     std::vector<double> surfaces;  ///< [kg]
+    double airborne_time = 0.0;    ///< [kg s] airborne dust over time
+    double limited_time = 0.0;     ///< [kg s] of it, where its drift by inertia was limited
   };
   /// A cell with what a box has of its gas, as a share of the cell; of sources, of the box's gas.
   struct Part {
@@ -99,6 +108,7 @@ class DustField {
   void add_deposits(std::size_t of_class, const Flow& flow);
   /// Before transport: what the gas takes off surfaces in the step is in it from its beginning.
   void resuspend(const Flow& flow, double step);
+  void count_limited(Class& c, double step) const;
 
   fluid::Grid grid_;
   scenario::DustFieldSpec spec_;
@@ -107,6 +117,7 @@ class DustField {
   std::vector<std::vector<Part>> sources_;  ///< by source, of this step
   fluid::CellField source_;                 ///< [kg/(m3 s)]
   std::optional<Resuspension> resuspension_;
+  std::optional<GasAcceleration> acceleration_;
   Layers layers_;  ///< kept for resuspension alone
   std::int64_t sub_steps_ = 0;
 };

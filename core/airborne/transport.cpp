@@ -60,6 +60,26 @@ inline __attribute__((always_inline)) void flux_of_row(const FluxRow& row, const
     flux[i] = g * carried - passage[i] * inverse_h * (diffusivity + turbulent) * step;
   }
 }
+DUST_KERNEL void drive_row(int n, double settling, const double* throughflow, const double* passage,
+                           double* drive) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) drive[i] = throughflow[i] + settling * passage[i];
+}
+/// With the drift by inertia; docs/theory/dust.md, eq. (3a).
+DUST_KERNEL void drive_with_inertia_row(int n, double settling, float time,
+                                        const double* throughflow, const double* passage,
+                                        const float* acceleration, const float* speed,
+                                        double* drive, float* limited) {
+  constexpr auto k_share = static_cast<float>(k_largest_stokes_number);
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const float drift = -time * acceleration[i];
+    const float largest = k_share * speed[i];
+    const float held = drift > largest ? largest : drift < -largest ? -largest : drift;
+    limited[i] = held != drift ? 1.0F : limited[i];
+    drive[i] = throughflow[i] + (settling + static_cast<double>(held)) * passage[i];
+  }
+}
 DUST_KERNEL void fluxes(const FluxRow& row, double* flux) {
   flux_of_row<false>(row, nullptr, flux);
 }
@@ -84,7 +104,8 @@ Transport::Transport(const fluid::Grid& grid)
   }
 }
 
-void Transport::prepare(const Flow& flow) {
+void Transport::prepare(const Flow& flow, const GasAcceleration* acceleration) {
+  acceleration_ = acceleration;
   small_cells_.find(grid_, flow);
   wall_rate_.assign(flow.walls.size(), 0.0);
   for (std::size_t d = 0; d < 3; ++d) {
@@ -139,15 +160,24 @@ void Transport::concentration(const fluid::Grid& grid, const fluid::CellField& m
   });
 }
 
+/// At walls the gas is at rest, and there is no drift by inertia towards them.
 void Transport::find_drive(const Flow& flow, const DustClass& dust) {
+  const bool has_inertia = acceleration_ != nullptr && dust.inertia_time > 0.0;
+  if (has_inertia) limited_.assign(grid_.size, 0.0F);
   for (std::size_t d = 0; d < 3; ++d) {
     const auto n = faces(static_cast<int>(d));
-    const double w = dust.drift[static_cast<int>(d)];
+    const double settling = dust.drift[static_cast<int>(d)];
     for_rows(n[0], n[1], n[2], [&](int j, int k) {
-      const std::ptrdiff_t o = grid_.index(0, j, k);
-      for (int i = 0; i < n[0]; ++i) {
-        drive_.component[d][at(o + i)] =
-            flow.throughflow.component[d][at(o + i)] + w * flow.passage.component[d][at(o + i)];
+      const std::size_t o = at(grid_.index(0, j, k));
+      const double* throughflow = &flow.throughflow.component[d][o];
+      const double* passage = &flow.passage.component[d][o];
+      double* drive = &drive_.component[d][o];
+      if (has_inertia) {
+        drive_with_inertia_row(n[0], settling, static_cast<float>(dust.inertia_time), throughflow,
+                               passage, &acceleration_->field(d)[o], &acceleration_->speed(d)[o],
+                               drive, &limited_[o]);
+      } else {
+        drive_row(n[0], settling, throughflow, passage, drive);
       }
     });
   }

@@ -3,6 +3,7 @@
 
 #include "airborne/dust_class.hpp"
 #include "airborne/flow.hpp"
+#include "airborne/gas_acceleration.hpp"
 #include "airborne/small_cells.hpp"
 #include "fluid/grid.hpp"
 
@@ -32,12 +33,15 @@ class Transport {
   explicit Transport(const fluid::Grid& grid);
 
   /// After the flow has changed: what all classes share.
-  void prepare(const Flow& flow);
+  void prepare(const Flow& flow, const GasAcceleration* acceleration = nullptr);
   /// `mass` [kg/m3 of whole cells] over `step` [s]; `source` [kg/(m3 s)], empty = none. Returns the
   /// sub-steps made.
   int advance(const Flow& flow, const DustClass& dust, double turbulent_share,
               const std::vector<double>& source, double step, fluid::CellField& mass,
               Losses& losses);
+  /// 1 in cells at whose lower faces the drift by inertia of the last class was limited, 0 in
+  /// others.
+  [[nodiscard]] const std::vector<float>& limited() const { return limited_; }
   /// [kg/m3 of gas] where there is gas.
   static void concentration(const fluid::Grid& grid, const fluid::CellField& mass,
                             const fluid::CellField& volume, fluid::CellField& c);
@@ -64,13 +68,15 @@ class Transport {
   fluid::Grid grid_;
   SmallCells small_cells_;
   std::array<bool, 3> is_still_{};
-  double turbulent_share_ = 0.0;  ///< of the eddy diffusivity
+  const GasAcceleration* acceleration_ = nullptr;  ///< null: dust turns with the gas
+  double turbulent_share_ = 0.0;                   ///< of the eddy diffusivity
   fluid::CellField c_, first_, volume_, scratch_;
   fluid::CellField deposition_;    ///< [1/s] per whole cell, of the class at hand
   std::vector<double> wall_rate_;  ///< the same by piece of wall
-  fluid::FaceField drive_;         ///< [m/s] G
-  fluid::FaceField flux_;          ///< [kg/(m2 s)]
-  fluid::FaceField is_open_;       ///< 1 where the cells of a face see each other
+  std::vector<float> limited_;
+  fluid::FaceField drive_;    ///< [m/s] G
+  fluid::FaceField flux_;     ///< [kg/(m2 s)]
+  fluid::FaceField is_open_;  ///< 1 where the cells of a face see each other
   std::vector<double> partial_;
 };
 

@@ -18,7 +18,7 @@ constexpr double k_bytes_fluid = 1.5e7;               // more, where there is a 
 constexpr double k_bytes_per_grain = 1500.0;          // with lists, and copies for the disk
 constexpr double k_bytes_per_coupled_grain = 1500.0;  // more, in a fluid
 constexpr double k_bytes_per_cell = 1150.0;
-constexpr double k_bytes_per_dust_cell = 250.0;  // of each class
+constexpr double k_bytes_per_dust_cell = 280.0;  // of each class
 constexpr double k_disk_base = 1e6;              // report, series, scenario, summary
 constexpr double k_disk_fluid = 2.5e6;
 constexpr double k_frame_bytes_per_grain = 52.0;  // packed
@@ -26,7 +26,7 @@ constexpr double k_frame_bytes_per_cell = 22.0;
 constexpr double k_frame_bytes_per_dust_cell = 8.0;  // of each class
 constexpr double k_checkpoint_bytes_per_grain = 600.0;
 constexpr double k_checkpoint_bytes_per_cell = 120.0;
-constexpr double k_checkpoint_bytes_per_dust_cell = 25.0;
+constexpr double k_checkpoint_bytes_per_dust_cell = 35.0;
 
 // [s] A step of a grain: in a bed it has contacts all the time; before a filling has settled it
 // meets others now and then; in a gas it flies from one collision to the next. In a stream its

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/dust_check.hpp"
 
+#include "airborne/dust_class.hpp"
 #include "base/text.hpp"
 #include "bodies/placement.hpp"
 #include "fluid/grid.hpp"
@@ -114,7 +115,7 @@ void check_openings(const Setup& setup, const DustSetup& dust, const registry::R
 
 double narrowest_turn(double diameter, double density, double viscosity, double speed) {
   const double relaxation = density * diameter * diameter / (18.0 * viscosity);
-  return relaxation * speed / k_largest_stokes_number;
+  return relaxation * speed / airborne::k_largest_stokes_number;
 }
 
 void check_drift(const Setup& setup, const DustSetup& dust, const registry::Registry& registry,
@@ -137,8 +138,9 @@ void check_drift(const Setup& setup, const DustSetup& dust, const registry::Regi
             base::length_text(diameter, 3) + " follows the fluid round turns wider than " +
             base::length_text(turn, 2) + " only, and cells of " +
             base::length_text(resolved / k_turn_cells, 2) +
-            " resolve narrower ones: its drift by inertia is left out, so that less of it is "
-            "deposited than would be; leave the class out, or let it be grains");
+            " resolve narrower ones: there its drift by inertia is held to a fifth of the "
+            "fluid's speed, and none of it hits walls by it; leave the class out, or let it be "
+            "grains");
   }
 }
 

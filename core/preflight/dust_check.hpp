@@ -13,15 +13,12 @@ namespace dust::preflight {
 void check_openings(const scenario::Setup& setup, const scenario::DustSetup& dust,
                     const registry::Registry& registry, scenario::Diagnostics& diagnostics);
 
-/// Stokes number from which dust leaves the gas in a turn: docs/theory/dust.md, section 1.
-inline constexpr double k_largest_stokes_number = 0.2;
-
-/// Narrowest turn of the gas [m] that dust still follows: \f$ \tau U / 0.2 \f$ with the relaxation
-/// time \f$ \tau = \rho d^2 / (18 \mu) \f$.
+/// Narrowest turn of the gas [m] that dust still follows: \f$ \tau U / 0.2 \f$
+/// (airborne::k_largest_stokes_number) with the relaxation time \f$ \tau = \rho d^2 / (18 \mu) \f$.
 double narrowest_turn(double diameter, double density, double viscosity, double speed);
 
 /// Warns of classes of a dust field that do not follow the gas round turns that the grid resolves,
-/// four cells wide, at the speed of bodies and emitters: the drift by inertia is left out.
+/// four cells wide, at the speed of bodies and emitters: the drift by inertia is limited there.
 void check_drift(const scenario::Setup& setup, const scenario::DustSetup& dust,
                  const registry::Registry& registry, scenario::Diagnostics& diagnostics);
 

@@ -289,6 +289,10 @@ const ParameterSchema& DustFieldBlock::schema() {
         .symbol("Sc")
         .above(0)
         .optional();
+    s.boolean(&DustFieldBlock::inertia, "inertia",
+              "Whether dust drifts off where the gas turns or speeds up, to first order in its "
+              "response time.")
+        .optional();
     s.boolean(&DustFieldBlock::scavenging, "scavenging",
               "Whether grains catch the dust that they meet on their way: all that hits them stays "
               "on them.")

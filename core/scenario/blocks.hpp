@@ -131,6 +131,7 @@ struct DustFieldBlock : sdk::WindErosion {
   std::vector<double> classes;
   std::string material;
   double schmidt_number = DustFieldSpec{}.schmidt_number;
+  bool inertia = DustFieldSpec{}.inertia;
   bool scavenging = DustFieldSpec{}.scavenging;
   bool resuspension = false;
   std::string deposition = "settling";

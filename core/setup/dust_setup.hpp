@@ -42,6 +42,7 @@ struct DustFieldSpec {
   std::vector<double> diameters;  ///< [m] ascending, one class each
   double density = 0.0;           ///< [kg/m3] of the dust itself
   double schmidt_number = 0.7;    ///< [-] eddy viscosity over turbulent diffusivity
+  bool inertia = true;            ///< dust drifts off where the gas turns
   bool scavenging = false;        ///< grains catch the dust that they meet
   std::optional<ResuspensionSpec> resuspension;
   bool has_smooth_walls = false;  ///< turbulence brings dust to them, not settling alone

@@ -163,6 +163,9 @@ Json dust_field_json(const Simulation& s) {
                                        {"left_kg", left},
                                        {"hoods_kg", hoods},
                                        {"balance_error", balance.error()}};
+    if (stage.field().has_inertia()) {
+      classes[stage.class_names()[n]]["inertia_limited_share"] = stage.field().limited_share(n);
+    }
     if (stage.field().has_scavenging()) {
       classes[stage.class_names()[n]]["caught_by_grains_kg"] = balance.caught;
     }

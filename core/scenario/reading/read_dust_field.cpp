@@ -16,8 +16,8 @@ namespace {
 /// Dust finer than this share of the smallest grain moves between grains as if they were walls.
 constexpr double k_largest_share = 0.1;
 /// Of what walls and grains do to dust beyond settling.
-constexpr std::array<std::string_view, 5> k_unasked = {
-    "scavenging", "resuspension", "emission_coefficient", "cohesion", "deposition"};
+constexpr std::array<std::string_view, 6> k_unasked = {
+    "inertia", "scavenging", "resuspension", "emission_coefficient", "cohesion", "deposition"};
 
 Node read_clouds(Reading& reading, MapReader& field, DustFieldSpec& spec) {
   Node written = Node::make_map();
@@ -149,6 +149,7 @@ void read_dust_field(Reading& reading, MapReader& dust, Node& written) {
     spec.density = reading.setup.materials[static_cast<std::size_t>(material)].properties.density;
   }
   spec.schmidt_number = read.schmidt_number;
+  spec.inertia = read.inertia;
   spec.scavenging = read.scavenging;
   if (read.resuspension) spec.resuspension = {read.emission_coefficient, read.cohesion};
   spec.has_smooth_walls = read.deposition == "lai_nazaroff";

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "airborne/gas_acceleration.hpp"
+
+#include "dust/sdk/error.hpp"
+#include "dust/sdk/kernel.hpp"
+#include "fluid/parallel.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace dust::airborne {
+namespace {
+
+using fluid::for_rows;
+
+/// Share of a face below which nothing passes.
+constexpr double k_closed = 1e-9;
+
+std::size_t at(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
+
+DUST_KERNEL void velocity_row(int n, const double* throughflow, const double* passage,
+                              double* velocity) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    velocity[i] = passage[i] > k_closed ? throughflow[i] / passage[i] : 0.0;
+  }
+}
+
+/// A direction that the velocity along a row's faces changes in.
+struct Across {
+  std::ptrdiff_t stride = 0;
+  double inverse_h = 0.0;            ///< 0: nothing varies
+  const double* velocity = nullptr;  ///< on this direction's faces
+};
+
+/// Slope of v at i from the neighbours that are open: gas that passes is not quite at rest.
+inline __attribute__((always_inline)) double slope(const double* v, int i, std::ptrdiff_t s,
+                                                   double inverse_h) {
+  const double below = v[i - s];
+  const double above = v[i + s];
+  const double low = below != 0.0 ? v[i] - below : 0.0;
+  const double high = above != 0.0 ? above - v[i] : 0.0;
+  const double share = below != 0.0 && above != 0.0 ? 0.5 : 1.0;
+  return share * inverse_h * (low + high);
+}
+
+DUST_KERNEL void acceleration_row(int n, const Across& own, const Across& e, const Across& f,
+                                  double inverse_step, const double* before, float* acceleration,
+                                  float* speed) {
+  const double *v = own.velocity, *ve = e.velocity, *vf = f.velocity;
+  const std::ptrdiff_t s = own.stride, se = e.stride, sf = f.stride;
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double u = v[i];
+    const double across_e = 0.25 * (ve[i] + ve[i - s] + ve[i + se] + ve[i + se - s]);
+    const double across_f = 0.25 * (vf[i] + vf[i - s] + vf[i + sf] + vf[i + sf - s]);
+    const double carried = u * slope(v, i, s, own.inverse_h) +
+                           across_e * slope(v, i, se, e.inverse_h) +
+                           across_f * slope(v, i, sf, f.inverse_h);
+    const double all = (u - before[i]) * inverse_step + carried;
+    acceleration[i] = static_cast<float>(u != 0.0 ? all : 0.0);
+    speed[i] = static_cast<float>(std::sqrt(u * u + across_e * across_e + across_f * across_f));
+  }
+}
+
+std::array<int, 3> faces(const fluid::Grid& grid, std::size_t d) {
+  std::array<int, 3> n = grid.count;
+  n[d] += 1;
+  return n;
+}
+
+}  // namespace
+
+GasAcceleration::GasAcceleration(const fluid::Grid& grid)
+    : grid_(grid), velocity_(grid), before_(grid) {
+  for (auto* fields : {&acceleration_, &speed_}) {
+    for (std::vector<float>& field : *fields) field.assign(grid.size, 0.0F);
+  }
+}
+
+void GasAcceleration::find_velocity(const Flow& flow) {
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto n = faces(grid_, d);
+    for_rows(n[0], n[1], n[2], [&](int j, int k) {
+      const std::size_t o = at(grid_.index(0, j, k));
+      velocity_row(n[0], &flow.throughflow.component[d][o], &flow.passage.component[d][o],
+                   &velocity_.component[d][o]);
+    });
+    wrap(velocity_.component[d], d);
+  }
+}
+
+void GasAcceleration::wrap(std::vector<double>& values, std::size_t component) const {
+  const auto n = faces(grid_, component);
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!grid_.is_periodic[d]) continue;
+    const std::size_t e = (d + 1) % 3;
+    const std::size_t f = (d + 2) % 3;
+    const std::ptrdiff_t s = grid_.stride[d];
+    const std::ptrdiff_t length = s * grid_.count[d];
+    // The last face along its own direction is the first one.
+    const std::ptrdiff_t beyond = d == component ? length + s : length;
+    for (int b = 0; b < n[f]; ++b) {
+      for (int a = 0; a < n[e]; ++a) {
+        const std::ptrdiff_t first =
+            grid_.index(0, 0, 0) + a * grid_.stride[e] + b * grid_.stride[f];
+        values[at(first - s)] = values[at(first - s + length)];
+        values[at(first + beyond)] = values[at(first + beyond - length)];
+      }
+    }
+  }
+}
+
+void GasAcceleration::find_row(int dir, int j, int k, double inverse_step) {
+  const auto d = static_cast<std::size_t>(dir);
+  const std::ptrdiff_t o = grid_.index(0, j, k);
+  const auto across = [&](std::size_t e) {
+    return Across{grid_.stride[e],
+                  grid_.count[e] > 1 ? 1.0 / grid_.spacing[static_cast<int>(e)] : 0.0,
+                  velocity_.component[e].data() + o};
+  };
+  float* acceleration = acceleration_[d].data() + o;
+  const int n = faces(grid_, d)[0];
+  acceleration_row(n, across(d), across((d + 1) % 3), across((d + 2) % 3), inverse_step,
+                   before_.component[d].data() + o, acceleration, speed_[d].data() + o);
+  if (grid_.is_periodic[d]) return;
+  const int place[3] = {0, j, k};
+  if (d == 0) {
+    acceleration[0] = acceleration[n - 1] = 0.0F;
+  } else if (place[d] == 0 || place[d] == grid_.count[d]) {
+    std::fill_n(acceleration, n, 0.0F);
+  }
+}
+
+void GasAcceleration::find(const Flow& flow, double step) {
+  std::swap(velocity_, before_);
+  find_velocity(flow);
+  // What the gas was before the first step is not known: as it is in it.
+  const double inverse_step = is_first_ ? 0.0 : 1.0 / step;
+  is_first_ = false;
+  for (int d = 0; d < 3; ++d) {
+    if (grid_.count[static_cast<std::size_t>(d)] == 1) continue;  // nothing moves there
+    const auto n = faces(grid_, static_cast<std::size_t>(d));
+    for_rows(n[0], n[1], n[2], [&](int j, int k) { find_row(d, j, k, inverse_step); });
+  }
+}
+
+void GasAcceleration::save(sdk::ArchiveWriter& archive) const {
+  archive.integer("gas_is_first", is_first_ ? 1 : 0);
+  archive.numbers("gas_velocity_x", velocity_.component[0]);
+  archive.numbers("gas_velocity_y", velocity_.component[1]);
+  archive.numbers("gas_velocity_z", velocity_.component[2]);
+}
+
+void GasAcceleration::load(sdk::ArchiveReader& archive) {
+  is_first_ = archive.integer("gas_is_first") != 0;
+  const std::array<const char*, 3> names{"gas_velocity_x", "gas_velocity_y", "gas_velocity_z"};
+  for (std::size_t d = 0; d < 3; ++d) {
+    auto values = archive.numbers(names[d]);
+    if (values.size() != grid_.size) {
+      throw sdk::ModelError("the checkpoint's dust belongs to another grid");
+    }
+    velocity_.component[d] = std::move(values);
+  }
+}
+
+}  // namespace dust::airborne

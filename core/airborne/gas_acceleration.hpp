@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "airborne/flow.hpp"
+#include "dust/sdk/archive.hpp"
+#include "fluid/grid.hpp"
+
+#include <array>
+#include <vector>
+
+namespace dust::airborne {
+
+/// Acceleration of the gas as it goes along, Du/Dt = du/dt + (u grad) u, on faces, each along its
+/// own normal: what dust cannot follow (docs/theory/dust.md, eq. (3a)). Central differences,
+/// one-sided next to faces that are closed; second order where the flow is smooth. 0 on the sides
+/// of the domain and in closed faces.
+class GasAcceleration {
+ public:
+  explicit GasAcceleration(const fluid::Grid& grid);
+
+  /// Of the gas between the grains in a fluid step of `step` [s]; it has changed over the time
+  /// since the last call.
+  void find(const Flow& flow, double step);
+  /// [m/s2] on faces along d.
+  [[nodiscard]] const std::vector<float>& field(std::size_t d) const { return acceleration_[d]; }
+  /// [m/s] of the gas at the same places.
+  [[nodiscard]] const std::vector<float>& speed(std::size_t d) const { return speed_[d]; }
+
+  void save(sdk::ArchiveWriter& archive) const;
+  void load(sdk::ArchiveReader& archive);
+
+ private:
+  void find_velocity(const Flow& flow);
+  /// Gives a periodic component values beyond both ends.
+  void wrap(std::vector<double>& values, std::size_t component) const;
+  void find_row(int d, int j, int k, double inverse_step);
+
+  fluid::Grid grid_;
+  fluid::FaceField velocity_;  ///< [m/s] of the gas between the grains; 0: nothing passes
+  fluid::FaceField before_;    ///< the same of the last call
+  std::array<std::vector<float>, 3> acceleration_;
+  std::array<std::vector<float>, 3> speed_;
+  bool is_first_ = true;
+};
+
+}  // namespace dust::airborne

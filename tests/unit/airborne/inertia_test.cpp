@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Dust that does not turn with the gas: closed forms of the drift tau Du/Dt.
+#include "unit/airborne/box.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+using namespace dust;
+using namespace dust::test;
+
+namespace {
+
+constexpr double k_turn = 2.0;  // [rad/s]
+
+/// A box of 1 m whose gas turns about its middle like a solid body.
+Box turning(int cells) {
+  Box box({cells, 1, cells}, {1, 1.0 / cells, 1}, {false, true, false});
+  box.set_velocity([](Vec3 x) { return Vec3{-k_turn * (x.z - 0.5), 0, k_turn * (x.x - 0.5)}; });
+  return box;
+}
+
+/// How far the middle of a blob is from the axis after a quarter of a turn, less the exact
+/// distance.
+double error_of_spiral(int cells, double time) {
+  Box box = turning(cells);
+  box.dust().inertia_time = time;
+  box.set_mass([](Vec3 x) { return smooth_blob(x, {0.65, x.y, 0.5}, 0.15); });
+  const double quarter = 0.5 * std::numbers::pi / k_turn;
+  CHECK(box.run_with_inertia(quarter, 4 * cells) == 0.0);
+  const Vec3 middle = box.middle();
+  const double exact = 0.15 * std::exp(time * k_turn * k_turn * quarter);
+  return std::abs(std::hypot(middle.x - 0.5, middle.z - 0.5) - exact);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the acceleration of gas that turns like a solid body shall be exact but for rounding to "
+    "float") {
+  Box box = turning(20);
+  GasAcceleration acceleration(box.grid());
+  acceleration.find(box.flow(), 1e-3);
+  for (const int d : {0, 2}) {
+    box.each_face(d, [&](std::size_t face, Vec3 x, bool) {
+      if (std::hypot(x.x - 0.5, x.z - 0.5) > 0.4) return;  // sides are closed
+      CHECK(acceleration.field(static_cast<std::size_t>(d))[face] ==
+            doctest::Approx(-k_turn * k_turn * (x[d] - 0.5)).epsilon(1e-6));
+      CHECK(acceleration.speed(static_cast<std::size_t>(d))[face] ==
+            doctest::Approx(k_turn * std::hypot(x.x - 0.5, x.z - 0.5)).epsilon(1e-6));
+    });
+  }
+}
+
+TEST_CASE("dust in turning gas shall spiral out by exp(tau omega^2 t), to second order") {
+  // tau omega = 0.1: half of what the expansion allows.
+  const double coarse = error_of_spiral(40, 0.05);
+  const double fine = error_of_spiral(80, 0.05);
+  CHECK(fine < 1e-4);  // of a drift of 26 mm
+  CHECK(coarse > 3.0 * fine);
+}
+
+TEST_CASE("an even cloud in turning gas shall thin out by exp(-2 tau omega^2 t)") {
+  Box box = turning(20);
+  box.dust().inertia_time = 0.05;
+  box.set_mass([](Vec3) { return 1.0; });
+  box.run_with_inertia(0.1, 20);
+  const double exact = std::exp(-2.0 * 0.05 * k_turn * k_turn * 0.1);
+  box.each_cell([&](std::size_t cell, Vec3 x) {
+    if (std::hypot(x.x - 0.5, x.z - 0.5) > 0.2)
+      return;  // what comes from the sides has not arrived
+    CHECK(box.mass()[cell] == doctest::Approx(exact).epsilon(1e-6));
+  });
+}
+
+TEST_CASE("dust shall lag behind gas that speeds up, by tau times what it has gained") {
+  constexpr double k_gain = 0.8;  // [m/s2]
+  constexpr double k_time = 0.02;
+  constexpr int k_steps = 100;
+  constexpr double k_end = 0.5;
+  Box box({100, 1, 1}, {1, 0.01, 0.01}, {true, true, true});
+  box.dust().inertia_time = k_time;
+  box.set_mass([](Vec3 x) { return smooth_blob(x, {0.3, x.y, x.z}, 0.2); });
+  const double step = k_end / k_steps;
+  double gas = 0.0;
+  box.run_with_inertia(k_end, k_steps, [&](int n) {
+    const double speed = 0.5 + k_gain * (n + 0.5) * step;
+    box.set_velocity([speed](Vec3) { return Vec3{speed, 0, 0}; });
+    gas += speed * step;
+  });
+  // The first step knows of no change.
+  const double lag = k_time * k_gain * (k_end - step);
+  CHECK(box.middle().x == doctest::Approx(0.3 + gas - lag).epsilon(1e-4));
+}
+
+TEST_CASE(
+    "where gas turns too fast for the expansion the drift shall stay bounded and be counted") {
+  Box box = turning(40);
+  box.dust().inertia_time = 2.0;  // tau omega = 4
+  box.set_mass([](Vec3 x) { return smooth_blob(x, {0.6, x.y, 0.5}, 0.1); });
+  const double before = box.in_air();
+  const double time = 0.25 * std::numbers::pi / k_turn;
+  CHECK(box.run_with_inertia(time, 80) > 0.5);
+  CHECK(box.in_air() == doctest::Approx(before).epsilon(1e-13));
+  CHECK(box.lost() == 0.0);
+  // Each component at most a fifth of the gas's speed.
+  const Vec3 middle = box.middle();
+  const double distance = std::hypot(middle.x - 0.5, middle.z - 0.5);
+  CHECK(distance > 0.1 * std::exp(0.2 * k_turn * time) * 0.95);
+  CHECK(distance < 0.1 * std::exp(0.2 * std::sqrt(2.0) * k_turn * time) * 1.05);
+  box.each_cell([&](std::size_t cell, Vec3) { CHECK(box.mass()[cell] >= 0.0); });
+}
