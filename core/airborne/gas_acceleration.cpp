@@ -101,13 +101,13 @@ void GasAcceleration::wrap(std::vector<double>& values, std::size_t component) c
     const std::ptrdiff_t s = grid_.stride[d];
     const std::ptrdiff_t length = s * grid_.count[d];
     // The last face along its own direction is the first one.
-    const std::ptrdiff_t beyond = d == component ? length + s : length;
+    const std::ptrdiff_t end = d == component ? length + s : length;
     for (int b = 0; b < n[f]; ++b) {
       for (int a = 0; a < n[e]; ++a) {
         const std::ptrdiff_t first =
             grid_.index(0, 0, 0) + a * grid_.stride[e] + b * grid_.stride[f];
         values[at(first - s)] = values[at(first - s + length)];
-        values[at(first + beyond)] = values[at(first + beyond - length)];
+        values[at(first + end)] = values[at(first + end - length)];
       }
     }
   }

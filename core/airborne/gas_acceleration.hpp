@@ -11,7 +11,7 @@
 namespace dust::airborne {
 
 /// Acceleration of the gas as it goes along, Du/Dt = du/dt + (u grad) u, on faces, each along its
-/// own normal: what dust cannot follow (docs/theory/dust.md, eq. (3a)). Central differences,
+/// own normal: what dust cannot follow (docs/theory/dust.md, section 1). Central differences,
 /// one-sided next to faces that are closed; second order where the flow is smooth. 0 on the sides
 /// of the domain and in closed faces.
 class GasAcceleration {

@@ -65,7 +65,7 @@ DUST_KERNEL void drive_row(int n, double settling, const double* throughflow, co
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) drive[i] = throughflow[i] + settling * passage[i];
 }
-/// With the drift by inertia; docs/theory/dust.md, eq. (3a).
+/// With the drift by inertia; docs/theory/dust.md, section 1.
 DUST_KERNEL void drive_with_inertia_row(int n, double settling, float time,
                                         const double* throughflow, const double* passage,
                                         const float* acceleration, const float* speed,
@@ -105,7 +105,7 @@ Transport::Transport(const fluid::Grid& grid)
 }
 
 void Transport::prepare(const Flow& flow, const GasAcceleration* acceleration) {
-  acceleration_ = acceleration;
+  inertia_.gas = acceleration;
   small_cells_.find(grid_, flow);
   wall_rate_.assign(flow.walls.size(), 0.0);
   for (std::size_t d = 0; d < 3; ++d) {
@@ -162,8 +162,8 @@ void Transport::concentration(const fluid::Grid& grid, const fluid::CellField& m
 
 /// At walls the gas is at rest, and there is no drift by inertia towards them.
 void Transport::find_drive(const Flow& flow, const DustClass& dust) {
-  const bool has_inertia = acceleration_ != nullptr && dust.inertia_time > 0.0;
-  if (has_inertia) limited_.assign(grid_.size, 0.0F);
+  const bool has_inertia = inertia_.gas != nullptr && dust.inertia_time > 0.0;
+  if (has_inertia) inertia_.limited.assign(grid_.size, 0.0F);
   for (std::size_t d = 0; d < 3; ++d) {
     const auto n = faces(static_cast<int>(d));
     const double settling = dust.drift[static_cast<int>(d)];
@@ -174,8 +174,8 @@ void Transport::find_drive(const Flow& flow, const DustClass& dust) {
       double* drive = &drive_.component[d][o];
       if (has_inertia) {
         drive_with_inertia_row(n[0], settling, static_cast<float>(dust.inertia_time), throughflow,
-                               passage, &acceleration_->field(d)[o], &acceleration_->speed(d)[o],
-                               drive, &limited_[o]);
+                               passage, &inertia_.gas->field(d)[o], &inertia_.gas->speed(d)[o],
+                               drive, &inertia_.limited[o]);
       } else {
         drive_row(n[0], settling, throughflow, passage, drive);
       }

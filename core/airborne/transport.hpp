@@ -41,12 +41,16 @@ class Transport {
               Losses& losses);
   /// 1 in cells at whose lower faces the drift by inertia of the last class was limited, 0 in
   /// others.
-  [[nodiscard]] const std::vector<float>& limited() const { return limited_; }
+  [[nodiscard]] const std::vector<float>& limited() const { return inertia_.limited; }
   /// [kg/m3 of gas] where there is gas.
   static void concentration(const fluid::Grid& grid, const fluid::CellField& mass,
                             const fluid::CellField& volume, fluid::CellField& c);
 
  private:
+  struct Inertia {
+    const GasAcceleration* gas = nullptr;  ///< null: dust turns with the gas
+    std::vector<float> limited;            ///< see limited()
+  };
   void set_volume(const Flow& flow, double share);
   void find_drive(const Flow& flow, const DustClass& dust);
   [[nodiscard]] double largest_rate(const Flow& flow, const DustClass& dust);
@@ -68,15 +72,14 @@ class Transport {
   fluid::Grid grid_;
   SmallCells small_cells_;
   std::array<bool, 3> is_still_{};
-  const GasAcceleration* acceleration_ = nullptr;  ///< null: dust turns with the gas
-  double turbulent_share_ = 0.0;                   ///< of the eddy diffusivity
+  Inertia inertia_;
+  double turbulent_share_ = 0.0;  ///< of the eddy diffusivity
   fluid::CellField c_, first_, volume_, scratch_;
   fluid::CellField deposition_;    ///< [1/s] per whole cell, of the class at hand
   std::vector<double> wall_rate_;  ///< the same by piece of wall
-  std::vector<float> limited_;
-  fluid::FaceField drive_;    ///< [m/s] G
-  fluid::FaceField flux_;     ///< [kg/(m2 s)]
-  fluid::FaceField is_open_;  ///< 1 where the cells of a face see each other
+  fluid::FaceField drive_;         ///< [m/s] G
+  fluid::FaceField flux_;          ///< [kg/(m2 s)]
+  fluid::FaceField is_open_;       ///< 1 where the cells of a face see each other
   std::vector<double> partial_;
 };
 

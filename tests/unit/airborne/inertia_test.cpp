@@ -91,8 +91,8 @@ TEST_CASE("dust shall lag behind gas that speeds up, by tau times what it has ga
     gas += speed * step;
   });
   // The first step knows of no change.
-  const double lag = k_time * k_gain * (k_end - step);
-  CHECK(box.middle().x == doctest::Approx(0.3 + gas - lag).epsilon(1e-4));
+  const double behind = k_time * k_gain * (k_end - step);
+  CHECK(box.middle().x == doctest::Approx(0.3 + gas - behind).epsilon(1e-4));
 }
 
 TEST_CASE(
