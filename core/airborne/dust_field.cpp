@@ -40,7 +40,8 @@ double DustBalance::error() const {
   if (!(released > 0.0)) return 0.0;
   const double gone = std::accumulate(left.begin(), left.end(), 0.0) +
                       std::accumulate(outlets.begin(), outlets.end(), 0.0) +
-                      std::accumulate(surfaces.begin(), surfaces.end(), 0.0);
+                      std::accumulate(surfaces.begin(), surfaces.end(), 0.0) +
+                      std::accumulate(carried_out.begin(), carried_out.end(), 0.0);
   return (released - airborne - gone - caught) / released;
 }
 
@@ -50,7 +51,8 @@ DustField::DustField(const fluid::Grid& grid, const scenario::DustFieldSpec& spe
       spec_(spec),
       transport_(grid),
       source_(grid.size, 0.0),
-      layers_(spec.diameters.size()) {
+      layers_(spec.diameters.size()),
+      do_surfaces_run_(ends.run) {
   if (spec.resuspension) resuspension_.emplace(spec, gas, norm(gravity));
   if (spec.inertia) acceleration_.emplace(grid);
   for (const double diameter : spec.diameters) {
@@ -62,9 +64,10 @@ DustField::DustField(const fluid::Grid& grid, const scenario::DustFieldSpec& spe
                                     : c.dust.response_time * (1.0 - gas.density / spec.density);
     }
     c.mass.assign(grid.size, 0.0);
-    c.deposit.assign(grid.size, 0.0);
+    if (!keeps_layers()) c.deposit.assign(grid.size, 0.0);
     c.losses.outlets.assign(ends.outlets, 0.0);
     c.surfaces.assign(ends.surfaces, 0.0);
+    if (do_surfaces_run_) c.carried_out.assign(ends.surfaces, 0.0);
     classes_.push_back(std::move(c));
   }
 }
@@ -154,8 +157,11 @@ void DustField::add_deposits(std::size_t of_class, const Flow& flow) {
   for (std::size_t n = 0; n < flow.walls.size(); ++n) {
     const double mass = c.losses.walls[n] * grid_.cell_volume();
     settled[static_cast<std::size_t>(flow.walls[n].surface)] += mass;
-    c.deposit[static_cast<std::size_t>(flow.walls[n].cell)] += mass;
-    if (resuspension_) layers_.add(flow.walls[n], of_class, mass);
+    if (keeps_layers()) {
+      layers_.add(n, of_class, mass);
+    } else {
+      c.deposit[static_cast<std::size_t>(flow.walls[n].cell)] += mass;
+    }
   }
   for (std::size_t n = 0; n < settled.size(); ++n) c.surfaces[n] += settled[n];
   c.losses.walls.clear();
@@ -169,8 +175,9 @@ void DustField::resuspend(const Flow& flow, double step) {
   for (std::size_t w = 0; w < flow.walls.size(); ++w) {
     const WallPiece& piece = flow.walls[w];
     const auto cell = static_cast<std::size_t>(piece.cell);
-    const std::span<double> layer = layers_.on(piece);
-    if (layer.empty() || !(flow.volume_before[cell] > 0.0)) continue;
+    const std::span<double> layer = layers_.on(w);
+    const bool is_bare = std::all_of(layer.begin(), layer.end(), [](double m) { return m == 0.0; });
+    if (is_bare || !(flow.volume_before[cell] > 0.0)) continue;
     const double area = norm(piece.area) * grid_.cell_volume();
     before.assign(layer.begin(), layer.end());
     for (std::size_t n = 0; n < classes_.size(); ++n) {
@@ -178,8 +185,6 @@ void DustField::resuspend(const Flow& flow, double step) {
       if (!(taken > 0.0)) continue;
       Class& c = classes_[n];
       layer[n] -= taken;
-      // Of several pieces in a cell the field knows the sum.
-      c.deposit[cell] = std::max(0.0, c.deposit[cell] - taken);
       c.mass[cell] += taken / grid_.cell_volume();
       c.resuspended += taken;
       gone[n][static_cast<std::size_t>(piece.surface)] += taken;
@@ -196,6 +201,10 @@ void DustField::advance(const Flow& flow, double time, double step) {
   find_sources(flow.volume_after);
   if (acceleration_) acceleration_->find(flow, step);
   transport_.prepare(flow, acceleration_ ? &*acceleration_ : nullptr);
+  if (keeps_layers() && walls_found_ != flow.walls_found) {
+    surface_transport_.prepare(grid_, flow, layers_);
+    walls_found_ = flow.walls_found;
+  }
   if (resuspension_) resuspend(flow, step);
   for (std::size_t n = 0; n < classes_.size(); ++n) {
     Class& c = classes_[n];
@@ -206,6 +215,29 @@ void DustField::advance(const Flow& flow, double time, double step) {
     add_deposits(n, flow);
     if (acceleration_) count_limited(c, step);
   }
+  if (do_surfaces_run_) carry(flow, step);
+}
+
+void DustField::carry(const Flow& flow, double step) {
+  if (is_empty()) return;
+  // The step's sums by themselves, as of deposits.
+  std::vector<std::vector<double>> out(classes_.size());
+  for (std::size_t n = 0; n < classes_.size(); ++n) out[n].resize(classes_[n].surfaces.size());
+  surface_transport_.advance(flow, step, layers_, out);
+  for (std::size_t n = 0; n < classes_.size(); ++n) {
+    Class& c = classes_[n];
+    for (std::size_t s = 0; s < c.surfaces.size(); ++s) {
+      c.surfaces[s] -= out[n][s];
+      c.carried_out[s] += out[n][s];
+    }
+  }
+}
+
+fluid::CellField DustField::deposit(std::size_t n) const {
+  if (!keeps_layers()) return classes_[n].deposit;
+  fluid::CellField deposit(grid_.size, 0.0);
+  layers_.add_to(n, deposit);
+  return deposit;
 }
 
 void DustField::count_limited(Class& c, double step) const {
@@ -272,6 +304,7 @@ DustBalance DustField::gone(std::size_t n) const {
   for (std::size_t side = 0; side < 6; ++side) balance.left[side] = c.losses.sides[side] * volume;
   for (const double drawn : c.losses.outlets) balance.outlets.push_back(drawn * volume);
   balance.surfaces = c.surfaces;
+  balance.carried_out = c.carried_out;
   balance.caught = c.caught.value();
   balance.resuspended = c.resuspended.value();
   return balance;
@@ -279,13 +312,13 @@ DustBalance DustField::gone(std::size_t n) const {
 
 void DustField::save(sdk::ArchiveWriter& archive) const {
   archive.integer("sub_steps", sub_steps_);
-  if (resuspension_) layers_.save(archive);
+  if (keeps_layers()) layers_.save(archive);
   if (acceleration_) acceleration_->save(archive);
   for (std::size_t n = 0; n < classes_.size(); ++n) {
     const Class& c = classes_[n];
     const std::string name = "class_" + std::to_string(n) + "_";
     archive.numbers(name + "mass", c.mass);
-    archive.numbers(name + "deposit", c.deposit);
+    if (!keeps_layers()) archive.numbers(name + "deposit", c.deposit);
     archive.number(name + "released", c.released.sum());
     archive.number(name + "released_lost", c.released.lost());
     archive.numbers(name + "sides", c.losses.sides);
@@ -297,6 +330,7 @@ void DustField::save(sdk::ArchiveWriter& archive) const {
     if (resuspension_) {
       archive.numbers(name + "resuspended", std::array{c.resuspended.sum(), c.resuspended.lost()});
     }
+    if (do_surfaces_run_) archive.numbers(name + "carried_out_on_surfaces", c.carried_out);
     if (acceleration_) {
       archive.numbers(name + "limited", std::array{c.airborne_time, c.limited_time});
     }
@@ -305,13 +339,14 @@ void DustField::save(sdk::ArchiveWriter& archive) const {
 
 void DustField::load(sdk::ArchiveReader& archive) {
   sub_steps_ = archive.integer("sub_steps");
-  if (resuspension_) layers_.load(archive);
+  if (keeps_layers()) layers_.load(archive);
+  walls_found_ = -1;
   if (acceleration_) acceleration_->load(archive);
   for (std::size_t n = 0; n < classes_.size(); ++n) {
     Class& c = classes_[n];
     const std::string name = "class_" + std::to_string(n) + "_";
     c.mass = archive.numbers(name + "mass");
-    c.deposit = archive.numbers(name + "deposit");
+    if (!keeps_layers()) c.deposit = archive.numbers(name + "deposit");
     const double released = archive.number(name + "released");
     c.released = {released, archive.number(name + "released_lost")};
     const std::vector<double> sides = archive.numbers(name + "sides");
@@ -329,6 +364,7 @@ void DustField::load(sdk::ArchiveReader& archive) {
       const std::vector<double> resuspended = archive.numbers(name + "resuspended");
       c.resuspended = {resuspended.at(0), resuspended.at(1)};
     }
+    if (do_surfaces_run_) c.carried_out = archive.numbers(name + "carried_out_on_surfaces");
     if (acceleration_) {
       const std::vector<double> limited = archive.numbers(name + "limited");
       c.airborne_time = limited.at(0);

@@ -6,6 +6,7 @@
 #include "airborne/gas_acceleration.hpp"
 #include "airborne/layers.hpp"
 #include "airborne/resuspension.hpp"
+#include "airborne/surface_transport.hpp"
 #include "airborne/transport.hpp"
 #include "base/exact_sum.hpp"
 #include "dust/sdk/archive.hpp"
@@ -21,15 +22,16 @@
 namespace dust::airborne {
 
 /// What became of the dust of a class since the start [kg]: released = airborne + deposited
-/// + caught + left + drawn out, to rounding.
+/// + carried out + caught + left + drawn out, to rounding.
 struct DustBalance {
   double released = 0.0;  ///< what was there at the start included
   double airborne = 0.0;
-  std::array<double, 6> left{};  ///< out through the sides
-  std::vector<double> outlets;   ///< by hood
-  std::vector<double> surfaces;  ///< deposited, by surface: the six sides, then the bodies
-  double caught = 0.0;           ///< by grains that pass through
-  double resuspended = 0.0;      ///< of what had been deposited, airborne since
+  std::array<double, 6> left{};     ///< out through the sides
+  std::vector<double> outlets;      ///< by hood
+  std::vector<double> surfaces;     ///< deposited, by surface: the six sides, then the bodies
+  std::vector<double> carried_out;  ///< out of the domain on surfaces that run, by surface
+  double caught = 0.0;              ///< by grains that pass through
+  double resuspended = 0.0;         ///< of what had been deposited, airborne since
   /// (released - all others) / released; 0 where nothing was.
   [[nodiscard]] double error() const;
 };
@@ -37,9 +39,10 @@ struct DustBalance {
 /// Dust as concentrations, one per size class, on the fluid's grid; docs/theory/dust.md.
 class DustField {
  public:
-  /// How many hoods and surfaces (sides and bodies) dust may end at.
+  /// How many hoods and surfaces (sides and bodies) dust may end at, and whether any surface runs.
   struct Ends {
     std::size_t outlets = 0, surfaces = 0;
+    bool run = false;
   };
   DustField(const fluid::Grid& grid, const scenario::DustFieldSpec& spec, const Gas& gas,
             sdk::Vec3 gravity, Ends ends);
@@ -63,13 +66,15 @@ class DustField {
   /// [kg/m3] of whole cells.
   [[nodiscard]] const fluid::CellField& mass(std::size_t n) const { return classes_[n].mass; }
   /// [kg] on surfaces in each cell.
-  [[nodiscard]] const fluid::CellField& deposit(std::size_t n) const { return classes_[n].deposit; }
+  [[nodiscard]] fluid::CellField deposit(std::size_t n) const;
   [[nodiscard]] DustBalance balance(std::size_t n) const;
   /// The same without what is airborne, which would take a sum over all cells: for each step.
   [[nodiscard]] DustBalance gone(std::size_t n) const;
   [[nodiscard]] std::int64_t sub_steps() const { return sub_steps_; }
   /// Do grains catch dust in this run?
   [[nodiscard]] bool has_scavenging() const { return spec_.scavenging; }
+  /// Do surfaces carry along what lies on them?
+  [[nodiscard]] bool has_running_surfaces() const { return do_surfaces_run_; }
   /// Does the gas take dust off surfaces again?
   [[nodiscard]] bool has_resuspension() const { return resuspension_.has_value(); }
 
@@ -85,15 +90,16 @@ class DustField {
  private:
   struct Class {
     DustClass dust;
-    fluid::CellField mass;         ///< [kg/m3] of whole cells
-    fluid::CellField deposit;      ///< [kg]
-    base::ExactSum released;       ///< [kg], grain by grain
-    base::ExactSum caught;         ///< [kg], cell by cell
-    base::ExactSum resuspended;    ///< [kg], piece by piece
-    Losses losses;                 ///< of sides and hoods since the start; of walls in this step
-    std::vector<double> surfaces;  ///< [kg]
-    double airborne_time = 0.0;    ///< [kg s] airborne dust over time
-    double limited_time = 0.0;     ///< [kg s] of it, where its drift by inertia was limited
+    fluid::CellField mass;            ///< [kg/m3] of whole cells
+    fluid::CellField deposit;         ///< [kg]; empty where there are layers, which know it
+    base::ExactSum released;          ///< [kg], grain by grain
+    base::ExactSum caught;            ///< [kg], cell by cell
+    base::ExactSum resuspended;       ///< [kg], piece by piece
+    Losses losses;                    ///< of sides and hoods since the start; of walls in this step
+    std::vector<double> surfaces;     ///< [kg]
+    std::vector<double> carried_out;  ///< [kg] by surface
+    double airborne_time = 0.0;       ///< [kg s] airborne dust over time
+    double limited_time = 0.0;        ///< [kg s] of it, where its drift by inertia was limited
   };
   /// A cell with what a box has of its gas, as a share of the cell; of sources, of the box's gas.
   struct Part {
@@ -109,6 +115,9 @@ class DustField {
   /// Before transport: what the gas takes off surfaces in the step is in it from its beginning.
   void resuspend(const Flow& flow, double step);
   void count_limited(Class& c, double step) const;
+  /// What lies on surfaces that run goes with them.
+  void carry(const Flow& flow, double step);
+  [[nodiscard]] bool keeps_layers() const { return resuspension_ || do_surfaces_run_; }
 
   fluid::Grid grid_;
   scenario::DustFieldSpec spec_;
@@ -118,7 +127,10 @@ class DustField {
   fluid::CellField source_;                 ///< [kg/(m3 s)]
   std::optional<Resuspension> resuspension_;
   std::optional<GasAcceleration> acceleration_;
-  Layers layers_;  ///< kept for resuspension alone
+  Layers layers_;  ///< see keeps_layers()
+  SurfaceTransport surface_transport_;
+  bool do_surfaces_run_ = false;
+  std::int64_t walls_found_ = -1;  ///< Flow::walls_found of layers_
   std::int64_t sub_steps_ = 0;
 };
 

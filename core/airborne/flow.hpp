@@ -23,6 +23,14 @@ struct WallPiece {
   sdk::Vec3 area;            ///< [1/m] out of the gas, over the volume of the whole cell
 };
 
+/// How the surface of a piece of wall runs. What stands has no velocity.
+struct SurfaceMotion {
+  sdk::Vec3 point;         ///< [m] of the surface, nearest to the middle of the cell
+  sdk::Vec3 area;          ///< [m2] into the gas, whatever else the gas shares the cell with
+  sdk::Vec3 velocity;      ///< [m/s] of the surface there
+  bool displaces = false;  ///< the surface goes to other places; else it runs along itself
+};
+
 /// What dust is told of the gas in a fluid step. Shares are of whole cells and faces.
 struct Flow {
   fluid::CellField volume_before;     ///< [-] filled by gas: open share times void fraction, at the
@@ -33,7 +41,9 @@ struct Flow {
   fluid::CellField eddy_diffusivity;  ///< [m2/s] empty: laminar
   std::vector<Sink> sinks;
   std::vector<WallPiece> walls;
-  std::vector<double> friction_velocity;  ///< [m/s] by piece of wall; empty: nobody asks
+  std::int64_t walls_found = 0;                ///< how often they have been found anew
+  std::vector<SurfaceMotion> surface_motions;  ///< by piece of wall; empty: all surfaces stand
+  std::vector<double> friction_velocity;       ///< [m/s] by piece of wall; empty: nobody asks
   /// [m2/s] Kinematic, of the gas at smooth walls, to which turbulence brings dust; 0: none does.
   double smooth_wall_viscosity = 0.0;
   /// By face of a side (side, second direction, third direction): the hood that draws there, -1.

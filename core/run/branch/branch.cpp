@@ -68,20 +68,25 @@ bool is_same_model(const std::optional<scenario::ModelChoice>& a,
 /// Reads a part as if its numbers had another name or length.
 class Changed final : public sdk::ArchiveReader {
  public:
-  using Change = std::function<void(std::string_view name, std::vector<double>& values)>;
-  Changed(sdk::ArchiveReader& from, Change change) : from_(from), change_(std::move(change)) {}
+  template <class Value>
+  using Change = std::function<void(std::string_view name, std::vector<Value>& values)>;
+  Changed(sdk::ArchiveReader& from, Change<double> change, Change<std::int64_t> integers = {})
+      : from_(from), change_(std::move(change)), change_integers_(std::move(integers)) {}
   std::vector<double> numbers(std::string_view name) override {
     auto values = from_.numbers(name);
     change_(name, values);
     return values;
   }
   std::vector<std::int64_t> integers(std::string_view name) override {
-    return from_.integers(name);
+    auto values = from_.integers(name);
+    if (change_integers_) change_integers_(name, values);
+    return values;
   }
 
  private:
   sdk::ArchiveReader& from_;
-  Change change_;
+  Change<double> change_;
+  Change<std::int64_t> change_integers_;
 };
 
 }  // namespace
@@ -400,31 +405,33 @@ void Branch::transfer_dust(const Simulation::Owners& to) {
       "dust.field.clouds",     "dust.field.sources",
       "dust.field.cohesion",   "dust.field.emission_coefficient",
       "dust.field.deposition", "dust.field.schmidt_number"};
-  // Layers are kept by the number of the body.
-  const bool keeps_layers = now_.dust.field && now_.dust.field->resuspension;
-  if (!is_same_grid() || !state.has("dust", "volume") || !same("dust.field", k_free_of_field) ||
-      (keeps_layers && !same("bodies"))) {
-    warn(
-        "dust.field has another grid or other classes, other bodies that dust lies on, or there "
-        "was "
-        "none: its air starts as the scenario says");
-    to.dust->start();
-    return;
-  }
   const auto theirs = origin_.scenario();
   const auto openings_then = openings_of(theirs.setup, theirs.dust);
   const auto openings_now = openings_of(now_.setup, now_.dust);
+  // What lies where is stored in two ways.
+  const bool do_surfaces_run = has_running_surfaces(now_.setup);
+  if (!is_same_grid() || !state.has("dust", "volume") || !same("dust.field", k_free_of_field) ||
+      do_surfaces_run != has_running_surfaces(theirs.setup)) {
+    warn(
+        "dust.field has another grid or other classes, bodies move where none did or none where "
+        "some did, or there was none: its air starts as the scenario says");
+    to.dust->start();
+    return;
+  }
+  constexpr std::size_t k_sides = 6;
+  /// The number of a surface here; -1: its body is gone.
+  const auto surface_here = [&](std::size_t n) {
+    if (n < k_sides) return static_cast<std::int64_t>(n);
+    const auto* body = find_named(now_.setup.bodies, theirs.setup.bodies[n - k_sides].name);
+    return body == nullptr ? std::int64_t{-1}
+                           : static_cast<std::int64_t>(k_sides) + (body - now_.setup.bodies.data());
+  };
   const auto change = [&](std::string_view name, std::vector<double>& values) {
     if (name.ends_with("_surfaces")) {
-      constexpr std::size_t k_sides = 6;
       std::vector<double> mine(k_sides + now_.setup.bodies.size(), 0.0);
       for (std::size_t n = 0; n < values.size(); ++n) {
-        if (n < k_sides) {
-          mine[n] = values[n];
-        } else if (const auto* body =
-                       find_named(now_.setup.bodies, theirs.setup.bodies[n - k_sides].name)) {
-          mine[k_sides + static_cast<std::size_t>(body - now_.setup.bodies.data())] = values[n];
-        }
+        const std::int64_t here = surface_here(n);
+        if (here >= 0) mine[static_cast<std::size_t>(here)] = values[n];
       }
       values = std::move(mine);
     } else if (name.ends_with("_outlets")) {
@@ -437,11 +444,17 @@ void Branch::transfer_dust(const Simulation::Owners& to) {
       values = std::move(mine);
     }
   };
+  const auto change_places = [&](std::string_view name, std::vector<std::int64_t>& values) {
+    if (name != "layer_places") return;
+    for (std::size_t n = 1; n < values.size(); n += 2) {
+      values[n] = surface_here(static_cast<std::size_t>(values[n]));
+    }
+  };
   LoadParts parts;
   to.dust->add_parts(parts);
   for (const auto& part : parts) {
     state.read({{part.first, [&](sdk::ArchiveReader& a) {
-                   Changed changed(a, change);
+                   Changed changed(a, change, change_places);
                    part.second(changed);
                  }}});
   }

@@ -12,6 +12,7 @@ constexpr const char* k_set_free = "set_free";
 constexpr const char* k_left = "left";
 constexpr const char* k_drawn_out = "drawn_out";
 constexpr const char* k_deposited = "deposited";
+constexpr const char* k_carried_out = "carried_out";
 constexpr const char* k_caught = "caught";
 constexpr double k_hour = 3600.0;          // s
 constexpr double k_grams_per_tonne = 1e6;  // per kg per kg
@@ -61,6 +62,13 @@ void DustRates::find_parts(const scenario::Setup& setup) {
   const std::vector<std::string> surfaces = dust_.surface_names();
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     add(k_deposited, surfaces[k], [this, k](std::size_t n) { return balances_[n].surfaces[k]; });
+  }
+  if (dust_.field().has_running_surfaces()) {
+    for (std::size_t k = 6; k < surfaces.size(); ++k) {
+      if (setup.bodies[k - 6].motions.empty()) continue;
+      add(k_carried_out, surfaces[k],
+          [this, k](std::size_t n) { return balances_[n].carried_out[k]; });
+    }
   }
   if (dust_.has_scavenging()) {
     add(k_caught, "grains", [this](std::size_t n) { return balances_[n].caught; });

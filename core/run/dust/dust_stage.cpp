@@ -19,6 +19,11 @@ std::size_t at(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
+bool has_running_surfaces(const scenario::Setup& setup) {
+  return std::any_of(setup.bodies.begin(), setup.bodies.end(),
+                     [](const scenario::BodySpec& body) { return !body.motions.empty(); });
+}
+
 DustStage::DustStage(const scenario::Setup& setup, const scenario::DustFieldSpec& spec,
                      const Models& models, const FluidStage& fluid,
                      std::vector<particles::Opening> openings)
@@ -28,7 +33,7 @@ DustStage::DustStage(const scenario::Setup& setup, const scenario::DustFieldSpec
       openings_(std::move(openings)),
       flow_(fluid.grid()),
       field_(fluid.grid(), spec, {setup.fluid->density, setup.fluid->viscosity}, setup.gravity,
-             {openings_.size(), 6 + setup.bodies.size()}),
+             {openings_.size(), 6 + setup.bodies.size(), has_running_surfaces(setup)}),
       weight_(fluid.grid(), setup.gravity, spec.density, setup.fluid->density),
       table_(fluid.grid(), spec.diameters, spec.density) {
   for (const double d : spec.diameters) names_.push_back(sdk::name_of(d * 1e6) + "_um");
@@ -64,8 +69,11 @@ void DustStage::find_walls(double time) {
   const Grid& grid = fluid_.grid();
   const fluid::FaceField& open = fluid_.solver().open_area();
   const fluid::CellField& share = fluid_.solver().open_fraction();
+  std::vector<sdk::Vec3> surface_points;
   const fluid::BodyField bodies(grid, models_.bodies, time, fluid::BodyField::Which::all);
   pieces_.clear();
+  running_.clear();
+  flow_.walls_found += 1;
   if (wall_shear_) wall_shear_->clear();
   for (int k = 0; k < grid.count[2]; ++k) {
     for (int j = 0; j < grid.count[1]; ++j) {
@@ -95,11 +103,32 @@ void DustStage::find_walls(double time) {
         const auto hit = bodies.nearest(grid.centre(i, j, k));
         if (hit.body < 0) continue;
         pieces_.push_back({static_cast<std::int32_t>(o), 6 + hit.body, area});
+        if (!models_.bodies[static_cast<std::size_t>(hit.body)].motions.empty()) {
+          running_.push_back({pieces_.size() - 1, hit.body, hit.normal});
+          surface_points.push_back(grid.centre(i, j, k) - hit.distance * hit.normal);
+        }
         if (!wall_shear_) continue;
         wall_shear_->add_body(grid.centre(i, j, k), hit,
                               models_.bodies[static_cast<std::size_t>(hit.body)], time);
       }
     }
+  }
+  flow_.surface_motions.clear();
+  if (running_.empty()) return;
+  flow_.surface_motions.resize(pieces_.size());
+  for (std::size_t n = 0; n < running_.size(); ++n) {
+    airborne::SurfaceMotion& motion = flow_.surface_motions[running_[n].piece];
+    motion.point = surface_points[n];
+    motion.area = -grid.cell_volume() * pieces_[running_[n].piece].area;
+    motion.displaces = models_.bodies[static_cast<std::size_t>(running_[n].body)].displaces();
+  }
+}
+
+void DustStage::find_surface_motions(double time) {
+  for (const RunningPiece& running : running_) {
+    airborne::SurfaceMotion& motion = flow_.surface_motions[running.piece];
+    motion.velocity = models_.bodies[static_cast<std::size_t>(running.body)].surface_velocity(
+        motion.point, running.normal, time);
   }
 }
 
@@ -175,6 +204,7 @@ void DustStage::advance(double time) {
     find_walls(time + setup_.time.fluid_step);
     must_find_walls_ = false;
   }
+  find_surface_motions(time + 0.5 * setup_.time.fluid_step);
   flow_.walls = pieces_;
   for (airborne::WallPiece& piece : flow_.walls) {
     piece.area = fluid_.void_fraction()[static_cast<std::size_t>(piece.cell)] * piece.area;

@@ -20,6 +20,9 @@
 
 namespace dust::run {
 
+/// Does the surface of any body run, or go to other places?
+[[nodiscard]] bool has_running_surfaces(const scenario::Setup& setup);
+
 /// The airborne dust of a run: what it is told of the fluid, and what files are told of it.
 class DustStage {
  public:
@@ -81,6 +84,8 @@ class DustStage {
  private:
   [[nodiscard]] std::array<int, 3> cell_at(sdk::Vec3 place) const;
   void find_walls(double time);
+  /// How the surfaces of the pieces run at `time` [s].
+  void find_surface_motions(double time);
   void find_volume(fluid::CellField& volume) const;
   void find_passage();
   void find_outflows();
@@ -94,6 +99,13 @@ class DustStage {
   bool must_find_walls_ = true;
   std::vector<airborne::WallPiece>
       pieces_;  ///< with the areas of surfaces, whatever is before them
+  /// A piece of a body that moves.
+  struct RunningPiece {
+    std::size_t piece;
+    int body;
+    sdk::Vec3 normal;
+  };
+  std::vector<RunningPiece> running_;
   airborne::DustField field_;
   airborne::DustWeight weight_;
   DustTable table_;

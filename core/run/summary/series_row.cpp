@@ -73,6 +73,9 @@ void visit_dust_field(const Simulation& s, const ColumnVisitor& visit) {
     if (dust->field().has_resuspension()) {
       visit(of + "/resuspended [kg]", balance.resuspended, RowValue::total, k_mass);
     }
+    if (dust->field().has_running_surfaces()) {
+      visit(of + "/carried_out [kg]", sum(balance.carried_out), RowValue::total, k_mass);
+    }
     if (dust->has_scavenging()) visit(of + "/caught [kg]", balance.caught, RowValue::total, k_mass);
   }
 }

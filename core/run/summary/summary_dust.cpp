@@ -163,6 +163,13 @@ Json dust_field_json(const Simulation& s) {
                                        {"left_kg", left},
                                        {"hoods_kg", hoods},
                                        {"balance_error", balance.error()}};
+    if (stage.field().has_running_surfaces()) {
+      Json carried = Json::object();
+      for (std::size_t k = 0; k < surfaces.size(); ++k) {
+        if (balance.carried_out[k] > 0.0) carried[surfaces[k]] = balance.carried_out[k];
+      }
+      classes[stage.class_names()[n]]["carried_out_kg"] = carried;
+    }
     if (stage.field().has_inertia()) {
       classes[stage.class_names()[n]]["inertia_limited_share"] = stage.field().limited_share(n);
     }

@@ -27,9 +27,9 @@ Drawn drawn_by(const Simulation& s, std::size_t opening);
 nlohmann::ordered_json hoods_json(const Simulation& s);
 
 /// What became of the airborne dust: by class {"released_kg", "airborne_kg", "deposited_kg" by
-/// surface, "left_kg" by side, "hoods_kg" by hood, "balance_error", with the drift
-/// by inertia "inertia_limited_share", with scavenging "caught_by_grains_kg", with resuspension
-/// "resuspended_kg"} and "sub_steps".
+/// surface, "left_kg" by side, "hoods_kg" by hood, "balance_error", with bodies that move
+/// "carried_out_kg" by surface, with the drift by inertia "inertia_limited_share", with scavenging
+/// "caught_by_grains_kg", with resuspension "resuspended_kg"} and "sub_steps".
 nlohmann::ordered_json dust_field_json(const Simulation& s);
 
 /// What grains carry, what of it came off and by what, for a run with loads: by class
