@@ -53,12 +53,13 @@ class Page:
 
     def chart(self, title, across, up, curves, text):
         """Ours beside the published curve: curves as chart.draw takes them; `text` says what is seen."""
+        is_whole = all(c.x for c in curves if c.is_ours)
         curves = [c for c in curves if c.x]
         if any(c.is_ours for c in curves):
             file = f"{self.name}_{len(self._charts) + 1}.svg"
             self._charts.append((file, title, text))
-            # A picture of curves that are gone stays.
-            if not (self._kept.bits() and (FOLDER / "pictures" / file).exists()):
+            # A picture of curves some of which are gone stays.
+            if is_whole or not (self._kept.bits() and (FOLDER / "pictures" / file).exists()):
                 chart.draw(FOLDER / "pictures" / file, title, across, up, curves)
 
     def body(self, lines):

@@ -17,7 +17,11 @@ JUDGED = "same_dust_fine"
 NOTE = """10 um of sand are set free from 0.35 to 0.7 s in a box 2.5 mm high, 1 mm below the return run of the belt: 20,000 grains a second, each tracked,
 and as much as a concentration. The standard error is that of so many independent grains. Both are carried by the same air. The grains come from
 five planes over the height of the source, for the air's speed falls over it. It is set free where no sand falls: in the stream grains are hit by
-sand and taken down with it, a field is not (`scavenging: true` is there for that)."""
+sand and taken down with it, a field is not (`scavenging: true` is there for that).
+
+At 0.5 s the first of it gets to the outlet: the front of the field, smeared over some cells, is there a little before the first grains, by 1.6 % of what has
+been set free. What has left by 0.6 and 0.7 s agrees within the error of the grains in cells of 1.25 mm; in cells of 2.5 mm, which do not resolve the layer of
+air below the belt, it is off by up to 2.8 % at 0.6 s."""
 
 
 def plans():
