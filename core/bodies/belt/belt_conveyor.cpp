@@ -91,34 +91,12 @@ void declare_cleats(SchemaOf<Parameters>& s) {
     s.number(member, name, dimension::length, sentence).at_least(0).optional();
   };
   length(&Parameters::cleat_height, "cleat_height",
-         "Height over the belt of crossbars as wide as it that run with it; 0 = a plain belt. They "
-         "stand on a flat belt only.");
+         "Height over the belt of crossbars as wide as it that run with it; 0 = a plain belt. In "
+         "a trough they fit its section.");
   length(&Parameters::cleat_thickness, "cleat_thickness", "Of the crossbars, along the belt.");
   length(&Parameters::cleat_spacing, "cleat_spacing",
          "From one crossbar to the next; a whole number goes round the belt, the spacing nearest "
          "to this. At time 0 one is over the head pulley's axis.");
-}
-
-std::optional<Cleats> cleats_of(const Parameters& p) {
-  const double h = p.cleat_height;
-  const double t = p.cleat_thickness;
-  const double s = p.cleat_spacing;
-  if (h == 0.0 && t == 0.0 && s == 0.0) return std::nullopt;
-  const auto refuse = [](const char* why) { throw sdk::ParameterError(why); };
-  if (h == 0.0) refuse("cleat_height is 0: cleats need a height");
-  if (t == 0.0) refuse("cleat_thickness is 0: cleats need a thickness");
-  if (s == 0.0) refuse("cleat_spacing is 0: cleats need a spacing");
-  if (p.trough_angle > 0.0 || p.pulley_rise > 0.0 || p.sag > 0.0) {
-    refuse("cleats stand on a flat belt only: leave out trough_angle, pulley_rise and sag");
-  }
-  const Cleats cleats({.length = norm(p.head - p.tail),
-                       .reach = p.radius + 0.5 * p.thickness,
-                       .half_width = 0.5 * p.width,
-                       .top = 0.5 * p.thickness + h,
-                       .thickness = t,
-                       .spacing = s});
-  if (s <= t || cleats.spacing() <= t) refuse("cleat_spacing is not longer than cleat_thickness");
-  return cleats;
 }
 
 TroughParameters trough_of(const Parameters& p) {
@@ -152,6 +130,33 @@ TroughParameters trough_of(const Parameters& p) {
   return t;
 }
 
+std::optional<Cleats> cleats_of(const Parameters& p, const Trough& trough) {
+  const double h = p.cleat_height;
+  const double t = p.cleat_thickness;
+  const double s = p.cleat_spacing;
+  if (h == 0.0 && t == 0.0 && s == 0.0) return std::nullopt;
+  const auto refuse = [](const char* why) { throw sdk::ParameterError(why); };
+  if (h == 0.0) refuse("cleat_height is 0: cleats need a height");
+  if (t == 0.0) refuse("cleat_thickness is 0: cleats need a thickness");
+  if (s == 0.0) refuse("cleat_spacing is 0: cleats need a spacing");
+  const bool is_flat = p.trough_angle == 0.0 && p.pulley_rise == 0.0 && p.sag == 0.0;
+  if (p.trough_angle > 0.0) {
+    const TroughParameters& section = trough.parameters();
+    if (h + 0.5 * p.thickness >= section.bend / section.slope) {
+      refuse("cleat_height is not below bend_radius: a cleat would fold where the belt bends");
+    }
+  }
+  const Cleats cleats({.length = norm(p.head - p.tail),
+                       .reach = p.radius + 0.5 * p.thickness,
+                       .half_width = 0.5 * p.width,
+                       .top = 0.5 * p.thickness + h,
+                       .thickness = t,
+                       .spacing = s,
+                       .trough = is_flat ? std::nullopt : std::optional<Trough>(trough)});
+  if (s <= t || cleats.spacing() <= t) refuse("cleat_spacing is not longer than cleat_thickness");
+  return cleats;
+}
+
 /// Belt of finite width round two equal pulleys: all points within half a thickness of the belt's
 /// middle surface, and the pulleys. Nothing of it is made of facets: the carrying run is a Trough,
 /// the rest cylinders and planes; they meet smoothly. Cleats are a second part.
@@ -170,7 +175,7 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
   }
 
   explicit BeltConveyor(const Parameters& p)
-      : head_(p.head), trough_(direct(p)), cleats_(cleats_of(p)) {
+      : head_(p.head), trough_(direct(p)), cleats_(cleats_of(p, trough_)) {
     half_thickness_ = 0.5 * p.thickness;
     reach_ = p.radius + half_thickness_;
     half_width_ = 0.5 * p.width;
@@ -180,7 +185,12 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
     if (!(norm(across_) > 1e-3)) throw sdk::ParameterError("up is along the belt");
     across_ = across_ / norm(across_);
     up_ = cross(along_, across_);
-    if (cleats_) farthest_tip_ = cleats_->tip_radius() - reach_ - half_thickness_;
+    is_flat_ = p.trough_angle == 0.0 && p.pulley_rise == 0.0 && p.sag == 0.0;
+    if (!cleats_) return;
+    largest_factor_ = cleats_->largest_factor();
+    // In a transition the belt is lower beside a cleat than below it.
+    farthest_tip_ = cleats_->tip_radius() - reach_ - half_thickness_ +
+                    (is_flat_ ? 0.0 : 0.5 * p.cleat_thickness);
   }
 
   [[nodiscard]] SurfacePoint nearest(Vec3 point) const override {
@@ -202,7 +212,7 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
     const Vec3 q = to_belt(point);
     const double spacing = cleats_->spacing();
     // Over the carrying run it is as far from the belt wherever it is.
-    const bool is_over = q.x > -length_ && q.x + spacing < 0.0 && q.z > reach_;
+    const bool is_over = q.z > reach_ && is_alike(q.x, q.x + spacing, reach);
     const Vec3 middle = q + Vec3{0.5 * spacing, 0.0, 0.0};
     return is_over ? carrying(q).distance < reach
                    : nearest_face(middle).distance < reach + 0.5 * spacing;
@@ -240,7 +250,7 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
   }
   [[nodiscard]] double spacing() const override { return cleats_->spacing(); }
   [[nodiscard]] Vec3 running_direction() const override { return along_; }
-  [[nodiscard]] double largest_factor() const override { return cleats_->tip_radius() / reach_; }
+  [[nodiscard]] double largest_factor() const override { return largest_factor_; }
   [[nodiscard]] SurfacePoint nearest_after(double run, Vec3 point) const override {
     const Vec3 q = to_belt(point);
     SurfacePoint s = nearest_face(q);
@@ -262,6 +272,7 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
     const Vec3 q = to_belt(point);
     const auto cleat = cleats_->nearest(run, q);
     if (std::abs(cleat.point.distance) < std::abs(nearest_face(q).distance)) {
+      if (cleat.stand.is_in_trough) return query_for(cleats_->velocity_in_trough(cleat.stand, q));
       if (!cleat.stand.is_on_pulley) return {across_, from_belt(cleat.stand.out), 1.0};
       const Vec3 arm{q.x - cleat.stand.pulley, 0.0, q.z};
       return {across_, from_belt(arm / norm(arm)), norm(arm) / reach_};
@@ -273,6 +284,20 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
   [[nodiscard]] SurfacePoint nearest_of_belt(Vec3 point) const {
     const SurfacePoint n = nearest_face(to_belt(point));
     return {n.distance, from_belt(n.normal)};
+  }
+  /// Whether what is within `reach` of a point over the belt is the same at all places from one to
+  /// the other.
+  [[nodiscard]] bool is_alike(double from, double to, double reach) const {
+    if (is_flat_) return from > -length_ && to < 0.0;
+    const double pulleys = reach + reach_ + half_thickness_;
+    return from > pulleys - length_ && to < -pulleys && trough_.is_even(from - reach, to + reach);
+  }
+  /// What to ask for a velocity of `way` times the belt's.
+  [[nodiscard]] VelocityQuery query_for(Vec3 way) const {
+    const double factor = norm(way);
+    Vec3 normal = cross(way, Vec3{0.0, 1.0, 0.0});  // never along y: a cleat runs along x
+    normal = normal / norm(normal);
+    return {from_belt(cross(normal, way / factor)), from_belt(normal), factor};
   }
   static TroughParameters direct(const Parameters& p) {
     if (!(norm(p.head - p.tail) > 0.0)) {
@@ -308,8 +333,7 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
 
   [[nodiscard]] SurfacePoint carrying(Vec3 q) const {
     const Vec3 p{q.x, q.y, q.z - reach_};
-    if (cleats_) {
-      // The run is flat.
+    if (cleats_ && is_flat_) {
       return sheet(
           p, {std::clamp(p.x, -length_, 0.0), std::clamp(p.y, -half_width_, half_width_), 0.0});
     }
@@ -350,6 +374,8 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
   double reach_ = 0.0;  ///< [m] of the middle surface, from the pulley's axis
   double half_thickness_ = 0.0;
   double half_width_ = 0.0;
+  bool is_flat_ = true;  ///< no trough, no raised pulleys, no sag
+  double largest_factor_ = 1.0;
   double farthest_tip_ = 0.0;  ///< [m] of a cleat from the belt's face
 };
 
@@ -466,7 +492,8 @@ Triangles BeltConveyor::triangles_after(double run, Vec3 min, Vec3 max, double e
   if (to == 0.0) add_pulley(t, 0.0, 1.0, edge, widths);
   if (from == -length_) add_pulley(t, -length_, -1.0, edge, widths);
   if (cleats_) {
-    for (const Vec3& p : cleats_->triangles(run, from, to)) t.push_back(head_ + from_belt(p));
+    for (const Vec3& p : cleats_->triangles(run, from, to, widths))
+      t.push_back(head_ + from_belt(p));
   }
   return t;
 }

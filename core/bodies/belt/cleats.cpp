@@ -16,6 +16,10 @@ Cleats::Cleats(const CleatParameters& p) : p_(p) {
   lap_ = 2.0 * (half_round_ + p.length);
   count_ = std::max(1, static_cast<int>(std::lround(lap_ / p.spacing)));
   spacing_ = lap_ / count_;
+  if (!p.trough) return;
+  const TroughParameters& t = p.trough->parameters();
+  lowest_ = -t.rise - t.sag;
+  highest_ = p.top + std::sin(2.0 * std::atan(t.slope)) * (t.half_width - t.half_centre + t.bend);
 }
 
 double Cleats::tip_radius() const { return std::hypot(p_.reach + p_.top, 0.5 * p_.thickness); }
@@ -38,28 +42,106 @@ Cleats::Stand Cleats::stand_at(double way) const {
         Vec3{-p_.length, 0.0, 0.0} + p_.reach * out, {out.z, 0.0, -out.x}, out, true, -p_.length};
   }
   s -= half_round_;
-  return {{s - p_.length, 0.0, p_.reach}, {1, 0, 0}, {0, 0, 1}};
+  return {{s - p_.length, 0.0, p_.reach}, {1, 0, 0}, {0, 0, 1}, false, 0.0, p_.trough.has_value()};
+}
+
+namespace {
+
+/// Distance [m] to a bar in coordinates of its own: `a` along the belt from its middle, `n` over
+/// the middle surface, `beside` from its end, negative inside; with their axes.
+struct BarPlace {
+  double a = 0.0, n = 0.0, beside = 0.0;
+  Vec3 along, out, side;
+};
+SurfacePoint nearest_of_bar(const BarPlace& p, double half, double top) {
+  const double beyond_a = p.a - std::clamp(p.a, -half, half);
+  const double beyond_n = p.n - std::clamp(p.n, 0.0, top);
+  const double beyond_y = std::max(p.beside, 0.0);
+  const Vec3 away = beyond_a * p.along + beyond_n * p.out + beyond_y * p.side;
+  const double distance = norm(away);
+  if (distance > 0.0) return {distance, away / distance};
+  // Inside; the foot is in the belt.
+  SurfacePoint s{p.n - top, p.out};
+  if (std::abs(p.a) - half > s.distance) {
+    s = {std::abs(p.a) - half, p.a < 0.0 ? -p.along : p.along};
+  }
+  if (p.beside > s.distance) s = {p.beside, p.side};
+  return s;
+}
+
+}  // namespace
+
+SurfacePoint Cleats::strip(const Stand& stand, Vec3 q) const {
+  const Trough::Seen seen = p_.trough->seen_from(stand.base.x, q.y, q.z - p_.reach);
+  return nearest_of_bar(
+      {q.x - stand.base.x, seen.over, seen.past_edge, stand.along, seen.normal, seen.side},
+      0.5 * p_.thickness, p_.top);
+}
+
+Vec3 Cleats::velocity_in_trough(const Stand& stand, Vec3 q) const {
+  const double x = stand.base.x;
+  if (p_.trough->is_even(x, x)) return stand.along;
+  // Of the point that keeps its place across the belt and over it: docs/theory/conveyors.md, eq.
+  // (6).
+  const Trough::Seen seen = p_.trough->seen_from(x, q.y, q.z - p_.reach);
+  constexpr double k_step = 1e-5;  // [m] error of second order in it
+  const double before = std::max(x - k_step, -p_.length);
+  const double after = std::min(x + k_step, 0.0);
+  return (p_.trough->at(after, seen.across, seen.over) -
+          p_.trough->at(before, seen.across, seen.over)) /
+         (after - before);
+}
+
+double Cleats::largest_factor() const {
+  double largest = tip_radius() / p_.reach;
+  if (!p_.trough) return largest;
+  constexpr int k_places = 400;
+  for (int n = 0; n <= k_places; ++n) {
+    const double x = -p_.length * n / k_places;
+    for (const double over : {0.0, p_.top}) {
+      const Vec3 edge = p_.trough->at(x, p_.half_width, over) + Vec3{0.0, 0.0, p_.reach};
+      largest = std::max(largest, norm(velocity_in_trough({.base = {x, 0.0, p_.reach},
+                                                           .along = {1, 0, 0},
+                                                           .out = {0, 0, 1},
+                                                           .is_in_trough = true},
+                                                          edge)));
+    }
+  }
+  return largest;
+}
+
+/// Cleats of other sections may be nearer than the one whose middle is: all that are not farther
+/// along the belt than the nearest so far.
+void Cleats::look_in_trough(double run, Vec3 q, Nearest& best) const {
+  const double place = (lap_ + std::clamp(q.x, -p_.length, 0.0) - run) / spacing_;
+  const double off_box =
+      std::hypot(std::max({q.z - p_.reach - highest_, p_.reach + lowest_ - q.z, 0.0}),
+                 std::max(std::abs(q.y) - p_.half_width, 0.0));
+  const auto look = [&](double k) {
+    const Stand stand = stand_at(k * spacing_ + run);
+    const double ahead = std::abs(q.x - stand.base.x) - 0.5 * p_.thickness;
+    // No nearer than the box round them all.
+    if (stand.is_in_trough && ahead > 0.0 &&
+        ahead * ahead + off_box * off_box >= best.point.distance * best.point.distance) {
+      return false;
+    }
+    const SurfacePoint s = stand.is_in_trough ? strip(stand, q) : box(stand, q);
+    if (s.distance < best.point.distance) best = {s, stand};
+    return stand.is_in_trough;
+  };
+  // Outwards on either side, to the first on a pulley.
+  double k = std::floor(place);
+  while (look(k)) k -= 1.0;
+  k = std::floor(place) + 1.0;
+  while (look(k)) k += 1.0;
 }
 
 SurfacePoint Cleats::box(const Stand& stand, Vec3 q) const {
   const Vec3 off = q - stand.base;
-  const double a = dot(off, stand.along);
-  const double n = dot(off, stand.out);
-  const double half = 0.5 * p_.thickness;
-  const double beyond_a = a - std::clamp(a, -half, half);
-  const double beyond_y = off.y - std::clamp(off.y, -p_.half_width, p_.half_width);
-  const double beyond_n = n - std::clamp(n, 0.0, p_.top);
-  const Vec3 away = beyond_a * stand.along + beyond_n * stand.out + Vec3{0.0, beyond_y, 0.0};
-  const double distance = norm(away);
-  if (distance > 0.0) return {distance, away / distance};
-  // Inside; the foot is in the belt.
-  SurfacePoint s{n - p_.top, stand.out};
-  if (std::abs(a) - half > s.distance) {
-    s = {std::abs(a) - half, a < 0.0 ? -stand.along : stand.along};
-  }
-  const double beside = std::abs(off.y) - p_.half_width;
-  if (beside > s.distance) s = {beside, Vec3{0.0, off.y < 0.0 ? -1.0 : 1.0, 0.0}};
-  return s;
+  return nearest_of_bar(
+      {dot(off, stand.along), dot(off, stand.out), std::abs(off.y) - p_.half_width, stand.along,
+       stand.out, Vec3{0.0, off.y < 0.0 ? -1.0 : 1.0, 0.0}},
+      0.5 * p_.thickness, p_.top);
 }
 
 Cleats::Nearest Cleats::nearest(double run, Vec3 q, double limit) const {
@@ -80,8 +162,13 @@ Cleats::Nearest Cleats::nearest(double run, Vec3 q, double limit) const {
   };
   const double x = std::clamp(q.x, -p_.length, 0.0);
   const double back = half_round_ + p_.length;  // where the return run ends
-  const double high = std::max(q.z - p_.reach - p_.top, p_.reach - q.z);
-  if (high < best.point.distance) look(lap_ + x, back + half_round_, lap_);
+  if (p_.trough) {
+    const double over = std::max(q.z - p_.reach - highest_, p_.reach + lowest_ - q.z);
+    if (over < best.point.distance) look_in_trough(run, q, best);
+  } else {
+    const double high = std::max(q.z - p_.reach - p_.top, p_.reach - q.z);
+    if (high < best.point.distance) look(lap_ + x, back + half_round_, lap_);
+  }
   const double low = std::max(-q.z - p_.reach - p_.top, q.z + p_.reach);
   if (low < best.point.distance) look(half_round_ - x, half_round_, back);
   if (q.x > 0.0) look(p_.reach * std::atan2(q.x, q.z), 0.0, half_round_);
@@ -92,12 +179,36 @@ Cleats::Nearest Cleats::nearest(double run, Vec3 q, double limit) const {
   return best;
 }
 
-Triangles Cleats::triangles(double run, double from, double to) const {
+void Cleats::draw_in_trough(Triangles& t, const Stand& stand,
+                            const std::vector<double>& widths) const {
+  const auto corner = [&](double a, double across, double n) {
+    return p_.trough->at(stand.base.x, across, n * p_.top) +
+           Vec3{0.5 * a * p_.thickness, 0.0, p_.reach};
+  };
+  for (std::size_t k = 0; k + 1 < widths.size(); ++k) {
+    const double w = widths[k];
+    const double v = widths[k + 1];
+    add_quad(t, corner(-1, w, 1), corner(1, w, 1), corner(1, v, 1), corner(-1, v, 1));
+    add_quad(t, corner(1, w, 0), corner(1, v, 0), corner(1, v, 1), corner(1, w, 1));
+    add_quad(t, corner(-1, w, 0), corner(-1, w, 1), corner(-1, v, 1), corner(-1, v, 0));
+  }
+  const double w = widths.front();
+  const double v = widths.back();
+  add_quad(t, corner(-1, v, 0), corner(-1, v, 1), corner(1, v, 1), corner(1, v, 0));
+  add_quad(t, corner(-1, w, 0), corner(1, w, 0), corner(1, w, 1), corner(-1, w, 1));
+}
+
+Triangles Cleats::triangles(double run, double from, double to,
+                            const std::vector<double>& widths) const {
   Triangles t;
   for (int k = 0; k < count_; ++k) {
     const Stand s = stand_at(k * spacing_ + run);
     if (s.base.x < from || s.base.x > to) {
       if (!(s.is_on_pulley && s.pulley >= from && s.pulley <= to)) continue;
+    }
+    if (s.is_in_trough) {
+      draw_in_trough(t, s, widths);
+      continue;
     }
     const auto corner = [&](double a, double y, double n) {
       return s.base + 0.5 * a * p_.thickness * s.along + Vec3{0.0, y * p_.half_width, 0.0} +

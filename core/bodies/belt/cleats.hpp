@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "bodies/belt/trough.hpp"
 #include "bodies/shape.hpp"
 #include "dust/sdk/vec3.hpp"
 
 #include <limits>
+#include <optional>
+#include <vector>
 
 namespace dust::bodies {
 
@@ -16,11 +19,14 @@ struct CleatParameters {
   double top = 0.0;         ///< over the middle surface
   double thickness = 0.0;   ///< along the belt
   double spacing = 0.0;     ///< wanted; made such that a whole number goes round the belt
+  std::optional<Trough> trough = std::nullopt;  ///< of the carrying run where that is not flat
 };
 
-/// Crossbars on a flat belt round two pulleys: rigid boxes that stand on its middle surface, square
-/// to it at their middle. They run with it: on the runs they shift, round the pulleys they turn
-/// about the pulley's axis.
+/// Crossbars on a belt round two pulleys. On a flat belt they are rigid boxes that stand on its
+/// middle surface, square to it at their middle: on the runs they shift, round the pulleys they
+/// turn about the pulley's axis. On the carrying run of a troughed belt each fits the section it is
+/// at: a strip of that section, as high everywhere along the section's normal; in the transitions
+/// it bends with the belt.
 ///
 /// Coordinates: x along the belt from the head pulley's axis (negative before it), y across, z up
 /// from the axis. The way s round the belt begins over the head pulley's axis; cleat k is at
@@ -39,7 +45,8 @@ class Cleats {
     sdk::Vec3 along;  ///< unit, the way it runs
     sdk::Vec3 out;    ///< unit, from base to top
     bool is_on_pulley = false;
-    double pulley = 0.0;  ///< x of its axis
+    double pulley = 0.0;        ///< x of its axis
+    bool is_in_trough = false;  ///< `base` and `out` are those of a flat run
   };
   struct Nearest {
     SurfacePoint point;
@@ -48,10 +55,18 @@ class Cleats {
   /// Those that are not nearer than `limit` [m] may be left out: then the distance is `limit`.
   [[nodiscard]] Nearest nearest(double run, sdk::Vec3 q,
                                 double limit = std::numeric_limits<double>::infinity()) const;
-  /// Of those between two places along the belt.
-  [[nodiscard]] Triangles triangles(double run, double from, double to) const;
+  /// Of those between two places along the belt; those in a trough with corners at `widths` across.
+  [[nodiscard]] Triangles triangles(double run, double from, double to,
+                                    const std::vector<double>& widths) const;
+  /// How a point of a cleat that is in the trough moves, over the belt's speed: eq. (6) there.
+  [[nodiscard]] sdk::Vec3 velocity_in_trough(const Stand& stand, sdk::Vec3 q) const;
+  /// Speed of the fastest point over the belt's.
+  [[nodiscard]] double largest_factor() const;
 
  private:
+  [[nodiscard]] SurfacePoint strip(const Stand& stand, sdk::Vec3 q) const;
+  void look_in_trough(double run, sdk::Vec3 q, Nearest& best) const;
+  void draw_in_trough(Triangles& t, const Stand& stand, const std::vector<double>& widths) const;
   [[nodiscard]] Stand stand_at(double way) const;
   [[nodiscard]] SurfacePoint box(const Stand& stand, sdk::Vec3 q) const;
 
@@ -60,6 +75,8 @@ class Cleats {
   double lap_ = 0.0;         ///< [m] round the belt
   int count_ = 0;
   double spacing_ = 0.0;
+  double lowest_ = 0.0;   ///< [m] of a trough's cleats, from the line of the pulleys' tops
+  double highest_ = 0.0;  ///< [m]
 };
 
 }  // namespace dust::bodies

@@ -182,6 +182,48 @@ Vec3 Trough::at(double x, double across) const {
   return {x, side * (p_.half_centre + r * s.cosine), s.height + r * s.sine};
 }
 
+Vec3 Trough::at(double x, double across, double over) const {
+  const Section s = section(x);
+  const double angle = 2.0 * std::atan(s.slope);
+  const double turned = std::abs(across) - (p_.half_centre - p_.bend);
+  const double theta = s.radius > 0.0 ? std::clamp(turned / s.radius, 0.0, angle) : 0.0;
+  const double sine = std::sin(theta);
+  return at(x, across) + over * Vec3{0.0, across < 0.0 ? sine : -sine, std::cos(theta)};
+}
+
+Trough::Seen Trough::seen_from(double x, double y, double z) const {
+  const Section s = section(x);
+  const SectionFoot f = nearest_in(s, y, z);
+  const double side = y < 0.0 ? -1.0 : 1.0;
+  const double flat_end = p_.half_centre - p_.bend;
+  const double foot_y = std::abs(f.y);
+  const double foot_z = f.z - s.height;
+  const double wing = (foot_y - p_.half_centre) * s.cosine + foot_z * s.sine;
+  double theta = 0.0;
+  Seen seen;
+  seen.past_edge = -std::numeric_limits<double>::infinity();
+  if (s.radius > 0.0 && foot_y > flat_end) {
+    const double angle = 2.0 * std::atan(s.slope);
+    const bool is_on_wing = wing >= p_.bend;
+    theta = is_on_wing ? angle : std::atan2(foot_y - flat_end, s.radius - foot_z);
+    seen.across = flat_end + s.radius * theta + (is_on_wing ? wing - p_.bend : 0.0);
+  } else {
+    seen.across = foot_y;
+  }
+  const double sine = std::sin(theta);
+  const double cosine = std::cos(theta);
+  const double off_y = side * y - foot_y;
+  const double off_z = z - f.z;
+  seen.over = -off_y * sine + off_z * cosine;
+  if (seen.across > p_.half_centre) {
+    seen.past_edge = seen.across - p_.half_width + off_y * cosine + off_z * sine;
+  }
+  seen.across *= side;
+  seen.normal = {0.0, -side * sine, cosine};
+  seen.side = {0.0, side * cosine, sine};
+  return seen;
+}
+
 Vec3 Trough::running_direction(Vec3 foot) const {
   const double x = std::clamp(foot.x, -p_.length, 0.0);
   const Section s = section(x);

@@ -38,6 +38,20 @@ class Trough {
   /// The unit vector along which the belt runs at a point of the surface.
   [[nodiscard]] sdk::Vec3 running_direction(sdk::Vec3 foot) const;
   [[nodiscard]] const TroughParameters& parameters() const { return p_; }
+  /// A point seen from the section at `x`, in the section's plane.
+  struct Seen {
+    double over = 0.0;  ///< [m] along `normal` from its foot, negative below the belt
+    double past_edge =
+        0.0;              ///< [m] along `side` from the belt's edge; inside as far as its wing goes
+    sdk::Vec3 normal;     ///< unit, at its foot, to the carrying side
+    sdk::Vec3 side;       ///< unit, along the belt at its foot, to the edge that is nearer
+    double across = 0.0;  ///< [m] of its foot, along the belt from its middle, as of at()
+  };
+  [[nodiscard]] Seen seen_from(double x, double y, double z) const;
+  /// A point `over` the belt's middle surface in the section at `x`, along its normal there.
+  [[nodiscard]] sdk::Vec3 at(double x, double across, double over) const;
+  /// Whether all sections from one place to another are the same.
+  [[nodiscard]] bool is_even(double from, double to) const;
 
  private:
   /// The section at one place along the run.
@@ -57,8 +71,6 @@ class Trough {
   };
   [[nodiscard]] Section section(double x) const;
   [[nodiscard]] Section measured(double x) const;
-  /// Whether all sections from one place to another are the same.
-  [[nodiscard]] bool is_even(double from, double to) const;
   [[nodiscard]] SectionFoot nearest_in(const Section& s, double y, double z) const;
   [[nodiscard]] double best_start(sdk::Vec3 point, double nearest) const;
   [[nodiscard]] double wing_end(double slope) const;

@@ -47,9 +47,26 @@ std::map<std::string, Value> cleated() {
           {"cleat_spacing", 0.5}};
 }
 
-Body running_belt(double ramp = 0.0) {
+/// The same on rolls at 35 degrees, with raised pulleys.
+constexpr double k_trough = 35.0 * k_pi / 180.0;
+constexpr double k_centre = 0.3;
+constexpr double k_bend = 0.12;
+constexpr double k_transition = 1.2;
+constexpr double k_rise = 0.04;
+
+std::map<std::string, Value> troughed() {
+  auto values = cleated();
+  values.insert({{"trough_angle", k_trough},
+                 {"centre_roll", k_centre},
+                 {"bend_radius", k_bend},
+                 {"transition", k_transition},
+                 {"pulley_rise", k_rise}});
+  return values;
+}
+
+Body running_belt(double ramp = 0.0, bool is_troughed = false) {
   Body body;
-  body.shape = make_shape("belt_conveyor", cleated());
+  body.shape = make_shape("belt_conveyor", is_troughed ? troughed() : cleated());
   body.motions.push_back(dust::test::ModelLoader::make<Motion>(
       "motion", "belt", {{"speed", k_speed}, {"ramp", ramp}}));
   return body;
@@ -150,40 +167,46 @@ TEST_CASE("cleats shall turn about the pulleys and come back below the belt") {
 TEST_CASE("a face shall move along its normal as fast as the distance to it falls") {
   // What the air displaces: from the shape at two times, without the velocity. In a turned frame,
   // on the run, over the pulley and below.
-  Body body = running_belt();
-  body.frame_origin = {1, 2, 3};
-  body.frame_axis = {0, 1, 0};
-  body.frame_angle = -0.6;
-  constexpr double k_step = 1e-6;
-  const auto at_rest = body.placement(0.0);
-  int moved = 0;
-  for (const double time : {0.11, 0.2, 0.27}) {
-    for (int n = 0; n < 400; ++n) {
-      const double a = 0.1 * n;
-      const Vec3 local{-2.0 + 2.5 * std::fmod(0.37 * n, 1.0), 0.3 * std::sin(a),
-                       0.42 * std::cos(7 * a)};
-      const Vec3 p = at_rest.to_domain(local);
-      const auto s = body.nearest(p, body.placement(time));
-      if (!(s.distance > 1e-3)) continue;
-      const double later = body.nearest(p, body.placement(time + k_step)).distance;
-      const double earlier = body.nearest(p, body.placement(time - k_step)).distance;
-      const Vec3 v = body.surface_velocity(p - s.distance * s.normal, s.normal, time);
-      const double falls = (earlier - later) / (2 * k_step);
-      CHECK(falls == doctest::Approx(dot(v, s.normal)).epsilon(1e-3).scale(1.0));
-      moved += std::abs(falls) > 0.5 ? 1 : 0;
+  for (const bool is_troughed : {false, true}) {
+    Body body = running_belt(0.0, is_troughed);
+    body.frame_origin = {1, 2, 3};
+    body.frame_axis = {0, 1, 0};
+    body.frame_angle = -0.6;
+    constexpr double k_step = 1e-6;
+    const auto at_rest = body.placement(0.0);
+    int moved = 0;
+    for (const double time : {0.11, 0.2, 0.27}) {
+      for (int n = 0; n < 400; ++n) {
+        const double a = 0.1 * n;
+        const Vec3 local{-2.0 + 2.5 * std::fmod(0.37 * n, 1.0), 0.3 * std::sin(a),
+                         0.42 * std::cos(7 * a)};
+        const Vec3 p = at_rest.to_domain(local);
+        const auto s = body.nearest(p, body.placement(time));
+        if (!(s.distance > 1e-3)) continue;
+        const double later = body.nearest(p, body.placement(time + k_step)).distance;
+        const double earlier = body.nearest(p, body.placement(time - k_step)).distance;
+        const Vec3 v = body.surface_velocity(p - s.distance * s.normal, s.normal, time);
+        const double falls = (earlier - later) / (2 * k_step);
+        CHECK(falls == doctest::Approx(dot(v, s.normal)).epsilon(1e-3).scale(1.0));
+        moved += std::abs(falls) > 0.5 ? 1 : 0;
+      }
     }
+    CHECK(moved > 50);
   }
-  CHECK(moved > 50);
 }
 
 TEST_CASE("lists shall hold every grain that cleats come to touch") {
-  const Body body = running_belt();
-  for (int n = 0; n < 2000; ++n) {
-    const double time = 0.0137 * n;
-    const auto at = body.placement(time);
-    const Vec3 p{-4.5 + 5.0 * std::fmod(0.618 * n, 1.0), 0.1, -0.5 + std::fmod(0.414 * n, 1.0)};
-    for (int part = 0; part < 2; ++part) {
-      if (body.contact(part, p, 1.0, at).distance < 0.03) CHECK(body.is_within(part, p, 0.03, at));
+  for (const bool is_troughed : {false, true}) {
+    const Body body = running_belt(0.0, is_troughed);
+    for (int n = 0; n < 2000; ++n) {
+      const double time = 0.0137 * n;
+      const auto at = body.placement(time);
+      const Vec3 p{-4.5 + 5.0 * std::fmod(0.618 * n, 1.0),
+                   is_troughed ? 0.4 * std::sin(0.1 * n) : 0.1, -0.5 + std::fmod(0.414 * n, 1.0)};
+      for (int part = 0; part < 2; ++part) {
+        if (body.contact(part, p, 1.0, at).distance < 0.03)
+          CHECK(body.is_within(part, p, 0.03, at));
+      }
     }
   }
 }
@@ -208,6 +231,81 @@ TEST_CASE("drawn cleats shall lie on those that grains touch") {
   }
 }
 
+TEST_CASE("cleats in a trough shall fit its section") {
+  const Body body = running_belt(0.0, true);
+  const double tangent = k_bend * std::tan(k_trough / 2);
+  const double floor = k_reach - k_rise;  // middle surface on the centre roll
+  const double top = k_thickness / 2 + k_height;
+  for (const double time : {0.0, 0.11}) {
+    const auto at = body.placement(time);
+    const double x = std::fmod(k_speed * time, k_pitch) - 4 * k_pitch;
+    // Over centre and wing, square to either, and over the bend along its radius.
+    const Vec3 out{0, -std::sin(k_trough), std::cos(k_trough)};
+    const Vec3 up_wing{0, std::cos(k_trough), std::sin(k_trough)};
+    const Vec3 on_wing = Vec3{x, k_centre / 2, floor} + 0.15 * up_wing;
+    const auto over = [&](Vec3 base, Vec3 normal) {
+      const auto s = body.contact(1, base + (top + 0.02) * normal, 1.0, at);
+      CHECK(s.distance == doctest::Approx(0.02).epsilon(1e-9));
+      CHECK(norm(s.normal - normal) < 1e-9);
+    };
+    over({x, 0.05, floor}, {0, 0, 1});
+    over(on_wing, out);
+    const double half = k_trough / 2;
+    const Vec3 turn{0, -std::sin(half), std::cos(half)};
+    over(Vec3{x, k_centre / 2 - tangent, floor + k_bend} - k_bend * turn, turn);
+    // Before its face, over the wing; a sphere there touches belt and cleat.
+    const Vec3 corner = on_wing + Vec3{k_bar / 2 + 0.02, 0, 0} + (k_thickness / 2 + 0.025) * out;
+    CHECK(body.contact(1, corner, 1.0, at).distance == doctest::Approx(0.02).epsilon(1e-9));
+    CHECK(norm(body.contact(1, corner, 1.0, at).normal - Vec3{1, 0, 0}) < 1e-9);
+    CHECK(body.contact(0, corner, 1.0, at).distance == doctest::Approx(0.025).epsilon(1e-9));
+    // Its end is the belt's: 0.4 m from the middle along the section.
+    const double wing = 0.4 - k_centre / 2 + 2 * tangent - k_bend * k_trough;
+    const Vec3 end = Vec3{x, k_centre / 2, floor} + wing * up_wing;
+    const auto off_edge = body.contact(1, end + 0.03 * up_wing + 0.05 * out, 1.0, at);
+    CHECK(off_edge.distance == doctest::Approx(0.03).epsilon(1e-9));
+    CHECK(norm(off_edge.normal - up_wing) < 1e-9);
+    const Vec3 v = body.surface_velocity(corner - Vec3{0.02, 0, 0}, {1, 0, 0}, time);
+    CHECK(norm(v - Vec3{k_speed, 0, 0}) < 1e-9);
+  }
+}
+
+TEST_CASE("the distance to cleats in a trough shall be that of brute force, in transitions too") {
+  const Body body = running_belt(0.0, true);
+  const auto at = body.placement(0.1);
+  // Points of the drawn cleats, which another function makes, finely divided.
+  std::vector<Vec3> drawn;
+  const auto t = body.triangles({-3.9, -1, -1}, {1, 1, 1}, 0.02, at);
+  // Of a triangle of the belt's face at most two corners are on a cleat.
+  const auto is_cleat = [&](std::size_t n) {
+    return std::all_of(
+        t.begin() + static_cast<std::ptrdiff_t>(n), t.begin() + static_cast<std::ptrdiff_t>(n) + 3,
+        [&](Vec3 p) { return p.z > 0.2 && std::abs(body.contact(1, p, 1.0, at).distance) < 1e-4; });
+  };
+  for (std::size_t n = 0; n + 2 < t.size(); n += 3) {
+    if (!is_cleat(n)) continue;
+    for (int i = 0; i <= 6; ++i) {
+      for (int j = 0; i + j <= 6; ++j) {
+        drawn.push_back(t[n] + i / 6.0 * (t[n + 1] - t[n]) + j / 6.0 * (t[n + 2] - t[n]));
+      }
+    }
+  }
+  REQUIRE(drawn.size() > 5000);
+  for (int n = 0; n < 300; ++n) {
+    const Vec3 p{-3.4 + 3.2 * std::fmod(0.618 * n, 1.0), 0.4 * std::sin(0.7 * n),
+                 0.35 + 0.4 * std::fmod(0.414 * n, 1.0)};
+    const auto s = body.contact(1, p, 2.0, at);
+    if (!(s.distance > 0.005)) continue;
+    double brute = 1e9;
+    for (const Vec3& q : drawn) brute = std::min(brute, norm(p - q));
+    CAPTURE(p.x);
+    CAPTURE(p.y);
+    CAPTURE(p.z);
+    CHECK(s.distance < brute + 1e-4);
+    CHECK(brute < s.distance + 0.01);
+    CHECK(std::abs(body.contact(1, p - s.distance * s.normal, 2.0, at).distance) < 1e-9);
+  }
+}
+
 TEST_CASE("cleats that cannot be made shall be refused by name") {
   const auto refused = [](const std::string& key, const Value& value) {
     auto values = cleated();
@@ -223,10 +321,12 @@ TEST_CASE("cleats that cannot be made shall be refused by name") {
   CHECK(refused("cleat_thickness", 0.0) == "cleat_thickness is 0: cleats need a thickness");
   CHECK(refused("cleat_spacing", 0.0) == "cleat_spacing is 0: cleats need a spacing");
   CHECK(refused("cleat_spacing", 0.03) == "cleat_spacing is not longer than cleat_thickness");
-  const std::string flat =
-      "cleats stand on a flat belt only: leave out trough_angle, pulley_rise and sag";
-  CHECK(refused("trough_angle", 0.6) == flat);
-  CHECK(refused("pulley_rise", 0.05) == flat);
+  auto folded = troughed();
+  folded["bend_radius"] = 0.065;
+  CHECK_THROWS_WITH_AS(
+      make_shape("belt_conveyor", folded),
+      "cleat_height is not below bend_radius: a cleat would fold where the belt bends",
+      dust::sdk::ParameterError);
   CHECK(refused("tail", Vec3{}) == "head and tail are the same point");
   Body body = running_belt();
   CHECK(dust::bodies::motion_conflict(body).empty());

@@ -335,41 +335,47 @@ TEST_CASE("the force of the stress shall be found once for a flow, and follow th
 }
 
 TEST_CASE("a belt whose cleats alone are cut anew shall be as one that is cut in whole") {
-  Parts parts;
-  parts.grid = fluid::Grid::make({-0.8, -0.3, 0}, {0.6, 0.3, 0.5}, {28, 12, 10}, {});
-  parts.bodies.emplace_back();
-  parts.bodies[0].shape = make_shape("belt_conveyor", {{"head", Vec3{}},
-                                                       {"tail", Vec3{-2, 0, 0}},
-                                                       {"radius", 0.19},
-                                                       {"thickness", 0.02},
-                                                       {"width", 0.4},
-                                                       {"cleat_height", 0.08},
-                                                       {"cleat_thickness", 0.03},
-                                                       {"cleat_spacing", 0.5}});
-  parts.bodies[0].motions.push_back(
-      ModelLoader::make<sdk::Motion>("motion", "belt", {{"speed", 1.0}}));
-  const fluid::Sides sides(parts.grid, parts.conditions);
-  const fluid::FaceProperties properties(parts.grid, parts.spec);
-  const fluid::Geometry at_rest =
-      fluid::build_static_geometry(parts.grid, parts.bodies, sides.kinds(), properties);
-  const auto cut = [&](const fluid::Geometry* known) {
-    return fluid::build_geometry(parts.grid, parts.bodies, sides.kinds(), properties, {0.1, 0.12},
-                                 known);
-  };
-  const fluid::Geometry whole = cut(nullptr);
-  const fluid::Geometry anew = cut(&at_rest);
-  CHECK(whole.open_fraction == anew.open_fraction);
-  CHECK(whole.open_fraction != at_rest.open_fraction);  // the cleats are there
-  // The belt itself: its lower 10 mm of a cell of 50 mm.
-  CHECK(at_rest.open_fraction[parts.grid.index(8, 6, 3)] == doctest::Approx(0.8).epsilon(1e-9));
-  for (int d = 0; d < 3; ++d) {
-    // To rounding: shares of a face are means over instants where something moves.
-    const auto& area = whole.open_area.component[d];
-    const auto& area_anew = anew.open_area.component[d];
-    for (std::size_t n = 0; n < area.size(); ++n) {
-      if (std::abs(area[n] - area_anew[n]) > 1e-15) FAIL_CHECK("face " << n << " of " << d);
+  for (const double trough_angle : {0.0, 0.6}) {
+    CAPTURE(trough_angle);
+    Parts parts;
+    parts.grid = fluid::Grid::make({-0.8, -0.3, 0}, {0.6, 0.3, 0.5}, {28, 12, 10}, {});
+    parts.bodies.emplace_back();
+    parts.bodies[0].shape = make_shape("belt_conveyor", {{"head", Vec3{}},
+                                                         {"tail", Vec3{-2, 0, 0}},
+                                                         {"radius", 0.19},
+                                                         {"thickness", 0.02},
+                                                         {"width", 0.4},
+                                                         {"trough_angle", trough_angle},
+                                                         {"transition", 0.5},
+                                                         {"cleat_height", 0.08},
+                                                         {"cleat_thickness", 0.03},
+                                                         {"cleat_spacing", 0.5}});
+    parts.bodies[0].motions.push_back(
+        ModelLoader::make<sdk::Motion>("motion", "belt", {{"speed", 1.0}}));
+    const fluid::Sides sides(parts.grid, parts.conditions);
+    const fluid::FaceProperties properties(parts.grid, parts.spec);
+    const fluid::Geometry at_rest =
+        fluid::build_static_geometry(parts.grid, parts.bodies, sides.kinds(), properties);
+    const auto cut = [&](const fluid::Geometry* known) {
+      return fluid::build_geometry(parts.grid, parts.bodies, sides.kinds(), properties, {0.1, 0.12},
+                                   known);
+    };
+    const fluid::Geometry whole = cut(nullptr);
+    const fluid::Geometry anew = cut(&at_rest);
+    CHECK(whole.open_fraction == anew.open_fraction);
+    CHECK(whole.open_fraction != at_rest.open_fraction);  // the cleats are there
+    // The belt itself: its lower 10 mm of a cell of 50 mm; a trough begins to bend 5 mm from there.
+    CHECK(at_rest.open_fraction[parts.grid.index(8, 6, 3)] ==
+          doctest::Approx(0.8).epsilon(trough_angle == 0.0 ? 1e-9 : 1e-3));
+    for (int d = 0; d < 3; ++d) {
+      // To rounding: shares of a face are means over instants where something moves.
+      const auto& area = whole.open_area.component[d];
+      const auto& area_anew = anew.open_area.component[d];
+      for (std::size_t n = 0; n < area.size(); ++n) {
+        if (std::abs(area[n] - area_anew[n]) > 1e-15) FAIL_CHECK("face " << n << " of " << d);
+      }
+      CHECK(whole.kind[d] == anew.kind[d]);
     }
-    CHECK(whole.kind[d] == anew.kind[d]);
+    CHECK(whole.wall.x == anew.wall.x);
   }
-  CHECK(whole.wall.x == anew.wall.x);
 }

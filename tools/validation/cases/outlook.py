@@ -32,7 +32,7 @@ PARTS = (
          "out of the domain, by its direction."),
     Part("7.2.2", "Idlers that vibrate", "plant/idlers_shake", ("fines_up",), "middle of the fines above that of the lumps [mm]", {},
          "A piece of belt and load, shaken by 1 mm at 25 Hz or not: the fines sink."),
-    Part("7.2.4", "Belt scraper", "plant/scraper_or_none", ("carried_back",), "carried back [g/t]", {},
+    Part("7.2.4", "Belt scraper", "plant/scraper_or_none", ("carried_back",), "carried back [% of the load]", {},
          "Moist fines of 3 mm stick to the belt behind the head pulley; a blade takes them off."),
     Part("7.2.5", "Belt surface: cleats", "plant/cleats_or_none", ("carried",), "carried up [kg]", {},
          "A belt of 30 degrees with crossbars of 80 mm and without: what passes 1.3 m beyond the feed."),
