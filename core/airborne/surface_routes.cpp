@@ -109,13 +109,14 @@ void SurfaceRoutes::add_edges(std::size_t piece, const Flow& flow) {
       if (!(length > 0.0)) continue;
       const int last = sign > 0.0 ? grid_.count[d] - 1 : 0;
       const bool is_side = !grid_.is_periodic[d] && here.cell[d] == last;
-      const std::int32_t other = is_side ? -1 : after(piece, direction, sign);
-      // Where the surface ends, what lies on it waits.
+      const std::int32_t other = after(piece, direction, sign);
+      // Where the surface ends within the domain, what lies on it waits.
       if (!is_side && other < 0) continue;
-      edges_.push_back({.to = is_side ? k_outside : pieces_[static_cast<std::size_t>(other)].number,
-                        .direction = direction,
-                        .sign = sign,
-                        .length_over_area = length / area});
+      edges_.push_back(
+          {.to = other < 0 ? k_outside : pieces_[static_cast<std::size_t>(other)].number,
+           .direction = direction,
+           .sign = sign,
+           .length_over_area = length / area});
     }
   }
   p.end = edges_.size();

@@ -74,7 +74,8 @@ void check_ledger(const json& summary) {
     const double found =
         grains["on_grains_kg"].get<double>() + grains["left_with_grains_kg"].get<double>() +
         grains["drawn_out_with_grains_kg"].get<double>() + field["airborne_kg"].get<double>() +
-        sum(field["deposited_kg"]) + sum(field["left_kg"]) + sum(field["hoods_kg"]);
+        sum(field["deposited_kg"]) + sum(field.value("carried_out_kg", json::object())) +
+        sum(field["left_kg"]) + sum(field["hoods_kg"]);
     CHECK(entered > 0.0);
     CHECK(std::abs(found - entered) < 1e-12 * entered);
     // To what was set free, a millionth of the load.
