@@ -32,6 +32,10 @@ class Kept:
                 return cells
         return None
 
+    def only(self, names):
+        """Forgets runs but these: those that are there anew, and those that the case has no more."""
+        self._runs = {name: cells for name, cells in self._runs.items() if name in names}
+
     def has(self, run):
         return run.name in self._runs
 

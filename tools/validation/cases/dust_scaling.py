@@ -19,11 +19,15 @@ UNITS, EXPONENTS = {"load R": "kg/s", "fall S": "m", "size D": "m"}, {"load R": 
 NO_SLIP = {f"domain.boundaries.{side}.air": "{model: no_slip}" for side in ("left", "right", "front", "back")}
 
 
-PLUME, SAND = "dust/plume.yaml", {"emitters.sand.enabled": "true", "dust.field.sources.fall.begin": "1 h"}
-PLUMES = {"plume": ("dust of 10 um as a field", {}), "plume_sand": ("sand of 100 um as grains", SAND),
-          "plume_coarse": ("dust as a field, cells of 37.5 mm", {"fluid.cells": "[40, 40, 80]", "time.fluid_step": "15 ms"})}
+PLUME = "dust/plume.yaml"
+SAND = {"emitters.sand.enabled": "true", "dust.field.sources.fall.begin": "1 h", "domain.min": "[-0.75, -0.75, -2 m]",
+        "fluid.cells": "[60, 60, 200]", "time.end": "13.05 s", "time.checkpoint_every": "13.05 s"}
+COARSE_PLUME = {"fluid.cells": "[40, 40, 80]", "time.fluid_step": "15 ms"}
+# Of each what it is, its settings, and the depths below its source between which it is looked at [m]: turbulent, half way, above the floor.
+PLUMES = {"plume": ("dust of 10 um as a field", {}, (1.2, 2.0, 2.8)), "plume_sand": ("sand of 100 um as grains", SAND, (2.0, 3.4, 4.8)),
+          "plume_coarse": ("dust as a field, cells of 37.5 mm", COARSE_PLUME, (1.2, 2.0, 2.8))}
 STRENGTH = 9.81 * 0.02 / 1.2  # m4/s3, of 20 g/s
-STEADY, TURBULENT, FAR, BELOW = 5.0, 1.2, 2.0, 2.8  # s; m below the source
+FIRST_FALL = 0.6              # m/s: how fast a plume reaches the floor and settles there; means begin by then
 WIND, SPEEDS, KNOWN = "slug_wind", (1, 2, 4, 6), 2  # m/s; the speed that is calibrated at
 DROP = "drop_height_and_flow"
 DROPS = {"height of fall": ({"height_0.5_m": 0.5, "base": 1, "height_2_m": 2}, "m", 1.25),
@@ -34,7 +38,7 @@ LOW = {"emitters.slug.min": "[-100, -100, 750 mm]", "emitters.slug.max": "[100, 
 
 
 def plans():
-    return ([Plan(name, PLUME, settings) for name, (_, settings) in PLUMES.items()]
+    return ([Plan(name, PLUME, settings) for name, (_, settings, _) in PLUMES.items()]
             + study_points.plans(CHUTE) + variants(CHUTE, "no_slip", NO_SLIP, LEVELS["fall S"])
             + study_points.plans(DROP) + variants(DROP, "shear", SHEAR, DROPS["mass flow"][0])
             + study_points.plans(WIND) + variants(WIND, "low", LOW, [wind(u) for u in SPEEDS])
@@ -110,30 +114,30 @@ Walls that the air sticks to, in cells of 50 mm with an eddy viscosity, have a f
 smooth duct has 0.02: the study leaves it out (slip), and says beside it what it would do."""
 
 
-def flow_of(run):
-    """(z, Q/B^(1/3)) of the levels of a plume, from the source down; empty where it was not run."""
+def flow_of(run, height):
+    """(z, Q/B^(1/3)) of the levels of a plume, from the source down, that falls through `height` [m]; empty where it was not run."""
     if not run.is_finished():
         return []
     import plume  # needs numpy and h5py, as only a page of finished runs does
-    depth, flow, _ = plume.flow(run.folder, STEADY)
+    depth, flow, _ = plume.flow(run.folder, height / FIRST_FALL)
     return [(z, q / STRENGTH ** (1 / 3)) for z, q in zip(depth, flow) if 0.1 < z]
 
 
 def add_plume(page, runs):
     curves, far = [], []
-    for name, (text, _) in PLUMES.items():
-        levels = flow_of(runs[name])
+    for name, (text, _, (turbulent, middle, below)) in PLUMES.items():
+        levels = flow_of(runs[name], 5.0 if name == "plume_sand" else 3.0)
         curves.append(Curve(text, *map(list, zip(*levels))) if levels else Curve(text, [], []))
-        part = [(z, q) for z, q in levels if TURBULENT <= z <= BELOW]
-        far = far or [z for z, _ in part]
+        part = [(z, q) for z, q in levels if turbulent <= z <= below]
+        far = sorted({*far, *(z for z, _ in part)})
         is_judged = name != "plume_coarse"
         why = None if is_judged else "an experiment: what fewer cells across the source do"
-        page.add(f"plume, {text}: exponent of the flow over the height", exponent(part), "1.667 (Morton, Taylor and Turner 1956)",
+        page.add(f"plume, {text}: exponent of the flow over the height, {turbulent} to {below} m", exponent(part), "1.667 (Morton, Taylor and Turner 1956)",
                  *((1.467, 1.867) if is_judged else ()), why=why)
         page.add(f"plume, {text}: C, mean of the levels", sum(q / z ** (5 / 3) for z, q in part) / len(part) if part else None,
                  "0.14 to 0.16 measured; 0.115 to 0.164 for an entrainment coefficient of 0.10 to 0.13",
                  *((0.11, 0.17) if is_judged else ()), why=why)
-        for low, high in ((TURBULENT, FAR), (FAR, BELOW)):
+        for low, high in ((turbulent, middle), (middle, below)):
             page.add(f"plume, {text}: exponent from {low} to {high} m alone", exponent([(z, q) for z, q in part if low <= z <= high]), "1.667",
                      why="shows whether the plume has developed")
     page.chart("Air that a stream of fines draws in", "height of fall z [m]", "Q/B^(1/3) [m^(5/3)]",
@@ -142,12 +146,13 @@ def add_plume(page, runs):
     page.note(PLUME_NOTE)
 
 
-PLUME_NOTE = f"""**Plume.** B = g m'/rho_f, z from the source, means from {STEADY:g} s on, levels from {TURBULENT} to {BELOW} m: from three widths of the source on,
-where the speed of the field's plume in the middle comes to fluctuate by a quarter. Above, the stream contracts to seven cells across and is smooth. What
-fails is the length that it stays smooth over: its flow grows with a power of 0.6 there (the sand, down to 2 m), of 1.6 to 2 once it has turned
-turbulent (from {FAR:g} m on), and what it did not draw in above lowers C. A plume that turns turbulent within a width of its source wants several times
-as many cells across its neck than these seven. The model's eddy viscosity takes 0.13 of the exponent
-(over the same time until 9.6 s the plume with it has 1.42)."""
+PLUME_NOTE = f"""**Plume.** B = g m'/rho_f, z from the source, means from the time on that a fall at {FIRST_FALL:g} m/s takes, levels from where the plume has turned
+turbulent (the speed in its middle comes to fluctuate by a quarter). The field's plume with sixteen cells across its source does so within three widths of
+it and draws in what Morton, Taylor and Turner's does; with eleven cells (37.5 mm) it stays smooth for longer and draws in less. The sand, which falls
+through the first eddies at its 0.5 m/s, stays smooth for five widths: over 3 m of fall its exponent is 1.1 for that (from 1.2 m on; 0.8 with
+grains of 4 mm that stand for eight times as many), over 5 m it comes to the exponent of plumes. What fails is its C, by what it did not draw in on the
+first 2 m: the same flow has C = 0.11 with z counted from 0.5 to 0.8 m below the source. Besides, sand that falls at w_s through a plume of speed w is
+thinner by w/(w + w_s), and so is what drives the air: C falls by a tenth."""
 
 
 def got_out(run):
