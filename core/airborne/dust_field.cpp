@@ -54,7 +54,6 @@ DustField::DustField(const fluid::Grid& grid, const scenario::DustFieldSpec& spe
       layers_(spec.diameters.size()),
       do_surfaces_run_(ends.run) {
   if (spec.resuspension) resuspension_.emplace(spec, gas, norm(gravity));
-  if (spec.inertia) acceleration_.emplace(grid);
   for (const double diameter : spec.diameters) {
     Class c;
     c.dust = make_class(diameter, spec.density, gravity, gas);
@@ -70,6 +69,9 @@ DustField::DustField(const fluid::Grid& grid, const scenario::DustFieldSpec& spe
     if (do_surfaces_run_) c.carried_out.assign(ends.surfaces, 0.0);
     classes_.push_back(std::move(c));
   }
+  // Classes ascend: the last one takes longest to follow.
+  const double memory = classes_.back().dust.inertia_time;
+  if (spec.inertia && memory > 0.0) acceleration_.emplace(grid, memory);
 }
 
 std::vector<DustField::Part> DustField::parts_of(sdk::Vec3 min, sdk::Vec3 max,

@@ -28,6 +28,11 @@ DUST_KERNEL void velocity_row(int n, const double* throughflow, const double* pa
   }
 }
 
+DUST_KERNEL void remember_row(int n, double share, const double* velocity, double* past) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) past[i] += share * (velocity[i] - past[i]);
+}
+
 /// A direction that the velocity along a row's faces changes in.
 struct Across {
   std::ptrdiff_t stride = 0;
@@ -47,7 +52,7 @@ inline __attribute__((always_inline)) double slope(const double* v, int i, std::
 }
 
 DUST_KERNEL void acceleration_row(int n, const Across& own, const Across& e, const Across& f,
-                                  double inverse_step, const double* before, float* acceleration,
+                                  double inverse_time, const double* past, float* acceleration,
                                   float* speed) {
   const double *v = own.velocity, *ve = e.velocity, *vf = f.velocity;
   const std::ptrdiff_t s = own.stride, se = e.stride, sf = f.stride;
@@ -59,7 +64,7 @@ DUST_KERNEL void acceleration_row(int n, const Across& own, const Across& e, con
     const double carried = u * slope(v, i, s, own.inverse_h) +
                            across_e * slope(v, i, se, e.inverse_h) +
                            across_f * slope(v, i, sf, f.inverse_h);
-    const double all = (u - before[i]) * inverse_step + carried;
+    const double all = (u - past[i]) * inverse_time + carried;
     acceleration[i] = static_cast<float>(u != 0.0 ? all : 0.0);
     speed[i] = static_cast<float>(std::sqrt(u * u + across_e * across_e + across_f * across_f));
   }
@@ -73,8 +78,8 @@ std::array<int, 3> faces(const fluid::Grid& grid, std::size_t d) {
 
 }  // namespace
 
-GasAcceleration::GasAcceleration(const fluid::Grid& grid)
-    : grid_(grid), velocity_(grid), before_(grid) {
+GasAcceleration::GasAcceleration(const fluid::Grid& grid, double memory)
+    : grid_(grid), velocity_(grid), past_(grid), memory_(memory) {
   for (auto* fields : {&acceleration_, &speed_}) {
     for (std::vector<float>& field : *fields) field.assign(grid.size, 0.0F);
   }
@@ -113,7 +118,7 @@ void GasAcceleration::wrap(std::vector<double>& values, std::size_t component) c
   }
 }
 
-void GasAcceleration::find_row(int dir, int j, int k, double inverse_step) {
+void GasAcceleration::find_row(int dir, int j, int k, double inverse_time) {
   const auto d = static_cast<std::size_t>(dir);
   const std::ptrdiff_t o = grid_.index(0, j, k);
   const auto across = [&](std::size_t e) {
@@ -123,8 +128,8 @@ void GasAcceleration::find_row(int dir, int j, int k, double inverse_step) {
   };
   float* acceleration = acceleration_[d].data() + o;
   const int n = faces(grid_, d)[0];
-  acceleration_row(n, across(d), across((d + 1) % 3), across((d + 2) % 3), inverse_step,
-                   before_.component[d].data() + o, acceleration, speed_[d].data() + o);
+  acceleration_row(n, across(d), across((d + 1) % 3), across((d + 2) % 3), inverse_time,
+                   past_.component[d].data() + o, acceleration, speed_[d].data() + o);
   if (grid_.is_periodic[d]) return;
   const int place[3] = {0, j, k};
   if (d == 0) {
@@ -134,24 +139,34 @@ void GasAcceleration::find_row(int dir, int j, int k, double inverse_step) {
   }
 }
 
-void GasAcceleration::find(const Flow& flow, double step) {
-  std::swap(velocity_, before_);
-  find_velocity(flow);
-  // What the gas was before the first step is not known: as it is in it.
-  const double inverse_step = is_first_ ? 0.0 : 1.0 / step;
+/// past += (u - past) (1 - exp(-step / memory)), whose rate of change is (u - past) / memory.
+void GasAcceleration::remember(double step) {
+  const double share = is_first_ ? 1.0 : -std::expm1(-step / memory_);
   is_first_ = false;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto n = faces(grid_, d);
+    for_rows(n[0], n[1], n[2], [&](int j, int k) {
+      const std::size_t o = at(grid_.index(0, j, k));
+      remember_row(n[0], share, &velocity_.component[d][o], &past_.component[d][o]);
+    });
+  }
+}
+
+void GasAcceleration::find(const Flow& flow, double step) {
+  find_velocity(flow);
+  remember(step);
   for (int d = 0; d < 3; ++d) {
     if (grid_.count[static_cast<std::size_t>(d)] == 1) continue;  // nothing moves there
     const auto n = faces(grid_, static_cast<std::size_t>(d));
-    for_rows(n[0], n[1], n[2], [&](int j, int k) { find_row(d, j, k, inverse_step); });
+    for_rows(n[0], n[1], n[2], [&](int j, int k) { find_row(d, j, k, 1.0 / memory_); });
   }
 }
 
 void GasAcceleration::save(sdk::ArchiveWriter& archive) const {
   archive.integer("gas_is_first", is_first_ ? 1 : 0);
-  archive.numbers("gas_velocity_x", velocity_.component[0]);
-  archive.numbers("gas_velocity_y", velocity_.component[1]);
-  archive.numbers("gas_velocity_z", velocity_.component[2]);
+  archive.numbers("gas_velocity_x", past_.component[0]);
+  archive.numbers("gas_velocity_y", past_.component[1]);
+  archive.numbers("gas_velocity_z", past_.component[2]);
 }
 
 void GasAcceleration::load(sdk::ArchiveReader& archive) {
@@ -162,7 +177,7 @@ void GasAcceleration::load(sdk::ArchiveReader& archive) {
     if (values.size() != grid_.size) {
       throw sdk::ModelError("the checkpoint's dust belongs to another grid");
     }
-    velocity_.component[d] = std::move(values);
+    past_.component[d] = std::move(values);
   }
 }
 

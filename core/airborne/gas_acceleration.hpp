@@ -16,10 +16,12 @@ namespace dust::airborne {
 /// of the domain and in closed faces.
 class GasAcceleration {
  public:
-  explicit GasAcceleration(const fluid::Grid& grid);
+  /// `memory` [s]: the rate of change is that of the mean over so long a past, exponentially
+  /// weighted. With the response time of the dust it is what dust feels of gas that changes faster:
+  /// with less, it would be thrown about by what it is too slow to follow.
+  GasAcceleration(const fluid::Grid& grid, double memory);
 
-  /// Of the gas between the grains in a fluid step of `step` [s]; it has changed over the time
-  /// since the last call.
+  /// Of the gas between the grains at the end of a fluid step of `step` [s].
   void find(const Flow& flow, double step);
   /// [m/s2] on faces along d.
   [[nodiscard]] const std::vector<float>& field(std::size_t d) const { return acceleration_[d]; }
@@ -33,11 +35,13 @@ class GasAcceleration {
   void find_velocity(const Flow& flow);
   /// Gives a periodic component values beyond both ends.
   void wrap(std::vector<double>& values, std::size_t component) const;
-  void find_row(int d, int j, int k, double inverse_step);
+  void remember(double step);
+  void find_row(int d, int j, int k, double inverse_time);
 
   fluid::Grid grid_;
   fluid::FaceField velocity_;  ///< [m/s] of the gas between the grains; 0: nothing passes
-  fluid::FaceField before_;    ///< the same of the last call
+  fluid::FaceField past_;      ///< [m/s] its mean over the past
+  double memory_;
   std::array<std::vector<float>, 3> acceleration_;
   std::array<std::vector<float>, 3> speed_;
   bool is_first_ = true;
