@@ -28,7 +28,7 @@ DUST_KERNEL void velocity_row(int n, const double* throughflow, const double* pa
   }
 }
 
-DUST_KERNEL void remember_row(int n, double share, const double* velocity, double* past) {
+DUST_KERNEL void mean_row(int n, double share, const double* velocity, double* past) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) past[i] += share * (velocity[i] - past[i]);
 }
@@ -140,21 +140,21 @@ void GasAcceleration::find_row(int dir, int j, int k, double inverse_time) {
 }
 
 /// past += (u - past) (1 - exp(-step / memory)), whose rate of change is (u - past) / memory.
-void GasAcceleration::remember(double step) {
+void GasAcceleration::find_mean(double step) {
   const double share = is_first_ ? 1.0 : -std::expm1(-step / memory_);
   is_first_ = false;
   for (std::size_t d = 0; d < 3; ++d) {
     const auto n = faces(grid_, d);
     for_rows(n[0], n[1], n[2], [&](int j, int k) {
       const std::size_t o = at(grid_.index(0, j, k));
-      remember_row(n[0], share, &velocity_.component[d][o], &past_.component[d][o]);
+      mean_row(n[0], share, &velocity_.component[d][o], &past_.component[d][o]);
     });
   }
 }
 
 void GasAcceleration::find(const Flow& flow, double step) {
   find_velocity(flow);
-  remember(step);
+  find_mean(step);
   for (int d = 0; d < 3; ++d) {
     if (grid_.count[static_cast<std::size_t>(d)] == 1) continue;  // nothing moves there
     const auto n = faces(grid_, static_cast<std::size_t>(d));

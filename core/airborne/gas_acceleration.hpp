@@ -35,7 +35,7 @@ class GasAcceleration {
   void find_velocity(const Flow& flow);
   /// Gives a periodic component values beyond both ends.
   void wrap(std::vector<double>& values, std::size_t component) const;
-  void remember(double step);
+  void find_mean(double step);
   void find_row(int d, int j, int k, double inverse_time);
 
   fluid::Grid grid_;
