@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/sensor.hpp"
+#include "run/dust/dust_stage.hpp"
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
 #include "setup/force_kinds.hpp"
@@ -125,6 +126,7 @@ std::vector<std::string> steady_ways(const scenario::Setup& setup,
                                      const scenario::DustSetup& dust) {
   std::vector<std::string> ways{"left.all", "deposited.all"};
   if (dust.liberation) ways.emplace_back("set_free.all");
+  if (run::has_running_surfaces(setup)) ways.emplace_back("carried_out.all");
   for (const scenario::BodySpec& body : setup.bodies) {
     if (body.suction && body.suction->flow > 0.0) ways.push_back("drawn_out." + body.name);
   }

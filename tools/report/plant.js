@@ -45,8 +45,8 @@ Dust.dust_stream = (data) => {
   const none = {value: 0, uncertainty: null}, part = (way, name) => ({name, rate: figures[`${way}/${name}/rate`] || none, load: figures[`${way}/${name}/per_load`] || none});
   const names = (way) => Object.keys(figures).map((key) => key.split('/')).filter(([w, name, last]) => w === way && name !== 'all' && last === 'rate').map(([, name]) => name);
   const parts = (way) => names(way).map((name) => part(way, name)).sort((a, b) => b.rate.value - a.rate.value);
-  const [free, out, drawn, settled, caught] = ['set_free', 'left', 'drawn_out', 'deposited', 'caught'].map((way) => part(way, 'all'));
-  const rest = (of) => ({value: free[of].value - out[of].value - drawn[of].value - settled[of].value - caught[of].value, uncertainty: null});
+  const [free, out, drawn, settled, carried, caught] = ['set_free', 'left', 'drawn_out', 'deposited', 'carried_out', 'caught'].map((way) => part(way, 'all'));
+  const rest = (of) => ({value: free[of].value - out[of].value - drawn[of].value - settled[of].value - carried[of].value - caught[of].value, uncertainty: null});
   return {observed, free, causes: parts('set_free'), sides: parts('left'), hoods: parts('drawn_out'), out, drawn, settled, caught, airborne: {name: 'airborne', rate: rest('rate'), load: rest('load')}};
 };
 Dust.dust_surety = (data, stream) => {
