@@ -70,6 +70,13 @@ const steady = {...dusty, dust_rates: {
 const caught_rate = {...steady, dust_rates: {...steady.dust_rates, 'caught/all/rate': rate(0.5, 0.1)}};
 assert.ok(Math.abs(Dust.dust_stream({summary: caught_rate}).airborne.rate.value - 0.5) < 1e-12);
 assert.ok(Math.abs(Dust.dust_stream({summary: steady}).airborne.rate.value - 1) < 1e-12);
+// What settles on a belt and rides out of the domain with it goes somewhere too.
+const riding_rate = {...steady, dust_rates: {...steady.dust_rates, 'carried_out/all/rate': rate(0.5, 0.1), 'carried_out/belt_2/rate': rate(0.5, 0.1)}};
+const riding = {...dusty, dust_field: {classes: {x: {...x, airborne_kg: 0.0002, carried_out_kg: {belt_2: 0.0003}}, y}}};
+for (const [summary, said] of [[riding_rate, '5\u202f%'], [riding, '7.5\u202f%']]) {
+  const [, , fates] = Dust.load_dust_answers({summary, release_map: null, extraction: null}).map(text);
+  assert.ok(fates.includes(`out lying on belt 2|${said}`), fates);
+}
 const told = Dust.load_dust_answers({summary: steady, release_map: null, extraction: null}).map(text);
 assert.ok(told[0].startsWith('How much dust?|20.0\u00a0±\u00a01.0\u202fg/t|10.00\u00a0±\u00a00.50\u202fkg/h set free'), told[0]);
 assert.ok(told[0].includes('4\u202fg/t get out with the air (2\u202fkg/h)'), told[0]);

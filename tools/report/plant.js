@@ -4,7 +4,7 @@
 Dust.plant_answer = (question, value, ...lines) => Dust.el('section', {class: 'answer'}, Dust.el('h2', {}, question),
   Dust.p({class: 'value'}, value), ...lines.flat().filter(Boolean));
 
-// Sums over the classes of dust: {fed, free, causes: [{name, kg}], fates: [{name, kg}], hoods: Set} in kg, or null.
+// Sums over the classes of dust: {fed, free, causes, sides, hoods, carriers, airborne, settled, ...} in kg, lists of {name, kg}, or null.
 Dust.load_dust = ({summary}) => {
   const loads = Object.values((summary.dust_on_grains || {}).classes || {}), field = Object.values((summary.dust_field || {}).classes || {});
   if (!loads.length) return null;
@@ -14,10 +14,11 @@ Dust.load_dust = ({summary}) => {
     for (const c of list) for (const [name, value] of Object.entries(of(c) || {})) sums.set(name, (sums.get(name) || 0) + (Number.isFinite(value) ? value : value.kg));
     return [...sums].map(([name, kg]) => ({name, kg})).sort((a, b) => b.kg - a.kg);
   };
-  const settled = named(field, (c) => c.deposited_kg), sides = named(field, (c) => c.left_kg), hoods = named(field, (c) => c.hoods_kg);
+  const settled = named(field, (c) => c.deposited_kg), sides = named(field, (c) => c.left_kg), hoods = named(field, (c) => c.hoods_kg),
+    carriers = named(field, (c) => c.carried_out_kg);
   const all = (list) => list.reduce((sum, part) => sum + part.kg, 0);
   return {fed: total(loads, (c) => c.entered_kg), free: total(loads, (c) => c.set_free_kg), causes: named(loads, (c) => c.set_free_by),
-    airborne: total(field, (c) => c.airborne_kg), settled: all(settled), caught: total(field, (c) => c.caught_by_grains_kg), sides, hoods, out: all(sides), drawn: all(hoods),
+    airborne: total(field, (c) => c.airborne_kg), settled: all(settled), caught: total(field, (c) => c.caught_by_grains_kg), sides, hoods, carriers, out: all(sides), drawn: all(hoods),
     error: Math.max(...loads.map((c) => Math.abs(c.balance_error || 0)), ...field.map((c) => Math.abs(c.balance_error || 0)))};
 };
 
@@ -29,8 +30,8 @@ Dust.hood_text = ({setting}, name) => {
   return Dust.words(name) + (flow > 0 ? ` (${Dust.quantity(flow, -1, 'm3/s')})` : '');
 };
 
-// The same in the steady stream, as rates: {free, causes, sides, hoods, out, drawn, settled, caught, airborne, observed}, each part {name, rate, load}, figures
-// in kg/h and g/t with their errors. Where a run tells no rates, means over the whole of it, without errors, and `observed` is 0.
+// The same in the steady stream, as rates: {free, causes, sides, hoods, carriers, out, drawn, settled, caught, airborne, observed}, each part {name, rate, load},
+// figures in kg/h and g/t with their errors; what carries dust out lying on it are `carriers`. Where a run tells no rates, means over the whole of it, without errors, and `observed` is 0.
 Dust.dust_stream = (data) => {
   const dust = Dust.load_dust(data), {summary} = data, figures = summary.dust_rates || {};
   if (!dust) return null;
@@ -39,7 +40,7 @@ Dust.dust_stream = (data) => {
     const load = (summary.mass_kg || {}).emitted, hours = summary.simulated_s / 3600, figure = (value) => ({value, uncertainty: null});
     const part = ({name, kg}) => ({name, rate: figure(hours > 0 ? kg / hours : NaN), load: figure(load > 0 ? 1e6 * kg / load : NaN)});
     const whole = (kg) => part({name: 'all', kg});
-    return {observed, free: whole(dust.free), causes: dust.causes.map(part), sides: dust.sides.map(part), hoods: dust.hoods.map(part), out: whole(dust.out), drawn: whole(dust.drawn),
+    return {observed, free: whole(dust.free), causes: dust.causes.map(part), sides: dust.sides.map(part), hoods: dust.hoods.map(part), carriers: dust.carriers.map(part), out: whole(dust.out), drawn: whole(dust.drawn),
       settled: whole(dust.settled), caught: whole(dust.caught), airborne: whole(dust.airborne)};
   }
   const none = {value: 0, uncertainty: null}, part = (way, name) => ({name, rate: figures[`${way}/${name}/rate`] || none, load: figures[`${way}/${name}/per_load`] || none});
@@ -47,7 +48,7 @@ Dust.dust_stream = (data) => {
   const parts = (way) => names(way).map((name) => part(way, name)).sort((a, b) => b.rate.value - a.rate.value);
   const [free, out, drawn, settled, carried, caught] = ['set_free', 'left', 'drawn_out', 'deposited', 'carried_out', 'caught'].map((way) => part(way, 'all'));
   const rest = (of) => ({value: free[of].value - out[of].value - drawn[of].value - settled[of].value - carried[of].value - caught[of].value, uncertainty: null});
-  return {observed, free, causes: parts('set_free'), sides: parts('left'), hoods: parts('drawn_out'), out, drawn, settled, caught, airborne: {name: 'airborne', rate: rest('rate'), load: rest('load')}};
+  return {observed, free, causes: parts('set_free'), sides: parts('left'), hoods: parts('drawn_out'), carriers: parts('carried_out'), out, drawn, settled, caught, airborne: {name: 'airborne', rate: rest('rate'), load: rest('load')}};
 };
 Dust.dust_surety = (data, stream) => {
   const dust = Dust.load_dust(data), {p} = Dust, end = data.summary.simulated_s, {uncertainty, no_error} = stream.free.rate;
@@ -105,7 +106,7 @@ Dust.load_dust_answers = (data) => {
   const from_where = answer('From where?', causes.length ? Dust.sentence(causes[0].title) : 'nowhere yet', causes.length ? ranks(causes.slice(0, 4)) : null,
     data.release_map ? p({}, el('a', {href: '#liberation'}, 'Where it comes off')) : null);
   const fates = [{...stream.airborne, title: 'still in the air'}, {...stream.settled, title: 'settled'}, {...stream.caught, title: 'caught by grains'}, ...stream.hoods.map((h) => ({...h, title: `drawn out at ${Dust.words(h.name)}`})),
-    ...stream.sides.map((s) => ({...s, title: `out at ${Dust.words(s.name)}`}))].filter(counts);
+    ...stream.sides.map((s) => ({...s, title: `out at ${Dust.words(s.name)}`})), ...stream.carriers.map((c) => ({...c, title: `out lying on ${Dust.words(c.name)}`}))].filter(counts);
   // What has left the air's domain tells of the extraction only once it is steady; the page says both.
   const left = stream.out.rate.value + stream.drawn.rate.value, catches = left > 1e-2 * free.rate.value ? stream.drawn.rate.value / left : null;
   const tried = data.extraction ? data.extraction.places.slice(0, 3) : [], hoods = dust.hoods;

@@ -107,9 +107,7 @@ void DustStage::find_walls(double time) {
           running_.push_back({pieces_.size() - 1, hit.body, hit.normal});
           surface_points.push_back(grid.centre(i, j, k) - hit.distance * hit.normal);
         }
-        if (!wall_shear_) continue;
-        wall_shear_->add_body(grid.centre(i, j, k), hit,
-                              models_.bodies[static_cast<std::size_t>(hit.body)], time);
+        if (wall_shear_) wall_shear_->add_body(grid.centre(i, j, k), hit);
       }
     }
   }
@@ -209,7 +207,9 @@ void DustStage::advance(double time) {
   for (airborne::WallPiece& piece : flow_.walls) {
     piece.area = fluid_.void_fraction()[static_cast<std::size_t>(piece.cell)] * piece.area;
   }
-  if (wall_shear_) wall_shear_->find(fluid_.solver().velocity(), flow_.friction_velocity);
+  if (wall_shear_) {
+    wall_shear_->find(fluid_.solver().velocity(), flow_.surface_motions, flow_.friction_velocity);
+  }
   if (const fluid::CellField* eddies = fluid_.solver().eddy_viscosity()) {
     flow_.eddy_diffusivity.resize(grid.size);
     for (std::size_t n = 0; n < grid.size; ++n) {

@@ -14,20 +14,17 @@ void WallShear::add_side(const std::array<int, 3>& cell, int direction, double n
   probes_.push_back({.point = grid_.centre(cell[0], cell[1], cell[2]),
                      .normal = n,
                      .distance = 0.5 * grid_.spacing[direction],
-                     .is_body = false,
-                     .surface_velocity = {}});
+                     .is_body = false});
 }
 
-void WallShear::add_body(sdk::Vec3 centre, const fluid::BodyField::Hit& hit,
-                         const bodies::Body& body, double time) {
+void WallShear::add_body(sdk::Vec3 centre, const fluid::BodyField::Hit& hit) {
   const sdk::Vec3 surface = centre - hit.distance * hit.normal;
   double width = 0.0;
   for (int d = 0; d < 3; ++d) width += std::abs(hit.normal[d]) * grid_.spacing[d];
   probes_.push_back({.point = surface + width * hit.normal,
                      .normal = hit.normal,
                      .distance = width,
-                     .is_body = true,
-                     .surface_velocity = body.surface_velocity(surface, hit.normal, time)});
+                     .is_body = true});
 }
 
 sdk::Vec3 WallShear::velocity_at(const fluid::FaceField& velocity, sdk::Vec3 point) const {
@@ -59,13 +56,17 @@ sdk::Vec3 WallShear::velocity_at(const fluid::FaceField& velocity, sdk::Vec3 poi
 }
 
 void WallShear::find(const fluid::FaceField& velocity,
+                     const std::vector<airborne::SurfaceMotion>& surfaces,
                      std::vector<double>& friction_velocity) const {
   friction_velocity.resize(probes_.size());
   for (std::size_t n = 0; n < probes_.size(); ++n) {
     const Probe& probe = probes_[n];
-    const sdk::Vec3 wall = probe.is_body
-                               ? probe.surface_velocity
-                               : velocity_at(velocity, probe.point - probe.distance * probe.normal);
+    sdk::Vec3 wall;
+    if (!probe.is_body) {
+      wall = velocity_at(velocity, probe.point - probe.distance * probe.normal);
+    } else if (!surfaces.empty()) {
+      wall = surfaces[n].velocity;
+    }
     const sdk::Vec3 slip = velocity_at(velocity, probe.point) - wall;
     const sdk::Vec3 along = slip - dot(slip, probe.normal) * probe.normal;
     friction_velocity[n] = airborne::friction_velocity(norm(along), probe.distance, viscosity_);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "bodies/body_set.hpp"
+#include "airborne/flow.hpp"
 #include "fluid/geometry/body_field.hpp"
 #include "fluid/grid.hpp"
 
@@ -20,20 +20,19 @@ class WallShear {
   void clear() { probes_.clear(); }
   /// A piece of a side in the cell (i, j, k), `normal` into the gas.
   void add_side(const std::array<int, 3>& cell, int direction, double normal);
-  /// A piece of a body, which is nearest to `centre` of its cell, at `time` [s].
-  void add_body(sdk::Vec3 centre, const fluid::BodyField::Hit& hit, const bodies::Body& body,
-                double time);
-  /// [m/s] By piece, in the order in which they were added.
-  void find(const fluid::FaceField& velocity, std::vector<double>& friction_velocity) const;
+  /// A piece of a body, which is nearest to `centre` of its cell.
+  void add_body(sdk::Vec3 centre, const fluid::BodyField::Hit& hit);
+  /// [m/s] By piece, in the order in which they were added. `surfaces` as of Flow::surface_motions.
+  void find(const fluid::FaceField& velocity, const std::vector<airborne::SurfaceMotion>& surfaces,
+            std::vector<double>& friction_velocity) const;
   [[nodiscard]] double viscosity() const { return viscosity_; }
 
  private:
   struct Probe {
     sdk::Vec3 point;  ///< [m] in the gas
     sdk::Vec3 normal;
-    double distance;             ///< [m] of it from the wall
-    bool is_body;                ///< else the halo knows the wall's velocity
-    sdk::Vec3 surface_velocity;  ///< [m/s] of a body
+    double distance;  ///< [m] of it from the wall
+    bool is_body;     ///< else the halo knows the wall's velocity
   };
   /// [m/s] Linear between the faces.
   [[nodiscard]] sdk::Vec3 velocity_at(const fluid::FaceField& velocity, sdk::Vec3 point) const;

@@ -159,7 +159,8 @@ TEST_CASE("the error of a rate shall cover the truth at its rate, for weighted g
     const double expected =
         std::sqrt(c.per_sample / (k_samples * static_cast<double>(c.copies))) / 0.001;
     CHECK(error > 0.93 * expected);
-    CHECK(error < 1.15 * expected);
+    // Half of all series look as if they remembered, by chance: 17 % in the mean of 20 batches.
+    CHECK(error < 1.25 * expected);
   }
 }
 
