@@ -52,7 +52,7 @@ inline __attribute__((always_inline)) double slope(const double* v, int i, std::
 }
 
 DUST_KERNEL void acceleration_row(int n, const Across& own, const Across& e, const Across& f,
-                                  double inverse_time, const double* past, float* acceleration,
+                                  double rate, const double* past, float* acceleration,
                                   float* speed) {
   const double *v = own.velocity, *ve = e.velocity, *vf = f.velocity;
   const std::ptrdiff_t s = own.stride, se = e.stride, sf = f.stride;
@@ -64,7 +64,7 @@ DUST_KERNEL void acceleration_row(int n, const Across& own, const Across& e, con
     const double carried = u * slope(v, i, s, own.inverse_h) +
                            across_e * slope(v, i, se, e.inverse_h) +
                            across_f * slope(v, i, sf, f.inverse_h);
-    const double all = (u - past[i]) * inverse_time + carried;
+    const double all = (u - past[i]) * rate + carried;
     acceleration[i] = static_cast<float>(u != 0.0 ? all : 0.0);
     speed[i] = static_cast<float>(std::sqrt(u * u + across_e * across_e + across_f * across_f));
   }
@@ -118,7 +118,7 @@ void GasAcceleration::wrap(std::vector<double>& values, std::size_t component) c
   }
 }
 
-void GasAcceleration::find_row(int dir, int j, int k, double inverse_time) {
+void GasAcceleration::find_row(int dir, int j, int k, double rate) {
   const auto d = static_cast<std::size_t>(dir);
   const std::ptrdiff_t o = grid_.index(0, j, k);
   const auto across = [&](std::size_t e) {
@@ -128,7 +128,7 @@ void GasAcceleration::find_row(int dir, int j, int k, double inverse_time) {
   };
   float* acceleration = acceleration_[d].data() + o;
   const int n = faces(grid_, d)[0];
-  acceleration_row(n, across(d), across((d + 1) % 3), across((d + 2) % 3), inverse_time,
+  acceleration_row(n, across(d), across((d + 1) % 3), across((d + 2) % 3), rate,
                    past_.component[d].data() + o, acceleration, speed_[d].data() + o);
   if (grid_.is_periodic[d]) return;
   const int place[3] = {0, j, k};
@@ -139,10 +139,8 @@ void GasAcceleration::find_row(int dir, int j, int k, double inverse_time) {
   }
 }
 
-/// past += (u - past) (1 - exp(-step / memory)), whose rate of change is (u - past) / memory.
-void GasAcceleration::find_mean(double step) {
-  const double share = is_first_ ? 1.0 : -std::expm1(-step / memory_);
-  is_first_ = false;
+/// Takes the mean over the past a share of its way to the velocity of now.
+void GasAcceleration::go_towards_velocity(double share) {
   for (std::size_t d = 0; d < 3; ++d) {
     const auto n = faces(grid_, d);
     for_rows(n[0], n[1], n[2], [&](int j, int k) {
@@ -154,12 +152,15 @@ void GasAcceleration::find_mean(double step) {
 
 void GasAcceleration::find(const Flow& flow, double step) {
   find_velocity(flow);
-  find_mean(step);
+  if (is_first_) go_towards_velocity(1.0);
+  is_first_ = false;
+  const double share = -std::expm1(-step / memory_);
   for (int d = 0; d < 3; ++d) {
     if (grid_.count[static_cast<std::size_t>(d)] == 1) continue;  // nothing moves there
     const auto n = faces(grid_, static_cast<std::size_t>(d));
-    for_rows(n[0], n[1], n[2], [&](int j, int k) { find_row(d, j, k, 1.0 / memory_); });
+    for_rows(n[0], n[1], n[2], [&](int j, int k) { find_row(d, j, k, share / step); });
   }
+  go_towards_velocity(share);
 }
 
 void GasAcceleration::save(sdk::ArchiveWriter& archive) const {

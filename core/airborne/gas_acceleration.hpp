@@ -35,8 +35,9 @@ class GasAcceleration {
   void find_velocity(const Flow& flow);
   /// Gives a periodic component values beyond both ends.
   void wrap(std::vector<double>& values, std::size_t component) const;
-  void find_mean(double step);
-  void find_row(int d, int j, int k, double inverse_time);
+  /// `rate` [1/s]: of what the mean is behind, how much it makes up for during the step.
+  void find_row(int d, int j, int k, double rate);
+  void go_towards_velocity(double share);
 
   fluid::Grid grid_;
   fluid::FaceField velocity_;  ///< [m/s] of the gas between the grains; 0: nothing passes

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dust that has settled on a belt goes with it.
+#include "support/approx.hpp"
 #include "support/run_summary.hpp"
 
 #include <doctest/doctest.h>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+using dust::test::approx;
 using dust::test::TemporaryFolder;
 using nlohmann::json;
 namespace fs = std::filesystem;
@@ -42,7 +44,7 @@ TEST_CASE("dust that lies on a belt shall stay on it all the way round") {
   const TemporaryFolder folder;
   const json summary = run(folder / "round", {}, "1.5 s");
   CHECK(std::abs(dust_of(summary)["balance_error"].get<double>()) < 1e-12);
-  CHECK(on_belt(summary) == doctest::Approx(2e-7).epsilon(1e-9));
+  CHECK(on_belt(summary) == approx(2e-7).epsilon(1e-9));
   CHECK(carried_out(summary) == 0.0);
 }
 
@@ -51,8 +53,8 @@ TEST_CASE("dust that a belt takes out of the domain shall be counted when it get
   // It settles within 0.2 s, by then 0.31 m along in its middle, and has 0.09 m to go at 0.4 m/s;
   // it is 0.1 m long. A twentieth is what the wide belt and the gas that it takes along smear.
   const json half = run(folder / "half", k_out, "0.425 s");
-  CHECK(carried_out(half) == doctest::Approx(1e-7).epsilon(0.1));
-  CHECK(on_belt(half) + carried_out(half) == doctest::Approx(2e-7).epsilon(1e-3));
+  CHECK(carried_out(half) == approx(1e-7).epsilon(0.1));
+  CHECK(on_belt(half) + carried_out(half) == approx(2e-7).epsilon(1e-3));
   CHECK(std::abs(dust_of(half)["balance_error"].get<double>()) < 1e-12);
   const json whole = run(folder / "whole", k_out, "0.9 s");
   CHECK(carried_out(whole) > 0.99 * 2e-7);
@@ -90,6 +92,6 @@ TEST_CASE(
       {"--set", "bodies.a_box={shape: box, material: steel, min: [0, 0, 0], max: [20, 20, 20 mm]}",
        "--set", "time.end=0.5 s", "--set", "dust.field.inertia=false"});
   const json branch = dust::test::run_summary(folder / "more.yaml", folder / "branch", more);
-  CHECK(carried_out(branch) == doctest::Approx(carried_out(whole)).epsilon(1e-2));
-  CHECK(on_belt(branch) == doctest::Approx(on_belt(whole)).epsilon(1e-2));
+  CHECK(carried_out(branch) == approx(carried_out(whole)).epsilon(1e-2));
+  CHECK(on_belt(branch) == approx(on_belt(whole)).epsilon(1e-2));
 }

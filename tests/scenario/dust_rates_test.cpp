@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "support/run_summary.hpp"
 
 #include <doctest/doctest.h>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+using dust::test::approx;
 using dust::test::TemporaryFolder;
 using nlohmann::json;
 namespace fs = std::filesystem;
@@ -30,17 +32,17 @@ TEST_CASE("the rate of dust that leaves a steady stream shall be that of its sou
   const TemporaryFolder folder;
   const json summary = run(folder / "out", {});
   const json& rates = summary["dust_rates"];
-  CHECK(rates["observed"]["value"].get<double>() == doctest::Approx(0.5).epsilon(1e-9));
+  CHECK(rates["observed"]["value"].get<double>() == approx(0.5).epsilon(1e-9));
   const json& out = rates["left/right/rate"];
   // It takes 0.16 s through the duct; what lags behind at the edges of the jet has gone by 0.5 s.
-  CHECK(out["value"].get<double>() == doctest::Approx(3.0 * k_kg_per_h).epsilon(1e-6));
+  CHECK(out["value"].get<double>() == approx(3.0 * k_kg_per_h).epsilon(1e-6));
   CHECK(out["uncertainty"].get<double>() < 1e-6 * k_kg_per_h);
   CHECK(out["unit"] == "kg/h");
   CHECK(rates["left/all/rate"]["value"] == out["value"]);
   CHECK(rates["left/right/class/3_um/rate"]["value"].get<double>() ==
-        doctest::Approx(k_kg_per_h).epsilon(1e-6));
+        approx(k_kg_per_h).epsilon(1e-6));
   CHECK(rates["left/right/class/10_um/rate"]["value"].get<double>() ==
-        doctest::Approx(2.0 * k_kg_per_h).epsilon(1e-6));
+        approx(2.0 * k_kg_per_h).epsilon(1e-6));
   // Nothing is fed, so there is no tonne to refer to; over the whole run less has left.
   CHECK_FALSE(rates.contains("left/right/per_load"));
   CHECK(summary["dust_outflow"]["right"]["kg_per_h"].get<double>() <
@@ -78,6 +80,5 @@ TEST_CASE("rates of a run that starts from another shall not count what that one
       run(folder / "branch", {"time.end=0.8 s", "dust.steady_after=0.3 s", "seed=7",
                               "start_from=" + (folder / "first").string()})["dust_rates"];
   CHECK(rates["observed"]["value"].get<double>() <= 0.2 + 1e-9);
-  CHECK(rates["left/right/rate"]["value"].get<double>() ==
-        doctest::Approx(3.0 * k_kg_per_h).epsilon(1e-4));
+  CHECK(rates["left/right/rate"]["value"].get<double>() == approx(3.0 * k_kg_per_h).epsilon(1e-4));
 }

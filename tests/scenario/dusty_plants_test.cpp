@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+using dust::test::approx;
 using dust::test::engine;
 using dust::test::read_file;
 using dust::test::TemporaryFolder;
@@ -98,12 +100,12 @@ TEST_CASE(
   }
   check_ledger(dry);
   CHECK(out > 0.0);
-  CHECK(out_of(dry) == doctest::Approx(out).epsilon(1e-12));
+  CHECK(out_of(dry) == approx(out).epsilon(1e-12));
 
   const json& drawn = dry["dust_outflow"]["back"];
   const double sample = dry["mass_kg"]["emitted"].get<double>();
   CHECK(drawn["inhalable_mg_per_kg"].get<double>() ==
-        doctest::Approx(1e6 * drawn["inhalable_kg"].get<double>() / sample).epsilon(1e-12));
+        approx(1e6 * drawn["inhalable_kg"].get<double>() / sample).epsilon(1e-12));
   CHECK(drawn["respirable_kg"].get<double>() < drawn["thoracic_kg"].get<double>());
   CHECK(drawn["thoracic_kg"].get<double>() < drawn["inhalable_kg"].get<double>());
   CHECK(drawn["inhalable_kg"].get<double>() < drawn["kg"].get<double>());
@@ -111,7 +113,7 @@ TEST_CASE(
   // The power -1.4 of AP-42. Not sharper: dust in the air weighs on it, and a tumbling sample
   // tells the smallest difference.
   const json wet = turn_drum(folder / "wet", "2 %");
-  CHECK(out_of(wet) / out_of(dry) == doctest::Approx(std::pow(2.0, -1.4)).epsilon(0.05));
+  CHECK(out_of(wet) / out_of(dry) == approx(std::pow(2.0, -1.4)).epsilon(0.05));
 }
 
 TEST_CASE("the dust number of a coal shall fall by a decade per moisture scale") {
@@ -121,7 +123,7 @@ TEST_CASE("the dust number of a coal shall fall by a decade per moisture scale")
   REQUIRE(out_of(dry) > 0.0);
   // Dust in the air weighs on it, and a tumbling sample tells the smallest difference.
   const json wet = turn_drum_of_coal(folder / "wet", "7 %");
-  CHECK(out_of(wet) / out_of(dry) == doctest::Approx(0.1).epsilon(0.15));
+  CHECK(out_of(wet) / out_of(dry) == approx(0.1).epsilon(0.15));
 }
 
 TEST_CASE("air that rises in a dropped material's pipe shall take along what settles more slowly") {

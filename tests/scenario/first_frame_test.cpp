@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/h5_source.hpp"
+#include "support/approx.hpp"
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+using dust::test::approx;
 using dust::test::engine;
 using dust::test::TemporaryFolder;
 namespace fs = std::filesystem;
@@ -105,7 +107,7 @@ TEST_CASE("the first frame shall show the grains that are there in the void frac
       REQUIRE(frames.size() == 4);
       const Solids first = solids_of(source, frames[0]);
       CHECK(first.of_grains > 1e-9);
-      CHECK(first.of_air == doctest::Approx(first.of_grains).epsilon(k_single));
+      CHECK(first.of_air == approx(first.of_grains).epsilon(k_single));
     }
   }
 }

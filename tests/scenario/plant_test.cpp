@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an engineer reads off a transfer point, through the whole program.
+#include "support/approx.hpp"
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
@@ -11,6 +12,7 @@
 #include <string>
 #include <vector>
 
+using dust::test::approx;
 using dust::test::engine;
 using dust::test::read_file;
 using dust::test::TemporaryFolder;
@@ -95,8 +97,8 @@ TEST_CASE("blocks that slide down a liner shall wear it by Archard's law within 
   const double press = k_mass * 8.495709211;
   const double way = 0.5 * k_acceleration * 0.6 * 0.6;
   const double worn = 3 * 2e-3 * press * way / 4e9;
-  CHECK(figure(summary, "liner", "volume") == doctest::Approx(worn).epsilon(0.01));
-  CHECK(figure(summary, "liner", "normal_force") == doctest::Approx(3 * press).epsilon(0.01));
+  CHECK(figure(summary, "liner", "volume") == approx(worn).epsilon(0.01));
+  CHECK(figure(summary, "liner", "normal_force") == approx(3 * press).epsilon(0.01));
 }
 
 TEST_CASE("the forces on blocks that slide shall have the shares of a slope with friction") {
@@ -106,11 +108,11 @@ TEST_CASE("the forces on blocks that slide shall have the shares of a slope with
     return number_at(summary, {"forces", "kinds", kind, "over_weight"});
   };
   const double cosine = 8.495709211 / 9.81;
-  CHECK(over_weight("gravity") == doctest::Approx(1.0));
-  CHECK(over_weight("contact_normal") == doctest::Approx(cosine).epsilon(0.01));
-  CHECK(over_weight("contact_tangential") == doctest::Approx(0.3 * cosine).epsilon(0.01));
+  CHECK(over_weight("gravity") == approx(1.0));
+  CHECK(over_weight("contact_normal") == approx(cosine).epsilon(0.01));
+  CHECK(over_weight("contact_tangential") == approx(0.3 * cosine).epsilon(0.01));
   CHECK(number_at(summary, {"forces", "kinds", "contact_tangential", "share"}) ==
-        doctest::Approx(0.3 * cosine / (1.0 + 1.3 * cosine)).epsilon(0.01));
+        approx(0.3 * cosine / (1.0 + 1.3 * cosine)).epsilon(0.01));
   CHECK(over_weight("drag") == 0.0);
   CHECK(summary.find("contact hertz_mindlin (limestone, steel)") != std::string::npos);
 }
@@ -121,13 +123,12 @@ TEST_CASE("blocks that have slid off the end shall be named with place and step"
   // Found at the end of the fluid step in which they pass 1 m.
   const double time = std::sqrt(2.0 * 0.95 / k_acceleration);
   CHECK(number_at(summary, {"grains_left", "right", "count"}) == 3.0);
-  CHECK(number_at(summary, {"grains_left", "right", "mass_kg"}) == doctest::Approx(3.0 * k_mass));
-  CHECK(number_at(summary, {"grains_left", "right", "place_m"}) ==
-        doctest::Approx(1.0).epsilon(0.01));
+  CHECK(number_at(summary, {"grains_left", "right", "mass_kg"}) == approx(3.0 * k_mass));
+  CHECK(number_at(summary, {"grains_left", "right", "place_m"}) == approx(1.0).epsilon(0.01));
   const double seen = number_at(summary, {"grains_left", "right", "time_s"});
-  CHECK(seen == doctest::Approx(time).epsilon(0.005));
+  CHECK(seen == approx(time).epsilon(0.005));
   CHECK(number_at(summary, {"grains_left", "right", "step"}) ==
-        doctest::Approx(seen / number_at(summary, {"dem_step_s"})).epsilon(1e-6));
+        approx(seen / number_at(summary, {"dem_step_s"})).epsilon(1e-6));
   CHECK(number_at(summary, {"particles", "left"}) == 3.0);
   const std::string log = read_file(folder / "out" / "run.log");
   CHECK(log.find("left by the side 'right': 3 grains") != std::string::npos);
@@ -142,14 +143,13 @@ TEST_CASE("blocks that slide shall stay in a box as long as uniform acceleration
   const double in = std::sqrt(2.0 * 0.05 / k_acceleration);
   const double out = std::sqrt(2.0 * 0.35 / k_acceleration);
   CHECK(figure(summary, "stay", "grains") == 3.0);
-  CHECK(figure(summary, "stay", "mean") == doctest::Approx(out - in).epsilon(0.005));
-  CHECK(figure(summary, "age", "mean") == doctest::Approx(out).epsilon(0.005));
+  CHECK(figure(summary, "stay", "mean") == approx(out - in).epsilon(0.005));
+  CHECK(figure(summary, "age", "mean") == approx(out).epsilon(0.005));
   // Three come in and go out; in between more than half a kilogram is in the region.
-  CHECK(figure(summary, "chute", "inflow") == doctest::Approx(3.0 * k_mass / 0.6).epsilon(1e-9));
-  CHECK(figure(summary, "chute", "outflow") == doctest::Approx(3.0 * k_mass / 0.6).epsilon(1e-9));
+  CHECK(figure(summary, "chute", "inflow") == approx(3.0 * k_mass / 0.6).epsilon(1e-9));
+  CHECK(figure(summary, "chute", "outflow") == approx(3.0 * k_mass / 0.6).epsilon(1e-9));
   CHECK(figure(summary, "chute", "mass_held_at_end") == 0.0);
-  CHECK(figure(summary, "chute", "mass_held_largest") == doctest::Approx(3.0 * k_mass));
-  CHECK(figure(summary, "chute", "first_beyond_largest_mass") == doctest::Approx(in).epsilon(0.01));
-  CHECK(figure(summary, "chute", "time_beyond_largest_mass") ==
-        doctest::Approx(out - in).epsilon(0.01));
+  CHECK(figure(summary, "chute", "mass_held_largest") == approx(3.0 * k_mass));
+  CHECK(figure(summary, "chute", "first_beyond_largest_mass") == approx(in).epsilon(0.01));
+  CHECK(figure(summary, "chute", "time_beyond_largest_mass") == approx(out - in).epsilon(0.01));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A resolved sphere comes near a floor: what the grid sees of the film and the film law add up.
+#include "support/approx.hpp"
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+using dust::test::approx;
 using dust::test::engine;
 using dust::test::read_file;
 using dust::test::TemporaryFolder;
@@ -55,8 +57,8 @@ TEST_CASE("V-FILM: a resolved sphere shall come near a floor in the time of Bren
   const auto with = passages({});
   MESSAGE("0.6 to 0.1 mm: " << (with[3] - with[0]) / closed_form(6e-4, 1e-4) << ", 0.4 to 0.05 mm: "
                             << (with[4] - with[1]) / closed_form(4e-4, 5e-5));
-  CHECK(with[3] - with[0] == doctest::Approx(closed_form(6e-4, 1e-4)).epsilon(0.12));
-  CHECK(with[4] - with[1] == doctest::Approx(closed_form(4e-4, 5e-5)).epsilon(0.12));
+  CHECK(with[3] - with[0] == approx(closed_form(6e-4, 1e-4)).epsilon(0.12));
+  CHECK(with[4] - with[1] == approx(closed_form(4e-4, 5e-5)).epsilon(0.12));
   // The grid alone lets it through the last film too fast.
   const auto without = passages({"--set", "interactions[1].cohesion.viscosity=1e-9 Pa s"});
   MESSAGE("without the film law, 0.1 to 0.05 mm: " << (without[4] - without[3]) /

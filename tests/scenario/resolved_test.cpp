@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+using dust::test::approx;
 using dust::test::engine;
 using dust::test::json_text;
 using dust::test::read_file;
@@ -55,7 +57,7 @@ TEST_CASE(
   CHECK(run("parts", "10 ms", "2", {"--resume"}) == whole);
   CHECK(json_text(folder / "whole" / "summary.json", "resolved_spheres") == "1");
   CHECK(std::stod(json_text(folder / "whole" / "summary.json", "resolved_least_cells_across")) ==
-        doctest::Approx(8.4));
+        approx(8.4));
   // The drag law's grains did not count it in.
   CHECK(std::stod(json_text(folder / "whole" / "summary.json", "smallest_void_fraction")) > 0.9);
 }

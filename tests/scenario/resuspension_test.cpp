@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "support/run_summary.hpp"
 
 #include <doctest/doctest.h>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+using dust::test::approx;
 using dust::test::read_file;
 using dust::test::TemporaryFolder;
 using nlohmann::json;
@@ -48,12 +50,38 @@ double expected(double gap) {
 
 TEST_CASE("a sheared gas shall take dust off a side as its friction velocity asks for") {
   const TemporaryFolder folder;
-  CHECK(taken_off(folder / "side", {}) == doctest::Approx(expected(20e-3)).epsilon(1e-3));
+  CHECK(taken_off(folder / "side", {}) == approx(expected(20e-3)).epsilon(1e-3));
 }
 
 TEST_CASE("a sheared gas shall take dust off a body that cuts the cells") {
   const TemporaryFolder folder;
-  CHECK(taken_off(folder / "body", k_plate) == doctest::Approx(expected(16.5e-3)).epsilon(5e-3));
+  CHECK(taken_off(folder / "body", k_plate) == approx(expected(16.5e-3)).epsilon(5e-3));
+}
+
+/// Still above; the plate's surface gets going after the walls have been found.
+const std::vector<std::string> k_belt{"--set",
+                                      "bodies.plate={shape: box, material: steel, min: [-40, -40, "
+                                      "-40], max: [44, 44, 3.5 mm], motion: belt, "
+                                      "speed: 1 m/s, start: 10 ms, ramp: 40 ms}",
+                                      "--set", "domain.boundaries.top.air.velocity=[0, 0, 0 m/s]"};
+
+TEST_CASE("a surface that speeds up shall shed dust by its speed of that moment") {
+  const TemporaryFolder folder;
+  CHECK(taken_off(folder / "belt", k_belt) == approx(expected(16.5e-3)).epsilon(5e-3));
+}
+
+TEST_CASE("a surface that speeds up shall shed the same dust after a resume") {
+  const TemporaryFolder folder;
+  const auto with = [](std::vector<std::string> more) {
+    more.insert(more.end(), k_belt.begin(), k_belt.end());
+    return more;
+  };
+  const json whole = run(folder / "whole", with({"--set", "time.end=0.1 s"}));
+  run(folder / "parts", with({"--set", "time.end=0.05 s"}));
+  const json resumed = run(folder / "parts", with({"--set", "time.end=0.1 s", "--resume"}));
+  CHECK(resuspended(whole) > 0.0);
+  CHECK(resumed["state_sha256"] == whole["state_sha256"]);
+  CHECK(resumed["dust_field"] == whole["dust_field"]);
 }
 
 TEST_CASE("a shear below the threshold shall leave what has settled") {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
@@ -11,6 +12,7 @@
 #include <string>
 #include <vector>
 
+using dust::test::approx;
 using dust::test::engine;
 using dust::test::engine_interrupted;
 using dust::test::json_text;
@@ -77,7 +79,7 @@ TEST_CASE("impulses on walls shall be the same however seldom rows of the series
   const std::vector<double>& seldom = thinned.at("time [s]");
   REQUIRE(each.size() == 115);
   REQUIRE(seldom.size() == 18);
-  CHECK(seldom.back() == doctest::Approx(0.114));
+  CHECK(seldom.back() == approx(0.114));
   int loads = 0;
   for (const auto& [name, values] : full) {
     if (json_text(folder / "full" / "summary.json", name) != "mean") continue;

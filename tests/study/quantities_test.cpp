@@ -2,6 +2,7 @@
 #include "study/quantities.hpp"
 #include "preflight/reader.hpp"
 #include "registry/registry.hpp"
+#include "support/approx.hpp"
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
@@ -82,12 +83,12 @@ TEST_CASE("rates of dust shall be quantities of a study, with their errors") {
   // All that leaves, all that settles; both open sides.
   CHECK(rates == 4);
   CHECK(figures.at("dust_rates.left.right.rate").error >= 0.0);
-  CHECK(study::unit_factor("mg/kg", "g/kg").value() == doctest::Approx(1e-3));
+  CHECK(study::unit_factor("mg/kg", "g/kg").value() == test::approx(1e-3));
 }
 
 TEST_CASE("units of quantities shall be converted where they measure the same") {
-  CHECK(study::unit_factor("m", "mm").value() == doctest::Approx(1000.0));
+  CHECK(study::unit_factor("m", "mm").value() == test::approx(1000.0));
   CHECK(study::unit_factor("deg", "deg").value() == 1.0);
-  CHECK(study::unit_factor("kg/s", "g/s").value() == doctest::Approx(1000.0));
+  CHECK(study::unit_factor("kg/s", "g/s").value() == test::approx(1000.0));
   CHECK_FALSE(study::unit_factor("m", "s").has_value());
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
@@ -9,6 +10,7 @@
 #include <map>
 #include <sstream>
 
+using dust::test::approx;
 using dust::test::engine;
 using dust::test::engine_interrupted_when;
 using dust::test::read_file;
@@ -86,13 +88,13 @@ TEST_CASE("a study shall run every point and tell what was set and what came of 
   // Twice the flow, twice the grains.
   const double once = std::stod(rows[0].at("emitted [1]"));
   const double twice = std::stod(rows[2].at("emitted [1]"));
-  CHECK(twice == doctest::Approx(2.0 * once).epsilon(0.01));
+  CHECK(twice == approx(2.0 * once).epsilon(0.01));
   // What passed in mg is what the run itself says in kg.
   const fs::path point = folder / "out" / "points" / rows[0].at("hash");
   const std::string summary = read_file(point / "summary.json");
   const auto at = summary.find("\"forward/mass\"");
   const double kilograms = std::stod(summary.substr(summary.find("\"value\": ", at) + 9));
-  CHECK(std::stod(rows[0].at("passed [mg]")) == doctest::Approx(1e6 * kilograms));
+  CHECK(std::stod(rows[0].at("passed [mg]")) == approx(1e6 * kilograms));
   CHECK(fs::file_size(folder / "out" / "study.h5") > 0);
   // One line per point, with its turn.
   CHECK(run.out.find("[8/8]") != std::string::npos);
@@ -192,7 +194,7 @@ TEST_CASE("a dry run shall tell of a branch what is left of it") {
       planned_seconds(folder / "study.yaml", text + "  start_from: yonder@3000 s\n");
   REQUIRE(whole > 60.0);
   // Two digits are told.
-  CHECK(branch / whole == doctest::Approx(0.25).epsilon(0.1));
+  CHECK(branch / whole == approx(0.25).epsilon(0.1));
 }
 
 TEST_CASE("a folder that holds a study shall be kept unless told otherwise") {

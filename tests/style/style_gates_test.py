@@ -8,6 +8,7 @@ import unittest
 
 sys.path[:0] = [str(pathlib.Path(__file__).parent), str(pathlib.Path(__file__).parents[1] / "support")]
 import allow_list
+import approx_gate
 import folders_gate
 import format_gate
 import functions_gate
@@ -45,6 +46,14 @@ class Words(tree_of_files.Tree):
     def test_a_word_is_right_in_its_own_folder(self):
         self.assertEqual(self.found("int chunk;", "core/io/a.cpp"), set())
         self.assertEqual(self.found("int chunk;", "core/run/a.cpp"), {"chunk"})
+
+
+class Approx(tree_of_files.Tree):
+    def test_doctests_own_is_found_and_the_projects_is_not(self):
+        self.write("tests/unit/a_test.cpp", "CHECK(x == test::approx(1e-9));\nCHECK(y == doctest::Approx(1e-9));\n")
+        self.write("tests/support/approx.hpp", "return doctest::Approx(expected).scale(1e-300);\n")
+        (only,) = approx_gate.findings(self.root)
+        self.assertIn("a_test.cpp:2", only)
 
 
 class Scripts(tree_of_files.Tree):

@@ -2,6 +2,7 @@
 // What every cohesive law shall keep, whoever wrote it.
 #include "contract/contact/laws.hpp"
 #include "dust/sdk/error.hpp"
+#include "support/approx.hpp"
 
 namespace {
 
@@ -93,13 +94,13 @@ TEST_CASE("a cohesive law shall answer alike in other units") {
       CHECK(std::abs(scaled[q].attraction / s.of(sdk::dimension::force) - plain[q].attraction) <=
             k_rounding * std::abs(plain[q].attraction));
       CHECK(scaled[q].contact_overlap / s.length ==
-            doctest::Approx(plain[q].contact_overlap).epsilon(k_rounding));
+            test::approx(plain[q].contact_overlap).epsilon(k_rounding));
     }
     const auto model = made(law);
     CHECK(other->range(s.length * 1e-4) / s.length ==
-          doctest::Approx(model->range(1e-4)).epsilon(k_rounding));
+          test::approx(model->range(1e-4)).epsilon(k_rounding));
     CHECK(other->resting_overlap(s.length * 1e-4) / s.length ==
-          doctest::Approx(model->resting_overlap(1e-4)).epsilon(k_rounding));
+          test::approx(model->resting_overlap(1e-4)).epsilon(k_rounding));
   }
 }
 

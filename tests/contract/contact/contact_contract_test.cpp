@@ -2,6 +2,8 @@
 // What every contact law shall keep, whoever wrote it.
 #include "contract/contact/laws.hpp"
 
+#include "support/approx.hpp"
+
 namespace {
 
 using namespace dust;
@@ -89,14 +91,14 @@ TEST_CASE("a contact law shall answer alike in other units") {
       const double size = norm(plain[q].force);
       CHECK(norm(scaled[q].force / force - plain[q].force) <= k_rounding * size);
       CHECK(scaled[q].normal_stiffness / stiffness ==
-            doctest::Approx(plain[q].normal_stiffness).epsilon(k_rounding));
+            test::approx(plain[q].normal_stiffness).epsilon(k_rounding));
       CHECK(scaled[q].tangential_stiffness / stiffness ==
-            doctest::Approx(plain[q].tangential_stiffness).epsilon(k_rounding));
+            test::approx(plain[q].tangential_stiffness).epsilon(k_rounding));
     }
     CHECK(other->collision_time(s.length * 1e-4, s.mass * 1e-8, s.length / s.time * 0.3) / s.time ==
-          doctest::Approx(made(law)->collision_time(1e-4, 1e-8, 0.3)).epsilon(k_rounding));
+          test::approx(made(law)->collision_time(1e-4, 1e-8, 0.3)).epsilon(k_rounding));
     CHECK(other->half_period(s.length * 1e-4, s.mass * 1e-8, s.length * 1e-6) / s.time ==
-          doctest::Approx(made(law)->half_period(1e-4, 1e-8, 1e-6)).epsilon(k_rounding));
+          test::approx(made(law)->half_period(1e-4, 1e-8, 1e-6)).epsilon(k_rounding));
   }
 }
 
@@ -210,7 +212,7 @@ TEST_CASE("the tangential spring shall turn with its contact at constant length"
       bench.contact(*model, k_step);
     }
     const Answer after = bench.answers()[0];
-    CHECK(after.force.z == doctest::Approx(-before).epsilon(1e-9));
+    CHECK(after.force.z == test::approx(-before).epsilon(1e-9));
   }
 }
 

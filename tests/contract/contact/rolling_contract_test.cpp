@@ -2,6 +2,8 @@
 // What every rolling law shall keep, whoever wrote it.
 #include "contract/contact/laws.hpp"
 
+#include "support/approx.hpp"
+
 namespace {
 
 using namespace dust;
@@ -167,7 +169,7 @@ TEST_CASE("the rolling spring shall turn with its contact at constant length") {
       r.normal = {0, std::sin(angle), std::cos(angle)};
       bench.rolling(*model, k_step);
     }
-    CHECK(bench.answers()[0].couple.z == doctest::Approx(-before).epsilon(1e-9));
+    CHECK(bench.answers()[0].couple.z == test::approx(-before).epsilon(1e-9));
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "airborne/impaction.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <array>
@@ -8,6 +10,7 @@
 #include <cstddef>
 #include <numbers>
 
+using dust::test::approx;
 using namespace dust::airborne;
 
 namespace {
@@ -75,9 +78,8 @@ TEST_CASE("as much shall hit a sphere as paths in potential flow end on it") {
 TEST_CASE("a sphere shall clear the gas in its way of the share that hits it") {
   const DustClass sand = make_class(40e-6, 2650, {0, 0, -9.81}, {1.2, 1.8e-5});
   // tau = 2650 (40 um)^2 1.004 / (18 * 18 uPa s) = 13.14 ms; St = 26.3 at 4 m/s and 2 mm.
-  CHECK(sand.response_time == doctest::Approx(13.14e-3).epsilon(1e-3));
+  CHECK(sand.response_time == approx(13.14e-3).epsilon(1e-3));
   CHECK(cleared_flow(sand, 2e-3, 4.0) ==
-        doctest::Approx(4.0 * std::numbers::pi / 4.0 * 4e-6 * std::pow(26.28 / 26.53, 2))
-            .epsilon(1e-3));
+        approx(4.0 * std::numbers::pi / 4.0 * 4e-6 * std::pow(26.28 / 26.53, 2)).epsilon(1e-3));
   CHECK(cleared_flow(sand, 2e-3, 0.0) == 0.0);
 }

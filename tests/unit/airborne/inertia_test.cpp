@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dust that does not turn with the gas: closed forms of the drift tau Du/Dt.
+#include "support/approx.hpp"
 #include "unit/airborne/box.hpp"
 
 #include <doctest/doctest.h>
@@ -47,9 +48,9 @@ TEST_CASE(
     box.each_face(d, [&](std::size_t face, Vec3 x, bool) {
       if (std::hypot(x.x - 0.5, x.z - 0.5) > 0.4) return;  // sides are closed
       CHECK(acceleration.field(static_cast<std::size_t>(d))[face] ==
-            doctest::Approx(-k_turn * k_turn * (x[d] - 0.5)).epsilon(1e-6));
+            test::approx(-k_turn * k_turn * (x[d] - 0.5)).scale(k_turn).epsilon(1e-6));
       CHECK(acceleration.speed(static_cast<std::size_t>(d))[face] ==
-            doctest::Approx(k_turn * std::hypot(x.x - 0.5, x.z - 0.5)).epsilon(1e-6));
+            test::approx(k_turn * std::hypot(x.x - 0.5, x.z - 0.5)).epsilon(1e-6));
     });
   }
 }
@@ -71,7 +72,7 @@ TEST_CASE("an even cloud in turning gas shall thin out by exp(-2 tau omega^2 t)"
   box.each_cell([&](std::size_t cell, Vec3 x) {
     if (std::hypot(x.x - 0.5, x.z - 0.5) > 0.2)
       return;  // what comes from the sides has not arrived
-    CHECK(box.mass()[cell] == doctest::Approx(exact).epsilon(1e-6));
+    CHECK(box.mass()[cell] == test::approx(exact).epsilon(1e-6));
   });
 }
 
@@ -92,7 +93,7 @@ TEST_CASE("dust shall lag behind gas that speeds up, by tau times what it has ga
   });
   // As one that follows u(t) by dv/dt = (u - v) / tau from v = u on.
   const double behind = k_time * k_gain * (k_end - k_time * (1.0 - std::exp(-k_end / k_time)));
-  CHECK(gas - (box.middle().x - 0.3) == doctest::Approx(behind).epsilon(0.01));
+  CHECK(gas - (box.middle().x - 0.3) == test::approx(behind).epsilon(0.01));
 }
 
 TEST_CASE(
@@ -103,7 +104,7 @@ TEST_CASE(
   const double before = box.in_air();
   const double time = 0.25 * std::numbers::pi / k_turn;
   CHECK(box.run_with_inertia(time, 80) > 0.5);
-  CHECK(box.in_air() == doctest::Approx(before).epsilon(1e-13));
+  CHECK(box.in_air() == test::approx(before).epsilon(1e-13));
   CHECK(box.lost() == 0.0);
   // Each component at most a fifth of the gas's speed.
   const Vec3 middle = box.middle();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies/belt/running_parts.hpp"
 #include "dust/sdk/error.hpp"
+#include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 #include "unit/bodies/shapes.hpp"
 
@@ -21,6 +22,7 @@ using dust::bodies::Body;
 using dust::sdk::Motion;
 using dust::sdk::Value;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using dust::test::make_shape;
 
 constexpr double k_pi = std::numbers::pi;
@@ -88,25 +90,25 @@ TEST_CASE("cleats shall travel along the carrying run with the belt, as exact bo
       const double x = std::fmod(run, k_pitch) - 3 * k_pitch;
       // On its faces, before and behind; over its top; off its upper edge; in the gap.
       const auto before = body.nearest({x + k_bar / 2 + 0.01, 0.1, k_face + 0.03}, at);
-      CHECK(before.distance == doctest::Approx(0.01).epsilon(1e-9));
+      CHECK(before.distance == approx(0.01).epsilon(1e-9));
       CHECK(norm(before.normal - Vec3{1, 0, 0}) < 1e-9);
       const auto behind = body.nearest({x - k_bar / 2 - 0.01, 0.1, k_face + 0.03}, at);
-      CHECK(behind.distance == doctest::Approx(0.01).epsilon(1e-9));
+      CHECK(behind.distance == approx(0.01).epsilon(1e-9));
       CHECK(norm(behind.normal + Vec3{1, 0, 0}) < 1e-9);
       const auto over = body.nearest({x + 0.01, -0.3, k_face + k_height + 0.02}, at);
-      CHECK(over.distance == doctest::Approx(0.02).epsilon(1e-9));
+      CHECK(over.distance == approx(0.02).epsilon(1e-9));
       CHECK(norm(over.normal - Vec3{0, 0, 1}) < 1e-9);
       const auto edge = body.nearest({x + k_bar / 2 + 0.03, 0.0, k_face + k_height + 0.04}, at);
-      CHECK(edge.distance == doctest::Approx(0.05).epsilon(1e-9));
+      CHECK(edge.distance == approx(0.05).epsilon(1e-9));
       CHECK(norm(edge.normal - Vec3{0.6, 0, 0.8}) < 1e-9);
       const auto inside = body.nearest({x + k_bar / 2 - 0.004, 0.0, k_face + 0.03}, at);
-      CHECK(inside.distance == doctest::Approx(-0.004).epsilon(1e-9));
+      CHECK(inside.distance == approx(-0.004).epsilon(1e-9));
       CHECK(body.nearest({x + k_pitch / 2, 0.0, k_face + 0.05}, at).distance ==
-            doctest::Approx(0.05).epsilon(1e-9));
+            approx(0.05).epsilon(1e-9));
       // A sphere in the corner touches belt and cleat, each with its own part.
       const Vec3 corner{x + k_bar / 2 + 0.02, 0.0, k_face + 0.025};
-      CHECK(body.contact(0, corner, 1.0, at).distance == doctest::Approx(0.025).epsilon(1e-9));
-      CHECK(body.contact(1, corner, 1.0, at).distance == doctest::Approx(0.02).epsilon(1e-9));
+      CHECK(body.contact(0, corner, 1.0, at).distance == approx(0.025).epsilon(1e-9));
+      CHECK(body.contact(1, corner, 1.0, at).distance == approx(0.02).epsilon(1e-9));
       // Face and belt run alike.
       const double speed = time < ramp ? k_speed * time / ramp : k_speed;
       const Vec3 face = body.surface_velocity(corner - Vec3{0.02, 0, 0}, {1, 0, 0}, time);
@@ -114,7 +116,7 @@ TEST_CASE("cleats shall travel along the carrying run with the belt, as exact bo
       const Vec3 belt = body.surface_velocity(corner - Vec3{0, 0, 0.025}, {0, 0, 1}, time);
       CHECK(norm(belt - Vec3{speed, 0, 0}) < 1e-12);
       CHECK(dust::bodies::normal_speed(body, at, corner - Vec3{0.02, 0, 0}, {1, 0, 0}) ==
-            doctest::Approx(speed).epsilon(1e-12).scale(1.0));
+            approx(speed).epsilon(1e-12).scale(1.0));
       CHECK(std::abs(dust::bodies::normal_speed(body, at, corner - Vec3{0, 0, 0.025}, {0, 0, 1})) <
             1e-12);
     }
@@ -131,7 +133,7 @@ TEST_CASE("cleats shall turn about the pulleys and come back below the belt") {
     const Vec3 along{std::cos(angle), 0, -std::sin(angle)};
     const double r = k_face + k_height / 2;
     const auto s = body.nearest(r * out + (k_bar / 2 + 0.005) * along, body.placement(time));
-    CHECK(s.distance == doctest::Approx(0.005).epsilon(1e-9));
+    CHECK(s.distance == approx(0.005).epsilon(1e-9));
     CHECK(norm(s.normal - along) < 1e-9);
     // A rigid turn at U / reach.
     const Vec3 p = r * out + k_bar / 2 * along;
@@ -143,24 +145,24 @@ TEST_CASE("cleats shall turn about the pulleys and come back below the belt") {
     const Vec3 face = k_face * Vec3{std::sin(beside), 0, std::cos(beside)};
     if (beside < k_pi) {
       CHECK(norm(body.surface_velocity(face, face / k_face, time)) ==
-            doctest::Approx(k_speed).epsilon(1e-9));
+            approx(k_speed).epsilon(1e-9));
     }
   }
   // Down it stands on the return run, from there round the tail and up again after a lap.
   const double way = k_pi * k_reach + 1.0;
   const auto down =
       body.nearest({-1.0, 0, -k_face - k_height - 0.02}, body.placement(way / k_speed));
-  CHECK(down.distance == doctest::Approx(0.02).epsilon(1e-9));
-  CHECK(down.normal.z == doctest::Approx(-1.0).epsilon(1e-12));
+  CHECK(down.distance == approx(0.02).epsilon(1e-9));
+  CHECK(down.normal.z == approx(-1.0).epsilon(1e-12));
   CHECK(norm(body.surface_velocity({-1.0, 0, -k_face - k_height}, {0, 0, -1}, way / k_speed) -
              Vec3{-k_speed, 0, 0}) < 1e-12);
   const double up = k_pi * k_reach + k_length + k_pi * k_reach / 2;
   const auto tail =
       body.nearest({-k_length - k_face - k_height - 0.02, 0, 0}, body.placement(up / k_speed));
-  CHECK(tail.distance == doctest::Approx(0.02).epsilon(1e-9));
+  CHECK(tail.distance == approx(0.02).epsilon(1e-9));
   for (const Vec3 p : {Vec3{-0.3, 0.1, 0.4}, Vec3{0.4, 0.0, 0.1}}) {
     CHECK(body.nearest(p, body.placement(0.2 + k_lap / k_speed)).distance ==
-          doctest::Approx(body.nearest(p, body.placement(0.2)).distance).epsilon(1e-9));
+          approx(body.nearest(p, body.placement(0.2)).distance).epsilon(1e-9));
   }
 }
 
@@ -187,7 +189,7 @@ TEST_CASE("a face shall move along its normal as fast as the distance to it fall
         const double earlier = body.nearest(p, body.placement(time - k_step)).distance;
         const Vec3 v = body.surface_velocity(p - s.distance * s.normal, s.normal, time);
         const double falls = (earlier - later) / (2 * k_step);
-        CHECK(falls == doctest::Approx(dot(v, s.normal)).epsilon(1e-3).scale(1.0));
+        CHECK(falls == approx(dot(v, s.normal)).epsilon(1e-3).scale(1.0));
         moved += std::abs(falls) > 0.5 ? 1 : 0;
       }
     }
@@ -225,7 +227,7 @@ TEST_CASE("drawn cleats shall lie on those that grains touch") {
       const auto s = body.nearest(middle, at);
       CHECK(std::abs(s.distance) < 1e-9);
       CHECK(body.nearest(middle + 1e-4 / norm(normal) * normal, at).distance ==
-            doctest::Approx(1e-4).epsilon(1e-6));
+            approx(1e-4).epsilon(1e-6));
     }
     CHECK(high >= 2 * 6);
   }
@@ -245,7 +247,7 @@ TEST_CASE("cleats in a trough shall fit its section") {
     const Vec3 on_wing = Vec3{x, k_centre / 2, floor} + 0.15 * up_wing;
     const auto over = [&](Vec3 base, Vec3 normal) {
       const auto s = body.contact(1, base + (top + 0.02) * normal, 1.0, at);
-      CHECK(s.distance == doctest::Approx(0.02).epsilon(1e-9));
+      CHECK(s.distance == approx(0.02).epsilon(1e-9));
       CHECK(norm(s.normal - normal) < 1e-9);
     };
     over({x, 0.05, floor}, {0, 0, 1});
@@ -255,14 +257,14 @@ TEST_CASE("cleats in a trough shall fit its section") {
     over(Vec3{x, k_centre / 2 - tangent, floor + k_bend} - k_bend * turn, turn);
     // Before its face, over the wing; a sphere there touches belt and cleat.
     const Vec3 corner = on_wing + Vec3{k_bar / 2 + 0.02, 0, 0} + (k_thickness / 2 + 0.025) * out;
-    CHECK(body.contact(1, corner, 1.0, at).distance == doctest::Approx(0.02).epsilon(1e-9));
+    CHECK(body.contact(1, corner, 1.0, at).distance == approx(0.02).epsilon(1e-9));
     CHECK(norm(body.contact(1, corner, 1.0, at).normal - Vec3{1, 0, 0}) < 1e-9);
-    CHECK(body.contact(0, corner, 1.0, at).distance == doctest::Approx(0.025).epsilon(1e-9));
+    CHECK(body.contact(0, corner, 1.0, at).distance == approx(0.025).epsilon(1e-9));
     // Its end is the belt's: 0.4 m from the middle along the section.
     const double wing = 0.4 - k_centre / 2 + 2 * tangent - k_bend * k_trough;
     const Vec3 end = Vec3{x, k_centre / 2, floor} + wing * up_wing;
     const auto off_edge = body.contact(1, end + 0.03 * up_wing + 0.05 * out, 1.0, at);
-    CHECK(off_edge.distance == doctest::Approx(0.03).epsilon(1e-9));
+    CHECK(off_edge.distance == approx(0.03).epsilon(1e-9));
     CHECK(norm(off_edge.normal - up_wing) < 1e-9);
     const Vec3 v = body.surface_velocity(corner - Vec3{0.02, 0, 0}, {1, 0, 0}, time);
     CHECK(norm(v - Vec3{k_speed, 0, 0}) < 1e-9);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies/mesh/mesh.hpp"
 #include "dust/sdk/error.hpp"
+#include "support/approx.hpp"
 #include "unit/bodies/meshes.hpp"
 #include "unit/bodies/shapes.hpp"
 
@@ -16,6 +17,7 @@ using dust::bodies::Mesh;
 using dust::bodies::SurfacePoint;
 using dust::sdk::Value;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
@@ -92,7 +94,7 @@ TEST_CASE("the nearest point of a mesh and its side shall be those of brute forc
     for (int n = 0; n < 600; ++n) {
       const Vec3 p{place(random), place(random), place(random)};
       const SurfacePoint s = mesh.nearest(p);
-      CHECK(std::abs(s.distance) == doctest::Approx(brute_distance(corners, p)).epsilon(1e-12));
+      CHECK(std::abs(s.distance) == approx(brute_distance(corners, p)).epsilon(1e-12));
       CHECK((s.distance < 0) == is_inside(corners, p));
       CHECK(brute_distance(corners, p - s.distance * s.normal) < 1e-12);
       inside += s.distance < 0 ? 1 : 0;
@@ -104,7 +106,7 @@ TEST_CASE("the nearest point of a mesh and its side shall be those of brute forc
         if (std::abs(c.distance) < std::abs(nearest)) nearest = c.distance;
         CHECK(mesh.is_within(part, p, std::abs(s.distance) - 1e-9) == false);
       }
-      CHECK(nearest == doctest::Approx(s.distance).epsilon(1e-12));
+      CHECK(nearest == approx(s.distance).epsilon(1e-12));
     }
     CHECK(inside > 10);
   }
@@ -143,7 +145,7 @@ TEST_CASE("edges that stand out shall be touched once, corners towards the grain
   for (const SurfacePoint& s : both) {
     const bool is_floor = s.normal.z > 0.5;
     CHECK(norm(s.normal - (is_floor ? Vec3{0, 0, 1} : Vec3{1, 0, 0})) < 1e-14);
-    CHECK(s.distance == doctest::Approx(is_floor ? 0.08 : 0.09).epsilon(1e-12));
+    CHECK(s.distance == approx(is_floor ? 0.08 : 0.09).epsilon(1e-12));
   }
   CHECK(contacts(corner, {0.5, 0.2, 1.08}, 0.1).size() == 1);
   CHECK(contacts(corner, {0.09, 0.2, 1.5}, 0.1).size() == 1);
@@ -175,9 +177,9 @@ TEST_CASE("a vessel shall be touched on each wall of its corners and once at its
   CHECK(touched({0.1, 1.5, 2.2}, r) == 1);
   CHECK(touched({-0.39, 1.5, 1}, r) == 1);  // outside
   CHECK(touched({2, 1.5, -0.39}, r) == 1);
-  CHECK(vessel->nearest({2, 1.5, 0.25}).distance == doctest::Approx(0.25).epsilon(1e-14));
-  CHECK(vessel->nearest({2, 1.5, -0.05}).distance == doctest::Approx(-0.05).epsilon(1e-14));
-  CHECK(vessel->nearest({-0.1, -0.1, 2.1}).distance == doctest::Approx(0.1).epsilon(1e-14));
+  CHECK(vessel->nearest({2, 1.5, 0.25}).distance == approx(0.25).epsilon(1e-14));
+  CHECK(vessel->nearest({2, 1.5, -0.05}).distance == approx(-0.05).epsilon(1e-14));
+  CHECK(vessel->nearest({-0.1, -0.1, 2.1}).distance == approx(0.1).epsilon(1e-14));
   CHECK(vessel->is_solid());
   CHECK_THROWS_WITH_AS(
       make_shape("container", {{"min", Vec3{}},
@@ -199,9 +201,9 @@ TEST_CASE("binary and text STL files shall give the same part, in the unit and p
                                           {"rotated_by", std::numbers::pi / 2},
                                           {"moved_by", Vec3{0, 0, 0.1}}});
     // Turned about z: x in -20 .. 0 mm, y in 0 .. 10 mm, z in 100 .. 130 mm.
-    CHECK(part->nearest({-0.010, 0.005, 0.131}).distance == doctest::Approx(1e-3).epsilon(1e-9));
-    CHECK(part->nearest({0.002, 0.005, 0.110}).distance == doctest::Approx(2e-3).epsilon(1e-9));
-    CHECK(part->nearest({-0.010, 0.005, 0.11}).distance == doctest::Approx(-5e-3).epsilon(1e-9));
+    CHECK(part->nearest({-0.010, 0.005, 0.131}).distance == approx(1e-3).epsilon(1e-9));
+    CHECK(part->nearest({0.002, 0.005, 0.110}).distance == approx(2e-3).epsilon(1e-9));
+    CHECK(part->nearest({-0.010, 0.005, 0.11}).distance == approx(-5e-3).epsilon(1e-9));
     REQUIRE(part->notes().size() == 1);
     CHECK(part->notes()[0].find("12 triangles, 8 points, 1 shell, closed, volume 6 cm3, area 22 "
                                 "cm2, 1 parts that a grain can touch at once; edges 10 mm to "
@@ -284,7 +286,7 @@ TEST_CASE("doubled and collapsed triangles shall be left out and told") {
   REQUIRE(part->warnings().size() == 2);
   CHECK(part->warnings()[0].find("1 triangles were given twice: left out") != std::string::npos);
   CHECK(part->warnings()[1].find("1 triangles have two corners in one point") != std::string::npos);
-  CHECK(part->nearest({0.005, 0.005, 0.011}).distance == doctest::Approx(1e-3).epsilon(1e-9));
+  CHECK(part->nearest({0.005, 0.005, 0.011}).distance == approx(1e-3).epsilon(1e-9));
 }
 
 TEST_CASE("a thin sheet shall be touched from both sides, and have a thickness if asked for") {
@@ -296,12 +298,12 @@ TEST_CASE("a thin sheet shall be touched from both sides, and have a thickness i
       make_shape("mesh", {{"file", file}, {"unit", 1e-3}, {"open", std::string("allowed")}});
   CHECK(thin->nearest({0.005, 0.005, 0.002}).normal == Vec3{0, 0, 1});
   CHECK(thin->nearest({0.005, 0.005, -0.002}).normal == Vec3{0, 0, -1});
-  CHECK(thin->nearest({0.005, 0.005, -0.002}).distance == doctest::Approx(2e-3).epsilon(1e-12));
+  CHECK(thin->nearest({0.005, 0.005, -0.002}).distance == approx(2e-3).epsilon(1e-12));
   CHECK_FALSE(thin->is_solid());
   const auto thick = make_shape(
       "mesh",
       {{"file", file}, {"unit", 1e-3}, {"open", std::string("allowed")}, {"thickness", 1e-3}});
   CHECK(thick->is_solid());
-  CHECK(thick->nearest({0.005, 0.005, -0.002}).distance == doctest::Approx(1.5e-3).epsilon(1e-12));
-  CHECK(thick->nearest({0.005, 0.005, 1e-4}).distance == doctest::Approx(-4e-4).epsilon(1e-9));
+  CHECK(thick->nearest({0.005, 0.005, -0.002}).distance == approx(1.5e-3).epsilon(1e-12));
+  CHECK(thick->nearest({0.005, 0.005, 1e-4}).distance == approx(-4e-4).epsilon(1e-9));
 }

@@ -2,6 +2,7 @@
 #include "bodies/body_set.hpp"
 #include "dust/sdk/error.hpp"
 #include "motion/belt/belt.hpp"
+#include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 #include "unit/bodies/shapes.hpp"
 
@@ -17,6 +18,7 @@ using dust::sdk::Motion;
 using dust::sdk::RigidPose;
 using dust::sdk::Value;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using dust::test::make_shape;
 using dust::test::ModelLoader;
 
@@ -60,16 +62,16 @@ TEST_CASE("a lifted body shall go as far as it is told and no farther") {
       motion("translate", {{"velocity", Vec3{0, 0, 0.01}}, {"start", 0.5}, {"travel", 0.01}});
   CHECK(lift->pose(0.3).shift == Vec3{});
   CHECK(lift->pose(0.3).velocity == Vec3{});
-  CHECK(lift->pose(1.0).shift.z == doctest::Approx(0.005).epsilon(1e-14));
-  CHECK(lift->pose(1.0).velocity.z == doctest::Approx(0.01).epsilon(1e-14));
+  CHECK(lift->pose(1.0).shift.z == approx(0.005).epsilon(1e-14));
+  CHECK(lift->pose(1.0).velocity.z == approx(0.01).epsilon(1e-14));
   CHECK(lift->pose(2.0).shift.z == 0.01);  // to the last bit
   CHECK(lift->pose(2.0).velocity == Vec3{});
-  CHECK(lift->largest_speed() == doctest::Approx(0.01).epsilon(1e-14));
+  CHECK(lift->largest_speed() == approx(0.01).epsilon(1e-14));
   const auto stopped =
       motion("translate", {{"velocity", Vec3{2, 0, 0}}, {"stop", 0.25}, {"ramp", 0.1}});
-  CHECK(stopped->pose(0.05).shift.x == doctest::Approx(0.5 * 2 * 0.05 * 0.05 / 0.1).epsilon(1e-14));
-  CHECK(stopped->pose(0.05).velocity.x == doctest::Approx(1.0).epsilon(1e-14));
-  CHECK(stopped->pose(9.0).shift.x == doctest::Approx(2 * (0.25 - 0.05)).epsilon(1e-14));
+  CHECK(stopped->pose(0.05).shift.x == approx(0.5 * 2 * 0.05 * 0.05 / 0.1).epsilon(1e-14));
+  CHECK(stopped->pose(0.05).velocity.x == approx(1.0).epsilon(1e-14));
+  CHECK(stopped->pose(9.0).shift.x == approx(2 * (0.25 - 0.05)).epsilon(1e-14));
   // An end on the ramp.
   const auto short_way =
       motion("translate", {{"velocity", Vec3{2, 0, 0}}, {"travel", 0.025}, {"ramp", 0.1}});
@@ -122,20 +124,20 @@ TEST_CASE("an oscillation shall start where the body stands and stop where it is
                                           {"stop", 1.25}});
   CHECK(swing->pose(0.9).shift == Vec3{});
   CHECK(norm(swing->pose(1.0).shift) < 1e-15);
-  CHECK(swing->pose(1.2499999).shift.z == doctest::Approx(-0.02).epsilon(1e-6));
-  CHECK(swing->pose(5.0).shift.z == doctest::Approx(-0.02).epsilon(1e-12));
+  CHECK(swing->pose(1.2499999).shift.z == approx(-0.02).epsilon(1e-6));
+  CHECK(swing->pose(5.0).shift.z == approx(-0.02).epsilon(1e-12));
   CHECK(swing->pose(5.0).velocity == Vec3{});
-  CHECK(swing->largest_speed() == doctest::Approx(2 * std::numbers::pi * 2 * 0.01).epsilon(1e-12));
+  CHECK(swing->largest_speed() == approx(2 * std::numbers::pi * 2 * 0.01).epsilon(1e-12));
 }
 
 TEST_CASE("a belt shall gather speed evenly, and shake when it is told to") {
   for (const double speed : {0.8, -0.8}) {  // backwards too
     const auto belt = motion("belt", {{"speed", speed}, {"start", 0.1}, {"ramp", 0.5}});
     CHECK(belt->pose(0.05).velocity.x == 0.0);
-    CHECK(belt->pose(0.35).velocity.x == doctest::Approx(0.5 * speed).epsilon(1e-14));
+    CHECK(belt->pose(0.35).velocity.x == approx(0.5 * speed).epsilon(1e-14));
     CHECK(belt->pose(0.7).velocity.x == speed);
     CHECK(belt->pose(0.05).shift.x == 0.0);
-    CHECK(belt->pose(0.7).shift.x == doctest::Approx(speed * (0.25 + 0.1)).epsilon(1e-14));
+    CHECK(belt->pose(0.7).shift.x == approx(speed * (0.25 + 0.1)).epsilon(1e-14));
   }
   Body body;
   body.shape =
@@ -146,9 +148,9 @@ TEST_CASE("a belt shall gather speed evenly, and shake when it is told to") {
                                            {"along", std::vector<Vec3>{{0, 0, 1}}}}));
   CHECK(body.displaces());
   const Vec3 v = body.surface_velocity({0, 0, 0.1}, {0, 0, 1}, 0.5);
-  CHECK(v.x == doctest::Approx(0.4).epsilon(1e-12));
-  CHECK(v.z == doctest::Approx(0.001 * 2 * std::numbers::pi * 10 * std::cos(10 * std::numbers::pi))
-                   .epsilon(1e-9));
+  CHECK(v.x == approx(0.4).epsilon(1e-12));
+  CHECK(v.z ==
+        approx(0.001 * 2 * std::numbers::pi * 10 * std::cos(10 * std::numbers::pi)).epsilon(1e-9));
 }
 
 TEST_CASE("a belt shall keep its speed where idlers lean its surface to the axis") {
@@ -157,7 +159,7 @@ TEST_CASE("a belt shall keep its speed where idlers lean its surface to the axis
     const double lean = degrees * std::numbers::pi / 180.0;
     const auto v = velocity(2.0, 0, 1, 0, 0, -std::sin(lean), std::cos(lean));
     CAPTURE(degrees);
-    CHECK(v.x == doctest::Approx(2.0).epsilon(1e-12));
+    CHECK(v.x == approx(2.0).epsilon(1e-12));
     CHECK(v.y == 0.0);
     CHECK(v.z == 0.0);
   }
@@ -203,7 +205,7 @@ TEST_CASE("a troughed belt in a turned frame shall run along its wings as fast a
   for (std::size_t n = 0; n < in[0].size(); ++n) {
     CAPTURE(n);
     const Vec3 v{out[0][n], out[1][n], out[2][n]};
-    CHECK(norm(v) == doctest::Approx(2.5).epsilon(1e-9));
+    CHECK(norm(v) == approx(2.5).epsilon(1e-9));
     CHECK(std::abs(dot(v, {in[3][n], in[4][n], in[5][n]})) < 1e-9);
     // In the trough straight along the belt, in the transition nearly so.
     CHECK(dot(v, along) > (n < 4 ? 2.5 * (1 - 1e-9) : 2.5 * 0.97));
@@ -284,8 +286,8 @@ TEST_CASE("a cleat shall go round with its belt: places in closed form, speed, a
     CAPTURE(time);
     const Vec3 now = carried(cleat, foot, time);
     // Half the thickness below the belt's surface, all the way round.
-    CHECK(belt.nearest(now, belt.placement(0)).distance == doctest::Approx(-0.01).epsilon(1e-9));
-    CHECK(norm(cleat.surface_velocity(now, up, time)) == doctest::Approx(2.0).epsilon(1e-12));
+    CHECK(belt.nearest(now, belt.placement(0)).distance == approx(-0.01).epsilon(1e-9));
+    CHECK(norm(cleat.surface_velocity(now, up, time)) == approx(2.0).epsilon(1e-12));
     constexpr double h = 1e-5;
     const Vec3 rate = (carried(cleat, tip, time + h) - carried(cleat, tip, time - h)) / (2 * h);
     CHECK(norm(cleat.surface_velocity(carried(cleat, tip, time), up, time) - rate) < 1e-6);

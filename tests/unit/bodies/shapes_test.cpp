@@ -2,6 +2,7 @@
 #include "unit/bodies/shapes.hpp"
 #include "bodies/seen_edges.hpp"
 #include "dust/sdk/error.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -17,6 +18,7 @@ namespace {
 using dust::bodies::Shape;
 using dust::bodies::SurfacePoint;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using dust::test::make_shape;
 
 constexpr double k_pi = std::numbers::pi;
@@ -170,7 +172,7 @@ TEST_CASE("every exact shape shall give the distance, side and normal that brute
       CAPTURE(p.x);
       CAPTURE(p.y);
       CAPTURE(p.z);
-      CHECK(norm(s.normal) == doctest::Approx(1.0).epsilon(1e-12));
+      CHECK(norm(s.normal) == approx(1.0).epsilon(1e-12));
       CHECK((s.distance < 0) == d.is_inside(p));
       inside += s.distance < 0 ? 1 : 0;
       // The nearest of points at most `spacing` apart is never nearer than the surface, and not
@@ -182,7 +184,7 @@ TEST_CASE("every exact shape shall give the distance, side and normal that brute
       CHECK(std::abs(d.shape->nearest(on).distance) < 1e-12);
       constexpr double k_step = 1e-6;
       const double ahead = d.shape->nearest(p + k_step * s.normal).distance;
-      CHECK(ahead - s.distance == doctest::Approx(k_step).epsilon(1e-6));
+      CHECK(ahead - s.distance == approx(k_step).epsilon(1e-6));
     }
     CHECK(inside > 2);  // both sides were seen
   }
@@ -246,22 +248,22 @@ TEST_CASE("faces, rims and tips shall be met where they are") {
                                             {"radius", 0.4},
                                             {"thickness", 0.1}});
   // From inside, from outside, and round the two rims of the upper end.
-  CHECK(tube->nearest({0.3, 0, 0.5}).distance == doctest::Approx(0.1).epsilon(1e-14));
+  CHECK(tube->nearest({0.3, 0, 0.5}).distance == approx(0.1).epsilon(1e-14));
   CHECK(tube->nearest({0.3, 0, 0.5}).normal == Vec3{-1, 0, 0});
-  CHECK(tube->nearest({0, -0.7, 0.5}).distance == doctest::Approx(0.2).epsilon(1e-14));
+  CHECK(tube->nearest({0, -0.7, 0.5}).distance == approx(0.2).epsilon(1e-14));
   CHECK(tube->nearest({0, -0.7, 0.5}).normal == Vec3{0, -1, 0});
   CHECK(tube->nearest({0.45, 0, 1.25}).normal == Vec3{0, 0, 1});
   const SurfacePoint rim = tube->nearest({0.1, 0, 1.4});
-  CHECK(rim.distance == doctest::Approx(0.5).epsilon(1e-14));
-  CHECK(rim.normal.x == doctest::Approx(-0.6).epsilon(1e-14));
-  CHECK(rim.normal.z == doctest::Approx(0.8).epsilon(1e-14));
+  CHECK(rim.distance == approx(0.5).epsilon(1e-14));
+  CHECK(rim.normal.x == approx(-0.6).epsilon(1e-14));
+  CHECK(rim.normal.z == approx(0.8).epsilon(1e-14));
   // On the axis every direction is right: the distance is the radius.
-  CHECK(tube->nearest({0, 0, 0.5}).distance == doctest::Approx(0.4).epsilon(1e-14));
+  CHECK(tube->nearest({0, 0, 0.5}).distance == approx(0.4).epsilon(1e-14));
 
   const auto cone = make_shape(
       "cone",
       {{"base", Vec3{0, 0, 1}}, {"axis", Vec3{0, 0, -1}}, {"length", 1.0}, {"radius", 1.0}});
-  CHECK(cone->nearest({0, 0, -0.5}).distance == doctest::Approx(0.5).epsilon(1e-14));
+  CHECK(cone->nearest({0, 0, -0.5}).distance == approx(0.5).epsilon(1e-14));
   CHECK(cone->nearest({0, 0, -0.5}).normal == Vec3{0, 0, -1});
   CHECK(cone->nearest({0, 0.5, 1.5}).normal == Vec3{0, 0, 1});
 
@@ -305,8 +307,8 @@ TEST_CASE("a drawing shall show rims and bends of a surface, not its triangles")
   const auto along = dust::bodies::visible_edges(t, 1, 2.0);
   CHECK(along.size() > 40);
   for (const auto& [a, b] : along) {
-    CHECK(std::hypot(a.x, a.z) == doctest::Approx(0.6));
-    CHECK(std::hypot(b.x, b.z) == doctest::Approx(0.6));
+    CHECK(std::hypot(a.x, a.z) == approx(0.6));
+    CHECK(std::hypot(b.x, b.z) == approx(0.6));
   }
   // From the side two lines more, where the round turns from the eye.
   CHECK(dust::bodies::visible_edges(t, 0, 2.0).size() == along.size() + 2);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/error.hpp"
+#include "support/approx.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
@@ -185,7 +186,7 @@ TEST_CASE("rows reordered between map and refresh shall change nothing for any g
   // Debts are carried by the grains that have them: the sums differ by their order alone.
   for (int d = 0; d < 3; ++d) {
     CHECK(worlds[0].force_on_fluid()[d] ==
-          doctest::Approx(worlds[1].force_on_fluid()[d]).epsilon(1e-12));
+          test::approx(worlds[1].force_on_fluid()[d]).epsilon(1e-12));
   }
 }
 
@@ -253,7 +254,7 @@ TEST_CASE("a stream that moves with the grains shall neither drag them nor feel 
   world.refresh();
   for (std::size_t g = 0; g < world.grains.count(); ++g) {
     for (int d = 0; d < 3; ++d) {
-      REQUIRE(world.grains.action[4 * g + d] == doctest::Approx(speed[d]).epsilon(1e-14));
+      REQUIRE(world.grains.action[4 * g + d] == test::approx(speed[d]).epsilon(1e-14));
     }
   }
   for (int d = 0; d < 3; ++d) {
@@ -306,7 +307,7 @@ TEST_CASE("k grains of weight 1/k at one place shall act as one grain") {
     CHECK(largest < 1e-11 * scale);  // sums of 20 terms in another order, twice fed back
   }
   for (int d = 0; d < 3; ++d) {
-    CHECK(one.grains.velocity[d] == doctest::Approx(many.grains.velocity[d]).epsilon(k_sum));
+    CHECK(one.grains.velocity[d] == test::approx(many.grains.velocity[d]).epsilon(k_sum));
   }
 }
 
@@ -390,7 +391,7 @@ TEST_CASE("grains shall feel the pressure gradient on their volume") {
     world.refresh();
     const double* action = world.grains.action.data();
     const double force = action[3] * action[2] / world.grains.velocity[3];
-    CHECK(force == doctest::Approx(gradient * sdk::sphere_volume(5e-4)).epsilon(1e-10));
+    CHECK(force == test::approx(gradient * sdk::sphere_volume(5e-4)).epsilon(1e-10));
     CHECK(action[0] == 0.0);
   }
 }
@@ -480,7 +481,7 @@ TEST_CASE("a law shall get each grain's size over the Sauter mean of its cell") 
     const double expected[] = {1e-3 / mean, 1e-3 / mean, 1e-3 / mean, 2e-3 / mean, 1.0};
     REQUIRE(law.seen.size() == 5);
     for (std::size_t g = 0; g < 5; ++g) {
-      CHECK(law.seen[g] == doctest::Approx(expected[g]).epsilon(1e-14));
+      CHECK(law.seen[g] == test::approx(expected[g]).epsilon(1e-14));
     }
   }
 }
@@ -500,8 +501,8 @@ TEST_CASE("a law shall get the sizes that coarse grains stand for") {
   coupling.refresh(drag, rows, {world.velocity, world.stress});
   const double mean = 1e-3 * (64 * 1 + 3 * 8) / (64 * 1 + 3 * 4);
   REQUIRE(law.seen.size() == 4);
-  CHECK(law.seen[0] == doctest::Approx(1e-3 / mean).epsilon(1e-14));
-  CHECK(law.seen[1] == doctest::Approx(2e-3 / mean).epsilon(1e-14));
+  CHECK(law.seen[0] == test::approx(1e-3 / mean).epsilon(1e-14));
+  CHECK(law.seen[1] == test::approx(2e-3 / mean).epsilon(1e-14));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "coupling/drag/drag_model.hpp"
 
 #include "fluid/momentum_set.hpp"
+#include "support/approx.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
@@ -37,15 +38,15 @@ TEST_CASE(
   const coupling::DragModel model = model_of(world);
   const auto rows = world.grains.rows();
   const double stokes = 3.0 * std::numbers::pi * test::k_air_viscosity * 2e-3;
-  CHECK(model.coefficient(rows, 0, 1.5) == doctest::Approx(1.5 * stokes).epsilon(1e-14));
+  CHECK(model.coefficient(rows, 0, 1.5) == test::approx(1.5 * stokes).epsilon(1e-14));
   // Eight of half the diameter: 8 / 2 times as much.
-  CHECK(model.coefficient(rows, 1, 1.0) == doctest::Approx(4.0 * stokes).epsilon(1e-14));
+  CHECK(model.coefficient(rows, 1, 1.0) == test::approx(4.0 * stokes).epsilon(1e-14));
   CHECK(model.reynolds(rows, 0, 0.8, 3.0) ==
-        doctest::Approx(0.8 * 3.0 * 2e-3 * test::k_air / test::k_air_viscosity).epsilon(1e-14));
+        test::approx(0.8 * 3.0 * 2e-3 * test::k_air / test::k_air_viscosity).epsilon(1e-14));
   CHECK(model.reynolds(rows, 1, 0.8, 3.0) ==
-        doctest::Approx(0.5 * model.reynolds(rows, 0, 0.8, 3.0)).epsilon(1e-14));
+        test::approx(0.5 * model.reynolds(rows, 0, 0.8, 3.0)).epsilon(1e-14));
   const double mass = 1.0 / rows.velocity_of(1)[3];
-  CHECK(model.fastest_relaxation(rows) == doctest::Approx(4.0 * stokes / mass).epsilon(1e-14));
+  CHECK(model.fastest_relaxation(rows) == test::approx(4.0 * stokes / mass).epsilon(1e-14));
 }
 
 TEST_CASE("the slope of a power law shall be its exponent, at most that of inertia") {
@@ -62,7 +63,7 @@ TEST_CASE("the slope of a power law shall be its exponent, at most that of inert
     model.evaluate(*columns, 3);
     model.find_slope(*columns, 3, slope);
     for (const double s : slope) {
-      CHECK(s == doctest::Approx(std::min(exponent, 1.0)).epsilon(0.004));
+      CHECK(s == test::approx(std::min(exponent, 1.0)).epsilon(0.004));
       CHECK(s <= 1.0);
     }
   }

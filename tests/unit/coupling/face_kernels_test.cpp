@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coupling/stencils/cell_order.hpp"
 #include "coupling/stencils/face_void_fraction.hpp"
+#include "support/approx.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
@@ -155,10 +156,10 @@ TEST_CASE("batches of grains shall see at their faces what each sees by itself")
             push[s.storage[n]] += s.weight[n] * contributions->drag[q] * v[q];
             extra[s.storage[n]] += s.weight[n] * contributions->extra[q];
           }
-          CHECK(open[q] == doctest::Approx(sums[0]).epsilon(1e-12));
-          CHECK(fluid[q] == doctest::Approx(sums[1]).epsilon(1e-12));
-          CHECK(flux[q] == doctest::Approx(sums[2]).epsilon(1e-12));
-          CHECK(given[q] == doctest::Approx(3.0 * contributions->drag[q] * sums[3]).epsilon(1e-12));
+          CHECK(open[q] == test::approx(sums[0]).epsilon(1e-12));
+          CHECK(fluid[q] == test::approx(sums[1]).epsilon(1e-12));
+          CHECK(flux[q] == test::approx(sums[2]).epsilon(1e-12));
+          CHECK(given[q] == test::approx(3.0 * contributions->drag[q] * sums[3]).epsilon(1e-12));
         }
         // Runs give the same faces the same, whatever stands behind their ends.
         for (std::size_t r = 0; r < f.stencils->groups; ++r) {
@@ -187,9 +188,9 @@ TEST_CASE("batches of grains shall see at their faces what each sees by itself")
         coupling::slip_of_faces(Faces::k_count, around.data(), {open.data(), fluid.data()},
                                 flux.data(), slip.data(), ratio.data());
         for (std::size_t q = 0; q < Faces::k_count; ++q) {
-          CHECK(slip[q] == doctest::Approx(2.0 * flux[q]).epsilon(1e-14));
+          CHECK(slip[q] == test::approx(2.0 * flux[q]).epsilon(1e-14));
           const double expected = open[q] > 0.0 ? 2.0 * fluid[q] / open[q] : 1.0;
-          CHECK(ratio[q] == doctest::Approx(expected).epsilon(1e-14));
+          CHECK(ratio[q] == test::approx(expected).epsilon(1e-14));
         }
       }
     }

@@ -2,6 +2,7 @@
 #include "coupling/stencils/face_stencils.hpp"
 
 #include "coupling/stress_balance.hpp"
+#include "support/approx.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
@@ -82,7 +83,7 @@ TEST_CASE("what grains receive of the stress shall be taken off what the fluid l
   balance.leave(eps, world.stress, k_step);
   for (int d = 0; d < 3; ++d) {
     CHECK(balance.deferred(d)[static_cast<std::size_t>(storage)] ==
-          doctest::Approx(k_step * cell * 0.1 * stress[d]).epsilon(1e-12));
+          test::approx(k_step * cell * 0.1 * stress[d]).epsilon(1e-12));
   }
   FaceStencils stencils;
   stencils.sort(world.grid, world.grains.rows(), 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coupling/refresh_schedule.hpp"
 
+#include "support/approx.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
@@ -8,6 +9,7 @@
 namespace {
 
 using dust::coupling::RefreshSchedule;
+using dust::test::approx;
 using dust::test::MemoryArchive;
 
 constexpr double k_step = 1e-3;
@@ -17,19 +19,19 @@ constexpr double k_spacing = 1e-3;  // 16 crossings of 1/8 cell at 2 m/s in a st
 
 TEST_CASE("refreshes shall be due by relaxation or by crossing, whichever is sooner, 1 to 64") {
   RefreshSchedule fine(k_step, k_spacing);
-  CHECK(fine.interval() == doctest::Approx(k_step / 16));
+  CHECK(fine.interval() == approx(k_step / 16));
   fine.begin_step(k_step, 5e3);  // a quarter of 0.2 ms: 20
-  CHECK(fine.interval() == doctest::Approx(k_step / 20));
+  CHECK(fine.interval() == approx(k_step / 20));
   fine.begin_step(k_step, 1e9);
-  CHECK(fine.interval() == doctest::Approx(k_step / 64));
+  CHECK(fine.interval() == approx(k_step / 64));
   fine.begin_step(k_step / 4, 0.0);
-  CHECK(fine.interval() == doctest::Approx(k_step / 16));
+  CHECK(fine.interval() == approx(k_step / 16));
   CHECK(fine.fluid_step() == k_step / 4);
 
   RefreshSchedule coarse(k_step, 1.0);
   CHECK(coarse.interval() == k_step);
   coarse.begin_step(k_step, 4.1 / (4.0 * k_step));  // not a whole number: one more
-  CHECK(coarse.interval() == doctest::Approx(k_step / 5));
+  CHECK(coarse.interval() == approx(k_step / 5));
 }
 
 TEST_CASE("a schedule shall know the first refresh of a step, and the mean over those done") {

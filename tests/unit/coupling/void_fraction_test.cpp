@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
 #include "dust/sdk/error.hpp"
+#include "support/approx.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
@@ -41,7 +42,7 @@ TEST_CASE("the mapped volume shall be that of the grains, at walls, corners and 
       world.grains.add({0, 0, 0}, {}, 5e-4);
       world.grains.add({0.01, 0.012, 0.014}, {}, 5e-4);
       world.begin_step(1e-3);
-      CHECK(mapped_volume(world) == doctest::Approx(world.grains.solid_volume()).epsilon(k_sum));
+      CHECK(mapped_volume(world) == test::approx(world.grains.solid_volume()).epsilon(k_sum));
       CHECK(world.coupling->report().moved_shares > 0);
       CHECK(world.coupling->report().unplaced_grains == 0);
     }
@@ -59,9 +60,9 @@ TEST_CASE("wide grains shall keep their volume in a domain thinner than themselv
     world.grains.add({0.010, 0.0003, 0.012}, {}, 4e-3, 2650, 0.2);
     world.grains.add({0.0005, 0.0013, 0.019}, {}, 3e-3, 2650, 0.2);
     world.begin_step(1e-3);
-    CHECK(mapped_volume(world) == doctest::Approx(world.grains.solid_volume()).epsilon(k_sum));
+    CHECK(mapped_volume(world) == test::approx(world.grains.solid_volume()).epsilon(k_sum));
     CHECK(world.coupling->report().unplaced_grains == 0);
-    CHECK(world.coupling->report().largest_diameter_over_spacing == doctest::Approx(4.0));
+    CHECK(world.coupling->report().largest_diameter_over_spacing == test::approx(4.0));
   }
 }
 
@@ -80,7 +81,7 @@ TEST_CASE("a grain across a periodic side shall be mapped as the same grain insi
     const double a = inside.coupling->void_fraction()[inside.grid.index(i, j, k)];
     const double b =
         across.coupling->void_fraction()[across.grid.index((i + 6) % 8, (j + 4) % 8, (k + 4) % 8)];
-    CHECK(a == doctest::Approx(b).epsilon(k_sum));
+    CHECK(a == test::approx(b).epsilon(k_sum));
     cells += a < 1.0;
   });
   CHECK(cells == 8);
@@ -107,7 +108,7 @@ TEST_CASE("closed cells shall hold no grain volume and cut cells only beside the
           3e-4);
     }
     world.begin_step(1e-3);
-    CHECK(mapped_volume(world) == doctest::Approx(world.grains.solid_volume()).epsilon(k_sum));
+    CHECK(mapped_volume(world) == test::approx(world.grains.solid_volume()).epsilon(k_sum));
     CHECK(world.coupling->report().moved_shares > 0);
     double smallest = 1.0;
     world.for_cells([&](int i, int j, int k) {
@@ -128,9 +129,9 @@ TEST_CASE("an overfull cell shall give its excess to the cells around it, and co
   for (int g = 0; g < 12; ++g) world.grains.add({0.0055, 0.0055, 0.0055}, {}, 5e-4);
   world.begin_step(1e-3);
   const double eps = world.coupling->void_fraction()[world.grid.index(5, 5, 5)];
-  CHECK(eps == doctest::Approx(0.30).epsilon(1e-9));
+  CHECK(eps == test::approx(0.30).epsilon(1e-9));
   CHECK(world.coupling->report().limited_cells == 1);
-  CHECK(mapped_volume(world) == doctest::Approx(world.grains.solid_volume()).epsilon(k_sum));
+  CHECK(mapped_volume(world) == test::approx(world.grains.solid_volume()).epsilon(k_sum));
 }
 
 TEST_CASE("the void fraction of the last step shall be kept") {

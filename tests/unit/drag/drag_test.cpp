@@ -8,6 +8,7 @@
 #include "drag/schiller_naumann/schiller_naumann.hpp"
 #include "drag/stokes/stokes.hpp"
 #include "drag/wen_yu/wen_yu.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,6 +16,8 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+
+using dust::test::approx;
 
 namespace {
 
@@ -69,12 +72,12 @@ TEST_CASE("the drag of a lone slow grain shall be that of Stokes, after Di Felic
   CHECK(model::stokes::factor(0.0, 1.0) == 1.0);
   CHECK(model::schiller_naumann::factor(0.0, 1.0) == 1.0);
   CHECK(model::abraham::factor(0.0, 1.0) == 1.0);
-  CHECK(model::di_felice::factor(0.0, 1.0) == doctest::Approx(0.96).epsilon(1e-14));
+  CHECK(model::di_felice::factor(0.0, 1.0) == approx(0.96).epsilon(1e-14));
   // The laws of suspensions come to their limits without a step.
   const double near = 1.0 - 1e-9;
-  CHECK(model::koch_hill::factor(1e-9, near) == doctest::Approx(1.0).epsilon(1e-4));
-  CHECK(model::beetstra::factor(1e-9, near) == doctest::Approx(1.0).epsilon(1e-4));
-  CHECK(model::di_felice::factor(1e-9, near) == doctest::Approx(0.96).epsilon(1e-4));
+  CHECK(model::koch_hill::factor(1e-9, near) == approx(1.0).epsilon(1e-4));
+  CHECK(model::beetstra::factor(1e-9, near) == approx(1.0).epsilon(1e-4));
+  CHECK(model::di_felice::factor(1e-9, near) == approx(0.96).epsilon(1e-4));
 }
 
 TEST_CASE("laws of one sphere shall see the slip alone, not the void fraction") {
@@ -82,14 +85,14 @@ TEST_CASE("laws of one sphere shall see the slip alone, not the void fraction") 
   for (const double own : {0.01, 3.0, 250.0, 5000.0}) {
     for (const double eps : {0.5, 0.9}) {
       CHECK(model::schiller_naumann::factor(own * eps, eps) ==
-            doctest::Approx(model::schiller_naumann::factor(own, 1.0)).epsilon(1e-12));
+            approx(model::schiller_naumann::factor(own, 1.0)).epsilon(1e-12));
       CHECK(model::abraham::factor(own * eps, eps) ==
-            doctest::Approx(model::abraham::factor(own, 1.0)).epsilon(1e-12));
+            approx(model::abraham::factor(own, 1.0)).epsilon(1e-12));
     }
   }
-  CHECK(model::abraham::factor(1000.0, 1.0) == doctest::Approx(0.44 / 24.0 * 1000.0));
+  CHECK(model::abraham::factor(1000.0, 1.0) == approx(0.44 / 24.0 * 1000.0));
   const double abraham = 24.0 / (9.06 * 9.06) * std::pow(1.0 + 9.06 / std::sqrt(40.0), 2);
-  CHECK(model::abraham::factor(40.0, 1.0) == doctest::Approx(abraham * 40.0 / 24.0).epsilon(1e-13));
+  CHECK(model::abraham::factor(40.0, 1.0) == approx(abraham * 40.0 / 24.0).epsilon(1e-13));
 }
 
 /// Speed [m/s] at which the drag of a lone sphere balances its weight in the fluid, by bisection.
@@ -130,14 +133,13 @@ TEST_CASE("V-TERM: the laws shall balance weight at the tabulated terminal veloc
     const auto speed = [&](const auto& law) {
       return terminal_velocity(law, r.diameter, r.density, r.fluid, r.viscosity);
     };
-    CHECK(speed(model::stokes::factor) == doctest::Approx(r.stokes).epsilon(k_speed));
-    CHECK(speed(model::schiller_naumann::factor) ==
-          doctest::Approx(r.schiller_naumann).epsilon(k_speed));
-    CHECK(speed(model::abraham::factor) == doctest::Approx(r.abraham).epsilon(k_speed));
-    CHECK(speed(model::di_felice::factor) == doctest::Approx(r.dallavalle).epsilon(k_speed));
-    CHECK(speed(model::koch_hill::factor) == doctest::Approx(r.koch_hill).epsilon(k_speed));
+    CHECK(speed(model::stokes::factor) == approx(r.stokes).epsilon(k_speed));
+    CHECK(speed(model::schiller_naumann::factor) == approx(r.schiller_naumann).epsilon(k_speed));
+    CHECK(speed(model::abraham::factor) == approx(r.abraham).epsilon(k_speed));
+    CHECK(speed(model::di_felice::factor) == approx(r.dallavalle).epsilon(k_speed));
+    CHECK(speed(model::koch_hill::factor) == approx(r.koch_hill).epsilon(k_speed));
     CHECK(speed([](double re, double eps) { return model::beetstra::factor(re, eps); }) ==
-          doctest::Approx(r.beetstra).epsilon(k_speed));
+          approx(r.beetstra).epsilon(k_speed));
   }
 }
 
@@ -163,9 +165,8 @@ TEST_CASE("the drags of a mixture shall add up to that of its Sauter mean but fo
     cubic += number[i] * diameter[i] * 0.064 * y * y * y;
   }
   const double alike = model::beetstra::factor(reynolds, eps);
-  CHECK(sum == doctest::Approx(alike * (squares / mean + cubic)).epsilon(1e-12));
-  CHECK(model::beetstra::factor(reynolds, eps, 1.0) ==
-        doctest::Approx(1.064 * alike).epsilon(1e-12));
+  CHECK(sum == approx(alike * (squares / mean + cubic)).epsilon(1e-12));
+  CHECK(model::beetstra::factor(reynolds, eps, 1.0) == approx(1.064 * alike).epsilon(1e-12));
 }
 
 TEST_CASE("the Gidaspow law shall change branch above a void fraction of exactly 0.8") {
@@ -193,7 +194,7 @@ TEST_CASE("the Ergun factor shall give the Ergun pressure drop of a bed") {
           150.0 * viscosity * solids * solids * superficial /
               (std::pow(eps, 3) * diameter * diameter) +
           1.75 * density * solids * superficial * superficial / (std::pow(eps, 3) * diameter);
-      CHECK(gradient == doctest::Approx(ergun).epsilon(1e-12));
+      CHECK(gradient == approx(ergun).epsilon(1e-12));
     }
   }
 }

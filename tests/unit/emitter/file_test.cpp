@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "emitter/file/grain_table.hpp"
+#include "support/approx.hpp"
 #include "support/engine.hpp"
 #include "unit/emitter/emitter_bench.hpp"
 
@@ -127,7 +128,7 @@ TEST_CASE("the emitter shall give the grains of a file with their lines, shifted
   const auto e = emitter("file", {{"file", file}, {"offset", Vec3{0, 0, 1e-2}}});
   const auto requests = requests_of(*e);
   REQUIRE(requests.size() == 2);
-  CHECK(requests[1].position.z == doctest::Approx(12e-3).epsilon(1e-14));
+  CHECK(requests[1].position.z == test::approx(12e-3).epsilon(1e-14));
   CHECK(requests[1].line == 3);
   CHECK(e->diameters() == std::vector<double>{3e-4, 4e-4});
   CHECK(e->insertion_rule().allowed_overlap == 0.005);
@@ -140,8 +141,8 @@ TEST_CASE("many different sizes shall be gathered in classes that hold both ends
   const auto e = emitter("file", {{"file", write(folder, "bed.csv", text)}});
   const auto d = e->diameters();
   CHECK(d.size() == 24);
-  CHECK(d.front() == doctest::Approx(1e-3));
-  CHECK(d.back() == doctest::Approx(1.99e-3));
+  CHECK(d.front() == test::approx(1e-3));
+  CHECK(d.back() == test::approx(1.99e-3));
 }
 
 TEST_CASE("the last frame of a run shall be read, or the group that is named, with materials") {

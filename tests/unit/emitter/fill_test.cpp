@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/sphere.hpp"
+#include "support/approx.hpp"
 #include "unit/emitter/emitter_bench.hpp"
 
 #include <doctest/doctest.h>
@@ -83,7 +84,7 @@ TEST_CASE("grains shall lie wholly within a slanting frustum and fill all of it"
   // Centre of volume of the frustum the centres may lie in: radii inset by r / cos. With the full
   // radii a = 2, b = 5: (a^2 + 2ab + 3b^2) / (4 (a^2 + ab + b^2)) = 0.635; inset it is 0.65. 1500
   // random places scatter by 0.25 / sqrt(1500) = 0.006.
-  CHECK(mean == doctest::Approx(0.648).epsilon(0.04));
+  CHECK(mean == test::approx(0.648).epsilon(0.04));
 }
 
 TEST_CASE("what stands in the region shall be kept clear") {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "unit/emitter/emitter_bench.hpp"
 
 #include <doctest/doctest.h>
@@ -38,7 +39,7 @@ double smallest_distance(const std::vector<sdk::InsertionRequest>& requests, dou
 TEST_CASE("a simple lattice shall have one site a cube at its spacing, also through the sides") {
   const auto requests = requests_of(*emitter("lattice", box("simple", 6e-3, 1e-3)));
   CHECK(requests.size() == 216);
-  CHECK(smallest_distance(requests, 6e-3) == doctest::Approx(1e-3).epsilon(1e-12));
+  CHECK(smallest_distance(requests, 6e-3) == test::approx(1e-3).epsilon(1e-12));
   for (const auto& s : requests) CHECK(s.position.x > 1e-3);
 }
 
@@ -47,7 +48,7 @@ TEST_CASE("a face-centred lattice shall have four sites a cube and twelve neighb
   const double edge = 4 * std::sqrt(2.0) * spacing;
   const auto requests = requests_of(*emitter("lattice", box("face_centred", edge, spacing)));
   CHECK(requests.size() == 256);
-  CHECK(smallest_distance(requests, edge) == doctest::Approx(spacing).epsilon(1e-12));
+  CHECK(smallest_distance(requests, edge) == test::approx(spacing).epsilon(1e-12));
   int neighbours = 0;
   for (const auto& s : requests) {
     Vec3 d = s.position - requests[0].position;
@@ -90,7 +91,7 @@ TEST_CASE("the scatter of velocities shall have its variance and no drift") {
   // The drift is taken away to rounding of a sum of 8000 terms of 0.1.
   CHECK(norm(mean - Vec3{0.3, 0, 0}) < 1e-13);
   // The variance of n normal numbers scatters by sqrt(2/n) = 1.6 %: three of these.
-  for (int d = 0; d < 3; ++d) CHECK(squares[d] == doctest::Approx(0.01).epsilon(0.05));
+  for (int d = 0; d < 3; ++d) CHECK(squares[d] == test::approx(0.01).epsilon(0.05));
 }
 
 TEST_CASE("fewer grains than sites shall be spread, more shall be refused, sizes come in numbers") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/size_distribution.hpp"
 
+#include "support/approx.hpp"
 #include "unit/emitter/emitter_bench.hpp"
 
 #include <doctest/doctest.h>
@@ -72,9 +73,10 @@ TEST_CASE("a lognormal law shall keep number and mass of every class") {
     const auto masses = mass_shares(s);
     for (std::size_t i = 0; i < s.size(); ++i) {
       CHECK(s.fractions()[i] ==
-            doctest::Approx(share(p, i, below(number_median))).epsilon(k_quadrature));
-      CHECK(masses[i] ==
-            doctest::Approx(share(p, i, below(number_median * shift))).epsilon(k_quadrature));
+            test::approx(share(p, i, below(number_median))).scale(1.0).epsilon(k_quadrature));
+      CHECK(
+          masses[i] ==
+          test::approx(share(p, i, below(number_median * shift))).scale(1.0).epsilon(k_quadrature));
       CHECK(s.diameters()[i] > edge(p, i));
       CHECK(s.diameters()[i] < edge(p, i + 1));
     }
@@ -92,7 +94,7 @@ TEST_CASE("a Rosin-Rammler law shall keep the mass of every class and its mean v
   const auto masses = mass_shares(s);
   const auto below = [&](double d) { return 1.0 - std::exp(-std::pow(d / 500e-6, 3.0)); };
   for (std::size_t i = 0; i < s.size(); ++i) {
-    CHECK(masses[i] == doctest::Approx(share(p, i, below)).epsilon(k_quadrature));
+    CHECK(masses[i] == test::approx(share(p, i, below)).epsilon(k_quadrature));
   }
   // With n = 3 and t = (d/d')^3 the number is the exponential integral of exp(-t)/t dt, times the
   // same factor in every class: E1(a) - E1(b). E1 by its series, E1(x) = -g - ln x - sum (-x)^k/(k
@@ -110,7 +112,7 @@ TEST_CASE("a Rosin-Rammler law shall keep the mass of every class and its mean v
   const double all = e1(t(p.smallest)) - e1(t(p.largest));
   for (std::size_t i = 0; i < s.size(); ++i) {
     const double number = (e1(t(edge(p, i))) - e1(t(edge(p, i + 1)))) / all;
-    CHECK(s.fractions()[i] == doctest::Approx(number).epsilon(k_quadrature));
+    CHECK(s.fractions()[i] == test::approx(number).epsilon(k_quadrature));
   }
 }
 
@@ -125,7 +127,9 @@ TEST_CASE("a uniform law by number shall have the mean volume of its integral") 
     const SizeDistribution s(p);
     // Mean of d^3 over [a, b] = (b^4 - a^4) / (4 (b - a)), whatever the number of classes.
     const double cubes = (std::pow(600e-6, 4) - std::pow(300e-6, 4)) / (4 * 300e-6);
-    CHECK(s.mean_volume() == doctest::Approx(std::numbers::pi / 6 * cubes).epsilon(k_quadrature));
+    // A single class over a factor of two is what the quadrature does least well.
+    CHECK(s.mean_volume() ==
+          test::approx(std::numbers::pi / 6 * cubes).epsilon(classes == 1 ? 1e-7 : k_quadrature));
   }
 }
 

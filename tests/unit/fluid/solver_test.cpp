@@ -2,6 +2,7 @@
 #include "boundary/moving_wall/moving_wall.hpp"
 #include "dust/sdk/error.hpp"
 #include "fluid_case.hpp"
+#include "support/approx.hpp"
 #include "test_bodies.hpp"
 
 #include <doctest/doctest.h>
@@ -158,7 +159,7 @@ TEST_CASE("a slippery column one cell across shall have no friction, along any a
     const double expected = drop / (c.fluid.density * c.max[axis]) * c.time;
     std::array<int, 3> at{};
     for (at[axis] = 0; at[axis] <= 10; ++at[axis]) {
-      CHECK(c.u(axis, at[0], at[1], at[2]) == doctest::Approx(expected).epsilon(1e-9));
+      CHECK(c.u(axis, at[0], at[1], at[2]) == test::approx(expected).epsilon(1e-9));
     }
   }
 }
@@ -184,7 +185,7 @@ TEST_CASE("open fractions of a body shall add up to its volume, planes along the
   const double h = 0.005;
   const double exact =
       std::numbers::pi * r * r - (r * r * std::acos(h / r) - h * std::sqrt(r * r - h * h));
-  CHECK(solid == doctest::Approx(exact).epsilon(2e-4));
+  CHECK(solid == test::approx(exact).epsilon(2e-4));
 
   Case box;
   box.cells = {10, 1, 10};
@@ -194,7 +195,7 @@ TEST_CASE("open fractions of a body shall add up to its volume, planes along the
   box.bodies.push_back(body(std::make_unique<HalfSpace>(Vec3{0, 0, 0.33}, Vec3{0, 0, 1}), 0.0));
   box.start();
   CHECK(box.solver->open_fraction()[box.grid.index(4, 0, 2)] == 0.0);
-  CHECK(box.solver->open_fraction()[box.grid.index(4, 0, 3)] == doctest::Approx(0.7).epsilon(1e-9));
+  CHECK(box.solver->open_fraction()[box.grid.index(4, 0, 3)] == test::approx(0.7).epsilon(1e-9));
   CHECK(box.solver->open_fraction()[box.grid.index(4, 0, 4)] == 1.0);
 }
 

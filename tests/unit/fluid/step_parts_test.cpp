@@ -10,6 +10,7 @@
 #include "fluid/step/stress_field.hpp"
 #include "fluid/step/two_stages.hpp"
 #include "fluid_case.hpp"
+#include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 #include "test_bodies.hpp"
 #include "unit/bodies/shapes.hpp"
@@ -72,8 +73,8 @@ TEST_CASE("the void fraction within a step shall lie on the line between its end
   fluid::StepVoidFraction eps(parts.grid);
   CHECK(eps.field()[parts.grid.index(1, 1, 1)] == 1.0);
   eps.set(parts.grid, sides, before, after, 0.25, false, properties);
-  CHECK(eps.field()[parts.grid.index(1, 1, 1)] == doctest::Approx(0.6).epsilon(1e-15));
-  CHECK(eps.field()[parts.grid.index(-1, 1, 1)] == doctest::Approx(0.6).epsilon(1e-15));
+  CHECK(eps.field()[parts.grid.index(1, 1, 1)] == test::approx(0.6).epsilon(1e-15));
+  CHECK(eps.field()[parts.grid.index(-1, 1, 1)] == test::approx(0.6).epsilon(1e-15));
   // Where no solids are, 1; and nothing is read again as long as that holds.
   const fluid::CellField ones(parts.grid.size, 1.0);
   eps.set(parts.grid, sides, ones, ones, 0.25, true, properties);
@@ -96,7 +97,7 @@ TEST_CASE("in set III the inertia of the fluid shall follow the void fraction") 
     fluid::StepVoidFraction eps(parts.grid);
     eps.set(parts.grid, sides, half, half, 0.0, false, properties);
     const double inertia = parts.spec.momentum_set == "III" ? 1.0 : 2.0;
-    CHECK(properties.inverse_inertia_at(0, face) == doctest::Approx(1.0 / inertia).epsilon(1e-15));
+    CHECK(properties.inverse_inertia_at(0, face) == test::approx(1.0 / inertia).epsilon(1e-15));
   }
 }
 
@@ -136,7 +137,7 @@ TEST_CASE("a grid whose bodies stand shall be cut once, and its cells gain what 
   CHECK_FALSE(cut.has_moving_bodies());
   CHECK(cut.intervals(1e3) == 1);
   CHECK(cut.open_fraction()[parts.grid.index(1, 1, 0)] == 0.0);
-  CHECK(cut.open_fraction()[parts.grid.index(1, 1, 1)] == doctest::Approx(0.5).epsilon(1e-6));
+  CHECK(cut.open_fraction()[parts.grid.index(1, 1, 1)] == test::approx(0.5).epsilon(1e-6));
   CHECK(cut.open_fraction()[parts.grid.index(1, 1, 2)] == 1.0);
 
   fluid::Momentum momentum(parts.grid, cut.geometry(), sides, properties);
@@ -145,8 +146,8 @@ TEST_CASE("a grid whose bodies stand shall be cut once, and its cells gain what 
   const fluid::CellField after(parts.grid.size, 0.8);
   cut.set_rate(before, after, 0.0, 1.0, 0.1, continuity);
   CHECK(continuity.rate()[parts.grid.index(1, 1, 0)] == 0.0);
-  CHECK(continuity.rate()[parts.grid.index(1, 1, 1)] == doctest::Approx(1.0).epsilon(1e-6));
-  CHECK(continuity.rate()[parts.grid.index(1, 1, 2)] == doctest::Approx(2.0).epsilon(1e-12));
+  CHECK(continuity.rate()[parts.grid.index(1, 1, 1)] == test::approx(1.0).epsilon(1e-6));
+  CHECK(continuity.rate()[parts.grid.index(1, 1, 2)] == test::approx(2.0).epsilon(1e-12));
 }
 
 namespace {
@@ -194,7 +195,7 @@ TEST_CASE("sub-steps shall follow the Courant number, and a flow without bounds 
   flow.set(u, 0, [](Vec3) { return 3.0; });
   const fluid::Momentum::Rates rates = limits.find(u, 0.0);
   CHECK(rates.speed == 3.0);
-  CHECK(rates.courant == doctest::Approx(3.0));  // cells of 1 m
+  CHECK(rates.courant == test::approx(3.0));  // cells of 1 m
   CHECK(limits.sub_steps(0.1, rates, 0, 0.0) == 1);
   CHECK(limits.sub_steps(1.0, rates, 0, 0.0) == 6);
   CHECK_THROWS_WITH_AS(limits.sub_steps(1.0, rates, 195, 0.25),
@@ -225,7 +226,7 @@ TEST_CASE("a projection shall take the divergence, and the pressure gain what di
   // Between walls all of it was a gradient: rho u = step dp.
   const auto p = [&](int k) { return projection.pressure()[parts.grid.index(1, 1, k)]; };
   for (int k = 1; k < 5; ++k) {
-    CHECK(p(k) - p(k - 1) == doctest::Approx(2.0 * k * (5.0 - k) / 0.1).epsilon(1e-9));
+    CHECK(p(k) - p(k - 1) == test::approx(2.0 * k * (5.0 - k) / 0.1).epsilon(1e-9));
   }
 }
 
@@ -244,7 +245,7 @@ TEST_CASE("the first pressure shall hold a source that acts on a fluid at rest")
   for (int k = 1; k < 5; ++k) {
     const double* p = projection.pressure().data();
     CHECK(p[parts.grid.index(1, 1, k)] - p[parts.grid.index(1, 1, k - 1)] ==
-          doctest::Approx(-20.0).epsilon(1e-9));
+          test::approx(-20.0).epsilon(1e-9));
     CHECK(u.component[2][parts.grid.index(1, 1, k)] == 0.0);
   }
 }
@@ -267,7 +268,7 @@ TEST_CASE("two stages shall give a free stream its force, and drag what it takes
   const std::ptrdiff_t face = parts.grid.index(2, 1, 2);
   stages.advance({0.0, step, 1.0, 1e-30, source, drag, false, nullptr, nullptr}, flow.eps, false,
                  pressure, u);
-  CHECK(u.component[0][face] == doctest::Approx(1.0 + step * 6.0 / 2.0).epsilon(1e-10));
+  CHECK(u.component[0][face] == test::approx(1.0 + step * 6.0 / 2.0).epsilon(1e-10));
 
   flow.set(drag, 0, [](Vec3) { return 5.0; });
   fluid::DragVelocity taken(parts.grid);
@@ -279,7 +280,7 @@ TEST_CASE("two stages shall give a free stream its force, and drag what it takes
   CHECK(mean < before);  // it comes to 6 / 5
   CHECK(mean > 1.2);
   CHECK(2.0 * (u.component[0][face] - before) ==
-        doctest::Approx(step * (6.0 - 5.0 * mean)).epsilon(1e-9));
+        test::approx(step * (6.0 - 5.0 * mean)).epsilon(1e-9));
 }
 
 TEST_CASE("the mean pressure shall weigh the sub-steps of one step, and no other") {
@@ -366,7 +367,7 @@ TEST_CASE("a belt whose cleats alone are cut anew shall be as one that is cut in
     CHECK(whole.open_fraction != at_rest.open_fraction);  // the cleats are there
     // The belt itself: its lower 10 mm of a cell of 50 mm; a trough begins to bend 5 mm from there.
     CHECK(at_rest.open_fraction[parts.grid.index(8, 6, 3)] ==
-          doctest::Approx(0.8).epsilon(trough_angle == 0.0 ? 1e-9 : 1e-3));
+          test::approx(0.8).epsilon(trough_angle == 0.0 ? 1e-9 : 1e-3));
     for (int d = 0; d < 3; ++d) {
       // To rounding: shares of a face are means over instants where something moves.
       const auto& area = whole.open_area.component[d];

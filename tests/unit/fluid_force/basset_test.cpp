@@ -2,6 +2,8 @@
 // The memory of the viscous layer, against integrals known in closed form.
 #include "fluid_force/basset/basset.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -9,6 +11,7 @@
 
 namespace {
 
+using dust::test::approx;
 using namespace dust::model;
 using dust::sdk::Vec3;
 
@@ -34,7 +37,7 @@ TEST_CASE("after a sudden start the integral shall fall like one over the root o
     // Until it is joined with younger pieces the jump is exact; then a piece spans a quarter of its
     // age at most, which costs up to 2.7 %.
     const double expected = 6.0 * (std::sqrt(t + k_step) - std::sqrt(t)) / k_step;
-    CHECK(got == doctest::Approx(expected).epsilon(n < 5 ? 1e-9 : 0.03));
+    CHECK(got == approx(expected).epsilon(n < 5 ? 1e-9 : 0.03));
   }
 }
 
@@ -61,7 +64,7 @@ TEST_CASE("under constant acceleration the integral shall grow like the root of 
     const auto power = [](double x) { return x * std::sqrt(x); };
     const double expected = 20.0 / (3.0 * k_step) * (power(t + k_step) - power(t) - power(k_step));
     // The rate is constant: joined pieces are exact, too. Differences of powers lose 7 digits.
-    CHECK(got == doctest::Approx(expected).epsilon(1e-6));
+    CHECK(got == approx(expected).epsilon(1e-6));
   }
 }
 
@@ -76,7 +79,7 @@ TEST_CASE("the window shall forget what is older") {
     inside = h.past(k_step, k_forever).x;
     outside = h.past(k_step, 0.05).x;
   }
-  CHECK(inside == doctest::Approx(1.0 / std::sqrt(0.2)).epsilon(0.03));
+  CHECK(inside == approx(1.0 / std::sqrt(0.2)).epsilon(0.03));
   CHECK(outside == 0.0);
 }
 
@@ -91,14 +94,14 @@ TEST_CASE("steps of different length shall give the same history") {
     const double got = h.past(step, k_forever).x;
     const auto power = [](double x) { return x * std::sqrt(x); };
     const double expected = 20.0 / (3.0 * step) * (power(t + step) - power(t) - power(step));
-    if (n > 0) CHECK(got == doctest::Approx(expected).epsilon(1e-7));
+    if (n > 0) CHECK(got == approx(expected).epsilon(1e-7));
     t += step;
   }
 }
 
 TEST_CASE("the factor of the history shall be that of the law") {
   // 1.5 * 1e-6 * sqrt(pi * 1000 * 1e-3) = 2.6587e-6
-  CHECK(basset::factor(1e-3, 1000.0, 1e-3) == doctest::Approx(2.65868e-6).epsilon(1e-5));
+  CHECK(basset::factor(1e-3, 1000.0, 1e-3) == approx(2.65868e-6).epsilon(1e-5));
 }
 
 }  // namespace

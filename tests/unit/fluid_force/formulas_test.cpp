@@ -7,6 +7,7 @@
 #include "fluid_force/saffman/saffman.hpp"
 #include "fluid_force/virtual_mass/virtual_mass.hpp"
 #include "fluid_force/viscous/viscous.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,6 +16,7 @@
 
 namespace {
 
+using dust::test::approx;
 using namespace dust::model;
 using dust::sdk::Vec3;
 
@@ -23,18 +25,17 @@ constexpr double k_volume = std::numbers::pi / 6.0 * 1e-9;  // of a sphere of 1 
 TEST_CASE("forces on the volume shall be the volume times the density of force") {
   const Vec3 lift = archimedes::force(1000.0, 1e-3, {0, 3.0, -9.81});
   CHECK(lift.x == 0.0);
-  CHECK(lift.y == doctest::Approx(-1000.0 * k_volume * 3.0).epsilon(1e-12));
-  CHECK(lift.z == doctest::Approx(1000.0 * k_volume * 9.81).epsilon(1e-12));
+  CHECK(lift.y == approx(-1000.0 * k_volume * 3.0).epsilon(1e-12));
+  CHECK(lift.z == approx(1000.0 * k_volume * 9.81).epsilon(1e-12));
   CHECK(pressure_gradient::force(1e-3, {200.0, 0, 0}).x ==
-        doctest::Approx(-200.0 * k_volume).epsilon(1e-12));
+        approx(-200.0 * k_volume).epsilon(1e-12));
   // The whole pressure of a fluid at rest pushes as Archimedes says.
   const Vec3 gravity{1.0, 2.0, -9.81};
   const Vec3 hydrostatic =
       pressure_gradient::force(1e-3, pressure_gradient::hydrostatic_gradient(1000.0, gravity));
   CHECK(norm(hydrostatic - archimedes::force(1000.0, 1e-3, gravity)) < 1e-20);
-  CHECK(viscous::force(1e-3, {0, 7.0, 0}).y == doctest::Approx(7.0 * k_volume).epsilon(1e-12));
-  CHECK(virtual_mass::added_mass(0.5, 1000.0, 1e-3) ==
-        doctest::Approx(500.0 * k_volume).epsilon(1e-12));
+  CHECK(viscous::force(1e-3, {0, 7.0, 0}).y == approx(7.0 * k_volume).epsilon(1e-12));
+  CHECK(virtual_mass::added_mass(0.5, 1000.0, 1e-3) == approx(500.0 * k_volume).epsilon(1e-12));
 }
 
 TEST_CASE("a grain that lags behind a shear shall be lifted towards the faster fluid") {
@@ -43,35 +44,35 @@ TEST_CASE("a grain that lags behind a shear shall be lifted towards the faster f
   const Vec3 f = saffman::force(1e-4, 1000.0, 1e-3, {0.01, 0, 0}, {0, 100.0, 0});
   CHECK(f.x == 0.0);
   CHECK(f.y == 0.0);
-  CHECK(f.z == doctest::Approx(1.615e-9).epsilon(1e-12));
+  CHECK(f.z == approx(1.615e-9).epsilon(1e-12));
   CHECK(norm(saffman::force(1e-4, 1000.0, 1e-3, {0.01, 0, 0}, {})) == 0.0);
 }
 
 TEST_CASE("Mei's factor shall be 1 for slow grains and fall as printed") {
-  CHECK(saffman::mei_factor(0.0, 0.1) == doctest::Approx(1.0).epsilon(1e-12));
+  CHECK(saffman::mei_factor(0.0, 0.1) == approx(1.0).epsilon(1e-12));
   // (1 - 0.3314 sqrt(0.1)) exp(-1) + 0.3314 sqrt(0.1) = 0.43412
-  CHECK(saffman::mei_factor(10.0, 0.1) == doctest::Approx(0.434123).epsilon(1e-5));
+  CHECK(saffman::mei_factor(10.0, 0.1) == approx(0.434123).epsilon(1e-5));
   // 0.0524 sqrt(0.1 * 100) = 0.16570
-  CHECK(saffman::mei_factor(100.0, 0.1) == doctest::Approx(0.165703).epsilon(1e-5));
+  CHECK(saffman::mei_factor(100.0, 0.1) == approx(0.165703).epsilon(1e-5));
   // The end of the first branch; the second begins at 0.1048.
-  CHECK(saffman::mei_factor(40.0, 0.1) == doctest::Approx(0.121194).epsilon(1e-4));
+  CHECK(saffman::mei_factor(40.0, 0.1) == approx(0.121194).epsilon(1e-4));
 }
 
 TEST_CASE("a spinning grain shall be lifted as Rubinow and Keller say") {
   // Stream along x, fluid at rest in itself, grain turning with 50 rad/s about y:
   // Omega x w = (0, -50, 0) x (2, 0, 0) = (0, 0, 100).
   const Vec3 f = magnus::force(1e-3, 1.2, {0, -50.0, 0}, {2.0, 0, 0});
-  CHECK(f.z == doctest::Approx(std::numbers::pi / 8.0 * 1e-9 * 1.2 * 100.0).epsilon(1e-12));
+  CHECK(f.z == approx(std::numbers::pi / 8.0 * 1e-9 * 1.2 * 100.0).epsilon(1e-12));
   CHECK(f.x == 0.0);
   CHECK(f.y == 0.0);
 }
 
 TEST_CASE("the fitted spin lift shall tend to Rubinow and Keller's and to its own plateau") {
-  CHECK(magnus::oesterle_factor(1e-6, 1e-6) == doctest::Approx(1.0).epsilon(1e-4));
+  CHECK(magnus::oesterle_factor(1e-6, 1e-6) == approx(1.0).epsilon(1e-4));
   // Fast: C_L = 0.45, so the factor is 0.45 Re / Re_R.
-  CHECK(magnus::oesterle_factor(1e5, 3e5) == doctest::Approx(0.15).epsilon(1e-6));
+  CHECK(magnus::oesterle_factor(1e5, 3e5) == approx(0.15).epsilon(1e-6));
   // Re 50, Re_R 100: 0.45 + 1.55 exp(-0.05684 * 6.3096 * 3.2336) = 0.9361
-  CHECK(2.0 * magnus::oesterle_factor(50.0, 100.0) == doctest::Approx(0.9361).epsilon(1e-3));
+  CHECK(2.0 * magnus::oesterle_factor(50.0, 100.0) == approx(0.9361).epsilon(1e-3));
 }
 
 /// Brenner's series (1961, equation 2.19): drag of a sphere that moves straight to a rigid plane
@@ -92,10 +93,10 @@ double brenner(double delta) {
 }
 
 TEST_CASE("the lubrication fit shall follow Brenner's series") {
-  CHECK(brenner(std::cosh(1.0) - 1.0) == doctest::Approx(3.0361).epsilon(1e-4));  // his table
+  CHECK(brenner(std::cosh(1.0) - 1.0) == approx(3.0361).epsilon(1e-4));  // his table
   for (const double delta : {0.005, 0.01, 0.05, 0.1, 0.5, 1.0, 3.0}) {
     CAPTURE(delta);
-    CHECK(1.0 + lubrication::excess(delta) == doctest::Approx(brenner(delta)).epsilon(0.01));
+    CHECK(1.0 + lubrication::excess(delta) == approx(brenner(delta)).epsilon(0.01));
   }
 }
 
@@ -110,7 +111,7 @@ TEST_CASE("lubrication shall grow from zero at its reach to its end at the small
   CHECK(at(0.001) == at(0.01));
   const double stokes = 6.0 * std::numbers::pi * 1e-3 * 1e-3;
   // (7 * 0.01 + 2) / (6e-4 + 0.02) - 9 / 8
-  CHECK(at(0.01) == doctest::Approx(stokes * (2.07 / 0.0206 - 1.125)).epsilon(1e-12));
+  CHECK(at(0.01) == approx(stokes * (2.07 / 0.0206 - 1.125)).epsilon(1e-12));
 }
 
 }  // namespace

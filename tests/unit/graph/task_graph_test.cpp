@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "graph/task_graph.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -9,6 +11,7 @@
 #include <stdexcept>
 
 using dust::graph::TaskGraph;
+using dust::test::approx;
 using Edges = std::vector<std::pair<int, int>>;
 
 namespace {
@@ -118,7 +121,7 @@ TEST_CASE("fused nodes shall run as one, and be timed and drawn one by one") {
   REQUIRE(timings.size() == 2);
   CHECK(timings[0].name == "contact");
   CHECK(timings[0].runs == 3);
-  CHECK(timings[0].seconds == doctest::Approx(3.0 * timings[1].seconds));
+  CHECK(timings[0].seconds == approx(3.0 * timings[1].seconds));
   CHECK(tiles.graph.edges() == Edges{{0, 1}});
   const std::string dot = tiles.graph.dot_cluster();
   CHECK(dot.find("label=\"per tile\"") != std::string::npos);

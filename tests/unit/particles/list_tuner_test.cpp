@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/neighbours/list_tuner.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 using dust::particles::ListTuner;
+using dust::test::approx;
 
 TEST_CASE("an inner list left early shall make the next one half as long, one that lasted twice") {
   ListTuner tuner;
@@ -69,12 +72,12 @@ TEST_CASE("skins shall be widened after short lists that ended early and narrowe
   const ListTuner::OuterStatistics few{.is_early = true, .pairs = 2000, .particles = 1000};
   const ListTuner::OuterStatistics many{.is_early = true, .pairs = 6001, .particles = 1000};
   tuner.record(few);
-  CHECK(tuner.skin_in_diameters() == doctest::Approx(first + 0.15));
+  CHECK(tuner.skin_in_diameters() == approx(first + 0.15));
   for (int n = 0; n < 20; ++n) tuner.record(few);
-  CHECK(tuner.skin_in_diameters() == doctest::Approx(0.15 * 8));
+  CHECK(tuner.skin_in_diameters() == approx(0.15 * 8));
   CHECK_FALSE(tuner.may_widen_skins(2000, 1000));
   for (int n = 0; n < 20; ++n) tuner.record(many);
-  CHECK(tuner.skin_in_diameters() == doctest::Approx(0.15));
+  CHECK(tuner.skin_in_diameters() == approx(0.15));
   CHECK(tuner.may_widen_skins(2999, 1000));
   CHECK_FALSE(tuner.may_widen_skins(3000, 1000));
 }

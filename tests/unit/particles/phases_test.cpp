@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/random.hpp"
 #include "graph/task_graph.hpp"
+#include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 
 #include <doctest/doctest.h>
@@ -15,6 +16,7 @@ using dust::graph::TaskGraph;
 using dust::particles::Dem;
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -154,5 +156,5 @@ TEST_CASE("the times of the phases shall be shared out to one") {
   dem->step_tiles(0.0);
   const auto shares = dem->phase_shares();
   CHECK(shares[0] > 0.0);
-  CHECK(shares[0] + shares[1] + shares[2] == doctest::Approx(1.0));
+  CHECK(shares[0] + shares[1] + shares[2] == approx(1.0));
 }

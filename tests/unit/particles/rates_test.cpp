@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 
 #include <doctest/doctest.h>
@@ -7,6 +8,7 @@
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -82,8 +84,8 @@ TEST_CASE("two dust grains shall keep momentum and restitution in their own coll
   const GrainState a = grain(*dem, 0);
   const GrainState b = grain(*dem, 1);
   CHECK(std::abs(a.velocity.x + b.velocity.x) < 1e-12);
-  CHECK(b.velocity.x == doctest::Approx(0.7 * 0.3).epsilon(0.02));
-  CHECK(a.velocity.y == doctest::Approx(0.02).epsilon(1e-6));
+  CHECK(b.velocity.x == approx(0.7 * 0.3).epsilon(0.02));
+  CHECK(a.velocity.y == approx(0.02).epsilon(1e-6));
 }
 
 TEST_CASE("dust in free flight shall cost no more than a coarse step each") {
@@ -128,8 +130,8 @@ TEST_CASE("dust shall come to rest on a moving belt and ride with it") {
   while (stepper.time() < 0.03) stepper.step();
   for (std::int64_t n = 1; n <= 20; ++n) {
     const GrainState g = grain(*dem, n);
-    CHECK(g.velocity.x == doctest::Approx(0.8).epsilon(0.005));
+    CHECK(g.velocity.x == approx(0.8).epsilon(0.005));
     CHECK(std::abs(g.velocity.z) < 1e-3);
-    CHECK(g.position.z == doctest::Approx(5e-6).epsilon(0.01));
+    CHECK(g.position.z == approx(5e-6).epsilon(0.01));
   }
 }

@@ -4,6 +4,7 @@
 #include "particles/neighbours/reference_trajectories.hpp"
 #include "particles/neighbours/search.hpp"
 #include "particles/store/row_order.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,6 +14,7 @@
 #include <random>
 #include <vector>
 
+using dust::test::approx;
 using namespace dust::particles;
 
 namespace {
@@ -148,5 +150,5 @@ TEST_CASE("a particle on its reference trajectory shall ask for no new list, one
   // Set anew in the middle of the list's lifetime, it is on its trajectory again.
   trajectories.restart(0, p, faster, t);
   CHECK(trajectories.deviation(0, p, faster, t, 1e-3).next2 < 1e-20);
-  CHECK(trajectories.position(0, t).z == doctest::Approx(p[2]).epsilon(1e-12));
+  CHECK(trajectories.position(0, t).z == approx(p[2]).epsilon(1e-12));
 }

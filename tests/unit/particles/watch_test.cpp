@@ -2,6 +2,7 @@
 #include "support/dem_rig.hpp"
 
 #include "dust/sdk/random.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,6 +11,7 @@
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -97,7 +99,7 @@ TEST_CASE("many steps of a flight at once shall equal the same steps one by one"
     }
     if (has_air) {
       CHECK(at_once->rows().fluid_impulse[0] ==
-            doctest::Approx(one_by_one->rows().fluid_impulse[0]).epsilon(1e-10));
+            approx(one_by_one->rows().fluid_impulse[0]).epsilon(1e-10));
     }
   }
 }

@@ -3,6 +3,7 @@
 #include "preflight/derived.hpp"
 #include "preflight/particle_models.hpp"
 #include "preflight/reader.hpp"
+#include "support/approx.hpp"
 #include "unit/scenario/support.hpp"
 
 #include <doctest/doctest.h>
@@ -84,7 +85,7 @@ TEST_CASE("dust in the air shall cost each of its classes in each sub-step of a 
   REQUIRE(silt.read.dust.field);
   const auto classes = static_cast<double>(silt.read.dust.field->diameters.size());
   CHECK(derived.cost.terms[CostTerm::dust].amount ==
-        doctest::Approx(classes * derived.cost.terms[CostTerm::fluid].amount));
+        test::approx(classes * derived.cost.terms[CostTerm::fluid].amount));
   const auto none = preflight::derive(silt.read.setup, silt.shipped);
   CHECK(none.cost.terms[CostTerm::dust].seconds == 0.0);
   CHECK(none.cost.memory_bytes < derived.cost.memory_bytes);
@@ -95,10 +96,10 @@ TEST_CASE("beside a resolved sphere the fluid shall be no faster than the sphere
   // 0.08 of a cell of 1.25 mm: one sub-step.
   const Scenario b1("thesis/settling_b1_resolved.yaml", {{"time.end", "0.2 s"}});
   const auto derived = b1.derived();
-  CHECK(derived.air_speed == doctest::Approx(0.038).epsilon(0.1));
-  CHECK(derived.cost.terms[CostTerm::fluid].amount == doctest::Approx(80.0 * 80 * 80 * 128));
+  CHECK(derived.air_speed == test::approx(0.038).epsilon(0.1));
+  CHECK(derived.cost.terms[CostTerm::fluid].amount == test::approx(80.0 * 80 * 80 * 128));
   // Seconds of one processor, as taken.
-  CHECK(derived.cost.terms.seconds() == doctest::Approx(28.4).epsilon(0.5));
+  CHECK(derived.cost.terms.seconds() == test::approx(28.4).epsilon(0.5));
 }
 
 TEST_CASE("a run that starts from the state of another shall be told what is left of it") {
@@ -106,8 +107,8 @@ TEST_CASE("a run that starts from the state of another shall be told what is lef
   const auto whole = silt.derived();
   const auto rest = preflight::derive(silt.read.setup, silt.shipped, silt.read.dust, 0.75);
   const auto& fluid = rest.cost.terms[CostTerm::fluid];
-  CHECK(fluid.amount == doctest::Approx(0.25 * whole.cost.terms[CostTerm::fluid].amount));
-  CHECK(fluid.seconds == doctest::Approx(0.25 * whole.cost.terms[CostTerm::fluid].seconds));
+  CHECK(fluid.amount == test::approx(0.25 * whole.cost.terms[CostTerm::fluid].amount));
+  CHECK(fluid.seconds == test::approx(0.25 * whole.cost.terms[CostTerm::fluid].seconds));
   // Grains that come all the time are most at the end: N grows as t, their steps as t^2.
   CHECK(rest.cost.terms[CostTerm::grains].amount >
         0.25 * whole.cost.terms[CostTerm::grains].amount);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `engine check` says of meshes, gaps and flows.
+#include "support/approx.hpp"
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+using dust::test::approx;
 using dust::test::engine;
 using dust::test::TemporaryFolder;
 
@@ -83,7 +85,7 @@ TEST_CASE("a check shall name narrow gaps with both bodies, the place and the li
   // The post stands on the floor: no gap; post and step are 20 mm apart, more than a grain.
   REQUIRE(gaps.size() == 1);
   CHECK(gaps[0]["bodies"] == Json({"floor", "step"}));
-  CHECK(gaps[0]["width_m"].get<double>() == doctest::Approx(0.008).epsilon(1e-6));
+  CHECK(gaps[0]["width_m"].get<double>() == approx(0.008).epsilon(1e-6));
   CHECK(gaps[0]["place_m"][0].get<double>() >= 0.02 - 1e-9);
   CHECK(gaps[0]["place_m"][0].get<double>() <= 0.04 + 1e-9);
   REQUIRE(numbers["touching"].size() == 1);
@@ -114,7 +116,7 @@ TEST_CASE("a plant with meshes shall be checked within seconds, its sheets besid
   CHECK(took.count() < 15.0);
   REQUIRE(j["meshes"].size() == 2);
   for (const Json& mesh : j["meshes"]) {
-    CHECK(mesh["thinnest_wall_m"].get<double>() == doctest::Approx(0.012));
+    CHECK(mesh["thinnest_wall_m"].get<double>() == approx(0.012));
     CHECK(mesh["notes"][0].get<std::string>().find("open edges") != std::string::npos);
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `engine check` says of dust.
+#include "support/approx.hpp"
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
@@ -11,6 +12,7 @@
 #include <string>
 #include <vector>
 
+using dust::test::approx;
 using dust::test::engine;
 using Json = nlohmann::json;
 
@@ -41,7 +43,7 @@ TEST_CASE("the numbers of a check shall hold the flow of dust by class") {
   const std::vector<double> share{0.002, 0.003, 0.006};
   for (std::size_t n = 0; n < share.size(); ++n) {
     CHECK(dust["brought_kg_per_s"]["limestone"][n].get<double>() ==
-          doctest::Approx(share[n] * 500e3 / 3600.0).epsilon(1e-9));
+          approx(share[n] * 500e3 / 3600.0).epsilon(1e-9));
   }
 }
 
@@ -76,10 +78,10 @@ TEST_CASE("the dust of grains that come at once shall be told by the material of
   const double ore = 3000.0 * 2.0 * volume(6e-3);
   const double shale = 2000.0 * (volume(4e-3) + volume(6e-3));
   const Json& at_once = dust["brought_at_once_kg"];
-  CHECK(at_once["ore"][0].get<double>() == doctest::Approx(0.004 * ore).epsilon(1e-9));
-  CHECK(at_once["ore"][1].get<double>() == doctest::Approx(0.006 * ore).epsilon(1e-9));
-  CHECK(at_once["shale"][0].get<double>() == doctest::Approx(0.002 * shale).epsilon(1e-9));
-  CHECK(at_once["shale"][1].get<double>() == doctest::Approx(0.003 * shale).epsilon(1e-9));
+  CHECK(at_once["ore"][0].get<double>() == approx(0.004 * ore).epsilon(1e-9));
+  CHECK(at_once["ore"][1].get<double>() == approx(0.006 * ore).epsilon(1e-9));
+  CHECK(at_once["shale"][0].get<double>() == approx(0.002 * shale).epsilon(1e-9));
+  CHECK(at_once["shale"][1].get<double>() == approx(0.003 * shale).epsilon(1e-9));
   CHECK(dust["brought_kg_per_s"]["ore"] == Json({0.0, 0.0}));
   const auto text = engine({"check", folder / "s.yaml"});
   CHECK(text.out.find("ore carries 1 % of it (0.4, 0.6 %) at 1 % of moisture: 6.79 mg at once\n") !=

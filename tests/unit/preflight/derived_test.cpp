@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/derived.hpp"
+#include "support/approx.hpp"
 #include "unit/scenario/support.hpp"
 
 #include <doctest/doctest.h>
@@ -17,9 +18,9 @@ TEST_CASE("the Rayleigh time shall be that of its formula with the nu term outsi
   // R = 0.3 mm, rho = 2650, E = 50 MPa, nu = 0.3: G = 19.2307692 MPa, root(rho/G) = 0.011738824,
   // pi R root / (0.04893 + 0.8766) = 1.195378e-5 s.
   const sdk::MaterialProperties sand{2650, 5e7, 0.3};
-  CHECK(particles::rayleigh_time(sand, 3e-4) == doctest::Approx(1.195378e-5).epsilon(1e-6));
+  CHECK(particles::rayleigh_time(sand, 3e-4) == test::approx(1.195378e-5).epsilon(1e-6));
   CHECK(particles::rayleigh_time(sand, 6e-4) ==
-        doctest::Approx(2 * particles::rayleigh_time(sand, 3e-4)).epsilon(k_roundings));
+        test::approx(2 * particles::rayleigh_time(sand, 3e-4)).epsilon(k_roundings));
 }
 
 TEST_CASE("the smallest grain shall set the step and each step shall keep both shares") {
@@ -28,9 +29,8 @@ TEST_CASE("the smallest grain shall set the step and each step shall keep both s
   REQUIRE(steps.classes.size() == 5);
   CHECK(steps.deciding() == &steps.classes[0]);
   for (const auto& size : steps.classes) {
-    CHECK(size.stable_step ==
-          doctest::Approx(std::min(0.3 * size.rayleigh_time, size.hertz_time / 15))
-              .epsilon(k_roundings));
+    CHECK(size.stable_step == test::approx(std::min(0.3 * size.rayleigh_time, size.hertz_time / 15))
+                                  .epsilon(k_roundings));
   }
   CHECK(steps.finest_step() <= steps.classes[0].stable_step);
   CHECK(steps.finest_step() > 0.5 * steps.classes[0].stable_step);
@@ -38,7 +38,7 @@ TEST_CASE("the smallest grain shall set the step and each step shall keep both s
   // smallest of them, a whole part of the fluid's.
   CHECK(steps.coarse_deciding() == &steps.classes[1]);
   const double parts = setup.time.fluid_step / steps.coarse_step;
-  CHECK(parts == doctest::Approx(std::ceil(setup.time.fluid_step / steps.classes[1].stable_step))
+  CHECK(parts == test::approx(std::ceil(setup.time.fluid_step / steps.classes[1].stable_step))
                      .epsilon(k_roundings));
 }
 
@@ -46,7 +46,7 @@ TEST_CASE(
     "a fixed step shall replace the derived one, and fine grains still be stepped as they need") {
   const auto setup = read(transfer_point(), {{"time.dem_step", "1e-7"}}).setup;
   const particles::TimeSteps steps = preflight::derive(setup, fakes()).steps;
-  CHECK(steps.coarse_step == doctest::Approx(1e-7).epsilon(k_roundings));
+  CHECK(steps.coarse_step == test::approx(1e-7).epsilon(k_roundings));
   // The finest is stable at 0.05 us or less: halved until it is.
   const particles::ClassStep& finest = steps.classes.front();
   CHECK(finest.stable_step < 0.5 * steps.coarse_step);
@@ -59,7 +59,7 @@ TEST_CASE("the expected speed shall be that of bodies and the fall through the d
   auto setup = read(transfer_point()).setup;
   // belt 0.8 m/s, fall 0.35 m: root(0.64 + 2 * 9.81 * 0.35)
   CHECK(preflight::derive(setup, fakes()).expected_speed ==
-        doctest::Approx(std::sqrt(0.64 + 2 * 9.81 * 0.35)).epsilon(k_roundings));
+        test::approx(std::sqrt(0.64 + 2 * 9.81 * 0.35)).epsilon(k_roundings));
   // Steps follow from the belt alone.
   CHECK(preflight::derive(setup, fakes()).steps.expected_speed == 0.8);
   setup.time.expected_speed = 1.5;
@@ -70,12 +70,12 @@ TEST_CASE("the expected speed shall be that of bodies and the fall through the d
 TEST_CASE("ratios and the rate of grains shall follow from the scenario") {
   const auto setup = read(transfer_point()).setup;
   const auto derived = preflight::derive(setup, fakes());
-  CHECK(derived.smallest_spacing == doctest::Approx(0.011 / 9).epsilon(k_roundings));
-  CHECK(derived.diameter_over_spacing == doctest::Approx(6e-4 * 9 / 0.011).epsilon(k_roundings));
-  CHECK(derived.width_over_diameter == doctest::Approx(0.011 / 6e-4).epsilon(k_roundings));
+  CHECK(derived.smallest_spacing == test::approx(0.011 / 9).epsilon(k_roundings));
+  CHECK(derived.diameter_over_spacing == test::approx(6e-4 * 9 / 0.011).epsilon(k_roundings));
+  CHECK(derived.width_over_diameter == test::approx(0.011 / 6e-4).epsilon(k_roundings));
   // The fake feed sends ten grains per millisecond.
   REQUIRE(derived.emissions.size() == 1);
-  CHECK(derived.emissions[0].computed_per_second == doctest::Approx(1e4).epsilon(k_roundings));
+  CHECK(derived.emissions[0].computed_per_second == test::approx(1e4).epsilon(k_roundings));
 }
 
 TEST_CASE("the estimates shall be within a factor of two of what the transfer point took") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/dust_check.hpp"
 #include "base/error.hpp"
+#include "support/approx.hpp"
 #include "unit/scenario/support.hpp"
 
 #include <doctest/doctest.h>
@@ -102,8 +103,7 @@ TEST_CASE("a hood in a side of the domain shall be looked at as well") {
 
 TEST_CASE("the narrowest turn that dust follows shall be that of Stokes number 0.2") {
   // tau = 2500 * 1e-10 / (18 * 2e-5) = 0.694 ms; at 4 m/s: 0.694e-3 * 4 / 0.2 = 13.9 mm.
-  CHECK(preflight::narrowest_turn(10e-6, 2500, 2e-5, 4.0) ==
-        doctest::Approx(0.0138889).epsilon(1e-5));
+  CHECK(preflight::narrowest_turn(10e-6, 2500, 2e-5, 4.0) == test::approx(0.0138889).epsilon(1e-5));
 }
 
 TEST_CASE("a class of dust that does not follow the resolved fluid shall be told") {

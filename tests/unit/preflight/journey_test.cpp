@@ -2,6 +2,7 @@
 #include "preflight/journey.hpp"
 #include "preflight/cost.hpp"
 #include "preflight/particle_models.hpp"
+#include "support/approx.hpp"
 #include "unit/scenario/support.hpp"
 
 #include <doctest/doctest.h>
@@ -72,15 +73,15 @@ fluid: none
 
 TEST_CASE("a stream shall be counted by the integral of its number over the run") {
   // One per second for the whole run of 10 s: it grows for 2 s, then stays at 2.
-  CHECK(grain_seconds(0, k_never, 2, 10) == doctest::Approx(2.0 * 10.0 - 2.0));
+  CHECK(grain_seconds(0, k_never, 2, 10) == test::approx(2.0 * 10.0 - 2.0));
   CHECK(most_grains(0, k_never, 2, 10) == 2.0);
   // Nobody leaves: t^2 / 2.
-  CHECK(grain_seconds(0, k_never, k_never, 10) == doctest::Approx(50.0));
+  CHECK(grain_seconds(0, k_never, k_never, 10) == test::approx(50.0));
   CHECK(most_grains(0, k_never, k_never, 10) == 10.0);
   // For 3 s from 1 s on, each for 2 s, all gone before the end.
-  CHECK(grain_seconds(1, 4, 2, 10) == doctest::Approx(3.0 * 2.0));
+  CHECK(grain_seconds(1, 4, 2, 10) == test::approx(3.0 * 2.0));
   // The same, but the run ends at 5 s: those of the last second stay 2 to 1 s.
-  CHECK(grain_seconds(1, 4, 2, 5) == doctest::Approx(2.0 * 2.0 + 1.5));
+  CHECK(grain_seconds(1, 4, 2, 5) == test::approx(2.0 * 2.0 + 1.5));
   CHECK(most_grains(1, 4, 20, 5) == 3.0);
   CHECK(grain_seconds(6, 8, 2, 5) == 0.0);
   CHECK(most_grains(6, 8, 2, 5) == 0.0);
@@ -90,17 +91,17 @@ TEST_CASE("a grain shall stay in the domain for its fall and for its way on the 
   const Place place({});
   // Beside the belt: 0.6 m from rest.
   const auto fall = place.follow({0.8, 0.1, 0.6}, {});
-  CHECK(fall.duration == doctest::Approx(std::sqrt(2.0 * 0.6 / 9.81)).epsilon(0.05));
+  CHECK(fall.duration == test::approx(std::sqrt(2.0 * 0.6 / 9.81)).epsilon(0.05));
   CHECK(fall.carried == 0.0);
   // On the belt: 0.4 m at 1 m/s, too fast to go round the pulley, then 0.505 m down.
   const auto carried = place.follow({0.1, 0.1, 0.505}, {1, 0, 0});
-  CHECK(carried.carried == doctest::Approx(0.4).epsilon(0.05));
-  CHECK(carried.carried_way == doctest::Approx(0.4).epsilon(0.05));
-  CHECK(carried.duration == doctest::Approx(0.4 + std::sqrt(2.0 * 0.505 / 9.81)).epsilon(0.05));
+  CHECK(carried.carried == test::approx(0.4).epsilon(0.05));
+  CHECK(carried.carried_way == test::approx(0.4).epsilon(0.05));
+  CHECK(carried.duration == test::approx(0.4 + std::sqrt(2.0 * 0.505 / 9.81)).epsilon(0.05));
   // From rest it slides until friction has brought it to the belt's speed: v^2 / (2 mu g) = 0.1 m.
   const auto slides = place.follow({0.1, 0.1, 0.505}, {});
   const double by_friction = 1.0 / (0.5 * 9.81);
-  CHECK(slides.carried == doctest::Approx(by_friction + 0.4 - 0.5 * by_friction).epsilon(0.05));
+  CHECK(slides.carried == test::approx(by_friction + 0.4 - 0.5 * by_friction).epsilon(0.05));
 }
 
 TEST_CASE("a grain that comes to rest, or is held by walls, shall stay") {
@@ -122,7 +123,7 @@ TEST_CASE("the cost of grains shall be that of their steps, level by level") {
     mean += grain_seconds(0, k_never, stay, 10.0) / 10.0 / static_cast<double>(feed.stays.size());
   }
   CHECK(derived.cost.terms[preflight::CostTerm::grains].amount ==
-        doctest::Approx(feed.computed_per_second * mean * steps));
+        test::approx(feed.computed_per_second * mean * steps));
   CHECK(derived.cost.terms[preflight::CostTerm::fine_grains].amount == 0.0);
   CHECK(derived.cost.terms[preflight::CostTerm::fluid].seconds == 0.0);
   CHECK(derived.cost.terms[preflight::CostTerm::output].amount == 11.0);
@@ -132,8 +133,8 @@ TEST_CASE("a deep load shall have the contacts of a bed, a single layer none") {
   CHECK(preflight::carried_contacts(0.5) == 0.0);
   CHECK(preflight::carried_contacts(1.0) == 0.0);
   const double bed = preflight::carried_contacts(1e9);
-  CHECK(bed == doctest::Approx(2.5));
+  CHECK(bed == test::approx(2.5));
   // Twice the layers that lie side by side, and four times.
-  CHECK(preflight::carried_contacts(2.4) == doctest::Approx(0.5 * bed));
-  CHECK(preflight::carried_contacts(4.8) == doctest::Approx(0.75 * bed));
+  CHECK(preflight::carried_contacts(2.4) == test::approx(0.5 * bed));
+  CHECK(preflight::carried_contacts(4.8) == test::approx(0.75 * bed));
 }

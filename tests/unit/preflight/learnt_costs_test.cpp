@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/learnt_costs.hpp"
 #include "preflight/derived.hpp"
+#include "support/approx.hpp"
 #include "unit/scenario/support.hpp"
 
 #include <doctest/doctest.h>
@@ -35,15 +36,15 @@ TEST_CASE("a scenario's own runs shall tell its time, the newest five of them") 
   const auto first = LearntCosts(file, as_measured).expect("hopper", estimated);
   CHECK(first.is_of_scenario);
   CHECK(first.runs == 1);
-  CHECK(first.cost.terms[CostTerm::grains].amount == doctest::Approx(100.0));
-  CHECK(first.cost.terms[CostTerm::grains].seconds == doctest::Approx(30.0));
+  CHECK(first.cost.terms[CostTerm::grains].amount == test::approx(100.0));
+  CHECK(first.cost.terms[CostTerm::grains].seconds == test::approx(30.0));
   for (int n = 1; n <= 5; ++n) {
     LearntCosts(file, as_measured)
         .add("hopper", one(CostTerm::grains, 10.0, 10.0), one(CostTerm::grains, 10.0, 10.0 * n));
   }
   const auto last = LearntCosts(file, as_measured).expect("hopper", estimated);
   CHECK(last.runs == 5);
-  CHECK(last.cost.terms[CostTerm::grains].seconds == doctest::Approx(3.0 * 5.0));
+  CHECK(last.cost.terms[CostTerm::grains].seconds == test::approx(3.0 * 5.0));
 }
 
 TEST_CASE("other scenarios shall tell the rate of each term, not how much work there is") {
@@ -64,11 +65,11 @@ TEST_CASE("other scenarios shall tell the rate of each term, not how much work t
   CHECK_FALSE(expected.is_of_scenario);
   CHECK(expected.runs == 3);
   // Medians of three runs and the measurement's 2: (0.5, 0.5, 0.5, 2) and (2, 4, 4, 4).
-  CHECK(expected.cost.terms[CostTerm::grains].seconds == doctest::Approx(0.5 * 8.0));
-  CHECK(expected.cost.terms[CostTerm::grains].amount == doctest::Approx(10.0));
-  CHECK(expected.cost.terms[CostTerm::fluid].seconds == doctest::Approx(4.0 * 3.0));
+  CHECK(expected.cost.terms[CostTerm::grains].seconds == test::approx(0.5 * 8.0));
+  CHECK(expected.cost.terms[CostTerm::grains].amount == test::approx(10.0));
+  CHECK(expected.cost.terms[CostTerm::fluid].seconds == test::approx(4.0 * 3.0));
   // No run has written files for long enough to tell.
-  CHECK(expected.cost.terms[CostTerm::output].seconds == doctest::Approx(2.0 * 1.0));
+  CHECK(expected.cost.terms[CostTerm::output].seconds == test::approx(2.0 * 1.0));
 }
 
 TEST_CASE("memory and disk shall be learnt from a scenario's own runs alone") {
@@ -80,8 +81,8 @@ TEST_CASE("memory and disk shall be learnt from a scenario's own runs alone") {
   taken.memory_bytes = 150.0;
   taken.disk_bytes = 5.0;
   costs.add("belt", estimated, taken);
-  CHECK(costs.expect("belt", estimated).cost.memory_bytes == doctest::Approx(150.0));
-  CHECK(costs.expect("belt", estimated).cost.disk_bytes == doctest::Approx(5.0));
+  CHECK(costs.expect("belt", estimated).cost.memory_bytes == test::approx(150.0));
+  CHECK(costs.expect("belt", estimated).cost.disk_bytes == test::approx(5.0));
   CHECK(costs.expect("chute", estimated).cost.memory_bytes == 100.0);
 }
 
@@ -91,7 +92,7 @@ TEST_CASE("a machine without runs shall be measured, and a spoilt cache shall no
   const auto estimated = one(CostTerm::grains, 10.0, 10.0);
   const auto spoilt = LearntCosts(file, as_measured).expect("hopper", estimated);
   CHECK(spoilt.runs == 0);
-  CHECK(spoilt.cost.terms.seconds() == doctest::Approx(20.0));
+  CHECK(spoilt.cost.terms.seconds() == test::approx(20.0));
   const double slowness = preflight::measured_slowness();
   CHECK(slowness > 0.1);
   CHECK(slowness < 10.0);
@@ -111,7 +112,7 @@ TEST_CASE("what is written of a run shall be read as it was") {
   LearntCosts(file, as_measured).add("my chute", estimated, estimated);
   const auto expected = LearntCosts(file, as_measured).expect("my chute", estimated);
   REQUIRE(expected.is_of_scenario);
-  CHECK(expected.cost.terms.seconds() == doctest::Approx(estimated.terms.seconds()));
+  CHECK(expected.cost.terms.seconds() == test::approx(estimated.terms.seconds()));
   CHECK(expected.cost.memory_bytes == 7.0);
   CHECK(expected.cost.disk_bytes == 9.0);
 }

@@ -3,6 +3,7 @@
 #include "preflight/reader.hpp"
 #include "run/simulation.hpp"
 #include "run/summary/summary.hpp"
+#include "support/approx.hpp"
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
@@ -118,7 +119,7 @@ TEST_CASE("a size of two materials shall be told the step of the one that needs 
   // The 4 mm grains of the drum are stepped as the stiffest pair of grains that come to it needs.
   const Json check = reported(DUST_SOURCE "/scenarios/thesis/dosta_drum.yaml");
   const double step = check["size_classes"].back()["stable_step_s"];
-  CHECK(step == doctest::Approx(4.4e-6).epsilon(0.02));
+  CHECK(step == test::approx(4.4e-6).epsilon(0.02));
 }
 
 TEST_CASE("check, log and summary of a run shall hold the same steps, to the last digit") {

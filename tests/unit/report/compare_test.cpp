@@ -2,6 +2,7 @@
 #include "report/compare.hpp"
 #include "base/error.hpp"
 #include "fake_run.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -12,6 +13,7 @@ using dust::report::compare_runs;
 using dust::report::comparison_text;
 using dust::report::QuantityPair;
 using dust::report::scenario_differences;
+using dust::test::approx;
 using dust::test::fake_summary;
 using dust::test::page_data;
 using dust::test::RunFolder;
@@ -66,9 +68,9 @@ TEST_CASE("scenarios shall differ by path, lists of plain values as one") {
 TEST_CASE("a difference shall be told in the errors of both runs") {
   const QuantityPair pair{"s", "q", "m", 1.0, 0.3, 2.0, 0.4};
   CHECK(pair.difference() == 1.0);
-  CHECK(pair.in_errors() == doctest::Approx(2.0));
+  CHECK(pair.in_errors() == approx(2.0));
   CHECK(std::isnan(QuantityPair{"s", "q", "m", 1.0, -1.0, 2.0, -1.0}.in_errors()));
-  CHECK(QuantityPair{"s", "q", "m", 1.0, -1.0, 2.0, 0.5}.in_errors() == doctest::Approx(2.0));
+  CHECK(QuantityPair{"s", "q", "m", 1.0, -1.0, 2.0, 0.5}.in_errors() == approx(2.0));
 }
 
 TEST_CASE("two runs shall stand side by side in text and on a page") {

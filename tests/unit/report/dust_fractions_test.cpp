@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/facts/dust_fractions.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <array>
@@ -9,6 +11,7 @@
 
 using dust::report::aerodynamic_diameter;
 using dust::report::dust_fractions;
+using dust::test::approx;
 
 namespace {
 
@@ -67,15 +70,15 @@ TEST_CASE("dust conventions shall follow from their definitions at every size") 
 
 TEST_CASE("dust conventions shall let half through at their medians and be one for the finest") {
   const auto inhalable = [](double um) { return 0.5 * (1.0 + std::exp(-0.06 * um)); };
-  CHECK(dust_fractions(11.64e-6).thoracic == doctest::Approx(0.5 * inhalable(11.64)));
-  CHECK(dust_fractions(4.25e-6).respirable == doctest::Approx(0.5 * inhalable(4.25)));
+  CHECK(dust_fractions(11.64e-6).thoracic == approx(0.5 * inhalable(11.64)));
+  CHECK(dust_fractions(4.25e-6).respirable == approx(0.5 * inhalable(4.25)));
   // One deviation above the median: the upper tail of the normal distribution, 15.8655 %.
   constexpr double k_tail = 0.15865525393145707;
-  CHECK(dust_fractions(1.5 * 11.64e-6).thoracic == doctest::Approx(k_tail * inhalable(17.46)));
-  CHECK(dust_fractions(1.5 * 4.25e-6).respirable == doctest::Approx(k_tail * inhalable(6.375)));
+  CHECK(dust_fractions(1.5 * 11.64e-6).thoracic == approx(k_tail * inhalable(17.46)));
+  CHECK(dust_fractions(1.5 * 4.25e-6).respirable == approx(k_tail * inhalable(6.375)));
   // Half of all airborne dust at 10 um (thoracic) and 4 um (respirable), as the standard puts it.
-  CHECK(dust_fractions(10e-6).thoracic == doctest::Approx(0.5).epsilon(0.002));
-  CHECK(dust_fractions(4e-6).respirable == doctest::Approx(0.5).epsilon(0.002));
+  CHECK(dust_fractions(10e-6).thoracic == approx(0.5).epsilon(0.002));
+  CHECK(dust_fractions(4e-6).respirable == approx(0.5).epsilon(0.002));
   CHECK(dust_fractions(0.0).respirable == 1.0);
 }
 
@@ -98,7 +101,7 @@ TEST_CASE("dust beyond the conventions shall not be counted in them") {
 }
 
 TEST_CASE("grains of unit density shall be as large as they settle") {
-  CHECK(aerodynamic_diameter(7e-6, 1000.0) == doctest::Approx(7e-6));
+  CHECK(aerodynamic_diameter(7e-6, 1000.0) == approx(7e-6));
   // Quartz: sqrt(2.65) = 1.62788.
-  CHECK(aerodynamic_diameter(10e-6, 2650.0) == doctest::Approx(16.2788e-6).epsilon(1e-5));
+  CHECK(aerodynamic_diameter(10e-6, 2650.0) == approx(16.2788e-6).epsilon(1e-5));
 }

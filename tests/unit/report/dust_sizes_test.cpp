@@ -2,10 +2,12 @@
 #include "report/dust_sizes.hpp"
 #include "fake_run.hpp"
 #include "report/report.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
 using dust::report::DustSizes;
+using dust::test::approx;
 using nlohmann::json;
 
 TEST_CASE("without a rule of the run dust shall be what is finer than 100 um") {
@@ -62,5 +64,5 @@ TEST_CASE("pictures and headline shall call dust what the scenario calls so") {
   CHECK(stated["grains"]["is_dust"] == json{true, false});
   CHECK(stated["grains"]["dust_below"] == 1e-3);
   CHECK(stated["dust"]["limit_m"] == 1e-3);
-  CHECK(stated["dust"]["fed"].get<double>() == doctest::Approx(250000.0));
+  CHECK(stated["dust"]["fed"].get<double>() == approx(250000.0));
 }

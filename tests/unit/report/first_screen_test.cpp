@@ -2,11 +2,13 @@
 #include "fake_run.hpp"
 #include "report/facts/fast_dust.hpp"
 #include "report/run_document.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
+using dust::test::approx;
 using dust::test::fake_figure;
 using dust::test::fake_summary;
 using dust::test::RunFolder;
@@ -85,27 +87,27 @@ TEST_CASE("the first screen shall tell how much, from where, how sure and where 
   const json document = document_of(folder);
   const json& dust = document["dust"];
   // Errors of independent counts add in squares: 0.05 of 0.6 g/t.
-  CHECK(dust["headline"]["value"].get<double>() == doctest::Approx(0.6));
-  CHECK(dust["headline"]["uncertainty"].get<double>() == doctest::Approx(0.05));
+  CHECK(dust["headline"]["value"].get<double>() == approx(0.6));
+  CHECK(dust["headline"]["uncertainty"].get<double>() == approx(0.05));
   CHECK(dust["openings"][0]["sensor"] == "x");
   CHECK(dust["openings"][1]["sensor"] == "top");
-  CHECK(dust["fed"].get<double>() == doctest::Approx(1.0));
-  CHECK(dust["observed_s"].get<double>() == doctest::Approx(0.19));
-  CHECK(dust["counted"].get<double>() == doctest::Approx(22.8));
+  CHECK(dust["fed"].get<double>() == approx(1.0));
+  CHECK(dust["observed_s"].get<double>() == approx(0.19));
+  CHECK(dust["counted"].get<double>() == approx(22.8));
   // 16.28 um aerodynamic: 0.5 (1 + exp(-0.9767)) = 68.8 %; of that 1 - F(ln(16.28 / 11.64) /
   // ln 1.5).
-  CHECK(dust["fractions"]["inhalable"].get<double>() == doctest::Approx(0.688).epsilon(1e-3));
-  CHECK(dust["fractions"]["thoracic"].get<double>() == doctest::Approx(0.14).epsilon(0.02));
+  CHECK(dust["fractions"]["inhalable"].get<double>() == approx(0.688).epsilon(1e-3));
+  CHECK(dust["fractions"]["thoracic"].get<double>() == approx(0.14).epsilon(0.02));
   REQUIRE(dust["classes"].size() == 1);
-  CHECK(dust["classes"][0]["out"]["value"].get<double>() == doctest::Approx(0.6));
-  CHECK(dust["classes"][0]["density"].get<double>() == doctest::Approx(2650).epsilon(1e-4));
+  CHECK(dust["classes"][0]["out"]["value"].get<double>() == approx(0.6));
+  CHECK(dust["classes"][0]["density"].get<double>() == approx(2650).epsilon(1e-4));
   // The dust of the frames lies at (0.25, 0.75): ring 2, not the deepest.
   const json& extraction = document["extraction"];
   REQUIRE(extraction["places"].size() == 2);
   CHECK(extraction["first"] == 1);
   CHECK(extraction["places"][1]["name"] == "2");
-  CHECK(extraction["places"][1]["x"].get<double>() == doctest::Approx(0.25));
-  CHECK(extraction["places"][1]["dust_share"].get<double>() == doctest::Approx(1.0));
+  CHECK(extraction["places"][1]["x"].get<double>() == approx(0.25));
+  CHECK(extraction["places"][1]["dust_share"].get<double>() == approx(1.0));
 }
 
 TEST_CASE("an amount that rests on few grains or is not steady shall say so instead of an error") {
@@ -117,7 +119,7 @@ TEST_CASE("an amount that rests on few grains or is not steady shall say so inst
   }
   folder.write("summary.json", summary.dump());
   const json dust = document_of(folder)["dust"];
-  CHECK(dust["headline"]["value"].get<double>() == doctest::Approx(0.6));
+  CHECK(dust["headline"]["value"].get<double>() == approx(0.6));
   CHECK(dust["headline"]["uncertainty"].is_null());
   CHECK(dust["headline"]["no_error"] == "not steady");
   CHECK(dust["openings"][1]["no_error"] == "not steady");
@@ -143,12 +145,11 @@ TEST_CASE("dust shall be told by where it parted from the coarse grains") {
   folder.write("scenario.yaml", "domain: {min: [0, 0, 0], max: [1, 1, 1]}\n");
   const json partings = document_of(folder)["dust"]["partings"];
   REQUIRE(partings.size() == 1);
-  CHECK(partings[0]["x"].get<double>() == doctest::Approx(0.31));
-  CHECK(partings[0]["z"].get<double>() == doctest::Approx(0.21));
-  CHECK(partings[0]["share"].get<double>() == doctest::Approx(1.0));
+  CHECK(partings[0]["x"].get<double>() == approx(0.31));
+  CHECK(partings[0]["z"].get<double>() == approx(0.21));
+  CHECK(partings[0]["share"].get<double>() == approx(1.0));
   // One grain of quartz in the load of 0.25 kg.
-  CHECK(partings[0]["amount"]["value"].get<double>() ==
-        doctest::Approx(1e6 * k_grain / 0.25).epsilon(1e-3));
+  CHECK(partings[0]["amount"]["value"].get<double>() == approx(1e6 * k_grain / 0.25).epsilon(1e-3));
 }
 
 TEST_CASE("a flux that is still changing shall be called so") {
@@ -170,9 +171,9 @@ TEST_CASE("a flux that is still changing shall be called so") {
   };
   write(3.0);
   CHECK(document_of(folder)["dust"]["later_over_earlier"].get<double>() ==
-        doctest::Approx(3.0).epsilon(0.1));
+        approx(3.0).epsilon(0.1));
   write(1.0);
-  CHECK(document_of(folder)["dust"]["later_over_earlier"].get<double>() == doctest::Approx(1.0));
+  CHECK(document_of(folder)["dust"]["later_over_earlier"].get<double>() == approx(1.0));
 }
 
 TEST_CASE("limits of validity that a run went beyond shall be counted") {
@@ -218,13 +219,12 @@ TEST_CASE("dust that was thrown shall be counted by what is faster than its carr
   const dust::report::H5Source source(folder.path() / "results.h5");
   // 1.2 times the fastest coarse grain, 2 m/s; with faster air 1.2 times that.
   const auto without_air = dust::report::fast_dust_of(source, {}, 0.0);
-  CHECK(without_air.limit == doctest::Approx(2.4));
+  CHECK(without_air.limit == approx(2.4));
   CHECK(without_air.fast == 1);
   CHECK(without_air.all == 3);
   CHECK(dust::report::fast_dust_of(source, {}, 8.0).fast == 0);
   // Stokes: 10 m/s for 2650 (10 um)^2 / (18 x 1.8e-5) s are 8.18 mm.
-  CHECK(dust::report::stopping_distance(10e-6, 2650.0, 1.8e-5) ==
-        doctest::Approx(8.179e-3).epsilon(1e-3));
+  CHECK(dust::report::stopping_distance(10e-6, 2650.0, 1.8e-5) == approx(8.179e-3).epsilon(1e-3));
   CHECK(dust::report::stopping_distance(10e-6, 0.0, 1.8e-5) == 0.0);
 }
 
@@ -252,8 +252,8 @@ TEST_CASE("published numbers shall stand beside those of the run") {
   folder.write("summary.json", summary.dump());
   const json references = document_of(folder)["references"];
   REQUIRE(references.size() == 1);
-  CHECK(references[0]["difference_share"].get<double>() == doctest::Approx(0.025));
-  CHECK(references[0]["in_errors"].get<double>() == doctest::Approx(2.0));  // 1 deg over 0.5 deg
+  CHECK(references[0]["difference_share"].get<double>() == approx(0.025));
+  CHECK(references[0]["in_errors"].get<double>() == approx(2.0));  // 1 deg over 0.5 deg
   // Without their error that of the difference is not known.
   summary["references"][0]["uncertainty"] = nullptr;
   folder.write("summary.json", summary.dump());

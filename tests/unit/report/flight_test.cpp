@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/facts/flight.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <array>
@@ -9,6 +11,7 @@
 using dust::report::isolated_flight;
 using dust::report::IsolatedGrain;
 using dust::report::StillAir;
+using dust::test::approx;
 
 namespace {
 constexpr double k_gravity = 9.81;
@@ -21,7 +24,7 @@ TEST_CASE("without air the flight shall be the parabola") {
   REQUIRE(x.size() == k_drops.size());
   for (std::size_t k = 0; k < x.size(); ++k) {
     // Between steps of 1 ms the path is taken as straight: off by g step^2 / 8 v / v_z, below 5 um.
-    CHECK(x[k] == doctest::Approx(0.8 * std::sqrt(2.0 * k_drops[k] / k_gravity)).epsilon(1e-4));
+    CHECK(x[k] == approx(0.8 * std::sqrt(2.0 * k_drops[k] / k_gravity)).epsilon(1e-4));
   }
 }
 
@@ -37,7 +40,7 @@ TEST_CASE("in still air lone grains shall fall as far as an independent solution
     CAPTURE(c.density);
     const auto x = isolated_flight({c.diameter, c.density, 0.8}, k_air, k_gravity, k_drops);
     // 0.1 %: the density and viscosity of the air there are those of the scenario to that order.
-    CHECK(x.back() == doctest::Approx(c.forward).epsilon(1e-3));
+    CHECK(x.back() == approx(c.forward).epsilon(1e-3));
     CHECK(x[0] < x[1]);
   }
 }

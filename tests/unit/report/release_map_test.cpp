@@ -4,6 +4,7 @@
 #include "fake_run.hpp"
 #include "report/pictures/pictures.hpp"
 #include "report/space/space.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 #include <hdf5.h>
@@ -83,11 +84,11 @@ TEST_CASE("the map of where dust comes off shall sum over the depth, on one scal
   CHECK(map["x0"] == -0.01);
   CHECK(map["z0"] == 0.5);
   // 10 mg in a column of 10 x 20 mm, so 5 mg in each square centimetre.
-  CHECK(map["most"].get<double>() == doctest::Approx(5e-6));
+  CHECK(map["most"].get<double>() == test::approx(5e-6));
   const auto& kinds = map["kinds"];
   REQUIRE(kinds.size() == 2);  // no wind in this run
-  CHECK(kinds[0]["kg"].get<double>() == doctest::Approx(10.01e-6));
-  CHECK(kinds[1]["kg"].get<double>() == doctest::Approx(1e-6));
+  CHECK(kinds[0]["kg"].get<double>() == test::approx(10.01e-6));
+  CHECK(kinds[1]["kg"].get<double>() == test::approx(1e-6));
   const auto codes = [](const nlohmann::json& kind) {
     const std::string bytes = test::unpacked(kind["data"].get<std::string>());
     std::vector<int> numbers;
@@ -127,7 +128,7 @@ TEST_CASE("dust in the air shall come back from the page in kg/m3, and where it 
   CHECK(report::dust_field_of(source, {"5_um"}, nullptr).is_null());
   const nlohmann::json dust = report::dust_field_of(source, {"5_um", "50_um"}, air);
   REQUIRE(dust.is_object());
-  CHECK(dust["most"].get<double>() == doctest::Approx(1e-3));
+  CHECK(dust["most"].get<double>() == test::approx(1e-3));
   const auto codes = [](const nlohmann::json& data) {
     std::string bytes = test::unpacked(data);
     for (std::size_t k = 1; k < bytes.size(); ++k)
@@ -141,8 +142,8 @@ TEST_CASE("dust in the air shall come back from the page in kg/m3, and where it 
   CHECK(concentration[4] == 0);
   CHECK(concentration[0] == 0);
   const nlohmann::json& set_free = dust["set_free"];
-  CHECK(set_free["kg"].get<double>() == doctest::Approx(4e-6));
-  CHECK(set_free["most"].get<double>() == doctest::Approx(4e-6 / 2e-6));  // in 2 cm3
+  CHECK(set_free["kg"].get<double>() == test::approx(4e-6));
+  CHECK(set_free["most"].get<double>() == test::approx(4e-6 / 2e-6));  // in 2 cm3
   CHECK(codes(set_free["data"])[11] == 254);
 }
 
@@ -162,6 +163,6 @@ TEST_CASE(
       {"cells_per_block", {2, 2, 1}}, {"count", {2, 1, 2}}, {"frames", {nlohmann::json::object()}}};
   const nlohmann::json dust = report::dust_field_of(source, {"5_um"}, air);
   REQUIRE(dust.is_object());
-  CHECK(dust["most"].get<double>() == doctest::Approx(1e-3));  // three cells of air of four
-  CHECK(dust["set_free"]["most"].get<double>() == doctest::Approx(4e-6 / 8e-6));
+  CHECK(dust["most"].get<double>() == test::approx(1e-3));  // three cells of air of four
+  CHECK(dust["set_free"]["most"].get<double>() == test::approx(4e-6 / 8e-6));
 }

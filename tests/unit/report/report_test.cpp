@@ -2,12 +2,14 @@
 #include "report/report.hpp"
 #include "base/error.hpp"
 #include "fake_run.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
 #include <regex>
 
 using dust::report::write_report;
+using dust::test::approx;
 using dust::test::fake_figure;
 using dust::test::fake_summary;
 using dust::test::FakeRun;
@@ -80,8 +82,7 @@ TEST_CASE("report.json shall hold the numbers of the summary and what is made of
   for (const json& row : document["balance"]) CHECK(row["is_closed"] == true);
   // Nodes of a group are listed one by one, not with their sum.
   CHECK(document["cost"]["nodes"].size() == 2);
-  CHECK(document["cost"]["grain_steps_per_dem_second"].get<double>() ==
-        doctest::Approx(987654 / 60.0));
+  CHECK(document["cost"]["grain_steps_per_dem_second"].get<double>() == approx(987654 / 60.0));
   // Made once more, it is the same: what the run left is not lost.
   CHECK(page_data(page_of(folder)) == document);
 }
@@ -169,14 +170,14 @@ TEST_CASE("a run without fluid shall be shown over the domain of its scenario") 
   folder.write_h5({.has_fluid = false});
   folder.write("scenario.yaml", "domain: {min: [-10, 0, 0 mm], max: [2, 0.011, 3]}\n");
   const json view = page_data(page_of(folder))["view"];
-  CHECK(view[0].get<double>() == doctest::Approx(-0.01));
-  CHECK(view[2].get<double>() == doctest::Approx(2.0));
-  CHECK(view[3].get<double>() == doctest::Approx(3.0));
+  CHECK(view[0].get<double>() == approx(-0.01));
+  CHECK(view[2].get<double>() == approx(2.0));
+  CHECK(view[3].get<double>() == approx(3.0));
   // Without a readable scenario: grains at x 0.25 and 0.5, the belt's outline, a margin of 4 %.
   folder.write("scenario.yaml", "domain: [[[");
   const json found = page_data(page_of(folder))["view"];
-  CHECK(found[0].get<double>() == doctest::Approx(-0.04 * 0.75));
-  CHECK(found[2].get<double>() == doctest::Approx(0.5 + 0.04 * 0.75));
+  CHECK(found[0].get<double>() == approx(-0.04 * 0.75));
+  CHECK(found[2].get<double>() == approx(0.5 + 0.04 * 0.75));
 }
 
 TEST_CASE("coarse grains carried along shall not be called dust") {
@@ -228,8 +229,7 @@ TEST_CASE("coarse grains shall be painted from the back to the front") {
   }
   // The eye looks along y.
   const double expected[] = {0.4, 0.6, 0.8, 0.2};
-  for (std::size_t k = 0; k < 4; ++k)
-    CHECK(across[k] == doctest::Approx(expected[k]).epsilon(1e-4));
+  for (std::size_t k = 0; k < 4; ++k) CHECK(across[k] == approx(expected[k]).epsilon(1e-4));
 }
 
 TEST_CASE("dust shall be summed over the openings and set against the dust in the load") {
@@ -252,9 +252,9 @@ TEST_CASE("dust shall be summed over the openings and set against the dust in th
   folder.write("summary.json", summary.dump());
   const json dust = page_data(page_of(folder))["dust"];
   // Errors add in squares: 0.05. One part in a million is 1 g/t.
-  CHECK(dust["headline"]["value"].get<double>() == doctest::Approx(0.4));
-  CHECK(dust["headline"]["uncertainty"].get<double>() == doctest::Approx(0.05));
-  CHECK(dust["fed"].get<double>() == doctest::Approx(1.0));
+  CHECK(dust["headline"]["value"].get<double>() == approx(0.4));
+  CHECK(dust["headline"]["uncertainty"].get<double>() == approx(0.05));
+  CHECK(dust["fed"].get<double>() == approx(1.0));
   CHECK(dust["openings"].size() == 2);
   CHECK(dust["passages"].size() == 1);
   CHECK(dust["stocks"].size() == 1);
@@ -323,7 +323,7 @@ TEST_CASE("grains shall come back from the page where they were") {
   fill(folder);
   const json grains = page_data(page_of(folder))["grains"];
   const json& frame = grains["frames"][1];
-  CHECK(frame["t"].get<double>() == doctest::Approx(0.1));
+  CHECK(frame["t"].get<double>() == approx(0.1));
   REQUIRE(frame["n"] == 45);
   REQUIRE(frame["dust"] == 5);
   const std::string bytes = unpacked(frame["data"]);
@@ -332,9 +332,9 @@ TEST_CASE("grains shall come back from the page where they were") {
     return byte_at(bytes, at) + 256 * byte_at(bytes, at + 1);
   };
   // Half a step of 16 bits over a view of 1 m; dust stands last, at (0.25, 0.75).
-  CHECK(word(20) == doctest::Approx(0.5 * 65535).epsilon(1e-4));
-  CHECK(word(20 + 2 * 44) == doctest::Approx(0.25 * 65535).epsilon(1e-4));
-  CHECK(word(20 + 90 + 2 * 44) == doctest::Approx(0.75 * 65535).epsilon(1e-4));
+  CHECK(word(20) == approx(0.5 * 65535).epsilon(1e-4));
+  CHECK(word(20 + 2 * 44) == approx(0.25 * 65535).epsilon(1e-4));
+  CHECK(word(20 + 90 + 2 * 44) == approx(0.75 * 65535).epsilon(1e-4));
   CHECK(byte_at(bytes, 20 + 180) == 1);       // 500 um
   CHECK(byte_at(bytes, 20 + 180 + 44) == 0);  // 10 um
 }
@@ -350,7 +350,7 @@ TEST_CASE("crowded frames shall be thinned, the dust kept and the reader told") 
   // 20,000 expected; five standard deviations of the draw are 550.
   CHECK(shown - 30 > 19450);
   CHECK(shown - 30 < 20550);
-  CHECK(grains["share"].get<double>() == doctest::Approx(0.4));
+  CHECK(grains["share"].get<double>() == approx(0.4));
 }
 
 TEST_CASE("the air map shall hold the mean over the depth and mask bodies") {
@@ -359,9 +359,9 @@ TEST_CASE("the air map shall hold the mean over the depth and mask bodies") {
   const json air = page_data(page_of(folder))["air"];
   REQUIRE(air["nx"] == 4);
   REQUIRE(air["nz"] == 3);
-  CHECK(air["speed"].get<double>() == doctest::Approx(2.0));
-  CHECK(air["low"].get<double>() == doctest::Approx(-1.0));
-  CHECK(air["high"].get<double>() == doctest::Approx(1.0));
+  CHECK(air["speed"].get<double>() == approx(2.0));
+  CHECK(air["low"].get<double>() == approx(-1.0));
+  CHECK(air["high"].get<double>() == approx(1.0));
   std::string codes = unpacked(air["frames"][0]["data"]);
   REQUIRE(codes.size() == 4 * 12);  // speed, pressure, and the direction on the same cells
   std::array<std::array<unsigned, 12>, 4> fields{};
@@ -402,6 +402,6 @@ TEST_CASE("a plot of fewer points than rows shall keep what means are means of")
       series[0]["values"][2].get<double>() - series[0]["values"][1].get<double>();
   double impulse = 0.0;
   for (const auto& value : force) impulse += value.get<double>() * interval;
-  CHECK(impulse == doctest::Approx(0.001 * 40 * k_rows / 40).epsilon(1e-4));
+  CHECK(impulse == approx(0.001 * 40 * k_rows / 40).epsilon(1e-4));
   CHECK(series[2]["values"].back() == k_rows % 7);
 }

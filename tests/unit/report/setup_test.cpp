@@ -2,6 +2,7 @@
 #include "../bodies/shapes.hpp"
 #include "report/pictures/outline.hpp"
 #include "report/setup_document.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +10,7 @@
 #include <numbers>
 
 using dust::sdk::Vec3;
+using dust::test::approx;
 using dust::test::make_shape;
 using nlohmann::json;
 
@@ -46,7 +48,7 @@ TEST_CASE("the section of a body shall be what the middle plane cuts of it") {
   const auto s = setup();
   const json rows = dust::report::section_of(s.domain, drum());
   // Squares of 1/300 of 2 m along a rim of 1.9 m: the area is known to some 1 %.
-  CHECK(area_of(rows) == doctest::Approx(std::numbers::pi * 0.09).epsilon(0.01));
+  CHECK(area_of(rows) == approx(std::numbers::pi * 0.09).epsilon(0.01));
   for (const json& r : rows) {
     for (const double x : {r[0].get<double>(), r[2].get<double>()}) {
       for (const double z : {r[1].get<double>(), r[3].get<double>()}) {
@@ -69,7 +71,7 @@ TEST_CASE("the document of a set-up shall hold its bodies from the side and in s
   // Its rim, seen along its axis: all of it lies on the circle.
   for (const json& piece : document["bodies"][0]["segments"]) {
     CHECK(std::hypot(piece[0].get<double>() - 0.6, piece[1].get<double>() - 0.5) ==
-          doctest::Approx(0.3).epsilon(1e-5));
+          approx(0.3).epsilon(1e-5));
   }
   const json& surfaces = document["space"]["surfaces"];
   CHECK(surfaces["names"] == json{"drum"});

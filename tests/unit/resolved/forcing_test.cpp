@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "resolved_box.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
@@ -14,7 +16,7 @@ TEST_CASE("resolved: drag of a cubic array of spheres, coarse (Zick and Homsy 19
   // 8 cells across, the fewest that are allowed; 16 are held to 3 % (tests/verification/resolved).
   const double drag = array_drag(16, 0.064);
   CAPTURE(drag);
-  CHECK(drag == doctest::Approx(2.810).epsilon(0.06));
+  CHECK(drag == test::approx(2.810).epsilon(0.06));
 }
 
 TEST_CASE("resolved: momentum of sphere and fluid in a periodic box") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "resolved/marker_lattice.hpp"
 #include "resolved/roma_kernel.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -25,33 +26,33 @@ TEST_CASE("resolved: the delta function has the whole weight, and its mean place
       squares += weight * weight;
     }
     CAPTURE(place);
-    CHECK(sum == doctest::Approx(1.0).epsilon(1e-14));
+    CHECK(sum == test::approx(1.0).epsilon(1e-14));
     CHECK(std::abs(first) < 1e-14);
-    CHECK(squares == doctest::Approx(0.5).epsilon(1e-14));  // the property that defines it
+    CHECK(squares == test::approx(0.5).epsilon(1e-14));  // the property that defines it
   }
 }
 
 TEST_CASE("resolved: markers cover the sphere evenly") {
   const auto lattice = resolved::make_lattice(12.0, 1.0);
   CHECK(static_cast<int>(lattice.direction.size()) == resolved::marker_count(12.0));
-  CHECK(lattice.radius == doctest::Approx(12.0 / 2.0 - resolved::k_retraction));
+  CHECK(lattice.radius == test::approx(12.0 / 2.0 - resolved::k_retraction));
   const auto count = static_cast<double>(lattice.direction.size());
   Vec3 sum;
   double xx = 0.0;
   double xy = 0.0;
   for (const Vec3& n : lattice.direction) {
-    CHECK(norm(n) == doctest::Approx(1.0).epsilon(1e-14));
+    CHECK(norm(n) == test::approx(1.0).epsilon(1e-14));
     sum += n;
     xx += n.x * n.x;
     xy += n.x * n.y;
   }
   CHECK(norm(sum) / count < 1e-3);
-  CHECK(xx / count == doctest::Approx(1.0 / 3.0).epsilon(1e-3));
+  CHECK(xx / count == test::approx(1.0 / 3.0).epsilon(1e-3));
   CHECK(std::abs(xy) / count < 1e-3);
   // The layer of one cell that they stand for, and pieces no larger than a cell.
   const double layer = 4.0 / 3.0 * std::numbers::pi *
                        (std::pow(lattice.radius + 0.5, 3) - std::pow(lattice.radius - 0.5, 3));
-  CHECK(count * lattice.volume == doctest::Approx(layer).epsilon(1e-12));
+  CHECK(count * lattice.volume == test::approx(layer).epsilon(1e-12));
   CHECK(lattice.volume < 1.0);
   CHECK(lattice.volume > 0.8);
   // None stands so near another one that a place would count twice, none so far that fluid passes.

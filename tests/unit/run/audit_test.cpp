@@ -2,6 +2,7 @@
 #include "dust/sdk/sphere.hpp"
 #include "run/audit/departures.hpp"
 #include "run/audit/force_shares.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -94,7 +95,7 @@ TEST_CASE("grains beyond an open side shall be counted there, and the first be n
   departures.note(rows.view(), {}, 0.0, {77, 0.25});
   CHECK(departures.through(k_left).count == 0);
   CHECK(departures.through(k_right).count == 2);
-  CHECK(departures.through(k_right).mass == doctest::Approx(0.5 * 3.0 + 4.0));
+  CHECK(departures.through(k_right).mass == test::approx(0.5 * 3.0 + 4.0));
   CHECK(departures.through(k_bottom).count == 1);
   // By their ids: the rows stand the other way round.
   const auto& first = departures.through(k_right).first;
@@ -137,10 +138,10 @@ TEST_CASE("no more than some shall be named, the earliest, and they shall surviv
   resumed.load(memory);
   for (const Departures* d : {&departures, &resumed}) {
     CHECK(d->through(k_left).count == 30);
-    CHECK(d->through(k_left).mass == doctest::Approx(90.0));
+    CHECK(d->through(k_left).mass == test::approx(90.0));
     REQUIRE(d->through(k_left).first.size() == Departures::k_named);
     CHECK(d->through(k_left).first.back().step == 19);
-    CHECK(d->through(k_left).first.back().time == doctest::Approx(1.9));
+    CHECK(d->through(k_left).first.back().time == test::approx(1.9));
     CHECK(d->through(k_left).first.back().place == Vec3{-0.1, 0.5, 0.5});
   }
 }
@@ -156,9 +157,9 @@ TEST_CASE("on a grain at rest on another the contacts shall hold its weight") {
       {.row_i = 0, .row_j = -1, .force = {0, 0, 2 * w}, .branch = {0, 0, -0.05}, .overlap = 1e-4}};
   ForceShares shares;
   shares.sample(rows.view(), contacts, {.gravity = {0, 0, -k_g}});
-  CHECK(shares.share(ForceKind::gravity) == doctest::Approx(0.5));
-  CHECK(shares.share(ForceKind::contact_normal) == doctest::Approx(0.5));
-  CHECK(shares.over_weight(ForceKind::contact_normal) == doctest::Approx(1.0));
+  CHECK(shares.share(ForceKind::gravity) == test::approx(0.5));
+  CHECK(shares.share(ForceKind::contact_normal) == test::approx(0.5));
+  CHECK(shares.over_weight(ForceKind::contact_normal) == test::approx(1.0));
   CHECK(shares.share(ForceKind::attraction) == 0.0);
   CHECK(shares.share(ForceKind::drag) == 0.0);
 }
@@ -172,8 +173,8 @@ TEST_CASE("a contact that pulls shall count as attraction, what acts along it as
   ForceShares shares;
   shares.sample(rows.view(), contacts, {});
   // 4 N and 3 N on each, weighted alike.
-  CHECK(shares.share(ForceKind::attraction) == doctest::Approx(4.0 / 7.0));
-  CHECK(shares.share(ForceKind::contact_tangential) == doctest::Approx(3.0 / 7.0));
+  CHECK(shares.share(ForceKind::attraction) == test::approx(4.0 / 7.0));
+  CHECK(shares.share(ForceKind::contact_tangential) == test::approx(3.0 / 7.0));
   CHECK(shares.share(ForceKind::contact_normal) == 0.0);
   CHECK(shares.over_weight(ForceKind::attraction) == 0.0);
 }
@@ -197,18 +198,18 @@ TEST_CASE("buoyancy, pressure gradient and drag shall be those of their formulas
   ForceShares shares;
   shares.sample(rows.view(), {}, in);
   const double volume = sdk::sphere_volume(0.2);
-  CHECK(shares.over_weight(ForceKind::buoyancy) == doctest::Approx(1.2 * volume));
+  CHECK(shares.over_weight(ForceKind::buoyancy) == test::approx(1.2 * volume));
   CHECK(shares.over_weight(ForceKind::pressure_gradient) ==
-        doctest::Approx(20.0 * volume / k_g).epsilon(1e-6));
+        test::approx(20.0 * volume / k_g).epsilon(1e-6));
   CHECK(shares.over_weight(ForceKind::drag) ==
-        doctest::Approx((6.0 - 20.0 * volume) / k_g).epsilon(1e-6));
+        test::approx((6.0 - 20.0 * volume) / k_g).epsilon(1e-6));
   // Beside a wall the difference is taken from the open side alone: the same slope here.
   const std::vector<float> cut = {1, 1, 0.2F, 1};
   in.fluid.open_fraction = cut;
   ForceShares beside;
   beside.sample(rows.view(), {}, in);
   CHECK(beside.over_weight(ForceKind::pressure_gradient) ==
-        doctest::Approx(20.0 * volume / k_g).epsilon(1e-6));
+        test::approx(20.0 * volume / k_g).epsilon(1e-6));
 }
 
 TEST_CASE("shares shall be means over all samples and survive a checkpoint") {
@@ -225,7 +226,7 @@ TEST_CASE("shares shall be means over all samples and survive a checkpoint") {
   resumed.load(memory);
   for (const ForceShares* s : {&shares, &resumed}) {
     CHECK(s->samples() == 2);
-    CHECK(s->share(ForceKind::gravity) == doctest::Approx(2.0 / 3.0));
-    CHECK(s->over_weight(ForceKind::contact_normal) == doctest::Approx(0.5));
+    CHECK(s->share(ForceKind::gravity) == test::approx(2.0 / 3.0));
+    CHECK(s->over_weight(ForceKind::contact_normal) == test::approx(0.5));
   }
 }

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/dem_cycle.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <vector>
+
+using dust::test::approx;
 
 namespace {
 
@@ -24,10 +28,10 @@ TEST_CASE("refreshes shall cover a cycle without a gap, the last one for what is
   cycle.begin(3.9e-5);
   const std::vector<double> held = held_steps(cycle, k_dem_step);
   REQUIRE(held.size() == 4);
-  CHECK(held[0] == doctest::Approx(3.0));
-  CHECK(held[1] == doctest::Approx(3.0));
-  CHECK(held[2] == doctest::Approx(3.0));
-  CHECK(held[3] == doctest::Approx(1.0));
+  CHECK(held[0] == approx(3.0));
+  CHECK(held[1] == approx(3.0));
+  CHECK(held[2] == approx(3.0));
+  CHECK(held[3] == approx(1.0));
   cycle.begin(3e-5);  // a whole number but for rounding
   CHECK(held_steps(cycle, k_dem_step).size() == 4);
   cycle.begin(1e-9);  // no more often than there are steps

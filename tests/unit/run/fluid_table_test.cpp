@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/fluid_cells.hpp"
 #include "run/snapshots/columns.hpp"
+#include "support/approx.hpp"
 #include "verification/fluid/fluid_case.hpp"
 
 #include <doctest/doctest.h>
@@ -46,7 +47,7 @@ TEST_CASE("what flows through an uneven bed shall be the same in each of its lay
     for (const double x : {0.0, 2.5e-3, 0.021, 0.055, 0.0575, 0.062, 0.099, 0.1}) {
       CAPTURE(x);
       // Single precision of the columns.
-      CHECK(cells.superficial_velocity(axis, x) == doctest::Approx(k_superficial).epsilon(1e-6));
+      CHECK(cells.superficial_velocity(axis, x) == test::approx(k_superficial).epsilon(1e-6));
     }
   }
 }

@@ -3,12 +3,15 @@
 
 #include "dust/sdk/error.hpp"
 #include "run/body_removal.hpp"
+#include "support/approx.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
 
 #include <limits>
 #include <string>
+
+using dust::test::approx;
 
 TEST_CASE("a grain whose position or velocity is not a number shall stop the run by its name") {
   const std::vector<std::int64_t> id{4, 7};
@@ -45,8 +48,7 @@ TEST_CASE("the mean kinetic energy shall be that of translation and of rotation"
   const double mass = dust::test::k_sand * dust::sdk::sphere_volume(2e-3);
   const double inertia = 0.4 * mass * 1e-3 * 1e-3;
   const double sum = 0.5 * mass * 25.0 + 0.5 * inertia * 500.0 * 500.0;
-  CHECK(dust::run::kinetic_energy_per_grain(grains.rows()) ==
-        doctest::Approx(0.5 * sum).epsilon(1e-12));
+  CHECK(dust::run::kinetic_energy_per_grain(grains.rows()) == approx(0.5 * sum).epsilon(1e-12));
 }
 
 TEST_CASE("a body shall go when its time has come or its grains have come to rest, not before") {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "unit/scenario/support.hpp"
 
 #include <doctest/doctest.h>
 
 using dust::scenario::DustRule;
 using dust::scenario::DustSpec;
+using dust::test::approx;
 
 namespace {
 
@@ -38,8 +40,8 @@ TEST_CASE("a dust block shall say by size and material what is dust") {
 TEST_CASE("rules of practice shall have the height and area they take, or be refused") {
   const auto dust =
       dust_of(with("dust: {finer_than: 400 um, fall_height: 2 m, open_area: 900 cm2}\n"));
-  CHECK(dust.given->fall_height == doctest::Approx(2.0));
-  CHECK(dust.given->open_area == doctest::Approx(0.09));
+  CHECK(dust.given->fall_height == approx(2.0));
+  CHECK(dust.given->open_area == approx(0.09));
   check("dust: {finer_than: 400 um, open_area: 900 cm2}\n",
         "dust.open_area: the rule of induced air takes the height of fall too: give fall_height");
   check("dust: {finer_than: 400 um, fall_height: -1 m}\n", "fall_height");
@@ -57,7 +59,7 @@ TEST_CASE("grains that stand for smaller ones shall be dust by the size of these
       dust_of(changed(with("dust: {finer_than: 25 um}\n"), "poisson_ratio: 0.3}\n  glass",
                       "poisson_ratio: 0.3, coarse_graining: 15}\n  glass"));
   const DustRule rule = dust.rule();
-  CHECK(rule.represented(300e-6, 0) == doctest::Approx(20e-6));
+  CHECK(rule.represented(300e-6, 0) == approx(20e-6));
   CHECK(rule.is_dust(300e-6, 0));
   CHECK_FALSE(rule.is_dust(500e-6, 0));
   CHECK_FALSE(rule.is_dust(300e-6, 1));

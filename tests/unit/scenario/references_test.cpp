@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/summary/references.hpp"
 
+#include "support/approx.hpp"
 #include "unit/scenario/support.hpp"
 
 #include <doctest/doctest.h>
@@ -8,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+using dust::test::approx;
 
 namespace scenario = dust::scenario;
 using Json = nlohmann::ordered_json;
@@ -33,12 +36,12 @@ TEST_CASE("a reference shall be kept in the unit of its figure") {
   CHECK(list[0].figure == "angle");
   CHECK(list[0].value == 41.6);  // as written
   CHECK(list[0].unit == "deg");
-  CHECK(list[0].uncertainty == doctest::Approx(1.8 / std::numbers::pi).epsilon(1e-14));
-  CHECK(list[1].value == doctest::Approx(90.0 / std::numbers::pi).epsilon(1e-14));
+  CHECK(list[0].uncertainty == approx(1.8 / std::numbers::pi).epsilon(1e-14));
+  CHECK(list[1].value == approx(90.0 / std::numbers::pi).epsilon(1e-14));
   CHECK(list[1].uncertainty < 0.0);
-  CHECK(list[2].value == doctest::Approx(6e-3).epsilon(1e-14));
+  CHECK(list[2].value == approx(6e-3).epsilon(1e-14));
   CHECK(list[3].figure == "drop_5_mm/median");
-  CHECK(list[3].value == doctest::Approx(12e-3).epsilon(1e-14));
+  CHECK(list[3].value == approx(12e-3).epsilon(1e-14));
   CHECK(list[4].value == 12.0);
 }
 
@@ -57,12 +60,12 @@ TEST_CASE("a reference curve shall take the axes of the sensor's curve that it f
   CHECK(curves[0].sensor == "stream");
   CHECK(curves[0].axes.title == "Angle");
   CHECK(curves[0].axes.y_label == "angle [deg]");
-  CHECK(curves[0].x[1] == doctest::Approx(0.02).epsilon(1e-14));
-  CHECK(curves[0].y[2] == doctest::Approx(36.0 / std::numbers::pi).epsilon(1e-14));
+  CHECK(curves[0].x[1] == approx(0.02).epsilon(1e-14));
+  CHECK(curves[0].y[2] == approx(36.0 / std::numbers::pi).epsilon(1e-14));
   CHECK(curves[0].source == "t");
   CHECK(curves[1].axes.title == "Path");
   CHECK(curves[1].x[1] == 2.0);
-  CHECK(curves[1].y[1] == doctest::Approx(0.04).epsilon(1e-14));
+  CHECK(curves[1].y[1] == approx(0.04).epsilon(1e-14));
   CHECK(curves[2].axes.title == "Share");
   CHECK(curves[2].y[0] == 0.5);
 }
@@ -109,7 +112,7 @@ TEST_CASE("ours shall stand beside the reference with the difference in per cent
   CHECK(list[0]["our_uncertainty"] == 0.4);
   CHECK(list[0]["value"] == 41.6);
   CHECK(list[0]["uncertainty"] == 1.1);
-  CHECK(list[0]["error_percent"].get<double>() == doctest::Approx(5.0).epsilon(1e-9));
+  CHECK(list[0]["error_percent"].get<double>() == approx(5.0).epsilon(1e-9));
   CHECK(list[1]["error_percent"].is_null());  // per cent of nothing
   CHECK(list[1]["uncertainty"].is_null());
   CHECK(list[2]["ours"].is_null());

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario/text/units.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <numbers>
 
+using dust::test::approx;
 using namespace dust::scenario;
 namespace dim = dust::sdk::dimension;
 using dust::sdk::Dimension;
@@ -35,31 +38,29 @@ std::string refusal(const std::string& text, Dimension d) {
 TEST_CASE("the units of the contract shall give SI values") {
   CHECK(value("1.25 mm", dim::length) == 1.25e-3);
   CHECK(value("350 mm", dim::length) == 0.35);
-  CHECK(value("80 l/min", dim::volume_flow) ==
-        doctest::Approx(80e-3 / 60).epsilon(k_two_roundings));
+  CHECK(value("80 l/min", dim::volume_flow) == approx(80e-3 / 60).epsilon(k_two_roundings));
   CHECK(value("16 deg", dim::angle) ==
-        doctest::Approx(16 * std::numbers::pi / 180).epsilon(k_two_roundings));
+        approx(16 * std::numbers::pi / 180).epsilon(k_two_roundings));
   CHECK(value("6 g/s", dim::mass_flow) == 0.006);
   CHECK(value("0.5 m/s", dim::velocity) == 0.5);
   CHECK(value("50 MPa", dim::pressure) == 5e7);
   CHECK(value("25 g", dim::mass) == 0.025);
-  CHECK(value("8.2 mbar", dim::pressure) == doctest::Approx(820.0).epsilon(k_two_roundings));
+  CHECK(value("8.2 mbar", dim::pressure) == approx(820.0).epsilon(k_two_roundings));
   CHECK(value("1.2 kg/m3", dim::density) == 1.2);
 }
 
 TEST_CASE("the units of the trade shall give SI values") {
-  CHECK(value("500 t/h", dim::mass_flow) == doctest::Approx(500e3 / 3600).epsilon(k_two_roundings));
-  CHECK(value("2000 m3/h", dim::volume_flow) ==
-        doctest::Approx(2000.0 / 3600).epsilon(k_two_roundings));
-  CHECK(value("48 in", dim::length) == doctest::Approx(1.2192).epsilon(k_two_roundings));
-  CHECK(value("10 ft", dim::length) == doctest::Approx(3.048).epsilon(k_two_roundings));
-  CHECK(value("600 ft/min", dim::velocity) == doctest::Approx(3.048).epsilon(k_two_roundings));
-  CHECK(value("2 lb", dim::mass) == doctest::Approx(0.90718474).epsilon(k_two_roundings));
-  CHECK(value("100 lb/ft3", dim::density) == doctest::Approx(1601.846337396014).epsilon(1e-14));
+  CHECK(value("500 t/h", dim::mass_flow) == approx(500e3 / 3600).epsilon(k_two_roundings));
+  CHECK(value("2000 m3/h", dim::volume_flow) == approx(2000.0 / 3600).epsilon(k_two_roundings));
+  CHECK(value("48 in", dim::length) == approx(1.2192).epsilon(k_two_roundings));
+  CHECK(value("10 ft", dim::length) == approx(3.048).epsilon(k_two_roundings));
+  CHECK(value("600 ft/min", dim::velocity) == approx(3.048).epsilon(k_two_roundings));
+  CHECK(value("2 lb", dim::mass) == approx(0.90718474).epsilon(k_two_roundings));
+  CHECK(value("100 lb/ft3", dim::density) == approx(1601.846337396014).epsilon(1e-14));
   CHECK(value("1000 cfm", dim::volume_flow) ==
-        doctest::Approx(1000 * 0.3048 * 0.3048 * 0.3048 / 60).epsilon(1e-14));
-  CHECK(value("20 degC", dim::temperature) == doctest::Approx(293.15).epsilon(k_two_roundings));
-  CHECK(value("-40 \u00b0C", dim::temperature) == doctest::Approx(233.15).epsilon(k_two_roundings));
+        approx(1000 * 0.3048 * 0.3048 * 0.3048 / 60).epsilon(1e-14));
+  CHECK(value("20 degC", dim::temperature) == approx(293.15).epsilon(k_two_roundings));
+  CHECK(value("-40 \u00b0C", dim::temperature) == approx(233.15).epsilon(k_two_roundings));
   // Its zero lies elsewhere: it is not a factor.
   CHECK(refusal("3 J/degC", dim::temperature).find("a temperature is expected (K, degC)") !=
         std::string::npos);
@@ -68,22 +69,21 @@ TEST_CASE("the units of the trade shall give SI values") {
 TEST_CASE("compound units, exponents and brackets shall be understood") {
   CHECK(value("2 Pa s", dim::dynamic_viscosity) == 2);
   CHECK(value("2 Pa*s", dim::dynamic_viscosity) == 2);
-  CHECK(value("18 uPa s", dim::dynamic_viscosity) ==
-        doctest::Approx(18e-6).epsilon(k_two_roundings));
+  CHECK(value("18 uPa s", dim::dynamic_viscosity) == approx(18e-6).epsilon(k_two_roundings));
   CHECK(value("2 kg/(m s)", dim::dynamic_viscosity) == 2);
   CHECK(value("2 kg/m/s", dim::dynamic_viscosity) == 2);
   CHECK(value("2 kg m-1 s-1", dim::dynamic_viscosity) == 2);
   CHECK(value("9.81 m/s^2", dim::acceleration) == 9.81);
   CHECK(value("9.81 m/s\u00b2", dim::acceleration) == 9.81);
-  CHECK(value("3 mm3", dim::volume) == doctest::Approx(3e-9).epsilon(k_two_roundings));
-  CHECK(value("2.5 g/cm3", dim::density) == doctest::Approx(2500.0).epsilon(k_two_roundings));
+  CHECK(value("3 mm3", dim::volume) == approx(3e-9).epsilon(k_two_roundings));
+  CHECK(value("2.5 g/cm3", dim::density) == approx(2500.0).epsilon(k_two_roundings));
   CHECK(value("5 \u00b5m", dim::length) == 5e-6);
   CHECK(value("3 1/s", dim::frequency) == 3);
   CHECK(value("2 min", dim::time) == 120);
   CHECK(value("60 rpm", dim::angular_velocity) ==
-        doctest::Approx(2 * std::numbers::pi).epsilon(k_two_roundings));
+        approx(2 * std::numbers::pi).epsilon(k_two_roundings));
   CHECK(value("55 %", dim::none) == 0.55);
-  CHECK(value("3.6 g/t", dim::none) == doctest::Approx(3.6e-6).epsilon(1e-15));
+  CHECK(value("3.6 g/t", dim::none) == approx(3.6e-6).epsilon(1e-15));
   CHECK(value("1e-3", dim::length) == 1e-3);
   CHECK(value("-.5e1", dim::none) == -5);
 }

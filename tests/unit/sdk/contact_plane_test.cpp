@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/contact_plane.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 using dust::sdk::in_contact_plane;
 using dust::sdk::Vec3;
+using dust::test::approx;
 
 TEST_CASE("A spring along the plane stays as it is, one along the normal is gone") {
   const auto stays = in_contact_plane({3.0, 0.0, -4.0}, {0.0, 1.0, 0.0});
@@ -28,11 +31,11 @@ TEST_CASE("A spring that turns with its contact once round comes back, at its le
     const double angle = 2.0 * 3.14159265358979323846 * n / k_steps;
     const Vec3 normal{std::cos(angle), std::sin(angle), 0.0};
     const auto turned = in_contact_plane(spring, normal);
-    CHECK(dot(turned.part, normal) == doctest::Approx(0.0).scale(1.0).epsilon(1e-12));
+    CHECK(dot(turned.part, normal) == approx(0.0).scale(1.0).epsilon(1e-12));
     spring = std::sqrt(turned.squared_before / turned.squared) * turned.part;
   }
-  CHECK(norm(spring) == doctest::Approx(5.0).epsilon(1e-10));
+  CHECK(norm(spring) == approx(5.0).epsilon(1e-10));
   // Of first order in the angle of a step: the length kept is that of the whole vector.
-  CHECK(spring.y == doctest::Approx(3.0).epsilon(1e-3));
-  CHECK(spring.z == doctest::Approx(4.0).epsilon(1e-3));
+  CHECK(spring.y == approx(3.0).epsilon(1e-3));
+  CHECK(spring.z == approx(4.0).epsilon(1e-3));
 }

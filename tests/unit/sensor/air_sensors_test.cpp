@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sensors of the air on fields that are known in closed form.
+#include "support/approx.hpp"
 #include "support/sensor_bench.hpp"
 
 #include <doctest/doctest.h>
@@ -43,14 +44,14 @@ TEST_CASE("pressure_drop shall be exact where the pressure is linear, between ce
   set_pressure(world, [](Vec3 x) { return 1000.0 - 5e4 * x.z + 300.0 * x.x; });
   const auto planes =
       load_sensor("pressure_drop").make({{"from", Vec3{0, 0, 0.0103}}, {"to", Vec3{0, 0, 0.0311}}});
-  CHECK(after(*planes, world)["pressure_drop"] == doctest::Approx(5e4 * 0.0208).epsilon(k_float));
+  CHECK(after(*planes, world)["pressure_drop"] == test::approx(5e4 * 0.0208).epsilon(k_float));
   const auto points = load_sensor("pressure_drop")
                           .make({{"from", Vec3{0.0042, 0.005, 0.0103}},
                                  {"to", Vec3{0.0142, 0.005, 0.0311}},
                                  {"between", std::string("points")}});
   world.time = 0.0;
   CHECK(after(*points, world)["pressure_drop"] ==
-        doctest::Approx(5e4 * 0.0208 - 300.0 * 0.01).epsilon(k_float));
+        test::approx(5e4 * 0.0208 - 300.0 * 0.01).epsilon(k_float));
   CHECK_THROWS(
       load_sensor("pressure_drop").make({{"from", Vec3{0, 0, 0}}, {"to", Vec3{0.01, 0, 0.01}}}));
 }
@@ -69,9 +70,9 @@ TEST_CASE("pressure_drop shall leave bodies out of its means and count solids wi
   const auto sensor =
       load_sensor("pressure_drop").make({{"from", Vec3{0, 0, 0.03}}, {"to", Vec3{0, 0, 0.01}}});
   const Figures figures = after(*sensor, world);
-  CHECK(figures["pressure_drop"] == doctest::Approx(-20.0).epsilon(k_float));
-  CHECK(figures["superficial_velocity"] == doctest::Approx(0.3).epsilon(k_float));
-  CHECK(figures["superficial_velocity_at_end"] == doctest::Approx(0.3).epsilon(k_float));
+  CHECK(figures["pressure_drop"] == test::approx(-20.0).epsilon(k_float));
+  CHECK(figures["superficial_velocity"] == test::approx(0.3).epsilon(k_float));
+  CHECK(figures["superficial_velocity_at_end"] == test::approx(0.3).epsilon(k_float));
 }
 
 TEST_CASE("probe shall be exact on linear fields, along lines and in planes") {
@@ -89,11 +90,11 @@ TEST_CASE("probe shall be exact on linear fields, along lines and in planes") {
     const std::string place = "place_" + std::to_string(n + 1) + "/";
     const double z = 0.0103 + 0.005 * n;
     const double x = 0.0052 + 0.0025 * n;
-    CHECK(figures[place + "velocity_x"] == doctest::Approx(10 * z).epsilon(k_float));
-    CHECK(figures[place + "velocity_y"] == doctest::Approx(-5 * x).epsilon(k_float));
-    CHECK(figures[place + "velocity_z"] == doctest::Approx(1.0045).epsilon(k_float));
-    CHECK(figures[place + "pressure"] == doctest::Approx(7.0 - 400 * z).epsilon(k_float));
-    CHECK(figures[place + "void_fraction"] == doctest::Approx(0.5 + 10 * z).epsilon(k_float));
+    CHECK(figures[place + "velocity_x"] == test::approx(10 * z).epsilon(k_float));
+    CHECK(figures[place + "velocity_y"] == test::approx(-5 * x).epsilon(k_float));
+    CHECK(figures[place + "velocity_z"] == test::approx(1.0045).epsilon(k_float));
+    CHECK(figures[place + "pressure"] == test::approx(7.0 - 400 * z).epsilon(k_float));
+    CHECK(figures[place + "void_fraction"] == test::approx(0.5 + 10 * z).epsilon(k_float));
   }
   // Two lines 4 mm apart; the series is the mean over all places.
   const auto plane = load_sensor("probe").make({{"from", Vec3{0.005, 0.003, 0.01}},
@@ -103,9 +104,9 @@ TEST_CASE("probe shall be exact on linear fields, along lines and in planes") {
                                                 {"count_across", std::int64_t{2}}});
   world.time = 0.0;
   const Figures section = after(*plane, world);
-  CHECK(section["place_3/velocity_y"] == doctest::Approx(-5 * 0.009).epsilon(k_float));
-  CHECK(section["place_4/velocity_x"] == doctest::Approx(0.2).epsilon(k_float));
-  CHECK(series_of(*plane)["velocity_x"] == doctest::Approx(0.15).epsilon(k_float));
+  CHECK(section["place_3/velocity_y"] == test::approx(-5 * 0.009).epsilon(k_float));
+  CHECK(section["place_4/velocity_x"] == test::approx(0.2).epsilon(k_float));
+  CHECK(series_of(*plane)["velocity_x"] == test::approx(0.15).epsilon(k_float));
   CHECK_THROWS(load_sensor("probe").make(
       {{"from", Vec3{}}, {"to", Vec3{}}, {"count_across", std::int64_t{3}}}));
 }
@@ -122,8 +123,8 @@ TEST_CASE("probe shall look past bodies and stay at the last centre beyond the s
                                                  {"to", Vec3{0.01, 0.005, 0.0102}},
                                                  {"count", std::int64_t{2}}});
   const Figures figures = after(*sensor, world);
-  CHECK(figures["place_1/velocity_z"] == doctest::Approx(0.05).epsilon(k_float));
-  CHECK(figures["place_2/velocity_z"] == doctest::Approx(0.95).epsilon(k_float));
+  CHECK(figures["place_1/velocity_z"] == test::approx(0.05).epsilon(k_float));
+  CHECK(figures["place_2/velocity_z"] == test::approx(0.95).epsilon(k_float));
 }
 
 TEST_CASE("wall_shear shall be the viscosity times the slope, the wall's motion taken off") {
@@ -132,23 +133,23 @@ TEST_CASE("wall_shear shall be the viscosity times the slope, the wall's motion 
   const auto floor = load_sensor("wall_shear").make({{"side", std::string("bottom")}});
   const Figures figures = after(*floor, world);
   const double area = 0.02 * 0.01;
-  CHECK(figures["mean"] == doctest::Approx(1.8e-5 * 50).epsilon(k_float));
-  CHECK(figures["largest"] == doctest::Approx(1.8e-5 * 50).epsilon(k_float));
-  CHECK(figures["force_x"] == doctest::Approx(1.8e-5 * 30 * area).epsilon(k_float));
-  CHECK(figures["force_y"] == doctest::Approx(-1.8e-5 * 40 * area).epsilon(k_float));
+  CHECK(figures["mean"] == test::approx(1.8e-5 * 50).epsilon(k_float));
+  CHECK(figures["largest"] == test::approx(1.8e-5 * 50).epsilon(k_float));
+  CHECK(figures["force_x"] == test::approx(1.8e-5 * 30 * area).epsilon(k_float));
+  CHECK(figures["force_y"] == test::approx(-1.8e-5 * 40 * area).epsilon(k_float));
   CHECK(figures["force_z"] == 0.0);
   // The lid moves with the air that touches it.
   const auto lid = load_sensor("wall_shear")
                        .make({{"side", std::string("top")}, {"wall_velocity", Vec3{1.2, -1.6, 0}}});
   world.time = 0.0;
   // Half a cell below it the air is slower by 30 * 0.5 mm/s: the lid is held back.
-  CHECK(after(*lid, world)["force_x"] == doctest::Approx(-1.8e-5 * 30 * area).epsilon(1e-3));
+  CHECK(after(*lid, world)["force_x"] == test::approx(-1.8e-5 * 30 * area).epsilon(1e-3));
   // A body that covers half of the side carries its share itself.
   for_cells(world,
             [&](std::size_t c, Vec3 x) { world.open_fraction[c] = x.x < 0.01 ? 0.0f : 1.0f; });
   const auto half = load_sensor("wall_shear").make({{"side", std::string("bottom")}});
   world.time = 0.0;
-  CHECK(after(*half, world)["force_x"] == doctest::Approx(1.8e-5 * 15 * area).epsilon(k_float));
+  CHECK(after(*half, world)["force_x"] == test::approx(1.8e-5 * 15 * area).epsilon(k_float));
 }
 
 TEST_CASE("vorticity shall be twice the rate of a solid rotation, about each axis") {
@@ -162,10 +163,10 @@ TEST_CASE("vorticity shall be twice the rate of a solid rotation, about each axi
     const Figures figures = after(*sensor, world);
     const char* const names[] = {"mean_x", "mean_y", "mean_z"};
     for (int d = 0; d < 3; ++d) {
-      CHECK(figures[names[d]] == doctest::Approx(d == axis ? 50.0 : 0.0).epsilon(1e-4));
+      CHECK(figures[names[d]] == test::approx(d == axis ? 50.0 : 0.0).epsilon(1e-4));
     }
-    CHECK(figures["largest"] == doctest::Approx(50.0).epsilon(1e-4));
-    CHECK(figures["mean_size"] == doctest::Approx(50.0).epsilon(1e-4));
+    CHECK(figures["largest"] == test::approx(50.0).epsilon(1e-4));
+    CHECK(figures["mean_size"] == test::approx(50.0).epsilon(1e-4));
   }
 }
 
@@ -182,21 +183,21 @@ TEST_CASE("vorticity shall find where the mean flow turns fastest, in its box an
   });
   const auto whole = load_sensor("vorticity").make({});
   Figures figures = after(*whole, world);
-  CHECK(figures["fastest/x"] == doctest::Approx(0.0055).epsilon(1e-9));
-  CHECK(figures["fastest/z"] == doctest::Approx(0.0105).epsilon(1e-9));
+  CHECK(figures["fastest/x"] == test::approx(0.0055).epsilon(1e-9));
+  CHECK(figures["fastest/z"] == test::approx(0.0105).epsilon(1e-9));
   const auto upper =
       load_sensor("vorticity").make({{"min", Vec3{0, 0, 0.02}}, {"max", Vec3{0.02, 0.01, 0.04}}});
   world.time = 0.0;
   figures = after(*upper, world);
-  CHECK(figures["fastest/x"] == doctest::Approx(0.0145).epsilon(1e-9));
-  CHECK(figures["fastest/z"] == doctest::Approx(0.0305).epsilon(1e-9));
+  CHECK(figures["fastest/x"] == test::approx(0.0145).epsilon(1e-9));
+  CHECK(figures["fastest/z"] == test::approx(0.0305).epsilon(1e-9));
   // In the middle -dw/dx + du/dz = 2 * 200 1/s, less by differences over 2 of 4 mm.
-  CHECK(figures["fastest/vorticity"] == doctest::Approx(400.0 * std::exp(-0.25)).epsilon(1e-4));
+  CHECK(figures["fastest/vorticity"] == test::approx(400.0 * std::exp(-0.25)).epsilon(1e-4));
   for_cells(world, [&](std::size_t c, Vec3 x) {
     world.open_fraction[c] = norm(x - Vec3{0.0055, x.y, 0.0105}) < 2.5e-3 ? 0.0f : 1.0f;
   });
   const auto open = load_sensor("vorticity").make({});
   world.time = 0.0;
   figures = after(*open, world);
-  CHECK(figures["fastest/z"] == doctest::Approx(0.0305).epsilon(1e-9));
+  CHECK(figures["fastest/z"] == test::approx(0.0305).epsilon(1e-9));
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "support/sensor_bench.hpp"
 #include "unit/sensor/coverage.hpp"
 
@@ -8,6 +9,7 @@
 #include <functional>
 #include <numbers>
 
+using dust::test::approx;
 using namespace dust::test;
 using dust::sdk::Vec3;
 
@@ -58,7 +60,7 @@ TEST_CASE(
     const auto cone =
         bed([&](double x, double y) { return 30e-3 - std::tan(angle * k_degree) * radius(x, y); });
     const auto f = measured(cone, {{"centre", k_centre}});
-    CHECK(f.value == doctest::Approx(angle).epsilon(k_exact));
+    CHECK(f.value == approx(angle).epsilon(k_exact));
     CHECK(f.uncertainty < 1e-4);
   }
 }
@@ -69,26 +71,25 @@ TEST_CASE("a rounded tip and a spread foot shall not count") {
     return std::min(27e-3, std::max(line, 3e-3));
   });
   CHECK(measured(heap, {{"centre", k_centre}, {"from_share", 0.2}, {"to_share", 0.8}}).value ==
-        doctest::Approx(33.0).epsilon(1e-3));
+        approx(33.0).epsilon(1e-3));
 }
 
 TEST_CASE("a slope and a crater shall be measured, also with gravity along another axis") {
   const auto slope =
       bed([](double x, double) { return 40e-3 - std::tan(35.9 * k_degree) * 0.6 * x; });
   const double angle = std::atan(0.6 * std::tan(35.9 * k_degree)) / k_degree;
-  CHECK(measured(slope, {{"form", std::string("planar")}}).value ==
-        doctest::Approx(angle).epsilon(k_exact));
+  CHECK(measured(slope, {{"form", std::string("planar")}}).value == approx(angle).epsilon(k_exact));
   const auto crater =
       bed([](double x, double y) { return 1e-3 + std::tan(41 * k_degree) * radius(x, y); });
   CHECK(measured(crater, {{"form", std::string("crater")}, {"centre", k_centre}}).value ==
-        doctest::Approx(41.0).epsilon(k_exact));
+        approx(41.0).epsilon(k_exact));
   // The same crater is no cone.
   CHECK(measured(crater, {{"centre", k_centre}}).value == 0.0);
   SyntheticScene turned = slope;
   turned.gravity = {-9.81, 0, 0};
   for (Grain& g : turned.grains) g.now = {g.now.z, g.now.x, g.now.y};
   CHECK(measured(turned, {{"form", std::string("planar")}, {"direction", Vec3{0, 1, 0}}}).value ==
-        doctest::Approx(angle).epsilon(k_exact));
+        approx(angle).epsilon(k_exact));
 }
 
 TEST_CASE("the uncertainty of an angle shall be that of repeated heaps") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Height and fluidisation of beds whose answer is known.
+#include "support/approx.hpp"
 #include "support/sensor_bench.hpp"
 
 #include <doctest/doctest.h>
@@ -36,9 +37,9 @@ TEST_CASE("bed_height shall be that of a uniform column, by share and by centre"
   for (int s = 0; s < 10; ++s) step(*sensor, world);
   const Figures figures = summary_of(*sensor);
   // To a 4096th of what the grains span.
-  CHECK(figures["height"] == doctest::Approx(0.09).epsilon(3e-4));
-  CHECK(figures["twice_centre"] == doctest::Approx(0.1).epsilon(1e-6));
-  CHECK(figures["height_at_end"] == doctest::Approx(figures["height"]).epsilon(1e-12));
+  CHECK(figures["height"] == test::approx(0.09).epsilon(3e-4));
+  CHECK(figures["twice_centre"] == test::approx(0.1).epsilon(1e-6));
+  CHECK(figures["height_at_end"] == test::approx(figures["height"]).epsilon(1e-12));
 }
 
 TEST_CASE("bed_height shall count masses with weights and look along its direction") {
@@ -48,14 +49,14 @@ TEST_CASE("bed_height shall count masses with weights and look along its directi
   fill(world, 0.04, 0.10, 4000, 2e-9, 0.5);
   const auto half = load_sensor("bed_height").make({{"base", Vec3{}}, {"share", 0.5}});
   step(*half, world);
-  CHECK(series_of(*half)["height"] == doctest::Approx(0.04 * 0.5 / 0.75).epsilon(1e-3));
+  CHECK(series_of(*half)["height"] == test::approx(0.04 * 0.5 / 0.75).epsilon(1e-3));
   CHECK(series_of(*half)["twice_centre"] ==
-        doctest::Approx(2 * (0.75 * 0.02 + 0.25 * 0.07)).epsilon(1e-6));
+        test::approx(2 * (0.75 * 0.02 + 0.25 * 0.07)).epsilon(1e-6));
   for (Grain& g : world.grains) g.now = {g.now.z, 0, -5.0};
   const auto sideways = load_sensor("bed_height")
                             .make({{"base", Vec3{}}, {"share", 1.0}, {"direction", Vec3{2, 0, 0}}});
   step(*sideways, world);
-  CHECK(series_of(*sideways)["height"] == doctest::Approx(0.1).epsilon(1e-3));
+  CHECK(series_of(*sideways)["height"] == test::approx(0.1).epsilon(1e-3));
 }
 
 namespace {
@@ -116,16 +117,16 @@ TEST_CASE("minimum_fluidisation shall find the crossing of the lines, up and dow
   const Figures figures = run({}, {0.05, 0.6, 0.05}, 4001);
   for (const std::string way : {"rising/", "falling/"}) {
     CAPTURE(way);
-    CHECK(figures[way + "by_pressure"] == doctest::Approx(0.3).epsilon(1e-3));
+    CHECK(figures[way + "by_pressure"] == test::approx(0.3).epsilon(1e-3));
     // The packed bed's height is fitted where it is packed for sure, the fluid one's where fluid.
-    CHECK(figures[way + "by_height"] == doctest::Approx(0.3).epsilon(1e-3));
-    CHECK(figures[way + "plateau"] == doctest::Approx(600.0).epsilon(1e-4));
+    CHECK(figures[way + "by_height"] == test::approx(0.3).epsilon(1e-3));
+    CHECK(figures[way + "plateau"] == test::approx(600.0).epsilon(1e-4));
   }
 }
 
 TEST_CASE("minimum_fluidisation shall not be misled by a hump or by noise") {
   const Figures hump = run({.hump = 120.0}, {0.05, 0.6}, 3000);
-  CHECK(hump["rising/by_pressure"] == doctest::Approx(0.3).epsilon(2e-3));
+  CHECK(hump["rising/by_pressure"] == test::approx(0.3).epsilon(2e-3));
   CHECK(hump["falling/by_pressure"] == 0.0);
   const Figures noisy = run({.noise = 0.2}, {0.6, 0.05}, 2000);
   const Figure& found = noisy.at("falling/by_pressure");
@@ -141,7 +142,7 @@ TEST_CASE("minimum_fluidisation shall not take the swings of a bubbling bed for 
     const Figure& found = figures.at("falling/by_pressure");
     CHECK(std::abs(found.value - 0.3) < 3.0 * found.uncertainty);
     CHECK(found.uncertainty < 0.01);
-    CHECK(figures["falling/plateau"] == doctest::Approx(600.0).epsilon(0.02));
+    CHECK(figures["falling/plateau"] == test::approx(600.0).epsilon(0.02));
   }
 }
 
@@ -154,5 +155,5 @@ TEST_CASE("minimum_fluidisation shall say nothing where the ramp does not reach 
 TEST_CASE("minimum_fluidisation shall not tell of a crossing at velocities it has not seen") {
   const Figures figures = run({.compacts = true}, {0.6, 0.05}, 3000);
   CHECK(figures["falling/by_height"] == 0.0);
-  CHECK(figures["falling/by_pressure"] == doctest::Approx(0.3).epsilon(1e-3));
+  CHECK(figures["falling/by_pressure"] == test::approx(0.3).epsilon(1e-3));
 }

@@ -2,6 +2,7 @@
 #include "unit/sensor/coverage.hpp"
 
 #include "dust/sdk/error.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -46,14 +47,13 @@ TEST_CASE("the concentration in a box shall be the weighted mass inside per volu
   step(*sensor, world);
   const Figures figures = summary_of(*sensor);
   const double mass = 16 * 0.05e-12 + 16 * 3e-9;
-  CHECK(figures["mass_concentration"] == doctest::Approx(mass / k_volume).epsilon(1e-12));
+  CHECK(figures["mass_concentration"] == test::approx(mass / k_volume).epsilon(1e-12));
   CHECK(figures["class_10_um/mass_concentration"] ==
-        doctest::Approx(16 * 0.05e-12 / k_volume).epsilon(1e-12));
-  CHECK(figures["class_600_um/number_concentration"] ==
-        doctest::Approx(16 / k_volume).epsilon(1e-12));
+        test::approx(16 * 0.05e-12 / k_volume).epsilon(1e-12));
+  CHECK(figures["class_600_um/number_concentration"] == test::approx(16 / k_volume).epsilon(1e-12));
   CHECK(figures["class_300_um/mass_concentration"] == 0.0);
-  CHECK(figures["grams_per_tonne"] == doctest::Approx(1e6 * mass / 5e-6).epsilon(1e-12));
-  CHECK(series_of(*sensor)["number"] == doctest::Approx(16.8).epsilon(1e-12));
+  CHECK(figures["grams_per_tonne"] == test::approx(1e6 * mass / 5e-6).epsilon(1e-12));
+  CHECK(series_of(*sensor)["number"] == test::approx(16.8).epsilon(1e-12));
 }
 
 TEST_CASE("the diameters shall restrict what counts in a box") {
@@ -94,8 +94,9 @@ TEST_CASE("the error of a concentration shall cover the truth at its rate, with 
     CHECK(coverage.two() > k_two_low);
     // 80 real grains seen, 20 times as many computed ones with copies: the error falls by the root.
     const double expected = 0.5e-12 / k_volume / std::sqrt(80.0 * copies);
-    // Where chance makes neighbouring batches alike, the error is a little wider.
-    CHECK(error == doctest::Approx(expected).epsilon(0.12));
+    // Where chance makes neighbouring batches alike, the error is wider: a fifth in the mean of 16.
+    CHECK(error > 0.95 * expected);
+    CHECK(error < 1.28 * expected);
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bubbles of known place, size and speed.
+#include "support/approx.hpp"
 #include "support/sensor_bench.hpp"
 
 #include <doctest/doctest.h>
@@ -54,12 +55,12 @@ TEST_CASE("bubbles shall have the number, size and speed of the spheres there ar
     step(*bubbles, world);
   }
   const Figures figures = summary_of(*bubbles);
-  CHECK(figures["number"] == doctest::Approx(2.0));
-  CHECK(figures["diameter"] == doctest::Approx(2 * k_radius).epsilon(k_cells));
+  CHECK(figures["number"] == test::approx(2.0));
+  CHECK(figures["diameter"] == test::approx(2 * k_radius).epsilon(k_cells));
   const double volume = 2 * 4.0 / 3.0 * std::numbers::pi * std::pow(k_radius, 3);
   CHECK(figures["volume_share"] ==
-        doctest::Approx(volume / (0.02 * 0.02 * 0.055)).epsilon(3 * k_cells));
-  CHECK(figures["rise_velocity"] == doctest::Approx(k_speed).epsilon(0.02));
+        test::approx(volume / (0.02 * 0.02 * 0.055)).epsilon(3 * k_cells));
+  CHECK(figures["rise_velocity"] == test::approx(k_speed).epsilon(0.02));
 }
 
 TEST_CASE("bubbles shall leave out the space over the bed, and those too small") {
@@ -67,15 +68,15 @@ TEST_CASE("bubbles shall leave out the space over the bed, and those too small")
   blow(world, {{0.01, 0.01, 0.044}, {0.01, 0.01, 0.02}});  // the upper one breaks the surface
   const auto all = sensor();
   step(*all, world);
-  CHECK(series_of(*all)["number"] == doctest::Approx(1.0));
+  CHECK(series_of(*all)["number"] == test::approx(1.0));
   const auto large = sensor({{"smallest", 0.014}});
   step(*large, world);
-  CHECK(series_of(*large)["number"] == doctest::Approx(0.0));
-  CHECK(series_of(*large)["diameter"] == doctest::Approx(0.0));
+  CHECK(series_of(*large)["number"] == test::approx(0.0));
+  CHECK(series_of(*large)["diameter"] == test::approx(0.0));
   // Downwards, the bottom is the open end: the bubble in the bed and the space above both count.
   const auto down = sensor({{"direction", Vec3{0, 0, -1}}});
   step(*down, world);
-  CHECK(series_of(*down)["number"] == doctest::Approx(2.0));
+  CHECK(series_of(*down)["number"] == test::approx(2.0));
 }
 
 TEST_CASE("bubbles that merge shall not count as one that jumps") {
@@ -85,8 +86,8 @@ TEST_CASE("bubbles that merge shall not count as one that jumps") {
   step(*bubbles, world);
   blow(world, {{0.006, 0.01, 0.016}, {0.0125, 0.01, 0.022}}, 5e-3);  // they touch now
   step(*bubbles, world);
-  CHECK(series_of(*bubbles)["number"] == doctest::Approx(1.0));
-  CHECK(series_of(*bubbles)["rise_velocity"] == doctest::Approx(0.0));
+  CHECK(series_of(*bubbles)["number"] == test::approx(1.0));
+  CHECK(series_of(*bubbles)["rise_velocity"] == test::approx(0.0));
 }
 
 TEST_CASE("bubbles shall refuse a box without inside and a slanted direction") {

@@ -2,6 +2,7 @@
 #include "unit/sensor/coverage.hpp"
 
 #include "dust/sdk/error.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -42,13 +43,13 @@ TEST_CASE("evenly spaced riders shall carry spacing, mass and speed back exactly
     step(*sensor, world);
   }
   const Figures figures = summary_of(*sensor);
-  CHECK(figures["number_flow"] == doctest::Approx(800.0).epsilon(1e-12));
-  CHECK(figures["mass_flow"] == doctest::Approx(800e-12).epsilon(1e-12));
-  CHECK(figures["mean_number"] == doctest::Approx(80.0).epsilon(1e-12));
-  CHECK(figures["class_10_um/mass_flow"] == doctest::Approx(800e-12).epsilon(1e-12));
+  CHECK(figures["number_flow"] == test::approx(800.0).epsilon(1e-12));
+  CHECK(figures["mass_flow"] == test::approx(800e-12).epsilon(1e-12));
+  CHECK(figures["mean_number"] == test::approx(80.0).epsilon(1e-12));
+  CHECK(figures["class_10_um/mass_flow"] == test::approx(800e-12).epsilon(1e-12));
   CHECK(figures["class_300_um/mass_flow"] == 0.0);
   // 6 g/s emitted.
-  CHECK(figures["grams_per_tonne"] == doctest::Approx(1e6 * 800e-12 / 6e-3).epsilon(1e-9));
+  CHECK(figures["grams_per_tonne"] == test::approx(1e6 * 800e-12 / 6e-3).epsilon(1e-9));
 }
 
 TEST_CASE("grains that do not ride shall not count") {
@@ -78,7 +79,7 @@ TEST_CASE("emission before the steady part shall not dilute what is carried back
   }
   const double carried = 1e-12 * 0.8 / 0.08 * 0.01;
   CHECK(summary_of(*sensor)["grams_per_tonne"] ==
-        doctest::Approx(1e6 * carried / 10e-6).epsilon(1e-6));
+        test::approx(1e6 * carried / 10e-6).epsilon(1e-6));
 }
 
 TEST_CASE("a direction between the axes shall be refused") {

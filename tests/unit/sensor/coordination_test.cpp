@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensor/coordination/coordination.hpp"
 
+#include "support/approx.hpp"
 #include "support/sensor_bench.hpp"
 
 #include <doctest/doctest.h>
 
+using dust::test::approx;
 using namespace dust::test;
 using dust::sdk::Vec3;
 
@@ -32,12 +34,11 @@ TEST_CASE("the coordination number of a simple cubic block shall follow from its
   }
   const auto with = load_sensor("coordination").make({});
   step(*with, world);
-  CHECK(summary_of(*with)["mean_at_end"] == doctest::Approx(6.0).epsilon(1e-14));
-  CHECK(summary_of(*with)["wall_contacts_per_grain_at_end"] ==
-        doctest::Approx(6.0 / n).epsilon(1e-14));
+  CHECK(summary_of(*with)["mean_at_end"] == approx(6.0).epsilon(1e-14));
+  CHECK(summary_of(*with)["wall_contacts_per_grain_at_end"] == approx(6.0 / n).epsilon(1e-14));
   const auto without = load_sensor("coordination").make({{"with_walls", false}});
   step(*without, world);
-  CHECK(summary_of(*without)["mean_at_end"] == doctest::Approx(6.0 * (n - 1) / n).epsilon(1e-14));
+  CHECK(summary_of(*without)["mean_at_end"] == approx(6.0 * (n - 1) / n).epsilon(1e-14));
   CHECK(summary_of(*without)["rattler_share_at_end"] == 0.0);
 }
 
@@ -51,7 +52,7 @@ TEST_CASE("grains without load shall not count in the mechanical coordination nu
   const auto sensor = load_sensor("coordination").make({});
   step(*sensor, world);
   const Figures f = summary_of(*sensor);
-  CHECK(f["mean_at_end"] == doctest::Approx(10.0 / 6).epsilon(1e-14));
-  CHECK(f["mechanical_at_end"] == doctest::Approx((10.0 - 1) / (6 - 1 - 1)).epsilon(1e-14));
-  CHECK(f["rattler_share_at_end"] == doctest::Approx(2.0 / 6).epsilon(1e-14));
+  CHECK(f["mean_at_end"] == approx(10.0 / 6).epsilon(1e-14));
+  CHECK(f["mechanical_at_end"] == approx((10.0 - 1) / (6 - 1 - 1)).epsilon(1e-14));
+  CHECK(f["rattler_share_at_end"] == approx(2.0 / 6).epsilon(1e-14));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensor/discharge/discharge.hpp"
 
+#include "support/approx.hpp"
 #include "support/sensor_bench.hpp"
 #include "unit/sensor/coverage.hpp"
 
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 
+using dust::test::approx;
 using namespace dust::test;
 using dust::sdk::Value;
 using dust::sdk::Vec3;
@@ -49,17 +51,17 @@ TEST_CASE("a steady discharge shall have its rate, its time, and Beverloo's besi
   const Figures f = summary_of(*sensor);
   const double mass = 2000.0 * std::numbers::pi / 6 * 1e-9;
   CHECK(f["number"] == 160.0);
-  CHECK(f["mass"] == doctest::Approx(160 * mass).epsilon(1e-12));
+  CHECK(f["mass"] == approx(160 * mass).epsilon(1e-12));
   // The last one crosses at 0.1 + 159.5 * 1.25 ms.
-  CHECK(f["duration"] == doctest::Approx(159 * 1.25e-3).epsilon(1e-9));
-  CHECK(f["time"] == doctest::Approx(0.05 + 159.5 * 1.25e-3).epsilon(1e-9));
+  CHECK(f["duration"] == approx(159 * 1.25e-3).epsilon(1e-9));
+  CHECK(f["time"] == approx(0.05 + 159.5 * 1.25e-3).epsilon(1e-9));
   // From 20 to 80 %: 96 grains, one sample of 1 ms is 0.8 grains.
-  CHECK(f["number_rate"] == doctest::Approx(800.0).epsilon(0.02));
-  CHECK(f["rate"] == doctest::Approx(800.0 * mass).epsilon(0.02));
+  CHECK(f["number_rate"] == approx(800.0).epsilon(0.02));
+  CHECK(f["rate"] == approx(800.0 * mass).epsilon(0.02));
   CHECK(f.at("rate").uncertainty > 0.0);
   const double expected = 0.58 * 0.6 * 2000.0 * std::sqrt(9.81) * std::pow(8e-3 - 1.4e-3, 2.5);
-  CHECK(f["beverloo_rate"] == doctest::Approx(expected).epsilon(1e-9));
-  CHECK(f["rate_over_beverloo"] == doctest::Approx(f["rate"] / expected).epsilon(1e-12));
+  CHECK(f["beverloo_rate"] == approx(expected).epsilon(1e-9));
+  CHECK(f["rate_over_beverloo"] == approx(f["rate"] / expected).epsilon(1e-12));
 }
 
 TEST_CASE("Beverloo's correlation shall give the silo's rates within its round numbers") {
@@ -69,8 +71,8 @@ TEST_CASE("Beverloo's correlation shall give the silo's rates within its round n
   const auto rate = [&](double hole) {
     return formula::beverloo(0.58, 1.4, 1500.0, 9.81, hole, 4e-3) / grain;
   };
-  CHECK(rate(0.06) == doctest::Approx(22.5e3).epsilon(0.005));
-  CHECK(rate(0.04) == doctest::Approx(7.14e3).epsilon(0.005));
+  CHECK(rate(0.06) == approx(22.5e3).epsilon(0.005));
+  CHECK(rate(0.04) == approx(7.14e3).epsilon(0.005));
   CHECK(rate(5e-3) == 0.0);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contract/scenes/scene_columns.hpp"
 #include "dust/sdk/airborne_dust.hpp"
+#include "support/approx.hpp"
 #include "support/sensor_bench.hpp"
 
 #include <doctest/doctest.h>
@@ -65,14 +66,14 @@ TEST_CASE("exposure shall be the dust at the point, by the shares of EN 481") {
   const double inhalable_fine = 0.5 * (1.0 + std::exp(-0.06));
   const double inhalable_coarse = 0.5 * (1.0 + std::exp(-1.2));
   const Figures found = summary_of(*sensor);
-  CHECK(found["point_1/dust"] == doctest::Approx(fine + coarse).epsilon(k_float));
+  CHECK(found["point_1/dust"] == test::approx(fine + coarse).epsilon(k_float));
   CHECK(found["point_1/inhalable"] ==
-        doctest::Approx(inhalable_fine * fine + inhalable_coarse * coarse).epsilon(k_float));
+        test::approx(inhalable_fine * fine + inhalable_coarse * coarse).epsilon(k_float));
   // 1 um: ln(11.64) / ln 1.5 = 6.05 and ln(4.25) / ln 1.5 = 3.57 deviations below the cuts.
   CHECK(found["point_1/thoracic"] ==
-        doctest::Approx(inhalable_fine * fine + 0.09094 * inhalable_coarse * coarse).epsilon(1e-4));
+        test::approx(inhalable_fine * fine + 0.09094 * inhalable_coarse * coarse).epsilon(1e-4));
   CHECK(found["point_1/respirable"] ==
-        doctest::Approx((1.0 - 180e-6) * inhalable_fine * fine + 67e-6 * inhalable_coarse * coarse)
+        test::approx((1.0 - 180e-6) * inhalable_fine * fine + 67e-6 * inhalable_coarse * coarse)
             .epsilon(1e-4));
 }
 
@@ -88,9 +89,9 @@ TEST_CASE("exposure shall be a mean from steady_after on, and keep the highest o
     air.show(*sensor);
   }
   const Figures found = summary_of(*sensor);
-  CHECK(found["point_1/dust"] == doctest::Approx(2.0).epsilon(k_float));
+  CHECK(found["point_1/dust"] == test::approx(2.0).epsilon(k_float));
   CHECK(found["point_1/highest_inhalable"] ==
-        doctest::Approx(5.0 * 0.5 * (1.0 + std::exp(-0.06))).epsilon(k_float));
+        test::approx(5.0 * 0.5 * (1.0 + std::exp(-0.06))).epsilon(k_float));
 }
 
 TEST_CASE("exposure without a dust field shall be none") {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "support/sensor_bench.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
+using dust::test::approx;
 using namespace dust::test;
 using dust::sdk::Vec3;
 
@@ -28,10 +30,10 @@ TEST_CASE("energies shall be those of full spheres, with their weights") {
   world.grains = {moving({3, 0, 0}, {0, 100, 0}), moving({0, 0, -1}, {}, 0.5)};
   step(*sensor, world);
   const Figures f = summary_of(*sensor);
-  CHECK(f["translation_at_end"] == doctest::Approx(0.5e-6 * 9 + 0.5 * 0.5e-6).epsilon(1e-14));
+  CHECK(f["translation_at_end"] == approx(0.5e-6 * 9 + 0.5 * 0.5e-6).epsilon(1e-14));
   // I = 2/5 m R^2: E = 1/5 m R^2 w^2.
-  CHECK(f["rotation_at_end"] == doctest::Approx(0.2 * 1e-6 * 1e-6 * 1e4).epsilon(1e-14));
-  CHECK(f["mean_per_grain"] == doctest::Approx((4.5e-6 + 0.25e-6 + 0.2e-8) / 1.5).epsilon(1e-14));
+  CHECK(f["rotation_at_end"] == approx(0.2 * 1e-6 * 1e-6 * 1e4).epsilon(1e-14));
+  CHECK(f["mean_per_grain"] == approx((4.5e-6 + 0.25e-6 + 0.2e-8) / 1.5).epsilon(1e-14));
 }
 
 TEST_CASE("the granular temperature shall be the variance of the velocity, whatever the drift") {
@@ -43,7 +45,7 @@ TEST_CASE("the granular temperature shall be the variance of the velocity, whate
   }
   step(*sensor, world);
   // (0.01 + 0.04 + 0.09) / 3; the difference of 74 and its like leaves 1e-14 of 74.
-  CHECK(series_of(*sensor)["granular_temperature"] == doctest::Approx(0.14 / 3).epsilon(1e-11));
+  CHECK(series_of(*sensor)["granular_temperature"] == approx(0.14 / 3).epsilon(1e-11));
 }
 
 TEST_CASE("grains shall count as settled from the last time they became slow") {
@@ -55,5 +57,5 @@ TEST_CASE("grains shall count as settled from the last time they became slow") {
     step(*sensor, world);
   }
   CHECK(summary_of(*sensor)["is_settled"] == 1.0);
-  CHECK(summary_of(*sensor)["settled_at"] == doctest::Approx(0.4).epsilon(1e-14));
+  CHECK(summary_of(*sensor)["settled_at"] == approx(0.4).epsilon(1e-14));
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "unit/sensor/coverage.hpp"
 
 #include <doctest/doctest.h>
@@ -52,18 +53,18 @@ TEST_CASE("wells of pressure shall be found in place, depth and order") {
   for (int s = 0; s < 100; ++s) step(*sensor, world);
   const Figures figures = summary_of(*sensor);
   CHECK(figures["found"] == 2.0);
-  CHECK(figures["place_1/x"] == doctest::Approx(0.0455).epsilon(1e-12));
-  CHECK(figures["place_1/y"] == doctest::Approx(0.0105).epsilon(1e-12));
-  CHECK(figures["place_1/z"] == doctest::Approx(0.0105).epsilon(1e-12));
+  CHECK(figures["place_1/x"] == test::approx(0.0455).epsilon(1e-12));
+  CHECK(figures["place_1/y"] == test::approx(0.0105).epsilon(1e-12));
+  CHECK(figures["place_1/z"] == test::approx(0.0105).epsilon(1e-12));
   // Floats carry 7 digits.
-  CHECK(figures["place_1/depth"] == doctest::Approx(0.5 * smoothed_share()).epsilon(1e-6));
+  CHECK(figures["place_1/depth"] == test::approx(0.5 * smoothed_share()).epsilon(1e-6));
   CHECK(figures["place_1/pressure_over_density"] ==
-        doctest::Approx(-0.5 * smoothed_share() / 1.2).epsilon(1e-6));
-  CHECK(figures["place_2/x"] == doctest::Approx(0.0125).epsilon(1e-12));
-  CHECK(figures["place_2/depth"] == doctest::Approx(0.3 * smoothed_share()).epsilon(1e-6));
+        test::approx(-0.5 * smoothed_share() / 1.2).epsilon(1e-6));
+  CHECK(figures["place_2/x"] == test::approx(0.0125).epsilon(1e-12));
+  CHECK(figures["place_2/depth"] == test::approx(0.3 * smoothed_share()).epsilon(1e-6));
   CHECK(figures["place_3/depth"] == 0.0);
   CHECK(figures.at("place_1/depth").uncertainty < 1e-9);
-  CHECK(series_of(*sensor)["lowest_pressure"] == doctest::Approx(-0.5).epsilon(1e-6));
+  CHECK(series_of(*sensor)["lowest_pressure"] == test::approx(-0.5).epsilon(1e-6));
 }
 
 TEST_CASE("solid cells and neighbours of deeper wells shall not be reported") {
@@ -77,7 +78,7 @@ TEST_CASE("solid cells and neighbours of deeper wells shall not be reported") {
   step(*sensor, world);
   const Figures figures = summary_of(*sensor);
   CHECK(figures["found"] == 1.0);
-  CHECK(figures["place_1/x"] == doctest::Approx(0.0205).epsilon(1e-9));
+  CHECK(figures["place_1/x"] == test::approx(0.0205).epsilon(1e-9));
   CHECK(series_of(*sensor)["lowest_pressure"] > -1.0);
   const auto nearer = kind().make({{"count", std::int64_t{5}}, {"separation", 0.005}});
   world.time = 0.0;
@@ -95,7 +96,7 @@ TEST_CASE("pressure before the averaging shall not count") {
   for (int s = 0; s < 50; ++s) step(*sensor, world);
   const Figures figures = summary_of(*sensor);
   CHECK(figures["found"] == 1.0);
-  CHECK(figures["place_1/x"] == doctest::Approx(0.0145).epsilon(1e-9));
+  CHECK(figures["place_1/x"] == test::approx(0.0145).epsilon(1e-9));
 }
 
 TEST_CASE("the error of a depth shall cover the truth at its rate") {
@@ -141,12 +142,12 @@ TEST_CASE("a level flow shall have one place per eddy, at half its depth, howeve
   const auto level = kind().make({{"average_along", Vec3{0, 1, 0}}, {"count", std::int64_t{2}}});
   step(*level, world);
   const Figures figures = summary_of(*level);
-  CHECK(figures["place_1/y"] == doctest::Approx(0.5 * 8e-3).epsilon(1e-12));
-  CHECK(figures["place_2/y"] == doctest::Approx(0.5 * 8e-3).epsilon(1e-12));
+  CHECK(figures["place_1/y"] == test::approx(0.5 * 8e-3).epsilon(1e-12));
+  CHECK(figures["place_2/y"] == test::approx(0.5 * 8e-3).epsilon(1e-12));
   // One cell of 1 mm to either side for what noise is left.
   CHECK(std::abs(figures["place_1/x"] - 45.5e-3) < 1.1e-3);
   CHECK(std::abs(figures["place_2/x"] - 12.5e-3) < 1.1e-3);
-  CHECK(figures["place_1/z"] == doctest::Approx(10.5e-3).epsilon(0.11));
+  CHECK(figures["place_1/z"] == test::approx(10.5e-3).epsilon(0.11));
 
   // Without noise the depth is that of the well, smoothed over 3 x 3 rows.
   for (int k = 0; k < 40; ++k) {
@@ -160,7 +161,7 @@ TEST_CASE("a level flow shall have one place per eddy, at half its depth, howeve
   const auto even = kind().make({{"average_along", Vec3{0, 1, 0}}, {"count", std::int64_t{1}}});
   step(*even, world);
   CHECK(summary_of(*even)["place_1/depth"] ==
-        doctest::Approx(0.3 * std::pow(smoothed_share(), 2.0 / 3.0)).epsilon(1e-6));
+        test::approx(0.3 * std::pow(smoothed_share(), 2.0 / 3.0)).epsilon(1e-6));
 }
 
 TEST_CASE("averaging along more than one axis shall be refused") {
@@ -185,14 +186,14 @@ TEST_CASE("no place shall lie nearer than its clearance to a body") {
   };
   // Up to 8 mm the well itself; then the pressure still falls towards the body, and the place lies
   // at the edge of what is left.
-  CHECK(first_height(0.0) == doctest::Approx(18.5e-3));
-  CHECK(first_height(8e-3) == doctest::Approx(18.5e-3));
-  CHECK(first_height(9e-3) == doctest::Approx(19.5e-3));
-  CHECK(first_height(11e-3) == doctest::Approx(21.5e-3));
+  CHECK(first_height(0.0) == test::approx(18.5e-3));
+  CHECK(first_height(8e-3) == test::approx(18.5e-3));
+  CHECK(first_height(9e-3) == test::approx(19.5e-3));
+  CHECK(first_height(11e-3) == test::approx(21.5e-3));
   // Far above the deeper well the other one is the deepest that is left.
-  CHECK(first_height(18e-3) == doctest::Approx(30.5e-3));
+  CHECK(first_height(18e-3) == test::approx(30.5e-3));
   // Less than a cell is a cell.
-  CHECK(first_height(1e-5) == doctest::Approx(18.5e-3));
+  CHECK(first_height(1e-5) == test::approx(18.5e-3));
 }
 
 TEST_CASE("no place shall lie in the stream, judged by its mean solids fraction") {
@@ -215,10 +216,10 @@ TEST_CASE("no place shall lie in the stream, judged by its mean solids fraction"
     }
     return summary_of(*sensor)["place_1/x"];
   };
-  CHECK(first_x(0.021) == doctest::Approx(15.5e-3));
+  CHECK(first_x(0.021) == test::approx(15.5e-3));
   // The stream takes cells 13 to 17, its clearance one more on either side.
   const double beside = first_x(0.019);
-  CHECK((beside == doctest::Approx(11.5e-3) || beside == doctest::Approx(19.5e-3)));
+  CHECK((beside == test::approx(11.5e-3) || beside == test::approx(19.5e-3)));
 }
 
 TEST_CASE("places shall lie in the box that was asked for, in rows by their middle") {
@@ -228,13 +229,13 @@ TEST_CASE("places shall lie in the box that was asked for, in rows by their midd
   const Vec3 min{30e-3, 0, 0}, max{50e-3, 4e-3, 40e-3};
   const auto cells = kind().make({{"count", std::int64_t{1}}, {"min", min}, {"max", max}});
   step(*cells, world);
-  CHECK(summary_of(*cells)["place_1/x"] == doctest::Approx(45.5e-3));
+  CHECK(summary_of(*cells)["place_1/x"] == test::approx(45.5e-3));
   const auto rows = kind().make({{"count", std::int64_t{1}},
                                  {"average_along", Vec3{0, 1, 0}},
                                  {"min", Vec3{30e-3, 1e-3, 0}},
                                  {"max", max}});
   step(*rows, world);
-  CHECK(summary_of(*rows)["place_1/x"] == doctest::Approx(45.5e-3));
+  CHECK(summary_of(*rows)["place_1/x"] == test::approx(45.5e-3));
   CHECK_THROWS(kind().make({{"min", max}, {"max", min}}));
 }
 
@@ -246,5 +247,5 @@ TEST_CASE("a body in a part of the depth shall take the whole row") {
   const auto sensor = kind().make(
       {{"count", std::int64_t{1}}, {"average_along", Vec3{0, 1, 0}}, {"clearance", 20e-3}});
   step(*sensor, world);
-  CHECK(summary_of(*sensor)["place_1/x"] == doctest::Approx(45.5e-3));
+  CHECK(summary_of(*sensor)["place_1/x"] == test::approx(45.5e-3));
 }

@@ -2,6 +2,7 @@
 #include "unit/sensor/coverage.hpp"
 
 #include "dust/sdk/error.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -64,12 +65,12 @@ TEST_CASE("a uniform stream shall give its exact flux through any plane") {
       step(*sensor, world);
     }
     const Figures figures = summary_of(*sensor);
-    CHECK(figures["forward/number_rate"] == doctest::Approx(2000.0).epsilon(1e-9));
-    CHECK(figures["net/mass_rate"] == doctest::Approx(4e-6).epsilon(1e-9));
-    CHECK(figures["class_300_um/forward/number_rate"] == doctest::Approx(1000.0).epsilon(1e-9));
+    CHECK(figures["forward/number_rate"] == test::approx(2000.0).epsilon(1e-9));
+    CHECK(figures["net/mass_rate"] == test::approx(4e-6).epsilon(1e-9));
+    CHECK(figures["class_300_um/forward/number_rate"] == test::approx(1000.0).epsilon(1e-9));
     CHECK(figures["backward/mass_rate"] == 0.0);
     CHECK(figures.at("backward/mass_rate").uncertainty < 0.0);
-    CHECK(figures["forward/mass"] == doctest::Approx(200 * 2e-9).epsilon(1e-9));
+    CHECK(figures["forward/mass"] == test::approx(200 * 2e-9).epsilon(1e-9));
     // Perfectly even: far below the 7 % of counting 200 independent grains.
     CHECK(figures.at("forward/number_rate").uncertainty < 1e-6 * 2000.0);
   }
@@ -88,9 +89,9 @@ TEST_CASE("only passages through the rectangle shall count, each in its directio
                   moving({0.0780, 0.005, 0.205}, {0.0790, 0.005, 0.205}, h)};  // not yet there
   step(*sensor, world);
   const Figures figures = summary_of(*sensor);
-  CHECK(figures["forward/number_rate"] * h == doctest::Approx(3.0).epsilon(1e-12));
-  CHECK(figures["backward/number_rate"] * h == doctest::Approx(1.0).epsilon(1e-12));
-  CHECK(figures["net/number_rate"] * h == doctest::Approx(2.0).epsilon(1e-12));
+  CHECK(figures["forward/number_rate"] * h == test::approx(3.0).epsilon(1e-12));
+  CHECK(figures["backward/number_rate"] * h == test::approx(1.0).epsilon(1e-12));
+  CHECK(figures["net/number_rate"] * h == test::approx(2.0).epsilon(1e-12));
 }
 
 TEST_CASE("a return through a periodic side shall not be taken for a passage") {
@@ -121,7 +122,7 @@ TEST_CASE("rates before the steady part shall not count, masses shall") {
     step(*sensor, world);
   }
   CHECK(summary_of(*sensor)["forward/number_rate"] == 0.0);
-  CHECK(summary_of(*sensor)["forward/mass"] == doctest::Approx(10 * 1e-9).epsilon(1e-12));
+  CHECK(summary_of(*sensor)["forward/mass"] == test::approx(10 * 1e-9).epsilon(1e-12));
 }
 
 TEST_CASE("the error of a rate shall cover the truth at its rate, for weighted grains too") {
@@ -262,8 +263,8 @@ TEST_CASE("dust through an opening shall count per tonne emitted in the same tim
   }
   const Figures figures = summary_of(*sensor);
   // 2 ug per 5 g are 0.4 g per tonne.
-  CHECK(figures["net/grams_per_tonne"] == doctest::Approx(0.4).epsilon(1e-9));
-  CHECK(figures["class_10_um/net/grams_per_tonne"] == doctest::Approx(0.4).epsilon(1e-9));
+  CHECK(figures["net/grams_per_tonne"] == test::approx(0.4).epsilon(1e-9));
+  CHECK(figures["class_10_um/net/grams_per_tonne"] == test::approx(0.4).epsilon(1e-9));
   CHECK(figures.at("net/grams_per_tonne").unit == "g/t");
   for (const auto& [name, figure] : figures.all()) {
     CHECK(name.find("class_300") == std::string::npos);

@@ -3,6 +3,7 @@
 #include "unit/sensor/coverage.hpp"
 
 #include "dust/sdk/error.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -57,12 +58,12 @@ TEST_CASE("a strip beside the middle of a belt shall be off centre by what it li
   }
   for (int s = 0; s < 10; ++s) step(*sensor, world);
   const Figures figures = summary_of(*sensor);
-  CHECK(figures["mass_per_length"] == doctest::Approx(100 * 0.02 / 0.5).epsilon(1e-12));
-  CHECK(figures["mass_flow"] == doctest::Approx(100 * 0.02 / 0.5 * 2.0).epsilon(1e-12));
-  CHECK(figures["off_centre"] == doctest::Approx(0.04).epsilon(1e-12));
-  CHECK(figures["half_width"] == doctest::Approx(0.01 * std::sqrt(3.0)).epsilon(1e-9));
-  CHECK(figures["speed"] == doctest::Approx(2.0).epsilon(1e-12));
-  CHECK(figures["speed_over_belt_speed"] == doctest::Approx(0.8).epsilon(1e-12));
+  CHECK(figures["mass_per_length"] == test::approx(100 * 0.02 / 0.5).epsilon(1e-12));
+  CHECK(figures["mass_flow"] == test::approx(100 * 0.02 / 0.5 * 2.0).epsilon(1e-12));
+  CHECK(figures["off_centre"] == test::approx(0.04).epsilon(1e-12));
+  CHECK(figures["half_width"] == test::approx(0.01 * std::sqrt(3.0)).epsilon(1e-9));
+  CHECK(figures["speed"] == test::approx(2.0).epsilon(1e-12));
+  CHECK(figures["speed_over_belt_speed"] == test::approx(0.8).epsilon(1e-12));
 }
 
 TEST_CASE("samples without load shall not pull the place of the load to the middle") {
@@ -77,9 +78,9 @@ TEST_CASE("samples without load shall not pull the place of the load to the midd
   world.grains = {at({0.5, 0.2, 0.05}, {1, 0, 0}, 3.0)};
   for (int s = 0; s < 10; ++s) step(*sensor, world);
   const Figures figures = summary_of(*sensor);
-  CHECK(figures["mass_per_length"] == doctest::Approx(1.5).epsilon(1e-12));
-  CHECK(figures["off_centre"] == doctest::Approx(0.2).epsilon(1e-12));
-  CHECK(figures["speed"] == doctest::Approx(1.0).epsilon(1e-12));
+  CHECK(figures["mass_per_length"] == test::approx(1.5).epsilon(1e-12));
+  CHECK(figures["off_centre"] == test::approx(0.2).epsilon(1e-12));
+  CHECK(figures["speed"] == test::approx(1.0).epsilon(1e-12));
 }
 
 TEST_CASE("a stream through an opening shall have its velocity, angle, fill and pressure") {
@@ -105,14 +106,14 @@ TEST_CASE("a stream through an opening shall have its velocity, angle, fill and 
   }
   const Figures figures = summary_of(*sensor);
   const double flow = 20 * 1e-3 * 2.0 / 1e-3;
-  CHECK(figures["mass_flow"] == doctest::Approx(flow).epsilon(1e-9));
-  CHECK(figures["velocity_x"] == doctest::Approx(1.5).epsilon(1e-12));
-  CHECK(figures["velocity_z"] == doctest::Approx(-2.0).epsilon(1e-12));
-  CHECK(figures["speed"] == doctest::Approx(2.5).epsilon(1e-12));
-  CHECK(figures["angle"] == doctest::Approx(std::atan(2.0 / 1.5)).epsilon(1e-12));
-  CHECK(figures["fill_ratio"] == doctest::Approx(flow / (1600 * 2.0 * 0.33 * 0.011)).epsilon(1e-9));
-  CHECK(figures["impact_pressure"] == doctest::Approx(1600 * 4.0).epsilon(1e-12));
-  CHECK(figures["speed_along_belt_over_belt_speed"] == doctest::Approx(0.5).epsilon(1e-12));
+  CHECK(figures["mass_flow"] == test::approx(flow).epsilon(1e-9));
+  CHECK(figures["velocity_x"] == test::approx(1.5).epsilon(1e-12));
+  CHECK(figures["velocity_z"] == test::approx(-2.0).epsilon(1e-12));
+  CHECK(figures["speed"] == test::approx(2.5).epsilon(1e-12));
+  CHECK(figures["angle"] == test::approx(std::atan(2.0 / 1.5)).epsilon(1e-12));
+  CHECK(figures["fill_ratio"] == test::approx(flow / (1600 * 2.0 * 0.33 * 0.011)).epsilon(1e-9));
+  CHECK(figures["impact_pressure"] == test::approx(1600 * 4.0).epsilon(1e-12));
+  CHECK(figures["speed_along_belt_over_belt_speed"] == test::approx(0.5).epsilon(1e-12));
 }
 
 TEST_CASE("what falls through the level shall count once, per hour and per tonne") {
@@ -133,12 +134,12 @@ TEST_CASE("what falls through the level shall count once, per hour and per tonne
     step(*sensor, world);
   }
   const Figures figures = summary_of(*sensor);
-  CHECK(figures["mass"] == doctest::Approx(15e-3).epsilon(1e-9));
-  CHECK(figures["grains"] == doctest::Approx(10.0));
-  CHECK(figures["rate"] == doctest::Approx(3600.0).epsilon(1e-9));
-  CHECK(figures["grams_per_tonne"] == doctest::Approx(1e6 * 1e-3 / 0.5).epsilon(1e-9));
+  CHECK(figures["mass"] == test::approx(15e-3).epsilon(1e-9));
+  CHECK(figures["grains"] == test::approx(10.0));
+  CHECK(figures["rate"] == test::approx(3600.0).epsilon(1e-9));
+  CHECK(figures["grams_per_tonne"] == test::approx(1e6 * 1e-3 / 0.5).epsilon(1e-9));
   // Ten counts: an error of one in the root of ten.
-  CHECK(figures.at("rate").uncertainty == doctest::Approx(3600.0 / std::sqrt(10.0)).epsilon(1e-9));
+  CHECK(figures.at("rate").uncertainty == test::approx(3600.0 / std::sqrt(10.0)).epsilon(1e-9));
 }
 
 TEST_CASE("a block that slides on a liner shall wear it as Archard's closed form says") {
@@ -164,12 +165,12 @@ TEST_CASE("a block that slides on a liner shall wear it as Archard's closed form
   for (int s = 0; s < 20; ++s) step(*sensor, world);
   const Figures figures = summary_of(*sensor);
   const double worn = 3.0 * k * 30.0 * 2.5 / hardness;  // [m3/s]
-  CHECK(figures["volume_rate"] == doctest::Approx(worn).epsilon(1e-9));
-  CHECK(figures["volume"] == doctest::Approx(worn * 0.02).epsilon(1e-9));
-  CHECK(figures["normal_force"] == doctest::Approx(90.0).epsilon(1e-9));
-  CHECK(figures["friction_power"] == doctest::Approx(3.0 * 12.0 * 2.5).epsilon(1e-9));
-  CHECK(figures["depth_rate_largest/value"] == doctest::Approx(worn / 1e-4).epsilon(1e-9));
-  CHECK(figures["pressure_largest/value"] == doctest::Approx(90.0 / 1e-4).epsilon(1e-9));
-  CHECK(figures["depth_rate_largest/x"] == doctest::Approx(0.105).epsilon(1e-9));
-  CHECK(figures["depth_rate_largest/z"] == doctest::Approx(0.105).epsilon(1e-9));
+  CHECK(figures["volume_rate"] == test::approx(worn).epsilon(1e-9));
+  CHECK(figures["volume"] == test::approx(worn * 0.02).epsilon(1e-9));
+  CHECK(figures["normal_force"] == test::approx(90.0).epsilon(1e-9));
+  CHECK(figures["friction_power"] == test::approx(3.0 * 12.0 * 2.5).epsilon(1e-9));
+  CHECK(figures["depth_rate_largest/value"] == test::approx(worn / 1e-4).epsilon(1e-9));
+  CHECK(figures["pressure_largest/value"] == test::approx(90.0 / 1e-4).epsilon(1e-9));
+  CHECK(figures["depth_rate_largest/x"] == test::approx(0.105).epsilon(1e-9));
+  CHECK(figures["depth_rate_largest/z"] == test::approx(0.105).epsilon(1e-9));
 }

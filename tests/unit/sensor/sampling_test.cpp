@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/sampling.hpp"
 
+#include "support/approx.hpp"
 #include "unit/sensor/coverage.hpp"
 
 #include <doctest/doctest.h>
@@ -47,18 +48,18 @@ TEST_CASE("batch means shall give the exact mean and the error of the scatter") 
       sum += values[0];
       means.add(values, 0.001);
     }
-    CHECK(means.mean(0) == doctest::Approx(sum / k_samples).epsilon(1e-12));
-    CHECK(means.mean(1) == doctest::Approx(7.0).epsilon(1e-12));
-    CHECK(means.duration() == doctest::Approx(1.0).epsilon(1e-12));
+    CHECK(means.mean(0) == test::approx(sum / k_samples).epsilon(1e-12));
+    CHECK(means.mean(1) == test::approx(7.0).epsilon(1e-12));
+    CHECK(means.duration() == test::approx(1.0).epsilon(1e-12));
     coverage.add({means.mean(0), "", means.error(0)}, 0.0);
     mean_error += means.error(0) / test::k_runs;
   }
   CHECK(coverage.one() > test::k_one_low);
   CHECK(coverage.one() < test::k_one_high);
   CHECK(coverage.two() > test::k_two_low);
-  // Half of all series look as if they remembered, by chance, and have a wider error: by 11 % in the
-  // mean of 31 batches.
-  CHECK(mean_error == doctest::Approx(1.11 / std::sqrt(k_samples)).epsilon(0.05));
+  // Half of all series look as if they remembered, by chance, and have a wider error: by 11 % in
+  // the mean of 31 batches.
+  CHECK(mean_error == test::approx(1.11 / std::sqrt(k_samples)).epsilon(0.05));
 }
 
 TEST_CASE("batch means shall see that neighbouring samples remember each other") {
@@ -157,7 +158,7 @@ TEST_CASE("a mean that drifts, or rests on one lump, shall say that it has not s
     const double value = 1.0 + 5e-3 * static_cast<double>(i) / 1024.0;
     small.add({&value, 1}, 0.001);
   }
-  CHECK(small.error(0) == doctest::Approx(5e-3 / std::sqrt(12.0)).epsilon(0.05));
+  CHECK(small.error(0) == test::approx(5e-3 / std::sqrt(12.0)).epsilon(0.05));
 }
 
 TEST_CASE("few samples shall give no error rather than a wrong one") {
@@ -179,5 +180,5 @@ TEST_CASE("a thinned curve shall stay short and keep its mean") {
   CHECK(curve.x().size() >= 1024);
   double mean = 0.0;
   for (const double y : curve.y()) mean += y / static_cast<double>(curve.y().size());
-  CHECK(mean == doctest::Approx(k_points - 1.0).epsilon(1e-9));
+  CHECK(mean == test::approx(k_points - 1.0).epsilon(1e-9));
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensor/segregation/segregation.hpp"
 
+#include "support/approx.hpp"
 #include "support/sensor_bench.hpp"
 #include "unit/sensor/coverage.hpp"
 
 #include <doctest/doctest.h>
 
+using dust::test::approx;
 using namespace dust::test;
 using dust::sdk::Vec3;
 
@@ -35,15 +37,14 @@ TEST_CASE("separate layers shall have the index 0 and their distance, even mixtu
   }
   const auto apart = load_sensor("segregation").make(k_box);
   step(*apart, layers);
-  CHECK(series_of(*apart)["mixing_index"] == doctest::Approx(0.0).epsilon(1e-12));
-  CHECK(series_of(*apart)["centre_shift"] == doctest::Approx(-0.05).epsilon(1e-9));
-  CHECK(series_of(*apart)["fine_number_fraction"] == doctest::Approx(0.5).epsilon(1e-12));
+  CHECK(series_of(*apart)["mixing_index"] == approx(0.0).scale(1.0).epsilon(1e-12));
+  CHECK(series_of(*apart)["centre_shift"] == approx(-0.05).epsilon(1e-9));
+  CHECK(series_of(*apart)["fine_number_fraction"] == approx(0.5).epsilon(1e-12));
   // Every cell holds exactly half of each: no variance, better than random.
   const auto mixed = load_sensor("segregation").make(k_box);
   step(*mixed, even);
   const double all = 4000.0;
-  CHECK(series_of(*mixed)["mixing_index"] ==
-        doctest::Approx(1.0 / (1.0 - 99.0 / all)).epsilon(1e-9));
+  CHECK(series_of(*mixed)["mixing_index"] == approx(1.0 / (1.0 - 99.0 / all)).epsilon(1e-9));
 }
 
 TEST_CASE("the index of random mixtures shall be 1 on average") {
@@ -61,5 +62,5 @@ TEST_CASE("the index of random mixtures shall be 1 on average") {
     mean += series_of(*sensor)["mixing_index"] / k_mixtures;
   }
   // sigma^2 scatters by sqrt(2/99) of sigma_r^2 = 0.1 sigma_0^2: 0.016 per mixture, 0.002 in 60.
-  CHECK(mean == doctest::Approx(1.0).epsilon(0.008));
+  CHECK(mean == approx(1.0).epsilon(0.008));
 }

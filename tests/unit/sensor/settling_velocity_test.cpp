@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A fall whose answer is known.
+#include "support/approx.hpp"
 #include "support/sensor_bench.hpp"
 
 #include <doctest/doctest.h>
@@ -43,15 +44,15 @@ TEST_CASE("settling_velocity shall time levels and take means above the floor on
                                  {"until", 0.02}});
   fall(world, *sensor, 0.25);
   const Figures figures = summary_of(*sensor);
-  CHECK(figures["velocity"] == doctest::Approx(0.2).epsilon(1e-9));
-  CHECK(figures["largest/velocity"] == doctest::Approx(0.2).epsilon(1e-9));
-  CHECK(figures["largest/time"] == doctest::Approx(0.1).epsilon(0.011));  // a sample
-  CHECK(figures["level_45_mm/time"] == doctest::Approx(std::sqrt(0.005)).epsilon(k_linear));
+  CHECK(figures["velocity"] == test::approx(0.2).epsilon(1e-9));
+  CHECK(figures["largest/velocity"] == test::approx(0.2).epsilon(1e-9));
+  CHECK(figures["largest/time"] == test::approx(0.1).epsilon(0.011));  // a sample
+  CHECK(figures["level_45_mm/time"] == test::approx(std::sqrt(0.005)).epsilon(k_linear));
   CHECK(figures["level_45_mm/velocity"] ==
-        doctest::Approx(2 * std::sqrt(0.005)).epsilon(10 * k_linear));
-  CHECK(figures["level_30_mm/time"] == doctest::Approx(0.15).epsilon(k_linear));
+        test::approx(2 * std::sqrt(0.005)).epsilon(10 * k_linear));
+  CHECK(figures["level_30_mm/time"] == test::approx(0.15).epsilon(k_linear));
   CHECK(figures["level_1_mm/time"] == 0.0);  // not passed
-  CHECK(figures["height_at_end"] == doctest::Approx(0.01).epsilon(k_linear));
+  CHECK(figures["height_at_end"] == test::approx(0.01).epsilon(k_linear));
 }
 
 TEST_CASE("settling_velocity shall not take a bounce for settling") {
@@ -63,7 +64,7 @@ TEST_CASE("settling_velocity shall not take a bounce for settling") {
     world.grains[0].velocity = {0, 0, height > 0.012 && height < 0.018 ? 0.5 : -0.2};
     step(*sensor, world);
   }
-  CHECK(summary_of(*sensor)["velocity"] == doctest::Approx(0.2));
+  CHECK(summary_of(*sensor)["velocity"] == test::approx(0.2));
 }
 
 TEST_CASE("settling_velocity shall follow its direction and begin anew with the grains") {
@@ -77,8 +78,8 @@ TEST_CASE("settling_velocity shall follow its direction and begin anew with the 
   CHECK(series_of(*sensor)["velocity"] == 0.0);
   fall(world, *sensor, 0.1, {1, 0, 0});
   // Centre of mass at x = 0.015 first: 0.085 m before the base.
-  CHECK(series_of(*sensor)["height"] == doctest::Approx(0.085 - 0.01).epsilon(1e-6));
-  CHECK(series_of(*sensor)["velocity"] == doctest::Approx(0.2).epsilon(1e-9));
+  CHECK(series_of(*sensor)["height"] == test::approx(0.085 - 0.01).epsilon(1e-6));
+  CHECK(series_of(*sensor)["velocity"] == test::approx(0.2).epsilon(1e-9));
   const auto lost = load_sensor("settling_velocity").make({});
   world.grains.resize(1);
   CHECK_THROWS(step(*lost, world));  // no gravity, no direction

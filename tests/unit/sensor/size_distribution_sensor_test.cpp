@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensor/size_distribution/size_distribution.hpp"
 
+#include "support/approx.hpp"
 #include "support/sensor_bench.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
+using dust::test::approx;
 using namespace dust::test;
 using dust::sdk::Vec3;
 namespace formula = dust::model::size_distribution;
@@ -31,19 +33,19 @@ TEST_CASE("shares by number and mass and the Sauter diameter shall be those of t
   add(50, 600e-6, 0.2);  // outside
   step(*sensor, world);
   const Figures f = summary_of(*sensor);
-  CHECK(f["class_300_um/number_fraction"] == doctest::Approx(0.6).epsilon(1e-12));
-  CHECK(f["class_10_um/number_fraction"] == doctest::Approx(0.2).epsilon(1e-12));
+  CHECK(f["class_300_um/number_fraction"] == approx(0.6).epsilon(1e-12));
+  CHECK(f["class_10_um/number_fraction"] == approx(0.2).epsilon(1e-12));
   const double cubes = 30 * 27.0 + 10 * 216.0 + 10 * 1e-3;
-  CHECK(f["class_600_um/mass_fraction"] == doctest::Approx(2160.0 / cubes).epsilon(1e-12));
+  CHECK(f["class_600_um/mass_fraction"] == approx(2160.0 / cubes).epsilon(1e-12));
   const double squares = 30 * 9.0 + 10 * 36.0 + 10 * 1e-2;
-  CHECK(f["sauter_diameter"] == doctest::Approx(100e-6 * cubes / squares).epsilon(1e-9));
+  CHECK(f["sauter_diameter"] == approx(100e-6 * cubes / squares).epsilon(1e-9));
 }
 
 TEST_CASE("quantiles shall be those of the sum interpolated between the classes") {
   const double d[] = {1.0, 2.0, 3.0};
   const double a[] = {1.0, 2.0, 1.0};  // sums at the classes: 1/8, 1/2, 7/8
-  CHECK(formula::quantile(d, a, 0.5) == doctest::Approx(2.0).epsilon(1e-14));
-  CHECK(formula::quantile(d, a, 0.3125) == doctest::Approx(1.5).epsilon(1e-14));
+  CHECK(formula::quantile(d, a, 0.5) == approx(2.0).epsilon(1e-14));
+  CHECK(formula::quantile(d, a, 0.3125) == approx(1.5).epsilon(1e-14));
   CHECK(formula::quantile(d, a, 0.05) == 1.0);
   CHECK(formula::quantile(d, a, 0.99) == 3.0);
 }

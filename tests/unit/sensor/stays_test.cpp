@@ -5,6 +5,7 @@
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/stays.hpp"
 #include "sensor/blockage/blockage.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -52,10 +53,10 @@ TEST_CASE("the part of a path in a box shall be cut by its faces") {
   const auto part = [](Vec3 before, Vec3 now) {
     return sdk::part_in_box({before, now}, {0, 0, 0}, {1, 1, 1});
   };
-  CHECK(part({-1, 0.5, 0.5}, {3, 0.5, 0.5}).from == doctest::Approx(0.25));
-  CHECK(part({-1, 0.5, 0.5}, {3, 0.5, 0.5}).to == doctest::Approx(0.5));
+  CHECK(part({-1, 0.5, 0.5}, {3, 0.5, 0.5}).from == test::approx(0.25));
+  CHECK(part({-1, 0.5, 0.5}, {3, 0.5, 0.5}).to == test::approx(0.5));
   CHECK(part({0.5, 0.5, 0.5}, {0.5, 0.5, 2.5}).from == 0.0);
-  CHECK(part({0.5, 0.5, 0.5}, {0.5, 0.5, 2.5}).to == doctest::Approx(0.25));
+  CHECK(part({0.5, 0.5, 0.5}, {0.5, 0.5, 2.5}).to == test::approx(0.25));
   CHECK(part({-1, 1.5, 0.5}, {3, 1.5, 0.5}).is_none());
   CHECK(part({-1, 0.5, 0.5}, {-0.5, 0.5, 0.5}).is_none());
   // Past a corner: inside in x until 0.5, in y from 0.6 on.
@@ -73,16 +74,16 @@ TEST_CASE("in plug flow every grain shall stay the length over the speed") {
   }
   const Figures figures = summary_of(*sensor);
   // Places fall between the samples, 2 mm apart: only straight paths between them give 50 ms.
-  CHECK(figures["mean"] == doctest::Approx(0.05).epsilon(1e-9));
+  CHECK(figures["mean"] == test::approx(0.05).epsilon(1e-9));
   CHECK(figures["standard_deviation"] < 1e-8);
   CHECK(figures["grains"] == 200.0);
   for (const char* name : {"fastest_5_percent", "median", "percent_95"}) {
-    CHECK(figures[name] == doctest::Approx(0.05).epsilon(k_class_width));
+    CHECK(figures[name] == test::approx(0.05).epsilon(k_class_width));
   }
   CHECK(figures["longest_inside"] == 0.0);
-  CHECK(figures["mass_flow_out"] == doctest::Approx(200 * 2e-3 / 0.6).epsilon(1e-9));
+  CHECK(figures["mass_flow_out"] == test::approx(200 * 2e-3 / 0.6).epsilon(1e-9));
   // All came and went while it was looked at; samples of 1 ms see 50 ms to half a sample.
-  CHECK(figures["holdup_over_flow"] == doctest::Approx(0.05).epsilon(0.02));
+  CHECK(figures["holdup_over_flow"] == test::approx(0.05).epsilon(0.02));
 }
 
 TEST_CASE("an ideally mixed vessel shall have exponential residence times") {
@@ -121,7 +122,7 @@ TEST_CASE("an ideally mixed vessel shall have exponential residence times") {
   agrees("median", k_tau * std::log(2.0));
   agrees("percent_95", k_tau * std::log(20.0));
   agrees("fastest_5_percent", -k_tau * std::log(0.95));
-  CHECK(figures["standard_deviation"] == doctest::Approx(k_tau).epsilon(0.06));
+  CHECK(figures["standard_deviation"] == test::approx(k_tau).epsilon(0.06));
 }
 
 TEST_CASE("a time from birth shall hold the way to the box as well") {
@@ -142,9 +143,9 @@ TEST_CASE("a time from birth shall hold the way to the box as well") {
     }
     return summary_of(*sensor)["mean"];
   };
-  CHECK(run("entering", true) == doctest::Approx(0.05).epsilon(1e-9));
-  CHECK(run("birth", true) == doctest::Approx(0.075).epsilon(1e-9));
-  CHECK(run("entering", false) == doctest::Approx(0.1105).epsilon(1e-9));
+  CHECK(run("entering", true) == test::approx(0.05).epsilon(1e-9));
+  CHECK(run("birth", true) == test::approx(0.075).epsilon(1e-9));
+  CHECK(run("entering", false) == test::approx(0.1105).epsilon(1e-9));
 }
 
 TEST_CASE("what left before the means begin shall not count, what is still inside shall be told") {
@@ -160,8 +161,8 @@ TEST_CASE("what left before the means begin shall not count, what is still insid
   // The first is at the far face after (0.2 - 0.0963) / 2 s, one more every 1.85 ms.
   const double before = std::floor((0.2 - 0.10370 / 2.0) / 1.85e-3) + 1.0;
   CHECK(figures["grains"] == 200.0 - before);
-  CHECK(figures["longest_inside"] == doctest::Approx(0.6).epsilon(1e-9));
-  CHECK(figures["mean"] == doctest::Approx(0.05).epsilon(1e-9));
+  CHECK(figures["longest_inside"] == test::approx(0.6).epsilon(1e-9));
+  CHECK(figures["mean"] == test::approx(0.05).epsilon(1e-9));
   CHECK(figures["holdup_over_flow"] > 10.0 * figures["mean"]);  // 1 kg that never leaves
 }
 
@@ -186,16 +187,15 @@ TEST_CASE("a region that keeps every fourth grain shall be told to fill by a qua
     if (held > 0.1) above_limit.push_back(world.time);
   }
   const Figures figures = summary_of(*sensor);
-  CHECK(figures["inflow"] == doctest::Approx(2.0).epsilon(1e-9));  // 2 grains of 1 g per ms
-  CHECK(figures["outflow"] == doctest::Approx(1.5).epsilon(0.01));
-  CHECK(figures["growth"] == doctest::Approx(0.5).epsilon(0.01));
-  CHECK(figures["growth_over_inflow"] == doctest::Approx(0.25).epsilon(0.01));
+  CHECK(figures["inflow"] == test::approx(2.0).epsilon(1e-9));  // 2 grains of 1 g per ms
+  CHECK(figures["outflow"] == test::approx(1.5).epsilon(0.01));
+  CHECK(figures["growth"] == test::approx(0.5).epsilon(0.01));
+  CHECK(figures["growth_over_inflow"] == test::approx(0.25).epsilon(0.01));
   CHECK(figures["is_filling"] == 1.0);
   REQUIRE(!above_limit.empty());
-  CHECK(figures["first_beyond_largest_mass"] ==
-        doctest::Approx(above_limit.front()).epsilon(1e-12));
+  CHECK(figures["first_beyond_largest_mass"] == test::approx(above_limit.front()).epsilon(1e-12));
   CHECK(figures["time_beyond_largest_mass"] ==
-        doctest::Approx(1e-3 * static_cast<double>(above_limit.size())).epsilon(1e-9));
+        test::approx(1e-3 * static_cast<double>(above_limit.size())).epsilon(1e-9));
   // The grains come and go in groups of four.
   CHECK(figures["mass_held_at_end"] > figures["mass_held_largest"] - 4e-3);
 }
@@ -212,7 +212,7 @@ TEST_CASE("a region that lets all pass shall not be told to fill") {
     step(*sensor, world);
   }
   const Figures figures = summary_of(*sensor);
-  CHECK(figures["inflow"] == doctest::Approx(figures["outflow"]).epsilon(1e-9));
+  CHECK(figures["inflow"] == test::approx(figures["outflow"]).epsilon(1e-9));
   CHECK(std::abs(figures["growth"]) < 1e-6);
   CHECK(figures["is_filling"] == 0.0);
 }
@@ -244,6 +244,6 @@ TEST_CASE("a trend shall look at nothing before it begins") {
   std::iota(t.begin(), t.end(), 0.0);
   std::vector<double> y(t);
   for (std::size_t n = 0; n < 50; ++n) y[n] = 1000.0;
-  CHECK(model::blockage::trend(t, y, 50.0).slope == doctest::Approx(1.0).epsilon(1e-12));
+  CHECK(model::blockage::trend(t, y, 50.0).slope == test::approx(1.0).epsilon(1e-12));
   CHECK(model::blockage::trend(t, y, 99.0).error < 0.0);
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensor/stress/stress.hpp"
 
+#include "support/approx.hpp"
 #include "support/sensor_bench.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
+using dust::test::approx;
 using namespace dust::test;
 using dust::sdk::Value;
 using dust::sdk::Vec3;
@@ -28,13 +30,13 @@ TEST_CASE("the share of a line in a box shall be its clipped length") {
   const formula::Point low{0, 0, 0};
   const formula::Point high{1, 1, 1};
   CHECK(formula::share_in_box({0.5, 0.5, 0.5}, {1, 0, 0}, low, high) == 0.5);
-  CHECK(formula::share_in_box({-1, -1, -1}, {3, 3, 3}, low, high) == doctest::Approx(1.0 / 3));
+  CHECK(formula::share_in_box({-1, -1, -1}, {3, 3, 3}, low, high) == approx(1.0 / 3));
   CHECK(formula::share_in_box({-1, 0.5, 0.5}, {0.5, 0, 0}, low, high) == 0.0);
   CHECK(formula::share_in_box({0.5, 2.0, 0.5}, {1, 0, 0}, low, high) == 0.0);
   formula::Cells cells{low, high, {4, 3, 5}};
   double sum = 0.0;
   cells.along({0.05, 0.9, 0.2}, {0.8, -0.7, 0.6}, [&](std::size_t, double share) { sum += share; });
-  CHECK(sum == doctest::Approx(1.0).epsilon(1e-14));
+  CHECK(sum == approx(1.0).epsilon(1e-14));
 }
 
 TEST_CASE("chains that carry a force through a box shall press with force per area") {
@@ -57,15 +59,15 @@ TEST_CASE("chains that carry a force through a box shall press with force per ar
   }
   const double expected = 6 * 2e-3 / (0.01 * 0.01);
   const Figures f = after_one(world, k_box);
-  CHECK(f["zz"] == doctest::Approx(expected).epsilon(1e-12));
+  CHECK(f["zz"] == approx(expected).epsilon(1e-12));
   CHECK(std::abs(f["xx"]) < 1e-12 * expected);
-  CHECK(f["pressure"] == doctest::Approx(expected / 3).epsilon(1e-12));
+  CHECK(f["pressure"] == approx(expected / 3).epsilon(1e-12));
   // Any part of the height sees the same, cut through grains or not, in any number of cells.
   auto part = k_box;
   part["min"] = Vec3{0, 0, 3.27e-3};
   part["max"] = Vec3{0.01, 0.01, 11.9e-3};
   part["cells"] = Vec3{2, 3, 7};
-  CHECK(after_one(world, part)["zz"] == doctest::Approx(expected).epsilon(1e-12));
+  CHECK(after_one(world, part)["zz"] == approx(expected).epsilon(1e-12));
 }
 
 TEST_CASE("a contact through a periodic side shall press as one within") {
@@ -79,7 +81,7 @@ TEST_CASE("a contact through a periodic side shall press as one within") {
   world.grains.push_back(g);
   world.contacts = {{0, 1, {0, 0, -1.0}, {0, 0, 0.6e-3}}};
   CHECK(after_one(world, k_box)["zz"] ==
-        doctest::Approx(1.0 * 0.6e-3 / (0.01 * 0.01 * 0.02)).epsilon(1e-12));
+        approx(1.0 * 0.6e-3 / (0.01 * 0.01 * 0.02)).epsilon(1e-12));
 }
 
 TEST_CASE("an oblique force shall give a symmetric shear stress") {
@@ -90,9 +92,9 @@ TEST_CASE("an oblique force shall give a symmetric shear stress") {
   world.contacts = {{0, 1, {-3, 0, -1}, {1e-3, 0, 1e-3}}};
   const Figures f = after_one(world, k_box);
   const double volume = 2e-6;
-  CHECK(f["xx"] == doctest::Approx(3e-3 / volume).epsilon(1e-12));
-  CHECK(f["zz"] == doctest::Approx(1e-3 / volume).epsilon(1e-12));
-  CHECK(f["xz"] == doctest::Approx(2e-3 / volume).epsilon(1e-12));
+  CHECK(f["xx"] == approx(3e-3 / volume).epsilon(1e-12));
+  CHECK(f["zz"] == approx(1e-3 / volume).epsilon(1e-12));
+  CHECK(f["xz"] == approx(2e-3 / volume).epsilon(1e-12));
 }
 
 TEST_CASE("a gas without contacts shall press with density times variance, drift not counted") {
@@ -107,9 +109,9 @@ TEST_CASE("a gas without contacts shall press with density times variance, drift
   }
   const Figures f = after_one(world, k_box);
   const double density = 8e-6 / 2e-6;
-  CHECK(f["bulk_density"] == doctest::Approx(density).epsilon(1e-12));
-  CHECK(f["xx"] == doctest::Approx(density * 0.01).epsilon(1e-9));
-  CHECK(f["yy"] == doctest::Approx(density * 0.04).epsilon(1e-9));
-  CHECK(f["zz"] == doctest::Approx(density * 0.09).epsilon(1e-9));
+  CHECK(f["bulk_density"] == approx(density).epsilon(1e-12));
+  CHECK(f["xx"] == approx(density * 0.01).epsilon(1e-9));
+  CHECK(f["yy"] == approx(density * 0.04).epsilon(1e-9));
+  CHECK(f["zz"] == approx(density * 0.09).epsilon(1e-9));
   CHECK(std::abs(f["xy"]) < 1e-9);
 }

@@ -2,6 +2,7 @@
 #include "unit/sensor/coverage.hpp"
 
 #include "dust/sdk/error.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -67,11 +68,9 @@ TEST_CASE("grains in free flight shall cross on the parabola at the speed of fre
     const double time = std::sqrt(2 * drop / k_gravity);
     // The chord of one step of a parabola: its height differs from the path by at most g h^2/8.
     const double chord = 0.8 * k_gravity * 1e-6 / 8 / (k_gravity * time);
-    CHECK(figures[name + "median"] ==
-          doctest::Approx(0.8 * time).epsilon(chord / (0.8 * time) * 2));
-    CHECK(figures[name + "median_vertical_speed"] ==
-          doctest::Approx(k_gravity * time).epsilon(1e-4));
-    CHECK(figures[name + "crossings"] == doctest::Approx(400.0 * k_per_sample).epsilon(0.003));
+    CHECK(figures[name + "median"] == test::approx(0.8 * time).epsilon(chord / (0.8 * time) * 2));
+    CHECK(figures[name + "median_vertical_speed"] == test::approx(k_gravity * time).epsilon(1e-4));
+    CHECK(figures[name + "crossings"] == test::approx(400.0 * k_per_sample).epsilon(0.003));
   }
 }
 
@@ -111,7 +110,7 @@ TEST_CASE("the quantiles of a normal stream shall be covered by their errors at 
   CHECK(median.two() > k_two_low);
   // The median of n normal values: sigma sqrt(pi / 2n).
   const double expected = sigma * std::sqrt(std::numbers::pi / (2.0 * k_samples * k_per_sample));
-  CHECK(error == doctest::Approx(expected).epsilon(0.08));
+  CHECK(error == test::approx(expected).epsilon(0.08));
 }
 
 TEST_CASE("grains that cross in clusters shall widen the error") {
@@ -136,7 +135,7 @@ TEST_CASE("grains that cross in clusters shall widen the error") {
     }
   }
   // Nine grains at one place tell as much as one.
-  CHECK(clustered / alone == doctest::Approx(3.0).epsilon(0.2));
+  CHECK(clustered / alone == test::approx(3.0).epsilon(0.2));
 }
 
 TEST_CASE("copies of weight 1/k shall give the same quantiles") {
@@ -164,9 +163,9 @@ TEST_CASE("copies of weight 1/k shall give the same quantiles") {
     const std::string figure = std::string("drop_140_mm/") + name;
     // Interpolation between neighbours of 500 values moves by less than their distance.
     CHECK(std::abs(a[figure] - b[figure]) < 1e-4);
-    CHECK(b.at(figure).uncertainty == doctest::Approx(a.at(figure).uncertainty).epsilon(0.15));
+    CHECK(b.at(figure).uncertainty == test::approx(a.at(figure).uncertainty).epsilon(0.15));
   }
-  CHECK(b["drop_140_mm/number"] == doctest::Approx(a["drop_140_mm/number"]).epsilon(1e-12));
+  CHECK(b["drop_140_mm/number"] == test::approx(a["drop_140_mm/number"]).epsilon(1e-12));
   CHECK(b["drop_140_mm/crossings"] == k_copies * a["drop_140_mm/crossings"]);
 }
 
@@ -195,7 +194,7 @@ TEST_CASE("figures shall not depend on which axis gravity has") {
   }
   CHECK(summary_of(*turned)["drop_140_mm/crossings"] == 30.0);
   CHECK(summary_of(*turned)["drop_140_mm/median"] ==
-        doctest::Approx(summary_of(*upright)["drop_140_mm/median"]).epsilon(1e-12));
+        test::approx(summary_of(*upright)["drop_140_mm/median"]).epsilon(1e-12));
 }
 
 TEST_CASE("the speed at A shall be that of grains above the belt alone") {
@@ -217,7 +216,7 @@ TEST_CASE("the speed at A shall be that of grains above the belt alone") {
   }
   const Figures figures = summary_of(*sensor);
   CHECK(figures["at_a/crossings"] == 60.0);
-  CHECK(figures["at_a/median_vertical_speed"] == doctest::Approx(0.02).epsilon(1e-12));
+  CHECK(figures["at_a/median_vertical_speed"] == test::approx(0.02).epsilon(1e-12));
 }
 
 TEST_CASE("size classes shall have their own median") {
@@ -229,8 +228,8 @@ TEST_CASE("size classes shall have their own median") {
     step(*sensor, world);
   }
   const Figures figures = summary_of(*sensor);
-  CHECK(figures["drop_140_mm/class_300_um/median"] == doctest::Approx(0.11).epsilon(1e-12));
-  CHECK(figures["drop_140_mm/class_600_um/median"] == doctest::Approx(0.13).epsilon(1e-12));
+  CHECK(figures["drop_140_mm/class_300_um/median"] == test::approx(0.11).epsilon(1e-12));
+  CHECK(figures["drop_140_mm/class_600_um/median"] == test::approx(0.13).epsilon(1e-12));
 }
 
 TEST_CASE("a trajectory without gravity or with unordered drops shall be refused") {

@@ -3,6 +3,7 @@
 #include "study/calibration/landscape.hpp"
 
 #include "dust/sdk/random.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,6 +11,7 @@
 #include <functional>
 #include <numbers>
 
+using dust::test::approx;
 using namespace dust::study;
 
 namespace {
@@ -163,9 +165,9 @@ TEST_CASE("two separate answers shall be told") {
 }
 
 TEST_CASE("chi-square quantiles shall be those of the tables") {
-  CHECK(chi_square_quantile(0.95, 1.0) == doctest::Approx(3.841).epsilon(0.03));
-  CHECK(chi_square_quantile(0.95, 2.0) == doctest::Approx(5.991).epsilon(0.01));
-  CHECK(chi_square_quantile(0.99, 4.0) == doctest::Approx(13.277).epsilon(0.01));
+  CHECK(chi_square_quantile(0.95, 1.0) == approx(3.841).epsilon(0.03));
+  CHECK(chi_square_quantile(0.95, 2.0) == approx(5.991).epsilon(0.01));
+  CHECK(chi_square_quantile(0.99, 4.0) == approx(13.277).epsilon(0.01));
 }
 
 TEST_CASE("runs that fail shall be left out, and an interruption end the search") {
@@ -191,5 +193,5 @@ TEST_CASE("runs that fail shall be left out, and an interruption end the search"
   const Calibration c = calibrate(settings, moody);
   CHECK(c.was_interrupted);
   CHECK(c.places.size() >= 8);
-  CHECK(c.estimates.at(0).best == doctest::Approx(0.5).epsilon(0.02));
+  CHECK(c.estimates.at(0).best == approx(0.5).epsilon(0.02));
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/effects.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cmath>
 
+using dust::test::approx;
 using namespace dust::study;
 
 namespace {
@@ -51,26 +54,26 @@ TEST_CASE("main effects shall be means over the other inputs") {
   const Made made(1);
   const auto effects = main_effects(made.spec, made.results());
   REQUIRE(effects.size() == 2);
-  CHECK(effects[0].levels[0].mean == doctest::Approx(11.5));
-  CHECK(effects[0].levels[2].mean == doctest::Approx(41.5));
-  CHECK(effects[0].change == doctest::Approx(30.0));
-  CHECK(effects[1].change == doctest::Approx(3.0));
+  CHECK(effects[0].levels[0].mean == approx(11.5));
+  CHECK(effects[0].levels[2].mean == approx(41.5));
+  CHECK(effects[0].change == approx(30.0));
+  CHECK(effects[1].change == approx(3.0));
   // Without replicates the noise is what the sensor tells, 0.5; a level has two or three runs.
-  CHECK(effects[0].levels[0].error == doctest::Approx(0.5 / std::sqrt(2.0)));
-  CHECK(effects[1].error == doctest::Approx(0.5 * std::sqrt(2.0 / 3.0)));
+  CHECK(effects[0].levels[0].error == approx(0.5 / std::sqrt(2.0)));
+  CHECK(effects[1].error == approx(0.5 * std::sqrt(2.0 / 3.0)));
 }
 
 TEST_CASE("noise shall be the scatter of replicates where there are any") {
   const Made made(2);
   // Two values 0.2 apart have a standard deviation of 0.2 / sqrt 2.
-  CHECK(noise_of(made.results(), 0).value() == doctest::Approx(0.2 / std::sqrt(2.0)));
+  CHECK(noise_of(made.results(), 0).value() == approx(0.2 / std::sqrt(2.0)));
 }
 
 TEST_CASE("points that failed shall be left out of the means") {
   Made made(1);
   made.outcomes[0] = {.status = Status::failed, .reason = "broken", .wall_s = 0.0, .outputs = {}};
   const auto effects = main_effects(made.spec, made.results());
-  CHECK(effects[0].levels[0].mean == doctest::Approx(13.0));
+  CHECK(effects[0].levels[0].mean == approx(13.0));
   CHECK(effects[0].levels[0].points == 1);
 }
 
@@ -87,7 +90,7 @@ TEST_CASE("expectations shall be judged by sign and noise") {
   e.from = "b";
   e.to = "a";
   CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::as_expected);
-  CHECK(assess(e, made.spec, made.results()).change == doctest::Approx(-3.0));
+  CHECK(assess(e, made.spec, made.results()).change == approx(-3.0));
   // Errors so large that 3 mm could be chance.
   for (Outcome& o : made.outcomes) o.outputs[0].error = 5.0;
   CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::unresolved);
@@ -126,7 +129,7 @@ TEST_CASE("a scattered input shall be judged by a fitted line") {
   }
   const auto effects = main_effects(spec, {plan, outcomes});
   CHECK(effects.at(0).is_scattered);
-  CHECK(effects[0].change == doctest::Approx(1.9).epsilon(0.02));
+  CHECK(effects[0].change == approx(1.9).epsilon(0.02));
   CHECK(effects[0].error > 0.0);
   CHECK(effects[0].error < 0.05);
 }

@@ -3,6 +3,7 @@
 #include "study/hoods/hood_results.hpp"
 #include "study/hoods/hood_site.hpp"
 #include "study/hoods/hood_study.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -47,21 +48,21 @@ TEST_CASE("a hood shall stand at its place, span a narrow domain and open toward
   CHECK(site->moved == 0.0);
   CHECK(site->axis == 0);
   // Spanned along y; the duct lies on the left of its opening.
-  CHECK(site->opening_min.x == doctest::Approx(0.1));
-  CHECK(site->opening_max.x == doctest::Approx(0.1));
-  CHECK(site->opening_min.z == doctest::Approx(0.04));
-  CHECK(site->opening_max.z == doctest::Approx(0.06));
-  CHECK(site->body_min.x == doctest::Approx(0.09));
-  CHECK(site->body_max.x == doctest::Approx(0.1));
+  CHECK(site->opening_min.x == test::approx(0.1));
+  CHECK(site->opening_max.x == test::approx(0.1));
+  CHECK(site->opening_min.z == test::approx(0.04));
+  CHECK(site->opening_max.z == test::approx(0.06));
+  CHECK(site->body_min.x == test::approx(0.09));
+  CHECK(site->body_max.x == test::approx(0.1));
   CHECK(site->body_min.y == 0.0);
-  CHECK(site->body_max.y == doctest::Approx(0.01));
-  CHECK(site->area() == doctest::Approx(0.02 * 0.01));
+  CHECK(site->body_max.y == test::approx(0.01));
+  CHECK(site->area() == test::approx(0.02 * 0.01));
   // With the dust above, the opening looks up.
   const study::HoodScene above(k_grid, taken, {{{0.1, 5e-3, 0.08}, 1e-9}}, {});
   const auto up = study::site_at({1, {0.1, 5e-3, 0.05}, 0.4}, 0.02, above);
   REQUIRE(up.has_value());
   CHECK(up->axis == 2);
-  CHECK(up->body_max.z == doctest::Approx(0.05));
+  CHECK(up->body_max.z == test::approx(0.05));
 }
 
 TEST_CASE("a hood shall be moved clear of bodies and the stream, or be left out") {
@@ -92,7 +93,7 @@ TEST_CASE("flows shall be read with a unit that holds for all, and wrong ones be
   const auto flows = study::flows_of("120, 20, 60 l/min");
   REQUIRE(flows.size() == 3);
   CHECK(flows[0].text == "20 l/min");
-  CHECK(flows[2].value == doctest::Approx(2e-3));
+  CHECK(flows[2].value == test::approx(2e-3));
   CHECK(study::flows_of("1 m3/h, 60 l/min")[0].text == "1 m3/h");
   const auto message = [](const std::string& text) {
     try {
@@ -114,20 +115,20 @@ TEST_CASE("flows shall be read with a unit that holds for all, and wrong ones be
 TEST_CASE("capture shall be what is drawn over all that gets loose, with the errors of both") {
   const auto capture = trial(1.0, 3.0, 1.0).capture();
   REQUIRE(capture.has_value());
-  CHECK(capture->value == doctest::Approx(0.75));
+  CHECK(capture->value == test::approx(0.75));
   // c = d / (d + e): by differences of both, as if of independent counts.
   const auto share = [](double d, double e) { return d / (d + e); };
   const double h = 1e-6;
   const double of_drawn = 0.3 * (share(3.0 + h, 1.0) - share(3.0 - h, 1.0)) / (2.0 * h);
   const double of_escaping = 0.2 * (share(3.0, 1.0 + h) - share(3.0, 1.0 - h)) / (2.0 * h);
-  CHECK(capture->error == doctest::Approx(std::hypot(of_drawn, of_escaping)).epsilon(1e-6));
+  CHECK(capture->error == test::approx(std::hypot(of_drawn, of_escaping)).epsilon(1e-6));
   CHECK_FALSE(trial(1.0, 0.0, 0.0).capture().has_value());
 }
 
 TEST_CASE("capture shall have no error where one of its rates has none") {
   study::HoodTrial unsettled = trial(1.0, 3.0, 1.0);
   unsettled.drawn.error = -1.0;
-  CHECK(unsettled.capture()->value == doctest::Approx(0.75));
+  CHECK(unsettled.capture()->value == test::approx(0.75));
   CHECK(unsettled.capture()->error < 0.0);
   unsettled = trial(1.0, 3.0, 1.0);
   unsettled.escaping.error = -1.0;
@@ -144,18 +145,18 @@ TEST_CASE("replicas shall be known to their scatter, and no better than each by 
   }
   const study::HoodTrial mean = study::mean_of(trials);
   CHECK(mean.replicas == 3);
-  CHECK(mean.load == doctest::Approx(2.0));
-  CHECK(mean.drawn.value == doctest::Approx(4.0));
+  CHECK(mean.load == test::approx(2.0));
+  CHECK(mean.drawn.value == test::approx(4.0));
   // Deviations of -1, 0 and 1: s = 1.
-  CHECK(mean.drawn.error == doctest::Approx(1.0 / std::sqrt(3.0)));
+  CHECK(mean.drawn.error == test::approx(1.0 / std::sqrt(3.0)));
   // They escape at one rate: none knows it better than to 0.02.
-  CHECK(mean.escaping.error == doctest::Approx(0.02));
+  CHECK(mean.escaping.error == test::approx(0.02));
   const double a = 3.0 / 4.0, b = 4.0 / 5.0, c = 5.0 / 6.0, m = (a + b + c) / 3.0;
   const double squares = (a - m) * (a - m) + (b - m) * (b - m) + (c - m) * (c - m);
-  CHECK(mean.capture()->value == doctest::Approx(0.8));
-  CHECK(mean.capture()->error == doctest::Approx(std::sqrt(squares / 6.0)));
+  CHECK(mean.capture()->value == test::approx(0.8));
+  CHECK(mean.capture()->error == test::approx(std::sqrt(squares / 6.0)));
   // Two alone scatter by chance: their own errors count.
-  CHECK(study::mean_of(std::span(trials).first(2)).drawn.error == doctest::Approx(0.1));
+  CHECK(study::mean_of(std::span(trials).first(2)).drawn.error == test::approx(0.1));
   trials[1].drawn.error = -1.0;
   CHECK(study::mean_of(trials).drawn.error < 0.0);
   CHECK(study::mean_of(trials).capture()->error < 0.0);
@@ -166,17 +167,17 @@ TEST_CASE("the flow needed shall lie between two trials, be a bound, or not be r
       "place_1", {trial(1e-3, 1.0, 3.0), trial(2e-3, 3.0, 1.0), trial(4e-3, 9.0, 1.0)}};
   const auto half = study::needed_flow(place, 0.5);
   REQUIRE(half.has_value());
-  CHECK(half->flow == doctest::Approx(1.5e-3));
+  CHECK(half->flow == test::approx(1.5e-3));
   CHECK_FALSE(half->is_bound);
   const auto little = study::needed_flow(place, 0.2);
   REQUIRE(little.has_value());
-  CHECK(little->flow == doctest::Approx(1e-3));
+  CHECK(little->flow == test::approx(1e-3));
   CHECK(little->is_bound);
   CHECK_FALSE(study::needed_flow(place, 0.95).has_value());
   // A flow at which nothing was seen tells nothing.
   study::HoodPlace gap = place;
   gap.trials[1] = trial(2e-3, 0.0, 0.0);
-  CHECK(study::needed_flow(gap, 0.5)->flow == doctest::Approx(1e-3 + 3e-3 * 0.25 / 0.65));
+  CHECK(study::needed_flow(gap, 0.5)->flow == test::approx(1e-3 + 3e-3 * 0.25 / 0.65));
 }
 
 TEST_CASE("the page of a study of hoods shall get the answer: where, and from which flow on") {
@@ -189,7 +190,7 @@ TEST_CASE("the page of a study of hoods shall get the answer: where, and from wh
   CHECK(json["wanted"] == 0.9);
   // From a half to 0.95: 8/9 of the way.
   CHECK(json["places"][0]["needed"]["flow_m3_per_s"].get<double>() ==
-        doctest::Approx(1e-3 + 1e-3 * 0.4 / 0.45));
+        test::approx(1e-3 + 1e-3 * 0.4 / 0.45));
   CHECK(json["places"][0]["opening"][0] == 0.1);
   CHECK(json["places"][1]["needed"].is_null());
   CHECK(json["places"][1]["opening"].is_null());

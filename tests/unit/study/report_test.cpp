@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/study_report.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -8,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 
+using dust::test::approx;
 using namespace dust::study;
 namespace fs = std::filesystem;
 
@@ -39,7 +42,7 @@ TEST_CASE("the report of a calibration shall draw the crossing and ask no other 
   answer.settings.parameters = {{"mu_s", "", 0.2, 0.7}, {"mu_r", "", 0.0, 0.5}};
   Lines lines;
   answer.calibration = calibrate(answer.settings, lines);
-  CHECK(answer.calibration.estimates[0].best == doctest::Approx(0.4).epsilon(0.05));
+  CHECK(answer.calibration.estimates[0].best == approx(0.4).epsilon(0.05));
   CHECK(answer.calibration.is_pinned);
 
   Spec spec;
@@ -49,7 +52,7 @@ TEST_CASE("the report of a calibration shall draw the crossing and ask no other 
   const auto document = study_document(spec, {plan, {}}, &answer);
   const auto& crossing = document["calibration"]["crossing"];
   CHECK(document["calibration"]["is_good"] == true);
-  CHECK(crossing["axes"][0]["best"].get<double>() == doctest::Approx(0.4).epsilon(0.05));
+  CHECK(crossing["axes"][0]["best"].get<double>() == approx(0.4).epsilon(0.05));
   // A field per target over the whole grid, and the region about the likeliest values.
   const auto n = crossing["per_direction"].get<std::size_t>();
   REQUIRE(crossing["fields"].size() == 2);
@@ -103,7 +106,7 @@ TEST_CASE("the report of a study shall draw every effect with the lines it is ma
   CHECK(plot["lines"][1]["name"] == "angle 0 deg");
   CHECK(plot["lines"][2]["name"] == "angle 1 deg");
   CHECK(plot["change"] == 10.0);
-  CHECK(plot["change_error"].get<double>() == doctest::Approx(0.6));
+  CHECK(plot["change_error"].get<double>() == approx(0.6));
   // At a glance: the speed's effect stands out of its error, the angle's (1.00 of 0.60) does not.
   const auto& table = effects["table"];
   CHECK(table["columns"][0]["name"] == "speed");

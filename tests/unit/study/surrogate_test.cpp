@@ -2,11 +2,13 @@
 #include "study/calibration/surrogate.hpp"
 #include "base/error.hpp"
 #include "study/sampling.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
+using dust::test::approx;
 using namespace dust::study;
 
 namespace {
@@ -28,7 +30,7 @@ TEST_CASE("a Gaussian process shall pass through runs without scatter and follow
   const auto process = make_gaussian_process();
   process->fit(places, values_of(places));
   for (const auto& place : places) {
-    CHECK(process->at(place).mean == doctest::Approx(bend(place)).epsilon(1e-3));
+    CHECK(process->at(place).mean == approx(bend(place)).epsilon(1e-3));
   }
   double worst = 0.0;
   std::size_t covered = 0;
@@ -53,8 +55,8 @@ TEST_CASE("a Gaussian process shall tell scatter of runs from the function") {
   }
   const auto process = make_gaussian_process();
   process->fit(places, values);
-  CHECK(process->scatter() == doctest::Approx(0.1).epsilon(0.25));
-  CHECK(process->at({0.5}).mean == doctest::Approx(2.5).epsilon(0.03));
+  CHECK(process->scatter() == approx(0.1).epsilon(0.25));
+  CHECK(process->at({0.5}).mean == approx(2.5).epsilon(0.03));
   // The error of the mean is far below the scatter of one run.
   CHECK(std::sqrt(process->at({0.5}).variance) < 0.06);
 }
@@ -67,7 +69,7 @@ TEST_CASE("what is taken for granted shall narrow the variance and leave the mea
   const Prediction before = process->at(there);
   process->add_virtual_run(there);
   const Prediction after = process->at(there);
-  CHECK(after.mean == doctest::Approx(before.mean).epsilon(1e-6));
+  CHECK(after.mean == approx(before.mean).epsilon(1e-6));
   CHECK(after.variance < 0.2 * before.variance);
 }
 
@@ -81,7 +83,7 @@ TEST_CASE("a quadratic surface shall reproduce a quadratic exactly") {
   const auto quadratic = make_quadratic();
   quadratic->fit(places, values);
   for (const auto& place : latin_hypercube(20, 2, 4)) {
-    CHECK(quadratic->at(place).mean == doctest::Approx(surface(place)).epsilon(1e-9));
+    CHECK(quadratic->at(place).mean == approx(surface(place)).epsilon(1e-9));
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contract/plugin_library.hpp"
 #include "dust/sdk/random.hpp"
+#include "support/approx.hpp"
 #include "voidage/divided/divided.hpp"
 
 #include <doctest/doctest.h>
@@ -114,12 +115,12 @@ TEST_CASE("a sphere centred on planes shall be halved, quartered and cut in eigh
   using model::divided::cap;
   using model::divided::corner;
   using model::divided::edge;
-  CHECK(cap(0.0) == doctest::Approx(0.5).epsilon(1e-15));
-  CHECK(edge(0.0, 0.0) == doctest::Approx(0.25).epsilon(1e-14));
-  CHECK(corner(0.0, 0.0, 0.0) == doctest::Approx(0.125).epsilon(1e-14));
+  CHECK(cap(0.0) == test::approx(0.5).epsilon(1e-15));
+  CHECK(edge(0.0, 0.0) == test::approx(0.25).epsilon(1e-14));
+  CHECK(corner(0.0, 0.0, 0.0) == test::approx(0.125).epsilon(1e-14));
   // A plane through the centre halves what the others leave.
-  CHECK(edge(0.3, 0.0) == doctest::Approx(0.5 * cap(0.3)).epsilon(1e-13));
-  CHECK(corner(0.3, 0.4, 0.0) == doctest::Approx(0.5 * edge(0.3, 0.4)).epsilon(1e-12));
+  CHECK(edge(0.3, 0.0) == test::approx(0.5 * cap(0.3)).epsilon(1e-13));
+  CHECK(corner(0.3, 0.4, 0.0) == test::approx(0.5 * edge(0.3, 0.4)).epsilon(1e-12));
   // Nothing lies beyond an edge or a corner outside the sphere.
   CHECK(edge(0.6, 0.81) == 0.0);
   CHECK(corner(0.6, 0.6, 0.6) == 0.0);
@@ -190,7 +191,7 @@ TEST_CASE("a big particle shall fill the cells inside it to the inner void fract
     const double eps = 1.0 - weight * volume / 1e-9;
     CHECK(eps >= k_inner - 1e-12);
     if (std::sqrt(farthest) > reach) continue;
-    CHECK(eps == doctest::Approx(k_inner).epsilon(1e-11));
+    CHECK(eps == test::approx(k_inner).epsilon(1e-11));
     ++inside;
   }
   CHECK(inside > 20);
@@ -214,7 +215,7 @@ TEST_CASE("a Gaussian grain shall have its centre and width, and move without a 
   CHECK(std::abs(first) < 0.01e-3);
   const double cut = 1.0 - 2.0 * 3.0 * std::exp(-4.5) /
                                (std::sqrt(2.0 * std::numbers::pi) * std::erf(3.0 / std::sqrt(2.0)));
-  CHECK(second == doctest::Approx(cut * sigma * sigma + 1e-6 / 12.0).epsilon(0.01));
+  CHECK(second == test::approx(cut * sigma * sigma + 1e-6 / 12.0).epsilon(0.01));
   // Across a border of cells no share changes by more than the way times its steepest slope.
   const double step = 1e-7;
   const auto before = gaussian.shares({20e-3 - step, 20.5e-3, 20.5e-3}, 0.5 * diameter);

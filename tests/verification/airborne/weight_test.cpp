@@ -2,6 +2,8 @@
 // The weight of dust in the gas.
 #include "dusty_case.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -53,7 +55,7 @@ TEST_CASE("dusty air below clean air shall stay at rest, its pressure bearing th
   const double carried = c.air.p(4, 4, 0) - c.air.p(4, 4, 7);
   const double weighs =
       k_concentration * (1.0 - k_density / k_dust) * DustyCase::k_gravity * 7 * 0.01;
-  CHECK(carried == doctest::Approx(weighs).epsilon(1e-3));
+  CHECK(carried == test::approx(weighs).epsilon(1e-3));
   CHECK(std::abs(c.air.p(4, 4, 10) - c.air.p(4, 4, 15)) < 1e-6 * weighs);
   // Without the pressure it would fall at 50 mm/s by now.
   CHECK(fastest(c) < 1e-4);
@@ -73,5 +75,5 @@ TEST_CASE(
   for (int n = 0; n < 20; ++n) c.advance(1e-3);
   // A hundredth of the air's weight: everything falls by g / 100 and more slowly for nothing else.
   const double should = -0.01 * (1.0 - k_density / k_dust) * DustyCase::k_gravity * k_end;
-  CHECK(c.air.u(2, 3, 3, 5) == doctest::Approx(should).epsilon(1e-6));
+  CHECK(c.air.u(2, 3, 3, 5) == test::approx(should).epsilon(1e-6));
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "verification/bulk/bulk_run.hpp"
 
 #include <numbers>
+
+using dust::test::approx;
 
 // Haff, J. Fluid Mech. 134 (1983) 401; rate of cooling with the contact value of Carnahan and
 // Starling for spheres. Clustering begins later than this run ends.
@@ -13,7 +16,7 @@ TEST_CASE("a gas of grains shall cool as Haff says") {
   const double e = 0.9;
   const double n = run.summary["particles"]["emitted"].get<double>() / std::pow(27.8e-3, 3);
   const double phi = n * std::numbers::pi / 6 * d * d * d;
-  CHECK(phi == doctest::Approx(0.1).epsilon(0.01));
+  CHECK(phi == approx(0.1).epsilon(0.01));
   const double g0 = (1 - phi / 2) / std::pow(1 - phi, 3);
   // From the second sample on: the first was taken before the first step.
   double sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, count = 0;
@@ -40,5 +43,5 @@ TEST_CASE("a gas of grains shall cool as Haff says") {
   CHECK(temperature.back() < 0.2 * first);  // it has cooled indeed
   CHECK(r2 > 0.999);
   // 10 %: the theory is for a Maxwellian gas of many more grains than 4096.
-  CHECK(slope == doctest::Approx(expected).epsilon(0.1));
+  CHECK(slope == approx(expected).epsilon(0.1));
 }

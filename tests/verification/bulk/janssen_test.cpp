@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "verification/bulk/bulk_run.hpp"
 
 #include <numbers>
 
 namespace {
 
+using dust::test::approx;
 using dust::test::BulkRun;
 
 constexpr double k_gravity = 9.81;  // [m/s2]
@@ -41,19 +43,19 @@ TEST_CASE("a column between smooth walls shall rest on the floor with its whole 
     load -= w * force[n];
     weights += w;
   }
-  CHECK(load / weights == doctest::Approx(weight(run)).epsilon(0.01));
+  CHECK(load / weights == approx(weight(run)).epsilon(0.01));
   // Smooth walls carry nothing upright: their forces are level.
   CHECK(std::abs(tube_load(run)) < 1e-9 * weight(run));
   // The stress grows with the weight above: dp/dz = rho_b g between boxes well inside the bed.
   const double bulk = 4 / std::numbers::pi * run.figure("at_14", "bulk_density");
   const double rise = (stress_at(run, 8) - stress_at(run, 26)) / 18e-3;
   // 5 %: some ten layers of grains in between, of which half a layer counts here or there.
-  CHECK(rise == doctest::Approx(bulk * k_gravity).epsilon(0.05));
+  CHECK(rise == approx(bulk * k_gravity).epsilon(0.05));
 }
 
 TEST_CASE("a column between rough walls shall hang on them as Janssen says") {
   const BulkRun run("janssen");
-  CHECK(floor_load(run) + tube_load(run) == doctest::Approx(weight(run)).epsilon(0.01));
+  CHECK(floor_load(run) + tube_load(run) == approx(weight(run)).epsilon(0.01));
   CHECK(floor_load(run) < 0.6 * weight(run));
   // sigma = rho_b g L (1 - exp(-z/L)), z from the free surface; L by least squares.
   const double bulk = 4 / std::numbers::pi * run.figure("at_14", "bulk_density");

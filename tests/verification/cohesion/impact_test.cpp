@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What cohesion takes from an impact.
 #include "dust/sdk/random.hpp"
+#include "support/approx.hpp"
 #include "verification/cohesion/sticky.hpp"
 
 #include <doctest/doctest.h>
@@ -8,6 +9,7 @@
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -49,7 +51,7 @@ TEST_CASE("an elastic impact of jkr spheres shall lose the work of their neck, o
   const double number =
       k_pi * std::pow(2.0 * k_pi, 2.0 / 3.0) *
       (0.6 + std::pow(b, 4) - 8.0 / 3.0 * std::pow(b, 7) + 16.0 / 15.0 * std::pow(b, 10));
-  CHECK(number == doctest::Approx(7.09).epsilon(1e-3));
+  CHECK(number == approx(7.09).epsilon(1e-3));
   const double work = number * std::cbrt(std::pow(k_gamma, 5) * std::pow(k_r, 4) / (k_e * k_e));
   const double sticking = std::sqrt(2.0 * work / Sticky::mass());
   const DemRig::Choice jkr{"jkr", {{"surface_energy", k_gamma}}};
@@ -57,7 +59,7 @@ TEST_CASE("an elastic impact of jkr spheres shall lose the work of their neck, o
   for (const double times : {1.2, 2.0, 10.0}) {
     CAPTURE(times);
     CHECK(rebound(jkr, 1.0, times * sticking) ==
-          doctest::Approx(closed_form(work, times * sticking)).epsilon(0.005));
+          approx(closed_form(work, times * sticking)).epsilon(0.005));
   }
 }
 
@@ -76,7 +78,7 @@ TEST_CASE("an elastic impact of wet spheres shall lose the work of their bridge,
   for (const double times : {1.2, 2.0, 5.0}) {
     CAPTURE(times);
     CHECK(rebound(wet, 1.0, times * sticking) ==
-          doctest::Approx(closed_form(work, times * sticking)).epsilon(0.005));
+          approx(closed_form(work, times * sticking)).epsilon(0.005));
   }
 }
 
@@ -86,7 +88,7 @@ TEST_CASE("cohesion without range shall take nothing from an elastic impact") {
                                     DemRig::Choice{"sjkr", {{"energy_density", 1e5}}}}) {
     for (const double speed : {0.02, 0.5}) {
       CAPTURE(law.name);
-      CHECK(rebound(law, 1.0, speed) == doctest::Approx(1.0).epsilon(0.003));
+      CHECK(rebound(law, 1.0, speed) == approx(1.0).epsilon(0.003));
     }
   }
 }
@@ -179,7 +181,7 @@ TEST_CASE("dust shall stick to sand and rest on it, with several rates as with o
     while (stepper.time() < 2e-3) stepper.step();
     const Vec3 apart = grain(*dem, 1).position - grain(*dem, 0).position;
     CAPTURE(single);
-    CHECK(k_r + dust - norm(apart) == doctest::Approx(resting).epsilon(0.02));
+    CHECK(k_r + dust - norm(apart) == approx(resting).epsilon(0.02));
     CHECK(norm(grain(*dem, 1).velocity - grain(*dem, 0).velocity) < 1e-4);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A liquid bridge over its life: formed at touch, stretched, broken; through rebuilds and restarts.
 #include "dust/sdk/random.hpp"
+#include "support/approx.hpp"
 #include "verification/cohesion/sticky.hpp"
 
 #include <doctest/doctest.h>
@@ -9,6 +10,7 @@
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -74,7 +76,7 @@ TEST_CASE("a bridge shall pull with the closed form of its gap and break at its 
     const double gap = p.gap();
     const double pull = p.pull();
     if (gap > 0.0 && gap < k_break) {
-      CHECK(-pull == doctest::Approx(willett(gap)).epsilon(1e-9));
+      CHECK(-pull == approx(willett(gap)).epsilon(1e-9));
       ++compared;
     }
     if (gap > 0.0 && pull == 0.0 && broken_at < 0.0) broken_at = gap;
@@ -98,16 +100,16 @@ TEST_CASE("moisture shall put the liquid of two grains into their bridges") {
   };
   // By hand: 1 % of 2650 kg/m3 in six bridges is V = 2 (4 pi / 3) 0.0265 / 6 R^3 = 0.0370010 R^3
   // for two grains of radius R; they part at the cube root of it, 0.333225 R.
-  CHECK(wet_by({0.01, 0.01})->range(0.5 * k_r) == doctest::Approx(0.333225 * k_r).epsilon(1e-5));
+  CHECK(wet_by({0.01, 0.01})->range(0.5 * k_r) == approx(0.333225 * k_r).epsilon(1e-5));
   // At a wall a sixth of one grain's liquid: 0.0185005 R^3.
-  CHECK(wet_by({0.01, 0.0})->range(k_r) == doctest::Approx(0.264481 * k_r).epsilon(1e-5));
-  CHECK(wet_by({0.0, 0.01})->range(k_r) == doctest::Approx(0.264481 * k_r).epsilon(1e-5));
+  CHECK(wet_by({0.01, 0.0})->range(k_r) == approx(0.264481 * k_r).epsilon(1e-5));
+  CHECK(wet_by({0.0, 0.01})->range(k_r) == approx(0.264481 * k_r).epsilon(1e-5));
   // The force of that volume in a gap of R / 10: s = 0.1 / sqrt(0.0370010), 1.05 s + 2.5 s^2.
   const double s = 0.1 / std::sqrt(0.0370010);
   const double force = 2.0 * k_pi * k_r * k_tension / (1.0 + 1.05 * s + 2.5 * s * s);
   const double young = Sticky::young;
   CHECK(-force_at(*wet_by({0.01, 0.01}), 0.5 * k_r, young, -0.1 * k_r) ==
-        doctest::Approx(force).epsilon(1e-5));
+        approx(force).epsilon(1e-5));
   // Dry: the contact alone.
   const auto dry = wet_by({0.0, 0.0});
   CHECK(dry->range(k_r) == 0.0);
@@ -120,7 +122,7 @@ TEST_CASE("grains that pass without touching shall not form a bridge") {
   Pair p(0.1 * k_break, -0.0);
   p.stepper->step(2000);
   CHECK(p.pull() == 0.0);
-  CHECK(p.gap() == doctest::Approx(0.1 * k_break).epsilon(1e-9));
+  CHECK(p.gap() == approx(0.1 * k_break).epsilon(1e-9));
 }
 
 TEST_CASE("a bridge shall outlive rebuilt lists and sorted rows") {
@@ -135,7 +137,7 @@ TEST_CASE("a bridge shall outlive rebuilt lists and sorted rows") {
   }
   CHECK(p.dem->report().rebuilds >= rebuilds + 6);
   REQUIRE(p.gap() < k_break);
-  CHECK(-p.pull() == doctest::Approx(willett(p.gap())).epsilon(1e-9));
+  CHECK(-p.pull() == approx(willett(p.gap())).epsilon(1e-9));
 }
 
 TEST_CASE("a run resumed while a bridge is stretched shall go on with the same bits") {
@@ -153,7 +155,7 @@ TEST_CASE("a run resumed while a bridge is stretched shall go on with the same b
     CHECK(norm(grain(*p.dem, id).position - grain(*resumed, id).position) == 0.0);
     CHECK(norm(grain(*p.dem, id).velocity - grain(*resumed, id).velocity) == 0.0);
   }
-  CHECK(-p.pull() == doctest::Approx(willett(p.gap())).epsilon(1e-9));
+  CHECK(-p.pull() == approx(willett(p.gap())).epsilon(1e-9));
 }
 
 TEST_CASE("all pairs within the range of cohesion shall be in the neighbour lists") {

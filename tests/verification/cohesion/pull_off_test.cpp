@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What cohesive grains hold at rest, against closed forms.
+#include "support/approx.hpp"
 #include "verification/cohesion/sticky.hpp"
 
 #include <doctest/doctest.h>
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -88,10 +90,11 @@ TEST_CASE("a sticky grain shall rest at the overlap where attraction and elastic
     Sticky s(c.law, 0.3, 0.5);
     s.floor();
     auto dem = s.rig.make();
-    dem->insert(std::vector<NewGrain>{{.position = {0, 0, k_r}, .diameter = 2 * k_r}});
+    // It touches: laws without a reach of their own do not know of it before.
+    dem->insert(std::vector<NewGrain>{{.position = {0, 0, k_r - 1e-9}, .diameter = 2 * k_r}});
     Stepper stepper(*dem);
     while (stepper.time() < 0.02) stepper.step();
-    CHECK(k_r - grain(*dem, 0).position.z == doctest::Approx(c.resting_overlap).epsilon(1e-3));
+    CHECK(k_r - grain(*dem, 0).position.z == approx(c.resting_overlap).epsilon(1e-3));
     CHECK(norm(grain(*dem, 0).velocity) < 1e-6);
   }
 }
@@ -109,25 +112,24 @@ TEST_CASE("jkr shall follow the curve of Johnson, Kendall and Roberts, given by 
     CHECK(std::abs(force_at(*law, k_r, k_e, d) - f) < k_curve * (scale + std::abs(f)));
   }
   // At touch 8/9, at the tear 5/9 of the pull-off force; none beyond.
-  CHECK(force_at(*law, k_r, k_e, 0.0) == doctest::Approx(-8.0 / 9.0 * scale).epsilon(1e-12));
+  CHECK(force_at(*law, k_r, k_e, 0.0) == approx(-8.0 / 9.0 * scale).epsilon(1e-12));
   const double tear = 0.75 * std::cbrt(std::pow(k_pi * k_gamma, 2) * k_r / (k_e * k_e));
-  CHECK(law->range(k_r) == doctest::Approx(tear).epsilon(1e-12));
-  CHECK(force_at(*law, k_r, k_e, -tear * (1.0 - 1e-9)) ==
-        doctest::Approx(-5.0 / 9.0 * scale).epsilon(1e-4));
+  CHECK(law->range(k_r) == approx(tear).epsilon(1e-12));
+  CHECK(force_at(*law, k_r, k_e, -tear * (1.0 - 1e-9)) == approx(-5.0 / 9.0 * scale).epsilon(1e-4));
   CHECK(force_at(*law, k_r, k_e, -tear * (1.0 + 1e-9)) == 0.0);
   // The most it holds: 3/2 pi gamma R*.
   double most = 0.0;
   for (int n = 0; n < 20000; ++n) {
     most = std::max(most, -force_at(*law, k_r, k_e, -tear * n / 20000.0));
   }
-  CHECK(most == doctest::Approx(scale).epsilon(1e-7));
+  CHECK(most == approx(scale).epsilon(1e-7));
 }
 
 TEST_CASE("jkr with little surface energy shall become Hertz") {
   const auto law =
       std::move(Sticky({"jkr", {{"surface_energy", 1e-12}}}, 1.0, 0.0).rig.laws[0].cohesion);
   const double d = 1e-6;
-  CHECK(force_at(*law, k_r, k_e, d) == doctest::Approx(hertz(d, k_r, k_e)).epsilon(1e-5));
+  CHECK(force_at(*law, k_r, k_e, d) == approx(hertz(d, k_r, k_e)).epsilon(1e-5));
 }
 
 TEST_CASE("a grain held by adhesion shall slide above mu times the force it is pressed with") {
@@ -152,11 +154,12 @@ TEST_CASE("a grain held by adhesion shall slide above mu times the force it is p
       while (stepper.time() < 0.02) stepper.step();
       CAPTURE(c.law.name);
       CAPTURE(share);
-      const double expected = (share - 1.0) * mu * press / Sticky::mass() * 0.02;
+      const double held = mu * press / Sticky::mass() * 0.02;
       if (share < 1.0) {
         CHECK(std::abs(grain(*dem, 0).velocity.x) < 1e-5);
       } else {
-        CHECK(grain(*dem, 0).velocity.x == doctest::Approx(expected).epsilon(0.02));
+        // A small difference of two forces: 0.2 % of either.
+        CHECK(std::abs(grain(*dem, 0).velocity.x - (share - 1.0) * held) < 0.002 * held);
       }
     }
   }

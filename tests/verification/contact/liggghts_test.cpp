@@ -2,6 +2,7 @@
 // The conventions of LIGGGHTS as options of laws: closed forms of each, and where they differ.
 #include "contact/hertz_mindlin/liggghts.hpp"
 #include "rolling/cdt/cdt.hpp"
+#include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 
 #include <doctest/doctest.h>
@@ -11,6 +12,7 @@
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 namespace law = dust::model::hertz_mindlin;
 
@@ -64,10 +66,10 @@ TEST_CASE(
   c.vx = 0.5;
   law::evaluate_liggghts(constants(), c);
   const double expected = -tangential_stiffness() * 3e-8 - damper(tangential_stiffness()) * 0.5;
-  CHECK(c.fx == doctest::Approx(expected).epsilon(1e-12));
-  CHECK(c.sx == doctest::Approx(3e-8).epsilon(1e-12));
+  CHECK(c.fx == approx(expected).epsilon(1e-12));
+  CHECK(c.sx == approx(3e-8).epsilon(1e-12));
   const double normal = normal_stiffness() * k_overlap;
-  CHECK(c.fz == doctest::Approx(normal).epsilon(1e-12));
+  CHECK(c.fz == approx(normal).epsilon(1e-12));
   // Strict Coulomb would have stopped it here.
   CHECK(std::abs(c.fx) > 2.0 * k_friction * normal);
 }
@@ -81,11 +83,11 @@ TEST_CASE("by LIGGGHTS' convention a contact that slides shall have the limit an
   law::evaluate_liggghts(constants(), c);
   const double normal =
       normal_stiffness() * k_overlap + damper(2.0 * constants().young * contact_radius()) * 0.02;
-  CHECK(c.normal_force == doctest::Approx(normal).epsilon(1e-12));
-  CHECK(c.fx == doctest::Approx(-0.6 * k_friction * normal).epsilon(1e-12));
-  CHECK(c.fy == doctest::Approx(-0.8 * k_friction * normal).epsilon(1e-12));
+  CHECK(c.normal_force == approx(normal).epsilon(1e-12));
+  CHECK(c.fx == approx(-0.6 * k_friction * normal).epsilon(1e-12));
+  CHECK(c.fy == approx(-0.8 * k_friction * normal).epsilon(1e-12));
   CHECK(std::hypot(c.sx, c.sy) ==
-        doctest::Approx(k_friction * normal / tangential_stiffness()).epsilon(1e-12));
+        approx(k_friction * normal / tangential_stiffness()).epsilon(1e-12));
 }
 
 TEST_CASE("by LIGGGHTS' convention an attracting normal force shall hold like a repelling one") {
@@ -94,7 +96,7 @@ TEST_CASE("by LIGGGHTS' convention an attracting normal force shall hold like a 
   c.vz = 5.0;
   law::evaluate_liggghts(constants(), c);
   REQUIRE(c.normal_force < 0.0);
-  CHECK(c.fx == doctest::Approx(k_friction * c.normal_force).epsilon(1e-12));
+  CHECK(c.fx == approx(k_friction * c.normal_force).epsilon(1e-12));
 }
 
 TEST_CASE(
@@ -106,7 +108,7 @@ TEST_CASE(
   c.sx = 1e-8;
   law::evaluate_liggghts(constants(), c);
   const double length = std::sqrt(c.sx * c.sx + c.sy * c.sy + c.sz * c.sz);
-  CHECK(length == doctest::Approx(1e-8 * std::cos(k_turn)).epsilon(1e-12));
+  CHECK(length == approx(1e-8 * std::cos(k_turn)).epsilon(1e-12));
   // A quarter of the overlap, half the force: the displacement stays.
   law::Contact before = contact();
   before.sx = 1e-9;
@@ -115,7 +117,7 @@ TEST_CASE(
   after.sx = before.sx;
   after.overlap = 0.25 * k_overlap;
   law::evaluate_liggghts(constants(), after);
-  CHECK(after.fx == doctest::Approx(0.5 * before.fx).epsilon(1e-12));
+  CHECK(after.fx == approx(0.5 * before.fx).epsilon(1e-12));
 }
 
 namespace {
@@ -161,9 +163,9 @@ TEST_CASE("a spinning sphere shall rebound as LIGGGHTS' damper beyond the limit 
     CAPTURE(r.spin);
     const GrainState out = spinning_impact("liggghts", r.spin);
     MESSAGE(r.spin << " rad/s: " << out.velocity.y << " m/s, " << out.rotation.z << " rad/s");
-    CHECK(-std::abs(out.velocity.y) == doctest::Approx(r.v_t).epsilon(0.02));
+    CHECK(-std::abs(out.velocity.y) == approx(r.v_t).epsilon(0.02));
     CHECK(std::abs(out.rotation.z - r.spin_out) < 0.02 * 3.5);
-    CHECK(out.velocity.x == doctest::Approx(0.1).epsilon(0.01));
+    CHECK(out.velocity.x == approx(0.1).epsilon(0.01));
   }
   // Strict Coulomb is another law: the comparison can fail.
   CHECK(std::abs(spinning_impact("rescaled", 8.0).velocity.y) < 0.127);
@@ -213,11 +215,10 @@ TEST_CASE(
            k_about_normal * std::asinh(k_about_normal / w);
   };
   const GrainState slow = spun_down("liggghts", k_rolling, k_about_normal, k_time);
-  CHECK(slow.rotation.z == doctest::Approx(k_about_normal).epsilon(1e-6));
-  CHECK(level(k_rolling) - level(slow.rotation.x) ==
-        doctest::Approx(k_rate * k_time).epsilon(0.005));
+  CHECK(slow.rotation.z == approx(k_about_normal).epsilon(1e-6));
+  CHECK(level(k_rolling) - level(slow.rotation.x) == approx(k_rate * k_time).epsilon(0.005));
   const GrainState fast = spun_down("apart", k_rolling, k_about_normal, k_time);
-  CHECK(k_rolling - fast.rotation.x == doctest::Approx(k_rate * k_time).epsilon(0.005));
+  CHECK(k_rolling - fast.rotation.x == approx(k_rate * k_time).epsilon(0.005));
   CHECK(fast.rotation.x < slow.rotation.x - 100.0);
   // Without a twist both are one.
   CHECK(spun_down("liggghts", k_rolling, 0.0, k_time).rotation.x ==

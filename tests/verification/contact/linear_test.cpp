@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The linear spring-dashpot against closed forms: the damped oscillator, the rebound of a hard
 // sphere, two compressed spheres between planes (set-ups of the MFiX cases DEM01 to DEM04).
+#include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 
 #include <doctest/doctest.h>
@@ -10,6 +11,7 @@
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -59,7 +61,7 @@ TEST_CASE("a hooke impact shall return the declared restitution in the oscillato
       CAPTURE(e);
       CAPTURE(speed);
       CHECK(std::abs(grain(*dem, 0).velocity.x / speed - e) < k_realised);
-      CHECK(in_touch * step == doctest::Approx(duration).epsilon(k_time));
+      CHECK(in_touch * step == approx(duration).epsilon(k_time));
     }
   }
 }
@@ -91,8 +93,7 @@ TEST_CASE("a stiff hooke sphere shall rebound as high as a hard one") {
       }
       CAPTURE(e);
       CAPTURE(bounce);
-      CHECK(top ==
-            doctest::Approx(radius + (start - radius) * std::pow(e, 2.0 * bounce)).epsilon(k_hard));
+      CHECK(top == approx(radius + (start - radius) * std::pow(e, 2.0 * bounce)).epsilon(k_hard));
     }
   }
 }
@@ -131,8 +132,8 @@ TEST_CASE("two compressed spheres between planes shall swing as their equations 
   for (const Row& r : rows) {
     stepper.step(std::llround((r.time - stepper.time()) / 1e-7));
     CAPTURE(r.time);
-    CHECK(grain(*dem, 0).position.z == doctest::Approx(r.lower).epsilon(k_tolerance));
-    CHECK(grain(*dem, 1).position.z == doctest::Approx(r.upper).epsilon(k_tolerance));
+    CHECK(grain(*dem, 0).position.z == approx(r.lower).epsilon(k_tolerance));
+    CHECK(grain(*dem, 1).position.z == approx(r.upper).epsilon(k_tolerance));
   }
 }
 
@@ -170,9 +171,9 @@ TEST_CASE("a sphere on linear springs shall end its slip at 5/7 of its speed aft
     const double t2 = stepper.time();
     const double s2 = slip();
     CAPTURE(mu);
-    CHECK(t2 + s2 * (t2 - t1) / (s1 - s2) == doctest::Approx(end).epsilon(k_time));
+    CHECK(t2 + s2 * (t2 - t1) / (s1 - s2) == approx(end).epsilon(k_time));
     while (stepper.time() < 1.2 * end) stepper.step();
-    CHECK(grain(*dem, 0).velocity.x == doctest::Approx(5.0 / 7.0 * u0).epsilon(k_speed));
-    CHECK(radius * grain(*dem, 0).rotation.y == doctest::Approx(5.0 / 7.0 * u0).epsilon(k_speed));
+    CHECK(grain(*dem, 0).velocity.x == approx(5.0 / 7.0 * u0).epsilon(k_speed));
+    CHECK(radius * grain(*dem, 0).rotation.y == approx(5.0 / 7.0 * u0).epsilon(k_speed));
   }
 }

@@ -2,6 +2,7 @@
 // Collisions of grains of all sizes, stepped at one rate or at several: restitution, momentum and
 // the energy of an elastic gas.
 #include "dust/sdk/random.hpp"
+#include "support/approx.hpp"
 #include "verification/contact/gas_energy.hpp"
 
 #include <doctest/doctest.h>
@@ -15,6 +16,7 @@
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -228,5 +230,5 @@ TEST_CASE("a dissipative gas shall cool at several rates as at one") {
     left[is_single ? 1 : 0] = gas.energy_share();
   }
   MESSAGE("energy left " << left[0] << " at several rates, " << left[1] << " at one");
-  CHECK(left[0] == doctest::Approx(left[1]).epsilon(k_scatter));
+  CHECK(left[0] == approx(left[1]).epsilon(k_scatter));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sliding, rolling and rolling resistance on planes and belts against closed forms.
+#include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 
 #include <doctest/doctest.h>
@@ -9,6 +10,7 @@
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -76,8 +78,8 @@ TEST_CASE("a sliding sphere shall end rolling at 5/7 of its speed, whatever the 
     CHECK(g.velocity.x - 5e-4 * g.rotation.y > 0.005 * u0);  // still slides
     p.until(1.05 * end);
     g = p.now();
-    CHECK(g.velocity.x == doctest::Approx(5.0 / 7.0 * u0).epsilon(0.002));
-    CHECK(5e-4 * g.rotation.y == doctest::Approx(5.0 / 7.0 * u0).epsilon(0.002));
+    CHECK(g.velocity.x == approx(5.0 / 7.0 * u0).epsilon(0.002));
+    CHECK(5e-4 * g.rotation.y == approx(5.0 / 7.0 * u0).epsilon(0.002));
   }
 }
 
@@ -94,7 +96,7 @@ TEST_CASE("a sphere on an incline shall stay below tan = mu_r and roll above it"
     Plane p(2.0, mu_r, angle, {}, {});
     p.until(time);
     const double a = 5.0 / 7.0 * k_g * (std::sin(angle) - mu_r * std::cos(angle));
-    CHECK(p.now().velocity.x == doctest::Approx(a * time).epsilon(0.01));
+    CHECK(p.now().velocity.x == approx(a * time).epsilon(0.01));
   }
 }
 
@@ -102,10 +104,10 @@ TEST_CASE("rolling on a plane shall decay with 5/7 mu_r g") {
   constexpr double v0 = 0.2;
   Plane p(2.0, 0.3, 0.0, {v0, 0, 0}, {0, v0 / k_radius, 0});
   p.until(0.05);
-  CHECK(p.now().velocity.x == doctest::Approx(v0 - 5.0 / 7.0 * 0.3 * k_g * 0.05).epsilon(0.01));
+  CHECK(p.now().velocity.x == approx(v0 - 5.0 / 7.0 * 0.3 * k_g * 0.05).epsilon(0.01));
   p.until(0.12);
   // Stop distance 7 v0^2 / (10 mu_r g).
-  CHECK(p.now().position.x == doctest::Approx(0.7 * v0 * v0 / (0.3 * k_g)).epsilon(0.01));
+  CHECK(p.now().position.x == approx(0.7 * v0 * v0 / (0.3 * k_g)).epsilon(0.01));
   CHECK(std::abs(p.now().velocity.x) < 1e-3);
 }
 
@@ -116,17 +118,16 @@ TEST_CASE("without rolling resistance a sphere shall roll or slide down an incli
     const double angle = std::atan(2.0 * mu);  // below 3.5 mu: rolls
     Plane p(mu, -1.0, angle, {}, {});
     p.until(time);
-    CHECK(p.now().velocity.x ==
-          doctest::Approx(5.0 / 7.0 * k_g * std::sin(angle) * time).epsilon(0.005));
+    CHECK(p.now().velocity.x == approx(5.0 / 7.0 * k_g * std::sin(angle) * time).epsilon(0.005));
   }
   {
     const double angle = std::atan(5.0 * mu);
     Plane p(mu, -1.0, angle, {}, {});
     p.until(time);
     CHECK(p.now().velocity.x ==
-          doctest::Approx(k_g * (std::sin(angle) - mu * std::cos(angle)) * time).epsilon(0.005));
+          approx(k_g * (std::sin(angle) - mu * std::cos(angle)) * time).epsilon(0.005));
     CHECK(p.now().rotation.y * k_radius ==
-          doctest::Approx(2.5 * mu * k_g * std::cos(angle) * time).epsilon(0.005));
+          approx(2.5 * mu * k_g * std::cos(angle) * time).epsilon(0.005));
   }
 }
 
@@ -135,8 +136,7 @@ TEST_CASE("the saturated couple shall slow a spin by 5/2 mu_r g / R") {
   constexpr double spin = 2000.0;
   Plane p(0.0, mu_r, 0.0, {}, {0, spin, 0});
   p.until(0.04);
-  CHECK(spin - p.now().rotation.y ==
-        doctest::Approx(2.5 * mu_r * k_g / k_radius * 0.04).epsilon(0.005));
+  CHECK(spin - p.now().rotation.y == approx(2.5 * mu_r * k_g / k_radius * 0.04).epsilon(0.005));
 }
 
 TEST_CASE("a belt shall pick up a resting grain as the table says") {
@@ -151,11 +151,11 @@ TEST_CASE("a belt shall pick up a resting grain as the table says") {
   for (const Row& r : rows) {
     Plane p(0.55, r.mu_r, 0.0, {}, {}, k_radius, r.belt);
     p.until(r.end);
-    CHECK(p.now().velocity.x == doctest::Approx(r.speed).epsilon(0.02));
-    CHECK(p.now().position.x == doctest::Approx(r.distance).epsilon(0.02));
+    CHECK(p.now().velocity.x == approx(r.speed).epsilon(0.02));
+    CHECK(p.now().position.x == approx(r.distance).epsilon(0.02));
     if (r.mu_r == 0.0) {
       p.until(2.0 * r.end);
-      CHECK(p.now().velocity.x == doctest::Approx(2.0 / 7.0 * r.belt).epsilon(0.02));
+      CHECK(p.now().velocity.x == approx(2.0 / 7.0 * r.belt).epsilon(0.02));
     }
   }
 }

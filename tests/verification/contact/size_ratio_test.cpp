@@ -4,6 +4,7 @@
 // particles. A small sphere lies in the groove round the point where two large ones touch, one
 // degree off the top, and shall roll down and fall. An integrator that mixes half-step velocities
 // with full-step positions winds its tangential springs up and leaves it hanging in mid-air.
+#include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 
 #include <doctest/doctest.h>
@@ -13,6 +14,7 @@
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -99,7 +101,7 @@ TEST_CASE("a small sphere in the groove of two large ones shall roll down it and
     }
     while (g.angle() < 20.0 * degree && g.stepper->time() < 3.0 * expected) g.stepper->step(10);
     // The first contact, made without overlap, costs it a bounce of some micrometres per second.
-    CHECK(g.stepper->time() == doctest::Approx(expected).epsilon(0.03));
+    CHECK(g.stepper->time() == approx(expected).epsilon(0.03));
     // Past the slip at the end of the groove it leaves and falls beside the large ones.
     while (grain(*g.dem, 2).position.z > -0.5 * k_large && g.stepper->time() < 6.0 * expected) {
       g.stepper->step(100);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spinning impacts: Chung and Ooi, Granular Matter 13 (2011) 643, tests 6 to 8, strict Coulomb.
+#include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 #include "verification/contact/scalar_model.hpp"
 
@@ -10,6 +11,7 @@
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -101,13 +103,13 @@ TEST_CASE("a spinning sphere shall rebound from a plane as strict Coulomb fricti
     CHECK(std::abs(std::abs(out[0].velocity.y) - std::abs(own.tangential)) < k_own * 0.124);
     CHECK(std::abs(out[0].rotation.z - own.surface / k_radius) < k_own * 3.1006);
     if (r.spin >= 4.0) {
-      CHECK(-std::abs(out[0].velocity.y) == doctest::Approx(r.v_t).epsilon(k_sliding));
+      CHECK(-std::abs(out[0].velocity.y) == approx(r.v_t).epsilon(k_sliding));
       CHECK(std::abs(r.spin - out[0].rotation.z - 3.1006) < k_sliding * 3.1006);
     } else {
       CHECK(std::abs(std::abs(out[0].velocity.y) + r.v_t) < k_sticking * 0.124);
       CHECK(std::abs(out[0].rotation.z - r.spin_out) < k_sticking * 3.1006);
     }
-    CHECK(out[0].velocity.x == doctest::Approx(0.5 * k_speed).epsilon(0.01));
+    CHECK(out[0].velocity.x == approx(0.5 * k_speed).epsilon(0.01));
   }
 }
 
@@ -119,8 +121,8 @@ TEST_CASE("two equal spheres spinning alike shall each repeat the impact on a ri
       false);
   for (const GrainState& g : pair) {
     // The pair is twice as soft (two elastic bodies): same impulses, another duration.
-    CHECK(std::abs(g.velocity.y) == doctest::Approx(std::abs(plane[0].velocity.y)).epsilon(0.002));
-    CHECK(g.rotation.z == doctest::Approx(plane[0].rotation.z).epsilon(0.002));
+    CHECK(std::abs(g.velocity.y) == approx(std::abs(plane[0].velocity.y)).epsilon(0.002));
+    CHECK(g.rotation.z == approx(plane[0].rotation.z).epsilon(0.002));
   }
 }
 
@@ -128,8 +130,8 @@ TEST_CASE("two equal spheres spinning against each other shall keep their spins"
   const auto pair = collide(
       k_aluminium,
       {sphere(k_radius + 1e-7, -k_speed, 5.0), sphere(-k_radius - 1e-7, k_speed, -5.0)}, false);
-  CHECK(pair[0].rotation.z == doctest::Approx(5.0).epsilon(1e-10));
-  CHECK(pair[1].rotation.z == doctest::Approx(-5.0).epsilon(1e-10));
+  CHECK(pair[0].rotation.z == approx(5.0).epsilon(1e-10));
+  CHECK(pair[1].rotation.z == approx(-5.0).epsilon(1e-10));
 }
 
 TEST_CASE("unequal spheres shall keep momentum and slide with the impulse ratio mu") {
@@ -148,5 +150,5 @@ TEST_CASE("unequal spheres shall keep momentum and slide with the impulse ratio 
   // Strict Coulomb takes the pushing part of the normal impulse: 1.5503 of (1 + e) = 1.5.
   const double normal = out[0].mass * (out[0].velocity.x + k_speed);
   const double tangential = out[0].mass * std::abs(out[0].velocity.y);
-  CHECK(tangential / (normal * 1.5503 / 1.5) == doctest::Approx(0.4).epsilon(0.01));
+  CHECK(tangential / (normal * 1.5503 / 1.5) == approx(0.4).epsilon(0.01));
 }

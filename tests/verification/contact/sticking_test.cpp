@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Impacts that stick: what the tangential and the rolling spring keep, against the laws' own
 // equations, at the default step and by the order of convergence.
+#include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 #include "verification/contact/stick_reference.hpp"
 
@@ -14,6 +15,7 @@
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -350,5 +352,5 @@ TEST_CASE("a grain that rocks on its springs shall neither be braked nor driven 
   const double early = mean_square(60.0 * period);
   mean_square(400.0 * period);
   const double late = mean_square(460.0 * period);
-  CHECK(std::sqrt(late / early) == doctest::Approx(1.0).epsilon(k_kept));
+  CHECK(std::sqrt(late / early) == approx(1.0).epsilon(k_kept));
 }

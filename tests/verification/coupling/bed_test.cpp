@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
@@ -102,7 +103,7 @@ TEST_CASE("the pressure drop of a bed shall be that of Ergun at any cell size, e
       World world(duct(cells, voidage));
       fill(world);
       run_held(world, k_steps_to_steady);
-      CHECK(pressure_drop(world) == doctest::Approx(expected).epsilon(k_rounding));
+      CHECK(pressure_drop(world) == test::approx(expected).epsilon(k_rounding));
       CHECK(world.coupling->report().moved_shares == 0);
       CHECK(world.coupling->report().largest_imbalance < 1e-12);
     }
@@ -120,7 +121,7 @@ TEST_CASE("faces inside a bed shall carry the Ergun gradient and the faces of it
         world.coupling->exchange().coefficient.component[2][f] * world.velocity.component[2][f] -
         world.coupling->exchange().source.component[2][f];
     const double part = k < 5 || k > 15 ? 0.0 : k == 5 || k == 15 ? 0.5 : 1.0;
-    CHECK(gradient == doctest::Approx(part * ergun_gradient(eps)).epsilon(k_rounding));
+    CHECK(gradient == test::approx(part * ergun_gradient(eps)).epsilon(k_rounding));
   }
 }
 
@@ -148,8 +149,8 @@ TEST_CASE("the grains of a bed shall carry the whole pressure drop, in the air a
       }
       const double eps = 1.0 - std::numbers::pi / 6.0 * std::pow(k_diameter / k_pitch, 3);
       CHECK(pressure_drop(world) ==
-            doctest::Approx(ergun_gradient(eps) * (k_top - bottom)).epsilon(k_rounding));
-      CHECK(force == doctest::Approx(pressure_drop(world) * k_width * k_width).epsilon(k_rounding));
+            test::approx(ergun_gradient(eps) * (k_top - bottom)).epsilon(k_rounding));
+      CHECK(force == test::approx(pressure_drop(world) * k_width * k_width).epsilon(k_rounding));
     }
   }
 }
@@ -174,7 +175,7 @@ TEST_CASE("a moving bed in a moving stream shall have the pressure drop of its s
     moving.grains.hold(k_step);
     moving.end_step(k_step);
   }
-  CHECK(pressure_drop(moving) == doctest::Approx(at_rest).epsilon(1e-9));
+  CHECK(pressure_drop(moving) == test::approx(at_rest).epsilon(1e-9));
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "two_way.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -51,7 +53,7 @@ TEST_CASE("a bed of coarse grains shall have the pressure drop of those they sta
     MESSAGE("1 for " << ratio * ratio * ratio << ": " << drop << " Pa, Ergun " << law << " Pa");
     // What the air wins by leaving the bed slower than it enters it is 0.22 % without coarse
     // grains.
-    CHECK(drop == doctest::Approx(law).epsilon(4e-3));
+    CHECK(drop == test::approx(law).epsilon(4e-3));
     CHECK(run.world.coupling->report().largest_imbalance < 1e-12);
   }
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
@@ -44,9 +45,9 @@ TEST_CASE("dust in a Couette layer shall settle and lag the air as tabulated") {
       move(world, {0, -9.81 * (1 - test::k_air / test::k_sand), 0});
       world.end_step(k_step);
     }
-    CHECK(world.grains.position[1] == doctest::Approx(row.y).epsilon(1e-3));
-    CHECK(world.grains.position[0] == doctest::Approx(row.x).epsilon(1e-3));
-    CHECK(world.grains.velocity[0] == doctest::Approx(row.speed).epsilon(1e-3));
+    CHECK(world.grains.position[1] == test::approx(row.y).epsilon(1e-3));
+    CHECK(world.grains.position[0] == test::approx(row.x).epsilon(1e-3));
+    CHECK(world.grains.velocity[0] == test::approx(row.speed).epsilon(1e-3));
   }
 }
 
@@ -118,8 +119,8 @@ TEST_CASE(
       const double speed = air / (air + test::k_sand * solids);
       CHECK(largest <= 1.0);
       CHECK(world.velocity.component[0][world.grid.index(1, 1, 1)] ==
-            doctest::Approx(speed).epsilon(1e-6));
-      CHECK(world.grains.velocity[0] == doctest::Approx(speed).epsilon(1e-6));
+            test::approx(speed).epsilon(1e-6));
+      CHECK(world.grains.velocity[0] == test::approx(speed).epsilon(1e-6));
     }
   }
 }
@@ -148,7 +149,7 @@ TEST_CASE("air pushed through held dust shall reach the speed of the balance") {
       const double rate = world.grains.action[3];
       const double mass = test::k_sand * solids;  // per volume
       const double drag = mass * rate * u / (1 - solids);
-      CHECK(drag == doctest::Approx(push).epsilon(1e-3));
+      CHECK(drag == test::approx(push).epsilon(1e-3));
     }
   }
 }

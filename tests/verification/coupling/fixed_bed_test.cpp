@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "two_way.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -96,8 +98,8 @@ TEST_CASE(
       const Found found = run_held(*run);
       MESSAGE(voidage << ", cells of " << 1e3 * k_height / cells << " mm: " << found.drop
                       << " Pa, Ergun " << expected << " Pa");
-      CHECK(found.drop == doctest::Approx(expected).epsilon(k_drop));
-      CHECK(found.weight == doctest::Approx(found.drop * k_width * k_width).epsilon(k_drop));
+      CHECK(found.drop == test::approx(expected).epsilon(k_drop));
+      CHECK(found.weight == test::approx(found.drop * k_width * k_width).epsilon(k_drop));
       CHECK(run->world.coupling->report().largest_imbalance < 1e-12);
     }
   }
@@ -120,10 +122,10 @@ TEST_CASE("V-BED-W: a bed on the floor shall have the law's pressure drop and ca
       // The Gaussian bed ends softly: its drop is another, and its grains carry it but for what
       // spreads across the bed's end into cells without grains.
       const bool is_sharp = voidage != "gaussian";
-      if (is_sharp)
-        CHECK(found.drop == doctest::Approx(expected_drop(0.0)).epsilon(k_drop_on_floor));
-      CHECK(found.weight == doctest::Approx(found.drop * k_width * k_width)
-                                .epsilon(is_sharp ? k_drop_on_floor : 0.02));
+      if (is_sharp) CHECK(found.drop == test::approx(expected_drop(0.0)).epsilon(k_drop_on_floor));
+      CHECK(
+          found.weight ==
+          test::approx(found.drop * k_width * k_width).epsilon(is_sharp ? k_drop_on_floor : 0.02));
     }
   }
 }
@@ -135,8 +137,8 @@ TEST_CASE(
     CAPTURE(set);
     const auto run = held_bed(8, "divided", set, k_bottom, true);
     const Found found = run_held(*run);
-    CHECK(found.drop == doctest::Approx(expected_drop()).epsilon(k_drop));
-    CHECK(found.weight == doctest::Approx(found.drop * k_width * k_width).epsilon(k_drop));
+    CHECK(found.drop == test::approx(expected_drop()).epsilon(k_drop));
+    CHECK(found.weight == test::approx(found.drop * k_width * k_width).epsilon(k_drop));
     CHECK(run->world.coupling->report().largest_imbalance < 1e-12);
   }
 }
@@ -149,8 +151,8 @@ TEST_CASE("the momentum sets shall agree on a fixed bed: pressure drop, and forc
       CAPTURE(cells);
       const auto run = held_bed(cells, "divided", set);
       const Found found = run_held(*run);
-      CHECK(found.drop == doctest::Approx(expected).epsilon(k_drop));
-      CHECK(found.weight == doctest::Approx(expected * k_width * k_width).epsilon(k_drop));
+      CHECK(found.drop == test::approx(expected).epsilon(k_drop));
+      CHECK(found.weight == test::approx(expected * k_width * k_width).epsilon(k_drop));
     }
   }
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
@@ -63,7 +64,7 @@ TEST_CASE("grains shall fall at the tabulated terminal velocities") {
     flight.world.grains.add({0, 0, 9}, {}, row.diameter);
     constexpr double k_long = 6.0;  // s, ten and more relaxation times
     flight.run(k_long, 1e-3, reduced_gravity(9.81, test::k_air, test::k_sand));
-    CHECK(-flight.world.grains.velocity[2] == doctest::Approx(row.speed).epsilon(1e-3));
+    CHECK(-flight.world.grains.velocity[2] == test::approx(row.speed).epsilon(1e-3));
   }
 }
 
@@ -86,7 +87,7 @@ TEST_CASE("V-TERM-1: a grain shall fall at the terminal velocity of each drag la
       // Stokes' drag alone lets 0.3 mm fall for 9 relaxation times of 0.74 s: e^-9 short.
       flight.run(is_fine ? 0.1 : 6.6, 1e-3, reduced_gravity(9.81, test::k_air, test::k_sand));
       CHECK(-flight.world.grains.velocity[2] ==
-            doctest::Approx(is_fine ? row.fine : row.coarse).epsilon(1e-3));
+            test::approx(is_fine ? row.fine : row.coarse).epsilon(1e-3));
     }
   }
 }
@@ -102,12 +103,12 @@ TEST_CASE("a grain in rising gas shall follow the known transient") {
   constexpr double k_tolerance = 1e-4;
   constexpr double k_interval = 2e-5;
   flight.run(0.01, k_interval, g);
-  CHECK(flight.world.grains.velocity[2] == doctest::Approx(-0.0125526).epsilon(k_tolerance));
+  CHECK(flight.world.grains.velocity[2] == test::approx(-0.0125526).epsilon(k_tolerance));
   flight.run(0.09, k_interval, g);
-  CHECK(flight.world.grains.velocity[2] == doctest::Approx(-0.0526313).epsilon(k_tolerance));
-  CHECK(flight.world.grains.position[2] == doctest::Approx(-3.61878e-3).epsilon(k_tolerance));
+  CHECK(flight.world.grains.velocity[2] == test::approx(-0.0526313).epsilon(k_tolerance));
+  CHECK(flight.world.grains.position[2] == test::approx(-3.61878e-3).epsilon(k_tolerance));
   flight.run(0.25, k_interval, g);
-  CHECK(flight.world.grains.velocity[2] == doctest::Approx(-0.0573925).epsilon(k_tolerance));
+  CHECK(flight.world.grains.velocity[2] == test::approx(-0.0573925).epsilon(k_tolerance));
 }
 
 TEST_CASE("Stokes drag shall be integrated exactly, however long the step") {
@@ -123,9 +124,9 @@ TEST_CASE("Stokes drag shall be integrated exactly, however long the step") {
     const double* p = flight.world.grains.position.data();
     const double* v = flight.world.grains.velocity.data();
     const double decay = std::exp(-time / tau);
-    CHECK(v[2] == doctest::Approx(-9.81 * tau * (1 - decay)).epsilon(k_exact));
-    CHECK(p[0] == doctest::Approx(2.0 * tau * (1 - decay)).epsilon(k_exact));
-    CHECK(p[2] == doctest::Approx(-9.81 * tau * (time - tau * (1 - decay))).epsilon(k_exact));
+    CHECK(v[2] == test::approx(-9.81 * tau * (1 - decay)).epsilon(k_exact));
+    CHECK(p[0] == test::approx(2.0 * tau * (1 - decay)).epsilon(k_exact));
+    CHECK(p[2] == test::approx(-9.81 * tau * (time - tau * (1 - decay))).epsilon(k_exact));
   }
 }
 
@@ -147,7 +148,7 @@ TEST_CASE("a fall with a constant drag coefficient shall be a hyperbolic tangent
     const double error = std::abs(flight.world.grains.velocity[2] / expected - 1);
     CHECK(error < 1e-3);
     // The coefficient is that of the middle of the interval: second order.
-    if (last > 0.0) CHECK(last / error == doctest::Approx(4.0).epsilon(0.1));
+    if (last > 0.0) CHECK(last / error == test::approx(4.0).epsilon(0.1));
     last = error;
   }
 }
@@ -273,7 +274,7 @@ TEST_CASE("drag on a grain that is held shall be that of the slip there is") {
   world.drag->evaluate({1, &reynolds, &void_fraction, &factor, nullptr});
   const double mass = test::k_sand * sdk::sphere_volume(1e-4);
   const double wanted = 3.0 * std::numbers::pi * test::k_air_viscosity * 1e-4 * factor / mass;
-  CHECK(rate == doctest::Approx(wanted).epsilon(1e-12));
+  CHECK(rate == test::approx(wanted).epsilon(1e-12));
 }
 
 TEST_CASE("grains thrown into still air shall fly as tabulated") {
@@ -297,7 +298,7 @@ TEST_CASE("grains thrown into still air shall fly as tabulated") {
       flight.advance(2e-4, {0, 0, -9.81});
     }
     const double part = (row.drop - last[1]) / (-p[2] - last[1]);
-    CHECK(last[0] + part * (p[0] - last[0]) == doctest::Approx(row.x).epsilon(2e-3));
+    CHECK(last[0] + part * (p[0] - last[0]) == test::approx(row.x).epsilon(2e-3));
   }
 }
 

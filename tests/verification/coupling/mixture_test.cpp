@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // V-BED-PSD: a bed of one size against a bed of the thesis's sand.
+#include "support/approx.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
@@ -129,14 +130,14 @@ TEST_CASE("V-BED-PSD: sand shall cost more than grains of its largest size, and 
   const double speed = 50.0 * k_per_l_min;
   const double sand = drop(k_sand_sizes, speed);
   const double one = drop(k_one_size, speed);
-  CHECK(sand == doctest::Approx(ergun(k_sand_sizes, speed) * k_height).epsilon(k_random));
-  CHECK(one == doctest::Approx(ergun(k_one_size, speed) * k_height).epsilon(k_random));
+  CHECK(sand == test::approx(ergun(k_sand_sizes, speed) * k_height).epsilon(k_random));
+  CHECK(one == test::approx(ergun(k_one_size, speed) * k_height).epsilon(k_random));
   MESSAGE("at 50 l/min over the weight: sand " << sand / weight << ", 0.6 mm " << one / weight);
   CHECK(one < 0.8 * weight);  // far from rising
   CHECK(sand > 0.9 * weight);
   const double ratio = fluidisation(k_one_size) / fluidisation(k_sand_sizes);
   MESSAGE("minimum fluidisation, one size over sand: " << ratio << ", predicted 1.35");
-  CHECK(ratio == doctest::Approx(1.35).epsilon(k_random));
+  CHECK(ratio == test::approx(1.35).epsilon(k_random));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluid/fluid_solver.hpp"
+#include "support/approx.hpp"
 #include "unit/coupling/world.hpp"
 
 #include <doctest/doctest.h>
@@ -203,7 +204,7 @@ TEST_CASE("momentum of air in sub-steps and uniform dust shall be conserved") {
     CHECK(drift.largest < k_conserved);
     const double grains = test::k_sand * load.solids;
     const double air = test::k_air * (1.0 - load.solids);
-    CHECK(drift.given_to_grains == doctest::Approx(grains / (grains + air)).epsilon(0.05));
+    CHECK(drift.given_to_grains == test::approx(grains / (grains + air)).epsilon(0.05));
     // The same where the grains move in the air of the step before while it is solved.
     Cloud overlapped(true);
     fill_regularly(overlapped.world, load.diameter, load.solids);
@@ -211,7 +212,7 @@ TEST_CASE("momentum of air in sub-steps and uniform dust shall be conserved") {
     // momentum there is; heavy dust of 5 um settles slowly after that.
     const Drift of_overlap = drift_of(overlapped, true, k_overlapped_steps);
     CHECK(of_overlap.largest < k_conserved * std::max(1.0, of_overlap.most_given));
-    CHECK(of_overlap.given_to_grains == doctest::Approx(grains / (grains + air)).epsilon(0.05));
+    CHECK(of_overlap.given_to_grains == test::approx(grains / (grains + air)).epsilon(0.05));
     // With the velocity at the end of the fluid step for what drag acted on, momentum is made or
     // lost: 0.14, 0.15, 0.0027 and 0.88 of all there is.
     Cloud unsettled;

@@ -3,6 +3,8 @@
 // (docs/decisions/0014_overlap_of_air_and_grains.md): which of its errors grow.
 #include "error_growth.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 
 namespace {
 
+using dust::test::approx;
 using dust::test::growth;
 using dust::test::Relaxation;
 using State = Eigen::RowVector4d;  // u, m, v, o
@@ -69,15 +72,14 @@ TEST_CASE("so is dust whose drag grows faster than its slip") {
 }
 
 TEST_CASE("dust that is shown the air at the end of the step is not") {
-  CHECK(largest_growth(2.0, 2, Shown::end_of_step) == doctest::Approx(1.02).epsilon(0.01));
+  CHECK(largest_growth(2.0, 2, Shown::end_of_step) == approx(1.02).epsilon(0.01));
   double most = 0.0;
   for (const double h : {1.0, 1.5, 2.0, 3.0, 4.0}) {
     most = std::max(most, largest_growth(h, 0, Shown::end_of_step));
   }
-  CHECK(most == doctest::Approx(1.12).epsilon(0.01));
+  CHECK(most == approx(1.12).epsilon(0.01));
 }
 
 TEST_CASE("22 kg of dust per kg of air that relaxes five times in the step ring") {
-  CHECK(growth(step_of(22.0, 5.0, 2.0, 5, Shown::mean_of_step)) ==
-        doctest::Approx(0.95).epsilon(0.01));
+  CHECK(growth(step_of(22.0, 5.0, 2.0, 5, Shown::mean_of_step)) == approx(0.95).epsilon(0.01));
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "two_way.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -56,7 +58,7 @@ double settling_speed(double ratio, bool is_one_way, const std::string& set,
 
 TEST_CASE("V-TERM-4: the error a grain makes by its own wake shall vanish with D/dx") {
   const double free = settling_speed(0.5, true, "I");
-  CHECK(free == doctest::Approx(0.155396).epsilon(2e-3));  // terminal_velocity.csv
+  CHECK(free == test::approx(0.155396).epsilon(2e-3));  // terminal_velocity.csv
   double last = 1.0;
   for (const double ratio : {0.5, 0.25, 0.1}) {
     const double speed = settling_speed(ratio, false, "I");
@@ -80,7 +82,7 @@ TEST_CASE("V-TERM-4: without its own disturbance a grain shall fall as if alone 
 TEST_CASE("the momentum sets shall agree on the terminal velocity of one sphere") {
   // One sphere in large cells: the void fraction is 1 to 0.06 %.
   const double first = settling_speed(0.1, false, "I");
-  CHECK(settling_speed(0.1, false, "III") == doctest::Approx(first).epsilon(2e-3));
+  CHECK(settling_speed(0.1, false, "III") == test::approx(first).epsilon(2e-3));
 }
 
 TEST_CASE("V-DKT: a sphere in the wake of another shall sink faster, but only with feedback") {
@@ -109,7 +111,7 @@ TEST_CASE("V-DKT: a sphere in the wake of another shall sink faster, but only wi
     MESSAGE((is_one_way ? "one-way" : "two-way") << ": leader " << leader << ", trailer " << trailer
                                                  << " m/s, nearer by " << closer << " m");
     if (is_one_way) {
-      CHECK(trailer == doctest::Approx(leader).epsilon(1e-6));
+      CHECK(trailer == test::approx(leader).epsilon(1e-6));
       CHECK(std::abs(closer) < 1e-8);
     } else {
       CHECK(trailer > leader);
@@ -186,7 +188,7 @@ TEST_CASE("V-HIND: a suspension shall settle as its drag law has it, from 1 to 4
       CAPTURE(std::string(law));
       const double found =
           hindered(law, row.solids, c.diameter, c.density, c.fluid, c.viscosity, c.terminal);
-      CHECK(found == doctest::Approx(expected).epsilon(k_balance));
+      CHECK(found == test::approx(expected).epsilon(k_balance));
     }
   }
 }
@@ -238,8 +240,8 @@ TEST_CASE("V-SET-A: a grain shall fall from air into water, through the step of 
                     << fall.entry_time << " s; sinks at " << fall.sinking
                     << " m/s; at the bottom after " << fall.bottom_time << " s");
     // caseA_air_to_water_fall.csv: 0.539 m/s at 0.0555 s, of one sphere; steps of 1 ms.
-    CHECK(fall.entry_speed == doctest::Approx(0.539).epsilon(0.02));
-    CHECK(fall.entry_time == doctest::Approx(0.0555).epsilon(0.03));
+    CHECK(fall.entry_speed == test::approx(0.539).epsilon(0.02));
+    CHECK(fall.entry_time == test::approx(0.0555).epsilon(0.03));
     // One sphere sinks at 0.155 m/s and is down after 0.207 s.
     CHECK(fall.sinking > 0.150);
     CHECK(fall.sinking < 0.165);
@@ -255,7 +257,7 @@ TEST_CASE("V-SET-A: what holds a grain back in large cells shall be its own dist
   const Fall felt = fall_into_water(2e-3, false);
   MESSAGE("D/dx 0.5: sinks at " << alone.sinking << " m/s, with its own disturbance felt at "
                                 << felt.sinking << " m/s");
-  CHECK(alone.sinking == doctest::Approx(0.155).epsilon(0.01));
+  CHECK(alone.sinking == test::approx(0.155).epsilon(0.01));
   // Slower than any law of one sphere and outside the band.
   CHECK(felt.sinking < 0.150);
   CHECK(felt.bottom_time > 0.22);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The energy account of the grains against closed forms, and how well it closes.
 #include "dust/sdk/random.hpp"
+#include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 
 #include <doctest/doctest.h>
@@ -13,6 +14,7 @@
 using dust::particles::EnergyBalance;
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -81,9 +83,9 @@ TEST_CASE("a bounce shall lose (1 - e^2) of its energy in the normal direction")
     const double before = 0.5 * k_mass * k_speed * k_speed;
     const EnergyBalance b = a.until(5e-4);
     REQUIRE(a.now().velocity.z > 0.0);
-    CHECK(b.entered == doctest::Approx(before).epsilon(1e-12));
-    CHECK(b.lost_normal / before ==
-          doctest::Approx(1.0 - restitution * restitution).epsilon(0.005));
+    CHECK(b.entered == approx(before).epsilon(1e-12));
+    // Of the energy before: what the step of the explicit damper makes of e = 0.5.
+    CHECK(std::abs(b.lost_normal / before - (1.0 - restitution * restitution)) < 0.006);
     CHECK(b.elastic_normal == 0.0);
     CHECK(std::abs(b.lost_friction) < 1e-12 * before);
     CHECK(std::abs(b.relative_error()) < k_closure);
@@ -101,7 +103,7 @@ TEST_CASE("what a contact stores shall come back") {
     a.stepper->step();
     largest = std::max(largest, a.dem->energy().elastic_normal);
   }
-  CHECK(largest == doctest::Approx(before).epsilon(0.01));
+  CHECK(largest == approx(before).epsilon(0.01));
 }
 
 TEST_CASE("a grain that slides until it rolls shall lose two sevenths of its energy to friction") {
@@ -112,8 +114,8 @@ TEST_CASE("a grain that slides until it rolls shall lose two sevenths of its ene
   // It rolls from 2 v / (7 mu g) on.
   const double before = 0.5 * k_mass * k_speed * k_speed;
   const EnergyBalance b = a.until(1.3 * 2.0 * k_speed / (7.0 * k_friction * k_g));
-  CHECK(b.lost_friction / before == doctest::Approx(2.0 / 7.0).epsilon(0.002));
-  CHECK(b.rotation / b.translation == doctest::Approx(0.4).epsilon(0.002));
+  CHECK(b.lost_friction / before == approx(2.0 / 7.0).epsilon(0.002));
+  CHECK(b.rotation / b.translation == approx(0.4).epsilon(0.002));
   CHECK(std::abs(b.relative_error()) < k_closure);
 }
 
@@ -125,7 +127,7 @@ TEST_CASE("rolling friction shall take mu_r m g times the way") {
   const EnergyBalance b = a.until(0.05);
   const double way = a.now().position.x;
   REQUIRE(a.now().velocity.x > 0.5 * k_speed);
-  CHECK(b.lost_rolling == doctest::Approx(k_mu_r * k_mass * k_g * way).epsilon(0.005));
+  CHECK(b.lost_rolling == approx(k_mu_r * k_mass * k_g * way).epsilon(0.005));
   CHECK(std::abs(b.relative_error()) < k_closure);
 }
 
@@ -146,9 +148,9 @@ TEST_CASE("a belt shall do two sevenths of m u^2 on a grain that it picks up") {
   a.begin({at({0, 0, 0.1 + k_radius - resting_overlap()})});
   const EnergyBalance b = a.until(1.3 * 2.0 * k_belt / (7.0 * 0.3 * k_g));
   const double unit = k_mass * k_belt * k_belt / 7.0;
-  CHECK(b.walls / unit == doctest::Approx(2.0).epsilon(0.005));
-  CHECK(b.lost_friction / unit == doctest::Approx(1.0).epsilon(0.005));
-  CHECK((b.translation + b.rotation) / unit == doctest::Approx(1.0).epsilon(0.005));
+  CHECK(b.walls / unit == approx(2.0).epsilon(0.005));
+  CHECK(b.lost_friction / unit == approx(1.0).epsilon(0.005));
+  CHECK((b.translation + b.rotation) / unit == approx(1.0).epsilon(0.005));
   CHECK(std::abs(b.relative_error()) < k_closure);
 }
 
@@ -165,9 +167,8 @@ TEST_CASE("drag shall take from a falling grain what gravity gives and its speed
   const double time = a.stepper->time() - a.dem->coarse_step();
   const double speed = k_g / k_rate * (1.0 - std::exp(-k_rate * time));
   const double way = k_g / k_rate * time - speed / k_rate;
-  CHECK(b.gravity == doctest::Approx(k_mass * k_g * way).epsilon(1e-3));
-  CHECK(b.fluid ==
-        doctest::Approx(0.5 * k_mass * speed * speed - k_mass * k_g * way).epsilon(1e-3));
+  CHECK(b.gravity == approx(k_mass * k_g * way).epsilon(1e-3));
+  CHECK(b.fluid == approx(0.5 * k_mass * speed * speed - k_mass * k_g * way).epsilon(1e-3));
   CHECK(std::abs(b.relative_error()) < k_closure);
 }
 
@@ -241,12 +242,12 @@ TEST_CASE("a run that is saved and loaded shall go on with its account") {
   const EnergyBalance then = whole.dem->energy();
   Bed second(1.0);
   second.dem->load(archive);
-  CHECK(second.dem->energy().lost_normal == doctest::Approx(then.lost_normal).epsilon(1e-14));
-  CHECK(second.dem->energy().translation == doctest::Approx(then.translation).epsilon(1e-14));
+  CHECK(second.dem->energy().lost_normal == approx(then.lost_normal).epsilon(1e-14));
+  CHECK(second.dem->energy().translation == approx(then.translation).epsilon(1e-14));
   Stepper a(*whole.dem);
   Stepper b(*second.dem);
   for (int n = 0; n < 500; ++n) a.step(), b.step();
   CHECK(second.dem->energy().lost_friction ==
-        doctest::Approx(whole.dem->energy().lost_friction).epsilon(1e-12));
+        approx(whole.dem->energy().lost_friction).epsilon(1e-12));
   CHECK(std::abs(second.dem->energy().relative_error()) < k_closure);
 }

@@ -2,6 +2,7 @@
 #include "fluid_case.hpp"
 
 #include "dust/sdk/error.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -62,7 +63,7 @@ double bed_drop_ratio(double inertia) {
   for (int step = 0; step < 300; ++step) c.advance(2e-3);
   for (int k = 1; k < n; ++k) {
     const double face_eps = 0.5 * (cell_eps(k - 1) + cell_eps(k));
-    CHECK(c.u(2, 0, 0, k) == doctest::Approx(inlet / face_eps).epsilon(k_round_off));
+    CHECK(c.u(2, 0, 0, k) == test::approx(inlet / face_eps).epsilon(k_round_off));
   }
   return (c.p(0, 0, 1) - c.p(0, 0, n - 2)) / expected;
 }
@@ -76,8 +77,8 @@ TEST_CASE("V-POROUS-1D: plug flow through a bed shall have u = U / eps and Ergun
   const double with_inertia = bed_drop_ratio(1.2139);
   MESSAGE("pressure drop over Ergun's: " << friction - 1 << " off without, " << with_inertia - 1
                                          << " off with inertia");
-  CHECK(friction == doctest::Approx(1.0).epsilon(1e-7));
-  CHECK(with_inertia == doctest::Approx(1.0).epsilon(1e-3));
+  CHECK(friction == test::approx(1.0).epsilon(1e-7));
+  CHECK(with_inertia == test::approx(1.0).epsilon(1e-3));
 }
 
 TEST_CASE("V-DIV: continuity shall hold with a void fraction that changes in place and time") {

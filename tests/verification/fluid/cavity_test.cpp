@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluid_case.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 #include <iterator>
 
@@ -60,5 +62,5 @@ TEST_CASE("V-GHIA-100: the driven cavity at Re 100 shall meet the published cent
                  << c.solver->report().sub_steps << " sub-steps");
   CHECK(u_rms < k_rms);
   CHECK(v_rms < k_rms);
-  CHECK(u_at(0.5) == doctest::Approx(-0.20581).epsilon(0.02));
+  CHECK(u_at(0.5) == test::approx(-0.20581).epsilon(0.02));
 }

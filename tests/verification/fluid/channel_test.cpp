@@ -2,6 +2,8 @@
 #include "fluid_case.hpp"
 #include "test_bodies.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 using namespace dust;
@@ -60,8 +62,8 @@ TEST_CASE("V-POIS: flow between plates shall reach the parabola, second order") 
     last = e;
     if (n != 64) continue;
     MESSAGE("centre " << p.centre << " m/s, mean " << p.mean << " m/s");
-    CHECK(p.centre == doctest::Approx(15.0).epsilon(1e-3));  // (h / H)^2 = 2.4e-4
-    CHECK(p.mean == doctest::Approx(10.0).epsilon(1e-3));
+    CHECK(p.centre == test::approx(15.0).epsilon(1e-3));  // (h / H)^2 = 2.4e-4
+    CHECK(p.mean == test::approx(10.0).epsilon(1e-3));
   }
 }
 
@@ -76,7 +78,7 @@ TEST_CASE("V-COUE: flow between a resting and a moving plate with pressure gradi
                         << ", order " << order(coarse, fine.largest_error) << ", centre "
                         << fine.centre << " m/s");
     // 7.5 m/s more at 3 Pa/m; (h / H)^2 = 1e-3 of it is what 32 cells leave.
-    CHECK(fine.centre == doctest::Approx(5.0 + 7.5 * gradient / 3.0).epsilon(2e-3));
+    CHECK(fine.centre == test::approx(5.0 + 7.5 * gradient / 3.0).epsilon(2e-3));
     if (gradient == 0.0) {
       CHECK(fine.largest_error < 1e-4);  // a straight line is exact; the rest is of the start
     } else {
@@ -146,7 +148,7 @@ TEST_CASE("total pressure shall drive a frictionless channel to sqrt(2 X / rho),
     c.solver->set_velocity([&](Vec3) { return Vec3{start, 0, 0}; });
     c.advance_to(3.0, 5e-3);
     MESSAGE("u = " << c.u(0, 10, 0, 2));
-    CHECK(c.u(0, 10, 0, 2) == doctest::Approx(1.0).epsilon(1e-6));
-    CHECK(c.p(10, 0, 2) == doctest::Approx(0.0).epsilon(1e-6));
+    CHECK(c.u(0, 10, 0, 2) == test::approx(1.0).epsilon(1e-6));
+    CHECK(std::abs(c.p(10, 0, 2)) < 1e-6 * 0.6);
   }
 }

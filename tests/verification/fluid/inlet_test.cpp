@@ -3,6 +3,7 @@
 #include "fluid_case.hpp"
 
 #include "dust/sdk/error.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -102,8 +103,8 @@ TEST_CASE("a given volume or mass flow shall pass, whatever grains lie on the si
       d.start();
       d.fill_lowest(1.0 - solids);
       d.advance(1e-3, 3);
-      CHECK(d.flow(0) == doctest::Approx(flow).epsilon(k_exact));
-      CHECK(d.flow(d.cells[2]) == doctest::Approx(flow).epsilon(k_exact));
+      CHECK(d.flow(0) == test::approx(flow).epsilon(k_exact));
+      CHECK(d.flow(d.cells[2]) == test::approx(flow).epsilon(k_exact));
     }
   }
 }
@@ -120,9 +121,8 @@ TEST_CASE("a superficial speed shall be that over the void fraction, an intersti
     d.start();
     d.fill_lowest(eps);
     d.advance(1e-3, 3);
-    CHECK(d.u(1, 1, 0) == doctest::Approx(is_superficial ? 0.2 / eps : 0.2).epsilon(k_exact));
-    CHECK(d.u(1, 1, d.cells[2]) ==
-          doctest::Approx(is_superficial ? 0.2 : 0.2 * eps).epsilon(k_exact));
+    CHECK(d.u(1, 1, 0) == test::approx(is_superficial ? 0.2 / eps : 0.2).epsilon(k_exact));
+    CHECK(d.u(1, 1, d.cells[2]) == test::approx(is_superficial ? 0.2 : 0.2 * eps).epsilon(k_exact));
   }
 }
 
@@ -140,11 +140,11 @@ TEST_CASE("a parabolic inlet shall have its mean speed at any number of cells") 
       d.top = side_model("static_pressure", k_open);
       d.start();
       d.advance(1e-3);
-      CHECK(d.flow(0) == doctest::Approx(0.3 * d.max.x * d.max.y).epsilon(1e-12));
+      CHECK(d.flow(0) == test::approx(0.3 * d.max.x * d.max.y).epsilon(1e-12));
       if (is_both) continue;
       // Mean of 6 s (1 - s) over the first cell: (3 s^2 - 2 s^3) / s at s = 1 / n.
       const double s = 1.0 / n;
-      CHECK(d.u(0, 1, 0) == doctest::Approx(0.3 * (3 * s - 2 * s * s)).epsilon(1e-12));
+      CHECK(d.u(0, 1, 0) == test::approx(0.3 * (3 * s - 2 * s * s)).epsilon(1e-12));
     }
   }
 }
@@ -164,7 +164,7 @@ TEST_CASE("a table over the side and factors over time shall be followed in stra
   d.advance(1e-3, 4);  // 4 ms: factor 0.6
   for (int i = 0; i < 4; ++i) {
     const double x = (i + 0.5) * 0.005;
-    CHECK(d.u(i, 0, 0) == doctest::Approx(0.5 * 0.6 * 100 * x).epsilon(1e-12));
+    CHECK(d.u(i, 0, 0) == test::approx(0.5 * 0.6 * 100 * x).epsilon(1e-12));
   }
   d.advance(1e-3, 8);
   CHECK(std::abs(d.flow(0)) < 1e-15);
@@ -181,13 +181,13 @@ TEST_CASE("a hood shall suck its flow through an opening that ends within cells"
         {{"flow", flow}, {"min", Vec3{0.006, 0.001, 0.04}}, {"max", Vec3{0.013, 0.01, 0.04}}});
     d.start();
     d.advance(1e-3, 3);
-    CHECK(d.flow(n) == doctest::Approx(flow).epsilon(k_exact));
-    CHECK(d.flow(0) == doctest::Approx(flow).epsilon(k_exact));
+    CHECK(d.flow(n) == test::approx(flow).epsilon(k_exact));
+    CHECK(d.flow(0) == test::approx(flow).epsilon(k_exact));
     CHECK(d.u(0, 0, n) == 0.0);  // ends before 6 mm
     // 6 to 10 mm is 0.8 of the second of 4 cells; the fourth of 7 lies wholly in the opening.
     const double covered = n == 4 ? 0.8 : 1.0;
     CHECK(d.u(n == 4 ? 1 : 3, 1, n) ==
-          doctest::Approx(covered * flow / (0.007 * 0.009)).epsilon(1e-9));
+          test::approx(covered * flow / (0.007 * 0.009)).epsilon(1e-9));
   }
 }
 
@@ -198,7 +198,7 @@ TEST_CASE("static pressures shall accelerate a slug of air as Newton has it") {
   d.top = side_model("static_pressure", k_open);
   d.start();
   d.advance(1e-3, 20);
-  CHECK(d.u(2, 1, 4) == doctest::Approx(3e-3 * 0.02 / (1.2 * 0.04)).epsilon(1e-5));
+  CHECK(d.u(2, 1, 4) == test::approx(3e-3 * 0.02 / (1.2 * 0.04)).epsilon(1e-5));
 }
 
 TEST_CASE("sides that contradict themselves shall be refused with the reason") {

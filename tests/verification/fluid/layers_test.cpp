@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluid_case.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 using namespace dust;
@@ -48,7 +50,7 @@ TEST_CASE("two layers between plates shall share the shear stress, along any axi
       at[static_cast<std::size_t>(axis)] = n;
       const double s = (n + 0.5) / 3.0;  // in layers
       const double expected = s < 1.0 ? between * s : between + (1.0 - between) * (s - 1.0);
-      CHECK(c.u(along, at[0], at[1], at[2]) == doctest::Approx(plate * expected).epsilon(1e-6));
+      CHECK(c.u(along, at[0], at[1], at[2]) == test::approx(plate * expected).epsilon(1e-6));
     }
   }
 }
@@ -61,7 +63,7 @@ TEST_CASE("a pressure shall accelerate two slugs in a row by the sum of their ma
     c.start();
     for (int n = 0; n < 10; ++n) c.advance(1e-3);
     const double expected = 5.0 * 0.01 / (0.01 * (k_air + k_water));
-    CHECK(c.u(axis, 3, 3, 3) == doctest::Approx(expected).epsilon(1e-7));
+    CHECK(c.u(axis, 3, 3, 3) == test::approx(expected).epsilon(1e-7));
   }
 }
 
@@ -85,5 +87,5 @@ TEST_CASE("a region of the same fluid shall change nothing but rounding") {
     for (int n = 0; n < 5; ++n) c.advance(1e-3);
     return c.u(0, 3, 4, 5) + c.u(1, 2, 2, 6) + c.u(2, 5, 1, 3);
   };
-  CHECK(run(true) == doctest::Approx(run(false)).epsilon(1e-9));
+  CHECK(run(true) == test::approx(run(false)).epsilon(1e-9));
 }

@@ -2,6 +2,7 @@
 // Bodies that move through the grid: what they shove is known.
 #include "dust/sdk/error.hpp"
 #include "fluid_case.hpp"
+#include "support/approx.hpp"
 #include "test_bodies.hpp"
 
 #include <doctest/doctest.h>
@@ -147,7 +148,7 @@ TEST_CASE("a piston that is speeded up shall feel the mass of the fluid before i
   c.advance_to(0.02, 1e-3);
   // dp/dz = -rho a between the piston and the open end, where the pressure is 0.
   const double at = c.grid.centre(0, 0, 25).z;
-  CHECK(c.p(1, 0, 25) == doctest::Approx(1.2 * a * (0.04 - at)).epsilon(1e-3));
+  CHECK(c.p(1, 0, 25) == test::approx(1.2 * a * (0.04 - at)).epsilon(1e-3));
 }
 
 TEST_CASE("what moving bodies take from the fluid shall leave through the sides, to rounding") {
@@ -170,7 +171,7 @@ TEST_CASE("what moving bodies take from the fluid shall leave through the sides,
   for (int n = 0; n < 60; ++n) {
     c.advance(step);
     const double now = open_volume(c);
-    CHECK(flow_z(c, 24) * step == doctest::Approx(volume - now).epsilon(1e-6).scale(1e-9));
+    CHECK(flow_z(c, 24) * step == test::approx(volume - now).epsilon(1e-6).scale(1e-9));
     CHECK(c.solver->report().divergence < 1e-4);  // of about 400 1/s that the body makes
     volume = now;
   }

@@ -2,6 +2,7 @@
 // Openings in bodies that suck a given flow.
 #include "dust/sdk/error.hpp"
 #include "fluid_case.hpp"
+#include "support/approx.hpp"
 #include "test_bodies.hpp"
 
 #include <doctest/doctest.h>
@@ -51,7 +52,7 @@ TEST_CASE("an opening in a body shall suck exactly its flow, at any cell size an
       for (int k = 0; k < 5; ++k) c.advance(1e-3);
       CAPTURE(n);
       CAPTURE(normal.x);
-      CHECK(inflow(c) == doctest::Approx(flow).epsilon(k_exact));
+      CHECK(inflow(c) == test::approx(flow).epsilon(k_exact));
     }
   }
 }
@@ -64,11 +65,11 @@ TEST_CASE("the flow into a flat opening shall be uniform and follow its factors 
       scenario::SuctionSpec{flow, {0.03, 0.01, 0.03}, {0.06, 0.04, 0.03}, {0.0, 0.01}, {1.0, 0.0}};
   c.start();
   c.advance(4e-3);
-  CHECK(inflow(c) == doctest::Approx(0.6 * flow).epsilon(k_exact));
+  CHECK(inflow(c) == test::approx(0.6 * flow).epsilon(k_exact));
   // The face above the surface's cell: what goes through it and its neighbours ends in the hood.
   const double mean = 0.6 * flow / (0.03 * 0.03);
   CHECK(c.solver->velocity().component[2][c.grid.index(8, 5, 6)] ==
-        doctest::Approx(-mean).epsilon(1e-6));  // the surface itself
+        test::approx(-mean).epsilon(1e-6));  // the surface itself
   c.advance(8e-3);
   CHECK(std::abs(inflow(c)) < flow * k_exact);
 }
@@ -98,7 +99,7 @@ TEST_CASE("far from a small opening the flow shall be that of a point sink") {
   MESSAGE("at " << r << " m: " << mean << " m/s, point sink "
                 << -flow / (2 * std::numbers::pi * r * r));
   // The domain's sides hold p = 0 at 60 mm, the opening is 5 mm wide: a few per cent each.
-  CHECK(mean == doctest::Approx(-flow / (2 * std::numbers::pi * r * r)).epsilon(0.1));
+  CHECK(mean == test::approx(-flow / (2 * std::numbers::pi * r * r)).epsilon(0.1));
 }
 
 TEST_CASE("an opening that meets no fluid, or one in a closed room, shall be refused") {

@@ -3,6 +3,8 @@
 #include "fluid_case.hpp"
 #include "test_bodies.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 using namespace dust;
@@ -109,7 +111,7 @@ TEST_CASE("a thin plate across a duct shall hold a pressure difference without a
           CAPTURE(place);
           CAPTURE(tilt.x);
           CHECK(largest_flow(c, axis) < 1e-9);
-          CHECK(c.p(1, 1, 1) == doctest::Approx(0.1).epsilon(1e-6));
+          CHECK(c.p(1, 1, 1) == test::approx(0.1).epsilon(1e-6));
           CHECK(std::abs(c.p(9, 8, 10)) < 1e-7);
         }
       }
@@ -154,7 +156,7 @@ TEST_CASE("fluid shall stick to both faces of a thin plate where these really ar
       const double exact = z < place ? -z / (place - 1e-4) : (0.02 - z) / (0.02 - place - 1e-4);
       CAPTURE(place);
       CAPTURE(z);
-      CHECK(c.u(0, 0, 0, k) == doctest::Approx(exact).epsilon(1e-3));
+      CHECK(c.u(0, 0, 0, k) == test::approx(exact).epsilon(1e-3));
     }
   }
 }
@@ -183,7 +185,7 @@ TEST_CASE("fluid shall go round the end of a thin plate") {
     (i < 9 ? behind : beside) += c.u(2, i, 0, 10);
     out += c.u(2, i, 0, 20);
   }
-  CHECK(out == doctest::Approx(2.0).epsilon(1e-6));
+  CHECK(out == test::approx(2.0).epsilon(1e-6));
   CHECK(beside > 1.8);
   CHECK(std::abs(behind) < 0.2);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluid_case.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 #include <numbers>
 
@@ -78,7 +80,7 @@ TEST_CASE("V-TG: the Taylor-Green vortex shall decay as exp(-2 nu t), its energy
     const double kept = std::pow(2.0 * speed, 2);  // the rms of sin cos is 1/2
     MESSAGE("energy kept " << kept << ", exp(-4 nu t) = " << std::exp(-0.2));
     // The velocity's error, 1e-4, twice.
-    CHECK(kept == doctest::Approx(std::exp(-0.2)).epsilon(1e-3));
+    CHECK(kept == test::approx(std::exp(-0.2)).epsilon(1e-3));
   }
 }
 

@@ -2,6 +2,8 @@
 // A grain that stands for smaller ones, beside one of these.
 #include "still.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -53,8 +55,8 @@ TEST_CASE("a coarse grain shall fly as those it stands for, in air and with a li
     for (std::size_t d = 0; d < 3; ++d) {
       CAPTURE(d);
       CHECK(std::abs(grains.velocity[d] - 0.1) > 1e-3);  // it has been pushed about
-      CHECK(grains.velocity[d] == doctest::Approx(grains.velocity[4 + d]).epsilon(1e-10));
-      CHECK(grains.position[d] == doctest::Approx(grains.position[4 + d]).epsilon(1e-10));
+      CHECK(grains.velocity[d] == test::approx(grains.velocity[4 + d]).epsilon(1e-10));
+      CHECK(grains.position[d] == test::approx(grains.position[4 + d]).epsilon(1e-10));
     }
   }
 }

@@ -2,6 +2,8 @@
 // Forces that momentum sets I and II contain: named or not, grains feel them once.
 #include "still.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <string>
@@ -44,8 +46,8 @@ sdk::Vec3 force_at_rest(const std::vector<Still::Force>& names, bool has_stress)
 
 TEST_CASE("V-INV-10: Archimedes shall give the displaced weight, gravity being a vector") {
   const sdk::Vec3 lift = force_at_rest({{"archimedes"}}, false);
-  CHECK(lift.x == doctest::Approx(-998.2 * k_volume * 1.0).epsilon(1e-10));
-  CHECK(lift.z == doctest::Approx(998.2 * k_volume * 9.81).epsilon(1e-10));
+  CHECK(lift.x == test::approx(-998.2 * k_volume * 1.0).epsilon(1e-10));
+  CHECK(lift.z == test::approx(998.2 * k_volume * 9.81).epsilon(1e-10));
   // The whole pressure of a fluid at rest does the same; without a model the weight is reduced.
   const sdk::Vec3 whole = force_at_rest({{"pressure_gradient", {{"hydrostatic", true}}}}, false);
   CHECK(norm(whole - lift) < 1e-10 * norm(lift));
@@ -64,7 +66,7 @@ TEST_CASE("pressure and viscous stress shall act once, whoever gives them") {
   }
   // The whole pressure has the weight of the fluid in it.
   const sdk::Vec3 whole = force_at_rest({{"pressure_gradient", {{"hydrostatic", true}}}}, true);
-  CHECK(whole.z == doctest::Approx((43.0 + 998.2 * 9.81) * k_volume).epsilon(1e-10));
+  CHECK(whole.z == test::approx((43.0 + 998.2 * 9.81) * k_volume).epsilon(1e-10));
 }
 
 TEST_CASE("a grain shall fall alike whether its weight is reduced or Archimedes lifts it") {
@@ -76,7 +78,7 @@ TEST_CASE("a grain shall fall alike whether its weight is reduced or Archimedes 
   };
   const double reduced = fall({});
   CHECK(reduced < -0.02);
-  CHECK(fall({{"archimedes"}}) == doctest::Approx(reduced).epsilon(1e-10));
+  CHECK(fall({{"archimedes"}}) == test::approx(reduced).epsilon(1e-10));
 }
 
 TEST_CASE("in set III a force on grain and fluid shall be divided by the void fraction") {
@@ -95,7 +97,7 @@ TEST_CASE("in set III a force on grain and fluid shall be divided by the void fr
     still.refresh(1e-4);
     const double lift = 3.14159265358979 / 8.0 * 1e-9 * 998.2 * 2.0;
     const double stress = set == "I" ? 43.0 * k_volume : 0.0;
-    CHECK(still.force().z == doctest::Approx(lift + stress).epsilon(1e-9));
+    CHECK(still.force().z == test::approx(lift + stress).epsilon(1e-9));
   }
 }
 

@@ -3,6 +3,8 @@
 // motion.
 #include "still.hpp"
 
+#include "support/approx.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -85,8 +87,8 @@ TEST_CASE("a sphere shall approach a floor as lubrication lets it") {
     const Motion got = approach(k_start, time, 2e-4);
     MESSAGE(time << " s: gap " << got.gap / k_radius << " R, expected " << expected.gap / k_radius);
     // First order in the interval: 2e-4 s beside the 0.01 s in which the resistance changes.
-    CHECK(got.gap == doctest::Approx(expected.gap).epsilon(0.02));
-    CHECK(got.speed == doctest::Approx(expected.speed).epsilon(0.02));
+    CHECK(got.gap == test::approx(expected.gap).epsilon(0.02));
+    CHECK(got.speed == test::approx(expected.speed).epsilon(0.02));
     CHECK(got.gap > 0.0);
     if (last > 0.0) CHECK(got.gap < last);
     last = got.gap;
@@ -109,7 +111,7 @@ TEST_CASE("a stiff film shall be stable and keep the balance with the weight") {
   const double weight = (k_density - k_oil) * sdk::sphere_volume(2.0 * k_radius) * k_g;
   const double resistance =
       6.0 * std::numbers::pi * k_viscosity * k_radius * (1.0 + 2.007 / 0.002006 - 1.125);
-  CHECK(-still.world.grains.velocity[2] == doctest::Approx(weight / resistance).epsilon(1e-3));
+  CHECK(-still.world.grains.velocity[2] == test::approx(weight / resistance).epsilon(1e-3));
 }
 
 TEST_CASE("a film shall drag a sphere along with a wall that comes nearer, and only then") {
@@ -119,7 +121,7 @@ TEST_CASE("a film shall drag a sphere along with a wall that comes nearer, and o
   still.refresh(1e-4);
   const double drag = test::stokes_drag(k_viscosity, 2.0 * k_radius);
   // Sliding along the wall meets the plain drag; the film acts along the normal.
-  CHECK(still.force().x == doctest::Approx(-0.3 * drag).epsilon(1e-9));
+  CHECK(still.force().x == test::approx(-0.3 * drag).epsilon(1e-9));
   CHECK(std::abs(still.force().z) < 1e-12);
 }
 

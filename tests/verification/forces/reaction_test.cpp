@@ -3,6 +3,7 @@
 #include "still.hpp"
 
 #include "fluid/fluid_solver.hpp"
+#include "support/approx.hpp"
 
 #include <doctest/doctest.h>
 
@@ -172,7 +173,7 @@ TEST_CASE("the virtual mass of grains larger than a cell shall be stable and kee
   // Long after the start both move with the liquid, at the speed of the momentum they all share.
   for (std::size_t g = 0; g < cloud.world.grains.count(); ++g) {
     CHECK(cloud.world.grains.velocity[4 * g] ==
-          doctest::Approx(without.world.grains.velocity[4 * g]).epsilon(0.1));
+          test::approx(without.world.grains.velocity[4 * g]).epsilon(0.1));
   }
   CHECK(cloud.liquid->report().largest_speed < 0.1);
 }

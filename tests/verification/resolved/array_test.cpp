@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "unit/resolved/resolved_box.hpp"
 
 #include <doctest/doctest.h>
@@ -20,7 +21,7 @@ TEST_CASE(
     const int cells = 2 * static_cast<int>(std::lround(8.0 * edge));
     const double drag = array_drag(cells, known.solids);
     MESSAGE(known.solids << ": " << drag << " of " << known.drag);
-    CHECK(drag == doctest::Approx(known.drag).epsilon(0.03));
+    CHECK(drag == test::approx(known.drag).epsilon(0.03));
   }
 }
 

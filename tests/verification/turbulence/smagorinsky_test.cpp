@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The eddy viscosity of known flows, and what its stress does to momentum and energy.
 #include "contract/plugin_library.hpp"
+#include "support/approx.hpp"
 #include "verification/fluid/fluid_case.hpp"
 
 #include <doctest/doctest.h>
@@ -56,7 +57,7 @@ TEST_CASE("plane shear shall have the eddy viscosity of the formula, less near t
     CAPTURE(k);
     // The stress has acted for 1e-7 s on cells that it changes within 1e-3 s.
     CHECK((*c.solver->eddy_viscosity())[static_cast<std::size_t>(c.grid.index(3, 4, k))] ==
-          doctest::Approx(expected).epsilon(1e-3));
+          test::approx(expected).epsilon(1e-3));
   }
 }
 
@@ -124,7 +125,7 @@ TEST_CASE("the eddies shall take the energy of the formula and no momentum") {
   constexpr double k_step = 2e-6;
   constexpr int k_steps = 5;
   for (int n = 0; n < k_steps; ++n) wave.c.advance(k_step);
-  CHECK(wave.momentum() == doctest::Approx(momentum).epsilon(1e-12));
+  CHECK(wave.momentum() == test::approx(momentum).epsilon(1e-12));
   // -dE/dt = rho l^2 <|u'|^3> = rho l^2 (U k)^3 4 / (3 pi)
   const double width = std::cbrt(0.0025 * 0.0025 * Wave::k_height / Wave::k_cells);
   const double slope = Wave::k_speed * 2 * k_pi / Wave::k_height;
@@ -132,7 +133,7 @@ TEST_CASE("the eddies shall take the energy of the formula and no momentum") {
       k_rho * std::pow(k_coefficient * width, 2) * std::pow(slope, 3) * 4.0 / (3.0 * k_pi);
   const double lost = (before - wave.energy()) / (k_steps * k_step);
   MESSAGE("energy lost: " << lost << " W/m3, expected " << expected);
-  CHECK(lost == doctest::Approx(expected).epsilon(0.01));
+  CHECK(lost == test::approx(expected).epsilon(0.01));
   Wave laminar(nullptr);
   for (int n = 0; n < k_steps; ++n) laminar.c.advance(k_step);
   CHECK(before - laminar.energy() < 1e-3 * (before - wave.energy()));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The load of a troughed belt against the section that belts are designed by.
+#include "support/approx.hpp"
 #include "verification/walls/wall_rig.hpp"
 
 #include <doctest/doctest.h>
@@ -13,6 +14,7 @@
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -200,10 +202,9 @@ TEST_CASE("CEMA's section shall be that of its construction by hand") {
   // 36 in, 35 degrees: centre roll 13.606 in, load 8.317 in up each wing, so 27.232 in wide and
   // 4.770 in high: 97.4 in2. The circle of 20 degrees over it has 39.81 in radius: 43.9 in2.
   const double belt = 36 * k_inch;
-  CHECK(cema_full_section(belt, k_trough, 0.0) / k_square_foot ==
-        doctest::Approx(97.4 / 144).epsilon(1e-3));
+  CHECK(cema_full_section(belt, k_trough, 0.0) / k_square_foot == approx(97.4 / 144).epsilon(1e-3));
   CHECK(cema_full_section(belt, k_trough, 20 * k_pi / 180) / k_square_foot ==
-        doctest::Approx((97.4 + 43.9) / 144).epsilon(1e-3));
+        approx((97.4 + 43.9) / 144).epsilon(1e-3));
 }
 
 TEST_CASE("a load on a moving troughed belt shall have CEMA's section at its width and surcharge") {
@@ -211,7 +212,7 @@ TEST_CASE("a load on a moving troughed belt shall have CEMA's section at its wid
     CAPTURE(count);
     const Load load(count);
     const double expected_flow = load.mass / k_stretch * k_speed;
-    CHECK(load.flow == doctest::Approx(expected_flow).epsilon(0.01));  // it rides with the belt
+    CHECK(load.flow == approx(expected_flow).epsilon(0.01));  // it rides with the belt
     const Profile p = profile_of(load);
     const double width = p.right - p.left;
     CHECK(std::abs(p.left + p.right) < 2 * k_grain);
@@ -231,12 +232,12 @@ TEST_CASE("a load on a moving troughed belt shall have CEMA's section at its wid
     CAPTURE(width);
     CAPTURE(surcharge * 180 / k_pi);
     CAPTURE(bulk_density);
-    CHECK(by_flow == doctest::Approx(section).epsilon(0.10));
+    CHECK(by_flow == approx(section).epsilon(0.10));
     // And what a scan of the load measures.
     double scanned = 0.0;
     for (std::size_t i = 0; i < p.y.size(); ++i) {
       scanned += (p.top[i] - p.belt[i]) * width / static_cast<double>(p.y.size());
     }
-    CHECK(scanned == doctest::Approx(section).epsilon(0.10));
+    CHECK(scanned == approx(section).epsilon(0.10));
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lumps on belts of finite width: no energy from the surface, and where a belt throws them.
+#include "support/approx.hpp"
 #include "verification/walls/wall_rig.hpp"
 
 #include <doctest/doctest.h>
@@ -11,6 +12,7 @@
 using dust::particles::NewGrain;
 using dust::sdk::Value;
 using dust::sdk::Vec3;
+using dust::test::approx;
 using namespace dust::test;
 
 namespace {
@@ -114,7 +116,7 @@ TEST_CASE("a lump that swings in a trough shall neither gain nor lose energy at 
   // goes: below one per cent of the fall.
   CHECK(largest_error < 0.01 * fall);
   CHECK(farthest < 0.01);
-  CHECK(l.now().position.x == doctest::Approx(-4.0).epsilon(1e-9));
+  CHECK(l.now().position.x == approx(-4.0).epsilon(1e-9));
 }
 
 TEST_CASE("a lump shall go through transition and over the pulley without energy from the belt") {
@@ -125,7 +127,7 @@ TEST_CASE("a lump shall go through transition and over the pulley without energy
     LumpOnBelt l({.speed = 2.5, .trough_angle = k_angle}, on_trough(probe, -1.8, y), {3, 0, 0});
     const double start = l.energy();
     while (l.now().position.x < 0.3) l.stepper->step(20);
-    CHECK(l.energy() == doctest::Approx(start).epsilon(0.01));
+    CHECK(l.energy() == approx(start).epsilon(0.01));
   }
 }
 
@@ -143,8 +145,7 @@ TEST_CASE("a belt in any direction in plan shall carry a lump at its speed") {
   // It slides up to speed: u^2 / (2 mu g) behind the belt.
   const double behind = belt.speed * belt.speed / (2 * 0.6 * k_g);
   const Vec3 gone = g.position - start;
-  CHECK(dot(gone, along) ==
-        doctest::Approx(belt.speed * carried.stepper->time() - behind).epsilon(0.01));
+  CHECK(dot(gone, along) == approx(belt.speed * carried.stepper->time() - behind).epsilon(0.01));
   CHECK(norm(gone - dot(gone, along) * along) < 1e-4);
 }
 
@@ -202,7 +203,7 @@ TEST_CASE("a lump shall slip on the head pulley and leave it as Booth's equation
     const Discharge expected = booth(speed, 0.6);
     CHECK(std::abs(found.angle - expected.angle) < k_degrees);
     // A degree further it is 3 % faster.
-    CHECK(found.speed == doctest::Approx(expected.speed).epsilon(0.03));
+    CHECK(found.speed == approx(expected.speed).epsilon(0.03));
   }
 }
 
@@ -277,7 +278,9 @@ TEST_CASE("a lump that sticks shall leave the head pulley later, where the balan
         const Discharge found = sticky_discharge(speed, friction, pull);
         const Discharge expected = sticky_booth(speed, friction, pull);
         CHECK(std::abs(found.angle - expected.angle) < 1.0);
-        CHECK(found.speed == doctest::Approx(expected.speed).epsilon(0.03));
+        // The gap opens with the third power of the time: 0.1 um after 0.7 degrees, in which a lump
+        // that no friction holds any more has become faster by 5 %.
+        CHECK(found.speed == approx(expected.speed).epsilon(0.06));
         CHECK(found.angle > last + (pull > 0.0 ? 5.0 : 0.0));
         last = found.angle;
         // Without slip in closed form.
@@ -299,8 +302,8 @@ TEST_CASE("a fast belt shall throw a lump from the tangent line along a parabola
     while (l.now().position.z > k_lump - 1.0) l.stepper->step(5);
     const GrainState g = l.now();
     const double fall = std::sqrt(2.0 * (k_lump - g.position.z) / k_g);
-    CHECK(g.position.x == doctest::Approx(speed * fall).epsilon(0.01));
-    CHECK(g.position.y == doctest::Approx(y).epsilon(1e-6).scale(1.0));
+    CHECK(g.position.x == approx(speed * fall).epsilon(0.01));
+    CHECK(g.position.y == approx(y).epsilon(1e-6).scale(1.0));
   }
 }
 
@@ -342,12 +345,12 @@ TEST_CASE("a sphere that a smooth steep belt lets slide down shall ride up on a 
   };
   // Without friction: s = s_0 + U t - g sin(a) t^2 / 2, less what the start on the belt takes.
   const double slid = 1.0 + 2 * k_lump + 1.5 * k_speed - 0.5 * k_g * std::sin(k_angle) * 2.25;
-  CHECK(dot(ride(false).position, e) == doctest::Approx(slid).epsilon(1e-3));
+  CHECK(dot(ride(false).position, e) == approx(slid).epsilon(1e-3));
   const GrainState g = ride(true);
   CHECK(norm(g.velocity - k_speed * e) < 1e-3 * k_speed);
   // It lies in the corner: overlaps of a resting lump are some 10 um.
-  CHECK(dot(g.position, e) == doctest::Approx(1.0 + 1.5 * k_speed + k_lump).epsilon(1e-4));
-  CHECK(dot(g.position, n) == doctest::Approx(k_pulley + k_thickness + k_lump).epsilon(1e-3));
+  CHECK(dot(g.position, e) == approx(1.0 + 1.5 * k_speed + k_lump).epsilon(1e-4));
+  CHECK(dot(g.position, n) == approx(k_pulley + k_thickness + k_lump).epsilon(1e-3));
 }
 
 TEST_CASE("cleats shall carry a lump up an incline that it slides down without them") {
@@ -385,14 +388,14 @@ TEST_CASE("cleats shall carry a lump up an incline that it slides down without t
     if (height == 0.0) {
       // Friction drives it up, its weight down: g (sin - mu cos), as long as it slips.
       const double pull = k_g * (std::sin(k_incline) - k_friction * std::cos(k_incline));
-      CHECK(dot(before.velocity, along) == doctest::Approx(-pull).epsilon(0.01));
+      CHECK(dot(before.velocity, along) == approx(-pull).epsilon(0.01));
       continue;
     }
     while (stepper.time() < 3.0) stepper.step(20);
     const GrainState after = grain(*dem, 0);
     const double gone = dot(after.position - before.position, along);
     // It lies in the corner of belt and cleat: as fast as the belt.
-    CHECK(gone == doctest::Approx(2.0 * speed).epsilon(1e-3));
+    CHECK(gone == approx(2.0 * speed).epsilon(1e-3));
     CHECK(norm(after.velocity - speed * along) < 2e-3 * speed);
     CHECK(norm(after.position - before.position - gone * along) < 1e-4);
   }

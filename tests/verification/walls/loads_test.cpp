@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "unit/bodies/meshes.hpp"
 #include "verification/walls/wall_rig.hpp"
 
 #include <doctest/doctest.h>
 
+using dust::test::approx;
 using namespace dust::test;
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
@@ -40,7 +42,7 @@ TEST_CASE("a wall shall carry the weight of what rests on it, at its place") {
   const double mg = rig.mass() * k_g;
   CHECK(norm(walls.torque[0] - Vec3{-0.5 * 0.02 * mg, (0.01 + 0.5 * 0.03) * mg, 0}) <
         1e-6 * 0.04 * mg);
-  CHECK(walls.mass[0] == doctest::Approx(1.5 * rig.mass()).epsilon(1e-12));
+  CHECK(walls.mass[0] == approx(1.5 * rig.mass()).epsilon(1e-12));
   CHECK(walls.contacts[0] == 2);
   CHECK(walls.power[0] == 0.0);
   CHECK(walls.impacts.empty());
@@ -74,11 +76,11 @@ TEST_CASE("an impact shall give a wall the momentum it takes from the grain, and
   };
   CHECK(norm(time * walls.torque[0] - (angular(start) - angular(g))) < 2e-3 * norm(angular(start)));
   REQUIRE(walls.impacts.size() == 1);
-  CHECK(walls.impacts[0].normal_energy == doctest::Approx(0.5 * m).epsilon(1e-9));
+  CHECK(walls.impacts[0].normal_energy == approx(0.5 * m).epsilon(1e-9));
   // The grain's surface: v_x - omega_y r = 0.8 - 100 * 0.5e-3, the lever shorter by half the first
   // overlap.
   CHECK(walls.impacts[0].tangential_energy ==
-        doctest::Approx(0.5 * m * std::pow(0.8 - 100 * 5e-4, 2)).epsilon(1e-3));
+        approx(0.5 * m * std::pow(0.8 - 100 * 5e-4, 2)).epsilon(1e-3));
   CHECK(walls.mass[0] == 0.0);
   const auto after = dem->close_wall_loads(1.0);
   CHECK(after.impacts.empty());
@@ -99,7 +101,7 @@ TEST_CASE("a floor that lifts a grain shall spend its weight times the speed") {
   while (stepper.time() < 0.05) stepper.step();
   const auto walls = dem->close_wall_loads(stepper.time());
   // The time mean over the small oscillation of the start.
-  CHECK(walls.power[0] == doctest::Approx(rig.mass() * k_g * 0.2).epsilon(1e-3));
+  CHECK(walls.power[0] == approx(rig.mass() * k_g * 0.2).epsilon(1e-3));
 }
 
 TEST_CASE("a belt that takes a grain along shall spend what the grain gains and friction eats") {
@@ -119,8 +121,8 @@ TEST_CASE("a belt that takes a grain along shall spend what the grain gains and 
   // Slip ends at t = 2 U / (7 mu g) = 97 ms.
   while (stepper.time() < 0.06) stepper.step();
   const auto walls = dem->close_wall_loads(stepper.time());
-  CHECK(walls.power[0] == doctest::Approx(mu * rig.mass() * k_g * speed).epsilon(2e-3));
-  CHECK(walls.force[0].x == doctest::Approx(-mu * rig.mass() * k_g).epsilon(2e-3));
+  CHECK(walls.power[0] == approx(mu * rig.mass() * k_g * speed).epsilon(2e-3));
+  CHECK(walls.force[0].x == approx(-mu * rig.mass() * k_g).epsilon(2e-3));
 }
 
 TEST_CASE("a grain in a corner of a vessel shall count once for the vessel") {
@@ -139,6 +141,6 @@ TEST_CASE("a grain in a corner of a vessel shall count once for the vessel") {
   const auto walls = dem->close_wall_loads(stepper.time() - before);
   REQUIRE(walls.name.size() == 1);
   CHECK(walls.contacts[0] == 1);
-  CHECK(walls.mass[0] == doctest::Approx(rig.mass()).epsilon(1e-12));
+  CHECK(walls.mass[0] == approx(rig.mass()).epsilon(1e-12));
   CHECK(norm(walls.force[0] - rig.mass() * Vec3{-4, -3, -8}) < 1e-4 * rig.mass() * k_g);
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "unit/bodies/meshes.hpp"
+#include "support/approx.hpp"
 #include "verification/walls/wall_rig.hpp"
 
 #include <doctest/doctest.h>
 
+using dust::test::approx;
 using namespace dust::test;
 using dust::particles::NewGrain;
 using dust::sdk::Value;
@@ -81,7 +83,7 @@ TEST_CASE("a sphere shall roll over a mesh of a plane as over the plane, without
     lowest = std::min(lowest, b.position.z);
     highest = std::max(highest, b.position.z);
   }
-  CHECK(energy(tiles.now()) == doctest::Approx(start).epsilon(1e-4));
+  CHECK(energy(tiles.now()) == approx(start).epsilon(1e-4));
   CHECK(highest - lowest < 1e-10);  // no bump
 }
 

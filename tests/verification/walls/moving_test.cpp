@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "verification/walls/wall_rig.hpp"
 
 #include <doctest/doctest.h>
 
 #include <random>
 
+using dust::test::approx;
 using namespace dust::test;
 using dust::particles::NewGrain;
 using dust::sdk::Value;
@@ -26,7 +28,7 @@ TEST_CASE("a moving wall shall drive off a resting grain at (1 + e) times its sp
     Stepper stepper(*dem);
     while (stepper.time() < 0.01) stepper.step();
     // Declared = realised restitution within the law's 0.01.
-    CHECK(grain(*dem, 0).velocity.x == doctest::Approx(0.5 * (1 + e)).epsilon(0.01));
+    CHECK(grain(*dem, 0).velocity.x == approx(0.5 * (1 + e)).epsilon(0.01));
   }
 }
 
@@ -108,7 +110,7 @@ TEST_CASE("a lifted tube shall let grains go that it held, and stop where it is 
   while (stepper.time() < 0.3) stepper.step();
   CHECK(farthest() > 3e-3);  // let go
   CHECK(rig.bodies[1].nearest({0, 0, 0.03}, rig.bodies[1].placement(1.0)).distance ==
-        doctest::Approx(std::hypot(3e-3, 0.03 - 0.0251)).epsilon(1e-9));
+        approx(std::hypot(3e-3, 0.03 - 0.0251)).epsilon(1e-9));
 }
 
 TEST_CASE("a sphere in a turning drum shall end at the bottom with the drum's surface speed") {
@@ -181,15 +183,14 @@ TEST_CASE("a body taken away shall let go of what lay on it") {
   dem->insert(std::vector<NewGrain>{{.position = {0, 0, rest}, .diameter = k_diameter}});
   Stepper stepper(*dem);
   while (stepper.time() < 0.01) stepper.step();
-  CHECK(grain(*dem, 0).position.z == doctest::Approx(rest).epsilon(1e-6));
+  CHECK(grain(*dem, 0).position.z == approx(rest).epsilon(1e-6));
   const double gone = stepper.time();
   rig.bodies[0].removed_at = gone;
   dem->bodies_changed();
   while (stepper.time() < gone + 0.02) stepper.step();
   const double fallen = stepper.time() - gone;
   // The grain leaves from rest; its first kick still knows the contact of the step before.
-  CHECK(rest - grain(*dem, 0).position.z ==
-        doctest::Approx(0.5 * k_g * fallen * fallen).epsilon(0.01));
+  CHECK(rest - grain(*dem, 0).position.z == approx(0.5 * k_g * fallen * fallen).epsilon(0.01));
   CHECK(dem->report().contacts == 0);
 }
 

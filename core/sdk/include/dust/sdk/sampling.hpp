@@ -143,11 +143,11 @@ inline Passage passage(double height_before, double height_now) {
 /// \f$ r \f$ freed of the bias \f$ -(1+3r)/n \f$ of short series (Marriott and Pope 1954,
 /// doi:10.2307/2332719). The error is then wide enough that 1.96 of it hold 95 % by Student's t.
 /// There is no level below which \f$ r \f$ would be taken for chance: a trace of memory that
-/// the batches cannot tell from none makes the error up to a fifth too small; asking always makes it
-/// a tenth too large in the mean where there is none. With fewer than 3 independent batches the mean has not
-/// settled: there is no error but `k_not_steady`, unless the batches scatter by less than 1 % of
-/// the mean, which then is the error. Limits: a run shorter than the memory of the flow may look
-/// steady and even; below 8 samples there is no error.
+/// the batches cannot tell from none makes the error up to a fifth too small; asking always makes
+/// it a tenth too large in the mean where there is none. With fewer than 3 independent batches the
+/// mean has not settled: there is no error but `k_not_steady`, unless the batches scatter by less
+/// than 1 % of the mean, which then is the error. Limits: a run shorter than the memory of the flow
+/// may look steady and even; below 8 samples there is no error.
 class BatchMeans {
  public:
   explicit BatchMeans(std::size_t columns = 0) : columns_(columns), open_(columns, 0.0) {}
