@@ -39,6 +39,7 @@ struct Parameters {
   double cleat_height = 0.0;
   double cleat_thickness = 0.0;
   double cleat_spacing = 0.0;
+  std::string cleat_profile = "bar";
   Vec3 up{0, 0, 1};
 };
 
@@ -97,6 +98,13 @@ void declare_cleats(SchemaOf<Parameters>& s) {
   length(&Parameters::cleat_spacing, "cleat_spacing",
          "From one crossbar to the next; a whole number goes round the belt, the spacing nearest "
          "to this. At time 0 one is over the head pulley's axis.");
+  s.text(
+       &Parameters::cleat_profile, "cleat_profile",
+       "Section of the crossbars. bar: a box. round: a segment of a disc, at most half as high as "
+       "it is thick; where the spacing is the thickness they touch, and the belt's surface is a "
+       "wave.")
+      .one_of({"bar", "round"})
+      .optional();
 }
 
 TroughParameters trough_of(const Parameters& p) {
@@ -146,20 +154,30 @@ std::optional<Cleats> cleats_of(const Parameters& p, const Trough& trough) {
       refuse("cleat_height is not below bend_radius: a cleat would fold where the belt bends");
     }
   }
+  const bool is_round = p.cleat_profile == "round";
+  if (is_round && h > 0.5 * t) {
+    refuse("cleat_height is more than half of cleat_thickness: a round cleat would overhang");
+  }
   const Cleats cleats({.length = norm(p.head - p.tail),
                        .reach = p.radius + 0.5 * p.thickness,
                        .half_width = 0.5 * p.width,
-                       .top = 0.5 * p.thickness + h,
+                       .face = 0.5 * p.thickness,
+                       .height = h,
                        .thickness = t,
                        .spacing = s,
+                       .profile = is_round ? BarSection::Profile::round : BarSection::Profile::bar,
                        .trough = is_flat ? std::nullopt : std::optional<Trough>(trough)});
-  if (s <= t || cleats.spacing() <= t) refuse("cleat_spacing is not longer than cleat_thickness");
+  if (is_round) {
+    if (cleats.gap() < cleats.thickness()) refuse("cleat_spacing is shorter than cleat_thickness");
+  } else if (s <= t || cleats.gap() <= t) {
+    refuse("cleat_spacing is not longer than cleat_thickness");
+  }
   return cleats;
 }
 
 /// Belt of finite width round two equal pulleys: all points within half a thickness of the belt's
 /// middle surface, and the pulleys. Nothing of it is made of facets: the carrying run is a Trough,
-/// the rest cylinders and planes; they meet smoothly. Cleats are a second part.
+/// the rest cylinders and planes; they meet smoothly. Each row of cleats is a part more.
 class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
  public:
   using Parameters = bodies::Parameters;
@@ -196,7 +214,7 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
   [[nodiscard]] SurfacePoint nearest(Vec3 point) const override {
     return cleats_ ? nearest_after(0.0, point) : nearest_of_belt(point);
   }
-  [[nodiscard]] int parts() const override { return cleats_ ? 2 : 1; }
+  [[nodiscard]] int parts() const override { return cleats_ ? 1 + cleats_->rows() : 1; }
   [[nodiscard]] SurfacePoint contact(int part, Vec3 point, double reach) const override {
     return contact_after(0.0, part, point, reach);
   }
@@ -208,7 +226,7 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
   /// However far the cleats have run, and for a point that is up to their spacing behind its place.
   [[nodiscard]] bool is_within(int part, Vec3 point, double reach) const override {
     if (!cleats_) return nearest_of_belt(point).distance < reach;
-    if (part == 1) reach += farthest_tip_;
+    if (part != k_static) reach += farthest_tip_;
     const Vec3 q = to_belt(point);
     const double spacing = cleats_->spacing();
     // Over the carrying run it is as far from the belt wherever it is.
@@ -219,7 +237,7 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
   }
   [[nodiscard]] std::vector<std::string> notes() const override {
     if (!cleats_) return {};
-    return {std::to_string(cleats_->count()) + " cleats, " + base::length_text(cleats_->spacing()) +
+    return {std::to_string(cleats_->count()) + " cleats, " + base::length_text(cleats_->gap()) +
             " apart: a whole number round the belt"};
   }
   [[nodiscard]] Vec3 lateral_axis() const override { return across_; }
@@ -254,14 +272,18 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
   [[nodiscard]] SurfacePoint nearest_after(double run, Vec3 point) const override {
     const Vec3 q = to_belt(point);
     SurfacePoint s = nearest_face(q);
-    const SurfacePoint cleat = cleats_->nearest(run, q, s.distance).point;
-    if (cleat.distance < s.distance) s = cleat;
+    for (int row = 0; row < cleats_->rows(); ++row) {
+      const SurfacePoint cleat = cleats_->nearest(run + row * cleats_->gap(), q, s.distance).point;
+      if (cleat.distance < s.distance) s = cleat;
+    }
     return {s.distance, from_belt(s.normal)};
   }
   [[nodiscard]] SurfacePoint contact_after(double run, int part, Vec3 point,
                                            double reach) const override {
     if (part == k_static) return nearest_of_belt(point);
-    const SurfacePoint s = cleats_->nearest(run, to_belt(point), reach).point;
+    const double row = part - k_running;
+    const SurfacePoint s =
+        cleats_->nearest(run + row * cleats_->gap(), to_belt(point), reach).point;
     if (!(s.distance < reach)) return {std::numeric_limits<double>::infinity(), {}};
     return {s.distance, from_belt(s.normal)};
   }
@@ -270,7 +292,11 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
   [[nodiscard]] VelocityQuery velocity_query_after(double run, Vec3 point,
                                                    Vec3 normal) const override {
     const Vec3 q = to_belt(point);
-    const auto cleat = cleats_->nearest(run, q);
+    auto cleat = cleats_->nearest(run, q);
+    if (cleats_->rows() == 2) {
+      const auto other = cleats_->nearest(run + cleats_->gap(), q);
+      if (other.point.distance < cleat.point.distance) cleat = other;
+    }
     if (std::abs(cleat.point.distance) < std::abs(nearest_face(q).distance)) {
       if (cleat.stand.is_in_trough) return query_for(cleats_->velocity_in_trough(cleat.stand, q));
       if (!cleat.stand.is_on_pulley) return {across_, from_belt(cleat.stand.out), 1.0};

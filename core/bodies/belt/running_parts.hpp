@@ -11,12 +11,12 @@ namespace dust::bodies {
 
 /// A shape of which a part runs with its surface, as the cleats of a belt do: another solid at each
 /// instant, the same again whenever the surface has run on by spacing(). `run` [m] is how far it
-/// has run, from 0 to spacing(); all points are in the shape's frame. Of the shape's two parts the
-/// first stays in its place and the second goes to others.
+/// has run, from 0 to spacing(); all points are in the shape's frame. Of the shape's parts the
+/// first stays in its place and the others go to others.
 class RunningParts {
  public:
-  static constexpr int k_static = 0;  ///< part of Shape::contact
-  static constexpr int k_running = 1;
+  static constexpr int k_static = 0;   ///< part of Shape::contact
+  static constexpr int k_running = 1;  ///< and all after it
   /// What a motion has to be asked for the velocity of a point: `factor` times its answer.
   struct VelocityQuery {
     sdk::Vec3 axis;

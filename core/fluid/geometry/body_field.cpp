@@ -51,8 +51,13 @@ BodyField::BodyField(const Grid& grid, const bodies::BodySet& bodies, double tim
            bodies::Placement::turned(body.frame_origin, body.frame_axis, body.frame_angle), part});
     }
     if (!is_moving || which == Which::static_bodies) continue;
-    const int part = has_static_part ? bodies::RunningParts::k_running : k_whole;
-    moving_bodies_.push_back({&body, number, body.placement(time), part});
+    if (has_static_part) {
+      for (int part = bodies::RunningParts::k_running; part < body.shape->parts(); ++part) {
+        moving_bodies_.push_back({&body, number, body.placement(time), part});
+      }
+    } else {
+      moving_bodies_.push_back({&body, number, body.placement(time), k_whole});
+    }
     largest_speed_ = std::max(largest_speed_, body.largest_displacing_speed());
   }
 }

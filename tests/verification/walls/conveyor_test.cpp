@@ -361,10 +361,13 @@ TEST_CASE("cleats shall carry a lump up an incline that it slides down without t
   const Vec3 up{-std::sin(k_incline), 0.0, std::cos(k_incline)};
   struct Case {
     double height, trough_angle;
+    bool is_wave = false;
   };
-  for (const auto& [height, trough_angle] : {Case{0.0, 0.0}, Case{0.08, 0.0}, Case{0.08, 0.6}}) {
+  for (const auto& [height, trough_angle, is_wave] :
+       {Case{0.0, 0.0}, Case{0.08, 0.0}, Case{0.08, 0.6}, Case{0.03, 0.0, true}}) {
     CAPTURE(height);
     CAPTURE(trough_angle);
+    CAPTURE(is_wave);
     WallRig rig(0.3, k_friction, 2 * k_lump, 20.0);
     rig.setup.gravity = {0, 0, -k_g};
     rig.setup.domain.min = {-10, -10, -10};
@@ -377,10 +380,17 @@ TEST_CASE("cleats shall carry a lump up an incline that it slides down without t
                                       {"width", 1.0},
                                       {"cleat_height", height},
                                       {"trough_angle", trough_angle}};
-    if (height > 0.0) belt.insert({{"cleat_thickness", 0.03}, {"cleat_spacing", 0.5}});
+    if (is_wave) {
+      belt.insert({{"cleat_profile", std::string("round")},
+                   {"cleat_thickness", 0.1},
+                   {"cleat_spacing", 0.1}});
+    } else if (height > 0.0) {
+      belt.insert({{"cleat_thickness", 0.03}, {"cleat_spacing", 0.5}});
+    }
     rig.body("belt_conveyor", belt, WallRig::motion("belt", {{"speed", speed}}));
     const auto dem = rig.make();
-    const Vec3 start = -4.2 * along + (k_pulley + k_thickness + k_lump) * up;
+    const double over = k_pulley + k_thickness + k_lump + (is_wave ? height : 0.0);
+    const Vec3 start = -4.2 * along + over * up;
     dem->insert(std::vector<NewGrain>{{.position = start, .velocity = {}, .diameter = 2 * k_lump}});
     Stepper stepper(*dem);
     while (stepper.time() < 1.0) stepper.step(20);
@@ -394,7 +404,7 @@ TEST_CASE("cleats shall carry a lump up an incline that it slides down without t
     while (stepper.time() < 3.0) stepper.step(20);
     const GrainState after = grain(*dem, 0);
     const double gone = dot(after.position - before.position, along);
-    // It lies in the corner of belt and cleat: as fast as the belt.
+    // It lies in the corner of belt and cleat, or in a valley: as fast as the belt.
     CHECK(gone == approx(2.0 * speed).epsilon(1e-3));
     CHECK(norm(after.velocity - speed * along) < 2e-3 * speed);
     CHECK(norm(after.position - before.position - gone * along) < 1e-4);
@@ -450,4 +460,67 @@ TEST_CASE("a lump between the cleats of a trough shall keep its energy as the be
   }
   CHECK(rebounds >= 3);
   CHECK(largest_error < 0.01 * fall);
+}
+
+TEST_CASE("a lump on a belt of waves shall keep its energy as the belt has it") {
+  // Elastic, without friction: it bounces off crests and in valleys, where it touches two waves.
+  constexpr double k_speed = 1.0;
+  constexpr double k_fall = 0.1;
+  int in_valleys = 0;
+  // On a flank, and over the middle of a valley.
+  for (const bool is_over_valley : {false, true}) {
+    CAPTURE(is_over_valley);
+    WallRig rig(1.0, 0.0, 2 * k_lump);
+    rig.setup.gravity = {0, 0, -k_g};
+    rig.setup.domain.min = {-10, -10, -10};
+    rig.setup.domain.max = {10, 10, 10};
+    rig.setup.time.expected_speed = 5.0;
+    rig.body("belt_conveyor",
+             {{"head", Vec3{0, 0, -k_pulley - k_thickness}},
+              {"tail", Vec3{-8, 0, -k_pulley - k_thickness}},
+              {"radius", k_pulley},
+              {"thickness", k_thickness},
+              {"width", 1.0},
+              {"cleat_profile", std::string("round")},
+              {"cleat_height", 0.03},
+              {"cleat_thickness", 0.1},
+              {"cleat_spacing", 0.1}},
+             WallRig::motion("belt", {{"speed", k_speed}}));
+    Vec3 start{-5.0, 0, 0.03 + k_lump + k_fall};
+    const auto nearer_to_one = [&](double x) {
+      const auto at = rig.bodies[0].placement(0.0);
+      const auto to = [&](int row) { return rig.bodies[0].contact(row, {x, 0, start.z}, 1.0, at); };
+      return to(1).distance - to(2).distance;
+    };
+    while (is_over_valley && nearer_to_one(start.x) * nearer_to_one(start.x + 1e-4) > 0.0) {
+      start.x += 1e-4;
+    }
+    const auto dem = rig.make();
+    dem->insert(std::vector<NewGrain>{
+        {.position = start, .velocity = {k_speed, 0, 0}, .diameter = 2 * k_lump}});
+    Stepper stepper(*dem);
+    const auto energy = [&] {
+      const GrainState g = grain(*dem, 0);
+      const Vec3 v = g.velocity - Vec3{k_speed, 0, 0};
+      return 0.5 * dot(v, v) + k_g * g.position.z;
+    };
+    const double first = energy();
+    int bounces = 0;
+    bool was_apart = true;
+    while (stepper.time() < 2.0) {
+      stepper.step();
+      const Vec3 place = grain(*dem, 0).position;
+      const auto at = rig.bodies[0].placement(stepper.time());
+      const bool is_apart = rig.bodies[0].nearest(place, at).distance > k_lump + 1e-6;
+      if (is_apart) CHECK(std::abs(energy() - first) < 0.01 * k_g * k_fall);
+      if (was_apart && !is_apart) ++bounces;
+      was_apart = is_apart;
+      if (is_apart) continue;
+      const double one = rig.bodies[0].contact(1, place, 1.0, at).distance;
+      const double other = rig.bodies[0].contact(2, place, 1.0, at).distance;
+      if (std::max(one, other) < k_lump) ++in_valleys;
+    }
+    CHECK(bounces >= 3);
+  }
+  CHECK(in_valleys > 10);
 }

@@ -36,6 +36,8 @@ PARTS = (
          "Moist fines of 3 mm stick to the belt behind the head pulley; a blade takes them off."),
     Part("7.2.5", "Belt surface: cleats", "plant/cleats_or_none", ("carried",), "carried up [kg]", {},
          "A belt of 30 degrees with crossbars of 80 mm and without: what passes 1.3 m beyond the feed."),
+    Part("7.2.5", "Belt surface: waves", "plant/waves_or_none", ("carried",), "carried up [kg]", {},
+         "The same belt with a surface of waves of 20 mm every 80 mm, and smooth."),
     Part("7.2.6", "Cohesive material: moisture", "studies/wet_slope", ("angle",), "slope that stays [deg]", {},
          "Grains of 6 mm in a box whose bottom opens at a slot; their moisture makes liquid bridges."),
     Part("7.2.7", "Extraction and the receiving belt", "plant/receiving_belt", ("load",), "load [kg/m]", CHUTE,
