@@ -271,6 +271,11 @@ Triangles Body::triangles(Vec3 min, Vec3 max, double edge, const Placement& at) 
   return t;
 }
 
+double written_edge(Vec3 min, Vec3 max) {
+  constexpr double k_share = 1.0 / 250.0;
+  return k_share * norm(max - min);
+}
+
 Body make_body(const scenario::Setup& setup, const scenario::BodySpec& spec,
                std::vector<std::unique_ptr<sdk::Motion>> motions) {
   Body body;

@@ -72,6 +72,10 @@ struct Body {
 
 using BodySet = std::vector<Body>;
 
+/// [m] Length of the pieces that curved surfaces are written in: a share of the domain's diagonal,
+/// about 2 mm where the domain is half a metre, finer than the eye tells from round.
+[[nodiscard]] double written_edge(sdk::Vec3 min, sdk::Vec3 max);
+
 /// Makes the body of a specification; the caller supplies the motions.
 Body make_body(const scenario::Setup& setup, const scenario::BodySpec& spec,
                std::vector<std::unique_ptr<sdk::Motion>> motions);

@@ -14,10 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Curved surfaces are written in pieces of this share of the domain's diagonal: about 2 mm where
-/// the domain is half a metre, finer than the eye tells from round.
-constexpr double k_edge_share = 1.0 / 250.0;
-
 std::vector<float> narrow(std::span<const double> values) { return {values.begin(), values.end()}; }
 
 template <class T>
@@ -135,7 +131,7 @@ WallLayout write_wall_group(hid_t file, const bodies::BodySet& bodies, sdk::Vec3
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b].is_removed()) continue;
     std::map<std::array<float, 3>, std::int32_t> known;
-    const double edge = k_edge_share * norm(max - min);
+    const double edge = bodies::written_edge(min, max);
     const bodies::Placement at = bodies[b].placement(bodies[b].displaces() ? time : 0.0);
     for (const sdk::Vec3& corner : bodies[b].triangles(min, max, edge, at)) {
       const std::array<float, 3> p = {static_cast<float>(corner.x), static_cast<float>(corner.y),

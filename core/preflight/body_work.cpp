@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 #include <string_view>
 
 namespace dust::preflight {
@@ -36,8 +36,8 @@ constexpr double k_face_instants = 24.0;
 constexpr double k_near_cell = 4.2e-5;
 constexpr double k_near_questions = 240.0;  ///< each to all bodies
 constexpr double k_predict_questions = 90.0;
-/// Layers of cells beside a surface that are near.
-constexpr double k_near_layers = 3.0;
+/// How far from a surface cells are near, in edges of a cell.
+constexpr double k_near_reach = 1.5;
 /// Way of a body, in cells, after which the grid is cut anew (CutGrid).
 constexpr double k_max_way = 0.5;
 
@@ -46,52 +46,85 @@ const SurfaceRate& rate_of(const scenario::BodySpec& spec) {
   return spec.shape.name == k_trough.shape ? k_trough : k_plain;
 }
 
-/// [m2] Within the domain, of the surface that goes to other places: of a cleated belt its cleats.
-double displacing_area(const bodies::Body& body, const scenario::DomainSpec& domain) {
-  constexpr double k_edges = 20.0;
-  constexpr double k_on_surface = 1e-6;  // [m]
-  constexpr double k_anywhere = std::numeric_limits<double>::infinity();
-  const sdk::Vec3 size = domain.max - domain.min;
+/// Whether a point is within `reach` [m] of the surface of a body that goes to other places; of a
+/// belt, of its cleats.
+bool is_near(const bodies::Body& body, sdk::Vec3 point, double reach) {
   const bodies::Placement at = body.placement(0.0);
-  const auto surface =
-      body.triangles(domain.min, domain.max, std::max({size.x, size.y, size.z}) / k_edges, at);
   const bool has_static_part = bodies::running_parts(body) != nullptr;
-  const auto stands = [&](sdk::Vec3 p) {
-    const auto s = body.contact(bodies::RunningParts::k_static, p, k_anywhere, at);
-    return s.distance < k_on_surface;
-  };
-  double area = 0.0;
-  for (std::size_t n = 0; n + 2 < surface.size(); n += 3) {
-    const sdk::Vec3 middle = (surface[n] + surface[n + 1] + surface[n + 2]) / 3.0;
-    if (has_static_part && stands(middle)) continue;
-    area += 0.5 * sdk::norm(sdk::cross(surface[n + 1] - surface[n], surface[n + 2] - surface[n]));
+  const int first = has_static_part ? bodies::RunningParts::k_running : 0;
+  for (int part = first; part < body.shape->parts(); ++part) {
+    if (std::abs(body.contact(part, point, reach, at).distance) < reach) return true;
   }
-  return area;
+  return false;
+}
+
+/// Cells that have air and are near a body that goes to other places. Of many cells a sample,
+/// spread evenly over the domain, so that any grid has its answer in time.
+double cells_near(const bodies::BodySet& bodies, const fluid::Grid& grid) {
+  constexpr double k_sample = 40000.0;
+  constexpr double k_golden = 0.6180339887498949;
+  const double edge = std::cbrt(grid.cell_volume());
+  const auto& n = grid.count;
+  const double cells = static_cast<double>(n[0]) * n[1] * n[2];
+  const double asked = std::min(cells, k_sample);
+  const auto moves_near = [&](sdk::Vec3 centre) {
+    return std::any_of(bodies.begin(), bodies.end(), [&](const bodies::Body& body) {
+      return body.displaces() && is_near(body, centre, k_near_reach * edge);
+    });
+  };
+  const auto is_closed = [&](sdk::Vec3 centre) {
+    return std::any_of(bodies.begin(), bodies.end(), [&](const bodies::Body& body) {
+      return !body.displaces() && body.shape->is_solid() && body.nearest(centre).distance < -edge;
+    });
+  };
+  double near = 0.0;
+  for (double k = 0.0; k < asked; ++k) {
+    const double place = asked < cells ? std::fmod(k * k_golden, 1.0) * cells : k;
+    const auto cell = static_cast<std::int64_t>(std::min(place, cells - 1.0));
+    const sdk::Vec3 centre =
+        grid.centre(static_cast<int>(cell % n[0]), static_cast<int>(cell / n[0] % n[1]),
+                    static_cast<int>(cell / n[0] / n[1]));
+    if (moves_near(centre) && !is_closed(centre)) near += cells / asked;
+  }
+  return near;
 }
 
 /// Work of the bodies that go to other places.
 void add_cutting(const scenario::Setup& setup, const bodies::BodySet& bodies, double nearest,
                  BodyWork& work) {
   double displacing_nearest = 0.0;
-  double area = 0.0;
   double speed = 0.0;
+  const auto& count = setup.fluid->cells;
+  const fluid::Grid grid = fluid::Grid::make(setup.domain.min, setup.domain.max, count, {});
+  const double cells = static_cast<double>(count[0]) * count[1] * count[2];
   for (std::size_t n = 0; n < bodies.size(); ++n) {
     if (!bodies[n].displaces()) continue;
     displacing_nearest += rate_of(setup.bodies[n]).nearest;
-    area += displacing_area(bodies[n], setup.domain);
     speed = std::max(speed, bodies[n].largest_displacing_speed());
   }
   if (!(displacing_nearest > 0.0)) return;
-  const auto& count = setup.fluid->cells;
-  const sdk::Vec3 h = fluid::Grid::make(setup.domain.min, setup.domain.max, count, {}).spacing;
-  const double cells = static_cast<double>(count[0]) * count[1] * count[2];
+  work.near_cells = cells_near(bodies, grid);
+  const sdk::Vec3 h = grid.spacing;
   const double least = std::min({h.x, h.y, h.z});
-  const double near = std::min(cells, k_near_layers * area / std::pow(h.x * h.y * h.z, 2.0 / 3.0));
+  const double near = work.near_cells;
   const double cuts =
       std::max(1.0, std::ceil(speed * setup.time.fluid_step / (k_max_way * least) - 1e-9));
   work.cut = cuts * (cells * (nearest + k_face_instants * displacing_nearest) +
                      near * (k_near_cell + k_near_questions * nearest));
   work.predict = cells * displacing_nearest + near * k_predict_questions * nearest;
+}
+
+/// [B] Of a frame with all surfaces: a triangle has three numbers of corners and that of its body,
+/// and every second one a corner of its own.
+double surface_bytes(const scenario::DomainSpec& domain, const bodies::BodySet& bodies) {
+  constexpr double k_bytes_per_triangle = 4.0 * 4.0 + 0.5 * 3.0 * 4.0;
+  const double edge = bodies::written_edge(domain.min, domain.max);
+  double corners = 0.0;
+  for (const bodies::Body& body : bodies) {
+    corners += static_cast<double>(
+        body.triangles(domain.min, domain.max, edge, body.placement(0.0)).size());
+  }
+  return corners / 3.0 * k_bytes_per_triangle;
 }
 
 }  // namespace
@@ -106,6 +139,11 @@ BodyWork body_work(const scenario::Setup& setup, const bodies::BodySet& bodies) 
     nearest += rate.nearest;
   }
   if (setup.fluid) add_cutting(setup, bodies, nearest, work);
+  bool do_surfaces_change = false;
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    do_surfaces_change |= setup.bodies[n].removal.has_value() || bodies[n].displaces();
+  }
+  if (do_surfaces_change) work.frame_bytes = surface_bytes(setup.domain, bodies);
   return work;
 }
 

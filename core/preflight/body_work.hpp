@@ -18,6 +18,11 @@ struct BodyWork {
   /// they leave open at its end. Nothing where none does.
   double cut = 0.0;
   double predict = 0.0;
+  /// Cells beside the surfaces of those, which take most of it.
+  double near_cells = 0.0;
+  /// [B] Of the surfaces in each frame, where they are written anew with it: bodies go to other
+  /// places or are taken away.
+  double frame_bytes = 0.0;
 };
 
 /// Looks at shapes, areas and motions. Held against runs in docs/validation/estimates.md.

@@ -256,7 +256,7 @@ double add_records(const Setup& setup, const GrainTotals& totals, Derived& deriv
   const double dust_cells = derived.dust_classes * cells;
   const double frame_bytes =
       frames * (k_frame_bytes_per_grain * mean + k_frame_bytes_per_cell * cells +
-                k_frame_bytes_per_dust_cell * dust_cells);
+                k_frame_bytes_per_dust_cell * dust_cells + derived.bodies.frame_bytes);
   derived.cost.disk_bytes = k_disk_base + frame_bytes + k_checkpoint_bytes_per_grain * totals.most +
                             k_checkpoint_bytes_per_cell * cells +
                             k_checkpoint_bytes_per_dust_cell * dust_cells;
