@@ -320,4 +320,11 @@ Body make_body(const scenario::Setup& setup, const scenario::BodySpec& spec,
   return make_body(setup, spec, std::move(motions));
 }
 
+bool do_surfaces_change(const scenario::Setup& setup, const BodySet& bodies) {
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    if (setup.bodies[n].removal || bodies[n].displaces()) return true;
+  }
+  return false;
+}
+
 }  // namespace dust::bodies

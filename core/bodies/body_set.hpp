@@ -81,5 +81,8 @@ Body make_body(const scenario::Setup& setup, const scenario::BodySpec& spec,
                std::vector<std::unique_ptr<sdk::Motion>> motions);
 Body make_body(const scenario::Setup& setup, const scenario::BodySpec& spec,
                std::unique_ptr<sdk::Motion> motion);
+/// Whether any of a scenario's bodies goes to other places or is taken away: then surfaces are
+/// written with each frame.
+[[nodiscard]] bool do_surfaces_change(const scenario::Setup& setup, const BodySet& bodies);
 
 }  // namespace dust::bodies

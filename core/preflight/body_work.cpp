@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/body_work.hpp"
 
-#include "bodies/belt/running_parts.hpp"
+#include "fluid/geometry/body_field.hpp"
 #include "fluid/grid.hpp"
 
 #include <algorithm>
@@ -36,8 +36,9 @@ constexpr double k_face_instants = 24.0;
 constexpr double k_near_cell = 4.2e-5;
 constexpr double k_near_questions = 240.0;  ///< each to all bodies
 constexpr double k_predict_questions = 90.0;
-/// How far from a surface cells are near, in edges of a cell.
-constexpr double k_near_reach = 1.5;
+/// How far from a surface cells are near, in edges of a cell: less than one and a half, so that
+/// they are three layers along a surface that goes with the grid, too.
+constexpr double k_near_reach = 1.5 - 1e-6;
 /// Way of a body, in cells, after which the grid is cut anew (CutGrid).
 constexpr double k_max_way = 0.5;
 
@@ -46,37 +47,16 @@ const SurfaceRate& rate_of(const scenario::BodySpec& spec) {
   return spec.shape.name == k_trough.shape ? k_trough : k_plain;
 }
 
-/// Whether a point is within `reach` [m] of the surface of a body that goes to other places; of a
-/// belt, of its cleats.
-bool is_near(const bodies::Body& body, sdk::Vec3 point, double reach) {
-  const bodies::Placement at = body.placement(0.0);
-  const bool has_static_part = bodies::running_parts(body) != nullptr;
-  const int first = has_static_part ? bodies::RunningParts::k_running : 0;
-  for (int part = first; part < body.shape->parts(); ++part) {
-    if (std::abs(body.contact(part, point, reach, at).distance) < reach) return true;
-  }
-  return false;
-}
-
 /// Cells that have air and are near a body that goes to other places. Of many cells a sample,
 /// spread evenly over the domain, so that any grid has its answer in time.
 double cells_near(const bodies::BodySet& bodies, const fluid::Grid& grid) {
   constexpr double k_sample = 40000.0;
   constexpr double k_golden = 0.6180339887498949;
+  const fluid::BodyField field(grid, bodies, 0.0, fluid::BodyField::Which::all);
   const double edge = std::cbrt(grid.cell_volume());
   const auto& n = grid.count;
   const double cells = static_cast<double>(n[0]) * n[1] * n[2];
   const double asked = std::min(cells, k_sample);
-  const auto moves_near = [&](sdk::Vec3 centre) {
-    return std::any_of(bodies.begin(), bodies.end(), [&](const bodies::Body& body) {
-      return body.displaces() && is_near(body, centre, k_near_reach * edge);
-    });
-  };
-  const auto is_closed = [&](sdk::Vec3 centre) {
-    return std::any_of(bodies.begin(), bodies.end(), [&](const bodies::Body& body) {
-      return !body.displaces() && body.shape->is_solid() && body.nearest(centre).distance < -edge;
-    });
-  };
   double near = 0.0;
   for (double k = 0.0; k < asked; ++k) {
     const double place = asked < cells ? std::fmod(k * k_golden, 1.0) * cells : k;
@@ -84,7 +64,8 @@ double cells_near(const bodies::BodySet& bodies, const fluid::Grid& grid) {
     const sdk::Vec3 centre =
         grid.centre(static_cast<int>(cell % n[0]), static_cast<int>(cell / n[0] % n[1]),
                     static_cast<int>(cell / n[0] / n[1]));
-    if (moves_near(centre) && !is_closed(centre)) near += cells / asked;
+    if (field.is_far_from_moving_bodies(centre, k_near_reach * edge)) continue;
+    if (field.nearest(centre).distance > -edge) near += cells / asked;
   }
   return near;
 }
@@ -139,11 +120,8 @@ BodyWork body_work(const scenario::Setup& setup, const bodies::BodySet& bodies) 
     nearest += rate.nearest;
   }
   if (setup.fluid) add_cutting(setup, bodies, nearest, work);
-  bool do_surfaces_change = false;
-  for (std::size_t n = 0; n < bodies.size(); ++n) {
-    do_surfaces_change |= setup.bodies[n].removal.has_value() || bodies[n].displaces();
-  }
-  if (do_surfaces_change) work.frame_bytes = surface_bytes(setup.domain, bodies);
+  if (bodies::do_surfaces_change(setup, bodies))
+    work.frame_bytes = surface_bytes(setup.domain, bodies);
   return work;
 }
 

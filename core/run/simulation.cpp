@@ -135,11 +135,7 @@ void Simulation::remove_bodies() {
 }
 
 bool Simulation::has_changing_walls() const {
-  bool is_changing = false;
-  for (std::size_t b = 0; b < setup_.bodies.size(); ++b) {
-    is_changing |= setup_.bodies[b].removal.has_value() || models_.bodies[b].displaces();
-  }
-  return is_changing;
+  return bodies::do_surfaces_change(setup_, models_.bodies);
 }
 
 void Simulation::advance_fluid() { fluid_->advance(time(), dust_ ? dust_->weigh() : nullptr); }

@@ -106,6 +106,21 @@ void add_parameters(Json& object, const ParameterSchema& schema) {
   }
 }
 
+/// The same where each stands once, at `place` in the definitions: of what is combined with many
+/// others.
+void refer_to_parameters(Json& object, const ParameterSchema& schema, const std::string& place) {
+  add_parameters(object, schema);
+  for (const Parameter& p : schema) {
+    object["properties"][p.name] = {{"$ref", "#/definitions/" + place + "/" + p.name}};
+  }
+}
+
+Json parameter_definitions(const ParameterSchema& schema) {
+  Json definitions = Json::object();
+  for (const Parameter& p : schema) definitions[p.name] = value_schema(p);
+  return definitions;
+}
+
 template <class Block>
 Json block() {
   Json made = object();
@@ -153,16 +168,39 @@ Json alternatives(const Json& base, const std::string& key, const std::vector<Ch
   return {{"oneOf", list}};
 }
 
+/// What bodies of any shape and motion have.
+Json any_body() {
+  Json base = object();
+  refer_to_parameters(base, PlacedBlock::schema(), "body");
+  refer_to_parameters(base, BodyBlock::schema(), "body");
+  for (const char* key : {"remove", "suction"}) {
+    base["properties"][key] = {{"$ref", std::string("#/definitions/body/") + key}};
+  }
+  return base;
+}
+
+/// What body_schema refers to.
+void add_body_definitions(Json& definitions, const registry::Registry& registry) {
+  Json body = parameter_definitions(PlacedBlock::schema());
+  body.update(parameter_definitions(BodyBlock::schema()));
+  body["remove"] = block<RemovalBlock>();
+  body["suction"] = block<SuctionBlock>();
+  definitions["body"] = body;
+  for (const Choice& shape : shapes()) {
+    definitions["shapes"][shape.name] = parameter_definitions(*shape.parameters);
+  }
+  for (const Choice& motion : choices(registry, "motion")) {
+    definitions["motions"][motion.name] = parameter_definitions(*motion.parameters);
+  }
+}
+
 /// Bodies: every shape, at rest or with every motion.
 Json body_schema(const registry::Registry& registry) {
   Json list = Json::array();
   std::vector<Choice> motions = choices(registry, "motion");
   motions.insert(motions.begin(), Choice{});
   for (const Choice& motion : motions) {
-    Json base = block<PlacedBlock>();
-    add_parameters(base, BodyBlock::schema());
-    base["properties"]["remove"] = block<RemovalBlock>();
-    base["properties"]["suction"] = block<SuctionBlock>();
+    Json base = any_body();
     if (motion.name.empty()) {
       base["properties"]["motions"] = {{"type", "array"},
                                        {"items", {{"$ref", "#/definitions/motion"}}},
@@ -171,10 +209,17 @@ Json body_schema(const registry::Registry& registry) {
     if (!motion.name.empty()) {
       base["properties"]["motion"] = {{"const", motion.name}, {"description", motion.summary}};
       base["required"].push_back("motion");
-      add_parameters(base, *motion.parameters);
+      refer_to_parameters(base, *motion.parameters, "motions/" + motion.name);
     }
-    const Json with_shapes = alternatives(base, "shape", shapes());
-    for (const Json& one : with_shapes["oneOf"]) list.push_back(one);
+    for (const Choice& shape : shapes()) {
+      Json one = base;
+      one["title"] = shape.name;
+      one["description"] = shape.summary;
+      one["properties"]["shape"] = {{"const", shape.name}};
+      one["required"].push_back("shape");
+      refer_to_parameters(one, *shape.parameters, "shapes/" + shape.name);
+      list.push_back(one);
+    }
   }
   return {{"oneOf", list}};
 }
@@ -363,6 +408,7 @@ std::string json_schema(const registry::Registry& registry) {
                            "voidage", "turbulence", "motion", "liberation"}) {
     definitions[kind] = model(registry, kind);
   }
+  add_body_definitions(definitions, registry);
   const Json root = scenario_schema(registry, domain["domain"], interaction);
   definitions["scenario"] = root;
   definitions["addition"] = addition(root, definitions);

@@ -50,7 +50,7 @@ std::vector<BarSection::Point> BarSection::outline() const {
   if (profile_ == Profile::bar) {
     return {{-half_, 0.0}, {-half_, top_}, {half_, top_}, {half_, 0.0}};
   }
-  constexpr int k_pieces = 12;
+  constexpr int k_pieces = 8;
   const double widest = std::atan2(foot_, -centre_);
   std::vector<Point> points;
   for (int k = 0; k <= k_pieces; ++k) {

@@ -142,7 +142,8 @@ std::optional<Cleats> cleats_of(const Parameters& p, const Trough& trough) {
   const double h = p.cleat_height;
   const double t = p.cleat_thickness;
   const double s = p.cleat_spacing;
-  if (h == 0.0 && t == 0.0 && s == 0.0) return std::nullopt;
+  const bool is_round = p.cleat_profile == "round";
+  if (h == 0.0 && t == 0.0 && s == 0.0 && !is_round) return std::nullopt;
   const auto refuse = [](const char* why) { throw sdk::ParameterError(why); };
   if (h == 0.0) refuse("cleat_height is 0: cleats need a height");
   if (t == 0.0) refuse("cleat_thickness is 0: cleats need a thickness");
@@ -154,7 +155,6 @@ std::optional<Cleats> cleats_of(const Parameters& p, const Trough& trough) {
       refuse("cleat_height is not below bend_radius: a cleat would fold where the belt bends");
     }
   }
-  const bool is_round = p.cleat_profile == "round";
   if (is_round && h > 0.5 * t) {
     refuse("cleat_height is more than half of cleat_thickness: a round cleat would overhang");
   }
@@ -273,7 +273,7 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
     const Vec3 q = to_belt(point);
     SurfacePoint s = nearest_face(q);
     for (int row = 0; row < cleats_->rows(); ++row) {
-      const SurfacePoint cleat = cleats_->nearest(run + row * cleats_->gap(), q, s.distance).point;
+      const SurfacePoint cleat = cleats_->nearest(run, row, q, s.distance).point;
       if (cleat.distance < s.distance) s = cleat;
     }
     return {s.distance, from_belt(s.normal)};
@@ -281,9 +281,7 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
   [[nodiscard]] SurfacePoint contact_after(double run, int part, Vec3 point,
                                            double reach) const override {
     if (part == k_static) return nearest_of_belt(point);
-    const double row = part - k_running;
-    const SurfacePoint s =
-        cleats_->nearest(run + row * cleats_->gap(), to_belt(point), reach).point;
+    const SurfacePoint s = cleats_->nearest(run, part - k_running, to_belt(point), reach).point;
     if (!(s.distance < reach)) return {std::numeric_limits<double>::infinity(), {}};
     return {s.distance, from_belt(s.normal)};
   }
@@ -292,9 +290,9 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
   [[nodiscard]] VelocityQuery velocity_query_after(double run, Vec3 point,
                                                    Vec3 normal) const override {
     const Vec3 q = to_belt(point);
-    auto cleat = cleats_->nearest(run, q);
-    if (cleats_->rows() == 2) {
-      const auto other = cleats_->nearest(run + cleats_->gap(), q);
+    auto cleat = cleats_->nearest(run, 0, q);
+    for (int row = 1; row < cleats_->rows(); ++row) {
+      const auto other = cleats_->nearest(run, row, q);
       if (other.point.distance < cleat.point.distance) cleat = other;
     }
     if (std::abs(cleat.point.distance) < std::abs(nearest_face(q).distance)) {

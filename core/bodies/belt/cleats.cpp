@@ -148,7 +148,8 @@ SurfacePoint Cleats::straight(const Stand& stand, Vec3 q) const {
       section_);
 }
 
-Cleats::Nearest Cleats::nearest(double run, Vec3 q, double limit) const {
+Cleats::Nearest Cleats::nearest(double run, int row, Vec3 q, double limit) const {
+  run += row * gap_;
   Nearest best;
   best.point.distance = limit;
   // Of equal bars in a row or round an axis the nearest is the one whose middle is, beside a
@@ -208,8 +209,8 @@ void add_ends(Triangles& t, const std::vector<BarSection::Point>& outline, const
 }  // namespace
 
 void Cleats::draw_in_trough(Triangles& t, const Stand& stand,
+                            const std::vector<BarSection::Point>& outline,
                             const std::vector<double>& widths) const {
-  const std::vector<BarSection::Point> outline = section_.outline();
   const auto corner = [&](const BarSection::Point& p, double across) {
     return p_.trough->at(stand.base.x, across, p.n) + Vec3{p.a, 0.0, p_.reach};
   };
@@ -234,7 +235,7 @@ Triangles Cleats::triangles(double run, double from, double to,
       if (!(s.is_on_pulley && s.pulley >= from && s.pulley <= to)) continue;
     }
     if (s.is_in_trough) {
-      draw_in_trough(t, s, widths);
+      draw_in_trough(t, s, outline, widths);
       continue;
     }
     const auto corner = [&](const BarSection::Point& p, bool is_left) {

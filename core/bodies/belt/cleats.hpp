@@ -62,9 +62,9 @@ class Cleats {
     SurfacePoint point;
     Stand stand;
   };
-  /// Of the first row, or with `run` + gap() of the second. Those that are not nearer than `limit`
-  /// [m] may be left out: then the distance is `limit`.
-  [[nodiscard]] Nearest nearest(double run, sdk::Vec3 q,
+  /// Of a row, from 0. Those that are not nearer than `limit` [m] may be left out: then the
+  /// distance is `limit`.
+  [[nodiscard]] Nearest nearest(double run, int row, sdk::Vec3 q,
                                 double limit = std::numeric_limits<double>::infinity()) const;
   /// Of those between two places along the belt; those in a trough with corners at `widths` across.
   [[nodiscard]] Triangles triangles(double run, double from, double to,
@@ -77,7 +77,9 @@ class Cleats {
  private:
   [[nodiscard]] SurfacePoint strip(const Stand& stand, sdk::Vec3 q) const;
   void look_in_trough(double run, sdk::Vec3 q, Nearest& best) const;
-  void draw_in_trough(Triangles& t, const Stand& stand, const std::vector<double>& widths) const;
+  void draw_in_trough(Triangles& t, const Stand& stand,
+                      const std::vector<BarSection::Point>& outline,
+                      const std::vector<double>& widths) const;
   [[nodiscard]] Stand stand_at(double way) const;
   [[nodiscard]] SurfacePoint straight(const Stand& stand, sdk::Vec3 q) const;
 

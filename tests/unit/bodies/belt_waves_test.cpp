@@ -218,6 +218,10 @@ TEST_CASE("round cleats that cannot be made shall be refused by name") {
       make_shape("belt_conveyor", high),
       "cleat_height is more than half of cleat_thickness: a round cleat would overhang",
       dust::sdk::ParameterError);
+  auto without = waved();
+  for (const char* key : {"cleat_height", "cleat_thickness", "cleat_spacing"}) without.erase(key);
+  CHECK_THROWS_WITH_AS(make_shape("belt_conveyor", without),
+                       "cleat_height is 0: cleats need a height", dust::sdk::ParameterError);
   auto dense = waved();
   dense["cleat_spacing"] = 0.08;
   CHECK_THROWS_WITH_AS(make_shape("belt_conveyor", dense),

@@ -5,6 +5,41 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstddef>
+#include <string>
+
+namespace {
+
+/// Calls `see` with each reference in a schema.
+template <class See>
+void each_reference(const nlohmann::json& part, const See& see) {
+  if (part.is_object() && part.contains("$ref")) see(part["$ref"].get<std::string>());
+  if (!part.is_structured()) return;
+  for (const auto& item : part.items()) each_reference(item.value(), see);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "what bodies of any shape and motion share shall stand once, and every reference be met") {
+  const std::string text = dust::scenario::json_schema(fakes());
+  const auto schema = nlohmann::json::parse(text);
+  int references = 0;
+  each_reference(schema, [&](const std::string& reference) {
+    CAPTURE(reference);
+    REQUIRE(reference.starts_with("#/"));
+    CHECK(schema.contains(nlohmann::json::json_pointer(reference.substr(1))));
+    ++references;
+  });
+  CHECK(references > 100);
+  const auto& head = schema["definitions"]["shapes"]["belt_conveyor"]["head"];
+  CHECK(head["type"] == "array");
+  const std::string sentence = head["description"].get<std::string>();
+  const std::size_t first = text.find(sentence);
+  REQUIRE(first != std::string::npos);
+  CHECK(text.find(sentence, first + 1) == std::string::npos);
+}
+
 TEST_CASE("the JSON Schema shall hold every model with its parameters") {
   const auto schema = nlohmann::json::parse(dust::scenario::json_schema(fakes()));
   CHECK(schema["$schema"] == "http://json-schema.org/draft-07/schema#");

@@ -411,39 +411,50 @@ TEST_CASE("cleats shall carry a lump up an incline that it slides down without t
   }
 }
 
+namespace {
+
+constexpr double k_even_speed = 1.0;  // [m/s] of the level belt below
+
+/// Elastic, without friction: seen from the belt, nothing does work on a lump on it. `more` are
+/// keys of its trough and cleats.
+struct EvenBelt : WallRig {
+  explicit EvenBelt(const std::map<std::string, Value>& more) : WallRig(1.0, 0.0, 2 * k_lump) {
+    setup.gravity = {0, 0, -k_g};
+    setup.domain.min = {-10, -10, -10};
+    setup.domain.max = {10, 10, 10};
+    setup.time.expected_speed = 5.0;
+    std::map<std::string, Value> belt{{"head", Vec3{0, 0, -k_pulley - k_thickness}},
+                                      {"tail", Vec3{-8, 0, -k_pulley - k_thickness}},
+                                      {"radius", k_pulley},
+                                      {"thickness", k_thickness},
+                                      {"width", 1.0}};
+    belt.insert(more.begin(), more.end());
+    body("belt_conveyor", belt, motion("belt", {{"speed", k_even_speed}}));
+  }
+  /// [J/kg] of a lump as the belt sees it.
+  static double energy(const GrainState& lump) {
+    const Vec3 v = lump.velocity - Vec3{k_even_speed, 0, 0};
+    return 0.5 * dot(v, v) + k_g * lump.position.z;
+  }
+};
+
+}  // namespace
+
 TEST_CASE("a lump between the cleats of a trough shall keep its energy as the belt has it") {
-  // Elastic, without friction: it swings across the bends and rebounds from cleat to cleat. Seen
-  // from the belt nothing does work on it.
-  constexpr double k_speed = 1.0;
-  WallRig rig(1.0, 0.0, 2 * k_lump);
-  rig.setup.gravity = {0, 0, -k_g};
-  rig.setup.domain.min = {-10, -10, -10};
-  rig.setup.domain.max = {10, 10, 10};
-  rig.setup.time.expected_speed = 5.0;
-  rig.body("belt_conveyor",
-           {{"head", Vec3{0, 0, -k_pulley - k_thickness}},
-            {"tail", Vec3{-8, 0, -k_pulley - k_thickness}},
-            {"radius", k_pulley},
-            {"thickness", k_thickness},
-            {"width", 1.0},
-            {"trough_angle", 0.6},
-            {"cleat_height", 0.15},
-            {"cleat_thickness", 0.03},
-            {"cleat_spacing", 0.5}},
-           WallRig::motion("belt", {{"speed", k_speed}}));
+  // It swings across the bends and rebounds from cleat to cleat.
+  EvenBelt rig({{"trough_angle", 0.6},
+                {"cleat_height", 0.15},
+                {"cleat_thickness", 0.03},
+                {"cleat_spacing", 0.5}});
   Vec3 start{-5.2, 0.3, 0.6};
   for (int n = 0; n < 100; ++n) {
     start.z -= rig.bodies[0].contact(0, start, 1.0, rig.bodies[0].placement(0.0)).distance - k_lump;
   }
   const auto dem = rig.make();
   dem->insert(std::vector<NewGrain>{
-      {.position = start, .velocity = {k_speed + 0.8, 0, 0}, .diameter = 2 * k_lump}});
+      {.position = start, .velocity = {k_even_speed + 0.8, 0, 0}, .diameter = 2 * k_lump}});
   Stepper stepper(*dem);
-  const auto energy = [&] {
-    const GrainState g = grain(*dem, 0);
-    const Vec3 v = g.velocity - Vec3{k_speed, 0, 0};
-    return 0.5 * dot(v, v) + k_g * g.position.z;
-  };
+  const auto energy = [&] { return EvenBelt::energy(grain(*dem, 0)); };
   const double fall = k_g * (start.z - k_lump);
   REQUIRE(fall > 0.3);
   const double first = energy();
@@ -452,7 +463,7 @@ TEST_CASE("a lump between the cleats of a trough shall keep its energy as the be
   double largest_error = 0.0;
   while (stepper.time() < 2.0) {
     stepper.step(5);
-    const double ahead = grain(*dem, 0).velocity.x - k_speed;
+    const double ahead = grain(*dem, 0).velocity.x - k_even_speed;
     if (std::abs(ahead) < 0.799) continue;  // a rebound is on: the spring has a part of it
     if (last * ahead < 0.0) ++rebounds;
     last = ahead;
@@ -463,29 +474,16 @@ TEST_CASE("a lump between the cleats of a trough shall keep its energy as the be
 }
 
 TEST_CASE("a lump on a belt of waves shall keep its energy as the belt has it") {
-  // Elastic, without friction: it bounces off crests and in valleys, where it touches two waves.
-  constexpr double k_speed = 1.0;
+  // It bounces off crests and in valleys, where it touches two waves.
   constexpr double k_fall = 0.1;
   int in_valleys = 0;
   // On a flank, and over the middle of a valley.
   for (const bool is_over_valley : {false, true}) {
     CAPTURE(is_over_valley);
-    WallRig rig(1.0, 0.0, 2 * k_lump);
-    rig.setup.gravity = {0, 0, -k_g};
-    rig.setup.domain.min = {-10, -10, -10};
-    rig.setup.domain.max = {10, 10, 10};
-    rig.setup.time.expected_speed = 5.0;
-    rig.body("belt_conveyor",
-             {{"head", Vec3{0, 0, -k_pulley - k_thickness}},
-              {"tail", Vec3{-8, 0, -k_pulley - k_thickness}},
-              {"radius", k_pulley},
-              {"thickness", k_thickness},
-              {"width", 1.0},
-              {"cleat_profile", std::string("round")},
-              {"cleat_height", 0.03},
-              {"cleat_thickness", 0.1},
-              {"cleat_spacing", 0.1}},
-             WallRig::motion("belt", {{"speed", k_speed}}));
+    EvenBelt rig({{"cleat_profile", std::string("round")},
+                  {"cleat_height", 0.03},
+                  {"cleat_thickness", 0.1},
+                  {"cleat_spacing", 0.1}});
     Vec3 start{-5.0, 0, 0.03 + k_lump + k_fall};
     const auto nearer_to_one = [&](double x) {
       const auto at = rig.bodies[0].placement(0.0);
@@ -497,13 +495,9 @@ TEST_CASE("a lump on a belt of waves shall keep its energy as the belt has it") 
     }
     const auto dem = rig.make();
     dem->insert(std::vector<NewGrain>{
-        {.position = start, .velocity = {k_speed, 0, 0}, .diameter = 2 * k_lump}});
+        {.position = start, .velocity = {k_even_speed, 0, 0}, .diameter = 2 * k_lump}});
     Stepper stepper(*dem);
-    const auto energy = [&] {
-      const GrainState g = grain(*dem, 0);
-      const Vec3 v = g.velocity - Vec3{k_speed, 0, 0};
-      return 0.5 * dot(v, v) + k_g * g.position.z;
-    };
+    const auto energy = [&] { return EvenBelt::energy(grain(*dem, 0)); };
     const double first = energy();
     int bounces = 0;
     bool was_apart = true;
