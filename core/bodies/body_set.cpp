@@ -5,6 +5,7 @@
 #include "bodies/belt/running_parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -16,6 +17,22 @@ namespace {
 
 /// Points at which motions are asked for surface velocities at once.
 constexpr std::size_t k_block = 128;
+
+void set_to_zero(const sdk::MutableVectorColumns& velocity, std::size_t count) {
+  std::fill_n(velocity.x, count, 0.0);
+  std::fill_n(velocity.y, count, 0.0);
+  std::fill_n(velocity.z, count, 0.0);
+}
+
+/// Of the body as a whole.
+void add_rigid_velocities(const Placement& at, const sdk::SurfaceBatch& batch) {
+  for (std::size_t q = 0; q < batch.count; ++q) {
+    const Vec3 v = at.velocity_at(batch.position[q]);
+    batch.velocity.x[q] += v.x;
+    batch.velocity.y[q] += v.y;
+    batch.velocity.z[q] += v.z;
+  }
+}
 
 Vec3 turned_back(const Placement& at, Vec3 v) {
   return at.is_turned ? Vec3{dot(v, at.column[0]), dot(v, at.column[1]), dot(v, at.column[2])} : v;
@@ -168,15 +185,19 @@ void Body::surface_velocities(const sdk::SurfaceBatch& all) const {
 }
 
 void Body::surface_velocities(const sdk::SurfaceBatch& all, const Placement& at) const {
-  std::fill_n(all.velocity.x, all.count, 0.0);
-  std::fill_n(all.velocity.y, all.count, 0.0);
-  std::fill_n(all.velocity.z, all.count, 0.0);
+  set_to_zero(all.velocity, all.count);
   if (motions.empty()) return;
   const Vec3 axis = at.turn(shape->lateral_axis());
   const auto* const local = shape->local_axes();
   const RunningParts* const parts = running_parts(*this);
+  if (local != nullptr && parts == nullptr) {
+    const Instant now{all.time, all.velocity};
+    add_velocities(*local, all, at, {&now, 1});
+    if (is_carried()) add_rigid_velocities(at, all);
+    return;
+  }
   const double way = parts != nullptr ? run_at(*this, *parts, at) : 0.0;
-  const std::size_t block = local != nullptr ? 1 : k_block;
+  const std::size_t block = parts != nullptr ? 1 : k_block;
   double run[3][k_block];
   for (std::size_t first = 0; first < all.count; first += block) {
     sdk::SurfaceBatch b{.count = std::min(block, all.count - first),
@@ -195,9 +216,6 @@ void Body::surface_velocities(const sdk::SurfaceBatch& all, const Placement& at)
       asked = at.turn(query.normal);
       b.normal = {&asked.x, &asked.y, &asked.z};
       factor = query.factor;
-    } else if (local != nullptr) {
-      const Vec3 own = turned_back(at, b.normal[0]);
-      b.axis = at.turn(local->lateral_axis_at(at.to_body(b.position[0]), own));
     }
     for (const auto& motion : motions) {
       if (motion->moves_body()) continue;
@@ -208,12 +226,49 @@ void Body::surface_velocities(const sdk::SurfaceBatch& all, const Placement& at)
         all.velocity.z[first + q] += factor * run[2][q];
       }
     }
-    if (parts != nullptr) continue;  // the placement is that of what runs, not of the body
-    for (std::size_t q = first; q < first + b.count; ++q) {
-      const Vec3 v = at.velocity_at(all.position[q]);
-      all.velocity.x[q] += v.x;
-      all.velocity.y[q] += v.y;
-      all.velocity.z[q] += v.z;
+  }
+  // The placement is that of what runs, not of the body.
+  if (parts == nullptr) add_rigid_velocities(at, all);
+}
+
+void Body::surface_velocities(const sdk::SurfaceBatch& all, const Placement& at, double other_time,
+                              const sdk::MutableVectorColumns& other_velocity) const {
+  const LocalAxes* const local = shape->local_axes();
+  if (local == nullptr || running_parts(*this) != nullptr || motions.empty()) {
+    surface_velocities(all, at);
+    sdk::SurfaceBatch other = all;
+    other.time = other_time;
+    other.velocity = other_velocity;
+    surface_velocities(other, at);
+    return;
+  }
+  set_to_zero(all.velocity, all.count);
+  set_to_zero(other_velocity, all.count);
+  add_velocities(*local, all, at,
+                 std::array<Instant, 2>{{{all.time, all.velocity}, {other_time, other_velocity}}});
+}
+
+/// Of motions along the surface, where the lateral axis is another at each point.
+void Body::add_velocities(const LocalAxes& local, const sdk::SurfaceBatch& batch,
+                          const Placement& at, std::span<const Instant> instants) const {
+  for (std::size_t q = 0; q < batch.count; ++q) {
+    Vec3 run;
+    sdk::SurfaceBatch b{.count = 1,
+                        .time = 0.0,
+                        .axis = at.turn(local.lateral_axis_at(at.to_body(batch.position[q]),
+                                                              turned_back(at, batch.normal[q]))),
+                        .position = batch.position.from(q),
+                        .normal = batch.normal.from(q),
+                        .velocity = {&run.x, &run.y, &run.z}};
+    for (const Instant& instant : instants) {
+      b.time = instant.time;
+      for (const auto& motion : motions) {
+        if (motion->moves_body()) continue;
+        motion->surface_velocity(b);
+        instant.velocity.x[q] += run.x;
+        instant.velocity.y[q] += run.y;
+        instant.velocity.z[q] += run.z;
+      }
     }
   }
 }

@@ -10,10 +10,13 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace dust::bodies {
+
+class LocalAxes;
 
 /// A solid in the domain: shape, place, material and motion.
 struct Body {
@@ -57,6 +60,10 @@ struct Body {
   void surface_velocities(const sdk::SurfaceBatch& batch) const;
   /// The same of a placement that is known, that at batch.time.
   void surface_velocities(const sdk::SurfaceBatch& batch, const Placement& at) const;
+  /// The same of a body that is never carried, at another time too: what of it is the same at both
+  /// is found once.
+  void surface_velocities(const sdk::SurfaceBatch& batch, const Placement& at, double other_time,
+                          const sdk::MutableVectorColumns& other_velocity) const;
   /// The same at one point (for set-up and tests).
   [[nodiscard]] sdk::Vec3 surface_velocity(sdk::Vec3 point, sdk::Vec3 normal, double time) const;
   /// Upper bound [m/s] of the speed of any point of the surface at any time.
@@ -68,6 +75,14 @@ struct Body {
   [[nodiscard]] Triangles triangles(sdk::Vec3 min, sdk::Vec3 max, double edge) const;
   [[nodiscard]] Triangles triangles(sdk::Vec3 min, sdk::Vec3 max, double edge,
                                     const Placement& at) const;
+
+ private:
+  struct Instant {
+    double time;  ///< [s]
+    sdk::MutableVectorColumns velocity;
+  };
+  void add_velocities(const LocalAxes& local, const sdk::SurfaceBatch& batch, const Placement& at,
+                      std::span<const Instant> instants) const;
 };
 
 using BodySet = std::vector<Body>;

@@ -52,21 +52,30 @@ std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::Bod
   return out;
 }
 
-void surface_velocities(const Surface& surface, double time, std::size_t count,
-                        const double* const* point, const double* const* normal,
-                        double* const* velocity) {
+void surface_velocities(const Surface& surface, std::size_t count, const double* const* point,
+                        const double* const* normal, double time, double* const* velocity,
+                        double other_time, double* const* other_velocity) {
   if (surface.body == nullptr) {
     for (int d = 0; d < 3; ++d) std::fill_n(velocity[d], count, 0.0);
+    for (int d = 0; d < 3; ++d) std::fill_n(other_velocity[d], count, 0.0);
     return;
   }
-  const sdk::SurfaceBatch batch{.count = count,
-                                .time = time,
-                                .axis = {},
-                                .position = {point[0], point[1], point[2]},
-                                .normal = {normal[0], normal[1], normal[2]},
-                                .velocity = {velocity[0], velocity[1], velocity[2]}};
-  surface.body->surface_velocities(
-      batch, surface.is_carried ? surface.body->placement(time) : surface.place);
+  const bodies::Body& body = *surface.body;
+  sdk::SurfaceBatch batch{.count = count,
+                          .time = time,
+                          .axis = {},
+                          .position = {point[0], point[1], point[2]},
+                          .normal = {normal[0], normal[1], normal[2]},
+                          .velocity = {velocity[0], velocity[1], velocity[2]}};
+  const sdk::MutableVectorColumns other{other_velocity[0], other_velocity[1], other_velocity[2]};
+  if (!surface.is_carried) {
+    body.surface_velocities(batch, surface.place, other_time, other);
+    return;
+  }
+  body.surface_velocities(batch, body.placement(time));
+  batch.time = other_time;
+  batch.velocity = other;
+  body.surface_velocities(batch, body.placement(other_time));
 }
 
 }  // namespace dust::particles

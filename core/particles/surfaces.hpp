@@ -82,9 +82,9 @@ NearestSurface nearest_surface(std::span<const Surface> surfaces, sdk::Vec3 poin
 
 std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::BodySet& bodies);
 
-/// Surface velocities of `count` columns of points and normals at `time` [s].
-void surface_velocities(const Surface& surface, double time, std::size_t count,
-                        const double* const* point, const double* const* normal,
-                        double* const* velocity);
+/// Surface velocities of `count` columns of points and normals at `time` [s], and at another time.
+void surface_velocities(const Surface& surface, std::size_t count, const double* const* point,
+                        const double* const* normal, double time, double* const* velocity,
+                        double other_time, double* const* other_velocity);
 
 }  // namespace dust::particles

@@ -147,21 +147,24 @@ Vec3 Trough::foot(Vec3 point) const {
   const double nearest = norm(point - Vec3{x, f.y, f.z});
   // Nothing is nearer than the point's own section where those within reach are the same.
   if (is_even(x - nearest, x + nearest)) return {x, f.y, f.z};
-  if (nearest > 2.0 * p_.bend) x = best_start(point, nearest);
+  if (nearest > 2.0 * p_.bend) {
+    x = best_start(point, nearest);
+    f = nearest_in(section(x), point.y, point.z);
+  }
   double last_x = x;
   double last_rest = 0.0;
   for (int n = 0; n < k_max_corrections; ++n) {
-    f = nearest_in(section(x), point.y, point.z);
     const double rest = point.x + f.pull - x;
     // Along the chord through the last two, where it falls about as steeply as it should.
     const double chord_slope = n > 0 && x != last_x ? (last_rest - rest) / (x - last_x) : 1.0;
     const double change = rest / (chord_slope > 0.4 && chord_slope < 2.5 ? chord_slope : 1.0);
+    const double next = std::clamp(x + change, -p_.length, 0.0);
+    if (std::abs(next - x) <= k_place) break;
     last_x = x;
     last_rest = rest;
-    x = std::clamp(x + change, -p_.length, 0.0);
-    if (std::abs(x - last_x) <= k_place) break;
+    x = next;
+    f = nearest_in(section(x), point.y, point.z);
   }
-  f = nearest_in(section(x), point.y, point.z);
   return {x, f.y, f.z};
 }
 

@@ -1,27 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/energy/elastic_energy.hpp"
 
-#include "dust/sdk/vec3.hpp"
+#include "dust/sdk/kernel.hpp"
 
 namespace dust::particles {
+namespace {
 
 using contact::BatchColumns;
-using sdk::Vec3;
+using B = BatchColumns;
 
-ElasticEnergy elastic_energy(const PairLaws& law, BatchColumns& columns, std::size_t q) {
-  using B = BatchColumns;
-  const auto get = [&](int c) {
-    return Vec3{columns.column(c)[q], columns.column(c + 1)[q], columns.column(c + 2)[q]};
-  };
-  const double overlap = columns.column(law.cohesion ? B::contact_overlap : B::overlap)[q];
-  if (!(overlap > 0.0)) return {0.0, 0.0};
-  const double normal = columns.column(B::normal_stiffness)[q] * overlap * overlap;
-  const Vec3 n = get(B::normal_x);
-  const Vec3 force = get(B::force_x);
-  const Vec3 tangential = force - dot(force, n) * n;
-  const double stiffness = columns.column(B::tangential_stiffness)[q];
-  return {(law.contact->has_hertz_force() ? 0.4 : 0.5) * normal,  // 1 / (p + 1)
-          stiffness > 0.0 ? 0.5 * dot(tangential, tangential) / stiffness : 0.0};
+DUST_KERNEL void find(const double* overlap, double per_overlap_force, BatchColumns& columns,
+                      std::size_t count, ElasticEnergy& out) {
+  const double* nx = columns.column(B::normal_x);
+  const double* ny = columns.column(B::normal_y);
+  const double* nz = columns.column(B::normal_z);
+  const double* fx = columns.column(B::force_x);
+  const double* fy = columns.column(B::force_y);
+  const double* fz = columns.column(B::force_z);
+  const double* normal_stiffness = columns.column(B::normal_stiffness);
+  const double* tangential_stiffness = columns.column(B::tangential_stiffness);
+  double* normal = out.normal;
+  double* friction = out.friction;
+#pragma omp simd
+  for (std::size_t q = 0; q < count; ++q) {
+    const double along = fx[q] * nx[q] + fy[q] * ny[q] + fz[q] * nz[q];
+    const double tx = fx[q] - along * nx[q];
+    const double ty = fy[q] - along * ny[q];
+    const double tz = fz[q] - along * nz[q];
+    const double square = tx * tx + ty * ty + tz * tz;
+    const double stiffness = tangential_stiffness[q];
+    const bool has_spring = stiffness > 0.0;
+    const double of_spring = 0.5 * square / (has_spring ? stiffness : 1.0);
+    const double depth = overlap[q];
+    const bool is_touching = depth > 0.0;
+    normal[q] = is_touching ? per_overlap_force * (normal_stiffness[q] * depth * depth) : 0.0;
+    friction[q] = is_touching && has_spring ? of_spring : 0.0;
+  }
+}
+
+}  // namespace
+
+void find_elastic_energy(const PairLaws& law, BatchColumns& columns, std::size_t count,
+                         ElasticEnergy& out) {
+  const double* overlap = columns.column(law.cohesion ? B::contact_overlap : B::overlap);
+  // 1 / (p + 1) of a force that grows with overlap^p
+  find(overlap, law.contact->has_hertz_force() ? 0.4 : 0.5, columns, count, out);
 }
 
 }  // namespace dust::particles

@@ -8,12 +8,15 @@
 
 namespace dust::particles {
 
-/// Energy [J] that the springs of a contact hold.
+/// Energy [J] that the springs of each contact of a batch hold; zeros where it does not touch.
 struct ElasticEnergy {
-  double normal, friction;
+  double normal[contact::k_batch];
+  double friction[contact::k_batch];
 };
-/// Of contact q of a batch whose laws have been evaluated, from its force, overlap and stiffness;
-/// docs/theory/energy.md, eq. (5). Zeros where it does not touch.
-ElasticEnergy elastic_energy(const PairLaws& law, contact::BatchColumns& columns, std::size_t q);
+
+/// From force, overlap and stiffness of a batch whose laws have been evaluated;
+/// docs/theory/energy.md, eq. (5).
+void find_elastic_energy(const PairLaws& law, contact::BatchColumns& columns, std::size_t count,
+                         ElasticEnergy& out);
 
 }  // namespace dust::particles

@@ -38,6 +38,8 @@ void record_work(const ContactScene& scene, const PairLaws& law, const contact::
   const ContactMotion& motion = thread_motion();
   double* const* history = columns.history() + scene.laws.account_column();
   const std::ptrdiff_t stride = columns.history()[1] - columns.history()[0];
+  ElasticEnergy elastic;
+  find_elastic_energy(law, columns, count, elastic);
   for (std::size_t q = 0; q < count; ++q) {
     const std::size_t entry =
         contacts == nullptr ? first + q : static_cast<std::size_t>(contacts[q]);
@@ -49,9 +51,8 @@ void record_work(const ContactScene& scene, const PairLaws& law, const contact::
     if (pairs.is_touching[entry] != 0) {
       c.force = vector_of(columns, B::force_x, q);
       if (law.rolling) c.couple = vector_of(columns, B::torque_x, q);
-      const ElasticEnergy elastic = elastic_energy(law, columns, q);
-      sums.elastic_normal += c.weight * elastic.normal;
-      sums.elastic_friction += c.weight * elastic.friction;
+      sums.elastic_normal += c.weight * elastic.normal[q];
+      sums.elastic_friction += c.weight * elastic.friction[q];
     }
     add_work(c, history[0] + q, static_cast<std::size_t>(stride), sums);
   }

@@ -34,8 +34,8 @@ void derive_wall_columns(const Surface& surface, double time, double since, std:
     velocity[d] = columns.column(B::separation_x + d);
     mean_velocity[d] = columns.column(k_wall_mean_velocity + d);
   }
-  surface_velocities(surface, time, count, point, normal, velocity);
-  surface_velocities(surface, time - 0.5 * since, count, point, normal, mean_velocity);
+  surface_velocities(surface, count, point, normal, time, velocity, time - 0.5 * since,
+                     mean_velocity);
   take_off(columns, count, B::velocity_x, B::separation_x, nullptr);
   take_off(columns, count, B::displacement_x, k_wall_mean_velocity, columns.column(k_wall_since));
   contact::repeat_last(columns, count, B::radius_i, B::velocity_z);

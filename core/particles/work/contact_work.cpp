@@ -6,9 +6,10 @@
 namespace dust::particles {
 
 void ContactWork::begin(std::size_t walls, std::size_t particles) {
+  is_on_ = true;
   walls_ = walls;
-  width_ = k_first_wall + 2 * walls;
-  numbers_.assign(width_ * particles, 0.0);
+  of_rows_.assign(particles, {});
+  of_walls_.assign(walls * particles, {});
 }
 
 ContactWork::Energy ContactWork::sum(std::size_t row) const {
@@ -21,10 +22,21 @@ ContactWork::Energy ContactWork::sum(std::size_t row) const {
   return sum;
 }
 
-void ContactWork::clear() { std::fill(numbers_.begin(), numbers_.end(), 0.0); }
+void ContactWork::clear() {
+  std::fill(of_rows_.begin(), of_rows_.end(), OfRow{});
+  std::fill(of_walls_.begin(), of_walls_.end(), Energy{});
+}
+
+void ContactWork::resize(std::size_t particles) {
+  if (!is_on_) return;
+  of_rows_.resize(particles);
+  of_walls_.resize(walls_ * particles);
+}
 
 void ContactWork::reorder(std::span<const std::int32_t> order) {
-  if (is_on()) reorder_rows(numbers_, order, width_);
+  if (!is_on_) return;
+  reorder_rows(of_rows_, order, 1);
+  reorder_rows(of_walls_, order, walls_);
 }
 
 }  // namespace dust::particles

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "contact/aligned.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace dust::particles {
 
@@ -24,53 +23,52 @@ class ContactWork {
 
   /// Begins to keep it, for so many walls.
   void begin(std::size_t walls, std::size_t particles);
-  [[nodiscard]] bool is_on() const { return width_ > 0; }
+  [[nodiscard]] bool is_on() const { return is_on_; }
   [[nodiscard]] std::size_t walls() const { return walls_; }
 
   /// Of contacts with other particles: this one's half.
-  [[nodiscard]] Energy with_particles(std::size_t row) const { return at(row, k_pairs); }
+  [[nodiscard]] Energy with_particles(std::size_t row) const {
+    return of_rows_[row].with_particles;
+  }
   [[nodiscard]] Energy with_wall(std::size_t row, std::size_t wall) const {
-    return at(row, k_first_wall + 2 * wall);
+    return of_walls_[walls_ * row + wall];
   }
   [[nodiscard]] Energy sum(std::size_t row) const;
   /// [m/s2] largest that all contacts together have given it.
-  [[nodiscard]] double acceleration(std::size_t row) const {
-    return numbers_[width_ * row + k_acceleration];
-  }
+  [[nodiscard]] double acceleration(std::size_t row) const { return of_rows_[row].acceleration; }
 
   void add_with_particles(std::size_t row, double normal, double tangential) {
-    add(row, k_pairs, normal, tangential);
+    add(of_rows_[row].with_particles, normal, tangential);
   }
   void add_with_wall(std::size_t row, std::size_t wall, double normal, double tangential) {
-    add(row, k_first_wall + 2 * wall, normal, tangential);
+    add(of_walls_[walls_ * row + wall], normal, tangential);
   }
   void note_acceleration(std::size_t row, double acceleration) {
-    double& largest = numbers_[width_ * row + k_acceleration];
+    double& largest = of_rows_[row].acceleration;
     largest = std::max(largest, acceleration);
   }
   /// Zeros in all rows.
   void clear();
 
   /// Particles have come at the end of the rows.
-  void resize(std::size_t particles) { numbers_.resize(width_ * particles, 0.0); }
+  void resize(std::size_t particles);
   void reorder(std::span<const std::int32_t> order);
 
  private:
-  static constexpr std::size_t k_acceleration = 0, k_pairs = 1, k_first_wall = 3;
-
-  [[nodiscard]] Energy at(std::size_t row, std::size_t column) const {
-    const double* e = numbers_.data() + width_ * row + column;
-    return {e[0], e[1]};
-  }
-  void add(std::size_t row, std::size_t column, double normal, double tangential) {
-    double* e = numbers_.data() + width_ * row + column;
-    e[0] += normal;
-    e[1] += tangential;
+  struct OfRow {
+    double acceleration = 0.0;
+    Energy with_particles;
+  };
+  static void add(Energy& to, double normal, double tangential) {
+    to.normal += normal;
+    to.tangential += tangential;
   }
 
+  bool is_on_ = false;
   std::size_t walls_ = 0;
-  std::size_t width_ = 0;  ///< numbers per row; 0: not kept
-  contact::AlignedVector<double> numbers_;
+  /// Apart from those of the walls: each step writes all of them.
+  std::vector<OfRow> of_rows_;
+  std::vector<Energy> of_walls_;
 };
 
 }  // namespace dust::particles

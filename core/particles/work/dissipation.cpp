@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/work/dissipation.hpp"
 
-#include "dust/sdk/vec3.hpp"
+#include "dust/sdk/kernel.hpp"
 #include "particles/energy/elastic_energy.hpp"
 #include "particles/forces/force_buffer.hpp"
 
@@ -11,38 +11,66 @@ namespace dust::particles {
 namespace {
 
 using contact::BatchColumns;
-using sdk::Vec3;
+using B = BatchColumns;
+
+/// Adds what the contacts have done to their sides in a step.
+DUST_KERNEL void add_work(BatchColumns& columns, std::size_t count, double step, double* normal,
+                          double* tangential) {
+  const double* nx = columns.column(B::normal_x);
+  const double* ny = columns.column(B::normal_y);
+  const double* nz = columns.column(B::normal_z);
+  const double* fx = columns.column(B::force_x);
+  const double* fy = columns.column(B::force_y);
+  const double* fz = columns.column(B::force_z);
+  const double* vx = columns.column(B::velocity_x);
+  const double* vy = columns.column(B::velocity_y);
+  const double* vz = columns.column(B::velocity_z);
+#pragma omp simd
+  for (std::size_t q = 0; q < count; ++q) {
+    const double along = fx[q] * nx[q] + fy[q] * ny[q] + fz[q] * nz[q];
+    const double tx = fx[q] - along * nx[q];
+    const double ty = fy[q] - along * ny[q];
+    const double tz = fz[q] - along * nz[q];
+    normal[q] -= step * along * (vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q]);
+    tangential[q] -= step * (tx * vx[q] + ty * vy[q] + tz * vz[q]);
+  }
+}
+
+DUST_KERNEL void add_rolling_work(BatchColumns& columns, std::size_t count, double step,
+                                  double* tangential) {
+  const double* mx = columns.column(B::torque_x);
+  const double* my = columns.column(B::torque_y);
+  const double* mz = columns.column(B::torque_z);
+  const double* wx = columns.column(B::rotation_x);
+  const double* wy = columns.column(B::rotation_y);
+  const double* wz = columns.column(B::rotation_z);
+#pragma omp simd
+  for (std::size_t q = 0; q < count; ++q) {
+    tangential[q] -= step * (mx[q] * wx[q] + my[q] * wy[q] + mz[q] * wz[q]);
+  }
+}
 
 /// What of the work done so far cannot be given back any more.
-double hand_out(double& work, double stored) {
-  const double given = std::max(0.0, work - stored);
-  work -= given;
-  return given;
+DUST_KERNEL void hand_out(double* work, const double* stored, std::size_t count, double* given) {
+#pragma omp simd
+  for (std::size_t q = 0; q < count; ++q) {
+    given[q] = std::max(0.0, work[q] - stored[q]);
+    work[q] -= given[q];
+  }
 }
 
 }  // namespace
 
 void find_dissipation(const PairLaws& law, BatchColumns& columns, std::size_t count, double step,
                       std::size_t first, Dissipation& out) {
-  using B = BatchColumns;
   double* const normal_work = columns.history()[first];
   double* const tangential_work = columns.history()[first + 1];
-  for (std::size_t q = 0; q < count; ++q) {
-    const auto get = [&](int c) {
-      return Vec3{columns.column(c)[q], columns.column(c + 1)[q], columns.column(c + 2)[q]};
-    };
-    const Vec3 n = get(B::normal_x);
-    const Vec3 force = get(B::force_x);
-    const Vec3 velocity = get(B::velocity_x);
-    const double normal_force = dot(force, n);
-    const Vec3 friction = force - normal_force * n;
-    normal_work[q] -= step * normal_force * dot(velocity, n);
-    tangential_work[q] -= step * dot(friction, velocity);
-    if (law.rolling) tangential_work[q] -= step * dot(get(B::torque_x), get(B::rotation_x));
-    const ElasticEnergy stored = elastic_energy(law, columns, q);
-    out.normal[q] = hand_out(normal_work[q], stored.normal);
-    out.tangential[q] = hand_out(tangential_work[q], stored.friction);
-  }
+  add_work(columns, count, step, normal_work, tangential_work);
+  if (law.rolling) add_rolling_work(columns, count, step, tangential_work);
+  ElasticEnergy stored;
+  find_elastic_energy(law, columns, count, stored);
+  hand_out(normal_work, stored.normal, count, out.normal);
+  hand_out(tangential_work, stored.friction, count, out.tangential);
 }
 
 void scatter_dissipation(const Dissipation& out, const contact::Places* places,

@@ -16,7 +16,7 @@ struct Dissipation {
 };
 
 /// From a batch whose laws have been evaluated: the work that the contact does on its sides, less
-/// what is stored in it (elastic_energy), D = -int F.v dt - U: dissipated is what the contact
+/// what is stored in it (find_elastic_energy), D = -int F.v dt - U: dissipated is what the contact
 /// cannot give back. What D has grown by is handed out, so that a whole collision hands out the
 /// kinetic energy that it has cost. Work that is not handed out yet stands in the history of the
 /// contact, in columns `first` and the next. docs/theory/dust.md, eq. (6), (7).

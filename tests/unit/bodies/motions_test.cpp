@@ -212,6 +212,59 @@ TEST_CASE("a troughed belt in a turned frame shall run along its wings as fast a
   }
 }
 
+TEST_CASE("velocities asked for at two times at once shall be those of each") {
+  const std::map<std::string, Value> plain{{"head", Vec3{}}, {"tail", Vec3{-6, 0, 0}},
+                                           {"radius", 0.3},  {"thickness", 0.02},
+                                           {"width", 1.0},   {"trough_angle", 0.6}};
+  auto with_cleats = plain;
+  with_cleats.insert({{"cleat_height", 0.05}, {"cleat_thickness", 0.02}, {"cleat_spacing", 0.5}});
+  for (const auto& belt : {plain, with_cleats}) {
+    Body body;
+    body.shape = make_shape("belt_conveyor", belt);
+    body.motions = list(motion("belt", {{"speed", 2.0}, {"ramp", 1.0}}));
+    body.frame_origin = {1, 2, 3};
+    body.frame_angle = 0.3;
+    const auto at = body.placement(0.0);
+    std::vector<double> in[6];
+    for (const Vec3 over : {Vec3{-3.0, 0.2, 0.8}, Vec3{-0.9, -0.4, 0.8}, Vec3{-2.0, 0.1, -0.8}}) {
+      const auto s = body.nearest(at.to_domain(over), at);
+      const Vec3 p = at.to_domain(over) - s.distance * s.normal;
+      for (int d = 0; d < 3; ++d) {
+        in[d].push_back(p[d]);
+        in[3 + d].push_back(s.normal[d]);
+      }
+    }
+    const std::size_t count = in[0].size();
+    std::vector<double> out[6];
+    for (auto& column : out) column.assign(count, -1.0);
+    const dust::sdk::SurfaceBatch batch{.count = count,
+                                        .time = 1.5,
+                                        .axis = {},
+                                        .position = {in[0].data(), in[1].data(), in[2].data()},
+                                        .normal = {in[3].data(), in[4].data(), in[5].data()},
+                                        .velocity = {out[0].data(), out[1].data(), out[2].data()}};
+    body.surface_velocities(batch, at, 0.25, {out[3].data(), out[4].data(), out[5].data()});
+    std::vector<double> alone[3];
+    for (auto& column : alone) column.assign(count, -1.0);
+    auto one = batch;
+    one.velocity = {alone[0].data(), alone[1].data(), alone[2].data()};
+    for (const int first : {0, 3}) {
+      CAPTURE(first);
+      one.time = first == 0 ? 1.5 : 0.25;
+      body.surface_velocities(one, at);
+      for (int d = 0; d < 3; ++d) {
+        for (std::size_t n = 0; n < count; ++n) CHECK(out[first + d][n] == alone[d][n]);
+      }
+      // At full speed, and in the first quarter of the ramp.
+      const double speed = first == 0 ? 2.0 : 0.5;
+      if (belt.size() == plain.size()) {
+        CHECK(std::hypot(out[first][0], out[first + 1][0], out[first + 2][0]) ==
+              approx(speed).epsilon(1e-9));
+      }
+    }
+  }
+}
+
 TEST_CASE("a drum about its own axis shall stand while its surface turns") {
   Body drum;
   drum.shape = make_shape("cylinder", {{"base", Vec3{}},
