@@ -143,8 +143,12 @@ double BodyField::own_way(const Hit& hit, Vec3 p, double smear) const {
 }
 
 double BodyField::open_part(const Hit& hit, Vec3 p, Vec3 size, double smear) const {
-  double width = own_way(hit, p, smear);
+  double width = 0.0;
   for (int d = 0; d < 3; ++d) width += std::abs(hit.normal[d]) * size[d];
+  // Speeds of a surface are dear: asked for where they could matter.
+  if (2.0 * std::abs(hit.distance) <= width + 1.01 * smear * largest_speed_) {
+    width += own_way(hit, p, smear);
+  }
   if (width > k_on_surface * smallest_) return std::clamp(0.5 + hit.distance / width, 0.0, 1.0);
   return hit.distance > k_on_surface * smallest_ ? 1.0 : 0.0;
 }

@@ -58,6 +58,7 @@ class ContactList {
   void histories_to_columns();
   /// And back into rows, as all others know them.
   void histories_to_rows();
+  [[nodiscard]] bool has_histories_in_columns() const { return is_in_columns_; }
 
   /// Particle n becomes new_row[n]; a contact of one that is gone, where that is negative, ends.
   void renumber(std::span<const std::int32_t> new_row);

@@ -186,6 +186,12 @@ void InnerList::collect_active(const Pruning& p, std::size_t begin, std::size_t 
 }
 
 void InnerList::return_histories() {
+  // Everyone who reads rows asks for it: nearly always they are there.
+  if (std::none_of(tiles_.begin(), tiles_.end(), [](const OfTile& tile) {
+        return tile.contacts.pairs.has_histories_in_columns();
+      })) {
+    return;
+  }
   oneapi::tbb::parallel_for(std::size_t{0}, tiles_.size(),
                             [&](std::size_t t) { tiles_[t].contacts.pairs.histories_to_rows(); });
 }

@@ -56,8 +56,7 @@ LiberationStage::LiberationStage(const scenario::Setup& setup,
   }
 }
 
-bool LiberationStage::is_in_feed_zone(std::size_t row) const {
-  const double* x = particles_.rows().position + 4 * row;
+bool LiberationStage::is_in_feed_zone(const double* x) const {
   return std::any_of(feed_zones_.begin(), feed_zones_.end(), [&](const scenario::FeedZoneSpec& z) {
     return x[0] >= z.min.x && x[0] <= z.max.x && x[1] >= z.min.y && x[1] <= z.max.y &&
            x[2] >= z.min.z && x[2] <= z.max.z;
@@ -67,16 +66,17 @@ bool LiberationStage::is_in_feed_zone(std::size_t row) const {
 /// Rows that contacts have done something to, and what.
 void LiberationStage::find_impacts() {
   const particles::ContactWork& work = particles_.contact_work();
-  const std::size_t count = particles_.rows().count;
+  const particles::GrainRows grains = particles_.rows();
   rows_.clear();
   impact_energy_.assign(impact_energy_.size(), {});
   auto& c = columns_;
   for (Column* column : {&c.normal, &c.tangential, &c.acceleration}) column->clear();
-  for (std::size_t row = 0; row < count; ++row) {
+  for (std::size_t row = 0; row < grains.count; ++row) {
     const particles::ContactWork::Energy energy = work.sum(row);
     const double acceleration = work.acceleration(row);
-    if (!(energy.sum() > 0.0 || acceleration > 0.0) || is_in_feed_zone(row)) continue;
-    if (energy.sum() > 0.0) add_impact_energy(row);
+    if (!(energy.sum() > 0.0 || acceleration > 0.0)) continue;
+    if (is_in_feed_zone(grains.position + 4 * row)) continue;
+    if (energy.sum() > 0.0) add_impact_energy(row, grains.weight[row]);
     rows_.push_back(static_cast<std::int32_t>(row));
     c.normal.push_back(energy.normal);
     c.tangential.push_back(energy.tangential);
@@ -89,9 +89,8 @@ void LiberationStage::find_impacts() {
 }
 
 /// In the order of rows.
-void LiberationStage::add_impact_energy(std::size_t row) {
+void LiberationStage::add_impact_energy(std::size_t row, double weight) {
   const particles::ContactWork& work = particles_.contact_work();
-  const double weight = particles_.rows().weight[row];
   impact_energy_[0] += weight * work.with_particles(row).sum();
   for (std::size_t wall = 0; wall < work.walls(); ++wall) {
     const double energy = work.with_wall(row, wall).sum();
@@ -105,7 +104,8 @@ void LiberationStage::find_wind() {
   const particles::GrainRows grains = particles_.rows();
   rows_.clear();
   for (std::size_t row = 0; row < grains.count; ++row) {
-    if (!is_in_feed_zone(row)) rows_.push_back(static_cast<std::int32_t>(row));
+    if (!is_in_feed_zone(grains.position + 4 * row))
+      rows_.push_back(static_cast<std::int32_t>(row));
   }
   load_columns();
   auto& c = columns_;

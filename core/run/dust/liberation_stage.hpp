@@ -63,9 +63,9 @@ class LiberationStage {
   static constexpr std::size_t k_kinds = 3;
   static constexpr std::array<const char*, k_kinds> k_kind_names = {"grains", "walls", "wind"};
 
-  [[nodiscard]] bool is_in_feed_zone(std::size_t row) const;
+  [[nodiscard]] bool is_in_feed_zone(const double* position) const;
   void find_impacts();
-  void add_impact_energy(std::size_t row);
+  void add_impact_energy(std::size_t row, double weight);
   void find_wind();
   void load_columns();
   [[nodiscard]] std::size_t place(std::size_t q, std::size_t n) const;
