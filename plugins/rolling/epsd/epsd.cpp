@@ -58,11 +58,11 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
     before[q - first] = c.before;
     total[q - first] = c.total;
     limit[q - first] = c.limit;
-    least = std::min(least, overlap[q] - 2.0 * way);
+    least = std::min(least, c.total > 0.0 ? overlap[q] - 2.0 * way : 0.0);
   }
   for (std::size_t q = first; least < 0.0 && q < end; ++q) {
     const double speed = vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q];
-    if (!(overlap[q] < 2.0 * speed * b.time_step)) continue;
+    if (!(total[q - first] > 0.0 && overlap[q] < 2.0 * speed * b.time_step)) continue;
     const double change = dust::model::change_at_the_end(
         {total[q - first], before[q - first], limit[q - first], overlap[q], speed, fn[q], mass[q]},
         b.time_step);
