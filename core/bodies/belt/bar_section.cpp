@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies/belt/bar_section.hpp"
 
+#include "bodies/belt/length_of.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,7 +28,7 @@ BarSection::Nearest BarSection::nearest(double a, double n) const {
 BarSection::Nearest BarSection::nearest_of_box(double a, double n) const {
   const double past_a = a - std::clamp(a, -half_, half_);
   const double past_n = n - std::clamp(n, 0.0, top_);
-  const double distance = std::hypot(past_a, past_n);
+  const double distance = length_of(past_a, past_n);
   if (distance > 0.0) return {distance, past_a / distance, past_n / distance};
   const double to_side = std::abs(a) - half_;
   if (to_side > n - top_) return {to_side, a < 0.0 ? -1.0 : 1.0, 0.0};
@@ -35,14 +37,14 @@ BarSection::Nearest BarSection::nearest_of_box(double a, double n) const {
 
 BarSection::Nearest BarSection::nearest_of_disc(double a, double n) const {
   const double up = n - centre_;
-  const double r = std::hypot(a, up);
+  const double r = length_of(a, up);
   if (!(r > 0.0)) return {-radius_, 0.0, 1.0};
   // Where the nearest point of the disc is over the middle surface it is the segment's too.
   const bool is_over = r <= radius_ ? n >= 0.0 : centre_ + radius_ * up / r >= 0.0;
   if (is_over) return {r - radius_, a / r, up / r};
   const double past = std::abs(a) - foot_;
   if (past <= 0.0) return {-n, 0.0, -1.0};
-  const double distance = std::hypot(past, n);
+  const double distance = length_of(past, n);
   return {distance, (a < 0.0 ? -past : past) / distance, n / distance};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies/belt/cleats.hpp"
 
+#include "bodies/belt/length_of.hpp"
 #include "bodies/shape_kinds.hpp"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ Cleats::Cleats(const CleatParameters& p)
   highest_ = top_ + std::sin(2.0 * std::atan(t.slope)) * (t.half_width - t.half_centre + t.bend);
 }
 
-double Cleats::tip_radius() const { return std::hypot(p_.reach + top_, section_.reach()); }
+double Cleats::tip_radius() const { return length_of(p_.reach + top_, section_.reach()); }
 
 Cleats::Stand Cleats::stand_at(double way) const {
   double s = std::fmod(way, lap_);
@@ -119,8 +120,8 @@ double Cleats::largest_factor() const {
 void Cleats::look_in_trough(double run, Vec3 q, Nearest& best) const {
   const double place = (lap_ + std::clamp(q.x, -p_.length, 0.0) - run) / spacing();
   const double off_box =
-      std::hypot(std::max({q.z - p_.reach - highest_, p_.reach + lowest_ - q.z, 0.0}),
-                 std::max(std::abs(q.y) - p_.half_width, 0.0));
+      length_of(std::max({q.z - p_.reach - highest_, p_.reach + lowest_ - q.z, 0.0}),
+                std::max(std::abs(q.y) - p_.half_width, 0.0));
   const auto look = [&](double k) {
     const Stand stand = stand_at(k * spacing() + run);
     const double ahead = std::abs(q.x - stand.base.x) - section_.reach();

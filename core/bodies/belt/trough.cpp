@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies/belt/trough.hpp"
 
+#include "bodies/belt/length_of.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,9 +26,6 @@ constexpr int k_sections = 8;
 /// Rises from 0 to 1 with level ends, as does its rate at either end: \f$ 3 t^2 - 2 t^3 \f$.
 double smooth_step(double t) { return t * t * (3.0 - 2.0 * t); }
 double smooth_step_rate(double t) { return 6.0 * t * (1.0 - t); }
-
-/// std::hypot without its care for numbers that no belt has: ten times faster.
-double length_of(double a, double b) { return std::sqrt(a * a + b * b); }
 
 }  // namespace
 

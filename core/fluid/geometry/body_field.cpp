@@ -19,15 +19,59 @@ constexpr double k_on_surface = 1e-6;
 constexpr double k_min_opening = 1e-4;
 /// Sub-boxes per direction in which an open share is measured.
 constexpr int k_sub_boxes = 8;
+constexpr int k_block = k_sub_boxes / 2;
 /// Distance from a surface (in cells) of the points that stand for cells with their centre inside.
 constexpr double k_beside = 1e-3;
 /// Share of the distance that a step goes: a sheet is met on the side one comes from.
 constexpr double k_stride = 0.99;
+/// By how much more a distance is allowed for to change than one goes, for shapes whose distance is
+/// not quite one.
+constexpr double k_not_quite_one = 1.5;
 /// Whether a block of sub-boxes is all of one kind.
 enum class Whole : std::uint8_t { no, open, closed };
 /// Steps after which the way along a surface counts as free: each is as long as the distance.
 constexpr int k_max_steps = 200;
 constexpr double k_far = std::numeric_limits<double>::max();
+
+/// The sub-boxes of a box.
+struct SubBoxes {
+  SubBoxes(Vec3 centre, Vec3 edges) : box_centre(centre), box_size(edges) {
+    for (int d = 0; d < 3; ++d) {
+      count[static_cast<std::size_t>(d)] = edges[d] > 0.0 ? k_sub_boxes : 1;
+      size[d] = edges[d] / count[static_cast<std::size_t>(d)];
+    }
+  }
+  /// Of sub-box a, b, c, or between two of them.
+  [[nodiscard]] Vec3 middle(double a, double b, double c) const {
+    return {box_centre.x + ((a + 0.5) / count[0] - 0.5) * box_size.x,
+            box_centre.y + ((b + 0.5) / count[1] - 0.5) * box_size.y,
+            box_centre.z + ((c + 0.5) / count[2] - 0.5) * box_size.z};
+  }
+
+  Vec3 box_centre, box_size;
+  std::array<int, 3> count{};
+  Vec3 size;
+};
+
+/// Blocks of sub-boxes that no surface comes near are as open as their middle. `distance`(point) is
+/// that to the nearest surface, which goes `moved` [m] meanwhile.
+template <class Distance>
+std::array<Whole, 8> whole_blocks(const SubBoxes& boxes, double moved, const Distance& distance) {
+  std::array<Whole, 8> blocks{};
+  const double clear = 0.25 * norm(boxes.box_size) + 0.5 * norm(boxes.size) + moved;
+  for (int block = 0; block < 8; ++block) {
+    const auto middle_of = [&](int d) {
+      return boxes.count[static_cast<std::size_t>(d)] == 1
+                 ? 0.0
+                 : ((block >> d) % 2) * k_block + 0.5 * (k_block - 1);
+    };
+    const double found = distance(boxes.middle(middle_of(0), middle_of(1), middle_of(2)));
+    blocks[static_cast<std::size_t>(block)] = found > clear    ? Whole::open
+                                              : found < -clear ? Whole::closed
+                                                               : Whole::no;
+  }
+  return blocks;
+}
 
 }  // namespace
 
@@ -143,12 +187,11 @@ double BodyField::own_way(const Hit& hit, Vec3 p, double smear) const {
 }
 
 double BodyField::open_part(const Hit& hit, Vec3 p, Vec3 size, double smear) const {
-  double width = 0.0;
+  // Speeds of a surface are dear: asked for where they could matter. Twice the fastest, for a point
+  // beside a body that turns goes faster than any of the body.
+  const double most = norm(size) + 2.0 * smear * largest_speed_;
+  double width = 2.0 * std::abs(hit.distance) <= most ? own_way(hit, p, smear) : 0.0;
   for (int d = 0; d < 3; ++d) width += std::abs(hit.normal[d]) * size[d];
-  // Speeds of a surface are dear: asked for where they could matter.
-  if (2.0 * std::abs(hit.distance) <= width + 1.01 * smear * largest_speed_) {
-    width += own_way(hit, p, smear);
-  }
   if (width > k_on_surface * smallest_) return std::clamp(0.5 + hit.distance / width, 0.0, 1.0);
   return hit.distance > k_on_surface * smallest_ ? 1.0 : 0.0;
 }
@@ -160,43 +203,33 @@ double BodyField::open_share(Vec3 centre, Vec3 size, Vec3* middle, double smear)
   const double far = reach + 0.5 * own_way(at_centre, centre, smear);
   if (at_centre.distance >= far) return 1.0;
   if (at_centre.distance <= -far) return 0.0;
-  std::array<int, 3> n{};
-  Vec3 sub_box;
-  for (int d = 0; d < 3; ++d) {
-    n[d] = size[d] > 0.0 ? k_sub_boxes : 1;
-    sub_box[d] = size[d] / n[d];
-  }
-  const auto point = [&](double a, double b, double c) {
-    return Vec3{centre.x + ((a + 0.5) / n[0] - 0.5) * size.x,
-                centre.y + ((b + 0.5) / n[1] - 0.5) * size.y,
-                centre.z + ((c + 0.5) / n[2] - 0.5) * size.z};
-  };
-  // Blocks of sub-boxes that no surface comes near are as open as their middle.
-  constexpr int k_block = k_sub_boxes / 2;
-  std::array<Whole, 8> blocks{};
-  const double block_reach = 0.25 * norm(size) + 0.5 * norm(sub_box);
-  for (int block = 0; block < 8; ++block) {
-    const auto middle_of = [&](int d) {
-      return n[d] == 1 ? 0.0 : ((block >> d) % 2) * k_block + 0.5 * (k_block - 1);
-    };
-    const Vec3 p = point(middle_of(0), middle_of(1), middle_of(2));
-    const Hit hit = near.nearest(p);
-    const double clear = block_reach + smear * largest_speed_;
-    blocks[static_cast<std::size_t>(block)] = hit.distance > clear    ? Whole::open
-                                              : hit.distance < -clear ? Whole::closed
-                                                                      : Whole::no;
-  }
+  const SubBoxes boxes(centre, size);
+  const auto blocks =
+      whole_blocks(boxes, smear * largest_speed_, [&](Vec3 p) { return near.nearest(p).distance; });
+  const auto& n = boxes.count;
   double sum = 0.0;
   Vec3 moment;
+  const double clear = norm(boxes.size) + smear * largest_speed_;
   for (int c = 0; c < n[2]; ++c) {
     for (int b = 0; b < n[1]; ++b) {
+      // The next ones in the row are whole where this one is far from the surface.
+      int whole_before = 0;
+      double whole_part = 0.0;
       for (int a = 0; a < n[0]; ++a) {
         const Whole whole =
             blocks[static_cast<std::size_t>(a / k_block + 2 * (b / k_block) + 4 * (c / k_block))];
         if (whole == Whole::closed) continue;
-        const Vec3 p = point(a, b, c);
-        const double part =
-            whole == Whole::open ? 1.0 : open_part(near.nearest(p), p, sub_box, smear);
+        const Vec3 p = boxes.middle(a, b, c);
+        double part = whole == Whole::open ? 1.0 : whole_part;
+        if (whole == Whole::no && a >= whole_before) {
+          const Hit hit = near.nearest(p);
+          part = open_part(hit, p, boxes.size, smear);
+          const double spare = std::abs(hit.distance) - clear;
+          if (spare > 0.0 && n[0] > 1) {
+            whole_before = a + 1 + static_cast<int>(spare / (k_not_quite_one * boxes.size.x));
+            whole_part = part;
+          }
+        }
         sum += part;
         moment += part * (p - centre);
       }
