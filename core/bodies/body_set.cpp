@@ -5,7 +5,6 @@
 #include "bodies/belt/running_parts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -25,12 +24,13 @@ void set_to_zero(const sdk::MutableVectorColumns& velocity, std::size_t count) {
 }
 
 /// Of the body as a whole.
-void add_rigid_velocities(const Placement& at, const sdk::SurfaceBatch& batch) {
-  for (std::size_t q = 0; q < batch.count; ++q) {
-    const Vec3 v = at.velocity_at(batch.position[q]);
-    batch.velocity.x[q] += v.x;
-    batch.velocity.y[q] += v.y;
-    batch.velocity.z[q] += v.z;
+void add_rigid_velocities(const Placement& at, const sdk::SurfaceBatch& points,
+                          const sdk::MutableVectorColumns& velocity) {
+  for (std::size_t q = 0; q < points.count; ++q) {
+    const Vec3 v = at.velocity_at(points.position[q]);
+    velocity.x[q] += v.x;
+    velocity.y[q] += v.y;
+    velocity.z[q] += v.z;
   }
 }
 
@@ -185,89 +185,74 @@ void Body::surface_velocities(const sdk::SurfaceBatch& all) const {
 }
 
 void Body::surface_velocities(const sdk::SurfaceBatch& all, const Placement& at) const {
-  set_to_zero(all.velocity, all.count);
-  if (motions.empty()) return;
-  const Vec3 axis = at.turn(shape->lateral_axis());
-  const auto* const local = shape->local_axes();
-  const RunningParts* const parts = running_parts(*this);
-  if (local != nullptr && parts == nullptr) {
-    const Instant now{all.time, all.velocity};
-    add_velocities(*local, all, at, {&now, 1});
-    if (is_carried()) add_rigid_velocities(at, all);
-    return;
-  }
-  const double way = parts != nullptr ? run_at(*this, *parts, at) : 0.0;
-  const std::size_t block = parts != nullptr ? 1 : k_block;
-  double run[3][k_block];
-  for (std::size_t first = 0; first < all.count; first += block) {
-    sdk::SurfaceBatch b{.count = std::min(block, all.count - first),
-                        .time = all.time,
-                        .axis = axis,
-                        .position = all.position.from(first),
-                        .normal = all.normal.from(first),
-                        .velocity = {run[0], run[1], run[2]}};
-    double factor = 1.0;
-    Vec3 asked;
-    if (parts != nullptr) {
-      const auto query = parts->velocity_query_after(
-          way, at.to_body(b.position[0]) + way * parts->running_direction(),
-          turned_back(at, b.normal[0]));
-      b.axis = at.turn(query.axis);
-      asked = at.turn(query.normal);
-      b.normal = {&asked.x, &asked.y, &asked.z};
-      factor = query.factor;
-    }
-    for (const auto& motion : motions) {
-      if (motion->moves_body()) continue;
-      motion->surface_velocity(b);
-      for (std::size_t q = 0; q < b.count; ++q) {
-        all.velocity.x[first + q] += factor * run[0][q];
-        all.velocity.y[first + q] += factor * run[1][q];
-        all.velocity.z[first + q] += factor * run[2][q];
-      }
-    }
-  }
-  // The placement is that of what runs, not of the body.
-  if (parts == nullptr) add_rigid_velocities(at, all);
+  const Instant now{all.time, all.velocity};
+  surface_velocities(all, at, {&now, 1});
 }
 
 void Body::surface_velocities(const sdk::SurfaceBatch& all, const Placement& at, double other_time,
                               const sdk::MutableVectorColumns& other_velocity) const {
-  const LocalAxes* const local = shape->local_axes();
-  if (local == nullptr || running_parts(*this) != nullptr || motions.empty()) {
-    surface_velocities(all, at);
-    sdk::SurfaceBatch other = all;
-    other.time = other_time;
-    other.velocity = other_velocity;
-    surface_velocities(other, at);
-    return;
-  }
-  set_to_zero(all.velocity, all.count);
-  set_to_zero(other_velocity, all.count);
-  add_velocities(*local, all, at,
-                 std::array<Instant, 2>{{{all.time, all.velocity}, {other_time, other_velocity}}});
+  const Instant both[] = {{all.time, all.velocity}, {other_time, other_velocity}};
+  surface_velocities(all, at, both);
 }
 
-/// Of motions along the surface, where the lateral axis is another at each point.
-void Body::add_velocities(const LocalAxes& local, const sdk::SurfaceBatch& batch,
-                          const Placement& at, std::span<const Instant> instants) const {
-  for (std::size_t q = 0; q < batch.count; ++q) {
-    Vec3 run;
-    sdk::SurfaceBatch b{.count = 1,
-                        .time = 0.0,
-                        .axis = at.turn(local.lateral_axis_at(at.to_body(batch.position[q]),
-                                                              turned_back(at, batch.normal[q]))),
-                        .position = batch.position.from(q),
-                        .normal = batch.normal.from(q),
-                        .velocity = {&run.x, &run.y, &run.z}};
-    for (const Instant& instant : instants) {
-      b.time = instant.time;
-      for (const auto& motion : motions) {
-        if (motion->moves_body()) continue;
-        motion->surface_velocity(b);
-        instant.velocity.x[q] += run.x;
-        instant.velocity.y[q] += run.y;
-        instant.velocity.z[q] += run.z;
+void Body::surface_velocities(const sdk::SurfaceBatch& all, const Placement& at,
+                              std::span<const Instant> instants) const {
+  for (const Instant& instant : instants) set_to_zero(instant.velocity, all.count);
+  if (motions.empty()) return;
+  if (shape->local_axes() != nullptr) {
+    for (std::size_t q = 0; q < all.count; ++q) add_at_point(all, q, at, instants);
+  } else {
+    const Vec3 axis = at.turn(shape->lateral_axis());
+    for (std::size_t first = 0; first < all.count; first += k_block) {
+      sdk::SurfaceBatch block{.count = std::min(k_block, all.count - first),
+                              .time = 0.0,
+                              .axis = axis,
+                              .position = all.position.from(first),
+                              .normal = all.normal.from(first),
+                              .velocity = {}};
+      add_along_surface(block, first, 1.0, instants);
+    }
+  }
+  if (!is_carried() || running_parts(*this) != nullptr) return;  // their placement is not its own
+  for (const Instant& instant : instants) add_rigid_velocities(at, all, instant.velocity);
+}
+
+/// Where the lateral axis is another at each point.
+void Body::add_at_point(const sdk::SurfaceBatch& all, std::size_t q, const Placement& at,
+                        std::span<const Instant> instants) const {
+  const Vec3 normal = turned_back(at, all.normal[q]);
+  const Vec3 point = at.to_body(all.position[q]);
+  RunningParts::VelocityQuery query{{}, normal};
+  if (const RunningParts* const parts = running_parts(*this)) {
+    const double way = run_at(*this, *parts, at);
+    query = parts->velocity_query_after(way, point + way * parts->running_direction(), normal);
+  } else {
+    query.axis = shape->local_axes()->lateral_axis_at(point, normal);
+  }
+  const Vec3 asked = at.turn(query.normal);
+  add_along_surface({.count = 1,
+                     .time = 0.0,
+                     .axis = at.turn(query.axis),
+                     .position = all.position.from(q),
+                     .normal = {&asked.x, &asked.y, &asked.z},
+                     .velocity = {}},
+                    q, query.factor, instants);
+}
+
+/// Adds what motions along the surface say of a block of points, from `first` on.
+void Body::add_along_surface(sdk::SurfaceBatch block, std::size_t first, double factor,
+                             std::span<const Instant> instants) const {
+  double run[3][k_block];
+  block.velocity = {run[0], run[1], run[2]};
+  for (const Instant& instant : instants) {
+    block.time = instant.time;
+    for (const auto& motion : motions) {
+      if (motion->moves_body()) continue;
+      motion->surface_velocity(block);
+      for (std::size_t q = 0; q < block.count; ++q) {
+        instant.velocity.x[first + q] += factor * run[0][q];
+        instant.velocity.y[first + q] += factor * run[1][q];
+        instant.velocity.z[first + q] += factor * run[2][q];
       }
     }
   }

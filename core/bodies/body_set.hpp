@@ -16,8 +16,6 @@
 
 namespace dust::bodies {
 
-class LocalAxes;
-
 /// A solid in the domain: shape, place, material and motion.
 struct Body {
   std::string name;
@@ -81,8 +79,12 @@ struct Body {
     double time;  ///< [s]
     sdk::MutableVectorColumns velocity;
   };
-  void add_velocities(const LocalAxes& local, const sdk::SurfaceBatch& batch, const Placement& at,
-                      std::span<const Instant> instants) const;
+  void surface_velocities(const sdk::SurfaceBatch& batch, const Placement& at,
+                          std::span<const Instant> instants) const;
+  void add_at_point(const sdk::SurfaceBatch& batch, std::size_t q, const Placement& at,
+                    std::span<const Instant> instants) const;
+  void add_along_surface(sdk::SurfaceBatch block, std::size_t first, double factor,
+                         std::span<const Instant> instants) const;
 };
 
 using BodySet = std::vector<Body>;

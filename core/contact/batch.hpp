@@ -95,6 +95,10 @@ class BatchColumns {
   [[nodiscard]] double* column(int name) {
     return data_.data() + static_cast<std::size_t>(name) * k_stride;
   }
+  /// Three columns from `first` on.
+  [[nodiscard]] sdk::VectorColumns vectors(int first) {
+    return {column(first), column(first + 1), column(first + 2)};
+  }
   [[nodiscard]] double* const* history() const { return history_.data(); }
   /// Laws find the histories in columns elsewhere, `stride` apart, or again in the last columns.
   void keep_history_at(double* first, std::size_t stride) {

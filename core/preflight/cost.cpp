@@ -37,7 +37,8 @@ constexpr double k_gas_step = 7.5e-9;
 constexpr double k_thin_stream_step = 1.8e-8;
 constexpr double k_stream_contact = 7e-8;
 // A contact with cohesion costs so many without: that law comes on top, and all pairs within its
-// reach are looked at. A box of 6 mm grains with bridges and one without, 2026-11.
+// reach are looked at. Fitted to the bridges of studies/wet_hopper.yaml, see
+// docs/validation/estimates.md.
 constexpr double k_cohesive_contact = 2.5;
 /// A step at a finer rate, over one at the coarse rate of the same stream: clusters are found and
 /// their rows are fetched for it.

@@ -120,6 +120,16 @@ void read_setup(Reading& reading) {
   }
 }
 
+/// Rather than one error for each key of a study.
+bool is_study(const Node& root, const fs::path& file, Diagnostics& diagnostics) {
+  const Entry* const base = root.find("base");
+  if (base == nullptr || root.find("measure") == nullptr) return false;
+  diagnostics.error(base->where,
+                    "this is a study, which varies the scenario of its 'base': engine study " +
+                        file.generic_string() + " runs it, with --dry-run it is only checked");
+  return true;
+}
+
 }  // namespace
 
 std::optional<ReadResult> read_file(const fs::path& file, const std::vector<Override>& overrides,
@@ -131,7 +141,7 @@ std::optional<ReadResult> read_file(const fs::path& file, const std::vector<Over
     auto over = read_with_includes(set_file, diagnostics);
     if (root && over) merge_scenario(*root, std::move(*over));
   }
-  if (!root) return std::nullopt;
+  if (!root || is_study(*root, file, diagnostics)) return std::nullopt;
   if (root->where.line == 0) root->where = {file.generic_string(), 1, 1};
   for (const Override& override : overrides) apply_override(*root, override, diagnostics);
   return read_tree(*root, file, registry, diagnostics);

@@ -76,6 +76,13 @@ struct PartingContact {
   double mass;          ///< [kg] effective
 };
 
+/// Below zero where change_at_the_end() is to be asked, by the `way` [m] that the two part in a
+/// step. What has no couple, as pairs that only are within reach of a bridge, has nothing to
+/// change.
+[[gnu::always_inline]] inline double distance_from_end(double couple, double overlap, double way) {
+  return couple > 0.0 ? overlap - 2.0 * way : 0.0;
+}
+
 /// What the limited couple is to be multiplied by; 1 unless the contact ends within two steps.
 inline double change_at_the_end(const PartingContact& c, double time_step) {
   // Of the way to the end: still pushed apart.

@@ -117,7 +117,7 @@ class BodyField::Near {
     std::size_t count = 0;
     for (const auto* list : {&field.static_bodies_, &field.moving_bodies_}) {
       for (const Placed& b : *list) {
-        const auto s = b.nearest(p, hit_.distance + 3.0 * reach);
+        const auto s = b.nearest(p, hit_.distance + 2.0 * k_not_quite_one * reach);
         if (s.distance < hit_.distance) hit_ = {s.distance, s.normal, b.number};
         if (count < k_max) seen[count] = {&b, s.distance};
         ++count;
@@ -127,7 +127,7 @@ class BodyField::Near {
     if (has_many_) return;
     // A distance changes by no more than one goes. The half more covers shapes whose distance is
     // not quite one.
-    const double limit = hit_.distance + 3.0 * reach;
+    const double limit = hit_.distance + 2.0 * k_not_quite_one * reach;
     for (std::size_t n = 0; n < count; ++n) {
       if (seen[n].distance <= limit) bodies_[count_++] = seen[n].body;
     }
@@ -189,7 +189,7 @@ double BodyField::own_way(const Hit& hit, Vec3 p, double smear) const {
 double BodyField::open_part(const Hit& hit, Vec3 p, Vec3 size, double smear) const {
   // Speeds of a surface are dear: asked for where they could matter. Twice the fastest, for a point
   // beside a body that turns goes faster than any of the body.
-  const double most = norm(size) + 2.0 * smear * largest_speed_;
+  const double most = size.x + size.y + size.z + 2.0 * smear * largest_speed_;
   double width = 2.0 * std::abs(hit.distance) <= most ? own_way(hit, p, smear) : 0.0;
   for (int d = 0; d < 3; ++d) width += std::abs(hit.normal[d]) * size[d];
   if (width > k_on_surface * smallest_) return std::clamp(0.5 + hit.distance / width, 0.0, 1.0);

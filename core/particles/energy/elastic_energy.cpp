@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/energy/elastic_energy.hpp"
 
+#include "dust/sdk/contact_plane.hpp"
 #include "dust/sdk/kernel.hpp"
 
 namespace dust::particles {
@@ -11,23 +12,15 @@ using B = BatchColumns;
 
 DUST_KERNEL void find(const double* overlap, double per_overlap_force, BatchColumns& columns,
                       std::size_t count, ElasticEnergy& out) {
-  const double* nx = columns.column(B::normal_x);
-  const double* ny = columns.column(B::normal_y);
-  const double* nz = columns.column(B::normal_z);
-  const double* fx = columns.column(B::force_x);
-  const double* fy = columns.column(B::force_y);
-  const double* fz = columns.column(B::force_z);
+  const sdk::VectorColumns n = columns.vectors(B::normal_x);
+  const sdk::VectorColumns force = columns.vectors(B::force_x);
   const double* normal_stiffness = columns.column(B::normal_stiffness);
   const double* tangential_stiffness = columns.column(B::tangential_stiffness);
   double* normal = out.normal;
   double* friction = out.friction;
 #pragma omp simd
   for (std::size_t q = 0; q < count; ++q) {
-    const double along = fx[q] * nx[q] + fy[q] * ny[q] + fz[q] * nz[q];
-    const double tx = fx[q] - along * nx[q];
-    const double ty = fy[q] - along * ny[q];
-    const double tz = fz[q] - along * nz[q];
-    const double square = tx * tx + ty * ty + tz * tz;
+    const double square = sdk::in_contact_plane(force[q], n[q]).squared;
     const double stiffness = tangential_stiffness[q];
     const bool has_spring = stiffness > 0.0;
     const double of_spring = 0.5 * square / (has_spring ? stiffness : 1.0);

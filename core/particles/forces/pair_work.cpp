@@ -13,10 +13,6 @@ using contact::BatchColumns;
 using B = BatchColumns;
 using sdk::Vec3;
 
-Vec3 vector_of(BatchColumns& columns, int name, std::size_t q) {
-  return {columns.column(name)[q], columns.column(name + 1)[q], columns.column(name + 2)[q]};
-}
-
 /// Of a pair whose centres are `separation` apart and have moved by `displacement` relative to each
 /// other, each having turned by its angle.
 WorkingContact moved_pair(Vec3 separation, Vec3 displacement, Vec3 angle_i, Vec3 angle_j,
@@ -43,14 +39,14 @@ void record_work(const ContactScene& scene, const PairLaws& law, const contact::
   for (std::size_t q = 0; q < count; ++q) {
     const std::size_t entry =
         contacts == nullptr ? first + q : static_cast<std::size_t>(contacts[q]);
-    WorkingContact c = moved_pair(vector_of(columns, B::separation_x, q), motion.displacement(q),
-                                  motion.angle_i(q), motion.angle_j(q),
-                                  columns.column(B::lever_i)[q], columns.column(B::lever_j)[q]);
+    WorkingContact c =
+        moved_pair(columns.vectors(B::separation_x)[q], motion.displacement(q), motion.angle_i(q),
+                   motion.angle_j(q), columns.column(B::lever_i)[q], columns.column(B::lever_j)[q]);
     c.weight = std::min(scene.particles.weight(static_cast<std::size_t>(pairs.a[entry])),
                         scene.particles.weight(static_cast<std::size_t>(pairs.b[entry])));
     if (pairs.is_touching[entry] != 0) {
-      c.force = vector_of(columns, B::force_x, q);
-      if (law.rolling) c.couple = vector_of(columns, B::torque_x, q);
+      c.force = columns.vectors(B::force_x)[q];
+      if (law.rolling) c.couple = columns.vectors(B::torque_x)[q];
       sums.elastic_normal += c.weight * elastic.normal[q];
       sums.elastic_friction += c.weight * elastic.friction[q];
     }

@@ -141,21 +141,18 @@ struct ContactForces::WallBatch {
 /// The energy account of the batch.
 void ContactForces::WallBatch::record_work() {
   using B = BatchColumns;
-  const auto get = [&](int name, std::size_t q) {
-    return sdk::Vec3{columns.column(name)[q], columns.column(name + 1)[q],
-                     columns.column(name + 2)[q]};
-  };
   const ContactMotion& motion = thread_motion();
   double* const history = columns.history()[scene.laws.account_column()];
   const auto stride = static_cast<std::size_t>(columns.history()[1] - columns.history()[0]);
   ElasticEnergy elastic;
   find_elastic_energy(law, columns, count, elastic);
   for (std::size_t q = 0; q < count; ++q) {
-    WorkingContact c = moved_at_wall(motion.displacement(q), motion.angle_i(q), motion.wall(q),
-                                     get(B::normal_x, q), columns.column(B::lever_i)[q]);
+    WorkingContact c =
+        moved_at_wall(motion.displacement(q), motion.angle_i(q), motion.wall(q),
+                      columns.vectors(B::normal_x)[q], columns.column(B::lever_i)[q]);
     c.weight = scene.particles.weight(static_cast<std::size_t>(rows[q]));
-    c.force = get(B::force_x, q);
-    if (law.rolling) c.couple = get(B::torque_x, q);
+    c.force = columns.vectors(B::force_x)[q];
+    if (law.rolling) c.couple = columns.vectors(B::torque_x)[q];
     tile.energy->elastic_normal += c.weight * elastic.normal[q];
     tile.energy->elastic_friction += c.weight * elastic.friction[q];
     add_work(c, history + q, stride, *tile.energy);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/work/dissipation.hpp"
 
+#include "dust/sdk/contact_plane.hpp"
 #include "dust/sdk/kernel.hpp"
 #include "particles/energy/elastic_energy.hpp"
 #include "particles/forces/force_buffer.hpp"
@@ -16,38 +17,22 @@ using B = BatchColumns;
 /// Adds what the contacts have done to their sides in a step.
 DUST_KERNEL void add_work(BatchColumns& columns, std::size_t count, double step, double* normal,
                           double* tangential) {
-  const double* nx = columns.column(B::normal_x);
-  const double* ny = columns.column(B::normal_y);
-  const double* nz = columns.column(B::normal_z);
-  const double* fx = columns.column(B::force_x);
-  const double* fy = columns.column(B::force_y);
-  const double* fz = columns.column(B::force_z);
-  const double* vx = columns.column(B::velocity_x);
-  const double* vy = columns.column(B::velocity_y);
-  const double* vz = columns.column(B::velocity_z);
+  const sdk::VectorColumns n = columns.vectors(B::normal_x);
+  const sdk::VectorColumns force = columns.vectors(B::force_x);
+  const sdk::VectorColumns velocity = columns.vectors(B::velocity_x);
 #pragma omp simd
   for (std::size_t q = 0; q < count; ++q) {
-    const double along = fx[q] * nx[q] + fy[q] * ny[q] + fz[q] * nz[q];
-    const double tx = fx[q] - along * nx[q];
-    const double ty = fy[q] - along * ny[q];
-    const double tz = fz[q] - along * nz[q];
-    normal[q] -= step * along * (vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q]);
-    tangential[q] -= step * (tx * vx[q] + ty * vy[q] + tz * vz[q]);
+    normal[q] -= step * dot(force[q], n[q]) * dot(velocity[q], n[q]);
+    tangential[q] -= step * dot(sdk::in_contact_plane(force[q], n[q]).part, velocity[q]);
   }
 }
 
 DUST_KERNEL void add_rolling_work(BatchColumns& columns, std::size_t count, double step,
                                   double* tangential) {
-  const double* mx = columns.column(B::torque_x);
-  const double* my = columns.column(B::torque_y);
-  const double* mz = columns.column(B::torque_z);
-  const double* wx = columns.column(B::rotation_x);
-  const double* wy = columns.column(B::rotation_y);
-  const double* wz = columns.column(B::rotation_z);
+  const sdk::VectorColumns couple = columns.vectors(B::torque_x);
+  const sdk::VectorColumns rotation = columns.vectors(B::rotation_x);
 #pragma omp simd
-  for (std::size_t q = 0; q < count; ++q) {
-    tangential[q] -= step * (mx[q] * wx[q] + my[q] * wy[q] + mz[q] * wz[q]);
-  }
+  for (std::size_t q = 0; q < count; ++q) tangential[q] -= step * dot(couple[q], rotation[q]);
 }
 
 /// What of the work done so far cannot be given back any more.

@@ -104,8 +104,8 @@ void LiberationStage::find_wind() {
   const particles::GrainRows grains = particles_.rows();
   rows_.clear();
   for (std::size_t row = 0; row < grains.count; ++row) {
-    if (!is_in_feed_zone(grains.position + 4 * row))
-      rows_.push_back(static_cast<std::int32_t>(row));
+    if (is_in_feed_zone(grains.position + 4 * row)) continue;
+    rows_.push_back(static_cast<std::int32_t>(row));
   }
   load_columns();
   auto& c = columns_;

@@ -87,8 +87,7 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
     kt[q] = c.stiffness;
     fn[q] = c.normal_force;
     kn[q] = c.normal_stiffness;
-    // Those that do not touch, only within reach of a bridge, neither begin nor end.
-    edge[q - first] = overlap[q] > 0.0 ? formula::distance_from_edge(time_step, c) : 0.0;
+    edge[q - first] = formula::distance_from_edge(time_step, c);
     least = std::min(least, edge[q - first]);
   }
   // Few contacts begin or end, and only those are looked at.

@@ -242,10 +242,13 @@ class ForceToTheEnd {
   c.total = c.fx * c.fx + c.fy * c.fy + c.fz * c.fz;
 }
 
-/// Below zero where a contact begins or ends within a step, and where it may end within two.
+/// Below zero where a contact begins or ends within a step, and where it may end within two. What
+/// only is within reach of a bridge does neither.
 [[gnu::always_inline]] inline double distance_from_edge(double time_step, const Contact& c) {
   const double way = c.vn * time_step;
-  return std::min(c.overlap - std::abs(way), c.normal_force - 2.5 * c.normal_stiffness * way);
+  const double edge =
+      std::min(c.overlap - std::abs(way), c.normal_force - 2.5 * c.normal_stiffness * way);
+  return c.overlap > 0.0 ? edge : 0.0;
 }
 
 /// Where a contact begins or ends within a step, dampers and what ends get their weight. Returns by

@@ -58,11 +58,12 @@ DUST_KERNEL void evaluate_block(const formula::Constants& constants, const sdk::
     before[q - first] = c.before;
     total[q - first] = c.total;
     limit[q - first] = c.limit;
-    least = std::min(least, c.total > 0.0 ? overlap[q] - 2.0 * way : 0.0);
+    least = std::min(least, dust::model::distance_from_end(c.total, overlap[q], way));
   }
   for (std::size_t q = first; least < 0.0 && q < end; ++q) {
     const double speed = vx[q] * nx[q] + vy[q] * ny[q] + vz[q] * nz[q];
-    if (!(total[q - first] > 0.0 && overlap[q] < 2.0 * speed * b.time_step)) continue;
+    const double way = speed * b.time_step;
+    if (!(dust::model::distance_from_end(total[q - first], overlap[q], way) < 0.0)) continue;
     const double change = dust::model::change_at_the_end(
         {total[q - first], before[q - first], limit[q - first], overlap[q], speed, fn[q], mass[q]},
         b.time_step);

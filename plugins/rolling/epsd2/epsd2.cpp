@@ -44,7 +44,6 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     keep[q - first] = c.keep;
   }
   sdk::take_square_roots(keep, end - first);
-  // Overlaps less the way of two steps: below zero where a contact ends that has a couple.
   double least = 0.0;
 #pragma omp simd reduction(min : least)
   for (std::size_t q = first; q < end; ++q) {
@@ -65,7 +64,7 @@ DUST_KERNEL void evaluate_block(double friction, const sdk::ContactBatch& b, std
     last[q] = kt[q];
     size[q - first] = c.size;
     lever[q - first] = c.lever;
-    edge[q - first] = c.size > 0.0 ? overlap[q] - 2.0 * way : 0.0;
+    edge[q - first] = dust::model::distance_from_end(c.size, overlap[q], way);
     least = std::min(least, edge[q - first]);
   }
   sdk::take_square_roots(size, end - first);

@@ -49,6 +49,20 @@ TEST_CASE("the small scenario shall be well") {
   CHECK(joined(problems(folder.write("s.yaml", k_small))).empty());
 }
 
+TEST_CASE("a study shall be told to be one, not key by key") {
+  const Folder folder;
+  folder.write("s.yaml", k_small);
+  const auto study = folder.write("study.yaml",
+                                  "name: study\nbase: s.yaml\nvary: {seed: [1, 2]}\n"
+                                  "measure: {mass: {quantity: mass, unit: kg}}\n");
+  const auto lines = problems(study);
+  REQUIRE_MESSAGE(lines.size() == 1, joined(lines));
+  CHECK(lines[0] ==
+        "study.yaml:2:1: error: this is a study, which varies the scenario of its "
+        "'base': engine study " +
+            study.generic_string() + " runs it, with --dry-run it is only checked");
+}
+
 TEST_CASE("an empty name shall be told where it stands") {
   check("grains: wall, material: glass, air: {model: no_slip}",
         "grains: wall, material: '', air: {model: no_slip}",
