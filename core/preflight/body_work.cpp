@@ -118,6 +118,9 @@ BodyWork body_work(const scenario::Setup& setup, const bodies::BodySet& bodies) 
     work.touch.push_back(rate.touch + (bodies[n].is_carried() ? k_moving_touch : 0.0));
     work.search += rate.within / k_steps_per_list;
     nearest += rate.nearest;
+    const auto& motions = setup.bodies[n].motions;
+    work.is_shaking |= std::any_of(motions.begin(), motions.end(),
+                                   [](const auto& motion) { return motion.name == "oscillate"; });
   }
   if (setup.fluid) add_cutting(setup, bodies, nearest, work);
   if (bodies::do_surfaces_change(setup, bodies))

@@ -14,6 +14,7 @@ struct BodyWork {
   std::vector<double> touch;
   /// To ask all bodies whether they are near a grain, spread over the steps between two lists.
   double search = 0.0;
+  bool is_shaking = false;  ///< one goes to and fro: `oscillate`
   /// Each fluid step: to cut the cells anew by bodies that go to other places, and to predict what
   /// they leave open at its end. Nothing where none does.
   double cut = 0.0;

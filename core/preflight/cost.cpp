@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/cost.hpp"
 
+#include "coupling/self_disturbance/disturbance_formulas.hpp"
 #include "dust/sdk/sphere.hpp"
 #include "preflight/journey.hpp"
 
@@ -22,16 +23,19 @@ constexpr double k_bytes_per_dust_cell = 280.0;  // of each class
 constexpr double k_disk_base = 1e6;              // report, series, scenario, summary
 constexpr double k_disk_fluid = 2.5e6;
 constexpr double k_frame_bytes_per_grain = 52.0;  // packed
-constexpr double k_frame_bytes_per_cell = 22.0;
-constexpr double k_frame_bytes_per_dust_cell = 8.0;  // of each class
+constexpr double k_frame_bytes_per_cell = 18.0;
+constexpr double k_frame_bytes_per_dust_cell = 6.0;  // of each class
 constexpr double k_checkpoint_bytes_per_grain = 600.0;
-constexpr double k_checkpoint_bytes_per_cell = 120.0;
-constexpr double k_checkpoint_bytes_per_dust_cell = 35.0;
+constexpr double k_checkpoint_bytes_per_cell = 130.0;
+constexpr double k_checkpoint_bytes_per_coupled_cell = 170.0;  // more, where grains are in it
+constexpr double k_checkpoint_bytes_per_dust_cell = 40.0;
 
 // [s] A step of a grain: in a bed it has contacts all the time; before a filling has settled it
 // meets others now and then; in a gas it flies from one collision to the next. In a stream its
 // lists are made anew often, and what it touches costs more the deeper the load is.
-constexpr double k_bed_step = 7e-8;
+constexpr double k_bed_step = 7.5e-8;
+/// A bed that a body shakes, over one at rest: its lists are made anew with every stroke.
+constexpr double k_shaken = 2.0;
 constexpr double k_settling_step = 2e-8;
 constexpr double k_gas_step = 7.5e-9;
 constexpr double k_thin_stream_step = 1.8e-8;
@@ -52,13 +56,21 @@ constexpr double k_fine_isolated = 0.045;
 constexpr double k_fine_carried = 0.65;
 
 constexpr double k_cell_step = 3.9e-7;
-/// A cell of one class of dust, once its transport has begun.
+/// A cell of one class of dust, once its transport has begun; its own sub-steps keep a smaller
+/// Courant number than the fluid's, for it drifts and diffuses besides.
 constexpr double k_dust_cell = 7e-8;
-constexpr double k_fluid_step = 7e-4;  // however few the cells
+constexpr double k_dust_cfl = 0.65;
+constexpr double k_fluid_step = 9e-4;  // however few the cells
 
 // Exchange with the fluid, in each of its steps: the void fraction, and each refresh of the drag.
 constexpr double k_voidage_per_grain = 2.5e-6;    // of a stream: its cells and faces are anywhere
 constexpr double k_voidage_per_bed_grain = 4e-7;  // of a bed: those of its neighbours
+/// More for a lone grain whose own disturbance is taken off: the cells of its kernel, which is no
+/// narrower than so many cells, and those that a large one fills.
+constexpr double k_own_disturbance = 6e-6;
+constexpr double k_own_power = 5.5;
+/// Grains that come at once are as lone as those of a stream where they are no more than this.
+constexpr double k_few = 10.0;
 constexpr double k_voidage_per_cell = 2e-8;
 constexpr double k_refresh_per_grain = 2.2e-7;
 /// Refreshes follow the time in which a grain of 2 m/s crosses 1/8 of a cell (RefreshSchedule).
@@ -105,8 +117,8 @@ bool is_cohesive(const Setup& setup, std::size_t material) {
                      });
 }
 
-/// What an emitter's grains make of a contact's cost: as many of them as cohere do.
-double contact_factor(const Setup& setup, const EmissionNumbers& e) {
+/// Share of an emitter's grains by mass that cohere with their own kind.
+double cohesive_share(const Setup& setup, const EmissionNumbers& e) {
   double all = 0.0;
   double cohesive = 0.0;
   for (std::size_t m = 0; m < setup.materials.size(); ++m) {
@@ -115,12 +127,25 @@ double contact_factor(const Setup& setup, const EmissionNumbers& e) {
     all += share;
     if (is_cohesive(setup, m)) cohesive += share;
   }
-  return all > 0.0 ? 1.0 + (k_cohesive_contact - 1.0) * cohesive / all : 1.0;
+  return all > 0.0 ? cohesive / all : 0.0;
+}
+
+/// What its grains make of a contact's cost.
+double contact_factor(const Setup& setup, const EmissionNumbers& e) {
+  return 1.0 + (k_cohesive_contact - 1.0) * cohesive_share(setup, e);
+}
+
+/// Contacts of a grain of a stream, over its stay: one side of each counts. Those that cohere are
+/// held in clumps, however thin the load is.
+double stream_contacts(const Setup& setup, const EmissionNumbers& e, double layers) {
+  const double share = cohesive_share(setup, e);
+  return e.carried_share * (share * k_contacts_in_bed + (1.0 - share) * carried_contacts(layers));
 }
 
 /// [s] Mean cost of a step of grains that are there at once: with gravity they fall, then lie.
-double step_at_once(const Setup& setup, const EmissionNumbers& e) {
-  const double bed_step = contact_factor(setup, e) * k_bed_step;
+double step_at_once(const Setup& setup, const Derived& derived, const EmissionNumbers& e) {
+  const double shaken = derived.bodies.is_shaking ? k_shaken : 1.0;
+  const double bed_step = shaken * contact_factor(setup, e) * k_bed_step;
   if (norm(setup.gravity) > 0.0) {
     const double time = std::max(setup.time.end - e.begin, setup.time.fluid_step);
     const double share = std::min(1.0, settling_time(setup, e.volume_at_once) / time);
@@ -152,6 +177,7 @@ struct GrainTotals {
   double most = 0.0;            ///< at a time
   double seconds = 0.0;         ///< [s] integral of their number
   double stream_seconds = 0.0;  ///< [s] of that, of streams
+  double own_cost = 0.0;        ///< [s2] integral of what their own disturbance costs a fluid step
   double layers = 0.0;          ///< of all that is carried, for it is carried together
 };
 
@@ -173,6 +199,23 @@ double touch_step(const BodyWork& bodies, double grains) {
   return outer_share * sum / static_cast<double>(bodies.touch.size());
 }
 
+/// [s] More in each fluid step for a lone grain of this emitter, on average, where its own
+/// disturbance is taken off.
+double own_disturbance_cost(const Setup& setup, const Derived& derived, const EmissionNumbers& e) {
+  const auto cost = [&](double diameter) {
+    if (!is_own_disturbance_taken_off(setup, derived, diameter)) return 0.0;
+    const double cells = diameter / derived.mean_spacing;
+    const double wider = std::max(1.0, cells / coupling::self_disturbance::k_min_knots);
+    return k_own_disturbance * std::pow(wider, k_own_power);
+  };
+  if (e.sizes.empty()) {
+    return derived.steps.classes.empty() ? 0.0 : cost(derived.steps.classes.back().diameter);
+  }
+  double sum = 0.0;
+  for (const EmissionNumbers::Size& size : e.sizes) sum += size.share * cost(size.diameter);
+  return sum;
+}
+
 /// Adds the work of an emitter's grains.
 void add_grains(const Setup& setup, const EmissionNumbers& e, Derived& derived,
                 GrainTotals& totals) {
@@ -187,6 +230,8 @@ void add_grains(const Setup& setup, const EmissionNumbers& e, Derived& derived,
   totals.most += e.at_once;
   totals.seconds += stream_seconds + filled_seconds;
   totals.stream_seconds += stream_seconds;
+  const double lone_seconds = stream_seconds + (e.at_once <= k_few ? filled_seconds : 0.0);
+  totals.own_cost += lone_seconds * own_disturbance_cost(setup, derived, e);
   const particles::TimeSteps& steps = derived.steps;
   if (steps.classes.empty() || !(steps.coarse_step > 0.0)) return;
   const auto add = [&](double seconds, double each, double near_share) {
@@ -197,8 +242,8 @@ void add_grains(const Setup& setup, const EmissionNumbers& e, Derived& derived,
     derived.cost.terms[CostTerm::fine_grains].amount += fine;
     derived.cost.terms[CostTerm::fine_grains].seconds += fine * k_fine_factor * each;
   };
-  add(filled_seconds, step_at_once(setup, e) + touch_step(derived.bodies, e.at_once), 1.0);
-  const double contacts = e.carried_share * carried_contacts(totals.layers);
+  add(filled_seconds, step_at_once(setup, derived, e) + touch_step(derived.bodies, e.at_once), 1.0);
+  const double contacts = stream_contacts(setup, e, totals.layers);
   const double crowding = std::min(1.0, contacts);
   add(stream_seconds,
       k_thin_stream_step + contact_factor(setup, e) * k_stream_contact * contacts +
@@ -254,7 +299,9 @@ void add_fluid(const Setup& setup, const GrainTotals& totals, Derived& derived) 
   derived.cost.terms[CostTerm::fluid] = {
       sub_steps * cells,
       sub_steps * (k_fluid_step + cells * k_cell_step) + steps * derived.bodies.cut};
-  const double dust_cells = derived.dust_classes * sub_steps * cells;
+  const double dusty = std::clamp(1.0 - derived.dust_begin / setup.time.end, 0.0, 1.0);
+  const double dust_cells =
+      dusty * derived.dust_classes * steps * std::max(1.0, courant / k_dust_cfl) * cells;
   derived.cost.terms[CostTerm::dust] = {dust_cells, dust_cells * k_dust_cell};
   if (derived.emissions.empty()) return;
   const double refreshes = std::clamp(std::ceil(step / (k_refresh_way * derived.smallest_spacing)),
@@ -262,10 +309,15 @@ void add_fluid(const Setup& setup, const GrainTotals& totals, Derived& derived) 
   const double bed_seconds = totals.seconds - totals.stream_seconds;
   derived.cost.terms[CostTerm::exchange] = {
       totals.seconds / step + steps * cells,
-      (totals.stream_seconds * k_voidage_per_grain + bed_seconds * k_voidage_per_bed_grain +
-       totals.seconds * refreshes * k_refresh_per_grain) /
+      (totals.stream_seconds * k_voidage_per_grain + totals.own_cost +
+       bed_seconds * k_voidage_per_bed_grain + totals.seconds * refreshes * k_refresh_per_grain) /
               step +
           steps * (cells * k_voidage_per_cell + derived.bodies.predict)};
+}
+
+/// Whether grains share their volume with the fluid, which then has fields for that.
+bool is_coupled(const Setup& setup, const Derived& derived) {
+  return setup.fluid && derived.emissions.size() > derived.resolved.size();
 }
 
 /// Returns the size of its frames [B].
@@ -284,9 +336,11 @@ double add_records(const Setup& setup, const GrainTotals& totals, Derived& deriv
   const double frame_bytes =
       frames * (k_frame_bytes_per_grain * mean + k_frame_bytes_per_cell * cells +
                 k_frame_bytes_per_dust_cell * dust_cells + derived.bodies.frame_bytes);
+  const double bytes_per_cell =
+      k_checkpoint_bytes_per_cell +
+      (is_coupled(setup, derived) ? k_checkpoint_bytes_per_coupled_cell : 0.0);
   derived.cost.disk_bytes = k_disk_base + frame_bytes + k_checkpoint_bytes_per_grain * totals.most +
-                            k_checkpoint_bytes_per_cell * cells +
-                            k_checkpoint_bytes_per_dust_cell * dust_cells;
+                            bytes_per_cell * cells + k_checkpoint_bytes_per_dust_cell * dust_cells;
   if (!(cells > 0.0)) return frame_bytes;
   derived.cost.memory_bytes +=
       k_bytes_fluid + k_bytes_per_coupled_grain * totals.most + k_bytes_per_dust_cell * dust_cells;

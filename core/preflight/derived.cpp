@@ -2,9 +2,11 @@
 #include "preflight/derived.hpp"
 
 #include "base/text.hpp"
+#include "coupling/self_disturbance/disturbance_formulas.hpp"
 #include "fluid/grid.hpp"
 #include "preflight/cost.hpp"
 #include "preflight/emissions.hpp"
+#include "preflight/flow_check.hpp"
 #include "preflight/particle_models.hpp"
 #include "resolved/marker_lattice.hpp"
 #include "scenario/text/units.hpp"
@@ -12,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dust::preflight {
 namespace {
@@ -89,12 +92,56 @@ double fall_speed(const Setup& setup, const Emitters& emitters) {
   return speed;
 }
 
-/// [m/s] of the fluid where it is fast, for the number of its sub-steps.
-double air_speed(const Setup& setup, const Emitters& emitters, double body_speed) {
-  if (setup.time.expected_speed > 0.0) return setup.time.expected_speed;
+/// [m/s] that streams can give the fluid by their weight: in the middle of a plume that falls from
+/// the top, at a tenth of the height, \f$ w = 4.7 (g \dot m / \rho_f)^{1/3} z^{-1/3} \f$ (Rouse,
+/// Yih and Humphreys, Tellus 4 (1952) 201). Infinite with grains that are there at once.
+double plume_speed(const Setup& setup, const std::vector<EmissionNumbers>& emissions,
+                   const scenario::DustSetup& dust) {
+  double mass_flow = 0.0;
+  if (dust.field) {
+    for (const scenario::DustSourceSpec& source : dust.field->sources) {
+      for (const double flow : source.mass_flow) mass_flow += flow;
+    }
+  }
+  for (const EmissionNumbers& e : emissions) {
+    if (e.at_once > 0.0) return std::numeric_limits<double>::infinity();
+    mass_flow += e.mass_flow;
+  }
+  const double height = 0.1 * fall_height(setup);
+  if (!(height > 0.0)) return std::numeric_limits<double>::infinity();
+  return 4.7 * std::cbrt(norm(setup.gravity) * mass_flow / (setup.fluid->density * height));
+}
+
+/// [m/s] of the fluid where it is fast, for the number of its sub-steps: what drives it, and of
+/// what grains do to it as much as they can by their speed and by their weight. `driven`: by sides
+/// and openings.
+double air_speed(const Setup& setup, const Emitters& emitters, const Derived& derived,
+                 const scenario::DustSetup& dust, double body_speed, double driven) {
+  if (!setup.fluid) return 0.0;
+  const double forced = std::max(body_speed, driven);
   double speed = body_speed;
   for (const auto& emitter : emitters) speed = std::max(speed, emitter->largest_speed());
-  return std::hypot(speed, fall_speed(setup, emitters));
+  double fall = fall_speed(setup, emitters);
+  if (dust.field && !dust.field->sources.empty()) {
+    fall =
+        std::max(fall, k_dragged_share * std::sqrt(2.0 * norm(setup.gravity) * fall_height(setup)));
+  }
+  const double by_grains =
+      std::min(std::hypot(speed, fall), plume_speed(setup, derived.emissions, dust));
+  const double told = setup.time.expected_speed;
+  return std::max(forced, told > 0.0 && !emitters.empty() ? std::min(told, by_grains) : by_grains);
+}
+
+/// [s] When dust first gets into the air: from a source, or where grains that carry it meet
+/// something; at once where a cloud or a wind has it.
+double dust_begin(const scenario::DustFieldSpec& field,
+                  const std::vector<EmissionNumbers>& emissions) {
+  if (!field.clouds.empty()) return 0.0;
+  double begin = std::numeric_limits<double>::infinity();
+  for (const scenario::DustSourceSpec& source : field.sources)
+    begin = std::min(begin, source.begin);
+  for (const EmissionNumbers& e : emissions) begin = std::min(begin, e.begin + e.first_touch);
+  return std::isfinite(begin) ? begin : 0.0;
 }
 
 void derive_ratios(const Setup& setup, Derived& derived) {
@@ -129,6 +176,16 @@ void derive_resolved(const Setup& setup, const ParticleModels& models, Derived& 
 }
 
 }  // namespace
+
+bool is_own_disturbance_taken_off(const Setup& setup, const Derived& derived, double diameter) {
+  using Mode = scenario::DisturbanceCorrection;
+  namespace disturbance = coupling::self_disturbance;
+  if (!setup.fluid || setup.fluid->is_one_way) return false;
+  const Mode mode = setup.fluid->disturbance_correction;
+  if (mode == Mode::felt) return false;
+  return disturbance::may_be_taken_off(diameter, derived.mean_spacing, derived.smallest_spacing,
+                                       1.0, mode == Mode::taken_off ? 0.0 : disturbance::k_worth);
+}
 
 particles::TimeSteps derive_steps(const Setup& setup, const registry::Registry& registry) {
   return derive_steps(setup, make_particle_models(setup, registry));
@@ -172,9 +229,13 @@ Derived derive(const Setup& setup, const registry::Registry& registry,
   }
   derive_ratios(setup, derived);
   derive_resolved(setup, models, derived);
-  derived.air_speed = air_speed(setup, models.emitters, body_speed);
+  const double driven = driven_speed(setup, SideModelSet(setup, registry).models());
+  derived.air_speed = air_speed(setup, models.emitters, derived, dust, body_speed, driven);
   derived.bodies = body_work(setup, models.bodies);
-  if (dust.field) derived.dust_classes = static_cast<int>(dust.field->diameters.size());
+  if (dust.field) {
+    derived.dust_classes = static_cast<int>(dust.field->diameters.size());
+    derived.dust_begin = dust_begin(*dust.field, derived.emissions);
+  }
   estimate_cost(setup, derived, begin);
   return derived;
 }

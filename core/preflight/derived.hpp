@@ -31,6 +31,7 @@ struct Derived {
   std::vector<ResolvedNumbers> resolved;
   BodyWork bodies;
   int dust_classes = 0;                ///< that the fluid carries as concentrations
+  double dust_begin = 0.0;             ///< [s] rough: when the first of it gets into the air
   double smallest_spacing = 0.0;       ///< [m] 0 without fluid
   double mean_spacing = 0.0;           ///< [m] edge of a cube of a cell's volume
   double diameter_over_spacing = 0.0;  ///< largest grain over smallest cell edge
@@ -41,6 +42,11 @@ struct Derived {
   double grains_in_domain = 0.0;       ///< rough: at most
   RunCost cost;                        ///< rough: on one processor, idle but for it
 };
+
+/// Whether what a lone grain of this diameter [m] does to the fluid by itself is taken off, by its
+/// size and the cells'.
+bool is_own_disturbance_taken_off(const scenario::Setup& setup, const Derived& derived,
+                                  double diameter);
 
 /// The steps that a run will take.
 particles::TimeSteps derive_steps(const scenario::Setup& setup, const registry::Registry& registry);

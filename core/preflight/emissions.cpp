@@ -104,11 +104,13 @@ void follow_some(const Setup& setup, const bodies::BodySet& bodies, const Emitte
   double way = 0.0;
   numbers.on_body.assign(bodies.size(), 0.0);
   const std::size_t count = std::min(k_followed, requests.size());
+  if (count > 0) numbers.first_touch = std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < count; ++n) {
     const auto& grain = requests[n * requests.size() / count];
     const Journey j =
         follow_grain(setup, bodies, placed(setup, spec, grain), setup.time.end - numbers.begin);
     numbers.stays.push_back(j.duration);
+    numbers.first_touch = std::min(numbers.first_touch, j.first_touch);
     moving += std::isfinite(j.duration) ? j.duration : j.carried;
     carried += j.carried;
     way += j.carried_way;

@@ -31,6 +31,8 @@ struct EmissionNumbers {
   double end = std::numeric_limits<double>::infinity();
   /// [s] that grains of a stream stay, of a sample of them; infinite for those that never leave.
   std::vector<double> stays;
+  /// [s] after its begin, when the first of them meets something; 0 where none is followed.
+  double first_touch = 0.0;
   double carried_share = 0.0;   ///< of the time they move, on bodies and walls
   std::vector<double> on_body;  ///< share of that time on each body
   double thickness = 0.0;       ///< [m] of the solids where they are carried, without pores

@@ -31,6 +31,8 @@ using sdk::SideRule;
 constexpr double k_balance = 1e-6;
 /// Times of the run at which flows are looked at, the end included.
 constexpr int k_times = 16;
+/// How much faster the fluid is at the edges of an opening than in its mean.
+constexpr double k_at_edges = 2.5;
 /// Sides with more faces than this are left to the run: a check shall not need its memory.
 constexpr std::size_t k_max_faces = 4'000'000;
 /// Ratio of the edges of a cell from which it is called far from cubic.
@@ -104,7 +106,15 @@ struct Faces {
     for (auto& v : velocity) v.assign(batch.count, 0.0);
     pressure.assign(batch.count, 0.0);
   }
-  /// [m3/s] into the domain.
+  /// [m/s] largest component of what a model wrote
+  [[nodiscard]] double largest_speed() const {
+    double largest = 0.0;
+    for (const auto& component : velocity) {
+      for (const double v : component) largest = std::max(largest, std::abs(v));
+    }
+    return largest;
+  }
+  /// [m3/s] into the domain
   [[nodiscard]] double inflow() const {
     const int d = batch.normal.x != 0.0 ? 0 : batch.normal.y != 0.0 ? 1 : 2;
     double sum = 0.0;
@@ -230,14 +240,68 @@ void report_imbalance(const Setup& setup, const std::array<double, 6>& flows, do
                                "a total_pressure, static_pressure or zero_gradient side");
 }
 
+/// [m2] The largest face of the box round an opening, as far as it is in the domain's size.
+double area_of(const Setup& setup, const SuctionSpec& suction) {
+  const sdk::Vec3 size = setup.domain.max - setup.domain.min;
+  std::array<double, 3> edges{};
+  for (int d = 0; d < 3; ++d) {
+    edges[static_cast<std::size_t>(d)] = std::min(suction.max[d] - suction.min[d], size[d]);
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges[1] * edges[2];
+}
+
+bool is_too_large(const Setup& setup, std::size_t side) {
+  return Faces::count_of(setup, side) > k_max_faces;
+}
+
+/// [m/s] through the openings of bodies at `time`
+double suction_speed(const Setup& setup, double time) {
+  double largest = 0.0;
+  for (const BodySpec& body : setup.bodies) {
+    const double area = body.suction ? area_of(setup, *body.suction) : 0.0;
+    if (!(area > 0.0)) continue;
+    largest = std::max(largest, k_at_edges * std::abs(flow_into(*body.suction, time)) / area);
+  }
+  return largest;
+}
+
 }  // namespace
+
+SideModelSet::SideModelSet(const Setup& setup, const registry::Registry& registry) {
+  for (std::size_t n = 0; n < 6; ++n) {
+    const auto& air = setup.domain.sides[n].air;
+    if (air) made_[n] = registry.create_as<sdk::BoundaryCondition>(*air);
+    models_[n] = made_[n].get();
+  }
+}
+
+double driven_speed(const Setup& setup, const SideModels& sides) {
+  if (!setup.fluid) return 0.0;
+  double largest = 0.0;
+  for (int step = 0; step <= k_times; ++step) {
+    largest = std::max(largest, suction_speed(setup, setup.time.end * step / k_times));
+  }
+  for (std::size_t n = 0; n < 6; ++n) {
+    if (sides[n] == nullptr || is_too_large(setup, n)) continue;
+    Faces faces(setup, n);
+    for (int step = 0; step <= k_times; ++step) {
+      faces.clear();
+      faces.batch.time = setup.time.end * step / k_times;
+      sides[n]->evaluate(faces.batch);
+      if (sides[n]->rules().normal_velocity == SideRule::fixed)
+        largest = std::max(largest, faces.largest_speed());
+    }
+  }
+  return largest;
+}
 
 void check_flow(const Setup& setup, const SideModels& sides, Diagnostics& diagnostics) {
   if (!setup.fluid || diagnostics.has_errors()) return;
   check_cells(setup, diagnostics);
   if (!check_rules(setup, sides, diagnostics)) return;
   for (std::size_t n = 0; n < 6; ++n) {
-    if (sides[n] != nullptr && Faces::count_of(setup, n) > k_max_faces) return;
+    if (sides[n] != nullptr && is_too_large(setup, n)) return;
   }
   const bool is_open = gives_way(sides);
   AllFaces all;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "dust/sdk/boundary_condition.hpp"
+#include "registry/registry.hpp"
 #include "scenario/diagnostics.hpp"
 #include "setup/setup.hpp"
 
 #include <array>
+#include <memory>
 
 namespace dust::preflight {
 
@@ -13,11 +15,26 @@ namespace dust::preflight {
 /// or wrong.
 using SideModels = std::array<const sdk::BoundaryCondition*, 6>;
 
+/// Makes them.
+class SideModelSet {
+ public:
+  SideModelSet(const scenario::Setup& setup, const registry::Registry& registry);
+  [[nodiscard]] const SideModels& models() const { return models_; }
+
+ private:
+  std::array<std::unique_ptr<sdk::BoundaryCondition>, 6> made_;
+  SideModels models_{};
+};
+
 /// Tells sides that cannot be solved together, with the reason: what a model refuses on its side,
 /// rules that do not go together, flows that no side gives way to. Flows are added up over whole
 /// sides at some times of the run; where bodies may cover part of a side, only flows that are all
 /// of one sign are refused. Warns of cells far from cubic.
 void check_flow(const scenario::Setup& setup, const SideModels& sides,
                 scenario::Diagnostics& diagnostics);
+
+/// [m/s] Largest speed at which sides and openings of bodies drive the fluid, at some times of the
+/// run; 0 without any. A side that a check has no memory for counts as none.
+double driven_speed(const scenario::Setup& setup, const SideModels& sides);
 
 }  // namespace dust::preflight

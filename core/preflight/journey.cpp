@@ -52,6 +52,7 @@ class Traveller {
       }
       j.duration += step;
       if (!is_carried_) continue;
+      j.first_touch = std::min(j.first_touch, j.duration);
       j.carried += step;
       j.carried_way += step * norm(v_);
       rested = norm(v_) < k_rest_share * slow_ ? rested + 1 : 0;

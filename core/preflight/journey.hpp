@@ -5,13 +5,16 @@
 #include "dust/sdk/emitter.hpp"
 #include "setup/setup.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace dust::preflight {
 
 /// What becomes of a lone grain.
 struct Journey {
-  double duration = 0.0;        ///< [s] until it is out of the domain; infinite where it stays
+  double duration = 0.0;  ///< [s] until it is out of the domain; infinite where it stays
+  /// [s] after which it first meets something; infinite where it does not.
+  double first_touch = std::numeric_limits<double>::infinity();
   double carried = 0.0;         ///< [s] of that on bodies and walls, until it rests
   double carried_way = 0.0;     ///< [m] it goes in that time
   std::vector<double> on_body;  ///< [s] of `carried` on each body

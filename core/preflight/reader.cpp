@@ -6,8 +6,6 @@
 #include "preflight/flow_check.hpp"
 #include "scenario/diagnostics.hpp"
 
-#include <array>
-#include <memory>
 #include <stdexcept>
 
 namespace dust::preflight {
@@ -17,14 +15,8 @@ using Result = std::optional<scenario::ReadResult>;
 
 void check_sides(const scenario::Setup& setup, const registry::Registry& registry,
                  scenario::Diagnostics& diagnostics) {
-  std::array<std::unique_ptr<sdk::BoundaryCondition>, 6> made;
-  SideModels sides{};
-  for (std::size_t n = 0; n < 6; ++n) {
-    const auto& air = setup.domain.sides[n].air;
-    if (air) made[n] = registry.create_as<sdk::BoundaryCondition>(*air);
-    sides[n] = made[n].get();
-  }
-  check_flow(setup, sides, diagnostics);
+  const SideModelSet sides(setup, registry);
+  check_flow(setup, sides.models(), diagnostics);
 }
 
 /// Looks at what was read without errors.

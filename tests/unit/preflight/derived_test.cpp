@@ -102,6 +102,48 @@ TEST_CASE("the estimates shall be within a factor of two of what the transfer po
   CHECK(is_near(airless.cost.memory_bytes, 63e6));
 }
 
+TEST_CASE("lone grains whose own disturbance is taken off shall be told dearer, as they are") {
+  registry::Registry shipped;
+  shipped.load({DUST_TEST_PLUGINS});
+  const auto exchange_of = [&](const std::string& scenario, const std::string& mode) {
+    const auto file = std::string(DUST_SOURCE) + "/scenarios/" + scenario;
+    const auto setup =
+        preflight::read_scenario(file, {{"coupling.correct_own_disturbance", mode}}, shipped).setup;
+    return preflight::derive(setup, shipped).cost.terms[preflight::CostTerm::exchange].seconds;
+  };
+  // Measured on one core of 2026; a factor of two either way, for machines differ by that.
+  for (const auto& [scenario, taken] :
+       {std::pair{"dust/enclosed_chute.yaml", 4.8}, std::pair{"studies/small_transfer.yaml", 5.8},
+        std::pair{"thesis/settling_b2.yaml", 4.5}}) {
+    CAPTURE(scenario);
+    const double told = exchange_of(scenario, "true");
+    CHECK(told > 0.5 * taken);
+    CHECK(told < 2.0 * taken);
+    CHECK(exchange_of(scenario, "false") < 0.7 * told);
+  }
+}
+
+TEST_CASE("sub-steps of the air shall be told by what drives it") {
+  registry::Registry shipped;
+  shipped.load({DUST_TEST_PLUGINS});
+  const auto air_speed_of = [&](const std::string& scenario,
+                                const std::vector<scenario::Override>& set) {
+    const auto file = std::string(DUST_SOURCE) + "/scenarios/dust/" + scenario;
+    const auto read = preflight::read_scenario(file, set, shipped);
+    return preflight::derive(read.setup, shipped, read.dust).air_speed;
+  };
+  // 120 l/min through 60 x 20 mm, 2.5 times as fast at its edges.
+  CHECK(air_speed_of("hood_over_drop.yaml", {}) == test::approx(2.5 * 0.002 / 0.0012));
+  // A wind of 2 m/s comes in, whatever the grains do.
+  CHECK(air_speed_of("slug_in_wind.yaml", {}) == test::approx(2.0));
+  // 8 g/min that falls 0.5 m at 3 m/s cannot make the air as fast: a plume's speed.
+  const double plume = 4.7 * std::cbrt(9.81 * 0.008 / 60.0 / (1.2 * 0.05));
+  CHECK(air_speed_of("continuous_drop.yaml", {}) == test::approx(plume));
+  // A thousand times that: as fast as the grains come in, and half a free fall besides.
+  CHECK(air_speed_of("continuous_drop.yaml", {{"emitters.stream.mass_flow", "8 kg/min"}}) ==
+        test::approx(std::hypot(2.8, 0.5 * std::sqrt(2.0 * 9.81 * 0.5))));
+}
+
 TEST_CASE("grains with bridges shall be told dearer than dry ones, as they are") {
   registry::Registry shipped;
   shipped.load({DUST_TEST_PLUGINS});

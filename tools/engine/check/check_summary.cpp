@@ -208,16 +208,10 @@ void print_disturbance_correction(std::ostream& out, const Setup& setup, const D
   const auto& classes = derived.steps.classes;
   if (!setup.fluid || setup.fluid->is_one_way || classes.empty()) return;
   namespace disturbance = coupling::self_disturbance;
-  const bool is_asked =
-      setup.fluid->disturbance_correction == scenario::DisturbanceCorrection::taken_off;
-  const bool is_off = setup.fluid->disturbance_correction == scenario::DisturbanceCorrection::felt;
   double finest = 0.0;
   double coarsest = 0.0;
   for (const auto& size : classes) {
-    const bool may_be =
-        disturbance::may_be_taken_off(size.diameter, derived.mean_spacing, derived.smallest_spacing,
-                                      1.0, is_asked ? 0.0 : disturbance::k_worth);
-    if (is_off || !may_be) continue;
+    if (!is_own_disturbance_taken_off(setup, derived, size.diameter)) continue;
     if (finest == 0.0) finest = size.diameter;
     coarsest = size.diameter;
   }
