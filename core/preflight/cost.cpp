@@ -36,7 +36,7 @@ constexpr double k_checkpoint_bytes_per_dust_cell = 40.0;
 constexpr double k_bed_step = 7.5e-8;
 /// A bed that a body shakes, over one at rest: its lists are made anew with every stroke.
 constexpr double k_shaken = 2.0;
-constexpr double k_settling_step = 2e-8;
+constexpr double k_settling_step = 2.2e-8;
 constexpr double k_gas_step = 7.5e-9;
 constexpr double k_thin_stream_step = 1.8e-8;
 constexpr double k_stream_contact = 7e-8;
@@ -67,8 +67,8 @@ constexpr double k_voidage_per_grain = 2.5e-6;    // of a stream: its cells and 
 constexpr double k_voidage_per_bed_grain = 4e-7;  // of a bed: those of its neighbours
 /// More for a lone grain whose own disturbance is taken off: the cells of its kernel, which is no
 /// narrower than so many cells, and those that a large one fills.
-constexpr double k_own_disturbance = 6e-6;
-constexpr double k_own_power = 5.5;
+constexpr double k_self_disturbance = 6e-6;
+constexpr double k_self_power = 5.5;
 /// Grains that come at once are as lone as those of a stream where they are no more than this.
 constexpr double k_few = 10.0;
 constexpr double k_voidage_per_cell = 2e-8;
@@ -177,8 +177,9 @@ struct GrainTotals {
   double most = 0.0;            ///< at a time
   double seconds = 0.0;         ///< [s] integral of their number
   double stream_seconds = 0.0;  ///< [s] of that, of streams
-  double own_cost = 0.0;        ///< [s2] integral of what their own disturbance costs a fluid step
-  double layers = 0.0;          ///< of all that is carried, for it is carried together
+  double self_disturbance =
+      0.0;              ///< [s2] integral of what their own disturbance costs a fluid step
+  double layers = 0.0;  ///< of all that is carried, for it is carried together
 };
 
 /// [s] Mean cost of finding where a grain of a stream touches bodies, in each of its steps: of a
@@ -201,12 +202,12 @@ double touch_step(const BodyWork& bodies, double grains) {
 
 /// [s] More in each fluid step for a lone grain of this emitter, on average, where its own
 /// disturbance is taken off.
-double own_disturbance_cost(const Setup& setup, const Derived& derived, const EmissionNumbers& e) {
+double self_disturbance_cost(const Setup& setup, const Derived& derived, const EmissionNumbers& e) {
   const auto cost = [&](double diameter) {
-    if (!is_own_disturbance_taken_off(setup, derived, diameter)) return 0.0;
+    if (!is_self_disturbance_corrected(setup, derived, diameter)) return 0.0;
     const double cells = diameter / derived.mean_spacing;
     const double wider = std::max(1.0, cells / coupling::self_disturbance::k_min_knots);
-    return k_own_disturbance * std::pow(wider, k_own_power);
+    return k_self_disturbance * std::pow(wider, k_self_power);
   };
   if (e.sizes.empty()) {
     return derived.steps.classes.empty() ? 0.0 : cost(derived.steps.classes.back().diameter);
@@ -230,8 +231,8 @@ void add_grains(const Setup& setup, const EmissionNumbers& e, Derived& derived,
   totals.most += e.at_once;
   totals.seconds += stream_seconds + filled_seconds;
   totals.stream_seconds += stream_seconds;
-  const double lone_seconds = stream_seconds + (e.at_once <= k_few ? filled_seconds : 0.0);
-  totals.own_cost += lone_seconds * own_disturbance_cost(setup, derived, e);
+  const double isolated_seconds = stream_seconds + (e.at_once <= k_few ? filled_seconds : 0.0);
+  totals.self_disturbance += isolated_seconds * self_disturbance_cost(setup, derived, e);
   const particles::TimeSteps& steps = derived.steps;
   if (steps.classes.empty() || !(steps.coarse_step > 0.0)) return;
   const auto add = [&](double seconds, double each, double near_share) {
@@ -309,7 +310,7 @@ void add_fluid(const Setup& setup, const GrainTotals& totals, Derived& derived) 
   const double bed_seconds = totals.seconds - totals.stream_seconds;
   derived.cost.terms[CostTerm::exchange] = {
       totals.seconds / step + steps * cells,
-      (totals.stream_seconds * k_voidage_per_grain + totals.own_cost +
+      (totals.stream_seconds * k_voidage_per_grain + totals.self_disturbance +
        bed_seconds * k_voidage_per_bed_grain + totals.seconds * refreshes * k_refresh_per_grain) /
               step +
           steps * (cells * k_voidage_per_cell + derived.bodies.predict)};

@@ -128,8 +128,9 @@ double air_speed(const Setup& setup, const Emitters& emitters, const Derived& de
   }
   const double by_grains =
       std::min(std::hypot(speed, fall), plume_speed(setup, derived.emissions, dust));
-  const double told = setup.time.expected_speed;
-  return std::max(forced, told > 0.0 && !emitters.empty() ? std::min(told, by_grains) : by_grains);
+  const double expected = setup.time.expected_speed;
+  return std::max(forced,
+                  expected > 0.0 && !emitters.empty() ? std::min(expected, by_grains) : by_grains);
 }
 
 /// [s] When dust first gets into the air: from a source, or where grains that carry it meet
@@ -177,7 +178,7 @@ void derive_resolved(const Setup& setup, const ParticleModels& models, Derived& 
 
 }  // namespace
 
-bool is_own_disturbance_taken_off(const Setup& setup, const Derived& derived, double diameter) {
+bool is_self_disturbance_corrected(const Setup& setup, const Derived& derived, double diameter) {
   using Mode = scenario::DisturbanceCorrection;
   namespace disturbance = coupling::self_disturbance;
   if (!setup.fluid || setup.fluid->is_one_way) return false;

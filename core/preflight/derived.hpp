@@ -45,8 +45,8 @@ struct Derived {
 
 /// Whether what a lone grain of this diameter [m] does to the fluid by itself is taken off, by its
 /// size and the cells'.
-bool is_own_disturbance_taken_off(const scenario::Setup& setup, const Derived& derived,
-                                  double diameter);
+bool is_self_disturbance_corrected(const scenario::Setup& setup, const Derived& derived,
+                                   double diameter);
 
 /// The steps that a run will take.
 particles::TimeSteps derive_steps(const scenario::Setup& setup, const registry::Registry& registry);

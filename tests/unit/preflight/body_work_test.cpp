@@ -88,13 +88,23 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("dust in the air shall cost each of its classes in each sub-step of a cell") {
+TEST_CASE("dust in the air shall cost each of its classes, from when there is some, in its steps") {
   const Scenario silt("dust/silt_to_plate.yaml");
   const auto derived = silt.derived();
   REQUIRE(silt.read.dust.field);
   const auto classes = static_cast<double>(silt.read.dust.field->diameters.size());
+  // Grains carry it to the plate: nothing is in the air before the first one is there.
+  CHECK(derived.dust_begin > 0.05);
+  CHECK(derived.dust_begin < 0.5);
+  const double dusty = 1.0 - derived.dust_begin / silt.read.setup.time.end;
   CHECK(derived.cost.terms[CostTerm::dust].amount ==
-        test::approx(classes * derived.cost.terms[CostTerm::fluid].amount));
+        test::approx(dusty * classes * derived.cost.terms[CostTerm::fluid].amount));
+  // Its sub-steps keep to 0.65 of a cell where the fluid's keep to one.
+  const Scenario hood("dust/hood_over_drop.yaml");
+  const auto fast = hood.derived();
+  CHECK(fast.dust_begin == 0.0);
+  CHECK(fast.cost.terms[CostTerm::dust].amount ==
+        test::approx(3.0 / 0.65 * fast.cost.terms[CostTerm::fluid].amount));
   const auto none = preflight::derive(silt.read.setup, silt.shipped);
   CHECK(none.cost.terms[CostTerm::dust].seconds == 0.0);
   CHECK(none.cost.memory_bytes < derived.cost.memory_bytes);

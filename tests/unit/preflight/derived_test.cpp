@@ -116,14 +116,14 @@ TEST_CASE("lone grains whose own disturbance is taken off shall be told dearer, 
        {std::pair{"dust/enclosed_chute.yaml", 4.8}, std::pair{"studies/small_transfer.yaml", 5.8},
         std::pair{"thesis/settling_b2.yaml", 4.5}}) {
     CAPTURE(scenario);
-    const double told = exchange_of(scenario, "true");
-    CHECK(told > 0.5 * taken);
-    CHECK(told < 2.0 * taken);
-    CHECK(exchange_of(scenario, "false") < 0.7 * told);
+    const double estimated = exchange_of(scenario, "true");
+    CHECK(estimated > 0.5 * taken);
+    CHECK(estimated < 2.0 * taken);
+    CHECK(exchange_of(scenario, "false") < 0.7 * estimated);
   }
 }
 
-TEST_CASE("sub-steps of the air shall be told by what drives it") {
+TEST_CASE("sub-steps of the air shall be estimated by what drives it") {
   registry::Registry shipped;
   shipped.load({DUST_TEST_PLUGINS});
   const auto air_speed_of = [&](const std::string& scenario,

@@ -211,7 +211,7 @@ void print_disturbance_correction(std::ostream& out, const Setup& setup, const D
   double finest = 0.0;
   double coarsest = 0.0;
   for (const auto& size : classes) {
-    if (!is_own_disturbance_taken_off(setup, derived, size.diameter)) continue;
+    if (!is_self_disturbance_corrected(setup, derived, size.diameter)) continue;
     if (finest == 0.0) finest = size.diameter;
     coarsest = size.diameter;
   }
