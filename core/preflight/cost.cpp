@@ -177,8 +177,8 @@ struct GrainTotals {
   double most = 0.0;            ///< at a time
   double seconds = 0.0;         ///< [s] integral of their number
   double stream_seconds = 0.0;  ///< [s] of that, of streams
-  double self_disturbance =
-      0.0;              ///< [s2] integral of what their own disturbance costs a fluid step
+  /// [s2] Integral of what their own disturbance costs a fluid step.
+  double self_disturbance = 0.0;
   double layers = 0.0;  ///< of all that is carried, for it is carried together
 };
 
@@ -316,7 +316,7 @@ void add_fluid(const Setup& setup, const GrainTotals& totals, Derived& derived) 
           steps * (cells * k_voidage_per_cell + derived.bodies.predict)};
 }
 
-/// Whether grains share their volume with the fluid, which then has fields for that.
+/// Whether the fluid has fields for grains that it does not resolve.
 bool is_coupled(const Setup& setup, const Derived& derived) {
   return setup.fluid && derived.emissions.size() > derived.resolved.size();
 }

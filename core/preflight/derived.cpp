@@ -49,12 +49,16 @@ particles::TimeSteps derive_steps(const Setup& setup, const ParticleModels& mode
   return steps;
 }
 
+/// [m/s] after a free fall through the domain.
+double free_fall_speed(const Setup& setup) {
+  return std::sqrt(2.0 * norm(setup.gravity) * fall_height(setup));
+}
+
 double expected_speed(const Setup& setup, const Emitters& emitters, double body_speed) {
   if (setup.time.expected_speed > 0.0) return setup.time.expected_speed;
   double speed = body_speed;
   for (const auto& emitter : emitters) speed = std::max(speed, emitter->largest_speed());
-  // v^2 = v_0^2 + 2 g h
-  return std::sqrt(speed * speed + 2.0 * norm(setup.gravity) * fall_height(setup));
+  return std::hypot(speed, free_fall_speed(setup));
 }
 
 /// [m/s] at which a lone sphere settles in the fluid, with the drag of Schiller and Naumann (1935):
@@ -73,11 +77,11 @@ double settling_speed(const Setup& setup, double diameter, double density) {
   return speed;
 }
 
-/// [m/s] What falling grains give the fluid: streams a share of their own speed; spheres that the
-/// grid resolves are few, and no faster than one alone.
-double fall_speed(const Setup& setup, const Emitters& emitters) {
-  double speed = 0.0;
-  const double free = std::sqrt(2.0 * norm(setup.gravity) * fall_height(setup));
+/// [m/s] What falling grains and dust give the fluid: streams a share of their own speed; spheres
+/// that the grid resolves are few, and no faster than one alone.
+double fall_speed(const Setup& setup, const Emitters& emitters, const scenario::DustSetup& dust) {
+  const double free = free_fall_speed(setup);
+  double speed = dust.field && !dust.field->sources.empty() ? k_dragged_share * free : 0.0;
   for (std::size_t n = 0; n < emitters.size(); ++n) {
     double own = k_dragged_share * free;
     const int material = setup.emitters[n].material;
@@ -121,13 +125,8 @@ double air_speed(const Setup& setup, const Emitters& emitters, const Derived& de
   const double forced = std::max(body_speed, driven);
   double speed = body_speed;
   for (const auto& emitter : emitters) speed = std::max(speed, emitter->largest_speed());
-  double fall = fall_speed(setup, emitters);
-  if (dust.field && !dust.field->sources.empty()) {
-    fall =
-        std::max(fall, k_dragged_share * std::sqrt(2.0 * norm(setup.gravity) * fall_height(setup)));
-  }
-  const double by_grains =
-      std::min(std::hypot(speed, fall), plume_speed(setup, derived.emissions, dust));
+  const double by_grains = std::min(std::hypot(speed, fall_speed(setup, emitters, dust)),
+                                    plume_speed(setup, derived.emissions, dust));
   const double expected = setup.time.expected_speed;
   return std::max(forced,
                   expected > 0.0 && !emitters.empty() ? std::min(expected, by_grains) : by_grains);

@@ -106,6 +106,12 @@ struct Faces {
     for (auto& v : velocity) v.assign(batch.count, 0.0);
     pressure.assign(batch.count, 0.0);
   }
+  /// Lets a model write what it wants at `time`.
+  void ask(const sdk::BoundaryCondition& model, double time) {
+    clear();
+    batch.time = time;
+    model.evaluate(batch);
+  }
   /// [m/s] largest component of what a model wrote
   [[nodiscard]] double largest_speed() const {
     double largest = 0.0;
@@ -159,10 +165,8 @@ bool find_flows(const Setup& setup, const SideModels& sides, AllFaces& all, doub
     if (sides[n] == nullptr) continue;
     if (!all[n]) all[n] = std::make_unique<Faces>(setup, n);
     Faces& faces = *all[n];
-    faces.clear();
-    faces.batch.time = time;
     try {
-      sides[n]->evaluate(faces.batch);
+      faces.ask(*sides[n], time);
     } catch (const std::exception& e) {
       const SideSpec& side = setup.domain.sides[n];
       diagnostics.error(side.air ? side.air->where : side.where, path_of(n) + ".air: " + e.what());
@@ -284,13 +288,11 @@ double driven_speed(const Setup& setup, const SideModels& sides) {
   }
   for (std::size_t n = 0; n < 6; ++n) {
     if (sides[n] == nullptr || is_too_large(setup, n)) continue;
+    if (sides[n]->rules().normal_velocity != SideRule::fixed) continue;
     Faces faces(setup, n);
     for (int step = 0; step <= k_times; ++step) {
-      faces.clear();
-      faces.batch.time = setup.time.end * step / k_times;
-      sides[n]->evaluate(faces.batch);
-      if (sides[n]->rules().normal_velocity == SideRule::fixed)
-        largest = std::max(largest, faces.largest_speed());
+      faces.ask(*sides[n], setup.time.end * step / k_times);
+      largest = std::max(largest, faces.largest_speed());
     }
   }
   return largest;

@@ -32,3 +32,22 @@ def flow(folder, begin):
     plume = numpy.where(speed > SHARE * speed.max(axis=(1, 2), keepdims=True), speed, 0.0)
     volume, momentum = area * plume.sum(axis=(1, 2)), area * (plume**2).sum(axis=(1, 2))
     return depth[::-1], volume[::-1], (volume / numpy.sqrt(numpy.pi * momentum))[::-1]
+
+
+def grain_spread(folder, begin, top, below):
+    """Root mean square distance of grains from the domain's middle over that of the mean downward flow, both over the depths from `top` to `below` [m]."""
+    run = dust_results.Run(folder)
+    depth, speed, _ = mean_fall(folder, begin)
+    field = run.air(0)["velocity"]
+    x, y = numpy.meshgrid(field.centres("x"), field.centres("y"))
+    layers = numpy.maximum(speed[(depth >= top) & (depth <= below)], 0.0)
+    of_flow = (layers * (x**2 + y**2)).sum() / layers.sum()
+    surface = field.centres("z")[-1] + field.spacing[2] / 2
+    squares = []
+    for n, time in enumerate(run.times):
+        if time < begin:
+            continue
+        place = numpy.asarray(run.grains(n)["position"])
+        is_seen = (surface - place[:, 2] >= top) & (surface - place[:, 2] <= below)
+        squares.append((place[is_seen, :2] ** 2).sum(axis=1))
+    return float(numpy.sqrt(numpy.concatenate(squares).mean() / of_flow))
