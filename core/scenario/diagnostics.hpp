@@ -5,6 +5,7 @@
 #include "setup/mark.hpp"
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,11 @@ class Diagnostics {
   };
   /// Files in the order in which their problems are told.
   void add_file(const std::string& file);
+  /// A file that an engine wrote, whose bare numbers are meant in SI.
+  void note_resolved_file(const std::string& file) { resolved_files_.insert(file); }
+  [[nodiscard]] bool is_resolved_file(const std::string& file) const {
+    return resolved_files_.contains(file);
+  }
   void error(const Mark& where, std::string text);
   void warning(const Mark& where, std::string text);
 
@@ -47,6 +53,7 @@ class Diagnostics {
   [[nodiscard]] std::size_t rank(const std::string& file) const;
 
   std::vector<std::string> files_;
+  std::set<std::string> resolved_files_;
   std::vector<Problem> errors_;
   std::vector<Problem> warnings_;
   std::map<std::string, sdk::Dimension> dimensions_;

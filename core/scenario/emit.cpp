@@ -79,7 +79,7 @@ void block(const Node& node, std::size_t indent, std::string& out) {
       for (const Node& item : e.value.items) {
         std::string inner;
         block(item, indent + 4, inner);
-        inner.replace(indent + 2, 2, "- ");
+        inner[indent + 2] = '-';
         out += inner;
       }
     }

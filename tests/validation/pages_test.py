@@ -11,6 +11,7 @@ import package  # noqa: F401
 
 import bed
 import cases
+import chart
 import index
 import kept
 import page
@@ -100,6 +101,21 @@ class KeptPages(unittest.TestCase):
                 again = self.written(third, {"run_1": 1.1}, kept.Kept(file))
                 self.assertIn("| figure of run_1 | 1.1 |", again)
                 self.assertEqual(1, again.count("| run_1 |"))
+
+    def test_pictures_of_runs_that_are_gone_stay_and_new_ones_take_other_files(self):
+        drawn = []
+        with tempfile.TemporaryDirectory() as folder, \
+                unittest.mock.patch("chart.draw", lambda file, title, *_: drawn.append((file.name, title))):
+            file = pathlib.Path(folder) / "case.md"
+            file.write_text("![Old](pictures/case_1.svg)\n\n## Runs\n")
+            sheet = page.Page("case", kept.Kept(file))
+            sheet.chart("New", "x", "y", [chart.Curve("ours", [1], [1])], "text")
+            sheet.chart("Old", "x", "y", [chart.Curve("ours", [], [])], "text")
+            sheet.chart("None", "x", "y", [], "text")
+            text = sheet.text("Case", runs.Runs([], folder, None), "how")
+        self.assertEqual([("case_2.svg", "New")], drawn)
+        self.assertEqual(["![New](pictures/case_2.svg)", "![Old](pictures/case_1.svg)"],
+                         [line for line in text.splitlines() if line.startswith("![")])
 
     def test_a_row_that_was_open_is_not_kept(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -20,6 +20,8 @@ class Kept:
         self._runs = {cells_of(line)[0]: dict(zip(header, cells_of(line)))
                       for line in lines[begin:] if line.startswith("| ") and "`" in line}
         self._commands = [line for line in lines[begin:] if line.startswith("engine run ")]
+        shown = (re.fullmatch(r"!\[(.*)\]\(pictures/(.*)\)", line) for line in lines[:begin])
+        self._pictures = {found.group(1): found.group(2) for found in shown if found}
         self._bits = [line for line in lines if line.startswith("<!-- bits ")]
         date = re.search(r"Runs of commit .*?(\d{4}-\d\d-\d\d)", "\n".join(lines[:6]))
         self._date = date.group(1) if date else None
@@ -31,6 +33,13 @@ class Kept:
             if cells[:len(begin)] == list(begin) and (not among or among in cells) and not any(cell in EMPTY_CELLS for cell in cells):
                 return cells
         return None
+
+    def picture(self, title):
+        """The file of the picture of that title; None where the page has none."""
+        return self._pictures.get(title)
+
+    def pictures(self):
+        return set(self._pictures.values())
 
     def only(self, names):
         """Forgets runs but these: those that are there anew, and those that the case has no more."""

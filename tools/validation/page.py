@@ -1,6 +1,7 @@
 """A page of docs/validation: figures beside published ones, charts, what failed, what has not been run."""
 
 import datetime
+import itertools
 
 import chart
 from kept import Kept
@@ -53,14 +54,21 @@ class Page:
 
     def chart(self, title, across, up, curves, text):
         """Ours beside the published curve: curves as chart.draw takes them; `text` says what is seen."""
-        is_whole = all(c.x for c in curves if c.is_ours)
+        ours = [c for c in curves if c.is_ours]
+        is_whole = bool(ours) and all(c.x for c in ours)
         curves = [c for c in curves if c.x]
-        if any(c.is_ours for c in curves):
-            file = f"{self.name}_{len(self._charts) + 1}.svg"
+        before = self._kept.picture(title)
+        # A picture of curves some or all of which are gone stays.
+        is_kept = before is not None and not is_whole
+        if is_kept or any(c.is_ours for c in curves):
+            file = before or self._free_picture()
             self._charts.append((file, title, text))
-            # A picture of curves some of which are gone stays.
-            if is_whole or not (self._kept.bits() and (FOLDER / "pictures" / file).exists()):
+            if not is_kept:
                 chart.draw(FOLDER / "pictures" / file, title, across, up, curves)
+
+    def _free_picture(self):
+        taken = {file for file, _, _ in self._charts} | self._kept.pictures()
+        return next(file for n in itertools.count(1) if (file := f"{self.name}_{n}.svg") not in taken)
 
     def body(self, lines):
         """Lines of a page that is not a table of figures."""

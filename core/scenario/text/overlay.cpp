@@ -61,6 +61,7 @@ class IncludeReader {
       return std::nullopt;
     }
     diagnostics_.add_file(shown);
+    if (text->starts_with(k_resolved_heading)) diagnostics_.note_resolved_file(shown);
     auto root = parse_yaml(*text, shown, false, diagnostics_);
     if (!root) return std::nullopt;
     if (root->kind == Node::Kind::nothing) {

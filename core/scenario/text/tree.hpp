@@ -53,6 +53,10 @@ std::string kind_text(const Node& node);
 std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
                                bool is_command_line, Diagnostics& diagnostics);
 
+/// First line of a scenario that the engine writes, by which it knows it again.
+inline constexpr const char* k_resolved_heading =
+    "# Resolved scenario: includes merged, settings applied, defaults written out, all in SI.\n";
+
 /// YAML text of a tree: blocks, with flow style for what fits into one line.
 std::string emit_yaml(const Node& root);
 

@@ -389,6 +389,7 @@ void MapReader::warn_of_bare_numbers(const sdk::ParameterSchema& schema) {
     const std::string si = si_unit(parameter.dimension);
     const Entry* entry = node_.is_map() ? node_.find(parameter.name) : nullptr;
     if (entry == nullptr || si.empty()) continue;
+    if (diagnostics_.is_resolved_file(entry->value.where.file)) continue;
     double largest = 0.0;
     if (!unit_in(entry->value, largest).empty() || largest == 0.0) continue;
     if (parameter.type == ParameterType::vector && warn_of_bare_neighbour(schema, parameter)) {

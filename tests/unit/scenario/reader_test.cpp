@@ -158,3 +158,13 @@ TEST_CASE("a bare number that was hardly meant in SI shall draw a warning with b
   CHECK(warnings("frames.conveyor.origin", "[0.08, 0, 0.2]").size() == before);
   CHECK(warnings("frames.conveyor.angle", "0.2").size() == before);
 }
+
+TEST_CASE("a scenario that the engine wrote shall draw no warning of bare numbers") {
+  const auto given = read(transfer_point(), {{"bodies.belt.thickness", "3 m"}});
+  const Folder folder;
+  const auto written = folder.write("scenario.yaml", given.resolved_yaml);
+  CHECK(read(written).warnings.size() == given.warnings.size());
+  // A setting on top of it is a user's.
+  CHECK(read(written, {{"bodies.belt.thickness", "3"}}).warnings.size() ==
+        given.warnings.size() + 1);
+}

@@ -26,12 +26,23 @@ TIMES = study_points.read_file(ROOT / "scenarios" / PLUME)["domain"]["boundaries
 SAND = {"emitters.sand.enabled": "true", "dust.field.sources.fall.begin": "1 h", "domain.min": "[-0.75, -0.75, -2 m]",
         "fluid.cells": "[60, 60, 200]", "time.end": "13 s", "time.checkpoint_every": "13 s",
         "domain.boundaries.top.air.times": str([round(SLOWER * t, 3) for t in TIMES])}
+# The plume of the scenario in ten times its size: it falls several times faster than its sand settles.
+TALL = "plume_sand_tall"
+TALL_SAND = {"emitters.sand.enabled": "true", "dust.field.sources.fall.begin": "1 h",
+             "domain.min": "[-7.5, -7.5, 0 m]", "domain.max": "[7.5, 7.5, 30 m]",
+             "domain.boundaries.top.air.min": "[-2, -2, 30 m]", "domain.boundaries.top.air.max": "[0, 0, 30 m]",
+             "domain.boundaries.top.air.flow": "8.6 m3/s", "domain.boundaries.top.air.times": str([round(4.6 * t, 2) for t in TIMES]),
+             "dust.field.sources.fall.min": "[-2, -2, 29.25 m]", "dust.field.sources.fall.max": "[2, 2, 30 m]",
+             "emitters.sand.min": "[-2, -2, 29.9 m]", "emitters.sand.max": "[2, 2, 29.9 m]", "emitters.sand.mass_flow": "2 kg/s",
+             "emitters.sand.diameters": "[10 mm]", "materials.sand.coarse_graining": "100", "time.expected_speed": "1.5 m/s",
+             "time.fluid_step": "46 ms", "time.output_every": "0.69 s", "time.end": "60.03 s", "time.checkpoint_every": "60.03 s"}
 COARSE_PLUME = {"fluid.cells": "[40, 40, 80]", "time.fluid_step": "15 ms"}
-# Of each what it is, its settings, and the depths below its source between which it is looked at [m]: turbulent, half way, above the floor.
-PLUMES = {"plume": ("dust of 10 um as a field", {}, (1.2, 2.0, 2.8)), "plume_sand": ("sand of 100 um as grains", SAND, (2.0, 3.4, 4.8)),
-          "plume_coarse": ("dust as a field, cells of 37.5 mm", COARSE_PLUME, (1.2, 2.0, 2.8))}
-STRENGTH = 9.81 * 0.02 / 1.2  # m4/s3, of 20 g/s
-FIRST_FALL = 0.6              # m/s: how fast a plume reaches the floor and settles there; means begin by then
+# Of each what it is, its settings, the height it falls through [m], its mass flow [kg/s], how fast it reaches the floor and settles there
+# [m/s] (means begin by then), and the depths below its source between which it is looked at [m]: turbulent, half way, above the floor.
+PLUMES = {"plume": ("dust of 10 um as a field", {}, 3.0, 0.02, 0.6, (1.2, 2.0, 2.8)),
+          TALL: ("sand of 100 um as grains, 30 m", TALL_SAND, 30.0, 2.0, 1.3, (12.0, 20.0, 28.0)),
+          "plume_sand": ("sand of 100 um as grains", SAND, 5.0, 0.02, 0.6, (2.0, 3.4, 4.8)),
+          "plume_coarse": ("dust as a field, cells of 37.5 mm", COARSE_PLUME, 3.0, 0.02, 0.6, (1.2, 2.0, 2.8))}
 WIND, SPEEDS, KNOWN = "slug_wind", (1, 2, 4, 6), 2  # m/s; the speed that is calibrated at
 DROP = "drop_height_and_flow"
 DROPS = {"height of fall": ({"height_0.5_m": 0.5, "base": 1, "height_2_m": 2}, "m", 1.25),
@@ -53,7 +64,7 @@ AP42_AT_KNOWN = 0.74 * 1.6 * (KNOWN / 2.2) ** 1.3 / (0.5 / 2) ** 1.4  # g/t fine
 
 
 def plans():
-    return ([Plan(name, PLUME, settings) for name, (_, settings, _) in PLUMES.items()]
+    return ([Plan(name, PLUME, settings) for name, (_, settings, *_) in PLUMES.items()]
             + study_points.plans(CHUTE) + variants(CHUTE, "no_slip", NO_SLIP, LEVELS["fall S"])
             + study_points.plans(DROP) + variants(DROP, "shear", SHEAR, DROPS["mass flow"][0])
             + [plan for more, (_, given, _) in SLUGS.items()
@@ -130,30 +141,45 @@ Walls that the air sticks to, in cells of 50 mm with an eddy viscosity, have a f
 smooth duct has 0.02: the study leaves it out (slip), and says beside it what it would do."""
 
 
-def flow_of(run, height):
+def flow_of(run, height, mass_flow, first_fall):
     """(z, Q/B^(1/3)) of the levels of a plume, from the source down, that falls through `height` [m]; empty where it was not run."""
     if not run.is_finished():
         return []
     import plume  # needs numpy and h5py, as only a page of finished runs does
-    depth, flow, _ = plume.flow(run.folder, height / FIRST_FALL)
-    return [(z, q / STRENGTH ** (1 / 3)) for z, q in zip(depth, flow) if 0.1 < z]
+    depth, flow, _ = plume.flow(run.folder, height / first_fall)
+    strength = 9.81 * mass_flow / 1.2  # m4/s3
+    return [(z, q / strength ** (1 / 3)) for z, q in zip(depth, flow) if height / 30 < z]
 
 
-def spread_of(run, height):
+def spread_of(run, height, first_fall, top, below):
     """Root mean square of the grains' distance from the axis over that of the downward flow; None where it was not run."""
     if not run.is_finished():
         return None
     import plume
-    return plume.grain_spread(run.folder, height / FIRST_FALL, 2.0, 4.8)
+    return plume.grain_spread(run.folder, height / first_fall, top, below)
+
+
+def draw_plumes(page, runs, title, names):
+    curves, far = [], set()
+    for name in names:
+        text, _, *fall, (turbulent, _, below) = PLUMES[name]
+        levels = flow_of(runs[name], *fall)
+        curves.append(Curve(text, *map(list, zip(*levels))) if levels else Curve(text, [], []))
+        far |= {z for z, _ in levels if turbulent <= z <= below}
+    far = sorted(far)
+    page.chart(title, "height of fall z [m]", "Q/B^(1/3) [m^(5/3)]",
+               [*curves, *(published(f"{c} z^(5/3)", far, [c * z ** (5 / 3) for z in far], is_points=False) for c in (0.11, 0.17))],
+               "Downward flow of the mean over time, where it is above a twentieth of the fastest of its level.")
+
+
+def draw_tall_plume(page, runs):
+    draw_plumes(page, runs, "Air that a stream of sand draws in over 30 m", [TALL])
 
 
 def add_plume(page, runs):
-    curves, far = [], []
-    for name, (text, _, (turbulent, middle, below)) in PLUMES.items():
-        levels = flow_of(runs[name], 5.0 if name == "plume_sand" else 3.0)
-        curves.append(Curve(text, *map(list, zip(*levels))) if levels else Curve(text, [], []))
+    for name, (text, _, *fall, (turbulent, middle, below)) in PLUMES.items():
+        levels = flow_of(runs[name], *fall)
         part = [(z, q) for z, q in levels if turbulent <= z <= below]
-        far = sorted({*far, *(z for z, _ in part)})
         is_judged = name != "plume_coarse"
         why = None if is_judged else "an experiment: what fewer cells across the source do"
         page.add(f"plume, {text}: exponent of the flow over the height, {turbulent} to {below} m", exponent(part), "1.667 (Morton, Taylor and Turner 1956)",
@@ -164,20 +190,21 @@ def add_plume(page, runs):
         for low, high in ((turbulent, middle), (middle, below)):
             page.add(f"plume, {text}: exponent from {low} to {high} m alone", exponent([(z, q) for z, q in part if low <= z <= high]), "1.667",
                      why="shows whether the plume has developed")
-    page.add("plume, sand of 100 um as grains: their distance from the axis over that of the flow, 2.0 to 4.8 m",
-             spread_of(runs["plume_sand"], 5.0), "above 1: heat and smoke in a plume", why="an experiment: do the grains go where the air goes?")
-    page.chart("Air that a stream of fines draws in", "height of fall z [m]", "Q/B^(1/3) [m^(5/3)]",
-               [*curves, *(published(f"{c} z^(5/3)", far, [c * z ** (5 / 3) for z in far], is_points=False) for c in (0.11, 0.17))],
-               "Downward flow of the mean over time, where it is above a twentieth of the fastest of its level.")
+        if name.startswith("plume_sand"):
+            page.add(f"plume, {text}: their distance from the axis over that of the flow, {turbulent} to {below} m",
+                     spread_of(runs[name], fall[0], fall[2], turbulent, below), "above 1: heat and smoke in a plume",
+                     why="an experiment: do the grains go where the air goes?")
+    draw_plumes(page, runs, "Air that a stream of fines draws in", [name for name in PLUMES if name != TALL])
     page.note(PLUME_NOTE)
 
 
-PLUME_NOTE = f"""**Plume.** B = g m'/rho_f, z from the source, means from the time on that a fall at {FIRST_FALL:g} m/s takes, levels from where the plume has turned
-turbulent (the speed in its middle comes to fluctuate by a quarter). The field's plume with sixteen cells across its source does so within three widths of
-it and draws in what Morton, Taylor and Turner's does; with eleven cells (37.5 mm) it stays smooth for longer and draws in less. The sand, which falls
-through the first eddies at its 0.5 m/s, stays smooth for longer, also where it is disturbed as slowly as its own eddies turn. Its exponent is that of plumes.
-What fails is its C. The grains stay in the fast middle of it, as their distance from its axis says: a gas of that weight would be spread wider than its speed.
-Grains that fall faster than the plume's mean push the air for less long, so that less comes in."""
+PLUME_NOTE = """**Plume.** B = g m'/rho_f, z from the source, means from the time on that a fall at 0.6 m/s takes (1.3 m/s over 30 m), levels from where
+the plume has turned turbulent (the speed in its middle comes to fluctuate by a quarter). The field's plume with sixteen cells across its source does so
+within three widths of it and draws in what Morton, Taylor and Turner's does; with eleven cells (37.5 mm) it stays smooth for longer and draws in less.
+Sand of 100 um settles at some 0.6 m/s. 20 g/s of it fall through the first eddies, so that its plume stays smooth for longer, also where it is disturbed as
+slowly as its own eddies turn; its exponent is that of plumes, its C is not. The grains stay in the fast middle of it, as their distance from its axis says
+(a gas of that weight would be spread wider than its speed), and push the air for less long, so that less comes in. The same plume in ten times its size,
+2 kg/s from 4 x 4 m over 30 m, as from a grab, falls several times faster than its sand settles: it draws in what a plume does."""
 
 
 def got_out(run):
@@ -210,8 +237,8 @@ def add_wind(page, runs):
             if u != KNOWN:
                 page.add(f"wind: {u} m/s over {KNOWN} m/s, {text}, over AP-42's", mine / known / (u / KNOWN) ** 1.3 if mine and known else None,
                          f"1: {(u / KNOWN) ** 1.3:.2f}", *band(0.667, 1.5), why=why)
-        if all(out):
-            curves.append(Curve(f"ours, {text}", list(SPEEDS), [mine / known for mine in out], is_points=True))
+        seen = list(zip(SPEEDS, out)) if all(out) else []
+        curves.append(Curve(f"ours, {text}", [u for u, _ in seen], [mine / known for _, mine in seen], is_points=True))
     slow, known = emissions(runs, WIND, [wind(1), wind(KNOWN)], "far_off")
     page.add(f"wind: 1 m/s over {KNOWN} m/s, 1.5 m, the whole silt, over AP-42's, looked at 5 m downwind", slow / known * KNOWN**1.3 if slow and known else None,
              f"1: {KNOWN**-1.3:.2f}", why="an experiment: does dust that settles on the way make the difference?")
@@ -261,5 +288,5 @@ left out, and so is a stream that lands on its own heap."""
 
 
 def fill(page, runs):
-    for add in (add_plume, add_wind, add_drop, add_chute):
+    for add in (add_plume, add_wind, add_drop, add_chute, draw_tall_plume):
         add(page, runs)
