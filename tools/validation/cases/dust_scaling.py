@@ -1,6 +1,7 @@
 """Scalings that a model of dust is held against: plume, enclosed chute, drop through wind."""
 
 import math
+import typing
 
 import study_points
 from chart import Curve, published
@@ -23,26 +24,49 @@ PLUME = "dust/plume.yaml"
 # Sand falls through small eddies: its plume is disturbed as slowly as its own largest eddies turn.
 SLOWER = 2.5
 TIMES = study_points.read_file(ROOT / "scenarios" / PLUME)["domain"]["boundaries"]["top"]["air"]["times"]
-SAND = {"emitters.sand.enabled": "true", "dust.field.sources.fall.begin": "1 h", "domain.min": "[-0.75, -0.75, -2 m]",
-        "fluid.cells": "[60, 60, 200]", "time.end": "13 s", "time.checkpoint_every": "13 s",
-        "domain.boundaries.top.air.times": str([round(SLOWER * t, 3) for t in TIMES])}
-# The plume of the scenario in ten times its size: it falls several times faster than its sand settles.
-TALL = "plume_sand_tall"
-TALL_SAND = {"emitters.sand.enabled": "true", "dust.field.sources.fall.begin": "1 h",
-             "domain.min": "[-7.5, -7.5, 0 m]", "domain.max": "[7.5, 7.5, 30 m]",
+AS_GRAINS = {"emitters.sand.enabled": "true", "dust.field.sources.fall.begin": "1 h"}
+
+
+def times_of_disturbance(pace, digits):
+    return {"domain.boundaries.top.air.times": str([round(pace * t, digits) for t in TIMES])}
+
+
+SAND = {**AS_GRAINS, "domain.min": "[-0.75, -0.75, -2 m]", "fluid.cells": "[60, 60, 200]", "time.end": "13 s", "time.checkpoint_every": "13 s",
+        **times_of_disturbance(SLOWER, 3)}
+# The plume of the scenario in ten times its size and B/z: its speeds, (B/z)^(1/3), are 2.15 times as large, its times 4.6, the flow that
+# disturbs it 215. It falls several times faster than its sand settles.
+TALL_SAND = {**AS_GRAINS, "domain.min": "[-7.5, -7.5, 0 m]", "domain.max": "[7.5, 7.5, 30 m]",
              "domain.boundaries.top.air.min": "[-2, -2, 30 m]", "domain.boundaries.top.air.max": "[0, 0, 30 m]",
-             "domain.boundaries.top.air.flow": "8.6 m3/s", "domain.boundaries.top.air.times": str([round(4.6 * t, 2) for t in TIMES]),
+             "domain.boundaries.top.air.flow": "8.6 m3/s", **times_of_disturbance(4.6, 2),
              "dust.field.sources.fall.min": "[-2, -2, 29.25 m]", "dust.field.sources.fall.max": "[2, 2, 30 m]",
              "emitters.sand.min": "[-2, -2, 29.9 m]", "emitters.sand.max": "[2, 2, 29.9 m]", "emitters.sand.mass_flow": "2 kg/s",
              "emitters.sand.diameters": "[10 mm]", "materials.sand.coarse_graining": "100", "time.expected_speed": "1.5 m/s",
              "time.fluid_step": "46 ms", "time.output_every": "0.69 s", "time.end": "60.03 s", "time.checkpoint_every": "60.03 s"}
+SLOWLY = {**TALL_SAND, **times_of_disturbance(8, 2), "time.fluid_step": "45 ms", "time.output_every": "0.9 s", "time.end": "99 s",
+          "time.checkpoint_every": "99 s"}
 COARSE_PLUME = {"fluid.cells": "[40, 40, 80]", "time.fluid_step": "15 ms"}
-# Of each what it is, its settings, the height it falls through [m], its mass flow [kg/s], how fast it reaches the floor and settles there
-# [m/s] (means begin by then), and the depths below its source between which it is looked at [m]: turbulent, half way, above the floor.
-PLUMES = {"plume": ("dust of 10 um as a field", {}, 3.0, 0.02, 0.6, (1.2, 2.0, 2.8)),
-          TALL: ("sand of 100 um as grains, 30 m", TALL_SAND, 30.0, 2.0, 1.3, (12.0, 20.0, 28.0)),
-          "plume_sand": ("sand of 100 um as grains", SAND, 5.0, 0.02, 0.6, (2.0, 3.4, 4.8)),
-          "plume_coarse": ("dust as a field, cells of 37.5 mm", COARSE_PLUME, 3.0, 0.02, 0.6, (1.2, 2.0, 2.8))}
+
+
+class Plume(typing.NamedTuple):
+    """A run of the plume and where it is looked at, in depths below its source [m]: turbulent, half way, above the floor."""
+    text: str
+    settings: dict
+    turbulent: float
+    middle: float
+    below: float
+    height: float = 3.0       # m, that it falls through
+    mass_flow: float = 0.02   # kg/s
+    first_fall: float = 0.6   # m/s: how fast it reaches the floor and settles there; means begin by then
+    why: str = ""             # it is not judged
+
+
+PLUMES = {"plume": Plume("dust of 10 um as a field", {}, 1.2, 2.0, 2.8),
+          "plume_sand_tall": Plume("sand of 100 um as grains, 30 m", TALL_SAND, 12.0, 20.0, 28.0, 30.0, 2.0, 1.3),
+          "plume_sand_tall_slowly": Plume("sand of 100 um as grains, 30 m, disturbed more slowly", SLOWLY, 12.0, 20.0, 28.0, 30.0, 2.0, 1.3,
+                                          "an experiment: what the pace of the disturbance does"),
+          "plume_sand": Plume("sand of 100 um as grains", SAND, 2.0, 3.4, 4.8, 5.0),
+          "plume_coarse": Plume("dust as a field, cells of 37.5 mm", COARSE_PLUME, 1.2, 2.0, 2.8,
+                                why="an experiment: what fewer cells across the source do")}
 WIND, SPEEDS, KNOWN = "slug_wind", (1, 2, 4, 6), 2  # m/s; the speed that is calibrated at
 DROP = "drop_height_and_flow"
 DROPS = {"height of fall": ({"height_0.5_m": 0.5, "base": 1, "height_2_m": 2}, "m", 1.25),
@@ -64,7 +88,7 @@ AP42_AT_KNOWN = 0.74 * 1.6 * (KNOWN / 2.2) ** 1.3 / (0.5 / 2) ** 1.4  # g/t fine
 
 
 def plans():
-    return ([Plan(name, PLUME, settings) for name, (_, settings, *_) in PLUMES.items()]
+    return ([Plan(name, PLUME, plume.settings) for name, plume in PLUMES.items()]
             + study_points.plans(CHUTE) + variants(CHUTE, "no_slip", NO_SLIP, LEVELS["fall S"])
             + study_points.plans(DROP) + variants(DROP, "shear", SHEAR, DROPS["mass flow"][0])
             + [plan for more, (_, given, _) in SLUGS.items()
@@ -141,60 +165,52 @@ Walls that the air sticks to, in cells of 50 mm with an eddy viscosity, have a f
 smooth duct has 0.02: the study leaves it out (slip), and says beside it what it would do."""
 
 
-def flow_of(run, height, mass_flow, first_fall):
-    """(z, Q/B^(1/3)) of the levels of a plume, from the source down, that falls through `height` [m]; empty where it was not run."""
+def flow_of(run, seen):
+    """(z, Q/B^(1/3)) of the levels of a plume, from the source down; empty where it was not run."""
     if not run.is_finished():
         return []
     import plume  # needs numpy and h5py, as only a page of finished runs does
-    depth, flow, _ = plume.flow(run.folder, height / first_fall)
-    strength = 9.81 * mass_flow / 1.2  # m4/s3
-    return [(z, q / strength ** (1 / 3)) for z, q in zip(depth, flow) if height / 30 < z]
+    depth, flow, _ = plume.flow(run.folder, seen.height / seen.first_fall)
+    strength = 9.81 * seen.mass_flow / 1.2  # m4/s3
+    return [(z, q / strength ** (1 / 3)) for z, q in zip(depth, flow) if seen.height / 30 < z]
 
 
-def spread_of(run, height, first_fall, top, below):
+def spread_of(run, seen):
     """Root mean square of the grains' distance from the axis over that of the downward flow; None where it was not run."""
     if not run.is_finished():
         return None
     import plume
-    return plume.grain_spread(run.folder, height / first_fall, top, below)
+    return plume.grain_spread(run.folder, seen.height / seen.first_fall, seen.turbulent, seen.below)
 
 
-def draw_plumes(page, runs, title, names):
-    curves, far = [], set()
-    for name in names:
-        text, _, *fall, (turbulent, _, below) = PLUMES[name]
-        levels = flow_of(runs[name], *fall)
-        curves.append(Curve(text, *map(list, zip(*levels))) if levels else Curve(text, [], []))
-        far |= {z for z, _ in levels if turbulent <= z <= below}
-    far = sorted(far)
+def draw_plumes(page, title, levels):
+    """`levels` as flow_of gives them, by name of the plume."""
+    curves = [Curve(PLUMES[name].text, [z for z, _ in part], [q for _, q in part]) for name, part in levels.items()]
+    far = sorted({z for name, part in levels.items() for z, _ in part if PLUMES[name].turbulent <= z <= PLUMES[name].below})
     page.chart(title, "height of fall z [m]", "Q/B^(1/3) [m^(5/3)]",
                [*curves, *(published(f"{c} z^(5/3)", far, [c * z ** (5 / 3) for z in far], is_points=False) for c in (0.11, 0.17))],
                "Downward flow of the mean over time, where it is above a twentieth of the fastest of its level.")
 
 
-def draw_tall_plume(page, runs):
-    draw_plumes(page, runs, "Air that a stream of sand draws in over 30 m", [TALL])
-
-
 def add_plume(page, runs):
-    for name, (text, _, *fall, (turbulent, middle, below)) in PLUMES.items():
-        levels = flow_of(runs[name], *fall)
-        part = [(z, q) for z, q in levels if turbulent <= z <= below]
-        is_judged = name != "plume_coarse"
-        why = None if is_judged else "an experiment: what fewer cells across the source do"
+    found = {name: flow_of(runs[name], seen) for name, seen in PLUMES.items()}
+    for name, seen in PLUMES.items():
+        text, turbulent, middle, below, why = seen.text, seen.turbulent, seen.middle, seen.below, seen.why or None
+        part = [(z, q) for z, q in found[name] if turbulent <= z <= below]
         page.add(f"plume, {text}: exponent of the flow over the height, {turbulent} to {below} m", exponent(part), "1.667 (Morton, Taylor and Turner 1956)",
-                 *((1.467, 1.867) if is_judged else ()), why=why)
+                 *(() if why else (1.467, 1.867)), why=why)
         page.add(f"plume, {text}: C, mean of the levels", sum(q / z ** (5 / 3) for z, q in part) / len(part) if part else None,
                  "0.14 to 0.16 measured; 0.115 to 0.164 for an entrainment coefficient of 0.10 to 0.13",
-                 *((0.11, 0.17) if is_judged else ()), why=why)
+                 *(() if why else (0.11, 0.17)), why=why)
         for low, high in ((turbulent, middle), (middle, below)):
             page.add(f"plume, {text}: exponent from {low} to {high} m alone", exponent([(z, q) for z, q in part if low <= z <= high]), "1.667",
                      why="shows whether the plume has developed")
-        if name.startswith("plume_sand"):
+        if AS_GRAINS.items() <= seen.settings.items():
             page.add(f"plume, {text}: their distance from the axis over that of the flow, {turbulent} to {below} m",
-                     spread_of(runs[name], fall[0], fall[2], turbulent, below), "above 1: heat and smoke in a plume",
-                     why="an experiment: do the grains go where the air goes?")
-    draw_plumes(page, runs, "Air that a stream of fines draws in", [name for name in PLUMES if name != TALL])
+                     spread_of(runs[name], seen), "above 1: heat and smoke in a plume", why="an experiment: do the grains go where the air goes?")
+    tall = {name: found[name] for name in ("plume_sand_tall", "plume_sand_tall_slowly")}
+    draw_plumes(page, "Air that a stream of fines draws in", {name: levels for name, levels in found.items() if name not in tall})
+    draw_plumes(page, "Air that a stream of sand draws in over 30 m", tall)
     page.note(PLUME_NOTE)
 
 
@@ -204,7 +220,8 @@ within three widths of it and draws in what Morton, Taylor and Turner's does; wi
 Sand of 100 um settles at some 0.6 m/s. 20 g/s of it fall through the first eddies, so that its plume stays smooth for longer, also where it is disturbed as
 slowly as its own eddies turn; its exponent is that of plumes, its C is not. The grains stay in the fast middle of it, as their distance from its axis says
 (a gas of that weight would be spread wider than its speed), and push the air for less long, so that less comes in. The same plume in ten times its size,
-2 kg/s from 4 x 4 m over 30 m, as from a grab, falls several times faster than its sand settles: it draws in what a plume does."""
+2 kg/s from 4 x 4 m over 30 m, as from a grab, falls several times faster than its sand settles: it draws in what a plume does. It is disturbed at the scenario's pace, in its own time; what another pace
+does, the rows *disturbed more slowly* tell once they are run."""
 
 
 def got_out(run):
@@ -288,5 +305,5 @@ left out, and so is a stream that lands on its own heap."""
 
 
 def fill(page, runs):
-    for add in (add_plume, add_wind, add_drop, add_chute, draw_tall_plume):
+    for add in (add_plume, add_wind, add_drop, add_chute):
         add(page, runs)
