@@ -3,6 +3,7 @@
 
 #include "coupling/self_disturbance/disturbance_formulas.hpp"
 #include "dust/sdk/sphere.hpp"
+#include "fluid/grid.hpp"
 #include "preflight/journey.hpp"
 
 #include <algorithm>
@@ -21,14 +22,18 @@ constexpr double k_bytes_per_coupled_grain = 1500.0;  // more, in a fluid
 constexpr double k_bytes_per_cell = 1150.0;
 constexpr double k_bytes_per_dust_cell = 280.0;  // of each class
 constexpr double k_disk_base = 1e6;              // report, series, scenario, summary
-constexpr double k_disk_fluid = 2.5e6;
+constexpr double k_disk_fluid = 1.5e6;
 constexpr double k_frame_bytes_per_grain = 52.0;  // packed
-constexpr double k_frame_bytes_per_cell = 18.0;
-constexpr double k_frame_bytes_per_dust_cell = 6.0;  // of each class
+constexpr double k_frame_bytes_per_cell = 14.0;
+constexpr double k_frame_bytes_per_dust_cell = 3.5;  // of each class
 constexpr double k_checkpoint_bytes_per_grain = 600.0;
-constexpr double k_checkpoint_bytes_per_cell = 130.0;
-constexpr double k_checkpoint_bytes_per_coupled_cell = 170.0;  // more, where grains are in it
-constexpr double k_checkpoint_bytes_per_dust_cell = 40.0;
+// Arrays of a checkpoint that hold a number for each place of the fluid's grid, its halo with them;
+// those that are the same all over pack to nothing and do not count.
+constexpr double k_arrays_of_fluid = 7.0;     // pressure, velocity, stress
+constexpr double k_arrays_of_grains = 6.0;    // what they owe its velocity, and its excess
+constexpr double k_arrays_of_coupling = 3.0;  // what those that it does not resolve owe its stress
+constexpr double k_arrays_of_dust = 4.0;      // volume and velocity of the gas
+constexpr double k_arrays_of_dust_class = 2.0;
 
 // [s] A step of a grain: in a bed it has contacts all the time; before a filling has settled it
 // meets others now and then; in a gas it flies from one collision to the next. In a stream its
@@ -321,6 +326,18 @@ bool is_coupled(const Setup& setup, const Derived& derived) {
   return setup.fluid && derived.emissions.size() > derived.resolved.size();
 }
 
+/// [B] What a checkpoint keeps of the fluid, and of what acts on it.
+double grid_checkpoint_bytes(const Setup& setup, const Derived& derived) {
+  const std::size_t places = fluid::Grid::make({}, {1.0, 1.0, 1.0}, setup.fluid->cells, {}).size;
+  double arrays = k_arrays_of_fluid;
+  if (!derived.emissions.empty()) arrays += k_arrays_of_grains;
+  if (is_coupled(setup, derived)) arrays += k_arrays_of_coupling;
+  if (derived.dust_classes > 0) {
+    arrays += k_arrays_of_dust + k_arrays_of_dust_class * derived.dust_classes;
+  }
+  return sizeof(double) * static_cast<double>(places) * arrays;
+}
+
 /// Returns the size of its frames [B].
 double add_records(const Setup& setup, const GrainTotals& totals, Derived& derived) {
   const double cells = cell_count(setup);
@@ -337,15 +354,11 @@ double add_records(const Setup& setup, const GrainTotals& totals, Derived& deriv
   const double frame_bytes =
       frames * (k_frame_bytes_per_grain * mean + k_frame_bytes_per_cell * cells +
                 k_frame_bytes_per_dust_cell * dust_cells + derived.bodies.frame_bytes);
-  const double bytes_per_cell =
-      k_checkpoint_bytes_per_cell +
-      (is_coupled(setup, derived) ? k_checkpoint_bytes_per_coupled_cell : 0.0);
-  derived.cost.disk_bytes = k_disk_base + frame_bytes + k_checkpoint_bytes_per_grain * totals.most +
-                            bytes_per_cell * cells + k_checkpoint_bytes_per_dust_cell * dust_cells;
+  derived.cost.disk_bytes = k_disk_base + frame_bytes + k_checkpoint_bytes_per_grain * totals.most;
   if (!(cells > 0.0)) return frame_bytes;
   derived.cost.memory_bytes +=
       k_bytes_fluid + k_bytes_per_coupled_grain * totals.most + k_bytes_per_dust_cell * dust_cells;
-  derived.cost.disk_bytes += k_disk_fluid;
+  derived.cost.disk_bytes += k_disk_fluid + grid_checkpoint_bytes(setup, derived);
   return frame_bytes;
 }
 

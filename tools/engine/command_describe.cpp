@@ -29,6 +29,7 @@ Subject find_subject(const registry::Registry& registry, const std::string& want
   if (of_that_name.size() == 1) return std::move(of_that_name.front());
   if (!of_that_name.empty()) {
     std::vector<std::string> whole;
+    whole.reserve(of_that_name.size());
     for (const Subject& s : of_that_name) whole.push_back(s.info.kind + "/" + s.info.name);
     throw base::UserError("engine describe: error: several kinds have a '" + wanted +
                           "': write one of " + scenario::listed(whole));
