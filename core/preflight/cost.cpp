@@ -180,6 +180,7 @@ double fine_sub_steps(const particles::TimeSteps& steps, const EmissionNumbers& 
 /// Grains of all emitters over the run.
 struct GrainTotals {
   double most = 0.0;            ///< at a time
+  double left = 0.0;            ///< of those that were there at once, at the end
   double seconds = 0.0;         ///< [s] integral of their number
   double stream_seconds = 0.0;  ///< [s] of that, of streams
   /// [s2] Integral of what their own disturbance costs a fluid step.
@@ -232,8 +233,9 @@ void add_grains(const Setup& setup, const EmissionNumbers& e, Derived& derived,
     stream_seconds += each * grain_seconds(e.begin, e.end, stay, end);
     totals.most += each * most_grains(e.begin, e.end, stay, end);
   }
-  const double filled_seconds = e.at_once * std::max(0.0, end - e.begin);
+  const double filled_seconds = e.at_once * (std::max(0.0, end - e.begin) - e.drain.absent(end));
   totals.most += e.at_once;
+  totals.left += e.at_once * e.drain.left(end);
   totals.seconds += stream_seconds + filled_seconds;
   totals.stream_seconds += stream_seconds;
   const double isolated_seconds = stream_seconds + (e.at_once <= k_few ? filled_seconds : 0.0);
@@ -354,7 +356,8 @@ double add_records(const Setup& setup, const GrainTotals& totals, Derived& deriv
   const double frame_bytes =
       frames * (k_frame_bytes_per_grain * mean + k_frame_bytes_per_cell * cells +
                 k_frame_bytes_per_dust_cell * dust_cells + derived.bodies.frame_bytes);
-  derived.cost.disk_bytes = k_disk_base + frame_bytes + k_checkpoint_bytes_per_grain * totals.most;
+  derived.cost.disk_bytes =
+      k_disk_base + frame_bytes + k_checkpoint_bytes_per_grain * (totals.most - totals.left);
   if (!(cells > 0.0)) return frame_bytes;
   derived.cost.memory_bytes +=
       k_bytes_fluid + k_bytes_per_coupled_grain * totals.most + k_bytes_per_dust_cell * dust_cells;

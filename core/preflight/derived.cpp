@@ -227,6 +227,10 @@ Derived derive(const Setup& setup, const registry::Registry& registry,
     derived.emissions.push_back(
         count_grains(setup, models.bodies, setup.emitters[n], *models.emitters[n]));
   }
+  for (EmissionNumbers& e : derived.emissions) {
+    if (e.sizes.empty()) continue;
+    e.drain = slope_drain(setup, models.bodies, e.volume_at_once, 0.5 * e.sizes.front().diameter);
+  }
   derive_ratios(setup, derived);
   derive_resolved(setup, models, derived);
   const double driven = driven_speed(setup, SideModelSet(setup, registry).models());
