@@ -5,7 +5,9 @@ versions, presets, package names, scripts. Exit status 1, one line per problem; 
 import json
 import pathlib
 import re
+import subprocess
 import sys
+import tempfile
 
 try:
     import yaml
@@ -154,9 +156,35 @@ def recipes():
             check(f"option({option}" in text("CMakeLists.txt"), file, f"there is no option {option}")
 
 
+def release_problems(root, tag):
+    done = subprocess.run([ROOT / "tools/packaging/check_release", tag, "--root", root], capture_output=True, text=True)
+    return done.stdout.splitlines() if done.returncode == 1 else []
+
+
+def release():
+    """A checkout that is ready may be tagged, and each thing that is forgotten is told."""
+    ready = {"CMakeLists.txt": "project(dust VERSION 1.2.3 LANGUAGES CXX)\n", "CITATION.cff": "version: 1.2.3\n",
+             "CHANGELOG.md": "# Changelog\n\n## 1.2.3 (2027-02-03)\n\n## 1.2.2 (2027-01-01)\n"}
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        for tag, file, old, new in (("v1.2.3", "CHANGELOG.md", "", ""), ("1.2.3", "CMakeLists.txt", "", ""),
+                                    ("v1.2.3", "CMakeLists.txt", "1.2.3", "1.2.4"), ("v1.2.3", "CITATION.cff", "1.2.3", "1.2.2"),
+                                    ("v1.2.3", "CHANGELOG.md", "(2027-02-03)", "(unreleased)"),
+                                    ("v1.2.3", "CHANGELOG.md", "## 1.2.3 (2027-02-03)\n", "")):
+            for name, content in ready.items():
+                (root / name).write_text(content.replace(old, new) if old and name == file else content)
+            found, is_ready = release_problems(root, tag), tag == "v1.2.3" and not old
+            check(not found if is_ready else any(one.startswith(file) for one in found), "check_release",
+                  f"{tag} with {new or 'no'} for {old} in {file}: {found}")
+    # Of this checkout nothing but the day is open.
+    for one in release_problems(ROOT, f"v{VERSION}"):
+        check(one.startswith("CHANGELOG.md") and "(unreleased)" in one, "check_release", one)
+
+
 citation()
 issue_forms()
 workflows()
 recipes()
+release()
 print("\n".join(problems))
 sys.exit(1 if problems else 0)
