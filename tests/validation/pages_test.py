@@ -3,6 +3,7 @@
 
 import json
 import pathlib
+import re
 import tempfile
 import unittest
 import unittest.mock
@@ -101,6 +102,14 @@ class KeptPages(unittest.TestCase):
                 again = self.written(third, {"run_1": 1.1}, kept.Kept(file))
                 self.assertIn("| figure of run_1 | 1.1 |", again)
                 self.assertEqual(1, again.count("| run_1 |"))
+
+    def test_a_kept_run_whose_engine_the_page_did_not_name_is_of_an_unknown_one(self):
+        with tempfile.TemporaryDirectory() as first, tempfile.TemporaryDirectory() as second:
+            file = pathlib.Path(first) / "case.md"
+            page_of_old = self.written(first, {"run_1": 1.25}, kept.Kept())
+            file.write_text(re.sub(r"<!-- bits .*-->\n?", "", page_of_old))
+            text = self.written(second, {"run_2": 1.0}, kept.Kept(file))
+            self.assertEqual([None, {"box": "run_2"}], stale.bits_of(text))
 
     def test_pictures_of_runs_that_are_gone_stay_and_new_ones_take_other_files(self):
         drawn = []

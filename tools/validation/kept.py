@@ -56,7 +56,8 @@ class Kept:
         return self._commands
 
     def bits(self):
-        return self._bits if self._runs else []
+        """Records of the kept runs' engines; a page from before there were any does not tell which these were."""
+        return (self._bits or ["<!-- bits unknown -->"]) if self._runs else []
 
     def commits(self):
         return {cells.get("commit", "not noted") for cells in self._runs.values()}
