@@ -233,9 +233,11 @@ void add_grains(const Setup& setup, const EmissionNumbers& e, Derived& derived,
     stream_seconds += each * grain_seconds(e.begin, e.end, stay, end);
     totals.most += each * most_grains(e.begin, e.end, stay, end);
   }
-  const double filled_seconds = e.at_once * (std::max(0.0, end - e.begin) - e.drain.absent(end));
+  SlopeDrain drain = derived.drain;
+  drain.begin = std::max(drain.begin, e.begin);
+  const double filled_seconds = e.at_once * (std::max(0.0, end - e.begin) - drain.absent(end));
   totals.most += e.at_once;
-  totals.left += e.at_once * e.drain.left(end);
+  totals.left += e.at_once * drain.left(end);
   totals.seconds += stream_seconds + filled_seconds;
   totals.stream_seconds += stream_seconds;
   const double isolated_seconds = stream_seconds + (e.at_once <= k_few ? filled_seconds : 0.0);

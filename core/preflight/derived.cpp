@@ -175,6 +175,19 @@ void derive_resolved(const Setup& setup, const ParticleModels& models, Derived& 
   }
 }
 
+/// What runs out of the bed that all emitters' fillings make together.
+SlopeDrain drain_of_all(const Setup& setup, const bodies::BodySet& bodies,
+                        const std::vector<EmissionNumbers>& emissions) {
+  double solids = 0.0;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const EmissionNumbers& e : emissions) {
+    if (!(e.at_once > 0.0) || e.sizes.empty()) continue;
+    solids += e.volume_at_once;
+    smallest = std::min(smallest, e.sizes.front().diameter);
+  }
+  return solids > 0.0 ? slope_drain(setup, bodies, solids, 0.5 * smallest) : SlopeDrain{};
+}
+
 }  // namespace
 
 bool is_self_disturbance_corrected(const Setup& setup, const Derived& derived, double diameter) {
@@ -227,10 +240,7 @@ Derived derive(const Setup& setup, const registry::Registry& registry,
     derived.emissions.push_back(
         count_grains(setup, models.bodies, setup.emitters[n], *models.emitters[n]));
   }
-  for (EmissionNumbers& e : derived.emissions) {
-    if (e.sizes.empty()) continue;
-    e.drain = slope_drain(setup, models.bodies, e.volume_at_once, 0.5 * e.sizes.front().diameter);
-  }
+  derived.drain = drain_of_all(setup, models.bodies, derived.emissions);
   derive_ratios(setup, derived);
   derive_resolved(setup, models, derived);
   const double driven = driven_speed(setup, SideModelSet(setup, registry).models());

@@ -5,6 +5,7 @@
 #include "preflight/body_work.hpp"
 #include "preflight/emissions.hpp"
 #include "preflight/run_cost.hpp"
+#include "preflight/slope_drain.hpp"
 #include "registry/registry.hpp"
 #include "scenario/diagnostics.hpp"
 #include "setup/dust_setup.hpp"
@@ -30,6 +31,7 @@ struct Derived {
   std::vector<EmissionNumbers> emissions;
   std::vector<ResolvedNumbers> resolved;
   BodyWork bodies;
+  SlopeDrain drain;                    ///< of the grains that are there at once
   int dust_classes = 0;                ///< that the fluid carries as concentrations
   double dust_begin = 0.0;             ///< [s] rough: when the first of it gets into the air
   double smallest_spacing = 0.0;       ///< [m] 0 without fluid

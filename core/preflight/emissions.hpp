@@ -3,7 +3,6 @@
 
 #include "bodies/body_set.hpp"
 #include "dust/sdk/emitter.hpp"
-#include "preflight/slope_drain.hpp"
 #include "setup/setup.hpp"
 
 #include <limits>
@@ -25,7 +24,6 @@ struct EmissionNumbers {
   double real_per_second = 0.0;      ///< the same, counted with their weights
   double at_once = 0.0;              ///< computed grains that come at one moment
   double volume_at_once = 0.0;       ///< [m3] of them; 0 where their sizes are not known
-  SlopeDrain drain;                  ///< of them, where a wall is taken away
   /// [kg] of them, and of the stream its share by mass [-]: by index into Setup::materials.
   std::vector<double> mass_at_once, stream_shares;
   std::vector<Size> sizes;  ///< ascending; empty where they are not known

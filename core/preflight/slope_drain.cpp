@@ -11,7 +11,7 @@ namespace {
 constexpr double k_solids_of_bed = 0.58;
 constexpr double k_slope = 0.75;  // tangent of 37 degrees; sands and ores lie at 34 to 42
 /// Time over root(L / g), as scenarios/thesis/container_periodic_8.yaml runs out
-/// (docs/decisions/0037_cost_is_told_by_terms.md).
+/// (tests/unit/preflight/slope_drain_test.cpp).
 constexpr double k_runs_out = 2.8;
 
 /// Grains that fill the domain from wall to wall.

@@ -16,7 +16,7 @@ preflight::SlopeDrain drain_of(const std::vector<scenario::Override>& set) {
   shipped.load({DUST_TEST_PLUGINS});
   const auto file = std::string(DUST_SOURCE) + "/scenarios/thesis/container_periodic_8.yaml";
   const auto setup = preflight::read_scenario(file, set, shipped).setup;
-  return preflight::derive(setup, shipped).emissions.at(0).drain;
+  return preflight::derive(setup, shipped).drain;
 }
 
 }  // namespace
@@ -54,6 +54,21 @@ TEST_CASE("a bed shall stay where no wall of it is taken away before an open sid
   CHECK(drain_of({{"bodies.side.min", "[38, -1, -1 mm]"}, {"bodies.side.max", "[39, 20, 100 mm]"}})
             .share == 0.0);
   CHECK(drain_of({{"gravity", "[3 m/s2, 0, -9 m/s2]"}}).share == 0.0);
+}
+
+TEST_CASE("a bed shall run out from the time at which its wall is taken away") {
+  CHECK(drain_of({{"bodies.side.remove", "{at: 0.1 s}"}}).begin == 0.1);
+}
+
+TEST_CASE("two fillings shall run out as one bed") {
+  // Half each of what lies there; slopes of its own would leave more of each.
+  const std::string half =
+      "{model: fill, material: sand, min: [0, 0, 0], max: [40, 4, 35 mm], mass: 3.672 g, "
+      "diameters: "
+      "[500 um], mass_fractions: [1]}";
+  const double whole = drain_of({}).share;
+  CHECK(drain_of({{"emitters.bed.mass", "3.672 g"}, {"emitters.more", half}}).share ==
+        test::approx(whole).epsilon(0.01));
 }
 
 TEST_CASE("a high bed shall leave a slope that ends at the far wall") {
