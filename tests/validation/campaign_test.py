@@ -13,6 +13,7 @@ import unittest
 
 import package
 
+import campaign_list
 import cases
 import runs
 
@@ -103,6 +104,19 @@ class Campaign(unittest.TestCase):
         # Half of what was told: what is left is told by that pace.
         self.list.write_text("janssen_*\nbeverloo_8\n")
         self.assertIn("1 left, about 0.0 h of one core (0.50 of what", self.campaign("left"))
+
+
+class Budget(unittest.TestCase):
+    def test_it_reaches_as_far_in_the_order_as_its_hours_do(self):
+        hours = {"wide": 30.0, "narrow_1": 20.0, "narrow_2": 20.0, "listed_nowhere": 1.0, "cost_unknown": None}
+        order = ["cost_unknown", "narrow_*", "wide"]
+        self.assertEqual(campaign_list.within_budget(hours, 0.0, order), ["cost_unknown", "narrow_1", "narrow_2", "wide", "listed_nowhere"])
+        self.assertEqual(campaign_list.within_budget(hours, campaign_list.BUDGET_HOURS - 20.0, order), ["cost_unknown", "narrow_1"])
+
+    def test_every_run_of_the_thesis_has_its_place_in_the_order(self):
+        order = campaign_list.patterns()
+        lost = [plan.name for plan in cases.load("thesis").plans() if campaign_list.place_of(plan.name, order) == len(order)]
+        self.assertEqual(lost, [])
 
 
 if __name__ == "__main__":

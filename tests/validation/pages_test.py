@@ -13,6 +13,7 @@ import package  # noqa: F401
 import bed
 import cases
 import chart
+import figures
 import index
 import kept
 import page
@@ -125,6 +126,39 @@ class KeptPages(unittest.TestCase):
         self.assertEqual([("case_2.svg", "New")], drawn)
         self.assertEqual(["![New](pictures/case_2.svg)", "![Old](pictures/case_1.svg)"],
                          [line for line in text.splitlines() if line.startswith("![")])
+
+    def test_a_change_is_told_between_a_run_that_is_gone_and_one_of_today(self):
+        plans = {level: runs.Plan(f"run_{level}", "verification/box.yaml", {"seed": level}) for level in "12"}
+        with tempfile.TemporaryDirectory() as first, tempfile.TemporaryDirectory() as second:
+            page_file, read_off = pathlib.Path(first) / "case.md", pathlib.Path(first) / "figures" / "case.csv"
+            noted = figures.Figures()
+            finished_run(first, "run_1", {"s": {"f": (1.25, 0.5), "g": (1 / 3, None)}})
+            before = runs.Runs(plans.values(), first, None, kept.Kept(), noted)
+            for name in "fg":
+                before["run_1"].figure("s", name)
+            page_file.write_text(page.Page("case").text("Case", before, "how"))
+            noted.write(read_off)
+
+            finished_run(second, "run_2", {"s": {"f": (2.0, None)}})
+            after = runs.Runs(plans.values(), second, None, kept.Kept(page_file), figures.Figures(read_off))
+            self.assertEqual([(1.25, 0.5), (1 / 3, None), (2.0, None)],
+                             [after["run_1"].figure("s", "f"), after["run_1"].figure("s", "g"), after["run_2"].figure("s", "f")])
+            # Not of a run that the page does not have, and not of one that would be made with another command today.
+            other = runs.Plan("run_1", "verification/box.yaml", {"seed": "3"})
+            for plan, page_before in ((plans["1"], kept.Kept()), (other, kept.Kept(page_file))):
+                gone = runs.Runs([plan], second, None, page_before, figures.Figures(read_off))
+                self.assertIsNone(gone["run_1"].figure("s", "f"))
+
+    def test_figures_of_runs_that_a_page_has_no_more_are_forgotten(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "case.csv"
+            noted = figures.Figures()
+            noted.note("old", "s", "f", (1.0, None))
+            noted.write(file)
+            self.assertTrue(file.exists())
+            noted.only({"new"})
+            noted.write(file)
+            self.assertFalse(file.exists())
 
     def test_a_row_that_was_open_is_not_kept(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -48,6 +48,13 @@ class Kept:
     def has(self, run):
         return run.name in self._runs
 
+    def is_of(self, run):
+        """Whether it has this run, and by the command that it would be made with today."""
+        return self.has(run) and run.plan.shown() in self._commands
+
+    def cpu_s(self, run):
+        return float(self._runs[run.name]["CPU [s]"])
+
     def run_rows(self, columns, besides):
         """Rows of the table of runs but of those named, which are there anew; what the page did not tell is `-`."""
         return [[cells.get(column, "-") for column in columns] for name, cells in self._runs.items() if name not in besides]

@@ -14,6 +14,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "tools/dev"))
 
+from figures import Figures  # noqa: E402
 from kept import Kept  # noqa: E402
 from machine import cpu_name  # noqa: E402,F401  for the pages too
 
@@ -158,8 +159,9 @@ def bits_at(commit):
 class Run:
     """One run of a plan and what it left in its folder."""
 
-    def __init__(self, plan, folder):
+    def __init__(self, plan, folder, kept=None, figures=None):
         self.plan, self.folder = plan, pathlib.Path(folder)
+        self._kept, self._figures = kept or Kept(), figures or Figures()
 
     @property
     def name(self):
@@ -177,12 +179,13 @@ class Run:
         return (self.folder / "checkpoint.h5").exists()
 
     def figure(self, sensor, name):
-        """(value, uncertainty or None) of a finished run, else None."""
+        """(value, uncertainty or None) of a finished run, or of one that the page has kept, else None."""
         if not self.is_finished():
-            return None
+            return self._figures.of(self.name, sensor, name) if self._kept.is_of(self) else None
         found = self.summary["sensors"].get(sensor, {}).get(name)
         if not found or found["value"] is None:
             return None
+        self._figures.note(self.name, sensor, name, (found["value"], found["uncertainty"]))
         return found["value"], found["uncertainty"]
 
     def series(self):
@@ -240,9 +243,9 @@ class Run:
 class Runs:
     """The runs of a case in one folder, begun or not."""
 
-    def __init__(self, plans, folder, engine, kept=None):
+    def __init__(self, plans, folder, engine, kept=None, figures=None):
         self.folder, self.engine, self.kept = pathlib.Path(folder), engine, kept or Kept()
-        self._runs = {plan.name: Run(plan, self.folder / plan.name) for plan in plans}
+        self._runs = {plan.name: Run(plan, self.folder / plan.name, self.kept, figures) for plan in plans}
 
     def __getitem__(self, name):
         return self._runs[name]

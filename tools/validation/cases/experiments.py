@@ -2,7 +2,10 @@
 
 import dataclasses
 
+import bed
+import study_points
 from bed import SAND_DENSITY
+from cases import fluidised_vessel, rectangular_container, resolved, settling_b
 from runs import Plan
 
 TITLE = "What fails, and the experiments to it"
@@ -42,6 +45,41 @@ def first_maximum(run):
     return (max(found), None) if found else None
 
 
+def drop_falling_at(litres):
+    """[mbar], on the branch that falls: from 1 s on in the vessel, from 5.2 s on after the ramp that rises first."""
+    return lambda run: bed.drop_at(run, litres, 5.2 if run.name == RAMP else 1.0)
+
+
+def bed_void_fraction(run):
+    """Of a bed that has come to rest, by twice the height of its centre."""
+    height = run.figure("height", "twice_centre_at_end")
+    mass, section = (9.18e-3, 20e-3 * 3e-3) if run.name == RAMP else (0.459, bed.VESSEL_SECTION)
+    return height and (1 - mass / SAND_DENSITY / section / height[0], None)
+
+
+def of_case(case, *shown):
+    """Runs that another page is made of: (text, name) pairs."""
+    plans = {plan.name: plan for plan in case.plans()}
+    return tuple((text, plans[name]) for text, name in shown)
+
+
+def of_study(study, *shown):
+    """Points of a study: (text, label) pairs."""
+    plans = dict(study_points.labelled(study))
+    return tuple((text, plans[label]) for text, label in shown)
+
+
+def with_law(law):
+    """A1 by a law, and in cells of ten diameters, in which the grain takes up 0.05 % and is as good as alone."""
+    (base,) = of_study("settling_a1_drag", ("as it fails", law))
+    return base, ("cells of ten diameters: one sphere by this law", Plan(f"{base[1].name}_alone", base[1].scenario,
+                                                                        {**base[1].settings, "fluid.cells": "[2, 2, 5]"}))
+
+
+def steeper(plan):
+    return Plan(f"{plan.name}_rolling", plan.scenario, {**plan.settings, f"{SAND}.rolling.friction": "0.5"})
+
+
 def variants(base, scenario, common, changes):
     return (("as it fails", Plan(base, scenario, common)),
             *((text, Plan(f"{base}_{name}", scenario, {**common, **settings})) for text, name, settings in changes))
@@ -56,7 +94,28 @@ def hole(diameter):
             "sensors.outlet.hole": f"{diameter} mm"}
 
 
+RAMP = "fluidised_bed_ramp_5"
+BEDS = (*of_case(fluidised_vessel, ("coarse grains between walls, as it fails", "fluidised_bed_vessel_5"),
+                 ("coarse grains, front and back periodic", "fluidised_bed_vessel_5_periodic")),
+        ("the sand's own grains, a periodic column", Plan(RAMP, "thesis/fluidised_bed_ramp.yaml", bed.SOFT)))
+
 EXPERIMENTS = (
+    Experiment("A1 by the centre of the grain, 18 % too slow", "its own disturbance?",
+               of_study("settling_a1_voidage", ("as it fails", "centre False"), ("own disturbance taken off", "centre True")),
+               figure("fall", "velocity"), "m/s"),
+    Experiment("A1 in a box of 5 diameters, 5 % too slow", "the box, or the grain in so few cells?",
+               of_study("settling_a1_box", ("as it fails", "w_d_5"), ("10 diameters", "w_d_10"), ("20 diameters", "w_d_20"),
+                        ("5 diameters in cells of a quarter of one", "w_d_5_big")), figure("fall", "velocity"), "m/s"),
+    Experiment("A1 with Di Felice's law, 10 % too slow", "the law, or what we make of it?", with_law("di_felice"),
+               figure("fall", "velocity"), "m/s"),
+    Experiment("A1 with Koch and Hill's law, 17 % too slow", "the law, or what we make of it?", with_law("koch_hill"),
+               figure("fall", "velocity"), "m/s"),
+    Experiment("B1 with Gidaspow's law, 10 % too fast", "cells, interval, law, or the walls that an unresolved sphere does not feel?",
+               (*of_case(settling_b, ("as it fails", "settling_b1_gidaspow"), ("cells of half a diameter", "settling_b1_d_dx_2"),
+                         ("cells of a sixth", "settling_b1_d_dx_6"), ("coupled ten times as often", "settling_b1_interval_10"),
+                         ("Di Felice's law", "settling_b1_di_felice"), ("Abraham's law", "settling_b1_without"),
+                         ("Abraham's law and lubrication", "settling_b1_with")),
+                *of_case(resolved, ("resolved by the grid, with its walls", "resolved_b1"))), figure("fall", "largest/velocity"), "m/s, largest"),
     Experiment("Beverloo's k, 1.611 where 1.2 to 1.6 is published", "does the tube of 20 mm hold the widest hole back?",
                variants("beverloo_10", "verification/beverloo.yaml", hole(10), (("tube of 30 mm", "wide", WIDE),)),
                figure("outlet", "rate_over_beverloo"), "of Beverloo's rate"),
@@ -75,6 +134,9 @@ EXPERIMENTS = (
                    ("stiff as the thesis's", "50MPa", {"materials.sand.young_modulus": "50 MPa"}),
                    ("rolling friction 0.5 in place of 0.3", "rolling", {f"{SAND}.rolling.friction": "0.5"}),
                    ("until 1.5 s", "longer", {"time.end": "1.5 s"}))), figure("slope", "angle"), "deg"),
+    Experiment("The container of 24 widths between walls, 2.4 deg too flat", "rolling friction?",
+               (("as it fails", rectangular_container.plan_of("walls", 24)),
+                ("rolling friction 0.5 in place of 0.3", steeper(rectangular_container.plan_of("walls", 24)))), figure("slope", "angle"), "deg"),
     Experiment("B2 to B4, too fast", "added mass and memory of the liquid, or its walls?",
                variants("settling_b3_with", "thesis/settling_b3.yaml", {}, (
                    ("with virtual mass", "virtual_mass", {"fluid_forces": "[{model: lubrication}, {model: virtual_mass}]"}),
@@ -92,6 +154,11 @@ EXPERIMENTS = (
                variants("dosta_drum", "thesis/dosta_drum.yaml", {"materials.m1.young_modulus": "10 MPa", "materials.m2.young_modulus": "5 MPa"},
                         tuple((f"seed {n}", f"seed_{n}", {"seed": str(n)}) for n in (2, 3))),
                first_maximum, "grains, first maximum"),
+    Experiment("The vessel's bed at 30 l/min, falling, 12 % below the measured pressure", "walls, coarse grains, or the sand?", BEDS,
+               drop_falling_at(30), "mbar"),
+    Experiment("The same at 80 l/min, 5 % below", "walls, coarse grains, or the sand?", BEDS, drop_falling_at(80), "mbar"),
+    Experiment("The void fraction of the vessel's bed at rest, where the thesis names 0.435 to 0.445", "walls, coarse grains, or the sand?",
+               BEDS, bed_void_fraction, ""),
     Experiment("Layers that hang above the fluidised column", "do cells of half the height let them fall?",
                variants("fluidised_bed_column_5", "thesis/fluidised_bed_column.yaml",
                         {"materials.sand.young_modulus": "5 MPa", "materials.plexiglass.young_modulus": "5 MPa"},

@@ -1,8 +1,11 @@
 """Every number and sign of chapters 3 to 6 of the thesis beside ours."""
 
-from thesis import chapter_3, chapter_4, chapter_5, chapter_6
+from kept import Kept
+from page import FOLDER
+from thesis import chapter_3, chapter_4, chapter_5, chapter_6, explained
 from thesis.row import AS_GOOD, BETTER, NO_TRUTH, NOT_RUN, WORSE
 
+import campaign_list
 import cases
 
 TITLE = "The thesis: every number beside ours"
@@ -27,6 +30,8 @@ def cost_of(row, runs):
         run = runs[name]
         if run.is_finished():
             texts.append(f"{run.summary['cpu_s'] / 3600:.2g}")
+        elif runs.kept.has(run):
+            texts.append(f"{runs.kept.cpu_s(run) / 3600:.2g}")
         elif runs.engine:
             hours = runs.engine.hours(run.plan)
             texts.append("refused" if hours is None else f"about {hours:.2g} left" + (" each" if len(row.runs) > 1 else ""))
@@ -61,6 +66,7 @@ def fill(page, runs):
     for title, rows in chapters.items():
         page.body([f"## Chapter {title}", "", "| " + " | ".join(HEAD) + " |", "| --- |" + " --- |" * (len(HEAD) - 1),
                    *("| " + " | ".join(row.cells(cost_of(row, runs))) + " |" for row in rows), ""])
+    page.body(explained.section(every, Kept(FOLDER / "experiments.md")))
     page.body(left(runs))
 
 
@@ -80,9 +86,17 @@ def summary(rows):
 
 
 def left(runs):
-    """What has not been run, with its scenario and its cost."""
-    missing = [run for run in runs if not runs.is_done(run)]
-    hours = {run.name: runs.engine.hours(run.plan) if runs.engine else None for run in missing}
-    return ["## What has not been run", "", f"{len(missing)} runs, about {sum(h or 0 for h in hours.values()):.0f} hours of one core as "
-            "`engine check` expects (on the safe side: runs that ended took less).", "",
-            *(f"- {run.name}: `{run.plan.shown()}`" + (f", {hours[run.name]:.2g} h" if hours[run.name] else "") for run in missing), ""]
+    """What has not been run, with its scenario and its cost: what the campaign's budget reaches in its order, and what not."""
+    missing = {run.name: run for run in runs if not runs.is_done(run)}
+    hours = {name: runs.engine.hours(run.plan) if runs.engine else None for name, run in missing.items()}
+    spent = sum(run.summary["cpu_s"] if run.is_finished() else runs.kept.cpu_s(run) for run in runs if runs.is_done(run)) / 3600
+    within = campaign_list.within_budget(hours, spent, campaign_list.patterns())
+    out = ["## What has not been run", "", f"The runs above took {spent:.3g} hours of one core of the campaign's budget of "
+           f"{campaign_list.BUDGET_HOURS:g} (40 of two cores); costs are what `engine check` expects of this machine, on the safe side: runs that ended "
+           "took less.", ""]
+    for title, names in (("Within the budget, in the campaign's order", within),
+                         ("Beyond the budget", sorted(missing.keys() - set(within), key=list(missing).index))):
+        total = sum(hours[name] or 0.0 for name in names)
+        out += [f"### {title}", "", f"{len(names)} runs, about {total:.0f} hours of one core.", "",
+                *(f"- {name}: `{missing[name].plan.shown()}`" + (f", {hours[name]:.2g} h" if hours[name] else "") for name in names), ""]
+    return out

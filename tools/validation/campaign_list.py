@@ -1,0 +1,43 @@
+"""The order in which a campaign runs, and what of it its budget reaches."""
+
+import fnmatch
+import sys
+
+from runs import ROOT
+
+ORDER = ROOT / "tools" / "validation" / "campaign.list"
+BUDGET_HOURS = 80.0  # of one core: 40 hours of two
+
+
+def read(file, plans):
+    """Plans of a list of names, each once; a name that nothing has is an error."""
+    chosen = {}
+    for number, line in enumerate(file.read_text().splitlines(), 1):
+        name = line.split("#")[0].strip()
+        found = fnmatch.filter(plans, name) if name else []
+        if name and not found:
+            sys.exit(f"{file}:{number}: error: no run is called '{name}'; tools/validation/run --list tells the names")
+        chosen.update((each, plans[each]) for each in found)
+    return list(chosen.values())
+
+
+def patterns(file=ORDER):
+    named = (line.split("#")[0].strip() for line in file.read_text().splitlines())
+    return [name for name in named if name]
+
+
+def place_of(name, order):
+    """Of a run in the order; after all others if it is not there."""
+    return next((n for n, pattern in enumerate(order) if fnmatch.fnmatch(name, pattern)), len(order))
+
+
+def within_budget(hours, spent, order):
+    """Names of those of `hours` (by name; None is unknown and counts nothing) that end before the budget does, `spent`
+    hours of it being gone."""
+    reached = []
+    for name in sorted(hours, key=lambda name: place_of(name, order)):
+        spent += hours[name] or 0.0
+        if spent > BUDGET_HOURS:
+            break
+        reached.append(name)
+    return reached

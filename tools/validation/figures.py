@@ -1,0 +1,40 @@
+"""What a page has read off its runs, beside it in docs/validation/figures: a change between two runs is so told even when
+the folder of one of them is gone."""
+
+import csv
+
+COLUMNS = ("run", "sensor", "figure", "value", "uncertainty")
+
+
+class Figures:
+    """(value, uncertainty or None) by run, sensor and name, in SI as in summary.json."""
+
+    def __init__(self, file=None):
+        self._found = {}
+        if file and file.exists():
+            with open(file) as lines:
+                for row in csv.DictReader(lines):
+                    error = float(row["uncertainty"]) if row["uncertainty"] else None
+                    self.note(row["run"], row["sensor"], row["figure"], (float(row["value"]), error))
+
+    def note(self, run, sensor, name, found):
+        self._found[run, sensor, name] = found
+
+    def of(self, run, sensor, name):
+        return self._found.get((run, sensor, name))
+
+    def only(self, runs):
+        """Forgets what was read off others."""
+        self._found = {key: found for key, found in self._found.items() if key[0] in runs}
+
+    def write(self, file):
+        """Sorted, each value in as many digits as it has; no file where nothing was read."""
+        if not self._found:
+            file.unlink(missing_ok=True)
+            return
+        file.parent.mkdir(exist_ok=True)
+        with open(file, "w", newline="") as lines:
+            writer = csv.writer(lines, lineterminator="\n")
+            writer.writerow(COLUMNS)
+            for key, (value, error) in sorted(self._found.items()):
+                writer.writerow([*key, repr(value), "" if error is None else repr(error)])
