@@ -95,6 +95,7 @@ def hole(diameter):
 
 
 RAMP = "fluidised_bed_ramp_5"
+# The vessel's bed: the same sand, coarse grains or its own, walls or none.
 BEDS = (*of_case(fluidised_vessel, ("coarse grains between walls, as it fails", "fluidised_bed_vessel_5"),
                  ("coarse grains, front and back periodic", "fluidised_bed_vessel_5_periodic")),
         ("the sand's own grains, a periodic column", Plan(RAMP, "thesis/fluidised_bed_ramp.yaml", bed.SOFT)))
@@ -154,6 +155,10 @@ EXPERIMENTS = (
                variants("dosta_drum", "thesis/dosta_drum.yaml", {"materials.m1.young_modulus": "10 MPa", "materials.m2.young_modulus": "5 MPa"},
                         tuple((f"seed {n}", f"seed_{n}", {"seed": str(n)}) for n in (2, 3))),
                first_maximum, "grains, first maximum"),
+    Experiment("The bed that has rained in, 12 % above the measured pressure at 20 l/min, rising", "does it lie too dense?",
+               variants(RAMP, "thesis/fluidised_bed_ramp.yaml", bed.SOFT, (
+                   ("restitution 0.3 in place of 0.9", "inelastic", {f"{SAND}.contact.restitution": "0.3", "time.end": "1.3 s"}),)),
+               lambda run: bed.drop_at(run, 20, 0.2, 1.25), "mbar"),
     Experiment("The vessel's bed at 30 l/min, falling, 12 % below the measured pressure", "walls, coarse grains, or the sand?", BEDS,
                drop_falling_at(30), "mbar"),
     Experiment("The same at 80 l/min, 5 % below", "walls, coarse grains, or the sand?", BEDS, drop_falling_at(80), "mbar"),

@@ -16,8 +16,9 @@ EXPERIMENT_OF = {
     r".*g, (dry|air): discharging time": ("The hourglass",),
     r"container, W/D \d+, walls": ("The container of 24 widths",),
     r"container, W/D \d+, periodic": ("Periodic containers",),
-    r"100 mm, falling, (30|40|50) l/min": ("The vessel's bed at 30 l/min", "The void fraction of the vessel's bed"),
-    r"100 mm, falling, 80 l/min": ("The same at 80 l/min", "The void fraction of the vessel's bed")}
+    r"100 mm, falling, 80 l/min": ("The same at 80 l/min", "The void fraction of the vessel's bed"),
+    r"100 mm, falling(, ramp)?, ": ("The vessel's bed at 30 l/min", "The void fraction of the vessel's bed"),
+    r"100 mm, rising, ": ("The bed that has rained in",)}
 
 
 def experiments_of(what):
