@@ -30,12 +30,18 @@ def fluidisation(sizes, solids):
     return low
 
 
+# While the flow rises and falls [s]: fluidised_bed_ramp.yaml, fluidised_bed_falling.yaml.
+RISING, FALLING = (0.2, 5.2), (0.7, 5.2)
+
+
 def drop_at(run, litres, since, until=1e9):
     """Mean pressure drop [mbar] while the flow is within 1 l/min of `litres` between two times [s]."""
-    rows = [row["drop/pressure_drop [Pa]"] / 100 for row in run.series()
-            if since < row["time [s]"] <= until and
-            abs(row["drop/superficial_velocity [m/s]"] * VESSEL_SECTION * LITRES_PER_MINUTE - litres) < 1]
-    return (sum(rows) / len(rows), None) if rows else None
+    def find():
+        rows = [row["drop/pressure_drop [Pa]"] / 100 for row in run.series()
+                if since < row["time [s]"] <= until and
+                abs(row["drop/superficial_velocity [m/s]"] * VESSEL_SECTION * LITRES_PER_MINUTE - litres) < 1]
+        return (sum(rows) / len(rows), None) if rows else None
+    return run.read_off("series", f"pressure_drop [mbar] at {litres:g} l/min, {since:g} to {until:g} s", find)
 
 
 def add_column(page, run, name, mass, section, has_friction=False):
@@ -69,13 +75,14 @@ def add_drops(page, run, name):
                  **({"low": low, "high": high} if low else {"why": "judged by 30 and 80 l/min and the flow of fluidisation"}))
 
 
-def draw(page, runs, since=1.0):
-    """Pressure drop over the flow, ours beside both measured branches."""
+def draw(page, runs, during=(1.0, 1e9)):
+    """Pressure drop over the flow, ours beside both measured branches; `during`: times [s], of all runs or by name."""
     from chart import Curve, published
     table = read_table("thesis_bed_pressure_100mm.csv")
     curves = []
     for run in runs:
-        rows = [r for r in run.series() if r["time [s]"] > since]
+        since, until = during[run.name] if isinstance(during, dict) else during
+        rows = [r for r in run.series() if since < r["time [s]"] <= until]
         curves.append(Curve(run.name, [r["drop/superficial_velocity [m/s]"] * VESSEL_SECTION * LITRES_PER_MINUTE for r in rows],
                             [r["drop/pressure_drop [Pa]"] / 100 for r in rows]))
     for branch, name in (("decreasing", "measured, falling"), ("increasing", "measured, rising")):

@@ -180,13 +180,20 @@ class Run:
 
     def figure(self, sensor, name):
         """(value, uncertainty or None) of a finished run, or of one that the page has kept, else None."""
+        def find():
+            found = self.summary["sensors"].get(sensor, {}).get(name)
+            return None if not found or found["value"] is None else (found["value"], found["uncertainty"])
+        return self.read_off(sensor, name, find)
+
+    def read_off(self, source, name, find):
+        """What `find` finds in the files of a finished run, (value, uncertainty or None); of one that the page has kept, what it found
+        then. None if there is nothing."""
         if not self.is_finished():
-            return self._figures.of(self.name, sensor, name) if self._kept.is_of(self) else None
-        found = self.summary["sensors"].get(sensor, {}).get(name)
-        if not found or found["value"] is None:
-            return None
-        self._figures.note(self.name, sensor, name, (found["value"], found["uncertainty"]))
-        return found["value"], found["uncertainty"]
+            return self._figures.of(self.name, source, name) if self._kept.is_of(self) else None
+        found = find()
+        if found:
+            self._figures.note(self.name, source, name, found)
+        return found
 
     def series(self):
         """Rows of series.csv as numbers, of a finished run; else none."""

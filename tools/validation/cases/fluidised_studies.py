@@ -13,7 +13,7 @@ STUDIES = ("fluidised_bed_cells", "fluidised_bed_restitution", "fluidised_bed_dr
 
 def plans():
     return [*(Plan(f"fluidised_bed_{height}mm_5", f"thesis/fluidised_bed_{height}mm.yaml", SOFT) for height in (150, 200, 250)),
-            Plan("fluidised_bed_ramp_5", "thesis/fluidised_bed_ramp.yaml", SOFT),
+            *(Plan(f"fluidised_bed_{way}_5", f"thesis/fluidised_bed_{way}.yaml", SOFT) for way in ("ramp", "falling")),
             *(plan for study in STUDIES for plan in study_points.plans(study, SOFT))]
 
 
@@ -25,9 +25,10 @@ def fill(page, runs):
             for name, given in text["measure"].items():
                 page.add(f"{study}, {label}: {name} [{given['unit']}]", study_points.measured(run, given),
                          "[thesis](thesis.md)", why="judged beside the thesis's model on that page")
-    run = runs["fluidised_bed_ramp_5"]
-    for litres, measured in ((20, 6.00), (30, 8.93), (40, 12.13), (50, 14.47), (75, 15.60)):
-        page.add(f"ramp, rising: pressure drop at {litres} l/min [mbar]", bed.drop_at(run, litres, 0.2, 5.2),
-                 f"{measured:.2f} (measured)", why="no band is agreed for the rising branch")
-    bed.draw(page, [run], since=0.2)
+    rising, falling = runs["fluidised_bed_ramp_5"], runs["fluidised_bed_falling_5"]
+    for litres, up, down in ((20, 6.00, 5.40), (30, 8.93, 8.20), (40, 12.13, 10.93), (50, 14.47, 13.40), (75, 15.60, 15.00)):
+        for run, text, during, measured in ((rising, "rising", bed.RISING, up), (falling, "falling", bed.FALLING, down)):
+            page.add(f"ramp, {text}: pressure drop at {litres} l/min [mbar]", bed.drop_at(run, litres, *during),
+                     f"{measured:.2f} (measured)", why="no band is agreed for a ramp")
+    bed.draw(page, [rising, falling], {rising.name: bed.RISING, falling.name: bed.FALLING})
     page.note("Columns of 20 x 3 mm (of 10 x 15 mm between walls for rolling friction and cells in depth), sand of 5 MPa.")

@@ -49,14 +49,15 @@ def falling(runs):
 
 
 def ramp(runs):
-    """Every flow of Table A.4, on the ramp that rises from rest within 5 s and falls back within 5 s."""
-    run, out = runs["fluidised_bed_ramp_5"], []
+    """Every flow of Table A.4, on ramps that rise from rest within 5 s and fall back to it at the same pace."""
+    out = []
     for row in read_table("thesis_bed_pressure_100mm.csv"):
         litres = float(row["air_flow_l_min"])
         if litres == 0:
             continue
         is_rising = row["branch"] == "increasing"
-        text, times = ("rising", (0.2, 5.2)) if is_rising else ("falling, ramp", (5.2, 10.2))
+        text, run, times = (("rising", runs["fluidised_bed_ramp_5"], bed.RISING) if is_rising else
+                            ("falling, ramp", runs["fluidised_bed_falling_5"], bed.FALLING))
         out.append(Row("Table A.4", f"100 mm, {text}, {litres:g} l/min: pressure drop [mbar]", (run.name,), bed.drop_at(run, litres, *times),
                        float(row["corrected_pressure_mbar"]), max(float(row["std_mbar"]), 0.3),
                        None if is_rising and litres < FLOATING else model_at(litres, "periodic"), why=NO_LIMIT, differs=COLUMN))
@@ -65,12 +66,11 @@ def ramp(runs):
 
 def signs(runs):
     """The penetration effect, one size against the distribution, and one cell in depth against five."""
-    ramp = runs["fluidised_bed_ramp_5"]
-    up, down = bed.drop_at(ramp, 40, 0.2, 5.2), bed.drop_at(ramp, 40, 5.2)
+    up, down = bed.drop_at(runs["fluidised_bed_ramp_5"], 40, *bed.RISING), bed.drop_at(runs["fluidised_bed_falling_5"], 40, *bed.FALLING)
     grains = {label: runs[study_points.plan_of("fluidised_bed_grains", label, settings, SOFT).name]
               for label, settings in study_points.points(study_points.read("fluidised_bed_grains"))}
     fine, coarse = (grains[label].figure("u_mf", "falling/by_pressure") for label in ("distribution", "mono_0_6_mm"))
-    return [Sign("Table A.4", "penetration: rising less falling flow at 40 l/min [mbar]", (ramp.name,),
+    return [Sign("Table A.4", "penetration: rising less falling flow at 40 l/min [mbar]", ("fluidised_bed_ramp_5", "fluidised_bed_falling_5"),
                  (up[0] - down[0], None) if up and down else None, "+1.2 (measured)", COLUMN),
             Sign("5.5", "minimum fluidisation, 0.6 mm less distribution [m/s]",
                  (grains["distribution"].name, grains["mono_0_6_mm"].name),
