@@ -32,16 +32,18 @@ def fluidisation(sizes, solids):
 
 # While the flow rises and falls [s]: fluidised_bed_ramp.yaml, fluidised_bed_falling.yaml.
 RISING, FALLING = (0.2, 5.2), (0.7, 5.2)
+# Half of what lies between two measured flows [l/min]: the ramps pass it within 0.25 s, longer than a slug of the column takes.
+HALF_SPACING = 2.5
 
 
-def drop_at(run, litres, since, until=1e9):
-    """Mean pressure drop [mbar] while the flow is within 1 l/min of `litres` between two times [s]."""
+def drop_at(run, litres, since, until=1e9, within=1.0):
+    """Mean pressure drop [mbar] while the flow is `within` so many l/min of `litres` between two times [s]."""
     def find():
         rows = [row["drop/pressure_drop [Pa]"] / 100 for row in run.series()
                 if since < row["time [s]"] <= until and
-                abs(row["drop/superficial_velocity [m/s]"] * VESSEL_SECTION * LITRES_PER_MINUTE - litres) < 1]
+                abs(row["drop/superficial_velocity [m/s]"] * VESSEL_SECTION * LITRES_PER_MINUTE - litres) < within]
         return (sum(rows) / len(rows), None) if rows else None
-    return run.read_off("series", f"pressure_drop [mbar] at {litres:g} l/min, {since:g} to {until:g} s", find)
+    return run.read_off("series", f"pressure_drop [mbar] within {within:g} of {litres:g} l/min, {since:g} to {until:g} s", find)
 
 
 def add_column(page, run, name, mass, section, has_friction=False):

@@ -58,7 +58,7 @@ def ramp(runs):
         is_rising = row["branch"] == "increasing"
         text, run, times = (("rising", runs["fluidised_bed_ramp_5"], bed.RISING) if is_rising else
                             ("falling, ramp", runs["fluidised_bed_falling_5"], bed.FALLING))
-        out.append(Row("Table A.4", f"100 mm, {text}, {litres:g} l/min: pressure drop [mbar]", (run.name,), bed.drop_at(run, litres, *times),
+        out.append(Row("Table A.4", f"100 mm, {text}, {litres:g} l/min: pressure drop [mbar]", (run.name,), bed.drop_at(run, litres, *times, bed.HALF_SPACING),
                        float(row["corrected_pressure_mbar"]), max(float(row["std_mbar"]), 0.3),
                        None if is_rising and litres < FLOATING else model_at(litres, "periodic"), why=NO_LIMIT, differs=COLUMN))
     return out
@@ -66,7 +66,8 @@ def ramp(runs):
 
 def signs(runs):
     """The penetration effect, one size against the distribution, and one cell in depth against five."""
-    up, down = bed.drop_at(runs["fluidised_bed_ramp_5"], 40, *bed.RISING), bed.drop_at(runs["fluidised_bed_falling_5"], 40, *bed.FALLING)
+    up, down = (bed.drop_at(runs[name], 40, *times, bed.HALF_SPACING)
+                for name, times in (("fluidised_bed_ramp_5", bed.RISING), ("fluidised_bed_falling_5", bed.FALLING)))
     grains = {label: runs[study_points.plan_of("fluidised_bed_grains", label, settings, SOFT).name]
               for label, settings in study_points.points(study_points.read("fluidised_bed_grains"))}
     fine, coarse = (grains[label].figure("u_mf", "falling/by_pressure") for label in ("distribution", "mono_0_6_mm"))
