@@ -32,7 +32,7 @@ def fluidisation(sizes, solids):
 
 # While the flow rises and falls [s]: fluidised_bed_ramp.yaml, fluidised_bed_falling.yaml.
 RISING, FALLING = (0.2, 5.2), (0.7, 5.2)
-# Half of what lies between two measured flows [l/min]: the ramps pass it within 0.25 s, longer than a slug of the column takes.
+# Half of what lies between two measured flows [l/min]: all of a pressure that swings that is nearest to one.
 HALF_SPACING = 2.5
 
 
