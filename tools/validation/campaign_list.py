@@ -9,21 +9,25 @@ ORDER = ROOT / "tools" / "validation" / "campaign.list"
 BUDGET_HOURS = 80.0  # of one core: 40 hours of two
 
 
+def numbered(file):
+    """(number of the line, pattern) of each line of a list that names something."""
+    named = ((number, line.split("#")[0].strip()) for number, line in enumerate(file.read_text().splitlines(), 1))
+    return [(number, name) for number, name in named if name]
+
+
 def read(file, plans):
     """Plans of a list of names, each once; a name that nothing has is an error."""
     chosen = {}
-    for number, line in enumerate(file.read_text().splitlines(), 1):
-        name = line.split("#")[0].strip()
-        found = fnmatch.filter(plans, name) if name else []
-        if name and not found:
+    for number, name in numbered(file):
+        found = fnmatch.filter(plans, name)
+        if not found:
             sys.exit(f"{file}:{number}: error: no run is called '{name}'; tools/validation/run --list tells the names")
         chosen.update((each, plans[each]) for each in found)
     return list(chosen.values())
 
 
 def patterns(file=ORDER):
-    named = (line.split("#")[0].strip() for line in file.read_text().splitlines())
-    return [name for name in named if name]
+    return [name for _, name in numbered(file)]
 
 
 def place_of(name, order):

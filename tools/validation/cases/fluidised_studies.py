@@ -31,6 +31,6 @@ def fill(page, runs):
             page.add(f"ramp, {text}: pressure drop at {litres} l/min [mbar]", bed.drop_at(run, litres, *during, bed.HALF_SPACING),
                      f"{measured:.2f} (measured)", why="no band is agreed for a ramp")
     bed.draw(page, [rising, falling], {rising.name: bed.RISING, falling.name: bed.FALLING})
-    page.note("Pressures of the ramps are means within 2.5 l/min, half of what lies between two measured flows; a floating column of 20 mm "
-              "slugs, and its pressure swings by a tenth of its weight.")
+    page.note("Pressures of the ramps are means within 2.5 l/min, half of what lies between two measured flows; the pressure of a "
+              "floating column of 20 mm swings.")
     page.note("Columns of 20 x 3 mm (of 10 x 15 mm between walls for rolling friction and cells in depth), sand of 5 MPa.")
