@@ -50,11 +50,17 @@ def drop_falling_at(litres):
     return lambda run: bed.drop_at(run, litres, 1.0)
 
 
-def bed_void_fraction(run):
-    """Of a bed that has come to rest, by twice the height of its centre."""
-    height = run.figure("height", "twice_centre_at_end")
-    mass, section = (9.18e-3, 20e-3 * 3e-3) if run.name == FALLING else (0.459, bed.VESSEL_SECTION)
-    return height and (1 - mass / SAND_DENSITY / section / height[0], None)
+def bed_void_fraction(mass, section):
+    """Of a bed of a mass [kg] on a section [m2] that has come to rest, by twice the height of its centre."""
+    def of(run):
+        height = run.figure("height", "twice_centre_at_end")
+        return height and (1 - mass / SAND_DENSITY / section / height[0], None)
+    return of
+
+
+def void_fraction_of_beds(run):
+    """The vessel's, or the column's of the same sand."""
+    return bed_void_fraction(*((9.18e-3, 20e-3 * 3e-3) if run.name == FALLING else (0.459, bed.VESSEL_SECTION)))(run)
 
 
 def small_bed(name, speed, settings):
@@ -65,11 +71,6 @@ def small_bed(name, speed, settings):
         "sensors.drop.to": "[0, 0, 150 mm]", "sensors.u_mf.enabled": "false", "sensors.bubbles.enabled": "false", "references": "[]",
         "time.end": "1.45 s", "sensors.height.steady_after": "1.4 s", f"{air}.speed": speed, f"{air}.times": "[0.15, 0.4, 1.4 s]",
         f"{air}.factors": "[0, 1, 0]", **bed.SOFT, **settings})
-
-
-def small_bed_void_fraction(run):
-    height = run.figure("height", "twice_centre_at_end")
-    return height and (1 - 0.826e-3 / SAND_DENSITY / 6e-3 / 3e-3 / height[0], None)
 
 
 def of_case(case, *shown):
@@ -176,7 +177,7 @@ EXPERIMENTS = (
                    ("floats at 0.528 m/s, down within 1 s", "violent", "0.528 m/s", {}),
                    ("gentle, restitution 0.3 in place of 0.9", "inelastic", "0.35 m/s", {f"{SAND}.contact.restitution": "0.3"}),
                    ("gentle, coupled four times as often", "coupled", "0.35 m/s", {"time.fluid_step": "0.05 ms"}))),
-               small_bed_void_fraction, "at rest"),
+               bed_void_fraction(0.826e-3, 6e-3 * 3e-3), "at rest"),
     Experiment("The bed that has rained in, 12 % above the measured pressure at 20 l/min, rising", "does it lie too dense?",
                variants(RAMP, "thesis/fluidised_bed_ramp.yaml", bed.SOFT, (
                    ("restitution 0.3 in place of 0.9", "inelastic", {f"{SAND}.contact.restitution": "0.3", "time.end": "1.3 s"}),)),
@@ -189,7 +190,7 @@ EXPERIMENTS = (
                drop_falling_at(30), "mbar"),
     Experiment("The same at 80 l/min, 5 % below", "walls, coarse grains, or the sand?", BEDS, drop_falling_at(80), "mbar"),
     Experiment("The void fraction of the vessel's bed at rest, where the thesis names 0.435 to 0.445", "walls, coarse grains, or the sand?",
-               BEDS, bed_void_fraction, ""),
+               BEDS, void_fraction_of_beds, ""),
     Experiment("Layers that hang above the fluidised column", "do cells of half the height let them fall?",
                variants("fluidised_bed_column_5", "thesis/fluidised_bed_column.yaml",
                         {"materials.sand.young_modulus": "5 MPa", "materials.plexiglass.young_modulus": "5 MPa"},
