@@ -160,6 +160,15 @@ class KeptPages(unittest.TestCase):
             noted.write(file)
             self.assertFalse(file.exists())
 
+    def test_what_was_read_off_an_earlier_run_of_the_same_name_is_forgotten(self):
+        with tempfile.TemporaryDirectory() as folder:
+            finished_run(folder, "anew", {})
+            noted = figures.Figures()
+            for run in ("anew", "gone"):
+                noted.note(run, "s", "f", (1.0, None))
+            runs.Runs([runs.Plan(run, "verification/box.yaml") for run in ("anew", "gone")], folder, None, figures=noted)
+            self.assertEqual([None, (1.0, None)], [noted.of(run, "s", "f") for run in ("anew", "gone")])
+
     def test_a_row_that_was_open_is_not_kept(self):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "case.md"

@@ -31,7 +31,7 @@ def fluidisation(sizes, solids):
 
 
 # While the flow rises and falls [s]: fluidised_bed_ramp.yaml, fluidised_bed_falling.yaml.
-RISING, FALLING = (0.2, 5.2), (0.7, 5.2)
+RISING, FALLING = (0.2, 3.4), (0.5, 3.6)
 # Half of what lies between two measured flows [l/min]: all of a pressure that swings that is nearest to one.
 HALF_SPACING = 2.5
 

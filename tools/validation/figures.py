@@ -23,6 +23,10 @@ class Figures:
     def of(self, run, sensor, name):
         return self._found.get((run, sensor, name))
 
+    def forget(self, run):
+        """Of a run that is there anew: what nobody reads off it any more is not kept."""
+        self._found = {key: found for key, found in self._found.items() if key[0] != run}
+
     def only(self, runs):
         """Forgets what was read off others."""
         self._found = {key: found for key, found in self._found.items() if key[0] in runs}

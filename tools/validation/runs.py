@@ -252,7 +252,11 @@ class Runs:
 
     def __init__(self, plans, folder, engine, kept=None, figures=None):
         self.folder, self.engine, self.kept = pathlib.Path(folder), engine, kept or Kept()
+        figures = figures or Figures()
         self._runs = {plan.name: Run(plan, self.folder / plan.name, self.kept, figures) for plan in plans}
+        for run in self._runs.values():
+            if run.is_finished():
+                figures.forget(run.name)
 
     def __getitem__(self, name):
         return self._runs[name]

@@ -46,8 +46,8 @@ def first_maximum(run):
 
 
 def drop_falling_at(litres):
-    """[mbar], on the branch that falls, of which all of these are from 1 s on."""
-    return lambda run: bed.drop_at(run, litres, 1.0)
+    """[mbar], on the branch that falls: of the vessel from 1 s on."""
+    return lambda run: bed.drop_at(run, litres, *(bed.FALLING + (bed.HALF_SPACING,) if run.name == FALLING else (1.0,)))
 
 
 def bed_void_fraction(mass, section):
@@ -71,6 +71,12 @@ def small_bed(name, speed, settings):
         "sensors.drop.to": "[0, 0, 150 mm]", "sensors.u_mf.enabled": "false", "sensors.bubbles.enabled": "false", "references": "[]",
         "time.end": "1.45 s", "sensors.height.steady_after": "1.4 s", f"{air}.speed": speed, f"{air}.times": "[0.15, 0.4, 1.4 s]",
         f"{air}.factors": "[0, 1, 0]", **bed.SOFT, **settings})
+
+
+def poured_bed(name, settings):
+    """The small bed, which is poured and never floats."""
+    return small_bed(f"poured_{name}", "0.01 m/s", {
+        "domain.boundaries.bottom.air.factors": "[0, 0, 0]", "time.end": "0.3 s", "sensors.height.steady_after": "0.25 s", **settings})
 
 
 def of_case(case, *shown):
@@ -111,6 +117,7 @@ def hole(diameter):
 
 
 RAMP, FALLING = "fluidised_bed_ramp_5", "fluidised_bed_falling_5"
+RAMP_FILE = "thesis/fluidised_bed_ramp.yaml"
 # The vessel's bed: the same sand, coarse grains or its own, walls or none.
 BEDS = (*of_case(fluidised_vessel, ("coarse grains between walls, as it fails", "fluidised_bed_vessel_5"),
                  ("coarse grains, front and back periodic", "fluidised_bed_vessel_5_periodic")),
@@ -127,11 +134,13 @@ EXPERIMENTS = (
                figure("fall", "velocity"), "m/s"),
     Experiment("A1 with Koch and Hill's law, 17 % too slow", "the law, or what we make of it?", with_law("koch_hill"),
                figure("fall", "velocity"), "m/s"),
-    Experiment("B1 with Gidaspow's law, 10 % too fast", "cells, interval, law, or the walls that an unresolved sphere does not feel?",
+    Experiment("B1 with Gidaspow's law, 10 % too fast", "cells, interval, law, its own disturbance, or the walls that an unresolved sphere does not feel?",
                (*of_case(settling_b, ("as it fails", "settling_b1_gidaspow"), ("cells of half a diameter", "settling_b1_d_dx_2"),
                          ("cells of a sixth", "settling_b1_d_dx_6"), ("coupled ten times as often", "settling_b1_interval_10"),
                          ("Di Felice's law", "settling_b1_di_felice"), ("Abraham's law", "settling_b1_without"),
                          ("Abraham's law and lubrication", "settling_b1_with")),
+                ("its own disturbance left in, as in the thesis", Plan("settling_b1_disturbed", "thesis/settling_b1.yaml", {
+                    "drag.model": "gidaspow", "fluid_forces": "[]", "coupling.correct_own_disturbance": "false"})),
                 *of_case(resolved, ("resolved by the grid, with its walls", "resolved_b1"))), figure("fall", "largest/velocity"), "m/s, largest"),
     Experiment("Beverloo's k, 1.611 where 1.2 to 1.6 is published", "does the tube of 20 mm hold the widest hole back?",
                variants("beverloo_10", "verification/beverloo.yaml", hole(10), (("tube of 30 mm", "wide", WIDE),)),
@@ -171,17 +180,29 @@ EXPERIMENTS = (
                variants("dosta_drum", "thesis/dosta_drum.yaml", {"materials.m1.young_modulus": "10 MPa", "materials.m2.young_modulus": "5 MPa"},
                         tuple((f"seed {n}", f"seed_{n}", {"seed": str(n)}) for n in (2, 3))),
                first_maximum, "grains, first maximum"),
-    Experiment("The column comes to rest denser than it was poured, void fraction 0.398", "is it how the floating bed collapses?",
+    Experiment("How densely sand lies that was poured, where the bulk density of 1530 kg/m3 is 0.423", "how far it falls, and how it bounces?",
+               tuple((text, poured_bed(name, settings)) for text, name, settings in (
+                   ("filled 80 mm high, 2.8 times as high as it rests", "80", {}),
+                   ("52 mm, 1.8 times", "52", {"emitters.sand.max": "[6, 3, 52 mm]"}),
+                   ("47 mm, 1.6 times, as the columns are now", "47", {"emitters.sand.max": "[6, 3, 47 mm]"}),
+                   ("80 mm, restitution 0.5 in place of 0.9", "80_half", {f"{SAND}.contact.restitution": "0.5"}),
+                   ("80 mm, restitution 0.3", "80_inelastic", {f"{SAND}.contact.restitution": "0.3"}))),
+               bed_void_fraction(0.826e-3, 6e-3 * 3e-3), "at rest"),
+    Experiment("How densely a column lies that has floated", "how it collapses, or the cells that see it?",
                tuple((text, small_bed(name, *settings)) for text, name, *settings in (
                    ("floats at 0.35 m/s, down within 1 s", "gentle", "0.35 m/s", {}),
                    ("floats at 0.528 m/s, down within 1 s", "violent", "0.528 m/s", {}),
                    ("gentle, restitution 0.3 in place of 0.9", "inelastic", "0.35 m/s", {f"{SAND}.contact.restitution": "0.3"}),
+                   ("floats at 0.35 m/s, down within 4 s", "slow", "0.35 m/s", {
+                       "domain.boundaries.bottom.air.times": "[0.15, 0.4, 4.4 s]", "time.end": "4.45 s",
+                       "sensors.height.steady_after": "4.4 s"}),
+                   ("floats at 0.528 m/s, down within 1 s, cells of 2.5 mm in place of 5", "fine", "0.528 m/s", {"fluid.cells": "[2, 1, 64]"}),
                    ("gentle, coupled four times as often", "coupled", "0.35 m/s", {"time.fluid_step": "0.05 ms"}))),
                bed_void_fraction(0.826e-3, 6e-3 * 3e-3), "at rest"),
-    Experiment("The bed that has rained in, 12 % above the measured pressure at 20 l/min, rising", "does it lie too dense?",
-               variants(RAMP, "thesis/fluidised_bed_ramp.yaml", bed.SOFT, (
-                   ("restitution 0.3 in place of 0.9", "inelastic", {f"{SAND}.contact.restitution": "0.3", "time.end": "1.3 s"}),)),
-               lambda run: bed.drop_at(run, 20, 0.2, 1.25), "mbar"),
+    Experiment("The poured bed at 20 l/min, rising, where 6.0 mbar are measured", "does it matter how far it fell?",
+               (("filled 157 mm high", Plan(RAMP, RAMP_FILE, bed.SOFT)),
+                ("filled 240 mm high", Plan(f"{RAMP}_high", RAMP_FILE, {**bed.SOFT, "emitters.sand.max": "[20, 3, 240 mm]", "time.end": "0.5 s"}))),
+               lambda run: bed.drop_at(run, 20, 0.2, 0.5, bed.HALF_SPACING), "mbar"),
     Experiment("The floating bed, which carries its weight of 15.0 mbar where 15.4 to 15.6 are measured at 65 to 75 l/min",
                "do walls that drag it down make the difference?",
                of_study("fluidised_bed_sides", ("periodic", "periodic 0.389 m/s"), ("front and back walls, 3 mm apart", "walls 0.389 m/s"),

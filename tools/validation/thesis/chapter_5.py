@@ -49,18 +49,18 @@ def falling(runs):
 
 
 def ramp(runs):
-    """Every flow of Table A.4, on ramps that rise from rest within 5 s and fall back to it at the same pace."""
+    """Every flow of Table A.4, on ramps that rise from rest and fall back to it, in a few seconds each."""
     out = []
     for row in read_table("thesis_bed_pressure_100mm.csv"):
         litres = float(row["air_flow_l_min"])
         if litres == 0:
             continue
         is_rising = row["branch"] == "increasing"
-        text, run, times = (("rising", runs["fluidised_bed_ramp_5"], bed.RISING) if is_rising else
-                            ("falling, ramp", runs["fluidised_bed_falling_5"], bed.FALLING))
+        text, run, times, differs = (("rising", runs["fluidised_bed_ramp_5"], bed.RISING, COLUMN) if is_rising else
+                                     ("falling, ramp", runs["fluidised_bed_falling_5"], bed.FALLING, COLUMN + "; cells of 2.5 mm"))
         out.append(Row("Table A.4", f"100 mm, {text}, {litres:g} l/min: pressure drop [mbar]", (run.name,), bed.drop_at(run, litres, *times, bed.HALF_SPACING),
                        float(row["corrected_pressure_mbar"]), max(float(row["std_mbar"]), 0.3),
-                       None if is_rising and litres < FLOATING else model_at(litres, "periodic"), why=NO_LIMIT, differs=COLUMN))
+                       None if is_rising and litres < FLOATING else model_at(litres, "periodic"), why=NO_LIMIT, differs=differs))
     return out
 
 

@@ -11,17 +11,18 @@ EXPERIMENT_OF = {
     r"A1, Di Felice": ("A1 with Di Felice's law",),
     r"A1, Koch and Hill": ("A1 with Koch and Hill's law",),
     r"A1, divided, W/D 5": ("A1 in a box of 5 diameters",),
+    r"B1: error of Di Felice": ("B1 with Gidaspow's law",),
     r"B\d, (Gidaspow|D/dx|coupling interval)": ("B1 with Gidaspow's law",),
     r"B[234], Abraham": ("B2 to B4, too fast",),
     r".*g, (dry|air): discharging time": ("The hourglass",),
     r"container, W/D \d+, walls": ("The container of 24 widths",),
     r"container, W/D \d+, periodic": ("Periodic containers",),
     r"100 mm, falling, 80 l/min": ("The same at 80 l/min", "The void fraction of the vessel's bed"),
-    r"100 mm, falling, ramp, ([1-4]\d|\d|5[0-4])(\.\d+)? l/min": ("The column comes to rest",),
+    r"100 mm, falling, ramp, ([1-4]\d|\d|5[0-4])(\.\d+)? l/min": ("How densely a column lies",),
     r"100 mm, falling, ramp, ": ("The floating bed",),
     r"100 mm, falling, ": ("The vessel's bed at 30 l/min", "The void fraction of the vessel's bed"),
-    r"penetration": ("The column comes to rest",),
-    r"100 mm, rising, ([1-4]\d|\d)(\.\d+)? l/min": ("The bed that has rained in",),
+    r"penetration": ("How densely a column lies",),
+    r"100 mm, rising, ([1-4]\d|\d)(\.\d+)? l/min": ("The poured bed at 20", "How densely sand lies"),
     r"100 mm, rising, ": ("The floating bed",)}
 
 
