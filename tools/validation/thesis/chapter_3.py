@@ -6,7 +6,6 @@ from thesis.row import Row, Sign
 WATER = 0.158
 # Printed errors of the thesis's largest velocity; which way they are it does not say.
 THESIS_ERROR = {1: 0.011, 2: 0.016, 3: 0.037, 4: 0.046}
-
 OURS = "own disturbance taken off (our default), the voidage's inner fraction of 0.9"
 
 
