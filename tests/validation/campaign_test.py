@@ -106,6 +106,20 @@ class Campaign(unittest.TestCase):
         self.assertIn("1 left, about 0.0 h of one core (0.50 of what", self.campaign("left"))
 
 
+    def test_a_run_of_two_names_is_made_once(self):
+        self.engine(length=1)
+        two = ("settling_a1_box_w_d_10", "settling_a1_place_w_d_10_middle")
+        self.assertEqual(len({cases.all_plans()[name].same() for name in two}), 1)
+        self.list.write_text("\n".join(two))
+        self.campaign("start", "--foreground")
+        self.assertEqual(list(self.ended()), [two[0]])
+        self.list.write_text(two[1])
+        self.assertIn("0 left", self.campaign("left"))
+        # Whoever asks for the other finds it.
+        both = runs.Runs([cases.all_plans()[name] for name in two], self.runs, None)
+        self.assertEqual({both[name].folder.name for name in two}, {two[0]})
+
+
 class Budget(unittest.TestCase):
     def test_it_reaches_as_far_in_the_order_as_its_hours_do(self):
         hours = {"wide": 30.0, "narrow_1": 20.0, "narrow_2": 20.0, "listed_nowhere": 1.0, "cost_unknown": None}

@@ -1,11 +1,14 @@
 """The beds of chapter 5: sand, air and vessel, Ergun's law, and the figures that any of its beds has."""
 
+import json
+
 from runs import read_table
 
 SAND_DENSITY, AIR_DENSITY, AIR_VISCOSITY, GRAVITY = 2650.0, 1.2139, 1.8e-5, 9.81
 SIZES = ((300e-6, 0.0621), (425e-6, 0.1829), (500e-6, 0.2605), (600e-6, 0.4945))  # mass fractions
 VESSEL_SECTION = 0.2 * 0.015  # [m2]
 LITRES_PER_MINUTE = 60000.0   # in a m3/s
+AIR = "domain.boundaries.bottom.air"
 SOFT = {"materials.sand.young_modulus": "5 MPa", "materials.plexiglass.young_modulus": "5 MPa"}
 # Flow [l/min]: pressure drop [mbar] measured on 100 mm, and what verification.md lets pass.
 MEASURED = {80: (15.0, 14.0, 16.5), 50: (13.40, None, None), 40: (10.93, None, None), 30: (8.20, 7.5, 9.5)}
@@ -30,8 +33,11 @@ def fluidisation(sizes, solids):
     return low
 
 
-# While the flow rises and falls [s]: fluidised_bed_ramp.yaml, fluidised_bed_falling.yaml.
-RISING, FALLING = (0.2, 3.4), (0.5, 3.6)
+RAMP, FALLING, DEFLUIDISATION = "fluidised_bed_ramp_5", "fluidised_bed_falling_5", "fluidised_bed_defluidisation_5"
+# While the flow rises or falls [s]: fluidised_bed_ramp.yaml, fluidised_bed_falling.yaml, fluidised_bed_defluidisation.yaml.
+CHANGING = {RAMP: (0.2, 3.4), FALLING: (0.5, 3.6), DEFLUIDISATION: (0.8, 2.8)}
+# The flow [l/min] from which the third of them falls.
+GENTLY_FROM = 63
 # Half of what lies between two measured flows [l/min]: all of a pressure that swings that is nearest to one.
 HALF_SPACING = 2.5
 
@@ -44,6 +50,23 @@ def drop_at(run, litres, since, until=1e9, within=1.0):
                 abs(row["drop/superficial_velocity [m/s]"] * VESSEL_SECTION * LITRES_PER_MINUTE - litres) < within]
         return (sum(rows) / len(rows), None) if rows else None
     return run.read_off("series", f"pressure_drop [mbar] within {within:g} of {litres:g} l/min, {since:g} to {until:g} s", find)
+
+
+# Settings of a bed at rest: the one that the third of them leaves, as the measured one, whose flow has fallen.
+AT_REST = {**SOFT, f"{AIR}.times": "[0.05, 0.2, 2 s]", "time.end": "0.35 s", "sensors.drop.steady_after": "0.25 s",
+           "sensors.height.steady_after": "0.25 s",
+           "emitters.sand": json.dumps({"model": "file", "material": "sand", "with_velocities": False, "allowed_overlap": 0.2,
+                                        "file": f"$RUNS/{DEFLUIDISATION}/results.h5"})}
+
+
+def changing_drop(run, litres):
+    """drop_at of one of the three ramps, over half of what lies between two measured flows."""
+    return drop_at(run, litres, *CHANGING[run.name], HALF_SPACING)
+
+
+def falling_at(litres):
+    """The run that tells of a flow while it falls: slugs of a column of 20 mm pack it, so the bed that comes to rest is one without."""
+    return DEFLUIDISATION if litres < GENTLY_FROM else FALLING
 
 
 def add_column(page, run, name, mass, section, has_friction=False):
@@ -77,13 +100,13 @@ def add_drops(page, run, name):
                  **({"low": low, "high": high} if low else {"why": "judged by 30 and 80 l/min and the flow of fluidisation"}))
 
 
-def draw(page, runs, during=(1.0, 1e9)):
-    """Pressure drop over the flow, ours beside both measured branches; `during`: times [s], of all runs or by name."""
+def draw(page, runs):
+    """Pressure drop over the flow, ours beside both measured branches: of a ramp while its flow changes, else from 1 s on."""
     from chart import Curve, published
     table = read_table("thesis_bed_pressure_100mm.csv")
     curves = []
     for run in runs:
-        since, until = during[run.name] if isinstance(during, dict) else during
+        since, until = CHANGING.get(run.name, (1.0, 1e9))
         rows = [r for r in run.series() if since < r["time [s]"] <= until]
         curves.append(Curve(run.name, [r["drop/superficial_velocity [m/s]"] * VESSEL_SECTION * LITRES_PER_MINUTE for r in rows],
                             [r["drop/pressure_drop [Pa]"] / 100 for r in rows]))

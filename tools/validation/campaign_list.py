@@ -3,7 +3,7 @@
 import fnmatch
 import sys
 
-from runs import ROOT
+from runs import ROOT, one_of_each
 
 ORDER = ROOT / "tools" / "validation" / "campaign.list"
 BUDGET_HOURS = 80.0  # of one core: 40 hours of two
@@ -16,14 +16,14 @@ def numbered(file):
 
 
 def read(file, plans):
-    """Plans of a list of names, each once; a name that nothing has is an error."""
+    """Plans of a list of names, each run once; a name that nothing has is an error."""
     chosen = {}
     for number, name in numbered(file):
         found = fnmatch.filter(plans, name)
         if not found:
             sys.exit(f"{file}:{number}: error: no run is called '{name}'; tools/validation/run --list tells the names")
         chosen.update((each, plans[each]) for each in found)
-    return list(chosen.values())
+    return one_of_each(chosen.values(), lambda plan: plan)
 
 
 def patterns(file=ORDER):

@@ -91,8 +91,7 @@ class Page:
         if self._rows:
             out += ["## What failed", "", *(self._left("FAIL") or ["Nothing."]), "",
                     "## What has not been run", "", *(self._not_run(runs) or ["Nothing."]), ""]
-        # A run may begin with what another has left, in the folder of the runs.
-        return ("\n".join(out + runs_section(runs)) + "\n").replace(f"{runs.folder}/", "")
+        return "\n".join(out + runs_section(runs)) + "\n"
 
     def _not_run(self, runs):
         missing = [f"- `{run.plan.shown()}`" + hours_text(runs, run) for run in runs if not runs.is_done(run)]

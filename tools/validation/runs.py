@@ -7,6 +7,7 @@ import datetime
 import fcntl
 import json
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
@@ -35,14 +36,19 @@ def read_table(name):
 
 @dataclasses.dataclass(frozen=True)
 class Plan:
-    """What shall be run: a scenario, relative to scenarios/, and what is set on top of it."""
+    """What shall be run: a scenario, relative to scenarios/, and what is set on top of it. `$RUNS` in a setting is the folder of the
+    runs: a run may begin with what another has left."""
 
     name: str
     scenario: str
     settings: dict = dataclasses.field(default_factory=dict)
 
-    def options(self):
-        return [part for key, value in self.settings.items() for part in ("--set", f"{key}={value}")]
+    def options(self, runs="$RUNS"):
+        return [part for key, value in self.settings.items() for part in ("--set", f"{key}={value}".replace("$RUNS", str(runs)))]
+
+    def begins_with(self):
+        """Names of the runs that it begins with."""
+        return re.findall(r"\$RUNS/([^/]+)/", " ".join(self.options()))
 
     def file(self):
         return ROOT / "scenarios" / self.scenario
@@ -50,6 +56,22 @@ class Plan:
     def shown(self):
         """The command as the reader of a page would type it."""
         return shlex.join(["engine", "run", f"scenarios/{self.scenario}", *self.options()])
+
+    def same(self):
+        """What plans of different names have in common that are one run: scenario and settings, in whatever order."""
+        return same_of(self.shown())
+
+
+def same_of(command):
+    return frozenset(shlex.split(command))
+
+
+def one_of_each(runs, plan_of):
+    """The first of those that are one run under several names."""
+    first = {}
+    for run in runs:
+        first.setdefault(plan_of(run).same(), run)
+    return list(first.values())
 
 
 # Settings that leave a run's cost about as it is.
@@ -63,7 +85,7 @@ class Engine:
     def __init__(self, file, threads=1, commit=None):
         self._file, self._threads = pathlib.Path(file), threads
         self._commit = commit or self._commit_told() or self._commit_beside() or commit_of_checkout(self._file)
-        self._told = {}
+        self._told, self._runs = {}, None
 
     def _commit_told(self):
         """What `engine --version` says of it, where it does."""
@@ -93,20 +115,20 @@ class Engine:
     def command(self, plan, folder):
         resume = ["--resume"] if (folder / "checkpoint.h5").exists() else []
         return [self.path(), "run", str(plan.file()), "-o", str(folder), "--threads", str(self._threads),
-                "--quiet", *plan.options(), *resume]
+                "--quiet", *plan.options(folder.resolve().parent), *resume]
 
     def hours(self, plan):
         """Hours of one core that `engine check` expects; None if it refuses the scenario."""
         # A check of a large grid takes seconds: runs that differ by what hardly changes the cost are asked for once.
         counts = {k: v for k, v in plan.settings.items() if not k.startswith(CHEAP)}
         like = Plan(plan.name, plan.scenario, counts)
-        if like.shown() not in self._told:
+        if self._told.get(like.shown()) is None:
             self._told[like.shown()] = self._ask_hours(plan)
         return self._told[like.shown()]
 
     def remember(self, file):
         """Keeps what was asked in a file: a check of a large grid takes a second."""
-        self._told = self._kept_in(file)
+        self._told, self._runs = self._kept_in(file), file.resolve().parent
         atexit.register(self._keep_in, file)
 
     def _kept_in(self, file):
@@ -121,7 +143,7 @@ class Engine:
             file.with_suffix(".part").replace(file)
 
     def _ask_hours(self, plan):
-        done = subprocess.run([self.path(), "check", str(plan.file()), "--json", *plan.options()],
+        done = subprocess.run([self.path(), "check", str(plan.file()), "--json", *plan.options(self._runs)],
                               capture_output=True, text=True)
         return json.loads(done.stdout)["core_s"] / 3600 if done.returncode == 0 else None
 
@@ -247,6 +269,12 @@ class Run:
         (self.folder / "validation.json").write_text(json.dumps(note, indent=1) + "\n")
 
 
+def finished_in(folder):
+    """Folders of finished runs by what they ran: a run is made once, whatever cases call it."""
+    runs = (Run(None, file.parent) for file in sorted(pathlib.Path(folder).glob("*/validation.json")))
+    return {same_of(run.note().get("command", "")): run.folder for run in runs if run.is_finished()}
+
+
 class Runs:
     """The runs of a case in one folder, begun or not."""
 
@@ -254,7 +282,10 @@ class Runs:
         self.folder, self.engine, self.kept = pathlib.Path(folder), engine, kept or Kept()
         figures = figures or Figures()
         self._runs = {plan.name: Run(plan, self.folder / plan.name, self.kept, figures) for plan in plans}
+        finished = finished_in(self.folder)
         for run in self._runs.values():
+            if not run.is_finished():
+                run.folder = finished.get(run.plan.same(), run.folder)
             if run.is_finished():
                 figures.forget(run.name)
 

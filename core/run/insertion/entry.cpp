@@ -58,12 +58,16 @@ std::string partner_text(const SphereGrid::Sphere& s,
                         " " + what);
 }
 
-/// Of an emitter whose grains do not wait: inside the domain, clear of bodies and walls.
-void check_place(const EntryScene& scene, const InsertionCandidate& e, double allowed) {
+/// Of an emitter whose grains do not wait: inside the domain, clear of bodies and walls. The frame
+/// of a run has grains beyond a periodic side by what they travelled since the neighbour list was
+/// built, which is less than the `largest` diameter [m]: the list puts them back.
+void check_place(const EntryScene& scene, const InsertionCandidate& e, double allowed,
+                 double largest) {
   const Vec3 x = e.grain.position;
   const double radius = 0.5 * e.grain.diameter;
   for (int d = 0; d < 3; ++d) {
-    const double slack = k_rounding * (scene.max[d] - scene.min[d]);
+    const bool is_periodic = scene.is_periodic[static_cast<std::size_t>(d)];
+    const double slack = is_periodic ? largest : k_rounding * (scene.max[d] - scene.min[d]);
     if (!(x[d] >= scene.min[d] - slack && x[d] <= scene.max[d] + slack)) {
       refuse(scene, e, "lies outside the domain");
     }
@@ -183,7 +187,7 @@ std::vector<InsertionCandidate> take_without_overlap(std::vector<InsertionCandid
     const sdk::InsertionRule rule =
         emitter < scene.rules.size() ? scene.rules[emitter] : sdk::InsertionRule{};
     const double radius = 0.5 * e.grain.diameter;
-    if (!rule.waits) check_place(scene, e, rule.allowed_overlap);
+    if (!rule.waits) check_place(scene, e, rule.allowed_overlap, largest);
     const auto* other = grid.overlapping(e.grain.position, radius, rule.allowed_overlap);
     if (other == nullptr) {
       grid.add({e.grain.position, radius, -1 - static_cast<std::int64_t>(n)});

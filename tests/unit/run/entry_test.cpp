@@ -169,6 +169,20 @@ TEST_CASE("grains that may not wait shall be refused with both sides named") {
         std::string::npos);
 }
 
+TEST_CASE("a grain just beyond a periodic side shall come in, as the frame of a run has it") {
+  auto s = scene();
+  s.rules[0].waits = false;
+  CHECK(refusal(s, {grain(1.0 + 0.5 * k_diameter)}) != "not refused");
+  s.is_periodic = {true, false, false};
+  CHECK(refusal(s, {grain(1.0 + 0.5 * k_diameter)}) == "not refused");
+  CHECK(refusal(s, {grain(-1.0 - 0.5 * k_diameter)}) == "not refused");
+  // Farther out it is a mistake, and one that lies in its image's place is in its way.
+  CHECK(refusal(s, {grain(1.0 + 1.5 * k_diameter)}).find("lies outside the domain") !=
+        std::string::npos);
+  CHECK(refusal(s, {grain(1.0 + 0.5 * k_diameter), grain(-1.0 + 0.5 * k_diameter)})
+            .find("overlap by 0.0004 m") != std::string::npos);
+}
+
 TEST_CASE("grains that touch each other or a wall exactly shall come in, an overlap shall not") {
   auto s = scene();
   s.rules[0].waits = false;

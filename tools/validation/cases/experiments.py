@@ -5,7 +5,7 @@ import dataclasses
 import bed
 import study_points
 from bed import SAND_DENSITY
-from cases import fluidised_vessel, rectangular_container, resolved, settling_b
+from cases import fluidised_studies, fluidised_vessel, rectangular_container, resolved, settling_b
 from runs import Plan
 
 TITLE = "What fails, and the experiments to it"
@@ -33,12 +33,6 @@ def figure(sensor, name, scale=1.0):
     return of
 
 
-def void_fraction(run):
-    """Of the settled slice of 3 x 3 mm, by twice the height of its centre."""
-    height = run.figure("height", "twice_centre")
-    return height and (1 - 1.377e-3 / SAND_DENSITY / 9e-6 / height[0], None)
-
-
 def first_maximum(run):
     """Of the drum's small grains in the quarter x < 0, z < 0; it turns from 0.5 s on."""
     found = [r["m1_below/number [1]"] for r in run.series() if 0.8 <= r["time [s]"] <= 1.7]
@@ -47,7 +41,7 @@ def first_maximum(run):
 
 def drop_falling_at(litres):
     """[mbar], on the branch that falls: of the vessel from 1 s on."""
-    return lambda run: bed.drop_at(run, litres, *(bed.FALLING + (bed.HALF_SPACING,) if run.name == FALLING else (1.0,)))
+    return lambda run: bed.changing_drop(run, litres) if run.name in bed.CHANGING else bed.drop_at(run, litres, 1.0)
 
 
 def bed_void_fraction(mass, section):
@@ -60,23 +54,22 @@ def bed_void_fraction(mass, section):
 
 def void_fraction_of_beds(run):
     """The vessel's, or the column's of the same sand."""
-    return bed_void_fraction(*((9.18e-3, 20e-3 * 3e-3) if run.name == FALLING else (0.459, bed.VESSEL_SECTION)))(run)
+    return bed_void_fraction(*((9.18e-3, 20e-3 * 3e-3) if run.name in bed.CHANGING else (0.459, bed.VESSEL_SECTION)))(run)
 
 
 def small_bed(name, speed, settings):
     """6 x 3 mm of the column, 30 mm deep: floats from 0.4 s on and is let down until 1.4 s."""
-    air = "domain.boundaries.bottom.air"
     return Plan(f"fluidised_bed_small_{name}", "thesis/fluidised_bed_column.yaml", {
         "domain.max": "[6, 3, 160 mm]", "fluid.cells": "[1, 1, 32]", "emitters.sand.mass": "0.826 g", "emitters.sand.max": "[6, 3, 80 mm]",
         "sensors.drop.to": "[0, 0, 150 mm]", "sensors.u_mf.enabled": "false", "sensors.bubbles.enabled": "false", "references": "[]",
-        "time.end": "1.45 s", "sensors.height.steady_after": "1.4 s", f"{air}.speed": speed, f"{air}.times": "[0.15, 0.4, 1.4 s]",
-        f"{air}.factors": "[0, 1, 0]", **bed.SOFT, **settings})
+        "time.end": "1.45 s", "sensors.height.steady_after": "1.4 s", f"{bed.AIR}.speed": speed, f"{bed.AIR}.times": "[0.15, 0.4, 1.4 s]",
+        f"{bed.AIR}.factors": "[0, 1, 0]", **bed.SOFT, **settings})
 
 
 def poured_bed(name, settings):
     """The small bed, which is poured and never floats."""
     return small_bed(f"poured_{name}", "0.01 m/s", {
-        "domain.boundaries.bottom.air.factors": "[0, 0, 0]", "time.end": "0.3 s", "sensors.height.steady_after": "0.25 s", **settings})
+        f"{bed.AIR}.factors": "[0, 0, 0]", "time.end": "0.3 s", "sensors.height.steady_after": "0.25 s", **settings})
 
 
 def of_case(case, *shown):
@@ -116,12 +109,18 @@ def hole(diameter):
             "sensors.outlet.hole": f"{diameter} mm"}
 
 
-RAMP, FALLING = "fluidised_bed_ramp_5", "fluidised_bed_falling_5"
-RAMP_FILE = "thesis/fluidised_bed_ramp.yaml"
 # The vessel's bed: the same sand, coarse grains or its own, walls or none.
-BEDS = (*of_case(fluidised_vessel, ("coarse grains between walls, as it fails", "fluidised_bed_vessel_5"),
-                 ("coarse grains, front and back periodic", "fluidised_bed_vessel_5_periodic")),
-        ("the sand's own grains, a periodic column", Plan(FALLING, "thesis/fluidised_bed_falling.yaml", bed.SOFT)))
+VESSELS = of_case(fluidised_vessel, ("coarse grains between walls, as it fails", "fluidised_bed_vessel_5"),
+                  ("coarse grains, front and back periodic", "fluidised_bed_vessel_5_periodic"))
+
+
+def column_of(name):
+    return next(plan for plan in fluidised_studies.plans() if plan.name == name)
+
+
+def beds(column):
+    return (*VESSELS, ("the sand's own grains, a periodic column", column_of(column)))
+
 
 EXPERIMENTS = (
     Experiment("A1 by the centre of the grain, 18 % too slow", "its own disturbance?",
@@ -148,13 +147,6 @@ EXPERIMENTS = (
     Experiment("The same at the narrowest hole", "is it the wide hole alone?",
                variants("beverloo_6", "verification/beverloo.yaml", hole(6), (("tube of 30 mm", "wide", WIDE),)),
                figure("outlet", "rate_over_beverloo"), "of Beverloo's rate"),
-    Experiment("Void fraction of settled sand, 0.405 where the bulk density of 1530 kg/m3 gives 0.423",
-               "what loosens a bed that rains?",
-               variants("fixed_bed_settling", "thesis/fixed_bed_settling.yaml", {}, (
-                   ("stiff as the thesis's", "50MPa", {"materials.sand.young_modulus": "50 MPa", "materials.plexiglass.young_modulus": "50 MPa"}),
-                   ("friction 0.8 in place of 0.49", "rough", {f"{SAND}.contact.friction": "0.8"}),
-                   ("rolling friction 0.6 in place of 0.3", "rolling", {f"{SAND}.rolling.friction": "0.6"}),
-                   ("restitution 0.3 in place of 0.9", "inelastic", {f"{SAND}.contact.restitution": "0.3"}))), void_fraction, ""),
     Experiment("Periodic containers, 3 to 5 deg below the thesis's", "stiffness, rolling or time?",
                variants("container_periodic", "thesis/container_periodic.yaml", {"time.end": "0.9 s", **SOFT}, (
                    ("stiff as the thesis's", "50MPa", {"materials.sand.young_modulus": "50 MPa"}),
@@ -194,24 +186,24 @@ EXPERIMENTS = (
                    ("floats at 0.528 m/s, down within 1 s", "violent", "0.528 m/s", {}),
                    ("gentle, restitution 0.3 in place of 0.9", "inelastic", "0.35 m/s", {f"{SAND}.contact.restitution": "0.3"}),
                    ("floats at 0.35 m/s, down within 4 s", "slow", "0.35 m/s", {
-                       "domain.boundaries.bottom.air.times": "[0.15, 0.4, 4.4 s]", "time.end": "4.45 s",
+                       f"{bed.AIR}.times": "[0.15, 0.4, 4.4 s]", "time.end": "4.45 s",
                        "sensors.height.steady_after": "4.4 s"}),
                    ("floats at 0.528 m/s, down within 1 s, cells of 2.5 mm in place of 5", "fine", "0.528 m/s", {"fluid.cells": "[2, 1, 64]"}),
                    ("gentle, coupled four times as often", "coupled", "0.35 m/s", {"time.fluid_step": "0.05 ms"}))),
                bed_void_fraction(0.826e-3, 6e-3 * 3e-3), "at rest"),
     Experiment("The poured bed at 20 l/min, rising, where 6.0 mbar are measured", "does it matter how far it fell?",
-               (("filled 157 mm high", Plan(RAMP, RAMP_FILE, bed.SOFT)),
-                ("filled 240 mm high", Plan(f"{RAMP}_high", RAMP_FILE, {**bed.SOFT, "emitters.sand.max": "[20, 3, 240 mm]", "time.end": "0.5 s"}))),
+               (("filled 157 mm high", column_of(bed.RAMP)),
+                ("filled 240 mm high", Plan(f"{bed.RAMP}_high", "thesis/fluidised_bed_ramp.yaml", {**bed.SOFT, "emitters.sand.max": "[20, 3, 240 mm]", "time.end": "0.5 s"}))),
                lambda run: bed.drop_at(run, 20, 0.2, 0.5, bed.HALF_SPACING), "mbar"),
     Experiment("The floating bed, which carries its weight of 15.0 mbar where 15.4 to 15.6 are measured at 65 to 75 l/min",
                "do walls that drag it down make the difference?",
-               of_study("fluidised_bed_sides", ("periodic", "periodic 0.389 m/s"), ("front and back walls, 3 mm apart", "walls 0.389 m/s"),
-                        extra=bed.SOFT), figure("drop", "pressure_drop", 0.01), "mbar at 70 l/min"),
-    Experiment("The vessel's bed at 30 l/min, falling, 12 % below the measured pressure", "walls, coarse grains, or the sand?", BEDS,
+               (("periodic", column_of(bed.FALLING)), ("front and back walls, 15 mm apart", fluidised_studies.WALLS_AT_70)),
+               lambda run: bed.changing_drop(run, 70) if run.name in bed.CHANGING else figure("drop", "pressure_drop", 0.01)(run), "mbar at 70 l/min"),
+    Experiment("The vessel's bed at 30 l/min, falling, 12 % below the measured pressure", "walls, coarse grains, or the sand?", beds(bed.DEFLUIDISATION),
                drop_falling_at(30), "mbar"),
-    Experiment("The same at 80 l/min, 5 % below", "walls, coarse grains, or the sand?", BEDS, drop_falling_at(80), "mbar"),
+    Experiment("The same at 80 l/min, 5 % below", "walls, coarse grains, or the sand?", beds(bed.FALLING), drop_falling_at(80), "mbar"),
     Experiment("The void fraction of the vessel's bed at rest, where the thesis names 0.435 to 0.445", "walls, coarse grains, or the sand?",
-               BEDS, void_fraction_of_beds, ""),
+               (*beds(bed.DEFLUIDISATION), ("the same, which slugs at 95 l/min before", column_of(bed.FALLING))), void_fraction_of_beds, ""),
     Experiment("Layers that hang above the fluidised column", "do cells of half the height let them fall?",
                variants("fluidised_bed_column_5", "thesis/fluidised_bed_column.yaml",
                         {"materials.sand.young_modulus": "5 MPa", "materials.plexiglass.young_modulus": "5 MPa"},

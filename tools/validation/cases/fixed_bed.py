@@ -25,7 +25,7 @@ def later(runs):
     if not height:
         return []
     file = json.dumps({"model": "file", "material": "sand", "with_velocities": False, "allowed_overlap": 0.2,
-                       "file": str(runs.folder / "fixed_bed_settling" / "results.h5")})
+                       "file": "$RUNS/fixed_bed_settling/results.h5"})
     return plans_of("sand", {"domain.max": f"[0.003, 0.003, {2.5 * height[0]:.6g}]", "emitters.sand": file})
 
 

@@ -11,26 +11,38 @@ STUDIES = ("fluidised_bed_cells", "fluidised_bed_restitution", "fluidised_bed_dr
            "fluidised_bed_rolling", "fluidised_bed_depth_cells")
 
 
+WALLS_AT_70 = Plan("fluidised_bed_walls_70_5", "thesis/fluidised_bed_depth.yaml", {
+    **SOFT, "time.end": "1.4 s", "sensors.drop.steady_after": "0.7 s", "sensors.height.steady_after": "0.7 s", f"{bed.AIR}.speed": "0.389 m/s",
+    f"{bed.AIR}.times": "[0.2, 0.5, 2 s]", f"{bed.AIR}.factors": "[0, 1, 1]"})
+
+
 def plans():
     return [*(Plan(f"fluidised_bed_{height}mm_5", f"thesis/fluidised_bed_{height}mm.yaml", SOFT) for height in (150, 200, 250)),
-            *(Plan(f"fluidised_bed_{way}_5", f"thesis/fluidised_bed_{way}.yaml", SOFT) for way in ("ramp", "falling")),
-            *(plan for study in STUDIES for plan in study_points.plans(study, SOFT))]
+            *(Plan(f"fluidised_bed_{way}_5", f"thesis/fluidised_bed_{way}.yaml", SOFT) for way in ("ramp", "falling", "defluidisation")),
+            *(point(study, label) for study in STUDIES for label, _ in study_points.points(study_points.read(study))), WALLS_AT_70]
+
+
+def point(study, label):
+    """A point of a study as it is run: in soft sand, and a column at rest as it has come to rest."""
+    settings = dict(study_points.points(study_points.read(study)))[label]
+    is_at_rest = study in ("fluidised_bed_cells", "fluidised_bed_drag") and settings[f"{bed.AIR}.speed"] == "0.167 m/s"
+    return study_points.plan_of(study, label, settings, bed.AT_REST if is_at_rest else SOFT)
 
 
 def fill(page, runs):
     for study in STUDIES:
         text = study_points.read(study)
-        for label, settings in study_points.points(text):
-            run = runs[study_points.plan_of(study, label, settings, SOFT).name]
+        for label, _ in study_points.points(text):
+            run = runs[point(study, label).name]
             for name, given in text["measure"].items():
                 page.add(f"{study}, {label}: {name} [{given['unit']}]", study_points.measured(run, given),
                          "[thesis](thesis.md)", why="judged beside the thesis's model on that page")
-    rising, falling = runs["fluidised_bed_ramp_5"], runs["fluidised_bed_falling_5"]
     for litres, up, down in ((20, 6.00, 5.40), (30, 8.93, 8.20), (40, 12.13, 10.93), (50, 14.47, 13.40), (75, 15.60, 15.00)):
-        for run, text, during, measured in ((rising, "rising", bed.RISING, up), (falling, "falling", bed.FALLING, down)):
-            page.add(f"ramp, {text}: pressure drop at {litres} l/min [mbar]", bed.drop_at(run, litres, *during, bed.HALF_SPACING),
+        for name, text, measured in ((bed.RAMP, "rising", up), (bed.falling_at(litres), "falling", down)):
+            page.add(f"ramp, {text}: pressure drop at {litres} l/min [mbar]", bed.changing_drop(runs[name], litres),
                      f"{measured:.2f} (measured)", why="no band is agreed for a ramp")
-    bed.draw(page, [rising, falling], {rising.name: bed.RISING, falling.name: bed.FALLING})
+    bed.draw(page, [runs[name] for name in bed.CHANGING])
     page.note("Pressures of the ramps are means within 2.5 l/min, half of what lies between two measured flows; the pressure of a "
-              "floating column of 20 mm swings.")
+              "floating column of 20 mm swings. Those of the falling one are of a bed that has floated at "
+              f"{bed.GENTLY_FROM} l/min and no more; above that, of one that slugged at 95.")
     page.note("Columns of 20 x 3 mm (of 10 x 15 mm between walls for rolling friction and cells in depth), sand of 5 MPa.")

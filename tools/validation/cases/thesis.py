@@ -1,7 +1,10 @@
 """Every number and sign of chapters 3 to 6 of the thesis beside ours."""
 
+import operator
+
 from kept import Kept
 from page import FOLDER
+from runs import one_of_each
 from thesis import chapter_3, chapter_4, chapter_5, chapter_6, explained
 from thesis.row import AS_GOOD, BETTER, NO_TRUTH, NOT_RUN, WORSE
 
@@ -14,6 +17,7 @@ SOURCES = ("settling_a1", "air_to_water", "settling_b", "resolved", "rectangular
            "fluidised_vessel", "fluidised_studies", "belt", "dust", "hourglass_friction")
 CHAPTERS = {"3: one sphere settling": chapter_3, "4: hourglass, piles, container": chapter_4, "5: fluidised bed": chapter_5,
             "6: belt conveyor and transfer point": chapter_6}
+PLAN = operator.attrgetter("plan")
 HEAD = ("where", "what", "measured", "thesis", "ours", "verdict", "band", "parameters that differ", "runs", "hours of one core")
 
 
@@ -87,9 +91,9 @@ def summary(rows):
 
 def left(runs):
     """What has not been run, with its scenario and its cost: what the campaign's budget reaches in its order, and what not."""
-    missing = {run.name: run for run in runs if not runs.is_done(run)}
+    missing = {run.name: run for run in one_of_each((run for run in runs if not runs.is_done(run)), PLAN)}
     hours = {name: runs.engine.hours(run.plan) if runs.engine else None for name, run in missing.items()}
-    spent = sum(run.summary["cpu_s"] if run.is_finished() else runs.kept.cpu_s(run) for run in runs if runs.is_done(run)) / 3600
+    spent = sum(run.summary["cpu_s"] if run.is_finished() else runs.kept.cpu_s(run) for run in one_of_each(filter(runs.is_done, runs), PLAN)) / 3600
     within = campaign_list.within_budget(hours, spent, campaign_list.patterns())
     out = ["## What has not been run", "", f"The runs above took {spent:.3g} hours of one core of the campaign's budget of "
            f"{campaign_list.BUDGET_HOURS:g} (40 of two cores); costs are what `engine check` expects of this machine, on the safe side: runs that ended "
