@@ -172,11 +172,12 @@ EXPERIMENTS = (
                variants("dosta_drum", "thesis/dosta_drum.yaml", {"materials.m1.young_modulus": "10 MPa", "materials.m2.young_modulus": "5 MPa"},
                         tuple((f"seed {n}", f"seed_{n}", {"seed": str(n)}) for n in (2, 3))),
                first_maximum, "grains, first maximum"),
-    Experiment("How densely sand lies that was poured, where the bulk density of 1530 kg/m3 is 0.423", "how far it falls, and how it bounces?",
+    Experiment("How densely sand lies that was poured, where the bulk density of 1530 kg/m3 is 0.423", "how far it falls, how it bounces, or the air that it falls through?",
                tuple((text, poured_bed(name, settings)) for text, name, settings in (
                    ("filled 80 mm high, 2.8 times as high as it rests", "80", {}),
                    ("52 mm, 1.8 times", "52", {"emitters.sand.max": "[6, 3, 52 mm]"}),
                    ("47 mm, 1.6 times, as the columns are now", "47", {"emitters.sand.max": "[6, 3, 47 mm]"}),
+                   ("47 mm, without air", "47_dry", {"emitters.sand.max": "[6, 3, 47 mm]", "fluid": "none", "sensors.drop.enabled": "false"}),
                    ("80 mm, restitution 0.5 in place of 0.9", "80_half", {f"{SAND}.contact.restitution": "0.5"}),
                    ("80 mm, restitution 0.3", "80_inelastic", {f"{SAND}.contact.restitution": "0.3"}))),
                bed_void_fraction(0.826e-3, 6e-3 * 3e-3), "at rest"),

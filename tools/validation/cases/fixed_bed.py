@@ -54,7 +54,7 @@ def fill(page, runs):
                 add(page, runs[name_of(bed, cells, flow)], bed, cells, flow, state)
         draw(page, runs, bed, state)
     page.note("Slices of 4.7 x 3.1 mm (grains on a lattice) and 3 x 3 mm of the bed of 200 x 15 mm, periodic both ways; 8,988 "
-              "grains of the thesis's sand settled without air (Young's modulus 5 MPa), both frozen. Ergun's law is taken for "
+              "grains of the thesis's sand settled in air (Young's modulus 5 MPa), both frozen. Ergun's law is taken for "
               "each size by itself at the mean void fraction; of the settled bed's that varies from cell to cell.")
 
 
