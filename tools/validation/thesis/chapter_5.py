@@ -8,6 +8,7 @@ from thesis.row import Row, Sign
 
 COLUMN = "column of 20 x 3 mm, periodic, of the vessel's 200 x 15; E 5 MPa in place of 50"
 FLOATING = 56  # [l/min], minimum fluidisation as the thesis measures it
+AT_REST = f"{COLUMN}; begins with the bed that has come to rest"
 FINE = f"{COLUMN}; cells of 2.5 mm"
 WALLS = "10 mm of the vessel's 200 along x; E 5 MPa in place of 50"
 FLOATED_AT = {bed.DEFLUIDISATION: "63 l/min and no more", bed.FALLING: "95 l/min, where this column slugs"}
@@ -124,12 +125,13 @@ def tables(runs):
 
     for label, mm, model in (("dx_20_mm", 20, 5.12), ("dx_10_mm", 10, 6.72), ("dx_6_7_mm", 6.7, 7.51), ("dx_5_mm", 5, 8.10),
                              ("dx_4_mm", 4, 8.15), ("dx_3_3_mm", 3.3, 8.16)):
-        add("Table 5.7", f"30 l/min, cells of {mm} mm", drop_of(runs, "fluidised_bed_cells", label), 8.2, model)
+        add("Table 5.7", f"30 l/min, cells of {mm} mm", drop_of(runs, "fluidised_bed_cells", label), 8.2, model, AT_REST)
     for row in read_table("thesis_table_5_8_drag.csv"):
         speed = {"30": "0.167 m/s", "80": "0.444 m/s"}[row["flow_l_min"]]
         for law, column in (("gidaspow", "Gidaspow"), ("di_felice", "DiFelice"), ("koch_hill", "KochHill")):
             add("Table 5.8", f"{row['flow_l_min']} l/min, {law}", drop_of(runs, "fluidised_bed_drag", f"{law} {speed}"),
-                float(row["dp_exp_mbar"]), float(row[f"dp_{column}_mbar"]))
+                float(row["dp_exp_mbar"]), float(row[f"dp_{column}_mbar"]),
+                AT_REST if row["flow_l_min"] == "30" else COLUMN)
     for row in read_table("thesis_table_5_9_boundary.csv"):
         litres, measured = int(row["flow_l_min"]), float(row["dp_exp_mbar"])
         add("Table 5.9", f"{litres} l/min, walls", beside_walls(runs, litres), measured, float(row["dp_wall_mbar"]), WALLS)
