@@ -35,7 +35,7 @@ def fluidisation(sizes, solids):
 
 RAMP, FALLING, DEFLUIDISATION = "fluidised_bed_ramp_5", "fluidised_bed_falling_5", "fluidised_bed_defluidisation_5"
 # While the flow rises or falls [s]: fluidised_bed_ramp.yaml, fluidised_bed_falling.yaml, fluidised_bed_defluidisation.yaml.
-CHANGING = {RAMP: (0.2, 3.4), FALLING: (0.5, 3.6), DEFLUIDISATION: (0.8, 2.8)}
+CHANGING = {RAMP: (0.2, 3.4), FALLING: (0.5, 3.6), DEFLUIDISATION: (0.6, 3.3)}
 # The flow [l/min] from which the third of them falls.
 GENTLY_FROM = 63
 # Half of what lies between two measured flows [l/min]: all of a pressure that swings that is nearest to one.
@@ -65,7 +65,7 @@ def changing_drop(run, litres):
 
 
 def falling_at(litres):
-    """The run that tells of a flow while it falls: slugs of a column of 20 mm pack it, so the bed that comes to rest is one without."""
+    """The run that tells of a flow while it falls: the one that takes its time where the bed comes to rest, of all flows that it has."""
     return DEFLUIDISATION if litres < GENTLY_FROM else FALLING
 
 

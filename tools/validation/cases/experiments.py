@@ -122,6 +122,10 @@ def beds(column):
     return (*VESSELS, ("the sand's own grains, a periodic column", column_of(column)))
 
 
+HURRIED = Plan(f"{bed.DEFLUIDISATION}_hurried", "thesis/fluidised_bed_defluidisation.yaml", {
+    **bed.SOFT, "time.end": "2.85 s", f"{bed.AIR}.times": "[0.2, 0.5, 0.8, 2.4, 2.8 s]", f"{bed.AIR}.factors": "[0, 1, 1, 0.762, 0]",
+    "sensors.u_mf.after": "0.8 s"})
+
 EXPERIMENTS = (
     Experiment("A1 by the centre of the grain, 18 % too slow", "its own disturbance?",
                of_study("settling_a1_voidage", ("as it fails", "centre False"), ("own disturbance taken off", "centre True")),
@@ -192,6 +196,11 @@ EXPERIMENTS = (
                    ("floats at 0.528 m/s, down within 1 s, cells of 2.5 mm in place of 5", "fine", "0.528 m/s", {"fluid.cells": "[2, 1, 64]"}),
                    ("gentle, coupled four times as often", "coupled", "0.35 m/s", {"time.fluid_step": "0.05 ms"}))),
                bed_void_fraction(0.826e-3, 6e-3 * 3e-3), "at rest"),
+    Experiment("How densely the column of 100 mm lies that has floated", "what it does before, or how fast the flow passes where it comes to rest?",
+               (("floats at 95 l/min, where it slugs; 1.9 s from 70 to 48 l/min, 0.4 s to nothing", column_of(bed.FALLING)),
+                ("floats at 63 l/min; 1.6 s to 48, 0.4 s to nothing", HURRIED),
+                ("floats at 63 l/min; 2 s from 52 to 37, 0.4 s to nothing", column_of(bed.DEFLUIDISATION))),
+               bed_void_fraction(9.18e-3, 20e-3 * 3e-3), "at rest"),
     Experiment("The poured bed at 20 l/min, rising, where 6.0 mbar are measured", "does it matter how far it fell?",
                (("filled 157 mm high", column_of(bed.RAMP)),
                 ("filled 240 mm high", Plan(f"{bed.RAMP}_high", "thesis/fluidised_bed_ramp.yaml", {**bed.SOFT, "emitters.sand.max": "[20, 3, 240 mm]", "time.end": "0.5 s"}))),

@@ -43,6 +43,6 @@ def fill(page, runs):
                      f"{measured:.2f} (measured)", why="no band is agreed for a ramp")
     bed.draw(page, [runs[name] for name in bed.CHANGING])
     page.note("Pressures of the ramps are means within 2.5 l/min, half of what lies between two measured flows; the pressure of a "
-              "floating column of 20 mm swings. Those of the falling one are of a bed that has floated at "
-              f"{bed.GENTLY_FROM} l/min and no more; above that, of one that slugged at 95.")
+              "floating column of 20 mm swings. Those of the falling one are of a bed that takes 2 s from 52 to 37 l/min; above "
+              f"{bed.GENTLY_FROM} l/min of one that falls from 95.")
     page.note("Columns of 20 x 3 mm (of 10 x 15 mm between walls for rolling friction and cells in depth), sand of 5 MPa.")

@@ -11,7 +11,7 @@ FLOATING = 56  # [l/min], minimum fluidisation as the thesis measures it
 AT_REST = f"{COLUMN}; begins with the bed that has come to rest"
 FINE = f"{COLUMN}; cells of 2.5 mm"
 WALLS = "10 mm of the vessel's 200 along x; E 5 MPa in place of 50"
-FLOATED_AT = {bed.DEFLUIDISATION: "63 l/min and no more", bed.FALLING: "95 l/min, where this column slugs"}
+FLOATED_AT = {bed.DEFLUIDISATION: "63 l/min", bed.FALLING: "95 l/min, where this column slugs"}
 NO_LIMIT = "the thesis names none for pressures"
 
 
@@ -53,8 +53,7 @@ def falling(runs):
 
 
 def ramp(runs):
-    """Every flow of Table A.4, on ramps that rise from rest and fall back to it, in a few seconds each; of the falling ones the bed
-    that has not slugged tells of all flows that it has seen."""
+    """Every flow of Table A.4, on ramps that rise from rest and fall back to it, in a few seconds each."""
     out = []
     for row in read_table("thesis_bed_pressure_100mm.csv"):
         litres = float(row["air_flow_l_min"])

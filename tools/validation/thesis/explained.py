@@ -17,10 +17,10 @@ EXPERIMENT_OF = {
     r"container, W/D \d+, walls": ("The container of 24 widths",),
     r"container, W/D \d+, periodic": ("Periodic containers",),
     r"100 mm, falling, 80 l/min": ("The same at 80 l/min", "The void fraction of the vessel's bed"),
-    r"100 mm, falling, ramp, ([1-4]\d|\d|5[0-4])(\.\d+)? l/min": ("How densely a column lies",),
+    r"100 mm, falling, ramp, ([1-4]\d|\d|5[0-4])(\.\d+)? l/min": ("How densely a column lies", "How densely the column of 100 mm lies"),
     r"100 mm, falling, ramp, ": ("The floating bed",),
     r"100 mm, falling, ": ("The vessel's bed at 30 l/min", "The void fraction of the vessel's bed"),
-    r"penetration": ("How densely a column lies",),
+    r"penetration": ("How densely a column lies", "How densely the column of 100 mm lies"),
     r"100 mm, rising, ([1-4]\d|\d)(\.\d+)? l/min": ("The poured bed at 20", "How densely sand lies"),
     r"100 mm, rising, ": ("The floating bed",)}
 
