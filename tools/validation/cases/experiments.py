@@ -1,11 +1,12 @@
 """What fails on the other pages, and the experiments to it: one thing changed at a time beside the run that fails."""
 
 import dataclasses
+import math
 
 import bed
 import study_points
 from bed import SAND_DENSITY
-from cases import fluidised_studies, fluidised_vessel, rectangular_container, resolved, settling_b
+from cases import belt, fluidised_studies, fluidised_vessel, rectangular_container, resolved, settling_b
 from runs import Plan
 
 TITLE = "What fails, and the experiments to it"
@@ -31,6 +32,11 @@ def figure(sensor, name, scale=1.0):
         found = run.figure(sensor, name)
         return found and (scale * found[0], scale * (found[1] or 0.0))
     return of
+
+
+def width_140(run):
+    outer, inner = (run.figure("stream", f"drop_140_mm/quantile_{percent}") for percent in (95, 5))
+    return outer and inner and (1e3 * (outer[0] - inner[0]), 1e3 * math.hypot(outer[1] or 0.0, inner[1] or 0.0))
 
 
 def first_maximum(run):
@@ -126,6 +132,14 @@ HURRIED = Plan(f"{bed.DEFLUIDISATION}_hurried", "thesis/fluidised_bed_defluidisa
     **bed.SOFT, "time.end": "2.85 s", f"{bed.AIR}.times": "[0.2, 0.5, 0.8, 2.4, 2.8 s]", f"{bed.AIR}.factors": "[0, 1, 1, 0.762, 0]",
     "sensors.u_mf.after": "0.8 s"})
 
+# Densities of Table 6.6 at its mass flow, as many grains as in its base, and without air.
+DENSITIES = (*of_study("table_6_6", ("1500 kg/m3", "rho_1500"), ("2650 kg/m3", "base"), ("3000 kg/m3", "rho_3000"), extra=belt.TO_ONE_SECOND),
+             *((text, Plan(f"table_6_6_rho_{name}", "transfer_point.yaml", {"materials.sand.density": density, **settings, **belt.TO_ONE_SECOND}))
+               for text, name, density, settings in (
+                   ("1500 kg/m3, as many grains as at 2650", "1500_as_many", "1500", {"emitters.feed.mass_flow": "3.396 g/s"}),
+                   ("3000 kg/m3, as many grains as at 2650", "3000_as_many", "3000", {"emitters.feed.mass_flow": "6.792 g/s"}),
+                   ("1500 kg/m3, without air", "1500_dry", "1500", {"emitters.feed.velocity": "[0, 0, -0.2 m/s]", "fluid": "none"}))))
+
 EXPERIMENTS = (
     Experiment("A1 by the centre of the grain, 18 % too slow", "its own disturbance?",
                of_study("settling_a1_voidage", ("as it fails", "centre False"), ("own disturbance taken off", "centre True")),
@@ -214,6 +228,14 @@ EXPERIMENTS = (
     Experiment("The same at 80 l/min, 5 % below", "walls, coarse grains, or the sand?", beds(bed.FALLING), drop_falling_at(80), "mbar"),
     Experiment("The void fraction of the vessel's bed at rest, where the thesis names 0.435 to 0.445", "walls, coarse grains, or the sand?",
                (*beds(bed.DEFLUIDISATION), ("the same, which slugs at 95 l/min before", column_of(bed.FALLING))), void_fraction_of_beds, ""),
+    Experiment("Light grains, which the thesis sees go less far", "the air, or how many there are at 6 g/s?", DENSITIES,
+               figure("stream", "drop_140_mm/median", 1e3), "mm, median 140 mm below the belt"),
+    Experiment("Light grains, which the thesis sees spread wider", "the air, or how many there are at 6 g/s?", DENSITIES, width_140,
+               "mm, from 5 to 95 % of the stream 140 mm below the belt"),
+    Experiment("The eddies, which the thesis sees vanish with +0.5 m/s", "the lid, or the wind?",
+               of_study("table_6_6", ("still air", "base"), ("lid and air at +0.5 m/s", "lid_plus_0.5"),
+                        ("wind of +0.5 m/s through the side", "wind_plus_0.5"), extra=belt.TO_ONE_SECOND),
+               figure("suction", "place_1/pressure_over_density"), "m2/s2, lowest"),
     Experiment("Layers that hang above the fluidised column", "do cells of half the height let them fall?",
                variants("fluidised_bed_column_5", "thesis/fluidised_bed_column.yaml",
                         {"materials.sand.young_modulus": "5 MPa", "materials.plexiglass.young_modulus": "5 MPa"},
