@@ -207,6 +207,9 @@ EXPERIMENTS = (
                    ("floats at 0.35 m/s, down within 4 s", "slow", "0.35 m/s", {
                        f"{bed.AIR}.times": "[0.15, 0.4, 4.4 s]", "time.end": "4.45 s",
                        "sensors.height.steady_after": "4.4 s"}),
+                   ("floats at 0.35 m/s, down within 12 s", "slower", "0.35 m/s", {
+                       f"{bed.AIR}.times": "[0.15, 0.4, 12.4 s]", "time.end": "12.45 s",
+                       "sensors.height.steady_after": "12.4 s"}),
                    ("floats at 0.528 m/s, down within 1 s, cells of 2.5 mm in place of 5", "fine", "0.528 m/s", {"fluid.cells": "[2, 1, 64]"}),
                    ("gentle, coupled four times as often", "coupled", "0.35 m/s", {"time.fluid_step": "0.05 ms"}))),
                bed_void_fraction(0.826e-3, 6e-3 * 3e-3), "at rest"),
