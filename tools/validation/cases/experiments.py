@@ -132,6 +132,8 @@ HURRIED = Plan(f"{bed.DEFLUIDISATION}_hurried", "thesis/fluidised_bed_defluidisa
     **bed.SOFT, "time.end": "2.85 s", f"{bed.AIR}.times": "[0.2, 0.5, 0.8, 2.4, 2.8 s]", f"{bed.AIR}.factors": "[0, 1, 1, 0.762, 0]",
     "sensors.u_mf.after": "0.8 s"})
 
+STIFF = {name: "50 MPa" for name in bed.SOFT}
+SLOWLY = {f"{bed.AIR}.times": "[0.15, 0.4, 4.4 s]", "time.end": "4.45 s", "sensors.height.steady_after": "4.4 s"}
 # Densities of Table 6.6 at its mass flow, as many grains as in its base, and without air.
 DENSITIES = (*of_study("table_6_6", ("1500 kg/m3", "rho_1500"), ("2650 kg/m3", "base"), ("3000 kg/m3", "rho_3000"), extra=belt.TO_ONE_SECOND),
              *((text, Plan(f"table_6_6_rho_{name}", "transfer_point.yaml", {"materials.sand.density": density, **settings, **belt.TO_ONE_SECOND}))
@@ -199,24 +201,25 @@ EXPERIMENTS = (
                    ("80 mm, restitution 0.5 in place of 0.9", "80_half", {f"{SAND}.contact.restitution": "0.5"}),
                    ("80 mm, restitution 0.3", "80_inelastic", {f"{SAND}.contact.restitution": "0.3"}))),
                bed_void_fraction(0.826e-3, 6e-3 * 3e-3), "at rest"),
-    Experiment("How densely a column lies that has floated", "how it collapses, or the cells that see it?",
+    Experiment("How densely a column lies that has floated", "how it collapses, the sand that does, or the cells that see it?",
                tuple((text, small_bed(name, *settings)) for text, name, *settings in (
                    ("floats at 0.35 m/s, down within 1 s", "gentle", "0.35 m/s", {}),
                    ("floats at 0.528 m/s, down within 1 s", "violent", "0.528 m/s", {}),
+                   ("gentle, 50 MPa in place of 5", "stiff", "0.35 m/s", STIFF),
                    ("gentle, restitution 0.3 in place of 0.9", "inelastic", "0.35 m/s", {f"{SAND}.contact.restitution": "0.3"}),
-                   ("floats at 0.35 m/s, down within 4 s", "slow", "0.35 m/s", {
-                       f"{bed.AIR}.times": "[0.15, 0.4, 4.4 s]", "time.end": "4.45 s",
-                       "sensors.height.steady_after": "4.4 s"}),
+                   ("floats at 0.35 m/s, down within 4 s", "slow", "0.35 m/s", SLOWLY),
+                   ("the same, 50 MPa in place of 5", "slow_stiff", "0.35 m/s", {**SLOWLY, **STIFF}),
                    ("floats at 0.35 m/s, down within 12 s", "slower", "0.35 m/s", {
                        f"{bed.AIR}.times": "[0.15, 0.4, 12.4 s]", "time.end": "12.45 s",
                        "sensors.height.steady_after": "12.4 s"}),
                    ("floats at 0.528 m/s, down within 1 s, cells of 2.5 mm in place of 5", "fine", "0.528 m/s", {"fluid.cells": "[2, 1, 64]"}),
                    ("gentle, coupled four times as often", "coupled", "0.35 m/s", {"time.fluid_step": "0.05 ms"}))),
                bed_void_fraction(0.826e-3, 6e-3 * 3e-3), "at rest"),
-    Experiment("How densely the column of 100 mm lies that has floated", "what it does before, or how fast the flow passes where it comes to rest?",
+    Experiment("How densely the column of 100 mm lies that has floated", "what it does before, how fast the flow passes where it comes to rest, or the soft sand?",
                (("floats at 95 l/min, where it slugs; 1.9 s from 70 to 48 l/min, 0.4 s to nothing", column_of(bed.FALLING)),
                 ("floats at 63 l/min; 1.6 s to 48, 0.4 s to nothing", HURRIED),
-                ("floats at 63 l/min; 2 s from 52 to 37, 0.4 s to nothing", column_of(bed.DEFLUIDISATION))),
+                ("floats at 63 l/min; 2 s from 52 to 37, 0.4 s to nothing", column_of(bed.DEFLUIDISATION)),
+                ("the same, 50 MPa in place of 5", column_of("fluidised_bed_defluidisation_50"))),
                bed_void_fraction(9.18e-3, 20e-3 * 3e-3), "at rest"),
     Experiment("The poured bed at 20 l/min, rising, where 6.0 mbar are measured", "does it matter how far it fell?",
                (("filled 157 mm high", column_of(bed.RAMP)),

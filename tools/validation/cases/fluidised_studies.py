@@ -19,6 +19,7 @@ WALLS_AT_70 = Plan("fluidised_bed_walls_70_5", "thesis/fluidised_bed_depth.yaml"
 def plans():
     return [*(Plan(f"fluidised_bed_{height}mm_5", f"thesis/fluidised_bed_{height}mm.yaml", SOFT) for height in (150, 200, 250)),
             *(Plan(f"fluidised_bed_{way}_5", f"thesis/fluidised_bed_{way}.yaml", SOFT) for way in ("ramp", "falling", "defluidisation")),
+            Plan("fluidised_bed_defluidisation_50", "thesis/fluidised_bed_defluidisation.yaml"),
             *(point(study, label) for study in STUDIES for label, _ in study_points.points(study_points.read(study))), WALLS_AT_70]
 
 
