@@ -33,40 +33,48 @@ def fluidisation(sizes, solids):
     return low
 
 
-RAMP, FALLING, DEFLUIDISATION = "fluidised_bed_ramp_5", "fluidised_bed_falling_5", "fluidised_bed_defluidisation_5"
-# While the flow rises or falls [s]: fluidised_bed_ramp.yaml, fluidised_bed_falling.yaml, fluidised_bed_defluidisation.yaml.
-CHANGING = {RAMP: (0.2, 3.4), FALLING: (0.5, 3.6), DEFLUIDISATION: (0.6, 3.3)}
-# The flow [l/min] from which the third of them falls.
-GENTLY_FROM = 63
+# The column, poured, while its flow rises; the wide bed while it comes to rest, and while it floats.
+RAMP, WIDE, FLOATING = "fluidised_bed_ramp_5", "fluidised_bed_wide_5", "fluidised_bed_wide_floating_5"
+# The flow [l/min] above which the wide bed floats and takes its time.
+FLOATS_FROM = 62
+# Narrow columns that fall (docs/validation/experiments.md).
+FALLING, DEFLUIDISATION = "fluidised_bed_falling_5", "fluidised_bed_defluidisation_5"
+# While the flow rises or falls [s], in each one's scenario.
+CHANGING = {RAMP: (0.2, 3.4), WIDE: (0.8, 5.4), FLOATING: (1.3, 4.8), FALLING: (0.5, 3.6), DEFLUIDISATION: (0.6, 3.3)}
 # Half of what lies between two measured flows [l/min]: all of a pressure that swings that is nearest to one.
 HALF_SPACING = 2.5
 
 
-def drop_at(run, litres, since, until=1e9, within=1.0):
-    """Mean pressure drop [mbar] while the flow is `within` so many l/min of `litres` between two times [s]."""
+def while_at(run, litres, name, value, since, until=1e9, within=1.0):
+    """Mean of `value`, of a row of the series, while the flow is `within` so many l/min of `litres` between two times [s]."""
     def find():
-        rows = [row["drop/pressure_drop [Pa]"] / 100 for row in run.series()
+        rows = [value(row) for row in run.series()
                 if since < row["time [s]"] <= until and
                 abs(row["drop/superficial_velocity [m/s]"] * VESSEL_SECTION * LITRES_PER_MINUTE - litres) < within]
         return (sum(rows) / len(rows), None) if rows else None
-    return run.read_off("series", f"pressure_drop [mbar] within {within:g} of {litres:g} l/min, {since:g} to {until:g} s", find)
+    return run.read_off("series", f"{name} within {within:g} of {litres:g} l/min, {since:g} to {until:g} s", find)
 
 
-# Settings of a bed at rest: the one that the third of them leaves, as the measured one, whose flow has fallen.
+def drop_at(run, litres, since, until=1e9, within=1.0):
+    """Mean pressure drop [mbar]."""
+    return while_at(run, litres, "pressure_drop [mbar]", lambda row: row["drop/pressure_drop [Pa]"] / 100, since, until, within)
+
+
+# Settings of a bed at rest: the one that the wide bed leaves, as the measured one, whose flow has fallen.
 AT_REST = {**SOFT, f"{AIR}.times": "[0.05, 0.2, 2 s]", "time.end": "0.35 s", "sensors.drop.steady_after": "0.25 s",
            "sensors.height.steady_after": "0.25 s",
            "emitters.sand": json.dumps({"model": "file", "material": "sand", "with_velocities": False, "allowed_overlap": 0.2,
-                                        "file": f"$RUNS/{DEFLUIDISATION}/results.h5"})}
-
-
-def changing_drop(run, litres):
-    """drop_at of one of the three ramps, over half of what lies between two measured flows."""
-    return drop_at(run, litres, *CHANGING[run.name], HALF_SPACING)
+                                        "file": f"$RUNS/{WIDE}/results.h5"})}
 
 
 def falling_at(litres):
-    """The run that tells of a flow while it falls: the one that takes its time where the bed comes to rest, of all flows that it has."""
-    return DEFLUIDISATION if litres < GENTLY_FROM else FALLING
+    """The run that tells of a flow while it falls: of one at which the bed floats, what has bubbled long enough for a mean."""
+    return FLOATING if litres > FLOATS_FROM else WIDE
+
+
+def changing_drop(run, litres):
+    """drop_at of one of the ramps, over half of what lies between two measured flows."""
+    return drop_at(run, litres, *CHANGING[run.name], HALF_SPACING)
 
 
 def add_column(page, run, name, mass, section, has_friction=False):
@@ -80,7 +88,8 @@ def add_column(page, run, name, mass, section, has_friction=False):
              "0.311 (thesis, measured, 56 l/min), 0.286 (Ergun at 0.435)", low=0.250, high=0.333)
     page.add(f"{name}: the same in l/min of the whole vessel",
              by_pressure and (by_pressure[0] * VESSEL_SECTION * LITRES_PER_MINUTE, None), "56", low=45, high=60)
-    height = run.figure("height", "twice_centre_at_end")
+    # As it lies at 40 l/min, short of fluidisation: looser than when the flow is gone, for the sand is soft.
+    height = while_at(run, 40, "twice_centre [m]", lambda row: row["height/twice_centre [m]"], 1.0)
     over_law, law = None, "1"
     if by_pressure and height:
         solids = mass / SAND_DENSITY / section / height[0]

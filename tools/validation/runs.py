@@ -74,7 +74,7 @@ def one_of_each(runs, plan_of):
     return list(first.values())
 
 
-# Settings that leave a run's cost about as it is.
+# Settings that leave a run's cost about as it is; a speed does not: on a slow belt the grains lie many times as long and thick.
 CHEAP = ("seed", "interactions", "bodies", "frames", "sensors", "drag", "voidage", "coupling.correct", "domain.boundaries", "fluid_forces",
          "fluid.initial_velocity", "emitters.feed.velocity", "emitters.feed.min", "emitters.feed.max", "materials.sand.density")
 
@@ -120,7 +120,7 @@ class Engine:
     def hours(self, plan):
         """Hours of one core that `engine check` expects; None if it refuses the scenario."""
         # A check of a large grid takes seconds: runs that differ by what hardly changes the cost are asked for once.
-        counts = {k: v for k, v in plan.settings.items() if not k.startswith(CHEAP)}
+        counts = {k: v for k, v in plan.settings.items() if not k.startswith(CHEAP) or k.endswith(".speed")}
         like = Plan(plan.name, plan.scenario, counts)
         if self._told.get(like.shown()) is None:
             self._told[like.shown()] = self._ask_hours(plan)

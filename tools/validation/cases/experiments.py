@@ -2,8 +2,10 @@
 
 import dataclasses
 import math
+import statistics
 
 import bed
+import scatter
 import study_points
 from bed import SAND_DENSITY
 from cases import belt, fluidised_studies, fluidised_vessel, rectangular_container, resolved, settling_b
@@ -18,7 +20,8 @@ EXPLAINS = "an experiment: it explains and judges nothing"
 
 @dataclasses.dataclass(frozen=True)
 class Experiment:
-    """`varied`: (what is changed, plan) pairs, the run that fails first; figure: of a run, with its unit."""
+    """`varied`: (what is changed, plan) pairs, the run that fails first, or plans that differ by their seed alone in place of
+    one; figure: of a run, with its unit."""
 
     failure: str
     question: str
@@ -58,9 +61,13 @@ def bed_void_fraction(mass, section):
     return of
 
 
+# (mass [kg], section [m2]) of the beds.
+SECTIONS = {bed.FALLING: (9.18e-3, 20e-3 * 3e-3), bed.WIDE: (0.153, 100e-3 * 10e-3)}
+
+
 def void_fraction_of_beds(run):
-    """The vessel's, or the column's of the same sand."""
-    return bed_void_fraction(*((9.18e-3, 20e-3 * 3e-3) if run.name in bed.CHANGING else (0.459, bed.VESSEL_SECTION)))(run)
+    """The vessel's, or a part's of it."""
+    return bed_void_fraction(*SECTIONS.get(run.name, (0.459, bed.VESSEL_SECTION)))(run)
 
 
 def small_bed(name, speed, settings):
@@ -72,10 +79,30 @@ def small_bed(name, speed, settings):
         f"{bed.AIR}.factors": "[0, 1, 0]", **bed.SOFT, **settings})
 
 
+def small_beds(name, speed, settings):
+    """Of three seeds: one bed of so few grains lies by chance as it lies."""
+    return tuple(small_bed(f"{name}{end}", speed, {**settings, **seed})
+                 for end, seed in (("", {}), ("_seed_2", {"seed": "2"}), ("_seed_3", {"seed": "3"})))
+
+
 def poured_bed(name, settings):
     """The small bed, which is poured and never floats."""
     return small_bed(f"poured_{name}", "0.01 m/s", {
         f"{bed.AIR}.factors": "[0, 0, 0]", "time.end": "0.3 s", "sensors.height.steady_after": "0.25 s", **settings})
+
+
+def thin_layer(layers):
+    """5 mm of sand under 0.4 m/s, where 0.23 to 0.29 m/s fluidise it, in so many layers of cells on 60 mm."""
+    return Plan(f"fluidised_bed_layer_{layers}", "thesis/fluidised_bed_column.yaml", {
+        "domain.max": "[6, 6, 60 mm]", "fluid.cells": f"[2, 2, {layers}]", "emitters.sand.mass": "0.2754 g", "emitters.sand.max": "[6, 6, 58 mm]",
+        "sensors.drop.to": "[0, 0, 59 mm]", "sensors.u_mf.enabled": "false", "sensors.bubbles.enabled": "false", "references": "[]",
+        "time.end": "0.6 s", f"{bed.AIR}.speed": "0.4 m/s", f"{bed.AIR}.times": "[0.2, 0.25 s]", f"{bed.AIR}.factors": "[0, 1]", **bed.SOFT})
+
+
+def swing(run):
+    """Of the height [mm] while the flow stands, 0.3 s on."""
+    heights = [1e3 * row["height/twice_centre [m]"] for row in run.series() if row["time [s]"] > 0.3]
+    return (statistics.pstdev(heights), None) if heights else None
 
 
 def of_case(case, *shown):
@@ -115,23 +142,35 @@ def hole(diameter):
             "sensors.outlet.hole": f"{diameter} mm"}
 
 
-# The vessel's bed: the same sand, coarse grains or its own, walls or none.
-VESSELS = of_case(fluidised_vessel, ("coarse grains between walls, as it fails", "fluidised_bed_vessel_5"),
-                  ("coarse grains, front and back periodic", "fluidised_bed_vessel_5_periodic"))
+# The vessel's bed: coarser grains or finer, walls or none.
+VESSELS = of_case(fluidised_vessel, ("coarse grains that stand for 64, between walls, as it fails", "fluidised_bed_vessel_5"),
+                  ("coarse grains that stand for 64, front and back periodic", "fluidised_bed_vessel_5_periodic"))
 
 
-def column_of(name):
+def bed_of(name):
     return next(plan for plan in fluidised_studies.plans() if plan.name == name)
 
 
-def beds(column):
-    return (*VESSELS, ("the sand's own grains, a periodic column", column_of(column)))
-
-
+# Narrow columns of the sand's own grains that come to rest.
+SLUGGING, GENTLE = (Plan(name, f"thesis/{name.removesuffix('_5')}.yaml", bed.SOFT) for name in (bed.FALLING, bed.DEFLUIDISATION))
 HURRIED = Plan(f"{bed.DEFLUIDISATION}_hurried", "thesis/fluidised_bed_defluidisation.yaml", {
     **bed.SOFT, "time.end": "2.85 s", f"{bed.AIR}.times": "[0.2, 0.5, 0.8, 2.4, 2.8 s]", f"{bed.AIR}.factors": "[0, 1, 1, 0.762, 0]",
     "sensors.u_mf.after": "0.8 s"})
 
+
+FAST = Plan("fluidised_bed_wide_fast_5", "thesis/fluidised_bed_wide.yaml", {
+    **bed.SOFT, "time.end": "3.4 s", f"{bed.AIR}.times": "[0.2, 0.5, 0.8, 5.3 s]", f"{bed.AIR}.factors": "[0, 1, 1, 0]"})
+
+
+def coarse_bed(width):
+    """The vessel's bed, periodic on all sides, of another width [mm]."""
+    return Plan(f"fluidised_bed_coarse_{width}", fluidised_vessel.SCENARIO, {
+        **bed.SOFT, "time.output_every": "0.5 s", **{f"domain.boundaries.{side}": fluidised_vessel.PERIODIC for side in ("front", "back", "left", "right")},
+        "domain.max": f"[{width}, 15, 250 mm]", "emitters.sand.max": f"[{width}, 15, 240 mm]", "emitters.sand.mass": f"{2.295 * width:g} g",
+        "fluid.cells": f"[{width // 5}, 3, 50]", "sensors.bubbles.max": f"[{width}, 15, 200 mm]"})
+
+
+BEDS = (*VESSELS, ("coarse grains that stand for 27, periodic, 100 mm wide", bed_of(bed.WIDE)))
 STIFF = {name: "50 MPa" for name in bed.SOFT}
 
 
@@ -208,36 +247,46 @@ EXPERIMENTS = (
                    ("80 mm, restitution 0.3", "80_inelastic", {f"{SAND}.contact.restitution": "0.3"}))),
                bed_void_fraction(0.826e-3, 6e-3 * 3e-3), "at rest"),
     Experiment("How densely a column lies that has floated", "how it collapses, the sand that does, or the cells that see it?",
+               tuple((text, small_beds(name, *settings)) for text, name, *settings in (
+                   ("floats at 0.35 m/s, down within 1 s", "gentle", "0.35 m/s", {}),
+                   ("gentle, 50 MPa in place of 5", "stiff", "0.35 m/s", STIFF),
+                   ("gentle, restitution 0.3 in place of 0.9", "inelastic", "0.35 m/s", {f"{SAND}.contact.restitution": "0.3"}),
+                   ("floats at 0.35 m/s, down within 4 s", "slow", "0.35 m/s", let_down_until(4.4)))),
+               bed_void_fraction(0.826e-3, 6e-3 * 3e-3), "at rest, of three seeds"),
+    Experiment("The same in one small bed of each", "the pace, or the cells and steps that see it?",
                tuple((text, small_bed(name, *settings)) for text, name, *settings in (
                    ("floats at 0.35 m/s, down within 1 s", "gentle", "0.35 m/s", {}),
                    ("floats at 0.528 m/s, down within 1 s", "violent", "0.528 m/s", {}),
-                   ("gentle, 50 MPa in place of 5", "stiff", "0.35 m/s", STIFF),
-                   ("gentle, restitution 0.3 in place of 0.9", "inelastic", "0.35 m/s", {f"{SAND}.contact.restitution": "0.3"}),
-                   ("floats at 0.35 m/s, down within 4 s", "slow", "0.35 m/s", let_down_until(4.4)),
-                   ("the same, 50 MPa in place of 5", "slow_stiff", "0.35 m/s", {**let_down_until(4.4), **STIFF}),
+                   ("down within 4 s, 50 MPa in place of 5", "slow_stiff", "0.35 m/s", {**let_down_until(4.4), **STIFF}),
                    ("floats at 0.35 m/s, down within 12 s", "slower", "0.35 m/s", let_down_until(12.4)),
                    ("floats at 0.528 m/s, down within 1 s, cells of 2.5 mm in place of 5", "fine", "0.528 m/s", {"fluid.cells": "[2, 1, 64]"}),
                    ("gentle, coupled four times as often", "coupled", "0.35 m/s", {"time.fluid_step": "0.05 ms"}))),
                bed_void_fraction(0.826e-3, 6e-3 * 3e-3), "at rest"),
-    Experiment("How densely the column of 100 mm lies that has floated", "what it does before, how fast the flow passes where it comes to rest, or the soft sand?",
-               (("floats at 95 l/min, where it slugs; 1.9 s from 70 to 48 l/min, 0.4 s to nothing", column_of(bed.FALLING)),
+    Experiment("How densely a narrow column of 100 mm lies that has floated", "what it does before, or how fast the flow passes where it comes to rest?",
+               (("floats at 95 l/min, where it slugs; 1.9 s from 70 to 48 l/min, 0.4 s to nothing", SLUGGING),
                 ("floats at 63 l/min; 1.6 s to 48, 0.4 s to nothing", HURRIED),
-                ("floats at 63 l/min; 2 s from 52 to 37, 0.4 s to nothing", column_of(bed.DEFLUIDISATION)),
-                ("the same, 50 MPa in place of 5", column_of("fluidised_bed_defluidisation_50"))),
+                ("floats at 63 l/min; 2 s from 52 to 37, 0.4 s to nothing", GENTLE)),
                bed_void_fraction(9.18e-3, 20e-3 * 3e-3), "at rest"),
+    Experiment("A narrow bed at 50 l/min, falling, where 13.4 mbar are measured", "how wide it is, or how fast its flow falls?",
+               (*((f"{width} mm wide, by 10 l/min a second", coarse_bed(width)) for width in (20, 40, 60, 80, 100)),
+                ("200 mm, between side walls", VESSELS[1][1]), ("100 mm, finer grains", bed_of(bed.WIDE)), ("the same, by 21 l/min a second", FAST)),
+               lambda run: bed.drop_at(run, 50, 1.0), "mbar"),
     Experiment("The poured bed at 20 l/min, rising, where 6.0 mbar are measured", "does it matter how far it fell?",
-               (("filled 157 mm high", column_of(bed.RAMP)),
+               (("filled 157 mm high", bed_of(bed.RAMP)),
                 ("filled 240 mm high", Plan(f"{bed.RAMP}_high", "thesis/fluidised_bed_ramp.yaml", {**bed.SOFT, "emitters.sand.max": "[20, 3, 240 mm]", "time.end": "0.5 s"}))),
                lambda run: bed.drop_at(run, 20, 0.2, 0.5, bed.HALF_SPACING), "mbar"),
     Experiment("The floating bed, which carries its weight of 15.0 mbar where 15.4 to 15.6 are measured at 65 to 75 l/min",
                "do walls that drag it down make the difference?",
-               (("periodic", column_of(bed.FALLING)), ("front and back walls, 15 mm apart", fluidised_studies.WALLS_AT_70)),
-               lambda run: bed.changing_drop(run, 70) if run.name in bed.CHANGING else figure("drop", "pressure_drop", 0.01)(run), "mbar at 70 l/min"),
-    Experiment("The vessel's bed at 30 l/min, falling, 12 % below the measured pressure", "walls, coarse grains, or the sand?", beds(bed.DEFLUIDISATION),
-               drop_falling_at(30), "mbar"),
-    Experiment("The same at 80 l/min, 5 % below", "walls, coarse grains, or the sand?", beds(bed.FALLING), drop_falling_at(80), "mbar"),
-    Experiment("The void fraction of the vessel's bed at rest, where the thesis names 0.435 to 0.445", "walls, coarse grains, or the sand?",
-               (*beds(bed.DEFLUIDISATION), ("the same, which slugs at 95 l/min before", column_of(bed.FALLING))), void_fraction_of_beds, ""),
+               (("periodic", bed_of(bed.FLOATING)), *of_study("fluidised_bed_sides", ("front and back walls, 15 mm apart", "walls"), extra=bed.SOFT)),
+               lambda run: bed.drop_at(run, 70, *bed.CHANGING[run.name if run.name in bed.CHANGING else bed.WIDE], bed.HALF_SPACING), "mbar at 70 l/min"),
+    Experiment("Minimum fluidisation by the height, far above the 50 l/min that are measured", "the flow that the line of the floating bed begins with?",
+               (("100 mm wide and deep, from 95 l/min", bed_of(bed.WIDE)), ("the vessel, from 80", VESSELS[1][1]),
+                ("the vessel, 150 mm deep, from 70", bed_of("fluidised_bed_150mm_5"))),
+               figure("u_mf", "falling/by_height", bed.VESSEL_SECTION * bed.LITRES_PER_MINUTE), "l/min"),
+    Experiment("The vessel's bed at 30 l/min, falling, 12 % below the measured pressure", "walls, or coarse grains?", BEDS, drop_falling_at(30), "mbar"),
+    Experiment("The same at 80 l/min, 5 % below", "walls, or coarse grains?", BEDS, drop_falling_at(80), "mbar"),
+    Experiment("The void fraction of the vessel's bed at rest, where the thesis names 0.435 to 0.445", "walls, or coarse grains?",
+               (*BEDS, ("a narrow column of the sand's own grains", SLUGGING)), void_fraction_of_beds, ""),
     Experiment("Light grains, which the thesis sees go less far", "the air, or how many there are at 6 g/s?", DENSITIES,
                figure("stream", "drop_140_mm/median", 1e3), "mm, median 140 mm below the belt"),
     Experiment("Light grains, which the thesis sees spread wider", "the air, or how many there are at 6 g/s?", DENSITIES, width_140,
@@ -246,20 +295,29 @@ EXPERIMENTS = (
                of_study("table_6_6", ("still air", "base"), ("lid and air at +0.5 m/s", "lid_plus_0.5"),
                         ("wind of +0.5 m/s through the side", "wind_plus_0.5"), extra=belt.TO_ONE_SECOND),
                figure("suction", "place_1/pressure_over_density"), "m2/s2, lowest"),
-    Experiment("Layers that hang above the fluidised column", "do cells of half the height let them fall?",
-               variants("fluidised_bed_column_5", "thesis/fluidised_bed_column.yaml",
-                        {"materials.sand.young_modulus": "5 MPa", "materials.plexiglass.young_modulus": "5 MPa"},
-                        (("cells of 2.5 mm in height", "thin", {"fluid.cells": "[4, 1, 100]"}),)),
-               figure("height", "twice_centre_at_end", 1e3), "mm at the end"))
+    Experiment("A layer of 5 mm that hangs in the air that would fluidise it", "do thinner cells see it move?",
+               (("cells of 5 mm, as it fails", thin_layer(12)), ("of 2.5 mm", thin_layer(24)), ("of 1.25 mm", thin_layer(48))),
+               swing, "mm, standard deviation of its height"))
+
+
+def each_of(varied):
+    return varied if isinstance(varied, tuple) else (varied,)
 
 
 def plans():
-    return [plan for experiment in EXPERIMENTS for _, plan in experiment.varied]
+    return [plan for experiment in EXPERIMENTS for _, varied in experiment.varied for plan in each_of(varied)]
+
+
+def found(experiment, varied, runs):
+    """The figure of a run, or the mean over those of several seeds, of which all have to be there."""
+    figures = [experiment.figure(runs[plan.name]) for plan in each_of(varied)]
+    if None in figures or len(figures) == 1:
+        return None if None in figures else figures[0]
+    return scatter.mean_of([value for value, _ in figures])
 
 
 def fill(page, runs):
     for experiment in EXPERIMENTS:
-        for text, plan in experiment.varied:
-            page.add(f"{experiment.failure}: {text}", experiment.figure(runs[plan.name]), experiment.question, unit=experiment.unit,
-                     why=EXPLAINS)
+        for text, varied in experiment.varied:
+            page.add(f"{experiment.failure}: {text}", found(experiment, varied, runs), experiment.question, unit=experiment.unit, why=EXPLAINS)
     page.note("Each run beside the first of its group differs by what its row names and by nothing else.")

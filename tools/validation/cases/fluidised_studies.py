@@ -11,20 +11,17 @@ STUDIES = ("fluidised_bed_cells", "fluidised_bed_restitution", "fluidised_bed_dr
            "fluidised_bed_rolling", "fluidised_bed_depth_cells")
 
 
-WALLS_AT_70 = Plan("fluidised_bed_walls_70_5", "thesis/fluidised_bed_depth.yaml", {
-    **SOFT, "time.end": "1.4 s", "sensors.drop.steady_after": "0.7 s", "sensors.height.steady_after": "0.7 s", f"{bed.AIR}.speed": "0.389 m/s",
-    f"{bed.AIR}.times": "[0.2, 0.5, 2 s]", f"{bed.AIR}.factors": "[0, 1, 1]"})
-
-
 def plans():
     return [*(Plan(f"fluidised_bed_{height}mm_5", f"thesis/fluidised_bed_{height}mm.yaml", SOFT) for height in (150, 200, 250)),
-            *(Plan(f"fluidised_bed_{way}_5", f"thesis/fluidised_bed_{way}.yaml", SOFT) for way in ("ramp", "falling", "defluidisation")),
-            Plan("fluidised_bed_defluidisation_50", "thesis/fluidised_bed_defluidisation.yaml"),
-            *(point(study, label) for study in STUDIES for label, _ in study_points.points(study_points.read(study))), WALLS_AT_70]
+            *(Plan(f"fluidised_bed_{way}_5", f"thesis/fluidised_bed_{way}.yaml", SOFT) for way in ("ramp", "wide")),
+            Plan(bed.FLOATING, "thesis/fluidised_bed_wide.yaml", {
+                **SOFT, "time.end": "4.8 s", f"{bed.AIR}.times": "[0.2, 0.5, 1.3, 4.8 s]", f"{bed.AIR}.factors": "[0, 1, 1, 0.632]",
+                "sensors.u_mf.enabled": "false", "references": "[]"}),
+            *(point(study, label) for study in STUDIES for label, _ in study_points.points(study_points.read(study)))]
 
 
 def point(study, label):
-    """A point of a study as it is run: in soft sand, and a column at rest as it has come to rest."""
+    """A point of a study as it is run: in soft sand, and a bed at rest as it has come to rest."""
     settings = dict(study_points.points(study_points.read(study)))[label]
     is_at_rest = study in ("fluidised_bed_cells", "fluidised_bed_drag") and settings[f"{bed.AIR}.speed"] == "0.167 m/s"
     return study_points.plan_of(study, label, settings, bed.AT_REST if is_at_rest else SOFT)
@@ -42,8 +39,8 @@ def fill(page, runs):
         for name, text, measured in ((bed.RAMP, "rising", up), (bed.falling_at(litres), "falling", down)):
             page.add(f"ramp, {text}: pressure drop at {litres} l/min [mbar]", bed.changing_drop(runs[name], litres),
                      f"{measured:.2f} (measured)", why="no band is agreed for a ramp")
-    bed.draw(page, [runs[name] for name in bed.CHANGING])
+    bed.draw(page, [runs[name] for name in (bed.RAMP, bed.WIDE, bed.FLOATING)])
     page.note("Pressures of the ramps are means within 2.5 l/min, half of what lies between two measured flows; the pressure of a "
-              "floating column of 20 mm swings. Those of the falling one are of a bed that takes 2 s from 52 to 37 l/min; above "
-              f"{bed.GENTLY_FROM} l/min of one that falls from 95.")
-    page.note("Columns of 20 x 3 mm (of 10 x 15 mm between walls for rolling friction and cells in depth), sand of 5 MPa.")
+              "floating bed swings. The rising one is a column of the sand's own grains, 20 x 3 mm in plan.")
+    page.note("Beds of 100 x 10 mm in plan (15 mm between walls, whole vessels for the heights), in coarse grains of 5 MPa "
+              "(fluidised_bed_wide.yaml, fluidised_bed_walls.yaml, fluidised_bed_vessel.yaml).")

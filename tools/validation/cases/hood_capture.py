@@ -9,6 +9,7 @@ import sys
 import study_runs
 from page import Page
 from runs import Plan, Runs
+from scatter import mean_of
 
 TITLE = "A suggested hood catches what was promised"
 BITS = ("coarse_transfer", "mixer")
@@ -65,15 +66,6 @@ def caught(run):
         return None
     drawn, left = (run.summary["dust_rates"][f"{way}/all/rate"]["value"] for way in ("drawn_out", "left"))
     return 100 * drawn / (drawn + left)
-
-
-def mean_of(values):
-    """(mean, standard error by the scatter) of the runs that are there; None of fewer than three."""
-    values = [value for value in values if value is not None]
-    if len(values) < 3:
-        return None
-    mean = sum(values) / len(values)
-    return mean, math.sqrt(sum((v - mean) ** 2 for v in values) / (len(values) * (len(values) - 1)))
 
 
 def write(args):

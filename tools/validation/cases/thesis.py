@@ -13,7 +13,7 @@ import cases
 
 TITLE = "The thesis: every number beside ours"
 BITS = ("transfer_point", "container_walls", "container_periodic", "settling_a1", "fluidised_bed_column", "rare_sizes", "mixer")
-SOURCES = ("settling_a1", "air_to_water", "settling_b", "resolved", "rectangular_container", "conical_pile", "hourglass", "fluidised_column",
+SOURCES = ("settling_a1", "air_to_water", "settling_b", "resolved", "rectangular_container", "conical_pile", "hourglass",
            "fluidised_vessel", "fluidised_studies", "belt", "dust", "hourglass_friction")
 CHAPTERS = {"3: one sphere settling": chapter_3, "4: hourglass, piles, container": chapter_4, "5: fluidised bed": chapter_5,
             "6: belt conveyor and transfer point": chapter_6}

@@ -17,13 +17,14 @@ EXPERIMENT_OF = {
     r"container, W/D \d+, walls": ("The container of 24 widths",),
     r"container, W/D \d+, periodic": ("Periodic containers",),
     r"100 mm, falling, 80 l/min": ("The same at 80 l/min", "The void fraction of the vessel's bed"),
-    r"100 mm, falling, ramp, ([1-4]\d|\d|5[0-4])(\.\d+)? l/min": ("How densely a column lies", "How densely the column of 100 mm lies"),
+    r".* mm: minimum fluidisation by height": ("Minimum fluidisation by the height",),
+    r"100 mm, falling, ramp, ([1-4]\d|\d|5[0-4])(\.\d+)? l/min": ("A narrow bed at 50 l/min",),
     r"100 mm, falling, ramp, ": ("The floating bed",),
     r"100 mm, falling, ": ("The vessel's bed at 30 l/min", "The void fraction of the vessel's bed"),
     r"x_140 rises from rho": ("Light grains, which the thesis sees go",),
     r"width_140 falls from rho": ("Light grains, which the thesis sees spread",),
     r"eddy rises": ("The eddies, which",),
-    r"penetration": ("How densely a column lies", "How densely the column of 100 mm lies"),
+    r"penetration": ("A narrow bed at 50 l/min",),
     r"100 mm, rising, ([1-4]\d|\d)(\.\d+)? l/min": ("The poured bed at 20", "How densely sand lies"),
     r"100 mm, rising, ": ("The floating bed",)}
 
