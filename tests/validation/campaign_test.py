@@ -105,6 +105,19 @@ class Campaign(unittest.TestCase):
         self.list.write_text("janssen_*\nbeverloo_8\n")
         self.assertIn("1 left, about 0.0 h of one core (0.50 of what", self.campaign("left"))
 
+    def test_what_another_command_ran_under_that_name_is_put_aside_and_run_anew(self):
+        self.engine(length=1)
+        self.list.write_text("janssen_rough\n")
+        self.campaign("start", "--foreground")
+        note = self.runs / "janssen_rough" / "validation.json"
+        plan = cases.all_plans()["janssen_rough"]
+        note.write_text(note.read_text().replace("engine run ", "engine run --set seed=7 ", 1))
+        self.assertFalse(runs.Run(plan, note.parent).is_finished())
+        self.assertIn("1 left", self.campaign("left"))
+        self.campaign("start", "--foreground")
+        self.assertIn("0 left", self.campaign("left"))
+        self.assertTrue(runs.Run(plan, note.parent).is_finished())
+        self.assertIn("seed=7", (self.runs / "janssen_rough.before_1" / "validation.json").read_text())
 
     def test_a_run_of_two_names_is_made_once(self):
         self.engine(length=1)

@@ -104,6 +104,21 @@ class KeptPages(unittest.TestCase):
                 self.assertIn("| figure of run_1 | 1.1 |", again)
                 self.assertEqual(1, again.count("| run_1 |"))
 
+    def test_a_kept_run_that_is_made_by_another_command_today_is_run_anew(self):
+        with tempfile.TemporaryDirectory() as first, tempfile.TemporaryDirectory() as second:
+            file = pathlib.Path(first) / "case.md"
+            file.write_text(self.written(first, {"run_1": 1.25, "run_2": 1.0}, kept.Kept()))
+            before = kept.Kept(file)
+            plans = [runs.Plan("run_1", "verification/box.yaml", {"seed": "7"}), runs.Plan("run_2", "verification/box.yaml", {"seed": "2"})]
+            found = runs.Runs(plans, second, None, before)
+            self.assertEqual([found.is_done(run) for run in found], [False, True])
+            before.only(list(found))
+            sheet = page.Page("case", before)
+            sheet.add("figure of run_1", found["run_1"].figure("s", "f"), "1", 0.5, 1.5)
+            text = sheet.text("Case", found, "how")
+            self.assertIn("Made otherwise today and not yet anew: run_1.", text)
+            self.assertNotIn("| run_1 |", text)
+
     def test_a_kept_run_whose_engine_the_page_did_not_name_is_of_an_unknown_one(self):
         with tempfile.TemporaryDirectory() as first, tempfile.TemporaryDirectory() as second:
             file = pathlib.Path(first) / "case.md"

@@ -2,6 +2,8 @@
 
 import re
 
+from commands import same_of
+
 EMPTY_CELLS = ("not run", "not run to its end", "open")
 
 
@@ -20,6 +22,7 @@ class Kept:
         self._runs = {cells_of(line)[0]: dict(zip(header, cells_of(line)))
                       for line in lines[begin:] if line.startswith("| ") and "`" in line}
         self._commands = [line for line in lines[begin:] if line.startswith("engine run ")]
+        self._same, self.changed = {same_of(command) for command in self._commands}, []
         shown = (re.fullmatch(r"!\[(.*)\]\(pictures/(.*)\)", line) for line in lines[:begin])
         self._pictures = {found.group(1): found.group(2) for found in shown if found}
         self._bits = [line for line in lines if line.startswith("<!-- bits ")]
@@ -41,16 +44,16 @@ class Kept:
     def pictures(self):
         return set(self._pictures.values())
 
-    def only(self, names):
-        """Forgets runs but these: those that are there anew, and those that the case has no more."""
+    def only(self, runs):
+        """Forgets runs but these: those that are there anew, those that the case has no more, and those that it makes by another
+        command today, whose names are `changed`."""
+        self.changed = sorted(run.name for run in runs if run.name in self._runs and not self.is_of(run))
+        names = {run.name for run in runs}.difference(self.changed)
         self._runs = {name: cells for name, cells in self._runs.items() if name in names}
-
-    def has(self, run):
-        return run.name in self._runs
 
     def is_of(self, run):
         """Whether it has this run, and by the command that it would be made with today."""
-        return self.has(run) and run.plan.shown() in self._commands
+        return run.name in self._runs and run.plan.same() in self._same
 
     def cpu_s(self, run):
         return float(self._runs[run.name]["CPU [s]"])

@@ -88,6 +88,8 @@ class Page:
         for file, name, text in self._charts:
             out += [f"![{name}](pictures/{file})", "", text, ""]
         out += [note + "\n" for note in self._notes]
+        if self._rows and runs.kept.changed:
+            out += [f"Made otherwise today and not yet anew: {', '.join(runs.kept.changed)}. Their rows are from before.", ""]
         if self._rows:
             out += ["## What failed", "", *(self._left("FAIL") or ["Nothing."]), "",
                     "## What has not been run", "", *(self._not_run(runs) or ["Nothing."]), ""]

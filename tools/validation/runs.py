@@ -5,6 +5,7 @@ import csv
 import dataclasses
 import datetime
 import fcntl
+import itertools
 import json
 import pathlib
 import re
@@ -15,6 +16,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "tools/dev"))
 
+from commands import same_of  # noqa: E402
 from figures import Figures  # noqa: E402
 from kept import Kept  # noqa: E402
 from machine import cpu_name  # noqa: E402,F401  for the pages too
@@ -60,10 +62,6 @@ class Plan:
     def same(self):
         """What plans of different names have in common that are one run: scenario and settings, in whatever order."""
         return same_of(self.shown())
-
-
-def same_of(command):
-    return frozenset(shlex.split(command))
 
 
 def one_of_each(runs, plan_of):
@@ -195,10 +193,15 @@ class Run:
         return json.loads(file.read_text()) if file.exists() else None
 
     def is_finished(self):
-        return self.summary is not None and self.summary["status"] == "finished"
+        return self.summary is not None and self.summary["status"] == "finished" and not self.is_another()
 
     def is_begun(self):
-        return (self.folder / "checkpoint.h5").exists()
+        return (self.folder / "checkpoint.h5").exists() and not self.is_another()
+
+    def is_another(self):
+        """Whether the folder holds what a plan of this name ran that was another one then."""
+        command = self.note().get("command")
+        return bool(self.plan and command) and same_of(command) != self.plan.same()
 
     def figure(self, sensor, name):
         """(value, uncertainty or None) of a finished run, or of one that the page has kept, else None."""
@@ -247,7 +250,11 @@ class Run:
         return json.loads(file.read_text()) if file.exists() else {}
 
     def start(self, engine):
-        """Starts it, or goes on from its checkpoint; returns the process, or None if it runs already."""
+        """Starts it, or goes on from its checkpoint; returns the process, or None if it runs already. What another command has
+        left under its name is put aside."""
+        if self.is_another():
+            self.folder.rename(next(aside for n in itertools.count(1)
+                                    if not (aside := self.folder.with_name(f"{self.folder.name}.before_{n}")).exists()))
         self.folder.mkdir(parents=True, exist_ok=True)
         with open(self.folder / "lock", "w") as lock:
             try:
@@ -297,7 +304,7 @@ class Runs:
 
     def is_done(self, run):
         """Finished, or on the page from before."""
-        return run.is_finished() or self.kept.has(run)
+        return run.is_finished() or self.kept.is_of(run)
 
     def do(self, run):
         """Brings a run to its end, unless it is there."""

@@ -34,7 +34,7 @@ def cost_of(row, runs):
         run = runs[name]
         if run.is_finished():
             texts.append(f"{run.summary['cpu_s'] / 3600:.2g}")
-        elif runs.kept.has(run):
+        elif runs.kept.is_of(run):
             texts.append(f"{runs.kept.cpu_s(run) / 3600:.2g}")
         elif runs.engine:
             hours = runs.engine.hours(run.plan)
@@ -57,14 +57,18 @@ class Before:
         return self._cells
 
 
-def with_those_before(rows, kept):
-    """Rows that have not been run, as the page had them where it had a figure."""
-    before = [kept.row(row.where, row.what, among=", ".join(row.runs)) if row.verdict() == NOT_RUN else None for row in rows]
+def with_those_before(rows, runs):
+    """Rows that have not been run, as the page had them where it had a figure of the same runs."""
+    def are_the_same(names):
+        return all(name.startswith("...") or runs.is_done(runs[name]) for name in names)
+
+    before = [runs.kept.row(row.where, row.what, among=", ".join(row.runs)) if row.verdict() == NOT_RUN and are_the_same(row.runs) else None
+              for row in rows]
     return [Before(cells) if cells else row for row, cells in zip(rows, before)]
 
 
 def fill(page, runs):
-    chapters = {title: with_those_before(chapter.rows(runs), runs.kept) for title, chapter in CHAPTERS.items()}
+    chapters = {title: with_those_before(chapter.rows(runs), runs) for title, chapter in CHAPTERS.items()}
     every = [row for rows in chapters.values() for row in rows]
     page.body(summary(every))
     for title, rows in chapters.items():
