@@ -27,15 +27,16 @@ class Page:
         self.name, self._kept = name, kept or Kept()
         self._rows, self._notes, self._charts, self._body = [], [], [], []
 
-    def add(self, what, ours, published, low=None, high=None, unit="", band=None, why=None):
-        """A figure; one without a band says why it has none."""
+    def add(self, what, ours, published, low=None, high=None, unit="", band=None, why=None, keep=True):
+        """A figure; one without a band says why it has none. `keep`: whether the page's row of before stands for one that is not
+        there, as it does if its runs are the same."""
         is_judged = low is not None or high is not None
         if not is_judged and not why:
             raise ValueError(f"{what}: neither a band nor why there is none")
         if band is None and is_judged:
             band = (f"{low:g} to {high:g}" if low is not None and high is not None
                     else f"above {low:g}" if high is None else f"below {high:g}")
-        before = self._kept.row(what) if ours is None else None
+        before = self._kept.row(what) if ours is None and keep else None
         if before:
             self._rows.append(tuple(before))
             return

@@ -319,5 +319,6 @@ def found(experiment, varied, runs):
 def fill(page, runs):
     for experiment in EXPERIMENTS:
         for text, varied in experiment.varied:
-            page.add(f"{experiment.failure}: {text}", found(experiment, varied, runs), experiment.question, unit=experiment.unit, why=EXPLAINS)
+            page.add(f"{experiment.failure}: {text}", found(experiment, varied, runs), experiment.question, unit=experiment.unit, why=EXPLAINS,
+                     keep=all(runs.is_done(runs[plan.name]) for plan in each_of(varied)))
     page.note("Each run beside the first of its group differs by what its row names and by nothing else.")

@@ -34,11 +34,11 @@ def fill(page, runs):
             run = runs[point(study, label).name]
             for name, given in text["measure"].items():
                 page.add(f"{study}, {label}: {name} [{given['unit']}]", study_points.measured(run, given),
-                         "[thesis](thesis.md)", why="judged beside the thesis's model on that page")
+                         "[thesis](thesis.md)", why="judged beside the thesis's model on that page", keep=runs.is_done(run))
     for litres, up, down in ((20, 6.00, 5.40), (30, 8.93, 8.20), (40, 12.13, 10.93), (50, 14.47, 13.40), (75, 15.60, 15.00)):
         for name, text, measured in ((bed.RAMP, "rising", up), (bed.falling_at(litres), "falling", down)):
             page.add(f"ramp, {text}: pressure drop at {litres} l/min [mbar]", bed.changing_drop(runs[name], litres),
-                     f"{measured:.2f} (measured)", why="no band is agreed for a ramp")
+                     f"{measured:.2f} (measured)", why="no band is agreed for a ramp", keep=runs.is_done(runs[name]))
     bed.draw(page, [runs[name] for name in (bed.RAMP, bed.WIDE, bed.FLOATING)])
     page.note("Pressures of the ramps are means within 2.5 l/min, half of what lies between two measured flows; the pressure of a "
               "floating bed swings. The rising one is a column of the sand's own grains, 20 x 3 mm in plan.")
