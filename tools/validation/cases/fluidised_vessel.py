@@ -47,4 +47,4 @@ def fill(page, runs):
         "is as thick as a grain. Between periodic sides there is no such layer; the sand lies between the two. Ergun's law at the bed's own "
         "void fraction is that of a mean over loose layers and dense middle.")
     page.note(
-        "A bed much narrower than it is deep slugs and comes to rest more densely: [experiments](experiments.md).")
+        "A bed much narrower than it is deep comes to rest more densely: [experiments](experiments.md).")
