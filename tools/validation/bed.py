@@ -40,7 +40,7 @@ FLOATS_FROM = 62
 # Narrow columns that fall (docs/validation/experiments.md).
 FALLING, DEFLUIDISATION = "fluidised_bed_falling_5", "fluidised_bed_defluidisation_5"
 # While the flow rises or falls [s], in each one's scenario.
-CHANGING = {RAMP: (0.2, 3.4), WIDE: (0.8, 5.4), FLOATING: (1.3, 4.8), FALLING: (0.5, 3.6), DEFLUIDISATION: (0.6, 3.3)}
+CHANGING = {RAMP: (0.2, 3.4), WIDE: (0.8, 5.4), FLOATING: (1.3, 4.8)}
 # Half of what lies between two measured flows [l/min]: all of a pressure that swings that is nearest to one.
 HALF_SPACING = 2.5
 
