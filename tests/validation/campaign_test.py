@@ -3,6 +3,7 @@
 from it."""
 
 import csv
+import fcntl
 import pathlib
 import stat
 import subprocess
@@ -118,6 +119,16 @@ class Campaign(unittest.TestCase):
         self.assertIn("0 left", self.campaign("left"))
         self.assertTrue(runs.Run(plan, note.parent).is_finished())
         self.assertIn("seed=7", (self.runs / "janssen_rough.before_1" / "validation.json").read_text())
+
+    def test_what_another_command_still_runs_under_that_name_is_left_where_it_is(self):
+        plan = cases.all_plans()["janssen_rough"]
+        folder = self.runs / plan.name
+        folder.mkdir(parents=True)
+        (folder / "validation.json").write_text('{"command": "engine run --set seed=7 scenarios/janssen.yaml"}')
+        with open(folder / "lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            self.assertIsNone(runs.Run(plan, folder).start(None))
+        self.assertEqual([f.name for f in self.runs.iterdir()], [plan.name])
 
     def test_a_run_of_two_names_is_made_once(self):
         self.engine(length=1)

@@ -1,6 +1,7 @@
 """Runs of scenarios: what shall be run, how, and what a run has left."""
 
 import atexit
+import contextlib
 import csv
 import dataclasses
 import datetime
@@ -253,13 +254,14 @@ class Run:
         """Starts it, or goes on from its checkpoint; returns the process, or None if it runs already. What another command has
         left under its name is put aside."""
         if self.is_another():
-            self.folder.rename(next(aside for n in itertools.count(1)
-                                    if not (aside := self.folder.with_name(f"{self.folder.name}.before_{n}")).exists()))
+            with self._locked() as lock:
+                if lock is None:
+                    return None
+                self.folder.rename(next(aside for n in itertools.count(1)
+                                        if not (aside := self.folder.with_name(f"{self.folder.name}.before_{n}")).exists()))
         self.folder.mkdir(parents=True, exist_ok=True)
-        with open(self.folder / "lock", "w") as lock:
-            try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
+        with self._locked() as lock:
+            if lock is None:
                 return None
             self._write_note(engine)
             # What an earlier start that ended before its first checkpoint left is no obstacle.
@@ -267,6 +269,16 @@ class Run:
             # The engine inherits the lock and holds it until it ends.
             return subprocess.Popen([*engine.command(self.plan, self.folder), *force], pass_fds=[lock.fileno()],
                                     stdin=subprocess.DEVNULL)
+
+    @contextlib.contextmanager
+    def _locked(self):
+        """The lock of its folder, or None where a run that goes on there holds it."""
+        with open(self.folder / "lock", "w") as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                lock = None
+            yield lock
 
     def _write_note(self, engine):
         before = self.note() if self.is_begun() else {}

@@ -8,7 +8,7 @@ import bed
 import scatter
 import study_points
 from bed import SAND_DENSITY
-from cases import belt, fluidised_studies, fluidised_vessel, rectangular_container, resolved, settling_b
+from cases import belt, fluidised_studies, fluidised_vessel, hourglass, rectangular_container, resolved, settling_b
 from runs import Plan
 
 TITLE = "What fails, and the experiments to it"
@@ -42,6 +42,11 @@ def width_140(run):
     return outer and inner and (1e3 * (outer[0] - inner[0]), 1e3 * math.hypot(outer[1] or 0.0, inner[1] or 0.0))
 
 
+def time_of_99_percent(run):
+    time = hourglass.time_of_share(run, 0.99)
+    return time and (time, None)
+
+
 def first_maximum(run):
     """Of the drum's small grains in the quarter x < 0, z < 0; it turns from 0.5 s on."""
     found = [r["m1_below/number [1]"] for r in run.series() if 0.8 <= r["time [s]"] <= 1.7]
@@ -62,7 +67,7 @@ def bed_void_fraction(mass, section):
 
 
 # (mass [kg], section [m2]) of the beds.
-SECTIONS = {bed.FALLING: (9.18e-3, 20e-3 * 3e-3), bed.WIDE: (0.153, 100e-3 * 10e-3)}
+SECTIONS = {bed.FALLING: (9.18e-3, 20e-3 * 3e-3), bed.WIDE: (0.153, 100e-3 * 10e-3), "fluidised_bed_sides_walls": (0.2295, 100e-3 * 15e-3)}
 
 
 def void_fraction_of_beds(run):
@@ -175,7 +180,8 @@ def coarse_bed(width):
         "fluid.cells": f"[{width // 5}, 3, 50]", "sensors.bubbles.max": f"[{width}, 15, 200 mm]"})
 
 
-BEDS = (*VESSELS, ("coarse grains that stand for 27, periodic, 100 mm wide", bed_of(bed.WIDE)))
+BEDS = (*VESSELS, ("coarse grains that stand for 27, between walls, 100 mm wide", bed_of("fluidised_bed_sides_walls")),
+        ("coarse grains that stand for 27, periodic, 100 mm wide", bed_of(bed.WIDE)))
 STIFF = {name: "50 MPa" for name in bed.SOFT}
 
 
@@ -191,6 +197,10 @@ DENSITIES = (*of_study("table_6_6", ("1500 kg/m3", "rho_1500"), ("2650 kg/m3", "
                    ("1500 kg/m3, as many grains as at 2650", "1500_as_many", "1500", {"emitters.feed.mass_flow": "3.396 g/s"}),
                    ("3000 kg/m3, as many grains as at 2650", "3000_as_many", "3000", {"emitters.feed.mass_flow": "6.792 g/s"}),
                    ("1500 kg/m3, without air", "1500_dry", "1500", {"emitters.feed.velocity": "[0, 0, -0.2 m/s]", "fluid": "none"}))))
+
+HOURGLASSES = variants("hourglass_8mm", "thesis/hourglass_8mm.yaml", SOFT, (
+    ("rolling friction 0.2 in place of 0.3", "rolling", {f"{SAND}.rolling.friction": "0.2"}),
+    ("friction 0.42 in place of 0.52", "smooth", {f"{SAND}.contact.friction": "0.42"})))
 
 EXPERIMENTS = (
     Experiment("A1 by the centre of the grain, 18 % too slow", "its own disturbance?",
@@ -233,11 +243,10 @@ EXPERIMENTS = (
                                                   "emitters.sphere.positions": "[[100, 100, 127.5 mm]]",
                                                   "sensors.fall.base": "[0, 0, 7.5 mm]"}))),
                figure("fall", "level_60_mm/velocity"), "m/s 60 mm over the floor"),
-    Experiment("The hourglass, 7.8 s where 6.6 are measured", "is it the sand's friction? (through 8 mm, for its cost)",
-               variants("hourglass_8mm", "thesis/hourglass_8mm.yaml", SOFT, (
-                   ("rolling friction 0.2 in place of 0.3", "rolling", {f"{SAND}.rolling.friction": "0.2"}),
-                   ("friction 0.42 in place of 0.52", "smooth", {f"{SAND}.contact.friction": "0.42"}))),
+    Experiment("The hourglass, 7.8 s where 6.6 are measured", "is it the sand's friction? (through 8 mm, for its cost)", HOURGLASSES,
                figure("outlet", "duration"), "s"),
+    Experiment("The hourglass until 99 of 100 grains have left", "how much of the time is that of the last ones, which trickle one by one?",
+               HOURGLASSES, time_of_99_percent, "s"),
     Experiment("The drum's counts", "how much is chance: other seeds of the packing",
                variants("dosta_drum", "thesis/dosta_drum.yaml", {"materials.m1.young_modulus": "10 MPa", "materials.m2.young_modulus": "5 MPa"},
                         tuple((f"seed {n}", f"seed_{n}", {"seed": str(n)}) for n in (2, 3))),

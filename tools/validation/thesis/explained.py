@@ -20,6 +20,7 @@ EXPERIMENT_OF = {
     r".* mm: minimum fluidisation by height": ("Minimum fluidisation by the height",),
     r"100 mm, falling, ramp, ([1-4]\d|\d|5[0-4])(\.\d+)? l/min": ("A narrow bed at 50 l/min",),
     r"100 mm, falling, ramp, ": ("The floating bed",),
+    r"[1-4]\d l/min, walls": ("The vessel's bed at 30 l/min", "The void fraction of the vessel's bed"),
     r"100 mm, falling, ": ("The vessel's bed at 30 l/min", "The void fraction of the vessel's bed"),
     r"x_140 rises from rho": ("Light grains, which the thesis sees go",),
     r"width_140 falls from rho": ("Light grains, which the thesis sees spread",),
