@@ -39,10 +39,17 @@ RAMP, WIDE, FLOATING = "fluidised_bed_ramp_5", "fluidised_bed_wide_5", "fluidise
 FLOATS_FROM = 62
 # Narrow columns that fall (docs/validation/experiments.md).
 FALLING, DEFLUIDISATION = "fluidised_bed_falling_5", "fluidised_bed_defluidisation_5"
+# Mass [kg] and section [m2] of a part of the vessel, by its run; the whole one has the first.
+WHOLE, PARTS = (0.459, VESSEL_SECTION), {
+    WIDE: (0.153, 100e-3 * 10e-3), FALLING: (9.18e-3, 20e-3 * 3e-3), "fluidised_bed_sides_walls": (0.2295, 100e-3 * 15e-3)}
 # While the flow rises or falls [s], in each one's scenario.
 CHANGING = {RAMP: (0.2, 3.4), WIDE: (0.8, 5.4), FLOATING: (1.3, 4.8)}
 # Half of what lies between two measured flows [l/min]: all of a pressure that swings that is nearest to one.
 HALF_SPACING = 2.5
+
+
+def mass_and_section(name):
+    return PARTS.get(name, WHOLE)
 
 
 def while_at(run, litres, name, value, since, until=1e9, within=1.0):
@@ -77,8 +84,9 @@ def changing_drop(run, litres):
     return drop_at(run, litres, *CHANGING[run.name], HALF_SPACING)
 
 
-def add_column(page, run, name, mass, section, has_friction=False):
+def add_column(page, run, name, has_friction=False):
     """The figures that a bed of any size has; one whose walls have friction may hang on them."""
+    mass, section = mass_and_section(run.name)
     weight = mass * (1 - AIR_DENSITY / SAND_DENSITY) * GRAVITY / section
     plateau = run.figure("u_mf", "falling/plateau")
     page.add(f"{name}: pressure drop over weight", (plateau[0] / weight, None) if plateau else None,

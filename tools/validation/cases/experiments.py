@@ -66,13 +66,9 @@ def bed_void_fraction(mass, section):
     return of
 
 
-# (mass [kg], section [m2]) of the beds.
-SECTIONS = {bed.FALLING: (9.18e-3, 20e-3 * 3e-3), bed.WIDE: (0.153, 100e-3 * 10e-3), "fluidised_bed_sides_walls": (0.2295, 100e-3 * 15e-3)}
-
-
 def void_fraction_of_beds(run):
     """The vessel's, or a part's of it."""
-    return bed_void_fraction(*SECTIONS.get(run.name, (0.459, bed.VESSEL_SECTION)))(run)
+    return bed_void_fraction(*bed.mass_and_section(run.name))(run)
 
 
 def small_bed(name, speed, settings):

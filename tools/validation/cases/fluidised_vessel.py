@@ -3,7 +3,7 @@
 import dataclasses
 
 import bed
-from bed import SOFT, VESSEL_SECTION, WIDE, add_column, add_drops
+from bed import SOFT, WIDE, add_column, add_drops
 from runs import Plan
 
 TITLE = "The fluidised bed in coarse grains: falling flow"
@@ -15,18 +15,14 @@ OPEN_DEPTH = {"domain.boundaries.front": PERIODIC, "domain.boundaries.back": PER
 
 @dataclasses.dataclass(frozen=True)
 class Bed:
-    """mass [kg], section [m2]."""
-
     name: str
     plan: Plan
-    mass: float = 0.459
-    section: float = VESSEL_SECTION
     has_friction: bool = False
 
 
 BEDS = (Bed("walls", Plan("fluidised_bed_vessel_5", SCENARIO, SOFT), has_friction=True),
         Bed("front and back periodic", Plan("fluidised_bed_vessel_5_periodic", SCENARIO, {**OPEN_DEPTH, **SOFT, "time.output_every": "0.5 s"})),
-        Bed("100 x 10 mm, periodic, finer grains", Plan(WIDE, "thesis/fluidised_bed_wide.yaml", SOFT), mass=0.153, section=100e-3 * 10e-3))
+        Bed("100 x 10 mm, periodic, finer grains", Plan(WIDE, "thesis/fluidised_bed_wide.yaml", SOFT)))
 
 
 def plans():
@@ -35,7 +31,7 @@ def plans():
 
 def fill(page, runs):
     for each in BEDS:
-        add_column(page, runs[each.plan.name], each.name, each.mass, each.section, each.has_friction)
+        add_column(page, runs[each.plan.name], each.name, each.has_friction)
         add_drops(page, runs[each.plan.name], each.name)
     bed.draw(page, runs)
     page.note(
