@@ -71,7 +71,7 @@ def labelled(study, extra=None):
     return [(label, plan_of(study, label, settings, extra)) for label, settings in points(read(study))]
 
 
-UNITS = {"mm": 1e-3, "mbar": 100.0, "m/s": 1.0, None: 1.0, "deg": 1.0, "s": 1.0}
+UNITS = {"mm": 1e-3, "g": 1e-3, "mbar": 100.0, "m/s": 1.0, None: 1.0, "deg": 1.0, "s": 1.0}
 
 
 def measured(run, given):

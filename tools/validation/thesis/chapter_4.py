@@ -39,15 +39,15 @@ def hourglass_rows(runs, row, neck, mass, kind, stiff):
 
 
 def friction(runs):
-    """Signs of the contours; the pair that meets both measured figures is the calibration's (4.4.2)."""
-    study = hourglass_friction.STUDY
-    names = [plan.name for plan in hourglass_friction.plans()]
+    """Signs of the contours, in a small hourglass; the pair that meets both measured figures is the calibration's (4.4.2)."""
+    study = hourglass_friction.SMALL
+    names = [plan.name for plan in study_points.plans(study)]
     out = []
     for expectation in study_points.read(study)["expect"]:
         ours = study_points.change(runs, study, expectation)
         sign = 1 if expectation["then"] == "rises" else -1
         out.append(Sign("Table 4.7, Figures 4.9 to 4.14", sign_text(expectation), (names[0], f"... {len(names)} runs"),
-                        ours and (sign * ours[0], ours[1]), expectation["then"], SOFT))
+                        ours and (sign * ours[0], ours[1]), expectation["then"], f"20 mm and 6.1 g in place of 32 and 25, {SOFT}"))
     return out
 
 
