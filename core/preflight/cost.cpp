@@ -49,16 +49,19 @@ constexpr double k_stream_contact = 7e-8;
 // reach are looked at. Fitted to the bridges of studies/wet_hopper.yaml, see
 // docs/validation/estimates.md.
 constexpr double k_cohesive_contact = 2.5;
-/// A step at a finer rate, over one at the coarse rate of the same stream: clusters are found and
+/// A step at a finer rate, over one at the coarse rate of the same bed: clusters are found and
 /// their rows are fetched for it.
 constexpr double k_fine_factor = 4.5;
+/// The same of a stream, however deep its load is: a fine grain touches one or two others.
+constexpr double k_fine_stream_step = 8e-8;
 constexpr double k_contacts_in_bed = 2.5;
 /// Layers up to which a load lies side by side, for it spreads.
 constexpr double k_single_layer = 1.2;
-/// Share of its fine steps that a lone grain makes, and that one in a deep load makes: without
-/// others in reach it flies at the coarse rate.
-constexpr double k_fine_isolated = 0.045;
-constexpr double k_fine_carried = 0.65;
+/// Share of its fine steps that a grain makes while a thin stream is carried: one at rest needs no
+/// steps as fine as a blow does, and among others it lies stiller: with so many contacts more, by
+/// as many times less. Fitted to the transfer point at 0.2 to 0.8 m/s with 1 and 6 g/s. One that
+/// flies moves at the coarse rate, at next to no cost.
+constexpr double k_fine_carried = 0.17;
 
 constexpr double k_cell_step = 3.9e-7;
 /// A cell of one class of dust, once its transport has begun; its own sub-steps keep a smaller
@@ -163,18 +166,23 @@ double step_at_once(const Setup& setup, const Derived& derived, const EmissionNu
   return solids > k_dense * size.x * size.y * size.z ? bed_step : k_gas_step;
 }
 
-/// Sub-steps per coarse step that the fine ones of these grains make when all are near others,
-/// per grain of any size.
-double fine_sub_steps(const particles::TimeSteps& steps, const EmissionNumbers& e) {
-  double sum = 0.0;
+/// Of an emitter's grains, those below the coarse level.
+struct FineShare {
+  double grains = 0.0;     ///< of all its grains
+  double sub_steps = 0.0;  ///< per grain of any size and coarse step, when all are near others
+};
+
+FineShare fine_share(const particles::TimeSteps& steps, const EmissionNumbers& e) {
+  FineShare fine;
   for (const EmissionNumbers::Size& size : e.sizes) {
     for (const particles::ClassStep& c : steps.classes) {
       if (c.diameter != size.diameter || steps.is_coarse(c)) continue;
-      sum += size.share * steps.coarse_step / steps.step_of(c);
+      fine.grains += size.share;
+      fine.sub_steps += size.share * steps.coarse_step / steps.step_of(c);
       break;
     }
   }
-  return sum;
+  return fine;
 }
 
 /// Grains of all emitters over the run.
@@ -223,6 +231,23 @@ double self_disturbance_cost(const Setup& setup, const Derived& derived, const E
   return sum;
 }
 
+/// What a step of a grain at the coarse rate costs, with those at finer rates that come with it.
+struct StepWork {
+  double step = 0.0;            ///< [s]
+  double isolated_steps = 0.0;  ///< of fine grains that fly: counted, at next to no cost
+  double fine_steps = 0.0;      ///< of fine grains near others
+  double fine_step_cost = 0.0;  ///< [s] of each
+};
+
+void add_steps(double count, const StepWork& work, Derived& derived) {
+  Spent& grains = derived.cost.terms[CostTerm::grains];
+  grains.amount += count;
+  grains.seconds += count * (work.step + derived.bodies.search);
+  Spent& fine = derived.cost.terms[CostTerm::fine_grains];
+  fine.amount += count * (work.isolated_steps + work.fine_steps);
+  fine.seconds += count * work.fine_steps * work.fine_step_cost;
+}
+
 /// Adds the work of an emitter's grains.
 void add_grains(const Setup& setup, const EmissionNumbers& e, Derived& derived,
                 GrainTotals& totals) {
@@ -244,21 +269,20 @@ void add_grains(const Setup& setup, const EmissionNumbers& e, Derived& derived,
   totals.self_disturbance += isolated_seconds * self_disturbance_cost(setup, derived, e);
   const particles::TimeSteps& steps = derived.steps;
   if (steps.classes.empty() || !(steps.coarse_step > 0.0)) return;
-  const auto add = [&](double seconds, double each, double near_share) {
-    const double count = seconds / steps.coarse_step;
-    derived.cost.terms[CostTerm::grains].amount += count;
-    derived.cost.terms[CostTerm::grains].seconds += count * (each + derived.bodies.search);
-    const double fine = count * near_share * fine_sub_steps(steps, e);
-    derived.cost.terms[CostTerm::fine_grains].amount += fine;
-    derived.cost.terms[CostTerm::fine_grains].seconds += fine * k_fine_factor * each;
-  };
-  add(filled_seconds, step_at_once(setup, derived, e) + touch_step(derived.bodies, e.at_once), 1.0);
+  const FineShare fine = fine_share(steps, e);
+  const double bed_step = step_at_once(setup, derived, e) + touch_step(derived.bodies, e.at_once);
+  add_steps(
+      filled_seconds / steps.coarse_step,
+      {.step = bed_step, .fine_steps = fine.sub_steps, .fine_step_cost = k_fine_factor * bed_step},
+      derived);
   const double contacts = stream_contacts(setup, e, totals.layers);
-  const double crowding = std::min(1.0, contacts);
-  add(stream_seconds,
-      k_thin_stream_step + contact_factor(setup, e) * k_stream_contact * contacts +
-          touch_step(derived.bodies, e, totals.layers),
-      k_fine_isolated + (k_fine_carried - k_fine_isolated) * crowding);
+  add_steps(stream_seconds / steps.coarse_step,
+            {.step = k_thin_stream_step + contact_factor(setup, e) * k_stream_contact * contacts +
+                     touch_step(derived.bodies, e, totals.layers),
+             .isolated_steps = (1.0 - e.carried_share) * fine.grains,
+             .fine_steps = k_fine_carried * e.carried_share / (1.0 + contacts) * fine.sub_steps,
+             .fine_step_cost = contact_factor(setup, e) * k_fine_stream_step},
+            derived);
 }
 
 /// Streams that are carried lie on each other: their thickness over the mean size of all.

@@ -103,6 +103,39 @@ TEST_CASE("the estimates shall be within a factor of two of what the transfer po
   CHECK(is_near(airless.cost.memory_bytes, 63e6));
 }
 
+TEST_CASE(
+    "steps at finer rates shall be told within a factor of 1.5 of those that the transfer "
+    "point made, on fast belts and slow ones, under thin loads and deep ones") {
+  registry::Registry shipped;
+  shipped.load({DUST_TEST_PLUGINS});
+  const auto steps = [&](const std::string& speed, bool is_thin) {
+    std::vector<scenario::Override> set = {{"time.end", "1 s"}, {"bodies.belt.speed", speed}};
+    if (is_thin) {
+      set.insert(set.end(), {{"emitters.feed.mass_flow", "1 g/s"},
+                             {"emitters.feed.min", "[28, 3.5, 220 mm]"},
+                             {"emitters.feed.max", "[32, 7.5, 220 mm]"}});
+    }
+    const auto file = std::string(DUST_SOURCE) + "/scenarios/transfer_point.yaml";
+    const auto derived =
+        preflight::derive(preflight::read_scenario(file, set, shipped).setup, shipped);
+    return derived.cost.terms[preflight::CostTerm::fine_grains].amount;
+  };
+  // `fine_particle_steps` of the summaries of studies/figure_6_15.yaml and table_6_4_speed.yaml.
+  struct Made {
+    const char* speed;
+    bool is_thin;
+    double steps;
+  };
+  for (const auto& [speed, is_thin, made] :
+       {Made{"0.8 m/s", true, 3.35e8}, Made{"0.2 m/s", true, 1.05e9},
+        Made{"0.8 m/s", false, 2.21e9}, Made{"0.2 m/s", false, 3.32e9}}) {
+    CAPTURE(speed);
+    CAPTURE(is_thin);
+    CHECK(steps(speed, is_thin) > made / 1.5);
+    CHECK(steps(speed, is_thin) < made * 1.5);
+  }
+}
+
 TEST_CASE("the disk shall be estimated within a factor of 1.5 of what runs leave on it") {
   registry::Registry shipped;
   shipped.load({DUST_TEST_PLUGINS});
