@@ -2,10 +2,11 @@
 
 from cases.settling_b import TEN_CATE
 from chart import Curve, published
-from runs import Plan
+from runs import Plan, read_table
 
 TITLE = "Resolved spheres: cases B1 to B4, a sphere of 15 mm in silicone oil"
 BITS = ("settling_a1",)
+DIAMETER, FALL = 0.015, 0.12  # [m]
 
 
 def plans():
@@ -21,11 +22,42 @@ def fill(page, runs):
         page.add(f"B{number}: velocity 60 mm over the floor [m/s]", run.figure("fall", "level_60_mm/velocity"), f"{largest:.4f} (largest measured)",
                  why="the measured velocity there is not tabulated here")
         page.add(f"B{number}: gap of 15 mm passed after [s]", run.figure("fall", "level_15_mm/time"), "-", why="no table of it here")
+    times, gaps = measured_gaps()
+    page.add("B1: largest distance from the measured way, over the fall of 120 mm", farthest(runs["resolved_b1"], times, gaps), "0 (measured)", high=0.03)
     draw(page, runs)
+    page.chart("Gap between sphere and floor, B1", "time [s]", "gap [mm]",
+               [Curve("B1", *gap_curve(runs["resolved_b1"], 1e3)), published("B1, measured", times, [1e3 * gap for gap in gaps])],
+               "Measured: ten Cate et al. 2002, figure 5a, as others have read it off (docs/validation/data/tencate_2002_gap_b1.csv). The ways of "
+               "B2 to B4 are in that figure alone, of which no table is at hand: their times stand above beside nothing.")
     page.note("The sphere is 12 cells across; neither a drag law nor a rule of the void fraction is asked "
               "([theory](../theory/resolved.md)). The same cases with an unresolved sphere: [settling_b.md](settling_b.md).")
     page.note("Cubic arrays of spheres in Stokes flow (Zick and Homsy 1982) are a test, V-ARRAY in tests/verification/resolved; its figures "
               "stand in the theory.")
+
+
+def measured_gaps():
+    """(times [s], gaps between sphere and floor [m]) of B1."""
+    rows = read_table("tencate_2002_gap_b1.csv")
+    return [float(r["time_s"]) for r in rows], [DIAMETER * float(r["gap_over_diameter"]) for r in rows]
+
+
+def gap_curve(run, scale=1.0):
+    return run.curve("fall/height [m]", scale)
+
+
+def farthest(run, times, gaps):
+    """Largest distance between a run's gap and the measured ones at their times, over the height of the fall."""
+    def find():
+        at, ours = gap_curve(run)
+        return (max(abs(between(at, ours, time) - gap) for time, gap in zip(times, gaps)) / FALL, None) if at else None
+    return run.read_off("series", "farthest from the measured gap", find)
+
+
+def between(times, values, time):
+    """Linearly between two instants of a series."""
+    last = next(n for n, t in enumerate(times) if t >= time)
+    share = (times[last] - time) / (times[last] - times[last - 1]) if last else 0.0
+    return values[last] - share * (values[last] - values[last - 1])
 
 
 def draw(page, runs):

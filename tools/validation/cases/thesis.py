@@ -70,12 +70,20 @@ def with_those_before(rows, runs):
 def fill(page, runs):
     chapters = {title: with_those_before(chapter.rows(runs), runs) for title, chapter in CHAPTERS.items()}
     every = [row for rows in chapters.values() for row in rows]
-    page.body(summary(every))
+    page.body([*summary(every), *by_chapter(chapters)])
     for title, rows in chapters.items():
         page.body([f"## Chapter {title}", "", "| " + " | ".join(HEAD) + " |", "| --- |" + " --- |" * (len(HEAD) - 1),
                    *("| " + " | ".join(row.cells(cost_of(row, runs))) + " |" for row in rows), ""])
     page.body(explained.section(every, Kept(FOLDER / "experiments.md")))
     page.body(left(runs))
+
+
+def by_chapter(chapters):
+    """How many rows of each chapter came out how."""
+    kinds = (BETTER, AS_GOOD, WORSE, NO_TRUTH, NOT_RUN)
+    return ["| chapter | " + " | ".join(kinds[:-1]) + " | left |", "| --- |" + " --- |" * len(kinds),
+            *(f"| {title} | " + " | ".join(str(sum(row.verdict() == kind for row in rows)) for kind in kinds) + " |"
+              for title, rows in chapters.items()), ""]
 
 
 def summary(rows):
