@@ -21,8 +21,9 @@ def write_grains(folder, grains, low, high):
             out.write(f"{n + 1} {g[4]:.10g} {g[5]:.10g} {g[6]:.10g} 0 0 0\n")
 
 
-def write_input(folder, walls, pairs, step, skin, warm, steps, sides="f f f"):
-    """walls: lines with {law}; pairs: per property, sand with sand, belt, glass; sides: f, or p for periodic."""
+def write_input(folder, walls, pairs, step, skin, warm, steps, sides="f f f", every=None):
+    """walls: lines with {law}; pairs: per property, sand with sand, belt, glass; sides: f, or p for periodic. With `every`, the number of
+    grains is told every so many steps."""
     def matrix(name):
         sand, belt, glass = pairs[name]
         return f"{name} peratomtypepair 3 {sand} {belt} {glass} {belt} {belt} {belt} {glass} {belt} {glass}"
@@ -39,16 +40,20 @@ def write_input(folder, walls, pairs, step, skin, warm, steps, sides="f f f"):
         f"pair_style gran {LAW}", "pair_coeff * *", f"timestep {step:g}",
         "fix g all gravity 9.81 vector 0.0 0.0 -1.0",
         *[line.format(law=LAW) for line in walls], "fix i all nve/sphere",
-        f"thermo {steps}", "thermo_modify lost ignore", f"run {warm}", f"run {steps}"]
+        *(["thermo_style custom step atoms"] if every else []), f"thermo {every or steps}", "thermo_modify lost ignore", f"run {warm}", f"run {steps}"]
     (folder / "in.case").write_text("\n".join(lines) + "\n")
+
+
+def log_of(folder):
+    ran = subprocess.run(["liggghts", "-in", "in.case"], cwd=folder, capture_output=True, text=True)
+    if ran.returncode != 0:
+        sys.exit("LIGGGHTS stopped: " + "\n".join(ran.stdout.splitlines()[-5:]))
+    return ran.stdout
 
 
 def run(folder, count, steps, least_neighbours):
     """Million grain-steps per second of the second run in the log."""
-    ran = subprocess.run(["liggghts", "-in", "in.case"], cwd=folder, capture_output=True, text=True)
-    log = ran.stdout
-    if ran.returncode != 0:
-        sys.exit("LIGGGHTS stopped: " + "\n".join(log.splitlines()[-5:]))
+    log = log_of(folder)
     seconds, left = re.findall(r"Loop time of ([0-9.eE+-]+) on 1 procs for \d+ steps with (\d+)",
                                log)[-1]
     found = int(re.findall(r"Total # of neighbors = (\d+)", log)[-1])

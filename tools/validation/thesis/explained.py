@@ -24,7 +24,7 @@ EXPERIMENT_OF = {
     r"100 mm, falling, ": ("The vessel's bed at 30 l/min", "The void fraction of the vessel's bed"),
     r"x_140 rises from rho": ("Light grains, which the thesis sees go",),
     r"width_140 falls from rho": ("Light grains, which the thesis sees spread",),
-    r"eddy rises": ("The eddies, which",),
+    r"eddy rises": ("The eddies, which", "The eddies in front"),
     r"penetration": ("A narrow bed at 50 l/min",),
     r"100 mm, rising, ([1-4]\d|\d)(\.\d+)? l/min": ("The poured bed at 20", "How densely sand lies"),
     r"100 mm, rising, ": ("The floating bed",)}
