@@ -352,3 +352,6 @@ def fill(page, runs):
             page.add(f"{experiment.failure}: {text}", found(experiment, varied, runs), experiment.question, unit=experiment.unit, why=EXPLAINS,
                      keep=all(runs.is_done(runs[plan.name]) for plan in each_of(varied)))
     page.note("Each run beside the first of its group differs by what its row names and by nothing else.")
+    page.note("The same sand in LIGGGHTS, from the same grains and by the same law and step, runs through a hole of 5 mm at the same rate "
+              "([discharge](discharge.md)) and packs as densely ([packing](packing.md)): what is left of the hourglass's time is that of the last grains, "
+              "or the thesis's own.")
