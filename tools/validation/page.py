@@ -16,6 +16,11 @@ def as_text(value):
     return f"{value:.0f}" if abs(value) >= 1e4 else f"{value:.4g}"
 
 
+def shown(file, title, text):
+    """Lines of a picture."""
+    return [f"![{title}](pictures/{file})", "", text, ""]
+
+
 def with_error(ours, unit=""):
     """A figure as text: a number or (number, uncertainty or None)."""
     value, error = ours if isinstance(ours, tuple) else (ours, None)
@@ -25,7 +30,7 @@ def with_error(ours, unit=""):
 class Page:
     def __init__(self, name, kept=None):
         self.name, self._kept = name, kept or Kept()
-        self._rows, self._notes, self._charts, self._body = [], [], [], []
+        self._rows, self._notes, self._charts, self._body, self._taken = [], [], [], [], set()
 
     def add(self, what, ours, published, low=None, high=None, unit="", band=None, why=None, keep=True):
         """A figure; one without a band says why it has none. `keep`: whether the page's row of before stands for one that is not
@@ -53,8 +58,9 @@ class Page:
     def note(self, text):
         self._notes.append(text)
 
-    def chart(self, title, across, up, curves, text):
-        """Ours beside the published curve: curves as chart.draw takes them; `text` says what is seen."""
+    def chart(self, title, across, up, curves, text, in_body=False):
+        """Ours beside the published curve: curves as chart.draw takes them; `text` says what is seen. Pictures stand below the tables, or
+        where the body has got to."""
         ours = [c for c in curves if c.is_ours]
         is_whole = bool(ours) and all(c.x for c in ours)
         curves = [c for c in curves if c.x]
@@ -63,12 +69,16 @@ class Page:
         is_kept = before is not None and not is_whole
         if is_kept or any(c.is_ours for c in curves):
             file = before or self._free_picture()
-            self._charts.append((file, title, text))
+            self._taken.add(file)
+            if in_body:
+                self._body += shown(file, title, text)
+            else:
+                self._charts.append((file, title, text))
             if not is_kept:
                 chart.draw(FOLDER / "pictures" / file, title, across, up, curves)
 
     def _free_picture(self):
-        taken = {file for file, _, _ in self._charts} | self._kept.pictures()
+        taken = self._taken | self._kept.pictures()
         return next(file for n in itertools.count(1) if (file := f"{self.name}_{n}.svg") not in taken)
 
     def body(self, lines):
@@ -86,8 +96,8 @@ class Page:
         if self._rows:
             out += HEAD + ["| " + " | ".join(row) + " |" for row in self._rows] + [""]
         out += self._body
-        for file, name, text in self._charts:
-            out += [f"![{name}](pictures/{file})", "", text, ""]
+        for picture in self._charts:
+            out += shown(*picture)
         out += [note + "\n" for note in self._notes]
         if self._rows and runs.kept.changed:
             out += [f"Made otherwise today and not yet anew: {', '.join(runs.kept.changed)}. Their rows are from before.", ""]

@@ -1,7 +1,9 @@
 """Every number and sign of chapters 3 to 6 of the thesis beside ours."""
 
 import operator
+import re
 
+from chart import Curve, published
 from kept import Kept
 from page import FOLDER
 from runs import one_of_each
@@ -71,11 +73,28 @@ def fill(page, runs):
     chapters = {title: with_those_before(chapter.rows(runs), runs) for title, chapter in CHAPTERS.items()}
     every = [row for rows in chapters.values() for row in rows]
     page.body([*summary(every), *by_chapter(chapters)])
+    draw(page, every)
     for title, rows in chapters.items():
         page.body([f"## Chapter {title}", "", "| " + " | ".join(HEAD) + " |", "| --- |" + " --- |" * (len(HEAD) - 1),
                    *("| " + " | ".join(row.cells(cost_of(row, runs))) + " |" for row in rows), ""])
     page.body(explained.section(every, Kept(FOLDER / "experiments.md")))
     page.body(left(runs))
+
+
+def draw(page, rows):
+    """How far ours and the thesis's model are from what was measured."""
+    measured = [row.cells("") for row in rows if row.verdict() in (BETTER, AS_GOOD, WORSE)]
+    ours, theirs = ([(n, error) for n, cells in enumerate(measured, 1) if (error := percent_of(cells[place])) is not None] for place in (4, 3))
+    page.chart("How far off: ours, and the thesis's model", "row that is judged, in the order of this page", "from the measured value [%]",
+               [Curve("ours", *zip(*ours), is_points=True) if ours else Curve("ours", [], []),
+                published("the thesis's model", *(zip(*theirs) if theirs else ([], [])))],
+               "Rows with a measured number; signs have none.", in_body=True)
+
+
+def percent_of(cell):
+    """The error against the measurement [%] that a cell tells, or None."""
+    told = re.search(r"\(([+-][0-9.]+) %\)", cell)
+    return float(told.group(1)) if told else None
 
 
 def by_chapter(chapters):
