@@ -258,7 +258,7 @@ EXPERIMENTS = (
                                                   "emitters.sphere.positions": "[[100, 100, 127.5 mm]]",
                                                   "sensors.fall.base": "[0, 0, 7.5 mm]"}))),
                figure("fall", "level_60_mm/velocity"), "m/s 60 mm over the floor"),
-    Experiment("The hourglass, 7.8 s where 6.6 are measured", "is it the sand's friction, or that it is soft? (in one of 20 mm)", HOURGLASSES,
+    Experiment("The hourglass, whose last grain comes late", "is it the sand's friction, or that it is soft? (in one of 20 mm)", HOURGLASSES,
                figure("outlet", "duration"), "s"),
     Experiment("The hourglass until 99 of 100 grains have left", "how much of the time is that of the last ones, which trickle one by one?",
                HOURGLASSES, time_of_99_percent, "s"),
