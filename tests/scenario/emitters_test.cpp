@@ -158,6 +158,17 @@ TEST_CASE("a filling that does not fit shall be refused, when read or before the
                              "[10, 10, 2 mm], mass: 1 g, diameters: [1 mm]}\n");
   CHECK(dense.find("bad.yaml:23:16: error: emitters.bed: the region cannot hold the grains") !=
         std::string::npos);
+  // Equal spheres at random places run out of room at a solids fraction of 0.38: a check tells,
+  // too.
+  const std::string tight =
+      "  bed: {model: fill, material: glass, min: [0, 0, 0], max: [10, 10, 5 mm], mass: 0.5 g, "
+      "diameters: [1 mm]}\n";
+  const auto late = refusal(folder, tight);
+  CHECK(late.find("bad.yaml:23:16: error: emitters.bed: only ") != std::string::npos);
+  const auto check = engine({"check", folder / "bad.yaml"});
+  CHECK(check.status == 2);
+  CHECK(check.err == late);
+  CHECK(check.out.empty());
   // What another emitter has put there first takes the room.
   const auto taken = refusal(folder, R"(
   first: {model: fill, material: glass, min: [0, 0, 0], max: [10, 10, 8 mm], mass: 0.6 g, diameters: [1 mm]}

@@ -6,6 +6,7 @@
 #include "preflight/body_survey.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/learnt_costs.hpp"
+#include "preflight/placing.hpp"
 #include "preflight/reader.hpp"
 #include "run/branch/preview.hpp"
 #include "scenario/diagnostics.hpp"
@@ -54,8 +55,9 @@ void add_check(CLI::App& app, int&) {
     for (const std::string& warning : result.warnings) std::cerr << warning << '\n';
     for (const std::string& warning : branching.warning_lines()) std::cerr << warning << '\n';
     branching.throw_errors();
-    const auto derived =
-        preflight::derive(result.setup, *registry, result.dust, start ? start->time : 0.0);
+    const double begin = start ? start->time : 0.0;
+    const auto derived = preflight::derive(result.setup, *registry, result.dust, begin);
+    preflight::try_placing(result.setup, *registry, derived, begin);
     const auto survey = preflight::survey_bodies(result.setup, *registry);
     const auto learnt = preflight::LearntCosts().expect(result.setup.name, derived.cost);
     std::cout << (arguments->as_json ? check_json : check_summary)(result.setup, result.dust,

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preflight/placing.hpp"
+
+#include "preflight/emissions.hpp"
+#include "preflight/particle_models.hpp"
+
+#include <cstddef>
+
+namespace dust::preflight {
+
+void try_placing(const scenario::Setup& setup, const registry::Registry& registry,
+                 const Derived& derived, double begin) {
+  // Placed within a second, however tight the region is.
+  constexpr double k_quickly_placed = 4e4;
+  const ParticleModels models = make_particle_models(setup, registry);
+  for (std::size_t n = 0; n < models.emitters.size(); ++n) {
+    const EmissionNumbers& e = derived.emissions[n];
+    if (!(e.at_once > 0.0) || e.at_once > k_quickly_placed || e.begin < begin) continue;
+    proposals(setup, setup.emitters[n], *models.emitters[n]);
+  }
+}
+
+}  // namespace dust::preflight
