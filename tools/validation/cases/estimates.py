@@ -1,9 +1,11 @@
 """Compares what `engine check` tells with what runs take: grains, memory, disk, processor time, and the time term by
 term. A scenario that would take long is cut: time.end is shortened until the estimate fits a minute, and the estimate
-is asked for anew. With --no-run the finished runs of --runs are taken, whatever case they are of; rows of scenarios
-that are not among them stay, with their memory and disk told anew (time is told to the machine)."""
+is asked for anew; --only takes scenarios by name (`thesis/fixed_*`). With --no-run the finished runs of --runs are
+taken, whatever case they are of; rows of scenarios that are not among them stay, with their memory and disk told anew
+(time is told to the machine)."""
 
 import datetime
+import fnmatch
 import json
 import os
 import pathlib
@@ -177,7 +179,8 @@ def write(args):
         done = [(scenario_named(json.loads((f / "summary.json").read_text())["scenario"]), f) for f in finished_runs(args.runs)]
         results = ((scenario, recorded(engine, folder)) for scenario, folder in done)
     else:
-        short = (scenario for scenario in SHIPPED if estimate(engine, scenario, [])["core_s"] <= WORTH_IT)
+        asked = (s for s in SHIPPED if any(fnmatch.fnmatch(str(s.relative_to(ROOT / "scenarios").with_suffix("")), name) for name in args.only))
+        short = (scenario for scenario in asked if estimate(engine, scenario, [])["core_s"] <= WORTH_IT)
         results = ((scenario, measure(engine, scenario, LONGEST)) for scenario in short)
     for scenario, result in results:
         rows[str(scenario.relative_to(ROOT / "scenarios"))] = row(scenario, result)
