@@ -11,6 +11,6 @@ namespace dust::preflight {
 /// finds no place is refused as a run would refuse it. Of very many only a run finds out, and what
 /// bodies take of a region.
 void try_placing(const scenario::Setup& setup, const registry::Registry& registry,
-                 const Derived& derived, double begin = 0.0);
+                 const Derived& derived, double begin);
 
 }  // namespace dust::preflight

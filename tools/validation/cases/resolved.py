@@ -1,5 +1,6 @@
 """Cases B1 to B4 of chapter 3 with a resolved sphere (ten Cate et al. 2002)."""
 
+import math
 import statistics
 
 from cases.settling_b import TEN_CATE
@@ -35,7 +36,9 @@ def fill(page, runs):
     page.chart("Gap between sphere and floor, B1", "time [s]", "gap [mm]",
                [Curve("B1", *gap_curve(run, 1e3)), published("B1, measured", times, [1e3 * gap for gap in gaps])],
                "Measured: ten Cate et al. 2002, figure 5a, as others have read it off (docs/validation/data/tencate_2002_gap_b1.csv). Its first point "
-               "still stands at 8.02 diameters after 0.08 s, and its middle falls by 34 mm/s, where the largest measured velocity is 36: the figure's "
+               f"still stands at {gaps[0] / DIAMETER:.2f} diameters after {times[0]:.2f} s, and from 0.5 to 2.5 s it falls by "
+               f"{1e3 * (between(times, gaps, 0.5) - between(times, gaps, 2.5)) / 2:.0f} mm/s, where the largest measured velocity is "
+               f"{1e3 * math.prod(TEN_CATE[1]):.0f}: the figure's "
                "zero and its scale are no better known than that. Of B2 to B4 no table is at hand: their times stand above beside nothing.")
     page.note("The sphere is 12 cells across; neither a drag law nor a rule of the void fraction is asked "
               "([theory](../theory/resolved.md)). The same cases with an unresolved sphere: [settling_b.md](settling_b.md).")
