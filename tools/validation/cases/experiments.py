@@ -207,6 +207,22 @@ DENSITIES = (*of_study("table_6_6", ("1500 kg/m3", "rho_1500"), ("2650 kg/m3", "
                    ("3000 kg/m3, as many grains as at 2650", "3000_as_many", "3000", {"emitters.feed.mass_flow": "6.792 g/s"}),
                    ("1500 kg/m3, without air", "1500_dry", "1500", {"emitters.feed.velocity": "[0, 0, -0.2 m/s]", "fluid": "none"}))))
 
+def at_speed(speed, feed):
+    """A point of Table 6.4."""
+    (point,) = of_study("table_6_4_speed", ("", f"{speed} m/s {feed} g/s"), extra=belt.TO_ONE_SECOND)
+    return point[1]
+
+
+def changed(plan, name, settings):
+    return Plan(f"{plan.name}_{name}", plan.scenario, {**plan.settings, **settings})
+
+
+# Little and much sand: on slow belts and on the fast one, without air, and through the same opening.
+FEEDS = (*((f"{feed} g/s at {speed} m/s", at_speed(speed, feed)) for speed in (0.8, 0.2, 0.4) for feed in (1, 6)),
+         *((f"{feed} g/s at 0.8 m/s, without air", changed(at_speed(0.8, feed), "dry", {"fluid": "none"})) for feed in (1, 6)),
+         ("1 g/s at 0.8 m/s through the opening of 6 g/s", changed(at_speed(0.8, 1), "wide", {
+             key: value for key, value in at_speed(0.8, 6).settings.items() if key in ("emitters.feed.min", "emitters.feed.max")})))
+
 WINDS = of_study("table_6_6", ("still air", "base"), ("lid and air at +0.5 m/s", "lid_plus_0.5"),
                  ("wind of +0.5 m/s through the side", "wind_plus_0.5"), extra=belt.TO_ONE_SECOND)
 
@@ -323,6 +339,8 @@ EXPERIMENTS = (
     Experiment("Light grains, which the thesis sees go less far", "the air, or how many there are at 6 g/s?", DENSITIES,
                figure("stream", "drop_140_mm/median", 1e3), "mm, median 140 mm below the belt"),
     Experiment("Light grains, which the thesis sees spread wider", "the air, or how many there are at 6 g/s?", DENSITIES, width_140,
+               "mm, from 5 to 95 % of the stream 140 mm below the belt"),
+    Experiment("More sand, which the thesis sees widen the stream", "on the fast belt: the air, or the opening of the feed?", FEEDS, width_140,
                "mm, from 5 to 95 % of the stream 140 mm below the belt"),
     Experiment("The eddies, which the thesis sees vanish with +0.5 m/s", "the lid, or the wind?", WINDS,
                figure("suction", "place_1/pressure_over_density"), "m2/s2, lowest anywhere"),
