@@ -143,6 +143,22 @@ class Campaign(unittest.TestCase):
         both = runs.Runs([cases.all_plans()[name] for name in two], self.runs, None)
         self.assertEqual({both[name].folder.name for name in two}, {two[0]})
 
+    def test_what_the_scenario_says_already_makes_no_other_run(self):
+        def same(*settings, scenario="transfer_point.yaml"):
+            return runs.Plan("any", scenario, dict(settings)).same()
+        self.assertEqual(same(("bodies.belt.speed", "0.8 m/s"), ("time.end", "1 s")), same(("time.end", "1 s")))
+        self.assertEqual(same(("emitters.feed.min", '[26, 1.5, "220 mm"]')), same())
+        self.assertEqual(same(("interactions[1].rolling.friction", "0.5")), same())
+        # By what it includes, unless it says otherwise itself.
+        late = "thesis/transfer_point_4s.yaml"
+        self.assertEqual(same(("bodies.belt.speed", "0.8 m/s"), scenario=late), same(scenario=late))
+        self.assertNotEqual(same(("time.end", "0.7 s"), scenario=late), same(scenario=late))
+        for other in (("bodies.belt.speed", "0.6 m/s"), ("frames.conveyor.angle", "3.5 deg"), ("seed", "1"), ("fluid", "none")):
+            self.assertNotEqual(same(other), same())
+        # Of a block that another setting replaces, the scenario says nothing any more.
+        air = ("domain.boundaries.left.air", '{"model": "total_pressure"}')
+        self.assertNotEqual(same(air, ("domain.boundaries.left.air.pressure", "0 Pa")), same(air))
+
 
 class Budget(unittest.TestCase):
     def test_it_reaches_as_far_in_the_order_as_its_hours_do(self):

@@ -1,21 +1,13 @@
 """Points of a study as runs, so that a page or a campaign can do them one by one."""
 
-import functools
 import itertools
 import json
 import math
 
-import yaml
-
+from commands import read_file
 from runs import ROOT, Plan
 
 FOLDER = ROOT / "scenarios" / "studies"
-
-
-@functools.cache
-def read_file(file):
-    # The loader in C, ten times as fast, where PyYAML has it.
-    return yaml.load(file.read_text(), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
 
 
 def read(study):
