@@ -217,11 +217,17 @@ def changed(plan, name, settings):
     return Plan(f"{plan.name}_{name}", plan.scenario, {**plan.settings, **settings})
 
 
-# Little and much sand: on slow belts and on the fast one, without air, and through the same opening.
+# Little and much sand: on slow belts and on the fast one, without air, through the same opening, and what a grain that comes alone
+# does on the belt until it leaves it.
+FEW, MANY = at_speed(0.8, 1), at_speed(0.8, 6)
 FEEDS = (*((f"{feed} g/s at {speed} m/s", at_speed(speed, feed)) for speed in (0.8, 0.2, 0.4) for feed in (1, 6)),
-         *((f"{feed} g/s at 0.8 m/s, without air", changed(at_speed(0.8, feed), "dry", {"fluid": "none"})) for feed in (1, 6)),
-         ("1 g/s at 0.8 m/s through the opening of 6 g/s", changed(at_speed(0.8, 1), "wide", {
-             key: value for key, value in at_speed(0.8, 6).settings.items() if key in ("emitters.feed.min", "emitters.feed.max")})))
+         *((f"{feed} g/s at 0.8 m/s, without air", changed(plan, "dry", {"fluid": "none"})) for feed, plan in ((1, FEW), (6, MANY))),
+         ("1 g/s at 0.8 m/s through the opening of 6 g/s", changed(FEW, "wide", {
+             key: value for key, value in MANY.settings.items() if key in ("emitters.feed.min", "emitters.feed.max")})),
+         ("1 g/s at 0.8 m/s, without air, restitution at the belt 0.1 in place of 0.5", changed(FEW, "dry_e_pb_0.1", {
+             "fluid": "none", "interactions[1].contact.restitution": "0.1"})),
+         ("1 g/s at 0.8 m/s, without air, rolling friction at the belt 0.6 in place of 0.5", changed(FEW, "dry_rolling_0.6", {
+             "fluid": "none", "interactions[1].rolling.friction": "0.6"})))
 
 WINDS = of_study("table_6_6", ("still air", "base"), ("lid and air at +0.5 m/s", "lid_plus_0.5"),
                  ("wind of +0.5 m/s through the side", "wind_plus_0.5"), extra=belt.TO_ONE_SECOND)
@@ -340,7 +346,7 @@ EXPERIMENTS = (
                figure("stream", "drop_140_mm/median", 1e3), "mm, median 140 mm below the belt"),
     Experiment("Light grains, which the thesis sees spread wider", "the air, or how many there are at 6 g/s?", DENSITIES, width_140,
                "mm, from 5 to 95 % of the stream 140 mm below the belt"),
-    Experiment("More sand, which the thesis sees widen the stream", "on the fast belt: the air, or the opening of the feed?", FEEDS, width_140,
+    Experiment("More sand, which the thesis sees widen the stream", "on the fast belt: the air, the opening of the feed, or how a grain that comes alone bounces and rolls on the belt?", FEEDS, width_140,
                "mm, from 5 to 95 % of the stream 140 mm below the belt"),
     Experiment("The eddies, which the thesis sees vanish with +0.5 m/s", "the lid, or the wind?", WINDS,
                figure("suction", "place_1/pressure_over_density"), "m2/s2, lowest anywhere"),
