@@ -48,6 +48,11 @@ std::unique_ptr<Launcher> make_launcher(const StudyOptions& options, const Spec&
   return make_local_launcher(store, resources);
 }
 
+std::string side_by_side(const Resources& resources) {
+  return std::to_string(resources.jobs) + " at a time with " + std::to_string(resources.threads) +
+         (resources.threads == 1 ? " thread each" : " threads each");
+}
+
 /// Says so where memory, not cores, bounds how many points run at a time.
 void print_memory(double largest, const Resources& resources) {
   constexpr double k_megabyte = 1e6;
@@ -85,10 +90,8 @@ void print_plan(const Plan& plan, const PointStore& store, const Resources& reso
   }
   constexpr double k_megabyte = 1e6;
   std::printf(
-      "%zu points, %zu finished; %d at a time with %d threads each; up to %.0f MB each; about %s "
-      "on "
-      "this machine (rough)\n",
-      plan.points.size(), done, resources.jobs, resources.threads, largest / k_megabyte,
+      "%zu points, %zu finished; %s; up to %.0f MB each; about %s on this machine (rough)\n",
+      plan.points.size(), done, side_by_side(resources).c_str(), largest / k_megabyte,
       base::estimated_duration_text(core_seconds / (resources.jobs * resources.threads)).c_str());
   print_memory(largest, resources);
 }
@@ -118,8 +121,8 @@ void print_calibration(const Spec& spec, const Plan& plan, const std::vector<Poi
                 short_number(t.error).c_str(), t.measure.unit.c_str());
   }
   const double runs = static_cast<double>(c.runs * spec.replicates);
-  std::printf("at most %.0f runs of about %s on one core each; %d at a time with %d threads each\n",
-              runs, base::duration_text(seconds).c_str(), resources.jobs, resources.threads);
+  std::printf("at most %.0f runs of about %s on one core each; %s\n", runs,
+              base::duration_text(seconds).c_str(), side_by_side(resources).c_str());
 }
 
 void print_expectations(const Spec& spec, const Results& results) {

@@ -47,6 +47,7 @@ def check_studies(folder):
         (folder / "scenarios/studies" / name).write_text(text)
         told = run(["engine", "study", name, "--dry-run"], folder / "scenarios/studies")
         check("16 points" in told or "at most 30 runs" in told, f"{name}: {told}")
+        check(" 1 threads" not in told, f"{name}: {told}")
     (folder / "speeds.yaml").write_text(block_with("points_per_job", CLUSTER_PAGE))
     told = run(["engine", "study", "speeds.yaml", "--dry-run"], folder)
     check("12 points" in told, f"the study of the cluster's page: {told}")
