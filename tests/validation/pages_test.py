@@ -142,6 +142,18 @@ class KeptPages(unittest.TestCase):
         self.assertEqual(["![New](pictures/case_2.svg)", "![Old](pictures/case_1.svg)"],
                          [line for line in text.splitlines() if line.startswith("![")])
 
+    def test_a_chart_of_the_rows_keeps_what_the_page_told(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "case.md"
+            before = page.Page("case")
+            told = [(1.5, 0.25), (-2e-06, None), None, (12345.0, 3.0)]
+            for n, ours in enumerate(told):
+                before.add(f"figure {n}", ours, "1", why="none", unit="mm" if n else "")
+            file.write_text(before.text("Case", runs.Runs([], folder, None), "how"))
+            sheet = page.Page("case", kept.Kept(file))
+            self.assertEqual(told, [sheet.add(f"figure {n}", None, "1", why="none") for n in range(4)])
+            self.assertEqual((7.0, None), sheet.add("figure 4", (7.0, None), "1", why="none"))
+
     def test_a_change_is_told_between_a_run_that_is_gone_and_one_of_today(self):
         plans = {level: runs.Plan(f"run_{level}", "verification/box.yaml", {"seed": level}) for level in "12"}
         with tempfile.TemporaryDirectory() as first, tempfile.TemporaryDirectory() as second:

@@ -2,6 +2,7 @@
 
 import datetime
 import itertools
+import re
 
 import chart
 from kept import Kept
@@ -27,6 +28,12 @@ def with_error(ours, unit=""):
     return as_text(value) + (f" ± {error:.2g}" if error else "") + (f" {unit}" if unit else "")
 
 
+def figure_in(text):
+    """(value, uncertainty or None) of a figure as text; None where it is none."""
+    found = re.match(r"([-+]?[\d.]+(?:e[-+]?\d+)?)(?: ± ([\d.]+(?:e[-+]?\d+)?))?(?: |$)", text)
+    return found and (float(found.group(1)), float(found.group(2)) if found.group(2) else None)
+
+
 class Page:
     def __init__(self, name, kept=None):
         self.name, self._kept = name, kept or Kept()
@@ -34,7 +41,7 @@ class Page:
 
     def add(self, what, ours, published, low=None, high=None, unit="", band=None, why=None, keep=True):
         """A figure; one without a band says why it has none. `keep`: whether the page's row of before stands for one that is not
-        there, as it does if its runs are the same."""
+        there, as it does if its runs are the same. Returns what the row tells, (value, uncertainty or None), for a chart of it."""
         is_judged = low is not None or high is not None
         if not is_judged and not why:
             raise ValueError(f"{what}: neither a band nor why there is none")
@@ -44,7 +51,7 @@ class Page:
         before = self._kept.row(what) if ours is None and keep else None
         if before:
             self._rows.append(tuple(before))
-            return
+            return figure_in(before[1])
         if ours is None:
             shown, verdict = NOT_RUN, "open"
         else:
@@ -54,6 +61,7 @@ class Page:
                 inside = (low is None or value >= low) and (high is None or value <= high)
                 verdict = "pass" if inside else "FAIL"
         self._rows.append((what, shown, published, band or f"none: {why}", verdict))
+        return figure_in(shown)
 
     def note(self, text):
         self._notes.append(text)

@@ -35,11 +35,11 @@ def plans():
 
 def fill(page, runs):
     table = {int(row["W_over_D"]): row for row in read_table("thesis_table_4_10_rectangular_container.csv")}
-    angles = {}
+    angles, told = {}, {}
     for kind in KINDS:
         for n in WIDTHS:
             angles[kind, n] = runs[name_of(kind, n)].figure("slope", "angle")
-            add_width(page, kind, n, angles[kind, n], table[n])
+            told[kind, n] = add_width(page, kind, n, angles[kind, n], table[n])
     for n in WIDE:
         for place in PLACES:
             page.add(f"slope, W/D50 = {n}, walls, {'at the front wall' if place == 'wall' else 'in the middle'} [deg]",
@@ -50,7 +50,7 @@ def fill(page, runs):
     flat = [angles["periodic", n][0] for n in WIDTHS if angles["periodic", n]]
     page.add(f"periodic: spread over {len(flat)} widths [deg]", max(flat) - min(flat) if len(flat) > 1 else None,
              "0.8 (thesis, DEM)", high=1.5)
-    draw(page, angles, table)
+    draw(page, told, table)
     page.note("Container 40 mm long, filled 30 mm high: sizes are ours, the thesis gives none.")
 
 
@@ -59,10 +59,9 @@ def add_width(page, kind, n, ours, row):
     what = f"slope, W/D50 = {n}, {kind} [deg]"
     if kind == "walls" and row["AoR_exp_deg"]:
         measured = float(row["AoR_exp_deg"])
-        page.add(what, ours, f"{text}, {measured} ± 1.1 (measured)", low=0.943 * measured, high=1.057 * measured,
-                 band="within 5.7 % of the measured one (thesis's own limit)")
-    else:
-        page.add(what, ours, text, why="nothing was measured; another code's figure is no truth")
+        return page.add(what, ours, f"{text}, {measured} ± 1.1 (measured)", low=0.943 * measured, high=1.057 * measured,
+                        band="within 5.7 % of the measured one (thesis's own limit)")
+    return page.add(what, ours, text, why="nothing was measured; another code's figure is no truth")
 
 
 def draw(page, angles, table):
