@@ -92,6 +92,25 @@ void fit_line(const std::vector<LevelMean>& levels, MainEffect& effect) {
   effect.error = std::sqrt(rest / (n - 2.0) / xx) * range;
 }
 
+/// The points at which all these inputs are held, with what came of them.
+struct PointsAt {
+  Plan plan;
+  std::vector<Outcome> outcomes;
+
+  PointsAt(const std::vector<HeldInput>& at, const Results& results) : plan(results.plan) {
+    plan.points.clear();
+    for (std::size_t n = 0; n < results.plan.points.size(); ++n) {
+      const Point& point = results.plan.points[n];
+      const bool is_held = std::all_of(at.begin(), at.end(), [&](const HeldInput& h) {
+        return point.levels[h.axis] == h.index;
+      });
+      if (!is_held) continue;
+      plan.points.push_back(point);
+      outcomes.push_back(results.outcomes[n]);
+    }
+  }
+};
+
 }  // namespace
 
 std::string amount_text(double value, double error, const std::string& unit) {
@@ -155,8 +174,18 @@ std::vector<MainEffect> main_effects(const Spec& spec, const Results& results) {
   return effects;
 }
 
-Verdict assess(const Expectation& e, const Spec& spec, const Results& results) {
+std::string place_text(const Expectation& expectation) {
+  std::string text;
+  for (const HeldInput& h : expectation.at) {
+    text += (text.empty() ? "at " : ", ") + h.path + " " + h.level;
+  }
+  return text;
+}
+
+Verdict assess(const Expectation& e, const Spec& spec, const Results& all) {
   Verdict verdict;
+  const PointsAt here(e.at, all);
+  const Results results{here.plan, here.outcomes};
   const auto effects = main_effects(spec, results);
   const auto found = std::find_if(effects.begin(), effects.end(), [&](const MainEffect& m) {
     return results.plan.outputs[m.output].name == e.output &&

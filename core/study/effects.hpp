@@ -49,6 +49,10 @@ struct Verdict {
   std::string text;  ///< one sentence
 };
 
+/// "at bodies.belt.speed 0.2 m/s": where an effect is looked at; nothing where it is a mean over
+/// all.
+std::string place_text(const Expectation& expectation);
+
 /// An effect is told from noise when it exceeds twice its standard error.
 Verdict assess(const Expectation& expectation, const Spec& spec, const Results& results);
 

@@ -12,6 +12,7 @@
 #include "scenario/text/values.hpp"
 #include "study/measures.hpp"
 #include "study/quantities.hpp"
+#include "study/spec/axes.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -33,19 +34,6 @@ double begin_of(const scenario::StartSetup& start, const registry::Registry& reg
   if (!start.from) return 0.0;
   if (start.from->time || !run::has_origin(*start.from)) return start.from->time.value_or(0.0);
   return run::Origin(*start.from, registry).time();
-}
-
-/// A value on one line, as it is written.
-std::string text_of(const Node& node) {
-  if (node.is_text()) return node.text;
-  Node map = Node::make_map();
-  add(map, "v", node);
-  std::string text = scenario::emit_yaml(map);
-  text = text.substr(2);
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  text.erase(0, text.find_first_not_of(' '));
-  text.erase(text.find_last_not_of(' ') + 1);
-  return text;
 }
 
 /// Interactions[0].contact.friction of a vector's component is noted under the vector.
@@ -81,7 +69,7 @@ Column column_of(const Axis& axis, std::size_t axis_number, std::size_t setting,
     const auto number = value.is_text() && !value.is_quoted
                             ? scenario::split_number(value.text, ignored)
                             : std::optional<scenario::WrittenNumber>{};
-    column.values.push_back({0.0, text_of(value)});
+    column.values.push_back({0.0, value_text(value)});
     if (!number) {
       column.head.is_text = true;
       continue;
@@ -214,7 +202,7 @@ struct Planner::Impl {
       if (!reported.insert(line).second) return;
       const Level& other = spec.axes[a].levels[first.levels[a]];
       const auto name = [](const Level& l) {
-        return l.label.empty() ? text_of(l.settings.front().value) : l.label;
+        return l.label.empty() ? value_text(l.settings.front().value) : l.label;
       };
       diagnostics.error(where, "two points are the same run: " + scenario::quoted(name(level)) +
                                    " makes the scenario of " + scenario::quoted(name(other)) +

@@ -127,7 +127,8 @@ void print_calibration(const Spec& spec, const Plan& plan, const std::vector<Poi
 
 void print_expectations(const Spec& spec, const Results& results) {
   for (const Expectation& e : spec.expectations) {
-    const std::string what = e.from.empty() ? "with " + e.input : "from " + e.from + " to " + e.to;
+    std::string what = e.from.empty() ? "with " + e.input : "from " + e.from + " to " + e.to;
+    if (!e.at.empty()) what += " " + place_text(e);
     std::printf("%s %s %s: %s\n", e.output.c_str(), e.then.c_str(), what.c_str(),
                 assess(e, spec, results).text.c_str());
   }

@@ -70,6 +70,7 @@ Json expectations_json(const Spec& spec, const Results& results) {
                     {"input", e.input},
                     {"from", e.from},
                     {"to", e.to},
+                    {"at", place_text(e)},
                     {"verdict", is_good  ? "as_expected"
                                 : is_bad ? "against"
                                          : "open"},

@@ -126,6 +126,20 @@ TEST_CASE("expectations and calibrations shall be checked against the study") {
                 "s.yaml:4:35: error: expect[0].input: 'seed' is not varied; there are: time.end");
   check_message(vary + "expect: [{output: emitted, input: time.end, then: grows}]\n",
                 "s.yaml:4:51: error: expect[0].then: 'grows' is none of rises, falls");
+  const std::string held = k_head +
+                           "vary: {time.end: [20, 40 ms], seed: [1, 2]}\nexpect: [{output: "
+                           "emitted, input: seed, then: rises, at: ";
+  check_message(held + "20 ms}]\n",
+                "s.yaml:4:58: error: expect[0].at: a map of paths and levels is expected, like "
+                "{bodies.belt.speed: 0.2 m/s}, not '20 ms'");
+  check_message(
+      held + "{time.ent: 20 ms}}]\n",
+      "s.yaml:4:59: error: expect[0].at: 'time.ent' is not varied; did you mean 'time.end'?");
+  check_message(held + "{time.end: 30 ms}}]\n",
+                "s.yaml:4:69: error: expect[0].at.time.end: there is no level '30 ms'; there are: "
+                "20 ms, 40 ms");
+  check_message(held + "{seed: 1}}]\n",
+                "s.yaml:4:59: error: expect[0].at: seed is the input itself");
   const std::string targets =
       "base: drop.yaml\ncalibrate:\n  targets: {m: {quantity: sensors.out.forward.mass, value: 20 "
       "mg, error: 1 mg}}\n  parameters: ";

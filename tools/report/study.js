@@ -71,7 +71,7 @@
     if (!expectations.length) return null;
     const count = (kind) => expectations.filter((e) => e.verdict === kind).length;
     const look = {as_expected: 'good', against: 'wrong'};
-    const rows = expectations.map((e) => [`${Dust.words(e.output)} ${e.then}`, e.from ? `from ${e.from} to ${e.to}` : `with ${e.input}`, look[e.verdict] ? Dust.strong(e.text, look[e.verdict]) : e.text, e.why]);
+    const rows = expectations.map((e) => [`${Dust.words(e.output)} ${e.then}`, (e.from ? `from ${e.from} to ${e.to}` : `with ${e.input}`) + (e.at ? ` ${e.at}` : ''), look[e.verdict] ? Dust.strong(e.text, look[e.verdict]) : e.text, e.why]);
     return Dust.section('expectations', 'Expected signs', p({}, `${count('as_expected')} of ${expectations.length} are as expected, ${count('against')} against. A change counts as told from noise when it exceeds twice its standard error.`),
       Dust.table([{title: 'Expected'}, {title: 'When'}, {title: 'Found'}, {title: 'Why'}], rows, {label: 'Expected signs'}));
   };

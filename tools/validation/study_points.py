@@ -83,12 +83,14 @@ def figure_at(run, quantity):
 
 
 def change(runs, study, expectation, extra=None):
-    """(change, error, points) of an expected sign: from the first level to the last, or between two named cases, as the mean
-    over what else is varied. None if a run is missing."""
+    """(change, error) of an expected sign: from the first level to the last, or between two named cases, as the mean over what else is
+    varied and not held `at` a level. None if a run is missing."""
     text = read(study)
     given, levels = text["measure"][expectation["output"]], None
     found = {}
     for label, settings in points(text):
+        if any(held != (label.split(" ")[0] if path == "case" else settings.get(path)) for path, held in expectation.get("at", {}).items()):
+            continue
         run = runs[plan_of(study, label, settings, extra).name]
         key = label.split(" ")[0] if expectation["input"] == "case" else settings.get(expectation["input"])
         found.setdefault(key, []).append(measured(run, given))

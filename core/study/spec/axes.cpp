@@ -53,6 +53,18 @@ sdk::Parameter whole_number(const char* name) {
 
 }  // namespace
 
+std::string value_text(const Node& value) {
+  if (value.is_text()) return value.text;
+  Node map = Node::make_map();
+  add(map, "v", value);
+  std::string text = scenario::emit_yaml(map);
+  text = text.substr(2);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  text.erase(0, text.find_first_not_of(' '));
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text;
+}
+
 std::vector<Node> with_common_unit(std::vector<Node> values) {
   std::size_t with_unit = 0;
   for (const Node& value : values) {

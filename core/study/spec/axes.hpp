@@ -8,6 +8,9 @@
 
 namespace dust::study {
 
+/// A value on one line, as it is written.
+std::string value_text(const scenario::Node& value);
+
 /// Reads what is varied into axes with their levels; an axis with a problem is left out.
 class AxisReader {
  public:

@@ -44,12 +44,21 @@ struct Measure {
   scenario::Mark where;
 };
 
+/// A level at which an input is held.
+struct HeldInput {
+  std::string path;   ///< of an axis, or "case"
+  std::string level;  ///< as written
+  std::size_t axis = 0;
+  std::size_t index = 0;  ///< of the level
+};
+
 /// The sign an effect should have, stated before the runs.
 struct Expectation {
-  std::string output;  ///< name of a measure
-  std::string input;   ///< path of an axis, or "case"
-  std::string then;    ///< rises | falls
-  std::string from;    ///< of cases: their names
+  std::string output;         ///< name of a measure
+  std::string input;          ///< path of an axis, or "case"
+  std::vector<HeldInput> at;  ///< where it is looked at; the mean over all other inputs
+  std::string then;           ///< rises | falls
+  std::string from;           ///< of cases: their names
   std::string to;
   std::string why;
   scenario::Mark where;

@@ -237,10 +237,69 @@ class SpecReader {
       e.from = text_of(reader, "from", false, "");
       e.to = text_of(reader, "to", false, "");
       e.why = text_of(reader, "why", false, "");
+      const Entry* at = reader.optional("at");
       reader.finish();
       check_expectation(item, e, n);
+      if (at != nullptr) read_held(*at, "expect[" + std::to_string(n) + "].at", e);
       spec_.expectations.push_back(std::move(e));
     }
+  }
+
+  /// Levels of other inputs at which an effect is looked at.
+  void read_held(const Entry& entry, const std::string& path, Expectation& e) {
+    if (!entry.value.is_map()) {
+      error(entry.value.where, path +
+                                   ": a map of paths and levels is expected, like "
+                                   "{bodies.belt.speed: 0.2 m/s}, not " +
+                                   scenario::kind_text(entry.value));
+      return;
+    }
+    for (const Entry& one : entry.value.entries) {
+      const auto axis = std::find_if(spec_.axes.begin(), spec_.axes.end(),
+                                     [&](const Axis& a) { return is_input_of(a, one.key); });
+      if (axis == spec_.axes.end()) {
+        std::vector<std::string> inputs;
+        for (const Axis& a : spec_.axes) {
+          if (a.kind == AxisKind::cases) inputs.emplace_back("case");
+          inputs.insert(inputs.end(), a.paths.begin(), a.paths.end());
+        }
+        error(one.where, path + ": '" + printable(one.key) + "' is not varied" +
+                             scenario::suggestion(one.key, inputs, "there are"));
+        continue;
+      }
+      if (is_input_of(*axis, e.input)) {
+        error(one.where, path + ": " + printable(one.key) + " is the input itself");
+        continue;
+      }
+      std::vector<std::string> levels;
+      for (const Level& level : axis->levels) levels.push_back(level_text(*axis, level, one.key));
+      const std::string given = value_text(one.value);
+      const auto found = std::find(levels.begin(), levels.end(), given);
+      if (found == levels.end()) {
+        // Of values the nearest word is no likely one: all are named.
+        const std::string near = axis->kind == AxisKind::cases ? given : std::string();
+        error(one.value.where, path + "." + printable(one.key) + ": there is no level '" +
+                                   printable(given) + "'" +
+                                   scenario::suggestion(near, levels, "there are"));
+        continue;
+      }
+      e.at.push_back({one.key, given, static_cast<std::size_t>(axis - spec_.axes.begin()),
+                      static_cast<std::size_t>(found - levels.begin())});
+    }
+  }
+
+  static bool is_input_of(const Axis& axis, const std::string& input) {
+    return axis.kind == AxisKind::cases
+               ? input == "case"
+               : std::find(axis.paths.begin(), axis.paths.end(), input) != axis.paths.end();
+  }
+
+  static std::string level_text(const Axis& axis, const Level& level, const std::string& path) {
+    if (axis.kind == AxisKind::cases) return level.label;
+    for (const Setting& s : level.settings) {
+      if (s.path == path) return value_text(s.value);
+    }
+    return {};
   }
 
   void check_expectation(const Node& item, const Expectation& e, std::size_t n) {

@@ -116,6 +116,7 @@ std::string study_schema() {
                                    {"then", {{"enum", {"rises", "falls"}}}},
                                    {"from", k_text},
                                    {"to", k_text},
+                                   {"at", map_of(Json::object())},
                                    {"why", k_text}},
                                   {"output", "input", "then"});
   const Json zip = map_of(levels());

@@ -102,6 +102,27 @@ TEST_CASE("expectations shall be judged by sign and noise") {
   CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::unknown);
 }
 
+TEST_CASE("an expectation at a level of another input shall be judged by the points there") {
+  Made made(1);
+  // In case b the faster belt makes x fall, more than it rises in case a.
+  for (std::size_t n = 0; n < made.plan.points.size(); ++n) {
+    const Point& point = made.plan.points[n];
+    if (point.levels[1] == 1) made.outcomes[n].outputs[0].value = -20.0 * point.inputs[0].number;
+  }
+  Expectation e;
+  e.output = "x";
+  e.input = "belt.speed";
+  e.then = "rises";
+  CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::against);
+  e.at = {{"case", "a", 1, 0}};
+  CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::as_expected);
+  CHECK(assess(e, made.spec, made.results()).change == approx(30.0));
+  CHECK(assess(e, made.spec, made.results()).error == approx(0.5 * std::sqrt(2.0)));
+  CHECK(place_text(e) == "at case a");
+  e.at = {{"case", "b", 1, 1}};
+  CHECK(assess(e, made.spec, made.results()).change == approx(-60.0));
+}
+
 TEST_CASE("amounts shall be cut where their error allows") {
   CHECK(amount_text(60.3345, 0.09865, "mm") == "60.334 +- 0.099 mm");
   CHECK(amount_text(-3.5, 12.4, "1") == "-4 +- 12");

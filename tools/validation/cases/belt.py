@@ -29,7 +29,8 @@ def fill(page, runs):
 def sign_text(expectation):
     over = (f"from {expectation['from']} to {expectation['to']}" if "from" in expectation
             else f"with {expectation['input']}")
-    return f"{expectation['output']} {expectation['then']} {over}"
+    held = ", ".join(f"{path} {level}" for path, level in expectation.get("at", {}).items())
+    return f"{expectation['output']} {expectation['then']} {over}" + (f" at {held}" if held else "")
 
 
 def add_sign(page, runs, study, expectation):
