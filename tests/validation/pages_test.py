@@ -2,6 +2,7 @@
 """Rules of tools/validation: verdicts, bands, stale pages, points of studies, cases."""
 
 import json
+import math
 import pathlib
 import re
 import tempfile
@@ -313,6 +314,20 @@ class Points(unittest.TestCase):
 
 
 class Cases(unittest.TestCase):
+    def test_a_change_is_the_mean_over_what_is_not_held(self):
+        text = {"base": "../verification/box.yaml", "vary": {"a.b": [1, "2 m/s"], "seed": [1, 2]}, "measure": {"f": "sensors.s.f"}}
+        values = {("1 m/s", "1"): 1.0, ("1 m/s", "2"): 3.0, ("2 m/s", "1"): 10.0, ("2 m/s", "2"): 4.0}
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch("study_points.read", lambda _: text):
+            plans = dict(study_points.labelled("any"))
+            for plan in plans.values():
+                finished_run(folder, plan.name, {"s": {"f": (values[plan.settings["a.b"], plan.settings["seed"]], 0.5)}})
+            found = runs.Runs(plans.values(), folder, None)
+            def change(**more):
+                return study_points.change(found, "any", {"output": "f", "input": "seed", **more})
+            self.assertEqual(-2.0, change()[0])
+            self.assertEqual((2.0, math.hypot(0.5, 0.5)), change(at={"a.b": "1 m/s"}))
+            self.assertEqual(-6.0, change(at={"a.b": "2 m/s"})[0])
+
     def test_runs_have_one_meaning_each_and_their_scenario_is_there(self):
         plans = cases.all_plans()
         self.assertGreater(len(plans), 200)
