@@ -2,7 +2,6 @@
 #include "study/spec/axes.hpp"
 
 #include "base/text.hpp"
-#include "dust/sdk/parameter_schema.hpp"
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
 #include "scenario/text/values.hpp"
@@ -52,6 +51,8 @@ sdk::Parameter whole_number(const char* name) {
 }
 
 }  // namespace
+
+const sdk::ParameterSchema& sample_schema() { return SampleBlock::schema(); }
 
 std::string value_text(const Node& value) {
   if (value.is_text()) return value.text;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/parameter_schema.hpp"
 #include "study/spec/spec.hpp"
 
 #include <string>
@@ -10,6 +11,9 @@ namespace dust::study {
 
 /// A value on one line, as it is written.
 std::string value_text(const scenario::Node& value);
+
+/// What `sample` declares besides the intervals `over` which it spreads.
+const sdk::ParameterSchema& sample_schema();
 
 /// Reads what is varied into axes with their levels; an axis with a problem is left out.
 class AxisReader {

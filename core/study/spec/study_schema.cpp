@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "study/spec/axes.hpp"
 #include "study/spec/spec.hpp"
 
 #include "scenario/text/values.hpp"
@@ -64,8 +65,10 @@ const Json k_number = {{"type", {"number", "string"}}};
 const Json k_text = {{"type", "string"}};
 
 Json interval(bool has_count) {
-  Json properties = {
-      {"from", k_number}, {"to", k_number}, {"spacing", {{"enum", {"linear", "log"}}}}};
+  Json properties = {{"from", k_number},
+                     {"to", k_number},
+                     {"spacing", described({{"enum", {"linear", "log"}}},
+                                           "How levels lie between (default linear).")}};
   Json required = {"from", "to"};
   if (has_count) {
     properties["count"] = {{"type", "integer"}, {"minimum", 1}};
@@ -96,11 +99,9 @@ Json calibration() {
 }
 
 Json sample() {
-  return object({{"method", {{"enum", {"latin_hypercube", "sobol"}}}},
-                 {"count", {{"type", "integer"}, {"minimum", 1}}},
-                 {"seed", {{"type", "integer"}, {"minimum", 0}}},
-                 {"over", map_of(interval(false))}},
-                {"method", "count", "over"});
+  Json properties = properties_of(sample_schema());
+  properties["over"] = described(map_of(interval(false)), "Paths and the interval of each.");
+  return object(properties, {"method", "count", "over"});
 }
 
 }  // namespace
@@ -111,14 +112,19 @@ std::string study_schema() {
       {"anyOf",
        Json::array({k_text, object({{"quantity", k_text}, {"minus", k_text}, {"unit", k_text}},
                                    {"quantity"})})}};
-  const Json expectation = object({{"output", k_text},
-                                   {"input", k_text},
-                                   {"then", {{"enum", {"rises", "falls"}}}},
-                                   {"from", k_text},
-                                   {"to", k_text},
-                                   {"at", map_of(Json::object())},
-                                   {"why", k_text}},
-                                  {"output", "input", "then"});
+  const Json expectation = object(
+      {{"output", described(k_text, "Name of a measure.")},
+       {"input", described(k_text, "Path of what is varied, or `case`.")},
+       {"then", described({{"enum", {"rises", "falls"}}},
+                          "From the first level of the input to its last, or from one case to "
+                          "another.")},
+       {"from", described(k_text, "Of cases: the one that it changes from.")},
+       {"to", described(k_text, "Of cases: the one that it changes to.")},
+       {"at", described(map_of(Json::object()),
+                        "Paths of other inputs, or `case`, and the level of each at which the "
+                        "effect is looked at (default: the mean over all their levels).")},
+       {"why", described(k_text, "For the report.")}},
+      {"output", "input", "then"});
   const Json zip = map_of(levels());
   Json properties = {
       {"include", {{"type", {"string", "array"}}}},
