@@ -104,15 +104,8 @@ Json sample() {
   return object(properties, {"method", "count", "over"});
 }
 
-}  // namespace
-
-std::string study_schema() {
-  const Json one_case = map_of(Json::object());
-  const Json measure = {
-      {"anyOf",
-       Json::array({k_text, object({{"quantity", k_text}, {"minus", k_text}, {"unit", k_text}},
-                                   {"quantity"})})}};
-  const Json expectation = object(
+Json expectation() {
+  return object(
       {{"output", described(k_text, "Name of a measure.")},
        {"input", described(k_text, "Path of what is varied, or `case`.")},
        {"then", described({{"enum", {"rises", "falls"}}},
@@ -125,6 +118,16 @@ std::string study_schema() {
                         "effect is looked at (default: the mean over all their levels).")},
        {"why", described(k_text, "For the report.")}},
       {"output", "input", "then"});
+}
+
+}  // namespace
+
+std::string study_schema() {
+  const Json one_case = map_of(Json::object());
+  const Json measure = {
+      {"anyOf",
+       Json::array({k_text, object({{"quantity", k_text}, {"minus", k_text}, {"unit", k_text}},
+                                   {"quantity"})})}};
   const Json zip = map_of(levels());
   Json properties = {
       {"include", {{"type", {"string", "array"}}}},
@@ -157,7 +160,7 @@ std::string study_schema() {
                             "Names and what is taken from every run: "
                             "sensors.SENSOR.FIGURE or a figure of summary.json, "
                             "with another unit if wanted.")},
-      {"expect", described({{"type", "array"}, {"items", expectation}},
+      {"expect", described({{"type", "array"}, {"items", expectation()}},
                            "Signs of effects stated before the runs, checked in the report.")},
       {"run", described(object(properties_of(Execution::schema())), "How many runs at a time.")},
       {"slurm", described(object(properties_of(SlurmSpec::schema())),
