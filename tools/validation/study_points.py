@@ -82,25 +82,46 @@ def figure_at(run, quantity):
     return run.figure(sensor, "/".join(path))
 
 
+def points_of(study, expectation):
+    """The points that an expectation is about: where it holds an input `at` a level, those there."""
+    held = expectation.get("at", {})
+    return [(label, settings) for label, settings in points(read(study))
+            if all(level == (label.split(" ")[0] if path == "case" else settings.get(path)) for path, level in held.items())]
+
+
 def change(runs, study, expectation, extra=None):
-    """(change, error) of an expected sign: from the first level to the last, or between two named cases, as the mean over what else is
-    varied and not held `at` a level. None if a run is missing."""
+    """(change, error) of an output from the first level of an input to its last, or between two named cases, as the mean over what else
+    is varied and not held. None if a run is missing."""
     text = read(study)
-    given, levels = text["measure"][expectation["output"]], None
-    found = {}
-    for label, settings in points(text):
-        if any(held != (label.split(" ")[0] if path == "case" else settings.get(path)) for path, held in expectation.get("at", {}).items()):
-            continue
+    given, found = text["measure"][expectation["output"]], {}
+    for label, settings in points_of(study, expectation):
         run = runs[plan_of(study, label, settings, extra).name]
         key = label.split(" ")[0] if expectation["input"] == "case" else settings.get(expectation["input"])
         found.setdefault(key, []).append(measured(run, given))
     levels = list(found)
     first, last = expectation.get("from", levels[0]), expectation.get("to", levels[-1])
-    if first not in found and "cases" in text and expectation["input"] == "case":
-        return None
     before, after = found.get(first), found.get(last)
     if not before or not after or None in before or None in after:
         return None
     mean = lambda pairs: (sum(v for v, _ in pairs) / len(pairs), math.sqrt(sum(e * e for _, e in pairs)) / len(pairs))
     (a, ea), (b, eb) = mean(before), mean(after)
     return b - a, math.hypot(ea, eb)
+
+
+def signed_change(runs, study, expectation, extra=None):
+    """The same, positive where the sign is the expected one."""
+    found = change(runs, study, expectation, extra)
+    return found and (found[0] if expectation["then"] == "rises" else -found[0], found[1])
+
+
+def sign_text(expectation):
+    over = f"from {expectation['from']} to {expectation['to']}" if "from" in expectation else f"with {expectation['input']}"
+    held = ", ".join(f"{path} {level}" for path, level in expectation.get("at", {}).items())
+    return f"{expectation['output']} {expectation['then']} {over}" + (f" at {held}" if held else "")
+
+
+def add_sign(page, runs, study, expectation, begin="", extra=None):
+    """A row of a page: it passes where the change has the expected sign and is beyond twice its error."""
+    ours = signed_change(runs, study, expectation, extra)
+    page.add(f"{begin}{sign_text(expectation)}: change over twice its error", ours and ours[0] / max(2 * ours[1], 1e-300),
+             f"{expectation['then']}: {expectation['why']}", low=1.0)

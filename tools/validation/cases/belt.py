@@ -18,26 +18,12 @@ def plans():
 def fill(page, runs):
     for study in STUDIES:
         for expectation in study_points.read(study).get("expect", []):
-            add_sign(page, runs, study, expectation)
+            study_points.add_sign(page, runs, study, expectation, f"{study}: ", TO_ONE_SECOND)
     for study in STUDIES:
         add_places(page, runs, study)
     draw(page, runs)
     page.note("Cells of 1.25 mm, 50 MPa, all sizes with dust where the row does not name one size. Bands: the sign that the "
               "thesis shows. A sign counts when the change is larger than twice its standard error.")
-
-
-def sign_text(expectation):
-    over = (f"from {expectation['from']} to {expectation['to']}" if "from" in expectation
-            else f"with {expectation['input']}")
-    held = ", ".join(f"{path} {level}" for path, level in expectation.get("at", {}).items())
-    return f"{expectation['output']} {expectation['then']} {over}" + (f" at {held}" if held else "")
-
-
-def add_sign(page, runs, study, expectation):
-    ours = study_points.change(runs, study, expectation, TO_ONE_SECOND)
-    sign = 1 if expectation["then"] == "rises" else -1
-    page.add(f"{study}: {sign_text(expectation)}: change over twice its error", sign * ours[0] / max(2 * ours[1], 1e-300) if ours else None,
-             f"{expectation['then']}: {expectation['why']}", low=1.0)
 
 
 def add_places(page, runs, study):

@@ -1,7 +1,6 @@
 """The hourglass over both frictions of the sand: Table 4.7, Figures 4.9 to 4.14."""
 
 import study_points
-from cases.belt import sign_text
 from chart import Curve
 
 TITLE = "The hourglass over friction and rolling friction"
@@ -19,10 +18,7 @@ def fill(page, runs):
     for study, begin in ((SMALL, "20 mm wide, "), (STUDY, "")):
         text = study_points.read(study)
         for expectation in text["expect"]:
-            ours = study_points.change(runs, study, expectation)
-            sign = 1 if expectation["then"] == "rises" else -1
-            page.add(f"{begin}{sign_text(expectation)}: change over twice its error", sign * ours[0] / max(2 * ours[1], 1e-300) if ours else None,
-                     f"{expectation['then']}: {expectation['why']}", low=1.0)
+            study_points.add_sign(page, runs, study, expectation, begin)
         lines = {}
         for label, settings in study_points.points(text):
             run = runs[study_points.plan_of(study, label, settings).name]

@@ -2,7 +2,6 @@
 
 import study_points
 from cases import hourglass, hourglass_friction, rectangular_container
-from cases.belt import sign_text
 from runs import read_table
 from thesis.row import Row, Sign
 
@@ -44,10 +43,8 @@ def friction(runs):
     names = [plan.name for plan in study_points.plans(study)]
     out = []
     for expectation in study_points.read(study)["expect"]:
-        ours = study_points.change(runs, study, expectation)
-        sign = 1 if expectation["then"] == "rises" else -1
-        out.append(Sign("Table 4.7, Figures 4.9 to 4.14", sign_text(expectation), (names[0], f"... {len(names)} runs"),
-                        ours and (sign * ours[0], ours[1]), expectation["then"], f"20 mm and 6.1 g in place of 32 and 25, {SOFT}"))
+        out.append(Sign("Table 4.7, Figures 4.9 to 4.14", study_points.sign_text(expectation), (names[0], f"... {len(names)} runs"),
+                        study_points.signed_change(runs, study, expectation), expectation["then"], f"20 mm and 6.1 g in place of 32 and 25, {SOFT}"))
     return out
 
 

@@ -77,8 +77,7 @@ def loose_dust(runs):
 
 
 def sign(runs, study, expectation, extra):
-    ours = study_points.change(runs, study, expectation, extra)
-    factor = 1 if expectation["then"] == "rises" else -1
-    names = tuple(plan.name for plan in study_points.plans(study, extra))
+    names = tuple(study_points.plan_of(study, *point, extra).name for point in study_points.points_of(study, expectation))
     shown = names if len(names) < 3 else (names[0], f"... {len(names)} runs")
-    return Sign(WHERE[study], belt.sign_text(expectation), shown, ours and (factor * ours[0], ours[1]), expectation["then"], FEED)
+    return Sign(WHERE[study], study_points.sign_text(expectation), shown, study_points.signed_change(runs, study, expectation, extra),
+                expectation["then"], FEED)
