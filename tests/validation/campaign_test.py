@@ -97,6 +97,24 @@ class Campaign(unittest.TestCase):
         row = self.ended()["janssen_rough"]
         self.assertEqual((row["status"], row["commits"]), ("finished", "abc1234"))
 
+    def test_two_jobs_run_side_by_side_and_stop_together(self):
+        self.engine(length=500)
+        names = ("janssen_rough", "janssen_smooth", "beverloo_8")
+        self.list.write_text("\n".join(names))
+        self.campaign("start", "--jobs", "2")
+        checkpoints = [self.runs / name / "checkpoint.h5" for name in names]
+        self.wait_for(lambda: all(c.exists() and c.read_text() > "0" for c in checkpoints[:2]))
+        self.assertFalse(checkpoints[2].exists())
+        told = self.campaign("left").splitlines()
+        self.assertEqual([line.split()[0] for line in told[:3]], ["runs", "runs", "left"])
+        self.campaign("stop")
+        self.assertEqual(self.ended(), {})
+        self.assertEqual([(c.parent / "starts").read_text() for c in checkpoints[:2]], [f"{c.read_text()}\n" for c in checkpoints[:2]])
+        self.engine(length=1)
+        self.campaign("start", "--foreground", "--jobs", "2")
+        self.assertEqual({row["status"] for row in self.ended().values()}, {"finished"})
+        self.assertEqual(set(self.ended()), set(names))
+
     def test_what_fails_is_written_down_and_the_next_one_runs(self):
         self.engine(length=1)
         self.list.write_text("rare_copies_*\njanssen_*\n")

@@ -280,6 +280,13 @@ class Run:
                 lock = None
             yield lock
 
+    def is_running(self):
+        """Whether a run goes on in its folder, whoever began it."""
+        if not (self.folder / "lock").exists():
+            return False
+        with self._locked() as lock:
+            return lock is None
+
     def _write_note(self, engine):
         before = self.note() if self.is_begun() else {}
         bits = [b for b in before.get("bits", []) if b != engine.bits()]
