@@ -328,6 +328,20 @@ class Cases(unittest.TestCase):
             self.assertEqual((2.0, math.hypot(0.5, 0.5)), change(at={"a.b": "1 m/s"}))
             self.assertEqual(-6.0, change(at={"a.b": "2 m/s"})[0])
 
+    def test_the_error_of_replicates_is_their_scatter(self):
+        text = {"base": "../verification/box.yaml", "cases": {"a": {"x": 1}, "b": {"x": 2}}, "replicates": 3, "measure": {"f": "sensors.s.f"}}
+        values = {"1": (1.0, 2.0, 3.0), "2": (12.0, 11.0, 13.0)}
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch("study_points.read", lambda _: text):
+            plans = dict(study_points.labelled("any"))
+            for plan in plans.values():
+                # No sensor tells an error: it has seen too few grains.
+                finished_run(folder, plan.name, {"s": {"f": (values[plan.settings["x"]][int(plan.settings["seed"]) - 1], None)}})
+            found = runs.Runs(plans.values(), folder, None)
+            change, error = study_points.change(found, "any", {"output": "f", "input": "case", "from": "a", "to": "b"})
+            self.assertEqual(10.0, change)
+            # A standard deviation of 1 over three runs, on both sides.
+            self.assertAlmostEqual(math.sqrt(2.0 / 3.0), error)
+
     def test_runs_have_one_meaning_each_and_their_scenario_is_there(self):
         plans = cases.all_plans()
         self.assertGreater(len(plans), 200)

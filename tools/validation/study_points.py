@@ -4,6 +4,7 @@ import itertools
 import json
 import math
 
+import scatter
 from commands import read_file
 from runs import ROOT, Plan
 
@@ -89,6 +90,17 @@ def points_of(study, expectation):
             if all(level == (label.split(" ")[0] if path == "case" else settings.get(path)) for path, level in held.items())]
 
 
+def mean_of(found):
+    """(mean, standard error) of (value, standard error) pairs; None where one is missing."""
+    return None if None in found else (sum(v for v, _ in found) / len(found), math.sqrt(sum(e * e for _, e in found)) / len(found))
+
+
+def mean_over_seeds(found):
+    """The same, with the error that the scatter of three seeds or more tells: what a sensor tells of itself knows nothing of chance
+    that is older than its averaging."""
+    return None if None in found else scatter.mean_of([v for v, _ in found]) or mean_of(found)
+
+
 def change(runs, study, expectation, extra=None):
     """(change, error) of an output from the first level of an input to its last, or between two named cases, as the mean over what else
     is varied and not held. None if a run is missing."""
@@ -97,15 +109,14 @@ def change(runs, study, expectation, extra=None):
     for label, settings in points_of(study, expectation):
         run = runs[plan_of(study, label, settings, extra).name]
         key = label.split(" ")[0] if expectation["input"] == "case" else settings.get(expectation["input"])
-        found.setdefault(key, []).append(measured(run, given))
+        point = label.rsplit(" seed ", 1)[0]
+        found.setdefault(key, {}).setdefault(point, []).append(measured(run, given))
     levels = list(found)
     first, last = expectation.get("from", levels[0]), expectation.get("to", levels[-1])
-    before, after = found.get(first), found.get(last)
-    if not before or not after or None in before or None in after:
+    if first not in found or last not in found:
         return None
-    mean = lambda pairs: (sum(v for v, _ in pairs) / len(pairs), math.sqrt(sum(e * e for _, e in pairs)) / len(pairs))
-    (a, ea), (b, eb) = mean(before), mean(after)
-    return b - a, math.hypot(ea, eb)
+    before, after = (mean_of([mean_over_seeds(seeds) for seeds in found[level].values()]) for level in (first, last))
+    return before and after and (after[0] - before[0], math.hypot(before[1], after[1]))
 
 
 def signed_change(runs, study, expectation, extra=None):

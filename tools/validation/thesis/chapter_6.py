@@ -1,7 +1,5 @@
 """Chapter 6: the stream off the belt and its dust; the thesis shows signs, and hardly a number."""
 
-import math
-
 import study_points
 from cases import belt
 from thesis.row import Row, Sign
@@ -69,8 +67,8 @@ def loose_dust(runs):
         found.setdefault(label.split(" ")[0], []).append(runs[plan.name])
     out = []
     for case, seeds in found.items():
-        each = [study_points.measured(run, text["measure"]["loose"]) for run in seeds]
-        ours = None if None in each else (1e6 * sum(v for v, _ in each) / len(each), 1e6 * math.sqrt(sum(e * e for _, e in each)) / len(each))
+        ours = study_points.mean_over_seeds([study_points.measured(run, text["measure"]["loose"]) for run in seeds])
+        ours = ours and (1e6 * ours[0], 1e6 * ours[1])
         out.append(Row("Figures 6.28 to 6.33", f"dust off the stream, {case} [mg/m3]", tuple(run.name for run in seeds[:1]) + (f"... {len(seeds)} runs",),
                        ours, why="the thesis shows pictures", differs=FEED))
     return out
