@@ -92,20 +92,23 @@ void fit_line(const std::vector<LevelMean>& levels, MainEffect& effect) {
   effect.error = std::sqrt(rest / (n - 2.0) / xx) * range;
 }
 
-/// The points at which all these inputs are held, with what came of them.
+/// The points at which all these inputs are held, with what came of them; of a point its levels and
+/// inputs alone.
 struct PointsAt {
   Plan plan;
   std::vector<Outcome> outcomes;
 
-  PointsAt(const std::vector<HeldInput>& at, const Results& results) : plan(results.plan) {
-    plan.points.clear();
+  PointsAt(const std::vector<HeldInput>& at, const Results& results)
+      : plan{results.plan.inputs, results.plan.outputs, {}} {
     for (std::size_t n = 0; n < results.plan.points.size(); ++n) {
       const Point& point = results.plan.points[n];
       const bool is_held = std::all_of(at.begin(), at.end(), [&](const HeldInput& h) {
         return point.levels[h.axis] == h.index;
       });
       if (!is_held) continue;
-      plan.points.push_back(point);
+      Point& here = plan.points.emplace_back();
+      here.inputs = point.inputs;
+      here.levels = point.levels;
       outcomes.push_back(results.outcomes[n]);
     }
   }
