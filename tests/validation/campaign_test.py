@@ -16,6 +16,7 @@ import package
 
 import campaign_list
 import cases
+import commands
 import runs
 
 TOOL = package.ROOT / "tools/validation/campaign"
@@ -173,6 +174,13 @@ class Campaign(unittest.TestCase):
         self.assertNotEqual(same(("time.end", "0.7 s"), scenario=late), same(scenario=late))
         for other in (("bodies.belt.speed", "0.6 m/s"), ("frames.conveyor.angle", "3.5 deg"), ("seed", "1"), ("fluid", "none")):
             self.assertNotEqual(same(other), same())
+        # What the file itself says in place of a block takes that of the included one away.
+        with tempfile.TemporaryDirectory() as folder:
+            below, above = (pathlib.Path(folder) / name for name in ("below.yaml", "above.yaml"))
+            below.write_text("fluid: {density: 1.2}\nlist: [1, 2]\n")
+            above.write_text("include: below.yaml\nfluid: none\nlist: [3]\n")
+            self.assertEqual([commands.value_in(below, "fluid.density"), commands.value_in(above, "fluid.density")], [1.2, None])
+            self.assertEqual([commands.value_in(below, "list[1]"), commands.value_in(above, "list[1]")], [2, None])
         # Of a block that another setting replaces, the scenario says nothing any more.
         air = ("domain.boundaries.left.air", '{"model": "total_pressure"}')
         self.assertNotEqual(same(air, ("domain.boundaries.left.air.pressure", "0 Pa")), same(air))

@@ -312,8 +312,6 @@ class Points(unittest.TestCase):
         found = study_points.points({"cases": {"base": {}}, "replicates": 2})
         self.assertEqual([settings["seed"] for _, settings in found], ["1", "2"])
 
-
-class Cases(unittest.TestCase):
     def test_a_change_is_the_mean_over_what_is_not_held(self):
         text = {"base": "../verification/box.yaml", "vary": {"a.b": [1, "2 m/s"], "seed": [1, 2]}, "measure": {"f": "sensors.s.f"}}
         values = {("1 m/s", "1"): 1.0, ("1 m/s", "2"): 3.0, ("2 m/s", "1"): 10.0, ("2 m/s", "2"): 4.0}
@@ -342,6 +340,8 @@ class Cases(unittest.TestCase):
             # A standard deviation of 1 over three runs, on both sides.
             self.assertAlmostEqual(math.sqrt(2.0 / 3.0), error)
 
+
+class Cases(unittest.TestCase):
     def test_runs_have_one_meaning_each_and_their_scenario_is_there(self):
         plans = cases.all_plans()
         self.assertGreater(len(plans), 200)

@@ -19,8 +19,7 @@ def read_file(file):
 def value_in(file, path):
     """What a scenario says at `bodies.belt.speed` or `interactions[0].contact.friction`, itself or by what it includes; None where it
     does not say."""
-    text = read_file(file)
-    found = text
+    found = text = read_file(file)
     for step in re.findall(r"[^.\[\]]+", path):
         is_there = int(step) < len(found) if isinstance(found, list) and step.isdigit() else isinstance(found, dict) and step in found
         if not is_there:
@@ -28,8 +27,8 @@ def value_in(file, path):
         found = found[int(step) if isinstance(found, list) else step]
     else:
         return found
-    if isinstance(found, list):
-        return None  # a list replaces the included one
+    if not isinstance(found, dict):
+        return None  # a list, or a value like `fluid: none`, replaces the included one
     includes = text.get("include", [])
     for other in reversed([includes] if isinstance(includes, str) else includes):
         below = value_in(file.parent / other, path)

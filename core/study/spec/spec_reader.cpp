@@ -255,19 +255,9 @@ class SpecReader {
       return;
     }
     for (const Entry& one : entry.value.entries) {
-      const auto axis = std::find_if(spec_.axes.begin(), spec_.axes.end(),
-                                     [&](const Axis& a) { return is_input_of(a, one.key); });
-      if (axis == spec_.axes.end()) {
-        std::vector<std::string> inputs;
-        for (const Axis& a : spec_.axes) {
-          if (a.kind == AxisKind::cases) inputs.emplace_back("case");
-          inputs.insert(inputs.end(), a.paths.begin(), a.paths.end());
-        }
-        error(one.where, path + ": '" + printable(one.key) + "' is not varied" +
-                             scenario::suggestion(one.key, inputs, "there are"));
-        continue;
-      }
-      if (is_input_of(*axis, e.input)) {
+      const Axis* axis = varied(one.key, one.where, path);
+      if (axis == nullptr) continue;
+      if (is_of(*axis, e.input)) {
         error(one.where, path + ": " + printable(one.key) + " is the input itself");
         continue;
       }
@@ -283,15 +273,31 @@ class SpecReader {
                                    scenario::suggestion(near, levels, "there are"));
         continue;
       }
-      e.at.push_back({one.key, given, static_cast<std::size_t>(axis - spec_.axes.begin()),
+      e.at.push_back({one.key, given, static_cast<std::size_t>(axis - spec_.axes.data()),
                       static_cast<std::size_t>(found - levels.begin())});
     }
   }
 
-  static bool is_input_of(const Axis& axis, const std::string& input) {
-    return axis.kind == AxisKind::cases
-               ? input == "case"
-               : std::find(axis.paths.begin(), axis.paths.end(), input) != axis.paths.end();
+  static std::vector<std::string> inputs_of(const Axis& axis) {
+    return axis.kind == AxisKind::cases ? std::vector<std::string>{"case"} : axis.paths;
+  }
+
+  static bool is_of(const Axis& axis, const std::string& input) {
+    const auto own = inputs_of(axis);
+    return std::find(own.begin(), own.end(), input) != own.end();
+  }
+
+  /// The axis of an input; nothing, and an error, where it is not varied.
+  const Axis* varied(const std::string& input, const scenario::Mark& where,
+                     const std::string& path) {
+    std::vector<std::string> inputs;
+    for (const Axis& axis : spec_.axes) {
+      if (is_of(axis, input)) return &axis;
+      for (const std::string& name : inputs_of(axis)) inputs.push_back(name);
+    }
+    error(where, path + ": '" + printable(input) + "' is not varied" +
+                     scenario::suggestion(input, inputs, "there are"));
+    return nullptr;
   }
 
   static std::string level_text(const Axis& axis, const Level& level, const std::string& path) {
@@ -314,20 +320,8 @@ class SpecReader {
       error(where("output"), path + ".output: there is no measure '" + printable(e.output) + "'" +
                                  scenario::suggestion(e.output, outputs, "there are"));
     }
-    std::vector<std::string> inputs;
-    const Axis* chosen = nullptr;
-    for (const Axis& axis : spec_.axes) {
-      std::vector<std::string> own = axis.paths;
-      if (axis.kind == AxisKind::cases) own = {"case"};
-      for (const std::string& name : own) {
-        inputs.push_back(name);
-        if (name == e.input) chosen = &axis;
-      }
-    }
-    if (!e.input.empty() && chosen == nullptr) {
-      error(where("input"), path + ".input: '" + printable(e.input) + "' is not varied" +
-                                scenario::suggestion(e.input, inputs, "there are"));
-    }
+    const Axis* chosen =
+        e.input.empty() ? nullptr : varied(e.input, where("input"), path + ".input");
     if (!e.then.empty() && e.then != "rises" && e.then != "falls") {
       error(where("then"), path + ".then: '" + printable(e.then) + "' is none of rises, falls");
     }
