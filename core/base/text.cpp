@@ -94,6 +94,11 @@ std::string extent_text(const std::array<double, 3>& edges) {
          digits_text(edges[1] / unit.factor, k_digits) + " x " + text_in(unit, edges[2], k_digits);
 }
 
+std::string place_text(const sdk::Vec3& place, int digits) {
+  return "(" + digits_text(place.x, digits) + ", " + digits_text(place.y, digits) + ", " +
+         digits_text(place.z, digits) + ") m";
+}
+
 std::string mass_text(double kilograms, int digits) {
   const Unit& unit = kilograms == 0.0 ? k_masses[1] : unit_for(kilograms, k_masses);
   return text_in(unit, kilograms, digits);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/vec3.hpp"
+
 #include <array>
 #include <string>
 
@@ -30,6 +32,8 @@ inline constexpr double k_plant_extent = 2.0;
 std::string length_text(double metres, int digits = 4);
 /// Three edges [m] in the one unit that suits the longest: "340 x 20 x 330 mm", "3.4 x 2.6 x 3 m".
 std::string extent_text(const std::array<double, 3>& edges);
+/// A place [m]: "(1.2, 0, -0.35) m".
+std::string place_text(const sdk::Vec3& place, int digits = 4);
 /// A mass: "1.2 t", "3 kg", "150 g", "2 mg", "0.5 ug".
 std::string mass_text(double kilograms, int digits = 3);
 /// A mass flow: "2.5 kg/s", "6 g/s", "3 mg/s"; in a domain of a plant's `extent` [m] from 1 t/h on

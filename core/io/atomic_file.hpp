@@ -22,6 +22,9 @@ void discard(const std::filesystem::path& file) noexcept;
 /// Makes `folder` and those above it. Throws base::WriteError.
 void make_folder(const std::filesystem::path& folder);
 
+/// All of a file; empty where there is none.
+std::string read_text(const std::filesystem::path& file);
+
 /// Replaces `file` with `text` in one step. Throws base::WriteError.
 void write_text(const std::filesystem::path& file, const std::string& text);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -41,5 +42,8 @@ class H5Source {
                       void*) = nullptr;  ///< HDF5 prints errors itself unless told not to
   void* old_data_ = nullptr;
 };
+
+/// Of `written` frames at most `most`, by number: evenly over the run, the last one among them.
+std::vector<std::size_t> spread_frames(std::size_t written, std::size_t most);
 
 }  // namespace dust::report

@@ -81,7 +81,7 @@ class CurveReader {
     }
     if (const Entry* entry = reader_.node().find("sensor")) {
       error(*entry,
-            "there is no sensor " + quoted(name) + suggestion(name, names, "the sensors are"));
+            "there is no sensor " + in_quotes(name) + suggestion(name, names, "the sensors are"));
     }
     return nullptr;
   }
@@ -108,13 +108,13 @@ class CurveReader {
       if (units[n].empty() || units[n] == list.unit) continue;
       diagnostics_.error(entry.value.items[n].where,
                          reader_.path_of(entry.key) + ": one unit for the whole list, " +
-                             quoted(list.unit) + " or " + quoted(units[n]));
+                             in_quotes(list.unit) + " or " + in_quotes(units[n]));
       return std::nullopt;
     }
     if (!parsed(list.unit)) {
       diagnostics_.error(
           entry.value.items.back().where,
-          reader_.path_of(entry.key) + ": unknown unit " + quoted(list.unit) +
+          reader_.path_of(entry.key) + ": unknown unit " + in_quotes(list.unit) +
               "; behind the last number stands the unit of all, like s, mm or kg/m3");
       return std::nullopt;
     }

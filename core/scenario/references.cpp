@@ -93,7 +93,7 @@ class ReferenceReader {
     const std::string head = "sensors.";
     const std::size_t dot = quantity.find('.', head.size());
     if (!quantity.starts_with(head) || dot == std::string::npos) {
-      error("quantity", quoted(quantity) + " is not of the form sensors.NAME.FIGURE");
+      error("quantity", in_quotes(quantity) + " is not of the form sensors.NAME.FIGURE");
       return false;
     }
     spec.sensor = quantity.substr(head.size(), dot - head.size());
@@ -103,7 +103,7 @@ class ReferenceReader {
     if (sensor == sensors_.end()) {
       std::vector<std::string> names;
       for (const SensorFigures& s : sensors_) names.push_back(s.sensor);
-      error("quantity", "there is no sensor " + quoted(spec.sensor) +
+      error("quantity", "there is no sensor " + in_quotes(spec.sensor) +
                             suggestion(spec.sensor, names, "the sensors are"));
       return false;
     }
@@ -119,7 +119,7 @@ class ReferenceReader {
     if (is_of_class(spec.figure)) return true;
     // A sensor that could not be made has told its own problem.
     if (!names.empty()) {
-      error("quantity", "the sensor '" + spec.sensor + "' has no figure " + quoted(spec.figure) +
+      error("quantity", "the sensor '" + spec.sensor + "' has no figure " + in_quotes(spec.figure) +
                             suggestion(spec.figure, names, "its figures are"));
     }
     return false;
@@ -144,7 +144,7 @@ class ReferenceReader {
     if (given->unit == unit || (is_bare && given->unit.empty())) return given->number;
     const auto from = given->unit.empty() ? std::optional<Unit>(Unit{}) : parse_unit(given->unit);
     const auto to = is_bare ? std::optional<Unit>(Unit{}) : parse_unit(unit);
-    if (!from) return fail("unknown unit " + quoted(given->unit) + ": the figure is in " + unit);
+    if (!from) return fail("unknown unit " + in_quotes(given->unit) + ": the figure is in " + unit);
     if (!to || (!given->unit.empty() && !(from->dimension == to->dimension))) {
       return fail("'" + printable(given->unit) + "' is the unit of " +
                   dimension_name(from->dimension) + ": the figure is in " +

@@ -204,8 +204,8 @@ struct Planner::Impl {
       const auto name = [](const Level& l) {
         return l.label.empty() ? value_text(l.settings.front().value) : l.label;
       };
-      diagnostics.error(where, "two points are the same run: " + scenario::quoted(name(level)) +
-                                   " makes the scenario of " + scenario::quoted(name(other)) +
+      diagnostics.error(where, "two points are the same run: " + scenario::in_quotes(name(level)) +
+                                   " makes the scenario of " + scenario::in_quotes(name(other)) +
                                    " in line " + std::to_string(other.where.line) +
                                    "; take one of them out");
       return;

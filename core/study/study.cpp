@@ -13,8 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <thread>
 
 namespace dust::study {
@@ -97,10 +95,7 @@ void print_plan(const Plan& plan, const PointStore& store, const Resources& reso
 }
 
 void copy_study(const fs::path& from, const fs::path& folder) {
-  std::ifstream stream(from, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(stream)),
-                         std::istreambuf_iterator<char>());
-  io::write_text(folder / "study.yaml", text);
+  io::write_text(folder / "study.yaml", io::read_text(from));
 }
 
 /// What a calibration will do, before it knows where its points lie.

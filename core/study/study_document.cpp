@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "io/atomic_file.hpp"
 #include "report/page.hpp"
 #include "study/effects.hpp"
 #include "study/hoods/hood_results.hpp"
@@ -8,8 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 namespace dust::study {
@@ -275,11 +274,6 @@ Json points_json(const Results& results) {
   return {{"inputs", inputs}, {"outputs", outputs}, {"rows", rows}};
 }
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 /// Whether it is a study of suggested hoods, all points of which have finished.
 bool has_hoods(const Spec& spec, const Results& results) {
   const std::string hood = std::string("bodies.") + k_hood_body;
@@ -317,7 +311,7 @@ Json study_document(const Spec& spec, const Results& results, const CalibrationA
           {"expectations", expectations_json(spec, results)},
           {"effects", effects_json(spec, results)},
           {"points", points_json(results)},
-          {"study_file", text_of(spec.file)}};
+          {"study_file", io::read_text(spec.file)}};
 }
 
 void write_study_report(const std::filesystem::path& file, const Spec& spec, const Results& results,

@@ -22,7 +22,7 @@ std::string field(const std::string& text) {
   return quoted + '"';
 }
 
-std::string with_unit(const std::string& name, const std::string& unit) {
+std::string column_name(const std::string& name, const std::string& unit) {
   return field(unit.empty() ? name : name + " [" + unit + "]");
 }
 
@@ -69,11 +69,11 @@ const char* status_word(Status status) {
 void write_csv(const std::filesystem::path& file, const Results& results) {
   const Plan& plan = results.plan;
   std::string text = "point";
-  for (const InputColumn& c : plan.inputs) text += "," + with_unit(c.name, c.unit);
+  for (const InputColumn& c : plan.inputs) text += "," + column_name(c.name, c.unit);
   text += ",replicate";
   for (const OutputColumn& c : plan.outputs) {
-    text += "," + with_unit(c.name, c.unit);
-    if (c.has_error) text += "," + with_unit(c.name + " error", c.unit);
+    text += "," + column_name(c.name, c.unit);
+    if (c.has_error) text += "," + column_name(c.name + " error", c.unit);
   }
   text += ",status,seed,hash,wall_s [s],reason\n";
   for (std::size_t n = 0; n < plan.points.size(); ++n) {

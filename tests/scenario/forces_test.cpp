@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Forces of the fluid and turbulence in a scenario; fluid alone, grains alone, one-way coupling.
 #include "support/engine.hpp"
+#include "support/text.hpp"
 
 #include <doctest/doctest.h>
 
@@ -11,6 +12,7 @@
 #include <vector>
 
 using dust::test::engine;
+using dust::test::holds;
 using dust::test::json_text;
 using dust::test::read_file;
 using dust::test::TemporaryFolder;
@@ -44,10 +46,6 @@ std::string said(const std::vector<std::string>& settings) {
   }
   const auto run = engine(arguments);
   return std::to_string(run.status) + ": " + run.err;
-}
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace

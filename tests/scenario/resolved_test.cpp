@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/approx.hpp"
 #include "support/engine.hpp"
+#include "support/text.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,6 +11,7 @@
 
 using dust::test::approx;
 using dust::test::engine;
+using dust::test::holds;
 using dust::test::json_text;
 using dust::test::read_file;
 using dust::test::TemporaryFolder;
@@ -29,10 +31,6 @@ std::string checked(const std::vector<std::string>& settings, int status) {
   INFO(done.err);
   CHECK(done.status == status);
   return done.out + done.err;
-}
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace

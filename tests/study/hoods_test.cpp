@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/engine.hpp"
+#include "support/text.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +10,7 @@
 #include <vector>
 
 using dust::test::engine;
+using dust::test::holds;
 using dust::test::read_file;
 using dust::test::TemporaryFolder;
 namespace fs = std::filesystem;
@@ -35,10 +37,6 @@ std::string refused(const fs::path& folder) {
   CHECK(done.out.empty());
   CHECK(!fs::exists(folder / "hoods.yaml"));
   return done.err;
-}
-
-bool holds(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/blob.hpp"
 #include "report/fluid_grid.hpp"
+#include "report/pictures/colour_code.hpp"
 #include "report/pictures/pictures.hpp"
 
 #include <algorithm>
@@ -13,11 +14,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t k_frames = 40;
+constexpr std::size_t k_air_frames = 40;
 constexpr std::size_t k_map_x = 264, k_map_z = 280;  ///< largest picture [cells]
 constexpr std::size_t k_arrows = 70;              ///< longest side of the direction field [cells]
 constexpr std::size_t k_whole_field = 64u << 20;  ///< numbers; larger fields: middle plane only
-constexpr std::uint8_t k_masked = 255;            ///< code of a cell inside a body
 constexpr double k_codes = 254.0;
 
 struct Grid {
@@ -206,14 +206,12 @@ struct Maps {
   std::size_t fx = 1, fz = 1;  ///< cells of the grid in one of the maps
 };
 
-/// At most k_frames, evenly over the run, with the last.
+/// Of at most k_air_frames.
 Maps maps_of(const H5Source& source, const std::vector<std::string>& names, const Grid& grid) {
   Maps maps;
   maps.fx = (grid.nx + k_map_x - 1) / k_map_x;
   maps.fz = (grid.nz + k_map_z - 1) / k_map_z;
-  const std::size_t stride = (names.size() + k_frames - 1) / k_frames;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    if ((names.size() - 1 - k) % stride != 0) continue;
+  for (const std::size_t k : spread_frames(names.size(), k_air_frames)) {
     const std::string frame = "/fluid/" + names[k];
     Plane mean;
     if (!read_plane(source, frame, grid, mean)) continue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/blob.hpp"
+#include "report/pictures/colour_code.hpp"
 #include "report/pictures/pictures.hpp"
 
 #include <algorithm>
@@ -12,8 +13,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double k_longer_side = 120.0;  ///< cells of the map
-constexpr double k_decades = 4.0;        ///< of the colour scale
-constexpr double k_square_centimetre = 1e-4;
 
 }  // namespace
 
@@ -66,11 +65,7 @@ json dust_map_json(const DustMap& map, const View& view) {
   const double most = *std::max_element(map.share.begin(), map.share.end());
   std::vector<std::uint8_t> codes;
   for (const double share : map.share) {
-    // 0 is no dust at all; 1 to 254 span the decades of the scale.
-    const double place = share > 0.0 ? 1.0 + std::log10(share / most) / k_decades : -1.0;
-    codes.push_back(share > 0.0 ? static_cast<std::uint8_t>(
-                                      std::lround(1.0 + 253.0 * std::clamp(place, 0.0, 1.0)))
-                                : std::uint8_t{0});
+    codes.push_back(share > 0.0 ? colour_code(place_on_scale(share, most)) : std::uint8_t{0});
   }
   return {{"nx", map.nx},         {"nz", map.nz},
           {"x0", view.min_x},     {"z0", view.min_z},

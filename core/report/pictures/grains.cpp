@@ -19,7 +19,7 @@ using nlohmann::json;
 constexpr std::size_t k_coarse_per_frame = 20000;  ///< more cannot be told apart on a screen
 constexpr std::size_t k_dust_per_frame = 8000;
 constexpr std::size_t k_grains_per_page = 1000000;  ///< 6 bytes each before compression
-constexpr std::size_t k_frames = 150;
+constexpr std::size_t k_grain_frames = 150;
 constexpr std::size_t k_classes = 24;
 
 /// A number in [0, 1) that belongs to the grain: the same in every frame (splitmix64).
@@ -272,11 +272,8 @@ json grains_of(const H5Source& source, const View& view, const Box& box, const D
                const json& given_classes) {
   const auto names = source.frames("/particles");
   if (names.empty() || view.is_empty()) return nullptr;
-  const std::size_t stride = (names.size() + k_frames - 1) / k_frames;
-  std::vector<std::string> kept;  // counted from the end, so that the last frame is always there
-  for (std::size_t k = (names.size() - 1) % stride; k < names.size(); k += stride) {
-    kept.push_back(names[k]);
-  }
+  std::vector<std::string> kept;
+  for (const std::size_t k : spread_frames(names.size(), k_grain_frames)) kept.push_back(names[k]);
   GrainFrames frames(source, view, box, dust);
   frames.look_at(kept, given_classes);
   json list = json::array();

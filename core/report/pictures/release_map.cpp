@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/blob.hpp"
 #include "report/fluid_grid.hpp"
+#include "report/pictures/colour_code.hpp"
 #include "report/pictures/pictures.hpp"
 
 #include <algorithm>
@@ -13,8 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double k_decades = 4.0;  ///< of the colour scale
-constexpr double k_square_centimetre = 1e-4;
 /// Kinds of causes, as the run names its fields, and as the page does.
 constexpr const char* k_kinds[][2] = {{"walls", "by walls and bodies"},
                                       {"grains", "by grains among themselves"},
@@ -37,14 +36,10 @@ std::vector<double> seen_from_the_side(const H5Source& source, const std::string
   return sums;
 }
 
-std::string codes_of(const std::vector<double>& sums, double most) {
+std::string release_codes(const std::vector<double>& sums, double most) {
   std::vector<std::uint8_t> codes;
   for (const double sum : sums) {
-    // 0 is none at all; 1 to 254 span the decades of the scale.
-    const double place = sum > 0.0 ? 1.0 + std::log10(sum / most) / k_decades : 0.0;
-    codes.push_back(sum > 0.0 ? static_cast<std::uint8_t>(
-                                    std::lround(1.0 + 253.0 * std::clamp(place, 0.0, 1.0)))
-                              : std::uint8_t{0});
+    codes.push_back(sum > 0.0 ? colour_code(place_on_scale(sum, most)) : std::uint8_t{0});
   }
   return packed(codes);
 }
@@ -70,7 +65,7 @@ json release_map_of(const H5Source& source) {
   for (const auto& [title, sums] : maps) {
     kinds.push_back({{"title", title},
                      {"kg", std::accumulate(sums.begin(), sums.end(), 0.0)},
-                     {"data", codes_of(sums, most)}});
+                     {"data", release_codes(sums, most)}});
   }
   const double area = grid->spacing[0] * grid->spacing[2];
   return {{"nx", grid->count[0]},   {"nz", grid->count[2]},

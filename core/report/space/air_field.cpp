@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/blob.hpp"
 #include "report/fluid_grid.hpp"
+#include "report/pictures/colour_code.hpp"
 #include "report/space/space.hpp"
 
 #include <algorithm>
@@ -14,15 +15,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t k_frames = 24;
+constexpr std::size_t k_field_frames = 24;
 constexpr std::size_t k_all_bytes = 9u << 20;        ///< before compression, which halves them
 constexpr std::size_t k_finest = 260000;             ///< blocks: more than a slice can show
 constexpr std::size_t k_largest_field = 128u << 20;  ///< numbers of a frame that are read at all
-constexpr std::uint8_t k_masked = 255;
-
-using Count = std::array<std::size_t, 3>;
-
-std::size_t product(const Count& n) { return n[0] * n[1] * n[2]; }
 
 /// The air of a frame in blocks.
 struct Field {
@@ -122,13 +118,13 @@ json air_field_of(const H5Source& source) {
   const Count& cells = grid->count;
   const std::array<double, 3>& edge = grid->spacing;
   if (3 * product(cells) > k_largest_field) return nullptr;
-  const std::size_t stride = (names.size() + k_frames - 1) / k_frames;
-  const Count size = blocks_of(cells, edge, (names.size() + stride - 1) / stride);
+  const auto kept = spread_frames(names.size(), k_field_frames);
+  const Count size = blocks_of(cells, edge, kept.size());
   Count count{};
   for (std::size_t d = 0; d < 3; ++d) count[d] = (cells[d] + size[d] - 1) / size[d];
   const auto open = source.floats("/fluid/open_fraction");
   std::vector<Field> fields;
-  for (std::size_t k = (names.size() - 1) % stride; k < names.size(); k += stride) {
+  for (const std::size_t k : kept) {
     const std::string frame = "/fluid/" + names[k];
     const auto velocity = source.floats(frame + "/velocity");
     if (velocity.size() != 3 * product(cells)) continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/blob.hpp"
 #include "report/fluid_grid.hpp"
+#include "report/pictures/colour_code.hpp"
 #include "report/space/space.hpp"
 
 #include <algorithm>
@@ -14,13 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double k_decades = 4.0;  ///< of the scale: below, nothing is drawn
-constexpr std::uint8_t k_masked = 255;
 constexpr const char* k_causes[] = {"walls", "grains", "wind"};
-
-using Count = std::array<std::size_t, 3>;
-
-std::size_t product(const Count& n) { return n[0] * n[1] * n[2]; }
 
 /// The blocks of cells of the air, which the dust shares.
 struct Blocks {
@@ -66,16 +61,14 @@ std::vector<double> sum_of(const H5Source& source, const std::string& frame,
   return sums;
 }
 
-/// 0 is less than the scale holds, 1 to 254 span its decades; differences compress better.
+/// Nothing is drawn of what is less than the scale holds; differences compress better.
 std::string codes_of(const std::vector<double>& values, double most) {
   std::vector<std::uint8_t> bytes;
   std::uint8_t last = 0;
   for (const double value : values) {
     std::uint8_t code = std::isfinite(value) ? std::uint8_t{0} : k_masked;
-    const double place = value > 0.0 ? 1.0 + std::log10(value / most) / k_decades : -1.0;
-    if (place >= 0.0) {
-      code = static_cast<std::uint8_t>(std::lround(1.0 + 253.0 * std::min(place, 1.0)));
-    }
+    const double place = place_on_scale(value, most);
+    if (place >= 0.0) code = colour_code(place);
     bytes.push_back(static_cast<std::uint8_t>(code - last));
     last = code;
   }
@@ -122,11 +115,9 @@ json dust_field_of(const H5Source& source, const std::vector<std::string>& class
   for (const std::string& name : classes) names.push_back("dust_" + name);
   Blocks blocks{grid->count, air["cells_per_block"].get<Count>(), air["count"].get<Count>(),
                 source.floats("/fluid/open_fraction")};
-  const std::size_t shown = air["frames"].size();
-  const std::size_t stride = (frames.size() + shown - 1) / shown;
   std::vector<std::pair<double, std::vector<double>>> fields;
   double most = 0.0;
-  for (std::size_t k = (frames.size() - 1) % stride; k < frames.size(); k += stride) {
+  for (const std::size_t k : spread_frames(frames.size(), air["frames"].size())) {
     const std::string frame = "/fluid/" + frames[k];
     const auto of_cells = sum_of(source, frame, names, product(blocks.cells));
     if (of_cells.empty()) continue;

@@ -16,10 +16,10 @@ namespace {
 using nlohmann::json;
 using Code = std::array<std::uint16_t, 3>;
 
-constexpr std::size_t k_frames = 60;             ///< of bodies that move
-constexpr std::size_t k_triangles = 40000;       ///< of one set
-constexpr std::size_t k_all_triangles = 400000;  ///< of all sets: 9 bytes each before compression
-constexpr double k_codes = 65535.0;
+constexpr std::size_t k_surface_frames = 60;       ///< of bodies that move
+constexpr std::size_t k_triangles_of_set = 40000;  ///< of one set
+constexpr std::size_t k_all_triangles = 400000;    ///< of all sets: 9 bytes each before compression
+constexpr double k_coordinate_codes = 65535.0;
 
 /// Triangles of a frame as they are in the file.
 Surfaces read(const H5Source& source, const std::string& frame) {
@@ -45,8 +45,9 @@ Coded coded(const Surfaces& surfaces, const Box& box, unsigned step) {
     Code code{};
     for (std::size_t d = 0; d < 3; ++d) {
       const double share = (surfaces.points[3 * k + d] - box.min[d]) / (box.max[d] - box.min[d]);
-      const double lattice = std::round(std::clamp(share, 0.0, 1.0) * k_codes / step) * step;
-      code[d] = static_cast<std::uint16_t>(std::min(lattice, k_codes));
+      const double lattice =
+          std::round(std::clamp(share, 0.0, 1.0) * k_coordinate_codes / step) * step;
+      code[d] = static_cast<std::uint16_t>(std::min(lattice, k_coordinate_codes));
     }
     const auto [at, is_new] =
         known.try_emplace(code, static_cast<std::uint32_t>(result.points.size()));
@@ -73,7 +74,7 @@ Coded coded(const Surfaces& surfaces, const Box& box, unsigned step) {
 Coded fitted(const Surfaces& surfaces, const Box& box, bool& is_coarsened) {
   unsigned step = 1;
   Coded set = coded(surfaces, box, step);
-  while (set.triangles.size() > k_triangles && step < 4096) {
+  while (set.triangles.size() > k_triangles_of_set && step < 4096) {
     step *= 2;
     set = coded(surfaces, box, step);
   }
@@ -124,12 +125,11 @@ json surfaces_json(const std::vector<std::string>& names, const Surfaces& surfac
 json surfaces_of(const H5Source& source, const Box& box) {
   const auto names = source.frames("/walls");
   if (names.empty()) return nullptr;
-  const std::size_t stride = (names.size() + k_frames - 1) / k_frames;
   json sets = json::array(), times = json::array(), shown = json::array();
   Surfaces last;
   std::size_t all = 0;
   bool is_coarsened = false;
-  for (std::size_t k = (names.size() - 1) % stride; k < names.size(); k += stride) {
+  for (const std::size_t k : spread_frames(names.size(), k_surface_frames)) {
     Surfaces now = read(source, names[k]);
     if (!now.is_whole()) continue;
     if (sets.empty() || !(now == last)) {

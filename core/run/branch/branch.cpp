@@ -31,13 +31,6 @@ constexpr std::array<std::string_view, 10> k_outside_world = {"start_from",
                                                               "emitters"};
 constexpr std::span k_free = std::span(k_outside_world).first<8>();
 
-std::string seconds(double time) { return base::digits_text(time, 10) + " s"; }
-
-std::string place_text(const sdk::Vec3& p) {
-  return "(" + base::digits_text(p.x, 4) + ", " + base::digits_text(p.y, 4) + ", " +
-         base::digits_text(p.z, 4) + ") m";
-}
-
 std::string grains_text(std::int64_t count) {
   return count == 1 ? "1 grain" : std::to_string(count) + " grains";
 }
@@ -128,9 +121,9 @@ void Branch::check_domain() {
   const auto& here = now_.setup.domain;
   const auto& there = origin_.scenario().setup.domain;
   if (is_at(here.min, there.min) && is_at(here.max, there.max)) return;
-  error("its domain reaches from " + place_text(there.min) + " to " + place_text(there.max) +
-        ", this one from " + place_text(here.min) + " to " + place_text(here.max) +
-        ": what comes along keeps its place; give the same domain");
+  error("its domain reaches from " + base::place_text(there.min) + " to " +
+        base::place_text(there.max) + ", this one from " + base::place_text(here.min) + " to " +
+        base::place_text(here.max) + ": what comes along keeps its place; give the same domain");
 }
 
 std::int64_t Branch::particles_there() const {
@@ -211,7 +204,7 @@ void Branch::report_obstacles(const particles::TransferObstacles& found) {
     const std::string what = grains_text(blocked.count) + " of the run in " +
                              start().folder.string() + " lie in it, the first, number " +
                              std::to_string(blocked.first_id) + ", at " +
-                             place_text(blocked.first_place) +
+                             base::place_text(blocked.first_place) +
                              ": move it, or start from a time at which its place is free";
     if (body != nullptr) {
       diagnostics_.error(body->where, "bodies." + blocked.surface + ": " + what);
@@ -221,7 +214,7 @@ void Branch::report_obstacles(const particles::TransferObstacles& found) {
   }
   if (found.outside > 0) {
     error(grains_text(found.outside) + " would be beyond the walls, the first at " +
-          place_text(found.first_outside) + ": give the sides that the run had");
+          base::place_text(found.first_outside) + ": give the sides that the run had");
   }
   if (found.missing_materials.empty()) check_pairs(found.materials);
 }

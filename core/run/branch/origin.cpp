@@ -31,8 +31,6 @@ bool is_same_time(double a, double b) {
   return std::abs(a - b) <= k_rounding * std::max(1.0, std::abs(b));
 }
 
-std::string seconds(double time) { return base::digits_text(time, k_digits) + " s"; }
-
 struct Kept {
   double time = 0.0;
   fs::path file;
@@ -84,6 +82,8 @@ fs::path find_state(const scenario::StartSpec& start) {
 }
 
 }  // namespace
+
+std::string seconds(double time) { return base::digits_text(time, k_digits) + " s"; }
 
 fs::path kept_checkpoint(const fs::path& folder, double time) {
   return folder / k_kept_folder / (base::digits_text(time, k_digits) + "_s.h5");

@@ -17,6 +17,9 @@ namespace dust::run {
 
 /// Where a run keeps those of its checkpoints that others may start from.
 constexpr const char* k_kept_folder = "checkpoints";
+/// A time [s] with as many digits as tell two steps apart, and its unit.
+std::string seconds(double time);
+
 /// The kept checkpoint of `time` [s] in the results of a run.
 std::filesystem::path kept_checkpoint(const std::filesystem::path& folder, double time);
 

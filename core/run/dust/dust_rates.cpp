@@ -18,10 +18,9 @@ constexpr double k_hour = 3600.0;          // s
 constexpr double k_grams_per_tonne = 1e6;  // per kg per kg
 constexpr std::size_t k_material_column = 0;
 
-/// The error of `mean`, times `factor`; why there is none stays as it is.
-double scaled(double error, double factor) { return error < 0.0 ? error : error * factor; }
-
 }  // namespace
+
+double scaled_error(double error, double factor) { return error < 0.0 ? error : error * factor; }
 
 DustRates::DustRates(const scenario::Setup& setup, const DustStage& dust,
                      const LiberationStage* liberation, const particles::Dem& particles,
@@ -116,13 +115,13 @@ void DustRates::report_part(sdk::FigureSink& sink, const std::string& name,
                             std::size_t column) const {
   const double rate = means_.mean(column);
   const double error = means_.error(column);
-  sink.figure(name + "/rate", k_hour * rate, "kg/h", scaled(error, k_hour),
+  sink.figure(name + "/rate", k_hour * rate, "kg/h", scaled_error(error, k_hour),
               sdk::detail(sdk::Quantity::mass_rate));
   const double material = means_.mean(k_material_column);
   if (!(material > 0.0)) return;
   // What is fed is even: its own error is left out.
   const double per_load = k_grams_per_tonne / material;
-  sink.figure(name + "/per_load", per_load * rate, "g/t", scaled(error, per_load),
+  sink.figure(name + "/per_load", per_load * rate, "g/t", scaled_error(error, per_load),
               sdk::detail(sdk::Quantity::mass_per_load));
 }
 

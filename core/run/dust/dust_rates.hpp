@@ -16,6 +16,9 @@
 
 namespace dust::run {
 
+/// A standard error times `factor`; where there is none, why (sdk::BatchMeans) stays as it is.
+double scaled_error(double error, double factor);
+
 /// At what rates the dust of a field comes off grains and goes where it goes, once the stream is
 /// steady: means over time since `steady_after`, with standard errors from batch means
 /// (sdk::BatchMeans). What came before, while the stream began, is left out.

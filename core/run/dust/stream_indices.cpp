@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/dust/stream_indices.hpp"
 
+#include "run/dust/dust_rates.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,9 +13,7 @@ constexpr double k_tonne = 1e3;  // kg
 /// A cell holds grains of the stream from this solids fraction on: below it, dust and stray grains.
 constexpr double k_min_solids = 1e-3;
 /// Of the mean feed: where less goes down, it is not the stream.
-constexpr double k_min_share = 0.5;
-
-double scaled(double error, double factor) { return error < 0.0 ? error : error * factor; }
+constexpr double k_feed_share = 0.5;
 
 }  // namespace
 
@@ -106,8 +106,8 @@ void StreamIndices::report_impacts(sdk::FigureSink& sink) const {
     sink.figure("impact/" + name + "/power", power, "W", error, sdk::detail(sdk::Quantity::power));
     if (!(load() > 0.0)) return;
     // What is fed is even: its own error is left out.
-    sink.figure("impact/" + name + "/per_load", power / load(), "J/kg", scaled(error, 1.0 / load()),
-                sdk::FigureRole{});
+    sink.figure("impact/" + name + "/per_load", power / load(), "J/kg",
+                scaled_error(error, 1.0 / load()), sdk::FigureRole{});
   };
   double whole = 0.0;
   for (std::size_t n = k_power; n < first_level_; ++n) whole += means_.mean(n);
@@ -123,7 +123,7 @@ void StreamIndices::report_impacts(sdk::FigureSink& sink) const {
 void StreamIndices::report_levels(sdk::FigureSink& sink) const {
   std::vector<std::size_t> passed;
   for (std::size_t n = 0; n < levels_; ++n) {
-    if (load() > 0.0 && means_.mean(column(n, mass_flow)) >= k_min_share * load()) {
+    if (load() > 0.0 && means_.mean(column(n, mass_flow)) >= k_feed_share * load()) {
       passed.push_back(n);
     }
   }
@@ -135,7 +135,7 @@ void StreamIndices::report_levels(sdk::FigureSink& sink) const {
   const double per_load = k_tonne / load();
   sink.figure("entrained_air/flow", air(most), "m3/s", error,
               sdk::detail(sdk::Quantity::volume_rate));
-  sink.figure("entrained_air/per_load", per_load * air(most), "m3/t", scaled(error, per_load),
+  sink.figure("entrained_air/per_load", per_load * air(most), "m3/t", scaled_error(error, per_load),
               sdk::FigureRole{});
   sink.figure("entrained_air/height", height(most), "m", sdk::k_no_estimate,
               sdk::detail(sdk::Quantity::length));

@@ -3,6 +3,7 @@
 
 #include "base/cells.hpp"
 #include "base/periodic.hpp"
+#include "base/text.hpp"
 #include "dust/sdk/error.hpp"
 
 #include <algorithm>
@@ -16,21 +17,18 @@ namespace {
 using sdk::Vec3;
 
 /// A request written exactly on a side may miss it by rounding.
-constexpr double k_rounding = 1e-12;
+constexpr double k_box_rounding = 1e-12;
+/// Of a place in a message: as a list of grains has it.
+constexpr int k_place_digits = 6;
 /// Roundings of a coordinate on its way from the scenario into a distance: written in another unit,
 /// shifted or turned in a frame, carried back in time, subtracted, through a periodic side; some
 /// thirty of half a unit in the last place at the worst.
 constexpr double k_roundings = 16.0;
 
-std::string place_text(Vec3 x) {
-  std::ostringstream text;
-  text << "(" << x.x << ", " << x.y << ", " << x.z << ") m";
-  return text.str();
-}
-
 std::string grain_text(const InsertionCandidate& e) {
   std::ostringstream text;
-  text << "a grain of " << e.grain.diameter << " m at " << place_text(e.grain.position);
+  text << "a grain of " << e.grain.diameter << " m at "
+       << base::place_text(e.grain.position, k_place_digits);
   if (e.line > 0) text << " (line " << e.line << ")";
   return text.str();
 }
@@ -49,7 +47,8 @@ double largest_diameter(const std::vector<InsertionCandidate>& waiting,
 std::string partner_text(const SphereGrid::Sphere& s,
                          const std::vector<InsertionCandidate>& waiting) {
   if (s.label < 0) return grain_text(waiting[static_cast<std::size_t>(-1 - s.label)]);
-  return "grain " + std::to_string(s.label) + " in the domain, at " + place_text(s.centre);
+  return "grain " + std::to_string(s.label) + " in the domain, at " +
+         base::place_text(s.centre, k_place_digits);
 }
 
 [[noreturn]] void refuse(const EntryScene& scene, const InsertionCandidate& e,
@@ -67,7 +66,7 @@ void check_place(const EntryScene& scene, const InsertionCandidate& e, double al
   const double radius = 0.5 * e.grain.diameter;
   for (int d = 0; d < 3; ++d) {
     const bool is_periodic = scene.is_periodic[static_cast<std::size_t>(d)];
-    const double slack = is_periodic ? largest : k_rounding * (scene.max[d] - scene.min[d]);
+    const double slack = is_periodic ? largest : k_box_rounding * (scene.max[d] - scene.min[d]);
     if (!(x[d] >= scene.min[d] - slack && x[d] <= scene.max[d] + slack)) {
       refuse(scene, e, "lies outside the domain");
     }

@@ -12,7 +12,7 @@ namespace {
 
 using sdk::RowValue;
 
-constexpr sdk::FigureRole k_mass = sdk::detail(sdk::Quantity::mass);
+constexpr sdk::FigureRole k_mass_role = sdk::detail(sdk::Quantity::mass);
 constexpr sdk::FigureRole k_balance = {.role = sdk::Role::balance, .quantity = sdk::Quantity::mass};
 
 double kinetic_energy(const Simulation& s) {
@@ -51,8 +51,8 @@ void visit_hoods(const Simulation& s, const ColumnVisitor& visit) {
   for (std::size_t o = 0; o < s.dem().openings().size(); ++o) {
     const Drawn drawn = drawn_by(s, o);
     const std::string hood = "hoods/" + s.dem().openings()[o].name;
-    visit(hood + "/mass [kg]", drawn.mass, RowValue::total, k_mass);
-    visit(hood + "/dust [kg]", drawn.dust, RowValue::total, k_mass);
+    visit(hood + "/mass [kg]", drawn.mass, RowValue::total, k_mass_role);
+    visit(hood + "/dust [kg]", drawn.dust, RowValue::total, k_mass_role);
   }
 }
 
@@ -65,18 +65,19 @@ void visit_dust_field(const Simulation& s, const ColumnVisitor& visit) {
     const auto sum = [](const auto& values) {
       return std::accumulate(values.begin(), values.end(), 0.0);
     };
-    visit(of + "/released [kg]", balance.released, RowValue::total, k_mass);
-    visit(of + "/airborne [kg]", balance.airborne, RowValue::instant, k_mass);
-    visit(of + "/deposited [kg]", sum(balance.surfaces), RowValue::total, k_mass);
-    visit(of + "/left [kg]", sum(balance.left), RowValue::total, k_mass);
-    visit(of + "/hoods [kg]", sum(balance.outlets), RowValue::total, k_mass);
+    visit(of + "/released [kg]", balance.released, RowValue::total, k_mass_role);
+    visit(of + "/airborne [kg]", balance.airborne, RowValue::instant, k_mass_role);
+    visit(of + "/deposited [kg]", sum(balance.surfaces), RowValue::total, k_mass_role);
+    visit(of + "/left [kg]", sum(balance.left), RowValue::total, k_mass_role);
+    visit(of + "/hoods [kg]", sum(balance.outlets), RowValue::total, k_mass_role);
     if (dust->field().has_resuspension()) {
-      visit(of + "/resuspended [kg]", balance.resuspended, RowValue::total, k_mass);
+      visit(of + "/resuspended [kg]", balance.resuspended, RowValue::total, k_mass_role);
     }
     if (dust->field().has_running_surfaces()) {
-      visit(of + "/carried_out [kg]", sum(balance.carried_out), RowValue::total, k_mass);
+      visit(of + "/carried_out [kg]", sum(balance.carried_out), RowValue::total, k_mass_role);
     }
-    if (dust->has_scavenging()) visit(of + "/caught [kg]", balance.caught, RowValue::total, k_mass);
+    if (dust->has_scavenging())
+      visit(of + "/caught [kg]", balance.caught, RowValue::total, k_mass_role);
   }
 }
 
@@ -86,8 +87,8 @@ void visit_dust_on_grains(const Simulation& s, const ColumnVisitor& visit) {
   for (std::size_t n = 0; n < classes.size(); ++n) {
     const particles::DustLoads::Balance balance = s.dem().dust_balance(n);
     const std::string of = "dust_on_grains/" + classes[n];
-    visit(of + "/on_grains [kg]", balance.on_grains, RowValue::instant, k_mass);
-    visit(of + "/set_free [kg]", balance.set_free, RowValue::total, k_mass);
+    visit(of + "/on_grains [kg]", balance.on_grains, RowValue::instant, k_mass_role);
+    visit(of + "/set_free [kg]", balance.set_free, RowValue::total, k_mass_role);
   }
 }
 

@@ -10,7 +10,7 @@ using Json = nlohmann::ordered_json;
 using base::digits_text;
 using scenario::Setup;
 
-constexpr double k_min_share = 5e-4;  // below it a force is not told in the log
+constexpr double k_logged_share = 5e-4;  // below it a force is not told in the log
 
 ForceKind kind_of(std::size_t n) { return static_cast<ForceKind>(n); }
 
@@ -35,14 +35,9 @@ std::vector<std::string> active_models(const Setup& setup) {
   return all;
 }
 
-std::string place_text(sdk::Vec3 p) {
-  return "(" + digits_text(p.x, 4) + ", " + digits_text(p.y, 4) + ", " + digits_text(p.z, 4) +
-         " m)";
-}
-
 std::string grain_text(const Departures::Grain& g) {
   return "grain " + std::to_string(g.id) + " of " + base::length_text(g.diameter, 3) + " at " +
-         place_text(g.place) + " in step " + std::to_string(g.step) + " (" +
+         base::place_text(g.place) + " in step " + std::to_string(g.step) + " (" +
          digits_text(g.time, 4) + " s)";
 }
 
@@ -50,7 +45,7 @@ std::string forces_line(const ForceShares& shares) {
   std::string text;
   for (std::size_t n = 0; n < k_force_kinds; ++n) {
     const double share = shares.share(kind_of(n));
-    if (share < k_min_share) continue;
+    if (share < k_logged_share) continue;
     text += (text.empty() ? "" : ", ") + std::string(k_force_names[n]) + ' ' +
             digits_text(100.0 * share, 3) + " %";
   }

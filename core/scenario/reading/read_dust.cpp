@@ -35,7 +35,7 @@ std::vector<std::string> enabled_openings(Reading& reading, const Node& node,
     if (found == reading.figures.end()) {
       reading.error(mark_of_item(node, "openings", n),
                     path_of_item("openings", n) + "there is no sensor " +
-                        scenario::quoted(sensors[n]) + suggestion(sensors[n], all, "there are"));
+                        scenario::in_quotes(sensors[n]) + suggestion(sensors[n], all, "there are"));
     } else if (found->is_enabled) {
       enabled.push_back(sensors[n]);
     }
@@ -59,7 +59,7 @@ std::vector<std::string> known_hoods(Reading& reading, const Node& node,
     } else if (!reading.names.bodies.is_disabled(hoods[n])) {
       reading.error(
           mark_of_item(node, "hoods", n),
-          path_of_item("hoods", n) + scenario::quoted(hoods[n]) +
+          path_of_item("hoods", n) + scenario::in_quotes(hoods[n]) +
               " extracts nothing: a hood is a body with suction or a side whose air draws out" +
               (able.empty() ? std::string() : suggestion(hoods[n], able, "there are")));
     }

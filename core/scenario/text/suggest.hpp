@@ -22,6 +22,6 @@ std::string listed(const std::vector<std::string>& words);
 std::string printable(std::string_view text);
 
 /// `text` as printable() gives it, between single quotes.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 }  // namespace dust::scenario

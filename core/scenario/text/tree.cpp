@@ -246,7 +246,7 @@ Entry* find(Node& map, std::string_view key) {
 std::string kind_text(const Node& node) {
   switch (node.kind) {
     case Node::Kind::text:
-      return quoted(node.text);
+      return in_quotes(node.text);
     case Node::Kind::list:
       return "a list";
     case Node::Kind::map:

@@ -285,7 +285,7 @@ std::optional<WrittenNumber> split_number(std::string_view raw, std::string& err
   };
   if (text.empty()) return fail("a number is expected, not an empty text");
   const std::size_t n = number_length(text);
-  if (n == 0) return fail("a number is expected, not " + quoted(text));
+  if (n == 0) return fail("a number is expected, not " + in_quotes(text));
   const std::string digits = text.substr(text[0] == '+' ? 1 : 0, n - (text[0] == '+' ? 1 : 0));
   const std::size_t lead = digits[0] == '-' ? 1 : 0;
   if (digits.size() > lead + 1 && digits[lead] == '0' && is_digit(digits[lead + 1])) {
@@ -294,7 +294,7 @@ std::optional<WrittenNumber> split_number(std::string_view raw, std::string& err
     std::string plain = significant == std::string::npos ? "" : digits.substr(significant);
     if (plain.empty() || !is_digit(plain.front())) plain.insert(0, 1, '0');
     if (lead == 1) plain.insert(0, 1, '-');
-    return fail(quoted(text) +
+    return fail(in_quotes(text) +
                 " could be read as an octal number: leave out the leading zero and " + "write " +
                 plain);
   }
@@ -302,21 +302,21 @@ std::optional<WrittenNumber> split_number(std::string_view raw, std::string& err
   const auto [end, code] =
       std::from_chars(digits.data(), digits.data() + digits.size(), result.number);
   if (code == std::errc::result_out_of_range) {
-    return fail(quoted(text) + " is too large or too small for a double");
+    return fail(in_quotes(text) + " is too large or too small for a double");
   }
   if (code != std::errc{} || end != digits.data() + digits.size()) {
-    return fail("a number is expected, not " + quoted(text));
+    return fail("a number is expected, not " + in_quotes(text));
   }
   result.unit = trimmed(std::string_view(text).substr(n));
   if (result.unit.empty()) return result;
   const char next = result.unit.front();
   if (next == ',' || next == '_' || next == ':' || next == '.') {
-    return fail(quoted(text) + " is not a number: write it like 1234.5 (decimal point, " +
+    return fail(in_quotes(text) + " is not a number: write it like 1234.5 (decimal point, " +
                 "no separators)");
   }
   if (digits == "0" && (next == 'x' || next == 'o' || next == 'b') && result.unit.size() > 1 &&
       std::isxdigit(static_cast<unsigned char>(result.unit[1])) != 0) {
-    return fail(quoted(text) + " is not a decimal number");
+    return fail(in_quotes(text) + " is not a decimal number");
   }
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "dust/sdk/sampling.hpp"
+#include "io/atomic_file.hpp"
 #include "report/highlights.hpp"
 #include "report/run_text.hpp"
 #include "scenario/text/tree.hpp"
@@ -195,11 +196,6 @@ Uncertain mean_of_replicas(std::span<const Uncertain> runs) {
   return mean;
 }
 
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 /// Folders of the points of a study, all of them finished.
 std::vector<fs::path> finished_points(const fs::path& study) {
   const fs::path table = study / "study.csv";
@@ -272,7 +268,7 @@ HoodResults hood_results(const fs::path& study) {
   for (const fs::path& folder : finished_points(study)) {
     const report::RunText run = report::read_run_text(folder);
     const std::string file = (folder / "scenario.yaml").string();
-    if (const auto hood = hood_of(text_of(file), file)) {
+    if (const auto hood = hood_of(io::read_text(file), file)) {
       trials[hood->place][hood->flow].push_back(trial_of(run, hood->flow));
       openings[hood->place] = hood->opening;
     } else {

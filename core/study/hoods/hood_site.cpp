@@ -22,9 +22,9 @@ struct Duct {
   double sign = 1.0;
 };
 
-class Fit {
+class DuctSites {
  public:
-  Fit(double opening, const HoodScene& scene) : opening_(opening), scene_(scene) {
+  DuctSites(double opening, const HoodScene& scene) : opening_(opening), scene_(scene) {
     const auto& spacing = scene.grid().spacing;
     for (int d = 0; d < 3; ++d) {
       spacing_[d] = spacing[static_cast<std::size_t>(d)];
@@ -89,17 +89,17 @@ class Fit {
 };
 
 /// Steps of whole cells to every point within `reach` [m] of a place, the nearest first.
-std::vector<sdk::Vec3> steps_within(double reach, const Fit& fit) {
+std::vector<sdk::Vec3> steps_within(double reach, const DuctSites& sites) {
   std::array<int, 3> most{};
   for (int d = 0; d < 3; ++d) {
     most[static_cast<std::size_t>(d)] =
-        fit.is_spanned(d) ? 0 : static_cast<int>(reach / fit.spacing(d));
+        sites.is_spanned(d) ? 0 : static_cast<int>(reach / sites.spacing(d));
   }
   std::vector<sdk::Vec3> steps;
   for (int k = -most[2]; k <= most[2]; ++k) {
     for (int j = -most[1]; j <= most[1]; ++j) {
       for (int i = -most[0]; i <= most[0]; ++i) {
-        const sdk::Vec3 step{i * fit.spacing(0), j * fit.spacing(1), k * fit.spacing(2)};
+        const sdk::Vec3 step{i * sites.spacing(0), j * sites.spacing(1), k * sites.spacing(2)};
         if (norm(step) <= reach) steps.push_back(step);
       }
     }
@@ -134,23 +134,23 @@ double usual_opening(const HoodScene& scene) {
 
 std::optional<HoodSite> site_at(const LowPressurePlace& place, double opening,
                                 const HoodScene& scene) {
-  const Fit fit(opening, scene);
+  const DuctSites sites(opening, scene);
   sdk::Vec3 start = place.position;
   for (int d = 0; d < 3; ++d) {
-    if (fit.is_spanned(d)) start[d] = 0.5 * (scene.min()[d] + scene.max()[d]);
+    if (sites.is_spanned(d)) start[d] = 0.5 * (scene.min()[d] + scene.max()[d]);
   }
   std::optional<Duct> best;
   std::pair<double, double> worth;
   double distance = 0.0;
-  for (const sdk::Vec3& step : steps_within(opening, fit)) {
+  for (const sdk::Vec3& step : steps_within(opening, sites)) {
     // Equal but for rounding counts as the same distance.
     if (best && norm(step) > distance * (1.0 + 1e-9)) break;
     for (int axis = 0; axis < 3; ++axis) {
-      if (fit.is_spanned(axis)) continue;
+      if (sites.is_spanned(axis)) continue;
       for (const double sign : {1.0, -1.0}) {
         const Duct duct{start + step, axis, sign};
-        if (!fit.fits(duct)) continue;
-        const auto its = fit.worth_of(duct);
+        if (!sites.fits(duct)) continue;
+        const auto its = sites.worth_of(duct);
         if (best && its <= worth) continue;
         best = duct;
         worth = its;
@@ -159,7 +159,7 @@ std::optional<HoodSite> site_at(const LowPressurePlace& place, double opening,
     }
   }
   if (!best) return std::nullopt;
-  HoodSite site = fit.site_of(*best);
+  HoodSite site = sites.site_of(*best);
   site.place = place.number;
   site.moved = distance;
   return site;

@@ -11,25 +11,27 @@
 namespace dust::study {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json described(Json json, const std::string& description) {
+OrderedJson described(OrderedJson json, const std::string& description) {
   json["description"] = description;
   return json;
 }
 
-Json object(const Json& properties, const Json& required = Json::array()) {
-  Json made = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+OrderedJson object(const OrderedJson& properties,
+                   const OrderedJson& required = OrderedJson::array()) {
+  OrderedJson made = {
+      {"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
   if (!required.empty()) made["required"] = required;
   return made;
 }
 
-Json map_of(const Json& value) {
+OrderedJson map_of(const OrderedJson& value) {
   return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", value}};
 }
 
-Json value_of(const sdk::Parameter& p) {
-  Json json;
+OrderedJson value_of(const sdk::Parameter& p) {
+  OrderedJson json;
   switch (p.type) {
     case sdk::ParameterType::integer:
       json = {{"type", "integer"}};
@@ -55,21 +57,21 @@ Json value_of(const sdk::Parameter& p) {
   return described(json, p.sentence + (standard.empty() ? "" : " (default " + standard + ")"));
 }
 
-Json properties_of(const sdk::ParameterSchema& schema) {
-  Json properties = Json::object();
+OrderedJson properties_of(const sdk::ParameterSchema& schema) {
+  OrderedJson properties = OrderedJson::object();
   for (const sdk::Parameter& p : schema) properties[p.name] = value_of(p);
   return properties;
 }
 
-const Json k_number = {{"type", {"number", "string"}}};
-const Json k_text = {{"type", "string"}};
+const OrderedJson k_number = {{"type", {"number", "string"}}};
+const OrderedJson k_text = {{"type", "string"}};
 
-Json interval(bool has_count) {
-  Json properties = {{"from", k_number},
-                     {"to", k_number},
-                     {"spacing", described({{"enum", {"linear", "log"}}},
-                                           "How levels lie between (default linear).")}};
-  Json required = {"from", "to"};
+OrderedJson interval(bool has_count) {
+  OrderedJson properties = {{"from", k_number},
+                            {"to", k_number},
+                            {"spacing", described({{"enum", {"linear", "log"}}},
+                                                  "How levels lie between (default linear).")}};
+  OrderedJson required = {"from", "to"};
   if (has_count) {
     properties["count"] = {{"type", "integer"}, {"minimum", 1}};
     required.push_back("count");
@@ -77,12 +79,12 @@ Json interval(bool has_count) {
   return object(properties, required);
 }
 
-Json levels() {
-  return {{"anyOf", Json::array({{{"type", "array"}, {"minItems", 1}}, interval(true)})}};
+OrderedJson levels() {
+  return {{"anyOf", OrderedJson::array({{{"type", "array"}, {"minItems", 1}}, interval(true)})}};
 }
 
-Json calibration() {
-  Json properties = {
+OrderedJson calibration() {
+  OrderedJson properties = {
       {"targets",
        described(map_of(object({{"quantity", k_text}, {"value", k_number}, {"error", k_number}},
                                {"quantity", "value", "error"})),
@@ -93,18 +95,18 @@ Json calibration() {
                {{"path", {{"type", {"string", "array"}}}}, {"from", k_number}, {"to", k_number}},
                {"path", "from", "to"})),
            "What is to be found, where it stands in the scenario, and its interval.")}};
-  const Json declared = properties_of(CalibrationSpec::schema());
+  const OrderedJson declared = properties_of(CalibrationSpec::schema());
   for (const auto& [key, value] : declared.items()) properties[key] = value;
   return object(properties, {"targets", "parameters"});
 }
 
-Json sample() {
-  Json properties = properties_of(sample_schema());
+OrderedJson sample() {
+  OrderedJson properties = properties_of(sample_schema());
   properties["over"] = described(map_of(interval(false)), "Paths and the interval of each.");
   return object(properties, {"method", "count", "over"});
 }
 
-Json expectation() {
+OrderedJson expectation() {
   return object(
       {{"output", described(k_text, "Name of a measure.")},
        {"input", described(k_text, "Path of what is varied, or `case`.")},
@@ -113,7 +115,7 @@ Json expectation() {
                           "another.")},
        {"from", described(k_text, "Of cases: the one that it changes from.")},
        {"to", described(k_text, "Of cases: the one that it changes to.")},
-       {"at", described(map_of(Json::object()),
+       {"at", described(map_of(OrderedJson::object()),
                         "Paths of other inputs, or `case`, and the level of each at which the "
                         "effect is looked at (default: the mean over all their levels).")},
        {"why", described(k_text, "For the report.")}},
@@ -123,33 +125,34 @@ Json expectation() {
 }  // namespace
 
 std::string study_schema() {
-  const Json one_case = map_of(Json::object());
-  const Json measure = {
-      {"anyOf",
-       Json::array({k_text, object({{"quantity", k_text}, {"minus", k_text}, {"unit", k_text}},
-                                   {"quantity"})})}};
-  const Json zip = map_of(levels());
-  Json properties = {
+  const OrderedJson one_case = map_of(OrderedJson::object());
+  const OrderedJson measure = {
+      {"anyOf", OrderedJson::array(
+                    {k_text, object({{"quantity", k_text}, {"minus", k_text}, {"unit", k_text}},
+                                    {"quantity"})})}};
+  const OrderedJson zip = map_of(levels());
+  OrderedJson properties = {
       {"include", {{"type", {"string", "array"}}}},
       {"name",
        described(k_text, "Name of the study and of its folder (default: the file's stem).")},
       {"title", described(k_text, "One sentence for the report.")},
       {"base", described(k_text, "The scenario that is varied, relative to this file.")},
-      {"set", described(map_of(Json::object()),
+      {"set", described(map_of(OrderedJson::object()),
                         "Dotted paths and what they are set to in every "
                         "point, as for --set.")},
       {"vary", described(map_of(levels()),
                          "Dotted paths and their levels: a list, or {from, to, "
                          "count}. All combinations are run.")},
-      {"zip", described({{"anyOf", Json::array({zip, {{"type", "array"}, {"items", zip}}})}},
+      {"zip", described({{"anyOf", OrderedJson::array({zip, {{"type", "array"}, {"items", zip}}})}},
                         "Paths whose levels go together, first with first; combined with the "
                         "rest.")},
       {"cases",
-       described({{"anyOf", Json::array({map_of({{"type", {"object", "null"}}}),
-                                         {{"type", "array"},
-                                          {"items", object({{"name", k_text}, {"set", one_case}},
-                                                           Json::array({"name"}))}}})}},
-                 "Named points, each with the paths it sets; combined with the rest.")},
+       described(
+           {{"anyOf", OrderedJson::array({map_of({{"type", {"object", "null"}}}),
+                                          {{"type", "array"},
+                                           {"items", object({{"name", k_text}, {"set", one_case}},
+                                                            OrderedJson::array({"name"}))}}})}},
+           "Named points, each with the paths it sets; combined with the rest.")},
       {"sample", described(sample(), "Points spread over intervals; combined with the rest.")},
       {"replicates", described({{"type", "integer"}, {"minimum", 1}, {"maximum", 1000}},
                                "Runs of every point, each with a seed of its own (default 1).")},
@@ -166,9 +169,9 @@ std::string study_schema() {
       {"slurm", described(object(properties_of(SlurmSpec::schema())),
                           "What a cluster is asked for with --launcher slurm.")},
       {"calibrate", described(calibration(), "Finds parameters that meet targets.")}};
-  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
-                 {"title", "Study of the dust engine"}};
-  const Json whole = object(properties, Json::array({"base"}));
+  OrderedJson schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                        {"title", "Study of the dust engine"}};
+  const OrderedJson whole = object(properties, OrderedJson::array({"base"}));
   for (const auto& [key, value] : whole.items()) schema[key] = value;
   return schema.dump(2) + "\n";
 }

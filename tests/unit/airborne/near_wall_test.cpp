@@ -24,7 +24,7 @@ namespace {
 constexpr double k_viscosity = 1.5e-5;  // m2/s
 constexpr double k_gravity = 9.81;
 constexpr double k_area = 0.04 * 0.04;
-const airborne::Gas k_air{1.2, k_viscosity * 1.2};
+const airborne::Gas k_gas{1.2, k_viscosity * 1.2};
 
 /// Dust in a still box of 4 x 4 x 4 cells with walls all round, and the floor's friction velocity.
 struct Floor {
@@ -57,7 +57,7 @@ struct Floor {
     flow.friction_velocity.assign(flow.walls.size(), friction_velocity);
   }
   [[nodiscard]] DustField field() const {
-    DustField made(grid, spec, k_air, {0, 0, -k_gravity}, {0, 6});
+    DustField made(grid, spec, k_gas, {0, 0, -k_gravity}, {0, 6});
     made.start(flow.volume_after);
     return made;
   }
@@ -134,7 +134,7 @@ TEST_CASE("deposition on smooth walls shall be that of the three layers at the w
     for (const double u : {0.01, 0.1, 0.5}) {
       CAPTURE(diameter);
       CAPTURE(u);
-      const DustClass dust = airborne::make_class(diameter, 1000, {0, 0, -k_gravity}, k_air);
+      const DustClass dust = airborne::make_class(diameter, 1000, {0, 0, -k_gravity}, k_gas);
       // Eddy viscosity 7.669e-4 y^3 up to y+ = 4.3, 1e-3 y^2.8214 to 12.5, 1.07e-2 y^1.8895 to 30
       // (Lai and Nazaroff, table 1); Simpson's rule in the logarithm of the inner layer.
       const double brownian = dust.diffusivity / k_viscosity;
@@ -160,7 +160,7 @@ TEST_CASE("deposition on smooth walls shall be that of the three layers at the w
       CHECK(down <= vertical);
     }
   }
-  const DustClass sand = airborne::make_class(10e-6, 2650, {0, 0, -k_gravity}, k_air);
+  const DustClass sand = airborne::make_class(10e-6, 2650, {0, 0, -k_gravity}, k_gas);
   CHECK(deposition_velocity(sand, norm(sand.drift), 0.0, k_viscosity) == norm(sand.drift));
   CHECK(deposition_velocity(sand, -norm(sand.drift), 0.0, k_viscosity) == 0.0);
 }

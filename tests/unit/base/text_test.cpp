@@ -75,6 +75,11 @@ TEST_CASE("Lengths, masses and flows in the unit people of their size use") {
   CHECK(volume_flow_text(12.0 / 6e4) == "12 l/min");
 }
 
+TEST_CASE("Places have their three coordinates in m") {
+  CHECK(place_text({0.0059, -1.2, 0.0}) == "(0.0059, -1.2, 0) m");
+  CHECK(place_text({0.1234567, 1e-7, 1000.0}, 6) == "(0.123457, 1e-07, 1000) m");
+}
+
 TEST_CASE("Edges share the unit of the longest") {
   CHECK(extent_text({0.34, 0.02, 0.33}) == "340 x 20 x 330 mm");
   CHECK(extent_text({3.4, 2.6, 3.0}) == "3.4 x 2.6 x 3 m");

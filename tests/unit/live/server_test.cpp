@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/server.hpp"
 #include "base/error.hpp"
+#include "support/text.hpp"
 #include "unit/report/fake_run.hpp"
 
 #include <arpa/inet.h>
@@ -12,6 +13,7 @@
 
 using dust::live::Bulletin;
 using dust::live::Server;
+using dust::test::holds;
 using dust::test::RunFolder;
 using nlohmann::json;
 
@@ -53,10 +55,6 @@ std::string body_of(const std::string& answer) {
   return answer.substr(answer.find("\r\n\r\n") + 4);
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// A server with a bulletin over an invented run.
 struct Fixture {
   Fixture() {
@@ -74,14 +72,14 @@ struct Fixture {
 TEST_CASE_FIXTURE(Fixture, "a live run shall tell how far it is") {
   bulletin.publish_progress({{"time_s", 0.25}, {"status", "running"}});
   const std::string answer = ask(server.port(), "GET", "/progress.json");
-  CHECK(has(answer, "200 OK"));
+  CHECK(holds(answer, "200 OK"));
   const json progress = json::parse(body_of(answer));
   CHECK(progress["time_s"] == 0.25);
   CHECK(progress["states"] == 0);
 }
 
 TEST_CASE_FIXTURE(Fixture, "the report of a live run shall come with its first frame and grow") {
-  CHECK(has(ask(server.port(), "GET", "/report.html"), "503"));
+  CHECK(holds(ask(server.port(), "GET", "/report.html"), "503"));
   json summary = dust::test::fake_summary();
   summary["simulated_s"] = 0.125;
   bulletin.publish_state(summary, json::object());
@@ -108,26 +106,26 @@ TEST_CASE_FIXTURE(Fixture, "the report of a live run shall come with its first f
 TEST_CASE_FIXTURE(Fixture, "a live run shall be read only") {
   for (const char* method : {"POST", "PUT", "DELETE"}) {
     CAPTURE(method);
-    CHECK(has(ask(server.port(), method, "/progress.json"), "405"));
+    CHECK(holds(ask(server.port(), method, "/progress.json"), "405"));
   }
   const std::string head = ask(server.port(), "HEAD", "/progress.json");
-  CHECK(has(head, "200 OK"));
+  CHECK(holds(head, "200 OK"));
   CHECK(body_of(head).empty());
-  CHECK(has(ask(server.port(), "GET", "/../scenario.yaml"), "404"));
-  CHECK(has(ask(server.port(), "GET", "/scenario.yaml"), "404"));
+  CHECK(holds(ask(server.port(), "GET", "/../scenario.yaml"), "404"));
+  CHECK(holds(ask(server.port(), "GET", "/scenario.yaml"), "404"));
 }
 
 TEST_CASE_FIXTURE(Fixture, "a live run shall be seen from this machine only") {
   CHECK(connect_to("127.0.0.2", server.port()) < 0);  // listens on one address alone
-  CHECK(has(ask(server.port(), "GET", "/", "elsewhere.example"), "403"));
-  CHECK(has(ask(server.port(), "GET", "/", "localhost:" + std::to_string(server.port())), "200"));
+  CHECK(holds(ask(server.port(), "GET", "/", "elsewhere.example"), "403"));
+  CHECK(holds(ask(server.port(), "GET", "/", "localhost:" + std::to_string(server.port())), "200"));
 }
 
 TEST_CASE_FIXTURE(Fixture, "what is no request shall not end a live run") {
-  CHECK_FALSE(has(answer_to(server.port(), "nonsense\r\n\r\n"), "200"));
+  CHECK_FALSE(holds(answer_to(server.port(), "nonsense\r\n\r\n"), "200"));
   CHECK_FALSE(
-      has(answer_to(server.port(), "GET /" + std::string(100000, 'a') + "\r\n\r\n"), "200"));
-  CHECK(has(ask(server.port(), "GET", "/progress.json"), "200"));
+      holds(answer_to(server.port(), "GET /" + std::string(100000, 'a') + "\r\n\r\n"), "200"));
+  CHECK(holds(ask(server.port(), "GET", "/progress.json"), "200"));
 }
 
 TEST_CASE("a port that is taken shall be refused with a remedy") {
@@ -136,7 +134,7 @@ TEST_CASE("a port that is taken shall be refused with a remedy") {
     const Server second(first.port());
     FAIL("two servers on one port");
   } catch (const dust::base::UserError& error) {
-    CHECK(has(error.lines().at(0), std::to_string(first.port())));
-    CHECK(has(error.lines().at(0), "--live-port"));
+    CHECK(holds(error.lines().at(0), std::to_string(first.port())));
+    CHECK(holds(error.lines().at(0), "--live-port"));
   }
 }

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "fake_run.hpp"
 #include "support/approx.hpp"
+#include "support/text.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,15 +16,12 @@ using dust::report::QuantityPair;
 using dust::report::scenario_differences;
 using dust::test::approx;
 using dust::test::fake_summary;
+using dust::test::holds;
 using dust::test::page_data;
 using dust::test::RunFolder;
 using nlohmann::json;
 
 namespace {
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 void fill(const RunFolder& folder, double dust, const std::string& speed) {
   json summary = fake_summary();
@@ -79,11 +77,11 @@ TEST_CASE("two runs shall stand side by side in text and on a page") {
   fill(second, 0.0237, "0.4");
   const auto comparison = compare_runs(first.path(), second.path());
   const std::string text = comparison_text(comparison);
-  CHECK(has(text, "bodies.belt.speed: 0.8 | 0.4"));
-  CHECK_FALSE(has(text, "radius"));
-  CHECK(has(text, "+0.01"));
-  CHECK(has(text, "+3.4"));  // 0.01 over sqrt(2) 0.0021
-  CHECK(has(text, "bit for bit"));
+  CHECK(holds(text, "bodies.belt.speed: 0.8 | 0.4"));
+  CHECK_FALSE(holds(text, "radius"));
+  CHECK(holds(text, "+0.01"));
+  CHECK(holds(text, "+3.4"));  // 0.01 over sqrt(2) 0.0021
+  CHECK(holds(text, "bit for bit"));
 
   const std::string page = page_of(first, second);
   const json data = page_data(page);
@@ -95,7 +93,7 @@ TEST_CASE("two runs shall stand side by side in text and on a page") {
   CHECK(data["plots"]["curves"][0]["lines"][1]["y"][1] == 0.0237);
   CHECK(data["plots"]["series"][0]["title"] == "kinetic_energy");
   CHECK_FALSE(std::regex_search(page, std::regex("(src|href)\\s*=\\s*[\"']?(https?:)?//")));
-  CHECK(has(page, "default-src 'none'"));
+  CHECK(holds(page, "default-src 'none'"));
 }
 
 TEST_CASE("runs that share nothing shall be compared all the same") {
@@ -106,8 +104,8 @@ TEST_CASE("runs that share nothing shall be compared all the same") {
   second.write("summary.json", summary.dump());
   const auto comparison = compare_runs(first.path(), second.path());
   CHECK_FALSE(comparison.is_same_state);
-  CHECK(has(comparison_text(comparison), "-"));
-  CHECK(has(page_of(first, second), "</html>"));
+  CHECK(holds(comparison_text(comparison), "-"));
+  CHECK(holds(page_of(first, second), "</html>"));
 }
 
 TEST_CASE("names of compared runs shall not become markup") {
@@ -119,7 +117,7 @@ TEST_CASE("names of compared runs shall not become markup") {
   first.write("scenario.yaml", "'<script>': 1\n");
   second.write("scenario.yaml", "'<script>': '</script>'\n");
   const std::string page = page_of(first, second);
-  CHECK_FALSE(has(page, "<img"));
+  CHECK_FALSE(holds(page, "<img"));
   CHECK(page_data(page)["scenario"][0]["path"] == "<script>");
 }
 
@@ -132,6 +130,6 @@ TEST_CASE("a folder that is no run shall be refused by name") {
   } catch (const dust::base::UserError& error) {
     message = error.lines().at(0);
   }
-  CHECK(has(message, second.path().string()));
-  CHECK(has(message, "summary.json"));
+  CHECK(holds(message, second.path().string()));
+  CHECK(holds(message, "summary.json"));
 }

@@ -2,17 +2,21 @@
 #include "report/report.hpp"
 #include "base/error.hpp"
 #include "fake_run.hpp"
+#include "report/h5_source.hpp"
 #include "support/approx.hpp"
+#include "support/text.hpp"
 
 #include <doctest/doctest.h>
 
 #include <regex>
+#include <vector>
 
 using dust::report::write_report;
 using dust::test::approx;
 using dust::test::fake_figure;
 using dust::test::fake_summary;
 using dust::test::FakeRun;
+using dust::test::holds;
 using dust::test::page_data;
 using dust::test::RunFolder;
 using dust::test::unpacked;
@@ -20,10 +24,6 @@ using dust::test::with_role;
 using nlohmann::json;
 
 namespace {
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 std::string page_of(const RunFolder& folder) {
   write_report(folder.path());
@@ -55,14 +55,14 @@ TEST_CASE("the report shall ask no other machine for anything") {
   const RunFolder folder;
   fill(folder);
   const std::string page = page_of(folder);
-  CHECK(has(page, "default-src 'none'"));
+  CHECK(holds(page, "default-src 'none'"));
   CHECK_FALSE(std::regex_search(page, std::regex("(src|href)\\s*=\\s*[\"']?(https?:)?//")));
-  CHECK_FALSE(has(page, "@import"));
-  CHECK_FALSE(has(page, "<link"));
+  CHECK_FALSE(holds(page, "@import"));
+  CHECK_FALSE(holds(page, "<link"));
   CHECK_FALSE(std::regex_search(page, std::regex("url\\(\\s*[\"']?https?:")));
-  CHECK(has(page, "uPlot=function"));  // the plotting library is inside
-  CHECK_FALSE(has(page, "{{file:"));
-  CHECK(has(page, "Dust.Picture = class"));  // and so are the page's own scripts
+  CHECK(holds(page, "uPlot=function"));  // the plotting library is inside
+  CHECK_FALSE(holds(page, "{{file:"));
+  CHECK(holds(page, "Dust.Picture = class"));  // and so are the page's own scripts
   CHECK_FALSE(std::filesystem::exists(folder.path() / "report.html.part"));
 }
 
@@ -108,7 +108,7 @@ TEST_CASE("a folder of one's own shall stand before the engine's templates") {
   own.write("logo.png", "abc");
   write_report(folder.path(), dust::report::Templates(own.path()));
   const std::string page = folder.read("report.html");
-  CHECK(has(page, "<p>Firm</p><img src=\"data:image/png;base64,YWJj\">p { color: red; }"));
+  CHECK(holds(page, "<p>Firm</p><img src=\"data:image/png;base64,YWJj\">p { color: red; }"));
   CHECK(page_data(page)["title"] == "A run");
   // What is named but not there is a clear error.
   own.write("run.html", "{{file:missing.js}}");
@@ -150,8 +150,8 @@ TEST_CASE("names from files shall not become markup or script") {
                        {"y", {0, 1}}}}}}
                    .dump());
   const std::string page = page_of(folder);
-  CHECK_FALSE(has(page, "<script>document"));
-  CHECK_FALSE(has(page, "<img src=x"));
+  CHECK_FALSE(holds(page, "<script>document"));
+  CHECK_FALSE(holds(page, "<img src=x"));
   CHECK(page_data(page)["curves"][0]["title"] == hostile);
 }
 
@@ -271,6 +271,14 @@ TEST_CASE("a run that counted no dust shall say so") {
   CHECK(dust["headline"]["value"] == 0.0);
 }
 
+TEST_CASE("frames shall be shown evenly over the run, the last among them") {
+  using Frames = std::vector<std::size_t>;
+  CHECK(dust::report::spread_frames(0, 4).empty());
+  CHECK(dust::report::spread_frames(3, 4) == Frames{0, 1, 2});
+  CHECK(dust::report::spread_frames(8, 4) == Frames{1, 3, 5, 7});
+  CHECK(dust::report::spread_frames(9, 4) == Frames{2, 5, 8});
+}
+
 TEST_CASE("frames without grains shall be shown empty") {
   const RunFolder folder;
   fill(folder);
@@ -284,7 +292,7 @@ TEST_CASE("frames without grains shall be shown empty") {
 TEST_CASE("a report shall be made of the summary alone") {
   const RunFolder folder;
   folder.write("summary.json", "{}");
-  CHECK(has(page_of(folder), "</html>"));
+  CHECK(holds(page_of(folder), "</html>"));
 }
 
 TEST_CASE("damaged side files shall be named in the report, not end it") {
@@ -294,8 +302,8 @@ TEST_CASE("damaged side files shall be named in the report, not end it") {
   folder.write("results.h5", "not an HDF5 file");
   const json notes = page_data(page_of(folder))["notes"];
   REQUIRE(notes.size() == 2);
-  CHECK(has(notes[0], "report.json is damaged"));
-  CHECK(has(notes[1], "results.h5 cannot be read"));
+  CHECK(holds(notes[0], "report.json is damaged"));
+  CHECK(holds(notes[1], "results.h5 cannot be read"));
 }
 
 TEST_CASE("a folder that is no run shall be refused with a remedy") {
@@ -309,13 +317,13 @@ TEST_CASE("a folder that is no run shall be refused with a remedy") {
     return "";
   };
   const std::string missing = message(folder.path());
-  CHECK(has(missing, folder.path().string()));
-  CHECK(has(missing, "summary.json"));
-  CHECK(has(missing, "engine run"));
+  CHECK(holds(missing, folder.path().string()));
+  CHECK(holds(missing, "summary.json"));
+  CHECK(holds(missing, "engine run"));
   CHECK_FALSE(std::filesystem::exists(folder.path() / "report.html"));
-  CHECK(has(message(folder.path() / "nothing"), "not a folder"));
+  CHECK(holds(message(folder.path() / "nothing"), "not a folder"));
   folder.write("summary.json", "[1, 2");
-  CHECK(has(message(folder.path()), "damaged"));
+  CHECK(holds(message(folder.path()), "damaged"));
 }
 
 TEST_CASE("grains shall come back from the page where they were") {

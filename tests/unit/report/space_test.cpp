@@ -21,12 +21,12 @@ using nlohmann::json;
 namespace {
 
 /// A run in the box (0, 0, 0) to (2, 1, 1) m.
-void fill(const RunFolder& folder, const char* far_corner = "[2, 1, 1]") {
+void fill_box(const RunFolder& folder, const char* far_corner = "[2, 1, 1]") {
   folder.write("summary.json", fake_summary().dump());
   folder.write("scenario.yaml", std::string("domain: {min: [0, 0, 0], max: ") + far_corner + "}\n");
 }
 
-json document_of(const RunFolder& folder) {
+json page_document(const RunFolder& folder) {
   write_report(folder.path());
   return page_data(folder.read("report.html"));
 }
@@ -89,9 +89,9 @@ FakeSurface fine_square(int n) {
 
 TEST_CASE("surfaces shall come back from the page where they were, body by body") {
   const RunFolder folder;
-  fill(folder);
+  fill_box(folder);
   folder.write_surfaces({two_bodies(0.25F)}, {"belt", "hood", "spoon"});
-  const json surfaces = document_of(folder)["space"]["surfaces"];
+  const json surfaces = page_document(folder)["space"]["surfaces"];
   CHECK(surfaces["names"] == json{"belt", "hood", "spoon"});
   REQUIRE(surfaces["sets"].size() == 1);
   CHECK(surfaces["coarsened"] == false);
@@ -110,14 +110,14 @@ TEST_CASE("surfaces shall come back from the page where they were, body by body"
 TEST_CASE(
     "surfaces that reach out of the domain shall end at its sides and not be pressed flat there") {
   const RunFolder folder;
-  fill(folder);
+  fill_box(folder);
   // A strip along x from 1 m inside the box (2, 1, 1) m to far outside, and one wholly below it.
   const FakeSurface strips = {{1.0F, 0.2F, 0.5F, 5.0F, 0.2F, 0.5F, 5.0F, 0.8F, 2.5F,  //
                                0.0F, 0.0F, -0.3F, 1.0F, 0.0F, -0.3F, 1.0F, 1.0F, -0.1F},
                               {0, 1, 2, 3, 4, 5},
                               {0, 1}};
   folder.write_surfaces({strips}, {"belt", "return_run"});
-  const json set = document_of(folder)["space"]["surfaces"]["sets"][0];
+  const json set = page_document(folder)["space"]["surfaces"]["sets"][0];
   REQUIRE(set["bodies"].size() == 1);
   CHECK(set["bodies"][0][0] == 0);
   bool reaches_side = false;
@@ -131,9 +131,9 @@ TEST_CASE(
 
 TEST_CASE("surfaces that stay shall be stored once, those that move frame by frame") {
   const RunFolder folder;
-  fill(folder);
+  fill_box(folder);
   folder.write_surfaces({two_bodies(0.2F), two_bodies(0.2F), two_bodies(0.4F)}, {"a", "b", "c"});
-  const json surfaces = document_of(folder)["space"]["surfaces"];
+  const json surfaces = page_document(folder)["space"]["surfaces"];
   REQUIRE(surfaces["sets"].size() == 2);
   CHECK(surfaces["shown"] == json{0, 0, 1});
   CHECK(corners_of(surfaces["sets"][1])[3][2] == approx(0.4).epsilon(1e-4));
@@ -141,9 +141,9 @@ TEST_CASE("surfaces that stay shall be stored once, those that move frame by fra
 
 TEST_CASE("surfaces too fine for a page shall be coarsened and the reader told") {
   const RunFolder folder;
-  fill(folder);
+  fill_box(folder);
   folder.write_surfaces({fine_square(180)}, {"liner"});
-  const json surfaces = document_of(folder)["space"]["surfaces"];
+  const json surfaces = page_document(folder)["space"]["surfaces"];
   const std::size_t shown = surfaces["sets"][0]["triangles"];
   CHECK(surfaces["coarsened"] == true);
   CHECK(shown <= 40000);
@@ -155,18 +155,18 @@ TEST_CASE("surfaces too fine for a page shall be coarsened and the reader told")
 
 TEST_CASE("damaged surfaces shall be left out") {
   const RunFolder folder;
-  fill(folder);
+  fill_box(folder);
   FakeSurface damaged = two_bodies(0.2F);
   damaged.triangles[4] = 99;
   folder.write_surfaces({damaged}, {"a", "b", "c"});
-  CHECK(document_of(folder)["space"]["surfaces"].is_null());
+  CHECK(page_document(folder)["space"]["surfaces"].is_null());
 }
 
 TEST_CASE("grains shall have their depth") {
   const RunFolder folder;
-  fill(folder);
+  fill_box(folder);
   folder.write_tracks({{FakeGrain{.id = 1, .diameter = 5e-4, .x = 0.5, .z = 0.5, .y = 0.25}}});
-  const json data = document_of(folder);
+  const json data = page_document(folder);
   CHECK(data["space"]["is_thin"] == false);
   REQUIRE(data["grains"]["depth_bytes"] == 2);
   // x, z of two bytes, size and speed of one; then y, the higher byte first.
@@ -178,9 +178,9 @@ TEST_CASE("grains shall have their depth") {
 
 TEST_CASE("a thin domain shall be seen from the side first and carry no air in three dimensions") {
   const RunFolder folder;
-  fill(folder, "[2, 0.1, 1]");
+  fill_box(folder, "[2, 0.1, 1]");
   folder.write_tracks({{FakeGrain{.id = 1, .diameter = 5e-4, .x = 0.5, .z = 0.5, .y = 0.025}}});
-  const json data = document_of(folder);
+  const json data = page_document(folder);
   CHECK(data["space"]["is_thin"] == true);
   CHECK(data["space"]["air"].is_null());
   const std::string bytes = unpacked(data["grains"]["frames"][0]["data"]);
@@ -190,9 +190,9 @@ TEST_CASE("a thin domain shall be seen from the side first and carry no air in t
 
 TEST_CASE("the air in three dimensions shall be that of the cells") {
   const RunFolder folder;
-  fill(folder);
+  fill_box(folder);
   folder.write_h5({});  // 4 x 2 x 3 cells, u = 2 m/s, the column x = z = 0 in a body
-  const json air = document_of(folder)["space"]["air"];
+  const json air = page_document(folder)["space"]["air"];
   REQUIRE(air["frames"].size() == 3);
   CHECK(air["count"] == json{4, 2, 3});
   CHECK(air["step"][1].get<double>() == approx(0.1));

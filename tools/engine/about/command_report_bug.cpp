@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "commands.hpp"
 #include "dust/sdk/plugin.hpp"
+#include "io/atomic_file.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <thread>
 
 namespace dust::engine {
@@ -22,11 +22,6 @@ using Json = nlohmann::ordered_json;
 
 /// The end of a log says how a run ended; its start is in the summary and the scenario.
 constexpr std::size_t k_max_log_lines = 60;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// What stands behind "key" and a separator in a file like /proc/cpuinfo; "unknown" without.
 std::string value_in(const fs::path& file, const std::string& key, char separator) {
@@ -62,7 +57,7 @@ std::string summary_text(const fs::path& file) {
   if (!fs::exists(file)) {
     return "there is no summary.json: the run is going on, or was killed or crashed";
   }
-  Json summary = Json::parse(text_of(file), nullptr, false);
+  Json summary = Json::parse(io::read_text(file), nullptr, false);
   if (summary.is_discarded()) return "summary.json is damaged";
   for (const char* key : {"sensors", "series", "references", "size_classes", "emitters"}) {
     summary.erase(key);
@@ -99,9 +94,9 @@ std::string report_text(const fs::path& folder) {
          section("Engine", version_text()) + section("Machine", machine_text()) +
          section("Summary", summary_text(folder / "summary.json"), "json") +
          section("Last lines of run.log",
-                 last_lines(text_of(folder / "run.log"), k_max_log_lines)) +
+                 last_lines(io::read_text(folder / "run.log"), k_max_log_lines)) +
          section("Files and bytes", files_text(folder)) +
-         section("Scenario as run", text_of(folder / "scenario.yaml"), "yaml");
+         section("Scenario as run", io::read_text(folder / "scenario.yaml"), "yaml");
 }
 
 }  // namespace

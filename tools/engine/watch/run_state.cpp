@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "io/atomic_file.hpp"
 #include "scenario/diagnostics.hpp"
 #include "scenario/text/tree.hpp"
 
@@ -14,8 +15,6 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <vector>
 
@@ -23,11 +22,6 @@ namespace dust::engine {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// As core/run/folder/output_folder.cpp locks it.
 bool is_locked(const fs::path& folder) {
@@ -48,7 +42,7 @@ std::vector<std::string> cells_of(const std::string& line) {
 
 /// The last whole row; the one being written has no line end yet.
 void read_series(const fs::path& file, RunState& state) {
-  const std::string text = text_of(file);
+  const std::string text = io::read_text(file);
   const std::size_t end = text.rfind('\n');
   if (end == std::string::npos || end == 0) return;
   const std::size_t begin = text.rfind('\n', end - 1);
@@ -63,7 +57,8 @@ void read_series(const fs::path& file, RunState& state) {
 
 double end_of(const fs::path& scenario) {
   scenario::Diagnostics ignored;
-  const auto root = scenario::parse_yaml(text_of(scenario), scenario.string(), false, ignored);
+  const auto root =
+      scenario::parse_yaml(io::read_text(scenario), scenario.string(), false, ignored);
   const scenario::Entry* time = root && root->is_map() ? root->find("time") : nullptr;
   const scenario::Entry* end =
       time != nullptr && time->value.is_map() ? time->value.find("end") : nullptr;
@@ -81,7 +76,8 @@ RunState read_run_state(const fs::path& folder) {
   state.is_running = is_locked(folder);
   state.end = end_of(folder / "scenario.yaml");
   read_series(folder / "series.csv", state);
-  const auto summary = nlohmann::json::parse(text_of(folder / "summary.json"), nullptr, false);
+  const auto summary =
+      nlohmann::json::parse(io::read_text(folder / "summary.json"), nullptr, false);
   if (summary.is_object()) {
     state.status = summary.value("status", "");
     state.reason = summary.value("reason", "");
