@@ -128,6 +128,21 @@ class KeptPages(unittest.TestCase):
             text = self.written(second, {"run_2": 1.0}, kept.Kept(file))
             self.assertEqual([None, {"box": "run_2"}], stale.bits_of(text))
 
+    def test_kept_runs_are_of_the_bits_of_their_commits(self):
+        def bits_at(commit):
+            return {"box": commit} if commit.startswith("of_") else {}
+
+        with tempfile.TemporaryDirectory() as first, tempfile.TemporaryDirectory() as second, unittest.mock.patch("page.bits_at", bits_at):
+            file = pathlib.Path(first) / "case.md"
+            # A line of a run that has been made anew since, with those that stay.
+            file.write_text(self.written(first, {"run_1": 1.25}, kept.Kept()) + "<!-- bits box=older -->\n")
+            text = self.written(second, {"run_2": 1.0}, kept.Kept(file))
+            self.assertEqual([{"box": "of_run_1"}, {"box": "run_2"}], stale.bits_of(text))
+            # Where the history does not know a commit, all that the page had.
+            file.write_text(file.read_text().replace("of_run_1", "?"))
+            text = self.written(second, {}, kept.Kept(file))
+            self.assertEqual([{"box": "run_1"}, {"box": "older"}, {"box": "run_2"}], stale.bits_of(text))
+
     def test_pictures_of_runs_that_are_gone_stay_and_new_ones_take_other_files(self):
         drawn = []
         with tempfile.TemporaryDirectory() as folder, \

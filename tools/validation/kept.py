@@ -70,7 +70,7 @@ class Kept:
         return (self._bits or ["<!-- bits unknown -->"]) if self._runs else []
 
     def commits(self):
-        return {cells.get("commit", "not noted") for cells in self._runs.values()}
+        return {commit for cells in self._runs.values() for commit in cells.get("commit", "not noted").split(", ")}
 
     def dates(self):
         return {self._date} if self._date and self._runs else set()

@@ -6,7 +6,7 @@ import re
 
 import chart
 from kept import Kept
-from runs import ROOT, cpu_name
+from runs import ROOT, bits_at, cpu_name
 
 FOLDER = ROOT / "docs" / "validation"
 HEAD = ["| figure | ours | published | pass band | verdict |", "| --- | --- | --- | --- | --- |"]
@@ -157,13 +157,19 @@ def runs_section(runs):
                    f"{s['particle_steps']:.3g} | {s['cpu_s']:.0f} | `{s['state_sha256'][:12]}` |")
     commands = dict.fromkeys([*(kept.commands() if before else []), *(run.plan.shown() for run in runs)])
     out += [f"| {' | '.join(row)} |" for row in before]
-    return out + ["", "```", *commands, "```", "", *dict.fromkeys([*kept.bits(), *bits_lines(runs)])]
+    return out + ["", "```", *commands, "```", "", *dict.fromkeys([*kept_bits(kept), *bits_lines(runs)])]
+
+
+def bits_line(bits):
+    """What `tools/validation/run --stale` reads: the record of bits that an engine had."""
+    return f"<!-- bits {' '.join(f'{case}={state}' for case, state in sorted(bits.items())) or 'unknown'} -->"
+
+
+def kept_bits(kept):
+    """The records of kept runs: of their commits, or where the history does not tell one of them, all that the page had."""
+    records = [bits_at(commit) for commit in sorted(kept.commits())]
+    return [bits_line(bits) for bits in records] if all(records) else kept.bits()
 
 
 def bits_lines(runs):
-    """What `tools/validation/run --stale` reads: the record of bits that the runs' engines had."""
-    seen = set()
-    for run in runs:
-        for bits in run.note().get("bits") or [{}]:
-            seen.add(" ".join(f"{case}={state}" for case, state in sorted(bits.items())) or "unknown")
-    return [f"<!-- bits {bits} -->" for bits in sorted(seen)]
+    return sorted({bits_line(bits) for run in runs for bits in run.note().get("bits") or [{}]})

@@ -21,12 +21,6 @@ def written_by(case, engine):
             f"the end {os.getloadavg()[1]:.0f}: times are those of a machine as busy as that), commit {engine.commit()}.")
 
 
-def bits_line(engine):
-    """What `tools/validation/run --stale` reads."""
-    text = " ".join(f"{case}={state}" for case, state in sorted(engine.bits().items()))
-    return f"<!-- bits {text or 'unknown'} -->"
-
-
 def write_page(case, lines):
     target = FOLDER / f"{case}.md"
     target.write_text("\n".join(lines) + "\n")

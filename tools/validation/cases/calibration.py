@@ -5,6 +5,7 @@ import json
 import sys
 
 import study_runs
+from page import bits_line
 from runs import ROOT
 
 TITLE = "A calibration whose truth is known"
@@ -69,6 +70,6 @@ def write(args):
     keep = [c for c in rows[0] if c not in ("replicate", "reason")]
     out += ["|" + " --- |" * len(keep)]
     out += ["| " + " | ".join(study_runs.rounded(r[c]) for c in keep) + " |" for r in rows]
-    study_runs.write_page("calibration", [*out, "", study_runs.bits_line(args.engine)])
+    study_runs.write_page("calibration", [*out, "", bits_line(args.engine.bits())])
     if not holds:
         sys.exit("the calibration did not recover the truth within its region in 30 runs")

@@ -6,7 +6,7 @@ import fnmatch
 import chart
 import study_runs
 from cases.hood_capture import COARSE
-from page import FOLDER
+from page import FOLDER, bits_line
 from runs import ROOT
 
 TITLE = "The thesis's outlook, 7.2, at the size of a plant"
@@ -119,4 +119,4 @@ def write(args):
     for number, part in enumerate(PARTS, 1):
         is_wanted = any(fnmatch.fnmatch(part.study.split("/")[-1], pattern) for pattern in args.only)
         out += section(args, part, number) if is_wanted else [f"## {part.number} {part.title}", "", part.text + f" Not run: `{command(part)}`.", ""]
-    study_runs.write_page("outlook", [*out, study_runs.bits_line(args.engine)])
+    study_runs.write_page("outlook", [*out, bits_line(args.engine.bits())])

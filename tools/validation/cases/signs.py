@@ -5,6 +5,7 @@ import re
 import sys
 
 import study_runs
+from page import bits_line
 from runs import ROOT
 
 TITLE = "Expected signs of the shipped studies"
@@ -55,5 +56,5 @@ def write(args):
                 (c != "reason" or any(r["reason"] for r in rows))]
         tables += ["", f"## {file.stem}", "", "| " + " | ".join(keep) + " |", "|" + " --- |" * len(keep)]
         tables += ["| " + " | ".join(study_runs.rounded(r[c]) for c in keep) + " |" for r in rows]
-    study_runs.write_page("signs", [*out, *tables, "", study_runs.bits_line(args.engine)])
+    study_runs.write_page("signs", [*out, *tables, "", bits_line(args.engine.bits())])
     print(f"{against} against the expectation")
