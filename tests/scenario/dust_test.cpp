@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/approx.hpp"
 #include "support/run_summary.hpp"
+#include "support/same_bits.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -11,7 +12,7 @@
 #include <vector>
 
 using dust::test::approx;
-using dust::test::read_file;
+using dust::test::check_same_bits;
 using dust::test::TemporaryFolder;
 using nlohmann::json;
 namespace fs = std::filesystem;
@@ -62,20 +63,6 @@ TEST_CASE("dust as grains and as a field shall meet the same hood in the same sh
 }
 
 TEST_CASE("a hood shall draw out the same on any threads and after a resume") {
-  const TemporaryFolder folder;
-  const auto with = [&](std::vector<std::string> more, const char* end) {
-    more.insert(more.end(), {"--set", std::string("time.end=") + end});
-    return more;
-  };
-  const json whole = run(folder / "whole", with({"--threads", "1"}, "10 ms"));
-  const json other = run(folder / "threads", with({"--threads", "2"}, "10 ms"));
-  run(folder / "parts", with({"--threads", "2"}, "4 ms"));
-  const json resumed = run(folder / "parts", with({"--threads", "1", "--resume"}, "10 ms"));
+  const json whole = check_same_bits(k_scenario, {}, {"4 ms", "10 ms"}, {"hoods", "dust_field"});
   CHECK(whole["hoods"]["hood"]["particles"] > 20);
-  for (const json& again : {other, resumed}) {
-    CHECK(again["state_sha256"] == whole["state_sha256"]);
-    CHECK(again["hoods"] == whole["hoods"]);
-    CHECK(again["dust_field"] == whole["dust_field"]);
-  }
-  CHECK(read_file(folder / "parts" / "series.csv") == read_file(folder / "whole" / "series.csv"));
 }
