@@ -162,7 +162,7 @@ std::vector<float> H5Source::plane(const std::string& dataset, std::size_t row) 
 
 std::vector<std::size_t> spread_frames(std::size_t written, std::size_t most) {
   std::vector<std::size_t> kept;
-  if (written == 0) return kept;
+  if (written == 0 || most == 0) return kept;
   const std::size_t stride = (written + most - 1) / most;
   for (std::size_t k = (written - 1) % stride; k < written; k += stride) kept.push_back(k);
   return kept;

@@ -16,9 +16,9 @@ namespace {
 using nlohmann::json;
 using Code = std::array<std::uint16_t, 3>;
 
-constexpr std::size_t k_surface_frames = 60;       ///< of bodies that move
-constexpr std::size_t k_triangles_of_set = 40000;  ///< of one set
-constexpr std::size_t k_all_triangles = 400000;    ///< of all sets: 9 bytes each before compression
+constexpr std::size_t k_surface_frames = 60;  ///< of bodies that move
+constexpr std::size_t k_triangles_of_set = 40000;
+constexpr std::size_t k_all_triangles = 400000;  ///< of all sets: 9 bytes each before compression
 constexpr double k_coordinate_codes = 65535.0;
 
 /// Triangles of a frame as they are in the file.

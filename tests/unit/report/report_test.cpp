@@ -274,6 +274,7 @@ TEST_CASE("a run that counted no dust shall say so") {
 TEST_CASE("frames shall be shown evenly over the run, the last among them") {
   using Frames = std::vector<std::size_t>;
   CHECK(dust::report::spread_frames(0, 4).empty());
+  CHECK(dust::report::spread_frames(4, 0).empty());
   CHECK(dust::report::spread_frames(3, 4) == Frames{0, 1, 2});
   CHECK(dust::report::spread_frames(8, 4) == Frames{1, 3, 5, 7});
   CHECK(dust::report::spread_frames(9, 4) == Frames{2, 5, 8});
