@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
 #include "commands.hpp"
+#include "io/atomic_file.hpp"
 #include "scenario/text/suggest.hpp"
 
 #include <boost/dll/runtime_symbol_info.hpp>
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 namespace dust::engine {
 namespace {
@@ -70,8 +69,7 @@ std::vector<std::string> copy_template(const fs::path& from, const fs::path& to,
   fs::create_directories(to);
   std::vector<std::string> written;
   for (const auto& entry : fs::directory_iterator(from)) {
-    std::ifstream stream(entry.path(), std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    std::string text = io::read_text(entry.path());
     std::string file = entry.path().filename().string();
     for (std::string* one : {&text, &file}) {
       replace_all(*one, old_name, new_name);

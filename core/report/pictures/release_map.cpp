@@ -5,7 +5,6 @@
 #include "report/pictures/pictures.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace dust::report {
