@@ -16,6 +16,7 @@ namespace {
 constexpr double k_interval = 1e-3;  ///< [s]
 constexpr double k_density = 2500.0;
 constexpr std::size_t k_enough = 20000;
+constexpr std::size_t k_observed = 500;  ///< of them told one by one, spread over the stream
 
 sdk::EmitterContext context_of(int n, const Units& u) {
   sdk::EmitterContext c;
@@ -44,7 +45,8 @@ Observations observe(const Maker& make, const TestVariant& variant) {
   };
   const std::vector<sdk::InsertionRequest> requests = propose(*emitter, 0, 50, variant.units);
   add("count", static_cast<double>(requests.size()), sdk::dimension::none);
-  for (std::size_t n = 0; n < requests.size(); ++n) {
+  const std::size_t stride = requests.size() / k_observed + 1;
+  for (std::size_t n = 0; n < requests.size(); n += stride) {
     const sdk::InsertionRequest& s = requests[n];
     const std::string request = " of request " + std::to_string(n);
     add("time" + request, s.time, sdk::dimension::time);

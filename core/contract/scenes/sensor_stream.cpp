@@ -3,13 +3,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace dust::contract {
+
+namespace {
+
+constexpr int k_nx = 33;
+constexpr int k_ny = 5;
+constexpr int k_nz = 35;
+
+/// Pressure in a plane of cells across y: three wells, of which two are 4 cells apart.
+std::vector<double> wells() {
+  std::vector<double> all;
+  all.reserve(k_nx * k_nz);
+  for (int k = 0; k < k_nz; ++k) {
+    for (int i = 0; i < k_nx; ++i) {
+      const auto well = [&](double x, double z) {
+        return std::exp(-((i - x) * (i - x) + (k - z) * (k - z)));
+      };
+      all.push_back(-well(8.0, 20.0) - 0.6 * well(20.5, 9.5) - 0.9 * well(12.0, 20.0));
+    }
+  }
+  return all;
+}
+
+}  // namespace
 
 SensorStream::SensorStream(bool is_empty, const Units& units) : is_empty_(is_empty) {
   scene_.units = units;
   if (is_empty_) return;
-  set_cells(scene_, 33, 5, 35);
+  set_cells(scene_, k_nx, k_ny, k_nz);
   scene_.spacing = {0.01, 0.0022, 0.01};
 }
 
@@ -33,15 +57,14 @@ void SensorStream::fill(double time) {
   for (int n = 0; n < 60; ++n) ride(n, time);
   touch(time);
   load_walls(time);
-  for (int k = 0; k < 35; ++k) {
-    for (int j = 0; j < 5; ++j) {
-      for (int i = 0; i < 33; ++i) {
-        const double a = std::hypot(i - 8.0, k - 20.0);
-        const double b = std::hypot(i - 20.5, k - 9.5);
-        const double c = std::hypot(i - 12.0, k - 20.0);  // 4 cells from the first
-        pressure_at(scene_, i, j, k) = static_cast<float>(
-            (1 + 0.3 * std::sin(300 * time)) *
-            (-std::exp(-a * a) - 0.6 * std::exp(-b * b) - 0.9 * std::exp(-c * c)));
+  // The same for every sensor and step: these scenes are shown thousands of times.
+  static const std::vector<double> k_wells = wells();
+  const double swing = 1 + 0.3 * std::sin(300 * time);
+  for (int k = 0; k < k_nz; ++k) {
+    for (int j = 0; j < k_ny; ++j) {
+      for (int i = 0; i < k_nx; ++i) {
+        const double well = k_wells[static_cast<std::size_t>(k * k_nx + i)];
+        pressure_at(scene_, i, j, k) = static_cast<float>(swing * well);
       }
     }
   }
@@ -54,11 +77,14 @@ void SensorStream::blow(double time) {
   const double rise = 0.56 - 8.0 * std::abs(time - 0.045);
   const double drop = 1000.0 * std::min(rise, 0.35);
   const double swing = 1.0 + 0.2 * std::sin(250 * time);
+  const double reach = 0.012 + 0.2 * time;
   for_cells(scene_, [&](std::size_t c, sdk::Vec3 x) {
     scene_.velocity[0][c] = static_cast<float>(swing * 3.0 * (x.z - 0.15));
     scene_.velocity[1][c] = static_cast<float>(0.1 * swing * x.x);
     scene_.velocity[2][c] = static_cast<float>(rise - 2.0 * (x.x - 0.15) * (x.x - 0.15));
-    const bool is_bubble = std::hypot(x.x - 0.05, x.z - 0.02 - 0.4 * time) < 0.012 + 0.2 * time;
+    const double across = x.x - 0.05;
+    const double up = x.z - 0.02 - 0.4 * time;
+    const bool is_bubble = across * across + up * up < reach * reach;
     scene_.void_fraction[c] = x.z < 0.1 && !is_bubble ? 0.6f : 0.95f;
     if (x.x > 0.28) scene_.pressure[c] += static_cast<float>(drop * (0.35 - x.z) / 0.35);
   });

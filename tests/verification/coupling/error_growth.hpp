@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -17,21 +17,7 @@ struct Relaxation {
 };
 
 /// Largest growth of an error by one step, besides the 1 of the momentum that both have together.
-template <class Matrix>
-double growth(const Matrix& step) {
-  const auto all = step.eigenvalues().eval();
-  Eigen::Index kept = 0;
-  double nearest = 1e30;
-  for (Eigen::Index n = 0; n < all.size(); ++n) {
-    const double off = std::abs(all[n] - 1.0);
-    if (off < nearest) nearest = off, kept = n;
-  }
-  double most = 0.0;
-  for (Eigen::Index n = 0; n < all.size(); ++n) {
-    if (n != kept) most = std::max(most, std::abs(all[n]));
-  }
-  return most;
-}
+double growth(const Eigen::MatrixXd& step);
 
 /// The largest of make(load, relaxations per step): from dust in clean air to a bed, grains from
 /// heavy to carried along.
