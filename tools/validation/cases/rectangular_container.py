@@ -35,11 +35,10 @@ def plans():
 
 def fill(page, runs):
     table = {int(row["W_over_D"]): row for row in read_table("thesis_table_4_10_rectangular_container.csv")}
-    angles, told = {}, {}
+    angles = {}
     for kind in KINDS:
         for n in WIDTHS:
-            angles[kind, n] = runs[name_of(kind, n)].figure("slope", "angle")
-            told[kind, n] = add_width(page, kind, n, angles[kind, n], table[n])
+            angles[kind, n] = add_width(page, kind, n, runs[name_of(kind, n)].figure("slope", "angle"), table[n])
     for n in WIDE:
         for place in PLACES:
             page.add(f"slope, W/D50 = {n}, walls, {'at the front wall' if place == 'wall' else 'in the middle'} [deg]",
@@ -50,7 +49,7 @@ def fill(page, runs):
     flat = [angles["periodic", n][0] for n in WIDTHS if angles["periodic", n]]
     page.add(f"periodic: spread over {len(flat)} widths [deg]", max(flat) - min(flat) if len(flat) > 1 else None,
              "0.8 (thesis, DEM)", high=1.5)
-    draw(page, told, table)
+    draw(page, angles, table)
     page.note("Container 40 mm long, filled 30 mm high: sizes are ours, the thesis gives none.")
 
 
