@@ -45,6 +45,28 @@ Observations observe(const Maker& make, const TestVariant& variant) {
   };
   const std::vector<sdk::InsertionRequest> requests = propose(*emitter, 0, 50, variant.units);
   add("count", static_cast<double>(requests.size()), sdk::dimension::none);
+  // In their sums all of them count.
+  sdk::Vec3 way;
+  sdk::Vec3 speed;
+  double time = 0.0;
+  double diameter = 0.0;
+  double weight = 0.0;
+  for (const sdk::InsertionRequest& s : requests) {
+    time += s.time;
+    diameter += s.diameter;
+    weight += s.weight;
+    for (int d = 0; d < 3; ++d) {
+      way[d] += std::abs(s.position[d]);
+      speed[d] += std::abs(s.velocity[d]);
+    }
+  }
+  add("time of all requests", time, sdk::dimension::time);
+  add("diameter of all requests", diameter, sdk::dimension::length);
+  add("weight of all requests", weight, sdk::dimension::none);
+  for (int d = 0; d < 3; ++d) {
+    add("position of all requests", way[d], sdk::dimension::length);
+    add("velocity of all requests", speed[d], sdk::dimension::velocity);
+  }
   const std::size_t stride = requests.size() / k_observed + 1;
   for (std::size_t n = 0; n < requests.size(); n += stride) {
     const sdk::InsertionRequest& s = requests[n];

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "beside_body.hpp"
 #include "lone_grain.hpp"
 
 #include <doctest/doctest.h>
@@ -51,13 +50,6 @@ TEST_CASE("the drag of a lone grain: sizes, cells, places") {
                                         << ": felt" << without << "; taken off" << with);
       }
     }
-  }
-}
-
-TEST_CASE("the drag of a lone grain beside a body: sizes, cuts, distances") {
-  for (const double ratio : {0.25, 0.5, 1.0}) {
-    for (const double floor : {3.05, 3.37, 3.8})
-      test::check_beside_a_body(ratio, floor, {0.5, 1.5, 3.0, 6.0});
   }
 }
 
