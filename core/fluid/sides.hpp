@@ -48,6 +48,11 @@ class Sides {
   [[nodiscard]] bool is_total_pressure(int side) const {
     return kinds_.rules[side].pressure == sdk::SideRule::pressure;
   }
+  /// Does entering fluid bring no velocity along the side, though leaving fluid takes its own out?
+  [[nodiscard]] bool enters_at_rest(int side) const {
+    return is_total_pressure(side) &&
+           kinds_.rules[side].tangential_velocity == sdk::SideRule::gradient;
+  }
 
  private:
   /// Values on one side: velocity components at their own points, pressure at face centres.

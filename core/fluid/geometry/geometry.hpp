@@ -103,6 +103,7 @@ struct SkewFace {
   std::int32_t begin = 0;        ///< nodes of the own component ...
   std::int32_t other_begin = 0;  ///< ... and of the other one, at the same place
   std::int32_t end = 0;
+  std::int32_t wall_point = 0;  ///< next to the face
 };
 
 /// What a face, or a point of the surface, gives to the value at a SkewFace (the own component's:

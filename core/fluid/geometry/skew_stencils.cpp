@@ -132,6 +132,8 @@ void SkewStencils::add_skew(int d, const std::array<int, 3>& c) {
     face.other_begin = static_cast<std::int32_t>(nodes.size());
     if (fit(other, c, frame, -1, nodes, is_askew)) {
       face.end = static_cast<std::int32_t>(nodes.size());
+      face.wall_point = static_cast<std::int32_t>(points_.size());
+      points_.push_back({frame.place - hit.distance * hit.normal, hit.normal, hit.body});
       g_.skew[d].push_back(face);
       return;
     }

@@ -226,6 +226,7 @@ void GeometryBuilder::sort_wall_points() {
         if (point >= 0) point = new_place[point];
       }
     }
+    for (auto& face : g_.skew[d]) face.wall_point = new_place[face.wall_point];
     for (auto& node : g_.skew_node[d]) {
       if (node.from < 0) node.from = -1 - new_place[-1 - node.from];
     }

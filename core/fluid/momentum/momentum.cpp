@@ -77,6 +77,7 @@ void Momentum::convection_row(const FaceField& u, const CellField& eps, double s
     out[0] = first;
     out[n - 1] = last;
   }
+  entering_row(u, d, j, k, out);
   divide_by_face_eps_row(n, grid_.stride[d], &eps[o], out);
   open_side_row(u, d, j, k, out);
   skew_row(u, eps, smoothness, d, j, k, out);
@@ -105,7 +106,8 @@ void Momentum::skew_row(const FaceField& u, const CellField& eps, double smoothn
                   &flux_.component[e][face.at], &u.component[d][face.at], &along);
       along /= 0.5 * (eps[face.at] + eps[face.at - grid_.stride[d]]);
     }
-    out[face.i] = along + convection_along_surface(grid_, geometry_, face, u, d);
+    out[face.i] =
+        along + convection_along_surface(grid_, geometry_, face, u, d, out[face.i] - along);
   }
 }
 
@@ -145,6 +147,26 @@ void Momentum::open_side_row(const FaceField& u, int d, int j, int k, double* ou
         own = sign * v[o] * v[o] / h;
       }
       out[i] += own;
+    }
+  }
+}
+
+void Momentum::entering_row(const FaceField& u, int d, int j, int k, double* out) const {
+  const std::array<int, 3> c = {0, j, k};
+  for (int side = 0; side < 6; ++side) {
+    const int e = side / 2;
+    const bool is_high = side % 2 == 1;
+    if (e == d || !sides_.enters_at_rest(side)) continue;
+    const int edge = is_high ? grid_.count[e] - 1 : 0;
+    if (e != 0 && c[e] != edge) continue;
+    const int first = e == 0 ? edge : 0;
+    const int last = e == 0 ? edge + 1 : geometry_.extent[d][0];
+    const double inward = (is_high ? -1.0 : 1.0) / grid_.spacing[e];
+    for (int i = first; i < last; ++i) {
+      const std::ptrdiff_t o = grid_.index(i, j, k);
+      const double* flux = &flux_.component[e][is_high ? o + grid_.stride[e] : o];
+      const double in = inward * 0.5 * (flux[0] + flux[-grid_.stride[d]]);
+      out[i] += std::max(in, 0.0) * u.component[d][o];
     }
   }
 }

@@ -83,7 +83,11 @@ class Momentum {
   /// Puts convection along the surface in the place of that along the grid where SkewFace says so.
   void skew_row(const FaceField& u, const CellField& eps, double smoothness, int d, int j, int k,
                 double* out) const;
+  /// Convection of the normal component on open sides themselves.
   void open_side_row(const FaceField& u, int d, int j, int k, double* out) const;
+  /// Adds what the fluid takes up that enters beside the row from rest, times the void fraction;
+  /// docs/theory/fluid.md, section 4.
+  void entering_row(const FaceField& u, int d, int j, int k, double* out) const;
 
   const Grid& grid_;
   const Geometry& geometry_;

@@ -21,10 +21,29 @@ double stretch_along(const Grid& grid, const SkewFace& face, const FaceField& u,
   return 0.5 * ((v[s] - v[0]) + (v[below + s] - v[below])) / grid.spacing[e];
 }
 
+/// The layer that a surface drags along has a speed along it between 0 and the surface's. Beyond
+/// this much of that range about its middle the convection passes over to that along the grid's
+/// lines, and is that alone from the second number on. A wind past the surface, or back along it
+/// where it comes off, is no such layer: its velocity across the surface is not that of eq. (12),
+/// and with it speeds grew without bound. At 1.1 a layer of the resolution that it needs loses
+/// nothing.
+constexpr double k_layer = 1.1;
+constexpr double k_no_layer = 1.5;
+
+/// How much of the flow at a face, of speed `along` the surface, belongs to that layer.
+double share_of_layer(const Geometry& geometry, const SkewFace& face, double along, int d) {
+  const auto& wall = geometry.wall.velocity;
+  const double surface = face.own_part * wall[d][face.wall_point] +
+                         face.other_part * wall[face.other][face.wall_point];
+  if (surface == 0.0) return 0.0;
+  const double from_middle = std::abs(2.0 * along / surface - 1.0);
+  return std::clamp((k_no_layer - from_middle) / (k_no_layer - k_layer), 0.0, 1.0);
+}
+
 }  // namespace
 
 double convection_along_surface(const Grid& grid, const Geometry& geometry, const SkewFace& face,
-                                const FaceField& u, int d) {
+                                const FaceField& u, int d, double along_grid) {
   const SkewNode* node = geometry.skew_node[d].data();
   const double* own = u.component[d].data();
   const double* own_wall = geometry.wall.velocity[d].data();
@@ -61,7 +80,9 @@ double convection_along_surface(const Grid& grid, const Geometry& geometry, cons
   const double across = -0.5 * face.distance * stretch;
   const double rate = (std::abs(along) + std::abs(across)) * face.inverse_length;
   const double change = along * slope + across * ascent + k_dissipation * rate * (here - mean);
-  return std::clamp(change, rate * (here - most), rate * (here - least));
+  const double in_layer = std::clamp(change, rate * (here - most), rate * (here - least));
+  const double share = share_of_layer(geometry, face, along, d);
+  return share * in_layer + (1.0 - share) * along_grid;
 }
 
 }  // namespace dust::fluid

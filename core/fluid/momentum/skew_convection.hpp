@@ -13,7 +13,9 @@ namespace dust::fluid {
 /// the dissipation, of third order: `mean` is what the neighbours let expect, so a layer that does
 /// not change along the surface hardly feels it. The sum never drives the velocity beyond its
 /// neighbours' values (local extremum diminishing, Jameson 1995, 10.1080/10618569508904524).
+/// Other flows than that layer keep the convection along the grid's lines, `along_grid`, and
+/// between the two it passes over from one to the other.
 double convection_along_surface(const Grid& grid, const Geometry& geometry, const SkewFace& face,
-                                const FaceField& u, int d);
+                                const FaceField& u, int d, double along_grid);
 
 }  // namespace dust::fluid

@@ -21,12 +21,12 @@ class TotalPressure final : public sdk::BoundaryCondition {
   static sdk::ModelInfo describe() {
     return {
         .name = "total_pressure",
-        .version = "1.0",
+        .version = "1.1",
         .summary =
             "Open side to air at rest at a given pressure: entering air pays its kinetic energy "
-            "from it.",
+            "from it and brings no velocity along the side.",
         .equation =
-            R"(p + \tfrac{1}{2}\rho u_n^2 = p_0 \text{ (inflow)}, \quad p = p_0 \text{ (outflow)}, \quad \partial u/\partial n = 0)",
+            R"(p + \tfrac{1}{2}\rho u_n^2 = p_0, \; u_t = 0 \text{ (inflow)}, \quad p = p_0, \; \partial u_t/\partial n = 0 \text{ (outflow)})",
         .source =
             "Bernoulli along the streamlines of entering air; docs/theory/fluid.md, section 4"};
   }

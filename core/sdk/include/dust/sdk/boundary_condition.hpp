@@ -14,7 +14,7 @@ enum class SideRule {
   fixed,     ///< the value is given on the side itself
   gradient,  ///< zero normal gradient
   pressure,  ///< (pressure only) total pressure: p + rho u_n^2 / 2 = value on inflow, p = value on
-             ///< outflow
+             ///< outflow; with a tangential velocity of zero gradient what enters brings none
   periodic,  ///< joined to the opposite side
 };
 
