@@ -19,6 +19,8 @@ spdlog::logger& logger() {
     terminal->set_pattern("%l: %v");
     auto made = std::make_shared<spdlog::logger>("dust", terminal);
     made->set_level(spdlog::level::info);
+    // Lines are few, and who follows a run wants the last ones: also of a run that was killed.
+    made->flush_on(spdlog::level::info);
     // A log that cannot grow on a full disk is not what the user has to read about.
     made->set_error_handler([](const std::string&) {});
     return made;
@@ -43,6 +45,5 @@ void log_to_terminal(bool is_verbose) {
 void log_info(std::string_view text) { logger().info(text); }
 void log_warning(std::string_view text) { logger().warn(text); }
 void log_error(std::string_view text) { logger().error(text); }
-void log_flush() { logger().flush(); }
 
 }  // namespace dust::base

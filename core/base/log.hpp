@@ -7,12 +7,12 @@
 
 namespace dust::base {
 
-/// The one facade over the logging library. Warnings and errors also go to stderr.
+/// The one facade over the logging library. Warnings and errors also go to stderr. A line is in the
+/// file as soon as it is logged.
 void log_to_file(const std::filesystem::path& file, bool append);
 void log_to_terminal(bool is_verbose);
 void log_info(std::string_view text);
 void log_warning(std::string_view text);
 void log_error(std::string_view text);
-void log_flush();
 
 }  // namespace dust::base

@@ -263,7 +263,6 @@ class Run {
     survives_writing([this] { write_summary(folder_, simulation_, facts_); });
     if (live_ != nullptr) live_->publish_progress(simulation_, facts_, Pace(simulation_.time()));
     base::log_info("status: " + facts_.status);
-    base::log_flush();
     results_.reset();
     if (!is_disk_bad_) survives_writing([this] { report::write_report(folder_); });
     if (facts_.status == "failed") {
