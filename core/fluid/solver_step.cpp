@@ -73,7 +73,7 @@ double FluidSolver::Impl::advance_part(const StepState& s, double begin, double 
     const Momentum::Rates rates = limits_.find(u_, s.time + done);
     limits_.velocity_changed();
     const double left = until - done;
-    const int parts = limits_.sub_steps(left, rates, report_.sub_steps, s.time);
+    const int parts = limits_.sub_steps(u_, left, rates, report_.sub_steps, s.time);
     const double dt = parts == 1 ? left : left / parts;
     set_void_fraction(s, parts == 1 ? end : (done + dt) / s.step);
     last_share = dt / s.step;

@@ -14,9 +14,9 @@ namespace {
 constexpr double k_largest_speed = 1e4;  ///< [m/s] beyond this the flow has blown up
 constexpr int k_max_sub_steps = 200;
 
-std::string place_text(sdk::Vec3 p, double time) {
-  char text[160];
-  std::snprintf(text, sizeof text, "at [%.4g, %.4g, %.4g] m, t = %.6g s", p.x, p.y, p.z, time);
+std::string place_text(sdk::Vec3 p) {
+  char text[120];
+  std::snprintf(text, sizeof text, "at [%.4g, %.4g, %.4g] m", p.x, p.y, p.z);
   return text;
 }
 
@@ -28,38 +28,49 @@ const FlowLimits::Rates& FlowLimits::find(const FaceField& u, double time) {
   return rates;
 }
 
-int FlowLimits::sub_steps(double left, const Rates& rates, int done, double begin) const {
+int FlowLimits::sub_steps(const FaceField& u, double left, const Rates& rates, int done,
+                          double begin) const {
   const int parts =
       std::max(1, static_cast<int>(std::ceil(left * rates.courant / largest_cfl_ - 1e-9)));
   if (done + parts <= k_max_sub_steps) return parts;
-  char text[200];
+  const Fast fastest = first_from(u, rates.speed);
+  char text[240];
   std::snprintf(text, sizeof text,
                 "the fluid needs more than %d sub-steps in the step from t = %.6g s: largest "
-                "speed %.4g m/s; it is diverging, or time.fluid_step is far too long",
-                k_max_sub_steps, begin, rates.speed);
+                "speed %.4g m/s %s; it is diverging, or time.fluid_step is far too long",
+                k_max_sub_steps, begin, rates.speed, place_text(fastest.place).c_str());
   throw sdk::ModelError(text);
 }
 
-void FlowLimits::check_finite(const FaceField& u, double time, const Rates& rates) const {
-  if (rates.speed <= k_largest_speed) return;
+FlowLimits::Fast FlowLimits::first_from(const FaceField& u, double speed) const {
   for (int d = 0; d < 3; ++d) {
     const auto& n = geometry_.extent[d];
     for (int k = 0; k < n[2]; ++k) {
       for (int j = 0; j < n[1]; ++j) {
         for (int i = 0; i < n[0]; ++i) {
-          const double v = u.component[d][grid_.index(i, j, k)];
-          if (std::abs(v) <= k_largest_speed) continue;
-          throw sdk::ModelError(
-              std::string("the fluid diverged: velocity component ") + "xyz"[d] +
-              (std::isfinite(v) ? " beyond 1e4 m/s " : " is not a number ") +
-              place_text(grid_.face(d, i, j, k), time) +
-              "; likely causes: a force of grains or a boundary value out of range, or a fluid "
-              "step too long for it (shorten time.fluid_step)");
+          const std::ptrdiff_t o = grid_.index(i, j, k);
+          const double v = u.component[d][o];
+          if (geometry_.kind[d][o] == FaceKind::inside || std::abs(v) < speed) continue;
+          return {d, grid_.face(d, i, j, k), v};
         }
       }
     }
   }
-  throw sdk::ModelError("the fluid diverged outside the domain " + place_text(grid_.origin, time));
+  return {-1, grid_.origin, 0.0};
+}
+
+void FlowLimits::check_finite(const FaceField& u, double time, const Rates& rates) const {
+  if (rates.speed <= k_largest_speed) return;
+  const Fast found = first_from(u, k_largest_speed);
+  char when[40];
+  std::snprintf(when, sizeof when, ", t = %.6g s", time);
+  const std::string where = place_text(found.place) + when;
+  if (found.component < 0) throw sdk::ModelError("the fluid diverged outside the domain " + where);
+  throw sdk::ModelError(
+      std::string("the fluid diverged: velocity component ") + "xyz"[found.component] +
+      (std::isfinite(found.speed) ? " beyond 1e4 m/s " : " is not a number ") + where +
+      "; likely causes: a force of grains or a boundary value out of range, or a fluid "
+      "step too long for it (shorten time.fluid_step)");
 }
 
 }  // namespace dust::fluid

@@ -21,11 +21,19 @@ class FlowLimits {
   void velocity_changed() { rates_.invalidate(); }
   /// Rates of the velocity `u` at `time` [s]. Throws sdk::ModelError where it has diverged.
   const Rates& find(const FaceField& u, double time);
-  /// Sub-steps for `left` [s] of the fluid step from `begin` [s] on, of which `done` were made.
-  /// Throws sdk::ModelError where they are too many.
-  [[nodiscard]] int sub_steps(double left, const Rates& rates, int done, double begin) const;
+  /// Sub-steps of the velocity `u` for `left` [s] of the fluid step from `begin` [s] on, of which
+  /// `done` were made. Throws sdk::ModelError where they are too many.
+  [[nodiscard]] int sub_steps(const FaceField& u, double left, const Rates& rates, int done,
+                              double begin) const;
 
  private:
+  struct Fast {
+    int component;  ///< -1: there is none
+    sdk::Vec3 place;
+    double speed;  ///< [m/s]
+  };
+  /// The first face of the fluid that is as fast as `speed` [m/s], or not a number.
+  [[nodiscard]] Fast first_from(const FaceField& u, double speed) const;
   void check_finite(const FaceField& u, double time, const Rates& rates) const;
 
   const Grid& grid_;
