@@ -59,6 +59,11 @@ void SkewStencils::find() {
   for (int d = 0; d < 3; ++d) find_skew(d);
 }
 
+std::int32_t SkewStencils::add_foot(Vec3 place, const Hit& hit) {
+  points_.push_back({place - hit.distance * hit.normal, hit.normal, hit.body});
+  return static_cast<std::int32_t>(points_.size() - 1);
+}
+
 void SkewStencils::find_beside(int d) {
   const auto& e = g_.extent[d];
   beside_index_[d].assign(grid_.size, -1);
@@ -76,9 +81,7 @@ void SkewStencils::find_beside(int d) {
         if (hit.distance < -k_at_surface * scale || hit.distance > most) continue;
         Beside b{hit, -1, is_turning(hit.body)};
         if (b.is_usable && std::abs(hit.distance) < k_at_surface * scale) {
-          b.wall_point = static_cast<std::int32_t>(points_.size());
-          points_.push_back(
-              {grid_.face(d, i, j, k) - hit.distance * hit.normal, hit.normal, hit.body});
+          b.wall_point = add_foot(grid_.face(d, i, j, k), hit);
         }
         beside_index_[d][o] = static_cast<std::int32_t>(beside_[d].size());
         beside_[d].push_back(b);
@@ -102,7 +105,8 @@ void SkewStencils::add_skew(int d, const std::array<int, 3>& c) {
   const std::ptrdiff_t o = grid_.index(c[0], c[1], c[2]);
   if (beside_index_[d][o] < 0 || !is_unknown(g_.kind[d][o])) return;
   if (!sides_.is_periodic[d] && (c[d] == 0 || c[d] == grid_.count[d])) return;
-  const Hit& hit = beside_[d][static_cast<std::size_t>(beside_index_[d][o])].hit;
+  const Beside& beside = beside_[d][static_cast<std::size_t>(beside_index_[d][o])];
+  const Hit& hit = beside.hit;
   if (hit.distance > k_skew_reach * spacing_along(grid_, hit.normal)) return;
   int along = -1;
   for (int dir = 0; dir < 3; ++dir) {
@@ -132,8 +136,7 @@ void SkewStencils::add_skew(int d, const std::array<int, 3>& c) {
     face.other_begin = static_cast<std::int32_t>(nodes.size());
     if (fit(other, c, frame, -1, nodes, is_askew)) {
       face.end = static_cast<std::int32_t>(nodes.size());
-      face.wall_point = static_cast<std::int32_t>(points_.size());
-      points_.push_back({frame.place - hit.distance * hit.normal, hit.normal, hit.body});
+      face.wall_point = beside.wall_point >= 0 ? beside.wall_point : add_foot(frame.place, hit);
       g_.skew[d].push_back(face);
       return;
     }

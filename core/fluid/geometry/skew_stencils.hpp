@@ -65,6 +65,8 @@ class SkewStencils {
   };
   [[nodiscard]] bool is_turning(int body) const;
   void find_beside(int d);
+  /// Adds the point of the surface next to `place`; its number.
+  std::int32_t add_foot(Vec3 place, const Hit& hit);
   void find_skew(int d);
   void add_skew(int d, const std::array<int, 3>& c);
   /// Fills patch_ with what is round a place; false if the surface there is not one and smooth.

@@ -21,12 +21,11 @@ double stretch_along(const Grid& grid, const SkewFace& face, const FaceField& u,
   return 0.5 * ((v[s] - v[0]) + (v[below + s] - v[below])) / grid.spacing[e];
 }
 
-/// The layer that a surface drags along has a speed along it between 0 and the surface's. Beyond
-/// this much of that range about its middle the convection passes over to that along the grid's
-/// lines, and is that alone from the second number on. A wind past the surface, or back along it
-/// where it comes off, is no such layer: its velocity across the surface is not that of eq. (12),
-/// and with it speeds grew without bound. At 1.1 a layer of the resolution that it needs loses
-/// nothing.
+/// The layer that a surface drags along has a speed along it between 0 and the surface's: within 1
+/// of the middle of that range, in halves of it. As far as `k_layer` convection runs along the
+/// surface, from `k_no_layer` on along the grid's lines, between them as a mean of the two. A wind
+/// past the surface, or back along it where it comes off, is no such layer: its velocity across the
+/// surface is not that of eq. (12), and with it speeds grow without bound.
 constexpr double k_layer = 1.1;
 constexpr double k_no_layer = 1.5;
 

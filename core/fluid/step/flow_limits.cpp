@@ -33,7 +33,7 @@ int FlowLimits::sub_steps(const FaceField& u, double left, const Rates& rates, i
   const int parts =
       std::max(1, static_cast<int>(std::ceil(left * rates.courant / largest_cfl_ - 1e-9)));
   if (done + parts <= k_max_sub_steps) return parts;
-  const Fast fastest = first_from(u, rates.speed);
+  const FastFace fastest = first_as_fast_as(rates.speed, u);
   char text[240];
   std::snprintf(text, sizeof text,
                 "the fluid needs more than %d sub-steps in the step from t = %.6g s: largest "
@@ -42,7 +42,7 @@ int FlowLimits::sub_steps(const FaceField& u, double left, const Rates& rates, i
   throw sdk::ModelError(text);
 }
 
-FlowLimits::Fast FlowLimits::first_from(const FaceField& u, double speed) const {
+FlowLimits::FastFace FlowLimits::first_as_fast_as(double speed, const FaceField& u) const {
   for (int d = 0; d < 3; ++d) {
     const auto& n = geometry_.extent[d];
     for (int k = 0; k < n[2]; ++k) {
@@ -50,25 +50,24 @@ FlowLimits::Fast FlowLimits::first_from(const FaceField& u, double speed) const 
         for (int i = 0; i < n[0]; ++i) {
           const std::ptrdiff_t o = grid_.index(i, j, k);
           const double v = u.component[d][o];
-          if (geometry_.kind[d][o] == FaceKind::inside || std::abs(v) < speed) continue;
-          return {d, grid_.face(d, i, j, k), v};
+          const bool counts = geometry_.kind[d][o] != FaceKind::inside || !std::isfinite(v);
+          if (counts && !(std::abs(v) < speed)) return {d, grid_.face(d, i, j, k), v};
         }
       }
     }
   }
-  return {-1, grid_.origin, 0.0};
+  return {0, grid_.origin, speed};
 }
 
 void FlowLimits::check_finite(const FaceField& u, double time, const Rates& rates) const {
   if (rates.speed <= k_largest_speed) return;
-  const Fast found = first_from(u, k_largest_speed);
+  const FastFace found = first_as_fast_as(k_largest_speed, u);
   char when[40];
   std::snprintf(when, sizeof when, ", t = %.6g s", time);
-  const std::string where = place_text(found.place) + when;
-  if (found.component < 0) throw sdk::ModelError("the fluid diverged outside the domain " + where);
   throw sdk::ModelError(
       std::string("the fluid diverged: velocity component ") + "xyz"[found.component] +
-      (std::isfinite(found.speed) ? " beyond 1e4 m/s " : " is not a number ") + where +
+      (std::isfinite(found.velocity) ? " beyond 1e4 m/s " : " is not a number ") +
+      place_text(found.place) + when +
       "; likely causes: a force of grains or a boundary value out of range, or a fluid "
       "step too long for it (shorten time.fluid_step)");
 }

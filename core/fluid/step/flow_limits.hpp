@@ -27,13 +27,14 @@ class FlowLimits {
                               double begin) const;
 
  private:
-  struct Fast {
-    int component;  ///< -1: there is none
+  struct FastFace {
+    int component = 0;
     sdk::Vec3 place;
-    double speed;  ///< [m/s]
+    double velocity = 0.0;  ///< [m/s]
   };
-  /// The first face of the fluid that is as fast as `speed` [m/s], or not a number.
-  [[nodiscard]] Fast first_from(const FaceField& u, double speed) const;
+  /// The first face of the fluid that is as fast as `speed` [m/s], or the first of all that is not
+  /// a number: what is found where Rates::speed is at least that.
+  [[nodiscard]] FastFace first_as_fast_as(double speed, const FaceField& u) const;
   void check_finite(const FaceField& u, double time, const Rates& rates) const;
 
   const Grid& grid_;

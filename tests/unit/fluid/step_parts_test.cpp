@@ -208,7 +208,26 @@ TEST_CASE("sub-steps shall follow the Courant number, and a flow without bounds 
   flow.set(u, 0, [](Vec3) { return std::numeric_limits<double>::quiet_NaN(); });
   CHECK(limits.find(u, 0.0).speed == 3.0);
   limits.velocity_changed();
-  CHECK_THROWS_AS(limits.find(u, 0.0), sdk::ModelError);
+  CHECK_THROWS_WITH_AS(limits.find(u, 0.0),
+                       doctest::Contains("velocity component x is not a number at [0, 0.5, 0.5] m"),
+                       sdk::ModelError);
+}
+
+TEST_CASE("what is not a number shall be told with its place inside bodies, too") {
+  Parts parts;
+  parts.bodies.push_back(body(std::make_unique<HalfSpace>(Vec3{0, 0, 1.5}, Vec3{0, 0, 1}), 0.0));
+  Flow flow(parts);
+  fluid::FlowLimits limits(parts.grid, flow.cut.geometry(), flow.momentum, 0.5);
+  fluid::FaceField u(parts.grid);
+  const std::ptrdiff_t inside = parts.grid.index(1, 1, 0);
+  REQUIRE(flow.cut.geometry().kind[0][inside] == fluid::FaceKind::inside);
+  u.component[0][inside] = 1e5;  // what bodies hold is no flow
+  CHECK(limits.find(u, 0.0).speed == 0.0);
+  u.component[0][inside] = std::numeric_limits<double>::quiet_NaN();
+  limits.velocity_changed();
+  CHECK_THROWS_WITH_AS(limits.find(u, 0.0),
+                       doctest::Contains("velocity component x is not a number at [1, 1.5, 0.5] m"),
+                       sdk::ModelError);
 }
 
 TEST_CASE("a projection shall take the divergence, and the pressure gain what did it") {

@@ -327,8 +327,8 @@ TEST_CASE("a wind across a spinning cylinder shall stay a wind") {
     c.start();
     c.advance_to(0.12, 1e-3);
     const double fastest = fastest_air(c);
-    // Beside the cylinder 116 mm of 200 are left: 1.7 of the wind. Along its shoulders it is up to
-    // twice as fast again as that mean, less what viscosity takes.
+    // Beside the cylinder 116 mm of 200 are left: a mean of 1.7 winds. Potential flow past a
+    // cylinder is twice as fast at its shoulders; three winds and the surface's speed are less.
     MESSAGE("wind " << wind << " m/s: fastest air " << fastest << " m/s");
     CHECK(fastest < 3.0 * wind + k_speed);
     CHECK(fastest > 1.7 * wind);
