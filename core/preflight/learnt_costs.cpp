@@ -22,12 +22,6 @@ constexpr std::size_t k_recent = 5;
 /// [s] A term that took less says nothing of its rate.
 constexpr double k_enough = 0.5;
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
 double processor_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -75,18 +69,37 @@ bool read_numbers(std::istream& in, RunCost& cost) {
   return read(cost.memory_bytes) && read(cost.disk_bytes);
 }
 
-/// Collects quotients; those of nothing by something are none.
+/// How far two times are apart, in doublings.
+double doublings_apart(double a, double b) { return std::abs(std::log2(a / b)); }
+
+/// Collects quotients, each with a weight; those of nothing by something are none.
 class Quotients {
  public:
-  void add(double taken, double estimated) {
-    if (taken > 0.0 && estimated > 0.0) values_.push_back(taken / estimated);
+  void add(double taken, double estimated, double weight = 1.0) {
+    if (taken > 0.0 && estimated > 0.0) all_.push_back({taken / estimated, weight});
   }
-  [[nodiscard]] double middle(double otherwise) const {
-    return values_.empty() ? otherwise : median(values_);
+  /// Half of the weight is on either side of it: the median where all weigh the same.
+  [[nodiscard]] double middle(double otherwise) {
+    if (all_.empty()) return otherwise;
+    std::sort(all_.begin(), all_.end(),
+              [](const Weighed& a, const Weighed& b) { return a.value < b.value; });
+    double above = 0.0;
+    for (const Weighed& w : all_) above += w.weight;
+    double below = 0.0;
+    std::size_t n = 0;
+    for (; n + 1 < all_.size(); ++n) {
+      below += all_[n].weight;
+      above -= all_[n].weight;
+      if (!(below < above)) break;
+    }
+    return below == above ? 0.5 * (all_[n].value + all_[n + 1].value) : all_[n].value;
   }
 
  private:
-  std::vector<double> values_;
+  struct Weighed {
+    double value, weight;
+  };
+  std::vector<Weighed> all_;
 };
 
 }  // namespace
@@ -116,22 +129,39 @@ LearntCosts::LearntCosts(fs::path file, std::function<double()> slowness)
 
 LearntCosts::Expected LearntCosts::expect(const std::string& scenario,
                                           const RunCost& estimated) const {
+  const std::vector<const Run*> same = most_alike(scenario, estimated.terms.seconds());
+  return same.empty() ? from_others(estimated) : from_same(same, estimated);
+}
+
+std::vector<const LearntCosts::Run*> LearntCosts::most_alike(const std::string& scenario,
+                                                             double seconds) const {
   std::vector<const Run*> same;
-  for (auto run = runs_.rbegin(); run != runs_.rend() && same.size() < k_recent; ++run) {
+  for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {
     if (run->scenario == scenario) same.push_back(&*run);
   }
-  return same.empty() ? from_others(estimated) : from_same(same, estimated);
+  const auto whole_doublings = [seconds](const Run* run) {
+    return std::floor(doublings_apart(run->estimated.terms.seconds(), seconds));
+  };
+  std::stable_sort(same.begin(), same.end(), [&](const Run* a, const Run* b) {
+    return whole_doublings(a) < whole_doublings(b);
+  });
+  same.resize(std::min(same.size(), k_recent));
+  return same;
 }
 
 LearntCosts::Expected LearntCosts::from_same(const std::vector<const Run*>& runs,
                                              const RunCost& estimated) {
   Expected expected{estimated, static_cast<int>(runs.size()), true};
+  const auto weight_of = [&](const Run& run) {
+    return std::exp2(-doublings_apart(run.estimated.terms.seconds(), estimated.terms.seconds()));
+  };
   for (std::size_t n = 0; n < k_cost_terms; ++n) {
     Quotients work;
     Quotients time;
     for (const Run* run : runs) {
-      work.add(run->taken.terms[n].amount, run->estimated.terms[n].amount);
-      time.add(run->taken.terms[n].seconds, run->estimated.terms[n].seconds);
+      const double weight = weight_of(*run);
+      work.add(run->taken.terms[n].amount, run->estimated.terms[n].amount, weight);
+      time.add(run->taken.terms[n].seconds, run->estimated.terms[n].seconds, weight);
     }
     expected.cost.terms[n].amount *= work.middle(1.0);
     expected.cost.terms[n].seconds *= time.middle(1.0);
@@ -139,8 +169,8 @@ LearntCosts::Expected LearntCosts::from_same(const std::vector<const Run*>& runs
   Quotients memory;
   Quotients disk;
   for (const Run* run : runs) {
-    memory.add(run->taken.memory_bytes, run->estimated.memory_bytes);
-    disk.add(run->taken.disk_bytes, run->estimated.disk_bytes);
+    memory.add(run->taken.memory_bytes, run->estimated.memory_bytes, weight_of(*run));
+    disk.add(run->taken.disk_bytes, run->estimated.disk_bytes, weight_of(*run));
   }
   expected.cost.memory_bytes *= memory.middle(1.0);
   expected.cost.disk_bytes *= disk.middle(1.0);

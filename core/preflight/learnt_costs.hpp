@@ -18,7 +18,9 @@ double measured_slowness();
 /// cache folder.
 ///
 /// Runs of the same scenario tell how much dearer each term becomes in all: more work than was told
-/// as well as slower work. Those of other scenarios tell the rate alone, seconds per amount of
+/// as well as slower work. The more alike they are in what they were told to take, the more they
+/// count: the first moments of a stream that has not arrived yet say little of all of it. Those of
+/// other scenarios tell the rate alone, seconds per amount of
 /// work, for how much work there is was told for other grains. Where no run has had enough of a
 /// term, its rate is that of a short measurement.
 class LearntCosts {
@@ -47,6 +49,10 @@ class LearntCosts {
     std::string scenario;
     RunCost estimated, taken;
   };
+  /// Of `scenario`, those most like a run of `seconds` of estimated time; the newest first among
+  /// those that are about as like it.
+  [[nodiscard]] std::vector<const Run*> most_alike(const std::string& scenario,
+                                                   double seconds) const;
   [[nodiscard]] static Expected from_same(const std::vector<const Run*>& runs,
                                           const RunCost& estimated);
   [[nodiscard]] Expected from_others(const RunCost& estimated) const;

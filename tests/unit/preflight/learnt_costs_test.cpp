@@ -47,6 +47,22 @@ TEST_CASE("a scenario's own runs shall tell its time, the newest five of them") 
   CHECK(last.cost.terms[CostTerm::grains].seconds == test::approx(3.0 * 5.0));
 }
 
+TEST_CASE("runs about as long as one shall tell its time, not the first moments of the scenario") {
+  // A stream that has not arrived yet is cheap; one that has is six times as dear as estimated.
+  LearntCosts costs({}, as_measured);
+  const auto whole = one(CostTerm::fluid, 4000.0, 400.0);
+  const auto beginning = one(CostTerm::fluid, 100.0, 10.0);
+  costs.add("belt", whole, one(CostTerm::fluid, 12000.0, 2400.0));
+  for (int n = 0; n < 7; ++n) costs.add("belt", beginning, one(CostTerm::fluid, 100.0, 10.0));
+  const auto expected = costs.expect("belt", whole);
+  CHECK(expected.cost.terms[CostTerm::fluid].amount == test::approx(12000.0));
+  CHECK(expected.cost.terms[CostTerm::fluid].seconds == test::approx(2400.0));
+  CHECK(costs.expect("belt", beginning).cost.terms[CostTerm::fluid].seconds == test::approx(10.0));
+  // Where none is as long, the longest say more than the first moments do.
+  const auto longer = one(CostTerm::fluid, 16000.0, 1600.0);
+  CHECK(costs.expect("belt", longer).cost.terms[CostTerm::fluid].seconds == test::approx(9600.0));
+}
+
 TEST_CASE("other scenarios shall tell the rate of each term, not how much work there is") {
   const Folder folder;
   const auto file = folder.path() / "costs";
