@@ -355,6 +355,27 @@ class Points(unittest.TestCase):
             # A standard deviation of 1 over three runs, on both sides.
             self.assertAlmostEqual(math.sqrt(2.0 / 3.0), error)
 
+    def test_where_no_sensor_tells_an_error_the_changes_at_other_levels_do(self):
+        text = {"base": "../verification/box.yaml", "vary": {"mu": [1, 2, 3], "mu_r": [0, 1]}, "measure": {"f": "sensors.s.f"}}
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch("study_points.read", lambda _: text):
+            plans = dict(study_points.labelled("any"))
+            for plan in plans.values():
+                mu, rolling = float(plan.settings["mu"]), float(plan.settings["mu_r"])
+                finished_run(folder, plan.name, {"s": {"f": (100.0 * mu + rolling * (9.0 + mu), None)}})
+            found = runs.Runs(plans.values(), folder, None)
+            over = {"output": "f", "input": "mu_r", "then": "rises", "why": "so"}
+            change, error = study_points.change(found, "any", over)
+            # 10, 11 and 12: a standard deviation of 1 over three.
+            self.assertEqual(11.0, change)
+            self.assertAlmostEqual(math.sqrt(1.0 / 3.0), error)
+            # Two levels of rolling friction tell no scatter of the changes over friction: a change, and no error of it.
+            change, error = study_points.change(found, "any", {**over, "input": "mu"})
+            self.assertEqual((201.0, 0.0), (change, error))
+            sheet = page.Page("any")
+            study_points.add_sign(sheet, found, "any", {**over, "input": "mu"})
+            self.assertIn("| f rises with mu: change over twice its error | inf | rises: so | none: no error of the change is known | - |",
+                          sheet.text("Any", found, "how"))
+
 
 class Cases(unittest.TestCase):
     def test_runs_have_one_meaning_each_and_their_scenario_is_there(self):
