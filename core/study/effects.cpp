@@ -17,6 +17,7 @@ constexpr double k_clear = 2.0;
 struct Sum {
   double sum = 0.0;
   std::size_t count = 0;
+  [[nodiscard]] double mean() const { return sum / static_cast<double>(count); }
 };
 
 std::optional<double> value_of(const Results& results, std::size_t point, std::size_t output) {
@@ -43,6 +44,7 @@ std::vector<LevelMean> level_means(const Spec& spec, const Results& results, std
     const std::size_t level = point.levels[column.axis];
     levels[level].label = point.inputs[input].text;
     levels[level].input = point.inputs[input].number;
+    levels[level].level = level;
     if (const auto value = value_of(results, n, output)) {
       sums[level].sum += *value;
       ++sums[level].count;
@@ -52,7 +54,7 @@ std::vector<LevelMean> level_means(const Spec& spec, const Results& results, std
   std::vector<LevelMean> known;
   for (std::size_t k = 0; k < count; ++k) {
     if (sums[k].count == 0) continue;
-    levels[k].mean = sums[k].sum / static_cast<double>(sums[k].count);
+    levels[k].mean = sums[k].mean();
     levels[k].points = sums[k].count;
     levels[k].error = error_of_mean(noise, sums[k].count);
     known.push_back(levels[k]);
@@ -62,6 +64,58 @@ std::vector<LevelMean> level_means(const Spec& spec, const Results& results, std
                      [](const LevelMean& a, const LevelMean& b) { return a.input < b.input; });
   }
   return known;
+}
+
+/// Means of an output over replicates at one level of an axis, by the levels of the others.
+std::map<std::vector<std::size_t>, Sum> by_other_levels(const Results& results, std::size_t axis,
+                                                        std::size_t level, std::size_t output) {
+  std::map<std::vector<std::size_t>, Sum> sums;
+  for (std::size_t n = 0; n < results.plan.points.size(); ++n) {
+    std::vector<std::size_t> others = results.plan.points[n].levels;
+    if (others[axis] != level) continue;
+    const auto value = value_of(results, n, output);
+    if (!value) continue;
+    others[axis] = 0;
+    Sum& sum = sums[others];
+    sum.sum += *value;
+    ++sum.count;
+  }
+  return sums;
+}
+
+/// Standard error of the change between two levels of an axis by its scatter over the levels of the
+/// others; negative where there are fewer than three that both have.
+double scatter_of_change(const Results& results, std::size_t axis, std::size_t output,
+                         const LevelMean& from, const LevelMean& to) {
+  const auto before = by_other_levels(results, axis, from.level, output);
+  const auto after = by_other_levels(results, axis, to.level, output);
+  std::vector<double> changes;
+  double mean = 0.0;
+  for (const auto& [others, sum] : before) {
+    const auto there = after.find(others);
+    if (there == after.end()) continue;
+    changes.push_back(there->second.mean() - sum.mean());
+    mean += changes.back();
+  }
+  if (changes.size() < 3) return -1.0;
+  const auto n = static_cast<double>(changes.size());
+  mean /= n;
+  double squares = 0.0;
+  for (const double change : changes) squares += (change - mean) * (change - mean);
+  return std::sqrt(squares / (n * (n - 1.0)));
+}
+
+struct Change {
+  double size = 0.0;
+  double error = -1.0;
+};
+
+/// From one level of an axis to another: its error by that of the levels, or else by its scatter.
+Change change_between(const Results& results, std::size_t axis, std::size_t output,
+                      const LevelMean& from, const LevelMean& to) {
+  const double error = together(from.error, to.error);
+  return {to.mean - from.mean,
+          error < 0.0 ? scatter_of_change(results, axis, output, from, to) : error};
 }
 
 /// The change along a fitted line over the range of a scattered input, with its standard error.
@@ -164,12 +218,15 @@ std::vector<MainEffect> main_effects(const Spec& spec, const Results& results) {
       effect.output = o;
       effect.levels = level_means(spec, results, i, o);
       if (effect.levels.size() < 2) continue;
-      effect.is_scattered = spec.axes[results.plan.inputs[i].axis].kind == AxisKind::samples;
+      const std::size_t axis = results.plan.inputs[i].axis;
+      effect.is_scattered = spec.axes[axis].kind == AxisKind::samples;
       if (effect.is_scattered) {
         fit_line(effect.levels, effect);
       } else {
-        effect.change = effect.levels.back().mean - effect.levels.front().mean;
-        effect.error = together(effect.levels.back().error, effect.levels.front().error);
+        const Change change =
+            change_between(results, axis, o, effect.levels.front(), effect.levels.back());
+        effect.change = change.size;
+        effect.error = change.error;
       }
       effects.push_back(std::move(effect));
     }
@@ -206,8 +263,10 @@ Verdict assess(const Expectation& e, const Spec& spec, const Results& all) {
     const auto from = level(e.from);
     const auto to = level(e.to);
     if (from == found->levels.end() || to == found->levels.end()) return verdict;
-    verdict.change = to->mean - from->mean;
-    verdict.error = together(to->error, from->error);
+    const std::size_t axis = results.plan.inputs[found->input].axis;
+    const Change change = change_between(results, axis, found->output, *from, *to);
+    verdict.change = change.size;
+    verdict.error = change.error;
   }
   const double wanted = e.then == "rises" ? 1.0 : -1.0;
   const std::string unit = results.plan.outputs[found->output].unit;

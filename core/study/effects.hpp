@@ -17,6 +17,7 @@ struct LevelMean {
   double mean = 0.0;
   double error = -1.0;  ///< standard error of the mean by noise, negative: not known
   std::size_t points = 0;
+  std::size_t level = 0;  ///< of the axis
 };
 
 /// What one input does to one output, whatever the others are.
@@ -26,7 +27,10 @@ struct MainEffect {
   bool is_scattered = false;      ///< an input of a sample: too many levels for means
   std::vector<LevelMean> levels;  ///< ascending for numbers, as written for names
   double change = 0.0;            ///< from the first to the last level (of a line, if scattered)
-  double error = -1.0;            ///< standard error of the change, negative: not known
+  /// Standard error of the change, negative: not known. Where that of the levels is not, by the
+  /// scatter of the change over what else is varied, of three or more: it holds, besides noise, how
+  /// far the effect hangs on the other inputs.
+  double error = -1.0;
 };
 
 /// Noise of one run's output [unit of the output]: scatter of the replicates of a point, pooled

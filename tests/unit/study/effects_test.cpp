@@ -77,6 +77,32 @@ TEST_CASE("points that failed shall be left out of the means") {
   CHECK(effects[0].levels[0].points == 1);
 }
 
+TEST_CASE("a change whose levels tell no error shall have that of its scatter over other inputs") {
+  Made made(1);
+  for (std::size_t n = 0; n < made.plan.points.size(); ++n) {
+    // In case b higher by 2, 3 and 4 at the three speeds; no sensor tells an error.
+    const auto& levels = made.plan.points[n].levels;
+    const double more = levels[1] == 1 ? 2.0 + static_cast<double>(levels[0]) : 0.0;
+    made.outcomes[n].outputs[0] = {100.0 * static_cast<double>(levels[0]) + more, -1.0};
+  }
+  const auto effects = main_effects(made.spec, made.results());
+  CHECK(effects.at(1).change == approx(3.0));
+  // A standard deviation of 1 over three changes.
+  CHECK(effects[1].error == approx(std::sqrt(1.0 / 3.0)));
+  // Over two cases a change with speed has no scatter to speak of.
+  CHECK(effects[0].error < 0.0);
+  Expectation e;
+  e.output = "x";
+  e.input = "case";
+  e.then = "falls";
+  e.from = "b";
+  e.to = "a";
+  CHECK(assess(e, made.spec, made.results()).error == approx(std::sqrt(1.0 / 3.0)));
+  // One of the three speeds did not finish in case b: two changes are left.
+  made.outcomes[5] = {};
+  CHECK(assess(e, made.spec, made.results()).error < 0.0);
+}
+
 TEST_CASE("expectations shall be judged by sign and noise") {
   Made made(1);
   Expectation e;
