@@ -127,8 +127,7 @@ def left(runs):
     spent = sum(run.summary["cpu_s"] if run.is_finished() else runs.kept.cpu_s(run) for run in one_of_each(filter(runs.is_done, runs), PLAN)) / 3600
     within = campaign_list.within_budget(hours, spent, campaign_list.patterns())
     out = ["## What has not been run", "", f"The runs above took {spent:.3g} hours of one core of the campaign's budget of "
-           f"{campaign_list.BUDGET_HOURS:g} (40 of two cores); costs are what `engine check` expects of this machine, on the safe side: runs that ended "
-           "took less.", ""]
+           f"{campaign_list.BUDGET_HOURS:g} (40 of two cores); costs are what `engine check` expects of this machine.", ""]
     for title, names in (("Within the budget, in the campaign's order", within),
                          ("Beyond the budget", sorted(missing.keys() - set(within), key=list(missing).index))):
         total = sum(hours[name] or 0.0 for name in names)
