@@ -302,6 +302,14 @@ class Stale(unittest.TestCase):
         self.assertEqual(stale.marked(once, stale.MARK + " (more).*").count(stale.MARK), 1)
         self.assertEqual(stale.marked(once, ""), "# Title\n\ntext\n")
 
+    def test_the_cost_of_a_page_is_that_of_the_runs_it_stands_on(self):
+        class Engine:
+            def hours(self, plan):
+                return {"ran": 1.0, "again": 2.0, "never": 100.0}[plan.name]
+        plans = [runs.Plan(name, "verification/box.yaml") for name in ("ran", "again", "never")]
+        text = "| never: figure | not run |\n| ran | abc1234 | 1 |\n| again | abc1234 | 1 |\n"
+        self.assertEqual(3.0, stale.hours_of(text, plans, Engine()))
+
     def test_the_engine_tells_its_commit(self):
         self.assertEqual(runs.commit_in("engine 0.1.0\ncommit: abc1234, changed\n"), "abc1234+changes")
         self.assertEqual(runs.commit_in("engine 0.1.0\ncommit: abc1234\n"), "abc1234")

@@ -77,6 +77,12 @@ def marked(text, line):
     return "\n".join([title, *(["", line] if line else []), *rest]) + "\n"
 
 
+def hours_of(text, plans, engine):
+    """What the runs that a page stands on cost anew; those that were never made cost nothing of it."""
+    made = set(re.findall(r"^\| (\S+) \| ", text, re.M))
+    return sum(engine.hours(plan) or 0.0 for plan in plans if plan.name in made)
+
+
 def mark(engine, today):
     """Says on each stale page that it is, since when that is known, and what making it anew costs."""
     for case, file, reason in pages():
@@ -85,8 +91,7 @@ def mark(engine, today):
         before = file.read_text()
         if reason and f": {reason})" in said(before):
             continue  # said already, with its day
-        hours = [engine.hours(plan) or 0.0 for plan in cases.load(case).plans()] if reason and engine.exists() else []
-        total = sum(hours)
-        cost = f": about {total:.0f} hours of one core" if total > 10 else f": about {max(60 * total, 1):.0f} min of one core" if hours else ""
+        total = hours_of(before, cases.load(case).plans(), engine) if reason and engine.exists() else 0.0
+        cost = f": about {total:.0f} hours of one core" if total > 10 else f": about {max(60 * total, 1):.0f} min of one core" if total else ""
         line = f"{MARK} ({today}: {reason}). Anew by `tools/validation/run {case}`{cost}.*" if reason else ""
         file.write_text(marked(before, line))

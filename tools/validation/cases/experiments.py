@@ -12,7 +12,7 @@ from cases import belt, fluidised_studies, fluidised_vessel, hourglass, hourglas
 from runs import Plan
 
 TITLE = "What fails, and the experiments to it"
-BITS = ("container_walls", "container_periodic", "settling_a1", "dosta_drum", "fluidised_bed_column", "mixer")
+BITS = ("container_walls", "container_periodic", "settling_a1", "dosta_drum", "fluidised_bed_column", "transfer_point", "mixer")
 SOFT = {"materials.sand.young_modulus": "5 MPa"}
 SAND = "interactions[0]"
 HEAD, BELT_TOP = 0.08, 0.2  # [m] where the stream leaves the belt
