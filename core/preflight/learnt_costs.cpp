@@ -69,6 +69,11 @@ bool read_numbers(std::istream& in, RunCost& cost) {
   return read(cost.memory_bytes) && read(cost.disk_bytes);
 }
 
+/// Whether there is something to compare.
+bool is_whole(const RunCost& estimated, const RunCost& taken) {
+  return estimated.terms.seconds() > 0.0 && taken.terms.seconds() > 0.0;
+}
+
 /// How far two times are apart, in doublings.
 double doublings_apart(double a, double b) { return std::abs(std::log2(a / b)); }
 
@@ -121,8 +126,9 @@ LearntCosts::LearntCosts(fs::path file, std::function<double()> slowness)
     std::istringstream words(line);
     Run run;
     if (!read_numbers(words, run.estimated) || !read_numbers(words, run.taken)) continue;
-    if (!std::getline(words >> std::ws, run.scenario) || !(run.taken.terms.seconds() > 0.0))
+    if (!std::getline(words >> std::ws, run.scenario) || !is_whole(run.estimated, run.taken)) {
       continue;
+    }
     runs_.push_back(std::move(run));
   }
 }
@@ -196,7 +202,7 @@ LearntCosts::Expected LearntCosts::from_others(const RunCost& estimated) const {
 }
 
 void LearntCosts::add(const std::string& scenario, const RunCost& estimated, const RunCost& taken) {
-  if (!(estimated.terms.seconds() > 0.0 && taken.terms.seconds() > 0.0)) return;
+  if (!is_whole(estimated, taken)) return;
   runs_.push_back({scenario, estimated, taken});
   if (!file_.empty()) write();
 }

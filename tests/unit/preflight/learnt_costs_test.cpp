@@ -104,7 +104,10 @@ TEST_CASE("memory and disk shall be learnt from a scenario's own runs alone") {
 
 TEST_CASE("a machine without runs shall be measured, and a spoilt cache shall not matter") {
   const Folder folder;
-  const auto file = folder.write("costs", "nonsense\n0.5 chute\n\n-1 2 3 hopper\n");
+  const std::string without_estimate =
+      "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 5 5 0 0 0 0 0 0 0 0 0 0 0 0 0 0 hopper\n";
+  const auto file =
+      folder.write("costs", "nonsense\n0.5 chute\n\n-1 2 3 hopper\n" + without_estimate);
   const auto estimated = one(CostTerm::grains, 10.0, 10.0);
   const auto spoilt = LearntCosts(file, as_measured).expect("hopper", estimated);
   CHECK(spoilt.runs == 0);
