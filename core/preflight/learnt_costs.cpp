@@ -17,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t k_max_runs = 200;
-/// Of one scenario: the newest, for the engine and the machine change.
-constexpr std::size_t k_recent = 5;
+/// Of one scenario; among those about as long the newest, for the engine and the machine change.
+constexpr std::size_t k_runs_that_count = 5;
 /// [s] A term that took less says nothing of its rate.
 constexpr double k_enough = 0.5;
 
@@ -88,16 +88,13 @@ class Quotients {
     if (all_.empty()) return otherwise;
     std::sort(all_.begin(), all_.end(),
               [](const Weighed& a, const Weighed& b) { return a.value < b.value; });
-    double above = 0.0;
-    for (const Weighed& w : all_) above += w.weight;
-    double below = 0.0;
+    double half = 0.0;
+    for (const Weighed& w : all_) half += 0.5 * w.weight;
     std::size_t n = 0;
-    for (; n + 1 < all_.size(); ++n) {
-      below += all_[n].weight;
-      above -= all_[n].weight;
-      if (!(below < above)) break;
-    }
-    return below == above ? 0.5 * (all_[n].value + all_[n + 1].value) : all_[n].value;
+    double below = all_[0].weight;
+    while (below < half && n + 1 < all_.size()) below += all_[++n].weight;
+    const bool is_between_two = below == half && n + 1 < all_.size();
+    return is_between_two ? 0.5 * (all_[n].value + all_[n + 1].value) : all_[n].value;
   }
 
  private:
@@ -151,7 +148,7 @@ std::vector<const LearntCosts::Run*> LearntCosts::most_alike(const std::string& 
   std::stable_sort(same.begin(), same.end(), [&](const Run* a, const Run* b) {
     return whole_doublings(a) < whole_doublings(b);
   });
-  same.resize(std::min(same.size(), k_recent));
+  same.resize(std::min(same.size(), k_runs_that_count));
   return same;
 }
 

@@ -306,9 +306,12 @@ class Stale(unittest.TestCase):
         class Engine:
             def hours(self, plan):
                 return {"ran": 1.0, "again": 2.0, "never": 100.0}[plan.name]
-        plans = [runs.Plan(name, "verification/box.yaml") for name in ("ran", "again", "never")]
+        plans = [runs.Plan(name, "verification/box.yaml", {"seed": seed}) for name, seed in (("ran", "1"), ("again", "2"), ("never", "3"))]
         text = "| never: figure | not run |\n| ran | abc1234 | 1 |\n| again | abc1234 | 1 |\n"
         self.assertEqual(3.0, stale.hours_of(text, plans, Engine()))
+        # The same run under another name is made once.
+        same = runs.Plan("again", "verification/box.yaml", {"seed": "1"})
+        self.assertEqual(1.0, stale.hours_of(text, [plans[0], same], Engine()))
 
     def test_the_engine_tells_its_commit(self):
         self.assertEqual(runs.commit_in("engine 0.1.0\ncommit: abc1234, changed\n"), "abc1234+changes")

@@ -11,7 +11,7 @@ import re
 
 import cases
 from page import FOLDER
-from runs import BITS, ROOT
+from runs import BITS, ROOT, one_of_each
 
 LINE = re.compile(r"<!-- bits (.*?) -->")
 MARK = "*Figures of an older engine"
@@ -78,9 +78,9 @@ def marked(text, line):
 
 
 def hours_of(text, plans, engine):
-    """What the runs that a page stands on cost anew; those that were never made cost nothing of it."""
+    """What the runs that a page stands on cost anew, each once; those that were never made cost nothing of it."""
     made = set(re.findall(r"^\| (\S+) \| ", text, re.M))
-    return sum(engine.hours(plan) or 0.0 for plan in plans if plan.name in made)
+    return sum(engine.hours(plan) or 0.0 for plan in one_of_each((plan for plan in plans if plan.name in made), lambda plan: plan))
 
 
 def mark(engine, today):
