@@ -46,7 +46,7 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
       dust_setup_(std::move(dust)),
       models_(std::move(models)),
       clock_(setup_.time.fluid_step, setup_.time.end),
-      snapshots_(wants_contacts(models_)) {
+      snapshots_(setup_.domain, wants_contacts(models_)) {
   if (setup_.fluid) {
     fluid_ = std::make_unique<FluidStage>(setup_, models_);
     snapshots_.use_fluid(fluid_->grid(), *setup_.fluid, fluid_->solver().open_fraction());

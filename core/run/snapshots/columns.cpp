@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/snapshots/columns.hpp"
 
+#include "base/periodic.hpp"
+
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -27,10 +29,26 @@ enum Column {
   k_force_z,
   k_diameter,
   k_mass,
-  k_weight
+  k_weight,
+  k_x_in_domain,
+  k_y_in_domain,
+  k_z_in_domain
 };
 
 }  // namespace
+
+GrainTable::GrainTable(const scenario::DomainSpec& domain) : min_(domain.min) {
+  for (int d = 0; d < 3; ++d) {
+    const auto& side = domain.sides[static_cast<std::size_t>(2 * d)];
+    if (side.grains == scenario::GrainSide::periodic) period_[d] = domain.max[d] - domain.min[d];
+  }
+}
+
+double GrainTable::in_domain(double x, int d) const {
+  if (!(period_[d] > 0.0)) return x;
+  if (x < min_[d]) return x + period_[d];
+  return x >= min_[d] + period_[d] ? x - period_[d] : x;
+}
 
 void GrainTable::note_insertions(const particles::GrainRows& rows) {
   insertions_.clear();
@@ -62,6 +80,7 @@ void GrainTable::publish(const particles::GrainRows& rows, std::span<const doubl
     for (int d = 0; d < 3; ++d) {
       const std::size_t at = 4 * row + static_cast<std::size_t>(d);
       number_[k_x + d][n] = rows.position[at];
+      number_[k_x_in_domain + d][n] = in_domain(rows.position[at], d);
       number_[k_velocity_x + d][n] = rows.velocity_of(row)[d];
       number_[k_rotation_x + d][n] = rows.rotation_of(row)[d];
       number_[k_force_x + d][n] = at < force.size() ? force[at] : 0.0;
@@ -86,9 +105,13 @@ void GrainTable::take_places_before() {
     } else if (born != insertions_.end() && born->id == id_[n]) {
       from = *born;
     }
-    number_[k_x_before][n] = from.x;
-    number_[k_y_before][n] = from.y;
-    number_[k_z_before][n] = from.z;
+    const sdk::Vec3 before{from.x, from.y, from.z};
+    for (int d = 0; d < 3; ++d) {
+      const double now = number_[k_x_in_domain + d][n];
+      number_[k_x_before + d][n] =
+          period_[d] > 0.0 ? now - base::nearest_image_of_any(now - before[d], period_[d])
+                           : before[d];
+    }
   }
   before_.resize(count);
   for (std::size_t n = 0; n < count; ++n) {
@@ -98,6 +121,14 @@ void GrainTable::take_places_before() {
 }
 
 sdk::GrainColumns GrainTable::columns() const {
+  sdk::GrainColumns c = columns_of_solver();
+  c.x = number_[k_x_in_domain];
+  c.y = number_[k_y_in_domain];
+  c.z = number_[k_z_in_domain];
+  return c;
+}
+
+sdk::GrainColumns GrainTable::columns_of_solver() const {
   sdk::GrainColumns c;
   c.id = id_;
   c.material = material_;

@@ -5,6 +5,7 @@
 #include "dust/sdk/sensor.hpp"
 #include "fluid/fluid_solver.hpp"
 #include "particles/grain_rows.hpp"
+#include "setup/setup.hpp"
 
 #include <cstdint>
 #include <span>
@@ -16,10 +17,13 @@ namespace dust::run {
 /// files, with the places of the sample before.
 class GrainTable {
  public:
+  explicit GrainTable(const scenario::DomainSpec& domain);
   /// Notes where grains came in: every row with an id not seen at the last sample.
   void note_insertions(const particles::GrainRows& rows);
   void publish(const particles::GrainRows& rows, std::span<const double> force);
   [[nodiscard]] sdk::GrainColumns columns() const;
+  /// With places as the solver has them, which is part of its state.
+  [[nodiscard]] sdk::GrainColumns columns_of_solver() const;
   /// The row of each published grain.
   [[nodiscard]] std::span<const std::size_t> order() const { return order_; }
 
@@ -32,10 +36,15 @@ class GrainTable {
     double x, y, z;
   };
   void take_places_before();
+  /// The image of a coordinate along d that lies in the domain: positions are wrapped at periodic
+  /// sides now and then only.
+  [[nodiscard]] double in_domain(double x, int d) const;
 
+  sdk::Vec3 min_;
+  sdk::Vec3 period_;  ///< [m] of the domain; 0 where it is not periodic
   std::vector<std::int64_t> id_;
   std::vector<std::int32_t> material_;
-  std::vector<double> number_[20];
+  std::vector<double> number_[23];
   std::vector<Place> before_;      ///< of the last sample, by id
   std::vector<Place> insertions_;  ///< since the last sample, by id
   std::vector<std::size_t> order_;

@@ -14,7 +14,8 @@ namespace dust::run {
 /// Copies of particles, contacts and fluid for sensors and files, taken once per fluid step.
 class Snapshots {
  public:
-  explicit Snapshots(bool wants_contacts) : wants_contacts_(wants_contacts) {}
+  Snapshots(const scenario::DomainSpec& domain, bool wants_contacts)
+      : particles_(domain), wants_contacts_(wants_contacts) {}
 
   /// Where there is a fluid.
   void use_fluid(const fluid::Grid& grid, const scenario::FluidSpec& fluid,
@@ -33,7 +34,8 @@ class Snapshots {
     fluid_->publish(fluid, void_fraction);
   }
 
-  [[nodiscard]] sdk::GrainColumns particles() const { return particles_.columns(); }
+  /// With places as the solver has them.
+  [[nodiscard]] sdk::GrainColumns particles() const { return particles_.columns_of_solver(); }
   /// Fills in what there is of particles, contacts and fluid.
   void show(sdk::WorldView& view) const;
 

@@ -59,7 +59,7 @@ class BoxConcentration final : public sdk::Sensor {
       values_[1] += g.weight[i];
       squares_ += mass * mass;
       newest = std::max(newest, g.id[i]);
-      const bool has_come = is_first || g.id[i] > newest_ || !was_inside(g, i);
+      const bool has_come = is_first || g.id[i] > newest_ || !was_inside(world, i);
       if (is_steady) seen_[0].add(has_come, world.interval);
       if (classes_.empty()) continue;
       const std::size_t c = sdk::nearest_class(g.diameter[i], classes_);
@@ -140,8 +140,8 @@ class BoxConcentration final : public sdk::Sensor {
     return sdk::is_in_box({g.x[i], g.y[i], g.z[i]}, p_.min, p_.max);
   }
 
-  [[nodiscard]] bool was_inside(const sdk::GrainColumns& g, std::size_t i) const {
-    return sdk::is_in_box({g.x_before[i], g.y_before[i], g.z_before[i]}, p_.min, p_.max);
+  [[nodiscard]] bool was_inside(const sdk::WorldView& world, std::size_t i) const {
+    return sdk::is_in_box(sdk::place_before(world, i), p_.min, p_.max);
   }
 
   /// The computed grains that were in the box since `steady_after`.

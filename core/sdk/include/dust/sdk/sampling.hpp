@@ -101,21 +101,22 @@ struct Path {
   [[nodiscard]] Vec3 at(double fraction) const { return before + fraction * (now - before); }
 };
 
-/// The path of grain `i`. A grain that left through a periodic side came back on the other: a jump
-/// of more than half the domain against the grain's own velocity is such a return, and the place
-/// before is moved by the domain's extent, so that the path ends where the grain is.
+/// The path of grain `i`. It ends where the grain is; through a periodic side it begins beyond the
+/// other one.
 inline Path path_of(const WorldView& world, std::size_t i) {
   const GrainColumns& g = world.grains;
-  Path path{{g.x_before[i], g.y_before[i], g.z_before[i]}, {g.x[i], g.y[i], g.z[i]}};
-  const Vec3 velocity{g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]};
+  return {{g.x_before[i], g.y_before[i], g.z_before[i]}, {g.x[i], g.y[i], g.z[i]}};
+}
+
+/// Where grain `i` was in the domain at the last sample.
+inline Vec3 place_before(const WorldView& world, std::size_t i) {
+  Vec3 place = path_of(world, i).before;
   for (int d = 0; d < 3; ++d) {
     const double extent = world.domain_max[d] - world.domain_min[d];
-    const double jump = path.now[d] - path.before[d];
-    if (std::abs(jump) > 0.5 * extent && jump * velocity[d] < 0.0) {
-      path.before[d] += jump > 0.0 ? extent : -extent;
-    }
+    if (place[d] < world.domain_min[d]) place[d] += extent;
+    if (place[d] > world.domain_max[d]) place[d] -= extent;
   }
-  return path;
+  return place;
 }
 
 /// Passage through a level between two samples of a signed height: +1 upward, -1 downward, 0 none.

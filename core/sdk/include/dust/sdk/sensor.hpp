@@ -19,9 +19,10 @@ namespace dust::sdk {
 struct GrainColumns {
   std::span<const std::int64_t> id;
   std::span<const std::int32_t> material;
-  std::span<const double> x, y, z;  ///< [m] now
-  std::span<const double> x_before, y_before,
-      z_before;  ///< [m] at the last sample (birth place if new)
+  std::span<const double> x, y, z;  ///< [m] now, in the domain
+  /// [m] At the last sample (birth place if new); of a grain that has passed through a periodic
+  /// side since then beyond the other one, so that the way from there is the grain's own.
+  std::span<const double> x_before, y_before, z_before;
   std::span<const double> velocity_x, velocity_y, velocity_z;                          ///< [m/s]
   std::span<const double> angular_velocity_x, angular_velocity_y, angular_velocity_z;  ///< [rad/s]
   std::span<const double> force_x, force_y, force_z;  ///< [N] contact + fluid + weight
