@@ -316,6 +316,38 @@ double written_edge(Vec3 min, Vec3 max) {
   return k_share * norm(max - min);
 }
 
+namespace {
+
+/// [m] Farthest that a point of a body in the domain can be from an axis that the body turns about.
+double arm_of(const Body& body, const sdk::RigidPose& axis, const scenario::DomainSpec& domain) {
+  const Placement frame = Placement::turned(body.frame_origin, body.frame_axis, body.frame_angle);
+  const auto from_axis = [&](Vec3 point) {
+    const Vec3 off = point - axis.pivot;
+    return off - dot(off, axis.axis) * axis.axis;
+  };
+  const Vec3 middle = frame.to_body(0.5 * (domain.min + domain.max));
+  const Vec3 centre = middle - from_axis(middle);  // on the axis
+  double farthest = 0.0;
+  double radius = 0.0;  // of a sphere round the centre that holds the domain
+  for (int n = 0; n < 8; ++n) {
+    const Vec3 corner = frame.to_body({(n & 1) != 0 ? domain.max.x : domain.min.x,
+                                       (n & 2) != 0 ? domain.max.y : domain.min.y,
+                                       (n & 4) != 0 ? domain.max.z : domain.min.z});
+    farthest = std::max(farthest, norm(from_axis(corner)));
+    radius = std::max(radius, norm(corner - centre));
+  }
+  // Wherever the body turns to, what is in the domain then is in this sphere now.
+  const Vec3 reach{radius, radius, radius};
+  const double edge = 0.05 * norm(domain.max - domain.min);
+  double arm = 0.0;
+  for (const Vec3& p : body.shape->triangles(centre - reach, centre + reach, edge)) {
+    arm = std::max(arm, norm(from_axis(p)));
+  }
+  return std::min(arm, farthest);
+}
+
+}  // namespace
+
 Body make_body(const scenario::Setup& setup, const scenario::BodySpec& spec,
                std::vector<std::unique_ptr<sdk::Motion>> motions) {
   Body body;
@@ -336,17 +368,12 @@ Body make_body(const scenario::Setup& setup, const scenario::BodySpec& spec,
     body.frame_angle = frame.angle;
   }
   // Earlier motions carry the body away from later axes: all of it counts, as far as the domain.
-  const Vec3 size = setup.domain.max - setup.domain.min;
+  const double size = norm(setup.domain.max - setup.domain.min);
   for (const auto& motion : body.motions) {
     double arm = 0.0;
     if (motion->largest_angular_velocity() > 0.0) {
-      const sdk::RigidPose pose = motion->pose(0.0);
-      const double edge = 0.05 * norm(size);
-      for (const Vec3& p : body.shape->triangles(setup.domain.min, setup.domain.max, edge)) {
-        const Vec3 off = p - pose.pivot;
-        arm = std::max(arm, norm(off - dot(off, pose.axis) * pose.axis));
-      }
-      if (body.motions.size() > 1) arm += norm(size);
+      arm = arm_of(body, motion->pose(0.0), setup.domain);
+      if (body.motions.size() > 1) arm += size;
     }
     body.axis_distances.push_back(arm);
   }

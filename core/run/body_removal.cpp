@@ -24,16 +24,18 @@ std::string cause_of_removal(const scenario::RemovalSpec& removal, double now,
 
 double kinetic_energy_per_grain(const particles::GrainRows& rows) {
   double sum = 0.0;
+  double grains = 0.0;
   for (std::size_t n = 0; n < rows.count; ++n) {
     const double* v = rows.velocity_of(n);
     const double* w = rows.rotation_of(n);
     const double r = rows.position[4 * n + 3];
     const double inertia = 0.4 * r * r / v[3];
-    sum += 0.5 / v[3] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) +
-           0.5 * inertia * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    const double energy = 0.5 / v[3] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) +
+                          0.5 * inertia * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    sum += rows.weight[n] * energy;
+    grains += rows.weight[n];
   }
-  return rows.count > 0 ? sum / static_cast<double>(rows.count)
-                        : std::numeric_limits<double>::infinity();
+  return rows.count > 0 ? sum / grains : std::numeric_limits<double>::infinity();
 }
 
 bool remove_bodies(const scenario::Setup& setup, double time, const particles::GrainRows& rows,

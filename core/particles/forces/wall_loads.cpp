@@ -51,9 +51,14 @@ sdk::WallColumns WallLoads::columns() const {
 void WallLoads::note_contacts(const ContactScene& scene, const InnerList& lists) {
   // A particle that touches two parts of one body counts once.
   std::vector<std::vector<std::int32_t>> rows(walls());
-  const auto note = [&](std::int32_t surface, std::int32_t row) {
-    const auto wall = scene.surfaces[static_cast<std::size_t>(surface)].wall;
-    rows[static_cast<std::size_t>(wall)].push_back(row);
+  const bool may_be_apart = scene.laws.largest_range() > 0.0;
+  const auto note = [&](std::int32_t number, std::int32_t row) {
+    const Surface& surface = scene.surfaces[static_cast<std::size_t>(number)];
+    if (may_be_apart) {
+      const double* p = scene.particles.position(static_cast<std::size_t>(row));
+      if (!(surface.contact({p[0], p[1], p[2]}, p[3]).distance < p[3])) return;
+    }
+    rows[static_cast<std::size_t>(surface.wall)].push_back(row);
   };
   for (std::size_t t = 0; t < lists.tiles(); ++t) {
     const ContactList& list = lists.contacts(t).walls;

@@ -182,8 +182,9 @@ particles::Dem& Branch::their_particles() {
   return *their_particles_;
 }
 
-void Branch::check(particles::Dem& particles) {
+void Branch::check(Models& models, particles::Dem& particles) {
   if (is_same_ || diagnostics_.has_errors()) return;
+  transfer_bodies(models);
   report_obstacles(particles.obstacles_to(their_particles(), origin_.time()));
 }
 
@@ -269,7 +270,7 @@ std::vector<particles::LawTransfer> Branch::laws() const {
 void Branch::give_to(Simulation& simulation) {
   if (!is_same_) {
     simulation.start_from([this](const Simulation::Owners& to) {
-      check(to.particles);
+      check(to.models, to.particles);
       diagnostics_.throw_errors();
       transfer(to);
     });
@@ -284,7 +285,6 @@ void Branch::transfer(const Simulation::Owners& to) {
   is_same_world_ = is_same_world_ && to.models.class_diameters == origin_.class_diameters();
   const double steps = origin_.time() / now_.setup.time.fluid_step;
   to.clock.start_at(std::llround(steps));
-  transfer_bodies(to.models);
   transfer_particles(to);
   transfer_insertion(to);
   if (to.fluid != nullptr) transfer_fluid(to);

@@ -38,8 +38,9 @@ class Branch {
   [[nodiscard]] std::int64_t particles_there() const;
   /// Sizes of the particles that come along.
   void add_diameters(std::vector<double>& class_diameters) const;
-  /// Looks for what is in the way of the other run's particles.
-  void check(particles::Dem& particles);
+  /// Takes away the bodies that the other run had taken away, then looks for what is in the way of
+  /// its particles.
+  void check(Models& models, particles::Dem& particles);
   /// Gives the state to a simulation that has not started. Throws base::UserError with what is in
   /// the way, before anything is given.
   void give_to(Simulation& simulation);

@@ -23,7 +23,7 @@ std::optional<StartFacts> preview_start(const scenario::ReadResult& read,
   branch.add_diameters(models.class_diameters);
   const auto particles = make_particles(read.setup, models, read.dust);
   particles->draw_out_at(openings_of(read.setup, read.dust));
-  branch.check(*particles);
+  branch.check(models, *particles);
   return StartFacts{.state = branch.origin().state().file().string(),
                     .time = branch.origin().time(),
                     .particles = branch.particles_there(),

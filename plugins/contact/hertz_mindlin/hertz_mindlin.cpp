@@ -150,7 +150,8 @@ DUST_KERNEL void evaluate_liggghts(const formula::Constants& constants,
   const double *vx = b.velocity.x, *vy = b.velocity.y, *vz = b.velocity.z;
   const double *ux = b.displacement.x, *uy = b.displacement.y, *uz = b.displacement.z;
   const double *radius = b.effective_radius, *mass = b.effective_mass;
-  double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2];
+  // The stiffness is for a run that goes on with this engine's own conventions.
+  double *sx = b.history[0], *sy = b.history[1], *sz = b.history[2], *stiffness = b.history[3];
   double *fn = b.normal_force, *kn = b.normal_stiffness, *kt = b.tangential_stiffness;
   double *fx = b.force.x, *fy = b.force.y, *fz = b.force.z;
 #pragma omp simd
@@ -162,7 +163,7 @@ DUST_KERNEL void evaluate_liggghts(const formula::Constants& constants,
     c.ux = ux[q], c.uy = uy[q], c.uz = uz[q];
     c.sx = sx[q], c.sy = sy[q], c.sz = sz[q];
     formula::evaluate_liggghts(k, c);
-    sx[q] = c.sx, sy[q] = c.sy, sz[q] = c.sz;
+    sx[q] = c.sx, sy[q] = c.sy, sz[q] = c.sz, stiffness[q] = c.stiffness;
     fn[q] = c.normal_force, kn[q] = c.normal_stiffness, kt[q] = c.stiffness;
     fx[q] = c.fx, fy[q] = c.fy, fz[q] = c.fz;
   }

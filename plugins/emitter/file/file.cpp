@@ -120,6 +120,7 @@ class File final : public sdk::PlacedEmitter {
                           .velocity = at(table_.velocity, n),
                           .angular_velocity = at(table_.rotation, n),
                           .diameter = table_.diameter[n],
+                          .weight = table_.weight.empty() ? 1.0 : table_.weight[n],
                           .material = material_.empty() ? -1 : material_[n],
                           .line = table_.line[n]});
     }

@@ -22,6 +22,7 @@ struct GrainTable {
   std::array<std::vector<double>, 3> centre;
   std::array<std::vector<double>, 3> velocity;
   std::array<std::vector<double>, 3> rotation;
+  std::vector<double> weight;  ///< real grains for each
   std::vector<std::string> material;
   std::vector<std::int64_t> line;  ///< in the file, counted from 1; 0 where there are none
 };
@@ -56,7 +57,7 @@ struct ColumnName {
   const char* name;
   const char* unit;
 };
-inline constexpr std::array<ColumnName, 11> k_columns = {{{"diameter", "m"},
+inline constexpr std::array<ColumnName, 12> k_columns = {{{"diameter", "m"},
                                                           {"x", "m"},
                                                           {"y", "m"},
                                                           {"z", "m"},
@@ -66,10 +67,12 @@ inline constexpr std::array<ColumnName, 11> k_columns = {{{"diameter", "m"},
                                                           {"rotation_x", "rad/s"},
                                                           {"rotation_y", "rad/s"},
                                                           {"rotation_z", "rad/s"},
+                                                          {"weight", "1"},
                                                           {"material", ""}}};
 inline constexpr std::size_t k_velocity = 4, k_rotation = 7;  ///< their first components
-inline constexpr std::size_t k_numbers = 10;
-inline constexpr std::size_t k_material = 10;
+inline constexpr std::size_t k_weight = 10;
+inline constexpr std::size_t k_numbers = 11;
+inline constexpr std::size_t k_material = 11;
 
 inline std::string known_columns() {
   std::string text;
@@ -185,8 +188,10 @@ inline std::optional<std::array<double, k_numbers>> numbers_of(
       is_good = false;
     }
   }
-  if (is_good && !(values[0] > 0.0)) {
-    complaints.add(place + "diameter: " + std::string(columns.cell(cells, 0)) + " is not above 0");
+  for (const std::size_t column : {std::size_t{0}, k_weight}) {
+    if (!is_good || !columns.has(column) || values[column] > 0.0) continue;
+    complaints.add(place + k_columns[column].name + ": " +
+                   std::string(columns.cell(cells, column)) + " is not above 0");
     is_good = false;
   }
   if (!is_good) return std::nullopt;
@@ -196,7 +201,8 @@ inline std::optional<std::array<double, k_numbers>> numbers_of(
 }  // namespace detail
 
 /// Reads grains from comma-separated values: a head line with the names of the columns, then one
-/// grain a line. `diameter`, `x`, `y`, `z` must be there; velocities, rotations and `material` may.
+/// grain a line. `diameter`, `x`, `y`, `z` must be there; velocities, rotations, `weight` and
+/// `material` may.
 /// Empty lines and lines that begin with '#' are skipped. `name` stands in messages:
 /// "bed.csv:17: ...". Throws TableError.
 inline GrainTable read_csv(std::istream& in, const std::string& name) {
@@ -228,6 +234,7 @@ inline GrainTable read_csv(std::istream& in, const std::string& name) {
         table.rotation[d].push_back((*values)[detail::k_rotation + d]);
       }
     }
+    if (columns->has(detail::k_weight)) table.weight.push_back((*values)[detail::k_weight]);
     if (columns->has(detail::k_material)) {
       table.material.emplace_back(columns->cell(cells, detail::k_material));
     }

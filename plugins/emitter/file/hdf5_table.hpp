@@ -107,9 +107,10 @@ inline void spread(const std::vector<double>& rows, std::array<std::vector<doubl
 }  // namespace detail
 
 /// Reads grains from a group of an HDF5 file: the datasets `diameter` (n) and `position` (n x 3),
-/// and where they are there `velocity`, `angular_velocity` (n x 3) and `material` (n, index into
-/// the root attribute `material_names`). That is how a run's results.h5 keeps a frame; without
-/// `group` the last frame is taken, or the root where there are no frames. Throws TableError.
+/// and where they are there `velocity`, `angular_velocity` (n x 3), `weight` (n, real grains for
+/// each) and `material` (n, index into the root attribute `material_names`). That is how a run's
+/// results.h5 keeps a frame; without `group` the last frame is taken, or the root where there are
+/// no frames. Throws TableError.
 inline GrainTable read_hdf5(const std::string& path, std::string group, const std::string& name) {
   using detail::Object;
   const detail::Quiet quiet;
@@ -133,6 +134,9 @@ inline GrainTable read_hdf5(const std::string& path, std::string group, const st
   if (detail::has(from.get(), "angular_velocity")) {
     detail::spread(detail::read(from.get(), "angular_velocity", 3, place), table.rotation);
   }
+  if (detail::has(from.get(), "weight")) {
+    table.weight = detail::read(from.get(), "weight", 1, place);
+  }
   const auto names = detail::material_names(file.get());
   if (!names.empty() && detail::has(from.get(), "material")) {
     for (const double m : detail::read(from.get(), "material", 1, place)) {
@@ -154,8 +158,13 @@ inline GrainTable read_hdf5(const std::string& path, std::string group, const st
       throw TableError(place + "the datasets differ in length");
     }
   }
-  if (!table.material.empty() && table.material.size() != count) {
+  if ((!table.material.empty() && table.material.size() != count) ||
+      (!table.weight.empty() && table.weight.size() != count)) {
     throw TableError(place + "the datasets differ in length");
+  }
+  for (std::size_t n = 0; n < table.weight.size(); ++n) {
+    if (table.weight[n] > 0.0 && std::isfinite(table.weight[n])) continue;
+    throw TableError(place + "row " + std::to_string(n) + ": a weight above 0 is expected");
   }
   if (count == 0) throw TableError(place + "no grains");
   table.line.assign(count, 0);

@@ -5,6 +5,7 @@
 #include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 #include "unit/bodies/shapes.hpp"
+#include "verification/walls/wall_rig.hpp"
 
 #include <doctest/doctest.h>
 
@@ -21,6 +22,7 @@ using dust::sdk::Vec3;
 using dust::test::approx;
 using dust::test::make_shape;
 using dust::test::ModelLoader;
+using dust::test::WallRig;
 
 std::unique_ptr<Motion> motion(const std::string& name,
                                const std::map<std::string, Value>& values) {
@@ -281,6 +283,25 @@ TEST_CASE("a drum about its own axis shall stand while its surface turns") {
   drum.motions = list(
       motion("rotate", {{"pivot", Vec3{0.1, 0, 0}}, {"spin_axis", Vec3{0, 1, 0}}, {"spin", 2.0}}));
   CHECK(drum.displaces());
+}
+
+TEST_CASE("a body that turns shall be as fast as its farthest point in the domain can be") {
+  constexpr double k_spin = 2.0;
+  const auto speed_of = [&](const std::string& shape, const std::map<std::string, Value>& values) {
+    WallRig rig(0.5, 0.2, 1e-3);
+    rig.setup.domain.min = {0, 0, 0};
+    rig.setup.domain.max = {0.3, 0.2, 0.4};
+    const std::map<std::string, Value> about_y = {
+        {"pivot", Vec3{0, 0, -1e-3}}, {"spin_axis", Vec3{0, -1, 0}}, {"spin", k_spin}};
+    return rig.body(shape, values, WallRig::motion("rotate", about_y)).largest_displacing_speed();
+  };
+  // An endless one just below the domain: nothing of it is inside at first.
+  const double of_plane =
+      speed_of("plane", {{"point", Vec3{0, 0, -1e-3}}, {"normal", Vec3{0, 0, 1}}});
+  CHECK(of_plane == approx(k_spin * std::hypot(0.3, 0.401)));
+  const double of_box =
+      speed_of("box", {{"min", Vec3{0.1, 0.1, 0.1}}, {"max", Vec3{0.2, 0.12, 0.15}}});
+  CHECK(of_box == approx(k_spin * std::hypot(0.2, 0.151)));
 }
 
 TEST_CASE("motions that contradict themselves shall be refused") {

@@ -48,6 +48,7 @@ std::string write_results(const TemporaryFolder& folder) {
     const float position[6] = {1, 2, 3, 4, 5, 6 + shift};
     const float velocity[6] = {0, 0, -1, 0, 0, -2};
     const float diameter[2] = {0.5f, 0.25f};
+    const float weight[2] = {1, 0.25f};
     const int material[2] = {1, 0};
     const auto add = [&](const char* name, hid_t type, const void* data, int rank) {
       const hsize_t extents[2] = {2, 3};
@@ -60,6 +61,7 @@ std::string write_results(const TemporaryFolder& folder) {
     add("position", H5T_NATIVE_FLOAT, position, 2);
     add("velocity", H5T_NATIVE_FLOAT, velocity, 2);
     add("diameter", H5T_NATIVE_FLOAT, diameter, 1);
+    add("weight", H5T_NATIVE_FLOAT, weight, 1);
     add("material", H5T_NATIVE_INT, material, 1);
     H5Gclose(group);
   }
@@ -114,6 +116,8 @@ TEST_CASE("a head line that does not fit shall be told") {
   CHECK(complaint("diameter,x,y\n") ==
         "bed.csv:1: the column 'z' is missing; diameter, x, y and z must be there");
   CHECK(complaint("diameter,x,y,z,z\n") == "bed.csv:1: the column 'z' is there twice");
+  CHECK(complaint("diameter,x,y,z,weight\n1e-3,0,0,0,0\n") ==
+        "bed.csv:2: weight: 0 is not above 0");
   CHECK(complaint("diameter [mm],x,y,z\n") ==
         "bed.csv:1: the column 'diameter' is in mm; m is expected");
   CHECK(complaint("radius,x,y,z\n")
@@ -132,6 +136,22 @@ TEST_CASE("the emitter shall give the grains of a file with their lines, shifted
   CHECK(requests[1].line == 3);
   CHECK(e->diameters() == std::vector<double>{3e-4, 4e-4});
   CHECK(e->insertion_rule().allowed_overlap == 0.005);
+}
+
+TEST_CASE("a grain of a file shall stand for as many real ones as the file says") {
+  const TemporaryFolder folder;
+  const auto rows =
+      write(folder, "bed.csv", "diameter,x,y,z,weight\n4e-4,0,0,0,1\n1e-5,0,0,1,0.05\n");
+  const auto table = emitter("file", {{"file", rows}});
+  const auto listed = requests_of(*table);
+  REQUIRE(listed.size() == 2);
+  CHECK(listed[0].weight == 1.0);
+  CHECK(listed[1].weight == 0.05);
+  const auto results = emitter("file", {{"file", write_results(folder)}});
+  const auto frame = requests_of(*results);
+  REQUIRE(frame.size() == 2);
+  CHECK(frame[0].weight == 1.0);
+  CHECK(frame[1].weight == 0.25);
 }
 
 TEST_CASE("many different sizes shall be gathered in classes that hold both ends") {
