@@ -5,8 +5,6 @@
 #include "base/text.hpp"
 #include "bodies/placement.hpp"
 #include "fluid/grid.hpp"
-#include "preflight/emissions.hpp"
-#include "preflight/particle_models.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +21,6 @@ using sdk::Vec3;
 
 /// Cells across the narrowest turn that a grid resolves well.
 constexpr double k_turn_cells = 4.0;
-/// A fill of more grains than this is not placed for a look.
-constexpr std::int64_t k_max_placed = 5000;
 
 bool is_in_box(Vec3 p, Vec3 min, Vec3 max, double more, int without = -1) {
   for (int d = 0; d < 3; ++d) {
@@ -71,12 +67,6 @@ std::vector<Taker> takers(const Setup& setup, const DustSetup& dust,
   return all;
 }
 
-bool may_be_asked(const sdk::Emitter& emitter) {
-  if (emitter.insertion_rule().waits) return true;
-  const sdk::EmitterRequest request = emitter.request();
-  return request.mass == 0.0 && request.count <= k_max_placed;
-}
-
 void look_at(const Setup& setup, const EmitterSpec& spec, const std::vector<Taker>& all,
              const std::vector<sdk::InsertionRequest>& grains, scenario::Diagnostics& diagnostics) {
   for (const Taker& taker : all) {
@@ -99,17 +89,15 @@ void look_at(const Setup& setup, const EmitterSpec& spec, const std::vector<Take
 
 }  // namespace
 
-void check_openings(const Setup& setup, const DustSetup& dust, const registry::Registry& registry,
+void check_openings(const Setup& setup, const DustSetup& dust, const ParticleModels& models,
+                    std::span<const std::vector<sdk::InsertionRequest>> first,
                     scenario::Diagnostics& diagnostics) {
   const bool has_suction = std::any_of(setup.bodies.begin(), setup.bodies.end(),
                                        [](const BodySpec& b) { return b.suction.has_value(); });
-  if (!setup.fluid || setup.emitters.empty() || !(has_suction || !dust.openings.empty())) return;
-  const ParticleModels models = make_particle_models(setup, registry);
+  if (!setup.fluid || !(has_suction || !dust.openings.empty())) return;
   const std::vector<Taker> all = takers(setup, dust, models.bodies);
-  for (std::size_t n = 0; n < models.emitters.size(); ++n) {
-    if (!may_be_asked(*models.emitters[n])) continue;
-    look_at(setup, setup.emitters[n], all, proposals(setup, setup.emitters[n], *models.emitters[n]),
-            diagnostics);
+  for (std::size_t n = 0; n < first.size(); ++n) {
+    look_at(setup, setup.emitters[n], all, first[n], diagnostics);
   }
 }
 
@@ -118,10 +106,9 @@ double narrowest_turn(double diameter, double density, double viscosity, double 
   return relaxation * speed / airborne::k_largest_stokes_number;
 }
 
-void check_drift(const Setup& setup, const DustSetup& dust, const registry::Registry& registry,
+void check_drift(const Setup& setup, const DustSetup& dust, const ParticleModels& models,
                  scenario::Diagnostics& diagnostics) {
   if (!setup.fluid || !dust.field || !(setup.fluid->viscosity > 0.0)) return;
-  const ParticleModels models = make_particle_models(setup, registry);
   double speed = 0.0;
   for (const auto& body : models.bodies) speed = std::max(speed, body.largest_speed());
   for (const auto& emitter : models.emitters) speed = std::max(speed, emitter->largest_speed());

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "registry/registry.hpp"
+#include "preflight/particle_models.hpp"
 #include "scenario/diagnostics.hpp"
 #include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
 
+#include <span>
+#include <vector>
+
 namespace dust::preflight {
 
 /// Warns of hoods and suction openings that draw out what an emitter has just let in: an error
-/// where they take all of it. Looks at what the emitter proposes in a few steps.
+/// where they take all of it. `first`: what each emitter proposes in its first steps.
 void check_openings(const scenario::Setup& setup, const scenario::DustSetup& dust,
-                    const registry::Registry& registry, scenario::Diagnostics& diagnostics);
+                    const ParticleModels& models,
+                    std::span<const std::vector<sdk::InsertionRequest>> first,
+                    scenario::Diagnostics& diagnostics);
 
 /// Narrowest turn of the gas [m] that dust still follows: \f$ \tau U / 0.2 \f$
 /// (airborne::k_largest_stokes_number) with the relaxation time \f$ \tau = \rho d^2 / (18 \mu) \f$.
@@ -20,6 +25,6 @@ double narrowest_turn(double diameter, double density, double viscosity, double 
 /// Warns of classes of a dust field that do not follow the gas round turns that the grid resolves,
 /// four cells wide, at the speed of bodies and emitters: the drift by inertia is limited there.
 void check_drift(const scenario::Setup& setup, const scenario::DustSetup& dust,
-                 const registry::Registry& registry, scenario::Diagnostics& diagnostics);
+                 const ParticleModels& models, scenario::Diagnostics& diagnostics);
 
 }  // namespace dust::preflight

@@ -17,6 +17,8 @@ namespace {
 
 /// Grains of a stream that are followed through the domain.
 constexpr std::size_t k_followed = 12;
+/// A filling of more grains is not placed for a look.
+constexpr std::int64_t k_soon_placed = 5000;
 
 using scenario::EmitterSpec;
 using scenario::Setup;
@@ -188,6 +190,19 @@ std::vector<sdk::InsertionRequest> proposals(const Setup& setup, const EmitterSp
   propose(setup, spec, step_of(setup, spec, request), request, emitter, requests);
   for (auto& one : requests) one = placed(setup, spec, one);
   return requests;
+}
+
+std::vector<std::vector<sdk::InsertionRequest>> first_grains(const Setup& setup,
+                                                             ParticleModels& models) {
+  std::vector<std::vector<sdk::InsertionRequest>> all(models.emitters.size());
+  for (std::size_t n = 0; n < models.emitters.size(); ++n) {
+    sdk::Emitter& emitter = *models.emitters[n];
+    const sdk::EmitterRequest request = emitter.request();
+    const bool is_soon_placed = request.mass == 0.0 && request.count <= k_soon_placed;
+    if (!emitter.insertion_rule().waits && !is_soon_placed) continue;
+    all[n] = proposals(setup, setup.emitters[n], emitter);
+  }
+  return all;
 }
 
 EmissionNumbers count_grains(const Setup& setup, const bodies::BodySet& bodies,

@@ -3,6 +3,7 @@
 
 #include "bodies/body_set.hpp"
 #include "dust/sdk/emitter.hpp"
+#include "preflight/particle_models.hpp"
 #include "setup/setup.hpp"
 
 #include <limits>
@@ -43,6 +44,11 @@ struct EmissionNumbers {
 std::vector<sdk::InsertionRequest> proposals(const scenario::Setup& setup,
                                              const scenario::EmitterSpec& spec,
                                              sdk::Emitter& emitter);
+
+/// The grains that each emitter proposes first; none of fillings so large that proposing them,
+/// which is placing them, takes time. The emitters have proposed them then.
+std::vector<std::vector<sdk::InsertionRequest>> first_grains(const scenario::Setup& setup,
+                                                             ParticleModels& models);
 
 /// Counts what an emitter sends: from what it says of itself, where that is enough, else from what
 /// it proposes. `bodies` carry the grains.

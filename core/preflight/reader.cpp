@@ -3,7 +3,12 @@
 
 #include "preflight/derived.hpp"
 #include "preflight/dust_check.hpp"
+#include "preflight/emissions.hpp"
 #include "preflight/flow_check.hpp"
+#include "preflight/places/periodic_check.hpp"
+#include "preflight/places/reach_check.hpp"
+#include "preflight/places/release_check.hpp"
+#include "preflight/places/sensor_places.hpp"
 #include "scenario/diagnostics.hpp"
 
 #include <stdexcept>
@@ -19,16 +24,26 @@ void check_sides(const scenario::Setup& setup, const registry::Registry& registr
   check_flow(setup, sides.models(), diagnostics);
 }
 
+/// Where bodies, emitters, openings and sensors are, and how far laws reach.
+void check_places(const scenario::ReadResult& read, const registry::Registry& registry,
+                  scenario::Diagnostics& diagnostics) {
+  ParticleModels models = make_particle_models(read.setup, registry);
+  const auto first = first_grains(read.setup, models);
+  check_openings(read.setup, read.dust, models, first, diagnostics);
+  check_drift(read.setup, read.dust, models, diagnostics);
+  check_bodies_at_periodic_sides(read.setup, models, diagnostics);
+  check_reach(read.setup, models, diagnostics);
+  check_release(read.setup, read.dust, models, first, diagnostics);
+  check_sensor_places(read.setup, registry, diagnostics);
+}
+
 /// Looks at what was read without errors.
 Result checked(Result read, const registry::Registry& registry,
                scenario::Diagnostics& diagnostics) {
   if (!read) return read;
   check_sides(read->setup, registry, diagnostics);
   check_fixed_step(read->setup, registry, diagnostics);
-  if (!diagnostics.has_errors()) {
-    check_openings(read->setup, read->dust, registry, diagnostics);
-    check_drift(read->setup, read->dust, registry, diagnostics);
-  }
+  if (!diagnostics.has_errors()) check_places(*read, registry, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   read->warnings = diagnostics.warning_lines();
   return read;

@@ -122,6 +122,12 @@ bool ModelReader::check_name(const Node& node, const std::string& path, sdk::Ref
     case sdk::Refers::file:
       return true;
     case sdk::Refers::wall:
+      if (sides.index(name) >= 0 && names_.bodies.index(name) >= 0) {
+        diagnostics_.error(node.where, path + ": '" + name +
+                                           "' is a side of the domain and a body; give the body "
+                                           "another name");
+        return false;
+      }
       sides.all.insert(sides.all.end(), names_.bodies.all.begin(), names_.bodies.all.end());
       sides.all.insert(sides.all.end(), names_.groups.begin(), names_.groups.end());
       sides.disabled = names_.bodies.disabled;

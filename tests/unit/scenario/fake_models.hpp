@@ -222,6 +222,7 @@ struct Feed final : Emitter {
   void propose(const EmitterContext& context, std::vector<InsertionRequest>& requests) override {
     InsertionRequest request;
     request.time = context.begin;
+    request.position = 0.5 * (parameters.min + parameters.max);
     request.diameter = 4e-4;
     requests.insert(requests.end(), 10, request);
   }

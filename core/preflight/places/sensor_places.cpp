@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preflight/places/sensor_places.hpp"
+
+#include "base/text.hpp"
+
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace dust::preflight {
+namespace {
+
+using sdk::Vec3;
+
+/// [-] of the domain's diagonal: places on a side are in the domain, however they were rounded.
+constexpr double k_rounding = 1e-9;
+
+class Places {
+ public:
+  Places(const scenario::Setup& setup, const scenario::SensorSpec& spec,
+         const std::vector<sdk::Parameter>& parameters)
+      : domain_(setup.domain),
+        spec_(spec),
+        parameters_(parameters),
+        slack_(k_rounding * norm(setup.domain.max - setup.domain.min)) {}
+
+  void check(scenario::Diagnostics& diagnostics) const {
+    const auto* low = get<Vec3>("min");
+    const auto* high = get<Vec3>("max");
+    if (low != nullptr && high != nullptr && !meets(*low, *high)) {
+      diagnostics.error(spec_.model.where,
+                        path("min") + ": the box from " + base::place_text(*low) + " to " +
+                            base::place_text(*high) + " lies outside" + domain_text());
+    }
+    for (const std::string_view name : {"from", "to"}) {
+      if (const auto* place = get<Vec3>(name)) check_place(name, *place, diagnostics);
+    }
+    if (const auto* points = get<std::vector<Vec3>>("points")) {
+      for (const Vec3& place : *points) check_place("points", place, diagnostics);
+    }
+  }
+
+ private:
+  template <class T>
+  [[nodiscard]] const T* get(std::string_view name) const {
+    for (std::size_t n = 0; n < parameters_.size() && n < spec_.model.values.size(); ++n) {
+      if (parameters_[n].name != name || parameters_[n].dimension != sdk::dimension::length)
+        continue;
+      return std::get_if<T>(&spec_.model.values[n]);
+    }
+    return nullptr;
+  }
+  [[nodiscard]] bool meets(Vec3 low, Vec3 high) const {
+    for (int d = 0; d < 3; ++d) {
+      if (high[d] < domain_.min[d] - slack_ || low[d] > domain_.max[d] + slack_) return false;
+    }
+    return true;
+  }
+  void check_place(std::string_view name, Vec3 place, scenario::Diagnostics& diagnostics) const {
+    if (meets(place, place)) return;
+    diagnostics.error(spec_.model.where, path(name) + ": " + base::place_text(place) +
+                                             " lies outside" + domain_text());
+  }
+  [[nodiscard]] std::string path(std::string_view name) const {
+    return spec_.model.path + "." + std::string(name);
+  }
+  [[nodiscard]] std::string domain_text() const {
+    return " the domain, from " + base::place_text(domain_.min) + " to " +
+           base::place_text(domain_.max) + ": nothing is seen there; move it inside";
+  }
+
+  const scenario::DomainSpec& domain_;
+  const scenario::SensorSpec& spec_;
+  const std::vector<sdk::Parameter>& parameters_;
+  double slack_;
+};
+
+}  // namespace
+
+void check_sensor_places(const scenario::Setup& setup, const registry::Registry& registry,
+                         scenario::Diagnostics& diagnostics) {
+  for (const scenario::SensorSpec& sensor : setup.sensors) {
+    const registry::Entry* entry = registry.find("sensor", sensor.model.name);
+    if (entry != nullptr) Places(setup, sensor, entry->info.parameters).check(diagnostics);
+  }
+}
+
+}  // namespace dust::preflight

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "registry/registry.hpp"
+#include "scenario/diagnostics.hpp"
+#include "setup/setup.hpp"
+
+namespace dust::preflight {
+
+/// Refuses sensors that look where nothing is: a box from `min` to `max` apart from the domain, a
+/// place among `points`, `from` or `to` outside it. Lengths of these names, of any sensor.
+void check_sensor_places(const scenario::Setup& setup, const registry::Registry& registry,
+                         scenario::Diagnostics& diagnostics);
+
+}  // namespace dust::preflight

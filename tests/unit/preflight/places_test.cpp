@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where bodies, emitters and sensors may be: what the checks before a run say of it.
+#include "base/error.hpp"
+#include "unit/scenario/support.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+using namespace dust;
+
+namespace {
+
+/// A box of 100 x 50 x 200 mm, periodic along x, with a shelf that reaches beyond both ends.
+const std::string k_shelf = R"(
+name: shelf
+time: {end: 0.1 s, fluid_step: 1 ms, output_every: 0.1 s}
+gravity: [0, 0, -9.81]
+domain:
+  min: [0, 0, 0]
+  max: [100, 50, 200 mm]
+  boundaries:
+    left: {grains: periodic}
+    right: {grains: periodic}
+    front: {grains: wall, material: sand}
+    back: {grains: open}
+    bottom: {grains: wall, material: sand}
+    top: {grains: open}
+materials:
+  sand: {density: 2500, young_modulus: 5 MPa, poisson_ratio: 0.3}
+interactions:
+  - between: [sand, sand]
+    contact: {model: hertz_mindlin, restitution: 0.5, friction: 0.5}
+bodies:
+  shelf: {shape: box, material: sand, min: [-10, 0, 20 mm], max: [110, 50, 30 mm]}
+emitters:
+  feed: {model: feed, material: sand, mass_flow: 1 kg/s, min: [20, 10, 150 mm], max: [60, 40, 150 mm], velocity: [0, 0, -1 m/s], diameters: [4 mm], mass_fractions: [1]}
+fluid: none
+sensors:
+  box: {model: box_concentration, min: [0, 0, 0], max: [50, 50, 50 mm]}
+  plane: {model: plane_flux, point: [0, 0, 100 mm], normal: [0, 0, -1], min: [0, 0, 100 mm], max: [100, 50, 100 mm]}
+)";
+
+struct Said {
+  std::vector<std::string> errors, warnings;
+};
+
+Said said(const std::vector<scenario::Override>& set) {
+  static const registry::Registry& models = []() -> const registry::Registry& {
+    static registry::Registry all;
+    all.load({DUST_TEST_PLUGINS});
+    return all;
+  }();
+  const Folder folder;
+  const auto file = folder.write("shelf.yaml", k_shelf);
+  try {
+    return {{}, preflight::read_scenario(file, set, models).warnings};
+  } catch (const base::UserError& e) {
+    return {{e.what()}, {}};
+  }
+}
+
+/// The one error, which holds all of `parts`; "" where it is so.
+std::string problem(const std::vector<scenario::Override>& set,
+                    const std::vector<std::string>& parts) {
+  const Said all = said(set);
+  if (all.errors.empty()) return "not refused";
+  for (const std::string& part : parts) {
+    if (all.errors.front().find(part) == std::string::npos) return all.errors.front();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("what lies where it should shall not be complained of") {
+  CHECK(said({}).errors == std::vector<std::string>{});
+  CHECK(said({}).warnings == std::vector<std::string>{});
+}
+
+TEST_CASE("a body that ends at a periodic side shall be refused with where it may end") {
+  const std::string sides = "bodies.shelf: ends near the periodic sides left and right";
+  const auto shelf = [](const std::string& from, const std::string& to) {
+    return std::vector<scenario::Override>{{"bodies.shelf.min", "[" + from + ", 0, 20 mm]"},
+                                           {"bodies.shelf.max", "[" + to + ", 50, 30 mm]"}};
+  };
+  CHECK(problem(shelf("0", "100"), {sides, "(x from 0 m to 100 mm)", "from -4 mm to 104 mm",
+                                    "between 4 mm and 96 mm"}) == "");
+  CHECK(problem(shelf("-10", "10"), {sides, "(x from -10 mm to 10 mm)"}) == "");
+  CHECK(problem(shelf("50", "98"), {sides}) == "");
+  CHECK(problem(shelf("-1", "101"), {sides}) == "");  // by less than a radius
+  for (const auto& fine : {shelf("10", "90"), shelf("-2", "102"), shelf("-50", "-20")}) {
+    CHECK(said(fine).errors == std::vector<std::string>{});
+  }
+  // Endless ones, and without grains.
+  CHECK(said({{"bodies.shelf",
+               "{shape: plane, material: sand, point: [0, 0, 20 mm], normal: [0, "
+               "0, 1]}"}})
+            .errors == std::vector<std::string>{});
+}
+
+TEST_CASE("laws that reach through both periodic sides shall be refused") {
+  const scenario::Override wet = {
+      "interactions[0].cohesion",
+      "{model: liquid_bridge, surface_tension: 72 mN/m, volume: 1e-8}"};  // reaches 2.15 mm
+  const std::vector<scenario::Override> narrow = {{"domain.max", "[12.1, 50, 200 mm]"},
+                                                  {"bodies.shelf.enabled", "false"},
+                                                  {"emitters.feed.mass_flow", "0.1 kg/s"},
+                                                  {"emitters.feed.min", "[2.5, 10, 150 mm]"},
+                                                  {"emitters.feed.max", "[10, 40, 150 mm]"}};
+  CHECK(said(narrow).errors == std::vector<std::string>{});
+  auto both = narrow;
+  both.push_back(wet);
+  CHECK(problem(both, {"12.1 mm between the periodic sides left and right", "beyond touch"}) == "");
+  CHECK(said({wet}).errors == std::vector<std::string>{});
+  CHECK(said({wet}).warnings == std::vector<std::string>{});
+}
+
+TEST_CASE("a load on walls that a side and a body share the name of shall be refused") {
+  const scenario::Override load = {"sensors.load", "{model: wall_load, walls: [bottom]}"};
+  CHECK(said({load}).errors == std::vector<std::string>{});
+  CHECK(problem({load,
+                 {"bodies.bottom",
+                  "{shape: box, material: sand, min: [20, 0, 60 mm], max: "
+                  "[40, 50, 70 mm]}"}},
+                {"sensors.load.walls", "'bottom' is a side of the domain and a body"}) == "");
+}
+
+TEST_CASE("a law that reaches farther than grains are thick shall be asked for its unit") {
+  // 1 ml in place of 1 mm3.
+  const Said drops = said({{"interactions[0].cohesion",
+                            "{model: liquid_bridge, surface_tension: 72 mN/m, volume: 1e-6}"}});
+  REQUIRE(drops.warnings.size() == 1);
+  CHECK(drops.warnings[0].find("interactions[0].cohesion: reaches 10 mm beyond touch, farther than "
+                               "the smallest grains are thick (4 mm)") != std::string::npos);
+}
+
+TEST_CASE("an emitter shall be told that its grains come in outside, or in something") {
+  const auto at = [](const std::string& low, const std::string& high) {
+    return std::vector<scenario::Override>{{"emitters.feed.min", low}, {"emitters.feed.max", high}};
+  };
+  CHECK(problem(at("[20, 10, 250 mm]", "[60, 40, 250 mm]"),
+                {"emitters.feed: its grains would start beyond the side 'top'",
+                 "be gone at once: move the emitter into the domain"}) == "");
+  CHECK(problem(at("[20, 10, 27 mm]", "[60, 40, 27 mm]"),
+                {"emitters.feed: its grains would start inside 'shelf'", "thrown out of it"}) ==
+        "");
+  const Said part = said(at("[20, 30, 150 mm]", "[60, 70, 150 mm]"));
+  REQUIRE(part.warnings.size() == 1);
+  CHECK(part.warnings[0].find("grains would start beyond the side 'back'") != std::string::npos);
+  CHECK(problem(at("[20, -10, 150 mm]", "[60, 20, 150 mm]"), {"inside the side 'front'"}) == "");
+}
+
+TEST_CASE("a sensor that looks outside the domain shall be refused") {
+  CHECK(problem({{"sensors.box.min", "[0, 0, 300 mm]"}, {"sensors.box.max", "[50, 50, 400 mm]"}},
+                {"sensors.box.min: the box from (0, 0, 0.3) m to (0.05, 0.05, 0.4) m lies outside "
+                 "the domain"}) == "");
+  CHECK(problem({{"sensors.plane.point", "[0, 0, 50 mm]"}},
+                {"does not reach the plane through 'point'"}) == "");
+  CHECK(said({{"sensors.box.max", "[500, 50, 50 mm]"}}).errors == std::vector<std::string>{});
+}
