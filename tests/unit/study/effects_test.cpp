@@ -211,6 +211,18 @@ TEST_CASE("expectations shall be judged by sign and noise") {
   CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::unknown);
 }
 
+TEST_CASE("an expectation shall go from the smallest number to the largest, however given") {
+  Made made(1);
+  // The study names 4 m/s first.
+  for (Point& point : made.plan.points) point.levels[0] = 2 - point.levels[0];
+  Expectation e;
+  e.output = "x";
+  e.input = "belt.speed";
+  e.then = "rises";
+  CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::as_expected);
+  CHECK(assess(e, made.spec, made.results()).change == approx(30.0));
+}
+
 TEST_CASE("an expectation at a level of another input shall be judged by the points there") {
   Made made(1);
   // In case b the faster belt makes x fall, more than it rises in case a.
