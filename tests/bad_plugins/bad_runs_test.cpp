@@ -59,6 +59,17 @@ TEST_CASE("a plugin that gives no number shall end the run with the row and what
             "; expected: a finite number");
 }
 
+TEST_CASE("a plugin under a shipped model's name shall be refused by its test") {
+  const std::string file = k_folder / "shipped_name/shipped_name.so";
+  const auto tested = engine({"test-plugin", file});
+  INFO(tested.err);
+  CHECK(tested.status == 2);
+  CHECK(tested.err.starts_with(file +
+                               ": error: offers drag/gidaspow, which the engine has already ("));
+  CHECK(tested.err.ends_with("): choose another name\n"));
+  CHECK(engine({"test-plugin", k_folder / "good/good.so"}).status == 1);  // it says no source
+}
+
 TEST_CASE("a model that nobody offers shall be refused with names and folders searched") {
   const auto check = engine(with_drag("check", "good", "rootles"));
   CHECK(check.status == 2);

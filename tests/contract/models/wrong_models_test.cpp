@@ -101,6 +101,22 @@ TEST_CASE("a drag law that is wrong shall be told by the rule it breaks") {
                                       return std::make_unique<Drag>([](auto&, double) {}, 0.0);
                                     }),
                     "says what it is") == "it has no source: author, year, or \"own definition\"");
+  struct P {
+    double size = 0.0;
+  };
+  const auto declared = [](const std::function<void(sdk::SchemaOf<P>&)>& limit) {
+    sdk::SchemaOf<P> s;
+    s.number(&P::size, "size", sdk::dimension::length, "A size.").optional();
+    limit(s);
+    return rule_results_of(described("drag", s.build()), [](std::span<const sdk::Value>) {
+      return std::make_unique<Drag>([](auto& b, double) { each(b, [](auto) { return 1.0; }); },
+                                    0.0);
+    });
+  };
+  CHECK(seen.broken(declared([](auto& s) { s.at_least(2).at_most(1); }), "says what it is") ==
+        "the parameter 'size' can have no value: at least 2 and at most 1");
+  CHECK(seen.broken(declared([](auto& s) { s.above(0); }), "says what it is") ==
+        "the default of parameter 'size', 0, is outside its own range: above 0 and at most inf");
   seen.check_complete(true);
 }
 
