@@ -2,6 +2,7 @@
 #include "contract/contract.hpp"
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "contract/as_kind.hpp"
 #include "contract/input/default_values.hpp"
 #include "contract/rule_runner.hpp"
@@ -27,6 +28,35 @@ std::string first_difference(const Observations& a, const Observations& b) {
   return {};
 }
 
+/// The numbers of a value; none of a text.
+std::vector<double> numbers_of(const Value& value) {
+  if (const auto* v = std::get_if<double>(&value)) return {*v};
+  if (const auto* v = std::get_if<std::int64_t>(&value)) return {static_cast<double>(*v)};
+  if (const auto* v = std::get_if<sdk::Vec3>(&value)) return {v->x, v->y, v->z};
+  if (const auto* v = std::get_if<std::vector<double>>(&value)) return *v;
+  return {};
+}
+
+/// A parameter that can have no value, or not the one that it has unless given.
+void check_range(const sdk::Parameter& p) {
+  const sdk::Range& range = p.range;
+  const bool is_point = range.low == range.high && !range.low_is_open && !range.high_is_open;
+  const std::string name = "the parameter '" + p.name + "'";
+  const std::string ends =
+      std::string(range.low_is_open ? "above " : "at least ") + base::digits_text(range.low, 6) +
+      " and " + (range.high_is_open ? "below " : "at most ") + base::digits_text(range.high, 6);
+  require(range.low < range.high || is_point, name + " can have no value: " + ends);
+  for (const double v : numbers_of(p.default_value)) {
+    require(range.contains(v), "the default of " + name.substr(4) + ", " + base::digits_text(v, 6) +
+                                   ", is outside its own range: " + ends);
+  }
+  const auto* text = std::get_if<std::string>(&p.default_value);
+  require(text == nullptr || text->empty() || p.options.empty() ||
+              std::find(p.options.begin(), p.options.end(), *text) != p.options.end(),
+          "the default of " + name.substr(4) + ", '" + (text != nullptr ? *text : std::string()) +
+              "', is none of its options");
+}
+
 void check_description(const sdk::ModelInfo& info) {
   require(!info.equation.empty(), "it has no equation");
   require(!info.source.empty(), "it has no source: author, year, or \"own definition\"");
@@ -34,6 +64,7 @@ void check_description(const sdk::ModelInfo& info) {
   for (const sdk::Parameter& p : info.parameters) {
     require(!p.sentence.empty() && p.sentence.back() == '.',
             "the sentence of '" + p.name + "' does not end with a full stop");
+    check_range(p);
   }
 }
 

@@ -37,6 +37,40 @@ std::string header_of(std::span<const std::string> names) {
   return line + '\n';
 }
 
+/// The names of a header, as header_of() wrote it.
+std::vector<std::string> fields_of(const std::string& header) {
+  std::vector<std::string> names(1);
+  bool is_quoted = false;
+  for (std::size_t n = 0; n < header.size() && header[n] != '\n'; ++n) {
+    const bool is_quote = header[n] == '"';
+    if (is_quote && is_quoted && n + 1 < header.size() && header[n + 1] == '"') {
+      names.back() += header[++n];
+    } else if (is_quote) {
+      is_quoted = !is_quoted;
+    } else if (header[n] == ',' && !is_quoted) {
+      names.emplace_back();
+    } else {
+      names.back() += header[n];
+    }
+  }
+  return names;
+}
+
+/// What a row has otherwise than the first: "'probe/m [kg]' is gone".
+std::string difference(const std::vector<std::string>& before, std::span<const std::string> names) {
+  for (std::size_t n = 0; n < std::min(before.size(), names.size()); ++n) {
+    if (before[n] == names[n]) continue;
+    const auto has = [](const auto& all, const std::string& name) {
+      return std::find(all.begin(), all.end(), name) != all.end();
+    };
+    if (!has(names, before[n]) && has(before, names[n])) return "'" + before[n] + "' is gone";
+    if (!has(before, names[n]) && has(names, before[n])) return "'" + names[n] + "' is new";
+    return "'" + before[n] + "' is '" + names[n] + "' now";
+  }
+  return before.size() > names.size() ? "'" + before[names.size()] + "' is gone"
+                                      : "'" + names[before.size()] + "' is new";
+}
+
 }  // namespace
 
 struct SeriesFile::Impl {
@@ -106,9 +140,14 @@ void SeriesFile::append(std::span<const std::string> names_with_units,
     impl_->write_line(header);
     impl_->header = header;
   }
-  if (header != impl_->header || names_with_units.size() != values.size()) {
-    throw base::RunError("the columns of " + impl_->file.string() +
-                         " changed during the run; a sensor gives other names than before");
+  if (header != impl_->header) {
+    throw base::RunError("the columns of " + impl_->file.string() + " changed during the run: " +
+                         difference(fields_of(impl_->header), names_with_units) +
+                         "; a sensor's columns (SENSOR/COLUMN) must be the same in every row");
+  }
+  if (names_with_units.size() != values.size()) {
+    throw base::RunError(impl_->file.string() + ": " + std::to_string(values.size()) +
+                         " numbers for " + std::to_string(names_with_units.size()) + " columns");
   }
   std::string line;
   for (const double value : values) {

@@ -151,7 +151,13 @@ std::vector<Entry> load_library(const fs::path& file) {
   std::vector<Entry> entries = collector.take();
   if (entries.empty()) refuse(file, "registers no model");
   std::vector<std::string> lines;
+  std::set<std::string> models;
   for (const Entry& entry : entries) {
+    const std::string model = entry.info.kind + "/" + entry.info.name;
+    if (!models.insert(model).second) {
+      lines.push_back(file.string() + ": error: registers " + model +
+                      " twice: remove or rename one");
+    }
     for (const std::string& problem : description_problems(entry.info)) {
       lines.push_back(file.string() + ": error: " + problem);
     }

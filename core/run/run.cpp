@@ -12,6 +12,7 @@
 #include "preflight/reader.hpp"
 #include "report/report.hpp"
 #include "run/branch/branch.hpp"
+#include "run/branch/used_models.hpp"
 #include "run/folder/log_header.hpp"
 #include "run/folder/output_folder.hpp"
 #include "run/progress/live_report.hpp"
@@ -104,13 +105,16 @@ struct Intervals {
 /// The files of one run and the loop over fluid steps.
 class Run {
  public:
-  Run(Simulation& simulation, fs::path folder, std::string resolved, double keep_every)
+  Run(Simulation& simulation, fs::path folder, std::string resolved, std::vector<UsedModel> models,
+      double keep_every)
       : simulation_(simulation),
         folder_(std::move(folder)),
         resolved_(std::move(resolved)),
+        models_(std::move(models)),
         steps_per_(simulation_.setup().time, keep_every) {}
 
   void resume() {
+    refuse_changed_models(folder_ / "checkpoint.h5", models_);
     auto parts = simulation_.load_parts();
     parts.emplace_back("files", [this](sdk::ArchiveReader& a) {
       frames_ = a.integer("frames");
@@ -356,6 +360,7 @@ class Run {
       a.integer("rows", series_->rows());
       times_.save(a, node_seconds(simulation_, times_.nodes_before()));
     });
+    parts.emplace_back(k_models_part, [this](sdk::ArchiveWriter& a) { save_models(models_, a); });
     io::write_checkpoint(folder_ / "checkpoint.h5", resolved_, parts);
     if (steps_per_.is_kept(simulation_.steps_done())) {
       io::keep_checkpoint(folder_ / "checkpoint.h5", kept_checkpoint(folder_, simulation_.time()));
@@ -375,6 +380,7 @@ class Run {
   Simulation& simulation_;
   fs::path folder_;
   std::string resolved_;
+  std::vector<UsedModel> models_;
   bool is_resumed_ = false;
   bool is_disk_bad_ = false;  ///< a file could not be written
   Intervals steps_per_;
@@ -496,7 +502,8 @@ int run_scenario(const RunOptions& options) {
   branch.reset();  // the other run's particles
   output.open();
   const fs::path folder = output.path();
-  Run run(*simulation, folder, read.resolved_yaml, read.start.keep_every);
+  Run run(*simulation, folder, read.resolved_yaml, used_models(read, registry),
+          read.start.keep_every);
   if (options.resume) run.resume();
   catch_signals();
   if (live) {

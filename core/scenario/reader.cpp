@@ -72,7 +72,13 @@ void read_sensors(Reading& reading, MapReader& top) {
     Node map = written_block<SensorBlock>(values);
     append(map, std::move(model.written));
     add(written, entry.key, std::move(map));
-    reading.figures.push_back(figures_of(entry.key, sensor.enabled, model.model.get()));
+    try {
+      reading.figures.push_back(figures_of(entry.key, sensor.enabled, model.model.get()));
+    } catch (const std::exception& problem) {
+      reading.diagnostics.error(entry.where,
+                                path + ": its figures cannot be asked for: " + problem.what());
+      return;
+    }
     if (!sensor.enabled) return;
     reading.setup.sensors.push_back({entry.key, model.choice.value_or(ModelChoice{})});
   });

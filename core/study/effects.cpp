@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace dust::study {
 namespace {
@@ -26,96 +27,139 @@ std::optional<double> value_of(const Results& results, std::size_t point, std::s
   return outcome.outputs[output].value;
 }
 
-/// Error of a mean over `count` runs.
-double error_of_mean(const std::optional<double>& noise, std::size_t count) {
-  return noise && count > 0 ? *noise / std::sqrt(static_cast<double>(count)) : -1.0;
-}
+/// Levels of the other axes.
+using Others = std::vector<std::size_t>;
+/// Values of an output, replicates together, by the levels of the other axes.
+using ByOthers = std::map<Others, Sum>;
 
-double together(double a, double b) { return a < 0.0 || b < 0.0 ? -1.0 : std::hypot(a, b); }
+/// What is known of one level of an axis.
+struct LevelValues {
+  LevelMean head;
+  ByOthers by_others;
+  std::size_t planned = 0;  ///< runs
 
-std::vector<LevelMean> level_means(const Spec& spec, const Results& results, std::size_t input,
-                                   std::size_t output) {
-  const InputColumn& column = results.plan.inputs[input];
-  const std::size_t count = spec.axes[column.axis].levels.size();
-  std::vector<LevelMean> levels(count);
-  std::vector<Sum> sums(count);
+  [[nodiscard]] std::size_t known() const {
+    std::size_t count = 0;
+    for (const auto& [others, sum] : by_others) count += sum.count;
+    return count;
+  }
+};
+
+/// All levels of an input's axis, in the order of the study file.
+std::vector<LevelValues> values_of_levels(const Spec& spec, const Results& results,
+                                          std::size_t input, std::size_t output) {
+  const std::size_t axis = results.plan.inputs[input].axis;
+  std::vector<LevelValues> levels(spec.axes[axis].levels.size());
   for (std::size_t n = 0; n < results.plan.points.size(); ++n) {
     const Point& point = results.plan.points[n];
-    const std::size_t level = point.levels[column.axis];
-    levels[level].label = point.inputs[input].text;
-    levels[level].input = point.inputs[input].number;
-    levels[level].level = level;
-    if (const auto value = value_of(results, n, output)) {
-      sums[level].sum += *value;
-      ++sums[level].count;
-    }
-  }
-  const auto noise = noise_of(results, output);
-  std::vector<LevelMean> known;
-  for (std::size_t k = 0; k < count; ++k) {
-    if (sums[k].count == 0) continue;
-    levels[k].mean = sums[k].mean();
-    levels[k].points = sums[k].count;
-    levels[k].error = error_of_mean(noise, sums[k].count);
-    known.push_back(levels[k]);
-  }
-  if (!column.is_text) {
-    std::stable_sort(known.begin(), known.end(),
-                     [](const LevelMean& a, const LevelMean& b) { return a.input < b.input; });
-  }
-  return known;
-}
-
-/// Means of an output over replicates at one level of an axis, by the levels of the others.
-std::map<std::vector<std::size_t>, Sum> by_other_levels(const Results& results, std::size_t axis,
-                                                        std::size_t level, std::size_t output) {
-  std::map<std::vector<std::size_t>, Sum> sums;
-  for (std::size_t n = 0; n < results.plan.points.size(); ++n) {
-    std::vector<std::size_t> others = results.plan.points[n].levels;
-    if (others[axis] != level) continue;
+    LevelValues& level = levels[point.levels[axis]];
+    level.head.label = point.inputs[input].text;
+    level.head.input = point.inputs[input].number;
+    level.head.level = point.levels[axis];
+    ++level.planned;
     const auto value = value_of(results, n, output);
     if (!value) continue;
+    Others others = point.levels;
     others[axis] = 0;
-    Sum& sum = sums[others];
+    Sum& sum = level.by_others[others];
     sum.sum += *value;
     ++sum.count;
   }
-  return sums;
+  return levels;
 }
 
-/// Standard error of the change between two levels of an axis by its scatter over the levels of the
-/// others; negative where there are fewer than three that both have.
-double scatter_of_change(const Results& results, std::size_t axis, std::size_t output,
-                         const LevelMean& from, const LevelMean& to) {
-  const auto before = by_other_levels(results, axis, from.level, output);
-  const auto after = by_other_levels(results, axis, to.level, output);
-  std::vector<double> changes;
-  double mean = 0.0;
-  for (const auto& [others, sum] : before) {
-    const auto there = after.find(others);
-    if (there == after.end()) continue;
-    changes.push_back(there->second.mean() - sum.mean());
-    mean += changes.back();
+/// The combinations of other inputs at which something finished.
+std::set<Others> combinations(const std::vector<LevelValues>& levels) {
+  std::set<Others> all;
+  for (const LevelValues& level : levels) {
+    for (const auto& [others, sum] : level.by_others) all.insert(others);
   }
-  if (changes.size() < 3) return -1.0;
-  const auto n = static_cast<double>(changes.size());
-  mean /= n;
+  return all;
+}
+
+/// Those of them that every level has.
+std::set<Others> common_to(const std::vector<LevelValues>& levels) {
+  std::set<Others> common = combinations(levels);
+  for (const LevelValues& level : levels) {
+    std::erase_if(common, [&](const Others& o) { return !level.by_others.contains(o); });
+  }
+  return common;
+}
+
+/// The mean of a level over these combinations, each counted once.
+void take_mean(const LevelValues& level, const std::set<Others>& over,
+               const std::optional<double>& noise, LevelMean& mean) {
+  if (over.empty()) return;
+  const auto n = static_cast<double>(over.size());
+  double variance = 0.0;
+  mean.mean = 0.0;
+  for (const Others& others : over) {
+    const Sum& sum = level.by_others.at(others);
+    mean.mean += sum.mean() / n;
+    variance += 1.0 / static_cast<double>(sum.count);
+    mean.points += sum.count;
+  }
+  if (noise) mean.error = *noise * std::sqrt(variance) / n;
+}
+
+/// Levels at which anything finished, each over the same combinations of the other inputs: else a
+/// level at which the heavy ones failed would look light. Of a sample, whose levels are many, those
+/// levels are kept that have them all.
+std::vector<LevelMean> level_means(std::vector<LevelValues> levels, bool is_scattered,
+                                   const std::optional<double>& noise) {
+  std::erase_if(levels, [](const LevelValues& l) { return l.by_others.empty(); });
+  if (is_scattered) {
+    const std::size_t all = combinations(levels).size();
+    std::erase_if(levels, [&](const LevelValues& l) { return l.by_others.size() < all; });
+  }
+  const std::set<Others> common = common_to(levels);
+  std::vector<LevelMean> means;
+  for (const LevelValues& level : levels) {
+    means.push_back(level.head);
+    take_mean(level, common, noise, means.back());
+  }
+  return means;
+}
+
+/// Standard error of a mean by the scatter of what it is over; negative below three.
+double scatter_of_mean(const std::vector<double>& values) {
+  if (values.size() < 3) return -1.0;
+  const auto n = static_cast<double>(values.size());
+  double mean = 0.0;
+  for (const double v : values) mean += v / n;
   double squares = 0.0;
-  for (const double change : changes) squares += (change - mean) * (change - mean);
+  for (const double v : values) squares += (v - mean) * (v - mean);
   return std::sqrt(squares / (n * (n - 1.0)));
 }
 
 struct Change {
   double size = 0.0;
   double error = -1.0;
+  Coverage coverage;
 };
 
-/// From one level of an axis to another: its error by that of the levels, or else by its scatter.
-Change change_between(const Results& results, std::size_t axis, std::size_t output,
-                      const LevelMean& from, const LevelMean& to) {
-  const double error = together(from.error, to.error);
-  return {to.mean - from.mean,
-          error < 0.0 ? scatter_of_change(results, axis, output, from, to) : error};
+/// From one level of an axis to another, over the combinations of the other inputs that both have:
+/// its error by noise, or else by its scatter over them.
+Change change_between(const LevelValues& from, const LevelValues& to,
+                      const std::optional<double>& noise) {
+  Change change;
+  std::vector<double> changes;
+  double variance = 0.0;
+  for (const auto& [others, before] : from.by_others) {
+    const auto there = to.by_others.find(others);
+    if (there == to.by_others.end()) continue;
+    const Sum& after = there->second;
+    changes.push_back(after.mean() - before.mean());
+    variance += 1.0 / static_cast<double>(before.count) + 1.0 / static_cast<double>(after.count);
+    change.coverage.used += before.count + after.count;
+  }
+  change.coverage.planned = from.planned + to.planned;
+  change.coverage.left_out = from.known() + to.known() - change.coverage.used;
+  if (changes.empty()) return change;
+  const auto n = static_cast<double>(changes.size());
+  for (const double c : changes) change.size += c / n;
+  change.error = noise ? *noise * std::sqrt(variance) / n : scatter_of_mean(changes);
+  return change;
 }
 
 /// The change along a fitted line over the range of a scattered input, with its standard error.
@@ -208,27 +252,70 @@ std::optional<double> noise_of(const Results& results, std::size_t output) {
   return std::nullopt;
 }
 
+namespace {
+
+/// Of a scattered input a line through its levels; of any other the change from its first level to
+/// its last. Nothing where fewer than two levels finished.
+std::optional<MainEffect> effect_of(const Spec& spec, const Results& results, std::size_t input,
+                                    std::size_t output) {
+  const InputColumn& column = results.plan.inputs[input];
+  const auto noise = noise_of(results, output);
+  auto values = values_of_levels(spec, results, input, output);
+  if (!column.is_text) {
+    std::stable_sort(values.begin(), values.end(), [](const LevelValues& a, const LevelValues& b) {
+      return a.head.input < b.head.input;
+    });
+  }
+  MainEffect effect;
+  effect.input = input;
+  effect.output = output;
+  effect.is_scattered = spec.axes[column.axis].kind == AxisKind::samples;
+  effect.levels = level_means(values, effect.is_scattered, noise);
+  if (effect.levels.size() < 2) return std::nullopt;
+  if (effect.is_scattered) {
+    fit_line(effect.levels, effect);
+    std::size_t known = 0;
+    for (const LevelValues& l : values) {
+      effect.coverage.planned += l.planned;
+      known += l.known();
+    }
+    for (const LevelMean& l : effect.levels) effect.coverage.used += l.points;
+    effect.coverage.left_out = known - effect.coverage.used;
+    return effect;
+  }
+  const auto has_value = [](const LevelValues& l) { return !l.by_others.empty(); };
+  const auto first = std::find_if(values.begin(), values.end(), has_value);
+  const auto last = std::find_if(values.rbegin(), values.rend(), has_value);
+  const Change change = change_between(*first, *last, noise);
+  effect.change = change.size;
+  effect.error = change.error;
+  effect.coverage = change.coverage;
+  // Ends at which nothing finished are missing, too.
+  for (auto l = values.begin(); l != first; ++l) effect.coverage.planned += l->planned;
+  for (auto l = values.rbegin(); l != last; ++l) effect.coverage.planned += l->planned;
+  return effect;
+}
+
+}  // namespace
+
+std::string coverage_text(const Coverage& coverage) {
+  const std::size_t missing = coverage.planned - coverage.used - coverage.left_out;
+  if (missing == 0 && coverage.left_out == 0) return {};
+  std::string text = std::to_string(missing) + " of " + std::to_string(coverage.planned) +
+                     (missing == 1 ? " points is missing" : " points are missing");
+  if (coverage.left_out > 0) {
+    text += ", " + std::to_string(coverage.left_out) +
+            " left out: nothing finished to compare them with";
+  }
+  return text;
+}
+
 std::vector<MainEffect> main_effects(const Spec& spec, const Results& results) {
   std::vector<MainEffect> effects;
   if (spec.axes.empty()) return effects;
   for (std::size_t o = 0; o < results.plan.outputs.size(); ++o) {
     for (std::size_t i = 0; i < results.plan.inputs.size(); ++i) {
-      MainEffect effect;
-      effect.input = i;
-      effect.output = o;
-      effect.levels = level_means(spec, results, i, o);
-      if (effect.levels.size() < 2) continue;
-      const std::size_t axis = results.plan.inputs[i].axis;
-      effect.is_scattered = spec.axes[axis].kind == AxisKind::samples;
-      if (effect.is_scattered) {
-        fit_line(effect.levels, effect);
-      } else {
-        const Change change =
-            change_between(results, axis, o, effect.levels.front(), effect.levels.back());
-        effect.change = change.size;
-        effect.error = change.error;
-      }
-      effects.push_back(std::move(effect));
+      if (auto effect = effect_of(spec, results, i, o)) effects.push_back(std::move(*effect));
     }
   }
   return effects;
@@ -242,40 +329,43 @@ std::string place_text(const Expectation& expectation) {
   return text;
 }
 
-Verdict assess(const Expectation& e, const Spec& spec, const Results& all) {
-  Verdict verdict;
-  const PointsAt here(e.at, all);
-  const Results results{here.plan, here.outcomes};
+namespace {
+
+/// The effect an expectation speaks of; between two cases, if it names them. Nothing where points
+/// are missing for it.
+std::optional<MainEffect> effect_expected(const Expectation& e, const Spec& spec,
+                                          const Results& results) {
   const auto effects = main_effects(spec, results);
   const auto found = std::find_if(effects.begin(), effects.end(), [&](const MainEffect& m) {
     return results.plan.outputs[m.output].name == e.output &&
            results.plan.inputs[m.input].name == e.input;
   });
-  verdict.text = "not enough points finished";
-  if (found == effects.end()) return verdict;
-  verdict.change = found->change;
-  verdict.error = found->error;
-  if (!e.from.empty()) {
-    const auto level = [&](const std::string& name) {
-      return std::find_if(found->levels.begin(), found->levels.end(),
-                          [&](const LevelMean& l) { return l.label == name; });
-    };
-    const auto from = level(e.from);
-    const auto to = level(e.to);
-    if (from == found->levels.end() || to == found->levels.end()) return verdict;
-    const std::size_t axis = results.plan.inputs[found->input].axis;
-    const Change change = change_between(results, axis, found->output, *from, *to);
-    verdict.change = change.size;
-    verdict.error = change.error;
-  }
-  const double wanted = e.then == "rises" ? 1.0 : -1.0;
-  const std::string unit = results.plan.outputs[found->output].unit;
-  const std::string size = amount_text(verdict.change, verdict.error, unit);
+  if (found == effects.end()) return std::nullopt;
+  MainEffect effect = *found;
+  if (e.from.empty()) return effect;
+  const auto levels = values_of_levels(spec, results, effect.input, effect.output);
+  const auto level = [&](const std::string& name) {
+    return std::find_if(levels.begin(), levels.end(),
+                        [&](const LevelValues& l) { return l.head.label == name; });
+  };
+  const auto from = level(e.from);
+  const auto to = level(e.to);
+  if (from == levels.end() || to == levels.end()) return std::nullopt;
+  const Change change = change_between(*from, *to, noise_of(results, effect.output));
+  effect.change = change.size;
+  effect.error = change.error;
+  effect.coverage = change.coverage;
+  return effect;
+}
+
+/// What the sign of a change says about the one that was expected.
+void assess_change(const std::string& then, const std::string& size, Verdict& verdict) {
+  const double wanted = then == "rises" ? 1.0 : -1.0;
   if (verdict.change == 0.0) {
     // Both say the same to the last digit: as a rule both say nothing, no grain has come so far.
     verdict.kind = Verdict::Kind::unresolved;
     verdict.text = "no change: " + size;
-    return verdict;
+    return;
   }
   if (verdict.error >= 0.0 && std::abs(verdict.change) <= k_clear * verdict.error) {
     verdict.kind = Verdict::Kind::unresolved;
@@ -288,6 +378,27 @@ Verdict assess(const Expectation& e, const Spec& spec, const Results& all) {
     verdict.text = "against the expectation: " + size;
   }
   if (verdict.error < 0.0) verdict.text += " (no error is known)";
+}
+
+}  // namespace
+
+Verdict assess(const Expectation& e, const Spec& spec, const Results& all) {
+  Verdict verdict;
+  const PointsAt here(e.at, all);
+  const Results results{here.plan, here.outcomes};
+  const auto found = effect_expected(e, spec, results);
+  verdict.text = "not enough points finished";
+  if (!found) return verdict;
+  const std::string coverage = coverage_text(found->coverage);
+  if (found->coverage.used == 0) {
+    verdict.text += coverage.empty() ? "" : " (" + coverage + ")";
+    return verdict;
+  }
+  verdict.change = found->change;
+  verdict.error = found->error;
+  const std::string unit = results.plan.outputs[found->output].unit;
+  assess_change(e.then, amount_text(verdict.change, verdict.error, unit), verdict);
+  if (!coverage.empty()) verdict.text += " (" + coverage + ")";
   return verdict;
 }
 

@@ -10,15 +10,26 @@
 
 namespace dust::study {
 
-/// Mean of one output over all finished points of one level of an input.
+/// Mean of one output at one level of an input, over the combinations of the other inputs that
+/// every level has.
 struct LevelMean {
   std::string label;
   double input = 0.0;  ///< of numbers, in the unit of the column
   double mean = 0.0;
-  double error = -1.0;  ///< standard error of the mean by noise, negative: not known
-  std::size_t points = 0;
-  std::size_t level = 0;  ///< of the axis
+  double error = -1.0;     ///< standard error of the mean by noise, negative: not known
+  std::size_t points = 0;  ///< none: the levels have no combination in common
+  std::size_t level = 0;   ///< of the axis
 };
+
+/// What a comparison is over, in runs.
+struct Coverage {
+  std::size_t planned = 0;   ///< at the levels that are compared
+  std::size_t used = 0;      ///< with a value on either side
+  std::size_t left_out = 0;  ///< with a value, but none on the other side to compare it with
+};
+
+/// "2 of 8 points are missing, 2 left out: ..."; nothing where all are there.
+std::string coverage_text(const Coverage& coverage);
 
 /// What one input does to one output, whatever the others are.
 struct MainEffect {
@@ -26,11 +37,14 @@ struct MainEffect {
   std::size_t output = 0;         ///< column
   bool is_scattered = false;      ///< an input of a sample: too many levels for means
   std::vector<LevelMean> levels;  ///< ascending for numbers, as written for names
-  double change = 0.0;            ///< from the first to the last level (of a line, if scattered)
+  /// From the first to the last level (of a line, if scattered): the mean of the changes at each
+  /// combination of the other inputs that finished at both.
+  double change = 0.0;
   /// Standard error of the change, negative: not known. Where that of the levels is not, by the
   /// scatter of the change over what else is varied, of three or more: it holds, besides noise, how
   /// far the effect hangs on the other inputs.
   double error = -1.0;
+  Coverage coverage;
 };
 
 /// Noise of one run's output [unit of the output]: scatter of the replicates of a point, pooled

@@ -7,6 +7,7 @@
 #include "registry/registry.hpp"
 #include "study/calibration/calibrate_runs.hpp"
 #include "study/effects.hpp"
+#include "study/point_models.hpp"
 #include "study/runner.hpp"
 #include "study/study_folder.hpp"
 
@@ -257,6 +258,7 @@ int run_study(const StudyOptions& options) {
   }
   if (options.launcher == "slurm" && !options.dry_run) check_slurm();
   const fs::path folder = choose_study_folder(options, spec->name);
+  if (options.resume) refuse_changed_models(plan, PointStore(folder), registry);
   return Study(options, *spec, planner, std::move(plan)).run(folder);
 }
 

@@ -83,12 +83,14 @@ Json expectations_json(const Spec& spec, const Results& results) {
 Json rows_json(const MainEffect& effect, const Results& results) {
   Json rows = Json::array();
   for (const LevelMean& l : effect.levels) {
+    if (l.points == 0) continue;
     rows.push_back({{"name", l.label}, {"value", l.mean}, {"error", known(l.error)}});
   }
   const OutputColumn& output = results.plan.outputs[effect.output];
   return {{"title", output.name},
           {"unit", output.unit},
           {"input", short_name(results.plan.inputs[effect.input].name)},
+          {"coverage", coverage_text(effect.coverage)},
           {"rows", rows}};
 }
 
@@ -152,6 +154,7 @@ Json effect_plot(const MainEffect& effect, const Results& results) {
   bool has_errors = true;
   double last = 0.0;
   for (const LevelMean& l : effect.levels) {
+    if (l.points == 0) continue;
     // A plot needs one value per place.
     if (!mean["x"].empty() && l.input <= last) continue;
     last = l.input;
@@ -165,7 +168,8 @@ Json effect_plot(const MainEffect& effect, const Results& results) {
     mean.erase("low");
     mean.erase("high");
   }
-  Json lines = Json::array({mean});
+  Json lines = Json::array();
+  if (!mean["x"].empty()) lines.push_back(std::move(mean));
   if (!effect.is_scattered) {
     for (Json& line : lines_of_others(effect, results)) lines.push_back(std::move(line));
   }
@@ -174,8 +178,9 @@ Json effect_plot(const MainEffect& effect, const Results& results) {
           {"x_label", with_unit(short_name(input.name), input.unit)},
           {"y_label", lines.size() > 1 ? "mean, and each combination of the other inputs" : "mean"},
           {"unit", output.unit == "1" ? "" : output.unit},
-          {"change", effect.change},
+          {"change", effect.coverage.used > 0 ? Json(effect.change) : Json(nullptr)},
           {"change_error", known(effect.error)},
+          {"coverage", coverage_text(effect.coverage)},
           {"is_scattered", effect.is_scattered},
           {"lines", lines}};
 }
@@ -202,13 +207,15 @@ Json table_json(const std::vector<MainEffect>& effects, const Results& results) 
       const auto effect = std::find_if(effects.begin(), effects.end(), [&](const MainEffect& e) {
         return e.input == k && e.output == o;
       });
-      if (effect == effects.end()) {
+      if (effect == effects.end() || effect->coverage.used == 0) {
         cells.push_back(nullptr);
         continue;
       }
       const bool is_clear = effect->error >= 0.0 && std::abs(effect->change) > 2.0 * effect->error;
-      cells.push_back(
-          {{"change", effect->change}, {"error", known(effect->error)}, {"is_clear", is_clear}});
+      cells.push_back({{"change", effect->change},
+                       {"error", known(effect->error)},
+                       {"is_clear", is_clear},
+                       {"coverage", coverage_text(effect->coverage)}});
     }
     rows.push_back({{"output", results.plan.outputs[o].name},
                     {"unit", results.plan.outputs[o].unit},
@@ -227,9 +234,11 @@ Json effects_json(const Spec& spec, const Results& results) {
     for (const MainEffect& e : effects) {
       if (e.output != o || is_given_by_number(results.plan, e.input)) continue;
       if (results.plan.inputs[e.input].is_text) {
-        rows.push_back(rows_json(e, results));
+        Json table = rows_json(e, results);
+        if (!table["rows"].empty()) rows.push_back(std::move(table));
       } else {
-        plots.push_back(effect_plot(e, results));
+        Json plot = effect_plot(e, results);
+        if (!plot["lines"].empty()) plots.push_back(std::move(plot));
       }
     }
     if (plots.empty() && rows.empty()) continue;

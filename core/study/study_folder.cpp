@@ -10,10 +10,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <sstream>
 #include <thread>
+#include <utility>
 
 namespace dust::study {
 namespace {
@@ -60,11 +62,18 @@ FolderLock::FolderLock(const fs::path& folder) {
     throw base::UserError("error: cannot write " + file + ": " + std::strerror(errno));
   }
   const auto end = std::chrono::steady_clock::now() + k_longest_wait;
+  bool is_reported = false;
   while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
     if (std::chrono::steady_clock::now() > end) {
       close(descriptor_);
       throw base::UserError("error: another study is running in " + folder.string() +
                             "; wait for it, or give another -o");
+    }
+    if (!std::exchange(is_reported, true)) {
+      std::fprintf(stderr,
+                   "%s is in use by another study, or by runs of one that was stopped and are "
+                   "writing their checkpoints: waits up to %lld s for it\n",
+                   folder.c_str(), static_cast<long long>(k_longest_wait.count()));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }

@@ -19,8 +19,8 @@ void clear_study_folder(const std::filesystem::path& folder);
 /// the last of them has ended, also when the study itself was killed.
 class FolderLock {
  public:
-  /// Waits a while for runs that are still writing their checkpoints; throws base::UserError when
-  /// the folder stays busy.
+  /// Waits a while for runs that are still writing their checkpoints, and says so at once; throws
+  /// base::UserError when the folder stays busy.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

@@ -94,6 +94,10 @@ TEST_CASE("a plugin without models shall be refused") {
   check_one_line("no_models", "registers no model");
 }
 
+TEST_CASE("a library that registers one model twice shall be refused") {
+  check_one_line("registers_twice", "registers drag/constant twice: remove or rename one");
+}
+
 TEST_CASE("a file that is no library shall be refused with the loader's words") {
   const fs::path folder = k_folder / "no_library";
   fs::create_directories(folder);

@@ -59,6 +59,49 @@ TEST_CASE("a plugin that gives no number shall end the run with the row and what
             "; expected: a finite number");
 }
 
+TEST_CASE(
+    "a sensor that throws shall be told with its name and place, before anything is written") {
+  for (const std::string fault : {"summary", "report"}) {
+    for (const char* command : {"check", "run"}) {
+      const TemporaryFolder folder;
+      std::vector<std::string> arguments = {
+          command,         k_scenario,
+          "--plugin-path", k_folder / "bad_sensors",
+          "--set",         "sensors.eye={model: broken_" + fault + "}"};
+      const fs::path out = folder / "run";
+      if (std::string(command) == "run") arguments.insert(arguments.end(), {"-o", out});
+      const auto done = engine(arguments);
+      INFO(done.err);
+      CHECK(done.status == 2);
+      CHECK(done.err.find("sensors.eye: its figures cannot be asked for: sensor/broken_" + fault +
+                          " (" + (k_folder / "bad_sensors/bad_sensors.so").string() +
+                          ") throws in " + fault + ": broken " +
+                          (fault == "summary" ? "sum" : "report")) != std::string::npos);
+      CHECK_FALSE(fs::exists(out));
+    }
+  }
+}
+
+TEST_CASE("a sensor whose columns change shall end the run with the column that did") {
+  const TemporaryFolder folder;
+  const auto run = engine({"run", k_scenario, "--plugin-path", k_folder / "bad_sensors", "--set",
+                           "sensors.eye={model: other_columns}", "-o", folder / "run", "--quiet"});
+  INFO(run.err);
+  CHECK(run.status == 1);
+  CHECK(run.err.find("'eye/looks [1]' is 'eye/gazes [1]' now") != std::string::npos);
+}
+
+TEST_CASE("a plugin under a shipped model's name shall be refused by its test") {
+  const std::string file = k_folder / "shipped_name/shipped_name.so";
+  const auto tested = engine({"test-plugin", file});
+  INFO(tested.err);
+  CHECK(tested.status == 2);
+  CHECK(tested.err.starts_with(file +
+                               ": error: offers drag/gidaspow, which the engine has already ("));
+  CHECK(tested.err.ends_with("): choose another name\n"));
+  CHECK(engine({"test-plugin", k_folder / "good/good.so"}).status == 1);  // it says no source
+}
+
 TEST_CASE("a model that nobody offers shall be refused with names and folders searched") {
   const auto check = engine(with_drag("check", "good", "rootles"));
   CHECK(check.status == 2);

@@ -35,6 +35,10 @@ with Prefix(arguments()) as prefix:
             (("drga", "a"), "there is no kind 'drga'; did you mean 'drag'?"),
             (("drag", "BadName"), "'BadName' is not snake_case"),
             (("drag", "wen_yu"), "there is a drag/wen_yu already"),
+            (("contact", "class"), "the name 'class' is a keyword of C++, so the plugin would not build"),
+            (("drag", "main"), "the name 'main' is a name of the sources"),
+            (("drag", "pow"), "the name 'pow' is a function or type of the C library"),
+            (("sensor", "test"), "the name 'test' is a target that CMake makes itself"),
             (("drag", "own_drag"), "exists already")):
         said = prefix.run(prefix.engine, "new-plugin", *command, cwd=made, status=2)
         check(message in said and said.count("\n") == 1, said)

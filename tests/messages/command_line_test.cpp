@@ -67,6 +67,20 @@ TEST_CASE("a bad command line shall exit with 2 and a hint") {
   CHECK(engine("").status == 2);
 }
 
+TEST_CASE("a new plugin's name that would not build shall be refused with the reason") {
+  const auto refused = [](const std::string& what, const std::string& why) {
+    const std::string name = what.substr(what.find(' ') + 1);
+    check_refused("new-plugin " + what,
+                  "engine new-plugin: error: the name '" + name + "' is " + why +
+                      ", so the plugin would not build: choose another, like my_" + name);
+  };
+  refused("contact class", "a keyword of C++");
+  refused("drag int", "a keyword of C++");
+  refused("drag main", "a name of the sources a plugin is made of");
+  refused("drag pow", "a function or type of the C library");
+  refused("sensor test", "a target that CMake makes itself");
+}
+
 TEST_CASE("describe shall take a model by its name alone where one kind has it") {
   const Outcome whole = engine("describe drag/gidaspow");
   CHECK_MESSAGE(whole.status == 0, whole.err);

@@ -117,6 +117,30 @@ TEST_CASE("two points with one name, or of one scenario, shall be told") {
                 "study");
 }
 
+TEST_CASE("a value set for all points of a path that is varied shall be told") {
+  const std::string set = k_head + "set: {time.end: 30 ms}\n";
+  check_message(set + "vary: {time.end: [20, 40 ms]}\n",
+                "s.yaml:3:7: error: set.time.end: it is varied, so this value is in no point: take "
+                "one of them out");
+  check_message(set + "cases: {a: {time.end: 20 ms}, b: {time.end: 40 ms}}\n",
+                "s.yaml:3:7: error: set.time.end: it is varied, so this value is in no point: take "
+                "one of them out");
+  check_message(
+      "base: drop.yaml\nset: {time.end: 30 ms}\ncalibrate:\n  targets: {m: {quantity: "
+      "sensors.out.forward.mass, value: 20 mg, error: 1 mg}}\n  parameters: {t: {path: "
+      "time.end, from: 30 ms, to: 40 ms}}\n",
+      "s.yaml:2:7: error: set.time.end: it is calibrated, so this value is in no point: "
+      "take one of them out");
+  // Cases that leave it alone have what is set.
+  const TemporaryFolder folder;
+  fs::copy_file(DUST_SOURCE "/tests/study/drop.yaml", folder / "drop.yaml");
+  const std::string file = folder / "s.yaml";
+  std::ofstream(file) << set + "cases: {a: {}, b: {time.end: 40 ms}}\n";
+  const auto kept = engine({"study", file, "-o", folder / "out", "--dry-run"});
+  INFO(kept.err);
+  CHECK(kept.status == 0);
+}
+
 TEST_CASE("expectations and calibrations shall be checked against the study") {
   const std::string vary = k_head + "vary: {time.end: [20, 40 ms]}\n";
   check_message(vary + "expect: [{output: emited, input: time.end, then: rises}]\n",

@@ -3,12 +3,17 @@
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <thread>
 
 using dust::test::approx;
 using dust::test::engine;
@@ -160,6 +165,29 @@ TEST_CASE("a failing point shall be recorded with its reason and stop the others
   CHECK(table_of(folder / "fast")[1].at("status") == "waiting");
   CHECK(fast.err.find("1 left waiting; --resume") != std::string::npos);
   CHECK(run.err.find("wait") == std::string::npos);
+}
+
+TEST_CASE("a study whose folder is in use shall say at once that it waits") {
+  const TemporaryFolder folder;
+  const fs::path study = write_study(folder,
+                                     "base: drop.yaml\nmeasure: {emitted: particles.emitted}\n"
+                                     "vary: {emitters.feed.mass_flow: [1, 2 g/s]}\n");
+  const fs::path out = folder / "out";
+  REQUIRE(engine({"study", study, "-o", out, "--quiet"}).status == 0);
+  const int lock = open((out / "study.lock").c_str(), O_RDWR | O_CLOEXEC);
+  REQUIRE(flock(lock, LOCK_EX | LOCK_NB) == 0);
+  std::thread holder([lock] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    close(lock);
+  });
+  const auto waited = engine({"study", study, "-o", out, "--resume", "--quiet"});
+  holder.join();
+  CHECK(waited.status == 0);
+  INFO(waited.err);
+  CHECK(waited.err.starts_with(out.string() + " is in use by another study"));
+  CHECK(waited.err.find("waits up to 30 s") != std::string::npos);
+  // Nothing to wait for, nothing to say.
+  CHECK(engine({"study", study, "-o", out, "--resume", "--quiet"}).err.empty());
 }
 
 TEST_CASE("a dry run shall list the points and write nothing") {

@@ -2,6 +2,7 @@
 #include "base/error.hpp"
 #include "commands.hpp"
 #include "io/atomic_file.hpp"
+#include "reserved_names.hpp"
 #include "scenario/text/suggest.hpp"
 
 #include <boost/dll/runtime_symbol_info.hpp>
@@ -82,17 +83,25 @@ std::vector<std::string> copy_template(const fs::path& from, const fs::path& to,
   return written;
 }
 
+void check_name(const std::string& name) {
+  if (!is_snake_case(name)) {
+    throw base::UserError("engine new-plugin: error: the name '" + scenario::printable(name) +
+                          "' is not snake_case: a to z, 0 to 9 and _, beginning with a letter");
+  }
+  if (const std::string why = why_reserved(name); !why.empty()) {
+    throw base::UserError("engine new-plugin: error: the name '" + name + "' is " + why +
+                          ", so the plugin would not build: choose another, like my_" + name);
+  }
+}
+
 void make_plugin(const std::string& kind, const std::string& name, const fs::path& folder) {
+  check_name(name);
   const fs::path templates = template_folder();
   const auto kinds = kinds_in(templates);
   if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
     throw base::UserError("engine new-plugin: error: there is no kind '" +
                           scenario::printable(kind) + "'" +
                           scenario::suggestion(kind, kinds, "there are"));
-  }
-  if (!is_snake_case(name)) {
-    throw base::UserError("engine new-plugin: error: the name '" + scenario::printable(name) +
-                          "' is not snake_case: a to z, 0 to 9 and _, beginning with a letter");
   }
   if (load_plugins({})->find(kind, name) != nullptr) {
     throw base::UserError("engine new-plugin: error: there is a " + kind + "/" + name +

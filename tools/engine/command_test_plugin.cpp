@@ -51,6 +51,30 @@ void read_setting(const std::string& setting, const std::vector<registry::Entry>
   }
 }
 
+/// Throws base::UserError where a model has the name of a shipped one: the engine would refuse to
+/// load it beside that one.
+void refuse_shipped_names(const std::vector<registry::Entry>& entries,
+                          const std::filesystem::path& file) {
+  // The shipped ones first: what is refused then is the newcomer.
+  auto folders = registry::Registry::search_path({});
+  std::reverse(folders.begin(), folders.end());
+  registry::Registry found;
+  try {
+    found.load(folders);
+  } catch (const base::PluginError&) {
+    // What is wrong with other libraries is not asked here.
+  }
+  std::string lines;
+  for (const registry::Entry& entry : entries) {
+    const registry::Entry* other = found.find(entry.info.kind, entry.info.name);
+    if (other == nullptr || !other->is_shipped || entry.is_shipped) continue;
+    lines += (lines.empty() ? "" : "\n") + file.string() + ": error: offers " + entry.info.kind +
+             "/" + entry.info.name + ", which the engine has already (" + other->file.string() +
+             "): choose another name";
+  }
+  if (!lines.empty()) throw base::UserError(lines);
+}
+
 const char* word(Verdict verdict) {
   switch (verdict) {
     case Verdict::pass:
@@ -118,7 +142,9 @@ void add_test_plugin(CLI::App& app, int& status) {
     if (!std::filesystem::is_regular_file(arguments->file)) {
       throw base::UserError(arguments->file + ": error: no such file");
     }
-    const auto entries = registry::load_library(std::filesystem::absolute(arguments->file));
+    const auto file = std::filesystem::absolute(arguments->file);
+    const auto entries = registry::load_library(file);
+    refuse_shipped_names(entries, file);
     std::vector<contract::Options> options(entries.size());
     for (contract::Options& o : options) o.allocations = allocations_so_far;
     for (const std::string& setting : arguments->settings) {

@@ -79,28 +79,31 @@
   Dust.sections.effects = ({effects}) => {
     if (!effects) return null;
     const {columns, rows} = effects.table;
+    const size = (cell, unit) => amount(cell.change, cell.error, unit) + (cell.coverage ? '\u202f*' : '');
+    const is_whole = rows.every((r) => r.cells.every((cell) => !cell || !cell.coverage));
     const table = columns.length ? [Dust.table([{title: 'Change of'}, ...columns.map((c) => ({number: true,
       title: `over ${Dust.words(c.name)} ${Dust.number(c.from)} to ${Dust.number(c.to)}${Dust.is_bare(c.unit) ? '' : ' ' + c.unit}`}))],
-    rows.map((r) => [Dust.words(r.output), ...r.cells.map((cell) => (!cell ? dash : cell.is_clear ? Dust.strong(amount(cell.change, cell.error, r.unit)) : amount(cell.change, cell.error, r.unit)))]), {label: 'Main effects'}),
-    p({class: 'note'}, 'From the first level to the last, with one standard error; bold: more than twice that.')] : [];
+    rows.map((r) => [Dust.words(r.output), ...r.cells.map((cell) => (!cell ? dash : cell.is_clear ? Dust.strong(size(cell, r.unit)) : size(cell, r.unit)))]), {label: 'Main effects'}),
+    p({class: 'note'}, 'From the smallest value to the largest, with one standard error; bold: more than twice that.' + (is_whole ? '' : ' *: points are missing; the change is over what finished at both values.'))] : [];
     const parts = effects.outputs.flatMap((output) => {
       const grid = el('div', {class: 'grid'});
       for (const r of output.rows) grid.append(row_figure(r));
       Dust.later.push(() => output.plots.forEach((plot) => {
         const over = plot.is_scattered ? 'the range (fitted line): ' : 'the levels: ';
-        Dust.readable_plot(grid, {...plot, note: `Change over ${over}${amount(plot.change, plot.change_error, plot.unit)}.`});
+        Dust.readable_plot(grid, {...plot, note: (plot.change === null ? 'No change is known' : `Change over ${over}${amount(plot.change, plot.change_error, plot.unit)}`) + covered(plot) + '.'});
       }));
       return [el('h3', {}, Dust.words(output.name), el('small', {}, output.quantity + (output.minus ? ' − ' + output.minus : ''))), grid];
     });
-    return Dust.section('effects', 'Main effects', p({}, 'Each mark is the mean over all finished runs with that level, whatever the other inputs were. Errors: from replicates where there are any, otherwise from what the sensors tell of themselves.'),
+    return Dust.section('effects', 'Main effects', p({}, 'Each mark is the mean over the runs with that level, of the combinations of the other inputs that finished at every level. Errors: from replicates where there are any, otherwise from what the sensors tell of themselves.'),
       table, parts);
   };
+  const covered = ({coverage}) => (coverage ? ` (${coverage})` : '');
   // Names beside means with their errors, as bars on one scale.
-  const row_figure = ({title, unit, input, rows}) => {
+  const row_figure = ({title, unit, input, rows, coverage}) => {
     const largest = Math.max(...rows.map((r) => Math.abs(r.value) + (r.error || 0)), 1e-300);
     return el('figure', {}, Dust.table([{title: Dust.words(input)}, {title: with_unit(title, unit), number: true}, {title: ''}],
       rows.map((r) => [plain(r.name), Dust.value(r.value, r.error === null ? -1 : r.error), Dust.error_bar(Math.abs(r.value) / largest, (r.error || 0) / largest, '')]), {look: 'bars', label: `${title} by ${input}`}),
-    el('figcaption', {}, el('b', {}, Dust.sentence(title) + '.'), ` Mean against ${Dust.words(input)}.`));
+    el('figcaption', {}, el('b', {}, Dust.sentence(title) + '.'), ` Mean against ${Dust.words(input)}${covered({coverage})}.`));
   };
 
   Dust.sections.points = ({points}) => {

@@ -31,6 +31,9 @@ constexpr std::array<std::string_view, 10> k_outside_world = {"start_from",
                                                               "emitters"};
 constexpr std::span k_free = std::span(k_outside_world).first<8>();
 
+/// More than any contact keeps.
+constexpr std::size_t k_max_numbers = 64;
+
 std::string grains_text(std::int64_t count) {
   return count == 1 ? "1 grain" : std::to_string(count) + " grains";
 }
@@ -91,10 +94,29 @@ Branch::Branch(const scenario::ReadResult& now, const registry::Registry& regist
       diagnostics_(diagnostics),
       origin_(*now.start.from, registry),
       leaves_(now.resolved_yaml),
-      is_same_(origin_.leaves().first_difference(leaves_, k_free).empty()),
-      is_same_world_(origin_.leaves().first_difference(leaves_, k_outside_world).empty()) {
+      changed_models_(changed_models(origin_.state(), used_models(now, registry))),
+      is_same_(changed_models_.empty() &&
+               origin_.leaves().first_difference(leaves_, k_free).empty()),
+      is_same_world_(changed_models_.empty() &&
+                     origin_.leaves().first_difference(leaves_, k_outside_world).empty()) {
   check_time();
   check_domain();
+  report_models();
+}
+
+void Branch::report_models() {
+  for (const ChangedModel& change : changed_models_) warn(change.text());
+}
+
+bool Branch::is_changed(std::string_view kind, std::string_view name) const {
+  return std::any_of(changed_models_.begin(), changed_models_.end(), [&](const ChangedModel& c) {
+    return c.now.kind == kind && c.now.name == name;
+  });
+}
+
+bool Branch::has_other_histories() const {
+  return std::any_of(changed_models_.begin(), changed_models_.end(),
+                     [](const ChangedModel& c) { return c.keeps_other_numbers(); });
 }
 
 bool Branch::same(std::string_view path, std::span<const std::string_view> ignored) const {
@@ -178,7 +200,19 @@ particles::Dem& Branch::their_particles() {
   const scenario::Setup& setup = origin_.scenario().setup;
   their_particles_ = make_particles(setup, their_models(), origin_.scenario().dust);
   their_particles_->draw_out_at(openings_of(setup, origin_.scenario().dust));
-  origin_.state().read({{"grains", [&](sdk::ArchiveReader& a) { their_particles_->load(a); }}});
+  std::size_t contacts = 0;
+  const auto count = [&](std::string_view name, std::vector<std::int64_t>& values) {
+    if (name.ends_with("_a")) contacts = values.size();
+  };
+  // Histories of other lengths are not read: their contacts begin anew.
+  const auto drop_histories = [&](std::string_view name, std::vector<double>& values) {
+    if (name.ends_with("_history")) values.assign(contacts * k_max_numbers, 0.0);
+  };
+  const bool is_other = has_other_histories();
+  origin_.state().read({{"grains", [&](sdk::ArchiveReader& a) {
+                           Changed changed(a, drop_histories, count);
+                           their_particles_->load(is_other ? changed : a);
+                         }}});
   return *their_particles_;
 }
 
@@ -251,6 +285,11 @@ void Branch::check_pairs(const std::vector<std::string>& materials) {
 std::vector<particles::LawTransfer> Branch::laws() const {
   const scenario::Setup& here = now_.setup;
   const scenario::Setup& there = origin_.scenario().setup;
+  const bool are_kept = !has_other_histories();
+  const auto keeps = [&](const std::optional<scenario::ModelChoice>& ours,
+                         const std::optional<scenario::ModelChoice>& theirs) {
+    return are_kept && is_same_model(ours, theirs) && !(ours && is_changed(ours->kind, ours->name));
+  };
   std::vector<particles::LawTransfer> laws;
   for (const scenario::InteractionSpec& theirs : there.interactions) {
     particles::LawTransfer law;
@@ -258,9 +297,9 @@ std::vector<particles::LawTransfer> Branch::laws() const {
       const scenario::InteractionSpec& ours = here.interactions[n];
       if (pair_names(here, ours) != pair_names(there, theirs)) continue;
       law = {.law = static_cast<int>(n),
-             .keeps_contact = ours.contact.name == theirs.contact.name,
-             .keeps_rolling = is_same_model(ours.rolling, theirs.rolling),
-             .keeps_cohesion = is_same_model(ours.cohesion, theirs.cohesion)};
+             .keeps_contact = keeps(ours.contact, theirs.contact),
+             .keeps_rolling = keeps(ours.rolling, theirs.rolling),
+             .keeps_cohesion = keeps(ours.cohesion, theirs.cohesion)};
     }
     laws.push_back(law);
   }
@@ -330,7 +369,9 @@ void Branch::transfer_insertion(const Simulation::Owners& to) {
   for (std::size_t n = 0; n < now_.setup.emitters.size(); ++n) {
     const std::string& name = now_.setup.emitters[n].name;
     const bool was_there = find_named(origin_.scenario().setup.emitters, name) != nullptr;
-    if (was_there && same("emitters." + name) && same("frames") && same("seed")) {
+    const scenario::ModelChoice& model = now_.setup.emitters[n].model;
+    if (was_there && same("emitters." + name) && same("frames") && same("seed") &&
+        !is_changed(model.kind, model.name)) {
       origin_.state().read(
           {{"emitter." + name, [&](sdk::ArchiveReader& a) { to.models.emitters[n]->load(a); }}});
       continue;
@@ -370,8 +411,12 @@ void Branch::transfer_fluid(const Simulation::Owners& to) {
   const bool had_moving_bodies = state.has("fluid", "open_cells");
   static constexpr std::array<std::string_view, 4> k_ways = {"fluid_forces", "voidage", "drag",
                                                              "coupling"};
+  const bool is_changed_way =
+      std::any_of(changed_models_.begin(), changed_models_.end(), [](const ChangedModel& c) {
+        return c.now.kind == "drag" || c.now.kind == "voidage" || c.now.kind == "fluid_force";
+      });
   const bool is_coupled_so =
-      state.has("coupling", "grain_ids") && same("materials") && same("fluid") &&
+      !is_changed_way && state.has("coupling", "grain_ids") && same("materials") && same("fluid") &&
       std::all_of(k_ways.begin(), k_ways.end(), [&](std::string_view way) { return same(way); });
   for (const auto& [name, load] : parts) {
     if (name == "fluid" && had_moving_bodies != fluid.solver().has_moving_bodies()) {
@@ -468,7 +513,9 @@ void Branch::transfer_liberation(const Simulation::Owners& to) {
 bool Branch::keeps_statistics(const std::string& name, const sdk::Sensor& model,
                               const std::vector<double>& class_diameters) const {
   if (class_diameters != origin_.class_diameters()) return false;
-  if (find_named(origin_.scenario().setup.sensors, name) == nullptr) return false;
+  const auto* theirs_of_name = find_named(origin_.scenario().setup.sensors, name);
+  if (theirs_of_name == nullptr) return false;
+  if (is_changed(theirs_of_name->model.kind, theirs_of_name->model.name)) return false;
   if (!same("sensors." + name) || !same("dust") || !same("time.fluid_step")) return false;
   const auto names = [](const auto& things) {
     std::vector<std::string> all;

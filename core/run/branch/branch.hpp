@@ -4,6 +4,7 @@
 #include "particles/transfer/transfer.hpp"
 #include "registry/registry.hpp"
 #include "run/branch/origin.hpp"
+#include "run/branch/used_models.hpp"
 #include "run/models.hpp"
 #include "run/simulation.hpp"
 #include "scenario/diagnostics.hpp"
@@ -53,6 +54,11 @@ class Branch {
 
   void check_time();
   void check_domain();
+  void report_models();
+  /// Whether a model is no longer the one that the state was kept by.
+  [[nodiscard]] bool is_changed(std::string_view kind, std::string_view name) const;
+  /// Whether a law keeps other numbers per contact: none of the histories can be told apart then.
+  [[nodiscard]] bool has_other_histories() const;
   void report_obstacles(const particles::TransferObstacles& obstacles);
   [[nodiscard]] bool same(std::string_view path,
                           std::span<const std::string_view> ignored = {}) const;
@@ -81,6 +87,7 @@ class Branch {
   scenario::Diagnostics& diagnostics_;
   Origin origin_;
   Leaves leaves_;
+  std::vector<ChangedModel> changed_models_;
   bool is_same_ = false;
   bool is_same_world_ = false;  ///< but for what lets things in and what looks at them
   std::optional<Models> their_models_;

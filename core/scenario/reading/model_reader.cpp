@@ -2,6 +2,7 @@
 #include "scenario/reading/model_reader.hpp"
 
 #include "bodies/shape.hpp"
+#include "registry/guard.hpp"
 #include "scenario/text/suggest.hpp"
 
 #include <algorithm>
@@ -35,8 +36,11 @@ std::optional<Offer> find_offer(const registry::Registry& registry, const std::s
   }
   const auto* entry = registry.find(kind, name);
   if (entry == nullptr) return std::nullopt;
-  return Offer{&entry->info.parameters,
-               [entry](const std::vector<sdk::Value>& values) { return entry->factory(values); }};
+  return Offer{&entry->info.parameters, [entry](const std::vector<sdk::Value>& values) {
+                 auto model = entry->factory(values);
+                 const bool is_tested = entry->file.empty() || entry->is_shipped;
+                 return is_tested ? std::move(model) : registry::guarded(std::move(model), *entry);
+               }};
 }
 
 std::vector<std::string> offered(const registry::Registry& registry, const std::string& kind) {

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "study/calibration/cloud.hpp"
 #include "study/calibration/landscape.hpp"
 #include "study/sampling.hpp"
 
@@ -48,9 +49,7 @@ class Calibrator {
       conclude_now();
     }
     if (shares_.size() < settings_.runs) {
-      const Landscape& l = result_.landscape;
-      const auto best = std::min_element(l.minus_log.begin(), l.minus_log.end());
-      const auto& place = l.places[static_cast<std::size_t>(best - l.minus_log.begin())];
+      const std::vector<double> place = result_.landscape.best;
       if (!is_known(place, shares_) && evaluate({place})) conclude_now();
     }
     return std::move(result_);
@@ -87,15 +86,16 @@ class Calibrator {
     result_.landscape = make_landscape(settings_, surrogates_);
     result_.scatter.clear();
     for (const auto& s : surrogates_) result_.scatter.push_back(s->scatter());
+    result_.at_best = predictions_at(surrogates_, result_.landscape.best);
     conclude(settings_, result_);
     if (reported_) reported_(result_);
   }
 
   /// Largest ratio of the surrogate's error to the goal's within the region.
   [[nodiscard]] bool is_precise() const {
-    const Landscape& l = result_.landscape;
+    const WeighedPlaces& l = result_.landscape.density();
     for (std::size_t n = 0; n < l.places.size(); ++n) {
-      if (l.minus_log[n] > l.region_level) continue;
+      if (l.minus_log[n] > result_.landscape.region_level) continue;
       for (std::size_t g = 0; g < settings_.goals.size(); ++g) {
         const double limit = k_precise * settings_.goals[g].error;
         if (l.predictions[g][n].variance > limit * limit) return false;
@@ -110,25 +110,33 @@ class Calibrator {
     });
   }
 
-  /// Places where a run teaches most about the region: unsure surrogates, plausible goals.
+  /// What a run there would teach: unsure surrogates, plausible goals.
+  [[nodiscard]] double gain_at(const WeighedPlaces& l, std::size_t n) const {
+    double gain = 0.0;
+    for (std::size_t g = 0; g < settings_.goals.size(); ++g) {
+      const double error = settings_.goals[g].error;
+      gain += std::log1p(l.predictions[g][n].variance / (error * error));
+    }
+    return gain * std::exp(-l.minus_log[n] / k_temperature);
+  }
+
+  /// Places where a run teaches most about the region.
   Sample choose(std::size_t count) {
     Sample chosen;
     Sample known = shares_;
     while (chosen.size() < count) {
-      const Landscape l =
+      const Landscape landscape =
           chosen.empty() ? result_.landscape : make_landscape(settings_, surrogates_);
       double best = 0.0;
       const std::vector<double>* place = nullptr;
-      for (std::size_t n = 0; n < l.places.size(); ++n) {
-        double gain = 0.0;
-        for (std::size_t g = 0; g < settings_.goals.size(); ++g) {
-          const double error = settings_.goals[g].error;
-          gain += std::log1p(l.predictions[g][n].variance / (error * error));
+      for (const WeighedPlaces* l :
+           {static_cast<const WeighedPlaces*>(&landscape), &landscape.cloud}) {
+        for (std::size_t n = 0; n < l->places.size(); ++n) {
+          const double gain = gain_at(*l, n);
+          if (gain <= best || is_known(l->places[n], known)) continue;
+          best = gain;
+          place = &l->places[n];
         }
-        gain *= std::exp(-l.minus_log[n] / k_temperature);
-        if (gain <= best || is_known(l.places[n], known)) continue;
-        best = gain;
-        place = &l.places[n];
       }
       if (place == nullptr) break;
       chosen.push_back(*place);
@@ -188,10 +196,7 @@ Calibration calibrate(const CalibrationSettings& settings, Evaluator& evaluator,
 bool is_in_region(const Calibration& calibration, const CalibrationSettings& settings,
                   const std::vector<double>& values) {
   const auto share = share_of(settings, values);
-  const auto surrogates = learn(settings, calibration);
-  std::vector<Prediction> predictions;
-  predictions.reserve(surrogates.size());
-  for (const auto& s : surrogates) predictions.push_back(s->at(share));
+  const auto predictions = predictions_at(learn(settings, calibration), share);
   // The landscape counts from the density of its best place.
   const double least = fit_of(settings, calibration.at_best).minus_log;
   return fit_of(settings, predictions).minus_log - least <= calibration.landscape.region_level;

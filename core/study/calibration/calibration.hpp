@@ -61,13 +61,25 @@ struct Estimate {
   bool is_pinned = false;  ///< the region is narrower than half the interval and clear of its ends
 };
 
-/// The plausibility of places on a regular grid over the cube, with what the surrogates say there.
-struct Landscape {
-  std::size_t per_direction = 0;
-  std::vector<std::vector<double>> places;           ///< in the unit cube; the first runs fastest
+/// Places in the unit cube, with what the surrogates say there and how plausible they are.
+struct WeighedPlaces {
+  std::vector<std::vector<double>> places;
   std::vector<std::vector<Prediction>> predictions;  ///< per goal, per place
   std::vector<double> minus_log;  ///< minus the logarithm of the density, from 0 at the best place
-  double region_level = 0.0;      ///< the confidence region is where minus_log is at most this
+  std::vector<double> weight;     ///< of the density's volume that a place stands for
+};
+
+/// The plausibility of places on a regular grid over the cube (the first parameter runs fastest).
+struct Landscape : WeighedPlaces {
+  std::size_t per_direction = 0;
+  double region_level = 0.0;  ///< the confidence region is where minus_log is at most this
+  std::vector<double> best;   ///< the likeliest place, between those of the grid
+  WeighedPlaces cloud;        ///< drawn from the density where the grid is too coarse; else empty
+
+  /// The places that tell the density: those of the grid, or the cloud.
+  [[nodiscard]] const WeighedPlaces& density() const {
+    return cloud.places.empty() ? *this : cloud;
+  }
 };
 
 /// The answer of a calibration.

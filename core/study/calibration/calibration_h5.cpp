@@ -16,6 +16,17 @@ void write_column(hid_t group, std::string name, const std::vector<double>& valu
                   io::Storage::plain, {unit.c_str(), meaning.c_str()});
 }
 
+/// Values of the parameters, in their units.
+void write_places(hid_t group, const WeighedPlaces& of, const CalibrationSettings& settings,
+                  const char* meaning) {
+  for (std::size_t d = 0; d < settings.parameters.size(); ++d) {
+    const Freedom& p = settings.parameters[d];
+    std::vector<double> values;
+    for (const auto& share : of.places) values.push_back(p.low + share[d] * (p.high - p.low));
+    write_column(group, p.name, values, p.unit, meaning);
+  }
+}
+
 }  // namespace
 
 void write_landscape(hid_t root, const CalibrationAnswer& answer) {
@@ -28,12 +39,11 @@ void write_landscape(hid_t root, const CalibrationAnswer& answer) {
                "minus the logarithm of the density, from 0 at the best place; the region is where "
                "it is at most region_level");
   const io::Handle places = io::create_group(group.get(), "places");
-  for (std::size_t d = 0; d < answer.settings.parameters.size(); ++d) {
-    const Freedom& p = answer.settings.parameters[d];
-    std::vector<double> values;
-    for (const auto& share : landscape.places)
-      values.push_back(p.low + share[d] * (p.high - p.low));
-    write_column(places.get(), p.name, values, p.unit, "place of the grid");
+  write_places(places.get(), landscape, answer.settings, "place of the grid");
+  if (!landscape.cloud.places.empty()) {
+    const io::Handle drawn = io::create_group(group.get(), "drawn_places");
+    write_places(drawn.get(), landscape.cloud, answer.settings,
+                 "place drawn from the density, each of the same weight");
   }
   const io::Handle means = io::create_group(group.get(), "targets");
   const io::Handle errors = io::create_group(group.get(), "targets_error");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/calibration/landscape.hpp"
 
+#include "study/calibration/cloud.hpp"
 #include "study/runner.hpp"
 
 #include <algorithm>
@@ -11,9 +12,15 @@
 namespace dust::study {
 namespace {
 
-/// Places per direction, by the number of parameters: fine enough for a region a twentieth of the
-/// interval wide, and few enough to predict within a second.
+/// Places per direction, by the number of parameters: few enough to predict within a second.
 constexpr std::size_t k_per_direction[] = {0, 401, 101, 31, 15};
+/// The grid tells a density of which it holds as many places as this, counted by their weights, in
+/// all and along each direction, and whose best place it comes near: within this of the logarithm.
+constexpr double k_enough = 6.0;
+constexpr double k_enough_along = 2.0;
+constexpr double k_near = 0.5;
+/// So many of the grid's best places are looked from for a better one between them.
+constexpr std::size_t k_starts = 6;
 /// A parameter whose region covers more of its interval than this is not pinned down.
 constexpr double k_wide = 0.5;
 /// Correlations beyond this make a combination better known than either parameter.
@@ -44,18 +51,17 @@ struct Moments {
   std::vector<std::vector<double>> covariance;
 };
 
-Moments moments_of(const Landscape& l, std::size_t dimensions) {
+Moments moments_of(const WeighedPlaces& l, std::size_t dimensions) {
   Moments m{std::vector<double>(dimensions, 0.0),
             std::vector(dimensions, std::vector<double>(dimensions, 0.0))};
   double total = 0.0;
   for (std::size_t n = 0; n < l.places.size(); ++n) {
-    const double weight = std::exp(-l.minus_log[n]);
-    total += weight;
-    for (std::size_t d = 0; d < dimensions; ++d) m.mean[d] += weight * l.places[n][d];
+    total += l.weight[n];
+    for (std::size_t d = 0; d < dimensions; ++d) m.mean[d] += l.weight[n] * l.places[n][d];
   }
   for (double& v : m.mean) v /= total;
   for (std::size_t n = 0; n < l.places.size(); ++n) {
-    const double weight = std::exp(-l.minus_log[n]) / total;
+    const double weight = l.weight[n] / total;
     for (std::size_t a = 0; a < dimensions; ++a) {
       for (std::size_t b = 0; b < dimensions; ++b) {
         m.covariance[a][b] += weight * (l.places[n][a] - m.mean[a]) * (l.places[n][b] - m.mean[b]);
@@ -84,15 +90,16 @@ Fit fit_of(const CalibrationSettings& settings, const std::vector<Prediction>& p
   return fit;
 }
 
-Landscape make_landscape(const CalibrationSettings& settings,
-                         const std::vector<std::unique_ptr<Surrogate>>& surrogates) {
+namespace {
+
+/// All places of the grid with what the surrogates say there.
+Landscape grid_of(const CalibrationSettings& settings, const Surrogates& surrogates) {
   Landscape l;
   const std::size_t dimensions = settings.parameters.size();
   l.per_direction = k_per_direction[dimensions];
   std::size_t count = 1;
   for (std::size_t d = 0; d < dimensions; ++d) count *= l.per_direction;
   l.predictions.assign(surrogates.size(), std::vector<Prediction>(count));
-  std::vector<Prediction> here(surrogates.size());
   for (std::size_t n = 0; n < count; ++n) {
     std::vector<double> place(dimensions);
     std::size_t rest = n;
@@ -101,25 +108,97 @@ Landscape make_landscape(const CalibrationSettings& settings,
           static_cast<double>(rest % l.per_direction) / static_cast<double>(l.per_direction - 1);
       rest /= l.per_direction;
     }
-    for (std::size_t g = 0; g < surrogates.size(); ++g) {
-      here[g] = surrogates[g]->at(place);
-      l.predictions[g][n] = here[g];
-    }
+    const auto here = predictions_at(surrogates, place);
+    for (std::size_t g = 0; g < surrogates.size(); ++g) l.predictions[g][n] = here[g];
     l.places.push_back(std::move(place));
     l.minus_log.push_back(fit_of(settings, here).minus_log);
   }
-  const double least = *std::min_element(l.minus_log.begin(), l.minus_log.end());
-  for (double& v : l.minus_log) v -= least;
-  std::vector<double> sorted = l.minus_log;
-  std::sort(sorted.begin(), sorted.end());
-  double total = 0.0;
-  for (const double v : sorted) total += std::exp(-v);
-  double sum = 0.0;
-  for (const double v : sorted) {
-    l.region_level = v;
-    sum += std::exp(-v);
-    if (sum >= settings.confidence * total) break;
+  return l;
+}
+
+/// Looks from the likeliest places for a better one between them.
+void refine_best(const CalibrationSettings& settings, const Surrogates& surrogates,
+                 const WeighedPlaces& from, double step, Landscape& l) {
+  std::vector<std::size_t> order(from.places.size());
+  std::iota(order.begin(), order.end(), 0);
+  const std::size_t starts = std::min(k_starts, order.size());
+  std::partial_sort(
+      order.begin(), order.begin() + static_cast<std::ptrdiff_t>(starts), order.end(),
+      [&](std::size_t a, std::size_t b) { return from.minus_log[a] < from.minus_log[b]; });
+  const auto minus_log_at = [&](const std::vector<double>& place) {
+    return fit_of(settings, predictions_at(surrogates, place)).minus_log;
+  };
+  for (std::size_t n = 0; n < starts; ++n) {
+    auto place = refined(settings, surrogates, from.places[order[n]], step);
+    if (l.best.empty() || minus_log_at(place) < minus_log_at(l.best)) l.best = std::move(place);
   }
+}
+
+/// How many of these count: the square of the weights' sum over the sum of their squares.
+double counting(const std::vector<double>& weights) {
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const double weight : weights) {
+    sum += weight;
+    squares += weight * weight;
+  }
+  return sum * sum / squares;
+}
+
+/// Whether the grid's places are near enough to each other for this density: as a whole, and along
+/// every direction.
+bool is_fine_enough(const Landscape& l, double least) {
+  const double nearest = *std::min_element(l.minus_log.begin(), l.minus_log.end());
+  if (nearest - least > k_near) return false;
+  std::vector<double> weights;
+  for (const double v : l.minus_log) weights.push_back(std::exp(nearest - v));
+  if (counting(weights) < k_enough) return false;
+  std::size_t stride = 1;
+  for (std::size_t d = 0; d < l.best.size(); ++d) {
+    std::vector<double> along(l.per_direction, 0.0);
+    for (std::size_t n = 0; n < weights.size(); ++n) {
+      along[n / stride % l.per_direction] += weights[n];
+    }
+    if (counting(along) < k_enough_along) return false;
+    stride *= l.per_direction;
+  }
+  return true;
+}
+
+/// The level below which the density holds the wanted probability.
+double level_of(const WeighedPlaces& l, double confidence) {
+  std::vector<std::size_t> order(l.places.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return l.minus_log[a] < l.minus_log[b]; });
+  double total = 0.0;
+  for (const std::size_t n : order) total += l.weight[n];
+  double sum = 0.0;
+  for (const std::size_t n : order) {
+    sum += l.weight[n];
+    if (sum >= confidence * total) return l.minus_log[n];
+  }
+  return l.minus_log[order.back()];
+}
+
+}  // namespace
+
+Landscape make_landscape(const CalibrationSettings& settings, const Surrogates& surrogates) {
+  Landscape l = grid_of(settings, surrogates);
+  const double cell = 1.0 / static_cast<double>(l.per_direction - 1);
+  refine_best(settings, surrogates, l, 0.5 * cell, l);
+  const auto least_of = [&] {
+    return fit_of(settings, predictions_at(surrogates, l.best)).minus_log;
+  };
+  if (!is_fine_enough(l, least_of())) {
+    l.cloud = draw_cloud(settings, surrogates);
+    refine_best(settings, surrogates, l.cloud, 0.5 * cell, l);
+  }
+  const double least = least_of();
+  for (double& v : l.minus_log) v -= least;
+  for (double& v : l.cloud.minus_log) v -= least;
+  for (const double v : l.minus_log) l.weight.push_back(std::exp(-v));
+  l.region_level = level_of(l.density(), settings.confidence);
   return l;
 }
 
@@ -156,27 +235,32 @@ std::size_t pieces_of_region(const Landscape& l, std::size_t dimensions) {
 
 namespace {
 
+/// Ends of the region along a direction, in shares of the interval.
+std::pair<double, double> ends_of_region(const Landscape& l, std::size_t d) {
+  const WeighedPlaces& density = l.density();
+  double low = l.best[d];
+  double high = l.best[d];
+  for (std::size_t n = 0; n < density.places.size(); ++n) {
+    if (density.minus_log[n] > l.region_level) continue;
+    low = std::min(low, density.places[n][d]);
+    high = std::max(high, density.places[n][d]);
+  }
+  // A cell of the grid belongs to the region as a whole; the outermost of a thousand places lie
+  // about a hundredth of the width within it.
+  const double margin =
+      l.cloud.places.empty() ? 0.5 / static_cast<double>(l.per_direction - 1) : 0.01 * (high - low);
+  return {std::max(0.0, low - margin), std::min(1.0, high + margin)};
+}
+
 void estimate(const CalibrationSettings& settings, Calibration& c) {
   const Landscape& l = c.landscape;
   const std::size_t dimensions = settings.parameters.size();
-  const auto best = static_cast<std::size_t>(
-      std::min_element(l.minus_log.begin(), l.minus_log.end()) - l.minus_log.begin());
-  const Moments moments = moments_of(l, dimensions);
+  const Moments moments = moments_of(l.density(), dimensions);
   c.estimates.assign(dimensions, {});
-  const double cell = 1.0 / static_cast<double>(l.per_direction - 1);
   for (std::size_t d = 0; d < dimensions; ++d) {
     const Freedom& p = settings.parameters[d];
-    double low = 1.0;
-    double high = 0.0;
-    for (std::size_t n = 0; n < l.places.size(); ++n) {
-      if (l.minus_log[n] > l.region_level) continue;
-      low = std::min(low, l.places[n][d]);
-      high = std::max(high, l.places[n][d]);
-    }
-    // A cell of the grid belongs to the region as a whole.
-    low = std::max(0.0, low - 0.5 * cell);
-    high = std::min(1.0, high + 0.5 * cell);
-    c.estimates[d] = {in_units(p, l.places[best][d]),
+    const auto [low, high] = ends_of_region(l, d);
+    c.estimates[d] = {in_units(p, l.best[d]),
                       in_units(p, moments.mean[d]),
                       std::sqrt(moments.covariance[d][d]) * (p.high - p.low),
                       in_units(p, low),
@@ -190,8 +274,6 @@ void estimate(const CalibrationSettings& settings, Calibration& c) {
       c.correlation[a][b] = scale > 0.0 ? moments.covariance[a][b] / scale : 0.0;
     }
   }
-  c.at_best.clear();
-  for (const auto& predictions : l.predictions) c.at_best.push_back(predictions[best]);
   c.misfit = fit_of(settings, c.at_best).misfit;
   c.is_met =
       c.misfit <= chi_square_quantile(k_unlikely, static_cast<double>(settings.goals.size()));
@@ -256,7 +338,14 @@ void conclude(const CalibrationSettings& settings, Calibration& c) {
           "part them.");
     }
   }
-  const std::size_t pieces = pieces_of_region(c.landscape, dimensions);
+  const bool is_drawn = !c.landscape.cloud.places.empty();
+  const std::size_t pieces = is_drawn ? 1 : pieces_of_region(c.landscape, dimensions);
+  if (is_drawn) {
+    c.statements.push_back(
+        "The region is narrower than a grid of " + std::to_string(c.landscape.per_direction) +
+        " places per direction: it is told by " + std::to_string(c.landscape.cloud.places.size()) +
+        " places drawn from it, and not whether it has separate pieces.");
+  }
   if (pieces > 1) {
     c.statements.push_back("The region has " + std::to_string(pieces) +
                            " separate pieces: different sets of values fit.");

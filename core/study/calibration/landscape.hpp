@@ -5,7 +5,8 @@
 
 namespace dust::study {
 
-/// The density of the parameters over a grid as fine as the dimension allows, and its region.
+/// The density of the parameters over a grid as fine as the dimension allows, its likeliest place
+/// and its region; where the region falls between the places of the grid, by a cloud of its own.
 Landscape make_landscape(const CalibrationSettings& settings,
                          const std::vector<std::unique_ptr<Surrogate>>& surrogates);
 

@@ -144,7 +144,8 @@ class SpecReader {
     return settings;
   }
 
-  /// Two axes that set the same key would make the later one win in silence.
+  /// Two axes that set the same key would make the later one win in silence, and an axis what `set`
+  /// says of every point.
   void check_paths() {
     std::vector<std::string> seen;
     for (const Axis& axis : spec_.axes) {
@@ -162,7 +163,25 @@ class SpecReader {
                                 "the study");
         }
         seen.push_back(path);
+        if (is_in_all(axis, path)) refuse_set(path, "is varied");
       }
+    }
+  }
+
+  /// Cases may leave a path to what `set` says.
+  static bool is_in_all(const Axis& axis, const std::string& path) {
+    return std::all_of(axis.levels.begin(), axis.levels.end(), [&](const Level& level) {
+      return std::any_of(level.settings.begin(), level.settings.end(),
+                         [&](const Setting& s) { return s.path == path; });
+    });
+  }
+
+  /// `set` says of every point what has another value in each of them.
+  void refuse_set(const std::string& path, const std::string& otherwise) {
+    for (const Setting& s : spec_.settings) {
+      if (s.path != path) continue;
+      error(s.where, "set." + printable(path) + ": it " + otherwise +
+                         ", so this value is in no point: take one of them out");
     }
   }
 
@@ -352,6 +371,9 @@ class SpecReader {
     reader.finish();
     if (targets != nullptr) read_targets(*targets, calibration);
     if (parameters != nullptr) read_parameters(*parameters, calibration);
+    for (const FreeParameter& p : calibration.parameters) {
+      for (const std::string& path : p.paths) refuse_set(path, "is calibrated");
+    }
     if (calibration.parameters.size() > 4) {
       error(parameters->where, "calibrate.parameters: at most 4 can be found at a time");
     }

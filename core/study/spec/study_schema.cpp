@@ -110,9 +110,10 @@ OrderedJson expectation() {
   return object(
       {{"output", described(k_text, "Name of a measure.")},
        {"input", described(k_text, "Path of what is varied, or `case`.")},
-       {"then", described({{"enum", {"rises", "falls"}}},
-                          "From the first level of the input to its last, or from one case to "
-                          "another.")},
+       {"then",
+        described({{"enum", {"rises", "falls"}}},
+                  "From the smallest number of the input to its largest, of other values "
+                  "from the first that is given to the last, or from one case to another.")},
        {"from", described(k_text, "Of cases: the one that it changes from.")},
        {"to", described(k_text, "Of cases: the one that it changes to.")},
        {"at", described(map_of(OrderedJson::object()),

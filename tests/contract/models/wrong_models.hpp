@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -30,8 +31,10 @@ inline sdk::ModelInfo described(const char* kind, sdk::ParameterSchema schema = 
 }
 
 /// The findings on a model made by `make` from its values.
-inline std::vector<RuleResult> rule_results_of(sdk::ModelInfo info, sdk::ModelFactory make) {
+inline std::vector<RuleResult> rule_results_of(sdk::ModelInfo info, sdk::ModelFactory make,
+                                               std::map<std::string, sdk::Value> given = {}) {
   dust::contract::Options options;
+  options.given = std::move(given);
   options.allocations = dust::engine::allocations_so_far;
   return dust::contract::check_model({std::move(info), std::move(make), {}}, options);
 }

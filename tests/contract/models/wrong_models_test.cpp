@@ -101,6 +101,22 @@ TEST_CASE("a drag law that is wrong shall be told by the rule it breaks") {
                                       return std::make_unique<Drag>([](auto&, double) {}, 0.0);
                                     }),
                     "says what it is") == "it has no source: author, year, or \"own definition\"");
+  struct P {
+    double size = 0.0;
+  };
+  const auto declared = [](const std::function<void(sdk::SchemaOf<P>&)>& limit) {
+    sdk::SchemaOf<P> s;
+    s.number(&P::size, "size", sdk::dimension::length, "A size.").optional();
+    limit(s);
+    return rule_results_of(described("drag", s.build()), [](std::span<const sdk::Value>) {
+      return std::make_unique<Drag>([](auto& b, double) { each(b, [](auto) { return 1.0; }); },
+                                    0.0);
+    });
+  };
+  CHECK(seen.broken(declared([](auto& s) { s.at_least(2).at_most(1); }), "says what it is") ==
+        "the parameter 'size' can have no value: at least 2 and at most 1");
+  CHECK(seen.broken(declared([](auto& s) { s.above(0); }), "says what it is") ==
+        "the default of parameter 'size', 0, is outside its own range: above 0 and at most inf");
   seen.check_complete(true);
 }
 
@@ -121,7 +137,10 @@ struct Spring final : sdk::ContactLaw {
     sticky_sliding,
     tells_stiffness_wrong,
     moves_by_velocity,
-    moves_by_displacement
+    moves_by_displacement,
+    stiff_unloading,         ///< its times are those of the whole collision
+    covers_stiff_unloading,  ///< those of the stiffer spring
+    hides_stiff_unloading    ///< half_period is that of loading
   };
   Spring(P parameters, Fault f) : p(parameters), fault(f) {}
   void prepare(const sdk::MaterialProperties& i, const sdk::MaterialProperties& j) override {
@@ -130,7 +149,18 @@ struct Spring final : sdk::ContactLaw {
   [[nodiscard]] bool has_spring() const {
     return fault == moves_by_velocity || fault == moves_by_displacement;
   }
-  [[nodiscard]] int history_size() const override { return has_spring() ? 1 : 0; }
+  /// Loaded by k, unloaded by k / e^2: Walton and Braun 1986.
+  [[nodiscard]] bool is_plastic() const { return fault >= stiff_unloading; }
+  [[nodiscard]] double stiffest() const {
+    return p.stiffness / (is_plastic() ? p.restitution * p.restitution : 1.0);
+  }
+  [[nodiscard]] double plastic_force(const sdk::ContactBatch& b, std::size_t q) const {
+    double& deepest = b.history[0][q];
+    deepest = std::max({deepest, b.overlap[q], 0.0});
+    const double rest = deepest * (1.0 - p.stiffness / stiffest());
+    return std::max(0.0, std::min(p.stiffness * b.overlap[q], stiffest() * (b.overlap[q] - rest)));
+  }
+  [[nodiscard]] int history_size() const override { return has_spring() || is_plastic() ? 1 : 0; }
   /// Along y alone, as the contract's collisions are.
   double spring(const sdk::ContactBatch& b, std::size_t q) const {
     const double way =
@@ -146,10 +176,12 @@ struct Spring final : sdk::ContactLaw {
       const double zeta = -log_e / std::sqrt(9.869604401089358 + log_e * log_e);
       double f = p.stiffness * b.overlap[q] -
                  2.0 * zeta * std::sqrt(b.effective_mass[q] * p.stiffness) * vn;
+      if (is_plastic()) f = plastic_force(b, q);
       if (fault == one_sided) f *= lead;
       if (fault == bouncy && vn > 0.0) f *= 1.5;
       b.normal_force[q] = f;
       b.normal_stiffness[q] = (fault == tells_stiffness_wrong ? 2.0 : 1.0) * p.stiffness;
+      if (is_plastic() && b.overlap[q] > 0.0) b.normal_stiffness[q] = f / b.overlap[q];
       b.tangential_stiffness[q] = p.stiffness;
       b.force.x[q] = f * b.normal.x[q] + (fault == along_x ? 0.01 * f : 0.0);
       b.force.y[q] = f * b.normal.y[q];
@@ -158,27 +190,37 @@ struct Spring final : sdk::ContactLaw {
       if (fault == sticky_sliding) b.force.y[q] += 5.0 * f * (b.velocity.y[q] > 0.0 ? 1.0 : -1.0);
     }
   }
-  [[nodiscard]] double collision_time(double, double mass, double) const override {
-    return 3.141592653589793 * std::sqrt(mass / p.stiffness) * (fault == slow_times ? 3.0 : 1.0);
+  [[nodiscard]] double swing(double mass, double k) const {
+    return 3.141592653589793 * std::sqrt(mass / k);
   }
-  [[nodiscard]] double half_period(double radius, double mass, double) const override {
-    return collision_time(radius, mass, 1.0);
+  [[nodiscard]] double collision_time(double, double mass, double) const override {
+    const double whole = 0.5 * swing(mass, p.stiffness) * (1.0 + p.restitution);
+    if (fault == covers_stiff_unloading) return std::min(whole, 2.0 * swing(mass, stiffest()));
+    if (is_plastic()) return whole;
+    return swing(mass, p.stiffness) * (fault == slow_times ? 3.0 : 1.0);
+  }
+  [[nodiscard]] double half_period(double, double mass, double) const override {
+    if (fault == hides_stiff_unloading) return swing(mass, p.stiffness);
+    return swing(mass, stiffest()) * (fault == slow_times ? 3.0 : 1.0);
   }
   P p;
   Fault fault;
   double lead = 1.0;
 };
 
-std::vector<contract::RuleResult> spring(Spring::Fault fault) {
+std::vector<contract::RuleResult> spring(Spring::Fault fault, double restitution = 0.0) {
   sdk::SchemaOf<Spring::P> s;
   s.number(&Spring::P::stiffness, "stiffness", sdk::dimension::stiffness, "Stiffness.").above(0);
   s.number(&Spring::P::restitution, "restitution", sdk::dimension::none, "Restitution.")
       .above(0)
       .at_most(1);
   return rule_results_of(
-      described("contact", s.build()), [fault, schema = s.build()](std::span<const sdk::Value> v) {
+      described("contact", s.build()),
+      [fault, schema = s.build()](std::span<const sdk::Value> v) {
         return std::make_unique<Spring>(sdk::parameters_from<Spring::P>(schema, v), fault);
-      });
+      },
+      restitution > 0.0 ? std::map<std::string, sdk::Value>{{"restitution", restitution}}
+                        : std::map<std::string, sdk::Value>{});
 }
 
 }  // namespace
@@ -204,6 +246,29 @@ TEST_CASE("a contact law that is wrong shall be told by the rule it breaks") {
         std::string::npos);
   CHECK(Seen().broken(spring(Spring::moves_by_displacement), "second order").empty());
   seen.check_complete();
+}
+
+TEST_CASE("a law stiffer in unloading shall be judged by its stiffest spring") {
+  // At restitution 0.07 unloading is 204 times as stiff and lasts a fourteenth.
+  const std::string hard = Seen().broken(spring(Spring::stiff_unloading, 0.07), "times");
+  INFO(hard);
+  CHECK(hard.find("unloading is 204.1 times as stiff as loading") == 0);
+  CHECK(hard.find("give a collision_time that covers unloading") != std::string::npos);
+  // At 0.15 its steps are few, and at 0.8 enough.
+  const std::string few = Seen().remarked(spring(Spring::stiff_unloading, 0.15), "times");
+  CHECK(few.find("unloading is 44.4") == 0);
+  CHECK(Seen().remarked(spring(Spring::stiff_unloading, 0.8), "times").empty());
+  for (const double restitution : {0.07, 0.15, 0.8}) {
+    CAPTURE(restitution);
+    for (const auto& result : spring(Spring::covers_stiff_unloading, restitution)) {
+      INFO(result.rule);
+      CHECK_MESSAGE(result.verdict != Verdict::fail, result.why);
+      CHECK(result.why.find("shorter than they need be") == std::string::npos);
+      CHECK(result.why.find("displacement") == std::string::npos);
+    }
+  }
+  CHECK(Seen().broken(spring(Spring::hides_stiff_unloading, 0.5), "times").find("half_period") ==
+        0);
 }
 
 namespace {

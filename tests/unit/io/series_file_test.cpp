@@ -9,7 +9,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <span>
 #include <sstream>
+#include <string>
+#include <vector>
 
 using dust::io::SeriesFile;
 using dust::test::TemporaryFolder;
@@ -43,6 +46,32 @@ TEST_CASE("the series shall hold numbers that read back as the same double") {
     CHECK(std::signbit(back) == std::signbit(v));
   }
   CHECK(file.rows() == 6);
+}
+
+TEST_CASE("columns that change shall be told by their names, also after a resume") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "series.csv";
+  const std::vector<double> values(3, 0.0);
+  const auto problem = [&](std::int64_t rows, const std::vector<std::string>& names) {
+    try {
+      SeriesFile file(path, rows);
+      if (rows < 0) append(file, 1.0, 2.0);
+      file.append(names, std::span(values).first(names.size()));
+    } catch (const dust::base::RunError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  for (const std::int64_t rows : {-1, 1}) {
+    CAPTURE(rows);
+    CHECK(problem(rows, {"time [s]", "mass [kg]", "probe/m, n [kg]"})
+              .find("changed during the run: 'probe/m, n [kg]' is new; a sensor's columns") !=
+          std::string::npos);
+    CHECK(problem(rows, {"time [s]"}).find("'mass [kg]' is gone") != std::string::npos);
+    CHECK(problem(rows, {"time [s]", "probe/q [kg]"}).find("'mass [kg]' is 'probe/q [kg]' now") !=
+          std::string::npos);
+    CHECK(problem(rows, k_names).empty());
+  }
 }
 
 TEST_CASE("a resumed series shall be cut back to the checkpoint, half a row included") {

@@ -149,6 +149,59 @@ TEST_CASE("targets that no values meet shall be told with what comes nearest") {
   CHECK(c.statements.front().find("No values in the given ranges") == 0);
 }
 
+TEST_CASE("values between the places of the grid shall be found, and their region told") {
+  // A bounce: energy by the square of the restitution, which lies between two places of the grid;
+  // nothing else matters.
+  const auto bounce = [](const std::vector<double>& x) { return std::vector{x[0] * x[0]}; };
+  for (const std::size_t parameters : {1, 2, 3, 4}) {
+    for (const double share : {0.01, 1e-4}) {
+      CAPTURE(parameters);
+      CAPTURE(share);
+      CalibrationSettings settings;
+      settings.goals = {{"energy", "", 0.36, 0.36 * share}};
+      settings.parameters = {{"e", "", 0.3, 0.95}};
+      for (std::size_t n = 1; n < parameters; ++n) {
+        settings.parameters.push_back({"other_" + std::to_string(n), "", 0.0, 1.0});
+      }
+      settings.runs = 5 * parameters + 4;
+      Formula formula(bounce, {0.0}, 1);
+      const Calibration c = calibrate(settings, formula);
+      CHECK(c.is_met);
+      CHECK(c.estimates[0].best == approx(0.6).epsilon(std::max(share, 1e-3)));
+      CHECK(c.estimates[0].low <= 0.6);
+      CHECK(c.estimates[0].high >= 0.6);
+      CHECK(c.estimates[0].is_pinned);
+      // The deviation that the target's error makes: half its share.
+      CHECK(c.estimates[0].deviation < std::max(0.6 * share, 2e-3));
+      for (std::size_t n = 1; n < parameters; ++n) {
+        CHECK_FALSE(c.estimates[n].is_pinned);
+        CHECK(c.estimates[n].high - c.estimates[n].low > 0.9);
+      }
+      CHECK(c.statements.front().find("No values") == std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("a narrow region of tied parameters shall be told by places drawn from it") {
+  CalibrationSettings settings;
+  settings.goals = {{"sum", "", 1.0, 1e-3}, {"product", "", 0.21, 1e-3}};
+  settings.parameters = {{"a", "", 0.0, 0.5}, {"b", "", 0.5, 1.0}, {"c", "", 0.0, 1.0}};
+  Formula formula(
+      [](const std::vector<double>& x) {
+        return std::vector{x[0] + x[1], x[0] * x[1]};
+      },
+      {0.0, 0.0}, 1);
+  const Calibration c = calibrate(settings, formula);
+  CHECK(c.is_met);
+  CHECK(c.estimates[0].best == approx(0.3).epsilon(0.01));
+  CHECK(c.estimates[1].best == approx(0.7).epsilon(0.01));
+  // Analytic: d(sum) = da + db, d(product) = 0.7 da + 0.3 db, each with an error of 1e-3.
+  CHECK(c.estimates[0].deviation == approx(1e-3 * std::sqrt(1.09) / 0.4).epsilon(0.2));
+  CHECK(c.estimates[1].deviation == approx(1e-3 * std::sqrt(1.49) / 0.4).epsilon(0.2));
+  CHECK(c.statements[c.statements.size() - 2].find("narrower than a grid of 31 places") !=
+        std::string::npos);
+}
+
 TEST_CASE("two separate answers shall be told") {
   CalibrationSettings settings;
   settings.goals = {{"height", "m", 0.5, 0.02}};

@@ -77,6 +77,89 @@ TEST_CASE("points that failed shall be left out of the means") {
   CHECK(effects[0].levels[0].points == 1);
 }
 
+TEST_CASE("an effect shall be the change of the combinations that finished at both of its levels") {
+  Made made(2);
+  // x rises by 30 from speed 1 to 4, and is 300 higher in case b: of 4 m/s there b has failed.
+  for (std::size_t n = 0; n < made.plan.points.size(); ++n) {
+    if (made.plan.points[n].levels[1] == 1) *made.outcomes[n].outputs[0].value += 300.0;
+  }
+  made.outcomes[10] = {};
+  made.outcomes[11] = {};
+  const auto effects = main_effects(made.spec, made.results());
+  REQUIRE(effects.size() == 2);
+  CHECK(effects[0].change == approx(30.0));
+  // Each change of the one case left is of two replicates against two.
+  CHECK(effects[0].error == approx(0.2 / std::sqrt(2.0)));
+  CHECK(effects[0].coverage.planned == 8);
+  CHECK(effects[0].coverage.used == 4);
+  CHECK(effects[0].coverage.left_out == 2);
+  // The marks of a plot compare the same: all levels over case a.
+  CHECK(effects[0].levels[0].mean == approx(10.0));
+  CHECK(effects[0].levels[1].mean == approx(20.0));
+  CHECK(effects[0].levels[2].mean == approx(40.0));
+  // Between the cases the two other speeds tell the change.
+  CHECK(effects[1].change == approx(303.0));
+  Expectation e;
+  e.output = "x";
+  e.input = "belt.speed";
+  e.then = "rises";
+  const Verdict verdict = assess(e, made.spec, made.results());
+  CHECK(verdict.kind == Verdict::Kind::as_expected);
+  CHECK(verdict.text ==
+        "as expected: 30.00 +- 0.14 mm (2 of 8 points are missing, 2 left out: nothing finished to "
+        "compare them with)");
+}
+
+TEST_CASE("levels without a combination in common shall give no effect") {
+  Made made(1);
+  // At 1 m/s case a alone, at 4 m/s case b alone.
+  made.outcomes[1] = {};
+  made.outcomes[4] = {};
+  const auto effects = main_effects(made.spec, made.results());
+  CHECK(effects.at(0).coverage.used == 0);
+  CHECK(effects[0].levels[1].points == 0);
+  Expectation e;
+  e.output = "x";
+  e.input = "belt.speed";
+  e.then = "rises";
+  CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::unknown);
+  CHECK(assess(e, made.spec, made.results()).text.find("2 of 4 points are missing") !=
+        std::string::npos);
+}
+
+TEST_CASE("an end at which nothing finished shall be told as missing") {
+  Made made(1);
+  made.outcomes[4] = {};
+  made.outcomes[5] = {};
+  const auto effects = main_effects(made.spec, made.results());
+  CHECK(effects.at(0).change == approx(10.0));
+  CHECK(coverage_text(effects[0].coverage) == "2 of 6 points are missing");
+}
+
+TEST_CASE("a scattered input shall be judged by levels that have all combinations of the others") {
+  Spec spec;
+  spec.axes = {{AxisKind::samples, {"p"}, std::vector<Level>(4), {}},
+               {AxisKind::cases, {}, std::vector<Level>(2), {}}};
+  Plan plan;
+  plan.inputs = {{"p", "", false, 0}, {"case", "", true, 1}};
+  plan.outputs = {{"y", "y", "", "1", 1.0, false}};
+  std::vector<Outcome> outcomes;
+  for (std::size_t n = 0; n < 8; ++n) {
+    Point point;
+    point.levels = {n / 2, n % 2};
+    point.inputs = {{static_cast<double>(n / 2), ""}, {0.0, n % 2 == 0 ? "a" : "b"}};
+    plan.points.push_back(point);
+    Outcome outcome;
+    outcome.status = Status::finished;
+    outcome.outputs = {{point.inputs[0].number + 100.0 * static_cast<double>(n % 2), -1.0}};
+    outcomes.push_back(outcome);
+  }
+  outcomes[7] = {};
+  const auto effects = main_effects(spec, {plan, outcomes});
+  CHECK(effects.at(0).change == approx(2.0));
+  CHECK(effects[0].coverage.left_out == 1);
+}
+
 TEST_CASE("a change whose levels tell no error shall have that of its scatter over other inputs") {
   Made made(1);
   for (std::size_t n = 0; n < made.plan.points.size(); ++n) {
@@ -126,6 +209,18 @@ TEST_CASE("expectations shall be judged by sign and noise") {
   CHECK(assess(e, made.spec, made.results()).text.starts_with("no change"));
   for (Outcome& o : made.outcomes) o = {};
   CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::unknown);
+}
+
+TEST_CASE("an expectation shall go from the smallest number to the largest, however given") {
+  Made made(1);
+  // The study names 4 m/s first.
+  for (Point& point : made.plan.points) point.levels[0] = 2 - point.levels[0];
+  Expectation e;
+  e.output = "x";
+  e.input = "belt.speed";
+  e.then = "rises";
+  CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::as_expected);
+  CHECK(assess(e, made.spec, made.results()).change == approx(30.0));
 }
 
 TEST_CASE("an expectation at a level of another input shall be judged by the points there") {

@@ -114,4 +114,13 @@ TEST_CASE("the report of a study shall draw every effect with the lines it is ma
   CHECK(table["rows"][0]["cells"][0]["is_clear"] == true);
   CHECK(table["rows"][0]["cells"][1]["is_clear"] == false);
   CHECK(document["points"]["rows"].size() == 4);
+
+  // One point is missing: what it would be compared with is left out, and both are told.
+  outcomes[3] = {.status = Status::failed, .reason = "broken", .wall_s = 0.0, .outputs = {}};
+  const auto less = study_document(spec, {plan, outcomes}, nullptr);
+  const auto& gap = less["effects"]["outputs"][0]["plots"][0];
+  CHECK(gap["lines"][0]["y"] == nlohmann::json({0.0, 10.0}));
+  CHECK(gap["coverage"] ==
+        "1 of 4 points is missing, 1 left out: nothing finished to compare them with");
+  CHECK(less["effects"]["table"]["rows"][0]["cells"][0]["coverage"] == gap["coverage"]);
 }
