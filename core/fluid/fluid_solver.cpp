@@ -141,6 +141,7 @@ const FaceField& FluidSolver::stress_divergence() const { return impl_->stress_d
 const CellField& FluidSolver::open_fraction() const { return impl_->open_fraction(); }
 const FaceField& FluidSolver::open_area() const { return impl_->open_area(); }
 void FluidSolver::find_throughflow(FaceField& throughflow) const {
+FaceField FluidSolver::passable_area() const { return impl_->passable_area(); }
   impl_->find_throughflow(throughflow);
 }
 void FluidSolver::each_sink(

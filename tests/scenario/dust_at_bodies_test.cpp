@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// A dust field at bodies thinner than a cell.
+#include "support/approx.hpp"
+#include "support/run_summary.hpp"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using dust::test::approx;
+using dust::test::run_summary;
+using dust::test::TemporaryFolder;
+using nlohmann::json;
+
+namespace {
+
+const std::string k_sheet = DUST_SOURCE "/tests/scenario/dust_at_sheet.yaml";
+
+/// What became of a share of the dust that was released.
+double share(const json& dust, const char* kind, const char* name) {
+  const json& of_kind = dust[kind];
+  const auto found = of_kind.find(name);
+  return found == of_kind.end() ? 0.0 : found->get<double>() / dust["released_kg"].get<double>();
+}
+
+}  // namespace
+
+TEST_CASE("dust of a field shall settle on a sheet thinner than a cell and not fall through it") {
+  const TemporaryFolder folder;
+  // Level, of 1 mm and of nearly a cell, and on a slant, where it cuts cells in all ways; it
+  // reaches up to the cloud there.
+  const std::vector<std::vector<std::string>> sheets{
+      {},
+      {"--set", "bodies.sheet.min=[-40, -10, 25.2 mm]", "--set",
+       "bodies.sheet.max=[100, 20, 29.7 mm]"},
+      {"--set", "frames.tilted.angle=20 deg"}};
+  for (auto sheet : sheets) {
+    sheet.emplace_back("--force");
+    const json summary = run_summary(k_sheet, folder / "out", sheet);
+    const json& dust = summary["dust_field"]["classes"]["50_um"];
+    INFO(dust.dump());
+    // It sinks 80 mm; of what would fall past the sheet all would lie on the bottom by then.
+    CHECK(share(dust, "deposited_kg", "sheet") > 0.98);
+    CHECK(share(dust, "deposited_kg", "bottom") == 0.0);
+    CHECK(std::abs(dust["balance_error"].get<double>()) < 1e-12);
+  }
+}
