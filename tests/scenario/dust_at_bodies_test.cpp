@@ -48,3 +48,22 @@ TEST_CASE("dust of a field shall settle on a sheet thinner than a cell and not f
     CHECK(std::abs(dust["balance_error"].get<double>()) < 1e-12);
   }
 }
+
+TEST_CASE("a body thinner than a cell shall draw dust in on its own side") {
+  const TemporaryFolder folder;
+  const auto drawn = [&](const char* name, const std::string& flow, const char* at) {
+    const std::string opening = std::string("[15, 0, ") + at + " mm], max: [45, 10, " + at + " mm]";
+    const json summary =
+        run_summary(k_sheet, folder / name,
+                    {"--set", "bodies.sheet.suction={" + flow + ", min: " + opening + "}", "--set",
+                     "domain.boundaries.bottom={grains: open, air: {model: zero_gradient}}"});
+    const json& dust = summary["dust_field"]["classes"]["50_um"];
+    CHECK(std::abs(dust["balance_error"].get<double>()) < 1e-12);
+    return share(dust, "hoods_kg", "sheet");
+  };
+  // On its upper surface, where the dust comes down.
+  const double above = drawn("above", "flow: 0.1 l/s", "27.1");
+  CHECK(above > 0.1);
+  // Below there is none.
+  CHECK(drawn("below", "flow: 0.1 l/s", "26.1") == 0.0);
+}

@@ -42,24 +42,6 @@ class Shift final : public sdk::Motion {
   double fastest_;
 };
 
-/// Everything between two parallel planes.
-class Slab final : public bodies::OnePart<Slab> {
- public:
-  Slab(Vec3 middle, Vec3 normal, double thickness)
-      : middle_(middle), normal_(normal / norm(normal)), half_(0.5 * thickness) {}
-  [[nodiscard]] bodies::SurfacePoint nearest(Vec3 p) const override {
-    const double s = dot(p - middle_, normal_);
-    return {std::abs(s) - half_, s < 0 ? -normal_ : normal_};
-  }
-  [[nodiscard]] bodies::Triangles triangles(Vec3, Vec3, double) const override { return {}; }
-  [[nodiscard]] Vec3 lateral_axis() const override { return {0, 1, 0}; }
-
- private:
-  Vec3 middle_;
-  Vec3 normal_;
-  double half_;
-};
-
 bodies::Body moving(std::unique_ptr<bodies::Shape> shape, std::unique_ptr<sdk::Motion> motion) {
   bodies::Body b = body(std::move(shape), 0.0);
   b.motions.push_back(std::move(motion));
