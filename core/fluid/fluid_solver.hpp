@@ -85,7 +85,8 @@ class FluidSolver {
   /// The same, and nothing where a body thinner than a cell parts two cells: what fluid passes.
   [[nodiscard]] FaceField passable_area() const;
   /// [m/s] What passed the faces at the end of the last step, over their whole area, as continuity
-  /// has it: with the void fraction `after` of that step.
+  /// has it: with the void fraction `after` of that step. Where bodies that move had the grid cut
+  /// several times in the step, the mean over it.
   void find_throughflow(FaceField& throughflow) const;
   /// Calls visit(cell, rate [1/s] of the cell's volume, body) for what bodies draw out of cells.
   void each_sink(const std::function<void(std::int32_t, double, std::int32_t)>& visit) const;
