@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/table.hpp"
+#include "fluid/properties.hpp"
 #include "fluid/sides.hpp"
 #include "scenario/text/units.hpp"
 
@@ -63,7 +64,10 @@ struct Faces {
     }
     (side % 2 ? batch.low : batch.high)[d] = (side % 2 ? batch.high : batch.low)[d];
     batch.normal[d] = side % 2 ? 1.0 : -1.0;
-    for (std::vector<double>* column : {&x, &y, &z}) column->reserve(count_of(setup, side));
+    const fluid::Properties by_place(*setup.fluid);
+    for (std::vector<double>* column : {&x, &y, &z, &density}) {
+      column->reserve(count_of(setup, side));
+    }
     for (int b = 0; b < cells[static_cast<std::size_t>(f)]; ++b) {
       for (int a = 0; a < cells[static_cast<std::size_t>(e)]; ++a) {
         sdk::Vec3 p = batch.low;
@@ -72,12 +76,13 @@ struct Faces {
         x.push_back(p.x);
         y.push_back(p.y);
         z.push_back(p.z);
+        p[d] -= 0.5 * batch.normal[d] * batch.spacing[d];  // the cell inside
+        density.push_back(by_place.at(p).density);
       }
     }
     batch.count = x.size();
     clear();
     one.assign(batch.count, 1.0);
-    density.assign(batch.count, setup.fluid->density);
     area.assign(batch.count, batch.spacing[e] * batch.spacing[f]);
     batch.position.x = x.data();
     batch.position.y = y.data();

@@ -213,6 +213,15 @@ TEST_CASE("check shall refuse a body that sucks what no side gives") {
   CHECK(checked(box_of_air("volume_flow, flow: 60 l/min", "no_slip", "no_slip") + hood, 0) == "");
 }
 
+TEST_CASE("check shall count a given mass flow with the density of the fluid at its side") {
+  const std::string water =
+      "cells: [10, 2, 10], regions: {water: {min: [-1, -1, -1 mm], max: [110, 30, 110 mm], "
+      "density: 1000, viscosity: 1 mPa s}}";
+  CHECK(checked(
+            box_of_air("mass_flow, flow: 10 g/s", "volume_flow, flow: -0.01 l/s", "no_slip", water),
+            0) == "");
+}
+
 TEST_CASE("check shall tell what an air condition refuses, at its place") {
   const auto reported = [](const std::string& left, const std::string& expected) {
     const std::string text =
