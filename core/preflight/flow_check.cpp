@@ -13,6 +13,8 @@
 #include <exception>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 namespace dust::preflight {
@@ -36,6 +38,8 @@ constexpr int k_times = 16;
 constexpr double k_at_edges = 2.5;
 /// Sides with more faces than this are left to the run: a check shall not need its memory.
 constexpr std::size_t k_max_faces = 4'000'000;
+/// The sensor of the friction on a side.
+constexpr std::string_view k_wall_shear = "wall_shear";
 /// Ratio of the edges of a cell from which it is called far from cubic.
 constexpr double k_far_from_cubic = 4.0;
 
@@ -50,6 +54,7 @@ std::string flow_text(double flow) { return base::digits_text(flow, 3) + " m3/s"
 struct Faces {
   sdk::SideBatch batch;
   std::vector<double> x, y, z, velocity[3], pressure, one, density, area;
+  bool is_of_own_fluid = true;  ///< no region of another viscosity lies at the side
 
   Faces(const Setup& setup, std::size_t side) {
     const int d = static_cast<int>(side / 2);
@@ -78,6 +83,7 @@ struct Faces {
         z.push_back(p.z);
         p[d] -= 0.5 * batch.normal[d] * batch.spacing[d];  // the cell inside
         density.push_back(by_place.at(p).density);
+        is_of_own_fluid = is_of_own_fluid && by_place.at(p).viscosity == by_place.own().viscosity;
       }
     }
     batch.count = x.size();
@@ -275,6 +281,20 @@ double suction_speed(const Setup& setup, double time) {
   return largest;
 }
 
+/// The side that a sensor of wall shear is given, as a number; -1 for others.
+int side_of(const scenario::SensorSpec& sensor, const registry::Registry& registry) {
+  if (sensor.model.name != k_wall_shear) return -1;
+  const registry::Entry* entry = registry.find(sensor.model.kind, sensor.model.name);
+  if (entry == nullptr) return -1;
+  for (std::size_t n = 0; n < sensor.model.values.size(); ++n) {
+    const auto* text = std::get_if<std::string>(&sensor.model.values[n]);
+    if (text == nullptr || entry->info.parameters[n].name != "side") continue;
+    const auto side = std::find(k_side_names.begin(), k_side_names.end(), *text);
+    if (side != k_side_names.end()) return static_cast<int>(side - k_side_names.begin());
+  }
+  return -1;
+}
+
 }  // namespace
 
 SideModelSet::SideModelSet(const Setup& setup, const registry::Registry& registry) {
@@ -301,6 +321,31 @@ double driven_speed(const Setup& setup, const SideModels& sides) {
     }
   }
   return largest;
+}
+
+void check_wall_shear(const Setup& setup, const SideModels& sides,
+                      const registry::Registry& registry, Diagnostics& diagnostics) {
+  if (!setup.fluid || diagnostics.has_errors()) return;
+  for (const scenario::SensorSpec& sensor : setup.sensors) {
+    const int number = side_of(sensor, registry);
+    if (number < 0) continue;
+    const auto side = static_cast<std::size_t>(number);
+    const auto refuse = [&](const std::string& why) {
+      diagnostics.error(sensor.model.where,
+                        "sensors." + sensor.name + ".side: " + k_side_names[side] + why);
+    };
+    if (sides[side] == nullptr) {
+      refuse(" is periodic, no wall that the air could rub; name a side that is one");
+    } else if (sides[side]->rules().tangential_velocity != SideRule::fixed) {
+      refuse(
+          " holds no air that goes along it, so that there is no shear; name a side with no_slip "
+          "or moving_wall");
+    } else if (!is_too_large(setup, side) && !Faces(setup, side).is_of_own_fluid) {
+      refuse(
+          " has a region of another viscosity beside it, and the sensor knows that of the fluid "
+          "alone; name another side, or take the sensor out");
+    }
+  }
 }
 
 void check_flow(const Setup& setup, const SideModels& sides, Diagnostics& diagnostics) {
