@@ -5,6 +5,7 @@
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/sensor.hpp"
 #include "run/dust/dust_stage.hpp"
+#include "run/dust/hoods.hpp"
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
 #include "setup/force_kinds.hpp"
@@ -116,7 +117,9 @@ std::vector<std::string> ways_out(const scenario::Setup& setup, const scenario::
         std::any_of(dust.openings.begin(), dust.openings.end(),
                     [&](const auto& opening) { return opening.side == static_cast<int>(side); });
     const bool is_open = setup.domain.sides[side].grains == scenario::GrainSide::open;
-    if (has_hood || is_open) ways.emplace_back(scenario::k_side_names[side]);
+    const std::string name = scenario::k_side_names[side];
+    if (has_hood) ways.push_back(name);
+    if (is_open) ways.push_back(has_hood ? name + run::k_beside_hood : name);
   }
   return ways;
 }

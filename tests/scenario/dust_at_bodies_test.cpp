@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A dust field at bodies thinner than a cell.
+// A dust field at bodies thinner than a cell, and the sides that it gets out of.
 #include "support/approx.hpp"
 #include "support/run_summary.hpp"
 
@@ -17,6 +17,7 @@ using nlohmann::json;
 
 namespace {
 
+const std::string k_sides = DUST_SOURCE "/tests/scenario/dust_through_sides.yaml";
 const std::string k_sheet = DUST_SOURCE "/tests/scenario/dust_at_sheet.yaml";
 
 /// What became of a share of the dust that was released.
@@ -66,4 +67,21 @@ TEST_CASE("a body thinner than a cell shall draw dust in on its own side") {
   CHECK(above > 0.1);
   // Below there is none.
   CHECK(drawn("below", "flow: 0.1 l/s", "26.1") == 0.0);
+}
+
+TEST_CASE("a hood in a side that is open to grains shall have the dust of its faces alone") {
+  const TemporaryFolder folder;
+  // The cloud sinks onto the floor; the hood, which hardly sucks, is a third of what lies below it.
+  const json summary = run_summary(
+      k_sides, folder / "out",
+      {"--set", "dust.field.classes=[50 um]", "--set", "fluid.initial_velocity=[0, 0, 0]", "--set",
+       "domain.boundaries.bottom={grains: open, air: {model: hood, flow: 1e-6 l/s, "
+       "min: [40, 0, 0 mm], max: [60, 10, 0 mm]}}"});
+  const json& dust = summary["dust_field"]["classes"]["50_um"];
+  CHECK(share(dust, "hoods_kg", "bottom") == approx(1.0 / 3.0).epsilon(1e-3));
+  CHECK(share(dust, "left_kg", "bottom") == approx(2.0 / 3.0).epsilon(1e-3));
+  CHECK(summary["dust_outflow"]["bottom"]["kg"].get<double>() ==
+        approx(dust["hoods_kg"]["bottom"].get<double>()).epsilon(1e-12));
+  CHECK(summary["dust_outflow"]["bottom_beside_hood"]["kg"].get<double>() ==
+        approx(dust["left_kg"]["bottom"].get<double>()).epsilon(1e-12));
 }

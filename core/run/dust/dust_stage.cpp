@@ -28,6 +28,9 @@ fluid::BodyField::Hit hit_between(const fluid::BodyField& bodies, sdk::Vec3 cent
   return hit;
 }
 
+/// Part of a face that an opening may miss or reach beyond by rounding.
+constexpr double k_rounding = 1e-9;
+
 std::size_t at(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
@@ -64,11 +67,25 @@ void DustStage::mark_hoods() {
   for (std::size_t o = 0; o < openings_.size(); ++o) {
     if (openings_[o].side < 0) continue;
     const auto side = static_cast<std::size_t>(openings_[o].side);
-    const std::size_t d = side / 2;
-    // A side with an opening is a wall elsewhere: all that passes it goes through the opening.
-    flow_.side_outlet[side].assign(
-        static_cast<std::size_t>(grid.count[(d + 1) % 3]) * grid.count[(d + 2) % 3],
-        static_cast<std::int32_t>(o));
+    const std::size_t e = (side / 2 + 1) % 3;
+    const std::size_t f = (side / 2 + 2) % 3;
+    const auto is_covered = [&](std::size_t axis, int cell) {
+      const int n = static_cast<int>(axis);
+      const double h = grid.spacing[n];
+      const double low = grid.origin[n] + cell * h;
+      return std::min(low + h, openings_[o].max[n]) - std::max(low, openings_[o].min[n]) >
+             k_rounding * h;
+    };
+    // What passes the others is not drawn out: the side is a wall to the gas there, and dust sinks
+    // through it where it is open to grains.
+    std::vector<std::int32_t>& outlet = flow_.side_outlet[side];
+    outlet.assign(static_cast<std::size_t>(grid.count[e]) * grid.count[f], -1);
+    for (int b = 0; b < grid.count[f]; ++b) {
+      for (int a = 0; a < grid.count[e]; ++a) {
+        if (!is_covered(e, a) || !is_covered(f, b)) continue;
+        outlet[static_cast<std::size_t>(b) * grid.count[e] + a] = static_cast<std::int32_t>(o);
+      }
+    }
   }
 }
 
