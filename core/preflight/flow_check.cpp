@@ -3,6 +3,7 @@
 
 #include "base/text.hpp"
 #include "dust/sdk/error.hpp"
+#include "dust/sdk/side_flow.hpp"
 #include "dust/sdk/table.hpp"
 #include "fluid/properties.hpp"
 #include "fluid/sides.hpp"
@@ -130,6 +131,11 @@ struct Faces {
       for (const double v : component) largest = std::max(largest, std::abs(v));
     }
     return largest;
+  }
+  /// Did a model let fluid pass any face?
+  [[nodiscard]] bool is_passed() const {
+    const auto& normal = velocity[sdk::axis_of(batch.normal)];
+    return std::any_of(normal.begin(), normal.end(), [](double v) { return v != 0.0; });
   }
   /// [m3/s] into the domain
   [[nodiscard]] double inflow() const {
@@ -303,6 +309,18 @@ SideModelSet::SideModelSet(const Setup& setup, const registry::Registry& registr
     if (air) made_[n] = registry.create_as<sdk::BoundaryCondition>(*air);
     models_[n] = made_[n].get();
   }
+}
+
+bool passes_air(const Setup& setup, std::size_t side, const sdk::BoundaryCondition* model) {
+  if (!setup.fluid || model == nullptr) return false;
+  if (model->rules().normal_velocity != SideRule::fixed) return true;
+  if (is_too_large(setup, side)) return model->needs_flow();
+  Faces faces(setup, side);
+  for (int step = 0; step <= k_times; ++step) {
+    faces.ask(*model, setup.time.end * step / k_times);
+    if (faces.is_passed()) return true;
+  }
+  return false;
 }
 
 double driven_speed(const Setup& setup, const SideModels& sides) {

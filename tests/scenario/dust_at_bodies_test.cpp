@@ -69,6 +69,19 @@ TEST_CASE("a body thinner than a cell shall draw dust in on its own side") {
   CHECK(drawn("below", "flow: 0.1 l/s", "26.1") == 0.0);
 }
 
+TEST_CASE("dust shall be told to have left by each side that air passes, open to grains or not") {
+  const TemporaryFolder folder;
+  const json summary = run_summary(k_sides, folder / "out", {});
+  const json& dust = summary["dust_field"]["classes"]["10_um"];
+  CHECK(share(dust, "left_kg", "top") > 0.99);
+  REQUIRE(summary["dust_outflow"].contains("top"));
+  CHECK(summary["dust_outflow"]["top"]["kg"].get<double>() ==
+        approx(dust["left_kg"]["top"].get<double>()).epsilon(1e-12));
+  CHECK(summary["dust_outflow"].size() == 2);  // and the inlet
+  CHECK(summary["dust_rates"].contains("left/top/rate"));
+  CHECK_FALSE(summary["dust_rates"].contains("left/right/rate"));
+}
+
 TEST_CASE("a hood in a side that is open to grains shall have the dust of its faces alone") {
   const TemporaryFolder folder;
   // The cloud sinks onto the floor; the hood, which hardly sucks, is a third of what lies below it.

@@ -3,6 +3,7 @@
 
 #include "dust/sdk/sampling.hpp"
 #include "fluid/parallel.hpp"
+#include "preflight/flow_check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -87,6 +88,15 @@ void DustStage::mark_hoods() {
       }
     }
   }
+}
+
+bool DustStage::lets_dust_out(std::size_t side) const {
+  if (setup_.domain.sides[side].grains == scenario::GrainSide::open) return true;
+  const bool has_opening = std::any_of(
+      openings_.begin(), openings_.end(),
+      [&](const particles::Opening& opening) { return opening.side == static_cast<int>(side); });
+  // Beside its opening a side holds the air.
+  return !has_opening && preflight::passes_air(setup_, side, models_.boundaries[side].get());
 }
 
 std::vector<std::string> DustStage::surface_names() const {

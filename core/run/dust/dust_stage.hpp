@@ -66,6 +66,9 @@ class DustStage {
   /// Names of the surfaces of DustBalance::surfaces.
   [[nodiscard]] std::vector<std::string> surface_names() const;
   [[nodiscard]] const std::vector<particles::Opening>& openings() const { return openings_; }
+  /// May dust get out through a side, besides its opening if it has one: with the air, or by
+  /// sinking where grains get out?
+  [[nodiscard]] bool lets_dust_out(std::size_t side) const;
 
   /// Copies what sensors of dust see.
   void take_columns() { table_.take(field_, flow_.volume_after); }

@@ -53,7 +53,7 @@ Json dust_outflow_json(const Simulation& s) {
         sampled(s, [&](const airborne::DustBalance& balance) { return balance.outlets[o]; });
   }
   for (std::size_t side = 0; side < 6; ++side) {
-    if (s.setup().domain.sides[side].grains != scenario::GrainSide::open) continue;
+    if (!s.dust_stage()->lets_dust_out(side)) continue;
     const std::string name = scenario::k_side_names[side];
     j[j.contains(name) ? name + k_beside_hood : name] =
         sampled(s, [&](const airborne::DustBalance& balance) { return balance.left[side]; });
