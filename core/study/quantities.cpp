@@ -9,6 +9,7 @@
 #include "run/dust/hoods.hpp"
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
+#include "setup/draws_out.hpp"
 #include "setup/force_kinds.hpp"
 
 #include <nlohmann/json.hpp>
@@ -124,7 +125,7 @@ std::vector<std::string> ways_out(const scenario::Setup& setup, const scenario::
                                   const preflight::SideModels& models) {
   std::vector<std::string> ways;
   for (const scenario::BodySpec& body : setup.bodies) {
-    if (body.suction && body.suction->flow > 0.0) ways.push_back(body.name);
+    if (body.suction && scenario::draws_out(*body.suction)) ways.push_back(body.name);
   }
   for (std::size_t side = 0; side < scenario::k_side_names.size(); ++side) {
     const std::string name = scenario::k_side_names[side];
@@ -142,7 +143,8 @@ std::vector<std::string> steady_ways(const scenario::Setup& setup, const scenari
   if (dust.liberation) ways.emplace_back("set_free.all");
   if (run::has_running_surfaces(setup)) ways.emplace_back("carried_out.all");
   for (const scenario::BodySpec& body : setup.bodies) {
-    if (body.suction && body.suction->flow > 0.0) ways.push_back("drawn_out." + body.name);
+    if (body.suction && scenario::draws_out(*body.suction))
+      ways.push_back("drawn_out." + body.name);
   }
   for (const auto& opening : dust.openings) {
     ways.push_back(std::string("drawn_out.") + scenario::k_side_names[opening.side]);

@@ -50,7 +50,8 @@ TEST_CASE("dust of a field shall settle on a sheet thinner than a cell and not f
   }
 }
 
-TEST_CASE("a body thinner than a cell shall draw dust in on its own side") {
+TEST_CASE(
+    "a body thinner than a cell shall draw dust in on its own side, however its flow is given") {
   const TemporaryFolder folder;
   const auto drawn = [&](const char* name, const std::string& flow, const char* at) {
     const std::string opening = std::string("[15, 0, ") + at + " mm], max: [45, 10, " + at + " mm]";
@@ -65,6 +66,7 @@ TEST_CASE("a body thinner than a cell shall draw dust in on its own side") {
   // On its upper surface, where the dust comes down.
   const double above = drawn("above", "flow: 0.1 l/s", "27.1");
   CHECK(above > 0.1);
+  CHECK(drawn("turned", "flow: -0.1 l/s, times: [0, 1 s], factors: [-1, -1]", "27.1") == above);
   // Below there is none.
   CHECK(drawn("below", "flow: 0.1 l/s", "26.1") == 0.0);
 }
