@@ -74,6 +74,15 @@ DustField::DustField(const fluid::Grid& grid, const scenario::DustFieldSpec& spe
   if (spec.inertia && memory > 0.0) acceleration_.emplace(grid, memory);
 }
 
+int DustField::layer_of(int d, double x) const {
+  constexpr double k_rounding = 1e-9;  // cells
+  const double place = (x - grid_.origin[d]) / grid_.spacing[d];
+  const int count = grid_.count[static_cast<std::size_t>(d)];
+  if (place < -k_rounding || place > count + k_rounding) return -1;
+  // Upper sides belong to the last layer.
+  return std::clamp(static_cast<int>(std::floor(place)), 0, count - 1);
+}
+
 std::vector<DustField::Part> DustField::parts_of(sdk::Vec3 min, sdk::Vec3 max,
                                                  const fluid::CellField& volume) const {
   std::array<int, 3> first{};
@@ -93,12 +102,14 @@ std::vector<DustField::Part> DustField::parts_of(sdk::Vec3 min, sdk::Vec3 max,
         const auto cell = static_cast<std::size_t>(grid_.index(i, j, k));
         const sdk::Vec3 centre = grid_.centre(i, j, k);
         double gas = volume[cell];
+        const std::array<int, 3> at{i, j, k};
         for (int d = 0; d < 3; ++d) {
           const double h = grid_.spacing[d];
           const double low = centre[d] - 0.5 * h;
           // A flat box lies in one layer of cells.
           const bool is_flat = max[d] <= min[d];
-          gas *= is_flat ? (min[d] >= low && min[d] < low + h ? 1.0 : 0.0)
+          const int layer = at[static_cast<std::size_t>(d)];
+          gas *= is_flat ? (layer_of(d, min[d]) == layer ? 1.0 : 0.0)
                          : overlap(low, low + h, min[d], max[d]) / h;
         }
         if (gas > 0.0) parts.push_back({cell, gas});
@@ -121,15 +132,17 @@ void DustField::start(const fluid::CellField& volume) {
   for (Class& c : classes_) c.released = {sum_of(grid_, c.mass) * grid_.cell_volume(), 0.0};
 }
 
-void DustField::find_sources(const fluid::CellField& volume) {
+void DustField::find_sources(const fluid::CellField& volume, double time, double step) {
   sources_.clear();
   for (const scenario::DustSourceSpec& source : spec_.sources) {
-    std::vector<Part> parts = parts_of(source.min, source.max, volume);
+    std::vector<Part>& parts = sources_.emplace_back();
+    // Before it begins and once it has ended, bodies may be where it is.
+    if (!(overlap(time, time + step, source.begin, source.end) > 0.0)) continue;
+    parts = parts_of(source.min, source.max, volume);
     if (parts.empty()) fail_as_empty("sources." + source.name);
     double sum = 0.0;
     for (const Part& part : parts) sum += part.gas;
     for (Part& part : parts) part.gas /= sum;
-    sources_.push_back(std::move(parts));
   }
 }
 
@@ -200,7 +213,7 @@ void DustField::resuspend(const Flow& flow, double step) {
 
 void DustField::advance(const Flow& flow, double time, double step) {
   static const std::vector<double> k_no_source;
-  find_sources(flow.volume_after);
+  find_sources(flow.volume_after, time, step);
   if (acceleration_) acceleration_->find(flow, step);
   transport_.prepare(flow, acceleration_ ? &*acceleration_ : nullptr);
   if (keeps_layers() && walls_found_ != flow.walls_found) {

@@ -108,8 +108,11 @@ class DustField {
   };
   [[nodiscard]] std::vector<Part> parts_of(sdk::Vec3 min, sdk::Vec3 max,
                                            const fluid::CellField& volume) const;
-  /// Anew in each step, for what gas a cell has changes with the grains in it.
-  void find_sources(const fluid::CellField& volume);
+  /// The layer of cells along d that a flat box at x lies in; -1 outside the domain.
+  [[nodiscard]] int layer_of(int d, double x) const;
+  /// Of the sources that are active in a step; anew in each, for what gas a cell has changes with
+  /// the grains in it.
+  void find_sources(const fluid::CellField& volume, double time, double step);
   [[nodiscard]] bool add_sources(std::size_t n, double time, double step);
   void add_deposits(std::size_t of_class, const Flow& flow);
   /// Before transport: what the gas takes off surfaces in the step is in it from its beginning.

@@ -44,7 +44,7 @@ void CutGrid::complete(double time) {
 void CutGrid::evaluate_walls(double time) {
   const auto last = geometry_.wall.velocity;
   evaluate(geometry_.wall, bodies_, time);
-  suction_.add_to(geometry_.wall, bodies_, time);
+  suction_.add_to(geometry_, bodies_, time);
   have_walls_changed_ = have_walls_changed_ || geometry_.wall.velocity != last;
 }
 

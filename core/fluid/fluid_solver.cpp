@@ -48,6 +48,7 @@ void FluidSolver::Impl::recut(double begin, double end) {
   cut_.cut(begin, end);
   momentum_.geometry_changed();
   cut_.complete(end);
+  sides_.set_flow_data(geometry().open_area, properties_.by_place());
   projection_.geometry_changed();
   if (eddies_) eddies_->bodies_moved(cut_.bodies(), end);
 }
@@ -140,6 +141,7 @@ const CellField& FluidSolver::mean_pressure() const { return impl_->mean_pressur
 const FaceField& FluidSolver::stress_divergence() const { return impl_->stress_divergence(); }
 const CellField& FluidSolver::open_fraction() const { return impl_->open_fraction(); }
 const FaceField& FluidSolver::open_area() const { return impl_->open_area(); }
+FaceField FluidSolver::passable_area() const { return impl_->passable_area(); }
 void FluidSolver::find_throughflow(FaceField& throughflow) const {
   impl_->find_throughflow(throughflow);
 }

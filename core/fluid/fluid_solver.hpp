@@ -79,10 +79,14 @@ class FluidSolver {
   [[nodiscard]] const FaceField& stress_divergence() const;
   /// Share of a cell's volume outside all bodies, 0..1 (padded; halo cells as their neighbours).
   [[nodiscard]] const CellField& open_fraction() const;
-  /// Share of the faces' areas outside all bodies, mean over the last step (padded).
+  /// Share of the faces' areas outside all bodies, mean over the last interval between two cuts
+  /// (padded).
   [[nodiscard]] const FaceField& open_area() const;
+  /// The same, and nothing where a body thinner than a cell parts two cells: what fluid passes.
+  [[nodiscard]] FaceField passable_area() const;
   /// [m/s] What passed the faces at the end of the last step, over their whole area, as continuity
-  /// has it: with the void fraction `after` of that step.
+  /// has it: with the void fraction `after` of that step. Where bodies that move had the grid cut
+  /// several times in the step, the mean over it.
   void find_throughflow(FaceField& throughflow) const;
   /// Calls visit(cell, rate [1/s] of the cell's volume, body) for what bodies draw out of cells.
   void each_sink(const std::function<void(std::int32_t, double, std::int32_t)>& visit) const;

@@ -120,6 +120,8 @@ void Sides::set_flow_data(const FaceField& open_area, const Properties& properti
     const auto size = plane_size(side, d);
     const std::ptrdiff_t first =
         grid_.index(0, 0, 0) + (side % 2 ? grid_.count[d] * grid_.stride[d] : 0);
+    v.area.clear();
+    v.density.clear();
     for (int b = 0; b < size[1]; ++b) {
       for (int a = 0; a < size[0]; ++a) {
         v.area.push_back(grid_.spacing[e] * grid_.spacing[f] *

@@ -19,7 +19,8 @@ class Sides {
   Sides(const Grid& grid, const std::array<const sdk::BoundaryCondition*, 6>& conditions);
 
   [[nodiscard]] const SideKinds& kinds() const { return kinds_; }
-  /// What models that prescribe flows need to know; once, before the first evaluation.
+  /// What models that prescribe flows need to know: before the first evaluation, and again
+  /// whenever bodies have cut the grid anew.
   void set_flow_data(const FaceField& open_area, const Properties& properties);
   /// Asks the models for their velocities and pressures at `time`; `eps` with filled halo.
   void evaluate_velocity(double time, const CellField& eps);

@@ -50,8 +50,9 @@ class FluidSolver::Impl {
   }
   [[nodiscard]] const CellField& open_fraction() const { return cut_.open_fraction(); }
   [[nodiscard]] const FaceField& open_area() const { return geometry().open_area; }
+  [[nodiscard]] FaceField passable_area() const { return fluid::passable_area(grid_, geometry()); }
   void find_throughflow(FaceField& throughflow) const {
-    projection_.continuity().find_throughflow(u_, void_fraction_.field(), throughflow);
+    projection_.find_throughflow(u_, void_fraction_.field(), throughflow);
   }
   [[nodiscard]] const std::vector<Continuity::Sink>& sinks() const {
     return projection_.continuity().sinks();

@@ -40,6 +40,7 @@ void FluidSolver::Impl::advance(double time, double step, const CellField& befor
     const double begin = static_cast<double>(cut) / cuts;
     const double end = cut + 1 == cuts ? 1.0 : (cut + 1.0) / cuts;
     last_share = advance_part(s, begin, end);
+    if (cuts > 1) projection_.add_throughflow(u_, void_fraction_.field(), end - begin);
   }
   end_step(s, last_share);
 }

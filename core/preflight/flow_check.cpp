@@ -3,7 +3,9 @@
 
 #include "base/text.hpp"
 #include "dust/sdk/error.hpp"
+#include "dust/sdk/side_flow.hpp"
 #include "dust/sdk/table.hpp"
+#include "fluid/properties.hpp"
 #include "fluid/sides.hpp"
 #include "scenario/text/units.hpp"
 
@@ -12,6 +14,8 @@
 #include <exception>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 namespace dust::preflight {
@@ -35,6 +39,8 @@ constexpr int k_times = 16;
 constexpr double k_at_edges = 2.5;
 /// Sides with more faces than this are left to the run: a check shall not need its memory.
 constexpr std::size_t k_max_faces = 4'000'000;
+/// The sensor of the friction on a side.
+constexpr std::string_view k_wall_shear = "wall_shear";
 /// Ratio of the edges of a cell from which it is called far from cubic.
 constexpr double k_far_from_cubic = 4.0;
 
@@ -49,6 +55,7 @@ std::string flow_text(double flow) { return base::digits_text(flow, 3) + " m3/s"
 struct Faces {
   sdk::SideBatch batch;
   std::vector<double> x, y, z, velocity[3], pressure, one, density, area;
+  bool is_of_own_fluid = true;  ///< no region of another viscosity lies at the side
 
   Faces(const Setup& setup, std::size_t side) {
     const int d = static_cast<int>(side / 2);
@@ -63,7 +70,10 @@ struct Faces {
     }
     (side % 2 ? batch.low : batch.high)[d] = (side % 2 ? batch.high : batch.low)[d];
     batch.normal[d] = side % 2 ? 1.0 : -1.0;
-    for (std::vector<double>* column : {&x, &y, &z}) column->reserve(count_of(setup, side));
+    const fluid::Properties by_place(*setup.fluid);
+    for (std::vector<double>* column : {&x, &y, &z, &density}) {
+      column->reserve(count_of(setup, side));
+    }
     for (int b = 0; b < cells[static_cast<std::size_t>(f)]; ++b) {
       for (int a = 0; a < cells[static_cast<std::size_t>(e)]; ++a) {
         sdk::Vec3 p = batch.low;
@@ -72,12 +82,14 @@ struct Faces {
         x.push_back(p.x);
         y.push_back(p.y);
         z.push_back(p.z);
+        p[d] -= 0.5 * batch.normal[d] * batch.spacing[d];  // the cell inside
+        density.push_back(by_place.at(p).density);
+        is_of_own_fluid = is_of_own_fluid && by_place.at(p).viscosity == by_place.own().viscosity;
       }
     }
     batch.count = x.size();
     clear();
     one.assign(batch.count, 1.0);
-    density.assign(batch.count, setup.fluid->density);
     area.assign(batch.count, batch.spacing[e] * batch.spacing[f]);
     batch.position.x = x.data();
     batch.position.y = y.data();
@@ -119,6 +131,11 @@ struct Faces {
       for (const double v : component) largest = std::max(largest, std::abs(v));
     }
     return largest;
+  }
+  /// Did a model let fluid pass any face?
+  [[nodiscard]] bool is_passed() const {
+    const auto& normal = velocity[sdk::axis_of(batch.normal)];
+    return std::any_of(normal.begin(), normal.end(), [](double v) { return v != 0.0; });
   }
   /// [m3/s] into the domain
   [[nodiscard]] double inflow() const {
@@ -270,6 +287,20 @@ double suction_speed(const Setup& setup, double time) {
   return largest;
 }
 
+/// The side that a sensor of wall shear is given, as a number; -1 for others.
+int side_of(const scenario::SensorSpec& sensor, const registry::Registry& registry) {
+  if (sensor.model.name != k_wall_shear) return -1;
+  const registry::Entry* entry = registry.find(sensor.model.kind, sensor.model.name);
+  if (entry == nullptr) return -1;
+  for (std::size_t n = 0; n < sensor.model.values.size(); ++n) {
+    const auto* text = std::get_if<std::string>(&sensor.model.values[n]);
+    if (text == nullptr || entry->info.parameters[n].name != "side") continue;
+    const auto side = std::find(k_side_names.begin(), k_side_names.end(), *text);
+    if (side != k_side_names.end()) return static_cast<int>(side - k_side_names.begin());
+  }
+  return -1;
+}
+
 }  // namespace
 
 SideModelSet::SideModelSet(const Setup& setup, const registry::Registry& registry) {
@@ -278,6 +309,18 @@ SideModelSet::SideModelSet(const Setup& setup, const registry::Registry& registr
     if (air) made_[n] = registry.create_as<sdk::BoundaryCondition>(*air);
     models_[n] = made_[n].get();
   }
+}
+
+bool passes_air(const Setup& setup, std::size_t side, const sdk::BoundaryCondition* model) {
+  if (!setup.fluid || model == nullptr) return false;
+  if (model->rules().normal_velocity != SideRule::fixed) return true;
+  if (is_too_large(setup, side)) return model->needs_flow();
+  Faces faces(setup, side);
+  for (int step = 0; step <= k_times; ++step) {
+    faces.ask(*model, setup.time.end * step / k_times);
+    if (faces.is_passed()) return true;
+  }
+  return false;
 }
 
 double driven_speed(const Setup& setup, const SideModels& sides) {
@@ -296,6 +339,31 @@ double driven_speed(const Setup& setup, const SideModels& sides) {
     }
   }
   return largest;
+}
+
+void check_wall_shear(const Setup& setup, const SideModels& sides,
+                      const registry::Registry& registry, Diagnostics& diagnostics) {
+  if (!setup.fluid || diagnostics.has_errors()) return;
+  for (const scenario::SensorSpec& sensor : setup.sensors) {
+    const int number = side_of(sensor, registry);
+    if (number < 0) continue;
+    const auto side = static_cast<std::size_t>(number);
+    const auto refuse = [&](const std::string& why) {
+      diagnostics.error(sensor.model.where,
+                        "sensors." + sensor.name + ".side: " + k_side_names[side] + why);
+    };
+    if (sides[side] == nullptr) {
+      refuse(" is periodic, no wall that the air could rub; name a side that is one");
+    } else if (sides[side]->rules().tangential_velocity != SideRule::fixed) {
+      refuse(
+          " holds no air that goes along it, so that there is no shear; name a side with no_slip "
+          "or moving_wall");
+    } else if (!is_too_large(setup, side) && !Faces(setup, side).is_of_own_fluid) {
+      refuse(
+          " has a region of another viscosity beside it, and the sensor knows that of the fluid "
+          "alone; name another side, or take the sensor out");
+    }
+  }
 }
 
 void check_flow(const Setup& setup, const SideModels& sides, Diagnostics& diagnostics) {

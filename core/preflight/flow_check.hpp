@@ -33,6 +33,15 @@ class SideModelSet {
 void check_flow(const scenario::Setup& setup, const SideModels& sides,
                 scenario::Diagnostics& diagnostics);
 
+/// Tells sensors of wall shear on sides that have none, or whose viscosity they do not know.
+void check_wall_shear(const scenario::Setup& setup, const SideModels& sides,
+                      const registry::Registry& registry, scenario::Diagnostics& diagnostics);
+
+/// Does air pass a side, in or out, at some times of the run? `model`: its own, null where
+/// periodic.
+bool passes_air(const scenario::Setup& setup, std::size_t side,
+                const sdk::BoundaryCondition* model);
+
 /// [m/s] Largest speed at which sides and openings of bodies drive the fluid, at some times of the
 /// run; 0 without any. A side that a check has no memory for counts as none.
 double driven_speed(const scenario::Setup& setup, const SideModels& sides);

@@ -22,6 +22,7 @@ void check_sides(const scenario::Setup& setup, const registry::Registry& registr
                  scenario::Diagnostics& diagnostics) {
   const SideModelSet sides(setup, registry);
   check_flow(setup, sides.models(), diagnostics);
+  check_wall_shear(setup, sides.models(), registry, diagnostics);
 }
 
 /// Where bodies, emitters, openings and sensors are, and how far laws reach.

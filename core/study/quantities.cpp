@@ -4,9 +4,12 @@
 #include "base/error.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/sensor.hpp"
+#include "preflight/flow_check.hpp"
 #include "run/dust/dust_stage.hpp"
+#include "run/dust/hoods.hpp"
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
+#include "setup/draws_out.hpp"
 #include "setup/force_kinds.hpp"
 
 #include <nlohmann/json.hpp>
@@ -105,36 +108,49 @@ constexpr Named k_of_outflow[] = {
 /// Of each way of the dust in the steady stream (run::DustRates).
 constexpr Named k_of_rate[] = {{"rate", "kg/h"}, {"per_load", "g/t"}};
 
-/// Hoods, and sides that are open to grains.
-std::vector<std::string> ways_out(const scenario::Setup& setup, const scenario::DustSetup& dust) {
+bool has_hood(const scenario::DustSetup& dust, std::size_t side) {
+  return std::any_of(dust.openings.begin(), dust.openings.end(),
+                     [&](const auto& opening) { return opening.side == static_cast<int>(side); });
+}
+
+/// As run::DustStage::lets_dust_out.
+bool lets_dust_out(const scenario::Setup& setup, const scenario::DustSetup& dust, std::size_t side,
+                   const preflight::SideModels& models) {
+  if (setup.domain.sides[side].grains == scenario::GrainSide::open) return true;
+  return !has_hood(dust, side) && preflight::passes_air(setup, side, models[side]);
+}
+
+/// Hoods, and sides that dust gets out of.
+std::vector<std::string> ways_out(const scenario::Setup& setup, const scenario::DustSetup& dust,
+                                  const preflight::SideModels& models) {
   std::vector<std::string> ways;
   for (const scenario::BodySpec& body : setup.bodies) {
-    if (body.suction && body.suction->flow > 0.0) ways.push_back(body.name);
+    if (body.suction && scenario::draws_out(*body.suction)) ways.push_back(body.name);
   }
   for (std::size_t side = 0; side < scenario::k_side_names.size(); ++side) {
-    const bool has_hood =
-        std::any_of(dust.openings.begin(), dust.openings.end(),
-                    [&](const auto& opening) { return opening.side == static_cast<int>(side); });
-    const bool is_open = setup.domain.sides[side].grains == scenario::GrainSide::open;
-    if (has_hood || is_open) ways.emplace_back(scenario::k_side_names[side]);
+    const std::string name = scenario::k_side_names[side];
+    if (has_hood(dust, side)) ways.push_back(name);
+    if (!lets_dust_out(setup, dust, side, models)) continue;
+    ways.push_back(has_hood(dust, side) ? name + run::k_beside_hood : name);
   }
   return ways;
 }
 
-/// With errors; by way all of it, and what goes out by each hood and each side open to grains.
-std::vector<std::string> steady_ways(const scenario::Setup& setup,
-                                     const scenario::DustSetup& dust) {
+/// With errors; by way all of it, and what goes out by each hood and each side that lets it out.
+std::vector<std::string> steady_ways(const scenario::Setup& setup, const scenario::DustSetup& dust,
+                                     const preflight::SideModels& models) {
   std::vector<std::string> ways{"left.all", "deposited.all"};
   if (dust.liberation) ways.emplace_back("set_free.all");
   if (run::has_running_surfaces(setup)) ways.emplace_back("carried_out.all");
   for (const scenario::BodySpec& body : setup.bodies) {
-    if (body.suction && body.suction->flow > 0.0) ways.push_back("drawn_out." + body.name);
+    if (body.suction && scenario::draws_out(*body.suction))
+      ways.push_back("drawn_out." + body.name);
   }
   for (const auto& opening : dust.openings) {
     ways.push_back(std::string("drawn_out.") + scenario::k_side_names[opening.side]);
   }
   for (std::size_t side = 0; side < scenario::k_side_names.size(); ++side) {
-    if (setup.domain.sides[side].grains != scenario::GrainSide::open) continue;
+    if (!lets_dust_out(setup, dust, side, models)) continue;
     ways.push_back(std::string("left.") + scenario::k_side_names[side]);
   }
   const bool has_hoods = std::any_of(ways.begin(), ways.end(),
@@ -206,9 +222,10 @@ std::vector<Quantity> quantities_of(const scenario::Setup& setup, const scenario
   if (setup.fluid && !setup.fluid->resolved.empty()) add(k_with_resolved);
   for (const auto& emitter : setup.emitters) add(k_of_emitter, "emitters." + emitter.name + ".");
   if (dust.field && setup.fluid) {
-    for (const std::string& way : ways_out(setup, dust))
+    const preflight::SideModelSet sides(setup, registry);
+    for (const std::string& way : ways_out(setup, dust, sides.models()))
       add(k_of_outflow, "dust_outflow." + way + ".");
-    for (const std::string& way : steady_ways(setup, dust))
+    for (const std::string& way : steady_ways(setup, dust, sides.models()))
       add(k_of_rate, "dust_rates." + way + ".");
   }
 

@@ -227,6 +227,36 @@ TEST_CASE("check shall refuse a body that sucks what no side gives") {
   CHECK(checked(box_of_air("volume_flow, flow: 60 l/min", "no_slip", "no_slip") + hood, 0) == "");
 }
 
+TEST_CASE("check shall count a given mass flow with the density of the fluid at its side") {
+  const std::string water =
+      "cells: [10, 2, 10], regions: {water: {min: [-1, -1, -1 mm], max: [110, 30, 110 mm], "
+      "density: 1000, viscosity: 1 mPa s}}";
+  CHECK(checked(
+            box_of_air("mass_flow, flow: 10 g/s", "volume_flow, flow: -0.01 l/s", "no_slip", water),
+            0) == "");
+}
+
+TEST_CASE("check shall refuse wall shear where there is none, or its viscosity is not known") {
+  const auto with = [](const std::string& side, const std::string& fluid) {
+    return box_of_air("static_pressure, pressure: 0 Pa", "no_slip", "no_slip", fluid) +
+           "sensors: {rub: {model: wall_shear, side: " + side + "}}\n";
+  };
+  const std::string plain = "cells: [10, 2, 10]";
+  const std::string water = plain +
+                            ", regions: {water: {min: [0, 0, 0], max: [100, 20, 10 mm], density: "
+                            "1000, viscosity: 1 mPa s}}";
+  CHECK(checked(with("bottom", plain), 0) == "");
+  CHECK(checked(with("top", water), 0) == "");
+  const std::string slippery = checked(with("front", plain), 2);
+  CHECK_MESSAGE(
+      slippery.find("sensors.rub.side: front holds no air that goes along it") != std::string::npos,
+      slippery);
+  const std::string wet = checked(with("bottom", water), 2);
+  CHECK_MESSAGE(wet.find("sensors.rub.side: bottom has a region of another viscosity beside it") !=
+                    std::string::npos,
+                wet);
+}
+
 TEST_CASE("check shall tell what an air condition refuses, at its place") {
   const auto reported = [](const std::string& left, const std::string& expected) {
     const std::string text =

@@ -203,6 +203,46 @@ TEST_CASE("wind shall take dust off as its shear over the threshold asks for") {
   CHECK(set_free(blow("1")) == 0.0);
 }
 
+TEST_CASE("a coarse grain shall lose the share of its dust that the grains it stands for lose") {
+  const TemporaryFolder folder;
+  const auto share = [&](const std::string& file, const std::string& name,
+                         std::vector<std::string> more) {
+    more.emplace_back("--force");
+    const json summary = run_summary(file, folder / name, more);
+    check_balances(summary);
+    return set_free(summary) / sum_of(summary["dust_on_grains"]["classes"], "entered_kg");
+  };
+  // 12 mm for eight of 6 mm, and 18 mm for 27.
+  for (const int l : {2, 3}) {
+    CAPTURE(l);
+    const auto coarse = [l](const std::string& emitter, const std::string& centre) {
+      return std::vector<std::string>{
+          "--set", "materials.ore.coarse_graining=" + std::to_string(l),
+          "--set", "emitters." + emitter + ".diameters=[" + std::to_string(6 * l) + " mm]",
+          "--set", "emitters." + emitter + ".positions=[[" + centre + " mm]]"};
+    };
+    const std::string wind = DUST_SOURCE "/tests/scenario/grain_in_wind.yaml";
+    const double blown = share(wind, "wind", {});
+    CHECK(blown > 0.0);
+    CHECK(share(wind, "coarse_wind", coarse("grain", "50, 50, " + std::to_string(3 * l))) ==
+          approx(blown).epsilon(0.002));
+    // Both fall 7 mm onto the plate; what shakes the smaller ones is l times as large.
+    for (const std::string law :
+         {"energy, binding_energy: 100 J/kg, size_exponent: 0",
+          "force_ratio, binding_force: 1e-7 N, reference_diameter: 20 um"}) {
+      CAPTURE(law);
+      const std::vector<std::string> by_law{"--set", "dust.liberation={model: " + law + "}"};
+      std::vector<std::string> more = coarse("drop", "20, 20, " + std::to_string(7 + 3 * l));
+      more.insert(more.end(), by_law.begin(), by_law.end());
+      const double shaken = share(k_bounce, "fine", by_law);
+      CHECK(shaken > 0.05);
+      CHECK(shaken < 0.95);
+      // Their contacts are computed in steps of their own.
+      CHECK(share(k_bounce, "coarse", more) == approx(shaken).epsilon(0.02));
+    }
+  }
+}
+
 TEST_CASE("grains shall keep their dust in a feed zone, and lose it elsewhere as without one") {
   const TemporaryFolder folder;
   const std::string wind = DUST_SOURCE "/tests/scenario/grain_in_wind.yaml";

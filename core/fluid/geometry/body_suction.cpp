@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace dust::fluid {
 namespace {
@@ -16,6 +17,8 @@ using sdk::Vec3;
 constexpr int k_points = 8;
 /// Widening of an opening, in cells: a flat one has no depth.
 constexpr double k_depth = 1e-6;
+/// Cosine up to which a surface counts as across another one, whatever rounding says.
+constexpr double k_across = 1e-6;
 
 }  // namespace
 
@@ -40,11 +43,12 @@ BodySuction::BodySuction(const bodies::BodySet& bodies) {
   }
 }
 
-double BodySuction::covered(const Opening& opening, const Grid& grid, Vec3 centre,
+double BodySuction::covered(const Opening& opening, const Grid& grid, Vec3 centre, Vec3 facing,
                             const BodyField& field, const bodies::Placement& at) const {
   std::array<int, 3> n{};
   for (int d = 0; d < 3; ++d) n[d] = k_points;
   int inside = 0;
+  int all = n[0] * n[1] * n[2];
   for (int c = 0; c < n[2]; ++c) {
     for (int b = 0; b < n[1]; ++b) {
       for (int a = 0; a < n[0]; ++a) {
@@ -53,17 +57,22 @@ double BodySuction::covered(const Opening& opening, const Grid& grid, Vec3 centr
                      centre.z + ((c + 0.5) / n[2] - 0.5) * grid.spacing.z};
         const auto hit = field.nearest(p);
         if (hit.body != static_cast<int>(opening.body)) continue;
+        if (dot(hit.normal, facing) < -k_across * norm(facing)) {
+          --all;
+          continue;
+        }
         if (holds(opening, at.to_body(p - hit.distance * hit.normal), rounding_)) ++inside;
       }
     }
   }
-  return static_cast<double>(inside) / (n[0] * n[1] * n[2]);
+  return all > 0 ? static_cast<double>(inside) / all : 0.0;
 }
 
 void BodySuction::find_cells(const Grid& grid, const bodies::BodySet& bodies,
                              const Geometry& geometry, double time) {
   if (openings_.empty()) return;
   const BodyField field(grid, bodies, time, BodyField::Which::all);
+  const FaceField passable = passable_area(grid, geometry);
   rounding_ = k_depth * norm(grid.spacing);
   const double reach = norm(grid.spacing);
   for (Opening& opening : openings_) {
@@ -78,16 +87,17 @@ void BodySuction::find_cells(const Grid& grid, const bodies::BodySet& bodies,
         for (int i = 0; i < grid.count[0]; ++i) {
           const std::ptrdiff_t o = grid.index(i, j, k);
           if (!(geometry.open_fraction[o] > 0.0)) continue;
-          // The open areas of a cell's faces and the surface in it close upon themselves.
+          // The areas of a cell's faces that fluid passes and the surface in it close upon
+          // themselves.
           Vec3 area;
           for (int d = 0; d < 3; ++d) {
-            const auto& a = geometry.open_area.component[d];
+            const auto& a = passable.component[d];
             area[d] = (a[o + grid.stride[d]] - a[o]) * grid.cell_volume() / grid.spacing[d];
           }
           if (!(norm(area) > 0.0)) continue;
           const Vec3 centre = grid.centre(i, j, k);
           if (std::abs(field.nearest(centre).distance) > reach) continue;
-          const double part = norm(area) * covered(opening, grid, centre, field, at);
+          const double part = norm(area) * covered(opening, grid, centre, area, field, at);
           if (!(part > 0.0)) continue;
           opening.cell.push_back(static_cast<std::int32_t>(o));
           opening.share.push_back(part);
@@ -105,7 +115,16 @@ void BodySuction::find_cells(const Grid& grid, const bodies::BodySet& bodies,
   }
 }
 
-void BodySuction::add_to(WallPoints& wall, const bodies::BodySet& bodies, double time) const {
+void BodySuction::add_to(Geometry& geometry, const bodies::BodySet& bodies, double time) const {
+  if (openings_.empty()) return;
+  WallPoints& wall = geometry.wall;
+  // What is sucked in stays in the body: nothing of it passes a thin one to its other side.
+  std::vector<char> is_at_blocked_face(wall.x.size(), 0);
+  for (const auto& ghosts : geometry.ghost) {
+    for (const GhostFace& ghost : ghosts) {
+      if (ghost.is_blocked) is_at_blocked_face[static_cast<std::size_t>(ghost.wall_point)] = 1;
+    }
+  }
   for (const Opening& opening : openings_) {
     if (!(opening.area > 0.0)) continue;
     const double speed = opening.flow * opening.over_time(time) / opening.area;
@@ -116,7 +135,8 @@ void BodySuction::add_to(WallPoints& wall, const bodies::BodySet& bodies, double
     for (std::size_t n = first; n < last; ++n) {
       const Vec3 p{wall.x[n], wall.y[n], wall.z[n]};
       const Vec3 normal{wall.normal_x[n], wall.normal_y[n], wall.normal_z[n]};
-      const double own = holds(opening, at.to_body(p), rounding_) ? speed : 0.0;
+      const bool is_open = is_at_blocked_face[n] == 0 && holds(opening, at.to_body(p), rounding_);
+      const double own = is_open ? speed : 0.0;
       for (int d = 0; d < 3; ++d) {
         wall.velocity[d][n] = (is_kept ? 0.0 : wall.velocity[d][n]) - own * normal[d];
       }

@@ -24,7 +24,7 @@ class BodySuction {
   void find_cells(const Grid& grid, const bodies::BodySet& bodies, const Geometry& geometry,
                   double time);
   /// Adds the velocity into the openings to that of the surface's points.
-  void add_to(WallPoints& wall, const bodies::BodySet& bodies, double time) const;
+  void add_to(Geometry& geometry, const bodies::BodySet& bodies, double time) const;
   void set_sinks(std::vector<Continuity::Sink>& sinks, double time) const;
 
  private:
@@ -39,8 +39,11 @@ class BodySuction {
     double area = 0.0;          ///< [m2]
   };
   [[nodiscard]] static bool holds(const Opening& opening, sdk::Vec3 p, double rounding);
+  /// Share of the surface in the cell round `centre` that belongs to the opening. `facing`: where
+  /// the surface that the cell's gas meets looks to; the other side of a thin body does not count.
   [[nodiscard]] double covered(const Opening& opening, const Grid& grid, sdk::Vec3 centre,
-                               const class BodyField& field, const bodies::Placement& at) const;
+                               sdk::Vec3 facing, const class BodyField& field,
+                               const bodies::Placement& at) const;
 
   std::vector<Opening> openings_;
   double rounding_ = 0.0;  ///< [m]

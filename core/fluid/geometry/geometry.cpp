@@ -2,6 +2,7 @@
 #include "fluid/geometry/geometry.hpp"
 
 #include "fluid/geometry/geometry_builder.hpp"
+#include "fluid/pressure/continuity.hpp"
 
 namespace dust::fluid {
 
@@ -34,6 +35,15 @@ Geometry build_static_geometry(const Grid& grid, const bodies::BodySet& bodies,
   return GeometryBuilder(grid, bodies, sides, properties, {}, nullptr,
                          BodyField::Which::static_bodies)
       .build();
+}
+
+FaceField passable_area(const Grid& grid, const Geometry& geometry) {
+  FaceField area = geometry.open_area;
+  for (int d = 0; d < 3; ++d) {
+    for (const std::int32_t o : geometry.blocked[d]) area.component[d][o] = 0.0;
+    if (grid.is_periodic[d]) wrap_last_face(grid, d, area.component[d]);
+  }
+  return area;
 }
 
 CellField open_fractions(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,

@@ -159,6 +159,9 @@ Geometry build_geometry(const Grid& grid, const bodies::BodySet& bodies, const S
 /// The geometry without the bodies that move.
 Geometry build_static_geometry(const Grid& grid, const bodies::BodySet& bodies,
                                const SideKinds& sides, const FaceProperties& properties);
+/// Share of the faces that fluid passes by itself: the open area, and nothing where a thin body
+/// keeps the cells of a face apart. Faces 0 to count of each row.
+FaceField passable_area(const Grid& grid, const Geometry& geometry);
 /// Only the open fractions at `time`.
 CellField open_fractions(const Grid& grid, const bodies::BodySet& bodies, const SideKinds& sides,
                          const FaceProperties& properties, double time,

@@ -44,10 +44,9 @@ Continuity::Continuity(const Grid& grid, const Geometry& geometry, const Sides& 
       increment_(grid.size, 0.0) {}
 
 FaceField Continuity::find_pattern() const {
-  FaceField open = geometry_.open_area;
+  FaceField open = passable_area(grid_, geometry_);
   for (int d = 0; d < 3; ++d) {
     auto& faces = open.component[d];
-    for (const std::int32_t o : geometry_.blocked[d]) faces[o] = 0.0;
     const int e = (d + 1) % 3;
     const int f = (d + 2) % 3;
     const bool is_joined = sides_.kinds().is_periodic[d] && grid_.count[d] > 1;

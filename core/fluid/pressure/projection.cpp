@@ -32,6 +32,25 @@ void Projection::project(FaceField& u, const CellField& eps, const FaceField& dr
   ghost_pressure_.fill(p_);
 }
 
+void Projection::add_throughflow(const FaceField& u, const CellField& eps, double share) {
+  if (mean_throughflow_.component[0].empty()) mean_throughflow_ = FaceField(grid_);
+  FaceField last(grid_);
+  continuity_.find_throughflow(u, eps, last);
+  for (int d = 0; d < 3; ++d) {
+    auto& mean = mean_throughflow_.component[d];
+    for (std::size_t o = 0; o < grid_.size; ++o) mean[o] += share * last.component[d][o];
+  }
+}
+
+void Projection::find_throughflow(const FaceField& u, const CellField& eps,
+                                  FaceField& throughflow) const {
+  if (mean_throughflow_.component[0].empty()) {
+    continuity_.find_throughflow(u, eps, throughflow);
+  } else {
+    throughflow = mean_throughflow_;
+  }
+}
+
 /// Without drag and without a change of the pressure.
 void Projection::correct(FaceField& u, const CellField& eps, double step) {
   if (zero_.component[0].empty()) zero_ = FaceField(grid_);

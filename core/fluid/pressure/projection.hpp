@@ -31,7 +31,16 @@ class Projection {
 
   /// Of the solver, since begin_step().
   [[nodiscard]] int iterations() const { return iterations_; }
-  void begin_step() { iterations_ = 0; }
+  void begin_step() {
+    iterations_ = 0;
+    mean_throughflow_ = {};
+  }
+  /// What passes the faces at the end of an interval between two cuts, `share` of the step; for
+  /// steps of several.
+  void add_throughflow(const FaceField& u, const CellField& eps, double share);
+  /// As Continuity::find_throughflow; in a step of several cuts the mean over it, which alone
+  /// obeys continuity from its beginning to its end.
+  void find_throughflow(const FaceField& u, const CellField& eps, FaceField& throughflow) const;
 
   /// Makes the velocity `u`, of the end of `step` [s] at `time` [s], obey continuity, and adds the
   /// increment to the pressure. `is_plain` as Continuity::project.
@@ -60,8 +69,9 @@ class Projection {
   double tolerance_;
   Continuity continuity_;
   GhostPressure ghost_pressure_;
-  CellField p_;     ///< [Pa]
-  FaceField zero_;  ///< no drag; empty until it is needed
+  CellField p_;                 ///< [Pa]
+  FaceField zero_;              ///< no drag; empty until it is needed
+  FaceField mean_throughflow_;  ///< [m/s] empty in steps of one cut
   int iterations_ = 0;
   bool is_consistent_ = false;
 };

@@ -50,7 +50,7 @@ void DustRates::find_parts(const scenario::Setup& setup) {
     }
   }
   for (std::size_t side = 0; side < 6; ++side) {
-    if (setup.domain.sides[side].grains != scenario::GrainSide::open) continue;
+    if (!dust_.lets_dust_out(side)) continue;
     add(k_left, scenario::k_side_names[side],
         [this, side](std::size_t n) { return balances_[n].left[side]; });
   }

@@ -2,8 +2,8 @@
 #include "run/dust/dust_stage.hpp"
 
 #include "dust/sdk/sampling.hpp"
-#include "fluid/geometry/body_field.hpp"
 #include "fluid/parallel.hpp"
+#include "preflight/flow_check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +14,23 @@ namespace {
 
 using fluid::for_rows;
 using fluid::Grid;
+
+/// The surface that a thin body which keeps two cells apart turns to the one of them, seen from the
+/// middle of that.
+fluid::BodyField::Hit hit_between(const fluid::BodyField& bodies, sdk::Vec3 centre,
+                                  sdk::Vec3 opposite) {
+  const auto from = bodies.outside(centre);
+  const auto to = bodies.outside(opposite);
+  const auto way = from && to ? bodies.passes_through(*from, *to) : std::nullopt;
+  if (!way) return bodies.nearest(0.5 * (centre + opposite));
+  const sdk::Vec3 point = *from + (*way / norm(*to - *from)) * (*to - *from);
+  fluid::BodyField::Hit hit = bodies.nearest(point);
+  hit.distance = dot(centre - point, hit.normal);
+  return hit;
+}
+
+/// Part of a face that an opening may miss or reach beyond by rounding.
+constexpr double k_rounding = 1e-9;
 
 std::size_t at(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 
@@ -32,6 +49,7 @@ DustStage::DustStage(const scenario::Setup& setup, const scenario::DustFieldSpec
       fluid_(fluid),
       openings_(std::move(openings)),
       flow_(fluid.grid()),
+      passable_area_(fluid.grid()),
       field_(fluid.grid(), spec, {setup.fluid->density, setup.fluid->viscosity}, setup.gravity,
              {openings_.size(), 6 + setup.bodies.size(), has_running_surfaces(setup)}),
       weight_(fluid.grid(), setup.gravity, spec.density, setup.fluid->density),
@@ -50,12 +68,35 @@ void DustStage::mark_hoods() {
   for (std::size_t o = 0; o < openings_.size(); ++o) {
     if (openings_[o].side < 0) continue;
     const auto side = static_cast<std::size_t>(openings_[o].side);
-    const std::size_t d = side / 2;
-    // A side with an opening is a wall elsewhere: all that passes it goes through the opening.
-    flow_.side_outlet[side].assign(
-        static_cast<std::size_t>(grid.count[(d + 1) % 3]) * grid.count[(d + 2) % 3],
-        static_cast<std::int32_t>(o));
+    const std::size_t e = (side / 2 + 1) % 3;
+    const std::size_t f = (side / 2 + 2) % 3;
+    const auto is_covered = [&](std::size_t axis, int cell) {
+      const int n = static_cast<int>(axis);
+      const double h = grid.spacing[n];
+      const double low = grid.origin[n] + cell * h;
+      return std::min(low + h, openings_[o].max[n]) - std::max(low, openings_[o].min[n]) >
+             k_rounding * h;
+    };
+    // What passes the others is not drawn out: the side is a wall to the gas there, and dust sinks
+    // through it where it is open to grains.
+    std::vector<std::int32_t>& outlet = flow_.side_outlet[side];
+    outlet.assign(static_cast<std::size_t>(grid.count[e]) * grid.count[f], -1);
+    for (int b = 0; b < grid.count[f]; ++b) {
+      for (int a = 0; a < grid.count[e]; ++a) {
+        if (!is_covered(e, a) || !is_covered(f, b)) continue;
+        outlet[static_cast<std::size_t>(b) * grid.count[e] + a] = static_cast<std::int32_t>(o);
+      }
+    }
   }
+}
+
+bool DustStage::lets_dust_out(std::size_t side) const {
+  if (setup_.domain.sides[side].grains == scenario::GrainSide::open) return true;
+  const bool has_opening = std::any_of(
+      openings_.begin(), openings_.end(),
+      [&](const particles::Opening& opening) { return opening.side == static_cast<int>(side); });
+  // Beside its opening a side holds the air.
+  return !has_opening && preflight::passes_air(setup_, side, models_.boundaries[side].get());
 }
 
 std::vector<std::string> DustStage::surface_names() const {
@@ -64,12 +105,81 @@ std::vector<std::string> DustStage::surface_names() const {
   return names;
 }
 
-/// Surfaces in cells, as the open areas of the cell's faces leave them over.
-void DustStage::find_walls(double time) {
+void DustStage::add_sides(const std::array<int, 3>& cell) {
+  const Grid& grid = fluid_.grid();
+  const std::ptrdiff_t o = grid.index(cell[0], cell[1], cell[2]);
+  for (std::size_t side = 0; side < 6; ++side) {
+    const std::size_t d = side / 2;
+    const bool is_high = side % 2 != 0;
+    if (grid.is_periodic[d] || cell[d] != (is_high ? grid.count[d] - 1 : 0)) continue;
+    if (setup_.domain.sides[side].grains != scenario::GrainSide::wall) continue;
+    const int axis = static_cast<int>(d);
+    const double open = passable_area_.component[d][at(is_high ? o + grid.stride[d] : o)];
+    sdk::Vec3 normal;
+    normal[axis] = (is_high ? open : -open) / grid.spacing[axis];
+    pieces_.push_back({static_cast<std::int32_t>(o), static_cast<std::int32_t>(side), normal});
+    if (wall_shear_) wall_shear_->add_side(cell, axis, is_high ? -1.0 : 1.0);
+  }
+}
+
+void DustStage::add_body(const std::array<int, 3>& cell, const fluid::BodyField::Hit& hit,
+                         sdk::Vec3 area) {
+  const Grid& grid = fluid_.grid();
+  if (!(norm(area) * grid.spacing.x > 1e-9) || hit.body < 0) return;
+  const sdk::Vec3 centre = grid.centre(cell[0], cell[1], cell[2]);
+  pieces_.push_back(
+      {static_cast<std::int32_t>(grid.index(cell[0], cell[1], cell[2])), 6 + hit.body, area});
+  if (!models_.bodies[static_cast<std::size_t>(hit.body)].motions.empty()) {
+    running_.push_back(
+        {pieces_.size() - 1, hit.body, hit.normal, centre - hit.distance * hit.normal});
+  }
+  if (wall_shear_) wall_shear_->add_body(centre, hit);
+}
+
+/// As the open areas of the cell's faces leave them over: of the body that is nearest. What a thin
+/// body takes of these faces is its own.
+void DustStage::add_bodies(const std::array<int, 3>& cell, const fluid::BodyField& bodies) {
   const Grid& grid = fluid_.grid();
   const fluid::FaceField& open = fluid_.solver().open_area();
+  const std::ptrdiff_t o = grid.index(cell[0], cell[1], cell[2]);
+  const sdk::Vec3 centre = grid.centre(cell[0], cell[1], cell[2]);
+  struct Part {
+    fluid::BodyField::Hit hit;
+    sdk::Vec3 area;
+  };
+  std::array<Part, 7> parts{};
+  std::size_t count = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto d = static_cast<std::size_t>(axis);
+    const std::size_t low = at(o), high = at(o + grid.stride[d]);
+    parts[0].area[axis] = (open.component[d][low] - open.component[d][high]) / grid.spacing[axis];
+    for (const bool is_high : {false, true}) {
+      const std::size_t face = is_high ? high : low;
+      const double blocked = open.component[d][face] - passable_area_.component[d][face];
+      if (!(blocked > 0.0)) continue;
+      sdk::Vec3 opposite = centre;
+      opposite[axis] += (is_high ? 1.0 : -1.0) * grid.spacing[axis];
+      const fluid::BodyField::Hit hit = hit_between(bodies, centre, opposite);
+      std::size_t n = 1;
+      while (n < count && parts[n].hit.body != hit.body) ++n;
+      if (n == count) parts[count++].hit = hit;
+      parts[n].area[axis] += (is_high ? blocked : -blocked) / grid.spacing[axis];
+    }
+  }
+  if (count == 1 && !(norm(parts[0].area) * grid.spacing.x > 1e-9)) return;
+  parts[0].hit = bodies.nearest(centre);
+  for (std::size_t n = 1; n < count; ++n) {
+    if (parts[n].hit.body == parts[0].hit.body) parts[0].area += parts[n].area;
+  }
+  add_body(cell, parts[0].hit, parts[0].area);
+  for (std::size_t n = 1; n < count; ++n) {
+    if (parts[n].hit.body != parts[0].hit.body) add_body(cell, parts[n].hit, parts[n].area);
+  }
+}
+
+void DustStage::find_walls(double time) {
+  const Grid& grid = fluid_.grid();
   const fluid::CellField& share = fluid_.solver().open_fraction();
-  std::vector<sdk::Vec3> surface_points;
   const fluid::BodyField bodies(grid, models_.bodies, time, fluid::BodyField::Which::all);
   pieces_.clear();
   running_.clear();
@@ -78,47 +188,20 @@ void DustStage::find_walls(double time) {
   for (int k = 0; k < grid.count[2]; ++k) {
     for (int j = 0; j < grid.count[1]; ++j) {
       for (int i = 0; i < grid.count[0]; ++i) {
-        const std::ptrdiff_t o = grid.index(i, j, k);
-        if (!(share[at(o)] > 0.0)) continue;
-        const int place[3] = {i, j, k};
-        sdk::Vec3 area;
-        for (std::size_t d = 0; d < 3; ++d) {
-          const int axis = static_cast<int>(d);
-          const double low = open.component[d][at(o)];
-          const double high = open.component[d][at(o + grid.stride[d])];
-          area[axis] = (low - high) / grid.spacing[axis];
-          if (grid.is_periodic[d]) continue;
-          for (int is_high = 0; is_high < 2; ++is_high) {
-            const std::size_t side = 2 * d + static_cast<std::size_t>(is_high);
-            if (place[d] != (is_high != 0 ? grid.count[d] - 1 : 0)) continue;
-            if (setup_.domain.sides[side].grains != scenario::GrainSide::wall) continue;
-            sdk::Vec3 normal;
-            normal[axis] = (is_high != 0 ? high : -low) / grid.spacing[axis];
-            pieces_.push_back(
-                {static_cast<std::int32_t>(o), static_cast<std::int32_t>(side), normal});
-            if (wall_shear_) wall_shear_->add_side({i, j, k}, axis, is_high != 0 ? -1.0 : 1.0);
-          }
-        }
-        if (!(norm(area) * grid.spacing.x > 1e-9)) continue;
-        const auto hit = bodies.nearest(grid.centre(i, j, k));
-        if (hit.body < 0) continue;
-        pieces_.push_back({static_cast<std::int32_t>(o), 6 + hit.body, area});
-        if (!models_.bodies[static_cast<std::size_t>(hit.body)].motions.empty()) {
-          running_.push_back({pieces_.size() - 1, hit.body, hit.normal});
-          surface_points.push_back(grid.centre(i, j, k) - hit.distance * hit.normal);
-        }
-        if (wall_shear_) wall_shear_->add_body(grid.centre(i, j, k), hit);
+        if (!(share[at(grid.index(i, j, k))] > 0.0)) continue;
+        add_sides({i, j, k});
+        add_bodies({i, j, k}, bodies);
       }
     }
   }
   flow_.surface_motions.clear();
   if (running_.empty()) return;
   flow_.surface_motions.resize(pieces_.size());
-  for (std::size_t n = 0; n < running_.size(); ++n) {
-    airborne::SurfaceMotion& motion = flow_.surface_motions[running_[n].piece];
-    motion.point = surface_points[n];
-    motion.area = -grid.cell_volume() * pieces_[running_[n].piece].area;
-    motion.displaces = models_.bodies[static_cast<std::size_t>(running_[n].body)].displaces();
+  for (const RunningPiece& running : running_) {
+    airborne::SurfaceMotion& motion = flow_.surface_motions[running.piece];
+    motion.point = running.point;
+    motion.area = -grid.cell_volume() * pieces_[running.piece].area;
+    motion.displaces = models_.bodies[static_cast<std::size_t>(running.body)].displaces();
   }
 }
 
@@ -143,7 +226,7 @@ void DustStage::find_volume(fluid::CellField& volume) const {
 
 void DustStage::find_passage() {
   const Grid& grid = fluid_.grid();
-  const fluid::FaceField& open = fluid_.solver().open_area();
+  const fluid::FaceField& open = passable_area_;
   const fluid::CellField& eps = fluid_.void_fraction();
   for (std::size_t d = 0; d < 3; ++d) {
     std::array<int, 3> n = grid.count;
@@ -196,12 +279,13 @@ void DustStage::advance(double time) {
   flow_.volume_before.swap(flow_.volume_after);
   find_volume(flow_.volume_after);
   fluid_.solver().find_throughflow(flow_.throughflow);
-  find_passage();
-  find_outflows();
   if (must_find_walls_ || fluid_.solver().has_moving_bodies()) {
+    passable_area_ = fluid_.solver().passable_area();
     find_walls(time + setup_.time.fluid_step);
     must_find_walls_ = false;
   }
+  find_passage();
+  find_outflows();
   find_surface_motions(time + 0.5 * setup_.time.fluid_step);
   flow_.walls = pieces_;
   for (airborne::WallPiece& piece : flow_.walls) {

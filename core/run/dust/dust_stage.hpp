@@ -3,6 +3,7 @@
 
 #include "airborne/dust_field.hpp"
 #include "airborne/dust_weight.hpp"
+#include "fluid/geometry/body_field.hpp"
 #include "io/run_files.hpp"
 #include "particles/openings/opening.hpp"
 #include "run/archive_parts.hpp"
@@ -65,6 +66,9 @@ class DustStage {
   /// Names of the surfaces of DustBalance::surfaces.
   [[nodiscard]] std::vector<std::string> surface_names() const;
   [[nodiscard]] const std::vector<particles::Opening>& openings() const { return openings_; }
+  /// May dust get out through a side, besides its opening if it has one: with the air, or by
+  /// sinking where grains get out?
+  [[nodiscard]] bool lets_dust_out(std::size_t side) const;
 
   /// Copies what sensors of dust see.
   void take_columns() { table_.take(field_, flow_.volume_after); }
@@ -84,6 +88,11 @@ class DustStage {
  private:
   [[nodiscard]] std::array<int, 3> cell_at(sdk::Vec3 place) const;
   void find_walls(double time);
+  /// The pieces of sides in a cell.
+  void add_sides(const std::array<int, 3>& cell);
+  /// The pieces of bodies' surfaces in a cell.
+  void add_bodies(const std::array<int, 3>& cell, const fluid::BodyField& bodies);
+  void add_body(const std::array<int, 3>& cell, const fluid::BodyField::Hit& hit, sdk::Vec3 area);
   /// How the surfaces of the pieces run at `time` [s].
   void find_surface_motions(double time);
   void find_volume(fluid::CellField& volume) const;
@@ -97,6 +106,7 @@ class DustStage {
   std::vector<particles::Opening> openings_;
   airborne::Flow flow_;
   bool must_find_walls_ = true;
+  fluid::FaceField passable_area_;
   std::vector<airborne::WallPiece>
       pieces_;  ///< with the areas of surfaces, whatever is before them
   /// A piece of a body that moves.
@@ -104,6 +114,7 @@ class DustStage {
     std::size_t piece;
     int body;
     sdk::Vec3 normal;
+    sdk::Vec3 point;  ///< [m] of the surface
   };
   std::vector<RunningPiece> running_;
   airborne::DustField field_;

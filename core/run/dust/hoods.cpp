@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/dust/hoods.hpp"
 
+#include "setup/draws_out.hpp"
+
 namespace dust::run {
 
 std::vector<particles::Opening> openings_of(const scenario::Setup& setup,
@@ -8,8 +10,8 @@ std::vector<particles::Opening> openings_of(const scenario::Setup& setup,
   std::vector<particles::Opening> openings;
   if (!setup.fluid) return openings;
   for (const scenario::BodySpec& body : setup.bodies) {
-    // One that blows drives away what would touch it.
-    if (!body.suction || !(body.suction->flow > 0.0)) continue;
+    // One that only blows drives away what would touch it.
+    if (!body.suction || !scenario::draws_out(*body.suction)) continue;
     openings.push_back({body.name, -1, body.suction->min, body.suction->max});
   }
   for (const scenario::SideOpeningSpec& opening : dust.openings) {

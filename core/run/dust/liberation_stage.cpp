@@ -24,6 +24,8 @@ std::vector<std::string> causes_of(const std::vector<std::string>& walls, bool h
   return causes;
 }
 
+double cube(double l) { return l * l * l; }
+
 std::size_t padded(std::size_t rows) {
   return (rows + k_rows_per_call - 1) / k_rows_per_call * k_rows_per_call;
 }
@@ -42,6 +44,9 @@ LiberationStage::LiberationStage(const scenario::Setup& setup,
       loads_(dust_setup.loads),
       feed_zones_(dust_setup.feed_zones) {
   for (scenario::DustLoadSpec& load : loads_) load.share.resize(classes_, 0.0);
+  for (const scenario::MaterialSpec& m : setup.materials) {
+    coarse_graining_.push_back(m.coarse_graining);
+  }
   law_->prepare({.classes = classes_,
                  .diameter = dust_setup.field->diameters.data(),
                  .density = dust_setup.field->density,
@@ -54,6 +59,10 @@ LiberationStage::LiberationStage(const scenario::Setup& setup,
   for (std::size_t kind = 0; kind < k_kinds; ++kind) {
     if (kind != by_wind || law_->needs_wind()) places_[kind].assign(dust_.cells(), 0.0);
   }
+}
+
+double LiberationStage::coarse_graining(std::size_t row) const {
+  return coarse_graining_[static_cast<std::size_t>(particles_.rows().material[row])];
 }
 
 bool LiberationStage::is_in_feed_zone(const double* x) const {
@@ -78,9 +87,11 @@ void LiberationStage::find_impacts() {
     if (is_in_feed_zone(grains.position + 4 * row)) continue;
     if (energy.sum() > 0.0) add_impact_energy(row, grains.weight[row]);
     rows_.push_back(static_cast<std::int32_t>(row));
-    c.normal.push_back(energy.normal);
-    c.tangential.push_back(energy.tangential);
-    c.acceleration.push_back(acceleration);
+    // Impacts of grains of one stiffness are alike in form: the smaller ones' are l times shorter.
+    const double l = coarse_graining(row);
+    c.normal.push_back(energy.normal / cube(l));
+    c.tangential.push_back(energy.tangential / cube(l));
+    c.acceleration.push_back(l * acceleration);
   }
   for (Column* column : {&c.normal, &c.tangential, &c.acceleration}) {
     column->resize(padded(rows_.size()));
@@ -136,11 +147,12 @@ void LiberationStage::load_columns() {
     const auto row = static_cast<std::size_t>(rows_[q]);
     const scenario::DustLoadSpec& fresh = loads_[static_cast<std::size_t>(grains.material[row])];
     const auto load = particles_.dust_load(row);
-    c.diameter[q] = 2.0 * grains.position[4 * row + 3];
-    c.mass[q] = 1.0 / grains.velocity_of(row)[3];
+    const double l = coarse_graining(row);
+    c.diameter[q] = 2.0 * grains.position[4 * row + 3] / l;
+    c.mass[q] = 1.0 / grains.velocity_of(row)[3] / cube(l);
     c.moisture[q] = fresh.moisture;
     for (std::size_t n = 0; n < classes_; ++n) {
-      c.load[place(q, n)] = load[n];
+      c.load[place(q, n)] = load[n] / cube(l);
       c.fresh[place(q, n)] = fresh.share[n] * c.mass[q];
     }
   }
@@ -182,12 +194,15 @@ void LiberationStage::give_to_air(bool is_by_wind) {
     const auto row = static_cast<std::size_t>(rows_[q]);
     const double* x = grains.position + 4 * row;
     const double weight = grains.weight[row];
+    const double count = cube(coarse_graining(row));
     std::int32_t cell = -1;
     for (std::size_t n = 0; n < classes_; ++n) {
-      const double mass = columns_.released[place(q, n)];
-      if (mass == 0.0) continue;
+      const double of_one = columns_.released[place(q, n)];
+      if (of_one == 0.0) continue;
       const double load = columns_.load[place(q, n)];
-      if (!(mass > 0.0 && mass <= load)) fail(row, mass, load);
+      if (!(of_one > 0.0 && of_one <= load)) fail(row, count * of_one, count * load);
+      // All of them together; not more than there is by rounding.
+      const double mass = std::min(count * of_one, particles_.dust_load(row)[n]);
       if (cell < 0) cell = dust_.cell_with_gas({x[0], x[1], x[2]});
       if (cell < 0) {
         kept_back_ += weight * mass;

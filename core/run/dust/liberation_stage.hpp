@@ -63,6 +63,8 @@ class LiberationStage {
   static constexpr std::size_t k_kinds = 3;
   static constexpr std::array<const char*, k_kinds> k_kind_names = {"grains", "walls", "wind"};
 
+  /// l of the grain in a row: the law is asked about one of the l^3 grains that it stands for.
+  [[nodiscard]] double coarse_graining(std::size_t row) const;
   [[nodiscard]] bool is_in_feed_zone(const double* position) const;
   void find_impacts();
   void add_impact_energy(std::size_t row, double weight);
@@ -82,6 +84,7 @@ class LiberationStage {
   std::string law_name_;
   std::size_t classes_;
   std::vector<scenario::DustLoadSpec> loads_;  ///< by material
+  std::vector<double> coarse_graining_;        ///< [-] l by material
   std::vector<scenario::FeedZoneSpec> feed_zones_;
   std::vector<std::string> causes_;
   std::vector<std::int32_t> rows_;  ///< that the law is asked about

@@ -2,6 +2,7 @@
 #include "run/summary/dust_outflow.hpp"
 
 #include "report/facts/dust_fractions.hpp"
+#include "run/dust/hoods.hpp"
 
 #include <functional>
 
@@ -52,10 +53,9 @@ Json dust_outflow_json(const Simulation& s) {
         sampled(s, [&](const airborne::DustBalance& balance) { return balance.outlets[o]; });
   }
   for (std::size_t side = 0; side < 6; ++side) {
-    const bool is_open = s.setup().domain.sides[side].grains == scenario::GrainSide::open;
-    // A side with a hood: all of it went there.
-    if (!is_open || j.contains(scenario::k_side_names[side])) continue;
-    j[scenario::k_side_names[side]] =
+    if (!s.dust_stage()->lets_dust_out(side)) continue;
+    const std::string name = scenario::k_side_names[side];
+    j[j.contains(name) ? name + k_beside_hood : name] =
         sampled(s, [&](const airborne::DustBalance& balance) { return balance.left[side]; });
   }
   return j;

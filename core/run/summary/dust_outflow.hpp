@@ -7,8 +7,8 @@
 
 namespace dust::run {
 
-/// What got out of the air of a run as a sampler there would find it: by hood and by side that is
-/// open to grains {"kg", "kg_per_h" over the whole run, "inhalable_kg", "thoracic_kg",
+/// What got out of the air of a run as a sampler there would find it: by hood and by side that
+/// lets dust out {"kg", "kg_per_h" over the whole run, "inhalable_kg", "thoracic_kg",
 /// "respirable_kg"}, and where material was brought in "g_per_tonne" and the three also in mg per
 /// kg of it: the dustiness of EN 15051. Shares by the conventions of EN 481, each class at its
 /// aerodynamic diameter.

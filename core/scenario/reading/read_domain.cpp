@@ -3,6 +3,7 @@
 #include "scenario/reading/block_readers.hpp"
 #include "scenario/reading/reading.hpp"
 #include "scenario/text/units.hpp"
+#include "setup/draws_out.hpp"
 
 #include <algorithm>
 
@@ -34,11 +35,14 @@ void note_opening(Reading& reading, int side, const std::optional<ModelChoice>& 
   const sdk::Value* flow = value_of("flow", sdk::dimension::volume_flow);
   const sdk::Value* min = value_of("min", sdk::dimension::length);
   const sdk::Value* max = value_of("max", sdk::dimension::length);
+  const sdk::Value* factors = value_of("factors", sdk::dimension::none);
   if (flow == nullptr || min == nullptr || max == nullptr) return;
   const auto* rate = std::get_if<double>(flow);
   const auto* low = std::get_if<sdk::Vec3>(min);
   const auto* high = std::get_if<sdk::Vec3>(max);
-  if (rate == nullptr || low == nullptr || high == nullptr || !(*rate > 0.0)) return;
+  const auto* values = factors != nullptr ? std::get_if<std::vector<double>>(factors) : nullptr;
+  if (rate == nullptr || low == nullptr || high == nullptr) return;
+  if (!draws_out(*rate, values != nullptr ? *values : std::vector<double>())) return;
   reading.dust.openings.push_back({side, *low, *high, *rate});
 }
 

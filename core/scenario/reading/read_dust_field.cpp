@@ -168,6 +168,15 @@ void read_dust_field(Reading& reading, MapReader& dust, Node& written) {
         "dust.field: there is no fluid that carries it: give fluid: {cells: ...} instead of "
         "none, or take dust.field out");
   }
+  if (reading.setup.fluid && !reading.setup.fluid->regions.empty()) {
+    reading.error(
+        entry->where,
+        "dust.field: the dust settles, drifts and diffuses as in one fluid, and "
+        "fluid.regions has " +
+            std::to_string(reading.setup.fluid->regions.size()) +
+            " of another: take fluid.regions or dust.field out, or let the dust be grains, "
+            "which know the fluid by place");
+  }
   if (reader.is_good() && is_good) check_dust_field(reading, entry->value, spec);
   check_exchange(reading, entry->value, spec);
   if (reading.has_fluid && spec.density > 0.0) reading.dust.field = std::move(spec);

@@ -131,6 +131,11 @@ TEST_CASE("a dust field that cannot be shall be refused with a remedy") {
   check(field("[5, 40 um]", "[1, 2 mg/s]"), "is more than a tenth of the smallest grain");
   check(field("[]", "[]"), "dust.field.classes");
   const Folder folder;
+  const std::string wet = changed(with(k_field), "fluid:\n",
+                                  "fluid:\n  regions: {water: {min: [0, 0, 0], max: [1, 1, 1 mm], "
+                                  "density: 1000, viscosity: 1 mPa s}}\n");
+  const std::string refusal = joined(problems(folder.write("r.yaml", wet)));
+  CHECK_MESSAGE(refusal.find("take fluid.regions or dust.field out") != std::string::npos, refusal);
   std::string text = with(k_field);
   const std::size_t fluid = text.find("fluid:");
   text = text.substr(0, fluid) + "fluid: none\n" + text.substr(text.find("sensors:"));

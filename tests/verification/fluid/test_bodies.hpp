@@ -47,6 +47,26 @@ class HalfSpace final : public bodies::OnePart<HalfSpace> {
   sdk::Vec3 normal_;
 };
 
+/// Everything between two parallel planes.
+class Slab final : public bodies::OnePart<Slab> {
+ public:
+  Slab(sdk::Vec3 middle, sdk::Vec3 normal, double thickness)
+      : middle_(middle), normal_(normal / norm(normal)), half_(0.5 * thickness) {}
+  [[nodiscard]] bodies::SurfacePoint nearest(sdk::Vec3 p) const override {
+    const double s = dot(p - middle_, normal_);
+    return {std::abs(s) - half_, s < 0 ? -normal_ : normal_};
+  }
+  [[nodiscard]] bodies::Triangles triangles(sdk::Vec3, sdk::Vec3, double) const override {
+    return {};
+  }
+  [[nodiscard]] sdk::Vec3 lateral_axis() const override { return {0, 1, 0}; }
+
+ private:
+  sdk::Vec3 middle_;
+  sdk::Vec3 normal_;
+  double half_;
+};
+
 /// Surface moving along itself, round the y axis as the pulley of a belt: v = speed (y x normal).
 class Turning final : public sdk::Motion {
  public:

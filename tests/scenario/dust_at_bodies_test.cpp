@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// A dust field at bodies thinner than a cell, and the sides that it gets out of.
+#include "support/approx.hpp"
+#include "support/run_summary.hpp"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using dust::test::approx;
+using dust::test::run_summary;
+using dust::test::TemporaryFolder;
+using nlohmann::json;
+
+namespace {
+
+const std::string k_sides = DUST_SOURCE "/tests/scenario/dust_through_sides.yaml";
+const std::string k_sheet = DUST_SOURCE "/tests/scenario/dust_at_sheet.yaml";
+
+/// What became of a share of the dust that was released.
+double share(const json& dust, const char* kind, const char* name) {
+  const json& of_kind = dust[kind];
+  const auto found = of_kind.find(name);
+  return found == of_kind.end() ? 0.0 : found->get<double>() / dust["released_kg"].get<double>();
+}
+
+}  // namespace
+
+TEST_CASE("dust of a field shall settle on a sheet thinner than a cell and not fall through it") {
+  const TemporaryFolder folder;
+  // Level, of 1 mm and of nearly a cell, and on a slant, where it cuts cells in all ways; it
+  // reaches up to the cloud there.
+  const std::vector<std::vector<std::string>> sheets{
+      {},
+      {"--set", "bodies.sheet.min=[-40, -10, 25.2 mm]", "--set",
+       "bodies.sheet.max=[100, 20, 29.7 mm]"},
+      {"--set", "frames.tilted.angle=20 deg"}};
+  for (auto sheet : sheets) {
+    sheet.emplace_back("--force");
+    const json summary = run_summary(k_sheet, folder / "out", sheet);
+    const json& dust = summary["dust_field"]["classes"]["50_um"];
+    INFO(dust.dump());
+    // It sinks 80 mm; of what would fall past the sheet all would lie on the bottom by then.
+    CHECK(share(dust, "deposited_kg", "sheet") > 0.98);
+    CHECK(share(dust, "deposited_kg", "bottom") == 0.0);
+    CHECK(std::abs(dust["balance_error"].get<double>()) < 1e-12);
+  }
+}
+
+TEST_CASE(
+    "a body thinner than a cell shall draw dust in on its own side, however its flow is given") {
+  const TemporaryFolder folder;
+  const auto drawn = [&](const char* name, const std::string& flow, const char* at) {
+    const std::string opening = std::string("[15, 0, ") + at + " mm], max: [45, 10, " + at + " mm]";
+    const json summary =
+        run_summary(k_sheet, folder / name,
+                    {"--set", "bodies.sheet.suction={" + flow + ", min: " + opening + "}", "--set",
+                     "domain.boundaries.bottom={grains: open, air: {model: zero_gradient}}"});
+    const json& dust = summary["dust_field"]["classes"]["50_um"];
+    CHECK(std::abs(dust["balance_error"].get<double>()) < 1e-12);
+    return share(dust, "hoods_kg", "sheet");
+  };
+  // On its upper surface, where the dust comes down.
+  const double above = drawn("above", "flow: 0.1 l/s", "27.1");
+  CHECK(above > 0.1);
+  CHECK(drawn("turned", "flow: -0.1 l/s, times: [0, 1 s], factors: [-1, -1]", "27.1") == above);
+  // Below there is none.
+  CHECK(drawn("below", "flow: 0.1 l/s", "26.1") == 0.0);
+}
+
+TEST_CASE("dust shall be told to have left by each side that air passes, open to grains or not") {
+  const TemporaryFolder folder;
+  const json summary = run_summary(k_sides, folder / "out", {});
+  const json& dust = summary["dust_field"]["classes"]["10_um"];
+  CHECK(share(dust, "left_kg", "top") > 0.99);
+  REQUIRE(summary["dust_outflow"].contains("top"));
+  CHECK(summary["dust_outflow"]["top"]["kg"].get<double>() ==
+        approx(dust["left_kg"]["top"].get<double>()).epsilon(1e-12));
+  CHECK(summary["dust_outflow"].size() == 2);  // and the inlet
+  CHECK(summary["dust_rates"].contains("left/top/rate"));
+  CHECK_FALSE(summary["dust_rates"].contains("left/right/rate"));
+}
+
+TEST_CASE("a hood in a side that is open to grains shall have the dust of its faces alone") {
+  const TemporaryFolder folder;
+  // The cloud sinks onto the floor; the hood, which hardly sucks, is a third of what lies below it.
+  const json summary = run_summary(
+      k_sides, folder / "out",
+      {"--set", "dust.field.classes=[50 um]", "--set", "fluid.initial_velocity=[0, 0, 0]", "--set",
+       "domain.boundaries.bottom={grains: open, air: {model: hood, flow: 1e-6 l/s, "
+       "min: [40, 0, 0 mm], max: [60, 10, 0 mm]}}"});
+  const json& dust = summary["dust_field"]["classes"]["50_um"];
+  CHECK(share(dust, "hoods_kg", "bottom") == approx(1.0 / 3.0).epsilon(1e-3));
+  CHECK(share(dust, "left_kg", "bottom") == approx(2.0 / 3.0).epsilon(1e-3));
+  CHECK(summary["dust_outflow"]["bottom"]["kg"].get<double>() ==
+        approx(dust["hoods_kg"]["bottom"].get<double>()).epsilon(1e-12));
+  CHECK(summary["dust_outflow"]["bottom_beside_hood"]["kg"].get<double>() ==
+        approx(dust["left_kg"]["bottom"].get<double>()).epsilon(1e-12));
+}
