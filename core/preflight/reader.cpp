@@ -26,6 +26,7 @@ Result checked(Result read, const registry::Registry& registry,
   check_sides(read->setup, registry, diagnostics);
   check_fixed_step(read->setup, registry, diagnostics);
   if (!diagnostics.has_errors()) {
+    check_suctions(read->setup, registry, diagnostics);
     check_openings(read->setup, read->dust, registry, diagnostics);
     check_drift(read->setup, read->dust, registry, diagnostics);
   }
