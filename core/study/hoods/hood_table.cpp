@@ -87,8 +87,10 @@ std::string hood_table(const HoodResults& results, double wanted) {
   std::vector<Row> rows = {{"place", "flow", "drawn out [" + scale.unit() + "]",
                             "escapes [" + scale.unit() + "]", "capture"}};
   if (results.plain) {
-    rows.push_back({"plain", "-", "-",
-                    estimate_text(results.plain->escaping, scale.factor(*results.plain)), "-"});
+    const double factor = scale.factor(*results.plain);
+    const Uncertain& drawn = results.plain->drawn;
+    rows.push_back({"plain", "-", drawn.value > 0.0 ? estimate_text(drawn, factor) : "-",
+                    estimate_text(results.plain->escaping, factor), "-"});
   }
   for (const HoodPlace& place : results.places) {
     for (const HoodTrial& trial : place.trials) {
