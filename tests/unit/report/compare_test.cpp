@@ -121,6 +121,25 @@ TEST_CASE("names of compared runs shall not become markup") {
   CHECK(page_data(page)["scenario"][0]["path"] == "<script>");
 }
 
+TEST_CASE("a run that has not ended shall be told to be one, with how it goes on") {
+  const RunFolder first, second;
+  first.write("summary.json", "{}");
+  second.write("scenario.yaml", "name: a\n");
+  const auto message_of = [&] {
+    try {
+      (void)compare_runs(first.path(), second.path());
+    } catch (const dust::base::UserError& error) {
+      return error.lines().at(0);
+    }
+    return std::string();
+  };
+  const std::string folder = second.path().string();
+  CHECK(holds(message_of(), folder + " holds a run that has not ended"));
+  CHECK(holds(message_of(), "--force', from the start"));
+  second.write("checkpoint.h5", "");
+  CHECK(holds(message_of(), "engine run " + folder + "/scenario.yaml -o " + folder + " --resume'"));
+}
+
 TEST_CASE("a folder that is no run shall be refused by name") {
   const RunFolder first, second;
   first.write("summary.json", "{}");
