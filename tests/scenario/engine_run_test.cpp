@@ -164,6 +164,20 @@ TEST_CASE("a flow that its opening cannot pass shall be refused before anything 
     CAPTURE(run.err);
     CHECK(run.status == 2);
     CHECK(run.err.find("transfer_point.yaml:") != std::string::npos);
+TEST_CASE("a file given as output folder shall be refused as one, also with force") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  { std::ofstream(out) << "data"; }
+  for (const std::string how : {"--quiet", "--force", "--resume"}) {
+    CAPTURE(how);
+    const auto refused = engine({"run", k_scenario, "-o", out, "--set", k_short, how});
+    CHECK(refused.status == 2);
+    CHECK(refused.err.ends_with("error: -o " + out.string() +
+                                " is a file, results go to a folder: give another -o\n"));
+  }
+  CHECK(read_file(out) == "data");
+}
+
     CHECK(run.err.find("emitters.feed: the opening cannot pass the flow") != std::string::npos);
     CHECK_FALSE(fs::exists(out));
   }
