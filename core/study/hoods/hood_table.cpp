@@ -12,8 +12,9 @@ namespace {
 using Row = std::array<std::string, 5>;
 
 std::string flow_text(double flow) {
-  constexpr double k_large = 1.0 / 60.0;  // m3/s
-  if (flow <= k_large) return base::digits_text(6e4 * flow, 3) + " l/min";
+  // From here on three digits of l/min would be written with a power of ten.
+  constexpr double k_large = 0.9995 / 60.0;  // m3/s
+  if (flow < k_large) return base::digits_text(6e4 * flow, 3) + " l/min";
   const double per_hour = 3600.0 * flow;
   return (per_hour < 100.0 ? base::digits_text(per_hour, 3) : base::fixed_text(per_hour, 0)) +
          " m3/h";

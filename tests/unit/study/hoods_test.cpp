@@ -289,4 +289,6 @@ TEST_CASE("the table shall say what few grains tell, and where the capture is no
   CHECK(text.find("place_1: not reached (at most 75.0 ± 4.2 %, at 120 l/min)") !=
         std::string::npos);
   CHECK(study::hood_table(results, 0.6).find("place_1: 84 l/min") != std::string::npos);
+  results.places[0].trials[1].flow = 60.0 / 3600.0;
+  CHECK(study::hood_table(results, 0.9).find("at 60 m3/h)") != std::string::npos);
 }
