@@ -74,8 +74,8 @@ std::string duration_text(double seconds) {
 }
 
 std::string estimated_duration_text(double seconds) {
-  if (seconds < 2.0 * k_minute) return digits_text(std::max(seconds, 1.0), 2) + " s";
-  // 98 min, but 1.7 h rather than "1e+02 min".
+  // 98 s and 98 min, but 1.7 min and 1.7 h rather than "1e+02 s" and "1e+02 min".
+  if (seconds < 99.0) return digits_text(std::max(seconds, 1.0), 2) + " s";
   if (seconds < 99.0 * k_minute) return digits_text(seconds / k_minute, 2) + " min";
   return digits_text(seconds / k_hour, seconds < 99.0 * k_hour ? 2 : 3) + " h";
 }

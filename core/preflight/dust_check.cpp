@@ -87,7 +87,68 @@ void look_at(const Setup& setup, const EmitterSpec& spec, const std::vector<Take
   }
 }
 
+/// Looks for the surface of a body in the box of its suction, as the run begins.
+class SurfaceSearch {
+ public:
+  /// Boxes smaller than `finest` [m] that come that near the surface count as on it.
+  SurfaceSearch(const Setup& setup, const bodies::Body& body, double finest)
+      : domain_(setup.domain), body_(body), at_(body.placement(0.0)), finest_(finest) {}
+
+  /// False only where no part of the surface lies in the box and the domain: boxes that are farther
+  /// from either than they reach are left out, others halved along their longest edge.
+  bool may_be_in(Vec3 min, Vec3 max) {
+    constexpr int k_max_boxes = 20000;
+    const Vec3 half = 0.5 * (max - min);
+    const double reach = norm(half) + finest_;
+    const Vec3 middle = at_.to_domain(0.5 * (min + max));
+    if (!body_.is_carried() && !is_in_box(middle, domain_.min, domain_.max, reach)) return false;
+    if (std::abs(body_.nearest(middle, at_).distance) > reach) return false;
+    if (reach < 2.0 * finest_ || ++boxes_ > k_max_boxes) return true;
+    int d = half.y > half.x ? 1 : 0;
+    if (half.z > half[d]) d = 2;
+    Vec3 low_max = max, high_min = min;
+    low_max[d] = high_min[d] = min[d] + half[d];
+    return may_be_in(min, low_max) || may_be_in(high_min, max);
+  }
+  /// The place of the surface nearest to a place in the body's frame, in that frame.
+  [[nodiscard]] Vec3 nearest(Vec3 place) const {
+    const Vec3 there = at_.to_domain(place);
+    const bodies::SurfacePoint s = body_.nearest(there, at_);
+    return at_.to_body(there - s.distance * s.normal);
+  }
+
+ private:
+  const scenario::DomainSpec& domain_;
+  const bodies::Body& body_;
+  bodies::Placement at_;
+  double finest_;
+  int boxes_ = 0;
+};
+
 }  // namespace
+
+void check_suctions(const Setup& setup, const ParticleModels& models,
+                    scenario::Diagnostics& diagnostics) {
+  constexpr double k_finest = 1e-3;  // of a cell: the run finds surfaces that are nearer
+  const bool has_suction = std::any_of(setup.bodies.begin(), setup.bodies.end(),
+                                       [](const BodySpec& b) { return b.suction.has_value(); });
+  if (!setup.fluid || !has_suction) return;
+  const Vec3 h =
+      fluid::Grid::make(setup.domain.min, setup.domain.max, setup.fluid->cells, {}).spacing;
+  for (std::size_t n = 0; n < setup.bodies.size(); ++n) {
+    const auto& suction = setup.bodies[n].suction;
+    if (!suction) continue;
+    SurfaceSearch search(setup, models.bodies[n], k_finest * norm(h));
+    if (search.may_be_in(suction->min, suction->max)) continue;
+    diagnostics.error(
+        suction->where,
+        "bodies." + setup.bodies[n].name +
+            ".suction: no part of the body's surface lies between min and max in the domain; give "
+            "the corners of a box round the opening, on the surface as the body stands in its own "
+            "frame: nearest to the middle of this one it is at " +
+            base::place_text(search.nearest(0.5 * (suction->min + suction->max))));
+  }
+}
 
 void check_openings(const Setup& setup, const DustSetup& dust, const ParticleModels& models,
                     std::span<const std::vector<sdk::InsertionRequest>> first,

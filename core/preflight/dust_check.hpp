@@ -11,6 +11,11 @@
 
 namespace dust::preflight {
 
+/// Tells suction openings in whose box there is no part of the body's surface within the domain:
+/// no fluid could leave there. What only the grid shows (other bodies before it) the run tells.
+void check_suctions(const scenario::Setup& setup, const ParticleModels& models,
+                    scenario::Diagnostics& diagnostics);
+
 /// Warns of hoods and suction openings that draw out what an emitter has just let in: an error
 /// where they take all of it. `first`: what each emitter proposes in its first steps.
 void check_openings(const scenario::Setup& setup, const scenario::DustSetup& dust,

@@ -30,6 +30,7 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
                   scenario::Diagnostics& diagnostics) {
   ParticleModels models = make_particle_models(read.setup, registry);
   const auto first = first_grains(read.setup, models);
+  check_suctions(read.setup, models, diagnostics);
   check_openings(read.setup, read.dust, models, first, diagnostics);
   check_drift(read.setup, read.dust, models, diagnostics);
   check_bodies_at_periodic_sides(read.setup, models, diagnostics);

@@ -7,10 +7,13 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <optional>
+#include <utility>
 
 namespace dust::report {
 
@@ -51,6 +54,81 @@ void flatten(const YAML::Node& node, const std::string& path,
   for (std::size_t k = 0; k < node.size(); ++k) {
     flatten(node[k], path + "[" + std::to_string(k) + "]", keys);
   }
+}
+
+/// The unit that a key of summary.json ends with: "g_per_tonne", "entered_kg".
+std::string unit_of_key(const std::string& name) {
+  constexpr std::array<std::pair<const char*, const char*>, 5> k_units = {{{"kg_per_h", "kg/h"},
+                                                                           {"g_per_tonne", "g/t"},
+                                                                           {"mg_per_kg", "mg/kg"},
+                                                                           {"kg", "kg"},
+                                                                           {"", "1"}}};
+  const auto* const found = std::find_if(
+      k_units.begin(), k_units.end(), [&](const auto& unit) { return name.ends_with(unit.first); });
+  return found->second;
+}
+
+/// What a summary says of dust that is a concentration, under the names of its blocks.
+std::vector<Figure> field_dust_of(const RunText& run) {
+  json blocks = json::object();
+  for (const char* key : {"dust_rates", "dust_outflow"}) {
+    if (const json& block = object_at(run.summary, key); !block.empty()) blocks[key] = block;
+  }
+  const json& on_grains = object_at(object_at(run.summary, "dust_on_grains"), "classes");
+  if (!on_grains.empty()) blocks["dust_on_grains"] = on_grains;
+  std::vector<Figure> figures = figures_of(blocks);
+  for (Figure& figure : figures) {
+    if (figure.unit.empty()) figure.unit = unit_of_key(figure.name);
+  }
+  return figures;
+}
+
+/// "dust_rates", "left/back/per_load": "dust of the field", "left, back"; nothing for what only the
+/// whole list shows.
+std::optional<std::string> headline_name(const Figure& figure, bool is_per_load) {
+  std::vector<std::string> parts{""};
+  for (const char c : figure.name) {
+    if (c == '/') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  if (figure.sensor == "dust_outflow" && parts.size() == 2 && parts[1] == "kg") {
+    return "got out, " + parts[0];
+  }
+  if (figure.sensor == "dust_on_grains" && parts.size() == 2) {
+    if (parts[1] == "set_free_kg") return "set free, " + words(parts[0]);
+    if (parts[1] == "on_grains_kg") return "on grains, " + words(parts[0]);
+  }
+  if (figure.sensor != "dust_rates" || parts.size() != 3) return std::nullopt;
+  if (parts[2] != (is_per_load ? "per_load" : "rate")) return std::nullopt;
+  const bool is_way_out = parts[0] == "left" || parts[0] == "drawn_out";
+  if (!is_way_out && parts[1] != "all") return std::nullopt;
+  return words(parts[0]) + ", " + parts[1];
+}
+
+/// Of these what the first screen names: ways out by name, of the rest the sum.
+void add_field_dust(const RunText& run, std::vector<Figure>& list) {
+  const std::vector<Figure> figures = field_dust_of(run);
+  const bool is_per_load = std::any_of(figures.begin(), figures.end(), [](const Figure& f) {
+    return f.sensor == "dust_rates" && f.name.ends_with("/per_load");
+  });
+  for (Figure figure : figures) {
+    const auto name = headline_name(figure, is_per_load);
+    if (!name) continue;
+    figure.sensor = figure.sensor == "dust_rates" ? "dust rate" : "field dust";
+    figure.name = *name;
+    list.push_back(std::move(figure));
+  }
+}
+
+/// All figures: of the sensors, then of dust in the air and on grains.
+std::vector<Figure> all_figures(const RunText& run) {
+  std::vector<Figure> figures = run.figures;
+  const std::vector<Figure> dust = field_dust_of(run);
+  figures.insert(figures.end(), dust.begin(), dust.end());
+  return figures;
 }
 
 /// Pairs figures of both runs by sensor and name, in the order of the first run; what only the
@@ -94,6 +172,7 @@ std::vector<Figure> reported_first(const RunText& run) {
       add("dust", words(figure.sensor) + size, figure);
     }
   }
+  add_field_dust(run, list);
   for (const StreamDrop& drop : highlights.stream) {
     add("stream", "median at " + base::length_text(drop.drop, 6) + " drop", drop.median);
   }
@@ -187,7 +266,7 @@ Comparison compare_runs(const std::filesystem::path& first, const std::filesyste
   }
   c.scenario = scenario_differences(c.first.scenario, c.second.scenario);
   c.headline = paired(reported_first(c.first), reported_first(c.second));
-  c.quantities = paired(c.first.figures, c.second.figures);
+  c.quantities = paired(all_figures(c.first), all_figures(c.second));
   const std::string state = text_at(c.first.summary, "state_sha256");
   c.is_same_state = !state.empty() && state == text_at(c.second.summary, "state_sha256");
   return c;

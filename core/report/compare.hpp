@@ -35,7 +35,7 @@ struct Comparison {
   RunText first, second;
   std::vector<ScenarioDifference> scenario;
   std::vector<QuantityPair> headline;    ///< what a reader asks for first
-  std::vector<QuantityPair> quantities;  ///< every figure of every sensor
+  std::vector<QuantityPair> quantities;  ///< every figure of every sensor and of dust
   bool is_same_state = false;            ///< the end states agree bit for bit
 };
 

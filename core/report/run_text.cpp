@@ -107,6 +107,22 @@ const json& list_at(const json& object, const char* key) {
   return found != object.end() && found->is_array() ? *found : k_empty;
 }
 
+namespace {
+
+/// A run that goes on, or was killed, has not written what it is read from.
+[[noreturn]] void refuse_unfinished(const std::filesystem::path& folder) {
+  const std::string name = folder.string();
+  const bool can_go_on = std::filesystem::exists(folder / "checkpoint.h5");
+  throw base::UserError(
+      "error: " + name +
+      " holds a run that has not ended: it has no summary.json yet; 'engine watch " + name +
+      "' tells whether it goes on; one that was stopped goes on with 'engine run " +
+      (folder / "scenario.yaml").string() + " -o " + name +
+      (can_go_on ? " --resume'" : " --force', from the start: it has no checkpoint"));
+}
+
+}  // namespace
+
 RunText read_run_text(const std::filesystem::path& folder) {
   const std::string name = folder.string();
   if (!std::filesystem::is_directory(folder)) {
@@ -115,6 +131,7 @@ RunText read_run_text(const std::filesystem::path& folder) {
                           "results/transfer_point");
   }
   const auto summary = read_text(folder / "summary.json");
+  if (!summary && std::filesystem::exists(folder / "scenario.yaml")) refuse_unfinished(folder);
   if (!summary) {
     throw base::UserError("error: " + name +
                           " is not the output folder of a run: it has no summary.json; give the "

@@ -113,7 +113,8 @@ class Run {
         models_(std::move(models)),
         steps_per_(simulation_.setup().time, keep_every) {}
 
-  void resume() {
+  /// `end_where`: of time.end. Throws base::UserError where that has passed.
+  void resume(const scenario::Mark& end_where) {
     refuse_changed_models(folder_ / "checkpoint.h5", models_);
     auto parts = simulation_.load_parts();
     parts.emplace_back("files", [this](sdk::ArchiveReader& a) {
@@ -124,6 +125,13 @@ class Run {
     });
     io::read_checkpoint(folder_ / "checkpoint.h5", resolved_, parts);
     is_resumed_ = true;
+    const double end = simulation_.setup().time.end, time = simulation_.time();
+    if (end >= time * (1.0 - 1e-9)) return;
+    const auto seconds = [](double value) { return scenario::number_text(value) + " s"; };
+    throw base::UserError(scenario::place(end_where) + ": error: time.end: " + seconds(end) +
+                          " is before the time that the run in " + folder_.string() +
+                          " has reached, " + seconds(time) +
+                          ": give a later end to go on, or another -o to run anew");
   }
 
   /// `live` may be null.
@@ -504,7 +512,7 @@ int run_scenario(const RunOptions& options) {
   const fs::path folder = output.path();
   Run run(*simulation, folder, read.resolved_yaml, used_models(read, registry),
           read.start.keep_every);
-  if (options.resume) run.resume();
+  if (options.resume) run.resume(read.start.end_where);
   catch_signals();
   if (live) {
     live->begin(folder);

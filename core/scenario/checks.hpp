@@ -26,6 +26,10 @@ void check_time(const TimeSpec& time, const TimeMarks& where, Diagnostics& diagn
 void check_multiple(const char* path, double every, double fluid_step, const Mark& where,
                     Diagnostics& diagnostics);
 
+/// Warns of means that begin at `begin` [s], when the run has ended.
+void check_begin_of_means(const std::string& path, double begin, double end, const Mark& where,
+                          Diagnostics& diagnostics);
+
 /// Every pair of materials that can meet needs an interaction.
 void check_pairs(const Setup& setup, const Mark& where, Diagnostics& diagnostics);
 

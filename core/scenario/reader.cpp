@@ -60,6 +60,22 @@ void check_periods(Reading& reading) {
   }
 }
 
+/// Sensors whose means begin when the run has ended.
+void check_means(const Reading& reading, const Entry& sensor, const std::string& path,
+                 const std::optional<ModelChoice>& choice) {
+  const auto* plugin = choice ? reading.registry.find("sensor", choice->name) : nullptr;
+  if (plugin == nullptr) return;
+  const sdk::ParameterSchema& parameters = plugin->info.parameters;
+  for (const char* key : {"steady_after", "averaging_after"}) {
+    for (std::size_t n = 0; n < choice->values.size(); ++n) {
+      const auto* begin = std::get_if<double>(&choice->values[n]);
+      if (begin == nullptr || parameters[n].name != key) continue;
+      check_begin_of_means(path + "." + key, *begin, reading.setup.time.end,
+                           mark_of(sensor.value, key), reading.diagnostics);
+    }
+  }
+}
+
 void read_sensors(Reading& reading, MapReader& top) {
   Node written = Node::make_map();
   for_each_named(reading, top, "sensors", [&](const Entry& entry, const std::string& path) {
@@ -80,6 +96,7 @@ void read_sensors(Reading& reading, MapReader& top) {
       return;
     }
     if (!sensor.enabled) return;
+    check_means(reading, entry, path, model.choice);
     reading.setup.sensors.push_back({entry.key, model.choice.value_or(ModelChoice{})});
   });
   if (!written.entries.empty()) add(reading.written, "sensors", std::move(written));

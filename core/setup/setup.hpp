@@ -94,6 +94,7 @@ struct SuctionSpec {
   sdk::Vec3 max;
   std::vector<double> times;    ///< [s]
   std::vector<double> factors;  ///< of the flow at `times`
+  Mark where;
 };
 
 struct BodySpec {

@@ -99,7 +99,8 @@ struct Planner::Impl {
   const Spec& spec;
   const registry::Registry& registry;
   Diagnostics& diagnostics;
-  std::optional<Node> base;
+  std::optional<Node> base;   ///< with what all points set
+  std::optional<Node> plain;  ///< without
   std::uint64_t base_seed = 1;
   MeasureCheck measures;
   std::set<std::string> reported;  ///< error lines
@@ -111,6 +112,7 @@ struct Planner::Impl {
     base = scenario::read_with_includes(spec.base, diagnostics);
     if (!base) return;
     if (base->where.line == 0) base->where = {spec.base.generic_string(), 1, 1};
+    plain = base;
     set_all(*base, spec.settings, diagnostics);
     // Not checked by itself: what is varied may be what makes it whole.
     const scenario::Entry* seed = base->find("seed");
@@ -187,6 +189,11 @@ struct Planner::Impl {
     return first + static_cast<std::uint64_t>(replicate - 1);
   }
 
+  /// Where no point can be read: what is wrong besides the settings of the study that are, so that
+  /// all is told at once.
+  void look_without_faulty();
+  [[nodiscard]] bool is_faulty(const Setting& setting) const;
+
   [[nodiscard]] std::optional<std::size_t> count_combinations() const;
   [[nodiscard]] std::vector<std::size_t> levels_of(std::size_t n) const;
   [[nodiscard]] std::optional<Node> combined(const std::vector<std::size_t>& levels);
@@ -226,6 +233,37 @@ Planner::Planner(const Spec& spec, const registry::Registry& registry, Diagnosti
   impl_->read_base();
 }
 Planner::~Planner() = default;
+
+bool Planner::Impl::is_faulty(const Setting& setting) const {
+  std::set<std::pair<int, int>> marks{{setting.where.line, setting.where.column}};
+  collect_marks(setting.value, marks);
+  return std::any_of(diagnostics.errors().begin(), diagnostics.errors().end(),
+                     [&](const auto& problem) {
+                       return problem.where.file == setting.where.file &&
+                              marks.contains({problem.where.line, problem.where.column});
+                     });
+}
+
+void Planner::Impl::look_without_faulty() {
+  std::vector<Setting> settings = spec.settings;
+  for (const Axis& axis : spec.axes) {
+    if (axis.levels.empty()) return;
+    const auto& of_first = axis.levels.front().settings;
+    settings.insert(settings.end(), of_first.begin(), of_first.end());
+  }
+  const std::size_t count = settings.size();
+  // One that makes a part of the scenario cannot be left out: what asks for the part would fail.
+  for (const Setting& s : settings) {
+    if (s.value.is_map() && is_faulty(s)) return;
+  }
+  std::erase_if(settings, [this](const Setting& s) { return is_faulty(s); });
+  if (settings.size() == count) return;
+  Node root = *plain;
+  Diagnostics own;
+  own.add_file(spec.file.generic_string());
+  set_all(root, settings, own);
+  if (!own.has_errors()) static_cast<void>(resolve(std::move(root), seed_of(1)));
+}
 
 /// How many combinations of levels there are; nothing where their runs are too many.
 std::optional<std::size_t> Planner::Impl::count_combinations() const {
@@ -284,7 +322,7 @@ void Planner::Impl::add_inputs(std::size_t a, Plan& plan) const {
 
 Plan Planner::plan() {
   Plan plan;
-  if (impl_->diagnostics.has_errors()) return plan;
+  if (!impl_->base) return plan;
   const auto combinations = impl_->count_combinations();
   if (!combinations) return plan;
   std::map<std::string, std::size_t> by_hash;
@@ -302,6 +340,7 @@ Plan Planner::plan() {
       plan.points.push_back(std::move(*point));
     }
   }
+  if (plan.points.empty()) impl_->look_without_faulty();
   plan.outputs = impl_->measures.columns();
   if (impl_->diagnostics.has_errors()) return plan;
   for (std::size_t a = 0; a < impl_->spec.axes.size(); ++a) impl_->add_inputs(a, plan);

@@ -240,6 +240,16 @@ class Study {
   Plan plan_;
 };
 
+/// Whether what the study says is understood, but for keys that it has not.
+bool can_be_planned(const Spec& spec, const scenario::Diagnostics& diagnostics) {
+  if (!diagnostics.has_errors()) return true;
+  const auto& errors = diagnostics.errors();
+  const bool has_points = !spec.axes.empty() || spec.replicates > 1;
+  return has_points && !spec.base.empty() &&
+         std::all_of(errors.begin(), errors.end(),
+                     [](const auto& problem) { return problem.text.starts_with("unknown key "); });
+}
+
 }  // namespace
 
 int run_study(const StudyOptions& options) {
@@ -248,9 +258,9 @@ int run_study(const StudyOptions& options) {
       registry::Registry::search_path({options.plugin_path.begin(), options.plugin_path.end()}));
   scenario::Diagnostics diagnostics;
   const auto spec = read_spec(options.file, diagnostics);
-  diagnostics.throw_errors();
+  // The rest is told with what is wrong here.
+  if (!spec || !can_be_planned(*spec, diagnostics)) diagnostics.throw_errors();
   Planner planner(*spec, registry, diagnostics);
-  diagnostics.throw_errors();
   Plan plan = spec->calibration ? planner.calibration_columns() : planner.plan();
   diagnostics.throw_errors();
   for (const std::string& warning : diagnostics.warning_lines()) {

@@ -36,6 +36,10 @@ bool is_used(const fs::path& folder) {
 fs::path choose_study_folder(const StudyOptions& options, const std::string& name) {
   if (options.output) {
     const fs::path& folder = *options.output;
+    if (std::error_code none; fs::exists(folder, none) && !fs::is_directory(folder, none)) {
+      throw base::UserError("error: -o " + folder.string() +
+                            " is a file, results go to a folder: give another -o");
+    }
     if (is_used(folder) && !options.resume && !options.force) {
       throw base::UserError("error: the folder " + folder.string() +
                             " is not empty; give --resume to go on with the study in it, --force "

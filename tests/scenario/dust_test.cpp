@@ -30,7 +30,7 @@ json run(const fs::path& out, const std::vector<std::string>& more) {
 
 TEST_CASE("a hood shall draw out the grains that reach its opening and book them") {
   const TemporaryFolder folder;
-  const json summary = run(folder / "out", {});
+  const json summary = run(folder / "out", {"--set", "dust={finer_than: 50 um, hoods: [hood]}"});
   const json& hood = summary["hoods"]["hood"];
   // All 300 hang less than 16 mm below an opening that sucks 3 l/s through 2.56 cm2.
   CHECK(hood["particles"] == 300);
@@ -41,13 +41,35 @@ TEST_CASE("a hood shall draw out the grains that reach its opening and book them
   CHECK(hood["dust_kg"] == hood["mass_kg"]);
   CHECK(hood["share_of_dust"].get<double>() == approx(1.0));
   CHECK(hood["dust_g_per_tonne"].get<double>() == approx(1e6));
+  CHECK_FALSE(hood.contains("field_dust_kg"));
+}
+
+TEST_CASE("a hood shall book the dust of a field that it draws out beside that of grains") {
+  const TemporaryFolder folder;
+  const json summary = run(folder / "out", {"--set", "bodies.hood.suction.flow=8 l/min"});
+  const json& hood = summary["hoods"]["hood"];
+  const json& field = summary["dust_field"]["classes"]["20_um"];
+  const double of_field = hood["field_dust_kg"].get<double>();
+  CHECK(of_field > 0.0);
+  CHECK(of_field == field["hoods_kg"]["hood"].get<double>());
+  const double dust = hood["dust_kg"].get<double>();
+  CHECK(dust == approx(hood["mass_kg"].get<double>() + of_field));
+  const double fed = summary["mass_kg"]["emitted"].get<double>();
+  CHECK(hood["share_of_dust"].get<double>() ==
+        approx(dust / (fed + field["released_kg"].get<double>())));
+  CHECK(hood["dust_g_per_tonne"].get<double>() == approx(1e6 * dust / fed));
+  const json& columns = summary["series"];
+  INFO(columns);
+  CHECK(columns["hoods/hood/dust [kg]"] == "total");
+  CHECK(columns["hoods/hood/field_dust [kg]"] == "total");
 }
 
 TEST_CASE("dust as grains and as a field shall meet the same hood in the same share") {
   const TemporaryFolder folder;
   // Weak enough that part of the dust falls past it.
   const json summary = run(folder / "out", {"--set", "bodies.hood.suction.flow=8 l/min"});
-  const double grains = summary["hoods"]["hood"]["share_of_dust"].get<double>();
+  const double grains = summary["hoods"]["hood"]["mass_kg"].get<double>() /
+                        summary["mass_kg"]["emitted"].get<double>();
   const json& field = summary["dust_field"]["classes"]["20_um"];
   const double released = field["released_kg"].get<double>();
   const double drawn = field["hoods_kg"]["hood"].get<double>() / released;

@@ -2,6 +2,7 @@
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdlib>
 #include <filesystem>
@@ -135,6 +136,22 @@ TEST_CASE("a fluid that diverges shall stop the run with place, time, cause and 
   CHECK(fast.err.find("time.fluid_step is far too long") != std::string::npos);
 }
 
+TEST_CASE("means over no time shall be null, and told before") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  const auto run = engine({"run", k_scenario, "-o", out, "--set", k_short, "--set",
+                           "sensors.lip.steady_after=8 s", "--quiet"});
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  CHECK(run.err.find("sensors.lip.steady_after: 8 s is not before time.end, 0.012 s") !=
+        std::string::npos);
+  const auto lip = nlohmann::json::parse(read_file(out / "summary.json"))["sensors"]["lip"];
+  CHECK(lip["observed_time"]["value"] == 0.0);
+  CHECK(lip["net/mass_rate"]["value"].is_null());
+  CHECK(lip["net/grams_per_tonne"]["value"].is_null());
+  CHECK(lip["forward/mass"]["value"].is_number());
+}
+
 TEST_CASE("a used folder shall not be overwritten unless forced") {
   const TemporaryFolder folder;
   const fs::path out = folder / "out";
@@ -145,6 +162,20 @@ TEST_CASE("a used folder shall not be overwritten unless forced") {
   CHECK(refused.err.find("--force") != std::string::npos);
   CHECK(refused.err.find("--resume") != std::string::npos);
   CHECK(read_file(out / "precious") == "data");
+}
+
+TEST_CASE("a file given as output folder shall be refused as one, also with force") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  { std::ofstream(out) << "data"; }
+  for (const std::string how : {"--quiet", "--force", "--resume"}) {
+    CAPTURE(how);
+    const auto refused = engine({"run", k_scenario, "-o", out, "--set", k_short, how});
+    CHECK(refused.status == 2);
+    CHECK(refused.err.ends_with("error: -o " + out.string() +
+                                " is a file, results go to a folder: give another -o\n"));
+  }
+  CHECK(read_file(out) == "data");
 }
 
 TEST_CASE("a broken scenario shall exit with 2, say where, and leave no folder") {

@@ -153,6 +153,25 @@ TEST_CASE("resuming with another scenario shall be refused with the difference")
   CHECK(run.err.find("speed") != std::string::npos);
 }
 
+TEST_CASE("resuming to an end that has passed shall be refused and change nothing") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  const auto run = [&](const std::string& end, const char* how) {
+    return engine({"run", k_scenario, "-o", out, "--set", "time.end=" + end, how, "--quiet"});
+  };
+  REQUIRE(run("8 ms", "--force").status == 0);
+  const std::string scenario = read_file(out / "scenario.yaml");
+  const std::string summary = read_file(out / "summary.json");
+  const auto early = run("4 ms", "--resume");
+  CHECK(early.status == 2);
+  CHECK(early.err.find("error: time.end: 0.004 s is before the time that the run in " +
+                       out.string() + " has reached, 0.008 s: give a later end") !=
+        std::string::npos);
+  CHECK(read_file(out / "scenario.yaml") == scenario);
+  CHECK(read_file(out / "summary.json") == summary);
+  CHECK(run("8 ms", "--resume").status == 0);
+}
+
 TEST_CASE("resuming without a checkpoint shall be refused with a remedy") {
   const TemporaryFolder folder;
   const auto run = engine({"run", k_scenario, "-o", folder / "none", "--resume"});

@@ -53,6 +53,31 @@ TEST_CASE("a study with an unknown path shall be told once, with what was meant"
                 "s.yaml:3:7: error: unknown key 'edn' in time; did you mean 'end'?");
 }
 
+TEST_CASE("all that is wrong in a study shall be told at once, also beside an unknown key") {
+  const std::string measure = "measure: {m: sensors.out.forwrd.mass}\n";
+  const std::string of_measure =
+      "s.yaml:3:14: error: m: 'sensors.out.forwrd.mass' is no quantity of a run; did you mean "
+      "'sensors.out.forward.mass'?\n";
+  const std::string head = "base: drop.yaml\ntitel: a\n" + measure;
+  const std::string of_key =
+      "s.yaml:2:1: error: unknown key 'titel' in the study; did you mean 'title'?\n";
+  check_message(head + "vary: {emitters.feed.mass_flw: [1, 2 g/s]}\n",
+                of_key + of_measure +
+                    "s.yaml:4:8: error: unknown key 'mass_flw' in emitters.feed; did you mean "
+                    "'mass_flow'?");
+  check_message(
+      head + "vary: {emitters.fed.mass_flow: [1, 2 g/s]}\n",
+      of_key + of_measure + "s.yaml:4:8: error: there is no emitter 'fed'; did you mean 'feed'?");
+  check_message(head + "set: {time.edn: 1 s}\nvary: {emitters.feed.mass_flow: [1, 2 mm]}\n",
+                of_key + of_measure +
+                    "s.yaml:4:7: error: unknown key 'edn' in time; did you mean 'end'?\n"
+                    "s.yaml:5:37: error: emitters.feed.mass_flow: 'mm' is the unit of a length: a "
+                    "mass flow is expected (kg/s, g/s, t/h)");
+  // What cannot be read makes no point that could be looked at.
+  check_message("base: drop.yaml\nvari: {time.end: [20, 40 ms]}\n" + measure,
+                "s.yaml:2:1: error: unknown key 'vari' in the study; did you mean 'vary'?");
+}
+
 TEST_CASE("a study with a wrong unit shall be told once, where it stands") {
   check_message(k_head + "vary: {emitters.feed.mass_flow: [1, 2, 3 mm]}\n",
                 "s.yaml:3:40: error: emitters.feed.mass_flow: 'mm' is the unit of a length: a mass "

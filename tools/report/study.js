@@ -31,7 +31,7 @@
 
     const cell = (v, factor = 1) => (v === null ? dash : Dust.value(factor * v.value, v.error === null ? -1 : factor * v.error));
     const capture = (t) => (t.capture === null ? dash : t.is_few ? Dust.number(100 * t.capture.value, 2) + ' (few grains)' : cell(t.capture, 100));
-    const rows = [...(hoods.plain ? [['no hood', dash, dash, cell(hoods.plain), dash]] : []),
+    const rows = [...(hoods.plain ? [[hoods.plain_drawn ? 'no other hood' : 'no hood', dash, cell(hoods.plain_drawn || null), cell(hoods.plain), dash]] : []),
       ...hoods.places.flatMap((place) => place.trials.map((t) => [Dust.words(place.name), flow(t.flow_m3_per_s), cell(t.drawn), cell(t.escapes), capture(t)]))];
     const grid = el('div', {class: 'grid'});
     Dust.later.push(() => Dust.plot(grid, {title: 'Capture', x_label: 'flow, ' + flow_unit, y_label: 'of the dust, %', unit: '%', lines: hoods.places.map((place) => {

@@ -66,7 +66,7 @@ std::vector<Vec3> read_stl(const std::string& file) {
   std::vector<Vec3> corners;
   if (bytes.size() >= k_header && bytes.size() == needed) {
     corners = read_binary(bytes, count);
-  } else if (bytes.compare(0, 5, "solid") == 0) {
+  } else if (bytes.compare(0, 5, "solid") == 0 && bytes.find('\0') == std::string::npos) {
     corners = read_text(bytes, file);
   } else if (bytes.size() >= k_header && count > 0 && count < 100'000'000) {
     throw ParameterError(file + ": " + std::to_string(count) + " triangles are announced, which " +

@@ -46,6 +46,10 @@ OutputFolder::OutputFolder(const RunOptions& options, const std::string& scenari
     return;
   }
   path_ = *options.output;
+  if (std::error_code none; fs::exists(path_, none) && !fs::is_directory(path_, none)) {
+    throw base::UserError("error: -o " + path_.string() +
+                          " is a file, results go to a folder: give another -o");
+  }
   const bool is_used = fs::exists(path_) && !(fs::is_directory(path_) && fs::is_empty(path_));
   if (options.resume) {
     if (!fs::exists(path_ / "checkpoint.h5")) {

@@ -53,6 +53,8 @@ void visit_hoods(const Simulation& s, const ColumnVisitor& visit) {
     const std::string hood = "hoods/" + s.dem().openings()[o].name;
     visit(hood + "/mass [kg]", drawn.mass, RowValue::total, k_mass_role);
     visit(hood + "/dust [kg]", drawn.dust, RowValue::total, k_mass_role);
+    if (s.dust_stage() == nullptr) continue;
+    visit(hood + "/field_dust [kg]", drawn.field_dust, RowValue::total, k_mass_role);
   }
 }
 

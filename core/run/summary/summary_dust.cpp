@@ -107,6 +107,12 @@ Drawn drawn_by(const Simulation& s, std::size_t opening) {
     drawn.mass += mass;
     if (rule.is_dust(population.diameter, population.material)) drawn.dust += mass;
   }
+  if (const DustStage* stage = s.dust_stage()) {
+    for (std::size_t n = 0; n < stage->field().classes(); ++n) {
+      drawn.field_dust += stage->field().gone(n).outlets[opening];
+    }
+  }
+  drawn.dust += drawn.field_dust;
   return drawn;
 }
 
@@ -121,6 +127,11 @@ Json hoods_json(const Simulation& s) {
     load += mass;
     if (rule.is_dust(population.diameter, population.material)) dust += mass;
   }
+  if (const DustStage* stage = s.dust_stage()) {
+    for (std::size_t n = 0; n < stage->field().classes(); ++n) {
+      dust += stage->field().gone(n).released;
+    }
+  }
   const auto over = [](double amount, double whole) {
     return whole > 0.0 ? Json(amount / whole) : Json(nullptr);
   };
@@ -134,6 +145,8 @@ Json hoods_json(const Simulation& s) {
         {"dust_g_per_tonne", over(k_grams_per_tonne * drawn.dust, load)},
         {"dust_kg_per_h", over(k_hour * drawn.dust, s.time())},
         {"share_of_dust", over(drawn.dust, dust)}};
+    if (s.dust_stage() != nullptr)
+      j[s.dem().openings()[o].name]["field_dust_kg"] = drawn.field_dust;
   }
   return j;
 }

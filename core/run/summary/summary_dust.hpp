@@ -15,15 +15,16 @@ nlohmann::ordered_json dust_rule_json(const Simulation& s);
 
 /// What a hood has drawn out so far, computed grains with their weights.
 struct Drawn {
-  double particles = 0.0;  ///< computed ones
-  double mass = 0.0;       ///< [kg]
-  double dust = 0.0;       ///< [kg] of that, dust
+  double particles = 0.0;   ///< computed ones
+  double mass = 0.0;        ///< [kg] of grains
+  double dust = 0.0;        ///< [kg] of dust, as grains and of a field
+  double field_dust = 0.0;  ///< [kg] of that, of a field
 };
 Drawn drawn_by(const Simulation& s, std::size_t opening);
 
-/// By hood: {"particles", "mass_kg", "dust_kg", "dust_g_per_tonne" of all released,
-/// "dust_kg_per_h" over the whole run, "share_of_dust" released}; the last three null where nothing
-/// was.
+/// By hood: {"particles", "mass_kg" of them, "dust_kg" as grains and of a field, "dust_g_per_tonne"
+/// of all grains released, "dust_kg_per_h" over the whole run, "share_of_dust" released, with a
+/// field "field_dust_kg"}; the rates and the share null where nothing was.
 nlohmann::ordered_json hoods_json(const Simulation& s);
 
 /// What became of the airborne dust: by class {"released_kg", "airborne_kg", "deposited_kg" by

@@ -100,7 +100,7 @@ std::optional<SuctionSpec> read_suction(Reading& reading, MapReader& reader, Nod
     }
   }
   add(written, "suction", written_block<SuctionBlock>(values));
-  return SuctionSpec{read.flow, read.min, read.max, read.times, read.factors};
+  return SuctionSpec{read.flow, read.min, read.max, read.times, read.factors, entry->where};
 }
 
 /// What only the made body knows.

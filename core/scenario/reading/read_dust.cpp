@@ -138,6 +138,8 @@ void read_dust(Reading& reading, MapReader& top) {
   const bool has_field = entry->value.find("field") != nullptr;
   if (reader.is_good() && is_good)
     reading.dust.given = dust_spec_of(reading, *entry, read, has_field);
+  check_begin_of_means("dust.steady_after", read.steady_after, reading.setup.time.end,
+                       mark_of(entry->value, "steady_after"), reading.diagnostics);
   Node written = written_block<DustBlock>(values);
   read_dust_field(reading, reader, written);
   read_liberation(reading, reader, written);

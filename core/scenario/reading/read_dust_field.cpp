@@ -179,7 +179,8 @@ void read_dust_field(Reading& reading, MapReader& dust, Node& written) {
   }
   if (reader.is_good() && is_good) check_dust_field(reading, entry->value, spec);
   check_exchange(reading, entry->value, spec);
-  if (reading.has_fluid && spec.density > 0.0) reading.dust.field = std::move(spec);
+  // Also where its material is wrong, which is told there: what else it says counts.
+  if (reading.has_fluid) reading.dust.field = std::move(spec);
 }
 
 }  // namespace dust::scenario

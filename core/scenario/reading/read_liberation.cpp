@@ -42,6 +42,12 @@ void read_feed_zones(Reading& reading, MapReader& dust, Node& written) {
   if (!zones.entries.empty()) add(written, "feed_zones", std::move(zones));
 }
 
+/// Whether there is a dust.field, right or wrong.
+bool asks_for_field(const Reading& reading) {
+  const Entry* dust = reading.root.find("dust");
+  return dust != nullptr && dust->value.find("field") != nullptr;
+}
+
 }  // namespace
 
 void read_liberation(Reading& reading, MapReader& dust, Node& written) {
@@ -57,7 +63,7 @@ void read_liberation(Reading& reading, MapReader& dust, Node& written) {
   check_dust_loads(reading, law.model.get(), entry == nullptr || law.model != nullptr);
   if (!law.choice) return;
   const Mark where = law.choice->where;
-  if (!reading.dust.field && reading.has_fluid) {
+  if (!reading.dust.field && reading.has_fluid && dust.optional("field") == nullptr) {
     reading.error(where,
                   "dust.liberation: there is no dust.field that takes up what comes off: give "
                   "dust: {field: {classes: [...], material: ...}}");
@@ -105,12 +111,14 @@ void check_dust_loads(Reading& reading, const sdk::Model* law, bool is_law_read)
                     path +
                         ".dust_load: there is no fluid that takes dust up: give fluid: {cells: "
                         "...} instead of none, or take dust_load out");
-    } else if (!reading.dust.field) {
+    } else if (!asks_for_field(reading)) {
       reading.error(where,
                     path +
                         ".dust_load: there is no dust.field whose classes it could mean: give "
                         "dust: {field: {classes: [...], material: ...}, liberation: {model: "
                         "energy, ...}}, or take dust_load out");
+    } else if (!reading.dust.field || reading.dust.field->diameters.empty()) {
+      continue;  // told where the field stands
     } else if (load.share.size() != reading.dust.field->diameters.size()) {
       reading.error(where, path + ".dust_load: " + std::to_string(load.share.size()) +
                                " numbers for " +

@@ -272,6 +272,24 @@ std::string bracket_hint(const std::string& text, const YAML::Mark& mark) {
   return "; a key with brackets stands in quotes: '" + found.str() + "'";
 }
 
+/// Where a tab indents the line of the problem, or those above it: YAML takes spaces alone, and its
+/// parser tells of what follows. Inside brackets tabs are allowed.
+std::optional<Mark> indenting_tab(const std::string& text, const YAML::Exception& problem,
+                                  const std::string& file) {
+  if (problem.mark.is_null() || problem.msg.find("flow") != std::string::npos) return std::nullopt;
+  std::istringstream lines(text);
+  std::string line;
+  std::optional<Mark> first;
+  for (int n = 0; n <= problem.mark.line && std::getline(lines, line); ++n) {
+    const std::size_t begin = line.find_first_not_of(" \t");
+    const std::size_t tab = line.find('\t');
+    const bool is_indenting = begin != std::string::npos && tab < begin;
+    if (!is_indenting) first.reset();
+    if (is_indenting && !first) first = Mark{file, n + 1, static_cast<int>(tab) + 1};
+  }
+  return first;
+}
+
 }  // namespace
 
 std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
@@ -290,6 +308,10 @@ std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
   } catch (const Stop&) {
     return std::nullopt;
   } catch (const YAML::Exception& problem) {
+    if (const auto tab = indenting_tab(text, problem, file); tab && !is_command_line) {
+      diagnostics.error(*tab, "not valid YAML: a tab indents this line: write spaces instead");
+      return std::nullopt;
+    }
     const Mark where = is_command_line || problem.mark.is_null()
                            ? Mark{file, is_command_line ? 0 : 1, is_command_line ? 0 : 1}
                            : Mark{file, problem.mark.line + 1, problem.mark.column + 1};

@@ -311,7 +311,7 @@ MapReader::MapReader(const Node& node, std::string path, Mark where, Diagnostics
 }
 
 const Entry* MapReader::optional(const std::string& key) {
-  known_.push_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   return node_.find(key);
 }
 

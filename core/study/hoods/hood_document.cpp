@@ -53,10 +53,13 @@ Json hoods_json(const HoodResults& results) {
     if (needed) entry["needed"] = {{"flow_m3_per_s", needed->flow}, {"is_bound", needed->is_bound}};
     places.push_back(std::move(entry));
   }
+  const bool has_own = results.plain && results.plain->drawn.value > 0.0;
   return {
       {"unit", scale.unit()},
       {"plain", results.plain ? estimate_json(results.plain->escaping, scale.factor(*results.plain))
                               : Json(nullptr)},
+      {"plain_drawn",
+       has_own ? estimate_json(results.plain->drawn, scale.factor(*results.plain)) : Json(nullptr)},
       {"wanted", k_wanted},
       {"places", places}};
 }

@@ -85,15 +85,16 @@ class Growth {
                              .value_or(time_->values.front());
     begin_ = first + k_settling * (time_->values.back() - first);
   }
-  /// The sum of the columns that `takes` chooses by name, per second.
+  /// The sum of the columns per second, each by the factor that `takes` gives its name.
   template <class Takes>
   [[nodiscard]] Uncertain of(const Takes& takes) const {
     if (time_ == nullptr) return {};
     const std::size_t rows = time_->values.size();
     std::vector<double> total(rows, 0.0);
     for (const report::SeriesColumn& column : run_.series) {
-      if (!takes(column.name) || column.values.size() != rows) continue;
-      for (std::size_t n = 0; n < rows; ++n) total[n] += column.values[n];
+      const auto factor = static_cast<double>(takes(column.name));
+      if (factor == 0.0 || column.values.size() != rows) continue;
+      for (std::size_t n = 0; n < rows; ++n) total[n] += factor * column.values[n];
     }
     sdk::BatchMeans means(1);
     for (std::size_t n = 1; n < rows; ++n) {
@@ -102,6 +103,7 @@ class Growth {
       const double rate = (total[n] - total[n - 1]) / duration;
       means.add({&rate, 1}, duration);
     }
+    if (!(means.duration() > 0.0)) return {};
     // A rate that still changes is known to what its batches scatter.
     const double error = means.error(0);
     return {means.mean(0), error == sdk::k_not_steady ? means.deviation(0) : error};
@@ -141,17 +143,56 @@ Uncertain sum(const Uncertain& a, const Uncertain& b) {
   return {a.value + b.value, std::hypot(a.error, b.error)};
 }
 
-HoodTrial trial_of(const report::RunText& run, double flow) {
+bool is_of_field(const std::string& name, const char* end) {
+  return name.starts_with("dust_field/") && name.ends_with(end);
+}
+
+/// Is it what `hood` has drawn out? Empty: any hood.
+bool is_of_hood(const std::string& name, const std::string& hood, const char* what) {
+  if (!hood.empty()) return name == "hoods/" + hood + what;
+  return name.starts_with("hoods/") && name.ends_with(what);
+}
+
+/// What a hood draws out of the dust field; empty: all hoods. Runs of before have no column of each
+/// hood: that of all where it is the only one, else the mean of the whole run.
+Uncertain drawn_of_field(const report::RunText& run, const Growth& growth,
+                         const std::string& hood) {
+  constexpr const char* k_drawn = "/field_dust";
+  constexpr double k_hour = 3600.0;  // s
+  std::size_t hoods = 0;
+  bool has_columns = false;
+  for (const report::SeriesColumn& column : run.series) {
+    has_columns = has_columns || is_of_hood(column.name, {}, k_drawn);
+    if (is_of_hood(column.name, {}, "/dust")) ++hoods;
+  }
+  if (has_columns) {
+    return growth.of([&](const std::string& name) { return is_of_hood(name, hood, k_drawn); });
+  }
+  if (hood.empty() || hoods < 2) {
+    return growth.of([](const std::string& name) { return is_of_field(name, "/hoods"); });
+  }
+  const std::string rate = "drawn_out/" + hood + "/rate";
+  const auto& rates = report::object_at(run.summary, "dust_rates");
+  return {report::number_at(report::object_at(rates, rate.c_str()), "value").value_or(0.0) / k_hour,
+          -1.0};
+}
+
+/// What a hood draws out of dust as grains; empty: all hoods.
+Uncertain drawn_of_grains(const Growth& growth, const std::string& hood) {
+  return growth.of([&](const std::string& name) {
+    // The dust of a column is that of grains and of the field.
+    const bool is_all = is_of_hood(name, hood, "/dust");
+    return is_all ? 1.0 : is_of_hood(name, hood, "/field_dust") ? -1.0 : 0.0;
+  });
+}
+
+/// Of a point with `hood`, empty: of the plain run, all of its own.
+HoodTrial trial_of(const report::RunText& run, double flow, const std::string& hood) {
   const Growth growth(run);
-  const std::string hood = std::string("hoods/") + k_hood_body + "/dust";
-  const auto is_field = [](const std::string& name, const char* end) {
-    return name.starts_with("dust_field/") && name.ends_with(end);
-  };
   HoodTrial trial{.flow = flow};
   trial.load = growth.of([](const std::string& name) { return name == "mass_emitted"; }).value;
-  Uncertain grains = growth.of([&](const std::string& name) { return name == hood; });
-  const Uncertain field =
-      growth.of([&](const std::string& name) { return is_field(name, "/hoods"); });
+  Uncertain grains = drawn_of_grains(growth, hood);
+  const Uncertain field = drawn_of_field(run, growth, hood);
   if (const double mass = mass_of_drawn(run); mass > 0.0) {
     trial.computed = grains.value * growth.duration() / mass;
     // What few grains tell is known no better than by counting.
@@ -165,7 +206,7 @@ HoodTrial trial_of(const report::RunText& run, double flow) {
   const report::Figure out = report::sum_of(report::highlights_of(run).openings);
   const double per_tonne = trial.load / k_grams_per_tonne;
   const Uncertain left =
-      growth.of([&](const std::string& name) { return is_field(name, "/left"); });
+      growth.of([](const std::string& name) { return is_of_field(name, "/left"); });
   trial.escaping = sum(
       {out.value * per_tonne, out.uncertainty > 0.0 ? out.uncertainty * per_tonne : -1.0}, left);
   return trial;
@@ -269,10 +310,10 @@ HoodResults hood_results(const fs::path& study) {
     const report::RunText run = report::read_run_text(folder);
     const std::string file = (folder / "scenario.yaml").string();
     if (const auto hood = hood_of(io::read_text(file), file)) {
-      trials[hood->place][hood->flow].push_back(trial_of(run, hood->flow));
+      trials[hood->place][hood->flow].push_back(trial_of(run, hood->flow, k_hood_body));
       openings[hood->place] = hood->opening;
     } else {
-      plain.push_back(trial_of(run, 0.0));
+      plain.push_back(trial_of(run, 0.0, {}));
     }
   }
   if (trials.empty()) {

@@ -23,7 +23,7 @@ struct Uncertain {
 /// that still changes has as its error how far stretches of the time lie from the mean.
 struct HoodTrial {
   double flow = 0.0;         ///< [m3/s]
-  Uncertain drawn;           ///< [kg/s] through the hood
+  Uncertain drawn;           ///< [kg/s] through the hood; of the plain run, through its own
   Uncertain escaping;        ///< [kg/s] through the openings and open sides that are watched
   double load = 0.0;         ///< [kg/s] released, dust and all; 0 without grains
   double computed = -1.0;    ///< computed grains of dust that the hood has drawn; negative: a field
@@ -46,7 +46,7 @@ struct HoodPlace {
 /// A finished study of hoods.
 struct HoodResults {
   std::vector<HoodPlace> places;
-  std::optional<HoodTrial> plain;  ///< without a hood
+  std::optional<HoodTrial> plain;  ///< without a hood that is tried
 };
 
 /// The mean of trials of one hood with other seeds. Its errors are those of the trials in the mean,

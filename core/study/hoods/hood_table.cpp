@@ -12,8 +12,9 @@ namespace {
 using Row = std::array<std::string, 5>;
 
 std::string flow_text(double flow) {
-  constexpr double k_large = 1.0 / 60.0;  // m3/s
-  if (flow <= k_large) return base::digits_text(6e4 * flow, 3) + " l/min";
+  // From here on three digits of l/min would be written with a power of ten.
+  constexpr double k_large = 0.9995 / 60.0;  // m3/s
+  if (flow < k_large) return base::digits_text(6e4 * flow, 3) + " l/min";
   const double per_hour = 3600.0 * flow;
   return (per_hour < 100.0 ? base::digits_text(per_hour, 3) : base::fixed_text(per_hour, 0)) +
          " m3/h";
@@ -87,8 +88,10 @@ std::string hood_table(const HoodResults& results, double wanted) {
   std::vector<Row> rows = {{"place", "flow", "drawn out [" + scale.unit() + "]",
                             "escapes [" + scale.unit() + "]", "capture"}};
   if (results.plain) {
-    rows.push_back({"plain", "-", "-",
-                    estimate_text(results.plain->escaping, scale.factor(*results.plain)), "-"});
+    const double factor = scale.factor(*results.plain);
+    const Uncertain& drawn = results.plain->drawn;
+    rows.push_back({"plain", "-", drawn.value > 0.0 ? estimate_text(drawn, factor) : "-",
+                    estimate_text(results.plain->escaping, factor), "-"});
   }
   for (const HoodPlace& place : results.places) {
     for (const HoodTrial& trial : place.trials) {

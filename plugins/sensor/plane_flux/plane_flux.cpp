@@ -200,7 +200,9 @@ class PlaneFlux final : public sdk::Sensor {
                     k_units[q], error, role.of(k_what[q]));
         if (q != k_mass) continue;
         const double emitted = emitted_before_ < 0.0 ? 0.0 : emitted_mass_ - emitted_before_;
-        const double rate = formula::grams_per_tonne(means_.mean(first + way), duration, emitted);
+        const double rate =
+            duration > 0.0 ? formula::grams_per_tonne(means_.mean(first + way), duration, emitted)
+                           : means_.mean(first + way);
         sink.figure(prefix + k_way_names[way] + "grams_per_tonne", rate, "g/t",
                     error < 0.0     ? error
                     : emitted > 0.0 ? formula::grams_per_tonne(error, duration, emitted)

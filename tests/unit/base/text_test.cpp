@@ -54,6 +54,8 @@ TEST_CASE("Durations: three digits below 100 s, then minutes and hours") {
 TEST_CASE("Estimated durations: two digits of one unit") {
   CHECK(estimated_duration_text(0.2) == "1 s");
   CHECK(estimated_duration_text(44.4) == "44 s");
+  CHECK(estimated_duration_text(98.9) == "99 s");
+  CHECK(estimated_duration_text(118.0) == "2 min");
   CHECK(estimated_duration_text(98.0 * 60.0) == "98 min");
   CHECK(estimated_duration_text(100.0 * 60.0) == "1.7 h");
   CHECK(estimated_duration_text(123.0 * 3600.0) == "123 h");

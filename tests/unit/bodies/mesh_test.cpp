@@ -273,6 +273,8 @@ TEST_CASE("a mesh that is not fit shall be refused with what is wrong and what t
   CHECK(what(cut) ==
         ": 2 triangles are announced, which takes 184 bytes, but the file has 144: it "
         "is damaged");
+  // Also where the header of a binary file begins as a text does.
+  CHECK(what("solid" + cut.substr(5)).find(": 2 triangles are announced") == 0);
 }
 
 TEST_CASE("doubled and collapsed triangles shall be left out and told") {

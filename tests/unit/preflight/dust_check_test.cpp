@@ -69,6 +69,52 @@ bool has(const std::vector<std::string>& lines, const std::string& text) {
 
 }  // namespace
 
+TEST_CASE("a suction whose box holds no part of its body shall be refused with file and line") {
+  const auto message_of = [](const std::vector<scenario::Override>& set) {
+    const Folder folder;
+    try {
+      static_cast<void>(
+          preflight::read_scenario(folder.write("hood.yaml", k_text), set, shipped()));
+    } catch (const base::UserError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  // 0.2 m below the body.
+  const std::string below = message_of(
+      {{"bodies.hood.suction", "{flow: 10 l/s, min: [0.3, 0, 0.5 m], max: [0.7, 0.2, 0.5 m]}"}});
+  CHECK(below.find("error: bodies.hood.suction: no part of the body's surface lies between min and "
+                   "max in the domain") != std::string::npos);
+  CHECK(below.find("it is at (0.5, 0.1, 0.7) m") != std::string::npos);
+  // Deep in it.
+  CHECK(message_of({{"bodies.hood.suction.min", "[0.4, 0.09, 0.74 m]"},
+                    {"bodies.hood.suction.max", "[0.5, 0.1, 0.76 m]"}}) != "");
+  // A corner of a large box alone.
+  CHECK(message_of({{"bodies.hood.suction.min", "[0.1, 0, 0.4 m]"},
+                    {"bodies.hood.suction.max", "[0.201, 0.2, 0.701 m]"}})
+            .empty());
+  // Round all of it.
+  CHECK(message_of({{"bodies.hood.suction.min", "[0, 0, 0 m]"},
+                    {"bodies.hood.suction.max", "[1, 0.2, 0.9 m]"}})
+            .empty());
+  // On a face that lies outside the domain.
+  CHECK(message_of({{"bodies.hood.max", "[0.8, 0.2, 1.4 m]"},
+                    {"bodies.hood.suction.min", "[0.3, 0, 1.4 m]"},
+                    {"bodies.hood.suction.max", "[0.7, 0.2, 1.4 m]"}})
+            .find("no part of the body's surface") != std::string::npos);
+  try {
+    const Folder folder;
+    static_cast<void>(preflight::read_scenario(
+        folder.write("hood.yaml", changed(k_text, "min: [0.3, 0, 0.7 m], max: [0.7, 0.2, 0.7 m]",
+                                          "min: [0.3, 0, 0.5 m], max: [0.7, 0.2, 0.5 m]")),
+        {}, shipped()));
+    FAIL("accepted");
+  } catch (const base::UserError& e) {
+    CHECK(std::string(e.what()).find("hood.yaml:25:5: error: bodies.hood.suction") !=
+          std::string::npos);
+  }
+}
+
 TEST_CASE("an opening that lies over an emitter shall be told, with file and line") {
   CHECK_FALSE(has(warnings({}), "lies over it"));
   // Half of the feed's width below the hood's opening, 4 mm from it: a radius is 5 mm.

@@ -121,6 +121,64 @@ TEST_CASE("names of compared runs shall not become markup") {
   CHECK(page_data(page)["scenario"][0]["path"] == "<script>");
 }
 
+TEST_CASE("dust of a field shall be compared: where it goes, what got out, what grains carry") {
+  const RunFolder first, second;
+  const auto fill_dust = [](const RunFolder& folder, double rate) {
+    const auto figure = [](double value, const char* unit) {
+      return json{{"value", value}, {"unit", unit}, {"uncertainty", 0.1 * value}};
+    };
+    json summary = fake_summary();
+    summary["dust_rates"] = {{"observed", figure(1.0, "s")},
+                             {"left/all/rate", figure(rate, "kg/h")},
+                             {"left/all/per_load", figure(10.0 * rate, "g/t")},
+                             {"left/back/per_load", figure(8.0 * rate, "g/t")},
+                             {"left/back/class/10_um/per_load", figure(rate, "g/t")},
+                             {"deposited/belt/per_load", figure(3.0, "g/t")}};
+    summary["dust_outflow"] = {{"back", {{"kg", 1e-3 * rate}, {"g_per_tonne", 5.0 * rate}}}};
+    summary["dust_on_grains"] = {
+        {"classes", {{"10_um", {{"on_grains_kg", 0.5}, {"set_free_kg", 0.25}}}}},
+        {"kept_back_kg", 0.0}};
+    folder.write("summary.json", summary.dump());
+  };
+  fill_dust(first, 1.0);
+  fill_dust(second, 2.0);
+  const auto comparison = compare_runs(first.path(), second.path());
+  const auto find = [](const std::vector<QuantityPair>& list, const std::string& name) {
+    for (const QuantityPair& pair : list) {
+      if (pair.name == name) return pair;
+    }
+    return QuantityPair{};
+  };
+  CHECK(find(comparison.headline, "left, all").second == 20.0);
+  CHECK(find(comparison.headline, "left, all").unit == "g/t");
+  CHECK(find(comparison.headline, "left, back").in_errors() > 0.0);
+  CHECK(find(comparison.headline, "got out, back").unit == "kg");
+  CHECK(find(comparison.headline, "set free, 10 um").first == 0.25);
+  CHECK(find(comparison.headline, "deposited, belt").unit.empty());
+  CHECK(find(comparison.quantities, "deposited/belt/per_load").first == 3.0);
+  CHECK(find(comparison.quantities, "back/g_per_tonne").unit == "g/t");
+  CHECK(holds(comparison_text(comparison), "dust rate: left, back"));
+}
+
+TEST_CASE("a run that has not ended shall be told to be one, with how it goes on") {
+  const RunFolder first, second;
+  first.write("summary.json", "{}");
+  second.write("scenario.yaml", "name: a\n");
+  const auto message_of = [&] {
+    try {
+      (void)compare_runs(first.path(), second.path());
+    } catch (const dust::base::UserError& error) {
+      return error.lines().at(0);
+    }
+    return std::string();
+  };
+  const std::string folder = second.path().string();
+  CHECK(holds(message_of(), folder + " holds a run that has not ended"));
+  CHECK(holds(message_of(), "--force', from the start"));
+  second.write("checkpoint.h5", "");
+  CHECK(holds(message_of(), "engine run " + folder + "/scenario.yaml -o " + folder + " --resume'"));
+}
+
 TEST_CASE("a folder that is no run shall be refused by name") {
   const RunFolder first, second;
   first.write("summary.json", "{}");

@@ -224,6 +224,31 @@ TEST_CASE("loads and their law shall be read and written out the same") {
         std::string::npos);
 }
 
+TEST_CASE("a field that is there but wrong shall not be told to be missing") {
+  const auto lines = [](const std::string& from, const std::string& to) {
+    const Folder folder;
+    const std::string text = changed(dusty("dust_load: [1 %, 1 %]"), from, to);
+    return problems(folder.write("s.yaml", text));
+  };
+  const auto density = lines("density: 2650", "density: -2650");
+  REQUIRE_MESSAGE(density.size() == 1, joined(density));
+  CHECK(density[0].find("materials.sand.density: -2650 is outside") != std::string::npos);
+  const auto material = lines("20 um], material: sand", "20 um], material: sandy");
+  REQUIRE_MESSAGE(material.size() == 1, joined(material));
+  CHECK(material[0].find("dust.field.material: there is no material 'sandy'") != std::string::npos);
+  const auto classes = lines("classes: [5, 20 um]", "classes: [5, 20 kg]");
+  REQUIRE_MESSAGE(classes.size() == 1, joined(classes));
+  CHECK(classes[0].find("'kg' is the unit of a mass") != std::string::npos);
+}
+
+TEST_CASE("the keys of a dust block shall be listed once each") {
+  const Folder folder;
+  const std::string all = joined(problems(folder.write("s.yaml", with("dust: {qqqqq: 1}\n"))));
+  const std::size_t first = all.find("feed_zones");
+  REQUIRE_MESSAGE(first != std::string::npos, all);
+  CHECK_MESSAGE(all.find("feed_zones", first + 1) == std::string::npos, all);
+}
+
 TEST_CASE("loads that cannot come off shall be refused with a remedy") {
   check_text(dusty("dust_load: [0.6, 0.5]"),
              "materials.sand.dust_load: the shares of the classes make 110 % of the grain");

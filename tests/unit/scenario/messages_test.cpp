@@ -63,6 +63,22 @@ TEST_CASE("a study shall be told to be one, not key by key") {
             study.generic_string() + " runs it, with --dry-run it is only checked");
 }
 
+TEST_CASE("a tab that indents a line shall be told where it stands, with the remedy") {
+  const Folder folder;
+  const auto message_of = [&](const std::string& text) {
+    return joined(problems(folder.write("s.yaml", text)));
+  };
+  const std::string remedy =
+      ": error: not valid YAML: a tab indents this line: write spaces instead";
+  CHECK(
+      message_of("name: a\ntime:\n\tend: 1 s\n\tfluid_step: 1 ms\n").find("s.yaml:3:1" + remedy) !=
+      std::string::npos);
+  CHECK(message_of("bodies:\n  a: {shape: box}\n \tspoon: {shape: box}\n")
+            .find("s.yaml:3:2" + remedy) != std::string::npos);
+  // Where brackets are open, tabs are none of its business.
+  CHECK(message_of("bodies: {\n\ta: 1,\n\tb: [1\n").find("a tab") == std::string::npos);
+}
+
 TEST_CASE("an empty name shall be told where it stands") {
   check("grains: wall, material: glass, air: {model: no_slip}",
         "grains: wall, material: '', air: {model: no_slip}",

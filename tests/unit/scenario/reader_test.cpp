@@ -159,6 +159,27 @@ TEST_CASE("a bare number that was hardly meant in SI shall draw a warning with b
   CHECK(warnings("frames.conveyor.angle", "0.2").size() == before);
 }
 
+TEST_CASE("means that begin when the run has ended shall draw a warning where they are asked for") {
+  const Folder folder;
+  const auto warnings = [&](const std::string& text) {
+    return joined(read(folder.write("s.yaml", text)).warnings);
+  };
+  const std::string drops = "drops: [5, 10 mm]";
+  CHECK(warnings(changed(k_small, drops, drops + ", steady_after: 1 ms")).find("steady_after") ==
+        std::string::npos);
+  const std::string late = warnings(changed(k_small, drops, drops + ", steady_after: 8 s"));
+  CHECK_MESSAGE(late.find("warning: sensors.stream.steady_after: 8 s is not before time.end, ") !=
+                    std::string::npos,
+                late);
+  CHECK(late.find("s.yaml:41:") != std::string::npos);
+  CHECK(warnings(k_small + "dust: {finer_than: 1 mm, steady_after: 8 s}\n")
+            .find("warning: dust.steady_after: 8 s is not before time.end") != std::string::npos);
+  const std::string off = "stream: {enabled: false, model: trajectory";
+  CHECK(warnings(changed(changed(k_small, drops, drops + ", steady_after: 8 s"),
+                         "stream: {model: trajectory", off))
+            .find("steady_after") == std::string::npos);
+}
+
 TEST_CASE("a scenario that the engine wrote shall draw no warning of bare numbers") {
   const auto given = read(transfer_point(), {{"bodies.belt.thickness", "3 m"}});
   const Folder folder;

@@ -4,10 +4,13 @@
 #include "study/hoods/hood_site.hpp"
 #include "study/hoods/hood_study.hpp"
 #include "support/approx.hpp"
+#include "support/engine.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +38,55 @@ void take(std::vector<char>& taken, std::array<int, 3> low, std::array<int, 3> h
 
 study::HoodTrial trial(double flow, double drawn, double escaping) {
   return {.flow = flow, .drawn = {drawn, 0.1 * drawn}, .escaping = {escaping, 0.2 * escaping}};
+}
+
+/// A point of a study: 1 kg/s of load and a dust field, of which 1 mg/s leaves by a side; each hood
+/// draws out so many mg/s, of the field.
+struct DrawingHood {
+  std::string name;
+  double rate;
+};
+void write_point(const std::filesystem::path& folder, const std::string& bodies,
+                 const std::vector<DrawingHood>& hoods, bool has_column_of_each) {
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "scenario.yaml") << bodies;
+  std::ofstream summary(folder / "summary.json");
+  summary << R"({"status": "finished", "dust_rates": {"observed": {"value": 3.0, "unit": "s"})";
+  for (const DrawingHood& hood : hoods) {
+    summary << R"(, "drawn_out/)" << hood.name << R"(/rate": {"value": )" << 3.6e-3 * hood.rate
+            << R"(, "unit": "kg/h", "uncertainty": null})";
+  }
+  summary << "}}";
+  std::ofstream series(folder / "series.csv");
+  series << "time [s],mass_emitted [kg]";
+  for (const DrawingHood& hood : hoods) {
+    series << ",hoods/" << hood.name << "/dust [kg]";
+    if (has_column_of_each) series << ",hoods/" << hood.name << "/field_dust [kg]";
+  }
+  series << ",dust_field/10_um/left [kg],dust_field/10_um/hoods [kg]\n";
+  for (int row = 0; row <= 60; ++row) {
+    const double time = 0.05 * row;
+    series << time << ',' << time;
+    double drawn = 0.0;
+    for (const DrawingHood& hood : hoods) {
+      series << ',' << (has_column_of_each ? 1e-6 * hood.rate * time : 0.0);
+      if (has_column_of_each) series << ',' << 1e-6 * hood.rate * time;
+      drawn += 1e-6 * hood.rate * time;
+    }
+    series << ',' << 1e-6 * time << ',' << drawn << '\n';
+  }
+}
+
+/// A finished study of a plant that has a hood of its own.
+void write_study(const std::filesystem::path& folder, bool has_column_of_each) {
+  write_point(folder / "points" / "p", "bodies: {hood: {shape: box}}\n", {{"hood", 3.0}},
+              has_column_of_each);
+  write_point(folder / "points" / "h",
+              "bodies:\n  hood: {shape: box}\n  suggested_hood: {shape: box, group: place_1, "
+              "suction: {flow: 60 l/min}}\n",
+              {{"hood", 2.0}, {"suggested_hood", 0.25}}, has_column_of_each);
+  std::ofstream(folder / "study.csv") << "point,case,status,hash\n1,plain,finished,p\n"
+                                         "2,place_1_at_60_l_min,finished,h\n";
 }
 
 }  // namespace
@@ -180,6 +232,28 @@ TEST_CASE("the flow needed shall lie between two trials, be a bound, or not be r
   CHECK(study::needed_flow(gap, 0.5)->flow == test::approx(1e-3 + 3e-3 * 0.25 / 0.65));
 }
 
+TEST_CASE("a hood that is tried shall be counted alone beside one that was there before") {
+  const test::TemporaryFolder folder;
+  for (const bool has_column_of_each : {true, false}) {
+    CAPTURE(has_column_of_each);
+    const auto study = folder / (has_column_of_each ? "now" : "before");
+    write_study(study, has_column_of_each);
+    const study::HoodResults results = study::hood_results(study);
+    REQUIRE(results.places.size() == 1);
+    const study::HoodTrial& tried = results.places[0].trials.at(0);
+    CHECK(tried.drawn.value == test::approx(0.25e-6).epsilon(1e-5));
+    CHECK(tried.capture()->value == test::approx(0.2).epsilon(1e-5));
+    // The plain run has a hood of its own: 3 mg/s of 1 kg/s.
+    REQUIRE(results.plain.has_value());
+    CHECK(results.plain->drawn.value == test::approx(3e-6).epsilon(1e-5));
+    const std::string text = study::hood_table(results, 0.9);
+    INFO(text);
+    CHECK(text.find("plain    -         3") != std::string::npos);
+    CHECK(study::hoods_json(results)["plain_drawn"]["value"].get<double>() ==
+          test::approx(3.0).epsilon(1e-5));
+  }
+}
+
 TEST_CASE("the page of a study of hoods shall get the answer: where, and from which flow on") {
   study::HoodResults results;
   results.places.push_back({"place_1",
@@ -215,4 +289,6 @@ TEST_CASE("the table shall say what few grains tell, and where the capture is no
   CHECK(text.find("place_1: not reached (at most 75.0 ± 4.2 %, at 120 l/min)") !=
         std::string::npos);
   CHECK(study::hood_table(results, 0.6).find("place_1: 84 l/min") != std::string::npos);
+  results.places[0].trials[1].flow = 60.0 / 3600.0;
+  CHECK(study::hood_table(results, 0.9).find("at 60 m3/h)") != std::string::npos);
 }

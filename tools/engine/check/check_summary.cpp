@@ -24,8 +24,10 @@ using preflight::Derived;
 using scenario::DustSetup;
 using scenario::Setup;
 
+/// Digits before the point are all shown: 1000, never 1e+03.
 std::string digits(double value, int significant = 3) {
-  return base::digits_text(value, significant);
+  const bool is_long = std::abs(value) >= std::pow(10.0, significant) && std::abs(value) < 1e9;
+  return is_long ? base::fixed_text(value, 0) : base::digits_text(value, significant);
 }
 
 /// Number with a prefix that leaves one to three digits before the point: "1.2 us".
