@@ -96,7 +96,7 @@ class BeltLoad final : public sdk::Sensor {
 
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t c = 0; c < k_off_centre; ++c) {
-      sink.figure(k_names[c], means_.mean(c), k_units[c], means_.error(c),
+      sink.figure(k_names[c], means_.known_mean(c), k_units[c], means_.error(c),
                   sdk::overview(k_quantities[c], c == 0 ? 2 : 1));
     }
     for (std::size_t c = k_off_centre; c < k_columns; ++c) {

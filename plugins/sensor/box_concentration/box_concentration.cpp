@@ -168,7 +168,7 @@ class BoxConcentration final : public sdk::Sensor {
 
   void figures_of(const std::string& prefix, std::size_t column, const Seen& seen,
                   const sdk::FigureRole& role, sdk::FigureSink& sink) const {
-    const double mass = means_.mean(column);
+    const double mass = means_.known_mean(column);
     const auto checked = [&](double error) {
       return mass > 0.0 ? error_of(error, error, seen) : sdk::k_no_estimate;
     };
@@ -177,7 +177,7 @@ class BoxConcentration final : public sdk::Sensor {
     sink.figure(prefix + "mass_concentration", formula::concentration(mass, volume_), "kg/m3",
                 error < 0.0 ? error : formula::concentration(error, volume_),
                 role.of(sdk::Quantity::mass_concentration));
-    sink.figure(prefix + "number_concentration", means_.mean(column + 1) / volume_, "1/m3",
+    sink.figure(prefix + "number_concentration", means_.known_mean(column + 1) / volume_, "1/m3",
                 number_error < 0.0 ? number_error : number_error / volume_,
                 role.of(sdk::Quantity::number_concentration));
   }

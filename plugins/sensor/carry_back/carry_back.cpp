@@ -153,14 +153,14 @@ class CarryBack final : public sdk::Sensor {
       return means_.mean(column) > 0.0 ? means_.error(column) : -1.0;
     };
     for (std::size_t q = 0; q < k_columns; ++q) {
-      sink.figure(prefix + k_names[q], means_.mean(first + q), k_units[q], error(first + q),
+      sink.figure(prefix + k_names[q], means_.known_mean(first + q), k_units[q], error(first + q),
                   k_roles[q].sizes(diameter, diameter));
     }
     constexpr double k_grams_per_tonne = 1e6;
     const double per_flow =
         emitted() > 0.0 ? k_grams_per_tonne * means_.duration() / emitted() : 0.0;
     const double flow_error = error(first);
-    sink.figure(prefix + "grams_per_tonne", means_.mean(first) * per_flow, "g/t",
+    sink.figure(prefix + "grams_per_tonne", means_.known_mean(first) * per_flow, "g/t",
                 flow_error < 0.0 ? -1.0 : flow_error * per_flow,
                 k_flow.of(sdk::Quantity::mass_per_load).sizes(diameter, diameter));
   }

@@ -71,7 +71,7 @@ class Exposure final : public sdk::Sensor, public sdk::DustObserver {
     const bool is_none = parts_.empty() && !(means_.duration() > 0.0);
     for (std::size_t n = 0; n < p_.points.size(); ++n) {
       for (std::size_t j = 0; j < k_parts; ++j) {
-        const double mean = is_none ? 0.0 : means_.mean(n * k_parts + j);
+        const double mean = is_none ? 0.0 : means_.known_mean(n * k_parts + j);
         const double error = mean > 0.0 ? means_.error(n * k_parts + j) : sdk::k_no_estimate;
         sink.figure(
             name_of(n, j), k_milligrams * mean, k_unit, error < 0.0 ? error : k_milligrams * error,

@@ -61,7 +61,7 @@ class KineticEnergy final : public sdk::Sensor {
   }
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_columns; ++n) {
-      const double mean = means_.mean(n);
+      const double mean = means_.known_mean(n);
       sink.figure(k_names[n], mean, k_units[n], mean > 0.0 ? means_.error(n) : -1.0,
                   sdk::detail(k_quantities[n]));
       sink.figure(std::string(k_names[n]) + "_at_end", values_[n], k_units[n], k_quantities[n]);

@@ -196,13 +196,13 @@ class PlaneFlux final : public sdk::Sensor {
             way == k_net ? means_.mean(first) + means_.mean(first + 1) : means_.mean(first + way);
         const double error = formula::rate_error(means_.error(first + way), counted * duration,
                                                  squares_[first + way], duration);
-        sink.figure(prefix + k_way_names[way] + k_quantities[q], means_.mean(first + way),
+        sink.figure(prefix + k_way_names[way] + k_quantities[q], means_.known_mean(first + way),
                     k_units[q], error, role.of(k_what[q]));
         if (q != k_mass) continue;
         const double emitted = emitted_before_ < 0.0 ? 0.0 : emitted_mass_ - emitted_before_;
         const double rate =
             duration > 0.0 ? formula::grams_per_tonne(means_.mean(first + way), duration, emitted)
-                           : means_.mean(first + way);
+                           : means_.known_mean(first + way);
         sink.figure(prefix + k_way_names[way] + "grams_per_tonne", rate, "g/t",
                     error < 0.0     ? error
                     : emitted > 0.0 ? formula::grams_per_tonne(error, duration, emitted)

@@ -118,7 +118,7 @@ class StreamSection final : public sdk::Sensor {
   };
 
   [[nodiscard]] Stream stream() const {
-    const double flow = means_.mean(0);
+    const double flow = means_.known_mean(0);
     if (flow <= 0.0) return {};  // not known without a time: then neither is its velocity
     return {flow, sdk::Vec3{means_.mean(1), means_.mean(2), means_.mean(3)} / flow};
   }

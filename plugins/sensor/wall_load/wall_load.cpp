@@ -125,7 +125,7 @@ class WallLoad final : public sdk::Sensor {
 
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t c = 0; c < k_columns; ++c) {
-      sink.figure(k_names[c], means_.mean(c), k_units[c], means_.error(c),
+      sink.figure(k_names[c], means_.known_mean(c), k_units[c], means_.error(c),
                   sdk::detail(k_quantities[c]));
     }
     // Impacts come one by one: their number scatters like a Poisson count.

@@ -166,11 +166,13 @@ TEST_CASE("few samples shall give no error rather than a wrong one") {
   sdk::BatchMeans means(1);
   const double one = 1.0;
   CHECK(means.error(0) < 0.0);
-  CHECK(std::isnan(means.mean(0)));  // what was not observed is not 0
+  CHECK(means.mean(0) == 0.0);
+  CHECK(std::isnan(means.known_mean(0)));
   for (int i = 0; i < 7; ++i) means.add({&one, 1}, 1.0);
   CHECK(means.error(0) < 0.0);
   means.add({&one, 1}, 1.0);
   CHECK(means.error(0) == 0.0);
+  CHECK(means.known_mean(0) == means.mean(0));
 }
 
 TEST_CASE("a thinned curve shall stay short and keep its mean") {

@@ -207,6 +207,17 @@ DENSITIES = (*of_study("table_6_6", ("1500 kg/m3", "rho_1500"), ("2650 kg/m3", "
                    ("3000 kg/m3, as many grains as at 2650", "3000_as_many", "3000", {"emitters.feed.mass_flow": "6.792 g/s"}),
                    ("1500 kg/m3, without air", "1500_dry", "1500", {"emitters.feed.velocity": "[0, 0, -0.2 m/s]", "fluid": "none"}))))
 
+
+def diameters():
+    """Runs of one diameter each: of 6 g/s, of as many fine grains as coarse ones, and without air."""
+    air = {text: plan for text, plan in of_study("table_6_4_air", *((f"{air} {size}", f"{air} ['{size} um']") for air in ("with_air", "without_air")
+                                                                  for size in (300, 600)), extra=belt.TO_ONE_SECOND)}
+    fine = air["with_air 300"]
+    return (("300 um", fine), ("600 um", air["with_air 600"]),
+            ("300 um, as many grains as of 600 um", changed(fine, "as_many", {"emitters.feed.mass_flow": "0.75 g/s"})),
+            ("300 um, without air", air["without_air 300"]), ("600 um, without air", air["without_air 600"]))
+
+
 def at_speed(speed, feed):
     """A point of Table 6.4."""
     (point,) = of_study("table_6_4_speed", ("", f"{speed} m/s {feed} g/s"), extra=belt.TO_ONE_SECOND)
@@ -346,6 +357,8 @@ EXPERIMENTS = (
                figure("stream", "drop_140_mm/median", 1e3), "mm, median 140 mm below the belt"),
     Experiment("Light grains, which the thesis sees spread wider", "the air, or how many there are at 6 g/s?", DENSITIES, width_140,
                "mm, from 5 to 95 % of the stream 140 mm below the belt"),
+    Experiment("Fine grains, which the thesis sees held back more", "the air, or how many there are at 6 g/s?", diameters(),
+               figure("stream", "drop_140_mm/median", 1e3), "mm, median 140 mm below the belt"),
     Experiment("More sand, which the thesis sees widen the stream", "on the fast belt: the air, the opening of the feed, or how a grain that comes alone bounces and rolls on the belt?", FEEDS, width_140,
                "mm, from 5 to 95 % of the stream 140 mm below the belt"),
     Experiment("The eddies, which the thesis sees vanish with +0.5 m/s", "the lid, or the wind?", WINDS,

@@ -23,6 +23,7 @@ EXPERIMENT_OF = {
     r"[1-4]\d l/min, walls": ("The vessel's bed at 30 l/min", "The void fraction of the vessel's bed"),
     r"100 mm, falling, ": ("The vessel's bed at 30 l/min", "The void fraction of the vessel's bed"),
     r"x_140 rises from rho": ("Light grains, which the thesis sees go",),
+    r"x_140 rises from d_": ("Fine grains, which the thesis sees held back",),
     r"width_140 rises with emitters.feed.mass_flow": ("More sand, which the thesis sees widen",),
     r"width_140 falls from rho": ("Light grains, which the thesis sees spread",),
     r"eddy rises": ("The eddies, which", "The eddies in front"),

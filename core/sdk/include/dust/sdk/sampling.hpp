@@ -171,13 +171,17 @@ class BatchMeans {
     for (const double d : durations_) sum += d;
     return sum;
   }
-  /// Time mean of a column; no number (NaN, `null` in summary.json) without samples: what was not
-  /// observed is not known to be 0.
+  /// Time mean of a column; 0 without samples.
   [[nodiscard]] double mean(std::size_t column) const {
     double sum = open_[column];
     for (std::size_t b = 0; b < durations_.size(); ++b) sum += closed_[b * columns_ + column];
     const double time = duration();
-    return time > 0.0 ? sum / time : std::numeric_limits<double>::quiet_NaN();
+    return time > 0.0 ? sum / time : 0.0;
+  }
+  /// The same; no number (NaN, null in summary.json) without samples. For figures of which there is
+  /// a sample in every step: what has not been observed is not known to be 0.
+  [[nodiscard]] double known_mean(std::size_t column) const {
+    return duration() > 0.0 ? mean(column) : std::numeric_limits<double>::quiet_NaN();
   }
   /// Standard error of the mean; k_no_estimate below 8 batches, k_not_steady where the batches
   /// remember each other too long. `most_independent`: how many independent stretches the time can
