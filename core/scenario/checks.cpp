@@ -57,10 +57,10 @@ void check_multiple(const char* path, double every, double fluid_step, const Mar
 void check_begin_of_means(const std::string& path, double begin, double end, const Mark& where,
                           Diagnostics& diagnostics) {
   if (!(end > 0.0) || begin < end * (1.0 - k_rounding)) return;
-  diagnostics.warning(where, path + ": " + seconds(begin) + " is not before time.end, " +
-                                 seconds(end) +
-                                 ": no time is left to average over, its means will be missing "
-                                 "(null); give an earlier time or a later end");
+  diagnostics.warning(
+      where, path + ": " + seconds(begin) + " is not before time.end, " + seconds(end) +
+                 ": no time is left to average over, so its means tell nothing; give an earlier "
+                 "time or a later end");
 }
 
 void check_time(const TimeSpec& time, const TimeMarks& where, Diagnostics& diagnostics) {

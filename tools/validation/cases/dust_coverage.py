@@ -4,7 +4,7 @@ from coverage import coverage_of
 from runs import Plan
 
 TITLE = "Do the errors of a dust field's rates hold? Twenty seeds of a small dusty drop"
-BITS = ("coarse_transfer", "mixer")
+BITS = ("coarse_transfer", "mixer", "dust_field")
 SCENARIO = "dust/silt_to_plate.yaml"
 SEEDS = range(1, 21)
 SMALL = {"time.end": "17 s", "time.fluid_step": "2 ms", "time.output_every": "6 s", "dust.steady_after": "9 s", "fluid.cells": "[24, 3, 21]",

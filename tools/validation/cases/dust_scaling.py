@@ -9,7 +9,7 @@ from induced_air import SIDE, anderson, balance
 from runs import ROOT, Plan
 
 TITLE = "Scalings of dust and of the air that it moves with"
-BITS = ("mixer", "small_hopper")
+BITS = ("mixer", "small_hopper", "dust_field")
 READS_FRAMES = True
 TAKES_FINISHED_RUNS = True
 

@@ -8,7 +8,7 @@ from page import Page
 from runs import ROOT, Plan, Runs
 
 TITLE = "Dustiness in a rotating drum, and the binding energy from it"
-BITS = ("small_hopper", "mixer")
+BITS = ("small_hopper", "mixer", "dust_field")
 TAKES_FINISHED_RUNS = True
 STUDY = ROOT / "scenarios/studies/calibrate_drum.yaml"
 TRUTH = {"binding_energy": 3.3, "size_exponent": 5 / 3}  # MJ/kg, -

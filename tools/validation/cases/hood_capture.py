@@ -12,7 +12,7 @@ from runs import Plan, Runs
 from scatter import mean_of
 
 TITLE = "A suggested hood catches what was promised"
-BITS = ("coarse_transfer", "mixer")
+BITS = ("coarse_transfer", "mixer", "dust_field")
 TAKES_FINISHED_RUNS = True
 SCENARIO = "plant/transfer_chute.yaml"
 FIRST, DURATION = 6.0, 9.0              # s, of the first run and of each point of the study

@@ -10,7 +10,7 @@ from page import FOLDER, bits_line
 from runs import ROOT
 
 TITLE = "The thesis's outlook, 7.2, at the size of a plant"
-BITS = ("coarse_transfer", "mixer")
+BITS = ("coarse_transfer", "mixer", "dust_field")
 SCENARIOS = ROOT / "scenarios"
 CHUTE = {**COARSE, "time.end": "5.3 s"}
 

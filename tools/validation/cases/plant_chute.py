@@ -5,7 +5,7 @@ import sys
 from runs import ROOT, Plan
 
 TITLE = "The plant's transfer point, with its dust, in full"
-BITS = ("coarse_transfer", "mixer")
+BITS = ("coarse_transfer", "mixer", "dust_field")
 READS_FRAMES = True
 FEED_ENDS = -0.8  # m, where the load lies still on belt 1
 RATES = (("set_free/all", "set free from the load"), ("set_free/grains", "of that by grains on grains"), ("set_free/spoon", "of that by the spoon"),

@@ -7,7 +7,7 @@ from chart import Curve
 from runs import ROOT, Plan
 
 TITLE = "The same dust twice: free grains of 10 um and a field of 10 um"
-BITS = ("transfer_point", "rare_sizes")
+BITS = ("transfer_point", "rare_sizes", "dust_field")
 READS_FRAMES = True
 TIMES = (0.5, 0.6, 0.7)  # s
 FREED = 27.75e-9         # kg/s of each, as the scenario says
