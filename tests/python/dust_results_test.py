@@ -74,9 +74,9 @@ class ARun(unittest.TestCase):
 
     def test_figures_are_found_by_the_names_of_studies(self):
         figures = self.run_.figures
-        rate = figures[(figures["sensor"] == "lip") & (figures["figure"] == "net/mass_rate")]
-        self.assertEqual(rate["unit"], ["kg/s"])
-        self.assertEqual(self.run_.value("sensors.lip.net.mass_rate"), rate["value"][0])
+        mass = figures[(figures["sensor"] == "lip") & (figures["figure"] == "forward/mass")]
+        self.assertEqual(mass["unit"], ["kg"])
+        self.assertEqual(self.run_.value("sensors.lip.forward.mass"), mass["value"][0])
         self.assertEqual(self.run_.value("particles.emitted"),
                          self.run_.summary["particles"]["emitted"])
         with self.assertRaisesRegex(ResultsError, "no figure 'net/mass_rat'.*'net/mass_rate'"):

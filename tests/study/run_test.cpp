@@ -147,10 +147,11 @@ TEST_CASE("a widened study shall run only what is missing") {
 TEST_CASE("a failing point shall be recorded with its reason and stop the others only if asked") {
   const TemporaryFolder folder;
   // The grain lies inside the obstacle: that is seen only when it is let in.
-  const fs::path study = write_study(folder,
-                                     "base: drop.yaml\nset: {emitters.seed.enabled: true}\n"
-                                     "vary: {bodies.obstacle.enabled: [true, false]}\n"
-                                     "measure: {emitted: particles.emitted}\n");
+  const fs::path study = write_study(
+      folder,
+      "base: drop.yaml\nset: {emitters.seed.enabled: true, emitters.feed.enabled: false}\n"
+      "vary: {bodies.obstacle.enabled: [true, false]}\n"
+      "measure: {emitted: particles.emitted}\n");
   const auto run = engine({"study", study, "-o", folder / "out", "--jobs", "1"});
   CHECK(run.status == 1);
   const auto rows = table_of(folder / "out");

@@ -3,6 +3,7 @@
 
 #include "base/text.hpp"
 
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -33,6 +34,7 @@ class Places {
                         path("min") + ": the box from " + base::place_text(*low) + " to " +
                             base::place_text(*high) + " lies outside" + domain_text());
     }
+    check_plane(diagnostics);
     for (const std::string_view name : {"from", "to"}) {
       if (const auto* place = get<Vec3>(name)) check_place(name, *place, diagnostics);
     }
@@ -43,13 +45,30 @@ class Places {
 
  private:
   template <class T>
-  [[nodiscard]] const T* get(std::string_view name) const {
+  [[nodiscard]] const T* get(std::string_view name,
+                             sdk::Dimension dimension = sdk::dimension::length) const {
     for (std::size_t n = 0; n < parameters_.size() && n < spec_.model.values.size(); ++n) {
-      if (parameters_[n].name != name || parameters_[n].dimension != sdk::dimension::length)
-        continue;
+      if (parameters_[n].name != name || parameters_[n].dimension != dimension) continue;
       return std::get_if<T>(&spec_.model.values[n]);
     }
     return nullptr;
+  }
+  /// A rectangle that a box cuts out of a plane.
+  void check_plane(scenario::Diagnostics& diagnostics) const {
+    const auto* low = get<Vec3>("min");
+    const auto* high = get<Vec3>("max");
+    const auto* point = get<Vec3>("point");
+    const auto* normal = get<Vec3>("normal", sdk::dimension::none);
+    if (low == nullptr || high == nullptr || point == nullptr || normal == nullptr) return;
+    const Vec3 half = 0.5 * (*high - *low);
+    const double reach =
+        std::abs(normal->x) * half.x + std::abs(normal->y) * half.y + std::abs(normal->z) * half.z;
+    const double apart = std::abs(dot(*low + half - *point, *normal));
+    if (apart <= reach + slack_ * norm(*normal)) return;
+    diagnostics.error(spec_.model.where,
+                      path("point") + ": the plane through it does not meet the box from " +
+                          base::place_text(*low) + " to " + base::place_text(*high) +
+                          ": nothing is seen there; move one of them");
   }
   [[nodiscard]] bool meets(Vec3 low, Vec3 high) const {
     for (int d = 0; d < 3; ++d) {

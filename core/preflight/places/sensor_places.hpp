@@ -8,7 +8,8 @@
 namespace dust::preflight {
 
 /// Refuses sensors that look where nothing is: a box from `min` to `max` apart from the domain, a
-/// place among `points`, `from` or `to` outside it. Lengths of these names, of any sensor.
+/// place among `points`, `from` or `to` outside it, a plane (`point`, `normal`) that its box does
+/// not meet. Lengths of these names, of any sensor.
 void check_sensor_places(const scenario::Setup& setup, const registry::Registry& registry,
                          scenario::Diagnostics& diagnostics);
 

@@ -157,6 +157,6 @@ TEST_CASE("a sensor that looks outside the domain shall be refused") {
                 {"sensors.box.min: the box from (0, 0, 0.3) m to (0.05, 0.05, 0.4) m lies outside "
                  "the domain"}) == "");
   CHECK(problem({{"sensors.plane.point", "[0, 0, 50 mm]"}},
-                {"does not reach the plane through 'point'"}) == "");
+                {"sensors.plane.point: the plane through it does not meet the box"}) == "");
   CHECK(said({{"sensors.box.max", "[500, 50, 50 mm]"}}).errors == std::vector<std::string>{});
 }

@@ -27,7 +27,7 @@ const std::string k_plate =
 void check_body(const std::string& body, const std::string& expected, bool has_air = true) {
   const Folder folder;
   // One triangle: open on three sides.
-  folder.write("open.stl", "solid a\n vertex 0 0 0\n vertex 1 0 0\n vertex 0 1 0\nendsolid\n");
+  folder.write("open.stl", "solid a\n vertex 10 0 0\n vertex 11 0 0\n vertex 10 1 0\nendsolid\n");
   folder.write("not.stl", "hello");
   std::string text = changed(k_small, k_plate, "  " + body + "\n");
   if (!has_air) {
@@ -260,7 +260,7 @@ TEST_CASE("a body that contradicts itself shall be told with a remedy") {
   check_body(
       "lid: {shape: mesh, material: glass, unit: 1 mm, file: open.stl}",
       "s.yaml:24:16: error: bodies.lid: the mesh open.stl is open: 3 edges have one triangle "
-      "only, the first at (0.5 mm, 0 mm, 0 mm); close it where it was drawn, or give open: "
+      "only, the first at (10.5 mm, 0 mm, 0 mm); close it where it was drawn, or give open: "
       "allowed if it is a thin sheet");
   check_body(
       "lid: {shape: mesh, material: glass, unit: 1 mm, file: not.stl}",
@@ -321,7 +321,8 @@ TEST_CASE("motions and removals that contradict themselves shall be told") {
   check_body(plane + ", motion: belt, speed: 1, motions: [{model: belt, speed: 1}]}",
              "bodies.lid: give motion or motions, not both", false);
   const std::string cleated =
-      "lid: {shape: belt_conveyor, material: glass, head: [0, 0, 0], tail: [-1, 0, 0 m], radius: "
+      "lid: {shape: belt_conveyor, material: glass, head: [-2, 0, 0 m], tail: [-3, 0, 0 m], "
+      "radius: "
       "50 mm, thickness: 5 mm, width: 200 mm, cleat_height: 20 mm, cleat_thickness: 5 mm";
   check_body(cleated + ", cleat_spacing: 5 mm, motion: belt, speed: 1}",
              "bodies.lid: cleat_spacing is not longer than cleat_thickness");

@@ -13,7 +13,7 @@ namespace dust::sdk {
 class Rectangle {
  public:
   /// `normal` need not have length 1; the box may have no thickness along it. ParameterError that
-  /// names 'normal' or 'max' where they are none, or where the box does not reach the plane.
+  /// names 'normal' or 'max' where they are none.
   Rectangle(Vec3 point, Vec3 normal, Vec3 min, Vec3 max)
       : point_(point),
         min_(min),
@@ -25,12 +25,6 @@ class Rectangle {
     const Vec3 extent = max - min;
     if (!(extent.x >= 0.0 && extent.y >= 0.0 && extent.z >= 0.0)) {
       throw ParameterError("'max' must not lie below 'min'");
-    }
-    const Vec3 middle = 0.5 * (min + max);
-    const double half = 0.5 * (std::abs(normal_.x) * extent.x + std::abs(normal_.y) * extent.y +
-                               std::abs(normal_.z) * extent.z);
-    if (std::abs(dot(middle - point, normal_)) > half + tolerance_) {
-      throw ParameterError("the box from 'min' to 'max' does not reach the plane through 'point'");
     }
   }
 
