@@ -121,7 +121,7 @@ TEST_CASE("dust that lies where a new hood stands shall count as drawn out by it
                    "start_from=" + (folder / "wake").string(), "--set", "bodies.hood=" + body});
   };
   const std::string box =
-      "shape: box, material: steel, min: [100, 0, 20 mm], max: [140, 10, 40 mm]";
+      "shape: box, material: steel, min: [100, -1, 20 mm], max: [140, 11, 40 mm]";
   const auto solid = with("{" + box + "}", folder / "solid");
   CHECK(solid.status == 2);
   CHECK(holds(solid.err, "lie in it, the first, number"));

@@ -48,6 +48,12 @@ class DuctSites {
     }
     site.opening_min = site.body_min;
     site.opening_max = site.body_max;
+    // Beyond the sides, so that grains that pass through periodic ones meet it all the way.
+    for (int d = 0; d < 3; ++d) {
+      if (d == duct.axis || !is_spanned(d)) continue;
+      site.body_min[d] -= 0.5 * opening_;
+      site.body_max[d] += 0.5 * opening_;
+    }
     const double face = duct.middle[duct.axis];
     const double length = std::max(0.5 * opening_, 2.0 * spacing_[duct.axis]);
     site.opening_min[duct.axis] = site.opening_max[duct.axis] = face;
@@ -60,7 +66,11 @@ class DuctSites {
     const HoodSite site = site_of(duct);
     sdk::Vec3 low = site.body_min, high = site.body_max;
     for (int d = 0; d < 3; ++d) {
-      if (is_spanned(d)) continue;
+      if (is_spanned(d)) {
+        low[d] = scene_.min()[d];
+        high[d] = scene_.max()[d];
+        continue;
+      }
       if (low[d] < scene_.min()[d] || high[d] > scene_.max()[d]) return false;
       const bool is_axis = d == duct.axis;
       low[d] -= (is_axis && duct.sign > 0.0 ? k_before : k_beside) * spacing_[d];
