@@ -40,6 +40,25 @@ std::string last_row(const fs::path& out) {
   return text.substr(text.rfind('\n', text.size() - 2) + 1);
 }
 
+/// A box of 20 x 20 x 40 mm, open but for its bottom, with the rest of its scenario.
+void write_box(const fs::path& file, const std::string& rest) {
+  std::ofstream(file) << R"(name: box
+domain:
+  min: [0, 0, 0]
+  max: [20, 20, 40 mm]
+  boundaries:
+    left: {grains: open}
+    right: {grains: open}
+    front: {grains: open}
+    back: {grains: open}
+    bottom: {grains: wall, material: sand}
+    top: {grains: open}
+materials:
+  sand: {density: 2650, young_modulus: 5 MPa, poisson_ratio: 0.3}
+fluid: none
+)" << rest;
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -88,31 +107,18 @@ TEST_CASE("a run that started from another shall be resumed, also where that one
 TEST_CASE("grains shall be let in where the other run has taken a body away") {
   const TemporaryFolder folder;
   const fs::path scenario = folder / "plug.yaml";
-  std::ofstream(scenario) << R"(
-name: plug
-time: {end: 40 ms, fluid_step: 1 ms, output_every: 10 ms}
-gravity: [0, 0, -9.81]
-domain:
-  min: [0, 0, 0]
-  max: [20, 20, 40 mm]
-  boundaries:
-    left: {grains: open}
-    right: {grains: open}
-    front: {grains: open}
-    back: {grains: open}
-    bottom: {grains: wall, material: sand}
-    top: {grains: open}
-materials:
-  sand: {density: 2650, young_modulus: 5 MPa, poisson_ratio: 0.3}
-interactions:
-  - between: [sand, sand]
-    contact: {model: hertz_mindlin, restitution: 0.5, friction: 0.3}
-bodies:
-  plug: {shape: box, material: sand, min: [0, 0, 0], max: [20, 20, 5 mm], remove: {at: 5 ms}}
-emitters:
-  one: {model: single, material: sand, positions: [[10, 10, 6.1 mm]], diameters: [2 mm]}
-fluid: none
-)";
+  write_box(scenario,
+            "time: {end: 40 ms, fluid_step: 1 ms, output_every: 10 ms}\n"
+            "gravity: [0, 0, -9.81]\n"
+            "interactions:\n"
+            "  - between: [sand, sand]\n"
+            "    contact: {model: hertz_mindlin, restitution: 0.5, friction: 0.3}\n"
+            "bodies:\n"
+            "  plug: {shape: box, material: sand, min: [0, 0, 0], max: [20, 20, 5 mm], remove: "
+            "{at: 5 ms}}\n"
+            "emitters:\n"
+            "  one: {model: single, material: sand, positions: [[10, 10, 6.1 mm]], diameters: [2 "
+            "mm]}\n");
   // Fallen half into what was the plug.
   REQUIRE(run(folder / "first", "30 ms", {}, "1", scenario).status == 0);
   const std::vector<std::string> settings = {"start_from=" + (folder / "first").string(),
@@ -128,30 +134,17 @@ fluid: none
 TEST_CASE("springs kept by the conventions of LIGGGHTS shall hold on by those of this engine") {
   const TemporaryFolder folder;
   const fs::path scenario = folder / "slope.yaml";
-  std::ofstream(scenario) << R"(
-name: slope
-time: {end: 60 ms, fluid_step: 1 ms, output_every: 10 ms}
-gravity: [2, 0, -9.81]
-domain:
-  min: [0, 0, 0]
-  max: [20, 20, 40 mm]
-  boundaries:
-    left: {grains: open}
-    right: {grains: open}
-    front: {grains: open}
-    back: {grains: open}
-    bottom: {grains: wall, material: sand}
-    top: {grains: open}
-materials:
-  sand: {density: 2650, young_modulus: 5 MPa, poisson_ratio: 0.3}
-interactions:
-  - between: [sand, sand]
-    contact: {model: hertz_mindlin, restitution: 0.5, friction: 0.8, tangential: liggghts}
-    rolling: {model: epsd2, friction: 0.8}
-emitters:
-  one: {model: single, material: sand, positions: [[10, 10, 1 mm]], diameters: [2 mm]}
-fluid: none
-)";
+  write_box(scenario,
+            "time: {end: 60 ms, fluid_step: 1 ms, output_every: 10 ms}\n"
+            "gravity: [2, 0, -9.81]\n"
+            "interactions:\n"
+            "  - between: [sand, sand]\n"
+            "    contact: {model: hertz_mindlin, restitution: 0.5, friction: 0.8, tangential: "
+            "liggghts}\n"
+            "    rolling: {model: epsd2, friction: 0.8}\n"
+            "emitters:\n"
+            "  one: {model: single, material: sand, positions: [[10, 10, 1 mm]], diameters: [2 "
+            "mm]}\n");
   REQUIRE(run(folder / "first", "60 ms", {}, "1", scenario).status == 0);
   const auto branch = run(folder / "branch", "65 ms",
                           {"start_from=" + (folder / "first").string(), "time.output_every=1 ms",
