@@ -127,6 +127,12 @@ class SurfaceSearch {
 
 }  // namespace
 
+bool has_openings(const Setup& setup, const DustSetup& dust) {
+  const bool has_suction = std::any_of(setup.bodies.begin(), setup.bodies.end(),
+                                       [](const BodySpec& b) { return b.suction.has_value(); });
+  return setup.fluid && (has_suction || !dust.openings.empty());
+}
+
 void check_suctions(const Setup& setup, const ParticleModels& models,
                     scenario::Diagnostics& diagnostics) {
   constexpr double k_finest = 1e-3;  // of a cell: the run finds surfaces that are nearer
@@ -153,9 +159,7 @@ void check_suctions(const Setup& setup, const ParticleModels& models,
 void check_openings(const Setup& setup, const DustSetup& dust, const ParticleModels& models,
                     std::span<const std::vector<sdk::InsertionRequest>> first,
                     scenario::Diagnostics& diagnostics) {
-  const bool has_suction = std::any_of(setup.bodies.begin(), setup.bodies.end(),
-                                       [](const BodySpec& b) { return b.suction.has_value(); });
-  if (!setup.fluid || !(has_suction || !dust.openings.empty())) return;
+  if (!has_openings(setup, dust)) return;
   const std::vector<Taker> all = takers(setup, dust, models.bodies);
   for (std::size_t n = 0; n < first.size(); ++n) {
     look_at(setup, setup.emitters[n], all, first[n], diagnostics);

@@ -16,6 +16,9 @@ namespace dust::preflight {
 void check_suctions(const scenario::Setup& setup, const ParticleModels& models,
                     scenario::Diagnostics& diagnostics);
 
+/// Whether anything draws out what touches it: hoods, suction of bodies.
+bool has_openings(const scenario::Setup& setup, const scenario::DustSetup& dust);
+
 /// Warns of hoods and suction openings that draw out what an emitter has just let in: an error
 /// where they take all of it. `first`: what each emitter proposes in its first steps.
 void check_openings(const scenario::Setup& setup, const scenario::DustSetup& dust,

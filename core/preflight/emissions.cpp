@@ -193,12 +193,14 @@ std::vector<sdk::InsertionRequest> proposals(const Setup& setup, const EmitterSp
 }
 
 std::vector<std::vector<sdk::InsertionRequest>> first_grains(const Setup& setup,
-                                                             ParticleModels& models) {
+                                                             ParticleModels& models,
+                                                             bool has_fillings) {
   std::vector<std::vector<sdk::InsertionRequest>> all(models.emitters.size());
   for (std::size_t n = 0; n < models.emitters.size(); ++n) {
     sdk::Emitter& emitter = *models.emitters[n];
     const sdk::EmitterRequest request = emitter.request();
-    const bool is_soon_placed = request.mass == 0.0 && request.count <= k_soon_placed;
+    const bool is_soon_placed =
+        has_fillings && request.mass == 0.0 && request.count <= k_soon_placed;
     if (!emitter.insertion_rule().waits && !is_soon_placed) continue;
     all[n] = proposals(setup, setup.emitters[n], emitter);
   }

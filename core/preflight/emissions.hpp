@@ -45,10 +45,12 @@ std::vector<sdk::InsertionRequest> proposals(const scenario::Setup& setup,
                                              const scenario::EmitterSpec& spec,
                                              sdk::Emitter& emitter);
 
-/// The grains that each emitter proposes first; none of fillings so large that proposing them,
-/// which is placing them, takes time. The emitters have proposed them then.
+/// The grains that each emitter proposes first: of streams, and where `has_fillings` of those that
+/// come at once, unless they are so many that placing them takes time. The emitters have proposed
+/// them then.
 std::vector<std::vector<sdk::InsertionRequest>> first_grains(const scenario::Setup& setup,
-                                                             ParticleModels& models);
+                                                             ParticleModels& models,
+                                                             bool has_fillings);
 
 /// Counts what an emitter sends: from what it says of itself, where that is enough, else from what
 /// it proposes. `bodies` carry the grains.

@@ -29,7 +29,7 @@ void check_sides(const scenario::Setup& setup, const registry::Registry& registr
 void check_places(const scenario::ReadResult& read, const registry::Registry& registry,
                   scenario::Diagnostics& diagnostics) {
   ParticleModels models = make_particle_models(read.setup, registry);
-  const auto first = first_grains(read.setup, models);
+  const auto first = first_grains(read.setup, models, has_openings(read.setup, read.dust));
   check_suctions(read.setup, models, diagnostics);
   check_openings(read.setup, read.dust, models, first, diagnostics);
   check_drift(read.setup, read.dust, models, diagnostics);
