@@ -106,8 +106,11 @@ TEST_CASE("a hood shall stand at its place, span a narrow domain and open toward
   CHECK(site->opening_max.z == test::approx(0.06));
   CHECK(site->body_min.x == test::approx(0.09));
   CHECK(site->body_max.x == test::approx(0.1));
-  CHECK(site->body_min.y == 0.0);
-  CHECK(site->body_max.y == test::approx(0.01));
+  // The opening ends at the sides; the duct reaches beyond them by half an opening.
+  CHECK(site->opening_min.y == 0.0);
+  CHECK(site->opening_max.y == test::approx(0.01));
+  CHECK(site->body_min.y == test::approx(-0.01));
+  CHECK(site->body_max.y == test::approx(0.02));
   CHECK(site->area() == test::approx(0.02 * 0.01));
   // With the dust above, the opening looks up.
   const study::HoodScene above(k_grid, taken, {{{0.1, 5e-3, 0.08}, 1e-9}}, {});
