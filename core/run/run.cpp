@@ -21,6 +21,7 @@
 #include "run/run_times.hpp"
 #include "run/simulation.hpp"
 #include "run/summary/figure_json.hpp"
+#include "run/summary/first_row.hpp"
 #include "run/summary/series_row.hpp"
 #include "run/summary/summary.hpp"
 #include "run/summary/summary_audit.hpp"
@@ -174,7 +175,7 @@ class Run {
       io::write_text(folder_ / "series.csv-metadata.json",
                      series_metadata(simulation_).dump(1) + "\n");
       // Means that sensors take over rows have not begun yet, or go on from another run's.
-      append_row();
+      append_first_row();
       checkpoint();
     }
   }
@@ -349,13 +350,16 @@ class Run {
     live_->publish_progress(simulation_, facts_, Pace(simulation_.time()));
   }
 
-  void append_row() {
-    const auto row = series_row(simulation_);
+  void append_first_row() {
+    const std::vector<std::string> none;
+    const auto& going_on = facts_.start ? facts_.start->sensors : none;
+    const auto row = first_row(simulation_, *facts_.registry, going_on);
     series_->append(row.names, row.values);
   }
 
   void write_row() {
-    append_row();
+    const auto row = series_row(simulation_);
+    series_->append(row.names, row.values);
     for (const auto& sensor : simulation_.models().sensors) sensor->end_row();
   }
 
@@ -433,7 +437,8 @@ StartFacts start_facts(const Branch& branch) {
           .particles = branch.report().particles,
           .contacts = branch.report().contacts,
           .without_past = branch.report().without_past,
-          .is_same = branch.is_same()};
+          .is_same = branch.is_same(),
+          .sensors = branch.sensors_going_on()};
 }
 
 RunFacts facts_of(const scenario::ReadResult& read, const registry::Registry& registry,

@@ -101,6 +101,7 @@ void Simulation::start_from(const std::function<void(const Owners&)>& give) {
         liberation_.get()});
   if (fluid_) snapshots_.set_open_fraction(fluid_->solver().open_fraction());
   take_fluid_snapshot();
+  if (dust_) dust_->take_columns();
 }
 
 void Simulation::step() {

@@ -96,6 +96,47 @@ TEST_CASE("impulses on walls shall be the same however seldom rows of the series
   CHECK(json_text(folder / "full" / "summary.json", "mass_left [kg]") == "total");
 }
 
+TEST_CASE("the first row shall show the state at the start, as sensors see it") {
+  const TemporaryFolder folder;
+  const auto run = [&](const std::string& name, std::vector<std::string> settings) {
+    std::vector<std::string> arguments{"run",
+                                       k_scenario,
+                                       "-o",
+                                       folder / name,
+                                       "--threads",
+                                       "1",
+                                       "--quiet",
+                                       "--set",
+                                       "sensors.height={model: bed_height, base: [0, 0, 10 mm]}",
+                                       "--set",
+                                       "emitters.feed.enabled=false"};
+    for (std::string& setting : settings) {
+      arguments.insert(arguments.end(), {"--set", std::move(setting)});
+    }
+    const auto done = engine(arguments);
+    INFO(done.err);
+    REQUIRE(done.status == 0);
+    return columns_of(folder / name / "series.csv");
+  };
+  // The only grain at first: its centre 30 mm over the base, half of a bed of 60 mm.
+  const auto first = run("first", {"time.end=4 ms", "time.output_every=4 ms",
+                                   "emitters.more={model: single, material: sand, diameters: [1 "
+                                   "mm], positions: [[0, 0, 40 mm]]}"});
+  CHECK(first.at("height/twice_centre [m]").front() == approx(0.06));
+  CHECK(first.at("plug_load/force_z [N]").front() == 0.0);  // a mean, of no time yet
+  // A sensor that the other run had not sees where that one left off, the others go on.
+  const auto branch =
+      run("branch", {"start_from=" + (folder / "first").string(), "time.end=8 ms",
+                     "emitters.more={model: single, material: sand, diameters: [1 mm], "
+                     "positions: [[0, 0, 40 mm]]}",
+                     "sensors.energy={model: kinetic_energy}"});
+  const double translation = branch.at("energy/translation [J]").front();
+  CHECK(translation > 0.0);
+  CHECK(translation + branch.at("energy/rotation [J]").front() ==
+        approx(first.at("kinetic_energy [J]").back()));
+  CHECK(branch.at("height/twice_centre [m]").front() == first.at("height/twice_centre [m]").back());
+}
+
 TEST_CASE("a run stopped between two rows shall go on to the same series") {
   const TemporaryFolder folder;
   const auto arguments = [&](const std::string& name) {

@@ -318,6 +318,7 @@ void Branch::give_to(Simulation& simulation) {
   origin_.state().read(simulation.load_parts());
   report_.particles = simulation.dem().balance().in_domain;
   report_.contacts = simulation.dem().report().contacts;
+  for (const auto& sensor : now_.setup.sensors) sensors_going_on_.push_back(sensor.name);
 }
 
 void Branch::transfer(const Simulation::Owners& to) {
@@ -534,6 +535,7 @@ void Branch::transfer_sensors(Models& models) {
     sdk::Sensor& sensor = *models.sensors[n];
     if (keeps_statistics(name, sensor, models.class_diameters)) {
       origin_.state().read({{"sensor." + name, [&](sdk::ArchiveReader& a) { sensor.load(a); }}});
+      sensors_going_on_.push_back(name);
     } else if (find_named(origin_.scenario().setup.sensors, name) != nullptr) {
       warn("sensors." + name + " begins anew: it, or what it looks at, is set otherwise");
     }

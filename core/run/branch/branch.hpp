@@ -37,6 +37,10 @@ class Branch {
   [[nodiscard]] bool is_same() const { return is_same_; }
   /// How many particles the other run's state holds.
   [[nodiscard]] std::int64_t particles_there() const;
+  /// Names of the sensors that go on with what they have seen of the other run.
+  [[nodiscard]] const std::vector<std::string>& sensors_going_on() const {
+    return sensors_going_on_;
+  }
   /// Sizes of the particles that come along.
   void add_diameters(std::vector<double>& class_diameters) const;
   /// Takes away the bodies that the other run had taken away, then looks for what is in the way of
@@ -93,6 +97,7 @@ class Branch {
   std::optional<Models> their_models_;
   std::unique_ptr<particles::Dem> their_particles_;
   particles::TransferReport report_;
+  std::vector<std::string> sensors_going_on_;
 };
 
 }  // namespace dust::run

@@ -113,6 +113,12 @@ class SensorColumns final : public sdk::FigureSink {
 
 }  // namespace
 
+void for_sensor_columns(const sdk::Sensor& sensor, const std::string& name,
+                        const ColumnVisitor& visit) {
+  SensorColumns sink(sensor, name + "/", visit);
+  sensor.series(sink);
+}
+
 void for_series_columns(const Simulation& s, const ColumnVisitor& visit) {
   visit_own(s, visit);
   visit_hoods(s, visit);
@@ -120,9 +126,7 @@ void for_series_columns(const Simulation& s, const ColumnVisitor& visit) {
   visit_dust_on_grains(s, visit);
   visit_energy(s, visit);
   for (std::size_t n = 0; n < s.models().sensors.size(); ++n) {
-    const sdk::Sensor& sensor = *s.models().sensors[n];
-    SensorColumns sink(sensor, s.setup().sensors[n].name + "/", visit);
-    sensor.series(sink);
+    for_sensor_columns(*s.models().sensors[n], s.setup().sensors[n].name, visit);
   }
 }
 

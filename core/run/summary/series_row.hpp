@@ -18,6 +18,10 @@ using ColumnVisitor = std::function<void(const std::string& name, double value, 
 /// All columns of series.csv in their order: the run's own, hoods, dust field, sensors.
 void for_series_columns(const Simulation& simulation, const ColumnVisitor& visit);
 
+/// The columns of one sensor, which a scenario calls `name`.
+void for_sensor_columns(const sdk::Sensor& sensor, const std::string& name,
+                        const ColumnVisitor& visit);
+
 /// A row of series.csv.
 struct SeriesRow {
   std::vector<std::string> names;  ///< "name [unit]"

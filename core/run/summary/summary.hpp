@@ -16,12 +16,13 @@ namespace dust::run {
 
 /// The state that a run started from.
 struct StartFacts {
-  std::string state;              ///< the file
-  double time = 0.0;              ///< [s]
-  std::int64_t particles = 0;     ///< that came along
-  std::int64_t contacts = 0;      ///< of them, in touch
-  std::int64_t without_past = 0;  ///< contacts that began anew
-  bool is_same = false;           ///< the scenario says the same
+  std::string state;                 ///< the file
+  double time = 0.0;                 ///< [s]
+  std::int64_t particles = 0;        ///< that came along
+  std::int64_t contacts = 0;         ///< of them, in touch
+  std::int64_t without_past = 0;     ///< contacts that began anew
+  bool is_same = false;              ///< the scenario says the same
+  std::vector<std::string> sensors;  ///< names of those that go on
 };
 
 /// What the run loop knows beside the simulation. Times include those before a resume.
