@@ -4,6 +4,7 @@
 #include "contact/standing.hpp"
 #include "particles/forces/law_stages.hpp"
 #include "particles/forces/pair_work.hpp"
+#include "particles/forces/weight_ratios.hpp"
 #include "particles/work/dissipation.hpp"
 
 #include <algorithm>
@@ -34,34 +35,6 @@ void ContactForces::evaluate(const ContactScene& scene, Tile range, TileContacts
   walls(scene, range, contacts, tile, force);
 }
 
-/// Statistical weights of the sides of a batch, and the effective mass that a pair shows with them;
-/// returns whether any two differ.
-bool ContactForces::find_weight_ratios(const ContactScene& scene, const contact::PairView& pairs,
-                                       const std::int32_t* contacts, std::size_t first,
-                                       std::size_t count, BatchColumns& columns) {
-  if (!scene.has_weights) return false;
-  bool has_scales = false;
-  double* scale_i = columns.column(BatchColumns::scale_i);
-  double* scale_j = columns.column(BatchColumns::scale_j);
-  const ParticleStore& particles = scene.particles;
-  for (std::size_t q = 0; q < count; ++q) {
-    const std::size_t entry =
-        contacts == nullptr ? first + q : static_cast<std::size_t>(contacts[q]);
-    const double wi = particles.weight(static_cast<std::size_t>(pairs.a[entry]));
-    const double wj = particles.weight(static_cast<std::size_t>(pairs.b[entry]));
-    scale_i[q] = felt_share(wi, wj);
-    scale_j[q] = felt_share(wj, wi);
-    if (wi == wj) continue;
-    has_scales = true;
-    const auto inverse_mass = [&](std::int32_t row) {
-      return particles.inverse_mass(static_cast<std::size_t>(row));
-    };
-    columns.column(BatchColumns::inverse_mass_i)[q] = scale_i[q] * inverse_mass(pairs.a[entry]);
-    columns.column(BatchColumns::inverse_mass_j)[q] = scale_j[q] * inverse_mass(pairs.b[entry]);
-  }
-  return has_scales;
-}
-
 /// What a batch dissipates, beside the forces that it brings; histories stand in the columns.
 void ContactForces::note_work(const ContactScene& scene, const PairLaws& law,
                               const contact::Places* places, const std::int32_t* contacts,
@@ -79,14 +52,16 @@ void ContactForces::persistent_pairs(const ContactScene& scene, const LawRange& 
   const std::size_t stride = pairs.history_stride;
   const PairLaws& law = scene.laws[static_cast<std::size_t>(range.law)];
   auto& columns = thread_columns();
+  contact::HistoryElsewhere history(columns);
   const auto end = static_cast<std::size_t>(range.persistent_end);
   for (auto p = static_cast<std::size_t>(range.begin); p < end; p += k_batch) {
     const std::size_t count = std::min(k_batch, end - p);
     const std::size_t near =
         contact::gather_persistent(scene.rows(), scene.images, pairs, p, count, law.range, columns);
     if (tile.energy != nullptr) thread_motion().take_pairs(columns, count);
-    columns.keep_history_at(pairs.history + p * stride, count);
-    const bool has_scales = find_weight_ratios(scene, pairs, nullptr, p, count, columns);
+    history.keep_at(pairs.history + p * stride, count);
+    const bool has_scales =
+        scene.has_weights && find_weight_ratios(scene.particles, pairs, nullptr, p, count, columns);
     const double overlap = contact::derive_pair_columns(columns, count);
     tile.largest_overlap = std::max(tile.largest_overlap, overlap);
     if (near < count) contact::mask_separated(pairs.is_touching + p, count, columns);
@@ -101,7 +76,6 @@ void ContactForces::persistent_pairs(const ContactScene& scene, const LawRange& 
     }
     contact::scatter_pairs(contacts.slots.data() + p, count, has_scales, columns, force);
   }
-  columns.keep_history_here();
 }
 
 /// The others: found touching or not at each step.
@@ -122,7 +96,8 @@ void ContactForces::new_pairs(const ContactScene& scene, const LawRange& range,
     if (count == 0) continue;
     if (tile.energy != nullptr) thread_motion().take_pairs(columns, count);
     contact::load_history(pairs, touching, count, groups, columns);
-    const bool has_scales = find_weight_ratios(scene, pairs, touching, 0, count, columns);
+    const bool has_scales = scene.has_weights &&
+                            find_weight_ratios(scene.particles, pairs, touching, 0, count, columns);
     const double overlap = contact::derive_pair_columns(columns, count);
     tile.largest_overlap = std::max(tile.largest_overlap, overlap);
     evaluate_laws(law, columns, count, scene.step);

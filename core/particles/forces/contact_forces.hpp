@@ -68,9 +68,6 @@ class ContactForces {
   struct WallBatch;
 
   // contact_forces.cpp
-  static bool find_weight_ratios(const ContactScene& scene, const contact::PairView& pairs,
-                                 const std::int32_t* contacts, std::size_t first, std::size_t count,
-                                 contact::BatchColumns& columns);
   void persistent_pairs(const ContactScene& scene, const LawRange& range, TileContacts& contacts,
                         OfTile& tile, double* force);
   static void note_work(const ContactScene& scene, const PairLaws& law,

@@ -3,6 +3,7 @@
 
 #include "particles/forces/law_stages.hpp"
 #include "particles/forces/wall_contacts.hpp"
+#include "particles/forces/weight_ratios.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -49,6 +50,8 @@ class Viewer {
                                                          law.range, contacts, columns);
       if (count == 0) continue;
       contact::load_history(view, contacts, count, groups, columns);
+      // has_weights speaks of coarse particles alone, and these may be fine.
+      find_weight_ratios(scene_.particles, view, contacts, 0, count, columns);
       contact::derive_pair_columns(columns, count);
       evaluate_laws(law, columns, count, time_step);
       for (std::size_t q = 0; q < count; ++q) {

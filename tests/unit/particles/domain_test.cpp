@@ -193,6 +193,34 @@ TEST_CASE("contacts shall be shown to sensors with their forces, also at walls a
   CHECK(pairs == 1);
 }
 
+TEST_CASE("contacts of grains of different weights shall be shown as the step will find them") {
+  DemRig rig = cube();
+  const auto dem = rig.make();
+  std::vector<NewGrain> grains{grain_at({3.503e-3, 4e-3, 4e-3}), grain_at({4.5e-3, 4e-3, 4e-3})};
+  grains[0].velocity = {0.4, 0.05, 0};
+  grains[1].weight = 0.02;
+  dem->insert(grains);
+  dem->neighbours();
+  const auto contacts = dem->contacts();
+  REQUIRE(contacts.size() == 1);
+  dem->contact(0.0, true);
+  dem->force();
+  dem->integrate();
+  dem->advance_fine();
+  // The light one feels all of the force, which the damping makes one of its own mass.
+  const auto rows = dem->rows();
+  const std::int32_t light = rows.id[0] == 1 ? 0 : 1;
+  const double sign = contacts[0].row_i == light ? 1.0 : -1.0;
+  const auto force = dem->last_force();
+  for (int d = 0; d < 3; ++d) {
+    CAPTURE(d);
+    CHECK(sign * contacts[0].force[d] ==
+          test::approx(force[static_cast<std::size_t>(4 * light + d)]).epsilon(1e-12));
+  }
+  CHECK(contacts[0].force.x != 0.0);
+  CHECK(contacts[0].force.y != 0.0);
+}
+
 TEST_CASE("looking at contacts shall not change the run") {
   const auto run = [](bool looks) {
     DemRig rig = cube();
