@@ -36,14 +36,6 @@ const Unit& unit_for(double value, std::span<const Unit> units) {
   return value == 0.0 ? units.front() : units.back();
 }
 
-/// Digits before the point are all shown: 4500, never 4.5e+03.
-std::string plain_text(double value, int digits) {
-  if (std::isfinite(value) && std::abs(value) >= std::pow(10.0, digits) && std::abs(value) < 1e9) {
-    return fixed_text(value, 0);
-  }
-  return digits_text(value, digits);
-}
-
 std::string text_in(const Unit& unit, double value, int digits) {
   return plain_text(value / unit.factor, digits) + " " + std::string(unit.name);
 }
@@ -51,6 +43,13 @@ std::string text_in(const Unit& unit, double value, int digits) {
 }  // namespace
 
 std::string digits_text(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
+
+std::string plain_text(double value, int digits) {
+  if (std::isfinite(value) && std::abs(value) >= std::pow(10.0, digits) && std::abs(value) < 1e9) {
+    return fixed_text(value, 0);
+  }
+  return digits_text(value, digits);
+}
 
 std::string fixed_text(double value, int decimals) {
   return fmt::format("{:.{}f}", value, decimals);
@@ -97,6 +96,18 @@ std::string extent_text(const std::array<double, 3>& edges) {
 std::string place_text(const sdk::Vec3& place, int digits) {
   return "(" + digits_text(place.x, digits) + ", " + digits_text(place.y, digits) + ", " +
          digits_text(place.z, digits) + ") m";
+}
+
+std::string area_text(double square_metres) {
+  constexpr double k_square_centimetre = 1e-4;
+  return square_metres >= 0.1 ? plain_text(square_metres, 4) + " m2"
+                              : plain_text(square_metres / k_square_centimetre, 4) + " cm2";
+}
+
+std::string volume_text(double cubic_metres) {
+  constexpr double k_cubic_centimetre = 1e-6;
+  return std::abs(cubic_metres) >= 0.01 ? plain_text(cubic_metres, 4) + " m3"
+                                        : plain_text(cubic_metres / k_cubic_centimetre, 4) + " cm3";
 }
 
 std::string mass_text(double kilograms, int digits) {

@@ -12,6 +12,8 @@ namespace dust::base {
 
 /// At most `digits` significant digits, without trailing zeros: "0.0123", "1.2e-07".
 std::string digits_text(double value, int digits);
+/// The same, with all digits before the point below 1e9: "4500", never "4.5e+03".
+std::string plain_text(double value, int digits);
 /// `decimals` digits behind the point, all of them.
 std::string fixed_text(double value, int decimals);
 /// One digit in front of the point, `decimals` behind it, and a power of ten: "1.20e-07".
@@ -34,6 +36,10 @@ std::string length_text(double metres, int digits = 4);
 std::string extent_text(const std::array<double, 3>& edges);
 /// A place [m]: "(1.2, 0, -0.35) m".
 std::string place_text(const sdk::Vec3& place, int digits = 4);
+/// An area: "1.25 m2" from 1000 cm2 on.
+std::string area_text(double square_metres);
+/// A volume: "0.125 m3" from 10 litres on.
+std::string volume_text(double cubic_metres);
 /// A mass: "1.2 t", "3 kg", "150 g", "2 mg", "0.5 ug".
 std::string mass_text(double kilograms, int digits = 3);
 /// A mass flow: "2.5 kg/s", "6 g/s", "3 mg/s"; in a domain of a plant's `extent` [m] from 1 t/h on

@@ -100,7 +100,8 @@ class BatchColumns {
     return {column(first), column(first + 1), column(first + 2)};
   }
   [[nodiscard]] double* const* history() const { return history_.data(); }
-  /// Laws find the histories in columns elsewhere, `stride` apart, or again in the last columns.
+  /// Laws find the histories in columns elsewhere, `stride` apart (HistoryElsewhere), or again in
+  /// the last columns.
   void keep_history_at(double* first, std::size_t stride) {
     for (auto& column : history_) column = first, first += stride;
   }
@@ -116,6 +117,20 @@ class BatchColumns {
   AlignedVector<double> data_;
   std::array<double*, k_max_history> history_{};
   sdk::ContactBatch batch_;  ///< where the columns stand: small batches would spend long on it
+};
+
+/// While it lives, a batch may have its histories elsewhere; then they are at home again, also
+/// after a law has thrown: the thread's next batch may be another solver's.
+class HistoryElsewhere {
+ public:
+  explicit HistoryElsewhere(BatchColumns& columns) : columns_(columns) {}
+  ~HistoryElsewhere() { columns_.keep_history_here(); }
+  HistoryElsewhere(const HistoryElsewhere&) = delete;
+  HistoryElsewhere& operator=(const HistoryElsewhere&) = delete;
+  void keep_at(double* first, std::size_t stride) { columns_.keep_history_at(first, stride); }
+
+ private:
+  BatchColumns& columns_;
 };
 
 }  // namespace dust::contact

@@ -35,6 +35,12 @@ std::filesystem::path temporary_name(const std::filesystem::path& file) {
   return temporary;
 }
 
+void sync_file(const std::filesystem::path& file) { sync_to_disk(file, O_RDWR, file); }
+
+void sync_folder(const std::filesystem::path& folder) {
+  sync_to_disk(folder, O_RDONLY | O_DIRECTORY, folder);
+}
+
 void move_into_place(const std::filesystem::path& file, bool is_synced) {
   const std::filesystem::path temporary = temporary_name(file);
   if (is_synced) sync_to_disk(temporary, O_RDWR, file);

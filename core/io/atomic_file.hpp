@@ -16,6 +16,12 @@ std::filesystem::path temporary_name(const std::filesystem::path& file);
 /// never leaves half a file either way.
 void move_into_place(const std::filesystem::path& file, bool is_synced);
 
+/// Waits until the data of `file` are on the disk; what was written to it through other descriptors
+/// counts. Throws base::WriteError.
+void sync_file(const std::filesystem::path& file);
+/// The same of the names in `folder`.
+void sync_folder(const std::filesystem::path& folder);
+
 /// Removes `temporary_name(file)` if it is there: half a file takes room that a full disk needs.
 void discard(const std::filesystem::path& file) noexcept;
 

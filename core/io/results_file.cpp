@@ -36,6 +36,7 @@ struct ResultsFile::Impl {
   std::vector<FrameEntry> frames;
   FluidLayout fluid;
   WallLayout walls;
+  std::vector<fs::path> unsynced;  ///< may still be in the disk's cache alone
 
   /// Removes frames from `first` on, and whatever a killed run left half-written.
   void drop_frames(std::int64_t first) const {
@@ -116,6 +117,7 @@ ResultsFile::ResultsFile(fs::path folder, std::int64_t resume_frames, const bodi
   impl_->read_frames(kept);
   if (kept == 0) impl_->fluid = {};
   impl_->walls = write_walls(impl_->folder, bodies, domain_min, domain_max);
+  impl_->unsynced.emplace_back(impl_->folder / k_walls_path);
   write_text(impl_->folder / k_paraview_state,
              paraview_state(impl_->folder, domain_min, domain_max));
   // The index first: it never names a frame that is gone.
@@ -133,10 +135,19 @@ void ResultsFile::append(const Frame& frame) {
   const FluidLayout layout = layout_of(frame.world.fluid);
   if (impl_->fluid.is_empty() && !layout.is_empty()) {
     write_open_fraction(impl_->folder, frame.world.fluid);
+    impl_->unsynced.emplace_back(impl_->folder / k_open_fraction_path);
     impl_->fluid = layout;
   }
   impl_->frames.push_back(write_frame(impl_->folder, frame));
+  impl_->unsynced.emplace_back(impl_->folder / frame_path(frame.number));
   impl_->write_index();
+}
+
+void ResultsFile::sync() {
+  if (impl_->unsynced.empty()) return;
+  for (const fs::path& file : impl_->unsynced) sync_file(file);
+  sync_folder(impl_->folder / k_frame_folder);
+  impl_->unsynced.clear();
 }
 
 }  // namespace dust::io

@@ -44,8 +44,8 @@ struct Frame {
 };
 
 /// results.h5, the three XDMF files and a script that opens them in ParaView. Every frame is
-/// complete on disk when append() returns: the HDF5 file is closed and the XDMF files are renamed
-/// into place.
+/// complete when append() returns: the HDF5 file is closed and the XDMF files are renamed into
+/// place, so that a kill loses none. A power cut may, until sync().
 ///
 /// Layout, as seen through results.h5; n grains, cells (nz, ny, nx), m points, t triangles; every
 /// dataset has the attributes `units` and `long_name`; <frame> has six digits:
@@ -77,6 +77,8 @@ class ResultsFile {
               sdk::Vec3 domain_min, sdk::Vec3 domain_max);
   ~ResultsFile();
   void append(const Frame& frame);
+  /// Waits until the frames are on the disk. Before a checkpoint, which counts on them.
+  void sync();
 
  private:
   struct Impl;
@@ -90,6 +92,8 @@ class SeriesFile {
   SeriesFile(std::filesystem::path file, std::int64_t resume_rows);
   ~SeriesFile();
   void append(std::span<const std::string> names_with_units, std::span<const double> values);
+  /// Waits until the rows are on the disk. Before a checkpoint, which counts on them.
+  void sync();
   [[nodiscard]] std::int64_t rows() const;
 
  private:

@@ -158,6 +158,10 @@ void SeriesFile::append(std::span<const std::string> names_with_units,
   ++impl_->rows;
 }
 
+void SeriesFile::sync() {
+  if (::fsync(impl_->descriptor) != 0) throw base::WriteError(impl_->file, errno);
+}
+
 std::int64_t SeriesFile::rows() const { return impl_->rows; }
 
 }  // namespace dust::io

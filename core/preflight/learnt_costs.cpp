@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/learnt_costs.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -104,6 +107,23 @@ class Quotients {
   std::vector<Weighed> all_;
 };
 
+/// Runs that end together write one after the other, each with what the one before has learnt.
+class WriterLock {
+ public:
+  explicit WriterLock(const fs::path& file)
+      : descriptor_(::open((file.string() + ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    if (descriptor_ >= 0) ::flock(descriptor_, LOCK_EX);
+  }
+  ~WriterLock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  WriterLock(const WriterLock&) = delete;
+  WriterLock& operator=(const WriterLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
 }  // namespace
 
 fs::path LearntCosts::default_file() {
@@ -118,6 +138,11 @@ fs::path LearntCosts::default_file() {
 
 LearntCosts::LearntCosts(fs::path file, std::function<double()> slowness)
     : file_(std::move(file)), slowness_(std::move(slowness)) {
+  read();
+}
+
+void LearntCosts::read() {
+  runs_.clear();
   std::ifstream in(file_);
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);
@@ -200,13 +225,20 @@ LearntCosts::Expected LearntCosts::from_others(const RunCost& estimated) const {
 
 void LearntCosts::add(const std::string& scenario, const RunCost& estimated, const RunCost& taken) {
   if (!is_whole(estimated, taken)) return;
+  if (file_.empty()) {
+    runs_.push_back({scenario, estimated, taken});
+    return;
+  }
+  std::error_code ignored;
+  fs::create_directories(file_.parent_path(), ignored);
+  const WriterLock lock(file_);
+  read();
   runs_.push_back({scenario, estimated, taken});
-  if (!file_.empty()) write();
+  write();
 }
 
 void LearntCosts::write() const {
   std::error_code ignored;
-  fs::create_directories(file_.parent_path(), ignored);
   const fs::path part = file_.string() + ".part";
   {
     std::ofstream out(part);

@@ -56,6 +56,8 @@ class LearntCosts {
   [[nodiscard]] static Expected from_same(const std::vector<const Run*>& runs,
                                           const RunCost& estimated);
   [[nodiscard]] Expected from_others(const RunCost& estimated) const;
+  /// In place of what is known.
+  void read();
   void write() const;
 
   std::filesystem::path file_;

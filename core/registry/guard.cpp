@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "registry/guard.hpp"
 
+#include "base/text.hpp"
 #include "dust/sdk/airborne_dust.hpp"
 #include "registry/guard_report.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace dust::registry {
@@ -37,6 +39,15 @@ class Guarded : public Kind {
   auto get(const char* name, Function function, Arguments&&... arguments) const {
     return ask(name, "an answer", function, std::forward<Arguments>(arguments)...);
   }
+  /// A number of columns or cells that the core allots room by.
+  template <class Function, class... Arguments>
+  int number(const char* name, int least, Function function, Arguments&&... arguments) const {
+    const int answer = get(name, function, std::forward<Arguments>(arguments)...);
+    if (answer < least) {
+      faults_.refuse_answer(name, answer, "a number from " + std::to_string(least) + " on");
+    }
+    return answer;
+  }
   [[nodiscard]] const GuardReport& faults() const { return faults_; }
   [[nodiscard]] Kind& model() const { return *model_; }
 
@@ -54,7 +65,7 @@ class PairLaw : public Guarded<Law> {
     this->ask("prepare", "two materials taken, or a ParameterError", &Law::prepare, i, j);
   }
   [[nodiscard]] int history_size() const override {
-    return this->ask("history_size", "a number of columns", &Law::history_size);
+    return this->number("history_size", 0, &Law::history_size);
   }
 };
 
@@ -90,7 +101,13 @@ class Rolling final : public PairLaw<sdk::RollingLaw> {
  public:
   using PairLaw::PairLaw;
   [[nodiscard]] int couple_column() const override {
-    return get("couple_column", &sdk::RollingLaw::couple_column);
+    constexpr int k_components = 3;
+    const int column = get("couple_column", &sdk::RollingLaw::couple_column);
+    if (column < -1 || (column >= 0 && column + k_components > history_size())) {
+      faults().refuse_answer("couple_column", column,
+                             "the first of three of its columns of history, or -1 for none");
+    }
+    return column;
   }
   void evaluate(const sdk::ContactBatch& b) const override {
     ask("evaluate", "a couple for every contact of the batch", &sdk::RollingLaw::evaluate, b);
@@ -168,7 +185,7 @@ class FluidForce final : public Guarded<sdk::FluidForce> {
     return get("reaction", &sdk::FluidForce::reaction);
   }
   [[nodiscard]] int history_size() const override {
-    return get("history_size", &sdk::FluidForce::history_size);
+    return number("history_size", 0, &sdk::FluidForce::history_size);
   }
 };
 
@@ -176,7 +193,7 @@ class Voidage final : public Guarded<sdk::VoidageRule> {
  public:
   using Guarded::Guarded;
   [[nodiscard]] int capacity(const sdk::GridShape& grid, double radius) const override {
-    return get("capacity", &sdk::VoidageRule::capacity, grid, radius);
+    return number("capacity", 1, &sdk::VoidageRule::capacity, grid, radius);
   }
   [[nodiscard]] double largest_diameter_over_spacing() const override {
     return get("largest_diameter_over_spacing", &sdk::VoidageRule::largest_diameter_over_spacing);
@@ -283,17 +300,7 @@ class Emitter final : public Guarded<sdk::Emitter> {
     ask("propose", "the grains of the interval", &sdk::Emitter::propose, context, requests);
     for (std::size_t n = before; n < requests.size(); ++n) {
       const sdk::InsertionRequest& s = requests[n];
-      const std::pair<const char*, double> numbers[] = {
-          {"time", s.time},
-          {"position", s.position.x + s.position.y + s.position.z},
-          {"velocity", s.velocity.x + s.velocity.y + s.velocity.z},
-          {"angular_velocity", s.angular_velocity.x + s.angular_velocity.y + s.angular_velocity.z},
-          {"diameter", s.diameter},
-          {"weight", s.weight}};
-      for (const auto& [name, value] : numbers) {
-        if (!base::is_finite(value))
-          faults().refuse_number(name, value, n - before, requests.size() - before, {});
-      }
+      check(s, n - before, requests.size() - before);
     }
   }
   [[nodiscard]] double requested_mass_flow() const override {
@@ -314,6 +321,46 @@ class Emitter final : public Guarded<sdk::Emitter> {
   [[nodiscard]] std::vector<std::string> materials() const override {
     return get("materials", &sdk::Emitter::materials);
   }
+
+ private:
+  /// What the core would not notice, or not tell as the emitter's fault.
+  void check(const sdk::InsertionRequest& s, std::size_t row, std::size_t count) {
+    const std::pair<const char*, double> numbers[] = {
+        {"time", s.time},
+        {"position", s.position.x + s.position.y + s.position.z},
+        {"velocity", s.velocity.x + s.velocity.y + s.velocity.z},
+        {"angular_velocity", s.angular_velocity.x + s.angular_velocity.y + s.angular_velocity.z},
+        {"diameter", s.diameter},
+        {"weight", s.weight}};
+    for (const auto& [name, value] : numbers) {
+      if (!base::is_finite(value)) faults().refuse_number(name, value, row, count, {});
+    }
+    if (!known_) known_ = Known{diameters(), materials().size()};
+    // Steps, searches and levels are laid out for the sizes that were announced.
+    constexpr double k_rounding = 1e-9;
+    const double largest = known_->diameters.empty() ? 0.0 : known_->diameters.back();
+    if (!(s.diameter > 0.0 && s.diameter <= largest * (1.0 + k_rounding))) {
+      faults().refuse("gives diameter = " + base::digits_text(s.diameter, 6), row, count, {},
+                      "a diameter above 0 and up to the largest of diameters(), " +
+                          base::digits_text(largest, 6) + " m");
+    }
+    if (!(s.weight > 0.0)) {
+      faults().refuse("gives weight = " + base::digits_text(s.weight, 6), row, count, {},
+                      "a weight above 0");
+    }
+    if (s.material >= 0 && static_cast<std::size_t>(s.material) >= known_->materials) {
+      faults().refuse("gives material = " + std::to_string(s.material), row, count, {},
+                      "an index into its " + std::to_string(known_->materials) +
+                          " materials(), or -1 for the emitter's own");
+    }
+  }
+
+  /// What it has announced.
+  struct Known {
+    std::vector<double> diameters;  ///< [m] ascending
+    std::size_t materials = 0;
+  };
+  std::optional<Known> known_;
 };
 
 class Motion final : public Guarded<sdk::Motion> {

@@ -41,4 +41,10 @@ void GuardReport::refuse(const std::string& what, std::size_t row, std::size_t c
   throw sdk::ModelError(text + "; expected: " + expected);
 }
 
+void GuardReport::refuse_answer(const char* question, int answer,
+                                const std::string& expected) const {
+  throw sdk::ModelError(who_ + " answers " + std::to_string(answer) + " to " + question +
+                        "; expected: " + expected);
+}
+
 }  // namespace dust::registry

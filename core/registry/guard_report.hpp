@@ -46,6 +46,9 @@ class GuardReport {
                                   std::size_t count, Inputs seen) const;
   [[noreturn]] void refuse(const std::string& what, std::size_t row, std::size_t count, Inputs seen,
                            const std::string& expected) const;
+  /// An answer outside what the core can work with.
+  [[noreturn]] void refuse_answer(const char* question, int answer,
+                                  const std::string& expected) const;
 
  private:
   [[noreturn]] void thrown(const char* function, const char* expected,

@@ -143,12 +143,7 @@ class Run {
     live_ = live;
     // What is wrong in the scenario or the folder is the caller's.
     if (!survives_writing([this] { open_files(); })) return close();
-    try {
-      if (survives_writing([&] { loop(progress); })) survives_writing([this] { end_files(); });
-    } catch (const std::exception& e) {
-      facts_.status = "failed";
-      facts_.reason = e.what();
-    }
+    if (survives([&] { loop(progress); })) survives([this] { end_files(); });
     progress.finish();
     return close();
   }
@@ -250,12 +245,27 @@ class Run {
       work();
       return true;
     } catch (const base::WriteError& e) {
-      // The first one is the one to tell.
-      if (facts_.status != "failed") facts_.reason = e.what();
-      facts_.status = "failed";
+      note_failure(e.what());
       is_disk_bad_ = true;
       return false;
     }
+  }
+
+  /// The same, where whatever else goes wrong ends the run too.
+  template <class Work>
+  bool survives(Work&& work) {
+    try {
+      return survives_writing(work);
+    } catch (const std::exception& e) {
+      note_failure(e.what());
+      return false;
+    }
+  }
+
+  /// The first reason is the one to tell.
+  void note_failure(const char* reason) {
+    if (facts_.status != "failed") facts_.reason = reason;
+    facts_.status = "failed";
   }
 
   /// The state at the end.
@@ -273,11 +283,11 @@ class Run {
       facts_.warnings.push_back(text);
     }
     for (const std::string& text : audit_lines(simulation_, forces_)) base::log_info(text);
-    survives_writing([this] { write_summary(folder_, simulation_, facts_); });
+    const bool has_summary = survives([this] { write_summary(folder_, simulation_, facts_); });
     if (live_ != nullptr) live_->publish_progress(simulation_, facts_, Pace(simulation_.time()));
     base::log_info("status: " + facts_.status);
     results_.reset();
-    if (!is_disk_bad_) survives_writing([this] { report::write_report(folder_); });
+    if (has_summary && !is_disk_bad_) survives([this] { report::write_report(folder_); });
     if (facts_.status == "failed") {
       log_failure();
       return 1;
@@ -298,11 +308,16 @@ class Run {
     if (facts_.status != "finished" || facts_.cpu_s < k_shortest || facts_.registry == nullptr) {
       return;
     }
-    const auto derived =
-        preflight::derive(simulation_.setup(), *facts_.registry, simulation_.dust_setup(),
-                          facts_.start ? facts_.start->time : 0.0);
-    preflight::LearntCosts().add(simulation_.setup().name, derived.cost,
-                                 taken_cost(simulation_, facts_, folder_));
+    try {
+      const auto derived =
+          preflight::derive(simulation_.setup(), *facts_.registry, simulation_.dust_setup(),
+                            facts_.start ? facts_.start->time : 0.0);
+      preflight::LearntCosts().add(simulation_.setup().name, derived.cost,
+                                   taken_cost(simulation_, facts_, folder_));
+    } catch (const std::exception& e) {
+      // The scenario's files may have gone since the run began, which needed them no longer.
+      base::log_info(std::string("nothing learnt for the next estimate: ") + e.what());
+    }
   }
 
   void log_failure() const {
@@ -365,6 +380,8 @@ class Run {
 
   void checkpoint() {
     const auto begin = Clock::now();
+    results_->sync();
+    series_->sync();
     auto parts = simulation_.save_parts();
     parts.emplace_back("files", [this](sdk::ArchiveWriter& a) {
       a.integer("frames", frames_);

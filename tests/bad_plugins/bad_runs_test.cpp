@@ -91,6 +91,20 @@ TEST_CASE("a sensor whose columns change shall end the run with the column that 
   CHECK(run.err.find("'eye/looks [1]' is 'eye/gazes [1]' now") != std::string::npos);
 }
 
+TEST_CASE("a sensor that throws after the last step shall fail the run with its reason") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "run";
+  const auto run = engine({"run", k_scenario, "--plugin-path", k_folder / "bad_sensors", "--set",
+                           "sensors.eye={model: late_summary}", "-o", out, "--quiet"});
+  INFO(run.err);
+  CHECK(run.status == 1);
+  CHECK(run.err.find("the run failed at t = ") != std::string::npos);
+  CHECK(run.err.find("sensor/late_summary") != std::string::npos);
+  CHECK(run.err.find("broken sum") != std::string::npos);
+  CHECK(run.err.find("the last good checkpoint is " + (out / "checkpoint.h5").string()) !=
+        std::string::npos);
+}
+
 TEST_CASE("a plugin under a shipped model's name shall be refused by its test") {
   const std::string file = k_folder / "shipped_name/shipped_name.so";
   const auto tested = engine({"test-plugin", file});

@@ -5,13 +5,14 @@
 #include <string>
 
 /// A sensor that is well until it is asked for one thing.
-enum class Fault { none, summary, report, columns };
+enum class Fault { none, summary, report, columns, late };
 
 template <Fault fault>
 struct BadSensor final : dust::sdk::Sensor {
   struct Parameters {};
   static dust::sdk::ModelInfo describe() {
-    const char* const names[] = {"well", "broken_summary", "broken_report", "other_columns"};
+    const char* const names[] = {"well", "broken_summary", "broken_report", "other_columns",
+                                 "late_summary"};
     return {.kind = "",
             .name = names[static_cast<int>(fault)],
             .version = "1.0",
@@ -27,7 +28,8 @@ struct BadSensor final : dust::sdk::Sensor {
     sink.figure(fault == Fault::columns && looks_ > 5.0 ? "gazes" : "looks", looks_, "1");
   }
   void summary(dust::sdk::FigureSink& sink) const override {
-    if (fault == Fault::summary) throw std::runtime_error("broken sum");
+    const bool is_late = fault == Fault::late && looks_ > 5.0;
+    if (fault == Fault::summary || is_late) throw std::runtime_error("broken sum");
     sink.figure("looks", looks_, "1");
   }
   void report(dust::sdk::ReportSink&) const override {
@@ -44,4 +46,5 @@ DUST_PLUGIN(registrar) {
   registrar.add<BadSensor<Fault::summary>>();
   registrar.add<BadSensor<Fault::report>>();
   registrar.add<BadSensor<Fault::columns>>();
+  registrar.add<BadSensor<Fault::late>>();
 }

@@ -15,17 +15,7 @@ using sdk::SchemaOf;
 using sdk::Vec3;
 namespace dimension = sdk::dimension;
 
-std::string millimetres(double metres) { return base::digits_text(1e3 * metres, 4) + " mm"; }
-/// "1.25 m2" from 1000 cm2 on.
-std::string area_text(double area) {
-  return area >= 0.1 ? base::digits_text(area, 4) + " m2"
-                     : base::digits_text(1e4 * area, 4) + " cm2";
-}
-/// "0.125 m3" from 10 litres on.
-std::string volume_text(double volume) {
-  return std::abs(volume) >= 0.01 ? base::digits_text(volume, 4) + " m3"
-                                  : base::digits_text(1e6 * volume, 4) + " cm3";
-}
+std::string millimetres(double metres) { return base::plain_text(1e3 * metres, 4) + " mm"; }
 std::string place_of(Vec3 p) {
   return "(" + millimetres(p.x) + ", " + millimetres(p.y) + ", " + millimetres(p.z) + ")";
 }
@@ -156,9 +146,9 @@ class StlMesh final : public MeshShape {
     all.push_back(file_ + ": " + std::to_string(h.triangles) + " triangles, " +
                   std::to_string(h.vertices) + " points, " + std::to_string(h.shells) +
                   (h.shells == 1 ? " shell, " : " shells, ") +
-                  (h.is_closed() ? "closed, volume " + volume_text(h.volume)
+                  (h.is_closed() ? "closed, volume " + base::volume_text(h.volume)
                                  : std::to_string(h.open_edges) + " open edges") +
-                  ", area " + area_text(h.area) + ", " + std::to_string(mesh_.parts()) +
+                  ", area " + base::area_text(h.area) + ", " + std::to_string(mesh_.parts()) +
                   " parts that a grain can touch at once; edges " +
                   base::length_text(h.shortest_edge) + " to " + base::length_text(h.longest_edge) +
                   ", median " + base::length_text(h.median_edge));

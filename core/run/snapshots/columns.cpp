@@ -64,12 +64,18 @@ void GrainTable::note_insertions(const particles::GrainRows& rows) {
   std::sort(insertions_.begin(), insertions_.end(), by_id);
 }
 
+void GrainTable::find_order(const particles::GrainRows& rows) {
+  const auto by_id = [&](std::size_t a, std::size_t b) { return rows.id[a] < rows.id[b]; };
+  // From step to step rows seldom change places.
+  if (order_.size() == rows.count && std::is_sorted(order_.begin(), order_.end(), by_id)) return;
+  order_.resize(rows.count);
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  std::sort(order_.begin(), order_.end(), by_id);
+}
+
 void GrainTable::publish(const particles::GrainRows& rows, std::span<const double> force) {
   const std::size_t count = rows.count;
-  order_.resize(count);
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::sort(order_.begin(), order_.end(),
-            [&](std::size_t a, std::size_t b) { return rows.id[a] < rows.id[b]; });
+  find_order(rows);
   id_.resize(count);
   material_.resize(count);
   for (auto& column : number_) column.resize(count);

@@ -35,6 +35,8 @@ class GrainTable {
     std::int64_t id;
     double x, y, z;
   };
+  /// The rows in the order of their ids.
+  void find_order(const particles::GrainRows& rows);
   void take_places_before();
   /// The image of a coordinate along d that lies in the domain: positions are wrapped at periodic
   /// sides now and then only.
@@ -47,7 +49,7 @@ class GrainTable {
   std::vector<double> number_[23];
   std::vector<Place> before_;      ///< of the last sample, by id
   std::vector<Place> insertions_;  ///< since the last sample, by id
-  std::vector<std::size_t> order_;
+  std::vector<std::size_t> order_;  ///< rows by id
 };
 
 /// The fluid at cell centres in single precision, x fastest, without halo.

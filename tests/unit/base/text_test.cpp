@@ -68,6 +68,10 @@ TEST_CASE("Lengths, masses and flows in the unit people of their size use") {
   CHECK(length_text(0.99999) == "1 m");
   CHECK(length_text(0.0) == "0 m");
   CHECK(length_text(2e-9) == "0.002 um");
+  CHECK(area_text(0.0123) == "123 cm2");
+  CHECK(area_text(31750.4) == "31750 m2");
+  CHECK(volume_text(-2e-6) == "-2 cm3");
+  CHECK(volume_text(123456.0) == "123456 m3");
   CHECK(mass_text(1234.0) == "1.23 t");
   CHECK(mass_text(0.15) == "150 g");
   CHECK(mass_text(-3.0) == "-3 kg");

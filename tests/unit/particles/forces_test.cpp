@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "contact/batch.hpp"
 #include "dust/sdk/random.hpp"
 #include "particles/forces/deferred_forces.hpp"
 #include "particles/forces/force_buffer.hpp"
@@ -114,6 +115,19 @@ TEST_CASE("a force buffer shall be zero again after an exception") {
   ForceBuffer force(tile, 2);
   for (const double f : force.own()) CHECK(f == 0.0);
   for (const double f : force.ghosts()) CHECK(f == 0.0);
+}
+
+TEST_CASE("histories of a batch shall be at home again after an exception") {
+  dust::contact::BatchColumns columns;
+  std::vector<double> elsewhere(8);
+  try {
+    dust::contact::HistoryElsewhere history(columns);
+    history.keep_at(elsewhere.data(), 2);
+    CHECK(columns.history()[1] == elsewhere.data() + 2);
+    throw std::runtime_error("a law has failed");
+  } catch (const std::runtime_error&) {
+  }
+  CHECK(columns.history()[0] == columns.column(dust::contact::BatchColumns::first_history));
 }
 
 TEST_CASE("deferred forces shall be those of the particles that have not moved") {

@@ -47,6 +47,16 @@ TEST_CASE("a scenario's own runs shall tell its time, the newest five of them") 
   CHECK(last.cost.terms[CostTerm::grains].seconds == test::approx(3.0 * 5.0));
 }
 
+TEST_CASE("runs that end together shall both be learnt from") {
+  const Folder folder;
+  const auto file = folder.path() / "costs";
+  const auto estimated = one(CostTerm::grains, 10.0, 10.0);
+  LearntCosts first(file, as_measured), second(file, as_measured);
+  first.add("hopper", estimated, one(CostTerm::grains, 10.0, 20.0));
+  second.add("hopper", estimated, one(CostTerm::grains, 10.0, 30.0));
+  CHECK(LearntCosts(file, as_measured).expect("hopper", estimated).runs == 2);
+}
+
 TEST_CASE("runs about as long as one shall tell its time, not the first moments of the scenario") {
   // A stream that has not arrived yet is cheap; one that has is six times as dear as estimated.
   LearntCosts costs({}, as_measured);

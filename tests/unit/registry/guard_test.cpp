@@ -39,6 +39,18 @@ std::unique_ptr<typename Model::Kind> guard(Deed what = Deed::well) {
   return std::unique_ptr<typename Model::Kind>(static_cast<typename Model::Kind*>(model.release()));
 }
 
+/// Of a model on which `set` has set something.
+template <class Model, class Set>
+std::unique_ptr<typename Model::Kind> guard_with(const Set& set) {
+  registry::Entry entry;
+  entry.info.kind = Model::Kind::k_kind;
+  entry.info.name = "trial";
+  auto trial = std::make_unique<Model>(Deed::well);
+  set(*trial);
+  auto model = registry::guarded(std::move(trial), entry);
+  return std::unique_ptr<typename Model::Kind>(static_cast<typename Model::Kind*>(model.release()));
+}
+
 /// What calling says; "" if nothing is thrown.
 template <class Call>
 std::string said(const Call& call) {
@@ -62,7 +74,7 @@ struct Contact final : Trial<sdk::ContactLaw> {
   void prepare(const sdk::MaterialProperties& i, const sdk::MaterialProperties&) override {
     density = deed(what, i.density);
   }
-  int history_size() const override { return 3; }
+  int history_size() const override { return columns; }
   void evaluate(const sdk::ContactBatch& b) const override {
     for (double* column : {b.normal_force, b.force.x, b.force.y, b.force.z}) {
       for (std::size_t n = 0; n < b.count; ++n) column[n] = density;
@@ -74,13 +86,16 @@ struct Contact final : Trial<sdk::ContactLaw> {
   double range() const override { return 0.25; }
   bool has_hertz_force() const override { return true; }
   double density = 0.0;
+  int columns = 3;
 };
 
 struct Rolling final : Trial<sdk::RollingLaw> {
   using Trial::Trial;
   void prepare(const sdk::MaterialProperties&, const sdk::MaterialProperties&) override {}
   int history_size() const override { return 4; }
+  int couple_column() const override { return couple; }
   void evaluate(const sdk::ContactBatch& b) const override { b.torque.z[0] = deed(what, 1.0); }
+  int couple = 1;
 };
 
 struct Cohesion final : Trial<sdk::CohesionLaw> {
@@ -113,7 +128,7 @@ struct FluidForce final : Trial<sdk::FluidForce> {
 
 struct Voidage final : Trial<sdk::VoidageRule> {
   using Trial::Trial;
-  int capacity(const sdk::GridShape&, double) const override { return 2; }
+  int capacity(const sdk::GridShape&, double) const override { return cells; }
   double largest_diameter_over_spacing() const override { return 7.0; }
   void spread(const sdk::GridShape&, const sdk::VoidageBatch& b) const override {
     b.weight[0] = deed(what, 1.0);
@@ -121,6 +136,7 @@ struct Voidage final : Trial<sdk::VoidageRule> {
   }
   sdk::Vec3 reach(const sdk::GridShape&, double r) const override { return {r, 2 * r, 3 * r}; }
   bool too_many = false;
+  int cells = 2;
 };
 
 struct Boundary final : Trial<sdk::BoundaryCondition> {
@@ -157,7 +173,9 @@ struct Emitter final : Trial<sdk::Emitter> {
   using Trial::Trial;
   void propose(const sdk::EmitterContext&, std::vector<sdk::InsertionRequest>& requests) override {
     sdk::InsertionRequest request;
-    request.diameter = deed(what, 1e-3);
+    request.diameter = deed(what, diameter);
+    request.weight = weight;
+    request.material = material;
     requests.push_back(request);
   }
   double requested_mass_flow() const override { return 1.0; }
@@ -170,6 +188,8 @@ struct Emitter final : Trial<sdk::Emitter> {
   }
   sdk::InsertionRule insertion_rule() const override { return {false, 0.5}; }
   std::vector<std::string> materials() const override { return {"sand"}; }
+  double diameter = 1e-3, weight = 1.0;
+  std::int32_t material = 0;
 };
 
 struct Motion final : Trial<sdk::Motion> {
@@ -439,4 +459,36 @@ TEST_CASE("a guarded emitter, motion and sensor shall answer as themselves") {
   CHECK(
       said([&] { guard<Sensor>(Deed::throws)->observe(world); }) ==
       "sensor/trial (/x/trial.so) throws in observe: out of table; expected: a look at the world");
+}
+
+TEST_CASE("answers that the core cannot work with shall be told, not met as a crash") {
+  const std::string who = "/trial () answers ";
+  CHECK(said([] { guard_with<Contact>([](Contact& c) { c.columns = -1; })->history_size(); }) ==
+        "contact" + who + "-1 to history_size; expected: a number from 0 on");
+  CHECK(guard<Rolling>()->couple_column() == 1);  // the last three of four
+  CHECK(said([] { guard_with<Rolling>([](Rolling& r) { r.couple = 2; })->couple_column(); }) ==
+        "rolling" + who +
+            "2 to couple_column; expected: the first of three of its columns of "
+            "history, or -1 for none");
+  CHECK(said([] { guard_with<Voidage>([](Voidage& v) { v.cells = 0; })->capacity({}, 1.0); }) ==
+        "voidage" + who + "0 to capacity; expected: a number from 1 on");
+}
+
+TEST_CASE("grains that an emitter has not announced shall be told as its own") {
+  const auto told = [](const auto& set) {
+    std::vector<sdk::InsertionRequest> requests;
+    return said([&] { guard_with<Emitter>(set)->propose({}, requests); });
+  };
+  const std::string row = " in row 1 of 1 of a batch; expected: ";
+  CHECK(told([](Emitter&) {}).empty());
+  CHECK(told([](Emitter& e) { e.diameter = 2e-3; }) ==
+        "emitter/trial () gives diameter = 0.002" + row +
+            "a diameter above 0 and up to the largest of diameters(), 0.001 m");
+  CHECK(told([](Emitter& e) { e.diameter = 0.0; }).find("gives diameter = 0 in") !=
+        std::string::npos);
+  CHECK(told([](Emitter& e) { e.weight = 0.0; }) ==
+        "emitter/trial () gives weight = 0" + row + "a weight above 0");
+  CHECK(told([](Emitter& e) { e.material = 1; }) ==
+        "emitter/trial () gives material = 1" + row +
+            "an index into its 1 materials(), or -1 for the emitter's own");
 }
