@@ -38,8 +38,11 @@ struct Shares {
   std::size_t used = 0;
 };
 
-void set_shares(const sdk::VoidageRule& rule, const sdk::GridShape& shape, const double* position,
+/// As the deposit has them: the open cells have all of the solids, in the ratio of their shares.
+/// False where none of the cells is open.
+bool set_shares(const sdk::VoidageRule& rule, const Lattice& lattice, const double* position,
                 Shares& shares) {
+  const sdk::GridShape shape = lattice.grid().shape();
   const int capacity = rule.capacity(shape, position[3]);
   const auto size = static_cast<std::size_t>(capacity);
   if (shares.weight.size() < size) {
@@ -57,6 +60,17 @@ void set_shares(const sdk::VoidageRule& rule, const sdk::GridShape& shape, const
                       shares.k.data(),
                       shares.weight.data()});
   shares.used = static_cast<std::size_t>(count);
+  double open = 0.0;
+  bool has_closed = false;
+  for (std::size_t n = 0; n < shares.used; ++n) {
+    const bool is_open = lattice.open_cell(shares.i[n], shares.j[n], shares.k[n]) >= 0;
+    if (!is_open) shares.weight[n] = 0.0;
+    has_closed = has_closed || !is_open;
+    open += shares.weight[n];
+  }
+  if (!has_closed || !(open > 0.0)) return open > 0.0;
+  for (std::size_t n = 0; n < shares.used; ++n) shares.weight[n] /= open;
+  return true;
 }
 
 /// Void fraction [-] for the law: of its faces, `of_faces` by component, without the grain's own
@@ -153,8 +167,8 @@ double SelfDisturbance::own_part(const particles::GrainRows& grains, std::size_t
          own::mobility_of_corners(mean_spacing_, fluid.viscosity, fluid.density, slip);
 }
 
-/// Decides whether what a grain does by itself is taken off until the next map(), and finds it.
-/// `eps` is the void fraction of its cell, and becomes that of the others around it.
+/// Decides whether what a grain does by itself is taken off until the next begin_step(), and finds
+/// it. `eps` is the void fraction of its cell, and becomes that of the others around it.
 bool SelfDisturbance::begin_step(const particles::GrainRows& grains, std::size_t row, double slip,
                                  double step, SmoothKernel& kernel, double& eps) {
   SelfFlow& own = states_.self_flow(row);
@@ -198,7 +212,7 @@ double SelfDisturbance::crowding(const particles::GrainRows& grains, std::size_t
   const double at_least = 1.0 - void_fraction_.after()[here] -
                           solids / std::max(k_min_open, lattice_.open_fraction(here));
   if (at_least >= k_crowded) return at_least;  // as in most of a packing
-  set_shares(voidage_, lattice_.grid().shape(), position, shares);
+  set_shares(voidage_, lattice_, position, shares);
   double most = 0.0;
   for (int k = -1; k <= 1; ++k) {
     for (int j = -1; j <= 1; ++j) {
@@ -235,7 +249,7 @@ void SelfDisturbance::spread_solids(const particles::GrainRows& grains) {
     const double others = crowding(grains, row);
     if (others >= k_crowded) continue;
     if (kernel.set(position, 2.0 * position[3]) == SmoothKernel::Room::none) continue;
-    set_shares(voidage_, lattice_.grid().shape(), position, shares);
+    if (!set_shares(voidage_, lattice_, position, shares)) continue;
     // Nothing jumps when others come near.
     own.spread = 1.0 - std::max(0.0, others) / k_crowded;
     for (std::size_t n = 0; n < shares.used; ++n) {
@@ -257,7 +271,7 @@ void SelfDisturbance::find_own_solids(const particles::GrainRows& grains, std::s
                                       const SmoothKernel& kernel) {
   static thread_local Shares shares;
   const double* position = grains.position + 4 * row;
-  set_shares(voidage_, lattice_.grid().shape(), position, shares);
+  set_shares(voidage_, lattice_, position, shares);
   SelfFlow& own = states_.self_flow(row);
   const double solids =
       grains.weight[row] * sdk::sphere_volume(2.0 * position[3]) / lattice_.cell_volume();

@@ -49,6 +49,35 @@ TEST_CASE("the mapped volume shall be that of the grains, at walls, corners and 
   }
 }
 
+TEST_CASE("a lone grain's own kernel shall hold its volume at walls, corners and bodies, too") {
+  for (const char* rule : {"big_particle", "gaussian"}) {
+    for (const double diameter : {0.6e-3, 0.96e-3, 2e-3}) {
+      for (const int sides : {1, 2, 3}) {
+        World::Choice choice;
+        choice.max = {0.012, 0.012, 0.012};
+        choice.cells = {12, 12, 12};
+        choice.voidage = rule;
+        choice.disturbance_correction = scenario::DisturbanceCorrection::automatic;
+        // A body that ends on a plane of the grid.
+        choice.open = [](int, int, int k) { return k < 9 ? 1.0 : 0.0; };
+        for (const bool is_at_body : {false, true}) {
+          World world(choice);
+          const double r = 0.5 * diameter;
+          world.grains.add(
+              {sides > 1 ? r : 0.0063, sides > 2 ? r : 0.0057, is_at_body ? 0.009 - r : r}, {},
+              diameter);
+          world.begin_step(1e-3);
+          CAPTURE(rule);
+          CAPTURE(diameter);
+          CAPTURE(sides);
+          CAPTURE(is_at_body);
+          CHECK(mapped_volume(world) == test::approx(world.grains.solid_volume()).epsilon(k_sum));
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("wide grains shall keep their volume in a domain thinner than themselves") {
   for (const char* rule : {"big_particle", "gaussian"}) {
     World::Choice choice;
