@@ -83,7 +83,7 @@ Coupling::Impl::Impl(const scenario::Setup& setup, const scenario::FluidSpec& fl
                      const fluid::Grid& grid, const fluid::CellField& open_fraction,
                      const sdk::VoidageRule& rule, const sdk::DragLaw& law)
     : lattice(grid, open_fraction),
-      drag(law, fluid, setup.materials),
+      drag(law, fluid, grid, setup.materials),
       voidage(rule),
       void_fraction(lattice, rule),
       face_void(lattice),

@@ -102,7 +102,8 @@ void ParticleStates::load_self_flow(sdk::ArchiveReader& archive) {
   for (SelfFlow& own : self_flow_) {
     for (Triple& part : own.flow) {
       std::copy_n(n, 3, part.begin());
-      // A flow is forgotten when its grain is no longer alone: the next map() has to know of it.
+      // A flow is forgotten when its grain is no longer alone: the next begin_step() has to know of
+      // it.
       own.is_smooth = own.is_smooth || part != Triple{};
       n += 3;
     }

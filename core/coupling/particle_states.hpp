@@ -21,13 +21,13 @@ struct ParticleState {
   Triple fluid_velocity{};  ///< [m/s] its own plus the slip, at the last refresh
   Triple velocity{};        ///< [m/s] its own, at the last refresh
   Triple stress_impulse{};  ///< [N] sum over the refreshes of V_p (-grad p + div tau)
-  double size_ratio = 1.0;  ///< diameter over the Sauter mean in its cell, at map()
+  double size_ratio = 1.0;  ///< diameter over the Sauter mean in its cell, at begin_step()
   bool has_velocity = false;
-  std::array<bool, 3> is_paired{};  ///< the component's force found open faces at map()
+  std::array<bool, 3> is_paired{};  ///< the component's force found open faces at begin_step()
   std::int32_t stencil =
       -1;             ///< its number in the order of the cells, as last numbered; -1: was not there
   Triple given{};     ///< [N s] drag that the fluid was told to balance, weight included
-  Triple place{};     ///< [m] at collect()
+  Triple place{};     ///< [m] at end_step()
   Triple deferred{};  ///< [N s] impulse the fluid has still to receive, weight included
 };
 
@@ -36,20 +36,20 @@ struct SelfFlow {
   using Groups = std::array<double, self_disturbance::k_groups>;
 
   bool is_smooth =
-      false;  ///< coupled through a SmoothKernel since map(); else nothing is taken off
+      false;  ///< coupled through a SmoothKernel since begin_step(); else nothing is taken off
   bool is_beside = false;                                 ///< a side of the domain cuts its kernel
   std::array<Triple, self_disturbance::k_groups> flow{};  ///< [m/s] by the drag it has received
   Groups kept{};  ///< [-] share of the flow that is left after a fluid step
   /// [s/kg] flow that a fluid step adds along each axis, per force on the grain
   std::array<Triple, self_disturbance::k_groups> gained{};
-  Triple released{};         ///< [N s] owed before map(), which the fluid receives in this step
-  double spread = 0.0;       ///< [-] of its solids, by the SmoothKernel and not by the voidage rule
-  double excess = 0.0;       ///< [-] of its own solids and flow, over those of a lone grain
-  Triple solids{};           ///< [-] its own at the faces of each component
+  Triple released{};    ///< [N s] owed before begin_step(), which the fluid receives in this step
+  double spread = 0.0;  ///< [-] of its solids, by the SmoothKernel and not by the voidage rule
+  double excess = 0.0;  ///< [-] of its own solids and flow, over those of a lone grain
+  Triple solids{};      ///< [-] its own at the faces of each component
   double self_stress = 0.0;  ///< [-] force by the stress of its own drag, over that drag
 
-  /// What its faces showed when it was last looked at since map(), and where that was: they are
-  /// looked at again once it has gone on by part of a cell.
+  /// What its faces showed when it was last looked at since begin_step(), and where that was: they
+  /// are looked at again once it has gone on by part of a cell.
   struct Seen {
     bool is_valid = false;
     Triple place{};   ///< [m]

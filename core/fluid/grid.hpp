@@ -42,6 +42,14 @@ struct Grid {
     return g;
   }
 
+  /// [m] of the domain where it is periodic, else 0.
+  [[nodiscard]] sdk::Vec3 period() const {
+    sdk::Vec3 lengths;
+    for (int d = 0; d < 3; ++d) {
+      if (is_periodic[static_cast<std::size_t>(d)]) lengths[d] = count[d] * spacing[d];
+    }
+    return lengths;
+  }
   [[nodiscard]] std::ptrdiff_t index(int i, int j, int k) const {
     return i + k_margin + stride[1] * (j + k_halo) + stride[2] * (k + k_halo);
   }

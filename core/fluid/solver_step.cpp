@@ -74,7 +74,9 @@ double FluidSolver::Impl::advance_part(const StepState& s, double begin, double 
     const Momentum::Rates rates = limits_.find(u_, s.time + done);
     limits_.velocity_changed();
     const double left = until - done;
-    const int parts = limits_.sub_steps(u_, left, rates, report_.sub_steps, s.time);
+    if (eddies_) eddies_->update(u_);
+    const double diffusion = eddies_ ? eddies_->rate() : 0.0;
+    const int parts = limits_.sub_steps(u_, left, rates, diffusion, report_.sub_steps, s.time);
     const double dt = parts == 1 ? left : left / parts;
     set_void_fraction(s, parts == 1 ? end : (done + dt) / s.step);
     last_share = dt / s.step;
@@ -125,7 +127,7 @@ void FluidSolver::Impl::sub_step(const StepState& s, double time, double step, d
   const bool is_first = report_.sub_steps == 0;
   MomentumBalance* balance = balance_.kept();
   const FaceField& given = balance != nullptr ? balance->source() : s.exchange.source;
-  const FaceField& stirred = eddies_ ? eddies_->add_to(given, u_) : given;
+  const FaceField& stirred = eddies_ ? eddies_->add_to(given) : given;
   VelocityForcing* const forcing = stages_.forcing();
   const ForcedPart forced{time + step - s.time, step, share};
   const FaceField& source =

@@ -77,4 +77,11 @@ bool ScenarioLeaves::is_same_below(const std::string& path, const ScenarioLeaves
   return chosen(takes) == other.chosen(takes);
 }
 
+std::vector<std::string> ScenarioLeaves::values() const {
+  std::vector<std::string> values;
+  values.reserve(leaves_.size());
+  for (const Leaf& leaf : leaves_) values.push_back(leaf.value);
+  return values;
+}
+
 }  // namespace dust::io

@@ -22,6 +22,8 @@ class ScenarioLeaves {
   /// Whether both say the same below `path`, but for `ignored` paths.
   [[nodiscard]] bool is_same_below(const std::string& path, const ScenarioLeaves& other,
                                    std::span<const std::string_view> ignored = {}) const;
+  /// What is set, without where.
+  [[nodiscard]] std::vector<std::string> values() const;
 
  private:
   struct Leaf {

@@ -241,9 +241,12 @@ Derived derive(const Setup& setup, const registry::Registry& registry,
         count_grains(setup, models.bodies, setup.emitters[n], *models.emitters[n]));
   }
   derived.drain = drain_of_all(setup, models.bodies, derived.emissions);
+  const double driven = driven_speed(setup, SideModelSet(setup, registry).models());
+  if (!(setup.time.expected_speed > 0.0)) {
+    derived.expected_speed = std::max(derived.expected_speed, driven);
+  }
   derive_ratios(setup, derived);
   derive_resolved(setup, models, derived);
-  const double driven = driven_speed(setup, SideModelSet(setup, registry).models());
   derived.air_speed = air_speed(setup, models.emitters, derived, dust, body_speed, driven);
   derived.bodies = body_work(setup, models.bodies);
   if (dust.field) {

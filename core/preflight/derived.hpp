@@ -26,7 +26,7 @@ struct ResolvedNumbers {
 
 /// Numbers that follow from a scenario and tell whether it is sensible, before it is run.
 struct Derived {
-  double expected_speed = 0.0;  ///< [m/s] of flow: given, or bodies, emitters and drops
+  double expected_speed = 0.0;  ///< [m/s] given, or of bodies, emitters, drops, openings and sides
   particles::TimeSteps steps;   ///< as the run takes them; without classes where no grains come
   std::vector<EmissionNumbers> emissions;
   std::vector<ResolvedNumbers> resolved;

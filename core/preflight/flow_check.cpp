@@ -37,6 +37,8 @@ constexpr double k_balance = 1e-6;
 constexpr int k_times = 16;
 /// How much faster the fluid is at the edges of an opening than in its mean.
 constexpr double k_at_edges = 2.5;
+/// [m/s] Mach 0.3 in air, where its density changes by 5 %.
+constexpr double k_compressible = 100.0;
 /// Sides with more faces than this are left to the run: a check shall not need its memory.
 constexpr std::size_t k_max_faces = 4'000'000;
 /// The sensor of the friction on a side.
@@ -276,13 +278,26 @@ bool is_too_large(const Setup& setup, std::size_t side) {
   return Faces::count_of(setup, side) > k_max_faces;
 }
 
-/// [m/s] through the openings of bodies at `time`
-double suction_speed(const Setup& setup, double time) {
+/// [m/s] mean through the opening of a body, where it is largest
+double suction_speed(const Setup& setup, const SuctionSpec& suction) {
+  const double area = area_of(setup, suction);
+  if (!(area > 0.0)) return 0.0;
   double largest = 0.0;
-  for (const BodySpec& body : setup.bodies) {
-    const double area = body.suction ? area_of(setup, *body.suction) : 0.0;
-    if (!(area > 0.0)) continue;
-    largest = std::max(largest, k_at_edges * std::abs(flow_into(*body.suction, time)) / area);
+  for (int step = 0; step <= k_times; ++step) {
+    largest = std::max(largest, std::abs(flow_into(suction, setup.time.end * step / k_times)));
+  }
+  return largest / area;
+}
+
+/// [m/s] the largest that a side asks for
+double side_speed(const Setup& setup, const SideModels& sides, std::size_t side) {
+  if (sides[side] == nullptr || is_too_large(setup, side)) return 0.0;
+  if (sides[side]->rules().normal_velocity != SideRule::fixed) return 0.0;
+  Faces faces(setup, side);
+  double largest = 0.0;
+  for (int step = 0; step <= k_times; ++step) {
+    faces.ask(*sides[side], setup.time.end * step / k_times);
+    largest = std::max(largest, faces.largest_speed());
   }
   return largest;
 }
@@ -326,19 +341,36 @@ bool passes_air(const Setup& setup, std::size_t side, const sdk::BoundaryConditi
 double driven_speed(const Setup& setup, const SideModels& sides) {
   if (!setup.fluid) return 0.0;
   double largest = 0.0;
-  for (int step = 0; step <= k_times; ++step) {
-    largest = std::max(largest, suction_speed(setup, setup.time.end * step / k_times));
+  for (const BodySpec& body : setup.bodies) {
+    if (!body.suction) continue;
+    largest = std::max(largest, k_at_edges * suction_speed(setup, *body.suction));
+  }
+  for (std::size_t n = 0; n < 6; ++n) largest = std::max(largest, side_speed(setup, sides, n));
+  return largest;
+}
+
+void check_driven_speed(const Setup& setup, const SideModels& sides, Diagnostics& diagnostics) {
+  if (!setup.fluid) return;
+  const auto warn = [&](const Mark& where, const std::string& what, double speed) {
+    if (!(speed > k_compressible)) return;
+    diagnostics.warning(where, what + " " + base::digits_text(speed, 3) +
+                                   " m/s: the fluid is taken to be incompressible, which air is up "
+                                   "to some " +
+                                   base::digits_text(k_compressible, 3) +
+                                   " m/s; is the unit right, as in flow: 300 m3/h?");
+  };
+  for (const BodySpec& body : setup.bodies) {
+    if (!body.suction) continue;
+    warn(body.suction->where,
+         "bodies." + body.name + ".suction: " + base::volume_flow_text(body.suction->flow) +
+             " through at most " + base::area_text(area_of(setup, *body.suction)) + " are",
+         suction_speed(setup, *body.suction));
   }
   for (std::size_t n = 0; n < 6; ++n) {
-    if (sides[n] == nullptr || is_too_large(setup, n)) continue;
-    if (sides[n]->rules().normal_velocity != SideRule::fixed) continue;
-    Faces faces(setup, n);
-    for (int step = 0; step <= k_times; ++step) {
-      faces.ask(*sides[n], setup.time.end * step / k_times);
-      largest = std::max(largest, faces.largest_speed());
-    }
+    const SideSpec& side = setup.domain.sides[n];
+    warn(side.air ? side.air->where : side.where, path_of(n) + ".air: drives the fluid at",
+         side_speed(setup, sides, n));
   }
-  return largest;
 }
 
 void check_wall_shear(const Setup& setup, const SideModels& sides,

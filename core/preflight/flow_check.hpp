@@ -33,6 +33,11 @@ class SideModelSet {
 void check_flow(const scenario::Setup& setup, const SideModels& sides,
                 scenario::Diagnostics& diagnostics);
 
+/// Warns of openings and sides that drive the fluid faster than what its equations hold for, a
+/// third of the speed of sound in air: mostly a wrong unit.
+void check_driven_speed(const scenario::Setup& setup, const SideModels& sides,
+                        scenario::Diagnostics& diagnostics);
+
 /// Tells sensors of wall shear on sides that have none, or whose viscosity they do not know.
 void check_wall_shear(const scenario::Setup& setup, const SideModels& sides,
                       const registry::Registry& registry, scenario::Diagnostics& diagnostics);

@@ -5,6 +5,7 @@
 #include "preflight/dust_check.hpp"
 #include "preflight/emissions.hpp"
 #include "preflight/flow_check.hpp"
+#include "preflight/places/body_places.hpp"
 #include "preflight/places/periodic_check.hpp"
 #include "preflight/places/reach_check.hpp"
 #include "preflight/places/release_check.hpp"
@@ -22,6 +23,7 @@ void check_sides(const scenario::Setup& setup, const registry::Registry& registr
                  scenario::Diagnostics& diagnostics) {
   const SideModelSet sides(setup, registry);
   check_flow(setup, sides.models(), diagnostics);
+  if (!diagnostics.has_errors()) check_driven_speed(setup, sides.models(), diagnostics);
   check_wall_shear(setup, sides.models(), registry, diagnostics);
 }
 
@@ -33,6 +35,7 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
   check_suctions(read.setup, models, diagnostics);
   check_openings(read.setup, read.dust, models, first, diagnostics);
   check_drift(read.setup, read.dust, models, diagnostics);
+  check_body_places(read.setup, models, diagnostics);
   check_bodies_at_periodic_sides(read.setup, models, diagnostics);
   check_reach(read.setup, models, diagnostics);
   check_release(read.setup, read.dust, models, first, diagnostics);

@@ -178,6 +178,7 @@ std::vector<Figure> reported_first(const RunText& run) {
   }
   for (const LowPlace& place : highlights.places) {
     add("low pressure", "place " + place.name + ", x", place.x);
+    if (!place.y.name.empty()) add("low pressure", "place " + place.name + ", y", place.y);
     add("low pressure", "place " + place.name + ", z", place.z);
     add("low pressure", "place " + place.name + ", depth", place.depth);
   }
@@ -224,8 +225,10 @@ std::size_t width_of(const std::string& text) {
 }  // namespace
 
 double QuantityPair::in_errors() const {
-  if (!(first_error > 0.0) && !(second_error > 0.0)) return k_none;
-  return difference() / std::hypot(std::max(first_error, 0.0), std::max(second_error, 0.0));
+  // One error that is not known may be larger than the other by far.
+  if (!(first_error >= 0.0 && second_error >= 0.0)) return k_none;
+  const double error = std::hypot(first_error, second_error);
+  return error > 0.0 ? difference() / error : k_none;
 }
 
 std::vector<ScenarioDifference> scenario_differences(const std::string& first,
@@ -268,7 +271,11 @@ Comparison compare_runs(const std::filesystem::path& first, const std::filesyste
   c.headline = paired(reported_first(c.first), reported_first(c.second));
   c.quantities = paired(all_figures(c.first), all_figures(c.second));
   const std::string state = text_at(c.first.summary, "state_sha256");
-  c.is_same_state = !state.empty() && state == text_at(c.second.summary, "state_sha256");
+  const bool is_something =
+      number_at(object_at(c.first.summary, "particles"), "in_domain").value_or(1.0) > 0.0 ||
+      !object_at(object_at(c.first.report, "setting"), "fluid").empty();
+  c.is_same_state =
+      is_something && !state.empty() && state == text_at(c.second.summary, "state_sha256");
   return c;
 }
 

@@ -190,8 +190,7 @@ json document_of(const std::filesystem::path& folder, RunText run) {
   data["dust"] = dust_json(highlights, run.dust);
   data["extraction"] = extraction_json(highlights);
   data["stream"] = stream_json(highlights);
-  data["flights"] = flights_json(run.report, run.dust,
-                                 highlights.stream.empty() ? 0.0 : highlights.stream.back().drop);
+  data["flights"] = flights_json(run.report, run.dust, highlights.stream);
   data["references"] = references_json(run.summary);
   data["balance"] = balance_json(run.summary);
   data["cost"] = cost_json(run);

@@ -5,6 +5,7 @@
 #include "dust/sdk/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/run_files.hpp"
+#include "io/scenario_leaves.hpp"
 #include "io/stored_state.hpp"
 #include "particles/time_steps.hpp"
 #include "preflight/derived.hpp"
@@ -152,6 +153,8 @@ class Run {
   void open_files() {
     base::log_to_file(folder_ / "run.log", is_resumed_);
     for (const std::string& line : facts_.log_header) base::log_info(line);
+    // On the terminal they stand since the scenario was read.
+    for (const std::string& warning : facts_.warnings) base::log_info(warning);
     io::write_text(folder_ / "scenario.yaml", resolved_);
     std::vector<std::string> materials;
     for (const auto& m : simulation_.setup().materials) materials.push_back(m.name);
@@ -435,6 +438,20 @@ Models make_models_of(const scenario::ReadResult& read, const registry::Registry
   return models;
 }
 
+/// The files and folders that a run reads.
+std::vector<fs::path> inputs_of(const RunOptions& options, const scenario::ReadResult& read) {
+  std::vector<fs::path> inputs{options.scenario};
+  inputs.insert(inputs.end(), options.set_files.begin(), options.set_files.end());
+  if (read.start.from) inputs.push_back(read.start.from->folder);
+  // Meshes and tables that models read, by whatever key.
+  const fs::path beside = options.scenario.parent_path();
+  for (const std::string& value : io::ScenarioLeaves(read.resolved_yaml).values()) {
+    std::error_code none;
+    if (fs::is_regular_file(beside / value, none)) inputs.push_back(beside / value);
+  }
+  return inputs;
+}
+
 /// The state at the beginning: what the scenario lets in, or that of another run.
 void start(Simulation& simulation, Branch* branch) {
   try {
@@ -506,7 +523,7 @@ int run_scenario(const RunOptions& options) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
 
-  OutputFolder output(options, read.setup.name);
+  OutputFolder output(options, read.setup.name, inputs_of(options, read));
   std::optional<LiveReport> live;
   take_port(options, live);
   scenario::Diagnostics branching;

@@ -246,7 +246,7 @@ LoadParts Simulation::load_parts() {
   parts.emplace_back("grains", [this](sdk::ArchiveReader& a) { dem_->load(a); });
   if (fluid_) {
     fluid_->add_parts(
-        parts, [this] { return time(); },
+        parts, [this] { return clock_.end_of_last_step(); },
         [this] {
           snapshots_.set_open_fraction(fluid_->solver().open_fraction());
           take_fluid_snapshot();

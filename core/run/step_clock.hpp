@@ -18,6 +18,11 @@ class StepClock {
 
   [[nodiscard]] double fluid_step() const { return fluid_step_; }  ///< [s]
   [[nodiscard]] double time() const { return static_cast<double>(steps_done_) * fluid_step_; }
+  /// [s] as the last step had it, its begin and its length: beside time() by a rounding. What a
+  /// resumed run finds anew of the end of that step, it finds at this time.
+  [[nodiscard]] double end_of_last_step() const {
+    return steps_done_ > 0 ? static_cast<double>(steps_done_ - 1) * fluid_step_ + fluid_step_ : 0.0;
+  }
   [[nodiscard]] std::int64_t steps_done() const { return steps_done_; }
   [[nodiscard]] bool is_finished() const { return steps_done_ >= steps_wanted_; }
   void advance() { ++steps_done_; }

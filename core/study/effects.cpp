@@ -229,13 +229,16 @@ std::string amount_text(double value, double error, const std::string& unit) {
 std::optional<double> noise_of(const Results& results, std::size_t output) {
   std::map<std::vector<std::size_t>, std::vector<double>> groups;
   double squares = 0.0;
-  std::size_t reported = 0;
+  std::size_t reported = 0, unknown = 0;
   for (std::size_t n = 0; n < results.plan.points.size(); ++n) {
     const auto value = value_of(results, n, output);
     if (!value) continue;
     groups[results.plan.points[n].levels].push_back(*value);
     const double error = results.outcomes[n].outputs[output].error;
-    if (error < 0.0) continue;
+    if (error < 0.0) {
+      ++unknown;
+      continue;
+    }
     squares += error * error;
     ++reported;
   }
@@ -248,7 +251,8 @@ std::optional<double> noise_of(const Results& results, std::size_t output) {
     freedom += values.size() - 1;
   }
   if (freedom > 0) return std::sqrt(scatter / static_cast<double>(freedom));
-  if (reported > 0) return std::sqrt(squares / static_cast<double>(reported));
+  // The errors of some points say nothing of the others: where a run has not settled, least of all.
+  if (reported > 0 && unknown == 0) return std::sqrt(squares / static_cast<double>(reported));
   return std::nullopt;
 }
 

@@ -211,8 +211,8 @@ std::optional<scenario::Unit> unit_of(const std::string& text) {
 std::vector<Quantity> quantities_of(const scenario::Setup& setup, const scenario::DustSetup& dust,
                                     const registry::Registry& registry) {
   std::vector<Quantity> all;
-  const auto add = [&](const auto& names, const std::string& prefix = {}) {
-    for (const Named& n : names) all.push_back({prefix + n.path, n.unit, false});
+  const auto add = [&](const auto& names, const std::string& prefix = {}, bool has_error = false) {
+    for (const Named& n : names) all.push_back({prefix + n.path, n.unit, has_error});
   };
   add(k_always);
   for (const char* kind : scenario::k_force_names)
@@ -226,7 +226,7 @@ std::vector<Quantity> quantities_of(const scenario::Setup& setup, const scenario
     for (const std::string& way : ways_out(setup, dust, sides.models()))
       add(k_of_outflow, "dust_outflow." + way + ".");
     for (const std::string& way : steady_ways(setup, dust, sides.models()))
-      add(k_of_rate, "dust_rates." + way + ".");
+      add(k_of_rate, "dust_rates." + way + ".", true);
   }
 
   const std::vector<double> classes = diameters_of(setup, registry);

@@ -15,9 +15,9 @@ namespace dust::study {
 
 /// Something that a finished run tells in its summary.json.
 struct Quantity {
-  std::string path;  ///< dotted: sensors.stream.drop_140_mm.median, particles.max
-  std::string unit;  ///< "1" for bare numbers
-  bool is_sensor = false;
+  std::string path;        ///< dotted: sensors.stream.drop_140_mm.median, particles.max
+  std::string unit;        ///< "1" for bare numbers
+  bool has_error = false;  ///< the run tells one beside it
 };
 
 /// Every quantity a run of `setup` will tell, known before it is run: those of summary.json, and

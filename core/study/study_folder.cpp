@@ -2,6 +2,7 @@
 #include "study/study_folder.hpp"
 
 #include "base/error.hpp"
+#include "io/replacing.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -31,9 +32,7 @@ bool is_used(const fs::path& folder) {
   return fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder));
 }
 
-}  // namespace
-
-fs::path choose_study_folder(const StudyOptions& options, const std::string& name) {
+fs::path named_or_numbered(const StudyOptions& options, const std::string& name) {
   if (options.output) {
     const fs::path& folder = *options.output;
     if (std::error_code none; fs::exists(folder, none) && !fs::is_directory(folder, none)) {
@@ -53,6 +52,17 @@ fs::path choose_study_folder(const StudyOptions& options, const std::string& nam
   int free = 1;
   while (fs::exists(numbered(free))) ++free;
   return numbered(options.resume || options.force ? std::max(1, free - 1) : free);
+}
+
+}  // namespace
+
+fs::path choose_study_folder(const StudyOptions& options, const std::string& name) {
+  const fs::path folder = named_or_numbered(options, name);
+  if (options.force && !options.resume) {
+    io::check_replaced({folder, k_study_files, "study", "study.lock", "run", "run.log"},
+                       {options.file});
+  }
+  return folder;
 }
 
 void clear_study_folder(const fs::path& folder) {

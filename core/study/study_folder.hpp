@@ -9,7 +9,8 @@
 namespace dust::study {
 
 /// The folder of a study: `results/NAME`, `-2`, `-3`, ... or what -o says. Throws base::UserError
-/// where it holds something and neither --resume nor --force is given. Makes and changes nothing.
+/// where it holds something and neither --resume nor --force is given, or with --force something
+/// that is no study, or the study's own file. Makes and changes nothing.
 std::filesystem::path choose_study_folder(const StudyOptions& options, const std::string& name);
 
 /// Removes what a study writes, and nothing else.

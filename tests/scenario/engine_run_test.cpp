@@ -164,6 +164,73 @@ TEST_CASE("a used folder shall not be overwritten unless forced") {
   CHECK(read_file(out / "precious") == "data");
 }
 
+TEST_CASE("force shall replace a run and nothing else") {
+  const TemporaryFolder folder;
+  const auto forced = [&](const fs::path& scenario, const fs::path& out,
+                          const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"run",   scenario, "-o",      out,
+                                       "--set", k_short,  "--quiet", "--force"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return engine(arguments);
+  };
+  // Somebody's own files under the names that a run's have.
+  const fs::path own = folder / "own";
+  fs::create_directories(own / "frames");
+  { std::ofstream(own / "scenario.yaml") << "mine"; }
+  { std::ofstream(own / "frames/notes.txt") << "data"; }
+  const auto refused = forced(k_scenario, own);
+  CHECK(refused.status == 2);
+  CHECK(refused.err.ends_with("error: --force: " + own.string() +
+                              " holds no run (no run.log), but scenario.yaml, which would be lost: "
+                              "give another -o\n"));
+  CHECK(read_file(own / "frames/notes.txt") == "data");
+  CHECK(read_file(own / "scenario.yaml") == "mine");
+  // A study.
+  const fs::path study = folder / "study";
+  fs::create_directories(study);
+  { std::ofstream(study / "study.lock"); }
+  CHECK(forced(k_scenario, study).err.find("holds a study, which a run does not replace") !=
+        std::string::npos);
+  // A run, but not the scenario or the state that it is made from.
+  const fs::path out = folder / "out";
+  REQUIRE(forced(k_scenario, out).status == 0);
+  REQUIRE(forced(k_scenario, out).status == 0);
+  const std::string before = read_file(out / "summary.json");
+  for (const auto& again :
+       {forced(out / "scenario.yaml", out),
+        forced(k_scenario, out,
+               {"--set", "start_from=" + out.string(), "--set", "time.end=1 s"})}) {
+    INFO(again.err);
+    CHECK(again.status == 2);
+    CHECK(again.err.find(", which this run reads: copy it elsewhere, or give another -o") !=
+          std::string::npos);
+  }
+  CHECK(read_file(out / "summary.json") == before);
+}
+
+TEST_CASE("a comparison shall be written over no file but a page") {
+  const TemporaryFolder folder;
+  const fs::path run = folder / "run";
+  REQUIRE(engine({"run", DUST_SOURCE "/tests/scenario/small_hourglass.yaml", "-o", run, "--set",
+                  "time.end=2 ms", "--quiet"})
+              .status == 0);
+  const auto compare = [&](const fs::path& page) {
+    return engine({"compare", run, run, "-o", page});
+  };
+  { std::ofstream(folder / "mine.yaml") << "name: mine"; }
+  { std::ofstream(folder / "mine.html") << "<p>mine"; }
+  CHECK(compare(folder / "mine.yaml").err ==
+        "error: -o " + (folder / "mine.yaml").string() +
+            ": a page is written; give it a name that ends with .html\n");
+  CHECK(compare(folder / "mine.html")
+            .err.ends_with("mine.html: exists and is no page of this engine; give another name\n"));
+  CHECK(compare(run / "report.html").status == 2);
+  CHECK(read_file(folder / "mine.yaml") == "name: mine");
+  CHECK(read_file(folder / "mine.html") == "<p>mine");
+  CHECK(compare(folder / "both.html").status == 0);
+  CHECK(compare(folder / "both.html").status == 0);  // its own
+}
+
 TEST_CASE("a file given as output folder shall be refused as one, also with force") {
   const TemporaryFolder folder;
   const fs::path out = folder / "out";

@@ -129,8 +129,8 @@ TEST_CASE("bodies that move, go and suck in the air shall give the same bits aft
   const auto run = engine({"run", paddle, "-o", whole, "--threads", "1", "--quiet"});
   INFO(run.err);
   REQUIRE(run.status == 0);
-  // Before the gate goes and after it.
-  for (const std::string end : {"5 ms", "11 ms"}) {
+  // Before the gate goes and after it. 9 ms and a step of 1 ms are not quite 10 ms, as numbers go.
+  for (const std::string end : {"5 ms", "10 ms"}) {
     const bool is_first = end == "5 ms";
     std::vector<std::string> arguments{
         "run", paddle, "-o", parts, "--set", "time.end=" + end, "--threads", "2", "--quiet"};

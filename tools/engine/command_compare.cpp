@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
 #include "commands.hpp"
+#include "page_name.hpp"
 #include "report/compare.hpp"
 
 #include <cstdio>
@@ -17,11 +18,15 @@ void add_compare(CLI::App& app, int&) {
   command->add_option("DIR1", arguments->first, "Folder of the first run's results")->required();
   command->add_option("DIR2", arguments->second, "Folder of the second run's results")->required();
   command->add_option("-o", arguments->page, "The page to write")
-      ->type_name("FILE")
+      ->type_name("FILE.html")
       ->capture_default_str();
   command->footer(
       "Example:\n  engine compare results/transfer_point results/transfer_point-2 -o both.html");
   command->callback([arguments] {
+    // Also of the name that nobody has given.
+    if (const std::string problem = page_name_problem(arguments->page); !problem.empty()) {
+      throw base::UserError("error: -o " + problem);
+    }
     const auto comparison = report::compare_runs(arguments->first, arguments->second);
     report::write_comparison(comparison, arguments->first, arguments->second, arguments->page);
     std::fputs(report::comparison_text(comparison).c_str(), stdout);

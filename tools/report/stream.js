@@ -25,8 +25,9 @@
   // What single grains would do: thrown without air (dashed), and alone in still air (dotted).
   const of_flights = (deepest) => Dust.data.flights.flatMap((flight) => {
     const drops = Array.from({length: 41}, (_, k) => deepest * (k / 40) ** 2);
-    return [{name: 'free flight', kind: 'reference', drop: drops, forward: drops.map((h) => flight.speed * Math.sqrt(2 * h / flight.gravity))},
-      ...(flight.lone || []).map((one) => ({name: Dust.number(one.diameter * 1e6, 3) + ' µm alone', kind: 'reference', dash: [2, 3], colour: 'plot1', drop: one.drop, forward: one.x}))];
+    const size_of = (one) => (flight.free.length > 1 ? ', ' + Dust.number(one.diameter * 1e3, 3) + ' mm' : '');
+    return [...flight.free.map((one) => ({name: 'free flight' + size_of(one), kind: 'reference', drop: drops, forward: drops.map((h) => flight.speed * Math.sqrt(2 * Math.max(0, h + one.start) / flight.gravity))})),
+      ...(flight.lone || []).map((one) => ({name: (one.diameter < 1e-3 ? Dust.number(one.diameter * 1e6, 3) + ' µm' : Dust.number(one.diameter * 1e3, 3) + ' mm') + ' alone', kind: 'reference', dash: [2, 3], colour: 'plot1', drop: one.drop, forward: one.x}))];
   });
 
   const {unit, factor} = Dust.places;
@@ -44,7 +45,7 @@
     band: outer.length > 1 ? [0, outer.length - 1] : null,
     caption: [` Distance forward against the drop, both from the start of the stream, in ${unit}, true to scale.`,
       outer.length > 1 ? ` Between the outer lines: the grains between the ${outer[0].name} and ${outer.at(-1).name} quantiles; the heavy line is the median.` : '',
-      speed ? ` Dashed: free flight without air at the speed of the belt, ${speed}\u202fm/s.` : '',
+      speed ? ` Dashed: free flight without air of a grain on the belt, at its speed, ${speed}\u202fm/s.` : '',
       Dust.data.flights.some((flight) => (flight.lone || []).length) ? ' Dotted: single grains thrown level into still air at that speed (drag of Schiller and Naumann); a stream takes the air along and outruns them.' : ''],
     beside: [...section.querySelectorAll('.scroll')]});
   section.hidden = false;

@@ -12,9 +12,9 @@ constexpr double k_reynolds_change = 0.01;
 }  // namespace
 
 DragModel::DragModel(const sdk::DragLaw& law, const scenario::FluidSpec& fluid,
-                     std::span<const scenario::MaterialSpec> materials)
+                     const fluid::Grid& grid, std::span<const scenario::MaterialSpec> materials)
     : law_(law),
-      properties_(fluid),
+      properties_(fluid, grid.origin, grid.period()),
       own_per_kinematic_viscosity_(properties_.own().density / properties_.own().viscosity),
       graining_(materials),
       set_(fluid::momentum_set_of(fluid.momentum_set)),

@@ -4,6 +4,7 @@
 #include "coupling/coarse_graining.hpp"
 #include "coupling/stencils/face_kernels.hpp"
 #include "dust/sdk/drag_law.hpp"
+#include "fluid/grid.hpp"
 #include "fluid/momentum_set.hpp"
 #include "fluid/properties.hpp"
 #include "particles/grain_rows.hpp"
@@ -27,7 +28,7 @@ class DragModel {
   using Fluid = fluid::Properties::Values;
 
   /// `law` is kept by reference.
-  DragModel(const sdk::DragLaw& law, const scenario::FluidSpec& fluid,
+  DragModel(const sdk::DragLaw& law, const scenario::FluidSpec& fluid, const fluid::Grid& grid,
             std::span<const scenario::MaterialSpec> materials);
 
   [[nodiscard]] fluid::MomentumSet momentum_set() const { return set_; }

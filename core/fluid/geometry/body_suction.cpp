@@ -68,43 +68,53 @@ double BodySuction::covered(const Opening& opening, const Grid& grid, Vec3 centr
   return all > 0 ? static_cast<double>(inside) / all : 0.0;
 }
 
+/// Adds the cells in which the surface of an opening lies. `which`: those open at the time, or also
+/// those that have just closed but were open since the grid was cut before.
+void BodySuction::add_cells(Opening& opening, const Scene& scene, Cells which) const {
+  const Grid& grid = scene.grid;
+  const double reach = norm(grid.spacing);
+  for (int k = 0; k < grid.count[2]; ++k) {
+    for (int j = 0; j < grid.count[1]; ++j) {
+      for (int i = 0; i < grid.count[0]; ++i) {
+        const std::ptrdiff_t o = grid.index(i, j, k);
+        if (which == Cells::open && !(scene.geometry.open_fraction[o] > 0.0)) continue;
+        // The areas of a cell's faces that fluid passes and the surface in it close upon
+        // themselves.
+        Vec3 area;
+        for (int d = 0; d < 3; ++d) {
+          const auto& a = scene.passable.component[d];
+          area[d] = (a[o + grid.stride[d]] - a[o]) * grid.cell_volume() / grid.spacing[d];
+        }
+        if (!(norm(area) > 0.0)) continue;
+        const Vec3 centre = grid.centre(i, j, k);
+        if (std::abs(scene.field.nearest(centre).distance) > reach) continue;
+        const double part =
+            norm(area) * covered(opening, grid, centre, area, scene.field, scene.at);
+        if (!(part > 0.0)) continue;
+        opening.cell.push_back(static_cast<std::int32_t>(o));
+        opening.share.push_back(part);
+        opening.area += part;
+      }
+    }
+  }
+}
+
 void BodySuction::find_cells(const Grid& grid, const bodies::BodySet& bodies,
                              const Geometry& geometry, double time) {
   if (openings_.empty()) return;
   const BodyField field(grid, bodies, time, BodyField::Which::all);
   const FaceField passable = passable_area(grid, geometry);
   rounding_ = k_depth * norm(grid.spacing);
-  const double reach = norm(grid.spacing);
   for (Opening& opening : openings_) {
     opening.cell.clear();
     opening.share.clear();
     opening.area = 0.0;
     const bodies::Body& body = bodies[opening.body];
     if (body.is_removed()) continue;
-    const bodies::Placement at = body.placement(time);
-    for (int k = 0; k < grid.count[2]; ++k) {
-      for (int j = 0; j < grid.count[1]; ++j) {
-        for (int i = 0; i < grid.count[0]; ++i) {
-          const std::ptrdiff_t o = grid.index(i, j, k);
-          if (!(geometry.open_fraction[o] > 0.0)) continue;
-          // The areas of a cell's faces that fluid passes and the surface in it close upon
-          // themselves.
-          Vec3 area;
-          for (int d = 0; d < 3; ++d) {
-            const auto& a = passable.component[d];
-            area[d] = (a[o + grid.stride[d]] - a[o]) * grid.cell_volume() / grid.spacing[d];
-          }
-          if (!(norm(area) > 0.0)) continue;
-          const Vec3 centre = grid.centre(i, j, k);
-          if (std::abs(field.nearest(centre).distance) > reach) continue;
-          const double part = norm(area) * covered(opening, grid, centre, area, field, at);
-          if (!(part > 0.0)) continue;
-          opening.cell.push_back(static_cast<std::int32_t>(o));
-          opening.share.push_back(part);
-          opening.area += part;
-        }
-      }
-    }
+    const Scene scene{grid, geometry, passable, field, body.placement(time)};
+    add_cells(opening, scene, Cells::open);
+    // A surface that has come to lie on a plane of the grid has closed the cell it was in.
+    if (!(opening.area > 0.0)) add_cells(opening, scene, Cells::passable);
     if (!(opening.area > 0.0)) {
       throw sdk::ModelError("bodies." + body.name +
                             ".suction: no part of the body's surface between min and max meets the "

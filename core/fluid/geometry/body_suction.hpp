@@ -38,6 +38,16 @@ class BodySuction {
     std::vector<double> share;  ///< of the flow, over the cell's volume [1/m3]
     double area = 0.0;          ///< [m2]
   };
+  /// What the cells of an opening are found on.
+  struct Scene {
+    const Grid& grid;
+    const Geometry& geometry;
+    const FaceField& passable;
+    const class BodyField& field;
+    bodies::Placement at;
+  };
+  enum class Cells { open, passable };
+  void add_cells(Opening& opening, const Scene& scene, Cells which) const;
   [[nodiscard]] static bool holds(const Opening& opening, sdk::Vec3 p, double rounding);
   /// Share of the surface in the cell round `centre` that belongs to the opening. `facing`: where
   /// the surface that the cell's gas meets looks to; the other side of a thin body does not count.

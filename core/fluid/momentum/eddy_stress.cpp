@@ -167,8 +167,24 @@ void EddyStress::update(const FaceField& u) {
   }
 }
 
-const FaceField& EddyStress::add_to(const FaceField& source, const FaceField& u) {
-  update(u);
+double EddyStress::rate() const {
+  double sum = 0.0;
+  for (int d = 0; d < 3; ++d) {
+    if (grid_.count[d] > 1) sum += 1.0 / (grid_.spacing[d] * grid_.spacing[d]);
+  }
+  double largest = 0.0;  // [m2/s]
+  for (int k = 0; k < grid_.count[2]; ++k) {
+    for (int j = 0; j < grid_.count[1]; ++j) {
+      const std::ptrdiff_t o = grid_.index(0, j, k);
+      for (int i = 0; i < grid_.count[0]; ++i) {
+        largest = std::max(largest, viscosity_[o + i] / density_[o + i]);
+      }
+    }
+  }
+  return 8.0 * sum * largest;
+}
+
+const FaceField& EddyStress::add_to(const FaceField& source) {
   for (int d = 0; d < 3; ++d) {
     const auto& n = geometry_.extent[d];
     for_rows(n[0], n[1], n[2], [&](int j, int k) {

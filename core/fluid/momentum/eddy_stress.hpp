@@ -14,8 +14,9 @@ namespace dust::fluid {
 /// Stress of the motion smaller than a cell, by the eddy viscosity of a model:
 ///   tau_ij = mu_t (d_i u_j + d_j u_i) ;   docs/theory/fluid.md, eq. (15).
 /// Taken explicitly and as differences of fluxes between neighbouring faces: what one loses the
-/// next one gains. A model of cell size is stable wherever convection is: with mu_t of
-/// (0.2 h)^2 rho |S| the diffusion number is below 0.25 times the Courant number.
+/// next one gains. In cubic cells a model of their size is stable wherever convection is: with mu_t
+/// of (0.2 h)^2 rho |S| the diffusion number is below 0.25 times the Courant number. In flat cells,
+/// and along a direction of one cell, it is not: rate() limits the step.
 class EddyStress {
  public:
   /// Walls among the sides (where the fluid sticks and none is blown through at the start) are
@@ -30,8 +31,11 @@ class EddyStress {
   void update(const FaceField& u);
   /// [Pa s] per cell; 0 in bodies.
   [[nodiscard]] const CellField& eddy_viscosity() const { return viscosity_; }
-  /// `source` with the force for the velocity `u`; valid until the next call.
-  const FaceField& add_to(const FaceField& source, const FaceField& u);
+  /// [1/s] Largest rate at which the stress evens out velocities, \f$ 8 \nu_t \sum_d 1 / h_d^2 \f$
+  /// over cells; of the normal stress, which is the stiffest, in all directions.
+  [[nodiscard]] double rate() const;
+  /// `source` with the force of the last update; valid until the next call.
+  const FaceField& add_to(const FaceField& source);
   /// [N/m3] div tau at unknown faces, 0 elsewhere.
   [[nodiscard]] const FaceField& force() const { return force_; }
   /// Adds the present force, which acts for a `share` of a fluid step, to the mean over it.

@@ -13,6 +13,9 @@ namespace {
 
 constexpr double k_largest_speed = 1e4;  ///< [m/s] beyond this the flow has blown up
 constexpr int k_max_sub_steps = 200;
+/// Of the rate that EddyStress tells times the step: the two stages are stable up to 2 in what they
+/// take explicitly.
+constexpr double k_explicit = 1.8;
 
 std::string place_text(sdk::Vec3 p) {
   char text[120];
@@ -28,10 +31,10 @@ const FlowLimits::Rates& FlowLimits::find(const FaceField& u, double time) {
   return rates;
 }
 
-int FlowLimits::sub_steps(const FaceField& u, double left, const Rates& rates, int done,
-                          double begin) const {
-  const int parts =
-      std::max(1, static_cast<int>(std::ceil(left * rates.courant / largest_cfl_ - 1e-9)));
+int FlowLimits::sub_steps(const FaceField& u, double left, const Rates& rates, double diffusion,
+                          int done, double begin) const {
+  const double wanted = left * std::max(rates.courant / largest_cfl_, diffusion / k_explicit);
+  const int parts = std::max(1, static_cast<int>(std::ceil(wanted - 1e-9)));
   if (done + parts <= k_max_sub_steps) return parts;
   const FastFace fastest = first_as_fast_as(rates.speed, u);
   char text[240];

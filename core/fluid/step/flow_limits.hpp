@@ -22,9 +22,10 @@ class FlowLimits {
   /// Rates of the velocity `u` at `time` [s]. Throws sdk::ModelError where it has diverged.
   const Rates& find(const FaceField& u, double time);
   /// Sub-steps of the velocity `u` for `left` [s] of the fluid step from `begin` [s] on, of which
-  /// `done` were made. Throws sdk::ModelError where they are too many.
-  [[nodiscard]] int sub_steps(const FaceField& u, double left, const Rates& rates, int done,
-                              double begin) const;
+  /// `done` were made; `diffusion` [1/s] the rate of what is diffused explicitly
+  /// (EddyStress::rate). Throws sdk::ModelError where they are too many.
+  [[nodiscard]] int sub_steps(const FaceField& u, double left, const Rates& rates, double diffusion,
+                              int done, double begin) const;
 
  private:
   struct FastFace {

@@ -303,7 +303,7 @@ class Level {
   bool is_periodic_ = false;
 };
 
-/// Whether two grains come nearer than `limit` within the horizon, going straight on.
+/// Whether two grains come nearer than `limit` within the lifetime, going straight on.
 bool can_approach(const SearchInput& in, std::int32_t i, std::int32_t j, double limit) {
   const double* pi = in.position + 4 * static_cast<std::ptrdiff_t>(i);
   const double* pj = in.position + 4 * static_cast<std::ptrdiff_t>(j);

@@ -26,7 +26,7 @@ struct SearchInput {
 };
 
 /// Whether two grains, apart by `x` [m] and going on at the relative velocity `v` [m/s], come
-/// nearer than `limit` [m] within `horizon` [s].
+/// nearer than `limit` [m] within `lifetime` [s].
 inline bool approach_is_within(const sdk::Vec3& x, const sdk::Vec3& v, double lifetime,
                                double limit) {
   const double xv = dot(x, v);
@@ -35,8 +35,8 @@ inline bool approach_is_within(const sdk::Vec3& x, const sdk::Vec3& v, double li
   return dot(x, x) + t * (2.0 * xv + t * vv) < limit * limit;
 }
 
-/// All places a grain may be at until the horizon: the middle of its straight path and round it the
-/// radius, the allowance and half the path.
+/// All places a grain may be at until the lifetime is over: the middle of its straight path and
+/// round it the radius, the skin and half the path.
 struct Ball {
   double x = 0.0;
   double y = 0.0;
@@ -46,8 +46,8 @@ struct Ball {
 
 using RowPair = std::array<std::int32_t, 2>;
 
-/// All pairs that may touch within the horizon: if both went straight on, they would come closer
-/// than their radii plus their allowances. Each pair once, in blocks of up to `block` grains whose
+/// All pairs that may touch within the lifetime: if both went straight on, they would come closer
+/// than their radii plus their skins. Each pair once, in blocks of up to `block` grains whose
 /// order depends on the input alone; the first grain of a pair is not the coarser one by a level.
 ///
 /// Cells per size level (factor 2): a grain looks into the cells of its own level and of the

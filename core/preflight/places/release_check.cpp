@@ -2,6 +2,7 @@
 #include "preflight/places/release_check.hpp"
 
 #include "base/text.hpp"
+#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -98,6 +99,24 @@ void report(const scenario::EmitterSpec& spec, const Misplaced& outside, const M
   }
 }
 
+/// Warns of a stream that never begins.
+void check_times(const scenario::Setup& setup, const scenario::EmitterSpec& spec,
+                 const sdk::Emitter& emitter, scenario::Diagnostics& diagnostics) {
+  const sdk::EmitterRequest request = emitter.request();
+  const auto seconds = [](double time) { return scenario::number_text(time) + " s"; };
+  if (!(request.mass_flow > 0.0)) return;
+  const std::string none = ": no grain of it comes";
+  if (!(request.end > request.begin)) {
+    diagnostics.warning(spec.model.where, spec.model.path + ": ends at " + seconds(request.end) +
+                                              ", before it begins at " + seconds(request.begin) +
+                                              none);
+  } else if (!(setup.time.end > request.begin)) {
+    diagnostics.warning(spec.model.where,
+                        spec.model.path + ": begins at " + seconds(request.begin) +
+                            ", when the run has ended, at " + seconds(setup.time.end) + none);
+  }
+}
+
 }  // namespace
 
 void check_release(const scenario::Setup& setup, const scenario::DustSetup& dust,
@@ -105,6 +124,7 @@ void check_release(const scenario::Setup& setup, const scenario::DustSetup& dust
                    std::span<const std::vector<sdk::InsertionRequest>> first,
                    scenario::Diagnostics& diagnostics) {
   for (std::size_t n = 0; n < models.emitters.size(); ++n) {
+    check_times(setup, setup.emitters[n], *models.emitters[n], diagnostics);
     if (!models.emitters[n]->insertion_rule().waits) continue;
     const std::vector<sdk::InsertionRequest>& grains = first[n];
     const std::size_t all = std::min(k_sample, grains.size());

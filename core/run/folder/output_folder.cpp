@@ -5,6 +5,7 @@
 #include "base/log.hpp"
 #include "base/write_error.hpp"
 #include "io/atomic_file.hpp"
+#include "io/replacing.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -39,12 +40,19 @@ int first_free_number(const std::string& name) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(const RunOptions& options, const std::string& scenario_name)
+OutputFolder::OutputFolder(const RunOptions& options, const std::string& scenario_name,
+                           const std::vector<fs::path>& inputs)
     : name_(scenario_name), is_replaced_(options.force && !options.resume) {
-  if (!options.output) {
+  if (options.output) {
+    choose(options);
+  } else {
     choose_numbered(options);
-    return;
   }
+  if (!is_replaced_) return;
+  io::check_replaced({path_, k_run_files, "run", "run.log", "study", "study.lock"}, inputs);
+}
+
+void OutputFolder::choose(const RunOptions& options) {
   path_ = *options.output;
   if (std::error_code none; fs::exists(path_, none) && !fs::is_directory(path_, none)) {
     throw base::UserError("error: -o " + path_.string() +

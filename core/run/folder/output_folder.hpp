@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace dust::run {
 
@@ -12,8 +13,10 @@ namespace dust::run {
 /// alone. Two runs that write to one folder would leave files of which neither is whole.
 class OutputFolder {
  public:
-  /// Writes nothing; throws base::UserError where the options do not fit what is there.
-  OutputFolder(const RunOptions& options, const std::string& scenario_name);
+  /// Writes nothing; throws base::UserError where the options do not fit what is there, or what is
+  /// to be replaced is no run's or among the files and folders that the run reads, `inputs`.
+  OutputFolder(const RunOptions& options, const std::string& scenario_name,
+               const std::vector<std::filesystem::path>& inputs);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -25,6 +28,7 @@ class OutputFolder {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
+  void choose(const RunOptions& options);
   void choose_numbered(const RunOptions& options);
   void make();
   void lock();

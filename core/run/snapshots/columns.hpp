@@ -47,8 +47,8 @@ class GrainTable {
   std::vector<std::int64_t> id_;
   std::vector<std::int32_t> material_;
   std::vector<double> number_[23];
-  std::vector<Place> before_;      ///< of the last sample, by id
-  std::vector<Place> insertions_;  ///< since the last sample, by id
+  std::vector<Place> before_;       ///< of the last sample, by id
+  std::vector<Place> insertions_;   ///< since the last sample, by id
   std::vector<std::size_t> order_;  ///< rows by id
 };
 

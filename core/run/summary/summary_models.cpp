@@ -78,6 +78,18 @@ double pulley_radius(const ModelChoice& shape) {
   return radius;
 }
 
+/// The middle of the pulley that a belt's load leaves [m], where the shape has one.
+std::optional<Vec3> head_pulley(const ModelChoice& shape) {
+  for (const auto& kind : bodies::shape_catalogue()) {
+    if (kind.name != shape.name) continue;
+    for (std::size_t n = 0; n < shape.values.size() && n < kind.parameters.size(); ++n) {
+      const auto* value = std::get_if<Vec3>(&shape.values[n]);
+      if (value != nullptr && kind.parameters[n].name == "head") return *value;
+    }
+  }
+  return std::nullopt;
+}
+
 /// Level bodies whose surface moves at one speed: the start of a free flight.
 Json belts_json(const scenario::Setup& setup, const registry::Registry& registry) {
   Json list = Json::array();
@@ -94,6 +106,9 @@ Json belts_json(const scenario::Setup& setup, const registry::Registry& registry
           Json belt = {{"name", body.name}, {"speed", *speed}};
           if (const double radius = pulley_radius(body.shape); radius > 0.0)
             belt["radius"] = radius;
+          if (const auto head = head_pulley(body.shape)) {
+            belt["head"] = vector_json(in_domain(setup, *head, body.frame));
+          }
           list.push_back(std::move(belt));
         }
       }

@@ -272,6 +272,23 @@ std::string bracket_hint(const std::string& text, const YAML::Mark& mark) {
   return "; a key with brackets stands in quotes: '" + found.str() + "'";
 }
 
+/// What to look for, in the words of somebody who writes the file; the parser tells what it missed.
+std::string remedy_of(const std::string& problem) {
+  static const std::pair<const char*, const char*> remedies[] = {
+      {"end of map not found",
+       ": this line or one above it is indented by other than those beside it; keys of one block "
+       "begin in one column"},
+      {"end of map flow not found", ": a '}' or a ',' is missing here or above"},
+      {"end of sequence flow not found", ": a ']' or a ',' is missing here or above"},
+      {"illegal map value",
+       ": the line above lacks its ':', or a text that holds one needs quotes"},
+      {"illegal EOF in scalar", ": a quote that was opened is never closed"}};
+  for (const auto& [name, remedy] : remedies) {
+    if (problem == name) return remedy;
+  }
+  return {};
+}
+
 /// Where a tab indents the line of the problem, or those above it: YAML takes spaces alone, and its
 /// parser tells of what follows. Inside brackets tabs are allowed.
 std::optional<Mark> indenting_tab(const std::string& text, const YAML::Exception& problem,
@@ -315,7 +332,9 @@ std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
     const Mark where = is_command_line || problem.mark.is_null()
                            ? Mark{file, is_command_line ? 0 : 1, is_command_line ? 0 : 1}
                            : Mark{file, problem.mark.line + 1, problem.mark.column + 1};
-    diagnostics.error(where, "not valid YAML: " + problem.msg + bracket_hint(text, problem.mark));
+    const std::string brackets = bracket_hint(text, problem.mark);
+    const std::string hint = brackets.empty() ? remedy_of(problem.msg) : brackets;
+    diagnostics.error(where, "not valid YAML: " + problem.msg + hint);
     return std::nullopt;
   } catch (const std::exception&) {
     diagnostics.error({file, is_command_line ? 0 : 1, is_command_line ? 0 : 1}, "not valid YAML");

@@ -207,16 +207,17 @@ void write_cases(std::ostringstream& out, const HoodStudy& study, const std::str
   }
 }
 
-/// What of a dust field gets out by each side; as in summary.json, means since the first run began.
+/// What of a dust field gets out by each side in the steady stream: what the run before has let out
+/// does not count.
 void write_field_measures(std::ostringstream& out, const FinishedRun& run) {
-  const auto& given = run.scenario.dust.given;
-  const nlohmann::json ways = report::object_at(run.text.summary, "dust_outflow");
-  for (const auto& item : ways.items()) {
-    const bool is_hood = given && std::find(given->hoods.begin(), given->hoods.end(), item.key()) !=
-                                      given->hoods.end();
-    if (is_hood) continue;
-    out << "  out_" << item.key() << ": {quantity: dust_outflow." << item.key()
-        << ".kg_per_h, unit: kg/h}\n";
+  const std::string left = "left/", rate = "/rate";
+  const nlohmann::json rates = report::object_at(run.text.summary, "dust_rates");
+  for (const auto& item : rates.items()) {
+    const std::string& key = item.key();
+    if (!key.starts_with(left) || !key.ends_with(rate)) continue;
+    const std::string side = key.substr(left.size(), key.size() - left.size() - rate.size());
+    if (side == "all" || side.find('/') != std::string::npos) continue;
+    out << "  out_" << side << ": {quantity: dust_rates.left." << side << ".rate, unit: kg/h}\n";
   }
 }
 

@@ -16,7 +16,7 @@ using namespace dust;
 using test::World;
 
 coupling::DragModel model_of(const World& world) {
-  return {*world.drag, *world.setup.fluid, world.setup.materials};
+  return {*world.drag, *world.setup.fluid, world.grid, world.setup.materials};
 }
 
 World::Choice power_law(double exponent) {

@@ -196,10 +196,12 @@ TEST_CASE("sub-steps shall follow the Courant number, and a flow without bounds 
   const fluid::Momentum::Rates rates = limits.find(u, 0.0);
   CHECK(rates.speed == 3.0);
   CHECK(rates.courant == test::approx(3.0));  // cells of 1 m
-  CHECK(limits.sub_steps(u, 0.1, rates, 0, 0.0) == 1);
-  CHECK(limits.sub_steps(u, 1.0, rates, 0, 0.0) == 6);
+  CHECK(limits.sub_steps(u, 0.1, rates, 0.0, 0, 0.0) == 1);
+  CHECK(limits.sub_steps(u, 1.0, rates, 0.0, 0, 0.0) == 6);
+  // What is diffused explicitly asks for more.
+  CHECK(limits.sub_steps(u, 1.0, rates, 18.0, 0, 0.0) == 10);
   CHECK_THROWS_WITH_AS(
-      static_cast<void>(limits.sub_steps(u, 1.0, rates, 195, 0.25)),
+      static_cast<void>(limits.sub_steps(u, 1.0, rates, 0.0, 195, 0.25)),
       "the fluid needs more than 200 sub-steps in the step from t = 0.25 s: "
       "largest speed 3 m/s at [0, 0.5, 0.5] m; it is diverging, or time.fluid_step is "
       "far too long",

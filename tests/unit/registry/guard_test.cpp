@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A guarded model answers as the model itself; what it throws, and numbers that are none, are told
-// with kind, name, file and what was expected.
+// A guarded model answers as the model itself; what it throws, and numbers that are none, are
+// said_of with kind, name, file and what was expected.
 #include "registry/guard.hpp"
 
 #include <doctest/doctest.h>
@@ -259,7 +259,7 @@ const sdk::MaterialProperties k_material{2500.0, 1e7, 0.3};
 
 }  // namespace
 
-TEST_CASE("guarded pair laws shall answer as themselves and be told from their faults") {
+TEST_CASE("guarded pair laws shall answer as themselves and be said_of from their faults") {
   Columns c;
   sdk::ContactBatch batch;
   batch.count = 2;
@@ -314,7 +314,7 @@ TEST_CASE("guarded pair laws shall answer as themselves and be told from their f
         "1.5); expected: a finite number");
 }
 
-TEST_CASE("guarded models of the air shall answer as themselves and be told from their faults") {
+TEST_CASE("guarded models of the air shall answer as themselves and be said_of from their faults") {
   Columns c;
   const sdk::DragBatch drag{2, c.a, c.b, c.out[0], nullptr};
   CHECK(guard<Drag>()->needs_size_ratio());
@@ -461,7 +461,7 @@ TEST_CASE("a guarded emitter, motion and sensor shall answer as themselves") {
       "sensor/trial (/x/trial.so) throws in observe: out of table; expected: a look at the world");
 }
 
-TEST_CASE("answers that the core cannot work with shall be told, not met as a crash") {
+TEST_CASE("answers that the core cannot work with shall be said_of, not met as a crash") {
   const std::string who = "/trial () answers ";
   CHECK(said([] { guard_with<Contact>([](Contact& c) { c.columns = -1; })->history_size(); }) ==
         "contact" + who + "-1 to history_size; expected: a number from 0 on");
@@ -474,21 +474,21 @@ TEST_CASE("answers that the core cannot work with shall be told, not met as a cr
         "voidage" + who + "0 to capacity; expected: a number from 1 on");
 }
 
-TEST_CASE("grains that an emitter has not announced shall be told as its own") {
-  const auto told = [](const auto& set) {
+TEST_CASE("grains that an emitter has not announced shall be said_of as its own") {
+  const auto said_of = [](const auto& set) {
     std::vector<sdk::InsertionRequest> requests;
     return said([&] { guard_with<Emitter>(set)->propose({}, requests); });
   };
   const std::string row = " in row 1 of 1 of a batch; expected: ";
-  CHECK(told([](Emitter&) {}).empty());
-  CHECK(told([](Emitter& e) { e.diameter = 2e-3; }) ==
+  CHECK(said_of([](Emitter&) {}).empty());
+  CHECK(said_of([](Emitter& e) { e.diameter = 2e-3; }) ==
         "emitter/trial () gives diameter = 0.002" + row +
             "a diameter above 0 and up to the largest of diameters(), 0.001 m");
-  CHECK(told([](Emitter& e) { e.diameter = 0.0; }).find("gives diameter = 0 in") !=
+  CHECK(said_of([](Emitter& e) { e.diameter = 0.0; }).find("gives diameter = 0 in") !=
         std::string::npos);
-  CHECK(told([](Emitter& e) { e.weight = 0.0; }) ==
+  CHECK(said_of([](Emitter& e) { e.weight = 0.0; }) ==
         "emitter/trial () gives weight = 0" + row + "a weight above 0");
-  CHECK(told([](Emitter& e) { e.material = 1; }) ==
+  CHECK(said_of([](Emitter& e) { e.material = 1; }) ==
         "emitter/trial () gives material = 1" + row +
             "an index into its 1 materials(), or -1 for the emitter's own");
 }

@@ -63,6 +63,20 @@ TEST_CASE("a study shall be told to be one, not key by key") {
             study.generic_string() + " runs it, with --dry-run it is only checked");
 }
 
+TEST_CASE("what YAML misses shall be told with what to look for") {
+  const Folder folder;
+  const auto message_of = [&](const std::string& text) {
+    return joined(problems(folder.write("s.yaml", text)));
+  };
+  CHECK(message_of("bodies:\n   a: {shape: box}\n  b: {shape: box}\n")
+            .find(": this line or one above it is indented by other than those beside it") !=
+        std::string::npos);
+  CHECK(message_of("time: {end: 1 s\nname: a\n").find(": a '}' or a ',' is missing") !=
+        std::string::npos);
+  CHECK(message_of("time\n  end: 1 s\n").find(": the line above lacks its ':'") !=
+        std::string::npos);
+}
+
 TEST_CASE("a tab that indents a line shall be told where it stands, with the remedy") {
   const Folder folder;
   const auto message_of = [&](const std::string& text) {

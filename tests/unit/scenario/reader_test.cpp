@@ -137,8 +137,14 @@ TEST_CASE("aliases shall stand for what they name") {
 
 TEST_CASE("a bare number that was hardly meant in SI shall draw a warning with both readings") {
   const auto warnings = [](const std::string& path, const std::string& value) {
-    // Without a feed that a belt of 3 m would bury.
-    return read(transfer_point(), {{path, value}, {"emitters.feed.enabled", "false"}}).warnings;
+    // Without a feed that a belt of 3 m would bury; that its surface is outside the domain then is
+    // told besides.
+    auto lines =
+        read(transfer_point(), {{path, value}, {"emitters.feed.enabled", "false"}}).warnings;
+    std::erase_if(lines, [](const std::string& line) {
+      return line.find("has no unit") == std::string::npos;
+    });
+    return lines;
   };
   const auto before = warnings("emitters.feed.enabled", "false").size();
   const auto one = [&](const std::string& path, const std::string& value) {

@@ -63,6 +63,12 @@ TEST_CASE("main effects shall be means over the other inputs") {
   CHECK(effects[1].error == approx(0.5 * std::sqrt(2.0 / 3.0)));
 }
 
+TEST_CASE("noise shall not be known by the errors of some points where others tell none") {
+  Made made(1);
+  made.outcomes[0].outputs[0].error = -1.0;  // not steady, say
+  CHECK_FALSE(noise_of(made.results(), 0).has_value());
+}
+
 TEST_CASE("noise shall be the scatter of replicates where there are any") {
   const Made made(2);
   // Two values 0.2 apart have a standard deviation of 0.2 / sqrt 2.

@@ -115,4 +115,17 @@ inline double order(double coarse, double fine) { return std::log2(coarse / fine
 
 using contract::MemoryArchive;
 
+/// Open volume [m3] of the grid.
+inline double open_volume(const Case& c) {
+  double sum = 0.0;
+  for (int k = 0; k < c.cells[2]; ++k) {
+    for (int j = 0; j < c.cells[1]; ++j) {
+      for (int i = 0; i < c.cells[0]; ++i) {
+        sum += c.solver->open_fraction()[c.grid.index(i, j, k)];
+      }
+    }
+  }
+  return sum * c.grid.cell_volume();
+}
+
 }  // namespace dust::test

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "fluid/properties.hpp"
 #include "fluid_case.hpp"
 
 #include "support/approx.hpp"
@@ -88,4 +89,19 @@ TEST_CASE("a region of the same fluid shall change nothing but rounding") {
     return c.u(0, 3, 4, 5) + c.u(1, 2, 2, 6) + c.u(2, 5, 1, 3);
   };
   CHECK(run(true) == test::approx(run(false)).epsilon(1e-9));
+}
+
+TEST_CASE("a point beyond a periodic side shall be in the fluid of its image in the domain") {
+  Case c = half_filled(2);
+  c.fluid.regions[0].min = {0, 0, 0};
+  c.fluid.regions[0].max = {0.02, 0.02, 0.01};
+  const auto grid = fluid::Grid::make(c.min, c.max, c.cells, {true, false, false});
+  const fluid::Properties by_place(c.fluid, grid.origin, grid.period());
+  CHECK(by_place.at({0.01, 0.01, 0.005}).density == k_water);
+  for (const double x : {-0.001, 0.0201, 0.045}) {
+    CHECK(by_place.at({x, 0.01, 0.005}).density == k_water);
+    CHECK(by_place.at({x, 0.01, 0.015}).density == k_air);
+  }
+  // Along y it ends.
+  CHECK(by_place.at({0.01, 0.021, 0.005}).density == k_air);
 }

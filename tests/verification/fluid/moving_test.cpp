@@ -18,36 +18,6 @@ constexpr double k_pi = std::numbers::pi;
 /// The pressure is solved to 1e-10 of its right side.
 constexpr double k_exact = 1e-6;
 
-/// A body that goes to and fro, or ever on.
-class Shift final : public sdk::Motion {
- public:
-  Shift(std::function<Vec3(double)> place, std::function<Vec3(double)> velocity, double fastest)
-      : place_(std::move(place)), velocity_(std::move(velocity)), fastest_(fastest) {}
-  static std::unique_ptr<Shift> steady(Vec3 velocity) {
-    return std::make_unique<Shift>([=](double t) { return t * velocity; },
-                                   [=](double) { return velocity; }, norm(velocity));
-  }
-  [[nodiscard]] double largest_speed() const override { return fastest_; }
-  [[nodiscard]] bool moves_body() const override { return true; }
-  [[nodiscard]] sdk::RigidPose pose(double time) const override {
-    sdk::RigidPose pose;
-    pose.shift = place_(time);
-    pose.velocity = velocity_(time);
-    return pose;
-  }
-
- private:
-  std::function<Vec3(double)> place_;
-  std::function<Vec3(double)> velocity_;
-  double fastest_;
-};
-
-bodies::Body moving(std::unique_ptr<bodies::Shape> shape, std::unique_ptr<sdk::Motion> motion) {
-  bodies::Body b = body(std::move(shape), 0.0);
-  b.motions.push_back(std::move(motion));
-  return b;
-}
-
 /// A duct along z, open at both ends, slippery.
 Case duct(int cells) {
   Case c;
@@ -69,19 +39,6 @@ double flow_z(const Case& c, int k) {
     for (int i = 0; i < c.cells[0]; ++i) sum += c.u(2, i, j, k);
   }
   return sum * c.grid.spacing.x * c.grid.spacing.y;
-}
-
-/// Open volume [m3] of the grid.
-double open_volume(const Case& c) {
-  double sum = 0.0;
-  for (int k = 0; k < c.cells[2]; ++k) {
-    for (int j = 0; j < c.cells[1]; ++j) {
-      for (int i = 0; i < c.cells[0]; ++i) {
-        sum += c.solver->open_fraction()[c.grid.index(i, j, k)];
-      }
-    }
-  }
-  return sum * c.grid.cell_volume();
 }
 
 }  // namespace

@@ -92,6 +92,27 @@ TEST_CASE("an opening in a body thinner than a cell shall draw from its own side
   }
 }
 
+TEST_CASE("an opening shall go on sucking where its body's surface comes to a plane of the grid") {
+  const double flow = 3e-4;
+  const double step = 1e-3;
+  // 5 mm a step: the opening lies on a plane of the grid after each of them.
+  Case c = room(10);
+  c.bodies.push_back(moving(std::make_unique<Slab>(Vec3{0.05, 0.025, 0.02}, Vec3{0, 0, 1}, 0.02),
+                            Shift::steady({0, 0, 5.0})));
+  c.bodies.back().suction =
+      scenario::SuctionSpec{flow, {0.03, 0.01, 0.03}, {0.06, 0.04, 0.03}, {}, {}};
+  c.sides[4] = open_side(0.0, true);
+  c.start();
+  for (int n = 0; n < 6; ++n) {
+    const double volume = open_volume(c);
+    c.advance(step);
+    // What the body takes and what it displaces.
+    const double displaced = (volume - open_volume(c)) / step;
+    CAPTURE(n);
+    CHECK(inflow(c) + inflow_below(c) + displaced == test::approx(flow).epsilon(1e-5));
+  }
+}
+
 TEST_CASE("the flow into a flat opening shall be uniform and follow its factors over time") {
   const double flow = 3e-4;
   Case c = room(10);  // cells of 5 mm

@@ -4,6 +4,7 @@
 #include "bodies/body_set.hpp"
 
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -88,6 +89,38 @@ inline bodies::Body body(std::unique_ptr<bodies::Shape> shape, double speed) {
   b.name = "test";
   b.shape = std::move(shape);
   if (speed != 0.0) b.motions.push_back(std::make_unique<Turning>(speed));
+  return b;
+}
+
+/// A body that goes to and fro, or ever on.
+class Shift final : public sdk::Motion {
+ public:
+  Shift(std::function<sdk::Vec3(double)> place, std::function<sdk::Vec3(double)> velocity,
+        double fastest)
+      : place_(std::move(place)), velocity_(std::move(velocity)), fastest_(fastest) {}
+  static std::unique_ptr<Shift> steady(sdk::Vec3 velocity) {
+    return std::make_unique<Shift>([=](double t) { return t * velocity; },
+                                   [=](double) { return velocity; }, norm(velocity));
+  }
+  [[nodiscard]] double largest_speed() const override { return fastest_; }
+  [[nodiscard]] bool moves_body() const override { return true; }
+  [[nodiscard]] sdk::RigidPose pose(double time) const override {
+    sdk::RigidPose pose;
+    pose.shift = place_(time);
+    pose.velocity = velocity_(time);
+    return pose;
+  }
+
+ private:
+  std::function<sdk::Vec3(double)> place_;
+  std::function<sdk::Vec3(double)> velocity_;
+  double fastest_;
+};
+
+inline bodies::Body moving(std::unique_ptr<bodies::Shape> shape,
+                           std::unique_ptr<sdk::Motion> motion) {
+  bodies::Body b = body(std::move(shape), 0.0);
+  b.motions.push_back(std::move(motion));
   return b;
 }
 

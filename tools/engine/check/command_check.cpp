@@ -3,6 +3,7 @@
 #include "check/check_summary.hpp"
 #include "check/setup_page.hpp"
 #include "commands.hpp"
+#include "page_name.hpp"
 #include "preflight/body_survey.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/learnt_costs.hpp"
@@ -14,15 +15,6 @@
 #include <iostream>
 
 namespace dust::engine {
-namespace {
-
-/// A page under the name of a picture would open in nothing.
-std::string is_page_name(const std::string& name) {
-  if (name.ends_with(".html") || name.ends_with(".htm")) return {};
-  return name + ": the set-up is drawn as a page; give it a name that ends with .html";
-}
-
-}  // namespace
 
 void add_check(CLI::App& app, int&) {
   struct Arguments {
@@ -38,7 +30,7 @@ void add_check(CLI::App& app, int&) {
       ->add_option("-o,--output", arguments->page,
                    "The page of the set-up: from the side and in three dimensions")
       ->type_name("SETUP.html")
-      ->check(is_page_name);
+      ->check(page_name_problem);
   command->add_flag("--json", arguments->as_json, "Steps, sizes and cost as JSON");
   command->footer(
       "Examples:\n"

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "preflight/particle_models.hpp"
+#include "scenario/diagnostics.hpp"
+#include "setup/setup.hpp"
+
+namespace dust::preflight {
+
+/// Warns of bodies that stay where they are and have no surface in the domain: mostly the wrong
+/// unit of a mesh.
+void check_body_places(const scenario::Setup& setup, const ParticleModels& models,
+                       scenario::Diagnostics& diagnostics);
+
+}  // namespace dust::preflight
