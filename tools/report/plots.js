@@ -90,6 +90,8 @@
     const data = uPlot.join(lines.map((line) => [line.x, line.y, ...(line.low ? [line.low, line.high] : [])]));
     const is_geometric = !path && lines.every((line) => Dust.is_geometric(line.x));  // classes of equal ratio: an axis of decades
     const size_of = () => (path ? path_layout(lines, Math.max(holder.clientWidth, 200)) : {width: Math.max(holder.clientWidth, 200), height: flat_height});
+    // Room for the longest number of the axis: 11 px high, some 6 px a letter.
+    const width_of = (u, values) => Math.max(58, 14 + 6.2 * Math.max(0, ...(values || []).map((v) => String(v).length)));
     const make = () => {
       const axis = {stroke: Dust.colour('soft'), grid: {stroke: Dust.colour('faint'), width: 1},
         ticks: {stroke: Dust.colour('line'), width: 1, size: 5}, font: '11px ' + Dust.colour('sans'),
@@ -101,7 +103,7 @@
       holder.replaceChildren();
       const scales = path ? {x: {time: false, ori: 1, dir: -1, range: size.x}, y: {ori: 0, dir: 1, range: size.y}} : {x: is_geometric ? {time: false, distr: 3, log: 10} : {time: false}};
       const axes = path ? [{...named, scale: 'x', side: 3, size: 48, label: x_label}, {...named, scale: 'y', side: 0, size: 28, label: y_label}]
-        : [{...named, size: 28, label: x_label, ...(is_geometric ? {values: decades} : {})}, {...axis, size: 58}];
+        : [{...named, size: 28, label: x_label, ...(is_geometric ? {values: decades} : {})}, {...axis, size: width_of}];
       return new uPlot({width: size.width, height: size.height, series, bands, padding: path ? [0, 18, 10, 0] : [10, 18, 0, 0],
         legend: {show: false}, cursor: {points: {show: false}, drag: {x: !path, y: false}}, scales, axes,
         hooks: {draw: [bars_hook(bars, path)], setCursor: [(u) => {

@@ -22,6 +22,8 @@ constexpr std::int64_t k_offset = std::int64_t{1} << (base::k_cell_bits - 1);
 /// Cells of the box round a level's grains for each of them up to which a table of all cells is
 /// made; with more, most cells are empty and only the others are kept, in a hash table.
 constexpr double k_cells_per_grain = 128.0;
+/// Cells of a table are counted in 32 bits.
+constexpr double k_max_cells = std::numeric_limits<std::int32_t>::max();
 
 struct Slot {
   std::uint64_t key = k_empty;
@@ -95,7 +97,7 @@ class Level {
     std::vector<std::int32_t> cell_of(rows.size());
     is_table_ = static_cast<double>(count_[0]) * static_cast<double>(count_[1]) *
                     static_cast<double>(count_[2]) <=
-                k_cells_per_grain * static_cast<double>(rows.size());
+                std::min(k_cells_per_grain * static_cast<double>(rows.size()), k_max_cells);
     if (is_table_) {
       fill_table(rows, balls, cell_of);
     } else {
