@@ -1,3 +1,4 @@
+dust_plugin(sensor air_flow)
 dust_plugin(sensor angle_of_repose)
 dust_plugin(sensor bed_height)
 dust_plugin(sensor belt_load)

@@ -56,6 +56,53 @@ TEST_CASE("pressure_drop shall be exact where the pressure is linear, between ce
       load_sensor("pressure_drop").make({{"from", Vec3{0, 0, 0}}, {"to", Vec3{0.01, 0, 0.01}}}));
 }
 
+TEST_CASE("air_flow shall be exact for linear velocities, in rectangles that cut cells") {
+  SyntheticScene world = air();
+  set_velocity(world, [](Vec3 x) { return Vec3{0.1, 0.2, 3.0 + 100.0 * x.z - 50.0 * x.x}; });
+  // 3.25 to 14.5 mm by 1 to 9 mm at a level between two layers of cells.
+  const auto sensor =
+      load_sensor("air_flow")
+          .make({{"min", Vec3{0.00325, 0.001, 0.0213}}, {"max", Vec3{0.0145, 0.009, 0.0213}}});
+  const Figures f = after(*sensor, world);
+  const double area = 0.01125 * 0.008;
+  CHECK(f["open_share"] == test::approx(1.0).epsilon(k_float));
+  // The cell that is cut, at 3.5 mm, stands for all of its part: a thousandth of the whole.
+  const double mean = 3.0 + 2.13 - 50.0 * 0.5 * (0.00325 + 0.0145);
+  CHECK(f["mean_velocity"] == test::approx(mean).epsilon(2e-3));
+  CHECK(f["net"] == test::approx(3600.0 * f["mean_velocity"] * area).epsilon(k_float));
+  CHECK(f["forward"] == test::approx(f["net"]).epsilon(k_float));
+  CHECK(f["backward"] == 0.0);
+  CHECK(f["highest_velocity"] == test::approx(5.13 - 50.0 * 0.0035).epsilon(k_float));
+  CHECK(f["lowest_velocity"] == test::approx(5.13 - 50.0 * 0.0145).epsilon(k_float));
+  CHECK_THROWS(
+      load_sensor("air_flow").make({{"min", Vec3{0, 0, 0.01}}, {"max", Vec3{0.01, 0.01, 0.02}}}));
+  CHECK_THROWS(
+      load_sensor("air_flow").make({{"min", Vec3{0, 0, 0.01}}, {"max", Vec3{0.01, 0, 0.01}}}));
+}
+
+TEST_CASE("air_flow shall tell flows both ways, without solids and bodies") {
+  SyntheticScene world = air();
+  // A body over a quarter of the section with nonsense inside; a bed of half voids through which
+  // air goes up at 0.8 m/s in one half of the rest, down at 0.4 m/s in the other.
+  for_cells(world, [&](std::size_t c, Vec3 x) {
+    const bool is_body = x.x < 0.005;
+    world.open_fraction[c] = is_body ? 0.0f : 1.0f;
+    world.velocity[2][c] = is_body ? 77.0f : (x.y < 0.005 ? 0.8f : -0.4f);
+    world.void_fraction[c] = 0.5f;
+  });
+  const auto sensor =
+      load_sensor("air_flow").make({{"min", Vec3{0, 0, 0.02}}, {"max", Vec3{0.02, 0.01, 0.02}}});
+  const Figures f = after(*sensor, world);
+  const double half = 0.015 * 0.005;
+  CHECK(f["forward"] == test::approx(3600.0 * 0.5 * 0.8 * half).epsilon(k_float));
+  CHECK(f["backward"] == test::approx(3600.0 * 0.5 * 0.4 * half).epsilon(k_float));
+  CHECK(f["net"] == test::approx(3600.0 * 0.5 * 0.4 * half).epsilon(k_float));
+  CHECK(f["open_share"] == test::approx(0.75).epsilon(k_float));
+  CHECK(f["lowest_velocity"] == test::approx(-0.4).epsilon(k_float));
+  CHECK(f["highest_velocity"] == test::approx(0.8).epsilon(k_float));
+  CHECK(f["net_at_end"] == test::approx(f["net"]).epsilon(k_float));
+}
+
 TEST_CASE("pressure_drop shall leave bodies out of its means and count solids with the area") {
   SyntheticScene world = air();
   // A body over a quarter of the section with nonsense inside; a bed of half voids through which
