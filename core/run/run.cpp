@@ -169,6 +169,7 @@ class Run {
     } else {
       print_bodies();
       print_steps();
+      print_moisture();
       write_frame();
       io::write_text(folder_ / "series.csv-metadata.json",
                      series_metadata(simulation_).dump(1) + "\n");
@@ -212,6 +213,14 @@ class Run {
       base::log_info("grains of " + scenario::number_text(c.diameter) + " m: stable step " +
                      scenario::number_text(c.stable_step) + " s, step " +
                      scenario::number_text(steps.step_of(c)) + " s");
+    }
+  }
+
+  void print_moisture() const {
+    const LiberationStage* liberation = simulation_.liberation();
+    if (liberation == nullptr) return;
+    for (const std::string& line : liberation->moisture_lines(simulation_.setup().materials)) {
+      base::log_info(line);
     }
   }
 

@@ -7,6 +7,7 @@
 #include "particles/dem.hpp"
 #include "run/archive_parts.hpp"
 #include "run/dust/dust_stage.hpp"
+#include "run/dust/moisture_effect.hpp"
 #include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
 
@@ -49,6 +50,12 @@ class LiberationStage {
   [[nodiscard]] std::vector<io::SensorField> fields() const;
   /// [kg] that would have come off where there was no gas to take it, and stayed on its grain.
   [[nodiscard]] double kept_back() const { return kept_back_.value(); }
+
+  /// What the law makes of the moisture of the grains, a line for each material.
+  [[nodiscard]] std::vector<std::string> moisture_lines(
+      const std::vector<scenario::MaterialSpec>& materials) const {
+    return run::moisture_lines(*law_, materials, loads_);
+  }
 
   /// Goes on from what came off in another run with the same classes and these walls.
   void transfer_from(sdk::ArchiveReader& archive, const std::vector<std::string>& walls);

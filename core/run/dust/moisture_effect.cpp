@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/dust/moisture_effect.hpp"
+
+#include "base/text.hpp"
+
+#include <numeric>
+
+namespace dust::run {
+namespace {
+
+/// [-] what the tables of handbooks are told beside
+constexpr double k_reference = 0.01;
+
+/// [kg] of all classes that comes off one grain of 1 g at this moisture.
+double set_free(const sdk::LiberationLaw& law, const std::vector<double>& share, double moisture) {
+  const double diameter = 10e-3, mass = 1e-3;  // [m], [kg]
+  // Little beside what binds a load (some 1e3 to 1e7 J/kg of dust), so that the load does not end.
+  const double energy = 1e-6 * mass;       // [J]
+  const double acceleration = 100 * 9.81;  // [m/s2]
+  std::vector<double> load, released(share.size(), 0.0);
+  for (const double s : share) load.push_back(s * mass);
+  const sdk::DustyGrains grain{.count = 1,
+                               .classes = share.size(),
+                               .stride = 1,
+                               .time_step = 1e-3,
+                               .diameter = &diameter,
+                               .mass = &mass,
+                               .moisture = &moisture,
+                               .load = load.data(),
+                               .fresh = load.data(),
+                               .released = released.data()};
+  law.in_contacts({.grains = grain,
+                   .normal_energy = &energy,
+                   .tangential_energy = &energy,
+                   .acceleration = &acceleration});
+  return std::accumulate(released.begin(), released.end(), 0.0);
+}
+
+}  // namespace
+
+std::optional<double> moisture_effect(const sdk::LiberationLaw& law,
+                                      const scenario::DustLoadSpec& load, double reference) {
+  const double there = set_free(law, load.share, reference);
+  if (!(there > 0.0)) return std::nullopt;
+  return set_free(law, load.share, load.moisture) / there;
+}
+
+std::vector<std::string> moisture_lines(const sdk::LiberationLaw& law,
+                                        const std::vector<scenario::MaterialSpec>& materials,
+                                        const std::vector<scenario::DustLoadSpec>& loads) {
+  std::vector<std::string> lines;
+  if (!law.uses_moisture()) return lines;
+  for (std::size_t m = 0; m < materials.size() && m < loads.size(); ++m) {
+    const double carried = std::accumulate(loads[m].share.begin(), loads[m].share.end(), 0.0);
+    if (!(loads[m].moisture > 0.0 && carried > 0.0)) continue;
+    const auto effect = moisture_effect(law, loads[m], k_reference);
+    if (!effect) continue;
+    lines.push_back("material " + materials[m].name + ": at " +
+                    base::digits_text(100.0 * loads[m].moisture, 3) +
+                    " % of moisture a gentle impact sets free " + base::digits_text(*effect, 3) +
+                    " of what it does at " + base::digits_text(100.0 * k_reference, 3) + " %");
+  }
+  return lines;
+}
+
+}  // namespace dust::run
