@@ -18,6 +18,7 @@ EXPERIMENT_OF = {
     r"container, W/D \d+, periodic": ("Periodic containers",),
     r"100 mm, falling, 80 l/min": ("The same at 80 l/min", "The void fraction of the vessel's bed"),
     r".* mm: minimum fluidisation by height": ("Minimum fluidisation by the height",),
+    r".* mm: minimum fluidisation by pressure": ("Minimum fluidisation by the pressure",),
     r"100 mm, falling, ramp, ([1-4]\d|\d|5[0-4])(\.\d+)? l/min": ("A narrow bed at 50 l/min",),
     r"100 mm, falling, ramp, ": ("The floating bed",),
     r"[1-4]\d l/min, walls": ("The vessel's bed at 30 l/min", "The void fraction of the vessel's bed"),
