@@ -167,20 +167,21 @@ void EddyStress::update(const FaceField& u) {
   }
 }
 
-double EddyStress::rate() const {
+double EddyStress::rate() {
   double sum = 0.0;
   for (int d = 0; d < 3; ++d) {
     if (grid_.count[d] > 1) sum += 1.0 / (grid_.spacing[d] * grid_.spacing[d]);
   }
-  double largest = 0.0;  // [m2/s]
-  for (int k = 0; k < grid_.count[2]; ++k) {
-    for (int j = 0; j < grid_.count[1]; ++j) {
-      const std::ptrdiff_t o = grid_.index(0, j, k);
-      for (int i = 0; i < grid_.count[0]; ++i) {
-        largest = std::max(largest, viscosity_[o + i] / density_[o + i]);
-      }
+  const auto& n = grid_.count;
+  // [m2/s]
+  const double largest = max_rows(n[0], n[1], n[2], partial_, [&](int j, int k) {
+    const std::ptrdiff_t o = grid_.index(0, j, k);
+    double of_row = 0.0;
+    for (int i = 0; i < n[0]; ++i) {
+      of_row = std::max(of_row, viscosity_[o + i] / density_[o + i]);
     }
-  }
+    return of_row;
+  });
   return 8.0 * sum * largest;
 }
 

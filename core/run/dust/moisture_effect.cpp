@@ -8,7 +8,7 @@
 namespace dust::run {
 namespace {
 
-/// [-] what the tables of handbooks are told beside
+/// [-] the moisture that others are compared with
 constexpr double k_reference = 0.01;
 
 /// [kg] of all classes that comes off one grain of 1 g at this moisture.
@@ -38,13 +38,6 @@ double set_free(const sdk::LiberationLaw& law, const std::vector<double>& share,
 
 }  // namespace
 
-std::optional<double> moisture_effect(const sdk::LiberationLaw& law,
-                                      const scenario::DustLoadSpec& load, double reference) {
-  const double there = set_free(law, load.share, reference);
-  if (!(there > 0.0)) return std::nullopt;
-  return set_free(law, load.share, load.moisture) / there;
-}
-
 std::vector<std::string> moisture_lines(const sdk::LiberationLaw& law,
                                         const std::vector<scenario::MaterialSpec>& materials,
                                         const std::vector<scenario::DustLoadSpec>& loads) {
@@ -53,11 +46,12 @@ std::vector<std::string> moisture_lines(const sdk::LiberationLaw& law,
   for (std::size_t m = 0; m < materials.size() && m < loads.size(); ++m) {
     const double carried = std::accumulate(loads[m].share.begin(), loads[m].share.end(), 0.0);
     if (!(loads[m].moisture > 0.0 && carried > 0.0)) continue;
-    const auto effect = moisture_effect(law, loads[m], k_reference);
-    if (!effect) continue;
+    const double there = set_free(law, loads[m].share, k_reference);
+    if (!(there > 0.0)) continue;
+    const double effect = set_free(law, loads[m].share, loads[m].moisture) / there;
     lines.push_back("material " + materials[m].name + ": at " +
                     base::digits_text(100.0 * loads[m].moisture, 3) +
-                    " % of moisture a gentle impact sets free " + base::digits_text(*effect, 3) +
+                    " % of moisture a gentle impact sets free " + base::digits_text(effect, 3) +
                     " of what it does at " + base::digits_text(100.0 * k_reference, 3) + " %");
   }
   return lines;

@@ -29,26 +29,22 @@ double deed(Deed what, double good) {
   return what == Deed::no_number ? k_nan : good;
 }
 
-template <class Model>
-std::unique_ptr<typename Model::Kind> guard(Deed what = Deed::well) {
-  registry::Entry entry;
-  entry.info.kind = Model::Kind::k_kind;
-  entry.info.name = "trial";
-  entry.file = "/x/trial.so";
-  auto model = registry::guarded(std::make_unique<Model>(what), entry);
-  return std::unique_ptr<typename Model::Kind>(static_cast<typename Model::Kind*>(model.release()));
-}
-
 /// Of a model on which `set` has set something.
 template <class Model, class Set>
 std::unique_ptr<typename Model::Kind> guard_with(const Set& set) {
   registry::Entry entry;
   entry.info.kind = Model::Kind::k_kind;
   entry.info.name = "trial";
+  entry.file = "/x/trial.so";
   auto trial = std::make_unique<Model>(Deed::well);
   set(*trial);
   auto model = registry::guarded(std::move(trial), entry);
   return std::unique_ptr<typename Model::Kind>(static_cast<typename Model::Kind*>(model.release()));
+}
+
+template <class Model>
+std::unique_ptr<typename Model::Kind> guard(Deed what = Deed::well) {
+  return guard_with<Model>([what](Model& model) { model.what = what; });
 }
 
 /// What calling says; "" if nothing is thrown.
@@ -462,7 +458,7 @@ TEST_CASE("a guarded emitter, motion and sensor shall answer as themselves") {
 }
 
 TEST_CASE("answers that the core cannot work with shall be said_of, not met as a crash") {
-  const std::string who = "/trial () answers ";
+  const std::string who = "/trial (/x/trial.so) answers ";
   CHECK(said([] { guard_with<Contact>([](Contact& c) { c.columns = -1; })->history_size(); }) ==
         "contact" + who + "-1 to history_size; expected: a number from 0 on");
   CHECK(guard<Rolling>()->couple_column() == 1);  // the last three of four
@@ -482,13 +478,13 @@ TEST_CASE("grains that an emitter has not announced shall be said_of as its own"
   const std::string row = " in row 1 of 1 of a batch; expected: ";
   CHECK(said_of([](Emitter&) {}).empty());
   CHECK(said_of([](Emitter& e) { e.diameter = 2e-3; }) ==
-        "emitter/trial () gives diameter = 0.002" + row +
+        "emitter/trial (/x/trial.so) gives diameter = 0.002" + row +
             "a diameter above 0 and up to the largest of diameters(), 0.001 m");
   CHECK(said_of([](Emitter& e) { e.diameter = 0.0; }).find("gives diameter = 0 in") !=
         std::string::npos);
   CHECK(said_of([](Emitter& e) { e.weight = 0.0; }) ==
-        "emitter/trial () gives weight = 0" + row + "a weight above 0");
+        "emitter/trial (/x/trial.so) gives weight = 0" + row + "a weight above 0");
   CHECK(said_of([](Emitter& e) { e.material = 1; }) ==
-        "emitter/trial () gives material = 1" + row +
+        "emitter/trial (/x/trial.so) gives material = 1" + row +
             "an index into its 1 materials(), or -1 for the emitter's own");
 }
