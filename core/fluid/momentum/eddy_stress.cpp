@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace dust::fluid {
 namespace {
@@ -167,14 +168,15 @@ void EddyStress::update(const FaceField& u) {
   }
 }
 
-double EddyStress::rate() {
+double EddyStress::rate() const {
   double sum = 0.0;
   for (int d = 0; d < 3; ++d) {
     if (grid_.count[d] > 1) sum += 1.0 / (grid_.spacing[d] * grid_.spacing[d]);
   }
   const auto& n = grid_.count;
+  thread_local std::vector<double> of_rows;
   // [m2/s]
-  const double largest = max_rows(n[0], n[1], n[2], partial_, [&](int j, int k) {
+  const double largest = max_rows(n[0], n[1], n[2], of_rows, [&](int j, int k) {
     const std::ptrdiff_t o = grid_.index(0, j, k);
     double of_row = 0.0;
     for (int i = 0; i < n[0]; ++i) {

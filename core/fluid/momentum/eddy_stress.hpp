@@ -8,7 +8,6 @@
 #include "fluid/sides.hpp"
 
 #include <array>
-#include <vector>
 
 namespace dust::fluid {
 
@@ -34,7 +33,7 @@ class EddyStress {
   [[nodiscard]] const CellField& eddy_viscosity() const { return viscosity_; }
   /// [1/s] Largest rate at which the stress evens out velocities, \f$ 8 \nu_t \sum_d 1 / h_d^2 \f$
   /// over cells; of the normal stress, which is the stiffest, in all directions.
-  [[nodiscard]] double rate();
+  [[nodiscard]] double rate() const;
   /// `source` with the force of the last update; valid until the next call.
   const FaceField& add_to(const FaceField& source);
   /// [N/m3] div tau at unknown faces, 0 elsewhere.
@@ -63,8 +62,7 @@ class EddyStress {
   CellField viscosity_;
   FaceField force_;
   FaceField mean_force_;
-  FaceField sum_;                ///< storage of add_to()
-  std::vector<double> partial_;  ///< storage of rate()
+  FaceField sum_;  ///< storage of add_to()
 };
 
 }  // namespace dust::fluid
