@@ -41,7 +41,8 @@ std::vector<OutputColumn> MeasureCheck::columns() {
                                       minus->unit + " and cannot be taken off one in " + q->unit);
     } else {
       columns.push_back({m.name, q->path, minus != nullptr ? minus->path : std::string(),
-                         m.unit.empty() ? q->unit : m.unit, *factor, q->has_error});
+                         m.unit.empty() ? q->unit : m.unit, *factor, q->has_error, q->zero_beside,
+                         minus != nullptr ? minus->zero_beside : std::string()});
     }
   }
   return columns;

@@ -44,8 +44,10 @@ struct OutputColumn {
   std::string quantity;  ///< dotted path in summary.json
   std::string minus;     ///< another one that is taken off; "" = none
   std::string unit;
-  double factor = 1.0;     ///< from the run's unit
-  bool has_error = false;  ///< sensors tell one
+  double factor = 1.0;                 ///< from the run's unit
+  bool has_error = false;              ///< sensors tell one
+  std::string zero_beside = {};        ///< as Quantity::zero_beside
+  std::string minus_zero_beside = {};  ///< the same of `minus`
 };
 
 /// Everything that is to be run, checked.

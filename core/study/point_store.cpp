@@ -32,15 +32,23 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// The figure at `path`: 0 where the run leaves it out because it is; none where it tells nothing.
+std::optional<Figure> figure_at(const std::map<std::string, Figure>& figures,
+                                const std::string& path, const std::string& zero_beside) {
+  if (const auto at = figures.find(path); at != figures.end()) return at->second;
+  if (!zero_beside.empty() && figures.contains(zero_beside)) return Figure{};
+  return std::nullopt;
+}
+
 void take_off(const std::map<std::string, Figure>& figures, const OutputColumn& column,
               OutputValue& output) {
-  const auto at = figures.find(column.minus);
-  if (at == figures.end()) output.value.reset();
+  const auto off = figure_at(figures, column.minus, column.minus_zero_beside);
+  if (!off) output.value.reset();
   if (!output.value) return;
-  *output.value -= column.factor * at->second.value;
+  *output.value -= column.factor * off->value;
   // As if independent: quantiles of one stream are not quite.
-  output.error = output.error >= 0.0 && at->second.error >= 0.0
-                     ? std::hypot(output.error, column.factor * at->second.error)
+  output.error = output.error >= 0.0 && off->error >= 0.0
+                     ? std::hypot(output.error, column.factor * off->error)
                      : -1.0;
 }
 
@@ -93,9 +101,9 @@ Outcome PointStore::read(const Point& point, const std::vector<OutputColumn>& co
     }
     for (const OutputColumn& column : columns) {
       OutputValue output;
-      if (const auto at = figures.find(column.quantity); at != figures.end()) {
-        output.value = column.factor * at->second.value;
-        if (at->second.error >= 0.0) output.error = column.factor * at->second.error;
+      if (const auto at = figure_at(figures, column.quantity, column.zero_beside)) {
+        output.value = column.factor * at->value;
+        if (at->error >= 0.0) output.error = column.factor * at->error;
       }
       if (!column.minus.empty()) take_off(figures, column, output);
       outcome.outputs.push_back(output);

@@ -4,13 +4,10 @@
 #include "base/error.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/sensor.hpp"
-#include "preflight/flow_check.hpp"
-#include "run/dust/dust_stage.hpp"
-#include "run/dust/hoods.hpp"
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
-#include "setup/draws_out.hpp"
 #include "setup/force_kinds.hpp"
+#include "study/dust_quantities.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -92,73 +89,6 @@ constexpr Named k_of_emitter[] = {
     {"waiting", "1"},           {"number_of_sizes", "1"},
 };
 
-/// Of each way that dust has out of the air; in mg per kg of the material that was brought in.
-constexpr Named k_of_outflow[] = {
-    {"kg", "kg"},
-    {"kg_per_h", "kg/h"},
-    {"g_per_tonne", "g/t"},
-    {"inhalable_kg", "kg"},
-    {"thoracic_kg", "kg"},
-    {"respirable_kg", "kg"},
-    {"inhalable_mg_per_kg", "mg/kg"},
-    {"thoracic_mg_per_kg", "mg/kg"},
-    {"respirable_mg_per_kg", "mg/kg"},
-};
-
-/// Of each way of the dust in the steady stream (run::DustRates).
-constexpr Named k_of_rate[] = {{"rate", "kg/h"}, {"per_load", "g/t"}};
-
-bool has_hood(const scenario::DustSetup& dust, std::size_t side) {
-  return std::any_of(dust.openings.begin(), dust.openings.end(),
-                     [&](const auto& opening) { return opening.side == static_cast<int>(side); });
-}
-
-/// As run::DustStage::lets_dust_out.
-bool lets_dust_out(const scenario::Setup& setup, const scenario::DustSetup& dust, std::size_t side,
-                   const preflight::SideModels& models) {
-  if (setup.domain.sides[side].grains == scenario::GrainSide::open) return true;
-  return !has_hood(dust, side) && preflight::passes_air(setup, side, models[side]);
-}
-
-/// Hoods, and sides that dust gets out of.
-std::vector<std::string> ways_out(const scenario::Setup& setup, const scenario::DustSetup& dust,
-                                  const preflight::SideModels& models) {
-  std::vector<std::string> ways;
-  for (const scenario::BodySpec& body : setup.bodies) {
-    if (body.suction && scenario::draws_out(*body.suction)) ways.push_back(body.name);
-  }
-  for (std::size_t side = 0; side < scenario::k_side_names.size(); ++side) {
-    const std::string name = scenario::k_side_names[side];
-    if (has_hood(dust, side)) ways.push_back(name);
-    if (!lets_dust_out(setup, dust, side, models)) continue;
-    ways.push_back(has_hood(dust, side) ? name + run::k_beside_hood : name);
-  }
-  return ways;
-}
-
-/// With errors; by way all of it, and what goes out by each hood and each side that lets it out.
-std::vector<std::string> steady_ways(const scenario::Setup& setup, const scenario::DustSetup& dust,
-                                     const preflight::SideModels& models) {
-  std::vector<std::string> ways{"left.all", "deposited.all"};
-  if (dust.liberation) ways.emplace_back("set_free.all");
-  if (run::has_running_surfaces(setup)) ways.emplace_back("carried_out.all");
-  for (const scenario::BodySpec& body : setup.bodies) {
-    if (body.suction && scenario::draws_out(*body.suction))
-      ways.push_back("drawn_out." + body.name);
-  }
-  for (const auto& opening : dust.openings) {
-    ways.push_back(std::string("drawn_out.") + scenario::k_side_names[opening.side]);
-  }
-  for (std::size_t side = 0; side < scenario::k_side_names.size(); ++side) {
-    if (!lets_dust_out(setup, dust, side, models)) continue;
-    ways.push_back(std::string("left.") + scenario::k_side_names[side]);
-  }
-  const bool has_hoods = std::any_of(ways.begin(), ways.end(),
-                                     [](const auto& way) { return way.starts_with("drawn_out."); });
-  if (has_hoods) ways.emplace_back("drawn_out.all");
-  return ways;
-}
-
 std::string dotted(std::string path) {
   std::replace(path.begin(), path.end(), '/', '.');
   return path;
@@ -170,7 +100,7 @@ class NamesOnly final : public sdk::FigureSink {
       : all_(all), prefix_(std::move(prefix)) {}
   void figure(std::string_view name, double, std::string_view unit, double,
               const sdk::FigureRole&) override {
-    all_.push_back({prefix_ + dotted(std::string(name)), std::string(unit), true});
+    all_.push_back({prefix_ + dotted(std::string(name)), std::string(unit), true, {}});
   }
 
  private:
@@ -211,8 +141,8 @@ std::optional<scenario::Unit> unit_of(const std::string& text) {
 std::vector<Quantity> quantities_of(const scenario::Setup& setup, const scenario::DustSetup& dust,
                                     const registry::Registry& registry) {
   std::vector<Quantity> all;
-  const auto add = [&](const auto& names, const std::string& prefix = {}, bool has_error = false) {
-    for (const Named& n : names) all.push_back({prefix + n.path, n.unit, has_error});
+  const auto add = [&](const auto& names, const std::string& prefix = {}) {
+    for (const Named& n : names) all.push_back({prefix + n.path, n.unit, false, {}});
   };
   add(k_always);
   for (const char* kind : scenario::k_force_names)
@@ -221,13 +151,8 @@ std::vector<Quantity> quantities_of(const scenario::Setup& setup, const scenario
   if (setup.drag && setup.voidage) add(k_with_coupling);
   if (setup.fluid && !setup.fluid->resolved.empty()) add(k_with_resolved);
   for (const auto& emitter : setup.emitters) add(k_of_emitter, "emitters." + emitter.name + ".");
-  if (dust.field && setup.fluid) {
-    const preflight::SideModelSet sides(setup, registry);
-    for (const std::string& way : ways_out(setup, dust, sides.models()))
-      add(k_of_outflow, "dust_outflow." + way + ".");
-    for (const std::string& way : steady_ways(setup, dust, sides.models()))
-      add(k_of_rate, "dust_rates." + way + ".", true);
-  }
+  const std::vector<Quantity> of_dust = dust_quantities(setup, dust, registry);
+  all.insert(all.end(), of_dust.begin(), of_dust.end());
 
   const std::vector<double> classes = diameters_of(setup, registry);
   sdk::WorldView world;

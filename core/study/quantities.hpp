@@ -18,6 +18,9 @@ struct Quantity {
   std::string path;        ///< dotted: sensors.stream.drop_140_mm.median, particles.max
   std::string unit;        ///< "1" for bare numbers
   bool has_error = false;  ///< the run tells one beside it
+  /// A run that tells of this other one tells nothing of something that is 0 (no dust on a
+  /// surface). Empty: always told.
+  std::string zero_beside;
 };
 
 /// Every quantity a run of `setup` will tell, known before it is run: those of summary.json, and

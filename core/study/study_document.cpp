@@ -111,10 +111,10 @@ std::string others_of(const Results& results, const Point& point, std::size_t ax
 Json lines_of_others(const MainEffect& effect, const Results& results) {
   constexpr std::size_t k_max = 5;
   const std::size_t axis = results.plan.inputs[effect.input].axis;
-  struct Sum {
+  struct LineSum {
     double sum = 0.0, count = 0.0;
   };
-  std::map<std::vector<std::size_t>, std::pair<std::string, std::map<double, Sum>>> groups;
+  std::map<std::vector<std::size_t>, std::pair<std::string, std::map<double, LineSum>>> groups;
   for (std::size_t n = 0; n < results.outcomes.size(); ++n) {
     const Outcome& o = results.outcomes[n];
     if (effect.output >= o.outputs.size() || !o.outputs[effect.output].value) continue;
@@ -123,7 +123,7 @@ Json lines_of_others(const MainEffect& effect, const Results& results) {
     if (axis < key.size()) key[axis] = 0;
     auto& [name, line] = groups[key];
     name = others_of(results, point, axis);
-    Sum& at = line[point.inputs[effect.input].number];
+    LineSum& at = line[point.inputs[effect.input].number];
     at.sum += *o.outputs[effect.output].value;
     at.count += 1.0;
   }

@@ -105,6 +105,29 @@ TEST_CASE("a study shall run every point and tell what was set and what came of 
   CHECK(run.out.find("[8/8]") != std::string::npos);
 }
 
+TEST_CASE("a study shall count as 0 what a run leaves out because there is none") {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "study.yaml";
+  std::ofstream(file)
+      << "base: " DUST_SOURCE
+         "/tests/scenario/dust_in_duct.yaml\n"
+         "vary: {time.end: [0.5 s]}\n"
+         "measure:\n"
+         "  floor: dust_field.classes.3_um.deposited_kg.bottom\n"
+         "  out: dust_rates.left.right.rate\n"
+         "  more_out:\n"
+         "    {quantity: dust_rates.left.right.rate, minus: dust_rates.deposited.bottom.rate}\n";
+  const auto run = engine({"study", file, "-o", folder / "out"});
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const auto rows = table_of(folder / "out");
+  REQUIRE(rows.size() == 1);
+  // Nothing settles without gravity, and the summary does not name the floor.
+  CHECK(rows[0].at("floor [kg]") == "0");
+  CHECK(std::stod(rows[0].at("out [kg/h]")) > 0.0);
+  CHECK(rows[0].at("more_out [kg/h]") == rows[0].at("out [kg/h]"));
+}
+
 TEST_CASE("a study killed half way and resumed shall equal an uninterrupted one row for row") {
   const TemporaryFolder folder;
   const fs::path study = k_here / "drop_study.yaml";
