@@ -9,6 +9,7 @@
 #include "coupling/refresh_schedule.hpp"
 #include "coupling/self_disturbance/self_disturbance.hpp"
 #include "coupling/size_ratios.hpp"
+#include "coupling/stencils/own_sides.hpp"
 #include "coupling/stress_balance.hpp"
 #include "dust/sdk/error.hpp"
 
@@ -58,6 +59,7 @@ struct Coupling::Impl {
        const sdk::DragLaw& law);
 
   Lattice lattice;
+  OwnSides sides;
   DragModel drag;
   const sdk::VoidageRule& voidage;
   ParticleStates states;
@@ -148,12 +150,19 @@ void Coupling::check_diameters(std::span<const double> diameters) const {
   }
 }
 
-void Coupling::set_open_fraction(const fluid::CellField& open_fraction) {
-  impl_->lattice.set_open_fraction(open_fraction);
+void Coupling::use_thin_bodies(const fluid::ThinBodies& bodies) {
+  impl_->sides.use(bodies);
+  impl_->lattice.close(bodies.faces());
 }
 
-void Coupling::start(const particles::GrainRows& grains) {
+void Coupling::set_open_fraction(const fluid::CellField& open_fraction) {
+  impl_->lattice.set_open_fraction(open_fraction);
+  if (const auto* bodies = impl_->sides.bodies()) impl_->lattice.close(bodies->faces());
+}
+
+void Coupling::start(const particles::GrainRows& rows) {
   Impl& s = *impl_;
+  const particles::GrainRows grains = s.sides.take(rows);
   s.states.align(grains);
   if (!s.is_one_way) deposit(grains);
 }
@@ -188,8 +197,9 @@ void Coupling::deposit(const particles::GrainRows& grains) {
   s.face_void.update(s.void_fraction.after(), s.void_fraction.filled_cells());
 }
 
-AssembledDrag Coupling::begin_step(const particles::GrainRows& grains, double fluid_step) {
+AssembledDrag Coupling::begin_step(const particles::GrainRows& all, double fluid_step) {
   Impl& s = *impl_;
+  const particles::GrainRows grains = s.sides.take(all);
   s.states.align(grains);
   s.schedule.begin_step(fluid_step, s.drag.fastest_relaxation(grains));
   if (s.drag.needs_size_ratio()) s.size_ratios.find(grains, s.drag.graining(), s.states);
@@ -272,13 +282,14 @@ void Coupling::relax(FaceStencils& stencils, const particles::GrainRows& grains,
     s.stress_balance->leave(s.void_fraction.after(), fluid.stress_divergence,
                             s.schedule.fluid_step());
   }
+  const particles::GrainRows sided = s.sides.take(grains);
   stencils.for_batches([&](std::size_t batch, FaceStencils::Rows rows) {
     s.relaxation.fetch(grains, rows);
     // Half way through the interval that the action holds for.
-    const StencilBatch& here = stencils.locate(s.lattice, grains, batch, 0.5 * held);
+    const StencilBatch& here = stencils.locate(s.lattice, sided, batch, 0.5 * held);
     SampledFlow flow;
     DragColumns columns;
-    s.sampler.sample(grains, rows, here, fluid, flow, columns);
+    s.sampler.sample(sided, rows, here, fluid, flow, columns);
     s.relaxation.update(grains, rows, fluid, flow, held, last_held, columns);
   });
   if (s.forces) s.forces->end(fluid);

@@ -9,6 +9,7 @@
 #include "dust/sdk/drag_law.hpp"
 #include "dust/sdk/fluid_force.hpp"
 #include "dust/sdk/voidage_rule.hpp"
+#include "fluid/geometry/thin_bodies.hpp"
 #include "fluid/grid.hpp"
 #include "particles/grain_rows.hpp"
 #include "particles/surfaces.hpp"
@@ -62,6 +63,10 @@ class Coupling {
   /// count as walls. A grain's own flow is another beside them.
   void use_boundaries(const std::array<const sdk::BoundaryCondition*, 6>& boundaries);
 
+  /// Optional: the bodies thinner than a cell, kept by reference. Grains then act on the fluid of
+  /// their own side alone.
+  void use_thin_bodies(const fluid::ThinBodies& bodies);
+
   /// Optional, before the run: throws base::UserError if a grain of one of the `diameters` [m] is
   /// too large for the grid. begin_step() finds the same later, as sdk::ModelError.
   void check_diameters(std::span<const double> diameters) const;
@@ -71,9 +76,9 @@ class Coupling {
 
   /// Before the first begin_step(), once: the void fraction round grains that are there at the
   /// start. They push nothing aside in the first fluid step. Throws as begin_step() does.
-  void start(const particles::GrainRows& grains);
+  void start(const particles::GrainRows& rows);
   /// Throws sdk::ModelError if a grain is too large for the grid.
-  [[nodiscard]] AssembledDrag begin_step(const particles::GrainRows& grains, double fluid_step);
+  [[nodiscard]] AssembledDrag begin_step(const particles::GrainRows& all, double fluid_step);
   [[nodiscard]] const fluid::CellField& void_fraction_before() const;
   [[nodiscard]] const fluid::CellField& void_fraction() const;
   [[nodiscard]] const fluid::Exchange& exchange() const;

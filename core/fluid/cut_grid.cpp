@@ -23,7 +23,8 @@ CutGrid::CutGrid(const Grid& grid, const bodies::BodySet& bodies, const Sides& s
       static_geometry_(static_part()),
       geometry_(
           build_geometry(grid, bodies, sides.kinds(), properties, {}, static_geometry_.get())),
-      suction_(bodies) {}
+      suction_(bodies),
+      thin_bodies_(grid) {}
 
 std::unique_ptr<Geometry> CutGrid::static_part() const {
   const bool has_moving_bodies =
@@ -38,6 +39,7 @@ void CutGrid::complete(double time) {
   sides_.fill_cells(geometry_.open_fraction);
   open_ahead_ = geometry_.open_fraction;
   suction_.find_cells(grid_, bodies_, geometry_, time);
+  thin_bodies_.set(geometry_);
   evaluate_walls(time);
 }
 

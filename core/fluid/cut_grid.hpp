@@ -5,6 +5,7 @@
 #include "fluid/face_properties.hpp"
 #include "fluid/geometry/body_suction.hpp"
 #include "fluid/geometry/geometry.hpp"
+#include "fluid/geometry/thin_bodies.hpp"
 #include "fluid/grid.hpp"
 #include "fluid/pressure/continuity.hpp"
 #include "fluid/sides.hpp"
@@ -24,6 +25,7 @@ class CutGrid {
   /// Stays where it is when it is built anew.
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
   [[nodiscard]] const bodies::BodySet& bodies() const { return bodies_; }
+  [[nodiscard]] const ThinBodies& thin_bodies() const { return thin_bodies_; }
   /// Do bodies move through the grid, which is then cut anew in each step?
   [[nodiscard]] bool has_moving_bodies() const { return static_geometry_ != nullptr; }
   /// Share of the cells outside bodies, as it will be once predict() was called.
@@ -66,6 +68,7 @@ class CutGrid {
   std::unique_ptr<Geometry> static_geometry_;  ///< of the bodies that stand, if others move
   Geometry geometry_;
   BodySuction suction_;
+  ThinBodies thin_bodies_;
   CellField open_before_;  ///< at the beginning of the interval between two cuts
   CellField open_ahead_;
   bool have_walls_changed_ = true;

@@ -141,6 +141,7 @@ const CellField& FluidSolver::mean_pressure() const { return impl_->mean_pressur
 const FaceField& FluidSolver::stress_divergence() const { return impl_->stress_divergence(); }
 const CellField& FluidSolver::open_fraction() const { return impl_->open_fraction(); }
 const FaceField& FluidSolver::open_area() const { return impl_->open_area(); }
+const ThinBodies& FluidSolver::thin_bodies() const { return impl_->thin_bodies(); }
 FaceField FluidSolver::passable_area() const { return impl_->passable_area(); }
 void FluidSolver::find_throughflow(FaceField& throughflow) const {
   impl_->find_throughflow(throughflow);

@@ -16,6 +16,7 @@
 
 namespace dust::fluid {
 
+class ThinBodies;
 class VelocityForcing;
 
 /// What the last call of `advance` did.
@@ -84,6 +85,9 @@ class FluidSolver {
   [[nodiscard]] const FaceField& open_area() const;
   /// The same, and nothing where a body thinner than a cell parts two cells: what fluid passes.
   [[nodiscard]] FaceField passable_area() const;
+  /// On which side of bodies thinner than a cell a point is, and which faces they part. Stays where
+  /// it is when bodies move.
+  [[nodiscard]] const ThinBodies& thin_bodies() const;
   /// [m/s] What passed the faces at the end of the last step, over their whole area, as continuity
   /// has it: with the void fraction `after` of that step. Where bodies that move had the grid cut
   /// several times in the step, the mean over it.

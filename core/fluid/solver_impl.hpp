@@ -50,6 +50,7 @@ class FluidSolver::Impl {
   }
   [[nodiscard]] const CellField& open_fraction() const { return cut_.open_fraction(); }
   [[nodiscard]] const FaceField& open_area() const { return geometry().open_area; }
+  [[nodiscard]] const ThinBodies& thin_bodies() const { return cut_.thin_bodies(); }
   [[nodiscard]] FaceField passable_area() const { return fluid::passable_area(grid_, geometry()); }
   void find_throughflow(FaceField& throughflow) const {
     projection_.find_throughflow(u_, void_fraction_.field(), throughflow);

@@ -61,6 +61,7 @@ void FluidStage::make_coupling(const fluid::Boundaries& boundaries) {
                                                    *models_.voidage, *models_.drag);
   coupling_->use(models_.fluid_forces, particles::surfaces_of(setup_, models_.bodies));
   coupling_->use_boundaries(boundaries);
+  coupling_->use_thin_bodies(solver_->thin_bodies());
   if (!setup_.fluid->overlaps_grains) return;
   lagged_ = std::make_unique<LaggedFluid>(
       LaggedFluid{solver_->velocity(), fluid::FaceField(grid_), solver_->pressure()});

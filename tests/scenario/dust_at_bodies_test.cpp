@@ -71,6 +71,21 @@ TEST_CASE(
   CHECK(drawn("below", "flow: 0.1 l/s", "26.1") == 0.0);
 }
 
+TEST_CASE("dust that comes off a grain on a sheet shall be in the air of its own side") {
+  const TemporaryFolder folder;
+  // The grain touches the sheet in the cell whose centre is under it.
+  const json summary =
+      run_summary(DUST_SOURCE "/tests/scenario/dusty_bounce.yaml", folder / "out",
+                  {"--set",
+                   "bodies.sheet={shape: box, material: steel, min: [-10, -10, 4.2 mm], max: [50, "
+                   "50, 4.6 mm]}"});
+  const json& dust = summary["dust_field"]["classes"]["10_um"];
+  INFO(dust.dump());
+  CHECK(dust["released_kg"].get<double>() > 0.0);
+  CHECK(share(dust, "deposited_kg", "sheet") > 0.0);
+  CHECK(share(dust, "deposited_kg", "bottom") == 0.0);
+}
+
 TEST_CASE("dust shall be told to have left by each side that air passes, open to grains or not") {
   const TemporaryFolder folder;
   const json summary = run_summary(k_sides, folder / "out", {});

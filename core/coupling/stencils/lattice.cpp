@@ -65,6 +65,12 @@ void Lattice::set_open_fraction(const fluid::CellField& open_fraction) {
   }
 }
 
+void Lattice::close(std::span<const fluid::PartedFace> faces) {
+  for (const fluid::PartedFace& face : faces) {
+    open_face_[static_cast<std::size_t>(face.axis)][static_cast<std::size_t>(face.at)] = 0.0F;
+  }
+}
+
 std::ptrdiff_t Lattice::open_image(int i, int j, int k) const {
   const std::array<int, 3> at{i, j, k};
   for (int d = 0; d < 3; ++d) {

@@ -3,6 +3,7 @@
 
 #include "coupling/stencils/face_kernels.hpp"
 #include "coupling/stencils/near_walls.hpp"
+#include "fluid/geometry/geometry.hpp"
 #include "fluid/grid.hpp"
 #include "fluid/parallel.hpp"
 
@@ -10,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace dust::coupling {
@@ -50,6 +52,9 @@ class Lattice {
 
   /// After bodies have moved.
   void set_open_fraction(const fluid::CellField& open_fraction);
+
+  /// After set_open_fraction(): faces between cells that a thin body keeps apart take nothing.
+  void close(std::span<const fluid::PartedFace> faces);
 
   [[nodiscard]] const fluid::Grid& grid() const { return grid_; }
   [[nodiscard]] double cell_volume() const { return cell_volume_; }

@@ -116,6 +116,16 @@ struct SkewNode {
   double ascent = 0.0;  ///< [1/m]
 };
 
+/// A face between cells that a body thinner than their distance keeps apart, and the plane of the
+/// body there.
+struct PartedFace {
+  std::int32_t at = 0;
+  int axis = 0;
+  std::array<int, 3> upper{};  ///< the cell on the high side
+  sdk::Vec3 middle;            ///< [m] of the body, between the centres of the cells
+  sdk::Vec3 normal;            ///< towards the upper cell
+};
+
 /// given: on a side with given velocity, or outside the domain; plain: unknown with the plain
 /// stencil; cut: unknown, stencil in the list `cut`; inside: in a body, in the list `ghost`.
 enum class FaceKind : std::uint8_t { given, plain, cut, inside };
@@ -136,9 +146,9 @@ struct Geometry {
   std::array<std::vector<GhostFace>, 3> ghost;
   std::array<std::size_t, 3> deep_ghosts_begin{};  ///< from here on they mirror nothing
   std::array<std::vector<OpenPart>, 3> open_part;
-  /// Faces between cells that a body thinner than their distance keeps apart: no fluid passes, but
-  /// a body that moves shoves fluid through.
-  std::array<std::vector<std::int32_t>, 3> blocked;
+  /// No fluid passes, whatever part of the face is open, but a body that moves shoves fluid
+  /// through.
+  std::vector<PartedFace> parted;
   std::array<std::vector<SkewFace>, 3> skew;            ///< in the order of rows
   std::array<std::vector<std::int32_t>, 3> skew_begin;  ///< as cut_begin
   std::array<std::vector<SkewNode>, 3> skew_node;

@@ -40,7 +40,7 @@ GeometryBuilder::GeometryBuilder(const Grid& grid, const bodies::BodySet& bodies
 Geometry GeometryBuilder::build() {
   measure_cells();
   for (int d = 0; d < 3; ++d) measure_faces(d);
-  for (int d = 0; d < 3; ++d) find_blocked(d);
+  for (int d = 0; d < 3; ++d) find_parted(d);
   for (int d = 0; d < 3; ++d) find_unknowns(d);
   for (int d = 0; d < 3; ++d) {
     const auto& kind = g_.kind[d];
@@ -137,7 +137,7 @@ bool GeometryBuilder::is_near(int d, const std::array<int, 3>& c, std::ptrdiff_t
   return std::min(a, b) < near_;
 }
 
-void GeometryBuilder::find_blocked(int d) {
+void GeometryBuilder::find_parted(int d) {
   if (field_.is_empty() || grid_.count[d] == 1) return;
   const auto& n = grid_.count;
   for (int k = 0; k < n[2]; ++k) {
@@ -146,18 +146,35 @@ void GeometryBuilder::find_blocked(int d) {
         const std::array<int, 3> c = {i, j, k};
         const std::ptrdiff_t o = grid_.index(i, j, k);
         if (c[d] == 0 && !sides_.is_periodic[d]) continue;
-        if (!(g_.open_area.component[d][o] > 0.0) || !is_near(d, c, o)) continue;
+        if (!is_near(d, c, o)) continue;
         const Vec3 upper = grid_.centre(i, j, k);
         Vec3 lower = upper;
         lower[d] -= grid_.spacing[d];
         const auto from = field_.outside(lower);
         const auto to = field_.outside(upper);
-        if (!from || !to || !field_.passes_through(*from, *to)) continue;
-        g_.blocked[d].push_back(static_cast<std::int32_t>(o));
+        const auto way = from && to ? field_.passes_through(*from, *to) : std::nullopt;
+        if (!way) continue;
+        g_.parted.push_back(parted_face(d, c, *from, *to, *way));
         closed_[d][o] = 2;
       }
     }
   }
+}
+
+/// `way` [m] from the lower to the upper cell until the body is met.
+PartedFace GeometryBuilder::parted_face(int d, const std::array<int, 3>& c, Vec3 from, Vec3 to,
+                                        double way) const {
+  const Vec3 along = (to - from) / norm(to - from);
+  const Vec3 first = from + way * along;
+  const auto back = field_.passes_through(to, from);
+  const Vec3 last = back ? to - *back * along : first;
+  Vec3 normal = field_.nearest(first).normal;
+  if (dot(normal, to - from) < 0.0) normal = -normal;
+  return {.at = static_cast<std::int32_t>(grid_.index(c[0], c[1], c[2])),
+          .axis = d,
+          .upper = c,
+          .middle = 0.5 * (first + last),
+          .normal = normal};
 }
 
 void GeometryBuilder::find_unknowns(int d) {

@@ -45,7 +45,9 @@ class GeometryBuilder {
   /// Cells whose points in the fluid have a thin body between them have nothing to do with each
   /// other. A way through the grid from one side of the body to the other crosses it somewhere, and
   /// there it meets such a face: nothing leaks.
-  void find_blocked(int d);
+  void find_parted(int d);
+  [[nodiscard]] PartedFace parted_face(int d, const std::array<int, 3>& c, Vec3 from, Vec3 to,
+                                       double way) const;
   void find_unknowns(int d);
   std::int32_t add_wall_point(Vec3 near) {
     const Hit hit = nearest(near);

@@ -316,7 +316,7 @@ std::array<int, 3> DustStage::cell_at(sdk::Vec3 place) const {
 }
 
 double DustStage::void_fraction_at(sdk::Vec3 place) const {
-  const auto [i, j, k] = cell_at(place);
+  const auto [i, j, k] = cell_at(fluid_.solver().thin_bodies().on_own_side(place));
   return fluid_.void_fraction()[static_cast<std::size_t>(fluid_.grid().index(i, j, k))];
 }
 
@@ -343,6 +343,7 @@ double DustStage::gas_volume(std::int32_t cell) const {
 std::int32_t DustStage::cell_with_gas(sdk::Vec3 place) const {
   constexpr int k_reach = 2;  // cells
   const Grid& grid = fluid_.grid();
+  place = fluid_.solver().thin_bodies().on_own_side(place);
   const std::array<int, 3> at = cell_at(place);
   const std::ptrdiff_t own = grid.index(at[0], at[1], at[2]);
   if (flow_.volume_after[static_cast<std::size_t>(own)] > 0.0) {

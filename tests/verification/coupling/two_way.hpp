@@ -34,6 +34,7 @@ struct TwoWay {
     world.restart();
     world.coupling->use({}, particles::surfaces_of(world.setup, bodies));
     world.coupling->use_boundaries(pointers);
+    world.coupling->use_thin_bodies(solver->thin_bodies());
   }
 
   /// One fluid step in the order of a run. Grains move under `gravity`, or are held where they are.

@@ -48,6 +48,42 @@ class HalfSpace final : public bodies::OnePart<HalfSpace> {
   sdk::Vec3 normal_;
 };
 
+/// A plate of any thickness, 0 included, through `middle`; of a finite half length if given.
+class Plate final : public bodies::OnePart<Plate> {
+ public:
+  Plate(sdk::Vec3 middle, sdk::Vec3 normal, double thickness, double half_length = 1e9)
+      : middle_(middle),
+        normal_(normal / norm(normal)),
+        along_(sdk::cross({0, 1, 0}, normal_)),
+        half_(0.5 * thickness),
+        half_length_(half_length) {}
+  [[nodiscard]] bodies::SurfacePoint nearest(sdk::Vec3 p) const override {
+    const double s = dot(p - middle_, normal_);
+    const double q = dot(p - middle_, along_);
+    const sdk::Vec3 up = s < 0 ? -normal_ : normal_;
+    const double over_s = std::abs(s) - half_;
+    const double over_q = std::abs(q) - half_length_;
+    const sdk::Vec3 out = q < 0 ? -along_ : along_;
+    if (over_q <= 0.0 || over_q < over_s) {
+      if (over_q <= 0.0) return {std::max(over_s, over_q), over_s >= over_q ? up : out};
+    }
+    if (over_s <= 0.0) return {over_q, out};
+    const double r = std::hypot(over_s, over_q);
+    return {r, (over_s / r) * up + (over_q / r) * out};
+  }
+  [[nodiscard]] bodies::Triangles triangles(sdk::Vec3, sdk::Vec3, double) const override {
+    return {};
+  }
+  [[nodiscard]] sdk::Vec3 lateral_axis() const override { return {0, 1, 0}; }
+
+ private:
+  sdk::Vec3 middle_;
+  sdk::Vec3 normal_;
+  sdk::Vec3 along_;
+  double half_;
+  double half_length_;
+};
+
 /// Everything between two parallel planes.
 class Slab final : public bodies::OnePart<Slab> {
  public:

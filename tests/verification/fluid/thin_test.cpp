@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodies thinner than a cell stay tight, wherever and however they lie in the grid.
+#include "fluid/geometry/thin_bodies.hpp"
 #include "fluid_case.hpp"
 #include "test_bodies.hpp"
 
@@ -7,44 +8,14 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+
 using namespace dust;
 using namespace dust::test;
 
 namespace {
-
-/// A plate of any thickness, 0 included, through `middle`; of a finite half length if given.
-class Plate final : public bodies::OnePart<Plate> {
- public:
-  Plate(Vec3 middle, Vec3 normal, double thickness, double half_length = 1e9)
-      : middle_(middle),
-        normal_(normal / norm(normal)),
-        along_(cross({0, 1, 0}, normal_)),
-        half_(0.5 * thickness),
-        half_length_(half_length) {}
-  [[nodiscard]] bodies::SurfacePoint nearest(Vec3 p) const override {
-    const double s = dot(p - middle_, normal_);
-    const double q = dot(p - middle_, along_);
-    const Vec3 up = s < 0 ? -normal_ : normal_;
-    const double over_s = std::abs(s) - half_;
-    const double over_q = std::abs(q) - half_length_;
-    const Vec3 out = q < 0 ? -along_ : along_;
-    if (over_q <= 0.0 || over_q < over_s) {
-      if (over_q <= 0.0) return {std::max(over_s, over_q), over_s >= over_q ? up : out};
-    }
-    if (over_s <= 0.0) return {over_q, out};
-    const double r = std::hypot(over_s, over_q);
-    return {r, (over_s / r) * up + (over_q / r) * out};
-  }
-  [[nodiscard]] bodies::Triangles triangles(Vec3, Vec3, double) const override { return {}; }
-  [[nodiscard]] Vec3 lateral_axis() const override { return {0, 1, 0}; }
-
- private:
-  Vec3 middle_;
-  Vec3 normal_;
-  Vec3 along_;
-  double half_;
-  double half_length_;
-};
 
 /// Moves along itself to the right and down.
 class Sliding final : public sdk::Motion {
@@ -117,6 +88,62 @@ TEST_CASE("a thin plate across a duct shall hold a pressure difference without a
       }
     }
   }
+}
+
+namespace {
+
+/// Whether linear interpolation at `p` asks a centre of a cell on the other side of the plate than
+/// `side` tells.
+bool reaches_across(const Case& c, Vec3 p, Vec3 middle, Vec3 normal, double side) {
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec3 centre;
+    double weight = 1.0;
+    for (int d = 0; d < 3; ++d) {
+      const double h = c.grid.spacing[d];
+      const double s = (p[d] - c.grid.origin[d]) / h - 0.5;
+      const double low = std::floor(s);
+      const bool is_high = (corner >> d & 1) != 0;
+      weight *= is_high ? s - low : 1.0 - (s - low);
+      const double at = std::clamp(low + (is_high ? 1.0 : 0.0), 0.0, c.cells[d] - 1.0);
+      centre[d] = c.grid.origin[d] + (at + 0.5) * h;
+    }
+    if (weight > 1e-9 && side * dot(centre - middle, normal) < 0.0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("points beside a thin plate shall be interpolated between cells of their own side") {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  std::size_t moved = 0, across = 0, across_before = 0;
+  for (const double thickness : {0.8e-3, 1e-4, 0.0}) {
+    for (const Vec3 direction : {Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{0.3, 0, 1}, Vec3{1, 0.2, 0.9},
+                                 Vec3{-0.7, 0.6, 0.8}, Vec3{0.1, -1, 0.05}}) {
+      Case c = pressed(2);
+      const Vec3 middle{0.0103, 0.0098, 0.0107};
+      const Vec3 normal = direction / norm(direction);
+      c.bodies.push_back(body(std::make_unique<Plate>(middle, normal, thickness), 0.0));
+      c.start();
+      for (int n = 0; n < 4000; ++n) {
+        const Vec3 point{c.max.x * part(random), c.max.y * part(random), c.max.z * part(random)};
+        const double side = dot(point - middle, normal);
+        if (std::abs(side) < 0.5 * thickness + 1e-6) continue;
+        const Vec3 p = c.solver->thin_bodies().on_own_side(point);
+        const Vec3 way = p - point;
+        for (int d = 0; d < 3; ++d) CHECK(std::abs(way[d]) <= 1.5 * c.grid.spacing[d]);
+        if (norm(way) > 0.0) ++moved;
+        if (reaches_across(c, point, middle, normal, side)) ++across_before;
+        if (reaches_across(c, p, middle, normal, side)) ++across;
+      }
+    }
+  }
+  CHECK(across_before > 5000);
+  CHECK(moved >= across_before);
+  // Left are corners of cells that the plate cuts off, of which no neighbour by a face is on their
+  // side: slivers.
+  CHECK(across < 10);
 }
 
 TEST_CASE("a thin belt that slants through the grid shall stay tight while it runs") {
