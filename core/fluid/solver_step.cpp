@@ -102,7 +102,12 @@ void FluidSolver::Impl::begin_part(const StepState& s, double begin, double end)
     make_consistent(s);
   } else {
     momentum_.extend(u_, Ghosts::uncrossed);
-    if (has_moving_bodies()) sides_.fill_velocity(u_);
+    if (has_moving_bodies()) {
+      // Asked for again: a resumed run does not know what they gave last.
+      set_void_fraction(s, begin);
+      sides_.evaluate_velocity(s.time + done, void_fraction_.field());
+      sides_.fill_velocity(u_);
+    }
   }
   if (!balance_.is_kept()) return;
   set_void_fraction(s, 0.0);

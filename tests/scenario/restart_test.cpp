@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/engine.hpp"
+#include "support/same_bits.hpp"
 
 #include <doctest/doctest.h>
 
@@ -44,6 +45,14 @@ TEST_CASE("an interrupted run shall go on to the same bits and the same series")
     REQUIRE(resumed.status == 0);
     CHECK(json_text(cut / "summary.json", "state_sha256") == hash);
     CHECK(read_file(cut / "series.csv") == read_file(whole / "series.csv"));
+  }
+}
+
+TEST_CASE("a stirred box with dust and eddies shall have the same bits wherever it is cut") {
+  for (const char* at : {"2 ms", "5 ms", "11 ms"}) {
+    CAPTURE(at);
+    dust::test::check_same_bits(DUST_SOURCE "/tests/scenario/stirred.yaml", {}, {at, "20 ms"},
+                                {"dust_field", "mass_kg"});
   }
 }
 
