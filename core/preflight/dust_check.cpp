@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "bodies/placement.hpp"
 #include "fluid/grid.hpp"
+#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -193,6 +194,30 @@ void check_drift(const Setup& setup, const DustSetup& dust, const ParticleModels
             " resolve narrower ones: there its drift by inertia is held to a fifth of the "
             "fluid's speed, and none of it hits walls by it; leave the class out, or let it be "
             "grains");
+  }
+}
+
+void check_feeds(const Setup& setup, const DustSetup& dust, bool is_branch,
+                 const ParticleModels& models, scenario::Diagnostics& diagnostics) {
+  const double given = dust.given ? dust.given->steady_after : 0.0;
+  if (!dust.field || !dust.liberation || (is_branch && !(given > 0.0))) return;
+  const double from = given > 0.0 ? given : 0.5 * setup.time.end;
+  const double end = setup.time.end;
+  const auto seconds = [](double time) { return scenario::number_text(time) + " s"; };
+  for (std::size_t n = 0; n < models.emitters.size(); ++n) {
+    const sdk::EmitterRequest request = models.emitters[n]->request();
+    if (!(request.mass_flow > 0.0 && request.begin < request.end)) continue;
+    const auto is_inside = [&](double time) { return time > from && time < end; };
+    if (!is_inside(request.begin) && !is_inside(request.end)) continue;
+    const bool begins = is_inside(request.begin);
+    diagnostics.warning(setup.emitters[n].model.where,
+                        setup.emitters[n].model.path + (begins ? ": begins at " : ": ends at ") +
+                            seconds(begins ? request.begin : request.end) +
+                            ", while rates of dust are taken, from " + seconds(from) + " to " +
+                            seconds(end) +
+                            ": no amounts per tonne are told of a feed that is not even; " +
+                            (begins ? "begin earlier, or give a later dust.steady_after"
+                                    : "end later, or give an earlier time.end"));
   }
 }
 

@@ -35,4 +35,10 @@ double narrowest_turn(double diameter, double density, double viscosity, double 
 void check_drift(const scenario::Setup& setup, const scenario::DustSetup& dust,
                  const ParticleModels& models, scenario::Diagnostics& diagnostics);
 
+/// Warns of feeds that begin or end while the rates of dust off their loads are taken, from
+/// `steady_after` or half of the run on: they give no amounts per load then. Not where a branch
+/// begins its means in the middle of what is left of it: `is_branch`.
+void check_feeds(const scenario::Setup& setup, const scenario::DustSetup& dust, bool is_branch,
+                 const ParticleModels& models, scenario::Diagnostics& diagnostics);
+
 }  // namespace dust::preflight

@@ -62,7 +62,7 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
                                                     std::move(models_.liberation), *dust_, *dem_);
   }
   if (dust_) {
-    const double given = dust_setup_.given ? dust_setup_.given->steady_after : 0.0;
+    const double given = steady_after_given();
     dust_figures_ =
         std::make_unique<DustFigures>(*this, given > 0.0 ? given : 0.5 * setup_.time.end);
   }
@@ -94,6 +94,18 @@ void Simulation::start() {
   }
   snapshots_.take(*dem_);
   if (dust_) dust_->start();
+}
+
+double Simulation::steady_after_given() const {
+  return dust_setup_.given ? dust_setup_.given->steady_after : 0.0;
+}
+
+void Simulation::begin_dust_figures() {
+  if (!dust_figures_ || steady_after_given() > 0.0) return;
+  const double begin = time();
+  const double middle = begin + 0.5 * (setup_.time.end - begin);
+  dust_figures_->rates.begin_at(middle);
+  dust_figures_->indices.begin_at(middle);
 }
 
 void Simulation::start_from(const std::function<void(const Owners&)>& give) {

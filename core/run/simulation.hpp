@@ -58,6 +58,9 @@ class Simulation {
   };
   /// In place of start(): `give` gives them the state of another run.
   void start_from(const std::function<void(const Owners&)>& give);
+  /// In a run that has started from another: where the scenario does not say when means of dust
+  /// begin, they do in the middle of what is ahead, anew.
+  void begin_dust_figures();
   /// One fluid step: one pass of the outer graph.
   void step();
 
@@ -113,6 +116,8 @@ class Simulation {
     DustRates rates;
     StreamIndices indices;
   };
+  /// [s] By the scenario; 0: it does not say.
+  [[nodiscard]] double steady_after_given() const;
   void build_dem_graph(int check_every);
   void add_tile_nodes();
   void build_step_graph();

@@ -75,3 +75,24 @@ TEST_CASE("rates of a run that starts from another shall not count what that one
   CHECK(rates["observed"]["value"].get<double>() <= 0.2 + 1e-9);
   CHECK(rates["left/right/rate"]["value"].get<double>() == approx(3.0 * k_kg_per_h).epsilon(1e-4));
 }
+
+TEST_CASE("rates of a branch shall begin in the middle of it where nothing is said") {
+  const TemporaryFolder folder;
+  run(folder / "first", {"time.end=0.6 s"});
+  const std::string from = "start_from=" + (folder / "first").string();
+  for (const char* other : {"seed=7", "name=same"}) {
+    const json rates = run(folder / other, {"time.end=1 s", other, from})["dust_rates"];
+    CHECK(rates["observed"]["value"].get<double>() == approx(0.2).epsilon(1e-9));
+    CHECK(rates["left/right/rate"]["value"].get<double>() ==
+          approx(3.0 * k_kg_per_h).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("what sources give shall be told as a rate beside where it goes") {
+  const TemporaryFolder folder;
+  const json rates = run(folder / "out", {})["dust_rates"];
+  CHECK(rates["released/all/rate"]["value"].get<double>() ==
+        approx(3.0 * k_kg_per_h).epsilon(1e-9));
+  CHECK(rates["released/sources/class/3_um/rate"]["value"].get<double>() ==
+        approx(k_kg_per_h).epsilon(1e-9));
+}

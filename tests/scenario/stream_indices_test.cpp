@@ -78,6 +78,7 @@ TEST_CASE("air and looseness of a stream shall be those of grains that fall free
   CHECK(1.0 - value(indices, "looseness/densest_void_fraction") == approx(dense).epsilon(0.04));
   CHECK(value(indices, "looseness/expansion") == approx(dense / loose).epsilon(0.04));
   CHECK(indices["looseness/expansion"]["uncertainty"].is_null());
+  CHECK(indices["entrained_air/per_load"]["uncertainty"].get<double>() >= 0.0);
   const json& air = summary["dust_estimates"]["induced_air"];
   CHECK(air["load_kg_per_s"].get<double>() == approx(k_flow).epsilon(0.01));
   CHECK(air["mean_size_m"].get<double>() == approx(4e-3).epsilon(1e-6));
@@ -99,4 +100,17 @@ TEST_CASE("the indices of a stream shall be the same bits on any threads and thr
   CHECK(value(indices, "impact/grains/power") > 0.0);
   CHECK(value(indices, "impact/bottom/per_load") > 0.0);
   CHECK(value(indices, "looseness/expansion") > 1.0);
+}
+
+TEST_CASE("a feed that ends while means are taken shall give no figures per load") {
+  const TemporaryFolder folder;
+  const json summary =
+      run_summary(k_stream, folder / "stream", {"--set", "emitters.feed.end=0.45 s"});
+  for (const json& figure : {summary["stream_indices"]["entrained_air/per_load"],
+                             summary["dust_rates"]["left/all/per_load"]}) {
+    CHECK(figure["value"].is_null());
+    CHECK(figure["uncertainty"].is_null());
+    CHECK(figure["no_error"] == "feed not even");
+  }
+  CHECK(value(summary["stream_indices"], "entrained_air/flow") > 0.0);
 }

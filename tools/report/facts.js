@@ -117,7 +117,7 @@ Dust.sections.figures = ({summary, sections, tables}) => {
     parts.push(Dust.details(table.title, 'table of ' + Dust.words(table.sensor || ''), Dust.plain_table(table)));
   }
   if (!parts.length) return null;
-  return Dust.section('figures', 'All figures', Dust.p({}, "Every sensor's figures of this run. The error is one standard error; where none stands, the sensor makes no estimate: '(few grains)' rests on fewer than 20, '(not steady)' has not settled in the time observed."), parts);
+  return Dust.section('figures', 'All figures', Dust.p({}, "Every sensor's figures of this run. The error is one standard error; where none stands, the sensor makes no estimate: '(few grains)' rests on fewer than 20, '(not steady)' has not settled in the time observed, '(feed not even)': the feed begins, ends or changes in it."), parts);
 };
 
 Dust.sections.provenance = ({summary, scenario}) => {

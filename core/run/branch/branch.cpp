@@ -313,9 +313,11 @@ void Branch::give_to(Simulation& simulation) {
       diagnostics_.throw_errors();
       transfer(to);
     });
+    simulation.begin_dust_figures();
     return;
   }
   origin_.state().read(simulation.load_parts());
+  simulation.begin_dust_figures();
   report_.particles = simulation.dem().balance().in_domain;
   report_.contacts = simulation.dem().report().contacts;
   for (const auto& sensor : now_.setup.sensors) sensors_going_on_.push_back(sensor.name);

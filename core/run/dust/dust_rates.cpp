@@ -9,6 +9,7 @@ namespace dust::run {
 namespace {
 
 constexpr const char* k_set_free = "set_free";
+constexpr const char* k_released = "released";
 constexpr const char* k_left = "left";
 constexpr const char* k_drawn_out = "drawn_out";
 constexpr const char* k_deposited = "deposited";
@@ -48,6 +49,8 @@ void DustRates::find_parts(const scenario::Setup& setup) {
       add(k_set_free, liberation_->causes()[c],
           [this, c](std::size_t n) { return liberation_->set_free(c, n); });
     }
+  } else {
+    add(k_released, "sources", [this](std::size_t n) { return balances_[n].released; });
   }
   for (std::size_t side = 0; side < 6; ++side) {
     if (!dust_.lets_dust_out(side)) continue;
@@ -95,6 +98,11 @@ void DustRates::find_totals(std::vector<double>& totals) const {
   }
 }
 
+void DustRates::begin_at(double time) {
+  steady_after_ = time;
+  means_ = sdk::BatchMeans(now_.size());
+}
+
 void DustRates::sample(double time, double step) {
   // A hundredth of a step: times are sums of steps.
   constexpr double k_rounding = 0.01;
@@ -119,9 +127,11 @@ void DustRates::report_part(sdk::FigureSink& sink, const std::string& name,
               sdk::detail(sdk::Quantity::mass_rate));
   const double material = means_.mean(k_material_column);
   if (!(material > 0.0)) return;
-  // What is fed is even: its own error is left out.
   const double per_load = k_grams_per_tonne / material;
-  sink.figure(name + "/per_load", per_load * rate, "g/t", scaled_error(error, per_load),
+  const bool is_even = means_.is_even(k_material_column);
+  const double of_ratio = means_.ratio_error(column, k_material_column);
+  sink.figure(name + "/per_load", is_even ? per_load * rate : k_unknown, "g/t",
+              is_even ? scaled_error(of_ratio, k_grams_per_tonne) : sdk::k_feed_not_even,
               sdk::detail(sdk::Quantity::mass_per_load));
 }
 
@@ -145,7 +155,10 @@ void DustRates::report(sdk::FigureSink& sink) const {
 
 void DustRates::add_parts(SaveParts& parts) const {
   parts.emplace_back("dust_rates", [this](sdk::ArchiveWriter& a) {
-    a.numbers("before", before_);
+    // Where a run that started from another began its means, nothing else tells.
+    std::vector<double> before = before_;
+    before.push_back(steady_after_);
+    a.numbers("before", before);
     means_.save(a, "means");
   });
 }
@@ -153,6 +166,11 @@ void DustRates::add_parts(SaveParts& parts) const {
 void DustRates::add_parts(LoadParts& parts) {
   parts.emplace_back("dust_rates", [this](sdk::ArchiveReader& a) {
     before_ = a.numbers("before");
+    // Older checkpoints do not hold it.
+    if (before_.size() > now_.size()) {
+      steady_after_ = before_.back();
+      before_.pop_back();
+    }
     before_time_.reset();
     means_.load(a, "means");
     if (before_.size() != now_.size() || means_.columns() != now_.size()) {

@@ -10,6 +10,7 @@
 #include "setup/setup.hpp"
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ namespace dust::run {
 
 /// A standard error times `factor`; where there is none, why (sdk::BatchMeans) stays as it is.
 double scaled_error(double error, double factor);
+/// The value of an amount per load of a feed that is not even.
+inline constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// At what rates the dust of a field comes off grains and goes where it goes, once the stream is
 /// steady: means over time since `steady_after`, with standard errors from batch means
@@ -28,12 +31,15 @@ class DustRates {
   DustRates(const scenario::Setup& setup, const DustStage& dust, const LiberationStage* liberation,
             const particles::Dem& particles, double steady_after);
 
+  /// Means begin anew, at `time` [s].
+  void begin_at(double time);
   /// At the end of a fluid step of `step` [s], at `time` [s].
   void sample(double time, double step);
 
-  /// "observed" [s]; by way the sum of its parts ("all"), then each of them, of all classes
-  /// together and of each: "set_free/hood/rate" [kg/h] and, where material is released,
-  /// "set_free/hood/per_load" [g/t]; "left/right/class/10_um/rate".
+  /// "observed" [s]; by way (without loads "released", what sources give) the sum of its parts
+  /// ("all"), then each of them, of all classes together and of each: "set_free/hood/rate" [kg/h]
+  /// and, where material is released, "set_free/hood/per_load" [g/t];
+  /// "left/right/class/10_um/rate".
   void report(sdk::FigureSink& sink) const;
 
   void add_parts(SaveParts& parts) const;

@@ -73,6 +73,11 @@ void StreamIndices::find_air() {
   }
 }
 
+void StreamIndices::begin_at(double time) {
+  steady_after_ = time;
+  means_ = sdk::BatchMeans(now_.size());
+}
+
 void StreamIndices::sample(double time, double step) {
   // A hundredth of a step: times are sums of steps.
   constexpr double k_rounding = 0.01;
@@ -102,20 +107,22 @@ double StreamIndices::void_fraction(std::size_t level) const {
 }
 
 void StreamIndices::report_impacts(sdk::FigureSink& sink) const {
-  const auto figures = [&](const std::string& name, double power, double error) {
+  // `of_ratio`: that of the power over the load.
+  const auto figures = [&](const std::string& name, double power, double error, double of_ratio) {
     sink.figure("impact/" + name + "/power", power, "W", error, sdk::detail(sdk::Quantity::power));
     if (!(load() > 0.0)) return;
-    // What is fed is even: its own error is left out.
-    sink.figure("impact/" + name + "/per_load", power / load(), "J/kg",
-                scaled_error(error, 1.0 / load()), sdk::FigureRole{});
+    const bool is_even = means_.is_even(k_load);
+    sink.figure("impact/" + name + "/per_load", is_even ? power / load() : k_unknown, "J/kg",
+                is_even ? of_ratio : sdk::k_feed_not_even, sdk::FigureRole{});
   };
   double whole = 0.0;
   for (std::size_t n = k_power; n < first_level_; ++n) whole += means_.mean(n);
   // Causes are not independent of each other: their sum has no error of its own.
-  if (first_level_ > k_power) figures("all", whole, sdk::k_no_estimate);
+  if (first_level_ > k_power) figures("all", whole, sdk::k_no_estimate, sdk::k_no_estimate);
   for (std::size_t n = k_power; n < first_level_; ++n) {
     if (means_.mean(n) > 0.0) {
-      figures(liberation_->causes()[n - k_power], means_.mean(n), means_.error(n));
+      figures(liberation_->causes()[n - k_power], means_.mean(n), means_.error(n),
+              means_.ratio_error(n, k_load));
     }
   }
 }
@@ -132,10 +139,12 @@ void StreamIndices::report_levels(sdk::FigureSink& sink) const {
   const std::size_t most = *std::max_element(
       passed.begin(), passed.end(), [&](std::size_t a, std::size_t b) { return air(a) < air(b); });
   const double error = means_.error(column(most, air_flow));
-  const double per_load = k_tonne / load();
+  const bool is_even = means_.is_even(k_load);
   sink.figure("entrained_air/flow", air(most), "m3/s", error,
               sdk::detail(sdk::Quantity::volume_rate));
-  sink.figure("entrained_air/per_load", per_load * air(most), "m3/t", scaled_error(error, per_load),
+  sink.figure("entrained_air/per_load", is_even ? k_tonne / load() * air(most) : k_unknown, "m3/t",
+              is_even ? scaled_error(means_.ratio_error(column(most, air_flow), k_load), k_tonne)
+                      : sdk::k_feed_not_even,
               sdk::FigureRole{});
   sink.figure("entrained_air/height", height(most), "m", sdk::k_no_estimate,
               sdk::detail(sdk::Quantity::length));
@@ -166,14 +175,18 @@ void StreamIndices::report(sdk::FigureSink& sink) const {
 
 void StreamIndices::add_parts(SaveParts& parts) const {
   parts.emplace_back("stream_indices", [this](sdk::ArchiveWriter& a) {
-    a.number("fed", fed_.value_or(-1.0));
+    // As in DustRates.
+    const double numbers[] = {fed_.value_or(-1.0), steady_after_};
+    a.numbers("fed", numbers);
     means_.save(a, "means");
   });
 }
 
 void StreamIndices::add_parts(LoadParts& parts) {
   parts.emplace_back("stream_indices", [this](sdk::ArchiveReader& a) {
-    const double fed = a.number("fed");
+    const std::vector<double> numbers = a.numbers("fed");
+    const double fed = numbers.at(0);
+    if (numbers.size() > 1) steady_after_ = numbers[1];
     fed_ = fed < 0.0 ? std::nullopt : std::optional<double>(fed);
     means_.load(a, "means");
     if (means_.columns() != now_.size()) {

@@ -32,6 +32,8 @@ class StreamIndices {
   StreamIndices(const scenario::Setup& setup, const FluidStage& fluid, const DustStage& dust,
                 const LiberationStage* liberation, particles::Dem& particles, double steady_after);
 
+  /// Means begin anew, at `time` [s].
+  void begin_at(double time);
   /// At the end of a fluid step of `step` [s], at `time` [s].
   void sample(double time, double step);
 

@@ -4,6 +4,8 @@
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
+#include <limits>
+
 namespace {
 
 namespace formula = dust::model::carry_back;
@@ -58,7 +60,7 @@ class CarryBack final : public sdk::Sensor {
   void observe(const sdk::WorldView& world) override {
     if (classes_.empty() && !world.class_diameters.empty()) {
       classes_.assign(world.class_diameters.begin(), world.class_diameters.end());
-      means_ = sdk::BatchMeans(k_columns * (1 + classes_.size()));
+      means_ = sdk::BatchMeans(k_columns * (1 + classes_.size()) + 1);
     }
     values_.assign(means_.columns(), 0.0);
     const sdk::GrainColumns& g = world.grains;
@@ -71,6 +73,9 @@ class CarryBack final : public sdk::Sensor {
       if (!classes_.empty()) {
         add(1 + sdk::nearest_class(g.diameter[i], classes_), g.weight[i], g.mass[i], speed);
       }
+    }
+    if (knows_feed() && world.interval > 0.0) {
+      values_.back() = (world.emitted_mass - emitted_mass_) / world.interval;
     }
     if (sdk::is_after(world, p_.steady_after)) {
       if (emitted_before_ < 0.0) emitted_before_ = emitted_mass_;
@@ -134,6 +139,15 @@ class CarryBack final : public sdk::Sensor {
     v[3] += weight;
   }
 
+  /// Whether the mass emitted is among the means, after all groups: not in older checkpoints.
+  [[nodiscard]] bool knows_feed() const { return means_.columns() % k_columns == 1; }
+  /// As in plane_flux: a batch is no feed.
+  [[nodiscard]] bool is_uneven() const {
+    if (!knows_feed()) return false;
+    const std::size_t feed = means_.columns() - 1;
+    if (means_.mean(feed) == 0.0 || means_.is_even(feed)) return false;
+    return emitted_before_ > 0.0 || !means_.has_ended(feed);
+  }
   /// Mass emitted while the means were taken.
   [[nodiscard]] double emitted() const {
     return emitted_before_ < 0.0 ? 0.0 : emitted_mass_ - emitted_before_;
@@ -159,19 +173,24 @@ class CarryBack final : public sdk::Sensor {
     constexpr double k_grams_per_tonne = 1e6;
     const double per_flow =
         emitted() > 0.0 ? k_grams_per_tonne * means_.duration() / emitted() : 0.0;
+    const auto role = k_flow.of(sdk::Quantity::mass_per_load).sizes(diameter, diameter);
+    if (is_uneven()) {
+      sink.figure(prefix + "grams_per_tonne", std::numeric_limits<double>::quiet_NaN(), "g/t",
+                  sdk::k_feed_not_even, role);
+      return;
+    }
     const double flow_error = error(first);
     sink.figure(prefix + "grams_per_tonne", means_.known_mean(first) * per_flow, "g/t",
-                flow_error < 0.0 ? -1.0 : flow_error * per_flow,
-                k_flow.of(sdk::Quantity::mass_per_load).sizes(diameter, diameter));
+                flow_error < 0.0 ? -1.0 : flow_error * per_flow, role);
   }
 
   Parameters p_;
   double length_ = 1.0;
   std::vector<double> classes_;
-  std::vector<double> values_ = std::vector<double>(k_columns, 0.0);  ///< at the last sample
+  std::vector<double> values_ = std::vector<double>(k_columns + 1, 0.0);  ///< at the last sample
   double emitted_mass_ = 0.0;     ///< [kg] until the last sample
   double emitted_before_ = -1.0;  ///< [kg] until the first steady sample; -1 before it
-  sdk::BatchMeans means_{k_columns};
+  sdk::BatchMeans means_{k_columns + 1};
   sdk::ThinnedCurve curve_;
 };
 

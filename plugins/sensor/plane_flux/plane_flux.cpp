@@ -5,6 +5,8 @@
 #include <dust/sdk/rectangle.hpp>
 #include <dust/sdk/sampling.hpp>
 
+#include <limits>
+
 namespace {
 
 namespace formula = dust::model::plane_flux;
@@ -73,6 +75,7 @@ class PlaneFlux final : public sdk::Sensor {
               is_steady);
       }
     }
+    if (knows_feed()) passed.back() = world.emitted_mass - emitted_mass_;
     for (int way = 0; way < 2; ++way) mass_so_far_[way] += passed[k_ways * k_mass + way];
     if (world.interval > 0.0) {
       for (double& v : passed) v /= world.interval;
@@ -137,14 +140,15 @@ class PlaneFlux final : public sdk::Sensor {
   }
 
  private:
-  // Columns of a group: number forward, backward, net; mass forward, backward, net.
+  // Columns of a group: number forward, backward, net; mass forward, backward, net. After all
+  // groups the mass emitted.
   static constexpr std::size_t k_ways = 3;
   static constexpr std::size_t k_net = 2;
   static constexpr std::size_t k_mass = 1;
   static constexpr std::size_t k_columns = 2 * k_ways;
 
   void resize(std::size_t groups) {
-    means_ = sdk::BatchMeans(k_columns * groups);
+    means_ = sdk::BatchMeans(k_columns * groups + 1);
     squares_.assign(k_columns * groups, 0.0);
   }
 
@@ -178,6 +182,42 @@ class PlaneFlux final : public sdk::Sensor {
                 p_.sized(role_of(1).of(sdk::Quantity::mass)));
   }
 
+  /// Whether the mass emitted is among the means: not in those of older checkpoints.
+  [[nodiscard]] bool knows_feed() const { return means_.columns() % k_columns == 1; }
+  /// Whether means cannot be told per load: the feed begins, ends or changes while they are taken.
+  /// A batch is no feed: all of it has come since the means began, and no more of it comes.
+  [[nodiscard]] bool is_uneven() const {
+    if (!knows_feed()) return false;
+    const std::size_t feed = means_.columns() - 1;
+    if (means_.mean(feed) == 0.0 || means_.is_even(feed)) return false;
+    return emitted_before_ > 0.0 || !means_.has_ended(feed);
+  }
+  /// `rate`: its place among the means, `counted` as in rates_of(); `error` is that of the rate.
+  void per_load_of(const std::string& name, std::size_t rate, double counted, double error,
+                   const sdk::FigureRole& role, sdk::FigureSink& sink) const {
+    const double duration = means_.duration();
+    if (is_uneven()) {
+      sink.figure(name, std::numeric_limits<double>::quiet_NaN(), "g/t", sdk::k_feed_not_even,
+                  role);
+      return;
+    }
+    const double emitted = emitted_before_ < 0.0 ? 0.0 : emitted_mass_ - emitted_before_;
+    const double value = duration > 0.0
+                             ? formula::grams_per_tonne(means_.mean(rate), duration, emitted)
+                             : means_.known_mean(rate);
+    // Of a batch the load is known; that of a feed varies with what passes.
+    if (knows_feed() && emitted > 0.0 && means_.is_even(means_.columns() - 1)) {
+      const double of_ratio = means_.ratio_error(rate, means_.columns() - 1);
+      error = formula::rate_error(of_ratio < 0.0 ? of_ratio : of_ratio * emitted / duration,
+                                  counted * duration, squares_[rate], duration);
+    }
+    if (error >= 0.0) {
+      error =
+          emitted > 0.0 ? formula::grams_per_tonne(error, duration, emitted) : sdk::k_no_estimate;
+    }
+    sink.figure(name, value, "g/t", error, role);
+  }
+
   /// `smallest` and `largest` diameter of the group [m].
   void rates_of(const std::string& prefix, std::size_t group, double smallest, double largest,
                 sdk::FigureSink& sink) const {
@@ -199,15 +239,8 @@ class PlaneFlux final : public sdk::Sensor {
         sink.figure(prefix + k_way_names[way] + k_quantities[q], means_.known_mean(first + way),
                     k_units[q], error, role.of(k_what[q]));
         if (q != k_mass) continue;
-        const double emitted = emitted_before_ < 0.0 ? 0.0 : emitted_mass_ - emitted_before_;
-        const double rate =
-            duration > 0.0 ? formula::grams_per_tonne(means_.mean(first + way), duration, emitted)
-                           : means_.known_mean(first + way);
-        sink.figure(prefix + k_way_names[way] + "grams_per_tonne", rate, "g/t",
-                    error < 0.0     ? error
-                    : emitted > 0.0 ? formula::grams_per_tonne(error, duration, emitted)
-                                    : sdk::k_no_estimate,
-                    role.of(sdk::Quantity::mass_per_load));
+        per_load_of(prefix + k_way_names[way] + "grams_per_tonne", first + way, counted, error,
+                    role.of(sdk::Quantity::mass_per_load), sink);
       }
     }
   }
@@ -221,7 +254,7 @@ class PlaneFlux final : public sdk::Sensor {
   sdk::RowMeans row_{1};                          ///< [kg/s] net
   double emitted_mass_ = 0.0;                     ///< [kg] until the last sample
   double emitted_before_ = -1.0;  ///< [kg] until the first steady sample; -1 before it
-  sdk::BatchMeans means_{k_columns};
+  sdk::BatchMeans means_{k_columns + 1};
   sdk::ThinnedCurve curve_;
 };
 

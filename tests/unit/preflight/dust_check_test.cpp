@@ -160,3 +160,23 @@ TEST_CASE("a class of dust that does not follow the resolved fluid shall be told
   CHECK(has(coarse, "dust.field.classes: at 2 m/s dust of 80 um follows the fluid round turns"));
   CHECK_FALSE(has(coarse, "dust of 10 um"));
 }
+
+TEST_CASE("a feed that begins or ends while rates of dust are taken shall be warned of") {
+  const std::vector<scenario::Override> dusty = {
+      {"materials.sand.dust_load", "[1 %]"},
+      {"dust",
+       "{steady_after: 60 ms, field: {classes: [10 um], material: sand}, liberation: "
+       "{model: energy, binding_energy: 2 MJ/kg}}"}};
+  const auto said = [&](const std::string& key, const std::string& time) {
+    auto set = dusty;
+    if (!key.empty()) set.push_back({key, time});
+    return warnings(set);
+  };
+  CHECK_FALSE(has(said("", ""), "rates of dust"));
+  CHECK(has(said("emitters.feed.end", "80 ms"),
+            "emitters.feed: ends at 0.08 s, while rates of dust are taken, from 0.06 s to 0.1 s"));
+  CHECK(has(said("emitters.feed.begin", "70 ms"), "emitters.feed: begins at 0.07 s, while rates"));
+  CHECK_FALSE(has(said("emitters.feed.end", "50 ms"), "rates of dust"));
+  CHECK_FALSE(has(said("emitters.feed.end", "100 ms"), "rates of dust"));
+  CHECK_FALSE(has(warnings({{"emitters.feed.end", "80 ms"}}), "rates of dust"));
+}

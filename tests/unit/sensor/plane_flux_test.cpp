@@ -278,6 +278,33 @@ TEST_CASE("dust through an opening shall count per tonne emitted in the same tim
   }
 }
 
+TEST_CASE("a feed that begins or ends while dust is counted shall give no amount per tonne") {
+  // One grain of 1 ug per sample; 5 g are emitted in those from `begin` to `end`.
+  const auto per_tonne = [](double steady_after, int begin, int end) {
+    auto parameters = k_lip;
+    parameters["steady_after"] = steady_after;
+    const auto sensor = kind().make(parameters);
+    SyntheticScene world;
+    for (int s = 0; s < 400; ++s) {
+      world.grains = {moving({0.0795, 0.005, 0.205}, {0.0805, 0.005, 0.205}, world.interval)};
+      world.grains.back().mass = 1e-9;
+      if (s >= begin && s < end) world.emitted_mass += 5e-3;
+      step(*sensor, world);
+    }
+    return summary_of(*sensor).at("net/grams_per_tonne");
+  };
+  const Figure even = per_tonne(0.1, 0, 400);
+  CHECK(even.value == test::approx(0.2).epsilon(1e-9));
+  CHECK(even.uncertainty >= 0.0);
+  for (const auto& [begin, end] : {std::pair{0, 300}, std::pair{200, 400}, std::pair{0, 360}}) {
+    const Figure figure = per_tonne(0.1, begin, end);
+    CHECK(std::isnan(figure.value));
+    CHECK(figure.uncertainty == sdk::k_feed_not_even);
+  }
+  // A batch, counted from its release on: 0.4 mg of 0.5 kg.
+  CHECK(per_tonne(0.0, 0, 100).value == test::approx(0.8).epsilon(1e-9));
+}
+
 TEST_CASE("an opening shall say so of its figures, whatever the sensor is called") {
   auto parameters = k_lip;
   parameters["role"] = std::string("opening");

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 using namespace dust;
@@ -160,6 +161,59 @@ TEST_CASE("a mean that drifts, or rests on one lump, shall say that it has not s
     small.add({&value, 1}, 0.001);
   }
   CHECK(small.error(0) == test::approx(5e-3 / std::sqrt(12.0)).epsilon(0.05));
+}
+
+TEST_CASE("the error of a ratio shall leave out what both parts have in common") {
+  // A feed that scatters by a third, and 2 mg per g of it that scatter by a hundredth.
+  Coverage coverage;
+  double error = 0.0, of_mean = 0.0;
+  for (int run = 0; run < test::k_runs; ++run) {
+    Dice dice(run);
+    sdk::BatchMeans means(2);
+    for (int i = 0; i < 1024; ++i) {
+      const double feed = 1.0 + 0.3 * dice.normal();
+      const double values[] = {2e-3 * feed + 2e-5 * dice.normal(), feed};
+      means.add(values, 0.001);
+    }
+    const double ratio = means.mean(0) / means.mean(1);
+    coverage.add({ratio, "", means.ratio_error(0, 1)}, 2e-3);
+    error += means.ratio_error(0, 1) / test::k_runs;
+    of_mean += means.error(0) / test::k_runs;
+  }
+  CHECK(coverage.without_error == 0);
+  CHECK(coverage.one() > test::k_one_low);
+  CHECK(coverage.two() > test::k_two_low);
+  // 1024 samples; half of all series look as if they remembered, by chance.
+  CHECK(error > 0.93 * 2e-5 / 32.0);
+  CHECK(error < 1.3 * 2e-5 / 32.0);
+  CHECK(of_mean > 25.0 * error);
+  sdk::BatchMeans unfed(2);
+  const double values[] = {1.0, 0.0};
+  for (int i = 0; i < 64; ++i) unfed.add(values, 0.001);
+  CHECK(unfed.ratio_error(0, 1) == sdk::k_no_estimate);
+}
+
+TEST_CASE("a feed shall count as even unless it begins, ends or changes while it is watched") {
+  const auto fed = [](const std::function<double(int)>& amount) {
+    sdk::BatchMeans means(1);
+    for (int i = 0; i < 1000; ++i) {
+      const double value = amount(i);
+      means.add({&value, 1}, 0.001);
+    }
+    return means;
+  };
+  CHECK(fed([](int) { return 1.0; }).is_even(0));
+  // Grains that come one by one, at most one in a batch.
+  CHECK(fed([](int i) { return i % 70 == 60 ? 1.0 : 0.0; }).is_even(0));
+  CHECK(fed([](int i) { return 1.0 + 0.5 * std::sin(0.1 * i); }).is_even(0));
+  CHECK_FALSE(fed([](int) { return 0.0; }).is_even(0));
+  CHECK_FALSE(fed([](int i) { return i < 600 ? 1.0 : 0.0; }).is_even(0));
+  CHECK_FALSE(fed([](int i) { return i < 920 ? 1.0 : 0.0; }).is_even(0));
+  CHECK_FALSE(fed([](int i) { return i < 300 ? 0.0 : 1.0; }).is_even(0));
+  CHECK_FALSE(fed([](int i) { return i < 500 ? 1.0 : 2.0; }).is_even(0));
+  CHECK(fed([](int i) { return i < 900 ? 1.0 : 0.0; }).has_ended(0));
+  CHECK_FALSE(fed([](int i) { return i < 900 ? 0.0 : 1.0; }).has_ended(0));
+  CHECK_FALSE(sdk::BatchMeans(1).is_even(0));
 }
 
 TEST_CASE("few samples shall give no error rather than a wrong one") {

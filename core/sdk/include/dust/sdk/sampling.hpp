@@ -188,29 +188,61 @@ class BatchMeans {
   /// hold at most, where more is known of the memory than the batches tell.
   [[nodiscard]] double error(
       std::size_t column, double most_independent = std::numeric_limits<double>::infinity()) const {
-    const std::size_t batches = durations_.size();
-    if (batches < k_min_batches) return k_no_estimate;
-    const auto n = static_cast<double>(batches);
-    const Spread spread = spread_of(column);
-    const double variance = spread.squares / (n * (n - 1.0));
-    double independent = n;
-    const double memory =
-        std::min(spread.correlation + (1.0 + 3.0 * spread.correlation) / n, k_max_memory);
-    if (memory > 0.0) independent *= (1.0 - memory) / (1.0 + memory);
-    independent = std::min(independent, most_independent);
-    if (independent >= n) return std::sqrt(variance);
-    if (independent < k_min_independent) {
-      const double drift = deviation(column);
-      return drift <= k_small_drift * std::abs(mean(column)) ? drift : k_not_steady;
+    return error_of([&](std::size_t b) { return batch_mean(b, column); }, mean(column),
+                    most_independent);
+  }
+  /// Standard error of mean(top) / mean(base), in the unit of that ratio \f$ R \f$: that of the
+  /// mean of the residuals \f$ x_{top} - R\, x_{base} \f$ over mean(base) (Cochran 1977, Sampling
+  /// Techniques, eq. 6.13). What both have in common is no error of their ratio. The reasons why
+  /// there is none are those of error(); k_no_estimate where mean(base) is 0.
+  [[nodiscard]] double ratio_error(std::size_t top, std::size_t base) const {
+    const double below = mean(base);
+    if (below == 0.0) return k_no_estimate;
+    const double ratio = mean(top) / below;
+    const double error =
+        error_of([&](std::size_t b) { return batch_mean(b, top) - ratio * batch_mean(b, base); },
+                 mean(top), std::numeric_limits<double>::infinity());
+    return error < 0.0 ? error : error / std::abs(below);
+  }
+  /// Whether a column that counts something grows evenly: its sum, batch by batch, is nowhere
+  /// farther from the straight line than a tenth of the whole, and it has not stopped or not begun
+  /// for more batches at an end than anywhere between. False without samples.
+  [[nodiscard]] bool is_even(std::size_t column) const {
+    double whole = open_[column];
+    for (std::size_t b = 0; b < durations_.size(); ++b) whole += closed_[b * columns_ + column];
+    const double time = duration();
+    if (whole == 0.0 || !(time > 0.0)) return false;
+    double sum = 0.0, begin = 0.0;
+    std::size_t gap = 0, longest = 0, first = 0;
+    bool has_begun = false;
+    for (std::size_t b = 0; b < durations_.size(); ++b) {
+      const double amount = closed_[b * columns_ + column];
+      sum += amount;
+      begin += durations_[b];
+      if (std::abs(sum / whole - begin / time) > k_uneven) return false;
+      if (amount == 0.0) {
+        ++gap;
+        continue;
+      }
+      (has_begun ? longest : first) = std::max(has_begun ? longest : first, gap);
+      has_begun = true;
+      gap = 0;
     }
-    return std::sqrt(variance * n / independent) * widening(independent - 1.0);
+    // What the open batch counts ends the last gap as well.
+    const std::size_t last = open_[column] == 0.0 ? gap : 0;
+    return std::max(first, last) <= longest + 1;
+  }
+  /// Whether a column that counts something counted nothing of late: in the last batch and since.
+  [[nodiscard]] bool has_ended(std::size_t column) const {
+    return !durations_.empty() && closed_[(durations_.size() - 1) * columns_ + column] == 0.0 &&
+           open_[column] == 0.0;
   }
   /// How far a single batch lies from the mean of all, one standard deviation; k_no_estimate below
   /// 8 batches.
   [[nodiscard]] double deviation(std::size_t column) const {
     const std::size_t batches = durations_.size();
     if (batches < k_min_batches) return k_no_estimate;
-    return std::sqrt(spread_of(column).squares / (static_cast<double>(batches) - 1.0));
+    return deviation_of(spread_of([&](std::size_t b) { return batch_mean(b, column); }));
   }
 
   void save(ArchiveWriter& archive, const std::string& name) const {
@@ -243,29 +275,53 @@ class BatchMeans {
   static constexpr double k_max_memory = 0.97;      ///< 32 batches cannot tell more
   static constexpr double k_min_independent = 3.0;  ///< batches
   static constexpr double k_small_drift = 0.01;     ///< of the mean: what batches scatter by then
+  static constexpr double k_uneven = 0.1;           ///< of the whole, off an even growth
 
   /// Sum of the squares of the batches' deviations, and the lag-1 correlation of them.
   struct Spread {
     double squares = 0.0;
     double correlation = 0.0;
   };
-  [[nodiscard]] Spread spread_of(std::size_t column) const {
+  /// `value`: of a batch, by its number.
+  template <class Value>
+  [[nodiscard]] Spread spread_of(const Value& value) const {
     const std::size_t n = durations_.size();
     double mean_of_batches = 0.0;
-    for (std::size_t b = 0; b < n; ++b) {
-      mean_of_batches += batch_mean(b, column) / static_cast<double>(n);
-    }
+    for (std::size_t b = 0; b < n; ++b) mean_of_batches += value(b) / static_cast<double>(n);
     Spread spread;
     double products = 0.0;
     double last = 0.0;
     for (std::size_t b = 0; b < n; ++b) {
-      const double deviation = batch_mean(b, column) - mean_of_batches;
+      const double deviation = value(b) - mean_of_batches;
       spread.squares += deviation * deviation;
       products += deviation * last;
       last = deviation;
     }
     if (spread.squares > 0.0) spread.correlation = products / spread.squares;
     return spread;
+  }
+  [[nodiscard]] double deviation_of(const Spread& spread) const {
+    return std::sqrt(spread.squares / (static_cast<double>(durations_.size()) - 1.0));
+  }
+  /// See error(); a drift is small against `size`.
+  template <class Value>
+  [[nodiscard]] double error_of(const Value& value, double size, double most_independent) const {
+    const std::size_t batches = durations_.size();
+    if (batches < k_min_batches) return k_no_estimate;
+    const auto n = static_cast<double>(batches);
+    const Spread spread = spread_of(value);
+    const double variance = spread.squares / (n * (n - 1.0));
+    double independent = n;
+    const double memory =
+        std::min(spread.correlation + (1.0 + 3.0 * spread.correlation) / n, k_max_memory);
+    if (memory > 0.0) independent *= (1.0 - memory) / (1.0 + memory);
+    independent = std::min(independent, most_independent);
+    if (independent >= n) return std::sqrt(variance);
+    if (independent < k_min_independent) {
+      const double drift = deviation_of(spread);
+      return drift <= k_small_drift * std::abs(size) ? drift : k_not_steady;
+    }
+    return std::sqrt(variance * n / independent) * widening(independent - 1.0);
   }
   /// The 97.5 % quantile of Student's t over that of the normal law, by the expansion in 1/degrees
   /// (Abramowitz and Stegun 1964, 26.7.5); within 3 % from 2 degrees of freedom on.

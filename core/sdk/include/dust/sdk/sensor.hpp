@@ -94,18 +94,24 @@ struct WorldView {
 inline constexpr double k_no_estimate = -1.0;  ///< the sensor's README says why
 inline constexpr double k_few_grains = -2.0;   ///< it rests on fewer than k_min_grains
 inline constexpr double k_not_steady = -3.0;   ///< it has not settled in the time observed
+/// An amount per load: the feed begins, ends or changes in the time observed, and no value is
+/// given.
+inline constexpr double k_feed_not_even = -4.0;
 
 /// Fewer independent grains tell no error.
 inline constexpr double k_min_grains = 20.0;
 
-/// The reason as files give it: "few grains", "not steady", "" for none in particular.
+/// The reason as files give it: "few grains", "not steady", "feed not even", "" for none in
+/// particular.
 constexpr std::string_view reason_without_error(double uncertainty) {
   if (uncertainty == k_few_grains) return "few grains";
+  if (uncertainty == k_feed_not_even) return "feed not even";
   return uncertainty == k_not_steady ? "not steady" : "";
 }
 
 /// Takes the figures of a sensor. `uncertainty` is one standard error in the same unit; a negative
-/// number means that there is none (k_no_estimate, k_few_grains, k_not_steady).
+/// number means that there is none (k_no_estimate, k_few_grains, k_not_steady,
+/// k_feed_not_even).
 class FigureSink {
  public:
   virtual ~FigureSink() = default;
