@@ -19,6 +19,52 @@ constexpr double k_largest_share = 0.1;
 constexpr std::array<std::string_view, 6> k_unasked = {
     "inertia", "scavenging", "resuspension", "emission_coefficient", "cohesion", "deposition"};
 
+/// A box of dust, which may be flat, of which part lies in the domain.
+void check_box(Reading& reading, const Node& given, const std::string& path, sdk::Vec3 min,
+               sdk::Vec3 max) {
+  static constexpr const char* k_axes[] = {"x", "y", "z"};
+  const DomainSpec& domain = reading.setup.domain;
+  for (int d = 0; d < 3; ++d) {
+    const std::string axis = k_axes[d];
+    if (min[d] > max[d]) {
+      reading.error(mark_of(given, "min"),
+                    path + ": min is above max in " + axis + ": " + number_text(min[d]) +
+                        " m and " + number_text(max[d]) +
+                        " m; give the lower corner of the box as min, the upper one as max");
+      return;
+    }
+    // Of a domain that is wrong, it is told there.
+    if (!(domain.min[d] < domain.max[d])) return;
+    const bool is_flat = min[d] == max[d];
+    if (is_flat ? min[d] >= domain.min[d] && max[d] <= domain.max[d]
+                : min[d] < domain.max[d] && max[d] > domain.min[d]) {
+      continue;
+    }
+    reading.error(mark_of(given, "min"),
+                  path + ": no part of the box lies in the domain: in " + axis +
+                      " it reaches from " + number_text(min[d]) + " to " + number_text(max[d]) +
+                      " m, the domain from " + number_text(domain.min[d]) + " to " +
+                      number_text(domain.max[d]) + " m; give min and max in it, with their unit");
+    return;
+  }
+}
+
+/// When a source gives dust.
+void check_times(Reading& reading, const Node& given, const std::string& path, double begin,
+                 double end) {
+  const auto seconds = [](double time) { return number_text(time) + " s"; };
+  if (!(begin < end)) {
+    reading.error(mark_of(given, given.find("end") != nullptr ? "end" : "begin"),
+                  path + ".end: " + seconds(end) + " is not after begin, " + seconds(begin) +
+                      ": no dust would come; give a later end or an earlier begin");
+  } else if (reading.setup.time.end > 0.0 && !(begin < reading.setup.time.end)) {
+    reading.diagnostics.warning(mark_of(given, "begin"),
+                                path + ".begin: " + seconds(begin) + " is not before time.end, " +
+                                    seconds(reading.setup.time.end) +
+                                    ": no dust comes; give an earlier begin or a later end");
+  }
+}
+
 Node read_clouds(Reading& reading, MapReader& field, DustFieldSpec& spec) {
   Node written = Node::make_map();
   for_each_named(reading, field, "clouds", [&](const Entry& entry, const std::string& path) {
@@ -32,6 +78,9 @@ Node read_clouds(Reading& reading, MapReader& field, DustFieldSpec& spec) {
                     "dust.field." + path + ".concentration: " +
                         std::to_string(read.concentration.size()) + " numbers for " +
                         std::to_string(spec.diameters.size()) + " classes; give one for each");
+    }
+    if (reader.is_good()) {
+      check_box(reading, entry.value, "dust.field." + path, read.min, read.max);
     }
     spec.clouds.push_back({entry.key, read.min, read.max, read.concentration});
     add(written, entry.key, written_block<DustCloudBlock>(values));
@@ -52,6 +101,10 @@ Node read_dust_sources(Reading& reading, MapReader& field, DustFieldSpec& spec) 
                     "dust.field." + path + ".mass_flow: " + std::to_string(read.mass_flow.size()) +
                         " numbers for " + std::to_string(spec.diameters.size()) +
                         " classes; give one for each");
+    }
+    if (reader.is_good()) {
+      check_box(reading, entry.value, "dust.field." + path, read.min, read.max);
+      check_times(reading, entry.value, "dust.field." + path, read.begin, read.end);
     }
     spec.sources.push_back({entry.key, read.min, read.max, read.mass_flow, read.begin, read.end});
     Node map = Node::make_map();

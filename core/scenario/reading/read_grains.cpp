@@ -139,6 +139,19 @@ Node read_interaction(Reading& reading, const Node& node, const std::string& pat
   return written;
 }
 
+/// Warns of a load that makes up much of its material: per cent written as shares.
+void check_share_of_dust(Reading& reading, const Entry& material, const std::string& path,
+                         const std::vector<double>& load) {
+  constexpr double k_much = 0.2;
+  double sum = 0.0;
+  for (const double share : load) sum += share;
+  if (!(sum > k_much)) return;
+  reading.diagnostics.warning(mark_of(material.value, "dust_load"),
+                              path + ".dust_load: dust is " + number_text(100.0 * sum) +
+                                  " % of the material: numbers without a unit are shares of one; "
+                                  "write per cent as 0.5 %");
+}
+
 }  // namespace
 
 void read_materials(Reading& reading, MapReader& top) {
@@ -153,6 +166,7 @@ void read_materials(Reading& reading, MapReader& top) {
          {material.density, material.young_modulus, material.poisson_ratio},
          material.coarse_graining});
     reading.dust.loads.push_back({material.dust_load, material.moisture});
+    check_share_of_dust(reading, entry, path, material.dust_load);
     Node block = written_block<MaterialBlock>(values);
     // What only dust asks for is not written where there is none.
     if (material.dust_load.empty()) {

@@ -305,3 +305,43 @@ TEST_CASE("loads without a law shall be told to stay") {
         std::string::npos);
   CHECK(result.dust.shares_on_grains().empty());
 }
+
+TEST_CASE("sources and clouds outside the domain, upside down or out of time shall be told") {
+  const auto field = [](const std::string& kind, const std::string& rest) {
+    return with("dust: {field: {classes: [5, 20 um], material: sand, " + kind + ": {s: {" + rest +
+                "}}}}\n");
+  };
+  const std::string box = "min: [1, 1, 1 mm], max: [5, 5, 5 mm], ";
+  const std::string flow = "mass_flow: [1, 2 mg/s]";
+  check_text(field("sources", "min: [50, 0, 0 m], max: [60, 1, 1 m], " + flow),
+             "dust.field.sources.s: no part of the box lies in the domain: in x it reaches from 50 "
+             "to 60 m, the domain from ");
+  check_text(field("sources", "min: [5, 1, 1 mm], max: [1, 5, 5 mm], " + flow),
+             "dust.field.sources.s: min is above max in x: 0.005 m and 0.001 m; give");
+  check_text(field("clouds", "min: [50, 0, 0 m], max: [60, 1, 1 m], concentration: [1, 1 g/m3]"),
+             "dust.field.clouds.s: no part of the box lies in the domain");
+  check_text(field("clouds", "min: [1, 5, 1 mm], max: [5, 1, 5 mm], concentration: [1, 1 g/m3]"),
+             "dust.field.clouds.s: min is above max in y");
+  check_text(field("sources", box + flow + ", begin: 3 ms, end: 1 ms"),
+             "dust.field.sources.s.end: 0.001 s is not after begin, 0.003 s");
+  const Folder folder;
+  const auto late = read(folder.write("s.yaml", field("sources", box + flow + ", begin: 1 h")));
+  CHECK(joined(late.warnings).find("dust.field.sources.s.begin: 3600 s is not before time.end") !=
+        std::string::npos);
+  // A flat box is one layer of cells.
+  const std::string flat = "min: [1, 1, 1 mm], max: [5, 5, 1 mm], ";
+  CHECK(joined(read(folder.write("t.yaml", field("sources", flat + flow))).warnings)
+            .find("sources") == std::string::npos);
+}
+
+TEST_CASE("a load of more than a fifth of the material shall be asked for its per cent") {
+  const Folder folder;
+  const auto warned = [&](const std::string& load) {
+    return joined(read(folder.write("s.yaml", dusty(load))).warnings)
+               .find(
+                   "materials.sand.dust_load: dust is 50 % of the material: numbers without a "
+                   "unit are shares of one; write per cent as 0.5 %") != std::string::npos;
+  };
+  CHECK(warned("dust_load: [0.1, 0.4]"));
+  CHECK_FALSE(warned("dust_load: [0.1 %, 0.4 %]"));
+}
