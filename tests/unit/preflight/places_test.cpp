@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,21 @@ std::string problem(const std::vector<scenario::Override>& set,
 TEST_CASE("what lies where it should shall not be complained of") {
   CHECK(said({}).errors == std::vector<std::string>{});
   CHECK(said({}).warnings == std::vector<std::string>{});
+}
+
+TEST_CASE("a body beside the domain shall be warned of however near it is") {
+  const auto is_missed = [](const std::string& min, const std::string& max) {
+    const Said all = said({{"bodies.shelf.min", min}, {"bodies.shelf.max", max}});
+    REQUIRE(all.errors.empty());
+    return std::any_of(all.warnings.begin(), all.warnings.end(), [](const std::string& line) {
+      return line.find("bodies.shelf: none of its surface is in the domain") != std::string::npos;
+    });
+  };
+  CHECK(is_missed("[-10, 60, 20 mm]", "[110, 70, 30 mm]"));
+  CHECK(is_missed("[-10, 0, 205 mm]", "[110, 50, 215 mm]"));
+  CHECK_FALSE(is_missed("[-10, 40, 20 mm]", "[110, 70, 30 mm]"));
+  // It lines the side.
+  CHECK_FALSE(is_missed("[-10, 50, 20 mm]", "[110, 70, 30 mm]"));
 }
 
 TEST_CASE("a body that ends at a periodic side shall be refused with where it may end") {
