@@ -29,6 +29,8 @@ struct SurfaceMotion {
   sdk::Vec3 area;          ///< [m2] into the gas, whatever else the gas shares the cell with
   sdk::Vec3 velocity;      ///< [m/s] of the surface there
   bool displaces = false;  ///< the surface goes to other places; else it runs along itself
+  /// Bit n: side n of the domain, along whose plane the surface passes out of this cell.
+  std::uint8_t sides_passed = 0;
 };
 
 /// What dust is told of the gas in a fluid step. Shares are of whole cells and faces.

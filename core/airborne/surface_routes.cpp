@@ -107,11 +107,11 @@ void SurfaceRoutes::add_edges(std::size_t piece, const Flow& flow) {
     for (const double sign : {-1.0, 1.0}) {
       const double length = here.cut.edges[2 * d + (sign > 0.0 ? 1 : 0)].length;
       if (!(length > 0.0)) continue;
-      const int last = sign > 0.0 ? grid_.count[d] - 1 : 0;
-      const bool is_side = !grid_.is_periodic[d] && here.cell[d] == last;
+      const unsigned side = 2U * static_cast<unsigned>(direction) + (sign > 0.0 ? 1U : 0U);
+      const unsigned passed = flow.surface_motions[static_cast<std::size_t>(p.number)].sides_passed;
       const std::int32_t other = after(piece, direction, sign);
       // Where the surface ends within the domain, what lies on it waits.
-      if (!is_side && other < 0) continue;
+      if ((passed >> side & 1U) == 0U && other < 0) continue;
       edges_.push_back(
           {.to = other < 0 ? k_outside : pieces_[static_cast<std::size_t>(other)].number,
            .direction = direction,

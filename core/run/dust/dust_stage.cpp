@@ -131,7 +131,7 @@ void DustStage::add_body(const std::array<int, 3>& cell, const fluid::BodyField:
       {static_cast<std::int32_t>(grid.index(cell[0], cell[1], cell[2])), 6 + hit.body, area});
   if (!models_.bodies[static_cast<std::size_t>(hit.body)].motions.empty()) {
     running_.push_back(
-        {pieces_.size() - 1, hit.body, hit.normal, centre - hit.distance * hit.normal});
+        {pieces_.size() - 1, cell, hit.body, hit.normal, centre - hit.distance * hit.normal});
   }
   if (wall_shear_) wall_shear_->add_body(centre, hit);
 }
@@ -177,6 +177,34 @@ void DustStage::add_bodies(const std::array<int, 3>& cell, const fluid::BodyFiel
   }
 }
 
+/// A surface that ends before a side does not pass it, however coarse the cell that both share:
+/// it does where the body comes near to the part of the side that is a face of the cell.
+std::uint8_t DustStage::sides_passed(const std::array<int, 3>& cell, int body, double time) const {
+  constexpr int k_parts = 5;
+  constexpr double k_near = 0.75;  // of a part's edges: half of its diagonal, rounded up
+  const Grid& grid = fluid_.grid();
+  unsigned passed = 0;
+  for (unsigned side = 0; side < 6; ++side) {
+    const std::size_t d = side / 2, e = (d + 1) % 3, f = (d + 2) % 3;
+    const bool is_high = side % 2 != 0;
+    if (grid.is_periodic[d] || cell[d] != (is_high ? grid.count[d] - 1 : 0)) continue;
+    const int axes[3] = {static_cast<int>(d), static_cast<int>(e), static_cast<int>(f)};
+    const bodies::Body& b = models_.bodies[static_cast<std::size_t>(body)];
+    const bodies::Placement at_time = b.placement(time);
+    const double near = k_near * std::max(grid.spacing[axes[1]], grid.spacing[axes[2]]) / k_parts;
+    for (int part = 0; part < k_parts * k_parts; ++part) {
+      sdk::Vec3 place = grid.centre(cell[0], cell[1], cell[2]);
+      place[axes[0]] += (is_high ? 0.5 : -0.5) * grid.spacing[axes[0]];
+      place[axes[1]] += ((part % k_parts + 0.5) / k_parts - 0.5) * grid.spacing[axes[1]];
+      place[axes[2]] += ((part / k_parts + 0.5) / k_parts - 0.5) * grid.spacing[axes[2]];
+      if (std::abs(b.nearest(place, at_time).distance) > near) continue;
+      passed |= 1U << side;
+      break;
+    }
+  }
+  return static_cast<std::uint8_t>(passed);
+}
+
 void DustStage::find_walls(double time) {
   const Grid& grid = fluid_.grid();
   const fluid::CellField& share = fluid_.solver().open_fraction();
@@ -202,6 +230,7 @@ void DustStage::find_walls(double time) {
     motion.point = running.point;
     motion.area = -grid.cell_volume() * pieces_[running.piece].area;
     motion.displaces = models_.bodies[static_cast<std::size_t>(running.body)].displaces();
+    motion.sides_passed = sides_passed(running.cell, running.body, time);
   }
 }
 

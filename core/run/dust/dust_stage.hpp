@@ -15,6 +15,7 @@
 #include "setup/setup.hpp"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -87,6 +88,8 @@ class DustStage {
 
  private:
   [[nodiscard]] std::array<int, 3> cell_at(sdk::Vec3 place) const;
+  [[nodiscard]] std::uint8_t sides_passed(const std::array<int, 3>& cell, int body,
+                                          double time) const;
   void find_walls(double time);
   /// The pieces of sides in a cell.
   void add_sides(const std::array<int, 3>& cell);
@@ -112,6 +115,7 @@ class DustStage {
   /// A piece of a body that moves.
   struct RunningPiece {
     std::size_t piece;
+    std::array<int, 3> cell;
     int body;
     sdk::Vec3 normal;
     sdk::Vec3 point;  ///< [m] of the surface

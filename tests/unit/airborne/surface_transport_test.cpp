@@ -30,13 +30,14 @@ struct Carried {
   Layers layers{1};
   SurfaceTransport transport;
   std::vector<std::vector<double>> out{{0.0}};
+  std::uint8_t sides_passed = 0b11;  ///< of pieces to come: left and right
 
   explicit Carried(const Grid& g) : grid(g), flow(g) {}
 
   void add_piece(std::array<int, 3> cell, Vec3 point, Vec3 area, Vec3 velocity) {
     const auto index = static_cast<std::int32_t>(grid.index(cell[0], cell[1], cell[2]));
     flow.walls.push_back({index, 0, -area / grid.cell_volume()});
-    flow.surface_motions.push_back({point, area, velocity, false});
+    flow.surface_motions.push_back({point, area, velocity, false, sides_passed});
   }
   void prepare() {
     flow.walls_found += 1;
@@ -51,8 +52,9 @@ struct Carried {
 };
 
 /// A belt through the middle of the cells, one row of them along x.
-Carried flat_belt(int cells, bool is_periodic) {
+Carried flat_belt(int cells, bool is_periodic, bool passes_sides = true) {
   Carried c(Grid::make({0, 0, 0}, {1, 0.1, 0.1}, {cells, 1, 1}, {is_periodic, true, false}));
+  if (!passes_sides) c.sides_passed = 0;
   for (int i = 0; i < cells; ++i) {
     const Vec3 centre = c.grid.centre(i, 0, 0);
     c.add_piece({i, 0, 0}, centre, {0, 0, c.grid.spacing.x * 0.1}, {k_speed, 0, 0});
@@ -96,6 +98,15 @@ TEST_CASE("what a belt takes out of the domain shall be counted, all of it") {
   c.run(3.0, 600);
   CHECK(c.mass() < 1e-14);
   CHECK(c.out[0][0] == test::approx(1.0).epsilon(1e-12));
+}
+
+TEST_CASE("what lies on a surface that ends before a side shall wait there, not leave") {
+  Carried c = flat_belt(50, false, false);
+  for (std::size_t i = 0; i < 50; ++i) c.layers.add(i, 0, 0.02);
+  c.run(3.0, 600);
+  CHECK(c.out[0][0] == 0.0);
+  CHECK(c.mass() == test::approx(1.0).epsilon(1e-13));
+  CHECK(c.layers.on(49)[0] == test::approx(1.0).epsilon(1e-12));
 }
 
 TEST_CASE("a step of many cells shall lose nothing") {
