@@ -186,6 +186,9 @@ void write_head(std::ostringstream& out, const FinishedRun& run, const HoodStudy
   for (const std::string& sensor : openings_of(run.text)) {
     out << "  sensors." << sensor << ".steady_after: " << time_text(steady) << '\n';
   }
+  if (run.text.summary.contains("dust_rates")) {
+    out << "  dust.steady_after: " << time_text(steady) << '\n';
+  }
 }
 
 /// `expected_speed` [m/s]: what the run's steps are made for; a hood that draws faster says so.
