@@ -85,6 +85,41 @@ assert.ok(told[2].includes('still in the air|10\u202f%|'), told[2]);
 assert.ok(told[3].startsWith('How sure?|± one standard error|Means over the last 1'), told[3]);
 assert.ok(told[3].includes('Not steady yet: what goes out at left.'), told[3]);
 assert.ok(told[4].startsWith('Where to extract?|75\u202f% caught|'), told[4]);
+// A batch that was released before: no amount per tonne stands among the rates, and none is 0; the whole run tells it.
+const told_of = (summary) => Dust.load_dust_answers({summary, release_map: null, extraction: null}).map(text);
+const without_load = (more = {}) => Object.fromEntries(Object.entries({...steady.dust_rates, ...more}).filter(([name]) => !name.endsWith('/per_load')));
+const batch = told_of({...dusty, dust_rates: without_load()});
+assert.ok(batch[0].startsWith('How much dust?|4\u202fg/t|set free of all that was released, over the whole run|10.00\u00a0±\u00a00.50\u202fkg/h set free'), batch[0]);
+assert.ok(batch[0].includes('1\u202fg/t get out with the air (2\u202fkg/h)'), batch[0]);
+assert.ok(batch[3].includes('amounts per tonne are what has come off in the whole run'), batch[3]);
+const uneven = told_of({...steady, dust_rates: {...steady.dust_rates, 'set_free/all/per_load': {value: null, unit: 'g/t', uncertainty: null, no_error: 'feed not even'}}});
+assert.ok(uneven[0].startsWith('How much dust?|4\u202fg/t|'), uneven[0]);
+assert.ok(!told[0].includes('whole run') && !told[3].includes('whole run'), told[3]);
+// More leaves the air than comes: the cloud shrinks, and nothing has settled. Two digits of a mean that is not steady.
+const shrinking = told_of({...steady, dust_rates: {...steady.dust_rates, 'deposited/all/rate': rate(8, 0.1), 'set_free/all/rate': rate(10.1234, null, {no_error: 'not steady'})}});
+assert.ok(shrinking[3].startsWith('How sure?|not steady yet|') && shrinking[3].includes('by 58\u202f% of what comes: its cloud shrinks.'), shrinking[3]);
+assert.ok(!shrinking[3].includes('settled'), shrinking[3]);
+assert.ok(shrinking[0].includes('10\u202fkg/h set free'), shrinking[0]);
+// At rest: shares of next to nothing are those of the whole run.
+const resting = told_of({...dusty, dust_rates: {observed: {value: 1800, unit: 's'}, 'set_free/all/rate': rate(1e-12, null), 'set_free/spoon/rate': rate(1e-12, null), 'deposited/all/rate': rate(1, null)}});
+assert.ok(resting[2].includes('settled|25\u202f%|'), resting[2]);
+assert.ok(resting[3].includes('Hardly any dust comes in the last 1'), resting[3]);
+// A field without loads: what its sources give, where it goes and what a hood catches.
+const field_of = (released, more) => ({simulated_s: 4, mass_kg: {emitted: 0}, dust_field: {classes: {x: {released_kg: released, airborne_kg: 0, deposited_kg: {}, left_kg: {}, hoods_kg: {}, balance_error: 0, ...more}}}});
+const sourced = told_of({...field_of(1e-5, {airborne_kg: 2e-6, hoods_kg: {top: 6e-6}, left_kg: {left: 2e-6}}), dust_rates: {observed: {value: 2, unit: 's'}, 'released/all/rate': rate(0.01, 1e-4),
+  'left/all/rate': rate(0.0025, 1e-4), 'left/left/rate': rate(0.0025, 1e-4), 'drawn_out/all/rate': rate(0.0075, 1e-4), 'drawn_out/top/rate': rate(0.0075, 1e-4)}});
+assert.ok(sourced[0].startsWith('How much dust?|10.00\u00a0±\u00a00.10\u202fg/h|given by its sources; 10\u202fmg in the whole run'), sourced[0]);
+assert.ok(sourced[0].includes('get out with the air'), sourced[0]);
+assert.ok(sourced[1].startsWith('Where does it go?|Drawn out at top|drawn out at top|75\u202f%|'), sourced[1]);
+assert.ok(sourced.at(-1).startsWith('Where to extract?|75\u202f% caught|'), sourced.at(-1));
+assert.ok(!sourced.some((a) => a.includes('NaN') || a.includes('the load') || a.includes('From where')), sourced.join());
+const empty = told_of({...field_of(0, {}), dust_rates: {observed: {value: 2, unit: 's'}, 'released/all/rate': rate(0, 0)}});
+assert.ok(empty[0].startsWith('How much dust?|none|Nothing gave any dust'), empty[0]);
+assert.ok(!empty.join().includes('settled'), empty.join());
+// A cloud that was there at the start.
+const cloud = told_of({...field_of(1e-5, {airborne_kg: 4e-6, deposited_kg: {bottom: 6e-6}}), dust_rates: {observed: {value: 2, unit: 's'}, 'released/all/rate': rate(0, 0), 'deposited/all/rate': rate(1e-3, 1e-5)}});
+assert.ok(cloud[1].startsWith('Where does it go?|Settled|still in the air|40\u202f%||settled|60') || cloud[1].includes('settled|60\u202f%|'), cloud[1]);
+
 // Rules and indices of practice, each where its inputs are known.
 const ranked = {...steady, dust_estimates: {ap42_drop: {}, vdi_3790_3: {fall_height_m: 4, over_2_m: 2.3784}, induced_air: {air_m3_per_s: 0.13551, air_m3_per_tonne: 13.551}}, stream_indices: {
   observed: {value: 2, unit: 's'}, 'impact/all/power': {value: 200, unit: 'W', uncertainty: null}, 'impact/all/per_load': {value: 20, unit: 'J/kg', uncertainty: null},

@@ -45,9 +45,12 @@ Dust.sections.header = (data) => {
       return [Dust.strong(amount), ' of load ', ...where, share + '.'];
     }
     const stream = Dust.dust_stream(data);
-    if (stream && Number.isFinite(stream.free.load.value)) {
-      const {load} = stream.free;
-      return [Dust.strong(`${Dust.quantity(load.value, load.uncertainty ?? -1, 'g/t')} of dust`), ' come off the load',
+    const {load, rate} = stream ? stream.free : {};
+    if (stream && !Dust.load_dust(data).has_loads) {
+      return rate.value > 0 ? [Dust.strong(`${Dust.figure_text(rate, 'kg/h')} of dust`), ' come into the air.'] : [Dust.strong('No dust comes into the air'), '.'];
+    }
+    if (stream && Number.isFinite(load.value)) {
+      return [Dust.strong(`${Dust.figure_text(load, 'g/t')} of dust`), load.is_whole ? ' have come off the load' : ' come off the load',
         ...(stream.causes.length ? [', most by ', el('em', {}, stream.causes[0].name === 'grains' ? 'grains on grains' : Dust.words(stream.causes[0].name))] : []), '.'];
     }
     if (published.length) return [published[0].name + ' ', Dust.strong(published[0].ours), `; published are ${published[0].theirs}.`];

@@ -4,11 +4,16 @@
 Dust.plant_answer = (question, value, ...lines) => Dust.el('section', {class: 'answer'}, Dust.el('h2', {}, question),
   Dust.p({class: 'value'}, value), ...lines.flat().filter(Boolean));
 
+// A figure with its error; two digits where nobody knows how many are true.
+Dust.figure_text = ({value, uncertainty}, unit) => (!Number.isFinite(value) ? Dust.dash
+  : Number.isFinite(uncertainty) ? Dust.quantity(value, uncertainty, unit) : Dust.quantity(Number(value.toPrecision(2)), -1, unit));
+
 // Sums over the classes of dust: {fed, free, causes, sides, hoods, carriers, airborne, settled, ...} in kg, lists of {name, kg}, or null.
+// Without loads `free` is what sources and clouds of the field give.
 Dust.load_dust = ({summary}) => {
   const loads = Object.values((summary.dust_on_grains || {}).classes || {}), field = Object.values((summary.dust_field || {}).classes || {});
-  if (!loads.length) return null;
-  const total = (list, of) => list.reduce((sum, c) => sum + (of(c) || 0), 0);
+  if (!loads.length && !field.length) return null;
+  const has_loads = loads.length > 0, total = (list, of) => list.reduce((sum, c) => sum + (of(c) || 0), 0);
   const named = (list, of) => {
     const sums = new Map();
     for (const c of list) for (const [name, value] of Object.entries(of(c) || {})) sums.set(name, (sums.get(name) || 0) + (Number.isFinite(value) ? value : value.kg));
@@ -17,7 +22,7 @@ Dust.load_dust = ({summary}) => {
   const settled = named(field, (c) => c.deposited_kg), sides = named(field, (c) => c.left_kg), hoods = named(field, (c) => c.hoods_kg),
     carriers = named(field, (c) => c.carried_out_kg);
   const all = (list) => list.reduce((sum, part) => sum + part.kg, 0);
-  return {fed: total(loads, (c) => c.entered_kg), free: total(loads, (c) => c.set_free_kg), causes: named(loads, (c) => c.set_free_by),
+  return {has_loads, fed: total(loads, (c) => c.entered_kg), free: has_loads ? total(loads, (c) => c.set_free_kg) : total(field, (c) => c.released_kg), causes: named(loads, (c) => c.set_free_by),
     airborne: total(field, (c) => c.airborne_kg), settled: all(settled), caught: total(field, (c) => c.caught_by_grains_kg), sides, hoods, carriers, out: all(sides), drawn: all(hoods),
     error: Math.max(...loads.map((c) => Math.abs(c.balance_error || 0)), ...field.map((c) => Math.abs(c.balance_error || 0)))};
 };
@@ -31,36 +36,51 @@ Dust.hood_text = ({setting}, name) => {
 };
 
 // The same in the steady stream, as rates: {free, causes, sides, hoods, carriers, out, drawn, settled, caught, airborne, observed}, each part {name, rate, load},
-// figures in kg/h and g/t with their errors; what carries dust out lying on it are `carriers`. Where a run tells no rates, means over the whole of it, without errors, and `observed` is 0.
+// figures in kg/h and g/t with their errors; what carries dust out lying on it are `carriers`. Where a run tells no rates, or hardly anything comes off while they are
+// taken (`quiet`, in s), means over the whole of it, without errors, and `observed` is 0. Amounts per tonne that the rates do not tell are those of the whole run: `is_whole`.
 Dust.dust_stream = (data) => {
   const dust = Dust.load_dust(data), {summary} = data, figures = summary.dust_rates || {};
   if (!dust) return null;
-  const observed = (figures['set_free/all/rate'] || {}).value > 0 ? figures.observed.value : 0;
+  const source = dust.has_loads ? 'set_free' : 'released', rate_of = (way) => (figures[`${way}/all/rate`] || {}).value || 0;
+  // Shares of next to nothing say nothing.
+  const negligible = 1e-3, others = ['left', 'drawn_out', 'deposited', 'carried_out', 'caught'].reduce((sum, way) => sum + Math.abs(rate_of(way)), 0);
+  const seconds = (figures.observed || {}).value || 0, is_quiet = !(rate_of(source) > negligible * others), observed = is_quiet ? 0 : seconds;
+  const emitted = (summary.mass_kg || {}).emitted, per_tonne = (kg) => ({value: dust.has_loads && emitted > 0 ? 1e6 * kg / emitted : NaN, uncertainty: null, is_whole: true});
   if (!observed) {
-    const load = (summary.mass_kg || {}).emitted, hours = summary.simulated_s / 3600, figure = (value) => ({value, uncertainty: null});
-    const part = ({name, kg}) => ({name, rate: figure(hours > 0 ? kg / hours : NaN), load: figure(load > 0 ? 1e6 * kg / load : NaN)});
+    const hours = summary.simulated_s / 3600, figure = (value) => ({value, uncertainty: null});
+    const part = ({name, kg}) => ({name, rate: figure(hours > 0 ? kg / hours : NaN), load: per_tonne(kg)});
     const whole = (kg) => part({name: 'all', kg});
-    return {observed, free: whole(dust.free), causes: dust.causes.map(part), sides: dust.sides.map(part), hoods: dust.hoods.map(part), carriers: dust.carriers.map(part), out: whole(dust.out), drawn: whole(dust.drawn),
+    return {observed, quiet: dust.free > 0 ? seconds : 0, free: whole(dust.free), causes: dust.causes.map(part), sides: dust.sides.map(part), hoods: dust.hoods.map(part), carriers: dust.carriers.map(part), out: whole(dust.out), drawn: whole(dust.drawn),
       settled: whole(dust.settled), caught: whole(dust.caught), airborne: whole(dust.airborne)};
   }
-  const none = {value: 0, uncertainty: null}, part = (way, name) => ({name, rate: figures[`${way}/${name}/rate`] || none, load: figures[`${way}/${name}/per_load`] || none});
+  const zero = {value: 0, uncertainty: null}, unknown = {value: NaN, uncertainty: null};
+  const told = (name) => (figures[name] && Number.isFinite(figures[name].value) ? figures[name] : null);
+  const part = (way, name, kg) => ({name, rate: figures[`${way}/${name}/rate`] || zero, load: told(`${way}/${name}/per_load`) || (kg === undefined ? unknown : per_tonne(kg))});
   const names = (way) => Object.keys(figures).map((key) => key.split('/')).filter(([w, name, last]) => w === way && name !== 'all' && last === 'rate').map(([, name]) => name);
   const parts = (way) => names(way).map((name) => part(way, name)).sort((a, b) => b.rate.value - a.rate.value);
-  const [free, out, drawn, settled, carried, caught] = ['set_free', 'left', 'drawn_out', 'deposited', 'carried_out', 'caught'].map((way) => part(way, 'all'));
-  const rest = (of) => ({value: free[of].value - out[of].value - drawn[of].value - settled[of].value - carried[of].value - caught[of].value, uncertainty: null});
-  return {observed, free, causes: parts('set_free'), sides: parts('left'), hoods: parts('drawn_out'), carriers: parts('carried_out'), out, drawn, settled, caught, airborne: {name: 'airborne', rate: rest('rate'), load: rest('load')}};
+  const free = part(source, 'all', dust.free), out = part('left', 'all', dust.out), [drawn, settled, carried, caught] = ['drawn_out', 'deposited', 'carried_out', 'caught'].map((way) => part(way, 'all'));
+  const rest = {value: [out, drawn, settled, carried, caught].reduce((left, {rate}) => left - rate.value, free.rate.value), uncertainty: null};
+  return {observed, quiet: 0, free, causes: dust.has_loads ? parts('set_free') : [], sides: parts('left'), hoods: parts('drawn_out'), carriers: parts('carried_out'), out, drawn, settled, caught, airborne: {name: 'airborne', rate: rest, load: unknown}};
+};
+// Whether the cloud still grows or shrinks, in a sentence.
+Dust.cloud_text = (free, airborne) => {
+  const kept = free > 0 ? airborne / free : 0, share = Dust.percent(Math.abs(kept));
+  if (kept < -0.1) return `More dust leaves the air than comes into it, by ${share} of what comes: its cloud shrinks.`;
+  return `${share} of what comes ${kept < 0 ? 'is lost from' : 'stays in'} the air: ${kept > 0.5 ? 'the run is too short to tell where it goes' : kept > 0.1 ? 'its cloud still grows' : 'where it goes has settled'}.`;
 };
 Dust.dust_surety = (data, stream) => {
   const dust = Dust.load_dust(data), {p} = Dust, end = data.summary.simulated_s, {uncertainty, no_error} = stream.free.rate;
   const said = stream.observed === 0 ? 'no error known' : Number.isFinite(uncertainty) ? '± one standard error' : no_error === 'not steady' ? 'not steady yet' : 'too short to tell an error';
-  const kept = stream.free.rate.value > 0 ? stream.airborne.rate.value / stream.free.rate.value : 0;
   const restless = stream.observed > 0 && [...stream.hoods, ...stream.sides].filter((part) => part.rate.no_error === 'not steady' && part.rate.value > 0.01 * stream.free.rate.value);
+  const seconds = (s) => `${Dust.number(s, 2)}\u202fs`, is_whole = stream.observed > 0 && stream.free.load.is_whole && Number.isFinite(stream.free.load.value);
   return Dust.plant_answer('How sure?', said,
-    p({}, stream.observed > 0 ? `Means over the last ${Dust.number(stream.observed, 2)}\u202fs, without the start-up; the error is the scatter of this run alone.`
-      : `Means over the whole ${Dust.number(end, 3)}\u202fs, with its start-up, in which less comes off.`),
-    p({}, `${Dust.percent(Math.max(kept, 0))} of what comes off stays in the air: ${kept > 0.5 ? 'the run is too short to tell where it goes' : kept > 0.1 ? 'its cloud still grows' : 'where it goes has settled'}.`),
+    p({}, stream.observed > 0 ? `Means over the last ${seconds(stream.observed)}, without the start-up; the error is the scatter of this run alone.`
+      : stream.quiet > 0 ? `Hardly any dust comes in the last ${seconds(stream.quiet)}: means over the whole ${Dust.number(end, 3)}\u202fs.`
+        : `Means over the whole ${Dust.number(end, 3)}\u202fs, with its start-up, in which less comes off.`),
+    is_whole && p({class: 'caution'}, 'Nothing, or nothing even, is fed in that time: amounts per tonne are what has come off in the whole run over what has been released.'),
+    stream.free.rate.value > 0 && p({}, Dust.cloud_text(stream.free.rate.value, stream.airborne.rate.value)),
     restless && restless.length > 0 && p({class: 'caution'}, `Not steady yet: what goes out at ${restless.map((part) => Dust.words(part.name)).join(', ')}.`),
-    p({}, `The dust's mass closes to ${Dust.number(dust.error, 1)} of it; what binds it to the load is measured, not known.`), Dust.limits_text(data));
+    p({}, `The dust's mass closes to ${Dust.number(dust.error, 1)} of it${dust.has_loads ? '; what binds it to the load is measured, not known' : ''}.`), Dust.limits_text(data));
 };
 
 // What practice expects of one drop, named as what it is; nothing where the load's moisture is not known.
@@ -93,17 +113,20 @@ Dust.load_dust_answers = (data) => {
   const dust = Dust.load_dust(data), stream = Dust.dust_stream(data), {summary} = data, {el, p} = Dust;
   if (!dust) return [];
   const {free} = stream, fed = (summary.mass_kg || {}).emitted > 0 ? Dust.quantity(1e6 * dust.fed / summary.mass_kg.emitted, -1, 'g/t') : Dust.dash;
-  // Two digits where nobody knows how many are true.
-  const said = ({value, uncertainty}, unit) => (!Number.isFinite(value) ? Dust.dash
-    : Number.isFinite(uncertainty) ? Dust.quantity(value, uncertainty, unit) : Dust.quantity(Number(value.toPrecision(2)), -1, unit));
+  const said = Dust.figure_text, is_told = ({value}) => Number.isFinite(value);
   const share = ({rate}) => (free.rate.value > 0 ? rate.value / free.rate.value : 0), percent = (part) => (free.rate.value > 0 ? Dust.percent(share(part)) : Dust.dash);
   const ranks = (list) => el('ul', {class: 'ranks'}, ...list.map((part) => el('li', {}, el('span', {}, part.title || Dust.words(part.name)), el('span', {}, percent(part)),
     Dust.bar(Math.max(share(part), 0), 'dustbar'))));
   const answer = Dust.plant_answer, counts = (part) => part.rate.value > 1e-4 * free.rate.value;
   const causes = stream.causes.filter((c) => c.rate.value > 0).map((c) => ({...c, title: c.name === 'grains' ? 'grains on grains' : Dust.words(c.name)}));
-  const how_much = answer('How much dust?', free.rate.value > 0 ? said(free.load, 'g/t') : 'none', p({}, `${said(free.rate, 'kg/h')} set free from the load, which carries ${fed}`),
-    counts(stream.out) && p({}, `${said(stream.out.load, 'g/t')} get out with the air (${said(stream.out.rate, 'kg/h')})`), Dust.drop_estimate(summary), Dust.fall_estimates(summary));
-  const from_where = answer('From where?', causes.length ? Dust.sentence(causes[0].title) : 'nowhere yet', causes.length ? ranks(causes.slice(0, 4)) : null,
+  const over_all = stream.observed > 0 && free.load.is_whole ? ' of all that was released, over the whole run' : '';
+  const gets_out = counts(stream.out) && p({}, is_told(stream.out.load) ? `${said(stream.out.load, 'g/t')} get out with the air (${said(stream.out.rate, 'kg/h')})` : `${said(stream.out.rate, 'kg/h')} get out with the air`);
+  const of_load = () => answer('How much dust?', !(free.rate.value > 0) ? 'none' : is_told(free.load) ? said(free.load, 'g/t') : said(free.rate, 'kg/h'), over_all && is_told(free.load) && p({}, `set free${over_all}`),
+    p({}, `${said(free.rate, 'kg/h')} set free from the load, which carries ${fed}`), gets_out, Dust.drop_estimate(summary), Dust.fall_estimates(summary));
+  const of_field = () => answer(data.dust ? 'How much dust in the air?' : 'How much dust?', free.rate.value > 0 ? said(free.rate, 'kg/h') : 'none',
+    p({}, dust.free > 0 ? `given by its sources; ${Dust.quantity(dust.free, -1, 'kg')} in the whole run, with the clouds at its start` : 'Nothing gave any dust in this run.'), gets_out);
+  const how_much = dust.has_loads ? of_load() : of_field();
+  const from_where = !dust.has_loads ? null : answer('From where?', causes.length ? Dust.sentence(causes[0].title) : 'nowhere yet', causes.length ? ranks(causes.slice(0, 4)) : null,
     data.release_map ? p({}, el('a', {href: '#liberation'}, 'Where it comes off')) : null);
   const fates = [{...stream.airborne, title: 'still in the air'}, {...stream.settled, title: 'settled'}, {...stream.caught, title: 'caught by grains'}, ...stream.hoods.map((h) => ({...h, title: `drawn out at ${Dust.words(h.name)}`})),
     ...stream.sides.map((s) => ({...s, title: `out at ${Dust.words(s.name)}`})), ...stream.carriers.map((c) => ({...c, title: `out lying on ${Dust.words(c.name)}`}))].filter(counts);
