@@ -255,7 +255,7 @@ const ParameterSchema& DustBlock::schema() {
         .optional();
     s.number(&DustBlock::steady_after, "steady_after", dimension::time,
              "Time from which the rates of the dust field are means, when the stream has become "
-             "steady; 0 = half of time.end.")
+             "steady; 0 = the middle of the run, of a branch the middle of what it adds.")
         .at_least(0)
         .optional();
     s.number(&DustBlock::fall_height, "fall_height", dimension::length,

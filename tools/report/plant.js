@@ -4,9 +4,9 @@
 Dust.plant_answer = (question, value, ...lines) => Dust.el('section', {class: 'answer'}, Dust.el('h2', {}, question),
   Dust.p({class: 'value'}, value), ...lines.flat().filter(Boolean));
 
-// A figure with its error; two digits where nobody knows how many are true.
+// A figure with its error, unless that is one of rounding; two digits where nobody knows how many are true.
 Dust.figure_text = ({value, uncertainty}, unit) => (!Number.isFinite(value) ? Dust.dash
-  : Number.isFinite(uncertainty) ? Dust.quantity(value, uncertainty, unit) : Dust.quantity(Number(value.toPrecision(2)), -1, unit));
+  : Number.isFinite(uncertainty) ? Dust.quantity(value, uncertainty > 1e-9 * Math.abs(value) ? uncertainty : -1, unit) : Dust.quantity(Number(value.toPrecision(2)), -1, unit));
 
 // Sums over the classes of dust: {fed, free, causes, sides, hoods, carriers, airborne, settled, ...} in kg, lists of {name, kg}, or null.
 // Without loads `free` is what sources and clouds of the field give.
@@ -65,6 +65,7 @@ Dust.dust_stream = (data) => {
 // Whether the cloud still grows or shrinks, in a sentence.
 Dust.cloud_text = (free, airborne) => {
   const kept = free > 0 ? airborne / free : 0, share = Dust.percent(Math.abs(kept));
+  if (Math.abs(kept) < 1e-4) return 'What comes into the air goes out of it again: where it goes has settled.';
   if (kept < -0.1) return `More dust leaves the air than comes into it, by ${share} of what comes: its cloud shrinks.`;
   return `${share} of what comes ${kept < 0 ? 'is lost from' : 'stays in'} the air: ${kept > 0.5 ? 'the run is too short to tell where it goes' : kept > 0.1 ? 'its cloud still grows' : 'where it goes has settled'}.`;
 };
@@ -98,7 +99,7 @@ Dust.fall_estimates = ({dust_estimates}) => {
 
 // The three indices by which practice ranks transfer points: null where there is none of them.
 Dust.indices_answer = ({summary}) => {
-  const figures = summary.stream_indices || {}, said = (name) => Dust.quantity(figures[name].value, Number.isFinite(figures[name].uncertainty) ? figures[name].uncertainty : -1, figures[name].unit);
+  const figures = summary.stream_indices || {}, said = (name) => Dust.figure_text(figures[name], figures[name].unit);
   const impact = ['impact/all/per_load', 'impact/all/power'].find((name) => figures[name] && figures[name].value > 0), air = figures['entrained_air/flow'], loose = figures['looseness/void_fraction'];
   if (!impact && !air && !loose) return null;
   const causes = Object.entries(figures).filter(([name]) => /^impact\/.*\/power$/.test(name) && name !== 'impact/all/power').sort(([, a], [, b]) => b.value - a.value)

@@ -31,6 +31,25 @@ fluid::BodyField::Hit hit_between(const fluid::BodyField& bodies, sdk::Vec3 cent
 
 /// Part of a face that an opening may miss or reach beyond by rounding.
 constexpr double k_rounding = 1e-9;
+/// Of half the diagonal of a face: a surface that is nearer to it meets it.
+constexpr double k_finest_part = 0.03;
+
+/// Whether the surface of a body meets a box round `middle` of half edges `half` [m]: parts that
+/// are farther from it than they reach are left out, others halved along their longest edge.
+bool meets(const bodies::Body& body, const bodies::Placement& placement, sdk::Vec3 middle,
+           sdk::Vec3 half, double finest) {
+  const double reach = norm(half);
+  if (std::abs(body.nearest(middle, placement).distance) > reach) return false;
+  if (reach <= finest) return true;
+  int d = half.y > half.x ? 1 : 0;
+  if (half.z > half[d]) d = 2;
+  half[d] *= 0.5;
+  sdk::Vec3 other = middle;
+  middle[d] -= half[d];
+  other[d] += half[d];
+  return meets(body, placement, middle, half, finest) ||
+         meets(body, placement, other, half, finest);
+}
 
 std::size_t at(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 
@@ -177,30 +196,22 @@ void DustStage::add_bodies(const std::array<int, 3>& cell, const fluid::BodyFiel
   }
 }
 
-/// A surface that ends before a side does not pass it, however coarse the cell that both share:
-/// it does where the body comes near to the part of the side that is a face of the cell.
+/// A surface that ends before a side does not pass it, however coarse the cell that both share: it
+/// does where it meets the face of the cell that is a part of the side.
 std::uint8_t DustStage::sides_passed(const std::array<int, 3>& cell, int body, double time) const {
-  constexpr int k_parts = 5;
-  constexpr double k_near = 0.75;  // of a part's edges: half of its diagonal, rounded up
   const Grid& grid = fluid_.grid();
   unsigned passed = 0;
   for (unsigned side = 0; side < 6; ++side) {
-    const std::size_t d = side / 2, e = (d + 1) % 3, f = (d + 2) % 3;
+    const std::size_t d = side / 2;
     const bool is_high = side % 2 != 0;
     if (grid.is_periodic[d] || cell[d] != (is_high ? grid.count[d] - 1 : 0)) continue;
-    const int axes[3] = {static_cast<int>(d), static_cast<int>(e), static_cast<int>(f)};
+    const int axis = static_cast<int>(d);
+    sdk::Vec3 middle = grid.centre(cell[0], cell[1], cell[2]);
+    middle[axis] += (is_high ? 0.5 : -0.5) * grid.spacing[axis];
+    sdk::Vec3 half = 0.5 * grid.spacing;
+    half[axis] = 0.0;
     const bodies::Body& b = models_.bodies[static_cast<std::size_t>(body)];
-    const bodies::Placement at_time = b.placement(time);
-    const double near = k_near * std::max(grid.spacing[axes[1]], grid.spacing[axes[2]]) / k_parts;
-    for (int part = 0; part < k_parts * k_parts; ++part) {
-      sdk::Vec3 place = grid.centre(cell[0], cell[1], cell[2]);
-      place[axes[0]] += (is_high ? 0.5 : -0.5) * grid.spacing[axes[0]];
-      place[axes[1]] += ((part % k_parts + 0.5) / k_parts - 0.5) * grid.spacing[axes[1]];
-      place[axes[2]] += ((part / k_parts + 0.5) / k_parts - 0.5) * grid.spacing[axes[2]];
-      if (std::abs(b.nearest(place, at_time).distance) > near) continue;
-      passed |= 1U << side;
-      break;
-    }
+    if (meets(b, b.placement(time), middle, half, k_finest_part * norm(half))) passed |= 1U << side;
   }
   return static_cast<std::uint8_t>(passed);
 }
