@@ -89,7 +89,7 @@ assert.ok(told[4].startsWith('Where to extract?|75\u202f% caught|'), told[4]);
 const told_of = (summary) => Dust.load_dust_answers({summary, release_map: null, extraction: null}).map(text);
 const without_load = (more = {}) => Object.fromEntries(Object.entries({...steady.dust_rates, ...more}).filter(([name]) => !name.endsWith('/per_load')));
 const batch = told_of({...dusty, dust_rates: without_load()});
-assert.ok(batch[0].startsWith('How much dust?|4\u202fg/t|set free of all that was released, over the whole run|10.00\u00a0±\u00a00.50\u202fkg/h set free'), batch[0]);
+assert.ok(batch[0].startsWith('How much dust?|4\u202fg/t|of all that was released, set free over the whole run|10.00\u00a0±\u00a00.50\u202fkg/h set free'), batch[0]);
 assert.ok(batch[0].includes('1\u202fg/t get out with the air (2\u202fkg/h)'), batch[0]);
 assert.ok(batch[3].includes('amounts per tonne are what has come off in the whole run'), batch[3]);
 const uneven = told_of({...steady, dust_rates: {...steady.dust_rates, 'set_free/all/per_load': {value: null, unit: 'g/t', uncertainty: null, no_error: 'feed not even'}}});

@@ -106,7 +106,7 @@ Dust.indices_answer = ({summary}) => {
     .map(([name]) => `${name.split('/')[1] === 'grains' ? 'grains on grains' : Dust.words(name.split('/')[1])} ${said(name)}`);
   return Dust.plant_answer('By the indices of practice?', impact ? said(impact) : air ? said('entrained_air/flow') : Dust.percent(loose.value),
     impact && Dust.p({}, `Impacts dissipate it: ${causes.slice(0, 3).join(', ')}`),
-    air && Dust.p({}, `Entrained air: the stream takes ${said('entrained_air/flow')} down with it (${said('entrained_air/per_load')})`),
+    air && Dust.p({}, `Entrained air: the stream takes ${said('entrained_air/flow')} down with it${Number.isFinite((figures['entrained_air/per_load'] || {}).value) ? ` (${said('entrained_air/per_load')})` : ''}`),
     loose && Dust.p({}, `Looseness: ${Dust.percent(loose.value)} of the stream is air where it is loosest, ${Dust.percent(figures['looseness/densest_void_fraction'].value)} where it is densest`));
 };
 
@@ -120,9 +120,9 @@ Dust.load_dust_answers = (data) => {
     Dust.bar(Math.max(share(part), 0), 'dustbar'))));
   const answer = Dust.plant_answer, counts = (part) => part.rate.value > 1e-4 * free.rate.value;
   const causes = stream.causes.filter((c) => c.rate.value > 0).map((c) => ({...c, title: c.name === 'grains' ? 'grains on grains' : Dust.words(c.name)}));
-  const over_all = stream.observed > 0 && free.load.is_whole ? ' of all that was released, over the whole run' : '';
+  const over_all = stream.observed > 0 && free.load.is_whole ? 'of all that was released, set free over the whole run' : '';
   const gets_out = counts(stream.out) && p({}, is_told(stream.out.load) ? `${said(stream.out.load, 'g/t')} get out with the air (${said(stream.out.rate, 'kg/h')})` : `${said(stream.out.rate, 'kg/h')} get out with the air`);
-  const of_load = () => answer('How much dust?', !(free.rate.value > 0) ? 'none' : is_told(free.load) ? said(free.load, 'g/t') : said(free.rate, 'kg/h'), over_all && is_told(free.load) && p({}, `set free${over_all}`),
+  const of_load = () => answer('How much dust?', !(free.rate.value > 0) ? 'none' : is_told(free.load) ? said(free.load, 'g/t') : said(free.rate, 'kg/h'), over_all && is_told(free.load) && p({}, over_all),
     p({}, `${said(free.rate, 'kg/h')} set free from the load, which carries ${fed}`), gets_out, Dust.drop_estimate(summary), Dust.fall_estimates(summary));
   const of_field = () => answer(data.dust ? 'How much dust in the air?' : 'How much dust?', free.rate.value > 0 ? said(free.rate, 'kg/h') : 'none',
     p({}, dust.free > 0 ? `given by its sources; ${Dust.quantity(dust.free, -1, 'kg')} in the whole run, with the clouds at its start` : 'Nothing gave any dust in this run.'), gets_out);
