@@ -165,9 +165,9 @@ double step_of(const Setup& setup, const EmitterSpec& spec, const sdk::EmitterRe
 /// [kg] by material of grains at once whose sizes the emitter does not say; of very many, none.
 std::vector<double> masses_seen(const Setup& setup, const EmitterSpec& spec,
                                 const sdk::EmitterRequest& request, sdk::Emitter& emitter) {
-  constexpr std::int64_t k_few = 5000;
+  constexpr std::int64_t k_drawn_one_by_one = 5000;
   Requests requests;
-  if (request.count <= k_few) {
+  if (request.count <= k_drawn_one_by_one) {
     propose(setup, spec, step_of(setup, spec, request), request, emitter, requests);
   }
   return masses_of(setup, spec, requests);

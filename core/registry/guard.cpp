@@ -6,6 +6,7 @@
 #include "registry/guard_report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -17,7 +18,7 @@ template <class Kind>
 class Guarded : public Kind {
  public:
   Guarded(std::unique_ptr<sdk::Model> model, GuardReport faults)
-      : model_(static_cast<Kind*>(model.release())), faults_(std::move(faults)) {}
+      : model_(as_kind(std::move(model), faults)), faults_(std::move(faults)) {}
   void save(sdk::ArchiveWriter& a) const override {
     faults_.call("save", "its state", [&] { model_->save(a); });
   }
@@ -48,10 +49,35 @@ class Guarded : public Kind {
     }
     return answer;
   }
+  /// A length, speed or mass that the core lays out steps and searches by.
+  template <class Function, class... Arguments>
+  double not_negative(const char* name, Function function, Arguments&&... arguments) const {
+    const double answer = get(name, function, std::forward<Arguments>(arguments)...);
+    if (!(base::is_finite(answer) && answer >= 0.0)) {
+      faults_.refuse_answer(name, answer, "a finite number from 0 on");
+    }
+    return answer;
+  }
+  /// A time or ratio that the core divides by; without stiffness it may be infinite.
+  template <class Function, class... Arguments>
+  double positive(const char* name, Function function, Arguments&&... arguments) const {
+    const double answer = get(name, function, std::forward<Arguments>(arguments)...);
+    if (!(answer > 0.0)) faults_.refuse_answer(name, answer, "a number above 0");
+    return answer;
+  }
   [[nodiscard]] const GuardReport& faults() const { return faults_; }
   [[nodiscard]] Kind& model() const { return *model_; }
 
  private:
+  /// What a factory gives under another kind's name would be called by the wrong table.
+  static std::unique_ptr<Kind> as_kind(std::unique_ptr<sdk::Model> model,
+                                       const GuardReport& faults) {
+    auto* const own = dynamic_cast<Kind*>(model.get());
+    if (own == nullptr) faults.refuse_made(model == nullptr);
+    model.release();
+    return std::unique_ptr<Kind>(own);
+  }
+
   std::unique_ptr<Kind> model_;
   GuardReport faults_;
 };
@@ -86,12 +112,14 @@ class Contact final : public PairLaw<sdk::ContactLaw> {
     faults().check(b.count, "force.z", b.force.z, seen);
   }
   [[nodiscard]] double collision_time(double radius, double mass, double speed) const override {
-    return get("collision_time", &sdk::ContactLaw::collision_time, radius, mass, speed);
+    return positive("collision_time", &sdk::ContactLaw::collision_time, radius, mass, speed);
   }
   [[nodiscard]] double half_period(double radius, double mass, double overlap) const override {
-    return get("half_period", &sdk::ContactLaw::half_period, radius, mass, overlap);
+    return positive("half_period", &sdk::ContactLaw::half_period, radius, mass, overlap);
   }
-  [[nodiscard]] double range() const override { return get("range", &sdk::ContactLaw::range); }
+  [[nodiscard]] double range() const override {
+    return not_negative("range", &sdk::ContactLaw::range);
+  }
   [[nodiscard]] bool has_hertz_force() const override {
     return get("has_hertz_force", &sdk::ContactLaw::has_hertz_force);
   }
@@ -134,15 +162,26 @@ class Cohesion final : public PairLaw<sdk::CohesionLaw> {
     faults().check(b.count, "attraction", b.attraction, seen);
   }
   [[nodiscard]] double range(double radius) const override {
-    return get("range", &sdk::CohesionLaw::range, radius);
+    return not_negative("range", &sdk::CohesionLaw::range, radius);
   }
   [[nodiscard]] double resting_overlap(double radius) const override {
-    return get("resting_overlap", &sdk::CohesionLaw::resting_overlap, radius);
+    return not_negative("resting_overlap", &sdk::CohesionLaw::resting_overlap, radius);
   }
   [[nodiscard]] bool needs_hertz_force() const override {
     return get("needs_hertz_force", &sdk::CohesionLaw::needs_hertz_force);
   }
 };
+
+/// Refuses the first number of a column below 0.
+void check_not_negative(const GuardReport& faults, std::size_t count, const char* name,
+                        const double* column, GuardReport::Inputs seen) {
+  if (column == nullptr) return;
+  for (std::size_t n = 0; n < count; ++n) {
+    if (column[n] >= 0.0) continue;
+    faults.refuse("gives " + std::string(name) + " = " + base::digits_text(column[n], 6), n, count,
+                  seen, "a number from 0 on");
+  }
+}
 
 class Drag final : public Guarded<sdk::DragLaw> {
  public:
@@ -153,6 +192,8 @@ class Drag final : public Guarded<sdk::DragLaw> {
                    {{"reynolds", b.reynolds},
                     {"void_fraction", b.void_fraction},
                     {"size_ratio", b.size_ratio}});
+    check_not_negative(faults(), b.count, "factor", b.factor,
+                       {{"reynolds", b.reynolds}, {"void_fraction", b.void_fraction}});
   }
   [[nodiscard]] bool needs_size_ratio() const override {
     return get("needs_size_ratio", &sdk::DragLaw::needs_size_ratio);
@@ -174,6 +215,8 @@ class FluidForce final : public Guarded<sdk::FluidForce> {
     faults().check(b.count, "force.z", b.force.z, seen);
     faults().check(b.count, "added_mass", b.added_mass, seen);
     faults().check(b.count, "resistance", b.resistance, seen);
+    check_not_negative(faults(), b.count, "added_mass", b.added_mass, seen);
+    check_not_negative(faults(), b.count, "resistance", b.resistance, seen);
   }
   [[nodiscard]] sdk::FluidForceNeeds needs() const override {
     return get("needs", &sdk::FluidForce::needs);
@@ -190,13 +233,17 @@ class FluidForce final : public Guarded<sdk::FluidForce> {
 };
 
 class Voidage final : public Guarded<sdk::VoidageRule> {
+  /// Of the sum of the weights of a grain in hundreds of cells.
+  static constexpr double k_rounding = 1e-9;
+
  public:
   using Guarded::Guarded;
   [[nodiscard]] int capacity(const sdk::GridShape& grid, double radius) const override {
     return number("capacity", 1, &sdk::VoidageRule::capacity, grid, radius);
   }
   [[nodiscard]] double largest_diameter_over_spacing() const override {
-    return get("largest_diameter_over_spacing", &sdk::VoidageRule::largest_diameter_over_spacing);
+    return positive("largest_diameter_over_spacing",
+                    &sdk::VoidageRule::largest_diameter_over_spacing);
   }
   void spread(const sdk::GridShape& grid, const sdk::VoidageBatch& b) const override {
     ask("spread", "the cells of every grain of the batch", &sdk::VoidageRule::spread, grid, b);
@@ -210,9 +257,19 @@ class Voidage final : public Guarded<sdk::VoidageRule> {
                         "1 to " + std::to_string(b.capacity) + " cells, its capacity");
       }
       const double* weight = b.weight + g * static_cast<std::size_t>(b.capacity);
+      double sum = 0.0;
       for (int n = 0; n < b.used[g]; ++n) {
         if (!base::is_finite(weight[n]))
           faults().refuse_number("weight", weight[n], g, b.count, seen);
+        if (weight[n] < 0.0) {
+          faults().refuse("gives weight = " + base::digits_text(weight[n], 6), g, b.count, seen,
+                          "weights from 0 on");
+        }
+        sum += weight[n];
+      }
+      if (std::abs(sum - 1.0) > k_rounding) {
+        faults().refuse("gives weights that sum to " + base::digits_text(sum, 6), g, b.count, seen,
+                        "1: all of the grain's volume and no more");
       }
     }
   }
@@ -255,6 +312,8 @@ class Turbulence final : public Guarded<sdk::TurbulenceModel> {
         &sdk::TurbulenceModel::evaluate, b);
     faults().check(b.count, "eddy_viscosity", b.eddy_viscosity,
                    {{"strain_rate", b.strain_rate}, {"wall_distance", b.wall_distance}});
+    check_not_negative(faults(), b.count, "eddy_viscosity", b.eddy_viscosity,
+                       {{"strain_rate", b.strain_rate}, {"wall_distance", b.wall_distance}});
   }
 };
 
@@ -304,13 +363,18 @@ class Emitter final : public Guarded<sdk::Emitter> {
     }
   }
   [[nodiscard]] double requested_mass_flow() const override {
-    return get("requested_mass_flow", &sdk::Emitter::requested_mass_flow);
+    return not_negative("requested_mass_flow", &sdk::Emitter::requested_mass_flow);
   }
   [[nodiscard]] std::vector<double> diameters() const override {
-    return get("diameters", &sdk::Emitter::diameters);
+    std::vector<double> all = get("diameters", &sdk::Emitter::diameters);
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      if (base::is_finite(all[n]) && all[n] > 0.0 && (n == 0 || all[n] > all[n - 1])) continue;
+      faults().refuse_answer("diameters", all[n], "diameters above 0, ascending");
+    }
+    return all;
   }
   [[nodiscard]] double largest_speed() const override {
-    return get("largest_speed", &sdk::Emitter::largest_speed);
+    return not_negative("largest_speed", &sdk::Emitter::largest_speed);
   }
   [[nodiscard]] sdk::EmitterRequest request() const override {
     return get("request", &sdk::Emitter::request);
@@ -376,7 +440,7 @@ class Motion final : public Guarded<sdk::Motion> {
     faults().check(b.count, "velocity.z", b.velocity.z, seen);
   }
   [[nodiscard]] double largest_speed() const override {
-    return get("largest_speed", &sdk::Motion::largest_speed);
+    return not_negative("largest_speed", &sdk::Motion::largest_speed);
   }
   [[nodiscard]] bool moves_body() const override {
     return get("moves_body", &sdk::Motion::moves_body);
@@ -390,7 +454,7 @@ class Motion final : public Guarded<sdk::Motion> {
     return p;
   }
   [[nodiscard]] double largest_angular_velocity() const override {
-    return get("largest_angular_velocity", &sdk::Motion::largest_angular_velocity);
+    return not_negative("largest_angular_velocity", &sdk::Motion::largest_angular_velocity);
   }
 };
 

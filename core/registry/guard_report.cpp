@@ -41,10 +41,16 @@ void GuardReport::refuse(const std::string& what, std::size_t row, std::size_t c
   throw sdk::ModelError(text + "; expected: " + expected);
 }
 
-void GuardReport::refuse_answer(const char* question, int answer,
+void GuardReport::refuse_answer(const char* question, double answer,
                                 const std::string& expected) const {
-  throw sdk::ModelError(who_ + " answers " + std::to_string(answer) + " to " + question +
+  throw sdk::ModelError(who_ + " answers " + shown(answer) + " to " + question +
                         "; expected: " + expected);
+}
+
+void GuardReport::refuse_made(bool is_nothing) const {
+  throw sdk::ModelError(
+      who_ + (is_nothing ? " is made as nothing" : " is made as a model of another kind") +
+      "; expected: an object of its kind from its factory");
 }
 
 }  // namespace dust::registry

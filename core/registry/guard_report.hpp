@@ -47,8 +47,10 @@ class GuardReport {
   [[noreturn]] void refuse(const std::string& what, std::size_t row, std::size_t count, Inputs seen,
                            const std::string& expected) const;
   /// An answer outside what the core can work with.
-  [[noreturn]] void refuse_answer(const char* question, int answer,
+  [[noreturn]] void refuse_answer(const char* question, double answer,
                                   const std::string& expected) const;
+  /// A factory that gives nothing, or something of another kind.
+  [[noreturn]] void refuse_made(bool is_nothing) const;
 
  private:
   [[noreturn]] void thrown(const char* function, const char* expected,

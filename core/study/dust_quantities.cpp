@@ -155,7 +155,11 @@ class DustQuantities {
     if (!open.empty()) add_way("left", open, true);
     if (!hoods_.empty()) add_way("drawn_out", hoods_, true);
     add_way("deposited", surfaces_, false);
-    if (dust_.liberation) add_way("set_free", causes(), false);
+    if (dust_.liberation) {
+      add_way("set_free", causes(), false);
+    } else {
+      add_way("released", {"sources"}, false);
+    }
     if (!running_bodies().empty()) add_way("carried_out", running_bodies(), false);
     if (dust_.field->scavenging) add_way("caught", {"grains"}, false);
   }

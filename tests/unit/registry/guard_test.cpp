@@ -19,13 +19,15 @@ constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
 
 /// What a trial model does in its hot function.
-enum class Deed { well, throws, throws_no_exception, no_number, refuses };
+enum class Deed { well, throws, throws_no_exception, no_number, negative, half, refuses };
 
 /// Does the deed; returns what is to be written.
 double deed(Deed what, double good) {
   if (what == Deed::throws) throw std::runtime_error("out of table");
   if (what == Deed::throws_no_exception) throw 42;
   if (what == Deed::refuses) throw sdk::ParameterError("does not fit");
+  if (what == Deed::negative) return -good;
+  if (what == Deed::half) return 0.5 * good;
   return what == Deed::no_number ? k_nan : good;
 }
 
@@ -319,6 +321,9 @@ TEST_CASE("guarded models of the air shall answer as themselves and be said_of f
   CHECK(said([&] { guard<Drag>(Deed::no_number)->evaluate(drag); }) ==
         "drag/trial (/x/trial.so) gives factor = nan in row 2 of 2 of a batch (reynolds = 2.5, "
         "void_fraction = 4); expected: a finite number");
+  CHECK(said([&] { guard<Drag>(Deed::negative)->evaluate(drag); }) ==
+        "drag/trial (/x/trial.so) gives factor = -2 in row 2 of 2 of a batch (reynolds = 2.5, "
+        "void_fraction = 4); expected: a number from 0 on");
   CHECK(said([&] { guard<Drag>(Deed::throws_no_exception)->evaluate(drag); }) ==
         "drag/trial (/x/trial.so) throws in evaluate: something that is no std::exception; "
         "expected: a factor for every grain of the batch");
@@ -358,6 +363,9 @@ TEST_CASE("guarded models of the air shall answer as themselves and be said_of f
   CHECK(said([&] { guard<Turbulence>(Deed::no_number)->evaluate(cells); }) ==
         "turbulence/trial (/x/trial.so) gives eddy_viscosity = nan in row 1 of 1 of a batch "
         "(strain_rate = 1.5); expected: a finite number");
+  CHECK(said([&] { guard<Turbulence>(Deed::negative)->evaluate(cells); }) ==
+        "turbulence/trial (/x/trial.so) gives eddy_viscosity = -1 in row 1 of 1 of a batch "
+        "(strain_rate = 1.5); expected: a number from 0 on");
 }
 
 TEST_CASE("a guarded liberation law shall be passed on and looked after in every class") {
@@ -395,6 +403,12 @@ TEST_CASE("a guarded rule of voidage shall keep within its own capacity") {
       said([&] { guard<Voidage>(Deed::no_number)->spread({}, batch); }) ==
       "voidage/trial (/x/trial.so) gives weight = nan in row 1 of 1 of a batch (position.x = 1.5); "
       "expected: a finite number");
+  const std::string who = "voidage/trial (/x/trial.so) gives weight";
+  const std::string row = " in row 1 of 1 of a batch (position.x = 1.5); expected: ";
+  CHECK(said([&] { guard<Voidage>(Deed::negative)->spread({}, batch); }) ==
+        who + " = -1" + row + "weights from 0 on");
+  CHECK(said([&] { guard<Voidage>(Deed::half)->spread({}, batch); }) ==
+        who + "s that sum to 0.5" + row + "1: all of the grain's volume and no more");
   registry::Entry entry;
   entry.info.kind = "voidage";
   entry.info.name = "greedy";
@@ -468,6 +482,20 @@ TEST_CASE("answers that the core cannot work with shall be said_of, not met as a
             "history, or -1 for none");
   CHECK(said([] { guard_with<Voidage>([](Voidage& v) { v.cells = 0; })->capacity({}, 1.0); }) ==
         "voidage" + who + "0 to capacity; expected: a number from 1 on");
+  CHECK(said([] { static_cast<void>(guard<Contact>()->collision_time(-1.0, 0.0, 0.0)); }) ==
+        "contact" + who + "-1 to collision_time; expected: a number above 0");
+}
+
+TEST_CASE("a factory that makes nothing, or another kind, shall be said_of") {
+  registry::Entry entry;
+  entry.info.kind = "drag";
+  entry.info.name = "trial";
+  entry.file = "/x/trial.so";
+  const std::string end = "; expected: an object of its kind from its factory";
+  CHECK(said([&] { registry::guarded(nullptr, entry); }) ==
+        "drag/trial (/x/trial.so) is made as nothing" + end);
+  CHECK(said([&] { registry::guarded(std::make_unique<Voidage>(Deed::well), entry); }) ==
+        "drag/trial (/x/trial.so) is made as a model of another kind" + end);
 }
 
 TEST_CASE("grains that an emitter has not announced shall be said_of as its own") {
