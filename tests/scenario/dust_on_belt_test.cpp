@@ -63,6 +63,20 @@ TEST_CASE("dust that a belt takes out of the domain shall be counted when it get
   CHECK(std::abs(dust_of(whole)["balance_error"].get<double>()) < 1e-12);
 }
 
+TEST_CASE("dust on an arm that turns before it reaches a side shall not leave the domain") {
+  const TemporaryFolder folder;
+  // Its ends pass bottom and top 4 mm before them, in the same cells of 10 mm.
+  const json summary =
+      run(folder / "arm",
+          {"--set",
+           "bodies={arm: {shape: box, material: steel, min: [154, -10, 140 mm], max: [446, 110, "
+           "160 mm], motion: rotate, pivot: [300, 50, 150 mm], spin_axis: [0, 1, 0], spin: 3}}"},
+          "1 s");
+  CHECK(dust_of(summary)["carried_out_kg"].value("arm", 0.0) == 0.0);
+  CHECK(dust_of(summary)["deposited_kg"]["arm"].get<double>() > 1e-7);
+  CHECK(std::abs(dust_of(summary)["balance_error"].get<double>()) < 1e-12);
+}
+
 TEST_CASE("a belt that stands shall keep where it fell what settles on it") {
   const TemporaryFolder folder;
   auto still = k_out;
