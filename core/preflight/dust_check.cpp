@@ -221,4 +221,21 @@ void check_feeds(const Setup& setup, const DustSetup& dust, bool is_branch,
   }
 }
 
+sdk::DustProperties dust_properties(const Setup& setup, const scenario::DustFieldSpec& field) {
+  return {.classes = field.diameters.size(),
+          .diameter = field.diameters.data(),
+          .density = field.density,
+          .gas_density = setup.fluid->density,
+          .gas_viscosity = setup.fluid->viscosity,
+          .gravity = norm(setup.gravity)};
+}
+
+void check_liberation(const Setup& setup, const DustSetup& dust,
+                      const registry::Registry& registry) {
+  if (!dust.liberation || !dust.field || !setup.fluid) return;
+  const auto law = registry.create_as<sdk::LiberationLaw>(*dust.liberation);
+  registry::ask_at_place(*dust.liberation,
+                         [&] { law->prepare(dust_properties(setup, *dust.field)); });
+}
+
 }  // namespace dust::preflight

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/liberation_law.hpp"
 #include "preflight/particle_models.hpp"
+#include "registry/registry.hpp"
 #include "scenario/diagnostics.hpp"
 #include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
@@ -40,5 +42,14 @@ void check_drift(const scenario::Setup& setup, const scenario::DustSetup& dust,
 /// begins its means in the middle of what is left of it: `is_branch`.
 void check_feeds(const scenario::Setup& setup, const scenario::DustSetup& dust, bool is_branch,
                  const ParticleModels& models, scenario::Diagnostics& diagnostics);
+
+/// What a law of liberation is prepared with; the diameters stay those of `field`.
+sdk::DustProperties dust_properties(const scenario::Setup& setup,
+                                    const scenario::DustFieldSpec& field);
+
+/// Prepares the law of liberation as the run will: one that does not fit the classes is told at its
+/// place.
+void check_liberation(const scenario::Setup& setup, const scenario::DustSetup& dust,
+                      const registry::Registry& registry);
 
 }  // namespace dust::preflight

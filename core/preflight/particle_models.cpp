@@ -18,6 +18,18 @@ bodies::BodySet make_bodies(const scenario::Setup& setup, const registry::Regist
   return made;
 }
 
+template <class Law>
+std::unique_ptr<Law> make_law(const scenario::ModelChoice& choice, const sdk::MaterialProperties& i,
+                              const sdk::MaterialProperties& j,
+                              const registry::Registry& registry) {
+  auto law = registry.create_as<Law>(choice);
+  registry::ask_at_place(choice, [&] {
+    law->prepare(i, j);
+    static_cast<void>(law->history_size());
+  });
+  return law;
+}
+
 particles::PairLaws make_laws(const scenario::Setup& setup, const scenario::InteractionSpec& spec,
                               const registry::Registry& registry) {
   particles::PairLaws laws;
@@ -25,16 +37,9 @@ particles::PairLaws make_laws(const scenario::Setup& setup, const scenario::Inte
   laws.material_j = spec.material_j;
   const auto& i = setup.materials.at(static_cast<std::size_t>(spec.material_i)).properties;
   const auto& j = setup.materials.at(static_cast<std::size_t>(spec.material_j)).properties;
-  laws.contact = registry.create_as<sdk::ContactLaw>(spec.contact);
-  laws.contact->prepare(i, j);
-  if (spec.rolling) {
-    laws.rolling = registry.create_as<sdk::RollingLaw>(*spec.rolling);
-    laws.rolling->prepare(i, j);
-  }
-  if (spec.cohesion) {
-    laws.cohesion = registry.create_as<sdk::CohesionLaw>(*spec.cohesion);
-    laws.cohesion->prepare(i, j);
-  }
+  laws.contact = make_law<sdk::ContactLaw>(spec.contact, i, j, registry);
+  if (spec.rolling) laws.rolling = make_law<sdk::RollingLaw>(*spec.rolling, i, j, registry);
+  if (spec.cohesion) laws.cohesion = make_law<sdk::CohesionLaw>(*spec.cohesion, i, j, registry);
   return laws;
 }
 

@@ -35,6 +35,7 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
   check_suctions(read.setup, models, diagnostics);
   check_openings(read.setup, read.dust, models, first, diagnostics);
   check_drift(read.setup, read.dust, models, diagnostics);
+  check_liberation(read.setup, read.dust, registry);
   check_feeds(read.setup, read.dust, read.start.from.has_value(), models, diagnostics);
   check_body_places(read.setup, models, diagnostics);
   check_bodies_at_periodic_sides(read.setup, models, diagnostics);

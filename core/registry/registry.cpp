@@ -78,6 +78,13 @@ std::vector<std::string> gathered(const std::vector<std::string>& problems) {
   return lines;
 }
 
+/// Where the scenario chooses the model.
+std::string prefix_of(const scenario::ModelChoice& choice) {
+  const std::string place = scenario::place(choice.where);
+  return (place.empty() ? "" : place + ": ") +
+         "error: " + (choice.path.empty() ? choice.kind : choice.path) + ": ";
+}
+
 }  // namespace
 
 struct Registry::Impl {
@@ -161,9 +168,7 @@ std::vector<std::string> Registry::names(std::string_view kind) const {
 
 std::unique_ptr<sdk::Model> Registry::create(const scenario::ModelChoice& choice) const {
   const Entry* entry = find(choice.kind, choice.name);
-  const std::string place = scenario::place(choice.where);
-  const std::string prefix = (place.empty() ? "" : place + ": ") +
-                             "error: " + (choice.path.empty() ? choice.kind : choice.path) + ": ";
+  const std::string prefix = prefix_of(choice);
   if (entry == nullptr) {
     throw base::UserError(prefix + "unknown " + choice.kind + " model '" + choice.name + "'");
   }
@@ -176,6 +181,14 @@ std::unique_ptr<sdk::Model> Registry::create(const scenario::ModelChoice& choice
   } catch (...) {
     throw base::UserError(prefix + file_text(entry->file) + " throws something that is no " +
                           "std::exception while it makes " + choice.kind + "/" + choice.name);
+  }
+}
+
+void ask_at_place(const scenario::ModelChoice& choice, const std::function<void()>& question) {
+  try {
+    question();
+  } catch (const std::exception& problem) {
+    throw base::UserError(prefix_of(choice) + problem.what());
   }
 }
 

@@ -6,6 +6,7 @@
 #include "setup/setup.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -55,5 +56,9 @@ class Registry {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Asks something of the chosen model before the run; what it throws becomes a base::UserError at
+/// the model's place, as in Registry::create.
+void ask_at_place(const scenario::ModelChoice& choice, const std::function<void()>& question);
 
 }  // namespace dust::registry

@@ -3,6 +3,7 @@
 
 #include "base/text.hpp"
 #include "dust/sdk/error.hpp"
+#include "preflight/dust_check.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -47,12 +48,7 @@ LiberationStage::LiberationStage(const scenario::Setup& setup,
   for (const scenario::MaterialSpec& m : setup.materials) {
     coarse_graining_.push_back(m.coarse_graining);
   }
-  law_->prepare({.classes = classes_,
-                 .diameter = dust_setup.field->diameters.data(),
-                 .density = dust_setup.field->density,
-                 .gas_density = setup.fluid->density,
-                 .gas_viscosity = setup.fluid->viscosity,
-                 .gravity = norm(setup.gravity)});
+  law_->prepare(preflight::dust_properties(setup, *dust_setup.field));
   causes_ = causes_of(particles_.wall_names(), law_->needs_wind());
   set_free_.resize(causes_.size() * classes_);
   impact_energy_.resize(1 + particles_.wall_names().size());

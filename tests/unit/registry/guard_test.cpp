@@ -3,6 +3,9 @@
 // said_of with kind, name, file and what was expected.
 #include "registry/guard.hpp"
 
+#include "base/error.hpp"
+#include "registry/registry.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -496,6 +499,21 @@ TEST_CASE("a factory that makes nothing, or another kind, shall be said_of") {
         "drag/trial (/x/trial.so) is made as nothing" + end);
   CHECK(said([&] { registry::guarded(std::make_unique<Voidage>(Deed::well), entry); }) ==
         "drag/trial (/x/trial.so) is made as a model of another kind" + end);
+}
+
+TEST_CASE("what a model throws when it is asked before the run shall come with its place") {
+  const scenario::ModelChoice choice{.kind = "contact",
+                                     .name = "trial",
+                                     .values = {},
+                                     .path = "interactions[0].contact",
+                                     .where = {}};
+  std::string text;
+  try {
+    registry::ask_at_place(choice, [] { guard<Contact>(Deed::refuses)->prepare({}, {}); });
+  } catch (const base::UserError& problem) {
+    text = problem.what();
+  }
+  CHECK(text == "error: interactions[0].contact: does not fit");
 }
 
 TEST_CASE("grains that an emitter has not announced shall be said_of as its own") {
