@@ -105,7 +105,10 @@ bool is_snake_case(const std::string& name) {
 /// Keys of a scenario that stand beside the parameters of a model of this kind.
 std::set<std::string> taken_keys(const std::string& kind) {
   if (kind == "emitter") return {"model", "enabled", "frame", "material"};
-  if (kind == "motion") return {"shape", "motion", "enabled", "frame", "material"};
+  if (kind == "motion") {
+    return {"shape",    "motion", "motions", "enabled", "frame",
+            "material", "group",  "remove",  "suction"};
+  }
   return {"model", "enabled"};
 }
 

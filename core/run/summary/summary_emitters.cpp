@@ -136,9 +136,10 @@ std::vector<std::string> shortfalls(const Simulation& s) {
     if (waiting_mass_of(s, e) <= k_smallest_shortfall * requested_stream(s, r)) continue;
     std::ostringstream text;
     text << "emitter '" << s.setup().emitters[e].name
-         << "' falls short: " << base::mass_text(s.insertion().ledger().totals_of(e).mass, 4)
-         << " of " << base::mass_text(requested_stream(s, r), 4) << " came in; " << waiting
-         << " grains wait because grains in the domain take their "
+         << "' falls short: " << base::mass_text(s.insertion().ledger().totals_of(e).mass, 4);
+    const double asked = requested_stream(s, r);
+    if (asked > 0.0) text << " of " << base::mass_text(asked, 4);
+    text << " came in; " << waiting << " grains wait because grains in the domain take their "
          << "places: make room in front of the emitter or reduce its flow";
     all.push_back(text.str());
   }
