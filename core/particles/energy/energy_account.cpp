@@ -12,12 +12,16 @@ using sdk::Vec3;
 
 Vec3 vector_at(const double* numbers) { return {numbers[0], numbers[1], numbers[2]}; }
 
-double kinetic(const ParticleStore& particles, std::size_t row, Vec3 velocity) {
+struct Kinetic {
+  double translation = 0.0, rotation = 0.0;  ///< [J]
+};
+
+Kinetic kinetic(const ParticleStore& particles, std::size_t row, Vec3 velocity) {
   const double mass = 1.0 / particles.inverse_mass(row);
   const Vec3 spin = vector_at(particles.rotation(row));
-  return particles.weight(row) *
-         (0.5 * mass * dot(velocity, velocity) +
-          0.5 * sdk::sphere_inertia(mass, particles.radius(row)) * dot(spin, spin));
+  const double half = 0.5 * particles.weight(row);
+  return {half * mass * dot(velocity, velocity),
+          half * sdk::sphere_inertia(mass, particles.radius(row)) * dot(spin, spin)};
 }
 
 void begin_step(EnergySums& sums) {
@@ -57,7 +61,12 @@ void EnergyAccount::restart(std::size_t tiles) {
 }
 
 void EnergyAccount::enter(const ParticleStore& particles, std::size_t row) {
-  if (is_on_) entered_ += kinetic(particles, row, vector_at(particles.velocity(row)));
+  if (!is_on_) return;
+  const Kinetic energy = kinetic(particles, row, vector_at(particles.velocity(row)));
+  entered_ += energy.translation + energy.rotation;
+  // It is there already, though the last step has not seen it: the next one forgets this.
+  before_.translation += energy.translation;
+  before_.rotation += energy.rotation;
 }
 
 /// Takes the velocity that it had when the account was last made up: half a step back.
@@ -66,7 +75,10 @@ void EnergyAccount::leave(const ParticleStore& particles, std::size_t row, const
   if (!is_on_) return;
   const double* g = gravity + 4 * static_cast<std::ptrdiff_t>(particles.material(row));
   const Vec3 then = vector_at(particles.half_velocity(row)) - (0.5 * step) * vector_at(g);
-  left_ += kinetic(particles, row, then);
+  const Kinetic energy = kinetic(particles, row, then);
+  left_ += energy.translation + energy.rotation;
+  before_.translation -= energy.translation;
+  before_.rotation -= energy.rotation;
 }
 
 EnergyBalance EnergyAccount::balance() const {

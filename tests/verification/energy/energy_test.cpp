@@ -251,3 +251,20 @@ TEST_CASE("a run that is saved and loaded shall go on with its account") {
         approx(whole.dem->energy().lost_friction).epsilon(1e-12));
   CHECK(std::abs(second.dem->energy().relative_error()) < k_closure);
 }
+
+TEST_CASE("the account shall close before the first step, and when a grain has just come or gone") {
+  Audited a(hertz(0.5, 0.5));
+  a.begin({at({0, 0, 0.05}, {0.3, 0, 0.2}, {0, 40, 0}), at({0.1, 0, 0.05}, {0.1, 0, 0})});
+  const EnergyBalance first = a.dem->energy();
+  CHECK(first.entered > 0.0);
+  CHECK(first.translation == approx(0.5 * k_mass * 0.14).epsilon(1e-12));
+  CHECK(std::abs(first.relative_error()) < 1e-12);
+  a.until(2e-3);
+  a.dem->insert(std::vector<NewGrain>{at({0, 0.1, 0.05}, {1, 0, 0}, {0, 0, 300})});
+  CHECK(std::abs(a.dem->energy().relative_error()) < k_closure);
+  a.dem->insert(std::vector<NewGrain>{at({0.9999, 0.1, 0.05}, {1, 0, 0})});
+  a.until(3e-3);
+  a.dem->remove_escaped();
+  CHECK(a.dem->energy().left > 0.0);
+  CHECK(std::abs(a.dem->energy().relative_error()) < k_closure);
+}
