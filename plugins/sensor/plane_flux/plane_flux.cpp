@@ -67,7 +67,7 @@ class PlaneFlux final : public sdk::Sensor {
     const sdk::GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
       if (!p_.takes(g.diameter[i])) continue;
-      const int direction = rectangle_.passage_of(sdk::path_of(world, i));
+      const int direction = rectangle_.passage_of(world, i);
       if (direction == 0) continue;
       count(0, direction, g.weight[i], g.mass[i], is_steady);
       if (!classes_.empty()) {

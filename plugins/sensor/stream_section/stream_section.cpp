@@ -60,7 +60,7 @@ class StreamSection final : public sdk::Sensor {
     const sdk::GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size() && world.interval > 0.0; ++i) {
       if (!p_.takes(g.diameter[i])) continue;
-      if (rectangle_.passage_of(sdk::path_of(world, i)) <= 0) continue;
+      if (rectangle_.passage_of(world, i) <= 0) continue;
       const double rate = g.weight[i] * g.mass[i] / world.interval;
       values_[0] += rate;
       values_[1] += rate * g.velocity_x[i];

@@ -114,6 +114,9 @@ TEST_CASE("a way through a periodic side shall count at planes that it passes, a
   CHECK(passages_at(0.0002).first == test::approx(1.0).epsilon(1e-12));
   CHECK(passages_at(0.0002).second == 0.0);
   CHECK(passages_at(0.165) == std::pair{0.0, 0.0});
+  // What it has passed before it came to the other side, and the side itself.
+  CHECK(passages_at(world.domain_max.x - 0.0002).first == test::approx(1.0).epsilon(1e-12));
+  CHECK(passages_at(world.domain_max.x).first == test::approx(1.0).epsilon(1e-12));
 }
 
 TEST_CASE("rates before the steady part shall not count, masses shall") {

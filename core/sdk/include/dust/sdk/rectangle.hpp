@@ -6,6 +6,7 @@
 #include "dust/sdk/vec3.hpp"
 
 #include <cmath>
+#include <cstddef>
 
 namespace dust::sdk {
 
@@ -52,6 +53,28 @@ class Rectangle {
       if (x[d] < min_[d] - tolerance_ || x[d] > max_[d] + tolerance_) return 0;
     }
     return p.direction;
+  }
+
+  /// The same of grain `i` between two samples. A grain that has gone through a periodic side has
+  /// passed what is before that side on the way as it began, and what is behind it on the way as it
+  /// ended: both are looked at, and a passage counts once.
+  [[nodiscard]] int passage_of(const WorldView& world, std::size_t i) const {
+    const Path path = path_of(world, i);
+    const Vec3 back = place_before(world, i) - path.before;
+    int direction = passage_of(path);
+    if (back == Vec3{}) return direction;
+    // Through two or three sides at once, in any order.
+    for (int sides = 1; direction == 0 && sides < 8; ++sides) {
+      Vec3 shift;
+      bool is_way = true;
+      for (int d = 0; d < 3; ++d) {
+        if ((sides >> d & 1) == 0) continue;
+        shift[d] = back[d];
+        is_way = is_way && back[d] != 0.0;
+      }
+      if (is_way) direction = passage_of({path.before + shift, path.now + shift});
+    }
+    return direction;
   }
 
  private:
