@@ -23,14 +23,17 @@ void set_to_zero(const sdk::MutableVectorColumns& velocity, std::size_t count) {
   std::fill_n(velocity.z, count, 0.0);
 }
 
+void add_to(const sdk::MutableVectorColumns& columns, std::size_t q, Vec3 v) {
+  columns.x[q] += v.x;
+  columns.y[q] += v.y;
+  columns.z[q] += v.z;
+}
+
 /// Of the body as a whole.
-void add_rigid_velocities(const Placement& at, const sdk::SurfaceBatch& points,
+void add_rigid_velocities(const Placement& at, const PointsOnSurface& points,
                           const sdk::MutableVectorColumns& velocity) {
   for (std::size_t q = 0; q < points.count; ++q) {
-    const Vec3 v = at.velocity_at(points.position[q]);
-    velocity.x[q] += v.x;
-    velocity.y[q] += v.y;
-    velocity.z[q] += v.z;
+    add_to(velocity, q, at.velocity_at(points.position[q]));
   }
 }
 
@@ -185,66 +188,104 @@ void Body::surface_velocities(const sdk::SurfaceBatch& all) const {
 }
 
 void Body::surface_velocities(const sdk::SurfaceBatch& all, const Placement& at) const {
-  const Instant now{all.time, all.velocity};
-  surface_velocities(all, at, {&now, 1});
+  const SurfaceMotion now{all.time, all.velocity, {}};
+  find_motion({all.count, all.position, all.normal}, at, {&now, 1});
 }
 
-void Body::surface_velocities(const sdk::SurfaceBatch& all, const Placement& at, double other_time,
-                              const sdk::MutableVectorColumns& other_velocity) const {
-  const Instant both[] = {{all.time, all.velocity}, {other_time, other_velocity}};
-  surface_velocities(all, at, both);
+bool Body::is_turning() const {
+  return std::any_of(motions.begin(), motions.end(), [&](const auto& motion) {
+    return motion->moves_body() ? motion->largest_angular_velocity() > 0.0 : shape->is_bent();
+  });
 }
 
-void Body::surface_velocities(const sdk::SurfaceBatch& all, const Placement& at,
-                              std::span<const Instant> instants) const {
-  for (const Instant& instant : instants) set_to_zero(instant.velocity, all.count);
+void Body::find_motion(const PointsOnSurface& all, const Placement& at,
+                       std::span<const SurfaceMotion> instants) const {
+  for (const SurfaceMotion& instant : instants) {
+    set_to_zero(instant.velocity, all.count);
+    if (instant.rotation.x != nullptr) set_to_zero(instant.rotation, all.count);
+  }
   if (motions.empty()) return;
   if (shape->local_axes() != nullptr) {
     for (std::size_t q = 0; q < all.count; ++q) add_at_point(all, q, at, instants);
   } else {
-    const Vec3 axis = at.turn(shape->lateral_axis());
-    for (std::size_t first = 0; first < all.count; first += k_block) {
-      sdk::SurfaceBatch block{.count = std::min(k_block, all.count - first),
-                              .time = 0.0,
-                              .axis = axis,
-                              .position = all.position.from(first),
-                              .normal = all.normal.from(first),
-                              .velocity = {}};
-      add_along_surface(block, first, 1.0, instants);
-    }
+    add_in_blocks(all, at, instants);
   }
   if (!is_carried() || running_parts(*this) != nullptr) return;  // their placement is not its own
-  for (const Instant& instant : instants) add_rigid_velocities(at, all, instant.velocity);
+  for (const SurfaceMotion& instant : instants) {
+    add_rigid_velocities(at, all, instant.velocity);
+    for (std::size_t q = 0; instant.rotation.x != nullptr && q < all.count; ++q) {
+      add_to(instant.rotation, q, at.spin);
+    }
+  }
+}
+
+/// Where the lateral axis is the same everywhere.
+void Body::add_in_blocks(const PointsOnSurface& all, const Placement& at,
+                         std::span<const SurfaceMotion> instants) const {
+  const Vec3 axis = at.turn(shape->lateral_axis());
+  double bend[3][k_block];
+  double* const bends[3] = {bend[0], bend[1], bend[2]};
+  for (std::size_t first = 0; first < all.count; first += k_block) {
+    const sdk::SurfaceBatch block{.count = std::min(k_block, all.count - first),
+                                  .time = 0.0,
+                                  .axis = axis,
+                                  .position = all.position.from(first),
+                                  .normal = all.normal.from(first),
+                                  .velocity = {}};
+    const bool is_asked = instants.front().rotation.x != nullptr && shape->is_bent();
+    if (is_asked) find_bends(block, at, bends);
+    add_along_surface(block, first, 1.0, is_asked ? bends : nullptr, instants);
+  }
+}
+
+/// Of a block of points, in the domain's frame.
+void Body::find_bends(const sdk::SurfaceBatch& block, const Placement& at,
+                      double* const* bend) const {
+  double point[3][k_block];
+  const double* const points[3] = {point[0], point[1], point[2]};
+  for (std::size_t q = 0; q < block.count; ++q) {
+    const Vec3 p = at.to_body(block.position[q]);
+    for (int d = 0; d < 3; ++d) point[d][q] = p[d];
+  }
+  shape->find_bends(block.count, points, bend);
+  for (std::size_t q = 0; at.is_turned && q < block.count; ++q) {
+    const Vec3 turned = at.turn({bend[0][q], bend[1][q], bend[2][q]});
+    for (int d = 0; d < 3; ++d) bend[d][q] = turned[d];
+  }
 }
 
 /// Where the lateral axis is another at each point.
-void Body::add_at_point(const sdk::SurfaceBatch& all, std::size_t q, const Placement& at,
-                        std::span<const Instant> instants) const {
+void Body::add_at_point(const PointsOnSurface& all, std::size_t q, const Placement& at,
+                        std::span<const SurfaceMotion> instants) const {
   const Vec3 normal = turned_back(at, all.normal[q]);
   const Vec3 point = at.to_body(all.position[q]);
-  RunningParts::VelocityQuery query{{}, normal};
+  RunningParts::VelocityQuery query{{}, normal, 1.0, {}};
   if (const RunningParts* const parts = running_parts(*this)) {
     const double way = run_at(*this, *parts, at);
     query = parts->velocity_query_after(way, point + way * parts->running_direction(), normal);
   } else {
     query.axis = shape->local_axes()->lateral_axis_at(point, normal);
+    query.bend = shape->local_axes()->bend_at(point);
   }
   const Vec3 asked = at.turn(query.normal);
+  Vec3 bend = at.turn(query.bend);
+  double* const bends[3] = {&bend.x, &bend.y, &bend.z};
   add_along_surface({.count = 1,
                      .time = 0.0,
                      .axis = at.turn(query.axis),
                      .position = all.position.from(q),
                      .normal = {&asked.x, &asked.y, &asked.z},
                      .velocity = {}},
-                    q, query.factor, instants);
+                    q, query.factor, bends, instants);
 }
 
-/// Adds what motions along the surface say of a block of points, from `first` on.
+/// Adds what motions along the surface say of a block of points, from `first` on. Null bends: flat.
 void Body::add_along_surface(sdk::SurfaceBatch block, std::size_t first, double factor,
-                             std::span<const Instant> instants) const {
+                             const double* const* bend,
+                             std::span<const SurfaceMotion> instants) const {
   double run[3][k_block];
   block.velocity = {run[0], run[1], run[2]};
-  for (const Instant& instant : instants) {
+  for (const SurfaceMotion& instant : instants) {
     block.time = instant.time;
     for (const auto& motion : motions) {
       if (motion->moves_body()) continue;
@@ -253,6 +294,12 @@ void Body::add_along_surface(sdk::SurfaceBatch block, std::size_t first, double 
         instant.velocity.x[first + q] += factor * run[0][q];
         instant.velocity.y[first + q] += factor * run[1][q];
         instant.velocity.z[first + q] += factor * run[2][q];
+      }
+      if (bend == nullptr || instant.rotation.x == nullptr) continue;
+      for (std::size_t q = 0; q < block.count; ++q) {
+        // A point at `arm` from an axis with velocity v goes round it with arm x v / arm^2.
+        const Vec3 velocity{factor * run[0][q], factor * run[1][q], factor * run[2][q]};
+        add_to(instant.rotation, first + q, cross({bend[0][q], bend[1][q], bend[2][q]}, velocity));
       }
     }
   }

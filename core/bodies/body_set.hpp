@@ -16,6 +16,20 @@
 
 namespace dust::bodies {
 
+/// Points of a surface, and what is asked about them at one instant.
+struct PointsOnSurface {
+  std::size_t count = 0;
+  sdk::VectorColumns position;  ///< [m]
+  sdk::VectorColumns normal;    ///< [-] outward
+};
+struct SurfaceMotion {
+  double time = 0.0;                   ///< [s]
+  sdk::MutableVectorColumns velocity;  ///< [m/s] out
+  /// [rad/s] out: angular velocity of the surface, also of a belt where it bends round a pulley.
+  /// Null: not asked.
+  sdk::MutableVectorColumns rotation;
+};
+
 /// A solid in the domain: shape, place, material and motion.
 struct Body {
   std::string name;
@@ -58,10 +72,11 @@ struct Body {
   void surface_velocities(const sdk::SurfaceBatch& batch) const;
   /// The same of a placement that is known, that at batch.time.
   void surface_velocities(const sdk::SurfaceBatch& batch, const Placement& at) const;
-  /// The same of a body that is never carried, at another time too: what of it is the same at both
-  /// is found once.
-  void surface_velocities(const sdk::SurfaceBatch& batch, const Placement& at, double other_time,
-                          const sdk::MutableVectorColumns& other_velocity) const;
+  /// How points of the surface move at instants of one placement.
+  void find_motion(const PointsOnSurface& points, const Placement& at,
+                   std::span<const SurfaceMotion> instants) const;
+  /// Whether its surface ever turns, be it only round a pulley.
+  [[nodiscard]] bool is_turning() const;
   /// The same at one point (for set-up and tests).
   [[nodiscard]] sdk::Vec3 surface_velocity(sdk::Vec3 point, sdk::Vec3 normal, double time) const;
   /// Upper bound [m/s] of the speed of any point of the surface at any time.
@@ -75,16 +90,13 @@ struct Body {
                                     const Placement& at) const;
 
  private:
-  struct Instant {
-    double time;  ///< [s]
-    sdk::MutableVectorColumns velocity;
-  };
-  void surface_velocities(const sdk::SurfaceBatch& batch, const Placement& at,
-                          std::span<const Instant> instants) const;
-  void add_at_point(const sdk::SurfaceBatch& batch, std::size_t q, const Placement& at,
-                    std::span<const Instant> instants) const;
+  void add_in_blocks(const PointsOnSurface& points, const Placement& at,
+                     std::span<const SurfaceMotion> instants) const;
+  void find_bends(const sdk::SurfaceBatch& block, const Placement& at, double* const* bend) const;
+  void add_at_point(const PointsOnSurface& points, std::size_t q, const Placement& at,
+                    std::span<const SurfaceMotion> instants) const;
   void add_along_surface(sdk::SurfaceBatch block, std::size_t first, double factor,
-                         std::span<const Instant> instants) const;
+                         const double* const* bend, std::span<const SurfaceMotion> instants) const;
 };
 
 using BodySet = std::vector<Body>;

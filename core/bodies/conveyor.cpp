@@ -90,6 +90,18 @@ class Conveyor final : public Shape {
     touch_all(belt_, spheres);
   }
   [[nodiscard]] Vec3 lateral_axis() const override { return {0, 1, 0}; }
+  [[nodiscard]] bool is_bent() const override { return true; }
+  void find_bends(std::size_t count, const double* const* point,
+                  double* const* bend) const override {
+    for (std::size_t n = 0; n < count; ++n) {
+      const Vec3 q{point[0][n] - belt_.head.x, 0.0, point[2][n] - belt_.head.z};
+      const double s = dot(q, belt_.back);
+      const bool is_on_run = s > 0.0 && s < belt_.length;
+      const Vec3 arm = q - (s > 0.0 ? belt_.length : 0.0) * belt_.back;
+      const double by = is_on_run ? 0.0 : 1.0 / std::max(dot(arm, arm), 1e-300);
+      for (int d = 0; d < 3; ++d) bend[d][n] = by * arm[d];
+    }
+  }
   [[nodiscard]] Triangles triangles(Vec3 min, Vec3 max, double edge) const override {
     // Outline, starting where the return run leaves the head pulley.
     const Vec3 up = cross(Vec3{0, 1, 0}, belt_.back);  // normal of one run

@@ -83,6 +83,16 @@ bool Revolved::is_unchanged_by_turning(Vec3 point, Vec3 axis) const {
   return norm(cross(axis, axis_)) < k_rounding && norm(across) < k_rounding * largest;
 }
 
+void Revolved::find_bends(std::size_t count, const double* const* point,
+                          double* const* bend) const {
+  for (std::size_t n = 0; n < count; ++n) {
+    const Vec3 q = Vec3{point[0][n], point[1][n], point[2][n]} - base_;
+    const Vec3 arm = q - dot(q, axis_) * axis_;
+    const double by = 1.0 / std::max(dot(arm, arm), 1e-300);
+    for (int d = 0; d < 3; ++d) bend[d][n] = by * arm[d];
+  }
+}
+
 Triangles Revolved::triangles(Vec3, Vec3, double edge) const {
   double largest = 0.0;
   for (const Edge& e : edges_) largest = std::max(largest, e.from.r);

@@ -24,6 +24,9 @@ class Revolved : public OnePart<Revolved> {
   [[nodiscard]] SurfacePoint nearest(sdk::Vec3 point) const override;
   /// The axis itself: `motion: belt` turns the surface about it.
   [[nodiscard]] sdk::Vec3 lateral_axis() const override { return axis_; }
+  [[nodiscard]] bool is_bent() const override { return true; }
+  void find_bends(std::size_t count, const double* const* point,
+                  double* const* bend) const override;
   [[nodiscard]] Triangles triangles(sdk::Vec3 min, sdk::Vec3 max, double edge) const override;
   [[nodiscard]] bool is_unchanged_by_turning(sdk::Vec3 point, sdk::Vec3 axis) const override;
 

@@ -4,6 +4,7 @@
 #include "dust/sdk/parameter_schema.hpp"
 #include "dust/sdk/vec3.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -84,7 +85,15 @@ class Shape {
   [[nodiscard]] virtual Triangles triangles(sdk::Vec3 min, sdk::Vec3 max, double edge) const = 0;
   /// Lateral axis (unit): the pulley's axis of a conveyor, the width of a plate.
   [[nodiscard]] virtual sdk::Vec3 lateral_axis() const = 0;
-  /// Where that differs from place to place; else null.
+  /// Whether a belt on it bends round an axis anywhere, as on a conveyor's pulleys.
+  [[nodiscard]] virtual bool is_bent() const { return false; }
+  /// How a belt on it bends at points of the surface, unless local_axes() say it: the vector [m] to
+  /// the point from the axis that it bends round, over its length squared; zero on flat runs.
+  virtual void find_bends(std::size_t count, const double* const* /*point*/,
+                          double* const* bend) const {
+    for (int d = 0; d < 3; ++d) std::fill_n(bend[d], count, 0.0);
+  }
+  /// Where the lateral axis differs from place to place; else null.
   [[nodiscard]] virtual const LocalAxes* local_axes() const { return nullptr; }
   /// Whether the shape stays where it is when it turns about the line through `point` along the
   /// unit vector `axis`: a drum about its own axis.

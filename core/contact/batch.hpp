@@ -72,7 +72,11 @@ class BatchColumns {
     attraction,       ///< [N]
     normal_velocity,  ///< [m/s] what a cohesive law sees
     first_history,
-    k_columns = first_history + k_max_history,
+    /// [rad/s] of the surface at the contact; behind all, because most surfaces do not turn.
+    surface_rotation_x = first_history + k_max_history,
+    surface_rotation_y,
+    surface_rotation_z,
+    k_columns,
     // What is read before the laws write stands where they write: with columns of their own a batch
     // would not stay in the first-level cache.
     rotation_i_x = force_x,
@@ -94,6 +98,9 @@ class BatchColumns {
   BatchColumns& operator=(const BatchColumns&) = delete;
   [[nodiscard]] double* column(int name) {
     return data_.data() + static_cast<std::size_t>(name) * k_stride;
+  }
+  [[nodiscard]] sdk::MutableVectorColumns mutable_vectors(int first) {
+    return {column(first), column(first + 1), column(first + 2)};
   }
   /// Three columns from `first` on.
   [[nodiscard]] sdk::VectorColumns vectors(int first) {

@@ -46,36 +46,35 @@ std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::Bod
     s.displacing_speed = body.largest_displacing_speed();
     s.place = body.placement(0.0);
     s.is_carried = body.is_carried();
+    s.is_turning = body.is_turning();
     s.wall = walls++;
     for (s.part = 0; s.part < body.shape->parts(); ++s.part) out.push_back(s);
   }
   return out;
 }
 
-void surface_velocities(const Surface& surface, std::size_t count, const double* const* point,
-                        const double* const* normal, double time, double* const* velocity,
-                        double other_time, double* const* other_velocity) {
+void find_motion(const Surface& surface, const bodies::PointsOnSurface& points,
+                 const bodies::SurfaceMotion& now, const bodies::SurfaceMotion& earlier) {
+  const bodies::SurfaceMotion both[] = {now, earlier};
   if (surface.body == nullptr) {
-    for (int d = 0; d < 3; ++d) std::fill_n(velocity[d], count, 0.0);
-    for (int d = 0; d < 3; ++d) std::fill_n(other_velocity[d], count, 0.0);
+    for (const auto& instant : both) {
+      for (const auto& columns : {instant.velocity, instant.rotation}) {
+        if (columns.x == nullptr) continue;
+        for (double* column : {columns.x, columns.y, columns.z}) {
+          std::fill_n(column, points.count, 0.0);
+        }
+      }
+    }
     return;
   }
   const bodies::Body& body = *surface.body;
-  sdk::SurfaceBatch batch{.count = count,
-                          .time = time,
-                          .axis = {},
-                          .position = {point[0], point[1], point[2]},
-                          .normal = {normal[0], normal[1], normal[2]},
-                          .velocity = {velocity[0], velocity[1], velocity[2]}};
-  const sdk::MutableVectorColumns other{other_velocity[0], other_velocity[1], other_velocity[2]};
   if (!surface.is_carried) {
-    body.surface_velocities(batch, surface.place, other_time, other);
+    body.find_motion(points, surface.place, both);
     return;
   }
-  body.surface_velocities(batch, body.placement(time));
-  batch.time = other_time;
-  batch.velocity = other;
-  body.surface_velocities(batch, body.placement(other_time));
+  for (const auto& instant : both) {
+    body.find_motion(points, body.placement(instant.time), {&instant, 1});
+  }
 }
 
 }  // namespace dust::particles

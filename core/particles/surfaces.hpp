@@ -25,6 +25,7 @@ struct Surface {
   double offset = 0.0;                 ///< [m] dot(normal, point of the plane)
   bodies::Placement place;             ///< of the body, at the time of the last move_to()
   bool is_carried = false;             ///< the body's placement is not always the same
+  bool is_turning = false;             ///< it turns, be it only where a belt bends
   double displacing_speed = 0.0;       ///< [m/s] upper bound; 0 = stands
   int opening = -1;                    ///< number of the opening in it; -1 = none
 
@@ -82,9 +83,8 @@ NearestSurface nearest_surface(std::span<const Surface> surfaces, sdk::Vec3 poin
 
 std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::BodySet& bodies);
 
-/// Surface velocities of `count` columns of points and normals at `time` [s], and at another time.
-void surface_velocities(const Surface& surface, std::size_t count, const double* const* point,
-                        const double* const* normal, double time, double* const* velocity,
-                        double other_time, double* const* other_velocity);
+/// How points of the surface move at two times. Rotations are asked for of both or of neither.
+void find_motion(const Surface& surface, const bodies::PointsOnSurface& points,
+                 const bodies::SurfaceMotion& now, const bodies::SurfaceMotion& earlier);
 
 }  // namespace dust::particles

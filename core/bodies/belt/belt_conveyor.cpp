@@ -259,6 +259,13 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
     const double length = norm(direction);
     return length > 1e-6 ? cross(normal, direction / length) : Vec3{};
   }
+  [[nodiscard]] bool is_bent() const override { return true; }
+  /// Round the pulleys alone: what a carrying run bends in transitions and between idlers is small.
+  [[nodiscard]] Vec3 bend_at(Vec3 point) const override {
+    const Vec3 q = to_belt(point);
+    const Vec3 arm{q.x > 0.0 ? q.x : std::min(q.x + length_, 0.0), 0.0, q.z};
+    return arm.x != 0.0 ? from_belt(arm / dot(arm, arm)) : Vec3{};
+  }
   [[nodiscard]] Triangles triangles(Vec3 min, Vec3 max, double edge) const override {
     return triangles_after(0.0, min, max, edge);
   }
@@ -297,11 +304,12 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
     }
     if (std::abs(cleat.point.distance) < std::abs(nearest_face(q).distance)) {
       if (cleat.stand.is_in_trough) return query_for(cleats_->velocity_in_trough(cleat.stand, q));
-      if (!cleat.stand.is_on_pulley) return {across_, from_belt(cleat.stand.out), 1.0};
+      if (!cleat.stand.is_on_pulley) return {across_, from_belt(cleat.stand.out), 1.0, {}};
       const Vec3 arm{q.x - cleat.stand.pulley, 0.0, q.z};
-      return {across_, from_belt(arm / norm(arm)), norm(arm) / reach_};
+      return {across_, from_belt(arm / norm(arm)), norm(arm) / reach_,
+              from_belt(arm / dot(arm, arm))};
     }
-    return {lateral_axis_at(point, normal), normal, 1.0};
+    return {lateral_axis_at(point, normal), normal, 1.0, bend_at(point)};
   }
 
  private:
@@ -321,7 +329,7 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
     const double factor = norm(way);
     Vec3 normal = cross(way, Vec3{0.0, 1.0, 0.0});  // never along y: a cleat runs along x
     normal = normal / norm(normal);
-    return {from_belt(cross(normal, way / factor)), from_belt(normal), factor};
+    return {from_belt(cross(normal, way / factor)), from_belt(normal), factor, {}};
   }
   static TroughParameters direct(const Parameters& p) {
     if (!(norm(p.head - p.tail) > 0.0)) {

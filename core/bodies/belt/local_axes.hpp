@@ -16,6 +16,8 @@ class LocalAxes {
   /// Lateral axis (unit) at a point of the surface: square to the normal there, and such that a
   /// belt on it runs along axis x normal.
   [[nodiscard]] virtual sdk::Vec3 lateral_axis_at(sdk::Vec3 point, sdk::Vec3 normal) const = 0;
+  /// How a belt on it bends at a point of the surface, as Shape::find_bends.
+  [[nodiscard]] virtual sdk::Vec3 bend_at(sdk::Vec3 /*point*/) const { return {}; }
   /// What stands on the surface and runs with it; null: nothing.
   [[nodiscard]] virtual const RunningParts* running_parts() const { return nullptr; }
 };

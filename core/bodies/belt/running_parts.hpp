@@ -22,6 +22,7 @@ class RunningParts {
     sdk::Vec3 axis;
     sdk::Vec3 normal;
     double factor = 1.0;
+    sdk::Vec3 bend;  ///< [1/m] as of Shape::find_bends
   };
   virtual ~RunningParts() = default;
   [[nodiscard]] virtual double spacing() const = 0;               ///< [m]

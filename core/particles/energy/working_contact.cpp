@@ -36,9 +36,11 @@ void ContactMotion::set_particle(std::size_t q, Vec3 displacement, Vec3 angle) {
   angle_j_[q] = {};
 }
 
-void ContactMotion::take_walls(BatchColumns& columns, std::size_t count) {
+void ContactMotion::take_walls(BatchColumns& columns, std::size_t count, bool is_turning) {
   for (std::size_t q = 0; q < count; ++q) {
-    wall_[q] = columns.column(k_wall_since)[q] * vector_of(columns, k_wall_mean_velocity, q);
+    const double since = columns.column(k_wall_since)[q];
+    wall_[q] = since * vector_of(columns, k_wall_mean_velocity, q);
+    wall_angle_[q] = is_turning ? since * vector_of(columns, k_wall_mean_rotation, q) : Vec3{};
   }
 }
 
@@ -55,6 +57,7 @@ void add_work(const WorkingContact& c, double* history, std::size_t stride, Ener
   sums.rolling += half * dot(couple_before + c.couple, c.turn);
   sums.walls +=
       half * dot((normal_before + normal) * c.normal + tangential_before + tangential, c.wall);
+  sums.walls += half * dot(couple_before + c.couple, c.wall_angle);
   old(0) = normal;
   for (std::size_t d = 0; d < 3; ++d) {
     old(1 + d) = tangential[static_cast<int>(d)];

@@ -22,18 +22,20 @@ class ContactMotion {
   void take_pairs(contact::BatchColumns& columns, std::size_t count);
   /// A particle at a wall: displacement [m] of its centre and angle [rad].
   void set_particle(std::size_t q, sdk::Vec3 displacement, sdk::Vec3 angle);
-  /// The walls' displacement, once derive_wall_columns() has told their velocities.
-  void take_walls(contact::BatchColumns& columns, std::size_t count);
+  /// What the walls have done, once derive_wall_columns() has found it.
+  void take_walls(contact::BatchColumns& columns, std::size_t count, bool is_turning);
 
   [[nodiscard]] sdk::Vec3 displacement(std::size_t q) const { return displacement_[q]; }
   [[nodiscard]] sdk::Vec3 angle_i(std::size_t q) const { return angle_i_[q]; }
   [[nodiscard]] sdk::Vec3 angle_j(std::size_t q) const { return angle_j_[q]; }
   [[nodiscard]] sdk::Vec3 wall(std::size_t q) const { return wall_[q]; }
+  [[nodiscard]] sdk::Vec3 wall_angle(std::size_t q) const { return wall_angle_[q]; }
 
  private:
   sdk::Vec3 displacement_[contact::k_batch];  ///< of i relative to j; of i at a wall
   sdk::Vec3 angle_i_[contact::k_batch], angle_j_[contact::k_batch];
-  sdk::Vec3 wall_[contact::k_batch];  ///< displacement of the wall
+  sdk::Vec3 wall_[contact::k_batch];        ///< displacement of the wall
+  sdk::Vec3 wall_angle_[contact::k_batch];  ///< that it has turned by
 };
 
 /// Of the calling thread, filled only where an account is kept.
@@ -46,6 +48,7 @@ struct WorkingContact {
   sdk::Vec3 slip;           ///< [m] displacement of the contact point
   sdk::Vec3 turn;           ///< [rad] relative rotation
   sdk::Vec3 wall;           ///< [m] displacement of the wall
+  sdk::Vec3 wall_angle;     ///< [rad] rotation of the wall
   sdk::Vec3 force, couple;  ///< [N], [N m] on i, now
   double weight;            ///< statistical
 };

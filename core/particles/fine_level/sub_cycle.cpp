@@ -252,7 +252,8 @@ void SubCycle::apply_to_wall(const CandidateContact& c, std::size_t q) {
   if (block_.wall_sums.empty()) return;
   const auto wall = static_cast<std::size_t>(scene_.surface(c.surface).wall);
   add_load(block_.wall_sums.data() + WallLoads::k_sums * wall, i.position, force, torque,
-           get(B::separation_x, q), i.weight * duration);
+           wall_power(scene_.surface(c.surface), scene_.law(c.law).rolling != nullptr, q, columns_),
+           i.weight * duration);
 }
 
 }  // namespace

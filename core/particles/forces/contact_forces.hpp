@@ -79,8 +79,8 @@ class ContactForces {
   void walls(const ContactScene& scene, Tile range, TileContacts& contacts, OfTile& tile,
              double* force);
   static void note_wall_loads(const ContactScene& scene, OfTile& tile, const Surface& surface,
-                              std::span<const std::int32_t> rows, const bool* is_new,
-                              contact::BatchColumns& columns);
+                              const PairLaws& law, std::span<const std::int32_t> rows,
+                              const bool* is_new, contact::BatchColumns& columns);
 
   std::vector<OfTile> tiles_;
   double largest_before_ = 0.0;  ///< of tiles that are gone

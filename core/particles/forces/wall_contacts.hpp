@@ -29,6 +29,9 @@ inline constexpr int k_wall_since = contact::BatchColumns::angle_j_x;
 /// The velocity of the surface half way back to the last look, until the laws have been asked.
 inline constexpr int k_wall_mean_velocity = contact::BatchColumns::angle_i_x;
 
+/// The surface's angular velocity then, of one that turns, until the laws have been asked.
+inline constexpr int k_wall_mean_rotation = contact::BatchColumns::rotation_i_x;
+
 inline GrainAtWall GrainAtWall::from(const contact::RowView& rows, std::size_t row) {
   const auto vec = [](const double* p) { return sdk::Vec3{p[0], p[1], p[2]}; };
   const double* motion = rows.motion + contact::k_motion_stride * row;
@@ -79,9 +82,20 @@ inline void put_at_wall(const GrainAtWall& g, const bodies::SurfacePoint& near, 
 
 /// The surface's side of all contacts: takes its velocity at `time` [s] off the velocities of the
 /// contact points, and its way since the last look, half of which was `since` / 2 [s] ago, off the
-/// displacements. Columns are filled up to the padded count. The surface's own velocities are left
-/// in the columns of the separation.
+/// displacements; likewise its rotation, where it turns, off those of the grains. Columns are
+/// filled up to the padded count. The surface's own velocities are left in the columns of the
+/// separation.
 void derive_wall_columns(const Surface& surface, double time, double since, std::size_t count,
                          contact::BatchColumns& columns);
+
+/// The power [W] that a surface puts into contact q, per real particle, once the laws have been
+/// asked: force times velocity and, where it turns, rolling couple times angular velocity.
+inline double wall_power(const Surface& surface, bool has_couple, std::size_t q,
+                         contact::BatchColumns& columns) {
+  using B = contact::BatchColumns;
+  const double linear = dot(columns.vectors(B::force_x)[q], columns.vectors(B::separation_x)[q]);
+  if (!surface.is_turning || !has_couple) return linear;
+  return linear + dot(columns.vectors(B::torque_x)[q], columns.vectors(B::surface_rotation_x)[q]);
+}
 
 }  // namespace dust::particles

@@ -46,15 +46,16 @@ struct SurfacePoints {
   }
 };
 
-/// Of a particle at a wall that has moved by `wall`.
+/// Of a particle at a wall that has moved by `wall` and turned by `wall_angle`.
 WorkingContact moved_at_wall(sdk::Vec3 displacement, sdk::Vec3 angle, sdk::Vec3 wall,
-                             sdk::Vec3 normal, double lever) {
+                             sdk::Vec3 wall_angle, sdk::Vec3 normal, double lever) {
   WorkingContact c{};
   c.normal = normal;
   c.approach = -dot(displacement - wall, normal);
   c.slip = displacement - wall - lever * cross(angle, normal);
-  c.turn = angle;
+  c.turn = angle - wall_angle;
   c.wall = wall;
+  c.wall_angle = wall_angle;
   return c;
 }
 
@@ -115,13 +116,13 @@ struct ContactForces::WallBatch {
     const int groups = static_cast<int>(list.history_stride / 4);
     derive_wall_columns(surface, scene.time, scene.step, count, columns);
     contact::load_history(list, contacts, count, groups, columns);
-    if (tile.energy != nullptr) thread_motion().take_walls(columns, count);
+    if (tile.energy != nullptr) thread_motion().take_walls(columns, count, surface.is_turning);
     evaluate_laws(law, columns, count, scene.step);
     if (scene.work != nullptr) note_work();
     if (tile.energy != nullptr) record_work();
     contact::store_history(list, contacts, count, groups, columns);
     if (!tile.wall_sums.empty()) {
-      note_wall_loads(scene, tile, surface, {rows, count}, is_new, columns);
+      note_wall_loads(scene, tile, surface, law, {rows, count}, is_new, columns);
     }
     contact::scatter_single(local_rows, count, columns, force);
     tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(count);
@@ -147,9 +148,9 @@ void ContactForces::WallBatch::record_work() {
   ElasticEnergy elastic;
   find_elastic_energy(law, columns, count, elastic);
   for (std::size_t q = 0; q < count; ++q) {
-    WorkingContact c =
-        moved_at_wall(motion.displacement(q), motion.angle_i(q), motion.wall(q),
-                      columns.vectors(B::normal_x)[q], columns.column(B::lever_i)[q]);
+    WorkingContact c = moved_at_wall(motion.displacement(q), motion.angle_i(q), motion.wall(q),
+                                     motion.wall_angle(q), columns.vectors(B::normal_x)[q],
+                                     columns.column(B::lever_i)[q]);
     c.weight = scene.particles.weight(static_cast<std::size_t>(rows[q]));
     c.force = columns.vectors(B::force_x)[q];
     if (law.rolling) c.couple = columns.vectors(B::torque_x)[q];
@@ -165,7 +166,8 @@ void ContactForces::WallBatch::record_separated(std::size_t entry) {
   const auto grain = GrainAtWall::from(scene.rows(), row);
   const bodies::SurfacePoint near = surface.contact(grain.position, 2.0 * grain.radius + law.range);
   if (!std::isfinite(near.distance)) return;
-  WorkingContact c = moved_at_wall(grain.displacement, grain.angle, {}, near.normal, grain.radius);
+  WorkingContact c =
+      moved_at_wall(grain.displacement, grain.angle, {}, {}, near.normal, grain.radius);
   c.weight = scene.particles.weight(row);
   add_work(c, list.history + entry * list.history_stride + scene.laws.account_column(), 1,
            *tile.energy);
@@ -206,8 +208,8 @@ void ContactForces::walls(const ContactScene& scene, Tile range, TileContacts& c
 /// Books what a batch did to a wall. The velocity columns hold the relative velocity of the contact
 /// points, the separation columns that of the surface.
 void ContactForces::note_wall_loads(const ContactScene& scene, OfTile& tile, const Surface& surface,
-                                    std::span<const std::int32_t> rows, const bool* is_new,
-                                    BatchColumns& columns) {
+                                    const PairLaws& law, std::span<const std::int32_t> rows,
+                                    const bool* is_new, BatchColumns& columns) {
   using B = BatchColumns;
   double* sums = tile.wall_sums.data() + WallLoads::k_sums * static_cast<std::size_t>(surface.wall);
   for (std::size_t q = 0; q < rows.size(); ++q) {
@@ -218,8 +220,8 @@ void ContactForces::note_wall_loads(const ContactScene& scene, OfTile& tile, con
     const auto row = static_cast<std::size_t>(rows[q]);
     const double* p = scene.particles.position(row);
     const double weight = scene.particles.weight(row);
-    add_load(sums, {p[0], p[1], p[2]}, get(B::force_x), get(B::torque_i_x), get(B::separation_x),
-             weight * scene.step);
+    add_load(sums, {p[0], p[1], p[2]}, get(B::force_x), get(B::torque_i_x),
+             wall_power(surface, law.rolling != nullptr, q, columns), weight * scene.step);
     if (!is_new[q]) continue;
     tile.wall_impacts.push_back(impact_of(surface.wall, 1.0 / scene.particles.inverse_mass(row),
                                           weight, get(B::velocity_x), get(B::normal_x)));

@@ -43,15 +43,15 @@ class WallLoads {
 };
 
 /// Adds to the sums of one wall what the grain's side of a contact says: force [N] and torque [N m]
-/// about its centre, both on the grain, for a time [s]. The wall moves at `wall_velocity` there.
+/// about its centre, both on the grain, for a time [s], in which the wall spends `power` [W].
 inline void add_load(double* sums, sdk::Vec3 centre, sdk::Vec3 force, sdk::Vec3 torque,
-                     sdk::Vec3 wall_velocity, double weighted_time) {
+                     double power, double weighted_time) {
   const sdk::Vec3 moment = cross(centre, force) + torque;
   for (int d = 0; d < 3; ++d) {
     sums[d] -= weighted_time * force[d];
     sums[3 + d] -= weighted_time * moment[d];
   }
-  sums[6] += weighted_time * dot(force, wall_velocity);
+  sums[6] += weighted_time * power;
 }
 
 /// The impact of a grain that has just touched: `relative` is the velocity [m/s] of its surface

@@ -48,6 +48,18 @@ std::vector<std::unique_ptr<Motion>> list(M... m) {
   return all;
 }
 
+/// Angular velocity of the surface nearest to a point of the domain.
+Vec3 rotation_near(const Body& body, Vec3 over, double time) {
+  const auto at = body.placement(time);
+  const auto s = body.nearest(over, at);
+  const Vec3 p = over - s.distance * s.normal;
+  Vec3 v;
+  Vec3 w{7, 7, 7};
+  const dust::bodies::SurfaceMotion now{time, {&v.x, &v.y, &v.z}, {&w.x, &w.y, &w.z}};
+  body.find_motion({1, {&p.x, &p.y, &p.z}, {&s.normal.x, &s.normal.y, &s.normal.z}}, at, {&now, 1});
+  return w;
+}
+
 std::string problem(const std::string& name, const std::map<std::string, Value>& values) {
   try {
     motion(name, values);
@@ -245,7 +257,10 @@ TEST_CASE("velocities asked for at two times at once shall be those of each") {
                                         .position = {in[0].data(), in[1].data(), in[2].data()},
                                         .normal = {in[3].data(), in[4].data(), in[5].data()},
                                         .velocity = {out[0].data(), out[1].data(), out[2].data()}};
-    body.surface_velocities(batch, at, 0.25, {out[3].data(), out[4].data(), out[5].data()});
+    const dust::bodies::SurfaceMotion instants[] = {
+        {1.5, {out[0].data(), out[1].data(), out[2].data()}, {}},
+        {0.25, {out[3].data(), out[4].data(), out[5].data()}, {}}};
+    body.find_motion({count, batch.position, batch.normal}, at, instants);
     std::vector<double> alone[3];
     for (auto& column : alone) column.assign(count, -1.0);
     auto one = batch;
@@ -378,4 +393,71 @@ TEST_CASE("a cleat whose path is none shall be refused") {
   bad = good;
   bad["up"] = Vec3{2, 0, 0};
   CHECK(problem("circulate", bad) == "up is along the belt");
+}
+
+TEST_CASE("the surface of a body that turns shall turn with it, that of one that shifts not") {
+  const Body bar =
+      box_with(list(motion("rotate", {{"spin_axis", Vec3{0, 2, 0}}, {"spin", 3.0}, {"ramp", 2.0}}),
+                    motion("translate", {{"velocity", Vec3{1, 0, 0}}})));
+  CHECK(bar.is_turning());
+  CHECK(norm(rotation_near(bar, {0, 0, 2}, 1.0) - Vec3{0, 1.5, 0}) < 1e-12);
+  CHECK(norm(rotation_near(bar, {0, 0, 2}, 5.0) - Vec3{0, 3.0, 0}) < 1e-12);
+  const Body sledge = box_with(list(motion("translate", {{"velocity", Vec3{1, 0, 0}}})));
+  CHECK_FALSE(sledge.is_turning());
+  CHECK(rotation_near(sledge, {0, 0, 2}, 1.0) == Vec3{});
+}
+
+TEST_CASE("a belt shall turn round its pulleys and nowhere else") {
+  for (const char* shape : {"conveyor", "belt_conveyor"}) {
+    CAPTURE(shape);
+    Body body;
+    body.shape = make_shape(shape, {{"head", Vec3{0, 0, 0}},
+                                    {"tail", Vec3{-4, 0, 0}},
+                                    {"radius", 0.4},
+                                    {"thickness", 0.1},
+                                    {"width", 1.0}});
+    body.motions = list(motion("belt", {{"speed", 2.0}}));
+    body.frame_origin = {1, 2, 3};
+    body.frame_axis = {0, 0, 1};
+    body.frame_angle = 0.5 * std::numbers::pi;
+    const auto at = body.placement(0.0);
+    CHECK(body.is_turning());
+    // The frame turns the pulleys' axis from y to -x; the belt's face is 0.5 from it.
+    for (const Vec3 over : {Vec3{0.4, 0.1, 0.4}, Vec3{-4.3, 0, -0.6}}) {
+      CHECK(norm(rotation_near(body, at.to_domain(over), 1.0) - Vec3{-2.0 / 0.5, 0, 0}) < 1e-9);
+    }
+    for (const Vec3 over : {Vec3{-2, 0, 0.7}, Vec3{-1, 0.2, -0.7}}) {
+      CHECK(rotation_near(body, at.to_domain(over), 1.0) == Vec3{});
+    }
+  }
+}
+
+TEST_CASE("a cleat shall turn with the pulley it is on") {
+  Body body;
+  body.shape = make_shape("belt_conveyor", {{"head", Vec3{0, 0, 0}},
+                                            {"tail", Vec3{-4, 0, 0}},
+                                            {"radius", 0.4},
+                                            {"thickness", 0.1},
+                                            {"width", 1.0},
+                                            {"cleat_height", 0.2},
+                                            {"cleat_thickness", 0.1},
+                                            {"cleat_spacing", 1.0}});
+  body.motions = list(motion("belt", {{"speed", 0.9}}));
+  // A quarter round the head pulley, whose middle surface is 0.45 from its axis.
+  const double time = 0.5 * std::numbers::pi * 0.45 / 0.9;
+  CHECK(norm(rotation_near(body, {0.8, 0, 0}, time) - Vec3{0, 0.9 / 0.45, 0}) < 1e-9);
+  CHECK(norm(rotation_near(body, {0.65, 0, 0.08}, time) - Vec3{0, 0.9 / 0.45, 0}) < 1e-9);
+  CHECK(rotation_near(body, {-2, 0, 0.8}, time) == Vec3{});
+}
+
+TEST_CASE("a belt round a drum shall turn as the drum does, inside the other way") {
+  Body drum;
+  drum.shape = make_shape("cylinder", {{"base", Vec3{0, -1, 0}},
+                                       {"axis", Vec3{0, 1, 0}},
+                                       {"length", 2.0},
+                                       {"radius", 0.5},
+                                       {"thickness", 0.1}});
+  drum.motions = list(motion("belt", {{"speed", 1.2}}));
+  CHECK(norm(rotation_near(drum, {0.7, 0, 0}, 0.0) - Vec3{0, 2.0, 0}) < 1e-9);
+  CHECK(norm(rotation_near(drum, {0, 0, -0.4}, 0.0) - Vec3{0, -2.4, 0}) < 1e-9);
 }

@@ -157,9 +157,11 @@ struct Discharge {
   double angle = 0.0;
   double speed = 0.0;
 };
-Discharge discharge(double speed, double friction) {
-  LumpOnBelt l({.speed = speed, .friction = friction, .rolling = 20.0, .restitution = 0.5},
-               {-0.01, 0, k_lump - 1e-5}, {speed, 0, 0});
+Discharge discharge(double speed, double friction,
+                    double young_modulus = LumpOnBelt::Belt{}.young_modulus) {
+  LumpOnBelt::Belt belt{.speed = speed, .friction = friction, .rolling = 20.0, .restitution = 0.5};
+  belt.young_modulus = young_modulus;
+  LumpOnBelt l(belt, {-0.01, 0, k_lump - 1e-5}, {speed, 0, 0});
   Discharge d;
   int apart = 0;
   while (l.stepper->time() < 2.0 && apart < 100) {
@@ -176,21 +178,34 @@ Discharge discharge(double speed, double friction) {
   return d;
 }
 
-/// Booth (1934): a block of the belt's speed on a pulley slips once g sin(a) > mu (g cos(a) - v^2 /
-/// R), gathers speed by d(v^2)/da = 2 R g (sin(a) - mu cos(a)) + 2 mu v^2, and leaves where v^2 /
-/// (g R) = cos(a). The equation is integrated here in small steps.
-Discharge booth(double speed, double friction) {
+/// Speed at which a lump that turns with the pulley has its centre go round.
+double speed_at_centre(double speed) {
+  return speed * (k_pulley + k_thickness + k_lump) / (k_pulley + k_thickness);
+}
+
+/// Booth (1934) for a block that turns with the pulley, with an adhesion of `pull` times its
+/// weight: the pulley presses with N = m (g cos(a) - v^2 / r) + F. Until its centre goes round at
+/// the pulley's rate friction drives it: d(v^2)/da = 2 r (g sin(a) + mu N / m). It slips once g
+/// sin(a) > mu N / m, gathers speed by d(v^2)/da = 2 r (g sin(a) - mu N / m), and leaves where N =
+/// 0: v^2 / (g r) = cos(a) + F / (m g).
+Discharge booth(double speed, double friction, double pull = 0.0) {
   const double radius = k_pulley + k_thickness + k_lump;
-  double square = speed * speed;
+  const double round = speed_at_centre(speed) * speed_at_centre(speed);
   constexpr double k_step = 1e-5;
-  double a = 0.0;
-  while (k_g * std::sin(a) < friction * (k_g * std::cos(a) - square / radius)) a += k_step;
-  while (square < k_g * radius * std::cos(a)) {
-    square += k_step *
-              (2 * radius * k_g * (std::sin(a) - friction * std::cos(a)) + 2 * friction * square);
-    a += k_step;
+  double square = speed * speed;
+  bool slips = false;
+  for (double a = 0.0;; a += k_step) {
+    const double pressed = k_g * (std::cos(a) + pull) - square / radius;
+    if (pressed <= 0.0) return {a * 180.0 / k_pi, std::sqrt(square)};
+    if (square < round) {
+      square += k_step * 2 * radius * (k_g * std::sin(a) + friction * pressed);
+      square = std::min(square, round);
+      continue;
+    }
+    const double driven = k_g * std::sin(a) - friction * pressed;
+    slips = slips || driven > 0.0;
+    if (slips) square = std::max(round, square + k_step * 2 * radius * driven);
   }
-  return {a * 180.0 / k_pi, std::sqrt(square)};
 }
 
 }  // namespace
@@ -199,7 +214,8 @@ TEST_CASE("a lump shall slip on the head pulley and leave it as Booth's equation
   constexpr double k_degrees = 1.0;
   for (const double speed : {0.8, 1.2, 1.6}) {
     CAPTURE(speed);
-    const Discharge found = discharge(speed, 0.6);
+    // As the pulley presses less the lump has to come out of it: stiff, that takes no time.
+    const Discharge found = discharge(speed, 0.6, 2e9);
     const Discharge expected = booth(speed, 0.6);
     CHECK(std::abs(found.angle - expected.angle) < k_degrees);
     // A degree further it is 3 % faster.
@@ -211,10 +227,11 @@ TEST_CASE("without slip a lump shall leave a slow belt's pulley where CEMA says"
   for (const double speed : {0.8, 1.4}) {
     CAPTURE(speed);
     const Discharge found = discharge(speed, 20.0);
-    // v^2 / (g r) = cos(a) at the radius of the centre of mass; it goes at the belt's speed, as it
-    // does not turn.
+    // v^2 / (g r) = cos(a) at the radius and with the speed of the centre of mass, which turns with
+    // the pulley.
+    const double square = std::pow(speed_at_centre(speed), 2);
     const double expected =
-        std::acos(speed * speed / (k_g * (k_pulley + k_thickness + k_lump))) * 180.0 / k_pi;
+        std::acos(square / (k_g * (k_pulley + k_thickness + k_lump))) * 180.0 / k_pi;
     CHECK(std::abs(found.angle - expected) < 1.0);
   }
 }
@@ -248,23 +265,6 @@ Discharge sticky_discharge(double speed, double friction, double pull) {
   return d;
 }
 
-/// Booth's block with an adhesion of `pull` times its weight: the pulley presses with N = m (g
-/// cos(a) - v^2 / r) + F. It slips once g sin(a) > mu N / m, gathers speed by d(v^2)/da = 2 r (g
-/// sin(a) - mu N / m), and leaves where N = 0: v^2 / (g r) = cos(a) + F / (m g).
-Discharge sticky_booth(double speed, double friction, double pull) {
-  const double radius = k_pulley + k_thickness + k_lump;
-  constexpr double k_step = 1e-5;
-  double square = speed * speed;
-  bool slips = false;
-  for (double a = 0.0;; a += k_step) {
-    const double pressed = k_g * (std::cos(a) + pull) - square / radius;
-    if (pressed <= 0.0) return {a * 180.0 / k_pi, std::sqrt(square)};
-    const double driven = k_g * std::sin(a) - friction * pressed;
-    slips = slips || driven > 0.0;
-    if (slips) square += k_step * 2 * radius * driven;
-  }
-}
-
 }  // namespace
 
 TEST_CASE("a lump that sticks shall leave the head pulley later, where the balance says") {
@@ -276,7 +276,7 @@ TEST_CASE("a lump that sticks shall leave the head pulley later, where the balan
         CAPTURE(friction);
         CAPTURE(pull);
         const Discharge found = sticky_discharge(speed, friction, pull);
-        const Discharge expected = sticky_booth(speed, friction, pull);
+        const Discharge expected = booth(speed, friction, pull);
         CHECK(std::abs(found.angle - expected.angle) < 1.0);
         // The gap opens with the third power of the time: 0.1 um after 0.7 degrees, in which a lump
         // that no friction holds any more has become faster by 5 %.
@@ -286,7 +286,8 @@ TEST_CASE("a lump that sticks shall leave the head pulley later, where the balan
         // Without slip in closed form.
         if (friction < 1.0) continue;
         const double r = k_pulley + k_thickness + k_lump;
-        const double held = std::acos(speed * speed / (k_g * r) - pull) * 180.0 / k_pi;
+        const double square = std::pow(speed_at_centre(speed), 2);
+        const double held = std::acos(std::min(square / (k_g * r) - pull, 1.0)) * 180.0 / k_pi;
         CHECK(std::abs(found.angle - held) < 1.0);
       }
     }

@@ -144,3 +144,25 @@ TEST_CASE("a grain in a corner of a vessel shall count once for the vessel") {
   CHECK(walls.mass[0] == approx(rig.mass()).epsilon(1e-12));
   CHECK(norm(walls.force[0] - rig.mass() * Vec3{-4, -3, -8}) < 1e-4 * rig.mass() * k_g);
 }
+
+TEST_CASE("a turning drum shall spend its torque times its spin, rolling couples among it") {
+  constexpr double k_spin = 8.0;
+  WallRig rig(0.5, 0.5, 4e-3, 0.3);
+  rig.setup.gravity = {0, 0, -k_g};
+  rig.body("cylinder",
+           {{"base", Vec3{0, -0.05, 0}},
+            {"axis", Vec3{0, 1, 0}},
+            {"length", 0.1},
+            {"radius", 0.05},
+            {"thickness", 5e-3}},
+           rig.motion("rotate", {{"spin_axis", Vec3{0, 1, 0}}, {"spin", k_spin}}));
+  auto dem = rig.make();
+  dem->record_wall_loads();
+  dem->insert(std::vector<NewGrain>{{.position = {0, 0, -0.048}, .diameter = 4e-3}});
+  Stepper stepper(*dem);
+  while (stepper.time() < 0.3) stepper.step();
+  const auto walls = dem->close_wall_loads(stepper.time());
+  CHECK(walls.power[0] > 0.0);
+  // The contact point is half an overlap within the drum's face.
+  CHECK(walls.power[0] == approx(-k_spin * walls.torque[0].y).epsilon(1e-3));
+}

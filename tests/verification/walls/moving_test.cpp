@@ -242,3 +242,63 @@ TEST_CASE("a run with moving walls shall resume with the same bits") {
     CHECK(a.rotation == b.rotation);
   }
 }
+
+TEST_CASE("a grain at rest on a turning drum shall go on turning with it") {
+  constexpr double k_spin = 10.0;
+  constexpr double k_drum = 0.05;
+  for (const double diameter : {4e-3, 0.4e-3}) {
+    CAPTURE(diameter);
+    WallRig rig(0.6, 0.5, diameter, 0.4);
+    // The smaller one beside coarse ones: it steps at a rate of its own.
+    rig.diameters = {diameter, 4e-3};
+    if (diameter == 4e-3) rig.diameters = {diameter};
+    rig.body("cylinder",
+             {{"base", Vec3{0, -0.05, 0}},
+              {"axis", Vec3{0, 1, 0}},
+              {"length", 0.1},
+              {"radius", k_drum},
+              {"thickness", 5e-3}},
+             rig.motion("rotate", {{"spin_axis", Vec3{0, 1, 0}}, {"spin", k_spin}}));
+    auto dem = rig.make();
+    dem->record_wall_loads();
+    const double arm = k_drum - 0.5 * diameter;
+    dem->insert(std::vector<NewGrain>{{.position = {0, 0, -arm},
+                                       .velocity = {-k_spin * arm, 0, 0},
+                                       .rotation = {0, k_spin, 0},
+                                       .diameter = diameter}});
+    Stepper stepper(*dem);
+    while (stepper.time() < 0.15) stepper.step();
+    const auto walls = dem->close_wall_loads(stepper.time());
+    const GrainState g = grain(*dem, 0);
+    CHECK(g.rotation.y == approx(k_spin).epsilon(1e-3));
+    CHECK(norm(g.velocity) == approx(k_spin * arm).epsilon(1e-3));
+    const double energy = 0.5 * rig.mass() * std::pow(k_spin * arm, 2);
+    CHECK(std::abs(walls.power[0] * stepper.time()) < 2e-3 * energy);
+  }
+}
+
+TEST_CASE("a grain stuck to a belt shall turn with it round the pulley") {
+  constexpr double k_speed = 0.2;
+  constexpr double k_face = 0.02;
+  constexpr double k_size = 4e-3;
+  WallRig rig(0.5, 2.0, k_size);
+  rig.laws.clear();
+  rig.laws_of(rig.sand, rig.sand, {"hertz_mindlin", {{"restitution", 0.5}, {"friction", 2.0}}},
+              {"epsd2", {{"friction", 1.0}}}, {"jkr", {{"surface_energy", 5.0}}});
+  rig.body("conveyor", {{"head", Vec3{0, 0, 0}}, {"tail", Vec3{-0.2, 0, 0}}, {"radius", k_face}},
+           rig.motion("belt", {{"speed", k_speed}}));
+  auto dem = rig.make();
+  dem->insert(std::vector<NewGrain>{{.position = {-0.005, 0, k_face + 0.5 * k_size},
+                                     .velocity = {k_speed, 0, 0},
+                                     .diameter = k_size}});
+  Stepper stepper(*dem);
+  // Half way round: pi k_face / 2 after the head's axis.
+  const double time = (0.005 + 0.5 * std::numbers::pi * k_face) / k_speed;
+  while (stepper.time() < time) stepper.step();
+  const GrainState g = grain(*dem, 0);
+  CHECK(norm(g.position) == approx(k_face + 0.5 * k_size).epsilon(0.01));
+  CHECK(g.rotation.y == approx(k_speed / k_face).epsilon(0.03));
+  // Its centre goes round at the belt's rate, not at the belt's speed.
+  CHECK(norm(g.velocity) == approx(k_speed * (1 + 0.5 * k_size / k_face)).epsilon(0.03));
+  CHECK(std::abs(std::atan2(g.position.z, g.position.x)) < 0.1);
+}
