@@ -36,7 +36,8 @@ void TwoStages::advance(const SubStep& part, const CellField& eps, bool fills_ha
   const double step = part.step;
   momentum_.prepare(k_gamma * step, part.drag, part.has_drag);
   convect_first(part, u, eps);
-  sides_.evaluate_pressure(part.time + step);
+  // The mean over the step to second order, as it acts on both stages alike.
+  sides_.evaluate_pressure(part.time + 0.5 * step);
   sides_.fill_pressure(pressure, false);
   each_moving_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
     first_stage_row(n, grid_.stride[d], step, properties_.inertia(d, o), inverse_h,

@@ -59,3 +59,29 @@ TEST_CASE("air that enters through total_pressure shall bring no velocity along 
     }
   }
 }
+
+TEST_CASE("a pressure that varies in time shall act at its own time, second order") {
+  // A frictionless slug: rho L du/dt = P sin(w t), u = P (1 - cos(w t)) / (rho L w).
+  const auto error = [](int steps) {
+    const double w = 20.0;
+    const double end = 0.1;
+    Case c;
+    c.max = {0.02, 0.02, 0.04};
+    c.cells = {2, 1, 4};
+    c.fluid.density = 1000.0;
+    c.fluid.viscosity = 1e-3;
+    for (int s = 0; s < 4; ++s) c.sides[s] = slip();
+    c.sides[4] = open_side(0.0, false);
+    c.sides[4]->pressure = [w](Vec3, double t) { return std::sin(w * t); };
+    c.sides[5] = open_side(0.0, false);
+    c.start();
+    c.advance_to(end, end / steps);
+    const double exact = (1.0 - std::cos(w * end)) / (1000.0 * 0.04 * w);
+    return std::abs(c.u(2, 1, 0, 2) / exact - 1.0);
+  };
+  const double coarse = error(10);
+  const double fine = error(20);
+  MESSAGE("error with 10 and 20 steps: ", coarse, " ", fine);
+  CHECK(coarse < 4e-3);
+  CHECK(order(coarse, fine) > 1.8);
+}
