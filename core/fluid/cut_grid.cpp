@@ -107,11 +107,12 @@ void CutGrid::set_rate(const CellField& before, const CellField& after, double f
   CellField& rate = continuity.rate();
   if (!has_moving_bodies()) {
     set_static_rate(before, after, step, rate);
+    continuity.moved().clear();
     return;
   }
   const double inverse = 1.0 / ((to - from) * step);
-  double net = 0.0;
-  double gross = 0.0;
+  CellField& moved = continuity.moved();
+  moved.assign(grid_.size, 0.0);
   for (int k = 0; k < grid_.count[2]; ++k) {
     for (int j = 0; j < grid_.count[1]; ++j) {
       for (int i = 0; i < grid_.count[0]; ++i) {
@@ -120,14 +121,12 @@ void CutGrid::set_rate(const CellField& before, const CellField& after, double f
         const double theta0 = open_before_[o];
         const double theta1 = geometry_.open_fraction[o];
         rate[o] = inverse * (theta1 * (before[o] + to * jump) - theta0 * (before[o] + from * jump));
-        const double change = inverse * (theta1 - theta0) * grid_.cell_volume();
-        net += change;
-        gross += std::abs(change);
+        moved[o] = inverse * (theta1 - theta0);
       }
     }
   }
-  continuity.set_moved(net, gross);
   redistribute_closed(continuity, rate);
+  redistribute_closed(continuity, moved);
 }
 
 /// What a cell that has closed still held goes to the widest open neighbour.

@@ -6,6 +6,7 @@
 #include "fluid/grid.hpp"
 #include "fluid/momentum/momentum.hpp"
 #include "fluid/pressure/pressure_solver.hpp"
+#include "fluid/pressure/room_flows.hpp"
 #include "fluid/sides.hpp"
 
 #include <array>
@@ -34,8 +35,8 @@ class Continuity {
 
   /// [1/s] d(theta eps)/dt per cell, to be set before `project`.
   [[nodiscard]] CellField& rate() { return given_.rate; }
-  /// [m3/s] what bodies that move make of the open volume: gained in all, and gained plus lost.
-  void set_moved(double net, double gross);
+  /// [1/s] d(theta)/dt per cell: what bodies that move make of the open volume. Empty: none move.
+  [[nodiscard]] CellField& moved() { return given_.moved; }
   /// Fluid that goes out of a cell into a body.
   struct Sink {
     std::int32_t cell = 0;
@@ -67,14 +68,15 @@ class Continuity {
   struct VolumeChanges {
     CellField rate;           ///< [1/s] d(theta eps)/dt
     std::vector<Sink> sinks;  ///< into bodies
-    double net = 0.0;         ///< [m3/s] of the open volume, by bodies that move
-    double gross = 0.0;       ///< [m3/s] gained plus lost
+    CellField moved;          ///< [1/s] d(theta)/dt, by bodies that move
   };
   [[nodiscard]] FaceField find_pattern() const;
   void find_open_parts(const FaceField& v);
   void find_divergence(const FaceField& v, const CellField& eps);
   void prepare(const CellField& eps, double step, const FaceField& drag);
   void check_balance(const FaceField& v, const CellField& eps) const;
+  void add_side_flows(const FaceField& v, const CellField& eps, RoomFlows& flows) const;
+  void add_sheet_flows(const FaceField& v, RoomFlows& flows) const;
   void scale_side(std::vector<double>& v, int d, int high, double factor) const;
 
   const Grid& grid_;

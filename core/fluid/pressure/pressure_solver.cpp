@@ -155,6 +155,13 @@ void PressureSolver::find_regions(const FaceField& pattern) {
   }
 }
 
+std::int32_t PressureSolver::room(std::ptrdiff_t cell) const {
+  const auto at = std::lower_bound(singular_regions_.begin(), singular_regions_.end(),
+                                   region_[static_cast<std::size_t>(cell)]);
+  if (at == singular_regions_.end() || *at != region_[static_cast<std::size_t>(cell)]) return -1;
+  return static_cast<std::int32_t>(at - singular_regions_.begin());
+}
+
 void PressureSolver::prepare() {
   MultigridLevel& f = multigrid_->finest();
   const auto& n = grid_.count;

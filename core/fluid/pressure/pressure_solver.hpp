@@ -33,6 +33,10 @@ class PressureSolver {
 
   [[nodiscard]] bool is_open(std::ptrdiff_t cell) const { return region_[cell] >= 0; }
   [[nodiscard]] bool is_singular() const { return !singular_regions_.empty(); }
+  /// Rooms are the regions without a datum, numbered from 0.
+  [[nodiscard]] std::size_t rooms() const { return singular_regions_.size(); }
+  /// The room that a cell belongs to, -1: none.
+  [[nodiscard]] std::int32_t room(std::ptrdiff_t cell) const;
 
  private:
   void find_regions(const FaceField& pattern);

@@ -71,6 +71,29 @@ TEST_CASE("a piston shall shove the fluid of its duct with its own speed, wherev
   }
 }
 
+TEST_CASE("a room that a piston shrinks shall be refused, one that moves as a whole shall go on") {
+  const auto plate = [](double z, double thickness, double speed) {
+    auto shape = std::make_unique<Slab>(Vec3{0, 0, z}, Vec3{0, 0, 1}, thickness);
+    return moving(std::move(shape), Shift::steady({0, 0, speed}));
+  };
+  for (const double thickness : {0.003, 0.0007}) {
+    CAPTURE(thickness);
+    Case shrinking = duct(40);
+    shrinking.bodies.push_back(plate(0.0052, thickness, 0.7));
+    shrinking.bodies.push_back(
+        body(std::make_unique<Slab>(Vec3{0, 0, 0.0203}, Vec3{0, 0, 1}, thickness), 0.0));
+    shrinking.start();
+    CHECK_THROWS_WITH_AS(shrinking.advance(1e-4), doctest::Contains("m would gain"),
+                         sdk::ModelError);
+    Case carried = duct(40);
+    carried.bodies.push_back(plate(0.0052, thickness, 0.7));
+    carried.bodies.push_back(plate(0.0153, thickness, 0.7));
+    carried.start();
+    for (int n = 0; n < 30; ++n) carried.advance(3e-4);
+    CHECK(carried.u(2, 1, 0, 40) == test::approx(0.7).epsilon(1e-6));
+  }
+}
+
 TEST_CASE(
     "what passes the faces in a step of several cuts shall close up to the change of volume") {
   // A cylinder of 16 mm goes 1.3 cells a step: three cuts.

@@ -173,3 +173,26 @@ TEST_CASE("an opening that meets no fluid, or one in a closed room, shall be ref
   d.start();
   CHECK_THROWS_WITH_AS(d.advance(1e-3), doctest::Contains("and bodies let"), sdk::ModelError);
 }
+
+TEST_CASE("an opening in a part of the domain that nothing gives way to shall be refused") {
+  Case c = room(6);
+  c.bodies.push_back(body(std::make_unique<HalfSpace>(Vec3{0, 0, 0.02}, Vec3{0, 0, 1}), 0.0));
+  c.bodies.back().suction =
+      scenario::SuctionSpec{1e-4, {0.03, 0.01, 0.0}, {0.06, 0.04, 0.06}, {}, {}};
+  c.bodies.push_back(body(std::make_unique<Slab>(Vec3{0, 0, 0.07}, Vec3{0, 0, 1}, 0.01), 0.0));
+  c.start();
+  CHECK_THROWS_WITH_AS(c.advance(1e-3), doctest::Contains("m would lose 0.0001 m3/s"),
+                       sdk::ModelError);
+}
+
+TEST_CASE("grains that move in a closed room, and pores without a flow, shall stop no run") {
+  Case c = room(6);
+  c.bodies.push_back(body(std::make_unique<Slab>(Vec3{0, 0, 0.03}, Vec3{0, 0, 1}, 0.01), 0.0));
+  c.bodies.push_back(body(std::make_unique<Slab>(Vec3{0, 0, 0.048}, Vec3{0.01, 0, 1}, 0.01), 0.0));
+  c.start();
+  fluid::CellField after = c.eps;
+  after[c.grid.index(3, 3, 0)] = 0.7;  // comes to rest below the plates, from nowhere
+  c.solver->advance(0.0, 1e-3, c.eps, after, c.exchange);
+  c.solver->advance(1e-3, 1e-3, after, after, c.exchange);
+  CHECK(c.solver->report().largest_speed < 10.0);
+}

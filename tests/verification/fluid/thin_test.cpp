@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodies thinner than a cell stay tight, wherever and however they lie in the grid.
 #include "fluid/geometry/thin_bodies.hpp"
+#include "dust/sdk/error.hpp"
 #include "fluid_case.hpp"
 #include "test_bodies.hpp"
 
@@ -215,4 +216,35 @@ TEST_CASE("fluid shall go round the end of a thin plate") {
   CHECK(out == test::approx(2.0).epsilon(1e-6));
   CHECK(beside > 1.8);
   CHECK(std::abs(behind) < 0.2);
+}
+
+TEST_CASE(
+    "a closed room that gains or loses fluid shall be refused, whatever gives way elsewhere") {
+  // A plate, thick or thinner than a cell, parts a duct whose far end is open.
+  for (const double thickness : {5e-3, 1e-4}) {
+    const auto divided = [&](double speed) {
+      Case c;
+      c.max = {0.02, 0.02, 0.02};
+      c.cells = {10, 1, 10};
+      c.fluid.density = 1.2;
+      c.fluid.viscosity = 1.8e-5;
+      for (auto& s : c.sides) s = wall();
+      c.sides[0] = wall({speed, 0, 0});
+      c.sides[1] = open_side(0.0, false);
+      c.bodies.push_back(
+          body(std::make_unique<Slab>(Vec3{0.0101, 0, 0}, Vec3{1, 0, 0}, thickness), 0.0));
+      c.start();
+      return c;
+    };
+    CAPTURE(thickness);
+    Case blown = divided(1.0);
+    CHECK_THROWS_WITH_AS(blown.advance(1e-3), doctest::Contains("m would gain 0.0004 m3/s"),
+                         sdk::ModelError);
+    Case drained = divided(-1.0);
+    CHECK_THROWS_WITH_AS(drained.advance(1e-3), doctest::Contains("m would lose 0.0004 m3/s"),
+                         sdk::ModelError);
+    Case still = divided(0.0);
+    still.advance(1e-3);
+    CHECK(std::isfinite(still.p(1, 0, 1)));
+  }
 }
