@@ -380,7 +380,10 @@ void Momentum::extend(FaceField& u, Ghosts which) const {
 Momentum::Rates Momentum::rates(const FaceField& u) {
   const auto& n = grid_.count;
   double inverse[3];
-  for (int e = 0; e < 3; ++e) inverse[e] = n[e] > 1 ? 1.0 / grid_.spacing[e] : 0.0;
+  // Round a periodic direction of one cell nothing varies; between walls one adds nothing.
+  for (int e = 0; e < 3; ++e) {
+    inverse[e] = n[e] > 1 || !grid_.is_periodic[e] ? 1.0 / grid_.spacing[e] : 0.0;
+  }
   partial_speed_.assign(static_cast<std::size_t>(n[1]) * n[2], 0.0);
   const double courant = max_rows(n[0], n[1], n[2], partial_, [&](int j, int k) {
     const std::ptrdiff_t o = grid_.index(0, j, k);

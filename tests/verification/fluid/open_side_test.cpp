@@ -85,3 +85,18 @@ TEST_CASE("a pressure that varies in time shall act at its own time, second orde
   CHECK(coarse < 4e-3);
   CHECK(order(coarse, fine) > 1.8);
 }
+
+TEST_CASE("what passes a direction of one cell shall count in the Courant number") {
+  Case c;
+  c.max = {0.1, 0.01, 0.005};
+  c.cells = {20, 2, 1};
+  c.fluid.density = 1.2;
+  c.fluid.viscosity = 1.8e-5;
+  for (int s = 0; s < 4; ++s) c.sides[s] = slip();
+  c.sides[4] = wall({0, 0, 1.0});
+  c.sides[5] = open_side(0.0, false);
+  c.start();
+  c.advance(1e-3);
+  c.advance(1e-3);
+  CHECK(c.solver->report().courant_number == test::approx(0.2).epsilon(0.01));
+}
