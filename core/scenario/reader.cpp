@@ -49,7 +49,7 @@ void check_periods(Reading& reading) {
   for (int d = 0; d < 3; ++d) {
     const SideSpec& side = reading.setup.domain.sides[static_cast<std::size_t>(2 * d)];
     const double extent = reading.setup.domain.max[d] - reading.setup.domain.min[d];
-    if (side.grains != GrainSide::periodic || extent > k_min_period * largest) continue;
+    if (side.grains != GrainSide::periodic || extent >= (k_min_period - 1e-9) * largest) continue;
     reading.error(side.where,
                   "domain: " + number_text(extent) + " m between the periodic sides " +
                       k_side_names[static_cast<std::size_t>(2 * d)] + " and " +

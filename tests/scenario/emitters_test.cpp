@@ -199,4 +199,9 @@ TEST_CASE("wrong lists, files and periodic widths shall be told with their place
                 "diameters: [4 mm]}\n")
             .find("error: domain: 0.01 m between the periodic sides left and right are less than 3 "
                   "diameters of the largest grain, 0.004 m") != std::string::npos);
+  // Three diameters but for rounding are enough: what is refused is the place.
+  CHECK(refusal(folder,
+                "  bed: {model: single, material: glass, positions: [[5, 5, 30 mm]], "
+                "diameters: [3.33333333334 mm]}\n")
+            .find("lies outside the domain") != std::string::npos);
 }
