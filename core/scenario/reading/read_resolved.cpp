@@ -19,11 +19,45 @@ constexpr double k_min_cells_per_diameter = 8.0;
 /// Fluid over grain density from which on the force of a step, which follows the velocity of the
 /// step before, would drive the sphere to and fro: docs/theory/resolved.md, section 4.
 constexpr double k_lightest = 0.8;
+/// viscosity x step / (density cell^2) from which on the markers' forces, which are corrected once
+/// a step, lag behind the film, and above which runs diverge: docs/theory/resolved.md, section 5.
+constexpr double k_slow_film = 1.0;
+constexpr double k_largest_film = 4.0;
 
 std::vector<int> materials_of(const EmitterSpec& emitter) {
   std::vector<int> all = emitter.more_materials;
   if (all.empty()) all.push_back(emitter.material);
   return all;
+}
+
+/// The viscous way of a step, in cells squared.
+void check_step(Reading& reading, const FluidSpec& fluid) {
+  double finest = 0.0;
+  for (int d = 0; d < 3; ++d) {
+    const double width = reading.setup.domain.max[d] - reading.setup.domain.min[d];
+    const double spacing = width / fluid.cells[static_cast<std::size_t>(d)];
+    finest = d == 0 ? spacing : std::min(finest, spacing);
+  }
+  const double per_second = fluid.viscosity / (fluid.density * finest * finest);
+  const double ratio = per_second * reading.setup.time.fluid_step;
+  if (!(ratio > (1.0 + 1e-9) * k_slow_film)) return;
+  const bool is_refused = ratio > (1.0 + 1e-9) * k_largest_film;
+  const double limit = is_refused ? k_largest_film : k_slow_film;
+  // [ms], three digits, downward.
+  const double longest = 1e3 * limit / per_second;
+  const double digits = std::pow(10.0, 2.0 - std::floor(std::log10(longest)));
+  const std::string text =
+      "coupling.resolved: viscosity x time.fluid_step / (density x cell^2) is " +
+      number_text(std::round(100 * ratio) / 100) + "; above " + number_text(limit) +
+      (is_refused ? " the spheres and the fluid drive each other to and fro until the run diverges"
+                  : " the force on a sphere lags behind the film round it") +
+      ": take a time.fluid_step of at most " +
+      number_text(std::floor(longest * digits * (1.0 + 1e-9)) / digits) + " ms";
+  if (is_refused) {
+    reading.error(fluid.resolved_where, text);
+  } else {
+    reading.diagnostics.warning(fluid.resolved_where, text);
+  }
 }
 
 }  // namespace
@@ -69,6 +103,7 @@ void check_resolved(Reading& reading) {
       reading.diagnostics.has_errors())
     return;
   const FluidSpec& fluid = *reading.setup.fluid;
+  check_step(reading, fluid);
   double spacing = 0.0;
   for (int d = 0; d < 3; ++d) {
     const double width = reading.setup.domain.max[d] - reading.setup.domain.min[d];
