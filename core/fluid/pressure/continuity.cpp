@@ -7,23 +7,7 @@
 #include <cmath>
 
 namespace dust::fluid {
-namespace {
-
-/// The cell below a face of direction d: at the other end where the face is a periodic side.
-std::ptrdiff_t lower_cell(const Grid& grid, int d, std::ptrdiff_t face) {
-  const std::ptrdiff_t s = grid.stride[d];
-  if (!grid.is_periodic[d]) return face - s;
-  const int larger = grid.stride[1] > grid.stride[2] ? 1 : 2;
-  std::ptrdiff_t rest = face - grid.index(0, 0, 0);
-  std::array<std::ptrdiff_t, 3> at{};
-  for (const int e : {larger, 3 - larger, 0}) {
-    at[e] = rest / grid.stride[e];
-    rest %= grid.stride[e];
-  }
-  return at[d] == 0 ? face + (grid.count[d] - 1) * s : face - s;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void wrap_last_face(const Grid& grid, int d, std::vector<double>& values) {
   const int e = (d + 1) % 3;
@@ -321,7 +305,9 @@ void Continuity::add_sheet_flows(const FaceField& v, RoomFlows& flows) const {
     const double flow = area * v.component[d][o];
     if (flow == 0.0) continue;
     flows.add_pushed(o, flow);
-    flows.add_pushed(lower_cell(grid_, d, o), -flow);
+    std::array<int, 3> lower = face.upper;
+    if (--lower[d] < 0) lower[d] += grid_.count[d];
+    flows.add_pushed(grid_.index(lower[0], lower[1], lower[2]), -flow);
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodies thinner than a cell stay tight, wherever and however they lie in the grid.
-#include "fluid/geometry/thin_bodies.hpp"
 #include "dust/sdk/error.hpp"
+#include "fluid/geometry/thin_bodies.hpp"
 #include "fluid_case.hpp"
 #include "test_bodies.hpp"
 
