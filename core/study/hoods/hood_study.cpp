@@ -259,6 +259,10 @@ std::vector<HoodFlow> flows_of(const std::string& text) {
     if (!number) throw base::UserError(place + error);
     written.push_back(*number);
   }
+  // A bare number would be one of m3/s: nobody means 100 of these.
+  if (written.back().unit.empty()) {
+    throw base::UserError(place + text + ": give a unit, e.g. " + text + " m3/h");
+  }
   std::vector<HoodFlow> flows;
   for (scenario::WrittenNumber& number : written) {
     if (number.unit.empty()) number.unit = written.back().unit;
@@ -269,8 +273,7 @@ std::vector<HoodFlow> flows_of(const std::string& text) {
       throw base::UserError(place + "above 0 is expected, not " + text +
                             ": the plain run is there by itself");
     }
-    const std::string unit = number.unit.empty() ? "m3/s" : number.unit;
-    flows.push_back({*value, base::digits_text(number.number, 8) + " " + unit});
+    flows.push_back({*value, base::digits_text(number.number, 8) + " " + number.unit});
   }
   std::sort(flows.begin(), flows.end(),
             [](const HoodFlow& a, const HoodFlow& b) { return a.value < b.value; });

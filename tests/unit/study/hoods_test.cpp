@@ -161,6 +161,10 @@ TEST_CASE("flows shall be read with a unit that holds for all, and wrong ones be
   CHECK(message("20, 60 mm").find("--flows: 'mm' is the unit of a length") != std::string::npos);
   CHECK(message("20, , 60 l/min").find("--flows: ") != std::string::npos);
   CHECK(message("0, 60 l/min").find("above 0 is expected") != std::string::npos);
+  // Bare numbers would be of m3/s: 100 of these nobody draws.
+  CHECK(message("100").ends_with("--flows: 100: give a unit, e.g. 100 m3/h"));
+  CHECK(message("20, 60").ends_with("give a unit, e.g. 20, 60 m3/h"));
+  CHECK(message("20 l/min, 60").find("give a unit") != std::string::npos);
   // 2 cm2: 0.5 m/s is 6 l/min; 1 m2: 1800 m3/h.
   CHECK(study::usual_flows(2e-4).front().text == "6 l/min");
   CHECK(study::usual_flows(1.0).front().text == "1800 m3/h");
