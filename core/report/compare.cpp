@@ -13,6 +13,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace dust::report {
@@ -108,13 +109,23 @@ std::optional<std::string> headline_name(const Figure& figure, bool is_per_load)
   return words(parts[0]) + ", " + parts[1];
 }
 
+/// What both runs tell of their dust: amounts per load, unless one of them tells rates alone, and
+/// is compared by these.
+bool are_per_load(const RunText& first, const RunText& second) {
+  const auto has = [](const RunText& run, const char* end) {
+    const json& rates = object_at(run.summary, "dust_rates");
+    return std::any_of(rates.items().begin(), rates.items().end(),
+                       [&](const auto& item) { return item.key().ends_with(end); });
+  };
+  const auto has_rates_alone = [&](const RunText& run) {
+    return has(run, "/rate") && !has(run, "/per_load");
+  };
+  return !has_rates_alone(first) && !has_rates_alone(second);
+}
+
 /// Of these what the first screen names: ways out by name, of the rest the sum.
-void add_field_dust(const RunText& run, std::vector<Figure>& list) {
-  const std::vector<Figure> figures = field_dust_of(run);
-  const bool is_per_load = std::any_of(figures.begin(), figures.end(), [](const Figure& f) {
-    return f.sensor == "dust_rates" && f.name.ends_with("/per_load");
-  });
-  for (Figure figure : figures) {
+void add_field_dust(const RunText& run, bool is_per_load, std::vector<Figure>& list) {
+  for (Figure figure : field_dust_of(run)) {
     const auto name = headline_name(figure, is_per_load);
     if (!name) continue;
     figure.sensor = figure.sensor == "dust_rates" ? "dust rate" : "field dust";
@@ -131,18 +142,18 @@ std::vector<Figure> all_figures(const RunText& run) {
   return figures;
 }
 
-/// Pairs figures of both runs by sensor and name, in the order of the first run; what only the
-/// second has comes last.
+/// Pairs figures of both runs by sensor, name and unit, in the order of the first run; what only
+/// the second has comes last. One that the runs tell in two units is told of each by itself.
 std::vector<QuantityPair> paired(const std::vector<Figure>& first,
                                  const std::vector<Figure>& second) {
   std::vector<QuantityPair> pairs;
-  std::map<std::pair<std::string, std::string>, std::size_t> places;
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
   for (const Figure& f : first) {
-    places[{f.sensor, f.name}] = pairs.size();
+    places[{f.sensor, f.name, f.unit}] = pairs.size();
     pairs.push_back({f.sensor, f.name, f.unit, f.value, f.uncertainty, k_none, -1.0});
   }
   for (const Figure& f : second) {
-    const auto found = places.find({f.sensor, f.name});
+    const auto found = places.find({f.sensor, f.name, f.unit});
     if (found == places.end()) {
       pairs.push_back({f.sensor, f.name, f.unit, k_none, -1.0, f.value, f.uncertainty});
     } else {
@@ -154,7 +165,7 @@ std::vector<QuantityPair> paired(const std::vector<Figure>& first,
 }
 
 /// The figures of the first screen under names that compare between runs.
-std::vector<Figure> reported_first(const RunText& run) {
+std::vector<Figure> reported_first(const RunText& run, bool is_per_load) {
   std::vector<Figure> list;
   const Highlights highlights = highlights_of(run);
   const auto add = [&](std::string group, std::string name, const Figure& figure) {
@@ -172,7 +183,7 @@ std::vector<Figure> reported_first(const RunText& run) {
       add("dust", words(figure.sensor) + size, figure);
     }
   }
-  add_field_dust(run, list);
+  add_field_dust(run, is_per_load, list);
   for (const StreamDrop& drop : highlights.stream) {
     add("stream", "median at " + base::length_text(drop.drop, 6) + " drop", drop.median);
   }
@@ -268,7 +279,8 @@ Comparison compare_runs(const std::filesystem::path& first, const std::filesyste
     c.second_name = second.lexically_normal().string();
   }
   c.scenario = scenario_differences(c.first.scenario, c.second.scenario);
-  c.headline = paired(reported_first(c.first), reported_first(c.second));
+  const bool is_per_load = are_per_load(c.first, c.second);
+  c.headline = paired(reported_first(c.first, is_per_load), reported_first(c.second, is_per_load));
   c.quantities = paired(all_figures(c.first), all_figures(c.second));
   const std::string state = text_at(c.first.summary, "state_sha256");
   const bool is_something =

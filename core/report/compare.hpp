@@ -15,7 +15,7 @@ struct ScenarioDifference {
   std::string path, first, second;
 };
 
-/// A quantity that at least one run has; NaN where a run has none.
+/// A quantity that at least one run has; NaN where a run has none in this unit.
 struct QuantityPair {
   std::string group;  ///< the sensor, or "run"
   std::string name;

@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <regex>
 
@@ -161,6 +162,53 @@ TEST_CASE("dust of a field shall be compared: where it goes, what got out, what 
   CHECK(find(comparison.quantities, "deposited/belt/per_load").first == 3.0);
   CHECK(find(comparison.quantities, "back/g_per_tonne").unit == "g/t");
   CHECK(holds(comparison_text(comparison), "dust rate: left, back"));
+}
+
+TEST_CASE("amounts per load shall never be compared with rates") {
+  const RunFolder loaded, empty;
+  const auto fill_rates = [](const RunFolder& folder, const json& rates) {
+    json summary = fake_summary();
+    summary["dust_rates"] = rates;
+    folder.write("summary.json", summary.dump());
+  };
+  const auto figure = [](double value, const char* unit) {
+    return json{{"value", value}, {"unit", unit}, {"uncertainty", 0.1 * value}};
+  };
+  fill_rates(loaded, {{"deposited/all/rate", figure(2.0, "kg/h")},
+                      {"deposited/all/per_load", figure(8.0494, "g/t")}});
+  fill_rates(empty, {{"deposited/all/rate", figure(1.38e-6, "kg/h")}});
+  for (const bool is_turned : {false, true}) {
+    const auto comparison =
+        compare_runs((is_turned ? empty : loaded).path(), (is_turned ? loaded : empty).path());
+    const auto of_dust = [](const QuantityPair& pair) { return pair.name == "deposited, all"; };
+    const auto& headline = comparison.headline;
+    REQUIRE(std::count_if(headline.begin(), headline.end(), of_dust) == 1);
+    const auto pair = *std::find_if(headline.begin(), headline.end(), of_dust);
+    CHECK(pair.unit == "kg/h");
+    CHECK(pair.first == (is_turned ? 1.38e-6 : 2.0));
+    CHECK(pair.second == (is_turned ? 2.0 : 1.38e-6));
+  }
+}
+
+TEST_CASE("a figure that two runs tell in different units shall be told of each by itself") {
+  const RunFolder first, second;
+  for (const auto& [folder, unit] : {std::pair{&first, "kg"}, std::pair{&second, "kg/s"}}) {
+    json summary = fake_summary();
+    summary["sensors"]["scale"] = {{"load", {{"value", 3.0}, {"unit", unit}}}};
+    folder->write("summary.json", summary.dump());
+  }
+  const auto pairs = compare_runs(first.path(), second.path()).quantities;
+  std::vector<QuantityPair> loads;
+  for (const QuantityPair& pair : pairs) {
+    if (pair.name == "load") loads.push_back(pair);
+  }
+  REQUIRE(loads.size() == 2);
+  CHECK(loads[0].unit == "kg");
+  CHECK(loads[0].first == 3.0);
+  CHECK(std::isnan(loads[0].second));
+  CHECK(loads[1].unit == "kg/s");
+  CHECK(std::isnan(loads[1].first));
+  CHECK(loads[1].second == 3.0);
 }
 
 TEST_CASE("a run that has not ended shall be told to be one, with how it goes on") {
