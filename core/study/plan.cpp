@@ -199,12 +199,28 @@ struct Planner::Impl {
   [[nodiscard]] std::optional<Node> combined(const std::vector<std::size_t>& levels);
   void add_inputs(std::size_t a, Plan& plan) const;
 
+  /// Whether it is seeds that an axis names, which the study gives to its points by itself.
+  bool refuse_seeds(const Axis& axis) {
+    const auto& settings = axis.levels.front().settings;
+    const bool has_seeds = std::any_of(settings.begin(), settings.end(),
+                                       [](const Setting& s) { return s.path == "seed"; });
+    if (!has_seeds) return false;
+    if (!reported.insert(scenario::place(axis.where) + "seeds").second) return true;
+    diagnostics.error(axis.where,
+                      "points that differ by the seed alone are the same run, for a study gives "
+                      "the seeds itself: write 'replicates: " +
+                          std::to_string(axis.levels.size()) +
+                          "' instead, and 'seed: N' in the study for the first of them");
+    return true;
+  }
+
   void refuse_twin(const Point& first, const Point& second) {
     Mark where = spec.where;
     for (std::size_t a = 0; a < spec.axes.size(); ++a) {
       if (second.levels[a] == first.levels[a]) continue;
       const Level& level = spec.axes[a].levels[second.levels[a]];
       where = level.where;
+      if (refuse_seeds(spec.axes[a])) return;
       const std::string line = scenario::place(where) + "twin";
       if (!reported.insert(line).second) return;
       const Level& other = spec.axes[a].levels[first.levels[a]];

@@ -137,6 +137,10 @@ TEST_CASE("two points with one name, or of one scenario, shall be told") {
   check_message(k_head + "vary:\n  time.end: [20 ms, 40 ms, 0.02 s]\n",
                 "s.yaml:4:28: error: two points are the same run: '0.02 s' makes the scenario of "
                 "'20 ms' in line 4; take one of them out");
+  check_message(k_head + "vary: {seed: [1, 2, 3]}\n",
+                "s.yaml:3:8: error: points that differ by the seed alone are the same run, for a "
+                "study gives the seeds itself: write 'replicates: 3' instead, and 'seed: N' in the "
+                "study for the first of them");
   check_message(k_head + "vary: {time.end: [20, 40 ms]}\nzip: {time.end: [20, 40 ms]}\n",
                 "s.yaml:4:1: error: time.end is varied twice: by this and by another part of the "
                 "study");
